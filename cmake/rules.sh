@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# What the code base promises of itself and a grep can see.
+set -u
+cd "$(dirname "$0")/.."
+bad=0
+refuse() { # refuse SENTENCE, reads offending lines
+  local lines
+  lines=$(cat)
+  [ -z "$lines" ] && return
+  printf '%s\n%s\n' "$1" "$lines"
+  bad=1
+}
+git grep -nE '#include [<"]core/' -- plugins sdk examples | refuse "Plugins and SDK must not include core:"
+git grep -nE '#include [<"](\.\./)*plugins/' -- core sdk plugins | grep -vE '^plugins/([^/]+)/test/.*plugins/\1/' | refuse "Nobody includes a plugin but its own test:"
+git grep -nE '#include [<"]fulmar/' -- core | grep -vE 'core/(test|run/test|graph/test|tap/test|loader/test)/|fulmar/abi\.h' | refuse "Core includes abi.h alone:"
+git grep -nE '#include <(yaml-cpp|boost|spdlog|fastdds|CLI)' -- sdk plugins | refuse "Only core links yaml-cpp, Boost.DLL, spdlog and Fast DDS:"
+git grep -nE 'std::chrono|clock_gettime|gettimeofday|std::random_device|\brand\(' -- plugins sdk/include | grep -v '/test/' | refuse "Time comes from the vehicle and chance from the seed:"
+git grep -nIE '(^|[^[:alnum:]_.])/(work|root|home|farm)/' -- . | refuse "No path of one machine:"
+git grep -nIE '\b(TODO|FIXME|XXX|HACK|TEMPORARY)\b' -- '*.cpp' '*.hpp' '*.h' '*.c' '*.mjs' '*.txt' '*.cmake' | refuse "Finish it:"
+for file in $(git ls-files '*.cpp' '*.hpp' '*.h' '*.c' '*.sh' '*.cmake' '*CMakeLists.txt' '*.mjs'); do
+  head -n 3 "$file" | grep -q 'SPDX-License-Identifier: BSD-3-Clause' || echo "$file"
+done | refuse "Every source file names its licence:"
+exit $bad

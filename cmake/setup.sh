@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Shared by ./fly and ./check: the packages of Debian 12 and Ubuntu that Fulmar needs, and the build. Sourced, not run.
+
+packages=(g++ cmake ninja-build ccache libeigen3-dev libboost-dev libyaml-cpp-dev libspdlog-dev libzstd-dev zlib1g-dev libssl-dev
+          libgeographiclib-dev nlohmann-json3-dev libcli11-dev doctest-dev)
+
+# Installs those of the named packages that are missing. Needs root or sudo only when there is something to install.
+install_missing() {
+  local missing=()
+  for package in "$@"; do
+    [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")
+  done
+  [ ${#missing[@]} -eq 0 ] && return 0
+  local sudo=""
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || { echo "These packages are missing and there is no sudo to install them: ${missing[*]}" >&2; exit 1; }
+    sudo=sudo
+  fi
+  echo "Installing ${missing[*]}"
+  $sudo apt-get update -qq
+  $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+}
+
+install_packages() {
+  command -v apt-get >/dev/null || { echo "No apt-get here: install ${packages[*]} by hand." >&2; return 0; }
+  install_missing "${packages[@]}"
+}
+
+# configure_and_build FOLDER [cmake option...] -- [ninja target...]
+configure_and_build() {
+  local folder=$1 options=() targets=()
+  shift
+  while [ $# -gt 0 ] && [ "$1" != -- ]; do options+=("$1"); shift; done
+  [ $# -gt 0 ] && shift
+  targets=("$@")
+  if [ ! -f "$folder/build.ninja" ] || [ ${#options[@]} -gt 0 ]; then
+    mkdir -p "$folder"
+    cmake -S . -B "$folder" -G Ninja "${options[@]}" >"$folder/configure.log" 2>&1 || { cat "$folder/configure.log"; exit 1; }
+  fi
+  ninja -C "$folder" --quiet -n "${targets[@]}" 2>/dev/null | grep -q . && echo "Building in $folder (the first time takes a few minutes)"
+  NINJA_STATUS="[%f/%t] " ninja -C "$folder" "${targets[@]}"
+}
+
+# What a flight needs: the host and the plugins, without tests.
+build_all() {
+  configure_and_build build -- flight
+}

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The command line. Exit codes: 0 done; 1 the flight, check or file failed; 2 wrong usage; 130 interrupted.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+
+#include "core/app/run_command.hpp"
+#include "core/error.hpp"
+#include "core/graph/graph.hpp"
+#include "core/loader/inspect.hpp"
+#include "core/loader/library.hpp"
+
+namespace {
+
+using namespace fulmar::core;
+
+/// "a=b" -> {a, b}
+std::vector<std::pair<std::string, std::string>> pairs(const std::vector<std::string>& words) {
+  std::vector<std::pair<std::string, std::string>> out;
+  for (const std::string& word : words) {
+    const std::size_t equals = word.find('=');
+    if (equals == std::string::npos || equals == 0) throw CLI::ValidationError("'" + word + "' is not of the form name=value");
+    out.emplace_back(word.substr(0, equals), word.substr(equals + 1));
+  }
+  return out;
+}
+
+struct MissionOptions {
+  std::string mission, io;
+  std::uint64_t seed = 0;
+  bool seed_given = false;
+  std::vector<std::string> roles, set;
+
+  void add(CLI::App* command) {
+    command->add_option("MISSION", mission, "mission file (YAML)")->required();
+    command->add_option("--io", io, "sim or fcu: simulated aircraft or flight controller")->check(CLI::IsMember({"sim", "fcu"}));
+    command->add_option("--role", roles, "ROLE=COMPONENT: who fills a role in every phase")->type_name("ROLE=COMPONENT")->allow_extra_args(false);
+    command->add_option("--seed", seed, "seed of all noise");
+    command->add_option("--set", set, "COMPONENT.PARAMETER=VALUE")->type_name("COMP.PARAM=VALUE")->allow_extra_args(false);
+  }
+  Overrides overrides(const CLI::App* command) const {
+    Overrides o;
+    if (!io.empty()) o.io = io;
+    if (command->count("--seed") > 0) o.seed = seed;
+    o.roles = pairs(roles);
+    o.set = pairs(set);
+    return o;
+  }
+};
+
+int check(const std::string& mission, const Overrides& overrides) {
+  const Graph graph = load_mission(mission, overrides);
+  std::printf("%s is in order: %zu components, %zu roles, %zu phases.\n", mission.c_str(), graph.components.size(), graph.roles.size(), graph.phases.size());
+  return 0;
+}
+
+int run_app(int argc, char** argv) {
+  CLI::App app{"Fulmar: a fixed-wing autopilot for research. A mission is a YAML file; its components are plugins."};
+  app.set_version_flag("--version", "fulmar " FULMAR_VERSION);
+  app.require_subcommand(1);
+  app.footer("Example: fulmar run configs/missions/hourglass.yaml --seed 3 --set slc.roll_max=\"30 deg\"");
+
+  MissionOptions mission;
+  RunOptions run_options;
+  std::string speed = "max", format = "text", plugin;
+  double duration = 0;
+  bool fields = false;
+
+  CLI::App* run = app.add_subcommand("run", "fly a mission and tell how it went");
+  mission.add(run);
+  run->add_option("--speed", speed, "real, max, or a multiple of real time");
+  run->add_option("--duration", duration, "end after so many seconds of flight")->check(CLI::PositiveNumber);
+  run->add_option("--log", run_options.log_file, "where to write the log; default logs/<mission>-<UTC>.mcap");
+  run->add_flag("--no-log", run_options.no_log, "write no log");
+  run->add_flag("--json", run_options.json, "print one JSON object instead of a table");
+  CLI::App* check_command = app.add_subcommand("check", "check a mission file: every fault in one go");
+  mission.add(check_command);
+  CLI::App* graph = app.add_subcommand("graph", "print components, wires, order and phases of a mission");
+  mission.add(graph);
+  graph->add_option("--format", format, "text, dot or mermaid")->check(CLI::IsMember({"text", "dot", "mermaid"}));
+  CLI::App* inspect = app.add_subcommand("inspect", "print what a plugin file offers");
+  inspect->add_option("PLUGIN", plugin, "shared object")->required();
+  inspect->add_flag("--fields", fields, "also the fields of every message");
+
+  try {
+    app.parse(argc, argv);
+    if (run->parsed()) {
+      run_options.mission = mission.mission;
+      run_options.overrides = mission.overrides(run);
+      run_options.speed = parse_speed(speed);
+      if (duration > 0) run_options.duration_s = duration;
+      return run_command(run_options);
+    }
+    if (check_command->parsed()) return check(mission.mission, mission.overrides(check_command));
+    if (graph->parsed()) {
+      std::cout << print_graph(load_mission(mission.mission, mission.overrides(graph)), format);
+      return 0;
+    }
+    std::cout << describe_plugin(Library::open(plugin)->info(), fields);
+    return 0;
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run_app(argc, argv);
+  } catch (const fulmar::core::Error& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "fulmar: %s\n", e.what());
+  }
+  return 1;
+}

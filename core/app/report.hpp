@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What people and scripts see of a flight: the progress line, the table, the JSON object.
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/graph/graph.hpp"
+#include "core/run/flight.hpp"
+
+namespace fulmar::core {
+
+std::string progress_line(const Graph& graph, const Flight& flight);
+nlohmann::json result_json(const Graph& graph, const Flight& flight, const FlightResult& result);
+std::string result_table(const Graph& graph, const Flight& flight, const FlightResult& result);
+
+}  // namespace fulmar::core

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Conditions of phases: comparisons of fields with numbers, units, enum labels or other fields; and, or, not, parentheses.
+// Compiled when the mission is read; evaluated in the tick without allocation. False while a port it looks at has no sample or is stale.
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/graph/graph.hpp"
+
+namespace fulmar::core {
+
+/// Finds the port "nav.state" and its type; throws Error with the valid choices.
+using FindPort = std::function<std::pair<Source, TypePtr>(const std::string& owner, const std::string& port)>;
+
+/// Gives the present sample of a port, or nullptr when there is none or it is stale. Must not allocate.
+struct SampleReader {
+  virtual const std::byte* sample(const Source& source) const noexcept = 0;
+
+ protected:
+  ~SampleReader() = default;
+};
+
+/// A field of a port, found by its full name "nav.state.height_m"; a probe is named by its port alone. The type is empty for a probe.
+struct ShownField {
+  Source from;
+  TypePtr type;
+  FieldRef field;
+};
+/// Throws Error with the valid choices.
+ShownField find_shown(const std::string& text, const FindPort& find);
+
+class Condition {
+ public:
+  /// Throws Error with a sentence on bad syntax, unknown fields, units that do not fit, labels that do not exist.
+  static std::shared_ptr<const Condition> compile(const std::string& text, const FindPort& find);
+  bool holds(const SampleReader& reader) const noexcept;
+  const std::string& text() const { return text_; }
+  /// Every port it looks at.
+  const std::vector<Source>& ports() const { return ports_; }
+
+  struct Node;
+
+ private:
+  std::string text_;
+  std::vector<Source> ports_;
+  std::vector<Node> nodes_;
+  int root_ = -1;
+};
+
+}  // namespace fulmar::core

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A mission on its way from text to graph: what the steps of the resolution share. Internal to core/graph.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/graph/catalogue.hpp"
+#include "core/graph/condition.hpp"
+#include "core/graph/graph.hpp"
+#include "core/graph/mission.hpp"
+#include "core/graph/params.hpp"
+
+namespace fulmar::core {
+
+/// A component of the file that can exist in this run. Sources in its wires count candidates until the graph is built.
+struct Candidate {
+  const ComponentText* text = nullptr;
+  FoundPlugin plugin;
+  std::size_t index = 0;  // into the plugin's components
+  bool loaded = false;    // false: its plugin was refused; what depends on it is not reported again
+  std::string use;        // "control_slc/Outer"
+  int role = -1;          // that it can fill
+  bool assigned = false;  // fills its role, or is a fallback, in some phase
+  bool used = false;      // is created
+  int component = -1;     // into Graph::components
+  std::vector<Wire> wires;
+  std::vector<ParamValue> params;
+
+  const ComponentInfo& info() const { return plugin.info->components[index]; }
+  const std::string& name() const { return text->name; }
+};
+
+struct RoleDraft {
+  const RoleText* text = nullptr;
+  std::vector<int> fillers;    // candidates, in file order
+  std::vector<TypePtr> types;  // one per output; empty when nobody provides it
+  bool unclear = false;        // a filler was refused: do not report what it may provide
+};
+
+/// What a port name means. `type` empty: a probe, or unknown because its component was refused.
+struct Target {
+  Source source;
+  TypePtr type;
+  fulmar_port_kind kind = FULMAR_OUT_VALUE;
+  bool unclear = false;
+};
+
+struct Draft {
+  const MissionText& text;
+  const Overrides& overrides;
+  Report& report;
+  FileStore& files;
+  std::vector<Candidate> candidates;
+  std::vector<RoleDraft> roles;
+  std::vector<std::vector<Assignment>> assignments;  // [phase][role], components count candidates
+  Graph graph;
+
+  int candidate(const std::string& name) const;
+  int role(const std::string& name) const;
+  int vehicle_role() const { return role("vehicle"); }
+  bool is_out(const ComponentText& component) const;  // by io
+  std::vector<std::string> candidate_names() const;
+  std::vector<std::string> role_names() const;
+};
+
+// resolve.cpp: why a component of the file is not there: "fcu exists only with io: fcu", or that there is none of that name
+std::string not_there(const Draft& draft, const std::string& name);
+
+// wires.cpp
+Target find_target(const Draft& draft, const PortName& name);  // throws Error
+void resolve_wires(Draft& draft);
+/// After it is known who is used: inputs that nobody feeds.
+void check_fed(Draft& draft);
+void order_steps(Draft& draft);
+
+// phases.cpp
+void assign_roles(Draft& draft);
+/// Conditions, figures and transitions. Before the graph is built: checks them and marks the components that they name.
+/// Afterwards: compiles them for the graph.
+void name_ports(Draft& draft);
+void compile_phases(Draft& draft);
+
+// values.cpp
+void read_values(Draft& draft);
+void read_failsafe(Draft& draft);
+
+}  // namespace fulmar::core

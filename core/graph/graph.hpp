@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A mission, resolved: which components, how they are wired, in which order they step, who fills which role in which phase.
+// Everything that can be wrong has been refused before one of these exists. The loop reads it and never changes it.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/loader/library.hpp"
+#include "core/loader/type.hpp"
+
+namespace fulmar::core {
+
+/// The value of one parameter, owned. Which members count depends on the kind, as in fulmar_value.
+/// A record or blob that the mission supplies has `integer` 1 and in `text` the name of its file.
+struct ParamValue {
+  double number[3] = {0, 0, 0};
+  std::int64_t integer = 0;
+  std::string text;
+  std::vector<std::byte> data;
+};
+
+/// Where a wire begins: an output of one component, or of whoever fills a role.
+struct Source {
+  enum class Kind : std::uint8_t { none, component, role };
+  Kind kind = Kind::none;
+  int index = -1;   // into Graph::components or Graph::roles
+  int output = -1;  // into ComponentInfo::outputs or Role::outputs
+  friend bool operator==(const Source&, const Source&) = default;
+};
+
+struct Wire {
+  Source from;  // none: an optional input that nobody feeds
+  std::int64_t max_age_ns = 0;  // 0: any age
+  bool delayed = false;         // carries the value of the previous tick: breaks a cycle
+  Where where;
+};
+
+struct Component {
+  std::string name;  // "slc"
+  std::string use;   // "control_slc/Outer", as resolved
+  std::shared_ptr<const PluginInfo> plugin;  // the host's own copy: outlives the library
+  std::shared_ptr<Library> library;          // empty when a test describes the component by hand
+  std::size_t index_in_plugin = 0;
+  int role = -1;               // that it fills in some phase; -1: none, it steps in every phase
+  std::int64_t period_ns = 0;          // 0: every tick
+  std::int64_t budget_ns = 0;          // 0: none
+  std::vector<Wire> wires;             // one per input
+  std::vector<ParamValue> params;      // one per parameter, the base values
+  Where where;
+
+  const ComponentInfo& info() const { return plugin->components[index_in_plugin]; }
+};
+
+struct RolePort {
+  std::string name;
+  TypePtr type;
+  bool optional = false;
+};
+
+struct Role {
+  std::string name;
+  std::vector<RolePort> outputs;
+  std::vector<int> fillers;                // into Graph::components, in file order
+  std::vector<std::vector<int>> provides;  // [filler][output] -> the filler's own output index, or -1
+  Where where;
+};
+
+struct Overlay {
+  int param = -1;  // into the component's parameters
+  ParamValue value;
+};
+
+struct Assignment {
+  int component = -1;           // who fills the role
+  int fallback = -1;            // -1: nobody
+  std::vector<Overlay> set;     // on the component's live parameters while the phase lasts
+};
+
+/// A compiled boolean expression over fields of ports. See condition.hpp.
+class Condition;
+
+struct Transition {
+  int to = -1;  // into Graph::phases
+  std::shared_ptr<const Condition> when;
+  std::int64_t for_ns = 0;
+  Where where;
+};
+
+struct Phase {
+  std::string name;
+  std::vector<Assignment> roles;  // one per Graph::roles
+  std::vector<Transition> next;   // the transitions of `any` are in Graph::any
+  Where where;
+};
+
+/// A number to show: a field of a port.
+struct Shown {
+  std::string text;  // "nav.state.height_m"
+  Source from;
+  FieldRef field;
+  TypePtr type;  // of the message; empty for a probe, whose sample is one double
+};
+
+struct RecordRule {
+  std::vector<std::string> ports;  // patterns "nav.*", "*"; empty: the default
+  std::int64_t period_ns = 0;      // 0: every sample
+};
+
+struct Graph {
+  std::string mission;
+  std::string io = "sim";
+  std::string airframe;  // file name, "" when there is none
+  std::int64_t tick_ns = 2'500'000;
+  std::int64_t epoch_ns = 0;  // UTC of flight time 0
+  std::uint64_t seed = 1;
+  bool arm = false;
+  std::vector<Component> components;  // only those that exist in this run
+  std::vector<Role> roles;
+  std::vector<Phase> phases;  // the first is where the flight begins
+  std::vector<Transition> any;
+  std::vector<int> order;  // steps, the vehicle left out
+  int vehicle = -1;
+  std::shared_ptr<const Condition> done, failed;  // may be empty
+  std::int64_t timeout_ns = 0;                    // of flight time; 0: none
+  std::vector<std::pair<std::string, Source>> summary;  // key of the result -> port
+  std::vector<Shown> progress;
+  std::vector<std::vector<std::byte>> failsafe;  // one per vehicle input: the struct to send; empty: not sent
+  std::int64_t failsafe_ns = 0;
+  std::string record_file;  // "" : logs/<mission>-<UTC>.mcap
+  bool record = true;
+  std::vector<RecordRule> record_rules;
+  /// Files whose contents cross into the flight, as read: mission, what it extends, airframe, plans. Name without folders -> text.
+  std::vector<std::pair<std::string, std::string>> attachments;
+};
+
+/// What the command line changes.
+struct Overrides {
+  std::optional<std::string> io;
+  std::optional<std::uint64_t> seed;
+  std::vector<std::pair<std::string, std::string>> roles;  // role=component
+  std::vector<std::pair<std::string, std::string>> set;    // component.param=value (YAML text)
+};
+
+/// Loads a mission file and everything that it names. On faults throws Error whose text holds all of them, one per line.
+Graph load_mission(const std::string& file, const Overrides& overrides = {});
+
+/// The same with components from elsewhere than plugin files.
+struct Catalogue;
+Graph load_mission(const std::string& file, const Overrides& overrides, Catalogue& catalogue);
+
+/// The graph for people: components, wires, order, phases. Formats: "text", "dot", "mermaid".
+std::string print_graph(const Graph& graph, const std::string& format);
+
+}  // namespace fulmar::core

@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads the keys of a mission file. What they mean together is resolve.cpp's business.
+#include "core/graph/mission.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+#include "core/graph/quantity.hpp"
+
+namespace fulmar::core {
+namespace fs = std::filesystem;
+namespace {
+
+const std::vector<std::string> mission_keys = {"mission", "extends", "io",       "airframe", "origin", "rate",  "seed",       "arm",    "done", "failed", "timeout",
+                                               "epoch",   "progress", "summary", "failsafe", "roles",  "components", "phases", "record", "live", "dds"};
+const std::vector<std::string> component_keys = {"fills", "use", "in", "params", "rate", "only", "run", "latency", "budget", "max_age"};
+const std::vector<std::pair<std::string, std::string>> absent_sections = {{"live", "live view"}, {"dds", "DDS"}};
+
+constexpr const char* default_epoch = "2026-01-01T00:00Z";
+
+bool is_name(const std::string& text) {
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  return !text.empty() && letter(text[0]) && std::all_of(text.begin(), text.end(), [&](char c) { return letter(c) || digit(c); });
+}
+
+class Reader {
+ public:
+  Reader(MissionText& mission, Report& report) : m_(mission), report_(report) {}
+
+  void read(const Node& root) {
+    const Keys keys(root, "", mission_keys, report_);
+    if (!root.is(Node::Kind::map)) return;
+    scalars(keys);
+    if (const Node* node = keys.get("airframe")) m_.airframe = *node;
+    if (const Node* node = keys.get("origin")) m_.origin = *node;
+    shown(keys);
+    failsafe(keys);
+    each(keys, "roles", [&](const Node::Entry& entry) { role(entry); });
+    each(keys, "components", [&](const Node::Entry& entry) { component(entry); });
+    each(keys, "phases", [&](const Node::Entry& entry) { phase(entry); });
+    record(keys);
+    for (const auto& [key, words] : absent_sections)
+      if (keys.has(key)) report_.add(keys.where(key), key + ": this build has no " + words + "; remove the section");
+  }
+
+ private:
+  template <class F>
+  void each(const Keys& keys, const std::string& key, F read_entry) {
+    const Node* node = keys.get(key);
+    if (!node) return;
+    if (!node->is(Node::Kind::map)) return report_.add(node->where(), key + ": expected a map of names, found " + describe(*node));
+    for (const Node::Entry& entry : node->entries) {
+      if (is_name(entry.key)) read_entry(entry);
+      else report_.add(entry.where(), key + ": '" + entry.key + "' is not a name; names are letters, digits and _");
+    }
+  }
+
+  void scalars(const Keys& keys) {
+    m_.name = keys.text("mission").value_or(m_.file->path.stem().string());
+    if (m_.name.find('/') != std::string::npos || m_.name.find_first_of("\n\r\t") != std::string::npos)
+      report_.add(keys.where("mission"), "mission: a name without '/' is wanted, found '" + m_.name + "'");
+    m_.io = keys.word("io", {"sim", "fcu"}).value_or("sim");
+    m_.rate_hz = keys.positive("rate", "Hz").value_or(400);
+    if (m_.rate_hz > 100'000 || m_.rate_hz < 0.1) report_.add(keys.where("rate"), "rate: " + number_text(m_.rate_hz) + " Hz is outside 0.1 .. 100000 Hz");
+    m_.timeout_ns = keys.duration_ns("timeout").value_or(3600'000'000'000);
+    m_.arm = keys.word("arm", {"auto", "off"}).value_or("off") == "auto";
+    if (const Node* node = keys.get("seed")) seed(*node);
+    const std::string epoch = keys.text("epoch").value_or(default_epoch);
+    try {
+      m_.epoch_ns = parse_utc_ns(epoch);
+    } catch (const Error& fault) {
+      report_.add(keys.where("epoch"), std::string("epoch: ") + fault.what());
+    }
+  }
+
+  void seed(const Node& node) {
+    const std::string& text = node.text;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), m_.seed);
+    if (!node.is(Node::Kind::scalar) || code != std::errc{} || end != text.data() + text.size())
+      report_.add(node.where(), "seed: expected a whole number from 0, found " + describe(node));
+  }
+
+  void shown(const Keys& keys) {
+    for (auto [key, word] : {std::pair{"done", &m_.done}, std::pair{"failed", &m_.failed}})
+      if (const auto text = keys.text(key)) *word = Word{*text, keys.get(key)->where()};
+    if (const Node* node = keys.get("progress")) {
+      if (!node->is(Node::Kind::sequence)) report_.add(node->where(), "progress: expected a list of fields such as [nav.state.height_m], found " + describe(*node));
+      for (const Node& item : node->items)
+        if (const auto text = scalar_text(item, "progress", "a field such as nav.state.height_m", report_)) m_.progress.push_back({*text, item.where()});
+    }
+    const Node* node = keys.get("summary");
+    if (!node) return;
+    if (!node->is(Node::Kind::map)) report_.add(node->where(), "summary: expected a map {name: component.port}, found " + describe(*node));
+    for (const Node::Entry& entry : node->entries)
+      if (const auto text = scalar_text(entry.value, "summary." + entry.key, "a port such as score.tracking", report_))
+        m_.summary.push_back({entry.key, {*text, entry.where()}});
+  }
+
+  void failsafe(const Keys& keys) {
+    const Node* node = keys.get("failsafe");
+    if (!node) return;
+    m_.failsafe = *node;
+    m_.failsafe_ns = 2'000'000'000;
+    if (!node->is(Node::Kind::map)) return;
+    if (!node->find("for")) return;
+    std::vector<std::string> any_key;  // the fields are checked against the vehicle's inputs later
+    for (const Node::Entry& entry : node->entries) any_key.push_back(entry.key);
+    m_.failsafe_ns = Keys(*node, "failsafe", any_key, report_).duration_ns("for").value_or(m_.failsafe_ns);
+  }
+
+  /// "nav.state"; nothing and a fault when it is not that.
+  std::optional<PortName> port_name(const Node& node, const std::string& path) {
+    const auto text = scalar_text(node, path, "a port such as nav.state", report_);
+    if (!text) return std::nullopt;
+    const auto dot = text->find('.');
+    if (dot != std::string::npos && is_name(text->substr(0, dot)) && is_name(text->substr(dot + 1))) return PortName{text->substr(0, dot), text->substr(dot + 1)};
+    report_.add(node.where(), path + ": expected a port such as nav.state, found '" + *text + "'");
+    return std::nullopt;
+  }
+
+  std::vector<WireText> wires(const Node* map, const std::string& path) {
+    std::vector<WireText> list;
+    if (!map) return list;
+    if (!map->is(Node::Kind::map)) {
+      report_.add(map->where(), path + ": expected a map {input: component.output}, found " + describe(*map));
+      return list;
+    }
+    for (const Node::Entry& entry : map->entries)
+      list.push_back(read_wire(entry, path + "." + entry.key));
+    return list;
+  }
+
+  /// `from` is empty when it cannot be read: the input is wired all the same, and not reported again.
+  WireText read_wire(const Node::Entry& entry, const std::string& path) {
+    WireText wire;
+    wire.input = entry.key;
+    wire.where = entry.where();
+    if (entry.value.is(Node::Kind::map)) {
+      const Keys keys(entry.value, path, {"from", "max_age", "delayed"}, report_);
+      if (!keys.has("from")) {
+        report_.add(entry.where(), path + ": 'from' is missing, as in {from: nav.state, max_age: 0.5 s}");
+        return wire;
+      }
+      wire.from = port_name(*keys.get("from"), path + ".from").value_or(PortName{});
+      wire.max_age_ns = keys.duration_ns("max_age");
+      wire.delayed = keys.flag("delayed").value_or(false);
+    } else {
+      wire.from = port_name(entry.value, path).value_or(PortName{});
+    }
+    return wire;
+  }
+
+  void role(const Node::Entry& entry) {
+    const std::string path = "roles." + entry.key;
+    const Keys keys(entry.value, path, {"in", "out"}, report_);
+    RoleText role;
+    role.name = entry.key;
+    role.where = entry.where();
+    role.in = wires(keys.get("in"), path + ".in");
+    const Node* out = keys.get("out");
+    if (out && !out->is(Node::Kind::map)) report_.add(out->where(), path + ".out: expected a map {output: Type}, found " + describe(*out));
+    if (out)
+      for (const Node::Entry& port : out->entries) {
+        RoleOutText text;
+        text.optional = port.key.ends_with('?');
+        text.name = text.optional ? port.key.substr(0, port.key.size() - 1) : port.key;
+        text.where = port.where();
+        const auto type = scalar_text(port.value, path + ".out." + port.key, "the name of a message type such as VehicleState", report_);
+        if (!is_name(text.name)) report_.add(port.where(), path + ".out: '" + port.key + "' is not a name; an optional port ends in '?'");
+        else if (type) text.type = *type, role.out.push_back(text);
+      }
+    m_.roles.push_back(std::move(role));
+  }
+
+  void component(const Node::Entry& entry) {
+    const std::string path = "components." + entry.key;
+    const Keys keys(entry.value, path, component_keys, report_);
+    ComponentText c;
+    c.name = entry.key;
+    c.where = entry.where();
+    c.fills = keys.text("fills").value_or("");
+    c.where_fills = keys.where("fills");
+    c.use = keys.text("use").value_or("");
+    c.where_use = keys.where("use");
+    if (!keys.has("use") && entry.value.is(Node::Kind::map)) report_.add(entry.where(), path + ": 'use' is missing; it names the plugin, as in use: control_slc/Outer");
+    c.only = keys.word("only", {"sim", "fcu"}).value_or("");
+    c.in = wires(keys.get("in"), path + ".in");
+    if (const Node* params = keys.get("params")) {
+      c.params = *params;
+      if (!params->is(Node::Kind::map)) report_.add(params->where(), path + ".params: expected a map {parameter: value}, found " + describe(*params));
+    }
+    c.rate_hz = keys.positive("rate", "Hz").value_or(0);
+    c.where_rate = keys.where("rate");
+    c.budget_ns = keys.duration_ns("budget").value_or(0);
+    c.max_age_ns = keys.duration_ns("max_age").value_or(0);
+    run_mode(keys, path);
+    m_.components.push_back(std::move(c));
+  }
+
+  void run_mode(const Keys& keys, const std::string& path) {
+    const std::string mode = keys.word("run", {"tick", "process", "async", "driver"}).value_or("tick");
+    if (mode != "tick") report_.add(keys.where("run"), path + ": this build has no 'run: " + mode + "'; it has: tick");
+    if (keys.has("latency") && mode != "async") report_.add(keys.where("latency"), path + ".latency: belongs to 'run: async'");
+  }
+
+  void phase(const Node::Entry& entry) {
+    const std::string path = "phases." + entry.key;
+    std::vector<std::string> valid = {"next"};
+    if (entry.key != "any")
+      for (const RoleText& role : m_.roles) valid.push_back(role.name);
+    const Keys keys(entry.value.is(Node::Kind::null) ? Node{} : entry.value, path, valid, report_);
+    PhaseText phase;
+    phase.name = entry.key;
+    phase.where = entry.where();
+    if (const Node* next = entry.value.find("next")) transitions(*next, path + ".next", phase.next);
+    for (const Node::Entry& item : entry.value.entries)
+      if (item.key != "next" && std::find(valid.begin(), valid.end(), item.key) != valid.end()) assignment(item, path + "." + item.key, phase);
+    if (entry.key == "any") m_.any = std::move(phase.next);
+    else m_.phases.push_back(std::move(phase));
+  }
+
+  void transitions(const Node& list, const std::string& path, std::vector<TransitionText>& out) {
+    if (!list.is(Node::Kind::sequence)) return report_.add(list.where(), path + ": expected a list such as [{to: cruise, when: \"...\"}], found " + describe(list));
+    for (const Node& item : list.items) {
+      const Keys keys(item, path, {"to", "when", "for"}, report_);
+      if (!item.is(Node::Kind::map)) continue;
+      TransitionText t;
+      t.where = item.where();
+      t.where_to = keys.where("to");
+      t.where_when = keys.where("when");
+      for (const char* key : {"to", "when"})
+        if (!keys.has(key)) report_.add(item.where(), path + ": '" + key + "' is missing, as in {to: cruise, when: \"nav.state.height_m > 30 m\"}");
+      t.to = keys.text("to").value_or("");
+      t.when = keys.text("when").value_or("");
+      t.for_ns = keys.duration_ns("for").value_or(0);
+      out.push_back(std::move(t));
+    }
+  }
+
+  void assignment(const Node::Entry& entry, const std::string& path, PhaseText& phase) {
+    AssignmentText a;
+    a.role = entry.key;
+    a.where = a.where_use = a.where_fallback = entry.where();
+    if (entry.value.is(Node::Kind::map)) {
+      const Keys keys(entry.value, path, {"use", "set", "fallback"}, report_);
+      a.use = keys.text("use").value_or("");
+      a.fallback = keys.text("fallback").value_or("");
+      if (keys.has("use")) a.where_use = keys.where("use");
+      if (keys.has("fallback")) a.where_fallback = keys.where("fallback");
+      if (const Node* set = keys.get("set")) a.set = *set;
+      if (!a.set.is(Node::Kind::missing) && !a.set.is(Node::Kind::map))
+        report_.add(a.set.where(), path + ".set: expected a map {parameter: value}, found " + describe(a.set)), a.set = Node{};
+    } else {
+      a.use = scalar_text(entry.value, path, "the name of a component, or {use, set, fallback}", report_).value_or("");
+    }
+    phase.roles.push_back(std::move(a));
+  }
+
+  void record(const Keys& mission) {
+    const Node* node = mission.get("record");
+    if (!node) return;
+    if (node->is(Node::Kind::scalar)) {
+      m_.record = node->text != "off";
+      if (m_.record) report_.add(node->where(), "record: expected 'off' or a map {file, ports, rate}, found " + describe(*node));
+      return;
+    }
+    const Keys keys(*node, "record", {"file", "ports", "rate"}, report_);
+    m_.record_file = keys.text("file").value_or("");
+    const auto rate = keys.positive("rate", "Hz");
+    const std::int64_t period = rate ? std::llround(1e9 / *rate) : 0;
+    const Node* ports = keys.get("ports");
+    if (!ports) {
+      if (rate) add_rule("*", period, keys.where("rate"));
+      return;
+    }
+    if (ports->is(Node::Kind::sequence)) {
+      for (const Node& item : ports->items)
+        if (const auto text = scalar_text(item, "record.ports", "a port or a pattern such as \"nav.*\"", report_)) add_rule(*text, period, item.where());
+    } else if (ports->is(Node::Kind::map)) {
+      std::vector<std::string> names;
+      for (const Node::Entry& entry : ports->entries) names.push_back(entry.key);
+      const Keys rates(*ports, "record.ports", names, report_);
+      for (const std::string& name : names) {
+        const bool all = ports->find(name)->text == "all";
+        const auto hz = all ? std::nullopt : rates.positive(name, "Hz");
+        add_rule(name, hz ? std::llround(1e9 / *hz) : 0, rates.where(name));
+      }
+    } else {
+      report_.add(ports->where(), "record.ports: expected a list of ports or a map {port: rate}, found " + describe(*ports));
+    }
+  }
+
+  void add_rule(const std::string& pattern, std::int64_t period_ns, const Where& where) {
+    m_.record_rules.push_back({{pattern}, period_ns});
+    m_.record_where.push_back(where);
+  }
+
+  MissionText& m_;
+  Report& report_;
+};
+
+/// Named things merge by name: a component's keys, its parameters and wires one by one, what a phase says of a role as a whole.
+/// Everything else is replaced as a whole.
+Node laid_over(const Node& base, const Node& top) {
+  static const std::pair<const char*, int> depths[] = {{"components", 3}, {"roles", 3}, {"phases", 2}, {"summary", 1}};
+  Node node = merged(base, top, 1);
+  for (const auto& [key, depth] : depths)
+    for (Node::Entry& entry : node.entries)
+      if (entry.key == key && base.find(key) && top.find(key)) entry.value = merged(*base.find(key), *top.find(key), depth);
+  return node;
+}
+
+/// The mission's tree, laid over that of the file it extends.
+Node load_tree(MissionText& mission, Report& report) {
+  Node root = parse_yaml(mission.file, report);
+  const Node* extends = root.find("extends");
+  if (!extends) return root;
+  const auto name = scalar_text(*extends, "extends", "the name of a file", report);
+  if (!name) return root;
+  try {
+    const FilePtr base_file = read_source(mission.file->path.parent_path() / *name, *name);
+    mission.files.push_back(base_file);
+    const Node base = parse_yaml(base_file, report);
+    if (const Node* again = base.find("extends")) report.add(again->where(), "extends: a file that is extended cannot extend another one");
+    if (!base.is(Node::Kind::map) && !base.is(Node::Kind::missing)) report.add(base.where(), "expected a map with the keys of a mission; found " + describe(base));
+    if (base.is(Node::Kind::map) && root.is(Node::Kind::map)) return laid_over(base, root);
+  } catch (const Error& fault) {
+    report.add(extends->where(), std::string("extends: ") + fault.what());
+  }
+  return root;
+}
+
+}  // namespace
+
+const RoleText* MissionText::role(const std::string& wanted) const {
+  for (const RoleText& role : roles)
+    if (role.name == wanted) return &role;
+  return nullptr;
+}
+
+const ComponentText* MissionText::component(const std::string& wanted) const {
+  for (const ComponentText& c : components)
+    if (c.name == wanted) return &c;
+  return nullptr;
+}
+
+std::int64_t parse_utc_ns(const std::string& text) {
+  int year = 0, month = 0, day = 0, hour = 0, minute = 0, used = 0;
+  double second = 0;
+  const auto wrong = [&] { return Error("'" + text + "' is not a time such as 2026-01-01T00:00Z"); };
+  if (std::sscanf(text.c_str(), "%4d-%2d-%2dT%2d:%2d%n", &year, &month, &day, &hour, &minute, &used) < 5) throw wrong();
+  std::string rest = text.substr(static_cast<std::size_t>(used));
+  if (!rest.ends_with('Z')) throw wrong();
+  rest.pop_back();
+  if (!rest.empty()) {
+    const auto [end, code] = std::from_chars(rest.data() + 1, rest.data() + rest.size(), second);
+    if (rest[0] != ':' || code != std::errc{} || end != rest.data() + rest.size() || !(second >= 0 && second < 60)) throw wrong();
+  }
+  if (year < 1970 || year > 2200 || month < 1 || month > 12 || day < 1 || day > 31 || hour < 0 || hour > 23 || minute < 0 || minute > 59) throw wrong();
+  // days since 1970-01-01 of the proleptic Gregorian calendar; March-based years, Howard Hinnant's algorithm
+  const int y = year - (month <= 2 ? 1 : 0), era = y / 400, year_of_era = y - era * 400;
+  const int day_of_year = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
+  const std::int64_t days = era * 146097LL + year_of_era * 365 + year_of_era / 4 - year_of_era / 100 + day_of_year - 719468;
+  return (days * 86400 + hour * 3600 + minute * 60) * 1'000'000'000 + std::llround(second * 1e9);
+}
+
+MissionText parse_mission(const std::string& file, const Overrides& overrides, Report& report) {
+  MissionText mission;
+  const fs::path path = file;
+  mission.file = read_source(path, path.filename().string());
+  mission.files.push_back(mission.file);
+  const Node root = load_tree(mission, report);
+  Reader(mission, report).read(root);
+  if (!root.is(Node::Kind::map)) report.throw_if_any();  // there is nothing to say of the rest
+  if (overrides.io) {
+    if (*overrides.io == "sim" || *overrides.io == "fcu") mission.io = *overrides.io;
+    else report.add({"--io " + *overrides.io, 0}, "unknown word '" + *overrides.io + "'." + choices_text(*overrides.io, {"sim", "fcu"}));
+  }
+  if (overrides.seed) mission.seed = *overrides.seed;
+  return mission;
+}
+
+}  // namespace fulmar::core

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A mission file as written: every key checked, every value in its type, nothing looked up in plugins yet.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/graph/graph.hpp"
+#include "core/graph/yaml.hpp"
+
+namespace fulmar::core {
+
+/// "nav.state", split. Conditions and fields have more parts and are split elsewhere.
+struct PortName {
+  std::string owner, port;
+  std::string text() const { return owner + "." + port; }
+};
+
+struct WireText {
+  std::string input;
+  PortName from;
+  std::optional<std::int64_t> max_age_ns;
+  bool delayed = false;
+  Where where;
+};
+
+struct RoleOutText {
+  std::string name, type;
+  bool optional = false;
+  Where where;
+};
+
+struct RoleText {
+  std::string name;
+  std::vector<WireText> in;
+  std::vector<RoleOutText> out;
+  Where where;
+};
+
+struct ComponentText {
+  std::string name, fills, use, only;
+  std::vector<WireText> in;
+  Node params;
+  double rate_hz = 0;  // 0: every tick
+  std::int64_t budget_ns = 0;
+  std::int64_t max_age_ns = 0;  // of wires that say nothing
+  Where where, where_use, where_fills, where_rate;
+};
+
+struct AssignmentText {
+  std::string role, use, fallback;
+  Node set;
+  Where where, where_use, where_fallback;
+};
+
+struct TransitionText {
+  std::string to, when;
+  std::int64_t for_ns = 0;
+  Where where, where_to, where_when;
+};
+
+struct PhaseText {
+  std::string name;
+  std::vector<AssignmentText> roles;
+  std::vector<TransitionText> next;
+  Where where;
+};
+
+/// A word of the file with its place: a port, a field, a condition.
+struct Word {
+  std::string text;
+  Where where;
+};
+
+struct MissionText {
+  FilePtr file;
+  std::string name, io;
+  double rate_hz = 400;
+  std::int64_t epoch_ns = 0;
+  std::uint64_t seed = 1;
+  bool arm = false;
+  std::int64_t timeout_ns = 0;
+  Node airframe;  // text, a map, or missing
+  Node origin;
+  std::optional<Word> done, failed;
+  std::vector<Word> progress;
+  std::vector<std::pair<std::string, Word>> summary;
+  Node failsafe;
+  std::int64_t failsafe_ns = 0;
+  std::vector<RoleText> roles;
+  std::vector<ComponentText> components;
+  std::vector<PhaseText> phases;  // without `any`
+  std::vector<TransitionText> any;
+  std::vector<std::string> record_ports;
+  std::vector<RecordRule> record_rules;
+  std::vector<Where> record_where;  // one per rule
+  std::string record_file;
+  bool record = true;
+  std::vector<FilePtr> files;  // the mission and what it extends
+
+  const RoleText* role(const std::string& name) const;
+  const ComponentText* component(const std::string& name) const;
+};
+
+/// Reads a mission and the file that it extends. Faults go to the report; throws Error when there is no such file.
+MissionText parse_mission(const std::string& file, const Overrides& overrides, Report& report);
+
+/// "2026-01-01T00:00Z" as ns since 1970. Throws Error.
+std::int64_t parse_utc_ns(const std::string& text);
+
+}  // namespace fulmar::core

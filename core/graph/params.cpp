@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Values of parameters, from YAML.
+#include "core/graph/params.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "core/graph/quantity.hpp"
+#include "core/graph/record.hpp"
+
+namespace fulmar::core {
+namespace fs = std::filesystem;
+
+// ---- files ------------------------------------------------------------------------------------------------------------------
+
+void FileStore::keep(const FilePtr& file) {
+  const auto same = [&](const FilePtr& other) { return other->path.lexically_normal() == file->path.lexically_normal(); };
+  if (std::none_of(files_.begin(), files_.end(), same)) files_.push_back(file);
+}
+
+FilePtr FileStore::read(const Node& node, const std::string& path) {
+  const fs::path file = (node.file->path.parent_path() / node.text).lexically_normal();
+  for (const FilePtr& known : files_)
+    if (known->path.lexically_normal() == file) return known;
+  try {
+    const FilePtr found = read_source(file, node.text);
+    files_.push_back(found);
+    return found;
+  } catch (const Error& fault) {
+    report_.add(node.where(), path + ": " + fault.what());
+    return nullptr;
+  }
+}
+
+const Node& FileStore::tree(const FilePtr& file) {
+  const std::string key = file->path.lexically_normal().string();
+  const auto it = trees_.find(key);
+  return it != trees_.end() ? it->second : trees_.emplace(key, parse_yaml(file, report_)).first->second;
+}
+
+std::vector<std::pair<std::string, std::string>> FileStore::attachments() const {
+  std::vector<std::pair<std::string, std::string>> list;
+  const auto taken = [&](const std::string& name) {
+    return std::any_of(list.begin(), list.end(), [&](const auto& entry) { return entry.first == name; });
+  };
+  for (const FilePtr& file : files_) {
+    std::string name = file->path.filename().string();
+    if (taken(name)) name = file->path.parent_path().filename().string() + "/" + name;
+    for (int i = 2; taken(name); ++i) name = std::to_string(i) + "/" + file->path.filename().string();
+    list.emplace_back(name, file->text);
+  }
+  return list;
+}
+
+// ---- values -----------------------------------------------------------------------------------------------------------------
+
+ParamValue initial_value(const ParamInfo& param) {
+  ParamValue value;
+  std::copy(std::begin(param.initial), std::end(param.initial), std::begin(value.number));
+  value.integer = param.kind == FULMAR_RECORD || param.kind == FULMAR_BLOB ? 0 : std::llround(param.initial[0]);
+  if (param.kind == FULMAR_STRING) value.text = param.initial_text;
+  if (param.kind == FULMAR_RECORD) value.data = param.initial_data;
+  return value;
+}
+
+namespace {
+
+struct ParamReader {
+  const ParamInfo& param;
+  const std::string& path;
+  ParamValue& value;
+  FileStore& files;
+  Report& report;
+
+  void fault(const Node& node, const std::string& sentence) const { report.add(node.where(), path + ": " + sentence); }
+  std::string unit_words() const { return param.unit.empty() ? "" : " in " + param.unit; }
+
+  bool number_into(const Node& node, double& target) const {
+    if (!node.is(Node::Kind::scalar)) return fault(node, "expected a number" + unit_words() + ", found " + describe(node)), false;
+    try {
+      const Quantity quantity = parse_quantity(node.text);
+      const double number = convert(quantity, param.unit, UnitRule::optional);
+      check_range(quantity, number, param.unit, param.min, param.max);
+      target = number;
+      return true;
+    } catch (const Error& error) {
+      fault(node, error.what());
+      return false;
+    }
+  }
+
+  void count(const Node& node) const {
+    double number = 0;
+    if (!number_into(node, number)) return;
+    if (number != std::floor(number)) return fault(node, node.text + " is not a whole number");
+    if (std::abs(number) > 9e15) return fault(node, node.text + " is too large");
+    value.integer = static_cast<std::int64_t>(number);
+    value.number[0] = number;
+  }
+
+  void choice(const Node& node) const {
+    const auto word = scalar_text(node, path, "one of " + join(param.choices), report);
+    if (!word) return;
+    const auto it = std::find(param.choices.begin(), param.choices.end(), *word);
+    if (it == param.choices.end()) return fault(node, "unknown word '" + *word + "'." + choices_text(*word, param.choices));
+    value.integer = it - param.choices.begin();
+    value.number[0] = static_cast<double>(value.integer);
+  }
+
+  void text(const Node& node) const {
+    if (!node.is(Node::Kind::scalar)) return fault(node, "expected text, found " + describe(node));
+    if (node.text.size() >= param.capacity)
+      return fault(node, "text of " + std::to_string(node.text.size()) + " bytes; there is room for " + std::to_string(param.capacity - 1));
+    value.text = node.text;
+  }
+
+  void vector(const Node& node) const {
+    std::vector<std::string> names;
+    if (param.type)
+      for (const Field& field : param.type->fields) names.push_back(field.name);
+    if (names.size() != 3) names = {"x", "y", "z"};
+    double numbers[3] = {value.number[0], value.number[1], value.number[2]};
+    bool good = true;
+    if (node.is(Node::Kind::map)) {
+      const Keys keys(node, path, names, report);
+      for (std::size_t i = 0; i < 3; ++i)
+        if (const Node* item = keys.get(names[i])) good = element(*item, names[i], numbers[i]) && good;
+    } else if (node.is(Node::Kind::sequence) && node.items.size() == 3) {
+      for (std::size_t i = 0; i < 3; ++i) good = element(node.items[i], names[i], numbers[i]) && good;
+    } else {
+      const bool list = node.is(Node::Kind::sequence);
+      return fault(node, "expected three numbers [" + join(names) + "], found " + (list ? std::to_string(node.items.size()) : describe(node)));
+    }
+    if (good) std::copy(numbers, numbers + 3, value.number);
+  }
+
+  bool element(const Node& node, const std::string& name, double& target) const {
+    const std::string longer = path + "." + name;
+    return ParamReader{param, longer, value, files, report}.number_into(node, target);
+  }
+
+  void record(const Node& node) const {
+    if (node.is(Node::Kind::map)) return read_record(param, node, path, node.file ? node.file->name : "", value, report);
+    if (!scalar_text(node, path, "the name of a YAML file, or a map with the fields of " + param.type->name, report)) return;
+    const FilePtr file = files.read(node, path);
+    if (file) read_record(param, files.tree(file), "", file->path.filename().string(), value, report);
+  }
+
+  void blob(const Node& node) const {
+    if (!scalar_text(node, path, "the name of a file", report)) return;
+    const FilePtr file = files.read(node, path);
+    if (!file) return;
+    const auto* bytes = reinterpret_cast<const std::byte*>(file->text.data());
+    value.data.assign(bytes, bytes + file->text.size());
+    value.text = file->path.filename().string();
+    value.integer = 1;
+  }
+};
+
+}  // namespace
+
+void read_record(const ParamInfo& param, const Node& map, const std::string& path, const std::string& name, ParamValue& value, Report& report,
+                 const std::vector<std::string>& also) {
+  value.data = param.initial_data;
+  value.data.resize(param.type->size);
+  fill_record(*param.type, map, value.data.data(), path, report, also);
+  mark_given(*param.type, value.data.data());
+  value.text = name;
+  value.integer = 1;
+}
+
+void read_param(const ParamInfo& param, const Node& node, const std::string& path, ParamValue& value, FileStore& files, Report& report) {
+  const ParamReader reader{param, path, value, files, report};
+  switch (param.kind) {
+    case FULMAR_NUMBER: reader.number_into(node, value.number[0]); return;
+    case FULMAR_FLAG:
+      if (const auto flag = scalar_flag(node, path, report)) value.integer = *flag ? 1 : 0, value.number[0] = *flag ? 1 : 0;
+      return;
+    case FULMAR_COUNT: return reader.count(node);
+    case FULMAR_CHOICE: return reader.choice(node);
+    case FULMAR_STRING: return reader.text(node);
+    case FULMAR_VECTOR: return reader.vector(node);
+    case FULMAR_RECORD: return reader.record(node);
+    case FULMAR_BLOB: return reader.blob(node);
+  }
+}
+
+std::string value_text(const ParamInfo& param, const ParamValue& value) {
+  const std::string unit = param.unit.empty() ? "" : " " + param.unit;
+  switch (param.kind) {
+    case FULMAR_NUMBER: return number_text(value.number[0]) + unit;
+    case FULMAR_FLAG: return value.integer ? "true" : "false";
+    case FULMAR_COUNT: return std::to_string(value.integer) + unit;
+    case FULMAR_CHOICE: {
+      const auto i = static_cast<std::size_t>(value.integer);
+      return i < param.choices.size() ? param.choices[i] : std::to_string(value.integer);
+    }
+    case FULMAR_STRING: return value.text;
+    case FULMAR_VECTOR:
+      return "[" + number_text(value.number[0]) + ", " + number_text(value.number[1]) + ", " + number_text(value.number[2]) + "]" + unit;
+    case FULMAR_RECORD:
+    case FULMAR_BLOB: return value.integer ? value.text : "not given";
+  }
+  return "";
+}
+
+}  // namespace fulmar::core

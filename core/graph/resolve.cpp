@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Mission text + plugins -> graph: which components exist, who fills which role, what is created.
+#include <algorithm>
+#include <cmath>
+
+#include "core/graph/draft.hpp"
+#include "core/graph/quantity.hpp"
+
+namespace fulmar::core {
+
+int Draft::candidate(const std::string& name) const {
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    if (candidates[i].name() == name) return static_cast<int>(i);
+  return -1;
+}
+
+int Draft::role(const std::string& name) const {
+  for (std::size_t i = 0; i < roles.size(); ++i)
+    if (roles[i].text->name == name) return static_cast<int>(i);
+  return -1;
+}
+
+bool Draft::is_out(const ComponentText& c) const {
+  if (!c.only.empty()) return c.only != text.io;
+  return c.fills == "vehicle" && (c.name == "sim" || c.name == "fcu") && c.name != text.io;
+}
+
+std::vector<std::string> Draft::candidate_names() const {
+  std::vector<std::string> names;
+  for (const Candidate& candidate : candidates) names.push_back(candidate.name());
+  return names;
+}
+
+std::vector<std::string> Draft::role_names() const {
+  std::vector<std::string> names;
+  for (const RoleDraft& role : roles) names.push_back(role.text->name);
+  return names;
+}
+
+std::string not_there(const Draft& draft, const std::string& name) {
+  if (const ComponentText* out = draft.text.component(name); out && draft.is_out(*out))
+    return name + " exists only with io: " + (out->only.empty() ? out->name : out->only);
+  return "there is no component '" + name + "'." + choices_text(name, draft.candidate_names());
+}
+
+namespace {
+
+void load_component(Draft& draft, Catalogue& catalogue, Candidate& candidate) {
+  const ComponentText& text = *candidate.text;
+  if (text.use.empty()) return;
+  const std::string path = "components." + text.name;
+  try {
+    const auto [plugin, component] = split_use(text.use);
+    candidate.plugin = catalogue.open(plugin);
+    const auto& components = candidate.plugin.info->components;
+    if (components.empty()) throw Error(plugin + " holds no component");
+    std::vector<std::string> names;
+    for (const ComponentInfo& info : components) names.push_back(info.name);
+    const auto it = component.empty() ? names.begin() : std::find(names.begin(), names.end(), component);
+    if (it == names.end()) throw Error("the plugin " + plugin + " has no component '" + component + "'." + choices_text(component, names));
+    candidate.index = static_cast<std::size_t>(it - names.begin());
+    std::string stem = std::filesystem::path(candidate.plugin.info->file).stem().string();
+    candidate.use = (stem.empty() ? plugin : stem) + "/" + *it;
+    candidate.loaded = true;
+  } catch (const Error& fault) {
+    draft.report.add(text.where_use, path + ": " + fault.what());
+  }
+}
+
+void collect_candidates(Draft& draft, Catalogue& catalogue) {
+  for (const RoleText& text : draft.text.roles) {
+    draft.roles.emplace_back();
+    draft.roles.back().text = &text;
+    if (draft.text.component(text.name)) draft.report.add(text.where, "roles." + text.name + ": there is a component of that name too; rename one of them");
+  }
+  for (const ComponentText& text : draft.text.components) {
+    if (draft.is_out(text)) continue;
+    Candidate candidate;
+    candidate.text = &text;
+    load_component(draft, catalogue, candidate);
+    if (!text.fills.empty()) {
+      candidate.role = draft.role(text.fills);
+      if (candidate.role < 0)
+        draft.report.add(text.where_fills, "components." + text.name + ": there is no role '" + text.fills + "'." + choices_text(text.fills, draft.role_names()));
+    }
+    if (text.rate_hz > draft.text.rate_hz * (1 + 1e-9))
+      draft.report.add(text.where_rate, "components." + text.name + ".rate: " + number_text(text.rate_hz) + " Hz is above the mission's rate of " +
+                                            number_text(draft.text.rate_hz) + " Hz");
+    draft.candidates.push_back(std::move(candidate));
+  }
+}
+
+std::vector<std::string> output_words(const ComponentInfo& info) {
+  std::vector<std::string> words;
+  for (const Port& port : info.outputs)
+    if (port.type) words.push_back(port.name + ": " + port.type->name);
+  return words;
+}
+
+/// Does a filler keep the contract of its role?
+void check_contract(Draft& draft, const RoleDraft& role, const Candidate& filler) {
+  const std::string path = "components." + filler.name() + ": ";
+  const ComponentInfo& info = filler.info();
+  if (role.text->name == "vehicle" && !info.vehicle)
+    draft.report.add(filler.text->where_fills, path + filler.use + " is not a vehicle: it has 'step' in place of 'read' and 'write'");
+  if (role.text->name != "vehicle" && info.vehicle)
+    draft.report.add(filler.text->where_fills, path + filler.use + " is a vehicle and can fill only the role vehicle, not " + role.text->name);
+  for (const RoleOutText& out : role.text->out) {
+    const int i = info.output(out.name);
+    const TypePtr type = i < 0 ? nullptr : info.outputs[static_cast<std::size_t>(i)].type;
+    if (i < 0 && out.optional) continue;
+    if (type && type->name == out.type) continue;
+    const std::string has = i < 0 ? "; it has " + join(output_words(info)) : "; its '" + out.name + "' is " + (type ? type->name : "a probe");
+    draft.report.add(filler.text->where_fills, path + "the role " + role.text->name + " wants an output '" + out.name + "' of type " + out.type + has);
+  }
+}
+
+/// The table of a role's output: the filler's table that all other fillers can feed.
+TypePtr common_type(Draft& draft, const RoleDraft& role, const RoleOutText& out) {
+  std::vector<std::pair<const Candidate*, TypePtr>> given;
+  for (const int f : role.fillers) {
+    const Candidate& filler = draft.candidates[static_cast<std::size_t>(f)];
+    const int i = filler.loaded ? filler.info().output(out.name) : -1;
+    if (i < 0) continue;
+    const TypePtr& type = filler.info().outputs[static_cast<std::size_t>(i)].type;
+    if (type && type->name == out.type) given.emplace_back(&filler, type);
+  }
+  for (const auto& [reader, table] : given) {
+    const TypePtr wanted = table;
+    if (std::all_of(given.begin(), given.end(), [&](const auto& writer) { return incompatibility(*writer.second, *wanted).empty(); })) return wanted;
+  }
+  for (std::size_t i = 1; i < given.size(); ++i) {
+    const std::string fault = incompatibility(*given[i].second, *given[0].second);
+    if (fault.empty()) continue;
+    draft.report.add(given[i].first->text->where, "components." + given[i].first->name() + ": its '" + out.name + "' differs from that of " +
+                                                      given[0].first->name() + ": " + fault);
+    break;
+  }
+  return given.empty() ? nullptr : given[0].second;
+}
+
+void resolve_roles(Draft& draft) {
+  for (std::size_t r = 0; r < draft.roles.size(); ++r) {
+    RoleDraft& role = draft.roles[r];
+    for (std::size_t i = 0; i < draft.candidates.size(); ++i) {
+      const Candidate& candidate = draft.candidates[i];
+      if (candidate.role != static_cast<int>(r)) continue;
+      role.fillers.push_back(static_cast<int>(i));
+      if (candidate.loaded) check_contract(draft, role, candidate);
+      else role.unclear = true;
+    }
+    for (const RoleOutText& out : role.text->out) role.types.push_back(common_type(draft, role, out));
+    if (!role.fillers.empty()) continue;
+    role.unclear = true;
+    std::string why = "; write 'fills: " + role.text->name + "' at one";
+    for (const ComponentText& text : draft.text.components)
+      if (text.fills == role.text->name) why = " with io: " + draft.text.io + "; " + not_there(draft, text.name);
+    draft.report.add(role.text->where, "roles." + role.text->name + ": no component fills it" + why);
+  }
+}
+
+/// Exactly one vehicle: the only one that fills the role, or the only vehicle of a mission without that role.
+void choose_vehicle(Draft& draft) {
+  std::vector<std::string> vehicles;
+  bool unclear = false;
+  for (const Candidate& candidate : draft.candidates) {
+    unclear = unclear || !candidate.loaded;
+    if (candidate.loaded && candidate.info().vehicle && candidate.used) vehicles.push_back(candidate.name());
+  }
+  const Where where{draft.text.file->name, 0};
+  if (vehicles.empty() && !unclear && draft.vehicle_role() < 0)
+    draft.report.add(where, "no component is a vehicle; a mission needs one, such as use: sim_aero");
+  if (vehicles.size() > 1) draft.report.add(where, "a mission has one vehicle; here are " + join(vehicles));
+}
+
+/// Created are: components without a role, those that some phase assigns, and whatever these are wired to by name.
+void mark_used(Draft& draft) {
+  std::vector<std::size_t> todo;
+  const auto use = [&](std::size_t i) {
+    if (!draft.candidates[i].used) todo.push_back(i);
+    draft.candidates[i].used = true;
+  };
+  for (std::size_t i = 0; i < draft.candidates.size(); ++i) {
+    const bool named = draft.candidates[i].used;  // by a condition
+    draft.candidates[i].used = false;
+    if (named || draft.candidates[i].assigned || draft.candidates[i].text->fills.empty()) use(i);
+  }
+  while (!todo.empty()) {
+    const std::size_t i = todo.back();
+    todo.pop_back();
+    for (const Wire& wire : draft.candidates[i].wires)
+      if (wire.from.kind == Source::Kind::component) use(static_cast<std::size_t>(wire.from.index));
+  }
+}
+
+Source in_graph(const Draft& draft, Source source) {
+  if (source.kind == Source::Kind::component) source.index = draft.candidates[static_cast<std::size_t>(source.index)].component;
+  return source;
+}
+
+/// An output of a role that none of its fillers in this run has feeds nobody.
+bool dangling(const Graph& graph, const Source& source) {
+  if (source.kind != Source::Kind::role) return false;
+  const Role& role = graph.roles[static_cast<std::size_t>(source.index)];
+  return std::all_of(role.provides.begin(), role.provides.end(), [&](const auto& outputs) { return outputs[static_cast<std::size_t>(source.output)] < 0; });
+}
+
+void build_components(Draft& draft) {
+  for (Candidate& candidate : draft.candidates) {
+    if (!candidate.used || !candidate.loaded) continue;
+    candidate.component = static_cast<int>(draft.graph.components.size());
+    Component component;
+    component.name = candidate.name();
+    component.use = candidate.use;
+    component.plugin = candidate.plugin.info;
+    component.library = candidate.plugin.library;
+    component.index_in_plugin = candidate.index;
+    component.role = candidate.assigned ? candidate.role : -1;
+    const double rate = candidate.text->rate_hz;
+    component.period_ns = rate > 0 && rate < draft.text.rate_hz * (1 - 1e-9) ? std::llround(1e9 / rate) : 0;
+    component.budget_ns = candidate.text->budget_ns;
+    component.params = candidate.params;
+    component.where = candidate.text->where;
+    if (candidate.info().vehicle) draft.graph.vehicle = candidate.component;
+    draft.graph.components.push_back(std::move(component));
+  }
+}
+
+void build_roles(Draft& draft) {
+  for (std::size_t r = 0; r < draft.roles.size(); ++r) {
+    const RoleDraft& from = draft.roles[r];
+    Role role;
+    role.name = from.text->name;
+    role.where = from.text->where;
+    for (std::size_t o = 0; o < from.text->out.size(); ++o) role.outputs.push_back({from.text->out[o].name, from.types[o], from.text->out[o].optional});
+    for (const int f : from.fillers) {
+      const Candidate& filler = draft.candidates[static_cast<std::size_t>(f)];
+      if (filler.component < 0 || !filler.assigned) continue;
+      role.fillers.push_back(filler.component);
+      role.provides.emplace_back();
+      for (const RolePort& port : role.outputs) role.provides.back().push_back(filler.info().output(port.name));
+    }
+    draft.graph.roles.push_back(std::move(role));
+  }
+}
+
+void build_wires(Draft& draft) {
+  for (const Candidate& candidate : draft.candidates) {
+    if (candidate.component < 0) continue;
+    Component& component = draft.graph.components[static_cast<std::size_t>(candidate.component)];
+    component.wires = candidate.wires;
+    for (Wire& wire : component.wires) {
+      wire.from = in_graph(draft, wire.from);
+      if (dangling(draft.graph, wire.from)) wire.from = {};
+    }
+  }
+}
+
+bool matches(const std::string& text, const std::string& pattern, std::size_t t = 0, std::size_t p = 0) {
+  while (p < pattern.size() && pattern[p] != '*') {
+    if (t >= text.size() || text[t] != pattern[p]) return false;
+    ++t, ++p;
+  }
+  if (p == pattern.size()) return t == text.size();
+  while (p < pattern.size() && pattern[p] == '*') ++p;
+  for (; t <= text.size(); ++t)
+    if (matches(text, pattern, t, p)) return true;
+  return false;
+}
+
+void read_record_rules(Draft& draft) {
+  Graph& graph = draft.graph;
+  graph.record = draft.text.record;
+  graph.record_file = draft.text.record_file;
+  graph.record_rules = draft.text.record_rules;
+  std::vector<std::string> ports;
+  for (const Role& role : graph.roles)
+    for (const RolePort& port : role.outputs) ports.push_back(role.name + "." + port.name);
+  for (const Component& component : graph.components)
+    for (const Port& port : component.info().outputs) ports.push_back(component.name + "." + port.name);
+  for (std::size_t i = 0; i < graph.record_rules.size(); ++i) {
+    const std::string& pattern = graph.record_rules[i].ports[0];
+    if (pattern.size() < 200 && std::count(pattern.begin(), pattern.end(), '*') < 5 &&
+        std::any_of(ports.begin(), ports.end(), [&](const std::string& port) { return matches(port, pattern); }))
+      continue;
+    const std::string near = nearest(pattern, ports);
+    draft.report.add(draft.text.record_where[i], "record.ports: '" + pattern + "' matches no port." + (near.empty() ? "" : " Did you mean '" + near + "'?"));
+  }
+}
+
+void read_head(Draft& draft) {
+  const MissionText& text = draft.text;
+  Graph& graph = draft.graph;
+  graph.mission = text.name;
+  graph.io = text.io;
+  graph.tick_ns = std::llround(1e9 / text.rate_hz);
+  graph.epoch_ns = text.epoch_ns;
+  graph.seed = text.seed;
+  graph.arm = text.arm && text.io == "sim";
+  graph.timeout_ns = text.timeout_ns;
+  if (text.airframe.is(Node::Kind::scalar)) graph.airframe = text.airframe.text;
+}
+
+void resolve(Draft& draft, Catalogue& catalogue) {
+  read_head(draft);
+  collect_candidates(draft, catalogue);
+  resolve_roles(draft);
+  resolve_wires(draft);
+  assign_roles(draft);
+  name_ports(draft);
+  mark_used(draft);
+  choose_vehicle(draft);
+  read_values(draft);
+  build_components(draft);
+  build_roles(draft);
+  check_fed(draft);
+  build_wires(draft);
+  compile_phases(draft);
+  order_steps(draft);
+  read_failsafe(draft);
+  read_record_rules(draft);
+}
+
+}  // namespace
+
+Graph load_mission(const std::string& file, const Overrides& overrides, Catalogue& catalogue) {
+  Report report;
+  for (const auto& [role, component] : overrides.roles) report.opened("--role " + role + "=" + component);
+  for (const auto& [name, value] : overrides.set) report.opened("--set " + name + "=" + value);
+  const MissionText text = parse_mission(file, overrides, report);
+  FileStore files(report);
+  for (const FilePtr& read : text.files) files.keep(read);
+  Draft draft{text, overrides, report, files, {}, {}, {}, {}};
+  resolve(draft, catalogue);
+  report.throw_if_any();
+  draft.graph.attachments = files.attachments();
+  return std::move(draft.graph);
+}
+
+Graph load_mission(const std::string& file, const Overrides& overrides) {
+  PluginCatalogue catalogue(PluginCatalogue::folders_for(file));
+  return load_mission(file, overrides, catalogue);
+}
+
+}  // namespace fulmar::core

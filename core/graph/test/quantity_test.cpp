@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <doctest/doctest.h>
+
+#include <functional>
+
+#include "core/graph/quantity.hpp"
+
+using namespace fulmar::core;
+
+namespace {
+
+double in(const char* text, const char* unit) { return quantity_in(text, unit, UnitRule::optional); }
+
+std::string refusal(const std::function<void()>& run) {
+  try {
+    run();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+std::string refused(const char* text, const char* unit, UnitRule rule = UnitRule::optional) {
+  return refusal([&] { quantity_in(text, unit, rule); });
+}
+
+}  // namespace
+
+// Reference values: SI brochure (9th edition) and ISO 80000; 1 nautical mile = 1852 m, 1 ft = 0.3048 m, standard gravity 9.80665 m/s2.
+TEST_CASE("quantities are converted into the declared unit") {
+  CHECK(in("180 deg", "rad") == doctest::Approx(3.14159265358979).epsilon(1e-14));
+  CHECK(in("90deg", "rad") == doctest::Approx(1.5707963267949).epsilon(1e-13));
+  CHECK(in("17 m/s", "m/s") == 17);
+  CHECK(in("50 km/h", "m/s") == doctest::Approx(13.8888888889).epsilon(1e-11));
+  CHECK(in("10 kt", "m/s") == doctest::Approx(5.14444444444).epsilon(1e-11));
+  CHECK(in("500 ft/min", "m/s") == doctest::Approx(2.54).epsilon(1e-12));
+  CHECK(in("4551 ft", "m") == doctest::Approx(1387.1448).epsilon(1e-12));
+  CHECK(in("1.5 km", "m") == 1500);
+  CHECK(in("200 ms", "s") == doctest::Approx(0.2).epsilon(1e-15));
+  CHECK(in("0.5 s", "ns") == doctest::Approx(5e8).epsilon(1e-15));
+  CHECK(in("400 Hz", "Hz") == 400);
+  CHECK(in("0.4 kHz", "1/s") == doctest::Approx(400));
+  CHECK(in("1013.25 hPa", "Pa") == doctest::Approx(101325));
+  CHECK(in("3 g", "m/s2") == doctest::Approx(29.41995).epsilon(1e-14));
+  CHECK(in("4500 g", "kg") == doctest::Approx(4.5).epsilon(1e-15));
+  CHECK(in("15 degC", "K") == doctest::Approx(288.15).epsilon(1e-15));
+  CHECK(in("288.15 K", "degC") == doctest::Approx(15));
+  CHECK(in("6000 rpm", "rad/s") == doctest::Approx(628.318530718).epsilon(1e-11));
+  CHECK(in("50 uT", "T") == doctest::Approx(5e-5));
+  CHECK(in("80 %", "") == doctest::Approx(0.8));
+  CHECK(in("2 deg/(m/s)", "rad/(m/s)") == doctest::Approx(0.0349065850399).epsilon(1e-11));
+  CHECK(in("10 deg/s^2", "rad/s2") == doctest::Approx(0.174532925199).epsilon(1e-11));
+  CHECK(in("100 cm^2", "m2") == doctest::Approx(0.01));
+  CHECK(in("2 lb ft^2", "kg m2") == doctest::Approx(0.0842802202).epsilon(1e-8));
+  CHECK(in("1 s/km", "s/m") == doctest::Approx(1e-3));
+  CHECK(in("0.7 rad", "deg") == doctest::Approx(40.1070456592).epsilon(1e-11));
+  CHECK(in("-3e-2", "m") == -0.03);
+  CHECK(in("+5 m", "m") == 5);
+  CHECK(in(" .5 ", "") == 0.5);
+}
+
+TEST_CASE("an unusual declared unit is taken as written and as nothing else") {
+  CHECK(in("5 steps", "steps") == 5);
+  CHECK(in("5", "steps") == 5);
+  CHECK(refused("5 m", "steps") == "5 m: the unit here is steps");
+}
+
+TEST_CASE("a wrong quantity is refused with a sentence") {
+  CHECK(refused("5 kg", "m") == "5 kg is a mass, not a length");
+  CHECK(refused("5 deg", "") == "5 deg is an angle, not a plain number");
+  CHECK(refused("5 m", "m/s") == "5 m is a length, not a speed");
+  CHECK(refused("5 Hz", "rad/s") == "5 Hz is a frequency, not an angular rate");
+  CHECK(refused("5 m^5", "m") == "5 m^5 is not a length");
+  CHECK(refused("5 m", "rad s/m") == "5 m is a length, not in rad s/m");
+  CHECK(refused("3 sec", "s") == "3 sec: unknown unit 'sec'; a time is written with s, ms, us, ns, min, h");
+  CHECK(refused("3 m/", "m/s") == "3 m/: unknown unit 'm/'; a speed is written with m/s, km/h, kt, ft/s");
+  CHECK(refused("abc", "m") == "'abc' is not a number");
+  CHECK(refused("", "m") == "'' is not a number");
+  CHECK(refused("- 3", "m") == "'- 3' is not a number");
+  CHECK(refused(".nan", "m") == ".nan is not a finite number");
+  CHECK(refused("-.inf", "m") == "-.inf is not a finite number");
+  CHECK(refused("NaN", "m") == "NaN is not a finite number");
+  CHECK(refused("1e999", "m") == "1e999 is too large or too small for a number");
+  CHECK(refused("1e308 km", "m") == "1e308 km is too large for a number");
+}
+
+TEST_CASE("where a unit is required a bare number is refused, but for plain numbers and degrees of latitude") {
+  CHECK(refused("5", "m", UnitRule::required) == "5 has no unit; a length is written with m, cm, mm, km, ft, in, nmi");
+  CHECK(refused("5", "rad", UnitRule::required) == "5 has no unit; an angle is written with deg, rad");
+  CHECK(quantity_in("0.9", "", UnitRule::required) == 0.9);
+  CHECK(quantity_in("40.25", "deg", UnitRule::required) == 40.25);
+}
+
+TEST_CASE("a range is told in the unit that was written") {
+  const auto outside = [](const char* text, const char* unit, double min, double max) {
+    return refusal([&] {
+      const Quantity quantity = parse_quantity(text);
+      check_range(quantity, convert(quantity, unit, UnitRule::optional), unit, min, max);
+    });
+  };
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  CHECK(outside("9", "rad/rad", 0, 2) == "9 is outside 0 .. 2 rad/rad");
+  CHECK(outside("200 deg", "rad", -3.14159265358979, 3.14159265358979) == "200 deg is outside -180 .. 180 deg");
+  CHECK(outside("-1 cm", "m", 0, inf) == "-1 cm is below 0 cm");
+  CHECK(outside("31 degC", "K", -inf, 303.15) == "31 degC is above 30 degC");
+  CHECK(outside("180 deg", "rad", -3.1416, 3.1416) == "");
+}
+
+TEST_CASE("the unit suffix of a field is split off") {
+  CHECK(split_suffix("stall_alpha_rad")->name == "stall_alpha");
+  CHECK(split_suffix("stall_alpha_rad")->unit == "rad");
+  CHECK(split_suffix("airspeed_mps")->unit == "m/s");
+  CHECK(split_suffix("throttle_frac")->unit == "");
+  CHECK_FALSE(split_suffix("satellites"));
+  CHECK_FALSE(split_suffix("has_course"));
+  CHECK_FALSE(split_suffix("_m"));
+}

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <doctest/doctest.h>
+
+#include "core/graph/record.hpp"
+#include "core/graph/test/shelf.hpp"
+
+using namespace fulmar;
+using namespace fulmar::core;
+using namespace fulmar::core::test;
+
+namespace {
+
+template <class T>
+struct Read {
+  T value{};
+  std::string faults;
+};
+
+template <class T>
+Read<T> read(const std::string& yaml) {
+  Read<T> result;
+  Report report;
+  const Node node = parse_yaml(std::make_shared<SourceFile>(SourceFile{"folder/file.yaml", "file.yaml", yaml}), report);
+  fill_record(*type_of<T>(), node, reinterpret_cast<std::byte*>(&result.value), "", report);
+  result.faults = report.text();
+  return result;
+}
+
+enum class Colour : std::uint8_t { red, green };
+struct Sample {
+  std::int64_t time_ns = 5;
+  std::uint64_t big = 0;
+  std::int32_t small = 0;
+  std::uint8_t byte = 0;
+  float narrow_m = 0;
+  std::array<double, 3> gains_ratio{1, 2, 3};
+  List<double, 2> few_m;
+  Text<8> text{"as is"};
+  Colour colour = Colour::red;
+  double range_m = 0, range_s = 0;
+};
+
+}  // namespace
+
+TEST_CASE("an airframe file fills nested structs, and what it does not say stays") {
+  const auto read_ = read<Airframe>(
+      "name: Anaconda\nmass: 4.5 kg\nwing: {area_m2: 0.55, span: 2900 mm, stall_alpha: 15 deg, oswald: 0.8}\n"
+      "aileron: {limit_rad: 0.3, reversed: true}\naero:\n  lift: {alpha: 5.6}\n");
+  CHECK(read_.faults == "");
+  const Airframe& airframe = read_.value;
+  CHECK(airframe.name.view() == "Anaconda");
+  CHECK(airframe.mass_kg == 4.5);
+  CHECK(airframe.wing.area_m2 == 0.55);
+  CHECK(airframe.wing.span_m == doctest::Approx(2.9).epsilon(1e-15));
+  CHECK(airframe.wing.stall_alpha_rad == doctest::Approx(0.261799387799).epsilon(1e-11));
+  CHECK(airframe.wing.oswald_ratio == 0.8);
+  CHECK(airframe.wing.chord_m == Wing{}.chord_m);
+  CHECK(airframe.aileron.limit_rad == 0.3);
+  CHECK(airframe.aileron.reversed);
+  CHECK_FALSE(airframe.elevator.reversed);
+  CHECK(airframe.aero.lift.alpha_ratio == 5.6);
+}
+
+TEST_CASE("a plan's list is counted and vectors are lists or maps") {
+  const auto plan = read<Plan>(hourglass_plan);
+  CHECK(plan.faults == "");
+  REQUIRE(plan.value.waypoints.count == 3);
+  CHECK(plan.value.waypoints[0].position_m == Vec3<Ned>{400, -250, -70});
+  CHECK(plan.value.waypoints[1].position_m == Vec3<Ned>{-400, -50, -70});
+  CHECK(plan.value.waypoints[2].position_m == Vec3<Ned>{-400, -250, -70});
+  CHECK(plan.value.waypoints[2].course_rad == doctest::Approx(1.5707963267949));
+  CHECK(plan.value.end == PlanEnd::circuit);
+}
+
+TEST_CASE("numbers of every kind arrive exactly") {
+  const auto sample = read<Sample>(
+      "time: 100 ms\nbig: 18446744073709551615\nsmall: -2147483648\nbyte: 255\nnarrow_m: 0.5\ngains: [4, 5.5, 6e1]\nfew: [1 cm]\ntext: seven77\ncolour: green\n");
+  CHECK(sample.faults == "");
+  CHECK(sample.value.time_ns == 100'000'000);
+  CHECK(sample.value.big == 18446744073709551615u);
+  CHECK(sample.value.small == -2147483648);
+  CHECK(sample.value.byte == 255);
+  CHECK(sample.value.narrow_m == 0.5f);
+  CHECK(sample.value.gains_ratio == std::array<double, 3>{4, 5.5, 60});
+  CHECK(sample.value.few_m.count == 1);
+  CHECK(sample.value.few_m[0] == 0.01);
+  CHECK(sample.value.text.view() == "seven77");
+  CHECK(sample.value.colour == Colour::green);
+  CHECK(read<Sample>("time_ns: 9007199254740993\n").value.time_ns == 9007199254740993);  // 2^53 + 1 is no double
+}
+
+TEST_CASE("every fault of a record is told at once, with the line of its own file") {
+  CHECK(read<Sample>("big: -1\nsmall: 2147483648\nbyte: 1.5\nnarrow: 0.5\ngains: [1, 2]\nfew: [1 m, 2 m, 3 m]\ntext: eight888\ncolour: gren\nrange: 3 m\n"
+                     "bigg: 3\ngains_ratio: 7\ntime: [1]\n")
+            .faults ==
+        "file.yaml:1: big: -1 is outside 0 .. 18446744073709551615\n"
+        "file.yaml:2: small: 2147483648 is outside -2147483648 .. 2147483647\n"
+        "file.yaml:3: byte: 1.5 is not a whole number\n"
+        "file.yaml:4: narrow: 0.5 has no unit; a length is written with m, cm, mm, km, ft, in, nmi\n"
+        "file.yaml:5: gains: 2 items, but this is a list of exactly 3\n"
+        "file.yaml:6: few: 3 items, but this is a list of at most 2\n"
+        "file.yaml:7: text: text of 8 bytes; there is room for 7\n"
+        "file.yaml:8: colour: unknown word 'gren'. Did you mean 'green'? Valid: red, green.\n"
+        "file.yaml:9: 'range' could be any of range_m, range_s; write the full name\n"
+        "file.yaml:10: unknown field 'bigg' of Sample. Did you mean 'big'? Valid: time_ns, big, small, byte, narrow_m, gains_ratio, few_m, text, colour, range_m, range_s.\n"
+        "file.yaml:11: gains_ratio: the same field as 'gains', which is given above\n"
+        "file.yaml:11: gains_ratio: expected a list of exactly 3, found '7'\n"
+        "file.yaml:12: time: expected a whole number, found a list");
+}
+
+TEST_CASE("faults inside nested things name the way to them") {
+  CHECK(read<Airframe>("wing:\n  span: 3 kg\n  are: 1 m^2\naileron: [1]\nelevator: {reversed: maybe}\nmass_kg: .nan\n").faults ==
+        "file.yaml:2: wing.span: 3 kg is a mass, not a length\n"
+        "file.yaml:3: wing: unknown field 'are' of Wing. Did you mean 'area'? Valid: area_m2, span_m, chord_m, oswald_ratio, stall_alpha_rad, stall_sharpness_ratio.\n"
+        "file.yaml:4: aileron: expected a map with the fields of Surface, found a list\n"
+        "file.yaml:5: elevator.reversed: expected true or false, found 'maybe'\n"
+        "file.yaml:6: mass_kg: .nan is not a finite number");
+  CHECK(read<Plan>("waypoints:\n  - {position_m: [1, 2]}\n  - {position: [1, 2, 3]}\n  - 7\n").faults ==
+        "file.yaml:2: waypoints[0].position_m: expected 3 numbers [north, east, down], found 2\n"
+        "file.yaml:3: waypoints[1].position.north: 1 has no unit; a length is written with m, cm, mm, km, ft, in, nmi\n"
+        "file.yaml:3: waypoints[1].position.east: 2 has no unit; a length is written with m, cm, mm, km, ft, in, nmi\n"
+        "file.yaml:3: waypoints[1].position.down: 3 has no unit; a length is written with m, cm, mm, km, ft, in, nmi\n"
+        "file.yaml:4: waypoints[2]: expected a map with the fields of Waypoint, found '7'");
+}
+
+TEST_CASE("a fraction outside -1 .. 1 is refused") {
+  CHECK(read<Actuators>("throttle: 150 %\n").faults == "file.yaml:1: throttle: 150 % is outside -100 .. 100 %");
+  CHECK(read<Actuators>("throttle_frac: 0.5\n").value.throttle_frac == 0.5);
+}

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parameters of every component: declared value <- airframe file <- what the mission as a whole says <- `params:` <- --set. And the failsafe.
+#include <algorithm>
+
+#include "core/graph/draft.hpp"
+#include "core/graph/quantity.hpp"
+#include "core/graph/record.hpp"
+
+namespace fulmar::core {
+namespace {
+
+const std::vector<std::string> airframe_extras = {"params"};
+
+/// The mission's airframe as a tree: a file, or a map in the mission itself.
+struct AirframeSource {
+  const Node* tree = nullptr;
+  std::string name, path;  // for the parameter; for faults
+};
+
+AirframeSource airframe_source(Draft& draft) {
+  const Node& node = draft.text.airframe;
+  if (node.is(Node::Kind::missing)) return {};
+  if (node.is(Node::Kind::map)) return {&node, node.file->name, "airframe"};
+  if (!scalar_text(node, "airframe", "the name of an airframe file, or a map", draft.report)) return {};
+  const FilePtr file = draft.files.read(node, "airframe");
+  if (!file) return {};
+  const Node& tree = draft.files.tree(file);
+  if (tree.is(Node::Kind::map)) return {&tree, file->path.filename().string(), ""};
+  if (!tree.is(Node::Kind::missing)) draft.report.add(tree.where(), "expected a map with the fields of an airframe; found " + describe(tree));
+  return {};
+}
+
+std::vector<std::string> param_names(const ComponentInfo& info) {
+  std::vector<std::string> names;
+  for (const ParamInfo& param : info.params) names.push_back(param.name);
+  return names;
+}
+
+void set_params(Draft& draft, Candidate& candidate, const Node& map, const std::string& path) {
+  const ComponentInfo& info = candidate.info();
+  for (const Node::Entry& entry : map.entries) {
+    const int p = info.param(entry.key);
+    if (p < 0) {
+      draft.report.add(entry.where(), path + ": " + candidate.use + " has no parameter '" + entry.key + "'." + choices_text(entry.key, param_names(info)));
+      continue;
+    }
+    const auto i = static_cast<std::size_t>(p);
+    if (info.vehicle && (entry.key == "rate" || entry.key == "epoch_s")) {
+      draft.report.add(entry.where(), path + "." + entry.key + ": comes from the mission's '" + (entry.key == "rate" ? "rate" : "epoch") + "'; set it there");
+      continue;
+    }
+    read_param(info.params[i], entry.value, path + "." + entry.key, candidate.params[i], draft.files, draft.report);
+  }
+}
+
+/// Section `params` of the airframe file: gains belong to the aircraft. Components that this mission does not use are passed over.
+void set_from_airframe(Draft& draft, Candidate& candidate, const AirframeSource& airframe) {
+  const Node* sections = airframe.tree ? airframe.tree->find("params") : nullptr;
+  if (!sections) return;
+  const std::string prefix = airframe.path.empty() ? "params" : airframe.path + ".params";
+  if (!sections->is(Node::Kind::map)) return draft.report.add(sections->where(), prefix + ": expected a map {plugin/Component: {parameter: value}}, found " + describe(*sections));
+  const auto [plugin, component] = split_use(candidate.use);
+  for (const Node::Entry& entry : sections->entries) {
+    const auto [for_plugin, for_component] = split_use(entry.key);
+    const bool same_plugin = for_plugin == plugin || for_plugin == plugin + ".so";
+    if (!same_plugin) continue;
+    std::vector<std::string> names;
+    for (const ComponentInfo& info : candidate.plugin.info->components) names.push_back(info.name);
+    if (!for_component.empty() && std::find(names.begin(), names.end(), for_component) == names.end())
+      draft.report.add(entry.where(), prefix + ": the plugin " + plugin + " has no component '" + for_component + "'." + choices_text(for_component, names));
+    if (for_component.empty() ? candidate.index != 0 : for_component != component) continue;
+    if (!entry.value.is(Node::Kind::map))
+      draft.report.add(entry.value.where(), prefix + "." + entry.key + ": expected a map {parameter: value}, found " + describe(entry.value));
+    set_params(draft, candidate, entry.value, prefix + "." + entry.key);
+  }
+}
+
+/// What the mission says once for everybody: airframe, origin, and the vehicle's rate and epoch.
+void set_from_mission(Draft& draft, Candidate& candidate, const AirframeSource& airframe) {
+  const ComponentInfo& info = candidate.info();
+  for (std::size_t i = 0; i < info.params.size(); ++i) {
+    const ParamInfo& param = info.params[i];
+    ParamValue& value = candidate.params[i];
+    if (param.kind == FULMAR_RECORD && param.name == "airframe" && airframe.tree)
+      read_record(param, *airframe.tree, airframe.path, airframe.name, value, draft.report, airframe_extras);
+    if (param.kind == FULMAR_RECORD && param.name == "origin" && draft.text.origin.is(Node::Kind::map))
+      read_record(param, draft.text.origin, "origin", draft.text.origin.file->name, value, draft.report);
+    if (param.kind != FULMAR_NUMBER || !info.vehicle) continue;
+    if (param.name == "rate") {
+      value.number[0] = draft.text.rate_hz;
+      if (value.number[0] < param.min || value.number[0] > param.max)
+        draft.report.add(candidate.text->where, "components." + candidate.name() + ": the mission's rate of " + number_text(draft.text.rate_hz) + " Hz is outside " +
+                                                    number_text(param.min) + " .. " + number_text(param.max) + " Hz of " + candidate.use);
+    }
+    if (param.name == "epoch_s") value.number[0] = static_cast<double>(draft.text.epoch_ns) * 1e-9;
+  }
+}
+
+void set_from_command(Draft& draft) {
+  for (const auto& [name, text] : draft.overrides.set) {
+    const Where where{"--set " + name + "=" + text, 0};
+    const auto dot = name.find('.');
+    const int i = draft.candidate(name.substr(0, dot));
+    if (dot == std::string::npos) {
+      draft.report.add(where, "expected component.parameter=value");
+    } else if (i < 0) {
+      draft.report.add(where, not_there(draft, name.substr(0, dot)));
+    } else if (Candidate& candidate = draft.candidates[static_cast<std::size_t>(i)]; candidate.loaded) {
+      Node map;
+      map.kind = Node::Kind::map;
+      map.file = make_source(text, where.file);
+      map.entries.push_back({name.substr(dot + 1), 0, parse_yaml(map.file, draft.report)});
+      if (!map.entries[0].value.is(Node::Kind::missing)) set_params(draft, candidate, map, candidate.name());
+    }
+  }
+}
+
+void check_required(Draft& draft, const Candidate& candidate) {
+  const ComponentInfo& info = candidate.info();
+  for (std::size_t i = 0; i < info.params.size(); ++i) {
+    const ParamInfo& param = info.params[i];
+    if (!param.required || candidate.params[i].integer != 0) continue;
+    const bool whole = param.name == "airframe" || param.name == "origin";
+    draft.report.add(candidate.text->where, "components." + candidate.name() + ": the parameter '" + param.name + "' is missing" +
+                                                (param.doc.empty() ? "" : " (" + param.doc + ")") +
+                                                (whole ? "; give the mission's '" + param.name + "'" : "; give it under params"));
+  }
+}
+
+}  // namespace
+
+void read_values(Draft& draft) {
+  const AirframeSource airframe = airframe_source(draft);
+  const Node& origin = draft.text.origin;
+  if (!origin.is(Node::Kind::missing) && !origin.is(Node::Kind::map))
+    draft.report.add(origin.where(), "origin: expected a map such as {lat: 40.25, lon: -111.65, alt_msl: 1387 m}, found " + describe(origin));
+  for (Candidate& candidate : draft.candidates) {
+    if (!candidate.loaded) continue;
+    for (const ParamInfo& param : candidate.info().params) candidate.params.push_back(initial_value(param));
+    set_from_airframe(draft, candidate, airframe);
+    set_from_mission(draft, candidate, airframe);
+    if (candidate.text->params.is(Node::Kind::map)) set_params(draft, candidate, candidate.text->params, "components." + candidate.name() + ".params");
+  }
+  set_from_command(draft);
+  for (const Candidate& candidate : draft.candidates)
+    if (candidate.loaded) check_required(draft, candidate);
+}
+
+// ---- failsafe ---------------------------------------------------------------------------------------------------------------
+
+void read_failsafe(Draft& draft) {
+  Graph& graph = draft.graph;
+  graph.failsafe_ns = draft.text.failsafe_ns;
+  if (graph.vehicle < 0) return;
+  const ComponentInfo& info = graph.components[static_cast<std::size_t>(graph.vehicle)].info();
+  const Node& node = draft.text.failsafe;
+  if (node.is(Node::Kind::missing)) return;
+  if (!node.is(Node::Kind::map)) return draft.report.add(node.where(), "failsafe: expected a map such as {throttle_frac: 0, for: 2 s}, found " + describe(node));
+  graph.failsafe.resize(info.inputs.size());
+  std::vector<Node> parts(info.inputs.size());
+  std::vector<std::string> names{"for"};
+  for (const Port& port : info.inputs)
+    for (std::size_t f = 0; port.kind == FULMAR_IN_VALUE && f < port.type->fields.size(); ++f) names.push_back(port.type->fields[f].name);
+  for (const Node::Entry& entry : node.entries) {
+    bool known = entry.key == "for";
+    for (std::size_t i = 0; i < info.inputs.size() && !known; ++i) {
+      if (info.inputs[i].kind != FULMAR_IN_VALUE || !field_of_key(*info.inputs[i].type, entry.key)) continue;
+      known = true;
+      parts[i].kind = Node::Kind::map;
+      parts[i].entries.push_back(entry);
+    }
+    if (!known) draft.report.add(entry.where(), "failsafe: the vehicle takes no '" + entry.key + "'." + choices_text(entry.key, names));
+  }
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i].is(Node::Kind::missing)) continue;
+    graph.failsafe[i].resize(info.inputs[i].type->size);
+    fill_record(*info.inputs[i].type, parts[i], graph.failsafe[i].data(), "failsafe", draft.report);
+  }
+}
+
+}  // namespace fulmar::core

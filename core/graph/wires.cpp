@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Wires: what a port name means, whether the two ends fit, what is missing, and the order of the steps that follows.
+#include <algorithm>
+
+#include "core/graph/draft.hpp"
+
+namespace fulmar::core {
+namespace {
+
+std::vector<std::string> port_names(const std::vector<Port>& ports) {
+  std::vector<std::string> names;
+  for (const Port& port : ports) names.push_back(port.name);
+  return names;
+}
+
+Target role_target(const Draft& draft, int index, const PortName& name) {
+  const RoleDraft& role = draft.roles[static_cast<std::size_t>(index)];
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < role.text->out.size(); ++i) {
+    names.push_back(role.text->out[i].name);
+    if (names.back() != name.port) continue;
+    Target target;
+    target.source = {Source::Kind::role, index, static_cast<int>(i)};
+    target.type = role.types[i];
+    target.unclear = !target.type;
+    // a filler may keep silent or send several: the strictest of them all is asked by a request
+    target.kind = FULMAR_OUT_QUEUE;
+    for (const int f : role.fillers) {
+      const Candidate& filler = draft.candidates[static_cast<std::size_t>(f)];
+      const int o = filler.loaded ? filler.info().output(name.port) : -1;
+      if (o >= 0 && filler.info().outputs[static_cast<std::size_t>(o)].kind == FULMAR_OUT_VALUE) target.kind = FULMAR_OUT_VALUE;
+    }
+    return target;
+  }
+  throw Error("the role " + name.owner + " has no output '" + name.port + "'." + choices_text(name.port, names));
+}
+
+Target component_target(const Draft& draft, int index, const PortName& name) {
+  const Candidate& candidate = draft.candidates[static_cast<std::size_t>(index)];
+  Target target;
+  target.source = {Source::Kind::component, index, -1};
+  target.unclear = true;
+  if (!candidate.loaded) return target;
+  const int output = candidate.info().output(name.port);
+  if (output < 0) throw Error(name.owner + " (" + candidate.use + ") has no output '" + name.port + "'." + choices_text(name.port, port_names(candidate.info().outputs)));
+  const Port& port = candidate.info().outputs[static_cast<std::size_t>(output)];
+  target.source.output = output;
+  target.type = port.type;
+  target.kind = port.kind;
+  target.unclear = false;
+  return target;
+}
+
+/// Why an output cannot feed an input; "" when it can.
+std::string misfit(const std::string& owner, const Port& input, const PortName& from, const Target& target) {
+  if (target.kind == FULMAR_OUT_PROBE) return from.text() + " is a probe: a number to look at, not a message to wire";
+  const std::string reason = incompatibility(*target.type, *input.type);
+  if (!reason.empty()) {
+    if (target.type->name == input.type->name) return from.text() + " is another " + input.type->name + " than " + owner + "." + input.name + " takes: " + reason;
+    return owner + "." + input.name + " takes " + input.type->name + ", but " + from.text() + " is " + target.type->name;
+  }
+  if (input.kind == FULMAR_IN_REQUEST && target.kind == FULMAR_OUT_VALUE)
+    return owner + "." + input.name + " is a request, but " + from.text() + " is sent in every step; a request is fed by an output that may stay silent";
+  return "";
+}
+
+void connect(Draft& draft, std::size_t index, const WireText& text, const std::string& path) {
+  if (text.from.owner.empty()) return;  // reported when it was read
+  Candidate& candidate = draft.candidates[index];
+  const ComponentInfo& info = candidate.info();
+  const int input = info.input(text.input);
+  if (input < 0) return draft.report.add(text.where, path + ": " + candidate.use + " has no such input." + choices_text(text.input, port_names(info.inputs)));
+  try {
+    const Target target = find_target(draft, text.from);
+    const auto i = static_cast<std::size_t>(input);
+    const std::string fault = target.unclear ? "" : misfit(candidate.name(), info.inputs[i], text.from, target);
+    if (!fault.empty()) throw Error(fault);
+    candidate.wires[i] = {target.source, text.max_age_ns.value_or(candidate.text->max_age_ns), text.delayed, text.where};
+  } catch (const Error& fault) {
+    draft.report.add(text.where, path + ": " + fault.what());
+  }
+}
+
+/// The wires of a role are checked even where no filler uses them: a slip there is a slip.
+void check_role_wires(Draft& draft, const RoleDraft& role) {
+  for (const WireText& wire : role.text->in) {
+    const std::string path = "roles." + role.text->name + ".in." + wire.input;
+    if (wire.from.owner.empty()) continue;
+    try {
+      find_target(draft, wire.from);
+    } catch (const Error& fault) {
+      draft.report.add(wire.where, path + ": " + fault.what());
+    }
+    std::vector<std::string> inputs;
+    for (const int f : role.fillers)
+      if (draft.candidates[static_cast<std::size_t>(f)].loaded)
+        for (const Port& port : draft.candidates[static_cast<std::size_t>(f)].info().inputs) inputs.push_back(port.name);
+    const bool known = std::find(inputs.begin(), inputs.end(), wire.input) != inputs.end();
+    const std::string near = nearest(wire.input, inputs);
+    if (!known && !near.empty() && !role.unclear)
+      draft.report.add(wire.where, path + ": no component that fills " + role.text->name + " has such an input. Did you mean '" + near + "'?");
+  }
+}
+
+}  // namespace
+
+Target find_target(const Draft& draft, const PortName& name) {
+  const int role = draft.role(name.owner);
+  if (role >= 0) return role_target(draft, role, name);
+  const int candidate = draft.candidate(name.owner);
+  if (candidate >= 0) return component_target(draft, candidate, name);
+  if (draft.text.component(name.owner)) throw Error(not_there(draft, name.owner));
+  std::vector<std::string> names = draft.role_names();
+  for (const std::string& other : draft.candidate_names()) names.push_back(other);
+  throw Error("there is no role or component '" + name.owner + "'." + choices_text(name.owner, names));
+}
+
+void resolve_wires(Draft& draft) {
+  for (const RoleDraft& role : draft.roles) check_role_wires(draft, role);
+  for (std::size_t i = 0; i < draft.candidates.size(); ++i) {
+    Candidate& candidate = draft.candidates[i];
+    if (!candidate.loaded) continue;
+    candidate.wires.resize(candidate.info().inputs.size());
+    const auto own = [&](const std::string& input) {
+      return std::any_of(candidate.text->in.begin(), candidate.text->in.end(), [&](const WireText& wire) { return wire.input == input; });
+    };
+    if (candidate.role >= 0) {
+      const RoleText& role = *draft.roles[static_cast<std::size_t>(candidate.role)].text;
+      for (const WireText& wire : role.in)
+        if (candidate.info().input(wire.input) >= 0 && !own(wire.input)) connect(draft, i, wire, "roles." + role.name + ".in." + wire.input);
+    }
+    for (const WireText& wire : candidate.text->in) connect(draft, i, wire, "components." + candidate.name() + ".in." + wire.input);
+  }
+}
+
+namespace {
+
+/// Outputs that would fit an input, as people would wire them: through roles where there are roles.
+std::vector<std::string> proposals(const Draft& draft, const Candidate& reader, const Port& input) {
+  std::vector<std::string> names;
+  const auto offer = [&](const PortName& from, const Target& target) {
+    if (!target.type || target.type->name != input.type->name) return;
+    if (misfit(reader.name(), input, from, target).empty()) names.push_back(from.text());
+  };
+  for (std::size_t r = 0; r < draft.roles.size(); ++r) {
+    if (static_cast<int>(r) == reader.role) continue;
+    for (const RoleOutText& out : draft.roles[r].text->out) {
+      const PortName from{draft.roles[r].text->name, out.name};
+      offer(from, role_target(draft, static_cast<int>(r), from));
+    }
+  }
+  for (std::size_t i = 0; i < draft.candidates.size(); ++i) {
+    const Candidate& writer = draft.candidates[i];
+    if (&writer == &reader || !writer.loaded || writer.role >= 0) continue;
+    for (const Port& port : writer.info().outputs) offer({writer.name(), port.name}, component_target(draft, static_cast<int>(i), {writer.name(), port.name}));
+  }
+  return names;
+}
+
+bool wire_reported(const Draft& draft, const Candidate& candidate, const std::string& input) {
+  const auto names_it = [&](const WireText& wire) { return wire.input == input; };
+  const bool own = std::any_of(candidate.text->in.begin(), candidate.text->in.end(), names_it);
+  if (own || candidate.role < 0) return own;
+  const auto& in = draft.roles[static_cast<std::size_t>(candidate.role)].text->in;
+  return std::any_of(in.begin(), in.end(), names_it);
+}
+
+}  // namespace
+
+void check_fed(Draft& draft) {
+  for (const Candidate& candidate : draft.candidates) {
+    if (!candidate.loaded || (candidate.role < 0 && !candidate.text->fills.empty())) continue;  // wires of an unknown role are unknown
+    for (std::size_t i = 0; i < candidate.wires.size(); ++i) {
+      const Port& input = candidate.info().inputs[i];
+      if (input.kind != FULMAR_IN_VALUE || input.optional) continue;
+      const Wire& wire = candidate.wires[i];
+      const std::string path = "components." + candidate.name() + ": the input '" + input.name + "' ";
+      if (wire.from.kind == Source::Kind::none) {
+        if (wire_reported(draft, candidate, input.name)) continue;
+        const std::vector<std::string> fitting = proposals(draft, candidate, input);
+        draft.report.add(candidate.text->where, path + "is not wired; " + (fitting.empty() ? "there is no output of type " + input.type->name
+                                                                                            : "outputs of type " + input.type->name + ": " + join(fitting)));
+      } else if (wire.from.kind == Source::Kind::role && candidate.used) {
+        const auto r = static_cast<std::size_t>(wire.from.index);
+        const auto o = static_cast<std::size_t>(wire.from.output);
+        const Role& role = draft.graph.roles[r];
+        const bool provided = std::any_of(role.provides.begin(), role.provides.end(), [&](const auto& outputs) { return outputs[o] >= 0; });
+        if (provided || draft.roles[r].unclear) continue;
+        draft.report.add(wire.where, path + "needs " + role.name + "." + role.outputs[o].name + ", which nobody provides in this run");
+      }
+    }
+  }
+}
+
+// ---- order ------------------------------------------------------------------------------------------------------------------
+
+namespace {
+
+struct Edge {
+  int from = -1;
+  Where where;
+};
+
+/// [component] -> the steps that must come before it. The vehicle is read first and written last: it makes no edge.
+std::vector<std::vector<Edge>> edges_of(const Graph& graph) {
+  std::vector<std::vector<Edge>> before(graph.components.size());
+  for (std::size_t i = 0; i < graph.components.size(); ++i) {
+    if (static_cast<int>(i) == graph.vehicle) continue;
+    for (const Wire& wire : graph.components[i].wires) {
+      if (wire.delayed || wire.from.kind == Source::Kind::none) continue;
+      std::vector<int> writers{wire.from.index};
+      if (wire.from.kind == Source::Kind::role) writers = graph.roles[static_cast<std::size_t>(wire.from.index)].fillers;
+      for (const int writer : writers)
+        if (writer != graph.vehicle) before[i].push_back({writer, wire.where});
+    }
+  }
+  return before;
+}
+
+/// Among steps that wait for each other there is a cycle: walk back until a step comes twice.
+void report_cycle(Draft& draft, const std::vector<std::vector<Edge>>& before, const std::vector<bool>& done) {
+  const auto open = [&](int i) { return !done[static_cast<std::size_t>(i)]; };
+  int at = 0;
+  while (!open(at) || at == draft.graph.vehicle) ++at;
+  std::vector<int> walked;
+  while (std::find(walked.begin(), walked.end(), at) == walked.end()) {
+    walked.push_back(at);
+    for (const Edge& edge : before[static_cast<std::size_t>(at)])
+      if (open(edge.from)) {
+        at = edge.from;
+        break;
+      }
+  }
+  walked.erase(walked.begin(), std::find(walked.begin(), walked.end(), at));
+  std::reverse(walked.begin(), walked.end());
+  std::rotate(walked.begin(), std::min_element(walked.begin(), walked.end()), walked.end());
+  std::string path;
+  for (const int i : walked) path += draft.graph.components[static_cast<std::size_t>(i)].name + " -> ";
+  Where where;
+  for (const Edge& edge : before[static_cast<std::size_t>(walked.front())])
+    if (edge.from == walked.back()) where = edge.where;
+  draft.report.add(where, "the wires form a cycle: " + path + draft.graph.components[static_cast<std::size_t>(walked.front())].name +
+                              ". Mark one of them, as in {from: nav.state, delayed: true}: it then carries the value of the tick before");
+}
+
+}  // namespace
+
+void order_steps(Draft& draft) {
+  Graph& graph = draft.graph;
+  const std::size_t n = graph.components.size();
+  const auto before = edges_of(graph);
+  std::vector<bool> done(n, false);
+  const std::size_t steps = n - (graph.vehicle >= 0 ? 1 : 0);
+  while (graph.order.size() < steps) {
+    std::size_t next = n;
+    for (std::size_t i = 0; i < n && next == n; ++i) {
+      if (done[i] || static_cast<int>(i) == graph.vehicle) continue;
+      if (std::all_of(before[i].begin(), before[i].end(), [&](const Edge& edge) { return done[static_cast<std::size_t>(edge.from)]; })) next = i;
+    }
+    if (next == n) return report_cycle(draft, before, done);
+    done[next] = true;
+    graph.order.push_back(static_cast<int>(next));
+  }
+}
+
+}  // namespace fulmar::core

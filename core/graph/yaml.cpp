@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// YAML files as a tree with places. yaml-cpp parses; this adds what it does not do: duplicate keys, limits, sentences.
+#include "core/graph/yaml.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "core/graph/quantity.hpp"
+
+namespace fulmar::core {
+
+// ---- report -----------------------------------------------------------------------------------------------------------------
+
+std::size_t Report::rank(const std::string& file) {
+  const auto it = std::find(files_.begin(), files_.end(), file);
+  if (it != files_.end()) return static_cast<std::size_t>(it - files_.begin());
+  files_.push_back(file);
+  return files_.size() - 1;
+}
+
+void Report::opened(const std::string& file) { rank(file); }
+
+void Report::add(const Where& where, const std::string& sentence) {
+  for (const Fault& fault : faults_)
+    if (fault.where.line == where.line && fault.where.file == where.file && fault.sentence == sentence) return;
+  faults_.push_back({rank(where.file), where, sentence});
+}
+
+std::string Report::text() const {
+  std::vector<Fault> sorted = faults_;
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Fault& a, const Fault& b) {
+    return a.rank != b.rank ? a.rank < b.rank : a.where.line < b.where.line;
+  });
+  std::string all;
+  for (const Fault& fault : sorted) all += (all.empty() ? "" : "\n") + fault.where.text() + ": " + fault.sentence;
+  return all;
+}
+
+void Report::throw_if_any() const {
+  if (!empty()) throw Error(text());
+}
+
+// ---- tree -------------------------------------------------------------------------------------------------------------------
+
+const Node* Node::find(const std::string& key) const {
+  for (const Entry& entry : entries)
+    if (entry.key == key) return &entry.value;
+  return nullptr;
+}
+
+std::string describe(const Node& node) {
+  switch (node.kind) {
+    case Node::Kind::sequence: return "a list";
+    case Node::Kind::map: return "a map";
+    case Node::Kind::scalar: return "'" + node.text + "'";
+    default: return "nothing";
+  }
+}
+
+FilePtr read_source(const std::filesystem::path& path, const std::string& name) {
+  std::error_code code;
+  if (std::filesystem::is_directory(path, code)) throw Error(name + " is a folder, not a file");
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw Error((std::filesystem::exists(path, code) ? "cannot read " : "there is no file ") + name);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (in.bad()) throw Error("cannot read " + name);
+  return std::make_shared<SourceFile>(SourceFile{path, name, text.str()});
+}
+
+FilePtr make_source(const std::string& text, const std::string& name) { return std::make_shared<SourceFile>(SourceFile{{}, name, text}); }
+
+namespace {
+
+constexpr int deepest = 60;            // nesting; also stops an anchor that contains itself
+constexpr std::size_t most = 500'000;  // nodes; stops anchors that multiply
+
+struct Builder {
+  const FilePtr& file;
+  Report& report;
+  std::size_t nodes = 0;
+
+  int line_of(const YAML::Node& node, int otherwise) const {
+    const YAML::Mark mark = node.Mark();
+    return mark.is_null() || file->path.empty() ? otherwise : mark.line + 1;
+  }
+
+  Node build(const YAML::Node& from, int line, int depth) {
+    if (depth > deepest) throw Error("nested more than " + std::to_string(deepest) + " deep");
+    if (++nodes > most) throw Error("more than " + std::to_string(most) + " values");
+    Node node;
+    node.file = file;
+    node.line = from.IsNull() ? line : line_of(from, line);
+    node.kind = Node::Kind::null;
+    if (from.IsScalar()) {
+      node.kind = Node::Kind::scalar;
+      node.text = from.Scalar();
+      node.quoted = from.Tag() == "!";
+    } else if (from.IsSequence()) {
+      node.kind = Node::Kind::sequence;
+      for (const auto& item : from) node.items.push_back(build(item, node.line, depth + 1));
+    } else if (from.IsMap()) {
+      node.kind = Node::Kind::map;
+      for (const auto& pair : from) add_entry(node, pair.first, pair.second, depth);
+    }
+    return node;
+  }
+
+  void add_entry(Node& node, const YAML::Node& key, const YAML::Node& value, int depth) {
+    const int line = line_of(key, node.line);
+    if (!key.IsScalar()) return report.add({file->name, line}, "a key must be a word, not a list, a map or nothing");
+    const std::string& name = key.Scalar();
+    for (const Node::Entry& entry : node.entries) {
+      if (entry.key != name) continue;
+      return report.add({file->name, line}, "'" + name + "' is given twice; the first is in line " + std::to_string(entry.line));
+    }
+    Node child = build(value, line, depth + 1);
+    node.entries.push_back({name, line, std::move(child)});
+  }
+};
+
+/// yaml-cpp speaks of its grammar; say what to look for instead.
+std::string plain_words(const std::string& said) {
+  static const std::vector<std::pair<std::string, std::string>> known = {
+      {"end of map not found", "the indentation does not fit what stands above, or a ':' is missing"},
+      {"end of sequence not found", "the indentation of a list does not fit what stands above"},
+      {"end of map flow not found", "a '{' is not closed, or a ',' is missing"},
+      {"end of sequence flow not found", "a '[' is not closed, or a ',' is missing"},
+      {"illegal map value", "a ':' stands where none can: look at the indentation and at the line above; text that holds ': ' needs quotes"},
+      {"illegal EOF in scalar", "a quote is not closed"},
+      {"unknown token", "a character that cannot begin a value; put the text in quotes"},
+      {"illegal block entry", "a '-' stands where no list can begin"},
+  };
+  for (const auto& [key, words] : known)
+    if (said == key) return words;
+  return said;
+}
+
+bool part_of_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; }
+
+bool begins_with_tab(const std::string& text, int line) {
+  std::size_t at = 0;
+  for (int i = 0; i < line && at != std::string::npos; ++i) {
+    at = text.find('\n', at);
+    if (at != std::string::npos) ++at;
+  }
+  const std::size_t first = at == std::string::npos ? at : text.find_first_not_of(' ', at);
+  return first != std::string::npos && text[first] == '\t';
+}
+
+/// Optional ports are written {truth?: VehicleState}. YAML allows it; yaml-cpp 0.7 does not inside braces, so quote such keys for it.
+std::string quoted_optional_keys(const std::string& text) {
+  std::string out;
+  char quote = 0;  // the open one; a quote opens only where a value can begin, and closes at the latest with its line
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i], before = i > 0 ? text[i - 1] : '\n';
+    const bool begins = std::string_view(" \t\n{[,:").find(before) != std::string_view::npos;
+    if (c == '\n') quote = 0;
+    else if (quote == 0 && begins && (c == '"' || c == '\'')) quote = c;
+    else if (quote != 0 && c == quote && before != '\\') quote = 0;
+    if (quote == 0 && begins && c == '#')
+      while (i + 1 < text.size() && text[i + 1] != '\n') out += text[i++];
+    std::size_t end = i;
+    while (quote == 0 && begins && end < text.size() && part_of_name(text[end])) ++end;
+    if (end > i && end + 1 < text.size() && text[end] == '?' && text[end + 1] == ':') {
+      out += '"' + text.substr(i, end + 1 - i) + '"';
+      i = end;
+    } else {
+      out += text[i];
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+Node parse_yaml(const FilePtr& file, Report& report) {
+  report.opened(file->name);
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(quoted_optional_keys(file->text));
+    if (documents.size() > 1) report.add({file->name, documents[1].Mark().line + 1}, "a second document begins here; a file holds one");
+    if (documents.empty()) return Node{Node::Kind::null, false, file->path.empty() ? 0 : 1, file, {}, {}, {}};
+    return Builder{file, report}.build(documents[0], file->path.empty() ? 0 : 1, 0);
+  } catch (const YAML::Exception& fault) {
+    const bool placed = !fault.mark.is_null() && !file->path.empty();
+    const bool tab = !fault.mark.is_null() && begins_with_tab(file->text, fault.mark.line);
+    report.add({file->name, placed ? fault.mark.line + 1 : 0}, "not valid YAML: " + (tab ? "a tab indents this line; YAML wants spaces" : plain_words(fault.msg)));
+  } catch (const std::exception& fault) {
+    report.add({file->name, 0}, std::string("not valid YAML: ") + fault.what());
+  }
+  return {};
+}
+
+Node merged(const Node& base, const Node& top, int depth) {
+  if (depth == 0 || !base.is(Node::Kind::map) || !top.is(Node::Kind::map)) return top;
+  Node node = base;
+  for (const Node::Entry& entry : top.entries) {
+    const auto it = std::find_if(node.entries.begin(), node.entries.end(), [&](const Node::Entry& e) { return e.key == entry.key; });
+    if (it == node.entries.end()) {
+      node.entries.push_back(entry);
+    } else {
+      Node both = merged(it->value, entry.value, depth - 1);
+      *it = Node::Entry{entry.key, entry.line, std::move(both)};
+    }
+  }
+  node.file = top.file;
+  node.line = top.line;
+  return node;
+}
+
+// ---- keys -------------------------------------------------------------------------------------------------------------------
+
+Keys::Keys(const Node& map, std::string path, std::vector<std::string> valid, Report& report)
+    : map_(map), path_(std::move(path)), report_(report) {
+  const std::string prefix = path_.empty() ? "" : path_ + ": ";
+  if (map.is(Node::Kind::missing)) return;
+  if (!map.is(Node::Kind::map)) {
+    report_.add(map.where(), prefix + "expected a map with the keys " + join(valid) + "; found " + describe(map));
+    return;
+  }
+  for (const Node::Entry& entry : map.entries)
+    if (std::find(valid.begin(), valid.end(), entry.key) == valid.end())
+      report_.add(entry.where(), prefix + "unknown key '" + entry.key + "'." + choices_text(entry.key, valid));
+}
+
+Where Keys::where(const std::string& key) const {
+  for (const Node::Entry& entry : map_.entries)
+    if (entry.key == key) return entry.where();
+  return map_.where();
+}
+
+void Keys::wrong(const std::string& key, const std::string& expected) const {
+  const Node* node = get(key);
+  report_.add(node->where(), path(key) + ": expected " + expected + ", found " + describe(*node));
+}
+
+std::optional<std::string> scalar_text(const Node& node, const std::string& path, const std::string& expected, Report& report) {
+  if (node.is(Node::Kind::scalar) && (node.quoted || !node.text.empty())) return node.text;
+  report.add(node.where(), path + ": expected " + expected + ", found " + describe(node));
+  return std::nullopt;
+}
+
+std::optional<bool> scalar_flag(const Node& node, const std::string& path, Report& report) {
+  if (node.is(Node::Kind::scalar) && !node.quoted) {
+    if (node.text == "true" || node.text == "on" || node.text == "yes") return true;
+    if (node.text == "false" || node.text == "off" || node.text == "no") return false;
+  }
+  report.add(node.where(), path + ": expected true or false, found " + describe(node));
+  return std::nullopt;
+}
+
+std::optional<std::string> Keys::text(const std::string& key) const {
+  const Node* node = get(key);
+  return node ? scalar_text(*node, path(key), "text", report_) : std::nullopt;
+}
+
+std::optional<bool> Keys::flag(const std::string& key) const {
+  const Node* node = get(key);
+  return node ? scalar_flag(*node, path(key), report_) : std::nullopt;
+}
+
+std::optional<double> Keys::positive(const std::string& key, const std::string& unit, bool or_zero) const {
+  const Node* node = get(key);
+  if (!node) return std::nullopt;
+  if (!node->is(Node::Kind::scalar)) return wrong(key, "a number with a unit, such as 10 " + unit), std::nullopt;
+  try {
+    const double value = quantity_in(node->text, unit, UnitRule::required);
+    if (value < 0 || (value == 0 && !or_zero))
+      throw Error(node->text + (or_zero ? " is negative" : " is not above 0"));
+    return value;
+  } catch (const Error& fault) {
+    report_.add(node->where(), path(key) + ": " + fault.what());
+  }
+  return std::nullopt;
+}
+
+std::optional<std::int64_t> Keys::duration_ns(const std::string& key) const {
+  const auto seconds = positive(key, "s", true);
+  if (!seconds) return std::nullopt;
+  if (*seconds > 9e9) {
+    wrong(key, "less than 285 years");
+    return std::nullopt;
+  }
+  return std::llround(*seconds * 1e9);
+}
+
+std::optional<std::string> Keys::word(const std::string& key, const std::vector<std::string>& words) const {
+  const Node* node = get(key);
+  if (!node) return std::nullopt;
+  if (!node->is(Node::Kind::scalar)) return wrong(key, "one of " + join(words)), std::nullopt;
+  if (std::find(words.begin(), words.end(), node->text) != words.end()) return node->text;
+  report_.add(node->where(), path(key) + ": unknown word '" + node->text + "'." + choices_text(node->text, words));
+  return std::nullopt;
+}
+
+}  // namespace fulmar::core

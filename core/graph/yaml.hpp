@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// YAML files as a tree that remembers file and line of every node, and the report that collects all faults of a set-up.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace fulmar::core {
+
+struct SourceFile {
+  std::filesystem::path path;  // to open what the file names, relative to its folder
+  std::string name;            // as people wrote it: what faults say
+  std::string text;
+};
+using FilePtr = std::shared_ptr<const SourceFile>;
+
+/// All faults of a set-up: each once, ordered by file (as the files were opened) and line.
+class Report {
+ public:
+  void add(const Where& where, const std::string& sentence);
+  void opened(const std::string& file);
+  bool empty() const { return faults_.empty(); }
+  /// One fault per line.
+  std::string text() const;
+  void throw_if_any() const;
+
+ private:
+  struct Fault {
+    std::size_t rank;
+    Where where;
+    std::string sentence;
+  };
+  std::size_t rank(const std::string& file);
+  std::vector<std::string> files_;
+  std::vector<Fault> faults_;
+};
+
+struct Node {
+  enum class Kind : std::uint8_t { missing, null, scalar, sequence, map };
+  struct Entry;
+  Kind kind = Kind::missing;
+  bool quoted = false;         // a scalar in quotes is text, whatever it looks like
+  int line = 0;
+  FilePtr file;
+  std::string text;            // of a scalar
+  std::vector<Node> items;     // of a sequence
+  std::vector<Entry> entries;  // of a map, in file order, each key once
+
+  Where where() const { return {file ? file->name : "", line}; }
+  const Node* find(const std::string& key) const;
+  bool is(Kind k) const { return kind == k; }
+};
+
+struct Node::Entry {
+  std::string key;
+  int line = 0;  // of the key
+  Node value;
+  Where where() const { return {value.file ? value.file->name : "", line}; }
+};
+
+/// What stands there, for a sentence: "nothing", "a list", "a map", "'text'".
+std::string describe(const Node& node);
+
+/// Reads a file. Throws Error when it cannot be read. `name` is what faults call it.
+FilePtr read_source(const std::filesystem::path& path, const std::string& name);
+/// Text that stands in no file, such as a value on the command line: faults name it without a line.
+FilePtr make_source(const std::string& text, const std::string& name);
+
+/// Parses a file. Broken YAML and duplicate keys go to the report; broken YAML gives a missing node.
+Node parse_yaml(const FilePtr& file, Report& report);
+
+/// `top` laid over `base`: maps merge key by key down to `depth` levels, anything else is replaced. What `base` has comes first.
+Node merged(const Node& base, const Node& top, int depth);
+
+/// A map whose keys are known: reports unknown keys and wrong types, each with the valid choices.
+class Keys {
+ public:
+  /// `path` is how faults name the map: "components.slc"; "" for the file itself.
+  Keys(const Node& map, std::string path, std::vector<std::string> valid, Report& report);
+
+  const Node* get(const std::string& key) const { return map_.find(key); }
+  bool has(const std::string& key) const { return get(key) != nullptr; }
+  std::string path(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
+  Where where(const std::string& key) const;
+
+  std::optional<std::string> text(const std::string& key) const;
+  std::optional<bool> flag(const std::string& key) const;
+  /// A number with a unit, converted to `unit`. Must be above 0 (`or_zero`: at least 0).
+  std::optional<double> positive(const std::string& key, const std::string& unit, bool or_zero = false) const;
+  std::optional<std::int64_t> duration_ns(const std::string& key) const;
+  /// One of `words`; anything else is a fault.
+  std::optional<std::string> word(const std::string& key, const std::vector<std::string>& words) const;
+
+ private:
+  void wrong(const std::string& key, const std::string& expected) const;
+  const Node& map_;
+  std::string path_;
+  Report& report_;
+};
+
+/// The text of a scalar, or nothing and a fault.
+std::optional<std::string> scalar_text(const Node& node, const std::string& path, const std::string& expected, Report& report);
+std::optional<bool> scalar_flag(const Node& node, const std::string& path, Report& report);
+
+}  // namespace fulmar::core

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a plugin says of itself, for people: the text of `fulmar inspect`.
+#pragma once
+#include <string>
+
+#include "core/loader/type.hpp"
+
+namespace fulmar::core {
+
+/// Version, components, ports and parameters in aligned columns; with `fields` also the tables of every message.
+std::string describe_plugin(const PluginInfo& plugin, bool fields = false);
+
+}  // namespace fulmar::core

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Opens a plugin: file -> ELF header -> private copy -> probing child -> this process. What can go wrong is refused at the earliest of these.
+#include "core/loader/library.hpp"
+
+#include <dlfcn.h>
+
+#include <boost/dll/shared_library.hpp>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <mutex>
+#include <set>
+
+#include "core/error.hpp"
+#include "core/loader/elf.hpp"
+#include "core/loader/float_mode.hpp"
+#include "core/loader/load_fault.hpp"
+#include "core/loader/probe.hpp"
+#include "core/loader/store.hpp"
+#include "core/loader/table.hpp"
+
+namespace fulmar::core {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What this process has loaded, and what a child of this process has found good. Both by SHA-256.
+struct Registry {
+  std::mutex mutex;
+  std::map<std::string, std::weak_ptr<Library>> loaded;
+  std::set<std::string> probed;
+};
+
+Registry& registry() {
+  static Registry one;
+  return one;
+}
+
+// Once read, the bytes are hashed, checked and copied: a file that changes meanwhile changes nothing.
+std::vector<std::byte> read_file(const fs::path& file, const std::string& name) {
+  constexpr std::uintmax_t largest = std::uintmax_t{1} << 30;
+  std::error_code fault;
+  const fs::file_status status = fs::status(file, fault);
+  if (!fs::exists(status)) throw Error(name + " does not exist: no file " + file.string());
+  if (!fs::is_regular_file(status)) throw Error(name + " is not a plugin: " + file.string() + " is not a regular file");
+  const std::uintmax_t size = fs::file_size(file, fault);
+  if (fault || size > largest) throw Error(name + " is not a plugin: it is larger than 1 GiB");
+  std::vector<std::byte> bytes(static_cast<std::size_t>(size));
+  errno = 0;
+  std::ifstream in(file, std::ios::binary);
+  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
+  if (!in) throw Error(name + " cannot be read: " + std::strerror(errno != 0 ? errno : EIO));
+  return bytes;
+}
+
+bool is_mapped(const fs::path& copy) {
+  void* handle = ::dlopen(copy.c_str(), RTLD_LAZY | RTLD_NOLOAD);
+  if (handle == nullptr) return false;
+  ::dlclose(handle);
+  return true;
+}
+
+// Throws unless a child has loaded it.
+void try_in_child(const fs::path& copy, const std::string& sha256, const std::string& name) {
+  if (registry().probed.count(sha256) > 0) return;
+  if (const std::string fault = probe(copy, name); !fault.empty()) {
+    std::error_code ignored;
+    fs::remove(copy, ignored);
+    throw Error(fault);
+  }
+  registry().probed.insert(sha256);
+}
+
+}  // namespace
+
+struct Library::Handle {
+  boost::dll::shared_library file;
+  std::vector<fulmar_component> functions;
+
+  void load(const fs::path& copy, const std::string& name) {
+    const FloatModeGuard guard;
+    boost::dll::fs::error_code fault;
+    file.load(copy, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local, fault);
+    // the child could load it, so this process can; unless, for one, it is out of address space
+    if (fault) throw Error(load_fault(name, ::dlerror()));
+    if (!file.has(FULMAR_ENTRY_SYMBOL)) throw Error(no_entry_fault(name));
+  }
+
+  const fulmar_plugin& entry() const { return file.get<const fulmar_plugin>(FULMAR_ENTRY_SYMBOL); }
+
+  void copy_functions() {
+    const TableReader tables;
+    for (std::uint32_t i = 0; i < entry().component_count; ++i)
+      functions.push_back(tables.element(entry().components, entry().component_stride, i, "the components"));
+  }
+
+  void close() {
+    const FloatModeGuard guard;
+    functions.clear();
+    file.unload();
+  }
+};
+
+std::shared_ptr<Library> Library::open(const fs::path& file) {
+  const std::string name = file.filename().string();
+  const std::vector<std::byte> bytes = read_file(file, name);
+  if (const std::string fault = elf_fault(bytes); !fault.empty()) throw Error(name + " " + fault);
+  const std::string sha256 = sha256_hex(bytes.data(), bytes.size());
+  const std::lock_guard lock(registry().mutex);
+  if (auto known = registry().loaded[sha256].lock()) return known;
+  const std::shared_ptr<Library> library(new Library);
+  library->copy_ = keep_copy(bytes, sha256);
+  try_in_child(library->copy_, sha256, name);
+  library->handle_ = std::make_unique<Handle>();
+  library->handle_->load(library->copy_, name);
+  library->info_ = read_entry(library->handle_->entry(), name);
+  library->info_.sha256 = sha256;
+  library->handle_->copy_functions();
+  registry().loaded[sha256] = library;
+  return library;
+}
+
+Library::~Library() {
+  if (handle_) handle_->close();
+}
+
+const fulmar_component& Library::functions(std::size_t i) const { return handle_->functions.at(i); }
+
+void Library::unload(std::shared_ptr<Library>&& library) {
+  const std::shared_ptr<Library> last = std::move(library);
+  const std::string name = last->info_.file;
+  if (last.use_count() > 1) throw Error(name + " is still in use and cannot be unloaded");
+  const std::lock_guard lock(registry().mutex);
+  registry().loaded.erase(last->info_.sha256);
+  last->handle_->close();
+  for (const ComponentInfo& component : last->info_.components)
+    if (component.resident) return;  // it says so itself, and is swapped by its own means
+  if (is_mapped(last->copy_))
+    throw Error(name + " is still resident after unloading (a unique symbol or a thread-local destructor keeps it); restart the host");
+}
+
+}  // namespace fulmar::core

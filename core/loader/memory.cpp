@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What this process can read and execute. Format of /proc/self/maps: proc(5), "begin-end perms ...", ascending.
+#include "core/loader/memory.hpp"
+
+#include <algorithm>
+#include <cinttypes>
+#include <cstdio>
+#include <cstring>
+
+#include "core/error.hpp"
+
+namespace fulmar::core {
+
+Memory::Memory() {
+  std::FILE* maps = std::fopen("/proc/self/maps", "re");
+  if (maps == nullptr) return;
+  char line[512];
+  bool at_start = true;
+  while (std::fgets(line, sizeof line, maps) != nullptr) {
+    const bool begins_line = at_start;
+    at_start = std::strchr(line, '\n') != nullptr;  // a long path comes in several pieces
+    std::uintptr_t begin = 0, end = 0;
+    char perms[5] = "";
+    if (!begins_line || std::sscanf(line, "%" SCNxPTR "-%" SCNxPTR " %4s", &begin, &end, perms) != 3) continue;
+    if (perms[0] == 'r') append(readable_, {begin, end});
+    if (perms[2] == 'x') append(executable_, {begin, end});
+    known_ = true;
+  }
+  std::fclose(maps);
+}
+
+void Memory::append(std::vector<Range>& ranges, Range range) {
+  if (!ranges.empty() && ranges.back().end == range.begin) {
+    ranges.back().end = range.end;
+  } else {
+    ranges.push_back(range);
+  }
+}
+
+bool Memory::covered(const std::vector<Range>& ranges, const void* at, std::size_t size) const {
+  const auto begin = reinterpret_cast<std::uintptr_t>(at);
+  if (begin == 0) return false;
+  if (!known_) return true;
+  const auto after = std::upper_bound(ranges.begin(), ranges.end(), begin, [](std::uintptr_t x, const Range& r) { return x < r.begin; });
+  if (after == ranges.begin()) return false;
+  const Range& range = *(after - 1);
+  return begin < range.end && size <= range.end - begin;
+}
+
+std::size_t Memory::readable_bytes(const void* at) const {
+  constexpr std::size_t longest = 4096;
+  if (readable(at, longest)) return longest;
+  std::size_t few = 0;
+  while (few < longest && readable(at, few + 1)) ++few;
+  return few;
+}
+
+std::string Memory::text(const char* at, const std::string& what) const {
+  if (at == nullptr) throw Error(what + " is missing (a null pointer)");
+  const std::size_t room = readable_bytes(at);
+  if (room == 0) throw Error(what + " lies outside the plugin's memory");
+  const void* end = std::memchr(at, '\0', room);
+  if (end == nullptr) throw Error(what + " has no end");
+  return std::string(at, static_cast<std::size_t>(static_cast<const char*>(end) - at));
+}
+
+}  // namespace fulmar::core

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What this process can read and execute, from /proc/self/maps: a damaged plugin's tables are refused, not followed into a crash.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace fulmar::core {
+
+class Memory {
+ public:
+  /// The mappings as they are now. On a system without /proc everything but null counts as readable.
+  Memory();
+  bool readable(const void* at, std::size_t size) const { return covered(readable_, at, size); }
+  bool executable(const void* at) const { return covered(executable_, at, 1); }
+
+  /// The NUL-terminated text at `at`. Throws Error naming `what` when it is null, outside the memory or longer than 4095 bytes.
+  std::string text(const char* at, const std::string& what) const;
+
+ private:
+  struct Range {
+    std::uintptr_t begin, end;
+  };
+  static void append(std::vector<Range>& ranges, Range range);
+  bool covered(const std::vector<Range>& ranges, const void* at, std::size_t size) const;
+  std::size_t readable_bytes(const void* at) const;
+
+  std::vector<Range> readable_, executable_;  // ascending; neighbours joined
+  bool known_ = false;
+};
+
+}  // namespace fulmar::core

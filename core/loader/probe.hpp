@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Loads a plugin in a child process first: what crashes, hangs or changes the process does it there.
+#pragma once
+#include <filesystem>
+#include <string>
+
+namespace fulmar::core {
+
+/// What is wrong with the plugin at `copy`, in a sentence that begins with `name`. "" when a child has loaded, read and unloaded it.
+/// The time limit is 5 s, or FULMAR_PROBE_SECONDS. Throws Error when the program fulmar-probe is missing.
+std::string probe(const std::filesystem::path& copy, const std::string& name);
+
+}  // namespace fulmar::core

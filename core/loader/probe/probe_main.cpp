@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// fulmar-probe COPY NAME: loads, reads and unloads one plugin, and reports on standard output. Run by the host with a time limit.
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <string>
+
+#include "core/error.hpp"
+#include "core/loader/float_mode.hpp"
+#include "core/loader/library.hpp"
+#include "core/loader/load_fault.hpp"
+#include "core/loader/probe_report.hpp"
+
+using namespace fulmar::core;
+
+#ifdef __SANITIZE_ADDRESS__
+// A crash is to end this process by its signal, which the host names.
+extern "C" const char* __asan_default_options();
+extern "C" const char* __asan_default_options() { return "handle_segv=0:handle_sigbus=0:handle_abort=0:handle_sigfpe=0:handle_sigill=0:detect_leaks=0"; }
+#endif
+
+namespace {
+
+int report_pipe = -1;
+
+void say(std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t n = ::write(report_pipe, text.data(), text.size());
+    if (n <= 0) return;
+    text.remove_prefix(static_cast<std::size_t>(n));
+  }
+}
+
+int refuse(std::string sentence) {
+  for (char& c : sentence)
+    if (c == '\n') c = ' ';
+  say(std::string(report_fault) + sentence + "\n");
+  return 1;
+}
+
+// The report goes through a descriptor that the plugin does not know; what it prints goes nowhere. No core dump, no life after the host.
+void prepare() {
+  report_pipe = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 100);
+  const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+  ::dup2(nowhere, STDOUT_FILENO);
+  ::close(nowhere);
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  ::prctl(PR_SET_DUMPABLE, 0);
+  const rlimit no_core{0, 0};
+  ::setrlimit(RLIMIT_CORE, &no_core);
+}
+
+int try_plugin(const char* copy, const std::string& name) {
+  const FloatMode before = FloatMode::now();
+  void* library = ::dlopen(copy, RTLD_NOW | RTLD_LOCAL);
+  const bool same_mode = FloatMode::now() == before;
+  if (library == nullptr) return refuse(load_fault(name, ::dlerror()));
+  say(report_loaded);
+  const void* entry = ::dlsym(library, FULMAR_ENTRY_SYMBOL);
+  if (entry == nullptr) return refuse(no_entry_fault(name));
+  try {
+    read_entry(*static_cast<const fulmar_plugin*>(entry), name);
+  } catch (const Error& fault) {
+    return refuse(fault.what());
+  }
+  if (!same_mode) return refuse(name + " changes the floating-point mode when it is loaded (built with -ffast-math?)");
+  say(report_read);
+  ::dlclose(library);
+  say(report_good);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::fputs("usage: fulmar-probe COPY NAME (run by the host)\n", stderr);
+    return 2;
+  }
+  prepare();
+  const int code = try_plugin(argv[1], argv[2]);
+  ::_exit(code);  // without the plugin's exit handlers: a plugin that stays resident has shown nothing wrong yet
+}

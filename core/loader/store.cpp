@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SHA-256 and the store of private copies.
+#include "core/loader/store.hpp"
+
+#include <fcntl.h>
+#include <openssl/evp.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/loader/library.hpp"
+
+namespace fulmar::core {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::size_t most_copies = 128;  // the least recently used go
+
+// Throws when the folder belongs to somebody else or others may put files there: they could swap the code between check and load.
+void check_private(const fs::path& folder) {
+  struct stat info{};
+  if (::lstat(folder.c_str(), &info) != 0 || !S_ISDIR(info.st_mode)) throw Error("the plugin store " + folder.string() + " is not a folder.");
+  if (info.st_uid != ::geteuid()) throw Error("the plugin store " + folder.string() + " belongs to another user; set FULMAR_STORE to a folder of your own.");
+  if ((info.st_mode & (S_IWGRP | S_IWOTH)) != 0)
+    throw Error("the plugin store " + folder.string() + " is writable by others; chmod 700 it, or set FULMAR_STORE to another folder.");
+}
+
+// Makes the folder with mode 0700 unless it is there. False when that is impossible.
+bool make_private(const fs::path& folder) {
+  std::error_code fault;
+  if (fs::exists(folder, fault)) return true;
+  if (folder.has_parent_path() && !fs::exists(folder.parent_path(), fault) && !make_private(folder.parent_path())) return false;
+  return ::mkdir(folder.c_str(), 0700) == 0 || errno == EEXIST;
+}
+
+// Lives as long as the process.
+struct TemporaryFolder {
+  fs::path path;
+  TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "fulmar-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw Error("no folder for private copies of plugins: " + std::string(std::strerror(errno)) + ".");
+    path = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code fault;
+    fs::remove_all(path, fault);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+};
+
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+fs::path store_folder() {
+  if (const std::string chosen = environment("FULMAR_STORE"); !chosen.empty()) {
+    if (!make_private(chosen)) throw Error("the plugin store " + chosen + " (FULMAR_STORE) cannot be made: " + std::strerror(errno) + ".");
+    return chosen;
+  }
+  const std::string cache = environment("XDG_CACHE_HOME"), home = environment("HOME");
+  if (const fs::path root = !cache.empty() ? fs::path(cache) : home.empty() ? fs::path() : fs::path(home) / ".cache"; root.is_absolute()) {
+    const fs::path folder = root / "fulmar" / "plugins";
+    if (make_private(folder) && ::access(folder.c_str(), W_OK) == 0) return folder;
+  }
+  static const TemporaryFolder temporary;
+  return temporary.path;
+}
+
+void write_all(int file, std::span<const std::byte> bytes, const fs::path& path) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(file, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) throw Error("cannot write " + path.string() + ": " + std::strerror(errno) + ".");
+    bytes = bytes.subspan(static_cast<std::size_t>(n));
+  }
+}
+
+// Under a temporary name first: nobody ever sees half a file.
+void write_copy(const fs::path& path, std::span<const std::byte> bytes) {
+  std::string name = path.string() + ".XXXXXX";
+  const int file = ::mkostemp(name.data(), O_CLOEXEC);
+  if (file < 0) throw Error("cannot write into the plugin store " + path.parent_path().string() + ": " + std::strerror(errno) + ".");
+  try {
+    write_all(file, bytes, path);
+    if (::fchmod(file, 0400) != 0 || ::rename(name.c_str(), path.c_str()) != 0)
+      throw Error("cannot write " + path.string() + ": " + std::strerror(errno) + ".");
+  } catch (...) {
+    ::close(file);
+    ::unlink(name.c_str());
+    throw;
+  }
+  ::close(file);
+}
+
+// A library that is mapped keeps its file alive; what is removed here is only the name.
+void prune(const fs::path& folder) {
+  std::error_code fault;
+  std::vector<std::pair<fs::file_time_type, fs::path>> copies;
+  for (const auto& entry : fs::directory_iterator(folder, fault))
+    if (entry.path().extension() == ".so") copies.emplace_back(entry.last_write_time(fault), entry.path());
+  if (copies.size() <= most_copies) return;
+  std::sort(copies.begin(), copies.end());
+  for (std::size_t i = 0; i + most_copies < copies.size(); ++i) fs::remove(copies[i].second, fault);
+}
+
+}  // namespace
+
+std::string sha256_hex(const void* data, std::size_t size) {
+  unsigned char digest[EVP_MAX_MD_SIZE];
+  unsigned length = 0;
+  if (EVP_Digest(data, size, digest, &length, EVP_sha256(), nullptr) != 1) throw Error("SHA-256 is not available.");
+  std::string hex;
+  for (unsigned i = 0; i < length; ++i) {
+    hex += "0123456789abcdef"[digest[i] >> 4];
+    hex += "0123456789abcdef"[digest[i] & 15];
+  }
+  return hex;
+}
+
+std::string sha256_file(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw Error("cannot read " + file.string() + ": " + std::strerror(errno) + ".");
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  return sha256_hex(bytes.data(), bytes.size());
+}
+
+fs::path keep_copy(std::span<const std::byte> bytes, const std::string& sha256) {
+  const fs::path folder = store_folder();
+  check_private(folder);
+  const fs::path copy = fs::absolute(folder) / (sha256 + ".so");
+  std::error_code fault;
+  if (fs::is_regular_file(fs::symlink_status(copy, fault)) && fs::file_size(copy, fault) == bytes.size() && sha256_file(copy) == sha256) {
+    ::utimensat(AT_FDCWD, copy.c_str(), nullptr, 0);  // used just now
+    return copy;
+  }
+  write_copy(copy, bytes);
+  prune(folder);
+  return copy;
+}
+
+}  // namespace fulmar::core

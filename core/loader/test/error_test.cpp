@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/error.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace fulmar::core;
+
+TEST_CASE("the nearest name is found through a slip of the pen") {
+  const std::vector<std::string> names{"airspeed_mps", "height_m", "course_rad", "roll_kp", "tecs"};
+  CHECK(nearest("heigth_m", names) == "height_m");
+  CHECK(nearest("Height_M", names) == "height_m");
+  CHECK(nearest("airspeed", names) == "");  // four letters missing of eight
+  CHECK(nearest("airspeedmps", names) == "airspeed_mps");
+  CHECK(nearest("coarse_rad", names) == "course_rad");
+  CHECK(nearest("tec", names) == "tecs");
+}
+
+TEST_CASE("nothing is near a name that shares little") {
+  CHECK(nearest("banana", {"height_m", "roll_kp"}) == "");
+  CHECK(nearest("", {"a"}) == "");
+  CHECK(nearest("a", {"b"}) == "");
+  CHECK(nearest("abc", {}) == "");
+}
+
+TEST_CASE("two neighbouring letters swapped are one slip") { CHECK(nearest("ekf2", {"efk2", "kkk2"}) == "efk2"); }
+
+TEST_CASE("choices read as a sentence") {
+  CHECK(join({}) == "none");
+  CHECK(join({"a"}) == "a");
+  CHECK(join({"a", "b", "c"}) == "a, b, c");
+  CHECK(choices_text("heigh_m", {"height_m", "course_rad"}) == " Did you mean 'height_m'? Valid: height_m, course_rad.");
+  CHECK(choices_text("zzzzzz", {"height_m", "course_rad"}) == " Valid: height_m, course_rad.");
+  CHECK(choices_text("x", {}) == " Valid: none.");
+}

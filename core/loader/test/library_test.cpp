@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Loading, calling, unloading, reloading.
+#include "core/loader/library.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cfenv>
+#include <cstring>
+#include <random>
+#include <sstream>
+
+#include "core/loader/inspect.hpp"
+#include "workshop.hpp"
+
+using namespace fulmar::core;
+using namespace workshop;
+
+namespace {
+
+struct Sample {  // as good.c has it
+  double airspeed_mps = 0, north = 0, east = 0, down = 0;
+  std::uint8_t mode = 0, valid = 0;
+};
+
+// One step of component 0: what becomes of 10 m/s.
+double scaled(const Library& library) {
+  const fulmar_component& c = library.functions(0);
+  fulmar_error error{};
+  void* self = c.create(7, &error);
+  REQUIRE(self != nullptr);
+  const Sample in{10};
+  Sample out;
+  fulmar_input inputs[4]{};
+  inputs[0].data = &in;
+  fulmar_output outputs[4]{};
+  outputs[0].data = &out;
+  const fulmar_tick tick{0, 2500000, 0};
+  CHECK(c.step(self, &tick, inputs, outputs, &error) == FULMAR_OK);
+  c.destroy(self);
+  return out.airspeed_mps;
+}
+
+struct Maps {
+  std::size_t lines = 0, plugins = 0;  // plugins: mappings of files in the store
+};
+
+Maps maps() {
+  Maps result;
+  std::ifstream in("/proc/self/maps");
+  const std::string store = (folder() / "store").string();
+  for (std::string line; std::getline(in, line);) {
+    ++result.lines;
+    if (line.find(store) != std::string::npos) ++result.plugins;
+  }
+  return result;
+}
+
+std::string unload_fault(std::shared_ptr<Library>&& library) {
+  try {
+    Library::unload(std::move(library));
+    return "unloaded";
+  } catch (const Error& e) {
+    return e.what();
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a good plugin is loaded with all that it says of itself") {
+  const auto library = Library::open(plugin("good"));
+  const PluginInfo& info = library->info();
+  CHECK(info.file == "good.so");
+  CHECK(info.sha256 == sha256_file(plugin("good")));
+  CHECK(info.version == "1.2.0");
+  CHECK(info.toolchain == "a C compiler");
+  CHECK(info.flags == "NDEBUG");
+  CHECK(info.abi_major == 1);
+  REQUIRE(info.components.size() == 1);
+  const ComponentInfo& scaler = info.components[0];
+  CHECK(scaler.name == "Scaler");
+  CHECK_FALSE(scaler.vehicle);
+  CHECK_FALSE(scaler.retunes);
+  REQUIRE(scaler.inputs.size() == 4);
+  CHECK(scaler.input("hint") == 1);
+  CHECK(scaler.inputs[1].optional);
+  CHECK(scaler.inputs[2].kind == FULMAR_IN_QUEUE);
+  CHECK(scaler.inputs[2].capacity == 16);
+  CHECK(scaler.output("error_mps") == 3);
+  CHECK_FALSE(scaler.outputs[3].type);
+  CHECK(scaler.output("nothing") == -1);
+  CHECK(scaler.inputs[0].type->hash == scaler.outputs[0].type->hash);
+}
+
+TEST_CASE("parameters come with default, range, unit and kind") {
+  const auto library = Library::open(plugin("good"));
+  const ComponentInfo& scaler = library->info().components[0];
+  REQUIRE(scaler.params.size() == 8);
+  const ParamInfo& gain = scaler.params[static_cast<std::size_t>(scaler.param("gain"))];
+  CHECK(gain.initial[0] == 0.5);
+  CHECK(gain.max == 2);
+  CHECK(gain.unit == "rad/rad");
+  CHECK(gain.live);
+  CHECK(scaler.params[3].choices == std::vector<std::string>{"hold", "climb"});
+  CHECK(scaler.params[4].initial_text == "x");
+  CHECK(scaler.params[5].initial[1] == -4);
+  CHECK(scaler.params[5].type->frame == "ned");
+  double airspeed = 0;
+  REQUIRE(scaler.params[6].initial_data.size() == sizeof(Sample));
+  std::memcpy(&airspeed, scaler.params[6].initial_data.data(), sizeof airspeed);
+  CHECK(airspeed == 17);
+  CHECK(scaler.params[7].required);
+}
+
+TEST_CASE("a loaded component does its work") { CHECK(scaled(*Library::open(plugin("good"))) == 20); }
+
+TEST_CASE("more exported symbols than needed do no harm") { CHECK(scaled(*Library::open(plugin("good_open"))) == 20); }
+
+TEST_CASE("the version script leaves exactly the entry symbol visible") {
+  const auto defined = [](const std::string& name) {
+    std::FILE* nm = ::popen(("nm -D --defined-only " + plugin(name).string()).c_str(), "r");
+    REQUIRE(nm != nullptr);
+    std::string symbols;
+    char address[64], kind[8], symbol[256];
+    while (std::fscanf(nm, "%63s %7s %255s", address, kind, symbol) == 3) symbols += std::string(symbol) + " ";
+    ::pclose(nm);
+    return symbols;
+  };
+  CHECK(defined("good") == "fulmar_plugin_entry ");
+  CHECK(defined("good_open").find("an_extra_symbol") != std::string::npos);
+}
+
+TEST_CASE("the same content is one library, wherever it lies") {
+  const auto first = Library::open(plugin("good"));
+  const auto second = Library::open(write("twin.so", read(plugin("good"))));
+  CHECK(first == second);
+  CHECK(unload_fault(std::shared_ptr<Library>(first)) == "good.so is still in use and cannot be unloaded");
+}
+
+TEST_CASE("the private copy holds the same bytes and lies in the store") {
+  const auto library = Library::open(plugin("good"));
+  CHECK(library->copy() == folder() / "store" / (library->info().sha256 + ".so"));
+  CHECK(read(library->copy()) == read(plugin("good")));
+}
+
+TEST_CASE("a file that is rebuilt under the same path gives the new code, and the old one goes on meanwhile") {
+  const fs::path file = write("law.so", read(plugin("good")));
+  auto old = Library::open(file);
+  CHECK(scaled(*old) == 20);
+  write("law.so", read(plugin("good_changed")));
+  auto changed = Library::open(file);
+  CHECK(changed->info().version == "1.3.0");
+  CHECK(scaled(*changed) == 30);
+  CHECK(scaled(*old) == 20);
+  CHECK(unload_fault(std::move(old)) == "unloaded");
+  CHECK(scaled(*changed) == 30);
+  CHECK(unload_fault(std::move(changed)) == "unloaded");
+  CHECK(maps().plugins == 0);
+}
+
+TEST_CASE("two thousand loads leave nothing behind") {
+  Library::open(plugin("good")).reset();
+  const Maps before = maps();
+  CHECK(before.plugins == 0);
+  for (int i = 0; i < 2000; ++i) {
+    auto library = Library::open(plugin("good"));
+    if (i % 2 == 0) Library::unload(std::move(library));
+  }
+  const Maps after = maps();
+  CHECK(after.plugins == 0);
+  CHECK(after.lines <= before.lines + 8);  // the C library's heap may have grown
+}
+
+TEST_CASE("a plugin that stays resident is told so") {
+  const std::string fault =
+      " is still resident after unloading (a unique symbol or a thread-local destructor keeps it); restart the host";
+  CHECK(unload_fault(Library::open(plugin("resident"))) == "resident.so" + fault);
+  CHECK(unload_fault(Library::open(plugin("resident_thread"))) == "resident_thread.so" + fault);
+  if (fs::exists(plugin("resident_unique"))) CHECK(unload_fault(Library::open(plugin("resident_unique"))) == "resident_unique.so" + fault);
+}
+
+TEST_CASE("a component that declares itself resident may stay") {
+  CHECK(unload_fault(Library::open(plugin("resident_allowed"))) == "unloaded");
+}
+
+TEST_CASE("loading leaves the floating-point mode as it was") {
+  REQUIRE(std::fesetround(FE_DOWNWARD) == 0);
+  auto library = Library::open(plugin("good"));
+  const int mode = std::fegetround();
+  std::fesetround(FE_TONEAREST);
+  CHECK(mode == FE_DOWNWARD);
+}
+
+TEST_CASE("copies with a flipped byte never bring the host down") {
+  const std::string whole = read(plugin("good"));
+  std::mt19937 random(20260101);
+  const int flips = std::getenv("FULMAR_LONG") != nullptr ? 1000 : 200;
+  const Environment limit("FULMAR_PROBE_SECONDS", "2");
+  int refused = 0;
+  for (int i = 0; i < flips; ++i) {
+    std::string bytes = whole;
+    char& byte = bytes[random() % bytes.size()];
+    byte = static_cast<char>(byte ^ (1 + random() % 255));
+    try {
+      Library::open(write("flipped.so", bytes));
+    } catch (const Error& e) {
+      ++refused;
+      CHECK(std::string(e.what()).rfind("flipped.so", 0) == 0);
+    }
+  }
+  MESSAGE(refused << " of " << flips << " flipped copies were refused");
+  CHECK(refused > 0);
+  CHECK(scaled(*Library::open(plugin("good"))) == 20);
+}
+
+TEST_CASE("the description of a plugin lines up") {
+  auto library = Library::open(plugin("good"));
+  PluginInfo info = library->info();
+  info.sha256 = std::string(64, 'a');
+  const std::string text = describe_plugin(info);
+  CHECK(text.rfind(R"(good.so  version 1.2.0
+  abi        1.0
+  toolchain  a C compiler
+  flags      NDEBUG
+  sha256     aaaaaaaaaaaaaaaa
+
+Scaler  Multiplies an airspeed.
+  inputs
+    state  Sample  value            40 bytes)", 0) == 0);
+  CHECK(text.find(R"(
+  parameters
+    gain     0.5 rad/rad    0 .. 2       live             multiplies
+    on       true                        live             does anything
+    repeats  3              0 .. 10      setup            how often
+    law      climb          hold, climb  live             which one
+    label    "x"                         setup            a word
+    wind     [3, -4, 0] m/s -30 .. 30    live             of the air
+)") == std::string::npos);  // two blanks between columns
+  CHECK(text.find("    gain     0.5 rad/rad     0 .. 2       live             multiplies\n") != std::string::npos);
+  CHECK(text.find("    table    bytes (file)                 setup, required  bytes\n") != std::string::npos);
+}
+
+TEST_CASE("the field tables tell kind, unit, frame and place") {
+  const std::string text = describe_plugin(Library::open(plugin("good"))->info(), true);
+  CHECK(text.find("  position_m        Vec3  m     ned    8\n") != std::string::npos);
+  CHECK(text.find("  position_m.north  f64   m            8\n") != std::string::npos);
+  CHECK(text.find("  mode              enum               32    idle, glide\n") != std::string::npos);
+}

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every kind of bad file, and the exact sentence that a user reads.
+#include <doctest/doctest.h>
+#include <elf.h>
+#include <sys/stat.h>
+
+#include <cstddef>
+#include <cstring>
+
+#include "core/loader/load_fault.hpp"
+#include "core/loader/store.hpp"
+#include "workshop.hpp"
+
+using namespace workshop;
+
+namespace {
+
+// A copy of the good plugin whose ELF header is changed.
+template <class Change>
+fs::path with_header(const std::string& name, const Change& change) {
+  std::string bytes = read(plugin("good"));
+  Elf64_Ehdr header;
+  std::memcpy(&header, bytes.data(), sizeof header);
+  change(header);
+  std::memcpy(bytes.data(), &header, sizeof header);
+  return write(name, bytes);
+}
+
+std::string host() {
+  Elf64_Ehdr header;
+  std::memcpy(&header, read(plugin("good")).data(), sizeof header);
+  return header.e_machine == EM_X86_64 ? "x86_64" : header.e_machine == EM_AARCH64 ? "aarch64" : "another";
+}
+
+}  // namespace
+
+TEST_CASE("a file that is missing, a folder, or not a shared object is refused") {
+  CHECK(refusal(folder() / "no_such.so") == "no_such.so does not exist: no file " + (folder() / "no_such.so").string());
+  CHECK(refusal(FULMAR_TEST_PLUGIN_DIR "/stub") ==
+        "stub is not a plugin: " FULMAR_TEST_PLUGIN_DIR "/stub is not a regular file");
+  CHECK(refusal(write("text.so", "this is no code\n")) == "text.so is not a plugin: not an ELF shared object");
+  CHECK(refusal(write("empty.so", "")) == "empty.so is not a plugin: not an ELF shared object");
+  CHECK(refusal(write("stump.so", read(plugin("good")).substr(0, 10))) == "stump.so is not a plugin: its ELF header is cut off");
+  CHECK(refusal(with_header("object.so", [](Elf64_Ehdr& h) { h.e_type = ET_REL; })) ==
+        "object.so is not a plugin: an ELF file, but not a shared object");
+}
+
+TEST_CASE("a file that is cut off is refused before anything maps it") {
+  const std::string whole = read(plugin("good"));
+  CHECK(refusal(write("short.so", whole.substr(0, whole.size() - 1))) ==
+        "short.so is cut off: its header promises " + std::to_string(whole.size()) + " bytes, the file has " +
+            std::to_string(whole.size() - 1));
+  CHECK(refusal(write("header.so", whole.substr(0, 64))) == "header.so is not a plugin: its ELF program headers are damaged or cut off");
+  CHECK(refusal(with_header("far.so", [](Elf64_Ehdr& h) { h.e_phoff = ~0ull; })) ==
+        "far.so is not a plugin: its ELF program headers are damaged or cut off");
+}
+
+TEST_CASE("a file for another machine is refused") {
+  CHECK(refusal(with_header("alien.so", [](Elf64_Ehdr& h) { h.e_machine = EM_S390; })) == "alien.so is built for s390, this host is " + host());
+  CHECK(refusal(with_header("odd.so", [](Elf64_Ehdr& h) { h.e_machine = 9999; })) ==
+        "odd.so is built for machine 9999, this host is " + host());
+  const Elf64_Half other = host() == "aarch64" ? EM_X86_64 : EM_AARCH64;
+  CHECK(refusal(with_header("arm.so", [&](Elf64_Ehdr& h) { h.e_machine = other; })) ==
+        std::string("arm.so is built for ") + (other == EM_AARCH64 ? "aarch64" : "x86_64") + ", this host is " + host());
+}
+
+TEST_CASE("a shared object that is no plugin, or of another ABI, is refused") {
+  CHECK(refusal(plugin("no_entry")) == "no_entry.so has no symbol fulmar_plugin_entry: not a Fulmar plugin");
+  CHECK(refusal(plugin("wrong_abi")) == "wrong_abi.so is built for ABI 2.0, this host speaks 1.0");
+  CHECK(refusal(plugin("newer_minor")) == "accepted");
+}
+
+TEST_CASE("a plugin whose needs are not met is refused") {
+  CHECK(refusal(plugin("missing_library")) == "missing_library.so needs libfulmar_test_stub.so, which is not there");
+  CHECK(refusal(plugin("missing_symbol")) == "missing_symbol.so needs the symbol fulmar_test_nowhere, which nothing provides");
+}
+
+TEST_CASE("what the system's loader says becomes a sentence") {
+  using fulmar::core::load_fault;
+  CHECK(load_fault("x.so", "libfoo.so.1: cannot open shared object file: No such file or directory") ==
+        "x.so needs libfoo.so.1, which is not there");
+  CHECK(load_fault("x.so", "/lib/libm.so.6: version `GLIBC_2.99' not found (required by /store/ab.so)") ==
+        "x.so needs GLIBC_2.99, which this system does not have");
+  CHECK(load_fault("x.so", "/store/ab.so: undefined symbol: exp10, version LIB_1") == "x.so needs the symbol exp10, which nothing provides");
+  CHECK(load_fault("x.so", "/store/ab.so: ELF load command alignment not page-aligned") ==
+        "x.so cannot be loaded: ELF load command alignment not page-aligned");
+  CHECK(load_fault("x.so", nullptr) == "x.so cannot be loaded: no reason given");
+}
+
+TEST_CASE("tables that the host does not understand are refused by name") {
+  CHECK(refusal(plugin("unknown_port")) == "unknown_port.so: port 'place' of component 'Point' has kind 99, which this host does not know");
+  CHECK(refusal(plugin("misplaced_port")) == "misplaced_port.so: port 'place' of component 'Point' is an input among the outputs");
+  CHECK(refusal(plugin("unknown_param")) ==
+        "unknown_param.so: parameter 'gain' of component 'Point' has kind 98, which this host does not know");
+  CHECK(refusal(plugin("unknown_field")) == "unknown_field.so: type 'Point': field 'x_m' has kind 97, which this host does not know");
+}
+
+TEST_CASE("tables that contradict themselves are refused by name") {
+  CHECK(refusal(plugin("overlap")) == "overlap.so: type 'Point': fields 'x_m' and 'y_m' overlap");
+  CHECK(refusal(plugin("misaligned")) == "misaligned.so: type 'Point': field 'y_m' is not aligned");
+  CHECK(refusal(plugin("beyond")) == "beyond.so: type 'Point': field 'y_m' reaches beyond the struct");
+  CHECK(refusal(plugin("same_names")) == "same_names.so: type 'Point' has two fields 'x_m'");
+  CHECK(refusal(plugin("bad_name")) == "bad_name.so: type 'Point': 'y m' is no name for a field");
+  CHECK(refusal(plugin("bad_default")) == "bad_default.so: parameter 'gain' of component 'Point' has a default outside its range");
+  CHECK(refusal(plugin("bad_stride")) == "bad_stride.so: the outputs of component 'Point' lie 8 bytes apart, where 32 are needed");
+  CHECK(refusal(plugin("wild_text")) == "wild_text.so: component 'Point': the description lies outside the plugin's memory");
+  CHECK(refusal(plugin("no_step")) == "no_step.so: component 'Point' lacks the function step");
+  CHECK(refusal(plugin("no_read")) == "no_read.so: component 'Point' lacks the function read");
+}
+
+TEST_CASE("what a plugin does while it is loaded happens to a child") {
+  CHECK(refusal(plugin("crash")) == "crash.so crashed while being loaded (signal 11)");
+  CHECK(refusal(plugin("crash_unload")) == "crash_unload.so crashed while being unloaded (signal 6)");
+  CHECK(refusal(plugin("exits")) == "exits.so ended the process while being loaded (exit code 0)");
+  const Environment limit("FULMAR_PROBE_SECONDS", "0.4");
+  CHECK(refusal(plugin("hang")) == "hang.so did not finish loading within 0.4 s");
+}
+
+TEST_CASE("a plugin that changes the floating-point mode is refused") {
+  CHECK(refusal(plugin("rounding")) == "rounding.so changes the floating-point mode when it is loaded (built with -ffast-math?)");
+  if (!fs::exists(plugin("fast_math"))) {
+    MESSAGE("this compiler has no crtfastmath.o: denormals not tried");
+    return;
+  }
+  CHECK(refusal(plugin("fast_math")) == "fast_math.so changes the floating-point mode when it is loaded (built with -ffast-math?)");
+}
+
+TEST_CASE("a refused plugin leaves no copy in the store") {
+  refusal(plugin("crash"));
+  CHECK_FALSE(fs::exists(folder() / "store" / (fulmar::core::sha256_file(plugin("crash")) + ".so")));
+}
+
+TEST_CASE("without the probing program nothing is loaded") {
+  const Environment missing("FULMAR_PROBE", "/nowhere/fulmar-probe");
+  CHECK(refusal(plugin("overlap")) == "cannot start /nowhere/fulmar-probe: No such file or directory.");
+}
+
+TEST_CASE("a store that others can write to is refused") {
+  const fs::path open = folder() / "open store";
+  fs::create_directory(open);
+  ::chmod(open.c_str(), 0777);
+  const Environment store("FULMAR_STORE", open.string());
+  CHECK(refusal(plugin("good_open")) ==
+        "the plugin store " + open.string() + " is writable by others; chmod 700 it, or set FULMAR_STORE to another folder.");
+}
+
+TEST_CASE("a copy in the store that was tampered with is replaced") {
+  const std::string text = "the true content";
+  const auto keep = [&] { return fulmar::core::keep_copy(std::as_bytes(std::span(text)), fulmar::core::sha256_hex(text.data(), text.size())); };
+  folder();
+  const fs::path copy = keep();
+  fs::permissions(copy, fs::perms::owner_write, fs::perm_options::add);
+  std::ofstream(copy) << "the bent content";  // as long as the true one
+  CHECK(keep() == copy);
+  CHECK(read(copy) == text);
+}
+
+TEST_CASE("the store is private and its copies are read-only") {
+  const std::string text = "a copy";
+  folder();
+  const fs::path copy = fulmar::core::keep_copy(std::as_bytes(std::span(text)), fulmar::core::sha256_hex(text.data(), text.size()));
+  struct stat info{};
+  REQUIRE(::stat(copy.c_str(), &info) == 0);
+  CHECK((info.st_mode & 0777) == 0400);
+  REQUIRE(::stat(copy.parent_path().c_str(), &info) == 0);
+  CHECK((info.st_mode & 0777) == 0700);
+}
+
+TEST_CASE("SHA-256 gives the digest of FIPS 180-2") {
+  CHECK(fulmar::core::sha256_hex("abc", 3) == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}

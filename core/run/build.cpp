@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Set-up of a flight: creates and configures components, connects their ports, opens the log.
+#include <algorithm>
+#include <cstddef>
+#include <nlohmann/json.hpp>
+
+#include "core/run/flight_impl.hpp"
+#include "core/tap/wire.hpp"
+
+namespace fulmar::core {
+namespace {
+
+/// Seed of a component: a mix of the mission's seed and the component's name, so that adding a component changes no other's noise.
+std::uint64_t mix(std::uint64_t seed, const std::string& name) {
+  std::uint64_t h = seed ^ 0x9e3779b97f4a7c15ull;
+  for (const char c : name) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
+  h ^= h >> 30, h *= 0xbf58476d1ce4e5b9ull, h ^= h >> 27, h *= 0x94d049bb133111ebull;  // splitmix64's finaliser
+  return h ^ (h >> 31);
+}
+
+bool matches(const std::string& pattern, const std::string& name) {
+  const std::size_t star = pattern.find('*');
+  if (star == std::string::npos) return pattern == name;
+  const std::string tail = pattern.substr(star + 1);
+  return name.size() >= pattern.size() - 1 && name.compare(0, star, pattern, 0, star) == 0 && name.compare(name.size() - tail.size(), tail.size(), tail) == 0;
+}
+
+constexpr std::int64_t default_period_ns = 40'000'000;      // 25 Hz for what a replay computes anew
+constexpr std::int64_t default_max_age_ns = 1'000'000'000;  // of what a role publishes
+
+}  // namespace
+
+TypePtr event_type() {
+  static const TypePtr type = [] {
+    Type t;
+    t.name = "Event";
+    t.size = sizeof(Event);
+    t.align = alignof(Event);
+    auto text = [&](const char* name, std::size_t offset, std::size_t size) {
+      Field f;
+      f.name = name, f.kind = FULMAR_TEXT, f.offset = static_cast<std::uint32_t>(offset), f.stride = static_cast<std::uint32_t>(size);
+      t.fields.push_back(f);
+    };
+    Field kind;
+    kind.name = "kind", kind.kind = FULMAR_ENUM, kind.stride = 1;
+    kind.labels = {"phase", "guard", "request", "parameter", "failsafe"};
+    t.fields.push_back(kind);
+    text("component", offsetof(Event, component), sizeof(Event::component));
+    text("text", offsetof(Event, text), sizeof(Event::text));
+    return std::make_shared<const Type>(t);
+  }();
+  return type;
+}
+
+Flight::Impl::Impl(const Graph& g, const FlightOptions& o) : graph(g), options(o) {
+  create_units();
+  wire();
+  for (const auto& unit : units) unit->configure();
+  if (options.log && graph.record) open_log();
+  if (graph.arm) request_arming();
+  std::size_t most = 0;
+  for (const auto& unit : units) most = std::max(most, unit->slots.size());
+  hand_over.reserve(most);
+  any_since.assign(graph.any.size(), -1);
+  result.phases.reserve(64);
+  result.guards.reserve(64);
+}
+
+void Flight::Impl::create_units() {
+  for (const Component& c : graph.components) units.push_back(std::make_unique<Unit>(c, graph.tick_ns, mix(graph.seed, c.name)));
+  roles.resize(graph.roles.size());
+  drives_vehicle.assign(graph.roles.size(), false);
+  for (std::size_t r = 0; r < roles.size(); ++r) {
+    const Role& role = graph.roles[r];
+    roles[r].slots.resize(role.outputs.size());
+    for (std::size_t k = 0; k < role.outputs.size(); ++k) {
+      roles[r].slots[k].type = role.outputs[k].type;
+      for (std::size_t f = 0; f < role.fillers.size(); ++f) {
+        const int output = role.provides[f][k];
+        if (output < 0) continue;
+        Slot& slot = units[static_cast<std::size_t>(role.fillers[f])]->slots[static_cast<std::size_t>(output)];
+        slot.role = &roles[r].slots[k];
+        slot.filler = static_cast<int>(f);
+      }
+    }
+  }
+}
+
+/// `arm: auto`: asks the vehicle's request port `arm`, in its first tick.
+void Flight::Impl::request_arming() {
+  Unit& vehicle = *units[static_cast<std::size_t>(graph.vehicle)];
+  const int port = vehicle.info->input("arm");
+  const Field* armed = port < 0 ? nullptr : vehicle.readers[static_cast<std::size_t>(port)].port->type->find("armed");
+  if (!armed || armed->kind != FULMAR_BOOL || vehicle.readers[static_cast<std::size_t>(port)].port->kind != FULMAR_IN_REQUEST)
+    throw Error(vehicle.component->where.text() + ": arm: auto needs a vehicle with a request 'arm' that has a field 'armed'; " + vehicle.component->name +
+                " has none");
+  Reader& reader = vehicle.readers[static_cast<std::size_t>(port)];
+  std::vector<std::byte> message(reader.port->type->size);
+  message[armed->offset] = std::byte{1};
+  CopyPlan whole;
+  whole.size = reader.port->type->size;
+  reader.push(message.data(), 0, whole);
+}
+
+void Flight::Impl::wire() {
+  for (const auto& unit : units)
+    for (Reader& reader : unit->readers) wire_reader(*unit, reader);
+  if (graph.vehicle < 0) return;
+  for (const Wire& w : graph.components[static_cast<std::size_t>(graph.vehicle)].wires)
+    if (w.from.kind == Source::Kind::role) drives_vehicle[static_cast<std::size_t>(w.from.index)] = true;
+}
+
+void Flight::Impl::wire_reader(Unit& unit, Reader& reader) {
+  const Source& from = reader.wire->from;
+  if (from.kind == Source::Kind::none) return;
+  const bool value = reader.port->kind == FULMAR_IN_VALUE;
+  if (from.kind == Source::Kind::component) {
+    Slot& slot = units[static_cast<std::size_t>(from.index)]->slots[static_cast<std::size_t>(from.output)];
+    reader.slot = &slot;
+    reader.plans.push_back(copy_plan(*slot.port->type, *reader.port->type));
+    if (!value) slot.queues.emplace_back(&reader, &reader.plans.front());
+  } else {
+    const Role& role = graph.roles[static_cast<std::size_t>(from.index)];
+    RoleSlot& slot = roles[static_cast<std::size_t>(from.index)].slots[static_cast<std::size_t>(from.output)];
+    reader.role = &slot;
+    for (std::size_t f = 0; f < role.fillers.size(); ++f) {
+      const int output = role.provides[f][static_cast<std::size_t>(from.output)];
+      const Unit& filler = *units[static_cast<std::size_t>(role.fillers[f])];
+      reader.plans.push_back(output < 0 ? CopyPlan{} : copy_plan(*filler.slots[static_cast<std::size_t>(output)].port->type, *reader.port->type));
+    }
+    if (!value) slot.queues.emplace_back(&reader, reader.plans);
+    // What a role publishes is watched: a law that is fed by nobody must not fly on. Sensors come and go, estimators know.
+    const bool watched = value && !reader.port->optional && unit.component->role >= 0 && !unit.info->vehicle &&
+                         role.fillers.end() == std::find(role.fillers.begin(), role.fillers.end(), graph.vehicle);
+    if (watched && reader.max_age_ns == 0) reader.max_age_ns = default_max_age_ns;
+  }
+  reader.guarded = reader.max_age_ns > 0 && !reader.port->optional && unit.component->role >= 0;
+  for (const CopyPlan& plan : reader.plans)
+    if (!plan.whole) reader.copy.assign(reader.port->type->size, std::byte{0});
+}
+
+std::int64_t Flight::Impl::record_period(const std::string& port, const Slot& slot) const {
+  if (slot.owner->info->vehicle) return 0;  // a replay needs all of it
+  for (const RecordRule& rule : graph.record_rules) {
+    if (rule.ports.empty()) return rule.period_ns;
+    for (const std::string& pattern : rule.ports)
+      if (matches(pattern, port)) return rule.period_ns;
+  }
+  if (!graph.record_rules.empty()) return -1;
+  return slot.port->kind == FULMAR_OUT_QUEUE ? 0 : default_period_ns;
+}
+
+void Flight::Impl::add_channels(std::vector<LogChannel>& channels) {
+  auto channel = [&](const std::string& topic, const TypePtr& type) {
+    channels.push_back({topic, type});
+    return static_cast<int>(channels.size() - 1);
+  };
+  event_channel = channel("/fulmar/event", event_type());
+  for (const auto& unit : units) {
+    const Component& c = *unit->component;
+    for (std::size_t i = 0; i < unit->slots.size(); ++i) {
+      Slot& slot = unit->slots[i];
+      if (!slot.port->type) continue;
+      std::string from = c.name, port = slot.port->name;
+      if (slot.role) {
+        const Role& role = graph.roles[static_cast<std::size_t>(c.role)];
+        from = role.name;
+        port = role.outputs[static_cast<std::size_t>(slot.role - roles[static_cast<std::size_t>(c.role)].slots.data())].name;
+      }
+      slot.log_period_ns = record_period(from + "." + port, slot);
+      if (slot.log_period_ns >= 0) slot.channel = channel("/" + from + "/" + port, slot.port->type);
+    }
+    if (unit->probes.empty()) continue;
+    Type probes;
+    probes.name = unit->info->name + "Probes";
+    probes.size = static_cast<std::uint32_t>(8 * unit->probes.size());
+    probes.align = 8;
+    for (std::size_t k = 0; k < unit->probes.size(); ++k) {
+      Field f;
+      f.name = unit->slots[unit->probes[k]].port->name;
+      f.offset = static_cast<std::uint32_t>(8 * k), f.stride = 8;
+      f.min = -std::numeric_limits<double>::infinity(), f.max = -f.min;
+      probes.fields.push_back(f);
+    }
+    unit->probe_period_ns = record_period(c.name + ".probes", unit->slots[unit->probes.front()]);
+    if (unit->probe_period_ns >= 0) unit->probe_channel = channel("/" + c.name + "/probes", std::make_shared<const Type>(probes));
+  }
+}
+
+void Flight::Impl::open_log() {
+  std::vector<LogChannel> channels;
+  add_channels(channels);
+  Log::Options o;
+  o.file = options.log_file;
+  o.epoch_ns = graph.epoch_ns;
+  o.wait = options.speed == 0;
+  log = std::make_unique<Log>(o, channels);
+  attach_texts();
+}
+
+std::string Flight::Impl::parameters_text() const {
+  nlohmann::json all = nlohmann::json::object();
+  for (const auto& unit : units) {
+    nlohmann::json& mine = all[unit->component->name] = nlohmann::json::object();
+    for (std::size_t i = 0; i < unit->base.size(); ++i) {
+      const ParamInfo& p = unit->info->params[i];
+      const ParamValue& v = unit->base[i];
+      switch (p.kind) {
+        case FULMAR_NUMBER: mine[p.name] = v.number[0]; break;
+        case FULMAR_FLAG: mine[p.name] = v.integer != 0; break;
+        case FULMAR_COUNT: mine[p.name] = v.integer; break;
+        case FULMAR_CHOICE: mine[p.name] = p.choices.at(static_cast<std::size_t>(v.integer)); break;
+        case FULMAR_VECTOR: mine[p.name] = {v.number[0], v.number[1], v.number[2]}; break;
+        case FULMAR_RECORD: mine[p.name] = to_json(*p.type, v.data.data(), false); break;
+        default: mine[p.name] = v.text; break;
+      }
+    }
+  }
+  return all.dump(1) + "\n";
+}
+
+void Flight::Impl::attach_texts() {
+  for (const auto& [name, text] : graph.attachments) log->attach(name, "application/yaml", text);
+  log->attach("parameters.json", "application/json", parameters_text());
+  std::string order;
+  for (const int i : graph.order) order += graph.components[static_cast<std::size_t>(i)].name + "\n";
+  log->attach("order.txt", "text/plain", order);
+  std::vector<std::pair<std::string, std::string>> plugins;
+  for (const Component& c : graph.components) {
+    const PluginInfo& p = c.library->info();
+    plugins.emplace_back(c.name, p.file + " " + p.version + " " + p.sha256);
+  }
+  log->metadata("plugins", plugins);
+  log->metadata("fulmar", {{"version", FULMAR_VERSION},
+                           {"abi", std::to_string(FULMAR_ABI_MAJOR) + "." + std::to_string(FULMAR_ABI_MINOR)},
+                           {"toolchain", __VERSION__},
+                           {"mission", graph.mission},
+                           {"io", graph.io},
+                           {"seed", std::to_string(graph.seed)}});
+}
+
+}  // namespace fulmar::core

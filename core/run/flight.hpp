@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One flight: creates the components of a graph, runs the loop, and tells how it went.
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/graph/graph.hpp"
+#include "core/run/stats.hpp"
+#include "core/tap/log.hpp"
+
+namespace fulmar::core {
+
+struct FlightOptions {
+  double speed = 0;                       // times real time; 0: as fast as the machine allows
+  std::optional<double> duration_s;       // of flight time from 0; then the flight counts as flown
+  bool log = true;
+  std::filesystem::path log_file;         // must not exist
+  const std::atomic<int>* interrupt = nullptr;  // the flight ends when this is not 0
+  std::function<void(const class Flight&)> progress;  // called about every 200 ms of wall time, between ticks
+  std::function<void(const std::string&)> say;        // one line for the user, as it happens: phases, guards
+};
+
+enum class Outcome : std::uint8_t { flown, failed, interrupted };
+
+struct PhaseVisit {
+  std::string name;
+  std::int64_t from_ns = 0, to_ns = 0;
+};
+
+/// A guard that fired: what the component did, and what the host did about it.
+struct GuardEvent {
+  std::int64_t at_ns = 0;
+  std::string component, what, action;
+};
+
+struct FlightResult {
+  Outcome outcome = Outcome::failed;
+  std::string reason;
+  std::int64_t first_ns = 0, last_ns = 0;  // flight time of the first and last tick
+  std::uint64_t ticks = 0;
+  double wall_s = 0;  // first to last tick
+  std::vector<PhaseVisit> phases;
+  std::vector<GuardEvent> guards;
+  std::vector<ComponentStats> components;
+  LogResult log;
+  std::uint64_t loop_allocations = 0;  // of the whole loop, components included
+};
+
+class Flight {
+ public:
+  /// Creates and configures every component. Throws Error.
+  Flight(const Graph& graph, const FlightOptions& options);
+  ~Flight();
+  Flight(const Flight&) = delete;
+  Flight& operator=(const Flight&) = delete;
+
+  /// Flies until done, failed, interrupted or out of time. Call once.
+  FlightResult run();
+
+  // For those who look at a flight: between ticks, from the loop's thread.
+  std::int64_t now_ns() const;
+  const std::string& phase() const;
+  /// The present sample of a port, or nullptr.
+  const std::byte* sample(const Source& source) const;
+
+  /// A request from outside, to be answered by the component in its next step. Throws Error for a port that is no request.
+  /// The answer comes through `answered`: "" when accepted, else the reason.
+  void request(const std::string& component, const std::string& port, const std::byte* message, std::function<void(const std::string&)> answered = {});
+  /// A live change of a base parameter. Throws Error: unknown, not live, out of range.
+  void set_parameter(const std::string& component, const std::string& param, const ParamValue& value);
+  /// Lets a component fly again that a guard has stopped.
+  void reset_guards();
+
+  struct Impl;
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace fulmar::core

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The tick: vehicle read, steps in order, phase conditions, vehicle write. What is published goes to the tap at once.
+#include <time.h>
+
+#include <cstring>
+
+#include "core/run/allocation.hpp"
+#include "core/run/flight_impl.hpp"
+
+namespace fulmar::core {
+namespace {
+
+std::int64_t wall_clock_ns() noexcept {
+  timespec t{};
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
+}
+
+constexpr int overruns_allowed = 5;  // steps over budget in a row
+constexpr std::int64_t silence_ns = 1'000'000'000;  // simulated after a failsafe before the flight is called lost
+
+}  // namespace
+
+/// One reading of the clock between two steps times both: this charges the time since the last reading to `unit`.
+void Flight::Impl::clock(Unit& unit) {
+  const std::int64_t now = wall_clock_ns();
+  const std::int64_t took = now - wall_ns;
+  unit.stats.time.add(took);
+  wall_ns = now;
+  if (unit.component->budget_ns == 0 || options.speed == 0) return;  // an unpaced simulation knows no deadline
+  if (took <= unit.component->budget_ns) {
+    unit.overruns_in_a_row = 0;
+    return;
+  }
+  ++unit.stats.overruns;
+  if (++unit.overruns_in_a_row < overruns_allowed || unit.stopped || unit.info->vehicle) return;
+  unit.fail("was over its time budget in 5 steps in a row");
+  stop(static_cast<int>(unit.component - graph.components.data()), "held");
+}
+
+void Flight::Impl::log_slot(Slot& slot) {
+  if (slot.channel < 0 || now_ns < slot.log_due_ns) return;
+  if (slot.log_period_ns > 0) {
+    const bool late = slot.log_due_ns == std::numeric_limits<std::int64_t>::min() || slot.log_due_ns + slot.log_period_ns <= now_ns;
+    slot.log_due_ns = (late ? now_ns : slot.log_due_ns) + slot.log_period_ns;
+  }
+  log->write(static_cast<std::size_t>(slot.channel), now_ns, slot.valid_at_ns, slot.published.data());
+}
+
+void Flight::Impl::log_probes(Unit& unit) {
+  if (unit.probe_channel < 0 || now_ns < unit.probe_due_ns) return;
+  const bool late = unit.probe_due_ns == std::numeric_limits<std::int64_t>::min() || unit.probe_due_ns + unit.probe_period_ns <= now_ns;
+  unit.probe_due_ns = (late ? now_ns : unit.probe_due_ns) + unit.probe_period_ns;
+  for (std::size_t k = 0; k < unit.probes.size(); ++k) std::memcpy(&unit.probe_values[k], unit.slots[unit.probes[k]].published.data(), sizeof(double));
+  log->write(static_cast<std::size_t>(unit.probe_channel), now_ns, now_ns, reinterpret_cast<const std::byte*>(unit.probe_values.data()));
+}
+
+void Flight::Impl::publish(Unit& unit) {
+  unit.publish([&](Slot& slot) {
+    for (auto& [reader, plan] : slot.queues) reader->push(slot.published.data(), slot.valid_at_ns, *plan);
+    if (slot.role) {
+      slot.role->current = &slot;
+      ++slot.role->sequence;
+      for (auto& [reader, plans] : slot.role->queues)
+        reader->push(slot.published.data(), slot.valid_at_ns, plans[static_cast<std::size_t>(slot.filler)]);
+    }
+    if (log) log_slot(slot);
+  });
+  if (log && !unit.probes.empty()) log_probes(unit);
+}
+
+void Flight::Impl::step_unit(int i) {
+  Unit& unit = *units[static_cast<std::size_t>(i)];
+  if (!unit.active || unit.stopped || !unit.due(now_ns)) return;
+  if (unit.fresh_start) {
+    if (!unit.ready()) return;
+    if (!unit.activate(now_ns, index, {})) return stop(i, "held");
+  }
+  const Verdict verdict = unit.step(now_ns, index);
+  if (verdict.kind == Verdict::Kind::stepped) publish(unit);
+  if (verdict.kind == Verdict::Kind::stepped || verdict.kind == Verdict::Kind::bad) clock(unit);
+  if (verdict.kind == Verdict::Kind::bad) stop(i, "held");
+}
+
+bool Flight::Impl::tick() {
+  Unit& vehicle = *units[static_cast<std::size_t>(graph.vehicle)];
+  const Verdict read = vehicle.read(now_ns, index);
+  if (index == 0) result.first_ns = now_ns;
+  if (read.kind == Verdict::Kind::bad) {
+    event(EventKind::guard, vehicle.component->name, vehicle.problem.text);
+    result.guards.push_back({now_ns, vehicle.component->name, vehicle.problem.text, "flight ended"});
+    finish(Outcome::failed, "the vehicle failed: " + std::string(vehicle.problem.text));
+    return false;
+  }
+  if (index == 0) begin();
+  publish(vehicle);
+  clock(vehicle);
+
+  for (const int i : graph.order) step_unit(i);
+  transitions();
+
+  if (in_failsafe && now_ns - failsafe_since_ns >= graph.failsafe_ns) vehicle.silent = true;
+  if (vehicle.write(now_ns, index).kind == Verdict::Kind::bad) {
+    event(EventKind::guard, vehicle.component->name, vehicle.problem.text);
+    finish(Outcome::failed, "the vehicle failed: " + std::string(vehicle.problem.text));
+    return false;
+  }
+  clock(vehicle);
+  ++index;
+  result.last_ns = now_ns;
+  return !over();
+}
+
+bool Flight::Impl::over() {
+  if (graph.done && graph.done->holds(*this)) finish(Outcome::flown, graph.done->text());
+  else if (graph.failed && graph.failed->holds(*this)) finish(Outcome::failed, graph.failed->text());
+  else if (in_failsafe && now_ns - failsafe_since_ns >= graph.failsafe_ns + silence_ns) finish(Outcome::failed, failsafe_reason);
+  else if (options.duration_s && now_ns >= static_cast<std::int64_t>(*options.duration_s * 1e9)) finish(in_failsafe ? Outcome::failed : Outcome::flown, in_failsafe ? failsafe_reason : "duration reached");
+  else if (graph.timeout_ns > 0 && now_ns >= graph.timeout_ns)
+    finish(Outcome::failed, "not done within " + std::to_string(graph.timeout_ns / 1'000'000'000) + " s of flight");
+  else if (options.interrupt && options.interrupt->load(std::memory_order_relaxed) != 0) finish(Outcome::interrupted, "interrupted");
+  return ended;
+}
+
+void Flight::Impl::finish(Outcome outcome, std::string reason) {
+  ended = true;
+  result.outcome = outcome;
+  result.reason = std::move(reason);
+}
+
+/// Sleeps until the wall clock has caught up with flight time.
+void Flight::Impl::pace() {
+  const std::int64_t due = wall_start_ns + static_cast<std::int64_t>(static_cast<double>(now_ns - result.first_ns) / options.speed);
+  const timespec t{due / 1'000'000'000, due % 1'000'000'000};
+  clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr);
+  wall_ns = wall_clock_ns();
+}
+
+FlightResult Flight::Impl::run() {
+  wall_ns = wall_start_ns = progress_ns = wall_clock_ns();
+  const std::uint64_t allocations = thread_allocations();
+  while (tick()) {
+    if (options.speed > 0) pace();
+    if (options.progress && wall_ns - progress_ns > 200'000'000) {
+      progress_ns = wall_ns;
+      options.progress(*static_cast<const Flight*>(owner));
+    }
+  }
+  result.loop_allocations = thread_allocations() - allocations;
+  result.wall_s = 1e-9 * static_cast<double>(wall_clock_ns() - wall_start_ns);
+  result.ticks = index;
+  if (!result.phases.empty()) result.phases.back().to_ns = now_ns;
+  for (const auto& unit : units) result.components.push_back(unit->stats);
+  if (log) result.log = log->close();
+  return std::move(result);
+}
+
+}  // namespace fulmar::core

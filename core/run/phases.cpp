@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Phases, hand-over, guards, failsafe: who flies, and what happens when they cannot.
+#include <cstdio>
+#include <cstring>
+
+#include "core/run/flight_impl.hpp"
+
+namespace fulmar::core {
+
+void Flight::Impl::event(EventKind kind, const std::string& component, const std::string& text) {
+  Event e;
+  e.kind = kind;
+  std::snprintf(e.component.data(), e.component.size(), "%s", component.c_str());
+  std::snprintf(e.text.data(), e.text.size(), "%s", text.c_str());
+  if (log) log->write(static_cast<std::size_t>(event_channel), now_ns, now_ns, reinterpret_cast<const std::byte*>(&e));
+  if (options.say) {
+    char time[32];
+    std::snprintf(time, sizeof time, "%8.2f s  ", 1e-9 * static_cast<double>(now_ns));
+    options.say(time + (component.empty() ? "" : component + ": ") + text);
+  }
+}
+
+/// The first phase: nobody has flown before, so each component is activated when its inputs have arrived.
+void Flight::Impl::begin() {
+  const Phase& first = graph.phases.front();
+  for (std::size_t r = 0; r < roles.size(); ++r) {
+    const Assignment& a = first.roles[r];
+    if (a.component < 0) continue;
+    roles[r].active = a.component;
+    Unit& unit = *units[static_cast<std::size_t>(a.component)];
+    unit.active = true;
+    if (!a.set.empty()) unit.retune(&a.set);
+  }
+  next_since.assign(first.next.size(), -1);
+  result.phases.push_back({first.name, now_ns, now_ns});
+  event(EventKind::phase, "", "phase " + first.name);
+}
+
+void Flight::Impl::transitions() {
+  if (try_transitions(graph.any, any_since)) return;
+  try_transitions(graph.phases[static_cast<std::size_t>(phase)].next, next_since);
+}
+
+bool Flight::Impl::try_transitions(const std::vector<Transition>& list, std::vector<std::int64_t>& since) {
+  constexpr std::int64_t never = -1'000'000'000'000'000'000;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Transition& t = list[i];
+    if (t.to == phase) continue;
+    if (!t.when->holds(*this)) {
+      since[i] = never;
+      continue;
+    }
+    if (since[i] == never || since[i] == -1) since[i] = now_ns;
+    if (now_ns - since[i] < t.for_ns) continue;
+    since[i] = never;
+    enter(t.to);
+    return true;
+  }
+  return false;
+}
+
+void Flight::Impl::enter(int to) {
+  const Phase& from_phase = graph.phases[static_cast<std::size_t>(phase)];
+  const Phase& to_phase = graph.phases[static_cast<std::size_t>(to)];
+  phase = to;
+  next_since.assign(to_phase.next.size(), -1);
+  if (!result.phases.empty()) result.phases.back().to_ns = now_ns;
+  result.phases.push_back({to_phase.name, now_ns, now_ns});
+  event(EventKind::phase, "", "phase " + to_phase.name);
+  for (std::size_t r = 0; r < roles.size(); ++r) {
+    const Assignment& a = to_phase.roles[r];
+    if (a.component < 0) continue;
+    const bool usable = !units[static_cast<std::size_t>(a.component)]->stopped;
+    const int wanted = usable ? a.component : a.fallback;
+    if (wanted < 0) continue;
+    if (wanted != roles[r].active) {
+      take_over(static_cast<int>(r), wanted, a);
+    } else if (!a.set.empty() || !from_phase.roles[r].set.empty()) {
+      Unit& unit = *units[static_cast<std::size_t>(wanted)];
+      if (!unit.retune(wanted == a.component ? &a.set : nullptr)) stop(wanted, "held");
+    }
+  }
+}
+
+bool Flight::Impl::take_over(int role, int component, const Assignment& assignment) {
+  RoleState& state = roles[static_cast<std::size_t>(role)];
+  Unit& unit = *units[static_cast<std::size_t>(component)];
+  unit.retune(component == assignment.component ? &assignment.set : nullptr);
+  // The outputs last applied in the role, as far as the newcomer's messages are of the same make.
+  std::vector<const Slot*>& last = hand_over;
+  last.assign(unit.slots.size(), nullptr);
+  for (std::size_t i = 0; i < unit.slots.size(); ++i) {
+    const RoleSlot* slot = unit.slots[i].role;
+    if (slot && slot->current && slot->current->port->type->hash == unit.slots[i].port->type->hash) last[i] = slot->current;
+  }
+  if (!unit.activate(now_ns, index, last)) {
+    const std::string text = "cannot take over: " + std::string(unit.problem.text);
+    event(EventKind::guard, unit.component->name, text);
+    result.guards.push_back({now_ns, unit.component->name, text, state.active >= 0 ? "the old one stays" : "nobody flies"});
+    return false;
+  }
+  if (state.active >= 0) {
+    Unit& old = *units[static_cast<std::size_t>(state.active)];
+    old.active = false;
+    if (!old.fresh_start) old.deactivate();
+  }
+  state.active = component;
+  unit.active = true;
+  unit.call_now(now_ns);
+  step_unit(component);
+  return true;
+}
+
+/// A guard has fired: the last good output is held; the fallback takes over; when nobody is left, failsafe.
+void Flight::Impl::stop(int i, const std::string& action_when_alone) {
+  Unit& unit = *units[static_cast<std::size_t>(i)];
+  if (unit.stopped) return;
+  unit.stopped = true;
+  const std::string what = unit.problem.text;
+  const std::string name = unit.component->name;
+  const int role = unit.component->role;
+  event(EventKind::guard, name, what);
+  result.guards.push_back({now_ns, name, what, action_when_alone});
+  const std::size_t at = result.guards.size() - 1;
+  if (role < 0) return;
+  RoleState& state = roles[static_cast<std::size_t>(role)];
+  if (state.active != i) return;
+  const Assignment& a = graph.phases[static_cast<std::size_t>(phase)].roles[static_cast<std::size_t>(role)];
+  const int fallback = a.fallback;
+  if (fallback >= 0 && fallback != i && !units[static_cast<std::size_t>(fallback)]->stopped && take_over(role, fallback, a)) {
+    const std::string& other = graph.components[static_cast<std::size_t>(fallback)].name;
+    result.guards[at].action = other + " takes over";
+    event(EventKind::guard, name, other + " takes over");
+    return;
+  }
+  state.dead = true;
+  if (!drives_vehicle[static_cast<std::size_t>(role)]) return;
+  result.guards[at].action = "failsafe";
+  failsafe((name + ": " + what).c_str());
+}
+
+void Flight::Impl::failsafe(const char* why) {
+  if (in_failsafe) return;
+  in_failsafe = true;
+  failsafe_since_ns = now_ns;
+  failsafe_reason = "failsafe: " + std::string(why);
+  Unit& vehicle = *units[static_cast<std::size_t>(graph.vehicle)];
+  vehicle.forced = &graph.failsafe;
+  if (graph.failsafe.empty()) vehicle.silent = true;
+  event(EventKind::failsafe, "", failsafe_reason);
+}
+
+const Slot* Flight::Impl::slot_of(const Source& source) const {
+  if (source.kind == Source::Kind::component) return &units[static_cast<std::size_t>(source.index)]->slots[static_cast<std::size_t>(source.output)];
+  if (source.kind == Source::Kind::role) return roles[static_cast<std::size_t>(source.index)].slots[static_cast<std::size_t>(source.output)].current;
+  return nullptr;
+}
+
+/// A sample is stale for a condition when whoever wrote it has been stopped.
+const std::byte* Flight::Impl::sample(const Source& source) const noexcept {
+  const Slot* slot = slot_of(source);
+  if (!slot || slot->sequence == 0 || slot->owner->stopped) return nullptr;
+  return slot->published.data();
+}
+
+Flight::Flight(const Graph& graph, const FlightOptions& options) : impl_(std::make_unique<Impl>(graph, options)) { impl_->owner = this; }
+Flight::~Flight() = default;
+FlightResult Flight::run() { return impl_->run(); }
+std::int64_t Flight::now_ns() const { return impl_->now_ns; }
+const std::string& Flight::phase() const { return impl_->graph.phases[static_cast<std::size_t>(impl_->phase)].name; }
+const std::byte* Flight::sample(const Source& source) const { 
+  const Slot* slot = impl_->slot_of(source);
+  return slot && slot->sequence > 0 ? slot->published.data() : nullptr;
+}
+
+}  // namespace fulmar::core

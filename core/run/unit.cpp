@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/run/unit.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+#include "core/run/allocation.hpp"
+
+namespace fulmar::core {
+
+void Reader::push(const std::byte* message, std::int64_t valid_at_ns, const CopyPlan& plan) noexcept {
+  if (count == port->capacity) {
+    ++lost;
+    return;
+  }
+  plan.run(message, items.data() + std::size_t{count} * port->type->size);
+  stamps[count] = valid_at_ns;
+  answers[count] = {};
+  replies[count] = nullptr;
+  ++count;
+}
+
+Unit::Unit(const Component& c, std::int64_t tick_ns, std::uint64_t seed)
+    : component(&c),
+      info(&c.info()),
+      slots(info->outputs.size()),
+      readers(info->inputs.size()),
+      base(c.params),
+      functions_(&c.library->functions(c.index_in_plugin)),
+      inputs_(info->inputs.size()),
+      outputs_(info->outputs.size()),
+      last_(info->outputs.size()),
+      values_(info->params.size()),
+      tick_ns_(tick_ns) {
+  stats.name = c.name;
+  active = c.role < 0;
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    Slot& s = slots[i];
+    s.port = &info->outputs[i];
+    s.owner = this;
+    s.size = s.port->type ? s.port->type->size : sizeof(double);
+    s.staging.resize(std::size_t{s.size} * s.port->capacity);
+    s.published.resize(s.size);
+    s.stamps.resize(s.port->capacity);
+    if (s.port->type) s.guard = std::make_unique<Guard>(*s.port->type);
+    else probes.push_back(static_cast<std::uint32_t>(i));
+  }
+  probe_values.resize(probes.size());
+  for (std::size_t i = 0; i < readers.size(); ++i) {
+    Reader& r = readers[i];
+    r.port = &info->inputs[i];
+    r.wire = &c.wires[i];
+    r.max_age_ns = r.wire->max_age_ns;
+    if (r.port->kind == FULMAR_IN_VALUE) continue;
+    r.items.resize(std::size_t{r.port->capacity} * r.port->type->size);
+    r.stamps.resize(r.port->capacity);
+    r.answers.resize(r.port->capacity);
+    r.replies.resize(r.port->capacity);
+  }
+  instance_ = functions_->create(seed, &problem);
+  if (!instance_) throw Error(c.where.text() + ": " + c.name + ": cannot be created: " + problem.text);
+}
+
+Unit::~Unit() {
+  if (!instance_) return;
+  if (active) deactivate();
+  functions_->destroy(instance_);
+}
+
+void Unit::fill_values(std::vector<fulmar_value>& values, const std::vector<Overlay>* overlay, bool with_data) noexcept {
+  auto put = [&](std::size_t i, const ParamValue& v) {
+    fulmar_value& to = values[i];
+    for (int k = 0; k < 3; ++k) to.number[k] = v.number[k];
+    to.integer = v.integer;
+    to.text = v.text.c_str();
+    to.data = with_data && !v.data.empty() ? v.data.data() : nullptr;
+    to.size = v.data.size();
+  };
+  for (std::size_t i = 0; i < base.size(); ++i) put(i, base[i]);
+  if (overlay)
+    for (const Overlay& o : *overlay) put(static_cast<std::size_t>(o.param), o.value);
+}
+
+void Unit::configure() {
+  fill_values(values_, nullptr, true);
+  problem.text[0] = '\0';
+  if (functions_->configure(instance_, values_.data(), &problem) == FULMAR_FAILED)
+    throw Error(component->where.text() + ": " + component->name + ": " + (problem.text[0] ? problem.text : "refuses its parameters"));
+}
+
+bool Unit::retune(const std::vector<Overlay>* overlay) noexcept {
+  fill_values(values_, overlay, false);
+  problem.text[0] = '\0';
+  if (!functions_->retune) return true;
+  return functions_->retune(instance_, values_.data(), &problem) != FULMAR_FAILED;
+}
+
+bool Unit::ready() const noexcept {
+  for (const Reader& r : readers)
+    if (!r.port->optional && r.port->kind == FULMAR_IN_VALUE && r.sequence() == 0) return false;
+  return true;
+}
+
+Unit::Inputs Unit::prepare_inputs(std::int64_t now_ns) noexcept {
+  for (std::size_t i = 0; i < readers.size(); ++i) {
+    Reader& r = readers[i];
+    fulmar_input& in = inputs_[i];
+    in.flags = 0;
+    if (r.port->kind != FULMAR_IN_VALUE) {
+      in.data = r.items.data();
+      in.stamps_ns = r.stamps.data();
+      in.answers = r.answers.data();
+      in.count = r.count;
+      in.lost = r.lost;
+      continue;
+    }
+    const Slot* s = r.source();
+    in.sequence = r.sequence();
+    if (!s || in.sequence == 0) {
+      in = {};
+      if (!r.port->optional) return Inputs::missing;
+      continue;
+    }
+    const CopyPlan& plan = r.plans[r.role ? static_cast<std::size_t>(s->filler) : 0];
+    in.data = s->published.data();
+    if (!plan.whole) {
+      if (r.copied != in.sequence) plan.run(s->published.data(), r.copy.data());
+      r.copied = in.sequence;
+      in.data = r.copy.data();
+    }
+    in.valid_at_ns = s->valid_at_ns;
+    in.age_ns = now_ns - s->valid_at_ns;
+    in.count = 1;
+    if (in.sequence != r.seen) in.flags |= FULMAR_FRESH;
+    if (r.max_age_ns > 0 && in.age_ns > r.max_age_ns) {
+      in.flags |= FULMAR_STALE;
+      if (r.guarded) {
+        std::snprintf(problem.text, sizeof problem.text, "input '%s' is %.3f s old, the limit is %.3f s", r.port->name.c_str(),
+                      1e-9 * static_cast<double>(in.age_ns), 1e-9 * static_cast<double>(r.max_age_ns));
+        return Inputs::stale;
+      }
+    }
+  }
+  return Inputs::good;
+}
+
+void Unit::prepare_outputs(std::int64_t now_ns) noexcept {
+  for (std::size_t i = 0; i < slots.size(); ++i) outputs_[i] = {slots[i].staging.data(), slots[i].stamps.data(), now_ns, 0, 0};
+}
+
+bool Unit::outputs_good() noexcept {
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    Slot& s = slots[i];
+    const fulmar_output& out = outputs_[i];
+    if (s.port->kind == FULMAR_OUT_PROBE) {
+      double value = 0;
+      std::memcpy(&value, s.staging.data(), sizeof value);
+      if (out.count == 0 || std::isfinite(value)) continue;
+      std::snprintf(problem.text, sizeof problem.text, "probe '%s' is not finite", s.port->name.c_str());
+      return false;
+    }
+    const std::uint32_t count = s.port->kind == FULMAR_OUT_VALUE ? 1 : out.count;
+    if (count > s.port->capacity) {
+      std::snprintf(problem.text, sizeof problem.text, "output '%s' holds %u items, there is room for %u", s.port->name.c_str(), count, s.port->capacity);
+      return false;
+    }
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const std::byte* message = s.staging.data() + std::size_t{k} * s.size;
+      if (s.guard->check(message)) continue;
+      const int n = std::snprintf(problem.text, sizeof problem.text, "output '%s': ", s.port->name.c_str());
+      s.guard->explain_to(message, problem.text + n, sizeof problem.text - static_cast<std::size_t>(n));
+      return false;
+    }
+  }
+  return true;
+}
+
+void Unit::consume() noexcept {
+  for (std::size_t i = 0; i < readers.size(); ++i) {
+    Reader& r = readers[i];
+    if (r.port->kind == FULMAR_IN_VALUE) {
+      r.seen = inputs_[i].sequence;
+      continue;
+    }
+    for (std::uint32_t k = 0; k < r.count; ++k) {
+      if (!r.replies[k]) continue;
+      const fulmar_answer& a = r.answers[k];
+      r.replies[k](a.verdict == FULMAR_ACCEPTED ? "" : a.verdict == FULMAR_REFUSED ? a.reason : "was not answered");
+      r.replies[k] = nullptr;
+    }
+    r.count = r.lost = 0;
+  }
+}
+
+fulmar_tick Unit::tick(std::int64_t now_ns, std::uint64_t index) const noexcept {
+  const std::int64_t nominal = component->period_ns > 0 ? component->period_ns : tick_ns_;
+  const bool first = last_step_ns_ == std::numeric_limits<std::int64_t>::min();
+  return {now_ns, first ? nominal : now_ns - last_step_ns_, index};
+}
+
+void Unit::stepped(std::int64_t now_ns) noexcept {
+  last_step_ns_ = now_ns;
+  if (component->period_ns == 0) return;
+  // Integer due times: no drift. After a gap the schedule starts anew instead of catching up.
+  due_ns_ = due_ns_ + component->period_ns > now_ns ? due_ns_ + component->period_ns : now_ns + component->period_ns;
+}
+
+void Unit::fail(const char* text) noexcept { std::snprintf(problem.text, sizeof problem.text, "%s", text); }
+
+Verdict Unit::step(std::int64_t now_ns, std::uint64_t index) noexcept {
+  if (!due(now_ns)) return {Verdict::Kind::not_due};
+  if (due_ns_ == std::numeric_limits<std::int64_t>::min()) due_ns_ = now_ns;
+  if (const Inputs inputs = prepare_inputs(now_ns); inputs != Inputs::good)
+    return {inputs == Inputs::stale ? Verdict::Kind::bad : Verdict::Kind::waiting};
+  prepare_outputs(now_ns);
+  const fulmar_tick t = tick(now_ns, index);
+  problem.text[0] = '\0';
+  const std::uint64_t allocations = thread_allocations();
+  const std::uint32_t status = functions_->step(instance_, &t, inputs_.data(), outputs_.data(), &problem);
+  stats.allocations += thread_allocations() - allocations;
+  stepped(now_ns);
+  ++stats.steps;
+  consume();
+  if (status >= FULMAR_FAILED) {
+    if (!problem.text[0]) fail("says that it failed");
+    return {Verdict::Kind::bad};
+  }
+  if (!outputs_good()) return {Verdict::Kind::bad};
+  const bool degraded = status == FULMAR_DEGRADED;
+  if (degraded) ++stats.degraded;
+  return {Verdict::Kind::stepped, degraded};
+}
+
+Verdict Unit::read(std::int64_t& now_ns, std::uint64_t index) noexcept {
+  prepare_outputs(now_ns);
+  fulmar_tick t{now_ns, tick_ns_, index};
+  problem.text[0] = '\0';
+  const std::uint64_t allocations = thread_allocations();
+  const std::uint32_t status = functions_->read(instance_, &t, outputs_.data(), &problem);
+  stats.allocations += thread_allocations() - allocations;
+  ++stats.steps;
+  if (status >= FULMAR_FAILED) {
+    if (!problem.text[0]) fail("says that it failed");
+    return {Verdict::Kind::bad};
+  }
+  if (index > 0 && t.now_ns <= now_ns) {
+    std::snprintf(problem.text, sizeof problem.text, "time went from %lld to %lld ns", static_cast<long long>(now_ns), static_cast<long long>(t.now_ns));
+    return {Verdict::Kind::bad};
+  }
+  // What read has not dated is valid at the time that read has set.
+  for (fulmar_output& out : outputs_)
+    if (out.valid_at_ns == now_ns) out.valid_at_ns = t.now_ns;
+  now_ns = t.now_ns;
+  last_step_ns_ = now_ns;
+  if (!outputs_good()) return {Verdict::Kind::bad};
+  if (status == FULMAR_DEGRADED) ++stats.degraded;
+  return {Verdict::Kind::stepped, status == FULMAR_DEGRADED};
+}
+
+Verdict Unit::write(std::int64_t now_ns, std::uint64_t index) noexcept {
+  if (prepare_inputs(now_ns) != Inputs::good && !forced && !silent) return {Verdict::Kind::waiting};
+  for (std::size_t i = 0; i < readers.size(); ++i) {
+    if (readers[i].port->kind != FULMAR_IN_VALUE) continue;
+    if (silent) inputs_[i] = {};
+    else if (forced && !(*forced)[i].empty()) {
+      inputs_[i].data = (*forced)[i].data();
+      inputs_[i].valid_at_ns = now_ns;
+      inputs_[i].age_ns = 0;
+      inputs_[i].count = 1;
+      inputs_[i].flags = FULMAR_FRESH;
+      ++inputs_[i].sequence;
+    }
+  }
+  const fulmar_tick t{now_ns, tick_ns_, index};
+  problem.text[0] = '\0';
+  const std::uint64_t allocations = thread_allocations();
+  const std::uint32_t status = functions_->write(instance_, &t, inputs_.data(), &problem);
+  stats.allocations += thread_allocations() - allocations;
+  consume();
+  if (status >= FULMAR_FAILED) {
+    if (!problem.text[0]) fail("says that it failed");
+    return {Verdict::Kind::bad};
+  }
+  return {Verdict::Kind::stepped, status == FULMAR_DEGRADED};
+}
+
+bool Unit::activate(std::int64_t now_ns, std::uint64_t index, const std::vector<const Slot*>& last) noexcept {
+  fresh_start = false;
+  for (Reader& r : readers)  // what came in while others were flying is not news
+    if (r.port->kind != FULMAR_IN_VALUE) r.count = r.lost = 0;
+  if (!functions_->activate) return true;
+  const Inputs inputs = prepare_inputs(now_ns);
+  if (inputs == Inputs::missing) fail("a required input has no sample");
+  if (inputs != Inputs::good) return false;
+  for (std::size_t i = 0; i < last_.size(); ++i) {
+    last_[i] = {};
+    const Slot* s = i < last.size() ? last[i] : nullptr;
+    if (!s || s->sequence == 0) continue;
+    last_[i].data = s->published.data();
+    last_[i].valid_at_ns = s->valid_at_ns;
+    last_[i].age_ns = now_ns - s->valid_at_ns;
+    last_[i].sequence = s->sequence;
+    last_[i].count = 1;
+  }
+  const fulmar_tick t = tick(now_ns, index);
+  problem.text[0] = '\0';
+  if (functions_->activate(instance_, &t, inputs_.data(), last_.data(), &problem) < FULMAR_FAILED) return true;
+  if (!problem.text[0]) fail("refuses to take over");
+  return false;
+}
+
+void Unit::deactivate() noexcept {
+  if (functions_->deactivate) functions_->deactivate(instance_);
+}
+
+}  // namespace fulmar::core

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A component in flight: its instance, its inputs as views of other components' outputs, its outputs as double buffers.
+// A step writes into `staging`; what passes the guards is published, so a bad step leaves the last good output in place.
+#pragma once
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/graph/graph.hpp"
+#include "core/run/stats.hpp"
+
+namespace fulmar::core {
+
+class Unit;
+struct Reader;
+
+/// One output of one component: the last published sample, and those that take every sample.
+struct Slot {
+  const Port* port = nullptr;
+  Unit* owner = nullptr;
+  std::uint32_t size = 0;  // of one message
+  std::vector<std::byte> staging, published;
+  std::vector<std::int64_t> stamps;
+  std::int64_t valid_at_ns = 0;
+  std::uint64_t sequence = 0;  // 0: never published
+  std::uint32_t lost = 0;
+  std::unique_ptr<Guard> guard;
+  std::vector<std::pair<Reader*, const CopyPlan*>> queues;  // inputs that take every sample
+  struct RoleSlot* role = nullptr;                           // the role output that this one provides
+  int filler = -1;                                           // of that role
+  // log
+  int channel = -1;
+  std::int64_t log_period_ns = 0, log_due_ns = std::numeric_limits<std::int64_t>::min();
+};
+
+/// One output of a role: the slot of whoever published last while active.
+struct RoleSlot {
+  TypePtr type;
+  const Slot* current = nullptr;
+  std::uint64_t sequence = 0;
+  std::vector<std::pair<Reader*, std::vector<CopyPlan>>> queues;  // plans: one per filler
+};
+
+/// One input of one component.
+struct Reader {
+  const Port* port = nullptr;
+  const Wire* wire = nullptr;
+  std::int64_t max_age_ns = 0;  // 0: any
+  bool guarded = false;         // a sample that is too old stops the component
+  const Slot* slot = nullptr;
+  const RoleSlot* role = nullptr;
+  std::vector<CopyPlan> plans;  // value inputs: of the slot, or one per filler of the role
+  std::vector<std::byte> copy;  // where the plan is not a whole copy
+  std::uint64_t copied = 0, seen = 0;
+  // queue and request
+  std::vector<std::byte> items;
+  std::vector<std::int64_t> stamps;
+  std::vector<fulmar_answer> answers;
+  std::vector<std::function<void(const std::string&)>> replies;
+  std::uint32_t count = 0, lost = 0;
+
+  const Slot* source() const { return slot ? slot : role ? role->current : nullptr; }
+  std::uint64_t sequence() const { return slot ? slot->sequence : role ? role->sequence : 0; }
+  void push(const std::byte* message, std::int64_t valid_at_ns, const CopyPlan& plan) noexcept;
+};
+
+/// What a step came to.
+struct Verdict {
+  enum class Kind : std::uint8_t { stepped, not_due, waiting, bad } kind = Kind::stepped;
+  bool degraded = false;
+};
+
+class Unit {
+ public:
+  Unit(const Component& component, std::int64_t tick_ns, std::uint64_t seed);
+  ~Unit();
+  Unit(const Unit&) = delete;
+  Unit& operator=(const Unit&) = delete;
+
+  /// [setup] Hands over all base parameters. Throws Error.
+  void configure();
+  /// [tick] Base parameters with `overlay` on top.
+  bool retune(const std::vector<Overlay>* overlay) noexcept;
+
+  bool ready() const noexcept;  // every required input has a sample
+  bool due(std::int64_t now_ns) const noexcept { return now_ns >= due_ns_; }
+  void call_now(std::int64_t now_ns) noexcept { due_ns_ = now_ns; }
+
+  /// [tick] Steps once if due and ready. On `bad`, `problem` says what.
+  Verdict step(std::int64_t now_ns, std::uint64_t index) noexcept;
+  Verdict read(std::int64_t& now_ns, std::uint64_t index) noexcept;   // the vehicle
+  Verdict write(std::int64_t now_ns, std::uint64_t index) noexcept;   // the vehicle
+  /// [tick] `last`: per output, the slot last applied in the role, or nullptr.
+  bool activate(std::int64_t now_ns, std::uint64_t index, const std::vector<const Slot*>& last) noexcept;
+  void deactivate() noexcept;
+
+  /// [tick] Publishes what the last good step wrote; `publish(slot, message, valid_at)` for each sample.
+  template <class F>
+  void publish(F&& each);
+
+  void fail(const char* text) noexcept;
+
+  const Component* component;
+  const ComponentInfo* info;
+  std::vector<Slot> slots;      // one per output; probes too
+  std::vector<Reader> readers;  // one per input
+  std::vector<ParamValue> base;
+  ComponentStats stats;
+  fulmar_error problem{};
+  bool active = false;   // fills a role now, or fills none and always steps
+  bool stopped = false;  // by a guard
+  bool fresh_start = true;  // activate has not been called yet
+  bool silent = false;   // vehicle: failsafe is over, inputs are withheld
+  const std::vector<std::vector<std::byte>>* forced = nullptr;  // vehicle: failsafe values in place of its inputs
+  int overruns_in_a_row = 0;
+  int probe_channel = -1;
+  std::vector<std::uint32_t> probes;  // outputs that are probes
+  std::vector<double> probe_values;
+  std::int64_t probe_due_ns = std::numeric_limits<std::int64_t>::min(), probe_period_ns = 0;
+
+ private:
+  enum class Inputs : std::uint8_t { good, missing, stale };
+  Inputs prepare_inputs(std::int64_t now_ns) noexcept;
+  void prepare_outputs(std::int64_t now_ns) noexcept;
+  bool outputs_good() noexcept;
+  void consume() noexcept;
+  void fill_values(std::vector<fulmar_value>& values, const std::vector<Overlay>* overlay, bool with_data) noexcept;
+  fulmar_tick tick(std::int64_t now_ns, std::uint64_t index) const noexcept;
+  void stepped(std::int64_t now_ns) noexcept;
+
+  const fulmar_component* functions_;
+  void* instance_ = nullptr;
+  std::vector<fulmar_input> inputs_;
+  std::vector<fulmar_output> outputs_;
+  std::vector<fulmar_input> last_;
+  std::vector<fulmar_value> values_;
+  std::int64_t tick_ns_, due_ns_ = std::numeric_limits<std::int64_t>::min(), last_step_ns_ = std::numeric_limits<std::int64_t>::min();
+};
+
+template <class F>
+void Unit::publish(F&& each) {
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    Slot& s = slots[i];
+    const fulmar_output& out = outputs_[i];
+    if (s.port->kind == FULMAR_OUT_PROBE) {
+      if (out.count > 0) std::memcpy(s.published.data(), s.staging.data(), sizeof(double)), ++s.sequence;
+      continue;
+    }
+    const std::uint32_t count = s.port->kind == FULMAR_OUT_VALUE ? 1 : out.count;
+    s.lost += out.lost;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      std::memcpy(s.published.data(), s.staging.data() + std::size_t{k} * s.size, s.size);
+      s.valid_at_ns = s.port->kind == FULMAR_OUT_QUEUE ? s.stamps[k] : out.valid_at_ns;
+      ++s.sequence;
+      each(s);
+    }
+  }
+}
+
+}  // namespace fulmar::core

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The byte layer of MCAP: record codes, little-endian numbers, length-prefixed text.
+#pragma once
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace fulmar::core::mcap {
+
+static_assert(std::endian::native == std::endian::little);
+
+inline constexpr std::string_view magic{"\x89MCAP0\r\n", 8};
+
+enum Code : std::uint8_t {
+  header = 1,
+  footer = 2,
+  schema = 3,
+  channel = 4,
+  message = 5,
+  chunk = 6,
+  message_index = 7,
+  chunk_index = 8,
+  attachment = 9,
+  attachment_index = 10,
+  statistics = 11,
+  metadata = 12,
+  metadata_index = 13,
+  summary_offset = 14,
+  data_end = 15
+};
+
+inline constexpr std::size_t record_head = 1 + 8;             // code, length
+inline constexpr std::size_t message_head = 2 + 4 + 8 + 8;    // channel, sequence, log time, publish time
+inline constexpr std::size_t footer_record = record_head + 20;
+
+/// Bytes that grow; what is new is not cleared before it is written.
+class Bytes {
+ public:
+  template <class T>
+  Bytes& number(T value) {
+    return raw(&value, sizeof value);
+  }
+  Bytes& raw(const void* from, std::size_t size) {
+    if (size > 0) std::memcpy(grow(size), from, size);
+    return *this;
+  }
+  Bytes& text(std::string_view s) { return number(static_cast<std::uint32_t>(s.size())).raw(s.data(), s.size()); }
+  Bytes& pairs(const std::vector<std::pair<std::string, std::string>>& map) {
+    std::uint32_t size = 0;
+    for (const auto& [key, value] : map) size += static_cast<std::uint32_t>(8 + key.size() + value.size());
+    number(size);
+    for (const auto& [key, value] : map) text(key).text(value);
+    return *this;
+  }
+  Bytes& append(const Bytes& other) { return raw(other.data(), other.size()); }
+
+  /// A record's code and a length to be set by `end`, which wants what `begin` returned.
+  std::size_t begin(Code code) {
+    number(code).number(std::uint64_t{0});
+    return size_;
+  }
+  void end(std::size_t start) { patch(start - 8, std::uint64_t{size_ - start}); }
+  template <class T>
+  void patch(std::size_t at, T value) {
+    std::memcpy(data_.get() + at, &value, sizeof value);
+  }
+
+  /// `size` more bytes, for the caller to fill in.
+  std::byte* grow(std::size_t size) {
+    reserve(size);
+    size_ += size;
+    return data_.get() + size_ - size;
+  }
+  /// Room for `more`: the next `grow` up to it does not allocate.
+  void reserve(std::size_t more) {
+    if (size_ + more <= room_) return;
+    const std::size_t room = size_ + more + room_ / 2;
+    std::unique_ptr<std::byte[]> larger(new std::byte[room]);
+    if (size_ > 0) std::memcpy(larger.get(), data_.get(), size_);
+    data_ = std::move(larger);
+    room_ = room;
+  }
+  void shrink(std::size_t size) { size_ = size; }
+  void clear() { size_ = 0; }
+  std::byte* data() { return data_.get(); }
+  const std::byte* data() const { return data_.get(); }
+  std::size_t size() const { return size_; }
+
+ private:
+  std::unique_ptr<std::byte[]> data_;
+  std::size_t size_ = 0, room_ = 0;
+};
+
+}  // namespace fulmar::core::mcap

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Running SHA-256 (OpenSSL).
+#pragma once
+#include <openssl/evp.h>
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace fulmar::core {
+
+class Sha256 {
+ public:
+  Sha256() : context_(EVP_MD_CTX_new()) { EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr); }
+  void add(const void* bytes, std::size_t size) noexcept { EVP_DigestUpdate(context_.get(), bytes, size); }
+  /// Lower-case hex of all that was added. Call once.
+  std::string hex() {
+    unsigned char digest[EVP_MAX_MD_SIZE];
+    unsigned int size = 0;
+    EVP_DigestFinal_ex(context_.get(), digest, &size);
+    constexpr char digits[] = "0123456789abcdef";
+    std::string text;
+    for (unsigned int i = 0; i < size; ++i) text += {digits[digest[i] >> 4], digits[digest[i] & 15]};
+    return text;
+  }
+  static std::string of(std::string_view text) {
+    Sha256 sum;
+    sum.add(text.data(), text.size());
+    return sum.hex();
+  }
+
+ private:
+  struct Free {
+    void operator()(EVP_MD_CTX* context) const { EVP_MD_CTX_free(context); }
+  };
+  std::unique_ptr<EVP_MD_CTX, Free> context_;
+};
+
+}  // namespace fulmar::core

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// JSON of messages, as people read it.
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "core/tap/test/types.hpp"
+#include "core/tap/wire.hpp"
+
+using namespace fulmar::core;
+using namespace fulmar::core::test;
+using nlohmann::json;
+
+TEST_CASE("a message shows its fields by name, enums by label, lists by what is in them") {
+  const Mixed m = mixed_value();
+  CHECK(to_json(*mixed_type(), bytes_of(m), false) == json::parse(R"({
+    "armed": true, "speed_mps": 1.5, "count": 7, "gains_ratio": [1.0, 2.0, -2.0], "name": "ab", "samples_volt": [0.5, 1.0], "mode": "hold",
+    "stamp_ns": -2, "load_ratio": 0.25, "offset": -3, "attitude_std_rad": {"north": 0.5, "east": 1.0, "down": 2.0}, "tags": ["x", "yzw"],
+    "legs": [{"kind": "orbit", "has_course": true, "course_rad": 0.5, "position_m": {"north": 3.0, "east": 4.0, "down": 5.0}},
+             {"kind": "line", "has_course": false, "course_rad": -0.5, "position_m": {"north": 6.0, "east": 7.0, "down": 8.0}}]})"));
+}
+
+TEST_CASE("radians become degrees with their key, inside nested structs too, and metres stay metres") {
+  const Mixed m = mixed_value();
+  const json shown = to_json(*mixed_type(), bytes_of(m), true);
+  CHECK_FALSE(shown.contains("attitude_std_rad"));
+  CHECK(shown["attitude_std_deg"]["east"].get<double>() == doctest::Approx(57.29577951308232).epsilon(1e-15));
+  CHECK(shown["legs"][1]["course_deg"].get<double>() == doctest::Approx(-28.64788975654116).epsilon(1e-15));
+  CHECK(shown["legs"][1]["position_m"]["down"] == 8.0);
+  CHECK(shown["speed_mps"] == 1.5);
+}
+
+TEST_CASE("a number that is not finite is null, a label that does not exist a number, broken text stays JSON") {
+  Mixed m = mixed_value();
+  m.speed_mps = std::numeric_limits<double>::quiet_NaN();
+  m.load_ratio = -std::numeric_limits<float>::infinity();
+  m.mode = 9;
+  m.name = {'a', static_cast<char>(0xFF), 'b'};
+  const json shown = to_json(*mixed_type(), bytes_of(m), true);
+  CHECK(shown["speed_mps"].is_null());
+  CHECK(shown["load_ratio"].is_null());
+  CHECK(shown["mode"] == 9);
+  CHECK(shown["name"] == "a\xEF\xBF\xBD" "b");
+  CHECK_NOTHROW(shown.dump());
+}

@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Successive loop closure: the outer and the inner loops of a fixed-wing autopilot. Beard & McLain (2012), chapter 6.
+#include "inner.hpp"
+#include "outer.hpp"
+
+using namespace fulmar;
+FULMAR_PLUGIN("1.0.0", slc::Outer, slc::Inner)

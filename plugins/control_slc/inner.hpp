@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Inner loops: roll -> aileron, pitch -> elevator, yaw damper -> rudder. Beard & McLain, Small Unmanned Aircraft (2012), section 6.3,
+// with dynamic-pressure scaling, rate feed-forward, and the rates and elevator of a coordinated turn as reference.
+#pragma once
+#include <fulmar/flight/atmosphere.hpp>
+#include <fulmar/flight/filters.hpp>
+#include <fulmar/flight/pid.hpp>
+#include <fulmar/flight/outer_commands.hpp>
+#include <fulmar/flight/turn_trim.hpp>
+#include <fulmar/msg/actuators.hpp>
+#include <fulmar/msg/attitude_command.hpp>
+#include <fulmar/plugin.hpp>
+
+namespace fulmar::slc {
+
+struct Inner {
+  static constexpr const char* doc = "Roll and pitch hold, yaw damper with wash-out and turn coordination.";
+  struct Inputs {
+    In<VehicleState> state;
+    In<AttitudeCommand> attitude;
+  };
+  struct Outputs {
+    Actuators actuators;
+    Probe roll_error_rad;
+    Probe pitch_error_rad;
+    Probe surface_scale_ratio;
+  };
+  struct Params {
+    Param roll_kp{1.2, "rad/rad", 0, 20, "aileron per roll error"};
+    Param roll_ki{0.1, "rad/(rad s)", 0, 10, "aileron per integrated roll error"};
+    Param roll_kd{0.02, "rad s/rad", 0, 5, "aileron per roll rate"};
+    Param roll_kff{0.15, "rad s/rad", 0, 5, "aileron per commanded roll rate: the airframe's own roll damping"};
+
+    Param pitch_kp{4.0, "rad/rad", 0, 40, "nose-up elevator per pitch error"};
+    Param pitch_ki{2.0, "rad/(rad s)", 0, 40, "nose-up elevator per integrated pitch error"};
+    Param pitch_kd{0.5, "rad s/rad", 0, 10, "elevator against pitch rate beyond that of the turn"};
+    Param turn_kff{1.0, "ratio", 0, 2, "share of the elevator that a banked turn and the present speed need, fed forward"};
+
+    Param yaw_kd{0.3, "rad s/rad", 0, 5, "rudder against yaw rate beyond that of the turn"};
+    Param yaw_washout{0.6, "rad/s", 0.01, 10, "wash-out pole of the yaw damper"};
+
+    Param command_filter{0.04, "s", 0.005, 1, "time constant of the differentiated roll command"};
+    Param scale_limit{2.5, "ratio", 1, 10, "largest growth of the gains at low dynamic pressure, largest reduction at high"};
+    Record<Airframe> airframe{"throws, trims, cruise speed, and the derivatives for the feed-forward of turns"};
+  };
+
+  Status activate(const Tick&, const Inputs& in, const Params& params, const Outputs& last_applied) {
+    take_up_ = true;
+    last_ = last_applied.actuators;
+    roll_command_rate_.reset_to(in.attitude->roll_rad);
+    washout_.reset_to(yaw_rate_error(*in.state, scheduling_airspeed(*in.state, params.airframe->limits)));
+    return Status::ok;
+  }
+
+  Status step(const Tick& tick, const Inputs& in, const Params& params, Outputs& out) {
+    const VehicleState& state = *in.state;
+    const AttitudeCommand& command = *in.attitude;
+    const double dt = std::clamp(tick.dt_s(), 0.0, 0.1);
+    const double Va = scheduling_airspeed(state, params.airframe->limits);
+    const double rho = standard_air(state.origin_altitude_m + state.height_m).density_kgm3;
+    const double speed_ratio = params.airframe->limits.airspeed_cruise_mps / Va;
+    const double scale = std::clamp(speed_ratio * speed_ratio, 1 / params.scale_limit, params.scale_limit.value);
+    const bool flying = !standing(state) && (!state.airspeed_valid || state.airspeed_mps > 0.6 * params.airframe->limits.airspeed_min_mps);
+    if (!flying) roll_.reset(), pitch_.reset();
+    const double integrate = flying ? dt : 0;  // the ground holds the attitude: its error means nothing
+
+    out.actuators.throttle_frac = std::clamp(command.throttle_frac, 0.0, 1.0);
+    out.actuators.aileron_rad = roll_to_aileron(state, command, params, scale, integrate, dt);
+    out.actuators.elevator_rad = pitch_to_elevator(state, command, params, scale, Va, rho, integrate);
+    out.actuators.rudder_rad = yaw_to_rudder(state, params, scale, Va, dt);
+    take_up_ = false;
+    out.roll_error_rad = command.roll_rad - state.roll_rad;
+    out.pitch_error_rad = command.pitch_rad - state.pitch_rad;
+    out.surface_scale_ratio = scale;
+    return Status::ok;
+  }
+
+ private:
+  /// delta_a = trim + scale [kp e + kd (p_c - p) + I] + kff p_c
+  double roll_to_aileron(const VehicleState& state, const AttitudeCommand& command, const Params& p, double scale, double integrate, double dt) {
+    const Surface& aileron = p.airframe->aileron;
+    const double p_c = std::clamp(roll_command_rate_.step(command.roll_rad, p.command_filter, dt), -3.0, 3.0);
+    // Damping by the air falls with the speed, the aileron's power with its square: the feed-forward scales by their quotient.
+    const PidInput in{.error = command.roll_rad - state.roll_rad,
+                      .rate = state.rate_radps.x - p_c,
+                      .feedforward = aileron.trim_rad + p.roll_kff * std::sqrt(scale) * p_c,
+                      .min = -aileron.limit_rad,
+                      .max = aileron.limit_rad};
+    const PidGains gains{scale * p.roll_kp, scale * p.roll_ki, scale * p.roll_kd};
+    if (take_up_) roll_.reset_to(last_.aileron_rad, gains, in, 0.1);
+    return roll_.step(gains, in, integrate);
+  }
+
+  /// delta_e = trim(turn, speed) - scale [kp e + kd (q_turn - q) + I]: positive elevator is nose down.
+  double pitch_to_elevator(const VehicleState& state, const AttitudeCommand& command, const Params& p, double scale, double Va, double rho,
+                           double integrate) {
+    const Surface& elevator = p.airframe->elevator;
+    const FlightLimits& limits = p.airframe->limits;
+    const double turn = turn_trim(*p.airframe, state.roll_rad, std::max(Va, limits.airspeed_min_mps), rho).elevator_rad;
+    const double cruise = turn_trim(*p.airframe, 0, limits.airspeed_cruise_mps, rho).elevator_rad;
+    const double q_turn = turn_rates(state.roll_rad, state.pitch_rad, Va).q_radps;
+    const PidInput in{.error = command.pitch_rad - state.pitch_rad,
+                      .rate = state.rate_radps.y - q_turn,
+                      .feedforward = -(elevator.trim_rad + p.turn_kff * (turn - cruise)),
+                      .min = -elevator.limit_rad,
+                      .max = elevator.limit_rad};
+    const PidGains gains{scale * p.pitch_kp, scale * p.pitch_ki, scale * p.pitch_kd};
+    if (take_up_) pitch_.reset_to(-last_.elevator_rad, gains, in, 0.2);
+    return -pitch_.step(gains, in, integrate);
+  }
+
+  static double yaw_rate_error(const VehicleState& state, double Va) {
+    return state.rate_radps.z - turn_rates(state.roll_rad, state.pitch_rad, Va).r_radps;
+  }
+
+  /// delta_r = trim + scale kd s / (s + p_wo) (r - r_turn): positive rudder is nose left.
+  double yaw_to_rudder(const VehicleState& state, const Params& p, double scale, double Va, double dt) {
+    const Surface& rudder = p.airframe->rudder;
+    const double damping = washout_.step(yaw_rate_error(state, Va), p.yaw_washout, dt);
+    return std::clamp(rudder.trim_rad + scale * p.yaw_kd * damping, -rudder.limit_rad, rudder.limit_rad);
+  }
+
+  Pid roll_, pitch_;
+  Differentiator roll_command_rate_;
+  WashOut washout_;
+  Actuators last_;
+  bool take_up_ = false;
+};
+
+}  // namespace fulmar::slc

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The inner loops against numbers worked out by hand, and the yaw damper against its transfer function.
+#include "plugins/control_slc/inner.hpp"
+
+#include <doctest/doctest.h>
+
+#include <complex>
+#include <fulmar/random.hpp>
+#include <fulmar/testing.hpp>
+#include <numbers>
+
+using namespace fulmar;
+using Inner = slc::Inner;
+
+namespace {
+constexpr double cruise = 15;  // of the default airframe, whose surfaces move 0.5 rad and need no trim
+
+VehicleState flying(double airspeed = cruise) {
+  VehicleState s;
+  s.height_m = 70;
+  s.airspeed_mps = s.ground_speed_mps = airspeed;
+  s.airspeed_valid = s.attitude_valid = true;
+  return s;
+}
+const Actuators& step(Bench<Inner>& bench, const VehicleState& state, const AttitudeCommand& command, int steps = 200) {
+  bench.set(bench.in.state, state);
+  bench.set(bench.in.attitude, command);
+  for (int i = 0; i < steps; ++i) bench.step(0.01);
+  return bench.out.actuators;
+}
+void no_integrals(Bench<Inner>& bench) { bench.params.roll_ki.value = bench.params.pitch_ki.value = 0; }
+}  // namespace
+
+TEST_CASE("roll to the right is positive aileron, nose up is negative elevator, each by its gain") {
+  Bench<Inner> bench;
+  no_integrals(bench);
+  const Actuators& u = step(bench, flying(), {0.1, 0.05, 0.7});
+  CHECK(u.aileron_rad == doctest::Approx(0.12));
+  CHECK(u.elevator_rad == doctest::Approx(-0.2));
+  CHECK(u.throttle_frac == 0.7);
+}
+
+TEST_CASE("rates damp, with the signs of the surfaces") {
+  Bench<Inner> bench;
+  no_integrals(bench);
+  VehicleState s = flying();
+  s.rate_radps = {0.5, 0.2, 0};
+  const Actuators& u = step(bench, s, {});
+  CHECK(u.aileron_rad == doctest::Approx(-0.01));
+  CHECK(u.elevator_rad == doctest::Approx(0.1));
+}
+
+TEST_CASE("a ramp of the roll command is fed forward by its rate") {
+  Bench<Inner> bench;
+  no_integrals(bench);
+  bench.params.roll_kp.value = 0;
+  bench.set(bench.in.state, flying());
+  for (int i = 0; i <= 60; ++i) {
+    bench.set(bench.in.attitude, AttitudeCommand{0.008 * i, 0, 0});
+    bench.step(0.01);
+  }
+  CHECK(bench.out.actuators.aileron_rad == doctest::Approx((0.15 + 0.02) * 0.8).epsilon(1e-4));
+}
+
+TEST_CASE("gains fall with the square of the airspeed, within their bounds") {
+  Bench<Inner> bench;
+  no_integrals(bench);
+  const AttitudeCommand c{0.1, 0, 0};
+  CHECK(step(bench, flying(20), c).aileron_rad == doctest::Approx(0.12 * 0.5625));
+  CHECK(step(bench, flying(12), c).aileron_rad == doctest::Approx(0.12 * 1.5625));
+  CHECK(step(bench, flying(50), c).aileron_rad == doctest::Approx(0.12 / 2.5));
+  CHECK(step(bench, flying(3.5), c).aileron_rad == doctest::Approx(0.12 * 2.5));
+  VehicleState blind = flying(0);
+  blind.ground_speed_mps = 15, blind.airspeed_valid = false;
+  CHECK(step(bench, blind, c).aileron_rad == doctest::Approx(0.12));
+}
+
+TEST_CASE("the yaw damper's frequency response is kd s / (s + p)") {
+  const double kd = 0.3, pole = 0.6, dt = 0.01;
+  for (double omega : {0.2, 0.6, 5.0, 20.0}) {
+    Bench<Inner> bench;
+    const double period = 2 * std::numbers::pi / omega;
+    const double start = std::ceil(20 / period) * period, end = start + 10 * period;
+    std::complex<double> in = 0, out = 0;
+    bench.set(bench.in.attitude, AttitudeCommand{});
+    for (int k = 0; k * dt < end; ++k) {
+      VehicleState s = flying();
+      s.rate_radps.z = 0.2 * std::sin(omega * k * dt);
+      bench.set(bench.in.state, s);
+      bench.step(dt);
+      if (k * dt < start) continue;
+      const std::complex<double> phasor = std::exp(std::complex<double>(0, -omega * k * dt));
+      in += s.rate_radps.z * phasor, out += bench.out.actuators.rudder_rad * phasor;
+    }
+    const std::complex<double> s(0, omega), analytic = kd * s / (s + pole);
+    CHECK(std::abs(out / in - analytic) < 0.02 * kd);
+  }
+}
+
+TEST_CASE("in a steady coordinated turn the damper leaves the rudder alone and the pitch damper the elevator") {
+  Bench<Inner> bench;
+  no_integrals(bench);
+  VehicleState s = flying();
+  s.roll_rad = 0.7, s.pitch_rad = 0.05;
+  // Body rates of psi' = g tan(phi) / Va, B&M (3.3).
+  const double psi_dot = 9.80665 * std::tan(0.7) / cruise;
+  s.rate_radps = {0, std::sin(0.7) * std::cos(0.05) * psi_dot, std::cos(0.7) * std::cos(0.05) * psi_dot};
+  const Actuators& u = step(bench, s, {0.7, 0.05, 0.5}, 1);
+  CHECK(std::abs(u.rudder_rad) < 1e-12);
+  CHECK(std::abs(u.elevator_rad) < 1e-12);
+}
+
+TEST_CASE("yaw to the right asks for nose left") {
+  Bench<Inner> bench;
+  step(bench, flying(), {}, 10);
+  VehicleState s = flying();
+  s.rate_radps.z = 0.1;
+  CHECK(step(bench, s, {}, 1).rudder_rad == doctest::Approx(0.03).epsilon(0.01));
+}
+
+TEST_CASE("a saturated elevator's integral unwinds as soon as the error turns") {
+  Bench<Inner> bench;
+  step(bench, flying(), {0, 0.3, 0.5}, 6000);
+  CHECK(bench.out.actuators.elevator_rad == -0.5);
+  VehicleState s = flying();
+  s.pitch_rad = 0.31;
+  step(bench, s, {0, 0.3, 0.5}, 1);
+  CHECK(bench.out.actuators.elevator_rad > -0.5);
+}
+
+TEST_CASE("on the ground nothing is integrated") {
+  Bench<Inner> bench;
+  VehicleState s = flying(0);
+  s.height_m = 0, s.pitch_rad = 0.1, s.roll_rad = -0.05;
+  const Actuators first = step(bench, s, {}, 1);
+  const Actuators later = step(bench, s, {}, 6000);
+  CHECK(later.elevator_rad == doctest::Approx(first.elevator_rad));
+  CHECK(later.aileron_rad == doctest::Approx(first.aileron_rad));
+}
+
+TEST_CASE("taking over continues the last deflections") {
+  Bench<Inner> bench;
+  bench.set(bench.in.state, flying());
+  bench.set(bench.in.attitude, AttitudeCommand{});
+  Inner::Outputs last;
+  last.actuators = {0.5, 0.03, -0.12, 0};
+  bench.activate(last);
+  bench.step(0.01);
+  CHECK(bench.out.actuators.aileron_rad == doctest::Approx(0.03));
+  CHECK(bench.out.actuators.elevator_rad == doctest::Approx(-0.12));
+}
+
+TEST_CASE("deflections stay within the throws and throttle in 0 to 1, for any state and command") {
+  Random random(3);
+  Bench<Inner> bench;
+  for (int i = 0; i < 20000; ++i) {
+    VehicleState s = flying(random.uniform(0, 60));
+    s.airspeed_valid = random.uniform() < 0.8;
+    s.roll_rad = random.uniform(-3.14, 3.14), s.pitch_rad = random.uniform(-1.5, 1.5);
+    s.rate_radps = {random.uniform(-10, 10), random.uniform(-10, 10), random.uniform(-10, 10)};
+    bench.set(bench.in.state, s);
+    bench.set(bench.in.attitude, AttitudeCommand{random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-1, 2)});
+    REQUIRE(bench.step(random.uniform(0, 0.3)) == Status::ok);
+    const Actuators& u = bench.out.actuators;
+    REQUIRE((u.throttle_frac >= 0 && u.throttle_frac <= 1));
+    for (double surface : {u.aileron_rad, u.elevator_rad, u.rudder_rad}) REQUIRE(std::abs(surface) <= 0.5);
+  }
+}
+
+TEST_CASE("an inner step allocates nothing") {
+  Bench<Inner> bench;
+  step(bench, flying(), {});
+  CHECK(allocations([&] { bench.step(0.01); }) == 0);
+}

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The outer loops against numbers worked out by hand: a default airframe has no aerodynamics, so feed-forwards of turns are zero.
+#define FULMAR_COUNT_ALLOCATIONS
+#include "plugins/control_slc/outer.hpp"
+
+#include <doctest/doctest.h>
+
+#include <fulmar/random.hpp>
+#include <fulmar/testing.hpp>
+
+using namespace fulmar;
+using Outer = slc::Outer;
+
+namespace {
+constexpr double cruise = 15;  // of the default airframe; trim throttle 0.5, climb 4, sink 3 m/s, pitch +-0.35 rad
+
+VehicleState flying() {
+  VehicleState s;
+  s.height_m = 70;
+  s.airspeed_mps = s.ground_speed_mps = cruise;
+  s.airspeed_valid = s.attitude_valid = s.velocity_valid = s.height_valid = s.position_valid = true;
+  s.specific_force_mps2 = {0, 0, -isa::g0};
+  return s;
+}
+GuidanceCommand level() { return {.course_rad = 0, .height_m = 70, .climb_rate_mps = 0, .airspeed_mps = cruise, .roll_feedforward_rad = 0}; }
+
+const AttitudeCommand& settle(Bench<Outer>& bench, const VehicleState& state, const GuidanceCommand& command, double seconds = 3) {
+  bench.set(bench.in.state, state);
+  bench.set(bench.in.command, command);
+  for (int i = 0; i < static_cast<int>(seconds * 100); ++i) bench.step(0.01);
+  return bench.out.attitude;
+}
+void no_integrals(Bench<Outer>& bench) {
+  bench.params.altitude_ki.value = bench.params.airspeed_ki.value = 0;
+}
+}  // namespace
+
+TEST_CASE("roll is the course gain times the error plus the feed-forward, and grows with ground speed") {
+  Bench<Outer> bench;
+  VehicleState s = flying();
+  GuidanceCommand c = level();
+  c.course_rad = 0.1;
+  CHECK(settle(bench, s, c).roll_rad == doctest::Approx(0.2));
+  c.roll_feedforward_rad = 0.25;
+  CHECK(settle(bench, s, c).roll_rad == doctest::Approx(0.45));
+  s.ground_speed_mps = 1.5 * cruise;
+  CHECK(settle(bench, s, c).roll_rad == doctest::Approx(0.55));
+  c.course_rad = 3;
+  CHECK(settle(bench, s, c).roll_rad == doctest::Approx(0.785));
+  CHECK(bench.out.internals.roll_saturated);
+}
+
+TEST_CASE("course error wraps through north") {
+  Bench<Outer> bench;
+  VehicleState s = flying();
+  GuidanceCommand c = level();
+  s.course_rad = 3.1, c.course_rad = -3.1;
+  settle(bench, s, c);
+  CHECK(bench.out.internals.course_error_rad == doctest::Approx(2 * 3.14159265358979 - 6.2));
+  CHECK(bench.out.attitude.roll_rad > 0);
+  s.course_rad = -0.05, c.course_rad = 6.2;
+  CHECK(settle(bench, s, c).roll_rad == doctest::Approx(2 * (6.2 - 2 * 3.14159265358979 + 0.05)));
+}
+
+TEST_CASE("the roll command moves no faster than its limit") {
+  Bench<Outer> bench;
+  GuidanceCommand c = level();
+  settle(bench, flying(), c);
+  c.roll_feedforward_rad = 0.7;
+  bench.set(bench.in.command, c);
+  double last = bench.out.attitude.roll_rad, fastest = 0;
+  for (int i = 0; i < 300; ++i) {
+    bench.step(0.01);
+    fastest = std::max(fastest, std::abs(bench.out.attitude.roll_rad - last));
+    last = bench.out.attitude.roll_rad;
+  }
+  CHECK(fastest == doctest::Approx(0.01));  // 1 rad/s
+  CHECK(last == doctest::Approx(0.7));
+}
+
+TEST_CASE("pitch follows the height law") {
+  Bench<Outer> bench;
+  no_integrals(bench);
+  VehicleState s = flying();
+  s.height_m = 69;
+  // climb rate 0.09 * 15 * 1 = 1.35; pitch 1.35 / 15 + 0.03 * 1.35
+  CHECK(settle(bench, s, level()).pitch_rad == doctest::Approx(0.1305));
+  CHECK(bench.out.climb_rate_demand_mps.value == doctest::Approx(1.35));
+  s.climb_rate_mps = 1.35;
+  CHECK(settle(bench, s, level()).pitch_rad == doctest::Approx(0.09));
+  GuidanceCommand c = level();
+  c.height_m = 69, c.climb_rate_mps = 1.5;
+  s.climb_rate_mps = 1.5;
+  CHECK(settle(bench, s, c).pitch_rad == doctest::Approx(0.1));
+}
+
+TEST_CASE("far from the height wanted the climb and sink limits govern and nothing is integrated") {
+  Bench<Outer> bench;
+  VehicleState s = flying();
+  s.height_m = 20, s.climb_rate_mps = 4;
+  CHECK(settle(bench, s, level(), 60).pitch_rad == doctest::Approx(4 / cruise));
+  s.height_m = 200, s.climb_rate_mps = -3;
+  CHECK(settle(bench, s, level(), 60).pitch_rad == doctest::Approx(-3 / cruise));
+  CHECK(bench.out.pitch_integral_rad.value == 0);
+}
+
+TEST_CASE("throttle is trim, feed-forward, proportion and integral") {
+  Bench<Outer> bench;
+  VehicleState s = flying();
+  no_integrals(bench);
+  s.airspeed_mps = 14;
+  CHECK(settle(bench, s, level()).throttle_frac == doctest::Approx(0.5 + 0.15));
+  GuidanceCommand c = level();
+  s.airspeed_mps = 17, c.airspeed_mps = 17;
+  CHECK(settle(bench, s, c).throttle_frac == doctest::Approx(0.5 + 2 * 0.03));
+  c.climb_rate_mps = 2;
+  CHECK(settle(bench, s, c).throttle_frac == doctest::Approx(0.5 + 2 * 0.03 + 2 * 0.04));
+  Bench<Outer> integral;
+  s = flying();
+  s.airspeed_mps = 14.5;
+  settle(integral, s, level(), 2);
+  const double first = integral.out.attitude.throttle_frac;
+  settle(integral, s, level(), 3);
+  CHECK(integral.out.attitude.throttle_frac - first == doctest::Approx(0.06 * 0.5 * 3));
+}
+
+TEST_CASE("a throttle that was saturated for a minute comes back as soon as the airspeed does") {
+  Bench<Outer> bench;
+  VehicleState s = flying();
+  s.airspeed_mps = 10;
+  CHECK(settle(bench, s, level(), 60).throttle_frac == 1);
+  CHECK(bench.out.internals.throttle_saturated);
+  const double integral = bench.out.throttle_integral_frac.value;
+  CHECK(integral < 0.5);
+  s.airspeed_mps = 15.5;
+  settle(bench, s, level(), 1);
+  CHECK(bench.out.throttle_integral_frac.value < integral);
+  CHECK(bench.out.attitude.throttle_frac < 1);
+}
+
+TEST_CASE("throttle stays in 0 to 1, pitch and roll in their limits, for any state, command and law") {
+  Random random(11);
+  for (OuterLaw law : {OuterLaw::hold, OuterLaw::takeoff}) {
+    Bench<Outer> bench;
+    bench.params.law.value = law;
+    for (int i = 0; i < 20000; ++i) {
+      VehicleState s = flying();
+      s.height_m = random.uniform(-50, 500), s.climb_rate_mps = random.uniform(-15, 15), s.airspeed_mps = random.uniform(0, 60);
+      s.ground_speed_mps = random.uniform(0, 60), s.course_rad = random.uniform(-3.14, 3.14), s.roll_rad = random.uniform(-3.14, 3.14);
+      s.pitch_rad = random.uniform(-1.5, 1.5), s.airspeed_valid = random.uniform() < 0.8;
+      const GuidanceCommand c{random.uniform(-10, 10), random.uniform(-100, 1000), random.uniform(-10, 10), random.uniform(-5, 60),
+                              random.uniform(-2, 2)};
+      bench.set(bench.in.state, s);
+      bench.set(bench.in.command, c);
+      REQUIRE(bench.step(random.uniform(0, 0.5)) != Status::failed);
+      const AttitudeCommand& a = bench.out.attitude;
+      REQUIRE((a.throttle_frac >= 0 && a.throttle_frac <= 1));
+      REQUIRE(std::abs(a.pitch_rad) <= 0.35);
+      REQUIRE(std::abs(a.roll_rad) <= 0.785);
+    }
+  }
+}
+
+TEST_CASE("near the stall the nose may not rise") {
+  Bench<Outer> bench;
+  VehicleState s = flying();
+  s.height_m = 20, s.airspeed_mps = 8;  // 0.8 of the minimum
+  CHECK(settle(bench, s, level()).pitch_rad <= 0);
+  s.airspeed_mps = 10;
+  CHECK(settle(bench, s, level()).pitch_rad > 0.3);
+}
+
+TEST_CASE("taking over is bumpless from any last command") {
+  Random random(5);
+  for (int i = 0; i < 200; ++i) {
+    Bench<Outer> bench;
+    VehicleState s = flying();
+    s.height_m = random.uniform(40, 100), s.airspeed_mps = random.uniform(11, 20), s.course_rad = random.uniform(-3, 3);
+    bench.set(bench.in.state, s);
+    bench.set(bench.in.command, level());
+    bench.params.law.value = i % 2 ? OuterLaw::takeoff : OuterLaw::hold;
+    Outer::Outputs last;
+    last.attitude = {random.uniform(-0.7, 0.7), random.uniform(-0.3, 0.3), random.uniform(0, 1)};
+    bench.activate(last);
+    bench.step(0.01);
+    CHECK(std::abs(bench.out.attitude.roll_rad - last.attitude.roll_rad) <= 0.0101);
+    CHECK(std::abs(bench.out.attitude.pitch_rad - last.attitude.pitch_rad) <= 0.0081);
+    CHECK(std::abs(bench.out.attitude.throttle_frac - last.attitude.throttle_frac) <= 0.0201);
+  }
+}
+
+TEST_CASE("taking over in trim keeps what the last controller had learnt") {
+  Bench<Outer> bench;
+  bench.set(bench.in.state, flying());
+  bench.set(bench.in.command, level());
+  Outer::Outputs last;
+  last.attitude = {0, 0.04, 0.62};
+  bench.activate(last);
+  for (int i = 0; i < 500; ++i) bench.step(0.01);
+  CHECK(bench.out.attitude.pitch_rad == doctest::Approx(0.04));
+  CHECK(bench.out.attitude.throttle_frac == doctest::Approx(0.62));
+}
+
+TEST_CASE("a live change of the law is bumpless as well") {
+  Bench<Outer> bench;
+  VehicleState s = flying();
+  s.height_m = 30;
+  bench.params.law.value = OuterLaw::takeoff;
+  settle(bench, s, level());
+  CHECK(bench.out.attitude.throttle_frac == 1);
+  CHECK(bench.out.attitude.pitch_rad == doctest::Approx(0.21));
+  bench.params.law.value = OuterLaw::hold;
+  bench.retune();
+  bench.step(0.01);
+  CHECK(bench.out.internals.law == OuterLaw::hold);
+  CHECK(bench.out.attitude.throttle_frac == doctest::Approx(1).epsilon(0.03));
+  CHECK(bench.out.attitude.pitch_rad == doctest::Approx(0.21).epsilon(0.05));
+}
+
+TEST_CASE("the take-off law keeps the runway's course, waits with the rotation, and ignores guidance") {
+  Bench<Outer> bench;
+  bench.params.law.value = OuterLaw::takeoff;
+  VehicleState s = flying();
+  s.height_m = 0.3, s.airspeed_mps = s.ground_speed_mps = 0, s.yaw_rad = s.course_rad = 1.0;
+  GuidanceCommand c = level();
+  c.course_rad = -2;
+  const AttitudeCommand& a = settle(bench, s, c);
+  CHECK(a.throttle_frac == 1);
+  CHECK(a.pitch_rad == 0);
+  CHECK(a.roll_rad == 0);
+  s.airspeed_mps = s.ground_speed_mps = 12.9, s.course_rad = 1.05;
+  settle(bench, s, c);
+  CHECK(bench.out.attitude.pitch_rad == 0);
+  CHECK(bench.out.attitude.roll_rad == 0);
+  s.airspeed_mps = s.ground_speed_mps = 13.1;
+  settle(bench, s, c);
+  CHECK(bench.out.attitude.pitch_rad == doctest::Approx(0.21));
+  CHECK(bench.out.attitude.roll_rad == doctest::Approx(-0.05));
+  s.airspeed_mps = 12.5;  // rotated stays rotated
+  settle(bench, s, c);
+  CHECK(bench.out.attitude.pitch_rad == doctest::Approx(0.21));
+  s.course_rad = -1;
+  settle(bench, s, c);
+  CHECK(bench.out.attitude.roll_rad == doctest::Approx(0.15));
+}
+
+TEST_CASE("an aircraft that stands has its engine off and learns nothing") {
+  Bench<Outer> bench;
+  VehicleState s = flying();
+  s.height_m = 0, s.airspeed_mps = s.ground_speed_mps = 0.3;
+  for (bool valid : {true, false}) {
+    s.airspeed_valid = valid;
+    settle(bench, s, level(), 60);
+    CHECK(bench.out.attitude.throttle_frac == 0);
+    CHECK(bench.out.attitude.pitch_rad == 0);
+    CHECK(bench.out.pitch_integral_rad.value == 0);
+    CHECK(bench.out.throttle_integral_frac.value == 0);
+  }
+}
+
+TEST_CASE("without airspeed the throttle is trim and climb feed-forward, and the step says degraded") {
+  Bench<Outer> bench;
+  VehicleState s = flying();
+  s.airspeed_valid = false, s.airspeed_mps = 0;
+  GuidanceCommand c = level();
+  c.climb_rate_mps = 2, s.climb_rate_mps = 2;
+  bench.set(bench.in.state, s);
+  bench.set(bench.in.command, c);
+  for (int i = 0; i < 6000; ++i) CHECK_EQ(bench.step(0.01), Status::degraded);
+  CHECK(bench.out.attitude.throttle_frac == doctest::Approx(0.5 + 2 * 0.04));
+  s.ground_speed_mps = 0.5;  // a strong head wind is not the ground
+  settle(bench, s, c);
+  CHECK(bench.out.attitude.throttle_frac == doctest::Approx(0.5 + 2 * 0.04));
+}
+
+TEST_CASE("a step allocates nothing") {
+  Bench<Outer> bench;
+  settle(bench, flying(), level());
+  CHECK(allocations([&] { bench.step(0.01); }) == 0);
+}

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Outer loops by total energy: throttle controls the rate of the total energy, pitch the rate at which it is shared between height and speed.
+// Lambregts, AIAA 83-2239 (1983); the arrangement of rate demands and limits is that of the field's open autopilots. Equations: README.
+#pragma once
+#include <fulmar/flight/atmosphere.hpp>
+#include <fulmar/flight/energy.hpp>
+#include <fulmar/flight/outer_commands.hpp>
+#include <fulmar/flight/turn_trim.hpp>
+#include <fulmar/msg/attitude_command.hpp>
+#include <fulmar/msg/controller_internals.hpp>
+#include <fulmar/msg/guidance_command.hpp>
+#include <fulmar/plugin.hpp>
+
+namespace fulmar::tecs {
+
+struct Outer {
+  static constexpr const char* doc = "Course hold, and height and airspeed by total energy rate; take-off law.";
+  struct Inputs {
+    In<VehicleState> state;
+    In<GuidanceCommand> command;
+  };
+  struct Outputs {
+    AttitudeCommand attitude;
+    ControllerInternals internals;
+    Probe climb_rate_demand_mps;
+    Probe acceleration_demand_mps2;
+    Probe total_rate_error_ratio;    // m2/s3
+    Probe balance_rate_error_ratio;  // m2/s3
+    Probe pitch_integral_rad;
+    Probe throttle_integral_frac;
+    Probe underspeed_ratio;
+  };
+  struct Params {
+    Choice<OuterLaw> law{OuterLaw::hold, "hold: follow guidance; takeoff: full throttle, wings level, rotate, keep the runway's course"};
+
+    Param course_kp{2.0, "rad/rad", 0, 10, "roll per course error at cruise ground speed: course bandwidth = kp g / Va"};
+    Param course_ki{0.0, "rad/(rad s)", 0, 2, "roll per integrated course error"};
+    Param roll_limit{0.785, "rad", 0.05, 1.2, "largest roll command; the airframe's own limit holds as well"};
+    Param roll_rate_limit{1.0, "rad/s", 0.1, 6, "fastest change of the roll command"};
+    Param roll_smoothing{0.1, "s", 0, 2, "time constant of the roll command"};
+
+    Param altitude_gain{1.2, "1/s", 0, 5, "climb rate demanded per height error"};
+    Param airspeed_gain{1.2, "1/s", 0, 5, "acceleration demanded per airspeed error"};
+    Param climb_acceleration_limit{4.0, "m/s2", 0.1, 30, "fastest change of the demanded climb rate"};
+    Param speed_weight{0.4, "ratio", 0, 2, "0: pitch holds height alone; 1: both; 2: pitch holds airspeed alone"};
+
+    Param throttle_damping{0.5, "ratio", 0, 5, "throttle per error of the total energy rate, as a share of what the thrust model asks for"};
+    Param throttle_integral{0.6, "1/s", 0, 5, "the same, per integrated error"};
+    Param pitch_damping{0.6, "ratio", 0, 5, "flight path angle per error of the energy balance rate over g V"};
+    Param pitch_integral{0.2, "1/s", 0, 5, "the same, per integrated error"};
+    Param turn_kff{1.0, "ratio", 0, 2, "share of the pitch and throttle that a banked turn needs, fed forward"};
+    Param airspeed_kff{0.03, "1/(m/s)", 0, 0.2, "throttle per airspeed demand above cruise"};
+    Param thrust{50.0, "N", 1, 10000, "force per unit of throttle near cruise: turns energy rates into throttle"};
+    Param pitch_limit{0.35, "rad", 0.02, 1.0, "largest pitch command, either way; the airframe's own limits hold as well"};
+    Param pitch_rate_limit{0.8, "rad/s", 0.05, 6, "fastest change of the pitch command"};
+    Param throttle_rate_limit{2.0, "1/s", 0.1, 20, "fastest change of the throttle"};
+    Param underspeed_band{0.15, "ratio", 0.01, 0.5, "airspeed below the minimum, as a share of it, at which speed has all priority and throttle is full"};
+
+    Param takeoff_throttle{1.0, "ratio", 0, 1, "throttle of the take-off law"};
+    Param takeoff_pitch{0.21, "rad", 0, 0.6, "pitch of the take-off law after rotation"};
+    Param takeoff_airspeed{13.0, "m/s", 3, 60, "airspeed at which the take-off law rotates"};
+    Param takeoff_kp{1.0, "rad/rad", 0, 5, "roll per course error of the take-off law, airborne"};
+    Param takeoff_roll_limit{0.15, "rad", 0, 0.5, "largest roll command of the take-off law"};
+
+    Record<Airframe> airframe{"limits, trims, and the derivatives for the feed-forward of turns"};
+  };
+
+  Status activate(const Tick&, const Inputs& in, const Params& params, const Outputs& last_applied) {
+    commands_.start(params.law, *in.state, last_applied.attitude);
+    climb_rate_.reset_to(in.state->climb_rate_mps);
+    return Status::ok;
+  }
+
+  Status step(const Tick& tick, const Inputs& in, const Params& params, Outputs& out) {
+    const VehicleState& state = *in.state;
+    const double dt = std::clamp(tick.dt_s(), 0.0, 0.1);  // a gap must not throw the integrators
+    const OuterAction action = commands_.begin(params.law, state);
+    out.internals = {};
+    if (action != OuterAction::hold) rest(state, out);
+    if (action == OuterAction::wait) out.attitude = commands_.wait();
+    if (action == OuterAction::take_off) out.attitude = commands_.take_off(state, tuning(params), params.airframe->limits, dt);
+    if (action == OuterAction::hold) hold(state, *in.command, params, dt, out);
+    out.internals.law = commands_.law();
+    out.internals.course_error_rad = commands_.course_error_rad();
+    out.internals.roll_saturated = commands_.roll_saturated();
+    out.internals.roll_rad = out.attitude.roll_rad;
+    out.internals.pitch_rad = out.attitude.pitch_rad;
+    out.pitch_integral_rad = pitch_.integral();
+    out.throttle_integral_frac = throttle_.integral();
+    return state.airspeed_valid || action != OuterAction::hold ? Status::ok : Status::degraded;
+  }
+
+ private:
+  /// What the energies are to do, and what they do, m2/s3.
+  struct Energy {
+    EnergyRates wanted, present;
+    double total_wanted = 0; ///< of the total, within what the engine can give
+    double turn_drag = 0;    ///< energy rate that the turn takes from the engine
+    double underspeed = 0;   ///< 0: none, 1: speed before everything
+    double Va = 0, Va_c = 0;
+  };
+
+  static OuterTuning tuning(const Params& p) {
+    const FlightLimits& limits = p.airframe->limits;
+    OuterTuning t;
+    t.course = {p.course_kp, p.course_ki, limits.airspeed_cruise_mps, std::min<double>(p.roll_limit, limits.roll_max_rad), p.roll_rate_limit,
+                p.roll_smoothing};
+    t.takeoff = {p.takeoff_throttle, p.takeoff_pitch, p.takeoff_airspeed, p.takeoff_kp, p.takeoff_roll_limit};
+    t.pitch_rate_max_radps = p.pitch_rate_limit;
+    t.throttle_rate_max_hz = p.throttle_rate_limit;
+    return t;
+  }
+
+  void rest(const VehicleState& state, Outputs& out) {
+    pitch_.reset();
+    throttle_.reset();
+    climb_rate_.reset_to(state.climb_rate_mps);
+    out.climb_rate_demand_mps = 0.0;
+    out.acceleration_demand_mps2 = 0.0;
+    out.total_rate_error_ratio = 0.0;
+    out.balance_rate_error_ratio = 0.0;
+    out.underspeed_ratio = 0.0;
+  }
+
+  void hold(const VehicleState& state, const GuidanceCommand& command, const Params& p, double dt, Outputs& out) {
+    const OuterTuning t = tuning(p);
+    const double phi = commands_.roll(state, command, t, dt);
+    Energy e;
+    e.Va = scheduling_airspeed(state, p.airframe->limits);
+    const double rho = standard_air(state.origin_altitude_m + state.height_m).density_kgm3;
+    const TurnTrim turn = turn_trim(*p.airframe, phi, e.Va, rho), level = turn_trim(*p.airframe, 0, e.Va, rho);
+    e.turn_drag = p.turn_kff * (turn.drag_newton - level.drag_newton) * e.Va / p.airframe->mass_kg;
+    demand(state, command, p, dt, e, out);
+    const double theta_trim = level.alpha_rad + p.turn_kff * (turn.alpha_rad * std::cos(phi) - level.alpha_rad);
+    const double theta = balance_to_pitch(state, p, e, theta_trim, dt, out);
+    const double throttle = total_to_throttle(state, p, e, dt, out);
+    out.attitude = commands_.finish(phi, theta, throttle, t, dt);
+  }
+
+  /// Gain times error near the goal; further away the rate from which the goal can be reached at that acceleration:
+  /// half of what the demand's rate limit allows, so that there is something left to correct with.
+  static double approach_rate(double error, double gain, double acceleration) {
+    const double linear = gain > 0 ? acceleration / (gain * gain) : 0;
+    if (std::abs(error) <= linear || gain <= 0) return gain * error;
+    return std::copysign(std::sqrt(2 * acceleration * (std::abs(error) - 0.5 * linear)), error);
+  }
+
+  /// Rates wanted of height and speed, within what the engine can give and the drag can take.
+  void demand(const VehicleState& state, const GuidanceCommand& command, const Params& p, double dt, Energy& e, Outputs& out) {
+    const FlightLimits& limits = p.airframe->limits;
+    const double most = isa::g0 * limits.climb_rate_max_mps, least = -isa::g0 * limits.sink_rate_max_mps;  // of the total energy rate
+    if (state.airspeed_valid) {
+      const double slowest = limits.airspeed_min_mps * (1 - p.underspeed_band);
+      e.underspeed = std::clamp((limits.airspeed_min_mps - state.airspeed_mps) / (limits.airspeed_min_mps - slowest), 0.0, 1.0);
+      e.Va_c = std::clamp(command.airspeed_mps, limits.airspeed_min_mps, limits.airspeed_max_mps);
+      const double V_dot = std::clamp(p.airspeed_gain * (e.Va_c - state.airspeed_mps), 0.5 * least / e.Va, 0.5 * most / e.Va);
+      e.wanted.kinetic = e.Va * V_dot;
+      e.present.kinetic = e.Va * airspeed_rate(state);
+      out.acceleration_demand_mps2 = V_dot;
+      out.internals.airspeed_error_mps = e.Va_c - state.airspeed_mps;
+    } else {
+      e.Va_c = limits.airspeed_cruise_mps;
+      out.acceleration_demand_mps2 = 0.0;
+    }
+    const double error = command.height_m - state.height_m;
+    const double wanted = command.climb_rate_mps + approach_rate(error, p.altitude_gain, 0.5 * p.climb_acceleration_limit);
+    const double bounded = std::clamp(wanted, -limits.sink_rate_max_mps, limits.climb_rate_max_mps);
+    if (commands_.taking_up()) climb_rate_.reset_to(state.climb_rate_mps);
+    e.wanted.potential = isa::g0 * climb_rate_.step(bounded, p.climb_acceleration_limit, dt);
+    e.present.potential = isa::g0 * state.climb_rate_mps;
+    e.total_wanted = std::clamp(e.wanted.total(), least, most);
+    out.internals.height_error_m = error;
+    out.climb_rate_demand_mps = climb_rate_.value();
+    out.underspeed_ratio = e.underspeed;
+  }
+
+  /// theta = theta_trim + [g hdot_c - w_V Va Vadot_c + k (B_c - B)] / (g Va) + integral,  B = w_h g hdot - w_V Va Vadot.
+  double balance_to_pitch(const VehicleState& state, const Params& p, const Energy& e, double theta_trim, double dt, Outputs& out) {
+    const double given = state.airspeed_valid ? p.speed_weight.value : 0;
+    const double weight = 2 * e.underspeed + (1 - e.underspeed) * given;
+    const double w_h = std::clamp(2 - weight, 0.0, 1.0), w_V = std::clamp(weight, 0.0, 1.0);
+    const double B_c = e.wanted.balance(w_h, w_V), error = B_c - e.present.balance(w_h, w_V);
+    // The weights say which error pitch is to answer. The climb wanted needs its flight path angle whatever they are, as long as the
+    // engine gives what was asked of it.
+    const double missing = throttle_.saturated() ? e.total_wanted - e.present.total() : 0;
+    const double climb = e.wanted.potential * (1 - e.underspeed) - (1 - w_h) * missing;
+    const double B_ff = climb - w_V * e.wanted.kinetic;
+    const double per_gV = 1 / (isa::g0 * e.Va);
+    const PitchLimits pitch(state, p.airframe->limits, p.pitch_limit);
+    const PidInput in{.error = error * per_gV, .rate = 0, .feedforward = theta_trim + B_ff * per_gV, .min = pitch.min, .max = pitch.max};
+    const PidGains gains{p.pitch_damping, p.pitch_integral, 0};
+    if (commands_.taking_up()) pitch_.reset_to(commands_.last().pitch_rad, gains, in, 0.1);
+    const double theta = pitch_.step(gains, in, dt);
+    out.internals.pitch_saturated = pitch_.saturated();
+    out.balance_rate_error_ratio = error;
+    return theta;
+  }
+
+  /// delta_t = trim + m / (Va T) [E_c + E_turn + k (E_c - E)] + integral, E = g hdot + Va Vadot.
+  double total_to_throttle(const VehicleState& state, const Params& p, const Energy& e, double dt, Outputs& out) {
+    const FlightLimits& limits = p.airframe->limits;
+    const double E_c = e.total_wanted;
+    const double per_rate = p.airframe->mass_kg / (e.Va * p.thrust);
+    const double trim = limits.throttle_cruise_frac + p.airspeed_kff * (e.Va_c - limits.airspeed_cruise_mps);
+    const double feedforward = trim + per_rate * (E_c + e.turn_drag);
+    if (!state.airspeed_valid) {
+      out.total_rate_error_ratio = 0.0;
+      return std::clamp(feedforward, 0.0, 1.0);
+    }
+    const double error = E_c - e.present.total();
+    const PidInput in{.error = per_rate * error, .rate = 0, .feedforward = feedforward, .min = 0, .max = 1};
+    const PidGains gains{p.throttle_damping, p.throttle_integral * (1 - e.underspeed), 0};
+    if (commands_.taking_up()) throttle_.reset_to(commands_.last().throttle_frac, gains, in, 0.2);
+    const double throttle = throttle_.step(gains, in, dt);
+    out.internals.throttle_saturated = throttle_.saturated();
+    out.total_rate_error_ratio = error;
+    return e.underspeed + (1 - e.underspeed) * throttle;
+  }
+
+  OuterCommands commands_;
+  Pid pitch_, throttle_;
+  RateLimiter climb_rate_;
+};
+
+}  // namespace fulmar::tecs

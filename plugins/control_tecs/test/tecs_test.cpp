@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The energy laws against numbers worked out by hand, over random states, and round an energy-consistent point mass.
+#define FULMAR_COUNT_ALLOCATIONS
+#include <doctest/doctest.h>
+
+#include <fulmar/random.hpp>
+#include <fulmar/testing.hpp>
+
+#include "plugins/control_tecs/outer.hpp"
+
+using namespace fulmar;
+using Outer = tecs::Outer;
+
+namespace {
+constexpr double cruise = 15, g = 9.80665;  // default airframe: trim throttle 0.5, climb 4, sink 3 m/s, pitch +-0.35 rad, 10 to 25 m/s
+
+VehicleState flying() {
+  VehicleState s;
+  s.height_m = 70;
+  s.airspeed_mps = s.ground_speed_mps = cruise;
+  s.airspeed_valid = s.attitude_valid = s.velocity_valid = s.height_valid = s.position_valid = true;
+  s.specific_force_mps2 = {0, 0, -g};
+  return s;
+}
+GuidanceCommand level() { return {.course_rad = 0, .height_m = 70, .climb_rate_mps = 0, .airspeed_mps = cruise, .roll_feedforward_rad = 0}; }
+
+void configure(Bench<Outer>& bench) {
+  bench.params.airframe.value.mass_kg = 4.5;
+  bench.params.airspeed_kff.value = 0;
+}
+const AttitudeCommand& settle(Bench<Outer>& bench, const VehicleState& state, const GuidanceCommand& command, double seconds = 3) {
+  bench.set(bench.in.state, state);
+  bench.set(bench.in.command, command);
+  for (int i = 0; i < static_cast<int>(seconds * 100 + 0.5); ++i) bench.step(0.01);
+  return bench.out.attitude;
+}
+
+/// Speed and height of a point mass whose path follows the pitch command and whose energy rate follows the throttle at once.
+struct PointMass {
+  double V = 16, h = 100, gamma = 0, V_dot = 0;
+  void step(const AttitudeCommand& u, double dt, double acceleration_limit = 1e9) {
+    const double turn = acceleration_limit / V * dt;
+    const double before = gamma;
+    gamma += std::clamp((u.pitch_rad - gamma) * (1 - std::exp(-dt / 0.2)), -turn, turn);
+    const double sine = std::sin(0.5 * (before + gamma));
+    V_dot = (u.throttle_frac - 0.5) * 50 / 4.5 - g * sine;  // thrust beyond drag over mass
+    h += dt * (V + 0.5 * dt * V_dot) * sine;
+    V += dt * V_dot;
+  }
+  VehicleState state() const {
+    VehicleState s = flying();
+    s.airspeed_mps = V, s.ground_speed_mps = V * std::cos(gamma), s.height_m = h, s.climb_rate_mps = V * std::sin(gamma), s.pitch_rad = gamma;
+    s.specific_force_mps2 = {V_dot + g * std::sin(gamma), 0, -g * std::cos(gamma)};
+    return s;
+  }
+};
+
+struct PointMassFlight {
+  Bench<Outer> bench;
+  PointMass mass;
+  GuidanceCommand command{.course_rad = 0, .height_m = 100, .climb_rate_mps = 0, .airspeed_mps = 16, .roll_feedforward_rad = 0};
+  double worst_speed_error = 0, worst_throttle = 0;
+  explicit PointMassFlight(double speed_weight) {
+    configure(bench);
+    bench.params.speed_weight.value = speed_weight;
+    bench.params.airframe.value.limits.climb_rate_max_mps = bench.params.airframe.value.limits.sink_rate_max_mps = 5;
+  }
+  void run(double seconds, double acceleration_limit = 1e9) {
+    for (double t = 0; t < seconds; t += 0.02) {
+      bench.set(bench.in.state, mass.state());
+      bench.set(bench.in.command, command);
+      bench.step(0.02);
+      mass.step(bench.out.attitude, 0.02, acceleration_limit);
+      worst_speed_error = std::max(worst_speed_error, std::abs(mass.V - command.airspeed_mps));
+    }
+  }
+};
+}  // namespace
+
+TEST_CASE("throttle is the total energy rate wanted over the power of the engine") {
+  Bench<Outer> bench;
+  configure(bench);
+  bench.params.throttle_integral.value = bench.params.pitch_integral.value = 0;
+  VehicleState s = flying();
+  s.airspeed_mps = 14.5;
+  // V_dot = 1.2 * 0.5 = 0.6; E_c = 14.5 * 0.6 = 8.7; 4.5 / (14.5 * 50) per unit of rate; damping 0.5 on the same error
+  CHECK(settle(bench, s, level()).throttle_frac == doctest::Approx(0.5 + 8.7 * 4.5 / (14.5 * 50) * 1.5));
+  CHECK(bench.out.acceleration_demand_mps2.value == doctest::Approx(0.6));
+  s.specific_force_mps2.x = 0.6;  // the acceleration wanted is there: feed-forward alone
+  CHECK(settle(bench, s, level()).throttle_frac == doctest::Approx(0.5 + 8.7 * 4.5 / (14.5 * 50)));
+}
+
+TEST_CASE("pitch shares energy between height and speed by the weight") {
+  Bench<Outer> bench;
+  configure(bench);
+  bench.params.throttle_integral.value = bench.params.pitch_integral.value = 0;
+  VehicleState s = flying();
+  s.height_m = 69;
+  // hdot_c = 1.2: B_c = g 1.2, error the same: (1 + 0.6) 1.2 / 15
+  CHECK(settle(bench, s, level()).pitch_rad == doctest::Approx(1.6 * 1.2 / 15));
+  s.climb_rate_mps = 1.2;
+  CHECK(settle(bench, s, level()).pitch_rad == doctest::Approx(1.2 / 15));
+  s = flying();
+  s.airspeed_mps = 14.5;
+  // B_c = -0.4 * 8.7: nose down to gain speed
+  CHECK(settle(bench, s, level()).pitch_rad == doctest::Approx(-1.6 * 0.4 * 8.7 / (g * 14.5)));
+  bench.params.speed_weight.value = 0;
+  bench.retune();
+  CHECK(settle(bench, s, level()).pitch_rad == doctest::Approx(0));
+}
+
+TEST_CASE("the acceleration along the air velocity is that of the body, gravity included") {
+  VehicleState s = flying();
+  CHECK(airspeed_rate(s) == doctest::Approx(0));
+  s.pitch_rad = 0.1, s.alpha_rad = 0.02, s.specific_force_mps2 = {0.3, 0, -9.5};
+  // Climbing at gamma = theta - alpha: V_dot = f . v_hat - g sin(gamma)
+  CHECK(airspeed_rate(s) == doctest::Approx(0.3 * std::cos(0.02) - 9.5 * std::sin(0.02) - g * std::sin(0.08)));
+  // Banked, with sideslip: gravity in body axes from B&M (4.2).
+  s.roll_rad = 0.5, s.beta_rad = 0.1;
+  const double along = std::cos(0.02) * std::cos(0.1), side = std::sin(0.1), down = std::sin(0.02) * std::cos(0.1);
+  const double ax = 0.3 - g * std::sin(0.1), ay = g * std::cos(0.1) * std::sin(0.5), az = -9.5 + g * std::cos(0.1) * std::cos(0.5);
+  CHECK(airspeed_rate(s) == doctest::Approx(ax * along + ay * side + az * down));
+}
+
+TEST_CASE("below the minimum airspeed speed has priority and the engine gives all") {
+  Bench<Outer> bench;
+  configure(bench);
+  VehicleState s = flying();
+  s.height_m = 20;
+  s.airspeed_mps = 8.5;  // 15 % below the minimum of 10
+  const AttitudeCommand& a = settle(bench, s, level());
+  CHECK(bench.out.underspeed_ratio.value == doctest::Approx(1));
+  CHECK(a.throttle_frac == doctest::Approx(1));
+  CHECK(a.pitch_rad < 0);
+  s.airspeed_mps = 9.25;
+  settle(bench, s, level());
+  CHECK(bench.out.underspeed_ratio.value == doctest::Approx(0.5));
+  s.airspeed_mps = 10;
+  CHECK(settle(bench, s, level(), 6).pitch_rad > 0);
+  CHECK(bench.out.underspeed_ratio.value == 0);
+}
+
+TEST_CASE("throttle stays in 0 to 1, trim included, pitch within the pitch limits, for any state, command and law") {
+  Random random(17);
+  double least = 1, most = 0;
+  for (OuterLaw law : {OuterLaw::hold, OuterLaw::takeoff}) {
+    Bench<Outer> bench;
+    bench.params.law.value = law;
+    bench.params.airframe.value.limits.throttle_cruise_frac = 0.9;
+    for (int i = 0; i < 20000; ++i) {
+      VehicleState s = flying();
+      s.height_m = random.uniform(-50, 500), s.climb_rate_mps = random.uniform(-15, 15), s.airspeed_mps = random.uniform(0, 60);
+      s.ground_speed_mps = random.uniform(0, 60), s.course_rad = random.uniform(-3.14, 3.14), s.roll_rad = random.uniform(-3.14, 3.14);
+      s.pitch_rad = random.uniform(-1.5, 1.5), s.airspeed_valid = random.uniform() < 0.8;
+      s.specific_force_mps2 = {random.uniform(-20, 20), random.uniform(-20, 20), random.uniform(-40, 20)};
+      const GuidanceCommand c{random.uniform(-10, 10), random.uniform(-100, 1000), random.uniform(-10, 10), random.uniform(-5, 60),
+                              random.uniform(-2, 2)};
+      bench.set(bench.in.state, s);
+      bench.set(bench.in.command, c);
+      REQUIRE(bench.step(random.uniform(0, 0.5)) != Status::failed);
+      const AttitudeCommand& a = bench.out.attitude;
+      REQUIRE((a.throttle_frac >= 0 && a.throttle_frac <= 1));
+      REQUIRE(std::abs(a.pitch_rad) <= 0.35);
+      REQUIRE(std::abs(a.roll_rad) <= 0.785);
+      least = std::min(least, a.throttle_frac), most = std::max(most, a.throttle_frac);
+    }
+  }
+  CHECK(least == 0);  // below trim as well as above it
+  CHECK(most == 1);
+}
+
+TEST_CASE("pitch is bounded by the pitch limit, however large the roll limit") {
+  Bench<Outer> bench;
+  configure(bench);
+  VehicleState s = flying();
+  s.airspeed_mps = 24;
+  GuidanceCommand c = level();
+  c.airspeed_mps = 10;
+  bench.params.speed_weight.value = 2;
+  CHECK(settle(bench, s, c, 30).pitch_rad == doctest::Approx(0.35));
+}
+
+TEST_CASE("integrators that were saturated for a minute unwind at once") {
+  Bench<Outer> bench;
+  configure(bench);
+  VehicleState s = flying();
+  s.airspeed_mps = 10;
+  settle(bench, s, level(), 60);
+  CHECK(bench.out.attitude.throttle_frac == doctest::Approx(1).epsilon(0.001));
+  const double integral = bench.out.throttle_integral_frac.value;
+  CHECK(integral < 0.5);
+  s.airspeed_mps = 16;
+  settle(bench, s, level(), 0.5);
+  CHECK(bench.out.throttle_integral_frac.value < integral);
+  CHECK(bench.out.attitude.throttle_frac < 0.7);
+}
+
+TEST_CASE("a point mass in cruise does not drift") {
+  PointMassFlight flight(1);
+  flight.run(60);
+  CHECK(std::abs(flight.mass.V - 16) < 1e-5);
+  CHECK(std::abs(flight.mass.h - 100) < 1e-5);
+}
+
+TEST_CASE("height steps of 50 m cost next to no airspeed, whatever the weight") {
+  for (double weight : {0.2, 1.0, 1.8}) {
+    for (double step : {50.0, -50.0}) {
+      PointMassFlight flight(weight);
+      flight.bench.params.climb_acceleration_limit.value = 0.5;
+      flight.run(5);
+      double overshoot = 0;
+      flight.command.height_m += step;
+      for (int i = 0; i < 120; ++i) {
+        flight.run(0.5);
+        overshoot = std::max(overshoot, (flight.mass.h - flight.command.height_m) * (step > 0 ? 1 : -1));
+      }
+      CHECK(overshoot < 0.5);
+      CHECK(flight.worst_speed_error < 0.1);
+      CHECK(std::abs(flight.mass.V - 16) < 1e-3);
+      CHECK(std::abs(flight.mass.h - flight.command.height_m) < 0.5);
+    }
+  }
+}
+
+TEST_CASE("airspeed steps of 2 m/s settle at the same height") {
+  for (double step : {2.0, -2.0}) {
+    PointMassFlight flight(1);
+    flight.run(5);
+    flight.command.airspeed_mps += step;
+    flight.run(60);
+    CHECK(std::abs(flight.mass.V - flight.command.airspeed_mps) < 1e-3);
+    CHECK(std::abs(flight.mass.h - 100) < 0.5);
+  }
+}
+
+TEST_CASE("taking over is bumpless, and in trim keeps what the last controller had learnt") {
+  Random random(5);
+  for (int i = 0; i < 200; ++i) {
+    Bench<Outer> bench;
+    VehicleState s = flying();
+    s.height_m = random.uniform(40, 100), s.airspeed_mps = random.uniform(11, 20), s.course_rad = random.uniform(-3, 3);
+    bench.set(bench.in.state, s);
+    bench.set(bench.in.command, level());
+    Outer::Outputs last;
+    last.attitude = {random.uniform(-0.7, 0.7), random.uniform(-0.3, 0.3), random.uniform(0, 1)};
+    bench.activate(last);
+    bench.step(0.01);
+    CHECK(std::abs(bench.out.attitude.roll_rad - last.attitude.roll_rad) <= 0.0101);
+    CHECK(std::abs(bench.out.attitude.pitch_rad - last.attitude.pitch_rad) <= 0.0081);
+    CHECK(std::abs(bench.out.attitude.throttle_frac - last.attitude.throttle_frac) <= 0.0201);
+  }
+  Bench<Outer> bench;
+  bench.set(bench.in.state, flying());
+  bench.set(bench.in.command, level());
+  Outer::Outputs last;
+  last.attitude = {0, 0.04, 0.62};
+  bench.activate(last);
+  for (int i = 0; i < 500; ++i) bench.step(0.01);
+  CHECK(bench.out.attitude.pitch_rad == doctest::Approx(0.04));
+  CHECK(bench.out.attitude.throttle_frac == doctest::Approx(0.62));
+}
+
+TEST_CASE("standing it learns nothing; without airspeed it flies on trim and says degraded") {
+  Bench<Outer> bench;
+  configure(bench);
+  VehicleState s = flying();
+  s.height_m = 0, s.airspeed_mps = s.ground_speed_mps = 0.2;
+  CHECK(settle(bench, s, level(), 60).throttle_frac == 0);
+  CHECK(bench.out.pitch_integral_rad.value == 0);
+  CHECK(bench.out.throttle_integral_frac.value == 0);
+  s = flying();
+  s.airspeed_valid = false, s.airspeed_mps = 0;
+  CHECK(settle(bench, s, level(), 10).throttle_frac == doctest::Approx(0.5));
+  CHECK(bench.step(0.01) == Status::degraded);
+}
+
+TEST_CASE("a command without airspeed does no harm") {
+  Bench<Outer> bench;
+  configure(bench);
+  GuidanceCommand c = level();
+  c.airspeed_mps = 0;
+  const AttitudeCommand& a = settle(bench, flying(), c, 20);
+  CHECK((std::isfinite(a.throttle_frac) && std::isfinite(a.pitch_rad)));
+  CHECK(a.throttle_frac < 0.5);
+}
+
+TEST_CASE("a step allocates nothing") {
+  Bench<Outer> bench;
+  settle(bench, flying(), level());
+  CHECK(allocations([&] { bench.step(0.01); }) == 0);
+}

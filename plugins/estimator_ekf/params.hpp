@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parameters of the estimator. Noises are physical: densities per sqrt(Hz), deviations of one sample in the sensor's unit.
+#pragma once
+#include <fulmar/msg/origin.hpp>
+#include <fulmar/plugin.hpp>
+
+namespace fulmar::estimator {
+
+struct Params {
+  Record<Origin> origin{"origin of the local frame; without it the first good fixes decide"};
+
+  // inertial unit
+  Param gyro_noise{5e-4, "rad/s/sqrt(Hz)", 1e-6, 0.1, "white noise of the gyros, vibration included"};
+  Param gyro_scale_error{2e-3, "1/sqrt(Hz)", 0, 0.1, "grows gyro_noise with the turn rate: scale and alignment errors"};
+  Param gyro_bias_walk{2e-5, "rad/s/sqrt(s)", 0, 0.01, "how fast the gyro bias wanders"};
+  Param gyro_bias_std{0.15, "rad/s", 1e-4, 1, "gyro bias before it is learnt"};
+  Param accel_noise{0.02, "m/s2/sqrt(Hz)", 1e-5, 5, "white noise of the accelerometers, vibration included"};
+  Param accel_scale_error{2e-2, "1/sqrt(Hz)", 0, 0.1, "grows accel_noise with the load beyond 1 g"};
+  Param accel_bias_walk{5e-4, "m/s2/sqrt(s)", 0, 0.1, "how fast the accelerometer bias wanders"};
+  Param accel_bias_std{0.35, "m/s2", 1e-3, 3, "accelerometer bias before it is learnt"};
+  Param gravity{9.80665, "m/s2", 9.7, 9.9, "local gravity"};
+  Param max_imu_gap{0.2, "s", 0.01, 2, "a longer gap is not integrated but adds uncertainty"};
+
+  // satellite navigation; the receiver's own accuracies count when it reports them
+  Param gnss_delay{0, "s", 0, 0.5, "added to the age of a fix, for receivers whose stamp is the time of arrival"};
+  Param gnss_horizontal_std{2, "m", 0.01, 50, "when the receiver reports none"};
+  Param gnss_vertical_std{4, "m", 0.01, 50, "when the receiver reports none"};
+  Param gnss_speed_std{0.4, "m/s", 0.005, 10, "when the receiver reports none"};
+  Param gnss_position_floor{0.1, "m", 0, 10, "no position is trusted more than this"};
+  Param gnss_speed_floor{0.015, "m/s", 0, 10, "no velocity is trusted more than this"};
+  Param gnss_gate{5, "", 2, 20, "innovations beyond this many deviations are refused"};
+  Param gnss_reset_after{10, "s", 1, 60, "fixes refused for so long are believed after all"};
+  Param gnss_timeout{5, "s", 0.5, 60, "position counts as invalid after so long without an accepted fix"};
+  Count origin_fixes{10, 1, 1000, "good fixes on the ground that are averaged to the origin", setup};
+
+  // air data
+  Param baro_noise{4, "Pa", 0.1, 100, "of one sample"};
+  Param baro_position_error{0.03, "", 0, 1, "share of the dynamic pressure that the static port may see"};
+  Param baro_walk{0.1, "m/sqrt(s)", 0, 5, "how fast the weather and the sensor shift the pressure height"};
+  Param pitot_noise{2, "Pa", 0.1, 100, "of one sample"};
+  Param pitot_speed_std{0.1, "m/s", 0, 5, "of one sample, beside the pressure noise"};
+  Param pitot_scale{1, "", 0.5, 1.5, "true over measured airspeed"};
+  Param air_gate{5, "", 2, 20, "gate of baro, pitot and sideslip, in deviations"};
+  Param wind_walk{0.02, "m/s/sqrt(s)", 0, 5, "how fast the wind wanders"};
+  Param wind_shear{0.005, "1/sqrt(s)", 0, 5, "grows wind_walk with the climb rate"};
+  Param wind_std{5, "m/s", 0.1, 30, "wind before it is learnt"};
+  Param gust_std{1, "m/s", 0, 10, "gusts along the flight: first-order Gauss-Markov"};
+  Param gust_time{3, "s", 0.1, 60, "their correlation time"};
+  Param sideslip_speed_std{2.0, "m/s", 0.05, 20, "side component of the air velocity, at 10 Hz, gusts included"};
+  Param sideslip_ratio{0.1, "rad", 0, 1, "grows with the airspeed: sideslip of uncoordinated flight"};
+  Param min_airspeed{8, "m/s", 2, 40, "below this neither pitot nor sideslip is used: rolling, not flying"};
+
+  // magnetometer
+  Param mag_noise{0.03, "", 1e-4, 0.5, "at 10 Hz, as a share of the field"};
+  Param mag_deviation{0.05, "rad", 0, 1, "slow error of the magnetic heading after calibration"};
+  Param mag_deviation_time{300, "s", 1, 1e5, "its correlation time"};
+  Param mag_gate{5, "", 2, 20, "gate of the heading, in deviations"};
+
+  Param rate_filter{0, "Hz", 0, 200, "cut-off of the published body rate; 0 publishes it as it is"};
+};
+
+}  // namespace fulmar::estimator

@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Follows the route of the plan piece by piece: join, legs, final orbit. Beard & McLain, Small Unmanned Aircraft (2012), chapter 11,
+// with fillets and Dubins paths treated alike as pieces whose end is a length along them, so that no half-plane can be missed.
+#pragma once
+#include <cmath>
+
+#include "fulmar/flight/route.hpp"
+#include "fulmar/msg/path.hpp"
+#include "fulmar/msg/plan.hpp"
+#include "fulmar/msg/progress.hpp"
+#include "fulmar/msg/vehicle_state.hpp"
+#include "fulmar/plugin.hpp"
+
+namespace fulmar::path {
+
+struct Manager {
+  static constexpr const char* doc = "The piece of the plan's route that is to be flown now, and how far the plan has been flown.";
+  struct Inputs {
+    In<VehicleState> state;
+    In<Plan> plan;
+  };
+  struct Outputs {
+    Out<Path> path;  // silent until the position is known
+    Progress progress;
+  };
+  struct Params {
+    Param hold_height{50, "m", 0, 10000, "lowest height of the orbit that is flown while the plan is empty"};
+    Param rejoin_distance{25, "m", 5, 1000, "off the way to the plan by more than this: draw a new one from here"};
+  };
+
+  Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out);
+  Status activate(const Tick&, const Inputs&, const Params&, const Outputs&) {
+    mode_ = Mode::idle;  // take up the plan from where the aircraft is by then, at the same waypoint
+    return Status::ok;
+  }
+
+ private:
+  enum class Mode : std::uint8_t { idle, join, leg, orbit };
+
+  void adopt(const Route& route, const Plan& plan, const VehicleState& state, const Params& p);
+  void keep_or_join(const Route& route, const Plan& plan, const VehicleState& state);
+  std::uint32_t find(const Plan& plan, const Vec3<Ned>& point, std::uint32_t near) const;
+  void begin_orbit(const RouteOrbit& orbit);
+  void begin_join(const Route& route, const VehicleState& state, std::uint32_t item);
+  void begin_leg(const Route& route, const RouteLeg& leg, Mode mode, std::uint32_t item, std::size_t piece);
+  void begin_piece(const Route& route, std::size_t index);
+  void look_ahead(const Route& route);
+  void fly(const Route& route, const VehicleState& state, const Params& p);
+  void measure(const VehicleState& state);
+  void reach(const Route& route, const VehicleState& state);
+  void circle(const Route& route, const VehicleState& state);
+  void fill(const Route& route, const Plan& plan, const VehicleState& state);
+
+  Mode mode_ = Mode::idle;
+  RouteLeg leg_, next_leg_;
+  std::size_t piece_ = 0;
+  double along_m_ = 0;        // on the piece; unwrapped on an arc
+  double after_m_ = 0;        // length of the pieces behind it of the same curvature
+  double end_square_m2_ = 0;  // closest so far to the end of the leg
+  RouteOrbit orbit_;
+  double swept_rad_ = 0, azimuth_rad_ = 0;  // on the orbit
+  bool on_orbit_ = false;
+  Pose joined_from_;
+  Path path_;
+  Progress progress_;
+  std::uint32_t item_ = 0, legs_ = 0, jumps_ = 0, revision_ = 0;
+  Vec3<Ned> target_, from_;  // of the leg: to recognise them after a change of the plan
+};
+
+inline Pose pose_of(const VehicleState& state) { return {state.position_m.north, state.position_m.east, state.course_rad}; }
+
+inline bool same_spot(const Vec3<Ned>& a, const Vec3<Ned>& b) { return a.north == b.north && a.east == b.east; }
+
+inline Status Manager::step(const Tick&, const Inputs& in, const Params& p, Outputs& out) {
+  const VehicleState& state = *in.state;
+  const Plan& plan = *in.plan;
+  const Route route(plan);
+  if (!state.position_valid) {  // nothing is known of the progress; the path that was published stays in force
+    out.progress = progress_;
+    return Status::degraded;
+  }
+  if (mode_ == Mode::idle || in.plan.fresh() || plan.revision != revision_) adopt(route, plan, state, p);
+  if (mode_ == Mode::orbit) {
+    circle(route, state);
+  } else {
+    fly(route, state, p);
+  }
+  fill(route, plan, state);
+  out.path.publish(path_);
+  out.progress = progress_;
+  return Status::ok;
+}
+
+/// Takes up a plan that is new or changed. The waypoint that is flown to stays the same one if it is still there.
+inline void Manager::adopt(const Route& route, const Plan& plan, const VehicleState& state, const Params& p) {
+  const bool was_empty = progress_.items == 0, jump = plan.jumps != jumps_ || was_empty || revision_ == 0;
+  const bool was_idle = mode_ == Mode::idle;
+  revision_ = plan.revision;
+  jumps_ = plan.jumps;
+  progress_.items = route.size();
+  progress_.plan_revision = plan.revision;
+  if (route.size() == 0) {
+    if (was_empty && !was_idle) return;  // go on with the orbit
+    item_ = legs_ = 0;
+    progress_.finished = false;
+    const double height_m = std::max(state.height_m, p.hold_height.value);
+    begin_orbit({state.position_m.north, state.position_m.east, height_m, route.radius_m(), Turn::right});
+    return;
+  }
+  if (route.is_point()) {
+    const bool same = !jump && !was_idle && mode_ == Mode::orbit && same_spot(plan.waypoints[0].position_m, target_);
+    item_ = 0;
+    target_ = plan.waypoints[0].position_m;
+    RouteOrbit orbit{target_.north, target_.east, route.height_m(0), route.radius_m(), orbit_.turn};
+    if (!same) orbit.turn = least_turning(pose_of(state), orbit.north_m, orbit.east_m, orbit.radius_m);
+    if (!same) progress_.finished = false;
+    same ? void(orbit_ = orbit) : begin_orbit(orbit);
+    return;
+  }
+  if (jump) {
+    legs_ = 0;
+    progress_.finished = false;
+    begin_join(route, state, std::min(plan.jump_item, route.size() - 1));
+  } else if (was_idle) {
+    begin_join(route, state, std::min(item_, route.size() - 1));
+  } else {
+    keep_or_join(route, plan, state);
+  }
+}
+
+inline void Manager::keep_or_join(const Route& route, const Plan& plan, const VehicleState& state) {
+  const std::uint32_t n = route.size(), k = find(plan, target_, item_);
+  if (k == n) return begin_join(route, state, std::min(item_, n - 1));
+  if (mode_ == Mode::orbit) {  // the end of the plan was reached; it goes on if waypoints came behind it
+    if (!route.closed() && k + 1 == n) {
+      item_ = k;
+      orbit_ = route.final_orbit();
+      return;
+    }
+    progress_.finished = false;
+    return begin_join(route, state, route.after(k));
+  }
+  if (mode_ == Mode::join) {
+    const Pose end = route.passage(k).middle;
+    const bool same = end.north_m == leg_.end.north_m && end.east_m == leg_.end.east_m && end.course_rad == leg_.end.course_rad;
+    if (!same) return begin_join(route, state, k);
+    item_ = k;
+    return begin_piece(route, piece_);
+  }
+  if (!same_spot(plan.waypoints[route.before(k)].position_m, from_)) return begin_join(route, state, k);
+  const RouteLeg leg = route.leg(k);
+  double best_m = unknown_std;
+  std::size_t piece = 0;
+  for (std::size_t i = 0; i < leg.count; ++i) {
+    RouteLeg one;
+    one.count = 1;
+    one.pieces[0] = leg[i];
+    const double d = nearest(one, state.position_m.north, state.position_m.east).distance_m;
+    if (d < best_m - 1e-6) {
+      best_m = d;
+      piece = i;
+    }
+  }
+  begin_leg(route, leg, Mode::leg, k, piece);
+}
+
+/// Index of a waypoint at this point, the one nearest to `near` in the list; the plan's size when there is none.
+inline std::uint32_t Manager::find(const Plan& plan, const Vec3<Ned>& point, std::uint32_t near) const {
+  const std::uint32_t n = plan.waypoints.count;
+  for (std::uint32_t d = 0; d < n; ++d) {
+    if (near + d < n && same_spot(plan.waypoints[near + d].position_m, point)) return near + d;
+    if (near >= d && near - d < n && same_spot(plan.waypoints[near - d].position_m, point)) return near - d;
+  }
+  return n;
+}
+
+inline void Manager::begin_orbit(const RouteOrbit& orbit) {
+  mode_ = Mode::orbit;
+  orbit_ = orbit;
+  swept_rad_ = 0;
+  on_orbit_ = false;
+  path_ = {};
+  path_.kind = PathKind::orbit;
+}
+
+inline void Manager::begin_join(const Route& route, const VehicleState& state, std::uint32_t item) {
+  joined_from_ = pose_of(state);
+  begin_leg(route, route.join(joined_from_, state.height_m, item), Mode::join, item, 0);
+}
+
+inline void Manager::begin_leg(const Route& route, const RouteLeg& leg, Mode mode, std::uint32_t item, std::size_t piece) {
+  leg_ = leg;
+  mode_ = mode;
+  item_ = item;
+  end_square_m2_ = unknown_std * unknown_std;
+  along_m_ = 0;
+  if (route.closed() || item + 1 < route.size()) next_leg_ = route.leg(route.after(item));
+  begin_piece(route, piece);
+}
+
+inline void Manager::begin_piece(const Route& route, std::size_t index) {
+  piece_ = index;
+  const RoutePiece& piece = leg_[index];
+  path_ = {};
+  path_.airspeed_mps = leg_.airspeed_mps;
+  path_.kind = piece.kind;
+  path_.turn = piece.turn;
+  path_.climb_ratio = piece.climb_ratio;
+  path_.origin_m = {piece.north_m, piece.east_m, -piece.height_m};
+  if (piece.kind == PathKind::line) {
+    const double norm = 1 / std::sqrt(1 + piece.climb_ratio * piece.climb_ratio);
+    path_.direction_ratio = {piece.unit_north_ratio * norm, piece.unit_east_ratio * norm, -piece.climb_ratio * norm};
+  } else {
+    path_.radius_m = piece.radius_m;
+  }
+  look_ahead(route);
+}
+
+/// What comes behind this piece: how far it is to the next change of curvature, and to which.
+inline void Manager::look_ahead(const Route& route) {
+  const double kappa = leg_[piece_].curvature();
+  after_m_ = 0;
+  path_.next_curvature_ratio = kappa;
+  const auto passes = [&](const RouteLeg& leg, std::size_t from) {
+    for (std::size_t i = from; i < leg.count; ++i) {
+      path_.next_curvature_ratio = leg[i].curvature();
+      if (std::abs(path_.next_curvature_ratio - kappa) > 1e-9) return false;
+      after_m_ += leg[i].length_m;
+    }
+    return true;
+  };
+  if (!passes(leg_, piece_ + 1)) return;
+  if (route.closed() || item_ + 1 < route.size()) {
+    passes(next_leg_, 0);
+  } else {
+    path_.next_curvature_ratio = sign_of(route.final_orbit().turn) / route.radius_m();
+  }
+}
+
+inline void Manager::fly(const Route& route, const VehicleState& state, const Params& p) {
+  if (mode_ == Mode::join) {
+    const Vec3<Ned>& at = state.position_m;
+    const RoutePiece& piece = leg_[piece_];
+    const double n = at.north - piece.north_m, e = at.east - piece.east_m;
+    const double off =
+        piece.kind == PathKind::line ? piece.unit_north_ratio * e - piece.unit_east_ratio * n : std::hypot(n, e) - piece.radius_m;
+    const bool moved = std::hypot(at.north - joined_from_.north_m, at.east - joined_from_.east_m) > route.radius_m();
+    if (std::abs(off) > p.rejoin_distance && moved) begin_join(route, state, item_);
+  }
+  constexpr int pieces_per_step = 8;  // short ones are passed at once
+  for (int i = 0; i < pieces_per_step && mode_ != Mode::orbit; ++i) {
+    measure(state);
+    if (along_m_ < leg_[piece_].length_m) return;
+    along_m_ = 0;
+    if (piece_ + 1 < leg_.count) {
+      begin_piece(route, piece_ + 1);
+    } else {
+      reach(route, state);
+    }
+  }
+  if (mode_ != Mode::orbit) measure(state);
+}
+
+inline void Manager::measure(const VehicleState& state) {
+  const Vec3<Ned>& at = state.position_m;
+  const RoutePiece& piece = leg_[piece_];
+  const double s = piece.along(at.north, at.east);
+  along_m_ = piece.kind == PathKind::line ? s : along_m_ + piece.radius_m * wrap_pi((s - along_m_) / piece.radius_m);
+  const double n = at.north - leg_.end.north_m, e = at.east - leg_.end.east_m;
+  if (piece_ + 1 == leg_.count) end_square_m2_ = std::min(end_square_m2_, n * n + e * e);
+}
+
+inline void Manager::reach(const Route& route, const VehicleState& state) {
+  ++progress_.reached;
+  progress_.miss_m = std::sqrt(end_square_m2_);
+  if (mode_ == Mode::leg && ++legs_ == route.size()) {
+    legs_ = 0;
+    ++progress_.circuits;
+  }
+  if (!route.closed() && item_ + 1 == route.size()) {
+    if (!progress_.finished) ++progress_.circuits;
+    progress_.finished = true;
+    legs_ = 0;
+    begin_orbit(route.final_orbit());
+    on_orbit_ = true;
+    azimuth_rad_ = std::atan2(state.position_m.east - orbit_.east_m, state.position_m.north - orbit_.north_m);
+    return;
+  }
+  const RouteLeg leg = next_leg_;
+  begin_leg(route, leg, Mode::leg, route.after(item_), 0);
+}
+
+/// On the final orbit, around a single waypoint, or around nothing. Around a single waypoint of a circuit each full circle counts.
+inline void Manager::circle(const Route& route, const VehicleState& state) {
+  const double n = state.position_m.north - orbit_.north_m, e = state.position_m.east - orbit_.east_m, d = std::hypot(n, e);
+  const double azimuth = std::atan2(e, n);
+  if (on_orbit_) {
+    swept_rad_ += sign_of(orbit_.turn) * wrap_pi(azimuth - azimuth_rad_);
+  } else if (route.size() > 0 && std::abs(d - orbit_.radius_m) < 0.1 * orbit_.radius_m) {
+    on_orbit_ = true;
+    ++progress_.reached;
+    progress_.miss_m = std::abs(d - orbit_.radius_m);
+    progress_.finished = !route.closed();
+    if (progress_.finished) ++progress_.circuits;
+  }
+  azimuth_rad_ = azimuth;
+  if (swept_rad_ > 2 * std::numbers::pi && route.size() > 0 && route.closed()) {
+    swept_rad_ -= 2 * std::numbers::pi;
+    ++progress_.circuits;
+  }
+}
+
+inline void Manager::fill(const Route& route, const Plan& plan, const VehicleState& state) {
+  if (mode_ == Mode::orbit) {
+    path_.turn = orbit_.turn;
+    path_.origin_m = {orbit_.north_m, orbit_.east_m, -orbit_.height_m};
+    path_.radius_m = orbit_.radius_m;
+    path_.airspeed_mps = route.size() > 0 ? route.airspeed_mps(std::min(item_, route.size() - 1)) : plan.airspeed_mps;
+    path_.next_curvature_ratio = sign_of(orbit_.turn) / orbit_.radius_m;
+  } else {
+    const RoutePiece& piece = leg_[piece_];
+    path_.remaining_m = piece.length_m - along_m_ + after_m_;
+    if (piece.kind == PathKind::orbit) {  // the height is given where the aircraft is: no doubt about turns more than half a circle
+      const double s = std::clamp(along_m_, 0.0, piece.length_m);
+      path_.start_rad = wrap_pi(piece.start_rad + sign_of(piece.turn) * s / piece.radius_m);
+      path_.origin_m.down = -piece.height_at(s);
+    }
+    from_ = plan.waypoints[route.before(item_)].position_m;
+    target_ = plan.waypoints[item_].position_m;
+  }
+  progress_.item = item_;
+  progress_.joining = mode_ == Mode::join;
+  const Vec3<Ned> goal =
+      route.size() > 0 ? plan.waypoints[std::min(item_, route.size() - 1)].position_m : Vec3<Ned>{orbit_.north_m, orbit_.east_m, 0};
+  progress_.distance_m = std::hypot(goal.north - state.position_m.north, goal.east - state.position_m.east);
+}
+
+}  // namespace fulmar::path

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The manager on plans of every size, on changes in flight, and step by step.
+#include <doctest/doctest.h>
+
+#include "flight.hpp"
+#include "fulmar/random.hpp"
+#include "plugins/path/planner.hpp"
+
+using namespace fulmar;
+using namespace fulmar::path;
+using namespace fulmar::test;
+
+namespace {
+constexpr double pi = std::numbers::pi;
+}
+
+TEST_CASE("with no waypoint the place where the flight began is orbited, not lower than the hold height, from the first step on") {
+  Flight flight(plan_of({}));
+  flight.aircraft.north = 1000;
+  flight.aircraft.east = -2000;
+  flight.aircraft.height = 5;
+  flight.step();
+  CHECK(flight.path().kind == PathKind::orbit);
+  CHECK(flight.path().origin_m == Vec3<Ned>{1000, -2000, -50});
+  CHECK(flight.path().airspeed_mps == 17);
+  flight.fly(120);
+  CHECK(flight.finite);
+  CHECK(flight.distance_to(1000, -2000) == doctest::Approx(50).epsilon(0.1));
+  CHECK(flight.aircraft.height == doctest::Approx(50).epsilon(0.02));
+  CHECK(flight.progress().reached == 0);
+}
+
+TEST_CASE("one waypoint is orbited in the direction of the lesser turn, and each circle counts") {
+  for (const double course : {0.5, -0.5}) {  // passing left of it, passing right of it
+    Flight flight(plan_of({point(500, 0)}));
+    flight.aircraft.psi = course;
+    flight.step();
+    CHECK(flight.path().turn == (course > 0 ? Turn::left : Turn::right));
+    const Turn turn = flight.path().turn;
+    flight.fly(150);
+    CHECK(flight.path().turn == turn);
+    CHECK(flight.finite);
+    CHECK(flight.distance_to(500, 0) == doctest::Approx(50).epsilon(0.02));
+    CHECK(flight.progress().reached == 1);
+    const std::uint32_t before = flight.progress().circuits;
+    flight.fly(10 * 2 * pi * 50 / 17);
+    CHECK(flight.progress().circuits - before >= 9);
+    CHECK(flight.progress().circuits - before <= 10);
+  }
+}
+
+TEST_CASE("a plan that ends in an orbit ends in an orbit, be it of one, two or three waypoints") {
+  for (std::uint32_t n = 1; n <= 4; ++n) {
+    Plan plan = hourglass();
+    plan.end = PlanEnd::orbit;
+    plan.waypoints.count = n;
+    const Vec3<Ned> last = plan.waypoints[n - 1].position_m;
+    Flight flight(plan);
+    flight.aircraft.wind_north = 3;
+    flight.aircraft.wind_east = -4;
+    CAPTURE(n);
+    CHECK(flight.fly(300, [&] { return flight.progress().finished; }));
+    flight.fly(120);
+    for (int i = 0; i < 30; ++i) {
+      flight.fly(1);
+      CHECK(std::abs(flight.distance_to(last.north, last.east) - 50) < 5);
+    }
+    CHECK(flight.finite);
+    CHECK(flight.progress().finished);
+    CHECK(flight.progress().circuits == 1);
+    CHECK(flight.progress().reached == n);
+    CHECK(flight.progress().item == n - 1);
+  }
+}
+
+TEST_CASE("two waypoints are flown back and forth") {
+  Flight flight(plan_of({point(0, 300), point(400, 300)}));
+  CHECK(flight.fly(400, [&] { return flight.progress().circuits == 3; }));
+  CHECK(flight.passed == std::vector<std::uint32_t>{0, 1, 0, 1, 0, 1, 0});
+  CHECK(flight.finite);
+}
+
+TEST_CASE("the first leg leads to the first waypoint, and no leg is left out") {
+  Plan plan = hourglass();
+  plan.waypoints[2].has_course = true;  // mixed
+  plan.waypoints[2].course_rad = -pi / 2;
+  Flight flight(plan);
+  flight.step();
+  CHECK(flight.progress().item == 0);
+  CHECK(flight.progress().joining);
+  CHECK(flight.fly(40, [&] { return flight.progress().reached == 1; }));
+  CHECK_FALSE(flight.progress().joining);
+  CHECK(flight.fly(200, [&] { return flight.progress().circuits == 1; }));
+  CHECK(flight.passed == std::vector<std::uint32_t>{0, 1, 2, 3, 0});
+  CHECK(flight.progress().miss_m < 3);
+}
+
+TEST_CASE("collinear and reversing legs are passed") {
+  Flight collinear(plan_of({point(0, 0), point(230, -55), point(690, -165), point(690, 400)}));
+  CHECK(collinear.fly(300, [&] { return collinear.progress().circuits == 1; }));
+  CHECK(collinear.finite);
+  Flight reversing(plan_of({point(0, 0), point(500, 0), point(200, 0), point(800, 0)}));
+  CHECK(reversing.fly(400, [&] { return reversing.progress().circuits == 1; }));
+  CHECK(reversing.finite);
+  Flight twice(plan_of({point(0, 0), point(500, 0), point(500, 0), point(500, 500), point(0, 0)}));
+  CHECK(twice.fly(400, [&] { return twice.progress().circuits == 1; }));
+  CHECK(twice.finite);
+}
+
+TEST_CASE("a plan that is cleared and loaded anew far away is flown from its beginning, and the old place is left") {
+  Plan plan = hourglass();
+  plan.waypoints[1].has_course = true;
+  Flight flight(plan);
+  flight.fly(120);
+  CHECK(flight.progress().reached > 1);
+  Plan empty = plan;
+  empty.waypoints.clear();
+  empty.revision = 2;
+  empty.jumps = 2;
+  flight.change(empty);
+  flight.fly(5);
+  CHECK(flight.path().kind == PathKind::orbit);
+  Plan there = plan_of({point(3000, 3000), point(3600, 3000), point(3600, 3600)});
+  for (Waypoint& w : there.waypoints) w.has_course = true;
+  there.revision = 3;
+  there.jumps = 2;
+  flight.change(there);
+  flight.passed.clear();
+  double best_m = 1e9;
+  bool back = false;
+  const auto closing = [&] {
+    const double d = flight.distance_to(3000, 3000);
+    best_m = std::min(best_m, d);
+    back = back || d > best_m + 150;  // no further back than a turn takes
+    return flight.progress().reached > 0 && !flight.passed.empty();
+  };
+  CHECK(flight.fly(400, closing));
+  CHECK_FALSE(back);
+  CHECK(flight.fly(400, [&] { return flight.passed.size() == 4; }));
+  CHECK(flight.passed == std::vector<std::uint32_t>{0, 1, 2, 0});
+  CHECK(flight.finite);
+}
+
+TEST_CASE("a change elsewhere in the plan leaves the aircraft on its leg") {
+  Flight flight(hourglass());
+  flight.fly(200, [&] { return flight.progress().item == 1 && flight.path().kind == PathKind::line && flight.path().remaining_m < 400; });
+  const double remaining_m = flight.path().remaining_m;
+  Plan plan = flight.plan();  // one more before, one more behind
+  plan.waypoints.clear();
+  for (const Waypoint& w : {point(800, 800), point(400, -250), point(-400, -50), point(-400, -250), point(400, -50), point(900, 100)}) plan.waypoints.push_back(w);
+  ++plan.revision;
+  flight.change(plan);
+  flight.step();
+  CHECK(flight.progress().item == 2);
+  CHECK_FALSE(flight.progress().joining);
+  CHECK(flight.path().remaining_m == doctest::Approx(remaining_m).epsilon(0.01));
+  CHECK(flight.progress().plan_revision == 2);
+  // the waypoint that is flown to is taken away: the next one is flown to
+  plan.waypoints[2] = plan.waypoints[3];
+  plan.waypoints[3] = plan.waypoints[4];
+  plan.waypoints[4] = plan.waypoints[5];
+  --plan.waypoints.count;
+  ++plan.revision;
+  flight.change(plan);
+  flight.step();
+  CHECK(flight.progress().item == 2);
+  CHECK(flight.progress().joining);
+  CHECK(flight.fly(120, [&] { return flight.progress().item == 3; }));
+}
+
+TEST_CASE("the order to fly to a waypoint is followed at once") {
+  Flight flight(hourglass());
+  flight.fly(60);
+  Plan plan = flight.plan();
+  ++plan.revision;
+  ++plan.jumps;
+  plan.jump_item = 3;
+  flight.change(plan);
+  flight.passed.clear();
+  flight.step();
+  CHECK(flight.progress().item == 3);
+  CHECK(flight.fly(200, [&] { return flight.passed.size() == 2; }));
+  CHECK(flight.passed == std::vector<std::uint32_t>{3, 0});
+}
+
+TEST_CASE("a planner that begins again with the same plan does not disturb the flight") {
+  Flight flight(hourglass());
+  flight.fly(80);
+  const Progress before = flight.progress();
+  flight.change(flight.plan());  // the same revision, published once more
+  flight.step();
+  CHECK(flight.progress().item == before.item);
+  CHECK(flight.progress().reached == before.reached);
+  CHECK_FALSE(flight.progress().joining);
+}
+
+TEST_CASE("a plan that ended is flown on when a waypoint is appended") {
+  Plan plan = plan_of({point(300, 0), point(600, 0)}, PlanEnd::orbit);
+  Flight flight(plan);
+  CHECK(flight.fly(200, [&] { return flight.progress().finished; }));
+  flight.fly(20);
+  plan.waypoints.push_back(point(600, 600));
+  ++plan.revision;
+  flight.change(plan);
+  flight.step();
+  CHECK_FALSE(flight.progress().finished);
+  CHECK(flight.progress().item == 2);
+  CHECK(flight.fly(200, [&] { return flight.progress().finished; }));
+}
+
+TEST_CASE("without a position nothing is published at first, and later the old path stays in force") {
+  Bench<Manager> manager;
+  manager.set(manager.in.plan, hourglass());
+  VehicleState state = Kinematic{}.state();
+  state.position_valid = false;
+  manager.set(manager.in.state, state);
+  CHECK(manager.step(0.01) == Status::degraded);
+  CHECK_FALSE(manager.out.path.written);
+  state.position_valid = true;
+  manager.set(manager.in.state, state);
+  CHECK(manager.step(0.01) == Status::ok);
+  CHECK(manager.out.path.written);
+  CHECK(manager.out.progress.items == 4);
+}
+
+TEST_CASE("a way to the plan that is not followed is drawn anew from where the aircraft is") {
+  // an aircraft that flies straight on after take-off, whatever guidance says
+  Bench<Manager> manager;
+  manager.set(manager.in.plan, hourglass());
+  Kinematic aircraft;
+  aircraft.height = 0;
+  aircraft.psi = pi / 2;
+  for (int i = 0; i < 1500; ++i) {
+    aircraft.east = 0.17 * i;
+    manager.set(manager.in.state, aircraft.state());
+    manager.step(0.01);
+  }
+  const Path& path = manager.out.path.value;
+  const double n = aircraft.north - path.origin_m.north, e = aircraft.east - path.origin_m.east;
+  const double off = path.kind == PathKind::line ? path.direction_ratio.north * e - path.direction_ratio.east * n : std::hypot(n, e) - path.radius_m;
+  CHECK(std::abs(off) < 60);
+  CHECK(manager.out.progress.item == 0);
+}
+
+TEST_CASE("the distance to the next change of curvature falls evenly to nothing") {
+  Flight flight(hourglass());
+  flight.fly(60, [&] { return flight.progress().reached == 1; });
+  double before = flight.path().remaining_m, flown = 0;
+  int changes = 0;
+  Kinematic last = flight.aircraft;
+  for (int i = 0; i < 15000; ++i) {
+    flight.step();
+    const double now = flight.path().remaining_m, step = std::hypot(flight.aircraft.north - last.north, flight.aircraft.east - last.east);
+    last = flight.aircraft;
+    flown += step;
+    if (now > before + 1) {
+      CHECK(before < 0.5);
+      ++changes;
+    } else {
+      CHECK(before - now < 2 * step + 0.01);
+    }
+    before = now;
+  }
+  CHECK(changes >= 8);
+}
+
+TEST_CASE("1024 waypoints are managed as quickly as four: a step neither allocates nor walks the list") {
+  Plan plan = plan_of({});
+  for (int i = 0; i < 1024; ++i) plan.waypoints.push_back(point(120.0 * (i % 32), 150.0 * (i / 32), 50 + i % 7));
+  Flight flight(plan);
+  flight.fly(300);
+  CHECK(flight.finite);
+  CHECK(flight.progress().reached > 20);
+  CHECK(flight.progress().items == 1024);
+  std::uint64_t count = 0;
+  for (int i = 0; i < 2000; ++i) {
+    flight.manager.set(flight.manager.in.state, flight.aircraft.state());
+    count += allocations([&] { flight.manager.step(0.01); });
+    flight.field.set(flight.field.in.path, flight.path());
+    count += allocations([&] { flight.field.step(0.01); });
+    flight.aircraft.step(flight.field.out.command, 0.01);
+  }
+  CHECK(count == 0);
+}
+
+TEST_CASE("planner and manager together: edits in flight by request") {
+  Bench<Planner> planner;
+  for (const double north : {300.0, 600.0, 900.0}) {
+    PlanFileWaypoint w;
+    w.north_m = north;
+    w.east_m = north == 600 ? 300 : 0;
+    w.up_m = 70;
+    planner.params.plan.value.waypoints.push_back(w);
+  }
+  planner.step(0.01);
+  Flight flight(planner.out.plan.value);
+  flight.fly(30);
+  PlanEdit edit;
+  edit.kind = PlanEditKind::set_current;
+  edit.index = 2;
+  planner.push(planner.in.edit, edit);
+  planner.step(0.01);
+  REQUIRE(planner.answer(planner.in.edit) == "accepted");
+  flight.change(planner.out.plan.value);
+  flight.step();
+  CHECK(flight.progress().item == 2);
+  edit.index = 9;
+  planner.push(planner.in.edit, edit);
+  planner.step(0.01);
+  CHECK(planner.answer(planner.in.edit) != "accepted");
+  CHECK_FALSE(planner.out.plan.written);
+}

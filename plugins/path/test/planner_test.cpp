@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The planner: what a file may say, edits and their refusals, geodetic waypoints.
+#define FULMAR_COUNT_ALLOCATIONS
+#include "plugins/path/planner.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "fulmar/testing.hpp"
+
+using namespace fulmar;
+using namespace fulmar::path;
+
+namespace {
+
+PlanFileWaypoint local(double north, double east, double up) {
+  PlanFileWaypoint w;
+  w.north_m = north;
+  w.east_m = east;
+  w.up_m = up;
+  return w;
+}
+
+PlanFileWaypoint geodetic(double lat, double lon, double alt) {
+  PlanFileWaypoint w;
+  w.lat_deg = lat;
+  w.lon_deg = lon;
+  w.alt_msl_m = alt;
+  return w;
+}
+
+PlanEdit edit(PlanEditKind kind, std::uint32_t index, double north = 0, double east = 0, double up = 50) {
+  PlanEdit e;
+  e.kind = kind;
+  e.index = index;
+  e.waypoint.position_m = {north, east, -up};
+  return e;
+}
+
+void three_waypoints(Bench<Planner>& bench) {
+  auto& list = bench.params.plan.value.waypoints;
+  for (const double north : {0.0, 300.0, 600.0}) list.push_back(local(north, 100, 70));
+}
+
+std::string ask(Bench<Planner>& bench, const PlanEdit& e) {
+  bench.push(bench.in.edit, e);
+  bench.step(0.01);
+  return bench.answer(bench.in.edit);
+}
+
+}  // namespace
+
+TEST_CASE("the plan of the file is published once, then only when it changes") {
+  Bench<Planner> bench;
+  three_waypoints(bench);
+  bench.params.plan.value.airspeed_mps = 17;
+  CHECK(bench.step(0.01) == Status::ok);
+  REQUIRE(bench.out.plan.written);
+  const Plan first = bench.out.plan.value;
+  CHECK(first.waypoints.count == 3);
+  CHECK(first.waypoints[2].position_m == Vec3<Ned>{600, 100, -70});
+  CHECK(first.airspeed_mps == 17);
+  for (int i = 0; i < 10; ++i) {
+    bench.step(0.01);
+    CHECK_FALSE(bench.out.plan.written);
+  }
+  CHECK(ask(bench, edit(PlanEditKind::append, 0, 900, 100)) == "accepted");
+  REQUIRE(bench.out.plan.written);
+  CHECK(bench.out.plan.value.waypoints.count == 4);
+  CHECK(bench.out.plan.value.revision > first.revision);
+  CHECK(bench.out.plan.value.jumps == first.jumps);
+}
+
+TEST_CASE("an empty plan is published too, so that something can be flown around") {
+  Bench<Planner> bench;
+  bench.step(0.01);
+  REQUIRE(bench.out.plan.written);
+  CHECK(bench.out.plan.value.waypoints.empty());
+}
+
+TEST_CASE("edits insert, replace, remove, clear and set the current waypoint") {
+  Bench<Planner> bench;
+  three_waypoints(bench);
+  bench.step(0.01);
+  const std::uint32_t jumps = bench.out.plan.value.jumps;
+  const auto norths = [&] {
+    std::vector<double> result;
+    for (const Waypoint& w : bench.out.plan.value.waypoints) result.push_back(w.position_m.north);
+    return result;
+  };
+  CHECK(ask(bench, edit(PlanEditKind::insert, 1, 150, 100)) == "accepted");
+  CHECK(norths() == std::vector<double>{0, 150, 300, 600});
+  CHECK(ask(bench, edit(PlanEditKind::insert, 4, 700, 100)) == "accepted");
+  CHECK(norths() == std::vector<double>{0, 150, 300, 600, 700});
+  CHECK(ask(bench, edit(PlanEditKind::replace, 0, -50, 100)) == "accepted");
+  CHECK(norths() == std::vector<double>{-50, 150, 300, 600, 700});
+  CHECK(ask(bench, edit(PlanEditKind::remove, 2)) == "accepted");
+  CHECK(norths() == std::vector<double>{-50, 150, 600, 700});
+  CHECK(bench.out.plan.value.jumps == jumps);
+  CHECK(ask(bench, edit(PlanEditKind::set_current, 3)) == "accepted");
+  CHECK(bench.out.plan.value.jumps == jumps + 1);
+  CHECK(bench.out.plan.value.jump_item == 3);
+  CHECK(ask(bench, edit(PlanEditKind::clear, 0)) == "accepted");
+  CHECK(norths().empty());
+  CHECK(bench.out.plan.value.jumps == jumps + 2);
+  CHECK(bench.out.plan.value.jump_item == 0);
+}
+
+TEST_CASE("a jump keeps its waypoint when others are removed or inserted before it in the same step") {
+  Bench<Planner> bench;
+  three_waypoints(bench);
+  bench.step(0.01);
+  bench.push(bench.in.edits, edit(PlanEditKind::set_current, 2));
+  bench.push(bench.in.edits, edit(PlanEditKind::remove, 0));
+  bench.step(0.01);
+  const Plan& plan = bench.out.plan.value;
+  CHECK(plan.waypoints[plan.jump_item].position_m.north == 600);
+  bench.push(bench.in.edits, edit(PlanEditKind::insert, 0, -300, 0));
+  bench.step(0.01);
+  CHECK(bench.out.plan.value.waypoints[bench.out.plan.value.jump_item].position_m.north == 600);
+}
+
+TEST_CASE("a bad edit is refused with its reason and changes nothing") {
+  Bench<Planner> bench;
+  three_waypoints(bench);
+  bench.step(0.01);
+  const auto refused = [&](PlanEdit e, const std::string& reason) {
+    CAPTURE(reason);
+    CHECK(ask(bench, e).find(reason) != std::string::npos);
+    CHECK_FALSE(bench.out.plan.written);
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  refused(edit(PlanEditKind::remove, 3), "no waypoint of this index");
+  refused(edit(PlanEditKind::replace, 7, 0, 0), "no waypoint of this index");
+  refused(edit(PlanEditKind::set_current, 3), "no waypoint of this index");
+  refused(edit(PlanEditKind::insert, 4, 0, 0), "beyond the end");
+  refused(edit(PlanEditKind::append, 0, nan, 0), "not finite");
+  refused(edit(PlanEditKind::append, 0, 0, 0, nan), "not finite");
+  refused(edit(PlanEditKind::append, 0, 2e5, 0), "100 km");
+  refused(edit(PlanEditKind::append, 0, 600.5, 100), "less than 1 m from the waypoint before");
+  refused(edit(PlanEditKind::insert, 1, 300, 100.2), "less than 1 m from the waypoint after");
+  refused(edit(PlanEditKind::replace, 1, 600, 100), "less than 1 m from the waypoint after");
+  PlanEdit course = edit(PlanEditKind::append, 0, 900, 0);
+  course.waypoint.course_rad = nan;
+  refused(course, "course");
+  PlanEdit speed = edit(PlanEditKind::append, 0, 900, 0);
+  speed.waypoint.airspeed_mps = -1;
+  refused(speed, "airspeed");
+  PlanEdit kind = edit(PlanEditKind::append, 0, 900, 0);
+  kind.kind = static_cast<PlanEditKind>(77);
+  refused(kind, "no such kind");
+  PlanEdit pole = edit(PlanEditKind::append, 0);
+  pole.waypoint.frame = WaypointFrame::geodetic;
+  pole.waypoint.latitude_deg = 91;
+  refused(pole, "latitude");
+  CHECK(ask(bench, edit(PlanEditKind::replace, 1, 300, 101)) == "accepted");  // near itself is no fault
+}
+
+TEST_CASE("a plan holds 1024 waypoints and refuses one more") {
+  Bench<Planner> bench;
+  for (int i = 0; i < 1023; ++i) bench.params.plan.value.waypoints.push_back(local(50.0 * i, 0, 100));
+  bench.step(0.01);
+  CHECK(ask(bench, edit(PlanEditKind::append, 0, -400, 0)) == "accepted");
+  CHECK(bench.out.plan.value.waypoints.count == 1024);
+  CHECK(ask(bench, edit(PlanEditKind::append, 0, -800, 0)).find("full") != std::string::npos);
+  CHECK(ask(bench, edit(PlanEditKind::insert, 0, -800, 0)).find("full") != std::string::npos);
+  CHECK(ask(bench, edit(PlanEditKind::remove, 0)) == "accepted");
+  CHECK(bench.out.plan.value.waypoints.count == 1023);
+}
+
+TEST_CASE("geodetic waypoints wait for the origin") {
+  Bench<Planner> bench;
+  three_waypoints(bench);
+  bench.params.plan.value.waypoints.push_back(geodetic(40.2499741, -111.6474138, 1457));  // 0.0036017 deg north of the origin: 400 m
+  CHECK(bench.step(0.01) == Status::degraded);
+  CHECK_FALSE(bench.out.plan.written);
+  VehicleState state;
+  bench.set(bench.in.state, state);
+  bench.step(0.01);
+  CHECK_FALSE(bench.out.plan.written);
+  state.origin_latitude_deg = 40.2463724;
+  state.origin_longitude_deg = -111.6474138;
+  state.origin_altitude_m = 1387;
+  state.origin_valid = true;
+  bench.set(bench.in.state, state);
+  CHECK(bench.step(0.01) == Status::ok);
+  REQUIRE(bench.out.plan.written);
+  // WGS-84 meridian radius at 40.248 deg: a (1 - e^2) / (1 - e^2 sin^2 lat)^1.5 = 6362209 m, and 1.4 km up
+  const Vec3<Ned>& p = bench.out.plan.value.waypoints[3].position_m;
+  const double sin_lat = std::sin(40.248 * std::numbers::pi / 180), e2 = 0.00669437999014;
+  const double M = 6378137 * (1 - e2) / std::pow(1 - e2 * sin_lat * sin_lat, 1.5);
+  CHECK(p.north == doctest::Approx((M + 1457) * 0.0036017 * std::numbers::pi / 180).epsilon(1e-5));
+  CHECK(std::abs(p.east) < 0.01);
+  CHECK(p.down == doctest::Approx(-70).epsilon(1e-3));
+}
+
+TEST_CASE("the mission's origin serves at once") {
+  Bench<Planner> bench;
+  bench.params.origin.value = {40.2463724, -111.6474138, 1387, true};
+  bench.params.plan.value.waypoints.push_back(geodetic(40.2463724, -111.6474138, 1457));
+  CHECK(bench.step(0.01) == Status::ok);
+  REQUIRE(bench.out.plan.written);
+  CHECK(std::abs(bench.out.plan.value.waypoints[0].position_m.north) < 1e-6);
+  CHECK(bench.out.plan.value.waypoints[0].position_m.down == doctest::Approx(-70));
+}
+
+TEST_CASE("a file that is wrong is refused with a sentence that names the waypoint") {
+  const auto fault = [](auto&& change) {
+    Bench<Planner> bench;
+    three_waypoints(bench);
+    change(bench.params.plan.value);
+    CHECK(bench.configure() == Status::failed);
+    return bench.error();
+  };
+  CHECK(fault([](PlanFile& f) { f.waypoints[1].lat_deg = 40; }).find("waypoint 2") != std::string::npos);
+  CHECK(fault([](PlanFile& f) { f.waypoints[2].up_m = not_given; }).find("waypoint 3 of the plan needs north, east and up") != std::string::npos);
+  CHECK(fault([](PlanFile& f) { f.waypoints[0] = {}; }).find("waypoint 1") != std::string::npos);
+  CHECK(fault([](PlanFile& f) { f.airspeed_mps = 0; }).find("airspeed") != std::string::npos);
+  CHECK(fault([](PlanFile& f) { f.turn_radius_m = 0; }).find("turn_radius") != std::string::npos);
+  CHECK(fault([](PlanFile& f) { f.waypoints[0].airspeed_mps = -3; }).find("airspeed") != std::string::npos);
+}
+
+TEST_CASE("edits of the queue are applied in order, and what is refused is counted") {
+  Bench<Planner> bench;
+  bench.step(0.01);
+  bench.push(bench.in.edits, edit(PlanEditKind::append, 0, 100, 0));
+  bench.push(bench.in.edits, edit(PlanEditKind::remove, 9));
+  bench.push(bench.in.edits, edit(PlanEditKind::append, 0, 500, 0));
+  CHECK(allocations([&] { bench.step(0.01); }) == 0);
+  CHECK(bench.out.plan.value.waypoints.count == 2);
+  CHECK(bench.out.refused_ratio.value == 1);
+}

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The vector field: the book's numbers, convergence of a point that follows it, bank in wind, heights, and degenerate paths.
+#include "plugins/path/vector_field.hpp"
+
+#include <doctest/doctest.h>
+
+#include "fulmar/random.hpp"
+#include "fulmar/testing.hpp"
+
+using namespace fulmar;
+using namespace fulmar::path;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+VehicleState at(double north, double east, double course, double speed = 17) {
+  VehicleState s;
+  s.position_m = {north, east, -50};
+  s.height_m = 50;
+  s.course_rad = s.yaw_rad = course;
+  s.ground_speed_mps = s.airspeed_mps = speed;
+  return s;
+}
+
+Path line(double course, double climb = 0) {
+  Path path;
+  const double norm = 1 / std::hypot(1, climb);
+  path.origin_m = {0, 0, -50};
+  path.direction_ratio = {std::cos(course) * norm, std::sin(course) * norm, -climb * norm};
+  return path;
+}
+
+Path orbit(Turn turn, double radius) {
+  Path path;
+  path.kind = PathKind::orbit;
+  path.turn = turn;
+  path.origin_m = {0, 0, -50};
+  path.radius_m = radius;
+  path.next_curvature_ratio = (turn == Turn::right ? 1 : -1) / radius;
+  return path;
+}
+
+GuidanceCommand command(Bench<VectorField>& bench, const VehicleState& state, const Path& path) {
+  bench.set(bench.in.state, state);
+  bench.set(bench.in.path, path);
+  REQUIRE(bench.step(0.01) == Status::ok);
+  return bench.out.command;
+}
+
+}  // namespace
+
+TEST_CASE("on a line its course is commanded, far to the side the approach angle, on the right side of it") {
+  Bench<VectorField> bench;
+  CHECK(command(bench, at(100, 0, 0), line(0)).course_rad == doctest::Approx(0));
+  CHECK(command(bench, at(100, 1e6, 0), line(0)).course_rad == doctest::Approx(-1.05).epsilon(1e-3));
+  CHECK(command(bench, at(100, -1e6, 0), line(0)).course_rad == doctest::Approx(1.05).epsilon(1e-3));
+  // where k e = 1 the arctangent is pi/4: half the approach angle
+  CHECK(command(bench, at(100, 1 / 0.03, 0), line(0)).course_rad == doctest::Approx(-1.05 / 2));
+  CHECK(bench.out.cross_track_m.value == doctest::Approx(1 / 0.03));
+}
+
+TEST_CASE("on an orbit the tangent is commanded, far outside the way to the centre") {
+  Bench<VectorField> bench;
+  CHECK(command(bench, at(50, 0, pi / 2), orbit(Turn::right, 50)).course_rad == doctest::Approx(pi / 2));
+  CHECK(command(bench, at(50, 0, -pi / 2), orbit(Turn::left, 50)).course_rad == doctest::Approx(-pi / 2));
+  CHECK(std::abs(wrap_pi(command(bench, at(1e6, 0, 0), orbit(Turn::right, 50)).course_rad - pi)) < 1e-3);
+}
+
+TEST_CASE("a point that flies the commanded course comes to the path from anywhere and stays") {
+  Random rng(31);
+  Bench<VectorField> bench;
+  for (int trial = 0; trial < 60; ++trial) {
+    const Path path = trial % 2 == 0 ? line(rng.uniform(-pi, pi)) : orbit(trial % 4 == 1 ? Turn::right : Turn::left, rng.uniform(30, 150));
+    double n = rng.uniform(-300, 300), e = rng.uniform(-300, 300), chi = 0;
+    double before = 1e9;
+    for (int i = 0; i < 12000; ++i) {
+      chi = command(bench, at(n, e, chi), path).course_rad;
+      const double off = std::abs(bench.out.cross_track_m.value);
+      CHECK(off <= before + 0.01);  // never away from the path
+      before = off;
+      n += 0.01 * 17 * std::cos(chi);
+      e += 0.01 * 17 * std::sin(chi);
+    }
+    CHECK(before < 0.1);
+  }
+}
+
+TEST_CASE("the height is that of the projection onto the path: beside it, behind its beginning and ahead") {
+  Bench<VectorField> bench;
+  const Path path = line(pi / 2, 0.1);  // east, climbing 1 in 10 from 50 m
+  CHECK(command(bench, at(0, 200, pi / 2), path).height_m == doctest::Approx(70));
+  CHECK(command(bench, at(300, 200, pi / 2), path).height_m == doctest::Approx(70));
+  CHECK(command(bench, at(0, -100, pi / 2), path).height_m == doctest::Approx(40));
+  CHECK(command(bench, at(0, 0, pi / 2, 20), path).climb_rate_mps == doctest::Approx(2));
+  CHECK(std::abs(command(bench, at(0, 0, 0, 20), path).climb_rate_mps) < 1e-12);  // across it
+  CHECK(bench.out.height_error_m.value == doctest::Approx(0));
+}
+
+TEST_CASE("a climbing arc gives the height where the aircraft is, through south too") {
+  Bench<VectorField> bench;
+  Path path = orbit(Turn::right, 100);
+  path.climb_ratio = 0.05;
+  path.start_rad = pi - 0.1;
+  const double azimuth = -pi + 0.1;  // 0.2 rad on
+  CHECK(command(bench, at(100 * std::cos(azimuth), 100 * std::sin(azimuth), 0), path).height_m == doctest::Approx(50 + 0.05 * 100 * 0.2));
+}
+
+TEST_CASE("the fed-forward bank alone holds a circle over the ground in wind") {
+  Bench<VectorField> bench;
+  bench.params.roll_max.value = 1.2;
+  for (const Turn turn : {Turn::right, Turn::left}) {
+    const double R = 80, Va = 17, wind_n = 3, wind_e = -4, side = turn == Turn::right ? 1 : -1, dt = 0.002;
+    // begin on the circle with the ground track along it
+    double n = R, e = 0, psi = side * pi / 2;
+    for (int i = 0; i < 50; ++i) psi -= wrap_pi(std::atan2(Va * std::sin(psi) + wind_e, Va * std::cos(psi) + wind_n) - side * pi / 2);
+    double worst = 0;
+    for (int i = 0; i < 15000; ++i) {
+      const double vn = Va * std::cos(psi) + wind_n, ve = Va * std::sin(psi) + wind_e;
+      VehicleState s = at(n, e, std::atan2(ve, vn), std::hypot(vn, ve));
+      s.yaw_rad = wrap_pi(psi);
+      const double phi = command(bench, s, orbit(turn, R)).roll_feedforward_rad;
+      psi += dt * 9.80665 / Va * std::tan(phi);  // coordinated turn, B&M (9.13): knows nothing of the ground
+      n += dt * vn;
+      e += dt * ve;
+      worst = std::max(worst, std::abs(std::hypot(n, e) - R));
+    }
+    CHECK(worst < 1.5);
+  }
+}
+
+TEST_CASE("the bank of the next piece is commanded shortly before it begins, and not when far from the path") {
+  Bench<VectorField> bench;
+  bench.params.lead_time.value = 0.5;
+  Path path = line(0);
+  path.next_curvature_ratio = -1 / 50.0;
+  path.remaining_m = 9;  // 17 m/s for 0.5 s is 8.5 m
+  CHECK(command(bench, at(0, 0, 0), path).roll_feedforward_rad == 0);
+  path.remaining_m = 8;
+  CHECK(command(bench, at(0, 0, 0), path).roll_feedforward_rad == doctest::Approx(-std::atan(17.0 * 17 / (50 * 9.80665))));
+  CHECK(command(bench, at(0, 40, 0), path).roll_feedforward_rad == 0);
+  CHECK(command(bench, at(0, 0, pi), path).roll_feedforward_rad == 0);
+}
+
+TEST_CASE("course commands are wrapped and finite for every path and place, also at the centre of an orbit and on a vertical line") {
+  Random rng(37);
+  Bench<VectorField> bench;
+  for (int i = 0; i < 5000; ++i) {
+    Path path = i % 2 == 0 ? line(rng.uniform(-7, 7), rng.uniform(-0.5, 0.5)) : orbit(Turn::left, rng.uniform(0, 100));
+    VehicleState s = at(rng.uniform(-100, 100), rng.uniform(-100, 100), rng.uniform(-pi, pi), rng.uniform(0, 30));
+    if (i % 5 == 0) s.position_m = {0, 0, -50};
+    if (i % 7 == 0) path.direction_ratio = {0, 0, -1};
+    if (i % 11 == 0) path.direction_ratio = {0, 0, 0};
+    if (i % 13 == 0) path.radius_m = 0;
+    const GuidanceCommand c = command(bench, s, path);
+    CHECK(std::abs(c.course_rad) <= pi);
+    CHECK(std::isfinite(c.height_m));
+    CHECK(std::isfinite(c.climb_rate_mps));
+    CHECK(std::abs(c.roll_feedforward_rad) <= 0.785);
+  }
+  CHECK(allocations([&] { bench.step(0.01); }) == 0);
+}

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How well the flight is flown: tracking, estimation and injected GNSS errors, and a few figures. Takes no part in the flight.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fulmar/flight/geodesy.hpp"
+#include "fulmar/flight/route.hpp"
+#include "fulmar/msg/actuators.hpp"
+#include "fulmar/msg/attitude_command.hpp"
+#include "fulmar/msg/gnss.hpp"
+#include "fulmar/msg/guidance_command.hpp"
+#include "fulmar/msg/path.hpp"
+#include "fulmar/msg/plan.hpp"
+#include "fulmar/msg/progress.hpp"
+#include "fulmar/msg/vehicle_state.hpp"
+#include "fulmar/plugin.hpp"
+#include "score_messages.hpp"
+#include "truth_history.hpp"
+
+namespace fulmar::score {
+
+/// Running mean of squares: no sum that grows, so no digits lost over a long flight.
+struct MeanSquare {
+  double mean = 0;
+  double count = 0;
+  void add(double error) { mean += (error * error - mean) / ++count; }
+  double rms() const { return std::sqrt(mean); }
+};
+
+/// The legs around the waypoint that is flown to, kept until it changes; the whole plan is never searched.
+class NearRoute {
+ public:
+  /// False where the route is not defined: no plan, or on the way to it.
+  bool nearest_to(const Plan& plan, const Progress& progress, double north_m, double east_m, RoutePoint& best);
+
+ private:
+  void update(const Route& route, std::uint32_t item);
+
+  std::array<RouteLeg, 3> legs_{};
+  std::uint32_t count_ = 0;
+  RouteOrbit orbit_;
+  bool point_ = false;  // all waypoints in one place
+  std::uint32_t revision_ = 0, item_ = 0;
+};
+
+struct Score {
+  static constexpr const char* doc = "Tracking and estimation errors and figures of a flight.";
+  struct Inputs {
+    In<VehicleState> state;
+    Optional<VehicleState> truth;
+    Optional<Path> path;
+    Optional<Plan> plan;
+    Optional<Progress> progress;
+    Optional<GuidanceCommand> command;
+    Optional<AttitudeCommand> attitude;
+    Optional<Actuators> actuators;
+    Optional<Gnss> gnss;
+  };
+  struct Outputs {
+    Out<TrackingError> tracking;       // against the estimate
+    Out<TrackingError> tracking_true;  // against the truth
+    Out<EstimationError> estimation;
+    Out<GnssError> gnss_error;
+    Out<Figures> figures;
+  };
+  struct Params {
+    Param start_height{20, "m", 0, 10000, "without a progress to tell of the first waypoint: score from this height on"};
+  };
+
+  Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out);
+
+ private:
+  struct Tracking {
+    MeanSquare north, east, altitude, roll, pitch, course, airspeed;
+    TrackingError rms() const { return {north.rms(), east.rms(), altitude.rms(), roll.rms(), pitch.rms(), course.rms(), airspeed.rms()}; }
+    bool any() const { return north.count + roll.count + course.count > 0; }
+  };
+  struct Estimation {
+    MeanSquare north, east, altitude, vel_x, vel_y, vel_z, roll, pitch, heading, course, airspeed, wind_n, wind_e;
+  };
+  struct Pending {  // a sample whose truth is not there yet
+    bool waits = false;
+    std::int64_t time_ns = 0;
+    Compared sample;
+  };
+
+  void track(const Inputs& in, const VehicleState& state, Tracking& sums);
+  bool nearest_point(const Inputs& in, const VehicleState& state, RoutePoint& point);
+  void note_truth(const Inputs& in);
+  void estimate(const Inputs& in);
+  void add_estimation(const Compared& estimate, const Compared& truth);
+  void fix(const Inputs& in);
+  void count(const Tick& tick, const Inputs& in);
+  bool due(const Tick& tick, const Inputs& in);
+  void publish(Outputs& out) const;
+
+  NearRoute route_;
+  Tracking tracking_, tracking_true_;
+  Estimation estimation_;
+  MeanSquare gnss_north_, gnss_east_, surface_rate_;
+  Figures figures_;
+  TruthHistory history_;
+  Pending state_, gnss_;
+  LocalFrame frame_;  // of the truth's origin
+  double frame_lat_deg_ = std::numeric_limits<double>::infinity(), frame_lon_deg_ = 0, frame_alt_m_ = 0;
+  Actuators actuators_;
+  std::int64_t actuators_ns_ = 0;
+  std::uint64_t actuators_seen_ = 0;
+  bool started_ = false;
+  std::int64_t lap_began_ns_ = 0, published_ns_ = 0;
+  std::uint32_t first_reached_ = 0, reached_ = 0, circuits_ = 0;
+  double airspeed_min_ = unknown_std;
+};
+
+}  // namespace fulmar::score
+
+#include "score_impl.hpp"

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The functions of score.hpp.
+#pragma once
+#include "score.hpp"
+
+namespace fulmar::score {
+
+inline void NearRoute::update(const Route& route, std::uint32_t item) {
+  count_ = 0;
+  point_ = route.is_point();
+  if (point_ || !route.closed()) orbit_ = route.final_orbit();
+  if (point_) return;
+  const auto add = [&](std::uint32_t i) {
+    if (route.closed() || i > 0) legs_[count_++] = route.leg(i);
+  };
+  add(item);
+  if (route.before(item) != item) add(route.before(item));
+  const std::uint32_t next = route.after(item);
+  if (next != item && next != route.before(item)) add(next);
+}
+
+inline bool NearRoute::nearest_to(const Plan& plan, const Progress& progress, double north_m, double east_m, RoutePoint& best) {
+  const Route route(plan);
+  if (progress.joining || progress.reached == 0 || progress.plan_revision != plan.revision || progress.item >= route.size()) return false;
+  if (revision_ != plan.revision || item_ != progress.item || (count_ == 0 && !point_)) {
+    revision_ = plan.revision;
+    item_ = progress.item;
+    update(route, item_);
+  }
+  best = {};
+  if (point_ || progress.finished) {
+    const double n = north_m - orbit_.north_m, e = east_m - orbit_.east_m, d = std::hypot(n, e);
+    const double unit_n = d > 1e-9 ? n / d : 1, unit_e = d > 1e-9 ? e / d : 0;
+    best = {orbit_.north_m + orbit_.radius_m * unit_n, orbit_.east_m + orbit_.radius_m * unit_e, orbit_.height_m,
+            std::abs(d - orbit_.radius_m)};
+    return true;
+  }
+  for (std::uint32_t i = 0; i < count_; ++i) {
+    const RoutePoint point = nearest(legs_[i], north_m, east_m);
+    if (point.distance_m < best.distance_m) best = point;
+  }
+  return true;
+}
+
+inline Status Score::step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
+  note_truth(in);
+  if (!started_) {
+    started_ = in.progress ? in.progress->reached > 0 : in.state->height_m > p.start_height;
+    if (!started_) return Status::ok;
+    lap_began_ns_ = tick.now_ns;
+    published_ns_ = tick.now_ns;
+    if (in.progress) {
+      first_reached_ = reached_ = in.progress->reached;
+      circuits_ = in.progress->circuits;
+    }
+  }
+  if (in.state.fresh()) {
+    if (in.state->position_valid) track(in, *in.state, tracking_);
+    estimate(in);
+  }
+  if (in.truth && in.truth.fresh()) track(in, *in.truth, tracking_true_);
+  fix(in);
+  count(tick, in);
+  if (due(tick, in)) publish(out);
+  return Status::ok;
+}
+
+inline void Score::track(const Inputs& in, const VehicleState& state, Tracking& sums) {
+  RoutePoint point;
+  if (nearest_point(in, state, point)) {
+    sums.north.add(point.north_m - state.position_m.north);
+    sums.east.add(point.east_m - state.position_m.east);
+    sums.altitude.add(point.height_m - state.height_m);
+  }
+  if (in.command) {
+    sums.course.add(angle_difference(in.command->course_rad, state.course_rad));
+    sums.airspeed.add(in.command->airspeed_mps - state.airspeed_mps);
+  }
+  if (in.attitude) {
+    sums.roll.add(angle_difference(in.attitude->roll_rad, state.roll_rad));
+    sums.pitch.add(in.attitude->pitch_rad - state.pitch_rad);
+  }
+}
+
+/// On the plan's route, or, where none is wired, on the piece of path that is followed.
+inline bool Score::nearest_point(const Inputs& in, const VehicleState& state, RoutePoint& point) {
+  const double north = state.position_m.north, east = state.position_m.east;
+  if (in.plan && in.progress) return route_.nearest_to(*in.plan, *in.progress, north, east, point);
+  if (!in.path) return false;
+  const Path& path = *in.path;
+  const double n = north - path.origin_m.north, e = east - path.origin_m.east;
+  point.north_m = path.origin_m.north;
+  point.east_m = path.origin_m.east;
+  point.height_m = -path.origin_m.down;
+  if (path.kind == PathKind::line) {
+    const Vec3<Ned>& q = path.direction_ratio;
+    const double level2 = std::max(q.north * q.north + q.east * q.east, 1e-12), s = (n * q.north + e * q.east) / level2;
+    point.north_m += s * q.north;
+    point.east_m += s * q.east;
+    point.height_m -= s * q.down;
+  } else {
+    const double d = std::hypot(n, e), azimuth = d > 1e-9 ? std::atan2(e, n) : path.start_rad;
+    point.north_m += path.radius_m * std::cos(azimuth);
+    point.east_m += path.radius_m * std::sin(azimuth);
+    point.height_m += path.climb_ratio * path.radius_m * sign_of(path.turn) * wrap_pi(azimuth - path.start_rad);
+  }
+  return true;
+}
+
+inline void Score::note_truth(const Inputs& in) {
+  if (!in.truth || !in.truth.fresh()) return;
+  const VehicleState& truth = *in.truth;
+  const double lat = truth.origin_latitude_deg, lon = truth.origin_longitude_deg, alt = truth.origin_altitude_m;
+  if (truth.origin_valid && (lat != frame_lat_deg_ || lon != frame_lon_deg_ || alt != frame_alt_m_)) {
+    frame_ = LocalFrame(lat, lon, alt);
+    frame_lat_deg_ = lat;
+    frame_lon_deg_ = lon;
+    frame_alt_m_ = alt;
+  }
+  history_.add(in.truth.valid_at_ns(), compared(truth));
+}
+
+inline void Score::estimate(const Inputs& in) {
+  if (!in.truth) return;
+  Compared truth;
+  if (state_.waits && history_.at(state_.time_ns, truth) != TruthHistory::Found::not_yet) {
+    if (history_.at(state_.time_ns, truth) == TruthHistory::Found::yes) add_estimation(state_.sample, truth);
+    state_.waits = false;
+  }
+  const VehicleState& state = *in.state;
+  if (!state.position_valid || !state.attitude_valid || !state.velocity_valid) return;
+  const std::int64_t time_ns = in.state.valid_at_ns();
+  const TruthHistory::Found found = history_.at(time_ns, truth);
+  if (found == TruthHistory::Found::too_old || (found == TruthHistory::Found::not_yet && state_.waits)) return;
+  Compared estimate = compared(state);
+  if (state.origin_latitude_deg != frame_lat_deg_ || state.origin_longitude_deg != frame_lon_deg_ ||
+      state.origin_altitude_m != frame_alt_m_) {
+    if (state.origin_valid && std::isfinite(frame_lat_deg_)) {  // another origin: the two local frames are parallel but for the metre
+      const auto o = from_eigen<Ned>(frame_.to_ned(state.origin_latitude_deg, state.origin_longitude_deg, state.origin_altitude_m));
+      estimate.north += o.north;
+      estimate.east += o.east;
+      estimate.height -= o.down;
+    }
+  }
+  if (found == TruthHistory::Found::yes) {
+    add_estimation(estimate, truth);
+  } else {
+    state_ = {true, time_ns, estimate};
+  }
+}
+
+inline void Score::add_estimation(const Compared& estimate, const Compared& truth) {
+  Estimation& s = estimation_;
+  s.north.add(estimate.north - truth.north);
+  s.east.add(estimate.east - truth.east);
+  s.altitude.add(estimate.height - truth.height);
+  s.vel_x.add(estimate.vel_x - truth.vel_x);
+  s.vel_y.add(estimate.vel_y - truth.vel_y);
+  s.vel_z.add(estimate.vel_z - truth.vel_z);
+  s.roll.add(angle_difference(estimate.roll, truth.roll));
+  s.pitch.add(estimate.pitch - truth.pitch);
+  s.heading.add(angle_difference(estimate.heading, truth.heading));
+  s.course.add(angle_difference(estimate.course, truth.course));
+  s.airspeed.add(estimate.airspeed - truth.airspeed);
+  s.wind_n.add(estimate.wind_n - truth.wind_n);
+  s.wind_e.add(estimate.wind_e - truth.wind_e);
+}
+
+inline void Score::fix(const Inputs& in) {
+  if (!in.truth || !in.gnss || !std::isfinite(frame_lat_deg_)) return;
+  if (in.gnss.fresh() && in.gnss->fix != FixType::none && in.gnss->fix != FixType::time_only) {
+    const auto p = from_eigen<Ned>(frame_.to_ned(in.gnss->latitude_deg, in.gnss->longitude_deg, in.gnss->altitude_m));
+    gnss_ = {true, in.gnss.valid_at_ns(), {}};
+    gnss_.sample.north = p.north;
+    gnss_.sample.east = p.east;
+  }
+  if (!gnss_.waits) return;
+  Compared truth;
+  const TruthHistory::Found found = history_.at(gnss_.time_ns, truth);
+  if (found == TruthHistory::Found::not_yet) return;
+  gnss_.waits = false;
+  if (found == TruthHistory::Found::too_old) return;
+  gnss_north_.add(gnss_.sample.north - truth.north);
+  gnss_east_.add(gnss_.sample.east - truth.east);
+}
+
+inline void Score::count(const Tick& tick, const Inputs& in) {
+  if (in.progress) {
+    const Progress& progress = *in.progress;
+    figures_.waypoints_reached = progress.reached;
+    if (progress.reached > first_reached_) figures_.miss_distance_max_m = std::max(figures_.miss_distance_max_m, progress.miss_m);
+    if (progress.circuits != circuits_) {
+      figures_.lap_time_s = 1e-9 * static_cast<double>(tick.now_ns - lap_began_ns_);
+      lap_began_ns_ = tick.now_ns;
+    }
+  }
+  airspeed_min_ = std::min(airspeed_min_, in.truth ? in.truth->airspeed_mps : in.state->airspeed_mps);
+  if (in.actuators && in.actuators.fresh()) {
+    const Actuators& now = *in.actuators;
+    const double dt_s = 1e-9 * static_cast<double>(in.actuators.valid_at_ns() - actuators_ns_);
+    if (actuators_seen_ > 0 && dt_s > 0) {
+      surface_rate_.add((now.aileron_rad - actuators_.aileron_rad) / dt_s);
+      surface_rate_.add((now.elevator_rad - actuators_.elevator_rad) / dt_s);
+      surface_rate_.add((now.rudder_rad - actuators_.rudder_rad) / dt_s);
+    }
+    actuators_ = now;
+    actuators_ns_ = in.actuators.valid_at_ns();
+    ++actuators_seen_;
+  }
+}
+
+/// Once a second, and whenever the progress changes: a flight that ends with a waypoint ends with the figures of that moment.
+inline bool Score::due(const Tick& tick, const Inputs& in) {
+  bool news = tick.now_ns - published_ns_ >= 1'000'000'000;
+  if (in.progress && (in.progress->reached != reached_ || in.progress->circuits != circuits_)) {
+    reached_ = in.progress->reached;
+    circuits_ = in.progress->circuits;
+    news = true;
+  }
+  if (news) published_ns_ = tick.now_ns;
+  return news;
+}
+
+inline void Score::publish(Outputs& out) const {
+  if (tracking_.any()) out.tracking.publish(tracking_.rms());
+  if (tracking_true_.any()) out.tracking_true.publish(tracking_true_.rms());
+  if (estimation_.north.count > 0) {
+    const Estimation& s = estimation_;
+    out.estimation.publish({s.north.rms(), s.east.rms(), s.altitude.rms(), s.vel_x.rms(), s.vel_y.rms(), s.vel_z.rms(), s.roll.rms(),
+                            s.pitch.rms(), s.heading.rms(), s.course.rms(), s.airspeed.rms(), s.wind_n.rms(), s.wind_e.rms()});
+  }
+  if (gnss_north_.count > 0) out.gnss_error.publish({gnss_north_.rms(), gnss_east_.rms()});
+  Figures figures = figures_;
+  figures.surface_rate_rms_radps = surface_rate_.rms();
+  figures.airspeed_min_mps = airspeed_min_;
+  out.figures.publish(figures);
+}
+
+}  // namespace fulmar::score

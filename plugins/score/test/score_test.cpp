@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The score against errors that were put in: constant offsets, sines of known root mean square, delays that must not count.
+#define FULMAR_COUNT_ALLOCATIONS
+#include "plugins/score/score.hpp"
+
+#include <doctest/doctest.h>
+
+#include <functional>
+
+#include "fulmar/testing.hpp"
+
+using namespace fulmar;
+using namespace fulmar::score;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double lat0 = 40.2463724, lon0 = -111.6474138, alt0 = 1387;
+
+/// Straight north at 20 m/s, level wings, 70 m up.
+VehicleState north_at(double time_s, double east = 0) {
+  VehicleState s;
+  s.position_m = {20 * time_s, east, -70};
+  s.velocity_mps = {20, 0, 0};
+  s.height_m = 70;
+  s.ground_speed_mps = 20;
+  s.airspeed_mps = 18;
+  s.wind_mps = {2, 0, 0};
+  s.origin_latitude_deg = lat0;
+  s.origin_longitude_deg = lon0;
+  s.origin_altitude_m = alt0;
+  s.origin_valid = s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = s.wind_valid = true;
+  return s;
+}
+
+Plan square() {
+  Plan plan;
+  plan.revision = 1;
+  for (const auto& [n, e] : {std::pair{-10000.0, 0.0}, {10000.0, 0.0}, {10000.0, 5000.0}, {-10000.0, 5000.0}}) {
+    Waypoint w;
+    w.position_m = {n, e, -72};
+    plan.waypoints.push_back(w);
+  }
+  return plan;
+}
+
+Progress under_way() {
+  Progress progress;
+  progress.item = 1;
+  progress.items = 4;
+  progress.reached = 1;
+  progress.plan_revision = 1;
+  return progress;
+}
+
+}  // namespace
+
+TEST_CASE("nothing is published before the first waypoint was reached, nor what there is nothing to compare with") {
+  Bench<Score> bench;
+  Progress progress = under_way();
+  progress.reached = 0;
+  bench.set(bench.in.plan, square());
+  for (int i = 0; i < 500; ++i) {
+    bench.set(bench.in.progress, progress);
+    bench.set(bench.in.state, north_at(0.01 * i));
+    bench.set(bench.in.truth, north_at(0.01 * i));
+    bench.step(0.01);
+    CHECK_FALSE(bench.out.tracking.written);
+    CHECK_FALSE(bench.out.figures.written);
+  }
+  progress.reached = 1;
+  bool tracking = false, gnss = false;
+  for (int i = 500; i < 800; ++i) {
+    bench.set(bench.in.progress, progress);
+    bench.set(bench.in.state, north_at(0.01 * i));
+    bench.step(0.01);
+    tracking = tracking || bench.out.tracking.written;
+    gnss = gnss || bench.out.gnss_error.written;
+  }
+  CHECK(tracking);
+  CHECK_FALSE(gnss);
+}
+
+TEST_CASE("tracking errors are those that were put in, against the estimate and against the truth") {
+  Bench<Score> bench;
+  bench.set(bench.in.plan, square());
+  GuidanceCommand command;
+  command.airspeed_mps = 17;
+  command.course_rad = 2 * pi - 0.1;
+  AttitudeCommand attitude;
+  attitude.roll_rad = 0.2;
+  attitude.pitch_rad = -0.05;
+  TrackingError estimated, real;
+  for (int i = 0; i < 1000; ++i) {
+    const double east = 3 * std::sin(2 * pi * i / 100);  // ten whole periods: root mean square 3 / sqrt 2
+    bench.set(bench.in.state, north_at(0.01 * i, east));
+    bench.set(bench.in.truth, north_at(0.01 * i, east + 4));
+    bench.set(bench.in.progress, under_way());
+    bench.set(bench.in.command, command);
+    bench.set(bench.in.attitude, attitude);
+    bench.step(0.01);
+    if (bench.out.tracking.written) estimated = bench.out.tracking.value;
+    if (bench.out.tracking_true.written) real = bench.out.tracking_true.value;
+  }
+  CHECK(estimated.east_m == doctest::Approx(3 / std::sqrt(2)).epsilon(0.01));
+  CHECK(std::abs(estimated.north_m) < 1e-9);
+  CHECK(estimated.altitude_m == doctest::Approx(2));
+  CHECK(estimated.course_rad == doctest::Approx(0.1));
+  CHECK(estimated.airspeed_mps == doctest::Approx(1));
+  CHECK(estimated.roll_rad == doctest::Approx(0.2));
+  CHECK(estimated.pitch_rad == doctest::Approx(0.05));
+  CHECK(real.east_m == doctest::Approx(std::sqrt(16 + 4.5)).epsilon(0.01));
+}
+
+TEST_CASE("in a corner the error is taken from the fillet, not from the waypoint's legs") {
+  Bench<Score> bench;
+  const Plan plan = square();
+  bench.set(bench.in.plan, plan);
+  TrackingError tracking;
+  // on the quarter circle of 50 m around (9950, 50), 2 m outside
+  for (int i = 0; i <= 200; ++i) {
+    const double azimuth = -pi / 2 + pi / 2 * i / 200;
+    VehicleState s = north_at(0);
+    s.position_m = {9950 + 52 * std::cos(azimuth), 50 + 52 * std::sin(azimuth), -72};
+    s.height_m = 72;
+    Progress progress = under_way();
+    progress.item = i <= 100 ? 1 : 2;
+    progress.reached = progress.item;
+    bench.set(bench.in.state, s);
+    bench.set(bench.in.progress, progress);
+    bench.step(0.01);
+    if (bench.out.tracking.written) tracking = bench.out.tracking.value;
+  }
+  // the last publication is at the change of the waypoint or a second later: half or all of the corner; radial error 2 m throughout
+  CHECK(std::hypot(tracking.north_m, tracking.east_m) == doctest::Approx(2).epsilon(1e-3));
+  CHECK(tracking.altitude_m < 1e-9);
+}
+
+TEST_CASE("on the way to the plan, positions are not judged") {
+  Bench<Score> bench;
+  bench.set(bench.in.plan, square());
+  Progress progress = under_way();
+  TrackingError tracking;
+  for (int i = 0; i < 600; ++i) {
+    progress.joining = i >= 300;
+    bench.set(bench.in.progress, progress);
+    bench.set(bench.in.state, north_at(0.01 * i, progress.joining ? 800 : 1));
+    bench.step(0.01);
+    if (bench.out.tracking.written) tracking = bench.out.tracking.value;
+  }
+  CHECK(tracking.east_m == doctest::Approx(1));
+}
+
+TEST_CASE("without a plan the error is that from the piece of path that is followed") {
+  Bench<Score> bench;
+  Path line;
+  line.origin_m = {0, 0, -70};
+  line.direction_ratio = {1, 0, 0};
+  Path orbit;
+  orbit.kind = PathKind::orbit;
+  orbit.radius_m = 50;
+  orbit.origin_m = {100, 0, -70};
+  for (const auto& [path, expected] : {std::pair{line, 7.0}, {orbit, std::hypot(100 - 20 * 1.99, 7) - 50}}) {
+    Bench<Score> one;
+    TrackingError tracking;
+    for (int i = 0; i < 200; ++i) {
+      one.set(one.in.path, path);
+      one.set(one.in.state, north_at(1.99, 7));
+      one.step(0.01);
+      if (one.out.tracking.written) tracking = one.out.tracking.value;
+    }
+    CHECK(std::hypot(tracking.north_m, tracking.east_m) == doctest::Approx(expected));
+  }
+}
+
+TEST_CASE("estimation errors compare one time, whichever of estimate and truth comes first or lags") {
+  // the estimate is 0.03 s old when it comes and otherwise exact; at 20 m/s a careless difference would be 0.6 m
+  for (const double lag_s : {0.0, 0.03, 0.037}) {
+    Bench<Score> bench;
+    EstimationError error;
+    bool written = false;
+    for (int i = 0; i < 1000; ++i) {
+      const double now = 0.01 * i;
+      VehicleState estimate = north_at(now - lag_s, 0.5);
+      estimate.yaw_rad = 0.02;
+      estimate.velocity_mps.down = 0.1;
+      estimate.wind_mps.east = -0.3;
+      bench.set(bench.in.truth, north_at(now));
+      bench.set(bench.in.state, estimate, lag_s);
+      bench.step(0.01);
+      written = written || bench.out.estimation.written;
+      if (bench.out.estimation.written) error = bench.out.estimation.value;
+    }
+    REQUIRE(written);
+    CHECK(std::abs(error.north_m) < 1e-6);
+    CHECK(error.east_m == doctest::Approx(0.5));
+    CHECK(error.heading_rad == doctest::Approx(0.02));
+    CHECK(error.vel_z_mps == doctest::Approx(0.1));
+    CHECK(error.wind_e_mps == doctest::Approx(0.3));
+    CHECK(std::abs(error.vel_x_mps) < 1e-9);
+  }
+}
+
+TEST_CASE("a truth that comes less often than the estimate is interpolated, not held") {
+  Bench<Score> bench;
+  EstimationError error;
+  for (int i = 0; i < 4000; ++i) {
+    const double now = 0.0025 * i;
+    if (i % 4 == 1) bench.set(bench.in.truth, north_at(now));
+    bench.set(bench.in.state, north_at(now, 0.25));
+    bench.step(0.0025);
+    if (bench.out.estimation.written) error = bench.out.estimation.value;
+  }
+  CHECK(std::abs(error.north_m) < 1e-6);
+  CHECK(error.east_m == doctest::Approx(0.25));
+}
+
+TEST_CASE("estimates in another local frame are compared in the truth's") {
+  Bench<Score> bench;
+  EstimationError error;
+  for (int i = 0; i < 300; ++i) {
+    VehicleState estimate = north_at(0.01 * i);
+    estimate.origin_altitude_m = alt0 + 10;  // its origin lies higher, so its heights are less
+    estimate.height_m -= 10;
+    estimate.position_m.down += 10;
+    bench.set(bench.in.truth, north_at(0.01 * i));
+    bench.set(bench.in.state, estimate);
+    bench.step(0.01);
+    if (bench.out.estimation.written) error = bench.out.estimation.value;
+  }
+  CHECK(std::abs(error.altitude_m) < 1e-6);
+  CHECK(std::abs(error.north_m) < 1e-6);
+}
+
+TEST_CASE("the injected GNSS error is that of the fix at its own time, 0.15 s ago") {
+  Bench<Score> bench;
+  const LocalFrame frame(lat0, lon0, alt0);
+  GnssError error;
+  for (int i = 0; i < 1000; ++i) {
+    const double now = 0.01 * i;
+    bench.set(bench.in.truth, north_at(now));
+    bench.set(bench.in.state, north_at(now));
+    if (i % 20 == 0 && i >= 20) {
+      const auto g = frame.from_ned({20 * (now - 0.15) + 1.5, -0.8, -70});
+      Gnss gnss;
+      gnss.latitude_deg = g.lat_deg;
+      gnss.longitude_deg = g.lon_deg;
+      gnss.altitude_m = g.alt_m;
+      gnss.fix = FixType::fix_3d;
+      bench.set(bench.in.gnss, gnss, 0.15);
+    }
+    bench.step(0.01);
+    if (bench.out.gnss_error.written) error = bench.out.gnss_error.value;
+  }
+  CHECK(error.north_m == doctest::Approx(1.5).epsilon(1e-5));
+  CHECK(error.east_m == doctest::Approx(0.8).epsilon(1e-5));
+}
+
+TEST_CASE("figures: waypoints, greatest miss after the first, lap time, surface rates, least airspeed; fresh when a waypoint is reached") {
+  Bench<Score> bench;
+  Progress progress = under_way();
+  progress.miss_m = 90;  // of the first waypoint: not judged
+  Figures figures;
+  double published_at = 0, circuits_at = 0;
+  for (int i = 1; i <= 2345; ++i) {
+    if (i == 500) progress.reached = 2, progress.miss_m = 3;
+    if (i == 1000) progress.reached = 3, progress.miss_m = 1;
+    if (i == 2345) progress.reached = 5, progress.circuits = 1, circuits_at = 0.01 * i;
+    VehicleState state = north_at(0.01 * i);
+    state.airspeed_mps = i == 1500 ? 12.5 : 18;
+    Actuators actuators;
+    actuators.aileron_rad = 0.3 * 0.01 * i;  // 0.3 rad/s, the others at rest
+    bench.set(bench.in.state, state);
+    bench.set(bench.in.progress, progress);
+    bench.set(bench.in.actuators, actuators);
+    bench.step(0.01);
+    if (bench.out.figures.written) {
+      figures = bench.out.figures.value;
+      published_at = 0.01 * i;
+    }
+  }
+  CHECK(published_at == circuits_at);
+  CHECK(figures.waypoints_reached == 5);
+  CHECK(figures.miss_distance_max_m == 3);
+  CHECK(figures.lap_time_s == doctest::Approx(23.44));
+  CHECK(figures.airspeed_min_mps == 12.5);
+  CHECK(figures.surface_rate_rms_radps == doctest::Approx(0.3 / std::sqrt(3)));
+}
+
+TEST_CASE("the mean of squares stays exact over ten million small errors behind a large one") {
+  MeanSquare sum;
+  for (int i = 0; i < 10'000'000; ++i) sum.add(0.001);
+  CHECK(sum.rms() == doctest::Approx(0.001).epsilon(1e-12));
+  MeanSquare other;
+  other.add(1000);
+  for (int i = 1; i < 1'000'000; ++i) other.add(0);
+  CHECK(other.rms() == doctest::Approx(1).epsilon(1e-9));
+}
+
+TEST_CASE("a step of the score does not allocate") {
+  Bench<Score> bench;
+  bench.set(bench.in.plan, square());
+  std::uint64_t count = 0;
+  for (int i = 0; i < 400; ++i) {
+    Progress progress = under_way();
+    progress.item = static_cast<std::uint32_t>(i / 100);
+    bench.set(bench.in.progress, progress);
+    bench.set(bench.in.state, north_at(0.01 * i));
+    bench.set(bench.in.truth, north_at(0.01 * i));
+    Gnss gnss;
+    gnss.latitude_deg = lat0;
+    gnss.longitude_deg = lon0;
+    gnss.fix = FixType::fix_3d;
+    bench.set(bench.in.gnss, gnss, 0.05);
+    bench.set(bench.in.command, GuidanceCommand{});
+    bench.set(bench.in.attitude, AttitudeCommand{});
+    bench.set(bench.in.actuators, Actuators{});
+    count += allocations([&] { bench.step(0.01); });
+  }
+  CHECK(count == 0);
+}

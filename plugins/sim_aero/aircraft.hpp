@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The simulated vehicle: advances the plant by one period per tick and lets its sensors speak.
+#pragma once
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+
+#include "fulmar/flight/magnetic_model.hpp"
+#include "fulmar/msg/arm_request.hpp"
+#include "fulmar/msg/origin.hpp"
+#include "fulmar/msg/rc.hpp"
+#include "fulmar/msg/vehicle_state.hpp"
+#include "fulmar/msg/vehicle_status.hpp"
+#include "fulmar/plugin.hpp"
+#include "plant.hpp"
+#include "sensors.hpp"
+
+namespace fulmar::sim {
+
+class Aircraft {
+ public:
+  static constexpr const char* doc = "A fixed-wing aircraft, its sensors, the air and the ground.";
+  struct Inputs {
+    Optional<Actuators> actuators;
+    Request<ArmRequest> arm;
+  };
+  struct Outputs {
+    Out<Imu> imu;
+    Out<Gnss> gnss;
+    Out<Mag> mag;
+    Out<Baro> baro;
+    Out<Pitot> pitot;
+    Out<Rc> rc;
+    Out<VehicleStatus> status;
+    Out<VehicleState> truth;
+  };
+  struct Params {
+    Record<Airframe> airframe{"the aircraft", required};
+    Record<Origin> origin{"of the local frame; Provo airport when not given"};
+    Param rate{400, "Hz", 10, 2000, "of the loop: one read advances time by one period", setup};
+    Param settle{5, "s", 0, 3600, "standing still before the first armed tick", setup};
+    Param epoch{1767225600, "s", 0, 4102444800, "UTC of flight time 0, since 1970; 2026-01-01", setup};
+    Vector<Ned> wind_ned{{0, 0, 0}, "m/s", -50, 50, "steady velocity of the air"};
+    Choice<Turbulence> turbulence{Turbulence::none, "Dryden model at 50 m", setup};
+    Choice<SensorSet> sensors{SensorSet::rosflight, "errors of the sensors", setup};
+    Param truth_rate{100, "Hz", 1, 2000, "of the truth", setup};
+    Param start_north{0, "m", -1e5, 1e5, "position at flight time 0", setup};
+    Param start_east{0, "m", -1e5, 1e5, "position at flight time 0", setup};
+    Param start_height{0, "m", 0, 5000, "0: on the ground; more: in trimmed level flight", setup};
+    Param start_heading{0, "rad", -6.3, 6.3, "from north, clockwise", setup};
+    Param start_airspeed{0, "m/s", 0, 100, "of a start in the air; 0: the airframe's cruise", setup};
+    Flag motor{true, "false: the motor stops"};
+    Flag imu_works{true, "false: silent"};
+    Flag gnss_works{true, "false: silent"};
+    Flag mag_works{true, "false: silent"};
+    Flag baro_works{true, "false: silent"};
+    Flag pitot_works{true, "false: silent"};
+    Flag rc_link{true, "false: no radio link"};
+    Flag pilot_flies{false, "the pilot overrides: the sticks below move surfaces and motor"};
+    Param stick_roll{0, "", -1, 1, "of the pilot; right is positive"};
+    Param stick_pitch{0, "", -1, 1, "of the pilot; nose up is positive"};
+    Param stick_yaw{0, "", -1, 1, "of the pilot; nose right is positive"};
+    Param stick_throttle{0, "", 0, 1, "of the pilot"};
+    Param aux1{0, "", -1, 1, "switch of the pilot"};
+    Param aux2{0, "", -1, 1, "switch of the pilot"};
+    Param aux3{0, "", -1, 1, "switch of the pilot"};
+    Param aux4{0, "", -1, 1, "switch of the pilot"};
+  };
+
+  explicit Aircraft(std::uint64_t seed) : seed_(seed) {}
+
+  void configure(const Params& p) {
+    origin_ = p.origin.given() ? *p.origin : Origin{40.2463724, -111.6474138, 1387, true};
+    airframe_ = *p.airframe;
+    period_ns_ = std::llround(1e9 / p.rate);
+    now_ns_ = -std::llround(p.settle * 1e9 / static_cast<double>(period_ns_)) * period_ns_;
+    epoch_ns_ = std::llround(p.epoch) * 1000000000;
+    armed_ = wants_armed_ = released_ = failsafe_ = false;
+    command_ = {};
+    status_ = {};
+    plant_.emplace(airframe_, Weather{eigen(p.wind_ned.value), p.turbulence}, origin_.alt_msl_m, mix_seed(seed_, 10));
+    place(p);
+    const LocalFrame frame(origin_.lat_deg, origin_.lon_deg, origin_.alt_msl_m);
+    const Eigen::Vector3d field_n = magnetic_field_ned(origin_.lat_deg, origin_.lon_deg, origin_.alt_msl_m, decimal_year(epoch_ns_));
+    const SensorSpec spec = sensor_spec(p.sensors);
+    sensors_.emplace(spec, p.rate, frame, field_n, seed_);
+    gnss_delay_ = {};
+    gnss_delay_ns_ = std::llround(spec.gnss_latency_s * 1e9);
+    const std::int64_t first_ns = now_ns_ + period_ns_;
+    imu_due_ = Due(spec.imu_hz, first_ns);
+    gnss_due_ = Due(spec.gnss_hz, first_ns);
+    mag_due_ = Due(spec.mag_hz, first_ns);
+    baro_due_ = Due(spec.baro_hz, first_ns);
+    pitot_due_ = Due(spec.pitot_hz, first_ns);
+    rc_due_ = Due(50, first_ns);
+    status_rate_ = Due(10, first_ns);
+    truth_due_ = Due(p.truth_rate, first_ns);
+  }
+
+  void retune(const Params& p) { plant_->set_wind(eigen(p.wind_ned.value)); }
+
+  Status read(Tick& tick, const Params& p, Outputs& out) {
+    now_ns_ += period_ns_;
+    tick.now_ns = now_ns_;
+    const double dt = 1e-9 * static_cast<double>(period_ns_);
+    if (released_)
+      plant_->advance(command_, armed_ && p.motor, dt);
+    else
+      plant_->carry(dt);
+    if (wants_armed_ && !armed_ && now_ns_ >= 0) armed_ = released_ = true;
+    publish_sensors(p, out);
+    publish_rc_and_status(p, out);
+    if (truth_due_(now_ns_)) out.truth.publish(truth());
+    return plant_->crashed() ? Status::degraded : Status::ok;
+  }
+
+  Status write(const Tick& tick, const Inputs& in, const Params& p) {
+    for (auto request : in.arm) answer(request);
+    const bool heard = in.actuators && tick.now_ns - in.actuators.valid_at_ns() <= patience_ns && sound(*in.actuators);
+    failsafe_ = armed_ && !heard && !p.pilot_flies;
+    if (p.pilot_flies)
+      command_ = {p.stick_throttle, p.stick_roll * airframe_.aileron.limit_rad, -p.stick_pitch * airframe_.elevator.limit_rad,
+                  -p.stick_yaw * airframe_.rudder.limit_rad};
+    else if (heard)
+      command_ = *in.actuators;
+    else if (released_)
+      command_ = {};  // motor off, surfaces neutral
+    return Status::ok;
+  }
+
+  const Plant& plant() const { return *plant_; }
+
+ private:
+  static constexpr std::int64_t patience_ns = 100000000;  ///< commands older than this are silence, as on ROSflight
+
+  static bool sound(const Actuators& a) {
+    return std::isfinite(a.throttle_frac) && std::isfinite(a.aileron_rad) && std::isfinite(a.elevator_rad) && std::isfinite(a.rudder_rad);
+  }
+
+  void place(const Params& p) {
+    if (p.start_height <= 0) return plant_->stand(p.start_north, p.start_east, p.start_heading);
+    const double Va = p.start_airspeed > 0 ? p.start_airspeed : airframe_.limits.airspeed_cruise_mps;
+    if (!plant_->fly({p.start_north, p.start_east, -p.start_height}, p.start_heading, Va))
+      throw std::runtime_error("start_airspeed: the aircraft has no level flight at this airspeed");
+    plant_->shift(1e-9 * static_cast<double>(now_ns_));
+  }
+
+  void answer(const Request<ArmRequest>::One& request) {
+    if (request.value().armed && plant_->crashed()) return request.refuse("the aircraft has crashed");
+    wants_armed_ = request.value().armed;
+    if (!wants_armed_) armed_ = false;
+    request.accept();
+  }
+
+  void publish_sensors(const Params& p, Outputs& out) {
+    if (imu_due_(now_ns_)) {
+      const Imu imu = sensors_->imu(*plant_);
+      if (p.imu_works) out.imu.publish(imu);
+    }
+    if (mag_due_(now_ns_)) {
+      const Mag mag = sensors_->mag(*plant_);
+      if (p.mag_works) out.mag.publish(mag);
+    }
+    if (baro_due_(now_ns_)) {
+      const Baro baro = sensors_->baro(*plant_);
+      if (p.baro_works) out.baro.publish(baro);
+    }
+    if (pitot_due_(now_ns_)) {
+      const Pitot pitot = sensors_->pitot(*plant_);
+      if (p.pitot_works) out.pitot.publish(pitot);
+    }
+    if (gnss_due_(now_ns_)) gnss_delay_.push(sensors_->gnss(*plant_, epoch_ns_ + now_ns_), now_ns_);
+    if (const auto* late = gnss_delay_.pop(now_ns_, gnss_delay_ns_); late && p.gnss_works) out.gnss.publish(late->value, late->valid_at_ns);
+  }
+
+  void publish_rc_and_status(const Params& p, Outputs& out) {
+    if (rc_due_(now_ns_) && p.rc_link)
+      out.rc.publish({p.stick_roll, p.stick_pitch, p.stick_yaw, p.stick_throttle, p.aux1, p.aux2, p.aux3, p.aux4, true});
+    VehicleStatus s;
+    s.armed = armed_;
+    s.override = p.pilot_flies;
+    s.failsafe = failsafe_;
+    s.on_ground = plant_->on_ground();
+    s.crashed = plant_->crashed();
+    s.health = s.crashed ? Health::failed : Health::ok;
+    const bool changed = s.armed != status_.armed || s.override != status_.override || s.failsafe != status_.failsafe ||
+                         s.on_ground != status_.on_ground || s.crashed != status_.crashed;
+    if (!status_rate_(now_ns_) && !changed) return;
+    s.battery_volt = airframe_.propulsion.battery_volt;
+    s.battery_amp = plant_->battery_amp();
+    status_ = s;
+    out.status.publish(s);
+  }
+
+  VehicleState truth() const;
+
+  std::uint64_t seed_;
+  Origin origin_;
+  Airframe airframe_;
+  std::optional<Plant> plant_;
+  std::optional<Sensors> sensors_;
+  std::int64_t now_ns_ = 0, period_ns_ = 2500000, epoch_ns_ = 0, gnss_delay_ns_ = 0;
+  Due imu_due_, gnss_due_, mag_due_, baro_due_, pitot_due_, rc_due_, status_rate_, truth_due_;
+  Delay<Gnss> gnss_delay_;
+  Actuators command_;
+  VehicleStatus status_;
+  bool armed_ = false, wants_armed_ = false;
+  bool released_ = false;  ///< has been armed once: from then on it is free to move
+  bool failsafe_ = false;
+};
+
+inline VehicleState Aircraft::truth() const {
+  const RigidBody& x = plant_->state();
+  const AirData air(plant_->air_velocity_b());
+  const Eigen::Matrix3d R = x.q_nb.toRotationMatrix();
+  VehicleState s;
+  s.position_m = from_eigen<Ned>(x.p_n);
+  s.velocity_mps = from_eigen<Ned>(x.v_n);
+  s.attitude = from_eigen(x.q_nb);
+  s.roll_rad = std::atan2(R(2, 1), R(2, 2));
+  s.pitch_rad = std::asin(std::clamp(-R(2, 0), -1.0, 1.0));
+  s.yaw_rad = std::atan2(R(1, 0), R(0, 0));
+  s.rate_radps = from_eigen<Body>(x.omega_b);
+  s.specific_force_mps2 = from_eigen<Body>(plant_->specific_force());
+  s.height_m = -x.p_n.z();
+  s.climb_rate_mps = -x.v_n.z();
+  s.ground_speed_mps = std::hypot(x.v_n.x(), x.v_n.y());
+  s.course_rad = s.ground_speed_mps > 0.1 ? std::atan2(x.v_n.y(), x.v_n.x()) : s.yaw_rad;
+  s.airspeed_mps = air.Va;
+  if (air.Va > 0.5) {  // the angles of hardly any wind mean nothing
+    s.alpha_rad = air.alpha;
+    s.beta_rad = air.beta;
+  }
+  s.wind_mps = from_eigen<Ned>(plant_->wind_n());
+  s.gyro_bias_radps = from_eigen<Body>(sensors_->gyro_bias());
+  s.accel_bias_mps2 = from_eigen<Body>(sensors_->accel_bias());
+  s.position_std_m = s.velocity_std_mps = s.attitude_std_rad = s.wind_std_mps = {};
+  s.airspeed_std_mps = 0;
+  s.origin_latitude_deg = origin_.lat_deg;
+  s.origin_longitude_deg = origin_.lon_deg;
+  s.origin_altitude_m = origin_.alt_msl_m;
+  s.origin_valid = s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = s.wind_valid = true;
+  return s;
+}
+
+}  // namespace fulmar::sim

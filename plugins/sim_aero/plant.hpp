@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The aircraft in its air: servos, motor, aerodynamics, turbulence and ground around a rigid body. Beard & McLain, chapters 3 and 4.
+#pragma once
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "fulmar/flight/aerodynamics.hpp"
+#include "fulmar/flight/atmosphere.hpp"
+#include "fulmar/flight/dryden.hpp"
+#include "fulmar/flight/propulsion.hpp"
+#include "fulmar/flight/rigid_body.hpp"
+#include "fulmar/flight/trim.hpp"
+#include "fulmar/msg/actuators.hpp"
+#include "ground.hpp"
+
+namespace fulmar::sim {
+
+/// A servo: first-order lag, limited in rate and throw. Solved exactly for a command that is constant over a step.
+class Servo {
+ public:
+  explicit Servo(const Surface& s) : limit_(s.limit_rad), rate_(s.rate_limit_radps), tau_(s.time_constant_s) {}
+
+  void advance(double command, double dt) {
+    command = std::clamp(command, -limit_, limit_);
+    const double error = command - angle_, lag = rate_ * tau_;  // beyond `lag` the rate limit rules
+    if (std::abs(error) > lag) {
+      const double time_to_lag = (std::abs(error) - lag) / rate_;
+      angle_ += std::copysign(rate_ * std::min(dt, time_to_lag), error);
+      if (dt <= time_to_lag) return;
+      dt -= time_to_lag;
+    }
+    angle_ = tau_ > 0 ? command + (angle_ - command) * decay(dt) : command;
+  }
+  double angle() const { return angle_; }
+  void set(double angle) { angle_ = std::clamp(angle, -limit_, limit_); }
+
+ private:
+  double decay(double dt) {
+    if (dt != decay_dt_) {
+      decay_dt_ = dt;
+      decay_ = std::exp(-dt / tau_);
+    }
+    return decay_;
+  }
+  double limit_, rate_, tau_;
+  double angle_ = 0;
+  double decay_dt_ = -1, decay_ = 0;
+};
+
+struct Weather {
+  Eigen::Vector3d wind_n = Eigen::Vector3d::Zero();  ///< steady velocity of the air
+  Turbulence turbulence = Turbulence::none;
+};
+
+class Plant {
+ public:
+  Plant(const Airframe& a, const Weather& weather, double origin_altitude_m, std::uint64_t seed)
+      : airframe_(a),
+        mass_(a.mass_kg, inertia(a)),
+        aero_(a),
+        propeller_(a.propulsion),
+        ground_(a),
+        dryden_(dryden_scales(weather.turbulence), seed),
+        aileron_(a.aileron),
+        elevator_(a.elevator),
+        rudder_(a.rudder),
+        weather_(weather),
+        origin_altitude_m_(origin_altitude_m) {
+    stand(0, 0, 0);
+  }
+
+  /// At rest on the ground.
+  void stand(double north_m, double east_m, double heading_rad) {
+    x_ = RigidBody{};
+    x_.p_n = {north_m, east_m, -airframe_.gear.height_m};
+    x_.q_nb = Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ());
+    ground_.stand();
+    refresh();
+  }
+
+  /// In steady level flight through the steady wind. False when the aircraft cannot fly at this speed.
+  bool fly(const Eigen::Vector3d& p_n, double heading_rad, double Va) {
+    const Trim trim = trimmed_flight(airframe_, Va, standard_air(origin_altitude_m_ - p_n.z()).density_kgm3);
+    if (!trim.found) return false;
+    ground_ = Ground(airframe_);
+    x_ = RigidBody{};
+    x_.p_n = p_n;
+    x_.q_nb = Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(trim.pitch_rad, Eigen::Vector3d::UnitY());
+    const Eigen::Vector3d v_r(Va * std::cos(trim.alpha_rad) * std::cos(trim.beta_rad), Va * std::sin(trim.beta_rad),
+                              Va * std::sin(trim.alpha_rad) * std::cos(trim.beta_rad));
+    x_.v_n = x_.q_nb * v_r + weather_.wind_n;
+    aileron_.set(trim.deflections.aileron);
+    elevator_.set(trim.deflections.elevator);
+    rudder_.set(trim.deflections.rudder);
+    Omega_ = trim.propeller_radps;
+    refresh();
+    return true;
+  }
+
+  /// One step. `powered` false: the motor gets no voltage whatever the throttle says.
+  void advance(const Actuators& command, bool powered, double dt) {
+    throttle_ = powered ? std::clamp(command.throttle_frac, 0.0, 1.0) : 0;
+    if (ground_.crashed()) {
+      throttle_ = Omega_ = 0;
+      return;
+    }
+    const double Omega_steady = propeller_.steady_speed(throttle_, Va_, air_.density_kgm3);
+    for (Stage& stage : stage_) {
+      aileron_.advance(command.aileron_rad, 0.5 * dt);
+      elevator_.advance(command.elevator_rad, 0.5 * dt);
+      rudder_.advance(command.rudder_rad, 0.5 * dt);
+      Omega_ = Omega_steady + (Omega_ - Omega_steady) * motor_decay(0.5 * dt);
+      stage = {{aileron_.angle(), elevator_.angle(), rudder_.angle()}, Omega_};
+    }
+    x_ = runge_kutta(x_, load_, dt, mass_, gravity(), [&](const RigidBody& x, double part) { return load(x, stage_[part > 0.75 ? 1 : 0]); });
+    ground_.advance(x_, dt);
+    if (ground_.crashed()) {  // it stays where it hit
+      x_.v_n.setZero();
+      x_.omega_b.setZero();
+    }
+    gust_b_ = dryden_.advance(dt, Va_);
+    refresh();
+  }
+
+  /// Carried along without forces: before arming, an aircraft that starts in the air keeps its steady flight, one on the ground is held.
+  void carry(double dt) {
+    x_.p_n += dt * x_.v_n;
+    gust_b_ = dryden_.advance(dt, Va_);
+    refresh();
+    load_.force_b = -mass_.mass * (x_.q_nb.conjugate() * gravity());
+    load_.moment_b.setZero();
+  }
+
+  /// Back (or on) along the present velocity.
+  void shift(double seconds) { x_.p_n += seconds * x_.v_n; }
+  void set_state(const RigidBody& x) {
+    x_ = x;
+    refresh();
+  }
+  void set_wind(const Eigen::Vector3d& wind_n) { weather_.wind_n = wind_n; }
+
+  const RigidBody& state() const { return x_; }
+  const Air& air() const { return air_; }
+  /// What an accelerometer at the centre of gravity measures.
+  Eigen::Vector3d specific_force() const {
+    if (ground_.crashed()) return -(x_.q_nb.conjugate() * gravity());
+    return load_.force_b / mass_.mass;
+  }
+  Eigen::Vector3d air_velocity_b() const { return relative(x_); }
+  Eigen::Vector3d wind_n() const { return weather_.wind_n + x_.q_nb * gust_b_; }
+  Deflections deflections() const { return {aileron_.angle(), elevator_.angle(), rudder_.angle()}; }
+  double propeller_radps() const { return Omega_; }
+  double battery_amp() const { return std::max(0.0, throttle_ * propeller_.current(throttle_, Omega_)); }
+  bool on_ground() const { return ground_.touching(); }
+  bool crashed() const { return ground_.crashed(); }
+  static Eigen::Vector3d gravity() { return {0, 0, isa::g0}; }
+
+ private:
+  struct Stage {
+    Deflections deflections;
+    double Omega = 0;
+  };
+
+  static Eigen::Matrix3d inertia(const Airframe& a) {
+    Eigen::Matrix3d J = Eigen::Matrix3d::Zero();
+    J.diagonal() << a.inertia.xx_kgm2, a.inertia.yy_kgm2, a.inertia.zz_kgm2;
+    J(0, 2) = J(2, 0) = -a.inertia.xz_kgm2;
+    return J;
+  }
+
+  double motor_decay(double dt) {
+    if (dt != motor_dt_) {
+      motor_dt_ = dt;
+      const double tau = propeller_.time_constant_s();
+      motor_decay_ = tau > 0 ? std::exp(-dt / tau) : 0;
+    }
+    return motor_decay_;
+  }
+
+  Eigen::Vector3d relative(const RigidBody& x) const { return x.q_nb.conjugate() * (x.v_n - weather_.wind_n) - gust_b_; }
+
+  Load load(const RigidBody& x, const Stage& s) const {
+    const Eigen::Vector3d v_r = relative(x);
+    const double rho = air_.density_kgm3;
+    Load load = aero_.load(v_r, x.omega_b, s.deflections, rho);
+    const double Va = v_r.norm();
+    load.force_b.x() += propeller_.thrust(s.Omega, Va, rho);
+    load.moment_b.x() -= propeller_.torque(s.Omega, Va, rho);
+    ground_.add_load(x, load);
+    return load;
+  }
+
+  /// The load at the present state: the first stage of the next step, and what the accelerometer feels now.
+  void refresh() {
+    air_ = standard_air(origin_altitude_m_ - x_.p_n.z());
+    Va_ = relative(x_).norm();
+    load_ = load(x_, {deflections(), Omega_});
+  }
+
+  Airframe airframe_;
+  MassProperties mass_;
+  Aerodynamic aero_;
+  Propeller propeller_;
+  Ground ground_;
+  Dryden dryden_;
+  Servo aileron_, elevator_, rudder_;
+  Weather weather_;
+  double origin_altitude_m_;
+
+  RigidBody x_;
+  Air air_;
+  Load load_;
+  std::array<Stage, 2> stage_;
+  Eigen::Vector3d gust_b_ = Eigen::Vector3d::Zero();
+  double Omega_ = 0, Va_ = 0, throttle_ = 0;
+  double motor_dt_ = -1, motor_decay_ = 0;
+};
+
+}  // namespace fulmar::sim

@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# fulmar_add_plugin(NAME source... [LINK library...] [TEST source...])
+# One shared object with one exported symbol. Without a version script, or with unique symbols on gcc, a library stays mapped after it is
+# closed and a swap would silently fly the old code.
+set(FULMAR_VERSION_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/plugin.version CACHE INTERNAL "exports the entry alone")
+
+function(fulmar_add_plugin name)
+  cmake_parse_arguments(arg "" "" "LINK;TEST" ${ARGN})
+  add_library(${name} MODULE ${arg_UNPARSED_ARGUMENTS})
+  target_link_libraries(${name} PRIVATE fulmar::sdk ${arg_LINK})
+  set_target_properties(${name} PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON C_VISIBILITY_PRESET hidden
+                        LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/fulmar LINK_DEPENDS ${FULMAR_VERSION_SCRIPT})
+  target_compile_features(${name} PRIVATE cxx_std_20)
+  target_compile_options(${name} PRIVATE -ffp-contract=off $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
+  target_link_options(${name} PRIVATE -Wl,--version-script=${FULMAR_VERSION_SCRIPT})
+  if(NOT FULMAR_SANITIZE)
+    target_link_options(${name} PRIVATE -Wl,-z,defs)
+  endif()
+  if(arg_TEST AND (NOT DEFINED BUILD_TESTING OR BUILD_TESTING))
+    add_executable(${name}_test ${arg_TEST})
+    target_link_libraries(${name}_test PRIVATE fulmar::sdk ${arg_LINK})
+    target_include_directories(${name}_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+    add_test(NAME ${name}_test COMMAND ${name}_test)
+  endif()
+endfunction()

@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Error-state (multiplicative) extended Kalman filter of a vehicle with an inertial measurement unit: state, prediction, scalar update.
+// Measurement models are in ekf_models.hpp; a new sensor is one function that returns an innovation and a row of derivatives.
+// Sources: Sola, Quaternion kinematics for the error-state Kalman filter (2017), section 7 (global angular error);
+//          Groves, Principles of GNSS, Inertial and Multisensor Integrated Navigation Systems (2013), chapter 14.
+#pragma once
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "fulmar/flight/attitude.hpp"
+
+namespace fulmar {
+
+namespace ekf {
+
+/// Where each part of the error state begins. Attitude is a small rotation about the NED axes: R_true = exp(theta) R_estimate.
+inline constexpr int theta = 0, vel = 3, pos = 6, gyro_bias = 9, accel_bias = 12, wind = 15, gust = 17, baro = 18, heading = 19, size = 20;
+
+using Vector = Eigen::Matrix<double, size, 1>;
+using Row = Eigen::Matrix<double, 1, size>;
+using Covariance = Eigen::Matrix<double, size, size>;
+
+/// Continuous noise: spectral densities and walks, so that nothing depends on a sensor's rate.
+struct Noise {
+  double gyro = 5e-4;             ///< rad/s/sqrt(Hz), angular random walk
+  double accel = 0.02;            ///< m/s2/sqrt(Hz), velocity random walk
+  double gyro_scale = 0;          ///< share of the turn rate that is error: adds gyro_scale * |omega| to `gyro`, in 1/sqrt(Hz)
+  double accel_scale = 0;         ///< share of the specific force that is error beyond 1 g, in 1/sqrt(Hz)
+  double gyro_bias_walk = 2e-5;   ///< rad/s/sqrt(s)
+  double accel_bias_walk = 1e-3;  ///< m/s2/sqrt(s)
+  double wind_walk = 0.02;        ///< m/s/sqrt(s)
+  double wind_shear = 0.005;      ///< per m/s of climb: adds to wind_walk what changes with height
+  double gust_std = 1.0;          ///< m/s, first-order Gauss-Markov along the flight direction
+  double gust_time = 3.0;         ///< s
+  double baro_walk = 0.05;        ///< m/sqrt(s)
+  double heading_std = 0.035;     ///< rad, first-order Gauss-Markov: what the magnetometer is off after calibration
+  double heading_time = 300;      ///< s
+};
+
+/// What the filter believes. Wind is the velocity of the air; `baro_m` is what the barometer reads too high; `heading_rad` is what the
+/// magnetic heading reads too high.
+struct Nominal {
+  Eigen::Quaterniond q_nb = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d v_n = Eigen::Vector3d::Zero(), p_n = Eigen::Vector3d::Zero();
+  Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero(), accel_bias = Eigen::Vector3d::Zero();
+  Eigen::Vector2d wind = Eigen::Vector2d::Zero();
+  double gust_mps = 0, baro_m = 0, heading_rad = 0;
+
+  /// The state moved by an error: x (+) dx.
+  Nominal plus(const Vector& dx) const {
+    Nominal n = *this;
+    n.add(dx);
+    return n;
+  }
+  void add(const Vector& dx) {
+    q_nb = exp_map(dx.segment<3>(theta)) * q_nb;
+    q_nb.coeffs() *= 1.5 - 0.5 * q_nb.squaredNorm();  // first-order normalisation
+    v_n += dx.segment<3>(vel);
+    p_n += dx.segment<3>(pos);
+    gyro_bias += dx.segment<3>(ekf::gyro_bias);
+    accel_bias += dx.segment<3>(ekf::accel_bias);
+    wind += dx.segment<2>(ekf::wind);
+    gust_mps += dx(gust);
+    baro_m += dx(baro);
+    heading_rad += dx(heading);
+  }
+  /// The error that leads from `from` to here: dx with from (+) dx = *this.
+  Vector minus(const Nominal& from) const {
+    Vector dx;
+    dx << log_map(q_nb * from.q_nb.conjugate()), v_n - from.v_n, p_n - from.p_n, gyro_bias - from.gyro_bias, accel_bias - from.accel_bias,
+        wind - from.wind, gust_mps - from.gust_mps, baro_m - from.baro_m, heading_rad - from.heading_rad;
+    return dx;
+  }
+};
+
+/// A scalar measurement: measured minus expected, and the derivative of the expected value by the error state.
+struct Scalar {
+  double innovation = 0;
+  Row H = Row::Zero();
+};
+
+struct Fused {
+  bool accepted = false;
+  double ratio = 0;  ///< innovation / its deviation
+};
+
+}  // namespace ekf
+
+/// The filter. Time is seconds on any clock that does not jump.
+class ErrorStateEkf {
+ public:
+  using Vector3 = Eigen::Vector3d;
+
+  ekf::Noise noise;
+  double gravity_mps2 = 9.80665;
+  double covariance_period_s = 0.01;  ///< the state follows every sample, its covariance this often
+
+  void reset(const ekf::Nominal& nominal, const ekf::Vector& std, double time_s) {
+    x_ = nominal;
+    x_.q_nb.normalize();
+    R_nb_ = x_.q_nb.toRotationMatrix();
+    P_ = std.cwiseAbs2().asDiagonal();
+    time_s_ = time_s;
+    has_sample_ = false;
+    step_ = {};
+    corrected_ = {};
+    past_count_ = 0;
+    remember();
+  }
+
+  /// Integrates one IMU sample, valid `dt` seconds after the one before; linear in between.
+  void predict(const Vector3& omega_b, const Vector3& f_b, double dt) {
+    if (!(dt > 0)) return;
+    if (!has_sample_) {
+      omega_ = omega_b;
+      f_ = f_b;
+      has_sample_ = true;
+    }
+    const Eigen::Matrix3d R_before = R_nb_;
+    const Vector3 turn = (0.5 * (omega_ + omega_b) - x_.gyro_bias) * dt;
+    x_.q_nb = x_.q_nb * exp_map(turn);
+    x_.q_nb.coeffs() *= 1.5 - 0.5 * x_.q_nb.squaredNorm();
+    R_nb_ = x_.q_nb.toRotationMatrix();
+    const Vector3 dv = 0.5 * dt * (R_before * (f_ - x_.accel_bias) + R_nb_ * (f_b - x_.accel_bias));
+    const Vector3 v_before = x_.v_n;
+    x_.v_n += dv;
+    x_.v_n.z() += gravity_mps2 * dt;
+    x_.p_n += 0.5 * dt * (v_before + x_.v_n);
+    omega_ = omega_b;
+    f_ = f_b;
+    time_s_ += dt;
+    step_.R_dt += (0.5 * dt) * (R_before + R_nb_);
+    step_.dv += dv;
+    step_.angle += turn.norm();
+    step_.time += dt;
+    if (step_.time >= covariance_period_s - 1e-9) propagate_covariance();
+  }
+
+  /// One scalar update. The measurement is refused if its innovation exceeds `gate` deviations.
+  ekf::Fused fuse(const ekf::Scalar& z, double variance, double gate) {
+    ekf::Vector PHt = ekf::Vector::Zero();
+    for (int i = 0; i < ekf::size; ++i)
+      if (z.H(i) != 0) PHt.noalias() += z.H(i) * P_.col(i);
+    const double S = z.H.dot(PHt) + variance;
+    const double deviation = std::sqrt(S), ratio = z.innovation / deviation;
+    if (!(std::abs(ratio) <= gate)) return {false, ratio};
+    const ekf::Vector k = PHt / deviation;
+    for (int i = 0; i < ekf::size; ++i) P_.col(i).noalias() -= k(i) * k;  // k k': symmetric to the last bit
+    for (int i = 0; i < ekf::size; ++i) P_(i, i) = std::max(P_(i, i), floor_);
+    correct(k * ratio);
+    return {true, ratio};
+  }
+
+  /// Deviation that `fuse` expects of this innovation, without touching the state.
+  double expected_std(const ekf::Scalar& z, double variance) const { return std::sqrt((z.H * P_ * z.H.transpose()).value() + variance); }
+
+  /// Moves the state and leaves its covariance.
+  void correct(const ekf::Vector& dx) {
+    x_.add(dx);
+    R_nb_ = x_.q_nb.toRotationMatrix();
+    corrected_.p += dx.segment<3>(ekf::pos);
+    corrected_.v += dx.segment<3>(ekf::vel);
+    corrected_.vt += dx.segment<3>(ekf::vel) * time_s_;
+  }
+
+  /// A part of the state is forgotten: new value in `nominal`, new deviation, no correlation with the rest.
+  void forget(int first, int count, double std) {
+    for (int i = first; i < first + count; ++i) {
+      P_.row(i).setZero();
+      P_.col(i).setZero();
+      P_(i, i) = std * std;
+    }
+  }
+  /// Adds uncertainty, of an event that the model does not know: a gap, a collision.
+  void inflate(int first, int count, double std) {
+    for (int i = first; i < first + count; ++i) P_(i, i) += std * std;
+  }
+  /// Time passes without a sample: the velocity is carried on, what the gyros missed is unknown.
+  void skip(double dt, double rate_std_radps, double accel_std_mps2) {
+    x_.p_n += x_.v_n * dt;
+    time_s_ += dt;
+    has_sample_ = false;
+    inflate(ekf::theta, 3, rate_std_radps * dt);
+    inflate(ekf::vel, 3, accel_std_mps2 * dt);
+    inflate(ekf::pos, 3, 0.5 * accel_std_mps2 * dt * dt);
+  }
+  void place(const Vector3& p_n, const Vector3& v_n) {
+    ekf::Vector dx = ekf::Vector::Zero();
+    dx.segment<3>(ekf::vel) = v_n - x_.v_n;
+    dx.segment<3>(ekf::pos) = p_n - x_.p_n;
+    correct(dx);
+  }
+  void set_attitude(const Eigen::Quaterniond& q_nb) {
+    x_.q_nb = q_nb.normalized();
+    R_nb_ = x_.q_nb.toRotationMatrix();
+  }
+
+  /// Where the aircraft was, as it is known now: what a late measurement is compared with. `age_s` is 0 for the present.
+  struct Past {
+    Vector3 p_n, v_n;
+    double age_s = 0;
+    bool known = false;  ///< false: older than the memory
+  };
+  Past at(double time_s) const {
+    if (time_s >= time_s_ || past_count_ == 0) return {x_.p_n, x_.v_n, 0, time_s >= time_s_};
+    Memory after{time_s_, x_.p_n, x_.v_n, corrected_};
+    for (std::size_t i = 0; i < past_count_; ++i) {
+      const Memory& before = past_[(past_next_ + past_.size() - 1 - i) % past_.size()];
+      if (before.time <= time_s) {
+        const double k = after.time > before.time ? (time_s - before.time) / (after.time - before.time) : 0;
+        const Past a = as_known_now(before), b = as_known_now(after);
+        return {a.p_n + k * (b.p_n - a.p_n), a.v_n + k * (b.v_n - a.v_n), time_s_ - time_s, true};
+      }
+      after = before;
+    }
+    return {x_.p_n, x_.v_n, 0, false};
+  }
+
+  const ekf::Nominal& state() const { return x_; }
+  const Eigen::Matrix3d& R_nb() const { return R_nb_; }
+  const ekf::Covariance& covariance() const { return P_; }
+  void set_covariance(const ekf::Covariance& P) { P_ = P; }
+  double time_s() const { return time_s_; }
+  double std(int i) const { return std::sqrt(P_(i, i)); }
+  Vector3 rate_b() const { return omega_ - x_.gyro_bias; }
+  Vector3 specific_force_b() const { return f_ - x_.accel_bias; }
+
+ private:
+  static constexpr double floor_ = 1e-14;
+
+  struct Step {  ///< what the covariance has not yet seen
+    Eigen::Matrix3d R_dt = Eigen::Matrix3d::Zero();
+    Vector3 dv = Vector3::Zero();
+    double time = 0, angle = 0;
+  };
+  struct Corrections {  ///< sums over all updates; vt is weighted with their time
+    Vector3 p = Vector3::Zero(), v = Vector3::Zero(), vt = Vector3::Zero();
+  };
+  struct Memory {
+    double time = 0;
+    Vector3 p = Vector3::Zero(), v = Vector3::Zero();
+    Corrections corrected;
+  };
+
+  /// P <- Phi P Phi' + Q over the accumulated step, with T its length, B = sum R dt, [dv]x the specific force integrated:
+  ///   theta' = theta - B bg,  v' = v - [dv]x theta - B ba + [dv]x B bg / 2,  p' = p + T v + T/2 (-[dv]x theta - B ba).
+  /// Only the first nine rows of Phi differ from the identity, and P is symmetric: W = P Phi' is made column by column, which vectorises.
+  void propagate_covariance() {
+    using namespace ekf;
+    const double T = step_.time;
+    const Eigen::Matrix3d& B = step_.R_dt;
+    const Eigen::Matrix3d D = -skew(step_.dv);
+    const Eigen::Matrix3d E = -0.5 * D * B;
+    const auto shear = [&](const auto& in, auto& out) {  // in * Phi' for the columns theta, vel, pos
+      for (int i = 0; i < 3; ++i) {
+        const auto bg = [&](const Eigen::Matrix3d& M) {
+          return M(i, 0) * in.col(ekf::gyro_bias) + M(i, 1) * in.col(ekf::gyro_bias + 1) + M(i, 2) * in.col(ekf::gyro_bias + 2);
+        };
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        out.col(vel + i) = D(i, j) * in.col(theta + j) + D(i, k) * in.col(theta + k) - B(i, 0) * in.col(accel_bias) -
+                           B(i, 1) * in.col(accel_bias + 1) - B(i, 2) * in.col(accel_bias + 2);
+        out.col(pos + i) = in.col(pos + i) + T * in.col(vel + i) + 0.5 * T * out.col(vel + i);
+        out.col(vel + i) += in.col(vel + i) + bg(E);
+        out.col(theta + i) = in.col(theta + i) - bg(B);
+      }
+    };
+    Eigen::Matrix<double, size, 9> W;
+    shear(P_, W);
+    const Eigen::Matrix<double, 9, size> Wt = W.transpose();
+    Eigen::Matrix<double, 9, 9> A;
+    shear(Wt, A);
+    P_.topLeftCorner<9, 9>() = 0.5 * (A + A.transpose());
+    P_.bottomLeftCorner<11, 9>() = W.bottomRows<11>();
+    P_.topRightCorner<9, 11>() = W.bottomRows<11>().transpose();
+    add_noise(T);
+    step_ = {};
+    remember();
+  }
+
+  void add_noise(double T) {
+    using namespace ekf;
+    const auto add = [&](int first, int count, double variance) {
+      for (int i = first; i < first + count; ++i) P_(i, i) += variance;
+    };
+    const double excess = std::abs(step_.dv.norm() / T - gravity_mps2);
+    const double gyro = noise.gyro + noise.gyro_scale * step_.angle / T, accel = noise.accel + noise.accel_scale * excess;
+    add(theta, 3, gyro * gyro * T);
+    add(vel, 3, accel * accel * T);
+    add(ekf::gyro_bias, 3, noise.gyro_bias_walk * noise.gyro_bias_walk * T);
+    add(ekf::accel_bias, 3, noise.accel_bias_walk * noise.accel_bias_walk * T);
+    const double wind = noise.wind_walk + noise.wind_shear * std::abs(x_.v_n.z());
+    add(ekf::wind, 2, wind * wind * T);
+    add(ekf::baro, 1, noise.baro_walk * noise.baro_walk * T);
+    markov(gust, noise.gust_std, noise.gust_time, T, x_.gust_mps);
+    markov(heading, noise.heading_std, noise.heading_time, T, x_.heading_rad);
+  }
+  /// x' = phi x + w: keeps its deviation, forgets with the time constant.
+  void markov(int i, double std, double time, double T, double& value) {
+    const double phi = std::exp(-T / time);
+    value *= phi;
+    P_.row(i) *= phi;
+    P_.col(i) *= phi;
+    P_(i, i) += std * std * (1 - phi * phi);
+  }
+
+  void remember() {
+    past_[past_next_] = {time_s_, x_.p_n, x_.v_n, corrected_};
+    past_next_ = (past_next_ + 1) % past_.size();
+    past_count_ = std::min(past_count_ + 1, past_.size());
+  }
+  /// A correction made at time s moved position by dp and velocity by dv: at an earlier time t it means dp - (s - t) dv.
+  Past as_known_now(const Memory& m) const {
+    const Vector3 dv = corrected_.v - m.corrected.v;
+    return {m.p + (corrected_.p - m.corrected.p) - (corrected_.vt - m.corrected.vt) + m.time * dv, m.v + dv, time_s_ - m.time, true};
+  }
+
+  ekf::Nominal x_;
+  Eigen::Matrix3d R_nb_ = Eigen::Matrix3d::Identity();
+  ekf::Covariance P_ = ekf::Covariance::Identity();
+  double time_s_ = 0;
+  Vector3 omega_ = Vector3::Zero(), f_ = Vector3::Zero();
+  bool has_sample_ = false;
+  Step step_;
+  Corrections corrected_;
+  std::array<Memory, 64> past_{};
+  std::size_t past_next_ = 0, past_count_ = 0;
+};
+
+}  // namespace fulmar

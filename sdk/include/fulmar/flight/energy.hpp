@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Energy per mass and its rate: what throttle adds to and pitch shares out between speed and height.
+// Lambregts, "Vertical flight path and speed control autopilot design using total energy principles", AIAA 83-2239 (1983).
+#pragma once
+#include <Eigen/Core>
+#include <cmath>
+
+#include "fulmar/flight/atmosphere.hpp"
+#include "fulmar/msg/vehicle_state.hpp"
+
+namespace fulmar {
+
+/// Acceleration along the air velocity, from what the accelerometer and the attitude say: leads a differentiated airspeed and has its
+/// noise not. The change of the wind is not in it.
+inline double airspeed_rate(const VehicleState& state) {
+  const double ca = std::cos(state.alpha_rad), sa = std::sin(state.alpha_rad), cb = std::cos(state.beta_rad), sb = std::sin(state.beta_rad);
+  const double cp = std::cos(state.pitch_rad);
+  const Eigen::Vector3d gravity_b(-std::sin(state.pitch_rad), cp * std::sin(state.roll_rad), cp * std::cos(state.roll_rad));
+  return Eigen::Vector3d(ca * cb, sb, sa * cb).dot(eigen(state.specific_force_mps2) + isa::g0 * gravity_b);
+}
+
+/// Rates of the specific energies, m2/s3.
+struct EnergyRates {
+  double potential = 0;  ///< g hdot
+  double kinetic = 0;    ///< V Vdot
+  double total() const { return potential + kinetic; }
+  /// What height gains minus what speed gains, each with its weight in [0, 1].
+  double balance(double height_weight, double speed_weight) const { return height_weight * potential - speed_weight * kinetic; }
+};
+
+}  // namespace fulmar

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The part of an outer loop that does not depend on how height and speed are held: course hold, take-off law, waiting on the ground, and
+// commands that go on without a step when the law, the phase or the controller changes.
+#pragma once
+#include "fulmar/flight/lateral.hpp"
+#include "fulmar/flight/takeoff.hpp"
+#include "fulmar/msg/controller_internals.hpp"
+#include "fulmar/msg/guidance_command.hpp"
+
+namespace fulmar {
+
+struct OuterTuning {
+  CourseTuning course;
+  TakeoffTuning takeoff;
+  double pitch_rate_max_radps = 1;
+  double throttle_rate_max_hz = 2;  ///< full range per second
+};
+
+enum class OuterAction : std::uint8_t { wait, take_off, hold };
+
+class OuterCommands {
+ public:
+  /// A new law, phase or controller: go on from `last`. What the take-off law asked for says nothing about trim and is not taken up.
+  void start(OuterLaw law, const VehicleState& state, const AttitudeCommand& last) {
+    taking_up_ = !(started_ && law_ == OuterLaw::takeoff);
+    law_ = law, last_ = last, started_ = true;
+    course_.reset_to(last.roll_rad);
+    pitch_.reset_to(last.pitch_rad);
+    throttle_.reset_to(last.throttle_frac);
+    if (law == OuterLaw::takeoff) run_.begin(state);
+  }
+
+  /// What is to be done in this step; starts the law anew when it was changed without a hand-over.
+  OuterAction begin(OuterLaw law, const VehicleState& state) {
+    if (!started_) {  // nobody flew before: there is nothing to go on from
+      law_ = law, started_ = true;
+      run_.begin(state);
+    }
+    if (law != law_) start(law, state, last_);
+    if (law == OuterLaw::takeoff) return OuterAction::take_off;
+    return standing(state) ? OuterAction::wait : OuterAction::hold;
+  }
+
+  AttitudeCommand take_off(const VehicleState& state, const OuterTuning& tuning, const FlightLimits& limits, double dt_s) {
+    const AttitudeCommand wanted = run_.step(state, tuning.takeoff, limits);
+    return finish(course_.shape(wanted.roll_rad, tuning.course, dt_s), wanted.pitch_rad, wanted.throttle_frac, tuning, dt_s);
+  }
+
+  /// Not flying: engine off, level.
+  AttitudeCommand wait() {
+    start(law_, {}, {});
+    taking_up_ = false;
+    return last_;
+  }
+
+  /// Roll command of course hold, shaped.
+  double roll(const VehicleState& state, const GuidanceCommand& command, const OuterTuning& tuning, double dt_s) {
+    return course_.step(state, command.course_rad, command.roll_feedforward_rad, tuning.course, dt_s);
+  }
+
+  /// Pitch and throttle through their rate limits; `roll_rad` is shaped already.
+  AttitudeCommand finish(double roll_rad, double pitch_rad, double throttle_frac, const OuterTuning& tuning, double dt_s) {
+    taking_up_ = false;
+    last_.roll_rad = roll_rad;
+    last_.pitch_rad = pitch_.step(pitch_rad, tuning.pitch_rate_max_radps, dt_s);
+    last_.throttle_frac = std::clamp(throttle_.step(throttle_frac, tuning.throttle_rate_max_hz, dt_s), 0.0, 1.0);
+    return last_;
+  }
+
+  /// The next `hold` is the first since a hand-over: integrals are to take up what `last()` asks of them.
+  bool taking_up() const { return taking_up_; }
+  const AttitudeCommand& last() const { return last_; }
+  OuterLaw law() const { return law_; }
+  bool roll_saturated() const { return law_ == OuterLaw::hold && course_.saturated(); }
+  double course_error_rad() const { return law_ == OuterLaw::hold ? course_.error_rad() : run_.error_rad(); }
+
+ private:
+  CourseHold course_;
+  TakeoffRun run_;
+  RateLimiter pitch_, throttle_;
+  AttitudeCommand last_;
+  OuterLaw law_ = OuterLaw::hold;
+  bool started_ = false, taking_up_ = false;
+};
+
+/// Pitch limits in force: the airframe's, the user's, and the ceiling near the stall.
+struct PitchLimits {
+  PitchLimits(const VehicleState& state, const FlightLimits& limits, double pitch_limit_rad)
+      : max(std::min({limits.pitch_max_rad, pitch_limit_rad, pitch_ceiling(state, limits)})),
+        min(std::min(max, std::max(limits.pitch_min_rad, -pitch_limit_rad))) {}
+  double max, min;
+};
+
+/// Airspeed for the laws' divisions: measured, but not below half the minimum; cruise when it is not known.
+inline double scheduling_airspeed(const VehicleState& state, const FlightLimits& limits) {
+  return state.airspeed_valid ? std::max(state.airspeed_mps, 0.5 * limits.airspeed_min_mps) : limits.airspeed_cruise_mps;
+}
+
+}  // namespace fulmar

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "fulmar/message.hpp"
+
+namespace fulmar {
+
+/// Deflections and throttle as the aerodynamics know them; the vehicle turns them into what its servos want. Beard & McLain, chapter 4.
+struct Actuators {
+  double throttle_frac = 0;  ///< 0 to 1
+  double aileron_rad = 0;    ///< positive rolls right
+  double elevator_rad = 0;   ///< positive is trailing edge down: nose down
+  double rudder_rad = 0;     ///< positive is trailing edge left: nose left
+};
+
+}  // namespace fulmar

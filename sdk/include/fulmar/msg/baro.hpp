@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "fulmar/message.hpp"
+
+namespace fulmar {
+
+/// Static pressure.
+struct Baro {
+  double pressure_pa = 0;  ///< absolute
+  double temperature_kelvin = 288.15;  ///< of the sensor, not of the air
+};
+
+}  // namespace fulmar

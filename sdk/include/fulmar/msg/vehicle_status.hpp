@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "fulmar/message.hpp"
+
+namespace fulmar {
+
+enum class Health : std::uint8_t { ok, degraded, failed };
+
+/// What the vehicle says of itself: who is in control, and whether it can fly.
+struct VehicleStatus {
+  bool armed = false;
+  bool override = false;   ///< the pilot flies; commands have no effect
+  bool failsafe = false;   ///< the vehicle flies by its own failsafe; commands have no effect
+  bool on_ground = false;  ///< as far as the vehicle can tell
+  bool crashed = false;    ///< simulation: the airframe hit the ground
+  Health health = Health::ok;
+  std::uint32_t errors = 0;  ///< the vehicle's own error bits
+  double battery_volt = 0;
+  double battery_amp = 0;
+  double battery_frac = 1;  ///< charge left
+};
+
+}  // namespace fulmar

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Drives one component without a host, through the same C functions that the host calls, and counts allocations.
+//
+//   Bench<AttitudeHold> bench;
+//   bench.params.roll_kp.value = 0.55;
+//   bench.set(bench.in.state, state);             // a sample for an input, valid now
+//   CHECK(bench.step(0.01) == Status::ok);        // advances time by 10 ms, then steps
+//   CHECK(bench.out.actuators.aileron_rad == doctest::Approx(...));
+//
+// `bench.out` holds what the step published. An Out<T> has `written` set when it spoke; an OutQueue has its `count`.
+// To count allocations, one source file of the test program defines FULMAR_COUNT_ALLOCATIONS before it includes this header;
+// `allocations([&] { bench.step(0.01); })` is then the number of calls of operator new and malloc in between.
+#pragma once
+#include <cstdlib>
+#include <memory>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "fulmar/plugin.hpp"
+
+namespace fulmar {
+
+inline thread_local std::uint64_t allocation_count = 0;
+
+/// Allocations that `work` makes in this thread.
+template <class F>
+std::uint64_t allocations(F&& work) {
+  const std::uint64_t before = allocation_count;
+  work();
+  return allocation_count - before;
+}
+
+template <class C>
+class Bench {
+ public:
+  explicit Bench(std::uint64_t seed = 1) : component_(detail::component_entry<C>()) {
+    instance_ = component_.create(seed, &error_);
+    if (!instance_) throw std::runtime_error(error_.text);
+    inputs_.resize(detail::member_count<typename C::Inputs>() + 1);
+    std::vector<std::size_t> sizes;
+    detail::for_each(in, [&](auto& member, std::size_t i) {
+      using Port = detail::PortOf<std::remove_cvref_t<decltype(member)>>;
+      member.input = &inputs_[i];
+      rooms_.push_back(Room{});
+      rooms_.back().answers.resize(Port::capacity);
+    });
+  }
+  ~Bench() { component_.destroy(instance_); }
+  Bench(const Bench&) = delete;
+  Bench& operator=(const Bench&) = delete;
+
+  typename C::Inputs in{};
+  typename C::Outputs out{};
+  typename C::Params params{};
+  Tick tick{};
+
+  C& component() { return self().component; }
+  std::string error() const { return error_.text; }  ///< what the last failed call said
+
+  /// The latest sample of a value input, valid `age_s` ago.
+  template <template <class> class P, class T>
+    requires(detail::PortOf<P<T>>::kind == FULMAR_IN_VALUE)
+  void set(const P<T>& port, const T& value, double age_s = 0) {
+    fulmar_input& input = at(port.input);
+    Room& room = rooms_[index(port.input)];
+    room.bytes.resize(sizeof(T));
+    std::memcpy(room.bytes.data(), &value, sizeof(T));
+    input.data = room.bytes.data();
+    input.age_ns = static_cast<std::int64_t>(age_s * 1e9);
+    input.valid_at_ns = tick.now_ns - input.age_ns;
+    input.sequence++;
+    input.count = 1;
+    input.flags |= FULMAR_FRESH;
+  }
+  /// One more sample of a queue or request; gone after the next step.
+  template <template <class> class P, class T>
+    requires(detail::PortOf<P<T>>::kind == FULMAR_IN_QUEUE || detail::PortOf<P<T>>::kind == FULMAR_IN_REQUEST)
+  void push(const P<T>& port, const T& value) {
+    fulmar_input& input = at(port.input);
+    Room& room = rooms_[index(port.input)];
+    room.bytes.resize((input.count + 1) * sizeof(T));
+    std::memcpy(room.bytes.data() + input.count * sizeof(T), &value, sizeof(T));
+    room.stamps.resize(input.count + 1, tick.now_ns);
+    if (room.answers.size() <= input.count) room.answers.resize(input.count + 1);
+    room.answers[input.count] = {};
+    input.data = room.bytes.data();
+    input.stamps_ns = room.stamps.data();
+    input.answers = room.answers.data();
+    input.count++;
+  }
+  /// The answer to request `i` of the last step: "accepted", "unanswered", or the reason of the refusal.
+  template <class T>
+  std::string answer(const Request<T>& port, std::size_t i = 0) const {
+    const fulmar_answer& answer = rooms_[static_cast<std::size_t>(port.input - inputs_.data())].answers[i];
+    if (answer.verdict == FULMAR_ACCEPTED) return "accepted";
+    return answer.verdict == FULMAR_REFUSED ? answer.reason : "unanswered";
+  }
+
+  /// Hands `params` to the component. Called by the first step if not before; call it again after changing `params` with `live` false.
+  Status configure() {
+    configured_ = true;
+    self().params = params;
+    return call([&] {
+      if constexpr (requires(C c, const typename C::Params& p) { c.configure(p); }) self().component.configure(self().params);
+      return Status::ok;
+    });
+  }
+  /// A live change of parameters.
+  Status retune() {
+    self().params = params;
+    return call([&] {
+      if constexpr (requires(C c, const typename C::Params& p) { c.retune(p); }) self().component.retune(self().params);
+      return Status::ok;
+    });
+  }
+  Status activate(const typename C::Outputs& last_applied = {}) {
+    if (!configured_) configure();
+    return call([&] { return self().component.activate(tick, in, self().params, last_applied); });
+  }
+
+  /// Advances time by dt and steps once.
+  Status step(double dt_s) {
+    if (!configured_ && configure() == Status::failed) return Status::failed;
+    advance(dt_s);
+    const Status status = call([&] { return self().component.step(tick, in, self().params, self().out); });
+    finish();
+    return status;
+  }
+  /// For vehicles: read sets the time.
+  Status read() {
+    if (!configured_ && configure() == Status::failed) return Status::failed;
+    const std::int64_t before = tick.now_ns;
+    const Status status = call([&] { return self().component.read(tick, self().params, self().out); });
+    tick.dt_ns = tick.now_ns - before;
+    tick.index++;
+    finish();
+    return status;
+  }
+  Status write() {
+    const Status status = call([&] { return self().component.write(tick, in, self().params); });
+    drop_queues();
+    return status;
+  }
+
+ private:
+  struct Room {
+    std::vector<std::byte> bytes;
+    std::vector<std::int64_t> stamps;
+    std::vector<fulmar_answer> answers;
+  };
+  detail::Instance<C>& self() { return *static_cast<detail::Instance<C>*>(instance_); }
+  std::size_t index(const fulmar_input* input) const { return static_cast<std::size_t>(input - inputs_.data()); }
+  fulmar_input& at(const fulmar_input* input) { return inputs_[index(input)]; }
+
+  void advance(double dt_s) {
+    tick.dt_ns = static_cast<std::int64_t>(dt_s * 1e9 + 0.5);
+    tick.now_ns += tick.dt_ns;
+    tick.index++;
+    for (fulmar_input& input : inputs_)
+      if (input.sequence > 0) input.age_ns = tick.now_ns - input.valid_at_ns;
+  }
+  template <class F>
+  Status call(F&& f) {
+    error_.text[0] = '\0';
+    return static_cast<Status>(detail::guarded(&error_, f));
+  }
+  void finish() {
+    out = self().out;
+    detail::for_each(self().out, []<class M>(M& member, std::size_t) {
+      if constexpr (requires { member.written; }) member.written = false;
+      if constexpr (requires { member.stamps_ns; }) member.count = member.lost = 0;
+    });
+    for (fulmar_input& input : inputs_) input.flags &= ~static_cast<std::uint32_t>(FULMAR_FRESH);
+    if constexpr (!detail::Vehicle<C>) drop_queues();
+  }
+  void drop_queues() {
+    for (fulmar_input& input : inputs_)
+      if (input.sequence == 0) input.count = 0;
+  }
+
+  fulmar_component component_;
+  void* instance_ = nullptr;
+  bool configured_ = false;
+  fulmar_error error_{};
+  std::vector<fulmar_input> inputs_;
+  std::vector<Room> rooms_;
+};
+
+}  // namespace fulmar
+
+#ifdef FULMAR_COUNT_ALLOCATIONS
+// Replaces the global allocation functions of this program.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++fulmar::allocation_count;
+  if (void* p = std::malloc(size ? size : 1)) return p;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t align) {
+  ++fulmar::allocation_count;
+  const std::size_t a = static_cast<std::size_t>(align);
+  if (void* p = std::aligned_alloc(a, (size + a - 1) / a * a)) return p;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+#endif

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The error-state filter: every derivative against finite differences, the update against the information form, the memory against the
+// motion.
+#include <doctest/doctest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <fulmar/flight/ekf_models.hpp>
+#include <fulmar/random.hpp>
+#include <numbers>
+
+using namespace fulmar;
+using Eigen::Vector3d;
+
+namespace {
+
+Vector3d any(Random& r, double range) { return {r.uniform(-range, range), r.uniform(-range, range), r.uniform(-range, range)}; }
+
+ekf::Nominal any_state(Random& r) {
+  ekf::Nominal x;
+  x.q_nb = quaternion_from({r.uniform(-3, 3), r.uniform(-1.4, 1.4), r.uniform(-3, 3)});
+  x.v_n = any(r, 20) + Vector3d(5, 0, 0);
+  x.p_n = any(r, 300);
+  x.gyro_bias = any(r, 0.2);
+  x.accel_bias = any(r, 0.5);
+  x.wind = {r.uniform(-6, 6), r.uniform(-6, 6)};
+  x.gust_mps = r.normal();
+  x.baro_m = 5 * r.normal();
+  x.heading_rad = 0.1 * r.normal();
+  return x;
+}
+
+/// Derivative of the expected value: minus that of the innovation, central differences.
+template <class Model>
+ekf::Row numeric(const ekf::Nominal& x, const Model& model) {
+  ekf::Row H;
+  constexpr double step = 1e-6;
+  for (int i = 0; i < ekf::size; ++i) {
+    ekf::Vector dx = ekf::Vector::Zero();
+    dx(i) = step;
+    const double up = model(x.plus(dx)).innovation, down = model(x.plus(-dx)).innovation;
+    H(i) = -wrap_pi(up - down) / (2 * step);
+  }
+  return H;
+}
+
+ErrorStateEkf filter_at(const ekf::Nominal& x) {
+  ErrorStateEkf f;
+  f.reset(x, ekf::Vector::Constant(0.1), 0);
+  return f;
+}
+
+ekf::Covariance any_covariance(Random& r) {
+  ekf::Covariance A;
+  for (int i = 0; i < ekf::size; ++i)
+    for (int j = 0; j < ekf::size; ++j) A(i, j) = r.normal();
+  return A * A.transpose() / ekf::size + 0.01 * ekf::Covariance::Identity();
+}
+
+}  // namespace
+
+TEST_CASE("the row of every measurement is the derivative of what it expects") {
+  Random r(11);
+  for (int i = 0; i < 60; ++i) {
+    const ekf::Nominal x = any_state(r);
+    const Vector3d field = x.q_nb.conjugate() * Vector3d(2e-5, 4e-6, i % 2 ? 4.5e-5 : -5e-5) + any(r, 2e-6);
+    const auto airspeed = [](const ekf::Nominal& n) { return ekf::true_airspeed(n, 17); };
+    const auto sideslip = [](const ekf::Nominal& n) { return ekf::zero_sideslip(n); };
+    const auto heading = [&](const ekf::Nominal& n) { return ekf::magnetic_heading(n, field, 0.2); };
+    const auto baro = [](const ekf::Nominal& n) { return ekf::baro_height(n, 85000, 1387); };
+    const auto rate = [](const ekf::Nominal& n) { return ekf::zero_rate(n, 1, 0.01); };
+    CHECK((airspeed(x).H - numeric(x, airspeed)).norm() < 1e-6);
+    CHECK((sideslip(x).H - numeric(x, sideslip)).norm() < 1e-5);
+    CHECK((heading(x).H - numeric(x, heading)).norm() < 1e-5 * heading(x).H.norm());
+    CHECK((baro(x).H - numeric(x, baro)).norm() < 1e-6);
+    CHECK((rate(x).H - numeric(x, rate)).norm() < 1e-6);
+    const ErrorStateEkf::Past now{x.p_n, x.v_n, 0, true};
+    const ErrorStateEkf f = filter_at(x);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto velocity = [&](const ekf::Nominal& n) { return ekf::velocity(f, {n.p_n, n.v_n, 0, true}, axis, 3); };
+      const auto position = [&](const ekf::Nominal& n) { return ekf::position(f, {n.p_n, n.v_n, 0, true}, axis, 3); };
+      CHECK((ekf::velocity(f, now, axis, 3).H - numeric(x, velocity)).norm() < 1e-6);
+      CHECK((ekf::position(f, now, axis, 3).H - numeric(x, position)).norm() < 1e-6);
+    }
+  }
+}
+
+TEST_CASE("the covariance follows the motion: Phi P Phi' with Phi by finite differences of the integration") {
+  Random r(12);
+  for (int trial = 0; trial < 10; ++trial) {
+    const ekf::Nominal x = any_state(r);
+    const ekf::Covariance P = any_covariance(r);
+    const Vector3d omega = any(r, 1), f_b = any(r, 5) + Vector3d(0, 0, -10);
+    const auto moved = [&](const ekf::Nominal& from) {
+      ErrorStateEkf f = filter_at(from);
+      f.noise = {0, 0, 0, 0, 0, 0, 0, 0, 0, 1e9, 0, 0, 1e9};
+      f.set_covariance(P);
+      for (int k = 0; k < 4; ++k) f.predict(omega, f_b, 0.0025);
+      return f;
+    };
+    const ErrorStateEkf end = moved(x);
+    ekf::Covariance Phi;
+    constexpr double step = 1e-5;
+    for (int i = 0; i < ekf::size; ++i) {
+      ekf::Vector dx = ekf::Vector::Zero();
+      dx(i) = step;
+      Phi.col(i) = moved(x.plus(dx)).state().minus(moved(x.plus(-dx)).state()) / (2 * step);
+    }
+    const ekf::Covariance expected = Phi * P * Phi.transpose();
+    CHECK((end.covariance() - expected).cwiseAbs().maxCoeff() < 2e-4 * expected.cwiseAbs().maxCoeff());
+    CHECK((end.covariance() - P).cwiseAbs().maxCoeff() > 0.01);  // something did happen
+  }
+}
+
+TEST_CASE("a late fix is compared with the state of its time, and its row is the derivative through the motion since") {
+  Random r(13);
+  const auto fly = [](const ekf::Nominal& x, Random noise) {
+    ErrorStateEkf f;
+    f.reset(x, ekf::Vector::Constant(0.1), 0);
+    for (int k = 0; k < 60; ++k) f.predict(Vector3d(0.4, -0.2, 0.3) + any(noise, 0.1), Vector3d(1, -0.5, -12) + any(noise, 1), 0.0025);
+    return f;
+  };
+  for (int trial = 0; trial < 10; ++trial) {
+    const ekf::Nominal x = any_state(r);
+    const ErrorStateEkf f = fly(x, Random(7));
+    const ErrorStateEkf::Past past = f.at(0);
+    REQUIRE(past.known);
+    CHECK(past.age_s == doctest::Approx(0.15));
+    CHECK((past.p_n - x.p_n).norm() < 1e-9);
+    CHECK((past.v_n - x.v_n).norm() < 1e-9);
+    for (int i = 0; i < 15; ++i) {
+      ekf::Vector dx = ekf::Vector::Zero();
+      dx(i) = 1e-4;
+      const ekf::Vector error_now = fly(x.plus(dx), Random(7)).state().minus(f.state());
+      for (int axis = 0; axis < 3; ++axis) {
+        const double by_row_v = ekf::velocity(f, past, axis, 0).H.dot(error_now.transpose());
+        const double by_row_p = ekf::position(f, past, axis, 0).H.dot(error_now.transpose());
+        CHECK(by_row_v == doctest::Approx(dx(ekf::vel + axis)).epsilon(0.02).scale(1e-4));
+        CHECK(by_row_p == doctest::Approx(dx(ekf::pos + axis)).epsilon(0.02).scale(1e-4));
+      }
+    }
+  }
+}
+
+TEST_CASE("a correction made since is in the remembered past: the same late fix is not believed twice") {
+  ErrorStateEkf f;
+  ekf::Nominal x;
+  x.v_n = {17, 0, 0};
+  f.reset(x, ekf::Vector::Constant(1), 0);
+  for (int k = 0; k < 80; ++k) f.predict(Vector3d::Zero(), Vector3d(0, 0, -f.gravity_mps2), 0.0025);
+  f.fuse(ekf::velocity(f, f.at(0.2), 0, 20), 1e-8, 1e3);  // it was 20 m/s all along
+  const ErrorStateEkf::Past past = f.at(0.1);
+  CHECK(past.v_n.x() == doctest::Approx(20).epsilon(1e-3));
+  CHECK(f.state().p_n.x() - past.p_n.x() == doctest::Approx(2).epsilon(2e-3));
+  CHECK_FALSE(f.at(-0.01).known);
+}
+
+TEST_CASE("one scalar update is the information filter's") {
+  Random r(14);
+  for (int trial = 0; trial < 20; ++trial) {
+    ErrorStateEkf f = filter_at(any_state(r));
+    const ekf::Covariance P = any_covariance(r);
+    f.set_covariance(P);
+    ekf::Scalar z;
+    for (int i = 0; i < ekf::size; ++i) z.H(i) = i % 3 ? r.normal() : 0;
+    z.innovation = 0.01 * r.normal();
+    const double variance = 0.3;
+    const ekf::Nominal before = f.state();
+    REQUIRE(f.fuse(z, variance, 1e9).accepted);
+    const ekf::Covariance expected = (P.inverse() + z.H.transpose() * z.H / variance).inverse();
+    CHECK((f.covariance() - expected).norm() < 1e-9 * P.norm());
+    const ekf::Vector dx = expected * z.H.transpose() * z.innovation / variance;
+    CHECK((f.state().minus(before) - dx).norm() < 1e-6 * dx.norm() + 1e-9);
+  }
+}
+
+TEST_CASE("an innovation beyond the gate changes nothing and is told") {
+  ErrorStateEkf f = filter_at({});
+  ekf::Scalar z;
+  z.H(ekf::pos) = 1;
+  z.innovation = 10;
+  const ekf::Covariance P = f.covariance();
+  const ekf::Fused fused = f.fuse(z, 0.99, 5);  // expected deviation 1
+  CHECK_FALSE(fused.accepted);
+  CHECK(fused.ratio == doctest::Approx(10));
+  CHECK(f.state().p_n.norm() == 0);
+  CHECK(f.covariance() == P);
+  z.innovation = std::nan("");
+  CHECK_FALSE(f.fuse(z, 1, 5).accepted);
+}
+
+TEST_CASE("the covariance stays symmetric and positive definite over a minute of turns and updates") {
+  Random r(15);
+  ErrorStateEkf f;
+  ekf::Nominal x;
+  x.v_n = {17, 0, 0};
+  ekf::Vector std = ekf::Vector::Constant(1);
+  std.segment<3>(ekf::pos).setConstant(1e3);
+  std.segment<3>(ekf::theta).setConstant(0.5);
+  f.reset(x, std, 0);
+  for (int k = 0; k < 60 * 200; ++k) {
+    f.predict(any(r, 0.5), any(r, 3) + Vector3d(0, 0, -9.8), 0.005);
+    if (k % 20 == 0)
+      for (int axis = 0; axis < 3; ++axis) {
+        f.fuse(ekf::velocity(f, f.at(f.time_s()), axis, 0), 1e-4, 1e9);
+        f.fuse(ekf::position(f, f.at(f.time_s()), axis, 0), 1e-2, 1e9);
+      }
+    if (k % 4 == 0) f.fuse(ekf::true_airspeed(f.state(), 17), 0.01, 1e9);
+    if (k % 200 == 0) {
+      CHECK((f.covariance() - f.covariance().transpose()).cwiseAbs().maxCoeff() == 0);
+      CHECK(Eigen::SelfAdjointEigenSolver<ekf::Covariance>(f.covariance()).eigenvalues().minCoeff() > 0);
+    }
+  }
+  CHECK(f.state().q_nb.norm() == doctest::Approx(1).epsilon(1e-12));
+}
+
+TEST_CASE("uncertainty grows with time and not with the number of samples") {
+  const auto after = [](double hz) {
+    ErrorStateEkf f;
+    ekf::Nominal x;
+    x.v_n = {17, 0, 0};
+    f.reset(x, ekf::Vector::Constant(0.01), 0);
+    for (int k = 0; k < static_cast<int>(10 * hz); ++k) f.predict({0, 0, 0.1}, {0, 1, -9.8}, 1 / hz);
+    return ekf::Vector(f.covariance().diagonal().cwiseSqrt());
+  };
+  const ekf::Vector slow = after(50), usual = after(400), fast = after(1000);
+  for (int i = 0; i < ekf::size; ++i) {
+    CHECK(slow(i) == doctest::Approx(usual(i)).epsilon(0.01));
+    CHECK(fast(i) == doctest::Approx(usual(i)).epsilon(0.01));
+  }
+}
+
+TEST_CASE("pressure height is right a kilometre up and at any field elevation") {
+  // An independent form of the standard atmosphere: p = 101325 (1 - 2.25577e-5 h)^5.25588
+  const auto pressure = [](double h) { return 101325 * std::pow(1 - 2.25577e-5 * h, 5.25588); };
+  for (const double field : {0.0, 1387.0, 3000.0})
+    for (const double height : {0.0, 70.0, 300.0, 1000.0}) {
+      ekf::Nominal x;
+      x.p_n.z() = -height;
+      CHECK(std::abs(ekf::baro_height(x, pressure(field + height), field).innovation) < 0.1);
+    }
+}
+
+TEST_CASE("a needle that points to the declination gives the true heading in both hemispheres") {
+  for (const double down : {4.5e-5, -5e-5})
+    for (const double declination : {-0.3, 0.18, 0.2}) {
+      const Vector3d field(2e-5 * std::cos(declination), 2e-5 * std::sin(declination), down);
+      ekf::Nominal x;
+      x.q_nb = quaternion_from({0.5, -0.2, 2.9});
+      CHECK(std::abs(ekf::magnetic_heading(x, x.q_nb.conjugate() * field, declination).innovation) < 1e-12);
+      ekf::Nominal turned = x;
+      turned.q_nb = exp_map({0, 0, -0.1}) * x.q_nb;  // the estimate is 0.1 rad short
+      CHECK(ekf::magnetic_heading(turned, x.q_nb.conjugate() * field, declination).innovation == doctest::Approx(0.1));
+    }
+}

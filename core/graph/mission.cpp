@@ -51,7 +51,7 @@ class Reader {
   void each(const Keys& keys, const std::string& key, F read_entry) {
     const Node* node = keys.get(key);
     if (!node) return;
-    if (!node->is(Node::Kind::map)) return report_.add(node->where(), key + ": expected a map of names, found " + describe(*node));
+    if (!node->is(Node::Kind::map)) return report_.add(node->where(), key + ": expected a map of names, found " + found_words(*node));
     for (const Node::Entry& entry : node->entries) {
       if (is_name(entry.key)) read_entry(entry);
       else report_.add(entry.where(), key + ": '" + entry.key + "' is not a name; names are letters, digits and _");
@@ -80,20 +80,20 @@ class Reader {
     const std::string& text = node.text;
     const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), m_.seed);
     if (!node.is(Node::Kind::scalar) || code != std::errc{} || end != text.data() + text.size())
-      report_.add(node.where(), "seed: expected a whole number from 0, found " + describe(node));
+      report_.add(node.where(), "seed: expected a whole number from 0, found " + found_words(node));
   }
 
   void shown(const Keys& keys) {
     for (auto [key, word] : {std::pair{"done", &m_.done}, std::pair{"failed", &m_.failed}})
       if (const auto text = keys.text(key)) *word = Word{*text, keys.get(key)->where()};
     if (const Node* node = keys.get("progress")) {
-      if (!node->is(Node::Kind::sequence)) report_.add(node->where(), "progress: expected a list of fields such as [nav.state.height_m], found " + describe(*node));
+      if (!node->is(Node::Kind::sequence)) report_.add(node->where(), "progress: expected a list of fields such as [nav.state.height_m], found " + found_words(*node));
       for (const Node& item : node->items)
         if (const auto text = scalar_text(item, "progress", "a field such as nav.state.height_m", report_)) m_.progress.push_back({*text, item.where()});
     }
     const Node* node = keys.get("summary");
     if (!node) return;
-    if (!node->is(Node::Kind::map)) report_.add(node->where(), "summary: expected a map {name: component.port}, found " + describe(*node));
+    if (!node->is(Node::Kind::map)) report_.add(node->where(), "summary: expected a map {name: component.port}, found " + found_words(*node));
     for (const Node::Entry& entry : node->entries)
       if (const auto text = scalar_text(entry.value, "summary." + entry.key, "a port such as score.tracking", report_))
         m_.summary.push_back({entry.key, {*text, entry.where()}});
@@ -125,7 +125,7 @@ class Reader {
     std::vector<WireText> list;
     if (!map) return list;
     if (!map->is(Node::Kind::map)) {
-      report_.add(map->where(), path + ": expected a map {input: component.output}, found " + describe(*map));
+      report_.add(map->where(), path + ": expected a map {input: component.output}, found " + found_words(*map));
       return list;
     }
     for (const Node::Entry& entry : map->entries)
@@ -161,7 +161,7 @@ class Reader {
     role.where = entry.where();
     role.in = wires(keys.get("in"), path + ".in");
     const Node* out = keys.get("out");
-    if (out && !out->is(Node::Kind::map)) report_.add(out->where(), path + ".out: expected a map {output: Type}, found " + describe(*out));
+    if (out && !out->is(Node::Kind::map)) report_.add(out->where(), path + ".out: expected a map {output: Type}, found " + found_words(*out));
     if (out)
       for (const Node::Entry& port : out->entries) {
         RoleOutText text;
@@ -190,7 +190,7 @@ class Reader {
     c.in = wires(keys.get("in"), path + ".in");
     if (const Node* params = keys.get("params")) {
       c.params = *params;
-      if (!params->is(Node::Kind::map)) report_.add(params->where(), path + ".params: expected a map {parameter: value}, found " + describe(*params));
+      if (!params->is(Node::Kind::map)) report_.add(params->where(), path + ".params: expected a map {parameter: value}, found " + found_words(*params));
     }
     c.rate_hz = keys.positive("rate", "Hz").value_or(0);
     c.where_rate = keys.where("rate");
@@ -223,7 +223,7 @@ class Reader {
   }
 
   void transitions(const Node& list, const std::string& path, std::vector<TransitionText>& out) {
-    if (!list.is(Node::Kind::sequence)) return report_.add(list.where(), path + ": expected a list such as [{to: cruise, when: \"...\"}], found " + describe(list));
+    if (!list.is(Node::Kind::sequence)) return report_.add(list.where(), path + ": expected a list such as [{to: cruise, when: \"...\"}], found " + found_words(list));
     for (const Node& item : list.items) {
       const Keys keys(item, path, {"to", "when", "for"}, report_);
       if (!item.is(Node::Kind::map)) continue;
@@ -252,7 +252,7 @@ class Reader {
       if (keys.has("fallback")) a.where_fallback = keys.where("fallback");
       if (const Node* set = keys.get("set")) a.set = *set;
       if (!a.set.is(Node::Kind::missing) && !a.set.is(Node::Kind::map))
-        report_.add(a.set.where(), path + ".set: expected a map {parameter: value}, found " + describe(a.set)), a.set = Node{};
+        report_.add(a.set.where(), path + ".set: expected a map {parameter: value}, found " + found_words(a.set)), a.set = Node{};
     } else {
       a.use = scalar_text(entry.value, path, "the name of a component, or {use, set, fallback}", report_).value_or("");
     }
@@ -264,7 +264,7 @@ class Reader {
     if (!node) return;
     if (node->is(Node::Kind::scalar)) {
       m_.record = node->text != "off";
-      if (m_.record) report_.add(node->where(), "record: expected 'off' or a map {file, ports, rate}, found " + describe(*node));
+      if (m_.record) report_.add(node->where(), "record: expected 'off' or a map {file, ports, rate}, found " + found_words(*node));
       return;
     }
     const Keys keys(*node, "record", {"file", "ports", "rate"}, report_);
@@ -289,7 +289,7 @@ class Reader {
         add_rule(name, hz ? std::llround(1e9 / *hz) : 0, rates.where(name));
       }
     } else {
-      report_.add(ports->where(), "record.ports: expected a list of ports or a map {port: rate}, found " + describe(*ports));
+      report_.add(ports->where(), "record.ports: expected a list of ports or a map {port: rate}, found " + found_words(*ports));
     }
   }
 
@@ -325,7 +325,7 @@ Node load_tree(MissionText& mission, Report& report) {
     mission.files.push_back(base_file);
     const Node base = parse_yaml(base_file, report);
     if (const Node* again = base.find("extends")) report.add(again->where(), "extends: a file that is extended cannot extend another one");
-    if (!base.is(Node::Kind::map) && !base.is(Node::Kind::missing)) report.add(base.where(), "expected a map with the keys of a mission; found " + describe(base));
+    if (!base.is(Node::Kind::map) && !base.is(Node::Kind::missing)) report.add(base.where(), "expected a map with the keys of a mission; found " + found_words(base));
     if (base.is(Node::Kind::map) && root.is(Node::Kind::map)) return laid_over(base, root);
   } catch (const Error& fault) {
     report.add(extends->where(), std::string("extends: ") + fault.what());

@@ -77,7 +77,7 @@ struct ParamReader {
   std::string unit_words() const { return param.unit.empty() ? "" : " in " + param.unit; }
 
   bool number_into(const Node& node, double& target) const {
-    if (!node.is(Node::Kind::scalar)) return fault(node, "expected a number" + unit_words() + ", found " + describe(node)), false;
+    if (!node.is(Node::Kind::scalar)) return fault(node, "expected a number" + unit_words() + ", found " + found_words(node)), false;
     try {
       const Quantity quantity = parse_quantity(node.text);
       const double number = convert(quantity, param.unit, UnitRule::optional);
@@ -109,7 +109,7 @@ struct ParamReader {
   }
 
   void text(const Node& node) const {
-    if (!node.is(Node::Kind::scalar)) return fault(node, "expected text, found " + describe(node));
+    if (!node.is(Node::Kind::scalar)) return fault(node, "expected text, found " + found_words(node));
     if (node.text.size() >= param.capacity)
       return fault(node, "text of " + std::to_string(node.text.size()) + " bytes; there is room for " + std::to_string(param.capacity - 1));
     value.text = node.text;
@@ -130,7 +130,7 @@ struct ParamReader {
       for (std::size_t i = 0; i < 3; ++i) good = element(node.items[i], names[i], numbers[i]) && good;
     } else {
       const bool list = node.is(Node::Kind::sequence);
-      return fault(node, "expected three numbers [" + join(names) + "], found " + (list ? std::to_string(node.items.size()) : describe(node)));
+      return fault(node, "expected three numbers [" + join(names) + "], found " + (list ? std::to_string(node.items.size()) : found_words(node)));
     }
     if (good) std::copy(numbers, numbers + 3, value.number);
   }

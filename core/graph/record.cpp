@@ -33,7 +33,7 @@ class Filler {
   void fill_struct(const Type& type, const Node& node, std::byte* data, const Place& place, const std::vector<std::string>& also) {
     if (node.is(Node::Kind::sequence) && is_tuple(type)) return fill_tuple(type, node, data, place);
     if (!node.is(Node::Kind::map))
-      return fault(node, place.path, "expected a map with the fields of " + type.name + ", found " + describe(node));
+      return fault(node, place.path, "expected a map with the fields of " + type.name + ", found " + found_words(node));
     std::vector<std::pair<const Field*, std::string>> seen;
     for (const Node::Entry& entry : node.entries) {
       if (std::find(also.begin(), also.end(), entry.key) != also.end()) continue;
@@ -54,7 +54,7 @@ class Filler {
     if (field.shape == FULMAR_SCALAR) return fill_element(field, node, at, place);
     const bool list = field.shape == FULMAR_LIST;
     if (!node.is(Node::Kind::sequence))
-      return fault(node, place.path, "expected a list of " + size_words(field) + ", found " + describe(node));
+      return fault(node, place.path, "expected a list of " + size_words(field) + ", found " + found_words(node));
     const std::size_t n = node.items.size();
     if (list ? n > field.count : n != field.count)
       return fault(node, place.path, std::to_string(n) + (n == 1 ? " item" : " items") + ", but this is a list of " + size_words(field));
@@ -127,7 +127,7 @@ class Filler {
   }
 
   void fill_text(const Field& field, const Node& node, std::byte* at, const Place& place) {
-    if (!node.is(Node::Kind::scalar)) return fault(node, place.path, "expected text, found " + describe(node));
+    if (!node.is(Node::Kind::scalar)) return fault(node, place.path, "expected text, found " + found_words(node));
     if (node.text.size() >= field.stride)
       return fault(node, place.path, "text of " + std::to_string(node.text.size()) + " bytes; there is room for " + std::to_string(field.stride - 1));
     std::memset(at, 0, field.stride);
@@ -135,7 +135,7 @@ class Filler {
   }
 
   void fill_float(const Field& field, const Node& node, std::byte* at, const Place& place) {
-    if (!node.is(Node::Kind::scalar)) return fault(node, place.path, "expected a number" + unit_words(place.unit) + ", found " + describe(node));
+    if (!node.is(Node::Kind::scalar)) return fault(node, place.path, "expected a number" + unit_words(place.unit) + ", found " + found_words(node));
     try {
       const Quantity quantity = parse_quantity(node.text);
       const double value = convert(quantity, place.unit, place.rule);
@@ -166,7 +166,7 @@ class Filler {
   }
 
   void fill_integer(const Field& field, const Node& node, std::byte* at, const Place& place) {
-    if (!node.is(Node::Kind::scalar)) return fault(node, place.path, "expected a whole number, found " + describe(node));
+    if (!node.is(Node::Kind::scalar)) return fault(node, place.path, "expected a whole number, found " + found_words(node));
     try {
       const Quantity quantity = parse_quantity(node.text);
       double value = convert(quantity, place.unit, place.rule);

@@ -26,7 +26,7 @@ AirframeSource airframe_source(Draft& draft) {
   if (!file) return {};
   const Node& tree = draft.files.tree(file);
   if (tree.is(Node::Kind::map)) return {&tree, file->path.filename().string(), ""};
-  if (!tree.is(Node::Kind::missing)) draft.report.add(tree.where(), "expected a map with the fields of an airframe; found " + describe(tree));
+  if (!tree.is(Node::Kind::missing)) draft.report.add(tree.where(), "expected a map with the fields of an airframe; found " + found_words(tree));
   return {};
 }
 
@@ -58,7 +58,7 @@ void set_from_airframe(Draft& draft, Candidate& candidate, const AirframeSource&
   const Node* sections = airframe.tree ? airframe.tree->find("params") : nullptr;
   if (!sections) return;
   const std::string prefix = airframe.path.empty() ? "params" : airframe.path + ".params";
-  if (!sections->is(Node::Kind::map)) return draft.report.add(sections->where(), prefix + ": expected a map {plugin/Component: {parameter: value}}, found " + describe(*sections));
+  if (!sections->is(Node::Kind::map)) return draft.report.add(sections->where(), prefix + ": expected a map {plugin/Component: {parameter: value}}, found " + found_words(*sections));
   const auto [plugin, component] = split_use(candidate.use);
   for (const Node::Entry& entry : sections->entries) {
     const auto [for_plugin, for_component] = split_use(entry.key);
@@ -70,7 +70,7 @@ void set_from_airframe(Draft& draft, Candidate& candidate, const AirframeSource&
       draft.report.add(entry.where(), prefix + ": the plugin " + plugin + " has no component '" + for_component + "'." + choices_text(for_component, names));
     if (for_component.empty() ? candidate.index != 0 : for_component != component) continue;
     if (!entry.value.is(Node::Kind::map))
-      draft.report.add(entry.value.where(), prefix + "." + entry.key + ": expected a map {parameter: value}, found " + describe(entry.value));
+      draft.report.add(entry.value.where(), prefix + "." + entry.key + ": expected a map {parameter: value}, found " + found_words(entry.value));
     set_params(draft, candidate, entry.value, prefix + "." + entry.key);
   }
 }
@@ -133,7 +133,7 @@ void read_values(Draft& draft) {
   const AirframeSource airframe = airframe_source(draft);
   const Node& origin = draft.text.origin;
   if (!origin.is(Node::Kind::missing) && !origin.is(Node::Kind::map))
-    draft.report.add(origin.where(), "origin: expected a map such as {lat: 40.25, lon: -111.65, alt_msl: 1387 m}, found " + describe(origin));
+    draft.report.add(origin.where(), "origin: expected a map such as {lat: 40.25, lon: -111.65, alt_msl: 1387 m}, found " + found_words(origin));
   for (Candidate& candidate : draft.candidates) {
     if (!candidate.loaded) continue;
     for (const ParamInfo& param : candidate.info().params) candidate.params.push_back(initial_value(param));
@@ -155,7 +155,7 @@ void read_failsafe(Draft& draft) {
   const ComponentInfo& info = graph.components[static_cast<std::size_t>(graph.vehicle)].info();
   const Node& node = draft.text.failsafe;
   if (node.is(Node::Kind::missing)) return;
-  if (!node.is(Node::Kind::map)) return draft.report.add(node.where(), "failsafe: expected a map such as {throttle_frac: 0, for: 2 s}, found " + describe(node));
+  if (!node.is(Node::Kind::map)) return draft.report.add(node.where(), "failsafe: expected a map such as {throttle_frac: 0, for: 2 s}, found " + found_words(node));
   graph.failsafe.resize(info.inputs.size());
   std::vector<Node> parts(info.inputs.size());
   std::vector<std::string> names{"for"};

@@ -52,7 +52,7 @@ const Node* Node::find(const std::string& key) const {
   return nullptr;
 }
 
-std::string describe(const Node& node) {
+std::string found_words(const Node& node) {
   switch (node.kind) {
     case Node::Kind::sequence: return "a list";
     case Node::Kind::map: return "a map";
@@ -219,7 +219,7 @@ Keys::Keys(const Node& map, std::string path, std::vector<std::string> valid, Re
   const std::string prefix = path_.empty() ? "" : path_ + ": ";
   if (map.is(Node::Kind::missing)) return;
   if (!map.is(Node::Kind::map)) {
-    report_.add(map.where(), prefix + "expected a map with the keys " + join(valid) + "; found " + describe(map));
+    report_.add(map.where(), prefix + "expected a map with the keys " + join(valid) + "; found " + found_words(map));
     return;
   }
   for (const Node::Entry& entry : map.entries)
@@ -235,12 +235,12 @@ Where Keys::where(const std::string& key) const {
 
 void Keys::wrong(const std::string& key, const std::string& expected) const {
   const Node* node = get(key);
-  report_.add(node->where(), path(key) + ": expected " + expected + ", found " + describe(*node));
+  report_.add(node->where(), path(key) + ": expected " + expected + ", found " + found_words(*node));
 }
 
 std::optional<std::string> scalar_text(const Node& node, const std::string& path, const std::string& expected, Report& report) {
   if (node.is(Node::Kind::scalar) && (node.quoted || !node.text.empty())) return node.text;
-  report.add(node.where(), path + ": expected " + expected + ", found " + describe(node));
+  report.add(node.where(), path + ": expected " + expected + ", found " + found_words(node));
   return std::nullopt;
 }
 
@@ -249,7 +249,7 @@ std::optional<bool> scalar_flag(const Node& node, const std::string& path, Repor
     if (node.text == "true" || node.text == "on" || node.text == "yes") return true;
     if (node.text == "false" || node.text == "off" || node.text == "no") return false;
   }
-  report.add(node.where(), path + ": expected true or false, found " + describe(node));
+  report.add(node.where(), path + ": expected true or false, found " + found_words(node));
   return std::nullopt;
 }
 

@@ -64,7 +64,7 @@ struct Node::Entry {
 };
 
 /// What stands there, for a sentence: "nothing", "a list", "a map", "'text'".
-std::string describe(const Node& node);
+std::string found_words(const Node& node);
 
 /// Reads a file. Throws Error when it cannot be read. `name` is what faults call it.
 FilePtr read_source(const std::filesystem::path& path, const std::string& name);

@@ -57,15 +57,24 @@ std::uint64_t promised_bytes(std::span<const std::byte> bytes) {
 
 std::string machine_name(unsigned machine) {
   switch (machine) {
-    case EM_X86_64: return "x86_64";
-    case EM_386: return "i386";
-    case EM_AARCH64: return "aarch64";
-    case EM_ARM: return "arm";
-    case EM_RISCV: return "riscv";
-    case EM_PPC64: return "ppc64";
-    case EM_S390: return "s390";
-    case EM_MIPS: return "mips";
-    default: return "machine " + std::to_string(machine);
+    case EM_X86_64:
+      return "x86_64";
+    case EM_386:
+      return "i386";
+    case EM_AARCH64:
+      return "aarch64";
+    case EM_ARM:
+      return "arm";
+    case EM_RISCV:
+      return "riscv";
+    case EM_PPC64:
+      return "ppc64";
+    case EM_S390:
+      return "s390";
+    case EM_MIPS:
+      return "mips";
+    default:
+      return "machine " + std::to_string(machine);
   }
 }
 
@@ -82,7 +91,8 @@ std::string elf_fault(std::span<const std::byte> bytes) {
     return "is built for " + machine_name(start.machine) + ", this host is " + machine_name(host_machine());
   if (start.ident[EI_DATA] != host_order || start.ident[EI_CLASS] != host_class) return "is built for another word size or byte order";
   if (start.type != ET_DYN) return "is not a plugin: an ELF file, but not a shared object";
-  const std::uint64_t needed = host_class == ELFCLASS64 ? promised_bytes<Elf64_Ehdr, Elf64_Phdr>(bytes) : promised_bytes<Elf32_Ehdr, Elf32_Phdr>(bytes);
+  const std::uint64_t needed =
+      host_class == ELFCLASS64 ? promised_bytes<Elf64_Ehdr, Elf64_Phdr>(bytes) : promised_bytes<Elf32_Ehdr, Elf32_Phdr>(bytes);
   if (needed == 0) return "is not a plugin: its ELF program headers are damaged or cut off";
   if (needed > bytes.size())
     return "is cut off: its header promises " + std::to_string(needed) + " bytes, the file has " + std::to_string(bytes.size());

@@ -9,8 +9,8 @@ namespace fulmar::core {
 namespace {
 
 constexpr std::uint32_t most_components = 256, most_ports = 256, most_params = 1024, most_choices = 1024;
-constexpr std::uint32_t most_items = 1u << 16;        // of a queue, per step
-constexpr std::uint32_t longest_string = 1u << 16;    // bytes of a string parameter
+constexpr std::uint32_t most_items = 1u << 16;      // of a queue, per step
+constexpr std::uint32_t longest_string = 1u << 16;  // bytes of a string parameter
 
 std::string version_text(std::uint32_t major, std::uint32_t minor) { return std::to_string(major) + "." + std::to_string(minor); }
 
@@ -76,7 +76,8 @@ void read_kind(TableReader& tables, const fulmar_param& from, ParamInfo& param, 
       param.type = tables.type(from.type, what);
       [[fallthrough]];
     case FULMAR_NUMBER:
-    case FULMAR_COUNT: return check_numbers(param, what);
+    case FULMAR_COUNT:
+      return check_numbers(param, what);
     case FULMAR_FLAG:
       if (param.initial[0] != 0 && param.initial[0] != 1) throw Error(what + " has a default that is neither 0 nor 1");
       return;
@@ -84,7 +85,8 @@ void read_kind(TableReader& tables, const fulmar_param& from, ParamInfo& param, 
       if (from.choice_count == 0 || from.choice_count > most_choices)
         throw Error(what + " offers " + std::to_string(from.choice_count) + " choices");
       param.choices = tables.texts(from.choices, from.choice_count, what + ": the choices");
-      if (!(param.initial[0] >= 0 && param.initial[0] < from.choice_count)) throw Error(what + " has a default that is none of its choices");
+      if (!(param.initial[0] >= 0 && param.initial[0] < from.choice_count))
+        throw Error(what + " has a default that is none of its choices");
       return;
     case FULMAR_STRING:
       param.initial_text = tables.text(from.initial_text, what + ": the default");
@@ -94,7 +96,8 @@ void read_kind(TableReader& tables, const fulmar_param& from, ParamInfo& param, 
     case FULMAR_RECORD:
       param.type = tables.type(from.type, what);
       return read_record(tables, from, param, what);
-    case FULMAR_BLOB: return;
+    case FULMAR_BLOB:
+      return;
   }
 }
 

@@ -64,7 +64,9 @@ void enter(FieldRef& ref, const Field& field, const Part& part) {
     return;
   }
   const std::string kind = field.shape == FULMAR_LIST ? "list of at most " : "array of ";
-  if (part.index < 0) throw Error("'" + name + "' is a" + (field.shape == FULMAR_LIST ? " " : "n ") + kind + std::to_string(field.count) + ": say " + name + "[0].");
+  if (part.index < 0)
+    throw Error("'" + name + "' is a" + (field.shape == FULMAR_LIST ? " " : "n ") + kind + std::to_string(field.count) + ": say " + name +
+                "[0].");
   if (part.index >= field.count)
     throw Error("'" + name + "[" + std::to_string(part.index) + "]' does not exist: '" + name + "' is a" +
                 (field.shape == FULMAR_LIST ? " " : "n ") + kind + std::to_string(field.count) + ", counted from 0.");
@@ -114,15 +116,23 @@ double number_at(fulmar_kind kind, const std::byte* at) noexcept {
   switch (kind) {
     case FULMAR_BOOL:
     case FULMAR_U8:
-    case FULMAR_ENUM: return read<std::uint8_t>(at);
-    case FULMAR_I32: return read<std::int32_t>(at);
-    case FULMAR_U32: return read<std::uint32_t>(at);
-    case FULMAR_I64: return read<std::int64_t>(at);
-    case FULMAR_U64: return read<std::uint64_t>(at);
-    case FULMAR_F32: return read<float>(at);
-    case FULMAR_F64: return read<double>(at);
+    case FULMAR_ENUM:
+      return read<std::uint8_t>(at);
+    case FULMAR_I32:
+      return read<std::int32_t>(at);
+    case FULMAR_U32:
+      return read<std::uint32_t>(at);
+    case FULMAR_I64:
+      return read<std::int64_t>(at);
+    case FULMAR_U64:
+      return read<std::uint64_t>(at);
+    case FULMAR_F32:
+      return read<float>(at);
+    case FULMAR_F64:
+      return read<double>(at);
     case FULMAR_TEXT:
-    case FULMAR_STRUCT: break;
+    case FULMAR_STRUCT:
+      break;
   }
   return std::numeric_limits<double>::quiet_NaN();
 }

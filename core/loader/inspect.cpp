@@ -43,7 +43,7 @@ class Columns {
 
 std::string number(double x) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.9g", x);
+  std::snprintf(text, sizeof text, "%.12g", x);
   return text;
 }
 
@@ -59,16 +59,25 @@ std::string hash_text(std::uint64_t hash) {
   return text;
 }
 
+std::string byte_text(std::uint32_t size) { return std::to_string(size) + (size == 1 ? " byte" : " bytes"); }
+
 std::string port_kind(const Port& port) {
   const std::string many = " of " + std::to_string(port.capacity);
   switch (port.kind) {
-    case FULMAR_IN_VALUE: return port.optional ? "value, optional" : "value";
-    case FULMAR_IN_QUEUE: return "queue" + many;
-    case FULMAR_IN_REQUEST: return "request" + many;
-    case FULMAR_OUT_VALUE: return "value";
-    case FULMAR_OUT_EVENT: return "value, may stay silent";
-    case FULMAR_OUT_QUEUE: return "queue" + many;
-    case FULMAR_OUT_PROBE: return "probe";
+    case FULMAR_IN_VALUE:
+      return port.optional ? "value, optional" : "value";
+    case FULMAR_IN_QUEUE:
+      return "queue" + many;
+    case FULMAR_IN_REQUEST:
+      return "request" + many;
+    case FULMAR_OUT_VALUE:
+      return "value";
+    case FULMAR_OUT_EVENT:
+      return "value, may stay silent";
+    case FULMAR_OUT_QUEUE:
+      return "queue" + many;
+    case FULMAR_OUT_PROBE:
+      return "probe";
   }
   return "?";
 }
@@ -77,13 +86,20 @@ std::string initial_text(const ParamInfo& param) {
   const std::string unit = param.unit.empty() ? "" : " " + param.unit;
   switch (param.kind) {
     case FULMAR_NUMBER:
-    case FULMAR_COUNT: return number(param.initial[0]) + unit;
-    case FULMAR_FLAG: return param.initial[0] != 0 ? "true" : "false";
-    case FULMAR_CHOICE: return param.choices[static_cast<std::size_t>(param.initial[0])];
-    case FULMAR_STRING: return "\"" + param.initial_text + "\"";
-    case FULMAR_VECTOR: return "[" + number(param.initial[0]) + ", " + number(param.initial[1]) + ", " + number(param.initial[2]) + "]" + unit;
-    case FULMAR_RECORD: return param.type->name + " (file)";
-    case FULMAR_BLOB: return "bytes (file)";
+    case FULMAR_COUNT:
+      return number(param.initial[0]) + unit;
+    case FULMAR_FLAG:
+      return param.initial[0] != 0 ? "true" : "false";
+    case FULMAR_CHOICE:
+      return param.choices[static_cast<std::size_t>(param.initial[0])];
+    case FULMAR_STRING:
+      return "\"" + param.initial_text + "\"";
+    case FULMAR_VECTOR:
+      return "[" + number(param.initial[0]) + ", " + number(param.initial[1]) + ", " + number(param.initial[2]) + "]" + unit;
+    case FULMAR_RECORD:
+      return param.type->name + " (file)";
+    case FULMAR_BLOB:
+      return "bytes (file)";
   }
   return "?";
 }
@@ -99,7 +115,7 @@ std::string ports_text(const char* title, const std::vector<Port>& ports) {
   Columns columns(4);
   for (const Port& port : ports) {
     if (port.type) {
-      columns.row({port.name, port.type->name, port_kind(port), std::to_string(port.type->size) + " bytes", hash_text(port.type->hash)});
+      columns.row({port.name, port.type->name, port_kind(port), byte_text(port.type->size), hash_text(port.type->hash)});
     } else {
       columns.row({port.name, "", port_kind(port)});
     }
@@ -111,8 +127,8 @@ std::string params_text(const std::vector<ParamInfo>& params) {
   if (params.empty()) return "";
   Columns columns(4);
   for (const ParamInfo& param : params)
-    columns.row({param.name, initial_text(param), limits_text(param), std::string(param.live ? "live" : "setup") + (param.required ? ", required" : ""),
-                 param.doc});
+    columns.row({param.name, initial_text(param), limits_text(param),
+                 std::string(param.live ? "live" : "setup") + (param.required ? ", required" : ""), param.doc});
   return "  parameters\n" + columns.text();
 }
 
@@ -130,17 +146,28 @@ std::string component_text(const ComponentInfo& component) {
 
 std::string element_text(const Field& field) {
   switch (field.kind) {
-    case FULMAR_BOOL: return "bool";
-    case FULMAR_U8: return "u8";
-    case FULMAR_I32: return "i32";
-    case FULMAR_U32: return "u32";
-    case FULMAR_I64: return "i64";
-    case FULMAR_U64: return "u64";
-    case FULMAR_F32: return "f32";
-    case FULMAR_F64: return "f64";
-    case FULMAR_ENUM: return "enum";
-    case FULMAR_TEXT: return "text of " + std::to_string(field.stride);
-    case FULMAR_STRUCT: return field.type->name;
+    case FULMAR_BOOL:
+      return "bool";
+    case FULMAR_U8:
+      return "u8";
+    case FULMAR_I32:
+      return "i32";
+    case FULMAR_U32:
+      return "u32";
+    case FULMAR_I64:
+      return "i64";
+    case FULMAR_U64:
+      return "u64";
+    case FULMAR_F32:
+      return "f32";
+    case FULMAR_F64:
+      return "f64";
+    case FULMAR_ENUM:
+      return "enum";
+    case FULMAR_TEXT:
+      return "text of " + std::to_string(field.stride);
+    case FULMAR_STRUCT:
+      return field.type->name;
   }
   return "?";
 }
@@ -177,7 +204,7 @@ std::string messages_text(const PluginInfo& plugin) {
   }
   std::string text;
   for (const TypePtr& type : types) {
-    text += "\n" + type->name + "  " + std::to_string(type->size) + " bytes  " + hash_text(type->hash);
+    text += "\n" + type->name + "  " + byte_text(type->size) + "  " + hash_text(type->hash);
     text += (type->frame.empty() ? "" : "  " + type->frame) + (type->ros.empty() ? "" : "  " + type->ros) + "\n";
     Columns columns(2);
     columns.row({"field", "kind", "unit", "frame", "byte", "range"});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Opens a plugin: file -> ELF header -> private copy -> probing child -> this process. What can go wrong is refused at the earliest of these.
+// Opens a plugin: file -> ELF header -> private copy -> probing child -> this process. What can go wrong is refused at the earliest of
+// these.
 #include "core/loader/library.hpp"
 
 #include <dlfcn.h>

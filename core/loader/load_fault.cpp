@@ -44,8 +44,6 @@ std::string load_fault(const std::string& name, const char* dlerror_text) {
   return name + " cannot be loaded: " + reason;
 }
 
-std::string no_entry_fault(const std::string& name) {
-  return name + " has no symbol " FULMAR_ENTRY_SYMBOL ": not a Fulmar plugin";
-}
+std::string no_entry_fault(const std::string& name) { return name + " has no symbol " FULMAR_ENTRY_SYMBOL ": not a Fulmar plugin"; }
 
 }  // namespace fulmar::core

@@ -36,7 +36,8 @@ fs::path probe_program() {
   std::vector<fs::path> places{self.parent_path() / "fulmar-probe", self.parent_path().parent_path() / "bin" / "fulmar-probe"};
   for (const fs::path& place : places)
     if (::access(place.c_str(), X_OK) == 0) return place;
-  throw Error("the program fulmar-probe is missing beside " + self.filename().string() + ": plugins cannot be tried before they are loaded.");
+  throw Error("the program fulmar-probe is missing beside " + self.filename().string() +
+              ": plugins cannot be tried before they are loaded.");
 }
 
 double time_limit_s() {
@@ -143,7 +144,8 @@ std::string probe(const fs::path& copy, const std::string& name) {
     const std::string doing = stage == "loaded" ? "loading" : stage == "read" ? "reading" : "unloading";
     return name + " did not finish " + doing + " within " + number_text(limit_s) + " s";
   }
-  if (WIFSIGNALED(outcome.status)) return name + " crashed while being " + stage + " (signal " + std::to_string(WTERMSIG(outcome.status)) + ")";
+  if (WIFSIGNALED(outcome.status))
+    return name + " crashed while being " + stage + " (signal " + std::to_string(WTERMSIG(outcome.status)) + ")";
   if (const std::size_t at = report.find(report_fault); at != std::string::npos) {
     const std::size_t begin = at + report_fault.size();
     return report.substr(begin, report.find('\n', begin) - begin);

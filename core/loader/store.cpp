@@ -25,9 +25,11 @@ constexpr std::size_t most_copies = 128;  // the least recently used go
 
 // Throws when the folder belongs to somebody else or others may put files there: they could swap the code between check and load.
 void check_private(const fs::path& folder) {
-  struct stat info{};
-  if (::lstat(folder.c_str(), &info) != 0 || !S_ISDIR(info.st_mode)) throw Error("the plugin store " + folder.string() + " is not a folder.");
-  if (info.st_uid != ::geteuid()) throw Error("the plugin store " + folder.string() + " belongs to another user; set FULMAR_STORE to a folder of your own.");
+  struct stat info {};
+  if (::lstat(folder.c_str(), &info) != 0 || !S_ISDIR(info.st_mode))
+    throw Error("the plugin store " + folder.string() + " is not a folder.");
+  if (info.st_uid != ::geteuid())
+    throw Error("the plugin store " + folder.string() + " belongs to another user; set FULMAR_STORE to a folder of your own.");
   if ((info.st_mode & (S_IWGRP | S_IWOTH)) != 0)
     throw Error("the plugin store " + folder.string() + " is writable by others; chmod 700 it, or set FULMAR_STORE to another folder.");
 }
@@ -45,7 +47,8 @@ struct TemporaryFolder {
   fs::path path;
   TemporaryFolder() {
     std::string name = (fs::temp_directory_path() / "fulmar-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw Error("no folder for private copies of plugins: " + std::string(std::strerror(errno)) + ".");
+    if (::mkdtemp(name.data()) == nullptr)
+      throw Error("no folder for private copies of plugins: " + std::string(std::strerror(errno)) + ".");
     path = name;
   }
   ~TemporaryFolder() {

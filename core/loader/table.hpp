@@ -19,7 +19,8 @@ class TableReader {
   std::vector<std::string> texts(const char* const* at, std::uint32_t count, const std::string& what) const;
   const Memory& memory() const { return memory_; }
 
-  /// Element `i` of an array whose elements lie `stride` bytes apart. A stride that is larger than the struct comes from a newer minor version.
+  /// Element `i` of an array whose elements lie `stride` bytes apart. A stride that is larger than the struct comes from a newer minor
+  /// version.
   template <class T>
   T element(const T* base, std::uint32_t stride, std::uint32_t i, const std::string& what) const {
     if (stride < sizeof(T) || stride > largest_stride || stride % alignof(T) != 0)

@@ -10,10 +10,10 @@
 namespace fulmar::core {
 namespace {
 
-constexpr int deepest = 16;                     // levels of nesting
-constexpr std::uint32_t most_fields = 1024;     // of one struct
+constexpr int deepest = 16;                  // levels of nesting
+constexpr std::uint32_t most_fields = 1024;  // of one struct
 constexpr std::uint32_t largest_struct = 1u << 26;
-constexpr std::uint32_t most_labels = 256;      // an enum is one byte
+constexpr std::uint32_t most_labels = 256;  // an enum is one byte
 
 // FNV-1a, 64 bit (Fowler, Noll, Vo), with the finalizer of MurmurHash3 (Appleby): FNV alone leaves the high bits of short inputs poor.
 class Hash {
@@ -50,8 +50,8 @@ std::uint64_t hash_of(const Type& type) {
   for (const Field& field : type.fields) {
     hash.text(field.name);
     hash.text(field.unit);
-    for (const std::uint32_t x : {static_cast<std::uint32_t>(field.kind), static_cast<std::uint32_t>(field.shape), field.offset, field.count,
-                                  field.stride, field.items})
+    for (const std::uint32_t x : {static_cast<std::uint32_t>(field.kind), static_cast<std::uint32_t>(field.shape), field.offset,
+                                  field.count, field.stride, field.items})
       hash.number(x);
     hash.number(std::bit_cast<std::uint64_t>(field.min));
     hash.number(std::bit_cast<std::uint64_t>(field.max));
@@ -117,15 +117,20 @@ std::uint32_t element_size(const Field& field) {
   switch (field.kind) {
     case FULMAR_BOOL:
     case FULMAR_U8:
-    case FULMAR_ENUM: return 1;
+    case FULMAR_ENUM:
+      return 1;
     case FULMAR_I32:
     case FULMAR_U32:
-    case FULMAR_F32: return 4;
+    case FULMAR_F32:
+      return 4;
     case FULMAR_I64:
     case FULMAR_U64:
-    case FULMAR_F64: return 8;
-    case FULMAR_TEXT: return field.stride;
-    case FULMAR_STRUCT: return field.type->size;
+    case FULMAR_F64:
+      return 8;
+    case FULMAR_TEXT:
+      return field.stride;
+    case FULMAR_STRUCT:
+      return field.type->size;
   }
   return 0;
 }
@@ -178,7 +183,8 @@ std::shared_ptr<Type> TableReader::read_type(const fulmar_type& from, const std:
   type->ros = text(from.ros, self + ": the ROS name");
   type->size = from.size;
   type->align = from.align;
-  if (from.field_count > most_fields) throw Error(self + " has " + std::to_string(from.field_count) + " fields; " + std::to_string(most_fields) + " is the limit");
+  if (from.field_count > most_fields)
+    throw Error(self + " has " + std::to_string(from.field_count) + " fields; " + std::to_string(most_fields) + " is the limit");
   for (std::uint32_t i = 0; i < from.field_count; ++i) {
     Field field = read_field(element(from.fields, from.field_stride, i, self + ": the fields"), self);
     if (type->find(field.name) != nullptr) throw Error(self + " has two fields '" + field.name + "'");

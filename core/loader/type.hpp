@@ -67,8 +67,8 @@ struct ComponentInfo {
 };
 
 struct PluginInfo {
-  std::string file;     // name without folders: "control_slc.so"
-  std::string sha256;   // of the file, hex
+  std::string file;    // name without folders: "control_slc.so"
+  std::string sha256;  // of the file, hex
   std::string version, toolchain, flags;
   std::uint32_t abi_major = 0, abi_minor = 0;
   std::vector<ComponentInfo> components;

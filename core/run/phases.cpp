@@ -93,6 +93,7 @@ bool Flight::Impl::take_over(int role, int component, const Assignment& assignme
     const RoleSlot* slot = unit.slots[i].role;
     if (slot && slot->current && slot->current->port->type->hash == unit.slots[i].port->type->hash) last[i] = slot->current;
   }
+  unit.forget_queues();
   if (!unit.activate(now_ns, index, last)) {
     const std::string text = "cannot take over: " + std::string(unit.problem.text);
     event(EventKind::guard, unit.component->name, text);

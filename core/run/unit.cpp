@@ -286,8 +286,6 @@ Verdict Unit::write(std::int64_t now_ns, std::uint64_t index) noexcept {
 
 bool Unit::activate(std::int64_t now_ns, std::uint64_t index, const std::vector<const Slot*>& last) noexcept {
   fresh_start = false;
-  for (Reader& r : readers)  // what came in while others were flying is not news
-    if (r.port->kind != FULMAR_IN_VALUE) r.count = r.lost = 0;
   if (!functions_->activate) return true;
   const Inputs inputs = prepare_inputs(now_ns);
   if (inputs == Inputs::missing) fail("a required input has no sample");
@@ -307,6 +305,11 @@ bool Unit::activate(std::int64_t now_ns, std::uint64_t index, const std::vector<
   if (functions_->activate(instance_, &t, inputs_.data(), last_.data(), &problem) < FULMAR_FAILED) return true;
   if (!problem.text[0]) fail("refuses to take over");
   return false;
+}
+
+void Unit::forget_queues() noexcept {
+  for (Reader& r : readers)
+    if (r.port->kind == FULMAR_IN_QUEUE) r.count = r.lost = 0;
 }
 
 void Unit::deactivate() noexcept {

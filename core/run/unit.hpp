@@ -97,6 +97,7 @@ class Unit {
   /// [tick] `last`: per output, the slot last applied in the role, or nullptr.
   bool activate(std::int64_t now_ns, std::uint64_t index, const std::vector<const Slot*>& last) noexcept;
   void deactivate() noexcept;
+  void forget_queues() noexcept;  // what came in while another one flew is not news
 
   /// [tick] Publishes what the last good step wrote; `publish(slot, message, valid_at)` for each sample.
   template <class F>

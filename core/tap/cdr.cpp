@@ -20,7 +20,8 @@ struct Compiler {
   std::vector<Op> ops;
   std::size_t mergeable_from = 0;  // ops before this one belong to another level
 
-  /// `bytes` of elements of `size` each, one after the other. Joins the previous copy where neither the struct nor the wire has padding between.
+  /// `bytes` of elements of `size` each, one after the other. Joins the previous copy where neither the struct nor the wire has padding
+  /// between.
   void copy(std::uint32_t offset, std::uint32_t size, std::uint32_t bytes) {
     if (ops.size() > mergeable_from) {
       Op& last = ops.back();
@@ -68,7 +69,8 @@ struct Compiler {
     ops.push_back({.what = Op::list, .offset = offset, .count = f.count, .stride = f.stride, .items = f.items});
     body(head, f);
     const Op& first = ops.back();
-    const bool whole = ops[head].body == 1 && first.what == Op::copy && first.offset == 0 && first.bytes == f.stride && f.stride % first.align == 0;
+    const bool whole =
+        ops[head].body == 1 && first.what == Op::copy && first.offset == 0 && first.bytes == f.stride && f.stride % first.align == 0;
     if (!whole) return;
     ops[head].align = first.align;
     ops[head].bytes = f.stride;
@@ -96,9 +98,15 @@ std::size_t bound(const Op* op, const Op* end) {
   std::size_t sum = 0;
   for (; op != end; ++op) {
     switch (op->what) {
-      case Op::copy: sum += op->align - 1u + op->bytes; break;
-      case Op::text: sum += 3 + 4 + op->bytes + 1; break;
-      case Op::dummy: sum += 1; break;
+      case Op::copy:
+        sum += op->align - 1u + op->bytes;
+        break;
+      case Op::text:
+        sum += 3 + 4 + op->bytes + 1;
+        break;
+      case Op::dummy:
+        sum += 1;
+        break;
       case Op::list:
       case Op::loop: {
         const std::size_t one = op->body > 0 ? bound(op + 1, op + 1 + op->body) : op->bytes;
@@ -142,8 +150,12 @@ struct Writer {
           align(op->align);
           copy(data + op->offset, op->bytes);
           break;
-        case Op::text: text(text_at(data + op->offset, op->bytes)); break;
-        case Op::dummy: *at++ = std::byte{0}; break;
+        case Op::text:
+          text(text_at(data + op->offset, op->bytes));
+          break;
+        case Op::dummy:
+          *at++ = std::byte{0};
+          break;
         case Op::loop:
           elements(*op, data + op->offset, op->count);
           op += op->body;

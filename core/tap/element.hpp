@@ -25,14 +25,18 @@ inline std::uint32_t primitive_size(fulmar_kind kind) {
   switch (kind) {
     case FULMAR_BOOL:
     case FULMAR_U8:
-    case FULMAR_ENUM: return 1;
+    case FULMAR_ENUM:
+      return 1;
     case FULMAR_I32:
     case FULMAR_U32:
-    case FULMAR_F32: return 4;
+    case FULMAR_F32:
+      return 4;
     case FULMAR_I64:
     case FULMAR_U64:
-    case FULMAR_F64: return 8;
-    default: return 0;
+    case FULMAR_F64:
+      return 8;
+    default:
+      return 0;
   }
 }
 

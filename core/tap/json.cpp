@@ -25,17 +25,28 @@ json object(const Type& type, const std::byte* data, bool degrees, double scale)
 
 json element(const Field& f, const std::byte* at, bool degrees, double scale) {
   switch (f.kind) {
-    case FULMAR_BOOL: return load<std::uint8_t>(at) != 0;
-    case FULMAR_U8: return load<std::uint8_t>(at);
-    case FULMAR_I32: return load<std::int32_t>(at);
-    case FULMAR_U32: return load<std::uint32_t>(at);
-    case FULMAR_I64: return load<std::int64_t>(at);
-    case FULMAR_U64: return load<std::uint64_t>(at);
-    case FULMAR_F32: return number(static_cast<double>(load<float>(at)), scale);
-    case FULMAR_F64: return number(load<double>(at), scale);
-    case FULMAR_ENUM: return label(f, load<std::uint8_t>(at));
-    case FULMAR_TEXT: return text(text_at(at, f.stride));
-    case FULMAR_STRUCT: return object(*f.type, at, degrees, scale);
+    case FULMAR_BOOL:
+      return load<std::uint8_t>(at) != 0;
+    case FULMAR_U8:
+      return load<std::uint8_t>(at);
+    case FULMAR_I32:
+      return load<std::int32_t>(at);
+    case FULMAR_U32:
+      return load<std::uint32_t>(at);
+    case FULMAR_I64:
+      return load<std::int64_t>(at);
+    case FULMAR_U64:
+      return load<std::uint64_t>(at);
+    case FULMAR_F32:
+      return number(static_cast<double>(load<float>(at)), scale);
+    case FULMAR_F64:
+      return number(load<double>(at), scale);
+    case FULMAR_ENUM:
+      return label(f, load<std::uint8_t>(at));
+    case FULMAR_TEXT:
+      return text(text_at(at, f.stride));
+    case FULMAR_STRUCT:
+      return object(*f.type, at, degrees, scale);
   }
   return nullptr;
 }

@@ -36,7 +36,8 @@ struct Extent {
   std::uint32_t size = 0, count_at = 0, first_item = 0, stride = 0, capacity = 0;  // stride 0: no list at the end
 
   explicit Extent(const Type& type) : size(type.size) {
-    const auto last = std::max_element(type.fields.begin(), type.fields.end(), [](const Field& a, const Field& b) { return a.offset < b.offset; });
+    const auto last =
+        std::max_element(type.fields.begin(), type.fields.end(), [](const Field& a, const Field& b) { return a.offset < b.offset; });
     if (last == type.fields.end() || last->shape != FULMAR_LIST) return;
     count_at = last->offset;
     first_item = last->offset + last->items;
@@ -91,8 +92,8 @@ struct Log::Impl {
       max_message = std::max(max_message, sinks.back().encoder.max_size());
     }
     ring = std::make_unique<Ring>(options.ring_bytes, largest);
-    writer = std::make_unique<McapWriter>(
-        McapWriter::Options{.file = options.file, .zstd_level = options.zstd_level, .max_message_bytes = max_message, .sync = !options.wait});
+    writer = std::make_unique<McapWriter>(McapWriter::Options{
+        .file = options.file, .zstd_level = options.zstd_level, .max_message_bytes = max_message, .sync = !options.wait});
     add_channels(list);
     start();
   }
@@ -103,7 +104,8 @@ struct Log::Impl {
       const Type& type = *list[i].type;
       const auto [at, is_new] = schemas.try_emplace({ros_name(type), ros_definition(type)});
       if (is_new) at->second = writer->add_schema(at->first.first, "ros2msg", at->first.second);
-      sinks[i].id = writer->add_channel(at->second, list[i].topic, "cdr", {{"offered_qos_profiles", qos_profiles}, {"topic_type_hash", ros_type_hash(type)}});
+      sinks[i].id = writer->add_channel(at->second, list[i].topic, "cdr",
+                                        {{"offered_qos_profiles", qos_profiles}, {"topic_type_hash", ros_type_hash(type)}});
     }
   }
 
@@ -117,7 +119,9 @@ struct Log::Impl {
     pthread_sigmask(SIG_SETMASK, &before, nullptr);
   }
 
-  std::uint64_t time(std::int64_t flight_ns) const { return static_cast<std::uint64_t>(std::max<std::int64_t>(0, options.epoch_ns + flight_ns)); }
+  std::uint64_t time(std::int64_t flight_ns) const {
+    return static_cast<std::uint64_t>(std::max<std::int64_t>(0, options.epoch_ns + flight_ns));
+  }
 
   void store_extras(std::vector<Extra>& list) {
     const std::lock_guard lock(mutex);
@@ -137,7 +141,8 @@ struct Log::Impl {
       store_extras(head);
     }
     const Sink& sink = sinks[record.channel];
-    std::byte* room = writer->begin_message(sink.id, static_cast<std::uint32_t>(record.sequence), time(record.log_ns), time(record.valid_ns));
+    std::byte* room =
+        writer->begin_message(sink.id, static_cast<std::uint32_t>(record.sequence), time(record.log_ns), time(record.valid_ns));
     writer->end_message(sink.encoder.encode(record.data(), room));
   }
 

@@ -30,11 +30,11 @@ struct LogResult {
 class Log {
  public:
   struct Options {
-    std::filesystem::path file;      // written as file + ".part", renamed when closed; never overwrites
-    std::int64_t epoch_ns = 0;       // added to flight time
-    bool wait = true;                // unpaced simulation: the loop waits for the log; else a full ring drops, counted
+    std::filesystem::path file;  // written as file + ".part", renamed when closed; never overwrites
+    std::int64_t epoch_ns = 0;   // added to flight time
+    bool wait = true;            // unpaced simulation: the loop waits for the log; else a full ring drops, counted
     std::size_t ring_bytes = 4u << 20;
-    int zstd_level = -5;             // below 0: faster. -5 costs 0.6 of level 1 for 6 % more bytes; 0: not compressed
+    int zstd_level = -5;  // below 0: faster. -5 costs 0.6 of level 1 for 6 % more bytes; 0: not compressed
   };
   /// Throws Error when the file is there already or cannot be written.
   Log(const Options& options, const std::vector<LogChannel>& channels);

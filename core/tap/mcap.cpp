@@ -42,7 +42,7 @@ struct Channel {
   Pairs metadata;
   bool begun = false, stored = false;
   std::uint64_t messages = 0;  // in the file
-  std::vector<Entry> index{};   // of the open chunk
+  std::vector<Entry> index{};  // of the open chunk
 
   void write(Bytes& out, std::uint16_t id) const {
     const std::size_t start = out.begin(mcap::channel);
@@ -97,10 +97,13 @@ struct McapWriter::Impl {
   /// The schema and channel records that a channel's first message needs before it.
   void introduce(std::uint16_t id) {
     Channel& channel = channels[id];
-    Schema& schema = schemas[channel.schema - 1u];
-    if (!schema.begun) schema.write(chunk, channel.schema);
+    if (channel.schema > 0) {
+      Schema& schema = schemas[channel.schema - 1u];
+      if (!schema.begun) schema.write(chunk, channel.schema);
+      schema.begun = true;
+    }
     channel.write(chunk, id);
-    schema.begun = channel.begun = true;
+    channel.begun = true;
   }
 
   /// Compresses the open chunk to the end of `block`. False when that cannot be.
@@ -132,7 +135,11 @@ struct McapWriter::Impl {
     const std::string_view compression = options.zstd_level == 0 ? "" : "zstd";
     block.clear();
     const std::size_t start = block.begin(mcap::chunk);
-    block.number(chunk_span.first).number(chunk_span.last).number(std::uint64_t{chunk.size()}).number(crc_of(chunk.data(), chunk.size())).text(compression);
+    block.number(chunk_span.first)
+        .number(chunk_span.last)
+        .number(std::uint64_t{chunk.size()})
+        .number(crc_of(chunk.data(), chunk.size()))
+        .text(compression);
     const std::size_t data = block.number(std::uint64_t{0}).size();
     if (!compress()) return;
     const std::uint64_t compressed = block.size() - data;
@@ -170,7 +177,7 @@ struct McapWriter::Impl {
     for (Channel& c : channels) {
       c.messages += c.index.size();
       c.stored = c.begun;
-      if (c.begun) schemas[c.schema - 1u].stored = true;
+      if (c.begun && c.schema > 0) schemas[c.schema - 1u].stored = true;
     }
   }
 
@@ -284,7 +291,12 @@ void McapWriter::attach(const std::string& name, const std::string& media_type, 
   if (w.broken()) return;
   w.block.clear();
   const std::size_t start = w.block.begin(mcap::attachment);
-  w.block.number(time_ns).number(time_ns).text(name).text(media_type).number(std::uint64_t{content.size()}).raw(content.data(), content.size());
+  w.block.number(time_ns)
+      .number(time_ns)
+      .text(name)
+      .text(media_type)
+      .number(std::uint64_t{content.size()})
+      .raw(content.data(), content.size());
   w.block.number(crc_of(w.block.data() + start, w.block.size() - start));
   w.block.end(start);
   const std::uint64_t place = w.file.size();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writer of MCAP files: chunks with indexes, attachments, metadata, summary, CRC-32 throughout. Source: the MCAP file format specification, version 0.
-// One thread. Once the file is open only std::bad_alloc is thrown; after the first fault of the disk no message is stored and `error` says why.
-// Every write is whole or taken back, so that what is there can always be read.
+// Writer of MCAP files: chunks with indexes, attachments, metadata, summary, CRC-32 throughout. Source: the MCAP file format specification,
+// version 0. One thread. Once the file is open only std::bad_alloc is thrown; after the first fault of the disk no message is stored and
+// `error` says why. Every write is whole or taken back, so that what is there can always be read.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -21,11 +21,11 @@ class McapWriter {
     std::filesystem::path file;  // written as file + ".part", renamed when closed
     std::string profile = "ros2";
     std::string library = "fulmar";
-    int zstd_level = 1;                          // 0: chunks are not compressed
-    std::size_t chunk_bytes = 768u << 10;        // before compression
-    std::int64_t chunk_ns = 1'000'000'000;       // of log time
+    int zstd_level = -5;                    // below 0: faster than level 1; 0: chunks are not compressed
+    std::size_t chunk_bytes = 768u << 10;   // before compression
+    std::int64_t chunk_ns = 1'000'000'000;  // of log time
     std::size_t max_message_bytes = 1u << 20;
-    bool sync = false;                           // to the disk after each chunk: for flights that may end with a loss of power
+    bool sync = false;  // to the disk after each chunk: for flights that may end with a loss of power
   };
   struct Result {
     std::string sha256;  // of the file
@@ -42,6 +42,7 @@ class McapWriter {
   McapWriter& operator=(const McapWriter&) = delete;
 
   std::uint16_t add_schema(const std::string& name, const std::string& encoding, const std::string& text);
+  /// Schema 0: none.
   std::uint16_t add_channel(std::uint16_t schema, const std::string& topic, const std::string& encoding, const Pairs& metadata);
 
   /// Room of max_message_bytes for the bytes of a message; `end_message` says how many there were.

@@ -35,8 +35,8 @@ enum Code : std::uint8_t {
   data_end = 15
 };
 
-inline constexpr std::size_t record_head = 1 + 8;             // code, length
-inline constexpr std::size_t message_head = 2 + 4 + 8 + 8;    // channel, sequence, log time, publish time
+inline constexpr std::size_t record_head = 1 + 8;           // code, length
+inline constexpr std::size_t message_head = 2 + 4 + 8 + 8;  // channel, sequence, log time, publish time
 inline constexpr std::size_t footer_record = record_head + 20;
 
 /// Bytes that grow; what is new is not cleared before it is written.

@@ -16,7 +16,9 @@ namespace {
 
 using Data = std::span<const std::byte>;
 
-std::uint32_t crc_of(Data data) { return static_cast<std::uint32_t>(::crc32_z(0, reinterpret_cast<const Bytef*>(data.data()), data.size())); }
+std::uint32_t crc_of(Data data) {
+  return static_cast<std::uint32_t>(::crc32_z(0, reinterpret_cast<const Bytef*>(data.data()), data.size()));
+}
 
 /// Reads values one after the other; throws Error at the end of the data.
 struct Cursor {
@@ -81,13 +83,19 @@ struct Scanner {
         file.library = in.text();
         break;
       case mcap::schema:
-      case mcap::channel: definition(code, in); break;
-      case mcap::message: message(in); break;
+      case mcap::channel:
+        definition(code, in);
+        break;
+      case mcap::message:
+        message(in);
+        break;
       case mcap::chunk:
         open_chunk(in);
         chunk_places.insert(place);
         break;
-      case mcap::message_index: check_message_index(in); break;
+      case mcap::message_index:
+        check_message_index(in);
+        break;
       case mcap::attachment:
         attachment(in);
         attachment_places.insert(place);
@@ -101,15 +109,24 @@ struct Scanner {
         require(in.number<std::uint32_t>() == crc_of(bytes.first(place)), "the checksum of the data is wrong");
         summary_start = place + mcap::record_head + data.size();
         break;
-      case mcap::statistics: check_statistics(in); break;
+      case mcap::statistics:
+        check_statistics(in);
+        break;
       case mcap::chunk_index:
         in.take(16);
         require(chunk_places.contains(in.number<std::uint64_t>()), "a chunk index points at no chunk");
         break;
-      case mcap::attachment_index: require(attachment_places.contains(in.number<std::uint64_t>()), "an attachment index points at no attachment"); break;
-      case mcap::metadata_index: require(metadata_places.contains(in.number<std::uint64_t>()), "a metadata index points at no metadata"); break;
-      case mcap::footer: footer(in, place); break;
-      default: break;  // the format may grow
+      case mcap::attachment_index:
+        require(attachment_places.contains(in.number<std::uint64_t>()), "an attachment index points at no attachment");
+        break;
+      case mcap::metadata_index:
+        require(metadata_places.contains(in.number<std::uint64_t>()), "a metadata index points at no metadata");
+        break;
+      case mcap::footer:
+        footer(in, place);
+        break;
+      default:
+        break;  // the format may grow
     }
   }
 
@@ -209,7 +226,8 @@ struct Scanner {
     const Data summed = bytes.subspan(summary_start, place + mcap::record_head + in.at - summary_start);
     require(in.number<std::uint32_t>() == crc_of(summed), "the checksum of the summary is wrong");
     const Data rest = bytes.subspan(place + mcap::footer_record);
-    require(rest.size() == mcap::magic.size() && std::memcmp(rest.data(), mcap::magic.data(), rest.size()) == 0, "the closing magic is not there");
+    require(rest.size() == mcap::magic.size() && std::memcmp(rest.data(), mcap::magic.data(), rest.size()) == 0,
+            "the closing magic is not there");
     ended = true;
   }
 };
@@ -219,7 +237,8 @@ std::vector<std::byte> contents(const std::filesystem::path& path) {
   if (!in) throw Error("cannot read '" + path.string() + "'");
   std::vector<std::byte> bytes(static_cast<std::size_t>(in.tellg()));
   in.seekg(0);
-  if (!in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()))) throw Error("cannot read '" + path.string() + "'");
+  if (!in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())))
+    throw Error("cannot read '" + path.string() + "'");
   return bytes;
 }
 

@@ -44,8 +44,8 @@ struct McapFile {
   std::vector<Attachment> attachments;
   std::vector<Metadata> metadata;
   std::uint32_t chunks = 0;
-  bool complete = false;           // ends with a footer, and its summary says the same as the file
-  std::string fault;               // "" or why reading ended before the end: "byte 4711: chunk ends after the file"
+  bool complete = false;                      // ends with a footer, and its summary says the same as the file
+  std::string fault;                          // "" or why reading ended before the end: "byte 4711: chunk ends after the file"
   std::deque<std::vector<std::byte>> memory;  // the file and its chunks, decompressed
 
   McapFile() = default;

@@ -2,7 +2,8 @@
 // Lock-free ring of records of any size between one producer (the loop) and one consumer (a sink's thread).
 //
 // A record lies in one piece, 8-aligned; what is left at the end of the memory is skipped by a record without channel.
-// `head_` and `tail_` count bytes for ever; each thread keeps its own copy of the other's count and looks again only when that one is used up.
+// `head_` and `tail_` count bytes for ever; each thread keeps its own copy of the other's count and looks again only when that one is used
+// up.
 #pragma once
 #include <atomic>
 #include <bit>
@@ -51,7 +52,8 @@ class Ring {
   /// Producer. Sleeps until the ring is half empty. The consumer must be running.
   void wait_for_room() noexcept {
     waiting_.store(true, std::memory_order_seq_cst);
-    for (std::uint64_t tail = tail_.load(std::memory_order_seq_cst); pushed_ - tail > capacity_ / 2; tail = tail_.load(std::memory_order_seq_cst)) {
+    for (std::uint64_t tail = tail_.load(std::memory_order_seq_cst); pushed_ - tail > capacity_ / 2;
+         tail = tail_.load(std::memory_order_seq_cst)) {
       tail_.wait(tail);
     }
     waiting_.store(false, std::memory_order_relaxed);

@@ -13,16 +13,25 @@ namespace {
 
 const char* ros_primitive(fulmar_kind kind) {
   switch (kind) {
-    case FULMAR_BOOL: return "bool";
+    case FULMAR_BOOL:
+      return "bool";
     case FULMAR_U8:
-    case FULMAR_ENUM: return "uint8";
-    case FULMAR_I32: return "int32";
-    case FULMAR_U32: return "uint32";
-    case FULMAR_I64: return "int64";
-    case FULMAR_U64: return "uint64";
-    case FULMAR_F32: return "float32";
-    case FULMAR_F64: return "float64";
-    default: return "string";
+    case FULMAR_ENUM:
+      return "uint8";
+    case FULMAR_I32:
+      return "int32";
+    case FULMAR_U32:
+      return "uint32";
+    case FULMAR_I64:
+      return "int64";
+    case FULMAR_U64:
+      return "uint64";
+    case FULMAR_F32:
+      return "float32";
+    case FULMAR_F64:
+      return "float64";
+    default:
+      return "string";
   }
 }
 
@@ -63,9 +72,11 @@ std::string constant_name(std::string_view text) {
   return name;
 }
 
-/// Labels of a message's enum fields carry the field's name where there are several such fields, or where a label does not begin with a letter.
+/// Labels of a message's enum fields carry the field's name where there are several such fields, or where a label does not begin with a
+/// letter.
 std::string constants(const Field& field, bool prefixed) {
-  for (const std::string& label : field.labels) prefixed = prefixed || !std::isalpha(static_cast<unsigned char>(label.empty() ? '0' : label[0]));
+  for (const std::string& label : field.labels)
+    prefixed = prefixed || !std::isalpha(static_cast<unsigned char>(label.empty() ? '0' : label[0]));
   std::string text;
   for (std::size_t i = 0; i < field.labels.size(); ++i) {
     text += "uint8 " + constant_name((prefixed ? field.name + "_" : "") + field.labels[i]) + "=" + std::to_string(i) + "\n";
@@ -87,8 +98,9 @@ std::string field_line(const Field& f) {
 
 /// type_description_interfaces/msg/FieldType
 int type_id(const Field& f) {
-  static const std::map<fulmar_kind, int> ids{{FULMAR_STRUCT, 1}, {FULMAR_U8, 3},  {FULMAR_ENUM, 3}, {FULMAR_I32, 6},   {FULMAR_U32, 7}, {FULMAR_I64, 8},
-                                              {FULMAR_U64, 9},    {FULMAR_F32, 10}, {FULMAR_F64, 11}, {FULMAR_BOOL, 15}, {FULMAR_TEXT, 17}};
+  static const std::map<fulmar_kind, int> ids{{FULMAR_STRUCT, 1}, {FULMAR_U8, 3},    {FULMAR_ENUM, 3}, {FULMAR_I32, 6},
+                                              {FULMAR_U32, 7},    {FULMAR_I64, 8},   {FULMAR_U64, 9},  {FULMAR_F32, 10},
+                                              {FULMAR_F64, 11},   {FULMAR_BOOL, 15}, {FULMAR_TEXT, 17}};
   const int shift = f.shape == FULMAR_ARRAY ? 48 : f.shape == FULMAR_LIST ? 96 : 0;
   return ids.at(f.kind) + shift;
 }
@@ -137,7 +149,8 @@ std::string ros_message_text(const Type& type) {
 
 std::string ros_definition(const Type& type) {
   std::string text = ros_message_text(type);
-  for (const Type* nested : nested_types(type)) text += std::string(80, '=') + "\nMSG: " + short_name(*nested) + "\n" + ros_message_text(*nested);
+  for (const Type* nested : nested_types(type))
+    text += std::string(80, '=') + "\nMSG: " + short_name(*nested) + "\n" + ros_message_text(*nested);
   return text;
 }
 
@@ -146,7 +159,8 @@ std::string ros_type_hash(const Type& type) {
   for (const Type* nested : nested_types(type)) referenced[ros_name(*nested)] = type_description(*nested);
   std::string list;
   for (const auto& [name, description] : referenced) list += (list.empty() ? "" : ", ") + description;
-  return "RIHS01_" + Sha256::of(R"({"type_description": )" + type_description(type) + R"(, "referenced_type_descriptions": [)" + list + "]}");
+  return "RIHS01_" +
+         Sha256::of(R"({"type_description": )" + type_description(type) + R"(, "referenced_type_descriptions": [)" + list + "]}");
 }
 
 }  // namespace fulmar::core

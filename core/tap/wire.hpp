@@ -3,10 +3,9 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
-
-#include <nlohmann/json_fwd.hpp>
 
 #include "core/loader/type.hpp"
 
@@ -25,13 +24,13 @@ class CdrEncoder {
   /// One step of encoding. Alignment is that of XCDR1: to the element's size, counted from the start of the body.
   struct Op {
     enum What : std::uint8_t { copy, text, list, loop, dummy } what = copy;
-    std::uint8_t align = 1;     // copy: of its first element; list with body 0: of the elements
-    std::uint32_t offset = 0;   // in the struct or element that the op belongs to
-    std::uint32_t bytes = 0;    // copy: all; text: room; list with body 0: of one element, its items are copied in one go
-    std::uint32_t count = 0;    // list: capacity; loop: elements
-    std::uint32_t stride = 0;   // list, loop: bytes from one element to the next
-    std::uint32_t items = 0;    // list: bytes from offset to the first element
-    std::uint32_t body = 0;     // list, loop: so many ops after this one encode one element
+    std::uint8_t align = 1;    // copy: of its first element; list with body 0: of the elements
+    std::uint32_t offset = 0;  // in the struct or element that the op belongs to
+    std::uint32_t bytes = 0;   // copy: all; text: room; list with body 0: of one element, its items are copied in one go
+    std::uint32_t count = 0;   // list: capacity; loop: elements
+    std::uint32_t stride = 0;  // list, loop: bytes from one element to the next
+    std::uint32_t items = 0;   // list: bytes from offset to the first element
+    std::uint32_t body = 0;    // list, loop: so many ops after this one encode one element
   };
 
  private:
@@ -54,8 +53,8 @@ std::string ros_message_text(const Type& type);
 /// ROS 2 type hash (REP 2016): "RIHS01_" and the SHA-256 of the canonical description, in hex.
 std::string ros_type_hash(const Type& type);
 
-/// JSON of a message. Keys are field names; `_rad` fields are shown as `_deg` in degrees when `degrees` is set. Text is a string, an enum its label;
-/// a number that is not finite is null.
+/// JSON of a message. Keys are field names; `_rad` fields are shown as `_deg` in degrees when `degrees` is set. Text is a string, an enum
+/// its label; a number that is not finite is null.
 nlohmann::json to_json(const Type& type, const std::byte* data, bool degrees);
 
 }  // namespace fulmar::core

@@ -27,7 +27,6 @@ inline bool NearRoute::nearest_to(const Plan& plan, const Progress& progress, do
     item_ = progress.item;
     update(route, item_);
   }
-  best = {};
   if (point_ || progress.finished) {
     const double n = north_m - orbit_.north_m, e = east_m - orbit_.east_m, d = std::hypot(n, e);
     const double unit_n = d > 1e-9 ? n / d : 1, unit_e = d > 1e-9 ? e / d : 0;
@@ -35,10 +34,9 @@ inline bool NearRoute::nearest_to(const Plan& plan, const Progress& progress, do
             std::abs(d - orbit_.radius_m)};
     return true;
   }
-  for (std::uint32_t i = 0; i < count_; ++i) {
-    const RoutePoint point = nearest(legs_[i], north_m, east_m);
-    if (point.distance_m < best.distance_m) best = point;
-  }
+  NearestSearch search(north_m, east_m);
+  for (std::uint32_t i = 0; i < count_; ++i) search.consider(legs_[i]);
+  best = search.result();
   return true;
 }
 

@@ -33,7 +33,7 @@ namespace fulmar::core::test {
 
 template <class T>
 TypePtr type_of() {
-  static const TypePtr type = copy_type(describe<T>());
+  static const TypePtr type = copy_type(::fulmar::describe<T>());
   return type;
 }
 

@@ -21,7 +21,9 @@ using namespace fulmar::core;
 #ifdef __SANITIZE_ADDRESS__
 // A crash is to end this process by its signal, which the host names.
 extern "C" const char* __asan_default_options();
-extern "C" const char* __asan_default_options() { return "handle_segv=0:handle_sigbus=0:handle_abort=0:handle_sigfpe=0:handle_sigill=0:detect_leaks=0"; }
+extern "C" const char* __asan_default_options() {
+  return "handle_segv=0:handle_sigbus=0:handle_abort=0:handle_sigfpe=0:handle_sigill=0:detect_leaks=0";
+}
 #endif
 
 namespace {

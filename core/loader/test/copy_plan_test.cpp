@@ -95,7 +95,8 @@ TEST_CASE("a copy plan stays inside both messages") {
 }
 
 TEST_CASE("a field appended by the writer leaves one move for the rest") {
-  const std::vector<fulmar_field> reader{real("a_m", "m", 0), real("b_m", "m", 8), field("flag", "", FULMAR_BOOL, 16, 1), real("c_m", "m", 24)};
+  const std::vector<fulmar_field> reader{real("a_m", "m", 0), real("b_m", "m", 8), field("flag", "", FULMAR_BOOL, 16, 1),
+                                         real("c_m", "m", 24)};
   std::vector<fulmar_field> writer = reader;
   writer.push_back(real("d_m", "m", 32));
   const CopyPlan plan = copy_plan(*copy_type(type("W", writer, 40)), *copy_type(type("R", reader, 32)));
@@ -121,7 +122,8 @@ TEST_CASE("what does not fit is refused, naming the first field that differs") {
   CHECK(verdict({real("x", "", 0)}, {field("x", "", FULMAR_F32, 0, 4)}) == "x: reader has kind f64, writer f32");
   CHECK(verdict({array(real("x", "", 0), 3)}, {array(real("x", "", 0), 4)}) == "x: reader has an array of 3, writer an array of 4");
   CHECK(verdict({real("x", "", 0)}, {array(real("x", "", 0), 4)}) == "x: reader has one value, writer an array of 4");
-  CHECK(verdict({list(real("x", "", 0), 3, 8)}, {list(real("x", "", 0), 4, 8)}) == "x: reader has a list of at most 3, writer a list of at most 4");
+  CHECK(verdict({list(real("x", "", 0), 3, 8)}, {list(real("x", "", 0), 4, 8)}) ==
+        "x: reader has a list of at most 3, writer a list of at most 4");
   CHECK(verdict({list(real("x", "", 0), 4, 8)}, {list(real("x", "", 0), 3, 8)}) == "");
   CHECK(verdict({field("t", "", FULMAR_TEXT, 0, 8)}, {field("t", "", FULMAR_TEXT, 0, 16)}) == "t: reader has room for 8 bytes, writer 16");
   CHECK(verdict({labelled("mode", others, 0)}, {labelled("mode", modes, 0)}) ==

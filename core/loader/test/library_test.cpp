@@ -171,8 +171,7 @@ TEST_CASE("two thousand loads leave nothing behind") {
 }
 
 TEST_CASE("a plugin that stays resident is told so") {
-  const std::string fault =
-      " is still resident after unloading (a unique symbol or a thread-local destructor keeps it); restart the host";
+  const std::string fault = " is still resident after unloading (a unique symbol or a thread-local destructor keeps it); restart the host";
   CHECK(unload_fault(Library::open(plugin("resident"))) == "resident.so" + fault);
   CHECK(unload_fault(Library::open(plugin("resident_thread"))) == "resident_thread.so" + fault);
   if (fs::exists(plugin("resident_unique"))) CHECK(unload_fault(Library::open(plugin("resident_unique"))) == "resident_unique.so" + fault);
@@ -199,7 +198,7 @@ TEST_CASE("copies with a flipped byte never bring the host down") {
   for (int i = 0; i < flips; ++i) {
     std::string bytes = whole;
     char& byte = bytes[random() % bytes.size()];
-    byte = static_cast<char>(byte ^ (1 + random() % 255));
+    byte = static_cast<char>(static_cast<unsigned>(byte) ^ static_cast<unsigned>(1 + random() % 255));
     try {
       Library::open(write("flipped.so", bytes));
     } catch (const Error& e) {
@@ -213,11 +212,13 @@ TEST_CASE("copies with a flipped byte never bring the host down") {
 }
 
 TEST_CASE("the description of a plugin lines up") {
-  auto library = Library::open(plugin("good"));
-  PluginInfo info = library->info();
+  PluginInfo info = Library::open(plugin("good"))->info();
   info.sha256 = std::string(64, 'a');
-  const std::string text = describe_plugin(info);
-  CHECK(text.rfind(R"(good.so  version 1.2.0
+  std::string text = describe_plugin(info);
+  char hash[20];
+  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(info.components[0].inputs[0].type->hash));
+  for (std::size_t at; (at = text.find(hash)) != std::string::npos;) text.replace(at, 16, "HASH");
+  CHECK(text == R"(good.so  version 1.2.0
   abi        1.0
   toolchain  a C compiler
   flags      NDEBUG
@@ -225,18 +226,25 @@ TEST_CASE("the description of a plugin lines up") {
 
 Scaler  Multiplies an airspeed.
   inputs
-    state  Sample  value            40 bytes)", 0) == 0);
-  CHECK(text.find(R"(
+    state  Sample  value            40 bytes  HASH
+    hint   Sample  value, optional  40 bytes  HASH
+    edits  Sample  queue of 16      40 bytes  HASH
+    edit   Sample  request of 4     40 bytes  HASH
+  outputs
+    scaled     Sample  value                   40 bytes  HASH
+    news       Sample  value, may stay silent  40 bytes  HASH
+    events     Sample  queue of 8              40 bytes  HASH
+    error_mps          probe
   parameters
-    gain     0.5 rad/rad    0 .. 2       live             multiplies
-    on       true                        live             does anything
-    repeats  3              0 .. 10      setup            how often
-    law      climb          hold, climb  live             which one
-    label    "x"                         setup            a word
-    wind     [3, -4, 0] m/s -30 .. 30    live             of the air
-)") == std::string::npos);  // two blanks between columns
-  CHECK(text.find("    gain     0.5 rad/rad     0 .. 2       live             multiplies\n") != std::string::npos);
-  CHECK(text.find("    table    bytes (file)                 setup, required  bytes\n") != std::string::npos);
+    gain     0.5 rad/rad     0 .. 2       live             multiplies
+    on       true                         live             does anything
+    repeats  3               0 .. 10      setup            how often
+    law      climb           hold, climb  live             which one
+    label    "x"                          setup            a word
+    wind     [3, -4, 0] m/s  -30 .. 30    live             of the air
+    start    Sample (file)                setup            where it begins
+    table    bytes (file)                 setup, required  bytes
+)");
 }
 
 TEST_CASE("the field tables tell kind, unit, frame and place") {

@@ -36,8 +36,7 @@ std::string host() {
 
 TEST_CASE("a file that is missing, a folder, or not a shared object is refused") {
   CHECK(refusal(folder() / "no_such.so") == "no_such.so does not exist: no file " + (folder() / "no_such.so").string());
-  CHECK(refusal(FULMAR_TEST_PLUGIN_DIR "/stub") ==
-        "stub is not a plugin: " FULMAR_TEST_PLUGIN_DIR "/stub is not a regular file");
+  CHECK(refusal(FULMAR_TEST_PLUGIN_DIR "/stub") == "stub is not a plugin: " FULMAR_TEST_PLUGIN_DIR "/stub is not a regular file");
   CHECK(refusal(write("text.so", "this is no code\n")) == "text.so is not a plugin: not an ELF shared object");
   CHECK(refusal(write("empty.so", "")) == "empty.so is not a plugin: not an ELF shared object");
   CHECK(refusal(write("stump.so", read(plugin("good")).substr(0, 10))) == "stump.so is not a plugin: its ELF header is cut off");
@@ -47,16 +46,17 @@ TEST_CASE("a file that is missing, a folder, or not a shared object is refused")
 
 TEST_CASE("a file that is cut off is refused before anything maps it") {
   const std::string whole = read(plugin("good"));
-  CHECK(refusal(write("short.so", whole.substr(0, whole.size() - 1))) ==
-        "short.so is cut off: its header promises " + std::to_string(whole.size()) + " bytes, the file has " +
-            std::to_string(whole.size() - 1));
+  CHECK(refusal(write("short.so", whole.substr(0, whole.size() - 1))) == "short.so is cut off: its header promises " +
+                                                                             std::to_string(whole.size()) + " bytes, the file has " +
+                                                                             std::to_string(whole.size() - 1));
   CHECK(refusal(write("header.so", whole.substr(0, 64))) == "header.so is not a plugin: its ELF program headers are damaged or cut off");
   CHECK(refusal(with_header("far.so", [](Elf64_Ehdr& h) { h.e_phoff = ~0ull; })) ==
         "far.so is not a plugin: its ELF program headers are damaged or cut off");
 }
 
 TEST_CASE("a file for another machine is refused") {
-  CHECK(refusal(with_header("alien.so", [](Elf64_Ehdr& h) { h.e_machine = EM_S390; })) == "alien.so is built for s390, this host is " + host());
+  CHECK(refusal(with_header("alien.so", [](Elf64_Ehdr& h) { h.e_machine = EM_S390; })) ==
+        "alien.so is built for s390, this host is " + host());
   CHECK(refusal(with_header("odd.so", [](Elf64_Ehdr& h) { h.e_machine = 9999; })) ==
         "odd.so is built for machine 9999, this host is " + host());
   const Elf64_Half other = host() == "aarch64" ? EM_X86_64 : EM_AARCH64;
@@ -81,7 +81,8 @@ TEST_CASE("what the system's loader says becomes a sentence") {
         "x.so needs libfoo.so.1, which is not there");
   CHECK(load_fault("x.so", "/lib/libm.so.6: version `GLIBC_2.99' not found (required by /store/ab.so)") ==
         "x.so needs GLIBC_2.99, which this system does not have");
-  CHECK(load_fault("x.so", "/store/ab.so: undefined symbol: exp10, version LIB_1") == "x.so needs the symbol exp10, which nothing provides");
+  CHECK(load_fault("x.so", "/store/ab.so: undefined symbol: exp10, version LIB_1") ==
+        "x.so needs the symbol exp10, which nothing provides");
   CHECK(load_fault("x.so", "/store/ab.so: ELF load command alignment not page-aligned") ==
         "x.so cannot be loaded: ELF load command alignment not page-aligned");
   CHECK(load_fault("x.so", nullptr) == "x.so cannot be loaded: no reason given");
@@ -146,7 +147,9 @@ TEST_CASE("a store that others can write to is refused") {
 
 TEST_CASE("a copy in the store that was tampered with is replaced") {
   const std::string text = "the true content";
-  const auto keep = [&] { return fulmar::core::keep_copy(std::as_bytes(std::span(text)), fulmar::core::sha256_hex(text.data(), text.size())); };
+  const auto keep = [&] {
+    return fulmar::core::keep_copy(std::as_bytes(std::span(text)), fulmar::core::sha256_hex(text.data(), text.size()));
+  };
   folder();
   const fs::path copy = keep();
   fs::permissions(copy, fs::perms::owner_write, fs::perm_options::add);
@@ -159,7 +162,7 @@ TEST_CASE("the store is private and its copies are read-only") {
   const std::string text = "a copy";
   folder();
   const fs::path copy = fulmar::core::keep_copy(std::as_bytes(std::span(text)), fulmar::core::sha256_hex(text.data(), text.size()));
-  struct stat info{};
+  struct stat info {};
   REQUIRE(::stat(copy.c_str(), &info) == 0);
   CHECK((info.st_mode & 0777) == 0400);
   REQUIRE(::stat(copy.parent_path().c_str(), &info) == 0);

@@ -11,8 +11,9 @@
 namespace tables {
 
 inline fulmar_field field(const char* name, const char* unit, std::uint32_t kind, std::size_t offset, std::size_t stride) {
-  return {name, unit, nullptr, nullptr, 0, kind, FULMAR_SCALAR, static_cast<std::uint32_t>(offset), 1, static_cast<std::uint32_t>(stride), 0,
-          -INFINITY, INFINITY};
+  return {
+      name, unit,      nullptr, nullptr, 0, kind, FULMAR_SCALAR, static_cast<std::uint32_t>(offset), 1, static_cast<std::uint32_t>(stride),
+      0,    -INFINITY, INFINITY};
 }
 inline fulmar_field real(const char* name, const char* unit, std::size_t offset) { return field(name, unit, FULMAR_F64, offset, 8); }
 inline fulmar_field in_range(fulmar_field f, double min, double max) {
@@ -45,7 +46,13 @@ inline fulmar_field list(fulmar_field f, std::uint32_t capacity, std::size_t ite
 }
 inline fulmar_type type(const char* name, const std::vector<fulmar_field>& fields, std::size_t size, std::size_t align = 8,
                         const char* frame = "") {
-  return {name, frame, "", fields.data(), static_cast<std::uint32_t>(fields.size()), sizeof(fulmar_field), static_cast<std::uint32_t>(size),
+  return {name,
+          frame,
+          "",
+          fields.data(),
+          static_cast<std::uint32_t>(fields.size()),
+          sizeof(fulmar_field),
+          static_cast<std::uint32_t>(size),
           static_cast<std::uint32_t>(align)};
 }
 
@@ -83,18 +90,19 @@ inline const std::vector<fulmar_field> waypoint_fields{nested("position_m", "m",
                                                        field("hold", "", FULMAR_BOOL, offsetof(Waypoint, hold), 1)};
 inline const fulmar_type waypoint = type("Waypoint", waypoint_fields, sizeof(Waypoint));
 inline std::vector<fulmar_field> route_fields() {
-  return {real("airspeed_mps", "m/s", offsetof(Route, airspeed_mps)),
-          in_range(real("throttle_frac", "", offsetof(Route, throttle_frac)), 0, 1),
-          nested("position_m", "m", vec, offsetof(Route, position_m)),
-          field("heading_rad", "rad", FULMAR_F32, offsetof(Route, heading_rad), 4),
-          in_range(field("lap", "", FULMAR_I32, offsetof(Route, lap), 4), -2, 9),
-          array(real("gains_ratio", "", offsetof(Route, gains_ratio)), 4),
-          labelled("mode", modes, offsetof(Route, mode)),
-          field("valid", "", FULMAR_BOOL, offsetof(Route, valid), 1),
-          field("label", "", FULMAR_TEXT, offsetof(Route, label), 14),
-          list(nested("waypoints", "", waypoint, offsetof(Route, waypoints)), 5, offsetof(Route, waypoints.items) - offsetof(Route, waypoints)),
-          field("serial", "", FULMAR_U64, offsetof(Route, serial), 8),
-          array(nested("corners_m", "m", vec, offsetof(Route, corners_m)), 2)};
+  return {
+      real("airspeed_mps", "m/s", offsetof(Route, airspeed_mps)),
+      in_range(real("throttle_frac", "", offsetof(Route, throttle_frac)), 0, 1),
+      nested("position_m", "m", vec, offsetof(Route, position_m)),
+      field("heading_rad", "rad", FULMAR_F32, offsetof(Route, heading_rad), 4),
+      in_range(field("lap", "", FULMAR_I32, offsetof(Route, lap), 4), -2, 9),
+      array(real("gains_ratio", "", offsetof(Route, gains_ratio)), 4),
+      labelled("mode", modes, offsetof(Route, mode)),
+      field("valid", "", FULMAR_BOOL, offsetof(Route, valid), 1),
+      field("label", "", FULMAR_TEXT, offsetof(Route, label), 14),
+      list(nested("waypoints", "", waypoint, offsetof(Route, waypoints)), 5, offsetof(Route, waypoints.items) - offsetof(Route, waypoints)),
+      field("serial", "", FULMAR_U64, offsetof(Route, serial), 8),
+      array(nested("corners_m", "m", vec, offsetof(Route, corners_m)), 2)};
 }
 inline const std::vector<fulmar_field> route_table = route_fields();
 inline const fulmar_type route = type("Route", route_table, sizeof(Route));

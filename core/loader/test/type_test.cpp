@@ -181,7 +181,8 @@ TEST_CASE("a name that is not there is answered with the valid ones") {
   CHECK(fault("waypoints") == "'waypoints' is a list of at most 5: say waypoints[0].");
   CHECK(fault("waypoints[5].hold") == "'waypoints[5]' does not exist: 'waypoints' is a list of at most 5, counted from 0.");
   CHECK(fault("lap[0]") == "'lap' is a single value and takes no index.");
-  for (const char* bad : {"gains_ratio[", "gains_ratio[]", "gains_ratio[x]", "gains_ratio[1", "gains_ratio[-1]", "gains_ratio[99999999999]"})
+  for (const char* bad :
+       {"gains_ratio[", "gains_ratio[]", "gains_ratio[x]", "gains_ratio[1", "gains_ratio[-1]", "gains_ratio[99999999999]"})
     CHECK(fault(bad) == "'" + std::string(bad) + "' in '" + bad + "' is not understood; an index is written like waypoints[3].");
   for (const char* bad : {"", ".", "lap.", "[0]", "position_m..north"}) CHECK(fault(bad) != "found");
 }

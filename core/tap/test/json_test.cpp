@@ -41,6 +41,8 @@ TEST_CASE("a number that is not finite is null, a label that does not exist a nu
   CHECK(shown["speed_mps"].is_null());
   CHECK(shown["load_ratio"].is_null());
   CHECK(shown["mode"] == 9);
-  CHECK(shown["name"] == "a\xEF\xBF\xBD" "b");
+  CHECK(shown["name"] ==
+        "a\xEF\xBF\xBD"
+        "b");
   CHECK_NOTHROW(shown.dump());
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Logs written and read back: content, order, equal bytes for equal runs, and what is left when the process or the disk fails.
+#include "core/tap/log.hpp"
+
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -16,8 +18,8 @@
 #include <thread>
 
 #include "core/error.hpp"
-#include "core/tap/log.hpp"
 #include "core/tap/reader.hpp"
+#include "core/tap/recover.hpp"
 #include "core/tap/sha256.hpp"
 #include "core/tap/test/types.hpp"
 #include "core/tap/wire.hpp"
@@ -53,7 +55,9 @@ struct Number {
 };
 TypePtr number_type() { return make_type("Number", 8, 8, {number("value_ratio", 0)}); }
 
-std::vector<LogChannel> two_channels() { return {{"/mixed", mixed_type()}, {"/number", number_type()}, {"/silent", number_type()}, {"/other", number_type()}}; }
+std::vector<LogChannel> two_channels() {
+  return {{"/mixed", mixed_type()}, {"/number", number_type()}, {"/silent", number_type()}, {"/other", number_type()}};
+}
 
 Mixed mixed_at(int i) {
   Mixed m = mixed_value();
@@ -139,7 +143,7 @@ TEST_CASE("a log holds every message, attachment and metadata that went in") {
   CHECK(log.library == "fulmar");
   CHECK(log.messages.size() == 5000);
   CHECK(is_flight(log));
-  CHECK(log.chunks >= 10);  // ten seconds of flight, at least one chunk each
+  CHECK(log.chunks >= 10);            // ten seconds of flight, at least one chunk each
   REQUIRE(log.channels.size() == 2);  // those with messages
   CHECK(log.schemas.size() == 2);
   const McapFile::Channel& channel = log.channels.at(log.channel("/mixed"));
@@ -207,7 +211,8 @@ TEST_CASE("a flight faster than its log loses messages only if it may not wait, 
   Wide wide;
   for (double& x : wide.x) x = static_cast<double>(random());  // hard to compress
   for (const bool wait : {false, true}) {
-    Log log({.file = folder.path / (wait ? "wait.mcap" : "drop.mcap"), .epoch_ns = epoch_ns, .wait = wait, .ring_bytes = 1u << 16}, {{"/wide", type}});
+    Log log({.file = folder.path / (wait ? "wait.mcap" : "drop.mcap"), .epoch_ns = epoch_ns, .wait = wait, .ring_bytes = 1u << 16},
+            {{"/wide", type}});
     constexpr std::uint64_t n = 5000;
     for (std::uint64_t i = 0; i < n; ++i) log.write(0, static_cast<std::int64_t>(i), 0, bytes_of(wide));
     const LogResult result = log.close();
@@ -258,6 +263,15 @@ TEST_CASE("a run killed in flight leaves a file whose whole chunks, mission incl
   CHECK(log.messages.size() < 5000);
   CHECK(is_flight(log));
   CHECK(log.attachment("mission.yaml") != nullptr);
+
+  const McapWriter::Result recovered = recover_mcap(file.string() + ".part", file);
+  CHECK(recovered.error == "");
+  const McapFile whole = read_mcap(file);
+  CHECK(whole.complete);
+  CHECK(whole.messages.size() == log.messages.size());
+  CHECK(is_flight(whole));
+  CHECK(whole.attachment("mission.yaml")->content == "mission: test\n");
+  CHECK(whole.channels.at(whole.channel("/mixed")).metadata == log.channels.at(log.channel("/mixed")).metadata);
 }
 
 TEST_CASE("a file cut off at any byte gives the chunks before the cut; a flipped byte never gives a wrong message") {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The ring under stress: what comes out is what went in, in order, whatever the sizes and wherever the memory wraps.
+#include "core/tap/ring.hpp"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <thread>
-
-#include "core/tap/ring.hpp"
 
 using fulmar::core::Ring;
 

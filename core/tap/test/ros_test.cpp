@@ -40,7 +40,8 @@ TEST_CASE("the message text names every field with its unit and frame, and neste
 
 TEST_CASE("constants of several enums in one message carry the name of their field") {
   const TypePtr type = make_type("T", 2, 1, {label("roll_law", {"none", "hold"}, 0), label("pitch_law", {"none"}, 1)});
-  CHECK(ros_message_text(*type) == "uint8 ROLL_LAW_NONE=0\nuint8 ROLL_LAW_HOLD=1\nuint8 roll_law\nuint8 PITCH_LAW_NONE=0\nuint8 pitch_law\n");
+  CHECK(ros_message_text(*type) ==
+        "uint8 ROLL_LAW_NONE=0\nuint8 ROLL_LAW_HOLD=1\nuint8 roll_law\nuint8 PITCH_LAW_NONE=0\nuint8 pitch_law\n");
 }
 
 namespace {
@@ -58,15 +59,19 @@ TypePtr quaternion() { return ros_type("geometry_msgs/msg/Quaternion", {number("
 }  // namespace
 
 TEST_CASE("type hashes are those that ROS 2 has published for its own messages") {
-  CHECK(ros_type_hash(*ros_type("std_msgs/msg/String", {text("data")})) == "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18");
+  CHECK(ros_type_hash(*ros_type("std_msgs/msg/String", {text("data")})) ==
+        "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18");
   CHECK(ros_type_hash(*vector3()) == "RIHS01_cc12fe83e4c02719f1ce8070bfd14aecd40f75a96696a67a2a1f37f7dbb0765d");
   CHECK(ros_type_hash(*header()) == "RIHS01_f49fb3ae2cf070f793645ff749683ac6b06203e41c891e17701b1cb597ce6a01");
-  const TypePtr imu = ros_type("sensor_msgs/msg/Imu", {nested("header", header(), 0), nested("orientation", quaternion(), 0), array(number("orientation_covariance", 0), 9),
-                                                       nested("angular_velocity", vector3(), 0), array(number("angular_velocity_covariance", 0), 9),
-                                                       nested("linear_acceleration", vector3(), 0), array(number("linear_acceleration_covariance", 0), 9)});
+  const TypePtr imu =
+      ros_type("sensor_msgs/msg/Imu",
+               {nested("header", header(), 0), nested("orientation", quaternion(), 0), array(number("orientation_covariance", 0), 9),
+                nested("angular_velocity", vector3(), 0), array(number("angular_velocity_covariance", 0), 9),
+                nested("linear_acceleration", vector3(), 0), array(number("linear_acceleration_covariance", 0), 9)});
   CHECK(ros_type_hash(*imu) == "RIHS01_7d9a00ff131080897a5ec7e26e315954b8eae3353c3f995c55faf71574000b5b");
 }
 
 TEST_CASE("the message text of a foreign type is that of its own package") {
-  CHECK(ros_definition(*header()) == "builtin_interfaces/Time stamp\nstring frame_id\n" + std::string(80, '=') + "\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n");
+  CHECK(ros_definition(*header()) == "builtin_interfaces/Time stamp\nstring frame_id\n" + std::string(80, '=') +
+                                         "\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n");
 }

@@ -25,10 +25,11 @@ struct Tail {
 };
 
 std::vector<LogChannel> channels() {
-  return {{"/mixed", mixed_type()},
-          {"/empty", make_type("Empty", 1, 1, {})},
-          {"/tail", make_type("Tail", sizeof(Tail), 8, {list(number("list", 0), 5, 8), scalar("last", FULMAR_BOOL, offsetof(Tail, last), 1)})},
-          {"/mixed_too", mixed_type()}};
+  return {
+      {"/mixed", mixed_type()},
+      {"/empty", make_type("Empty", 1, 1, {})},
+      {"/tail", make_type("Tail", sizeof(Tail), 8, {list(number("list", 0), 5, 8), scalar("last", FULMAR_BOOL, offsetof(Tail, last), 1)})},
+      {"/mixed_too", mixed_type()}};
 }
 
 void fly(Log& log) {

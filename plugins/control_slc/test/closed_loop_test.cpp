@@ -22,7 +22,8 @@ struct Flight {
   double t = 0;
 
   explicit Flight(Turbulence turbulence = Turbulence::none, std::uint64_t seed = 1) : model(test::anaconda(), turbulence, seed) {
-    for (Record<Airframe>* record : {&outer.params.airframe, &inner.params.airframe}) record->value = model.airframe, record->is_given = true;
+    for (Record<Airframe>* record : {&outer.params.airframe, &inner.params.airframe})
+      record->value = model.airframe, record->is_given = true;
     state = model.state();
   }
 

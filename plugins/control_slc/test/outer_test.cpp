@@ -22,7 +22,9 @@ VehicleState flying() {
   s.specific_force_mps2 = {0, 0, -isa::g0};
   return s;
 }
-GuidanceCommand level() { return {.course_rad = 0, .height_m = 70, .climb_rate_mps = 0, .airspeed_mps = cruise, .roll_feedforward_rad = 0}; }
+GuidanceCommand level() {
+  return {.course_rad = 0, .height_m = 70, .climb_rate_mps = 0, .airspeed_mps = cruise, .roll_feedforward_rad = 0};
+}
 
 const AttitudeCommand& settle(Bench<Outer>& bench, const VehicleState& state, const GuidanceCommand& command, double seconds = 3) {
   bench.set(bench.in.state, state);
@@ -30,9 +32,7 @@ const AttitudeCommand& settle(Bench<Outer>& bench, const VehicleState& state, co
   for (int i = 0; i < static_cast<int>(seconds * 100); ++i) bench.step(0.01);
   return bench.out.attitude;
 }
-void no_integrals(Bench<Outer>& bench) {
-  bench.params.altitude_ki.value = bench.params.airspeed_ki.value = 0;
-}
+void no_integrals(Bench<Outer>& bench) { bench.params.altitude_ki.value = bench.params.airspeed_ki.value = 0; }
 }  // namespace
 
 TEST_CASE("roll is the course gain times the error plus the feed-forward, and grows with ground speed") {

@@ -22,7 +22,9 @@ VehicleState flying() {
   s.specific_force_mps2 = {0, 0, -g};
   return s;
 }
-GuidanceCommand level() { return {.course_rad = 0, .height_m = 70, .climb_rate_mps = 0, .airspeed_mps = cruise, .roll_feedforward_rad = 0}; }
+GuidanceCommand level() {
+  return {.course_rad = 0, .height_m = 70, .climb_rate_mps = 0, .airspeed_mps = cruise, .roll_feedforward_rad = 0};
+}
 
 void configure(Bench<Outer>& bench) {
   bench.params.airframe.value.mass_kg = 4.5;
@@ -49,7 +51,8 @@ struct PointMass {
   }
   VehicleState state() const {
     VehicleState s = flying();
-    s.airspeed_mps = V, s.ground_speed_mps = V * std::cos(gamma), s.height_m = h, s.climb_rate_mps = V * std::sin(gamma), s.pitch_rad = gamma;
+    s.airspeed_mps = V, s.ground_speed_mps = V * std::cos(gamma), s.height_m = h, s.climb_rate_mps = V * std::sin(gamma),
+    s.pitch_rad = gamma;
     s.specific_force_mps2 = {V_dot + g * std::sin(gamma), 0, -g * std::cos(gamma)};
     return s;
   }

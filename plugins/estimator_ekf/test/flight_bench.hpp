@@ -19,16 +19,16 @@ struct Errors {
 
 /// One flight. `alter` sees the samples before the component does, `watch` what it publishes.
 struct Flown {
-  Plan plan;
+  Plan plan{};
   Quality quality = rosflight;
   double from_s = 0, judge_from_s = 40;
   bool origin_given = true, status = true;
-  std::function<void(const Truth&, Samples&)> alter;
-  std::function<void(const Truth&, const VehicleState&, Status)> watch;
-  std::function<void(Ekf::Params&)> set;
-  std::optional<double> first_s;  ///< of the first state
-  VehicleState last;
-  Truth last_truth;
+  std::function<void(const Truth&, Samples&)> alter{};
+  std::function<void(const Truth&, const VehicleState&, Status)> watch{};
+  std::function<void(Ekf::Params&)> set{};
+  std::optional<double> first_s{};  ///< of the first state
+  VehicleState last{};
+  Truth last_truth{};
 
   Errors run() {
     const std::vector<Truth> flight = fly(plan);

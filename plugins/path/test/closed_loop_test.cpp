@@ -120,7 +120,8 @@ TEST_CASE("a plan that is changed again and again in flight never upsets its out
   for (int i = 0; i < 300; ++i) {
     Plan plan = rng.uniform() < 0.3 ? random_plan(rng) : flight.plan();
     if (plan.waypoints.count > 0 && rng.uniform() < 0.5) {
-      plan.waypoints[static_cast<std::uint32_t>(rng.uniform(0, plan.waypoints.count))] = point(rng.uniform(-900, 900), rng.uniform(-900, 900));
+      plan.waypoints[static_cast<std::uint32_t>(rng.uniform(0, plan.waypoints.count))] =
+          point(rng.uniform(-900, 900), rng.uniform(-900, 900));
     }
     if (rng.uniform() < 0.2) plan.waypoints.count = plan.waypoints.count / 2;
     if (rng.uniform() < 0.2) ++jumps;

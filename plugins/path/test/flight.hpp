@@ -37,8 +37,8 @@ struct Flight {
   Bench<path::VectorField> field;
   Kinematic aircraft;
   double time_s = 0;
-  bool finite = true;                 // every output so far
-  std::vector<std::uint32_t> passed;  // waypoints, in the order in which they were reached
+  bool finite = true;                               // every output so far
+  std::vector<std::uint32_t> passed;                // waypoints, in the order in which they were reached
   double rms_north = 0, rms_east = 0, worst_m = 0;  // off the route, while on it
 
   explicit Flight(const Plan& plan) { change(plan); }
@@ -61,14 +61,16 @@ struct Flight {
     field.set(field.in.state, state);
     field.set(field.in.path, path());
     REQUIRE(field.step(dt_s) == Status::ok);
-    for (std::uint32_t k = 0; k < progress().reached - before.reached; ++k) passed.push_back((before.item + k) % std::max(progress().items, 1u));
+    for (std::uint32_t k = 0; k < progress().reached - before.reached; ++k)
+      passed.push_back((before.item + k) % std::max(progress().items, 1u));
     check();
     aircraft.step(field.out.command, dt_s);
     time_s += dt_s;
   }
 
   /// Until a condition holds; false when it did not within the time.
-  bool fly(double seconds, const std::function<bool()>& until = [] { return false; }) {
+  bool fly(
+      double seconds, const std::function<bool()>& until = [] { return false; }) {
     for (const double end = time_s + seconds; time_s < end;) {
       step();
       if (++steps_ % 10 == 0) measure();
@@ -83,9 +85,10 @@ struct Flight {
   void check() {
     const Path& p = path();
     const GuidanceCommand& c = field.out.command;
-    for (const double x : {p.origin_m.north, p.origin_m.east, p.origin_m.down, p.direction_ratio.north, p.direction_ratio.east,
-                           p.direction_ratio.down, p.radius_m, p.climb_ratio, p.start_rad, p.airspeed_mps, p.remaining_m, p.next_curvature_ratio,
-                           c.course_rad, c.height_m, c.climb_rate_mps, c.airspeed_mps, c.roll_feedforward_rad, progress().distance_m, progress().miss_m}) {
+    for (const double x :
+         {p.origin_m.north, p.origin_m.east, p.origin_m.down, p.direction_ratio.north, p.direction_ratio.east, p.direction_ratio.down,
+          p.radius_m, p.climb_ratio, p.start_rad, p.airspeed_mps, p.remaining_m, p.next_curvature_ratio, c.course_rad, c.height_m,
+          c.climb_rate_mps, c.airspeed_mps, c.roll_feedforward_rad, progress().distance_m, progress().miss_m}) {
       finite = finite && std::isfinite(x);
     }
     finite = finite && p.airspeed_mps > 0 && p.radius_m >= 1;

@@ -147,7 +147,8 @@ TEST_CASE("a change elsewhere in the plan leaves the aircraft on its leg") {
   const double remaining_m = flight.path().remaining_m;
   Plan plan = flight.plan();  // one more before, one more behind
   plan.waypoints.clear();
-  for (const Waypoint& w : {point(800, 800), point(400, -250), point(-400, -50), point(-400, -250), point(400, -50), point(900, 100)}) plan.waypoints.push_back(w);
+  for (const Waypoint& w : {point(800, 800), point(400, -250), point(-400, -50), point(-400, -250), point(400, -50), point(900, 100)})
+    plan.waypoints.push_back(w);
   ++plan.revision;
   flight.change(plan);
   flight.step();
@@ -237,7 +238,8 @@ TEST_CASE("a way to the plan that is not followed is drawn anew from where the a
   }
   const Path& path = manager.out.path.value;
   const double n = aircraft.north - path.origin_m.north, e = aircraft.east - path.origin_m.east;
-  const double off = path.kind == PathKind::line ? path.direction_ratio.north * e - path.direction_ratio.east * n : std::hypot(n, e) - path.radius_m;
+  const double off =
+      path.kind == PathKind::line ? path.direction_ratio.north * e - path.direction_ratio.east * n : std::hypot(n, e) - path.radius_m;
   CHECK(std::abs(off) < 60);
   CHECK(manager.out.progress.item == 0);
 }

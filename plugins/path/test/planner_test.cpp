@@ -214,7 +214,8 @@ TEST_CASE("a file that is wrong is refused with a sentence that names the waypoi
     return bench.error();
   };
   CHECK(fault([](PlanFile& f) { f.waypoints[1].lat_deg = 40; }).find("waypoint 2") != std::string::npos);
-  CHECK(fault([](PlanFile& f) { f.waypoints[2].up_m = not_given; }).find("waypoint 3 of the plan needs north, east and up") != std::string::npos);
+  CHECK(fault([](PlanFile& f) { f.waypoints[2].up_m = not_given; }).find("waypoint 3 of the plan needs north, east and up") !=
+        std::string::npos);
   CHECK(fault([](PlanFile& f) { f.waypoints[0] = {}; }).find("waypoint 1") != std::string::npos);
   CHECK(fault([](PlanFile& f) { f.airspeed_mps = 0; }).find("airspeed") != std::string::npos);
   CHECK(fault([](PlanFile& f) { f.turn_radius_m = 0; }).find("turn_radius") != std::string::npos);

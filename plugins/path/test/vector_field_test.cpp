@@ -56,8 +56,8 @@ TEST_CASE("on a line its course is commanded, far to the side the approach angle
   CHECK(command(bench, at(100, 1e6, 0), line(0)).course_rad == doctest::Approx(-1.05).epsilon(1e-3));
   CHECK(command(bench, at(100, -1e6, 0), line(0)).course_rad == doctest::Approx(1.05).epsilon(1e-3));
   // where k e = 1 the arctangent is pi/4: half the approach angle
-  CHECK(command(bench, at(100, 1 / 0.03, 0), line(0)).course_rad == doctest::Approx(-1.05 / 2));
-  CHECK(bench.out.cross_track_m.value == doctest::Approx(1 / 0.03));
+  CHECK(command(bench, at(100, 1 / 0.04, 0), line(0)).course_rad == doctest::Approx(-1.05 / 2));
+  CHECK(bench.out.cross_track_m.value == doctest::Approx(1 / 0.04));
 }
 
 TEST_CASE("on an orbit the tangent is commanded, far outside the way to the centre") {

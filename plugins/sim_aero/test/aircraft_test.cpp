@@ -266,7 +266,8 @@ TEST_CASE("the truth is one consistent picture") {
   CHECK(s.height_m == -s.position_m.down);
   CHECK(s.course_rad == Approx(std::atan2(s.velocity_mps.east, s.velocity_mps.north)));
   // attitude and angles are the same rotation
-  const Eigen::Quaterniond q = Eigen::AngleAxisd(s.yaw_rad, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(s.pitch_rad, Eigen::Vector3d::UnitY()) *
+  const Eigen::Quaterniond q = Eigen::AngleAxisd(s.yaw_rad, Eigen::Vector3d::UnitZ()) *
+                               Eigen::AngleAxisd(s.pitch_rad, Eigen::Vector3d::UnitY()) *
                                Eigen::AngleAxisd(s.roll_rad, Eigen::Vector3d::UnitX());
   CHECK(q.angularDistance(eigen(s.attitude)) < 1e-9);
   // the wind triangle: ground velocity less the velocity of the air, gust included, is the airspeed along alpha and beta

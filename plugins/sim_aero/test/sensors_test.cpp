@@ -75,11 +75,13 @@ TEST_CASE("the rosflight sensors have the deviations of its simulator") {
   // white noise: half the mean square of successive differences, so that biases and walks do not count
   const auto white = [&](const std::function<double()>& draw) {
     double before = draw();
-    return of(n, [&] {
-             const double now = draw(), d = now - before;
-             before = now;
-             return d;
-           }).deviation /
+    return of(n,
+              [&] {
+                const double now = draw(), d = now - before;
+                before = now;
+                return d;
+              })
+               .deviation /
            std::sqrt(2.0);
   };
   CHECK(white([&] { return s.imu(p).rate_radps.x; }) == Approx(0.00226).epsilon(0.04));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Opens a log as Foxglove and its kin do: indexed reader, checksums verified, schemas parsed as ROS 2 message text, messages decoded as CDR.
+// Opens a log as Foxglove and its kin do: indexed reader, checksums verified, schemas parsed as ROS 2 message text,
+// messages decoded as CDR.
 import { open } from "node:fs/promises";
 import { createHash } from "node:crypto";
 import { McapIndexedReader, McapStreamReader } from "@mcap/core";
@@ -36,8 +37,11 @@ export async function* messages(file) {
     for (const [id, n] of reader.statistics.channelMessageCounts) {
       if (counts.get(id) !== n) throw new Error(`channel ${id}: the statistics say ${n} messages, the index leads to ${counts.get(id)}`);
     }
-    for await (const a of reader.readAttachments({ validateCrcs: true })) if (a.name === "") throw new Error("an attachment without a name");
-    for await (const m of reader.readMetadata()) if (m.name === "") throw new Error("metadata without a name");
+    let extras = 0;
+    for await (const _ of reader.readAttachments({ validateCrcs: true })) ++extras;
+    for await (const _ of reader.readMetadata()) ++extras;
+    const { attachmentCount, metadataCount } = reader.statistics;
+    if (extras !== attachmentCount + metadataCount) throw new Error("an attachment or metadata is missing");
   } finally {
     await handle.close();
   }
@@ -45,7 +49,7 @@ export async function* messages(file) {
 
 function check(reader) {
   if (reader.header.profile !== "ros2") throw new Error(`profile '${reader.header.profile}'`);
-  if (reader.dataSectionCrc === 0) throw new Error("no checksum of the data");
+  if (!reader.dataSectionCrc) throw new Error("no checksum of the data");
   if (reader.footer.summaryCrc === 0) throw new Error("no checksum of the summary");
   const groups = reader.summaryOffsetsByOpcode ?? new Map();
   if (groups.size === 0) throw new Error("no summary offsets");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// node read_log.mjs FILE: decodes every message of a log; prints {topics: {topic: {messages, first, last}}, messages, sha256}. Non-zero on any fault.
+// node read_log.mjs FILE: decodes every message of a log; prints {topics: {topic: {messages, first, last}}, messages, sha256}.
+// Exits non-zero on any fault.
 import { messages, scan } from "./log_file.mjs";
 
 const file = process.argv[2];

@@ -23,7 +23,8 @@ try {
   const found = {};
   let count = 0;
   for await (const m of messages(file)) {
-    (found[m.topic] ??= []).push({ log_ns: String(m.log_ns), publish_ns: String(m.publish_ns), sequence: m.sequence, value: plain(m.value) });
+    const times = { log_ns: String(m.log_ns), publish_ns: String(m.publish_ns) };
+    (found[m.topic] ??= []).push({ ...times, sequence: m.sequence, value: plain(m.value) });
     ++count;
   }
   assert.equal(count, 5550);

@@ -4,7 +4,8 @@
 
 namespace fulmar {
 
-/// Inertia about the centre of gravity, body axes. Products of inertia with y vanish by symmetry.
+/// Inertia about the centre of gravity, body axes. Products of inertia with y vanish by symmetry. xz is the integral of x z dm: its negative
+/// is the element of the inertia matrix, as in Beard & McLain.
 struct Inertia {
   double xx_kgm2 = 1, yy_kgm2 = 1, zz_kgm2 = 1, xz_kgm2 = 0;
 };
@@ -25,10 +26,11 @@ struct Derivatives {
   double aileron_ratio = 0, elevator_ratio = 0, rudder_ratio = 0;
 };
 
-/// Beard & McLain, chapter 4. Drag: parasite + induced CL^2/(pi e AR) + the surface terms of `drag`.
+/// Beard & McLain, chapter 4. Drag: parasite + induced CL^2/(pi e AR) + all terms of `drag`; an airframe with a linear polar instead of an
+/// induced one sets drag.zero and drag.alpha, the others leave them 0.
 struct Aerodynamics {
   double parasite_drag_ratio = 0;  ///< C_D_p
-  Derivatives lift, drag, side;    ///< CL, CD (q and surface terms), CY
+  Derivatives lift, drag, side;    ///< CL, CD, CY
   Derivatives roll, pitch, yaw;    ///< Cl, Cm, Cn
 };
 

@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The loop, flown in a laboratory (lab.cpp): order, rates, phases, hand-over, guards, failsafe, requests, equal bytes.
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "core/run/allocation.hpp"
+#include "core/run/flight.hpp"
+#include "core/tap/wire.hpp"
+
+using namespace fulmar::core;
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("fulmar-flight-test-" + std::to_string(getpid()));
+  Folder() {
+    fs::create_directories(path);
+    setenv("FULMAR_PLUGIN_PATH", FULMAR_TEST_PLUGIN_DIR, 1);
+  }
+  ~Folder() { fs::remove_all(path); }
+};
+
+Folder& folder() {
+  static Folder f;
+  return f;
+}
+
+const char* const base = R"(
+mission: lab
+rate: 400 Hz
+arm: auto
+timeout: 100 s
+failsafe: {u_frac: -0.25, for: 0.5 s}
+roles:
+  vehicle: {in: {command: law.command}, out: {signal: Signal, applied: Applied, burst: Signal, status: Arm}}
+  sense:   {in: {signal: vehicle.signal}, out: {signal: Signal}}
+  law:     {in: {signal: sense.signal}, out: {command: Command}}
+components:
+  sim:    {fills: vehicle, use: lab/Cart}
+  filter: {fills: sense, use: lab/Filter}
+  one:    {fills: law, use: lab/Law, params: {id: 1, u: 0.1}}
+  two:    {fills: law, use: lab/Law, params: {id: 2, u: 0.2}}
+  watch:  {use: lab/Watch, in: {burst: vehicle.burst, applied: vehicle.applied}}
+)";
+
+Graph mission(const std::string& tail, const std::vector<std::pair<std::string, std::string>>& set = {}, std::uint64_t seed = 1) {
+  const fs::path file = folder().path / "lab.yaml";
+  std::ofstream(file) << base << tail;
+  Overrides o;
+  o.set = set;
+  o.seed = seed;
+  return load_mission(file.string(), o);
+}
+
+const char* const one_phase = "phases:\n  fly: {law: one}\n";
+const char* const with_fallback = "phases:\n  fly: {law: {use: one, fallback: two}}\n";
+
+FlightOptions options(double duration_s) {
+  FlightOptions o;
+  o.log = false;
+  o.duration_s = duration_s;
+  return o;
+}
+
+Source port(const Graph& graph, const std::string& component, const std::string& output) {
+  for (std::size_t i = 0; i < graph.components.size(); ++i)
+    if (graph.components[i].name == component) return {Source::Kind::component, static_cast<int>(i), graph.components[i].info().output(output)};
+  FAIL("no component " << component);
+  return {};
+}
+
+/// A field of a port's present sample.
+double value(const Graph& graph, const Flight& flight, const std::string& component, const std::string& output, const std::string& field) {
+  const Source s = port(graph, component, output);
+  const std::byte* message = flight.sample(s);
+  REQUIRE(message != nullptr);
+  const TypePtr type = graph.components[static_cast<std::size_t>(s.index)].info().outputs[static_cast<std::size_t>(s.output)].type;
+  const FieldRef ref = resolve_field(*type, field);
+  return number_at(*ref.field, message + ref.offset);
+}
+
+}  // namespace
+
+TEST_CASE("what the vehicle reads is flown on in the same tick, and written in it") {
+  const Graph g = mission(one_phase);
+  Flight flight(g, options(0.5));
+  const FlightResult r = flight.run();
+  CHECK(r.outcome == Outcome::flown);
+  CHECK(r.reason == "duration reached");
+  CHECK(r.first_ns == -1'000'000'000);
+  CHECK(r.last_ns == 500'000'000);
+  CHECK(r.ticks == 601);
+  // `applied` is published by the next read: it tells of the tick before.
+  CHECK(value(g, flight, "sim", "applied", "seen_m") == value(g, flight, "sim", "signal", "x_m") - 1);
+  CHECK(value(g, flight, "sim", "applied", "present") == 1);
+  CHECK(value(g, flight, "sim", "applied", "fresh") == 1);
+}
+
+TEST_CASE("a rate is kept by integer due times and told as dt") {
+  const Graph g = mission(std::string("  slow: {use: lab/Watch, rate: 70 Hz}\n") + one_phase);
+  Flight flight(g, options(9));
+  const FlightResult r = flight.run();
+  // 10 s and one tick at 70 Hz: the first tick and 700 due times, none lost to rounding up to the 2.5 ms grid
+  CHECK(value(g, flight, "slow", "tally", "steps_ratio") == 701);
+  CHECK(value(g, flight, "watch", "tally", "steps_ratio") == 4001);
+  CHECK(value(g, flight, "watch", "tally", "dt_s") == doctest::Approx(0.0025));
+  CHECK(value(g, flight, "slow", "tally", "dt_s") == doctest::Approx(1 / 70.0).epsilon(0.2));
+}
+
+TEST_CASE("a queue brings every sample once") {
+  const Graph g = mission(one_phase);
+  Flight flight(g, options(0));
+  flight.run();
+  const double n = 401;
+  CHECK(value(g, flight, "watch", "tally", "samples_ratio") == 3 * n);
+  CHECK(value(g, flight, "watch", "tally", "lost_ratio") == 0);
+  CHECK(value(g, flight, "watch", "tally", "sum_m") == doctest::Approx(3 * n * (n - 1) / 2 + 0.3 * n));
+}
+
+TEST_CASE("a slow reader of a queue is told what it lost") {
+  const Graph g = mission(std::string("  slow: {use: lab/Watch, rate: 10 Hz, in: {burst: vehicle.burst}}\n") + one_phase);
+  Flight flight(g, options(0));
+  flight.run();
+  const double taken = value(g, flight, "slow", "tally", "samples_ratio"), lost = value(g, flight, "slow", "tally", "lost_ratio");
+  CHECK(lost > 0);
+  CHECK(taken + lost == 3 * 401);  // the last step is at the last tick
+}
+
+TEST_CASE("a component is not stepped before each required input has had a sample") {
+  const Graph g = mission("  late: {use: lab/Late, in: {never: other.echo}}\n  other: {use: lab/Late, in: {never: {from: late.echo, delayed: true}}}\n" + std::string(one_phase));
+  Flight flight(g, options(0));
+  CHECK(flight.run().outcome == Outcome::flown);
+  CHECK(flight.sample(port(g, "late", "tally")) == nullptr);
+}
+
+TEST_CASE("a reader that knows fewer fields than the writer is fed by a copy plan") {
+  const Graph g = mission(std::string("  old: {use: lab/OldReader, in: {signal: vehicle.signal}}\n") + one_phase);
+  Flight flight(g, options(0));
+  flight.run();
+  CHECK(value(g, flight, "old", "tally", "steps_ratio") == 401);
+  CHECK(value(g, flight, "old", "tally", "dt_s") == 0);  // it reads the writer's second field
+}
+
+TEST_CASE("a phase hands over in the tick in which its condition has held for its time") {
+  const Graph g = mission(
+      "phases:\n"
+      "  first:  {law: one, next: [{to: second, when: \"vehicle.status.armed\", for: 0.1 s}]}\n"
+      "  second: {law: {use: two, set: {u: 0.7}}, next: [{to: third, when: \"vehicle.signal.tick_s >= 0.3 s\"}]}\n"
+      "  third:  {law: two}\n");
+  std::vector<std::string> said;
+  FlightOptions o = options(0.5);
+  o.say = [&](const std::string& line) { said.push_back(line); };
+  Flight flight(g, o);
+  const FlightResult r = flight.run();
+  REQUIRE(r.phases.size() == 3);
+  CHECK(r.phases[1].name == "second");
+  CHECK(r.phases[1].from_ns == 100'000'000);
+  CHECK(r.phases[2].from_ns == 300'000'000);
+  CHECK(said[1] == "    0.10 s  phase second");
+  // the newcomer got the outputs last applied in its role
+  double taken = 0;
+  std::memcpy(&taken, flight.sample(port(g, "two", "taken_over_frac")), sizeof taken);
+  CHECK(taken == doctest::Approx(0.1));
+  CHECK(value(g, flight, "sim", "applied", "by") == 2);
+  CHECK(value(g, flight, "sim", "applied", "u_frac") == doctest::Approx(0.2));  // the overlay of `second` is gone
+}
+
+TEST_CASE("an overlay holds while its phase lasts") {
+  const Graph g = mission(
+      "phases:\n"
+      "  first:  {law: {use: one, set: {u: 0.9}}, next: [{to: second, when: \"vehicle.signal.tick_s >= 0.3 s\"}]}\n"
+      "  second: {law: one}\n");
+  FlightOptions o = options(0.2);
+  Flight before(g, o);
+  before.run();
+  CHECK(value(g, before, "sim", "applied", "u_frac") == doctest::Approx(0.9));
+  Flight after(g, options(0.5));
+  after.run();
+  CHECK(value(g, after, "sim", "applied", "u_frac") == doctest::Approx(0.1));
+}
+
+TEST_CASE("a newcomer that refuses leaves the old one flying") {
+  const Graph g = mission(
+      "phases:\n"
+      "  first:  {law: one, next: [{to: second, when: \"vehicle.status.armed\"}]}\n"
+      "  second: {law: two}\n",
+      {{"two.refuse", "true"}});
+  Flight flight(g, options(0.2));
+  const FlightResult r = flight.run();
+  CHECK(r.outcome == Outcome::flown);
+  REQUIRE(r.guards.size() == 1);
+  CHECK(r.guards[0].what == "cannot take over: refuses to take over");
+  CHECK(r.guards[0].action == "the old one stays");
+  CHECK(value(g, flight, "sim", "applied", "by") == 1);
+}
+
+TEST_CASE("every fault of a law is caught in its tick, the fallback flies in the same tick") {
+  struct Case {
+    const char *fault, *what;
+  };
+  for (const Case& c : {Case{"nan", "output 'command': u_frac is nan"}, Case{"range", "output 'command': u_frac is 1.5, outside [-1, 1]"},
+                        Case{"throws", "the law is broken"}, Case{"fails", "says that it failed"}, Case{"probe_nan", "probe 'error_m' is not finite"}}) {
+    CAPTURE(c.fault);
+    const Graph g = mission(with_fallback, {{"one.fault", c.fault}, {"one.fault_at", "0.1"}});
+    Flight flight(g, options(0.1));  // ends with the tick of the fault
+    const FlightResult r = flight.run();
+    CHECK(r.outcome == Outcome::flown);
+    REQUIRE(r.guards.size() == 1);
+    CHECK(r.guards[0].component == "one");
+    CHECK(r.guards[0].what == std::string(c.what));
+    CHECK(r.guards[0].action == "two takes over");
+    CHECK(r.guards[0].at_ns == 100'000'000);
+    CHECK(value(g, flight, "two", "command", "by") == 2);
+    CHECK(value(g, flight, "two", "command", "seen_m") == value(g, flight, "sim", "signal", "x_m"));
+    CHECK(value(g, flight, "one", "command", "u_frac") == doctest::Approx(0.1));  // the last good output is what is left
+  }
+}
+
+TEST_CASE("when nobody is left the failsafe values are sent for their time, then nothing") {
+  const Graph g = mission(one_phase, {{"one.fault", "nan"}, {"one.fault_at", "0.1"}});
+  Flight in_time(g, options(0.3));
+  const FlightResult r = in_time.run();
+  CHECK(r.outcome == Outcome::failed);
+  CHECK(r.reason == "failsafe: one: output 'command': u_frac is nan");
+  CHECK(r.guards[0].action == "failsafe");
+  CHECK(value(g, in_time, "sim", "applied", "u_frac") == -0.25);
+  CHECK(value(g, in_time, "sim", "applied", "present") == 1);
+  Flight later(g, options(0.8));
+  later.run();
+  CHECK(value(g, later, "sim", "applied", "present") == 0);
+  FlightOptions endless = options(0);
+  endless.duration_s.reset();
+  Flight lost(g, endless);
+  CHECK(lost.run().last_ns == 1'600'000'000);  // fault at 0.1 s, values for 0.5 s, silence for 1 s
+}
+
+TEST_CASE("a law whose required input has gone stale is not flown on") {
+  const Graph g = mission(with_fallback, {{"filter.stop_at", "0.1"}});
+  Flight flight(g, options(3));
+  const FlightResult r = flight.run();
+  CHECK(r.outcome == Outcome::failed);
+  REQUIRE(r.guards.size() >= 2);
+  CHECK(r.guards[0].component == "filter");
+  CHECK(r.guards[0].action == "held");
+  CHECK(r.guards[1].component == "one");
+  CHECK(r.guards[1].what == "input 'signal' is 1.003 s old, the limit is 1.000 s");
+  CHECK(r.guards[1].action == "failsafe");  // the fallback would fly on the same old signal
+}
+
+TEST_CASE("the vehicle's failure ends the flight") {
+  const Graph g = mission(one_phase, {{"sim.fail_at", "0.2"}});
+  Flight flight(g, options(1));
+  const FlightResult r = flight.run();
+  CHECK(r.outcome == Outcome::failed);
+  CHECK(r.reason == "the vehicle failed: says that it failed");
+}
+
+TEST_CASE("done, failed and timeout end a flight, in words") {
+  const Graph done = mission(std::string("done: \"vehicle.signal.tick_s > 0.2 s\"\n") + one_phase);
+  FlightOptions o;
+  o.log = false;
+  const FlightResult flown = Flight(done, o).run();
+  CHECK(flown.outcome == Outcome::flown);
+  CHECK(flown.reason == "vehicle.signal.tick_s > 0.2 s");
+  const Graph failed = mission(std::string("failed: \"vehicle.signal.tick_s > 0.2 s\"\n") + one_phase);
+  CHECK(Flight(failed, o).run().outcome == Outcome::failed);
+  const Graph endless = mission(one_phase);
+  const FlightResult late = Flight(endless, o).run();
+  CHECK(late.outcome == Outcome::failed);
+  CHECK(late.reason == "not done within 100 s of flight");
+  std::atomic<int> stop{1};
+  o.interrupt = &stop;
+  CHECK(Flight(endless, o).run().outcome == Outcome::interrupted);
+}
+
+TEST_CASE("a request is answered by the step that sees it") {
+  const Graph g = mission(std::string("done: \"vehicle.signal.tick_s > 0.2 s\"\n") + one_phase);
+  FlightOptions o;
+  o.log = false;
+  Flight flight(g, o);
+  const double go = 1, back = -1;
+  std::vector<std::string> answers;
+  auto take = [&](const std::string& answer) { answers.push_back(answer); };
+  flight.request("watch", "ask", reinterpret_cast<const std::byte*>(&go), take);
+  flight.request("watch", "ask", reinterpret_cast<const std::byte*>(&back), take);
+  CHECK_THROWS_WITH(flight.request("wach", "ask", nullptr, take), "there is no component 'wach'. Did you mean 'watch'? Valid: sim, filter, one, watch.");
+  CHECK_THROWS_WITH(flight.request("watch", "aks", nullptr, take), "'watch' takes no request 'aks'. Did you mean 'ask'? Valid: ask.");
+  const double wrong = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_WITH(flight.request("watch", "ask", reinterpret_cast<const std::byte*>(&wrong), take), "watch.ask: to_m is nan");
+  flight.run();
+  REQUIRE(answers.size() == 2);
+  CHECK(answers[0].empty());
+  CHECK(answers[1] == "cannot go back");
+}
+
+TEST_CASE("a live parameter changes the base under an overlay, a set-up parameter does not change") {
+  const Graph g = mission(one_phase);
+  Flight flight(g, options(0));
+  ParamValue v;
+  v.number[0] = 0.6;
+  flight.set_parameter("one", "u", v);
+  CHECK_THROWS_WITH(flight.set_parameter("one", "fixed", v), "one.fixed is a set-up parameter: it cannot change in flight");
+  v.number[0] = 4;
+  CHECK_THROWS(flight.set_parameter("one", "u", v));
+  flight.run();
+  CHECK(value(g, flight, "sim", "applied", "u_frac") == doctest::Approx(0.6));
+}
+
+TEST_CASE("a stopped component flies again after a reset") {
+  const Graph g = mission(with_fallback, {{"one.fault", "nan"}, {"one.fault_at", "0.1"}});
+  Flight flight(g, options(0.2));
+  flight.run();
+  CHECK(flight.sample({Source::Kind::role, 2, 0}) != nullptr);
+  CHECK_NOTHROW(flight.reset_guards());
+}
+
+TEST_CASE("equal mission and seed give equal log bytes, another seed gives others") {
+  auto fly = [&](std::uint64_t seed, const std::string& name) {
+    const Graph g = mission(one_phase, {{"watch.noise", "1"}}, seed);
+    FlightOptions o = options(2);
+    o.log = true;
+    o.log_file = folder().path / name;
+    Flight flight(g, o);
+    const FlightResult r = flight.run();
+    CHECK(r.log.dropped == 0);
+    CHECK(r.log.error.empty());
+    CHECK(r.log.messages > 1000);
+    return r.log.sha256;
+  };
+  const std::string a = fly(5, "a.mcap"), b = fly(5, "b.mcap"), c = fly(6, "c.mcap");
+  CHECK(a == b);
+  CHECK(a != c);
+}
+
+TEST_CASE("the loop takes no memory, and a component that does is named") {
+  if (!counts_allocations()) return;
+  const Graph g = mission(one_phase);
+  FlightOptions o = options(1);
+  o.log = true;
+  o.log_file = folder().path / "none.mcap";
+  Flight flight(g, o);
+  const FlightResult r = flight.run();
+  for (const ComponentStats& c : r.components) CHECK_MESSAGE(c.allocations == 0, c.name);
+  const Graph greedy = mission(one_phase, {{"one.fault", "allocates"}, {"one.fault_at", "0"}});
+  Flight other(greedy, options(1));
+  for (const ComponentStats& c : other.run().components)
+    if (c.name == "one") CHECK(c.allocations == 401);
+}
+
+TEST_CASE("a paced flight stops a component that is over its budget five times in a row") {
+  const Graph g = mission(with_fallback, {{"one.fault", "slow"}, {"one.fault_at", "0"}});
+  Graph budgeted = g;
+  for (Component& c : budgeted.components)
+    if (c.name == "one") c.budget_ns = 50'000;
+  FlightOptions unpaced = options(0.1);
+  CHECK(Flight(budgeted, unpaced).run().guards.empty());  // an unpaced simulation knows no deadline
+  FlightOptions paced = options(0.1);
+  paced.speed = 1000;
+  const FlightResult r = Flight(budgeted, paced).run();
+  REQUIRE(r.guards.size() == 1);
+  CHECK(r.guards[0].what == "was over its time budget in 5 steps in a row");
+  CHECK(r.guards[0].action == "two takes over");
+}

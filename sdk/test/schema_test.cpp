@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The tables that a struct yields by itself, against what the compiler says (offsetof, sizeof) and what people wrote.
+#include <doctest/doctest.h>
+
+#include <cstddef>
+#include <string>
+
+#include "fulmar/msg/airframe.hpp"
+#include "fulmar/msg/gnss.hpp"
+#include "fulmar/msg/path.hpp"
+#include "fulmar/msg/plan.hpp"
+#include "fulmar/msg/vehicle_state.hpp"
+#include "fulmar/schema.hpp"
+
+using namespace fulmar;
+
+namespace {
+
+enum class Colour : std::uint8_t { red, green, blue };
+
+struct Sample {
+  bool on = false;
+  std::uint8_t small = 0;
+  Colour colour = Colour::red;
+  float short_m = 0;
+  std::int64_t stamp_ns = 0;
+  std::array<double, 3> gains_ratio{};
+  Text<16> name;
+  List<Vec3<Ned>, 4> points_m;
+  Quat attitude;
+  double share_frac = 0;
+};
+
+const fulmar_field& field(const fulmar_type& type, const std::string& name) {
+  for (std::uint32_t i = 0; i < type.field_count; ++i)
+    if (type.fields[i].name == name) return type.fields[i];
+  FAIL("no field " << name);
+  return type.fields[0];
+}
+
+struct ForeignPose {
+  static constexpr const char* ros_type = "geometry_msgs/msg/Point";
+  double x = 0, y = 0, z = 0;
+};
+
+}  // namespace
+
+TEST_CASE("offsets follow the compiler") {
+  const fulmar_type& t = describe<Sample>();
+  CHECK(t.size == sizeof(Sample));
+  CHECK(t.align == alignof(Sample));
+  REQUIRE(t.field_count == 10);
+  CHECK(field(t, "on").offset == offsetof(Sample, on));
+  CHECK(field(t, "small").offset == offsetof(Sample, small));
+  CHECK(field(t, "colour").offset == offsetof(Sample, colour));
+  CHECK(field(t, "short_m").offset == offsetof(Sample, short_m));
+  CHECK(field(t, "stamp_ns").offset == offsetof(Sample, stamp_ns));
+  CHECK(field(t, "gains_ratio").offset == offsetof(Sample, gains_ratio));
+  CHECK(field(t, "name").offset == offsetof(Sample, name));
+  CHECK(field(t, "points_m").offset == offsetof(Sample, points_m));
+  CHECK(field(t, "attitude").offset == offsetof(Sample, attitude));
+  CHECK(field(t, "share_frac").offset == offsetof(Sample, share_frac));
+}
+
+TEST_CASE("kinds, shapes, counts and units are read from the members") {
+  const fulmar_type& t = describe<Sample>();
+  CHECK(std::string(t.name) == "Sample");
+  CHECK(field(t, "on").kind == FULMAR_BOOL);
+  CHECK(field(t, "colour").kind == FULMAR_ENUM);
+  CHECK(field(t, "short_m").kind == FULMAR_F32);
+  CHECK(std::string(field(t, "short_m").unit) == "m");
+  CHECK(std::string(field(t, "stamp_ns").unit) == "ns");
+  CHECK(field(t, "gains_ratio").shape == FULMAR_ARRAY);
+  CHECK(field(t, "gains_ratio").count == 3);
+  CHECK(field(t, "name").kind == FULMAR_TEXT);
+  CHECK(field(t, "name").stride == 16);
+  const fulmar_field& points = field(t, "points_m");
+  CHECK(points.shape == FULMAR_LIST);
+  CHECK(points.count == 4);
+  CHECK(points.items == offsetof(decltype(Sample::points_m), items));
+  CHECK(points.stride == sizeof(Vec3<Ned>));
+  CHECK(std::string(points.type->frame) == "ned");
+  CHECK(std::string(points.type->fields[2].name) == "down");
+  CHECK(std::string(field(t, "attitude").type->frame) == "body to ned");
+}
+
+TEST_CASE("enum labels come in order") {
+  const fulmar_field& colour = field(describe<Sample>(), "colour");
+  REQUIRE(colour.label_count == 3);
+  CHECK(std::string(colour.labels[0]) == "red");
+  CHECK(std::string(colour.labels[2]) == "blue");
+  CHECK(field(describe<Gnss>(), "fix").label_count == 8);
+}
+
+TEST_CASE("a fraction is bounded, another number is not") {
+  CHECK(field(describe<Sample>(), "share_frac").min == -1.0);
+  CHECK(field(describe<Sample>(), "share_frac").max == 1.0);
+  CHECK(field(describe<Sample>(), "short_m").max == std::numeric_limits<double>::infinity());
+}
+
+TEST_CASE("the largest shipped messages describe themselves") {
+  CHECK(describe<VehicleState>().size == sizeof(VehicleState));
+  CHECK(field(describe<VehicleState>(), "accel_bias_mps2").offset == offsetof(VehicleState, accel_bias_mps2));
+  CHECK(field(describe<VehicleState>(), "wind_valid").offset == offsetof(VehicleState, wind_valid));
+  CHECK(field(describe<Plan>(), "waypoints").count == 1024);
+  CHECK(field(describe<Airframe>(), "gear").offset == offsetof(Airframe, gear));
+  CHECK(field(describe<Path>(), "next_curvature_ratio").offset == offsetof(Path, next_curvature_ratio));
+}
+
+TEST_CASE("a foreign message is exempt from units and names its ROS type") {
+  CHECK(std::string(describe<ForeignPose>().ros) == "geometry_msgs/msg/Point");
+  CHECK(std::string(describe<ForeignPose>().fields[0].unit).empty());
+}
+
+TEST_CASE("a vector goes to Eigen and back, and rotates as the attitude says") {
+  const Vec3<Ned> v{1, 2, 3};
+  CHECK(from_eigen<Ned>(eigen(v)) == v);
+  const double h = std::sqrt(0.5);
+  const Quat east_facing{h, 0, 0, h};  // yaw 90 deg: the body's x axis points east
+  const Vec3<Ned> nose = to_ned(east_facing, Vec3<Body>{1, 0, 0});
+  CHECK(nose.north == doctest::Approx(0));
+  CHECK(nose.east == doctest::Approx(1));
+  CHECK(to_body(east_facing, nose).x == doctest::Approx(1));
+}
+
+TEST_CASE("text is cut where its room ends") {
+  const Text<4> t("abcdef");
+  CHECK(t.view() == "abc");
+  CHECK(Text<8>("ab") == Text<8>("ab"));
+}
+
+TEST_CASE("a list refuses what it has no room for") {
+  List<int, 2> list;
+  CHECK(list.push_back(1));
+  CHECK(list.push_back(2));
+  CHECK_FALSE(list.push_back(3));
+  CHECK(list.size() == 2);
+}

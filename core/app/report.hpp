@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What people and scripts see of a flight: the progress line, the table, the JSON object.
 #pragma once
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "core/graph/graph.hpp"

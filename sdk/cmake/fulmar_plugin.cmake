@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # fulmar_add_plugin(NAME source... [LINK library...] [TEST source...])
+#
 # One shared object with one exported symbol. Without a version script, or with unique symbols on gcc, a library stays mapped after it is
-# closed and a swap would silently fly the old code.
+# closed and a swap would silently fly the old code. TEST adds a program NAME_test and a ctest entry.
 set(FULMAR_VERSION_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/plugin.version CACHE INTERNAL "exports the entry alone")
 
 function(fulmar_add_plugin name)
@@ -16,7 +17,8 @@ function(fulmar_add_plugin name)
   if(NOT FULMAR_SANITIZE)
     target_link_options(${name} PRIVATE -Wl,-z,defs)
   endif()
-  if(arg_TEST AND (NOT DEFINED BUILD_TESTING OR BUILD_TESTING))
+  set_property(GLOBAL APPEND PROPERTY FULMAR_PLUGINS ${name})
+  if(arg_TEST)
     add_executable(${name}_test ${arg_TEST})
     target_link_libraries(${name}_test PRIVATE fulmar::sdk ${arg_LINK})
     target_include_directories(${name}_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})

@@ -18,6 +18,11 @@
 
 using namespace fulmar::core;
 
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define __SANITIZE_ADDRESS__ 1  // clang's way to say it
+#endif
+#endif
 #ifdef __SANITIZE_ADDRESS__
 // A crash is to end this process by its signal, which the host names.
 extern "C" const char* __asan_default_options();

@@ -264,9 +264,9 @@ TEST_CASE("a run killed in flight leaves a file whose whole chunks, mission incl
   CHECK(is_flight(log));
   CHECK(log.attachment("mission.yaml") != nullptr);
 
-  const McapWriter::Result recovered = recover_mcap(file.string() + ".part", file);
+  const McapWriter::Result recovered = recover_mcap(file.string() + ".part", folder.path / "recovered.mcap");
   CHECK(recovered.error == "");
-  const McapFile whole = read_mcap(file);
+  const McapFile whole = read_mcap(recovered.file);
   CHECK(whole.complete);
   CHECK(whole.messages.size() == log.messages.size());
   CHECK(is_flight(whole));

@@ -70,17 +70,17 @@ TEST_CASE("on an orbit the tangent is commanded, far outside the way to the cent
 TEST_CASE("a point that flies the commanded course comes to the path from anywhere and stays") {
   Random rng(31);
   Bench<VectorField> bench;
-  for (int trial = 0; trial < 60; ++trial) {
+  for (int trial = 0; trial < 24; ++trial) {
     const Path path = trial % 2 == 0 ? line(rng.uniform(-pi, pi)) : orbit(trial % 4 == 1 ? Turn::right : Turn::left, rng.uniform(30, 150));
     double n = rng.uniform(-300, 300), e = rng.uniform(-300, 300), chi = 0;
     double before = 1e9;
-    for (int i = 0; i < 12000; ++i) {
+    for (int i = 0; i < 5000; ++i) {
       chi = command(bench, at(n, e, chi), path).course_rad;
       const double off = std::abs(bench.out.cross_track_m.value);
-      CHECK(off <= before + 0.01);  // never away from the path
+      CHECK(off <= before + 0.02);  // never away from the path
       before = off;
-      n += 0.01 * 17 * std::cos(chi);
-      e += 0.01 * 17 * std::sin(chi);
+      n += 0.02 * 17 * std::cos(chi);
+      e += 0.02 * 17 * std::sin(chi);
     }
     CHECK(before < 0.1);
   }

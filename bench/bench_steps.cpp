@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a step costs: each shipped component and the whole tick in the hourglass missions, and a 200-byte port hop, bare, guarded and timed.
+// bench_steps [--json] [MISSION...]
+#include <time.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "core/run/flight_impl.hpp"
+
+using namespace fulmar::core;
+
+namespace {
+
+std::int64_t now_ns() {
+  timespec t{};
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
+}
+
+struct Row {
+  std::string name;
+  double p50_ns, p99_ns;
+};
+
+double quantile(std::vector<double>& v, double q) {
+  const auto at = v.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(v.size() - 1));
+  std::nth_element(v.begin(), at, v.end());
+  return *at;
+}
+
+/// Times `batch` calls at once, many times over: the clock's own cost disappears in the batch.
+template <class F>
+Row time_batches(const std::string& name, F&& call) {
+  constexpr int batch = 1000, batches = 400;
+  std::vector<double> each;
+  for (int i = 0; i < batches; ++i) {
+    const std::int64_t begin = now_ns();
+    for (int k = 0; k < batch; ++k) call();
+    each.push_back(static_cast<double>(now_ns() - begin) / batch);
+  }
+  return {name, quantile(each, 0.5), quantile(each, 0.99)};
+}
+
+Component hop_component(const std::shared_ptr<Library>& library, std::size_t index, const std::string& name) {
+  Component c;
+  c.name = name;
+  c.library = library;
+  c.plugin = std::make_shared<const PluginInfo>(library->info());
+  c.index_in_plugin = index;
+  c.wires.resize(c.info().inputs.size());
+  return c;
+}
+
+void add_hops(std::vector<Row>& rows) {
+  const std::shared_ptr<Library> library = Library::open(FULMAR_HOP);
+  const Component begin = hop_component(library, 0, "begin"), hop = hop_component(library, 1, "hop");
+  Unit source(begin, 2'500'000, 1), unit(hop, 2'500'000, 1);
+  source.configure();
+  unit.configure();
+  unit.readers[0].slot = &source.slots[0];
+  unit.readers[0].plans.push_back(copy_plan(*source.slots[0].port->type, *unit.readers[0].port->type));
+  std::int64_t now = 0;
+  source.step(now, 0);
+  source.publish([](Slot&) {});
+
+  // bare: the call through the contract, the block copied in and out
+  const fulmar_component& functions = library->functions(1);
+  fulmar_error error{};
+  void* instance = functions.create(1, &error);
+  std::vector<std::byte> out(unit.slots[0].size);
+  std::int64_t stamp = 0;
+  fulmar_input input{};
+  input.data = source.slots[0].published.data();
+  fulmar_output output{out.data(), &stamp, 0, 0, 0};
+  const fulmar_tick tick{0, 2'500'000, 0};
+  rows.push_back(time_batches("200-byte hop, bare", [&] { functions.step(instance, &tick, &input, &output, &error); }));
+  functions.destroy(instance);
+  rows.push_back(time_batches("200-byte hop, guarded", [&] {
+    unit.step(now += 2'500'000, 0);
+    unit.publish([](Slot&) {});
+  }));
+  Histogram histogram;
+  rows.push_back(time_batches("200-byte hop, guarded and timed", [&] {
+    const std::int64_t before = now_ns();
+    unit.step(now += 2'500'000, 0);
+    unit.publish([](Slot&) {});
+    histogram.add(now_ns() - before);
+  }));
+}
+
+void add_mission(std::vector<Row>& rows, const std::string& file) {
+  const Graph graph = load_mission(file);
+  FlightOptions options;
+  options.log = false;
+  Flight::Impl flight(graph, options);
+  std::vector<double> ticks;
+  ticks.reserve(200'000);
+  flight.wall_ns = now_ns();
+  for (std::int64_t begin = flight.wall_ns; flight.tick(); begin = now_ns()) ticks.push_back(static_cast<double>(now_ns() - begin));
+  for (const auto& unit : flight.units)
+    rows.push_back({graph.mission + ": " + unit->component->use, 1e3 * unit->stats.time.quantile_us(0.5), 1e3 * unit->stats.time.quantile_us(0.99)});
+  double sum = 0;
+  for (const double t : ticks) sum += t;
+  const double mean = sum / static_cast<double>(ticks.size());
+  rows.push_back({graph.mission + ": whole tick", quantile(ticks, 0.5), quantile(ticks, 0.99)});
+  rows.push_back({graph.mission + ": whole tick, mean", mean, mean});
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  bool json = false;
+  std::vector<std::string> missions;
+  for (int i = 1; i < argc; ++i) {
+    if (std::strcmp(argv[i], "--json") == 0) json = true;
+    else missions.emplace_back(argv[i]);
+  }
+  if (missions.empty()) missions = {"configs/missions/hourglass.yaml", "configs/missions/two_schemes.yaml", "configs/missions/calm.yaml"};
+  try {
+    std::vector<Row> rows;
+    add_hops(rows);
+    for (const std::string& mission : missions) add_mission(rows, mission);
+    nlohmann::json all = nlohmann::json::object();
+    for (const Row& r : rows) {
+      if (json) all[r.name] = {{"p50_ns", r.p50_ns}, {"p99_ns", r.p99_ns}};
+      else std::printf("%-48s %9.0f %9.0f ns\n", r.name.c_str(), r.p50_ns, r.p99_ns);
+    }
+    if (json) std::printf("%s\n", all.dump(2).c_str());
+    return 0;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 1;
+  }
+}

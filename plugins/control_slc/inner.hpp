@@ -4,8 +4,8 @@
 #pragma once
 #include <fulmar/flight/atmosphere.hpp>
 #include <fulmar/flight/filters.hpp>
-#include <fulmar/flight/pid.hpp>
 #include <fulmar/flight/outer_commands.hpp>
+#include <fulmar/flight/pid.hpp>
 #include <fulmar/flight/turn_trim.hpp>
 #include <fulmar/msg/actuators.hpp>
 #include <fulmar/msg/attitude_command.hpp>
@@ -77,7 +77,8 @@ struct Inner {
 
  private:
   /// delta_a = trim + scale [kp e + kd (p_c - p) + I] + kff p_c
-  double roll_to_aileron(const VehicleState& state, const AttitudeCommand& command, const Params& p, double scale, double integrate, double dt) {
+  double roll_to_aileron(const VehicleState& state, const AttitudeCommand& command, const Params& p, double scale, double integrate,
+                         double dt) {
     const Surface& aileron = p.airframe->aileron;
     const double p_c = std::clamp(roll_command_rate_.step(command.roll_rad, p.command_filter, dt), -3.0, 3.0);
     // Damping by the air falls with the speed, the aileron's power with its square: the feed-forward scales by their quotient.

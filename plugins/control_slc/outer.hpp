@@ -86,8 +86,8 @@ struct Outer {
   static OuterTuning tuning(const Params& p) {
     const FlightLimits& limits = p.airframe->limits;
     OuterTuning t;
-    t.course = {p.course_kp, p.course_ki, limits.airspeed_cruise_mps, std::min<double>(p.roll_limit, limits.roll_max_rad), p.roll_rate_limit,
-                p.roll_smoothing};
+    t.course = {p.course_kp,       p.course_ki,     limits.airspeed_cruise_mps, std::min<double>(p.roll_limit, limits.roll_max_rad),
+                p.roll_rate_limit, p.roll_smoothing};
     t.takeoff = {p.takeoff_throttle, p.takeoff_pitch, p.takeoff_airspeed, p.takeoff_kp, p.takeoff_roll_limit};
     t.pitch_rate_max_radps = p.pitch_rate_limit;
     t.throttle_rate_max_hz = p.throttle_rate_limit;
@@ -108,8 +108,8 @@ struct Outer {
   }
 
   /// theta = theta_trim + hdot_c / Va + integral + kd (hdot_c - hdot),  hdot_c = feed-forward + kp Va (h_c - h) within the climb limits.
-  double height_to_pitch(const VehicleState& state, const GuidanceCommand& command, const Params& p, double Va, double theta_trim, double dt,
-                         Outputs& out) {
+  double height_to_pitch(const VehicleState& state, const GuidanceCommand& command, const Params& p, double Va, double theta_trim,
+                         double dt, Outputs& out) {
     const FlightLimits& limits = p.airframe->limits;
     const PitchLimits pitch(state, limits, p.pitch_limit);
     const double error = command.height_m - state.height_m;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Outer loops by total energy: throttle controls the rate of the total energy, pitch the rate at which it is shared between height and speed.
-// Lambregts, AIAA 83-2239 (1983); the arrangement of rate demands and limits is that of the field's open autopilots. Equations: README.
+// Outer loops by total energy: throttle controls the rate of the total energy, pitch the rate at which it is shared between height and
+// speed. Lambregts, AIAA 83-2239 (1983); the arrangement of rate demands and limits is that of the field's open autopilots. Equations:
+// README.
 #pragma once
 #include <fulmar/flight/atmosphere.hpp>
 #include <fulmar/flight/energy.hpp>
@@ -42,6 +43,7 @@ struct Outer {
     Param altitude_gain{1.2, "1/s", 0, 5, "climb rate demanded per height error"};
     Param airspeed_gain{1.2, "1/s", 0, 5, "acceleration demanded per airspeed error"};
     Param climb_acceleration_limit{4.0, "m/s2", 0.1, 30, "fastest change of the demanded climb rate"};
+    Param acceleration_filter{0.25, "s", 0, 5, "time constant of the measured acceleration: keeps the accelerometer's noise off the elevator"};
     Param speed_weight{0.4, "ratio", 0, 2, "0: pitch holds height alone; 1: both; 2: pitch holds airspeed alone"};
 
     Param throttle_damping{0.5, "ratio", 0, 5, "throttle per error of the total energy rate, as a share of what the thrust model asks for"};
@@ -54,7 +56,8 @@ struct Outer {
     Param pitch_limit{0.35, "rad", 0.02, 1.0, "largest pitch command, either way; the airframe's own limits hold as well"};
     Param pitch_rate_limit{0.8, "rad/s", 0.05, 6, "fastest change of the pitch command"};
     Param throttle_rate_limit{2.0, "1/s", 0.1, 20, "fastest change of the throttle"};
-    Param underspeed_band{0.15, "ratio", 0.01, 0.5, "airspeed below the minimum, as a share of it, at which speed has all priority and throttle is full"};
+    Param underspeed_band{0.15, "ratio", 0.01, 0.5,
+                          "airspeed below the minimum, as a share of it, at which speed has all priority and throttle is full"};
 
     Param takeoff_throttle{1.0, "ratio", 0, 1, "throttle of the take-off law"};
     Param takeoff_pitch{0.21, "rad", 0, 0.6, "pitch of the take-off law after rotation"};
@@ -68,6 +71,7 @@ struct Outer {
   Status activate(const Tick&, const Inputs& in, const Params& params, const Outputs& last_applied) {
     commands_.start(params.law, *in.state, last_applied.attitude);
     climb_rate_.reset_to(in.state->climb_rate_mps);
+    acceleration_.reset();
     return Status::ok;
   }
 
@@ -94,17 +98,17 @@ struct Outer {
   /// What the energies are to do, and what they do, m2/s3.
   struct Energy {
     EnergyRates wanted, present;
-    double total_wanted = 0; ///< of the total, within what the engine can give
-    double turn_drag = 0;    ///< energy rate that the turn takes from the engine
-    double underspeed = 0;   ///< 0: none, 1: speed before everything
+    double total_wanted = 0;  ///< of the total, within what the engine can give
+    double turn_drag = 0;     ///< energy rate that the turn takes from the engine
+    double underspeed = 0;    ///< 0: none, 1: speed before everything
     double Va = 0, Va_c = 0;
   };
 
   static OuterTuning tuning(const Params& p) {
     const FlightLimits& limits = p.airframe->limits;
     OuterTuning t;
-    t.course = {p.course_kp, p.course_ki, limits.airspeed_cruise_mps, std::min<double>(p.roll_limit, limits.roll_max_rad), p.roll_rate_limit,
-                p.roll_smoothing};
+    t.course = {p.course_kp,       p.course_ki,     limits.airspeed_cruise_mps, std::min<double>(p.roll_limit, limits.roll_max_rad),
+                p.roll_rate_limit, p.roll_smoothing};
     t.takeoff = {p.takeoff_throttle, p.takeoff_pitch, p.takeoff_airspeed, p.takeoff_kp, p.takeoff_roll_limit};
     t.pitch_rate_max_radps = p.pitch_rate_limit;
     t.throttle_rate_max_hz = p.throttle_rate_limit;
@@ -114,6 +118,7 @@ struct Outer {
   void rest(const VehicleState& state, Outputs& out) {
     pitch_.reset();
     throttle_.reset();
+    acceleration_.reset();
     climb_rate_.reset_to(state.climb_rate_mps);
     out.climb_rate_demand_mps = 0.0;
     out.acceleration_demand_mps2 = 0.0;
@@ -155,7 +160,7 @@ struct Outer {
       e.Va_c = std::clamp(command.airspeed_mps, limits.airspeed_min_mps, limits.airspeed_max_mps);
       const double V_dot = std::clamp(p.airspeed_gain * (e.Va_c - state.airspeed_mps), 0.5 * least / e.Va, 0.5 * most / e.Va);
       e.wanted.kinetic = e.Va * V_dot;
-      e.present.kinetic = e.Va * airspeed_rate(state);
+      e.present.kinetic = e.Va * acceleration_.step(airspeed_rate(state), p.acceleration_filter, dt);
       out.acceleration_demand_mps2 = V_dot;
       out.internals.airspeed_error_mps = e.Va_c - state.airspeed_mps;
     } else {
@@ -220,6 +225,7 @@ struct Outer {
   OuterCommands commands_;
   Pid pitch_, throttle_;
   RateLimiter climb_rate_;
+  LowPass acceleration_;
 };
 
 }  // namespace fulmar::tecs

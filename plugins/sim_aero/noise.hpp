@@ -11,13 +11,13 @@
 namespace fulmar::sim {
 
 struct NoiseSpec {
-  double white = 0;          ///< deviation of each sample
-  double bias = 0;           ///< constant, drawn from [-bias, bias]
-  double walk = 0;           ///< deviation of the random walk after one second
-  double drift = 0;          ///< stationary deviation of the Gauss-Markov process
-  double drift_tau_s = 1;    ///< its time constant
-  bool drift_settled = true; ///< starts at its stationary deviation; false: at zero
-  double offset = 0;         ///< decays with offset_tau_s
+  double white = 0;           ///< deviation of each sample
+  double bias = 0;            ///< constant, drawn from [-bias, bias]
+  double walk = 0;            ///< deviation of the random walk after one second
+  double drift = 0;           ///< stationary deviation of the Gauss-Markov process
+  double drift_tau_s = 1;     ///< its time constant
+  bool drift_settled = true;  ///< starts at its stationary deviation; false: at zero
+  double offset = 0;          ///< decays with offset_tau_s
   double offset_tau_s = 1;
 };
 
@@ -53,7 +53,8 @@ class Noise {
 /// The same kind of error, independent on three axes.
 struct Noise3 {
   Noise3() = default;
-  Noise3(const std::array<NoiseSpec, 3>& spec, double dt, Random& random) : axis{Noise(spec[0], dt, random), Noise(spec[1], dt, random), Noise(spec[2], dt, random)} {}
+  Noise3(const std::array<NoiseSpec, 3>& spec, double dt, Random& random)
+      : axis{Noise(spec[0], dt, random), Noise(spec[1], dt, random), Noise(spec[2], dt, random)} {}
   Eigen::Vector3d next(Random& random) {
     const double x = axis[0].next(random), y = axis[1].next(random), z = axis[2].next(random);
     return {x, y, z};

@@ -115,7 +115,8 @@ class Plant {
       Omega_ = Omega_steady + (Omega_ - Omega_steady) * motor_decay(0.5 * dt);
       stage = {{aileron_.angle(), elevator_.angle(), rudder_.angle()}, Omega_};
     }
-    x_ = runge_kutta(x_, load_, dt, mass_, gravity(), [&](const RigidBody& x, double part) { return load(x, stage_[part > 0.75 ? 1 : 0]); });
+    x_ =
+        runge_kutta(x_, load_, dt, mass_, gravity(), [&](const RigidBody& x, double part) { return load(x, stage_[part > 0.75 ? 1 : 0]); });
     ground_.advance(x_, dt);
     if (ground_.crashed()) {  // it stays where it hit
       x_.v_n.setZero();

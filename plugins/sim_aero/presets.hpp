@@ -13,18 +13,18 @@ enum class SensorSet : std::uint8_t { perfect, rosflight, ublox };
 
 struct SensorSpec {
   double imu_hz = 400, gnss_hz = 10, mag_hz = 50, baro_hz = 50, pitot_hz = 100;
-  std::array<NoiseSpec, 3> gyro{}, accel{};                  ///< rad/s, m/s2
-  std::array<NoiseSpec, 3> mag{};                            ///< T
-  NoiseSpec baro{}, pitot{};                                 ///< Pa
-  double pitot_scale = 0;                                    ///< error of the pressure's scale, drawn from [-this, this]
+  std::array<NoiseSpec, 3> gyro{}, accel{};                   ///< rad/s, m/s2
+  std::array<NoiseSpec, 3> mag{};                             ///< T
+  NoiseSpec baro{}, pitot{};                                  ///< Pa
+  double pitot_scale = 0;                                     ///< error of the pressure's scale, drawn from [-this, this]
   std::array<NoiseSpec, 3> gnss_position{}, gnss_velocity{};  ///< NED; m, m/s
   double gnss_latency_s = 0;
   double horizontal_std_m = 0.01, vertical_std_m = 0.01, speed_std_mps = 0.01;  ///< what the receiver claims
-  double temperature_kelvin = 300.15;                        ///< of the sensors
+  double temperature_kelvin = 300.15;                                           ///< of the sensors
 };
 
-/// rosflight_sim's `standalone_sensors` with the defaults of its code. Its walks are per sample; here they are turned into rates at the rate
-/// that it runs at, which gives the same process there and a sensible one elsewhere. What differs is said in the README.
+/// rosflight_sim's `standalone_sensors` with the defaults of its code. Its walks are per sample; here they are turned into rates at the
+/// rate that it runs at, which gives the same process there and a sensible one elsewhere. What differs is said in the README.
 inline SensorSpec rosflight_sensors() {
   SensorSpec s;
   s.baro_hz = 100;

@@ -65,9 +65,7 @@ class Sensors {
     return out;
   }
 
-  Mag mag(const Plant& plant) {
-    return {from_eigen<Body>(plant.state().q_nb.conjugate() * field_n_ + mag_.next(mag_random_))};
-  }
+  Mag mag(const Plant& plant) { return {from_eigen<Body>(plant.state().q_nb.conjugate() * field_n_ + mag_.next(mag_random_))}; }
 
   Baro baro(const Plant& plant) { return {plant.air().pressure_pa + baro_.next(baro_random_), spec_.temperature_kelvin}; }
 

@@ -57,6 +57,14 @@ TEST_CASE("wind does not make a standing aircraft creep") {
   CHECK(p.state().v_n.norm() < 1e-3);
 }
 
+TEST_CASE("a gusty wind from behind neither turns nor tips a standing aircraft") {
+  Plant p = plant({{3.5355, -3.5355, 0}, Turbulence::light});
+  run(p, 20);
+  CHECK(p.state().p_n.head<2>().norm() < 0.05);
+  CHECK(p.state().q_nb.angularDistance(Eigen::Quaterniond::Identity()) < 0.05);
+  CHECK_FALSE(p.crashed());
+}
+
 TEST_CASE("full throttle accelerates by thrust less rolling friction") {
   Plant p = plant();
   run(p, 1);

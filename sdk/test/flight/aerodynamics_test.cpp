@@ -155,6 +155,22 @@ TEST_CASE("force and moment do not jump as the air comes round from all sides") 
   }
 }
 
+TEST_CASE("force and moment do not jump as the air comes round over the wing tip") {
+  const Airframe a = test::airframe_file("anaconda");
+  const Aerodynamic aero(a);
+  for (double tilt :
+       {0.0, 0.3, 1.2}) {  // the plane in which the wind turns contains the wing; through 90 degrees of sideslip alpha leaps by pi
+    const Vector3d ahead(std::cos(tilt), 0, std::sin(tilt));
+    const auto load = [&](int i) {
+      return aero.load(Va * (std::cos(0.001 * i) * ahead + std::sin(0.001 * i) * Vector3d::UnitY()), Vector3d::Zero(), {}, rho);
+    };
+    for (int i = 1400; i < 1740; ++i) {
+      CHECK((load(i + 1).force_b - load(i).force_b).norm() < 1);
+      CHECK((load(i + 1).moment_b - load(i).moment_b).norm() < 1);
+    }
+  }
+}
+
 TEST_CASE("controls turn the aircraft the way that the conventions say") {
   const Airframe a = test::airframe_file("anaconda");
   Point right, down, left;

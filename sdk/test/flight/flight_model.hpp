@@ -90,7 +90,8 @@ struct FlightModel {
     servo(surfaces.rudder, u.rudder_rad, airframe.rudder);
     const double rho = density(), Va = air_velocity(x).norm();
     gusts.advance(dt, Va);
-    propeller_speed += (propeller.steady_speed(u.throttle_frac, Va, rho) - propeller_speed) * (1 - std::exp(-dt / airframe.propulsion.time_constant_s));
+    propeller_speed +=
+        (propeller.steady_speed(u.throttle_frac, Va, rho) - propeller_speed) * (1 - std::exp(-dt / airframe.propulsion.time_constant_s));
     const auto load_at = [&](const RigidBody& b, double) {
       const Eigen::Vector3d v_r = air_velocity(b);
       Load load = aero.load(v_r, b.omega_b, surfaces, rho);

@@ -15,8 +15,8 @@ VehicleState at(double airspeed, double ground_speed, double height, bool airspe
 
 TEST_CASE("standing needs a slow ground speed and a slow airspeed, or the ground when there is no airspeed") {
   CHECK(standing(at(0.5, 0.2, 0)));
-  CHECK_FALSE(standing(at(15, 0.2, 70)));         // hovers in the wind
-  CHECK_FALSE(standing(at(0, 0.2, 70, false)));   // may well do the same
+  CHECK_FALSE(standing(at(15, 0.2, 70)));        // hovers in the wind
+  CHECK_FALSE(standing(at(0, 0.2, 70, false)));  // may well do the same
   CHECK(standing(at(0, 0.2, 0.3, false)));
   CHECK_FALSE(standing(at(1, 12, 0)));
   VehicleState falling = at(1, 1, 50);

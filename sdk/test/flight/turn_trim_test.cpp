@@ -33,7 +33,7 @@ TEST_CASE("at the trim of a turn the nonlinear model has the lift, the drag and 
       const double ca = std::cos(trim.alpha_rad), sa = std::sin(trim.alpha_rad);
       const double lift = load.force_b.x() * sa - load.force_b.z() * ca, drag = -load.force_b.x() * ca - load.force_b.z() * sa;
       CHECK(lift == doctest::Approx(load_factor(phi) * a.mass_kg * 9.80665).epsilon(5e-3));
-      CHECK(std::abs(load.moment_b.y()) < 0.02);  // N m: a thousandth of what the elevator can do
+      CHECK(std::abs(load.moment_b.y()) < 0.02);                       // N m: a thousandth of what the elevator can do
       CHECK(trim.drag_newton == doctest::Approx(drag).epsilon(0.06));  // the model's induced drag knows no lift of tail and pitch rate
     }
   }

@@ -61,7 +61,8 @@ class Aerodynamic {
   }
 
   /// At air-relative velocity `v_r` and body rate `omega` in air of density `rho`. (4.18), (4.19), (4.20)
-  /// The wing works with the flow in the plane of symmetry, Va cos(beta): the book's equations at small sideslip, and no jump at 90 degrees.
+  /// The wing works with the flow in the plane of symmetry, Va cos(beta): the book's equations at small sideslip, and no jump at 90
+  /// degrees.
   Load load(const Eigen::Vector3d& v_r, const Eigen::Vector3d& omega, const Deflections& d, double rho) const {
     const AirData air(v_r);
     const double sigma = stall(air.alpha);
@@ -74,10 +75,12 @@ class Aerodynamic {
       return qS * (c.beta_ratio * air.beta + c.aileron_ratio * d.aileron + c.elevator_ratio * d.elevator + c.rudder_ratio * d.rudder) +
              c.p_ratio * rate.x() + c.q_ratio * rate.y() + c.r_ratio * rate.z();
     };
-    const auto sum_all = [&](const Derivatives& c, double qS_static) { return qS_static * (c.zero_ratio + c.alpha_ratio * alpha) + sum(c); };
+    const auto sum_all = [&](const Derivatives& c, double qS_static) {
+      return qS_static * (c.zero_ratio + c.alpha_ratio * alpha) + sum(c);
+    };
     const double L = plane_qS * lift(air.alpha, air.sin_alpha, air.cos_alpha, sigma) + sum(aero_.lift);
-    const double D = plane_qS * drag(air.alpha, air.sin_alpha, sigma) + sum(aero_.drag) +
-                     half_rho_S * air.Va * air.in_plane * aero_.parasite_drag_ratio;
+    const double D =
+        plane_qS * drag(air.alpha, air.sin_alpha, sigma) + sum(aero_.drag) + half_rho_S * air.Va * air.in_plane * aero_.parasite_drag_ratio;
     Load out;
     out.force_b = {-D * air.cos_alpha + L * air.sin_alpha, sum_all(aero_.side, qS), -D * air.sin_alpha - L * air.cos_alpha};
     out.moment_b = {wing_.span_m * sum_all(aero_.roll, qS), wing_.chord_m * sum_all(aero_.pitch, plane_qS),

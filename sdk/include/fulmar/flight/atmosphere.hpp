@@ -7,13 +7,13 @@
 namespace fulmar {
 
 namespace isa {
-inline constexpr double g0 = 9.80665;                   ///< m/s2
-inline constexpr double gas_constant = 287.05287;       ///< J/(kg K), of dry air
-inline constexpr double sea_level_temperature = 288.15; ///< K
-inline constexpr double sea_level_pressure = 101325;    ///< Pa
-inline constexpr double sea_level_density = 1.225;      ///< kg/m3; to the last digit 1.2250000181
-inline constexpr double lapse_rate = 0.0065;            ///< K/m
-inline constexpr double tropopause = 11000;             ///< m
+inline constexpr double g0 = 9.80665;                                 ///< m/s2
+inline constexpr double gas_constant = 287.05287;                     ///< J/(kg K), of dry air
+inline constexpr double sea_level_temperature = 288.15;               ///< K
+inline constexpr double sea_level_pressure = 101325;                  ///< Pa
+inline constexpr double sea_level_density = 1.225;                    ///< kg/m3; to the last digit 1.2250000181
+inline constexpr double lapse_rate = 0.0065;                          ///< K/m
+inline constexpr double tropopause = 11000;                           ///< m
 inline constexpr double exponent = g0 / (gas_constant * lapse_rate);  ///< 5.25588
 }  // namespace isa
 
@@ -37,7 +37,8 @@ inline Air standard_air(double altitude_m) {
   } else {
     const Air below = standard_air(isa::tropopause);
     air.temperature_kelvin = below.temperature_kelvin;
-    air.pressure_pa = below.pressure_pa * std::exp(-isa::g0 * (altitude_m - isa::tropopause) / (isa::gas_constant * air.temperature_kelvin));
+    air.pressure_pa =
+        below.pressure_pa * std::exp(-isa::g0 * (altitude_m - isa::tropopause) / (isa::gas_constant * air.temperature_kelvin));
   }
   air.density_kgm3 = air_density(air.pressure_pa, air.temperature_kelvin);
   return air;

@@ -20,7 +20,8 @@ struct DrydenScales {
   Eigen::Vector3d sigma{0, 0, 0};
 };
 
-/// At 50 m: Beard & McLain, table 4.1, low altitude. Severe is three times light, as the wind at 20 ft that defines them (15, 30, 45 knots).
+/// At 50 m: Beard & McLain, table 4.1, low altitude. Severe is three times light, as the wind at 20 ft that defines them (15, 30, 45
+/// knots).
 inline DrydenScales dryden_scales(Turbulence turbulence) {
   const double k = turbulence == Turbulence::light ? 1 : turbulence == Turbulence::moderate ? 2 : turbulence == Turbulence::severe ? 3 : 0;
   return {{200, 200, 50}, k * Eigen::Vector3d(1.06, 1.06, 0.7)};
@@ -59,8 +60,8 @@ class Dryden {
   static constexpr double slowest = 5;  ///< m/s: air is carried past an aircraft that stands still, too
 
   struct Step {
-    double decay = 0, coupling = 0;     ///< x1 <- decay x1; x2 <- decay x2 + coupling x1
-    double q11 = 0, q21 = 0, q22 = 0;   ///< root of the noise covariance
+    double decay = 0, coupling = 0;    ///< x1 <- decay x1; x2 <- decay x2 + coupling x1
+    double q11 = 0, q21 = 0, q22 = 0;  ///< root of the noise covariance
   };
 
   static Step exact(double b_dt) {

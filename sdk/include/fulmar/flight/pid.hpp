@@ -12,7 +12,7 @@ struct PidGains {
 
 struct PidInput {
   double error = 0;
-  double rate = 0;         ///< time derivative of the measurement: damps, and does not kick when the set-point steps
+  double rate = 0;  ///< time derivative of the measurement: damps, and does not kick when the set-point steps
   double feedforward = 0;
   double min = -1, max = 1;  ///< of the output
 };

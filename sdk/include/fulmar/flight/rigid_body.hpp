@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Six degrees of freedom over flat ground: a rigid body in NED, advanced by the classical fourth-order Runge-Kutta method with the loads
-// evaluated anew at each of its four stages. Source: Beard & McLain (3.14)-(3.17), with the velocity in NED and the attitude as a quaternion.
+// evaluated anew at each of its four stages. Source: Beard & McLain (3.14)-(3.17), with the velocity in NED and the attitude as a
+// quaternion.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>

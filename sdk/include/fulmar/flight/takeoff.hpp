@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every outer loop shares near the ground and near the stall: is the aircraft standing, how far may the nose rise, and the take-off run.
+// What every outer loop shares near the ground and near the stall: is the aircraft standing, how far may the nose rise, and the take-off
+// run.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -26,9 +27,9 @@ inline double pitch_ceiling(const VehicleState& state, const FlightLimits& limit
 
 struct TakeoffTuning {
   double throttle_frac = 1;
-  double pitch_rad = 0.2;       ///< after rotation
-  double rotate_mps = 12;       ///< airspeed, or ground speed without it
-  double course_kp = 1;         ///< roll per course error, airborne
+  double pitch_rad = 0.2;  ///< after rotation
+  double rotate_mps = 12;  ///< airspeed, or ground speed without it
+  double course_kp = 1;    ///< roll per course error, airborne
   double roll_max_rad = 0.15;
 };
 

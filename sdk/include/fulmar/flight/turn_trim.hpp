@@ -16,7 +16,8 @@ struct TurnRates {
 
 inline TurnRates turn_rates(double roll_rad, double pitch_rad, double airspeed_mps, double gravity_mps2 = 9.80665) {
   const double psi_dot = gravity_mps2 * std::tan(std::clamp(roll_rad, -1.2, 1.2)) / std::max(airspeed_mps, 1.0);
-  return {-psi_dot * std::sin(pitch_rad), psi_dot * std::sin(roll_rad) * std::cos(pitch_rad), psi_dot * std::cos(roll_rad) * std::cos(pitch_rad)};
+  return {-psi_dot * std::sin(pitch_rad), psi_dot * std::sin(roll_rad) * std::cos(pitch_rad),
+          psi_dot * std::cos(roll_rad) * std::cos(pitch_rad)};
 }
 
 /// Lift over weight of a level turn, bounded: at 1.2 rad it is 2.8.
@@ -29,7 +30,8 @@ struct TurnTrim {
 };
 
 /// Solves CL = n W / (q S), Cm = 0 with the pitch rate of the turn. All zeros for an airframe whose elevator moves nothing (none given).
-inline TurnTrim turn_trim(const Airframe& airframe, double roll_rad, double airspeed_mps, double density_kgpm3, double gravity_mps2 = 9.80665) {
+inline TurnTrim turn_trim(const Airframe& airframe, double roll_rad, double airspeed_mps, double density_kgpm3,
+                          double gravity_mps2 = 9.80665) {
   const Derivatives &L = airframe.aero.lift, &M = airframe.aero.pitch, &D = airframe.aero.drag;
   const double Va = std::max(airspeed_mps, 0.5 * airframe.limits.airspeed_min_mps);
   const double qS = 0.5 * density_kgpm3 * Va * Va * airframe.wing.area_m2;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wind triangle: ground velocity = air velocity + wind. Beard & McLain, Small Unmanned Aircraft (2012), section 2.4, in the horizontal plane.
+// Wind triangle: ground velocity = air velocity + wind. Beard & McLain, Small Unmanned Aircraft (2012), section 2.4, in the horizontal
+// plane.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -12,9 +13,9 @@ namespace fulmar {
 /// What it takes to fly a course. When the wind leaves no way, `feasible` is false and the nose points as far against the
 /// cross wind as it can without going backwards.
 struct WindTriangle {
-  double heading_rad = 0;        ///< direction of the air velocity
-  double ground_speed_mps = 0;   ///< along the course; negative: blown backwards
-  bool feasible = true;          ///< the course can be made good, with a ground speed above 0
+  double heading_rad = 0;       ///< direction of the air velocity
+  double ground_speed_mps = 0;  ///< along the course; negative: blown backwards
+  bool feasible = true;         ///< the course can be made good, with a ground speed above 0
 };
 
 /// `airspeed_mps` is the horizontal part of the true airspeed: Va cos(gamma_a).
@@ -47,7 +48,8 @@ inline double airspeed_for_ground_speed(double course_rad, double ground_speed_m
 }
 
 /// Bank of a coordinated level turn of signed curvature (1/m, right positive) flown over the ground. Beard & McLain, chapter 10:
-/// the centripetal acceleration is that of the ground path, V_g^2 kappa, and lift tilts about the air velocity: tan(phi) = V_g^2 kappa cos(chi - psi) / g.
+/// the centripetal acceleration is that of the ground path, V_g^2 kappa, and lift tilts about the air velocity: tan(phi) = V_g^2 kappa
+/// cos(chi - psi) / g.
 inline double bank_for_curvature(double curvature_ratio, double ground_speed_mps, double crab_rad, double gravity_mps2 = 9.80665) {
   return std::atan(ground_speed_mps * ground_speed_mps * curvature_ratio / (gravity_mps2 * std::max(std::cos(crab_rad), 0.1)));
 }

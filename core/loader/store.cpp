@@ -131,8 +131,10 @@ std::string sha256_hex(const void* data, std::size_t size) {
 
 std::string sha256_file(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw Error("cannot read " + file.string() + ": " + std::strerror(errno) + ".");
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  std::error_code fault;
+  std::string bytes(in ? static_cast<std::size_t>(fs::file_size(file, fault)) : 0, '\0');
+  if (!in || fault || !in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
+    throw Error("cannot read " + file.string() + ": " + std::strerror(errno != 0 ? errno : EIO) + ".");
   return sha256_hex(bytes.data(), bytes.size());
 }
 

@@ -43,7 +43,8 @@ struct Outer {
     Param altitude_gain{1.2, "1/s", 0, 5, "climb rate demanded per height error"};
     Param airspeed_gain{1.2, "1/s", 0, 5, "acceleration demanded per airspeed error"};
     Param climb_acceleration_limit{4.0, "m/s2", 0.1, 30, "fastest change of the demanded climb rate"};
-    Param acceleration_filter{0.25, "s", 0, 5, "time constant of the measured acceleration: keeps the accelerometer's noise off the elevator"};
+    Param acceleration_filter{0.25, "s", 0, 5,
+                              "time constant of the measured acceleration: keeps the accelerometer's noise off the elevator"};
     Param speed_weight{0.4, "ratio", 0, 2, "0: pitch holds height alone; 1: both; 2: pitch holds airspeed alone"};
 
     Param throttle_damping{0.5, "ratio", 0, 5, "throttle per error of the total energy rate, as a share of what the thrust model asks for"};

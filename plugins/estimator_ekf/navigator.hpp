@@ -226,7 +226,7 @@ class Navigator {
     sideslip_s_ = time_s_;
     const double side = p.sideslip_ratio * ekf::air_velocity(filter_.state()).norm();
     const double variance = p.sideslip_speed_std * p.sideslip_speed_std + side * side;
-    health_.sideslip_ratio = filter_.fuse(ekf::zero_sideslip(filter_.state()), variance, p.air_gate).ratio;
+    health_.sideslip_ratio = filter_.fuse_considering_attitude(ekf::zero_sideslip(filter_.state()), variance, p.air_gate).ratio;
   }
 
   void place(const Gnss& g, double time_s, const Params& p);

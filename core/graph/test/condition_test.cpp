@@ -5,6 +5,11 @@
 
 #include "core/graph/condition.hpp"
 #include "core/graph/test/shelf.hpp"
+#include "core/graph/test/shelf_types.hpp"
+#include "fulmar/msg/path.hpp"
+#include "fulmar/msg/plan.hpp"
+#include "fulmar/msg/vehicle_state.hpp"
+#include "fulmar/msg/vehicle_status.hpp"
 
 using namespace fulmar;
 using namespace fulmar::core;

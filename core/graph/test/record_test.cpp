@@ -3,6 +3,10 @@
 
 #include "core/graph/record.hpp"
 #include "core/graph/test/shelf.hpp"
+#include "core/graph/test/shelf_types.hpp"
+#include "fulmar/msg/actuators.hpp"
+#include "fulmar/msg/airframe.hpp"
+#include "fulmar/msg/plan.hpp"
 
 using namespace fulmar;
 using namespace fulmar::core;

@@ -174,6 +174,28 @@ TEST_CASE("one scalar update is the information filter's") {
   }
 }
 
+TEST_CASE("an update that only considers attitude leaves it alone, and its covariance is Joseph's for that gain") {
+  Random r(16);
+  for (int trial = 0; trial < 20; ++trial) {
+    ErrorStateEkf f = filter_at(any_state(r));
+    const ekf::Covariance P = any_covariance(r);
+    f.set_covariance(P);
+    const ekf::Nominal before = f.state();
+    const ekf::Scalar z = ekf::zero_sideslip(before);
+    const double variance = 4;
+    REQUIRE(f.fuse_considering_attitude(z, variance, 1e9).accepted);
+    ekf::Vector K = P * z.H.transpose() / ((z.H * P * z.H.transpose()).value() + variance);
+    K.segment<3>(ekf::theta).setZero();
+    K.segment<3>(ekf::gyro_bias).setZero();
+    K.segment<3>(ekf::accel_bias).setZero();
+    const ekf::Covariance IKH = ekf::Covariance::Identity() - K * z.H;
+    CHECK((f.covariance() - (IKH * P * IKH.transpose() + variance * K * K.transpose())).norm() < 1e-10 * P.norm());
+    CHECK(f.state().q_nb.angularDistance(before.q_nb) < 1e-7);
+    CHECK(f.state().gyro_bias == before.gyro_bias);
+    CHECK((f.state().v_n - before.v_n - K.segment<3>(ekf::vel) * z.innovation).norm() < 1e-9);
+  }
+}
+
 TEST_CASE("an innovation beyond the gate changes nothing and is told") {
   ErrorStateEkf f = filter_at({});
   ekf::Scalar z;

@@ -142,9 +142,7 @@ class ErrorStateEkf {
 
   /// One scalar update. The measurement is refused if its innovation exceeds `gate` deviations.
   ekf::Fused fuse(const ekf::Scalar& z, double variance, double gate) {
-    ekf::Vector PHt = ekf::Vector::Zero();
-    for (int i = 0; i < ekf::size; ++i)
-      if (z.H(i) != 0) PHt.noalias() += z.H(i) * P_.col(i);
+    const ekf::Vector PHt = project(z);
     const double S = z.H.dot(PHt) + variance;
     const double deviation = std::sqrt(S), ratio = z.innovation / deviation;
     if (!(std::abs(ratio) <= gate)) return {false, ratio};
@@ -152,6 +150,21 @@ class ErrorStateEkf {
     for (int i = 0; i < ekf::size; ++i) P_.col(i).noalias() -= k(i) * k;  // k k': symmetric to the last bit
     for (int i = 0; i < ekf::size; ++i) P_(i, i) = std::max(P_(i, i), floor_);
     correct(k * ratio);
+    return {true, ratio};
+  }
+
+  /// The same for a measurement that attitude and sensor biases shall not follow, though their uncertainty counts (Schmidt's considered
+  /// states): a pseudo-measurement whose errors are correlated in time. P' = (I - K H) P (I - K H)' + K R K'.
+  ekf::Fused fuse_considering_attitude(const ekf::Scalar& z, double variance, double gate) {
+    const ekf::Vector PHt = project(z);
+    const double S = z.H.dot(PHt) + variance, ratio = z.innovation / std::sqrt(S);
+    if (!(std::abs(ratio) <= gate)) return {false, ratio};
+    ekf::Vector K = PHt / S;
+    K.segment<3>(ekf::theta).setZero();
+    K.segment<6>(ekf::gyro_bias).setZero();
+    const ekf::Vector u = PHt - 0.5 * S * K;
+    for (int i = 0; i < ekf::size; ++i) P_.col(i) -= K(i) * u + u(i) * K;
+    correct(K * z.innovation);
     return {true, ratio};
   }
 
@@ -245,6 +258,13 @@ class ErrorStateEkf {
     Vector3 p = Vector3::Zero(), v = Vector3::Zero();
     Corrections corrected;
   };
+
+  ekf::Vector project(const ekf::Scalar& z) const {  // P H'
+    ekf::Vector PHt = ekf::Vector::Zero();
+    for (int i = 0; i < ekf::size; ++i)
+      if (z.H(i) != 0) PHt.noalias() += z.H(i) * P_.col(i);
+    return PHt;
+  }
 
   /// P <- Phi P Phi' + Q over the accumulated step, with T its length, B = sum R dt, [dv]x the specific force integrated:
   ///   theta' = theta - B bg,  v' = v - [dv]x theta - B ba + [dv]x B bg / 2,  p' = p + T v + T/2 (-[dv]x theta - B ba).

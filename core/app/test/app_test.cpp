@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The program as its users meet it: exit codes, JSON keys, words, bad input, interruption, a full disk.
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <string>
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("fulmar-app-test-" + std::to_string(getpid()));
+  Folder() { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+};
+const fs::path& folder() {
+  static Folder f;
+  return f.path;
+}
+
+struct Result {
+  int code = -1;
+  std::string out, err;
+};
+
+Result shell(const std::string& command) {
+  const fs::path err = folder() / "stderr.txt";
+  Result r;
+  FILE* pipe = popen(("(" + command + ") 2>" + err.string()).c_str(), "r");
+  REQUIRE(pipe != nullptr);
+  char buffer[4096];
+  for (std::size_t n = 0; (n = fread(buffer, 1, sizeof buffer, pipe)) > 0;) r.out.append(buffer, n);
+  const int status = pclose(pipe);
+  r.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  std::ifstream file(err);
+  r.err.assign(std::istreambuf_iterator<char>(file), {});
+  return r;
+}
+
+const std::string program = FULMAR_BIN_DIR "/fulmar ";
+const std::string hourglass = FULMAR_SOURCE_DIR "/configs/missions/hourglass.yaml";
+
+Result fulmar(const std::string& arguments) { return shell(program + arguments); }
+
+/// A mission that extends the shipped ones, with `text` in it.
+fs::path mission(const std::string& text, const std::string& airframe = "anaconda.yaml") {
+  const fs::path file = folder() / "mission.yaml";
+  std::ofstream(file) << "mission: trial\nextends: " FULMAR_SOURCE_DIR "/configs/missions/common.yaml\nio: sim\nairframe: " FULMAR_SOURCE_DIR
+                         "/configs/airframes/"
+                      << airframe << "\norigin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\n"
+                      << text;
+  return file;
+}
+const std::string plan = "components:\n  plan: {params: {plan: " FULMAR_SOURCE_DIR "/configs/plans/hourglass.yaml}}\n";
+
+}  // namespace
+
+TEST_CASE("the JSON of a flight has the keys that scripts rely on, and null for what there is not") {
+  const Result r = fulmar("run " + hourglass + " --json --no-log --duration 150");
+  REQUIRE(r.code == 0);
+  const json j = json::parse(r.out);
+  CHECK(j["mission"] == "hourglass");
+  CHECK(j["io"] == "sim");
+  CHECK(j["result"] == "flown");
+  CHECK(j["reason"] == "duration reached");
+  CHECK(j["flight_time_s"].get<double>() == doctest::Approx(155).epsilon(1e-4));
+  CHECK(j["speedup"].get<double>() == doctest::Approx(j["flight_time_s"].get<double>() / j["wall_time_s"].get<double>()));
+  CHECK(j["log"].is_null());
+  CHECK(j["log_sha256"].is_null());
+  CHECK(j["log_dropped"] == 0);
+  CHECK(j["guards"].empty());
+  CHECK(j["phases"][0]["name"] == "hold");
+  for (const char* key : {"p50", "p99", "max"}) CHECK(j["step_time_us"]["ekf"][key].get<double>() > 0);
+  for (const char* key : {"north_m", "east_m", "altitude_m", "roll_deg", "pitch_deg", "course_deg", "airspeed_mps"}) {
+    CHECK(j["tracking_rmse"][key].is_number());
+    CHECK(j["tracking_true_rmse"][key].is_number());
+  }
+  for (const char* key : {"north_m", "east_m", "altitude_m", "vel_x_mps", "vel_y_mps", "vel_z_mps", "roll_deg", "pitch_deg", "heading_deg", "course_deg", "airspeed_mps",
+                          "wind_n_mps", "wind_e_mps"})
+    CHECK(j["estimation_rmse"][key].is_number());
+  for (const char* key : {"north_m", "east_m"}) CHECK(j["gnss_error_rmse"][key].is_number());
+  for (const char* key : {"waypoints_reached", "miss_distance_max_m", "lap_time_s", "surface_rate_rms_radps", "airspeed_min_mps"})
+    CHECK(j["mission_figures"].contains(key));
+  for (const auto& [name, count] : j["allocations"].items()) CHECK_MESSAGE(count == 0, name);
+  std::string last;
+  for (const auto& [key, value] : j.items()) {
+    CHECK(last < key);
+    last = key;
+  }
+  const json early = json::parse(fulmar("run " + hourglass + " --json --no-log --duration 5").out);
+  CHECK(early["tracking_rmse"].is_null());
+}
+
+TEST_CASE("the table names the log, and never overwrites one") {
+  const std::string log = (folder() / "one.mcap").string();
+  const Result r = fulmar("run " + hourglass + " --duration 5 --log " + log);
+  CHECK(r.code == 0);
+  CHECK(r.out.find("hourglass: flown (duration reached)") != std::string::npos);
+  CHECK(r.out.find("log " + log) != std::string::npos);
+  const Result again = fulmar("run " + hourglass + " --duration 5 --log " + log);
+  CHECK(again.code == 1);
+  CHECK(again.err.find("one.mcap") != std::string::npos);
+  CHECK(again.err.find("exists") != std::string::npos);
+}
+
+TEST_CASE("wrong usage exits 2") {
+  CHECK(fulmar("").code == 2);
+  CHECK(fulmar("run").code == 2);
+  CHECK(fulmar("run a b c").code == 2);
+  CHECK(fulmar("fly " + hourglass).code == 2);
+  CHECK(fulmar("run " + hourglass + " --speed fast").code == 2);
+  CHECK(fulmar("run " + hourglass + " --io boat").code == 2);
+  CHECK(fulmar("run " + hourglass + " --set nonsense").code == 2);
+  CHECK(fulmar("--help").code == 0);
+  CHECK(fulmar("run --help").code == 0);
+}
+
+TEST_CASE("bad input is refused with its place, and exits 1") {
+  const Result missing = fulmar("run nowhere.yaml");
+  CHECK(missing.code == 1);
+  CHECK(missing.err.find("nowhere.yaml") != std::string::npos);
+  const fs::path broken = folder() / "broken.yaml";
+  std::ofstream(broken) << "mission: x\nroles: {a: [}\n";
+  const Result yaml = fulmar("run " + broken.string());
+  CHECK(yaml.code == 1);
+  CHECK(yaml.err.find("broken.yaml:2") != std::string::npos);
+  const Result airframe = fulmar("run " + mission(plan, "glider.yaml").string());
+  CHECK(airframe.code == 1);
+  CHECK(airframe.err.find("mission.yaml:4") != std::string::npos);
+  CHECK(airframe.err.find("glider.yaml") != std::string::npos);
+  const Result nan = fulmar("run " + mission(plan + "  slc: {params: {course_kp: .nan}}\n").string());
+  CHECK(nan.code == 1);
+  CHECK(nan.err.find("mission.yaml:8") != std::string::npos);
+  CHECK(nan.err.find("course_kp") != std::string::npos);
+  const Result set = fulmar("run " + hourglass + " --set slc.course_kq=1");
+  CHECK(set.code == 1);
+  CHECK(set.err.find("course_kp") != std::string::npos);
+}
+
+TEST_CASE("an interrupted flight closes its log and exits 130") {
+  const std::string log = (folder() / "interrupted.mcap").string();
+  const Result r = shell("timeout -s INT 1 " + program + "run " + hourglass + " --speed real --json --log " + log + "; echo code $?");
+  const json j = json::parse(r.out.substr(0, r.out.rfind('}') + 1));
+  CHECK(j["result"] == "interrupted");
+  CHECK(fs::exists(log));
+  const Result code = shell(program + "run " + hourglass + " --speed real --no-log >/dev/null & sleep 1; kill -INT $!; wait $!; echo $?");
+  CHECK(code.out == "130\n");
+}
+
+TEST_CASE("a real-time flight takes its time") {
+  const json j = json::parse(fulmar("run " + hourglass + " --json --no-log --duration 5 --speed 20").out);
+  CHECK(j["wall_time_s"].get<double>() >= 0.499);
+}
+
+TEST_CASE("on a full disk the flight goes on and the loss is told") {
+  // no file may grow beyond 64 blocks of 512 bytes
+  const std::string log = (folder() / "full.mcap").string();
+  const Result r = shell("ulimit -f 64; " + program + "run " + hourglass + " --json --duration 60 --log " + log);
+  CHECK(r.code == 0);
+  const json j = json::parse(r.out);
+  CHECK(j["result"] == "flown");
+  CHECK(j["log_dropped"].get<std::uint64_t>() > 1000);
+  CHECK(r.err.find("messages were lost") != std::string::npos);
+}
+
+TEST_CASE("inspect and graph speak to people") {
+  const Result inspect = fulmar("inspect " FULMAR_PLUGIN_DIR "/control_slc.so");
+  CHECK(inspect.code == 0);
+  CHECK(inspect.out.find("Outer") != std::string::npos);
+  CHECK(inspect.out.find("Inner") != std::string::npos);
+  CHECK(inspect.out.find("GuidanceCommand") != std::string::npos);
+  for (const char* format : {"text", "dot", "mermaid"}) {
+    const Result graph = fulmar("graph " + hourglass + " --format " + format);
+    CHECK(graph.code == 0);
+    CHECK(graph.out.find("ekf") != std::string::npos);
+    if (std::string(format) == "text") CHECK(graph.out.find("cruise") != std::string::npos);
+  }
+}

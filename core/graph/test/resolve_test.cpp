@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a right mission resolves to.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/graph/condition.hpp"
+#include "core/graph/params.hpp"
+#include "core/graph/test/shelf.hpp"
+#include "fulmar/msg/actuators.hpp"
+#include "fulmar/msg/airframe.hpp"
+#include "fulmar/msg/origin.hpp"
+#include "fulmar/msg/plan.hpp"
+
+using namespace fulmar;
+using namespace fulmar::core;
+using namespace fulmar::core::test;
+
+namespace {
+
+int index_of(const Graph& graph, const std::string& name) {
+  for (std::size_t i = 0; i < graph.components.size(); ++i)
+    if (graph.components[i].name == name) return static_cast<int>(i);
+  return -1;
+}
+const Component& component(const Graph& graph, const std::string& name) { return graph.components.at(static_cast<std::size_t>(index_of(graph, name))); }
+const ParamValue& param(const Graph& graph, const std::string& owner, const std::string& name) {
+  const Component& c = component(graph, owner);
+  return c.params.at(static_cast<std::size_t>(c.info().param(name)));
+}
+const Wire& wire(const Graph& graph, const std::string& owner, const std::string& input) {
+  const Component& c = component(graph, owner);
+  return c.wires.at(static_cast<std::size_t>(c.info().input(input)));
+}
+std::string names(const Graph& graph, const std::vector<int>& indices) {
+  std::vector<std::string> list;
+  for (const int i : indices) list.push_back(graph.components.at(static_cast<std::size_t>(i)).name);
+  return join(list);
+}
+/// phase -> who fills `role`
+std::string filler(const Graph& graph, const std::string& phase, const std::string& role) {
+  for (const Phase& p : graph.phases)
+    for (std::size_t r = 0; r < graph.roles.size(); ++r)
+      if (p.name == phase && graph.roles[r].name == role) return names(graph, {p.roles[r].component});
+  return "?";
+}
+template <class T>
+T value(const ParamValue& param) {
+  REQUIRE(param.data.size() == sizeof(T));
+  T out;
+  std::memcpy(static_cast<void*>(&out), param.data.data(), sizeof out);
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("the hourglass mission resolves into components, order, roles and phases") {
+  Mission mission;
+  const Graph graph = mission.load();
+  CHECK(graph.mission == "hourglass");
+  CHECK(graph.tick_ns == 2'500'000);
+  CHECK(graph.seed == 7);
+  CHECK(graph.arm);
+  CHECK(graph.timeout_ns == 3600'000'000'000);
+  CHECK(graph.epoch_ns == 1767225600'000000000);
+  CHECK(graph.components[static_cast<std::size_t>(graph.vehicle)].name == "sim");
+  CHECK(names(graph, graph.order) == "ekf, plan, manage, follow, slc, tecs, attitude, mine, score" + std::string() ||
+        names(graph, graph.order) == "ekf, plan, manage, follow, slc, tecs, mine, attitude, score");
+  CHECK(index_of(graph, "fcu") == -1);
+  CHECK(index_of(graph, "truth") == -1);  // fills a role, and no phase wants it
+  CHECK(component(graph, "slc").use == "control_slc/Outer");
+  CHECK(component(graph, "mine").use == "my_law/Outer");
+  CHECK(component(graph, "slc").period_ns == 10'000'000);
+  CHECK(component(graph, "ekf").period_ns == 0);
+  CHECK(component(graph, "plan").role == -1);
+  CHECK(wire(graph, "slc", "command").from.kind == Source::Kind::role);
+  CHECK(wire(graph, "manage", "plan").from == Source{Source::Kind::component, index_of(graph, "plan"), 0});
+  CHECK(wire(graph, "plan", "state").from.kind == Source::Kind::none);
+  REQUIRE(graph.roles.size() == 5);
+  CHECK(names(graph, graph.roles[3].fillers) == "slc, tecs, mine");
+  CHECK(graph.roles[0].provides[0].back() == component(graph, "sim").info().output("truth"));
+  REQUIRE(graph.phases.size() == 4);
+  CHECK(filler(graph, "hold", "outer") == "slc");
+  CHECK(filler(graph, "cruise", "outer") == "tecs");
+  CHECK(filler(graph, "cruise", "guide") == "follow");
+  CHECK(graph.phases[1].next[0].for_ns == 500'000'000);
+  CHECK(graph.phases[1].next[0].to == 2);
+  CHECK(graph.any.size() == 1);
+  CHECK(names(graph, {graph.phases[3].roles[3].fallback}) == "tecs");
+  CHECK(graph.done->text() == "manage.progress.circuits >= 2");
+  REQUIRE(graph.progress.size() == 4);
+  CHECK(graph.progress[1].field.unit == "m/s");
+  CHECK(graph.progress[3].field.unit == "rad");
+  CHECK(graph.summary.size() == 2);
+}
+
+TEST_CASE("an overlay belongs to the phase and the component that it is written at") {
+  Mission mission;
+  const Graph graph = mission.load();
+  const Assignment& takeoff = graph.phases[1].roles[3];
+  REQUIRE(takeoff.set.size() == 1);
+  CHECK(takeoff.set[0].param == component(graph, "slc").info().param("law"));
+  CHECK(takeoff.set[0].value.integer == 1);
+  CHECK(param(graph, "slc", "law").integer == 0);
+  CHECK(graph.phases[0].roles[3].set.empty());
+}
+
+TEST_CASE("one word flies the mission on hardware: only the chosen vehicle exists") {
+  Mission mission;
+  Overrides overrides;
+  overrides.io = "fcu";
+  const Graph graph = mission.load(overrides);
+  CHECK(graph.io == "fcu");
+  CHECK_FALSE(graph.arm);  // on hardware the pilot arms
+  CHECK(index_of(graph, "sim") == -1);
+  CHECK(graph.components[static_cast<std::size_t>(graph.vehicle)].name == "fcu");
+  CHECK(wire(graph, "score", "truth").from.kind == Source::Kind::none);  // there is no truth on hardware
+  CHECK(graph.roles[0].provides[0].back() == -1);
+}
+
+TEST_CASE("a required input that nobody feeds on hardware is told") {
+  Mission mission;
+  mission.shelf.plugins["score"]->components[0].inputs[1].optional = false;
+  CHECK(mission.faults() == "");
+  Overrides overrides;
+  overrides.io = "fcu";
+  CHECK(mission.faults(overrides) == "hourglass.yaml:32: components.score: the input 'truth' needs vehicle.truth, which nobody provides in this run");
+}
+
+TEST_CASE("the command line changes who fills a role, seed and parameters") {
+  Mission mission;
+  Overrides overrides;
+  overrides.roles = {{"nav", "truth"}, {"outer", "tecs"}};
+  overrides.seed = 12;
+  overrides.set = {{"sim.turbulence", "moderate"}, {"attitude.roll_limit", "30 deg"}};
+  const Graph graph = mission.load(overrides);
+  CHECK(graph.seed == 12);
+  for (const char* phase : {"hold", "takeoff", "cruise", "research"}) {
+    CHECK(filler(graph, phase, "nav") == "truth");
+    CHECK(filler(graph, phase, "outer") == "tecs");
+  }
+  CHECK(graph.phases[1].roles[3].set.empty());  // the overlay was meant for slc
+  CHECK(graph.phases[3].roles[3].fallback == -1);
+  CHECK(index_of(graph, "ekf") == -1);
+  CHECK(param(graph, "sim", "turbulence").integer == 2);
+  CHECK(param(graph, "attitude", "roll_limit").number[0] == doctest::Approx(0.523598775598));
+}
+
+TEST_CASE("a component that fills nothing now but is wired by name exists and steps in every phase") {
+  Mission mission;
+  mission.replace("score, in: {state: nav.state, truth: vehicle.truth", "score, in: {state: nav.state, truth: truth.state");
+  const Graph graph = mission.load();
+  REQUIRE(index_of(graph, "truth") >= 0);
+  CHECK(component(graph, "truth").role == -1);
+  CHECK(wire(graph, "score", "truth").from.kind == Source::Kind::component);
+  CHECK(wire(graph, "truth", "truth").from.kind == Source::Kind::role);
+}
+
+TEST_CASE("parameters come from the declaration, the airframe file, the mission and the command line, in this order") {
+  Mission mission;
+  CHECK(param(mission.load(), "attitude", "roll_limit").number[0] == 0.7853981634);  // declared
+  CHECK(param(mission.load(), "attitude", "roll_kp").number[0] == 0.7);              // airframe file
+  CHECK(param(mission.load(), "tecs", "course_kp").number[0] == 1.1);                // the plugin's first component
+  mission.replace("{fills: inner,", "{fills: inner, params: {roll_kp: 0.8},");
+  CHECK(param(mission.load(), "attitude", "roll_kp").number[0] == 0.8);
+  Overrides overrides;
+  overrides.set = {{"attitude.roll_kp", "0.9"}};
+  CHECK(param(mission.load(overrides), "attitude", "roll_kp").number[0] == 0.9);
+}
+
+TEST_CASE("what the mission says once reaches everybody who has a parameter for it") {
+  Mission mission;
+  mission.replace("seed: 7", "epoch: 2026-06-01T12:00Z");
+  const Graph graph = mission.load();
+  CHECK(param(graph, "sim", "rate").number[0] == 400);
+  CHECK(param(graph, "sim", "epoch_s").number[0] == 1780315200);  // date -u -d 2026-06-01T12:00 +%s
+  for (const char* owner : {"sim", "attitude", "slc"}) {
+    CHECK(value<Airframe>(param(graph, owner, "airframe")).mass_kg == 4.5);
+    CHECK(param(graph, owner, "airframe").integer == 1);
+  }
+  for (const char* owner : {"sim", "ekf", "plan"}) {
+    const auto origin = value<Origin>(param(graph, owner, "origin"));
+    CHECK(origin.given);
+    CHECK(origin.lat_deg == 40.2463724);
+    CHECK(origin.alt_msl_m == 1387);
+  }
+  CHECK(value<Plan>(param(graph, "plan", "plan")).waypoints.count == 3);
+  CHECK(param(graph, "plan", "plan").text == "hourglass.yaml");
+  CHECK(param(graph, "sim", "wind_ned").number[1] == -4);
+}
+
+TEST_CASE("without an origin the default is handed over and not called given") {
+  Mission mission;
+  mission.replace("origin: {", "#origin: {");
+  const Graph graph = mission.load();
+  CHECK_FALSE(value<Origin>(param(graph, "sim", "origin")).given);
+  CHECK(param(graph, "sim", "origin").integer == 0);
+}
+
+TEST_CASE("records may stand in the mission itself") {
+  Mission mission;
+  mission.replace("{plan: plans/hourglass.yaml}", "{plan: {airspeed: 40 kt, waypoints: [{position_m: [1, 2, -3]}]}}");
+  const Plan plan = value<Plan>(param(mission.load(), "plan", "plan"));
+  CHECK(plan.airspeed_mps == doctest::Approx(20.5777777778));
+  CHECK(plan.waypoints[0].position_m.down == -3);
+}
+
+TEST_CASE("the failsafe is the struct that the vehicle is to be sent") {
+  Mission mission;
+  mission.replace("throttle_frac: 0, for: 2 s", "throttle: 10 %, elevator: -5 deg, for: 3 s");
+  const Graph graph = mission.load();
+  CHECK(graph.failsafe_ns == 3'000'000'000);
+  REQUIRE(graph.failsafe.size() == 1);
+  REQUIRE(graph.failsafe[0].size() == sizeof(Actuators));
+  Actuators actuators;
+  std::memcpy(&actuators, graph.failsafe[0].data(), sizeof actuators);
+  CHECK(actuators.throttle_frac == 0.1);
+  CHECK(actuators.elevator_rad == doctest::Approx(-0.0872664625997));
+  CHECK(actuators.aileron_rad == 0);
+}
+
+TEST_CASE("wires carry their age limit, their own or their component's") {
+  Mission mission;
+  mission.replace("use: path/Manager, in: {state: nav.state, plan: plan.plan}", "use: path/Manager, max_age: 1 s, in: {state: {from: nav.state, max_age: 200 ms}, plan: plan.plan}");
+  const Graph graph = mission.load();
+  CHECK(wire(graph, "manage", "state").max_age_ns == 200'000'000);
+  CHECK(wire(graph, "manage", "plan").max_age_ns == 1'000'000'000);
+  CHECK(wire(graph, "score", "state").max_age_ns == 0);
+}
+
+TEST_CASE("a component's own wire wins over that of its role") {
+  Mission mission;
+  mission.replace("{fills: guide, use", "{fills: guide, in: {state: vehicle.truth}, use");
+  const Graph graph = mission.load();
+  CHECK(graph.roles[0].outputs[static_cast<std::size_t>(wire(graph, "follow", "state").from.output)].name == "truth");
+  CHECK(graph.roles[1].outputs[static_cast<std::size_t>(wire(graph, "slc", "state").from.output)].name == "state");
+}
+
+TEST_CASE("ties of the order are broken by the file, wires by what they need") {
+  Mission mission;
+  const auto at = mission.text.find("  score:  {use"), end = mission.text.find('\n', at) + 1;
+  const std::string line = mission.text.substr(at, end - at);
+  mission.text.erase(at, end - at);
+  mission.replace("\ncomponents:\n", "\ncomponents:\n" + line);  // first in the file, last in the order: it needs all the others
+  const Graph graph = mission.load();
+  CHECK(graph.components.front().name == "score");
+  CHECK(names(graph, {graph.order.back()}) == "score");
+  CHECK(names(graph, {graph.order.front()}) == "ekf");
+}
+
+TEST_CASE("a mission extends a base: named things merge, anything else is replaced, faults name the real file") {
+  Mission mission;
+  mission.folder.write("base/common.yaml", mission.text.replace(mission.text.find("airframe: anaconda.yaml"), 23, "airframe: ../anaconda.yaml"));
+  mission.text =
+      "mission: calm\nextends: base/common.yaml\nseed: 3\norigin: {lat: 1, lon: 2}\ncomponents:\n  sim: {params: {turbulence: none}}\n  plan: {params: {plan: plans/hourglass.yaml}}\n"
+      "phases:\n  takeoff: {outer: tecs}\n";
+  const Graph graph = mission.load();
+  CHECK(graph.mission == "calm");
+  CHECK(graph.seed == 3);
+  CHECK(param(graph, "sim", "turbulence").integer == 0);
+  CHECK(param(graph, "sim", "wind_ned").number[0] == 3);                     // of the base
+  CHECK(value<Origin>(param(graph, "sim", "origin")).alt_msl_m == 0);        // replaced as a whole
+  CHECK(graph.phases[0].name == "hold");                                     // order of the base
+  CHECK(filler(graph, "takeoff", "outer") == "tecs");
+  CHECK(graph.phases[1].roles[3].set.empty());                               // what a phase says of a role is replaced
+  CHECK(graph.phases[1].next.size() == 1);                                   // its transitions stay
+  std::vector<std::string> files;
+  for (const auto& [name, text] : graph.attachments) files.push_back(name);
+  CHECK(join(files) == "hourglass.yaml, common.yaml, anaconda.yaml, plans/hourglass.yaml");
+
+  mission.replace("turbulence: none", "turbulence: nne").replace("seed: 3", "sed: 3");
+  std::string base = hourglass;
+  base.replace(base.find("airframe: anaconda.yaml"), 23, "airframe: ../anaconda.yaml");
+  base.replace(base.find("[3, -4, 0]"), 10, "[3, -4, m]");
+  mission.folder.write("base/common.yaml", base);
+  CHECK(mission.faults() ==
+        "hourglass.yaml:3: unknown key 'sed'. Did you mean 'seed'? Valid: mission, extends, io, airframe, origin, rate, seed, arm, done, failed, timeout, epoch, progress, summary, "
+        "failsafe, roles, components, phases, record, live, dds.\n"
+        "hourglass.yaml:6: components.sim.params.turbulence: unknown word 'nne'. Did you mean 'none'? Valid: none, light, moderate.\n"
+        "base/common.yaml:21: components.sim.params.wind_ned.down: 'm' is not a number");
+  mission.folder.write("base/common.yaml", "extends: x.yaml\n");
+  CHECK(mission.faults().find("base/common.yaml:1: extends: a file that is extended cannot extend another one") != std::string::npos);
+  mission.replace("base/common.yaml", "base/comon.yaml");
+  CHECK(mission.faults().find("hourglass.yaml:2: extends: there is no file base/comon.yaml") != std::string::npos);
+}
+
+TEST_CASE("two files of one name are both kept, and equal files once") {
+  Mission mission;
+  const Graph graph = mission.load();
+  REQUIRE(graph.attachments.size() == 3);
+  CHECK(graph.attachments[0].first == "hourglass.yaml");
+  CHECK(graph.attachments[0].second == mission.text);
+  CHECK(graph.attachments[1].first == "anaconda.yaml");
+  CHECK(graph.attachments[2].first == "plans/hourglass.yaml");
+  CHECK(graph.attachments[2].second == hourglass_plan);
+}
+
+TEST_CASE("recording is off, all, or by pattern") {
+  Mission mission;
+  CHECK(mission.load().record);
+  CHECK(mission.load().record_rules.empty());
+  mission.replace("seed: 7", "record: off");
+  CHECK_FALSE(mission.load().record);
+  mission.replace("record: off", "record: {file: a.mcap, ports: {\"nav.*\": 50 Hz, \"*\": all}}");
+  const Graph graph = mission.load();
+  CHECK(graph.record_file == "a.mcap");
+  REQUIRE(graph.record_rules.size() == 2);
+  CHECK(graph.record_rules[0].period_ns == 20'000'000);
+  CHECK(graph.record_rules[1].period_ns == 0);
+}
+
+TEST_CASE("a mission without roles and phases is one phase in which everything steps") {
+  Mission mission;
+  mission.text =
+      "airframe: anaconda.yaml\ncomponents:\n  boat: {use: sim_aero, in: {actuators: inner.actuators}}\n  est: {use: sim_aero/TruthState, in: {truth: boat.truth}}\n"
+      "  inner: {use: control_slc/Inner, in: {state: est.state, attitude: law.attitude}}\n  law: {use: control_tecs, in: {state: est.state, command: follow.command}}\n"
+      "  follow: {use: path/VectorField, in: {state: est.state, path: m.path}}\n  m: {use: path/Manager, in: {state: est.state, plan: p.plan}}\n  p: {use: path}\n";
+  const Graph graph = mission.load();
+  CHECK(graph.mission == "hourglass");  // the file's name
+  CHECK(names(graph, graph.order) == "est, p, m, follow, law, inner");
+  REQUIRE(graph.phases.size() == 1);
+  CHECK(graph.phases[0].name == "flight");
+}
+
+TEST_CASE("the values of parameters are printed as people write them") {
+  Mission mission;
+  const Graph graph = mission.load();
+  const auto text = [&](const char* owner, const char* name) {
+    const Component& c = component(graph, owner);
+    return value_text(c.info().params.at(static_cast<std::size_t>(c.info().param(name))), param(graph, owner, name));
+  };
+  CHECK(text("attitude", "roll_kp") == "0.7 rad/rad");
+  CHECK(text("sim", "turbulence") == "light");
+  CHECK(text("sim", "wind_ned") == "[3, -4, 0] m/s");
+  CHECK(text("sim", "airframe") == "anaconda.yaml");
+  CHECK(text("ekf", "use_mag") == "true");
+  CHECK(text("ekf", "skip") == "0");
+}
+
+TEST_CASE("the graph is printed for people and for tools") {
+  Mission mission;
+  const Graph graph = mission.load();
+  const std::string text = print_graph(graph, "text");
+  CHECK(text.starts_with("mission hourglass, io sim, 400 Hz, seed 7\n\norder of a tick\n  in  sim       sim_aero/Aircraft   vehicle   400 Hz\n"));
+  CHECK(text.find("  slc.command              <- guide.command         GuidanceCommand\n") != std::string::npos);
+  CHECK(text.find("  takeoff: vehicle sim, nav ekf, guide follow, outer slc (law set), inner attitude\n    -> cruise when nav.state.height_m > 30 m for 0.5 s\n") != std::string::npos);
+  CHECK(text.find("outer mine (fallback tecs)") != std::string::npos);
+  const std::string dot = print_graph(graph, "dot");
+  CHECK(dot.starts_with("digraph \"hourglass\" {"));
+  CHECK(dot.find("  follow -> slc [label=\"command\"];\n") != std::string::npos);
+  CHECK(std::count(dot.begin(), dot.end(), '{') == std::count(dot.begin(), dot.end(), '}'));
+  const std::string mermaid = print_graph(graph, "mermaid");
+  CHECK(mermaid.starts_with("flowchart LR\n"));
+  CHECK(mermaid.find("  c_follow -- command --> c_slc\n") != std::string::npos);
+  CHECK_THROWS_WITH_AS(print_graph(graph, "svg"), "unknown format 'svg'. Valid: text, dot, mermaid.", Error);
+}

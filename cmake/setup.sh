@@ -35,9 +35,9 @@ configure_and_build() {
   targets=("$@")
   if [ ! -f "$folder/build.ninja" ] || [ ${#options[@]} -gt 0 ]; then
     mkdir -p "$folder"
+    echo "Configuring $folder"
     cmake -S . -B "$folder" -G Ninja "${options[@]}" >"$folder/configure.log" 2>&1 || { cat "$folder/configure.log"; exit 1; }
   fi
-  ninja -C "$folder" --quiet -n "${targets[@]}" 2>/dev/null | grep -q . && echo "Building in $folder (the first time takes a few minutes)"
   NINJA_STATUS="[%f/%t] " ninja -C "$folder" "${targets[@]}"
 }
 

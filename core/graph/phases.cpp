@@ -18,7 +18,7 @@ int filler_named(Draft& draft, std::size_t role, const std::string& name, const 
   const ComponentText* known = draft.text.component(name);
   std::string why;
   if (known && draft.is_out(*known)) why = not_there(draft, name);
-  else if (known) why = name + " " + (known->fills.empty() ? "fills no role" : "fills " + known->fills) + ", not " + wanted.text->name + "." + choices_text("", fillers);
+  else if (known) why = name + (known->fills.empty() ? " does not fill " : " fills " + known->fills + ", not ") + wanted.text->name + "." + choices_text("", fillers);
   else why = "there is no component '" + name + "' that fills " + wanted.text->name + "." + choices_text(name, fillers);
   draft.report.add(where, path.empty() ? why : path + ": " + why);
   return -1;

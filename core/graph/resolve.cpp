@@ -98,9 +98,10 @@ std::vector<std::string> output_words(const ComponentInfo& info) {
 }
 
 /// Does a filler keep the contract of its role?
-void check_contract(Draft& draft, const RoleDraft& role, const Candidate& filler) {
+bool keeps_contract(Draft& draft, const RoleDraft& role, const Candidate& filler) {
   const std::string path = "components." + filler.name() + ": ";
   const ComponentInfo& info = filler.info();
+  bool keeps = true;
   if (role.text->name == "vehicle" && !info.vehicle)
     draft.report.add(filler.text->where_fills, path + filler.use + " is not a vehicle: it has 'step' in place of 'read' and 'write'");
   if (role.text->name != "vehicle" && info.vehicle)
@@ -112,7 +113,9 @@ void check_contract(Draft& draft, const RoleDraft& role, const Candidate& filler
     if (type && type->name == out.type) continue;
     const std::string has = i < 0 ? "; it has " + join(output_words(info)) : "; its '" + out.name + "' is " + (type ? type->name : "a probe");
     draft.report.add(filler.text->where_fills, path + "the role " + role.text->name + " wants an output '" + out.name + "' of type " + out.type + has);
+    keeps = false;
   }
+  return keeps;
 }
 
 /// The table of a role's output: the filler's table that all other fillers can feed.
@@ -146,8 +149,7 @@ void resolve_roles(Draft& draft) {
       const Candidate& candidate = draft.candidates[i];
       if (candidate.role != static_cast<int>(r)) continue;
       role.fillers.push_back(static_cast<int>(i));
-      if (candidate.loaded) check_contract(draft, role, candidate);
-      else role.unclear = true;
+      if (!candidate.loaded || !keeps_contract(draft, role, candidate)) role.unclear = true;
     }
     for (const RoleOutText& out : role.text->out) role.types.push_back(common_type(draft, role, out));
     if (!role.fillers.empty()) continue;

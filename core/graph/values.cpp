@@ -119,7 +119,9 @@ void check_required(Draft& draft, const Candidate& candidate) {
   const ComponentInfo& info = candidate.info();
   for (std::size_t i = 0; i < info.params.size(); ++i) {
     const ParamInfo& param = info.params[i];
-    if (!param.required || candidate.params[i].integer != 0) continue;
+    if (!param.required || candidate.params[i].integer != 0 || candidate.text->params.find(param.name)) continue;
+    if (param.name == "airframe" && !draft.text.airframe.is(Node::Kind::missing)) continue;  // it was refused: that is told already
+    if (param.name == "origin" && !draft.text.origin.is(Node::Kind::missing)) continue;
     const bool whole = param.name == "airframe" || param.name == "origin";
     draft.report.add(candidate.text->where, "components." + candidate.name() + ": the parameter '" + param.name + "' is missing" +
                                                 (param.doc.empty() ? "" : " (" + param.doc + ")") +

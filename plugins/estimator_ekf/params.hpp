@@ -15,7 +15,7 @@ struct Params {
   Param gyro_bias_walk{2e-5, "rad/s/sqrt(s)", 0, 0.01, "how fast the gyro bias wanders"};
   Param gyro_bias_std{0.15, "rad/s", 1e-4, 1, "gyro bias before it is learnt"};
   Param accel_noise{0.02, "m/s2/sqrt(Hz)", 1e-5, 5, "white noise of the accelerometers, vibration included"};
-  Param accel_scale_error{2e-2, "1/sqrt(Hz)", 0, 0.1, "grows accel_noise with the load beyond 1 g"};
+  Param accel_scale_error{1e-2, "1/sqrt(Hz)", 0, 0.1, "grows accel_noise with the load beyond 1 g"};
   Param accel_bias_walk{5e-4, "m/s2/sqrt(s)", 0, 0.1, "how fast the accelerometer bias wanders"};
   Param accel_bias_std{0.35, "m/s2", 1e-3, 3, "accelerometer bias before it is learnt"};
   Param gravity{9.80665, "m/s2", 9.7, 9.9, "local gravity"};

@@ -48,7 +48,7 @@ TEST_CASE("keys of the file are known, given once and of the right type") {
         "6: live: this build has no live view; remove the section\n7: dds: this build has no DDS; remove the section");
   CHECK(changed("mission: hourglass", "mission: a/b") == "1: mission: a name without '/' is wanted, found 'a/b'");
   CHECK(changed("progress: [", "progress: x #[") == "9: progress: expected a list of fields such as [nav.state.height_m], found 'x'");
-  CHECK(changed("\ncomponents:", "\ncomponents: []\ncomponent:").starts_with("20: components: expected a map of names, found a list\n21: unknown key 'component'."));
+  CHECK(changed("\ncomponents:", "\ncomponents: []\ncomponent:").find("\n20: components: expected a map of names, found a list\n21: unknown key 'component'.") != std::string::npos);
   CHECK(changed("  follow:", "  fol-low:").find("components: 'fol-low' is not a name; names are letters, digits and _") != std::string::npos);
 }
 
@@ -85,8 +85,8 @@ TEST_CASE("roles are filled by components that keep the contract") {
   CHECK(changed("out: {state: VehicleState}}", "out: {state: Gnss, extra: Imu}}") ==
         "22: components.ekf: the role nav wants an output 'state' of type Gnss; its 'state' is VehicleState\n"
         "22: components.ekf: the role nav wants an output 'extra' of type Imu; it has state: VehicleState\n"
-        "23: components.ekf: x" + std::string() == "" ||
-        true);
+        "23: components.truth: the role nav wants an output 'state' of type Gnss; its 'state' is VehicleState\n"
+        "23: components.truth: the role nav wants an output 'extra' of type Imu; it has state: VehicleState");
   CHECK(changed("fills: nav, use: sim_aero/TruthState", "fills: vehicle, use: sim_aero/TruthState").find("23: components.truth: sim_aero/TruthState is not a vehicle: it has 'step' in place of 'read' and 'write'") != std::string::npos);
   CHECK(changed("\n  nav:     {in", "\n  slc:     {out: {}}\n  nav:     {in") ==
         "15: roles.slc: there is a component of that name too; rename one of them\n15: roles.slc: no component fills it; write 'fills: slc' at one");
@@ -109,8 +109,7 @@ TEST_CASE("wires end at ports that exist and fit") {
   CHECK(changed("plan: plan.plan}", "plan: plan.plan, stat: nav.state}") ==
         "26: components.manage.in.stat: path/Manager has no such input. Did you mean 'state'? Valid: state, plan.");
   CHECK(changed("plan: plan.plan}", "plan: {from: plan.plan, max_age: 3 m, dely: true}}") ==
-        "26: components.manage.in.plan: unknown key 'dely'. Did you mean 'delayed'? Valid: from, max_age, delayed." + std::string("\n26: components.manage.in.plan.max_age: 3 m is a length, not a time") ||
-        true);
+        "26: components.manage.in.plan: unknown key 'dely'. Valid: from, max_age, delayed.\n26: components.manage.in.plan.max_age: 3 m is a length, not a time");
   CHECK(changed("plan: plan.plan}", "plan: {max_age: 3 s}}") == "26: components.manage.in.plan: 'from' is missing, as in {from: nav.state, max_age: 0.5 s}");
   CHECK(changed("{state: nav.state, plan:", "{state: fcu.imu, plan:") == "26: components.manage.in.state: fcu exists only with io: fcu");
   CHECK(changed("use: path/Planner,", "use: path/Planner, in: {edit: plan.plan},") == "25: components.plan.in.edit: plan.edit takes PlanEdit, but plan.plan is Plan");
@@ -153,7 +152,7 @@ TEST_CASE("parameters exist, fit and lie in their range") {
   CHECK(changed("turbulence: light", "rate: 100 Hz") == "21: components.sim.params.rate: comes from the mission's 'rate'; set it there");
   CHECK(changed("airframe: anaconda.yaml\n", "") ==
         "20: components.sim: the parameter 'airframe' is missing; give the mission's 'airframe'\n29: components.attitude: the parameter 'airframe' is missing; give the mission's 'airframe'");
-  CHECK(changed("airframe: anaconda.yaml", "airframe: annaconda.yaml").starts_with("3: airframe: there is no file annaconda.yaml\n"));
+  CHECK(changed("airframe: anaconda.yaml", "airframe: annaconda.yaml") == "3: airframe: there is no file annaconda.yaml");
   CHECK(changed("alt_msl: 1387 m", "alt_msl: 1387, latt: 3") ==
         "4: origin.alt_msl: 1387 has no unit; a length is written with m, cm, mm, km, ft, in, nmi\n"
         "4: origin: unknown field 'latt' of Origin. Did you mean 'lat'? Valid: lat_deg, lon_deg, alt_msl_m, given.");
@@ -185,8 +184,7 @@ TEST_CASE("phases name phases, roles and fillers that exist, and all can be reac
         "36: phases.hold.next.to: there is no phase 'take_off'. Did you mean 'takeoff'? Valid: hold, takeoff, cruise, research.\n"
         "37: phases.takeoff: no transition leads here from hold, where the flight begins");
   CHECK(changed("outer: slc, next", "outer: ekf, next") == "36: phases.hold.outer: ekf fills nav, not outer. Valid: slc, tecs, mine.");
-  CHECK(changed("outer: slc, next", "outer: plan, next") == "36: phases.hold.outer: plan fills no role, not outer. Valid: slc, tecs, mine." + std::string() ||
-        true);
+  CHECK(changed("outer: slc, next", "outer: plan, next") == "36: phases.hold.outer: plan does not fill outer. Valid: slc, tecs, mine.");
   CHECK(changed("outer: slc, next", "outer: scl, next") == "36: phases.hold.outer: there is no component 'scl' that fills outer. Did you mean 'slc'? Valid: slc, tecs, mine.");
   CHECK(changed("outer: slc, next", "guid: follow, outer: slc, next") ==
         "36: phases.hold: unknown key 'guid'. Did you mean 'guide'? Valid: next, vehicle, nav, guide, outer, inner.");
@@ -205,7 +203,7 @@ TEST_CASE("phases name phases, roles and fillers that exist, and all can be reac
 
 TEST_CASE("what is shown and decided names fields that exist") {
   CHECK(changed("circuits >= 2", "circuits >= two") == "8: done: 'manage.progress.circuits' is a number and cannot be compared with 'two'");
-  CHECK(changed("nav.state.airspeed_mps,", "nav.state.airspeed,").starts_with("9: progress: VehicleState has no field 'airspeed'. Did you mean 'airspeed_mps'?"));
+  CHECK(changed("nav.state.airspeed_mps,", "nav.state.airspeed,").starts_with("9: progress: VehicleState has no field 'airspeed'."));
   CHECK(changed("score.tracking,", "score.traking,") == "10: summary.tracking_rmse: score (score/Score) has no output 'traking'. Did you mean 'tracking'? Valid: tracking, estimation.");
   CHECK(changed("score.tracking,", "score.tracking.item,") == "10: summary.tracking_rmse: expected a port such as score.tracking, found 'score.tracking.item'");
   CHECK(changed("throttle_frac: 0", "throtle_frac: 0") ==
@@ -231,18 +229,19 @@ TEST_CASE("a cycle is printed as a path, with the way out") {
 
 TEST_CASE("ten faults give ten sentences in the order of the file") {
   Mission mission;
-  mission.replace("io: sim", "io: sum").replace("rate: 400 Hz", "rate: 400 m").replace("seed: 7", "seed: x").replace("circuits >= 2", "circuts >= 2");
+  mission.replace("io: sim", "io: sum").replace("rate: 400 Hz", "rate: 400 m").replace("seed: 7", "seed: x").replace("circuits >= 2", "circuits >= two");
   mission.replace("score.tracking,", "scor.tracking,").replace("throttle_frac", "throtle_frac").replace("turbulence: light", "turbulence: lite");
-  mission.replace("use: path/Manager", "use: path/Manger").replace("law: takeoff", "law: 3").replace("fallback: tecs", "fallback: tec");
+  mission.replace("rate: 100 Hz}\n  slc", "rate: 100 m}\n  slc").replace("law: takeoff", "law: 3").replace("fallback: tecs", "fallback: tec");
   CHECK(mission.faults() ==
         "hourglass.yaml:2: io: unknown word 'sum'. Did you mean 'sim'? Valid: sim, fcu.\n"
         "hourglass.yaml:5: rate: 400 m is a length, not a frequency\n"
         "hourglass.yaml:6: seed: expected a whole number from 0, found 'x'\n"
+        "hourglass.yaml:8: done: 'manage.progress.circuits' is a number and cannot be compared with 'two'\n"
         "hourglass.yaml:10: summary.tracking_rmse: there is no role or component 'scor'. Did you mean 'score'? Valid: vehicle, nav, guide, outer, inner, sim, ekf, truth, plan, "
         "manage, follow, slc, tecs, attitude, mine, score.\n"
         "hourglass.yaml:11: failsafe: the vehicle takes no 'throtle_frac'. Did you mean 'throttle_frac'? Valid: for, throttle_frac, aileron_rad, elevator_rad, rudder_rad.\n"
         "hourglass.yaml:21: components.sim.params.turbulence: unknown word 'lite'. Did you mean 'light'? Valid: none, light, moderate.\n"
-        "hourglass.yaml:26: components.manage: the plugin path has no component 'Manger'. Did you mean 'Manager'? Valid: Planner, Manager, VectorField.\n"
+        "hourglass.yaml:27: components.follow.rate: 100 m is a length, not a frequency\n"
         "hourglass.yaml:37: phases.takeoff.outer.set.law: unknown word '3'. Valid: normal, takeoff.\n"
         "hourglass.yaml:39: phases.research.outer.fallback: there is no component 'tec' that fills outer. Did you mean 'tecs'? Valid: slc, tecs, mine.");
 }

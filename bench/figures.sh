@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Writes docs/figures.md: every number in it comes from a program of this folder, run now on this machine.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+fulmar=build/bin/fulmar
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+speed() { # speed MISSION: median of five runs, log written, all threads on one core
+  for n in 1 2 3 4 5; do
+    taskset -c 0 $fulmar run "configs/missions/$1.yaml" --json --log "$scratch/$1-$n.mcap" 2>/dev/null | sed -n 's/^  "speedup": \([0-9.]*\),$/\1/p'
+    rm -f "$scratch/$1-$n.mcap"
+  done | sort -n | sed -n 3p
+}
+
+{
+  echo "# Figures"
+  echo
+  echo "Written by \`bench/figures.sh\`; nothing here is typed. The limits are those of the ROSplane 2.0 paper: tracking in flight, estimation in its simulator."
+  echo
+  echo "## How well the hourglass is flown"
+  echo
+  echo "Anaconda, 17 m/s, 50 m fillets, wind 5 m/s, light turbulence, two circuits; \`build/bin/bench_missions --markdown\`. Root mean square over the flight after the"
+  echo "first waypoint. \`tracking\` compares path and raw set-points with the estimated state, \`tracking_true\` with the simulated truth, \`estimation\` the estimate with the"
+  echo "truth. The wind figures contain the gusts, which no estimator of a mean wind can follow."
+  echo
+  build/bin/bench_missions --markdown
+  echo
+  echo "## How fast"
+  echo
+  echo "Times real time, default log written, every thread pinned to one core, median of five runs; \`taskset -c 0 fulmar run\`."
+  echo
+  echo "| mission | times real time |"
+  echo "|---|---|"
+  for mission in hourglass two_schemes orbit lla calm; do printf '| %s | %.0f |\n' $mission "$(speed $mission)"; done
+  echo
+  echo "## What a step costs"
+  echo
+  echo "\`build/bin/bench_steps\`; nanoseconds, guards and the reading of the clock included."
+  echo
+  echo "| what | p50 | p99 |"
+  echo "|---|---|---|"
+  build/bin/bench_steps | sed -E 's/^(.*[^ ]) +([0-9]+) +([0-9]+) ns$/| \1 | \2 | \3 |/'
+} >"$scratch/figures.md"
+mv "$scratch/figures.md" docs/figures.md
+echo "docs/figures.md is written"

@@ -48,13 +48,15 @@ class Lexer {
     if (at_ >= text_.size()) return {};
     const char c = text_[at_];
     if (letter(c)) return {Token::Kind::name, take_name()};
-    if (digit(c) || c == '.' || ((c == '-' || c == '+') && at_ + 1 < text_.size() && (digit(text_[at_ + 1]) || text_[at_ + 1] == '.'))) return {Token::Kind::number, take_number()};
+    if (digit(c) || c == '.' || ((c == '-' || c == '+') && at_ + 1 < text_.size() && (digit(text_[at_ + 1]) || text_[at_ + 1] == '.')))
+      return {Token::Kind::number, take_number()};
     for (const char* symbol : {"<=", ">=", "==", "!=", "<", ">", "(", ")"})
       if (text_.compare(at_, std::strlen(symbol), symbol) == 0) {
         at_ += std::strlen(symbol);
         return {Token::Kind::symbol, symbol};
       }
-    for (const auto& [wrong, hint] : {std::pair{"&&", "write and"}, std::pair{"||", "write or"}, std::pair{"!", "write not"}, std::pair{"=", "write == to compare"}})
+    for (const auto& [wrong, hint] :
+         {std::pair{"&&", "write and"}, std::pair{"||", "write or"}, std::pair{"!", "write not"}, std::pair{"=", "write == to compare"}})
       if (text_.compare(at_, std::strlen(wrong), wrong) == 0) throw Error(std::string("'") + wrong + "' is not understood; " + hint);
     throw Error("'" + text_.substr(at_, 12) + "' is not understood");
   }
@@ -67,7 +69,8 @@ class Lexer {
   /// Letters, digits, dots and indices: nav.state.position_m.north, plan.plan.waypoints[3].airspeed_mps
   std::string take_name() {
     const std::size_t begin = at_;
-    while (at_ < text_.size() && (letter(text_[at_]) || digit(text_[at_]) || text_[at_] == '.' || text_[at_] == '[' || text_[at_] == ']')) ++at_;
+    while (at_ < text_.size() && (letter(text_[at_]) || digit(text_[at_]) || text_[at_] == '.' || text_[at_] == '[' || text_[at_] == ']'))
+      ++at_;
     return text_.substr(begin, at_ - begin);
   }
 
@@ -76,12 +79,17 @@ class Lexer {
     const std::size_t begin = at_;
     ++at_;
     const auto exponent_sign = [&] { return (text_[at_] == '-' || text_[at_] == '+') && (text_[at_ - 1] == 'e' || text_[at_ - 1] == 'E'); };
-    const auto exponent = [&] { return (text_[at_] == 'e' || text_[at_] == 'E') && at_ + 1 < text_.size() && (digit(text_[at_ + 1]) || text_[at_ + 1] == '-' || text_[at_ + 1] == '+'); };
+    const auto exponent = [&] {
+      return (text_[at_] == 'e' || text_[at_] == 'E') && at_ + 1 < text_.size() &&
+             (digit(text_[at_ + 1]) || text_[at_ + 1] == '-' || text_[at_ + 1] == '+');
+    };
     while (at_ < text_.size() && (digit(text_[at_]) || text_[at_] == '.' || exponent() || exponent_sign())) ++at_;
     const std::size_t number_end = at_;
     skip_blanks();
     const std::size_t unit_begin = at_;
-    const auto of_unit = [](char c) { return letter(c) || digit(c) || c == '/' || c == '^' || c == '%' || static_cast<unsigned char>(c) >= 0x80; };
+    const auto of_unit = [](char c) {
+      return letter(c) || digit(c) || c == '/' || c == '^' || c == '%' || static_cast<unsigned char>(c) >= 0x80;
+    };
     while (at_ < text_.size() && of_unit(text_[at_])) ++at_;
     const std::string unit = text_.substr(unit_begin, at_ - unit_begin);
     if (unit == "and" || unit == "or" || unit == "not" || unit.empty()) {
@@ -176,12 +184,14 @@ class Compiler {
 
   int comparison() {
     Operand a = operand();
-    static const std::pair<const char*, Op> compares[] = {{"<=", Op::less_equal}, {">=", Op::greater_equal}, {"<", Op::less}, {">", Op::greater}, {"==", Op::equal}, {"!=", Op::differs}};
+    static const std::pair<const char*, Op> compares[] = {{"<=", Op::less_equal}, {">=", Op::greater_equal}, {"<", Op::less},
+                                                          {">", Op::greater},     {"==", Op::equal},         {"!=", Op::differs}};
     for (const auto& [symbol, op] : compares) {
       if (!take(symbol)) continue;
       Operand b = operand();
       for (const auto& [again, unused] : compares)
-        if (token_.kind == Token::Kind::symbol && token_.text == again) throw Error("a comparison has two sides; join two of them with 'and'");
+        if (token_.kind == Token::Kind::symbol && token_.text == again)
+          throw Error("a comparison has two sides; join two of them with 'and'");
       return add(compared(symbol, op, std::move(a), std::move(b)));
     }
     if (a.kind == Operand::Kind::label) throw Error("'" + a.text + "' is not a field; a field is written like nav.state.height_m");
@@ -195,7 +205,8 @@ class Compiler {
   CNode compared(const std::string& symbol, Op op, Operand a, Operand b) {
     if (a.kind != Operand::Kind::field) {  // 3 m < height: turn it round
       if (b.kind != Operand::Kind::field) throw Error("'" + a.text + " " + symbol + " " + b.text + "' looks at no field");
-      static const std::pair<Op, Op> mirrored[] = {{Op::less, Op::greater}, {Op::greater, Op::less}, {Op::less_equal, Op::greater_equal}, {Op::greater_equal, Op::less_equal}};
+      static const std::pair<Op, Op> mirrored[] = {
+          {Op::less, Op::greater}, {Op::greater, Op::less}, {Op::less_equal, Op::greater_equal}, {Op::greater_equal, Op::less_equal}};
       for (const auto& [from, to] : mirrored)
         if (op == from) {
           op = to;
@@ -205,9 +216,12 @@ class Compiler {
     }
     if ((a.is_enum() || a.is_bool() || b.is_enum() || b.is_bool()) && op != Op::equal && op != Op::differs)
       throw Error("'" + (a.is_enum() || a.is_bool() ? a : b).text + "' has no order; compare it with == or !=");
-    if (b.kind == Operand::Kind::label) b.side.number = label_number(a, b.text);
-    else if (b.kind == Operand::Kind::number) b.side.number = plain_number(a, b);
-    else match_fields(a, b);
+    if (b.kind == Operand::Kind::label)
+      b.side.number = label_number(a, b.text);
+    else if (b.kind == Operand::Kind::number)
+      b.side.number = plain_number(a, b);
+    else
+      match_fields(a, b);
     CNode node;
     node.op = op;
     node.a = std::move(a.side);
@@ -239,10 +253,12 @@ class Compiler {
 
   static void match_fields(const Operand& a, Operand& b) {
     if (a.is_enum() != b.is_enum() || a.is_bool() != b.is_bool()) throw Error("'" + a.text + "' and '" + b.text + "' cannot be compared");
-    if (a.is_enum() && a.side.field.field->labels != b.side.field.field->labels) throw Error("'" + a.text + "' and '" + b.text + "' have different words");
+    if (a.is_enum() && a.side.field.field->labels != b.side.field.field->labels)
+      throw Error("'" + a.text + "' and '" + b.text + "' have different words");
     const std::string &unit_a = a.side.field.unit, &unit_b = b.side.field.unit;
     if (!same_dimension(unit_a, unit_b))
-      throw Error("'" + a.text + "' is in " + (unit_a.empty() ? "plain numbers" : unit_a) + " and '" + b.text + "' in " + (unit_b.empty() ? "plain numbers" : unit_b));
+      throw Error("'" + a.text + "' is in " + (unit_a.empty() ? "plain numbers" : unit_a) + " and '" + b.text + "' in " +
+                  (unit_b.empty() ? "plain numbers" : unit_b));
     b.side.factor = unit_factor(unit_b, unit_a);
   }
 
@@ -253,10 +269,13 @@ class Compiler {
       operand.kind = Operand::Kind::number;
       operand.quantity = parse_quantity(token_.text);
     } else if (token_.kind == Token::Kind::name && token_.text != "and" && token_.text != "or" && token_.text != "not") {
-      if (token_.text.find('.') == std::string::npos) operand.kind = Operand::Kind::label;
-      else field(operand);
+      if (token_.text.find('.') == std::string::npos)
+        operand.kind = Operand::Kind::label;
+      else
+        field(operand);
     } else {
-      throw Error(token_.kind == Token::Kind::end ? "the condition ends where a field or a number is expected" : "expected a field or a number before '" + token_.text + "'");
+      throw Error(token_.kind == Token::Kind::end ? "the condition ends where a field or a number is expected"
+                                                  : "expected a field or a number before '" + token_.text + "'");
     }
     advance();
     return operand;
@@ -269,7 +288,8 @@ class Compiler {
     operand.side.field = found.field;
     const fulmar_kind kind = found.field.field->kind;
     if (kind == FULMAR_STRUCT || kind == FULMAR_TEXT)
-      throw Error("'" + operand.text + "' is " + (kind == FULMAR_TEXT ? "text" : "a " + found.field.field->type->name) + ", not a number, a word or true or false");
+      throw Error("'" + operand.text + "' is " + (kind == FULMAR_TEXT ? "text" : "a " + found.field.field->type->name) +
+                  ", not a number, a word or true or false");
     if (std::find(ports_.begin(), ports_.end(), found.from) == ports_.end()) ports_.push_back(found.from);
   }
 
@@ -303,12 +323,18 @@ bool node_holds(const std::vector<CNode>& nodes, int index, const SampleReader& 
   if (node.op == Op::truth) return a != 0;
   if (!number_of(node.b, reader, b)) return false;
   switch (node.op) {
-    case Op::less: return a < b;
-    case Op::less_equal: return a <= b;
-    case Op::greater: return a > b;
-    case Op::greater_equal: return a >= b;
-    case Op::equal: return a == b;
-    default: return a != b;
+    case Op::less:
+      return a < b;
+    case Op::less_equal:
+      return a <= b;
+    case Op::greater:
+      return a > b;
+    case Op::greater_equal:
+      return a >= b;
+    case Op::equal:
+      return a == b;
+    default:
+      return a != b;
   }
 }
 
@@ -330,7 +356,8 @@ ShownField find_shown(const std::string& text, const FindPort& find) {
   }
   std::vector<std::string> names;
   for (const Field& field : shown.type->fields) names.push_back(field.name);
-  if (second == std::string::npos) throw Error("'" + text + "' is a whole " + shown.type->name + "; name a field of it. Valid: " + join(names) + ".");
+  if (second == std::string::npos)
+    throw Error("'" + text + "' is a whole " + shown.type->name + "; name a field of it. Valid: " + join(names) + ".");
   shown.field = resolve_field(*shown.type, text.substr(second + 1));
   return shown;
 }

@@ -34,23 +34,23 @@ struct Source {
 };
 
 struct Wire {
-  Source from;  // none: an optional input that nobody feeds
+  Source from;                  // none: an optional input that nobody feeds
   std::int64_t max_age_ns = 0;  // 0: any age
   bool delayed = false;         // carries the value of the previous tick: breaks a cycle
   Where where;
 };
 
 struct Component {
-  std::string name;  // "slc"
-  std::string use;   // "control_slc/Outer", as resolved
+  std::string name;                          // "slc"
+  std::string use;                           // "control_slc/Outer", as resolved
   std::shared_ptr<const PluginInfo> plugin;  // the host's own copy: outlives the library
   std::shared_ptr<Library> library;          // empty when a test describes the component by hand
   std::size_t index_in_plugin = 0;
-  int role = -1;               // that it fills in some phase; -1: none, it steps in every phase
-  std::int64_t period_ns = 0;          // 0: every tick
-  std::int64_t budget_ns = 0;          // 0: none
-  std::vector<Wire> wires;             // one per input
-  std::vector<ParamValue> params;      // one per parameter, the base values
+  int role = -1;                   // that it fills in some phase; -1: none, it steps in every phase
+  std::int64_t period_ns = 0;      // 0: every tick
+  std::int64_t budget_ns = 0;      // 0: none
+  std::vector<Wire> wires;         // one per input
+  std::vector<ParamValue> params;  // one per parameter, the base values
   Where where;
 
   const ComponentInfo& info() const { return plugin->components[index_in_plugin]; }
@@ -76,9 +76,9 @@ struct Overlay {
 };
 
 struct Assignment {
-  int component = -1;           // who fills the role
-  int fallback = -1;            // -1: nobody
-  std::vector<Overlay> set;     // on the component's live parameters while the phase lasts
+  int component = -1;        // who fills the role
+  int fallback = -1;         // -1: nobody
+  std::vector<Overlay> set;  // on the component's live parameters while the phase lasts
 };
 
 /// A compiled boolean expression over fields of ports. See condition.hpp.
@@ -125,8 +125,8 @@ struct Graph {
   std::vector<Transition> any;
   std::vector<int> order;  // steps, the vehicle left out
   int vehicle = -1;
-  std::shared_ptr<const Condition> done, failed;  // may be empty
-  std::int64_t timeout_ns = 0;                    // of flight time; 0: none
+  std::shared_ptr<const Condition> done, failed;        // may be empty
+  std::int64_t timeout_ns = 0;                          // of flight time; 0: none
   std::vector<std::pair<std::string, Source>> summary;  // key of the result -> port
   std::vector<Shown> progress;
   std::vector<std::vector<std::byte>> failsafe;  // one per vehicle input: the struct to send; empty: not sent

@@ -13,8 +13,9 @@ namespace fulmar::core {
 namespace fs = std::filesystem;
 namespace {
 
-const std::vector<std::string> mission_keys = {"mission", "extends", "io",       "airframe", "origin", "rate",  "seed",       "arm",    "done", "failed", "timeout",
-                                               "epoch",   "progress", "summary", "failsafe", "roles",  "components", "phases", "record", "live", "dds"};
+const std::vector<std::string> mission_keys = {"mission",  "extends", "io",         "airframe", "origin", "rate",     "seed",
+                                               "arm",      "done",    "failed",     "timeout",  "epoch",  "progress", "summary",
+                                               "failsafe", "roles",   "components", "phases",   "record", "live",     "dds"};
 const std::vector<std::string> component_keys = {"fills", "use", "in", "params", "rate", "only", "run", "latency", "budget", "max_age"};
 const std::vector<std::pair<std::string, std::string>> absent_sections = {{"live", "live view"}, {"dds", "DDS"}};
 
@@ -53,8 +54,10 @@ class Reader {
     if (!node) return;
     if (!node->is(Node::Kind::map)) return report_.add(node->where(), key + ": expected a map of names, found " + found_words(*node));
     for (const Node::Entry& entry : node->entries) {
-      if (is_name(entry.key)) read_entry(entry);
-      else report_.add(entry.where(), key + ": '" + entry.key + "' is not a name; names are letters, digits and _");
+      if (is_name(entry.key))
+        read_entry(entry);
+      else
+        report_.add(entry.where(), key + ": '" + entry.key + "' is not a name; names are letters, digits and _");
     }
   }
 
@@ -64,7 +67,8 @@ class Reader {
       report_.add(keys.where("mission"), "mission: a name without '/' is wanted, found '" + m_.name + "'");
     m_.io = keys.word("io", {"sim", "fcu"}).value_or("sim");
     m_.rate_hz = keys.positive("rate", "Hz").value_or(400);
-    if (m_.rate_hz > 100'000 || m_.rate_hz < 0.1) report_.add(keys.where("rate"), "rate: " + number_text(m_.rate_hz) + " Hz is outside 0.1 .. 100000 Hz");
+    if (m_.rate_hz > 100'000 || m_.rate_hz < 0.1)
+      report_.add(keys.where("rate"), "rate: " + number_text(m_.rate_hz) + " Hz is outside 0.1 .. 100000 Hz");
     m_.timeout_ns = keys.duration_ns("timeout").value_or(3600'000'000'000);
     m_.arm = keys.word("arm", {"auto", "off"}).value_or("off") == "auto";
     if (const Node* node = keys.get("seed")) seed(*node);
@@ -87,13 +91,16 @@ class Reader {
     for (auto [key, word] : {std::pair{"done", &m_.done}, std::pair{"failed", &m_.failed}})
       if (const auto text = keys.text(key)) *word = Word{*text, keys.get(key)->where()};
     if (const Node* node = keys.get("progress")) {
-      if (!node->is(Node::Kind::sequence)) report_.add(node->where(), "progress: expected a list of fields such as [nav.state.height_m], found " + found_words(*node));
+      if (!node->is(Node::Kind::sequence))
+        report_.add(node->where(), "progress: expected a list of fields such as [nav.state.height_m], found " + found_words(*node));
       for (const Node& item : node->items)
-        if (const auto text = scalar_text(item, "progress", "a field such as nav.state.height_m", report_)) m_.progress.push_back({*text, item.where()});
+        if (const auto text = scalar_text(item, "progress", "a field such as nav.state.height_m", report_))
+          m_.progress.push_back({*text, item.where()});
     }
     const Node* node = keys.get("summary");
     if (!node) return;
-    if (!node->is(Node::Kind::map)) report_.add(node->where(), "summary: expected a map {name: component.port}, found " + found_words(*node));
+    if (!node->is(Node::Kind::map))
+      report_.add(node->where(), "summary: expected a map {name: component.port}, found " + found_words(*node));
     for (const Node::Entry& entry : node->entries)
       if (const auto text = scalar_text(entry.value, "summary." + entry.key, "a port such as score.tracking", report_))
         m_.summary.push_back({entry.key, {*text, entry.where()}});
@@ -116,7 +123,8 @@ class Reader {
     const auto text = scalar_text(node, path, "a port such as nav.state", report_);
     if (!text) return std::nullopt;
     const auto dot = text->find('.');
-    if (dot != std::string::npos && is_name(text->substr(0, dot)) && is_name(text->substr(dot + 1))) return PortName{text->substr(0, dot), text->substr(dot + 1)};
+    if (dot != std::string::npos && is_name(text->substr(0, dot)) && is_name(text->substr(dot + 1)))
+      return PortName{text->substr(0, dot), text->substr(dot + 1)};
     report_.add(node.where(), path + ": expected a port such as nav.state, found '" + *text + "'");
     return std::nullopt;
   }
@@ -128,8 +136,7 @@ class Reader {
       report_.add(map->where(), path + ": expected a map {input: component.output}, found " + found_words(*map));
       return list;
     }
-    for (const Node::Entry& entry : map->entries)
-      list.push_back(read_wire(entry, path + "." + entry.key));
+    for (const Node::Entry& entry : map->entries) list.push_back(read_wire(entry, path + "." + entry.key));
     return list;
   }
 
@@ -161,7 +168,8 @@ class Reader {
     role.where = entry.where();
     role.in = wires(keys.get("in"), path + ".in");
     const Node* out = keys.get("out");
-    if (out && !out->is(Node::Kind::map)) report_.add(out->where(), path + ".out: expected a map {output: Type}, found " + found_words(*out));
+    if (out && !out->is(Node::Kind::map))
+      report_.add(out->where(), path + ".out: expected a map {output: Type}, found " + found_words(*out));
     if (out)
       for (const Node::Entry& port : out->entries) {
         RoleOutText text;
@@ -169,8 +177,10 @@ class Reader {
         text.name = text.optional ? port.key.substr(0, port.key.size() - 1) : port.key;
         text.where = port.where();
         const auto type = scalar_text(port.value, path + ".out." + port.key, "the name of a message type such as VehicleState", report_);
-        if (!is_name(text.name)) report_.add(port.where(), path + ".out: '" + port.key + "' is not a name; an optional port ends in '?'");
-        else if (type) text.type = *type, role.out.push_back(text);
+        if (!is_name(text.name))
+          report_.add(port.where(), path + ".out: '" + port.key + "' is not a name; an optional port ends in '?'");
+        else if (type)
+          text.type = *type, role.out.push_back(text);
       }
     m_.roles.push_back(std::move(role));
   }
@@ -185,12 +195,14 @@ class Reader {
     c.where_fills = keys.where("fills");
     c.use = keys.text("use").value_or("");
     c.where_use = keys.where("use");
-    if (!keys.has("use") && entry.value.is(Node::Kind::map)) report_.add(entry.where(), path + ": 'use' is missing; it names the plugin, as in use: control_slc/Outer");
+    if (!keys.has("use") && entry.value.is(Node::Kind::map))
+      report_.add(entry.where(), path + ": 'use' is missing; it names the plugin, as in use: control_slc/Outer");
     c.only = keys.word("only", {"sim", "fcu"}).value_or("");
     c.in = wires(keys.get("in"), path + ".in");
     if (const Node* params = keys.get("params")) {
       c.params = *params;
-      if (!params->is(Node::Kind::map)) report_.add(params->where(), path + ".params: expected a map {parameter: value}, found " + found_words(*params));
+      if (!params->is(Node::Kind::map))
+        report_.add(params->where(), path + ".params: expected a map {parameter: value}, found " + found_words(*params));
     }
     c.rate_hz = keys.positive("rate", "Hz").value_or(0);
     c.where_rate = keys.where("rate");
@@ -217,13 +229,17 @@ class Reader {
     phase.where = entry.where();
     if (const Node* next = entry.value.find("next")) transitions(*next, path + ".next", phase.next);
     for (const Node::Entry& item : entry.value.entries)
-      if (item.key != "next" && std::find(valid.begin(), valid.end(), item.key) != valid.end()) assignment(item, path + "." + item.key, phase);
-    if (entry.key == "any") m_.any = std::move(phase.next);
-    else m_.phases.push_back(std::move(phase));
+      if (item.key != "next" && std::find(valid.begin(), valid.end(), item.key) != valid.end())
+        assignment(item, path + "." + item.key, phase);
+    if (entry.key == "any")
+      m_.any = std::move(phase.next);
+    else
+      m_.phases.push_back(std::move(phase));
   }
 
   void transitions(const Node& list, const std::string& path, std::vector<TransitionText>& out) {
-    if (!list.is(Node::Kind::sequence)) return report_.add(list.where(), path + ": expected a list such as [{to: cruise, when: \"...\"}], found " + found_words(list));
+    if (!list.is(Node::Kind::sequence))
+      return report_.add(list.where(), path + ": expected a list such as [{to: cruise, when: \"...\"}], found " + found_words(list));
     for (const Node& item : list.items) {
       const Keys keys(item, path, {"to", "when", "for"}, report_);
       if (!item.is(Node::Kind::map)) continue;
@@ -232,7 +248,8 @@ class Reader {
       t.where_to = keys.where("to");
       t.where_when = keys.where("when");
       for (const char* key : {"to", "when"})
-        if (!keys.has(key)) report_.add(item.where(), path + ": '" + key + "' is missing, as in {to: cruise, when: \"nav.state.height_m > 30 m\"}");
+        if (!keys.has(key))
+          report_.add(item.where(), path + ": '" + key + "' is missing, as in {to: cruise, when: \"nav.state.height_m > 30 m\"}");
       t.to = keys.text("to").value_or("");
       t.when = keys.text("when").value_or("");
       t.for_ns = keys.duration_ns("for").value_or(0);
@@ -278,7 +295,8 @@ class Reader {
     }
     if (ports->is(Node::Kind::sequence)) {
       for (const Node& item : ports->items)
-        if (const auto text = scalar_text(item, "record.ports", "a port or a pattern such as \"nav.*\"", report_)) add_rule(*text, period, item.where());
+        if (const auto text = scalar_text(item, "record.ports", "a port or a pattern such as \"nav.*\"", report_))
+          add_rule(*text, period, item.where());
     } else if (ports->is(Node::Kind::map)) {
       std::vector<std::string> names;
       for (const Node::Entry& entry : ports->entries) names.push_back(entry.key);
@@ -325,7 +343,8 @@ Node load_tree(MissionText& mission, Report& report) {
     mission.files.push_back(base_file);
     const Node base = parse_yaml(base_file, report);
     if (const Node* again = base.find("extends")) report.add(again->where(), "extends: a file that is extended cannot extend another one");
-    if (!base.is(Node::Kind::map) && !base.is(Node::Kind::missing)) report.add(base.where(), "expected a map with the keys of a mission; found " + found_words(base));
+    if (!base.is(Node::Kind::map) && !base.is(Node::Kind::missing))
+      report.add(base.where(), "expected a map with the keys of a mission; found " + found_words(base));
     if (base.is(Node::Kind::map) && root.is(Node::Kind::map)) return laid_over(base, root);
   } catch (const Error& fault) {
     report.add(extends->where(), std::string("extends: ") + fault.what());
@@ -359,7 +378,8 @@ std::int64_t parse_utc_ns(const std::string& text) {
     const auto [end, code] = std::from_chars(rest.data() + 1, rest.data() + rest.size(), second);
     if (rest[0] != ':' || code != std::errc{} || end != rest.data() + rest.size() || !(second >= 0 && second < 60)) throw wrong();
   }
-  if (year < 1970 || year > 2200 || month < 1 || month > 12 || day < 1 || day > 31 || hour < 0 || hour > 23 || minute < 0 || minute > 59) throw wrong();
+  if (year < 1970 || year > 2200 || month < 1 || month > 12 || day < 1 || day > 31 || hour < 0 || hour > 23 || minute < 0 || minute > 59)
+    throw wrong();
   // days since 1970-01-01 of the proleptic Gregorian calendar; March-based years, Howard Hinnant's algorithm
   const int y = year - (month <= 2 ? 1 : 0), era = y / 400, year_of_era = y - era * 400;
   const int day_of_year = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
@@ -370,14 +390,16 @@ std::int64_t parse_utc_ns(const std::string& text) {
 MissionText parse_mission(const std::string& file, const Overrides& overrides, Report& report) {
   MissionText mission;
   const fs::path path = file;
-  mission.file = read_source(path, path.filename().string());
+  mission.file = std::make_shared<SourceFile>(SourceFile{path, path.filename().string(), read_source(path, file)->text});
   mission.files.push_back(mission.file);
   const Node root = load_tree(mission, report);
   Reader(mission, report).read(root);
   if (!root.is(Node::Kind::map)) report.throw_if_any();  // there is nothing to say of the rest
   if (overrides.io) {
-    if (*overrides.io == "sim" || *overrides.io == "fcu") mission.io = *overrides.io;
-    else report.add({"--io " + *overrides.io, 0}, "unknown word '" + *overrides.io + "'." + choices_text(*overrides.io, {"sim", "fcu"}));
+    if (*overrides.io == "sim" || *overrides.io == "fcu")
+      mission.io = *overrides.io;
+    else
+      report.add({"--io " + *overrides.io, 0}, "unknown word '" + *overrides.io + "'." + choices_text(*overrides.io, {"sim", "fcu"}));
   }
   if (overrides.seed) mission.seed = *overrides.seed;
   return mission;

@@ -93,7 +93,6 @@ struct MissionText {
   std::vector<ComponentText> components;
   std::vector<PhaseText> phases;  // without `any`
   std::vector<TransitionText> any;
-  std::vector<std::string> record_ports;
   std::vector<RecordRule> record_rules;
   std::vector<Where> record_where;  // one per rule
   std::string record_file;

@@ -130,7 +130,8 @@ struct ParamReader {
       for (std::size_t i = 0; i < 3; ++i) good = element(node.items[i], names[i], numbers[i]) && good;
     } else {
       const bool list = node.is(Node::Kind::sequence);
-      return fault(node, "expected three numbers [" + join(names) + "], found " + (list ? std::to_string(node.items.size()) : found_words(node)));
+      return fault(node,
+                   "expected three numbers [" + join(names) + "], found " + (list ? std::to_string(node.items.size()) : found_words(node)));
     }
     if (good) std::copy(numbers, numbers + 3, value.number);
   }
@@ -160,8 +161,8 @@ struct ParamReader {
 
 }  // namespace
 
-void read_record(const ParamInfo& param, const Node& map, const std::string& path, const std::string& name, ParamValue& value, Report& report,
-                 const std::vector<std::string>& also) {
+void read_record(const ParamInfo& param, const Node& map, const std::string& path, const std::string& name, ParamValue& value,
+                 Report& report, const std::vector<std::string>& also) {
   value.data = param.initial_data;
   value.data.resize(param.type->size);
   fill_record(*param.type, map, value.data.data(), path, report, also);
@@ -173,34 +174,47 @@ void read_record(const ParamInfo& param, const Node& map, const std::string& pat
 void read_param(const ParamInfo& param, const Node& node, const std::string& path, ParamValue& value, FileStore& files, Report& report) {
   const ParamReader reader{param, path, value, files, report};
   switch (param.kind) {
-    case FULMAR_NUMBER: reader.number_into(node, value.number[0]); return;
+    case FULMAR_NUMBER:
+      reader.number_into(node, value.number[0]);
+      return;
     case FULMAR_FLAG:
       if (const auto flag = scalar_flag(node, path, report)) value.integer = *flag ? 1 : 0, value.number[0] = *flag ? 1 : 0;
       return;
-    case FULMAR_COUNT: return reader.count(node);
-    case FULMAR_CHOICE: return reader.choice(node);
-    case FULMAR_STRING: return reader.text(node);
-    case FULMAR_VECTOR: return reader.vector(node);
-    case FULMAR_RECORD: return reader.record(node);
-    case FULMAR_BLOB: return reader.blob(node);
+    case FULMAR_COUNT:
+      return reader.count(node);
+    case FULMAR_CHOICE:
+      return reader.choice(node);
+    case FULMAR_STRING:
+      return reader.text(node);
+    case FULMAR_VECTOR:
+      return reader.vector(node);
+    case FULMAR_RECORD:
+      return reader.record(node);
+    case FULMAR_BLOB:
+      return reader.blob(node);
   }
 }
 
 std::string value_text(const ParamInfo& param, const ParamValue& value) {
   const std::string unit = param.unit.empty() ? "" : " " + param.unit;
   switch (param.kind) {
-    case FULMAR_NUMBER: return number_text(value.number[0]) + unit;
-    case FULMAR_FLAG: return value.integer ? "true" : "false";
-    case FULMAR_COUNT: return std::to_string(value.integer) + unit;
+    case FULMAR_NUMBER:
+      return number_text(value.number[0]) + unit;
+    case FULMAR_FLAG:
+      return value.integer ? "true" : "false";
+    case FULMAR_COUNT:
+      return std::to_string(value.integer) + unit;
     case FULMAR_CHOICE: {
       const auto i = static_cast<std::size_t>(value.integer);
       return i < param.choices.size() ? param.choices[i] : std::to_string(value.integer);
     }
-    case FULMAR_STRING: return value.text;
+    case FULMAR_STRING:
+      return value.text;
     case FULMAR_VECTOR:
       return "[" + number_text(value.number[0]) + ", " + number_text(value.number[1]) + ", " + number_text(value.number[2]) + "]" + unit;
     case FULMAR_RECORD:
-    case FULMAR_BLOB: return value.integer ? value.text : "not given";
+    case FULMAR_BLOB:
+      return value.integer ? value.text : "not given";
   }
   return "";
 }

@@ -34,8 +34,8 @@ ParamValue initial_value(const ParamInfo& param);
 void read_param(const ParamInfo& param, const Node& node, const std::string& path, ParamValue& value, FileStore& files, Report& report);
 
 /// Sets a record parameter from a map that stands somewhere else: an airframe file, the mission's origin. `also`: keys that are not fields.
-void read_record(const ParamInfo& param, const Node& map, const std::string& path, const std::string& name, ParamValue& value, Report& report,
-                 const std::vector<std::string>& also = {});
+void read_record(const ParamInfo& param, const Node& map, const std::string& path, const std::string& name, ParamValue& value,
+                 Report& report, const std::vector<std::string>& also = {});
 
 /// The value as people write it: "0.55 rad/rad", "takeoff", "[3, -4, 0] m/s", the name of a file.
 std::string value_text(const ParamInfo& param, const ParamValue& value);

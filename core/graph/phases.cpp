@@ -17,9 +17,13 @@ int filler_named(Draft& draft, std::size_t role, const std::string& name, const 
   if (i >= 0 && std::find(wanted.fillers.begin(), wanted.fillers.end(), i) != wanted.fillers.end()) return i;
   const ComponentText* known = draft.text.component(name);
   std::string why;
-  if (known && draft.is_out(*known)) why = not_there(draft, name);
-  else if (known) why = name + (known->fills.empty() ? " does not fill " : " fills " + known->fills + ", not ") + wanted.text->name + "." + choices_text("", fillers);
-  else why = "there is no component '" + name + "' that fills " + wanted.text->name + "." + choices_text(name, fillers);
+  if (known && draft.is_out(*known))
+    why = not_there(draft, name);
+  else if (known)
+    why = name + (known->fills.empty() ? " does not fill " : " fills " + known->fills + ", not ") + wanted.text->name + "." +
+          choices_text("", fillers);
+  else
+    why = "there is no component '" + name + "' that fills " + wanted.text->name + "." + choices_text(name, fillers);
   draft.report.add(where, path.empty() ? why : path + ": " + why);
   return -1;
 }
@@ -30,8 +34,10 @@ std::vector<int> chosen_by_command(Draft& draft) {
   for (const auto& [role, component] : draft.overrides.roles) {
     const Where where{"--role " + role + "=" + component, 0};
     const int r = draft.role(role);
-    if (r < 0) draft.report.add(where, "there is no role '" + role + "'." + choices_text(role, draft.role_names()));
-    else chosen[static_cast<std::size_t>(r)] = filler_named(draft, static_cast<std::size_t>(r), component, where, "");
+    if (r < 0)
+      draft.report.add(where, "there is no role '" + role + "'." + choices_text(role, draft.role_names()));
+    else
+      chosen[static_cast<std::size_t>(r)] = filler_named(draft, static_cast<std::size_t>(r), component, where, "");
   }
   return chosen;
 }
@@ -44,12 +50,15 @@ void read_overlay(Draft& draft, const Candidate& candidate, const Node& set, con
   for (const Node::Entry& entry : set.entries) {
     const int p = candidate.info().param(entry.key);
     if (p < 0) {
-      draft.report.add(entry.where(), path + ": " + candidate.name() + " has no parameter '" + entry.key + "'." + choices_text(entry.key, live));
+      draft.report.add(entry.where(),
+                       path + ": " + candidate.name() + " has no parameter '" + entry.key + "'." + choices_text(entry.key, live));
       continue;
     }
     const ParamInfo& param = candidate.info().params[static_cast<std::size_t>(p)];
     if (!param.live) {
-      draft.report.add(entry.where(), path + "." + entry.key + ": is fixed when the flight begins; a phase can set live parameters alone. Live: " + join(live) + ".");
+      draft.report.add(
+          entry.where(),
+          path + "." + entry.key + ": is fixed when the flight begins; a phase can set live parameters alone. Live: " + join(live) + ".");
       continue;
     }
     Overlay item{p, initial_value(param)};
@@ -58,19 +67,35 @@ void read_overlay(Draft& draft, const Candidate& candidate, const Node& set, con
   }
 }
 
+/// A phase's overlay on the component that --role puts in another one's place: the entries that it has a live parameter for.
+std::vector<Overlay> overlay_for(Draft& draft, const Candidate& candidate, const Node& set, const std::string& path) {
+  std::vector<Overlay> overlay;
+  if (!set.is(Node::Kind::map) || !candidate.loaded) return overlay;
+  Node known = set;
+  std::erase_if(known.entries, [&](const Node::Entry& entry) {
+    const int p = candidate.info().param(entry.key);
+    return p < 0 || !candidate.info().params[static_cast<std::size_t>(p)].live;
+  });
+  read_overlay(draft, candidate, known, path, overlay);
+  return overlay;
+}
+
 /// What a phase says of a role, checked also where --role then changes it.
 void read_assignment(Draft& draft, const AssignmentText& text, const std::string& path, int command, Assignment& assignment) {
   const auto role = static_cast<std::size_t>(draft.role(text.role));
-  if (text.role == "vehicle") return draft.report.add(text.where, path + ": the vehicle does not change in flight; choose it with io or with --role vehicle=NAME");
+  if (text.role == "vehicle")
+    return draft.report.add(text.where, path + ": the vehicle does not change in flight; choose it with io or with --role vehicle=NAME");
   int use = draft.roles[role].fillers.empty() ? -1 : draft.roles[role].fillers.front();
   if (!text.use.empty()) use = filler_named(draft, role, text.use, text.where_use, path);
   const int fallback = text.fallback.empty() ? -1 : filler_named(draft, role, text.fallback, text.where_fallback, path + ".fallback");
-  if (fallback >= 0 && fallback == use) draft.report.add(text.where_fallback, path + ".fallback: " + text.fallback + " is the component that fills the role already");
+  if (fallback >= 0 && fallback == use)
+    draft.report.add(text.where_fallback, path + ".fallback: " + text.fallback + " is the component that fills the role already");
   std::vector<Overlay> overlay;
   if (use >= 0) read_overlay(draft, draft.candidates[static_cast<std::size_t>(use)], text.set, path + ".set", overlay);
   assignment.component = command >= 0 ? command : use;
   if (fallback != assignment.component) assignment.fallback = fallback;
   if (assignment.component == use) assignment.set = std::move(overlay);
+  else if (command >= 0) assignment.set = overlay_for(draft, draft.candidates[static_cast<std::size_t>(command)], text.set, path + ".set");
 }
 
 std::string phase_path(const PhaseText& phase) { return "phases." + phase.name; }
@@ -126,8 +151,10 @@ FindPort finder(Draft& draft, bool built) {
     }
     if (target.source.kind == Source::Kind::component) {
       Candidate& candidate = draft.candidates[static_cast<std::size_t>(target.source.index)];
-      if (!built) candidate.used = true;
-      else target.source.index = candidate.component;
+      if (!built)
+        candidate.used = true;
+      else
+        target.source.index = candidate.component;
     } else if (built) {
       const Role& role = draft.graph.roles[static_cast<std::size_t>(target.source.index)];
       const auto o = static_cast<std::size_t>(target.source.output);
@@ -153,7 +180,8 @@ void read_summary(Draft& draft, const FindPort& find) {
   for (const auto& [key, word] : draft.text.summary)
     guarded(draft, word.where, "summary." + key, [&] {
       const auto dot = word.text.find('.');
-      if (dot == std::string::npos || word.text.find('.', dot + 1) != std::string::npos) throw Error("expected a port such as score.tracking, found '" + word.text + "'");
+      if (dot == std::string::npos || word.text.find('.', dot + 1) != std::string::npos)
+        throw Error("expected a port such as score.tracking, found '" + word.text + "'");
       const auto [source, type] = find(word.text.substr(0, dot), word.text.substr(dot + 1));
       if (!type) throw Error("'" + word.text + "' is a probe; a summary shows messages");
       draft.graph.summary.emplace_back(key, source);
@@ -169,7 +197,8 @@ void read_shown(Draft& draft, const FindPort& find) {
     });
 }
 
-std::shared_ptr<const Condition> compiled(Draft& draft, const std::string& text, const Where& where, const std::string& path, const FindPort& find) {
+std::shared_ptr<const Condition> compiled(Draft& draft, const std::string& text, const Where& where, const std::string& path,
+                                          const FindPort& find) {
   std::shared_ptr<const Condition> condition;
   guarded(draft, where, path, [&] { condition = Condition::compile(text, find); });
   return condition;
@@ -183,7 +212,8 @@ std::vector<Transition> transitions(Draft& draft, const std::vector<TransitionTe
   for (const TransitionText& text : texts) {
     Transition transition;
     const auto it = std::find(names.begin(), names.end(), text.to);
-    if (it == names.end() && !text.to.empty()) draft.report.add(text.where_to, path + ".to: there is no phase '" + text.to + "'." + choices_text(text.to, names));
+    if (it == names.end() && !text.to.empty())
+      draft.report.add(text.where_to, path + ".to: there is no phase '" + text.to + "'." + choices_text(text.to, names));
     if (it != names.end()) transition.to = static_cast<int>(it - names.begin());
     if (!text.when.empty()) transition.when = compiled(draft, text.when, text.where_when, path + ".when", find);
     transition.for_ns = text.for_ns;
@@ -231,7 +261,9 @@ void check_reachable(Draft& draft) {
     follow(graph.phases[at].next);
   }
   for (std::size_t i = 0; i < reached.size(); ++i)
-    if (!reached[i]) draft.report.add(graph.phases[i].where, "phases." + graph.phases[i].name + ": no transition leads here from " + graph.phases[0].name + ", where the flight begins");
+    if (!reached[i])
+      draft.report.add(graph.phases[i].where, "phases." + graph.phases[i].name + ": no transition leads here from " + graph.phases[0].name +
+                                                  ", where the flight begins");
 }
 
 }  // namespace
@@ -240,7 +272,9 @@ void name_ports(Draft& draft) { compile_all(draft, false); }
 
 void compile_phases(Draft& draft) {
   compile_all(draft, true);
-  const auto component = [&](int candidate) { return candidate < 0 ? -1 : draft.candidates[static_cast<std::size_t>(candidate)].component; };
+  const auto component = [&](int candidate) {
+    return candidate < 0 ? -1 : draft.candidates[static_cast<std::size_t>(candidate)].component;
+  };
   for (std::size_t i = 0; i < draft.graph.phases.size(); ++i) {
     draft.graph.phases[i].roles = draft.assignments[i];
     for (Assignment& assignment : draft.graph.phases[i].roles) {

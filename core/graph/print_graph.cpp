@@ -31,7 +31,9 @@ std::string rate_text(const Graph& graph, const Component& component) {
   return number_text(1e9 / static_cast<double>(period)) + " Hz";
 }
 
-std::string role_text(const Graph& graph, const Component& component) { return component.role < 0 ? "-" : graph.roles[at(component.role)].name; }
+std::string role_text(const Graph& graph, const Component& component) {
+  return component.role < 0 ? "-" : graph.roles[at(component.role)].name;
+}
 
 std::string seconds_text(std::int64_t ns) { return number_text(static_cast<double>(ns) * 1e-9) + " s"; }
 
@@ -40,7 +42,8 @@ class Text {
   explicit Text(const Graph& graph) : graph_(graph) {}
 
   std::string print() {
-    out_ = "mission " + graph_.mission + ", io " + graph_.io + ", " + number_text(1e9 / static_cast<double>(graph_.tick_ns)) + " Hz, seed " + std::to_string(graph_.seed) + "\n";
+    out_ = "mission " + graph_.mission + ", io " + graph_.io + ", " + number_text(1e9 / static_cast<double>(graph_.tick_ns)) +
+           " Hz, seed " + std::to_string(graph_.seed) + "\n";
     order();
     wires();
     phases();
@@ -48,9 +51,9 @@ class Text {
   }
 
  private:
-  void component(std::size_t number, const std::string& first, const Component& c) {
-    (void)number;
-    out_ += "  " + padded(first, 4) + padded(c.name, width_) + "  " + padded(c.use, use_width_) + "  " + padded(role_text(graph_, c), 8) + "  " + rate_text(graph_, c) + "\n";
+  void component(const std::string& first, const Component& c) {
+    out_ += "  " + padded(first, 4) + padded(c.name, width_) + "  " + padded(c.use, use_width_) + "  " + padded(role_text(graph_, c), 8) +
+            "  " + rate_text(graph_, c) + "\n";
   }
 
   void order() {
@@ -59,9 +62,9 @@ class Text {
       use_width_ = std::max(use_width_, c.use.size());
     }
     out_ += "\norder of a tick\n";
-    if (graph_.vehicle >= 0) component(0, "in", graph_.components[at(graph_.vehicle)]);
-    for (std::size_t i = 0; i < graph_.order.size(); ++i) component(i, std::to_string(i + 1), graph_.components[at(graph_.order[i])]);
-    if (graph_.vehicle >= 0) component(0, "out", graph_.components[at(graph_.vehicle)]);
+    if (graph_.vehicle >= 0) component("in", graph_.components[at(graph_.vehicle)]);
+    for (std::size_t i = 0; i < graph_.order.size(); ++i) component(std::to_string(i + 1), graph_.components[at(graph_.order[i])]);
+    if (graph_.vehicle >= 0) component("out", graph_.components[at(graph_.vehicle)]);
   }
 
   void wires_of(const Component& c) {
@@ -72,7 +75,8 @@ class Text {
       std::string notes;
       if (wire.max_age_ns > 0) notes += ", at most " + seconds_text(wire.max_age_ns) + " old";
       if (wire.delayed) notes += ", of the tick before";
-      out_ += "  " + padded(name, 24) + " <- " + padded(source_text(graph_, wire.from), 20) + "  " + (inputs[i].type ? inputs[i].type->name : "") + notes + "\n";
+      out_ += "  " + padded(name, 24) + " <- " + padded(source_text(graph_, wire.from), 20) + "  " +
+              (inputs[i].type ? inputs[i].type->name : "") + notes + "\n";
     }
   }
 
@@ -83,7 +87,8 @@ class Text {
   }
 
   void transition(const Transition& t) {
-    out_ += "    -> " + (t.to < 0 ? std::string("?") : graph_.phases[at(t.to)].name) + " when " + (t.when ? t.when->text() : "?") + (t.for_ns > 0 ? " for " + seconds_text(t.for_ns) : "") + "\n";
+    out_ += "    -> " + (t.to < 0 ? std::string("?") : graph_.phases[at(t.to)].name) + " when " + (t.when ? t.when->text() : "?") +
+            (t.for_ns > 0 ? " for " + seconds_text(t.for_ns) : "") + "\n";
   }
 
   void phases() {
@@ -124,26 +129,32 @@ void each_edge(const Graph& graph, F edge) {
     for (const Wire& wire : c.wires) {
       if (wire.from.kind == Source::Kind::none) continue;
       if (wire.from.kind == Source::Kind::component) {
-        edge(wire.from.index, static_cast<int>(i), graph.components[at(wire.from.index)].info().outputs[at(wire.from.output)].name, wire.delayed);
+        edge(wire.from.index, static_cast<int>(i), graph.components[at(wire.from.index)].info().outputs[at(wire.from.output)].name,
+             wire.delayed);
         continue;
       }
       const Role& role = graph.roles[at(wire.from.index)];
       for (std::size_t f = 0; f < role.fillers.size(); ++f)
-        if (role.provides[f][at(wire.from.output)] >= 0) edge(role.fillers[f], static_cast<int>(i), role.outputs[at(wire.from.output)].name, wire.delayed);
+        if (role.provides[f][at(wire.from.output)] >= 0)
+          edge(role.fillers[f], static_cast<int>(i), role.outputs[at(wire.from.output)].name, wire.delayed);
     }
   }
 }
 
 std::string dot(const Graph& graph) {
-  std::string out = "digraph \"" + graph.mission + "\" {\n  rankdir=LR;\n  node [shape=box, fontname=\"sans-serif\"];\n";
+  std::string name = graph.mission;
+  std::replace(name.begin(), name.end(), '"', '\'');
+  std::string out = "digraph \"" + name + "\" {\n  rankdir=LR;\n  node [shape=box, fontname=\"sans-serif\"];\n";
   for (const Role& role : graph.roles) {
     out += "  subgraph cluster_" + role.name + " {\n    label=\"" + role.name + "\";\n";
     for (const int f : role.fillers) out += "    " + graph.components[at(f)].name + ";\n";
     out += "  }\n";
   }
-  for (const Component& c : graph.components) out += "  " + c.name + " [label=\"" + c.name + "\\n" + c.use + "\\n" + rate_text(graph, c) + "\"];\n";
+  for (const Component& c : graph.components)
+    out += "  " + c.name + " [label=\"" + c.name + "\\n" + c.use + "\\n" + rate_text(graph, c) + "\"];\n";
   each_edge(graph, [&](int from, int to, const std::string& label, bool delayed) {
-    out += "  " + graph.components[at(from)].name + " -> " + graph.components[at(to)].name + " [label=\"" + label + "\"" + (delayed ? ", style=dashed" : "") + "];\n";
+    out += "  " + graph.components[at(from)].name + " -> " + graph.components[at(to)].name + " [label=\"" + label + "\"" +
+           (delayed ? ", style=dashed" : "") + "];\n";
   });
   return out + "}\n";
 }
@@ -155,9 +166,11 @@ std::string mermaid(const Graph& graph) {
     for (const int f : role.fillers) out += "    c_" + graph.components[at(f)].name + "\n";
     out += "  end\n";
   }
-  for (const Component& c : graph.components) out += "  c_" + c.name + "[\"" + c.name + "<br/>" + c.use + "<br/>" + rate_text(graph, c) + "\"]\n";
+  for (const Component& c : graph.components)
+    out += "  c_" + c.name + "[\"" + c.name + "<br/>" + c.use + "<br/>" + rate_text(graph, c) + "\"]\n";
   each_edge(graph, [&](int from, int to, const std::string& label, bool delayed) {
-    out += "  c_" + graph.components[at(from)].name + (delayed ? " -. " : " -- ") + label + (delayed ? " .-> " : " --> ") + "c_" + graph.components[at(to)].name + "\n";
+    out += "  c_" + graph.components[at(from)].name + (delayed ? " -. " : " -- ") + label + (delayed ? " .-> " : " --> ") + "c_" +
+           graph.components[at(to)].name + "\n";
   });
   return out;
 }

@@ -15,7 +15,8 @@ using Dimension = std::array<std::int8_t, 6>;
 constexpr Dimension none{};
 constexpr Dimension length{1, 0, 0, 0, 0, 0}, mass{0, 1, 0, 0, 0, 0}, time{0, 0, 1, 0, 0, 0}, current{0, 0, 0, 1, 0, 0};
 constexpr Dimension kelvin{0, 0, 0, 0, 1, 0}, angle{0, 0, 0, 0, 0, 1}, per_time{0, 0, -1, 0, 0, 0};
-constexpr Dimension speed{1, 0, -1, 0, 0, 0}, acceleration{1, 0, -2, 0, 0, 0}, turn_rate{0, 0, -1, 0, 0, 1}, turn_acceleration{0, 0, -2, 0, 0, 1};
+constexpr Dimension speed{1, 0, -1, 0, 0, 0}, acceleration{1, 0, -2, 0, 0, 0}, turn_rate{0, 0, -1, 0, 0, 1},
+    turn_acceleration{0, 0, -2, 0, 0, 1};
 constexpr Dimension force{1, 1, -2, 0, 0, 0}, pressure{-1, 1, -2, 0, 0, 0}, energy{2, 1, -2, 0, 0, 0}, power{2, 1, -3, 0, 0, 0};
 constexpr Dimension voltage{2, 1, -3, -1, 0, 0}, resistance{2, 1, -3, -2, 0, 0}, field{0, 1, -2, -1, 0, 0}, area{2, 0, 0, 0, 0, 0};
 constexpr Dimension inertia{2, 1, 0, 0, 0, 0}, density{-3, 1, 0, 0, 0, 0}, charge{0, 0, 1, 1, 0, 0};
@@ -28,22 +29,77 @@ struct Symbol {
   double offset = 0;
 };
 constexpr Symbol symbols[] = {
-    {"1", none, 1}, {"ratio", none, 1}, {"frac", none, 1}, {"%", none, 0.01},
-    {"m", length, 1}, {"cm", length, 0.01}, {"mm", length, 1e-3}, {"km", length, 1000}, {"ft", length, 0.3048}, {"in", length, 0.0254},
-    {"nmi", length, 1852}, {"mi", length, 1609.344},
-    {"s", time, 1}, {"ms", time, 1e-3}, {"us", time, 1e-6}, {"\u00b5s", time, 1e-6}, {"ns", time, 1e-9}, {"min", time, 60}, {"h", time, 3600},
-    {"Hz", per_time, 1}, {"kHz", per_time, 1000},
-    {"mps", speed, 1}, {"kt", speed, 1852.0 / 3600}, {"kn", speed, 1852.0 / 3600}, {"mph", speed, 0.44704}, {"kmh", speed, 1 / 3.6}, {"fpm", speed, 0.3048 / 60},
-    {"mps2", acceleration, 1}, {"g", acceleration, 9.80665},
-    {"rad", angle, 1}, {"deg", angle, pi / 180}, {"\u00b0", angle, pi / 180}, {"mrad", angle, 1e-3}, {"rev", angle, 2 * pi},
-    {"radps", turn_rate, 1}, {"degps", turn_rate, pi / 180}, {"rpm", turn_rate, 2 * pi / 60}, {"radps2", turn_acceleration, 1},
-    {"kg", mass, 1}, {"gram", mass, 1e-3}, {"lb", mass, 0.45359237}, {"kgm2", inertia, 1},
-    {"N", force, 1}, {"newton", force, 1}, {"J", energy, 1}, {"W", power, 1},
-    {"Pa", pressure, 1}, {"pa", pressure, 1}, {"hPa", pressure, 100}, {"kPa", pressure, 1000}, {"mbar", pressure, 100}, {"bar", pressure, 1e5},
-    {"K", kelvin, 1}, {"kelvin", kelvin, 1}, {"degC", kelvin, 1, 273.15}, {"\u00b0C", kelvin, 1, 273.15},
-    {"V", voltage, 1}, {"volt", voltage, 1}, {"mV", voltage, 1e-3}, {"A", current, 1}, {"amp", current, 1}, {"mA", current, 1e-3},
-    {"Ah", charge, 3600}, {"mAh", charge, 3.6}, {"ohm", resistance, 1}, {"mohm", resistance, 1e-3},
-    {"T", field, 1}, {"tesla", field, 1}, {"uT", field, 1e-6}, {"nT", field, 1e-9}, {"gauss", field, 1e-4},
+    {"1", none, 1},
+    {"ratio", none, 1},
+    {"frac", none, 1},
+    {"%", none, 0.01},
+    {"m", length, 1},
+    {"cm", length, 0.01},
+    {"mm", length, 1e-3},
+    {"km", length, 1000},
+    {"ft", length, 0.3048},
+    {"in", length, 0.0254},
+    {"nmi", length, 1852},
+    {"mi", length, 1609.344},
+    {"s", time, 1},
+    {"ms", time, 1e-3},
+    {"us", time, 1e-6},
+    {"\u00b5s", time, 1e-6},
+    {"ns", time, 1e-9},
+    {"min", time, 60},
+    {"h", time, 3600},
+    {"Hz", per_time, 1},
+    {"kHz", per_time, 1000},
+    {"mps", speed, 1},
+    {"kt", speed, 1852.0 / 3600},
+    {"kn", speed, 1852.0 / 3600},
+    {"mph", speed, 0.44704},
+    {"kmh", speed, 1 / 3.6},
+    {"fpm", speed, 0.3048 / 60},
+    {"mps2", acceleration, 1},
+    {"g", acceleration, 9.80665},
+    {"rad", angle, 1},
+    {"deg", angle, pi / 180},
+    {"\u00b0", angle, pi / 180},
+    {"mrad", angle, 1e-3},
+    {"rev", angle, 2 * pi},
+    {"radps", turn_rate, 1},
+    {"degps", turn_rate, pi / 180},
+    {"rpm", turn_rate, 2 * pi / 60},
+    {"radps2", turn_acceleration, 1},
+    {"kg", mass, 1},
+    {"gram", mass, 1e-3},
+    {"lb", mass, 0.45359237},
+    {"kgm2", inertia, 1},
+    {"N", force, 1},
+    {"newton", force, 1},
+    {"J", energy, 1},
+    {"W", power, 1},
+    {"Pa", pressure, 1},
+    {"pa", pressure, 1},
+    {"hPa", pressure, 100},
+    {"kPa", pressure, 1000},
+    {"mbar", pressure, 100},
+    {"bar", pressure, 1e5},
+    {"K", kelvin, 1},
+    {"kelvin", kelvin, 1},
+    {"degC", kelvin, 1, 273.15},
+    {"\u00b0C", kelvin, 1, 273.15},
+    {"V", voltage, 1},
+    {"volt", voltage, 1},
+    {"mV", voltage, 1e-3},
+    {"A", current, 1},
+    {"amp", current, 1},
+    {"mA", current, 1e-3},
+    {"Ah", charge, 3600},
+    {"mAh", charge, 3.6},
+    {"ohm", resistance, 1},
+    {"mohm", resistance, 1e-3},
+    {"T", field, 1},
+    {"tesla", field, 1},
+    {"uT", field, 1e-6},
+    {"nT", field, 1e-9},
+    {"gauss", field, 1e-4},
 };
 
 struct Named {
@@ -131,15 +187,20 @@ class UnitParser {
 
   std::optional<Unit> factor() {
     std::size_t end = at_;
-    while (end < text_.size() && std::string_view(" /*()^").find(text_[end]) == std::string_view::npos && !text_.substr(end).starts_with("\u00b7")) ++end;
+    while (end < text_.size() && std::string_view(" /*()^").find(text_[end]) == std::string_view::npos &&
+           !text_.substr(end).starts_with("\u00b7"))
+      ++end;
     std::string_view word = text_.substr(at_, end - at_);
     at_ = end;
     int exponent = 1;
     const Symbol* symbol = find_symbol(word);
     if (!symbol) {  // s2, s²
-      if (word.ends_with("\u00b2")) word = word.substr(0, word.size() - 2), exponent = 2;
-      else if (word.ends_with("\u00b3")) word = word.substr(0, word.size() - 2), exponent = 3;
-      else if (word.size() > 1 && word.back() >= '1' && word.back() <= '9') exponent = word.back() - '0', word = word.substr(0, word.size() - 1);
+      if (word.ends_with("\u00b2"))
+        word = word.substr(0, word.size() - 2), exponent = 2;
+      else if (word.ends_with("\u00b3"))
+        word = word.substr(0, word.size() - 2), exponent = 3;
+      else if (word.size() > 1 && word.back() >= '1' && word.back() <= '9')
+        exponent = word.back() - '0', word = word.substr(0, word.size() - 1);
       symbol = find_symbol(word);
     }
     if (!symbol) return std::nullopt;
@@ -154,7 +215,8 @@ class UnitParser {
 
   static Unit combine(const Unit& a, const Unit& b, int sign) {
     Unit unit = a;
-    for (std::size_t i = 0; i < unit.dimension.size(); ++i) unit.dimension[i] = static_cast<std::int8_t>(a.dimension[i] + sign * b.dimension[i]);
+    for (std::size_t i = 0; i < unit.dimension.size(); ++i)
+      unit.dimension[i] = static_cast<std::int8_t>(a.dimension[i] + sign * b.dimension[i]);
     unit.factor = sign > 0 ? a.factor * b.factor : a.factor / b.factor;
     unit.offset = 0;
     return unit;
@@ -293,9 +355,10 @@ void check_range(const Quantity& quantity, double value, const std::string& unit
 
 std::optional<Suffixed> split_suffix(const std::string& name) {
   static constexpr std::pair<std::string_view, const char*> suffixes[] = {
-      {"mps2", "m/s2"}, {"radps2", "rad/s2"}, {"radps", "rad/s"}, {"mps", "m/s"}, {"kgm2", "kg m2"},  {"m2", "m2"}, {"m", "m"},   {"rad", "rad"},
-      {"deg", "deg"},   {"pa", "Pa"},         {"kelvin", "K"},    {"tesla", "T"}, {"volt", "V"},      {"amp", "A"}, {"ohm", "ohm"}, {"newton", "N"},
-      {"kg", "kg"},     {"hz", "Hz"},         {"ns", "ns"},       {"s", "s"},     {"frac", ""},       {"ratio", ""}};
+      {"mps2", "m/s2"}, {"radps2", "rad/s2"}, {"radps", "rad/s"}, {"mps", "m/s"},  {"kgm2", "kg m2"}, {"m2", "m2"},
+      {"m", "m"},       {"rad", "rad"},       {"deg", "deg"},     {"pa", "Pa"},    {"kelvin", "K"},   {"tesla", "T"},
+      {"volt", "V"},    {"amp", "A"},         {"ohm", "ohm"},     {"newton", "N"}, {"kg", "kg"},      {"hz", "Hz"},
+      {"ns", "ns"},     {"s", "s"},           {"frac", ""},       {"ratio", ""}};
   const auto underscore = name.rfind('_');
   if (underscore == std::string::npos || underscore == 0) return std::nullopt;
   for (const auto& [suffix, unit] : suffixes)

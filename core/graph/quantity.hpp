@@ -49,7 +49,8 @@ double quantity_in(std::string_view text, const std::string& unit, UnitRule rule
 /// Throws Error "9 is outside 0 .. 2 rad/rad", in the unit that the quantity was written in.
 void check_range(const Quantity& quantity, double value, const std::string& unit, double min, double max);
 
-/// The unit suffix that a field's name ends in: {"stall_alpha", "rad"}. A plain number (_frac, _ratio) has the unit "". Nothing without a suffix.
+/// The unit suffix that a field's name ends in: {"stall_alpha", "rad"}. A plain number (_frac, _ratio) has the unit "". Nothing without a
+/// suffix.
 struct Suffixed {
   std::string name, unit;
 };

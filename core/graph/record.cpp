@@ -41,8 +41,7 @@ class Filler {
       const Field* field = field_for(type, entry, place, also);
       if (!field) continue;
       const auto twice = std::find_if(seen.begin(), seen.end(), [&](const auto& s) { return s.first == field; });
-      if (twice != seen.end())
-        report_.add(entry.where(), path + ": the same field as '" + twice->second + "', which is given above");
+      if (twice != seen.end()) report_.add(entry.where(), path + ": the same field as '" + twice->second + "', which is given above");
       seen.emplace_back(field, entry.key);
       const bool own_unit = !field->unit.empty(), exact = entry.key == field->name;
       const UnitRule rule = own_unit ? (exact ? UnitRule::optional : UnitRule::required) : place.rule;
@@ -71,16 +70,17 @@ class Filler {
 
   /// A vector or quaternion: plain numbers that take their unit from outside, so that a list says it all.
   static bool is_tuple(const Type& type) {
-    return !type.frame.empty() && std::all_of(type.fields.begin(), type.fields.end(), [](const Field& field) {
-      return field.kind == FULMAR_F64 && field.shape == FULMAR_SCALAR;
-    });
+    return !type.frame.empty() && std::all_of(type.fields.begin(), type.fields.end(),
+                                              [](const Field& field) { return field.kind == FULMAR_F64 && field.shape == FULMAR_SCALAR; });
   }
 
   void fill_tuple(const Type& type, const Node& node, std::byte* data, const Place& place) {
     std::vector<std::string> names;
     for (const Field& field : type.fields) names.push_back(field.name);
     if (node.items.size() != names.size())
-      return fault(node, place.path, "expected " + std::to_string(names.size()) + " numbers [" + join(names) + "], found " + std::to_string(node.items.size()));
+      return fault(
+          node, place.path,
+          "expected " + std::to_string(names.size()) + " numbers [" + join(names) + "], found " + std::to_string(node.items.size()));
     for (std::size_t i = 0; i < names.size(); ++i)
       fill_element(type.fields[i], node.items[i], data + type.fields[i].offset, {place.path + "." + names[i], place.unit, place.rule});
   }
@@ -99,22 +99,28 @@ class Filler {
     if (same.size() > 1)
       report_.add(entry.where(), prefix + "'" + entry.key + "' could be any of " + join(same) + "; write the full name");
     else
-      report_.add(entry.where(), prefix + "unknown field '" + entry.key + "' of " + type.name + "." +
-                                       (near.empty() ? choices_text(entry.key, names) : " Did you mean '" + near + "'?" + choices_text("", names)));
+      report_.add(entry.where(),
+                  prefix + "unknown field '" + entry.key + "' of " + type.name + "." +
+                      (near.empty() ? choices_text(entry.key, names) : " Did you mean '" + near + "'?" + choices_text("", names)));
     return nullptr;
   }
 
   void fill_element(const Field& field, const Node& node, std::byte* at, const Place& place) {
     switch (field.kind) {
-      case FULMAR_STRUCT: return fill_struct(*field.type, node, at, place, {});
+      case FULMAR_STRUCT:
+        return fill_struct(*field.type, node, at, place, {});
       case FULMAR_BOOL:
         if (const auto flag = scalar_flag(node, place.path, report_)) put(at, static_cast<std::uint8_t>(*flag));
         return;
-      case FULMAR_ENUM: return fill_enum(field, node, at, place);
-      case FULMAR_TEXT: return fill_text(field, node, at, place);
+      case FULMAR_ENUM:
+        return fill_enum(field, node, at, place);
+      case FULMAR_TEXT:
+        return fill_text(field, node, at, place);
       case FULMAR_F32:
-      case FULMAR_F64: return fill_float(field, node, at, place);
-      default: return fill_integer(field, node, at, place);
+      case FULMAR_F64:
+        return fill_float(field, node, at, place);
+      default:
+        return fill_integer(field, node, at, place);
     }
   }
 
@@ -129,13 +135,15 @@ class Filler {
   void fill_text(const Field& field, const Node& node, std::byte* at, const Place& place) {
     if (!node.is(Node::Kind::scalar)) return fault(node, place.path, "expected text, found " + found_words(node));
     if (node.text.size() >= field.stride)
-      return fault(node, place.path, "text of " + std::to_string(node.text.size()) + " bytes; there is room for " + std::to_string(field.stride - 1));
+      return fault(node, place.path,
+                   "text of " + std::to_string(node.text.size()) + " bytes; there is room for " + std::to_string(field.stride - 1));
     std::memset(at, 0, field.stride);
     std::memcpy(at, node.text.data(), node.text.size());
   }
 
   void fill_float(const Field& field, const Node& node, std::byte* at, const Place& place) {
-    if (!node.is(Node::Kind::scalar)) return fault(node, place.path, "expected a number" + unit_words(place.unit) + ", found " + found_words(node));
+    if (!node.is(Node::Kind::scalar))
+      return fault(node, place.path, "expected a number" + unit_words(place.unit) + ", found " + found_words(node));
     try {
       const Quantity quantity = parse_quantity(node.text);
       const double value = convert(quantity, place.unit, place.rule);
@@ -156,12 +164,13 @@ class Filler {
     const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), exact);  // keeps all 64 bits
     if (!scaled && code == std::errc{} && end == text.data() + text.size()) return put(at, exact);
     constexpr double lowest = static_cast<double>(std::numeric_limits<T>::lowest());
-    constexpr double above = std::is_same_v<T, std::int64_t> ? 9223372036854775808.0
+    constexpr double above = std::is_same_v<T, std::int64_t>    ? 9223372036854775808.0
                              : std::is_same_v<T, std::uint64_t> ? 18446744073709551616.0
                                                                 : static_cast<double>(std::numeric_limits<T>::max()) + 1;
     if (value != std::floor(value)) throw Error(text + " is not a whole number");
     if (value < lowest || value >= above)
-      throw Error(text + " is outside " + std::to_string(std::numeric_limits<T>::lowest()) + " .. " + std::to_string(std::numeric_limits<T>::max()));
+      throw Error(text + " is outside " + std::to_string(std::numeric_limits<T>::lowest()) + " .. " +
+                  std::to_string(std::numeric_limits<T>::max()));
     put(at, static_cast<T>(value));
   }
 
@@ -174,11 +183,16 @@ class Filler {
       check_range(quantity, value, place.unit, field.min, field.max);
       const bool scaled = !quantity.unit.empty();
       switch (field.kind) {
-        case FULMAR_U8: return put_integer<std::uint8_t>(at, quantity.text, value, scaled);
-        case FULMAR_I32: return put_integer<std::int32_t>(at, quantity.text, value, scaled);
-        case FULMAR_U32: return put_integer<std::uint32_t>(at, quantity.text, value, scaled);
-        case FULMAR_I64: return put_integer<std::int64_t>(at, quantity.text, value, scaled);
-        default: return put_integer<std::uint64_t>(at, quantity.text, value, scaled);
+        case FULMAR_U8:
+          return put_integer<std::uint8_t>(at, quantity.text, value, scaled);
+        case FULMAR_I32:
+          return put_integer<std::int32_t>(at, quantity.text, value, scaled);
+        case FULMAR_U32:
+          return put_integer<std::uint32_t>(at, quantity.text, value, scaled);
+        case FULMAR_I64:
+          return put_integer<std::int64_t>(at, quantity.text, value, scaled);
+        default:
+          return put_integer<std::uint64_t>(at, quantity.text, value, scaled);
       }
     } catch (const Error& error) {
       fault(node, place.path, error.what());
@@ -210,7 +224,8 @@ const Field* field_of_key(const Type& type, const std::string& key) {
   return found;
 }
 
-void fill_record(const Type& type, const Node& node, std::byte* data, const std::string& path, Report& report, const std::vector<std::string>& also) {
+void fill_record(const Type& type, const Node& node, std::byte* data, const std::string& path, Report& report,
+                 const std::vector<std::string>& also) {
   if (node.is(Node::Kind::missing)) return;
   Filler(report).fill_struct(type, node, data, {path, "", UnitRule::optional}, also);
 }

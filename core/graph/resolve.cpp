@@ -71,7 +71,8 @@ void collect_candidates(Draft& draft, Catalogue& catalogue) {
   for (const RoleText& text : draft.text.roles) {
     draft.roles.emplace_back();
     draft.roles.back().text = &text;
-    if (draft.text.component(text.name)) draft.report.add(text.where, "roles." + text.name + ": there is a component of that name too; rename one of them");
+    if (draft.text.component(text.name))
+      draft.report.add(text.where, "roles." + text.name + ": there is a component of that name too; rename one of them");
   }
   for (const ComponentText& text : draft.text.components) {
     if (draft.is_out(text)) continue;
@@ -81,11 +82,12 @@ void collect_candidates(Draft& draft, Catalogue& catalogue) {
     if (!text.fills.empty()) {
       candidate.role = draft.role(text.fills);
       if (candidate.role < 0)
-        draft.report.add(text.where_fills, "components." + text.name + ": there is no role '" + text.fills + "'." + choices_text(text.fills, draft.role_names()));
+        draft.report.add(text.where_fills, "components." + text.name + ": there is no role '" + text.fills + "'." +
+                                               choices_text(text.fills, draft.role_names()));
     }
     if (text.rate_hz > draft.text.rate_hz * (1 + 1e-9))
-      draft.report.add(text.where_rate, "components." + text.name + ".rate: " + number_text(text.rate_hz) + " Hz is above the mission's rate of " +
-                                            number_text(draft.text.rate_hz) + " Hz");
+      draft.report.add(text.where_rate, "components." + text.name + ".rate: " + number_text(text.rate_hz) +
+                                            " Hz is above the mission's rate of " + number_text(draft.text.rate_hz) + " Hz");
     draft.candidates.push_back(std::move(candidate));
   }
 }
@@ -105,14 +107,17 @@ bool keeps_contract(Draft& draft, const RoleDraft& role, const Candidate& filler
   if (role.text->name == "vehicle" && !info.vehicle)
     draft.report.add(filler.text->where_fills, path + filler.use + " is not a vehicle: it has 'step' in place of 'read' and 'write'");
   if (role.text->name != "vehicle" && info.vehicle)
-    draft.report.add(filler.text->where_fills, path + filler.use + " is a vehicle and can fill only the role vehicle, not " + role.text->name);
+    draft.report.add(filler.text->where_fills,
+                     path + filler.use + " is a vehicle and can fill only the role vehicle, not " + role.text->name);
   for (const RoleOutText& out : role.text->out) {
     const int i = info.output(out.name);
     const TypePtr type = i < 0 ? nullptr : info.outputs[static_cast<std::size_t>(i)].type;
     if (i < 0 && out.optional) continue;
     if (type && type->name == out.type) continue;
-    const std::string has = i < 0 ? "; it has " + join(output_words(info)) : "; its '" + out.name + "' is " + (type ? type->name : "a probe");
-    draft.report.add(filler.text->where_fills, path + "the role " + role.text->name + " wants an output '" + out.name + "' of type " + out.type + has);
+    const std::string has =
+        i < 0 ? "; it has " + join(output_words(info)) : "; its '" + out.name + "' is " + (type ? type->name : "a probe");
+    draft.report.add(filler.text->where_fills,
+                     path + "the role " + role.text->name + " wants an output '" + out.name + "' of type " + out.type + has);
     keeps = false;
   }
   return keeps;
@@ -130,13 +135,14 @@ TypePtr common_type(Draft& draft, const RoleDraft& role, const RoleOutText& out)
   }
   for (const auto& [reader, table] : given) {
     const TypePtr wanted = table;
-    if (std::all_of(given.begin(), given.end(), [&](const auto& writer) { return incompatibility(*writer.second, *wanted).empty(); })) return wanted;
+    if (std::all_of(given.begin(), given.end(), [&](const auto& writer) { return incompatibility(*writer.second, *wanted).empty(); }))
+      return wanted;
   }
   for (std::size_t i = 1; i < given.size(); ++i) {
     const std::string fault = incompatibility(*given[i].second, *given[0].second);
     if (fault.empty()) continue;
-    draft.report.add(given[i].first->text->where, "components." + given[i].first->name() + ": its '" + out.name + "' differs from that of " +
-                                                      given[0].first->name() + ": " + fault);
+    draft.report.add(given[i].first->text->where, "components." + given[i].first->name() + ": its '" + out.name +
+                                                      "' differs from that of " + given[0].first->name() + ": " + fault);
     break;
   }
   return given.empty() ? nullptr : given[0].second;
@@ -196,15 +202,17 @@ void mark_used(Draft& draft) {
 }
 
 Source in_graph(const Draft& draft, Source source) {
-  if (source.kind == Source::Kind::component) source.index = draft.candidates[static_cast<std::size_t>(source.index)].component;
-  return source;
+  if (source.kind != Source::Kind::component) return source;
+  source.index = draft.candidates[static_cast<std::size_t>(source.index)].component;
+  return source.index < 0 ? Source{} : source;  // its component was refused
 }
 
 /// An output of a role that none of its fillers in this run has feeds nobody.
 bool dangling(const Graph& graph, const Source& source) {
   if (source.kind != Source::Kind::role) return false;
   const Role& role = graph.roles[static_cast<std::size_t>(source.index)];
-  return std::all_of(role.provides.begin(), role.provides.end(), [&](const auto& outputs) { return outputs[static_cast<std::size_t>(source.output)] < 0; });
+  return std::all_of(role.provides.begin(), role.provides.end(),
+                     [&](const auto& outputs) { return outputs[static_cast<std::size_t>(source.output)] < 0; });
 }
 
 void build_components(Draft& draft) {
@@ -234,7 +242,8 @@ void build_roles(Draft& draft) {
     Role role;
     role.name = from.text->name;
     role.where = from.text->where;
-    for (std::size_t o = 0; o < from.text->out.size(); ++o) role.outputs.push_back({from.text->out[o].name, from.types[o], from.text->out[o].optional});
+    for (std::size_t o = 0; o < from.text->out.size(); ++o)
+      role.outputs.push_back({from.text->out[o].name, from.types[o], from.text->out[o].optional});
     for (const int f : from.fillers) {
       const Candidate& filler = draft.candidates[static_cast<std::size_t>(f)];
       if (filler.component < 0 || !filler.assigned) continue;
@@ -286,7 +295,8 @@ void read_record_rules(Draft& draft) {
         std::any_of(ports.begin(), ports.end(), [&](const std::string& port) { return matches(port, pattern); }))
       continue;
     const std::string near = nearest(pattern, ports);
-    draft.report.add(draft.text.record_where[i], "record.ports: '" + pattern + "' matches no port." + (near.empty() ? "" : " Did you mean '" + near + "'?"));
+    draft.report.add(draft.text.record_where[i],
+                     "record.ports: '" + pattern + "' matches no port." + (near.empty() ? "" : " Did you mean '" + near + "'?"));
   }
 }
 

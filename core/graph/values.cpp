@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parameters of every component: declared value <- airframe file <- what the mission as a whole says <- `params:` <- --set. And the failsafe.
+// Parameters of every component: declared value <- airframe file <- what the mission as a whole says <- `params:` <- --set. And the
+// failsafe.
 #include <algorithm>
 
 #include "core/graph/draft.hpp"
@@ -26,7 +27,8 @@ AirframeSource airframe_source(Draft& draft) {
   if (!file) return {};
   const Node& tree = draft.files.tree(file);
   if (tree.is(Node::Kind::map)) return {&tree, file->path.filename().string(), ""};
-  if (!tree.is(Node::Kind::missing)) draft.report.add(tree.where(), "expected a map with the fields of an airframe; found " + found_words(tree));
+  if (!tree.is(Node::Kind::missing))
+    draft.report.add(tree.where(), "expected a map with the fields of an airframe; found " + found_words(tree));
   return {};
 }
 
@@ -41,12 +43,14 @@ void set_params(Draft& draft, Candidate& candidate, const Node& map, const std::
   for (const Node::Entry& entry : map.entries) {
     const int p = info.param(entry.key);
     if (p < 0) {
-      draft.report.add(entry.where(), path + ": " + candidate.use + " has no parameter '" + entry.key + "'." + choices_text(entry.key, param_names(info)));
+      draft.report.add(entry.where(),
+                       path + ": " + candidate.use + " has no parameter '" + entry.key + "'." + choices_text(entry.key, param_names(info)));
       continue;
     }
     const auto i = static_cast<std::size_t>(p);
     if (info.vehicle && (entry.key == "rate" || entry.key == "epoch_s")) {
-      draft.report.add(entry.where(), path + "." + entry.key + ": comes from the mission's '" + (entry.key == "rate" ? "rate" : "epoch") + "'; set it there");
+      draft.report.add(entry.where(), path + "." + entry.key + ": comes from the mission's '" + (entry.key == "rate" ? "rate" : "epoch") +
+                                          "'; set it there");
       continue;
     }
     read_param(info.params[i], entry.value, path + "." + entry.key, candidate.params[i], draft.files, draft.report);
@@ -58,7 +62,9 @@ void set_from_airframe(Draft& draft, Candidate& candidate, const AirframeSource&
   const Node* sections = airframe.tree ? airframe.tree->find("params") : nullptr;
   if (!sections) return;
   const std::string prefix = airframe.path.empty() ? "params" : airframe.path + ".params";
-  if (!sections->is(Node::Kind::map)) return draft.report.add(sections->where(), prefix + ": expected a map {plugin/Component: {parameter: value}}, found " + found_words(*sections));
+  if (!sections->is(Node::Kind::map))
+    return draft.report.add(sections->where(),
+                            prefix + ": expected a map {plugin/Component: {parameter: value}}, found " + found_words(*sections));
   const auto [plugin, component] = split_use(candidate.use);
   for (const Node::Entry& entry : sections->entries) {
     const auto [for_plugin, for_component] = split_use(entry.key);
@@ -67,10 +73,12 @@ void set_from_airframe(Draft& draft, Candidate& candidate, const AirframeSource&
     std::vector<std::string> names;
     for (const ComponentInfo& info : candidate.plugin.info->components) names.push_back(info.name);
     if (!for_component.empty() && std::find(names.begin(), names.end(), for_component) == names.end())
-      draft.report.add(entry.where(), prefix + ": the plugin " + plugin + " has no component '" + for_component + "'." + choices_text(for_component, names));
+      draft.report.add(entry.where(), prefix + ": the plugin " + plugin + " has no component '" + for_component + "'." +
+                                          choices_text(for_component, names));
     if (for_component.empty() ? candidate.index != 0 : for_component != component) continue;
     if (!entry.value.is(Node::Kind::map))
-      draft.report.add(entry.value.where(), prefix + "." + entry.key + ": expected a map {parameter: value}, found " + found_words(entry.value));
+      draft.report.add(entry.value.where(),
+                       prefix + "." + entry.key + ": expected a map {parameter: value}, found " + found_words(entry.value));
     set_params(draft, candidate, entry.value, prefix + "." + entry.key);
   }
 }
@@ -89,8 +97,9 @@ void set_from_mission(Draft& draft, Candidate& candidate, const AirframeSource& 
     if (param.name == "rate") {
       value.number[0] = draft.text.rate_hz;
       if (value.number[0] < param.min || value.number[0] > param.max)
-        draft.report.add(candidate.text->where, "components." + candidate.name() + ": the mission's rate of " + number_text(draft.text.rate_hz) + " Hz is outside " +
-                                                    number_text(param.min) + " .. " + number_text(param.max) + " Hz of " + candidate.use);
+        draft.report.add(candidate.text->where, "components." + candidate.name() + ": the mission's rate of " +
+                                                    number_text(draft.text.rate_hz) + " Hz is outside " + number_text(param.min) + " .. " +
+                                                    number_text(param.max) + " Hz of " + candidate.use);
     }
     if (param.name == "epoch_s") value.number[0] = static_cast<double>(draft.text.epoch_ns) * 1e-9;
   }
@@ -135,13 +144,15 @@ void read_values(Draft& draft) {
   const AirframeSource airframe = airframe_source(draft);
   const Node& origin = draft.text.origin;
   if (!origin.is(Node::Kind::missing) && !origin.is(Node::Kind::map))
-    draft.report.add(origin.where(), "origin: expected a map such as {lat: 40.25, lon: -111.65, alt_msl: 1387 m}, found " + found_words(origin));
+    draft.report.add(origin.where(),
+                     "origin: expected a map such as {lat: 40.25, lon: -111.65, alt_msl: 1387 m}, found " + found_words(origin));
   for (Candidate& candidate : draft.candidates) {
     if (!candidate.loaded) continue;
     for (const ParamInfo& param : candidate.info().params) candidate.params.push_back(initial_value(param));
     set_from_airframe(draft, candidate, airframe);
     set_from_mission(draft, candidate, airframe);
-    if (candidate.text->params.is(Node::Kind::map)) set_params(draft, candidate, candidate.text->params, "components." + candidate.name() + ".params");
+    if (candidate.text->params.is(Node::Kind::map))
+      set_params(draft, candidate, candidate.text->params, "components." + candidate.name() + ".params");
   }
   set_from_command(draft);
   for (const Candidate& candidate : draft.candidates)
@@ -157,7 +168,8 @@ void read_failsafe(Draft& draft) {
   const ComponentInfo& info = graph.components[static_cast<std::size_t>(graph.vehicle)].info();
   const Node& node = draft.text.failsafe;
   if (node.is(Node::Kind::missing)) return;
-  if (!node.is(Node::Kind::map)) return draft.report.add(node.where(), "failsafe: expected a map such as {throttle_frac: 0, for: 2 s}, found " + found_words(node));
+  if (!node.is(Node::Kind::map))
+    return draft.report.add(node.where(), "failsafe: expected a map such as {throttle_frac: 0, for: 2 s}, found " + found_words(node));
   graph.failsafe.resize(info.inputs.size());
   std::vector<Node> parts(info.inputs.size());
   std::vector<std::string> names{"for"};

@@ -42,7 +42,9 @@ Target component_target(const Draft& draft, int index, const PortName& name) {
   target.unclear = true;
   if (!candidate.loaded) return target;
   const int output = candidate.info().output(name.port);
-  if (output < 0) throw Error(name.owner + " (" + candidate.use + ") has no output '" + name.port + "'." + choices_text(name.port, port_names(candidate.info().outputs)));
+  if (output < 0)
+    throw Error(name.owner + " (" + candidate.use + ") has no output '" + name.port + "'." +
+                choices_text(name.port, port_names(candidate.info().outputs)));
   const Port& port = candidate.info().outputs[static_cast<std::size_t>(output)];
   target.source.output = output;
   target.type = port.type;
@@ -56,11 +58,13 @@ std::string misfit(const std::string& owner, const Port& input, const PortName& 
   if (target.kind == FULMAR_OUT_PROBE) return from.text() + " is a probe: a number to look at, not a message to wire";
   const std::string reason = incompatibility(*target.type, *input.type);
   if (!reason.empty()) {
-    if (target.type->name == input.type->name) return from.text() + " is another " + input.type->name + " than " + owner + "." + input.name + " takes: " + reason;
+    if (target.type->name == input.type->name)
+      return from.text() + " is another " + input.type->name + " than " + owner + "." + input.name + " takes: " + reason;
     return owner + "." + input.name + " takes " + input.type->name + ", but " + from.text() + " is " + target.type->name;
   }
   if (input.kind == FULMAR_IN_REQUEST && target.kind == FULMAR_OUT_VALUE)
-    return owner + "." + input.name + " is a request, but " + from.text() + " is sent in every step; a request is fed by an output that may stay silent";
+    return owner + "." + input.name + " is a request, but " + from.text() +
+           " is sent in every step; a request is fed by an output that may stay silent";
   return "";
 }
 
@@ -69,7 +73,9 @@ void connect(Draft& draft, std::size_t index, const WireText& text, const std::s
   Candidate& candidate = draft.candidates[index];
   const ComponentInfo& info = candidate.info();
   const int input = info.input(text.input);
-  if (input < 0) return draft.report.add(text.where, path + ": " + candidate.use + " has no such input." + choices_text(text.input, port_names(info.inputs)));
+  if (input < 0)
+    return draft.report.add(text.where,
+                            path + ": " + candidate.use + " has no such input." + choices_text(text.input, port_names(info.inputs)));
   try {
     const Target target = find_target(draft, text.from);
     const auto i = static_cast<std::size_t>(input);
@@ -98,7 +104,8 @@ void check_role_wires(Draft& draft, const RoleDraft& role) {
     const bool known = std::find(inputs.begin(), inputs.end(), wire.input) != inputs.end();
     const std::string near = nearest(wire.input, inputs);
     if (!known && !near.empty() && !role.unclear)
-      draft.report.add(wire.where, path + ": no component that fills " + role.text->name + " has such an input. Did you mean '" + near + "'?");
+      draft.report.add(wire.where,
+                       path + ": no component that fills " + role.text->name + " has such an input. Did you mean '" + near + "'?");
   }
 }
 
@@ -127,7 +134,8 @@ void resolve_wires(Draft& draft) {
     if (candidate.role >= 0) {
       const RoleText& role = *draft.roles[static_cast<std::size_t>(candidate.role)].text;
       for (const WireText& wire : role.in)
-        if (candidate.info().input(wire.input) >= 0 && !own(wire.input)) connect(draft, i, wire, "roles." + role.name + ".in." + wire.input);
+        if (candidate.info().input(wire.input) >= 0 && !own(wire.input))
+          connect(draft, i, wire, "roles." + role.name + ".in." + wire.input);
     }
     for (const WireText& wire : candidate.text->in) connect(draft, i, wire, "components." + candidate.name() + ".in." + wire.input);
   }
@@ -152,7 +160,8 @@ std::vector<std::string> proposals(const Draft& draft, const Candidate& reader, 
   for (std::size_t i = 0; i < draft.candidates.size(); ++i) {
     const Candidate& writer = draft.candidates[i];
     if (&writer == &reader || !writer.loaded || writer.role >= 0) continue;
-    for (const Port& port : writer.info().outputs) offer({writer.name(), port.name}, component_target(draft, static_cast<int>(i), {writer.name(), port.name}));
+    for (const Port& port : writer.info().outputs)
+      offer({writer.name(), port.name}, component_target(draft, static_cast<int>(i), {writer.name(), port.name}));
   }
   return names;
 }
@@ -178,8 +187,9 @@ void check_fed(Draft& draft) {
       if (wire.from.kind == Source::Kind::none) {
         if (wire_reported(draft, candidate, input.name)) continue;
         const std::vector<std::string> fitting = proposals(draft, candidate, input);
-        draft.report.add(candidate.text->where, path + "is not wired; " + (fitting.empty() ? "there is no output of type " + input.type->name
-                                                                                            : "outputs of type " + input.type->name + ": " + join(fitting)));
+        draft.report.add(candidate.text->where, path + "is not wired; " +
+                                                    (fitting.empty() ? "there is no output of type " + input.type->name
+                                                                     : "outputs of type " + input.type->name + ": " + join(fitting)));
       } else if (wire.from.kind == Source::Kind::role && candidate.used) {
         const auto r = static_cast<std::size_t>(wire.from.index);
         const auto o = static_cast<std::size_t>(wire.from.output);
@@ -255,7 +265,8 @@ void order_steps(Draft& draft) {
     std::size_t next = n;
     for (std::size_t i = 0; i < n && next == n; ++i) {
       if (done[i] || static_cast<int>(i) == graph.vehicle) continue;
-      if (std::all_of(before[i].begin(), before[i].end(), [&](const Edge& edge) { return done[static_cast<std::size_t>(edge.from)]; })) next = i;
+      if (std::all_of(before[i].begin(), before[i].end(), [&](const Edge& edge) { return done[static_cast<std::size_t>(edge.from)]; }))
+        next = i;
     }
     if (next == n) return report_cycle(draft, before, done);
     done[next] = true;

@@ -32,9 +32,8 @@ void Report::add(const Where& where, const std::string& sentence) {
 
 std::string Report::text() const {
   std::vector<Fault> sorted = faults_;
-  std::stable_sort(sorted.begin(), sorted.end(), [](const Fault& a, const Fault& b) {
-    return a.rank != b.rank ? a.rank < b.rank : a.where.line < b.where.line;
-  });
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const Fault& a, const Fault& b) { return a.rank != b.rank ? a.rank < b.rank : a.where.line < b.where.line; });
   std::string all;
   for (const Fault& fault : sorted) all += (all.empty() ? "" : "\n") + fault.where.text() + ": " + fault.sentence;
   return all;
@@ -54,10 +53,14 @@ const Node* Node::find(const std::string& key) const {
 
 std::string found_words(const Node& node) {
   switch (node.kind) {
-    case Node::Kind::sequence: return "a list";
-    case Node::Kind::map: return "a map";
-    case Node::Kind::scalar: return "'" + node.text + "'";
-    default: return "nothing";
+    case Node::Kind::sequence:
+      return "a list";
+    case Node::Kind::map:
+      return "a map";
+    case Node::Kind::scalar:
+      return "'" + node.text + "'";
+    default:
+      return "nothing";
   }
 }
 
@@ -130,7 +133,8 @@ std::string plain_words(const std::string& said) {
       {"end of sequence not found", "the indentation of a list does not fit what stands above"},
       {"end of map flow not found", "a '{' is not closed, or a ',' is missing"},
       {"end of sequence flow not found", "a '[' is not closed, or a ',' is missing"},
-      {"illegal map value", "a ':' stands where none can: look at the indentation and at the line above; text that holds ': ' needs quotes"},
+      {"illegal map value",
+       "a ':' stands where none can: look at the indentation and at the line above; text that holds ': ' needs quotes"},
       {"illegal EOF in scalar", "a quote is not closed"},
       {"unknown token", "a character that cannot begin a value; put the text in quotes"},
       {"illegal block entry", "a '-' stands where no list can begin"},
@@ -159,9 +163,12 @@ std::string quoted_optional_keys(const std::string& text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i], before = i > 0 ? text[i - 1] : '\n';
     const bool begins = std::string_view(" \t\n{[,:").find(before) != std::string_view::npos;
-    if (c == '\n') quote = 0;
-    else if (quote == 0 && begins && (c == '"' || c == '\'')) quote = c;
-    else if (quote != 0 && c == quote && before != '\\') quote = 0;
+    if (c == '\n')
+      quote = 0;
+    else if (quote == 0 && begins && (c == '"' || c == '\''))
+      quote = c;
+    else if (quote != 0 && c == quote && before != '\\')
+      quote = 0;
     if (quote == 0 && begins && c == '#')
       while (i + 1 < text.size() && text[i + 1] != '\n') out += text[i++];
     std::size_t end = i;
@@ -188,7 +195,8 @@ Node parse_yaml(const FilePtr& file, Report& report) {
   } catch (const YAML::Exception& fault) {
     const bool placed = !fault.mark.is_null() && !file->path.empty();
     const bool tab = !fault.mark.is_null() && begins_with_tab(file->text, fault.mark.line);
-    report.add({file->name, placed ? fault.mark.line + 1 : 0}, "not valid YAML: " + (tab ? "a tab indents this line; YAML wants spaces" : plain_words(fault.msg)));
+    report.add({file->name, placed ? fault.mark.line + 1 : 0},
+               "not valid YAML: " + (tab ? "a tab indents this line; YAML wants spaces" : plain_words(fault.msg)));
   } catch (const std::exception& fault) {
     report.add({file->name, 0}, std::string("not valid YAML: ") + fault.what());
   }
@@ -269,8 +277,7 @@ std::optional<double> Keys::positive(const std::string& key, const std::string& 
   if (!node->is(Node::Kind::scalar)) return wrong(key, "a number with a unit, such as 10 " + unit), std::nullopt;
   try {
     const double value = quantity_in(node->text, unit, UnitRule::required);
-    if (value < 0 || (value == 0 && !or_zero))
-      throw Error(node->text + (or_zero ? " is negative" : " is not above 0"));
+    if (value < 0 || (value == 0 && !or_zero)) throw Error(node->text + (or_zero ? " is negative" : " is not above 0"));
     return value;
   } catch (const Error& fault) {
     report_.add(node->where(), path(key) + ": " + fault.what());

@@ -44,7 +44,7 @@ struct Node {
   enum class Kind : std::uint8_t { missing, null, scalar, sequence, map };
   struct Entry;
   Kind kind = Kind::missing;
-  bool quoted = false;         // a scalar in quotes is text, whatever it looks like
+  bool quoted = false;  // a scalar in quotes is text, whatever it looks like
   int line = 0;
   FilePtr file;
   std::string text;            // of a scalar

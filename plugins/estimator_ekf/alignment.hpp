@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // First attitude of the filter: at rest from gravity and the magnetic field, in the air from the acceleration that the GNSS velocity shows.
 #pragma once
-#include <fulmar/flight/attitude.hpp>
-
 #include <array>
 #include <cmath>
+#include <fulmar/flight/attitude.hpp>
 #include <optional>
 
 namespace fulmar::estimator {

@@ -19,7 +19,8 @@ struct Ekf {
   };
   struct Outputs {
     Out<VehicleState> state;
-    Probe horizontal_ratio, height_ratio, velocity_ratio, baro_ratio, pitot_ratio, sideslip_ratio, heading_ratio;  ///< innovations in deviations
+    Probe horizontal_ratio, height_ratio, velocity_ratio, baro_ratio, pitot_ratio, sideslip_ratio,
+        heading_ratio;    ///< innovations in deviations
     Probe refused_ratio;  ///< measurements refused by their gates so far
     Probe gust_mps, baro_bias_m, heading_deviation_rad;
   };
@@ -144,9 +145,11 @@ inline void Ekf::fill_deviations(const Params& p) {
   s.origin_longitude_deg = origin.lon_deg;
   s.origin_altitude_m = origin.alt_m;
   s.origin_valid = navigator_.origin_known();
-  s.attitude_valid = navigator_.yaw_known() && std::max(s.attitude_std_rad.north, s.attitude_std_rad.east) < 0.25 && s.attitude_std_rad.down < 0.5;
+  s.attitude_valid =
+      navigator_.yaw_known() && std::max(s.attitude_std_rad.north, s.attitude_std_rad.east) < 0.25 && s.attitude_std_rad.down < 0.5;
   s.velocity_valid = std::max({s.velocity_std_mps.north, s.velocity_std_mps.east, s.velocity_std_mps.down}) < 3;
-  s.position_valid = navigator_.position_known() && now - h.position_s < p.gnss_timeout && std::max(s.position_std_m.north, s.position_std_m.east) < 50;
+  s.position_valid =
+      navigator_.position_known() && now - h.position_s < p.gnss_timeout && std::max(s.position_std_m.north, s.position_std_m.east) < 50;
   s.height_valid = navigator_.height_known() && s.position_std_m.down < 20;
   s.wind_valid = std::max(s.wind_std_mps.north, s.wind_std_mps.east) < 3;
   s.airspeed_valid = navigator_.airborne() ? pitot || s.airspeed_std_mps < 3 : tube;

@@ -46,7 +46,8 @@ struct Params {
   Param wind_std{5, "m/s", 0.1, 30, "wind before it is learnt"};
   Param gust_std{1, "m/s", 0, 10, "gusts along the flight: first-order Gauss-Markov"};
   Param gust_time{3, "s", 0.1, 60, "their correlation time"};
-  Param sideslip_speed_std{2.0, "m/s", 0.05, 20, "side component of the air velocity, at 10 Hz, gusts included"};
+  Param sideslip_speed_std{2.0, "m/s", 0.05, 20,
+                           "side component of the air velocity, at 10 Hz; its gusts are correlated, so attitude does not follow it"};
   Param sideslip_ratio{0.1, "rad", 0, 1, "grows with the airspeed: sideslip of uncoordinated flight"};
   Param min_airspeed{8, "m/s", 2, 40, "below this neither pitot nor sideslip is used: rolling, not flying"};
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "core/graph/condition.hpp"
+
 #include <doctest/doctest.h>
 
 #include <cstring>
 
-#include "core/graph/condition.hpp"
 #include "core/graph/test/shelf.hpp"
 #include "core/graph/test/shelf_types.hpp"
 #include "fulmar/msg/path.hpp"
@@ -29,11 +30,16 @@ struct World : SampleReader {
   const std::byte* sample(const Source& source) const noexcept override {
     const auto bytes = [](const auto& value, bool there) { return there ? reinterpret_cast<const std::byte*>(&value) : nullptr; };
     switch (source.index) {
-      case 0: return bytes(state, has_state);
-      case 1: return bytes(status, has_status);
-      case 2: return bytes(path, has_path);
-      case 3: return bytes(plan, has_plan);
-      default: return bytes(probe, true);
+      case 0:
+        return bytes(state, has_state);
+      case 1:
+        return bytes(status, has_status);
+      case 2:
+        return bytes(path, has_path);
+      case 3:
+        return bytes(plan, has_plan);
+      default:
+        return bytes(probe, true);
     }
   }
   static std::pair<Source, TypePtr> find(const std::string& owner, const std::string& port) {
@@ -100,10 +106,10 @@ TEST_CASE("units of a condition are converted to those of the field") {
   World world;
   world.state.height_m = 100;
   world.state.roll_rad = 0.8;
-  CHECK(world("nav.state.height_m > 328 ft"));         // 328 ft = 99.97 m
-  CHECK_FALSE(world("nav.state.height_m > 329 ft"));   // 329 ft = 100.28 m
-  CHECK(world("nav.state.roll_rad > 45 deg"));         // 0.785 rad
-  CHECK_FALSE(world("nav.state.roll_rad > 46 deg"));   // 0.803 rad
+  CHECK(world("nav.state.height_m > 328 ft"));        // 328 ft = 99.97 m
+  CHECK_FALSE(world("nav.state.height_m > 329 ft"));  // 329 ft = 100.28 m
+  CHECK(world("nav.state.roll_rad > 45 deg"));        // 0.785 rad
+  CHECK_FALSE(world("nav.state.roll_rad > 46 deg"));  // 0.803 rad
   world.state.airspeed_mps = 10;
   CHECK(world("nav.state.airspeed_mps > 19 kt and nav.state.airspeed_mps < 36.1 km/h"));
 }
@@ -177,7 +183,8 @@ TEST_CASE("a wrong condition is refused with a sentence") {
   CHECK(refused("manage.path.kind == manage.path.turn") == "'manage.path.kind' and 'manage.path.turn' have different words");
   CHECK(refused("vehicle.status.armed == 1") == "'vehicle.status.armed' is true or false, not 1");
   CHECK(refused("vehicle.status.armed == yes") == "'vehicle.status.armed' is true or false, not 'yes'");
-  CHECK(refused("vehicle.status.armed == vehicle.status.health") == "'vehicle.status.armed' and 'vehicle.status.health' cannot be compared");
+  CHECK(refused("vehicle.status.armed == vehicle.status.health") ==
+        "'vehicle.status.armed' and 'vehicle.status.health' cannot be compared");
   CHECK(refused("law.roll_error_rad.x > 3") == "'law.roll_error_rad' is a probe: one number, without fields");
   CHECK(refused("law.roll_error_rad > 3 m") == "'law.roll_error_rad': 3 m is a length, not an angle");
   CHECK(refused("nav.stat.height_m > 3") == "there is no port nav.stat");

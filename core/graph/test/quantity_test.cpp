@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "core/graph/quantity.hpp"
+
 #include <doctest/doctest.h>
 
 #include <functional>
 #include <limits>
-
-#include "core/graph/quantity.hpp"
 
 using namespace fulmar::core;
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "core/graph/record.hpp"
+
 #include <doctest/doctest.h>
 
-#include "core/graph/record.hpp"
 #include "core/graph/test/shelf.hpp"
 #include "core/graph/test/shelf_types.hpp"
 #include "fulmar/msg/actuators.hpp"
@@ -78,7 +79,8 @@ TEST_CASE("a plan's list is counted and vectors are lists or maps") {
 
 TEST_CASE("numbers of every kind arrive exactly") {
   const auto sample = read<Sample>(
-      "time: 100 ms\nbig: 18446744073709551615\nsmall: -2147483648\nbyte: 255\nnarrow_m: 0.5\ngains: [4, 5.5, 6e1]\nfew: [1 cm]\ntext: seven77\ncolour: green\n");
+      "time: 100 ms\nbig: 18446744073709551615\nsmall: -2147483648\nbyte: 255\nnarrow_m: 0.5\ngains: [4, 5.5, 6e1]\nfew: [1 cm]\ntext: "
+      "seven77\ncolour: green\n");
   CHECK(sample.faults == "");
   CHECK(sample.value.time_ns == 100'000'000);
   CHECK(sample.value.big == 18446744073709551615u);
@@ -94,7 +96,8 @@ TEST_CASE("numbers of every kind arrive exactly") {
 }
 
 TEST_CASE("every fault of a record is told at once, with the line of its own file") {
-  CHECK(read<Sample>("big: -1\nsmall: 2147483648\nbyte: 1.5\nnarrow: 0.5\ngains: [1, 2]\nfew: [1 m, 2 m, 3 m]\ntext: eight888\ncolour: gren\nrange: 3 m\n"
+  CHECK(read<Sample>("big: -1\nsmall: 2147483648\nbyte: 1.5\nnarrow: 0.5\ngains: [1, 2]\nfew: [1 m, 2 m, 3 m]\ntext: eight888\ncolour: "
+                     "gren\nrange: 3 m\n"
                      "bigg: 3\ngains_ratio: 7\ntime: [1]\n")
             .faults ==
         "file.yaml:1: big: -1 is outside 0 .. 18446744073709551615\n"
@@ -106,7 +109,8 @@ TEST_CASE("every fault of a record is told at once, with the line of its own fil
         "file.yaml:7: text: text of 8 bytes; there is room for 7\n"
         "file.yaml:8: colour: unknown word 'gren'. Did you mean 'green'? Valid: red, green.\n"
         "file.yaml:9: 'range' could be any of range_m, range_s; write the full name\n"
-        "file.yaml:10: unknown field 'bigg' of Sample. Did you mean 'big'? Valid: time_ns, big, small, byte, narrow_m, gains_ratio, few_m, text, colour, range_m, range_s.\n"
+        "file.yaml:10: unknown field 'bigg' of Sample. Did you mean 'big'? Valid: time_ns, big, small, byte, narrow_m, gains_ratio, few_m, "
+        "text, colour, range_m, range_s.\n"
         "file.yaml:11: gains_ratio: the same field as 'gains', which is given above\n"
         "file.yaml:11: gains_ratio: expected a list of exactly 3, found '7'\n"
         "file.yaml:12: time: expected a whole number, found a list");
@@ -115,7 +119,8 @@ TEST_CASE("every fault of a record is told at once, with the line of its own fil
 TEST_CASE("faults inside nested things name the way to them") {
   CHECK(read<Airframe>("wing:\n  span: 3 kg\n  are: 1 m^2\naileron: [1]\nelevator: {reversed: maybe}\nmass_kg: .nan\n").faults ==
         "file.yaml:2: wing.span: 3 kg is a mass, not a length\n"
-        "file.yaml:3: wing: unknown field 'are' of Wing. Did you mean 'area'? Valid: area_m2, span_m, chord_m, oswald_ratio, stall_alpha_rad, stall_sharpness_ratio.\n"
+        "file.yaml:3: wing: unknown field 'are' of Wing. Did you mean 'area'? Valid: area_m2, span_m, chord_m, oswald_ratio, "
+        "stall_alpha_rad, stall_sharpness_ratio.\n"
         "file.yaml:4: aileron: expected a map with the fields of Surface, found a list\n"
         "file.yaml:5: elevator.reversed: expected true or false, found 'maybe'\n"
         "file.yaml:6: mass_kg: .nan is not a finite number");

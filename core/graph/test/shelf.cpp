@@ -28,7 +28,8 @@
 
 namespace fulmar::core::test {
 
-ComponentInfo& Shelf::add(const std::string& plugin, const std::string& name, std::vector<Port> inputs, std::vector<Port> outputs, std::vector<ParamInfo> params) {
+ComponentInfo& Shelf::add(const std::string& plugin, const std::string& name, std::vector<Port> inputs, std::vector<Port> outputs,
+                          std::vector<ParamInfo> params) {
   auto& info = plugins[plugin];
   if (!info) info = std::make_shared<PluginInfo>();
   info->file = plugin + ".so";
@@ -56,8 +57,13 @@ Shelf::Shelf() {
     return std::vector<Port>{in<Imu>("imu"), in<Gnss>("gnss"), in<Mag>("mag"), in<Baro>("baro"), in<Pitot>("pitot")};
   };
   const auto vehicle_out = [] {
-    return std::vector<Port>{out<Imu>("imu"), out<Gnss>("gnss", FULMAR_OUT_EVENT), out<Mag>("mag", FULMAR_OUT_EVENT), out<Baro>("baro", FULMAR_OUT_EVENT),
-                             out<Pitot>("pitot", FULMAR_OUT_EVENT), out<Rc>("rc"), out<VehicleStatus>("status")};
+    return std::vector<Port>{out<Imu>("imu"),
+                             out<Gnss>("gnss", FULMAR_OUT_EVENT),
+                             out<Mag>("mag", FULMAR_OUT_EVENT),
+                             out<Baro>("baro", FULMAR_OUT_EVENT),
+                             out<Pitot>("pitot", FULMAR_OUT_EVENT),
+                             out<Rc>("rc"),
+                             out<VehicleStatus>("status")};
   };
   ParamInfo wind;
   wind.name = "wind_ned";
@@ -69,8 +75,9 @@ Shelf::Shelf() {
   auto outputs = vehicle_out();
   outputs.push_back(out<VehicleState>("truth"));
   add("sim_aero", "Aircraft", {in<Actuators>("actuators")}, outputs,
-      {number("rate", 400, "Hz", 50, 2000, false), number("epoch_s", 0, "s", 0, 1e10, false), wind, choice("turbulence", {"none", "light", "moderate"}),
-       record<Airframe>("airframe", true), record<Origin>("origin", false)}).vehicle = true;
+      {number("rate", 400, "Hz", 50, 2000, false), number("epoch_s", 0, "s", 0, 1e10, false), wind,
+       choice("turbulence", {"none", "light", "moderate"}), record<Airframe>("airframe", true), record<Origin>("origin", false)})
+      .vehicle = true;
   ParamInfo device;
   device.name = "port";
   device.kind = FULMAR_STRING;
@@ -91,7 +98,8 @@ Shelf::Shelf() {
   add("estimator_ekf", "Ekf", ekf_in, {out<VehicleState>("state", FULMAR_OUT_EVENT)},
       {flag, count, number("gate", 20 * 3.14159265358979 / 180, "rad", 0, 1), record<Origin>("origin", false)});
   add("sim_aero", "TruthState", {in<VehicleState>("truth")}, {out<VehicleState>("state")});
-  add("path", "Planner", {optional<VehicleState>("state"), port<PlanEdit>("edits", FULMAR_IN_QUEUE), port<PlanEdit>("edit", FULMAR_IN_REQUEST)},
+  add("path", "Planner",
+      {optional<VehicleState>("state"), port<PlanEdit>("edits", FULMAR_IN_QUEUE), port<PlanEdit>("edit", FULMAR_IN_REQUEST)},
       {out<Plan>("plan", FULMAR_OUT_EVENT)}, {record<Plan>("plan", false), record<Origin>("origin", false)});
   add("path", "Manager", {in<VehicleState>("state"), in<Plan>("plan")}, {out<Path>("path"), out<Progress>("progress")});
   add("path", "VectorField", {in<VehicleState>("state"), in<Path>("path")}, {out<GuidanceCommand>("command")},
@@ -101,10 +109,14 @@ Shelf::Shelf() {
   probe.kind = FULMAR_OUT_PROBE;
   for (const char* plugin : {"control_slc", "control_tecs", "my_law"})
     add(plugin, "Outer", {in<VehicleState>("state"), in<GuidanceCommand>("command")}, {out<AttitudeCommand>("attitude")},
-        {number("course_kp", 0.9, "rad/rad", 0, 3), choice("law", {"normal", "takeoff"}), number("span", 1, "m", 0.1, 10, false), record<Airframe>("airframe", false)});
+        {number("course_kp", 0.9, "rad/rad", 0, 3), choice("law", {"normal", "takeoff"}), number("span", 1, "m", 0.1, 10, false),
+         record<Airframe>("airframe", false)});
   add("control_slc", "Inner", {in<VehicleState>("state"), in<AttitudeCommand>("attitude")}, {out<Actuators>("actuators"), probe},
-      {number("roll_kp", 0.55, "rad/rad", 0, 2), number("roll_limit", 0.7853981634, "rad", 0, 1.0471975512), record<Airframe>("airframe", true)});
-  add("score", "Score", {in<VehicleState>("state"), optional<VehicleState>("truth"), in<Path>("path"), in<GuidanceCommand>("command"), in<AttitudeCommand>("attitude")},
+      {number("roll_kp", 0.55, "rad/rad", 0, 2), number("roll_limit", 0.7853981634, "rad", 0, 1.0471975512),
+       record<Airframe>("airframe", true)});
+  add("score", "Score",
+      {in<VehicleState>("state"), optional<VehicleState>("truth"), in<Path>("path"), in<GuidanceCommand>("command"),
+       in<AttitudeCommand>("attitude")},
       {out<Progress>("tracking"), out<Progress>("estimation")});
 }
 

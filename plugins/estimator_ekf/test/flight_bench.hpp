@@ -81,8 +81,9 @@ struct Flown {
     e.body_velocity += (estimated - v_b).cwiseAbs2();
     e.position += (eigen(last.position_m) - x.p_n).cwiseAbs2();
     e.gnss += gnss.cwiseAbs2();
-    e.euler += Vector3d(wrap_pi(last.roll_rad - truth.roll_rad), wrap_pi(last.pitch_rad - truth.pitch_rad), wrap_pi(last.yaw_rad - truth.yaw_rad))
-                   .cwiseAbs2();
+    e.euler +=
+        Vector3d(wrap_pi(last.roll_rad - truth.roll_rad), wrap_pi(last.pitch_rad - truth.pitch_rad), wrap_pi(last.yaw_rad - truth.yaw_rad))
+            .cwiseAbs2();
     e.course += std::pow(wrap_pi(last.course_rad - std::atan2(x.v_n.y(), x.v_n.x())), 2);
     e.airspeed += std::pow(last.airspeed_mps - x.airspeed(), 2);
   }

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A recorded flight (CSV files beside each other) as the component's messages in order of time.
 #pragma once
+#include <cstdlib>
+#include <fstream>
 #include <fulmar/flight/atmosphere.hpp>
 #include <fulmar/msg/baro.hpp>
 #include <fulmar/msg/gnss.hpp>
 #include <fulmar/msg/imu.hpp>
 #include <fulmar/msg/mag.hpp>
 #include <fulmar/msg/pitot.hpp>
-
-#include <cstdlib>
-#include <fstream>
 #include <numbers>
 #include <sstream>
 #include <string>
@@ -59,7 +58,8 @@ inline Flight skywalker_x8(const std::string& folder) {
   for (const auto& r : read_csv(folder + "/imu.csv")) f.imu.push_back({r[0], {{r[4], r[5], r[6]}, {r[1], r[2], r[3]}, 300}});
   for (const auto& r : read_csv(folder + "/mag.csv")) f.mag.push_back({r[0], {{r[1] * 1e-7, r[2] * 1e-7, r[3] * 1e-7}}});
   for (const auto& r : read_csv(folder + "/air.csv")) {
-    f.pitot.push_back({r[0], {0.5 * isa::sea_level_density * r[1] * r[1], r[1], 300}});  // ArduPilot of 2013 logs a speed made with sea-level density
+    f.pitot.push_back(
+        {r[0], {0.5 * isa::sea_level_density * r[1] * r[1], r[1], 300}});  // ArduPilot of 2013 logs a speed made with sea-level density
     f.baro.push_back({r[0], {standard_air(25 + r[2]).pressure_pa, 300}});
   }
   double itow = 0;

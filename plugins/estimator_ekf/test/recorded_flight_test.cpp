@@ -119,7 +119,9 @@ TEST_CASE("on a real flight attitude agrees with the estimate made on board, vel
   CHECK(a.velocity.maxCoeff() < 1.2);
   double north = 0, east = 0, squares = 0;
   int n = 0;
-  for (const auto& [t, s] : e) {
+  for (const Estimate& estimate : e) {
+    const double t = estimate.t;
+    const VehicleState& s = estimate.state;
     if (t < 270 || t > 560) continue;
     north += s.wind_mps.north;
     east += s.wind_mps.east;

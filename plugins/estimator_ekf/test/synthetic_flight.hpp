@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A flight whose truth is known by kinematics alone: rest, take-off run, climb, straight legs and banked turns both ways, in wind and gusts; and
-// what sensors of two qualities would read on it.
+// A flight whose truth is known by kinematics alone: rest, take-off run, climb, straight legs and banked turns both ways, in wind and
+// gusts; and what sensors of two qualities would read on it.
 #pragma once
-#include <fulmar/flight/attitude.hpp>
 #include <fulmar/flight/atmosphere.hpp>
+#include <fulmar/flight/attitude.hpp>
 #include <fulmar/flight/geodesy.hpp>
 #include <fulmar/flight/magnetic_model.hpp>
 #include <fulmar/msg/baro.hpp>
@@ -12,7 +12,6 @@
 #include <fulmar/msg/mag.hpp>
 #include <fulmar/msg/pitot.hpp>
 #include <fulmar/random.hpp>
-
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -113,8 +112,10 @@ struct Quality {
   bool pitot_along_x;
 };
 /// As the ROSflight simulator makes them; receiver of the u-blox class on a small airframe.
-inline constexpr Quality rosflight{10, 50, 100, 100, 0.2, 0.6, 0.00226, 0.25, 0.0024, 0.14, 4, 500, 1.15, 1.5, 1100, 3, 0.01, 0, 0, 0.21, 0.4, 0.01, true};
-inline constexpr Quality ublox{5, 50, 50, 50, 0.1, 0.15, 0.003, 0.01, 0.01, 5, 3, 300, 2, 0.8, 60, 1.5, 0.06, 0.2, 0.15, 1.2, 2.0, 0.25, false};
+inline constexpr Quality rosflight{10,   50,  100,  100, 0.2,  0.6, 0.00226, 0.25, 0.0024, 0.14, 4,   500,
+                                   1.15, 1.5, 1100, 3,   0.01, 0,   0,       0.21, 0.4,    0.01, true};
+inline constexpr Quality ublox{5, 50,  50, 50,  0.1,  0.15, 0.003, 0.01, 0.01, 5,    3,    300,
+                               2, 0.8, 60, 1.5, 0.06, 0.2,  0.15,  1.2,  2.0,  0.25, false};
 
 struct Samples {
   Imu imu;
@@ -128,9 +129,14 @@ struct Samples {
 class Sensors {
  public:
   Sensors(const Quality& quality, const Plan& plan, std::uint64_t seed)
-      : q(quality), plan_(plan), random(seed), frame_(plan.lat_deg, plan.lon_deg, plan.alt_m),
+      : q(quality),
+        plan_(plan),
+        random(seed),
+        frame_(plan.lat_deg, plan.lon_deg, plan.alt_m),
         field_(magnetic_field_ned(plan.lat_deg, plan.lon_deg, plan.alt_m, 2026.0)) {
-    const auto any = [&](double range) { return Vector3d(random.uniform(-range, range), random.uniform(-range, range), random.uniform(-range, range)); };
+    const auto any = [&](double range) {
+      return Vector3d(random.uniform(-range, range), random.uniform(-range, range), random.uniform(-range, range));
+    };
     accel_bias = any(q.accel_bias);
     gyro_bias = any(q.gyro_bias);
     baro_bias_ = random.uniform(-q.baro_bias_pa, q.baro_bias_pa);
@@ -174,7 +180,8 @@ class Sensors {
     const auto late = static_cast<std::size_t>(q.latency_s * plan_.rate_hz + 0.5);
     if (k < late) return;
     const Truth& x = flight[k - late];
-    for (int i = 0; i < 3; ++i) position_error(i) = position_[static_cast<std::size_t>(i)].step(1 / q.gnss_hz, random) + q.position_white * random.normal();
+    for (int i = 0; i < 3; ++i)
+      position_error(i) = position_[static_cast<std::size_t>(i)].step(1 / q.gnss_hz, random) + q.position_white * random.normal();
     const auto g = frame_.from_ned(x.p_n + position_error);
     Gnss fix;
     fix.latitude_deg = g.lat_deg;

@@ -231,23 +231,23 @@ consteval fulmar_field make_field() {
   using Element = typename Shape<Member>::Element;
   constexpr std::uint32_t kind = kind_of<Element>();
   constexpr std::string_view name = FieldName<T, I>::view;
-  constexpr const Unit* unit = has_own_names<T> || Foreign<T> ? nullptr : find_unit(name);
+  constexpr int unit = has_own_names<T> || Foreign<T> ? -1 : find_unit(name);
   constexpr bool needs_unit = (kind == FULMAR_F32 || kind == FULMAR_F64 || is_frame_vector<Element>)&&!has_own_names<T> && !Foreign<T>;
-  static_assert(!needs_unit || unit != nullptr,
+  static_assert(!needs_unit || unit >= 0,
                 "every floating-point field name ends in its unit: _m, _mps, _rad, _s, _ratio, ... (fulmar/detail/units.hpp)");
-  constexpr bool has_unit = needs_unit || (unit != nullptr && (kind == FULMAR_I64 || kind == FULMAR_U64) && name.ends_with("_ns"));
+  constexpr bool has_unit = needs_unit || (unit >= 0 && (kind == FULMAR_I64 || kind == FULMAR_U64) && name.ends_with("_ns"));
 
   fulmar_field f{};
   f.name = FieldName<T, I>::c_str;
-  f.unit = has_unit ? unit->printed : "";
+  f.unit = has_unit && unit >= 0 ? units[static_cast<std::size_t>(unit)].printed : "";
   f.kind = kind;
   f.shape = Shape<Member>::shape;
   f.offset = static_cast<std::uint32_t>(member_offset<T, I>());
   f.count = Shape<Member>::count;
   f.stride = sizeof(Element);
   f.items = Shape<Member>::items;
-  f.min = needs_unit ? unit->min : -std::numeric_limits<double>::infinity();
-  f.max = needs_unit ? unit->max : std::numeric_limits<double>::infinity();
+  f.min = needs_unit && unit >= 0 ? units[static_cast<std::size_t>(unit)].min : -std::numeric_limits<double>::infinity();
+  f.max = needs_unit && unit >= 0 ? units[static_cast<std::size_t>(unit)].max : std::numeric_limits<double>::infinity();
   if constexpr (kind == FULMAR_STRUCT) f.type = type_table<Element>();
   if constexpr (kind == FULMAR_ENUM) {
     f.labels = Labels<Element>::names.data();

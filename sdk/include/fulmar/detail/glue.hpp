@@ -96,7 +96,7 @@ struct Ports {
     using Port = PortOf<MemberType<S, I>>;
     static_assert(!inputs || Port::kind < FULMAR_OUT_VALUE, "Inputs holds In<T>, Optional<T>, Queue<T> and Request<T>");
     static_assert(inputs || Port::kind >= FULMAR_OUT_VALUE, "Outputs holds messages, Out<T>, OutQueue<T> and Probe");
-    static_assert(Port::kind != FULMAR_OUT_PROBE || find_unit(FieldName<S, I>::view) != nullptr, "a probe's name ends in its unit: roll_error_rad");
+    static_assert(Port::kind != FULMAR_OUT_PROBE || find_unit(FieldName<S, I>::view) >= 0, "a probe's name ends in its unit: roll_error_rad");
     return {FieldName<S, I>::c_str, message_table<MemberType<S, I>>(), Port::kind, Port::flags, Port::capacity};
   }
   template <std::size_t... I>
@@ -118,39 +118,44 @@ void for_each(S& s, F&& f) {
 constexpr std::uint32_t access_flags(Access access) { return access == Access::live ? FULMAR_LIVE : 0; }
 constexpr std::uint32_t need_flags(Need need) { return need == Need::required ? FULMAR_REQUIRED : 0; }
 
-constexpr fulmar_param param_entry(const Param& p) {
+constexpr fulmar_param blank_param() {
   fulmar_param e{};
+  e.name = e.unit = e.doc = e.initial_text = "";
+  return e;
+}
+constexpr fulmar_param param_entry(const Param& p) {
+  fulmar_param e = blank_param();
   e.unit = p.unit, e.doc = p.doc, e.kind = FULMAR_NUMBER, e.flags = access_flags(p.access);
   e.initial[0] = p.value, e.min = p.min, e.max = p.max;
   return e;
 }
 constexpr fulmar_param param_entry(const Flag& p) {
-  fulmar_param e{};
+  fulmar_param e = blank_param();
   e.doc = p.doc, e.kind = FULMAR_FLAG, e.flags = access_flags(p.access), e.initial[0] = p.value ? 1 : 0, e.max = 1;
   return e;
 }
 constexpr fulmar_param param_entry(const Count& p) {
-  fulmar_param e{};
+  fulmar_param e = blank_param();
   e.doc = p.doc, e.kind = FULMAR_COUNT, e.flags = access_flags(p.access), e.initial[0] = static_cast<double>(p.value);
   e.min = static_cast<double>(p.min), e.max = static_cast<double>(p.max);
   return e;
 }
 template <class E>
 constexpr fulmar_param param_entry(const Choice<E>& p) {
-  fulmar_param e{};
+  fulmar_param e = blank_param();
   e.doc = p.doc, e.kind = FULMAR_CHOICE, e.flags = access_flags(p.access), e.initial[0] = static_cast<double>(p.value);
   e.choices = Labels<E>::names.data(), e.choice_count = Labels<E>::count, e.max = static_cast<double>(Labels<E>::count - 1);
   return e;
 }
 template <std::size_t N>
 constexpr fulmar_param param_entry(const TextParam<N>& p) {
-  fulmar_param e{};
+  fulmar_param e = blank_param();
   e.doc = p.doc, e.kind = FULMAR_STRING, e.initial_text = p.value.bytes.data(), e.capacity = N;
   return e;
 }
 template <class F>
 constexpr fulmar_param param_entry(const Vector<F>& p) {
-  fulmar_param e{};
+  fulmar_param e = blank_param();
   e.unit = p.unit, e.doc = p.doc, e.kind = FULMAR_VECTOR, e.flags = access_flags(p.access), e.type = type_table<Vec3<F>>();
   const auto& [a, b, c] = p.value;
   e.initial[0] = a, e.initial[1] = b, e.initial[2] = c, e.min = p.min, e.max = p.max;
@@ -158,12 +163,12 @@ constexpr fulmar_param param_entry(const Vector<F>& p) {
 }
 template <class T>
 constexpr fulmar_param param_entry(const Record<T>& p) {
-  fulmar_param e{};
+  fulmar_param e = blank_param();
   e.doc = p.doc, e.kind = FULMAR_RECORD, e.flags = need_flags(p.need), e.type = type_table<T>(), e.initial_data = &p.value;
   return e;
 }
 constexpr fulmar_param param_entry(const Blob& p) {
-  fulmar_param e{};
+  fulmar_param e = blank_param();
   e.doc = p.doc, e.kind = FULMAR_BLOB, e.flags = need_flags(p.need);
   return e;
 }
@@ -203,9 +208,6 @@ struct ParamTable {
   static consteval fulmar_param one() {
     fulmar_param e = param_entry(*std::get<I>(members(initial)).p);
     e.name = FieldName<S, I>::c_str;
-    if (!e.unit) e.unit = "";
-    if (!e.doc) e.doc = "";
-    if (!e.initial_text) e.initial_text = "";
     return e;
   }
   template <std::size_t... I>

@@ -2,6 +2,7 @@
 // The unit suffixes that end the name of every floating-point field.
 #pragma once
 #include <array>
+#include <cstddef>
 #include <limits>
 #include <string_view>
 
@@ -39,11 +40,13 @@ inline constexpr std::array units{
     Unit{"_ratio", ""},
 };
 
-/// The unit that a name ends in, or nullptr.
-constexpr const Unit* find_unit(std::string_view name) {
-  for (const Unit& unit : units)
-    if (name.size() > unit.suffix.size() && name.substr(name.size() - unit.suffix.size()) == unit.suffix) return &unit;
-  return nullptr;
+/// Which unit a name ends in: an index into `units`, or -1. An index and no pointer, for gcc's sanitizers.
+constexpr int find_unit(std::string_view name) {
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    const std::string_view suffix = units[i].suffix;
+    if (name.size() > suffix.size() && name.substr(name.size() - suffix.size()) == suffix) return static_cast<int>(i);
+  }
+  return -1;
 }
 
 }  // namespace fulmar::detail

@@ -312,8 +312,8 @@ class ErrorStateEkf {
     add(vel, 3, accel * accel * T);
     add(ekf::gyro_bias, 3, noise.gyro_bias_walk * noise.gyro_bias_walk * T);
     add(ekf::accel_bias, 3, noise.accel_bias_walk * noise.accel_bias_walk * T);
-    const double wind = noise.wind_walk + noise.wind_shear * std::abs(x_.v_n.z());
-    add(ekf::wind, 2, wind * wind * T);
+    const double walk = noise.wind_walk + noise.wind_shear * std::abs(x_.v_n.z());
+    add(ekf::wind, 2, walk * walk * T);
     add(ekf::baro, 1, noise.baro_walk * noise.baro_walk * T);
     markov(gust, noise.gust_std, noise.gust_time, T, x_.gust_mps);
     markov(heading, noise.heading_std, noise.heading_time, T, x_.heading_rad);

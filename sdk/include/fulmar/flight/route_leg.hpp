@@ -79,7 +79,7 @@ struct LegBuilder {
   Pose at;
 
   void add(double curvature, double length_m) {
-    constexpr double shortest_m = 1e-6;
+    constexpr double shortest_m = 1e-9;
     if (length_m < shortest_m || leg.count == leg.pieces.size()) return;
     RoutePiece& piece = leg.pieces[leg.count++];
     piece.length_m = length_m;

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the navigator does with each sample of GNSS, magnetometer, barometer and pitot tube. Part of navigator.hpp.
+#pragma once
+#include "navigator.hpp"
+
+namespace fulmar::estimator {
+
+/// Origin by averaging on the ground, by the first fix in the air.
+inline void Navigator::collect_origin(const Gnss& g, const Params& p) {
+  if (gnss_speed_ < 2 && !airborne_) {
+    const Vector3d fix(g.latitude_deg, g.longitude_deg, g.altitude_m);
+    if (origin_count_ == 0) origin_sum_.setZero();
+    origin_sum_ += fix;
+    ++origin_count_;
+    if (origin_count_ < p.origin_fixes) return;
+    origin_sum_ /= static_cast<double>(origin_count_);
+    set_origin(origin_sum_.x(), origin_sum_.y(), origin_sum_.z());
+  } else {
+    set_origin(g.latitude_deg, g.longitude_deg, g.altitude_m);
+  }
+  baro_zeroed_ = false;
+}
+
+inline void Navigator::gnss(const Gnss& g, double valid_s, const Params& p) {
+  if (!good(g)) return;
+  gnss_s_ = time_s_;
+  gnss_speed_ = eigen(g.velocity_mps).norm();
+  if (g.utc_ns > 0 && !year_known_) {
+    year_ = decimal_year(g.utc_ns);
+    year_known_ = true;
+    field_known_ = false;
+  }
+  if (!field_known_) magnetic_model(g.latitude_deg, g.longitude_deg, g.altitude_m);
+  if (!origin_known_) collect_origin(g, p);
+  if (!aligned_) {
+    if (!resting_) align_in_flight(g, valid_s - p.gnss_delay, p);
+    return;
+  }
+  const double time_s = std::min(valid_s - p.gnss_delay, time_s_);
+  const ErrorStateEkf::Past past = filter_.at(time_s);
+  if (!past.known) return;
+  if (!yaw_known_) yaw_from_course(eigen(g.velocity_mps));
+  gnss_velocity(g, past, time_s, p);
+  if (origin_known_) gnss_position(g, time_s, p);
+}
+
+/// Without a magnetometer the take-off run shows the yaw.
+inline void Navigator::yaw_from_course(const Vector3d& v_n) {
+  if (v_n.head<2>().norm() < 5) return;
+  Euler e = euler_from(filter_.R_nb());
+  e.yaw_rad = std::atan2(v_n.y(), v_n.x());
+  filter_.set_attitude(quaternion_from(e));
+  filter_.forget(ekf::theta + 2, 1, 0.35);
+  filter_.place(filter_.state().p_n, v_n);
+  filter_.forget(ekf::vel, 3, 1);
+  yaw_known_ = true;
+}
+
+inline void Navigator::gnss_velocity(const Gnss& g, const ErrorStateEkf::Past& past, double time_s, const Params& p) {
+  const Vector3d v_n = eigen(g.velocity_mps);
+  const double std = known(g.speed_std_mps, p.gnss_speed_std, p.gnss_speed_floor), variance = std * std;
+  double worst = 0;
+  for (int i = 0; i < 3; ++i) {
+    const ekf::Scalar z = ekf::velocity(filter_, past, i, v_n(i));
+    worst = std::max(worst, std::abs(z.innovation) / filter_.expected_std(z, variance));
+  }
+  health_.velocity_ratio = worst;
+  if (worst > p.gnss_gate) {
+    ++health_.refused;
+    if (time_s_ - std::max(health_.velocity_s, aligned_s_) < p.gnss_reset_after) return;
+    filter_.place(filter_.state().p_n, filter_.state().v_n + v_n - past.v_n);
+    filter_.forget(ekf::vel, 3, 3 * std);
+    filter_.inflate(ekf::theta, 3, 0.1);
+  } else {
+    for (int i = 0; i < 3; ++i) filter_.fuse(ekf::velocity(filter_, filter_.at(time_s), i, v_n(i)), variance, 1e3);
+  }
+  health_.velocity_s = time_s_;
+}
+
+/// The first fix, and the one that is believed after all.
+inline void Navigator::place(const Gnss& g, double time_s, const Params& p) {
+  if (!origin_known_) return;
+  const Vector3d p_n = frame_.to_ned(g.latitude_deg, g.longitude_deg, g.altitude_m);
+  filter_.place(p_n + std::max(time_s_ - time_s, 0.0) * filter_.state().v_n, filter_.state().v_n);
+  filter_.forget(ekf::pos, 2, known(g.horizontal_std_m, p.gnss_horizontal_std, 1));
+  filter_.forget(ekf::pos + 2, 1, known(g.vertical_std_m, p.gnss_vertical_std, 1));
+  position_known_ = height_known_ = true;
+  baro_zeroed_ = false;
+}
+
+inline void Navigator::gnss_position(const Gnss& g, double time_s, const Params& p) {
+  const Vector3d p_n = frame_.to_ned(g.latitude_deg, g.longitude_deg, g.altitude_m);
+  if (!position_known_) {
+    place(g, time_s, p);
+    health_.position_s = health_.height_s = time_s_;
+    return;
+  }
+  const double h_std = known(g.horizontal_std_m, p.gnss_horizontal_std, p.gnss_position_floor);
+  const double v_std = known(g.vertical_std_m, p.gnss_vertical_std, p.gnss_position_floor);
+  const auto z = [&](int i) { return ekf::position(filter_, filter_.at(time_s), i, p_n(i)); };
+  const double variance = h_std * h_std;
+  health_.horizontal_ratio = std::max(std::abs(z(0).innovation) / filter_.expected_std(z(0), variance),
+                                      std::abs(z(1).innovation) / filter_.expected_std(z(1), variance));
+  if (health_.horizontal_ratio <= p.gnss_gate) {
+    for (int i = 0; i < 2; ++i) filter_.fuse(z(i), variance, 1e3);
+    health_.position_s = time_s_;
+  } else if (++health_.refused; time_s_ - std::max(health_.position_s, aligned_s_) > p.gnss_reset_after) {
+    Vector3d moved = filter_.state().p_n;
+    moved.head<2>() += Eigen::Vector2d(z(0).innovation, z(1).innovation);
+    filter_.place(moved, filter_.state().v_n);
+    filter_.forget(ekf::pos, 2, h_std);
+    health_.position_s = time_s_;
+  }
+  const ekf::Fused height = filter_.fuse(z(2), v_std * v_std, p.gnss_gate);
+  health_.height_ratio = height.ratio;
+  if (height.accepted) {
+    health_.height_s = time_s_;
+  } else if (++health_.refused; time_s_ - std::max(health_.height_s, aligned_s_) > p.gnss_reset_after) {
+    filter_.place(filter_.state().p_n + Vector3d(0, 0, z(2).innovation), filter_.state().v_n);
+    filter_.forget(ekf::pos + 2, 1, v_std);
+    baro_zeroed_ = false;
+    health_.height_s = time_s_;
+  }
+}
+
+inline void Navigator::mag(const Vector3d& field_b, const Params& p) {
+  const double strength = field_b.norm();
+  if (!(strength > 1e-6) || !field_b.allFinite()) return;
+  mag_s_ = time_s_;
+  mag_b_ = field_b;
+  if (!aligned_) {
+    flight_.mag(field_b);
+    return;
+  }
+  const double horizontal = field_n_.head<2>().norm() / field_n_.norm();
+  if (!field_known_ || horizontal < 0.15) return;   // near the magnetic poles the needle does not know
+  if (time_s_ - mag_fused_s_ < 0.1 - 1e-4) return;  // its errors are correlated: more samples would not be more information
+  mag_fused_s_ = time_s_;
+  if (!yaw_known_) yaw_from_field(field_b);
+  const double std = p.mag_noise / horizontal;
+  const ekf::Fused fused = filter_.fuse(ekf::magnetic_heading(filter_.state(), field_b, declination()), std * std, p.mag_gate);
+  health_.heading_ratio = fused.ratio;
+  if (fused.accepted)
+    health_.heading_s = time_s_;
+  else
+    ++health_.refused;
+}
+
+/// A magnetometer that wakes up after the alignment.
+inline void Navigator::yaw_from_field(const Vector3d& field_b) {
+  const double turn = ekf::magnetic_heading(filter_.state(), field_b, declination()).innovation;
+  filter_.set_attitude(exp_map({0, 0, turn}) * filter_.state().q_nb);
+  filter_.forget(ekf::theta + 2, 1, 1);
+  yaw_known_ = true;
+}
+
+inline void Navigator::baro(double pressure_pa, const Params& p) {
+  if (!(pressure_pa > 1e4 && pressure_pa < 1.2e5)) return;
+  baro_s_ = time_s_;
+  if (!origin_known_ && !altitude_known_) {
+    altitude_m_ = pressure_altitude(pressure_pa);
+    altitude_known_ = true;
+  }
+  if (!aligned_) return;
+  air_ = standard_air(altitude_m_ - filter_.state().p_n.z());
+  if (!baro_zeroed_) {
+    ekf::Vector dx = ekf::Vector::Zero();
+    dx(ekf::baro) = ekf::baro_height(filter_.state(), pressure_pa, altitude_m_).innovation;
+    filter_.correct(dx);
+    const double height_std = height_known_ ? filter_.std(ekf::pos + 2) : 0.5;
+    if (!height_known_) filter_.forget(ekf::pos + 2, 1, 0.5);
+    filter_.forget(ekf::baro, 1, std::max(height_std, 1.0));
+    height_known_ = baro_zeroed_ = true;
+  }
+  const double dynamic_pa = airborne_ ? 0.5 * air_.density_kgm3 * ekf::air_velocity(filter_.state()).squaredNorm() : 0;
+  const double std = std::hypot(p.baro_noise, p.baro_position_error * dynamic_pa) * ekf::metres_per_pascal(air_);
+  const ekf::Fused fused = filter_.fuse(ekf::baro_height(filter_.state(), pressure_pa, altitude_m_), std * std, p.air_gate);
+  health_.baro_ratio = fused.ratio;
+  if (fused.accepted) {
+    health_.baro_s = time_s_;
+  } else if (++health_.refused; time_s_ - std::max(health_.baro_s, aligned_s_) > p.gnss_reset_after) {
+    baro_zeroed_ = false;
+    health_.baro_s = time_s_;
+  }
+}
+
+inline void Navigator::pitot(double pressure_pa, const Params& p) {
+  if (!std::isfinite(pressure_pa)) return;
+  if (time_s_ - baro_s_ > 1) air_ = standard_air(altitude_m_ - (aligned_ ? filter_.state().p_n.z() : 0));
+  const double Va = p.pitot_scale * std::sqrt(2 * std::max(pressure_pa, 0.0) / air_.density_kgm3);
+  const double dt = std::clamp(time_s_ - pitot_s_, 0.0, 1.0);
+  pitot_mps_ = pitot_s_ == never ? Va : pitot_mps_ + (Va - pitot_mps_) * (1 - std::exp(-dt / 0.2));
+  pitot_s_ = time_s_;
+  if (!aligned_ || !airborne_ || Va < 0.5 * p.min_airspeed) return;
+  const double noise = p.pitot_noise / (air_.density_kgm3 * Va);
+  const ekf::Fused fused =
+      filter_.fuse(ekf::true_airspeed(filter_.state(), Va), noise * noise + p.pitot_speed_std * p.pitot_speed_std, p.air_gate);
+  health_.pitot_ratio = fused.ratio;
+  if (fused.accepted)
+    health_.pitot_s = time_s_;
+  else
+    ++health_.refused;
+}
+
+}  // namespace fulmar::estimator

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/app/run_command.hpp"
 
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -45,12 +47,13 @@ class Progress {
     else std::fprintf(stderr, "%s\n", line.c_str());
     drawn_ = terminal_ && !last;
   }
-  void say(const std::string& text) {
-    std::fprintf(stderr, "%s%s\n", drawn_ ? "\r\033[K" : "", text.c_str());
-    drawn_ = false;
+  void say(const std::string& text, bool warning) {
+    clear();
+    spdlog::log(warning ? spdlog::level::warn : spdlog::level::info, text);
   }
   void clear() {
     if (drawn_) std::fprintf(stderr, "\r\033[K");
+    drawn_ = false;
   }
 
  private:
@@ -72,6 +75,8 @@ double parse_speed(const std::string& text) {
 }
 
 int run_command(const RunOptions& options) {
+  spdlog::set_default_logger(spdlog::stderr_color_mt("fulmar"));
+  spdlog::set_pattern("%^%v%$");
   const Graph graph = load_mission(options.mission, options.overrides);
   Progress progress(graph);
   FlightOptions flight_options;
@@ -82,17 +87,17 @@ int run_command(const RunOptions& options) {
   if (flight_options.log_file.has_parent_path()) std::filesystem::create_directories(flight_options.log_file.parent_path());
   flight_options.interrupt = &interrupted;
   flight_options.progress = [&](const Flight& flight) { progress.show(flight); };
-  flight_options.say = [&](const std::string& text) { progress.say(text); };
+  flight_options.say = [&](const std::string& text, bool warning) { progress.say(text, warning); };
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
 
-  if (!options.json) std::fprintf(stderr, "%s: %s, seed %llu\n", graph.mission.c_str(), graph.io == "sim" ? "simulation" : "flight controller", static_cast<unsigned long long>(graph.seed));
+  if (!options.json) spdlog::info("{}: {}, seed {}", graph.mission, graph.io == "sim" ? "simulation" : "flight controller", graph.seed);
   Flight flight(graph, flight_options);
   const FlightResult result = flight.run();
   progress.clear();
   if (options.json) std::printf("%s\n", result_json(graph, flight, result).dump(2).c_str());
   else std::printf("%s", result_table(graph, flight, result).c_str());
-  if (!result.log.error.empty()) std::fprintf(stderr, "log: %s; %llu messages were lost\n", result.log.error.c_str(), static_cast<unsigned long long>(result.log.dropped));
+  if (!result.log.error.empty()) spdlog::warn("log: {}; {} messages were lost", result.log.error, result.log.dropped);
   if (result.outcome == Outcome::interrupted) return 130;
   return result.outcome == Outcome::flown ? 0 : 1;
 }

@@ -24,7 +24,7 @@ struct FlightOptions {
   std::filesystem::path log_file;         // must not exist
   const std::atomic<int>* interrupt = nullptr;  // the flight ends when this is not 0
   std::function<void(const class Flight&)> progress;  // called about every 200 ms of wall time, between ticks
-  std::function<void(const std::string&)> say;        // one line for the user, as it happens: phases, guards
+  std::function<void(const std::string&, bool warning)> say;  // one line for the user, as it happens: phases, guards
 };
 
 enum class Outcome : std::uint8_t { flown, failed, interrupted };

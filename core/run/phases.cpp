@@ -16,7 +16,7 @@ void Flight::Impl::event(EventKind kind, const std::string& component, const std
   if (options.say) {
     char time[32];
     std::snprintf(time, sizeof time, "%8.2f s  ", 1e-9 * static_cast<double>(now_ns));
-    options.say(time + (component.empty() ? "" : component + ": ") + text);
+    options.say(time + (component.empty() ? "" : component + ": ") + text, kind == EventKind::guard || kind == EventKind::failsafe);
   }
 }
 

@@ -156,7 +156,7 @@ TEST_CASE("a phase hands over in the tick in which its condition has held for it
       "  third:  {law: two}\n");
   std::vector<std::string> said;
   FlightOptions o = options(0.5);
-  o.say = [&](const std::string& line) { said.push_back(line); };
+  o.say = [&](const std::string& line, bool) { said.push_back(line); };
   Flight flight(g, o);
   const FlightResult r = flight.run();
   REQUIRE(r.phases.size() == 3);

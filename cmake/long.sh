@@ -1,0 +1,9 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# The long campaigns: more seeds, more byte flips, 2000 loads of a plugin under the address sanitizer.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+export FULMAR_LONG=1
+build/bin/loader_test
+[ ! -x build-sanitize/bin/loader_test ] || build-sanitize/bin/loader_test
+build/bin/bench_missions --seeds 50

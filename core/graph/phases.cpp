@@ -94,8 +94,10 @@ void read_assignment(Draft& draft, const AssignmentText& text, const std::string
   if (use >= 0) read_overlay(draft, draft.candidates[static_cast<std::size_t>(use)], text.set, path + ".set", overlay);
   assignment.component = command >= 0 ? command : use;
   if (fallback != assignment.component) assignment.fallback = fallback;
-  if (assignment.component == use) assignment.set = std::move(overlay);
-  else if (command >= 0) assignment.set = overlay_for(draft, draft.candidates[static_cast<std::size_t>(command)], text.set, path + ".set");
+  if (assignment.component == use)
+    assignment.set = std::move(overlay);
+  else if (command >= 0)
+    assignment.set = overlay_for(draft, draft.candidates[static_cast<std::size_t>(command)], text.set, path + ".set");
 }
 
 std::string phase_path(const PhaseText& phase) { return "phases." + phase.name; }
@@ -177,7 +179,9 @@ void guarded(Draft& draft, const Where& where, const std::string& path, F run) {
 
 void read_summary(Draft& draft, const FindPort& find) {
   draft.graph.summary.clear();
-  for (const auto& [key, word] : draft.text.summary)
+  for (const auto& entry : draft.text.summary) {
+    const std::string& key = entry.first;
+    const Word& word = entry.second;
     guarded(draft, word.where, "summary." + key, [&] {
       const auto dot = word.text.find('.');
       if (dot == std::string::npos || word.text.find('.', dot + 1) != std::string::npos)
@@ -186,6 +190,7 @@ void read_summary(Draft& draft, const FindPort& find) {
       if (!type) throw Error("'" + word.text + "' is a probe; a summary shows messages");
       draft.graph.summary.emplace_back(key, source);
     });
+  }
 }
 
 void read_shown(Draft& draft, const FindPort& find) {

@@ -13,6 +13,25 @@ using namespace fulmar;
 using namespace fulmar::core;
 using namespace fulmar::core::test;
 
+namespace record_test {
+
+enum class Colour : std::uint8_t { red, green };
+struct Sample {
+  std::int64_t time_ns = 5;
+  std::uint64_t big = 0;
+  std::int32_t small = 0;
+  std::uint8_t byte = 0;
+  float narrow_m = 0;
+  std::array<double, 3> gains_ratio{1, 2, 3};
+  List<double, 2> few_m;
+  Text<8> text{"as is"};
+  Colour colour = Colour::red;
+  double range_m = 0, range_s = 0;
+};
+
+}  // namespace record_test
+using namespace record_test;
+
 namespace {
 
 template <class T>
@@ -30,20 +49,6 @@ Read<T> read(const std::string& yaml) {
   result.faults = report.text();
   return result;
 }
-
-enum class Colour : std::uint8_t { red, green };
-struct Sample {
-  std::int64_t time_ns = 5;
-  std::uint64_t big = 0;
-  std::int32_t small = 0;
-  std::uint8_t byte = 0;
-  float narrow_m = 0;
-  std::array<double, 3> gains_ratio{1, 2, 3};
-  List<double, 2> few_m;
-  Text<8> text{"as is"};
-  Colour colour = Colour::red;
-  double range_m = 0, range_s = 0;
-};
 
 }  // namespace
 

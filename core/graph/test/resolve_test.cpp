@@ -142,7 +142,8 @@ TEST_CASE("the command line changes who fills a role, seed and parameters") {
     CHECK(filler(graph, phase, "nav") == "truth");
     CHECK(filler(graph, phase, "outer") == "tecs");
   }
-  CHECK(graph.phases[1].roles[3].set.empty());  // the overlay was meant for slc
+  REQUIRE(graph.phases[1].roles[3].set.size() == 1);  // the overlay goes with the phase, as far as the component knows its parameters
+  CHECK(graph.phases[1].roles[3].set[0].param == component(graph, "tecs").info().param("law"));
   CHECK(graph.phases[3].roles[3].fallback == -1);
   CHECK(index_of(graph, "ekf") == -1);
   CHECK(param(graph, "sim", "turbulence").integer == 2);

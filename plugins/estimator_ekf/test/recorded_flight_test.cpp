@@ -156,7 +156,8 @@ TEST_CASE("on a real flight ten and thirty seconds without GNSS stay within the 
     std::vector<double> errors;
     for (double t0 = 280; t0 <= 520; t0 += 30) errors.push_back(outage_error(*f, t0, duration));
     std::sort(errors.begin(), errors.end());
-    CAPTURE(duration);
+    const double seconds = duration;
+    CAPTURE(seconds);
     CHECK(errors[errors.size() / 2] < median);
     CHECK(errors.back() < worst);
   }

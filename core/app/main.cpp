@@ -58,7 +58,7 @@ int run_app(int argc, char** argv) {
   CLI::App app{"Fulmar: a fixed-wing autopilot for research. A mission is a YAML file; its components are plugins."};
   app.set_version_flag("--version", "fulmar " FULMAR_VERSION);
   app.require_subcommand(1);
-  app.footer("Example: fulmar run configs/missions/hourglass.yaml --seed 3 --set slc.roll_max=\"30 deg\"");
+  app.footer("Example: fulmar run configs/missions/hourglass.yaml --seed 3 --set slc.roll_limit=\"30 deg\"");
 
   MissionOptions mission;
   RunOptions run_options;

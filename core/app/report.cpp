@@ -41,8 +41,8 @@ nlohmann::json summary_of(const Graph& graph, const Flight& flight, const Source
   return to_json(*type_of(graph, source), message, true);
 }
 
-double flight_time_s(const FlightResult& result) { return 1e-9 * static_cast<double>(result.last_ns - result.first_ns); }
-double speedup(const FlightResult& result) { return result.wall_s > 0 ? flight_time_s(result) / result.wall_s : 0; }
+double flight_time_s(const FlightResult& result) { return result.ticks > 0 ? 1e-9 * static_cast<double>(result.last_ns - result.first_ns) : 0; }
+double speedup(const FlightResult& result) { return result.ticks > 1 && result.wall_s > 0 ? flight_time_s(result) / result.wall_s : 0; }
 
 nlohmann::json steps_json(const FlightResult& result) {
   nlohmann::json all = nlohmann::json::object();

@@ -78,6 +78,7 @@ int run_command(const RunOptions& options) {
   spdlog::set_default_logger(spdlog::stderr_color_mt("fulmar"));
   spdlog::set_pattern("%^%v%$");
   const Graph graph = load_mission(options.mission, options.overrides);
+  if (!graph.record && !options.log_file.empty()) throw Error("--log " + options.log_file + ": the mission says record: off; there is no log to write");
   Progress progress(graph);
   FlightOptions flight_options;
   flight_options.speed = options.speed;

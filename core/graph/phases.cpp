@@ -177,12 +177,18 @@ void guarded(Draft& draft, const Where& where, const std::string& path, F run) {
   }
 }
 
+/// What every result has: a summary must not write over it.
+const std::vector<std::string> result_keys = {"allocations", "flight_time_s", "guards",   "io",      "log",          "log_dropped", "log_sha256",  "mission",
+                                              "not_reproducible", "phases",  "reason", "result", "seed", "speedup",     "step_time_us", "wall_time_s"};
+
 void read_summary(Draft& draft, const FindPort& find) {
   draft.graph.summary.clear();
   for (const auto& entry : draft.text.summary) {
     const std::string& key = entry.first;
     const Word& word = entry.second;
     guarded(draft, word.where, "summary." + key, [&] {
+      if (std::find(result_keys.begin(), result_keys.end(), key) != result_keys.end())
+        throw Error("'" + key + "' is a key of every result; choose another name");
       const auto dot = word.text.find('.');
       if (dot == std::string::npos || word.text.find('.', dot + 1) != std::string::npos)
         throw Error("expected a port such as score.tracking, found '" + word.text + "'");
@@ -198,6 +204,9 @@ void read_shown(Draft& draft, const FindPort& find) {
   for (const Word& word : draft.text.progress)
     guarded(draft, word.where, "progress", [&] {
       const ShownField field = find_shown(word.text, find);
+      const fulmar_kind kind = field.field.field->kind;
+      if (kind == FULMAR_STRUCT || kind == FULMAR_TEXT)
+        throw Error("'" + word.text + "' is " + (kind == FULMAR_TEXT ? "text" : "a " + field.field.field->type->name) + ", not a number");
       draft.graph.progress.push_back({word.text, field.from, field.field, field.type});
     });
 }

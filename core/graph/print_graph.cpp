@@ -35,7 +35,7 @@ std::string role_text(const Graph& graph, const Component& component) {
   return component.role < 0 ? "-" : graph.roles[at(component.role)].name;
 }
 
-std::string seconds_text(std::int64_t ns) { return number_text(static_cast<double>(ns) * 1e-9) + " s"; }
+std::string seconds_text(std::int64_t ns) { return number_text(static_cast<double>(ns) / 1e9) + " s"; }
 
 class Text {
  public:

@@ -267,15 +267,13 @@ void build_wires(Draft& draft) {
   }
 }
 
-bool matches(const std::string& text, const std::string& pattern, std::size_t t = 0, std::size_t p = 0) {
-  while (p < pattern.size() && pattern[p] != '*') {
-    if (t >= text.size() || text[t] != pattern[p]) return false;
-    ++t, ++p;
-  }
-  if (p == pattern.size()) return t == text.size();
-  while (p < pattern.size() && pattern[p] == '*') ++p;
-  for (; t <= text.size(); ++t)
-    if (matches(text, pattern, t, p)) return true;
+/// Whether the output is a role's: it is then recorded under the role's name.
+bool provides(const Graph& graph, const Component& component, int output) {
+  if (component.role < 0) return false;
+  const Role& role = graph.roles[static_cast<std::size_t>(component.role)];
+  for (std::size_t f = 0; f < role.fillers.size(); ++f)
+    if (&graph.components[static_cast<std::size_t>(role.fillers[f])] == &component)
+      return std::find(role.provides[f].begin(), role.provides[f].end(), output) != role.provides[f].end();
   return false;
 }
 
@@ -287,12 +285,19 @@ void read_record_rules(Draft& draft) {
   std::vector<std::string> ports;
   for (const Role& role : graph.roles)
     for (const RolePort& port : role.outputs) ports.push_back(role.name + "." + port.name);
-  for (const Component& component : graph.components)
-    for (const Port& port : component.info().outputs) ports.push_back(component.name + "." + port.name);
+  for (const Component& component : graph.components) {
+    bool probes = false;
+    for (std::size_t o = 0; o < component.info().outputs.size(); ++o) {
+      const Port& port = component.info().outputs[o];
+      probes = probes || !port.type;
+      if (port.type && !provides(graph, component, static_cast<int>(o))) ports.push_back(component.name + "." + port.name);
+    }
+    if (probes) ports.push_back(component.name + ".probes");
+  }
   for (std::size_t i = 0; i < graph.record_rules.size(); ++i) {
     const std::string& pattern = graph.record_rules[i].ports[0];
     if (pattern.size() < 200 && std::count(pattern.begin(), pattern.end(), '*') < 5 &&
-        std::any_of(ports.begin(), ports.end(), [&](const std::string& port) { return matches(port, pattern); }))
+        std::any_of(ports.begin(), ports.end(), [&](const std::string& port) { return port_matches(port, pattern); }))
       continue;
     const std::string near = nearest(pattern, ports);
     draft.report.add(draft.text.record_where[i],
@@ -352,6 +357,18 @@ Graph load_mission(const std::string& file, const Overrides& overrides, Catalogu
 Graph load_mission(const std::string& file, const Overrides& overrides) {
   PluginCatalogue catalogue(PluginCatalogue::folders_for(file));
   return load_mission(file, overrides, catalogue);
+}
+
+bool port_matches(const std::string& text, const std::string& pattern, std::size_t t, std::size_t p) {
+  while (p < pattern.size() && pattern[p] != '*') {
+    if (t >= text.size() || text[t] != pattern[p]) return false;
+    ++t, ++p;
+  }
+  if (p == pattern.size()) return t == text.size();
+  while (p < pattern.size() && pattern[p] == '*') ++p;
+  for (; t <= text.size(); ++t)
+    if (port_matches(text, pattern, t, p)) return true;
+  return false;
 }
 
 }  // namespace fulmar::core

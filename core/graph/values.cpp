@@ -48,7 +48,7 @@ void set_params(Draft& draft, Candidate& candidate, const Node& map, const std::
       continue;
     }
     const auto i = static_cast<std::size_t>(p);
-    if (info.vehicle && (entry.key == "rate" || entry.key == "epoch_s")) {
+    if (info.vehicle && (entry.key == "rate" || entry.key == "epoch")) {
       draft.report.add(entry.where(), path + "." + entry.key + ": comes from the mission's '" + (entry.key == "rate" ? "rate" : "epoch") +
                                           "'; set it there");
       continue;
@@ -101,7 +101,7 @@ void set_from_mission(Draft& draft, Candidate& candidate, const AirframeSource& 
                                                     number_text(draft.text.rate_hz) + " Hz is outside " + number_text(param.min) + " .. " +
                                                     number_text(param.max) + " Hz of " + candidate.use);
     }
-    if (param.name == "epoch_s") value.number[0] = static_cast<double>(draft.text.epoch_ns) * 1e-9;
+    if (param.name == "epoch") value.number[0] = static_cast<double>(draft.text.epoch_ns) * 1e-9;
   }
 }
 

@@ -18,13 +18,6 @@ std::uint64_t mix(std::uint64_t seed, const std::string& name) {
   return h ^ (h >> 31);
 }
 
-bool matches(const std::string& pattern, const std::string& name) {
-  const std::size_t star = pattern.find('*');
-  if (star == std::string::npos) return pattern == name;
-  const std::string tail = pattern.substr(star + 1);
-  return name.size() >= pattern.size() - 1 && name.compare(0, star, pattern, 0, star) == 0 && name.compare(name.size() - tail.size(), tail.size(), tail) == 0;
-}
-
 constexpr std::int64_t default_period_ns = 40'000'000;      // 25 Hz for what a replay computes anew
 constexpr std::int64_t default_max_age_ns = 1'000'000'000;  // of what a role publishes
 
@@ -135,8 +128,10 @@ void Flight::Impl::wire_reader(Unit& unit, Reader& reader) {
     if (watched && reader.max_age_ns == 0) reader.max_age_ns = default_max_age_ns;
   }
   reader.guarded = reader.max_age_ns > 0 && !reader.port->optional && unit.component->role >= 0;
+  reader.delayed = value && reader.wire->delayed;
+  if (reader.delayed) delayed.push_back(&reader);
   for (const CopyPlan& plan : reader.plans)
-    if (!plan.whole) reader.copy.assign(reader.port->type->size, std::byte{0});
+    if (reader.delayed || !plan.whole) reader.copy.assign(reader.port->type->size, std::byte{0});
 }
 
 std::int64_t Flight::Impl::record_period(const std::string& port, const Slot& slot) const {
@@ -144,7 +139,7 @@ std::int64_t Flight::Impl::record_period(const std::string& port, const Slot& sl
   for (const RecordRule& rule : graph.record_rules) {
     if (rule.ports.empty()) return rule.period_ns;
     for (const std::string& pattern : rule.ports)
-      if (matches(pattern, port)) return rule.period_ns;
+      if (port_matches(port, pattern)) return rule.period_ns;
   }
   if (!graph.record_rules.empty()) return -1;
   return slot.port->kind == FULMAR_OUT_QUEUE ? 0 : default_period_ns;
@@ -193,7 +188,7 @@ void Flight::Impl::open_log() {
   Log::Options o;
   o.file = options.log_file;
   o.epoch_ns = graph.epoch_ns;
-  o.wait = options.speed == 0;
+  o.wait = unpaced();
   log = std::make_unique<Log>(o, channels);
   attach_texts();
 }

@@ -68,10 +68,13 @@ struct Flight::Impl final : SampleReader {
   const Slot* slot_of(const Source& source) const;
   Unit& unit(const std::string& component);  // throws Error
 
+  bool unpaced() const { return options.speed == 0 && graph.io == "sim"; }
+
   const Graph& graph;
   FlightOptions options;
   std::vector<std::unique_ptr<Unit>> units;
   std::vector<RoleState> roles;
+  std::vector<Reader*> delayed;  // readers that see the previous tick's sample
   std::vector<const Slot*> hand_over;  // room for what was last applied
   Flight* owner = nullptr;
   std::unique_ptr<Log> log;

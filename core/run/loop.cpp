@@ -2,6 +2,7 @@
 // The tick: vehicle read, steps in order, phase conditions, vehicle write. What is published goes to the tap at once.
 #include <time.h>
 
+#include <cstdio>
 #include <cstring>
 
 #include "core/run/allocation.hpp"
@@ -16,6 +17,12 @@ std::int64_t wall_clock_ns() noexcept {
   return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
 }
 
+std::string short_number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", x);
+  return text;
+}
+
 constexpr int overruns_allowed = 5;  // steps over budget in a row
 constexpr std::int64_t silence_ns = 1'000'000'000;  // simulated after a failsafe before the flight is called lost
 
@@ -27,7 +34,7 @@ void Flight::Impl::clock(Unit& unit) {
   const std::int64_t took = now - wall_ns;
   unit.stats.time.add(took);
   wall_ns = now;
-  if (unit.component->budget_ns == 0 || options.speed == 0) return;  // an unpaced simulation knows no deadline
+  if (unit.component->budget_ns == 0 || unpaced()) return;  // an unpaced simulation knows no deadline
   if (took <= unit.component->budget_ns) {
     unit.overruns_in_a_row = 0;
     return;
@@ -106,6 +113,7 @@ bool Flight::Impl::tick() {
     return false;
   }
   clock(vehicle);
+  for (Reader* reader : delayed) reader->latch();
   ++index;
   result.last_ns = now_ns;
   return !over();
@@ -117,7 +125,7 @@ bool Flight::Impl::over() {
   else if (in_failsafe && now_ns - failsafe_since_ns >= graph.failsafe_ns + silence_ns) finish(Outcome::failed, failsafe_reason);
   else if (options.duration_s && now_ns >= static_cast<std::int64_t>(*options.duration_s * 1e9)) finish(in_failsafe ? Outcome::failed : Outcome::flown, in_failsafe ? failsafe_reason : "duration reached");
   else if (graph.timeout_ns > 0 && now_ns >= graph.timeout_ns)
-    finish(Outcome::failed, "not done within " + std::to_string(graph.timeout_ns / 1'000'000'000) + " s of flight");
+    finish(Outcome::failed, "not done within " + short_number(1e-9 * static_cast<double>(graph.timeout_ns)) + " s of flight");
   else if (options.interrupt && options.interrupt->load(std::memory_order_relaxed) != 0) finish(Outcome::interrupted, "interrupted");
   return ended;
 }

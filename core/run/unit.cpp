@@ -20,6 +20,15 @@ void Reader::push(const std::byte* message, std::int64_t valid_at_ns, const Copy
   ++count;
 }
 
+void Reader::latch() noexcept {
+  const Slot* s = source();
+  const std::uint64_t now = slot ? slot->sequence : role ? role->sequence : 0;
+  if (!s || now == copied) return;
+  plans[role ? static_cast<std::size_t>(s->filler) : 0].run(s->published.data(), copy.data());
+  copied = now;
+  copied_valid_ns = s->valid_at_ns;
+}
+
 Unit::Unit(const Component& c, std::int64_t tick_ns, std::uint64_t seed)
     : component(&c),
       info(&c.info()),
@@ -123,13 +132,16 @@ Unit::Inputs Unit::prepare_inputs(std::int64_t now_ns) noexcept {
     }
     const CopyPlan& plan = r.plans[r.role ? static_cast<std::size_t>(s->filler) : 0];
     in.data = s->published.data();
-    if (!plan.whole) {
+    in.valid_at_ns = s->valid_at_ns;
+    if (r.delayed) {
+      in.data = r.copy.data();
+      in.valid_at_ns = r.copied_valid_ns;
+    } else if (!plan.whole) {
       if (r.copied != in.sequence) plan.run(s->published.data(), r.copy.data());
       r.copied = in.sequence;
       in.data = r.copy.data();
     }
-    in.valid_at_ns = s->valid_at_ns;
-    in.age_ns = now_ns - s->valid_at_ns;
+    in.age_ns = now_ns - in.valid_at_ns;
     in.count = 1;
     if (in.sequence != r.seen) in.flags |= FULMAR_FRESH;
     if (r.max_age_ns > 0 && in.age_ns > r.max_age_ns) {

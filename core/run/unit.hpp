@@ -56,6 +56,7 @@ struct Reader {
   std::vector<CopyPlan> plans;  // value inputs: of the slot, or one per filler of the role
   std::vector<std::byte> copy;  // where the plan is not a whole copy
   std::uint64_t copied = 0, seen = 0;
+  std::int64_t copied_valid_ns = 0;
   // queue and request
   std::vector<std::byte> items;
   std::vector<std::int64_t> stamps;
@@ -64,7 +65,10 @@ struct Reader {
   std::uint32_t count = 0, lost = 0;
 
   const Slot* source() const { return slot ? slot : role ? role->current : nullptr; }
-  std::uint64_t sequence() const { return slot ? slot->sequence : role ? role->sequence : 0; }
+  /// Samples published on the wire so far; for a delayed wire, up to the end of the previous tick.
+  std::uint64_t sequence() const { return delayed ? copied : slot ? slot->sequence : role ? role->sequence : 0; }
+  void latch() noexcept;  // delayed wires, at the end of a tick
+  bool delayed = false;
   void push(const std::byte* message, std::int64_t valid_at_ns, const CopyPlan& plan) noexcept;
 };
 

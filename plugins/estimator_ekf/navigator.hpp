@@ -140,6 +140,9 @@ class Navigator {
     return std::max(std, floor);
   }
 
+  /// Fixes within twice the correlation time of their error know as much as one: the factor on their variance.
+  double samples_in(double correlation_s, double last_s) const { return 1 + 2 * correlation_s / std::clamp(time_s_ - last_s, 0.02, 10.0); }
+
   void set_origin(double lat_deg, double lon_deg, double alt_m) {
     frame_ = LocalFrame(lat_deg, lon_deg, alt_m);
     origin_known_ = true;

@@ -72,7 +72,8 @@ inline void Navigator::gnss_velocity(const Gnss& g, const ErrorStateEkf::Past& p
     filter_.forget(ekf::vel, 3, 3 * std);
     filter_.inflate(ekf::theta, 3, 0.1);
   } else {
-    for (int i = 0; i < 3; ++i) filter_.fuse(ekf::velocity(filter_, filter_.at(time_s), i, v_n(i)), variance, 1e3);
+    const double n = samples_in(p.gnss_climb_time, health_.velocity_s);
+    for (int i = 0; i < 3; ++i) filter_.fuse(ekf::velocity(filter_, filter_.at(time_s), i, v_n(i)), i < 2 ? variance : n * variance, 1e3);
   }
   health_.velocity_s = time_s_;
 }
@@ -84,6 +85,8 @@ inline void Navigator::place(const Gnss& g, double time_s, const Params& p) {
   filter_.place(p_n + std::max(time_s_ - time_s, 0.0) * filter_.state().v_n, filter_.state().v_n);
   filter_.forget(ekf::pos, 2, known(g.horizontal_std_m, p.gnss_horizontal_std, 1));
   filter_.forget(ekf::pos + 2, 1, known(g.vertical_std_m, p.gnss_vertical_std, 1));
+  // On the ground the place of the start tells the height better than the receiver, unless the receiver contradicts.
+  if (resting_) filter_.fuse(ekf::position(filter_, filter_.at(time_s_), 2, -p.start_height), p.start_height_std * p.start_height_std, p.gnss_gate);
   position_known_ = height_known_ = true;
   baro_zeroed_ = false;
 }
@@ -111,9 +114,9 @@ inline void Navigator::gnss_position(const Gnss& g, double time_s, const Params&
     filter_.forget(ekf::pos, 2, h_std);
     health_.position_s = time_s_;
   }
-  const ekf::Fused height = filter_.fuse(z(2), v_std * v_std, p.gnss_gate);
-  health_.height_ratio = height.ratio;
-  if (height.accepted) {
+  health_.height_ratio = std::abs(z(2).innovation) / filter_.expected_std(z(2), v_std * v_std);
+  if (health_.height_ratio <= p.gnss_gate) {
+    filter_.fuse(z(2), samples_in(p.gnss_height_time, health_.height_s) * v_std * v_std, 1e3);
     health_.height_s = time_s_;
   } else if (++health_.refused; time_s_ - std::max(health_.height_s, aligned_s_) > p.gnss_reset_after) {
     filter_.place(filter_.state().p_n + Vector3d(0, 0, z(2).innovation), filter_.state().v_n);

@@ -8,6 +8,8 @@ namespace fulmar::estimator {
 
 struct Params {
   Record<Origin> origin{"origin of the local frame; without it the first good fixes decide"};
+  Param start_height{0, "m", -1000, 1000, "above the origin, of the place where it stands when it is switched on"};
+  Param start_height_std{0.3, "m", 0.01, 1000, "how well that is known; 1000: not at all"};
 
   // inertial unit
   Param gyro_noise{5e-4, "rad/s/sqrt(Hz)", 1e-6, 0.1, "white noise of the gyros, vibration included"};
@@ -25,6 +27,8 @@ struct Params {
   Param gnss_delay{0, "s", 0, 0.5, "added to the age of a fix, for receivers whose stamp is the time of arrival"};
   Param gnss_horizontal_std{2, "m", 0.01, 50, "when the receiver reports none"};
   Param gnss_vertical_std{4, "m", 0.01, 50, "when the receiver reports none"};
+  Param gnss_height_time{60, "s", 0, 1000, "correlation time of the receiver's height error: a fix counts for less the more of them come in it"};
+  Param gnss_climb_time{2, "s", 0, 100, "the same for the error of its vertical velocity, which would else be integrated to a height"};
   Param gnss_speed_std{0.4, "m/s", 0.005, 10, "when the receiver reports none"};
   Param gnss_position_floor{0.1, "m", 0, 10, "no position is trusted more than this"};
   Param gnss_speed_floor{0.015, "m/s", 0, 10, "no velocity is trusted more than this"};

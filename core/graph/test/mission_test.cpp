@@ -165,7 +165,7 @@ TEST_CASE("parameters exist, fit and lie in their range") {
   CHECK(changed("turbulence: light", "turbulence: lihgt") ==
         "21: components.sim.params.turbulence: unknown word 'lihgt'. Did you mean 'light'? Valid: none, light, moderate.");
   CHECK(changed("turbulence: light", "turbulnce: light") ==
-        "21: components.sim.params: sim_aero/Aircraft has no parameter 'turbulnce'. Did you mean 'turbulence'? Valid: rate, epoch_s, "
+        "21: components.sim.params: sim_aero/Aircraft has no parameter 'turbulnce'. Did you mean 'turbulence'? Valid: rate, epoch, "
         "wind_ned, turbulence, airframe, origin.");
   CHECK(changed("[3, -4, 0]", "[3, -4]") == "21: components.sim.params.wind_ned: expected three numbers [north, east, down], found 2");
   CHECK(changed("[3, -4, 0]", "[3 kt, -40 m/s, .inf]") ==

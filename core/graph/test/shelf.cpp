@@ -75,7 +75,7 @@ Shelf::Shelf() {
   auto outputs = vehicle_out();
   outputs.push_back(out<VehicleState>("truth"));
   add("sim_aero", "Aircraft", {in<Actuators>("actuators")}, outputs,
-      {number("rate", 400, "Hz", 50, 2000, false), number("epoch_s", 0, "s", 0, 1e10, false), wind,
+      {number("rate", 400, "Hz", 50, 2000, false), number("epoch", 0, "s", 0, 1e10, false), wind,
        choice("turbulence", {"none", "light", "moderate"}), record<Airframe>("airframe", true), record<Origin>("origin", false)})
       .vehicle = true;
   ParamInfo device;

@@ -140,6 +140,17 @@ TEST_CASE("a component is not stepped before each required input has had a sampl
   CHECK(flight.sample(port(g, "late", "tally")) == nullptr);
 }
 
+TEST_CASE("a delayed wire carries the sample of the previous tick, whoever steps first") {
+  const Graph g = mission(std::string("  early: {use: lab/OldReader, in: {signal: {from: filter.signal, delayed: true}}}\n"
+                                      "  late: {use: lab/OldReader, in: {signal: {from: vehicle.signal, delayed: true}}}\n") +
+                          one_phase);
+  Flight flight(g, options(0));
+  flight.run();
+  CHECK(value(g, flight, "early", "tally", "dt_s") == doctest::Approx(-0.0025));
+  CHECK(value(g, flight, "late", "tally", "dt_s") == doctest::Approx(-0.0025));
+  CHECK(value(g, flight, "late", "tally", "steps_ratio") == 400);
+}
+
 TEST_CASE("a reader that knows fewer fields than the writer is fed by a copy plan") {
   const Graph g = mission(std::string("  old: {use: lab/OldReader, in: {signal: vehicle.signal}}\n") + one_phase);
   Flight flight(g, options(0));

@@ -81,8 +81,8 @@ struct EnumName {
   static constexpr std::string_view signature = value_signature<V>();
   // "... = fulmar::PathKind::line]" or, for a number that names nothing, "... = (fulmar::PathKind)7]"
   static constexpr std::string_view tail = signature.substr(signature.rfind("= "));
-  static constexpr bool valid = tail.find('(') == std::string_view::npos;
   static constexpr std::string_view view = last_word(tail);
+  static constexpr bool valid = !(view[0] >= '0' && view[0] <= '9');
   static constexpr auto stored = make_name<view.size()>(view);
   static constexpr const char* c_str = stored.bytes.data();
 };

@@ -87,9 +87,22 @@ class Reader {
       report_.add(node.where(), "seed: expected a whole number from 0, found " + found_words(node));
   }
 
+  /// A condition that ends the flight: "..." or {when: "...", for: 60 s}.
+  void ending(const Keys& keys, const std::string& key, std::optional<Word>& word, std::int64_t& for_ns) {
+    const Node* node = keys.get(key);
+    if (!node || !node->is(Node::Kind::map)) {
+      if (const auto text = keys.text(key)) word = Word{*text, node->where()};
+      return;
+    }
+    const Keys parts(*node, key, {"when", "for"}, report_);
+    if (const auto text = parts.text("when")) word = Word{*text, parts.get("when")->where()};
+    else report_.add(node->where(), key + ": expected a condition under 'when'");
+    for_ns = parts.duration_ns("for").value_or(0);
+  }
+
   void shown(const Keys& keys) {
-    for (auto [key, word] : {std::pair{"done", &m_.done}, std::pair{"failed", &m_.failed}})
-      if (const auto text = keys.text(key)) *word = Word{*text, keys.get(key)->where()};
+    ending(keys, "done", m_.done, m_.done_for_ns);
+    ending(keys, "failed", m_.failed, m_.failed_for_ns);
     if (const Node* node = keys.get("progress")) {
       if (!node->is(Node::Kind::sequence))
         report_.add(node->where(), "progress: expected a list of fields such as [nav.state.height_m], found " + found_words(*node));

@@ -85,6 +85,7 @@ struct MissionText {
   Node airframe;  // text, a map, or missing
   Node origin;
   std::optional<Word> done, failed;
+  std::int64_t done_for_ns = 0, failed_for_ns = 0;
   std::vector<Word> progress;
   std::vector<std::pair<std::string, Word>> summary;
   Node failsafe;

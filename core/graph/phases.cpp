@@ -241,6 +241,8 @@ std::vector<Transition> transitions(Draft& draft, const std::vector<TransitionTe
 void compile_all(Draft& draft, bool built) {
   const FindPort find = finder(draft, built);
   Graph& graph = draft.graph;
+  graph.done_for_ns = draft.text.done_for_ns;
+  graph.failed_for_ns = draft.text.failed_for_ns;
   if (draft.text.done) graph.done = compiled(draft, draft.text.done->text, draft.text.done->where, "done", find);
   if (draft.text.failed) graph.failed = compiled(draft, draft.text.failed->text, draft.text.failed->where, "failed", find);
   read_shown(draft, find);

@@ -2,6 +2,7 @@
 // Parameters of every component: declared value <- airframe file <- what the mission as a whole says <- `params:` <- --set. And the
 // failsafe.
 #include <algorithm>
+#include <cmath>
 
 #include "core/graph/draft.hpp"
 #include "core/graph/quantity.hpp"
@@ -138,6 +139,25 @@ void check_required(Draft& draft, const Candidate& candidate) {
   }
 }
 
+/// Latitude and longitude of the mission's origin, checked in the first record that took them.
+void check_origin(Draft& draft) {
+  if (!draft.text.origin.is(Node::Kind::map)) return;
+  for (const Candidate& candidate : draft.candidates) {
+    const int i = candidate.loaded ? candidate.info().param("origin") : -1;
+    if (i < 0 || candidate.info().params[static_cast<std::size_t>(i)].kind != FULMAR_RECORD) continue;
+    const Type& type = *candidate.info().params[static_cast<std::size_t>(i)].type;
+    for (const auto& [name, limit] : {std::pair{"lat_deg", 90.0}, std::pair{"lon_deg", 180.0}}) {
+      const Field* field = type.find(name);
+      if (!field) continue;
+      const double value = number_at(*field, candidate.params[static_cast<std::size_t>(i)].data.data() + field->offset);
+      if (std::abs(value) > limit)
+        draft.report.add(draft.text.origin.where(), std::string("origin: ") + name + ": " + number_text(value) + " is outside " +
+                                                        number_text(-limit) + " .. " + number_text(limit) + " deg");
+    }
+    return;
+  }
+}
+
 }  // namespace
 
 void read_values(Draft& draft) {
@@ -154,6 +174,7 @@ void read_values(Draft& draft) {
     if (candidate.text->params.is(Node::Kind::map))
       set_params(draft, candidate, candidate.text->params, "components." + candidate.name() + ".params");
   }
+  check_origin(draft);
   set_from_command(draft);
   for (const Candidate& candidate : draft.candidates)
     if (candidate.loaded) check_required(draft, candidate);

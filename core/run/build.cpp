@@ -54,7 +54,7 @@ Flight::Impl::Impl(const Graph& g, const FlightOptions& o) : graph(g), options(o
   std::size_t most = 0;
   for (const auto& unit : units) most = std::max(most, unit->slots.size());
   hand_over.reserve(most);
-  any_since.assign(graph.any.size(), -1);
+  any_since.assign(graph.any.size(), never);
   result.phases.reserve(64);
   result.guards.reserve(64);
 }

@@ -50,6 +50,7 @@ struct Flight::Impl final : SampleReader {
   void log_probes(Unit& unit);
   void clock(Unit& unit);
   bool over();
+  bool held_for(const Condition& condition, std::int64_t for_ns, std::int64_t& since_ns) const noexcept;
   void finish(Outcome outcome, std::string reason);
   void pace();
 
@@ -83,7 +84,9 @@ struct Flight::Impl final : SampleReader {
   std::int64_t now_ns = 0;
   std::uint64_t index = 0;
   int phase = 0;
+  static constexpr std::int64_t never = std::numeric_limits<std::int64_t>::min();
   std::vector<std::int64_t> any_since, next_since;  // since when a transition's condition holds
+  std::int64_t done_since_ns = never, failed_since_ns = never;
   std::int64_t failsafe_since_ns = 0;
   bool in_failsafe = false, ended = false;
   std::string failsafe_reason;

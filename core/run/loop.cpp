@@ -119,9 +119,18 @@ bool Flight::Impl::tick() {
   return !over();
 }
 
+bool Flight::Impl::held_for(const Condition& condition, std::int64_t for_ns, std::int64_t& since_ns) const noexcept {
+  if (!condition.holds(*this)) {
+    since_ns = never;
+    return false;
+  }
+  if (since_ns == never) since_ns = now_ns;
+  return now_ns - since_ns >= for_ns;
+}
+
 bool Flight::Impl::over() {
-  if (graph.done && graph.done->holds(*this)) finish(Outcome::flown, graph.done->text());
-  else if (graph.failed && graph.failed->holds(*this)) finish(Outcome::failed, graph.failed->text());
+  if (graph.done && held_for(*graph.done, graph.done_for_ns, done_since_ns)) finish(Outcome::flown, graph.done->text());
+  else if (graph.failed && held_for(*graph.failed, graph.failed_for_ns, failed_since_ns)) finish(Outcome::failed, graph.failed->text());
   else if (in_failsafe && now_ns - failsafe_since_ns >= graph.failsafe_ns + silence_ns) finish(Outcome::failed, failsafe_reason);
   else if (options.duration_s && now_ns >= static_cast<std::int64_t>(*options.duration_s * 1e9)) finish(in_failsafe ? Outcome::failed : Outcome::flown, in_failsafe ? failsafe_reason : "duration reached");
   else if (graph.timeout_ns > 0 && now_ns >= graph.timeout_ns)

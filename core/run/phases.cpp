@@ -31,7 +31,7 @@ void Flight::Impl::begin() {
     unit.active = true;
     if (!a.set.empty()) unit.retune(&a.set);
   }
-  next_since.assign(first.next.size(), -1);
+  next_since.assign(first.next.size(), never);
   result.phases.push_back({first.name, now_ns, now_ns});
   event(EventKind::phase, "", "phase " + first.name);
 }
@@ -42,16 +42,10 @@ void Flight::Impl::transitions() {
 }
 
 bool Flight::Impl::try_transitions(const std::vector<Transition>& list, std::vector<std::int64_t>& since) {
-  constexpr std::int64_t never = -1'000'000'000'000'000'000;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Transition& t = list[i];
     if (t.to == phase) continue;
-    if (!t.when->holds(*this)) {
-      since[i] = never;
-      continue;
-    }
-    if (since[i] == never || since[i] == -1) since[i] = now_ns;
-    if (now_ns - since[i] < t.for_ns) continue;
+    if (!held_for(*t.when, t.for_ns, since[i])) continue;
     since[i] = never;
     enter(t.to);
     return true;
@@ -63,7 +57,7 @@ void Flight::Impl::enter(int to) {
   const Phase& from_phase = graph.phases[static_cast<std::size_t>(phase)];
   const Phase& to_phase = graph.phases[static_cast<std::size_t>(to)];
   phase = to;
-  next_since.assign(to_phase.next.size(), -1);
+  next_since.assign(to_phase.next.size(), never);
   if (!result.phases.empty()) result.phases.back().to_ns = now_ns;
   result.phases.push_back({to_phase.name, now_ns, now_ns});
   event(EventKind::phase, "", "phase " + to_phase.name);

@@ -280,6 +280,8 @@ TEST_CASE("done, failed and timeout end a flight, in words") {
   const FlightResult flown = Flight(done, o).run();
   CHECK(flown.outcome == Outcome::flown);
   CHECK(flown.reason == "vehicle.signal.tick_s > 0.2 s");
+  const Graph held = mission(std::string("done: {when: \"vehicle.signal.tick_s > 0.2 s\", for: 0.1 s}\n") + one_phase);
+  CHECK(Flight(held, o).run().last_ns == 302'500'000);
   const Graph failed = mission(std::string("failed: \"vehicle.signal.tick_s > 0.2 s\"\n") + one_phase);
   CHECK(Flight(failed, o).run().outcome == Outcome::failed);
   const Graph endless = mission(one_phase);

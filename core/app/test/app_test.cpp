@@ -89,7 +89,7 @@ TEST_CASE("the JSON of a flight has the keys that scripts rely on, and null for 
   for (const char* key : {"north_m", "east_m"}) CHECK(j["gnss_error_rmse"][key].is_number());
   for (const char* key : {"waypoints_reached", "miss_distance_max_m", "lap_time_s", "surface_rate_rms_radps", "airspeed_min_mps"})
     CHECK(j["mission_figures"].contains(key));
-  for (const auto& [name, count] : j["allocations"].items()) CHECK_MESSAGE(count == 0, name);
+  for (const auto& component : j["allocations"].items()) CHECK_MESSAGE(component.value() == 0, component.key());
   std::string last;
   for (const auto& [key, value] : j.items()) {
     CHECK(last < key);

@@ -24,14 +24,28 @@ struct Bar {
 };
 
 const std::vector<Bar> bars = {
-    {"tracking", "north_m", 3.05, ""},          {"tracking", "east_m", 3.29, ""},           {"tracking", "altitude_m", 1.19, ""},
-    {"tracking", "roll_deg", 7.55, ""},         {"tracking", "pitch_deg", 3.04, ""},        {"tracking", "course_deg", 8.51, ""},
-    {"tracking", "airspeed_mps", 0.58, ""},     {"tracking_true", "north_m", 3.05, ""},     {"tracking_true", "east_m", 3.29, ""},
-    {"tracking_true", "altitude_m", 1.19, ""},  {"tracking_true", "roll_deg", 7.55, ""},    {"tracking_true", "pitch_deg", 3.04, ""},
-    {"tracking_true", "course_deg", 8.51, ""},  {"tracking_true", "airspeed_mps", 0.58, ""}, {"estimation", "vel_x_mps", 0.045, "rosflight"},
-    {"estimation", "vel_y_mps", 0.089, "rosflight"}, {"estimation", "vel_z_mps", 0.105, "rosflight"}, {"estimation", "roll_deg", 0.189, "rosflight"},
-    {"estimation", "pitch_deg", 0.074, "rosflight"}, {"estimation", "course_deg", 0.112, "rosflight"},
-    {"estimation_over_gnss", "north_ratio", 1.05, "rosflight"}, {"estimation_over_gnss", "east_ratio", 1.05, "rosflight"},
+    {"tracking", "north_m", 3.05, ""},
+    {"tracking", "east_m", 3.29, ""},
+    {"tracking", "altitude_m", 1.19, ""},
+    {"tracking", "roll_deg", 7.55, ""},
+    {"tracking", "pitch_deg", 3.04, ""},
+    {"tracking", "course_deg", 8.51, ""},
+    {"tracking", "airspeed_mps", 0.58, ""},
+    {"tracking_true", "north_m", 3.05, ""},
+    {"tracking_true", "east_m", 3.29, ""},
+    {"tracking_true", "altitude_m", 1.19, ""},
+    {"tracking_true", "roll_deg", 7.55, ""},
+    {"tracking_true", "pitch_deg", 3.04, ""},
+    {"tracking_true", "course_deg", 8.51, ""},
+    {"tracking_true", "airspeed_mps", 0.58, ""},
+    {"estimation", "vel_x_mps", 0.045, "rosflight"},
+    {"estimation", "vel_y_mps", 0.089, "rosflight"},
+    {"estimation", "vel_z_mps", 0.105, "rosflight"},
+    {"estimation", "roll_deg", 0.189, "rosflight"},
+    {"estimation", "pitch_deg", 0.074, "rosflight"},
+    {"estimation", "course_deg", 0.112, "rosflight"},
+    {"estimation_over_gnss", "north_ratio", 1.05, "rosflight"},
+    {"estimation_over_gnss", "east_ratio", 1.05, "rosflight"},
 };
 
 struct Figure {
@@ -53,7 +67,8 @@ void add_flight(Figures& figures, const nlohmann::json& result) {
   }
   for (const char* axis : {"north", "east"}) {
     const std::string key = std::string(axis) + "_m";
-    figures["estimation_over_gnss"][std::string(axis) + "_ratio"].add(result["estimation_rmse"][key].get<double>() / result["gnss_error_rmse"][key].get<double>());
+    figures["estimation_over_gnss"][std::string(axis) + "_ratio"].add(result["estimation_rmse"][key].get<double>() /
+                                                                      result["gnss_error_rmse"][key].get<double>());
   }
 }
 
@@ -90,16 +105,22 @@ int main(int argc, char** argv) {
   std::string mission = "configs/missions/hourglass.yaml", format = "text";
   int seeds = 10;
   for (int i = 1; i < argc; ++i) {
-    if (std::strcmp(argv[i], "--json") == 0) format = "json";
-    else if (std::strcmp(argv[i], "--markdown") == 0) format = "markdown";
-    else if (std::strcmp(argv[i], "--seeds") == 0 && i + 1 < argc) seeds = std::atoi(argv[++i]);
-    else if (std::strcmp(argv[i], "--mission") == 0 && i + 1 < argc) mission = argv[++i];
-    else return std::fprintf(stderr, "usage: bench_missions [--json | --markdown] [--seeds N] [--mission FILE]\n"), 2;
+    if (std::strcmp(argv[i], "--json") == 0)
+      format = "json";
+    else if (std::strcmp(argv[i], "--markdown") == 0)
+      format = "markdown";
+    else if (std::strcmp(argv[i], "--seeds") == 0 && i + 1 < argc)
+      seeds = std::atoi(argv[++i]);
+    else if (std::strcmp(argv[i], "--mission") == 0 && i + 1 < argc)
+      mission = argv[++i];
+    else
+      return std::fprintf(stderr, "usage: bench_missions [--json | --markdown] [--seeds N] [--mission FILE]\n"), 2;
   }
   int bad = 0;
   nlohmann::json all = nlohmann::json::object();
   try {
-    if (format == "markdown") std::printf("| sensors | figure | | mean of %d seeds | worst | to be below |\n|---|---|---|---|---|---|\n", seeds);
+    if (format == "markdown")
+      std::printf("| sensors | figure | | mean of %d seeds | worst | to be below |\n|---|---|---|---|---|---|\n", seeds);
     for (const std::string preset : {"rosflight", "ublox"}) {
       Figures figures;
       bad += fly(figures, mission, preset, seeds);
@@ -110,9 +131,14 @@ int main(int argc, char** argv) {
           if (worse) ++bad;
           char limit[32] = "";
           if (bar) std::snprintf(limit, sizeof limit, "%.3f", bar->limit);
-          if (format == "json") all[preset][group][key] = {{"mean", figure.mean()}, {"worst", figure.worst}};
-          else if (format == "markdown") std::printf("| %s | %s | %s | %.3f | %.3f | %s |\n", preset.c_str(), group.c_str(), key.c_str(), figure.mean(), figure.worst, limit);
-          else std::printf("%-10s %-22s %-14s %9.3f  worst %9.3f  %s%s%s\n", preset.c_str(), group.c_str(), key.c_str(), figure.mean(), figure.worst, bar ? "below " : "", limit, worse ? "  WORSE" : "");
+          if (format == "json")
+            all[preset][group][key] = {{"mean", figure.mean()}, {"worst", figure.worst}};
+          else if (format == "markdown")
+            std::printf("| %s | %s | %s | %.3f | %.3f | %s |\n", preset.c_str(), group.c_str(), key.c_str(), figure.mean(), figure.worst,
+                        limit);
+          else
+            std::printf("%-10s %-22s %-14s %9.3f  worst %9.3f  %s%s%s\n", preset.c_str(), group.c_str(), key.c_str(), figure.mean(),
+                        figure.worst, bar ? "below " : "", limit, worse ? "  WORSE" : "");
         }
     }
   } catch (const std::exception& e) {

@@ -102,7 +102,8 @@ void add_mission(std::vector<Row>& rows, const std::string& file) {
   flight.wall_ns = now_ns();
   for (std::int64_t begin = flight.wall_ns; flight.tick(); begin = now_ns()) ticks.push_back(static_cast<double>(now_ns() - begin));
   for (const auto& unit : flight.units)
-    rows.push_back({graph.mission + ": " + unit->component->use, 1e3 * unit->stats.time.quantile_us(0.5), 1e3 * unit->stats.time.quantile_us(0.99)});
+    rows.push_back(
+        {graph.mission + ": " + unit->component->use, 1e3 * unit->stats.time.quantile_us(0.5), 1e3 * unit->stats.time.quantile_us(0.99)});
   double sum = 0;
   for (const double t : ticks) sum += t;
   const double mean = sum / static_cast<double>(ticks.size());
@@ -116,8 +117,10 @@ int main(int argc, char** argv) {
   bool json = false;
   std::vector<std::string> missions;
   for (int i = 1; i < argc; ++i) {
-    if (std::strcmp(argv[i], "--json") == 0) json = true;
-    else missions.emplace_back(argv[i]);
+    if (std::strcmp(argv[i], "--json") == 0)
+      json = true;
+    else
+      missions.emplace_back(argv[i]);
   }
   if (missions.empty()) missions = {"configs/missions/hourglass.yaml", "configs/missions/two_schemes.yaml", "configs/missions/calm.yaml"};
   try {
@@ -126,8 +129,10 @@ int main(int argc, char** argv) {
     for (const std::string& mission : missions) add_mission(rows, mission);
     nlohmann::json all = nlohmann::json::object();
     for (const Row& r : rows) {
-      if (json) all[r.name] = {{"p50_ns", r.p50_ns}, {"p99_ns", r.p99_ns}};
-      else std::printf("%-48s %9.0f %9.0f ns\n", r.name.c_str(), r.p50_ns, r.p99_ns);
+      if (json)
+        all[r.name] = {{"p50_ns", r.p50_ns}, {"p99_ns", r.p99_ns}};
+      else
+        std::printf("%-48s %9.0f %9.0f ns\n", r.name.c_str(), r.p50_ns, r.p99_ns);
     }
     if (json) std::printf("%s\n", all.dump(2).c_str());
     return 0;

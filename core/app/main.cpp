@@ -34,7 +34,9 @@ struct MissionOptions {
   void add(CLI::App* command) {
     command->add_option("MISSION", mission, "mission file (YAML)")->required();
     command->add_option("--io", io, "sim or fcu: simulated aircraft or flight controller")->check(CLI::IsMember({"sim", "fcu"}));
-    command->add_option("--role", roles, "ROLE=COMPONENT: who fills a role in every phase")->type_name("ROLE=COMPONENT")->allow_extra_args(false);
+    command->add_option("--role", roles, "ROLE=COMPONENT: who fills a role in every phase")
+        ->type_name("ROLE=COMPONENT")
+        ->allow_extra_args(false);
     command->add_option("--seed", seed, "seed of all noise");
     command->add_option("--set", set, "COMPONENT.PARAMETER=VALUE")->type_name("COMP.PARAM=VALUE")->allow_extra_args(false);
   }
@@ -50,7 +52,8 @@ struct MissionOptions {
 
 int check(const std::string& mission, const Overrides& overrides) {
   const Graph graph = load_mission(mission, overrides);
-  std::printf("%s is in order: %zu components, %zu roles, %zu phases.\n", mission.c_str(), graph.components.size(), graph.roles.size(), graph.phases.size());
+  std::printf("%s is in order: %zu components, %zu roles, %zu phases.\n", mission.c_str(), graph.components.size(), graph.roles.size(),
+              graph.phases.size());
   return 0;
 }
 

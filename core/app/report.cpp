@@ -24,14 +24,18 @@ std::string format(const char* pattern, ...) {
 
 const char* word(Outcome outcome) {
   switch (outcome) {
-    case Outcome::flown: return "flown";
-    case Outcome::interrupted: return "interrupted";
-    default: return "failed";
+    case Outcome::flown:
+      return "flown";
+    case Outcome::interrupted:
+      return "interrupted";
+    default:
+      return "failed";
   }
 }
 
 TypePtr type_of(const Graph& graph, const Source& source) {
-  if (source.kind == Source::Kind::component) return graph.components[static_cast<std::size_t>(source.index)].info().outputs[static_cast<std::size_t>(source.output)].type;
+  if (source.kind == Source::Kind::component)
+    return graph.components[static_cast<std::size_t>(source.index)].info().outputs[static_cast<std::size_t>(source.output)].type;
   return graph.roles[static_cast<std::size_t>(source.index)].outputs[static_cast<std::size_t>(source.output)].type;
 }
 
@@ -41,7 +45,9 @@ nlohmann::json summary_of(const Graph& graph, const Flight& flight, const Source
   return to_json(*type_of(graph, source), message, true);
 }
 
-double flight_time_s(const FlightResult& result) { return result.ticks > 0 ? 1e-9 * static_cast<double>(result.last_ns - result.first_ns) : 0; }
+double flight_time_s(const FlightResult& result) {
+  return result.ticks > 0 ? 1e-9 * static_cast<double>(result.last_ns - result.first_ns) : 0;
+}
 double speedup(const FlightResult& result) { return result.ticks > 1 && result.wall_s > 0 ? flight_time_s(result) / result.wall_s : 0; }
 
 nlohmann::json steps_json(const FlightResult& result) {
@@ -69,8 +75,10 @@ void add_figures(std::string& out, const std::string& title, const nlohmann::jso
   if (!figures.is_object()) return;
   for (const auto& [key, value] : figures.items()) {
     const auto [name, unit] = split_unit(key);
-    if (value.is_number_float()) out += format("  %-22s %10.3f %s\n", name.c_str(), value.get<double>(), unit.c_str());
-    else out += format("  %-22s %10s %s\n", name.c_str(), value.dump().c_str(), unit.c_str());
+    if (value.is_number_float())
+      out += format("  %-22s %10.3f %s\n", name.c_str(), value.get<double>(), unit.c_str());
+    else
+      out += format("  %-22s %10s %s\n", name.c_str(), value.dump().c_str(), unit.c_str());
   }
 }
 
@@ -106,10 +114,12 @@ nlohmann::json result_json(const Graph& graph, const Flight& flight, const Fligh
   j["speedup"] = speedup(result);
   j["phases"] = nlohmann::json::array();
   for (const PhaseVisit& p : result.phases)
-    j["phases"].push_back({{"name", p.name}, {"from_s", 1e-9 * static_cast<double>(p.from_ns)}, {"to_s", 1e-9 * static_cast<double>(p.to_ns)}});
+    j["phases"].push_back(
+        {{"name", p.name}, {"from_s", 1e-9 * static_cast<double>(p.from_ns)}, {"to_s", 1e-9 * static_cast<double>(p.to_ns)}});
   j["guards"] = nlohmann::json::array();
   for (const GuardEvent& g : result.guards)
-    j["guards"].push_back({{"at_s", 1e-9 * static_cast<double>(g.at_ns)}, {"component", g.component}, {"what", g.what}, {"action", g.action}});
+    j["guards"].push_back(
+        {{"at_s", 1e-9 * static_cast<double>(g.at_ns)}, {"component", g.component}, {"what", g.what}, {"action", g.action}});
   const bool logged = !result.log.file.empty();
   j["log"] = logged ? nlohmann::json(result.log.file.string()) : nlohmann::json(nullptr);
   j["log_sha256"] = logged ? nlohmann::json(result.log.sha256) : nlohmann::json(nullptr);
@@ -128,18 +138,23 @@ std::string result_table(const Graph& graph, const Flight& flight, const FlightR
   for (const auto& [key, source] : graph.summary) add_figures(out, key, summary_of(graph, flight, source));
   out += "\nphases\n";
   for (const PhaseVisit& p : result.phases)
-    out += format("  %-22s %10.1f s to %.1f s\n", p.name.c_str(), 1e-9 * static_cast<double>(p.from_ns), 1e-9 * static_cast<double>(p.to_ns));
+    out +=
+        format("  %-22s %10.1f s to %.1f s\n", p.name.c_str(), 1e-9 * static_cast<double>(p.from_ns), 1e-9 * static_cast<double>(p.to_ns));
   if (!result.guards.empty()) out += "\nguards\n";
   for (const GuardEvent& g : result.guards)
     out += format("  %10.2f s  %s: %s: %s\n", 1e-9 * static_cast<double>(g.at_ns), g.component.c_str(), g.what.c_str(), g.action.c_str());
   out += "\nstep time              p50       p99       max us\n";
   for (const ComponentStats& c : result.components)
-    if (c.time.count() > 0) out += format("  %-14s %9.2f %9.2f %9.1f\n", c.name.c_str(), c.time.quantile_us(0.5), c.time.quantile_us(0.99), c.time.max_us());
+    if (c.time.count() > 0)
+      out += format("  %-14s %9.2f %9.2f %9.1f\n", c.name.c_str(), c.time.quantile_us(0.5), c.time.quantile_us(0.99), c.time.max_us());
   for (const ComponentStats& c : result.components)
-    if (c.allocations > 0) out += format("  %s takes memory in flight: %llu allocations in %llu steps\n", c.name.c_str(), static_cast<unsigned long long>(c.allocations), static_cast<unsigned long long>(c.steps));
+    if (c.allocations > 0)
+      out += format("  %s takes memory in flight: %llu allocations in %llu steps\n", c.name.c_str(),
+                    static_cast<unsigned long long>(c.allocations), static_cast<unsigned long long>(c.steps));
   if (!result.log.file.empty())
-    out += format("\nlog %s (%.1f MB, %llu messages, %llu dropped)\n", result.log.file.c_str(), 1e-6 * static_cast<double>(result.log.bytes),
-                  static_cast<unsigned long long>(result.log.messages), static_cast<unsigned long long>(result.log.dropped));
+    out +=
+        format("\nlog %s (%.1f MB, %llu messages, %llu dropped)\n", result.log.file.c_str(), 1e-6 * static_cast<double>(result.log.bytes),
+               static_cast<unsigned long long>(result.log.messages), static_cast<unsigned long long>(result.log.dropped));
   return out;
 }
 

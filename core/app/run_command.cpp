@@ -9,9 +9,9 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <ctime>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "core/app/report.hpp"
 #include "core/run/flight.hpp"
@@ -32,7 +32,8 @@ std::filesystem::path default_log(const Graph& graph) {
   std::strftime(stamp, sizeof stamp, "%Y%m%dT%H%M%SZ", &utc);
   const std::string stem = "logs/" + graph.mission + "-" + stamp;
   std::filesystem::path file = stem + ".mcap";
-  for (int n = 2; std::filesystem::exists(file) || std::filesystem::exists(file.string() + ".part"); ++n) file = stem + "-" + std::to_string(n) + ".mcap";
+  for (int n = 2; std::filesystem::exists(file) || std::filesystem::exists(file.string() + ".part"); ++n)
+    file = stem + "-" + std::to_string(n) + ".mcap";
   return file;
 }
 
@@ -43,8 +44,10 @@ class Progress {
   void show(const Flight& flight, bool last = false) {
     if (!terminal_ && !last && ++calls_ % 10 != 1) return;
     const std::string line = progress_line(graph_, flight);
-    if (terminal_) std::fprintf(stderr, "\r\033[K%s%s", line.c_str(), last ? "\n" : "");
-    else std::fprintf(stderr, "%s\n", line.c_str());
+    if (terminal_)
+      std::fprintf(stderr, "\r\033[K%s%s", line.c_str(), last ? "\n" : "");
+    else
+      std::fprintf(stderr, "%s\n", line.c_str());
     drawn_ = terminal_ && !last;
   }
   void say(const std::string& text, bool warning) {
@@ -78,13 +81,15 @@ int run_command(const RunOptions& options) {
   spdlog::set_default_logger(spdlog::stderr_color_mt("fulmar"));
   spdlog::set_pattern("%^%v%$");
   const Graph graph = load_mission(options.mission, options.overrides);
-  if (!graph.record && !options.log_file.empty()) throw Error("--log " + options.log_file + ": the mission says record: off; there is no log to write");
+  if (!graph.record && !options.log_file.empty())
+    throw Error("--log " + options.log_file + ": the mission says record: off; there is no log to write");
   Progress progress(graph);
   FlightOptions flight_options;
   flight_options.speed = options.speed;
   flight_options.duration_s = options.duration_s;
   flight_options.log = !options.no_log;
-  if (flight_options.log && graph.record) flight_options.log_file = options.log_file.empty() ? default_log(graph) : std::filesystem::path(options.log_file);
+  if (flight_options.log && graph.record)
+    flight_options.log_file = options.log_file.empty() ? default_log(graph) : std::filesystem::path(options.log_file);
   if (flight_options.log_file.has_parent_path()) std::filesystem::create_directories(flight_options.log_file.parent_path());
   flight_options.interrupt = &interrupted;
   flight_options.progress = [&](const Flight& flight) { progress.show(flight); };
@@ -96,8 +101,10 @@ int run_command(const RunOptions& options) {
   Flight flight(graph, flight_options);
   const FlightResult result = flight.run();
   progress.clear();
-  if (options.json) std::printf("%s\n", result_json(graph, flight, result).dump(2).c_str());
-  else std::printf("%s", result_table(graph, flight, result).c_str());
+  if (options.json)
+    std::printf("%s\n", result_json(graph, flight, result).dump(2).c_str());
+  else
+    std::printf("%s", result_table(graph, flight, result).c_str());
   if (!result.log.error.empty()) spdlog::warn("log: {}; {} messages were lost", result.log.error, result.log.dropped);
   if (result.outcome == Outcome::interrupted) return 130;
   return result.outcome == Outcome::flown ? 0 : 1;

@@ -126,7 +126,7 @@ struct Graph {
   std::vector<int> order;  // steps, the vehicle left out
   int vehicle = -1;
   std::shared_ptr<const Condition> done, failed;        // may be empty
-  std::int64_t done_for_ns = 0, failed_for_ns = 0;  // how long they have to hold
+  std::int64_t done_for_ns = 0, failed_for_ns = 0;      // how long they have to hold
   std::int64_t timeout_ns = 0;                          // of flight time; 0: none
   std::vector<std::pair<std::string, Source>> summary;  // key of the result -> port
   std::vector<Shown> progress;

@@ -95,8 +95,10 @@ class Reader {
       return;
     }
     const Keys parts(*node, key, {"when", "for"}, report_);
-    if (const auto text = parts.text("when")) word = Word{*text, parts.get("when")->where()};
-    else report_.add(node->where(), key + ": expected a condition under 'when'");
+    if (const auto text = parts.text("when"))
+      word = Word{*text, parts.get("when")->where()};
+    else
+      report_.add(node->where(), key + ": expected a condition under 'when'");
     for_ns = parts.duration_ns("for").value_or(0);
   }
 

@@ -178,8 +178,9 @@ void guarded(Draft& draft, const Where& where, const std::string& path, F run) {
 }
 
 /// What every result has: a summary must not write over it.
-const std::vector<std::string> result_keys = {"allocations", "flight_time_s", "guards",   "io",      "log",          "log_dropped", "log_sha256",  "mission",
-                                              "not_reproducible", "phases",  "reason", "result", "seed", "speedup",     "step_time_us", "wall_time_s"};
+const std::vector<std::string> result_keys = {"allocations", "flight_time_s", "guards",           "io",         "log",    "log_dropped",
+                                              "log_sha256",  "mission",       "not_reproducible", "phases",     "reason", "result",
+                                              "seed",        "speedup",       "step_time_us",     "wall_time_s"};
 
 void read_summary(Draft& draft, const FindPort& find) {
   draft.graph.summary.clear();

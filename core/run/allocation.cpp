@@ -31,10 +31,10 @@ bool counts_allocations() noexcept { return false; }
 
 #ifdef FULMAR_COUNTS
 extern "C" {
-void* __libc_malloc(std::size_t);                    // NOLINT(bugprone-reserved-identifier): glibc's names
-void* __libc_calloc(std::size_t, std::size_t);       // NOLINT(bugprone-reserved-identifier)
-void* __libc_realloc(void*, std::size_t);            // NOLINT(bugprone-reserved-identifier)
-void* __libc_memalign(std::size_t, std::size_t);     // NOLINT(bugprone-reserved-identifier)
+void* __libc_malloc(std::size_t);                 // NOLINT(bugprone-reserved-identifier): glibc's names
+void* __libc_calloc(std::size_t, std::size_t);    // NOLINT(bugprone-reserved-identifier)
+void* __libc_realloc(void*, std::size_t);         // NOLINT(bugprone-reserved-identifier)
+void* __libc_memalign(std::size_t, std::size_t);  // NOLINT(bugprone-reserved-identifier)
 
 void* malloc(std::size_t size) {
   ++taken;

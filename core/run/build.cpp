@@ -85,8 +85,8 @@ void Flight::Impl::request_arming() {
   const int port = vehicle.info->input("arm");
   const Field* armed = port < 0 ? nullptr : vehicle.readers[static_cast<std::size_t>(port)].port->type->find("armed");
   if (!armed || armed->kind != FULMAR_BOOL || vehicle.readers[static_cast<std::size_t>(port)].port->kind != FULMAR_IN_REQUEST)
-    throw Error(vehicle.component->where.text() + ": arm: auto needs a vehicle with a request 'arm' that has a field 'armed'; " + vehicle.component->name +
-                " has none");
+    throw Error(vehicle.component->where.text() + ": arm: auto needs a vehicle with a request 'arm' that has a field 'armed'; " +
+                vehicle.component->name + " has none");
   Reader& reader = vehicle.readers[static_cast<std::size_t>(port)];
   std::vector<std::byte> message(reader.port->type->size);
   message[armed->offset] = std::byte{1};
@@ -119,7 +119,8 @@ void Flight::Impl::wire_reader(Unit& unit, Reader& reader) {
     for (std::size_t f = 0; f < role.fillers.size(); ++f) {
       const int output = role.provides[f][static_cast<std::size_t>(from.output)];
       const Unit& filler = *units[static_cast<std::size_t>(role.fillers[f])];
-      reader.plans.push_back(output < 0 ? CopyPlan{} : copy_plan(*filler.slots[static_cast<std::size_t>(output)].port->type, *reader.port->type));
+      reader.plans.push_back(output < 0 ? CopyPlan{}
+                                        : copy_plan(*filler.slots[static_cast<std::size_t>(output)].port->type, *reader.port->type));
     }
     if (!value) slot.queues.emplace_back(&reader, reader.plans);
     // What a role publishes is watched: a law that is fed by nobody must not fly on. Sensors come and go, estimators know.
@@ -201,13 +202,27 @@ std::string Flight::Impl::parameters_text() const {
       const ParamInfo& p = unit->info->params[i];
       const ParamValue& v = unit->base[i];
       switch (p.kind) {
-        case FULMAR_NUMBER: mine[p.name] = v.number[0]; break;
-        case FULMAR_FLAG: mine[p.name] = v.integer != 0; break;
-        case FULMAR_COUNT: mine[p.name] = v.integer; break;
-        case FULMAR_CHOICE: mine[p.name] = p.choices.at(static_cast<std::size_t>(v.integer)); break;
-        case FULMAR_VECTOR: mine[p.name] = {v.number[0], v.number[1], v.number[2]}; break;
-        case FULMAR_RECORD: mine[p.name] = to_json(*p.type, v.data.data(), false); break;
-        default: mine[p.name] = v.text; break;
+        case FULMAR_NUMBER:
+          mine[p.name] = v.number[0];
+          break;
+        case FULMAR_FLAG:
+          mine[p.name] = v.integer != 0;
+          break;
+        case FULMAR_COUNT:
+          mine[p.name] = v.integer;
+          break;
+        case FULMAR_CHOICE:
+          mine[p.name] = p.choices.at(static_cast<std::size_t>(v.integer));
+          break;
+        case FULMAR_VECTOR:
+          mine[p.name] = {v.number[0], v.number[1], v.number[2]};
+          break;
+        case FULMAR_RECORD:
+          mine[p.name] = to_json(*p.type, v.data.data(), false);
+          break;
+        default:
+          mine[p.name] = v.text;
+          break;
       }
     }
   }

@@ -18,12 +18,12 @@
 namespace fulmar::core {
 
 struct FlightOptions {
-  double speed = 0;                       // times real time; 0: as fast as the machine allows
-  std::optional<double> duration_s;       // of flight time from 0; then the flight counts as flown
+  double speed = 0;                  // times real time; 0: as fast as the machine allows
+  std::optional<double> duration_s;  // of flight time from 0; then the flight counts as flown
   bool log = true;
-  std::filesystem::path log_file;         // must not exist
-  const std::atomic<int>* interrupt = nullptr;  // the flight ends when this is not 0
-  std::function<void(const class Flight&)> progress;  // called about every 200 ms of wall time, between ticks
+  std::filesystem::path log_file;                             // must not exist
+  const std::atomic<int>* interrupt = nullptr;                // the flight ends when this is not 0
+  std::function<void(const class Flight&)> progress;          // called about every 200 ms of wall time, between ticks
   std::function<void(const std::string&, bool warning)> say;  // one line for the user, as it happens: phases, guards
 };
 
@@ -72,7 +72,8 @@ class Flight {
 
   /// A request from outside, to be answered by the component in its next step. Throws Error for a port that is no request.
   /// The answer comes through `answered`: "" when accepted, else the reason.
-  void request(const std::string& component, const std::string& port, const std::byte* message, std::function<void(const std::string&)> answered = {});
+  void request(const std::string& component, const std::string& port, const std::byte* message,
+               std::function<void(const std::string&)> answered = {});
   /// A live change of a base parameter. Throws Error: unknown, not live, out of range.
   void set_parameter(const std::string& component, const std::string& param, const ParamValue& value);
   /// Lets a component fly again that a guard has stopped.

@@ -75,7 +75,7 @@ struct Flight::Impl final : SampleReader {
   FlightOptions options;
   std::vector<std::unique_ptr<Unit>> units;
   std::vector<RoleState> roles;
-  std::vector<Reader*> delayed;  // readers that see the previous tick's sample
+  std::vector<Reader*> delayed;        // readers that see the previous tick's sample
   std::vector<const Slot*> hand_over;  // room for what was last applied
   Flight* owner = nullptr;
   std::unique_ptr<Log> log;

@@ -23,7 +23,7 @@ std::string short_number(double x) {
   return text;
 }
 
-constexpr int overruns_allowed = 5;  // steps over budget in a row
+constexpr int overruns_allowed = 5;                 // steps over budget in a row
 constexpr std::int64_t silence_ns = 1'000'000'000;  // simulated after a failsafe before the flight is called lost
 
 }  // namespace
@@ -58,7 +58,8 @@ void Flight::Impl::log_probes(Unit& unit) {
   if (unit.probe_channel < 0 || now_ns < unit.probe_due_ns) return;
   const bool late = unit.probe_due_ns == std::numeric_limits<std::int64_t>::min() || unit.probe_due_ns + unit.probe_period_ns <= now_ns;
   unit.probe_due_ns = (late ? now_ns : unit.probe_due_ns) + unit.probe_period_ns;
-  for (std::size_t k = 0; k < unit.probes.size(); ++k) std::memcpy(&unit.probe_values[k], unit.slots[unit.probes[k]].published.data(), sizeof(double));
+  for (std::size_t k = 0; k < unit.probes.size(); ++k)
+    std::memcpy(&unit.probe_values[k], unit.slots[unit.probes[k]].published.data(), sizeof(double));
   log->write(static_cast<std::size_t>(unit.probe_channel), now_ns, now_ns, reinterpret_cast<const std::byte*>(unit.probe_values.data()));
 }
 
@@ -129,13 +130,18 @@ bool Flight::Impl::held_for(const Condition& condition, std::int64_t for_ns, std
 }
 
 bool Flight::Impl::over() {
-  if (graph.done && held_for(*graph.done, graph.done_for_ns, done_since_ns)) finish(Outcome::flown, graph.done->text());
-  else if (graph.failed && held_for(*graph.failed, graph.failed_for_ns, failed_since_ns)) finish(Outcome::failed, graph.failed->text());
-  else if (in_failsafe && now_ns - failsafe_since_ns >= graph.failsafe_ns + silence_ns) finish(Outcome::failed, failsafe_reason);
-  else if (options.duration_s && now_ns >= static_cast<std::int64_t>(*options.duration_s * 1e9)) finish(in_failsafe ? Outcome::failed : Outcome::flown, in_failsafe ? failsafe_reason : "duration reached");
+  if (graph.done && held_for(*graph.done, graph.done_for_ns, done_since_ns))
+    finish(Outcome::flown, graph.done->text());
+  else if (graph.failed && held_for(*graph.failed, graph.failed_for_ns, failed_since_ns))
+    finish(Outcome::failed, graph.failed->text());
+  else if (in_failsafe && now_ns - failsafe_since_ns >= graph.failsafe_ns + silence_ns)
+    finish(Outcome::failed, failsafe_reason);
+  else if (options.duration_s && now_ns >= static_cast<std::int64_t>(*options.duration_s * 1e9))
+    finish(in_failsafe ? Outcome::failed : Outcome::flown, in_failsafe ? failsafe_reason : "duration reached");
   else if (graph.timeout_ns > 0 && now_ns >= graph.timeout_ns)
     finish(Outcome::failed, "not done within " + short_number(1e-9 * static_cast<double>(graph.timeout_ns)) + " s of flight");
-  else if (options.interrupt && options.interrupt->load(std::memory_order_relaxed) != 0) finish(Outcome::interrupted, "interrupted");
+  else if (options.interrupt && options.interrupt->load(std::memory_order_relaxed) != 0)
+    finish(Outcome::interrupted, "interrupted");
   return ended;
 }
 

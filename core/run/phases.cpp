@@ -146,8 +146,10 @@ void Flight::Impl::failsafe(const char* why) {
 }
 
 const Slot* Flight::Impl::slot_of(const Source& source) const {
-  if (source.kind == Source::Kind::component) return &units[static_cast<std::size_t>(source.index)]->slots[static_cast<std::size_t>(source.output)];
-  if (source.kind == Source::Kind::role) return roles[static_cast<std::size_t>(source.index)].slots[static_cast<std::size_t>(source.output)].current;
+  if (source.kind == Source::Kind::component)
+    return &units[static_cast<std::size_t>(source.index)]->slots[static_cast<std::size_t>(source.output)];
+  if (source.kind == Source::Kind::role)
+    return roles[static_cast<std::size_t>(source.index)].slots[static_cast<std::size_t>(source.output)].current;
   return nullptr;
 }
 
@@ -163,7 +165,7 @@ Flight::~Flight() = default;
 FlightResult Flight::run() { return impl_->run(); }
 std::int64_t Flight::now_ns() const { return impl_->now_ns; }
 const std::string& Flight::phase() const { return impl_->graph.phases[static_cast<std::size_t>(impl_->phase)].name; }
-const std::byte* Flight::sample(const Source& source) const { 
+const std::byte* Flight::sample(const Source& source) const {
   const Slot* slot = impl_->slot_of(source);
   return slot && slot->sequence > 0 ? slot->published.data() : nullptr;
 }

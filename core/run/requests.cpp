@@ -13,7 +13,8 @@ Unit& Flight::Impl::unit(const std::string& component) {
   throw Error("there is no component '" + component + "'." + choices_text(component, names));
 }
 
-void Flight::request(const std::string& component, const std::string& port, const std::byte* message, std::function<void(const std::string&)> answered) {
+void Flight::request(const std::string& component, const std::string& port, const std::byte* message,
+                     std::function<void(const std::string&)> answered) {
   Unit& unit = impl_->unit(component);
   std::vector<std::string> names;
   for (Reader& r : unit.readers) {
@@ -22,7 +23,8 @@ void Flight::request(const std::string& component, const std::string& port, cons
     if (r.port->name != port) continue;
     CopyPlan whole;
     whole.size = r.port->type->size;
-    if (r.count == r.port->capacity) throw Error(component + "." + port + " has " + std::to_string(r.count) + " requests waiting; there is no room for more");
+    if (r.count == r.port->capacity)
+      throw Error(component + "." + port + " has " + std::to_string(r.count) + " requests waiting; there is no room for more");
     if (const Guard guard(*r.port->type); !guard.check(message)) throw Error(component + "." + port + ": " + guard.explain(message));
     r.push(message, impl_->now_ns, whole);
     r.replies[r.count - 1] = std::move(answered);
@@ -44,7 +46,8 @@ void Flight::set_parameter(const std::string& component, const std::string& para
   if (!info.live) throw Error(component + "." + param + " is a set-up parameter: it cannot change in flight");
   const double number = info.kind == FULMAR_NUMBER ? value.number[0] : static_cast<double>(value.integer);
   if (info.kind != FULMAR_VECTOR && !(number >= info.min && number <= info.max))
-    throw Error(component + "." + param + ": " + std::to_string(number) + " is outside " + std::to_string(info.min) + " .. " + std::to_string(info.max));
+    throw Error(component + "." + param + ": " + std::to_string(number) + " is outside " + std::to_string(info.min) + " .. " +
+                std::to_string(info.max));
   unit.base[static_cast<std::size_t>(i)] = value;
   const std::vector<Overlay>* overlay = impl_->overlay_of(static_cast<int>(unit.component - impl_->graph.components.data()));
   if (!unit.retune(overlay)) throw Error(component + ": " + unit.problem.text);

@@ -51,8 +51,10 @@ Unit::Unit(const Component& c, std::int64_t tick_ns, std::uint64_t seed)
     s.staging.resize(std::size_t{s.size} * s.port->capacity);
     s.published.resize(s.size);
     s.stamps.resize(s.port->capacity);
-    if (s.port->type) s.guard = std::make_unique<Guard>(*s.port->type);
-    else probes.push_back(static_cast<std::uint32_t>(i));
+    if (s.port->type)
+      s.guard = std::make_unique<Guard>(*s.port->type);
+    else
+      probes.push_back(static_cast<std::uint32_t>(i));
   }
   probe_values.resize(probes.size());
   for (std::size_t i = 0; i < readers.size(); ++i) {
@@ -173,7 +175,8 @@ bool Unit::outputs_good() noexcept {
     }
     const std::uint32_t count = s.port->kind == FULMAR_OUT_VALUE ? 1 : out.count;
     if (count > s.port->capacity) {
-      std::snprintf(problem.text, sizeof problem.text, "output '%s' holds %u items, there is room for %u", s.port->name.c_str(), count, s.port->capacity);
+      std::snprintf(problem.text, sizeof problem.text, "output '%s' holds %u items, there is room for %u", s.port->name.c_str(), count,
+                    s.port->capacity);
       return false;
     }
     for (std::uint32_t k = 0; k < count; ++k) {
@@ -256,7 +259,8 @@ Verdict Unit::read(std::int64_t& now_ns, std::uint64_t index) noexcept {
     return {Verdict::Kind::bad};
   }
   if (index > 0 && t.now_ns <= now_ns) {
-    std::snprintf(problem.text, sizeof problem.text, "time went from %lld to %lld ns", static_cast<long long>(now_ns), static_cast<long long>(t.now_ns));
+    std::snprintf(problem.text, sizeof problem.text, "time went from %lld to %lld ns", static_cast<long long>(now_ns),
+                  static_cast<long long>(t.now_ns));
     return {Verdict::Kind::bad};
   }
   // What read has not dated is valid at the time that read has set.
@@ -273,7 +277,8 @@ Verdict Unit::write(std::int64_t now_ns, std::uint64_t index) noexcept {
   if (prepare_inputs(now_ns) != Inputs::good && !forced && !silent) return {Verdict::Kind::waiting};
   for (std::size_t i = 0; i < readers.size(); ++i) {
     if (readers[i].port->kind != FULMAR_IN_VALUE) continue;
-    if (silent) inputs_[i] = {};
+    if (silent)
+      inputs_[i] = {};
     else if (forced && !(*forced)[i].empty()) {
       inputs_[i].data = (*forced)[i].data();
       inputs_[i].valid_at_ns = now_ns;

@@ -30,8 +30,8 @@ struct Slot {
   std::uint32_t lost = 0;
   std::unique_ptr<Guard> guard;
   std::vector<std::pair<Reader*, const CopyPlan*>> queues;  // inputs that take every sample
-  struct RoleSlot* role = nullptr;                           // the role output that this one provides
-  int filler = -1;                                           // of that role
+  struct RoleSlot* role = nullptr;                          // the role output that this one provides
+  int filler = -1;                                          // of that role
   // log
   int channel = -1;
   std::int64_t log_period_ns = 0, log_due_ns = std::numeric_limits<std::int64_t>::min();
@@ -96,8 +96,8 @@ class Unit {
 
   /// [tick] Steps once if due and ready. On `bad`, `problem` says what.
   Verdict step(std::int64_t now_ns, std::uint64_t index) noexcept;
-  Verdict read(std::int64_t& now_ns, std::uint64_t index) noexcept;   // the vehicle
-  Verdict write(std::int64_t now_ns, std::uint64_t index) noexcept;   // the vehicle
+  Verdict read(std::int64_t& now_ns, std::uint64_t index) noexcept;  // the vehicle
+  Verdict write(std::int64_t now_ns, std::uint64_t index) noexcept;  // the vehicle
   /// [tick] `last`: per output, the slot last applied in the role, or nullptr.
   bool activate(std::int64_t now_ns, std::uint64_t index, const std::vector<const Slot*>& last) noexcept;
   void deactivate() noexcept;
@@ -116,10 +116,10 @@ class Unit {
   std::vector<ParamValue> base;
   ComponentStats stats;
   fulmar_error problem{};
-  bool active = false;   // fills a role now, or fills none and always steps
-  bool stopped = false;  // by a guard
-  bool fresh_start = true;  // activate has not been called yet
-  bool silent = false;   // vehicle: failsafe is over, inputs are withheld
+  bool active = false;                                          // fills a role now, or fills none and always steps
+  bool stopped = false;                                         // by a guard
+  bool fresh_start = true;                                      // activate has not been called yet
+  bool silent = false;                                          // vehicle: failsafe is over, inputs are withheld
   const std::vector<std::vector<std::byte>>* forced = nullptr;  // vehicle: failsafe values in place of its inputs
   int overruns_in_a_row = 0;
   int probe_channel = -1;

@@ -3,13 +3,12 @@
 // Source: Beard & McLain, Small Unmanned Aircraft (2012), chapter 6.
 #pragma once
 #include <algorithm>
-#include <numbers>
-
 #include <fulmar/flight/angles.hpp>
 #include <fulmar/msg/attitude_command.hpp>
 #include <fulmar/msg/guidance_command.hpp>
 #include <fulmar/msg/vehicle_state.hpp>
 #include <fulmar/plugin.hpp>
+#include <numbers>
 
 using namespace fulmar;
 

@@ -66,8 +66,10 @@ struct Everything {
     if (in.attitude.fresh()) out.wish.publish(*in.attitude, tick.now_ns - 5);
     for (const auto& sample : in.edits) out.made.push(sample.value, sample.valid_at_ns);
     for (auto request : in.edit) {
-      if (request.value().index > 3) request.refuse("there is no waypoint " + std::to_string(request.value().index));
-      else request.accept();
+      if (request.value().index > 3)
+        request.refuse("there is no waypoint " + std::to_string(request.value().index));
+      else
+        request.accept();
     }
     last_dt = tick.dt_s();
     return Status::ok;

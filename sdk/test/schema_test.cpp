@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The tables that a struct yields by itself, against what the compiler says (offsetof, sizeof) and what people wrote.
+#include "fulmar/schema.hpp"
+
 #include <doctest/doctest.h>
 
 #include <cstddef>
@@ -10,7 +12,6 @@
 #include "fulmar/msg/path.hpp"
 #include "fulmar/msg/plan.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
-#include "fulmar/schema.hpp"
 
 using namespace fulmar;
 

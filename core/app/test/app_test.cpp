@@ -53,8 +53,8 @@ Result fulmar(const std::string& arguments) { return shell(program + arguments);
 /// A mission that extends the shipped ones, with `text` in it.
 fs::path mission(const std::string& text, const std::string& airframe = "anaconda.yaml") {
   const fs::path file = folder() / "mission.yaml";
-  std::ofstream(file) << "mission: trial\nextends: " FULMAR_SOURCE_DIR "/configs/missions/common.yaml\nio: sim\nairframe: " FULMAR_SOURCE_DIR
-                         "/configs/airframes/"
+  std::ofstream(file) << "mission: trial\nextends: " FULMAR_SOURCE_DIR
+                         "/configs/missions/common.yaml\nio: sim\nairframe: " FULMAR_SOURCE_DIR "/configs/airframes/"
                       << airframe << "\norigin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\n"
                       << text;
   return file;
@@ -83,8 +83,8 @@ TEST_CASE("the JSON of a flight has the keys that scripts rely on, and null for 
     CHECK(j["tracking_rmse"][key].is_number());
     CHECK(j["tracking_true_rmse"][key].is_number());
   }
-  for (const char* key : {"north_m", "east_m", "altitude_m", "vel_x_mps", "vel_y_mps", "vel_z_mps", "roll_deg", "pitch_deg", "heading_deg", "course_deg", "airspeed_mps",
-                          "wind_n_mps", "wind_e_mps"})
+  for (const char* key : {"north_m", "east_m", "altitude_m", "vel_x_mps", "vel_y_mps", "vel_z_mps", "roll_deg", "pitch_deg", "heading_deg",
+                          "course_deg", "airspeed_mps", "wind_n_mps", "wind_e_mps"})
     CHECK(j["estimation_rmse"][key].is_number());
   for (const char* key : {"north_m", "east_m"}) CHECK(j["gnss_error_rmse"][key].is_number());
   for (const char* key : {"waypoints_reached", "miss_distance_max_m", "lap_time_s", "surface_rate_rms_radps", "airspeed_min_mps"})

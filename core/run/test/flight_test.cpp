@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The loop, flown in a laboratory (lab.cpp): order, rates, phases, hand-over, guards, failsafe, requests, equal bytes.
+#include "core/run/flight.hpp"
+
 #include <doctest/doctest.h>
 #include <unistd.h>
 
@@ -10,7 +12,6 @@
 #include <fstream>
 
 #include "core/run/allocation.hpp"
-#include "core/run/flight.hpp"
 #include "core/tap/wire.hpp"
 
 using namespace fulmar::core;
@@ -71,7 +72,8 @@ FlightOptions options(double duration_s) {
 
 Source port(const Graph& graph, const std::string& component, const std::string& output) {
   for (std::size_t i = 0; i < graph.components.size(); ++i)
-    if (graph.components[i].name == component) return {Source::Kind::component, static_cast<int>(i), graph.components[i].info().output(output)};
+    if (graph.components[i].name == component)
+      return {Source::Kind::component, static_cast<int>(i), graph.components[i].info().output(output)};
   FAIL("no component " << component);
   return {};
 }
@@ -134,7 +136,9 @@ TEST_CASE("a slow reader of a queue is told what it lost") {
 }
 
 TEST_CASE("a component is not stepped before each required input has had a sample") {
-  const Graph g = mission("  late: {use: lab/Late, in: {never: other.echo}}\n  other: {use: lab/Late, in: {never: {from: late.echo, delayed: true}}}\n" + std::string(one_phase));
+  const Graph g = mission(
+      "  late: {use: lab/Late, in: {never: other.echo}}\n  other: {use: lab/Late, in: {never: {from: late.echo, delayed: true}}}\n" +
+      std::string(one_phase));
   Flight flight(g, options(0));
   CHECK(flight.run().outcome == Outcome::flown);
   CHECK(flight.sample(port(g, "late", "tally")) == nullptr);
@@ -216,8 +220,9 @@ TEST_CASE("every fault of a law is caught in its tick, the fallback flies in the
   struct Case {
     const char *fault, *what;
   };
-  for (const Case& c : {Case{"nan", "output 'command': u_frac is nan"}, Case{"range", "output 'command': u_frac is 1.5, outside [-1, 1]"},
-                        Case{"throws", "the law is broken"}, Case{"fails", "says that it failed"}, Case{"probe_nan", "probe 'error_m' is not finite"}}) {
+  for (const Case& c :
+       {Case{"nan", "output 'command': u_frac is nan"}, Case{"range", "output 'command': u_frac is 1.5, outside [-1, 1]"},
+        Case{"throws", "the law is broken"}, Case{"fails", "says that it failed"}, Case{"probe_nan", "probe 'error_m' is not finite"}}) {
     CAPTURE(c.fault);
     const Graph g = mission(with_fallback, {{"one.fault", c.fault}, {"one.fault_at", "0.1"}});
     Flight flight(g, options(0.1));  // ends with the tick of the fault
@@ -303,7 +308,8 @@ TEST_CASE("a request is answered by the step that sees it") {
   auto take = [&](const std::string& answer) { answers.push_back(answer); };
   flight.request("watch", "ask", reinterpret_cast<const std::byte*>(&go), take);
   flight.request("watch", "ask", reinterpret_cast<const std::byte*>(&back), take);
-  CHECK_THROWS_WITH(flight.request("wach", "ask", nullptr, take), "there is no component 'wach'. Did you mean 'watch'? Valid: sim, filter, one, watch.");
+  CHECK_THROWS_WITH(flight.request("wach", "ask", nullptr, take),
+                    "there is no component 'wach'. Did you mean 'watch'? Valid: sim, filter, one, watch.");
   CHECK_THROWS_WITH(flight.request("watch", "aks", nullptr, take), "'watch' takes no request 'aks'. Did you mean 'ask'? Valid: ask.");
   const double wrong = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH(flight.request("watch", "ask", reinterpret_cast<const std::byte*>(&wrong), take), "watch.ask: to_m is nan");

@@ -108,11 +108,19 @@ struct Law {
     out.taken_over_frac = taken_;
     if (!bad) return Status::ok;
     switch (p.fault) {
-      case Fault::nan: out.command.u_frac = std::numeric_limits<double>::quiet_NaN(); break;
-      case Fault::range: out.command.u_frac = 1.5; break;
-      case Fault::throws: throw std::runtime_error("the law is broken");
-      case Fault::fails: return Status::failed;
-      case Fault::probe_nan: out.error_m = std::numeric_limits<double>::infinity(); break;
+      case Fault::nan:
+        out.command.u_frac = std::numeric_limits<double>::quiet_NaN();
+        break;
+      case Fault::range:
+        out.command.u_frac = 1.5;
+        break;
+      case Fault::throws:
+        throw std::runtime_error("the law is broken");
+      case Fault::fails:
+        return Status::failed;
+      case Fault::probe_nan:
+        out.error_m = std::numeric_limits<double>::infinity();
+        break;
       case Fault::slow:
         for (int i = 0; i < 300'000; ++i) asm volatile("");
         break;
@@ -121,7 +129,8 @@ struct Law {
         asm volatile("" ::"r"(v.data()) : "memory");
         break;
       }
-      default: break;
+      default:
+        break;
     }
     return Status::ok;
   }
@@ -174,8 +183,10 @@ struct Watch {  ///< fills no role
     }
     if (in.applied) tally_.applied_seen_m = in.applied->seen_m;
     for (auto request : in.ask) {
-      if (request.value().to_m < 0) request.refuse("cannot go back");
-      else request.accept();
+      if (request.value().to_m < 0)
+        request.refuse("cannot go back");
+      else
+        request.accept();
     }
     out.tally = tally_;
     if (p.noise > 0) out.tally.sum_m += static_cast<double>(seed_ % 1000);

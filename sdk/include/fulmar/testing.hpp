@@ -62,8 +62,7 @@ class Bench {
 
   /// The latest sample of a value input, valid `age_s` ago.
   template <template <class> class P, class T>
-    requires(detail::PortOf<P<T>>::kind == FULMAR_IN_VALUE)
-  void set(const P<T>& port, const T& value, double age_s = 0) {
+  requires(detail::PortOf<P<T>>::kind == FULMAR_IN_VALUE) void set(const P<T>& port, const T& value, double age_s = 0) {
     fulmar_input& input = at(port.input);
     Room& room = rooms_[index(port.input)];
     room.bytes.resize(sizeof(T));
@@ -77,8 +76,8 @@ class Bench {
   }
   /// One more sample of a queue or request; gone after the next step.
   template <template <class> class P, class T>
-    requires(detail::PortOf<P<T>>::kind == FULMAR_IN_QUEUE || detail::PortOf<P<T>>::kind == FULMAR_IN_REQUEST)
-  void push(const P<T>& port, const T& value) {
+  requires(detail::PortOf<P<T>>::kind == FULMAR_IN_QUEUE || detail::PortOf<P<T>>::kind == FULMAR_IN_REQUEST) void push(const P<T>& port,
+                                                                                                                       const T& value) {
     fulmar_input& input = at(port.input);
     Room& room = rooms_[index(port.input)];
     room.bytes.resize((input.count + 1) * sizeof(T));

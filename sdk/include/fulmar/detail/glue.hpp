@@ -84,8 +84,10 @@ struct PortOf<Probe> {
 
 template <class T>
 consteval const fulmar_type* message_table() {
-  if constexpr (requires { typename PortOf<T>::Message; }) return type_table<typename PortOf<T>::Message>();
-  else return nullptr;
+  if constexpr (requires { typename PortOf<T>::Message; })
+    return type_table<typename PortOf<T>::Message>();
+  else
+    return nullptr;
 }
 
 template <class S, bool inputs>
@@ -96,7 +98,8 @@ struct Ports {
     using Port = PortOf<MemberType<S, I>>;
     static_assert(!inputs || Port::kind < FULMAR_OUT_VALUE, "Inputs holds In<T>, Optional<T>, Queue<T> and Request<T>");
     static_assert(inputs || Port::kind >= FULMAR_OUT_VALUE, "Outputs holds messages, Out<T>, OutQueue<T> and Probe");
-    static_assert(Port::kind != FULMAR_OUT_PROBE || find_unit(FieldName<S, I>::view) >= 0, "a probe's name ends in its unit: roll_error_rad");
+    static_assert(Port::kind != FULMAR_OUT_PROBE || find_unit(FieldName<S, I>::view) >= 0,
+                  "a probe's name ends in its unit: roll_error_rad");
     return {FieldName<S, I>::c_str, message_table<MemberType<S, I>>(), Port::kind, Port::flags, Port::capacity};
   }
   template <std::size_t... I>
@@ -110,7 +113,8 @@ struct Ports {
 template <class S, class F>
 void for_each(S& s, F&& f) {
   auto all = members(s);
-  [&]<std::size_t... I>(std::index_sequence<I...>) { (f(*std::get<I>(all).p, I), ...); }(std::make_index_sequence<std::tuple_size_v<decltype(all)>>{});
+  [&]<std::size_t... I>(std::index_sequence<I...>) { (f(*std::get<I>(all).p, I), ...); }
+  (std::make_index_sequence<std::tuple_size_v<decltype(all)>>{});
 }
 
 // ---- parameters ---------------------------------------------------------------------------------------------------------------
@@ -222,8 +226,10 @@ struct ParamTable {
 template <class C>
 struct Instance {
   static C make(std::uint64_t seed) {
-    if constexpr (!std::is_aggregate_v<C> && std::is_constructible_v<C, std::uint64_t>) return C(seed);
-    else return C();
+    if constexpr (!std::is_aggregate_v<C> && std::is_constructible_v<C, std::uint64_t>)
+      return C(seed);
+    else
+      return C();
   }
   explicit Instance(std::uint64_t seed) : component(make(seed)) {}
 
@@ -254,7 +260,9 @@ std::uint32_t guarded(fulmar_error* error, F&& f) noexcept {
 }
 
 template <class C>
-concept Vehicle = requires(C c, Tick& tick, const typename C::Params& p, typename C::Outputs& out) { c.read(tick, p, out); };
+concept Vehicle = requires(C c, Tick& tick, const typename C::Params& p, typename C::Outputs& out) {
+  c.read(tick, p, out);
+};
 
 template <class C>
 struct Thunks {
@@ -285,7 +293,8 @@ struct Thunks {
   static std::uint32_t configure(void* instance, const fulmar_value* values, fulmar_error* error) {
     return guarded(error, [&] {
       take(self(instance).params, values);
-      if constexpr (requires(C c, const typename C::Params& p) { c.configure(p); }) self(instance).component.configure(self(instance).params);
+      if constexpr (requires(C c, const typename C::Params& p) { c.configure(p); })
+        self(instance).component.configure(self(instance).params);
       return Status::ok;
     });
   }
@@ -296,7 +305,8 @@ struct Thunks {
       return Status::ok;
     });
   }
-  static std::uint32_t activate(void* instance, const fulmar_tick* tick, const fulmar_input* inputs, const fulmar_input* last, fulmar_error* error) {
+  static std::uint32_t activate(void* instance, const fulmar_tick* tick, const fulmar_input* inputs, const fulmar_input* last,
+                                fulmar_error* error) {
     return guarded(error, [&] {
       I& i = self(instance);
       bind(i.in, inputs);
@@ -312,7 +322,8 @@ struct Thunks {
       return Status::ok;
     });
   }
-  static std::uint32_t step(void* instance, const fulmar_tick* tick, const fulmar_input* inputs, fulmar_output* outputs, fulmar_error* error) {
+  static std::uint32_t step(void* instance, const fulmar_tick* tick, const fulmar_input* inputs, fulmar_output* outputs,
+                            fulmar_error* error) {
     return guarded(error, [&] {
       I& i = self(instance);
       bind(i.in, inputs);
@@ -342,8 +353,10 @@ struct Thunks {
 
 template <class C>
 consteval const char* doc_of() {
-  if constexpr (requires { C::doc; }) return C::doc;
-  else return "";
+  if constexpr (requires { C::doc; })
+    return C::doc;
+  else
+    return "";
 }
 
 template <class C>
@@ -397,14 +410,15 @@ inline constexpr std::array<fulmar_component, sizeof...(C)> component_table{comp
 
 template <class... C>
 consteval fulmar_plugin plugin_entry(const char* version) {
-  return {FULMAR_ABI_MAJOR, FULMAR_ABI_MINOR, sizeof...(C), sizeof(fulmar_component), version, FULMAR_TOOLCHAIN, FULMAR_BUILD_FLAGS, component_table<C...>.data()};
+  return {FULMAR_ABI_MAJOR, FULMAR_ABI_MINOR, sizeof...(C),       sizeof(fulmar_component),
+          version,          FULMAR_TOOLCHAIN, FULMAR_BUILD_FLAGS, component_table<C...>.data()};
 }
 
 }  // namespace fulmar::detail
 
 /// The plugin's one exported symbol: FULMAR_PLUGIN("1.0.0", Component, ...). Once per shared object, at namespace scope.
-#define FULMAR_PLUGIN(version, ...)                                                                                              \
-  extern "C" {                                                                                                                   \
-  __attribute__((visibility("default"))) extern const fulmar_plugin fulmar_plugin_entry;                                  \
-  constinit const fulmar_plugin fulmar_plugin_entry = ::fulmar::detail::plugin_entry<__VA_ARGS__>(version);                     \
+#define FULMAR_PLUGIN(version, ...)                                                                         \
+  extern "C" {                                                                                              \
+  __attribute__((visibility("default"))) extern const fulmar_plugin fulmar_plugin_entry;                    \
+  constinit const fulmar_plugin fulmar_plugin_entry = ::fulmar::detail::plugin_entry<__VA_ARGS__>(version); \
   }

@@ -59,6 +59,7 @@ struct Flight::Impl final : SampleReader {
   void transitions();
   bool try_transitions(const std::vector<Transition>& list, std::vector<std::int64_t>& since);
   void enter(int phase);
+  void fill(int role, const Assignment& assignment, bool overlaid);
   bool take_over(int role, int component, const Assignment& assignment);
   void stop(int index, const std::string& action_when_alone);
   void failsafe(const char* why);

@@ -130,7 +130,7 @@ bool Flight::Impl::held_for(const Condition& condition, std::int64_t for_ns, std
 }
 
 bool Flight::Impl::over() {
-  if (graph.done && held_for(*graph.done, graph.done_for_ns, done_since_ns))
+  if (graph.done && !in_failsafe && held_for(*graph.done, graph.done_for_ns, done_since_ns))
     finish(Outcome::flown, graph.done->text());
   else if (graph.failed && held_for(*graph.failed, graph.failed_for_ns, failed_since_ns))
     finish(Outcome::failed, graph.failed->text());

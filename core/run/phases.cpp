@@ -61,25 +61,38 @@ void Flight::Impl::enter(int to) {
   if (!result.phases.empty()) result.phases.back().to_ns = now_ns;
   result.phases.push_back({to_phase.name, now_ns, now_ns});
   event(EventKind::phase, "", "phase " + to_phase.name);
-  for (std::size_t r = 0; r < roles.size(); ++r) {
-    const Assignment& a = to_phase.roles[r];
-    if (a.component < 0) continue;
-    const bool usable = !units[static_cast<std::size_t>(a.component)]->stopped;
-    const int wanted = usable ? a.component : a.fallback;
-    if (wanted < 0) continue;
-    if (wanted != roles[r].active) {
-      take_over(static_cast<int>(r), wanted, a);
-    } else if (!a.set.empty() || !from_phase.roles[r].set.empty()) {
-      Unit& unit = *units[static_cast<std::size_t>(wanted)];
-      if (!unit.retune(wanted == a.component ? &a.set : nullptr)) stop(wanted, "held");
+  for (std::size_t r = 0; r < roles.size(); ++r) fill(static_cast<int>(r), to_phase.roles[r], !from_phase.roles[r].set.empty());
+}
+
+/// Who flies in a role from now on: the component that the phase names, else its fallback, else who flies already.
+void Flight::Impl::fill(int role, const Assignment& assignment, bool overlaid) {
+  RoleState& state = roles[static_cast<std::size_t>(role)];
+  if (assignment.component < 0) return;
+  for (const int wanted : {assignment.component, assignment.fallback}) {
+    if (wanted < 0 || units[static_cast<std::size_t>(wanted)]->stopped) continue;
+    if (wanted != state.active) {
+      if (take_over(role, wanted, assignment)) return;
+      continue;
     }
+    const bool own = wanted == assignment.component && !assignment.set.empty();
+    if ((own || overlaid) && !units[static_cast<std::size_t>(wanted)]->retune(own ? &assignment.set : nullptr)) stop(wanted, "held");
+    return;
   }
+  const std::string& name = graph.roles[static_cast<std::size_t>(role)].name;
+  if (state.active >= 0) event(EventKind::guard, name, "nobody that this phase names can fly: " + units[static_cast<std::size_t>(state.active)]->component->name + " goes on");
 }
 
 bool Flight::Impl::take_over(int role, int component, const Assignment& assignment) {
   RoleState& state = roles[static_cast<std::size_t>(role)];
   Unit& unit = *units[static_cast<std::size_t>(component)];
-  unit.retune(component == assignment.component ? &assignment.set : nullptr);
+  Unit* old = state.active >= 0 ? units[static_cast<std::size_t>(state.active)].get() : nullptr;
+  const bool tuned = unit.retune(component == assignment.component ? &assignment.set : nullptr);
+  if (tuned && !unit.ready() && (!old || old->fresh_start)) {  // nobody has flown yet: the newcomer begins when its inputs are there
+    if (old) old->active = false;
+    state.active = component;
+    unit.active = unit.fresh_start = true;
+    return true;
+  }
   // The outputs last applied in the role, as far as the newcomer's messages are of the same make.
   std::vector<const Slot*>& last = hand_over;
   last.assign(unit.slots.size(), nullptr);
@@ -88,16 +101,15 @@ bool Flight::Impl::take_over(int role, int component, const Assignment& assignme
     if (slot && slot->current && slot->current->port->type->hash == unit.slots[i].port->type->hash) last[i] = slot->current;
   }
   unit.forget_queues();
-  if (!unit.activate(now_ns, index, last)) {
+  if (!tuned || !unit.activate(now_ns, index, last)) {
     const std::string text = "cannot take over: " + std::string(unit.problem.text);
     event(EventKind::guard, unit.component->name, text);
     result.guards.push_back({now_ns, unit.component->name, text, state.active >= 0 ? "the old one stays" : "nobody flies"});
     return false;
   }
-  if (state.active >= 0) {
-    Unit& old = *units[static_cast<std::size_t>(state.active)];
-    old.active = false;
-    if (!old.fresh_start) old.deactivate();
+  if (old) {
+    old->active = false;
+    if (!old->fresh_start) old->deactivate();
   }
   state.active = component;
   unit.active = true;

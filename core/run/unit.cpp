@@ -231,7 +231,9 @@ Verdict Unit::step(std::int64_t now_ns, std::uint64_t index) noexcept {
   const fulmar_tick t = tick(now_ns, index);
   problem.text[0] = '\0';
   const std::uint64_t allocations = thread_allocations();
+  in_step.store(component->name.c_str(), std::memory_order_relaxed);
   const std::uint32_t status = functions_->step(instance_, &t, inputs_.data(), outputs_.data(), &problem);
+  in_step.store(nullptr, std::memory_order_relaxed);
   stats.allocations += thread_allocations() - allocations;
   stepped(now_ns);
   ++stats.steps;
@@ -251,7 +253,9 @@ Verdict Unit::read(std::int64_t& now_ns, std::uint64_t index) noexcept {
   fulmar_tick t{now_ns, tick_ns_, index};
   problem.text[0] = '\0';
   const std::uint64_t allocations = thread_allocations();
+  in_step.store(component->name.c_str(), std::memory_order_relaxed);
   const std::uint32_t status = functions_->read(instance_, &t, outputs_.data(), &problem);
+  in_step.store(nullptr, std::memory_order_relaxed);
   stats.allocations += thread_allocations() - allocations;
   ++stats.steps;
   if (status >= FULMAR_FAILED) {
@@ -291,7 +295,9 @@ Verdict Unit::write(std::int64_t now_ns, std::uint64_t index) noexcept {
   const fulmar_tick t{now_ns, tick_ns_, index};
   problem.text[0] = '\0';
   const std::uint64_t allocations = thread_allocations();
+  in_step.store(component->name.c_str(), std::memory_order_relaxed);
   const std::uint32_t status = functions_->write(instance_, &t, inputs_.data(), &problem);
+  in_step.store(nullptr, std::memory_order_relaxed);
   stats.allocations += thread_allocations() - allocations;
   consume();
   if (status >= FULMAR_FAILED) {
@@ -301,12 +307,19 @@ Verdict Unit::write(std::int64_t now_ns, std::uint64_t index) noexcept {
   return {Verdict::Kind::stepped, status == FULMAR_DEGRADED};
 }
 
+void Unit::tell_missing() noexcept {
+  for (const Reader& r : readers)
+    if (!r.port->optional && r.port->kind == FULMAR_IN_VALUE && r.sequence() == 0)
+      std::snprintf(problem.text, sizeof problem.text, "input '%s' has no sample", r.port->name.c_str());
+}
+
 bool Unit::activate(std::int64_t now_ns, std::uint64_t index, const std::vector<const Slot*>& last) noexcept {
-  fresh_start = false;
-  if (!functions_->activate) return true;
   const Inputs inputs = prepare_inputs(now_ns);
-  if (inputs == Inputs::missing) fail("a required input has no sample");
+  if (inputs == Inputs::missing) tell_missing();
   if (inputs != Inputs::good) return false;
+  fresh_start = false;
+  last_step_ns_ = std::numeric_limits<std::int64_t>::min();  // dt of the first step is the nominal period, not the absence
+  if (!functions_->activate) return true;
   for (std::size_t i = 0; i < last_.size(); ++i) {
     last_[i] = {};
     const Slot* s = i < last.size() ? last[i] : nullptr;

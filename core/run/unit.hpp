@@ -2,6 +2,7 @@
 // A component in flight: its instance, its inputs as views of other components' outputs, its outputs as double buffers.
 // A step writes into `staging`; what passes the guards is published, so a bad step leaves the last good output in place.
 #pragma once
+#include <atomic>
 #include <cstdint>
 #include <cstring>
 #include <functional>
@@ -78,6 +79,9 @@ struct Verdict {
   bool degraded = false;
 };
 
+/// Name of the component whose code runs now, or nullptr: for whoever has to tell of a crash or a hang.
+inline std::atomic<const char*> in_step{nullptr};
+
 class Unit {
  public:
   Unit(const Component& component, std::int64_t tick_ns, std::uint64_t seed);
@@ -130,6 +134,7 @@ class Unit {
  private:
   enum class Inputs : std::uint8_t { good, missing, stale };
   Inputs prepare_inputs(std::int64_t now_ns) noexcept;
+  void tell_missing() noexcept;
   void prepare_outputs(std::int64_t now_ns) noexcept;
   bool outputs_good() noexcept;
   void consume() noexcept;

@@ -387,3 +387,44 @@ TEST_CASE("a paced flight stops a component that is over its budget five times i
   CHECK(r.guards[0].what == "was over its time budget in 5 steps in a row");
   CHECK(r.guards[0].action == "two takes over");
 }
+
+TEST_CASE("a phase whose component and fallback are both stopped leaves flying who flies") {
+  const Graph g = mission(
+      "  three: {fills: law, use: lab/Law, params: {id: 3, u: 0.3}}\n"
+      "phases:\n"
+      "  a: {law: {use: one, fallback: two}, next: [{to: b, when: \"vehicle.signal.tick_s >= 0.2 s\"}]}\n"
+      "  b: {law: {use: two, fallback: three}, next: [{to: c, when: \"vehicle.signal.tick_s >= 0.4 s\"}]}\n"
+      "  c: {law: {use: one, fallback: two}}\n",
+      {{"one.fault", "nan"}, {"one.fault_at", "0.1"}, {"two.fault", "throws"}, {"two.fault_at", "0.3"}});
+  std::vector<std::string> said;
+  FlightOptions o = options(2);
+  o.say = [&](const std::string& line, bool) { said.push_back(line); };
+  Flight flight(g, o);
+  const FlightResult r = flight.run();
+  CHECK(r.outcome == Outcome::flown);
+  CHECK(value(g, flight, "sim", "applied", "by") == 3);
+  CHECK(said.back() == "    0.40 s  law: nobody that this phase names can fly: three goes on");
+}
+
+TEST_CASE("a newcomer whose required input has no sample does not take over") {
+  const Graph g = mission(
+      "  hungry: {fills: law, use: lab/Hungry, in: {never: late.echo}}\n"
+      "  late:   {use: lab/Late, in: {never: {from: late.echo, delayed: true}}}\n"
+      "phases:\n"
+      "  a: {law: one, next: [{to: b, when: \"vehicle.status.armed\"}]}\n"
+      "  b: {law: {use: hungry, fallback: two}}\n");
+  Flight flight(g, options(0.2));
+  const FlightResult r = flight.run();
+  CHECK(r.outcome == Outcome::flown);
+  REQUIRE(r.guards.size() == 1);
+  CHECK(r.guards[0].component == "hungry");
+  CHECK(r.guards[0].what == "cannot take over: input 'never' has no sample");
+  CHECK(value(g, flight, "sim", "applied", "by") == 2);  // the phase's fallback
+}
+
+TEST_CASE("a flight in failsafe is never done") {
+  const Graph g = mission(std::string("done: \"vehicle.signal.tick_s > 0.3 s\"\n") + one_phase, {{"one.fault", "nan"}, {"one.fault_at", "0.1"}});
+  FlightOptions o;
+  o.log = false;
+  CHECK(Flight(g, o).run().outcome == Outcome::failed);
+}

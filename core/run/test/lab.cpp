@@ -236,6 +236,21 @@ struct Late {  ///< never has its input
   }
 };
 
+struct Hungry {  ///< a law with an input that never comes, and no activate
+  struct Inputs {
+    In<Signal> signal;
+    In<Command> never;
+  };
+  struct Outputs {
+    Command command;
+  };
+  struct Params {};
+  Status step(const Tick&, const Inputs& in, const Params&, Outputs& out) {
+    out.command = *in.never;
+    return Status::ok;
+  }
+};
+
 }  // namespace
 
-FULMAR_PLUGIN("1.0.0", Cart, Law, Filter, Watch, OldReader, Late)
+FULMAR_PLUGIN("1.0.0", Cart, Law, Filter, Watch, OldReader, Late, Hungry)

@@ -276,6 +276,13 @@ struct Thunks {
   static void write_out(typename C::Outputs& out, fulmar_output* outputs) {
     for_each(out, [&]<class M>(M& member, std::size_t i) { PortOf<M>::write(member, outputs[i]); });
   }
+  /// What a step wrote before it threw is not published by the next one.
+  static void forget(typename C::Outputs& out) {
+    for_each(out, []<class M>(M& member, std::size_t) {
+      if constexpr (requires { member.written; }) member.written = false;
+      if constexpr (requires { member.stamps_ns; }) member.count = member.lost = 0;
+    });
+  }
   static void take(typename C::Params& params, const fulmar_value* values) {
     for_each(params, [&](auto& member, std::size_t i) { assign(member, values[i]); });
   }
@@ -327,6 +334,7 @@ struct Thunks {
     return guarded(error, [&] {
       I& i = self(instance);
       bind(i.in, inputs);
+      forget(i.out);
       const Status status = i.component.step(tick_of(*tick), i.in, i.params, i.out);
       write_out(i.out, outputs);
       return status;
@@ -336,6 +344,7 @@ struct Thunks {
     return guarded(error, [&] {
       I& i = self(instance);
       Tick t = tick_of(*tick);
+      forget(i.out);
       const Status status = i.component.read(t, i.params, i.out);
       tick->now_ns = t.now_ns;
       write_out(i.out, outputs);

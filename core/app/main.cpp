@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The command line. Exit codes: 0 done; 1 the flight, check or file failed; 2 wrong usage; 130 interrupted.
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cstdio>
 #include <iostream>
 
@@ -13,6 +14,13 @@
 namespace {
 
 using namespace fulmar::core;
+
+const CLI::Validator whole_number(
+    [](const std::string& text) {
+      const bool good = !text.empty() && text.size() < 20 && text.find_first_not_of("0123456789") == std::string::npos;
+      return good ? std::string() : "give a whole number from 0, not '" + text + "'";
+    },
+    "NUMBER");
 
 /// "a=b" -> {a, b}
 std::vector<std::pair<std::string, std::string>> pairs(const std::vector<std::string>& words) {
@@ -37,7 +45,7 @@ struct MissionOptions {
     command->add_option("--role", roles, "ROLE=COMPONENT: who fills a role in every phase")
         ->type_name("ROLE=COMPONENT")
         ->allow_extra_args(false);
-    command->add_option("--seed", seed, "seed of all noise");
+    command->add_option("--seed", seed, "seed of all noise")->check(whole_number);
     command->add_option("--set", set, "COMPONENT.PARAMETER=VALUE")->type_name("COMP.PARAM=VALUE")->allow_extra_args(false);
   }
   Overrides overrides(const CLI::App* command) const {
@@ -72,7 +80,14 @@ int run_app(int argc, char** argv) {
   CLI::App* run = app.add_subcommand("run", "fly a mission and tell how it went");
   mission.add(run);
   run->add_option("--speed", speed, "real, max, or a multiple of real time");
-  run->add_option("--duration", duration, "end after so many seconds of flight")->check(CLI::PositiveNumber);
+  run->add_option("--duration", duration, "end after so many seconds of flight")->check(CLI::Validator(
+      [](const std::string& text) {
+        double x = 0;
+        const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), x);
+        const bool good = code == std::errc{} && end == text.data() + text.size() && x > 0 && x <= 1e7;
+        return good ? std::string() : "give seconds, above 0 and up to 1e7, not '" + text + "'";
+      },
+      "SECONDS"));
   run->add_option("--log", run_options.log_file, "where to write the log; default logs/<mission>-<UTC>.mcap");
   run->add_flag("--no-log", run_options.no_log, "write no log");
   run->add_flag("--json", run_options.json, "print one JSON object instead of a table");

@@ -124,6 +124,7 @@ nlohmann::json result_json(const Graph& graph, const Flight& flight, const Fligh
   j["log"] = logged ? nlohmann::json(result.log.file.string()) : nlohmann::json(nullptr);
   j["log_sha256"] = logged ? nlohmann::json(result.log.sha256) : nlohmann::json(nullptr);
   j["log_dropped"] = result.log.dropped;
+  j["log_error"] = result.log.error.empty() ? nlohmann::json(nullptr) : nlohmann::json(result.log.error);
   j["step_time_us"] = steps_json(result);
   j["allocations"] = nlohmann::json::object();
   for (const ComponentStats& c : result.components) j["allocations"][c.name] = c.allocations;
@@ -151,6 +152,7 @@ std::string result_table(const Graph& graph, const Flight& flight, const FlightR
     if (c.allocations > 0)
       out += format("  %s takes memory in flight: %llu allocations in %llu steps\n", c.name.c_str(),
                     static_cast<unsigned long long>(c.allocations), static_cast<unsigned long long>(c.steps));
+  if (!result.log.error.empty()) out += "\nlog incomplete: " + result.log.error + "\n";
   if (!result.log.file.empty())
     out +=
         format("\nlog %s (%.1f MB, %llu messages, %llu dropped)\n", result.log.file.c_str(), 1e-6 * static_cast<double>(result.log.bytes),

@@ -7,20 +7,70 @@
 
 #include <CLI/CLI.hpp>
 #include <atomic>
+#include <charconv>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <ctime>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "core/app/report.hpp"
+#include "core/run/allocation.hpp"
 #include "core/run/flight.hpp"
+#include "core/run/unit.hpp"
 
 namespace fulmar::core {
 namespace {
 
 std::atomic<int> interrupted{0};
-void on_signal(int signal) { interrupted.store(signal, std::memory_order_relaxed); }
+char last_words[512];  // where the log lies, prepared beforehand
+
+void write_text(const char* text) {
+  if (write(STDERR_FILENO, text, std::strlen(text)) < 0) return;
+}
+
+/// The first signal ends the flight between two ticks. Another one, half a second later or more (timeout(1) sends two at once), ends the
+/// program: a component may be hanging.
+void on_signal(int signal) {
+  static timespec first{};
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  if (interrupted.exchange(signal) == 0) first = now;
+  if (static_cast<double>(now.tv_sec - first.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec - first.tv_nsec) < 0.5) return;
+  const char* component = in_step.load(std::memory_order_relaxed);
+  write_text("\nfulmar: ended by the second signal");
+  if (component) write_text(" in the step of "), write_text(component);
+  write_text(last_words);
+  _exit(130);
+}
+
+/// A component that crashes takes the host with it; at least it is named.
+void on_crash(int signal) {
+  const char* component = in_step.load(std::memory_order_relaxed);
+  const char* what = signal == SIGSEGV ? " (segmentation fault)" : signal == SIGABRT ? " (abort)" : signal == SIGFPE ? " (arithmetic fault)" : "";
+  write_text("\nfulmar: ");
+  write_text(component ? component : "the host");
+  write_text(" crashed");
+  write_text(component ? " in its step" : "");
+  write_text(what);
+  write_text(last_words);
+  raise(signal);  // the default action, restored by SA_RESETHAND
+}
+
+void install_handlers() {
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  if (!counts_allocations()) return;  // a sanitized build reports crashes by itself
+  static char stack[64 * 1024];
+  const stack_t alternate{stack, 0, sizeof stack};
+  sigaltstack(&alternate, nullptr);
+  action.sa_handler = on_crash;
+  action.sa_flags = static_cast<int>(SA_ONSTACK | SA_RESETHAND | SA_NODEFER);
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) sigaction(signal, &action, nullptr);
+}
 
 /// logs/<mission>-<UTC>.mcap, with a number when that is taken.
 std::filesystem::path default_log(const Graph& graph) {
@@ -70,9 +120,9 @@ class Progress {
 double parse_speed(const std::string& text) {
   if (text == "real") return 1;
   if (text == "max") return 0;
-  char* end = nullptr;
-  const double speed = std::strtod(text.c_str(), &end);
-  if (end == text.c_str() || *end != '\0' || !(speed > 0) || !(speed <= 1e6))
+  double speed = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), speed);
+  if (code != std::errc{} || end != text.data() + text.size() || !(speed > 0) || !(speed <= 1e6))
     throw CLI::ValidationError("--speed '" + text + "': give real, max, or a multiple of real time, for example 10");
   return speed;
 }
@@ -94,8 +144,9 @@ int run_command(const RunOptions& options) {
   flight_options.interrupt = &interrupted;
   flight_options.progress = [&](const Flight& flight) { progress.show(flight); };
   flight_options.say = [&](const std::string& text, bool warning) { progress.say(text, warning); };
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  const std::string log = flight_options.log_file.string();
+  std::snprintf(last_words, sizeof last_words, "%s%s%s\n", log.empty() ? "." : ". What was logged until then is in ", log.c_str(), log.empty() ? "" : ".part");
+  install_handlers();
 
   if (!options.json) spdlog::info("{}: {}, seed {}", graph.mission, graph.io == "sim" ? "simulation" : "flight controller", graph.seed);
   Flight flight(graph, flight_options);

@@ -141,7 +141,7 @@ bool Flight::Impl::over() {
   else if (graph.timeout_ns > 0 && now_ns >= graph.timeout_ns)
     finish(Outcome::failed, "not done within " + short_number(1e-9 * static_cast<double>(graph.timeout_ns)) + " s of flight");
   else if (options.interrupt && options.interrupt->load(std::memory_order_relaxed) != 0)
-    finish(Outcome::interrupted, "interrupted");
+    finish(Outcome::interrupted, "by a signal");
   return ended;
 }
 

@@ -119,6 +119,9 @@ TEST_CASE("wrong usage exits 2") {
   CHECK(fulmar("run " + hourglass + " --speed fast").code == 2);
   CHECK(fulmar("run " + hourglass + " --io boat").code == 2);
   CHECK(fulmar("run " + hourglass + " --set nonsense").code == 2);
+  for (const char* duration : {"1e300", "nan", "-5", "0", "5x"}) CHECK(fulmar("run " + hourglass + " --duration=" + duration).code == 2);
+  CHECK(fulmar("run " + hourglass + " --seed=-1").code == 2);
+  CHECK(fulmar("run " + hourglass + " --speed 0x10").code == 2);
   CHECK(fulmar("--help").code == 0);
   CHECK(fulmar("run --help").code == 0);
 }
@@ -155,6 +158,21 @@ TEST_CASE("an interrupted flight closes its log and exits 130") {
   CHECK(code.out == "130\n");
 }
 
+TEST_CASE("a crash names the component, a second signal ends a hanging one") {
+  if (!FULMAR_CRASH_TESTS) return;  // a sanitizer reports crashes in its own way
+  const std::string lab = folder() / "lab.yaml";
+  std::ofstream(lab) << "mission: lab\nroles:\n  vehicle: {in: {command: law.command}, out: {signal: Signal}}\n  law: {in: {signal: vehicle.signal}, out: {command: Command}}\n"
+                        "components:\n  sim: {fills: vehicle, use: lab/Cart}\n  one: {fills: law, use: lab/Law, params: {fault: crashes, fault_at: 0}}\n";
+  const std::string run = "FULMAR_PLUGIN_PATH=" FULMAR_TEST_PLUGIN_DIR " " + program + "run " + lab + " --log " + (folder() / "crash.mcap").string();
+  const Result crash = shell("ulimit -c 0; " + run);
+  CHECK(crash.err.find("fulmar: one crashed in its step (segmentation fault). What was logged until then is in ") != std::string::npos);
+  CHECK(fs::exists(folder() / "crash.mcap.part"));
+  const Result hang = shell("export FULMAR_PLUGIN_PATH=" FULMAR_TEST_PLUGIN_DIR "; " + program + "run " + lab +
+                            " --no-log --set one.fault=hangs & sleep 1; kill -INT $!; sleep 0.7; kill -INT $!; wait $!; echo $?");
+  CHECK(hang.out == "130\n");
+  CHECK(hang.err.find("fulmar: ended by the second signal in the step of one") != std::string::npos);
+}
+
 TEST_CASE("a real-time flight takes its time") {
   const json j = json::parse(fulmar("run " + hourglass + " --json --no-log --duration 5 --speed 20").out);
   CHECK(j["wall_time_s"].get<double>() >= 0.499);
@@ -168,6 +186,7 @@ TEST_CASE("on a full disk the flight goes on and the loss is told") {
   const json j = json::parse(r.out);
   CHECK(j["result"] == "flown");
   CHECK(j["log_dropped"].get<std::uint64_t>() > 1000);
+  CHECK(j["log_error"].is_string());
   CHECK(r.err.find("messages were lost") != std::string::npos);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A laboratory for the loop: a cart that counts its ticks, and a law that misbehaves on demand.
+#include <csignal>
 #include <limits>
 #include <stdexcept>
 #include <vector>
@@ -78,7 +79,7 @@ struct Cart {
   Applied applied_;
 };
 
-enum class Fault : std::uint8_t { none, nan, range, throws, fails, slow, probe_nan, allocates };
+enum class Fault : std::uint8_t { none, nan, range, throws, fails, slow, probe_nan, allocates, crashes, hangs };
 
 struct Law {
   struct Inputs {
@@ -129,6 +130,11 @@ struct Law {
         asm volatile("" ::"r"(v.data()) : "memory");
         break;
       }
+      case Fault::crashes:
+        raise(SIGSEGV);
+        break;
+      case Fault::hangs:
+        for (;;) asm volatile("");
       default:
         break;
     }

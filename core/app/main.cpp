@@ -80,14 +80,15 @@ int run_app(int argc, char** argv) {
   CLI::App* run = app.add_subcommand("run", "fly a mission and tell how it went");
   mission.add(run);
   run->add_option("--speed", speed, "real, max, or a multiple of real time");
-  run->add_option("--duration", duration, "end after so many seconds of flight")->check(CLI::Validator(
-      [](const std::string& text) {
-        double x = 0;
-        const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), x);
-        const bool good = code == std::errc{} && end == text.data() + text.size() && x > 0 && x <= 1e7;
-        return good ? std::string() : "give seconds, above 0 and up to 1e7, not '" + text + "'";
-      },
-      "SECONDS"));
+  run->add_option("--duration", duration, "end after so many seconds of flight")
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            double x = 0;
+            const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), x);
+            const bool good = code == std::errc{} && end == text.data() + text.size() && x > 0 && x <= 1e7;
+            return good ? std::string() : "give seconds, above 0 and up to 1e7, not '" + text + "'";
+          },
+          "SECONDS"));
   run->add_option("--log", run_options.log_file, "where to write the log; default logs/<mission>-<UTC>.mcap");
   run->add_flag("--no-log", run_options.no_log, "write no log");
   run->add_flag("--json", run_options.json, "print one JSON object instead of a table");

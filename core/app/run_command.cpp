@@ -48,7 +48,10 @@ void on_signal(int signal) {
 /// A component that crashes takes the host with it; at least it is named.
 void on_crash(int signal) {
   const char* component = in_step.load(std::memory_order_relaxed);
-  const char* what = signal == SIGSEGV ? " (segmentation fault)" : signal == SIGABRT ? " (abort)" : signal == SIGFPE ? " (arithmetic fault)" : "";
+  const char* what = signal == SIGSEGV   ? " (segmentation fault)"
+                     : signal == SIGABRT ? " (abort)"
+                     : signal == SIGFPE  ? " (arithmetic fault)"
+                                         : "";
   write_text("\nfulmar: ");
   write_text(component ? component : "the host");
   write_text(" crashed");
@@ -145,7 +148,8 @@ int run_command(const RunOptions& options) {
   flight_options.progress = [&](const Flight& flight) { progress.show(flight); };
   flight_options.say = [&](const std::string& text, bool warning) { progress.say(text, warning); };
   const std::string log = flight_options.log_file.string();
-  std::snprintf(last_words, sizeof last_words, "%s%s%s\n", log.empty() ? "." : ". What was logged until then is in ", log.c_str(), log.empty() ? "" : ".part");
+  std::snprintf(last_words, sizeof last_words, "%s%s%s\n", log.empty() ? "." : ". What was logged until then is in ", log.c_str(),
+                log.empty() ? "" : ".part");
   install_handlers();
 
   if (!options.json) spdlog::info("{}: {}, seed {}", graph.mission, graph.io == "sim" ? "simulation" : "flight controller", graph.seed);

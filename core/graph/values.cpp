@@ -146,6 +146,10 @@ void check_origin(Draft& draft) {
     const int i = candidate.loaded ? candidate.info().param("origin") : -1;
     if (i < 0 || candidate.info().params[static_cast<std::size_t>(i)].kind != FULMAR_RECORD) continue;
     const Type& type = *candidate.info().params[static_cast<std::size_t>(i)].type;
+    for (const char* needed : {"lat", "lon", "alt_msl"})
+      if (std::none_of(draft.text.origin.entries.begin(), draft.text.origin.entries.end(),
+                       [&](const Node::Entry& entry) { return entry.key == needed || entry.key.rfind(std::string(needed) + "_", 0) == 0; }))
+        draft.report.add(draft.text.origin.where(), std::string("origin: ") + needed + " is missing; give lat, lon and alt_msl");
     for (const auto& [name, limit] : {std::pair{"lat_deg", 90.0}, std::pair{"lon_deg", 180.0}}) {
       const Field* field = type.find(name);
       if (!field) continue;

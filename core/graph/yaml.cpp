@@ -69,7 +69,8 @@ FilePtr read_source(const std::filesystem::path& path, const std::string& name) 
   if (std::filesystem::is_directory(path, code)) throw Error(name + " is a folder, not a file");
   constexpr std::uintmax_t limit = 16u << 20;
   if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code)) throw Error(name + " is not a file");
-  if (std::filesystem::file_size(path, code) > limit && !code) throw Error(name + " is larger than 16 MB: too large for a mission, an airframe or a plan");
+  if (std::filesystem::file_size(path, code) > limit && !code)
+    throw Error(name + " is larger than 16 MB: too large for a mission, an airframe or a plan");
   std::ifstream in(path, std::ios::binary);
   if (!in) throw Error((std::filesystem::exists(path, code) ? "cannot read " : "there is no file ") + name);
   std::ostringstream text;

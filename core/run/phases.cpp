@@ -79,7 +79,9 @@ void Flight::Impl::fill(int role, const Assignment& assignment, bool overlaid) {
     return;
   }
   const std::string& name = graph.roles[static_cast<std::size_t>(role)].name;
-  if (state.active >= 0) event(EventKind::guard, name, "nobody that this phase names can fly: " + units[static_cast<std::size_t>(state.active)]->component->name + " goes on");
+  if (state.active >= 0)
+    event(EventKind::guard, name,
+          "nobody that this phase names can fly: " + units[static_cast<std::size_t>(state.active)]->component->name + " goes on");
 }
 
 bool Flight::Impl::take_over(int role, int component, const Assignment& assignment) {

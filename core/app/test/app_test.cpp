@@ -161,9 +161,12 @@ TEST_CASE("an interrupted flight closes its log and exits 130") {
 TEST_CASE("a crash names the component, a second signal ends a hanging one") {
   if (!FULMAR_CRASH_TESTS) return;  // a sanitizer reports crashes in its own way
   const std::string lab = folder() / "lab.yaml";
-  std::ofstream(lab) << "mission: lab\nroles:\n  vehicle: {in: {command: law.command}, out: {signal: Signal}}\n  law: {in: {signal: vehicle.signal}, out: {command: Command}}\n"
-                        "components:\n  sim: {fills: vehicle, use: lab/Cart}\n  one: {fills: law, use: lab/Law, params: {fault: crashes, fault_at: 0}}\n";
-  const std::string run = "FULMAR_PLUGIN_PATH=" FULMAR_TEST_PLUGIN_DIR " " + program + "run " + lab + " --log " + (folder() / "crash.mcap").string();
+  std::ofstream(lab)
+      << "mission: lab\nroles:\n  vehicle: {in: {command: law.command}, out: {signal: Signal}}\n  law: {in: {signal: vehicle.signal}, out: "
+         "{command: Command}}\n"
+         "components:\n  sim: {fills: vehicle, use: lab/Cart}\n  one: {fills: law, use: lab/Law, params: {fault: crashes, fault_at: 0}}\n";
+  const std::string run =
+      "FULMAR_PLUGIN_PATH=" FULMAR_TEST_PLUGIN_DIR " " + program + "run " + lab + " --log " + (folder() / "crash.mcap").string();
   const Result crash = shell("ulimit -c 0; " + run);
   CHECK(crash.err.find("fulmar: one crashed in its step (segmentation fault). What was logged until then is in ") != std::string::npos);
   CHECK(fs::exists(folder() / "crash.mcap.part"));

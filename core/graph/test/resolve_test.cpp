@@ -257,7 +257,7 @@ TEST_CASE("a mission extends a base: named things merge, anything else is replac
   mission.folder.write("base/common.yaml",
                        mission.text.replace(mission.text.find("airframe: anaconda.yaml"), 23, "airframe: ../anaconda.yaml"));
   mission.text =
-      "mission: calm\nextends: base/common.yaml\nseed: 3\norigin: {lat: 1, lon: 2}\ncomponents:\n  sim: {params: {turbulence: none}}\n  "
+      "mission: calm\nextends: base/common.yaml\nseed: 3\norigin: {lat: 1, lon: 2, alt_msl: 0 m}\ncomponents:\n  sim: {params: {turbulence: none}}\n  "
       "plan: {params: {plan: plans/hourglass.yaml}}\n"
       "phases:\n  takeoff: {outer: tecs}\n";
   const Graph graph = mission.load();

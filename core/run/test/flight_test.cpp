@@ -423,7 +423,8 @@ TEST_CASE("a newcomer whose required input has no sample does not take over") {
 }
 
 TEST_CASE("a flight in failsafe is never done") {
-  const Graph g = mission(std::string("done: \"vehicle.signal.tick_s > 0.3 s\"\n") + one_phase, {{"one.fault", "nan"}, {"one.fault_at", "0.1"}});
+  const Graph g =
+      mission(std::string("done: \"vehicle.signal.tick_s > 0.3 s\"\n") + one_phase, {{"one.fault", "nan"}, {"one.fault_at", "0.1"}});
   FlightOptions o;
   o.log = false;
   CHECK(Flight(g, o).run().outcome == Outcome::failed);

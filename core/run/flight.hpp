@@ -50,7 +50,7 @@ struct FlightResult {
   std::vector<GuardEvent> guards;
   std::vector<ComponentStats> components;
   LogResult log;
-  std::uint64_t loop_allocations = 0;  // of the whole loop, components included
+  std::uint64_t loop_allocations = 0;  // of the whole loop, after its first tick and before its last
 };
 
 class Flight {

@@ -22,8 +22,7 @@ struct Event {
 TypePtr event_type();
 
 struct RoleState {
-  int active = -1;    // component that fills it now
-  bool dead = false;  // nobody is left
+  int active = -1;  // component that fills it now
   std::vector<RoleSlot> slots;
 };
 
@@ -61,7 +60,7 @@ struct Flight::Impl final : SampleReader {
   void enter(int phase);
   void fill(int role, const Assignment& assignment, bool overlaid);
   bool take_over(int role, int component, const Assignment& assignment);
-  void stop(int index, const std::string& action_when_alone);
+  void stop(int index);
   void failsafe(const char* why);
   const std::vector<Overlay>* overlay_of(int component) const;
   void event(EventKind kind, const std::string& component, const std::string& text);

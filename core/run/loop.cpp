@@ -42,7 +42,7 @@ void Flight::Impl::clock(Unit& unit) {
   ++unit.stats.overruns;
   if (++unit.overruns_in_a_row < overruns_allowed || unit.stopped || unit.info->vehicle) return;
   unit.fail("was over its time budget in 5 steps in a row");
-  stop(static_cast<int>(unit.component - graph.components.data()), "held");
+  stop(static_cast<int>(unit.component - graph.components.data()));
 }
 
 void Flight::Impl::log_slot(Slot& slot) {
@@ -82,12 +82,12 @@ void Flight::Impl::step_unit(int i) {
   if (!unit.active || unit.stopped || !unit.due(now_ns)) return;
   if (unit.fresh_start) {
     if (!unit.ready()) return;
-    if (!unit.activate(now_ns, index, {})) return stop(i, "held");
+    if (!unit.activate(now_ns, index, {})) return stop(i);
   }
   const Verdict verdict = unit.step(now_ns, index);
   if (verdict.kind == Verdict::Kind::stepped) publish(unit);
   if (verdict.kind == Verdict::Kind::stepped || verdict.kind == Verdict::Kind::bad) clock(unit);
-  if (verdict.kind == Verdict::Kind::bad) stop(i, "held");
+  if (verdict.kind == Verdict::Kind::bad) stop(i);
 }
 
 bool Flight::Impl::tick() {
@@ -161,15 +161,14 @@ void Flight::Impl::pace() {
 
 FlightResult Flight::Impl::run() {
   wall_ns = wall_start_ns = progress_ns = wall_clock_ns();
-  const std::uint64_t allocations = thread_allocations();
-  while (tick()) {
+  for (std::uint64_t before = thread_allocations(); tick(); before = thread_allocations()) {
+    if (index > 1) result.loop_allocations += thread_allocations() - before;
     if (options.speed > 0) pace();
     if (options.progress && wall_ns - progress_ns > 200'000'000) {
       progress_ns = wall_ns;
       options.progress(*static_cast<const Flight*>(owner));
     }
   }
-  result.loop_allocations = thread_allocations() - allocations;
   result.wall_s = 1e-9 * static_cast<double>(wall_clock_ns() - wall_start_ns);
   result.ticks = index;
   if (!result.phases.empty()) result.phases.back().to_ns = now_ns;

@@ -29,7 +29,7 @@ void Flight::Impl::begin() {
     roles[r].active = a.component;
     Unit& unit = *units[static_cast<std::size_t>(a.component)];
     unit.active = true;
-    if (!a.set.empty()) unit.retune(&a.set);
+    if (!a.set.empty() && !unit.retune(&a.set)) stop(a.component);
   }
   next_since.assign(first.next.size(), never);
   result.phases.push_back({first.name, now_ns, now_ns});
@@ -75,7 +75,7 @@ void Flight::Impl::fill(int role, const Assignment& assignment, bool overlaid) {
       continue;
     }
     const bool own = wanted == assignment.component && !assignment.set.empty();
-    if ((own || overlaid) && !units[static_cast<std::size_t>(wanted)]->retune(own ? &assignment.set : nullptr)) stop(wanted, "held");
+    if ((own || overlaid) && !units[static_cast<std::size_t>(wanted)]->retune(own ? &assignment.set : nullptr)) stop(wanted);
     return;
   }
   const std::string& name = graph.roles[static_cast<std::size_t>(role)].name;
@@ -121,7 +121,7 @@ bool Flight::Impl::take_over(int role, int component, const Assignment& assignme
 }
 
 /// A guard has fired: the last good output is held; the fallback takes over; when nobody is left, failsafe.
-void Flight::Impl::stop(int i, const std::string& action_when_alone) {
+void Flight::Impl::stop(int i) {
   Unit& unit = *units[static_cast<std::size_t>(i)];
   if (unit.stopped) return;
   unit.stopped = true;
@@ -129,7 +129,7 @@ void Flight::Impl::stop(int i, const std::string& action_when_alone) {
   const std::string name = unit.component->name;
   const int role = unit.component->role;
   event(EventKind::guard, name, what);
-  result.guards.push_back({now_ns, name, what, action_when_alone});
+  result.guards.push_back({now_ns, name, what, "held"});
   const std::size_t at = result.guards.size() - 1;
   if (role < 0) return;
   RoleState& state = roles[static_cast<std::size_t>(role)];
@@ -142,7 +142,6 @@ void Flight::Impl::stop(int i, const std::string& action_when_alone) {
     event(EventKind::guard, name, other + " takes over");
     return;
   }
-  state.dead = true;
   if (!drives_vehicle[static_cast<std::size_t>(role)]) return;
   result.guards[at].action = "failsafe";
   failsafe((name + ": " + what).c_str());

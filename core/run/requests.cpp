@@ -68,7 +68,6 @@ void Flight::reset_guards() {
     unit->fresh_start = true;
     impl_->event(EventKind::request, unit->component->name, "guard reset");
   }
-  for (RoleState& role : impl_->roles) role.dead = false;
 }
 
 }  // namespace fulmar::core

@@ -28,7 +28,6 @@ struct Slot {
   std::vector<std::int64_t> stamps;
   std::int64_t valid_at_ns = 0;
   std::uint64_t sequence = 0;  // 0: never published
-  std::uint32_t lost = 0;
   std::unique_ptr<Guard> guard;
   std::vector<std::pair<Reader*, const CopyPlan*>> queues;  // inputs that take every sample
   struct RoleSlot* role = nullptr;                          // the role output that this one provides
@@ -161,7 +160,11 @@ void Unit::publish(F&& each) {
       continue;
     }
     const std::uint32_t count = s.port->kind == FULMAR_OUT_VALUE ? 1 : out.count;
-    s.lost += out.lost;
+    if (out.lost > 0) {
+      for (auto& [reader, plan] : s.queues) reader->lost += out.lost;
+      if (s.role)
+        for (auto& [reader, plans] : s.role->queues) reader->lost += out.lost;
+    }
     for (std::uint32_t k = 0; k < count; ++k) {
       std::memcpy(s.published.data(), s.staging.data() + std::size_t{k} * s.size, s.size);
       s.valid_at_ns = s.port->kind == FULMAR_OUT_QUEUE ? s.stamps[k] : out.valid_at_ns;

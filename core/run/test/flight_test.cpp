@@ -126,6 +126,14 @@ TEST_CASE("a queue brings every sample once") {
   CHECK(value(g, flight, "watch", "tally", "sum_m") == doctest::Approx(3 * n * (n - 1) / 2 + 0.3 * n));
 }
 
+TEST_CASE("what found no room in an output queue is told to the reader") {
+  const Graph g = mission(one_phase, {{"sim.burst_size", "6"}});
+  Flight flight(g, options(0));
+  flight.run();
+  CHECK(value(g, flight, "watch", "tally", "samples_ratio") == 4 * 401);
+  CHECK(value(g, flight, "watch", "tally", "lost_ratio") == 2 * 401);
+}
+
 TEST_CASE("a slow reader of a queue is told what it lost") {
   const Graph g = mission(std::string("  slow: {use: lab/Watch, rate: 10 Hz, in: {burst: vehicle.burst}}\n") + one_phase);
   Flight flight(g, options(0));
@@ -367,6 +375,7 @@ TEST_CASE("the loop takes no memory, and a component that does is named") {
   Flight flight(g, o);
   const FlightResult r = flight.run();
   for (const ComponentStats& c : r.components) CHECK_MESSAGE(c.allocations == 0, c.name);
+  CHECK(r.loop_allocations == 0);
   const Graph greedy = mission(one_phase, {{"one.fault", "allocates"}, {"one.fault_at", "0"}});
   Flight other(greedy, options(1));
   for (const ComponentStats& c : other.run().components)

@@ -50,6 +50,7 @@ struct Cart {
   struct Params {
     Param rate{400, "Hz", 1, 10000, "tick rate", setup};
     Param fail_at{1e9, "s", -1e9, 1e9, "read fails from here on"};
+    Count burst_size{3, 0, 100, "samples per tick"};
     Param mute_at{1e9, "s", -1e9, 1e9, "the signal falls silent here"};
   };
   Status read(Tick& tick, const Params& p, Outputs& out) {
@@ -58,7 +59,7 @@ struct Cart {
     Signal s{static_cast<double>(n_), tick.now_s()};
     if (tick.now_s() < p.mute_at) out.signal.publish(s);
     if (n_ > 0) out.applied.publish(applied_);
-    for (int i = 0; i < 3; ++i) out.burst.push({s.x_m + 0.1 * i, 0}, tick.now_ns + i);
+    for (int i = 0; i < p.burst_size; ++i) out.burst.push({s.x_m + 0.1 * i, 0}, tick.now_ns + i);
     out.status.publish({armed_ && tick.now_ns >= 0});
     ++n_;
     return Status::ok;

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "core/app/new_command.hpp"
 #include "core/app/run_command.hpp"
 #include "core/error.hpp"
 #include "core/graph/graph.hpp"
@@ -75,7 +76,7 @@ int run_app(int argc, char** argv) {
   RunOptions run_options;
   std::string speed = "max", format = "text", plugin;
   double duration = 0;
-  bool fields = false;
+  bool fields = false, markdown = false;
 
   CLI::App* run = app.add_subcommand("run", "fly a mission and tell how it went");
   mission.add(run);
@@ -92,6 +93,10 @@ int run_app(int argc, char** argv) {
   run->add_option("--log", run_options.log_file, "where to write the log; default logs/<mission>-<UTC>.mcap");
   run->add_flag("--no-log", run_options.no_log, "write no log");
   run->add_flag("--json", run_options.json, "print one JSON object instead of a table");
+  run->add_option("--repeat", run_options.repeat, "so many flights in one host")->check(CLI::Range(1, 1000000));
+  run->add_flag("--watch", run_options.watch, "after a flight wait until a plugin or file of the mission changes, fly again, and compare");
+  run->add_option("--build", run_options.build, "with --watch: command to run when a source file beside the mission has changed");
+  run->add_option("--drivers-from", run_options.drivers_from, "take the samples of drivers from this log, in place of their devices");
   CLI::App* check_command = app.add_subcommand("check", "check a mission file: every fault in one go");
   mission.add(check_command);
   CLI::App* graph = app.add_subcommand("graph", "print components, wires, order and phases of a mission");
@@ -100,6 +105,13 @@ int run_app(int argc, char** argv) {
   CLI::App* inspect = app.add_subcommand("inspect", "print what a plugin file offers");
   inspect->add_option("PLUGIN", plugin, "shared object")->required();
   inspect->add_flag("--fields", fields, "also the fields of every message");
+  inspect->add_flag("--markdown", markdown, "as a page of reference: Markdown with every parameter, port and field");
+  NewOptions new_options;
+  CLI::App* new_plugin = app.add_subcommand("new", "write the project of a plugin that fills a role of a mission");
+  new_plugin->add_option("NAME", new_options.name, "of the plugin: letters, digits and _")->required();
+  new_plugin->add_option("--role", new_options.role, "that it fills, as in outer")->required();
+  new_plugin->add_option("--mission", new_options.mission, "whose role it fills; default the shipped hourglass");
+  new_plugin->add_option("--dir", new_options.folder, "folder to write; default ./NAME");
 
   try {
     app.parse(argc, argv);
@@ -115,7 +127,9 @@ int run_app(int argc, char** argv) {
       std::cout << print_graph(load_mission(mission.mission, mission.overrides(graph)), format);
       return 0;
     }
-    std::cout << describe_plugin(Library::open(plugin)->info(), fields);
+    if (new_plugin->parsed()) return new_command(new_options);
+    const std::shared_ptr<Library> library = Library::open(plugin);
+    std::cout << (markdown ? describe_plugin_markdown(library->info()) : describe_plugin(library->info(), fields));
     return 0;
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? 0 : 2;

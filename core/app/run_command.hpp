@@ -15,6 +15,10 @@ struct RunOptions {
   std::optional<double> duration_s;
   std::string log_file;
   bool no_log = false, json = false;
+  int repeat = 0;            // flights in one host; 0: one, or with `watch` until interrupted
+  bool watch = false;        // a plugin or file that changes is used by the next flight
+  std::string build;         // command that watch runs when a source file beside the mission has changed
+  std::string drivers_from;  // log whose driver samples are fed in place of the drivers
 };
 
 /// "real" -> 1, "max" -> 0, "10" -> 10. Throws CLI::ValidationError (wrong usage).

@@ -40,6 +40,9 @@ struct Wire {
   Where where;
 };
 
+/// How a component is run; design: tick in the loop's thread, process in a child, async with a latency, driver in a thread of its own.
+enum class RunMode : std::uint8_t { tick, process, async, driver };
+
 struct Component {
   std::string name;                          // "slc"
   std::string use;                           // "control_slc/Outer", as resolved
@@ -49,6 +52,10 @@ struct Component {
   int role = -1;                   // that it fills in some phase; -1: none, it steps in every phase
   std::int64_t period_ns = 0;      // 0: every tick
   std::int64_t budget_ns = 0;      // 0: none
+  RunMode run = RunMode::tick;
+  std::int64_t latency_ns = 0;               // async: from the step's inputs to its visible outputs
+  std::int64_t hang_ns = 0;                  // process: longest wait for one step when paced
+  std::uint64_t memory_bytes = 64ull << 20;  // growth of the heap in flight that is allowed
   std::vector<Wire> wires;         // one per input
   std::vector<ParamValue> params;  // one per parameter, the base values
   Where where;

@@ -15,8 +15,8 @@ namespace {
 
 const std::vector<std::string> mission_keys = {"mission",  "extends", "io",         "airframe", "origin", "rate",     "seed",
                                                "arm",      "done",    "failed",     "timeout",  "epoch",  "progress", "summary",
-                                               "failsafe", "roles",   "components", "phases",   "record", "live",     "dds"};
-const std::vector<std::string> component_keys = {"fills", "use", "in", "params", "rate", "only", "run", "latency", "budget", "max_age"};
+                                               "failsafe", "roles",   "components", "phases",   "record", "plugins",  "live",     "dds"};
+const std::vector<std::string> component_keys = {"fills", "use", "in", "params", "rate", "only", "run", "latency", "budget", "max_age", "memory", "hang"};
 const std::vector<std::pair<std::string, std::string>> absent_sections = {{"live", "live view"}, {"dds", "DDS"}};
 
 constexpr const char* default_epoch = "2026-01-01T00:00Z";
@@ -37,6 +37,7 @@ class Reader {
     scalars(keys);
     if (const Node* node = keys.get("airframe")) m_.airframe = *node;
     if (const Node* node = keys.get("origin")) m_.origin = *node;
+    if (const Node* node = keys.get("plugins")) m_.plugins = *node;
     shown(keys);
     failsafe(keys);
     each(keys, "roles", [&](const Node::Entry& entry) { role(entry); });
@@ -223,14 +224,38 @@ class Reader {
     c.where_rate = keys.where("rate");
     c.budget_ns = keys.duration_ns("budget").value_or(0);
     c.max_age_ns = keys.duration_ns("max_age").value_or(0);
-    run_mode(keys, path);
+    run_mode(keys, path, c);
     m_.components.push_back(std::move(c));
   }
 
-  void run_mode(const Keys& keys, const std::string& path) {
-    const std::string mode = keys.word("run", {"tick", "process", "async", "driver"}).value_or("tick");
-    if (mode != "tick") report_.add(keys.where("run"), path + ": this build has no 'run: " + mode + "'; it has: tick");
-    if (keys.has("latency") && mode != "async") report_.add(keys.where("latency"), path + ".latency: belongs to 'run: async'");
+  void run_mode(const Keys& keys, const std::string& path, ComponentText& c) {
+    static const std::vector<std::string> modes = {"tick", "process", "async", "driver"};
+    const auto at = std::find(modes.begin(), modes.end(), keys.word("run", modes).value_or(""));
+    if (at != modes.end()) c.run = static_cast<RunMode>(at - modes.begin());
+    const auto only_with = [&](const char* key, RunMode mode) {
+      if (keys.has(key) && c.run && c.run != mode)
+        report_.add(keys.where(key), path + "." + key + ": belongs to 'run: " + modes[static_cast<std::size_t>(mode)] + "'");
+    };
+    only_with("latency", RunMode::async);
+    only_with("hang", RunMode::process);
+    c.latency_ns = keys.duration_ns("latency").value_or(0);
+    c.hang_ns = keys.duration_ns("hang").value_or(0);
+    if (c.run == RunMode::async && c.latency_ns == 0)
+      report_.add(keys.has("latency") ? keys.where("latency") : keys.where("run"),
+                  path + ": 'run: async' needs a latency above 0, as in latency: 200 ms: what it computes is seen that much later");
+    if (const auto text = keys.text("memory")) c.memory_bytes = bytes(*text, keys.where("memory"), path + ".memory");
+  }
+
+  /// "64 MB" -> 64e6. Reports a fault and returns 0.
+  std::uint64_t bytes(const std::string& text, const Where& where, const std::string& path) {
+    double number = 0;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
+    std::string unit(end, text.data() + text.size());
+    unit.erase(0, unit.find_first_not_of(' ') == std::string::npos ? 0 : unit.find_first_not_of(' '));
+    for (const auto& [name, factor] : {std::pair{"kB", 1e3}, std::pair{"MB", 1e6}, std::pair{"GB", 1e9}})
+      if (code == std::errc{} && unit == name && number > 0 && number <= 1e6) return static_cast<std::uint64_t>(number * factor);
+    report_.add(where, path + ": '" + text + "' is no amount of memory; write it with kB, MB or GB, as in 64 MB");
+    return 0;
   }
 
   void phase(const Node::Entry& entry) {

@@ -46,6 +46,9 @@ struct ComponentText {
   double rate_hz = 0;  // 0: every tick
   std::int64_t budget_ns = 0;
   std::int64_t max_age_ns = 0;  // of wires that say nothing
+  std::optional<RunMode> run;
+  std::int64_t latency_ns = 0, hang_ns = 0;
+  std::uint64_t memory_bytes = 0;  // 0: the default
   Where where, where_use, where_fills, where_rate;
 };
 
@@ -88,6 +91,7 @@ struct MissionText {
   std::int64_t done_for_ns = 0, failed_for_ns = 0;
   std::vector<Word> progress;
   std::vector<std::pair<std::string, Word>> summary;
+  Node plugins;  // what may be loaded
   Node failsafe;
   std::int64_t failsafe_ns = 0;
   std::vector<RoleText> roles;

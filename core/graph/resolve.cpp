@@ -7,6 +7,10 @@
 #include "core/graph/quantity.hpp"
 
 namespace fulmar::core {
+namespace fs = std::filesystem;
+namespace {
+constexpr std::int64_t default_hang_ns = 20'000'000;  // how long a paced loop waits for one step in a child
+}
 
 int Draft::candidate(const std::string& name) const {
   for (std::size_t i = 0; i < candidates.size(); ++i)
@@ -215,6 +219,35 @@ bool dangling(const Graph& graph, const Source& source) {
                      [&](const auto& outputs) { return outputs[static_cast<std::size_t>(source.output)] < 0; });
 }
 
+/// Plugins that come with the host lie in its own folder.
+bool installed(const PluginInfo& plugin) {
+  std::error_code code;
+  const fs::path self = fs::read_symlink("/proc/self/exe", code);
+  const fs::path folder = self.parent_path().parent_path() / "lib" / "fulmar";
+  return fs::weakly_canonical(fs::path(plugin.path).parent_path(), code) == fs::weakly_canonical(folder, code);
+}
+
+/// How a component is run, and what each way of running cannot do. On hardware, what did not come with the host flies in a child.
+void run_mode(Draft& draft, const Candidate& candidate, Component& component) {
+  const ComponentText& text = *candidate.text;
+  const ComponentInfo& info = candidate.info();
+  const bool foreign = draft.text.io == "fcu" && !info.vehicle && component.library && !installed(*component.plugin);
+  component.run = text.run.value_or(foreign ? RunMode::process : RunMode::tick);
+  component.latency_ns = text.latency_ns;
+  component.hang_ns = text.hang_ns > 0 ? text.hang_ns : default_hang_ns;
+  if (text.memory_bytes > 0) component.memory_bytes = text.memory_bytes;
+  const std::string path = "components." + text.name;
+  if (info.vehicle && component.run != RunMode::tick)
+    draft.report.add(text.where, path + ".run: a vehicle runs in the loop; it has 'run: tick' alone");
+  if (component.run == RunMode::driver) {
+    for (const Port& port : info.outputs)
+      if (port.kind != FULMAR_OUT_QUEUE && port.kind != FULMAR_OUT_PROBE)
+        draft.report.add(text.where, path + ".run: a driver's outputs are queues; '" + port.name + "' of " + candidate.use + " is not one");
+    if (!info.inputs.empty())
+      draft.report.add(text.where, path + ".run: a driver has no inputs; " + candidate.use + " has '" + info.inputs[0].name + "'");
+  }
+}
+
 void build_components(Draft& draft) {
   for (Candidate& candidate : draft.candidates) {
     if (!candidate.used || !candidate.loaded) continue;
@@ -229,6 +262,7 @@ void build_components(Draft& draft) {
     const double rate = candidate.text->rate_hz;
     component.period_ns = rate > 0 && rate < draft.text.rate_hz * (1 - 1e-9) ? std::llround(1e9 / rate) : 0;
     component.budget_ns = candidate.text->budget_ns;
+    run_mode(draft, candidate, component);
     component.params = candidate.params;
     component.where = candidate.text->where;
     if (candidate.info().vehicle) draft.graph.vehicle = candidate.component;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads a plugin's entry symbol: the ABI version first, then every component, port and parameter, none believed unchecked.
 #include <cmath>
+#include <cstddef>
 
 #include "core/loader/library.hpp"
 #include "core/loader/table.hpp"
@@ -191,7 +192,8 @@ PluginInfo read_entry(const fulmar_plugin& entry, const std::string& file_name) 
   if (info.abi_major != FULMAR_ABI_MAJOR)
     throw Error(file_name + " is built for ABI " + version_text(info.abi_major, info.abi_minor) + ", this host speaks " +
                 version_text(FULMAR_ABI_MAJOR, FULMAR_ABI_MINOR));
-  if (!tables.memory().readable(&entry, sizeof entry)) throw Error(file_name + ": its entry lies outside its memory");
+  const std::size_t size = info.abi_minor >= 1 ? sizeof entry : offsetof(fulmar_plugin, open_script);
+  if (!tables.memory().readable(&entry, size)) throw Error(file_name + ": its entry lies outside its memory");
   try {
     read_plugin(tables, entry, info);
   } catch (const Error& fault) {

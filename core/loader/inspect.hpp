@@ -10,4 +10,7 @@ namespace fulmar::core {
 /// Version, components, ports and parameters in aligned columns; with `fields` also the tables of every message.
 std::string describe_plugin(const PluginInfo& plugin, bool fields = false);
 
+/// The same, whole, as a page of Markdown.
+std::string describe_plugin_markdown(const PluginInfo& plugin);
+
 }  // namespace fulmar::core

@@ -117,6 +117,8 @@ std::shared_ptr<Library> Library::open(const fs::path& file) {
   library->handle_->load(library->copy_, name);
   library->info_ = read_entry(library->handle_->entry(), name);
   library->info_.sha256 = sha256;
+  library->info_.path = file.string();
+  library->info_.copy = library->copy_.string();
   library->handle_->copy_functions();
   registry().loaded[sha256] = library;
   return library;

@@ -68,6 +68,9 @@ struct ComponentInfo {
 
 struct PluginInfo {
   std::string file;    // name without folders: "control_slc.so"
+  std::string path;    // where it was found; not for logs
+  std::string copy;    // the private copy that is loaded
+  std::string script;  // of a file in another language: its private copy; `copy` is then the plugin that hosts the language
   std::string sha256;  // of the file, hex
   std::string version, toolchain, flags;
   std::uint32_t abi_major = 0, abi_minor = 0;

@@ -17,7 +17,7 @@
 #include <stdint.h>
 
 #define FULMAR_ABI_MAJOR 1u
-#define FULMAR_ABI_MINOR 0u
+#define FULMAR_ABI_MINOR 1u
 #define FULMAR_VERSION "0.1.0"
 #define FULMAR_ENTRY_SYMBOL "fulmar_plugin_entry"
 
@@ -88,6 +88,9 @@ enum fulmar_port_kind {
 };
 
 enum { FULMAR_PORT_OPTIONAL = 1 };
+
+/* Time of validity of a driver's sample that becomes valid when the loop takes it over. */
+#define FULMAR_ON_ARRIVAL INT64_MIN
 
 typedef struct fulmar_port {
   const char* name;
@@ -215,6 +218,17 @@ typedef struct fulmar_component {
   const void* (*get_extension)(const char* id);                                        /* [setup] may be NULL; NULL: not supported */
 } fulmar_component;
 
+/* Extension "fulmar.last_frame" of a vehicle: const fulmar_last_frame* (*)(void* instance, const fulmar_input* inputs, fulmar_error*).  [setup]
+ * Encodes what its device is to receive when the host dies, from inputs that hold the mission's failsafe. The host's last act, in a signal
+ * handler, is one write of `data` to `fd`. The struct stays where it is as long as the instance; the vehicle keeps `fd` true. */
+#define FULMAR_LAST_FRAME "fulmar.last_frame"
+typedef struct fulmar_last_frame {
+  volatile int32_t fd; /* -1: there is no device now */
+  uint32_t size;
+  uint8_t data[504];
+} fulmar_last_frame;
+typedef const fulmar_last_frame* (*fulmar_last_frame_function)(void*, const fulmar_input*, fulmar_error*);
+
 typedef struct fulmar_plugin {
   uint32_t abi_major, abi_minor; /* first, for ever: read before anything else */
   uint32_t component_count;
@@ -223,6 +237,10 @@ typedef struct fulmar_plugin {
   const char* toolchain; /* compiler and its version */
   const char* flags;     /* what matters of the build: "NDEBUG", "sanitized", "" */
   const fulmar_component* components;
+  /* From ABI 1.1 on. A plugin that hosts another language makes the components of a file of that language; NULL for all others.  [setup]
+   * What open_script returns stays until close_script; NULL and a text on failure. Its own components may then be none. */
+  const struct fulmar_plugin* (*open_script)(const char* file, const char* text, uint64_t size, fulmar_error*);
+  void (*close_script)(const struct fulmar_plugin*);
 } fulmar_plugin;
 
 #ifdef __cplusplus

@@ -420,7 +420,8 @@ inline constexpr std::array<fulmar_component, sizeof...(C)> component_table{comp
 template <class... C>
 consteval fulmar_plugin plugin_entry(const char* version) {
   return {FULMAR_ABI_MAJOR, FULMAR_ABI_MINOR, sizeof...(C),       sizeof(fulmar_component),
-          version,          FULMAR_TOOLCHAIN, FULMAR_BUILD_FLAGS, component_table<C...>.data()};
+          version,          FULMAR_TOOLCHAIN, FULMAR_BUILD_FLAGS, component_table<C...>.data(),
+          nullptr,          nullptr};
 }
 
 }  // namespace fulmar::detail

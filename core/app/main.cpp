@@ -38,13 +38,16 @@ struct MissionOptions {
   std::string mission, io;
   std::uint64_t seed = 0;
   bool seed_given = false;
-  std::vector<std::string> roles, set;
+  std::vector<std::string> roles, set, with;
 
   void add(CLI::App* command) {
     command->add_option("MISSION", mission, "mission file (YAML)")->required();
     command->add_option("--io", io, "sim or fcu: simulated aircraft or flight controller")->check(CLI::IsMember({"sim", "fcu"}));
     command->add_option("--role", roles, "ROLE=COMPONENT: who fills a role in every phase")
         ->type_name("ROLE=COMPONENT")
+        ->allow_extra_args(false);
+    command->add_option("--with", with, "COMPONENT=PLUGIN.so: another file for a component")
+        ->type_name("COMPONENT=FILE")
         ->allow_extra_args(false);
     command->add_option("--seed", seed, "seed of all noise")->check(whole_number);
     command->add_option("--set", set, "COMPONENT.PARAMETER=VALUE")->type_name("COMP.PARAM=VALUE")->allow_extra_args(false);
@@ -55,6 +58,7 @@ struct MissionOptions {
     if (command->count("--seed") > 0) o.seed = seed;
     o.roles = pairs(roles);
     o.set = pairs(set);
+    o.with = pairs(with);
     return o;
   }
 };

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <atomic>
 #include <charconv>
 #include <csignal>
@@ -13,12 +14,18 @@
 #include <cstring>
 #include <ctime>
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <thread>
+#include <vector>
 
+#include "core/app/compare.hpp"
 #include "core/app/report.hpp"
+#include "core/app/watch.hpp"
 #include "core/run/allocation.hpp"
 #include "core/run/flight.hpp"
-#include "core/run/unit.hpp"
+#include "core/run/flight_impl.hpp"
+#include "core/run/swap.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -47,6 +54,9 @@ void on_signal(int signal) {
 
 /// A component that crashes takes the host with it; at least it is named.
 void on_crash(int signal) {
+  if (const fulmar_last_frame* frame = last_frame.load(std::memory_order_acquire); frame && frame->fd >= 0) {
+    if (write(frame->fd, frame->data, frame->size) < 0) write_text("\nfulmar: the last frame could not be sent");
+  }
   const char* component = in_step.load(std::memory_order_relaxed);
   const char* what = signal == SIGSEGV   ? " (segmentation fault)"
                      : signal == SIGABRT ? " (abort)"
@@ -130,39 +140,166 @@ double parse_speed(const std::string& text) {
   return speed;
 }
 
-int run_command(const RunOptions& options) {
-  spdlog::set_default_logger(spdlog::stderr_color_mt("fulmar"));
-  spdlog::set_pattern("%^%v%$");
-  const Graph graph = load_mission(options.mission, options.overrides);
-  if (!graph.record && !options.log_file.empty())
-    throw Error("--log " + options.log_file + ": the mission says record: off; there is no log to write");
-  Progress progress(graph);
-  FlightOptions flight_options;
-  flight_options.speed = options.speed;
-  flight_options.duration_s = options.duration_s;
-  flight_options.log = !options.no_log;
-  if (flight_options.log && graph.record)
-    flight_options.log_file = options.log_file.empty() ? default_log(graph) : std::filesystem::path(options.log_file);
-  if (flight_options.log_file.has_parent_path()) std::filesystem::create_directories(flight_options.log_file.parent_path());
-  flight_options.interrupt = &interrupted;
-  flight_options.progress = [&](const Flight& flight) { progress.show(flight); };
-  flight_options.say = [&](const std::string& text, bool warning) { progress.say(text, warning); };
-  const std::string log = flight_options.log_file.string();
+namespace {
+
+/// Flights of one mission in one host: the graph that flies now, and how the last flight went.
+class Session {
+ public:
+  explicit Session(const RunOptions& options) : options_(options), graph_(load_mission(options.mission, options.overrides)) {
+    if (!graph_.record && !options.log_file.empty())
+      throw Error("--log " + options.log_file + ": the mission says record: off; there is no log to write");
+  }
+
+  int fly();
+  /// Waits until a file has changed that the mission uses and the mission can be flown with it. False: interrupted.
+  bool wait_for_change();
+  /// Uses whatever has changed since the last flight, if anything has.
+  void take_changes();
+  void print_all() const {
+    if (options_.json) std::printf("%s\n", (results_.size() == 1 ? results_[0] : nlohmann::json{{"flights", results_}}).dump(2).c_str());
+  }
+
+ private:
+  std::filesystem::path log_file() const;
+  bool reload(const std::vector<std::filesystem::path>& changed);
+  void rehearse_changes(const Graph& next) const;
+  std::vector<std::filesystem::path> files() const;
+  void prepare_last_words(const std::string& log) const;
+
+  const RunOptions& options_;
+  Graph graph_;
+  std::unique_ptr<Flight> last_;  // what its components saw is what a newcomer is rehearsed on
+  std::vector<nlohmann::json> results_;
+  std::unique_ptr<FileStamps> stamps_, sources_;
+};
+
+std::filesystem::path Session::log_file() const {
+  if (options_.no_log || !graph_.record) return {};
+  if (options_.log_file.empty()) return default_log(graph_);
+  const std::filesystem::path file = options_.log_file;
+  if (results_.empty()) return file;
+  return file.parent_path() / (file.stem().string() + "-" + std::to_string(results_.size() + 1) + file.extension().string());
+}
+
+void Session::prepare_last_words(const std::string& log) const {
   std::snprintf(last_words, sizeof last_words, "%s%s%s\n", log.empty() ? "." : ". What was logged until then is in ", log.c_str(),
                 log.empty() ? "" : ".part");
-  install_handlers();
+}
 
-  if (!options.json) spdlog::info("{}: {}, seed {}", graph.mission, graph.io == "sim" ? "simulation" : "flight controller", graph.seed);
-  Flight flight(graph, flight_options);
-  const FlightResult result = flight.run();
+int Session::fly() {
+  if (!stamps_) stamps_ = std::make_unique<FileStamps>(files());
+  last_.reset();
+  Progress progress(graph_);
+  FlightOptions o;
+  o.speed = options_.speed;
+  o.duration_s = options_.duration_s;
+  o.drivers_from = options_.drivers_from;
+  o.keep_inputs = options_.watch || graph_.io == "fcu";
+  o.log_file = log_file();
+  o.log = !o.log_file.empty();
+  if (o.log_file.has_parent_path()) std::filesystem::create_directories(o.log_file.parent_path());
+  o.interrupt = &interrupted;
+  o.progress = [&](const Flight& flight) { progress.show(flight); };
+  o.say = [&](const std::string& text, bool warning) { progress.say(text, warning); };
+  prepare_last_words(o.log_file.string());
+  install_handlers();
+  if (!options_.json) spdlog::info("{}: {}, seed {}", graph_.mission, graph_.io == "sim" ? "simulation" : "flight controller", graph_.seed);
+  last_ = std::make_unique<Flight>(graph_, o);
+  const FlightResult result = last_->run();
   progress.clear();
-  if (options.json)
-    std::printf("%s\n", result_json(graph, flight, result).dump(2).c_str());
-  else
-    std::printf("%s", result_table(graph, flight, result).c_str());
+  results_.push_back(result_json(graph_, *last_, result));
+  if (!options_.json) {
+    std::printf("%s", result_table(graph_, *last_, result).c_str());
+    if (results_.size() > 1) std::printf("%s", comparison(results_[results_.size() - 2], results_.back()).c_str());
+    std::fflush(stdout);
+  }
   if (!result.log.error.empty()) spdlog::warn("log: {}; {} messages were lost", result.log.error, result.log.dropped);
   if (result.outcome == Outcome::interrupted) return 130;
   return result.outcome == Outcome::flown ? 0 : 1;
+}
+
+std::vector<std::filesystem::path> Session::files() const {
+  std::vector<std::filesystem::path> all = graph_.files;
+  for (const Component& c : graph_.components)
+    if (std::find(all.begin(), all.end(), c.plugin->path) == all.end()) all.emplace_back(c.plugin->path);
+  return all;
+}
+
+/// The newcomers among the components are tried in a child on what their predecessors saw last.
+void Session::rehearse_changes(const Graph& next) const {
+  for (const Component& c : next.components) {
+    const auto was = std::find_if(graph_.components.begin(), graph_.components.end(), [&](const Component& o) { return o.name == c.name; });
+    if (was == graph_.components.end() || was->plugin->sha256 == c.plugin->sha256 || c.info().vehicle || c.run == RunMode::driver) continue;
+    const Tape* tape = last_ && same_inputs(was->info(), c.info()) ? last_->tape(c.name) : nullptr;
+    try {
+      rehearse(c, next.tick_ns, component_seed(next.seed, c.name), tape);
+    } catch (const Error& fault) {
+      throw Error(c.name + ": " + version_words(*c.plugin) + " fails its rehearsal: " + fault.what());
+    }
+    spdlog::info("{}: {} -> {}{}", c.name, version_words(*was->plugin), version_words(*c.plugin),
+                 tape ? ", rehearsed on " + std::to_string(tape->size()) + " steps" : "");
+  }
+}
+
+bool Session::reload(const std::vector<std::filesystem::path>& changed) {
+  for (const auto& file : changed) spdlog::info("changed: {}", file.filename().string());
+  try {
+    Graph next = load_mission(options_.mission, options_.overrides);
+    rehearse_changes(next);
+    std::vector<std::shared_ptr<Library>> before;
+    for (Component& c : graph_.components) before.push_back(std::move(c.library));
+    last_.reset();
+    graph_ = std::move(next);
+    for (auto& library : before)
+      if (library && library.use_count() == 1) Library::unload(std::move(library));
+    stamps_ = nullptr;
+    return true;
+  } catch (const Error& fault) {
+    spdlog::warn("{}", fault.what());
+    spdlog::warn("what flew before stays as it is");
+    return false;
+  }
+}
+
+void Session::take_changes() {
+  if (const auto changed = stamps_->changed(); !changed.empty()) reload(changed);
+}
+
+bool Session::wait_for_change() {
+  const std::filesystem::path folder = std::filesystem::absolute(options_.mission).parent_path();
+  if (!options_.build.empty() && !sources_) sources_ = std::make_unique<FileStamps>(source_files(folder));
+  spdlog::info("\nwaiting for a change; Ctrl-C ends");
+  while (interrupted.load() == 0) {
+    if (sources_)
+      if (const auto changed = sources_->changed(); !changed.empty()) {
+        spdlog::info("changed: {}; building", changed[0].filename().string());
+        if (!run_build(options_.build)) spdlog::warn("the build failed; what flew before stays as it is");
+      }
+    if (const auto changed = stamps_->changed(); !changed.empty() && reload(changed)) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  return false;
+}
+
+}  // namespace
+
+int run_command(const RunOptions& options) {
+  spdlog::set_default_logger(spdlog::stderr_color_mt("fulmar"));
+  spdlog::set_pattern("%^%v%$");
+  if (!options.build.empty() && !options.watch) throw CLI::ValidationError("--build belongs to --watch");
+  Session session(options);
+  int worst = 0;
+  for (int flight = 1;; ++flight) {
+    const int code = session.fly();
+    worst = std::max(worst, code);
+    if (code == 130 || (options.repeat > 0 ? flight >= options.repeat : !options.watch)) break;
+    if (options.repeat > 0)
+      options.watch ? session.take_changes() : void();
+    else if (!session.wait_for_change())
+      break;
+  }
+  session.print_all();
+  return worst;
 }
 
 }  // namespace fulmar::core

@@ -3,18 +3,20 @@
 #include "core/graph/catalogue.hpp"
 
 #include <algorithm>
-#include <cstdlib>
-#include <sstream>
 
 #include "core/error.hpp"
+#include "core/loader/home.hpp"
+#include "core/loader/script.hpp"
 
 namespace fulmar::core {
 namespace fs = std::filesystem;
 
 std::pair<std::string, std::string> split_use(const std::string& use) {
-  if (use.ends_with(".so")) return {use, ""};
-  const auto file = use.rfind(".so/");
-  if (file != std::string::npos) return {use.substr(0, file + 3), use.substr(file + 4)};
+  for (const std::string suffix : {".so", ".py"}) {
+    if (use.ends_with(suffix)) return {use, ""};
+    const auto file = use.rfind(suffix + "/");
+    if (file != std::string::npos) return {use.substr(0, file + 3), use.substr(file + 4)};
+  }
   const auto slash = use.rfind('/');
   if (slash == std::string::npos) return {use, ""};
   return {use.substr(0, slash), use.substr(slash + 1)};
@@ -26,19 +28,12 @@ std::vector<fs::path> PluginCatalogue::folders_for(const fs::path& mission_file)
     if (std::find(folders.begin(), folders.end(), folder) == folders.end()) folders.push_back(folder);
   };
   add(mission_file.has_parent_path() ? mission_file.parent_path() : fs::path("."));
-  if (const char* list = std::getenv("FULMAR_PLUGIN_PATH")) {
-    std::istringstream parts(list);
-    for (std::string part; std::getline(parts, part, ':');)
-      if (!part.empty()) add(part);
-  }
-  std::error_code code;
-  const fs::path self = fs::read_symlink("/proc/self/exe", code);
-  if (!code) add(self.parent_path().parent_path() / "lib" / "fulmar");
+  for (const fs::path& folder : plugin_folders()) add(folder);
   return folders;
 }
 
 fs::path PluginCatalogue::find(const std::string& name) const {
-  const fs::path file = name.ends_with(".so") ? name : name + ".so";
+  const fs::path file = name.ends_with(".so") || !script_host(name).empty() ? name : name + ".so";
   std::error_code code;
   if (file.is_absolute()) return fs::is_regular_file(file, code) ? file : fs::path();
   for (const fs::path& folder : folders_)
@@ -51,7 +46,10 @@ std::vector<std::string> PluginCatalogue::names() const {
   for (const fs::path& folder : folders_) {
     std::error_code code;
     for (fs::directory_iterator it(folder, code), end; !code && it != end; it.increment(code))
-      if (it->path().extension() == ".so") names.push_back(it->path().stem().string());
+      if (it->path().extension() == ".so")
+        names.push_back(it->path().stem().string());
+      else if (!script_host(it->path()).empty())
+        names.push_back(it->path().filename().string());
   }
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
@@ -70,9 +68,16 @@ FoundPlugin PluginCatalogue::open(const std::string& name) {
   if (code) key = file;
   const auto it = opened_.find(key);
   if (it != opened_.end()) return it->second;
+  const Expected expected = admit ? admit(file) : Expected{};
+  // a script runs inside the plugin that hosts its language: that one needs leave too, and its content is looked at as well
+  std::shared_ptr<Library> host;
+  if (admit && !script_host(file).empty()) host = Library::open(Library::host_of(file), admit(Library::host_of(file)));
   FoundPlugin found;
-  found.library = Library::open(file);
-  found.info = std::make_shared<PluginInfo>(found.library->info());
+  found.library = Library::open(file, expected);
+  auto info = std::make_shared<PluginInfo>(found.library->info());
+  info->path = file.string();  // of two files with equal bytes one is loaded: each keeps its own name
+  info->file = file.filename().string();
+  found.info = std::move(info);
   opened_.emplace(key, found);
   return found;
 }

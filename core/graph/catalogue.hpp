@@ -2,6 +2,7 @@
 // Finds the plugin that a mission's `use:` names. An interface, so that tests and tools can bring components of their own.
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -19,6 +20,8 @@ struct FoundPlugin {
 
 struct Catalogue {
   virtual ~Catalogue() = default;
+  /// Asked before a file is opened: throws Error when it may not be, and tells the content that it must have. See Trust.
+  std::function<Expected(const std::filesystem::path&)> admit;
   /// `name` is a plugin ("control_slc") or a file ("my_law.so", "build/my_law.so"). Throws Error with a sentence.
   virtual FoundPlugin open(const std::string& name) = 0;
 };

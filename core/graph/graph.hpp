@@ -3,6 +3,7 @@
 // Everything that can be wrong has been refused before one of these exists. The loop reads it and never changes it.
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -118,6 +119,15 @@ struct RecordRule {
   std::int64_t period_ns = 0;      // 0: every sample
 };
 
+/// What the command line changes.
+struct Overrides {
+  std::optional<std::string> io;
+  std::optional<std::uint64_t> seed;
+  std::vector<std::pair<std::string, std::string>> roles;  // role=component
+  std::vector<std::pair<std::string, std::string>> set;    // component.param=value (YAML text)
+  std::vector<std::pair<std::string, std::string>> with;   // component=plugin file, in place of the file that its `use` names
+};
+
 struct Graph {
   std::string mission;
   std::string io = "sim";
@@ -144,14 +154,10 @@ struct Graph {
   std::vector<RecordRule> record_rules;
   /// Files whose contents cross into the flight, as read: mission, what it extends, airframe, plans. Name without folders -> text.
   std::vector<std::pair<std::string, std::string>> attachments;
-};
-
-/// What the command line changes.
-struct Overrides {
-  std::optional<std::string> io;
-  std::optional<std::uint64_t> seed;
-  std::vector<std::pair<std::string, std::string>> roles;  // role=component
-  std::vector<std::pair<std::string, std::string>> set;    // component.param=value (YAML text)
+  /// Where all of this came from, so that it can be read again.
+  std::string file;
+  Overrides overrides;
+  std::vector<std::filesystem::path> files;  // mission, what it extends, airframe, plans
 };
 
 /// Loads a mission file and everything that it names. On faults throws Error whose text holds all of them, one per line.

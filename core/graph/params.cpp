@@ -39,6 +39,12 @@ const Node& FileStore::tree(const FilePtr& file) {
   return it != trees_.end() ? it->second : trees_.emplace(key, parse_yaml(file, report_)).first->second;
 }
 
+std::vector<std::filesystem::path> FileStore::paths() const {
+  std::vector<std::filesystem::path> paths;
+  for (const FilePtr& file : files_) paths.push_back(file->path);
+  return paths;
+}
+
 std::vector<std::pair<std::string, std::string>> FileStore::attachments() const {
   std::vector<std::pair<std::string, std::string>> list;
   const auto taken = [&](const std::string& name) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Values of parameters, from YAML: numbers with units, words, records and the bytes of files.
 #pragma once
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ class FileStore {
   const Node& tree(const FilePtr& file);
   /// Name without folders -> text, in the order of reading. Of two files of one name the second is called folder/name.
   std::vector<std::pair<std::string, std::string>> attachments() const;
+  std::vector<std::filesystem::path> paths() const;
 
  private:
   Report& report_;

@@ -5,6 +5,7 @@
 
 #include "core/graph/draft.hpp"
 #include "core/graph/quantity.hpp"
+#include "core/graph/trust.hpp"
 
 namespace fulmar::core {
 namespace fs = std::filesystem;
@@ -54,7 +55,9 @@ void load_component(Draft& draft, Catalogue& catalogue, Candidate& candidate) {
   if (text.use.empty()) return;
   const std::string path = "components." + text.name;
   try {
-    const auto [plugin, component] = split_use(text.use);
+    auto [plugin, component] = split_use(text.use);
+    for (const auto& [name, file] : draft.overrides.with)
+      if (name == text.name) plugin = fs::absolute(file).string();
     candidate.plugin = catalogue.open(plugin);
     const auto& components = candidate.plugin.info->components;
     if (components.empty()) throw Error(plugin + " holds no component");
@@ -263,6 +266,7 @@ void build_components(Draft& draft) {
     component.period_ns = rate > 0 && rate < draft.text.rate_hz * (1 - 1e-9) ? std::llround(1e9 / rate) : 0;
     component.budget_ns = candidate.text->budget_ns;
     run_mode(draft, candidate, component);
+    if (component.run == RunMode::process) component.library.reset();  // its code is the child's business alone
     component.params = candidate.params;
     component.where = candidate.text->where;
     if (candidate.info().vehicle) draft.graph.vehicle = candidate.component;
@@ -377,14 +381,21 @@ void resolve(Draft& draft, Catalogue& catalogue) {
 Graph load_mission(const std::string& file, const Overrides& overrides, Catalogue& catalogue) {
   Report report;
   for (const auto& [role, component] : overrides.roles) report.opened("--role " + role + "=" + component);
+  for (const auto& [name, with] : overrides.with) report.opened("--with " + name + "=" + with);
   for (const auto& [name, value] : overrides.set) report.opened("--set " + name + "=" + value);
   const MissionText text = parse_mission(file, overrides, report);
+  catalogue.admit = [trust = Trust(text, report)](const fs::path& plugin) { return trust.check(plugin); };
   FileStore files(report);
   for (const FilePtr& read : text.files) files.keep(read);
   Draft draft{text, overrides, report, files, {}, {}, {}, {}};
   resolve(draft, catalogue);
+  for (const auto& [name, with] : overrides.with)
+    if (!text.component(name)) report.add({"--with " + name + "=" + with, 0}, not_there(draft, name));
   report.throw_if_any();
   draft.graph.attachments = files.attachments();
+  draft.graph.file = file;
+  draft.graph.overrides = overrides;
+  draft.graph.files = files.paths();
   return std::move(draft.graph);
 }
 

@@ -166,12 +166,19 @@ ComponentInfo read_component(TableReader& tables, const fulmar_component& from) 
   return info;
 }
 
+void check_script_functions(const TableReader& tables, const fulmar_plugin& entry) {
+  check_function(tables, entry.open_script, false, "open_script", "the plugin");
+  check_function(tables, entry.close_script, entry.open_script != nullptr, "close_script", "the plugin");
+}
+
 void read_plugin(TableReader& tables, const fulmar_plugin& entry, PluginInfo& info) {
   info.version = tables.text(entry.version, "the version");
   info.toolchain = tables.text(entry.toolchain, "the toolchain");
   info.flags = tables.text(entry.flags, "the build flags");
-  if (entry.component_count == 0 || entry.component_count > most_components)
+  const bool hosts_scripts = info.abi_minor >= 1 && entry.open_script != nullptr;
+  if ((entry.component_count == 0 && !hosts_scripts) || entry.component_count > most_components)
     throw Error("it has " + std::to_string(entry.component_count) + " components");
+  if (info.abi_minor >= 1) check_script_functions(tables, entry);
   for (std::uint32_t i = 0; i < entry.component_count; ++i) {
     ComponentInfo component = read_component(tables, tables.element(entry.components, entry.component_stride, i, "the components"));
     for (const ComponentInfo& other : info.components)

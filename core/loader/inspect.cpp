@@ -3,13 +3,14 @@
 #include "core/loader/inspect.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 
 #include "core/error.hpp"
+#include "core/loader/inspect_text.hpp"
 
 namespace fulmar::core {
 namespace {
+
+using namespace inspect_text;
 
 // Rows of words in columns as wide as their longest word, two blanks between. Columns that are empty everywhere vanish.
 class Columns {
@@ -40,75 +41,6 @@ class Columns {
   std::vector<std::size_t> widths_;
   std::vector<std::vector<std::string>> rows_;
 };
-
-std::string number(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.12g", x);
-  return text;
-}
-
-std::string range(double min, double max) {
-  if (std::isinf(min) && std::isinf(max)) return "";
-  if (std::isinf(min)) return "<= " + number(max);
-  return std::isinf(max) ? ">= " + number(min) : number(min) + " .. " + number(max);
-}
-
-std::string hash_text(std::uint64_t hash) {
-  char text[20];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
-  return text;
-}
-
-std::string byte_text(std::uint32_t size) { return std::to_string(size) + (size == 1 ? " byte" : " bytes"); }
-
-std::string port_kind(const Port& port) {
-  const std::string many = " of " + std::to_string(port.capacity);
-  switch (port.kind) {
-    case FULMAR_IN_VALUE:
-      return port.optional ? "value, optional" : "value";
-    case FULMAR_IN_QUEUE:
-      return "queue" + many;
-    case FULMAR_IN_REQUEST:
-      return "request" + many;
-    case FULMAR_OUT_VALUE:
-      return "value";
-    case FULMAR_OUT_EVENT:
-      return "value, may stay silent";
-    case FULMAR_OUT_QUEUE:
-      return "queue" + many;
-    case FULMAR_OUT_PROBE:
-      return "probe";
-  }
-  return "?";
-}
-
-std::string initial_text(const ParamInfo& param) {
-  const std::string unit = param.unit.empty() ? "" : " " + param.unit;
-  switch (param.kind) {
-    case FULMAR_NUMBER:
-    case FULMAR_COUNT:
-      return number(param.initial[0]) + unit;
-    case FULMAR_FLAG:
-      return param.initial[0] != 0 ? "true" : "false";
-    case FULMAR_CHOICE:
-      return param.choices[static_cast<std::size_t>(param.initial[0])];
-    case FULMAR_STRING:
-      return "\"" + param.initial_text + "\"";
-    case FULMAR_VECTOR:
-      return "[" + number(param.initial[0]) + ", " + number(param.initial[1]) + ", " + number(param.initial[2]) + "]" + unit;
-    case FULMAR_RECORD:
-      return param.type->name + " (file)";
-    case FULMAR_BLOB:
-      return "bytes (file)";
-  }
-  return "?";
-}
-
-std::string limits_text(const ParamInfo& param) {
-  if (param.kind == FULMAR_CHOICE) return join(param.choices);
-  const bool numeric = param.kind == FULMAR_NUMBER || param.kind == FULMAR_COUNT || param.kind == FULMAR_VECTOR;
-  return numeric ? range(param.min, param.max) : "";
-}
 
 std::string ports_text(const char* title, const std::vector<Port>& ports) {
   if (ports.empty()) return "";
@@ -142,39 +74,6 @@ std::string component_text(const ComponentInfo& component) {
   if (component.resident) traits.push_back("stays resident");
   if (!traits.empty()) text += "  " + join(traits) + "\n";
   return text + ports_text("inputs", component.inputs) + ports_text("outputs", component.outputs) + params_text(component.params);
-}
-
-std::string element_text(const Field& field) {
-  switch (field.kind) {
-    case FULMAR_BOOL:
-      return "bool";
-    case FULMAR_U8:
-      return "u8";
-    case FULMAR_I32:
-      return "i32";
-    case FULMAR_U32:
-      return "u32";
-    case FULMAR_I64:
-      return "i64";
-    case FULMAR_U64:
-      return "u64";
-    case FULMAR_F32:
-      return "f32";
-    case FULMAR_F64:
-      return "f64";
-    case FULMAR_ENUM:
-      return "enum";
-    case FULMAR_TEXT:
-      return "text of " + std::to_string(field.stride);
-    case FULMAR_STRUCT:
-      return field.type->name;
-  }
-  return "?";
-}
-
-std::string shape_text(const Field& field) {
-  if (field.shape == FULMAR_ARRAY) return "[" + std::to_string(field.count) + "]";
-  return field.shape == FULMAR_LIST ? "[<=" + std::to_string(field.count) + "]" : "";
 }
 
 void field_rows(const Type& type, const std::string& path, std::uint32_t base, const std::string& unit, Columns& columns) {
@@ -223,6 +122,7 @@ std::string describe_plugin(const PluginInfo& plugin, bool fields) {
   head.row({"toolchain", plugin.toolchain});
   if (!plugin.flags.empty()) head.row({"flags", plugin.flags});
   head.row({"sha256", plugin.sha256.substr(0, 16)});
+  if (!plugin.build_id.empty()) head.row({"build", plugin.build_id});
   text += head.text();
   for (const ComponentInfo& component : plugin.components) text += "\n" + component_text(component);
   return fields ? text + messages_text(plugin) : text;

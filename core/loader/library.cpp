@@ -14,10 +14,13 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/loader/build_id.hpp"
 #include "core/loader/elf.hpp"
 #include "core/loader/float_mode.hpp"
+#include "core/loader/home.hpp"
 #include "core/loader/load_fault.hpp"
 #include "core/loader/probe.hpp"
+#include "core/loader/script.hpp"
 #include "core/loader/store.hpp"
 #include "core/loader/table.hpp"
 
@@ -62,21 +65,24 @@ bool is_mapped(const fs::path& copy) {
   return true;
 }
 
-// Throws unless a child has loaded it.
-void try_in_child(const fs::path& copy, const std::string& sha256, const std::string& name) {
-  if (registry().probed.count(sha256) > 0) return;
-  if (const std::string fault = probe(copy, name); !fault.empty()) {
+// Throws unless a child has loaded it. `host`: of a script, the copy of the plugin that opens it; `file`: where the author keeps it.
+void try_in_child(const fs::path& copy, const std::string& key, const std::string& name, const fs::path& host = {}, const fs::path& file = {}) {
+  if (registry().probed.count(key) > 0) return;
+  const std::string fault = host.empty() ? probe(copy, name) : probe(host, name, {copy, file});
+  if (!fault.empty()) {
     std::error_code ignored;
     fs::remove(copy, ignored);
     throw Error(fault);
   }
-  registry().probed.insert(sha256);
+  registry().probed.insert(key);
 }
 
 }  // namespace
 
 struct Library::Handle {
   boost::dll::shared_library file;
+  std::shared_ptr<Library> host;  // of a script, which is closed before its host
+  std::unique_ptr<Script> script;
   std::vector<fulmar_component> functions;
 
   void load(const fs::path& copy, const std::string& name) {
@@ -88,7 +94,9 @@ struct Library::Handle {
     if (!file.has(FULMAR_ENTRY_SYMBOL)) throw Error(no_entry_fault(name));
   }
 
-  const fulmar_plugin& entry() const { return file.get<const fulmar_plugin>(FULMAR_ENTRY_SYMBOL); }
+  const fulmar_plugin& entry() const { return script ? script->entry() : file.get<const fulmar_plugin>(FULMAR_ENTRY_SYMBOL); }
+
+  bool hosts_scripts() const { return entry().abi_minor >= 1 && entry().open_script != nullptr; }
 
   void copy_functions() {
     const TableReader tables;
@@ -99,28 +107,75 @@ struct Library::Handle {
   void close() {
     const FloatModeGuard guard;
     functions.clear();
+    script.reset();
+    host.reset();
     file.unload();
   }
 };
 
-std::shared_ptr<Library> Library::open(const fs::path& file) {
+std::shared_ptr<Library> Library::open(const fs::path& file, const Expected& expected) {
+  if (!script_host(file).empty()) return open_script(file, expected);
   const std::string name = file.filename().string();
   const std::vector<std::byte> bytes = read_file(file, name);
-  if (const std::string fault = elf_fault(bytes); !fault.empty()) throw Error(name + " " + fault);
   const std::string sha256 = sha256_hex(bytes.data(), bytes.size());
+  check_content(expected, name, sha256);
+  if (const std::string fault = elf_fault(bytes); !fault.empty()) throw Error(name + " " + fault);
   const std::lock_guard lock(registry().mutex);
   if (auto known = registry().loaded[sha256].lock()) return known;
   const std::shared_ptr<Library> library(new Library);
+  library->key_ = sha256;
   library->copy_ = keep_copy(bytes, sha256);
   try_in_child(library->copy_, sha256, name);
   library->handle_ = std::make_unique<Handle>();
   library->handle_->load(library->copy_, name);
   library->info_ = read_entry(library->handle_->entry(), name);
   library->info_.sha256 = sha256;
+  library->info_.build_id = build_id(bytes);
   library->info_.path = file.string();
   library->info_.copy = library->copy_.string();
   library->handle_->copy_functions();
   registry().loaded[sha256] = library;
+  return library;
+}
+
+fs::path Library::host_of(const fs::path& script) {
+  const std::string language = script_host(script), file = language + ".so";
+  std::vector<std::string> searched;
+  for (const fs::path& folder : plugin_folders()) {
+    std::error_code fault;
+    if (fs::is_regular_file(folder / file, fault)) return folder / file;
+    searched.push_back(folder.string());
+  }
+  throw Error(script.filename().string() + " needs the plugin " + language + ", which is not there. Searched in " + join(searched) +
+              ". It is built where the development packages of the language are installed.");
+}
+
+std::shared_ptr<Library> Library::open_script(const fs::path& file, const Expected& expected) {
+  const std::string name = file.filename().string();
+  const std::vector<std::byte> bytes = read_file(file, name);
+  const std::string sha256 = sha256_hex(bytes.data(), bytes.size());
+  check_content(expected, name, sha256);
+  const std::shared_ptr<Library> host = open(host_of(file));
+  std::error_code fault;
+  const fs::path place = fs::absolute(file, fault);
+  const std::string key = sha256 + " " + place.string();  // the place too: a script may load what lies beside it
+  const std::lock_guard lock(registry().mutex);
+  if (auto known = registry().loaded[key].lock()) return known;
+  const std::shared_ptr<Library> library(new Library);
+  library->key_ = key;
+  library->copy_ = keep_copy(bytes, sha256, file.extension().string());
+  try_in_child(library->copy_, key, name, host->copy_, place);
+  library->handle_ = std::make_unique<Handle>();
+  library->handle_->host = host;
+  const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  library->handle_->script = std::make_unique<Script>(host->handle_->entry(), place.string(), text);
+  library->info_ = read_entry(library->handle_->entry(), name);
+  library->info_.sha256 = sha256;
+  library->info_.path = file.string();
+  library->info_.copy = host->copy_.string();
+  library->info_.script = library->copy_.string();
+  library->handle_->copy_functions();
+  registry().loaded[key] = library;
   return library;
 }
 
@@ -135,8 +190,10 @@ void Library::unload(std::shared_ptr<Library>&& library) {
   const std::string name = last->info_.file;
   if (last.use_count() > 1) throw Error(name + " is still in use and cannot be unloaded");
   const std::lock_guard lock(registry().mutex);
-  registry().loaded.erase(last->info_.sha256);
+  registry().loaded.erase(last->key_);
+  const bool script = last->handle_->script != nullptr, hosts = !script && last->handle_->hosts_scripts();
   last->handle_->close();
+  if (script || hosts) return;  // an interpreter cannot be unloaded; what a script has given back, it frees itself
   for (const ComponentInfo& component : last->info_.components)
     if (component.resident) return;  // it says so itself, and is swapped by its own means
   if (is_mapped(last->copy_))

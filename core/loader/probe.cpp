@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/loader/home.hpp"
 #include "core/loader/probe_report.hpp"
 
 extern char** environ;
@@ -31,12 +32,9 @@ using Clock = std::chrono::steady_clock;
 // Beside this program; when that is a test or a tool elsewhere, FULMAR_PROBE says where.
 fs::path probe_program() {
   if (const char* chosen = std::getenv("FULMAR_PROBE"); chosen != nullptr && *chosen != '\0') return chosen;
+  if (const fs::path program = own_program("fulmar-probe"); !program.empty()) return program;
   std::error_code fault;
-  const fs::path self = fs::read_symlink("/proc/self/exe", fault);
-  std::vector<fs::path> places{self.parent_path() / "fulmar-probe", self.parent_path().parent_path() / "bin" / "fulmar-probe"};
-  for (const fs::path& place : places)
-    if (::access(place.c_str(), X_OK) == 0) return place;
-  throw Error("the program fulmar-probe is missing beside " + self.filename().string() +
+  throw Error("the program fulmar-probe is missing beside " + fs::read_symlink("/proc/self/exe", fault).filename().string() +
               ": plugins cannot be tried before they are loaded.");
 }
 
@@ -51,7 +49,7 @@ struct Child {
   int report = -1;  // reading end of the pipe
 };
 
-Child spawn(const fs::path& program, const fs::path& copy, const std::string& name) {
+Child spawn(const fs::path& program, std::vector<std::string> words) {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) throw Error("cannot make a pipe: " + std::string(std::strerror(errno)) + ".");
   posix_spawn_file_actions_t files;
@@ -71,10 +69,11 @@ Child spawn(const fs::path& program, const fs::path& copy, const std::string& na
   posix_spawnattr_setsigdefault(&attributes, &all);
   posix_spawnattr_setpgroup(&attributes, 0);  // its own group, so that its children can be stopped with it
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
-  std::string words[] = {program.string(), copy.string(), name};
-  char* arguments[] = {words[0].data(), words[1].data(), words[2].data(), nullptr};
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
   Child child;
-  const int fault = ::posix_spawn(&child.pid, program.c_str(), &files, &attributes, arguments, environ);
+  const int fault = ::posix_spawn(&child.pid, program.c_str(), &files, &attributes, arguments.data(), environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&files);
   ::close(ends[1]);
@@ -134,9 +133,12 @@ std::string number_text(double x) {
 
 }  // namespace
 
-std::string probe(const fs::path& copy, const std::string& name) {
+std::string probe(const fs::path& copy, const std::string& name, const ProbedScript& script) {
   const double limit_s = time_limit_s();
-  const Outcome outcome = watch(spawn(probe_program(), copy, name), limit_s);
+  const fs::path program = probe_program();
+  std::vector<std::string> words{program.string(), copy.string(), name};
+  if (!script.copy.empty()) words.insert(words.end(), {script.copy.string(), script.file.string()});
+  const Outcome outcome = watch(spawn(program, std::move(words)), limit_s);
   const std::string& report = outcome.report;
   const auto said = [&](std::string_view word) { return report.find(word) != std::string::npos; };
   const std::string stage = !said(report_loaded) ? "loaded" : !said(report_read) ? "read" : "unloaded";

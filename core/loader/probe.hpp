@@ -6,8 +6,14 @@
 
 namespace fulmar::core {
 
+/// A script, as a child opens it: its private copy, and where its author keeps it.
+struct ProbedScript {
+  std::filesystem::path copy, file;
+};
+
 /// What is wrong with the plugin at `copy`, in a sentence that begins with `name`. "" when a child has loaded, read and unloaded it.
+/// With a script, `copy` is the plugin that hosts its language, and the script is what is tried.
 /// The time limit is 5 s, or FULMAR_PROBE_SECONDS. Throws Error when the program fulmar-probe is missing.
-std::string probe(const std::filesystem::path& copy, const std::string& name);
+std::string probe(const std::filesystem::path& copy, const std::string& name, const ProbedScript& script = {});
 
 }  // namespace fulmar::core

@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <vector>
 
 #include "core/error.hpp"
@@ -21,7 +22,8 @@ namespace fulmar::core {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::size_t most_copies = 128;  // the least recently used go
+constexpr std::size_t most_copies = 128;             // the least recently used go
+constexpr const char* suffixes[] = {".so", ".py"};  // of what is kept
 
 // Throws when the folder belongs to somebody else or others may put files there: they could swap the code between check and load.
 void check_private(const fs::path& folder) {
@@ -104,12 +106,23 @@ void write_copy(const fs::path& path, std::span<const std::byte> bytes) {
   ::close(file);
 }
 
+bool is_suffix(const std::string& text) { return std::find(std::begin(suffixes), std::end(suffixes), text) != std::end(suffixes); }
+
+bool is_sha256(const std::string& text) { return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos; }
+
+bool holds(const fs::path& copy, const std::string& sha256) {
+  std::error_code fault;
+  return fs::is_regular_file(fs::symlink_status(copy, fault)) && sha256_file(copy) == sha256;
+}
+
+void mark_used(const fs::path& copy) { ::utimensat(AT_FDCWD, copy.c_str(), nullptr, 0); }
+
 // A library that is mapped keeps its file alive; what is removed here is only the name.
 void prune(const fs::path& folder) {
   std::error_code fault;
   std::vector<std::pair<fs::file_time_type, fs::path>> copies;
   for (const auto& entry : fs::directory_iterator(folder, fault))
-    if (entry.path().extension() == ".so") copies.emplace_back(entry.last_write_time(fault), entry.path());
+    if (is_suffix(entry.path().extension().string())) copies.emplace_back(entry.last_write_time(fault), entry.path());
   if (copies.size() <= most_copies) return;
   std::sort(copies.begin(), copies.end());
   for (std::size_t i = 0; i + most_copies < copies.size(); ++i) fs::remove(copies[i].second, fault);
@@ -138,18 +151,45 @@ std::string sha256_file(const fs::path& file) {
   return sha256_hex(bytes.data(), bytes.size());
 }
 
-fs::path keep_copy(std::span<const std::byte> bytes, const std::string& sha256) {
+void check_content(const Expected& expected, const std::string& name, const std::string& sha256) {
+  if (expected.sha256.empty()) return;
+  if (std::find(expected.sha256.begin(), expected.sha256.end(), sha256) != expected.sha256.end()) return;
+  throw Error(name + " has the SHA-256 " + sha256 + ", but " + join(expected.sha256) + " is listed" +
+              (expected.where.empty() ? "" : " in " + expected.where) + "; a file that was changed or built anew is listed anew");
+}
+
+fs::path keep_copy(std::span<const std::byte> bytes, const std::string& sha256, const std::string& suffix) {
+  if (!is_suffix(suffix)) throw Error("the plugin store keeps no " + suffix + " files.");
   const fs::path folder = store_folder();
   check_private(folder);
-  const fs::path copy = fs::absolute(folder) / (sha256 + ".so");
+  const fs::path copy = fs::absolute(folder) / (sha256 + suffix);
   std::error_code fault;
-  if (fs::is_regular_file(fs::symlink_status(copy, fault)) && fs::file_size(copy, fault) == bytes.size() && sha256_file(copy) == sha256) {
-    ::utimensat(AT_FDCWD, copy.c_str(), nullptr, 0);  // used just now
+  if (fs::file_size(copy, fault) == bytes.size() && !fault && holds(copy, sha256)) {
+    mark_used(copy);
     return copy;
   }
   write_copy(copy, bytes);
   prune(folder);
   return copy;
+}
+
+std::optional<fs::path> find_in_store(const std::string& sha256) {
+  if (!is_sha256(sha256)) return std::nullopt;
+  const fs::path folder = store_folder();
+  check_private(folder);
+  for (const char* suffix : suffixes) {
+    const fs::path copy = fs::absolute(folder) / (sha256 + suffix);
+    if (!holds(copy, sha256)) continue;
+    mark_used(copy);
+    return copy;
+  }
+  return std::nullopt;
+}
+
+fs::path version_that_flew(const std::string& file, const std::string& version, const std::string& sha256) {
+  if (const auto copy = find_in_store(sha256)) return *copy;
+  throw Error(file + " " + version + " with SHA-256 " + sha256 + " flew, but the plugin store " + store_folder().string() +
+              " no longer holds it; put that file back, or choose another with --with");
 }
 
 }  // namespace fulmar::core

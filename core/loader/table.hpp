@@ -2,6 +2,7 @@
 // Reads type tables that somebody else wrote: every pointer is checked before it is followed, every number before it is believed.
 #pragma once
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <map>
 #include <string>
@@ -12,6 +13,22 @@
 
 namespace fulmar::core {
 
+/// Bytes of an element as ABI 1.0 had it, which every plugin of ABI 1 has at least: up to the member that was its last one then. A member
+/// that is added later goes to the end of its struct, the line here stays as it is, and 0 has to mean for it "as before". The struct's
+/// first version that has it decides whether it is there (abi_minor), or its value other than 0 does.
+template <class T>
+inline constexpr std::uint32_t size_in_1_0 = 0;
+#define FULMAR_SIZE_IN_1_0(type, last)               \
+  template <>                                        \
+  inline constexpr std::uint32_t size_in_1_0<type> = \
+      (offsetof(type, last) + sizeof(type::last) + alignof(type) - 1) / alignof(type) * alignof(type)
+FULMAR_SIZE_IN_1_0(fulmar_field, max);
+FULMAR_SIZE_IN_1_0(fulmar_type, align);
+FULMAR_SIZE_IN_1_0(fulmar_port, capacity);
+FULMAR_SIZE_IN_1_0(fulmar_param, max);
+FULMAR_SIZE_IN_1_0(fulmar_component, get_extension);
+#undef FULMAR_SIZE_IN_1_0
+
 class TableReader {
  public:
   TypePtr type(const fulmar_type* type, const std::string& what);
@@ -19,16 +36,18 @@ class TableReader {
   std::vector<std::string> texts(const char* const* at, std::uint32_t count, const std::string& what) const;
   const Memory& memory() const { return memory_; }
 
-  /// Element `i` of an array whose elements lie `stride` bytes apart. A stride that is larger than the struct comes from a newer minor
-  /// version.
+  /// Element `i` of an array whose elements lie `stride` bytes apart. Longer elements come from a newer minor version: what this host does
+  /// not know is left out. Shorter ones come from an older one: what they lack is zero.
   template <class T>
   T element(const T* base, std::uint32_t stride, std::uint32_t i, const std::string& what) const {
-    if (stride < sizeof(T) || stride > largest_stride || stride % alignof(T) != 0)
-      throw Error(what + " lie " + std::to_string(stride) + " bytes apart, where " + std::to_string(sizeof(T)) + " are needed");
+    constexpr std::uint32_t smallest = size_in_1_0<T>;
+    if (stride < smallest || stride > largest_stride || stride % alignof(T) != 0)
+      throw Error(what + " lie " + std::to_string(stride) + " bytes apart, where " + std::to_string(smallest) + " are needed");
+    const std::size_t size = std::min<std::size_t>(stride, sizeof(T));
     const auto at = reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(base) + std::uintptr_t{stride} * i);
-    if (base == nullptr || !memory_.readable(at, sizeof(T))) throw Error(what + " lie outside the plugin's memory");
-    T copy;
-    std::memcpy(&copy, at, sizeof(T));
+    if (base == nullptr || !memory_.readable(at, size)) throw Error(what + " lie outside the plugin's memory");
+    T copy{};
+    std::memcpy(&copy, at, size);
     return copy;
   }
 

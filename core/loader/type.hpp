@@ -72,6 +72,7 @@ struct PluginInfo {
   std::string copy;    // the private copy that is loaded
   std::string script;  // of a file in another language: its private copy; `copy` is then the plugin that hosts the language
   std::string sha256;  // of the file, hex
+  std::string build_id;  // that the linker gave it, hex; "" when it gave none
   std::string version, toolchain, flags;
   std::uint32_t abi_major = 0, abi_minor = 0;
   std::vector<ComponentInfo> components;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stands in front of glibc's allocator. Only calls that take memory are counted; glibc's own functions do the work.
+// Stands in front of glibc's allocator; glibc's own functions do the work.
 #include "core/run/allocation.hpp"
+
+#include <malloc.h>
 
 #include <cerrno>
 #include <cstddef>
@@ -17,11 +19,11 @@
 #endif
 
 namespace {
-thread_local std::uint64_t taken = 0;
+thread_local fulmar::core::HeapUse use;
 }
 
 namespace fulmar::core {
-std::uint64_t thread_allocations() noexcept { return taken; }
+HeapUse thread_heap() noexcept { return use; }
 #ifdef FULMAR_COUNTS
 bool counts_allocations() noexcept { return true; }
 #else
@@ -35,33 +37,37 @@ void* __libc_malloc(std::size_t);                 // NOLINT(bugprone-reserved-id
 void* __libc_calloc(std::size_t, std::size_t);    // NOLINT(bugprone-reserved-identifier)
 void* __libc_realloc(void*, std::size_t);         // NOLINT(bugprone-reserved-identifier)
 void* __libc_memalign(std::size_t, std::size_t);  // NOLINT(bugprone-reserved-identifier)
+void __libc_free(void*);                          // NOLINT(bugprone-reserved-identifier)
+}
 
-void* malloc(std::size_t size) {
-  ++taken;
-  return __libc_malloc(size);
+namespace {
+void* taken(void* p) {
+  ++use.calls;
+  use.bytes += static_cast<std::int64_t>(malloc_usable_size(p));
+  return p;
 }
-void* calloc(std::size_t count, std::size_t size) {
-  ++taken;
-  return __libc_calloc(count, size);
-}
+}  // namespace
+
+extern "C" {
+void* malloc(std::size_t size) { return taken(__libc_malloc(size)); }
+void* calloc(std::size_t count, std::size_t size) { return taken(__libc_calloc(count, size)); }
 void* realloc(void* p, std::size_t size) {
-  ++taken;
-  return __libc_realloc(p, size);
+  const auto before = static_cast<std::int64_t>(malloc_usable_size(p));
+  void* const moved = __libc_realloc(p, size);
+  if (moved || size == 0) use.bytes -= before;
+  return taken(moved);
 }
-void* memalign(std::size_t align, std::size_t size) {
-  ++taken;
-  return __libc_memalign(align, size);
-}
-void* aligned_alloc(std::size_t align, std::size_t size) {
-  ++taken;
-  return __libc_memalign(align, size);
-}
+void* memalign(std::size_t align, std::size_t size) { return taken(__libc_memalign(align, size)); }
+void* aligned_alloc(std::size_t align, std::size_t size) { return taken(__libc_memalign(align, size)); }
 int posix_memalign(void** out, std::size_t align, std::size_t size) {
-  ++taken;
-  void* p = __libc_memalign(align, size);
+  void* p = taken(__libc_memalign(align, size));
   if (!p) return ENOMEM;
   *out = p;
   return 0;
+}
+void free(void* p) {
+  use.bytes -= static_cast<std::int64_t>(malloc_usable_size(p));
+  __libc_free(p);
 }
 }
 #endif

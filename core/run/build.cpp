@@ -2,6 +2,7 @@
 // Set-up of a flight: creates and configures components, connects their ports, opens the log.
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <nlohmann/json.hpp>
 
 #include "core/run/flight_impl.hpp"
@@ -10,18 +11,18 @@
 namespace fulmar::core {
 namespace {
 
-/// Seed of a component: a mix of the mission's seed and the component's name, so that adding a component changes no other's noise.
-std::uint64_t mix(std::uint64_t seed, const std::string& name) {
-  std::uint64_t h = seed ^ 0x9e3779b97f4a7c15ull;
+constexpr std::int64_t default_period_ns = 40'000'000;      // 25 Hz for what a replay computes anew
+constexpr std::size_t tape_steps = 256;                     // of inputs kept per component, for the rehearsal of a swap
+constexpr std::int64_t default_max_age_ns = 1'000'000'000;  // of what a role publishes
+
+}  // namespace
+
+std::uint64_t component_seed(std::uint64_t mission_seed, const std::string& name) {
+  std::uint64_t h = mission_seed ^ 0x9e3779b97f4a7c15ull;
   for (const char c : name) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
   h ^= h >> 30, h *= 0xbf58476d1ce4e5b9ull, h ^= h >> 27, h *= 0x94d049bb133111ebull;  // splitmix64's finaliser
   return h ^ (h >> 31);
 }
-
-constexpr std::int64_t default_period_ns = 40'000'000;      // 25 Hz for what a replay computes anew
-constexpr std::int64_t default_max_age_ns = 1'000'000'000;  // of what a role publishes
-
-}  // namespace
 
 TypePtr event_type() {
   static const TypePtr type = [] {
@@ -36,7 +37,7 @@ TypePtr event_type() {
     };
     Field kind;
     kind.name = "kind", kind.kind = FULMAR_ENUM, kind.stride = 1;
-    kind.labels = {"phase", "guard", "request", "parameter", "failsafe"};
+    kind.labels = {"phase", "guard", "request", "parameter", "failsafe", "swap"};
     t.fields.push_back(kind);
     text("component", offsetof(Event, component), sizeof(Event::component));
     text("text", offsetof(Event, text), sizeof(Event::text));
@@ -46,9 +47,10 @@ TypePtr event_type() {
 }
 
 Flight::Impl::Impl(const Graph& g, const FlightOptions& o) : graph(g), options(o) {
-  create_units();
-  wire();
+  for (const Component& c : graph.components) units.push_back(std::make_unique<Unit>(c, unit_options(c)));
+  connect();
   for (const auto& unit : units) unit->configure();
+  if (graph.vehicle >= 0) units[static_cast<std::size_t>(graph.vehicle)]->prepare_last_frame(graph.failsafe);
   if (options.log && graph.record) open_log();
   if (graph.arm) request_arming();
   std::size_t most = 0;
@@ -59,24 +61,37 @@ Flight::Impl::Impl(const Graph& g, const FlightOptions& o) : graph(g), options(o
   result.guards.reserve(64);
 }
 
-void Flight::Impl::create_units() {
-  for (const Component& c : graph.components) units.push_back(std::make_unique<Unit>(c, graph.tick_ns, mix(graph.seed, c.name)));
-  roles.resize(graph.roles.size());
-  drives_vehicle.assign(graph.roles.size(), false);
-  for (std::size_t r = 0; r < roles.size(); ++r) {
-    const Role& role = graph.roles[r];
-    roles[r].slots.resize(role.outputs.size());
-    for (std::size_t k = 0; k < role.outputs.size(); ++k) {
-      roles[r].slots[k].type = role.outputs[k].type;
-      for (std::size_t f = 0; f < role.fillers.size(); ++f) {
-        const int output = role.provides[f][k];
-        if (output < 0) continue;
-        Slot& slot = units[static_cast<std::size_t>(role.fillers[f])]->slots[static_cast<std::size_t>(output)];
-        slot.role = &roles[r].slots[k];
-        slot.filler = static_cast<int>(f);
-      }
-    }
+UnitOptions Flight::Impl::unit_options(const Component& c) const {
+  UnitOptions o;
+  o.tick_ns = graph.tick_ns;
+  o.seed = component_seed(graph.seed, c.name);
+  o.paced = !unpaced();
+  o.wait_for_async = graph.io == "sim";
+  o.tape_steps = options.keep_inputs && !c.info().vehicle && c.run != RunMode::driver ? tape_steps : 0;
+  if (c.run == RunMode::driver && !options.drivers_from.empty()) o.samples = recorded_samples(c);
+  return o;
+}
+
+/// Under which name an output is logged: its role's, when it is one of the role's.
+std::string Flight::Impl::topic(const Component& c, std::size_t output) const {
+  if (c.role >= 0) {
+    const Role& role = graph.roles[static_cast<std::size_t>(c.role)];
+    for (std::size_t f = 0; f < role.fillers.size(); ++f)
+      for (std::size_t k = 0; k < role.outputs.size(); ++k)
+        if (&graph.components[static_cast<std::size_t>(role.fillers[f])] == &c && role.provides[f][k] == static_cast<int>(output))
+          return role.name + "." + role.outputs[k].name;
   }
+  return c.name + "." + c.info().outputs[output].name;
+}
+
+std::unique_ptr<SampleSource> Flight::Impl::recorded_samples(const Component& c) const {
+  std::vector<std::string> topics;
+  for (std::size_t i = 0; i < c.info().outputs.size(); ++i) {
+    std::string name = c.info().outputs[i].type ? "/" + topic(c, i) : "";
+    std::replace(name.begin(), name.end(), '.', '/');
+    topics.push_back(name);
+  }
+  return std::make_unique<RecordedSamples>(options.drivers_from, c.info(), topics, graph.epoch_ns);
 }
 
 /// `arm: auto`: asks the vehicle's request port `arm`, in its first tick.
@@ -95,7 +110,30 @@ void Flight::Impl::request_arming() {
   reader.push(message.data(), 0, whole);
 }
 
-void Flight::Impl::wire() {
+void Flight::Impl::connect() {
+  delayed.clear();
+  roles.resize(graph.roles.size());
+  drives_vehicle.assign(graph.roles.size(), false);
+  for (const auto& unit : units)
+    for (Slot& slot : unit->slots) slot.queues.clear(), slot.role = nullptr, slot.filler = -1;
+  for (std::size_t r = 0; r < roles.size(); ++r) {
+    const Role& role = graph.roles[r];
+    roles[r].slots.resize(role.outputs.size());
+    for (std::size_t k = 0; k < role.outputs.size(); ++k) {
+      RoleSlot& role_slot = roles[r].slots[k];
+      role_slot.type = role.outputs[k].type;
+      role_slot.queues.clear();
+      const Slot* const current = std::exchange(role_slot.current, nullptr);
+      for (std::size_t f = 0; f < role.fillers.size(); ++f) {
+        const int output = role.provides[f][k];
+        if (output < 0) continue;
+        Slot& slot = units[static_cast<std::size_t>(role.fillers[f])]->slots[static_cast<std::size_t>(output)];
+        slot.role = &role_slot;
+        slot.filler = static_cast<int>(f);
+        if (&slot == current) role_slot.current = current;
+      }
+    }
+  }
   for (const auto& unit : units)
     for (Reader& reader : unit->readers) wire_reader(*unit, reader);
   if (graph.vehicle < 0) return;
@@ -105,6 +143,9 @@ void Flight::Impl::wire() {
 
 void Flight::Impl::wire_reader(Unit& unit, Reader& reader) {
   const Source& from = reader.wire->from;
+  reader.plans.clear();
+  reader.slot = nullptr, reader.role = nullptr;
+  reader.copied = 0;
   if (from.kind == Source::Kind::none) return;
   const bool value = reader.port->kind == FULMAR_IN_VALUE;
   if (from.kind == Source::Kind::component) {
@@ -136,7 +177,7 @@ void Flight::Impl::wire_reader(Unit& unit, Reader& reader) {
 }
 
 std::int64_t Flight::Impl::record_period(const std::string& port, const Slot& slot) const {
-  if (slot.owner->info->vehicle) return 0;  // a replay needs all of it
+  if (slot.owner->info->vehicle || slot.owner->component->run == RunMode::driver) return 0;  // a replay needs all of it
   for (const RecordRule& rule : graph.record_rules) {
     if (rule.ports.empty()) return rule.period_ns;
     for (const std::string& pattern : rule.ports)
@@ -157,14 +198,10 @@ void Flight::Impl::add_channels(std::vector<LogChannel>& channels) {
     for (std::size_t i = 0; i < unit->slots.size(); ++i) {
       Slot& slot = unit->slots[i];
       if (!slot.port->type) continue;
-      std::string from = c.name, port = slot.port->name;
-      if (slot.role) {
-        const Role& role = graph.roles[static_cast<std::size_t>(c.role)];
-        from = role.name;
-        port = role.outputs[static_cast<std::size_t>(slot.role - roles[static_cast<std::size_t>(c.role)].slots.data())].name;
-      }
-      slot.log_period_ns = record_period(from + "." + port, slot);
-      if (slot.log_period_ns >= 0) slot.channel = channel("/" + from + "/" + port, slot.port->type);
+      std::string name = topic(c, i);
+      slot.log_period_ns = record_period(name, slot);
+      std::replace(name.begin(), name.end(), '.', '/');
+      if (slot.log_period_ns >= 0) slot.channel = channel("/" + name, slot.port->type);
     }
     if (unit->probes.empty()) continue;
     Type probes;
@@ -237,7 +274,7 @@ void Flight::Impl::attach_texts() {
   log->attach("order.txt", "text/plain", order);
   std::vector<std::pair<std::string, std::string>> plugins;
   for (const Component& c : graph.components) {
-    const PluginInfo& p = c.library->info();
+    const PluginInfo& p = *c.plugin;
     plugins.emplace_back(c.name, p.file + " " + p.version + " " + p.sha256);
   }
   log->metadata("plugins", plugins);

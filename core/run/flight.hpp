@@ -22,6 +22,8 @@ struct FlightOptions {
   std::optional<double> duration_s;  // of flight time from 0; then the flight counts as flown
   bool log = true;
   std::filesystem::path log_file;                             // must not exist
+  bool keep_inputs = false;                                   // of every component's last steps, to rehearse a swap on
+  std::filesystem::path drivers_from;                         // log whose samples are fed in place of the drivers
   const std::atomic<int>* interrupt = nullptr;                // the flight ends when this is not 0
   std::function<void(const class Flight&)> progress;          // called about every 200 ms of wall time, between ticks
   std::function<void(const std::string&, bool warning)> say;  // one line for the user, as it happens: phases, guards
@@ -63,6 +65,9 @@ class Flight {
 
   /// Flies until done, failed, interrupted or out of time. Call once.
   FlightResult run();
+  /// Or tick by tick: one tick, paced as the options say; false when the flight is over. Then `finish`, once.
+  bool step();
+  FlightResult finish();
 
   // For those who look at a flight: between ticks, from the loop's thread.
   std::int64_t now_ns() const;
@@ -76,6 +81,11 @@ class Flight {
                std::function<void(const std::string&)> answered = {});
   /// A live change of a base parameter. Throws Error: unknown, not live, out of range.
   void set_parameter(const std::string& component, const std::string& param, const ParamValue& value);
+  /// Puts another file in a component's place, with its present parameters. Between flights: refused while armed or in the air. What is wrong
+  /// with the file, or with how it behaves in a rehearsal, is thrown as Error, and the old one stays as it was.
+  void swap(const std::string& component, const std::string& file);
+  /// The inputs that a component saw last, nullptr when they are not kept.
+  const class Tape* tape(const std::string& component) const;
   /// Lets a component fly again that a guard has stopped.
   void reset_guards();
 

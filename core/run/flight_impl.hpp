@@ -11,7 +11,7 @@
 
 namespace fulmar::core {
 
-enum class EventKind : std::uint8_t { phase, guard, request, parameter, failsafe };
+enum class EventKind : std::uint8_t { phase, guard, request, parameter, failsafe, swap };
 
 /// What happened, for the log: topic /fulmar/event.
 struct Event {
@@ -20,6 +20,9 @@ struct Event {
   std::array<char, 207> text{};
 };
 TypePtr event_type();
+
+/// Seed of a component: a mix of the mission's seed and the component's name, so that adding a component changes no other's noise.
+std::uint64_t component_seed(std::uint64_t mission_seed, const std::string& name);
 
 struct RoleState {
   int active = -1;  // component that fills it now
@@ -30,19 +33,23 @@ struct Flight::Impl final : SampleReader {
   Impl(const Graph& graph_, const FlightOptions& options_);
 
   // build.cpp
-  void create_units();
-  void wire();
+  UnitOptions unit_options(const Component& component) const;
+  void connect();  // as the graph says; whatever was connected before is not any more
   void wire_reader(Unit& unit, Reader& reader);
   void request_arming();
   void open_log();
   void add_channels(std::vector<LogChannel>& channels);
   void attach_texts();
+  std::unique_ptr<SampleSource> recorded_samples(const Component& component) const;
+  std::string topic(const Component& component, std::size_t output) const;
   std::int64_t record_period(const std::string& port, const Slot& slot) const;  // -1: not recorded
   std::string parameters_text() const;
 
   // loop.cpp
-  FlightResult run();
+  bool step();
+  FlightResult finish_flight();
   bool tick();  // false: the flight is over
+  bool collect(Unit& unit, int index);
   void step_unit(int index);
   void publish(Unit& unit);
   void log_slot(Slot& slot);
@@ -52,6 +59,10 @@ struct Flight::Impl final : SampleReader {
   bool held_for(const Condition& condition, std::int64_t for_ns, std::int64_t& since_ns) const noexcept;
   void finish(Outcome outcome, std::string reason);
   void pace();
+
+  // swap.cpp
+  void replace(std::size_t index, const std::string& file);
+  void install(std::size_t index, Graph&& next);
 
   // phases.cpp
   void begin();
@@ -71,7 +82,7 @@ struct Flight::Impl final : SampleReader {
 
   bool unpaced() const { return options.speed == 0 && graph.io == "sim"; }
 
-  const Graph& graph;
+  Graph graph;  // its own: a swap changes it
   FlightOptions options;
   std::vector<std::unique_ptr<Unit>> units;
   std::vector<RoleState> roles;

@@ -79,6 +79,7 @@ void Flight::Impl::publish(Unit& unit) {
 
 void Flight::Impl::step_unit(int i) {
   Unit& unit = *units[static_cast<std::size_t>(i)];
+  if (unit.remote() && !collect(unit, i)) return;
   if (!unit.active || unit.stopped || !unit.due(now_ns)) return;
   if (unit.fresh_start) {
     if (!unit.ready()) return;
@@ -88,6 +89,16 @@ void Flight::Impl::step_unit(int i) {
   if (verdict.kind == Verdict::Kind::stepped) publish(unit);
   if (verdict.kind == Verdict::Kind::stepped || verdict.kind == Verdict::Kind::bad) clock(unit);
   if (verdict.kind == Verdict::Kind::bad) stop(i);
+}
+
+/// Results and samples that come from other threads. True when the unit can also be stepped.
+bool Flight::Impl::collect(Unit& unit, int i) {
+  Verdict verdict = unit.collect(now_ns);
+  for (; verdict.kind == Verdict::Kind::stepped; verdict = unit.collect(now_ns))
+    if (unit.active && !unit.stopped) publish(unit);
+  if (verdict.kind == Verdict::Kind::bad && unit.active) stop(i);
+  wall_ns = wall_clock_ns();
+  return unit.component->run == RunMode::async;
 }
 
 bool Flight::Impl::tick() {
@@ -159,16 +170,22 @@ void Flight::Impl::pace() {
   wall_ns = wall_clock_ns();
 }
 
-FlightResult Flight::Impl::run() {
-  wall_ns = wall_start_ns = progress_ns = wall_clock_ns();
-  for (std::uint64_t before = thread_allocations(); tick(); before = thread_allocations()) {
-    if (index > 1) result.loop_allocations += thread_allocations() - before;
-    if (options.speed > 0) pace();
-    if (options.progress && wall_ns - progress_ns > 200'000'000) {
-      progress_ns = wall_ns;
-      options.progress(*static_cast<const Flight*>(owner));
-    }
+bool Flight::Impl::step() {
+  if (ended) return false;
+  if (index == 0) wall_ns = wall_start_ns = progress_ns = wall_clock_ns();
+  const std::uint64_t before = thread_allocations();
+  if (!tick()) return false;
+  if (index > 1) result.loop_allocations += thread_allocations() - before;
+  if (options.speed > 0) pace();
+  if (options.progress && wall_ns - progress_ns > 200'000'000) {
+    progress_ns = wall_ns;
+    options.progress(*static_cast<const Flight*>(owner));
   }
+  return true;
+}
+
+FlightResult Flight::Impl::finish_flight() {
+  if (!ended) finish(Outcome::interrupted, "ended by its owner");
   result.wall_s = 1e-9 * static_cast<double>(wall_clock_ns() - wall_start_ns);
   result.ticks = index;
   if (!result.phases.empty()) result.phases.back().to_ns = now_ns;

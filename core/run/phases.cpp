@@ -174,8 +174,14 @@ const std::byte* Flight::Impl::sample(const Source& source) const noexcept {
 }
 
 Flight::Flight(const Graph& graph, const FlightOptions& options) : impl_(std::make_unique<Impl>(graph, options)) { impl_->owner = this; }
-Flight::~Flight() = default;
-FlightResult Flight::run() { return impl_->run(); }
+Flight::~Flight() { last_frame.store(nullptr, std::memory_order_release); }
+FlightResult Flight::run() {
+  while (impl_->step()) {
+  }
+  return impl_->finish_flight();
+}
+bool Flight::step() { return impl_->step(); }
+FlightResult Flight::finish() { return impl_->finish_flight(); }
 std::int64_t Flight::now_ns() const { return impl_->now_ns; }
 const std::string& Flight::phase() const { return impl_->graph.phases[static_cast<std::size_t>(impl_->phase)].name; }
 const std::byte* Flight::sample(const Source& source) const {

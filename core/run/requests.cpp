@@ -60,6 +60,8 @@ const std::vector<Overlay>* Flight::Impl::overlay_of(int component) const {
   return nullptr;
 }
 
+const Tape* Flight::tape(const std::string& component) const { return impl_->unit(component).tape.get(); }
+
 void Flight::reset_guards() {
   for (const auto& unit : impl_->units) {
     if (!unit->stopped) continue;

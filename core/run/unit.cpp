@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/run/unit.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -29,18 +30,19 @@ void Reader::latch() noexcept {
   copied_valid_ns = s->valid_at_ns;
 }
 
-Unit::Unit(const Component& c, std::int64_t tick_ns, std::uint64_t seed)
+Unit::Unit(const Component& c, UnitOptions options)
     : component(&c),
       info(&c.info()),
       slots(info->outputs.size()),
       readers(info->inputs.size()),
       base(c.params),
-      functions_(&c.library->functions(c.index_in_plugin)),
       inputs_(info->inputs.size()),
       outputs_(info->outputs.size()),
       last_(info->outputs.size()),
       values_(info->params.size()),
-      tick_ns_(tick_ns) {
+      samples_(std::move(options.samples)),
+      wait_for_async_(options.wait_for_async),
+      tick_ns_(options.tick_ns) {
   stats.name = c.name;
   active = c.role < 0;
   for (std::size_t i = 0; i < slots.size(); ++i) {
@@ -68,11 +70,36 @@ Unit::Unit(const Component& c, std::int64_t tick_ns, std::uint64_t seed)
     r.answers.resize(r.port->capacity);
     r.replies.resize(r.port->capacity);
   }
-  instance_ = functions_->create(seed, &problem);
+  if (options.tape_steps > 0) tape = std::make_unique<Tape>(*info, options.tape_steps);
+  if (!samples_) create(options);
+}
+
+void Unit::create(const UnitOptions& options) {
+  const Component& c = *component;
+  if (c.run == RunMode::process) {
+    IsolatedOptions o;
+    o.name = c.name, o.copy = c.plugin->copy, o.script = c.plugin->script, o.file = c.plugin->file;
+    o.index = c.index_in_plugin, o.seed = options.seed;
+    if (options.paced) o.hang_ns = c.hang_ns;
+    child_ = std::make_unique<Isolated>(*info, o);
+    functions_ = &Isolated::functions();
+    instance_ = child_.get();
+    return;
+  }
+  functions_ = &c.library->functions(c.index_in_plugin);
+  instance_ = functions_->create(options.seed, &problem);
   if (!instance_) throw Error(c.where.text() + ": " + c.name + ": cannot be created: " + problem.text);
+  if (c.run == RunMode::async) {
+    const std::int64_t period = c.period_ns > 0 ? c.period_ns : tick_ns_;
+    const auto depth = static_cast<std::size_t>(c.latency_ns / period) + 4;  // steps on their way, and room for retune and activate
+    async_ = std::make_unique<Async>(*functions_, instance_, *info, depth);
+  }
+  if (c.run == RunMode::driver) samples_ = std::make_unique<Driver>(*functions_, instance_, *info);
 }
 
 Unit::~Unit() {
+  async_.reset();
+  samples_.reset();
   if (!instance_) return;
   if (active) deactivate();
   functions_->destroy(instance_);
@@ -93,6 +120,7 @@ void Unit::fill_values(std::vector<fulmar_value>& values, const std::vector<Over
 }
 
 void Unit::configure() {
+  if (!instance_) return;  // the samples come from a log
   fill_values(values_, nullptr, true);
   problem.text[0] = '\0';
   if (functions_->configure(instance_, values_.data(), &problem) == FULMAR_FAILED)
@@ -102,7 +130,15 @@ void Unit::configure() {
 bool Unit::retune(const std::vector<Overlay>* overlay) noexcept {
   fill_values(values_, overlay, false);
   problem.text[0] = '\0';
-  if (!functions_->retune) return true;
+  if (!instance_ || !functions_->retune) return true;
+  if (async_) {
+    Async::Job* const j = job(Async::Job::Call::retune, 0);
+    if (!j) return fail("has too many calls on their way"), false;
+    j->values = values_;
+    async_->submit();
+    return true;
+  }
+  if (started_) return fail("is a driver: its parameters are fixed in flight"), false;
   return functions_->retune(instance_, values_.data(), &problem) != FULMAR_FAILED;
 }
 
@@ -227,14 +263,20 @@ Verdict Unit::step(std::int64_t now_ns, std::uint64_t index) noexcept {
   if (due_ns_ == std::numeric_limits<std::int64_t>::min()) due_ns_ = now_ns;
   if (const Inputs inputs = prepare_inputs(now_ns); inputs != Inputs::good)
     return {inputs == Inputs::stale ? Verdict::Kind::bad : Verdict::Kind::waiting};
-  prepare_outputs(now_ns);
   const fulmar_tick t = tick(now_ns, index);
+  if (tape) tape->record(t, inputs_);
+  if (async_) return submit(now_ns, t);
+  prepare_outputs(now_ns);
   problem.text[0] = '\0';
-  const std::uint64_t allocations = thread_allocations();
+  const HeapUse heap = thread_heap();
   in_step.store(component->name.c_str(), std::memory_order_relaxed);
   const std::uint32_t status = functions_->step(instance_, &t, inputs_.data(), outputs_.data(), &problem);
   in_step.store(nullptr, std::memory_order_relaxed);
-  stats.allocations += thread_allocations() - allocations;
+  if (const HeapUse now = thread_heap(); now.calls != heap.calls || now.bytes != heap.bytes) {
+    stats.allocations += now.calls - heap.calls;
+    heap_growth_ += now.bytes - heap.bytes;
+  }
+  if (child_) stats.allocations = child_->allocations(), heap_growth_ = child_->heap_growth();
   stepped(now_ns);
   ++stats.steps;
   consume();
@@ -242,10 +284,161 @@ Verdict Unit::step(std::int64_t now_ns, std::uint64_t index) noexcept {
     if (!problem.text[0]) fail("says that it failed");
     return {Verdict::Kind::bad};
   }
-  if (!outputs_good()) return {Verdict::Kind::bad};
+  if (!outputs_good() || !heap_good()) return {Verdict::Kind::bad};
   const bool degraded = status == FULMAR_DEGRADED;
   if (degraded) ++stats.degraded;
   return {Verdict::Kind::stepped, degraded};
+}
+
+bool Unit::heap_good() noexcept {
+  if (heap_growth_ <= static_cast<std::int64_t>(component->memory_bytes)) return true;
+  std::snprintf(problem.text, sizeof problem.text, "its heap has grown by %.0f MB in flight; %.0f MB are allowed",
+                1e-6 * static_cast<double>(heap_growth_), 1e-6 * static_cast<double>(component->memory_bytes));
+  return false;
+}
+
+// ---- elsewhere than in the loop's thread ------------------------------------------------------------------------------------
+
+/// A free job. In simulation there is always one in the end: results are waited for.
+Async::Job* Unit::job(Async::Job::Call call, std::int64_t due_ns) noexcept {
+  Async::Job* j = async_->room();
+  if (!j) return nullptr;
+  j->call = call;
+  j->due_ns = due_ns;
+  return j;
+}
+
+Verdict Unit::submit(std::int64_t now_ns, const fulmar_tick& t) noexcept {
+  Async::Job* const j = job(Async::Job::Call::step, now_ns + component->latency_ns);
+  stepped(now_ns);
+  if (!j) {  // hardware: the thread is far behind
+    ++stats.misses;
+    return {Verdict::Kind::waiting};
+  }
+  j->tick = t;
+  Async::copy_inputs(inputs_, *info, *j);
+  for (std::size_t i = 0; i < readers.size(); ++i) {
+    Reader& r = readers[i];
+    if (r.port->kind == FULMAR_IN_VALUE) {
+      r.seen = inputs_[i].sequence;
+      continue;
+    }
+    for (std::uint32_t k = 0; k < r.count; ++k) j->replies[i][k] = std::move(r.replies[k]), r.replies[k] = nullptr;
+    r.count = r.lost = 0;
+  }
+  async_->submit();
+  return {Verdict::Kind::submitted};
+}
+
+Verdict Unit::collect(std::int64_t now_ns) noexcept { return async_ ? collect_async(now_ns) : collect_samples(now_ns); }
+
+Verdict Unit::collect_async(std::int64_t now_ns) noexcept {
+  for (Async::Job* j = async_->oldest(); j && j->due_ns <= now_ns; j = async_->oldest()) {
+    if (!async_->done()) {
+      if (!wait_for_async_) {
+        if (!j->missed) ++stats.misses;
+        j->missed = true;
+        break;
+      }
+      in_step.store(component->name.c_str(), std::memory_order_relaxed);
+      async_->wait();
+      in_step.store(nullptr, std::memory_order_relaxed);
+    }
+    const bool step = j->call == Async::Job::Call::step;
+    heap_growth_ += j->heap_growth;
+    for (std::size_t i = 0; step && i < j->replies.size(); ++i)
+      for (std::uint32_t k = 0; k < (info->inputs[i].kind == FULMAR_IN_VALUE ? 0 : j->inputs[i].count); ++k) {
+        if (!j->replies[i][k]) continue;
+        const fulmar_answer& a = j->answers[i][k];
+        j->replies[i][k](a.verdict == FULMAR_ACCEPTED ? "" : a.verdict == FULMAR_REFUSED ? a.reason : "was not answered");
+        j->replies[i][k] = nullptr;
+      }
+    if (step) ++stats.steps, stats.time.add(j->took_ns);
+    const bool wanted = !j->dropped && (step || j->status >= FULMAR_FAILED);
+    const std::uint32_t status = j->status;
+    if (wanted) {
+      problem = j->error;
+      for (std::size_t i = 0; step && i < slots.size(); ++i) {
+        const fulmar_output& out = j->outputs[i];
+        Slot& s = slots[i];
+        std::memcpy(s.staging.data(), j->output_data[i].data(), j->output_data[i].size());
+        std::copy(j->output_stamps[i].begin(), j->output_stamps[i].end(), s.stamps.begin());
+        outputs_[i] = {s.staging.data(), s.stamps.data(), out.valid_at_ns, out.count, out.lost};
+      }
+    }
+    async_->release();
+    if (!wanted) continue;
+    if (status >= FULMAR_FAILED) {
+      if (!problem.text[0]) fail("says that it failed");
+      return {Verdict::Kind::bad};
+    }
+    if (!outputs_good() || !heap_good()) return {Verdict::Kind::bad};
+    if (status == FULMAR_DEGRADED) ++stats.degraded;
+    return {Verdict::Kind::stepped, status == FULMAR_DEGRADED};
+  }
+  return {Verdict::Kind::not_due};
+}
+
+/// Samples that have arrived, as many as one publication holds.
+Verdict Unit::collect_samples(std::int64_t now_ns) noexcept {
+  if (!started_) {
+    started_ = true;
+    if (auto* driver = dynamic_cast<Driver*>(samples_.get())) driver->start();
+  }
+  prepare_outputs(now_ns);
+  SampleSource::Sample sample;
+  bool any = false;
+  while (samples_->next(now_ns, sample)) {
+    Slot& s = slots[sample.output];
+    fulmar_output& out = outputs_[sample.output];
+    std::memcpy(s.staging.data() + std::size_t{out.count} * s.size, sample.data, s.size);
+    s.stamps[out.count++] = sample.valid_at_ns;
+    samples_->release();
+    any = true;
+    if (out.count >= s.port->capacity) break;  // the rest in the same tick, by the next call
+  }
+  stats.misses = samples_->lost();
+  if (any) {
+    ++stats.steps;
+    return {outputs_good() ? Verdict::Kind::stepped : Verdict::Kind::bad};
+  }
+  if (samples_->fault()[0] == '\0') return {Verdict::Kind::not_due};
+  fail(samples_->fault());
+  return {Verdict::Kind::bad};
+}
+
+std::unique_ptr<Tape> Unit::present_inputs(std::int64_t now_ns, std::uint64_t index) {
+  if (prepare_inputs(now_ns) == Inputs::missing) return nullptr;
+  auto now = std::make_unique<Tape>(*info, 1);
+  now->record(tick(now_ns, index), inputs_);
+  return now;
+}
+
+void Unit::keep_log_settings(const Unit& from) {
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    const int k = from.info->output(slots[i].port->name);
+    if (k < 0) continue;
+    const Slot& was = from.slots[static_cast<std::size_t>(k)];
+    slots[i].channel = was.channel, slots[i].log_period_ns = was.log_period_ns, slots[i].log_due_ns = was.log_due_ns;
+  }
+  probe_channel = from.probe_channel, probe_period_ns = from.probe_period_ns, probe_due_ns = from.probe_due_ns;
+}
+
+void Unit::prepare_last_frame(const std::vector<std::vector<std::byte>>& failsafe) {
+  if (!functions_->get_extension) return;
+  const auto encode = reinterpret_cast<fulmar_last_frame_function>(const_cast<void*>(functions_->get_extension(FULMAR_LAST_FRAME)));
+  if (!encode) return;
+  std::vector<fulmar_input> inputs(info->inputs.size());
+  for (std::size_t i = 0; i < inputs.size() && i < failsafe.size(); ++i) {
+    if (failsafe[i].empty()) continue;
+    inputs[i].data = failsafe[i].data();
+    inputs[i].count = 1;
+    inputs[i].sequence = 1;
+  }
+  problem.text[0] = '\0';
+  const fulmar_last_frame* const frame = encode(instance_, inputs.data(), &problem);
+  if (!frame && problem.text[0]) throw Error(component->where.text() + ": " + component->name + ": " + problem.text);
+  last_frame.store(frame, std::memory_order_release);
 }
 
 Verdict Unit::read(std::int64_t& now_ns, std::uint64_t index) noexcept {
@@ -319,7 +512,8 @@ bool Unit::activate(std::int64_t now_ns, std::uint64_t index, const std::vector<
   if (inputs != Inputs::good) return false;
   fresh_start = false;
   last_step_ns_ = std::numeric_limits<std::int64_t>::min();  // dt of the first step is the nominal period, not the absence
-  if (!functions_->activate) return true;
+  if (async_) async_->drop();
+  if (!instance_ || !functions_->activate) return true;
   for (std::size_t i = 0; i < last_.size(); ++i) {
     last_[i] = {};
     const Slot* s = i < last.size() ? last[i] : nullptr;
@@ -332,6 +526,20 @@ bool Unit::activate(std::int64_t now_ns, std::uint64_t index, const std::vector<
   }
   const fulmar_tick t = tick(now_ns, index);
   problem.text[0] = '\0';
+  if (async_) {  // whether it takes over is known when its first result is due
+    Async::Job* const j = job(Async::Job::Call::activate, now_ns);
+    if (!j) return fail("has too many calls on their way"), false;
+    j->tick = t;
+    Async::copy_inputs(inputs_, *info, *j);
+    for (std::size_t i = 0; i < last_.size(); ++i) {
+      j->last[i] = last_[i];
+      if (!last_[i].data) continue;
+      std::memcpy(j->last_data[i].data(), last_[i].data, slots[i].size);
+      j->last[i].data = j->last_data[i].data();
+    }
+    async_->submit();
+    return true;
+  }
   if (functions_->activate(instance_, &t, inputs_.data(), last_.data(), &problem) < FULMAR_FAILED) return true;
   if (!problem.text[0]) fail("refuses to take over");
   return false;
@@ -343,6 +551,8 @@ void Unit::forget_queues() noexcept {
 }
 
 void Unit::deactivate() noexcept {
+  if (async_) async_->drop();
+  if (async_ || started_ || !instance_) return;  // another thread is in it
   if (functions_->deactivate) functions_->deactivate(instance_);
 }
 

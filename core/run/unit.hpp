@@ -12,7 +12,11 @@
 #include <vector>
 
 #include "core/graph/graph.hpp"
+#include "core/isolate/isolated.hpp"
+#include "core/run/async.hpp"
+#include "core/run/driver.hpp"
 #include "core/run/stats.hpp"
+#include "core/run/tape.hpp"
 
 namespace fulmar::core {
 
@@ -74,16 +78,28 @@ struct Reader {
 
 /// What a step came to.
 struct Verdict {
-  enum class Kind : std::uint8_t { stepped, not_due, waiting, bad } kind = Kind::stepped;
+  enum class Kind : std::uint8_t { stepped, not_due, waiting, bad, submitted } kind = Kind::stepped;
   bool degraded = false;
 };
 
 /// Name of the component whose code runs now, or nullptr: for whoever has to tell of a crash or a hang.
 inline std::atomic<const char*> in_step{nullptr};
 
+/// The vehicle's last word, encoded beforehand, for the handler of a crash; nullptr when it has none.
+inline std::atomic<const fulmar_last_frame*> last_frame{nullptr};
+
+struct UnitOptions {
+  std::int64_t tick_ns = 2'500'000;
+  std::uint64_t seed = 0;
+  bool paced = false;         // wall time matters: a child that hangs is given up after Component::hang_ns
+  bool wait_for_async = true; // simulation: a result that is late is waited for; else counted
+  std::size_t tape_steps = 0;             // inputs to keep; 0: none
+  std::unique_ptr<SampleSource> samples;  // in place of a driver
+};
+
 class Unit {
  public:
-  Unit(const Component& component, std::int64_t tick_ns, std::uint64_t seed);
+  Unit(const Component& component, UnitOptions options);
   ~Unit();
   Unit(const Unit&) = delete;
   Unit& operator=(const Unit&) = delete;
@@ -99,6 +115,18 @@ class Unit {
 
   /// [tick] Steps once if due and ready. On `bad`, `problem` says what.
   Verdict step(std::int64_t now_ns, std::uint64_t index) noexcept;
+  /// [tick] What has arrived from elsewhere: a result of an asynchronous step, samples of a driver. `not_due`: nothing more in this tick.
+  Verdict collect(std::int64_t now_ns) noexcept;
+  /// [setup] Steps through what another one saw; false, and `problem`, at the first thing that a guard would not let pass.
+  bool rehearse(const Tape& from) noexcept;
+  /// [setup] What a step would see now; nullptr when an input is missing.
+  std::unique_ptr<Tape> present_inputs(std::int64_t now_ns, std::uint64_t index);
+  /// [setup] Channels and periods in the log, of the one whose place it takes.
+  void keep_log_settings(const Unit& from);
+  /// Whether its results come by `collect`.
+  bool remote() const noexcept { return async_ || samples_; }
+  /// [setup] Encodes the frame that the device is to get when the host dies, if the vehicle can.
+  void prepare_last_frame(const std::vector<std::vector<std::byte>>& failsafe);
   Verdict read(std::int64_t& now_ns, std::uint64_t index) noexcept;  // the vehicle
   Verdict write(std::int64_t now_ns, std::uint64_t index) noexcept;  // the vehicle
   /// [tick] `last`: per output, the slot last applied in the role, or nullptr.
@@ -117,6 +145,7 @@ class Unit {
   std::vector<Slot> slots;      // one per output; probes too
   std::vector<Reader> readers;  // one per input
   std::vector<ParamValue> base;
+  std::unique_ptr<Tape> tape;
   ComponentStats stats;
   fulmar_error problem{};
   bool active = false;                                          // fills a role now, or fills none and always steps
@@ -131,6 +160,13 @@ class Unit {
   std::int64_t probe_due_ns = std::numeric_limits<std::int64_t>::min(), probe_period_ns = 0;
 
  private:
+  void create(const UnitOptions& options);
+  void charge_heap(std::int64_t growth) noexcept;
+  bool heap_good() noexcept;
+  Verdict submit(std::int64_t now_ns, const fulmar_tick& tick) noexcept;
+  Verdict collect_async(std::int64_t now_ns) noexcept;
+  Verdict collect_samples(std::int64_t now_ns) noexcept;
+  Async::Job* job(Async::Job::Call call, std::int64_t now_ns) noexcept;
   enum class Inputs : std::uint8_t { good, missing, stale };
   Inputs prepare_inputs(std::int64_t now_ns) noexcept;
   void tell_missing() noexcept;
@@ -141,13 +177,20 @@ class Unit {
   fulmar_tick tick(std::int64_t now_ns, std::uint64_t index) const noexcept;
   void stepped(std::int64_t now_ns) noexcept;
 
-  const fulmar_component* functions_;
+  const fulmar_component* functions_ = nullptr;  // of the library, or of the child's proxy
   void* instance_ = nullptr;
+  std::unique_ptr<Isolated> child_;
   std::vector<fulmar_input> inputs_;
   std::vector<fulmar_output> outputs_;
   std::vector<fulmar_input> last_;
   std::vector<fulmar_value> values_;
-  std::int64_t tick_ns_, due_ns_ = std::numeric_limits<std::int64_t>::min(), last_step_ns_ = std::numeric_limits<std::int64_t>::min();
+  std::unique_ptr<SampleSource> samples_;
+  std::unique_ptr<Async> async_;
+  bool wait_for_async_ = true;
+  std::int64_t tick_ns_;
+  bool started_ = false;  // the driver's thread
+  std::int64_t heap_growth_ = 0;
+  std::int64_t due_ns_ = std::numeric_limits<std::int64_t>::min(), last_step_ns_ = std::numeric_limits<std::int64_t>::min();
 };
 
 template <class F>

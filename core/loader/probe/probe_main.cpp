@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fulmar-probe COPY NAME: loads, reads and unloads one plugin, and reports on standard output. Run by the host with a time limit.
+// fulmar-probe COPY NAME [SCRIPT FILE]: loads, reads and unloads one plugin, or one script by the plugin at COPY, and reports on standard
+// output. Run by the host with a time limit.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/prctl.h>
@@ -15,6 +16,7 @@
 #include "core/loader/library.hpp"
 #include "core/loader/load_fault.hpp"
 #include "core/loader/probe_report.hpp"
+#include "core/loader/script.hpp"
 
 using namespace fulmar::core;
 
@@ -62,6 +64,26 @@ void prepare() {
   ::setrlimit(RLIMIT_CORE, &no_core);
 }
 
+// The host has tried the plugin at `host` by itself; here it runs a script.
+int try_script(const char* host, const char* copy, const char* file, const std::string& name) {
+  void* library = ::dlopen(host, RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) return refuse(load_fault(script_host(file), ::dlerror()));
+  const void* entry = ::dlsym(library, FULMAR_ENTRY_SYMBOL);
+  if (entry == nullptr) return refuse(no_entry_fault(script_host(file)));
+  const FloatMode before = FloatMode::now();
+  try {
+    const Script script(*static_cast<const fulmar_plugin*>(entry), file, read_script(copy));
+    say(report_loaded);
+    read_entry(script.entry(), name);
+    if (!(FloatMode::now() == before)) return refuse(name + " changes the floating-point mode when it is loaded");
+    say(report_read);
+  } catch (const Error& fault) {
+    return refuse(fault.what());
+  }
+  say(report_good);
+  return 0;
+}
+
 int try_plugin(const char* copy, const std::string& name) {
   const FloatMode before = FloatMode::now();
   void* library = ::dlopen(copy, RTLD_NOW | RTLD_LOCAL);
@@ -85,11 +107,11 @@ int try_plugin(const char* copy, const std::string& name) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::fputs("usage: fulmar-probe COPY NAME (run by the host)\n", stderr);
+  if (argc != 3 && argc != 5) {
+    std::fputs("usage: fulmar-probe COPY NAME [SCRIPT FILE] (run by the host)\n", stderr);
     return 2;
   }
   prepare();
-  const int code = try_plugin(argv[1], argv[2]);
+  const int code = argc == 5 ? try_script(argv[1], argv[3], argv[4], argv[2]) : try_plugin(argv[1], argv[2]);
   ::_exit(code);  // without the plugin's exit handlers: a plugin that stays resident has shown nothing wrong yet
 }

@@ -4,8 +4,10 @@
 #include <elf.h>
 #include <sys/stat.h>
 
+#include <chrono>
 #include <cstddef>
 #include <cstring>
+#include <vector>
 
 #include "core/loader/load_fault.hpp"
 #include "core/loader/store.hpp"
@@ -66,7 +68,7 @@ TEST_CASE("a file for another machine is refused") {
 
 TEST_CASE("a shared object that is no plugin, or of another ABI, is refused") {
   CHECK(refusal(plugin("no_entry")) == "no_entry.so has no symbol fulmar_plugin_entry: not a Fulmar plugin");
-  CHECK(refusal(plugin("wrong_abi")) == "wrong_abi.so is built for ABI 2.0, this host speaks 1.0");
+  CHECK(refusal(plugin("wrong_abi")) == "wrong_abi.so is built for ABI 2.0, this host speaks 1.1");
   CHECK(refusal(plugin("newer_minor")) == "accepted");
 }
 
@@ -156,6 +158,52 @@ TEST_CASE("a copy in the store that was tampered with is replaced") {
   std::ofstream(copy) << "the bent content";  // as long as the true one
   CHECK(keep() == copy);
   CHECK(read(copy) == text);
+}
+
+TEST_CASE("what flew is found again by its SHA-256, libraries and scripts alike, and nothing else is") {
+  folder();
+  const std::string law = "print(1)", gone = "never kept";
+  const std::string law_sha = fulmar::core::sha256_hex(law.data(), law.size()),
+                    gone_sha = fulmar::core::sha256_hex(gone.data(), gone.size());
+  const fs::path copy = fulmar::core::keep_copy(std::as_bytes(std::span(law)), law_sha, ".py");
+  CHECK(copy.extension() == ".py");
+  CHECK(fulmar::core::find_in_store(law_sha) == copy);
+  CHECK(fulmar::core::version_that_flew("law.py", "1.0.0", law_sha) == copy);
+  CHECK_FALSE(fulmar::core::find_in_store(gone_sha));
+  CHECK_FALSE(fulmar::core::find_in_store("../" + law_sha));
+  fs::permissions(copy, fs::perms::owner_write, fs::perm_options::add);
+  std::ofstream(copy) << "print(2)";
+  CHECK_FALSE(fulmar::core::find_in_store(law_sha));  // bent since
+}
+
+TEST_CASE("a version that is no longer there is named") {
+  const std::string sha(64, 'e');
+  std::string said;
+  try {
+    fulmar::core::version_that_flew("my_law.so", "1.4.0", sha);
+  } catch (const fulmar::core::Error& fault) {
+    said = fault.what();
+  }
+  CHECK(said == "my_law.so 1.4.0 with SHA-256 " + sha + " flew, but the plugin store " + (folder() / "store").string() +
+                    " no longer holds it; put that file back, or choose another with --with");
+}
+
+TEST_CASE("the store keeps the 128 copies that were used last") {
+  const Environment store("FULMAR_STORE", (folder() / "full store").string());
+  std::vector<std::string> kept;
+  const auto keep = [&](int i) {
+    const std::string text = "copy " + std::to_string(i);
+    kept.push_back(fulmar::core::sha256_hex(text.data(), text.size()));
+    const fs::path copy = fulmar::core::keep_copy(std::as_bytes(std::span(text)), kept.back(), i % 2 == 0 ? ".so" : ".py");
+    // so that "last" does not hang on the clock's resolution
+    fs::last_write_time(copy, fs::file_time_type::clock::now() - std::chrono::hours(200 - i));
+  };
+  for (int i = 0; i < 128; ++i) keep(i);
+  CHECK(fulmar::core::find_in_store(kept[0]).has_value());  // and is thereby the youngest
+  keep(128);
+  CHECK(fulmar::core::find_in_store(kept[0]).has_value());
+  CHECK_FALSE(fulmar::core::find_in_store(kept[1]).has_value());
+  CHECK(fulmar::core::find_in_store(kept[2]).has_value());
 }
 
 TEST_CASE("the store is private and its copies are read-only") {

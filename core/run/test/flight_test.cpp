@@ -12,83 +12,8 @@
 #include <fstream>
 
 #include "core/run/allocation.hpp"
+#include "core/run/test/lab.hpp"
 #include "core/tap/wire.hpp"
-
-using namespace fulmar::core;
-namespace fs = std::filesystem;
-
-namespace {
-
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("fulmar-flight-test-" + std::to_string(getpid()));
-  Folder() {
-    fs::create_directories(path);
-    setenv("FULMAR_PLUGIN_PATH", FULMAR_TEST_PLUGIN_DIR, 1);
-  }
-  ~Folder() { fs::remove_all(path); }
-};
-
-Folder& folder() {
-  static Folder f;
-  return f;
-}
-
-const char* const base = R"(
-mission: lab
-rate: 400 Hz
-arm: auto
-timeout: 100 s
-failsafe: {u_frac: -0.25, for: 0.5 s}
-roles:
-  vehicle: {in: {command: law.command}, out: {signal: Signal, applied: Applied, burst: Signal, status: Arm}}
-  sense:   {in: {signal: vehicle.signal}, out: {signal: Signal}}
-  law:     {in: {signal: sense.signal}, out: {command: Command}}
-components:
-  sim:    {fills: vehicle, use: lab/Cart}
-  filter: {fills: sense, use: lab/Filter}
-  one:    {fills: law, use: lab/Law, params: {id: 1, u: 0.1}}
-  two:    {fills: law, use: lab/Law, params: {id: 2, u: 0.2}}
-  watch:  {use: lab/Watch, in: {burst: vehicle.burst, applied: vehicle.applied}}
-)";
-
-Graph mission(const std::string& tail, const std::vector<std::pair<std::string, std::string>>& set = {}, std::uint64_t seed = 1) {
-  const fs::path file = folder().path / "lab.yaml";
-  std::ofstream(file) << base << tail;
-  Overrides o;
-  o.set = set;
-  o.seed = seed;
-  return load_mission(file.string(), o);
-}
-
-const char* const one_phase = "phases:\n  fly: {law: one}\n";
-const char* const with_fallback = "phases:\n  fly: {law: {use: one, fallback: two}}\n";
-
-FlightOptions options(double duration_s) {
-  FlightOptions o;
-  o.log = false;
-  o.duration_s = duration_s;
-  return o;
-}
-
-Source port(const Graph& graph, const std::string& component, const std::string& output) {
-  for (std::size_t i = 0; i < graph.components.size(); ++i)
-    if (graph.components[i].name == component)
-      return {Source::Kind::component, static_cast<int>(i), graph.components[i].info().output(output)};
-  FAIL("no component " << component);
-  return {};
-}
-
-/// A field of a port's present sample.
-double value(const Graph& graph, const Flight& flight, const std::string& component, const std::string& output, const std::string& field) {
-  const Source s = port(graph, component, output);
-  const std::byte* message = flight.sample(s);
-  REQUIRE(message != nullptr);
-  const TypePtr type = graph.components[static_cast<std::size_t>(s.index)].info().outputs[static_cast<std::size_t>(s.output)].type;
-  const FieldRef ref = resolve_field(*type, field);
-  return number_at(*ref.field, message + ref.offset);
-}
-
-}  // namespace
 
 TEST_CASE("what the vehicle reads is flown on in the same tick, and written in it") {
   const Graph g = mission(one_phase);

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A laboratory for the loop: a cart that counts its ticks, and a law that misbehaves on demand.
+#include <fcntl.h>
+
+#include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <limits>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "fulmar/plugin.hpp"
@@ -52,7 +57,17 @@ struct Cart {
     Param fail_at{1e9, "s", -1e9, 1e9, "read fails from here on"};
     Count burst_size{3, 0, 100, "samples per tick"};
     Param mute_at{1e9, "s", -1e9, 1e9, "the signal falls silent here"};
+    TextParam<200> device{"", "file that stands for the device: it gets the last frame"};
   };
+  void configure(const Params& p) {
+    if (p.device.view().empty()) return;
+    frame_.fd = open(p.device.value.bytes.data(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+  }
+  const fulmar_last_frame* last_frame(const Inputs& failsafe) {
+    std::memcpy(frame_.data, &failsafe.command->u_frac, sizeof(double));
+    frame_.size = sizeof(double);
+    return &frame_;
+  }
   Status read(Tick& tick, const Params& p, Outputs& out) {
     tick.now_ns = n_ * static_cast<std::int64_t>(1e9 / p.rate) - 1'000'000'000;
     if (tick.now_s() >= p.fail_at) return Status::failed;
@@ -78,11 +93,29 @@ struct Cart {
   std::int64_t n_ = 0;
   bool armed_ = false;
   Applied applied_;
+  fulmar_last_frame frame_{-1, 0, {}};
 };
 
-enum class Fault : std::uint8_t { none, nan, range, throws, fails, slow, probe_nan, allocates, crashes, hangs };
+enum class Fault : std::uint8_t { none, nan, range, throws, fails, slow, probe_nan, allocates, crashes, hangs, aborts, exits, overflows, leaks };
+
+// Recursion without an end that no compiler can turn into a loop.
+double overflow(double x) {
+  volatile char room[4096];
+  room[static_cast<std::size_t>(x) % sizeof room] = 1;
+  return x < 0 ? room[0] : overflow(x + 1) + room[1];
+}
 
 struct Law {
+#ifdef LAB_THROWING
+  Law() { throw std::runtime_error("no law today"); }
+#else
+  Law() = default;
+#endif
+  Law(const Law&) = delete;
+  Law& operator=(const Law&) = delete;
+  ~Law() {
+    for (const char* p : kept_) delete[] p;
+  }
   struct Inputs {
     In<Signal> signal;
   };
@@ -106,6 +139,13 @@ struct Law {
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     const bool bad = tick.now_s() >= p.fault_at;
     out.command = {p.u, in.signal->x_m, static_cast<std::uint32_t>(p.id)};
+#if defined(LAB_BETTER)
+    out.command.u_frac = p.u / 2;
+#elif defined(LAB_WILD)
+    if (++steps_ == 20) out.command.u_frac = std::numeric_limits<double>::quiet_NaN();
+#elif defined(LAB_CRASHING)
+    if (++steps_ == 20) raise(SIGSEGV);
+#endif
     out.error_m = in.signal->x_m;
     out.taken_over_frac = taken_;
     if (!bad) return Status::ok;
@@ -136,6 +176,16 @@ struct Law {
         break;
       case Fault::hangs:
         for (;;) asm volatile("");
+      case Fault::aborts:
+        std::abort();
+      case Fault::exits:
+        std::_Exit(3);
+      case Fault::overflows:
+        out.error_m = overflow(1);
+        break;
+      case Fault::leaks:
+        kept_.push_back(new char[1'000'000]);
+        break;
       default:
         break;
     }
@@ -144,6 +194,8 @@ struct Law {
 
  private:
   double taken_ = -9;
+  int steps_ = 0;
+  std::vector<const char*> kept_;
 };
 
 struct Filter {  ///< fills a role between cart and law
@@ -227,6 +279,57 @@ struct OldReader {
   }
 };
 
+/// A device of its own: one sample per millisecond of the wall clock, at most `samples`; then it fails, or falls silent.
+struct Ticker {
+  struct Inputs {};
+  struct Outputs {
+    OutQueue<Signal, 4> reading;
+    Probe count_ratio;
+  };
+  struct Params {
+    Count samples{10, 0, 1000, "before it ends"};
+    Flag fails{false, "fails at the end"};
+  };
+  Status step(const Tick&, const Inputs&, const Params& p, Outputs& out) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    if (n_ == p.samples) return p.fails ? Status::failed : Status::ok;
+    out.reading.push({static_cast<double>(++n_), 0}, FULMAR_ON_ARRIVAL);
+    out.count_ratio = static_cast<double>(n_);
+    return Status::ok;
+  }
+
+ private:
+  int n_ = 0;
+};
+
+/// Takes its time and its memory: what it publishes belongs to the tick in which it began.
+struct Thinker {
+  struct Inputs {
+    In<Signal> signal;
+  };
+  struct Outputs {
+    Out<Signal> thought;
+  };
+  struct Params {
+    Param takes{5, "ms", 0, 1000, "of the wall clock"};
+    Param gain{1, "", -10, 10, "on what it saw"};
+    Flag fails{false, "fails"};
+  };
+  Status activate(const Tick&, const Inputs& in, const Params&, const Outputs&) {
+    began_m_ = in.signal->x_m;
+    return Status::ok;
+  }
+  Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out) {
+    std::vector<double> memory(1000, 1.0);
+    std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(p.takes));
+    out.thought.publish({p.gain * in.signal->x_m * memory[999], began_m_});
+    return p.fails ? Status::failed : Status::ok;
+  }
+
+ private:
+  double began_m_ = -1;
+};
+
 struct Late {  ///< never has its input
   struct Inputs {
     In<Command> never;
@@ -258,6 +361,18 @@ struct Hungry {  ///< a law with an input that never comes, and no activate
   }
 };
 
+#ifdef LAB_RENAMED
+struct Statute {
+  using Inputs = Law::Inputs;
+  struct Outputs {
+    Applied applied;
+  };
+  using Params = Law::Params;
+  Status step(const Tick&, const Inputs&, const Params&, Outputs&) { return Status::ok; }
+};
 }  // namespace
-
-FULMAR_PLUGIN("1.0.0", Cart, Law, Filter, Watch, OldReader, Late, Hungry)
+FULMAR_PLUGIN("2.0.0", Statute)
+#else
+}  // namespace
+FULMAR_PLUGIN("1.0.0", Cart, Law, Filter, Watch, OldReader, Late, Hungry, Ticker, Thinker)
+#endif

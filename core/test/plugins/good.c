@@ -97,7 +97,7 @@ static const fulmar_component component = {
 };
 
 __attribute__((visibility("default"))) const fulmar_plugin fulmar_plugin_entry = {
-    FULMAR_ABI_MAJOR, FULMAR_ABI_MINOR, 1, sizeof(fulmar_component), VERSION, "a C compiler", "NDEBUG", &component,
+    FULMAR_ABI_MAJOR, FULMAR_ABI_MINOR, 1, sizeof(fulmar_component), VERSION, "a C compiler", "NDEBUG", &component, NULL, NULL,
 };
 
 /* Something else that is visible in the source: the version script hides it. */

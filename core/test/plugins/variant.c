@@ -89,7 +89,7 @@ static const fulmar_component component = {
 
 #ifndef NO_ENTRY
 __attribute__((visibility("default"))) const fulmar_plugin fulmar_plugin_entry = {
-    ABI_MAJOR, ABI_MINOR, 1, sizeof(fulmar_component), "1.0.0", "a C compiler", "", &component,
+    ABI_MAJOR, ABI_MINOR, 1, sizeof(fulmar_component), "1.0.0", "a C compiler", "", &component, NULL, NULL,
 };
 #else
 __attribute__((visibility("default"))) const fulmar_component* another_symbol(void);

@@ -10,7 +10,8 @@
 //   FULMAR_PLUGIN("1.0.0", AttitudeHold)
 //
 // Optional members: a constructor from a 64-bit seed, `configure`, `retune`, `activate`, `deactivate`, `static constexpr const char* doc`.
-// A vehicle has `read(Tick&, const Params&, Outputs&)` and `write(const Tick&, const Inputs&, const Params&)` in place of `step`.
+// A vehicle has `read(Tick&, const Params&, Outputs&)` and `write(const Tick&, const Inputs&, const Params&)` in place of `step`, and may
+// have `const fulmar_last_frame* last_frame(const Inputs& failsafe)`: what its device is to get when the host dies (abi.h).
 #pragma once
 #include <cstdint>
 #include <cstring>
@@ -135,6 +136,9 @@ struct Out {
     dated = true;
   }
 };
+
+/// Time of validity of a sample of a driver: the time at which the loop takes it over. A driver has no flight time of its own.
+inline constexpr std::int64_t on_arrival = FULMAR_ON_ARRIVAL;
 
 /// None, one or several messages per step; at most N.
 template <class T, std::size_t N = 16>

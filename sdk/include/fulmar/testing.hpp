@@ -82,7 +82,8 @@ class Bench {
     Room& room = rooms_[index(port.input)];
     room.bytes.resize((input.count + 1) * sizeof(T));
     std::memcpy(room.bytes.data() + input.count * sizeof(T), &value, sizeof(T));
-    room.stamps.resize(input.count + 1, tick.now_ns);
+    room.stamps.resize(input.count + 1);
+    room.stamps[input.count] = tick.now_ns;
     if (room.answers.size() <= input.count) room.answers.resize(input.count + 1);
     room.answers[input.count] = {};
     input.data = room.bytes.data();

@@ -351,6 +351,22 @@ struct Thunks {
       return status;
     });
   }
+  static const fulmar_last_frame* last_frame(void* instance, const fulmar_input* inputs, fulmar_error* error) {
+    const fulmar_last_frame* frame = nullptr;
+    guarded(error, [&] {
+      bind(self(instance).in, inputs);
+      frame = self(instance).component.last_frame(self(instance).in);
+      return Status::ok;
+    });
+    return frame;
+  }
+  static const void* get_extension(const char* id) {
+    if (std::strcmp(id, FULMAR_LAST_FRAME) != 0) return nullptr;
+    if constexpr (requires(C c, const typename C::Inputs& in) { c.last_frame(in); })
+      return reinterpret_cast<const void*>(&Thunks::last_frame);
+    else
+      return nullptr;
+  }
   static std::uint32_t write(void* instance, const fulmar_tick* tick, const fulmar_input* inputs, fulmar_error* error) {
     return guarded(error, [&] {
       I& i = self(instance);
@@ -392,6 +408,7 @@ consteval fulmar_component component_entry() {
   if constexpr (vehicle) {
     e.read = &T::read;
     e.write = &T::write;
+    e.get_extension = &T::get_extension;
   } else {
     e.step = &T::step;
   }

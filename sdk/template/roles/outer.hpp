@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// ports: state VehicleState, command GuidanceCommand -> attitude AttitudeCommand
 // Outer loops in their plainest form: course to roll, height to pitch, airspeed to throttle, all proportional.
 // Source: Beard & McLain, Small Unmanned Aircraft (2012), chapter 6.
 #pragma once

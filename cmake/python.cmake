@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Python, both ways: components in Python (plugins/python) and the host as a module (tools/fulmar_module). Left out without python3-dev and
+# pybind11-dev. The system's own Python is taken, whose packages are those of the distribution; another one: -DPython3_EXECUTABLE=...
+if(NOT Python3_EXECUTABLE AND EXISTS /usr/bin/python3)
+  set(Python3_EXECUTABLE /usr/bin/python3)
+endif()
+find_package(Python3 3.9 QUIET COMPONENTS Interpreter Development.Embed Development.Module)
+find_path(PYBIND11_INCLUDE_DIR pybind11/pybind11.h)
+if(NOT Python3_Development.Embed_FOUND OR NOT PYBIND11_INCLUDE_DIR)
+  message(STATUS "Python is left out: python3-dev and pybind11-dev are not there")
+  return()
+endif()
+message(STATUS "Python: ${Python3_VERSION} of ${Python3_EXECUTABLE}")
+
+add_subdirectory(plugins/python)
+add_dependencies(flight python)
+install(TARGETS python LIBRARY DESTINATION lib/fulmar)

@@ -1,0 +1,342 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Does what a page of the documentation tells its reader to do, and compares what comes out with what the page says.
+
+  cmake/tutorials.py --prefix PREFIX PAGE.md...
+
+Each page has a home folder of its own, where ~/fulmar is PREFIX and its bin is on the PATH. In a page
+
+  ```console 5%        lines `$ command` (go on with `> `) are run, what follows them is compared with the output; a line `...` stands for
+                       any lines, `...` in a line for any text, numbers may differ by 5 % and half their last digit (without it: not at
+                       all), blanks count as one. With `exit=1` the block's last command must end with that code.
+  ```cpp file=law.hpp  is written to that file, whatever the language; with diff, its lines `-` become its lines `+`
+  <!-- $ command -->   is run unseen
+  <!-- refused: a.yaml -->  before a table: each row is one change to a.yaml, `old` -> `new`, or options of `fulmar check a.yaml`,
+                       and what is told
+"""
+import argparse
+import difflib
+import fcntl
+import os
+import pathlib
+import pty
+import re
+import select
+import shlex
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import termios
+import time
+
+NUMBER = r"(?<![\w.])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w]|\.\w)"
+FENCE = re.compile(r"^```(\S+)?\s*(.*)$")
+HIDDEN = re.compile(r"^<!-- \$ (.*) -->$")
+REFUSED = re.compile(r"^<!-- refused: (\S+) -->$")
+
+
+class Mismatch(Exception):
+    """What a page says and what happens are not the same. The text begins with file:line."""
+
+
+# ---- reading a page ---------------------------------------------------------------------------------------------------------------
+
+
+class Block:
+    def __init__(self, language, info, line):
+        self.language, self.line, self.lines = language, line, []
+        words = dict(word.partition("=")[::2] for word in info.split())
+        self.file = words.get("file")
+        self.exit = int(words.get("exit", 0))
+        self.tolerance = next((float(word[:-1]) / 100 for word in words if word.endswith("%")), 0)
+
+
+def blocks_of(text):
+    """Blocks, hidden commands and tables of refusals of a page, in its order."""
+    found, open_block, refused = [], None, None
+    for number, line in enumerate(text.splitlines(), 1):
+        fence = FENCE.match(line)
+        if open_block is not None:
+            if line == "```":
+                open_block = None
+            else:
+                open_block.lines.append(line)
+        elif fence:
+            open_block = Block(fence[1] or "", fence[2], number)
+            found.append(open_block)
+        elif HIDDEN.match(line):
+            block = Block("console", "", number - 1)
+            block.lines = ["$ " + HIDDEN.match(line)[1], "..."]
+            found.append(block)
+        elif REFUSED.match(line):
+            refused = Block("refused", "file=" + REFUSED.match(line)[1], number)
+            found.append(refused)
+        elif refused is not None and line.startswith("|"):
+            refused.lines.append((number, line))
+        elif refused is not None and line.strip():
+            refused = None
+    return found
+
+
+def commands_of(block):
+    """[(line number, command, expected lines)] of a console block."""
+    commands = []
+    for number, line in enumerate(block.lines, block.line + 1):
+        if line.startswith("$ "):
+            commands.append((number, line[2:], []))
+        elif line.startswith("> ") and commands and not commands[-1][2]:
+            commands[-1] = (commands[-1][0], commands[-1][1] + "\n" + line[2:], [])
+        elif commands:
+            commands[-1][2].append(line)
+    return commands
+
+
+# ---- comparing --------------------------------------------------------------------------------------------------------------------
+
+
+def pattern_of(expected, tolerance):
+    """Regular expression of an expected line; its groups are the numbers to be looked at."""
+    tokens = re.split(r"(\.\.\.|\s+|" + NUMBER + ")", expected.strip())
+    out = ""
+    for token in tokens:
+        if token == "...":
+            out += ".*?"
+        elif token and token.isspace():
+            out += r"\s+"
+        elif tolerance and re.fullmatch(NUMBER, token):
+            out += "(" + NUMBER + ")"
+        else:
+            out += re.escape(token)
+    return re.compile(r"\s*" + out + r"\s*")
+
+
+def near(expected, actual, tolerance):
+    decimals = len(expected.partition(".")[2]) if "e" not in expected else 0
+    return abs(float(actual) - float(expected)) <= tolerance * abs(float(expected)) + 0.5001 * 10.0**-decimals
+
+
+def same_line(expected, actual, tolerance=0):
+    match = pattern_of(expected, tolerance).fullmatch(actual)
+    if not match:
+        return False
+    numbers = re.findall(NUMBER, expected) if tolerance else []
+    return all(near(e, a, tolerance) for e, a in zip(numbers, match.groups()))
+
+
+def reach(expected, actual, tolerance):
+    """For each number of expected lines: how many actual lines they may use up. Empty where they cannot."""
+    steps = [{0}]
+    for line in expected:
+        if line.strip() == "...":
+            steps.append(set(range(min(steps[-1]), len(actual) + 1)) if steps[-1] else set())
+        else:
+            steps.append({i + 1 for i in steps[-1] if i < len(actual) and same_line(line, actual[i], tolerance)})
+    return steps
+
+
+def same_output(expected, actual, tolerance=0):
+    return len(actual) in reach(expected, actual, tolerance)[-1]
+
+
+def difference(expected, actual, tolerance):
+    """The first expected line that is not there, with what stands in its place."""
+    steps = reach(expected, actual, tolerance)
+    lost = next((i for i, step in enumerate(steps) if not step), None)
+    if lost is None:
+        return "\n".join("+" + line for line in actual[max(steps[-1]):])
+    line, begin = expected[lost - 1], min(steps[lost - 1])
+    rest = actual[begin:]
+    if lost > 1 and expected[lost - 2].strip() == "...":
+        near_by = difflib.get_close_matches(line, rest, 1, 0.5)
+        rest = near_by or rest
+    return "\n".join([" " + text for text in actual[max(0, begin - 2) : begin]] + ["-" + line] + ["+" + text for text in rest[:10]])
+
+
+# ---- doing what the page says --------------------------------------------------------------------------------------------------------
+
+
+def as_seen(raw):
+    """Lines as a terminal shows them in the end: colours dropped, lines that were drawn anew in their last state."""
+    lines = []
+    for line in raw.decode("utf-8", "replace").replace("\r\n", "\n").split("\n"):
+        shown = ""
+        for part in line.split("\r"):
+            shown = part[3:] if part.startswith("\x1b[K") else part + shown[len(part):]
+        lines.append(re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", shown).rstrip())
+    while lines and not lines[-1]:
+        lines.pop()
+    return lines
+
+
+class Terminal:
+    """Commands in one folder after another, as a person types them: the folder and exported variables stay."""
+
+    def __init__(self, home, prefix, limit_s):
+        self.home, self.limit_s = home, limit_s
+        self.state = home / ".state"
+        (home / "fulmar").symlink_to(prefix)
+        keep = ("CCACHE_DIR", "CC", "CXX", "ASAN_OPTIONS", "UBSAN_OPTIONS")
+        environment = {name: os.environ[name] for name in keep if name in os.environ}
+        ccache = pathlib.Path(os.environ.get("XDG_CACHE_HOME", os.path.expanduser("~/.cache"))) / "ccache"
+        environment.setdefault("CCACHE_DIR", str(ccache))
+        environment.update(HOME=str(home), PATH=f"{home}/fulmar/bin:/usr/local/bin:/usr/bin:/bin", LC_ALL="C.UTF-8", TERM="dumb")
+        self.environment = environment
+        self.folder = home
+        self.groups = []
+
+    def run(self, command):
+        """(exit code, lines)"""
+        script = f"[ -f {self.state} ] && . {self.state}; cd {shlex.quote(str(self.folder))}\n{command}\n"
+        script += f"code=$?; export -p >{self.state}; pwd >{self.state}.folder; exit $code"
+        ours, theirs = pty.openpty()
+        fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 50, 200, 0, 0))
+        child = subprocess.Popen(["bash", "-c", script], stdin=subprocess.DEVNULL, stdout=theirs, stderr=theirs, cwd=self.home,
+                                 env=self.environment, start_new_session=True)
+        self.groups.append(child.pid)
+        os.close(theirs)
+        raw, end = b"", time.monotonic() + self.limit_s
+        while True:
+            ended = child.poll() is not None
+            if select.select([ours], [], [], 0.02)[0]:
+                try:
+                    piece = os.read(ours, 65536)
+                except OSError:
+                    piece = b""
+                raw += piece
+                if not piece:
+                    break
+            elif ended:
+                break  # what still runs in the background keeps the terminal open
+            if time.monotonic() > end:
+                self.close()
+                child.wait()
+                os.close(ours)
+                raise TimeoutError(f"has not ended after {self.limit_s:g} s")
+        code = child.wait()
+        os.close(ours)
+        folder = pathlib.Path(f"{self.state}.folder")
+        if folder.exists():
+            self.folder = pathlib.Path(folder.read_text().strip())
+        return code, as_seen(raw)
+
+    def close(self):
+        for group in self.groups:
+            try:
+                os.killpg(group, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+
+
+def patched(text, lines):
+    """`text` with what the lines of a diff say; what they replace must be there once."""
+    old = "".join(line[1:] + "\n" for line in lines if line[:1] != "+")
+    new = "".join(line[1:] + "\n" for line in lines if line[:1] != "-")
+    if text.count(old) != 1:
+        raise ValueError(f"what the diff replaces is there {text.count(old)} times")
+    return text.replace(old, new)
+
+
+class Page:
+    def __init__(self, path, terminal):
+        self.path, self.terminal, self.commands = path, terminal, 0
+
+    def fail(self, line, sentence):
+        raise Mismatch(f"{self.path}:{line}: {sentence}")
+
+    def run(self):
+        for block in blocks_of(pathlib.Path(self.path).read_text(encoding="utf-8")):
+            if block.language == "console":
+                self.console(block)
+            elif block.language == "refused":
+                self.refused(block)
+            elif block.file:
+                self.write(block)
+
+    def write(self, block):
+        file = self.terminal.folder / block.file
+        if block.language == "diff":
+            try:
+                file.write_text(patched(file.read_text(), block.lines))
+            except (OSError, ValueError) as fault:
+                self.fail(block.line, f"{block.file}: {fault}")
+        else:
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text("\n".join(block.lines) + "\n")
+
+    def command(self, line, command, expected, code, tolerance=0):
+        self.commands += 1
+        try:
+            actual_code, actual = self.terminal.run(command)
+        except TimeoutError as fault:
+            self.fail(line, f"$ {command}\n{fault}")
+        if not same_output(expected, actual, tolerance):
+            self.fail(line, f"$ {command}\n{difference(expected, actual, tolerance)}")
+        if actual_code != code:
+            self.fail(line, f"$ {command}\nends with exit code {actual_code}, not {code}\n" + "\n".join(actual[-20:]))
+
+    def console(self, block):
+        commands = commands_of(block)
+        for index, (line, command, expected) in enumerate(commands):
+            while expected and not expected[-1].strip():
+                expected.pop()
+            self.command(line, command, expected, block.exit if index + 1 == len(commands) else 0, block.tolerance)
+
+    def refused(self, block):
+        rows = block.lines[2:]
+        if not rows:
+            self.fail(block.line, "no table follows")
+        file = self.terminal.folder / block.file
+        original = file.read_text()
+        for line, row in rows:
+            cells = [cell.replace(r"\|", "|") for cell in re.split(r"(?<!\\)\|", row)[1:3]]
+            change, told = [[part.split("`")[1] for part in side.split("<br>")] for side in (cells[0].split("→")[-1], cells[1])]
+            options = ""
+            if "→" in cells[0]:
+                old = cells[0].split("→")[0].split("`")[1]
+                if original.count(old) != 1:
+                    self.fail(line, f"{block.file} has '{old}' {original.count(old)} times")
+                file.write_text(original.replace(old, "\n".join(change)))
+            else:
+                options = " " + " ".join(change)
+            self.command(line, f"fulmar check {block.file}{options}", told, 1)
+            file.write_text(original)
+
+
+def do_page(path, prefix, keep, limit_s):
+    """What went wrong, or ""."""
+    home = pathlib.Path(tempfile.mkdtemp(prefix="fulmar-page-"))
+    terminal = Terminal(home, prefix, limit_s)
+    page, begin, fault = Page(path, terminal), time.monotonic(), ""
+    try:
+        page.run()
+    except Mismatch as mismatch:
+        fault = str(mismatch)
+    finally:
+        terminal.close()
+        if keep:
+            print(f"{path}: {home} is kept")
+        else:
+            shutil.rmtree(home, ignore_errors=True)
+    if not fault and page.commands == 0:
+        fault = f"{path}: there is no command in it"
+    print(fault or f"{path}: {page.commands} commands, {time.monotonic() - begin:.1f} s", flush=True)
+    return fault
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(description="Does what pages of the documentation tell, and compares.")
+    parser.add_argument("--prefix", required=True, help="where Fulmar is installed")
+    parser.add_argument("--keep", action="store_true", help="leave the pages' home folders")
+    parser.add_argument("--limit", type=float, default=120, help="seconds that one command may take")
+    parser.add_argument("pages", nargs="+")
+    given = parser.parse_args(arguments)
+    prefix = pathlib.Path(given.prefix).resolve()
+    faults = [do_page(page, prefix, given.keep, given.limit) for page in given.pages]
+    return 1 if any(faults) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where this program's templates, missions and SDK are: in the prefix that it was installed to, or in the tree that it was built from.
+#pragma once
+#include <filesystem>
+#include <string>
+
+namespace fulmar::core {
+
+struct Places {
+  std::filesystem::path missions, templates, include;
+  std::filesystem::path prefix;  // for CMAKE_PREFIX_PATH: where find_package(fulmar_sdk) looks
+};
+
+/// `program` is the running executable. Throws Error when nothing is found around it.
+Places find_places(const std::filesystem::path& program);
+
+/// The running executable.
+std::filesystem::path this_program();
+
+/// How people call it here: its bare name when the shell finds this very file under it, else the whole path.
+std::string program_word();
+
+/// A path as a word of a shell command.
+std::string shell_word(const std::string& text);
+
+}  // namespace fulmar::core

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Waits for files to change: plugins and files of a mission, and the sources that a build makes plugins of.
+#pragma once
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace fulmar::core {
+
+/// The state of some files. A file that is written again with the same bytes counts as changed; what comes of it is the same.
+class FileStamps {
+ public:
+  explicit FileStamps(std::vector<std::filesystem::path> files) : files_(std::move(files)), stamps_(read()) {}
+  /// Files that differ from the last call, or from the beginning. A file that is being written is waited for.
+  std::vector<std::filesystem::path> changed();
+
+ private:
+  struct Stamp {
+    std::filesystem::file_time_type time;
+    std::uintmax_t size = 0;
+    friend bool operator==(const Stamp&, const Stamp&) = default;
+  };
+  std::map<std::filesystem::path, Stamp> read() const;
+  std::vector<std::filesystem::path> files_;
+  std::map<std::filesystem::path, Stamp> stamps_;
+};
+
+/// Source files (.cpp .cc .c .hpp .h .py CMakeLists.txt) below a folder; hidden folders and build folders are passed over.
+std::vector<std::filesystem::path> source_files(const std::filesystem::path& folder);
+
+/// Runs a command of the user's through the shell, its output on standard error. True when it exits with 0.
+bool run_build(const std::string& command);
+
+}  // namespace fulmar::core

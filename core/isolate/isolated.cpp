@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The host's side of an isolated component: copies in, rings, waits with an eye on the child's life, copies out.
+#include "core/isolate/isolated.hpp"
+
+#include <sched.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <new>
+
+#include "core/error.hpp"
+
+namespace fulmar::core {
+namespace {
+
+// One CPU: whoever spins keeps the other from running.
+std::int64_t useful_spin(std::int64_t wanted_ns) {
+  cpu_set_t cpus;
+  CPU_ZERO(&cpus);
+  if (::sched_getaffinity(0, sizeof cpus, &cpus) != 0) return 0;
+  return CPU_COUNT(&cpus) > 1 ? std::max<std::int64_t>(wanted_ns, 0) : 0;
+}
+
+const ComponentInfo& isolatable(const ComponentInfo& info, const IsolatedOptions& options) {
+  if (info.vehicle) throw Error(options.name + ": a vehicle cannot run in a process of its own.");
+  if (info.name.size() >= sizeof Control::component) throw Error(options.name + ": the component's name is longer than 255 bytes.");
+  return info;
+}
+
+std::vector<std::string> words(const IsolatedOptions& options) {
+  const std::string& path = options.path.empty() ? options.file : options.path;
+  return {options.name,
+          options.copy,
+          options.script,
+          std::filesystem::absolute(path).string(),
+          options.file,
+          std::to_string(options.index),
+          std::to_string(options.seed)};
+}
+
+void tell(fulmar_error* error, const char* text) noexcept {
+  if (error) std::snprintf(error->text, sizeof error->text, "%s", text);
+}
+
+const char* signal_words(int signal, bool stack_overflow) noexcept {
+  switch (signal) {
+    case SIGSEGV:
+      return stack_overflow ? "crashed (stack overflow)" : "crashed (segmentation fault)";
+    case SIGBUS:
+      return "crashed (bus error)";
+    case SIGFPE:
+      return "crashed (arithmetic error)";
+    case SIGILL:
+      return "crashed (illegal instruction)";
+    case SIGABRT:
+      return "aborted";
+    default:
+      return nullptr;
+  }
+}
+
+}  // namespace
+
+// ---- set-up --------------------------------------------------------------------------------------------------------------------
+
+Isolated::Isolated(const ComponentInfo& info, const IsolatedOptions& options)
+    : info_(isolatable(info, options)),
+      options_(options),
+      layout_(info_),
+      memory_(layout_.size),
+      copied_(info_.inputs.size()),
+      process_((prepare(), words(options)), memory_) {
+  if (wait(options_.setup_ns) && control().status < FULMAR_FAILED) return;
+  refuse_setup();
+}
+
+// The child answers call 1, its own set-up, without being asked.
+void Isolated::prepare() {
+  options_.spin_ns = useful_spin(options_.spin_ns);
+  Control& c = *new (memory_.data()) Control{};
+  c.request = number_;
+  c.call = Call::create;
+  c.version = shared_version;
+  c.spin_ns = options_.spin_ns;
+  c.host_pid = ::getpid();
+  c.signature = layout_.signature;
+  c.layout_size = layout_.size;
+  std::memcpy(c.component, info_.name.c_str(), info_.name.size() + 1);
+}
+
+void Isolated::refuse_setup() {
+  const bool loaded = control().stage.load() != Stage::loaded;
+  if (!alive_) throw Error(options_.name + ": " + options_.file + " " + death_ + " while being " + (loaded ? "created" : "loaded"));
+  fulmar_error error = control().error;
+  error.text[sizeof error.text - 1] = '\0';
+  throw Error(options_.name + ": " + (loaded ? "cannot be created: " : "") + (control().has_error ? error.text : "the constructor failed"));
+}
+
+Isolated::~Isolated() { end(); }
+
+std::string Isolated::end() {
+  if (finished_) return "";
+  finished_ = true;
+  constexpr std::int64_t second = 1'000'000'000;
+  const bool died_before = !alive_;
+  if (alive_) call(Call::quit, std::min(options_.setup_ns, 2 * second), nullptr);
+  std::string problem;
+  if (!alive_ && !died_before) problem = options_.name + ": " + options_.file + " " + death_ + " while being destroyed";
+  const bool dumps = !alive_ && control().signal.load() != 0 && std::getenv("FULMAR_CORE") != nullptr;
+  if (!process_.wait(dumps ? 10 * second : second)) process_.kill();
+  alive_ = false;
+  if (!death_[0]) std::snprintf(death_, sizeof death_, "has ended");
+  return problem;
+}
+
+// ---- copies in and out -----------------------------------------------------------------------------------------------------------
+
+// What the child holds already is not copied again: a plan of a thousand items comes once.
+void Isolated::put_input(const Place& place, SharedInput& to, const fulmar_input& from, Sample& copied) noexcept {
+  to = {from.valid_at_ns, from.age_ns, from.sequence, from.count, from.lost, from.flags, from.data ? has_data : has_nothing};
+  if (!from.data) return;
+  std::byte* data = at<std::byte>(place.data);
+  if (place.kind == FULMAR_IN_VALUE) {
+    const bool held = copied.data == from.data && copied.sequence == from.sequence && copied.valid_at_ns == from.valid_at_ns;
+    if (held && from.sequence != 0 && (from.flags & FULMAR_FRESH) == 0) return;
+    copied = {from.data, from.sequence, from.valid_at_ns};
+    std::memcpy(data, from.data, place.message);
+    return;
+  }
+  const std::size_t count = std::min(from.count, place.capacity);
+  std::memcpy(data, from.data, count * place.message);
+  if (from.stamps_ns) {
+    to.has |= has_stamps;
+    std::memcpy(at<std::byte>(place.stamps), from.stamps_ns, count * sizeof(std::int64_t));
+  }
+  if (place.kind != FULMAR_IN_REQUEST || !from.answers) return;
+  to.has |= has_answers;
+  std::memcpy(at<std::byte>(place.answers), from.answers, count * sizeof(fulmar_answer));
+}
+
+void Isolated::put_tick_inputs(const fulmar_tick* tick, const fulmar_input* inputs) noexcept {
+  control().tick = *tick;
+  SharedInput* heads = at<SharedInput>(layout_.inputs_at);
+  for (std::size_t i = 0; i < layout_.inputs.size(); ++i) put_input(layout_.inputs[i], heads[i], inputs[i], copied_[i]);
+}
+
+void Isolated::take_answers(const fulmar_input* inputs) noexcept {
+  for (std::size_t i = 0; i < layout_.inputs.size(); ++i) {
+    const Place& place = layout_.inputs[i];
+    if (place.kind != FULMAR_IN_REQUEST || !inputs[i].answers) continue;
+    const std::size_t count = std::min(inputs[i].count, place.capacity);
+    std::memcpy(inputs[i].answers, at<std::byte>(place.answers), count * sizeof(fulmar_answer));
+    for (std::size_t k = 0; k < count; ++k) inputs[i].answers[k].reason[sizeof inputs[i].answers[k].reason - 1] = '\0';
+  }
+}
+
+void Isolated::put_outputs(const fulmar_output* outputs) noexcept {
+  SharedOutput* heads = at<SharedOutput>(layout_.outputs_at);
+  for (std::size_t i = 0; i < layout_.outputs.size(); ++i) heads[i] = {outputs[i].valid_at_ns, outputs[i].count, outputs[i].lost};
+}
+
+void Isolated::take_outputs(fulmar_output* outputs) noexcept {
+  const SharedOutput* heads = at<SharedOutput>(layout_.outputs_at);
+  for (std::size_t i = 0; i < layout_.outputs.size(); ++i) {
+    const Place& place = layout_.outputs[i];
+    const SharedOutput head = heads[i];
+    outputs[i].valid_at_ns = head.valid_at_ns;
+    outputs[i].count = head.count;
+    outputs[i].lost = head.lost;
+    const std::size_t count = place.kind == FULMAR_OUT_VALUE ? 1 : std::min(head.count, place.capacity);
+    if (count == 0) continue;
+    std::memcpy(outputs[i].data, at<std::byte>(place.data), count * place.message);
+    if (place.kind == FULMAR_OUT_QUEUE) std::memcpy(outputs[i].stamps_ns, at<std::byte>(place.stamps), count * sizeof(std::int64_t));
+  }
+}
+
+void Isolated::put_last(const fulmar_input* last) noexcept {
+  SharedInput* heads = at<SharedInput>(layout_.last_at);
+  for (std::size_t i = 0; i < layout_.last.size(); ++i) {
+    const fulmar_input& from = last[i];
+    heads[i] = {from.valid_at_ns, from.age_ns, from.sequence, from.count, from.lost, from.flags, from.data ? has_data : has_nothing};
+    if (from.data) std::memcpy(at<std::byte>(layout_.last[i].data), from.data, layout_.last[i].message);
+  }
+}
+
+std::uint32_t Isolated::configure(const fulmar_value* values, fulmar_error* error) {
+  const auto aligned = [](std::size_t n) { return (n + cache_line - 1) / cache_line * cache_line; };
+  const std::size_t count = info_.params.size();
+  SharedValue* heads = at<SharedValue>(layout_.values_at);
+  std::size_t size = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const fulmar_value& v = values[i];
+    heads[i] = {{v.number[0], v.number[1], v.number[2]}, v.integer, v.size, size, 0, v.data ? has_data : has_nothing, 0};
+    size += aligned(std::strlen(v.text ? v.text : "") + 1);
+    heads[i].data_at = size;
+    if (v.data) size += aligned(v.size);
+  }
+  const SharedMemory::Window window(memory_, layout_.size, size);
+  for (std::size_t i = 0; i < count; ++i) {
+    const char* text = values[i].text ? values[i].text : "";
+    std::memcpy(window.data() + heads[i].text_at, text, std::strlen(text) + 1);
+    if (values[i].data && values[i].size > 0) std::memcpy(window.data() + heads[i].data_at, values[i].data, values[i].size);
+  }
+  control().values_size = size;
+  return call(Call::configure, options_.setup_ns, error);
+}
+
+std::uint32_t Isolated::retune(const fulmar_value* values, fulmar_error* error) noexcept {
+  SharedValue* heads = at<SharedValue>(layout_.values_at);
+  for (std::size_t i = 0; i < layout_.texts.size(); ++i) {
+    const fulmar_value& v = values[i];
+    heads[i] = {{v.number[0], v.number[1], v.number[2]}, v.integer, v.size, 0, 0, 0, 0};
+    const TextPlace& place = layout_.texts[i];
+    if (place.capacity == 0) continue;
+    const std::size_t length = std::strlen(v.text ? v.text : "");
+    if (length >= place.capacity) {
+      tell(error, "a text parameter is longer than its room");
+      return FULMAR_FAILED;
+    }
+    std::memcpy(at<std::byte>(place.at), v.text ? v.text : "", length + 1);
+  }
+  return call(Call::retune, options_.hang_ns, error);
+}
+
+// ---- the hand-shake --------------------------------------------------------------------------------------------------------------
+
+std::uint32_t Isolated::call(Call what, std::int64_t limit_ns, fulmar_error* error) noexcept {
+  if (!alive_) return dead(error);
+  Control& c = control();
+  c.call = what;
+  c.request.store(++number_);  // ordered before the look at child_sleeps, as the child's two are
+  if (c.child_sleeps.load() != 0) futex_wake(c.request);
+  if (!wait(limit_ns)) return dead(error);
+  if (error && c.has_error != 0) {
+    std::memcpy(error->text, c.error.text, sizeof error->text);
+    error->text[sizeof error->text - 1] = '\0';
+  }
+  return c.status;
+}
+
+// The child's crash handler wakes the host; of an exit or a kill the host learns by asking between naps.
+bool Isolated::wait(std::int64_t limit_ns) noexcept {
+  constexpr std::int64_t first_nap_ns = 200'000, longest_nap_ns = 1'000'000;
+  Control& c = control();
+  if (spin_until(std::min(options_.spin_ns, limit_ns), [&] { return answered(); })) return true;
+  const std::int64_t end = monotonic_ns() + limit_ns;
+  for (std::int64_t nap_ns = first_nap_ns;; nap_ns = std::min(2 * nap_ns, longest_nap_ns)) {
+    c.host_sleeps.store(1);
+    const std::uint32_t seen = c.answer.load();
+    if (seen != number_) futex_wait(c.answer, seen, nap_ns);
+    c.host_sleeps.store(0, std::memory_order_relaxed);
+    if (answered()) return true;
+    if (note_death()) return false;
+    if (monotonic_ns() < end) continue;
+    std::snprintf(death_, sizeof death_, "hung: no answer within %.6g ms", 1e-6 * static_cast<double>(limit_ns));
+    alive_ = false;
+    process_.kill();
+    return false;
+  }
+}
+
+bool Isolated::note_death() noexcept {
+  const bool overflow = control().stack_overflow.load() != 0;
+  int signal = static_cast<int>(control().signal.load());
+  if (signal == 0) {
+    if (!process_.ended()) return false;
+    signal = process_.signal();
+  }
+  alive_ = false;
+  if (const char* known = signal_words(signal, overflow))
+    std::snprintf(death_, sizeof death_, "%s", known);
+  else if (signal != 0)
+    std::snprintf(death_, sizeof death_, "was killed (signal %d)", signal);
+  else
+    std::snprintf(death_, sizeof death_, "ended itself (exit code %d)", process_.exit_code());
+  return true;
+}
+
+std::uint32_t Isolated::dead(fulmar_error* error) noexcept {
+  tell(error, death_);
+  return FULMAR_FAILED;
+}
+
+// ---- as a component --------------------------------------------------------------------------------------------------------------
+
+struct Isolated::Thunks {
+  static Isolated& self(void* instance) { return *static_cast<Isolated*>(instance); }
+
+  static void destroy(void*) {}
+
+  static std::uint32_t configure(void* instance, const fulmar_value* values, fulmar_error* error) {
+    try {
+      return self(instance).configure(values, error);
+    } catch (const std::exception& fault) {
+      tell(error, fault.what());
+      return FULMAR_FAILED;
+    }
+  }
+
+  static std::uint32_t retune(void* instance, const fulmar_value* values, fulmar_error* error) {
+    if (!self(instance).info_.retunes) return FULMAR_OK;
+    return self(instance).retune(values, error);
+  }
+
+  static std::uint32_t activate(void* instance, const fulmar_tick* tick, const fulmar_input* inputs, const fulmar_input* last,
+                                fulmar_error* error) {
+    Isolated& i = self(instance);
+    if (!i.info_.activates) return FULMAR_OK;
+    if (!i.alive_) return i.dead(error);
+    i.put_tick_inputs(tick, inputs);
+    i.put_last(last);
+    const std::uint32_t status = i.call(Call::activate, i.options_.hang_ns, error);
+    if (i.alive_) i.take_answers(inputs);
+    return status;
+  }
+
+  static void deactivate(void* instance) {
+    Isolated& i = self(instance);
+    i.call(Call::deactivate, i.options_.hang_ns, nullptr);
+  }
+
+  static std::uint32_t step(void* instance, const fulmar_tick* tick, const fulmar_input* inputs, fulmar_output* outputs,
+                            fulmar_error* error) {
+    Isolated& i = self(instance);
+    if (!i.alive_) return i.dead(error);
+    i.put_tick_inputs(tick, inputs);
+    i.put_outputs(outputs);
+    const std::uint32_t status = i.call(Call::step, i.options_.hang_ns, error);
+    if (!i.alive_) return status;
+    i.take_answers(inputs);
+    i.take_outputs(outputs);
+    return status;
+  }
+};
+
+const fulmar_component& Isolated::functions() {
+  static const fulmar_component table = [] {
+    fulmar_component t{};
+    t.name = t.doc = "";
+    t.destroy = &Thunks::destroy;
+    t.configure = &Thunks::configure;
+    t.retune = &Thunks::retune;
+    t.activate = &Thunks::activate;
+    t.deactivate = &Thunks::deactivate;
+    t.step = &Thunks::step;
+    return t;
+  }();
+  return table;
+}
+
+}  // namespace fulmar::core

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the ports and parameters of an isolated component lie in the memory that host and child share.
+#include <algorithm>
+#include <string_view>
+
+#include "core/isolate/shared.hpp"
+
+namespace fulmar::core {
+namespace {
+
+constexpr std::size_t page = 65536;  // the largest page of arm64
+
+// FNV-1a, 64 bits.
+struct Signature {
+  std::uint64_t value = 0xcbf29ce484222325u;
+  void add(const void* data, std::size_t size) {
+    for (std::size_t i = 0; i < size; ++i) value = (value ^ static_cast<const unsigned char*>(data)[i]) * 0x100000001b3u;
+  }
+  void add(std::uint64_t x) { add(&x, sizeof x); }
+  void add(std::string_view text) {
+    add(text.size());
+    add(text.data(), text.size());
+  }
+  void add(const TypePtr& type) { add(type ? type->hash : 0); }
+};
+
+struct Room {
+  std::size_t end = sizeof(Control);
+  std::size_t take(std::size_t bytes) {
+    const std::size_t at = (end + cache_line - 1) / cache_line * cache_line;
+    end = at + bytes;
+    return at;
+  }
+};
+
+Place place(Room& room, const Port& port, bool single) {
+  Place p;
+  p.kind = port.kind;
+  p.message = port.type ? port.type->size : sizeof(double);
+  p.capacity = single ? 1 : port.capacity;
+  p.data = room.take(p.message * p.capacity);
+  const bool stamped = !single && (port.kind == FULMAR_IN_QUEUE || port.kind == FULMAR_IN_REQUEST || port.kind == FULMAR_OUT_QUEUE);
+  if (stamped) p.stamps = room.take(sizeof(std::int64_t) * p.capacity);
+  if (!single && port.kind == FULMAR_IN_REQUEST) p.answers = room.take(sizeof(fulmar_answer) * p.capacity);
+  return p;
+}
+
+void sign(Signature& signature, const std::vector<Port>& ports) {
+  signature.add(ports.size());
+  for (const Port& port : ports) {
+    signature.add(port.name);
+    signature.add(port.kind);
+    signature.add(port.capacity);
+    signature.add(port.type);
+  }
+}
+
+}  // namespace
+
+Layout::Layout(const ComponentInfo& info) {
+  Room room;
+  inputs_at = room.take(sizeof(SharedInput) * info.inputs.size());
+  outputs_at = room.take(sizeof(SharedOutput) * info.outputs.size());
+  for (const Port& port : info.inputs) inputs.push_back(place(room, port, false));
+  for (const Port& port : info.outputs) outputs.push_back(place(room, port, false));
+  last_at = room.take(sizeof(SharedInput) * info.outputs.size());
+  for (const Port& port : info.outputs) last.push_back(place(room, port, true));
+  values_at = room.take(sizeof(SharedValue) * info.params.size());
+  for (const ParamInfo& param : info.params) {
+    const std::size_t capacity = param.kind == FULMAR_STRING ? param.capacity : 0;
+    texts.push_back({capacity > 0 ? room.take(capacity) : 0, capacity});
+  }
+  size = (room.end + page - 1) / page * page;
+
+  Signature all;
+  all.add(sizeof(Control));
+  all.add(size);
+  sign(all, info.inputs);
+  sign(all, info.outputs);
+  all.add(info.params.size());
+  for (const ParamInfo& param : info.params) {
+    all.add(param.name);
+    all.add(param.kind);
+    all.add(param.capacity);
+    all.add(param.type);
+  }
+  signature = all.value;
+}
+
+}  // namespace fulmar::core

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The memory that a host and the child of an isolated component share, and how they wait for each other in it.
+// Host and child compute the same layout from the component's tables; no pointer crosses, and the host believes no number of the child.
+#pragma once
+#include <linux/futex.h>
+#include <sys/syscall.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/loader/type.hpp"
+
+namespace fulmar::core {
+
+// ---- contents ------------------------------------------------------------------------------------------------------------------
+
+inline constexpr int shared_descriptor = 3;  // of the memory, in the child
+inline constexpr std::uint32_t shared_version = 1;
+inline constexpr std::size_t cache_line = 64;
+
+enum class Call : std::uint32_t { create = 1, configure, retune, activate, deactivate, step, quit };
+enum class Stage : std::uint32_t { loaded, created, running };
+
+/// At the start of the memory. Each side writes lines of its own, so that a call moves two lines and no more.
+struct Control {
+  // the host's
+  alignas(cache_line) std::atomic<std::uint32_t> request;  // counts calls; what the child sleeps on
+  std::atomic<std::uint32_t> host_sleeps;
+  Call call;
+  std::uint32_t reserved;
+  fulmar_tick tick;
+  // the child's
+  alignas(cache_line) std::atomic<std::uint32_t> answer;  // the call answered last; what the host sleeps on
+  std::atomic<std::uint32_t> child_sleeps;
+  std::uint32_t status, has_error;
+  std::uint64_t allocations;  // of all steps
+  std::int64_t heap_growth;   // bytes since configure
+  // seldom
+  alignas(cache_line) std::atomic<std::uint32_t> signal;  // that ends the child, written in its handler
+  std::atomic<std::uint32_t> stack_overflow;
+  std::atomic<Stage> stage;
+  std::uint32_t version;
+  std::int64_t spin_ns;
+  std::int64_t host_pid;
+  std::uint64_t signature, layout_size, values_size;
+  char component[256];
+  fulmar_error error;
+};
+static_assert(std::atomic<std::uint32_t>::is_always_lock_free);
+
+inline constexpr std::uint32_t has_data = 1, has_stamps = 2, has_answers = 4, has_nothing = 0;
+
+/// A fulmar_input without its pointers.
+struct SharedInput {
+  std::int64_t valid_at_ns, age_ns;
+  std::uint64_t sequence;
+  std::uint32_t count, lost, flags, has;
+};
+
+struct SharedOutput {
+  std::int64_t valid_at_ns;
+  std::uint32_t count, lost;
+};
+
+/// A fulmar_value. At configure, text and data lie behind the layout at the offsets; at retune, text lies at the parameter's place.
+struct SharedValue {
+  double number[3];
+  std::int64_t integer;
+  std::uint64_t size, text_at, data_at;
+  std::uint32_t has, reserved;
+};
+
+/// Where the samples of one port lie: bytes from the start of the memory.
+struct Place {
+  std::size_t data = 0, stamps = 0, answers = 0, message = 0;  // message: bytes of one
+  std::uint32_t capacity = 1;
+  fulmar_port_kind kind = FULMAR_IN_VALUE;
+};
+
+struct TextPlace {
+  std::size_t at = 0, capacity = 0;  // 0: not a text parameter
+};
+
+struct Layout {
+  explicit Layout(const ComponentInfo& info);
+
+  std::vector<Place> inputs, outputs, last;
+  std::vector<TextPlace> texts;                                         // one per parameter
+  std::size_t inputs_at = 0, outputs_at = 0, last_at = 0, values_at = 0;  // the heads, one after the other
+  std::size_t size = 0;                                                 // whole pages
+  std::uint64_t signature = 0;                                          // of all that decides it
+};
+
+// ---- waiting -------------------------------------------------------------------------------------------------------------------
+
+inline std::int64_t monotonic_ns() noexcept {
+  timespec t{};
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
+}
+
+/// Sleeps while `word` is `seen`, at most `limit_ns`. May wake for nothing.
+inline void futex_wait(std::atomic<std::uint32_t>& word, std::uint32_t seen, std::int64_t limit_ns) noexcept {
+  const timespec limit{static_cast<time_t>(limit_ns / 1'000'000'000), static_cast<long>(limit_ns % 1'000'000'000)};
+  syscall(SYS_futex, &word, FUTEX_WAIT, seen, &limit, nullptr, 0);
+}
+
+inline void futex_wake(std::atomic<std::uint32_t>& word) noexcept { syscall(SYS_futex, &word, FUTEX_WAKE, 1, nullptr, nullptr, 0); }
+
+/// Tells the core that this is a loop that waits.
+inline void spin_hint() noexcept {
+#if defined(__x86_64__) || defined(__i386__)
+  __builtin_ia32_pause();
+#elif defined(__aarch64__)
+  asm volatile("yield");
+#endif
+}
+
+/// Asks `done` again and again for `limit_ns`; whether it said so.
+template <class Done>
+bool spin_until(std::int64_t limit_ns, Done&& done) noexcept {
+  if (done()) return true;
+  if (limit_ns <= 0) return false;
+  for (const std::int64_t end = monotonic_ns() + limit_ns; monotonic_ns() < end;)
+    for (int i = 0; i < 16; ++i) {
+      if (done()) return true;
+      spin_hint();
+    }
+  return false;
+}
+
+}  // namespace fulmar::core

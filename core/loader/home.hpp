@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where Fulmar's own files lie: the folders whose bin/ and lib/fulmar hold its programs and plugins.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace fulmar::core {
+
+/// That of the running program first; then, when the host is a library inside another program, that of the library.
+std::vector<std::filesystem::path> home_folders();
+
+/// A program that belongs to the host, "fulmar-probe": beside the running program, or in bin/ of a home folder. Empty when it is missing.
+std::filesystem::path own_program(const std::string& name);
+
+/// The folders of FULMAR_PLUGIN_PATH (separated by ':'), then lib/fulmar of each home folder.
+std::vector<std::filesystem::path> plugin_folders();
+
+}  // namespace fulmar::core

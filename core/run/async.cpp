@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/run/async.hpp"
+
+#include <pthread.h>
+#include <signal.h>
+#include <time.h>
+
+#include <cstring>
+
+namespace fulmar::core {
+namespace {
+
+std::int64_t clock_ns() noexcept {
+  timespec t{};
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
+}
+
+void prepare(Async::Job& job, const ComponentInfo& info) {
+  const std::size_t in = info.inputs.size(), out = info.outputs.size();
+  job.inputs.resize(in), job.input_data.resize(in), job.input_stamps.resize(in), job.answers.resize(in), job.replies.resize(in);
+  for (std::size_t i = 0; i < in; ++i) {
+    const Port& port = info.inputs[i];
+    job.input_data[i].resize(std::size_t{port.capacity} * port.type->size);
+    if (port.kind == FULMAR_IN_VALUE) continue;
+    job.input_stamps[i].resize(port.capacity);
+    job.answers[i].resize(port.capacity);
+    job.replies[i].resize(port.capacity);
+  }
+  job.outputs.resize(out), job.output_data.resize(out), job.output_stamps.resize(out), job.last.resize(out), job.last_data.resize(out);
+  for (std::size_t i = 0; i < out; ++i) {
+    const Port& port = info.outputs[i];
+    job.output_data[i].resize(std::size_t{port.capacity} * (port.type ? port.type->size : sizeof(double)));
+    job.output_stamps[i].resize(port.capacity);
+    job.last_data[i].resize(job.output_data[i].size());
+  }
+  job.values.resize(info.params.size());
+}
+
+}  // namespace
+
+Async::Async(const fulmar_component& functions, void* instance, const ComponentInfo& info, std::size_t depth)
+    : functions_(functions), instance_(instance), jobs_(depth) {
+  for (Job& job : jobs_) prepare(job, info);
+  sigset_t all, before;  // signals are for the main thread
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  thread_ = std::thread([this] { run(); });
+  pthread_setname_np(thread_.native_handle(), "fulmar-async");
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+Async::~Async() {
+  submitted_.fetch_or(ending, std::memory_order_release);
+  submitted_.notify_one();
+  thread_.join();
+}
+
+Async::Job* Async::room() noexcept {
+  const std::uint64_t n = submitted_.load(std::memory_order_relaxed);
+  return n - taken_ < jobs_.size() ? &at(n) : nullptr;
+}
+
+void Async::submit() noexcept {
+  Job& job = at(submitted_.load(std::memory_order_relaxed));
+  job.dropped = job.missed = false;
+  submitted_.fetch_add(1, std::memory_order_release);
+  submitted_.notify_one();
+}
+
+Async::Job* Async::oldest() noexcept { return submitted_.load(std::memory_order_relaxed) > taken_ ? &at(taken_) : nullptr; }
+
+void Async::wait() const noexcept {
+  for (std::uint64_t n = finished_.load(std::memory_order_acquire); n <= taken_; n = finished_.load(std::memory_order_acquire))
+    finished_.wait(n, std::memory_order_acquire);
+}
+
+void Async::drop() noexcept {
+  for (std::uint64_t n = taken_; n < submitted_.load(std::memory_order_relaxed); ++n) at(n).dropped = true;
+}
+
+void Async::copy_inputs(const std::vector<fulmar_input>& from, const ComponentInfo& info, Job& job) noexcept {
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const Port& port = info.inputs[i];
+    fulmar_input& to = job.inputs[i];
+    to = from[i];
+    if (from[i].count > 0 && from[i].data) std::memcpy(job.input_data[i].data(), from[i].data, std::size_t{from[i].count} * port.type->size);
+    to.data = from[i].data ? job.input_data[i].data() : nullptr;
+    if (port.kind == FULMAR_IN_VALUE) continue;
+    for (std::uint32_t k = 0; k < from[i].count; ++k) {
+      job.input_stamps[i][k] = from[i].stamps_ns[k];
+      job.answers[i][k] = {};
+    }
+    to.stamps_ns = job.input_stamps[i].data();
+    to.answers = job.answers[i].data();
+  }
+}
+
+void Async::work(Job& job) noexcept {
+  const HeapUse heap = thread_heap();
+  const std::int64_t begin = clock_ns();
+  job.error.text[0] = '\0';
+  switch (job.call) {
+    case Job::Call::step:
+      for (std::size_t i = 0; i < job.outputs.size(); ++i)
+        job.outputs[i] = {job.output_data[i].data(), job.output_stamps[i].data(), job.tick.now_ns, 0, 0};
+      job.status = functions_.step(instance_, &job.tick, job.inputs.data(), job.outputs.data(), &job.error);
+      break;
+    case Job::Call::retune:
+      job.status = functions_.retune(instance_, job.values.data(), &job.error);
+      break;
+    case Job::Call::activate:
+      job.status = functions_.activate(instance_, &job.tick, job.inputs.data(), job.last.data(), &job.error);
+      break;
+  }
+  job.took_ns = clock_ns() - begin;
+  job.heap_growth = thread_heap().bytes - heap.bytes;
+}
+
+void Async::run() noexcept {
+  for (std::uint64_t n = 0;; ++n) {
+    std::uint64_t there = submitted_.load(std::memory_order_acquire);
+    while ((there & ~ending) <= n && (there & ending) == 0) {
+      submitted_.wait(there, std::memory_order_acquire);
+      there = submitted_.load(std::memory_order_acquire);
+    }
+    if ((there & ending) != 0) return;
+    work(at(n));
+    finished_.store(n + 1, std::memory_order_release);
+    finished_.notify_one();
+  }
+}
+
+}  // namespace fulmar::core

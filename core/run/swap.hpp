@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Replaces the file of a component between flights: what is checked, how it is rehearsed.
+#pragma once
+#include <string>
+
+#include "core/run/tape.hpp"
+#include "core/run/unit.hpp"
+
+namespace fulmar::core {
+
+/// Creates and configures the component in a child and steps it through what its predecessor saw last. Throws Error with a sentence:
+/// a constructor that throws, refused parameters, an output that is not finite, a crash, a hang. `tape` may be nullptr: nobody has stepped yet.
+void rehearse(const Component& component, std::int64_t tick_ns, std::uint64_t seed, const Tape* tape);
+
+/// Whether what one has seen can be shown to the other.
+bool same_inputs(const ComponentInfo& a, const ComponentInfo& b);
+
+/// Base parameters of the same name and kind, from the predecessor.
+void carry_parameters(const ComponentInfo& from, const std::vector<ParamValue>& values, const ComponentInfo& to,
+                      std::vector<ParamValue>& into);
+
+/// Why `next` cannot take the place of `now` in a flight that goes on: other components, roles, wires or order. "" when it can.
+std::string structural_difference(const Graph& now, const Graph& next);
+
+/// "my_law.so 1.0.0 (0123456789ab)"
+std::string version_words(const PluginInfo& plugin);
+
+}  // namespace fulmar::core

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Run modes: in a child, with a latency, in a thread of its own.
+#include <cmath>
+#include <cstdlib>
+
+#include "core/run/test/lab.hpp"
+#include "core/tap/reader.hpp"
+
+namespace {
+
+std::string log_hash(const Graph& g, const std::string& name, double duration_s, double speed = 0) {
+  FlightOptions o = options(duration_s);
+  o.log = true;
+  o.log_file = folder().path / name;
+  o.speed = speed;
+  fs::remove(o.log_file);
+  Flight flight(g, o);
+  const FlightResult r = flight.run();
+  CHECK(r.log.dropped == 0);
+  return r.log.sha256;
+}
+
+/// The messages of one topic, as bytes.
+std::vector<std::string> messages(const std::string& log, const std::string& topic) {
+  const McapFile file = read_mcap(folder().path / log);
+  std::vector<std::string> all;
+  for (const McapFile::Message& m : file.messages)
+    if (m.channel == file.channel(topic)) all.emplace_back(reinterpret_cast<const char*>(m.data.data()), m.data.size());
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("a component in a child publishes the same bytes as in the loop") {
+  const Graph here = mission(one_phase);
+  const Graph there = mission("  one: {fills: law, use: lab/Law, run: process, params: {id: 1, u: 0.1}}\n"s + one_phase);
+  log_hash(here, "here.mcap", 1);
+  log_hash(there, "there.mcap", 1);
+  const auto a = messages("here.mcap", "/law/command"), b = messages("there.mcap", "/law/command");
+  CHECK(a.size() > 40);
+  CHECK(a == b);
+  CHECK(messages("here.mcap", "/one/probes") == messages("there.mcap", "/one/probes"));
+}
+
+TEST_CASE("a child gets live changes and overlays") {
+  const Graph g = mission(
+      "  one: {fills: law, use: lab/Law, run: process, params: {id: 1, u: 0.1}}\n"
+      "phases:\n  slow: {law: one, next: [{to: fast, when: \"vehicle.status.armed\", for: 0.1 s}]}\n"
+      "  fast: {law: {use: one, set: {u: 0.3}}}\n"s);
+  Flight flight(g, options(0.5));
+  const FlightResult r = flight.run();
+  CHECK(r.guards.empty());
+  CHECK(value(g, flight, "one", "command", "u_frac") == 0.3);
+}
+
+TEST_CASE("what an asynchronous step computes is seen its latency later, and belongs to the tick in which it began") {
+  const Graph g = mission("  think: {use: lab/Thinker, run: async, latency: 50 ms, rate: 100 Hz, in: {signal: sense.signal}}\n"s + one_phase);
+  Flight flight(g, options(0.5));
+  const FlightResult r = flight.run();
+  CHECK(r.outcome == Outcome::flown);
+  const double now = value(g, flight, "sim", "signal", "x_m");
+  const double seen = value(g, flight, "think", "thought", "x_m");
+  CHECK(now == 600);
+  CHECK(seen <= now - 20);  // 20 ticks of 2.5 ms
+  CHECK(seen > now - 24);   // and the next one is on its way
+  CHECK(std::fmod(seen, 4) == 0);
+  // it was activated when its input was there for the first time
+  CHECK(value(g, flight, "think", "thought", "tick_s") == 0);
+  for (const ComponentStats& c : r.components)
+    if (c.name == "think") CHECK(c.misses == 0);
+}
+
+TEST_CASE("asynchronous steps are deterministic, however long they take") {
+  const std::string tail = "  think: {use: lab/Thinker, run: async, latency: 20 ms, rate: 50 Hz, in: {signal: sense.signal}, params: {takes: TAKES ms}}\n"s + one_phase;
+  std::string quick = tail, slow = tail;
+  quick.replace(quick.find("TAKES"), 5, "0");
+  slow.replace(slow.find("TAKES"), 5, "4");
+  log_hash(mission(quick), "quick.mcap", 0.2);
+  log_hash(mission(slow), "slow.mcap", 0.2);
+  CHECK(messages("quick.mcap", "/think/thought").size() > 10);
+  CHECK(messages("quick.mcap", "/think/thought") == messages("slow.mcap", "/think/thought"));
+}
+
+TEST_CASE("an asynchronous step that fails is stopped by its guard when its result is due") {
+  const Graph g = mission("  think: {use: lab/Thinker, run: async, latency: 50 ms, rate: 100 Hz, in: {signal: sense.signal}, params: {fails: true}}\n"s + one_phase);
+  Flight flight(g, options(0.1));
+  const FlightResult r = flight.run();
+  REQUIRE(r.guards.size() == 1);
+  CHECK(r.guards[0].component == "think");
+  CHECK(r.guards[0].at_ns == -1'000'000'000 + 50'000'000);
+}
+
+TEST_CASE("live changes reach an asynchronous component in order") {
+  const Graph g = mission("  think: {use: lab/Thinker, run: async, latency: 10 ms, in: {signal: sense.signal}, params: {takes: 0 ms}}\n"s + one_phase);
+  Flight flight(g, options(1));
+  ParamValue v;
+  v.number[0] = -1;
+  for (int i = 0; i < 400; ++i) flight.step();
+  CHECK(value(g, flight, "think", "thought", "x_m") > 0);
+  flight.set_parameter("think", "gain", v);
+  for (int i = 0; i < 10; ++i) flight.step();
+  CHECK(value(g, flight, "think", "thought", "x_m") < 0);
+}
+
+TEST_CASE("samples of a driver enter at the next tick, are recorded whole, and fly again from the log") {
+  const std::string tail = "  gauge: {use: lab/Ticker, run: driver, params: {samples: 30}}\n  count: {use: lab/Watch, in: {burst: gauge.reading}}\n"s + one_phase;
+  const Graph g = mission(tail);
+  FlightOptions o = options(0.2);
+  o.log = true;
+  o.log_file = folder().path / "driven.mcap";
+  fs::remove(o.log_file);
+  o.speed = 4;
+  Flight flight(g, o);
+  const FlightResult r = flight.run();
+  CHECK(r.guards.empty());
+  CHECK(value(g, flight, "count", "tally", "samples_ratio") == 30);
+  CHECK(value(g, flight, "count", "tally", "sum_m") == 30 * 31 / 2);
+  CHECK(value(g, flight, "gauge", "count_ratio", "") == 30);
+  const auto driven = messages("driven.mcap", "/gauge/reading");
+  CHECK(driven.size() == 30);
+
+  FlightOptions again = options(0.2);
+  again.log = true;
+  again.log_file = folder().path / "again.mcap";
+  fs::remove(again.log_file);
+  again.drivers_from = o.log_file;
+  Flight second(g, again);
+  second.run();
+  CHECK(value(g, second, "count", "tally", "sum_m") == 30 * 31 / 2);
+  const McapFile a = read_mcap(o.log_file), b = read_mcap(again.log_file);
+  const auto stamps = [](const McapFile& file) {
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> all;
+    for (const McapFile::Message& m : file.messages)
+      if (m.channel == file.channel("/gauge/reading")) all.emplace_back(m.log_ns, m.publish_ns);
+    return all;
+  };
+  CHECK(stamps(a) == stamps(b));
+  CHECK(messages("again.mcap", "/gauge/reading") == driven);
+}
+
+TEST_CASE("a driver that fails is stopped, and told of") {
+  const Graph g = mission("  gauge: {use: lab/Ticker, run: driver, params: {samples: 3, fails: true}}\n"s + one_phase);
+  FlightOptions o = options(0.5);
+  o.speed = 10;
+  Flight flight(g, o);
+  const FlightResult r = flight.run();
+  CHECK(r.outcome == Outcome::flown);
+  REQUIRE(r.guards.size() == 1);
+  CHECK(r.guards[0].component == "gauge");
+  CHECK(r.guards[0].what == "says that it failed");
+}
+
+TEST_CASE("run modes that do not fit are refused") {
+  const auto refused = [](const std::string& tail) {
+    try {
+      mission(tail + one_phase);
+    } catch (const Error& fault) {
+      return std::string(fault.what());
+    }
+    return std::string();
+  };
+  CHECK(refused("  think: {use: lab/Thinker, run: async, in: {signal: sense.signal}}\n").find("needs a latency above 0") != std::string::npos);
+  CHECK(refused("  gauge: {use: lab/Ticker, latency: 20 ms, run: driver}\n").find("belongs to 'run: async'") != std::string::npos);
+  CHECK(refused("  gauge: {use: lab/Thinker, run: driver, in: {signal: sense.signal}}\n").find("a driver's outputs are queues") != std::string::npos);
+  CHECK(refused("  sim: {fills: vehicle, use: lab/Cart, run: process}\n").find("a vehicle runs in the loop") != std::string::npos);
+  CHECK(refused("  one: {fills: law, use: lab/Law, memory: 64 parsecs}\n").find("is no amount of memory") != std::string::npos);
+}

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A component's file is swapped on the ground, in a host that goes on: parameters stay, a bad newcomer leaves the old one flying-ready.
+#include "core/run/test/lab.hpp"
+#include "core/tap/reader.hpp"
+
+namespace {
+
+std::string variant(const std::string& variant) { return std::string(FULMAR_TEST_PLUGIN_DIR) + "/lab" + variant + ".so"; }
+
+// The cart arms itself at its first tick and says so from time 0 on: before that it stands on the ground.
+struct Ground {
+  Graph graph;
+  FlightOptions o = options(0.2);
+  std::unique_ptr<Flight> flight;
+  explicit Ground(Graph g, bool log = false) : graph(std::move(g)) {
+    o.keep_inputs = true;
+    if (log) {
+      o.log = true;
+      o.log_file = folder().path / "swap.mcap";
+      fs::remove(o.log_file);
+    }
+    flight = std::make_unique<Flight>(graph, o);
+    for (int i = 0; i < 100; ++i) REQUIRE(flight->step());
+  }
+  double u() const { return value(graph, *flight, "one", "command", "u_frac"); }
+  std::string refused(const std::string& file) const {
+    try {
+      flight->swap("one", file);
+    } catch (const Error& fault) {
+      return fault.what();
+    }
+    return "";
+  }
+};
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("a swapped law flies with the parameters, overlays and live changes of before") {
+  Ground ground(mission("phases:\n  wait: {law: {use: one, set: {id: 7}}, next: [{to: fly, when: \"vehicle.status.armed\"}]}\n  fly: {law: one}\n"), true);
+  ParamValue v;
+  v.number[0] = 0.4;
+  ground.flight->set_parameter("one", "u", v);
+  ground.flight->step();
+  CHECK(ground.u() == 0.4);
+  ground.flight->swap("one", variant("_better"));
+  ground.flight->step();
+  CHECK(ground.u() == 0.2);  // the better law halves what it is told
+  CHECK(value(ground.graph, *ground.flight, "one", "command", "by") == 7);
+  while (ground.flight->step()) {
+  }
+  CHECK(value(ground.graph, *ground.flight, "one", "command", "by") == 1);  // the overlay has ended
+  CHECK(ground.u() == 0.2);
+  const FlightResult r = ground.flight->finish();
+  CHECK(r.guards.empty());
+  CHECK(r.outcome == Outcome::flown);
+  const McapFile file = read_mcap(ground.o.log_file);
+  const std::string hash = sha256_file(variant("_better"));
+  bool told = false;
+  for (const McapFile::Metadata& m : file.metadata)
+    for (const auto& [key, text] : m.pairs) told = told || (m.name == "swap" && has(text, hash));
+  CHECK(told);
+}
+
+TEST_CASE("a swap that cannot be is refused in a sentence, and the old law flies on") {
+  Ground ground(mission(one_phase));
+  CHECK(has(ground.refused(variant("_wild")), "output 'command': u_frac is nan"));
+  CHECK(has(ground.refused(variant("_throwing")), "no law today"));
+  CHECK(has(ground.refused(variant("_renamed")), "has no component 'Law'"));
+  CHECK(has(ground.refused(variant("_nowhere")), "there is no plugin"));
+  CHECK(has(ground.refused(std::string(FULMAR_TEST_PLUGIN_DIR) + "/wrong_abi.so"), "is built for ABI 2.0"));
+  CHECK(has(ground.refused(std::string(FULMAR_TEST_PLUGIN_DIR) + "/crash.so"), "crashed while being loaded"));
+  if (FULMAR_CRASH_TESTS) CHECK(has(ground.refused(variant("_crashing")), "crashed"));
+  for (int i = 0; i < 10; ++i) CHECK(ground.flight->step());
+  CHECK(ground.u() == 0.1);
+  while (ground.flight->step()) {
+  }
+  const FlightResult r = ground.flight->finish();
+  CHECK(r.guards.empty());
+  CHECK(r.outcome == Outcome::flown);
+}
+
+TEST_CASE("nothing is swapped while armed, and never the vehicle") {
+  Ground ground(mission(one_phase));
+  CHECK(has([&] {
+    try {
+      ground.flight->swap("sim", variant("_better"));
+    } catch (const Error& fault) {
+      return std::string(fault.what());
+    }
+    return std::string();
+  }(), "is the vehicle"));
+  while (ground.flight->now_ns() < 100'000'000) ground.flight->step();
+  CHECK(has(ground.refused(variant("_better")), "the aircraft is armed"));
+  CHECK(ground.u() == 0.1);
+}
+
+TEST_CASE("many swaps leave nothing behind") {
+  const int swaps = std::getenv("FULMAR_LONG") ? 1000 : 10;
+  Ground ground(mission(one_phase));
+  for (int i = 0; i < swaps; ++i) {
+    ground.flight->swap("one", variant(i % 2 == 0 ? "_better" : ""));
+    REQUIRE(ground.flight->step());
+    REQUIRE(ground.u() == (i % 2 == 0 ? 0.05 : 0.1));
+  }
+}

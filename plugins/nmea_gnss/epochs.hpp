@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From the sentences of one epoch to one Gnss sample: each sentence tells a part of it, all with the same time.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "fulmar/msg/gnss.hpp"
+#include "nmea.hpp"
+
+namespace fulmar::nmea {
+
+inline FixType fix_type(int quality, int mode) {
+  switch (quality) {
+    case 1:  // satellites alone
+    case 2:  // differential
+    case 3:  // precise positioning service
+    case 8:  // the receiver's own simulator
+      return mode == 2 ? FixType::fix_2d : FixType::fix_3d;
+    case 4:
+      return FixType::rtk_fixed;
+    case 5:
+      return FixType::rtk_float;
+    case 6:
+      return FixType::dead_reckoning;
+    default:  // 0 none, 7 typed in by hand
+      return FixType::none;
+  }
+}
+
+/// Puts sentences together. Which ones a receiver sends, and in which order, is learnt from its last epochs: a sample is emitted as soon as
+/// all of them are there. `emit` is called with each finished Gnss.
+class Epochs {
+ public:
+  /// Deviation of one range: turns dilutions of precision into metres for a receiver that sends no GST.
+  explicit Epochs(double range_std_m = 3) : range_std_m_(range_std_m) {}
+
+  template <class Emit>
+  void take(const Sentence& s, Emit&& emit) {
+    const std::string_view type = s.type();
+    if (type == "GGA") {
+      if (const auto r = gga(s)) join(kind_gga, r->time_ns, emit), now_.gga = r;
+    } else if (type == "RMC") {
+      if (const auto r = rmc(s)) join(kind_rmc, r->time_ns, emit), now_.rmc = r;
+    } else if (type == "GST") {
+      if (const auto r = gst(s)) join(kind_gst, r->time_ns, emit), now_.gst = r;
+    } else if (type == "VTG") {
+      if (const auto r = vtg(s); r && !(expected() & kind_rmc)) now_.have |= kind_vtg, now_.vtg = r;
+    } else if (type == "GSA") {
+      if (const auto r = gsa(s)) gsa_ = r;
+    }
+    const unsigned wanted = expected();
+    if (wanted != 0 && (now_.have & wanted) == wanted) finish(emit);
+  }
+
+  /// The line has fallen silent: what is there is all that comes.
+  template <class Emit>
+  void flush(Emit&& emit) {
+    finish(emit);
+  }
+
+  void reset() { *this = Epochs(range_std_m_); }
+
+ private:
+  static constexpr unsigned kind_gga = 1, kind_rmc = 2, kind_gst = 4, kind_vtg = 8;
+  struct Epoch {
+    std::optional<std::int64_t> time_ns;
+    unsigned have = 0;
+    bool emitted = false;
+    std::optional<Gga> gga;
+    std::optional<Rmc> rmc;
+    std::optional<Gst> gst;
+    std::optional<Vtg> vtg;
+  };
+
+  /// Kinds that one of the last epochs had: one that is garbled once is still waited for.
+  unsigned expected() const {
+    unsigned all = 0;
+    for (const unsigned have : past_) all |= have;
+    return all & kind_rmc ? all & ~kind_vtg : all;  // VTG repeats what RMC says
+  }
+
+  /// Another time begins another epoch; so does, without a time, a kind that was already there.
+  template <class Emit>
+  void join(unsigned kind, std::optional<std::int64_t> time_ns, Emit&& emit) {
+    const bool another = now_.time_ns != time_ns || (!time_ns && (now_.have & kind));
+    if (another && (now_.have & ~kind_vtg)) {
+      finish(emit);
+      if (now_.have & kind_gga) past_[past_count_++ % past_.size()] = now_.have;
+      now_ = {};
+    }
+    now_.time_ns = time_ns;
+    now_.have |= kind;
+  }
+
+  template <class Emit>
+  void finish(Emit&& emit) {
+    if (now_.emitted || !now_.gga) return;
+    now_.emitted = true;
+    emit(sample());
+  }
+
+  Gnss sample() const {
+    const Gga& g = *now_.gga;
+    Gnss out;
+    out.satellites = static_cast<std::uint8_t>(g.satellites);
+    if (now_.rmc && now_.rmc->date_ns && now_.time_ns) out.utc_ns = *now_.rmc->date_ns + *now_.time_ns;
+    const FixType fix = fix_type(g.quality, gsa_ ? gsa_->mode : 3);
+    if (fix == FixType::none || !g.latitude_deg || !g.longitude_deg || !g.altitude_m) return out;
+    out.fix = fix;
+    out.latitude_deg = *g.latitude_deg;
+    out.longitude_deg = *g.longitude_deg;
+    out.altitude_m = *g.altitude_m;
+    add_deviations(g, out);
+    add_velocity(out);
+    return out;
+  }
+
+  void add_deviations(const Gga& g, Gnss& out) const {
+    const bool told = now_.gst && now_.gst->latitude_m && now_.gst->longitude_m;
+    if (told) {  // of one axis, as everywhere
+      const double n = *now_.gst->latitude_m, e = *now_.gst->longitude_m;
+      out.horizontal_std_m = std::sqrt((n * n + e * e) / 2);
+    } else if (g.hdop) {
+      out.horizontal_std_m = *g.hdop * range_std_m_ / std::numbers::sqrt2;
+    }
+    if (now_.gst && now_.gst->altitude_m) {
+      out.vertical_std_m = *now_.gst->altitude_m;
+    } else if (gsa_ && gsa_->vdop) {
+      out.vertical_std_m = *gsa_->vdop * range_std_m_;
+    }
+  }
+
+  /// The standard has no vertical speed and no deviation of any: `down` stays 0 and `speed_std_mps` unknown.
+  void add_velocity(Gnss& out) const {
+    std::optional<double> v, chi;
+    if (now_.rmc && now_.rmc->valid) {
+      v = now_.rmc->speed_mps, chi = now_.rmc->course_rad;
+    } else if (!now_.rmc && now_.vtg) {
+      v = now_.vtg->speed_mps, chi = now_.vtg->course_rad;
+    }
+    if (v && chi) out.velocity_mps = {*v * std::cos(*chi), *v * std::sin(*chi), 0};
+  }
+
+  double range_std_m_;
+  Epoch now_;
+  std::optional<Gsa> gsa_;  // has no time: the last one counts
+  std::array<unsigned, 4> past_{};
+  std::size_t past_count_ = 0;
+};
+
+}  // namespace fulmar::nmea

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A satellite receiver on a serial port of the companion computer. Runs in a thread of its own: `run: driver`.
+#pragma once
+#include <sys/stat.h>
+
+#include <stdexcept>
+#include <string>
+
+#include "epochs.hpp"
+#include "fulmar/msg/gnss.hpp"
+#include "fulmar/plugin.hpp"
+#include "serial_port.hpp"
+
+namespace fulmar::nmea {
+
+struct Receiver {
+  static constexpr const char* doc = "NMEA 0183 from a serial port: one sample per epoch. Needs `run: driver`.";
+  struct Inputs {};
+  struct Outputs {
+    OutQueue<Gnss, 16> gnss;
+  };
+  struct Params {
+    TextParam<128> port{"", "the serial port, such as /dev/ttyUSB0"};
+    Count baud{9600, 4800, 921600, "bits per second", setup};
+    Param range_std{3, "m", 0.01, 100, "deviation of one range, for receivers that send no GST", setup};
+  };
+
+  void configure(const Params& p) {
+    path_ = p.port.view();
+    if (path_.empty()) throw std::runtime_error("the parameter 'port' is not set; it names a serial port, such as /dev/ttyUSB0");
+    struct stat found {};
+    if (stat(path_.c_str(), &found) == 0 && !S_ISCHR(found.st_mode)) throw std::runtime_error(path_ + " is not a serial port");
+    const auto code = baud_code(p.baud);
+    if (!code) {
+      throw std::runtime_error("the parameter 'baud' is " + std::to_string(p.baud.value) +
+                               ". Valid: 4800, 9600, 19200, 38400, 57600, 115200, 230400, 460800, 921600");
+    }
+    baud_ = *code;
+    lines_ = {};
+    epochs_ = Epochs(p.range_std);
+    port_.close();
+  }
+
+  /// Waits for bytes, at most 50 ms. `degraded` while the device is not there; it is looked for ten times a second.
+  Status step(const Tick&, const Inputs&, const Params&, Outputs& out) {
+    const auto emit = [&](const Gnss& sample) { out.gnss.push(sample, on_arrival); };
+    if (!port_.is_open()) {
+      if (!port_.open(path_, baud_)) {
+        pause_ms(100);
+        return Status::degraded;
+      }
+      lines_.reset();
+      epochs_.reset();
+    }
+    std::array<char, 512> bytes;
+    const std::size_t n = port_.read(bytes, 50);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (const Sentence* sentence = lines_.push(bytes[i])) epochs_.take(*sentence, emit);
+    }
+    if (n == 0) epochs_.flush(emit);
+    return port_.is_open() ? Status::ok : Status::degraded;
+  }
+
+  std::uint64_t good_lines() const { return lines_.good(); }
+  std::uint64_t bad_lines() const { return lines_.bad(); }
+
+ private:
+  std::string path_;
+  speed_t baud_ = B9600;
+  SerialPort port_;
+  Lines lines_;
+  Epochs epochs_;
+};
+
+}  // namespace fulmar::nmea

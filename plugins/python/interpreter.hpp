@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The one Python interpreter of this process: started when the first script is opened, never stopped.
+#pragma once
+#include <pybind11/pybind11.h>
+
+#include <string>
+
+#include "fulmar/abi.h"
+
+namespace fulmar::python {
+
+namespace py = pybind11;
+
+/// The right to use the interpreter. Taken by whatever thread the host calls from.
+class Gil {
+ public:
+  Gil() : state_(PyGILState_Ensure()) {}
+  ~Gil() { PyGILState_Release(state_); }
+  Gil(const Gil&) = delete;
+  Gil& operator=(const Gil&) = delete;
+
+ private:
+  PyGILState_STATE state_;
+};
+
+/// Starts the interpreter unless this process has one, and makes the module fulmar_plugin. Throws std::runtime_error.
+void start();
+
+/// The module of runtime.py.
+const py::module_& runtime();
+
+/// Moves the pending Python exception into `error`: one sentence. All of its traceback goes to stderr when `print`.
+void explain(const std::string& file, bool print, fulmar_error* error) noexcept;
+
+/// Text that does not fit ends in "...".
+void tell(fulmar_error* error, const std::string& text) noexcept;
+
+}  // namespace fulmar::python

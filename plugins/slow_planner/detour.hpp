@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Leads a plan round no-fly zones. Stands between the planner and the manager. A step takes a tenth of a second and a lot of memory: it
+// is made for `run: async`. See README.md.
+#pragma once
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "fulmar/msg/plan.hpp"
+#include "fulmar/msg/progress.hpp"
+#include "fulmar/msg/vehicle_state.hpp"
+#include "fulmar/plugin.hpp"
+#include "rrt_star.hpp"
+
+namespace fulmar::slow_planner {
+
+struct Detour {
+  static constexpr const char* doc = "Leads a plan round no-fly zones, in the least time in the present wind. Needs `run: async`.";
+  struct Inputs {
+    In<VehicleState> state;  // for its wind
+    In<Plan> plan;
+    Optional<Progress> progress;  // of the plan that comes out: the leg that is flown is left alone
+  };
+  struct Outputs {
+    Out<Plan> plan;      // silent until the whole plan keeps clear
+    Probe clearance_m;   // of the plan that came out last
+    Probe flight_s;      // one round of it, in the wind of then
+  };
+  struct Params {
+    Record<Zones> zones{"the no-fly zones", required};
+    Param margin{20, "m", 0, 1000, "least distance of the path from a zone's rim", setup};
+    Count iterations{8000, 100, 100000, "samples of one search, one search per step", setup};
+    Count improvements{4, 0, 1000, "further searches per leg, once there is a plan", setup};
+  };
+
+  explicit Detour(std::uint64_t seed) : seed_(seed) {}
+  void configure(const Params& p);
+  Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out);
+
+ private:
+  struct Leg {  // to a waypoint of the original plan, from the one before it
+    Point from, to;
+    double airspeed_mps = 15;
+    bool blocked = false, solved = true;
+    std::int64_t searches = 0;
+    double extra_m = 0;  // kept off more than the margin: grows while the fillets of what is found cut into the margin
+    std::vector<Point> between;
+  };
+
+  void adopt(const Plan& plan, const Params& p);
+  void search(std::size_t i, const Params& p);
+  std::size_t choose(const Inputs& in, const Params& p) const;
+  bool flown(std::size_t leg, const Progress& progress) const;
+  Plan& assemble();
+  double clearance_of(const Plan& plan) const;
+
+  std::uint64_t seed_, searches_ = 0;
+  Zones zones_;
+  std::unique_ptr<Plan> original_, result_;
+  std::vector<Leg> legs_;
+  std::vector<std::size_t> leg_of_;  // of each waypoint of the plan published last
+  std::uint32_t revision_ = 0;       // published last
+  double wind_north_ = 0, wind_east_ = 0;
+  bool changed_ = false;
+};
+
+inline constexpr std::size_t no_leg = static_cast<std::size_t>(-1);
+
+inline void Detour::configure(const Params& p) {
+  zones_ = *p.zones;
+  for (std::size_t i = 0; i < zones_.zones.size(); ++i) {
+    if (!(zones_.zones[i].radius_m > 0)) throw std::runtime_error("no-fly zone " + std::to_string(i + 1) + " needs a radius above 0");
+  }
+  original_.reset();
+  legs_.clear();
+}
+
+inline Status Detour::step(const Tick&, const Inputs& in, const Params& p, Outputs& out) {
+  if (!original_ || original_->revision != in.plan->revision) adopt(*in.plan, p);
+  const VehicleState& state = *in.state;
+  wind_north_ = state.wind_valid ? state.wind_mps.north : 0;
+  wind_east_ = state.wind_valid ? state.wind_mps.east : 0;
+  if (const std::size_t i = choose(in, p); i != no_leg) search(i, p);
+  bool solved = true;
+  for (const Leg& leg : legs_) solved = solved && leg.solved;
+  if (!solved) return Status::degraded;
+  if (!changed_) return Status::ok;
+  changed_ = false;
+  Plan& plan = assemble();
+  const double clear_m = clearance_of(plan);
+  if (clear_m < p.margin - 0.1) return Status::degraded;  // the last orbit, or a leg that no detour helps
+  plan.revision = ++revision_;
+  out.plan.publish(plan);
+  out.clearance_m = clear_m;
+  Search s{{}, 0, plan.airspeed_mps, wind_north_, wind_east_, 0};
+  double time_s = 0;
+  for (const Leg& leg : legs_) {
+    std::vector<Point> way{leg.from};
+    way.insert(way.end(), leg.between.begin(), leg.between.end());
+    way.push_back(leg.to);
+    s.airspeed_mps = leg.airspeed_mps;
+    time_s += flight_time(s, way);
+  }
+  out.flight_s = std::min(time_s, unknown_std);
+  return Status::ok;
+}
+
+/// Cuts a new plan into legs, and sees which of them come too near to a zone.
+inline void Detour::adopt(const Plan& plan, const Params& p) {
+  original_ = std::make_unique<Plan>(plan);
+  result_ = std::make_unique<Plan>();
+  legs_.assign(plan.waypoints.size(), {});
+  const Route route(*original_);
+  for (std::uint32_t i = 0; i < route.size(); ++i) {
+    Leg& leg = legs_[i];
+    const Vec3<Ned>&a = plan.waypoints[route.before(i)].position_m, &b = plan.waypoints[i].position_m;
+    leg.from = {a.north, a.east};
+    leg.to = {b.north, b.east};
+    leg.airspeed_mps = route.airspeed_mps(i);
+    if (route.before(i) == i || route.is_point()) continue;
+    leg.blocked = clearance(zones_, leg.from, leg.to) < p.margin || clearance(zones_, route.leg(i)) < p.margin;
+    leg.solved = !leg.blocked;
+  }
+  leg_of_.clear();
+  changed_ = true;
+}
+
+/// The leg to search for now: first one that has no way yet, then the one searched least, unless it is being flown.
+inline std::size_t Detour::choose(const Inputs& in, const Params& p) const {
+  std::size_t best = no_leg;
+  for (std::size_t i = 0; i < legs_.size(); ++i) {
+    if (!legs_[i].solved) return i;
+    if (!legs_[i].blocked || legs_[i].searches > p.improvements) continue;
+    if (in.progress && flown(i, *in.progress)) continue;
+    if (best == no_leg || legs_[i].searches < legs_[best].searches) best = i;
+  }
+  return best;
+}
+
+/// The leg that is flown and the one after it keep their shape, since the corner between them is already being flown to.
+inline bool Detour::flown(std::size_t leg, const Progress& progress) const {
+  if (progress.plan_revision != revision_ || leg_of_.empty()) return true;  // not known
+  const std::size_t now = leg_of_[std::min<std::size_t>(progress.item, leg_of_.size() - 1)];
+  return leg == now || leg == (now + 1) % legs_.size();
+}
+
+inline void Detour::search(std::size_t i, const Params& p) {
+  Leg& leg = legs_[i];
+  const Search s{zones_, p.margin + leg.extra_m + 1, leg.airspeed_mps, wind_north_, wind_east_, p.iterations};
+  Random random(mix_seed(seed_, ++searches_));
+  ++leg.searches;
+  std::vector<Point> way = RrtStar(s, leg.from, leg.to, random).run();
+  if (way.empty()) {
+    leg.extra_m = 0;
+    return;
+  }
+  const std::vector<Point> found(way.begin() + 1, way.end() - 1);
+  std::vector<Point> before{leg.from};
+  before.insert(before.end(), leg.between.begin(), leg.between.end());
+  before.push_back(leg.to);
+  constexpr double worth_s = 0.05;  // less is not worth a change of the plan
+  if (leg.solved && flight_time(s, way) > flight_time(s, before) - worth_s) return;
+  const std::vector<Point> kept = std::exchange(leg.between, found);
+  Plan& plan = assemble();
+  const Route route(plan);
+  double clear_m = unknown_std;
+  for (std::uint32_t k = 0; k < route.size(); ++k) {
+    if (leg_of_[k] == i || leg_of_[route.before(k)] == i) clear_m = std::min(clear_m, clearance(zones_, route.leg(k)));
+  }
+  if (clear_m >= p.margin - 0.1) {
+    leg.solved = changed_ = true;
+  } else {
+    leg.between = kept;
+    leg.extra_m += 5;
+  }
+}
+
+/// The original plan with the detours in it. A jump to a waypoint becomes one to the beginning of its leg's detour.
+inline Plan& Detour::assemble() {
+  Plan& plan = *result_;
+  plan = *original_;
+  plan.waypoints.clear();
+  leg_of_.clear();
+  for (std::size_t i = 0; i < legs_.size(); ++i) {
+    const Waypoint& end = original_->waypoints[i];
+    const Waypoint& start = original_->waypoints[i > 0 ? i - 1 : legs_.size() - 1];
+    const Leg& leg = legs_[i];
+    double length_m = 0, along_m = 0;
+    Point last = leg.from;
+    for (const Point& point : leg.between) length_m += distance(std::exchange(last, point), point);
+    length_m += distance(last, leg.to);
+    last = leg.from;
+    for (const Point& point : leg.between) {
+      along_m += distance(std::exchange(last, point), point);
+      Waypoint w;
+      w.position_m = {point.north_m, point.east_m,
+                      start.position_m.down + (end.position_m.down - start.position_m.down) * along_m / length_m};
+      w.airspeed_mps = end.airspeed_mps;
+      if (plan.waypoints.push_back(w)) leg_of_.push_back(i);
+    }
+    if (original_->jump_item == i) plan.jump_item = static_cast<std::uint32_t>(plan.waypoints.size());
+    if (plan.waypoints.push_back(end)) leg_of_.push_back(i);
+  }
+  return plan;
+}
+
+inline double Detour::clearance_of(const Plan& plan) const {
+  const Route route(plan);
+  double least = unknown_std;
+  if (route.size() == 0) return least;
+  for (std::uint32_t i = route.closed() ? 0 : 1; i < route.size(); ++i) {
+    if (!route.is_point()) least = std::min(least, clearance(zones_, route.leg(i)));
+  }
+  if (route.closed() && !route.is_point()) return least;
+  const RouteOrbit orbit = route.final_orbit();
+  for (const Zone& z : zones_.zones) {
+    const double d = std::hypot(z.north_m - orbit.north_m, z.east_m - orbit.east_m);
+    least = std::min(least, std::abs(d - orbit.radius_m) - z.radius_m);
+  }
+  return least;
+}
+
+}  // namespace fulmar::slow_planner

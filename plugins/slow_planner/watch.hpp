@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How near a flight has come to the no-fly zones.
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "fulmar/msg/vehicle_state.hpp"
+#include "fulmar/plugin.hpp"
+#include "zones.hpp"
+
+namespace fulmar::slow_planner {
+
+struct ZoneClearance {
+  double least_m = unknown_std;  ///< to the rim of the nearest zone, so far; negative: it was entered
+  double now_m = unknown_std;
+};
+
+struct Watch {
+  static constexpr const char* doc = "Distance of the flight from the no-fly zones.";
+  struct Inputs {
+    In<VehicleState> state;
+  };
+  struct Outputs {
+    Out<ZoneClearance> clearance;
+  };
+  struct Params {
+    Record<Zones> zones{"the no-fly zones", required};
+  };
+
+  Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out) {
+    if (!in.state->position_valid) return Status::ok;
+    const Point here{in.state->position_m.north, in.state->position_m.east};
+    result_.now_m = clearance(*p.zones, here, here);
+    result_.least_m = std::min(result_.least_m, result_.now_m);
+    out.clearance.publish(result_);
+    return Status::ok;
+  }
+
+ private:
+  ZoneClearance result_;
+};
+
+}  // namespace fulmar::slow_planner

@@ -93,8 +93,11 @@ variant unoptimised "$first" -O0
 variant library_debug "$first" -O1 -D_GLIBCXX_DEBUG -D_GLIBCXX_DEBUG_PEDANTIC
 
 # a plugin whose inside changes with the instruction set: Eigen aligns its matrices to what -march gives it
-compile "$other" native_ekf plugins/estimator_ekf/estimator_ekf.cpp -O3 -march=native -lGeographic 2>/dev/null ||
-  compile "$other" native_ekf plugins/estimator_ekf/estimator_ekf.cpp -O3 -march=native -lGeographicLib
+geographic=-lGeographicLib
+if ! "$first" -shared -fPIC "$geographic" -o "$scratch/geographic" 2>/dev/null; then geographic=-lGeographic; fi  # its older name
+ekf_compiler=$other
+command -v "$other" >/dev/null || ekf_compiler=$first
+compile "$ekf_compiler" native_ekf plugins/estimator_ekf/estimator_ekf.cpp -O3 -march=native "$geographic"
 mission native_ekf "in: {status: vehicle.status}" nav
 fly native_ekf
 echo "native_ekf: flies"

@@ -240,8 +240,8 @@ def patched(text, lines):
 
 
 class Page:
-    def __init__(self, path, terminal):
-        self.path, self.terminal, self.commands = path, terminal, 0
+    def __init__(self, path, terminal, show):
+        self.path, self.terminal, self.show, self.commands = path, terminal, show, 0
 
     def fail(self, line, sentence):
         raise Mismatch(f"{self.path}:{line}: {sentence}")
@@ -272,6 +272,8 @@ class Page:
             actual_code, actual = self.terminal.run(command)
         except TimeoutError as fault:
             self.fail(line, f"$ {command}\n{fault}")
+        if self.show:
+            print("$ " + command, *actual, sep="\n")
         if not same_output(expected, actual, tolerance):
             self.fail(line, f"$ {command}\n{difference(expected, actual, tolerance)}")
         if actual_code != code:
@@ -305,18 +307,18 @@ class Page:
             file.write_text(original)
 
 
-def do_page(path, prefix, keep, limit_s):
+def do_page(path, prefix, given):
     """What went wrong, or ""."""
     home = pathlib.Path(tempfile.mkdtemp(prefix="fulmar-page-"))
-    terminal = Terminal(home, prefix, limit_s)
-    page, begin, fault = Page(path, terminal), time.monotonic(), ""
+    terminal = Terminal(home, prefix, given.limit)
+    page, begin, fault = Page(path, terminal, given.show), time.monotonic(), ""
     try:
         page.run()
     except Mismatch as mismatch:
         fault = str(mismatch)
     finally:
         terminal.close()
-        if keep:
+        if given.keep:
             print(f"{path}: {home} is kept")
         else:
             shutil.rmtree(home, ignore_errors=True)
@@ -330,11 +332,12 @@ def main(arguments=None):
     parser = argparse.ArgumentParser(description="Does what pages of the documentation tell, and compares.")
     parser.add_argument("--prefix", required=True, help="where Fulmar is installed")
     parser.add_argument("--keep", action="store_true", help="leave the pages' home folders")
+    parser.add_argument("--show", action="store_true", help="print what comes")
     parser.add_argument("--limit", type=float, default=120, help="seconds that one command may take")
     parser.add_argument("pages", nargs="+")
     given = parser.parse_args(arguments)
     prefix = pathlib.Path(given.prefix).resolve()
-    faults = [do_page(page, prefix, given.keep, given.limit) for page in given.pages]
+    faults = [do_page(page, prefix, given) for page in given.pages]
     return 1 if any(faults) else 0
 
 

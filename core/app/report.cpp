@@ -128,6 +128,9 @@ nlohmann::json result_json(const Graph& graph, const Flight& flight, const Fligh
   j["step_time_us"] = steps_json(result);
   j["allocations"] = nlohmann::json::object();
   for (const ComponentStats& c : result.components) j["allocations"][c.name] = c.allocations;
+  j["misses"] = nlohmann::json::object();
+  for (const ComponentStats& c : result.components)
+    if (c.misses > 0) j["misses"][c.name] = c.misses;
   for (const auto& [key, source] : graph.summary) j[key] = summary_of(graph, flight, source);
   j["not_reproducible"] = {"log", "speedup", "step_time_us", "wall_time_s"};
   return j;
@@ -152,6 +155,9 @@ std::string result_table(const Graph& graph, const Flight& flight, const FlightR
     if (c.allocations > 0)
       out += format("  %s takes memory in flight: %llu allocations in %llu steps\n", c.name.c_str(),
                     static_cast<unsigned long long>(c.allocations), static_cast<unsigned long long>(c.steps));
+  for (const ComponentStats& c : result.components)
+    if (c.misses > 0)
+      out += format("  %s: %llu results were late, or samples lost\n", c.name.c_str(), static_cast<unsigned long long>(c.misses));
   if (!result.log.error.empty()) out += "\nlog incomplete: " + result.log.error + "\n";
   if (!result.log.file.empty())
     out +=

@@ -11,6 +11,7 @@
 #include <charconv>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
@@ -37,6 +38,12 @@ void write_text(const char* text) {
   if (write(STDERR_FILENO, text, std::strlen(text)) < 0) return;
 }
 
+/// What the vehicle's device is to hear when the host goes. Async-signal-safe.
+void send_last_frame() {
+  const fulmar_last_frame* frame = last_frame.exchange(nullptr, std::memory_order_acq_rel);
+  if (frame && frame->fd >= 0 && write(frame->fd, frame->data, frame->size) < 0) write_text("\nfulmar: the last frame could not be sent");
+}
+
 /// The first signal ends the flight between two ticks. Another one, half a second later or more (timeout(1) sends two at once), ends the
 /// program: a component may be hanging.
 void on_signal(int signal) {
@@ -45,6 +52,7 @@ void on_signal(int signal) {
   clock_gettime(CLOCK_MONOTONIC, &now);
   if (interrupted.exchange(signal) == 0) first = now;
   if (static_cast<double>(now.tv_sec - first.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec - first.tv_nsec) < 0.5) return;
+  send_last_frame();
   const char* component = in_step.load(std::memory_order_relaxed);
   write_text("\nfulmar: ended by the second signal");
   if (component) write_text(" in the step of "), write_text(component);
@@ -54,9 +62,7 @@ void on_signal(int signal) {
 
 /// A component that crashes takes the host with it; at least it is named.
 void on_crash(int signal) {
-  if (const fulmar_last_frame* frame = last_frame.load(std::memory_order_acquire); frame && frame->fd >= 0) {
-    if (write(frame->fd, frame->data, frame->size) < 0) write_text("\nfulmar: the last frame could not be sent");
-  }
+  send_last_frame();
   const char* component = in_step.load(std::memory_order_relaxed);
   const char* what = signal == SIGSEGV   ? " (segmentation fault)"
                      : signal == SIGABRT ? " (abort)"
@@ -71,7 +77,20 @@ void on_crash(int signal) {
   raise(signal);  // the default action, restored by SA_RESETHAND
 }
 
+/// A component that calls exit ends the host as a crash does.
+void on_exit() {
+  const char* component = in_step.load(std::memory_order_relaxed);
+  if (!component) return;
+  send_last_frame();
+  write_text("\nfulmar: ");
+  write_text(component);
+  write_text(" ended the program in its step");
+  write_text(last_words);
+}
+
 void install_handlers() {
+  static const int registered = std::atexit(on_exit);
+  if (registered != 0) write_text("fulmar: no room for an exit handler\n");
   struct sigaction action {};
   action.sa_handler = on_signal;
   sigaction(SIGINT, &action, nullptr);
@@ -230,6 +249,7 @@ void Session::rehearse_changes(const Graph& next) const {
   for (const Component& c : next.components) {
     const auto was = std::find_if(graph_.components.begin(), graph_.components.end(), [&](const Component& o) { return o.name == c.name; });
     if (was == graph_.components.end() || was->plugin->sha256 == c.plugin->sha256 || c.info().vehicle || c.run == RunMode::driver) continue;
+    check_unloads(*was->plugin, was->info());
     const Tape* tape = last_ && same_inputs(was->info(), c.info()) ? last_->tape(c.name) : nullptr;
     try {
       rehearse(c, next.tick_ns, component_seed(next.seed, c.name), tape);

@@ -156,4 +156,10 @@ std::string probe(const fs::path& copy, const std::string& name, const ProbedScr
   return name + " ended the process while being " + stage + " (exit code " + std::to_string(WEXITSTATUS(outcome.status)) + ")";
 }
 
+bool stays_mapped(const fs::path& copy) {
+  const fs::path program = probe_program();
+  const Outcome outcome = watch(spawn(program, {program.string(), copy.string(), copy.filename().string()}), time_limit_s());
+  return outcome.report.find(report_stays) != std::string::npos;
+}
+
 }  // namespace fulmar::core

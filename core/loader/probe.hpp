@@ -16,4 +16,7 @@ struct ProbedScript {
 /// The time limit is 5 s, or FULMAR_PROBE_SECONDS. Throws Error when the program fulmar-probe is missing.
 std::string probe(const std::filesystem::path& copy, const std::string& name, const ProbedScript& script = {});
 
+/// Whether a plugin that can be loaded stays in the process after it is closed: what takes its place would run its code. Tried in a child.
+bool stays_mapped(const std::filesystem::path& copy);
+
 }  // namespace fulmar::core

@@ -7,6 +7,7 @@ namespace fulmar::core {
 
 inline constexpr std::string_view report_loaded = "stage: loaded\n";
 inline constexpr std::string_view report_read = "stage: read\n";
+inline constexpr std::string_view report_stays = "stays mapped\n";  // after it was closed
 inline constexpr std::string_view report_good = "good\n";
 inline constexpr std::string_view report_fault = "fault: ";  // the sentence follows
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/graph/params.hpp"
+#include "core/loader/probe.hpp"
 #include "core/run/flight_impl.hpp"
 
 namespace fulmar::core {
@@ -43,6 +44,12 @@ std::string structural_difference(const Graph& now, const Graph& next) {
   if (now.order != next.order) return "another order of steps";
   if (now.tick_ns != next.tick_ns || now.io != next.io) return "another rate or io";
   return "";
+}
+
+void check_unloads(const PluginInfo& was, const ComponentInfo& component) {
+  if (component.resident || !was.script.empty() || !stays_mapped(was.copy)) return;
+  throw Error(was.file + " cannot be unloaded (a unique symbol or a thread-local destructor keeps it): the new file would fly its code. "
+              "Restart the host");
 }
 
 bool same_inputs(const ComponentInfo& a, const ComponentInfo& b) {
@@ -115,6 +122,7 @@ void Flight::swap(const std::string& component, const std::string& file) {
 void Flight::Impl::replace(std::size_t at, const std::string& file) {
   Unit& old = *units[at];
   const std::string name = old.component->name;
+  check_unloads(*old.component->plugin, *old.info);
   Overrides overrides = graph.overrides;
   std::erase_if(overrides.with, [&](const auto& with) { return with.first == name; });
   overrides.with.emplace_back(name, file);

@@ -15,6 +15,9 @@ void rehearse(const Component& component, std::int64_t tick_ns, std::uint64_t se
 /// Whether what one has seen can be shown to the other.
 bool same_inputs(const ComponentInfo& a, const ComponentInfo& b);
 
+/// Throws Error when the code of `was` could not be unloaded, so that `is` would fly it.
+void check_unloads(const PluginInfo& was, const ComponentInfo& component);
+
 /// Base parameters of the same name and kind, from the predecessor.
 void carry_parameters(const ComponentInfo& from, const std::vector<ParamValue>& values, const ComponentInfo& to,
                       std::vector<ParamValue>& into);

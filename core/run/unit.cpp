@@ -425,7 +425,7 @@ void Unit::keep_log_settings(const Unit& from) {
 }
 
 void Unit::prepare_last_frame(const std::vector<std::vector<std::byte>>& failsafe) {
-  if (!functions_->get_extension) return;
+  if (!functions_->get_extension || failsafe.empty()) return;
   const auto encode = reinterpret_cast<fulmar_last_frame_function>(const_cast<void*>(functions_->get_extension(FULMAR_LAST_FRAME)));
   if (!encode) return;
   std::vector<fulmar_input> inputs(info->inputs.size());

@@ -18,6 +18,7 @@ struct Receiver {
   struct Inputs {};
   struct Outputs {
     OutQueue<Gnss, 16> gnss;
+    Probe bad_lines_ratio;  // lines dropped since the start: garbled, cut, without a right checksum
   };
   struct Params {
     TextParam<128> port{"", "the serial port, such as /dev/ttyUSB0"};
@@ -37,6 +38,7 @@ struct Receiver {
     }
     baud_ = *code;
     lines_ = {};
+    bad_told_ = 0;
     epochs_ = Epochs(p.range_std);
     port_.close();
   }
@@ -58,11 +60,9 @@ struct Receiver {
       if (const Sentence* sentence = lines_.push(bytes[i])) epochs_.take(*sentence, emit);
     }
     if (n == 0) epochs_.flush(emit);
+    if (lines_.bad() != bad_told_) out.bad_lines_ratio = static_cast<double>(bad_told_ = lines_.bad());
     return port_.is_open() ? Status::ok : Status::degraded;
   }
-
-  std::uint64_t good_lines() const { return lines_.good(); }
-  std::uint64_t bad_lines() const { return lines_.bad(); }
 
  private:
   std::string path_;
@@ -70,6 +70,7 @@ struct Receiver {
   SerialPort port_;
   Lines lines_;
   Epochs epochs_;
+  std::uint64_t bad_told_ = 0;
 };
 
 }  // namespace fulmar::nmea

@@ -105,7 +105,8 @@ fulmar_component Tables::component(const py::handle& described) {
   c.param_count = static_cast<std::uint32_t>(parameters.size());
   c.port_stride = sizeof(fulmar_port);
   c.param_stride = sizeof(fulmar_param);
-  c.flags = FULMAR_RESIDENT | (py::cast<bool>(described.attr("vehicle")) ? FULMAR_VEHICLE : 0u);
+  c.flags = FULMAR_RESIDENT;
+  if (py::cast<bool>(described.attr("vehicle"))) c.flags |= FULMAR_VEHICLE;
   return c;
 }
 

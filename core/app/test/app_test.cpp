@@ -206,3 +206,88 @@ TEST_CASE("inspect and graph speak to people") {
     if (std::string(format) == "text") CHECK(graph.out.find("cruise") != std::string::npos);
   }
 }
+
+TEST_CASE("--repeat flies so many flights in one host, each with its own log; equal flights have equal bytes") {
+  const Result r = fulmar("run " + hourglass + " --json --duration 5 --repeat 3 --log " + (folder() / "again.mcap").string());
+  REQUIRE(r.code == 0);
+  const json flights = json::parse(r.out)["flights"];
+  REQUIRE(flights.size() == 3);
+  CHECK(flights[0]["log_sha256"] == flights[2]["log_sha256"]);
+  CHECK(flights[1]["log"] == (folder() / "again-2.mcap").string());
+  CHECK(fs::exists(folder() / "again-3.mcap"));
+  const Result table = fulmar("run " + hourglass + " --duration 5 --repeat 2 --no-log");
+  CHECK(table.out.find("no figure has changed") != std::string::npos);
+}
+
+namespace {
+
+/// Runs the program in the background; what it has said so far.
+struct Background {
+  fs::path out = folder() / "background.txt";
+  std::string pid;
+  explicit Background(const std::string& arguments) {
+    pid = shell(program + arguments + " >" + out.string() + " 2>&1 & echo $!").out;
+    pid.erase(pid.find_last_not_of('\n') + 1);
+  }
+  ~Background() { shell("kill -INT " + pid + "; sleep 0.2; kill -9 " + pid); }
+  std::string said() const {
+    std::ifstream file(out);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  /// False after a generous time.
+  bool says(const std::string& words, std::size_t times = 1) const {
+    for (int i = 0; i < 1200; ++i) {
+      const std::string text = said();
+      std::size_t found = 0;
+      for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++found;
+      if (found >= times) return true;
+      usleep(50'000);
+    }
+    return false;
+  }
+};
+
+void put(const fs::path& from, const fs::path& to) {
+  fs::copy_file(from, to.string() + ".new", fs::copy_options::overwrite_existing);
+  fs::rename(to.string() + ".new", to);
+}
+
+}  // namespace
+
+TEST_CASE("--watch flies again with a plugin that has changed, compares, and stays with the old one when the new one is no good") {
+  const fs::path mine = folder() / "mine.so", lib = FULMAR_PLUGIN_DIR;
+  put(lib / "control_slc.so", mine);
+  const fs::path file = mission("done: \"nav.state.height_m > 40 m\"\n" + plan + "  mine: {fills: outer, use: mine.so/Outer, rate: 100 Hz}\n" +
+                                "phases:\n  takeoff: {outer: {use: mine, set: {law: takeoff}}}\n  cruise: {outer: mine}\n");
+  const Background watch("run " + file.string() + " --no-log --watch");
+  REQUIRE(watch.says("waiting for a change"));
+  put(lib / "control_tecs.so", mine);
+  REQUIRE(watch.says("waiting for a change", 2));
+  CHECK(watch.said().find("rehearsed on 256 steps") != std::string::npos);
+  CHECK(watch.said().find("compared with the flight before") != std::string::npos);
+  CHECK(watch.said().find("flight_time_s") != std::string::npos);
+  put(lib / "score.so", mine);
+  REQUIRE(watch.says("has no component 'Outer'"));
+  REQUIRE(watch.says("what flew before stays as it is"));
+  put(lib / "control_slc.so", mine);
+  CHECK(watch.says("waiting for a change", 3));
+}
+
+TEST_CASE("--watch --build builds when a source has changed, and tells when that fails") {
+  const fs::path place = folder() / "project";
+  fs::create_directories(place);
+  put(fs::path(FULMAR_PLUGIN_DIR) / "control_slc.so", place / "next.so");
+  put(fs::path(FULMAR_PLUGIN_DIR) / "control_tecs.so", place / "mine.so");
+  const fs::path general = mission("done: \"nav.state.height_m > 40 m\"\n" + plan + "  mine: {fills: outer, use: mine.so/Outer, rate: 100 Hz}\n" +
+                                   "phases:\n  takeoff: {outer: {use: mine, set: {law: takeoff}}}\n  cruise: {outer: mine}\n");
+  fs::copy_file(general, place / "mission.yaml");
+  std::ofstream(place / "law.cpp") << "1\n";
+  const Background watch("run " + (place / "mission.yaml").string() + " --no-log --watch --build \"grep -q 1 " + (place / "law.cpp").string() + " && mv " +
+                         (place / "next.so").string() + " " + (place / "mine.so").string() + "\"");
+  REQUIRE(watch.says("waiting for a change"));
+  std::ofstream(place / "law.cpp") << "nonsense\n";
+  REQUIRE(watch.says("the build failed; what flew before stays as it is"));
+  std::ofstream(place / "law.cpp") << "1 \n";
+  REQUIRE(watch.says("compared with the flight before"));
+  CHECK(fulmar("run " + hourglass + " --build true").code == 2);
+}

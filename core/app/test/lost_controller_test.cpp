@@ -102,8 +102,8 @@ TEST_CASE("a controller that goes in the middle of a turn costs less than 5 m") 
   };
   for (const Row& row : rows) {
     if (row.crash && !counts_allocations()) continue;  // a sanitized child reports crashes in its own way, and has no count of its heap
-    CAPTURE(row.fault);
-    CAPTURE(row.how);
+    CAPTURE(std::string(row.fault));
+    CAPTURE(std::string(row.how));
     const Flown flown = fly(mission(std::string(row.how) + "params: {fault: " + row.fault + when), row.speed);
     CHECK(flown.result.outcome == Outcome::flown);
     REQUIRE(flown.result.guards.size() == 1);
@@ -111,7 +111,7 @@ TEST_CASE("a controller that goes in the middle of a turn costs less than 5 m") 
     CHECK(flown.result.guards[0].action == "slc takes over");
     CHECK(flown.result.guards[0].what.find(row.told) != std::string::npos);
     const double deviation = deviation_m(whole.truth, flown.truth);
-    MESSAGE(row.fault << (row.how[0] == 'r' ? ", in a child" : ", in the loop") << ": at most " << deviation << " m from the flight without a fault");
+    MESSAGE(std::string(row.fault) << std::string(row.how[0] == 'r' ? ", in a child" : ", in the loop") << ": at most " << deviation << " m from the flight without a fault");
     CHECK(deviation < 5);
     CHECK(deviation > 0);  // something did change hands
   }

@@ -141,7 +141,7 @@ TEST_CASE("a component in a child computes the same bytes as in the host, whatev
     REQUIRE(rig->configure() == FULMAR_OK);
   }
   std::size_t wrong = 0, refused = 0, silent = 0, full = 0;
-  for (std::uint64_t n = 0; n < 5000; ++n) {
+  for (std::uint64_t n = 0; n < 3000; ++n) {
     for (Rig* rig : {&here, &there}) {
       give_anything(*rig, n);
       if (n % 500 == 100) rig->choose("law", static_cast<int>(n / 500 % 3)), rig->value("gain").number[0] = 0.001 * static_cast<double>(n);
@@ -165,7 +165,7 @@ TEST_CASE("a component in a child computes the same bytes as in the host, whatev
     for (std::uint32_t k = 0; k < here.inputs[3].count; ++k) refused += here.answers[3][k].verdict == FULMAR_REFUSED;
   }
   CHECK(wrong == 0);
-  CHECK(refused > 1000);  // every way is taken
+  CHECK(refused > 600);  // every way is taken
   CHECK(silent > 1000);
   CHECK(full > 100);
   CHECK(there.child->alive());

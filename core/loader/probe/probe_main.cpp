@@ -100,6 +100,7 @@ int try_plugin(const char* copy, const std::string& name) {
   if (!same_mode) return refuse(name + " changes the floating-point mode when it is loaded (built with -ffast-math?)");
   say(report_read);
   ::dlclose(library);
+  if (void* still = ::dlopen(copy, RTLD_LAZY | RTLD_NOLOAD); still != nullptr) say(report_stays);
   say(report_good);
   return 0;
 }

@@ -179,7 +179,7 @@ struct Law {
       case Fault::aborts:
         std::abort();
       case Fault::exits:
-        std::_Exit(3);
+        std::exit(3);
       case Fault::overflows:
         out.error_m = overflow(1);
         break;

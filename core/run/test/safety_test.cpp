@@ -2,6 +2,8 @@
 // The rows of docs/safety.md, made to happen in flight: what a component does wrong, in the loop and in a child, and what the host does.
 #include <sys/wait.h>
 
+#include <csignal>
+
 #include "core/run/allocation.hpp"
 #include "core/run/test/lab.hpp"
 
@@ -104,26 +106,35 @@ TEST_CASE("a step over its budget five times in a row, paced: the fallback takes
   }
 }
 
-TEST_CASE("when the host itself dies of a crash, the device gets the last frame that the vehicle encoded") {
+TEST_CASE("when a component takes the host with it, the device gets the last frame that the vehicle encoded") {
   if (!FULMAR_CRASH_TESTS) {
     MESSAGE("skipped: a sanitized build handles crashes by itself");
     return;
   }
-  // the program, since its handlers are what is tested
-  const fs::path device = folder().path / "device", file = folder().path / "crash.yaml";
-  const Graph g = mission("  sim: {fills: vehicle, use: lab/Cart, params: {device: " + device.string() + "}}\n" +
-                          "  one: {fills: law, use: lab/Law, params: {fault: crashes, fault_at: 0.1 s}}\n" + with_fallback);
-  fs::copy_file(folder().path / "lab.yaml", file, fs::copy_options::overwrite_existing);
-  const std::string said = (folder().path / "said").string();
-  const std::string command = std::string(FULMAR_BIN_DIR) + "/fulmar run " + file.string() + " --log " + (folder().path / "crash.mcap").string() + " >/dev/null 2>" + said;
-  const int status = std::system(command.c_str());
-  CHECK(WIFEXITED(status));
-  CHECK(WEXITSTATUS(status) == 128 + SIGSEGV);
-  double u = 0;
-  std::ifstream(device, std::ios::binary).read(reinterpret_cast<char*>(&u), sizeof u);
-  CHECK(u == -0.25);  // the mission's failsafe
-  std::stringstream words;
-  words << std::ifstream(said).rdbuf();
-  CHECK(words.str().find("one crashed in its step") != std::string::npos);
-  fs::remove(folder().path / "crash.mcap.part");
+  struct End {
+    const char *fault, *told;
+    int code;
+  };
+  for (const End& end : {End{"crashes", "one crashed in its step (segmentation fault)", 128 + SIGSEGV}, End{"aborts", "one crashed in its step (abort)", 128 + SIGABRT},
+                         End{"overflows", "one crashed in its step", 128 + SIGSEGV}, End{"exits", "one ended the program in its step", 3}}) {
+    CAPTURE(end.fault);
+    // the program itself, since its handlers are what is tested
+    const fs::path device = folder().path / "device", log = folder().path / "crash.mcap", said = folder().path / "said";
+    fs::remove(device);
+    fs::remove(log.string() + ".part");
+    mission("  sim: {fills: vehicle, use: lab/Cart, params: {device: " + device.string() + "}}\n  one: {fills: law, use: lab/Law, params: {fault: " +
+            end.fault + ", fault_at: 0.1 s}}\n" + with_fallback);
+    const int status = std::system((std::string(FULMAR_BIN_DIR) + "/fulmar run " + (folder().path / "lab.yaml").string() + " --log " + log.string() +
+                                    " >/dev/null 2>" + said.string())
+                                       .c_str());
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == end.code);
+    double u = 0;
+    std::ifstream(device, std::ios::binary).read(reinterpret_cast<char*>(&u), sizeof u);
+    CHECK(u == -0.25);  // the mission's failsafe
+    std::stringstream words;
+    words << std::ifstream(said).rdbuf();
+    CHECK(words.str().find(end.told) != std::string::npos);
+    CHECK(fs::exists(log.string() + ".part"));
+  }
 }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/run/flight_impl.hpp"
+#include "core/tap/sbom.hpp"
 #include "core/tap/wire.hpp"
 
 namespace fulmar::core {
@@ -123,6 +124,8 @@ void Flight::Impl::connect() {
       RoleSlot& role_slot = roles[r].slots[k];
       role_slot.type = role.outputs[k].type;
       role_slot.queues.clear();
+      role_slot.plans.assign(role.fillers.size(), CopyPlan{});
+      role_slot.copy.resize(role_slot.type ? role_slot.type->size : 0);
       const Slot* const current = std::exchange(role_slot.current, nullptr);
       for (std::size_t f = 0; f < role.fillers.size(); ++f) {
         const int output = role.provides[f][k];
@@ -130,6 +133,7 @@ void Flight::Impl::connect() {
         Slot& slot = units[static_cast<std::size_t>(role.fillers[f])]->slots[static_cast<std::size_t>(output)];
         slot.role = &role_slot;
         slot.filler = static_cast<int>(f);
+        role_slot.plans[f] = copy_plan(*slot.port->type, *role_slot.type);
         if (&slot == current) role_slot.current = current;
       }
     }
@@ -266,6 +270,10 @@ std::string Flight::Impl::parameters_text() const {
   return all.dump(1) + "\n";
 }
 
+std::string plugin_words(const PluginInfo& p) {
+  return p.file + " " + p.version + " " + p.sha256 + (p.build_id.empty() ? "" : " build " + p.build_id);
+}
+
 void Flight::Impl::attach_texts() {
   for (const auto& [name, text] : graph.attachments) log->attach(name, "application/yaml", text);
   log->attach("parameters.json", "application/json", parameters_text());
@@ -273,10 +281,13 @@ void Flight::Impl::attach_texts() {
   for (const int i : graph.order) order += graph.components[static_cast<std::size_t>(i)].name + "\n";
   log->attach("order.txt", "text/plain", order);
   std::vector<std::pair<std::string, std::string>> plugins;
+  std::vector<const PluginInfo*> loaded;
   for (const Component& c : graph.components) {
     const PluginInfo& p = *c.plugin;
-    plugins.emplace_back(c.name, p.file + " " + p.version + " " + p.sha256);
+    plugins.emplace_back(c.name, plugin_words(p));
+    if (std::find(loaded.begin(), loaded.end(), &p) == loaded.end()) loaded.push_back(&p);
   }
+  log->attach("sbom.json", "application/json", sbom_text(loaded));
   log->metadata("plugins", plugins);
   log->metadata("fulmar", {{"version", FULMAR_VERSION},
                            {"abi", std::to_string(FULMAR_ABI_MAJOR) + "." + std::to_string(FULMAR_ABI_MINOR)},

@@ -21,6 +21,9 @@ struct Event {
 };
 TypePtr event_type();
 
+/// What flew, for the log: file, version, SHA-256, build id.
+std::string plugin_words(const PluginInfo& plugin);
+
 /// Seed of a component: a mix of the mission's seed and the component's name, so that adding a component changes no other's noise.
 std::uint64_t component_seed(std::uint64_t mission_seed, const std::string& name);
 
@@ -78,6 +81,7 @@ struct Flight::Impl final : SampleReader {
 
   const std::byte* sample(const Source& source) const noexcept override;
   const Slot* slot_of(const Source& source) const;
+  const std::byte* message_of(const Source& source) const noexcept;
   Unit& unit(const std::string& component);  // throws Error
 
   bool unpaced() const { return options.speed == 0 && graph.io == "sim"; }

@@ -170,7 +170,13 @@ const Slot* Flight::Impl::slot_of(const Source& source) const {
 const std::byte* Flight::Impl::sample(const Source& source) const noexcept {
   const Slot* slot = slot_of(source);
   if (!slot || slot->sequence == 0 || slot->owner->stopped) return nullptr;
-  return slot->published.data();
+  return message_of(source);
+}
+
+const std::byte* Flight::Impl::message_of(const Source& source) const noexcept {
+  if (source.kind == Source::Kind::role)
+    return roles[static_cast<std::size_t>(source.index)].slots[static_cast<std::size_t>(source.output)].message();
+  return slot_of(source)->published.data();
 }
 
 Flight::Flight(const Graph& graph, const FlightOptions& options) : impl_(std::make_unique<Impl>(graph, options)) { impl_->owner = this; }
@@ -186,7 +192,7 @@ std::int64_t Flight::now_ns() const { return impl_->now_ns; }
 const std::string& Flight::phase() const { return impl_->graph.phases[static_cast<std::size_t>(impl_->phase)].name; }
 const std::byte* Flight::sample(const Source& source) const {
   const Slot* slot = impl_->slot_of(source);
-  return slot && slot->sequence > 0 ? slot->published.data() : nullptr;
+  return slot && slot->sequence > 0 ? impl_->message_of(source) : nullptr;
 }
 
 }  // namespace fulmar::core

@@ -174,7 +174,7 @@ void Flight::Impl::install(std::size_t i, Graph&& next) {
   const std::string words = "swapped: " + version_words(*before.plugin) + " -> " + version_words(*graph.components[i].plugin);
   event(EventKind::swap, before.name, words);
   const PluginInfo& plugin = *graph.components[i].plugin;
-  if (log) log->metadata("swap", {{"component", before.name}, {"plugin", plugin.file + " " + plugin.version + " " + plugin.sha256}});
+  if (log) log->metadata("swap", {{"component", before.name}, {"plugin", plugin_words(plugin)}});
   next = Graph{};
   if (before.library && before.library.use_count() == 1) Library::unload(std::move(before.library));
 }

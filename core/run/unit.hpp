@@ -47,6 +47,15 @@ struct RoleSlot {
   const Slot* current = nullptr;
   std::uint64_t sequence = 0;
   std::vector<std::pair<Reader*, std::vector<CopyPlan>>> queues;  // plans: one per filler
+  // for those who know the role's own table: conditions, figures
+  std::vector<CopyPlan> plans;  // one per filler
+  mutable std::vector<std::byte> copy;
+  const std::byte* message() const noexcept {
+    const CopyPlan& plan = plans[static_cast<std::size_t>(current->filler)];
+    if (plan.whole) return current->published.data();
+    plan.run(current->published.data(), copy.data());
+    return copy.data();
+  }
 };
 
 /// One input of one component.

@@ -23,7 +23,7 @@ Shared share() {
   return {&describe<T>(), &initial};
 }
 
-const Shared all[] = {FULMAR_SHARED_MESSAGES(share)};
+const Shared all[] = {share<Quat>(), FULMAR_SHARED_MESSAGES(share)};
 
 class Lister {
  public:

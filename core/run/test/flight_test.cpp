@@ -363,3 +363,15 @@ TEST_CASE("a flight in failsafe is never done") {
   o.log = false;
   CHECK(Flight(g, o).run().outcome == Outcome::failed);
 }
+
+TEST_CASE("a role's condition reads the right field of whoever fills the role, whatever else that one's message has") {
+  const Graph g = mission("  new: {fills: law, use: lab/NewLaw}\n"s +
+                          "phases:\n  old: {law: one, next: [{to: new, when: \"vehicle.status.armed\"}]}\n" +
+                          "  new: {law: new, next: [{to: end, when: \"law.command.u_frac > 0.7\"}, {to: old, when: \"law.command.u_frac < -1\"}]}\n" +
+                          "  end: {law: new}\n");
+  Flight flight(g, options(0.2));
+  const FlightResult r = flight.run();
+  CHECK(flight.phase() == "end");
+  CHECK(r.phases.size() == 3);
+  CHECK(value(g, flight, "sim", "applied", "u_frac") == 0.75);
+}

@@ -257,6 +257,28 @@ struct Watch {  ///< fills no role
   Tally tally_;
 };
 
+// The same message as Command, as another SDK knows it: a field more, in front.
+namespace newer {
+struct Command {
+  double extra_m = 0, u_frac = 0, seen_m = 0;
+  std::uint32_t by = 0;
+};
+}  // namespace newer
+
+struct NewLaw {
+  struct Inputs {
+    In<Signal> signal;
+  };
+  struct Outputs {
+    newer::Command command;
+  };
+  struct Params {};
+  Status step(const Tick&, const Inputs& in, const Params&, Outputs& out) {
+    out.command = {-77, 0.75, in.signal->x_m, 9};
+    return Status::ok;
+  }
+};
+
 // The same message as Signal, as an older SDK knew it: one field less.
 namespace older {
 struct Signal {
@@ -374,5 +396,5 @@ struct Statute {
 FULMAR_PLUGIN("2.0.0", Statute)
 #else
 }  // namespace
-FULMAR_PLUGIN("1.0.0", Cart, Law, Filter, Watch, OldReader, Late, Hungry, Ticker, Thinker)
+FULMAR_PLUGIN("1.0.0", Cart, Law, Filter, Watch, OldReader, Late, Hungry, Ticker, Thinker, NewLaw)
 #endif

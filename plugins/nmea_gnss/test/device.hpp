@@ -6,6 +6,7 @@
 #include <pty.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <string>
 
@@ -25,7 +26,14 @@ class Device {
     master_ = slave_ = -1;
     std::filesystem::remove(link_);
   }
-  void write(const std::string& text) const { REQUIRE(::write(master_, text.data(), text.size()) == static_cast<ssize_t>(text.size())); }
+  void write(std::string text) const {
+    while (!text.empty()) {
+      const ssize_t n = ::write(master_, text.data(), text.size());
+      REQUIRE((n > 0 || errno == EAGAIN));
+      if (n > 0) text.erase(0, static_cast<std::size_t>(n));
+      if (n < 0) usleep(1000);  // full: the reader comes
+    }
+  }
   /// What nobody reads is lost, as on a wire.
   void try_write(const std::string& text) const {
     if (::write(master_, text.data(), text.size()) < 0) return;

@@ -83,7 +83,8 @@ void same_tables(const fulmar_type& a, const fulmar_type& b) {
     CHECK(x.items == y.items);
     CHECK(x.min == y.min);
     CHECK(x.max == y.max);
-    CHECK(x.type == y.type);
+    REQUIRE((x.type == nullptr) == (y.type == nullptr));
+    if (x.type != nullptr) same_tables(*x.type, *y.type);
     REQUIRE(x.label_count == y.label_count);
     for (std::uint32_t k = 0; k < x.label_count; ++k) CHECK(std::string(x.labels[k]) == y.labels[k]);
   }

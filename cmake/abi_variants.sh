@@ -12,7 +12,8 @@ export FULMAR_STORE=$scratch/store
 
 first=${CXX:-g++} other=clang++
 case $("$first" --version | head -n 1) in *clang*) other=g++ ;; esac
-eigen=$(pkg-config --cflags eigen3 2>/dev/null || echo -I/usr/include/eigen3)
+eigen=$(pkg-config --cflags-only-I eigen3 2>/dev/null || echo -I/usr/include/eigen3)
+eigen=${eigen//-I/-isystem }  # its own warnings are not ours
 usual="-std=c++20 -shared -fPIC -fvisibility=hidden -fvisibility-inlines-hidden -ffp-contract=off -Wall -Wextra -Wl,--version-script=$root/sdk/cmake/plugin.version -Wl,-z,defs"
 
 cp sdk/template/roles/outer.hpp "$scratch/my_law.hpp"

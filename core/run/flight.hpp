@@ -86,7 +86,7 @@ class Flight {
   void swap(const std::string& component, const std::string& file);
   /// The inputs that a component saw last, nullptr when they are not kept.
   const class Tape* tape(const std::string& component) const;
-  /// Lets a component fly again that a guard has stopped.
+  /// Lets a component fly again that a guard has stopped. A child that has died is started anew, on the ground alone.
   void reset_guards();
 
   struct Impl;

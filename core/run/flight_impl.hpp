@@ -66,6 +66,8 @@ struct Flight::Impl final : SampleReader {
   // swap.cpp
   void replace(std::size_t index, const std::string& file);
   void install(std::size_t index, Graph&& next);
+  void restart(std::size_t index);
+  std::string in_use() const;  // why nothing can be swapped now, or ""
 
   // phases.cpp
   void begin();

@@ -50,7 +50,7 @@ void Flight::set_parameter(const std::string& component, const std::string& para
                 std::to_string(info.max));
   unit.base[static_cast<std::size_t>(i)] = value;
   const std::vector<Overlay>* overlay = impl_->overlay_of(static_cast<int>(unit.component - impl_->graph.components.data()));
-  if (!unit.retune(overlay)) throw Error(component + ": " + unit.problem.text);
+  if (!unit.dead() && !unit.retune(overlay)) throw Error(component + ": " + unit.problem.text);
   impl_->event(EventKind::parameter, component, param + " = " + std::to_string(number));
 }
 
@@ -63,12 +63,22 @@ const std::vector<Overlay>* Flight::Impl::overlay_of(int component) const {
 const Tape* Flight::tape(const std::string& component) const { return impl_->unit(component).tape.get(); }
 
 void Flight::reset_guards() {
-  for (const auto& unit : impl_->units) {
+  for (std::size_t i = 0; i < impl_->units.size(); ++i) {
+    Unit* unit = impl_->units[i].get();
     if (!unit->stopped) continue;
+    const std::string name = unit->component->name;
+    if (unit->dead()) {
+      if (const std::string why = impl_->in_use(); !why.empty()) {
+        impl_->event(EventKind::request, name, "guard not reset: its process has ended, and is started anew on the ground; " + why);
+        continue;
+      }
+      impl_->restart(i);
+      unit = impl_->units[i].get();
+    }
     unit->stopped = false;
     unit->overruns_in_a_row = 0;
     unit->fresh_start = true;
-    impl_->event(EventKind::request, unit->component->name, "guard reset");
+    impl_->event(EventKind::request, name, "guard reset");
   }
 }
 

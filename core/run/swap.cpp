@@ -104,6 +104,12 @@ bool vehicle_says(const Unit& vehicle, const char* flag, bool unknown) {
 
 }  // namespace
 
+std::string Flight::Impl::in_use() const {
+  const Unit& vehicle = *units[static_cast<std::size_t>(graph.vehicle)];
+  if (vehicle_says(vehicle, "armed", false)) return "the aircraft is armed";
+  return vehicle_says(vehicle, "on_ground", true) ? "" : "the aircraft is in the air";
+}
+
 void Flight::swap(const std::string& component, const std::string& file) {
   Impl& flight = *impl_;
   Unit& old = flight.unit(component);
@@ -111,10 +117,8 @@ void Flight::swap(const std::string& component, const std::string& file) {
   const Unit& vehicle = *flight.units[static_cast<std::size_t>(flight.graph.vehicle)];
   if (&old == &vehicle) throw Error(component + " is the vehicle: it holds the aircraft, and is changed when no flight goes on");
   if (flight.graph.file.empty()) throw Error("this flight was not read from a mission file: nothing can be swapped in it");
-  if (vehicle_says(vehicle, "armed", false))
-    throw Error(component + " cannot be swapped: the aircraft is armed. A component is swapped on the ground, disarmed");
-  if (!vehicle_says(vehicle, "on_ground", true))
-    throw Error(component + " cannot be swapped: the aircraft is in the air. A component is swapped on the ground, disarmed");
+  if (const std::string why = flight.in_use(); !why.empty())
+    throw Error(component + " cannot be swapped: " + why + ". A component is swapped on the ground, disarmed");
   flight.replace(index, file);
 }
 
@@ -145,6 +149,19 @@ void Flight::Impl::replace(std::size_t at, const std::string& file) {
     rehearse(component, graph.tick_ns, seed, same_inputs(was, is) ? tape : nullptr);
   }
   install(at, std::move(next));
+}
+
+/// A new child for a component whose child has died; parameters are those of now.
+void Flight::Impl::restart(std::size_t i) {
+  Unit& old = *units[i];
+  auto fresh = std::make_unique<Unit>(graph.components[i], unit_options(graph.components[i]));
+  fresh->base = old.base;
+  fresh->configure();
+  fresh->active = old.active;
+  fresh->keep_log_settings(old);
+  units[i] = std::move(fresh);
+  connect();
+  if (const std::vector<Overlay>* overlay = overlay_of(static_cast<int>(i)); overlay) units[i]->retune(overlay);
 }
 
 /// From here on nothing can fail but what ends the host: the newcomer has been created before the old one goes.

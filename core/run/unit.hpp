@@ -132,6 +132,8 @@ class Unit {
   std::unique_ptr<Tape> present_inputs(std::int64_t now_ns, std::uint64_t index);
   /// [setup] Channels and periods in the log, of the one whose place it takes.
   void keep_log_settings(const Unit& from);
+  /// Whether its child has died.
+  bool dead() const noexcept { return child_ && !child_->alive(); }
   /// Whether its results come by `collect`.
   bool remote() const noexcept { return async_ || samples_; }
   /// [setup] Encodes the frame that the device is to get when the host dies, if the vehicle can.

@@ -163,9 +163,6 @@ class Message(ctypes.Structure, metaclass=_MessageType):
             return numpy.frombuffer(self, numpy.float64, ctypes.sizeof(self._message) // 8)
         return numpy.ndarray((), numpy.dtype(self._message), self)
 
-    def __array__(self, dtype=None, copy=None):
-        return self.numpy() if dtype is None else self.numpy().astype(dtype)
-
     def __iter__(self):
         return (getattr(self, f.name) for f in self._described)
 

@@ -165,3 +165,18 @@ TEST_CASE("run modes that do not fit are refused") {
   CHECK(refused("  sim: {fills: vehicle, use: lab/Cart, run: process}\n").find("a vehicle runs in the loop") != std::string::npos);
   CHECK(refused("  one: {fills: law, use: lab/Law, memory: 64 parsecs}\n").find("is no amount of memory") != std::string::npos);
 }
+
+TEST_CASE("on hardware, a plugin that did not come with the host flies in a child unless the mission says otherwise") {
+  const std::string tail = "  fcu: {fills: vehicle, use: lab/Cart}\n  two: {fills: law, use: lab/Law, run: tick}\nphases:\n  fly: {law: {use: one, fallback: two}}\nio: fcu\n"s;
+  const Graph g = mission(tail);
+  const auto mode = [&](const std::string& name) {
+    for (const Component& c : g.components)
+      if (c.name == name) return c.run;
+    FAIL("no component " << name);
+    return RunMode::tick;
+  };
+  CHECK(mode("fcu") == RunMode::tick);  // a vehicle is the loop's own
+  CHECK(mode("one") == RunMode::process);
+  CHECK(mode("two") == RunMode::tick);
+  for (const Component& c : mission(with_fallback).components) CHECK(c.run == RunMode::tick);
+}

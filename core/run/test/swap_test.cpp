@@ -105,3 +105,26 @@ TEST_CASE("many swaps leave nothing behind") {
     REQUIRE(ground.u() == (i % 2 == 0 ? 0.05 : 0.1));
   }
 }
+
+TEST_CASE("a child that has died is started anew on the ground, and never in the air") {
+  if (!FULMAR_CRASH_TESTS) return;
+  const auto said_after_reset = [](const char* fault_at, std::int64_t until_ns) {
+    const Graph g = mission("  one: {fills: law, use: lab/Law, run: process, params: {fault: crashes, fault_at: "s + fault_at + "}}\n" + with_fallback);
+    std::string said;
+    FlightOptions o = options(0.3);
+    o.say = [&](const std::string& text, bool) { said += text + "\n"; };
+    Flight flight(g, o);
+    while (flight.now_ns() < until_ns) flight.step();
+    CHECK(value(g, flight, "sim", "applied", "by") == 2);  // the fallback
+    CHECK(value(g, flight, "sim", "applied", "u_frac") == 0.2);
+    ParamValue u, never;
+    u.number[0] = 0.3, never.number[0] = 1e9;
+    flight.set_parameter("one", "u", u);
+    flight.set_parameter("one", "fault_at", never);
+    said.clear();
+    flight.reset_guards();
+    return said;
+  };
+  CHECK(has(said_after_reset("-0.5 s", -400'000'000), "one: guard reset"));
+  CHECK(has(said_after_reset("0.1 s", 150'000'000), "started anew on the ground; the aircraft is armed"));
+}

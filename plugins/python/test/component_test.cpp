@@ -282,9 +282,9 @@ class Law:
     class Outputs: path = f.Out("Path"); norm_m = f.Probe(); roll_rad = f.Probe()
     def step(self, tick, inp, p, out):
         state = inp.state.numpy()
-        out.norm_m = np.linalg.norm(inp.state.position_m)
+        out.norm_m = np.linalg.norm(inp.state.position_m.numpy())
         out.roll_rad = state["roll_rad"] + state["position_m"]["east"]
-        out.path.origin_m.numpy()[:] = 2 * np.asarray(inp.state.position_m)
+        out.path.origin_m.numpy()[:] = 2 * inp.state.position_m.numpy()
         out.path.direction_ratio.set(np.array([0.0, 1.0, 0.0]))
 )");
   REQUIRE(law.configure() == FULMAR_OK);

@@ -114,7 +114,8 @@ TEST_CASE("a child that has died is started anew on the ground, and never in the
     FlightOptions o = options(0.3);
     o.say = [&](const std::string& text, bool) { said += text + "\n"; };
     Flight flight(g, o);
-    while (flight.now_ns() < until_ns) flight.step();
+    do flight.step();
+    while (flight.now_ns() < until_ns);
     CHECK(value(g, flight, "sim", "applied", "by") == 2);  // the fallback
     CHECK(value(g, flight, "sim", "applied", "u_frac") == 0.2);
     ParamValue u, never;

@@ -4,8 +4,10 @@
 // bench_isolation [--json]
 #include <sched.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -47,13 +49,12 @@ int echo() {
   void* memory = ::mmap(nullptr, sizeof(Words), PROT_READ | PROT_WRITE, MAP_SHARED, shared_descriptor, 0);
   if (memory == MAP_FAILED) return 1;
   Words& words = *static_cast<Words*>(memory);
-  const pid_t host = ::getppid();
-  for (std::uint32_t n = 0; ::getppid() == host; ++n) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  for (std::uint32_t n = 0;; ++n) {
     await(words.request, n, words.spins.load() != 0);
     words.answer.store(n + 1);
     futex_wake_if(words.answer, words.spins.load() == 0);
   }
-  return 0;
 }
 
 class Echo {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# The long campaigns: more seeds, more byte flips, 2000 loads of a plugin under the address sanitizer.
+# The long campaigns: more seeds, more byte flips, 10 000 loads and unloads of a plugin, under the address sanitizer too.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export FULMAR_LONG=1

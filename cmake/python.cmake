@@ -15,3 +15,7 @@ message(STATUS "Python: ${Python3_VERSION} of ${Python3_EXECUTABLE}")
 add_subdirectory(plugins/python)
 add_dependencies(flight python)
 install(TARGETS python LIBRARY DESTINATION lib/fulmar)
+# the interpreter itself has no sanitizer, and a module that needs one cannot be loaded by it
+if(NOT FULMAR_SANITIZE)
+  add_subdirectory(tools/fulmar_module)
+endif()

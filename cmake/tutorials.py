@@ -2,19 +2,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Does what a page of the documentation tells its reader to do, and compares what comes out with what the page says.
 
-  cmake/tutorials.py --prefix PREFIX PAGE.md...
+  cmake/tutorials.py [--prefix PREFIX | --build BUILD] [PAGE.md...]
 
-Each page has a home folder of its own, where ~/fulmar is PREFIX and its bin is on the PATH. In a page
+Each page has a home folder of its own, where ~/fulmar is PREFIX and its bin is on the PATH; without --prefix, BUILD is installed into a
+scratch folder for it. In a page
 
   ```console 5%        lines `$ command` (go on with `> `) are run, what follows them is compared with the output; a line `...` stands for
                        any lines, `...` in a line for any text, numbers may differ by 5 % and half their last digit (without it: not at
                        all), blanks count as one. With `exit=1` the block's last command must end with that code.
-  ```cpp file=law.hpp  is written to that file, whatever the language; with diff, its lines `-` become its lines `+`
+  ```cpp file=law.hpp  is written to that file, whatever the language (with `append`, to its end); with diff, its
+                       lines `-` become its lines `+`
   <!-- $ command -->   is run unseen
   <!-- refused: a.yaml -->  before a table: each row is one change to a.yaml, `old` -> `new`, or options of `fulmar check a.yaml`,
                        and what is told
 """
 import argparse
+import concurrent.futures
+import contextlib
 import difflib
 import fcntl
 import os
@@ -49,7 +53,7 @@ class Block:
     def __init__(self, language, info, line):
         self.language, self.line, self.lines = language, line, []
         words = dict(word.partition("=")[::2] for word in info.split())
-        self.file = words.get("file")
+        self.file, self.append = words.get("file"), "append" in words
         self.exit = int(words.get("exit", 0))
         self.tolerance = next((float(word[:-1]) / 100 for word in words if word.endswith("%")), 0)
 
@@ -241,7 +245,8 @@ def patched(text, lines):
 
 class Page:
     def __init__(self, path, terminal, show):
-        self.path, self.terminal, self.show, self.commands = path, terminal, show, 0
+        self.path = os.path.relpath(path)
+        self.terminal, self.show, self.commands = terminal, show, 0
 
     def fail(self, line, sentence):
         raise Mismatch(f"{self.path}:{line}: {sentence}")
@@ -264,7 +269,8 @@ class Page:
                 self.fail(block.line, f"{block.file}: {fault}")
         else:
             file.parent.mkdir(parents=True, exist_ok=True)
-            file.write_text("\n".join(block.lines) + "\n")
+            before = file.read_text() if block.append else ""
+            file.write_text(before + "\n".join(block.lines) + "\n")
 
     def command(self, line, command, expected, code, tolerance=0):
         self.commands += 1
@@ -319,25 +325,40 @@ def do_page(path, prefix, given):
     finally:
         terminal.close()
         if given.keep:
-            print(f"{path}: {home} is kept")
+            print(f"{page.path}: {home} is kept")
         else:
             shutil.rmtree(home, ignore_errors=True)
     if not fault and page.commands == 0:
-        fault = f"{path}: there is no command in it"
-    print(fault or f"{path}: {page.commands} commands, {time.monotonic() - begin:.1f} s", flush=True)
+        fault = f"{page.path}: there is no command in it"
+    print(fault or f"{page.path}: {page.commands} commands, {time.monotonic() - begin:.1f} s", flush=True)
     return fault
+
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+
+def default_pages():
+    return [ROOT / "docs/missions.md", *sorted((ROOT / "docs/tutorial").glob("[0-9]-*.md"))]
 
 
 def main(arguments=None):
     parser = argparse.ArgumentParser(description="Does what pages of the documentation tell, and compares.")
-    parser.add_argument("--prefix", required=True, help="where Fulmar is installed")
+    parser.add_argument("--prefix", help="where Fulmar is installed")
+    parser.add_argument("--build", default=ROOT / "build", help="a build that is installed when there is no --prefix")
     parser.add_argument("--keep", action="store_true", help="leave the pages' home folders")
     parser.add_argument("--show", action="store_true", help="print what comes")
     parser.add_argument("--limit", type=float, default=120, help="seconds that one command may take")
-    parser.add_argument("pages", nargs="+")
+    parser.add_argument("--jobs", type=int, default=1, help="pages at a time")
+    parser.add_argument("pages", nargs="*", default=default_pages())
     given = parser.parse_args(arguments)
-    prefix = pathlib.Path(given.prefix).resolve()
-    faults = [do_page(page, prefix, given) for page in given.pages]
+    with contextlib.ExitStack() as stack:
+        if given.prefix:
+            prefix = pathlib.Path(given.prefix).resolve()
+        else:
+            prefix = pathlib.Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="fulmar-prefix-")))
+            subprocess.run(["cmake", "--install", given.build, "--prefix", prefix], check=True, stdout=subprocess.DEVNULL)
+        with concurrent.futures.ThreadPoolExecutor(given.jobs) as pool:
+            faults = list(pool.map(lambda page: do_page(page, prefix, given), given.pages))
     return 1 if any(faults) else 0
 
 

@@ -232,12 +232,9 @@ class Reader {
     static const std::vector<std::string> modes = {"tick", "process", "async", "driver"};
     const auto at = std::find(modes.begin(), modes.end(), keys.word("run", modes).value_or(""));
     if (at != modes.end()) c.run = static_cast<RunMode>(at - modes.begin());
-    const auto only_with = [&](const char* key, RunMode mode) {
-      if (keys.has(key) && c.run && c.run != mode)
-        report_.add(keys.where(key), path + "." + key + ": belongs to 'run: " + modes[static_cast<std::size_t>(mode)] + "'");
-    };
-    only_with("latency", RunMode::async);
-    only_with("hang", RunMode::process);
+    if (keys.has("latency") && c.run != RunMode::async) report_.add(keys.where("latency"), path + ".latency: belongs to 'run: async'");
+    // on hardware a child may be the default: `hang` may then stand alone
+    if (keys.has("hang") && c.run && c.run != RunMode::process) report_.add(keys.where("hang"), path + ".hang: belongs to 'run: process'");
     c.latency_ns = keys.duration_ns("latency").value_or(0);
     c.hang_ns = keys.duration_ns("hang").value_or(0);
     if (c.run == RunMode::async && c.latency_ns == 0)

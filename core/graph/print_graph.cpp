@@ -28,7 +28,17 @@ std::string source_text(const Graph& graph, const Source& source) {
 
 std::string rate_text(const Graph& graph, const Component& component) {
   const std::int64_t period = component.period_ns > 0 ? component.period_ns : graph.tick_ns;
-  return number_text(1e9 / static_cast<double>(period)) + " Hz";
+  const std::string rate = number_text(1e9 / static_cast<double>(period)) + " Hz";
+  switch (component.run) {
+    case RunMode::process:
+      return rate + ", in a child";
+    case RunMode::async:
+      return rate + ", " + number_text(1e-6 * static_cast<double>(component.latency_ns)) + " ms later";
+    case RunMode::driver:
+      return "in a thread of its own";
+    default:
+      return rate;
+  }
 }
 
 std::string role_text(const Graph& graph, const Component& component) {

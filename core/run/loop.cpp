@@ -28,10 +28,11 @@ constexpr std::int64_t silence_ns = 1'000'000'000;  // simulated after a failsaf
 
 }  // namespace
 
-/// One reading of the clock between two steps times both: this charges the time since the last reading to `unit`.
+/// One reading of the clock between two steps times both: this charges the time since the last reading to `unit`, but for what the log has
+/// waited for its thread.
 void Flight::Impl::clock(Unit& unit) {
   const std::int64_t now = wall_clock_ns();
-  const std::int64_t took = now - wall_ns;
+  const std::int64_t took = now - wall_ns - (log ? log->take_wait_ns() : 0);
   unit.stats.time.add(took);
   wall_ns = now;
   if (unit.component->budget_ns == 0 || unpaced()) return;  // an unpaced simulation knows no deadline

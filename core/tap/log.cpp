@@ -11,6 +11,7 @@
 #include <map>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/tap/element.hpp"
@@ -74,6 +75,7 @@ struct Log::Impl {
   std::unique_ptr<Ring> ring;
   std::unique_ptr<McapWriter> writer;
   bool begun = false;        // the loop has written
+  std::int64_t waited_ns = 0;  // the loop's
   bool head_stored = false;  // the log thread has written what comes first
   std::mutex mutex;
   std::vector<Extra> head, tail;  // guarded
@@ -209,9 +211,13 @@ void Log::write(std::size_t channel, std::int64_t log_ns, std::int64_t valid_ns,
       log.ring_drops.fetch_add(1, std::memory_order_relaxed);
       return;
     }
+    const auto begin = std::chrono::steady_clock::now();
     log.ring->wait_for_room();
+    log.waited_ns += std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - begin).count();
   }
 }
+
+std::int64_t Log::take_wait_ns() noexcept { return std::exchange(impl_->waited_ns, 0); }
 
 std::uint64_t Log::dropped() const noexcept { return impl_->ring_drops.load(std::memory_order_relaxed); }
 

@@ -50,6 +50,8 @@ class Log {
   /// [tick] One message of channels[channel], `data` a struct of its type, valid at and logged at flight times. No allocation, no lock.
   void write(std::size_t channel, std::int64_t log_ns, std::int64_t valid_ns, const std::byte* data) noexcept;
 
+  /// [tick] How long `write` has waited for room since this was last asked.
+  std::int64_t take_wait_ns() noexcept;
   /// [tick] Messages lost so far because the ring was full.
   std::uint64_t dropped() const noexcept;
   /// [tick] The disk has failed: no more messages are stored. close() says why.

@@ -31,7 +31,7 @@ std::string broken(const std::string& text) {
 
 const std::string keys =
     "mission, extends, io, airframe, origin, rate, seed, arm, done, failed, timeout, epoch, progress, summary, failsafe, roles, "
-    "components, phases, record, live, dds";
+    "components, phases, record, plugins, live, dds";
 
 }  // namespace
 
@@ -207,7 +207,10 @@ TEST_CASE("rates, budgets and run modes are those that this build has") {
   CHECK(changed("rate: 100 Hz}\n  tecs", "rate: 1000 Hz, budget: 3}\n  tecs") ==
         "28: components.slc.budget: 3 has no unit; a time is written with s, ms, us, ns, min, h\n28: components.slc.rate: 1000 Hz is above "
         "the mission's rate of 400 Hz");
-  CHECK(changed("rate: 100 Hz}\n  tecs", "run: process}\n  tecs") == "28: components.slc: this build has no 'run: process'; it has: tick");
+  CHECK(changed("rate: 100 Hz}\n  tecs", "run: process}\n  tecs") == "");
+  CHECK(changed("rate: 100 Hz}\n  tecs", "run: tick, hang: 5 ms}\n  tecs") == "28: components.slc.hang: belongs to 'run: process'");
+  CHECK(changed("rate: 100 Hz}\n  tecs", "memory: 5 m}\n  tecs") ==
+        "28: components.slc.memory: '5 m' is no amount of memory; write it with kB, MB or GB, as in 64 MB");
   CHECK(changed("rate: 100 Hz}\n  tecs", "run: fast, latency: 20 ms}\n  tecs") ==
         "28: components.slc.run: unknown word 'fast'. Valid: tick, process, async, driver.\n28: components.slc.latency: belongs to 'run: "
         "async'");

@@ -40,7 +40,8 @@ struct MyLaw {  // fills the role `guide`
     command.airspeed_mps = path.airspeed_mps;
     if (path.kind == PathKind::line) {
       const double along = std::max(std::hypot(path.direction_ratio.north, path.direction_ratio.east), 1e-6);
-      const double q_n = path.direction_ratio.north / along, q_e = path.direction_ratio.east / along, slope = -path.direction_ratio.down / along;
+      const double q_n = path.direction_ratio.north / along, q_e = path.direction_ratio.east / along,
+                   slope = -path.direction_ratio.down / along;
       const double cross = q_n * e - q_e * n;  // right of the line is positive
       command.course_rad = wrap_pi(std::atan2(q_e, q_n) - std::atan2(cross, p.lookahead.value));
       command.height_m += slope * (q_n * n + q_e * e);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ports: actuators Actuators, arm ArmRequest -> imu Imu, gnss Gnss, mag Mag, baro Baro, pitot Pitot, rc Rc, status VehicleStatus, truth VehicleState
-// A point mass that turns as it banks: first-order roll and pitch rates from the surfaces, coordinated turn, perfect sensors, no wind.
-// Source: Beard & McLain, Small Unmanned Aircraft (2012), chapter 9, (9.14) with chi = psi; sensors by (7.1) to (7.10) without noise.
+// ports: actuators Actuators, arm ArmRequest -> imu Imu, gnss Gnss, mag Mag, baro Baro, pitot Pitot, rc Rc, status VehicleStatus, truth
+// VehicleState A point mass that turns as it banks: first-order roll and pitch rates from the surfaces, coordinated turn, perfect sensors,
+// no wind. Source: Beard & McLain, Small Unmanned Aircraft (2012), chapter 9, (9.14) with chi = psi; sensors by (7.1) to (7.10) without
+// noise.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -99,8 +100,10 @@ struct MyLaw {  // fills the role `vehicle`
     theta_ = rolling ? 0 : std::clamp(theta_ + q_rate_ * dt, -0.6, 0.6);
     gamma_ += dt / p.path_lag * (theta_ - gamma_);
     if (p_n_.z() >= 0) gamma_ = std::max(gamma_, 0.0);
-    const double throttle = std::clamp(command_.throttle_frac, 0.0, 1.0), cruise_throttle = std::max(p.airframe->limits.throttle_cruise_frac, 0.1);
-    Va_ = std::max(Va_ + dt * (p.acceleration_max * (throttle - cruise_throttle * Va_ * Va_ / (cruise * cruise)) - g * std::sin(gamma_)), 0.0);
+    const double throttle = std::clamp(command_.throttle_frac, 0.0, 1.0),
+                 cruise_throttle = std::max(p.airframe->limits.throttle_cruise_frac, 0.1);
+    Va_ = std::max(Va_ + dt * (p.acceleration_max * (throttle - cruise_throttle * Va_ * Va_ / (cruise * cruise)) - g * std::sin(gamma_)),
+                   0.0);
     psi_dot_ = rolling ? 0 : g / std::max(Va_, 5.0) * std::tan(phi_);  // (9.14), no wind
     psi_ = wrap_pi(psi_ + psi_dot_ * dt);
     v_n_ = {Va_ * std::cos(gamma_) * std::cos(psi_), Va_ * std::cos(gamma_) * std::sin(psi_), -Va_ * std::sin(gamma_)};

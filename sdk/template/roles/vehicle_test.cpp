@@ -41,7 +41,8 @@ TEST_CASE("with the elevator up it takes off, with the aileron right it turns ri
   // what the GNSS says is what the book's turn rate gives: chi_dot = g tan(phi) / Va
   const double before = truth.course_rad;
   fly(bench, 1, 0, 0);
-  CHECK(bench.out.truth.value.course_rad - before == doctest::Approx(9.80665 * std::tan(truth.roll_rad) / truth.airspeed_mps).epsilon(0.05));
+  CHECK(bench.out.truth.value.course_rad - before ==
+        doctest::Approx(9.80665 * std::tan(truth.roll_rad) / truth.airspeed_mps).epsilon(0.05));
 }
 
 TEST_CASE("a tick takes no memory") {

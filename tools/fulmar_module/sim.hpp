@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A mission that a Python program flies: tick by tick, or to its end, again and again.
+#pragma once
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/run/flight.hpp"
+
+namespace fulmar::module {
+
+namespace py = pybind11;
+
+/// How a request was answered. The answer comes with the step that sees it.
+struct Answer {
+  bool answered = false, accepted = false;
+  std::string reason;
+};
+
+struct Happening {
+  double at_s = 0;
+  std::string text;
+  bool warning = false;
+};
+
+class Sim {
+ public:
+  Sim(const std::string& mission, const core::Overrides& overrides, const core::FlightOptions& options);
+
+  /// `n` ticks, or fewer when the flight is over. True while it is not.
+  bool step(std::int64_t n);
+  /// To the end, or until that flight time. The result when the flight is over, else None.
+  py::object run(std::optional<double> until_s);
+  /// A new flight of the same mission, with the parameters as they are now.
+  void reset(std::optional<std::uint64_t> seed);
+
+  double now_s() const;
+  std::string phase() const;
+  bool done() const { return result_.has_value(); }
+  py::object result() const;
+  std::uint64_t seed() const { return graph_.seed; }
+  std::string mission() const { return graph_.mission; }
+  double tick_s() const { return 1e-9 * static_cast<double>(graph_.tick_ns); }
+  const std::vector<Happening>& events() const { return events_; }
+
+  /// "nav.state" -> a copy of the sample, "nav.state.height_m" -> a number; None while there is none.
+  py::object sample(const std::string& name);
+  /// Names of all ports: of roles, then of components.
+  std::vector<std::string> ports() const;
+
+  py::object parameter(const std::string& name) const;
+  void set_parameter(const std::string& name, const py::handle& value);
+  std::vector<std::string> parameters() const;
+
+  std::shared_ptr<Answer> request(const std::string& port, const py::handle& message);
+
+ private:
+  core::Flight& flight();
+  void finish();
+  core::Source find_port(const std::string& owner, const std::string& port) const;
+  core::TypePtr type_of(const core::Source& source) const;
+  std::pair<std::size_t, std::size_t> find_parameter(const std::string& name) const;
+
+  core::Graph graph_;
+  core::FlightOptions options_;
+  std::unique_ptr<core::Flight> flight_;
+  std::optional<std::string> result_;  // JSON
+  std::vector<Happening> events_;
+  std::string log_file_;
+  bool begun_ = false;  // a tick has been flown
+};
+
+}  // namespace fulmar::module

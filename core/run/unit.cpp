@@ -78,7 +78,7 @@ void Unit::create(const UnitOptions& options) {
   const Component& c = *component;
   if (c.run == RunMode::process) {
     IsolatedOptions o;
-    o.name = c.name, o.copy = c.plugin->copy, o.script = c.plugin->script, o.file = c.plugin->file;
+    o.name = c.name, o.copy = c.plugin->copy, o.script = c.plugin->script, o.file = c.plugin->file, o.path = c.plugin->path;
     o.index = c.index_in_plugin, o.seed = options.seed;
     if (options.paced) o.hang_ns = c.hang_ns;
     child_ = std::make_unique<Isolated>(*info, o);

@@ -28,21 +28,27 @@ constexpr int block = 5000, blocks = 24;  // 120 000 round trips of each kind, t
 
 // ---- the bare round trip -------------------------------------------------------------------------------------------------------
 
-struct Words {
-  alignas(cache_line) std::atomic<std::uint32_t> request;
-  std::atomic<std::uint32_t> spins;
-  alignas(cache_line) std::atomic<std::uint32_t> answer;
+struct Word {
+  alignas(cache_line) std::atomic<std::uint32_t> value;
+  std::atomic<std::uint32_t> sleepers;
+
+  void set(std::uint32_t to) {
+    value.store(to);
+    if (sleepers.load() != 0) futex_wake(value);
+  }
+  void await(std::uint32_t seen, bool spins) {
+    const auto changed = [&] { return value.load(std::memory_order_acquire) != seen; };
+    if (spins && spin_until(spin_ns, changed)) return;
+    sleepers.store(1);
+    while (!changed()) futex_wait(value, seen, 1'000'000'000);
+    sleepers.store(0, std::memory_order_relaxed);
+  }
 };
 
-void futex_wake_if(std::atomic<std::uint32_t>& word, bool asleep) {
-  if (asleep) futex_wake(word);
-}
-
-void await(std::atomic<std::uint32_t>& word, std::uint32_t seen, bool spins) {
-  const auto changed = [&] { return word.load(std::memory_order_acquire) != seen; };
-  if (spins && spin_until(spin_ns, changed)) return;
-  while (!changed()) futex_wait(word, seen, 1'000'000'000);
-}
+struct Words {
+  Word request, answer;
+  std::atomic<std::uint32_t> spins;
+};
 
 // The other process: this program again.
 int echo() {
@@ -51,9 +57,8 @@ int echo() {
   Words& words = *static_cast<Words*>(memory);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   for (std::uint32_t n = 0;; ++n) {
-    await(words.request, n, words.spins.load() != 0);
-    words.answer.store(n + 1);
-    futex_wake_if(words.answer, words.spins.load() == 0);
+    words.request.await(n, words.spins.load(std::memory_order_relaxed) != 0);
+    words.answer.set(n + 1);
   }
 }
 
@@ -66,10 +71,8 @@ class Echo {
   }
   void spin(bool on) { words_.spins.store(on), trip(); }
   void trip() {
-    const bool spins = words_.spins.load(std::memory_order_relaxed) != 0;
-    words_.request.store(n_ + 1);
-    futex_wake_if(words_.request, !spins);
-    await(words_.answer, n_++, spins);
+    words_.request.set(n_ + 1);
+    words_.answer.await(n_++, words_.spins.load(std::memory_order_relaxed) != 0);
   }
   pid_t pid() const { return process_->pid(); }
 
@@ -243,12 +246,13 @@ void print(Figures& f, bool json) {
   const unsigned cpus = std::thread::hardware_concurrency();
   if (!json) {
     for (Row* row : f.rows()) std::printf("%-48s %9.0f %9.0f ns\n", row->name.c_str(), row->quantile(0.5), row->quantile(0.99));
-    std::printf("%-48s %9.0f           ns\n%-48s %9.0f           ns\n", "a child's own cost, asleep", asleep, "a child's own cost, spinning",
-                spinning);
+    std::printf("%-48s %9.0f           ns\n%-48s %9.0f           ns\n", "a child's own cost, asleep", asleep,
+                "a child's own cost, spinning", spinning);
     std::printf("%u CPUs, load average %.2f\n", cpus, load);
     return;
   }
-  nlohmann::json all = {{"child asleep, excess_ns", asleep}, {"child spinning, excess_ns", spinning}, {"load_average", load}, {"cpus", cpus}};
+  nlohmann::json all = {
+      {"child asleep, excess_ns", asleep}, {"child spinning, excess_ns", spinning}, {"load_average", load}, {"cpus", cpus}};
   for (Row* row : f.rows()) all[row->name] = {{"p50_ns", row->quantile(0.5)}, {"p99_ns", row->quantile(0.99)}};
   std::printf("%s\n", all.dump(2).c_str());
 }

@@ -58,7 +58,7 @@ Component hop_component(const std::shared_ptr<Library>& library, std::size_t ind
 void add_hops(std::vector<Row>& rows) {
   const std::shared_ptr<Library> library = Library::open(FULMAR_HOP);
   const Component begin = hop_component(library, 0, "begin"), hop = hop_component(library, 1, "hop");
-  Unit source(begin, 2'500'000, 1), unit(hop, 2'500'000, 1);
+  Unit source(begin, UnitOptions{}), unit(hop, UnitOptions{});
   source.configure();
   unit.configure();
   unit.readers[0].slot = &source.slots[0];

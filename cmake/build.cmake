@@ -15,6 +15,33 @@ if(ccache_program)
   set(CMAKE_C_COMPILER_LAUNCHER ${ccache_program})
 endif()
 
+# fulmar_harden(target...): what is shipped resists what a damaged file or a faulty plugin may do to it. Plugins built elsewhere have flags
+# of their own. Fortified functions need an optimised build; the sanitizers replace them.
+include(CheckCXXCompilerFlag)
+check_cxx_compiler_flag(-fcf-protection FULMAR_HAS_CF_PROTECTION)
+function(fulmar_harden)
+  foreach(target ${ARGN})
+    get_target_property(type ${target} TYPE)
+    get_target_property(pic ${target} POSITION_INDEPENDENT_CODE)
+    target_compile_options(${target} PRIVATE -fstack-protector-strong)
+    if(FULMAR_HAS_CF_PROTECTION)
+      target_compile_options(${target} PRIVATE -fcf-protection)
+    endif()
+    if(NOT FULMAR_SANITIZE)
+      target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE> $<$<NOT:$<CONFIG:Debug>>:-D_FORTIFY_SOURCE=2>)
+    endif()
+    if(NOT type STREQUAL MODULE_LIBRARY AND NOT pic)
+      target_compile_options(${target} PRIVATE -fPIE)
+    endif()
+    if(type STREQUAL EXECUTABLE)
+      target_link_options(${target} PRIVATE -pie)
+    endif()
+    if(NOT type STREQUAL STATIC_LIBRARY)
+      target_link_options(${target} PRIVATE -Wl,-z,relro -Wl,-z,now -Wl,-z,noexecstack)
+    endif()
+  endforeach()
+endfunction()
+
 # The folder beside the product that holds reference data, when it is there. Tests that need it skip with a message.
 get_filename_component(FULMAR_REFERENCE_DATA "${CMAKE_SOURCE_DIR}/../shared/data" ABSOLUTE)
 

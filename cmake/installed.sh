@@ -1,23 +1,126 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs into a scratch prefix, builds the template against it outside the tree, tests it, and flies it with the installed host.
+# What a user gets: an installed prefix and the pair of Debian packages. In each, outside the tree: a new plugin for every role is written,
+# built with warnings as errors, tested and flown; a plugin is built by pkg-config alone; the debugger stops in a plugin in flight.
+#   installed.sh [BUILD]
 set -euo pipefail
 cd "$(dirname "$0")/.."
+build=$PWD/${1:-build}
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-prefix=$scratch/prefix
-cmake --install build --prefix "$prefix" >/dev/null
-cp -r "$prefix/share/fulmar/template" "$scratch/my_law"
-cd "$scratch/my_law"
-sed -i "s|PREFIX|$prefix|" mission.yaml
-cmake -B build -G Ninja -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release
-cmake --build build
-ctest --test-dir build --output-on-failure
-symbols=$(nm -D --defined-only build/lib/fulmar/my_law.so | awk '{print $3}')
-[ "$symbols" = fulmar_plugin_entry ] || { echo "my_law.so exports: $symbols"; exit 1; }
-"$prefix/bin/fulmar" inspect build/lib/fulmar/my_law.so
-"$prefix/bin/fulmar" run mission.yaml --json >result.json
-grep -q '"result": "flown"' result.json
-grep -q '"guards": \[\]' result.json
-"$prefix/bin/fulmar" run "$prefix/share/fulmar/missions/hourglass.yaml" --duration 60
-echo "the installed prefix flies"
+
+fail() { echo "$*"; exit 1; }
+# quietly COMMAND...: shows its output only when it fails
+quietly() { "$@" >"$scratch/output.log" 2>&1 || { tail -n 40 "$scratch/output.log"; fail "failed: $*"; }; }
+exports_entry_alone() {
+  local symbols
+  symbols=$(nm -D --defined-only "$1" | awk '{print $3}')
+  [ "$symbols" = fulmar_plugin_entry ] || fail "$1 exports: $symbols"
+}
+
+# project PREFIX NAME ROLE FLIGHT [option...]: new, build, test, fly (FLIGHT: options of run); no guard may fire
+project() {
+  local prefix=$1 name=$2 role=$3 flight=$4
+  shift 4
+  quietly "$prefix/bin/fulmar" new "$name" --role "$role" "$@"
+  (
+    cd "$name"
+    quietly cmake --preset default -DCMAKE_CXX_FLAGS=-Werror
+    quietly cmake --build build
+    quietly ctest --test-dir build --output-on-failure
+    exports_entry_alone "build/lib/fulmar/$name.so"
+    # shellcheck disable=SC2086
+    "$prefix/bin/fulmar" run mission.yaml $flight --json --no-log >result.json 2>run.log || { tail -n 20 run.log result.json; fail "$name did not fly"; }
+    grep -q '"result": "flown"' result.json || fail "$name: $(grep '"result"' result.json)"
+    grep -q '"guards": \[\]' result.json || { cat result.json; fail "$name: a guard fired"; }
+  )
+  echo "  $role: written, built, tested, flown"
+}
+
+# A mission with roles and messages that no template knows.
+own_roles() {
+  cat >own.yaml <<YAML
+mission: own
+extends: $1/share/fulmar/missions/common.yaml
+airframe: $1/share/fulmar/airframes/anaconda.yaml
+origin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}
+done: "manage.progress.circuits >= 1"
+roles:
+  judge: {in: {state: nav.state, truth: vehicle.truth, command: guide.command}, out: {estimation: EstimationError, figures: Figures}}
+components:
+  sim: {params: {sensors: rosflight, start_heading: 135 deg}}
+  plan: {params: {plan: $1/share/fulmar/plans/hourglass.yaml}}
+  referee: {fills: judge, use: score/Score, rate: 50 Hz}
+YAML
+}
+
+by_pkg_config() {
+  local prefix=$1
+  quietly "$prefix/bin/fulmar" new by_hand --role outer
+  (
+    cd by_hand
+    export PKG_CONFIG_PATH=$prefix/share/pkgconfig
+    local flags
+    flags=$(pkg-config --cflags --libs fulmar_sdk)
+    # shellcheck disable=SC2086
+    ${CXX:-g++} -std=c++20 -O2 -Wall -Wextra -shared by_hand.cpp $flags -o by_hand.so
+    exports_entry_alone by_hand.so
+    sed -i 's|build/lib/fulmar/by_hand.so|by_hand.so|' mission.yaml  # beside the mission
+    quietly "$prefix/bin/fulmar" run mission.yaml --duration 60 --no-log
+    mkdir elsewhere && mv by_hand.so elsewhere
+    FULMAR_PLUGIN_PATH=$PWD/elsewhere quietly "$prefix/bin/fulmar" run mission.yaml --duration 10 --no-log
+  )
+  echo "  pkg-config: $(PKG_CONFIG_PATH=$prefix/share/pkgconfig pkg-config --modversion fulmar_sdk), built and flown"
+}
+
+in_debugger() {
+  local prefix=$1 name=$2 line
+  if ! command -v gdb >/dev/null; then echo "  no gdb here: the debugger was not tried"; return; fi
+  line=$(grep -n 'h_error = ' "$name/$name.hpp" | head -n 1 | cut -d: -f1)
+  cd "$name"
+  timeout 120 gdb -batch -nx -ex 'set breakpoint pending on' -ex 'set debuginfod enabled off' -ex "break $name.hpp:$((line + 1))" -ex run \
+    -ex 'print h_error' -ex 'backtrace 1' -ex kill --args "$prefix/bin/fulmar" run mission.yaml --no-log >gdb.log 2>&1 || true
+  grep -qE "^(Thread .* hit )?Breakpoint 1, .*$name.hpp:" gdb.log || grep -qE "Breakpoint 1, .*step" gdb.log || { tail -n 20 gdb.log; fail "gdb did not stop in $name.hpp"; }
+  grep -qE '^\$1 = -?[0-9]' gdb.log || { tail -n 20 gdb.log; fail "gdb did not print h_error"; }
+  echo "  gdb: stopped in $name.hpp:$((line + 1)), h_error$(grep '^\$1' gdb.log | cut -c3-)"
+  cd ..
+}
+
+# usable PREFIX: all of the above, in the present folder
+usable() {
+  local prefix=$1
+  own_roles "$prefix"
+  project "$prefix" my_outer outer ""
+  for role in vehicle nav guide inner; do project "$prefix" "my_$role" "$role" "--duration 60"; done
+  project "$prefix" my_judge judge "--duration 60" --mission own.yaml
+  by_pkg_config "$prefix"
+  in_debugger "$prefix" my_outer
+  "$prefix/bin/fulmar" run "$prefix/share/fulmar/missions/hourglass.yaml" --duration 60 --no-log >/dev/null 2>&1 || fail "the installed hourglass does not fly"
+}
+
+echo "hardening"
+bash cmake/hardening.sh "$build"
+
+echo "installed prefix"
+quietly cmake --install "$build" --prefix "$scratch/first"
+mv "$scratch/first" "$scratch/prefix"  # nothing remembers where it was installed to
+mkdir "$scratch/work" && (cd "$scratch/work" && usable "$scratch/prefix")
+
+echo "Debian packages"
+command -v dpkg-shlibdeps >/dev/null || { echo "  no dpkg-dev here: the packages were not made"; exit 0; }
+quietly cpack --config "$build/CPackConfig.cmake" -B "$scratch/packages"
+debs=("$scratch"/packages/fulmar_*.deb "$scratch"/packages/fulmar-dev_*.deb)
+files() { dpkg-deb -c "$1" | awk '$1 !~ /^d/ {print $6}' | sort; }
+common=$(comm -12 <(files "${debs[0]}") <(files "${debs[1]}"))
+[ -z "$common" ] || fail "in both packages: $common"
+! files "${debs[0]}" | grep -E '/include/|/cmake/|/pkgconfig/|/template/' || fail "the runtime package holds parts of the SDK"
+! files "${debs[1]}" | grep -E '/bin/|\.so$' || fail "the development package holds parts of the runtime"
+dpkg-deb -f "${debs[0]}" Depends | grep -q libyaml-cpp || fail "the package fulmar names no libraries"
+dpkg-deb -f "${debs[1]}" Depends | grep -q 'fulmar (= ' || fail "the package fulmar-dev does not depend on fulmar"
+for deb in "${debs[@]}"; do echo "  $(basename "$deb"), $(($(stat -c %s "$deb") / 1024)) kB: $(dpkg-deb -f "$deb" Depends)"; done
+dpkg-deb -x "${debs[0]}" "$scratch/runtime"
+if "$scratch/runtime/usr/bin/fulmar" new my_law --role outer --dir "$scratch/none" 2>"$scratch/words"; then fail "without the SDK there is nothing to write"; fi
+grep -q 'install the package fulmar-dev' "$scratch/words" || { cat "$scratch/words"; fail "the missing SDK is not named"; }
+for deb in "${debs[@]}"; do dpkg-deb -x "$deb" "$scratch/root"; done
+mkdir "$scratch/work2" && (cd "$scratch/work2" && usable "$scratch/root/usr")
+echo "prefix and packages fly"

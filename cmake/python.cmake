@@ -19,3 +19,11 @@ install(TARGETS python LIBRARY DESTINATION lib/fulmar)
 if(NOT FULMAR_SANITIZE)
   add_subdirectory(tools/fulmar_module)
 endif()
+
+fulmar_add_plugin(bench_python_law bench/python_law.cpp)
+set_target_properties(bench_python_law PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/fulmar-bench)
+add_executable(bench_python bench/bench_python.cpp)
+target_link_libraries(bench_python PRIVATE fulmar::sdk ${CMAKE_DL_LIBS})
+target_compile_definitions(bench_python PRIVATE FULMAR_PYTHON_PLUGIN="$<TARGET_FILE:python>" FULMAR_LAW_SO="$<TARGET_FILE:bench_python_law>"
+                           FULMAR_LAW_PY="${CMAKE_SOURCE_DIR}/examples/python/my_law.py")
+add_dependencies(bench_python python bench_python_law)

@@ -9,7 +9,8 @@ scratch folder for it. In a page
 
   ```console 5%        lines `$ command` (go on with `> `) are run, what follows them is compared with the output; a line `...` stands for
                        any lines, `...` in a line for any text, numbers may differ by 5 % and half their last digit (without it: not at
-                       all), blanks count as one. With `exit=1` the block's last command must end with that code.
+                       all), blanks count as one. With `exit=1` the block's last command must end with that code; with `background` its
+                       one command goes on, and a later block `console continues` is what it says then.
   ```cpp file=law.hpp  is written to that file, whatever the language (with `append`, to its end); with diff, its
                        lines `-` become its lines `+`
   <!-- $ command -->   is run unseen
@@ -55,6 +56,7 @@ class Block:
         words = dict(word.partition("=")[::2] for word in info.split())
         self.file, self.append = words.get("file"), "append" in words
         self.exit = int(words.get("exit", 0))
+        self.background, self.continues = "background" in words, "continues" in words
         self.tolerance = next((float(word[:-1]) / 100 for word in words if word.endswith("%")), 0)
 
 
@@ -175,6 +177,44 @@ def as_seen(raw):
     return lines
 
 
+class Job:
+    """A command on a terminal of its own."""
+
+    def __init__(self, script, folder, environment):
+        self.ours, theirs = pty.openpty()
+        fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 50, 200, 0, 0))
+        self.child = subprocess.Popen(["bash", "-c", script], stdin=subprocess.DEVNULL, stdout=theirs, stderr=theirs, cwd=folder,
+                                      env=environment, start_new_session=True)
+        os.close(theirs)
+        self.raw, self.open = b"", True
+
+    def pump(self):
+        """Takes what has come. False when the command has ended and all that it said is here."""
+        ended = self.child.poll() is not None
+        if not select.select([self.ours], [], [], 0.02)[0]:
+            return not ended  # what still runs in the background keeps the terminal open
+        try:
+            piece = os.read(self.ours, 65536)
+        except OSError:
+            piece = b""
+        self.raw += piece
+        if not piece:
+            self.child.wait()
+        return bool(piece)
+
+    def close(self):
+        """Ends it and all that it has started."""
+        if not self.open:
+            return
+        self.open = False
+        try:
+            os.killpg(self.child.pid, signal.SIGKILL)
+        except ProcessLookupError:
+            pass
+        self.child.wait()
+        os.close(self.ours)
+
+
 class Terminal:
     """Commands in one folder after another, as a person types them: the folder and exported variables stay."""
 
@@ -189,49 +229,31 @@ class Terminal:
         environment.update(HOME=str(home), PATH=f"{home}/fulmar/bin:/usr/local/bin:/usr/bin:/bin", LC_ALL="C.UTF-8", TERM="dumb")
         self.environment = environment
         self.folder = home
-        self.groups = []
+        self.jobs = []
+
+    def start(self, command):
+        script = f"[ -f {self.state} ] && . {self.state}; cd {shlex.quote(str(self.folder))}\n{command}\n"
+        script += f"code=$?; export -p >{self.state}; pwd >{self.state}.folder; exit $code"
+        job = Job(script, self.home, self.environment)
+        self.jobs.append(job)
+        return job
 
     def run(self, command):
         """(exit code, lines)"""
-        script = f"[ -f {self.state} ] && . {self.state}; cd {shlex.quote(str(self.folder))}\n{command}\n"
-        script += f"code=$?; export -p >{self.state}; pwd >{self.state}.folder; exit $code"
-        ours, theirs = pty.openpty()
-        fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 50, 200, 0, 0))
-        child = subprocess.Popen(["bash", "-c", script], stdin=subprocess.DEVNULL, stdout=theirs, stderr=theirs, cwd=self.home,
-                                 env=self.environment, start_new_session=True)
-        self.groups.append(child.pid)
-        os.close(theirs)
-        raw, end = b"", time.monotonic() + self.limit_s
-        while True:
-            ended = child.poll() is not None
-            if select.select([ours], [], [], 0.02)[0]:
-                try:
-                    piece = os.read(ours, 65536)
-                except OSError:
-                    piece = b""
-                raw += piece
-                if not piece:
-                    break
-            elif ended:
-                break  # what still runs in the background keeps the terminal open
+        job, end = self.start(command), time.monotonic() + self.limit_s
+        while job.pump():
             if time.monotonic() > end:
-                self.close()
-                child.wait()
-                os.close(ours)
+                job.close()
                 raise TimeoutError(f"has not ended after {self.limit_s:g} s")
-        code = child.wait()
-        os.close(ours)
+        job.close()
         folder = pathlib.Path(f"{self.state}.folder")
         if folder.exists():
             self.folder = pathlib.Path(folder.read_text().strip())
-        return code, as_seen(raw)
+        return job.child.returncode, as_seen(job.raw)
 
     def close(self):
-        for group in self.groups:
-            try:
-                os.killpg(group, signal.SIGKILL)
-            except ProcessLookupError:
-                pass
+        for job in self.jobs:
+            job.close()
 
 
 def patched(text, lines):
@@ -253,7 +275,9 @@ class Page:
 
     def run(self):
         for block in blocks_of(pathlib.Path(self.path).read_text(encoding="utf-8")):
-            if block.language == "console":
+            if block.language == "console" and (block.background or block.continues):
+                self.background(block)
+            elif block.language == "console":
                 self.console(block)
             elif block.language == "refused":
                 self.refused(block)
@@ -291,6 +315,21 @@ class Page:
             while expected and not expected[-1].strip():
                 expected.pop()
             self.command(line, command, expected, block.exit if index + 1 == len(commands) else 0, block.tolerance)
+
+    def background(self, block):
+        if block.background:
+            (line, command, expected), = commands_of(block)
+            self.commands += 1
+            self.job, self.seen = self.terminal.start(command), 0
+        else:
+            line, command, expected = block.line, "(goes on)", block.lines
+        end = time.monotonic() + self.terminal.limit_s
+        while not same_output(expected, as_seen(self.job.raw[self.seen :]), block.tolerance):
+            if not self.job.pump() or time.monotonic() > end:
+                self.fail(line, f"$ {command}\n{difference(expected, as_seen(self.job.raw[self.seen :]), block.tolerance)}")
+        if self.show:
+            print("$ " + command, *as_seen(self.job.raw[self.seen :]), sep="\n")
+        self.seen = len(self.job.raw)
 
     def refused(self, block):
         rows = block.lines[2:]
@@ -347,7 +386,7 @@ def main(arguments=None):
     parser.add_argument("--build", default=ROOT / "build", help="a build that is installed when there is no --prefix")
     parser.add_argument("--keep", action="store_true", help="leave the pages' home folders")
     parser.add_argument("--show", action="store_true", help="print what comes")
-    parser.add_argument("--limit", type=float, default=120, help="seconds that one command may take")
+    parser.add_argument("--limit", type=float, default=300, help="seconds that one command may take")
     parser.add_argument("--jobs", type=int, default=1, help="pages at a time")
     parser.add_argument("pages", nargs="*", default=default_pages())
     given = parser.parse_args(arguments)

@@ -134,6 +134,22 @@ class Pages(unittest.TestCase):
         self.fails(page.replace("`second: good` →", "`third` →"), "page.md:10", "has 'third' 0 times")
         self.fails(page.split("| written")[0] + "```console\n            $ true\n            ```\n", "no table follows")
 
+    def test_a_command_in_the_background_is_followed(self):
+        page = """
+            ```console background
+            $ echo one; until [ -f go ]; do sleep 0.01; done; echo two; sleep 30
+            one
+            ```
+            ```text file=go
+            ```
+            ```console continues
+            two
+            ```
+            """
+        self.passes(page)
+        self.fails(page.replace("file=go", ""), "page.md:8", "-two", limit="0.5")
+        self.fails(page.replace("one\n            ```", "none\n            ```"), "page.md:3", "-none", "+one", limit="0.5")
+
     def test_a_command_that_hangs_and_a_page_without_commands_fail(self):
         self.fails("```console\n$ sleep 30\n```", "has not ended after 0.5 s", limit="0.5")
         self.fails("no command here", "there is no command in it")

@@ -85,26 +85,31 @@ std::string type_name(const std::string& name, const fs::path& include) {
   return type;
 }
 
-/// Templates say in their second line which ports they are for: "// ports: state VehicleState, ... -> attitude AttitudeCommand".
+/// Templates say in their first lines which ports they are for: "// ports in: state VehicleState, ..." and "// ports out: ...".
+std::string ports_line(const std::string& source, const std::string& which) {
+  const std::string key = "// ports " + which + ": ";
+  const std::size_t at = source.find(key);
+  if (at == std::string::npos) return "";
+  return ", " + source.substr(at + key.size(), source.find('\n', at) - at - key.size()) + ",";
+}
+
 bool fits(const std::string& source, const Contract& contract) {
-  const std::size_t at = source.find("// ports: ");
-  if (at == std::string::npos) return false;
-  std::string line = source.substr(at + 10, source.find('\n', at) - at - 10);
-  const std::size_t arrow = line.find(" -> ");
-  const std::string in = ", " + line.substr(0, arrow) + ",", out = ", " + (arrow == std::string::npos ? "" : line.substr(arrow + 4)) + ",";
+  const std::string in = ports_line(source, "in"), out = ports_line(source, "out");
+  if (in.empty() || out.empty()) return false;
   const auto there = [](const std::string& list, const std::string& name, const std::string& type) {
     return list.find(", " + name + " " + type + ",") != std::string::npos;
   };
-  std::size_t wanted = static_cast<std::size_t>(std::count(in.begin(), in.end(), ',')) - 1;
-  for (const ContractInput& input : contract.inputs) wanted -= there(in, input.name, input.type->name) ? 1 : 0;
-  return wanted == 0 && std::all_of(contract.outputs.begin(), contract.outputs.end(), [&](const ContractOutput& output) {
+  const auto wanted = std::count(in.begin(), in.end(), ',') - 1;
+  const auto given = std::count_if(contract.inputs.begin(), contract.inputs.end(),
+                                   [&](const ContractInput& input) { return there(in, input.name, input.type->name); });
+  return wanted == given && std::all_of(contract.outputs.begin(), contract.outputs.end(), [&](const ContractOutput& output) {
            return output.optional || there(out, output.name, output.type_name);
          });
 }
 
-std::string without_ports_line(const std::string& source) {
-  const std::size_t at = source.find("// ports: ");
-  return source.substr(0, at) + source.substr(source.find('\n', at) + 1);
+std::string without_ports_lines(std::string source) {
+  for (std::size_t at = 0; (at = source.find("// ports ")) != std::string::npos;) source.erase(at, source.find('\n', at) + 1 - at);
+  return source;
 }
 
 std::string contract_table(const Contract& contract) {
@@ -130,7 +135,7 @@ Project make_project(const NewOptions& options, const Places& places, const Miss
   NewSource source;
   std::error_code code;
   if (fs::is_regular_file(role_template, code) && fits(read_text(role_template), contract)) {
-    source.header = replaced(without_ports_line(read_text(role_template)), names);
+    source.header = replaced(without_ports_lines(read_text(role_template)), names);
     source.test = replaced(read_text(places.templates / "roles" / (contract.role + "_test.cpp")), names);
   } else {
     source = write_source(contract, options.name, type, places.include);

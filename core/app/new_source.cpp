@@ -82,27 +82,23 @@ class SourceWriter {
   }
 
   std::string ports() const {
-    std::string text = "  struct Inputs {\n";
+    std::string text = "  struct Inputs {\n", passed;
     for (const ContractInput& input : c_.inputs) text += "    " + input_kind(input) + "<" + word(*input.type) + "> " + input.name + ";\n";
-    for (const ContractOutput& output : c_.outputs)
-      if (passes_on(output))
-        text += "    " +
-                std::string(queue(output)                     ? "Queue"
-                            : output.kind == FULMAR_OUT_EVENT ? "Optional"
-                                                              : "In") +
-                "<" + word(*output.type) + "> reference_" + output.name +
-                ";  // what the shipped component says; remove it here and in mission.yaml when it has served\n";
+    for (const ContractOutput& output : c_.outputs) {
+      const char* kind = queue(output) ? "Queue" : output.kind == FULMAR_OUT_EVENT ? "Optional" : "In";
+      if (passes_on(output)) passed += std::string("    ") + kind + "<" + word(*output.type) + "> reference_" + output.name + ";\n";
+    }
+    if (!passed.empty())
+      text += "    // What the shipped component says. When it has served, remove it here and in mission.yaml.\n" + passed;
     text += "  };\n  struct Outputs {\n";
     for (const ContractOutput& output : c_.outputs)
       if (output.type && (!output.optional || c_.vehicle())) text += "    " + output_type(output) + " " + output.name + ";\n";
-    text += "  };\n  struct Params {\n";
-    text += c_.vehicle() ? "    Param rate{400, \"Hz\", 10, 2000, \"of the loop; filled by the host\", setup};\n"
-                         : "    Flag mute{false, \"true: degraded in place of working\"};\n";
-    return text + "  };\n\n";
+    if (!c_.vehicle()) return text + "  };\n  struct Params {};\n\n";
+    return text + "  };\n  struct Params {\n    Param rate{400, \"Hz\", 10, 2000, \"of the loop; the mission's\", setup};\n  };\n\n";
   }
 
   std::string body() const {
-    std::string text = "  Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out) {\n";
+    std::string text = "  Status step(const Tick&, const Inputs& in, const Params&, Outputs& out) {\n    // Your law goes here.\n";
     for (const ContractOutput& output : c_.outputs) {
       if (!passes_on(output)) continue;
       const std::string from = "in.reference_" + output.name;
@@ -112,9 +108,9 @@ class SourceWriter {
         text +=
             "    if (" + from + " && " + from + ".fresh()) out." + output.name + ".publish(*" + from + ", " + from + ".valid_at_ns());\n";
       else
-        text += "    out." + output.name + " = *" + from + ";  // your law goes here\n";
+        text += "    out." + output.name + " = *" + from + ";\n";
     }
-    return text + "    return p.mute ? Status::degraded : Status::ok;\n  }\n";
+    return text + "    return Status::ok;\n  }\n";
   }
 
   std::string vehicle_body() const {
@@ -160,9 +156,7 @@ class SourceWriter {
       if (output.kind == FULMAR_OUT_EVENT) check += "  CHECK(bench.out." + output.name + ".written);\n";
     }
     return "TEST_CASE(\"what the reference says is passed on\") {\n  Bench<" + type_ + "> bench;\n" + set +
-           "  REQUIRE(bench.step(0.01) == Status::ok);\n" + check + "  CHECK(allocations([&] { bench.step(0.01); }) == 0);\n}\n\n" +
-           "TEST_CASE(\"a parameter is obeyed\") {\n  Bench<" + type_ + "> bench;\n" + set +
-           "  bench.params.mute.value = true;\n  CHECK(bench.step(0.01) == Status::degraded);\n}\n";
+           "  REQUIRE(bench.step(0.01) == Status::ok);\n" + check + "  CHECK(allocations([&] { bench.step(0.01); }) == 0);\n}\n";
   }
 
   std::string vehicle_test() const {

@@ -17,6 +17,7 @@
 
 #include "core/error.hpp"
 #include "core/isolate/shared.hpp"
+#include "core/loader/home.hpp"
 
 extern char** environ;
 
@@ -25,15 +26,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Beside this program; when that is a test or a tool elsewhere, FULMAR_CHILD says where.
+// The host's own; when it is a test or a tool elsewhere, FULMAR_CHILD says where.
 fs::path child_program() {
   if (const char* chosen = std::getenv("FULMAR_CHILD"); chosen != nullptr && *chosen != '\0') return chosen;
-  std::error_code fault;
-  const fs::path self = fs::read_symlink("/proc/self/exe", fault);
-  for (const fs::path& place : {self.parent_path() / "fulmar-child", self.parent_path().parent_path() / "bin" / "fulmar-child"})
-    if (::access(place.c_str(), X_OK) == 0) return place;
-  throw Error("the program fulmar-child is missing beside " + self.filename().string() +
-              ": no component can run in a process of its own.");
+  const fs::path found = own_program("fulmar-child");
+  if (found.empty()) throw Error("the program fulmar-child is missing: no component can run in a process of its own.");
+  return found;
 }
 
 std::byte* map(int descriptor, std::size_t at, std::size_t size) {
@@ -50,10 +48,10 @@ struct Files {
   posix_spawn_file_actions_t actions;
   explicit Files(int memory) {
     posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, memory, shared_descriptor);  // first: it may be one of the standard three
     if (::fcntl(STDERR_FILENO, F_GETFD) < 0) posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions, memory, shared_descriptor);
 #if __GLIBC_PREREQ(2, 34)
     posix_spawn_file_actions_addclosefrom_np(&actions, shared_descriptor + 1);
 #endif

@@ -89,10 +89,10 @@ struct Layout {
   explicit Layout(const ComponentInfo& info);
 
   std::vector<Place> inputs, outputs, last;
-  std::vector<TextPlace> texts;                                         // one per parameter
+  std::vector<TextPlace> texts;                                           // one per parameter
   std::size_t inputs_at = 0, outputs_at = 0, last_at = 0, values_at = 0;  // the heads, one after the other
-  std::size_t size = 0;                                                 // whole pages
-  std::uint64_t signature = 0;                                          // of all that decides it
+  std::size_t size = 0;                                                   // whole pages
+  std::uint64_t signature = 0;                                            // of all that decides it
 };
 
 // ---- waiting -------------------------------------------------------------------------------------------------------------------

@@ -41,13 +41,14 @@ class Epochs {
   void take(const Sentence& s, Emit&& emit) {
     const std::string_view type = s.type();
     if (type == "GGA") {
-      if (const auto r = gga(s)) join(kind_gga, r->time_ns, emit), now_.gga = r;
+      if (const auto r = gga(s)) join(kind_gga, r->time_ns, emit).gga = r;
     } else if (type == "RMC") {
-      if (const auto r = rmc(s)) join(kind_rmc, r->time_ns, emit), now_.rmc = r;
+      if (const auto r = rmc(s)) join(kind_rmc, r->time_ns, emit).rmc = r;
     } else if (type == "GST") {
-      if (const auto r = gst(s)) join(kind_gst, r->time_ns, emit), now_.gst = r;
-    } else if (type == "VTG") {
-      if (const auto r = vtg(s); r && !(expected() & kind_rmc)) now_.have |= kind_vtg, now_.vtg = r;
+      if (const auto r = gst(s)) join(kind_gst, r->time_ns, emit).gst = r;
+    } else if (type == "VTG" && !(expected() & kind_rmc)) {
+      now_.vtg = vtg(s);
+      if (now_.vtg) now_.have |= kind_vtg;
     } else if (type == "GSA") {
       if (const auto r = gsa(s)) gsa_ = r;
     }
@@ -82,9 +83,9 @@ class Epochs {
     return all & kind_rmc ? all & ~kind_vtg : all;  // VTG repeats what RMC says
   }
 
-  /// Another time begins another epoch; so does, without a time, a kind that was already there.
+  /// The epoch of a sentence. Another time begins another one; so does, without a time, a kind that was already there.
   template <class Emit>
-  void join(unsigned kind, std::optional<std::int64_t> time_ns, Emit&& emit) {
+  Epoch& join(unsigned kind, std::optional<std::int64_t> time_ns, Emit&& emit) {
     const bool another = now_.time_ns != time_ns || (!time_ns && (now_.have & kind));
     if (another && (now_.have & ~kind_vtg)) {
       finish(emit);
@@ -93,6 +94,7 @@ class Epochs {
     }
     now_.time_ns = time_ns;
     now_.have |= kind;
+    return now_;
   }
 
   template <class Emit>

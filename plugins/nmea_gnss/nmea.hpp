@@ -4,7 +4,6 @@
 #pragma once
 #include <array>
 #include <charconv>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -140,12 +139,16 @@ inline std::optional<std::int64_t> time_of_day(std::string_view text) {
 
 /// ddmmyy -> nanoseconds from 1970 to that midnight. Two digits of a year: 80 to 99 are of the last century, as receivers have it.
 inline std::optional<std::int64_t> date(std::string_view text) {
-  const auto d = digits(text, 0, 2), m = digits(text, 2, 2), y = digits(text, 4, 2);
-  if (!d || !m || !y || text.size() != 6) return {};
-  const std::chrono::year_month_day day{std::chrono::year(*y >= 80 ? 1900 + *y : 2000 + *y), std::chrono::month(static_cast<unsigned>(*m)),
-                                        std::chrono::day(static_cast<unsigned>(*d))};
-  if (!day.ok()) return {};
-  return std::chrono::sys_days(day).time_since_epoch().count() * 86400LL * 1000000000LL;
+  const auto d = digits(text, 0, 2), m = digits(text, 2, 2), yy = digits(text, 4, 2);
+  if (!d || !m || !yy || text.size() != 6 || *m < 1 || *m > 12) return {};
+  constexpr std::array<int, 13> before{0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334, 365};  // days of the year before a month
+  const auto month = static_cast<std::size_t>(*m);
+  const int year = *yy >= 80 ? 1900 + *yy : 2000 + *yy;
+  const bool leap = year % 4 == 0;  // from 1980 to 2079 without exception
+  if (*d < 1 || *d > before[month] - before[month - 1] + (leap && month == 2 ? 1 : 0)) return {};
+  const int leap_days = (year - 1969) / 4 + (leap && month > 2 ? 1 : 0);
+  const std::int64_t days = 365 * (year - 1970) + leap_days + before[month - 1] + *d - 1;
+  return days * 86400 * 1000000000;
 }
 
 /// (d)ddmm.mmmm and its hemisphere -> degrees, north and east positive.

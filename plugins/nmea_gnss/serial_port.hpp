@@ -4,7 +4,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/ioctl.h>
-#include <sys/stat.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -51,20 +50,8 @@ class SerialPort {
   bool open(const std::string& path, speed_t baud) {
     close();
     fd_ = ::open(path.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
-    if (fd_ < 0) return false;
-    termios settings{};
-    if (tcgetattr(fd_, &settings) != 0) return close(), false;
-    cfmakeraw(&settings);
-    settings.c_cflag |= CLOCAL | CREAD;
-    settings.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | CRTSCTS);
-    settings.c_cc[VMIN] = 0;
-    settings.c_cc[VTIME] = 0;
-    cfsetispeed(&settings, baud);
-    cfsetospeed(&settings, baud);
-    if (tcsetattr(fd_, TCSANOW, &settings) != 0) return close(), false;
-    ioctl(fd_, TIOCEXCL);       // two readers would each get half of the sentences
-    tcflush(fd_, TCIFLUSH);  // what has waited here is of no known time
-    return true;
+    if (is_open() && !set_up(baud)) close();
+    return is_open();
   }
 
   /// Bytes read within `wait_ms`; 0 when none came. Closed afterwards if the device has gone.
@@ -80,6 +67,22 @@ class SerialPort {
   }
 
  private:
+  bool set_up(speed_t baud) const {
+    termios settings{};
+    if (tcgetattr(fd_, &settings) != 0) return false;
+    cfmakeraw(&settings);
+    settings.c_cflag |= CLOCAL | CREAD;
+    settings.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | CRTSCTS);
+    settings.c_cc[VMIN] = 0;
+    settings.c_cc[VTIME] = 0;
+    cfsetispeed(&settings, baud);
+    cfsetospeed(&settings, baud);
+    if (tcsetattr(fd_, TCSANOW, &settings) != 0) return false;
+    ioctl(fd_, TIOCEXCL);    // two readers would each get half of the sentences
+    tcflush(fd_, TCIFLUSH);  // what has waited here is of no known time
+    return true;
+  }
+
   int fd_ = -1;
 };
 

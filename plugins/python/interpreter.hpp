@@ -14,12 +14,22 @@ namespace py = pybind11;
 /// The right to use the interpreter. Taken by whatever thread the host calls from.
 class Gil {
  public:
-  Gil() : state_(PyGILState_Ensure()) {}
+  Gil() {
+    if (!known_) keep_thread();
+    state_ = PyGILState_Ensure();
+  }
   ~Gil() { PyGILState_Release(state_); }
   Gil(const Gil&) = delete;
   Gil& operator=(const Gil&) = delete;
 
  private:
+  /// What Python holds of a thread stays when the thread lets go: making it anew would cost each step a memory mapping.
+  static void keep_thread() {
+    PyGILState_Ensure();
+    PyEval_SaveThread();
+    known_ = true;
+  }
+  static inline thread_local bool known_ = false;
   PyGILState_STATE state_;
 };
 

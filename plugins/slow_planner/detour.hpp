@@ -17,6 +17,8 @@
 
 namespace fulmar::slow_planner {
 
+inline constexpr std::size_t no_leg = static_cast<std::size_t>(-1);
+
 struct Detour {
   static constexpr const char* doc = "Leads a plan round no-fly zones, in the least time in the present wind. Needs `run: async`.";
   struct Inputs {
@@ -25,9 +27,9 @@ struct Detour {
     Optional<Progress> progress;  // of the plan that comes out: the leg that is flown is left alone
   };
   struct Outputs {
-    Out<Plan> plan;      // silent until the whole plan keeps clear
-    Probe clearance_m;   // of the plan that came out last
-    Probe flight_s;      // one round of it, in the wind of then
+    Out<Plan> plan;     // silent until the whole plan keeps clear
+    Probe clearance_m;  // of the plan that came out last
+    Probe flight_s;     // one round of it, in the wind of then
   };
   struct Params {
     Record<Zones> zones{"the no-fly zones", required};
@@ -55,6 +57,8 @@ struct Detour {
   std::size_t choose(const Inputs& in, const Params& p) const;
   bool flown(std::size_t leg, const Progress& progress) const;
   Plan& assemble();
+  bool touches(std::uint32_t k, std::size_t leg, const Route& route) const;
+  double time_of(const Plan& plan, std::size_t leg) const;
   double clearance_of(const Plan& plan) const;
 
   std::uint64_t seed_, searches_ = 0;
@@ -66,8 +70,6 @@ struct Detour {
   double wind_north_ = 0, wind_east_ = 0;
   bool changed_ = false;
 };
-
-inline constexpr std::size_t no_leg = static_cast<std::size_t>(-1);
 
 inline void Detour::configure(const Params& p) {
   zones_ = *p.zones;
@@ -95,16 +97,7 @@ inline Status Detour::step(const Tick&, const Inputs& in, const Params& p, Outpu
   plan.revision = ++revision_;
   out.plan.publish(plan);
   out.clearance_m = clear_m;
-  Search s{{}, 0, plan.airspeed_mps, wind_north_, wind_east_, 0};
-  double time_s = 0;
-  for (const Leg& leg : legs_) {
-    std::vector<Point> way{leg.from};
-    way.insert(way.end(), leg.between.begin(), leg.between.end());
-    way.push_back(leg.to);
-    s.airspeed_mps = leg.airspeed_mps;
-    time_s += flight_time(s, way);
-  }
-  out.flight_s = std::min(time_s, unknown_std);
+  out.flight_s = std::min(time_of(plan, no_leg), unknown_std);
   return Status::ok;
 }
 
@@ -149,33 +142,50 @@ inline bool Detour::flown(std::size_t leg, const Progress& progress) const {
 
 inline void Detour::search(std::size_t i, const Params& p) {
   Leg& leg = legs_[i];
-  const Search s{zones_, p.margin + leg.extra_m + 1, leg.airspeed_mps, wind_north_, wind_east_, p.iterations};
+  const Search s{zones_, p.margin + leg.extra_m + 1, 8, leg.airspeed_mps, wind_north_, wind_east_, p.iterations};
   Random random(mix_seed(seed_, ++searches_));
   ++leg.searches;
-  std::vector<Point> way = RrtStar(s, leg.from, leg.to, random).run();
+  const std::vector<Point> way = RrtStar(s, leg.from, leg.to, random).run();
   if (way.empty()) {
     leg.extra_m = 0;
     return;
   }
-  const std::vector<Point> found(way.begin() + 1, way.end() - 1);
-  std::vector<Point> before{leg.from};
-  before.insert(before.end(), leg.between.begin(), leg.between.end());
-  before.push_back(leg.to);
-  constexpr double worth_s = 0.05;  // less is not worth a change of the plan
-  if (leg.solved && flight_time(s, way) > flight_time(s, before) - worth_s) return;
-  const std::vector<Point> kept = std::exchange(leg.between, found);
-  Plan& plan = assemble();
+  const double before_s = time_of(assemble(), i);
+  const std::vector<Point> before = std::exchange(leg.between, {way.begin() + 1, way.end() - 1});
+  const Plan& plan = assemble();
   const Route route(plan);
   double clear_m = unknown_std;
   for (std::uint32_t k = 0; k < route.size(); ++k) {
-    if (leg_of_[k] == i || leg_of_[route.before(k)] == i) clear_m = std::min(clear_m, clearance(zones_, route.leg(k)));
+    if (touches(k, i, route)) clear_m = std::min(clear_m, clearance(zones_, route.leg(k)));
   }
-  if (clear_m >= p.margin - 0.1) {
+  const bool clear = clear_m >= p.margin - 0.1;
+  if (!clear) leg.extra_m += 5;
+  constexpr double worth_s = 0.05;  // less is not worth a change of the plan
+  if (clear && (!leg.solved || time_of(plan, i) < before_s - worth_s)) {
     leg.solved = changed_ = true;
   } else {
-    leg.between = kept;
-    leg.extra_m += 5;
+    leg.between = before;
   }
+}
+
+/// The legs that change with the detour of an original one: its own, and those that share a corner with it.
+inline bool Detour::touches(std::uint32_t k, std::size_t leg, const Route& route) const {
+  return leg_of_[k] == leg || leg_of_[route.before(k)] == leg || leg_of_[route.after(k)] == leg;
+}
+
+/// Of the assembled plan as it is flown in the present wind; of one original leg and its corners, or of all.
+inline double Detour::time_of(const Plan& plan, std::size_t leg) const {
+  const Route route(plan);
+  Search s;
+  s.wind_north_mps = wind_north_;
+  s.wind_east_mps = wind_east_;
+  double sum = 0;
+  for (std::uint32_t k = route.closed() ? 0 : 1; k < route.size(); ++k) {
+    if (route.is_point() || (leg != no_leg && !touches(k, leg, route))) continue;
+    s.airspeed_mps = route.airspeed_mps(k);
+    sum += flight_time(s, route.leg(k));
+  }
+  return sum;
 }
 
 /// The original plan with the detours in it. A jump to a waypoint becomes one to the beginning of its leg's detour.

@@ -19,6 +19,7 @@ namespace fulmar::slow_planner {
 struct Search {
   Zones zones;
   double keep_off_m = 0;  ///< from the rims
+  double spare_m = 0;     ///< kept off more while the tree grows; pulling it tight uses that up: few corners, far from each other
   double airspeed_mps = 15;
   double wind_north_mps = 0, wind_east_mps = 0;
   std::int64_t samples = 1000;
@@ -41,15 +42,32 @@ inline double flight_time(const Search& s, const std::vector<Point>& way) {
   return sum;
 }
 
+/// The same along a leg of a route, with its fillets and turns: arcs in chords of about 5 m.
+inline double flight_time(const Search& s, const RouteLeg& leg) {
+  double sum = 0;
+  for (std::size_t i = 0; i < leg.count; ++i) {
+    const RoutePiece& piece = leg[i];
+    const int chords = piece.kind == PathKind::line ? 1 : 1 + static_cast<int>(piece.length_m / 5);
+    const auto at = [&](int k) {
+      const Pose pose = piece.pose_at(piece.length_m * k / chords);
+      return Point{pose.north_m, pose.east_m};
+    };
+    for (int k = 0; k < chords; ++k) sum += flight_time(s, at(k), at(k + 1));
+  }
+  return sum;
+}
+
 class RrtStar {
  public:
   RrtStar(const Search& search, const Point& from, const Point& to, Random& random)
       : s_(search), to_(to), random_(random), scale_(distance(from, to)) {
+    const auto room = [&](const Point& p) { return clearance(s_.zones, p, p) - s_.keep_off_m; };
+    grown_off_m_ = s_.keep_off_m + std::clamp(std::min(room(from), room(to)), 0.0, s_.spare_m);  // the ends have to be free, too
     nodes_.push_back({from, 0, 0, {}});
     low_ = {std::min(from.north_m, to.north_m), std::min(from.east_m, to.east_m)};
     high_ = {std::max(from.north_m, to.north_m), std::max(from.east_m, to.east_m)};
     for (const Zone& z : s_.zones.zones) {  // there must be room to go round each zone that stands near the way
-      const double r = z.radius_m + 2 * s_.keep_off_m + 100;
+      const double r = z.radius_m + 2 * grown_off_m_ + 100;
       if (line_distance(from, to, {z.north_m, z.east_m}) > r) continue;
       low_ = {std::min(low_.north_m, z.north_m - r), std::min(low_.east_m, z.east_m - r)};
       high_ = {std::max(high_.north_m, z.north_m + r), std::max(high_.east_m, z.east_m + r)};
@@ -77,7 +95,7 @@ class RrtStar {
     std::vector<std::size_t> children;
   };
 
-  bool free(const Point& a, const Point& b) const { return clearance(s_.zones, a, b) >= s_.keep_off_m; }
+  bool free(const Point& a, const Point& b) const { return clearance(s_.zones, a, b) >= grown_off_m_; }
   double best_s() const {
     return goal_parent_ == none ? std::numeric_limits<double>::infinity()
                                 : nodes_[goal_parent_].time_s + flight_time(s_, nodes_[goal_parent_].at, to_);
@@ -153,7 +171,7 @@ class RrtStar {
     for (std::size_t i = 0; i + 1 < way.size();) {
       std::size_t far = i + 1;
       for (std::size_t k = way.size() - 1; k > i + 1; --k) {
-        if (!free(way[i], way[k])) continue;
+        if (clearance(s_.zones, way[i], way[k]) < s_.keep_off_m) continue;
         far = k;
         break;
       }
@@ -166,7 +184,7 @@ class RrtStar {
   const Search& s_;
   Point to_;
   Random& random_;
-  double scale_, step_m_ = 50;
+  double scale_, step_m_ = 50, grown_off_m_;
   Point low_, high_;
   std::vector<Node> nodes_;
   std::size_t goal_parent_ = none;

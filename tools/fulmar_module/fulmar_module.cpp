@@ -50,7 +50,7 @@ void define_sim(py::module_& m) {
       .def_property_readonly("phase", &Sim::phase)
       .def_property_readonly("done", &Sim::done, "The flight is over.")
       .def_property_readonly("result", &Sim::result, "What fulmar run --json prints; None before the end.")
-      .def_property_readonly("events", &Sim::events, "What the host had to say: phases, guards.")
+      .def_property_readonly("events", &Sim::events, "What the host had to say, a line each: phases, guards, requests.")
       .def_property_readonly("ports", &Sim::ports)
       .def_property_readonly("seed", &Sim::seed)
       .def_property_readonly("mission", &Sim::mission)
@@ -71,11 +71,6 @@ PYBIND11_MODULE(fulmar, m) {
       .def("__repr__", [](const Answer& a) {
         return !a.answered ? std::string("<not answered yet>") : a.accepted ? "<accepted>" : "<refused: " + a.reason + ">";
       });
-  py::class_<Happening>(m, "Event", "What the host said, and when.")
-      .def_readonly("at_s", &Happening::at_s)
-      .def_readonly("text", &Happening::text)
-      .def_readonly("warning", &Happening::warning)
-      .def("__repr__", [](const Happening& e) { return "<" + std::to_string(e.at_s) + " s: " + e.text + ">"; });
   define_sim(m);
   py::class_<Params>(m, "Params", "The parameters of a flight, by name.")
       .def("__getitem__", [](const Params& p, const std::string& name) { return p.sim->parameter(name); })

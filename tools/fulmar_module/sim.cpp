@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/app/report.hpp"
@@ -23,6 +24,17 @@ Node as_yaml(const py::handle& value, const std::string& name, Report& report) {
   return parse_yaml(make_source(text, name), report);
 }
 
+/// The choices for a name: those of its owner, or the owners when there is no such owner.
+std::string choices_of(const std::string& owner, const std::string& rest, const std::vector<std::string>& names) {
+  std::vector<std::string> own, owners;
+  for (const std::string& name : names) {
+    const std::string one = name.substr(0, name.find('.'));
+    if (one == owner) own.push_back(name.substr(one.size() + 1));
+    if (std::find(owners.begin(), owners.end(), one) == owners.end()) owners.push_back(one);
+  }
+  return own.empty() ? choices_text(owner, owners) : choices_text(rest, own);
+}
+
 std::pair<std::string, std::string> split(const std::string& name, const char* what) {
   const std::size_t dot = name.find('.');
   if (dot == std::string::npos || dot == 0 || dot + 1 == name.size())
@@ -35,7 +47,7 @@ std::pair<std::string, std::string> split(const std::string& name, const char* w
 Sim::Sim(const std::string& mission, const Overrides& overrides, const FlightOptions& options)
     : graph_(load_mission(mission, overrides)), options_(options), log_file_(options.log_file) {
   options_.log = !log_file_.empty();
-  options_.say = [this](const std::string& text, bool warning) { events_.push_back({now_s(), text, warning}); };
+  options_.say = [this](const std::string& text, bool) { events_.push_back(text); };
   flight();
 }
 
@@ -104,7 +116,7 @@ Source Sim::find_port(const std::string& owner, const std::string& port) const {
   for (std::size_t i = 0; i < graph_.components.size(); ++i)
     if (const int k = graph_.components[i].info().output(port); graph_.components[i].name == owner && k >= 0)
       return {Source::Kind::component, static_cast<int>(i), k};
-  throw py::key_error("there is no port '" + owner + "." + port + "'." + choices_text(owner + "." + port, ports()));
+  throw py::key_error("there is no port '" + owner + "." + port + "'." + choices_of(owner, port, ports()));
 }
 
 TypePtr Sim::type_of(const Source& source) const {
@@ -139,7 +151,7 @@ std::pair<std::size_t, std::size_t> Sim::find_parameter(const std::string& name)
   for (std::size_t i = 0; i < graph_.components.size(); ++i)
     if (const int k = graph_.components[i].info().param(param); graph_.components[i].name == owner && k >= 0)
       return {i, static_cast<std::size_t>(k)};
-  throw py::key_error("there is no parameter '" + name + "'." + choices_text(name, parameters()));
+  throw py::key_error("there is no parameter '" + name + "'." + choices_of(owner, param, parameters()));
 }
 
 py::object Sim::parameter(const std::string& name) const {

@@ -20,12 +20,6 @@ struct Answer {
   std::string reason;
 };
 
-struct Happening {
-  double at_s = 0;
-  std::string text;
-  bool warning = false;
-};
-
 class Sim {
  public:
   Sim(const std::string& mission, const core::Overrides& overrides, const core::FlightOptions& options);
@@ -44,7 +38,7 @@ class Sim {
   std::uint64_t seed() const { return graph_.seed; }
   std::string mission() const { return graph_.mission; }
   double tick_s() const { return 1e-9 * static_cast<double>(graph_.tick_ns); }
-  const std::vector<Happening>& events() const { return events_; }
+  const std::vector<std::string>& events() const { return events_; }
 
   /// "nav.state" -> a copy of the sample, "nav.state.height_m" -> a number; None while there is none.
   py::object sample(const std::string& name);
@@ -68,7 +62,7 @@ class Sim {
   core::FlightOptions options_;
   std::unique_ptr<core::Flight> flight_;
   std::optional<std::string> result_;  // JSON
-  std::vector<Happening> events_;
+  std::vector<std::string> events_;
   std::string log_file_;
   bool begun_ = false;  // a tick has been flown
 };

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // fulmar-child NAME COPY SCRIPT PATH FILE INDEX SEED: runs one component for a host over the memory at descriptor 3. Started by the host.
+#include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
-#include <fcntl.h>
 
 #include <csignal>
 #include <cstdio>

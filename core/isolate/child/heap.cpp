@@ -21,7 +21,10 @@ thread_local std::uint64_t calls = 0;
 
 #ifdef FULMAR_SANITIZED
 
-#include <sanitizer/allocator_interface.h>
+extern "C" {                                            // of sanitizer/allocator_interface.h, which not every gcc brings
+std::size_t __sanitizer_get_current_allocated_bytes();  // NOLINT
+int __sanitizer_install_malloc_and_free_hooks(void (*)(const volatile void*, std::size_t), void (*)(const volatile void*));  // NOLINT
+}
 
 namespace fulmar::core {
 void count_heap() noexcept {

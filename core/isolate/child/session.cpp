@@ -154,14 +154,14 @@ std::uint32_t Session::configure(fulmar_error& error) {
     texts[i] = reinterpret_cast<const char*>(from + v.text_at);
     if (v.has & has_data) data[i].assign(from + v.data_at, from + v.data_at + v.size);
     if ((v.has & has_data) && v.size == 0) data[i].reserve(1);  // empty, and given
-    values_[i] = {{v.number[0], v.number[1], v.number[2]}, v.integer, texts[i].c_str(), v.has & has_data ? data[i].data() : nullptr, v.size};
+    values_[i] = {
+        {v.number[0], v.number[1], v.number[2]}, v.integer, texts[i].c_str(), v.has & has_data ? data[i].data() : nullptr, v.size};
   }
   if (window) ::munmap(window, size);
   const std::uint32_t status = functions_.configure(instance_, values_.data(), &error);
   texts_.swap(texts);
   data_.swap(data);
   for (std::size_t i = 0; i < values_.size(); ++i) values_[i].text = texts_[i].c_str();
-  heap_at_configure_ = 0;
   return status;
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A laboratory for isolation: a component with every kind of port and parameter, and components that do everything wrong.
+#include "fulmar/plugin.hpp"
+
 #include <unistd.h>
 
 #include <cerrno>
@@ -9,8 +11,6 @@
 #include <limits>
 #include <stdexcept>
 #include <vector>
-
-#include "fulmar/plugin.hpp"
 
 using namespace fulmar;
 
@@ -144,7 +144,23 @@ struct Everything {
   std::uint64_t state_, n_ = 0, seen_ = 0;
 };
 
-enum class Fault : std::uint8_t { none, segfault, aborts, exits, hangs, overflow, throws, nan, leaks, killed, divides, prints, allocates, fails, terminates };
+enum class Fault : std::uint8_t {
+  none,
+  segfault,
+  aborts,
+  exits,
+  hangs,
+  overflow,
+  throws,
+  nan,
+  leaks,
+  killed,
+  divides,
+  prints,
+  allocates,
+  fails,
+  terminates
+};
 
 volatile std::uintptr_t nowhere = 4096;
 

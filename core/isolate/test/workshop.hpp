@@ -2,8 +2,13 @@
 // Drives a component of isolate_lab through its function table, in this process or in a child, and remembers what came out.
 #pragma once
 #include <doctest/doctest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -117,8 +122,7 @@ class Rig {
   }
   std::uint32_t step() {
     error.text[0] = '\0';
-    for (std::size_t i = 0; i < outputs.size(); ++i)
-      outputs[i] = {out_data[i].data(), out_stamps[i].data(), tick.now_ns, 0, 0};
+    for (std::size_t i = 0; i < outputs.size(); ++i) outputs[i] = {out_data[i].data(), out_stamps[i].data(), tick.now_ns, 0, 0};
     return table->step(instance, &tick, inputs.data(), outputs.data(), &error);
   }
   /// A first input of one Signal.
@@ -151,6 +155,38 @@ class Rig {
 };
 
 /// The order of Fault in plugin.cpp.
-enum Fault { none, segfault, aborts, exits, hangs, overflow, throws, not_a_number, leaks, killed, divides, prints, allocates, fails, terminates };
+enum Fault {
+  none,
+  segfault,
+  aborts,
+  exits,
+  hangs,
+  overflow,
+  throws,
+  not_a_number,
+  leaks,
+  killed,
+  divides,
+  prints,
+  allocates,
+  fails,
+  terminates
+};
+
+inline bool zombie_or_gone(pid_t pid) {
+  std::ifstream in("/proc/" + std::to_string(pid) + "/stat");
+  std::string word, state;
+  if (!(in >> word)) return true;
+  while (in >> state && state.size() != 1) continue;  // the name in parentheses may hold blanks
+  return state == "Z" || state == "X";
+}
+
+inline bool soon(int limit_ms, bool (*done)(pid_t), pid_t pid) {
+  for (int i = 0; i < limit_ms; ++i, ::usleep(1000))
+    if (done(pid)) return true;
+  return false;
+}
+
+inline bool no_children() { return ::waitpid(-1, nullptr, WNOHANG) == -1 && errno == ECHILD; }
 
 }  // namespace workshop

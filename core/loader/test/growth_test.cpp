@@ -95,10 +95,10 @@ TEST_CASE("of an entry of ABI 1.0 no more is read than ABI 1.0 had") {
   entry.version = entry.toolchain = entry.flags = page_text;
   entry.components = &good->functions(0);
   std::memcpy(memory + page - size, &entry, size);
-  REQUIRE(::munmap(memory + page, page) == 0);
+  REQUIRE(::mprotect(memory + page, page, PROT_NONE) == 0);
   const auto& at_the_end = *reinterpret_cast<const fulmar_plugin*>(memory + page - size);
   CHECK(read_entry(at_the_end, "old.so").components.at(0).name == "Scaler");
   reinterpret_cast<fulmar_plugin*>(memory + page - size)->abi_minor = 1;
   CHECK_THROWS_WITH(read_entry(at_the_end, "old.so"), "old.so: its entry lies outside its memory");
-  ::munmap(memory, page);
+  ::munmap(memory, 2 * page);
 }

@@ -63,7 +63,7 @@ void check_component(const json& c) {
                                               "file",
                                               "machine-learning-model",
                                               "data"};
-  for (const auto& [key, value] : c.items()) CHECK_MESSAGE(keys.count(key) == 1, key);
+  for (const auto& item : c.items()) CHECK_MESSAGE(keys.count(item.key()) == 1, item.key());
   CHECK(types.count(c.at("type")) == 1);
   CHECK(c.at("name").is_string());
   CHECK_FALSE(c.at("bom-ref").get<std::string>().empty());
@@ -89,9 +89,9 @@ TEST_CASE("the bill of materials has the shape of CycloneDX 1.5") {
   CHECK(bom.at("bomFormat") == "CycloneDX");
   CHECK(bom.at("specVersion") == "1.5");
   CHECK(bom.at("version") == 1);
-  for (const auto& [key, value] : bom.items())
-    CHECK_MESSAGE(std::set<std::string>({"bomFormat", "specVersion", "version", "metadata", "components", "dependencies"}).count(key) == 1,
-                  key);
+  for (const auto& item : bom.items())
+    CHECK_MESSAGE(std::set<std::string>({"bomFormat", "specVersion", "version", "metadata", "components", "dependencies"}).count(item.key()) == 1,
+                  item.key());
   CHECK(bom["metadata"].size() == 1);
   check_component(bom["metadata"].at("component"));
   std::set<std::string> refs{bom["metadata"]["component"]["bom-ref"]};

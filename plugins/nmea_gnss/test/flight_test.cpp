@@ -62,7 +62,7 @@ json fly(const std::string& arguments) {
 
 /// The origin, 3 m to the north of it (0.00162 minutes of arc of 1852 m).
 std::string epoch_at_origin(int number) {
-  char time[16], gga[128], rmc[128];
+  char time[64], gga[192], rmc[192];
   std::snprintf(time, sizeof time, "%02d%02d%02d.%d0", 12 + number / 18000, number / 300 % 60, number / 5 % 60, number % 5 * 2);
   std::snprintf(gga, sizeof gga, "GNGGA,%s,4014.78396,N,11138.84483,W,1,09,1.00,1387.0,M,-17.0,M,,", time);
   std::snprintf(rmc, sizeof rmc, "GNRMC,%s,A,4014.78396,N,11138.84483,W,0.1,90.0,091226,,,A", time);
@@ -89,9 +89,9 @@ TEST_CASE("samples of the receiver enter a flight as they come, are recorded, an
   device.pull();
   REQUIRE(first.is_object());
   REQUIRE(first["difference"].is_object());
-  CHECK(first["difference"]["samples"].get<int>() >= 10);  // 75 when nothing else runs on the machine
-  CHECK(first["difference"]["north_m"].get<double>() == doctest::Approx(3).epsilon(0.7));  // the estimate is that of a receiver, too
-  CHECK(first["difference"]["east_m"].get<double>() < 2.5);
+  CHECK(first["difference"]["samples"].get<int>() >= 10);                                  // 75 when nothing else runs on the machine
+  CHECK(first["difference"]["north_m"].get<double>() == doctest::Approx(3).epsilon(0.05));
+  CHECK(first["difference"]["east_m"].get<double>() < 0.2);
 
   const json again = fly(file.string() + " --duration 10 --no-log --drivers-from " + log.string());
   REQUIRE(again.is_object());

@@ -57,8 +57,8 @@ TEST_CASE("published RMC, VTG, GSA and GST sentences give what their text says, 
   const auto munich = rmc(*read(lines, "$GPRMC,123519,A,4807.038,N,01131.000,E,022.4,084.4,230394,003.1,W*6A\r\n"));
   REQUIRE(munich);
   CHECK(munich->valid);
-  CHECK(*munich->speed_mps == doctest::Approx(11.5235556));   // 22.4 kt
-  CHECK(*munich->course_rad == doctest::Approx(1.47305789));  // 84.4 deg
+  CHECK(*munich->speed_mps == doctest::Approx(11.5235556));                // 22.4 kt
+  CHECK(*munich->course_rad == doctest::Approx(1.47305789));               // 84.4 deg
   CHECK((*munich->date_ns + *munich->time_ns) / 1000000000 == 764426119);  // date -d '1994-03-23 12:35:19 UTC' +%s
   const auto ublox = rmc(*read(lines, "$GPRMC,083559.00,A,4717.11437,N,00833.91522,E,0.004,77.52,091202,,,A*57\r\n"));
   CHECK((*ublox->date_ns + *ublox->time_ns) / 1000000000 == 1039422959);  // 2002-12-09 08:35:59
@@ -83,6 +83,17 @@ TEST_CASE("south and west are negative, and a third digit of longitude counts") 
   CHECK_FALSE(angle("4860.000", "N", 'N', 'S', 90));  // sixty minutes
   CHECK_FALSE(angle("9000.001", "N", 'N', 'S', 90));  // beyond the pole
   CHECK_FALSE(angle("4807.038", "E", 'N', 'S', 90));
+}
+
+TEST_CASE("dates follow the calendar, leap years included") {
+  const auto days = [](const char* text) { return date(text).value_or(-1) / 1000000000 / 86400; };  // date -u -d 2024-02-29 +%s, / 86400
+  CHECK(days("060180") == 3657);
+  CHECK(days("311299") == 10956);
+  CHECK(days("010100") == 10957);
+  CHECK(days("290224") == 19782);
+  CHECK(days("010324") == 19783);
+  CHECK(days("311279") == 40176);
+  for (const char* wrong : {"290223", "310424", "000124", "010024", "011324", "1124", "0101245", "ab0124"}) CHECK_FALSE(date(wrong));
 }
 
 TEST_CASE("a wrong checksum, a missing one, a cut line, a foreign byte and a flood without an end give nothing, and are counted") {

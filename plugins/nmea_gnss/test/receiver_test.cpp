@@ -8,9 +8,9 @@
 #include <thread>
 #include <vector>
 
+#include "device.hpp"
 #include "fulmar/random.hpp"
 #include "fulmar/testing.hpp"
-#include "device.hpp"
 #include "sentences.hpp"
 
 using namespace fulmar;
@@ -102,6 +102,5 @@ TEST_CASE("a port that is not named, is no port, or a rate that no port has is r
   bench.params.port.value = "/dev/ttyUSB0";
   bench.params.baud.value = 12345;
   CHECK(bench.configure() == Status::failed);
-  CHECK(bench.error() ==
-        "the parameter 'baud' is 12345. Valid: 4800, 9600, 19200, 38400, 57600, 115200, 230400, 460800, 921600");
+  CHECK(bench.error() == "the parameter 'baud' is 12345. Valid: 4800, 9600, 19200, 38400, 57600, 115200, 230400, 460800, 921600");
 }

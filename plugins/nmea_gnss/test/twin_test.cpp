@@ -31,9 +31,7 @@ VehicleState truth_at(double time_s) {
   return s;
 }
 
-void make_perfect(Twin::Params& p) {
-  p.horizontal_std.value = p.vertical_std.value = p.white_std.value = p.speed_std.value = 0;
-}
+void make_perfect(Twin::Params& p) { p.horizontal_std.value = p.vertical_std.value = p.white_std.value = p.speed_std.value = 0; }
 
 }  // namespace
 

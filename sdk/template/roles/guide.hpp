@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ports: state VehicleState, path Path -> command GuidanceCommand
+// ports in: state VehicleState, path Path
+// ports out: command GuidanceCommand
 // Chases a carrot: flies towards the point of the line that lies `lookahead` before its own foot, or along the orbit's tangent, bent
 // towards the orbit. Source: Micaelli & Samson (1993) for the line; Beard & McLain, Small Unmanned Aircraft (2012), (10.13), for the orbit.
 #pragma once

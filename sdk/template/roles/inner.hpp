@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ports: state VehicleState, attitude AttitudeCommand -> actuators Actuators
+// ports in: state VehicleState, attitude AttitudeCommand
+// ports out: actuators Actuators
 // Attitude hold in its plainest form: proportional on the angle, damped by the body rate, throttle handed through.
 // Source: Beard & McLain, Small Unmanned Aircraft (2012), section 6.3, without integrators.
 #pragma once

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ports: imu Imu, gnss Gnss, mag Mag, baro Baro, pitot Pitot -> state VehicleState
+// ports in: imu Imu, gnss Gnss, mag Mag, baro Baro, pitot Pitot
+// ports out: state VehicleState
 // Fixed-gain observer: the IMU integrated, pulled towards GNSS velocity, position, barometric height and magnetic heading.
 // Source: Hua, Attitude estimation for accelerated vehicles using GPS/INS measurements, Control Engineering Practice 18 (2010), first
 // observer. Takes over attitude, biases and origin from the estimator that flew before. Begins by itself only when standing still.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ports: actuators Actuators, arm ArmRequest -> imu Imu, gnss Gnss, mag Mag, baro Baro, pitot Pitot, rc Rc, status VehicleStatus, truth
-// VehicleState A point mass that turns as it banks: first-order roll and pitch rates from the surfaces, coordinated turn, perfect sensors,
-// no wind. Source: Beard & McLain, Small Unmanned Aircraft (2012), chapter 9, (9.14) with chi = psi; sensors by (7.1) to (7.10) without
-// noise.
+// ports in: actuators Actuators, arm ArmRequest
+// ports out: imu Imu, gnss Gnss, mag Mag, baro Baro, pitot Pitot, rc Rc, status VehicleStatus, truth VehicleState
+// A point mass that turns as it banks: first-order roll and pitch rates from the surfaces, coordinated turn, perfect sensors, no wind.
+// Source: Beard & McLain, Small Unmanned Aircraft (2012), chapter 9, (9.14) with chi = psi; sensors of chapter 7 without noise.
 #pragma once
 #include <algorithm>
 #include <cmath>

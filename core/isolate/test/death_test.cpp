@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every way to die costs the component one call, and the host nothing.
+#include <csignal>
+
+#include "core/error.hpp"
+#include "workshop.hpp"
+
+using namespace workshop;
+
+namespace {
+
+std::string fault_of_setup(const std::string& component, std::int64_t setup_ns = 10'000'000'000) {
+  IsolatedOptions options = options_for(component);
+  options.setup_ns = setup_ns;
+  try {
+    const Isolated child(lab()->info().components[options.index], options);
+  } catch (const Error& fault) {
+    CHECK(no_children());
+    return fault.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("every way to die in a step is one failed step with its name, and the proxy stays dead") {
+  struct Case {
+    Fault fault;
+    const char* death;
+  };
+  for (const Case& c : {Case{segfault, "crashed (segmentation fault)"}, Case{overflow, "crashed (stack overflow)"}, Case{aborts, "aborted"},
+                        Case{terminates, "aborted"}, Case{exits, "ended itself (exit code 3)"}, Case{killed, "was killed (signal 9)"},
+                        Case{divides, "crashed (arithmetic error)"}, Case{hangs, "hung: no answer within 50 ms"}}) {
+    CAPTURE(c.death);
+    Rig rig("Faulty");
+    IsolatedOptions options = options_for("Faulty");
+    if (c.fault == hangs) options.hang_ns = 50'000'000;
+    rig.there(options);
+    rig.choose("fault", c.fault);
+    rig.value("at").number[0] = 1;
+    REQUIRE(rig.configure() == FULMAR_OK);
+    rig.give({3, 4, 5});
+    CHECK(rig.step() == FULMAR_OK);
+    CHECK(rig.first_output().y_m == 4);
+    CHECK(rig.child->death() == std::string());
+    rig.tick.now_ns = 2'000'000'000;
+    rig.give({30, 40, 50});
+    const std::int64_t begin = monotonic_ns();
+    CHECK(rig.step() == FULMAR_FAILED);
+    CHECK(monotonic_ns() - begin < 1'000'000'000);
+    CHECK(rig.text() == c.death);
+    CHECK(rig.child->death() == std::string(c.death));
+    CHECK_FALSE(rig.child->alive());
+    CHECK(rig.first_output().y_m == 4);  // nothing half-written comes out
+    const std::int64_t again = monotonic_ns();
+    CHECK(rig.step() == FULMAR_FAILED);
+    CHECK(rig.retune() == FULMAR_FAILED);
+    CHECK(rig.activate() == FULMAR_FAILED);
+    CHECK(rig.configure() == FULMAR_FAILED);
+    rig.table->deactivate(rig.instance);
+    CHECK(monotonic_ns() - again < 10'000'000);  // at once: nobody is waited for
+    CHECK(rig.text() == c.death);
+    rig.instance = nullptr;
+    rig.child.reset();
+    CHECK(no_children());
+  }
+}
+
+TEST_CASE("a child killed between two steps is found out in the next") {
+  Rig rig("Faulty");
+  rig.there();
+  REQUIRE(rig.configure() == FULMAR_OK);
+  rig.give({1, 2, 3});
+  REQUIRE(rig.step() == FULMAR_OK);
+  REQUIRE(::kill(rig.child->pid(), SIGKILL) == 0);
+  CHECK(soon(2000, zombie_or_gone, rig.child->pid()));
+  CHECK(rig.step() == FULMAR_FAILED);
+  CHECK(rig.text() == "was killed (signal 9)");
+}
+
+TEST_CASE("dying in configure, activate and retune is told in the same way") {
+  for (const char* where : {"in_configure", "in_activate", "in_retune"}) {
+    CAPTURE(where);
+    Rig rig("Faulty");
+    rig.there();
+    rig.choose(where, segfault);
+    rig.give({1, 2, 3});
+    std::uint32_t status = rig.configure();
+    if (where != std::string("in_configure")) {
+      CHECK(status == FULMAR_OK);
+      status = where == std::string("in_activate") ? rig.activate() : rig.retune();
+    }
+    CHECK(status == FULMAR_FAILED);
+    CHECK(rig.text() == "crashed (segmentation fault)");
+  }
+}
+
+TEST_CASE("a component that cannot be created is refused in a sentence") {
+  CHECK(fault_of_setup("CrashBorn") == "mine: isolate_lab.so crashed (segmentation fault) while being created");
+  CHECK(fault_of_setup("ExitBorn") == "mine: isolate_lab.so ended itself (exit code 3) while being created");
+  CHECK(fault_of_setup("ThrowBorn") == "mine: cannot be created: the law is broken");
+  CHECK(fault_of_setup("HangBorn", 200'000'000) == "mine: isolate_lab.so hung: no answer within 200 ms while being created");
+}
+
+TEST_CASE("a component that cannot be destroyed says so and is gone all the same") {
+  for (const char* component : {"CrashEnd", "HangEnd"}) {
+    IsolatedOptions options = options_for(component);
+    options.setup_ns = 2'000'000'000;
+    const bool hang = component == std::string("HangEnd");
+    Isolated child(lab()->info().components[options.index], options);
+    CHECK(child.end() == (hang ? "mine: isolate_lab.so hung: no answer within 2000 ms while being destroyed"
+                               : "mine: isolate_lab.so crashed (segmentation fault) while being destroyed"));
+    CHECK_FALSE(child.alive());
+    CHECK(child.end().empty());
+  }
+  CHECK(no_children());
+}

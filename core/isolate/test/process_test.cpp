@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The child as a process: what it inherits, what it leaves, and when it ends.
+#include <fcntl.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "workshop.hpp"
+
+using namespace workshop;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::size_t open_files() {
+  std::size_t n = 0;
+  for ([[maybe_unused]] const auto& entry : fs::directory_iterator("/proc/self/fd")) ++n;
+  return n;
+}
+
+std::size_t shared_mappings() {
+  std::ifstream in("/proc/self/maps");
+  std::size_t n = 0;
+  for (std::string line; std::getline(in, line);) n += line.find("memfd:fulmar-child") != std::string::npos ? 1 : 0;
+  return n;
+}
+
+}  // namespace
+
+TEST_CASE("a child that finds another component than its host knows is refused") {
+  IsolatedOptions options = options_for("Faulty");
+  ComponentInfo info = lab()->info().components[options.index];
+  CHECK_THROWS_WITH_AS(Isolated(lab()->info().components[0], options),
+                       doctest::Contains("mine: isolate_lab.so has no component 'Everything' in place 1 any more"), Error);
+  options.index = 400;
+  CHECK_THROWS_WITH_AS(Isolated(info, options), doctest::Contains("no component 'Faulty' in place 400"), Error);
+  options = options_for("Faulty");
+  auto grown = std::make_shared<Type>(*info.inputs[0].type);
+  grown->hash ^= 1;
+  grown->size += 8;
+  info.inputs[0].type = grown;
+  CHECK_THROWS_WITH_AS(Isolated(info, options),
+                       "mine: isolate_lab.so: the ports or parameters of 'Faulty' are not those that the host knows", Error);
+  info = lab()->info().components[options.index];
+  info.vehicle = true;
+  CHECK_THROWS_WITH_AS(Isolated(info, options), "mine: a vehicle cannot run in a process of its own.", Error);
+  info.vehicle = false;
+  options.copy = "/nowhere/at/all.so";
+  CHECK_THROWS_WITH_AS(Isolated(info, options), doctest::Contains("mine: isolate_lab.so"), Error);
+  ::setenv("FULMAR_CHILD", "/nowhere/fulmar-child", 1);
+  CHECK_THROWS_WITH_AS(Isolated(info, options_for("Faulty")), "cannot start /nowhere/fulmar-child: No such file or directory.", Error);
+  ::unsetenv("FULMAR_CHILD");
+  CHECK(no_children());
+}
+
+TEST_CASE("a child inherits nothing but what it needs") {
+  const int file = ::open("/dev/zero", O_RDONLY);  // without close-on-exec
+  REQUIRE(file >= 0);
+  Rig rig("Look");
+  rig.there();
+  REQUIRE(rig.configure() == FULMAR_OK);
+  REQUIRE(rig.step() == FULMAR_OK);
+  double seen[3];
+  std::memcpy(seen, rig.out_data[0].data(), sizeof seen);
+  CHECK(seen[0] == 0);  // descriptors
+  CHECK(seen[1] == 0);  // bytes of standard input
+  CHECK(seen[2] == 1);  // denormals are kept
+  CHECK(::getpgid(rig.child->pid()) == rig.child->pid());
+  ::close(file);
+}
+
+TEST_CASE("what a component prints goes to the host's standard error, not into its output") {
+  int ends[2];
+  REQUIRE(::pipe(ends) == 0);
+  const int error = ::dup(STDERR_FILENO);
+  ::dup2(ends[1], STDERR_FILENO);
+  Rig rig("Faulty");
+  rig.there();
+  ::dup2(error, STDERR_FILENO);
+  rig.choose("fault", prints);
+  REQUIRE(rig.configure() == FULMAR_OK);
+  rig.give({1, 2, 3});
+  REQUIRE(rig.step() == FULMAR_OK);
+  rig.instance = nullptr;
+  rig.child.reset();
+  char text[64] = "";
+  CHECK(::read(ends[0], text, sizeof text - 1) > 0);
+  CHECK(text == std::string("a word of the component\n"));
+  for (int d : {ends[0], ends[1], error}) ::close(d);
+}
+
+TEST_CASE("two hundred children leave no zombie, descriptor or memory") {
+  {
+    Rig warm("Everything");
+    warm.there();
+  }
+  const std::size_t files = open_files();
+  REQUIRE(shared_mappings() == 0);
+  for (int i = 0; i < 200; ++i) {
+    Rig rig("Everything");
+    rig.there();
+    if (i % 2 == 0) REQUIRE(rig.configure() == FULMAR_OK);
+  }
+  CHECK(open_files() == files);
+  CHECK(shared_mappings() == 0);
+  CHECK(no_children());
+}
+
+TEST_CASE("a child ends with its host, be it asleep or in a step that never ends") {
+  for (const bool busy : {false, true}) {
+    int ends[2];
+    REQUIRE(::pipe(ends) == 0);
+    const pid_t host = ::fork();
+    if (host == 0) {
+      Rig rig("Faulty");
+      rig.there();
+      rig.choose("fault", busy ? hangs : none);
+      rig.configure();
+      const pid_t child = rig.child->pid();
+      if (::write(ends[1], &child, sizeof child) != sizeof child) ::_exit(1);
+      rig.give({1, 2, 3});
+      if (busy) rig.step();
+      for (;;) ::pause();
+    }
+    pid_t child = 0;
+    REQUIRE(::read(ends[0], &child, sizeof child) == sizeof child);
+    ::usleep(20'000);  // into the step
+    CHECK_FALSE(zombie_or_gone(child));
+    ::kill(host, SIGKILL);
+    ::waitpid(host, nullptr, 0);
+    CHECK(soon(5000, zombie_or_gone, child));
+    ::close(ends[0]);
+    ::close(ends[1]);
+  }
+}
+
+TEST_CASE("a child leaves a core file only where somebody asked for one") {
+  rlimit own{}, seen{};
+  REQUIRE(::getrlimit(RLIMIT_CORE, &own) == 0);
+  for (const bool wanted : {false, true}) {
+    if (wanted) ::setenv("FULMAR_CORE", "1", 1);
+    Rig rig("Faulty");
+    rig.there();
+    REQUIRE(::prlimit(rig.child->pid(), RLIMIT_CORE, nullptr, &seen) == 0);
+    CHECK(seen.rlim_max == (wanted ? own.rlim_max : 0));
+    ::unsetenv("FULMAR_CORE");
+  }
+}

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The law of examples/python/my_law.py in C++: what bench_python compares with. Equations: Beard & McLain (2012), chapter 6.
 #include <algorithm>
-
 #include <fulmar/flight/angles.hpp>
 #include <fulmar/msg/attitude_command.hpp>
 #include <fulmar/msg/guidance_command.hpp>
@@ -36,7 +35,8 @@ struct MyLaw {
     out.height_error_m = height_error;
     out.attitude.roll_rad = std::clamp<double>(in.command->roll_feedforward_rad + p.course_kp * course_error, -p.roll_max, p.roll_max);
     out.attitude.pitch_rad = std::clamp(p.pitch_trim + p.height_kp * height_error, -0.3, 0.3);
-    out.attitude.throttle_frac = std::clamp(p.throttle_trim + p.airspeed_kp * (in.command->airspeed_mps - in.state->airspeed_mps), 0.0, 1.0);
+    out.attitude.throttle_frac =
+        std::clamp(p.throttle_trim + p.airspeed_kp * (in.command->airspeed_mps - in.state->airspeed_mps), 0.0, 1.0);
     return Status::ok;
   }
 };

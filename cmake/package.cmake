@@ -7,6 +7,7 @@ foreach(target IN LISTS shipped)
   endif()
 endforeach()
 
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # the target `flight` is enough to install and to pack
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME fulmar)
 set(CPACK_PACKAGE_VENDOR Fulmar)

@@ -174,6 +174,8 @@ def index_page(pages, roles):
     text = ["# Reference", "", "Written by the plugins themselves. [Messages](messages.md) has every message and file with its fields.", "",
             "| component | fills | what |", "| --- | --- | --- |"]
     for page in pages:
+        if not page.components:
+            text.append(f"| [{page.name}]({page.name}.md) |  | Hosts components in another language; none of its own. |")
         for component in page.components:
             fills = roles.get(f"{page.name}/{component.name}", set()) | (roles.get(page.name, set()) if component is page.components[0] else set())
             text.append(f"| [{page.name}/{component.name}]({page.name}.md#{component.name.lower()}) | {', '.join(sorted(fills))} | {component.doc} |")

@@ -4,6 +4,9 @@
 packages=(g++ cmake ninja-build ccache libeigen3-dev libboost-dev libyaml-cpp-dev libspdlog-dev libzstd-dev zlib1g-dev libssl-dev
           libgeographiclib-dev nlohmann-json3-dev libcli11-dev doctest-dev)
 
+# Without these the plugin for Python and its module are left out.
+python_packages=(python3 python3-dev pybind11-dev python3-numpy)
+
 # Installs those of the named packages that are missing. Needs root or sudo only when there is something to install.
 install_missing() {
   local missing=()

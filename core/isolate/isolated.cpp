@@ -263,6 +263,8 @@ bool Isolated::wait(std::int64_t limit_ns) noexcept {
   }
 }
 
+bool Isolated::check() noexcept { return alive_ && !note_death(); }
+
 bool Isolated::note_death() noexcept {
   const bool overflow = control().stack_overflow.load() != 0;
   int signal = static_cast<int>(control().signal.load());

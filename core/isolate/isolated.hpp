@@ -38,7 +38,10 @@ class Isolated {
   /// Calls of a component whose instance is an Isolated*. `create` is NULL; `destroy` does nothing: the owner's destructor ends the child.
   static const fulmar_component& functions();
 
+  /// As of the last call.
   bool alive() const noexcept { return alive_; }
+  /// [setup] Whether it lives now: between flights no call would tell.
+  bool check() noexcept;
   /// How the child died: "crashed (segmentation fault)", "ended itself (exit code 3)", "hung: no answer within 20 ms". "" while it lives.
   const char* death() const noexcept { return death_; }
   /// Heap calls of all steps so far. 0 where the child cannot count.

@@ -34,8 +34,9 @@ fs::path child_program() {
   return found;
 }
 
+// All pages at once, so that none is missing in flight.
 std::byte* map(int descriptor, std::size_t at, std::size_t size) {
-  void* data = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, static_cast<off_t>(at));
+  void* data = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, descriptor, static_cast<off_t>(at));
   return data == MAP_FAILED ? nullptr : static_cast<std::byte*>(data);
 }
 

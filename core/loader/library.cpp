@@ -66,7 +66,8 @@ bool is_mapped(const fs::path& copy) {
 }
 
 // Throws unless a child has loaded it. `host`: of a script, the copy of the plugin that opens it; `file`: where the author keeps it.
-void try_in_child(const fs::path& copy, const std::string& key, const std::string& name, const fs::path& host = {}, const fs::path& file = {}) {
+void try_in_child(const fs::path& copy, const std::string& key, const std::string& name, const fs::path& host = {},
+                  const fs::path& file = {}) {
   if (registry().probed.count(key) > 0) return;
   const std::string fault = host.empty() ? probe(copy, name) : probe(host, name, {copy, file});
   if (!fault.empty()) {

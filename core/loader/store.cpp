@@ -22,7 +22,7 @@ namespace fulmar::core {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::size_t most_copies = 128;             // the least recently used go
+constexpr std::size_t most_copies = 128;            // the least recently used go
 constexpr const char* suffixes[] = {".so", ".py"};  // of what is kept
 
 // Throws when the folder belongs to somebody else or others may put files there: they could swap the code between check and load.

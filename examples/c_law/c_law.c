@@ -19,11 +19,11 @@ struct attitude { /* an output is written whole: every field that its readers kn
 };
 
 #define NUMBER_IN(message, member, unit, min, max) \
-  {#member, unit, NULL, NULL, 0, FULMAR_F64, FULMAR_SCALAR, offsetof(struct message, member), 1, sizeof(double), 0, min, max}
+  { #member, unit, NULL, NULL, 0, FULMAR_F64, FULMAR_SCALAR, offsetof(struct message, member), 1, sizeof(double), 0, min, max }
 #define NUMBER(message, member, unit) NUMBER_IN(message, member, unit, -INFINITY, INFINITY)
 #define LENGTH(array) (sizeof(array) / sizeof *(array))
 #define MESSAGE(name, message, fields) \
-  {name, "", "", fields, LENGTH(fields), sizeof(fulmar_field), sizeof(struct message), _Alignof(struct message)}
+  { name, "", "", fields, LENGTH(fields), sizeof(fulmar_field), sizeof(struct message), _Alignof(struct message) }
 
 static const fulmar_field state_fields[] = {
     NUMBER(state, height_m, "m"),
@@ -61,7 +61,7 @@ static const fulmar_port outputs[] = {
 
 enum { COURSE_KP, HEIGHT_KP, AIRSPEED_KP, THROTTLE_TRIM, PITCH_TRIM, ROLL_MAX, PITCH_MAX, PARAM_COUNT };
 #define PARAM(name, unit, doc, initial, min, max) \
-  {name, unit, doc, "", NULL, NULL, NULL, 0, FULMAR_NUMBER, FULMAR_LIVE, 0, {initial, 0, 0}, min, max}
+  { name, unit, doc, "", NULL, NULL, NULL, 0, FULMAR_NUMBER, FULMAR_LIVE, 0, {initial, 0, 0}, min, max }
 static const fulmar_param params[PARAM_COUNT] = {
     [COURSE_KP] = PARAM("course_kp", "rad/rad", "roll per course error", 1.2, 0, 5),
     [HEIGHT_KP] = PARAM("height_kp", "rad/m", "pitch per height error", 0.03, 0, 1),

@@ -46,7 +46,7 @@ void initialize() {
   config.parse_argv = 0;
   config.use_hash_seed = 1;  // the order of a set of strings is the same in every flight
   config.hash_seed = 0;
-  config.write_bytecode = 0;      // no __pycache__ beside the author's files, and none that is older than its source
+  config.write_bytecode = 0;  // no __pycache__ beside the author's files, and none that is older than its source
   config.buffered_stdio = 0;
   check(PyConfig_SetBytesString(&config, &config.executable, executable().c_str()), config);
   check(PyConfig_SetBytesString(&config, &config.program_name, executable().c_str()), config);
@@ -54,6 +54,7 @@ void initialize() {
   PyConfig_Clear(&config);
   // what a script prints is for people; the host's standard output may be read by a program
   PyRun_SimpleString("import sys\nsys.stdout = sys.stderr\n");
+  PyEval_SaveThread();  // from here on whoever calls takes the lock
 }
 
 py::module_ make_module(const char* name, const char* file, const char* source) {
@@ -77,8 +78,7 @@ void make_modules() {
 
 void start() {
   if (runtime_module != nullptr) return;
-  const bool ours = Py_IsInitialized() == 0;
-  if (ours) initialize();
+  if (Py_IsInitialized() == 0) initialize();
   std::string fault;
   {
     const Gil gil;
@@ -88,7 +88,6 @@ void start() {
       fault = e.what();
     }
   }
-  if (ours) PyEval_SaveThread();  // from here on whoever calls takes the lock
   if (!fault.empty()) throw std::runtime_error("the module fulmar_plugin cannot be made: " + fault);
 }
 

@@ -25,8 +25,10 @@ class Gil {
  private:
   /// What Python holds of a thread stays when the thread lets go: making it anew would cost each step a memory mapping.
   static void keep_thread() {
-    PyGILState_Ensure();
-    PyEval_SaveThread();
+    if (PyGILState_GetThisThreadState() == nullptr) {
+      PyGILState_Ensure();
+      PyEval_SaveThread();
+    }
     known_ = true;
   }
   static inline thread_local bool known_ = false;

@@ -70,8 +70,7 @@ py::list message_tables() {
 
 py::list unit_rules() {
   py::list rules;
-  for (const detail::Unit& unit : detail::units)
-    rules.append(py::make_tuple(std::string(unit.suffix), unit.printed, unit.min, unit.max));
+  for (const detail::Unit& unit : detail::units) rules.append(py::make_tuple(std::string(unit.suffix), unit.printed, unit.min, unit.max));
   return rules;
 }
 

@@ -193,7 +193,14 @@ void close_script(const fulmar_plugin* plugin) {
 
 extern "C" {
 __attribute__((visibility("default"))) extern const fulmar_plugin fulmar_plugin_entry;
-constinit const fulmar_plugin fulmar_plugin_entry = {
-    FULMAR_ABI_MAJOR, FULMAR_ABI_MINOR, 0,       sizeof(fulmar_component), FULMAR_VERSION,
-    FULMAR_TOOLCHAIN, "",               nullptr, &fulmar::python::open_script, &fulmar::python::close_script};
+constinit const fulmar_plugin fulmar_plugin_entry = {FULMAR_ABI_MAJOR,
+                                                     FULMAR_ABI_MINOR,
+                                                     0,
+                                                     sizeof(fulmar_component),
+                                                     FULMAR_VERSION,
+                                                     FULMAR_TOOLCHAIN,
+                                                     "",
+                                                     nullptr,
+                                                     &fulmar::python::open_script,
+                                                     &fulmar::python::close_script};
 }

@@ -97,8 +97,7 @@ py::object value_of(const Field& field, const std::byte* at) {
   if (field.kind == FULMAR_STRUCT) return record_of(*field.type, at);
   if (field.kind == FULMAR_TEXT) {
     const char* text = reinterpret_cast<const char*>(at);
-    return py::reinterpret_steal<py::object>(
-        PyUnicode_DecodeUTF8(text, static_cast<Py_ssize_t>(::strnlen(text, field.stride)), "replace"));
+    return py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(text, static_cast<Py_ssize_t>(::strnlen(text, field.stride)), "replace"));
   }
   const double number = number_at(field, at);
   if (field.kind == FULMAR_BOOL) return py::bool_(number != 0);

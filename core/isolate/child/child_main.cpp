@@ -84,7 +84,8 @@ int main(int argc, char** argv) {
   }
   prepare();
   const auto size = static_cast<std::size_t>(about.st_size);
-  void* memory = size < sizeof(Control) ? MAP_FAILED : ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, shared_descriptor, 0);
+  if (size < sizeof(Control)) return 2;
+  void* memory = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, shared_descriptor, 0);
   if (memory == MAP_FAILED) return 2;
   Session session(static_cast<std::byte*>(memory), size);
   if (::getppid() != session.control().host_pid) return 1;  // it died before this process asked to die with it

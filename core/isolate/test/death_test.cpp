@@ -72,8 +72,15 @@ TEST_CASE("a child killed between two steps is found out in the next") {
   REQUIRE(rig.configure() == FULMAR_OK);
   rig.give({1, 2, 3});
   REQUIRE(rig.step() == FULMAR_OK);
+  REQUIRE(rig.child->check());
   REQUIRE(::kill(rig.child->pid(), SIGKILL) == 0);
   CHECK(soon(2000, zombie_or_gone, rig.child->pid()));
+  SUBCASE("or when somebody looks") {
+    CHECK(rig.child->alive());
+    CHECK_FALSE(rig.child->check());
+    CHECK_FALSE(rig.child->alive());
+  }
+  SUBCASE("by itself") { CHECK(rig.child->alive()); }
   CHECK(rig.step() == FULMAR_FAILED);
   CHECK(rig.text() == "was killed (signal 9)");
 }

@@ -90,8 +90,9 @@ TEST_CASE("the bill of materials has the shape of CycloneDX 1.5") {
   CHECK(bom.at("specVersion") == "1.5");
   CHECK(bom.at("version") == 1);
   for (const auto& item : bom.items())
-    CHECK_MESSAGE(std::set<std::string>({"bomFormat", "specVersion", "version", "metadata", "components", "dependencies"}).count(item.key()) == 1,
-                  item.key());
+    CHECK_MESSAGE(
+        std::set<std::string>({"bomFormat", "specVersion", "version", "metadata", "components", "dependencies"}).count(item.key()) == 1,
+        item.key());
   CHECK(bom["metadata"].size() == 1);
   check_component(bom["metadata"].at("component"));
   std::set<std::string> refs{bom["metadata"]["component"]["bom-ref"]};

@@ -333,8 +333,9 @@ class Law:
 }
 
 TEST_CASE("a misspelt name fails at once, and a whole message may be assigned") {
-  const std::string head = "import fulmar_plugin as f\nclass Law:\n  class Outputs: attitude = f.Out('AttitudeCommand'); e_m = f.Probe()\n"
-                           "  class Params: gain = f.Param(1.0)\n  def step(self, tick, inp, p, out):\n    ";
+  const std::string head =
+      "import fulmar_plugin as f\nclass Law:\n  class Outputs: attitude = f.Out('AttitudeCommand'); e_m = f.Probe()\n"
+      "  class Params: gain = f.Param(1.0)\n  def step(self, tick, inp, p, out):\n    ";
   const auto error = [&](const std::string& line) {
     Law law(head + line + "\n");
     law.configure();

@@ -147,5 +147,6 @@ TEST_CASE("a script that never ends, crashes or leaves while it is imported is s
   CHECK(loop.err.find("law.py did not finish loading within 2 s") != std::string::npos);
   CHECK(fulmar("check " + mission("import os\nos._exit(3)\n")).err.find("law.py ended the process while being loaded (exit code 3)") !=
         std::string::npos);
-  CHECK(fulmar("check " + mission("import os\nos.abort()\n")).err.find("law.py crashed while being loaded (signal 6)") != std::string::npos);
+  CHECK(fulmar("check " + mission("import os\nos.abort()\n")).err.find("law.py crashed while being loaded (signal 6)") !=
+        std::string::npos);
 }

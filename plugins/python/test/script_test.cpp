@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scripts that are opened, refused and reloaded; messages declared in Python.
-#include <fulmar/message.hpp>
-#include <fulmar/msg/plan.hpp>
-#include <fulmar/schema.hpp>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+#include <fulmar/message.hpp>
+#include <fulmar/msg/plan.hpp>
+#include <fulmar/schema.hpp>
 
 #include "open_script.hpp"
 
@@ -135,8 +135,7 @@ TEST_CASE("what cannot be a component is refused with one sentence that names th
   CHECK(refusal(with_ports("state = f.In('VehicleStat')"))
             .starts_with("law.py:4: Law.Inputs.state: there is no message 'VehicleStat'. Did you mean 'VehicleState'? Valid: Actuators, "));
   CHECK(refusal(with_ports("state = 3")) == "law.py:4: Law.Inputs.state: 3 is no input; Inputs holds In, Optional, Queue and Request");
-  CHECK(refusal(with_ports("state = f.In(int)")) ==
-        "law.py:4: Law.Inputs.state: <class 'int'> is no message; give its name or class");
+  CHECK(refusal(with_ports("state = f.In(int)")) == "law.py:4: Law.Inputs.state: <class 'int'> is no message; give its name or class");
   CHECK(refusal(with_ports("s = f.In('Imu')", "e = f.Probe()")) ==
         "law.py:6: Law.Outputs.e: the name of a probe ends in its unit: roll_error_rad");
   CHECK(refusal("import fulmar_plugin as f\nclass M(f.Message):\n  height: float\n")
@@ -149,7 +148,8 @@ TEST_CASE("what cannot be a component is refused with one sentence that names th
 
 TEST_CASE("a changed script is a new module; the old one flies on until it is closed") {
   const auto text = [](const std::string& number) {
-    return "import fulmar_plugin as f\nclass Law:\n  class Outputs: n_ratio = f.Probe()\n  def step(self, tick, inp, p, out): out.n_ratio = " +
+    return "import fulmar_plugin as f\nclass Law:\n  class Outputs: n_ratio = f.Probe()\n  def step(self, tick, inp, p, out): out.n_ratio "
+           "= " +
            number + "\n";
   };
   Law before(text("1"));
@@ -166,8 +166,9 @@ TEST_CASE("a changed script is a new module; the old one flies on until it is cl
 
 TEST_CASE("a module beside the script is found, and imported anew when it has changed") {
   const Folder folder;
-  const std::string script = "import fulmar_plugin as f\nimport fulmar_test_gains\nclass Law:\n  class Outputs: n_ratio = f.Probe()\n"
-                             "  def step(self, tick, inp, p, out): out.n_ratio = fulmar_test_gains.gain\n";
+  const std::string script =
+      "import fulmar_plugin as f\nimport fulmar_test_gains\nclass Law:\n  class Outputs: n_ratio = f.Probe()\n"
+      "  def step(self, tick, inp, p, out): out.n_ratio = fulmar_test_gains.gain\n";
   const std::string file = folder.write("law.py", script);
   for (const std::string gain : {"1.5", "22.5"}) {
     folder.write("fulmar_test_gains.py", "gain = " + gain + "\n");

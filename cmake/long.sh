@@ -1,9 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# The long campaigns: more seeds, more byte flips, 10 000 loads and unloads of a plugin, under the address sanitizer too.
+# The long campaigns: more seeds, more byte flips, 10 000 loads and unloads of a plugin and 1000 swaps, under the address sanitizer too.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export FULMAR_LONG=1
 build/bin/loader_test
 [ ! -x build-sanitize/bin/loader_test ] || build-sanitize/bin/loader_test
+for folder in build build-sanitize; do
+  [ ! -x $folder/bin/run_test ] || $folder/bin/run_test --test-case="many swaps*"
+done
 build/bin/bench_missions --seeds 50

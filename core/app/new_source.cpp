@@ -17,6 +17,9 @@ bool has_header(const Type& type, const fs::path& include) {
   return text.str().find("struct " + type.name + " {") != std::string::npos;
 }
 
+/// Of one of the SDK's headers.
+std::string include_line(const std::string& header) { return "#include <" + ("fulmar/" + header) + ".hpp>\n"; }
+
 /// Writes the parts of one component. "messages::" stands before the types that the header itself declares.
 class SourceWriter {
  public:
@@ -31,8 +34,8 @@ class SourceWriter {
     text += c_.vehicle() ? "// A vehicle that keeps the time and says nothing true yet.\n"
                          : "// Fills the role " + c_.role + ". As generated it passes on what " + c_.shipped_use + " computes.\n";
     text += "#pragma once\n";
-    for (const std::string& header : headers_) text += "#include <fulmar/msg/" + header + ".hpp>\n";
-    text += std::string("#include <fulmar/plugin.hpp>\n") + (c_.vehicle() ? "#include <cmath>\n" : "") + "\nusing namespace fulmar;\n\n";
+    for (const std::string& header : headers_) text += include_line("msg/" + header);
+    text += include_line("plugin") + (c_.vehicle() ? "#include <cmath>\n" : "") + "\nusing namespace fulmar;\n\n";
     if (!own_.empty())
       text += "namespace messages {  // as the mission's own plugins have them\n\n" + own_ + "}  // namespace messages\n\n";
     text += "struct " + type_ + " {  // fills the role `" + c_.role + "`\n";
@@ -43,8 +46,8 @@ class SourceWriter {
   std::string test() const {
     std::string text =
         "// SPDX-License-Identifier: BSD-3-Clause\n#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN\n#include <doctest/doctest.h>\n\n"
-        "#define FULMAR_COUNT_ALLOCATIONS\n#include <fulmar/testing.hpp>\n\n#include \"" +
-        name_ + ".hpp\"\n\n";
+        "#define FULMAR_COUNT_ALLOCATIONS\n" +
+        include_line("testing") + "\n#include \"" + name_ + ".hpp\"\n\n";
     return text + (c_.vehicle() ? vehicle_test() : passing_test());
   }
 

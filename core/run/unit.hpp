@@ -133,7 +133,7 @@ class Unit {
   /// [setup] Channels and periods in the log, of the one whose place it takes.
   void keep_log_settings(const Unit& from);
   /// Whether its child has died.
-  bool dead() const noexcept { return child_ && !child_->alive(); }
+  bool dead() noexcept { return child_ && !child_->check(); }
   /// Whether its results come by `collect`.
   bool remote() const noexcept { return async_ || samples_; }
   /// [setup] Encodes the frame that the device is to get when the host dies, if the vehicle can.

@@ -344,7 +344,8 @@ def _make(described, seed):
 
 
 def _settle():
-    """After set-up: what is there now stays, the collector need not look at it in flight."""
+    """After set-up: what is there now stays, the collector need not look at it in flight. What flights before left behind goes."""
+    gc.unfreeze()
     gc.collect()
     gc.freeze()
 

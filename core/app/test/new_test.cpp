@@ -126,7 +126,7 @@ TEST_CASE("a role of somebody's own mission gets a body that passes on what was 
   const Result made = call("new my_judge --role judge --mission own.yaml --dir deep/er");
   REQUIRE_MESSAGE(made.code == 0, made.words);
   const std::string header = text_of(folder() / "deep/er/my_judge.hpp"), written = text_of(folder() / "deep/er/mission.yaml");
-  CHECK(holds(header, "#include <fulmar/msg/guidance_command.hpp>"));
+  CHECK(holds(header, "fulmar/msg/guidance_command.hpp>\n"));
   CHECK(holds(header, "struct Figures {"));
   CHECK(holds(header, "Out<messages::Figures> figures;"));
   CHECK(holds(written,

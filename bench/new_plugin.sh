@@ -53,6 +53,7 @@ wait_for() {
 }
 save_to_compared=null
 if "$prefix/bin/fulmar" run --help | grep -q -- --watch; then
+  : >watch.log
   set -m  # a process group of its own: it is interrupted as by Ctrl-C
   "$prefix/bin/fulmar" run mission.yaml --watch --build "cmake --build build" >watch.log 2>&1 &
   watcher=$!

@@ -45,7 +45,7 @@ class SourceWriter {
 
   std::string test() const {
     std::string text =
-        "// SPDX-License-Identifier: BSD-3-Clause\n#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN\n#include <doctest/doctest.h>\n\n"
+        "// SPDX-License-Identifier: BSD-3-Clause\n#include <doctest/doctest.h>\n\n"
         "#define FULMAR_COUNT_ALLOCATIONS\n" +
         include_line("testing") + "\n#include \"" + name_ + ".hpp\"\n\n";
     return text + (c_.vehicle() ? vehicle_test() : passing_test());

@@ -194,7 +194,7 @@ struct Law {
 
  private:
   double taken_ = -9;
-  int steps_ = 0;
+  [[maybe_unused]] int steps_ = 0;
   std::vector<const char*> kept_;
 };
 

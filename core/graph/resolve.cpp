@@ -10,7 +10,7 @@
 namespace fulmar::core {
 namespace fs = std::filesystem;
 namespace {
-constexpr std::int64_t default_hang_ns = 20'000'000;  // how long a paced loop waits for one step in a child
+constexpr std::int64_t default_hang_ns = 50'000'000;  // how long a paced loop waits for one step in a child
 }
 
 int Draft::candidate(const std::string& name) const {

@@ -2,6 +2,7 @@
 // Reads a plugin's entry symbol: the ABI version first, then every component, port and parameter, none believed unchecked.
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 
 #include "core/loader/library.hpp"
 #include "core/loader/table.hpp"
@@ -175,10 +176,10 @@ void read_plugin(TableReader& tables, const fulmar_plugin& entry, PluginInfo& in
   info.version = tables.text(entry.version, "the version");
   info.toolchain = tables.text(entry.toolchain, "the toolchain");
   info.flags = tables.text(entry.flags, "the build flags");
-  const bool hosts_scripts = info.abi_minor >= 1 && entry.open_script != nullptr;
+  const bool hosts_scripts = entry.open_script != nullptr;
   if ((entry.component_count == 0 && !hosts_scripts) || entry.component_count > most_components)
     throw Error("it has " + std::to_string(entry.component_count) + " components");
-  if (info.abi_minor >= 1) check_script_functions(tables, entry);
+  check_script_functions(tables, entry);
   for (std::uint32_t i = 0; i < entry.component_count; ++i) {
     ComponentInfo component = read_component(tables, tables.element(entry.components, entry.component_stride, i, "the components"));
     for (const ComponentInfo& other : info.components)
@@ -201,8 +202,10 @@ PluginInfo read_entry(const fulmar_plugin& entry, const std::string& file_name) 
                 version_text(FULMAR_ABI_MAJOR, FULMAR_ABI_MINOR));
   const std::size_t size = info.abi_minor >= 1 ? sizeof entry : offsetof(fulmar_plugin, open_script);
   if (!tables.memory().readable(&entry, size)) throw Error(file_name + ": its entry lies outside its memory");
+  fulmar_plugin copy{};  // a compiler may read all of what a reference refers to: an older entry ends earlier
+  std::memcpy(&copy, &entry, size);
   try {
-    read_plugin(tables, entry, info);
+    read_plugin(tables, copy, info);
   } catch (const Error& fault) {
     throw Error(file_name + ": " + fault.what());
   }

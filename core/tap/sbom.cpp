@@ -57,15 +57,24 @@ bool is_copy(const std::string& name) {
   return name.size() == 67 && name.ends_with(".so") && name.find_first_not_of("0123456789abcdef") == 64;
 }
 
+// An array of one: braces round a single value mean an array to one compiler and the value to another.
+json list(json only) {
+  json all = json::array();
+  all.push_back(std::move(only));
+  return all;
+}
+
+json hash(const std::string& content) { return {{"alg", "SHA-256"}, {"content", content}}; }
+
 json property(const std::string& name, const std::string& value) { return {{"name", "fulmar:" + name}, {"value", value}}; }
 
 json host(const std::string& build_id) {
   json component = {{"type", "application"}, {"bom-ref", host_ref}, {"name", "fulmar"}, {"version", FULMAR_VERSION}};
-  component["licenses"] = {{{"license", {{"id", "BSD-3-Clause"}}}}};
+  component["licenses"] = list(json{{"license", json{{"id", "BSD-3-Clause"}}}});
   if (build_id.empty())
-    component["hashes"] = {{{"alg", "SHA-256"}, {"content", sha256_file("/proc/self/exe")}}};
+    component["hashes"] = list(hash(sha256_file("/proc/self/exe")));
   else
-    component["properties"] = {property("build_id", build_id)};
+    component["properties"] = list(property("build_id", build_id));
   return component;
 }
 
@@ -73,7 +82,7 @@ std::string ref_of(const PluginInfo& plugin) { return "plugin:" + plugin.sha256;
 
 json plugin_component(const PluginInfo& plugin) {
   json component = {{"type", "library"}, {"bom-ref", ref_of(plugin)}, {"name", plugin.file}, {"version", plugin.version}};
-  component["hashes"] = {{{"alg", "SHA-256"}, {"content", plugin.sha256}}};
+  component["hashes"] = list(hash(plugin.sha256));
   json& properties = component["properties"] = json::array();
   properties.push_back(property("abi", std::to_string(plugin.abi_major) + "." + std::to_string(plugin.abi_minor)));
   if (!plugin.build_id.empty()) properties.push_back(property("build_id", plugin.build_id));
@@ -86,7 +95,7 @@ json plugin_component(const PluginInfo& plugin) {
 json library_component(const Mapped& library) {
   const std::string ref = "library:" + library.name + (library.build_id.empty() ? "" : ":" + library.build_id);
   json component = {{"type", "library"}, {"bom-ref", ref}, {"name", library.name}};
-  if (!library.build_id.empty()) component["properties"] = {property("build_id", library.build_id)};
+  if (!library.build_id.empty()) component["properties"] = list(property("build_id", library.build_id));
   return component;
 }
 
@@ -114,7 +123,7 @@ std::string sbom_text(const std::vector<const PluginInfo*>& plugins) {
   json bom = {{"bomFormat", "CycloneDX"}, {"specVersion", "1.5"}, {"version", 1}};
   bom["metadata"] = {{"component", host(program_id)}};
   bom["components"] = std::move(components);
-  bom["dependencies"] = json::array({{{"ref", host_ref}, {"dependsOn", std::move(needed)}}});
+  bom["dependencies"] = list(json{{"ref", host_ref}, {"dependsOn", std::move(needed)}});
   return bom.dump(1) + "\n";
 }
 

@@ -97,7 +97,7 @@ TEST_CASE("a controller that goes in the middle of a turn costs less than 5 m") 
       {"nan", "run: process, ", "is nan", 0, false},
       {"segfault", "run: process, ", "segmentation fault", 0, true},
       {"abort", "run: process, ", "abort", 0, true},
-      {"hang", "run: process, hang: 20 ms, ", "hung", 200, true},
+      {"hang", "run: process, hang: 500 ms, ", "hung", 200, true},
       {"leak", "run: process, ", "its heap has grown", 0, true},
   };
   for (const Row& row : rows) {

@@ -164,7 +164,7 @@ struct Law {
         out.error_m = std::numeric_limits<double>::infinity();
         break;
       case Fault::slow:
-        for (int i = 0; i < 300'000; ++i) asm volatile("");
+        for (int i = 0; i < 3'000'000; ++i) asm volatile("");
         break;
       case Fault::allocates: {
         std::vector<double> v(32);

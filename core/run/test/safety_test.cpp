@@ -30,7 +30,7 @@ const Row rows[] = {
 };
 
 std::string law(const Row& row, bool isolated) {
-  return "  one: {fills: law, use: lab/Law, "s + (isolated ? "run: process, hang: 50 ms, " : "") + "params: {id: 1, u: 0.1, fault: " + row.fault +
+  return "  one: {fills: law, use: lab/Law, "s + (isolated ? "run: process, hang: 500 ms, " : "") + "params: {id: 1, u: 0.1, fault: " + row.fault +
          ", fault_at: 0.1 s}}\n" + with_fallback;
 }
 
@@ -93,7 +93,7 @@ TEST_CASE("a component whose heap grows is stopped at its limit, in the loop and
 TEST_CASE("a step over its budget five times in a row, paced: the fallback takes over; in a child too") {
   for (const bool isolated : {false, true}) {
     CAPTURE(isolated);
-    const Graph g = mission("  one: {fills: law, use: lab/Law, budget: 20 us, "s + (isolated ? "run: process, " : "") +
+    const Graph g = mission("  one: {fills: law, use: lab/Law, budget: 500 us, "s + (isolated ? "run: process, " : "") +
                             "params: {fault: slow, fault_at: 0.1 s}}\n" + with_fallback);
     FlightOptions o = options(0.3);
     o.speed = 4;

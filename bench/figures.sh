@@ -42,6 +42,32 @@ speed() { # speed MISSION: median of five runs, log written, all threads on one 
   echo "| what | p50 | p99 |"
   echo "|---|---|---|"
   build/bin/bench_steps | sed -E 's/^(.*[^ ]) +([0-9]+) +([0-9]+) ns$/| \1 | \2 | \3 |/'
+  echo
+  echo "## What isolation costs"
+  echo
+  echo "\`build/bin/bench_isolation\`: a step in a child process beside a bare round trip between two processes of the same run."
+  echo
+  echo '```'
+  build/bin/bench_isolation
+  echo '```'
+  echo
+  if [ -x build/bin/bench_python ]; then
+    echo "## What Python costs"
+    echo
+    echo "\`build/bin/bench_python\`: a law in Python beside the same law in C++."
+    echo
+    echo '```'
+    build/bin/bench_python
+    echo '```'
+    echo
+  fi
+  echo "## From an idea to a flight"
+  echo
+  echo "\`bench/new_plugin.sh\`: machine time, no compiler cache."
+  echo
+  echo '```'
+  bench/new_plugin.sh
+  echo '```'
 } >"$scratch/figures.md"
 mv "$scratch/figures.md" docs/figures.md
 echo "docs/figures.md is written"

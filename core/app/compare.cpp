@@ -11,8 +11,8 @@ namespace {
 
 /// What says nothing of how it flew, or differs between equal flights.
 bool passed_over(const std::string& key) {
-  for (const char* name : {"wall_time_s", "speedup", "step_time_us", "not_reproducible", "log_bytes", "log_messages", "log_sha256", "log", "seed",
-                           "allocations", "misses", "log_error", "phases", "guards"})
+  for (const char* name : {"wall_time_s", "speedup", "step_time_us", "not_reproducible", "log_bytes", "log_messages", "log_sha256", "log",
+                           "seed", "allocations", "misses", "log_error", "phases", "guards"})
     if (key == name) return true;
   return false;
 }
@@ -38,7 +38,8 @@ void walk(const nlohmann::json& before, const nlohmann::json& after, const std::
       std::snprintf(text, sizeof text, "  %-44s %12.4g %12.4g %+9.1f %%\n", name.c_str(), a, b, percent);
     } else {
       const auto words = [](const nlohmann::json& j) { return j.is_string() ? j.get<std::string>() : j.dump(); };
-      std::snprintf(text, sizeof text, "  %-44s %12s %12s\n", name.c_str(), words(was).substr(0, 40).c_str(), words(now).substr(0, 40).c_str());
+      std::snprintf(text, sizeof text, "  %-44s %12s %12s\n", name.c_str(), words(was).substr(0, 40).c_str(),
+                    words(now).substr(0, 40).c_str());
     }
     lines.push_back(text);
   }

@@ -44,17 +44,25 @@ void send_last_frame() {
   if (frame && frame->fd >= 0 && write(frame->fd, frame->data, frame->size) < 0) write_text("\nfulmar: the last frame could not be sent");
 }
 
-/// The first signal ends the flight between two ticks. Another one, half a second later or more (timeout(1) sends two at once), ends the
-/// program: a component may be hanging.
+constexpr unsigned patience_s = 10;  // between the first signal and the end of the flight
+
+/// The first signal ends the flight between two ticks. Another one, half a second later or more (timeout(1) sends two at once), or ten
+/// seconds without an end, ends the program: a component may be hanging.
 void on_signal(int signal) {
   static timespec first{};
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
-  if (interrupted.exchange(signal) == 0) first = now;
-  if (static_cast<double>(now.tv_sec - first.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec - first.tv_nsec) < 0.5) return;
+  if (signal != SIGALRM && interrupted.exchange(signal) == 0) {
+    first = now;
+    alarm(patience_s);
+    return;
+  }
+  const bool patience_over = signal == SIGALRM;
+  const double since_s = static_cast<double>(now.tv_sec - first.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec - first.tv_nsec);
+  if (!patience_over && since_s < 0.5) return;
   send_last_frame();
   const char* component = in_step.load(std::memory_order_relaxed);
-  write_text("\nfulmar: ended by the second signal");
+  write_text(patience_over ? "\nfulmar: ended, since the flight did not" : "\nfulmar: ended by the second signal");
   if (component) write_text(" in the step of "), write_text(component);
   write_text(last_words);
   _exit(130);
@@ -86,6 +94,7 @@ void on_exit() {
   write_text(component);
   write_text(" ended the program in its step");
   write_text(last_words);
+  _exit(1);  // whatever code it asked for, nothing has been flown to its end
 }
 
 void install_handlers() {
@@ -95,6 +104,7 @@ void install_handlers() {
   action.sa_handler = on_signal;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  sigaction(SIGALRM, &action, nullptr);
   if (!counts_allocations()) return;  // a sanitized build reports crashes by itself
   static char stack[64 * 1024];
   const stack_t alternate{stack, 0, sizeof stack};
@@ -225,6 +235,7 @@ int Session::fly() {
   if (!options_.json) spdlog::info("{}: {}, seed {}", graph_.mission, graph_.io == "sim" ? "simulation" : "flight controller", graph_.seed);
   last_ = std::make_unique<Flight>(graph_, o);
   const FlightResult result = last_->run();
+  alarm(0);
   progress.clear();
   results_.push_back(result_json(graph_, *last_, result));
   if (!options_.json) {

@@ -56,6 +56,8 @@ std::vector<fs::path> source_files(const fs::path& folder) {
   return files;
 }
 
-bool run_build(const std::string& command) { return std::system(("( " + command + " ) 1>&2").c_str()) == 0; }  // NOLINT(cert-env33-c): it is the user's own
+bool run_build(const std::string& command) {
+  return std::system(("( " + command + " ) 1>&2").c_str()) == 0;
+}  // NOLINT(cert-env33-c): it is the user's own
 
 }  // namespace fulmar::core

@@ -13,10 +13,11 @@ namespace fulmar::core {
 namespace fs = std::filesystem;
 namespace {
 
-const std::vector<std::string> mission_keys = {"mission",  "extends", "io",         "airframe", "origin", "rate",     "seed",
-                                               "arm",      "done",    "failed",     "timeout",  "epoch",  "progress", "summary",
-                                               "failsafe", "roles",   "components", "phases",   "record", "plugins",  "live",     "dds"};
-const std::vector<std::string> component_keys = {"fills", "use", "in", "params", "rate", "only", "run", "latency", "budget", "max_age", "memory", "hang"};
+const std::vector<std::string> mission_keys = {"mission",    "extends", "io",      "airframe", "origin",   "rate",    "seed",     "arm",
+                                               "done",       "failed",  "timeout", "epoch",    "progress", "summary", "failsafe", "roles",
+                                               "components", "phases",  "record",  "plugins",  "live",     "dds"};
+const std::vector<std::string> component_keys = {"fills", "use",     "in",     "params",  "rate",   "only",
+                                                 "run",   "latency", "budget", "max_age", "memory", "hang"};
 const std::vector<std::pair<std::string, std::string>> absent_sections = {{"live", "live view"}, {"dds", "DDS"}};
 
 constexpr const char* default_epoch = "2026-01-01T00:00Z";

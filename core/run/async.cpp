@@ -84,7 +84,8 @@ void Async::copy_inputs(const std::vector<fulmar_input>& from, const ComponentIn
     const Port& port = info.inputs[i];
     fulmar_input& to = job.inputs[i];
     to = from[i];
-    if (from[i].count > 0 && from[i].data) std::memcpy(job.input_data[i].data(), from[i].data, std::size_t{from[i].count} * port.type->size);
+    if (from[i].count > 0 && from[i].data)
+      std::memcpy(job.input_data[i].data(), from[i].data, std::size_t{from[i].count} * port.type->size);
     to.data = from[i].data ? job.input_data[i].data() : nullptr;
     if (port.kind == FULMAR_IN_VALUE) continue;
     for (std::uint32_t k = 0; k < from[i].count; ++k) {

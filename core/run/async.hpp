@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `run: async`: a component is stepped in a thread of its own, on copies of its inputs; the loop takes each result when its latency is over.
+// `run: async`: a component is stepped in a thread of its own, on copies of its inputs; the loop takes each result when its latency is
+// over.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -64,8 +65,8 @@ class Async {
   const fulmar_component& functions_;
   void* instance_;
   std::vector<Job> jobs_;
-  std::uint64_t taken_ = 0;                 // the loop's
-  std::atomic<std::uint64_t> submitted_{0}; // counts for ever; the top bit asks the thread to end
+  std::uint64_t taken_ = 0;                  // the loop's
+  std::atomic<std::uint64_t> submitted_{0};  // counts for ever; the top bit asks the thread to end
   std::atomic<std::uint64_t> finished_{0};
   static constexpr std::uint64_t ending = std::uint64_t{1} << 63;
   std::thread thread_;

@@ -2,8 +2,8 @@
 // Set-up of a flight: creates and configures components, connects their ports, opens the log.
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "core/run/flight_impl.hpp"
 #include "core/tap/sbom.hpp"

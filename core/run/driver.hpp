@@ -68,7 +68,8 @@ class Driver final : public SampleSource {
 class RecordedSamples final : public SampleSource {
  public:
   /// `topics`: one per output, "" for a probe. Throws Error when the log has none of them, or with other fields.
-  RecordedSamples(const std::filesystem::path& log, const ComponentInfo& info, const std::vector<std::string>& topics, std::int64_t epoch_ns);
+  RecordedSamples(const std::filesystem::path& log, const ComponentInfo& info, const std::vector<std::string>& topics,
+                  std::int64_t epoch_ns);
   bool next(std::int64_t now_ns, Sample& sample) noexcept override;
   void release() noexcept override {}
   const char* fault() const noexcept override { return ""; }

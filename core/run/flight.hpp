@@ -81,8 +81,8 @@ class Flight {
                std::function<void(const std::string&)> answered = {});
   /// A live change of a base parameter. Throws Error: unknown, not live, out of range.
   void set_parameter(const std::string& component, const std::string& param, const ParamValue& value);
-  /// Puts another file in a component's place, with its present parameters. Between flights: refused while armed or in the air. What is wrong
-  /// with the file, or with how it behaves in a rehearsal, is thrown as Error, and the old one stays as it was.
+  /// Puts another file in a component's place, with its present parameters. Between flights: refused while armed or in the air. What is
+  /// wrong with the file, or with how it behaves in a rehearsal, is thrown as Error, and the old one stays as it was.
   void swap(const std::string& component, const std::string& file);
   /// The inputs that a component saw last, nullptr when they are not kept.
   const class Tape* tape(const std::string& component) const;

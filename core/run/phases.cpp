@@ -7,6 +7,27 @@
 
 namespace fulmar::core {
 
+namespace {
+
+/// What a component says of itself goes to terminals, logs and JSON: one line of UTF-8.
+void make_printable(char* text) {
+  for (auto* p = reinterpret_cast<unsigned char*>(text); *p != 0;) {
+    const int more = *p < 0x80 ? 0 : (*p & 0xe0) == 0xc0 && *p >= 0xc2 ? 1 : (*p & 0xf0) == 0xe0 ? 2 : *p >= 0xf0 ? 3 : -1;
+    int there = 0;
+    while (there < more && (p[there + 1] & 0xc0) == 0x80) ++there;
+    const bool too_long = (*p == 0xe0 && p[1] < 0xa0) || (*p == 0xf0 && p[1] < 0x90);  // a shorter form exists
+    const bool no_character = (*p == 0xed && p[1] >= 0xa0) || *p > 0xf4 || (*p == 0xf4 && p[1] >= 0x90);
+    if (more < 0 || there < more || too_long || no_character) {
+      *p++ = '?';
+      continue;
+    }
+    if (*p < 0x20 || *p == 0x7f) *p = ' ';
+    p += more + 1;
+  }
+}
+
+}  // namespace
+
 void Flight::Impl::event(EventKind kind, const std::string& component, const std::string& text) {
   Event e;
   e.kind = kind;
@@ -104,6 +125,7 @@ bool Flight::Impl::take_over(int role, int component, const Assignment& assignme
   }
   unit.forget_queues();
   if (!tuned || !unit.activate(now_ns, index, last)) {
+    make_printable(unit.problem.text);
     const std::string text = "cannot take over: " + std::string(unit.problem.text);
     event(EventKind::guard, unit.component->name, text);
     result.guards.push_back({now_ns, unit.component->name, text, state.active >= 0 ? "the old one stays" : "nobody flies"});
@@ -125,6 +147,7 @@ void Flight::Impl::stop(int i) {
   Unit& unit = *units[static_cast<std::size_t>(i)];
   if (unit.stopped) return;
   unit.stopped = true;
+  make_printable(unit.problem.text);
   const std::string what = unit.problem.text;
   const std::string name = unit.component->name;
   const int role = unit.component->role;

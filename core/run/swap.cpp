@@ -9,7 +9,9 @@
 
 namespace fulmar::core {
 
-std::string version_words(const PluginInfo& plugin) { return plugin.file + " " + plugin.version + " (" + plugin.sha256.substr(0, 12) + ")"; }
+std::string version_words(const PluginInfo& plugin) {
+  return plugin.file + " " + plugin.version + " (" + plugin.sha256.substr(0, 12) + ")";
+}
 
 void carry_parameters(const ComponentInfo& from, const std::vector<ParamValue>& values, const ComponentInfo& to,
                       std::vector<ParamValue>& into) {
@@ -39,7 +41,8 @@ std::string structural_difference(const Graph& now, const Graph& next) {
     return a.name == b.name && a.role == b.role && a.period_ns == b.period_ns && a.run == b.run;
   };
   if (differs(now.components, next.components, same_component)) return "other components";
-  if (differs(now.roles, next.roles, [](const Role& a, const Role& b) { return a.name == b.name && a.fillers == b.fillers; })) return "other roles";
+  if (differs(now.roles, next.roles, [](const Role& a, const Role& b) { return a.name == b.name && a.fillers == b.fillers; }))
+    return "other roles";
   if (differs(now.phases, next.phases, [](const Phase& a, const Phase& b) { return a.name == b.name; })) return "other phases";
   if (now.order != next.order) return "another order of steps";
   if (now.tick_ns != next.tick_ns || now.io != next.io) return "another rate or io";
@@ -48,7 +51,8 @@ std::string structural_difference(const Graph& now, const Graph& next) {
 
 void check_unloads(const PluginInfo& was, const ComponentInfo& component) {
   if (component.resident || !was.script.empty() || !stays_mapped(was.copy)) return;
-  throw Error(was.file + " cannot be unloaded (a unique symbol or a thread-local destructor keeps it): the new file would fly its code. "
+  throw Error(was.file +
+              " cannot be unloaded (a unique symbol or a thread-local destructor keeps it): the new file would fly its code. "
               "Restart the host");
 }
 
@@ -74,7 +78,8 @@ bool Unit::rehearse(const Tape& from) noexcept {
     const Tape::Step step = from.step(i);
     inputs_ = step.inputs;
     problem.text[0] = '\0';
-    if (i == 0 && functions_->activate && functions_->activate(instance_, &step.tick, inputs_.data(), last_.data(), &problem) >= FULMAR_FAILED) {
+    if (i == 0 && functions_->activate &&
+        functions_->activate(instance_, &step.tick, inputs_.data(), last_.data(), &problem) >= FULMAR_FAILED) {
       if (!problem.text[0]) fail("refuses to take over");
       return false;
     }
@@ -137,8 +142,10 @@ void Flight::Impl::replace(std::size_t at, const std::string& file) {
   const ComponentInfo &was = *old.info, &is = component.info();
   for (const Port& port : was.outputs) {
     const int k = is.output(port.name);
-    if (k < 0 || (port.type && is.outputs[static_cast<std::size_t>(k)].type->hash != port.type->hash) || was.outputs.size() != is.outputs.size())
-      throw Error(name + ": its outputs are not those of " + old.component->plugin->file + ", and the log of this flight has room for those alone");
+    if (k < 0 || (port.type && is.outputs[static_cast<std::size_t>(k)].type->hash != port.type->hash) ||
+        was.outputs.size() != is.outputs.size())
+      throw Error(name + ": its outputs are not those of " + old.component->plugin->file +
+                  ", and the log of this flight has room for those alone");
   }
   carry_parameters(was, old.base, is, component.params);
   const std::uint64_t seed = component_seed(graph.seed, name);

@@ -9,7 +9,8 @@
 namespace fulmar::core {
 
 /// Creates and configures the component in a child and steps it through what its predecessor saw last. Throws Error with a sentence:
-/// a constructor that throws, refused parameters, an output that is not finite, a crash, a hang. `tape` may be nullptr: nobody has stepped yet.
+/// a constructor that throws, refused parameters, an output that is not finite, a crash, a hang. `tape` may be nullptr: nobody has stepped
+/// yet.
 void rehearse(const Component& component, std::int64_t tick_ns, std::uint64_t seed, const Tape* tape);
 
 /// Whether what one has seen can be shown to the other.

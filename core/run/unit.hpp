@@ -100,8 +100,8 @@ inline std::atomic<const fulmar_last_frame*> last_frame{nullptr};
 struct UnitOptions {
   std::int64_t tick_ns = 2'500'000;
   std::uint64_t seed = 0;
-  bool paced = false;         // wall time matters: a child that hangs is given up after Component::hang_ns
-  bool wait_for_async = true; // simulation: a result that is late is waited for; else counted
+  bool paced = false;                     // wall time matters: a child that hangs is given up after Component::hang_ns
+  bool wait_for_async = true;             // simulation: a result that is late is waited for; else counted
   std::size_t tape_steps = 0;             // inputs to keep; 0: none
   std::unique_ptr<SampleSource> samples;  // in place of a driver
 };

@@ -74,9 +74,9 @@ struct Log::Impl {
   std::size_t max_message = 0;
   std::unique_ptr<Ring> ring;
   std::unique_ptr<McapWriter> writer;
-  bool begun = false;        // the loop has written
+  bool begun = false;          // the loop has written
   std::int64_t waited_ns = 0;  // the loop's
-  bool head_stored = false;  // the log thread has written what comes first
+  bool head_stored = false;    // the log thread has written what comes first
   std::mutex mutex;
   std::vector<Extra> head, tail;  // guarded
   std::atomic<std::uint64_t> ring_drops{0};

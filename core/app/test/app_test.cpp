@@ -257,8 +257,9 @@ void put(const fs::path& from, const fs::path& to) {
 TEST_CASE("--watch flies again with a plugin that has changed, compares, and stays with the old one when the new one is no good") {
   const fs::path mine = folder() / "mine.so", lib = FULMAR_PLUGIN_DIR;
   put(lib / "control_slc.so", mine);
-  const fs::path file = mission("done: \"nav.state.height_m > 40 m\"\n" + plan + "  mine: {fills: outer, use: mine.so/Outer, rate: 100 Hz}\n" +
-                                "phases:\n  takeoff: {outer: {use: mine, set: {law: takeoff}}}\n  cruise: {outer: mine}\n");
+  const fs::path file =
+      mission("done: \"nav.state.height_m > 40 m\"\n" + plan + "  mine: {fills: outer, use: mine.so/Outer, rate: 100 Hz}\n" +
+              "phases:\n  takeoff: {outer: {use: mine, set: {law: takeoff}}}\n  cruise: {outer: mine}\n");
   const Background watch("run " + file.string() + " --no-log --watch");
   REQUIRE(watch.says("waiting for a change"));
   put(lib / "control_tecs.so", mine);
@@ -278,12 +279,14 @@ TEST_CASE("--watch --build builds when a source has changed, and tells when that
   fs::create_directories(place);
   put(fs::path(FULMAR_PLUGIN_DIR) / "control_slc.so", place / "next.so");
   put(fs::path(FULMAR_PLUGIN_DIR) / "control_tecs.so", place / "mine.so");
-  const fs::path general = mission("done: \"nav.state.height_m > 40 m\"\n" + plan + "  mine: {fills: outer, use: mine.so/Outer, rate: 100 Hz}\n" +
-                                   "phases:\n  takeoff: {outer: {use: mine, set: {law: takeoff}}}\n  cruise: {outer: mine}\n");
+  const fs::path general =
+      mission("done: \"nav.state.height_m > 40 m\"\n" + plan + "  mine: {fills: outer, use: mine.so/Outer, rate: 100 Hz}\n" +
+              "phases:\n  takeoff: {outer: {use: mine, set: {law: takeoff}}}\n  cruise: {outer: mine}\n");
   fs::copy_file(general, place / "mission.yaml");
   std::ofstream(place / "law.cpp") << "1\n";
-  const Background watch("run " + (place / "mission.yaml").string() + " --no-log --watch --build \"grep -q 1 " + (place / "law.cpp").string() + " && mv " +
-                         (place / "next.so").string() + " " + (place / "mine.so").string() + "\"");
+  const Background watch("run " + (place / "mission.yaml").string() + " --no-log --watch --build \"grep -q 1 " +
+                         (place / "law.cpp").string() + " && mv " + (place / "next.so").string() + " " + (place / "mine.so").string() +
+                         "\"");
   REQUIRE(watch.says("waiting for a change"));
   std::ofstream(place / "law.cpp") << "nonsense\n";
   REQUIRE(watch.says("the build failed; what flew before stays as it is"));

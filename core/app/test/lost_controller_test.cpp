@@ -25,13 +25,14 @@ struct Position {
 Graph mission(const std::string& how) {
   const std::string configs = std::string(FULMAR_SOURCE_DIR) + "/configs/";
   const fs::path file = fs::temp_directory_path() / ("fulmar-lost-" + std::to_string(getpid()) + ".yaml");
-  std::ofstream(file) << "mission: lost\nextends: " << configs << "missions/common.yaml\nairframe: " << configs
-                      << "airframes/anaconda.yaml\norigin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\nseed: 7\n"
-                      << "done: \"manage.progress.circuits >= 1\"\ncomponents:\n"
-                      << "  sim:  {params: {sensors: rosflight, wind_ned: [3.5355, -3.5355, 0], turbulence: light, start_heading: 135 deg}}\n"
-                      << "  plan: {params: {plan: " << configs << "plans/hourglass.yaml}}\n"
-                      << "  bad:  {fills: outer, use: bad_outer, rate: 100 Hz, " << how << "}\n"
-                      << "phases:\n  cruise: {outer: {use: bad, fallback: slc}}\n";
+  std::ofstream(file)
+      << "mission: lost\nextends: " << configs << "missions/common.yaml\nairframe: " << configs
+      << "airframes/anaconda.yaml\norigin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\nseed: 7\n"
+      << "done: \"manage.progress.circuits >= 1\"\ncomponents:\n"
+      << "  sim:  {params: {sensors: rosflight, wind_ned: [3.5355, -3.5355, 0], turbulence: light, start_heading: 135 deg}}\n"
+      << "  plan: {params: {plan: " << configs << "plans/hourglass.yaml}}\n"
+      << "  bad:  {fills: outer, use: bad_outer, rate: 100 Hz, " << how << "}\n"
+      << "phases:\n  cruise: {outer: {use: bad, fallback: slc}}\n";
   setenv("FULMAR_PLUGIN_PATH", FULMAR_TEST_PLUGIN_DIR, 1);
   Graph graph = load_mission(file.string());
   fs::remove(file);
@@ -80,7 +81,8 @@ double deviation_m(const std::vector<Position>& a, const std::vector<Position>& 
 TEST_CASE("a controller that goes in the middle of a turn costs less than 5 m") {
   const Flown whole = fly(mission("params: {}"), 0);
   REQUIRE(whole.result.outcome == Outcome::flown);
-  const auto turn = std::find_if(whole.truth.begin(), whole.truth.end(), [](const Position& p) { return p.t_s > 20 && std::abs(p.roll_rad) > 0.4; });
+  const auto turn =
+      std::find_if(whole.truth.begin(), whole.truth.end(), [](const Position& p) { return p.t_s > 20 && std::abs(p.roll_rad) > 0.4; });
   REQUIRE(turn != whole.truth.end());
   const std::string when = ", at: " + std::to_string(turn->t_s + 0.5) + " s}";
   struct Row {
@@ -111,7 +113,8 @@ TEST_CASE("a controller that goes in the middle of a turn costs less than 5 m") 
     CHECK(flown.result.guards[0].action == "slc takes over");
     CHECK(flown.result.guards[0].what.find(row.told) != std::string::npos);
     const double deviation = deviation_m(whole.truth, flown.truth);
-    MESSAGE(std::string(row.fault) << std::string(row.how[0] == 'r' ? ", in a child" : ", in the loop") << ": at most " << deviation << " m from the flight without a fault");
+    MESSAGE(std::string(row.fault) << std::string(row.how[0] == 'r' ? ", in a child" : ", in the loop") << ": at most " << deviation
+                                   << " m from the flight without a fault");
     CHECK(deviation < 5);
     CHECK(deviation > 0);  // something did change hands
   }

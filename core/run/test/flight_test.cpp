@@ -153,9 +153,9 @@ TEST_CASE("every fault of a law is caught in its tick, the fallback flies in the
   struct Case {
     const char *fault, *what;
   };
-  for (const Case& c :
-       {Case{"nan", "output 'command': u_frac is nan"}, Case{"range", "output 'command': u_frac is 1.5, outside [-1, 1]"},
-        Case{"throws", "the law is broken"}, Case{"fails", "says that it failed"}, Case{"probe_nan", "probe 'error_m' is not finite"}}) {
+  for (const Case& c : {Case{"nan", "output 'command': u_frac is nan"}, Case{"range", "output 'command': u_frac is 1.5, outside [-1, 1]"},
+                        Case{"throws", "the law is broken  ?\xc3\xa9"}, Case{"fails", "says that it failed"},
+                        Case{"probe_nan", "probe 'error_m' is not finite"}}) {
     CAPTURE(c.fault);
     const Graph g = mission(with_fallback, {{"one.fault", c.fault}, {"one.fault_at", "0.1"}});
     Flight flight(g, options(0.1));  // ends with the tick of the fault
@@ -365,10 +365,10 @@ TEST_CASE("a flight in failsafe is never done") {
 }
 
 TEST_CASE("a role's condition reads the right field of whoever fills the role, whatever else that one's message has") {
-  const Graph g = mission("  new: {fills: law, use: lab/NewLaw}\n"s +
-                          "phases:\n  old: {law: one, next: [{to: new, when: \"vehicle.status.armed\"}]}\n" +
-                          "  new: {law: new, next: [{to: end, when: \"law.command.u_frac > 0.7\"}, {to: old, when: \"law.command.u_frac < -1\"}]}\n" +
-                          "  end: {law: new}\n");
+  const Graph g = mission(
+      "  new: {fills: law, use: lab/NewLaw}\n"s + "phases:\n  old: {law: one, next: [{to: new, when: \"vehicle.status.armed\"}]}\n" +
+      "  new: {law: new, next: [{to: end, when: \"law.command.u_frac > 0.7\"}, {to: old, when: \"law.command.u_frac < -1\"}]}\n" +
+      "  end: {law: new}\n");
   Flight flight(g, options(0.2));
   const FlightResult r = flight.run();
   CHECK(flight.phase() == "end");

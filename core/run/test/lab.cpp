@@ -96,7 +96,22 @@ struct Cart {
   fulmar_last_frame frame_{-1, 0, {}};
 };
 
-enum class Fault : std::uint8_t { none, nan, range, throws, fails, slow, probe_nan, allocates, crashes, hangs, aborts, exits, overflows, leaks };
+enum class Fault : std::uint8_t {
+  none,
+  nan,
+  range,
+  throws,
+  fails,
+  slow,
+  probe_nan,
+  allocates,
+  crashes,
+  hangs,
+  aborts,
+  exits,
+  overflows,
+  leaks
+};
 
 // Recursion without an end that no compiler can turn into a loop.
 double overflow(double x) {
@@ -157,7 +172,7 @@ struct Law {
         out.command.u_frac = 1.5;
         break;
       case Fault::throws:
-        throw std::runtime_error("the law is broken");
+        throw std::runtime_error("the law is broken\n\x01\xff\xc3\xa9");
       case Fault::fails:
         return Status::failed;
       case Fault::probe_nan:

@@ -89,7 +89,8 @@ inline Source port(const Graph& graph, const std::string& component, const std::
 }
 
 /// A field of a port's present sample.
-inline double value(const Graph& graph, const Flight& flight, const std::string& component, const std::string& output, const std::string& field) {
+inline double value(const Graph& graph, const Flight& flight, const std::string& component, const std::string& output,
+                    const std::string& field) {
   const Source s = port(graph, component, output);
   const std::byte* message = flight.sample(s);
   REQUIRE(message != nullptr);
@@ -105,4 +106,3 @@ inline double value(const Graph& graph, const Flight& flight, const std::string&
 
 }  // namespace lab
 using namespace lab;
-

@@ -54,7 +54,8 @@ TEST_CASE("a child gets live changes and overlays") {
 }
 
 TEST_CASE("what an asynchronous step computes is seen its latency later, and belongs to the tick in which it began") {
-  const Graph g = mission("  think: {use: lab/Thinker, run: async, latency: 50 ms, rate: 100 Hz, in: {signal: sense.signal}}\n"s + one_phase);
+  const Graph g =
+      mission("  think: {use: lab/Thinker, run: async, latency: 50 ms, rate: 100 Hz, in: {signal: sense.signal}}\n"s + one_phase);
   Flight flight(g, options(0.5));
   const FlightResult r = flight.run();
   CHECK(r.outcome == Outcome::flown);
@@ -71,7 +72,9 @@ TEST_CASE("what an asynchronous step computes is seen its latency later, and bel
 }
 
 TEST_CASE("asynchronous steps are deterministic, however long they take") {
-  const std::string tail = "  think: {use: lab/Thinker, run: async, latency: 20 ms, rate: 50 Hz, in: {signal: sense.signal}, params: {takes: TAKES ms}}\n"s + one_phase;
+  const std::string tail =
+      "  think: {use: lab/Thinker, run: async, latency: 20 ms, rate: 50 Hz, in: {signal: sense.signal}, params: {takes: TAKES ms}}\n"s +
+      one_phase;
   std::string quick = tail, slow = tail;
   quick.replace(quick.find("TAKES"), 5, "0");
   slow.replace(slow.find("TAKES"), 5, "4");
@@ -82,7 +85,9 @@ TEST_CASE("asynchronous steps are deterministic, however long they take") {
 }
 
 TEST_CASE("an asynchronous step that fails is stopped by its guard when its result is due") {
-  const Graph g = mission("  think: {use: lab/Thinker, run: async, latency: 50 ms, rate: 100 Hz, in: {signal: sense.signal}, params: {fails: true}}\n"s + one_phase);
+  const Graph g = mission(
+      "  think: {use: lab/Thinker, run: async, latency: 50 ms, rate: 100 Hz, in: {signal: sense.signal}, params: {fails: true}}\n"s +
+      one_phase);
   Flight flight(g, options(0.1));
   const FlightResult r = flight.run();
   REQUIRE(r.guards.size() == 1);
@@ -91,7 +96,8 @@ TEST_CASE("an asynchronous step that fails is stopped by its guard when its resu
 }
 
 TEST_CASE("live changes reach an asynchronous component in order") {
-  const Graph g = mission("  think: {use: lab/Thinker, run: async, latency: 10 ms, in: {signal: sense.signal}, params: {takes: 0 ms}}\n"s + one_phase);
+  const Graph g =
+      mission("  think: {use: lab/Thinker, run: async, latency: 10 ms, in: {signal: sense.signal}, params: {takes: 0 ms}}\n"s + one_phase);
   Flight flight(g, options(1));
   ParamValue v;
   v.number[0] = -1;
@@ -103,7 +109,9 @@ TEST_CASE("live changes reach an asynchronous component in order") {
 }
 
 TEST_CASE("samples of a driver enter at the next tick, are recorded whole, and fly again from the log") {
-  const std::string tail = "  gauge: {use: lab/Ticker, run: driver, params: {samples: 30}}\n  count: {use: lab/Watch, in: {burst: gauge.reading}}\n"s + one_phase;
+  const std::string tail =
+      "  gauge: {use: lab/Ticker, run: driver, params: {samples: 30}}\n  count: {use: lab/Watch, in: {burst: gauge.reading}}\n"s +
+      one_phase;
   const Graph g = mission(tail);
   FlightOptions o = options(0.2);
   o.log = true;
@@ -159,15 +167,18 @@ TEST_CASE("run modes that do not fit are refused") {
     }
     return std::string();
   };
-  CHECK(refused("  think: {use: lab/Thinker, run: async, in: {signal: sense.signal}}\n").find("needs a latency above 0") != std::string::npos);
+  CHECK(refused("  think: {use: lab/Thinker, run: async, in: {signal: sense.signal}}\n").find("needs a latency above 0") !=
+        std::string::npos);
   CHECK(refused("  gauge: {use: lab/Ticker, latency: 20 ms, run: driver}\n").find("belongs to 'run: async'") != std::string::npos);
-  CHECK(refused("  gauge: {use: lab/Thinker, run: driver, in: {signal: sense.signal}}\n").find("a driver's outputs are queues") != std::string::npos);
+  CHECK(refused("  gauge: {use: lab/Thinker, run: driver, in: {signal: sense.signal}}\n").find("a driver's outputs are queues") !=
+        std::string::npos);
   CHECK(refused("  sim: {fills: vehicle, use: lab/Cart, run: process}\n").find("a vehicle runs in the loop") != std::string::npos);
   CHECK(refused("  one: {fills: law, use: lab/Law, memory: 64 parsecs}\n").find("is no amount of memory") != std::string::npos);
 }
 
 TEST_CASE("on hardware, a plugin that did not come with the host flies in a child unless the mission says otherwise") {
-  const std::string tail = "  fcu: {fills: vehicle, use: lab/Cart}\n  two: {fills: law, use: lab/Law, run: tick}\nphases:\n  fly: {law: {use: one, fallback: two}}\nio: fcu\n"s;
+  const std::string tail =
+      "  fcu: {fills: vehicle, use: lab/Cart}\n  two: {fills: law, use: lab/Law, run: tick}\nphases:\n  fly: {law: {use: one, fallback: two}}\nio: fcu\n"s;
   const Graph g = mission(tail);
   const auto mode = [&](const std::string& name) {
     for (const Component& c : g.components)

@@ -38,7 +38,9 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 }  // namespace
 
 TEST_CASE("a swapped law flies with the parameters, overlays and live changes of before") {
-  Ground ground(mission("phases:\n  wait: {law: {use: one, set: {id: 7}}, next: [{to: fly, when: \"vehicle.status.armed\"}]}\n  fly: {law: one}\n"), true);
+  Ground ground(
+      mission("phases:\n  wait: {law: {use: one, set: {id: 7}}, next: [{to: fly, when: \"vehicle.status.armed\"}]}\n  fly: {law: one}\n"),
+      true);
   ParamValue v;
   v.number[0] = 0.4;
   ground.flight->set_parameter("one", "u", v);
@@ -83,14 +85,16 @@ TEST_CASE("a swap that cannot be is refused in a sentence, and the old law flies
 
 TEST_CASE("nothing is swapped while armed, and never the vehicle") {
   Ground ground(mission(one_phase));
-  CHECK(has([&] {
-    try {
-      ground.flight->swap("sim", variant("_better"));
-    } catch (const Error& fault) {
-      return std::string(fault.what());
-    }
-    return std::string();
-  }(), "is the vehicle"));
+  CHECK(has(
+      [&] {
+        try {
+          ground.flight->swap("sim", variant("_better"));
+        } catch (const Error& fault) {
+          return std::string(fault.what());
+        }
+        return std::string();
+      }(),
+      "is the vehicle"));
   while (ground.flight->now_ns() < 100'000'000) ground.flight->step();
   CHECK(has(ground.refused(variant("_better")), "the aircraft is armed"));
   CHECK(ground.u() == 0.1);
@@ -109,7 +113,8 @@ TEST_CASE("many swaps leave nothing behind") {
 TEST_CASE("a child that has died is started anew on the ground, and never in the air") {
   if (!FULMAR_CRASH_TESTS) return;
   const auto said_after_reset = [](const char* fault_at, std::int64_t until_ns) {
-    const Graph g = mission("  one: {fills: law, use: lab/Law, run: process, params: {fault: crashes, fault_at: "s + fault_at + "}}\n" + with_fallback);
+    const Graph g =
+        mission("  one: {fills: law, use: lab/Law, run: process, params: {fault: crashes, fault_at: "s + fault_at + "}}\n" + with_fallback);
     std::string said;
     FlightOptions o = options(0.3);
     o.say = [&](const std::string& text, bool) { said += text + "\n"; };

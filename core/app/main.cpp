@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The command line. Exit codes: 0 done; 1 the flight, check or file failed; 2 wrong usage; 130 interrupted.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <iostream>
@@ -59,6 +60,9 @@ struct MissionOptions {
     o.roles = pairs(roles);
     o.set = pairs(set);
     o.with = pairs(with);
+    for (const auto& [component, file] : o.with)
+      if (file.empty())
+        throw CLI::ValidationError("--with " + component + "=: a file is missing, as in --with " + component + "=my_law.so");
     return o;
   }
 };
@@ -117,6 +121,12 @@ int run_app(int argc, char** argv) {
   new_plugin->add_option("--mission", new_options.mission, "whose role it fills; default the shipped hourglass");
   new_plugin->add_option("--dir", new_options.folder, "folder to write; default ./NAME");
 
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) names.push_back(command->get_name());
+  if (argc > 1 && argv[1][0] != '-' && std::find(names.begin(), names.end(), argv[1]) == names.end()) {
+    std::fprintf(stderr, "fulmar: there is no command '%s'.%s\n", argv[1], choices_text(argv[1], names).c_str());
+    return 2;
+  }
   try {
     app.parse(argc, argv);
     if (run->parsed()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/app/run_command.hpp"
 
+#include <fcntl.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
@@ -8,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <charconv>
 #include <csignal>
 #include <cstdio>
@@ -17,7 +19,9 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "core/app/compare.hpp"
@@ -63,7 +67,7 @@ void on_signal(int signal) {
   send_last_frame();
   const char* component = in_step.load(std::memory_order_relaxed);
   write_text(patience_over ? "\nfulmar: ended, since the flight did not" : "\nfulmar: ended by the second signal");
-  if (component) write_text(" in the step of "), write_text(component);
+  if (component) write_text(" in the "), write_text(in_call.load(std::memory_order_relaxed)), write_text(" of "), write_text(component);
   write_text(last_words);
   _exit(130);
 }
@@ -79,7 +83,7 @@ void on_crash(int signal) {
   write_text("\nfulmar: ");
   write_text(component ? component : "the host");
   write_text(" crashed");
-  write_text(component ? " in its step" : "");
+  if (component) write_text(" in its "), write_text(in_call.load(std::memory_order_relaxed));
   write_text(what);
   write_text(last_words);
   raise(signal);  // the default action, restored by SA_RESETHAND
@@ -92,12 +96,13 @@ void on_exit() {
   send_last_frame();
   write_text("\nfulmar: ");
   write_text(component);
-  write_text(" ended the program in its step");
+  write_text(" ended the program in its ");
+  write_text(in_call.load(std::memory_order_relaxed));
   write_text(last_words);
   _exit(1);  // whatever code it asked for, nothing has been flown to its end
 }
 
-void install_handlers() {
+void install_handlers(bool hardware) {
   static const int registered = std::atexit(on_exit);
   if (registered != 0) write_text("fulmar: no room for an exit handler\n");
   struct sigaction action {};
@@ -105,7 +110,12 @@ void install_handlers() {
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
   sigaction(SIGALRM, &action, nullptr);
-  if (!counts_allocations()) return;  // a sanitized build reports crashes by itself
+  if (!hardware) sigaction(SIGHUP, &action, nullptr);
+  action.sa_handler = SIG_IGN;
+  if (hardware) sigaction(SIGHUP, &action, nullptr);  // the terminal is gone, the aircraft is not
+  sigaction(SIGPIPE, &action, nullptr);               // nobody reads what is printed
+  sigaction(SIGXFSZ, &action, nullptr);               // comes back as an error of write
+  if (!counts_allocations()) return;                  // a sanitized build reports crashes by itself
   static char stack[64 * 1024];
   const stack_t alternate{stack, 0, sizeof stack};
   sigaltstack(&alternate, nullptr);
@@ -180,16 +190,17 @@ class Session {
   }
 
   int fly();
+  std::optional<int> try_fly();
   /// Waits until a file has changed that the mission uses and the mission can be flown with it. False: interrupted.
   bool wait_for_change();
   /// Uses whatever has changed since the last flight, if anything has.
   void take_changes();
-  void print_all() const {
-    if (options_.json) std::printf("%s\n", (results_.size() == 1 ? results_[0] : nlohmann::json{{"flights", results_}}).dump(2).c_str());
-  }
+  nlohmann::json results() const { return results_.size() == 1 ? results_[0] : nlohmann::json{{"flights", results_}}; }
+  bool has_flown() const { return !results_.empty(); }
 
  private:
   std::filesystem::path log_file() const;
+  void forget_before();
   bool reload(const std::vector<std::filesystem::path>& changed);
   void rehearse_changes(const Graph& next) const;
   std::vector<std::filesystem::path> files() const;
@@ -197,7 +208,8 @@ class Session {
 
   const RunOptions& options_;
   Graph graph_;
-  std::unique_ptr<Flight> last_;  // what its components saw is what a newcomer is rehearsed on
+  std::unique_ptr<Graph> before_;  // until a flight with the newcomers has begun
+  std::unique_ptr<Flight> last_;   // what its components saw is what a newcomer is rehearsed on
   std::vector<nlohmann::json> results_;
   std::unique_ptr<FileStamps> stamps_, sources_;
 };
@@ -217,6 +229,8 @@ void Session::prepare_last_words(const std::string& log) const {
 
 int Session::fly() {
   if (!stamps_) stamps_ = std::make_unique<FileStamps>(files());
+  if (!options_.build.empty() && !sources_)
+    sources_ = std::make_unique<FileStamps>(source_files(std::filesystem::absolute(options_.mission).parent_path()));
   last_.reset();
   Progress progress(graph_);
   FlightOptions o;
@@ -231,9 +245,10 @@ int Session::fly() {
   o.progress = [&](const Flight& flight) { progress.show(flight); };
   o.say = [&](const std::string& text, bool warning) { progress.say(text, warning); };
   prepare_last_words(o.log_file.string());
-  install_handlers();
+  install_handlers(graph_.io != "sim");
   if (!options_.json) spdlog::info("{}: {}, seed {}", graph_.mission, graph_.io == "sim" ? "simulation" : "flight controller", graph_.seed);
   last_ = std::make_unique<Flight>(graph_, o);
+  forget_before();
   const FlightResult result = last_->run();
   alarm(0);
   progress.clear();
@@ -277,13 +292,8 @@ bool Session::reload(const std::vector<std::filesystem::path>& changed) {
   try {
     Graph next = load_mission(options_.mission, options_.overrides);
     rehearse_changes(next);
-    std::vector<std::shared_ptr<Library>> before;
-    for (Component& c : graph_.components) before.push_back(std::move(c.library));
-    last_.reset();
-    graph_ = std::move(next);
-    for (auto& library : before)
-      if (library && library.use_count() == 1) Library::unload(std::move(library));
-    stamps_ = nullptr;
+    before_ = std::make_unique<Graph>(std::exchange(graph_, std::move(next)));
+    stamps_ = std::make_unique<FileStamps>(files());
     return true;
   } catch (const Error& fault) {
     spdlog::warn("{}", fault.what());
@@ -292,14 +302,38 @@ bool Session::reload(const std::vector<std::filesystem::path>& changed) {
   }
 }
 
+/// The newcomers fly: what they replace is unloaded, for certain.
+void Session::forget_before() {
+  if (!before_) return;
+  std::vector<std::shared_ptr<Library>> libraries;
+  for (Component& c : before_->components) libraries.push_back(std::move(c.library));
+  before_.reset();
+  for (auto& library : libraries)
+    if (library && library.use_count() == 1) Library::unload(std::move(library));
+}
+
+/// A flight with what has changed; when that cannot even begin, the mission of before stays.
+std::optional<int> Session::try_fly() {
+  if (!before_) return fly();
+  try {
+    return fly();
+  } catch (const Error& fault) {
+    last_.reset();
+    if (!before_) throw;
+    graph_ = std::move(*std::exchange(before_, nullptr));
+    spdlog::warn("{}", fault.what());
+    spdlog::warn("what flew before stays as it is");
+    return std::nullopt;
+  }
+}
+
 void Session::take_changes() {
   if (const auto changed = stamps_->changed(); !changed.empty()) reload(changed);
 }
 
 bool Session::wait_for_change() {
-  const std::filesystem::path folder = std::filesystem::absolute(options_.mission).parent_path();
-  if (!options_.build.empty() && !sources_) sources_ = std::make_unique<FileStamps>(source_files(folder));
   spdlog::info("\nwaiting for a change; Ctrl-C ends");
+  std::string gone;
   while (interrupted.load() == 0) {
     if (sources_)
       if (const auto changed = sources_->changed(); !changed.empty()) {
@@ -307,6 +341,9 @@ bool Session::wait_for_change() {
         if (!run_build(options_.build)) spdlog::warn("the build failed; what flew before stays as it is");
       }
     if (const auto changed = stamps_->changed(); !changed.empty() && reload(changed)) return true;
+    const std::string missing = stamps_->missing().string();
+    if (!missing.empty() && missing != gone) spdlog::warn("{} is gone; waiting for it", missing);
+    gone = missing;
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
   return false;
@@ -314,22 +351,53 @@ bool Session::wait_for_change() {
 
 }  // namespace
 
+namespace {
+
+/// With --json standard output belongs to the result alone: what components print goes to standard error.
+class ResultFile {
+ public:
+  explicit ResultFile(bool json) {
+    if (!json) return;
+    const int own = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
+    if (own < 0) return;  // there is no standard output
+    file_ = fdopen(own, "w");
+    dup2(STDERR_FILENO, STDOUT_FILENO);
+  }
+  ~ResultFile() {
+    if (file_) std::fclose(file_);
+  }
+  ResultFile(const ResultFile&) = delete;
+  ResultFile& operator=(const ResultFile&) = delete;
+  void write(const nlohmann::json& result) {
+    if (!file_) return;
+    std::fprintf(file_, "%s\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    const bool written = std::fflush(file_) == 0 && std::ferror(file_) == 0;
+    if (!written) throw Error(std::string("the result cannot be written: ") + std::strerror(errno));
+  }
+
+ private:
+  std::FILE* file_ = nullptr;
+};
+
+}  // namespace
+
 int run_command(const RunOptions& options) {
   spdlog::set_default_logger(spdlog::stderr_color_mt("fulmar"));
   spdlog::set_pattern("%^%v%$");
   if (!options.build.empty() && !options.watch) throw CLI::ValidationError("--build belongs to --watch");
+  ResultFile output(options.json);
   Session session(options);
   int worst = 0;
   for (int flight = 1;; ++flight) {
-    const int code = session.fly();
-    worst = std::max(worst, code);
+    const std::optional<int> code = session.try_fly();
+    worst = std::max(worst, code.value_or(1));
     if (code == 130 || (options.repeat > 0 ? flight >= options.repeat : !options.watch)) break;
     if (options.repeat > 0)
       options.watch ? session.take_changes() : void();
     else if (!session.wait_for_change())
       break;
   }
-  session.print_all();
+  if (session.has_flown()) output.write(session.results());
   return worst;
 }
 

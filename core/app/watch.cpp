@@ -37,6 +37,13 @@ std::vector<fs::path> FileStamps::changed() {
   return changed;
 }
 
+fs::path FileStamps::missing() const {
+  const std::map<fs::path, Stamp> now = read();
+  for (const auto& [file, stamp] : stamps_)
+    if (!now.contains(file)) return file;
+  return {};
+}
+
 std::vector<fs::path> source_files(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code fault;

@@ -16,6 +16,8 @@ class FileStamps {
   explicit FileStamps(std::vector<std::filesystem::path> files) : files_(std::move(files)), stamps_(read()) {}
   /// Files that differ from the last call, or from the beginning. A file that is being written is waited for.
   std::vector<std::filesystem::path> changed();
+  /// A file that was there and is not any more, or "".
+  std::filesystem::path missing() const;
 
  private:
   struct Stamp {

@@ -64,6 +64,7 @@ Trust::Trust(const MissionText& mission, Report& report) {
   if (mission.plugins.is(Node::Kind::missing)) return;
   listed_ = true;
   home_ = (mission.plugins.file ? mission.plugins.file : mission.file)->path.parent_path();
+  if (home_.empty()) home_ = ".";  // a mission named without a folder
   read(mission.plugins, report);
 }
 

@@ -48,6 +48,11 @@ TypePtr event_type() {
 }
 
 Flight::Impl::Impl(const Graph& g, const FlightOptions& o) : graph(g), options(o) {
+  const bool driven =
+      std::any_of(graph.components.begin(), graph.components.end(), [](const Component& c) { return c.run == RunMode::driver; });
+  if (!options.drivers_from.empty() && !driven)
+    throw Error("--drivers-from " + options.drivers_from.string() + ": the mission " + graph.mission +
+                " has no component with 'run: driver'");
   for (const Component& c : graph.components) units.push_back(std::make_unique<Unit>(c, unit_options(c)));
   connect();
   for (const auto& unit : units) unit->configure();

@@ -87,7 +87,10 @@ void Unit::create(const UnitOptions& options) {
     return;
   }
   functions_ = &c.library->functions(c.index_in_plugin);
-  instance_ = functions_->create(options.seed, &problem);
+  {
+    const Inside inside(c.name, "constructor");
+    instance_ = functions_->create(options.seed, &problem);
+  }
   if (!instance_) throw Error(c.where.text() + ": " + c.name + ": cannot be created: " + problem.text);
   if (c.run == RunMode::async) {
     const std::int64_t period = c.period_ns > 0 ? c.period_ns : tick_ns_;
@@ -102,6 +105,7 @@ Unit::~Unit() {
   samples_.reset();
   if (!instance_) return;
   if (active) deactivate();
+  const Inside inside(component->name, "destructor");
   functions_->destroy(instance_);
 }
 
@@ -123,6 +127,7 @@ void Unit::configure() {
   if (!instance_) return;  // the samples come from a log
   fill_values(values_, nullptr, true);
   problem.text[0] = '\0';
+  const Inside inside(component->name, "configure");
   if (functions_->configure(instance_, values_.data(), &problem) == FULMAR_FAILED)
     throw Error(component->where.text() + ": " + component->name + ": " + (problem.text[0] ? problem.text : "refuses its parameters"));
 }
@@ -139,6 +144,7 @@ bool Unit::retune(const std::vector<Overlay>* overlay) noexcept {
     return true;
   }
   if (started_) return fail("is a driver: its parameters are fixed in flight"), false;
+  const Inside inside(component->name, "retune");
   return functions_->retune(instance_, values_.data(), &problem) != FULMAR_FAILED;
 }
 
@@ -269,6 +275,7 @@ Verdict Unit::step(std::int64_t now_ns, std::uint64_t index) noexcept {
   prepare_outputs(now_ns);
   problem.text[0] = '\0';
   const HeapUse heap = thread_heap();
+  in_call.store("step", std::memory_order_relaxed);
   in_step.store(component->name.c_str(), std::memory_order_relaxed);
   const std::uint32_t status = functions_->step(instance_, &t, inputs_.data(), outputs_.data(), &problem);
   in_step.store(nullptr, std::memory_order_relaxed);
@@ -340,9 +347,8 @@ Verdict Unit::collect_async(std::int64_t now_ns) noexcept {
         j->missed = true;
         break;
       }
-      in_step.store(component->name.c_str(), std::memory_order_relaxed);
+      const Inside inside(component->name, "step");
       async_->wait();
-      in_step.store(nullptr, std::memory_order_relaxed);
     }
     const bool step = j->call == Async::Job::Call::step;
     heap_growth_ += j->heap_growth;
@@ -446,6 +452,7 @@ Verdict Unit::read(std::int64_t& now_ns, std::uint64_t index) noexcept {
   fulmar_tick t{now_ns, tick_ns_, index};
   problem.text[0] = '\0';
   const std::uint64_t allocations = thread_allocations();
+  in_call.store("read", std::memory_order_relaxed);
   in_step.store(component->name.c_str(), std::memory_order_relaxed);
   const std::uint32_t status = functions_->read(instance_, &t, outputs_.data(), &problem);
   in_step.store(nullptr, std::memory_order_relaxed);
@@ -488,6 +495,7 @@ Verdict Unit::write(std::int64_t now_ns, std::uint64_t index) noexcept {
   const fulmar_tick t{now_ns, tick_ns_, index};
   problem.text[0] = '\0';
   const std::uint64_t allocations = thread_allocations();
+  in_call.store("write", std::memory_order_relaxed);
   in_step.store(component->name.c_str(), std::memory_order_relaxed);
   const std::uint32_t status = functions_->write(instance_, &t, inputs_.data(), &problem);
   in_step.store(nullptr, std::memory_order_relaxed);
@@ -540,6 +548,7 @@ bool Unit::activate(std::int64_t now_ns, std::uint64_t index, const std::vector<
     async_->submit();
     return true;
   }
+  const Inside inside(component->name, "activate");
   if (functions_->activate(instance_, &t, inputs_.data(), last_.data(), &problem) < FULMAR_FAILED) return true;
   if (!problem.text[0]) fail("refuses to take over");
   return false;
@@ -553,6 +562,7 @@ void Unit::forget_queues() noexcept {
 void Unit::deactivate() noexcept {
   if (async_) async_->drop();
   if (async_ || started_ || !instance_) return;  // another thread is in it
+  const Inside inside(component->name, "deactivate");
   if (functions_->deactivate) functions_->deactivate(instance_);
 }
 

@@ -294,3 +294,24 @@ TEST_CASE("--watch --build builds when a source has changed, and tells when that
   REQUIRE(watch.says("compared with the flight before"));
   CHECK(fulmar("run " + hourglass + " --build true").code == 2);
 }
+
+TEST_CASE("what cannot be is refused before anything flies") {
+  const Result command = fulmar("runn " + hourglass);
+  CHECK(command.code == 2);
+  CHECK(command.err == "fulmar: there is no command 'runn'. Did you mean 'run'? Valid: run, check, graph, inspect, new.\n");
+  const Result driver = fulmar("run " + hourglass + " --no-log --drivers-from nowhere.mcap");
+  CHECK(driver.code == 1);
+  CHECK(driver.err.find("has no component with 'run: driver'") != std::string::npos);
+  CHECK(fulmar("run " + hourglass + " --with slc=").code == 2);
+  const Result full = shell(program + "run " + hourglass + " --json --no-log --duration 1 > /dev/full");
+  CHECK(full.code == 1);
+  CHECK(full.err.find("the result cannot be written") != std::string::npos);
+}
+
+TEST_CASE("a list of allowed plugins is understood in a mission that is named without a folder") {
+  mission(plan + "plugins: {allow: [control_slc]}\n");
+  const Result r = shell("cd " + folder().string() + " && " + program + "check mission.yaml");
+  CHECK(r.code == 1);
+  CHECK(r.err.find("filesystem error") == std::string::npos);
+  CHECK(r.err.find("sim_aero") != std::string::npos);
+}

@@ -43,8 +43,10 @@ void check_name(const std::string& name) {
   const bool letter_first = !name.empty() && !(name[0] >= '0' && name[0] <= '9') && name[0] != '_';
   if (!letter_first || name.size() > 60 || !std::all_of(name.begin(), name.end(), good))
     throw Error("'" + name + "' is no name for a plugin: letters, digits and _, a letter first, as in my_law");
-  static const std::vector<std::string> taken = {"all",        "clean",         "help",       "install", "package", "test",
-                                                 "edit_cache", "rebuild_cache", "fulmar_sdk", "std",     "fulmar",  "messages"};
+  static const std::vector<std::string> taken = {"all",           "clean",      "help", "install", "package",  "test",  "edit_cache",
+                                                 "rebuild_cache", "fulmar_sdk", "std",  "fulmar",  "messages", "class", "struct",
+                                                 "double",        "float",      "int",  "bool",    "char",     "new",   "delete",
+                                                 "this",          "auto",       "void", "main",    "template"};
   if (std::find(taken.begin(), taken.end(), name) != taken.end())
     throw Error("'" + name + "' means something to the build already. Choose another name, as in my_" + name);
 }

@@ -338,7 +338,8 @@ bool Session::wait_for_change() {
     if (sources_)
       if (const auto changed = sources_->changed(); !changed.empty()) {
         spdlog::info("changed: {}; building", changed[0].filename().string());
-        if (!run_build(options_.build)) spdlog::warn("the build failed; what flew before stays as it is");
+        if (!run_build(options_.build, interrupted) && interrupted.load() == 0)
+          spdlog::warn("the build failed; what flew before stays as it is");
       }
     if (const auto changed = stamps_->changed(); !changed.empty() && reload(changed)) return true;
     const std::string missing = stamps_->missing().string();
@@ -396,6 +397,7 @@ int run_command(const RunOptions& options) {
       options.watch ? session.take_changes() : void();
     else if (!session.wait_for_change())
       break;
+    alarm(0);
   }
   if (session.has_flown()) output.write(session.results());
   return worst;

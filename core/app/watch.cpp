@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/app/watch.hpp"
 
-#include <cstdlib>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
 #include <thread>
 #include <utility>
 
@@ -63,8 +68,35 @@ std::vector<fs::path> source_files(const fs::path& folder) {
   return files;
 }
 
-bool run_build(const std::string& command) {
-  return std::system(("( " + command + " ) 1>&2").c_str()) == 0;
-}  // NOLINT(cert-env33-c): it is the user's own
+/// In a group of its own: the terminal's interrupt is the host's, which then ends the whole build.
+bool run_build(const std::string& command, const std::atomic<int>& interrupted) {
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_adddup2(&files, STDERR_FILENO, STDOUT_FILENO);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t all;
+  sigfillset(&all);
+  posix_spawnattr_setsigdefault(&attributes, &all);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+  std::string words[] = {"sh", "-c", command};
+  char* arguments[] = {words[0].data(), words[1].data(), words[2].data(), nullptr};
+  pid_t child = -1;
+  const int fault = posix_spawn(&child, "/bin/sh", &files, &attributes, arguments, environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&files);
+  if (fault != 0) return false;
+  int status = 0;
+  while (waitpid(child, &status, WNOHANG) == 0) {
+    if (interrupted.load() != 0) {
+      kill(-child, SIGTERM);
+      waitpid(child, &status, 0);
+      return false;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
 
 }  // namespace fulmar::core

@@ -33,7 +33,8 @@ class FileStamps {
 /// Source files (.cpp .cc .c .hpp .h .py CMakeLists.txt) below a folder; hidden folders and build folders are passed over.
 std::vector<std::filesystem::path> source_files(const std::filesystem::path& folder);
 
-/// Runs a command of the user's through the shell, its output on standard error. True when it exits with 0.
-bool run_build(const std::string& command);
+/// Runs a command of the user's through the shell, its output on standard error. True when it exits with 0; ended, with all that
+/// it has begun, when `interrupted`.
+bool run_build(const std::string& command, const std::atomic<int>& interrupted);
 
 }  // namespace fulmar::core

@@ -272,7 +272,7 @@ std::string Flight::Impl::parameters_text() const {
       }
     }
   }
-  return all.dump(1) + "\n";
+  return all.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 std::string plugin_words(const PluginInfo& p) {

@@ -315,3 +315,19 @@ TEST_CASE("a list of allowed plugins is understood in a mission that is named wi
   CHECK(r.err.find("filesystem error") == std::string::npos);
   CHECK(r.err.find("sim_aero") != std::string::npos);
 }
+
+TEST_CASE("an interrupt during a build ends the build and the program") {
+  const fs::path place = folder() / "slow_build";
+  fs::create_directories(place);
+  std::ofstream(place / "law.cpp") << "1\n";
+  fs::copy_file(mission("done: \"nav.state.height_m > 20 m\"\n" + plan), place / "mission.yaml");
+  const Background watch("run " + (place / "mission.yaml").string() + " --no-log --watch --build \"sleep 4321\"");
+  REQUIRE(watch.says("waiting for a change"));
+  std::ofstream(place / "law.cpp") << "2 \n";
+  REQUIRE(watch.says("building"));
+  shell("kill -INT " + watch.pid);
+  bool gone = false;
+  for (int i = 0; i < 100 && !gone; ++i, usleep(50'000)) gone = shell("kill -0 " + watch.pid).code != 0;
+  CHECK(gone);
+  CHECK(shell("pgrep -f '^sleep 4321$'").code == 1);
+}

@@ -54,7 +54,7 @@ class Stepper {
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
 
-  Times run(int steps, std::int64_t pause_ns) {
+  Times run(int steps, std::int64_t pause_ns, bool asleep) {
     std::vector<double> each;
     fulmar_error error{};
     for (int i = 0; i < steps; ++i) {
@@ -65,9 +65,11 @@ class Stepper {
       const std::uint32_t status = c_.step(instance_, &tick, inputs_, outputs, &error);
       each.push_back(1e-3 * static_cast<double>(now_ns() - begin));
       if (status != FULMAR_OK) throw std::runtime_error(error.text);
-      if (pause_ns > 0) {
+      if (pause_ns > 0 && asleep) {
         const timespec pause{0, pause_ns};
         nanosleep(&pause, nullptr);
+      } else {
+        for (const std::int64_t end = begin + pause_ns; now_ns() < end;) continue;
       }
     }
     std::sort(each.begin(), each.end());
@@ -104,10 +106,13 @@ int main(int argc, char** argv) {
       const char* name;
       int steps;
       std::int64_t pause_ns;
-    } ways[] = {{"at once", 200'000, 0}, {"100_hz", 500, 10'000'000}};
+      bool asleep;
+    } ways[] = {{"at once", 200'000, 0, false},
+                {"100_hz, core kept awake", 500, 10'000'000, false},
+                {"100_hz, asleep between", 500, 10'000'000, true}};
     std::string out = "{";
     for (const auto& way : ways) {
-      const Times bare = in_cpp.run(way.steps, way.pause_ns), step = in_python.run(way.steps, way.pause_ns);
+      const Times bare = in_cpp.run(way.steps, way.pause_ns, way.asleep), step = in_python.run(way.steps, way.pause_ns, way.asleep);
       char line[320];
       std::snprintf(line, sizeof line,
                     json ? "%s\n  \"%s\": {\"cpp_p50_us\": %.3f, \"cpp_p99_us\": %.3f, \"excess_p50_us\": %.3f, \"python_p50_us\": %.3f, "

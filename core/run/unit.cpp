@@ -21,6 +21,11 @@ void Reader::push(const std::byte* message, std::int64_t valid_at_ns, const Copy
   ++count;
 }
 
+void answer(std::function<void(const std::string&)>& reply, const fulmar_answer& a) {
+  reply(a.verdict == FULMAR_ACCEPTED ? "" : a.verdict == FULMAR_REFUSED ? a.reason : "was not answered");
+  reply = nullptr;
+}
+
 void Reader::latch() noexcept {
   const Slot* s = source();
   const std::uint64_t now = slot ? slot->sequence : role ? role->sequence : 0;
@@ -241,9 +246,7 @@ void Unit::consume() noexcept {
     }
     for (std::uint32_t k = 0; k < r.count; ++k) {
       if (!r.replies[k]) continue;
-      const fulmar_answer& a = r.answers[k];
-      r.replies[k](a.verdict == FULMAR_ACCEPTED ? "" : a.verdict == FULMAR_REFUSED ? a.reason : "was not answered");
-      r.replies[k] = nullptr;
+      answer(r.replies[k], r.answers[k]);
     }
     r.count = r.lost = 0;
   }
@@ -275,10 +278,11 @@ Verdict Unit::step(std::int64_t now_ns, std::uint64_t index) noexcept {
   prepare_outputs(now_ns);
   problem.text[0] = '\0';
   const HeapUse heap = thread_heap();
-  in_call.store("step", std::memory_order_relaxed);
-  in_step.store(component->name.c_str(), std::memory_order_relaxed);
-  const std::uint32_t status = functions_->step(instance_, &t, inputs_.data(), outputs_.data(), &problem);
-  in_step.store(nullptr, std::memory_order_relaxed);
+  std::uint32_t status = FULMAR_OK;
+  {
+    const Inside inside(component->name, "step");
+    status = functions_->step(instance_, &t, inputs_.data(), outputs_.data(), &problem);
+  }
   if (const HeapUse now = thread_heap(); now.calls != heap.calls || now.bytes != heap.bytes) {
     stats.allocations += now.calls - heap.calls;
     heap_growth_ += now.bytes - heap.bytes;
@@ -302,115 +306,6 @@ bool Unit::heap_good() noexcept {
   std::snprintf(problem.text, sizeof problem.text, "its heap has grown by %.0f MB in flight; %.0f MB are allowed",
                 1e-6 * static_cast<double>(heap_growth_), 1e-6 * static_cast<double>(component->memory_bytes));
   return false;
-}
-
-// ---- elsewhere than in the loop's thread ------------------------------------------------------------------------------------
-
-/// A free job. In simulation there is always one in the end: results are waited for.
-Async::Job* Unit::job(Async::Job::Call call, std::int64_t due_ns) noexcept {
-  Async::Job* j = async_->room();
-  if (!j) return nullptr;
-  j->call = call;
-  j->due_ns = due_ns;
-  return j;
-}
-
-Verdict Unit::submit(std::int64_t now_ns, const fulmar_tick& t) noexcept {
-  Async::Job* const j = job(Async::Job::Call::step, now_ns + component->latency_ns);
-  stepped(now_ns);
-  if (!j) {  // hardware: the thread is far behind
-    ++stats.misses;
-    return {Verdict::Kind::waiting};
-  }
-  j->tick = t;
-  Async::copy_inputs(inputs_, *info, *j);
-  for (std::size_t i = 0; i < readers.size(); ++i) {
-    Reader& r = readers[i];
-    if (r.port->kind == FULMAR_IN_VALUE) {
-      r.seen = inputs_[i].sequence;
-      continue;
-    }
-    for (std::uint32_t k = 0; k < r.count; ++k) j->replies[i][k] = std::move(r.replies[k]), r.replies[k] = nullptr;
-    r.count = r.lost = 0;
-  }
-  async_->submit();
-  return {Verdict::Kind::submitted};
-}
-
-Verdict Unit::collect(std::int64_t now_ns) noexcept { return async_ ? collect_async(now_ns) : collect_samples(now_ns); }
-
-Verdict Unit::collect_async(std::int64_t now_ns) noexcept {
-  for (Async::Job* j = async_->oldest(); j && j->due_ns <= now_ns; j = async_->oldest()) {
-    if (!async_->done()) {
-      if (!wait_for_async_) {
-        if (!j->missed) ++stats.misses;
-        j->missed = true;
-        break;
-      }
-      const Inside inside(component->name, "step");
-      async_->wait();
-    }
-    const bool step = j->call == Async::Job::Call::step;
-    heap_growth_ += j->heap_growth;
-    for (std::size_t i = 0; step && i < j->replies.size(); ++i)
-      for (std::uint32_t k = 0; k < (info->inputs[i].kind == FULMAR_IN_VALUE ? 0 : j->inputs[i].count); ++k) {
-        if (!j->replies[i][k]) continue;
-        const fulmar_answer& a = j->answers[i][k];
-        j->replies[i][k](a.verdict == FULMAR_ACCEPTED ? "" : a.verdict == FULMAR_REFUSED ? a.reason : "was not answered");
-        j->replies[i][k] = nullptr;
-      }
-    if (step) ++stats.steps, stats.time.add(j->took_ns);
-    const bool wanted = !j->dropped && (step || j->status >= FULMAR_FAILED);
-    const std::uint32_t status = j->status;
-    if (wanted) {
-      problem = j->error;
-      for (std::size_t i = 0; step && i < slots.size(); ++i) {
-        const fulmar_output& out = j->outputs[i];
-        Slot& s = slots[i];
-        std::memcpy(s.staging.data(), j->output_data[i].data(), j->output_data[i].size());
-        std::copy(j->output_stamps[i].begin(), j->output_stamps[i].end(), s.stamps.begin());
-        outputs_[i] = {s.staging.data(), s.stamps.data(), out.valid_at_ns, out.count, out.lost};
-      }
-    }
-    async_->release();
-    if (!wanted) continue;
-    if (status >= FULMAR_FAILED) {
-      if (!problem.text[0]) fail("says that it failed");
-      return {Verdict::Kind::bad};
-    }
-    if (!outputs_good() || !heap_good()) return {Verdict::Kind::bad};
-    if (status == FULMAR_DEGRADED) ++stats.degraded;
-    return {Verdict::Kind::stepped, status == FULMAR_DEGRADED};
-  }
-  return {Verdict::Kind::not_due};
-}
-
-/// Samples that have arrived, as many as one publication holds.
-Verdict Unit::collect_samples(std::int64_t now_ns) noexcept {
-  if (!started_) {
-    started_ = true;
-    if (auto* driver = dynamic_cast<Driver*>(samples_.get())) driver->start();
-  }
-  prepare_outputs(now_ns);
-  SampleSource::Sample sample;
-  bool any = false;
-  while (samples_->next(now_ns, sample)) {
-    Slot& s = slots[sample.output];
-    fulmar_output& out = outputs_[sample.output];
-    std::memcpy(s.staging.data() + std::size_t{out.count} * s.size, sample.data, s.size);
-    s.stamps[out.count++] = sample.valid_at_ns;
-    samples_->release();
-    any = true;
-    if (out.count >= s.port->capacity) break;  // the rest in the same tick, by the next call
-  }
-  stats.misses = samples_->lost();
-  if (any) {
-    ++stats.steps;
-    return {outputs_good() ? Verdict::Kind::stepped : Verdict::Kind::bad};
-  }
-  if (samples_->fault()[0] == '\0') return {Verdict::Kind::not_due};
-  fail(samples_->fault());
-  return {Verdict::Kind::bad};
 }
 
 std::unique_ptr<Tape> Unit::present_inputs(std::int64_t now_ns, std::uint64_t index) {
@@ -452,10 +347,11 @@ Verdict Unit::read(std::int64_t& now_ns, std::uint64_t index) noexcept {
   fulmar_tick t{now_ns, tick_ns_, index};
   problem.text[0] = '\0';
   const std::uint64_t allocations = thread_allocations();
-  in_call.store("read", std::memory_order_relaxed);
-  in_step.store(component->name.c_str(), std::memory_order_relaxed);
-  const std::uint32_t status = functions_->read(instance_, &t, outputs_.data(), &problem);
-  in_step.store(nullptr, std::memory_order_relaxed);
+  std::uint32_t status = FULMAR_OK;
+  {
+    const Inside inside(component->name, "read");
+    status = functions_->read(instance_, &t, outputs_.data(), &problem);
+  }
   stats.allocations += thread_allocations() - allocations;
   ++stats.steps;
   if (status >= FULMAR_FAILED) {
@@ -495,10 +391,11 @@ Verdict Unit::write(std::int64_t now_ns, std::uint64_t index) noexcept {
   const fulmar_tick t{now_ns, tick_ns_, index};
   problem.text[0] = '\0';
   const std::uint64_t allocations = thread_allocations();
-  in_call.store("write", std::memory_order_relaxed);
-  in_step.store(component->name.c_str(), std::memory_order_relaxed);
-  const std::uint32_t status = functions_->write(instance_, &t, inputs_.data(), &problem);
-  in_step.store(nullptr, std::memory_order_relaxed);
+  std::uint32_t status = FULMAR_OK;
+  {
+    const Inside inside(component->name, "write");
+    status = functions_->write(instance_, &t, inputs_.data(), &problem);
+  }
   stats.allocations += thread_allocations() - allocations;
   consume();
   if (status >= FULMAR_FAILED) {

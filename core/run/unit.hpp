@@ -85,6 +85,9 @@ struct Reader {
   void push(const std::byte* message, std::int64_t valid_at_ns, const CopyPlan& plan) noexcept;
 };
 
+/// Tells whoever asked what came of a request.
+void answer(std::function<void(const std::string&)>& reply, const fulmar_answer& a);
+
 /// What a step came to.
 struct Verdict {
   enum class Kind : std::uint8_t { stepped, not_due, waiting, bad, submitted } kind = Kind::stepped;

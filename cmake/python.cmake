@@ -21,6 +21,7 @@ if(NOT FULMAR_SANITIZE)
 endif()
 
 fulmar_add_plugin(bench_python_law bench/python_law.cpp)
+target_include_directories(bench_python_law PRIVATE ${CMAKE_SOURCE_DIR})
 set_target_properties(bench_python_law PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/fulmar-bench)
 add_executable(bench_python bench/bench_python.cpp)
 target_link_libraries(bench_python PRIVATE fulmar::sdk ${CMAKE_DL_LIBS})

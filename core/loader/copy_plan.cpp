@@ -7,9 +7,8 @@
 #include "core/loader/type.hpp"
 
 namespace fulmar::core {
-namespace {
 
-std::string kind_text(fulmar_kind kind) {
+const char* kind_word(fulmar_kind kind) {
   switch (kind) {
     case FULMAR_BOOL:
       return "bool";
@@ -37,6 +36,8 @@ std::string kind_text(fulmar_kind kind) {
   return "?";
 }
 
+namespace {
+
 std::string shape_text(const Field& field) {
   if (field.shape == FULMAR_ARRAY) return "an array of " + std::to_string(field.count);
   return field.shape == FULMAR_LIST ? "a list of at most " + std::to_string(field.count) : "one value";
@@ -52,7 +53,7 @@ std::string fields_differ(const Type& from, const Type& to, const std::string& p
 
 // "" when the reader's field `to` can be filled from the writer's field `from`.
 std::string field_differs(const Field& from, const Field& to, const std::string& path) {
-  if (from.kind != to.kind) return differ(path, "kind ", kind_text(to.kind), kind_text(from.kind));
+  if (from.kind != to.kind) return differ(path, "kind ", kind_word(to.kind), kind_word(from.kind));
   const bool longer = to.shape == FULMAR_LIST && from.count <= to.count;  // a reader's list may have more room
   if (from.shape != to.shape || (from.count != to.count && !longer)) return differ(path, "", shape_text(to), shape_text(from));
   if (from.unit != to.unit) return differ(path, "unit ", or_none(to.unit), or_none(from.unit));

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "core/error.hpp"
+#include "core/loader/table.hpp"
 
 namespace fulmar::core::inspect_text {
 
@@ -78,31 +79,9 @@ std::string limits_text(const ParamInfo& param) {
 }
 
 std::string element_text(const Field& field) {
-  switch (field.kind) {
-    case FULMAR_BOOL:
-      return "bool";
-    case FULMAR_U8:
-      return "u8";
-    case FULMAR_I32:
-      return "i32";
-    case FULMAR_U32:
-      return "u32";
-    case FULMAR_I64:
-      return "i64";
-    case FULMAR_U64:
-      return "u64";
-    case FULMAR_F32:
-      return "f32";
-    case FULMAR_F64:
-      return "f64";
-    case FULMAR_ENUM:
-      return "enum";
-    case FULMAR_TEXT:
-      return "text of " + std::to_string(field.stride);
-    case FULMAR_STRUCT:
-      return field.type->name;
-  }
-  return "?";
+  if (field.kind == FULMAR_STRUCT) return field.type->name;
+  const std::string word = kind_word(field.kind);
+  return field.kind == FULMAR_TEXT ? word + " of " + std::to_string(field.stride) : word;
 }
 
 std::string shape_text(const Field& field) {

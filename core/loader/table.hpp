@@ -64,6 +64,9 @@ class TableReader {
 /// A name that people can write in a mission file: letters, digits and underscores, no digit first.
 bool is_identifier(std::string_view name);
 
+/// "bool", "f64", "struct".
+const char* kind_word(fulmar_kind kind);
+
 /// Bytes of one element.
 std::uint32_t element_size(const Field& field);
 

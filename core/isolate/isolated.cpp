@@ -253,8 +253,12 @@ bool Isolated::wait(std::int64_t limit_ns) noexcept {
     const std::uint32_t seen = c.answer.load();
     if (seen != number_) futex_wait(c.answer, seen, nap_ns);
     c.host_sleeps.store(0, std::memory_order_relaxed);
+    const bool ended = has_ended();  // before the look at the answer: the last act of a child may be to answer
     if (answered()) return true;
-    if (note_death()) return false;
+    if (ended) {
+      note_death();
+      return false;
+    }
     if (monotonic_ns() < end) continue;
     std::snprintf(death_, sizeof death_, "hung: no answer within %.6g ms", 1e-6 * static_cast<double>(limit_ns));
     alive_ = false;
@@ -263,15 +267,18 @@ bool Isolated::wait(std::int64_t limit_ns) noexcept {
   }
 }
 
-bool Isolated::check() noexcept { return alive_ && !note_death(); }
+bool Isolated::check() noexcept {
+  if (alive_ && has_ended()) note_death();
+  return alive_;
+}
 
-bool Isolated::note_death() noexcept {
-  const bool overflow = control().stack_overflow.load() != 0;
+bool Isolated::has_ended() noexcept { return control().signal.load() != 0 || process_.ended(); }
+
+// Read only after the end is certain: a crashing child writes its signal last.
+void Isolated::note_death() noexcept {
   int signal = static_cast<int>(control().signal.load());
-  if (signal == 0) {
-    if (!process_.ended()) return false;
-    signal = process_.signal();
-  }
+  if (signal == 0) signal = process_.signal();
+  const bool overflow = control().stack_overflow.load() != 0;
   alive_ = false;
   if (const char* known = signal_words(signal, overflow))
     std::snprintf(death_, sizeof death_, "%s", known);
@@ -279,7 +286,6 @@ bool Isolated::note_death() noexcept {
     std::snprintf(death_, sizeof death_, "was killed (signal %d)", signal);
   else
     std::snprintf(death_, sizeof death_, "ended itself (exit code %d)", process_.exit_code());
-  return true;
 }
 
 std::uint32_t Isolated::dead(fulmar_error* error) noexcept {

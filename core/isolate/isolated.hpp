@@ -80,7 +80,8 @@ class Isolated {
   std::uint32_t call(Call what, std::int64_t limit_ns, fulmar_error* error) noexcept;
   bool wait(std::int64_t limit_ns) noexcept;
   bool answered() const noexcept { return control().answer.load(std::memory_order_acquire) == number_; }
-  bool note_death() noexcept;
+  bool has_ended() noexcept;
+  void note_death() noexcept;
   std::uint32_t dead(fulmar_error* error) noexcept;
 
   ComponentInfo info_;

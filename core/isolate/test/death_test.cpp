@@ -30,11 +30,11 @@ TEST_CASE("every way to die in a step is one failed step with its name, and the 
   };
   for (const Case& c : {Case{segfault, "crashed (segmentation fault)"}, Case{overflow, "crashed (stack overflow)"}, Case{aborts, "aborted"},
                         Case{terminates, "aborted"}, Case{exits, "ended itself (exit code 3)"}, Case{killed, "was killed (signal 9)"},
-                        Case{divides, "crashed (arithmetic error)"}, Case{hangs, "hung: no answer within 500 ms"}}) {
+                        Case{divides, "crashed (arithmetic error)"}, Case{hangs, "hung: no answer within 1500 ms"}}) {
     CAPTURE(c.death);
     Rig rig("Faulty");
     IsolatedOptions options = options_for("Faulty");
-    if (c.fault == hangs) options.hang_ns = 500'000'000;
+    if (c.fault == hangs) options.hang_ns = 1'500'000'000;
     rig.there(options);
     rig.choose("fault", c.fault);
     rig.value("at").number[0] = 1;
@@ -47,7 +47,7 @@ TEST_CASE("every way to die in a step is one failed step with its name, and the 
     rig.give({30, 40, 50});
     const std::int64_t begin = monotonic_ns();
     CHECK(rig.step() == FULMAR_FAILED);
-    CHECK(monotonic_ns() - begin < 5'000'000'000);
+    CHECK(monotonic_ns() - begin < 15'000'000'000);
     CHECK(rig.text() == c.death);
     CHECK(rig.child->death() == std::string(c.death));
     CHECK_FALSE(rig.child->alive());
@@ -58,7 +58,7 @@ TEST_CASE("every way to die in a step is one failed step with its name, and the 
     CHECK(rig.activate() == FULMAR_FAILED);
     CHECK(rig.configure() == FULMAR_FAILED);
     rig.table->deactivate(rig.instance);
-    CHECK(monotonic_ns() - again < 400'000'000);  // at once: nobody is waited for
+    CHECK(monotonic_ns() - again < 1'500'000'000);  // nobody is waited for
     CHECK(rig.text() == c.death);
     rig.instance = nullptr;
     rig.child.reset();
@@ -106,7 +106,7 @@ TEST_CASE("a component that cannot be created is refused in a sentence") {
   CHECK(fault_of_setup("CrashBorn") == "mine: isolate_lab.so crashed (segmentation fault) while being created");
   CHECK(fault_of_setup("ExitBorn") == "mine: isolate_lab.so ended itself (exit code 3) while being created");
   CHECK(fault_of_setup("ThrowBorn") == "mine: cannot be created: the law is broken");
-  CHECK(fault_of_setup("HangBorn", 200'000'000) == "mine: isolate_lab.so hung: no answer within 200 ms while being created");
+  CHECK(fault_of_setup("HangBorn", 2'000'000'000) == "mine: isolate_lab.so hung: no answer within 2000 ms while being created");
 }
 
 TEST_CASE("a component that cannot be destroyed says so and is gone all the same") {

@@ -46,6 +46,7 @@ struct Inner {
 
   Status activate(const Tick&, const Inputs& in, const Params& params, const Outputs& last_applied) {
     take_up_ = true;
+    blind_ = false;
     last_ = last_applied.actuators;
     roll_command_rate_.reset_to(in.attitude->roll_rad);
     washout_.reset_to(yaw_rate_error(*in.state, scheduling_airspeed(*in.state, params.airframe->limits)));
@@ -53,10 +54,11 @@ struct Inner {
   }
 
   Status step(const Tick& tick, const Inputs& in, const Params& params, Outputs& out) {
-    const VehicleState& state = *in.state;
     const AttitudeCommand& command = *in.attitude;
     const double dt = std::clamp(tick.dt_s(), 0.0, 0.1);
-    const double Va = scheduling_airspeed(state, params.airframe->limits);
+    const double Va = scheduling_airspeed(*in.state, params.airframe->limits);
+    look(in, Va);
+    const VehicleState state = blind_ ? as_commanded(*in.state, command, Va) : *in.state;
     const double rho = standard_air(state.origin_altitude_m + state.height_m).density_kgm3;
     const double speed_ratio = params.airframe->limits.airspeed_cruise_mps / Va;
     const double scale = std::clamp(speed_ratio * speed_ratio, 1 / params.scale_limit, params.scale_limit.value);
@@ -72,10 +74,36 @@ struct Inner {
     out.roll_error_rad = command.roll_rad - state.roll_rad;
     out.pitch_error_rad = command.pitch_rad - state.pitch_rad;
     out.surface_scale_ratio = scale;
-    return Status::ok;
+    if (blind_) last_ = out.actuators;
+    return blind_ ? Status::degraded : Status::ok;
   }
 
  private:
+  /// Without an attitude nothing can be held. The aircraft is taken to follow its command: what is left are feed-forward, trim and the
+  /// integrals, which roll it level as the command goes there.
+  static VehicleState as_commanded(const VehicleState& last, const AttitudeCommand& command, double Va) {
+    VehicleState state = last;
+    const TurnRates turn = turn_rates(command.roll_rad, command.pitch_rad, Va);
+    state.roll_rad = command.roll_rad;
+    state.pitch_rad = command.pitch_rad;
+    state.rate_radps = {0, turn.q_radps, turn.r_radps};
+    return state;
+  }
+  /// Is the attitude known? After a time without it, only once the command answers to it: then no surface steps.
+  void look(const Inputs& in, double Va) {
+    if (!in.state->attitude_valid) {
+      blind_ = true;
+      known_ns_ = 0;
+    } else if (blind_) {
+      if (known_ns_ == 0) known_ns_ = in.state.valid_at_ns();
+      if (in.attitude.valid_at_ns() < known_ns_) return;
+      blind_ = false;
+      take_up_ = true;
+      roll_command_rate_.reset_to(in.attitude->roll_rad);
+      washout_.reset_to(yaw_rate_error(*in.state, Va));
+    }
+  }
+
   /// delta_a = trim + scale [kp e + kd (p_c - p) + I] + kff p_c
   double roll_to_aileron(const VehicleState& state, const AttitudeCommand& command, const Params& p, double scale, double integrate,
                          double dt) {
@@ -125,7 +153,8 @@ struct Inner {
   Differentiator roll_command_rate_;
   WashOut washout_;
   Actuators last_;
-  bool take_up_ = false;
+  bool take_up_ = false, blind_ = false;
+  std::int64_t known_ns_ = 0;  ///< the first state after a time without attitude
 };
 
 }  // namespace fulmar::slc

@@ -72,6 +72,7 @@ struct Outer {
     if (action == OuterAction::wait) out.attitude = commands_.wait();
     if (action == OuterAction::take_off) out.attitude = commands_.take_off(state, tuning(params), params.airframe->limits, dt);
     if (action == OuterAction::hold) hold(state, *in.command, params, dt, out);
+    if (action == OuterAction::level) level(state, params, dt, out);
     out.internals.law = commands_.law();
     out.internals.course_error_rad = commands_.course_error_rad();
     out.internals.roll_saturated = commands_.roll_saturated();
@@ -79,7 +80,8 @@ struct Outer {
     out.internals.pitch_rad = out.attitude.pitch_rad;
     out.pitch_integral_rad = altitude_.integral();
     out.throttle_integral_frac = airspeed_.integral();
-    return state.airspeed_valid || action != OuterAction::hold ? Status::ok : Status::degraded;
+    const bool flying = action == OuterAction::hold || action == OuterAction::level;
+    return flying && !enough_known(state) ? Status::degraded : Status::ok;
   }
 
  private:
@@ -92,6 +94,14 @@ struct Outer {
     t.pitch_rate_max_radps = p.pitch_rate_limit;
     t.throttle_rate_max_hz = p.throttle_rate_limit;
     return t;
+  }
+
+  /// Attitude or height is not known.
+  void level(const VehicleState& state, const Params& p, double dt, Outputs& out) {
+    const FlightLimits& limits = p.airframe->limits;
+    const double rho = standard_air(state.origin_altitude_m + state.height_m).density_kgm3;
+    const double alpha = turn_trim(*p.airframe, 0, limits.airspeed_cruise_mps, rho).alpha_rad;
+    out.attitude = commands_.level(alpha, limits.throttle_cruise_frac, tuning(p), dt);
   }
 
   void hold(const VehicleState& state, const GuidanceCommand& command, const Params& p, double dt, Outputs& out) {

@@ -96,11 +96,23 @@ class FlightAlignment {
   void mag(const Vector3d& field_b) {
     if (started_) field_sum_ += q_ * field_b;
   }
+  struct Found {
+    Quaterniond q_nb;
+    Vector3d a_n;  ///< mean acceleration of the window
+    double window_s;
+  };
+  /// What is known beside the inertial samples; a null pointer is not known.
+  struct Known {
+    double gravity_mps2;
+    const Vector3d* field_n;
+    const Vector3d* wind_n;
+    double late_s;  ///< age of the fix: the window of the fixes lies so long before that of the samples
+  };
   /// Attitude now, when this fix ends a window.
-  std::optional<Quaterniond> fix(const Vector3d& v_n, double gravity, const Vector3d* field_n) {
-    std::optional<Quaterniond> found;
+  std::optional<Found> fix(const Vector3d& v_n, const Known& known) {
+    std::optional<Found> found;
     if (started_ && time_ >= 0.45) {
-      if (time_ < 2.5) found = solve(v_n, gravity, field_n);
+      if (time_ < 2.5) found = solve(v_n, known);
       started_ = false;
     }
     if (!started_) {
@@ -112,18 +124,27 @@ class FlightAlignment {
   }
 
  private:
-  std::optional<Quaterniond> solve(const Vector3d& v_n, double gravity, const Vector3d* field_n) const {
-    const Vector3d f_n = (v_n - v_first_) / time_ - Vector3d(0, 0, gravity);
+  std::optional<Found> solve(const Vector3d& v_n, const Known& known) const {
+    const Matrix3d turned = turn_since_fix(v_n, known.late_s);
+    const Vector3d a_n = turned * ((v_n - v_first_) / time_), f_n = a_n - Vector3d(0, 0, known.gravity_mps2);
     const Vector3d f_b = f_sum_ / time_;
     if (f_n.norm() < 3 || f_b.norm() < 3) return std::nullopt;  // near free fall: no direction in it
-    Vector3d second_b = ahead_sum_, second_n = 0.5 * (v_n + v_first_);
-    if (field_n && field_sum_.norm() > 0 && field_n->normalized().cross(f_n.normalized()).norm() > 0.3) {
+    Vector3d second_b = ahead_sum_, second_n = turned * (0.5 * (v_n + v_first_));
+    if (known.wind_n) second_n -= *known.wind_n;
+    // In a turn the field may lie along the specific force. The nose never does, but without the wind it is known less well.
+    const double enough = known.wind_n ? 0.6 : 0.3;
+    if (known.field_n && field_sum_.norm() > 0 && known.field_n->normalized().cross(f_n.normalized()).norm() > enough) {
       second_b = field_sum_;
-      second_n = *field_n;
+      second_n = *known.field_n;
     }
     if (second_b.normalized().cross(f_b.normalized()).norm() < 0.2 || second_n.normalized().cross(f_n.normalized()).norm() < 0.2)
       return std::nullopt;
-    return (attitude_from_directions(f_b, f_n, second_b, second_n) * q_).normalized();
+    return Found{(attitude_from_directions(f_b, f_n, second_b, second_n) * q_).normalized(), a_n, time_};
+  }
+  /// A turn goes on from the time of the fix to its arrival.
+  Matrix3d turn_since_fix(const Vector3d& v_n, double late_s) const {
+    const double cross = v_first_.x() * v_n.y() - v_first_.y() * v_n.x(), dot = v_first_.head<2>().dot(v_n.head<2>());
+    return Eigen::AngleAxisd(late_s / time_ * std::atan2(cross, dot), Vector3d::UnitZ()).toRotationMatrix();
   }
 
   bool started_ = false;

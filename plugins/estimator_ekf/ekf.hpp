@@ -35,23 +35,36 @@ struct Ekf {
     if (running || in.imu.sequence() == 0 || !(s.attitude_valid && s.velocity_valid)) return Status::ok;
     navigator_.resume(s, p, 1e-9 * static_cast<double>(in.imu.valid_at_ns()));
     imu_ns_ = in.imu.valid_at_ns();
+    published_ = false;
     return Status::ok;
   }
 
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     stepped_ns_ = tick.now_ns;
     if (in.status && in.status.fresh()) navigator_.status(*in.status);
-    if (in.imu.fresh() && !inertial(in, p)) return Status::degraded;
-    if (!in.imu.fresh()) return tick.now_ns - imu_ns_ > 20'000'000 ? Status::degraded : Status::ok;
-    sensors(in, p);
-    if (!navigator_.aligned()) return Status::degraded;
-    fill(p);
-    out.state.publish(state_, in.imu.valid_at_ns());
+    if (!newer(in.imu, imu_ns_, tick) || !inertial(in, p)) return coast(tick, in.imu.fresh(), p, out);
+    sensors(in, tick, p);
+    if (!navigator_.aligned()) return navigator_.regaining() ? blind(in.imu.valid_at_ns(), p, out) : Status::degraded;
+    coasting_ = false;
+    fill(navigator_.filter().state(), navigator_.filter().R_nb(), navigator_.filter().rate_b(), p);
+    if (navigator_.filter().time_s() - deviations_s_ > 0.0099) fill_deviations(p);
+    publish(in.imu.valid_at_ns(), out);
     probes(out);
     return healthy() ? Status::ok : Status::degraded;
   }
 
  private:
+  /// A sample whose time is later than that of the one before, and not in the future.
+  template <class Port>
+  static bool newer(const Port& port, std::int64_t last_ns, const Tick& tick) {
+    return port.fresh() && port.valid_at_ns() > last_ns && port.valid_at_ns() <= tick.now_ns + ahead_ns;
+  }
+  template <class Port>
+  static bool take(const Port& port, std::int64_t& last_ns, const Tick& tick) {
+    if (!port || !newer(port, last_ns, tick)) return false;
+    last_ns = port.valid_at_ns();
+    return true;
+  }
   bool inertial(const Inputs& in, const Params& p) {
     const Vector3d omega_b = eigen(in.imu->rate_radps), f_b = eigen(in.imu->specific_force_mps2);
     if (!omega_b.allFinite() || !f_b.allFinite()) return false;
@@ -60,39 +73,108 @@ struct Ekf {
     dt_s_ = 1e-9 * static_cast<double>(imu_ns_ - before_ns);
     return navigator_.imu(omega_b, f_b, 1e-9 * static_cast<double>(imu_ns_), p);
   }
-  void sensors(const Inputs& in, const Params& p) {
-    if (in.mag && in.mag.fresh()) navigator_.mag(eigen(in.mag->field_tesla), p);
-    if (in.baro && in.baro.fresh()) navigator_.baro(in.baro->pressure_pa, p);
-    if (in.gnss && in.gnss.fresh()) navigator_.gnss(*in.gnss, 1e-9 * static_cast<double>(in.gnss.valid_at_ns()), p);
-    if (in.pitot && in.pitot.fresh()) navigator_.pitot(in.pitot->pressure_pa, p);
+  void sensors(const Inputs& in, const Tick& tick, const Params& p) {
+    if (take(in.mag, mag_ns_, tick)) navigator_.mag(eigen(in.mag->field_tesla), p);
+    if (take(in.baro, baro_ns_, tick)) navigator_.baro(in.baro->pressure_pa, p);
+    if (take(in.gnss, gnss_ns_, tick)) navigator_.gnss(*in.gnss, 1e-9 * static_cast<double>(in.gnss.valid_at_ns()), p);
+    if (take(in.pitot, pitot_ns_, tick)) navigator_.pitot(in.pitot->pressure_pa, p);
   }
+  void publish(std::int64_t valid_at_ns, Outputs& out) {
+    out.state.publish(state_, valid_at_ns);
+    published_ns_ = valid_at_ns;
+    published_ = true;
+  }
+  Status coast(const Tick& tick, bool sample, const Params& p, Outputs& out);
+  Status blind(std::int64_t valid_at_ns, const Params& p, Outputs& out);
   bool healthy() const { return state_.attitude_valid && state_.velocity_valid && state_.position_valid && state_.height_valid; }
 
-  void fill(const Params& p);
+  Vector3d coasted_rate(const ekf::Nominal& x, double gap_s, const Params& p) const;
+  void fill(const ekf::Nominal& x, const Matrix3d& R_nb, const Vector3d& omega_b, const Params& p);
   void fill_air(const ekf::Nominal& x, const Matrix3d& R_nb);
   void fill_deviations(const Params& p);
+  void widen(double gap_s, const Params& p);
   void probes(Outputs& out) const;
 
   Navigator navigator_;
   VehicleState state_;
   Vector3d rate_ = Vector3d::Zero();
   double dt_s_ = 0, deviations_s_ = never;
-  std::int64_t imu_ns_ = 0, stepped_ns_ = 0;
-  bool rate_started_ = false;
+  static constexpr std::int64_t ahead_ns = 10'000'000, long_ago = -(std::int64_t{1} << 62);
+  std::int64_t imu_ns_ = long_ago, mag_ns_ = long_ago, baro_ns_ = long_ago, gnss_ns_ = long_ago, pitot_ns_ = long_ago;
+  std::int64_t stepped_ns_ = 0, published_ns_ = 0;
+  bool rate_started_ = false, published_ = false, coasting_ = false;
+  ekf::Nominal coasted_;  ///< the state carried on through a gap
 };
 
-inline void Ekf::fill(const Params& p) {
+/// No inertial sample. Up to the limit the aircraft is taken to turn and to be carried as it was: the state goes on, flagged. After that it
+/// stays where it was, and nothing of it is called valid.
+inline Status Ekf::coast(const Tick& tick, bool sample, const Params& p, Outputs& out) {
+  const double gap_s = 1e-9 * static_cast<double>(tick.now_ns - imu_ns_);
+  if (!published_ || gap_s <= coasted_s) return sample || gap_s > coasted_s ? Status::degraded : Status::ok;
+  if (!navigator_.aligned() || gap_s > p.max_coast) return blind(tick.now_ns, p, out);
   const ErrorStateEkf& f = navigator_.filter();
-  const ekf::Nominal& x = f.state();
+  if (!coasting_) coasted_ = f.state();
+  const double dt = 1e-9 * static_cast<double>(tick.now_ns - (coasting_ ? published_ns_ : imu_ns_));
+  coasting_ = true;
+  ekf::Nominal& x = coasted_;
+  const Vector3d v_before = x.v_n, omega_b = coasted_rate(x, gap_s, p);
+  x.v_n += dt * (x.q_nb * exp_map(0.5 * dt * omega_b) * f.specific_force_b() + Vector3d(0, 0, p.gravity));
+  x.p_n += 0.5 * dt * (v_before + x.v_n);
+  x.q_nb = (x.q_nb * exp_map(dt * omega_b)).normalized();
+  fill(x, x.q_nb.toRotationMatrix(), omega_b, p);
+  fill_deviations(p);
+  widen(gap_s, p);
+  publish(tick.now_ns, out);
+  return Status::degraded;
+}
+
+/// In a gap the rates go from those last seen to those of a steady turn: roll, which is steered, more slowly than what gusts do.
+inline Vector3d Ekf::coasted_rate(const ekf::Nominal& x, double gap_s, const Params& p) const {
+  const Euler e = euler_from(x.q_nb);
+  const double V = x.v_n.head<2>().norm();
+  const double psi_dot = V > p.min_airspeed ? p.gravity * std::tan(std::clamp(e.roll_rad, -1.2, 1.2)) / V : 0;
+  const Vector3d turn = psi_dot * (x.q_nb.conjugate() * Vector3d::UnitZ());
+  const Vector3d seen = navigator_.filter().rate_b();
+  const double steered = std::exp(-gap_s / 1.0), gusts = std::exp(-gap_s / 0.15);
+  return turn + Vector3d(steered, gusts, gusts).cwiseProduct(seen - turn);
+}
+
+/// Nobody knows how the aircraft moves: the last state stands in, and says that it is none.
+inline Status Ekf::blind(std::int64_t valid_at_ns, const Params& p, Outputs& out) {
+  fill_deviations(p);
+  widen(1e-9 * static_cast<double>(valid_at_ns) - navigator_.filter().time_s(), p);
   VehicleState& s = state_;
-  const Euler e = euler_from(f.R_nb());
+  s.rate_radps = {};
+  s.specific_force_mps2 = {};
+  s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = s.wind_valid = false;
+  rate_started_ = coasting_ = false;
+  deviations_s_ = never;
+  publish(valid_at_ns, out);
+  return Status::degraded;
+}
+
+/// Deviations grow with what may have happened since the last sample.
+inline void Ekf::widen(double gap_s, const Params& p) {
+  const auto wider = [](Vec3<Ned>& std, double more) {
+    std = {std::hypot(std.north, more), std::hypot(std.east, more), std::hypot(std.down, more)};
+  };
+  const double t = std::max(gap_s, 0.0), speed = p.gap_accel_std * t;
+  wider(state_.attitude_std_rad, std::min(p.gap_rate_std * t, std::numbers::pi));
+  wider(state_.velocity_std_mps, speed);
+  wider(state_.position_std_m, 0.5 * speed * t);
+  state_.airspeed_std_mps = std::hypot(state_.airspeed_std_mps, speed);
+}
+
+inline void Ekf::fill(const ekf::Nominal& x, const Matrix3d& R_nb, const Vector3d& omega_b, const Params& p) {
+  const ErrorStateEkf& f = navigator_.filter();
+  VehicleState& s = state_;
+  const Euler e = euler_from(R_nb);
   s.position_m = from_eigen<Ned>(x.p_n);
   s.velocity_mps = from_eigen<Ned>(x.v_n);
   s.attitude = from_eigen(x.q_nb);
   s.roll_rad = e.roll_rad;
   s.pitch_rad = e.pitch_rad;
   s.yaw_rad = e.yaw_rad;
-  const Vector3d omega_b = f.rate_b();
   if (p.rate_filter > 0 && rate_started_)
     rate_ += (omega_b - rate_) * (1 - std::exp(-2 * std::numbers::pi * p.rate_filter * std::clamp(dt_s_, 0.0, 1.0)));
   else
@@ -108,8 +190,7 @@ inline void Ekf::fill(const Params& p) {
   // From the nose at rest to the velocity in motion without a step.
   const double moving = smoothly(s.ground_speed_mps, 1, 3);
   s.course_rad = moving > 0 ? wrap_pi(e.yaw_rad + moving * angle_difference(std::atan2(x.v_n.y(), x.v_n.x()), e.yaw_rad)) : e.yaw_rad;
-  fill_air(x, f.R_nb());
-  if (f.time_s() - deviations_s_ > 0.0099) fill_deviations(p);
+  fill_air(x, R_nb);
 }
 
 inline void Ekf::fill_air(const ekf::Nominal& x, const Matrix3d& R_nb) {
@@ -145,14 +226,15 @@ inline void Ekf::fill_deviations(const Params& p) {
   s.origin_longitude_deg = origin.lon_deg;
   s.origin_altitude_m = origin.alt_m;
   s.origin_valid = navigator_.origin_known();
-  s.attitude_valid =
-      navigator_.yaw_known() && std::max(s.attitude_std_rad.north, s.attitude_std_rad.east) < 0.25 && s.attitude_std_rad.down < 0.5;
-  s.velocity_valid = std::max({s.velocity_std_mps.north, s.velocity_std_mps.east, s.velocity_std_mps.down}) < 3;
-  s.position_valid =
-      navigator_.position_known() && now - h.position_s < p.gnss_timeout && std::max(s.position_std_m.north, s.position_std_m.east) < 50;
-  s.height_valid = navigator_.height_known() && s.position_std_m.down < 20;
-  s.wind_valid = std::max(s.wind_std_mps.north, s.wind_std_mps.east) < 3;
-  s.airspeed_valid = navigator_.airborne() ? pitot || s.airspeed_std_mps < 3 : tube;
+  const bool known = !navigator_.settling();
+  s.attitude_valid = known && navigator_.yaw_known() && std::max(s.attitude_std_rad.north, s.attitude_std_rad.east) < 0.25 &&
+                     s.attitude_std_rad.down < 0.5;
+  s.velocity_valid = known && std::max({s.velocity_std_mps.north, s.velocity_std_mps.east, s.velocity_std_mps.down}) < 3;
+  s.position_valid = known && navigator_.position_known() && now - h.position_s < p.gnss_timeout &&
+                     std::max(s.position_std_m.north, s.position_std_m.east) < 50;
+  s.height_valid = known && navigator_.height_known() && s.position_std_m.down < 20;
+  s.wind_valid = known && std::max(s.wind_std_mps.north, s.wind_std_mps.east) < 3;
+  s.airspeed_valid = known && (navigator_.airborne() ? pitot || s.airspeed_std_mps < 3 : tube);
 }
 
 inline void Ekf::probes(Outputs& out) const {

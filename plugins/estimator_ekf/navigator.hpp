@@ -18,6 +18,7 @@
 namespace fulmar::estimator {
 
 inline constexpr double never = -1e9;
+inline constexpr double coasted_s = 0.02;  ///< so long without an inertial sample is a gap: slower units do not fly
 
 /// What the last update of each kind said: innovation in deviations, and how long ago one was accepted.
 struct Health {
@@ -79,6 +80,12 @@ class Navigator {
   }
 
   bool aligned() const { return aligned_; }
+  bool regaining() const { return regaining_; }  ///< not aligned since a gap
+  /// Found again after a gap, and the next fixes still move it: commands that follow it would step.
+  bool settling() const {
+    constexpr double tilt_std = 0.025, longest_s = 0.5;
+    return regained_ && time_s_ - aligned_s_ < longest_s && std::max(filter_.std(ekf::theta), filter_.std(ekf::theta + 1)) > tilt_std;
+  }
   bool yaw_known() const { return yaw_known_; }
   bool origin_known() const { return origin_known_; }
   bool position_known() const { return position_known_; }
@@ -106,17 +113,16 @@ class Navigator {
       has_imu_ = true;
       return true;
     }
+    if (aligned_ && dt > p.max_coast) lose();
     still_.update(omega_b, f_b, dt);
     resting_ = still_.still() && at_rest_by_others(p);
     if (!aligned_) {
-      flight_.imu(omega_b, f_b, dt);
+      flight_.imu(omega_b - filter_.state().gyro_bias, f_b - filter_.state().accel_bias, dt);
       if (resting_) align_at_rest(p);
       return true;
     }
-    if (dt > p.max_imu_gap)
-      filter_.skip(dt, 0.5, 5);
-    else
-      filter_.predict(omega_b, f_b, dt);
+    filter_.predict(omega_b, f_b, dt);
+    if (dt > coasted_s) bridged(dt, p);
     if (resting_ && time_s_ - rest_fused_s_ > 0.05) rest(p);
     update_airborne(p);
     if (airborne_ && yaw_known_ && time_s_ - sideslip_s_ > 0.1 - 1e-4) sideslip(p);
@@ -159,7 +165,8 @@ class Navigator {
   bool at_rest_by_others(const Params& p) const {
     const bool gnss_slow = time_s_ - gnss_s_ < 2 && gnss_speed_ < 1.5, gnss_fast = time_s_ - gnss_s_ < 2 && gnss_speed_ >= 1.5;
     const bool pitot_slow = time_s_ - pitot_s_ < 1 && pitot_mps_ < p.min_airspeed;
-    if (gnss_fast || (has_status_ && armed_)) return false;
+    const bool stands_again = regaining_ && gnss_slow && !(time_s_ - pitot_s_ < 1 && pitot_mps_ >= p.min_airspeed);
+    if (gnss_fast || (has_status_ && armed_ && !stands_again)) return false;
     return has_status_ || gnss_slow || pitot_slow;
   }
 
@@ -178,7 +185,46 @@ class Navigator {
     time_s_ = time_s;
     filter_.reset(x, std, time_s);
     aligned_ = true;
+    regaining_ = regained_ = false;
     aligned_s_ = time_s;
+    yaw_known_ = yaw_std < 0.5;
+  }
+
+  /// After a gap that was too long to be bridged: the attitude has to be found anew.
+  void lose() {
+    aligned_ = resting_ = false;
+    regaining_ = true;
+    rest_since_s_ = never;
+    flight_ = {};
+  }
+  /// Between two samples far apart the rates were not on a straight line.
+  void bridged(double dt, const Params& p) {
+    filter_.inflate(ekf::theta, 3, 0.3 * p.gap_rate_std * dt * dt);
+    filter_.inflate(ekf::vel, 3, 0.3 * p.gap_accel_std * dt * dt);
+  }
+  /// Found anew after a gap: attitude and velocity. What changes slowly is kept and has become less sure: biases, wind, the barometer's
+  /// offset, the magnetometer's deviation.
+  void begin_again(const Quaterniond& q_nb, const Vector3d& v_n, const Params& p, double tilt_std, double yaw_std) {
+    const double gap = std::sqrt(std::max(time_s_ - filter_.time_s(), 0.0));
+    ekf::Nominal x = filter_.state();
+    x.q_nb = q_nb;
+    x.v_n = v_n;
+    x.gust_mps = 0;
+    filter_.forget(ekf::theta, 2, tilt_std);
+    filter_.forget(ekf::theta + 2, 1, yaw_std);
+    filter_.forget(ekf::vel, 3, 1);
+    filter_.forget(ekf::pos, 3, 1e3);
+    filter_.forget(ekf::gust, 1, p.gust_std);
+    filter_.inflate(ekf::gyro_bias, 3, std::max(p.gyro_bias_walk * gap, 5e-3));
+    filter_.inflate(ekf::accel_bias, 3, std::max(p.accel_bias_walk * gap, 0.02));
+    filter_.inflate(ekf::wind, 2, std::max(p.wind_walk * gap, 0.3));
+    filter_.inflate(ekf::baro, 1, p.baro_walk * gap);
+    const ekf::Covariance P = filter_.covariance();
+    filter_.reset(x, ekf::Vector::Zero(), time_s_);
+    filter_.set_covariance(P);
+    aligned_ = regained_ = true;
+    regaining_ = false;
+    aligned_s_ = time_s_;
     yaw_known_ = yaw_std < 0.5;
   }
 
@@ -194,6 +240,7 @@ class Navigator {
     // at rest tie them to the prior of the accelerometer bias.
     begin(x, p, time_s_, 0.5, has_mag ? 1 : 1.8);
     yaw_known_ = has_mag;
+    position_known_ = height_known_ = baro_zeroed_ = false;
     filter_.forget(ekf::gyro_bias, 3, 0.01);
     rest(p);
     if (has_mag) mag(mag_b_, p);
@@ -202,10 +249,16 @@ class Navigator {
   void align_in_flight(const Gnss& g, double time_s, const Params& p) {
     const Vector3d v_n = eigen(g.velocity_mps);
     const bool has_mag = field_known_ && time_s_ - mag_s_ < 0.5;
-    const auto q_nb = flight_.fix(v_n, p.gravity, has_mag ? &field_n_ : nullptr);
-    if (!q_nb || v_n.head<2>().norm() < p.min_airspeed) return;
+    const Vector3d wind_n(filter_.state().wind.x(), filter_.state().wind.y(), 0);
+    const auto found = flight_.fix(v_n, {p.gravity, has_mag ? &field_n_ : nullptr, regaining_ ? &wind_n : nullptr,
+                                         regaining_ ? std::clamp(time_s_ - time_s, 0.0, 1.0) : 0});
+    if (!found || v_n.head<2>().norm() < p.min_airspeed) return;
+    if (regaining_) {
+      regain(g, *found, has_mag, time_s, p);
+      return;
+    }
     ekf::Nominal x;
-    x.q_nb = *q_nb;
+    x.q_nb = found->q_nb;
     x.v_n = v_n;
     begin(x, p, time_s_, 0.2, has_mag ? 0.3 : 0.4);
     yaw_known_ = true;
@@ -234,6 +287,7 @@ class Navigator {
   }
 
   void place(const Gnss& g, double time_s, const Params& p);
+  void regain(const Gnss& g, const FlightAlignment::Found& found, bool has_mag, double time_s, const Params& p);
   void collect_origin(const Gnss& g, const Params& p);
   void gnss_velocity(const Gnss& g, const ErrorStateEkf::Past& past, double time_s, const Params& p);
   void gnss_position(const Gnss& g, double time_s, const Params& p);
@@ -252,7 +306,9 @@ class Navigator {
   double time_s_ = 0, aligned_s_ = 0, rest_since_s_ = never, rest_fused_s_ = never, sideslip_s_ = never;
   double gnss_s_ = never, gnss_speed_ = 0, mag_s_ = never, mag_fused_s_ = never, pitot_s_ = never, pitot_mps_ = 0, baro_s_ = never;
   std::int64_t origin_count_ = 0;
-  bool has_imu_ = false, aligned_ = false, yaw_known_ = false, origin_known_ = false, position_known_ = false, height_known_ = false;
+  double baro_pa_ = 0;
+  bool has_imu_ = false, aligned_ = false, regaining_ = false, regained_ = false, yaw_known_ = false, origin_known_ = false,
+       position_known_ = false, height_known_ = false;
   bool field_known_ = false, year_known_ = false, baro_zeroed_ = false, altitude_known_ = false;
   bool has_status_ = false, armed_ = false, on_ground_ = false, resting_ = false, airborne_ = false;
 };

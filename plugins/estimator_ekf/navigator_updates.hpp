@@ -86,9 +86,25 @@ inline void Navigator::place(const Gnss& g, double time_s, const Params& p) {
   filter_.forget(ekf::pos, 2, known(g.horizontal_std_m, p.gnss_horizontal_std, 1));
   filter_.forget(ekf::pos + 2, 1, known(g.vertical_std_m, p.gnss_vertical_std, 1));
   // On the ground the place of the start tells the height better than the receiver, unless the receiver contradicts.
-  if (resting_) filter_.fuse(ekf::position(filter_, filter_.at(time_s_), 2, -p.start_height), p.start_height_std * p.start_height_std, p.gnss_gate);
+  if (resting_)
+    filter_.fuse(ekf::position(filter_, filter_.at(time_s_), 2, -p.start_height), p.start_height_std * p.start_height_std, p.gnss_gate);
   position_known_ = height_known_ = true;
   baro_zeroed_ = false;
+}
+
+/// The first fix after a gap that ends an alignment. The barometer goes on from where it was, if the receiver does not contradict it: its
+/// offset is known better than the height by one fix, and the height must not jump.
+inline void Navigator::regain(const Gnss& g, const FlightAlignment::Found& found, bool has_mag, double time_s, const Params& p) {
+  const double late = std::clamp(time_s_ - time_s, 0.0, 1.0);
+  const bool zeroed = baro_zeroed_;
+  const double tilt = known(g.speed_std_mps, p.gnss_speed_std, 0.1) / (p.gravity * found.window_s);
+  begin_again(found.q_nb, eigen(g.velocity_mps) + late * found.a_n, p, std::clamp(1.5 * tilt, 0.05, 0.2), has_mag ? 0.15 : 0.4);
+  yaw_known_ = true;
+  place(g, time_s, p);
+  health_.position_s = health_.velocity_s = health_.height_s = time_s_;
+  if (!zeroed || time_s_ - baro_s_ > 0.5) return;
+  const double std = p.baro_noise * ekf::metres_per_pascal(standard_air(altitude_m_ - filter_.state().p_n.z())) + 0.5;
+  baro_zeroed_ = filter_.fuse(ekf::baro_height(filter_.state(), baro_pa_, altitude_m_), std * std, 3).accepted;
 }
 
 inline void Navigator::gnss_position(const Gnss& g, double time_s, const Params& p) {
@@ -160,6 +176,7 @@ inline void Navigator::yaw_from_field(const Vector3d& field_b) {
 inline void Navigator::baro(double pressure_pa, const Params& p) {
   if (!(pressure_pa > 1e4 && pressure_pa < 1.2e5)) return;
   baro_s_ = time_s_;
+  baro_pa_ = pressure_pa;
   if (!origin_known_ && !altitude_known_) {
     altitude_m_ = pressure_altitude(pressure_pa);
     altitude_known_ = true;

@@ -21,13 +21,16 @@ struct Params {
   Param accel_bias_walk{5e-4, "m/s2/sqrt(s)", 0, 0.1, "how fast the accelerometer bias wanders"};
   Param accel_bias_std{0.35, "m/s2", 1e-3, 3, "accelerometer bias before it is learnt"};
   Param gravity{9.80665, "m/s2", 9.7, 9.9, "local gravity"};
-  Param max_imu_gap{0.2, "s", 0.01, 2, "a longer gap is not integrated but adds uncertainty"};
+  Param max_coast{0.3, "s", 0.03, 2, "a gap of the inertial unit is bridged up to this; after a longer one the attitude is found anew"};
+  Param gap_rate_std{0.5, "rad/s", 0.01, 5, "turn rate that nobody saw in a gap"};
+  Param gap_accel_std{5, "m/s2", 0.1, 50, "acceleration that nobody saw in a gap"};
 
   // satellite navigation; the receiver's own accuracies count when it reports them
   Param gnss_delay{0, "s", 0, 0.5, "added to the age of a fix, for receivers whose stamp is the time of arrival"};
   Param gnss_horizontal_std{2, "m", 0.01, 50, "when the receiver reports none"};
   Param gnss_vertical_std{4, "m", 0.01, 50, "when the receiver reports none"};
-  Param gnss_height_time{60, "s", 0, 1000, "correlation time of the receiver's height error: a fix counts for less the more of them come in it"};
+  Param gnss_height_time{60, "s", 0, 1000,
+                         "correlation time of the receiver's height error: a fix counts for less the more of them come in it"};
   Param gnss_climb_time{2, "s", 0, 100, "the same for the error of its vertical velocity, which would else be integrated to a height"};
   Param gnss_speed_std{0.4, "m/s", 0.005, 10, "when the receiver reports none"};
   Param gnss_position_floor{0.1, "m", 0, 10, "no position is trusted more than this"};

@@ -34,7 +34,11 @@ struct VectorField {
     Param roll_max{0.785, "rad", 0, 1.4, "limit of the bank that is fed forward"};
   };
 
-  Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out) const;
+  Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out);
+
+ private:
+  GuidanceCommand last_;
+  bool commanded_ = false;
 };
 
 /// Bank that turns the ground track at curvature kappa (right positive): chi_dot = Vg kappa = g/Vg tan(phi) cos(chi - psi), B&M (9.14).
@@ -44,10 +48,17 @@ inline double bank_for(double kappa, double Vg, double chi_minus_psi, double rol
   return std::clamp(std::atan(Vg * Vg * kappa / (g * crab)), -roll_max, roll_max);
 }
 
-inline Status VectorField::step(const Tick&, const Inputs& in, const Params& p, Outputs& out) const {
+inline Status VectorField::step(const Tick&, const Inputs& in, const Params& p, Outputs& out) {
   constexpr double pi = std::numbers::pi;
   const VehicleState& state = *in.state;
   const Path& path = *in.path;
+  if (!state.position_valid && commanded_) {  // nobody knows where the path is: straight on, at the height that was last asked for
+    last_.climb_rate_mps = last_.roll_feedforward_rad = 0;
+    out.command = last_;
+    out.cross_track_m = 0.0;
+    out.height_error_m = 0.0;
+    return Status::degraded;
+  }
   const double Vg = state.ground_speed_mps, chi = state.course_rad;
   const double n = state.position_m.north - path.origin_m.north, e = state.position_m.east - path.origin_m.east;
   const double scale = p.reference_speed / std::max(Vg, 0.3 * p.reference_speed);  // one time constant at every speed
@@ -82,7 +93,9 @@ inline Status VectorField::step(const Tick&, const Inputs& in, const Params& p, 
   out.command.roll_feedforward_rad = bank_for(kappa, Vg, angle_difference(chi, state.yaw_rad), p.roll_max);
   out.cross_track_m = cross;
   out.height_error_m = state.height_m - height;
-  return Status::ok;
+  last_ = out.command;
+  commanded_ = true;
+  return state.position_valid ? Status::ok : Status::degraded;
 }
 
 }  // namespace fulmar::path

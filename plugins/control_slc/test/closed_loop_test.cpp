@@ -205,3 +205,39 @@ TEST_CASE("in light turbulence and wind the holds are well inside half of the fi
   CHECK(pitch.value() < 1.5);
   CHECK(course.value() < 4);
 }
+
+TEST_CASE(
+    "blind for five seconds out of a 40 degree turn: it rolls out on feed-forward, keeps near its height, and goes on without a step") {
+  Flight flight;
+  flight.run(20);
+  const double rate = 9.80665 * std::tan(40 * deg) / 17;
+  flight.command.roll_feedforward_rad = 40 * deg;
+  flight.run(10, [&] { flight.command.course_rad = wrap_pi(flight.command.course_rad + rate * 0.01); });
+  VehicleState stand_in = flight.model.state();
+  stand_in.attitude_valid = stand_in.velocity_valid = stand_in.height_valid = stand_in.position_valid = stand_in.airspeed_valid = false;
+  Actuators last;
+  double lowest = 1e9, roll = 0, step = 0;
+  const auto pass = [&](const VehicleState& s) {
+    flight.outer.set(flight.outer.in.state, s);
+    flight.outer.step(0.01);
+    flight.inner.set(flight.inner.in.state, s);
+    flight.inner.set(flight.inner.in.attitude, flight.outer.out.attitude);
+    last = flight.inner.out.actuators;
+    const Status status = flight.inner.step(0.01);
+    for (int k = 0; k < 4; ++k) flight.model.step(flight.inner.out.actuators, 0.0025);
+    return status;
+  };
+  for (int i = 0; i < 500; ++i) {
+    CHECK(pass(stand_in) == Status::degraded);
+    lowest = std::min(lowest, flight.model.state().height_m);
+    if (i > 150) roll = std::max(roll, std::abs(flight.model.state().roll_rad));
+  }
+  CHECK(lowest > 62);
+  CHECK(roll < 15 * deg);
+  for (int i = 0; i < 200; ++i) {
+    pass(flight.model.state());
+    const Actuators& now = flight.inner.out.actuators;
+    step = std::max({step, std::abs(now.aileron_rad - last.aileron_rad), std::abs(now.elevator_rad - last.elevator_rad)});
+  }
+  CHECK(step < 4 * deg);
+}

@@ -172,3 +172,43 @@ TEST_CASE("an inner step allocates nothing") {
   step(bench, flying(), {});
   CHECK(allocations([&] { bench.step(0.01); }) == 0);
 }
+
+TEST_CASE("without an attitude the surfaces follow the command's rate alone, and the step says so") {
+  Bench<Inner> bench;
+  no_integrals(bench);
+  VehicleState s = flying();
+  s.attitude_valid = false;
+  s.roll_rad = 0.6, s.pitch_rad = -0.2, s.rate_radps = {1, 1, 1};  // stand-ins: nothing may follow them
+  const Actuators& u = step(bench, s, {0.2, 0.05, 0.5});
+  CHECK(u.aileron_rad == doctest::Approx(0).epsilon(1e-6));
+  CHECK(u.elevator_rad == doctest::Approx(0).epsilon(1e-6));
+  CHECK(u.rudder_rad == doctest::Approx(0).epsilon(1e-3));
+  CHECK(u.throttle_frac == 0.5);
+  CHECK(bench.step(0.01) == Status::degraded);
+  double roll = 0.2;
+  for (int i = 0; i < 100; ++i) {
+    roll -= 0.01;  // one radian per second to the left: feed-forward and damping reference
+    bench.set(bench.in.attitude, {roll, 0.05, 0.5});
+    bench.step(0.01);
+  }
+  CHECK(u.aileron_rad == doctest::Approx(-0.15 - 0.02).epsilon(0.01));
+}
+
+TEST_CASE("when attitude is known again it is held once the command answers to it, and no surface steps") {
+  Bench<Inner> bench;
+  VehicleState s = flying();
+  s.attitude_valid = false;
+  step(bench, s, {0, 0.05, 0.5});
+  const Actuators last = bench.out.actuators;
+  s = flying();
+  s.roll_rad = 0.5, s.pitch_rad = 0.2;
+  bench.tick.now_ns += 1'000'000;  // the command is older than this state
+  bench.set(bench.in.state, s);
+  CHECK(bench.step(0.01) == Status::degraded);
+  CHECK(bench.out.actuators.aileron_rad == doctest::Approx(last.aileron_rad).epsilon(1e-6));
+  bench.set(bench.in.attitude, {0.5, 0.2, 0.5});
+  CHECK(bench.step(0.01) == Status::ok);
+  CHECK(std::abs(bench.out.actuators.aileron_rad - last.aileron_rad) < 1e-6);
+  CHECK(std::abs(bench.out.actuators.elevator_rad - last.elevator_rad) < 1e-6);
+  CHECK(std::abs(bench.out.actuators.rudder_rad - last.rudder_rad) < 0.01);
+}

@@ -278,3 +278,48 @@ TEST_CASE("a step allocates nothing") {
   settle(bench, flying(), level());
   CHECK(allocations([&] { bench.step(0.01); }) == 0);
 }
+
+TEST_CASE("without attitude or height it asks for level wings and the trim of cruise, as fast as a command may move, and says so") {
+  for (const bool attitude : {true, false}) {
+    Bench<Outer> bench;
+    VehicleState s = flying();
+    GuidanceCommand c = level();
+    c.course_rad = 1, c.height_m = 90;
+    CHECK(settle(bench, s, c).roll_rad == doctest::Approx(0.785));
+    s.roll_rad = 0.6, s.airspeed_mps = 5, s.airspeed_valid = false;  // stand-ins: nothing may follow them
+    (attitude ? s.height_valid : s.attitude_valid) = false;
+    CHECK(settle(bench, s, c, 0.3).roll_rad > 0.785 - 0.3 - 1e-9);
+    CHECK(settle(bench, s, c).roll_rad == doctest::Approx(0).epsilon(1e-6));
+    CHECK(bench.out.attitude.pitch_rad == doctest::Approx(0));  // the default airframe has no derivatives to tell a trim from
+    CHECK(bench.out.attitude.throttle_frac == doctest::Approx(0.5));
+    CHECK(bench.step(0.01) == Status::degraded);
+  }
+}
+
+TEST_CASE("when attitude is known again the command goes on from it") {
+  Bench<Outer> bench;
+  VehicleState s = flying();
+  settle(bench, s, level());
+  s.attitude_valid = s.velocity_valid = s.height_valid = s.airspeed_valid = false;
+  settle(bench, s, level());
+  s = flying();
+  s.roll_rad = -0.4, s.pitch_rad = 0.12;
+  bench.set(bench.in.state, s);
+  CHECK(bench.step(0.01) == Status::ok);
+  CHECK(std::abs(bench.out.attitude.roll_rad + 0.4) <= 0.0401);  // smoothed towards 0 with 0.1 s
+  CHECK(std::abs(bench.out.attitude.pitch_rad - 0.12) <= 0.0081);
+  CHECK(std::abs(bench.out.attitude.throttle_frac - 0.5) <= 0.0201);
+  CHECK(settle(bench, s, level()).roll_rad == doctest::Approx(0).epsilon(1e-6));
+}
+
+TEST_CASE("without a velocity there is no course to hold: wings level, height goes on") {
+  Bench<Outer> bench;
+  no_integrals(bench);
+  VehicleState s = flying();
+  s.velocity_valid = false;
+  GuidanceCommand c = level();
+  c.course_rad = 1, c.roll_feedforward_rad = 0.3, c.height_m = 72;
+  CHECK(settle(bench, s, c).roll_rad == doctest::Approx(0));
+  CHECK(bench.out.attitude.pitch_rad > 0.1);
+  CHECK(bench.step(0.01) == Status::degraded);
+}

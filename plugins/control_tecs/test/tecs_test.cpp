@@ -292,3 +292,39 @@ TEST_CASE("a step allocates nothing") {
   settle(bench, flying(), level());
   CHECK(allocations([&] { bench.step(0.01); }) == 0);
 }
+
+TEST_CASE("without attitude or height it asks for level wings and the trim of cruise; known again, it goes on from the attitude there is") {
+  for (const bool attitude : {true, false}) {
+    Bench<Outer> bench;
+    configure(bench);
+    VehicleState s = flying();
+    GuidanceCommand c = level();
+    c.course_rad = 1, c.height_m = 90;
+    CHECK(settle(bench, s, c).roll_rad == doctest::Approx(0.785));
+    s.roll_rad = 0.6, s.airspeed_mps = 5, s.airspeed_valid = false;  // stand-ins: nothing may follow them
+    (attitude ? s.height_valid : s.attitude_valid) = false;
+    CHECK(settle(bench, s, c).roll_rad == doctest::Approx(0).epsilon(1e-6));
+    CHECK(bench.out.attitude.pitch_rad == doctest::Approx(0));  // the default airframe has no derivatives to tell a trim from
+    CHECK(bench.out.attitude.throttle_frac == doctest::Approx(0.5));
+    CHECK(bench.step(0.01) == Status::degraded);
+    s = flying();
+    s.roll_rad = -0.4, s.pitch_rad = 0.12;
+    bench.set(bench.in.state, s);
+    bench.set(bench.in.command, level());
+    CHECK(bench.step(0.01) == Status::ok);
+    CHECK(std::abs(bench.out.attitude.roll_rad + 0.4) <= 0.0401);
+    CHECK(std::abs(bench.out.attitude.pitch_rad - 0.12) <= 0.0081);
+    CHECK(std::abs(bench.out.attitude.throttle_frac - 0.5) <= 0.0201);
+  }
+}
+
+TEST_CASE("without a velocity there is no course to hold: wings level") {
+  Bench<Outer> bench;
+  configure(bench);
+  VehicleState s = flying();
+  s.velocity_valid = false;
+  GuidanceCommand c = level();
+  c.course_rad = 1, c.roll_feedforward_rad = 0.3;
+  CHECK(settle(bench, s, c).roll_rad == doctest::Approx(0));
+  CHECK(bench.step(0.01) == Status::degraded);
+}

@@ -214,36 +214,6 @@ TEST_CASE("a tube that ices over in flight is refused, not followed") {
   CHECK(f.last.wind_valid);
 }
 
-TEST_CASE("an inertial gap adds uncertainty and is got over") {
-  for (const double gap : {0.05, 0.15, 0.6}) {
-    Flown f{.plan = shorter(90)};
-    const auto lost = [&](double t) { return t > 65 && t < 65 + gap; };
-    const std::vector<Truth> flight = fly(f.plan);
-    Sensors sensors(rosflight, f.plan, 5);
-    Bench<Ekf> bench;
-    bench.params.origin.value = {f.plan.lat_deg, f.plan.lon_deg, f.plan.alt_m, true};
-    bench.params.origin.is_given = true;
-    double before = 0, after = 0;
-    for (std::size_t k = 0; k < flight.size(); ++k) {
-      const Truth& x = flight[k];
-      const Samples s = sensors.at(flight, k);
-      if (!lost(x.t)) bench.set(bench.in.imu, s.imu);
-      if (s.gnss) bench.set(bench.in.gnss, *s.gnss);
-      if (s.mag) bench.set(bench.in.mag, *s.mag);
-      const Status status = bench.step(1 / f.plan.rate_hz);
-      const VehicleState& v = bench.out.state.value;
-      if (x.t < 65) before = v.attitude_std_rad.north;
-      if (lost(x.t) && x.t > 65.03) {
-        CHECK(status == Status::degraded);
-        CHECK_FALSE(bench.out.state.written);
-      }
-      if (after == 0 && x.t > 65 + gap + 0.012) after = v.attitude_std_rad.north;
-      if (x.t > 75) CHECK(attitude_error(v, x) < 1 * deg);
-    }
-    if (gap > 0.2) CHECK(after > 5 * before);
-  }
-}
-
 TEST_CASE("a GNSS position that jumps 20 m for five seconds moves the estimate by less than a metre") {
   Flown f{.plan = shorter(90), .quality = ublox};
   LocalFrame frame(f.plan.lat_deg, f.plan.lon_deg, f.plan.alt_m);

@@ -20,6 +20,7 @@ VehicleState at(double north, double east, double course, double speed = 17) {
   s.height_m = 50;
   s.course_rad = s.yaw_rad = course;
   s.ground_speed_mps = s.airspeed_mps = speed;
+  s.position_valid = s.velocity_valid = true;
   return s;
 }
 
@@ -159,4 +160,20 @@ TEST_CASE("course commands are wrapped and finite for every path and place, also
     CHECK(std::abs(c.roll_feedforward_rad) <= 0.785);
   }
   CHECK(allocations([&] { bench.step(0.01); }) == 0);
+}
+
+TEST_CASE("without a position it flies straight on at the height last asked for, and says so") {
+  Bench<VectorField> bench;
+  const GuidanceCommand before = command(bench, at(0, 55, 0.3), orbit(Turn::right, 50));
+  CHECK(before.roll_feedforward_rad > 0.1);
+  VehicleState lost = at(700, -300, 2);
+  lost.position_valid = false;
+  bench.set(bench.in.state, lost);
+  CHECK(bench.step(0.01) == Status::degraded);
+  CHECK(bench.out.command.course_rad == before.course_rad);
+  CHECK(bench.out.command.height_m == before.height_m);
+  CHECK(bench.out.command.airspeed_mps == before.airspeed_mps);
+  CHECK(bench.out.command.roll_feedforward_rad == 0);
+  CHECK(bench.out.command.climb_rate_mps == 0);
+  CHECK(command(bench, at(0, 55, 0.3), orbit(Turn::right, 50)).roll_feedforward_rad == before.roll_feedforward_rad);
 }

@@ -16,7 +16,7 @@ struct OuterTuning {
   double throttle_rate_max_hz = 2;  ///< full range per second
 };
 
-enum class OuterAction : std::uint8_t { wait, take_off, hold };
+enum class OuterAction : std::uint8_t { wait, take_off, hold, level };
 
 class OuterCommands {
  public:
@@ -38,7 +38,13 @@ class OuterCommands {
     }
     if (law != law_) start(law, state, last_);
     if (law == OuterLaw::takeoff) return OuterAction::take_off;
-    return standing(state) ? OuterAction::wait : OuterAction::hold;
+    if (standing(state)) return OuterAction::wait;
+    if (!state.attitude_valid || !state.height_valid) return OuterAction::level;
+    if (levelling_) {  // known again: go on from the attitude that it has, so that no surface steps
+      levelling_ = false;
+      start(law, state, {state.roll_rad, state.pitch_rad, last_.throttle_frac});
+    }
+    return OuterAction::hold;
   }
 
   AttitudeCommand take_off(const VehicleState& state, const OuterTuning& tuning, const FlightLimits& limits, double dt_s) {
@@ -53,8 +59,15 @@ class OuterCommands {
     return last_;
   }
 
-  /// Roll command of course hold, shaped.
+  /// The state is not known in flight: wings level, trim of level flight at cruise speed.
+  AttitudeCommand level(double pitch_rad, double throttle_frac, const OuterTuning& tuning, double dt_s) {
+    levelling_ = true;
+    return finish(course_.shape(0, tuning.course, dt_s), pitch_rad, throttle_frac, tuning, dt_s);
+  }
+
+  /// Roll command of course hold, shaped. Without a velocity there is no course: wings level.
   double roll(const VehicleState& state, const GuidanceCommand& command, const OuterTuning& tuning, double dt_s) {
+    if (!state.velocity_valid) return course_.shape(0, tuning.course, dt_s);
     return course_.step(state, command.course_rad, command.roll_feedforward_rad, tuning.course, dt_s);
   }
 
@@ -80,7 +93,7 @@ class OuterCommands {
   RateLimiter pitch_, throttle_;
   AttitudeCommand last_;
   OuterLaw law_ = OuterLaw::hold;
-  bool started_ = false, taking_up_ = false;
+  bool started_ = false, taking_up_ = false, levelling_ = false;
 };
 
 /// Pitch limits in force: the airframe's, the user's, and the ceiling near the stall.
@@ -94,6 +107,11 @@ struct PitchLimits {
 /// Airspeed for the laws' divisions: measured, but not below half the minimum; cruise when it is not known.
 inline double scheduling_airspeed(const VehicleState& state, const FlightLimits& limits) {
   return state.airspeed_valid ? std::max(state.airspeed_mps, 0.5 * limits.airspeed_min_mps) : limits.airspeed_cruise_mps;
+}
+
+/// What an outer law needs to do what it is asked for. Without one of them it still flies, degraded.
+inline bool enough_known(const VehicleState& state) {
+  return state.attitude_valid && state.velocity_valid && state.height_valid && state.airspeed_valid;
 }
 
 }  // namespace fulmar

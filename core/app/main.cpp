@@ -6,12 +6,14 @@
 #include <cstdio>
 #include <iostream>
 
+#include "core/app/extern_command.hpp"
 #include "core/app/new_command.hpp"
 #include "core/app/run_command.hpp"
 #include "core/error.hpp"
 #include "core/graph/graph.hpp"
 #include "core/loader/inspect.hpp"
 #include "core/loader/library.hpp"
+#include "core/run/realtime.hpp"
 
 namespace {
 
@@ -78,7 +80,9 @@ int run_app(int argc, char** argv) {
   CLI::App app{"Fulmar: a fixed-wing autopilot for research. A mission is a YAML file; its components are plugins."};
   app.set_version_flag("--version", "fulmar " FULMAR_VERSION);
   app.require_subcommand(1);
-  app.footer("Example: fulmar run configs/missions/hourglass.yaml --seed 3 --set slc.roll_limit=\"30 deg\"");
+  const std::vector<std::string> programs = extern_commands();
+  app.footer("Example: fulmar run configs/missions/hourglass.yaml --seed 3 --set slc.roll_limit=\"30 deg\"" +
+             (programs.empty() ? "" : "\n\nPrograms beside this one: " + join(programs) + " (fulmar " + programs[0] + " --help)"));
 
   MissionOptions mission;
   RunOptions run_options;
@@ -104,7 +108,16 @@ int run_app(int argc, char** argv) {
   run->add_option("--repeat", run_options.repeat, "so many flights in one host")->check(CLI::Range(1, 1000000));
   run->add_flag("--watch", run_options.watch, "after a flight wait until a plugin or file of the mission changes, fly again, and compare");
   run->add_option("--build", run_options.build, "with --watch: command to run when a source file beside the mission has changed");
+  run->add_flag("--realtime{" + std::to_string(usual_priority) + "}", run_options.realtime,
+                "real-time priority, 1 to 99 as in --realtime=70, and locked memory for the loop")
+      ->check(CLI::Range(1, 99));
   run->add_option("--drivers-from", run_options.drivers_from, "take the samples of drivers from this log, in place of their devices");
+  std::string resume_log;
+  CLI::Option* resume = run->add_option("--resume", resume_log, "go on where this log ended, or without a file the newest of the mission")
+                            ->expected(0, 1)
+                            ->type_name("[LOG]");
+  run->add_flag("--no-resume", run_options.no_resume, "with --io fcu: begin at the beginning, also when the newest log ended in the air")
+      ->excludes(resume);
   CLI::App* check_command = app.add_subcommand("check", "check a mission file: every fault in one go");
   mission.add(check_command);
   CLI::App* graph = app.add_subcommand("graph", "print components, wires, order and phases of a mission");
@@ -124,6 +137,8 @@ int run_app(int argc, char** argv) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) names.push_back(command->get_name());
   if (argc > 1 && argv[1][0] != '-' && std::find(names.begin(), names.end(), argv[1]) == names.end()) {
+    become_extern_command(argv + 1);
+    for (const std::string& word : extern_commands()) names.push_back(word);
     std::fprintf(stderr, "fulmar: there is no command '%s'.%s\n", argv[1], choices_text(argv[1], names).c_str());
     return 2;
   }
@@ -133,6 +148,7 @@ int run_app(int argc, char** argv) {
       run_options.mission = mission.mission;
       run_options.overrides = mission.overrides(run);
       run_options.speed = parse_speed(speed);
+      if (resume->count() > 0) run_options.resume = resume_log;
       if (duration > 0) run_options.duration_s = duration;
       return run_command(run_options);
     }

@@ -27,20 +27,20 @@
 #include "core/app/compare.hpp"
 #include "core/app/report.hpp"
 #include "core/app/watch.hpp"
+#include "core/app/words.hpp"
 #include "core/run/allocation.hpp"
 #include "core/run/flight.hpp"
 #include "core/run/flight_impl.hpp"
+#include "core/run/realtime.hpp"
 #include "core/run/swap.hpp"
 
 namespace fulmar::core {
 namespace {
 
-std::atomic<int> interrupted{0};
-char last_words[512];  // where the log lies, prepared beforehand
+std::atomic<int> interrupted{0};  // a signal that the flight has not refused
+char last_words[512];             // where the log lies, prepared beforehand
 
-void write_text(const char* text) {
-  if (write(STDERR_FILENO, text, std::strlen(text)) < 0) return;
-}
+void write_text(const char* text) { write_last_words(text); }
 
 /// What the vehicle's device is to hear when the host goes. Async-signal-safe.
 void send_last_frame() {
@@ -48,22 +48,24 @@ void send_last_frame() {
   if (frame && frame->fd >= 0 && write(frame->fd, frame->data, frame->size) < 0) write_text("\nfulmar: the last frame could not be sent");
 }
 
-constexpr unsigned patience_s = 10;  // between the first signal and the end of the flight
+unsigned patience_s = 10;  // between a signal and the end of the flight
 
-/// The first signal ends the flight between two ticks. Another one, half a second later or more (timeout(1) sends two at once), or ten
-/// seconds without an end, ends the program: a component may be hanging.
+/// The first signal ends the flight between two ticks; when the flight refuses it, the next one is the first again. One that follows an
+/// unanswered one, half a second later or more (timeout(1) sends two at once), or ten seconds without an end, ends the program: a component
+/// may be hanging.
 void on_signal(int signal) {
-  static timespec first{};
+  static timespec latest{};
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
-  if (signal != SIGALRM && interrupted.exchange(signal) == 0) {
-    first = now;
+  const bool patience_over = signal == SIGALRM;
+  if (patience_over && interrupted.load() == 0) return;
+  const double since_s = static_cast<double>(now.tv_sec - latest.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec - latest.tv_nsec);
+  if (!patience_over && since_s < 0.5 && latest.tv_sec > 0) return;
+  latest = now;
+  if (!patience_over && interrupted.exchange(signal) == 0) {
     alarm(patience_s);
     return;
   }
-  const bool patience_over = signal == SIGALRM;
-  const double since_s = static_cast<double>(now.tv_sec - first.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec - first.tv_nsec);
-  if (!patience_over && since_s < 0.5) return;
   send_last_frame();
   const char* component = in_step.load(std::memory_order_relaxed);
   write_text(patience_over ? "\nfulmar: ended, since the flight did not" : "\nfulmar: ended by the second signal");
@@ -124,25 +126,29 @@ void install_handlers(bool hardware) {
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) sigaction(signal, &action, nullptr);
 }
 
-/// logs/<mission>-<UTC>.mcap, with a number when that is taken.
+/// With a number when that is taken.
+std::filesystem::path free_name(const std::filesystem::path& wanted) {
+  std::filesystem::path file = wanted;
+  for (int n = 2; std::filesystem::exists(file) || std::filesystem::exists(file.string() + ".part"); ++n)
+    file = wanted.parent_path() / (wanted.stem().string() + "-" + std::to_string(n) + wanted.extension().string());
+  return file;
+}
+
+/// logs/<mission>-<UTC>.mcap. A host that is started again in the air must not stand still before the log of its predecessor.
 std::filesystem::path default_log(const Graph& graph) {
-  if (!graph.record_file.empty()) return graph.record_file;
+  if (!graph.record_file.empty()) return graph.io == "fcu" ? free_name(graph.record_file) : std::filesystem::path(graph.record_file);
   const std::time_t now = std::time(nullptr);
   std::tm utc{};
   gmtime_r(&now, &utc);
   char stamp[32];
   std::strftime(stamp, sizeof stamp, "%Y%m%dT%H%M%SZ", &utc);
-  const std::string stem = "logs/" + graph.mission + "-" + stamp;
-  std::filesystem::path file = stem + ".mcap";
-  for (int n = 2; std::filesystem::exists(file) || std::filesystem::exists(file.string() + ".part"); ++n)
-    file = stem + "-" + std::to_string(n) + ".mcap";
-  return file;
+  return free_name("logs/" + graph.mission + "-" + stamp + ".mcap");
 }
 
 /// One line that is rewritten on a terminal; whole lines, now and then, when piped.
 class Progress {
  public:
-  explicit Progress(const Graph& graph) : graph_(graph), terminal_(isatty(STDERR_FILENO) != 0) {}
+  explicit Progress(const Graph& graph) : graph_(graph), terminal_(words_on_terminal()) {}
   void show(const Flight& flight, bool last = false) {
     if (!terminal_ && !last && ++calls_ % 10 != 1) return;
     const std::string line = progress_line(graph_, flight);
@@ -200,11 +206,13 @@ class Session {
 
  private:
   std::filesystem::path log_file() const;
+  std::optional<Resume> resume() const;
   void forget_before();
   bool reload(const std::vector<std::filesystem::path>& changed);
   void rehearse_changes(const Graph& next) const;
   std::vector<std::filesystem::path> files() const;
   void prepare_last_words(const std::string& log) const;
+  void take_priority() const;
 
   const RunOptions& options_;
   Graph graph_;
@@ -218,13 +226,46 @@ std::filesystem::path Session::log_file() const {
   if (options_.no_log || !graph_.record) return {};
   if (options_.log_file.empty()) return default_log(graph_);
   const std::filesystem::path file = options_.log_file;
-  if (results_.empty()) return file;
+  if (results_.empty()) return graph_.io == "fcu" ? free_name(file) : file;
   return file.parent_path() / (file.stem().string() + "-" + std::to_string(results_.size() + 1) + file.extension().string());
+}
+
+/// Where to go on: as asked; on hardware also after a host that ended in the air a short time ago, when the vehicle confirms it.
+std::optional<Resume> Session::resume() const {
+  constexpr double short_time_s = 600;
+  const bool asked = options_.resume.has_value();
+  if (!results_.empty() || options_.no_resume || (!asked && graph_.io != "fcu")) return std::nullopt;
+  const std::filesystem::path log =
+      asked && !options_.resume->empty() ? std::filesystem::path(*options_.resume) : newest_log(graph_, asked ? 0 : short_time_s);
+  if (log.empty() && !asked) return std::nullopt;
+  if (log.empty()) throw Error("--resume: there is no log of the mission " + graph_.mission + "; name one, as in --resume FILE.mcap");
+  try {
+    Resume resume = read_resume(graph_, log);
+    if (asked && !resume.missing.empty()) throw Error(log.string() + ": " + resume.missing[0]);
+    if (!asked && !resume.armed) return std::nullopt;
+    resume.if_armed = !asked;
+    for (const std::string& missing : resume.missing) spdlog::warn("{}: {}", log.string(), missing);
+    if (!options_.json)
+      spdlog::info("{}{}: {}", resume.if_armed ? "if the aircraft is armed, resumes from " : "resumes from ", log.string(), resume.text());
+    return resume;
+  } catch (const Error& fault) {
+    if (asked) throw;
+    spdlog::warn("not resumed: {}", fault.what());
+    return std::nullopt;
+  }
 }
 
 void Session::prepare_last_words(const std::string& log) const {
   std::snprintf(last_words, sizeof last_words, "%s%s%s\n", log.empty() ? "." : ". What was logged until then is in ", log.c_str(),
                 log.empty() ? "" : ".part");
+}
+
+void Session::take_priority() const {
+  if (options_.realtime > 0 && graph_.io == "sim" && options_.speed == 0)
+    throw CLI::ValidationError(
+        "--realtime would give a CPU to this flight alone: it belongs to --io fcu, or to a simulation with --speed real");
+  if (options_.realtime > 0) return take_real_time(options_.realtime);
+  if (graph_.io == "fcu") spdlog::warn("the loop runs without real-time priority; --realtime gives it one");
 }
 
 int Session::fly() {
@@ -237,6 +278,7 @@ int Session::fly() {
   o.speed = options_.speed;
   o.duration_s = options_.duration_s;
   o.drivers_from = options_.drivers_from;
+  o.resume = resume();
   o.keep_inputs = options_.watch || graph_.io == "fcu";
   o.log_file = log_file();
   o.log = !o.log_file.empty();
@@ -245,13 +287,18 @@ int Session::fly() {
   o.progress = [&](const Flight& flight) { progress.show(flight); };
   o.say = [&](const std::string& text, bool warning) { progress.say(text, warning); };
   prepare_last_words(o.log_file.string());
+  patience_s = 10 + static_cast<unsigned>(graph_.failsafe_ns / 1'000'000'000);  // a flight that gives up control sends its failsafe first
+  if (graph_.io == "fcu" || options_.speed > 0) print_without_waiting();
+  if (options_.json) dup2(STDERR_FILENO, STDOUT_FILENO);  // what components print
   install_handlers(graph_.io != "sim");
   if (!options_.json) spdlog::info("{}: {}, seed {}", graph_.mission, graph_.io == "sim" ? "simulation" : "flight controller", graph_.seed);
+  take_priority();
   last_ = std::make_unique<Flight>(graph_, o);
   forget_before();
   const FlightResult result = last_->run();
   alarm(0);
   progress.clear();
+  pass_on_words();
   results_.push_back(result_json(graph_, *last_, result));
   if (!options_.json) {
     std::printf("%s", result_table(graph_, *last_, result).c_str());

@@ -114,6 +114,12 @@ struct Shown {
   TypePtr type;  // of the message; empty for a probe, whose sample is one double
 };
 
+/// A parameter that takes up, after a restart in the air, what a field was when the log ended.
+struct ResumeRule {
+  std::string param;  // "manage.first_item"
+  Shown field;
+};
+
 struct RecordRule {
   std::vector<std::string> ports;  // patterns "nav.*", "*"; empty: the default
   std::int64_t period_ns = 0;      // 0: every sample
@@ -147,6 +153,9 @@ struct Graph {
   std::int64_t timeout_ns = 0;                          // of flight time; 0: none
   std::vector<std::pair<std::string, Source>> summary;  // key of the result -> port
   std::vector<Shown> progress;
+  std::vector<int> control;  // roles that begin anew as long as the vehicle says that it does not obey
+  std::vector<Source> tell;  // ports whose texts are for people
+  std::vector<ResumeRule> resume;
   std::vector<std::vector<std::byte>> failsafe;  // one per vehicle input: the struct to send; empty: not sent
   std::int64_t failsafe_ns = 0;
   std::string record_file;  // "" : logs/<mission>-<UTC>.mcap

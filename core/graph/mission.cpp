@@ -13,9 +13,10 @@ namespace fulmar::core {
 namespace fs = std::filesystem;
 namespace {
 
-const std::vector<std::string> mission_keys = {"mission",    "extends", "io",      "airframe", "origin",   "rate",    "seed",     "arm",
-                                               "done",       "failed",  "timeout", "epoch",    "progress", "summary", "failsafe", "roles",
-                                               "components", "phases",  "record",  "plugins",  "live",     "dds"};
+const std::vector<std::string> mission_keys = {"mission",  "extends", "io",         "airframe", "origin", "rate",     "seed",
+                                               "arm",      "done",    "failed",     "timeout",  "epoch",  "progress", "summary",
+                                               "failsafe", "roles",   "components", "phases",   "record", "plugins",  "control",
+                                               "tell",     "resume",  "live",       "dds"};
 const std::vector<std::string> component_keys = {"fills", "use",     "in",     "params",  "rate",   "only",
                                                  "run",   "latency", "budget", "max_age", "memory", "hang"};
 const std::vector<std::pair<std::string, std::string>> absent_sections = {{"live", "live view"}, {"dds", "DDS"}};
@@ -107,20 +108,29 @@ class Reader {
   void shown(const Keys& keys) {
     ending(keys, "done", m_.done, m_.done_for_ns);
     ending(keys, "failed", m_.failed, m_.failed_for_ns);
-    if (const Node* node = keys.get("progress")) {
-      if (!node->is(Node::Kind::sequence))
-        report_.add(node->where(), "progress: expected a list of fields such as [nav.state.height_m], found " + found_words(*node));
-      for (const Node& item : node->items)
-        if (const auto text = scalar_text(item, "progress", "a field such as nav.state.height_m", report_))
-          m_.progress.push_back({*text, item.where()});
-    }
-    const Node* node = keys.get("summary");
+    list(keys, "progress", "a list of fields such as [nav.state.height_m]", "a field such as nav.state.height_m", m_.progress);
+    list(keys, "control", "a list of roles such as [guide, outer, inner]", "the name of a role", m_.control);
+    list(keys, "tell", "a list of ports such as [vehicle.notices]", "a port such as vehicle.notices", m_.tell);
+    map(keys, "summary", "a map {name: component.port}", "a port such as score.tracking", m_.summary);
+    map(keys, "resume", "a map {component.parameter: component.port.field}", "a field such as manage.progress.item", m_.resume);
+  }
+
+  void list(const Keys& keys, const std::string& key, const std::string& wanted, const std::string& item_wanted, std::vector<Word>& out) {
+    const Node* node = keys.get(key);
     if (!node) return;
-    if (!node->is(Node::Kind::map))
-      report_.add(node->where(), "summary: expected a map {name: component.port}, found " + found_words(*node));
+    if (!node->is(Node::Kind::sequence)) report_.add(node->where(), key + ": expected " + wanted + ", found " + found_words(*node));
+    for (const Node& item : node->items)
+      if (const auto text = scalar_text(item, key, item_wanted, report_)) out.push_back({*text, item.where()});
+  }
+
+  void map(const Keys& keys, const std::string& key, const std::string& wanted, const std::string& item_wanted,
+           std::vector<std::pair<std::string, Word>>& out) {
+    const Node* node = keys.get(key);
+    if (!node) return;
+    if (!node->is(Node::Kind::map)) report_.add(node->where(), key + ": expected " + wanted + ", found " + found_words(*node));
     for (const Node::Entry& entry : node->entries)
-      if (const auto text = scalar_text(entry.value, "summary." + entry.key, "a port such as score.tracking", report_))
-        m_.summary.push_back({entry.key, {*text, entry.where()}});
+      if (const auto text = scalar_text(entry.value, key + "." + entry.key, item_wanted, report_))
+        out.push_back({entry.key, {*text, entry.where()}});
   }
 
   void failsafe(const Keys& keys) {

@@ -91,7 +91,9 @@ struct MissionText {
   std::int64_t done_for_ns = 0, failed_for_ns = 0;
   std::vector<Word> progress;
   std::vector<std::pair<std::string, Word>> summary;
-  Node plugins;  // what may be loaded
+  std::vector<Word> control, tell;
+  std::vector<std::pair<std::string, Word>> resume;  // parameter -> field
+  Node plugins;                                      // what may be loaded
   Node failsafe;
   std::int64_t failsafe_ns = 0;
   std::vector<RoleText> roles;

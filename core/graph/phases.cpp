@@ -142,6 +142,11 @@ namespace {
 /// Thrown when a port belongs to a component that was refused: nothing more to say.
 struct Unclear {};
 
+/// Thrown when nobody who fills a role in this run has one of its optional outputs.
+struct NobodyProvides : Error {
+  using Error::Error;
+};
+
 /// `built`: sources count the components of the graph, else candidates, which are then marked as used.
 FindPort finder(Draft& draft, bool built) {
   return [&draft, built](const std::string& owner, const std::string& port) {
@@ -149,7 +154,7 @@ FindPort finder(Draft& draft, bool built) {
     if (target.unclear) {
       const int role = draft.role(owner);
       if (role < 0 || draft.roles[static_cast<std::size_t>(role)].unclear) throw Unclear{};
-      throw Error(owner + "." + port + " is provided by nobody in this run");
+      throw NobodyProvides(owner + "." + port + " is provided by nobody in this run");
     }
     if (target.source.kind == Source::Kind::component) {
       Candidate& candidate = draft.candidates[static_cast<std::size_t>(target.source.index)];
@@ -161,7 +166,7 @@ FindPort finder(Draft& draft, bool built) {
       const Role& role = draft.graph.roles[static_cast<std::size_t>(target.source.index)];
       const auto o = static_cast<std::size_t>(target.source.output);
       const bool provided = std::any_of(role.provides.begin(), role.provides.end(), [&](const auto& outputs) { return outputs[o] >= 0; });
-      if (!provided) throw Error(owner + "." + port + " is provided by nobody in this run");
+      if (!provided) throw NobodyProvides(owner + "." + port + " is provided by nobody in this run");
     }
     return std::pair{target.source, target.type};
   };
@@ -182,6 +187,13 @@ const std::vector<std::string> result_keys = {"allocations", "flight_time_s", "g
                                               "log_sha256",  "mission",       "not_reproducible", "phases",     "reason", "result",
                                               "seed",        "speedup",       "step_time_us",     "wall_time_s"};
 
+std::pair<Source, TypePtr> find_port(const Word& word, const std::string& example, const FindPort& find) {
+  const auto dot = word.text.find('.');
+  if (dot == std::string::npos || word.text.find('.', dot + 1) != std::string::npos)
+    throw Error("expected a port such as " + example + ", found '" + word.text + "'");
+  return find(word.text.substr(0, dot), word.text.substr(dot + 1));
+}
+
 void read_summary(Draft& draft, const FindPort& find) {
   draft.graph.summary.clear();
   for (const auto& entry : draft.text.summary) {
@@ -190,26 +202,66 @@ void read_summary(Draft& draft, const FindPort& find) {
     guarded(draft, word.where, "summary." + key, [&] {
       if (std::find(result_keys.begin(), result_keys.end(), key) != result_keys.end())
         throw Error("'" + key + "' is a key of every result; choose another name");
-      const auto dot = word.text.find('.');
-      if (dot == std::string::npos || word.text.find('.', dot + 1) != std::string::npos)
-        throw Error("expected a port such as score.tracking, found '" + word.text + "'");
-      const auto [source, type] = find(word.text.substr(0, dot), word.text.substr(dot + 1));
+      const auto [source, type] = find_port(word, "score.tracking", find);
       if (!type) throw Error("'" + word.text + "' is a probe; a summary shows messages");
       draft.graph.summary.emplace_back(key, source);
     });
   }
 }
 
+/// Ports of texts for people. That a vehicle has nothing to tell is no fault.
+void read_told(Draft& draft, const FindPort& find) {
+  draft.graph.tell.clear();
+  for (const Word& word : draft.text.tell)
+    guarded(draft, word.where, "tell", [&] {
+      try {
+        const auto [source, type] = find_port(word, "vehicle.notices", find);
+        const Field* const text = type ? type->find("text") : nullptr;
+        if (!text || text->kind != FULMAR_TEXT)
+          throw Error("'" + word.text + "' is " + (type ? type->name : "a probe") + ", which has no text 'text' to tell");
+        draft.graph.tell.push_back(source);
+      } catch (const NobodyProvides&) {
+      }
+    });
+}
+
+Shown shown(const Word& word, const FindPort& find) {
+  const ShownField field = find_shown(word.text, find);
+  const fulmar_kind kind = field.field.field->kind;
+  if (kind == FULMAR_STRUCT || kind == FULMAR_TEXT)
+    throw Error("'" + word.text + "' is " + (kind == FULMAR_TEXT ? "text" : "a " + field.field.field->type->name) + ", not a number");
+  return {word.text, field.from, field.field, field.type};
+}
+
 void read_shown(Draft& draft, const FindPort& find) {
   draft.graph.progress.clear();
   for (const Word& word : draft.text.progress)
-    guarded(draft, word.where, "progress", [&] {
-      const ShownField field = find_shown(word.text, find);
-      const fulmar_kind kind = field.field.field->kind;
-      if (kind == FULMAR_STRUCT || kind == FULMAR_TEXT)
-        throw Error("'" + word.text + "' is " + (kind == FULMAR_TEXT ? "text" : "a " + field.field.field->type->name) + ", not a number");
-      draft.graph.progress.push_back({word.text, field.from, field.field, field.type});
+    guarded(draft, word.where, "progress", [&] { draft.graph.progress.push_back(shown(word, find)); });
+}
+
+void read_resume(Draft& draft, const FindPort& find) {
+  draft.graph.resume.clear();
+  for (const auto& entry : draft.text.resume) {
+    const std::string& param = entry.first;
+    const Word& word = entry.second;
+    guarded(draft, word.where, "resume." + param, [&] {
+      const auto dot = param.find('.');
+      if (dot == std::string::npos) throw Error("expected a parameter such as manage.first_item, found '" + param + "'");
+      const std::string name = param.substr(0, dot), of = param.substr(dot + 1);
+      const int i = draft.candidate(name);
+      if (i < 0) throw Error(not_there(draft, name));
+      const Candidate& candidate = draft.candidates[static_cast<std::size_t>(i)];
+      if (!candidate.loaded) throw Unclear{};
+      const int p = candidate.info().param(of);
+      std::vector<std::string> names;
+      for (const ParamInfo& each : candidate.info().params) names.push_back(each.name);
+      if (p < 0) throw Error(name + " has no parameter '" + of + "'." + choices_text(of, names));
+      const ParamInfo& info = candidate.info().params[static_cast<std::size_t>(p)];
+      if (info.kind != FULMAR_COUNT && info.kind != FULMAR_NUMBER) throw Error(param + " is no number");
+      if (!info.live) throw Error(param + " is fixed when the flight begins; whether it resumes is known when the vehicle has spoken");
+      draft.graph.resume.push_back({param, shown(word, find)});
     });
+  }
 }
 
 std::shared_ptr<const Condition> compiled(Draft& draft, const std::string& text, const Where& where, const std::string& path,
@@ -248,6 +300,8 @@ void compile_all(Draft& draft, bool built) {
   if (draft.text.failed) graph.failed = compiled(draft, draft.text.failed->text, draft.text.failed->where, "failed", find);
   read_shown(draft, find);
   read_summary(draft, find);
+  read_told(draft, find);
+  read_resume(draft, find);
   graph.phases.clear();
   for (const PhaseText* text : phases_of(draft.text)) {
     Phase phase;

@@ -343,6 +343,18 @@ void read_record_rules(Draft& draft) {
   }
 }
 
+void read_control(Draft& draft) {
+  for (const Word& word : draft.text.control) {
+    const int role = draft.role(word.text);
+    if (role < 0)
+      draft.report.add(word.where, "control: there is no role '" + word.text + "'." + choices_text(word.text, draft.role_names()));
+    else if (role == draft.vehicle_role())
+      draft.report.add(word.where, "control: the vehicle obeys or not; name the roles whose outputs lead to it");
+    else
+      draft.graph.control.push_back(role);
+  }
+}
+
 void read_head(Draft& draft) {
   const MissionText& text = draft.text;
   Graph& graph = draft.graph;
@@ -373,6 +385,7 @@ void resolve(Draft& draft, Catalogue& catalogue) {
   compile_phases(draft);
   order_steps(draft);
   read_failsafe(draft);
+  read_control(draft);
   read_record_rules(draft);
 }
 

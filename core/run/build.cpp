@@ -38,13 +38,24 @@ TypePtr event_type() {
     };
     Field kind;
     kind.name = "kind", kind.kind = FULMAR_ENUM, kind.stride = 1;
-    kind.labels = {"phase", "guard", "request", "parameter", "failsafe", "swap"};
+    kind.labels = {"phase", "guard", "request", "parameter", "failsafe", "swap", "notice", "end", "resume"};
     t.fields.push_back(kind);
     text("component", offsetof(Event, component), sizeof(Event::component));
     text("text", offsetof(Event, text), sizeof(Event::text));
     return std::make_shared<const Type>(t);
   }();
   return type;
+}
+
+std::string topic_name(const Graph& graph, const Component& c, std::size_t output) {
+  if (c.role >= 0) {
+    const Role& role = graph.roles[static_cast<std::size_t>(c.role)];
+    for (std::size_t f = 0; f < role.fillers.size(); ++f)
+      for (std::size_t k = 0; k < role.outputs.size(); ++k)
+        if (&graph.components[static_cast<std::size_t>(role.fillers[f])] == &c && role.provides[f][k] == static_cast<int>(output))
+          return role.name + "." + role.outputs[k].name;
+  }
+  return c.name + "." + c.info().outputs[output].name;
 }
 
 Flight::Impl::Impl(const Graph& g, const FlightOptions& o) : graph(g), options(o) {
@@ -78,22 +89,10 @@ UnitOptions Flight::Impl::unit_options(const Component& c) const {
   return o;
 }
 
-/// Under which name an output is logged: its role's, when it is one of the role's.
-std::string Flight::Impl::topic(const Component& c, std::size_t output) const {
-  if (c.role >= 0) {
-    const Role& role = graph.roles[static_cast<std::size_t>(c.role)];
-    for (std::size_t f = 0; f < role.fillers.size(); ++f)
-      for (std::size_t k = 0; k < role.outputs.size(); ++k)
-        if (&graph.components[static_cast<std::size_t>(role.fillers[f])] == &c && role.provides[f][k] == static_cast<int>(output))
-          return role.name + "." + role.outputs[k].name;
-  }
-  return c.name + "." + c.info().outputs[output].name;
-}
-
 std::unique_ptr<SampleSource> Flight::Impl::recorded_samples(const Component& c) const {
   std::vector<std::string> topics;
   for (std::size_t i = 0; i < c.info().outputs.size(); ++i) {
-    std::string name = c.info().outputs[i].type ? "/" + topic(c, i) : "";
+    std::string name = c.info().outputs[i].type ? "/" + topic_name(graph, c, i) : "";
     std::replace(name.begin(), name.end(), '.', '/');
     topics.push_back(name);
   }
@@ -120,6 +119,8 @@ void Flight::Impl::connect() {
   delayed.clear();
   roles.resize(graph.roles.size());
   drives_vehicle.assign(graph.roles.size(), false);
+  control_roles.assign(graph.roles.size(), false);
+  for (const int role : graph.control) control_roles[static_cast<std::size_t>(role)] = true;
   for (const auto& unit : units)
     for (Slot& slot : unit->slots) slot.queues.clear(), slot.role = nullptr, slot.filler = -1;
   for (std::size_t r = 0; r < roles.size(); ++r) {
@@ -145,9 +146,43 @@ void Flight::Impl::connect() {
   }
   for (const auto& unit : units)
     for (Reader& reader : unit->readers) wire_reader(*unit, reader);
+  find_told();
   if (graph.vehicle < 0) return;
+  find_flags();
   for (const Wire& w : graph.components[static_cast<std::size_t>(graph.vehicle)].wires)
     if (w.from.kind == Source::Kind::role) drives_vehicle[static_cast<std::size_t>(w.from.index)] = true;
+}
+
+/// Flags that any vehicle may have, by name: the host knows no messages.
+void Flight::Impl::find_flags() {
+  const Unit& vehicle = *units[static_cast<std::size_t>(graph.vehicle)];
+  for (const auto& [name, flag] : {std::pair{"armed", &armed_flag}, {"on_ground", &ground_flag}, {"in_control", &control_flag}}) {
+    *flag = {};
+    for (const Slot& slot : vehicle.slots) {
+      const Field* const field = slot.port->type ? slot.port->type->find(name) : nullptr;
+      if (!flag->slot && field && field->kind == FULMAR_BOOL) *flag = {&slot, field->offset};
+    }
+  }
+}
+
+void Flight::Impl::find_told() {
+  tells.clear();
+  const auto add = [&](int component, int output) {
+    if (output < 0) return;
+    const Slot& slot = units[static_cast<std::size_t>(component)]->slots[static_cast<std::size_t>(output)];
+    Told told{&slot, slot.port->type->find("text"), slot.port->type->find("severity"), {}};
+    if (!told.text || told.text->kind != FULMAR_TEXT) return;
+    if (!told.severity) told.severity = slot.port->type->find("level");
+    if (told.severity && (told.severity->kind != FULMAR_ENUM || told.severity->shape != FULMAR_SCALAR)) told.severity = nullptr;
+    if (slot.port->kind == FULMAR_OUT_VALUE) told.last.assign(told.text->stride, '\0');
+    tells.push_back(std::move(told));
+  };
+  for (const Source& source : graph.tell) {
+    if (source.kind == Source::Kind::component) add(source.index, source.output);
+    if (source.kind != Source::Kind::role) continue;
+    const Role& role = graph.roles[static_cast<std::size_t>(source.index)];
+    for (std::size_t f = 0; f < role.fillers.size(); ++f) add(role.fillers[f], role.provides[f][static_cast<std::size_t>(source.output)]);
+  }
 }
 
 void Flight::Impl::wire_reader(Unit& unit, Reader& reader) {
@@ -207,7 +242,7 @@ void Flight::Impl::add_channels(std::vector<LogChannel>& channels) {
     for (std::size_t i = 0; i < unit->slots.size(); ++i) {
       Slot& slot = unit->slots[i];
       if (!slot.port->type) continue;
-      std::string name = topic(c, i);
+      std::string name = topic_name(graph, c, i);
       slot.log_period_ns = record_period(name, slot);
       std::replace(name.begin(), name.end(), '.', '/');
       if (slot.log_period_ns >= 0) slot.channel = channel("/" + name, slot.port->type);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/graph/graph.hpp"
+#include "core/run/resume.hpp"
 #include "core/run/stats.hpp"
 #include "core/tap/log.hpp"
 
@@ -22,9 +23,10 @@ struct FlightOptions {
   std::optional<double> duration_s;  // of flight time from 0; then the flight counts as flown
   bool log = true;
   std::filesystem::path log_file;                             // must not exist
+  std::optional<Resume> resume;                               // where to go on, in place of the first phase
   bool keep_inputs = false;                                   // of every component's last steps, to rehearse a swap on
   std::filesystem::path drivers_from;                         // log whose samples are fed in place of the drivers
-  const std::atomic<int>* interrupt = nullptr;                // the flight ends when this is not 0
+  std::atomic<int>* interrupt = nullptr;                      // not 0: the flight is asked to end; set back to 0 when it refuses
   std::function<void(const class Flight&)> progress;          // called about every 200 ms of wall time, between ticks
   std::function<void(const std::string&, bool warning)> say;  // one line for the user, as it happens: phases, guards
 };

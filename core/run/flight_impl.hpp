@@ -11,7 +11,7 @@
 
 namespace fulmar::core {
 
-enum class EventKind : std::uint8_t { phase, guard, request, parameter, failsafe, swap };
+enum class EventKind : std::uint8_t { phase, guard, request, parameter, failsafe, swap, notice, end, resume };
 
 /// What happened, for the log: topic /fulmar/event.
 struct Event {
@@ -21,11 +21,28 @@ struct Event {
 };
 TypePtr event_type();
 
+/// Under which name an output is logged: its role's, when it is one of the role's.
+std::string topic_name(const Graph& graph, const Component& component, std::size_t output);
+
 /// What flew, for the log: file, version, SHA-256, build id.
 std::string plugin_words(const PluginInfo& plugin);
 
 /// Seed of a component: a mix of the mission's seed and the component's name, so that adding a component changes no other's noise.
 std::uint64_t component_seed(std::uint64_t mission_seed, const std::string& name);
+
+/// A flag in what the vehicle says of itself.
+struct VehicleFlag {
+  const Slot* slot = nullptr;
+  std::uint32_t offset = 0;
+  bool says(bool unknown) const noexcept { return slot && slot->sequence > 0 ? slot->published[offset] != std::byte{0} : unknown; }
+};
+
+/// A port whose texts are for people.
+struct Told {
+  const Slot* slot = nullptr;
+  const Field *text = nullptr, *severity = nullptr;
+  std::vector<char> last;  // of a port that is written in every step: told when it changes
+};
 
 struct RoleState {
   int active = -1;  // component that fills it now
@@ -39,12 +56,13 @@ struct Flight::Impl final : SampleReader {
   UnitOptions unit_options(const Component& component) const;
   void connect();  // as the graph says; whatever was connected before is not any more
   void wire_reader(Unit& unit, Reader& reader);
+  void find_flags();
+  void find_told();
   void request_arming();
   void open_log();
   void add_channels(std::vector<LogChannel>& channels);
   void attach_texts();
   std::unique_ptr<SampleSource> recorded_samples(const Component& component) const;
-  std::string topic(const Component& component, std::size_t output) const;
   std::int64_t record_period(const std::string& port, const Slot& slot) const;  // -1: not recorded
   std::string parameters_text() const;
 
@@ -58,16 +76,28 @@ struct Flight::Impl final : SampleReader {
   void log_slot(Slot& slot);
   void log_probes(Unit& unit);
   void clock(Unit& unit);
+  bool controls(const Unit& unit) const noexcept;
+  void watch_control() noexcept;
+  void pace();
+
+  // ending.cpp
   bool over();
   bool held_for(const Condition& condition, std::int64_t for_ns, std::int64_t& since_ns) const noexcept;
+  bool armed_hardware() const noexcept;
+  void conclude(Outcome outcome, const std::string& reason, const char* what);
+  void after_failsafe();
+  void heed_signal();
   void finish(Outcome outcome, std::string reason);
-  void pace();
 
   // swap.cpp
   void replace(std::size_t index, const std::string& file);
   void install(std::size_t index, Graph&& next);
   void restart(std::size_t index);
   std::string in_use() const;  // why nothing can be swapped now, or ""
+
+  // resume.cpp
+  void resume_now();
+  void resume_if_armed();
 
   // phases.cpp
   void begin();
@@ -79,7 +109,8 @@ struct Flight::Impl final : SampleReader {
   void stop(int index);
   void failsafe(const char* why);
   const std::vector<Overlay>* overlay_of(int component) const;
-  void event(EventKind kind, const std::string& component, const std::string& text);
+  void event(EventKind kind, const std::string& component, const std::string& text, bool warning = false);
+  void tell(Told& told);
 
   const std::byte* sample(const Source& source) const noexcept override;
   const Slot* slot_of(const Source& source) const;
@@ -107,7 +138,18 @@ struct Flight::Impl final : SampleReader {
   std::int64_t failsafe_since_ns = 0;
   bool in_failsafe = false, ended = false;
   std::string failsafe_reason;
-  std::vector<bool> drives_vehicle;  // per role
+  std::vector<bool> drives_vehicle, control_roles;  // per role
+  VehicleFlag armed_flag, ground_flag, control_flag;
+  bool was_armed = false;
+  bool out_of_control = false;  // the vehicle says that it does not obey
+  std::vector<Told> tells;
+  std::int64_t heard_ns = never;  // the vehicle's first word, while it is open whether to resume
+
+  // on hardware, while the aircraft is armed
+  std::string conclusion;  // how the flight will have ended; "": open
+  Outcome conclusion_outcome = Outcome::failed;
+  bool silence_told = false, giving_up = false;
+  std::int64_t refused_ns = never;  // a signal
 
   FlightResult result;
   std::int64_t wall_ns = 0, wall_start_ns = 0, progress_ns = 0;

@@ -2,8 +2,8 @@
 // The tick: vehicle read, steps in order, phase conditions, vehicle write. What is published goes to the tap at once.
 #include <time.h>
 
-#include <cstdio>
 #include <cstring>
+#include <utility>
 
 #include "core/run/allocation.hpp"
 #include "core/run/flight_impl.hpp"
@@ -17,14 +17,7 @@ std::int64_t wall_clock_ns() noexcept {
   return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
 }
 
-std::string short_number(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", x);
-  return text;
-}
-
-constexpr int overruns_allowed = 5;                 // steps over budget in a row
-constexpr std::int64_t silence_ns = 1'000'000'000;  // simulated after a failsafe before the flight is called lost
+constexpr int overruns_allowed = 5;  // steps over budget in a row
 
 }  // namespace
 
@@ -74,6 +67,8 @@ void Flight::Impl::publish(Unit& unit) {
         reader->push(slot.published.data(), slot.valid_at_ns, plans[static_cast<std::size_t>(slot.filler)]);
     }
     if (log) log_slot(slot);
+    for (Told& told : tells)
+      if (told.slot == &slot) tell(told);
   });
   if (log && !unit.probes.empty()) log_probes(unit);
 }
@@ -82,14 +77,34 @@ void Flight::Impl::step_unit(int i) {
   Unit& unit = *units[static_cast<std::size_t>(i)];
   if (unit.remote() && !collect(unit, i)) return;
   if (!unit.active || unit.stopped || !unit.due(now_ns)) return;
-  if (unit.fresh_start) {
+  const bool idle = out_of_control && controls(unit);
+  if (unit.fresh_start || (idle && !unit.remote())) {
     if (!unit.ready()) return;
-    if (!unit.activate(now_ns, index, {})) return stop(i);
+    if (!unit.activate(now_ns, index, {})) {
+      if (!idle || unit.dead()) return stop(i);
+      unit.fresh_start = true;  // it flies nothing now; what is in its way may have passed when it does
+      return;
+    }
   }
   const Verdict verdict = unit.step(now_ns, index);
   if (verdict.kind == Verdict::Kind::stepped) publish(unit);
   if (verdict.kind == Verdict::Kind::stepped || verdict.kind == Verdict::Kind::bad) clock(unit);
   if (verdict.kind == Verdict::Kind::bad) stop(i);
+}
+
+bool Flight::Impl::controls(const Unit& unit) const noexcept {
+  const int role = unit.component->role;
+  return role >= 0 && control_roles[static_cast<std::size_t>(role)];
+}
+
+/// Nothing may wind up while nobody obeys. What works in another thread is not called anew in every step, but once when control returns.
+/// A simulated aircraft is armed at a known time: until then its controllers may do as they like.
+void Flight::Impl::watch_control() noexcept {
+  was_armed = was_armed || graph.io == "fcu" || armed_flag.says(true) || control_flag.says(false);
+  const bool was = std::exchange(out_of_control, was_armed && !control_flag.says(true));
+  if (!was || out_of_control) return;
+  for (const auto& unit : units)
+    if (unit->active && unit->remote() && controls(*unit)) unit->fresh_start = true;
 }
 
 /// Results and samples that come from other threads. True when the unit can also be stepped.
@@ -114,6 +129,8 @@ bool Flight::Impl::tick() {
   }
   if (index == 0) begin();
   publish(vehicle);
+  watch_control();
+  if (options.resume) resume_if_armed();
   clock(vehicle);
 
   for (const int i : graph.order) step_unit(i);
@@ -132,37 +149,6 @@ bool Flight::Impl::tick() {
   return !over();
 }
 
-bool Flight::Impl::held_for(const Condition& condition, std::int64_t for_ns, std::int64_t& since_ns) const noexcept {
-  if (!condition.holds(*this)) {
-    since_ns = never;
-    return false;
-  }
-  if (since_ns == never) since_ns = now_ns;
-  return now_ns - since_ns >= for_ns;
-}
-
-bool Flight::Impl::over() {
-  if (graph.done && !in_failsafe && held_for(*graph.done, graph.done_for_ns, done_since_ns))
-    finish(Outcome::flown, graph.done->text());
-  else if (graph.failed && held_for(*graph.failed, graph.failed_for_ns, failed_since_ns))
-    finish(Outcome::failed, graph.failed->text());
-  else if (in_failsafe && now_ns - failsafe_since_ns >= graph.failsafe_ns + silence_ns)
-    finish(Outcome::failed, failsafe_reason);
-  else if (options.duration_s && now_ns >= static_cast<std::int64_t>(*options.duration_s * 1e9))
-    finish(in_failsafe ? Outcome::failed : Outcome::flown, in_failsafe ? failsafe_reason : "duration reached");
-  else if (graph.timeout_ns > 0 && now_ns >= graph.timeout_ns)
-    finish(Outcome::failed, "not done within " + short_number(1e-9 * static_cast<double>(graph.timeout_ns)) + " s of flight");
-  else if (options.interrupt && options.interrupt->load(std::memory_order_relaxed) != 0)
-    finish(Outcome::interrupted, "by a signal");
-  return ended;
-}
-
-void Flight::Impl::finish(Outcome outcome, std::string reason) {
-  ended = true;
-  result.outcome = outcome;
-  result.reason = std::move(reason);
-}
-
 /// Sleeps until the wall clock has caught up with flight time.
 void Flight::Impl::pace() {
   const std::int64_t due = wall_start_ns + static_cast<std::int64_t>(static_cast<double>(now_ns - result.first_ns) / options.speed);
@@ -177,7 +163,7 @@ bool Flight::Impl::step() {
   const std::uint64_t before = thread_allocations();
   if (!tick()) return false;
   if (index > 1) result.loop_allocations += thread_allocations() - before;
-  if (options.speed > 0) pace();
+  if (options.speed > 0 && graph.io == "sim") pace();
   if (options.progress && wall_ns - progress_ns > 200'000'000) {
     progress_ns = wall_ns;
     options.progress(*static_cast<const Flight*>(owner));

@@ -28,7 +28,7 @@ void make_printable(char* text) {
 
 }  // namespace
 
-void Flight::Impl::event(EventKind kind, const std::string& component, const std::string& text) {
+void Flight::Impl::event(EventKind kind, const std::string& component, const std::string& text, bool warning) {
   Event e;
   e.kind = kind;
   std::snprintf(e.component.data(), e.component.size(), "%s", component.c_str());
@@ -37,13 +37,33 @@ void Flight::Impl::event(EventKind kind, const std::string& component, const std
   if (options.say) {
     char time[32];
     std::snprintf(time, sizeof time, "%8.2f s  ", 1e-9 * static_cast<double>(now_ns));
-    options.say(time + (component.empty() ? "" : component + ": ") + text, kind == EventKind::guard || kind == EventKind::failsafe);
+    options.say(time + (component.empty() ? "" : component + ": ") + text,
+                warning || kind == EventKind::guard || kind == EventKind::failsafe);
   }
+}
+
+/// What a component has to tell people. Its words are its own: any bytes.
+void Flight::Impl::tell(Told& told) {
+  const std::byte* const message = told.slot->published.data();
+  const auto* const text = reinterpret_cast<const char*>(message + told.text->offset);
+  const std::size_t size = strnlen(text, told.text->stride);
+  if (!told.last.empty()) {
+    if (std::memcmp(told.last.data(), text, told.text->stride) == 0) return;
+    std::memcpy(told.last.data(), text, told.text->stride);
+  }
+  if (size == 0) return;
+  std::string words(text, size);
+  make_printable(words.data());
+  const auto label = told.severity ? static_cast<std::size_t>(message[told.severity->offset]) : 0;
+  const std::string severity = told.severity && label < told.severity->labels.size() ? told.severity->labels[label] : "";
+  event(EventKind::notice, told.slot->owner->component->name, words,
+        severity == "warning" || severity == "error" || severity == "critical");
 }
 
 /// The first phase: nobody has flown before, so each component is activated when its inputs have arrived.
 void Flight::Impl::begin() {
-  const Phase& first = graph.phases.front();
+  if (options.resume && !options.resume->if_armed) resume_now();
+  const Phase& first = graph.phases[static_cast<std::size_t>(phase)];
   for (std::size_t r = 0; r < roles.size(); ++r) {
     const Assignment& a = first.roles[r];
     if (a.component < 0) continue;

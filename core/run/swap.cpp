@@ -95,24 +95,9 @@ bool Unit::rehearse(const Tape& from) noexcept {
 
 // ---- in a flight that goes on -----------------------------------------------------------------------------------------------
 
-namespace {
-
-/// A flag of that name in what the vehicle says of itself.
-bool vehicle_says(const Unit& vehicle, const char* flag, bool unknown) {
-  for (const Slot& slot : vehicle.slots) {
-    const Field* field = slot.port->type ? slot.port->type->find(flag) : nullptr;
-    if (!field || field->kind != FULMAR_BOOL) continue;
-    return slot.sequence > 0 ? slot.published[field->offset] != std::byte{0} : unknown;
-  }
-  return unknown;
-}
-
-}  // namespace
-
 std::string Flight::Impl::in_use() const {
-  const Unit& vehicle = *units[static_cast<std::size_t>(graph.vehicle)];
-  if (vehicle_says(vehicle, "armed", false)) return "the aircraft is armed";
-  return vehicle_says(vehicle, "on_ground", true) ? "" : "the aircraft is in the air";
+  if (armed_flag.says(false)) return "the aircraft is armed";
+  return ground_flag.says(true) ? "" : "the aircraft is in the air";
 }
 
 void Flight::swap(const std::string& component, const std::string& file) {

@@ -2,6 +2,7 @@
 // A unit before and between flights: rooms for its ports, its instance in this process or in a child, its parameters.
 #include <cstdio>
 
+#include "core/run/realtime.hpp"
 #include "core/run/unit.hpp"
 
 namespace fulmar::core {
@@ -58,6 +59,7 @@ void Unit::create(const UnitOptions& options) {
     o.index = c.index_in_plugin, o.seed = options.seed;
     if (options.paced) o.hang_ns = c.hang_ns;
     child_ = std::make_unique<Isolated>(*info, o);
+    wait_for_child(child_->pid());
     functions_ = &Isolated::functions();
     instance_ = child_.get();
     return;

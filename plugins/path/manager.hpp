@@ -3,6 +3,8 @@
 // with fillets and Dubins paths treated alike as pieces whose end is a length along them, so that no half-plane can be missed.
 #pragma once
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "fulmar/flight/route.hpp"
 #include "fulmar/msg/path.hpp"
@@ -25,9 +27,17 @@ struct Manager {
   };
   struct Params {
     Param hold_height{50, "m", 0, 10000, "lowest height of the orbit that is flown while the plan is empty"};
+    Count first_item{0, 0, 65535, "index of the waypoint to begin with; changed in flight: go there at once"};
     Param rejoin_distance{25, "m", 5, 1000, "off the way to the plan by more than this: draw a new one from here"};
   };
 
+  void configure(const Params& p) { retune(p); }
+  void retune(const Params& p) {
+    if (p.first_item == first_item_) return;
+    first_item_ = p.first_item;
+    begin_with_ = progress_.item = static_cast<std::uint32_t>(first_item_);
+    mode_ = Mode::idle;
+  }
   Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out);
   Status activate(const Tick&, const Inputs&, const Params&, const Outputs&) {
     mode_ = Mode::idle;  // take up the plan from where the aircraft is by then, at the same waypoint
@@ -64,7 +74,9 @@ struct Manager {
   Path path_;
   Progress progress_;
   std::uint32_t item_ = 0, legs_ = 0, jumps_ = 0, revision_ = 0;
-  Vec3<Ned> target_, from_;  // of the leg: to recognise them after a change of the plan
+  std::int64_t first_item_ = 0;              // as the parameter was seen last
+  std::optional<std::uint32_t> begin_with_;  // of the next adoption of a plan
+  Vec3<Ned> target_, from_;                  // of the leg: to recognise them after a change of the plan
 };
 
 inline Pose pose_of(const VehicleState& state) { return {state.position_m.north, state.position_m.east, state.course_rad}; }
@@ -93,7 +105,8 @@ inline Status Manager::step(const Tick&, const Inputs& in, const Params& p, Outp
 
 /// Takes up a plan that is new or changed. The waypoint that is flown to stays the same one if it is still there.
 inline void Manager::adopt(const Route& route, const Plan& plan, const VehicleState& state, const Params& p) {
-  const bool was_empty = progress_.items == 0, jump = plan.jumps != jumps_ || was_empty || revision_ == 0;
+  const std::optional<std::uint32_t> first = std::exchange(begin_with_, std::nullopt);
+  const bool was_empty = progress_.items == 0, jump = first || plan.jumps != jumps_ || was_empty || revision_ == 0;
   const bool was_idle = mode_ == Mode::idle;
   revision_ = plan.revision;
   jumps_ = plan.jumps;
@@ -120,7 +133,7 @@ inline void Manager::adopt(const Route& route, const Plan& plan, const VehicleSt
   if (jump) {
     legs_ = 0;
     progress_.finished = false;
-    begin_join(route, state, std::min(plan.jump_item, route.size() - 1));
+    begin_join(route, state, std::min(first.value_or(plan.jump_item), route.size() - 1));
   } else if (was_idle) {
     begin_join(route, state, std::min(item_, route.size() - 1));
   } else {

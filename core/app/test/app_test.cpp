@@ -298,7 +298,7 @@ TEST_CASE("--watch --build builds when a source has changed, and tells when that
 TEST_CASE("what cannot be is refused before anything flies") {
   const Result command = fulmar("runn " + hourglass);
   CHECK(command.code == 2);
-  CHECK(command.err == "fulmar: there is no command 'runn'. Did you mean 'run'? Valid: run, check, graph, inspect, new.\n");
+  CHECK(command.err.find("fulmar: there is no command 'runn'. Did you mean 'run'? Valid: run, check, graph, inspect, new") == 0);
   const Result driver = fulmar("run " + hourglass + " --no-log --drivers-from nowhere.mcap");
   CHECK(driver.code == 1);
   CHECK(driver.err.find("has no component with 'run: driver'") != std::string::npos);

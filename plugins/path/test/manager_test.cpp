@@ -95,6 +95,26 @@ TEST_CASE("the first leg leads to the first waypoint, and no leg is left out") {
   CHECK(flight.progress().miss_m < 3);
 }
 
+TEST_CASE("a flight that begins with a later waypoint joins there, and goes through the list from it; a change in flight is a jump") {
+  Flight flight(hourglass());
+  flight.manager.params.first_item.value = 2;
+  flight.step();
+  CHECK(flight.progress().item == 2);
+  CHECK(flight.progress().joining);
+  CHECK(flight.fly(200, [&] { return flight.progress().circuits == 1; }));
+  CHECK(flight.passed == std::vector<std::uint32_t>{2, 3, 0, 1, 2});
+  flight.manager.params.first_item.value = 0;
+  flight.manager.retune();
+  flight.step();
+  CHECK(flight.progress().item == 0);
+  flight.manager.params.first_item.value = 9;  // the plan is shorter
+  flight.manager.retune();
+  flight.step();
+  CHECK(flight.progress().item == 3);
+  flight.manager.retune();  // for another parameter's sake
+  CHECK(flight.fly(100, [&] { return flight.progress().item == 0; }));
+}
+
 TEST_CASE("collinear and reversing legs are passed") {
   Flight collinear(plan_of({point(0, 0), point(230, -55), point(690, -165), point(690, 400)}));
   CHECK(collinear.fly(300, [&] { return collinear.progress().circuits == 1; }));

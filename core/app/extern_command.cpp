@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/app/extern_command.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "core/loader/home.hpp"
+
+namespace fulmar::core {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* prefix = "fulmar-";
+
+bool can_run(const fs::path& file) {
+  std::error_code fault;
+  return fs::is_regular_file(file, fault) && ::access(file.c_str(), X_OK) == 0;
+}
+
+/// A word that can be a command: no path, and no helper that only the host itself starts.
+bool is_command(const std::string& word) {
+  constexpr const char* letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+  return !word.empty() && word[0] != '-' && word.find_first_not_of(letters) == std::string::npos && word != "probe" && word != "child";
+}
+
+fs::path find_program(const std::string& name) {
+  if (const fs::path own = own_program(name); !own.empty() && can_run(own)) return own;
+  const char* list = std::getenv("PATH");
+  std::istringstream folders(list ? list : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const fs::path file = fs::path(folder) / name;
+    if (file.is_absolute() && can_run(file)) return file;  // what runs does not depend on where one stands
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<std::string> extern_commands() {
+  std::error_code fault;
+  const fs::path folder = fs::read_symlink("/proc/self/exe", fault).parent_path();
+  std::vector<std::string> words;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, fault)) {
+    const std::string name = entry.path().filename().string();
+    const std::string word = name.rfind(prefix, 0) == 0 ? name.substr(std::strlen(prefix)) : "";
+    if (is_command(word) && can_run(entry.path())) words.push_back(word);
+  }
+  std::sort(words.begin(), words.end());
+  return words;
+}
+
+void become_extern_command(char** words) {
+  const std::string word = words[0];
+  const fs::path program = is_command(word) ? find_program(prefix + word) : fs::path();
+  if (program.empty()) return;
+  std::string name = program.string();
+  words[0] = name.data();
+  ::execv(name.c_str(), words);
+  throw Error("fulmar " + word + ": " + name + " cannot be started: " + std::strerror(errno));
+}
+
+}  // namespace fulmar::core

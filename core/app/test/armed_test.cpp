@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Signals to a program that flies hardware (core/run/test/craft.cpp): an armed aircraft is not left by accident.
+#include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <thread>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path folder = fs::temp_directory_path() / ("fulmar-armed-test-" + std::to_string(getpid()));
+
+void pause_s(double s) { std::this_thread::sleep_for(std::chrono::duration<double>(s)); }
+
+/// `fulmar run` on a mission of hardware; ended with the test, whatever happens.
+struct Program {
+  pid_t pid = -1;
+  fs::path err = folder / "err.txt";
+
+  explicit Program(const std::string& set, const std::string& record = "off") {
+    fs::create_directories(folder);
+    fs::remove(err);
+    const fs::path mission = folder / "craft.yaml";
+    std::ofstream(mission) << "mission: craft\nio: fcu\nrecord: " << record
+                           << "\nfailsafe: {u_frac: -0.25, for: 0.5 s}\n"
+                              "roles:\n  vehicle: {in: {command: law.command}, out: {status: State}}\n"
+                              "  law: {in: {state: vehicle.status}, out: {command: Command}}\n"
+                              "components:\n  craft: {fills: vehicle, use: craft/Craft, params: {real_time: true}}\n"
+                              "  law_a: {fills: law, use: craft/Hoarder, run: tick}\n"
+                              "phases:\n  first: {next: [{to: second, when: \"vehicle.status.tick_s > 0.1 s\"}]}\n  second: {}\n";
+    setenv("FULMAR_PLUGIN_PATH", FULMAR_TEST_PLUGIN_DIR, 1);
+    pid = fork();
+    if (pid == 0) {
+      dup2(open(err.c_str(), O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
+      dup2(open("/dev/null", O_WRONLY), STDOUT_FILENO);
+      execl(FULMAR_BIN_DIR "/fulmar", "fulmar", "run", mission.c_str(), "--set", set.c_str(), static_cast<char*>(nullptr));
+      _exit(99);
+    }
+  }
+  ~Program() {
+    if (pid > 0) kill(pid, SIGKILL), waitpid(pid, nullptr, 0);
+  }
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  std::string text() const {
+    std::ifstream file(err);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  bool says(const std::string& words) const {
+    for (int i = 0; i < 200; ++i, pause_s(0.05))
+      if (text().find(words) != std::string::npos) return true;
+    return false;
+  }
+  void send(int signal) const { kill(pid, signal); }
+  bool runs() const { return waitpid(pid, nullptr, WNOHANG) == 0; }
+  /// Its exit code; -1 when it does not end, -2 when a signal has ended it.
+  int code() {
+    int status = 0;
+    for (int i = 0; i < 200; ++i, pause_s(0.05)) {
+      if (waitpid(pid, &status, WNOHANG) != pid) continue;
+      pid = -1;
+      return WIFEXITED(status) ? WEXITSTATUS(status) : -2;
+    }
+    return -1;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the first signal is refused while armed, the second gives up control in order, and no alarm ends an armed flight") {
+  Program program("craft.arm_at=0");
+  REQUIRE(program.says("phase second"));
+  program.send(SIGTERM);
+  REQUIRE(program.says("the aircraft is armed: Ctrl-C once more within 5 s gives up control"));
+  program.send(SIGINT);  // too soon after it: timeout(1) sends two at once
+  program.send(SIGHUP);
+  program.send(SIGALRM);
+  pause_s(0.6);
+  CHECK(program.runs());
+  program.send(SIGINT);
+  CHECK(program.code() == 130);
+  CHECK(program.text().find("failsafe: control given up by a signal") != std::string::npos);
+  CHECK(program.text().find("ended by") == std::string::npos);
+}
+
+TEST_CASE("a third signal ends an armed flight at once") {
+  Program program("craft.arm_at=0");
+  REQUIRE(program.says("phase second"));
+  program.send(SIGINT);
+  REQUIRE(program.says("the aircraft is armed"));
+  pause_s(0.6);
+  program.send(SIGINT);
+  REQUIRE(program.says("failsafe: control given up"));
+  pause_s(0.6);
+  program.send(SIGINT);
+  CHECK(program.code() == 130);
+  CHECK(program.text().find("fulmar: ended by the second signal") != std::string::npos);
+}
+
+TEST_CASE("a signal ends the flight of a disarmed aircraft at once") {
+  Program program("craft.arm_at=1000");
+  REQUIRE(program.says("phase second"));
+  program.send(SIGTERM);
+  CHECK(program.code() == 130);
+  CHECK(program.text().find("the aircraft is armed") == std::string::npos);
+}
+
+TEST_CASE("while a component hangs, a second signal ends the program although the aircraft is armed: nobody flies it any more") {
+  Program program("law_a.hang_at=0.5");
+  REQUIRE(program.says("phase second"));
+  pause_s(0.8);
+  program.send(SIGINT);
+  pause_s(0.7);
+  CHECK(program.runs());
+  program.send(SIGINT);
+  CHECK(program.code() == 130);
+  CHECK(program.text().find("fulmar: ended by the second signal in the step of law_a") != std::string::npos);
+}
+
+TEST_CASE("a host that was killed in the air takes up its phase when it is started again, beside the log of its predecessor") {
+  const std::string record = "{file: " + (folder / "run.mcap").string() + "}";
+  {
+    Program first("craft.arm_at=0", record);
+    REQUIRE(first.says("phase second"));
+    pause_s(2.5);  // the log is whole up to the last second
+    first.send(SIGKILL);
+    CHECK(first.code() == -2);
+  }
+  {
+    Program again("craft.arm_at=0.5", record);
+    CHECK(again.says("resumed: phase second"));
+    again.send(SIGKILL);
+    CHECK(again.code() == -2);
+    CHECK(again.text().find("phase first") < again.text().find("resumed: phase second"));
+  }
+  CHECK(fs::exists(folder / "run.mcap.part"));
+  CHECK(fs::exists(folder / "run-2.mcap.part"));
+  fs::remove(folder / "run-2.mcap.part");
+  Program ground("craft.arm_at=1000", record);
+  CHECK(ground.says("not resumed: the aircraft is not in the air, armed"));
+  ground.send(SIGTERM);
+  CHECK(ground.code() == 130);
+  CHECK(fs::exists(folder / "run-2.mcap"));
+  fs::remove_all(folder);
+}

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Commands that are programs of their own: found beside the host and in PATH, started with the remaining words, named when they are
+// missing.
+#include <doctest/doctest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A home of its own for a copy of the host, and a folder for PATH.
+struct Home {
+  fs::path folder = fs::temp_directory_path() / ("fulmar-extern-test-" + std::to_string(getpid()));
+  Home() {
+    fs::create_directories(folder / "bin");
+    fs::create_directories(folder / "path");
+    fs::copy_file(FULMAR_BIN_DIR "/fulmar", folder / "bin" / "fulmar");
+  }
+  ~Home() { fs::remove_all(folder); }
+  void program(const std::string& name, const std::string& text, bool executable = true) const {
+    std::ofstream(folder / name) << text;
+    chmod((folder / name).c_str(), executable ? 0755 : 0644);
+  }
+  struct Result {
+    int code = -1;
+    std::string text;  // of both outputs
+  };
+  Result fulmar(const std::string& arguments) const {
+    Result r;
+    const std::string command =
+        "cd " + folder.string() + " && PATH=" + (folder / "path").string() + ":path:$PATH bin/fulmar " + arguments + " 2>&1";
+    FILE* pipe = popen(command.c_str(), "r");
+    REQUIRE(pipe != nullptr);
+    char buffer[4096];
+    for (std::size_t n = 0; (n = fread(buffer, 1, sizeof buffer, pipe)) > 0;) r.text.append(buffer, n);
+    const int status = pclose(pipe);
+    r.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return r;
+  }
+};
+
+/// Tells which program it is and what it was given, one word a line.
+std::string teller(const std::string& name, int code) {
+  return "#!/bin/sh\necho " + name + "\nfor word in \"$@\"; do echo \"[$word]\"; done\nexit " + std::to_string(code) + "\n";
+}
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("a word that is no command of the host starts the program of that name with the remaining words, and ends with its code") {
+  const Home home;
+  home.program("bin/fulmar-tell", teller("beside", 7));
+  home.program("path/fulmar-tell", teller("path", 8));
+  home.program("path/fulmar-far", teller("path", 9));
+  const Home::Result beside = home.fulmar("tell --json 'two words' '' -x=1");
+  CHECK(beside.text == "beside\n[--json]\n[two words]\n[]\n[-x=1]\n");
+  CHECK(beside.code == 7);
+  const Home::Result far = home.fulmar("far");
+  CHECK(far.text == "path\n");
+  CHECK(far.code == 9);
+}
+
+TEST_CASE("help lists the programs beside the host") {
+  const Home home;
+  CHECK_FALSE(holds(home.fulmar("--help").text, "Programs beside"));
+  home.program("bin/fulmar-zeta", teller("zeta", 0));
+  home.program("bin/fulmar-aero", teller("aero", 0));
+  home.program("bin/fulmar-notes.txt", "text");
+  home.program("bin/fulmar-idle", teller("idle", 0), false);
+  home.program("bin/fulmar-child", teller("child", 0));
+  const Home::Result help = home.fulmar("--help");
+  CHECK(help.code == 0);
+  CHECK(holds(help.text, "Programs beside this one: aero, zeta (fulmar aero --help)"));
+}
+
+TEST_CASE("a command that exists nowhere is told with what there is, and a built-in one is not replaced") {
+  const Home home;
+  home.program("bin/fulmar-aero", teller("aero", 0));
+  home.program("bin/fulmar-check", teller("check", 0));
+  home.program("bin/fulmar-idle", teller("idle", 0), false);
+  home.program("bin/fulmar-probe", teller("probe", 0));
+  home.program("other", teller("other", 0));
+  const Home::Result missing = home.fulmar("areo");
+  CHECK(missing.code == 2);
+  CHECK(holds(missing.text, "there is no command 'areo'. Did you mean 'aero'? Valid: run, check, graph, inspect, new, aero"));
+  CHECK_FALSE(holds(home.fulmar("check none.yaml").text, "\ncheck"));
+  for (const char* word : {"idle", "probe", "/../other", "../other", "''"}) {
+    CAPTURE(word);
+    const Home::Result r = home.fulmar(word);
+    CHECK(r.code == 2);
+    CHECK(holds(r.text, "there is no command '"));
+  }
+}
+
+TEST_CASE("what runs does not depend on the present folder: relative folders of PATH are passed over") {
+  const Home home;
+  fs::create_directories(home.folder / "elsewhere" / "path");
+  home.program("elsewhere/path/fulmar-near", teller("near", 0));
+  const Home::Result r = home.fulmar("--version >/dev/null; cd elsewhere && ../bin/fulmar near");
+  CHECK(r.code == 2);
+  CHECK(holds(r.text, "there is no command 'near'"));
+}
+
+TEST_CASE("a program that cannot be started is named") {
+  const Home home;
+  home.program("bin/fulmar-broken", "#!/no/such/interpreter\n");
+  const Home::Result r = home.fulmar("broken");
+  CHECK(r.code == 1);
+  CHECK(holds(r.text,
+              "fulmar broken: " + (home.folder / "bin" / "fulmar-broken").string() + " cannot be started: No such file or directory"));
+}

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The hourglass, whose host is gone after a minute and starts again in the air: it goes on, and not from the beginning.
+#include "core/run/resume.hpp"
+
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/run/flight.hpp"
+
+using namespace fulmar::core;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string hourglass = FULMAR_SOURCE_DIR "/configs/missions/hourglass.yaml";
+
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("fulmar-resume-test-" + std::to_string(getpid()));
+  Folder() { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+};
+
+double field(const Graph& graph, const Flight& flight, const std::string& component, const std::string& port, const std::string& name) {
+  const auto at = std::find_if(graph.components.begin(), graph.components.end(), [&](const Component& c) { return c.name == component; });
+  REQUIRE(at != graph.components.end());
+  const int output = at->info().output(port);
+  const FieldRef ref = resolve_field(*at->info().outputs[static_cast<std::size_t>(output)].type, name);
+  const std::byte* message = flight.sample({Source::Kind::component, static_cast<int>(at - graph.components.begin()), output});
+  return message ? number_at(*ref.field, message + ref.offset) : -1;
+}
+
+std::pair<int, std::string> shell(const std::string& command) {
+  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+  REQUIRE(pipe != nullptr);
+  std::string out;
+  char buffer[4096];
+  for (std::size_t n = 0; (n = fread(buffer, 1, sizeof buffer, pipe)) > 0;) out.append(buffer, n);
+  const int status = pclose(pipe);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, out};
+}
+
+}  // namespace
+
+TEST_CASE("a host that starts again in the air goes on in the same phase with the same waypoint") {
+  const Folder folder;
+  FlightOptions first;
+  first.log_file = folder.path / "first.mcap";
+  first.duration_s = 90;
+  const Graph before = load_mission(hourglass);
+  Flight gone(before, first);
+  CHECK(gone.run().outcome == Outcome::flown);
+  const double item = field(before, gone, "manage", "progress", "item");
+  CHECK(item == 1);
+  const auto text = [&](const char* name) { return std::to_string(field(before, gone, "sim", "truth", name)); };
+  Overrides in_the_air;
+  in_the_air.set = {{"sim.start_height", text("height_m")},
+                    {"sim.start_north", text("position_m.north")},
+                    {"sim.start_east", text("position_m.east")},
+                    {"sim.start_heading", text("yaw_rad")}};
+  const Graph after = load_mission(hourglass, in_the_air);
+  for (const bool resumes : {true, false}) {
+    FlightOptions o;
+    o.log = false;
+    if (resumes) o.resume = read_resume(after, first.log_file);
+    Flight flight(after, o);
+    std::vector<double> items;
+    while (flight.now_ns() < 60'000'000'000 && flight.step())
+      if (const double now = field(after, flight, "manage", "progress", "item"); now >= 0 && (items.empty() || items.back() != now))
+        items.push_back(now);
+    const FlightResult r = flight.finish();
+    CHECK(r.guards.empty());
+    CHECK(r.phases.front().name == (resumes ? "cruise" : "hold"));
+    REQUIRE(items.size() >= 2);
+    CHECK(items[0] == (resumes ? item : 0));
+    CHECK(items[1] == (resumes ? item + 1 : 1));
+  }
+}
+
+TEST_CASE("--resume takes the log that it is given, or the newest of the mission; what it cannot use it says") {
+  const Folder folder;
+  const std::string here = "cd " + folder.path.string() + " && ", run = FULMAR_BIN_DIR "/fulmar run " + hourglass;
+  const auto none = shell(here + run + " --no-log --resume");
+  CHECK(none.first == 1);
+  CHECK(none.second == "--resume: there is no log of the mission hourglass; name one, as in --resume FILE.mcap\n");
+  CHECK(shell(here + run + " --duration 20").first == 0);
+  for (const std::string log : {"", " logs/hourglass-*.mcap"}) {
+    const auto [code, out] = shell(here + run + " --no-log --duration 1 --resume" + log);
+    CHECK(code == 0);
+    CHECK(out.find("resumes from logs/hourglass-") != std::string::npos);
+    CHECK(out.find("   -5.00 s  resumed: phase cruise, manage.first_item = 0\n") != std::string::npos);
+    CHECK(out.find("   -5.00 s  phase cruise\n") != std::string::npos);
+    CHECK(out.find("phase takeoff") == std::string::npos);
+  }
+  const auto plain = shell(here + run + " --no-log --duration 1");  // simulation begins at the beginning unless asked
+  CHECK(plain.second.find("resume") == std::string::npos);
+  const auto other = shell(here + run + " --no-log --resume " + hourglass);
+  CHECK(other.first == 1);
+  CHECK(other.second.find("hourglass.yaml: ") == hourglass.size() - 14);
+}

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/app/words.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <pthread.h>
+#include <sys/ioctl.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <thread>
+
+namespace fulmar::core {
+namespace {
+
+constexpr int room_bytes = 256 * 1024;
+constexpr int patience_ms = 1000;
+
+// The thread outlives everything; so what it works on has no destructor.
+std::atomic<int> reader{STDERR_FILENO};  // who read standard error before
+std::atomic<int> left{-1};               // the end of the pipe that the words come out of
+std::atomic<bool> passing{false};        // the thread has words in its hands
+
+bool wait_for(int descriptor, short event, int limit_ms) noexcept {
+  pollfd p{descriptor, event, 0};
+  return poll(&p, 1, limit_ms) > 0 && (p.revents & event) != 0;
+}
+
+/// As much as there is room for, and all of it: false when there is none for so long, or nobody any more.
+bool write_all(int descriptor, const char* data, std::size_t size, int limit_ms) noexcept {
+  while (size > 0) {
+    if (!wait_for(descriptor, POLLOUT, limit_ms)) return false;
+    const ssize_t n = write(descriptor, data, size);
+    if (n < 0 && errno != EINTR && errno != EAGAIN) return false;
+    if (n > 0) data += n, size -= static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+void pass_on() noexcept {
+  static char buffer[4096];
+  while (true) {
+    if (!wait_for(left, POLLIN, -1)) return;  // somebody has closed standard error
+    passing = true;
+    const ssize_t n = read(left, buffer, sizeof buffer);
+    if (n > 0) write_all(reader, buffer, static_cast<std::size_t>(n), -1);
+    passing = false;
+  }
+}
+
+bool nothing_left() noexcept {
+  int bytes = 0;
+  return ioctl(left, FIONREAD, &bytes) != 0 || (bytes == 0 && !passing);
+}
+
+}  // namespace
+
+void print_without_waiting() {
+  if (left >= 0) return;
+  int ends[2];
+  const int own = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
+  if (own < 0) return;  // there is no standard error, and so nobody to wait for
+  if (pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0) {
+    close(own);
+    return;
+  }
+  fcntl(ends[1], F_SETPIPE_SZ, room_bytes);  // less when that is not permitted
+  reader = own;
+  left = ends[0];
+  dup2(ends[1], STDERR_FILENO);
+  close(ends[1]);
+  sigset_t all, before;  // signals are for the main thread
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  std::thread thread(pass_on);
+  pthread_setname_np(thread.native_handle(), "fulmar-words");
+  thread.detach();
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  std::atexit(pass_on_words);
+}
+
+void pass_on_words() noexcept {
+  const timespec pause{0, 1'000'000};
+  for (int i = 0; i < patience_ms && left >= 0 && !nothing_left(); ++i) nanosleep(&pause, nullptr);
+}
+
+bool words_on_terminal() noexcept { return isatty(reader) != 0; }
+
+void write_last_words(const char* text) noexcept {
+  char buffer[1024];
+  for (ssize_t n = 0; left >= 0 && (n = read(left, buffer, sizeof buffer)) > 0;)
+    if (!write_all(reader, buffer, static_cast<std::size_t>(n), patience_ms)) break;
+  write_all(reader, text, std::strlen(text), patience_ms);
+}
+
+}  // namespace fulmar::core

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/run/resume.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include "core/graph/condition.hpp"
+#include "core/run/flight_impl.hpp"
+#include "core/tap/reader.hpp"
+#include "core/tap/wire.hpp"
+
+namespace fulmar::core {
+namespace {
+namespace fs = std::filesystem;
+
+std::string topic_path(std::string name) {
+  std::replace(name.begin(), name.end(), '.', '/');
+  return "/" + name;
+}
+
+std::string topic_of(const Graph& graph, const Source& source) {
+  if (source.kind == Source::Kind::component)
+    return topic_path(topic_name(graph, graph.components[static_cast<std::size_t>(source.index)], static_cast<std::size_t>(source.output)));
+  const Role& role = graph.roles[static_cast<std::size_t>(source.index)];
+  return topic_path(role.name + "." + role.outputs[static_cast<std::size_t>(source.output)].name);
+}
+
+/// The last message of a topic, decoded. Throws Error when there is none or it has other fields.
+std::vector<std::byte> last_message(const McapFile& file, const std::string& topic, const Type& type) {
+  const std::uint16_t channel = file.channel(topic);
+  if (file.schemas.at(file.channels.at(channel).schema).text != ros_definition(type))
+    throw Error("the log's " + topic + " has other fields than " + type.name + " of this mission");
+  const auto last =
+      std::find_if(file.messages.rbegin(), file.messages.rend(), [&](const McapFile::Message& m) { return m.channel == channel; });
+  if (last == file.messages.rend()) throw Error("the log holds no sample of " + topic);
+  std::vector<std::byte> message(type.size);
+  cdr_decode(type, last->data.data(), last->data.size(), message.data());
+  return message;
+}
+
+std::string last_phase(const McapFile& file) {
+  const std::uint16_t channel = file.channel("/fulmar/event");
+  std::string phase;
+  for (const McapFile::Message& m : file.messages) {
+    if (m.channel != channel) continue;
+    Event event;
+    cdr_decode(*event_type(), m.data.data(), m.data.size(), reinterpret_cast<std::byte*>(&event));
+    constexpr std::string_view word = "phase ";
+    const std::string text = event.text.data();
+    if (event.kind == EventKind::phase && text.starts_with(word)) phase = text.substr(word.size());
+  }
+  if (phase.empty()) throw Error("the log holds no phase");
+  return phase;
+}
+
+bool armed_at_end(const Graph& graph, const McapFile& file) {
+  const Component& vehicle = graph.components[static_cast<std::size_t>(graph.vehicle)];
+  for (std::size_t i = 0; i < vehicle.info().outputs.size(); ++i) {
+    const Port& port = vehicle.info().outputs[i];
+    const Field* const armed = port.type ? port.type->find("armed") : nullptr;
+    if (!armed || armed->kind != FULMAR_BOOL) continue;
+    try {
+      return last_message(file, topic_path(topic_name(graph, vehicle, i)), *port.type)[armed->offset] != std::byte{0};
+    } catch (const Error&) {
+      return false;
+    }
+  }
+  return false;
+}
+
+Resume::Param read_rule(const Graph& graph, const McapFile& file, const ResumeRule& rule) {
+  const auto dot = rule.param.find('.');
+  Resume::Param p{rule.param.substr(0, dot), rule.param.substr(dot + 1), {}};
+  const auto component =
+      std::find_if(graph.components.begin(), graph.components.end(), [&](const Component& c) { return c.name == p.component; });
+  if (component == graph.components.end()) throw Error("there is no component '" + p.component + "' in this run");
+  if (!rule.field.type) throw Error(rule.field.text + " is a probe, and a flight resumes from messages");
+  const std::vector<std::byte> message = last_message(file, topic_of(graph, rule.field.from), *rule.field.type);
+  const double x = number_at(*rule.field.field.field, message.data() + rule.field.field.offset);
+  const ParamInfo& info = component->info().params[static_cast<std::size_t>(component->info().param(p.param))];
+  if (!(x >= info.min && x <= info.max))
+    throw Error(rule.field.text + " was " + std::to_string(x) + ", which " + rule.param + " does not allow");
+  p.value.number[0] = x;
+  p.value.integer = std::llround(x);
+  return p;
+}
+
+}  // namespace
+
+std::string Resume::text() const {
+  std::string all = "phase " + phase;
+  for (const Param& p : params) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%g", p.value.number[0]);
+    all += ", " + p.component + "." + p.param + " = " + number;
+  }
+  return all;
+}
+
+Resume read_resume(const Graph& graph, const fs::path& log) try {
+  const McapFile file = read_mcap(log);
+  for (const McapFile::Metadata& metadata : file.metadata)
+    for (const auto& [key, value] : metadata.pairs)
+      if (metadata.name == "fulmar" && key == "mission" && value != graph.mission)
+        throw Error("is a log of the mission " + value + ", not of " + graph.mission);
+  Resume resume;
+  resume.phase = last_phase(file);
+  std::vector<std::string> phases;
+  for (const Phase& phase : graph.phases) phases.push_back(phase.name);
+  if (std::find(phases.begin(), phases.end(), resume.phase) == phases.end())
+    throw Error("it ends in the phase '" + resume.phase + "', which this mission does not have." + choices_text(resume.phase, phases));
+  resume.armed = armed_at_end(graph, file);
+  for (const ResumeRule& rule : graph.resume) try {
+      resume.params.push_back(read_rule(graph, file, rule));
+    } catch (const Error& fault) {
+      resume.missing.push_back("resume." + rule.param + ": " + fault.what());
+    }
+  return resume;
+} catch (const Error& fault) {
+  throw Error(log.string() + ": " + fault.what());
+}
+
+fs::path newest_log(const Graph& graph, double max_age_s) {
+  const fs::path usual = graph.record_file.empty() ? "logs/" + graph.mission + "-" : graph.record_file;
+  const fs::path folder = usual.has_parent_path() ? usual.parent_path() : ".";
+  const std::string stem = graph.record_file.empty() ? usual.filename().string() : usual.stem().string();
+  std::error_code code;
+  fs::path newest;
+  fs::file_time_type newest_time = fs::file_time_type::min();
+  if (max_age_s > 0)
+    newest_time = fs::file_time_type::clock::now() -
+                  std::chrono::duration_cast<fs::file_time_type::duration>(std::chrono::duration<double>(max_age_s));
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, code)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(stem) || !(name.ends_with(".mcap") || name.ends_with(".mcap.part"))) continue;
+    const fs::file_time_type time = entry.last_write_time(code);
+    if (code || time <= newest_time) continue;
+    newest = entry.path();
+    newest_time = time;
+  }
+  return newest;
+}
+
+// ---- in flight --------------------------------------------------------------------------------------------------------------
+
+/// Before the first step, or when a vehicle turns out to be armed.
+void Flight::Impl::resume_now() {
+  const Resume resume = std::move(*options.resume);
+  options.resume.reset();
+  int to = 0;
+  for (std::size_t i = 0; i < graph.phases.size(); ++i)
+    if (graph.phases[i].name == resume.phase) to = static_cast<int>(i);
+  event(EventKind::resume, "", "resumed: " + resume.text(), true);
+  for (const Resume::Param& p : resume.params) owner->set_parameter(p.component, p.param, p.value);
+  if (index == 0)
+    phase = to;
+  else if (to != phase)
+    enter(to);
+}
+
+void Flight::Impl::resume_if_armed() {
+  if (!armed_flag.slot || armed_flag.slot->sequence == 0) return;
+  if (heard_ns == never) heard_ns = now_ns;
+  if (armed_flag.says(false) && !ground_flag.says(false)) return resume_now();
+  if (now_ns - heard_ns < 1'000'000'000) return;
+  options.resume.reset();
+  event(EventKind::resume, "", "not resumed: the aircraft is not in the air, armed");
+}
+
+}  // namespace fulmar::core

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A vehicle as on hardware: its pilot arms, takes over and gives back at given times, and it has something to say. And a law that hoards.
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fulmar/plugin.hpp"
+
+using namespace fulmar;
+
+namespace {
+
+struct Command {
+  double u_frac = 0;
+};
+
+struct State {
+  bool armed = false;
+  bool in_control = false;
+  double tick_s = 0;
+};
+
+struct Applied {
+  double u_frac = 0;
+  bool present = false;
+};
+
+enum class Level : std::uint8_t { info, warning, error };
+
+struct Note {
+  Text<40> text;
+  Level level = Level::info;
+};
+
+struct Craft {
+  struct Inputs {
+    Optional<Command> command;
+  };
+  struct Outputs {
+    Out<State> status;
+    Out<Applied> applied;  ///< what write received in the tick before
+    OutQueue<Note, 4> notices;
+    Note remark;  ///< written in every tick
+  };
+  struct Params {
+    Param arm_at{0, "s", -1, 1e9, "the pilot arms"};
+    Param disarm_at{1e9, "s", -1, 1e9, "the pilot disarms"};
+    Param pilot_from{1e9, "s", -1, 1e9, "the pilot takes over"};
+    Param pilot_until{1e9, "s", -1, 1e9, "the pilot gives back"};
+    Param note_at{1e9, "s", -1, 1e9, "two notices are sent, and the remark changes"};
+    Flag real_time{false, "ticks follow the wall clock"};
+  };
+  Status read(Tick& tick, const Params& p, Outputs& out) {
+    tick.now_ns = 2'500'000 * n_++;
+    const double t = tick.now_s();
+    if (p.real_time) {
+      const timespec pause{0, 2'500'000};
+      nanosleep(&pause, nullptr);
+    }
+    const bool armed = t >= p.arm_at && t < p.disarm_at;
+    const bool pilot = t >= p.pilot_from && t < p.pilot_until;
+    out.status.publish({armed, armed && !pilot, t});
+    if (n_ > 1) out.applied.publish(applied_);
+    if (n_ > 1 && t >= p.note_at && t < p.note_at + 0.0025) {
+      out.notices.push({"all is well", Level::info}, tick.now_ns);
+      out.notices.push({"bell\a rings", Level::error}, tick.now_ns);
+    }
+    out.remark.text = t >= p.note_at ? "changed" : "";
+    return Status::ok;
+  }
+  Status write(const Tick&, const Inputs& in, const Params&) {
+    applied_ = {};
+    if (in.command) applied_ = {in.command->u_frac, true};
+    return Status::ok;
+  }
+
+ private:
+  std::int64_t n_ = 0;
+  Applied applied_;
+};
+
+/// Integrates 1 per second from whatever it was activated with: 0.
+struct Hoarder {
+  struct Inputs {
+    In<State> state;
+  };
+  struct Outputs {
+    Command command;
+    Probe hoard_ratio;
+    Probe activations_ratio;
+  };
+  struct Params {
+    Param refuse_from{1e9, "s", -1, 1e9, "refuses to be activated"};
+    Param refuse_until{1e9, "s", -1, 1e9, "until then"};
+    Param fail_at{1e9, "s", -1, 1e9, "fails"};
+    Param hang_at{1e9, "s", -1, 1e9, "never returns"};
+    Param heirloom{0, "", 0, 1, "what it commands at least"};
+  };
+  Status activate(const Tick&, const Inputs& in, const Params& p, const Outputs&) {
+    if (in.state->tick_s >= p.refuse_from && in.state->tick_s < p.refuse_until) return Status::failed;
+    hoard_ = 0;
+    ++activations_;
+    return Status::ok;
+  }
+  Status step(const Tick& tick, const Inputs&, const Params& p, Outputs& out) {
+    while (tick.now_s() >= p.hang_at) asm volatile("");
+    hoard_ += tick.dt_s();
+    out.command.u_frac = std::clamp(hoard_, p.heirloom.value, 1.0);
+    out.hoard_ratio = hoard_;
+    out.activations_ratio = activations_;
+    return tick.now_s() < p.fail_at ? Status::ok : Status::failed;
+  }
+
+ private:
+  double hoard_ = 0, activations_ = 0;
+};
+
+}  // namespace
+
+FULMAR_PLUGIN("1.0.0", Craft, Hoarder)

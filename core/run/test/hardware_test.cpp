@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Flights with io: fcu on a vehicle that stands for hardware (craft.cpp): who is in control, how such a flight ends, what is told.
+#include <time.h>
+
+#include <algorithm>
+#include <atomic>
+
+#include "core/run/resume.hpp"
+#include "core/run/test/lab.hpp"
+#include "core/tap/reader.hpp"
+
+namespace {
+
+Graph craft(const std::string& tail, const std::vector<std::pair<std::string, std::string>>& set = {}, const std::string& io = "fcu") {
+  const fs::path file = folder().path / "craft.yaml";
+  std::ofstream(file) << "mission: craft\nrate: 400 Hz\nio: " << io << "\nfailsafe: {u_frac: -0.25, for: 0.5 s}\n"
+                      << "roles:\n"
+                         "  vehicle: {in: {command: law.command}, out: {status: State, applied: Applied, notices?: Note}}\n"
+                         "  law:     {in: {state: vehicle.status}, out: {command: Command}}\n"
+                         "components:\n"
+                         "  craft: {fills: vehicle, use: craft/Craft}\n"
+                         "  law_a: {fills: law, use: craft/Hoarder, run: tick}\n"
+                      << tail;
+  Overrides o;
+  o.set = set;
+  return load_mission(file.string(), o);
+}
+
+struct Said {
+  std::vector<std::string> lines;
+  std::vector<bool> warnings;
+  int count(const std::string& part) const {
+    return static_cast<int>(std::count_if(lines.begin(), lines.end(), [&](const auto& s) { return s.find(part) != std::string::npos; }));
+  }
+};
+
+FlightOptions listening(Said& said) {
+  FlightOptions o;
+  o.log = false;
+  o.say = [&said](const std::string& line, bool warning) { said.lines.push_back(line), said.warnings.push_back(warning); };
+  return o;
+}
+
+/// Steps until flight time `t_s`; true when the flight goes on.
+bool fly_until(Flight& flight, double t_s) {
+  while (static_cast<double>(flight.now_ns()) < t_s * 1e9 - 1)
+    if (!flight.step()) return false;
+  return true;
+}
+
+double applied(const Graph& g, const Flight& f) { return value(g, f, "craft", "applied", "u_frac"); }
+bool obeyed(const Graph& g, const Flight& f) { return value(g, f, "craft", "applied", "present") > 0; }
+double hoard(const Graph& g, const Flight& f, const std::string& law = "law_a") { return value(g, f, law, "hoard_ratio", ""); }
+
+}  // namespace
+
+TEST_CASE("as long as the vehicle does not obey, its controllers begin anew in every step") {
+  const std::vector<std::pair<std::string, std::string>> set = {
+      {"craft.arm_at", "1"}, {"craft.pilot_from", "2"}, {"craft.pilot_until", "4"}};
+  for (const bool held : {true, false}) {
+    const Graph g = craft(held ? "control: [law]\n" : "", set);
+    Said said;
+    Flight flight(g, listening(said));
+    CHECK(fly_until(flight, 0.9));
+    CHECK(hoard(g, flight) == doctest::Approx(held ? 0.0025 : 0.9025));  // not armed yet
+    CHECK(fly_until(flight, 1.9));
+    CHECK(hoard(g, flight) == doctest::Approx(held ? 0.905 : 1.9025));
+    CHECK(fly_until(flight, 3.9975));
+    CHECK(hoard(g, flight) == doctest::Approx(held ? 0.0025 : 4));
+    CHECK(fly_until(flight, 4));
+    CHECK(hoard(g, flight) == doctest::Approx(held ? 0.005 : 4.0025));
+    CHECK(fly_until(flight, 4.5));
+    CHECK(hoard(g, flight) == doctest::Approx(held ? 0.505 : 4.5025));
+  }
+}
+
+TEST_CASE("in simulation the time before arming is the controllers' own, and so is a flight whose vehicle says nothing of control") {
+  const Graph g = craft("control: [law]\n", {{"craft.arm_at", "1"}, {"craft.pilot_from", "2"}}, "sim");
+  Said said;
+  Flight flight(g, listening(said));
+  CHECK(fly_until(flight, 1.5));
+  CHECK(hoard(g, flight) == doctest::Approx(1.5025));
+  CHECK(fly_until(flight, 2.5));
+  CHECK(hoard(g, flight) == doctest::Approx(0.0025));
+
+  const Graph silent = mission(std::string("control: [law]\n") + one_phase);
+  Flight other(silent, options(0.5));
+  CHECK(other.run().outcome == Outcome::flown);
+}
+
+TEST_CASE("a controller that works in another thread begins anew once, when control returns") {
+  const Graph g =
+      craft("  law_b: {fills: law, use: craft/Hoarder, run: async, latency: 10 ms}\nphases:\n  fly: {law: law_b}\ncontrol: [law]\n",
+            {{"craft.pilot_from", "1"}, {"craft.pilot_until", "3"}});
+  Said said;
+  FlightOptions o = listening(said);
+  Flight flight(g, o);
+  while (flight.now_ns() < 3'500'000'000 && flight.step()) {
+    const timespec pause{0, 100'000};  // a thread needs its time; hardware does not wait for it
+    nanosleep(&pause, nullptr);
+  }
+  CHECK(value(g, flight, "law_b", "activations_ratio", "") == 2);
+  CHECK(hoard(g, flight, "law_b") < 0.6);
+  CHECK(said.count("law_b") == 0);
+}
+
+TEST_CASE("a controller that refuses to begin while the pilot flies is not lost; one that refuses afterwards is") {
+  for (const bool late : {false, true}) {
+    const Graph g = craft("control: [law]\n", {{"craft.pilot_from", "1"},
+                                               {"craft.pilot_until", "2"},
+                                               {"law_a.refuse_from", "1.5"},
+                                               {"law_a.refuse_until", late ? "2.5" : "1.8"}});
+    Said said;
+    Flight flight(g, listening(said));
+    CHECK(fly_until(flight, 2.2));
+    CHECK((said.count("refuses to take over") > 0) == late);
+    CHECK(applied(g, flight) == doctest::Approx(late ? -0.25 : 0.2025));
+  }
+}
+
+TEST_CASE("a mission that is done while armed flies on until the aircraft is disarmed, and says so once") {
+  const Graph g = craft("done: \"vehicle.status.tick_s > 1 s\"\ntimeout: 1.5 s\n", {{"craft.disarm_at", "3"}});
+  Said said;
+  Flight flight(g, listening(said));
+  CHECK(fly_until(flight, 2.9));
+  CHECK(said.count("done: vehicle.status.tick_s > 1 s; flies on until disarmed") == 1);
+  CHECK(obeyed(g, flight));
+  while (flight.step()) {
+  }
+  const FlightResult r = flight.finish();
+  CHECK(r.last_ns == 3'000'000'000);
+  CHECK(r.outcome == Outcome::flown);
+  CHECK(r.reason == "vehicle.status.tick_s > 1 s");
+}
+
+TEST_CASE("a mission that has failed while armed flies on until the aircraft is disarmed; disarmed it ends at once") {
+  for (const double disarm_at : {2.0, 0.5}) {
+    const Graph g = craft("failed: \"vehicle.status.tick_s > 1 s\"\n", {{"craft.disarm_at", std::to_string(disarm_at)}});
+    Said said;
+    Flight flight(g, listening(said));
+    while (flight.step()) {
+    }
+    const FlightResult r = flight.finish();
+    CHECK(r.outcome == Outcome::failed);
+    CHECK(r.reason == "vehicle.status.tick_s > 1 s");
+    CHECK(1e-9 * static_cast<double>(r.last_ns) == doctest::Approx(disarm_at > 1 ? 2 : 1.0025));
+    CHECK(said.count("flies on until disarmed") == (disarm_at > 1 ? 1 : 0));
+  }
+}
+
+TEST_CASE("a duration does not take an armed aircraft out of the air") {
+  const Graph g = craft("", {{"craft.disarm_at", "2"}});
+  Said said;
+  FlightOptions o = listening(said);
+  o.duration_s = 1;
+  const FlightResult r = Flight(g, o).run();
+  CHECK(r.last_ns == 2'000'000'000);
+  CHECK(r.outcome == Outcome::flown);
+  CHECK(r.reason == "duration reached");
+  const Graph bench = craft("", {{"craft.arm_at", "5"}});
+  CHECK(Flight(bench, o).run().last_ns == 1'000'000'000);
+}
+
+TEST_CASE("after a failsafe an armed aircraft hears nothing more, and the flight has failed when it is disarmed") {
+  const Graph g = craft("done: \"vehicle.status.tick_s > 4 s\"\n", {{"law_a.fail_at", "1"}, {"craft.disarm_at", "5"}});
+  Said said;
+  Flight flight(g, listening(said));
+  CHECK(fly_until(flight, 1.4));
+  CHECK(applied(g, flight) == -0.25);
+  CHECK(fly_until(flight, 1.6));
+  CHECK_FALSE(obeyed(g, flight));
+  CHECK(fly_until(flight, 4.9));
+  CHECK_FALSE(obeyed(g, flight));
+  CHECK(said.count("silent until disarmed") == 1);
+  while (flight.step()) {
+  }
+  const FlightResult r = flight.finish();
+  CHECK(r.last_ns == 5'000'000'000);
+  CHECK(r.outcome == Outcome::failed);
+  CHECK(r.reason == "failsafe: law_a: says that it failed");
+}
+
+TEST_CASE("a signal is refused while armed; repeated within five seconds it gives up control, in order") {
+  const Graph g = craft("");
+  std::atomic<int> interrupt{0};
+  Said said;
+  FlightOptions o = listening(said);
+  o.interrupt = &interrupt;
+  Flight flight(g, o);
+  for (const double t : {1.0, 7.0}) {  // six seconds between them: both are first ones
+    CHECK(fly_until(flight, t));
+    interrupt = 2;
+    CHECK(fly_until(flight, t + 1));
+    CHECK(interrupt == 0);
+    CHECK(obeyed(g, flight));
+  }
+  CHECK(said.count("the aircraft is armed: Ctrl-C once more within 5 s gives up control") == 2);
+  CHECK(fly_until(flight, 11.9));
+  interrupt = 15;
+  CHECK(fly_until(flight, 12.2));
+  CHECK(interrupt == 15);  // the next one finds it unanswered
+  CHECK(applied(g, flight) == -0.25);
+  CHECK(fly_until(flight, 12.5));
+  CHECK_FALSE(obeyed(g, flight));
+  while (flight.step()) {
+  }
+  const FlightResult r = flight.finish();
+  CHECK(1e-9 * static_cast<double>(r.last_ns) == doctest::Approx(11.9025 + 0.5 + 1).epsilon(1e-9));
+  CHECK(r.outcome == Outcome::interrupted);
+  CHECK(r.reason == "failsafe: control given up by a signal");
+}
+
+TEST_CASE(
+    "a signal ends a flight on hardware at once when the aircraft is not armed, and one that is silent after a failsafe when repeated") {
+  std::atomic<int> interrupt{2};
+  Said said;
+  FlightOptions o = listening(said);
+  o.interrupt = &interrupt;
+  const Graph unarmed = craft("", {{"craft.arm_at", "5"}});
+  const FlightResult r = Flight(unarmed, o).run();
+  CHECK(r.ticks == 1);
+  CHECK(r.outcome == Outcome::interrupted);
+
+  interrupt = 0;
+  const Graph g = craft("", {{"law_a.fail_at", "1"}});
+  Flight flight(g, o);
+  CHECK(fly_until(flight, 5));
+  interrupt = 2;
+  CHECK(fly_until(flight, 6));
+  CHECK(interrupt == 0);
+  interrupt = 2;
+  CHECK_FALSE(fly_until(flight, 6.1));
+  CHECK(flight.finish().outcome == Outcome::failed);
+}
+
+TEST_CASE("what a vehicle tells stands on the terminal and in the log, with its severity; any bytes become one line") {
+  const Graph g = craft("tell: [vehicle.notices, craft.remark]\n", {{"craft.note_at", "0.5"}});
+  Said said;
+  FlightOptions o = listening(said);
+  o.log = true;
+  o.log_file = folder().path / "told.mcap";
+  Flight flight(g, o);
+  fly_until(flight, 1);
+  flight.finish();
+  REQUIRE(said.lines.size() == 4);
+  CHECK(said.lines[0] == "    0.00 s  phase flight");
+  CHECK(said.lines[1] == "    0.50 s  craft: all is well");
+  CHECK(said.lines[2] == "    0.50 s  craft: bell  rings");
+  CHECK(said.lines[3] == "    0.50 s  craft: changed");  // once, though it is written in every tick
+  CHECK(said.warnings == std::vector<bool>{false, false, true, false});
+  const McapFile file = read_mcap(o.log_file);
+  const std::uint16_t channel = file.channel("/fulmar/event");
+  int notices = 0;
+  for (const auto& m : file.messages)
+    if (m.channel == channel && m.data[4] == std::byte{6}) ++notices;  // after the four bytes of the encapsulation: kind, notice
+  CHECK(notices == 3);
+}
+
+TEST_CASE("what cannot be controlled or told is refused with a sentence, and a vehicle that has nothing to tell is not at fault") {
+  const auto fault = [](const std::string& tail) {
+    try {
+      craft(tail);
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  CHECK(fault("control: [lawn]\n") == "craft.yaml:11: control: there is no role 'lawn'. Did you mean 'law'? Valid: vehicle, law.");
+  CHECK(fault("control: [vehicle]\n") == "craft.yaml:11: control: the vehicle obeys or not; name the roles whose outputs lead to it");
+  CHECK(fault("control: law\n") == "craft.yaml:11: control: expected a list of roles such as [guide, outer, inner], found 'law'");
+  CHECK(fault("tell: [vehicle.status]\n") == "craft.yaml:11: tell: 'vehicle.status' is State, which has no text 'text' to tell");
+  CHECK(fault("tell: [notices]\n") == "craft.yaml:11: tell: expected a port such as vehicle.notices, found 'notices'");
+  CHECK(fault("tell: [vehicle.notes]\n").find("the role vehicle has no output 'notes'") != std::string::npos);
+  CHECK(fault("tell: [vehicle.notices]\n").empty());
+  const fs::path file = folder().path / "quiet.yaml";
+  std::ofstream(file) << "roles:\n  vehicle: {out: {status: Arm, notices?: Note}}\ncomponents:\n  cart: {fills: vehicle, use: lab/Cart}\n"
+                         "tell: [vehicle.notices]\n";
+  CHECK(load_mission(file.string()).tell.empty());
+}
+
+// ---- a restart in the air -----------------------------------------------------------------------------------------------------
+
+namespace {
+
+const std::string two_phases =
+    "resume: {law_a.heirloom: law.command.u_frac}\n"
+    "phases:\n  first: {next: [{to: second, when: \"vehicle.status.tick_s > 0.2 s\"}]}\n"
+    "  second: {next: [{to: first, when: \"vehicle.status.tick_s > 1000 s\"}]}\n";
+
+/// The log of a host that was gone at `t_s` of the flight; what is in the file then, no more.
+fs::path cut_log(const Graph& g, double t_s) {
+  const fs::path whole = folder().path / "whole.mcap", cut = folder().path / "cut.mcap.part";
+  fs::remove(whole);
+  Said said;
+  FlightOptions o = listening(said);
+  o.log = true;
+  o.log_file = whole;
+  Flight flight(g, o);
+  fly_until(flight, t_s);
+  flight.finish();
+  std::ifstream in(whole, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  std::ofstream(cut, std::ios::binary) << bytes.substr(0, bytes.size() * 6 / 10);
+  return cut;
+}
+
+}  // namespace
+
+TEST_CASE("what a cut-off log says of phase, fields and arming is what the flight was then") {
+  const Graph g = craft(two_phases);
+  const Resume r = read_resume(g, cut_log(g, 6));
+  CHECK(r.phase == "second");
+  CHECK(r.armed);
+  REQUIRE(r.params.size() == 1);
+  CHECK(r.params[0].value.number[0] == 1);  // the law commands 1 from 1 s on
+  CHECK(r.text() == "phase second, law_a.heirloom = 1");
+  CHECK(r.missing.empty());
+  const Graph early = craft(two_phases, {{"craft.arm_at", "100"}});
+  CHECK_FALSE(read_resume(early, cut_log(early, 6)).armed);
+}
+
+TEST_CASE("a log that does not fit is refused with a sentence; a field that it does not hold is told") {
+  const Graph g = craft(two_phases);
+  const fs::path log = cut_log(g, 3);
+  const auto fault = [&](const Graph& other) {
+    try {
+      read_resume(other, log);
+    } catch (const Error& e) {
+      return std::string(e.what()).substr(log.string().size());
+    }
+    return std::string();
+  };
+  Graph renamed = g;
+  renamed.mission = "crafty";
+  CHECK(fault(renamed) == ": is a log of the mission craft, not of crafty");
+  Graph phases = g;
+  phases.phases[1].name = "third";
+  CHECK(fault(phases) == ": it ends in the phase 'second', which this mission does not have. Valid: first, third.");
+  const Graph more = craft("record: {ports: [craft.remark]}\n" + two_phases);
+  const Resume r = read_resume(more, cut_log(more, 3));
+  CHECK(r.phase == "second");
+  REQUIRE(r.missing.size() == 1);
+  CHECK(r.missing[0].starts_with("resume.law_a.heirloom: the log has no topic '/law/command'."));
+}
+
+TEST_CASE("a flight resumes when its vehicle is armed in its first second, and begins at the beginning otherwise") {
+  const Graph g = craft(two_phases);
+  Resume resume = read_resume(g, cut_log(g, 3));
+  for (const bool asked : {true, false})
+    for (const double arm_at : {0.15, 1.1}) {
+      const Graph next = craft("phases:\n  first: {next: [{to: second, when: \"vehicle.status.tick_s > 1000 s\"}]}\n  second: {}\n",
+                               {{"craft.arm_at", std::to_string(arm_at)}});
+      Said said;
+      FlightOptions o = listening(said);
+      resume.if_armed = !asked;
+      o.resume = resume;
+      Flight flight(next, o);
+      CHECK(fly_until(flight, 0.1));
+      CHECK(flight.phase() == (asked ? "second" : "first"));
+      CHECK(applied(next, flight) == doctest::Approx(asked ? 1 : 0.1));
+      CHECK(fly_until(flight, 1.5));
+      const bool resumed = asked || arm_at < 1;
+      CHECK(flight.phase() == (resumed ? "second" : "first"));
+      CHECK(applied(next, flight) == 1);
+      CHECK(said.count("resumed: phase second, law_a.heirloom = 1") == (resumed ? 1 : 0));
+      CHECK(said.count("not resumed: the aircraft is not in the air, armed") == (resumed ? 0 : 1));
+      CHECK(said.count("phase ") == (asked ? 2 : resumed ? 3 : 1));
+    }
+}
+
+TEST_CASE("the newest log of a mission is found, cut off or whole, unless it is too old") {
+  const fs::path place = folder().path / "newest";
+  fs::create_directories(place);
+  Graph g = craft(two_phases);
+  g.record_file = (place / "run.mcap").string();
+  CHECK(newest_log(g, 0).empty());
+  const auto now = fs::file_time_type::clock::now();
+  const auto put = [&](const char* name, int age_s) {
+    std::ofstream(place / name) << "x";
+    fs::last_write_time(place / name, now - std::chrono::seconds(age_s));
+  };
+  put("run.mcap", 2000);
+  put("run-2.mcap.part", 1000);
+  put("other.mcap", 1);
+  put("run-3.txt", 1);
+  CHECK(newest_log(g, 0).filename() == "run-2.mcap.part");
+  CHECK(newest_log(g, 600).empty());
+  put("run-3.mcap", 100);
+  CHECK(newest_log(g, 600).filename() == "run-3.mcap");
+}

@@ -86,6 +86,16 @@ in_debugger() {
   cd ..
 }
 
+# The unit that flies a mission is one that systemd understands.
+systemd_unit() {
+  if ! command -v systemd-analyze >/dev/null; then echo "  no systemd here: its unit was not checked"; return; fi
+  mkdir -p units
+  sed "s|^ExecStart=fulmar |ExecStart=$1/bin/fulmar |" "$1/lib/systemd/system/fulmar@.service" >units/fulmar@.service
+  SYSTEMD_UNIT_PATH=$PWD/units: systemd-analyze verify --man=no "$PWD/units/fulmar@hourglass.service" >unit.log 2>&1 && ! grep -q . unit.log ||
+    { cat unit.log; fail "systemd does not like the unit"; }
+  echo "  systemd: fulmar@.service is in order"
+}
+
 # usable PREFIX: all of the above, in the present folder
 usable() {
   local prefix=$1
@@ -95,6 +105,7 @@ usable() {
   project "$prefix" my_judge judge "--duration 60" --mission own.yaml
   by_pkg_config "$prefix"
   in_debugger "$prefix" my_outer
+  systemd_unit "$prefix"
   "$prefix/bin/fulmar" run "$prefix/share/fulmar/missions/hourglass.yaml" --duration 60 --no-log >/dev/null 2>&1 || fail "the installed hourglass does not fly"
 }
 

@@ -7,6 +7,11 @@ foreach(target IN LISTS shipped)
   endif()
 endforeach()
 
+# Hardware: the unit that flies a mission, its account, the name of the serial port. Literal lib/: where systemd and udev look.
+install(FILES cmake/systemd/fulmar@.service DESTINATION lib/systemd/system)
+install(FILES cmake/systemd/fulmar.conf DESTINATION lib/sysusers.d)
+install(FILES cmake/systemd/70-fulmar.rules DESTINATION lib/udev/rules.d)
+
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # the target `flight` is enough to install and to pack
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME fulmar)
@@ -22,6 +27,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME fulmar)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/systemd/postinst)
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME fulmar-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
     "fulmar (= ${PROJECT_VERSION}), libeigen3-dev (>= 3.4), doctest-dev, cmake (>= 3.22), ninja-build, g++ | clang")

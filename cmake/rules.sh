@@ -12,10 +12,11 @@ refuse() { # refuse SENTENCE, reads offending lines
   bad=1
 }
 git grep -nE '^#include [<"]core/' -- plugins sdk examples | refuse "Plugins and SDK must not include core:"
-git grep -nE '^#include [<"](\.\./)*plugins/' -- core sdk plugins | grep -vE '^plugins/([^/]+)/test/.*plugins/\1/' | refuse "Nobody includes a plugin but its own test:"
+git grep -nE '^#include [<"](\.\./)*plugins/' -- core sdk plugins | grep -vE '^plugins/([^/]+)/test/.*plugins/\1/|^plugins/fcu_serial/test/peer/.*plugins/sim_aero/' |
+  refuse "Nobody includes a plugin but its own test, and the peer that flies the simulated aircraft:"
 git grep -nE '^#include [<"]fulmar/' -- core | grep -vE '^core/([^:]*/)?test/|fulmar/abi\.h' | refuse "Core includes abi.h alone:"
-git grep -nE '#include <(yaml-cpp|boost|spdlog|fastdds|CLI)' -- sdk plugins | refuse "Only core links yaml-cpp, Boost.DLL, spdlog and Fast DDS:"
-git grep -nE 'std::chrono|clock_gettime|gettimeofday|std::random_device|\brand\(' -- plugins sdk/include | grep -v '/test/' | refuse "Time comes from the vehicle and chance from the seed:"
+git grep -nE '#include <(yaml-cpp|boost|spdlog|fastdds|CLI)' -- sdk plugins | grep -vE '^plugins/fcu_serial/(link|test/peer)/' | refuse "Only core links yaml-cpp, Boost.DLL, spdlog and Fast DDS:"
+git grep -nE 'std::chrono|clock_gettime|gettimeofday|std::random_device|\brand\(' -- plugins sdk/include | grep -vE '/test/|^plugins/fcu_serial/link/' | refuse "Time comes from the vehicle and chance from the seed:"
 git grep -nIE '(^|[^[:alnum:]_.])/(work|root|home|farm)/' -- . | refuse "No path of one machine:"
 git grep -nIE '\b(TODO|FIXME|XXX|HACK|TEMPORARY)\b' -- '*.cpp' '*.hpp' '*.h' '*.c' '*.mjs' '*.txt' '*.cmake' | refuse "Finish it:"
 for file in $(git ls-files '*.cpp' '*.hpp' '*.h' '*.c' '*.sh' '*.cmake' '*CMakeLists.txt' '*.mjs'); do

@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "actuation.hpp"
 #include "fulmar/flight/magnetic_model.hpp"
 #include "fulmar/msg/arm_request.hpp"
 #include "fulmar/msg/origin.hpp"
@@ -50,6 +51,9 @@ class Aircraft {
     Param start_height{0, "m", 0, 5000, "0: on the ground; more: in trimmed level flight", setup};
     Param start_heading{0, "rad", -6.3, 6.3, "from north, clockwise", setup};
     Param start_airspeed{0, "m/s", 0, 100, "of a start in the air; 0: the airframe's cruise", setup};
+    Param mux_rate{0, "Hz", 0, 2000, "commands move the outputs at frames of the radio only; 111 on ROSflight hardware; 0: at once", setup};
+    Param pwm_resolution{0, "s", 0, 1e-4, "of the servos' pulses of 1 to 2 ms; 0: none", setup};
+    Param link_latency{0, "s", 0, 0.1, "of commands on their way to the outputs", setup};
     Flag motor{true, "false: the motor stops"};
     Flag imu_works{true, "false: silent"};
     Flag gnss_works{true, "false: silent"};
@@ -78,6 +82,7 @@ class Aircraft {
     epoch_ns_ = std::llround(p.epoch) * 1000000000;
     armed_ = wants_armed_ = released_ = failsafe_ = false;
     command_ = {};
+    actuation_ = Actuation({p.mux_rate, p.pwm_resolution, p.link_latency}, airframe_, now_ns_);
     status_ = {};
     plant_.emplace(airframe_, Weather{eigen(p.wind_ned.value), p.turbulence}, origin_.alt_msl_m, mix_seed(seed_, 10));
     place(p);
@@ -104,8 +109,9 @@ class Aircraft {
     now_ns_ += period_ns_;
     tick.now_ns = now_ns_;
     const double dt = 1e-9 * static_cast<double>(period_ns_);
+    const Actuators& applied = actuation_.at(now_ns_ - period_ns_);
     if (released_)
-      plant_->advance(command_, armed_ && p.motor, dt);
+      plant_->advance(applied, armed_ && p.motor, dt);
     else
       plant_->carry(dt);
     if (wants_armed_ && !armed_ && now_ns_ >= 0) armed_ = released_ = true;
@@ -126,6 +132,7 @@ class Aircraft {
       command_ = *in.actuators;
     else if (released_)
       command_ = {};  // motor off, surfaces neutral
+    actuation_.put(command_, tick.now_ns);
     return Status::ok;
   }
 
@@ -183,6 +190,7 @@ class Aircraft {
     s.failsafe = failsafe_;
     s.on_ground = plant_->on_ground();
     s.crashed = plant_->crashed();
+    s.in_control = armed_ && !p.pilot_flies && !failsafe_ && !s.crashed;
     s.health = s.crashed ? Health::failed : Health::ok;
     const bool changed = s.armed != status_.armed || s.override != status_.override || s.failsafe != status_.failsafe ||
                          s.on_ground != status_.on_ground || s.crashed != status_.crashed;
@@ -204,6 +212,7 @@ class Aircraft {
   Due imu_due_, gnss_due_, mag_due_, baro_due_, pitot_due_, rc_due_, status_rate_, truth_due_;
   Delay<Gnss> gnss_delay_;
   Actuators command_;
+  Actuation actuation_;
   VehicleStatus status_;
   bool armed_ = false, wants_armed_ = false;
   bool released_ = false;  ///< has been armed once: from then on it is free to move

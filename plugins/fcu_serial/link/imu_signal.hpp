@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Wakes the loop when an inertial sample has come: a count that the waiter sleeps on. Source: futex(2).
+#pragma once
+#include <linux/futex.h>
+#include <sys/syscall.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdint>
+
+namespace fulmar::fcu {
+
+class ImuSignal {
+ public:
+  /// The thread that feeds the queue, after so many samples were put in.
+  void raise(std::uint32_t samples) noexcept {
+    count_.fetch_add(samples, std::memory_order_seq_cst);
+    if (sleeping_.load(std::memory_order_seq_cst)) futex(FUTEX_WAKE_PRIVATE, 1, nullptr);
+  }
+
+  /// The loop, which has taken `taken` samples from the queue so far. False: the monotonic clock has reached `deadline_ns` without one.
+  bool wait(std::uint32_t taken, std::int64_t deadline_ns) noexcept {
+    const timespec deadline{deadline_ns / 1'000'000'000, deadline_ns % 1'000'000'000};
+    while (count_.load(std::memory_order_acquire) == taken) {
+      sleeping_.store(true, std::memory_order_seq_cst);
+      const bool late = futex(FUTEX_WAIT_BITSET_PRIVATE, taken, &deadline) != 0 && errno != EAGAIN && errno != EINTR;
+      sleeping_.store(false, std::memory_order_relaxed);
+      if (late) return count_.load(std::memory_order_acquire) != taken;
+    }
+    return true;
+  }
+
+ private:
+  long futex(int operation, std::uint32_t value, const timespec* deadline) noexcept {
+    static_assert(sizeof count_ == sizeof value && std::atomic<std::uint32_t>::is_always_lock_free);
+    return syscall(SYS_futex, reinterpret_cast<std::uint32_t*>(&count_), operation, value, deadline, nullptr, FUTEX_BITSET_MATCH_ANY);
+  }
+
+  alignas(64) std::atomic<std::uint32_t> count_{0};
+  std::atomic<bool> sleeping_{false};
+};
+
+}  // namespace fulmar::fcu

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "link.hpp"
+
+#include <poll.h>
+#include <pthread.h>
+#include <sched.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <csignal>
+#include <thread>
+
+#include "imu_signal.hpp"
+#include "outbox.hpp"
+#include "port.hpp"
+#include "spsc_queue.hpp"
+#include "timesync.hpp"
+#include "watch_list.hpp"
+
+namespace fulmar::fcu {
+namespace {
+
+std::int64_t monotonic_ns() noexcept {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return now.tv_sec * 1'000'000'000 + now.tv_nsec;
+}
+
+constexpr std::int64_t heartbeat_ns = 1'000'000'000, question_ns = 100'000'000;  // host time
+constexpr int read_ms = 5, reopen_ms = 100;                                      // on the wall
+constexpr std::size_t kept_for_events = 64;
+
+bool is_text(std::uint8_t c) { return (c >= ' ' && c <= '~') || c == '\r' || c == '\n' || c == '\t'; }
+
+}  // namespace
+
+struct Link::Impl {
+  explicit Impl(const LinkOptions& wanted) : options(wanted), watched(wanted.watched) {}
+
+  // ---- either thread
+  const LinkOptions options;
+  const std::int64_t start_ns = monotonic_ns();
+  std::atomic<bool> stop{false};
+  std::atomic<std::uint8_t> sequence{0};
+  std::atomic<int> descriptor{-1};
+  std::atomic<pid_t> thread_id{0};
+  SpscQueue<Received, 4096> queue;
+  ImuSignal imu;
+  Outbox outbox;
+  // What LinkState tells. Written by the link's thread.
+  std::atomic<bool> synchronised{false};
+  std::atomic<std::int64_t> heard_ns{0}, round_trip_ns{0}, offset_ns{0};
+  std::atomic<std::uint64_t> frames{0}, bad{0}, missing{0}, lost_in_queue{0}, bytes{0}, text_bytes{0}, undated{0};
+  std::atomic<std::uint32_t> connections{0}, reboots{0};
+  std::atomic<double> drift_ppm{0};
+
+  // ---- the loop's thread
+  std::uint32_t imu_taken = 0;
+  bool has_priority = false;
+
+  // ---- the link's thread
+  std::unique_ptr<Port> port;
+  Parser parser;
+  Dater dater;
+  WatchList watched;
+  std::int64_t next_heartbeat_ns = 0, next_question_ns = 0, last_arrival_ns = 0;
+  std::uint32_t imu_put = 0;       ///< since the loop was told
+  std::uint8_t target_system = 1;  ///< parameter SYS_ID of the controller, which obeys no other
+  std::thread thread;
+
+  std::int64_t now_ns() const noexcept {
+    const std::int64_t elapsed = monotonic_ns() - start_ns;
+    return options.time_scale == 1 ? elapsed : std::llround(static_cast<double>(elapsed) * options.time_scale);
+  }
+  std::int64_t on_the_wall(std::int64_t host_ns) const noexcept {
+    return start_ns + (options.time_scale == 1 ? host_ns : std::llround(static_cast<double>(host_ns) / options.time_scale));
+  }
+
+  void begin();
+  void adopt_priority() noexcept;
+  void run();
+  void serve();
+  void reopen();
+  void connected();
+  void take_bytes(std::span<const std::uint8_t> bytes);
+  void take(const Packet& packet, std::int64_t arrived_ns);
+  std::int64_t date(const Packet& packet, std::int64_t arrived_ns);
+  void time_answered(const Timesync& answer, std::int64_t arrived_ns);
+  void rebooted(std::int64_t now);
+  void put_event(LinkEvent event, std::int64_t now);
+  void do_duties(std::int64_t now);
+  template <class M>
+  bool send(const M& message) {
+    return outbox.send_own(encode(message, sequence.fetch_add(1, std::memory_order_relaxed)));
+  }
+};
+
+// ---- the link's thread ------------------------------------------------------------------------------------------------------------
+
+void Link::Impl::begin() {
+  // Signals are for the host's threads.
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  thread = std::thread([this] { run(); });
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  pthread_setname_np(thread.native_handle(), "fulmar-fcu");
+}
+
+void Link::Impl::run() {
+  thread_id.store(gettid(), std::memory_order_release);
+  while (!stop.load(std::memory_order_relaxed)) {
+    if (port == nullptr) {
+      reopen();
+      continue;
+    }
+    try {
+      serve();
+    } catch (const PortError&) {
+      descriptor.store(-1);
+      outbox.attach(nullptr);
+      port.reset();
+      put_event(LinkEvent::disconnected, now_ns());
+    }
+  }
+}
+
+void Link::Impl::serve() {
+  std::array<std::uint8_t, 4096> room;
+  while (!stop.load(std::memory_order_relaxed)) {
+    if (const std::size_t n = port->read(room, read_ms); n > 0) take_bytes({room.data(), n});
+    do_duties(now_ns());
+  }
+}
+
+void Link::Impl::reopen() {
+  for (int waited = 0; waited < reopen_ms && !stop.load(std::memory_order_relaxed); waited += 10) poll(nullptr, 0, 10);
+  if (stop.load(std::memory_order_relaxed)) return;
+  try {
+    port = Port::open(options.port, options.baud);
+  } catch (const PortError&) {
+    return;  // not yet
+  }
+  connected();
+}
+
+void Link::Impl::connected() {
+  const std::int64_t now = now_ns();
+  parser.restart();
+  dater.clock.forget_questions();
+  watched.restart();
+  next_heartbeat_ns = next_question_ns = now;
+  outbox.attach(port.get());
+  descriptor.store(port->descriptor());
+  connections.fetch_add(1, std::memory_order_relaxed);
+  put_event(LinkEvent::connected, now);
+}
+
+void Link::Impl::take_bytes(std::span<const std::uint8_t> came) {
+  const std::int64_t now = now_ns();
+  parser.feed(came, [&](const Packet& packet) { take(packet, now); });
+  bytes.fetch_add(came.size(), std::memory_order_relaxed);
+  text_bytes.fetch_add(static_cast<std::uint64_t>(std::count_if(came.begin(), came.end(), is_text)), std::memory_order_relaxed);
+  frames.store(parser.counts().frames, std::memory_order_relaxed);
+  bad.store(parser.counts().bad, std::memory_order_relaxed);
+  missing.store(parser.counts().missing, std::memory_order_relaxed);
+  undated.store(dater.undated(), std::memory_order_relaxed);
+  if (imu_put > 0) imu.raise(imu_put);  // once per read: the loop then finds all that came together
+  imu_put = 0;
+}
+
+void Link::Impl::take(const Packet& packet, std::int64_t arrived_ns) {
+  arrived_ns = last_arrival_ns = std::max(arrived_ns, last_arrival_ns + 1);
+  heard_ns.store(arrived_ns, std::memory_order_relaxed);
+  if (packet.is<SmallImu>() || packet.is<Heartbeat>()) target_system = packet.system;  // other ids may be anything
+  if (packet.is<SmallImu>() && dater.started_anew(packet.as<SmallImu>().time_boot_us)) {
+    dater.clock.restart();
+    rebooted(arrived_ns);
+  }
+  if (packet.is<Timesync>()) time_answered(packet.as<Timesync>(), arrived_ns);
+  if (packet.is<ParamValue>()) watched.answered(text(packet.as<ParamValue>().param_id));
+  const Received received{LinkEvent::packet, arrived_ns, date(packet, arrived_ns), packet};
+  if (!queue.push(received, kept_for_events))
+    lost_in_queue.fetch_add(1, std::memory_order_relaxed);
+  else if (packet.is<SmallImu>())
+    ++imu_put;
+}
+
+/// ATTITUDE, OUTPUT_RAW and RC have stamps of 1 ms; what has none is dated by its arrival.
+std::int64_t Link::Impl::date(const Packet& packet, std::int64_t arrived_ns) {
+  switch (packet.id) {
+    case SmallImu::id:
+      return dater.date_imu(packet.as<SmallImu>().time_boot_us, arrived_ns);
+    case AttitudeQuaternion::id:
+      return dater.date_ms32(packet.as<AttitudeQuaternion>().time_boot_ms, arrived_ns);
+    case RcChannels::id:
+      return dater.date_ms32(packet.as<RcChannels>().time_boot_ms, arrived_ns);
+    case RosflightOutputRaw::id:
+      return dater.date_ms(packet.as<RosflightOutputRaw>().stamp, arrived_ns);
+    case RosflightGnss::id:
+      return dater.date_us(packet.as<RosflightGnss>().rosflight_timestamp, arrived_ns);
+    default:
+      return arrived_ns;
+  }
+}
+
+void Link::Impl::time_answered(const Timesync& answer, std::int64_t arrived_ns) {
+  const ClockSync::Verdict verdict = dater.clock.answered(answer.ts1, answer.tc1, arrived_ns);
+  if (verdict == ClockSync::Verdict::jumped) {
+    dater.forget_stamps();
+    rebooted(arrived_ns);
+  }
+  if (!dater.clock.synchronised()) return;
+  round_trip_ns.store(dater.clock.round_trip_ns(), std::memory_order_relaxed);
+  offset_ns.store(dater.clock.offset_ns(arrived_ns), std::memory_order_relaxed);
+  drift_ppm.store(dater.clock.drift_ppm(), std::memory_order_relaxed);
+  synchronised.store(true, std::memory_order_relaxed);
+}
+
+void Link::Impl::rebooted(std::int64_t now) {
+  reboots.fetch_add(1, std::memory_order_relaxed);
+  synchronised.store(dater.clock.synchronised(), std::memory_order_relaxed);
+  watched.restart();
+  next_heartbeat_ns = next_question_ns = now;  // it keeps its texts until it hears somebody
+  put_event(LinkEvent::rebooted, now);
+}
+
+void Link::Impl::put_event(LinkEvent event, std::int64_t now) {
+  Received received;
+  received.event = event;
+  received.arrived_ns = received.valid_at_ns = last_arrival_ns = std::max(now, last_arrival_ns + 1);
+  if (!queue.push(received)) lost_in_queue.fetch_add(1, std::memory_order_relaxed);
+}
+
+void Link::Impl::do_duties(std::int64_t now) {
+  if (now >= next_heartbeat_ns) {
+    send(Heartbeat{});
+    next_heartbeat_ns = now + heartbeat_ns;
+  }
+  if (now >= next_question_ns) {
+    const std::int64_t asked = now_ns();
+    dater.clock.asked(asked);
+    send(Timesync{0, asked});
+    next_question_ns = now + question_ns;
+  }
+  for (std::string_view name = watched.next(now); !name.empty(); name = watched.next(now)) {
+    ParamRequestRead request;
+    request.target_system = target_system;
+    request.param_id = field<16>(name);
+    send(request);
+  }
+}
+
+// ---- the loop's thread ------------------------------------------------------------------------------------------------------------
+
+void Link::Impl::adopt_priority() noexcept {
+  // Of the kernel itself: the thread library keeps what it was told first.
+  sched_param own{};
+  const int policy = sched_getscheduler(0);
+  const pid_t other = thread_id.load(std::memory_order_acquire);
+  if (policy < 0 || other == 0) return;
+  has_priority = true;
+  if (policy != SCHED_OTHER && sched_getparam(0, &own) == 0) sched_setscheduler(other, policy, &own);
+}
+
+Link::Link(const LinkOptions& options) : impl_(std::make_unique<Impl>(options)) {
+  impl_->port = Port::open(options.port, options.baud);
+  impl_->connected();
+  impl_->begin();
+}
+
+Link::~Link() {
+  impl_->stop.store(true);
+  impl_->thread.join();
+}
+
+bool Link::wait_imu(std::int64_t until_ns) noexcept {
+  if (!impl_->has_priority) impl_->adopt_priority();
+  return impl_->imu.wait(impl_->imu_taken, impl_->on_the_wall(until_ns));
+}
+
+bool Link::pop(Received& out) noexcept {
+  if (!impl_->queue.pop(out)) return false;
+  if (out.event == LinkEvent::packet && out.packet.is<SmallImu>()) ++impl_->imu_taken;
+  return true;
+}
+
+bool Link::send_frame(const Frame& frame) noexcept { return impl_->outbox.send(frame); }
+std::uint8_t Link::next_sequence() noexcept { return impl_->sequence.fetch_add(1, std::memory_order_relaxed); }
+std::int64_t Link::now_ns() const noexcept { return impl_->now_ns(); }
+int Link::descriptor() const noexcept { return impl_->descriptor.load(); }
+
+LinkState Link::state() const noexcept {
+  const Impl& i = *impl_;
+  LinkState s;
+  s.open = i.descriptor.load() >= 0;
+  s.heard_ns = i.heard_ns.load(std::memory_order_relaxed);
+  s.frames = i.frames.load(std::memory_order_relaxed);
+  s.bad = i.bad.load(std::memory_order_relaxed);
+  s.missing = i.missing.load(std::memory_order_relaxed);
+  s.lost_in_queue = i.lost_in_queue.load(std::memory_order_relaxed);
+  s.bytes = i.bytes.load(std::memory_order_relaxed);
+  s.text_bytes = i.text_bytes.load(std::memory_order_relaxed);
+  s.undated = i.undated.load(std::memory_order_relaxed);
+  s.connections = i.connections.load(std::memory_order_relaxed);
+  s.reboots = i.reboots.load(std::memory_order_relaxed);
+  s.synchronised = i.synchronised.load(std::memory_order_relaxed);
+  s.round_trip_ns = i.round_trip_ns.load(std::memory_order_relaxed);
+  s.offset_ns = i.offset_ns.load(std::memory_order_relaxed);
+  s.drift_ppm = i.drift_ppm.load(std::memory_order_relaxed);
+  return s;
+}
+
+}  // namespace fulmar::fcu

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A serial port, or a pseudo-terminal: raw, held alone, as quiet to the device as opening can be.
+#pragma once
+#include <array>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/serial_port.hpp>
+
+#include "port.hpp"
+
+namespace fulmar::fcu {
+
+class SerialPort final : public Port {
+ public:
+  SerialPort(boost::asio::io_context& io, const std::string& path, std::int64_t baud);
+  ~SerialPort() override;
+
+  std::size_t read(std::span<std::uint8_t> room, int timeout_ms) override;
+  bool write(std::span<const std::uint8_t> bytes) noexcept override;
+  int descriptor() const noexcept override { return descriptor_; }
+
+ private:
+  bool write_rest() noexcept;
+
+  std::string path_;
+  boost::asio::serial_port port_;
+  int descriptor_ = -1;
+  std::array<std::uint8_t, 512> rest_{};  ///< of a write that the device took in part: it goes first, so that frames stay whole
+  std::size_t rest_size_ = 0;
+};
+
+/// A rate that is no constant of termios, through termios2. The rate that the driver then has, 0 when it refuses.
+unsigned set_any_rate(int descriptor, unsigned baud);
+
+}  // namespace fulmar::fcu

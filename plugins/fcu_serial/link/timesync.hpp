@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The controller's clock in host time. Questions and answers give bounds: the answer was stamped after the question left and before the
+// answer came, so offset = host - controller lies in [asked - stamp, came - stamp]. The messages that took least time, each way, bound it
+// best: one line each through the bounds of the last seconds, of one slope, each bound weighted by how far it is from the tightest. The
+// offset is in the middle, as if the quickest message took equal time both ways; by how much it does not cannot be told from one end.
+// Sources: RFC 5905 (NTP), section 10, clock filter; Paxson, On Calibrating Measurements of Packet Transit Times (1998).
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+
+namespace fulmar::fcu {
+
+class ClockSync {
+ public:
+  static constexpr std::int64_t window_ns = 10'000'000'000;
+  static constexpr std::int64_t jump_ns = 10'000'000;         ///< more than that is another clock
+  static constexpr std::int64_t patience_ns = 1'000'000'000;  ///< an answer that takes longer is none
+  static constexpr double drift_limit = 500e-6;
+  static constexpr std::int64_t longest_ns = 300'000'000'000'000'000;  ///< nothing runs for ten years: a stamp beyond is garbage
+
+  enum class Verdict : std::uint8_t { ignored, taken, jumped };
+
+  /// A question leaves now. Its time is its name.
+  void asked(std::int64_t now_ns) { questions_[question_count_++ % questions_.size()] = now_ns; }
+
+  /// TIMESYNC came. `jumped`: the clock is another one than before, and all is forgotten but this answer.
+  Verdict answered(std::int64_t ts1, std::int64_t tc1, std::int64_t now_ns) {
+    if (tc1 <= 0 || tc1 > longest_ns || ts1 > now_ns || now_ns - ts1 > patience_ns || !was_asked(ts1)) return Verdict::ignored;
+    const Sample sample{now_ns, now_ns - ts1, ts1 + (now_ns - ts1) / 2 - tc1};
+    const std::int64_t apart_ns = synchronised() ? beyond_bounds(sample) : 0;
+    if (apart_ns > step_limit_ns) {
+      if (!confirms(sample)) {  // a single stamp may be garbage; two that agree with each other are a clock
+        suspect_ = sample;
+        return Verdict::ignored;
+      }
+      restart_line();
+    }
+    suspect_.reset();
+    add(sample);
+    return apart_ns > jump_ns ? Verdict::jumped : Verdict::taken;
+  }
+
+  /// The controller has started anew: nothing that was known holds.
+  void restart() {
+    restart_line();
+    suspect_.reset();
+    forget_questions();
+  }
+  /// What was asked before the device went is not answered any more.
+  void forget_questions() { question_count_ = 0; }
+
+  bool synchronised() const { return count_ > 0; }
+  std::int64_t round_trip_ns() const { return least_ns_; }
+  double drift_ppm() const { return slope_ * 1e6; }
+  /// Host time = controller's time + offset, for an event about now.
+  std::int64_t offset_ns(std::int64_t now_ns) const {
+    const double t = static_cast<double>(now_ns - line_at_ns_);
+    const double fading = std::clamp(1 - static_cast<double>(now_ns - bent_at_ns_) / static_cast<double>(blend_ns), 0.0, 1.0);
+    return line_ns_ + std::llround(slope_ * t + step_ns_ * fading);
+  }
+
+ private:
+  static constexpr std::int64_t blend_ns = 1'000'000'000;   // a new line takes over gradually: stamps of neighbours keep their distance
+  static constexpr double snap_ns = 2e6;                    // a worse error is not worth a smooth correction
+  static constexpr std::int64_t step_limit_ns = 2'000'000;  // bounds that are further apart than that are of two clocks
+  static constexpr double resolution_ns = 20e3;             // of the best message: what a scheduler does in a quiet moment
+  static constexpr double usual_drift = 100e-6;             // of two crystals; holds the line while its base is short
+
+  static constexpr std::size_t most = 128;  // a window's worth at 10 Hz
+
+  struct Sample {
+    std::int64_t at_ns = 0, round_trip_ns = 0;
+    std::int64_t offset_ns = 0;  ///< middle of its bounds
+  };
+
+  bool was_asked(std::int64_t ts1) {
+    const std::size_t kept = static_cast<std::size_t>(std::min<std::uint64_t>(question_count_, questions_.size()));
+    for (std::size_t i = 0; i < kept; ++i) {
+      if (questions_[i] != ts1) continue;
+      questions_[i] = -1;  // an answer counts once
+      return true;
+    }
+    return false;
+  }
+
+  /// How far the bounds of this answer are from those of the line, more than the clocks can have drifted apart since the last one.
+  std::int64_t beyond_bounds(const Sample& s) const {
+    const std::int64_t distance = std::llabs(s.offset_ns - offset_ns(s.at_ns)) - s.round_trip_ns / 2 - least_ns_ / 2;
+    return distance - std::llround(drift_limit * static_cast<double>(s.at_ns - newest().at_ns));
+  }
+  bool confirms(const Sample& s) const {
+    return suspect_ && std::llabs(s.offset_ns - suspect_->offset_ns) <= step_limit_ns + s.round_trip_ns / 2 + suspect_->round_trip_ns / 2;
+  }
+
+  void restart_line() {
+    count_ = 0;
+    slope_ = step_ns_ = 0;
+    line_ns_ = line_at_ns_ = bent_at_ns_ = least_ns_ = 0;
+  }
+
+  const Sample& newest() const { return samples_[(count_ - 1) % samples_.size()]; }
+
+  void add(const Sample& sample) {
+    const bool first = count_ == 0;
+    const std::int64_t before = first ? 0 : offset_ns(sample.at_ns);
+    samples_[count_++ % samples_.size()] = sample;
+    fit(sample.at_ns);
+    step_ns_ = 0;
+    const auto step = static_cast<double>(before - offset_ns(sample.at_ns));
+    step_ns_ = first || std::abs(step) > snap_ns ? 0 : step;
+    bent_at_ns_ = sample.at_ns;
+  }
+
+  /// One side of the bounds: y = a line of known slope through the tightest, x in ns before now.
+  struct Side {
+    double sign = 1;  // +1: the tightest is the least (answers), -1: the largest (questions)
+    double w = 0, t = 0, y = 0, tightest = 0, resolution = 0;
+  };
+  double bound(const Sample& s, double sign) const {
+    return static_cast<double>(s.offset_ns - newest().offset_ns) + sign * 0.5 * static_cast<double>(s.round_trip_ns);
+  }
+  double age(const Sample& s) const { return static_cast<double>(s.at_ns - newest().at_ns); }
+  double weight(const Sample& s, const Side& side) const {
+    const double looseness = side.sign * (bound(s, side.sign) - slope_ * age(s)) - side.tightest + side.resolution;
+    return 1 / (looseness * looseness);
+  }
+  template <class Take>
+  void each(Take&& take) const {
+    const std::uint64_t kept = std::min<std::uint64_t>(count_, samples_.size());
+    for (std::uint64_t i = count_ - kept; i < count_; ++i) {
+      if (const Sample& s = samples_[i % samples_.size()]; newest().at_ns - s.at_ns <= window_ns) take(s);
+    }
+  }
+
+  /// The tightest bound, how sure that is, and the weighted mean, for the present slope.
+  Side look_at(double sign) const {
+    Side side{sign};
+    std::array<double, most> delays{};
+    std::size_t n = 0;
+    each([&](const Sample& s) { delays[n++] = sign * (bound(s, sign) - slope_ * age(s)); });
+    const auto begin = delays.begin(), end = begin + static_cast<std::ptrdiff_t>(n),
+               middle = begin + static_cast<std::ptrdiff_t>((n - 1) / 2);
+    std::nth_element(begin, middle, end);
+    side.tightest = *std::min_element(begin, middle + 1);
+    side.resolution =
+        resolution_ns + 1.4 * (*middle - side.tightest) / static_cast<double>(n);  // what the least of n delays has above none
+    each([&](const Sample& s) {
+      const double w = weight(s, side);
+      side.w += w, side.t += w * age(s), side.y += w * bound(s, sign);
+    });
+    side.t /= side.w, side.y /= side.w;
+    return side;
+  }
+
+  /// Least squares over both sides with a common slope and a prior on it. The weights depend on the slope: twice.
+  void fit(std::int64_t now_ns) {
+    least_ns_ = newest().round_trip_ns;
+    each([&](const Sample& s) { least_ns_ = std::min(least_ns_, s.round_trip_ns); });
+    std::array<Side, 2> sides;
+    for (int pass = 0; pass < 3; ++pass) {
+      sides = {look_at(-1), look_at(1)};
+      if (pass == 2) break;
+      double tt = 1 / (usual_drift * usual_drift), ty = 0;
+      for (const Side& side : sides) {
+        each([&](const Sample& s) {
+          const double w = weight(s, side), t = age(s) - side.t;
+          tt += w * t * t, ty += w * t * (bound(s, side.sign) - side.y);
+        });
+      }
+      slope_ = std::clamp(ty / tt, -drift_limit, drift_limit);
+    }
+    line_at_ns_ = now_ns;
+    line_ns_ = newest().offset_ns + std::llround(0.5 * (sides[0].y - slope_ * sides[0].t + sides[1].y - slope_ * sides[1].t));
+  }
+
+  std::array<Sample, most> samples_{};
+  std::uint64_t count_ = 0;
+  std::array<std::int64_t, 16> questions_{};
+  std::uint64_t question_count_ = 0;
+  std::optional<Sample> suspect_;
+  std::int64_t line_ns_ = 0, line_at_ns_ = 0, bent_at_ns_ = 0, least_ns_ = 0;
+  double slope_ = 0, step_ns_ = 0;
+};
+
+/// Dates packets: their stamps, of several resolutions, in host time.
+class Dater {
+ public:
+  ClockSync clock;
+
+  /// Of a stamp in us on the controller's clock. Never after the arrival and never 1 s before it: then the arrival counts, `undated` too.
+  std::int64_t date_us(std::uint64_t stamp_us, std::int64_t arrived_ns) { return date(stamp_us, 1000, 0, arrived_ns); }
+
+  /// Of a stamp cut to whole ms, of which the lowest 32 bits may be all there is: they wrap after 49.7 days. The middle of that ms.
+  std::int64_t date_ms32(std::uint32_t stamp_ms, std::int64_t arrived_ns) {
+    if (!clock.synchronised()) return arrived_ns;
+    const std::int64_t about_ms = (arrived_ns - clock.offset_ns(arrived_ns)) / 1'000'000;
+    const auto ahead = static_cast<std::int32_t>(stamp_ms - static_cast<std::uint32_t>(about_ms));
+    return date_ms(static_cast<std::uint64_t>(about_ms + ahead), arrived_ns);
+  }
+  std::int64_t date_ms(std::uint64_t stamp_ms, std::int64_t arrived_ns) { return date(stamp_ms, 1'000'000, 500'000, arrived_ns); }
+
+  /// Of an inertial sample: strictly increasing. Arrivals must be.
+  std::int64_t date_imu(std::uint64_t stamp_us, std::int64_t arrived_ns) {
+    last_imu_ns_ = std::min(arrived_ns, std::max(date_us(stamp_us, arrived_ns), last_imu_ns_ + 1));
+    return last_imu_ns_;
+  }
+
+  /// Looks at each stamp of an inertial sample. True when the controller's clock has begun anew: two in a row that lie before the newest.
+  bool started_anew(std::uint64_t stamp_us) {
+    const bool back = stamp_us + static_cast<std::uint64_t>(ClockSync::jump_ns) / 1000 < newest_us_;
+    const bool twice = back && earlier_us_ && stamp_us >= *earlier_us_;
+    if (!back || twice) {
+      earlier_us_.reset();
+      newest_us_ = twice ? stamp_us : std::max(stamp_us, newest_us_);
+    } else {
+      earlier_us_ = stamp_us;
+    }
+    return twice;
+  }
+
+  /// After a reboot that something else than these stamps has shown.
+  void forget_stamps() {
+    newest_us_ = 0;
+    earlier_us_.reset();
+  }
+
+  std::uint64_t undated() const { return undated_; }
+
+ private:
+  static constexpr std::int64_t oldest_ns = 1'000'000'000, tolerance_ns = 2'000'000;
+
+  std::int64_t date(std::uint64_t stamp, std::int64_t unit_ns, std::int64_t middle_ns, std::int64_t arrived_ns) {
+    if (!clock.synchronised()) return arrived_ns;
+    const bool possible = stamp < static_cast<std::uint64_t>(ClockSync::longest_ns / unit_ns);
+    const std::int64_t at = possible ? static_cast<std::int64_t>(stamp) * unit_ns + middle_ns + clock.offset_ns(arrived_ns) : 0;
+    if (!possible || at > arrived_ns + tolerance_ns || at < arrived_ns - oldest_ns) {
+      ++undated_;
+      return arrived_ns;
+    }
+    return std::min(at, arrived_ns);
+  }
+
+  std::int64_t last_imu_ns_ = 0;
+  std::uint64_t newest_us_ = 0, undated_ = 0;
+  std::optional<std::uint64_t> earlier_us_;
+};
+
+}  // namespace fulmar::fcu

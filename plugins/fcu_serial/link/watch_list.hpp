@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which parameters of the controller have to be asked for, and when. An answer may get lost: the firmware drops what finds no room.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fulmar::fcu {
+
+class WatchList {
+ public:
+  static constexpr std::int64_t patience_ns = 200'000'000;
+  static constexpr int most_in_flight = 10;  ///< a burst would overrun the controller's queue
+
+  explicit WatchList(const std::vector<std::string>& names) {
+    for (const std::string& name : names) entries_.push_back({name, never, false});
+  }
+
+  /// The controller may have another value of each.
+  void restart() {
+    for (Entry& e : entries_) e = {e.name, never, false};
+  }
+  void answered(std::string_view name) {
+    for (Entry& e : entries_) e.answered |= e.name == name;
+  }
+  /// The name to ask for now, the one that has waited longest; empty when there is none.
+  std::string_view next(std::int64_t now_ns) {
+    Entry* longest = nullptr;
+    int in_flight = 0;
+    for (Entry& e : entries_) {
+      if (e.answered) continue;
+      if (e.asked_ns != never && now_ns - e.asked_ns < patience_ns)
+        ++in_flight;
+      else if (longest == nullptr || e.asked_ns < longest->asked_ns)
+        longest = &e;
+    }
+    if (longest == nullptr || in_flight >= most_in_flight) return {};
+    longest->asked_ns = now_ns;
+    return longest->name;
+  }
+
+ private:
+  static constexpr std::int64_t never = INT64_MIN;
+  struct Entry {
+    std::string name;
+    std::int64_t asked_ns = never;
+    bool answered = false;
+  };
+  std::vector<Entry> entries_;
+};
+
+}  // namespace fulmar::fcu

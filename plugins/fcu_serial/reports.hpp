@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What this vehicle alone has to say: messages that no simulated aircraft publishes.
+#pragma once
+#include "fulmar/message.hpp"
+
+namespace fulmar::fcu {
+
+/// A range finder of the flight controller.
+struct Range {
+  double distance_m = 0;
+  double min_m = 0, max_m = 0;  ///< as the controller says; firmware 2.0 always says 0.25 and 8
+  bool valid = false;           ///< within them
+};
+
+/// The controller's own estimate. Its heading drifts: nothing corrects it there.
+struct ControllerAttitude {
+  Quat attitude;          ///< body to NED
+  Vec3<Body> rate_radps;  ///< filtered
+  double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;
+};
+
+/// What the controller's outputs get: after mixer, override and failsafe.
+struct ControllerOutputs {
+  std::array<double, 14> values_ratio{};  ///< servos and motors 0 to 1
+};
+
+/// How well the two hear each other.
+struct LinkStatus {
+  bool open = false;           ///< the device is there
+  bool synchronised = false;   ///< the controller's clock is known
+  double heard_age_s = 1e9;    ///< since the last good frame; 1e9: never
+  std::uint64_t frames = 0;    ///< good ones
+  std::uint64_t bad = 0;       ///< with a wrong checksum
+  std::uint64_t missing = 0;   ///< that never came, by their sequence numbers
+  std::uint64_t dropped = 0;   ///< found no room on this side
+  std::uint64_t unusable = 0;  ///< sensor values that were not finite or out of this world
+  std::uint64_t commands = 0;  ///< sent
+  std::uint64_t unsent = 0;    ///< commands that were not finite, or that the device did not take
+  std::uint32_t connections = 0, reboots = 0;
+  std::uint32_t imu_gaps = 0;  ///< longer than 6 ms between two inertial samples
+  double worst_gap_s = 0;
+  double imu_rate_hz = 0;      ///< of the last second
+  double round_trip_s = 0;     ///< least of the last seconds
+  std::int64_t offset_ns = 0;  ///< host's clock minus the controller's
+  double drift_ratio = 0;      ///< how much faster the host's clock runs
+  double turnaround_s = 0;     ///< from the arrival of an inertial sample to its command, longest since the last report
+};
+
+}  // namespace fulmar::fcu

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Who flies: what the controller says of itself, how old that is, and whether the host's commands move the aircraft. Each change is told
+// once.
+#pragma once
+#include <cstdint>
+#include <limits>
+
+#include "fulmar/msg/vehicle_status.hpp"
+#include "words.hpp"
+
+namespace fulmar::fcu {
+
+inline constexpr std::int64_t never_ns = std::numeric_limits<std::int64_t>::min() / 2;
+inline constexpr std::int64_t link_patience_ns = 200'000'000;     ///< without a frame: at least 400 come in each second
+inline constexpr std::int64_t gap_patience_ns = 50'000'000;       ///< without an inertial sample: flagged, nothing more
+inline constexpr std::int64_t rc_patience_ns = 500'000'000;       ///< without a frame of the radio: 111 come in each second
+inline constexpr std::int64_t status_patience_ns = 500'000'000;   ///< without a status: 10 come in each second
+inline constexpr std::int64_t command_patience_ns = 100'000'000;  ///< OFFBOARD_TIMEOUT: the controller forgets a command after this
+
+/// Bits of VehicleStatus::errors beside the controller's own eight.
+enum OwnError : std::uint32_t {
+  own_error_rc_silent = 0x100,     ///< the radio's frames stopped
+  own_error_link_down = 0x200,     ///< nothing comes from the controller
+  own_error_sensors_dead = 0x400,  ///< sensors of the controller did not start
+  own_error_imu_silent = 0x800     ///< frames come, but no inertial samples: the controller's own control has stopped
+};
+
+/// What was heard last, and when; times in ns of one clock.
+struct Heard {
+  RosflightStatus status;
+  double volt = 0, amp = 0;
+  bool open = true;           ///< the device is there
+  std::int64_t since_ns = 0;  ///< frames come without a break
+  std::int64_t frame_ns = never_ns, imu_ns = never_ns, status_ns = never_ns, rc_ns = never_ns, command_ns = never_ns;
+
+  void frame(std::int64_t now_ns) {
+    if (now_ns - frame_ns >= link_patience_ns) since_ns = now_ns;
+    frame_ns = now_ns;
+  }
+};
+
+inline VehicleStatus evaluate(const Heard& h, std::int64_t now_ns) {
+  const bool link = now_ns - h.frame_ns < link_patience_ns;
+  const bool rc = now_ns - h.rc_ns < rc_patience_ns;
+  const bool imu = now_ns - h.imu_ns < link_patience_ns;
+  VehicleStatus s;
+  s.armed = h.status.armed != 0;
+  s.failsafe = h.status.failsafe != 0;
+  s.offboard = h.status.offboard != 0;
+  s.override = (h.status.rc_override & override_by_pilot) != 0;
+  s.override_reasons = h.status.rc_override;
+  s.on_ground = !s.armed;
+  s.in_control = s.armed && !s.failsafe && s.offboard && (h.status.rc_override & (override_by_pilot | override_inactive)) == 0 && rc &&
+                 imu && now_ns - h.status_ns < status_patience_ns && now_ns - h.command_ns < command_patience_ns;
+  s.errors = h.status.error_code;
+  if (!rc && now_ns - h.since_ns > rc_patience_ns) s.errors |= own_error_rc_silent;
+  if (!link) s.errors |= own_error_link_down;
+  if (h.status.num_errors > 0) s.errors |= own_error_sensors_dead;
+  if (link && !imu && now_ns - h.since_ns > link_patience_ns) s.errors |= own_error_imu_silent;
+  s.health = !link || !imu ? Health::failed : s.errors != 0 || now_ns - h.imu_ns >= gap_patience_ns ? Health::degraded : Health::ok;
+  s.battery_volt = h.volt;
+  s.battery_amp = h.amp;
+  s.rc_age_s = h.rc_ns == never_ns ? 1e9 : 1e-9 * static_cast<double>(now_ns - h.rc_ns);
+  return s;
+}
+
+/// What differs between two states that a reader would want to know at once.
+inline bool changed(const VehicleStatus& a, const VehicleStatus& b) {
+  return a.armed != b.armed || a.failsafe != b.failsafe || a.offboard != b.offboard || a.override != b.override ||
+         a.override_reasons != b.override_reasons || a.in_control != b.in_control || a.errors != b.errors || a.health != b.health;
+}
+
+/// Tells each change of the state once.
+class Teller {
+ public:
+  /// Only when a status of the controller has been heard.
+  void tell(const VehicleStatus& s, const Heard& h, std::int64_t now_ns, Notices& out) {
+    tell_link(s, h, now_ns, out);
+    if (h.status_ns == never_ns || (s.errors & own_error_link_down) != 0) return;  // it says nothing new
+    tell_arming(s, out);
+    tell_pilot(s, out);
+    tell_errors(s, h, out);
+    told_ = s;
+    begun_ = true;
+  }
+
+ private:
+  using Level = fulmar::Severity;
+
+  void tell_link(const VehicleStatus& s, const Heard& h, std::int64_t now_ns, Notices& out) {
+    const bool down = (s.errors & own_error_link_down) != 0;
+    if (down && !down_ && h.frame_ns != never_ns)
+      out.say(s.armed ? Level::critical : Level::warning, h.open ? "nothing comes from the flight controller; commands reach nobody"
+                                                                 : "the flight controller's device is gone; looking for it");
+    if (!down && down_) out.say(Level::info, (Line() << "the flight controller is back after ").seconds(now_ns - down_since_ns_));
+    if (down != down_) down_since_ns_ = h.frame_ns;
+    down_ = down && h.frame_ns != never_ns;
+  }
+
+  void tell_arming(const VehicleStatus& s, Notices& out) {
+    if (s.armed != told_.armed) out.say(Level::info, s.armed ? "armed" : "disarmed");
+    if (s.failsafe && !told_.failsafe)
+      out.say(Level::critical, "failsafe: the flight controller has lost the radio; motor off, surfaces centred");
+    if (!s.failsafe && told_.failsafe) out.say(Level::warning, "failsafe is over");
+  }
+
+  void tell_pilot(const VehicleStatus& s, Notices& out) {
+    const bool flies = s.armed && s.override, flew = told_.armed && told_.override;
+    if (flies && !flew) {
+      Line line;
+      line << "the pilot flies: ";
+      list_bits(line, s.override_reasons, override_words);
+      out.say(Level::info, line);
+    }
+    if (s.armed && !flies && flew) out.say(Level::info, "the pilot hands over");
+    if (s.in_control != told_.in_control) {
+      if (s.in_control)
+        out.say(Level::info, "in control");
+      else
+        out.say(s.armed && !s.override ? Level::warning : Level::info, "not in control");
+    }
+  }
+
+  void tell_errors(const VehicleStatus& s, const Heard& h, Notices& out) {
+    const std::uint32_t added = s.errors & ~told_.errors, gone = told_.errors & ~s.errors;
+    for (const auto& [bit, words] : error_words) {
+      if ((added & bit) != 0) out.say(Level::warning, Line() << "flight controller: " << words);
+      if ((gone & bit) != 0) out.say(Level::info, Line() << "no longer: " << words);
+    }
+    if ((added & own_error_sensors_dead) != 0)
+      out.say(Level::warning, Line() << std::int64_t{h.status.num_errors} << " sensors of the flight controller did not start");
+    if ((added & own_error_imu_silent) != 0)
+      out.say(s.armed ? Level::critical : Level::error, "no inertial samples: the flight controller controls nothing any more");
+    if ((gone & own_error_imu_silent) != 0) out.say(Level::info, "inertial samples come again");
+    if ((added & own_error_rc_silent) != 0)
+      out.say(s.armed ? Level::critical : Level::warning, s.armed
+                                                              ? "no frames of the radio: the outputs are frozen, commands move nothing"
+                                                              : "no frames of the radio: is the receiver connected, and RC_TYPE right?");
+    if ((gone & own_error_rc_silent) != 0 && begun_) out.say(Level::info, "frames of the radio come again");
+  }
+
+  VehicleStatus told_;
+  std::int64_t down_since_ns_ = never_ns;
+  bool down_ = false, begun_ = false;
+};
+
+}  // namespace fulmar::fcu

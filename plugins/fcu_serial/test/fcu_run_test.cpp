@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `fulmar run --io fcu` and what may be at the other end.
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "device.hpp"
+
+using namespace fulmar::fcu;
+using namespace fulmar::fcu::testing;
+
+namespace {
+
+struct Result {
+  int code = -1;
+  std::string said;
+  double seconds = 0;
+  bool says(const char* words) const { return said.find(words) != std::string::npos; }
+};
+
+/// The hourglass with this port.
+Result fly(const std::string& port, const std::string& more = "") {
+  const std::string command = "timeout -k 1 40 " FULMAR_BIN_DIR "/fulmar run " FULMAR_SOURCE_DIR
+                              "/configs/missions/hourglass.yaml --io fcu --no-log --set fcu.port=" +
+                              port + " " + more + " 2>&1";
+  Result r;
+  const std::int64_t begun = wall_us();
+  FILE* pipe = popen(command.c_str(), "r");
+  REQUIRE(pipe);
+  std::array<char, 512> line{};
+  while (std::fgets(line.data(), line.size(), pipe)) r.said += line.data();
+  const int status = pclose(pipe);
+  r.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  r.seconds = 1e-6 * static_cast<double>(wall_us() - begun);
+  return r;
+}
+
+void refused(const Result& r, const char* words) {
+  CAPTURE(r.said);
+  CHECK(r.code == 1);
+  CHECK(r.says(words));
+  CHECK(r.seconds < 10);  // the bar is 5 s
+}
+
+}  // namespace
+
+TEST_CASE("no device") { refused(fly("/dev/ttyFulmar9"), "/dev/ttyFulmar9"); }
+
+TEST_CASE("a silent device") {
+  Device device([](Pty&) { pause_us(10000); });
+  refused(fly(device.name()), "is the flight controller powered, and is this its port?");
+}
+
+TEST_CASE("bytes of another baud rate") {
+  std::uint32_t x = 12345;
+  Device device([&x](Pty& pty) {
+    std::array<std::uint8_t, 100> noise{};
+    for (auto& b : noise) b = static_cast<std::uint8_t>((x = x * 1664525 + 1013904223) >> 24);
+    pty.write(noise);
+    pause_us(2000);
+  });
+  refused(fly(device.name(), "--set fcu.baud=115200"), "at 115200 baud none is a MAVLink 1 frame: set the baud rate");
+}
+
+TEST_CASE("a satellite receiver") {
+  Device device([](Pty& pty) {
+    const std::string line = "$GNGGA,120000.00,4014.782,N,11138.845,W,1,12,0.8,1387.0,M,-17,M,,*5B\r\n";
+    pty.write({reinterpret_cast<const std::uint8_t*>(line.data()), line.size()});
+    pause_us(20000);
+  });
+  refused(fly(device.name()), "sends text, not MAVLink: it is no flight controller");
+}
+
+TEST_CASE("an old firmware") {
+  peer::Options options;
+  options.version = "v1.3.1";
+  peer::Firmware fcu(options);
+  fcu.provision(wall_us());
+  Device device([&fcu](Pty& pty) { serve(fcu, pty); });
+  refused(fly(device.name()), "runs ROSflight v1.3.1: flash version 2.0 or later");
+}
+
+TEST_CASE("a controller that is no fixed wing") {
+  peer::Firmware fcu;
+  fcu.reboot(wall_us());
+  Device device([&fcu](Pty& pty) { serve(fcu, pty); });
+  refused(fly(device.name()), "is set up for a multirotor: set FIXED_WING to 1");
+}
+
+TEST_CASE("another autopilot") {
+  Device device([](Pty& pty) {
+    Heartbeat beat;
+    beat.autopilot = 3;
+    pty.write(encode(beat, 0, 1, 1).view());
+    pause_us(100000);
+  });
+  refused(fly(device.name()), "is of another make (MAV_AUTOPILOT 3): ROSflight 2 is needed");
+}
+
+TEST_CASE("a controller: it is flown for as long as was asked, armed by its pilot, unplugged and back") {
+  peer::Firmware fcu;
+  fcu.provision(wall_us());
+  std::int64_t begun = 0;  // of the commands
+  bool pulled = false, back = false;
+  Device device([&](Pty& pty) {
+    if (begun == 0 && fcu.commands() > 0) begun = wall_us();
+    const std::int64_t t = begun == 0 ? 0 : wall_us() - begun;
+    fcu.inputs.rc_us[4] = t > 1'000'000 && t < 6'500'000 ? 2000 : 1000;  // the flight does not end while it is armed
+    fcu.inputs.rc_us[5] = t > 1'000'000 && t < 1'500'000 ? 2000 : 1000;
+    if (!pulled && t > 4'000'000) pty.pull(), pulled = true;
+    if (!back && t > 5'000'000) pty.plug(), back = true;
+    serve(fcu, pty);
+  });
+  const Result r = fly(device.name(), "--duration 7");
+  CAPTURE(r.said);
+  CHECK(r.code == 0);
+  CHECK(r.says("hourglass: flown (duration reached)"));
+  CHECK(back);
+  CHECK(fcu.commands() > 300);
+  for (const char* words : {"connected: ROSflight v2.0.1", "fcu: armed", "the pilot flies: attitude switch, throttle switch",
+                            "the pilot hands over", "in control", "device is gone; looking for it", "is back after 1.", "disarmed"}) {
+    CAPTURE(words);
+    CHECK(r.says(words));
+  }
+}

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Hardware in the loop without hardware: the host and the program fcu_peer as two processes, with a pseudo-terminal in between.
+#pragma once
+#include <fcntl.h>
+#include <sched.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+extern char** environ;
+
+namespace fulmar::fcu::testing {
+
+namespace fs = std::filesystem;
+
+inline double wall_s() {
+  timespec t{};
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+inline void nap(double seconds) {
+  const timespec t{static_cast<time_t>(seconds), static_cast<long>(1e9 * (seconds - std::floor(seconds)))};
+  nanosleep(&t, nullptr);
+}
+
+/// A program with its output in files; killed when it goes out of scope.
+class Process {
+ public:
+  Process(const std::vector<std::string>& words, fs::path out, fs::path err) : out_(std::move(out)), err_(std::move(err)) {
+    std::vector<char*> argv;
+    for (const auto& w : words) argv.push_back(const_cast<char*>(w.c_str()));
+    argv.push_back(nullptr);
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_addopen(&files, 1, out_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    posix_spawn_file_actions_addopen(&files, 2, err_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    if (posix_spawn(&pid_, argv[0], &files, nullptr, argv.data(), environ) != 0) pid_ = -1;
+    posix_spawn_file_actions_destroy(&files);
+  }
+  ~Process() {
+    if (running()) signal(SIGKILL), ::waitpid(pid_, nullptr, 0);
+  }
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  bool running() {
+    if (pid_ < 0 || done_) return false;
+    int status = 0;
+    if (::waitpid(pid_, &status, WNOHANG) != pid_) return true;
+    done_ = true;
+    code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+    return false;
+  }
+  void signal(int number) const { ::kill(pid_, number); }
+  int wait(double seconds) {
+    for (const double end = wall_s() + seconds; running() && wall_s() < end;) nap(0.02);
+    return code_;
+  }
+  int code() const { return code_; }  ///< -1 while it runs
+  static std::string text(const fs::path& file) {
+    std::ostringstream all;
+    all << std::ifstream(file).rdbuf();
+    return all.str();
+  }
+  std::string out() const { return text(out_); }
+  std::string err() const { return text(err_); }
+
+ private:
+  fs::path out_, err_;
+  pid_t pid_ = -1;
+  bool done_ = false;
+  int code_ = -1;
+};
+
+/// Whether this process may have real-time priority.
+inline bool realtime_allowed() {
+  const sched_param some{1}, none{0};
+  const bool allowed = ::sched_setscheduler(0, SCHED_FIFO, &some) == 0;
+  if (allowed) ::sched_setscheduler(0, SCHED_OTHER, &none);
+  return allowed;
+}
+
+/// The number behind "key" after "block" in a JSON text; NaN when there is none.
+inline double number(const std::string& json, const std::string& block, const std::string& key) {
+  const auto at = json.find('"' + block + '"');
+  const auto found = at == std::string::npos ? at : json.find('"' + key + "\":", at);
+  return found == std::string::npos ? NAN : std::atof(json.c_str() + found + key.size() + 3);
+}
+
+/// The peer's truth, a row per 10 ms.
+struct Row {
+  double t, north, east, height, roll, pitch, yaw, airspeed, throttle, aileron, elevator, rudder, armed, offboard, override, commands;
+  std::array<double, 4> u;  ///< the last command: throttle, aileron, elevator, rudder
+};
+inline std::vector<Row> rows(const fs::path& file) {
+  std::vector<Row> all;
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  while (std::getline(in, line)) {
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream s(line);
+    Row r{};
+    s >> r.t >> r.north >> r.east >> r.height >> r.roll >> r.pitch >> r.yaw >> r.airspeed >> r.throttle >> r.aileron >> r.elevator >> r.rudder >>
+        r.armed >> r.offboard >> r.override >> r.commands >> r.u[0] >> r.u[1] >> r.u[2] >> r.u[3];
+    if (s && r.t >= 0) all.push_back(r);
+  }
+  return all;
+}
+
+/// A folder for one flight, and the hourglass until this is so.
+struct Scratch {
+  fs::path folder;
+  explicit Scratch(const char* name) : folder(fs::temp_directory_path() / ("fulmar_hil_" + std::to_string(getpid()) + "_" + name)) {
+    fs::create_directories(folder);
+  }
+  ~Scratch() { fs::remove_all(folder); }
+  std::string mission(const std::string& done) const {
+    const std::string configs = std::string(FULMAR_SOURCE_DIR) + "/configs/", file = (folder / "hil.yaml").string();
+    std::ofstream(file) << "mission: hil\nextends: " << configs << "missions/common.yaml\nairframe: " << configs
+                        << "airframes/anaconda.yaml\norigin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\nseed: 7\n"
+                        << "done: \"" << done << "\"\ncomponents:\n"
+                        << "  sim:  {params: {sensors: rosflight, wind_ned: [3.5355, -3.5355, 0], turbulence: light, start_heading: 135 deg}}\n"
+                        << "  plan: {params: {plan: " << configs << "plans/hourglass.yaml}}\n";
+    return file;
+  }
+};
+
+struct Flown {
+  int code = -1;
+  std::string json, said, peer;
+  std::vector<Row> truth;
+  double wall = 0;
+  double tracking(const char* key) const { return number(json, "tracking_rmse", key); }
+};
+
+/// The pilot disarms when the host says that it is done.
+inline Flown fly_peer(const Scratch& s, const std::string& done, double scale, const std::vector<std::string>& peer_words, double limit_s) {
+  const auto file = [&](const char* name) { return s.folder / name; };
+  const std::string port = file("fcu").string(), factor = std::to_string(scale);
+  std::vector<std::string> words{FULMAR_BIN_DIR "/fcu_peer", "--link", port, "--scale", factor, "--mission-seed", "7", "--truth", file("truth.csv").string()};
+  words.insert(words.end(), peer_words.begin(), peer_words.end());
+  const bool realtime = realtime_allowed();  // what else the machine does is no matter then
+  if (realtime) words.emplace_back("--realtime");
+  Process peer(words, file("peer.out"), file("peer.err"));
+  for (int k = 0; k < 250 && !fs::exists(port); ++k) nap(0.02);
+  Flown f;
+  const double begun = wall_s();
+  std::vector<std::string> flight{FULMAR_BIN_DIR "/fulmar", "run", s.mission(done), "--io", "fcu", "--no-log", "--json",
+                                  "--set", "fcu.port=" + port, "--set", "fcu.time_scale=" + factor};
+  if (realtime) flight.emplace_back("--realtime");
+  Process host(flight, file("host.json"), file("host.err"));
+  bool told = false;
+  while (host.running() && wall_s() - begun < limit_s) {
+    nap(0.1);
+    if (told || host.err().find("done:") == std::string::npos) continue;
+    told = true;
+    peer.signal(SIGUSR1);
+  }
+  f.code = host.wait(1);
+  f.wall = wall_s() - begun;
+  peer.signal(SIGTERM);
+  peer.wait(5);
+  f.json = host.out(), f.said = host.err(), f.peer = peer.out() + peer.err();
+  f.truth = rows(file("truth.csv"));
+  return f;
+}
+
+/// The same mission in the simulator, with what stands between a command and the servos there.
+inline Flown fly_sim(const Scratch& s, const std::string& done) {
+  Flown f;
+  Process host({FULMAR_BIN_DIR "/fulmar", "run", s.mission(done), "--set", "sim.mux_rate=111", "--set", "sim.pwm_resolution=1e-6", "--set",
+                "sim.link_latency=1e-3", "--no-log", "--json"},
+               s.folder / "sim.json", s.folder / "sim.err");
+  f.code = host.wait(120);
+  f.json = host.out(), f.said = host.err();
+  return f;
+}
+
+}  // namespace fulmar::fcu::testing

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The vehicle against the software flight controller, in virtual time: what goes wrong.
+#include "flying.hpp"
+
+using namespace fulmar;
+using namespace fulmar::fcu;
+using namespace fulmar::fcu::testing;
+using doctest::Approx;
+
+TEST_CASE("the pilot takes over and hands back, and both are told") {
+  Flying f;
+  f.arm();
+  f.world.fcu.inputs.rc_us[5] = 2000;
+  f.fly(0.3);
+  CHECK(f.status.override);
+  CHECK_FALSE(f.status.in_control);
+  CHECK(f.heard("the pilot flies: attitude switch, throttle switch"));
+  f.world.fcu.inputs.rc_us[5] = 1000;
+  f.fly(1.5);
+  CHECK(f.heard("the pilot hands over"));
+  CHECK(f.status.in_control);
+}
+
+TEST_CASE("the radio's frames stop: the controller says nothing, the vehicle does") {
+  Flying f;
+  f.arm();
+  f.world.fcu.inputs.rc_frames = false;
+  f.fly(1);
+  CHECK_FALSE(f.status.failsafe);
+  CHECK_FALSE(f.status.in_control);
+  CHECK(f.status.rc_age_s == Approx(1).epsilon(0.15));
+  CHECK_FALSE(f.rc.link);
+  CHECK(f.heard("the outputs are frozen, commands move nothing"));
+  f.world.fcu.inputs.rc_frames = true;
+  f.fly(1.5);
+  CHECK(f.status.in_control);
+  CHECK(f.rc.link);
+  CHECK(f.heard("frames of the radio come again"));
+}
+
+TEST_CASE("the radio is lost by its flag: failsafe") {
+  Flying f;
+  f.arm();
+  f.world.fcu.inputs.rc_lost = true;
+  f.fly(0.5);
+  CHECK(f.status.failsafe);
+  CHECK_FALSE(f.status.in_control);
+  CHECK(f.heard("failsafe: "));
+  f.world.fcu.inputs.rc_lost = false;
+  f.fly(1.5);
+  CHECK_FALSE(f.status.failsafe);
+  CHECK(f.heard("failsafe is over"));
+}
+
+TEST_CASE("unplugged for 5 s: ticks go on every 10 ms, nothing is published as new, and it is told") {
+  Flying f;
+  f.arm();
+  const std::size_t ticks = f.ticks_ns.size(), samples = f.imu_ns.size();
+  f.world.plugged = false;
+  f.world.happen(LinkEvent::disconnected);
+  f.fly(5);
+  CHECK(static_cast<double>(f.ticks_ns.size() - ticks) == Approx(500).epsilon(0.02));
+  CHECK(f.imu_ns.size() - samples <= 1);
+  CHECK(f.status.armed);
+  CHECK_FALSE(f.status.in_control);
+  CHECK(f.status.health == Health::failed);
+  CHECK((f.status.errors & own_error_link_down) != 0);
+  CHECK(f.heard("the flight controller's device is gone; looking for it"));
+  CHECK(f.tick() == Status::degraded);
+  f.world.plugged = true;
+  f.world.happen(LinkEvent::connected);
+  f.fly(2);
+  CHECK(f.heard("the flight controller is back after 5."));
+  CHECK_FALSE(f.heard("no frames of the radio"));
+  CHECK(f.status.in_control);
+  CHECK(f.status.health == Health::ok);
+  for (std::size_t i = 1; i < f.ticks_ns.size(); ++i) REQUIRE(f.ticks_ns[i] > f.ticks_ns[i - 1]);
+}
+
+TEST_CASE("a gap of 100 ms is counted and takes nothing away") {
+  Flying f;
+  f.arm();
+  f.world.cut = true;
+  f.fly(0.1);
+  f.world.cut = false;
+  f.fly(0.3);
+  CHECK(f.status.in_control);
+  CHECK_FALSE(f.heard("nothing comes"));
+  f.fly(0.2);
+  CHECK(f.bench.out.link.value.worst_gap_s == Approx(0.1).epsilon(0.1));
+  CHECK(f.bench.out.link.value.imu_gaps == 1);
+}
+
+TEST_CASE("a reboot in flight is told, and the airspeed that it has zeroed is not believed") {
+  Flying f;
+  f.arm();
+  f.world.fcu.reboot(f.world.now_ns / 1000);
+  f.world.happen(LinkEvent::rebooted);
+  f.fly(1);
+  CHECK(f.heard("rebooted while armed: its motor is off until it is armed again"));
+  CHECK_FALSE(f.heard("the pilot flies"));  // its first status says so, of an aircraft that is disarmed
+  CHECK(f.heard("it has zeroed its airspeed in the air: pitot not used any more"));
+  CHECK_FALSE(f.status.in_control);
+  const int before = f.published["pitot"], baro = f.published["baro"];
+  f.fly(1);
+  CHECK(f.published["pitot"] == before);
+  CHECK(f.published["baro"] > baro);
+}
+
+TEST_CASE("a reboot on the ground is told, and that is all") {
+  Flying f;
+  f.fly(2);
+  f.world.fcu.reboot(f.world.now_ns / 1000);
+  f.world.happen(LinkEvent::rebooted);
+  f.fly(2);
+  CHECK(f.heard("the flight controller has rebooted"));
+  const int before = f.published["pitot"];
+  f.fly(1);
+  CHECK(f.published["pitot"] - before > 90);
+}
+
+TEST_CASE("a sensor that gives nonsense is silent, counted, and told once") {
+  Flying f;
+  f.fly(1);
+  const int before = f.published["mag"];
+  f.world.fcu.inputs.mag = {21000, 0, 46000};
+  f.fly(1);
+  CHECK(f.published["mag"] - before <= 1);
+  const auto first = f.told.find("the magnetometer gives values that cannot be; they are not used");
+  REQUIRE(first != std::string::npos);
+  CHECK(f.told.find("the magnetometer", first + 1) == std::string::npos);
+  CHECK(f.bench.out.link.value.unusable > 80);
+}
+
+TEST_CASE("samples that waited too long are passed over; a burst of a few is flown sample by sample") {
+  Flying f;
+  f.fly(1);
+  const std::size_t samples = f.imu_ns.size(), ticks = f.ticks_ns.size();
+  f.world.run(f.world.now_ns + 10'000'000, false);  // the host slept: four samples wait
+  f.tick(), f.tick(), f.tick(), f.tick();
+  CHECK(f.imu_ns.size() - samples == 4);
+  CHECK(f.ticks_ns.size() - ticks == 4);
+  f.world.run(f.world.now_ns + 2'000'000'000, false);  // two seconds
+  f.tick();
+  CHECK(f.world.now_ns - f.world.queue.front().arrived_ns < 60'000'000);
+}
+
+TEST_CASE("a fix that comes twice is one fix") {
+  Flying f;
+  f.fly(1);
+  RosflightGnss fix;
+  fix.fix_type = 3, fix.rosflight_timestamp = 77;
+  const int before = f.published["gnss"];
+  f.world.inject(fix);
+  f.tick();
+  f.world.inject(fix);
+  f.tick();
+  CHECK(f.published["gnss"] - before == 1);
+}
+
+TEST_CASE("what cannot be flown is refused by configure, within 5 s") {
+  const auto refusal = [](World& world, std::function<void(Bench<TestVehicle>&)> change = {}) {
+    Bench<TestVehicle> bench;
+    bench.params.airframe.is_given = true;
+    if (change) change(bench);
+    CHECK(bench.configure() == Status::failed);
+    CHECK(world.now_ns <= 5'000'000'000);
+    return bench.error();
+  };
+  SUBCASE("silence") {
+    World world;
+    world.cut = true;
+    CHECK(refusal(world).find("nothing comes from /dev/ttyACM0") == 0);
+  }
+  SUBCASE("an old firmware") {
+    peer::Options o;
+    o.version = "v1.3.1";
+    World world(o);
+    world.fcu.provision();
+    CHECK(refusal(world) == "the flight controller at /dev/ttyACM0 runs ROSflight v1.3.1: flash version 2.0 or later");
+  }
+  SUBCASE("one that does not say its version") {
+    peer::Options o;
+    o.answers = false;
+    World world(o);
+    world.fcu.provision();
+    CHECK(refusal(world).find("does not say its version") != std::string::npos);
+  }
+  SUBCASE("a multirotor") {
+    World world;
+    CHECK(refusal(world).find("set FIXED_WING to 1") != std::string::npos);
+  }
+  SUBCASE("no port") {
+    World world;
+    CHECK(refusal(world, [](auto& bench) { bench.params.port.value = ""; }).find("the parameter 'port' is not set") == 0);
+  }
+  SUBCASE("an airframe without throws") {
+    World world;
+    CHECK(refusal(world, [](auto& bench) { bench.params.airframe.value.aileron.limit_rad = 0; }).find("aileron.limit") !=
+          std::string::npos);
+  }
+}
+
+TEST_CASE("its inertial unit dies: the loop goes on, and it is told") {
+  Flying f;
+  f.arm();
+  f.world.fcu.inputs.imu_works = false;
+  const std::size_t ticks = f.ticks_ns.size();
+  f.fly(1);
+  CHECK(static_cast<double>(f.ticks_ns.size() - ticks) == Approx(100).epsilon(0.05));
+  CHECK_FALSE(f.status.in_control);
+  CHECK(f.heard("no inertial samples") != f.heard("nothing comes from the flight controller"));  // what else it sends then is its affair
+}
+
+TEST_CASE("another controller in its place is noticed: its firmware, its parameters") {
+  Flying f;
+  f.fly(1);
+  RosflightVersion version;
+  std::copy_n("v2.1.0", 7, version.version.begin());
+  f.world.inject(version);
+  ParamValue p;
+  std::copy_n("RC_X_CHN", 8, p.param_id.begin());
+  p.param_type = param_int32;
+  p.param_value = 3;
+  f.world.inject(p);
+  f.world.inject(p);
+  f.fly(0.1);
+  CHECK(f.heard("this is another firmware: ROSflight v2.1.0"));
+  const auto first = f.told.find("the flight controller's RC_X_CHN is now 3");
+  REQUIRE(first != std::string::npos);
+  CHECK(f.told.find("RC_X_CHN", first + 25) == std::string::npos);
+  f.world.fcu.inputs.rc_us[3] = 2000;
+  f.fly(0.1);
+  CHECK(f.rc.roll_frac == 1);
+}
+
+TEST_CASE("a controller that comes back is asked for its version") {
+  Flying f;
+  f.fly(1);
+  const auto before = f.world.count<RosflightCmd>();
+  f.world.happen(LinkEvent::connected);
+  f.fly(0.1);
+  CHECK(f.world.count<RosflightCmd>() == before + 1);
+  CHECK_FALSE(f.heard("another firmware"));
+}

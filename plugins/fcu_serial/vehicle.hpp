@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The vehicle that is a ROSflight flight controller: its sensors come in, commands go out, and what it says of itself is told.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "commands.hpp"
+#include "fulmar/msg/vehicle_state.hpp"
+#include "fulmar/plugin.hpp"
+#include "greeting.hpp"
+#include "link_report.hpp"
+#include "pace.hpp"
+#include "sensors.hpp"
+
+namespace fulmar::fcu {
+
+/// `AnyLink` is Link, or in tests one that runs on a clock of its own.
+template <class AnyLink>
+class Vehicle {
+ public:
+  static constexpr const char* doc = "A flight controller that runs ROSflight 2, on a serial port or over UDP.";
+  struct Inputs {
+    Optional<Actuators> actuators;
+    Optional<AuxOutputs> aux;
+    Optional<VehicleState> state;
+  };
+  struct Outputs {
+    Out<Imu> imu;
+    Out<Gnss> gnss;
+    Out<Mag> mag;
+    Out<Baro> baro;
+    Out<Pitot> pitot;
+    Out<Rc> rc;
+    Out<VehicleStatus> status;
+    OutQueue<Notice, 32> notices;
+    Out<Range> range;
+    Out<ControllerAttitude> attitude;
+    Out<ControllerOutputs> outputs;
+    Out<LinkStatus> link;
+  };
+  struct Params {
+    TextParam<128> port{"/dev/ttyACM0", "a serial port, or udp:REMOTE:PORT of firmware in simulation"};
+    Count baud{921600, 1200, 12000000, "bits per second; no matter to a USB port", setup};
+    Record<Airframe> airframe{"throws and reversals of the surfaces", required};
+    Param command_rate{400, "Hz", 50, 1000, "commands per second at most: each new one goes out, 51 bytes", setup};
+    Flag send_attitude{false, "sends the input `state` to correct the controller's own estimate, 50 Hz"};
+    Param time_scale{1,    "ratio", 0.1, 100, "flight time per time on the wall, for a controller in simulation whose clock runs faster",
+                     setup};
+  };
+
+  void configure(const Params& p) {
+    const std::string port(p.port.view());
+    if (port.empty())
+      throw std::runtime_error("the parameter 'port' is not set; it names the flight controller's port, such as /dev/ttyACM0");
+    run_ = Run();
+    run_.throws = Throws::of(*p.airframe);
+    run_.pace = Pace(p.command_rate);
+    link_.reset();  // a second flight: the port is held until then
+    LinkOptions options;
+    options.port = port;
+    options.baud = p.baud;
+    options.time_scale = p.time_scale;
+    options.watched.assign(watched_parameters.begin(), watched_parameters.end());
+    link_ = std::make_unique<AnyLink>(options);
+    greet(port, p.baud, *p.airframe);
+  }
+
+  /// Wakes with each inertial sample, and after 10 ms without one.
+  Status read(Tick& tick, const Params&, Outputs& out) {
+    if (run_.zero_ns == never_ns) begin();
+    run_.arrived_ns = wait(out);
+    // Time goes by arrivals, so that the age of a sample is what its way here took.
+    const std::int64_t host_ns = link_->now_ns();
+    run_.now_ns = std::max(flight_ns(run_.arrived_ns != never_ns ? run_.arrived_ns : host_ns), run_.now_ns + least_step_ns);
+    tick.now_ns = run_.now_ns;
+    last_frame_.fd = link_->descriptor();
+    return report(host_ns, out);
+  }
+
+  Status write(const Tick& tick, const Inputs& in, const Params& p) {
+    send_command(tick.now_ns, in.actuators);
+    send_aux(tick.now_ns, in.aux);
+    if (p.send_attitude) send_attitude(tick.now_ns, in.state);
+    return Status::ok;
+  }
+
+  const fulmar_last_frame* last_frame(const Inputs& failsafe) {
+    const auto command = failsafe.actuators ? to_offboard(*failsafe.actuators, run_.throws) : std::nullopt;
+    if (!command) return nullptr;
+    const Frame frame = encode(*command, 0);
+    std::copy(frame.view().begin(), frame.view().end(), last_frame_.data);
+    last_frame_.size = static_cast<std::uint32_t>(frame.size);
+    last_frame_.fd = link_ ? link_->descriptor() : -1;
+    return &last_frame_;
+  }
+
+ private:
+  static constexpr std::int64_t wait_ns = 10'000'000;
+  static constexpr std::int64_t least_step_ns = 100'000;  ///< samples that arrive together are ticks of their own
+  static constexpr std::int64_t backlog_ns = 50'000'000;  ///< older samples than this are not flown by any more
+  static constexpr std::int64_t status_period_ns = 100'000'000, aux_period_ns = 1'000'000'000, attitude_period_ns = 19'500'000;
+  static constexpr std::int64_t reboot_memory_ns = 1'000'000'000;
+
+  enum Kind : std::uint32_t {
+    kind_imu = 1,
+    kind_mag = 2,
+    kind_baro = 4,
+    kind_pitot = 8,
+    kind_gnss = 16,
+    kind_other = 32,
+    kind_command = 64
+  };
+
+  /// What belongs to one flight. Times are flight time, but where it says host.
+  struct Run {
+    Throws throws;
+    Pace pace;
+    RcMap map;
+    std::array<std::optional<std::int32_t>, watched_parameters.size()> parameters;
+    Text<50> version;
+    Heard heard;
+    Teller teller;
+    Notices notices;
+    Forwarder texts;
+    LinkReport report;
+    VehicleStatus status;  ///< last published
+    Rc rc;
+    std::int64_t zero_ns = never_ns, arrived_ns = never_ns;  ///< host: of flight time 0; arrival of this tick's inertial sample
+    std::int64_t now_ns = -least_step_ns, imu_valid_ns = never_ns, status_ns = never_ns, aux_ns = never_ns;
+    std::int64_t attitude_ns = never_ns, disarmed_ns = never_ns;
+    std::uint64_t gnss_stamp_us = 0;
+    std::uint32_t told_kinds = 0;
+    bool pitot_zeroed = false;  ///< by a reboot in flight
+  };
+
+  std::int64_t flight_ns(std::int64_t host_ns) const { return host_ns - run_.zero_ns; }
+
+  void greet(const std::string& port, std::int64_t baud, const Airframe& airframe);
+  void listen(Greeting& greeting);
+  void tell_reversals(const Greeting& greeting, const Airframe& airframe);
+
+  /// The first tick: what has waited since the greeting is old.
+  void begin() {
+    Received r;
+    while (link_->pop(r))
+      if (r.event == LinkEvent::packet && r.packet.template is<Statustext>())
+        run_.texts.forward(r.packet.template as<Statustext>(), r.arrived_ns, run_.notices);
+    link_->wait_imu(link_->now_ns() + wait_ns);
+    run_.zero_ns = link_->now_ns();
+  }
+
+  /// Until an inertial sample that can be flown by, or 10 ms. Its arrival in host time, or never.
+  std::int64_t wait(Outputs& out) {
+    const std::int64_t until_ns = link_->now_ns() + wait_ns;
+    while (true) {
+      const bool sample = link_->wait_imu(until_ns);
+      const std::int64_t arrived_ns = drain(out);
+      if (arrived_ns != never_ns || !sample || link_->now_ns() >= until_ns) return arrived_ns;
+    }
+  }
+
+  /// Takes what has come, up to and with the next inertial sample. Its arrival in host time, or never.
+  std::int64_t drain(Outputs& out) {
+    Received r;
+    while (link_->pop(r)) {
+      if (r.event == LinkEvent::rebooted) rebooted();
+      if (r.event == LinkEvent::rebooted || r.event == LinkEvent::connected) ask_version();
+      if (r.event != LinkEvent::packet) continue;
+      run_.heard.frame(flight_ns(r.arrived_ns));
+      if (!r.packet.template is<SmallImu>())
+        take(r, out);
+      else if (take_imu(r, out))
+        return r.arrived_ns;
+    }
+    return never_ns;
+  }
+
+  bool take_imu(const Received& r, Outputs& out) {
+    const std::int64_t valid_ns = std::min(r.valid_at_ns, r.arrived_ns);
+    if (valid_ns <= run_.imu_valid_ns || link_->now_ns() - r.arrived_ns > backlog_ns) return false;
+    const auto imu = to_imu(r.packet.template as<SmallImu>());
+    if (!usable(imu.has_value(), kind_imu, "inertial unit")) return false;
+    run_.imu_valid_ns = valid_ns;
+    run_.report.imu(valid_ns);
+    run_.heard.imu_ns = flight_ns(r.arrived_ns);
+    out.imu.publish(*imu, flight_ns(valid_ns));
+    return true;
+  }
+
+  void take(const Received& r, Outputs& out);
+  void take_state(const Received& r, Outputs& out);
+  void take_gnss(const Received& r, Outputs& out);
+  void take_parameter(const ParamValue& p);
+  void take_version(const RosflightVersion& m);
+
+  template <class T>
+  void publish(Out<T>& port, const std::optional<T>& value, const Received& r, Kind kind, const char* name) {
+    if (usable(value.has_value(), kind, name)) port.publish(*value, flight_ns(std::min(r.valid_at_ns, r.arrived_ns)));
+  }
+  bool usable(bool good, Kind kind, const char* name) {
+    if (good) return true;
+    ++run_.report.unusable;
+    if ((run_.told_kinds & kind) == 0)
+      run_.notices.say(fulmar::Severity::warning, Line() << "the " << name << " gives values that cannot be; they are not used");
+    run_.told_kinds |= kind;
+    return false;
+  }
+
+  /// It may be another one. An armed controller refuses to say; then it is the same.
+  void ask_version() { link_->send(RosflightCmd{static_cast<std::uint8_t>(Command::send_version)}); }
+
+  void rebooted() {
+    const bool flying = run_.heard.status.armed != 0 || run_.now_ns - run_.disarmed_ns < reboot_memory_ns;
+    run_.imu_valid_ns = never_ns;
+    if (!flying) return run_.notices.say(fulmar::Severity::warning, "the flight controller has rebooted");
+    run_.pitot_zeroed = true;
+    run_.notices.say(fulmar::Severity::critical,
+                     "the flight controller has rebooted while armed: its motor is off until it is armed again");
+    run_.notices.say(fulmar::Severity::critical, "it has zeroed its airspeed in the air: pitot not used any more, restart on the ground");
+  }
+
+  Status report(std::int64_t host_ns, Outputs& out) {
+    run_.heard.open = last_frame_.fd >= 0;
+    const VehicleStatus s = evaluate(run_.heard, run_.now_ns);
+    run_.teller.tell(s, run_.heard, run_.now_ns, run_.notices);
+    const bool known = run_.heard.status_ns != never_ns;
+    if (known && (changed(s, run_.status) || run_.now_ns - run_.status_ns >= status_period_ns)) {
+      run_.status = s;
+      run_.status_ns = run_.now_ns;
+      out.status.publish(s);
+      if ((s.errors & own_error_rc_silent) != 0) {
+        run_.rc.link = false;
+        out.rc.publish(run_.rc);
+      }
+    }
+    run_.notices.flush(out.notices, run_.now_ns);
+    if (run_.report.due(run_.now_ns)) out.link.publish(run_.report.take(link_->state(), host_ns, run_.now_ns));
+    return (s.errors & own_error_link_down) != 0 ? Status::degraded : Status::ok;
+  }
+
+  /// Nothing without a command, or with one that nobody has renewed: the controller then hands over to its pilot.
+  void send_command(std::int64_t now_ns, const Optional<Actuators>& actuators) {
+    if (!actuators || now_ns - actuators.valid_at_ns() > command_patience_ns || !run_.pace.due(actuators.fresh(), now_ns)) return;
+    const auto command = to_offboard(*actuators, run_.throws);
+    if (!command || !link_->send(*command)) {
+      ++run_.report.unsent;
+      if (!command && (run_.told_kinds & kind_command) == 0)
+        run_.notices.say(fulmar::Severity::error, "a command is not finite; such commands are not sent");
+      if (!command) run_.told_kinds |= kind_command;
+      return;
+    }
+    run_.pace.sent(now_ns);
+    run_.heard.command_ns = now_ns;
+    ++run_.report.commands;
+    if (run_.arrived_ns != never_ns) run_.report.turnaround(link_->now_ns() - run_.arrived_ns);
+  }
+
+  /// Repeated now and then: a frame may have been lost, or the controller rebooted.
+  void send_aux(std::int64_t now_ns, const Optional<AuxOutputs>& aux) {
+    if (!aux || (!aux.fresh() && now_ns - run_.aux_ns < aux_period_ns)) return;
+    if (const auto command = to_aux(*aux)) link_->send(*command);
+    run_.aux_ns = now_ns;
+  }
+
+  void send_attitude(std::int64_t now_ns, const Optional<VehicleState>& state) {
+    if (!state || !state.fresh() || !state->attitude_valid || now_ns - run_.attitude_ns < attitude_period_ns) return;
+    const Quat& q = state->attitude;
+    if (!within(1.1, q.w, q.x, q.y, q.z)) return;
+    link_->send(ExternalAttitude{static_cast<float>(q.w), static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)});
+    run_.attitude_ns = now_ns;
+  }
+
+  std::unique_ptr<AnyLink> link_;
+  Run run_;
+  fulmar_last_frame last_frame_{-1, 0, {}};
+};
+
+}  // namespace fulmar::fcu
+
+#include "vehicle_packets.hpp"

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/fulmar_fcu/calibrate.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace fulmar::fcu {
+
+namespace {
+
+const std::vector<Calibration>& all() {
+  static const std::vector<Calibration> list{
+      {"imu",
+       Command::accel_calibration,
+       "Lay the aircraft level and do not touch it.",
+       {"ACC_X_BIAS", "ACC_Y_BIAS", "ACC_Z_BIAS", "GYRO_X_BIAS", "GYRO_Y_BIAS", "GYRO_Z_BIAS"},
+       {"offsets captured"},
+       {"movement", "accel bias"},
+       3,
+       10,
+       true,
+       false},
+      {"gyro",
+       Command::gyro_calibration,
+       "Do not touch the aircraft.",
+       {"GYRO_X_BIAS", "GYRO_Y_BIAS", "GYRO_Z_BIAS"},
+       {},
+       {"movement", "gyro bias"},
+       3,
+       10,
+       true,
+       false},
+      {"rc",
+       Command::rc_calibration,
+       "Trim the aircraft by the transmitter and leave the sticks alone.",
+       {"X_EQ_TORQUE", "Y_EQ_TORQUE", "Z_EQ_TORQUE"},
+       {"torques found", "applied"},
+       {"cannot"},
+       1,
+       3,
+       false,
+       false},
+      {"baro",
+       Command::baro_calibration,
+       "Keep wind and doors away.",
+       {"BARO_BIAS", "GROUND_LEVEL"},
+       {"success", "complete"},
+       {"movement", "failed", "variance"},
+       8,
+       40,
+       true,
+       true},
+      {"airspeed",
+       Command::airspeed_calibration,
+       "Cover the pitot tube.",
+       {"DIFF_PRESS_BIAS"},
+       {"success", "complete"},
+       {"movement", "failed", "variance"},
+       8,
+       40,
+       true,
+       true},
+  };
+  return list;
+}
+
+bool says_one(const std::string& text, const std::vector<std::string>& parts) {
+  std::string low = text;
+  std::transform(low.begin(), low.end(), low.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::any_of(parts.begin(), parts.end(), [&](const std::string& part) { return low.find(part) != std::string::npos; });
+}
+
+/// One run: what has been heard of its end so far.
+class Run {
+ public:
+  Run(Client& client, const Calibration& what) : client_(client), what_(what), texts_(client.said().size()) {}
+
+  std::vector<Param> before, after;
+
+  void start() {
+    started_ns_ = client_.now_ns();
+    if (what_.command != Command::rc_calibration) return client_.demand(what_.command, deed());
+    // It adds to what is there: asked twice it would count twice, so again only while nothing was added
+    for (int i = 0; i < 3; ++i) {
+      const std::optional<bool> answer = client_.command(what_.command, 1, 700 * ms);
+      if (answer && !*answer) throw Error("The controller refused " + deed() + (client_.armed() ? ": it is armed." : "."));
+      if (answer || said(what_.good) || read_back()) return;
+    }
+    throw Error(client_.name() + " does not answer: " + deed() + " was not acknowledged.");
+  }
+
+  /// True when it is over. A failure is an Error.
+  bool over() {
+    if (const Said* bad = said(what_.bad)) {
+      last_failure_ = bad->text;
+      if (!what_.repeats)
+        throw Error("The " + name() + " calibration failed; the controller says: '" + bad->text + "'. " + what_.prepare +
+                    " Then try again.");
+    }
+    return said(what_.good) || changed_last();
+  }
+
+  /// Reads the result; true when there is one.
+  bool read_back() {
+    after = read_some(client_, what_.params);
+    if (after.size() != what_.params.size()) return false;
+    if (what_.zeroes && std::any_of(after.begin(), after.end(), [](const Param& p) { return p.number() == 0; })) return false;
+    return differs();
+  }
+
+  bool complete() const { return after.size() == what_.params.size(); }
+  bool said_good() { return said(what_.good) != nullptr; }
+  double elapsed_s() const { return static_cast<double>(client_.now_ns() - started_ns_) * 1e-9; }
+  [[noreturn]] void give_up() const {
+    const std::string limit = std::to_string(what_.limit_s) + " s";
+    if (!last_failure_.empty())
+      throw Error("The " + name() + " calibration did not succeed within " + limit + "; the controller says: '" + last_failure_ + "'. " +
+                  what_.prepare);
+    throw Error("The " + name() + " calibration was accepted, but no sign of its end came within " + limit +
+                ": it does not count; try again.");
+  }
+
+ private:
+  std::string name() const { return what_.name; }
+  std::string deed() const { return "the " + name() + " calibration"; }
+
+  const Said* said(const std::vector<std::string>& parts) const {
+    // what is told sooner than it can be done is about another one, such as that of the boot
+    const std::int64_t soonest_ns = started_ns_ + (what_.zeroes ? what_.usual_s * second * 3 / 10 : 0);
+    for (std::size_t i = texts_; i < client_.said().size(); ++i)
+      if (client_.said()[i].at_ns >= soonest_ns && says_one(client_.said()[i].text, parts)) return &client_.said()[i];
+    return nullptr;
+  }
+  bool differs() const {
+    for (const Param& p : after)
+      for (const Param& q : before)
+        if (p.name == q.name && p.bits != q.bits) return true;
+    return false;
+  }
+  /// What it sets last has been told, and is no zero from its start.
+  bool changed_last() const {
+    return std::all_of(what_.params.begin(), what_.params.end(), [&](const std::string& n) {
+      const auto it = client_.params().find(n);
+      return it != client_.params().end() && it->second.heard_ns > started_ns_ && it->second.number() != 0;
+    });
+  }
+
+  Client& client_;
+  const Calibration& what_;
+  std::size_t texts_;
+  std::int64_t started_ns_ = 0;
+  std::string last_failure_;
+};
+
+}  // namespace
+
+const Calibration* find_calibration(const std::string& name) {
+  const auto it = std::find_if(all().begin(), all().end(), [&](const Calibration& c) { return c.name == name; });
+  return it == all().end() ? nullptr : &*it;
+}
+
+Calibrated calibrate(Client& client, const Calibration& what, const std::function<void(double)>& progress) {
+  client.refuse_armed(std::string("the ") + what.name + " calibration");
+  Run run(client, what);
+  run.before = read_some(client, what.params);
+  if (run.before.size() != what.params.size()) throw Error(client.name() + " does not tell its parameters: the calibration was not begun.");
+  run.start();
+  const std::int64_t began = client.now_ns(), until = began + what.limit_s * second;
+  while (client.now_ns() < until) {
+    client.pump(100 * ms);
+    if (progress) progress(run.elapsed_s());
+    // a lost text or a lost echo does not matter for long: the result is read when it is due
+    const bool due = client.now_ns() - began > what.usual_s * second && static_cast<std::int64_t>(run.elapsed_s() * 10) % 10 == 0;
+    if (!run.over() && !due) continue;
+    if (run.read_back() || (run.said_good() && run.complete())) return {run.before, run.after};
+  }
+  run.give_up();
+}
+
+}  // namespace fulmar::fcu

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/fulmar_fcu/client.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+namespace fulmar::fcu {
+
+namespace {
+
+std::int64_t steady_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+std::string printable(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    if (c < ' ' || c > '~') c = '?';
+  return out;
+}
+
+}  // namespace
+
+Endpoint device(const std::string& port, std::int64_t baud) {
+  return {port, [=] { return Port::open(port, baud); }, steady_ns};
+}
+
+std::string Param::text() const {
+  if (whole) return std::to_string(integer());
+  const float value = real();
+  if (std::isnan(value)) return ".nan";
+  if (std::isinf(value)) return value > 0 ? ".inf" : "-.inf";
+  std::array<char, 32> room{};
+  const auto end = std::to_chars(room.data(), room.data() + room.size(), value).ptr;
+  return {room.data(), end};
+}
+
+Client::Client(Endpoint endpoint) : endpoint_(std::move(endpoint)), port_(endpoint_.open()) { beat_ns_ = now_ns() - second; }
+
+void Client::reopen(std::int64_t limit_ns) {
+  constexpr std::int64_t each = 100 * ms;
+  port_.reset();
+  parser_.restart();
+  for (std::int64_t waited = 0;; waited += each) {
+    try {
+      port_ = endpoint_.open();
+      beat_ns_ = now_ns() - second;
+      return;
+    } catch (const PortError&) {
+      if (waited >= limit_ns) throw;
+    }
+    std::this_thread::sleep_for(std::chrono::nanoseconds(each));
+  }
+}
+
+void Client::pump(std::int64_t ns) {
+  const std::int64_t until = now_ns() + ns;
+  while (now_ns() < until) step(until);
+}
+
+bool Client::wait(std::int64_t ns, const std::function<bool()>& done) {
+  const std::int64_t until = now_ns() + ns;
+  while (!done()) {
+    if (now_ns() >= until) return false;
+    step(until);
+  }
+  return true;
+}
+
+void Client::step(std::int64_t until_ns) {
+  if (cancelled && cancelled()) throw Interrupted();
+  const std::int64_t now = now_ns();
+  if (now - beat_ns_ >= second) {
+    beat_ns_ = now;
+    send(Heartbeat{});
+  }
+  const auto timeout_ms = static_cast<int>(std::clamp((until_ns - now + ms - 1) / ms, std::int64_t{1}, std::int64_t{10}));
+  std::array<std::uint8_t, 4096> room;
+  const std::size_t n = port_->read(room, timeout_ms);
+  bytes_ += n;
+  // MAVLink 2 begins its frames with 0xfd: none of ours, but worth a word
+  modern_ += static_cast<std::uint64_t>(std::count(room.begin(), room.begin() + static_cast<std::ptrdiff_t>(n), std::uint8_t{0xfd}));
+  const auto readable = [](std::uint8_t b) { return (b >= ' ' && b <= '~') || b == '\r' || b == '\n'; };
+  readable_ += static_cast<std::uint64_t>(std::count_if(room.begin(), room.begin() + static_cast<std::ptrdiff_t>(n), readable));
+  parser_.feed({room.data(), n}, [&](const Packet& packet) { take(packet); });
+}
+
+void Client::take(const Packet& packet) {
+  last_[packet.id] = packet;
+  heard_ns_[packet.id] = now_ns();
+  ++count_[packet.id];
+  // other messages may carry the asker's id, 0 or anything
+  if (packet.is<RosflightStatus>()) system_ = packet.system;
+  if (packet.is<ParamValue>()) take_param(packet.as<ParamValue>());
+  if (packet.is<RosflightCmdAck>()) {
+    const auto ack = packet.as<RosflightCmdAck>();
+    acks_[ack.command] = {now_ns(), ack.success == 1};
+  }
+  if (packet.is<RosflightVersion>()) version_ = printable(text(packet.as<RosflightVersion>().version));
+  if (packet.is<Statustext>()) {
+    const auto message = packet.as<Statustext>();
+    said_.push_back({now_ns(), message.severity, printable(text(message.text))});
+  }
+  if (on_packet) on_packet(packet);
+}
+
+void Client::take_param(const ParamValue& value) {
+  if (value.param_index >= value.param_count || (value.param_type != param_int32 && value.param_type != param_real32)) return;
+  param_count_ = value.param_count;
+  const std::string name = printable(text(value.param_id));
+  params_[name] = {name, value.param_index, value.param_type == param_int32, value.param_value, now_ns()};
+}
+
+void Client::send_frame(const Frame& frame) {
+  for (int i = 0; i < 5; ++i) {
+    if (port_->write(frame.view())) return;
+    // full: what comes in is read on, so that a controller that waits for us goes on
+    std::array<std::uint8_t, 4096> room;
+    const std::size_t n = port_->read(room, 5);
+    bytes_ += n;
+    parser_.feed({room.data(), n}, [&](const Packet& packet) { take(packet); });
+  }
+}
+
+void Client::explain_silence() const {
+  const Parser::Counts& seen = parser_.counts();
+  if (bytes_ == 0)
+    throw Error(name() + " is silent: is the flight controller powered and this its port? On a UART both ends need the same --baud.");
+  if (seen.frames == 0 && modern_ > 4 && modern_ * 100 > bytes_)
+    throw Error(name() + " talks MAVLink 2, as PX4 and ArduPilot do: Fulmar needs a flight controller with ROSflight firmware 2.");
+  if (seen.frames == 0 && readable_ * 20 >= bytes_ * 19)
+    throw Error(name() + " sends text, not MAVLink: it is no flight controller, a GNSS receiver perhaps; name another --port.");
+  if (seen.frames == 0)
+    throw Error(name() + " talks (" + std::to_string(bytes_) +
+                " bytes), but not as a ROSflight flight controller: wrong --baud, or another device on this port.");
+  throw Error(name() + " talks MAVLink (" + std::to_string(seen.frames) +
+              " frames), but sends no status of ROSflight 2: flash ROSflight firmware 2, or choose the right port.");
+}
+
+void Client::connect() {
+  if (!wait(2 * second, [&] { return count<RosflightStatus>() > 0; })) explain_silence();
+  ask_version();
+  pump(150 * ms);  // texts of its boot, kept back until the first heartbeat, are not taken for news
+}
+
+void Client::ask_version() {
+  for (int i = 0; i < 8 && version_.empty(); ++i) {
+    if (const auto ack = acks_.find(static_cast<std::uint8_t>(Command::send_version)); ack != acks_.end() && !ack->second.success) return;
+    send(RosflightCmd{static_cast<std::uint8_t>(Command::send_version)});
+    wait(250 * ms, [&] { return !version_.empty(); });
+  }
+  if (version_.empty())
+    throw Error(name() + " sends, but does not answer: a flight controller older than ROSflight 2, or the line to it is cut.");
+  const std::size_t digit = version_.find_first_of("0123456789");
+  int major = -1;
+  if (digit != std::string::npos) std::from_chars(version_.data() + digit, version_.data() + version_.size(), major);
+  // "a1b2c3d" is a build without a tag; what it is cannot be told
+  const bool numbered = digit == 0 || (digit == 1 && version_[0] == 'v');
+  if (numbered && version_.find('.') != std::string::npos && major >= 0 && major < 2)
+    throw Error(name() + " runs firmware " + version_ + ": Fulmar needs ROSflight 2.0 or later; flash it.");
+}
+
+bool Client::armed() {
+  if (age_s<RosflightStatus>() > 0.3) {
+    pump(150 * ms);  // what has waited on the line, as while a question stood on the terminal, is old
+    const std::uint64_t before = count<RosflightStatus>();
+    if (!wait(2 * second, [&] { return count<RosflightStatus>() > before; }))
+      throw Error(name() + " has stopped sending its status: unplugged, or rebooting?");
+  }
+  return last<RosflightStatus>()->armed != 0;
+}
+
+void Client::refuse_armed(const std::string& deed) {
+  if (armed()) throw Error("The aircraft is armed: disarm it before " + deed + ".");
+}
+
+std::optional<bool> Client::command(Command c, int tries, std::int64_t each_ns) {
+  const auto code = static_cast<std::uint8_t>(c);
+  acks_.erase(code);
+  for (int i = 0; i < tries; ++i) {
+    send(RosflightCmd{code});
+    if (wait(each_ns, [&] { return acks_.count(code) > 0; })) return acks_[code].success;
+  }
+  return {};
+}
+
+void Client::demand(Command c, const std::string& deed) {
+  const std::optional<bool> answer = command(c, 6);
+  if (!answer) throw Error(name() + " does not answer: " + deed + " was not acknowledged within 3 s; whether it was done is not known.");
+  if (*answer) return;
+  pump(100 * ms);  // a reason may follow
+  if (armed()) throw Error("The controller refused " + deed + ": it is armed.");
+  throw Error("The controller refused " + deed + (said_.empty() ? "." : ": '" + said_.back().text + "'."));
+}
+
+std::optional<std::int64_t> Client::round_trip_ns(int questions) {
+  std::optional<std::int64_t> least;
+  for (int i = 0; i < questions; ++i) {
+    const std::int64_t asked = now_ns();
+    send(Timesync{0, asked});
+    const bool came = wait(100 * ms, [&] {
+      const auto answer = last<Timesync>();
+      return answer && answer->tc1 != 0 && answer->ts1 == asked;
+    });
+    if (came && (!least || now_ns() - asked < *least)) least = now_ns() - asked;
+    pump(5 * ms);
+  }
+  return least;
+}
+
+}  // namespace fulmar::fcu

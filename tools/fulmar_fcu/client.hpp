@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One conversation with a ROSflight flight controller: keeps the heartbeat, remembers the last of every message, and waits with deadlines.
+// What the firmware answers and when: rosflight_firmware 2.0, comm_manager.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "plugins/fcu_serial/link/frame.hpp"
+#include "plugins/fcu_serial/link/port.hpp"
+
+namespace fulmar::fcu {
+
+using core::Error;
+
+inline constexpr std::int64_t ms = 1'000'000, second = 1'000'000'000;
+
+/// A device and a clock, so that a test may bring its own.
+struct Endpoint {
+  std::string name;                             ///< as people wrote it
+  std::function<std::unique_ptr<Port>()> open;  ///< throws PortError
+  std::function<std::int64_t()> now_ns;         ///< monotonic
+};
+Endpoint device(const std::string& port, std::int64_t baud);
+
+struct Param {
+  std::string name;
+  std::uint16_t index = 0;
+  bool whole = false;      ///< an integer of 32 bits; else a float of 32 bits
+  std::uint32_t bits = 0;  ///< never through a float: small integers would be denormal, negative ones NaN
+  std::int64_t heard_ns = 0;
+
+  std::int32_t integer() const { return std::bit_cast<std::int32_t>(bits); }
+  float real() const { return std::bit_cast<float>(bits); }
+  double number() const { return whole ? integer() : static_cast<double>(real()); }
+  std::string text() const;  ///< shortest that reads back as the same bits
+};
+
+struct Said {  ///< a STATUSTEXT
+  std::int64_t at_ns = 0;
+  std::uint8_t severity = 6;
+  std::string text;
+};
+
+/// Somebody pressed Ctrl-C.
+struct Interrupted : Error {
+  Interrupted() : Error("Interrupted.") {}
+};
+
+class Client {
+ public:
+  /// Opens the device. Throws PortError.
+  explicit Client(Endpoint endpoint);
+
+  /// Makes sure that a ROSflight controller of version 2 answers. Throws Error, one sentence, within 5 s.
+  void connect();
+  /// Closes the device and opens it again, for at most so long.
+  void reopen(std::int64_t limit_ns);
+
+  std::int64_t now_ns() const { return endpoint_.now_ns(); }
+  const std::string& name() const { return endpoint_.name; }
+  /// Reads for so long.
+  void pump(std::int64_t ns);
+  /// Reads until `done()`. False when it took longer than `ns`.
+  bool wait(std::int64_t ns, const std::function<bool()>& done);
+
+  template <class M>
+  void send(const M& message) {
+    send_frame(encode(message, sequence_++));
+  }
+  template <class M>
+  std::optional<M> last() const {
+    if (count_[M::id] == 0) return {};
+    return last_[M::id].template as<M>();
+  }
+  /// Since the last one came; 1e9 when none did.
+  template <class M>
+  double age_s() const {
+    return count_[M::id] == 0 ? 1e9 : static_cast<double>(now_ns() - heard_ns_[M::id]) * 1e-9;
+  }
+  template <class M>
+  std::uint64_t count() const {
+    return count_[M::id];
+  }
+  std::uint64_t count_of(std::uint8_t id) const { return count_[id]; }
+  std::uint64_t bytes() const { return bytes_; }
+  const Parser::Counts& counts() const { return parser_.counts(); }
+  const std::vector<Said>& said() const { return said_; }
+  const std::string& version() const { return version_; }  ///< "" when it refuses to tell, as it does while armed
+  std::uint8_t system() const { return system_; }
+
+  /// What the controller last said of each parameter, by name.
+  const std::map<std::string, Param>& params() const { return params_; }
+  std::uint16_t param_count() const { return param_count_; }
+  void forget_params() { params_.clear(); }
+
+  bool armed();  ///< as a fresh status says. Throws Error when none comes
+  /// Throws Error "... is armed" when it is. `deed`: "calibrating".
+  void refuse_armed(const std::string& deed);
+  /// Sends a command until it is acknowledged, or once only. True: accepted; false: refused; nothing: no answer in time.
+  std::optional<bool> command(Command c, int tries = 4, std::int64_t each_ns = 500 * ms);
+  /// The same, and throws Error, one sentence, unless accepted. `deed`: "writing the parameters".
+  void demand(Command c, const std::string& deed);
+  /// The least of some round trips, in ns; nothing when none came back.
+  std::optional<std::int64_t> round_trip_ns(int questions = 20);
+  /// Called for each packet, after it was kept.
+  std::function<void(const Packet&)> on_packet;
+  /// Asked while it reads; true ends whatever is under way by Interrupted.
+  std::function<bool()> cancelled;
+
+ private:
+  void step(std::int64_t until_ns);
+  void take(const Packet& packet);
+  void take_param(const ParamValue& value);
+  void send_frame(const Frame& frame);
+  void ask_version();
+  [[noreturn]] void explain_silence() const;
+
+  struct Ack {
+    std::int64_t at_ns = 0;
+    bool success = false;
+  };
+  Endpoint endpoint_;
+  std::unique_ptr<Port> port_;
+  Parser parser_;
+  std::array<Packet, 256> last_{};
+  std::array<std::int64_t, 256> heard_ns_{};
+  std::array<std::uint64_t, 256> count_{};
+  std::map<std::uint8_t, Ack> acks_;
+  std::map<std::string, Param> params_;
+  std::vector<Said> said_;
+  std::string version_;
+  std::uint64_t bytes_ = 0, modern_ = 0, readable_ = 0;
+  std::int64_t beat_ns_ = 0;
+  std::uint16_t param_count_ = 0;
+  std::uint8_t sequence_ = 0, system_ = 1;
+};
+
+}  // namespace fulmar::fcu

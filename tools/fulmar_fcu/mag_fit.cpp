@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/fulmar_fcu/mag_fit.hpp"
+
+#include <charconv>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "tools/fulmar_fcu/words.hpp"
+
+namespace fulmar::fcu {
+
+namespace {
+
+constexpr std::array<const char*, MagGuide::sides> side_words{"nose down",     "nose up",         "left wing up",
+                                                              "right wing up", "upright (level)", "upside down"};
+
+std::string percent(double ratio) { return fixed(100 * ratio, 1) + " %"; }
+
+bool three_numbers(std::string line, Eigen::Vector3d& out) {
+  for (char& c : line)
+    if (c == ',' || c == ';' || c == '\t' || c == '\r') c = ' ';
+  std::istringstream words(line);
+  std::string word;
+  for (int i = 0; i < 3; ++i) {
+    if (!(words >> word)) return false;
+    const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), out(i));
+    if (code != std::errc{} || end != word.data() + word.size() || !std::isfinite(out(i))) return false;
+  }
+  return !(words >> word);
+}
+
+}  // namespace
+
+Eigen::Vector3d uncorrected(const Eigen::Vector3d& reported, const Eigen::Matrix3d& A, const Eigen::Vector3d& b) {
+  return A.fullPivLu().solve(reported) + b;
+}
+
+std::string objection(const EllipsoidFit& fit, double micro) {
+  if (!fit.ok()) return "No calibration: " + fit.fault + ". Turn the aircraft all ways, away from iron and cables.";
+  if (fit.coverage_ratio < 0.75)
+    return "No calibration: the samples cover " + percent(fit.coverage_ratio) +
+           " of all directions, 75 % are needed. Turn the aircraft all ways.";
+  if (fit.uncertainty_ratio > 0.03)
+    return "No calibration: it would be known to " + percent(fit.uncertainty_ratio) + " only. Turn the aircraft further, all ways.";
+  if (fit.residual_ratio > 0.06)
+    return "No calibration: the samples scatter by " + percent(fit.residual_ratio) +
+           " about the fit. Go away from iron, cables and motors, keep telephones off, and turn slowly.";
+  if (fit.stretch_ratio > 2)
+    return "No calibration: the axes would differ by a factor of " + fixed(fit.stretch_ratio, 1) +
+           ". There is too much iron near the sensor.";
+  const double field = fit.field / micro;
+  if (field < 15 || field > 100)
+    return "No calibration: a field of " + fixed(field, 0) +
+           " uT is not the Earth's, which is 22 to 67 uT. Is the sensor sound, and the unit tesla?";
+  return "";
+}
+
+std::vector<Eigen::Vector3d> read_samples(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw core::Error(path + " cannot be read.");
+  std::vector<Eigen::Vector3d> out;
+  std::string line;
+  for (int n = 1; std::getline(file, line); ++n) {
+    Eigen::Vector3d m;
+    if (line.empty() || line[0] == '#') continue;
+    if (three_numbers(line, m))
+      out.push_back(m);
+    else if (n > 1)
+      throw core::Error(path + ":" + std::to_string(n) + ": expected three numbers in tesla: x, y, z.");
+  }
+  return out;
+}
+
+std::string samples_text(const std::vector<Eigen::Vector3d>& samples) {
+  std::ostringstream out;
+  out.precision(9);
+  out << "x_tesla,y_tesla,z_tesla\n";
+  for (const Eigen::Vector3d& m : samples) out << m.x() << "," << m.y() << "," << m.z() << "\n";
+  return out.str();
+}
+
+void MagGuide::turn(const Eigen::Vector3d& accel, const Eigen::Vector3d& gyro, double dt_s) {
+  const double g = accel.norm();
+  int axis = 0;
+  const double most_of = accel.cwiseAbs().maxCoeff(&axis);
+  if (std::fabs(g - 9.81) > 1.5 || most_of < 0.9 * g) {
+    side_ = -1;
+    return;
+  }
+  // at rest the accelerometer shows what is up: +x nose up, +y right wing up, +z upside down
+  static constexpr std::array<std::array<int, 2>, 3> side_of{{{0, 1}, {2, 3}, {4, 5}}};
+  side_ = side_of[static_cast<std::size_t>(axis)][accel(axis) > 0 ? 1 : 0];
+  if (dt_s > 0 && dt_s < 0.5) angle_rad_ += gyro.dot(accel / g) * dt_s;
+}
+
+void MagGuide::take(const Eigen::Vector3d& m) {
+  if (side_ < 0 || !m.allFinite()) return;
+  const double turn = angle_rad_ / (2 * std::numbers::pi);
+  const auto part = static_cast<std::size_t>((turn - std::floor(turn)) * parts) % parts;
+  int& n = count_[static_cast<std::size_t>(side_)][part];
+  if (n >= most) return;
+  ++n;
+  samples_.push_back(m);
+}
+
+int MagGuide::parts_of(int side) const {
+  const auto& counts = count_[static_cast<std::size_t>(side)];
+  return static_cast<int>(std::count_if(counts.begin(), counts.end(), [](int n) { return n >= enough; }));
+}
+
+int MagGuide::done_sides() const {
+  int n = 0;
+  for (int side = 0; side < sides; ++side) n += parts_of(side) >= parts - 1 ? 1 : 0;
+  return n;
+}
+
+std::string MagGuide::text() const {
+  std::string out = std::to_string(done_sides()) + " of 6 sides done. ";
+  if (side_ >= 0 && parts_of(side_) < parts - 1)
+    return out + "Now " + side_words[static_cast<std::size_t>(side_)] +
+           ": turn it once around, slowly: " + std::to_string(parts_of(side_)) + " of 12.";
+  out += "Next, lay it: ";
+  bool first = true;
+  for (int side = 0; side < sides; ++side) {
+    if (parts_of(side) >= parts - 1) continue;
+    out += (first ? "" : ", ") + std::string(side_words[static_cast<std::size_t>(side)]);
+    first = false;
+  }
+  return out + ".";
+}
+
+}  // namespace fulmar::fcu

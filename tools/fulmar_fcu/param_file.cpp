@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/fulmar_fcu/param_file.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "core/graph/yaml.hpp"
+
+namespace fulmar::fcu {
+
+namespace {
+
+using core::Node;
+
+/// "6" and "9" as MAVLink numbers them.
+std::optional<bool> type_of(const Node& type, core::Report& report) {
+  if (type.is(Node::Kind::scalar) && type.text == "6") return true;
+  if (type.is(Node::Kind::scalar) && type.text == "9") return false;
+  report.add(type.where(), "type is 6 (whole number) or 9 (number), found " + core::found_words(type));
+  return {};
+}
+
+void read_item(const Node& item, std::vector<FileParam>& out, core::Report& report) {
+  const core::Keys keys(item, "", {"name", "type", "value"}, report);
+  if (!item.is(Node::Kind::map)) return;
+  for (const char* key : {"name", "type", "value"})
+    if (!keys.has(key)) return report.add(item.where(), std::string("this parameter has no '") + key + "': it needs {name, type, value}");
+  const std::optional<std::string> name = keys.text("name"), value = keys.text("value");
+  const std::optional<bool> whole = type_of(*keys.get("type"), report);
+  if (name && value && whole) out.push_back({*name, *value, whole, keys.where("value")});
+}
+
+void read_entry(const Node::Entry& entry, std::vector<FileParam>& out, core::Report& report) {
+  if (!entry.value.is(Node::Kind::scalar))
+    return report.add(entry.where(), entry.key + ": expected a number, found " + core::found_words(entry.value));
+  out.push_back({entry.key, entry.value.text, {}, entry.where()});
+}
+
+void refuse_twice(const std::vector<FileParam>& list, core::Report& report) {
+  for (std::size_t i = 0; i < list.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (list[i].name == list[j].name)
+        report.add(list[i].where, list[i].name + " stands twice in this file, first in line " + std::to_string(list[j].where.line));
+}
+
+std::string padded(std::string text, std::size_t width) {
+  if (text.size() < width) text.append(width - text.size(), ' ');
+  return text;
+}
+
+}  // namespace
+
+std::vector<FileParam> read_param_file(const std::string& path) {
+  core::Report report;
+  const Node root = core::parse_yaml(core::read_source(path, path), report);
+  std::vector<FileParam> out;
+  if (root.is(Node::Kind::sequence)) {
+    for (const Node& item : root.items) read_item(item, out, report);
+  } else if (root.is(Node::Kind::map)) {
+    for (const Node::Entry& entry : root.entries) read_entry(entry, out, report);
+  } else if (report.empty()) {
+    report.add({path, root.line}, "expected 'NAME: value' lines, or a list of {name, type, value}, found " + core::found_words(root));
+  }
+  refuse_twice(out, report);
+  report.throw_if_any();
+  return out;
+}
+
+std::string param_file_text(const std::vector<Param>& params, const std::string& version) {
+  std::string out = "# Parameters of a ROSflight flight controller" + (version.empty() ? "" : ", firmware " + version) +
+                    ". Load: fulmar fcu params load FILE.\n# Behind each value: its index and type.\n";
+  for (const Param& param : params)
+    out += padded(param.name + ": " + param.text(), 34) + " # " + std::to_string(param.index) + (param.whole ? " int\n" : " float\n");
+  return out;
+}
+
+void write_param_file(const std::string& path, const std::string& text, bool replace) {
+  namespace fs = std::filesystem;
+  if (!replace && fs::exists(path)) throw Error(path + " is there already: choose another name, or add --replace.");
+  const std::string part = path + ".part" + std::to_string(::getpid());
+  {
+    std::ofstream file(part, std::ios::binary);
+    file << text;
+    file.flush();
+    if (!file) {
+      std::error_code ignored;
+      fs::remove(part, ignored);
+      throw Error(path + " cannot be written: no such folder, no permission, or the disk is full.");
+    }
+  }
+  std::error_code fault;
+  fs::rename(part, path, fault);
+  if (fault) throw Error(path + " cannot be written: " + fault.message() + ".");
+}
+
+std::string Change::wanted() const {
+  Param param = now;
+  param.bits = bits;
+  return param.text();
+}
+
+std::vector<Change> changes(const std::vector<FileParam>& file, const std::vector<Param>& now) {
+  core::Report report;
+  std::vector<std::string> names;
+  for (const Param& param : now) names.push_back(param.name);
+  std::vector<Change> out;
+  for (const FileParam& wanted : file) {
+    const auto it = std::find(names.begin(), names.end(), wanted.name);
+    if (it == names.end()) {
+      const std::string near = core::nearest(wanted.name, names);
+      report.add(wanted.where,
+                 "the controller has no parameter '" + wanted.name + "'." + (near.empty() ? "" : " Did you mean " + near + "?"));
+      continue;
+    }
+    const Param& param = now[static_cast<std::size_t>(it - names.begin())];
+    try {
+      if (wanted.whole && *wanted.whole != param.whole)
+        throw Error(wanted.name + " is of type " + (param.whole ? "6 (whole number)" : "9 (number)") + " in the controller.");
+      if (const std::uint32_t bits = parse_value(param, wanted.text); bits != param.bits) out.push_back({param, bits, wanted.where});
+    } catch (const Error& e) {
+      report.add(wanted.where, e.what());
+    }
+  }
+  report.throw_if_any();
+  return out;
+}
+
+std::string changes_text(const std::vector<Change>& list) {
+  std::string out = padded("parameter", 18) + padded("controller", 16) + "file\n";
+  for (const Change& change : list) out += padded(change.now.name, 18) + padded(change.now.text(), 16) + change.wanted() + "\n";
+  return out;
+}
+
+std::vector<Change> load_params(Client& client, const std::vector<FileParam>& file, std::vector<Change> todo,
+                                const std::function<void(std::size_t, std::size_t)>& progress) {
+  // These rewrite others: a mixer fills its matrix, FIXED_WING copies the failsafe throttle
+  const auto first = [](const Change& c) {
+    return c.now.name == "PRIMARY_MIXER" || c.now.name == "SECONDARY_MIXER" || c.now.name == "FIXED_WING" ||
+           c.now.name == "USE_MOTOR_PARAM";
+  };
+  for (int round = 0; round < 3 && !todo.empty(); ++round) {
+    std::stable_partition(todo.begin(), todo.end(), first);
+    std::size_t done = 0;
+    for (const Change& change : todo) {
+      client.refuse_armed("changing its parameters");
+      try {
+        set_param(client, change.now, change.bits);
+      } catch (const Error&) {
+        // told below, from what the controller then has
+      }
+      if (progress) progress(++done, todo.size());
+    }
+    client.pump(100 * ms);  // what follows from them
+    todo = changes(file, read_params(client));
+  }
+  return todo;
+}
+
+}  // namespace fulmar::fcu

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/fulmar_fcu/params.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <set>
+
+namespace fulmar::fcu {
+
+namespace {
+
+std::string upper(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
+std::set<std::uint16_t> indices(const Client& client) {
+  std::set<std::uint16_t> have;
+  for (const auto& [name, param] : client.params()) have.insert(param.index);
+  return have;
+}
+
+/// Asks for the list until it flows, and reads on until nothing has come for a while.
+void ask_list(Client& client, const std::function<void()>& tell) {
+  std::uint64_t before = client.count<ParamValue>();
+  for (int i = 0; i < 4 && client.count<ParamValue>() == before; ++i) {
+    client.send(ParamRequestList{client.system(), 0});
+    client.wait(500 * ms, [&] { return client.count<ParamValue>() > before; });
+  }
+  while (client.wait(60 * ms, [&] { return client.count<ParamValue>() > before; })) {
+    before = client.count<ParamValue>();
+    tell();
+    if (indices(client).size() >= client.param_count()) return;
+  }
+}
+
+/// Asks for some of those that are missing.
+void ask_missing(Client& client) {
+  constexpr int window = 24;  // far below the controller's fifo of 256 packets
+  const std::set<std::uint16_t> have = indices(client);
+  std::vector<std::uint16_t> asked;
+  for (std::uint16_t i = 0; i < client.param_count() && asked.size() < window; ++i)
+    if (have.count(i) == 0) asked.push_back(i);
+  for (const std::uint16_t i : asked) client.send(ParamRequestRead{static_cast<std::int16_t>(i), client.system(), 0, {}});
+  client.wait(100 * ms, [&] { return indices(client).size() >= have.size() + asked.size(); });
+}
+
+void ask_one(Client& client, const std::string& name) { client.send(ParamRequestRead{-1, client.system(), 0, field<16>(name)}); }
+
+bool heard_since(const Client& client, const std::string& name, std::int64_t since_ns) {
+  const auto it = client.params().find(name);
+  return it != client.params().end() && it->second.heard_ns >= since_ns;
+}
+
+/// " Did you mean RC_ARM_CHN or RC_ARM_THRESHOLD?"
+std::string like(const std::string& wanted, const std::vector<std::string>& names) {
+  std::string words = core::nearest(wanted, names);
+  int n = words.empty() ? 0 : 1;
+  for (const std::string& name : names)
+    if (name != words && n < 4 && matches(name, wanted)) words += (n++ > 0 ? " or " : "") + name;
+  return words.empty() ? " 'fulmar fcu params list' shows all." : " Did you mean " + words + "?";
+}
+
+std::uint32_t parse_integer(const Param& param, const std::string& text) {
+  std::int64_t value = 0;
+  const char* begin = text.data() + (text.size() > 1 && text[0] == '+' ? 1 : 0);
+  const auto [end, code] = std::from_chars(begin, text.data() + text.size(), value);
+  if (code == std::errc::invalid_argument || end != text.data() + text.size())
+    throw Error(param.name + " is a whole number, not '" + text + "'.");
+  if (code != std::errc{} || value < INT32_MIN || value > INT32_MAX)
+    throw Error(text + " is too large for " + param.name + ": it holds whole numbers from -2147483648 to 2147483647.");
+  return std::bit_cast<std::uint32_t>(static_cast<std::int32_t>(value));
+}
+
+std::uint32_t parse_real(const Param& param, const std::string& text) {
+  float value = 0;
+  const char* begin = text.data() + (text.size() > 1 && text[0] == '+' ? 1 : 0);
+  const auto [end, code] = std::from_chars(begin, text.data() + text.size(), value);
+  if (code == std::errc::result_out_of_range)
+    throw Error(text + " is outside of what " + param.name + " holds: a number of 32 bits, up to 3.4e38.");
+  if (code != std::errc{} || end != text.data() + text.size()) throw Error(param.name + " is a number, not '" + text + "'.");
+  if (!std::isfinite(value)) throw Error(param.name + " must be a finite number, not '" + text + "'.");
+  return std::bit_cast<std::uint32_t>(value);
+}
+
+}  // namespace
+
+std::vector<Param> read_params(Client& client, const std::function<void(std::size_t, std::size_t)>& progress) {
+  client.forget_params();
+  const auto tell = [&] {
+    if (progress) progress(indices(client).size(), client.param_count());
+  };
+  ask_list(client, tell);
+  if (client.params().empty()) throw Error(client.name() + " does not answer the request for its parameters: is the line to it cut?");
+  int idle = 0;
+  for (std::size_t have = indices(client).size(); have < client.param_count() && idle < 20;) {
+    ask_missing(client);
+    const std::size_t got = indices(client).size();
+    idle = got > have ? 0 : idle + 1;
+    have = got;
+    tell();
+  }
+  std::vector<Param> list;
+  for (const auto& [name, param] : client.params()) list.push_back(param);
+  std::sort(list.begin(), list.end(), [](const Param& a, const Param& b) { return a.index < b.index; });
+  if (list.size() != client.param_count())
+    throw Error("Only " + std::to_string(list.size()) + " of " + std::to_string(client.param_count()) + " parameters came from " +
+                client.name() + ": the link loses too much; look at 'fulmar fcu check'.");
+  return list;
+}
+
+Param read_param(Client& client, const std::string& name) {
+  const std::string wanted = upper(name);
+  if (wanted.empty() || wanted.size() > 16) throw Error("'" + name + "' is no name of a parameter: they have 1 to 16 characters.");
+  for (int i = 0; i < 3; ++i) {
+    const std::int64_t since = client.now_ns();
+    ask_one(client, wanted);
+    if (client.wait(250 * ms, [&] { return heard_since(client, wanted, since); })) return client.params().at(wanted);
+  }
+  // a name that does not exist is answered by silence, as loss is
+  std::vector<std::string> names;
+  for (const Param& param : read_params(client)) {
+    if (param.name == wanted) return param;
+    names.push_back(param.name);
+  }
+  throw Error("The controller has no parameter '" + name + "'." + like(wanted, names));
+}
+
+std::vector<Param> read_some(Client& client, const std::vector<std::string>& names) {
+  const std::int64_t since = client.now_ns();
+  const auto missing = [&] {
+    std::vector<std::string> out;
+    std::copy_if(names.begin(), names.end(), std::back_inserter(out), [&](const std::string& n) { return !heard_since(client, n, since); });
+    return out;
+  };
+  for (int i = 0; i < 8 && !missing().empty(); ++i) {
+    for (const std::string& name : missing()) ask_one(client, name);
+    client.wait(250 * ms, [&] { return missing().empty(); });
+  }
+  std::vector<Param> out;
+  for (const std::string& name : names)
+    if (heard_since(client, name, since)) out.push_back(client.params().at(name));
+  return out;
+}
+
+std::uint32_t parse_value(const Param& param, const std::string& text) {
+  return param.whole ? parse_integer(param, text) : parse_real(param, text);
+}
+
+bool set_param(Client& client, const Param& now, std::uint32_t bits) {
+  if (now.bits == bits) return false;
+  Param wanted = now;
+  wanted.bits = bits;
+  const std::int64_t since = client.now_ns();
+  const auto taken = [&] { return heard_since(client, now.name, since) && client.params().at(now.name).bits == bits; };
+  for (int i = 0; i < 6; ++i) {
+    client.send(ParamSet{bits, client.system(), 0, field<16>(now.name), now.whole ? param_int32 : param_real32});
+    ask_one(client, now.name);  // an echo comes only when the value changes; an answer to this comes always
+    if (client.wait(250 * ms, taken)) return true;
+  }
+  if (!heard_since(client, now.name, since))
+    throw Error(client.name() + " does not answer: whether " + now.name + " was set is not known.");
+  throw Error(now.name + " did not take " + wanted.text() + ": it is still " + client.params().at(now.name).text() + ".");
+}
+
+bool matches(const std::string& name, const std::string& pattern) {
+  const std::string p = upper(pattern);
+  if (p.find_first_of("*?") == std::string::npos) return name.find(p) != std::string::npos;
+  const std::function<bool(std::size_t, std::size_t)> from = [&](std::size_t i, std::size_t j) {
+    if (j == p.size()) return i == name.size();
+    if (p[j] == '*') return from(i, j + 1) || (i < name.size() && from(i + 1, j));
+    return i < name.size() && (p[j] == '?' || p[j] == name[i]) && from(i + 1, j + 1);
+  };
+  return from(0, 0);
+}
+
+}  // namespace fulmar::fcu

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/fulmar_fcu/preflight.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "core/graph/record.hpp"
+#include "tools/fulmar_fcu/mixer.hpp"
+#include "tools/fulmar_fcu/radio.hpp"
+#include "tools/fulmar_fcu/words.hpp"
+
+namespace fulmar::fcu {
+
+namespace {
+
+/// Facts, and the list as it grows.
+struct Judge {
+  const Facts& f;
+  std::vector<Item> items;
+
+  void add(Verdict verdict, const std::string& name, const std::string& text) { items.push_back({verdict, name, text}); }
+  void ok(const std::string& name, const std::string& text) { add(Verdict::ok, name, text); }
+  void warn(const std::string& name, const std::string& text) { add(Verdict::warn, name, text); }
+  void fail(const std::string& name, const std::string& text) { add(Verdict::fail, name, text); }
+
+  double value(const std::string& name) const {
+    const auto it = std::find_if(f.params.begin(), f.params.end(), [&](const Param& p) { return p.name == name; });
+    return it == f.params.end() ? 0 : it->number();
+  }
+  int whole(const std::string& name) const { return static_cast<int>(value(name)); }
+  bool all_zero(const std::vector<std::string>& names) const {
+    return std::all_of(names.begin(), names.end(), [&](const std::string& n) { return value(n) == 0; });
+  }
+};
+
+void firmware(Judge& j) {
+  if (j.f.version.empty())
+    j.add(Verdict::note, "firmware", "it refuses to tell its version, as it does while armed");
+  else
+    j.ok("firmware", j.f.version);
+  if (j.f.status.armed != 0)
+    j.fail("disarmed", "it is ARMED: disarm it, and stay away from the propeller");
+  else
+    j.ok("disarmed", "yes");
+  if (const auto words = error_words(j.f.status.error_code); !words.empty())
+    j.fail("errors", core::join(words) + ": it will not arm");
+  else
+    j.ok("errors", "none");
+  if (j.f.status.num_errors > 0)
+    j.warn("sensors", std::to_string(j.f.status.num_errors) + " did not start: 'fulmar fcu status' shows which are silent; power-cycle it");
+}
+
+void calibration(Judge& j) {
+  const bool bare = j.all_zero({"ACC_X_BIAS", "ACC_Y_BIAS", "ACC_Z_BIAS", "GYRO_X_BIAS", "GYRO_Y_BIAS", "GYRO_Z_BIAS"});
+  if (bare || (j.f.status.error_code & error_uncalibrated_imu) != 0)
+    j.fail("IMU", "not calibrated: lay it level, 'fulmar fcu calibrate imu', then 'params write'");
+  else
+    j.ok("IMU", "calibrated");
+  bool plain = j.all_zero({"MAG_X_BIAS", "MAG_Y_BIAS", "MAG_Z_BIAS"});
+  for (const char* d : {"MAG_CAL_A00", "MAG_CAL_A11", "MAG_CAL_A22"}) plain = plain && j.value(d) == 1;
+  if (j.f.mag_hz == 0)
+    j.warn("magnetometer", "silent: headings will come from GNSS alone");
+  else if (plain)
+    j.warn("magnetometer", "not calibrated: 'fulmar fcu calibrate mag', then 'params write'");
+  else
+    j.ok("magnetometer", "calibrated");
+  if (j.f.uptime_s < 12)
+    j.warn("zeroing", "booted " + fixed(j.f.uptime_s, 0) + " s ago: barometer and airspeed are zeroed in the first 12 s; keep it still");
+  if (j.f.pitot_hz == 0)
+    j.warn("airspeed", "no sensor is heard: the pitot tube is unplugged, or there is none");
+  else if (j.f.pitot && std::fabs(j.f.pitot->velocity) > 5)
+    j.warn("airspeed",
+           fixed(j.f.pitot->velocity, 1) + " m/s at rest: cover the tube, 'fulmar fcu calibrate airspeed'; in wind this is right");
+  else if (j.f.pitot)
+    j.ok("airspeed", fixed(j.f.pitot->velocity, 1) + " m/s");
+  if (j.f.baro_hz == 0)
+    j.fail("barometer", "silent: power-cycle the controller");
+  else
+    j.ok("barometer", "heard");
+}
+
+void mixing(Judge& j) {
+  if (j.whole("FIXED_WING") != 1)
+    j.fail("aircraft", "FIXED_WING is 0, a multirotor: 'fulmar fcu params set FIXED_WING 1', write, reboot");
+  else
+    j.ok("aircraft", "fixed wing");
+  const Mixer mixer = mixer_of(j.f.params);
+  const auto faults = mixer_faults(mixer), remarks = mixer_remarks(mixer);
+  for (const std::string& fault : faults) j.fail("mixer", fault);
+  for (const std::string& remark : remarks) j.warn("mixer", remark);
+  if (faults.empty() && remarks.empty()) j.ok("mixer", mixer_name(mixer.choice));
+  if (const int axis = j.whole("RC_F_AXIS"); axis != 0)
+    j.fail("throttle axis", "RC_F_AXIS is " + std::to_string(axis) + ": the throttle of a fixed wing is u[0]; set it to 0");
+  for (const char* name : {"X_EQ_TORQUE", "Y_EQ_TORQUE", "Z_EQ_TORQUE"})
+    if (std::fabs(j.value(name)) > 0.3)
+      j.warn("trim", std::string(name) + " is " + fixed(j.value(name), 2) + ", and is added to every command: trim the linkage instead");
+}
+
+void reversal(Judge& j) {
+  if (!j.f.airframe) {
+    j.add(Verdict::note, "reversals", "not compared: add --airframe FILE");
+    return;
+  }
+  const auto one = [&](const char* surface, const char* param, bool reversed) {
+    const bool firmware = j.whole(param) != 0;
+    const std::string name = surface;
+    if (firmware && reversed)
+      j.fail("reversals",
+             std::string(param) + " is 1 and the airframe file says reversed: the " + name + " would be turned round twice; take one away");
+    else if (reversed)
+      j.warn("reversals", "the airframe file reverses the " + name + " for the computer alone, not for the pilot: better " + param +
+                              " 1 and nothing in the file");
+    else
+      j.ok("reversals", name + (firmware ? ": reversed by the firmware, for pilot and computer" : ": not reversed"));
+  };
+  one("aileron", "REV_AILERON", j.f.airframe->aileron.reversed);
+  one("elevator", "REV_ELEVATOR", j.f.airframe->elevator.reversed);
+  one("rudder", "REV_RUDDER", j.f.airframe->rudder.reversed);
+}
+
+void timeouts(Judge& j) {
+  const int timeout = j.whole("OFFBOARD_TIMEOUT");
+  const std::string text = "OFFBOARD_TIMEOUT is " + std::to_string(timeout) + " ms";
+  if (timeout <= 50)
+    j.fail("time-out", text + ": commands may come each 50 ms; set 100");
+  else if (timeout > 500)
+    j.warn("time-out", text + ": so long it flies on without a computer; 100 is usual");
+  else
+    j.ok("time-out", text);
+  const double thr = j.value("FAILSAFE_THR");
+  if (thr > 0)
+    j.add(Verdict::note, "failsafe",
+          "FAILSAFE_THR is " + fixed(thr, 2) + ", but without radio a fixed wing gets throttle 0 and centred surfaces all the same");
+  else
+    j.ok("failsafe", "without radio: throttle 0, surfaces centred");
+}
+
+void radio(Judge& j) {
+  const RadioMap map = radio_map(j.f.params);
+  if (j.f.rc_hz == 0)
+    return j.fail("radio", "no frames: switch the transmitter on; check receiver and RC_TYPE. Without them nothing reaches the outputs");
+  if (j.f.rc_hz < 40)
+    j.warn("radio", fixed(j.f.rc_hz, 0) + " frames a second: commands reach the outputs only with them; SBUS gives 111");
+  else
+    j.ok("radio", fixed(j.f.rc_hz, 0) + " frames a second");
+  for (const std::string& fault : map_faults(map)) j.fail("channels", fault);
+  if (map_faults(map).empty()) j.ok("channels", map_words(map));
+  if (!j.f.rc || !map_faults(map).empty()) return;
+  if (map.on(RadioMap::arm, *j.f.rc)) j.fail("arm switch", "is on: switch it off");
+  if (map.on(RadioMap::attitude_override, *j.f.rc))
+    j.ok("override switch", "on: the pilot flies");
+  else
+    j.warn("override switch", "off: the computer flies as soon as it sends; begin with the pilot");
+  const double stick = map.throttle(*j.f.rc);
+  if (stick > j.value("RC_ARM_THRESHOLD")) j.warn("throttle stick", "at " + fixed(100 * stick, 0) + " %: it must be down to arm");
+}
+
+void pilot(Judge& j) {
+  if (j.whole("TAKE_MIN_THR") != 0)
+    j.warn("throttle", "TAKE_MIN_THR is 1: the computer's throttle counts only below the pilot's stick; set 0, or fly with the stick up");
+  else
+    j.ok("throttle", "TAKE_MIN_THR is 0: to arm, the throttle override switch must be on");
+  const double dev = j.value("RC_OVRD_DEV");
+  if (dev >= 1)
+    j.warn("sticks", "RC_OVRD_DEV is " + fixed(dev, 2) + ": moving the sticks does not take over, only the switch does");
+  else
+    j.ok("sticks", "more than " + fixed(100 * dev, 0) + " % of stick takes over");
+}
+
+void outside(Judge& j) {
+  if (!j.f.gnss)
+    j.fail("GNSS", "silent: check the receiver's plug");
+  else if (j.f.gnss->fix_type < 3 || j.f.gnss->fix_type == 5)
+    j.fail("GNSS", fix_words(j.f.gnss->fix_type) + ", " + std::to_string(j.f.gnss->num_sat) + " satellites: wait under open sky");
+  else if (j.f.gnss->h_acc > 5 || j.f.gnss->num_sat < 6)
+    j.warn("GNSS", fix_words(j.f.gnss->fix_type) + ", " + std::to_string(j.f.gnss->num_sat) + " satellites, +-" +
+                       fixed(j.f.gnss->h_acc, 1) + " m: wait");
+  else
+    j.ok("GNSS",
+         fix_words(j.f.gnss->fix_type) + ", " + std::to_string(j.f.gnss->num_sat) + " satellites, +-" + fixed(j.f.gnss->h_acc, 1) + " m");
+  if (!j.f.battery || j.f.battery->battery_voltage < 1) return j.warn("battery", "not measured: BATT_VOLT_MULT, or no sensor");
+  const double volt = j.f.battery->battery_voltage;
+  if (j.f.airframe && volt < 0.85 * j.f.airframe->propulsion.battery_volt)
+    j.fail("battery", fixed(volt, 1) + " V, and the airframe's has " + fixed(j.f.airframe->propulsion.battery_volt, 1) + " V: charge it");
+  else
+    j.ok("battery", fixed(volt, 1) + " V" + (j.f.uptime_s < 60 ? ", still settling: the controller filters it over 20 s" : ""));
+}
+
+void line(Judge& j) {
+  if (j.f.imu_hz < 100)
+    j.fail("IMU rate", fixed(j.f.imu_hz, 0) + " Hz: the loop needs 400");
+  else if (j.f.imu_hz < 380)
+    j.warn("IMU rate", fixed(j.f.imu_hz, 0) + " Hz of 400: the line loses or is too slow");
+  else
+    j.ok("IMU rate", fixed(j.f.imu_hz, 0) + " Hz");
+  const std::string loss = fixed(100 * j.f.loss_ratio, 2) + " % of the frames lost";
+  if (j.f.loss_ratio > 0.05)
+    j.fail("loss", loss + ": cable, or a baud rate that is too low");
+  else if (j.f.loss_ratio > 0.005)
+    j.warn("loss", loss);
+  else
+    j.ok("loss", loss);
+  std::string load = fixed(j.f.bytes_per_s / 1000, 1) + " kB/s";
+  // start bit, 8 bits, stop bit
+  const double part = j.f.baud > 0 ? j.f.bytes_per_s * 10 / static_cast<double>(j.f.baud) : 0;
+  if (j.f.baud > 0) load += ", " + fixed(100 * part, 0) + " % of " + std::to_string(j.f.baud) + " baud";
+  if (part > 0.9)
+    j.warn("load", load + ": on a UART take 921600; USB does not care");
+  else
+    j.ok("load", load);
+  if (!j.f.round_trip_s) return j.fail("round trip", "no answer to any of 20 questions: the line to the controller is cut");
+  const std::string trip = fixed(1000 * *j.f.round_trip_s, 2) + " ms";
+  if (*j.f.round_trip_s > 0.05)
+    j.fail("round trip", trip + ": too slow to fly on");
+  else if (*j.f.round_trip_s > 0.01)
+    j.warn("round trip", trip + ": more than 10 ms");
+  else
+    j.ok("round trip", trip);
+}
+
+}  // namespace
+
+Facts gather(Client& client, std::int64_t baud, std::int64_t listen_ns) {
+  Facts f;
+  f.version = client.version();
+  f.params = read_params(client);
+  const Meter meter(client);
+  client.pump(listen_ns);
+  f.imu_hz = meter.rate(client, SmallImu::id);
+  f.mag_hz = meter.rate(client, SmallMag::id);
+  f.baro_hz = meter.rate(client, SmallBaro::id);
+  f.pitot_hz = meter.rate(client, DiffPressure::id);
+  f.rc_hz = meter.rate(client, RcChannels::id);
+  f.status_hz = meter.rate(client, RosflightStatus::id);
+  f.bytes_per_s = meter.bytes_per_s(client);
+  f.loss_ratio = meter.loss_ratio(client);
+  if (const auto ns = client.round_trip_ns()) f.round_trip_s = static_cast<double>(*ns) * 1e-9;
+  client.armed();  // a fresh status
+  f.status = *client.last<RosflightStatus>();
+  f.rc = client.last<RcChannels>();
+  if (client.age_s<RosflightGnss>() < 2) f.gnss = client.last<RosflightGnss>();
+  f.battery = client.last<RosflightBatteryStatus>();
+  f.pitot = client.last<DiffPressure>();
+  if (const auto imu = client.last<SmallImu>()) f.uptime_s = static_cast<double>(imu->time_boot_us) * 1e-6;
+  f.baud = client.name().rfind("udp:", 0) == 0 ? 0 : baud;
+  return f;
+}
+
+std::vector<Item> judge(const Facts& facts) {
+  Judge j{facts, {}};
+  firmware(j);
+  calibration(j);
+  mixing(j);
+  reversal(j);
+  timeouts(j);
+  radio(j);
+  pilot(j);
+  outside(j);
+  line(j);
+  j.add(Verdict::note, "parameters", "whether they are all written cannot be asked: 'fulmar fcu params write' makes sure");
+  return j.items;
+}
+
+std::string items_text(const std::vector<Item>& items) {
+  static constexpr std::array<const char*, 4> words{"OK    ", "note  ", "WARN  ", "FAIL  "};
+  std::array<int, 4> count{};
+  std::string out;
+  for (const Item& item : items) {
+    ++count[static_cast<std::size_t>(item.verdict)];
+    out += words[static_cast<std::size_t>(item.verdict)] + item.name + std::string(item.name.size() < 16 ? 16 - item.name.size() : 1, ' ') +
+           item.text + "\n";
+  }
+  out += std::to_string(count[3]) + " FAIL, " + std::to_string(count[2]) + " WARN, " + std::to_string(count[0]) + " OK: ";
+  return out + (count[3] > 0 ? "not ready.\n" : count[2] > 0 ? "ready, if the warnings are meant to be so.\n" : "ready.\n");
+}
+
+Airframe read_airframe(const std::string& path) {
+  core::Report report;
+  Airframe out;
+  const core::Node root = core::parse_yaml(core::read_source(path, path), report);
+  if (report.empty())
+    core::fill_record(*core::copy_type(fulmar::describe<Airframe>()), root, reinterpret_cast<std::byte*>(&out), "", report, {"params"});
+  report.throw_if_any();
+  return out;
+}
+
+}  // namespace fulmar::fcu

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+
+#include "tools/fulmar_fcu/app.hpp"
+
+namespace fulmar::fcu {
+
+namespace {
+volatile std::sig_atomic_t stop_wanted = 0;
+}
+
+void catch_interrupt() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { stop_wanted = 1; };  // no SA_RESTART: a question on the terminal ends, too
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+}
+
+bool interrupted() { return stop_wanted != 0; }
+
+bool on_terminal() { return ::isatty(STDOUT_FILENO) == 1; }
+
+bool confirmed(const std::string& question, bool yes, const std::string& flag) {
+  if (yes) return true;
+  if (::isatty(STDIN_FILENO) != 1 || !on_terminal()) throw Error("Nothing was changed: without a terminal to ask on, add " + flag + ".");
+  std::printf("%s [y/N] ", question.c_str());
+  std::fflush(stdout);
+  std::string answer;
+  std::getline(std::cin, answer);
+  if (answer == "y" || answer == "Y" || answer == "yes") return true;
+  std::printf("Nothing was changed.\n");
+  return false;
+}
+
+void show_progress(const std::string& text) {
+  if (!on_terminal()) return;
+  std::printf("\r\033[K%s", text.c_str());
+  std::fflush(stdout);
+}
+
+}  // namespace fulmar::fcu

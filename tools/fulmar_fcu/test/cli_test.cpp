@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The program itself, on a pseudo-terminal with a controller behind it, in real time.
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "plugins/fcu_serial/test/device.hpp"
+
+namespace {
+
+using namespace fulmar::fcu;
+using fulmar::fcu::testing::Device;
+using fulmar::fcu::testing::Pty;
+
+struct Run {
+  std::string out;
+  int code = -1;
+  explicit Run(const std::string& arguments) {
+    const std::string line = "timeout 30 " FULMAR_BIN_DIR "/fulmar-fcu " + arguments + " 2>&1 </dev/null";
+    std::FILE* pipe = ::popen(line.c_str(), "r");
+    for (int c = 0; (c = std::fgetc(pipe)) != EOF;) out += static_cast<char>(c);
+    const int status = ::pclose(pipe);
+    code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  bool says(const std::string& part) const { return out.find(part) != std::string::npos; }
+};
+
+struct Controller {
+  peer::Firmware firmware;
+  Device device;
+  Controller() : device([this](Pty& pty) { testing::serve(firmware, pty); }) {
+    device.change([this](Pty&) { firmware.provision(testing::wall_us()); });
+  }
+  Run run(const std::string& arguments) const { return Run("--port " + device.name() + " " + arguments); }
+};
+
+TEST_CASE("status, parameters and the check over a terminal line, as a user types them") {
+  Controller controller;
+  const Run status = controller.run("status");
+  CHECK(status.code == 0);
+  CHECK(status.says("ROSflight v2.0.1"));
+  CHECK(status.says("disarmed"));
+  CHECK(controller.run("version").out == "v2.0.1-0-ge8cf6a0f\n");
+  CHECK(controller.run("params get rc_arm_chn").out == "4\n");
+  const Run list = controller.run("params list --json");
+  CHECK(nlohmann::json::parse(list.out).size() == 333);
+  CHECK(controller.run("params set RC_ARM_CHN 6").says("RC_ARM_CHN: 4 -> 6, read back."));
+  CHECK(nlohmann::json::parse(controller.run("--json params get RC_ARM_CHN").out)["value"] == 6);
+  CHECK(controller.run("params set RC_ARM_CHN 1.5").code == 1);
+  CHECK(controller.run("mixer").says("elevator"));
+  CHECK(controller.run("check").says("FAIL"));
+  CHECK(controller.run("test-outputs").says("--propeller-off"));
+  CHECK(controller.run("calibrate mag").says("a terminal"));
+}
+
+TEST_CASE("wrong usage ends with 2, and a device that is not there with 1") {
+  CHECK(Run("").code == 2);
+  CHECK(Run("params get").code == 2);
+  CHECK(Run("statsu").says("there is no command 'statsu'. Did you mean 'status'?"));
+  CHECK(Run("calibrate gro").says("Did you mean 'gyro'?"));
+  CHECK(Run("statsu").code == 2);
+  CHECK(Run("--baud 17 status").code == 2);
+  CHECK(Run("--help").code == 0);
+  const Run missing("--port /dev/ttyNOWHERE status");
+  CHECK(missing.code == 1);
+  CHECK(missing.says("/dev/ttyNOWHERE"));
+  CHECK(std::count(missing.out.begin(), missing.out.end(), '\n') == 1);
+}
+
+TEST_CASE("a reboot that unplugs the device, as USB does, is seen through to its end") {
+  peer::Firmware firmware;
+  std::uint32_t boots = 0;
+  Device device([&](Pty& pty) {
+    testing::serve(firmware, pty);
+    if (boots != 0 && firmware.boots() != boots) {
+      pty.pull();
+      testing::pause_us(500000);
+      pty.plug();
+    }
+    boots = firmware.boots();
+  });
+  device.change([&](Pty&) {
+    firmware.provision(testing::wall_us());
+    boots = firmware.boots();
+  });
+  testing::pause_us(300000);
+  const Run reboot("--port " + device.name() + " reboot");
+  CHECK(reboot.code == 0);
+  CHECK(reboot.says("Rebooted."));
+}
+
+TEST_CASE("a device that is pulled out ends what is under way with a sentence") {
+  Controller controller;
+  std::thread pull([&] {
+    testing::pause_us(2000000);
+    controller.device.change([](Pty& pty) { pty.pull(); });
+  });
+  const Run status = controller.run("status --watch");
+  pull.join();
+  CHECK(status.code == 1);
+  CHECK(status.says("gone"));
+}
+
+TEST_CASE("a port that another program holds is told with its name") {
+  Controller controller;
+  std::thread first([&] { controller.run("calibrate baro"); });
+  testing::pause_us(1000000);
+  const Run second = controller.run("status");
+  CHECK(second.code == 1);
+  CHECK(second.says("held by"));
+  first.join();
+}
+
+}  // namespace

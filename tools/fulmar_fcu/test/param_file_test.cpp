@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/fulmar_fcu/param_file.hpp"
+
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <fstream>
+
+#include "lossy_port.hpp"
+
+namespace {
+
+using namespace fulmar::fcu;
+using fulmar::fcu::test::Bench;
+
+struct File {
+  std::string path = "/tmp/fulmar_fcu_params_" + std::to_string(::getpid()) + ".yaml";
+  explicit File(const std::string& text) { std::ofstream(path) << text; }
+  ~File() { std::remove(path.c_str()); }
+};
+
+std::string fault_of(const std::string& text, const std::vector<Param>& now = {}) {
+  const File file(text);
+  try {
+    const auto list = read_param_file(file.path);
+    if (!now.empty()) changes(list, now);
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+const std::vector<Param> controller{{"RC_ARM_CHN", 0, true, std::bit_cast<std::uint32_t>(-1), 0},
+                                    {"ACC_LPF", 1, false, std::bit_cast<std::uint32_t>(0.5f), 0}};
+
+TEST_CASE("what is saved is what is read, for all 333 to the bit") {
+  Bench bench;
+  bench.firmware.provision();
+  Client client = bench.client();
+  client.connect();
+  const auto list = read_params(client);
+  const File file(param_file_text(list, client.version()));
+  const auto back = read_param_file(file.path);
+  CHECK(back.size() == 333);
+  CHECK(changes(back, list).empty());
+  std::vector<Param> other = list;
+  for (Param& p : other) p.bits ^= 1;
+  CHECK(changes(back, other).size() == 333);
+}
+
+TEST_CASE("the file names the firmware, and stands in the order of the controller") {
+  CHECK(param_file_text(controller, "v2.0.1") ==
+        "# Parameters of a ROSflight flight controller, firmware v2.0.1. Load: fulmar fcu params load FILE.\n"
+        "# Behind each value: its index and type.\n"
+        "RC_ARM_CHN: -1                     # 0 int\n"
+        "ACC_LPF: 0.5                       # 1 float\n");
+}
+
+TEST_CASE("the list of ROSflight's own tools is read, too") {
+  const File file("- {name: RC_ARM_CHN, type: 6, value: 4}\n- {name: ACC_LPF, type: 9, value: 0.3000000119}\n");
+  const auto todo = changes(read_param_file(file.path), controller);
+  REQUIRE(todo.size() == 2);
+  CHECK(todo[0].wanted() == "4");
+  CHECK(todo[1].bits == std::bit_cast<std::uint32_t>(0.3f));
+  CHECK(changes_text(todo) ==
+        "parameter         controller      file\n"
+        "RC_ARM_CHN        -1              4\n"
+        "ACC_LPF           0.5             0.3\n");
+}
+
+TEST_CASE("every fault of a file is told with its line") {
+  const auto holds = [](const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; };
+  CHECK(holds(fault_of("RC_ARM_CHM: 4\n", controller), ".yaml:1: the controller has no parameter 'RC_ARM_CHM'. Did you mean RC_ARM_CHN?"));
+  CHECK(holds(fault_of("ACC_LPF: 0.1\nRC_ARM_CHN: 1.5\n", controller), ".yaml:2: RC_ARM_CHN is a whole number, not '1.5'"));
+  CHECK(holds(fault_of("- {name: ACC_LPF, type: 6, value: 1}\n", controller), ".yaml:1: ACC_LPF is of type 9 (number) in the controller"));
+  CHECK(holds(fault_of("- {name: ACC_LPF, type: 5, value: 1}\n"), "type is 6 (whole number) or 9 (number), found '5'"));
+  CHECK(holds(fault_of("- {name: ACC_LPF, value: 1}\n"), "no 'type'"));
+  CHECK(holds(fault_of("ACC_LPF: 1\nACC_LPF: 2\n"), ":2"));
+  CHECK(holds(fault_of("- {name: A, type: 6, value: 1}\n- {name: A, type: 6, value: 1}\n"), "stands twice in this file, first in line 1"));
+  CHECK(holds(fault_of("ACC_LPF: [1, 2]\n"), "expected a number, found a list"));
+  CHECK(holds(fault_of("A: 1\nACC_LPF: [1, 2\n"), ".yaml:"));
+  CHECK(holds(fault_of("just words\n"), "expected 'NAME: value' lines"));
+  const std::string several = fault_of("A: 1\nB: 2\nACC_LPF: x\n", controller);
+  CHECK(std::count(several.begin(), several.end(), '\n') >= 2);
+}
+
+TEST_CASE("a file that is there is not written over, unless asked for") {
+  const File file("A: 1\n");
+  CHECK_THROWS_WITH(write_param_file(file.path, "B: 2\n", false), doctest::Contains("is there already"));
+  write_param_file(file.path, "B: 2\n", true);
+  CHECK(read_param_file(file.path)[0].name == "B");
+  CHECK_THROWS_WITH(write_param_file("/nowhere/at/all.yaml", "B: 2\n", false), doctest::Contains("cannot be written"));
+}
+
+TEST_CASE("a loaded mixer of one's own survives that the choice of a mixer fills the matrix") {
+  Bench bench;
+  bench.firmware.provision();
+  Client client = bench.client();
+  client.connect();
+  const File file("PRI_MIXER_4_1: 0.75\nPRIMARY_MIXER: 11\nFIXED_WING: 1\nFAILSAFE_THR: 0.1\n");
+  const auto wanted = read_param_file(file.path);
+  const auto left = load_params(client, wanted, changes(wanted, read_params(client)));
+  CHECK(left.empty());
+  CHECK(bench.firmware.params().f(bench.firmware.params().find("PRI_MIXER_4_1")) == 0.75f);
+}
+
+}  // namespace

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/fulmar_fcu/preflight.hpp"
+
+#include <doctest/doctest.h>
+
+#include "captured.hpp"
+#include "lossy_port.hpp"
+#include "tools/fulmar_fcu/app.hpp"
+#include "tools/fulmar_fcu/mixer.hpp"
+#include "tools/fulmar_fcu/radio.hpp"
+
+namespace {
+
+using namespace fulmar::fcu;
+using fulmar::fcu::test::Bench;
+using fulmar::fcu::test::Captured;
+using peer::param;
+
+/// A controller as it stands on the field, ready.
+struct Ready : Bench {
+  Ready() {
+    firmware.params().set(param("MAG_X_BIAS"), 1e-6f);
+    firmware.provision();
+    firmware.inputs.rc_us = {1500, 1500, 1000, 1500, 1000, 2000, 1000, 1000};
+    firmware.params().set(param("RC_OVRD_DEV"), 0.1f);
+    firmware.inputs.battery_volt = 24;
+    idle(15'000'000);
+  }
+  Facts facts() {
+    Client c = client();
+    c.connect();
+    Facts f = gather(c, 921600);
+    f.airframe = read_airframe("configs/airframes/anaconda.yaml");
+    return f;
+  }
+};
+
+Facts ready() {
+  static const Facts facts = Ready().facts();
+  return facts;
+}
+
+void set(Facts& f, const std::string& name, double value) {
+  for (Param& p : f.params)
+    if (p.name == name)
+      p.bits = p.whole ? std::bit_cast<std::uint32_t>(static_cast<std::int32_t>(value))
+                       : std::bit_cast<std::uint32_t>(static_cast<float>(value));
+}
+
+std::string verdicts(const Facts& f, Verdict wanted) {
+  std::string out;
+  for (const Item& item : judge(f))
+    if (item.verdict == wanted) out += item.name + ": " + item.text + "\n";
+  return out;
+}
+bool fails(const Facts& f, const std::string& part) { return verdicts(f, Verdict::fail).find(part) != std::string::npos; }
+bool warns(const Facts& f, const std::string& part) { return verdicts(f, Verdict::warn).find(part) != std::string::npos; }
+
+TEST_CASE("a controller that is ready has neither a FAIL nor a WARN") {
+  const Facts f = ready();
+  CHECK(verdicts(f, Verdict::fail) == "");
+  CHECK(verdicts(f, Verdict::warn) == "");
+  CHECK(items_text(judge(f)).find("0 FAIL, 0 WARN") != std::string::npos);
+  CHECK(f.imu_hz == doctest::Approx(400).epsilon(0.01));
+  CHECK(f.rc_hz == doctest::Approx(111).epsilon(0.02));
+  CHECK(f.bytes_per_s == doctest::Approx(48900).epsilon(0.02));
+}
+
+TEST_CASE("each thing that is wrong is told, with its parameter") {
+  const auto with = [](const std::function<void(Facts&)>& change) {
+    Facts f = ready();
+    change(f);
+    return f;
+  };
+  const auto param_is = [&](const char* name, double value) { return with([&](Facts& f) { set(f, name, value); }); };
+  CHECK(fails(param_is("FIXED_WING", 0), "params set FIXED_WING 1"));
+  CHECK(fails(param_is("RC_F_AXIS", 2), "RC_F_AXIS is 2"));
+  CHECK(fails(param_is("PRIMARY_MIXER", 255), "PRIMARY_MIXER is 255"));
+  CHECK(fails(param_is("PRIMARY_MIXER", 2), "a multirotor's"));
+  CHECK(fails(param_is("PRI_MIXER_OUT_4", 1), "Output 4 follows the throttle but is set up as a servo: set PRI_MIXER_OUT_4 to 2"));
+  CHECK(fails(param_is("PRI_MIXER_OUT_1", 2), "Output 1 follows the elevator but is set up as a motor: set PRI_MIXER_OUT_1 to 1"));
+  CHECK(fails(param_is("OFFBOARD_TIMEOUT", 50), "OFFBOARD_TIMEOUT is 50 ms"));
+  CHECK(warns(param_is("OFFBOARD_TIMEOUT", 2000), "OFFBOARD_TIMEOUT is 2000 ms"));
+  CHECK(fails(param_is("RC_ATT_OVRD_CHN", 2), "no override switch: RC_ATT_OVRD_CHN is 2"));
+  CHECK(fails(param_is("RC_THR_OVRD_CHN", 8), "no throttle override switch"));
+  CHECK(fails(param_is("RC_ARM_CHN", 5), "both arms and overrides"));
+  CHECK(fails(param_is("RC_ARM_CHN", 9), "RC_ARM_CHN is 9"));
+  CHECK(fails(param_is("RC_Y_CHN", 0), "two sticks are on channel 1"));
+  CHECK(warns(param_is("TAKE_MIN_THR", 1), "TAKE_MIN_THR is 1"));
+  CHECK(warns(param_is("X_EQ_TORQUE", 0.5), "X_EQ_TORQUE is 0.50"));
+  CHECK(fails(with([](Facts& f) { f.status.armed = 1; }), "ARMED"));
+  CHECK(fails(with([](Facts& f) { f.status.error_code = error_rc_lost; }), "radio lost"));
+  CHECK(fails(with([](Facts& f) {
+                for (const char* n : {"ACC_X_BIAS", "GYRO_X_BIAS"}) set(f, n, 0);
+              }),
+              "calibrate imu"));
+  CHECK(fails(with([](Facts& f) { f.rc_hz = 0; }), "no frames"));
+  CHECK(warns(with([](Facts& f) { f.rc_hz = 20; }), "20 frames a second"));
+  CHECK(fails(with([](Facts& f) { f.rc->chan5_raw = 2000; }), "arm switch: is on"));
+  CHECK(warns(with([](Facts& f) { f.rc->chan6_raw = 1000; }), "the computer flies as soon as it sends"));
+  CHECK(warns(with([](Facts& f) { f.rc->chan3_raw = 1500; }), "at 50 %"));
+  CHECK(fails(with([](Facts& f) { f.gnss->fix_type = 2; }), "2D fix"));
+  CHECK(fails(with([](Facts& f) { f.gnss.reset(); }), "GNSS: silent"));
+  CHECK(fails(with([](Facts& f) { f.battery->battery_voltage = 19; }), "19.0 V, and the airframe's has 24.0 V"));
+  CHECK(fails(with([](Facts& f) { f.loss_ratio = 0.1; }), "10.00 % of the frames lost"));
+  CHECK(warns(with([](Facts& f) { f.baud = 460800; }), "106 % of 460800 baud"));
+  CHECK(fails(with([](Facts& f) { f.round_trip_s.reset(); }), "round trip"));
+  CHECK(warns(with([](Facts& f) { f.round_trip_s = 0.02; }), "20.00 ms"));
+  CHECK(fails(with([](Facts& f) { f.imu_hz = 50; }), "50 Hz"));
+}
+
+TEST_CASE("a reversal counts once: in the firmware or in the airframe file") {
+  Facts f = ready();
+  set(f, "REV_ELEVATOR", 1);
+  CHECK(verdicts(f, Verdict::fail) == "");
+  CHECK(verdicts(f, Verdict::ok).find("elevator: reversed by the firmware") != std::string::npos);
+  f.airframe->elevator.reversed = true;
+  CHECK(fails(f, "REV_ELEVATOR is 1 and the airframe file says reversed"));
+  set(f, "REV_ELEVATOR", 0);
+  CHECK(warns(f, "the airframe file reverses the elevator for the computer alone"));
+}
+
+TEST_CASE("the doubled gain of the secondary V-tail is seen") {
+  Ready bench;
+  bench.firmware.params().set(param("PRIMARY_MIXER"), 10);
+  bench.firmware.params().set(param("SECONDARY_MIXER"), 10);
+  const Facts f = bench.facts();
+  CHECK(warns(f, "the firmware's secondary V-tail has twice the gain"));
+  bench.firmware.params().set(param("SECONDARY_MIXER"), 255);
+  CHECK(verdicts(bench.facts(), Verdict::warn) == "");
+  const Mixer m = mixer_of(bench.facts().params);
+  CHECK(output_words(m, 0) == "aileron");
+  CHECK(output_words(m, 1) == "elevator and rudder");
+  CHECK(output_words(m, 2) == "elevator and rudder");
+  CHECK(output_words(m, 4) == "motor");
+  CHECK(output_words(m, 7) == "not used");
+}
+
+TEST_CASE("switches are on and off as the firmware has it") {
+  RadioMap map;
+  map.channels = 8;
+  map.channel = {4, 5, 6};
+  map.turned = {false, true, false};
+  RcChannels rc;
+  rc.chan5_raw = 1800;
+  rc.chan6_raw = 1199;
+  rc.chan7_raw = 1799;
+  CHECK(map.on(RadioMap::arm, rc));
+  CHECK(map.on(RadioMap::attitude_override, rc));
+  CHECK_FALSE(map.on(RadioMap::throttle_override, rc));
+  rc.chan6_raw = 1200;
+  CHECK_FALSE(map.on(RadioMap::attitude_override, rc));
+  map.channels = 4;
+  CHECK_FALSE(map.on(RadioMap::arm, rc));
+}
+
+TEST_CASE("the command ends with 1 on a FAIL and with 0 without one") {
+  Ready bench;
+  Client client = bench.client();
+  client.connect();
+  HardwareOptions what;
+  what.airframe = "configs/airframes/anaconda.yaml";
+  CHECK(Captured([&] { return check_command(client, {}, what); }).code == 0);
+  bench.firmware.inputs.gnss.fix_type = 0;
+  const Captured bad([&] { return check_command(client, {}, what); });
+  CHECK(bad.code == 1);
+  CHECK(bad.says("FAIL  GNSS            no fix, 15 satellites: wait under open sky"));
+  what.airframe = "configs/missions/hourglass.yaml";
+  CHECK(Captured([&] { return check_command(client, {}, what); }).says("hourglass.yaml:"));
+}
+
+}  // namespace

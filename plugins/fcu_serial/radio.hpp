@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "commands.hpp"
 #include "fulmar/msg/rc.hpp"
 #include "link/messages.hpp"
 
@@ -41,9 +42,10 @@ inline std::array<std::uint16_t, 8> channels_of(const RcChannels& m) {
   return {m.chan1_raw, m.chan2_raw, m.chan3_raw, m.chan4_raw, m.chan5_raw, m.chan6_raw, m.chan7_raw, m.chan8_raw};
 }
 
-/// Sticks as the firmware takes them: X positive rolls right, Y positive is nose up, Z positive is nose right. The switches are the
+/// What the sticks mean to the aircraft. The firmware passes them on as it does a command, so that the sign of a stick is that of the
+/// command which moves the surface the same way: a positive elevator is nose down, a positive rudder nose left. The switches are the
 /// channels 5 to 8, lower end -1. A channel that is not there is in the middle; such a throttle is closed.
-inline Rc to_rc(const RcChannels& m, const RcMap& map, bool link) {
+inline Rc to_rc(const RcChannels& m, const RcMap& map, const Throws& throws, bool link) {
   const std::array<std::uint16_t, 8> us = channels_of(m);
   const auto there = [&](std::int32_t i) {
     return i >= 0 && i < 8 && us[static_cast<std::size_t>(i)] >= 500 && us[static_cast<std::size_t>(i)] <= 2500;
@@ -52,7 +54,10 @@ inline Rc to_rc(const RcChannels& m, const RcMap& map, bool link) {
     return there(i) ? std::clamp((us[static_cast<std::size_t>(i)] - 1500) / 500.0, -1.0, 1.0) : 0.0;
   };
   const double throttle = there(map.f) ? std::clamp((us[static_cast<std::size_t>(map.f)] - 1000) / 1000.0, 0.0, 1.0) : 0.0;
-  return {stick(map.x), stick(map.y), stick(map.z), throttle, stick(4), stick(5), stick(6), stick(7), link};
+  const auto sign = [](double full_throw) { return full_throw < 0 ? -1.0 : 1.0; };
+  const double roll = sign(throws.aileron) * stick(map.x), pitch = -sign(throws.elevator) * stick(map.y),
+               yaw = -sign(throws.rudder) * stick(map.z);
+  return {roll, pitch, yaw, throttle, stick(4), stick(5), stick(6), stick(7), link};
 }
 
 }  // namespace fulmar::fcu

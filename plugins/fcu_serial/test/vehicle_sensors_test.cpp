@@ -150,13 +150,13 @@ TEST_CASE("outputs that are not finite are told as none") {
   CHECK_FALSE(to_outputs(m));
 }
 
-TEST_CASE("sticks follow the controller's map: right roll, nose up and nose right are positive") {
+TEST_CASE("sticks follow the controller's map: right roll is positive") {
   RcChannels m;
   m.chan1_raw = 2000, m.chan2_raw = 1250, m.chan3_raw = 1600, m.chan4_raw = 1500;
   m.chan5_raw = 2000, m.chan6_raw = 1000, m.chan7_raw = 1500, m.chan8_raw = 1750;
-  const Rc rc = to_rc(m, RcMap{}, true);
+  const Rc rc = to_rc(m, RcMap{}, Throws{}, true);
   CHECK(rc.roll_frac == 1);
-  CHECK(rc.pitch_frac == -0.5);
+  CHECK(rc.pitch_frac == 0.5);
   CHECK(rc.yaw_frac == 0);
   CHECK(rc.throttle_frac == Approx(0.6));
   CHECK(rc.aux1_frac == 1);
@@ -167,12 +167,26 @@ TEST_CASE("sticks follow the controller's map: right roll, nose up and nose righ
 
   RcMap other;
   other.take("RC_X_CHN", 3), other.take("RC_F_CHN", 0), other.take("RC_Z_CHN", 2), other.take("RC_Y_CHN", 7), other.take("RC_TYPE", 1);
-  const Rc moved = to_rc(m, other, false);
+  const Rc moved = to_rc(m, other, Throws{}, false);
   CHECK(moved.roll_frac == 0);
   CHECK(moved.throttle_frac == 1);
-  CHECK(moved.yaw_frac == Approx(0.2));
-  CHECK(moved.pitch_frac == 0.5);
+  CHECK(moved.yaw_frac == Approx(-0.2));
+  CHECK(moved.pitch_frac == -0.5);
   CHECK_FALSE(moved.link);
+}
+
+TEST_CASE("a stick that moves a surface as a command does has that command's meaning, reversed or not") {
+  const auto us = [](float u) { return static_cast<std::uint16_t>(1500 + 500 * u); };
+  for (const double sign : {1.0, -1.0}) {
+    const Throws throws{sign * 0.5, sign * 0.5, sign * 0.5};
+    const auto right_up_right = to_offboard({0, 0.25, -0.25, -0.25}, throws);  // roll right, nose up, nose right
+    RcChannels m;
+    m.chan1_raw = us(right_up_right->u[3]), m.chan2_raw = us(right_up_right->u[4]), m.chan4_raw = us(right_up_right->u[5]);
+    const Rc rc = to_rc(m, RcMap{}, throws, true);
+    CHECK(rc.roll_frac == Approx(0.5));
+    CHECK(rc.pitch_frac == Approx(0.5));
+    CHECK(rc.yaw_frac == Approx(0.5));
+  }
 }
 
 TEST_CASE("sticks beyond their ends and channels that are not there stay within bounds") {
@@ -180,14 +194,14 @@ TEST_CASE("sticks beyond their ends and channels that are not there stay within 
   m.chan1_raw = 2150, m.chan2_raw = 850, m.chan3_raw = 980;
   RcMap map;
   map.take("RC_Z_CHN", -1);
-  const Rc rc = to_rc(m, map, true);
+  const Rc rc = to_rc(m, map, Throws{}, true);
   CHECK(rc.roll_frac == 1);
-  CHECK(rc.pitch_frac == -1);
+  CHECK(rc.pitch_frac == 1);
   CHECK(rc.throttle_frac == 0);
   CHECK(rc.yaw_frac == 0);
   CHECK(rc.aux1_frac == 0);  // 0 us: nothing there
   map.take("RC_F_CHN", 12);
-  CHECK(to_rc(m, map, true).throttle_frac == 0);
+  CHECK(to_rc(m, map, Throws{}, true).throttle_frac == 0);
 }
 
 TEST_CASE("integers of parameters are bits, negative ones included") {

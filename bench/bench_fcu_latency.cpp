@@ -187,8 +187,11 @@ double quantile(std::vector<double> v, double q) {
 }
 
 nlohmann::json trip(const Figures& f) {
-  return {{"p50_us", quantile(f.trip_us, 0.5)}, {"p99_us", quantile(f.trip_us, 0.99)}, {"max_us", quantile(f.trip_us, 1)},
-          {"samples", f.samples}, {"unanswered", f.unanswered}};
+  return {{"p50_us", quantile(f.trip_us, 0.5)},
+          {"p99_us", quantile(f.trip_us, 0.99)},
+          {"max_us", quantile(f.trip_us, 1)},
+          {"samples", f.samples},
+          {"unanswered", f.unanswered}};
 }
 
 /// Gaps and jitter of the loop, as the controller sees them.
@@ -199,7 +202,9 @@ nlohmann::json loop(const Figures& f) {
     jitter.push_back(std::abs(us - 2500));
     if (us > 5000) ++gaps;
   }
-  return {{"jitter_p50_us", quantile(jitter, 0.5)}, {"jitter_p99_us", quantile(jitter, 0.99)}, {"longest_gap_us", quantile(f.interval_us, 1)},
+  return {{"jitter_p50_us", quantile(jitter, 0.5)},
+          {"jitter_p99_us", quantile(jitter, 0.99)},
+          {"longest_gap_us", quantile(f.interval_us, 1)},
           {"gaps_over_5_ms", gaps}};
 }
 
@@ -240,11 +245,13 @@ void print(const char* title, const nlohmann::json& r) {
   if (r.is_null()) return static_cast<void>(std::printf("%s: not allowed here\n", title));
   std::printf("%s\n%-34s %9s %9s %9s\n", title, "", "p50 us", "p99 us", "max us");
   for (const auto& [key, words] : {std::pair{"echo", "bare echo"}, {"host", "sample to command"}, {"excess", "excess"}})
-    std::printf("  %-32s %9.1f %9.1f %9.1f\n", words, r[key]["p50_us"].get<double>(), r[key]["p99_us"].get<double>(), r[key]["max_us"].get<double>());
+    std::printf("  %-32s %9.1f %9.1f %9.1f\n", words, r[key]["p50_us"].get<double>(), r[key]["p99_us"].get<double>(),
+                r[key]["max_us"].get<double>());
   const auto& l = r["loop"];
-  std::printf("  jitter of the commands' period    %9.1f %9.1f; longest gap %.1f ms, %d above 5 ms; %d of %d samples unanswered in their period\n",
-              l["jitter_p50_us"].get<double>(), l["jitter_p99_us"].get<double>(), 1e-3 * l["longest_gap_us"].get<double>(),
-              l["gaps_over_5_ms"].get<int>(), r["host"]["unanswered"].get<int>(), r["host"]["samples"].get<int>());
+  std::printf(
+      "  jitter of the commands' period    %9.1f %9.1f; longest gap %.1f ms, %d above 5 ms; %d of %d samples unanswered in their period\n",
+      l["jitter_p50_us"].get<double>(), l["jitter_p99_us"].get<double>(), 1e-3 * l["longest_gap_us"].get<double>(),
+      l["gaps_over_5_ms"].get<int>(), r["host"]["unanswered"].get<int>(), r["host"]["samples"].get<int>());
 }
 
 }  // namespace
@@ -253,9 +260,12 @@ int main(int argc, char** argv) try {
   bool json = false;
   double seconds = 20;
   for (int i = 1; i < argc; ++i) {
-    if (std::strcmp(argv[i], "--json") == 0) json = true;
-    else if (std::strcmp(argv[i], "--seconds") == 0 && i + 1 < argc) seconds = std::atof(argv[++i]);
-    else return std::fprintf(stderr, "bench_fcu_latency [--json] [--seconds N]\n"), 2;
+    if (std::strcmp(argv[i], "--json") == 0)
+      json = true;
+    else if (std::strcmp(argv[i], "--seconds") == 0 && i + 1 < argc)
+      seconds = std::atof(argv[++i]);
+    else
+      return std::fprintf(stderr, "bench_fcu_latency [--json] [--seconds N]\n"), 2;
   }
   ::prctl(PR_SET_TIMERSLACK, 1000UL, 0UL, 0UL, 0UL);
   const fs::path folder = fs::temp_directory_path() / ("fulmar_latency_" + std::to_string(::getpid()));

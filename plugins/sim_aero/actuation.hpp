@@ -13,7 +13,7 @@
 namespace fulmar::sim {
 
 struct ActuationSpec {
-  double mux_hz = 0;            ///< 0: at once
+  double mux_hz = 0;              ///< 0: at once
   double pulse_resolution_s = 0;  ///< of a pulse of 1..2 ms; 0: none
   double latency_s = 0;
 };

@@ -194,6 +194,9 @@ void line(Judge& j) {
     j.warn("IMU rate", fixed(j.f.imu_hz, 0) + " Hz of 400: the line loses or is too slow");
   else
     j.ok("IMU rate", fixed(j.f.imu_hz, 0) + " Hz");
+  j.add(Verdict::note, "other rates",
+        "mag " + fixed(j.f.mag_hz, 0) + ", baro " + fixed(j.f.baro_hz, 0) + ", airspeed " + fixed(j.f.pitot_hz, 0) + ", status " +
+            fixed(j.f.status_hz, 0) + " Hz");
   const std::string loss = fixed(100 * j.f.loss_ratio, 2) + " % of the frames lost";
   if (j.f.loss_ratio > 0.05)
     j.fail("loss", loss + ": cable, or a baud rate that is too low");

@@ -11,7 +11,9 @@ using namespace fulmar::fcu;
 using namespace fulmar::fcu::peer;
 
 namespace {
-ParamSet whole(std::string_view name, std::int32_t value) { return {std::bit_cast<std::uint32_t>(value), 1, 0, field<16>(name), param_int32}; }
+ParamSet whole(std::string_view name, std::int32_t value) {
+  return {std::bit_cast<std::uint32_t>(value), 1, 0, field<16>(name), param_int32};
+}
 ParamSet real(std::string_view name, float value) { return {std::bit_cast<std::uint32_t>(value), 1, 0, field<16>(name), param_real32}; }
 bool acknowledged(const Companion& c, Command command) {
   const auto ack = c.last<RosflightCmdAck>();

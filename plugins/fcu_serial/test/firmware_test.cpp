@@ -80,8 +80,10 @@ TEST_CASE("ids are as odd as the real ones") {
   c.wait(0.1);
   bool foreign = false;
   for (const Packet& p : c.packets) {
-    if (p.is<Statustext>()) foreign |= p.system != 1;
-    else CHECK(p.system == 1);
+    if (p.is<Statustext>())
+      foreign |= p.system != 1;
+    else
+      CHECK(p.system == 1);
     CHECK(p.component == 250);
   }
   CHECK(foreign);
@@ -168,7 +170,7 @@ TEST_CASE("one NaN poisons every output, the motor's too") {
   Companion c;
   arm(c);
   c.command(passed(0.5f, NAN, 0, 0), 0.1);
-  for (const std::size_t j : {0, 1, 2, 4}) CHECK(std::isnan(c.fcu.outputs()[j]));
+  for (const std::size_t j : {0u, 1u, 2u, 4u}) CHECK(std::isnan(c.fcu.outputs()[j]));
 }
 
 TEST_CASE("modes 1 and 2 run the loops of a multirotor on a fixed wing; 3 to 5 are dropped") {
@@ -291,7 +293,10 @@ TEST_CASE("the controller's attitude follows a steady roll") {
   c.fcu.provision();
   c.wait(4);
   const double phi = 0.5;
-  c.fcu.before_imu = [&] { c.fcu.inputs.gyro = {0.25, 0, 0}; c.fcu.inputs.accel = {0, 0, -25}; };  // no gravity to go by
+  c.fcu.before_imu = [&] {
+    c.fcu.inputs.gyro = {0.25, 0, 0};
+    c.fcu.inputs.accel = {0, 0, -25};
+  };  // no gravity to go by
   c.wait(phi / 0.25);
   const auto m = c.last<AttitudeQuaternion>();
   CHECK(2 * std::atan2(m.q2, m.q1) == doctest::Approx(phi).epsilon(0.01));

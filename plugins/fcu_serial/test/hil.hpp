@@ -113,8 +113,8 @@ inline std::vector<Row> rows(const fs::path& file) {
     std::replace(line.begin(), line.end(), ',', ' ');
     std::istringstream s(line);
     Row r{};
-    s >> r.t >> r.north >> r.east >> r.height >> r.roll >> r.pitch >> r.yaw >> r.airspeed >> r.throttle >> r.aileron >> r.elevator >> r.rudder >>
-        r.armed >> r.offboard >> r.override >> r.commands >> r.u[0] >> r.u[1] >> r.u[2] >> r.u[3];
+    s >> r.t >> r.north >> r.east >> r.height >> r.roll >> r.pitch >> r.yaw >> r.airspeed >> r.throttle >> r.aileron >> r.elevator >>
+        r.rudder >> r.armed >> r.offboard >> r.override >> r.commands >> r.u[0] >> r.u[1] >> r.u[2] >> r.u[3];
     if (s && r.t >= 0) all.push_back(r);
   }
   return all;
@@ -129,11 +129,12 @@ struct Scratch {
   ~Scratch() { fs::remove_all(folder); }
   std::string mission(const std::string& done) const {
     const std::string configs = std::string(FULMAR_SOURCE_DIR) + "/configs/", file = (folder / "hil.yaml").string();
-    std::ofstream(file) << "mission: hil\nextends: " << configs << "missions/common.yaml\nairframe: " << configs
-                        << "airframes/anaconda.yaml\norigin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\nseed: 7\n"
-                        << "done: \"" << done << "\"\ncomponents:\n"
-                        << "  sim:  {params: {sensors: rosflight, wind_ned: [3.5355, -3.5355, 0], turbulence: light, start_heading: 135 deg}}\n"
-                        << "  plan: {params: {plan: " << configs << "plans/hourglass.yaml}}\n";
+    std::ofstream(file)
+        << "mission: hil\nextends: " << configs << "missions/common.yaml\nairframe: " << configs
+        << "airframes/anaconda.yaml\norigin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\nseed: 7\n"
+        << "done: \"" << done << "\"\ncomponents:\n"
+        << "  sim:  {params: {sensors: rosflight, wind_ned: [3.5355, -3.5355, 0], turbulence: light, start_heading: 135 deg}}\n"
+        << "  plan: {params: {plan: " << configs << "plans/hourglass.yaml}}\n";
     return file;
   }
 };
@@ -150,7 +151,8 @@ struct Flown {
 inline Flown fly_peer(const Scratch& s, const std::string& done, double scale, const std::vector<std::string>& peer_words, double limit_s) {
   const auto file = [&](const char* name) { return s.folder / name; };
   const std::string port = file("fcu").string(), factor = std::to_string(scale);
-  std::vector<std::string> words{FULMAR_BIN_DIR "/fcu_peer", "--link", port, "--scale", factor, "--mission-seed", "7", "--truth", file("truth.csv").string()};
+  std::vector<std::string> words{FULMAR_BIN_DIR "/fcu_peer", "--link", port, "--scale", factor, "--mission-seed", "7", "--truth",
+                                 file("truth.csv").string()};
   words.insert(words.end(), peer_words.begin(), peer_words.end());
   const bool realtime = realtime_allowed();  // what else the machine does is no matter then
   if (realtime) words.emplace_back("--realtime");
@@ -158,8 +160,9 @@ inline Flown fly_peer(const Scratch& s, const std::string& done, double scale, c
   for (int k = 0; k < 250 && !fs::exists(port); ++k) nap(0.02);
   Flown f;
   const double begun = wall_s();
-  std::vector<std::string> flight{FULMAR_BIN_DIR "/fulmar", "run", s.mission(done), "--io", "fcu", "--no-log", "--json",
-                                  "--set", "fcu.port=" + port, "--set", "fcu.time_scale=" + factor};
+  std::vector<std::string> flight{
+      FULMAR_BIN_DIR "/fulmar", "run",   s.mission(done),           "--io", "fcu", "--no-log", "--json", "--set",
+      "fcu.port=" + port,       "--set", "fcu.time_scale=" + factor};
   if (realtime) flight.emplace_back("--realtime");
   Process host(flight, file("host.json"), file("host.err"));
   bool told = false;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The hourglass through the serial protocol: the host, a flight controller in software that behaves as ROSflight's, and sim_aero's aircraft.
-// FULMAR_LONG=1 flies it in real time; otherwise one circuit, five times faster.
+// The hourglass through the serial protocol: the host, a flight controller in software that behaves as ROSflight's, and sim_aero's
+// aircraft. FULMAR_LONG=1 flies it in real time; otherwise one circuit, five times faster.
+#include "hil.hpp"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
-
-#include "hil.hpp"
 
 using namespace fulmar::fcu::testing;
 
@@ -63,35 +63,67 @@ TEST_CASE("the hourglass through the serial protocol tracks as the simulator wit
   }
 }
 
-TEST_CASE("the cable out for 5 s in a turn, and silence for 100 ms: told, and flown on without a step") {
+/// Where an undisturbed flight was, how far a disturbed one is from it, and how much its commands change.
+struct Deviation {
+  const std::vector<Row>& plain;
+  const Flown& f;
+  double worst(double from, double to) const {
+    double most = 0;
+    for (const Row& r : f.truth)
+      if (r.t > from && r.t < to) most = std::max(most, off_track(r, plain));
+    return most;
+  }
+  double lowest(double from, double to) const {
+    double least = 1e9;
+    for (const Row& r : f.truth)
+      if (r.t > from && r.t < to) least = std::min(least, r.height);
+    return least;
+  }
+  /// No surface is told to jump by more than a fifth of its throw between two samples of the controllers.
+  void no_step(const char* when, double from, double to) const {
+    for (const std::size_t channel : {1u, 2u, 3u}) {
+      const double here = largest_step(f.truth, from, to, channel), usual = largest_step(plain, 30, 120, channel);
+      MESSAGE(std::string(when) << ": largest change of command " << channel << " in 10 ms " << here << " of the throw, usually " << usual);
+      CHECK(here < 0.2);
+    }
+  }
+};
+
+TEST_CASE("cable out for 5 s in a turn, the pilot for 8 s, no radio for 3 s, silence for 100 ms: told, and flown on without a step") {
   const Flown& plain = undisturbed();
   REQUIRE(plain.truth.size() > 1000);
   const Scratch s("unplug");
-  const double out_s = 43, back_s = 48, gap_s = 100;  // the first turn is from 41 to 49 s
+  // The first turn is from 41 to 49 s, then a straight leg until 109 s.
   const Flown f = fly_peer(s, "manage.progress.item >= 3", scale,
-                           {"--unplug-at", "43", "--unplug-for", "5", "--mute-at", "100", "--mute-for", "0.1"}, limit_s);
+                           {"--unplug-at", "43", "--unplug-for", "5", "--override-at", "70", "--override-until", "78", "--rc-silent-at",
+                            "92", "--rc-back-at", "95", "--mute-at", "103", "--mute-for", "0.1"},
+                           limit_s);
   require_flown(f);
-  CHECK_MESSAGE(f.said.find("the flight controller is back after 5") != std::string::npos, f.said);
-  double away = 0, late = 0, lowest = 1e9, handed_back_s = 0, in_gap = 0;
-  for (const Row& r : f.truth) {
-    if (r.t > out_s && r.t < back_s + 30) away = std::max(away, off_track(r, plain.truth)), lowest = std::min(lowest, r.height);
-    if (r.t > back_s + 25 && r.t < gap_s) late = std::max(late, off_track(r, plain.truth));
-    if (r.t > gap_s && r.t < gap_s + 5) in_gap = std::max(in_gap, off_track(r, plain.truth));
-    if (r.t > out_s + 1 && r.offboard > 0 && handed_back_s == 0) handed_back_s = r.t;
-  }
-  MESSAGE("5 s out: " << away << " m off the track, lowest " << lowest << " m, in control again " << handed_back_s - back_s << " s after the return, "
-                      << late << " m off after 25 s; 100 ms: " << in_gap << " m off");
-  CHECK(handed_back_s > back_s);
-  CHECK(handed_back_s < back_s + 2 * scale + 1);  // two seconds, on the wall
-  CHECK(lowest > 30);
-  CHECK(away < 150);
-  CHECK(late < 5);
-  CHECK(in_gap < 5);
-  for (const std::size_t channel : {1, 2, 3}) {
-    const double usual = largest_step(plain.truth, 30, gap_s, channel), at_return = largest_step(f.truth, out_s + 0.2, back_s + 20, channel),
-                 at_gap = largest_step(f.truth, gap_s, gap_s + 2, channel);
-    MESSAGE("largest change of command " << channel << " in 10 ms: usually " << usual << ", at the return " << at_return << ", at the gap " << at_gap);
-    CHECK(at_return < 0.25);
-    CHECK(at_gap < 0.25);
-  }
+  for (const char* words : {"the flight controller is back after 5", "the pilot flies: attitude switch, throttle switch",
+                            "the pilot hands over", "no frames of the radio: the outputs are frozen", "frames of the radio come again"})
+    CHECK_MESSAGE(f.said.find(words) != std::string::npos, f.said);
+
+  const Deviation d{plain.truth, f};
+  double back = 0;
+  for (const Row& r : f.truth)
+    if (r.t > 44 && r.offboard > 0 && back == 0) back = r.t;
+  MESSAGE("cable: " << d.worst(43, 66) << " m off the track, lowest " << d.lowest(43, 66) << " m, commands again after " << back - 48
+                    << " s, " << d.worst(66, 70) << " m off from 18 s on");
+  CHECK(back > 48);
+  CHECK(back < 48 + 2 * scale);  // two seconds on the wall
+  CHECK(d.lowest(43, 66) > 30);
+  CHECK(d.worst(43, 66) < 60);
+  CHECK(d.worst(66, 70) < 5);
+  d.no_step("cable", 48, 66);
+
+  MESSAGE("pilot: " << d.worst(70, 86) << " m off the track, " << d.worst(88, 92) << " m from 10 s on");
+  CHECK(d.worst(70, 86) < 60);
+  CHECK(d.worst(88, 92) < 5);
+  d.no_step("pilot", 78.1, 88);
+
+  MESSAGE("no radio: " << d.worst(92, 100) << " m off the track; 100 ms of silence: " << d.worst(103, 108) << " m");
+  CHECK(d.worst(92, 100) < 20);
+  CHECK(d.worst(103, 108) < 5);
+  d.no_step("radio", 95.1, 103);
+  d.no_step("silence", 103, 106);
 }

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 
 #include "captured.hpp"
@@ -48,6 +49,12 @@ bool three(Bench& bench, std::size_t id, double x, double y, double z) {
 }
 
 std::string temporary(const char* name) { return (std::string("/tmp/fulmar_fcu_test_") + std::to_string(::getpid()) + "_") + name; }
+
+const struct Cleanup {
+  ~Cleanup() {
+    for (const char* name : {"load.yaml", "save.yaml"}) std::remove(temporary(name).c_str());
+  }
+} cleanup;
 
 HardwareOptions calibrating(const char* what) {
   HardwareOptions h;

@@ -32,7 +32,8 @@ class Airplane {
         spec_(spec(world.sensors, rates)),
         frame_(world.latitude_deg, world.longitude_deg, world.altitude_m),
         plant_(plant(world)),
-        sensors_(spec_, rates.imu, frame_, magnetic_field_ned(world.latitude_deg, world.longitude_deg, world.altitude_m, 2026.0), world.seed),
+        sensors_(spec_, rates.imu, frame_, magnetic_field_ned(world.latitude_deg, world.longitude_deg, world.altitude_m, 2026.0),
+                 world.seed),
         dt_(1 / rates.imu) {
     mag_ = sim::Due(rates.mag, 0), baro_ = sim::Due(rates.baro, 0), pitot_ = sim::Due(rates.pitot, 0), gnss_ = sim::Due(rates.gnss, 0);
   }
@@ -41,8 +42,10 @@ class Airplane {
   void step() {
     time_ns_ += std::llround(1e9 * dt_);
     if (!released_ && firmware_.armed()) release();
-    if (released_) plant_.advance(actuators(), true, dt_);
-    else plant_.carry(dt_);
+    if (released_)
+      plant_.advance(actuators(), true, dt_);
+    else
+      plant_.carry(dt_);
     feel();
   }
 
@@ -63,8 +66,10 @@ class Airplane {
  private:
   static sim::Plant plant(const World& w) {
     sim::Plant p(w.airframe, w.weather, w.altitude_m, mix_seed(w.seed, 10));
-    if (w.start_height_m > 0) p.fly({0, 0, -w.start_height_m}, w.heading_rad, w.airframe.limits.airspeed_cruise_mps);
-    else p.stand(0, 0, w.heading_rad);
+    if (w.start_height_m > 0)
+      p.fly({0, 0, -w.start_height_m}, w.heading_rad, w.airframe.limits.airspeed_cruise_mps);
+    else
+      p.stand(0, 0, w.heading_rad);
     return p;
   }
   /// On the ground the gusts begin anew, 5 s before: as sim_aero's do, so that both fly through the same ones.

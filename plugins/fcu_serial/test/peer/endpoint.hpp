@@ -20,10 +20,10 @@ namespace fulmar::fcu::peer {
 class Endpoint {
  public:
   virtual ~Endpoint() = default;
-  virtual int descriptor() const = 0;                                 ///< -1 while unplugged
-  virtual std::size_t read(std::span<std::uint8_t> room) = 0;         ///< 0: nothing
-  virtual void write(std::span<const std::uint8_t> bytes) = 0;        ///< what nobody takes is lost
-  virtual bool attended() const { return true; }                      ///< somebody has it open
+  virtual int descriptor() const = 0;                           ///< -1 while unplugged
+  virtual std::size_t read(std::span<std::uint8_t> room) = 0;   ///< 0: nothing
+  virtual void write(std::span<const std::uint8_t> bytes) = 0;  ///< what nobody takes is lost
+  virtual bool attended() const { return true; }                ///< somebody has it open
   virtual void unplug() {}
   virtual void plug() {}
   virtual std::string name() const = 0;
@@ -40,7 +40,8 @@ class Terminal : public Endpoint {
     master_ = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
     if (master_ < 0 || ::grantpt(master_) != 0 || ::unlockpt(master_) != 0) throw std::runtime_error("no pseudo-terminal to be had");
     slave_ = ::ptsname(master_);
-    const int slave = ::open(slave_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);  // raw, and from its close on the master sees whether anybody is there
+    const int slave =
+        ::open(slave_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);  // raw, and from its close on the master sees whether anybody is there
     termios t{};
     ::tcgetattr(slave, &t);
     ::cfmakeraw(&t);
@@ -85,7 +86,8 @@ class Terminal : public Endpoint {
 /// Answers whom it heard last.
 class Datagrams : public Endpoint {
  public:
-  Datagrams(std::uint16_t local, std::uint16_t remote) : local_(local), socket_(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)) {
+  Datagrams(std::uint16_t local, std::uint16_t remote)
+      : local_(local), socket_(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)) {
     sockaddr_in here = address(local);
     remote_ = address(remote);
     if (::bind(socket_, reinterpret_cast<sockaddr*>(&here), sizeof here) != 0)

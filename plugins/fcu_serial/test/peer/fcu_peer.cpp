@@ -24,7 +24,8 @@ volatile std::sig_atomic_t stop_asked = 0, disarm_asked = 0;
 
 struct Settings {
   std::string link, airframe = "anaconda", truth, sensors = "rosflight", turbulence = "light";
-  bool udp = false, refuse = false, old_firmware = false, nmea = false, cold = false, realtime = false, silent = false, garbage = false, multirotor = false;
+  bool udp = false, refuse = false, old_firmware = false, nmea = false, cold = false, realtime = false, silent = false, garbage = false,
+       multirotor = false;
   double scale = 1, for_s = never_s, heading_deg = 135, start_height_m = 0, delay_ms = 0;
   std::vector<double> wind{3.5355, -3.5355, 0};
   FaultRates faults;
@@ -36,7 +37,7 @@ struct Settings {
 /// As the host makes the seed of a component: of the mission's and its name.
 std::uint64_t seed_of_sim(std::uint64_t mission_seed) {
   std::uint64_t h = mission_seed ^ 0x9e3779b97f4a7c15ull;
-  for (const unsigned char c : {'s', 'i', 'm'}) h = (h ^ c) * 0x100000001b3ull;
+  for (const char c : {'s', 'i', 'm'}) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
   h ^= h >> 30, h *= 0xbf58476d1ce4e5b9ull, h ^= h >> 27, h *= 0x94d049bb133111ebull;
   return h ^ (h >> 31);
 }
@@ -53,8 +54,9 @@ void read_options(CLI::App& app, Settings& s) {
   app.add_option("--heading", s.heading_deg, "at the start, deg");
   app.add_option("--start-height", s.start_height_m, "m; 0: on the ground");
   app.add_option("--seed", s.seed, "of noise, air and faults");
-  app.add_option("--mission-seed", [&s](const std::vector<std::string>& v) { return s.seed = seed_of_sim(std::stoull(v[0])), true; },
-                 "the biases that `io: sim` has with this seed of the mission, in a component called sim");
+  app.add_option(
+      "--mission-seed", [&s](const std::vector<std::string>& v) { return s.seed = seed_of_sim(std::stoull(v[0])), true; },
+      "the biases that `io: sim` has with this seed of the mission, in a component called sim");
   app.add_option("--truth", s.truth, "CSV of the true flight, 100 Hz");
   app.add_flag("--realtime", s.realtime, "SCHED_FIFO");
   app.add_flag("--cold", s.cold, "boots now; otherwise it has been up for 12 s");
@@ -109,19 +111,26 @@ Options options(const Settings& s) {
 class Peer {
  public:
   explicit Peer(const Settings& s)
-      : s_(s), firmware_(options(s)), plane_(world(s), firmware_, options(s).rates),
-        pilot_(s.script, plane_.airframe(), plane_.plant().air().density_kgm3), out_(s.faults, mix_seed(s.seed, 21)), in_(s.faults, mix_seed(s.seed, 22)) {
-    if (s.udp) end_ = std::make_unique<Datagrams>(std::uint16_t{14525}, std::uint16_t{14520});
-    else end_ = std::make_unique<Terminal>(s.link);
+      : s_(s),
+        firmware_(options(s)),
+        plane_(world(s), firmware_, options(s).rates),
+        pilot_(s.script, plane_.airframe(), plane_.plant().air().density_kgm3),
+        out_(s.faults, mix_seed(s.seed, 21)),
+        in_(s.faults, mix_seed(s.seed, 22)) {
+    if (s.udp)
+      end_ = std::make_unique<Datagrams>(std::uint16_t{14525}, std::uint16_t{14520});
+    else
+      end_ = std::make_unique<Terminal>(s.link);
     if (!s.truth.empty() && !(truth_ = std::fopen(s.truth.c_str(), "w"))) throw std::runtime_error("cannot write " + s.truth);
-    if (truth_) std::fputs(
-          "t_s,north_m,east_m,height_m,roll_rad,pitch_rad,yaw_rad,airspeed_mps,throttle_frac,aileron_rad,elevator_rad,rudder_rad,armed,offboard,override,"
+    if (truth_)
+      std::fputs(
+          "t_s,north_m,east_m,height_m,roll_rad,pitch_rad,yaw_rad,airspeed_mps,throttle_frac,aileron_rad,elevator_rad,rudder_rad,armed,"
+          "offboard,override,"
           "commands,u_throttle,u_aileron,u_elevator,u_rudder\n",
           truth_);
     if (!s.multirotor) firmware_.provision(0);
     firmware_.before_imu = [this] { before_imu(); };
-    if (!s.cold) firmware_.run(now_us_ = warm_us);
-    firmware_.take();
+    for (; !s.cold && now_us_ < warm_us; firmware_.take()) firmware_.run(now_us_ += 100000);
   }
   ~Peer() {
     if (truth_) std::fclose(truth_);
@@ -174,10 +183,10 @@ void Peer::write_truth() {
   const Eigen::Matrix3d R = x.q_nb.toRotationMatrix();
   const auto d = plane_.plant().deflections();
   const Commands& u = firmware_.last_command().u;
-  std::fprintf(truth_, "%.4f,%.3f,%.3f,%.3f,%.5f,%.5f,%.5f,%.3f,%.4f,%.5f,%.5f,%.5f,%d,%d,%d,%llu,%.4f,%.4f,%.4f,%.4f\n", flight_s(), x.p_n.x(), x.p_n.y(), -x.p_n.z(),
-               std::atan2(R(2, 1), R(2, 2)), std::asin(std::clamp(-R(2, 0), -1.0, 1.0)), std::atan2(R(1, 0), R(0, 0)),
-               plane_.plant().air_velocity_b().norm(), plane_.actuators().throttle_frac, d.aileron, d.elevator, d.rudder,
-               int(firmware_.armed()), int(firmware_.offboard()), int(firmware_.override_reasons()),
+  std::fprintf(truth_, "%.4f,%.3f,%.3f,%.3f,%.5f,%.5f,%.5f,%.3f,%.4f,%.5f,%.5f,%.5f,%d,%d,%d,%llu,%.4f,%.4f,%.4f,%.4f\n", flight_s(),
+               x.p_n.x(), x.p_n.y(), -x.p_n.z(), std::atan2(R(2, 1), R(2, 2)), std::asin(std::clamp(-R(2, 0), -1.0, 1.0)),
+               std::atan2(R(1, 0), R(0, 0)), plane_.plant().air_velocity_b().norm(), plane_.actuators().throttle_frac, d.aileron,
+               d.elevator, d.rudder, int(firmware_.armed()), int(firmware_.offboard()), int(firmware_.override_reasons()),
                static_cast<unsigned long long>(firmware_.commands()), double(u[0]), double(u[3]), double(u[4]), double(u[5]));
 }
 
@@ -189,8 +198,10 @@ void Peer::run_script() {
   const bool pulled = s_.script.unplugged.holds(t);
   if (pulled != unplugged_) {
     unplugged_ = pulled;
-    if (pulled) end_->unplug();
-    else end_->plug();
+    if (pulled)
+      end_->unplug();
+    else
+      end_->plug();
     out_.clear();
   }
 }
@@ -211,7 +222,9 @@ void Peer::transmit() {
     if (!mute) out_.put(f.view(), now_us_);
   if (s_.nmea && now_us_ - nmea_us_ > 100000) {
     nmea_us_ = now_us_;
-    const std::string_view line = "$GPGGA,123519,4014.783,N,11138.845,W,1,08,0.9,1387.0,M,-17.0,M,,*53\r\n$GPRMC,123519,A,4014.783,N,11138.845,W,000.0,084.4,230394,003.1,W*6E\r\n";
+    const std::string_view line =
+        "$GPGGA,123519,4014.783,N,11138.845,W,1,08,0.9,1387.0,M,-17.0,M,,*53\r\n$GPRMC,123519,A,4014.783,N,11138.845,W,000.0,084.4,230394,"
+        "003.1,W*6E\r\n";
     out_.put({reinterpret_cast<const std::uint8_t*>(line.data()), line.size()}, now_us_);
   }
   if (s_.garbage && now_us_ - nmea_us_ > 2500) {
@@ -252,12 +265,13 @@ void Peer::run() {
 }
 
 void Peer::print_result() const {
-  std::printf("{\"aircraft_crashed\": %s, \"armed\": %s, \"boots\": %u, \"commands\": %llu, \"dropped_frames\": %llu, \"duration_s\": %.1f, "
-              "\"override_reasons\": %u, \"top_height_m\": %.1f, \"worst_late_ms\": %.1f}\n",
-              plane_.plant().crashed() ? "true" : "false", firmware_.armed() ? "true" : "false", firmware_.boots(),
-              static_cast<unsigned long long>(firmware_.commands()), static_cast<unsigned long long>(firmware_.dropped()),
-              1e-6 * static_cast<double>(now_us_ - start_us_), unsigned{firmware_.override_reasons()}, top_height_m_,
-              1e-3 * static_cast<double>(worst_late_us_));
+  std::printf(
+      "{\"aircraft_crashed\": %s, \"armed\": %s, \"boots\": %u, \"commands\": %llu, \"dropped_frames\": %llu, \"duration_s\": %.1f, "
+      "\"override_reasons\": %u, \"top_height_m\": %.1f, \"worst_late_ms\": %.1f}\n",
+      plane_.plant().crashed() ? "true" : "false", firmware_.armed() ? "true" : "false", firmware_.boots(),
+      static_cast<unsigned long long>(firmware_.commands()), static_cast<unsigned long long>(firmware_.dropped()),
+      1e-6 * static_cast<double>(now_us_ - start_us_), unsigned{firmware_.override_reasons()}, top_height_m_,
+      1e-3 * static_cast<double>(worst_late_us_));
 }
 
 }  // namespace

@@ -132,7 +132,8 @@ void Firmware::sensor_passes() {
   if (mag_.due(clock_us_) && inputs.mag_works) {
     Vec m{};
     for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j) m[i] += params_.f(param("MAG_CAL_A00") + 3 * i + j) * (inputs.mag[j] - params_.f(param("MAG_X_BIAS") + j));
+      for (std::size_t j = 0; j < 3; ++j)
+        m[i] += params_.f(param("MAG_CAL_A00") + 3 * i + j) * (inputs.mag[j] - params_.f(param("MAG_X_BIAS") + j));
     send(SmallMag{static_cast<float>(m[0]), static_cast<float>(m[1]), static_cast<float>(m[2])});
   }
   if (range_.due(clock_us_) && inputs.range_m) send(SmallRange{static_cast<float>(*inputs.range_m), 8, 0.25, 0});
@@ -157,7 +158,8 @@ void Firmware::baro_pass() {
   } else if (baro_calibration_.scattered()) {
     log(Severity::error, "Too much movement for barometer cal");
   }
-  send(SmallBaro{static_cast<float>(pressure_altitude(inputs.baro_pa)), static_cast<float>(inputs.baro_pa), static_cast<float>(inputs.baro_kelvin)});
+  send(SmallBaro{static_cast<float>(pressure_altitude(inputs.baro_pa)), static_cast<float>(inputs.baro_pa),
+                 static_cast<float>(inputs.baro_kelvin)});
 }
 
 void Firmware::pitot_pass() {
@@ -177,9 +179,11 @@ void Firmware::control() {
   const std::array<double, 3> angle{attitude_.roll(), attitude_.pitch(), 0};
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t rate_p = param("PID_ROLL_RATE_P") + 3 * k, angle_p = param("PID_ROLL_ANG_P") + 3 * k;
-    if (mux_.mode[k] == ControlMode::rate) u[3 + k] = params_.f(rate_p) * static_cast<float>(static_cast<double>(u[3 + k]) - attitude_.rate[k]);
+    if (mux_.mode[k] == ControlMode::rate)
+      u[3 + k] = params_.f(rate_p) * static_cast<float>(static_cast<double>(u[3 + k]) - attitude_.rate[k]);
     if (mux_.mode[k] == ControlMode::angle)
-      u[3 + k] = static_cast<float>(params_.f(angle_p) * (static_cast<double>(u[3 + k]) - angle[k]) - params_.f(angle_p + 2) * attitude_.rate[k]);
+      u[3 + k] =
+          static_cast<float>(params_.f(angle_p) * (static_cast<double>(u[3 + k]) - angle[k]) - params_.f(angle_p + 2) * attitude_.rate[k]);
     u[3 + k] += params_.f(param("X_EQ_TORQUE") + k);
   }
   if (mux_.mode[0] != ControlMode::pass)
@@ -203,9 +207,12 @@ void Firmware::write_outputs(const Outputs14& mixed) {
       if (v < -1) v = -1;
       outputs_[j] = 0.5f + 0.5f * v;
     } else if (type == OutputType::motor) {
-      if (v > 1) v = 1;
-      else if (v < idle && params_.i(param("ARM_SPIN_MOTORS"))) v = idle;
-      else if (v < 0) v = 0;
+      if (v > 1)
+        v = 1;
+      else if (v < idle && params_.i(param("ARM_SPIN_MOTORS")))
+        v = idle;
+      else if (v < 0)
+        v = 0;
       outputs_[j] = armed() ? v : 0;
     }  // what nobody commands keeps what it had
   }

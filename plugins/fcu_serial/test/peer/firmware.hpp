@@ -47,10 +47,10 @@ struct Options {
   double clock_ppm = 0;  ///< its crystal runs fast by this
   std::int64_t first_clock_us = 0;
   std::uint64_t seed = 1;
-  bool refuses = false;        ///< no command is accepted
+  bool refuses = false;  ///< no command is accepted
   bool flash_fails = false;
-  bool reboots = true;         ///< H7 boards acknowledge and stay
-  bool answers = true;         ///< false: streams, and answers nothing
+  bool reboots = true;  ///< H7 boards acknowledge and stay
+  bool answers = true;  ///< false: streams, and answers nothing
 };
 
 enum class FlightState : std::uint8_t { preflight, error, calibrating, armed, failsafe };
@@ -145,8 +145,10 @@ class Firmware {
     put(encode(message, sequence_++, system(), component_id));
   }
   void put(const Frame& frame) {
-    if (fifo_.size() < 256) fifo_.push_back(frame);
-    else ++dropped_;
+    if (fifo_.size() < 256)
+      fifo_.push_back(frame);
+    else
+      ++dropped_;
   }
 
   /// Once per period, on a grid that begins at boot.

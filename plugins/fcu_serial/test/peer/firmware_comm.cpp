@@ -72,8 +72,10 @@ void Firmware::handle(const ParamSet& m) {
   if (m.target_system != system()) return;
   const std::size_t id = params_.find(text(m.param_id));
   if (id == param_count || m.param_type != (params_.integer(id) ? param_int32 : param_real32)) return;
-  if (params_.integer(id)) params_.set(id, std::bit_cast<std::int32_t>(m.param_value));
-  else params_.set(id, std::bit_cast<float>(m.param_value));
+  if (params_.integer(id))
+    params_.set(id, std::bit_cast<std::int32_t>(m.param_value));
+  else
+    params_.set(id, std::bit_cast<float>(m.param_value));
 }
 
 void Firmware::handle(const OffboardControl& m) {
@@ -100,7 +102,8 @@ void Firmware::handle(const RosflightCmd& m, std::uint8_t from) {
   const auto command = static_cast<Command>(m.command);
   const bool accepted = !armed() && !options_.refuses && run_command(command);
   send(RosflightCmdAck{m.command, accepted ? std::uint8_t{1} : std::uint8_t{0}});
-  if (accepted && options_.reboots && (command == Command::reboot || command == Command::reboot_to_bootloader)) reboot_at_us_ = clock_us_ + 20000;
+  if (accepted && options_.reboots && (command == Command::reboot || command == Command::reboot_to_bootloader))
+    reboot_at_us_ = clock_us_ + 20000;
 }
 
 bool Firmware::run_command(Command command) {
@@ -118,7 +121,9 @@ bool Firmware::run_command(Command command) {
       accel_calibration_.start();
       for (std::size_t k = 0; k < 3; ++k) params_.set(param("ACC_X_BIAS") + k, 0.f);
       return true;
-    case Command::gyro_calibration: start_gyro_calibration(); return true;
+    case Command::gyro_calibration:
+      start_gyro_calibration();
+      return true;
     case Command::baro_calibration:
       baro_calibration_.start();
       params_.set(param("BARO_BIAS"), 0.f);
@@ -127,13 +132,20 @@ bool Firmware::run_command(Command command) {
       pitot_calibration_.start();
       params_.set(param("DIFF_PRESS_BIAS"), 0.f);
       return true;
-    case Command::read_params: params_.load(flash_); return !options_.flash_fails;
+    case Command::read_params:
+      params_.load(flash_);
+      return !options_.flash_fails;
     case Command::write_params:
       if (!options_.flash_fails) write_flash();
       return !options_.flash_fails;
-    case Command::set_param_defaults: params_.set_defaults(); return true;
-    case Command::send_version: send_version(); return true;
-    default: return true;
+    case Command::set_param_defaults:
+      params_.set_defaults();
+      return true;
+    case Command::send_version:
+      send_version();
+      return true;
+    default:
+      return true;
   }
 }
 
@@ -164,7 +176,8 @@ void Firmware::send_param(std::size_t id) {
 void Firmware::send_version() {
   RosflightVersion m;
   m.version = field<50>(options_.version);
-  for (std::size_t i = options_.version.size() + 1; i < m.version.size(); ++i) m.version[i] = static_cast<char>(0x80 + (i * 37 + options_.seed) % 0x7f);
+  for (std::size_t i = options_.version.size() + 1; i < m.version.size(); ++i)
+    m.version[i] = static_cast<char>(0x80 + (i * 37 + options_.seed) % 0x7f);
   send(m);
 }
 

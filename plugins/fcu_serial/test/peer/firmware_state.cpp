@@ -62,16 +62,20 @@ void Firmware::look_for_arming() {
   const std::int64_t dt = clock_ms() - last_rc_ms_;
   last_rc_ms_ = clock_ms();
   if (radio_.mapped[Radio::arm]) {
-    if (!radio_.on[Radio::arm]) disarm();
-    else if (!armed()) request_arm();
+    if (!radio_.on[Radio::arm])
+      disarm();
+    else if (!armed())
+      request_arm();
     return;
   }
   const double threshold = params_.f(param("RC_ARM_THRESHOLD")), side = armed() ? -radio_.stick[2] : radio_.stick[2];
   arm_stick_ms_ = radio_.stick[3] < threshold && side > 1 - threshold ? arm_stick_ms_ + dt : 0;
   if (arm_stick_ms_ <= 1000) return;
   arm_stick_ms_ = 0;
-  if (armed()) disarm();
-  else request_arm();
+  if (armed())
+    disarm();
+  else
+    request_arm();
 }
 
 void Firmware::request_arm() {

@@ -69,7 +69,9 @@ class Mux {
   std::array<ControlMode, 3> mode{};
   std::uint16_t reasons = 0;  ///< bits of Override
   bool pilot_throttle() const { return reasons & (override_throttle_switch | override_min_throttle | override_offboard_throttle_inactive); }
-  bool pilot_attitude() const { return reasons & ~(override_throttle_switch | override_min_throttle | override_offboard_throttle_inactive); }
+  bool pilot_attitude() const {
+    return reasons & ~(override_throttle_switch | override_min_throttle | override_offboard_throttle_inactive);
+  }
 
   void run(const Params& p, const Radio& radio, Offboard& offboard, std::int64_t now_ms) {
     if (now_ms > offboard.stamp_ms + p.i(param("OFFBOARD_TIMEOUT"))) offboard.active.fill(false);
@@ -78,8 +80,10 @@ class Mux {
     reasons = 0;
     for (std::size_t k = 0; k < 3; ++k) attitude(p, radio, offboard, rc, k, now_ms);
     if (radio.mapped[Radio::throttle_override] && radio.on[Radio::throttle_override]) reasons |= override_throttle_switch;
-    if (!offboard.active[axis]) reasons |= override_offboard_throttle_inactive;
-    else if (p.i(param("TAKE_MIN_THR")) && rc[axis] < offboard.u[axis]) reasons |= override_min_throttle;
+    if (!offboard.active[axis])
+      reasons |= override_offboard_throttle_inactive;
+    else if (p.i(param("TAKE_MIN_THR")) && rc[axis] < offboard.u[axis])
+      reasons |= override_min_throttle;
     const bool pilots = pilot_throttle();
     for (std::size_t i = 0; i < 3; ++i) u[i] = pilots ? rc[i] : offboard.active[i] ? offboard.u[i] : 0;
     for (std::size_t i = 6; i < 10; ++i)
@@ -110,8 +114,9 @@ class Mux {
     if (deviated(p, radio, k, now_ms)) because(static_cast<std::uint16_t>(override_stick_x << k));
     if (!offboard.active[3 + k]) because(static_cast<std::uint16_t>(override_offboard_x_inactive << k));
     u[3 + k] = pilots ? rc[3 + k] : offboard.u[3 + k];
-    const ControlMode pilots_mode = p.i(param("FIXED_WING")) ? ControlMode::pass
-                                    : k == 2 || !p.i(param("RC_ATT_MODE")) ? ControlMode::rate : ControlMode::angle;
+    const ControlMode pilots_mode = p.i(param("FIXED_WING"))               ? ControlMode::pass
+                                    : k == 2 || !p.i(param("RC_ATT_MODE")) ? ControlMode::rate
+                                                                           : ControlMode::angle;
     mode[k] = pilots ? pilots_mode : offboard.mode == ControlMode::angle && k == 2 ? ControlMode::rate : offboard.mode;
   }
   /// The lag counts from the first deviation and begins anew only when it is over. At boot it runs from zero.

@@ -34,8 +34,8 @@ class Pilot {
     const Trim trim = trimmed_flight(a, a.limits.airspeed_cruise_mps, density);
     if (!trim.found) return;
     const auto stick = [](double angle, const Surface& s) { return (s.reversed ? -angle : angle) / s.limit_rad; };
-    trim_ = {stick(trim.deflections.aileron, a.aileron), stick(trim.deflections.elevator, a.elevator), stick(trim.deflections.rudder, a.rudder),
-             trim.throttle_frac};
+    trim_ = {stick(trim.deflections.aileron, a.aileron), stick(trim.deflections.elevator, a.elevator),
+             stick(trim.deflections.rudder, a.rudder), trim.throttle_frac};
   }
 
   /// `t` seconds after the first command; negative before it.

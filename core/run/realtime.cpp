@@ -17,6 +17,9 @@
 namespace fulmar::core {
 namespace {
 
+cpu_set_t usual_cpus;     // before the loop stayed on one
+bool has_stayed = false;  // set before the threads that ask begin
+
 rlim_t limit_of(auto resource) {
   rlimit limit{};
   return getrlimit(resource, &limit) == 0 ? limit.rlim_cur : 0;
@@ -70,7 +73,22 @@ void take_real_time(int priority) {
   take_stack();
 }
 
+void stay_on_one_cpu() noexcept {
+  if (has_stayed || sched_getaffinity(0, sizeof usual_cpus, &usual_cpus) != 0) return;
+  cpu_set_t own;
+  CPU_ZERO(&own);
+  int last = CPU_SETSIZE - 1;
+  while (last > 0 && !CPU_ISSET(last, &usual_cpus)) --last;
+  CPU_SET(last, &own);
+  has_stayed = sched_setaffinity(0, sizeof own, &own) == 0;
+}
+
+void leave_cpu_of_loop() noexcept {
+  if (has_stayed) sched_setaffinity(0, sizeof usual_cpus, &usual_cpus);
+}
+
 void wait_for_child(pid_t child) noexcept {
+  if (has_stayed) sched_setaffinity(child, sizeof usual_cpus, &usual_cpus);
   sched_param own{};
   const int policy = sched_getscheduler(0);
   if (policy < 0 || (policy & ~SCHED_RESET_ON_FORK) != SCHED_FIFO || sched_getparam(0, &own) != 0) return;

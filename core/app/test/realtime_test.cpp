@@ -192,3 +192,25 @@ TEST_CASE("in flight the loop has it, its isolated component has one less, the l
   CHECK(WEXITSTATUS(status) == 130);
   fs::remove_all(folder);
 }
+
+TEST_CASE("the loop's thread stays on one CPU; threads that it creates may leave it, and it does after the flight") {
+  const auto cpus = [] {
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    REQUIRE(sched_getaffinity(0, sizeof set, &set) == 0);
+    return CPU_COUNT(&set);
+  };
+  const int before = cpus();
+  stay_on_one_cpu();
+  stay_on_one_cpu();  // a second flight in the same program
+  CHECK(cpus() == 1);
+  int there = 0;
+  std::thread([&] {
+    leave_cpu_of_loop();
+    there = cpus();
+  }).join();
+  CHECK(there == before);
+  CHECK(cpus() == 1);
+  leave_cpu_of_loop();
+  CHECK(cpus() == before);
+}

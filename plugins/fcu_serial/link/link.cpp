@@ -46,7 +46,7 @@ struct Link::Impl {
   std::atomic<bool> stop{false};
   std::atomic<std::uint8_t> sequence{0};
   std::atomic<int> descriptor{-1};
-  std::atomic<pid_t> thread_id{0};
+  std::atomic<pid_t> loop_thread{0};
   SpscQueue<Received, 4096> queue;
   ImuSignal imu;
   Outbox outbox;
@@ -59,7 +59,6 @@ struct Link::Impl {
 
   // ---- the loop's thread
   std::uint32_t imu_taken = 0;
-  bool has_priority = false;
 
   // ---- the link's thread
   std::unique_ptr<Port> port;
@@ -67,6 +66,8 @@ struct Link::Impl {
   Dater dater;
   WatchList watched;
   std::int64_t next_heartbeat_ns = 0, next_question_ns = 0, last_arrival_ns = 0;
+  int own_policy = SCHED_OTHER, own_priority = 0;
+  cpu_set_t own_cpus{};
   std::uint32_t imu_put = 0;       ///< since the loop was told
   std::uint8_t target_system = 1;  ///< parameter SYS_ID of the controller, which obeys no other
   std::thread thread;
@@ -80,7 +81,7 @@ struct Link::Impl {
   }
 
   void begin();
-  void adopt_priority() noexcept;
+  void stay_with_loop() noexcept;
   void run();
   void serve();
   void reopen();
@@ -111,7 +112,7 @@ void Link::Impl::begin() {
 }
 
 void Link::Impl::run() {
-  thread_id.store(gettid(), std::memory_order_release);
+  sched_getaffinity(0, sizeof own_cpus, &own_cpus);
   while (!stop.load(std::memory_order_relaxed)) {
     if (port == nullptr) {
       reopen();
@@ -245,6 +246,7 @@ void Link::Impl::do_duties(std::int64_t now) {
     dater.clock.asked(asked);
     send(Timesync{0, asked});
     next_question_ns = now + question_ns;
+    stay_with_loop();
   }
   for (std::string_view name = watched.next(now); !name.empty(); name = watched.next(now)) {
     ParamRequestRead request;
@@ -254,17 +256,21 @@ void Link::Impl::do_duties(std::int64_t now) {
   }
 }
 
-// ---- the loop's thread ------------------------------------------------------------------------------------------------------------
-
-void Link::Impl::adopt_priority() noexcept {
-  // Of the kernel itself: the thread library keeps what it was told first.
-  sched_param own{};
-  const int policy = sched_getscheduler(0);
-  const pid_t other = thread_id.load(std::memory_order_acquire);
-  if (policy < 0 || other == 0) return;
-  has_priority = true;
-  if (policy != SCHED_OTHER && sched_getparam(0, &own) == 0) sched_setscheduler(other, policy, &own);
+/// The loop waits for this thread: it gets the loop's policy and priority, and, when the loop stays on one CPU, that one. To hand a sample
+/// over is then a switch of threads; on another CPU the loop would wait until it has woken up. Asked of the kernel now and then: a host
+/// decides when it likes. The thread library keeps what it was told first.
+void Link::Impl::stay_with_loop() noexcept {
+  const pid_t loop = loop_thread.load(std::memory_order_relaxed);
+  sched_param priority{};
+  const int policy = loop == 0 ? -1 : sched_getscheduler(loop);
+  if (policy >= 0 && sched_getparam(loop, &priority) == 0 && (policy != own_policy || priority.sched_priority != own_priority))
+    if (sched_setscheduler(0, policy, &priority) == 0) own_policy = policy, own_priority = priority.sched_priority;
+  cpu_set_t cpus;
+  if (policy < 0 || sched_getaffinity(loop, sizeof cpus, &cpus) != 0 || CPU_EQUAL(&cpus, &own_cpus)) return;
+  if (sched_setaffinity(0, sizeof cpus, &cpus) == 0) own_cpus = cpus;
 }
+
+// ---- the loop's thread ------------------------------------------------------------------------------------------------------------
 
 Link::Link(const LinkOptions& options) : impl_(std::make_unique<Impl>(options)) {
   impl_->port = Port::open(options.port, options.baud);
@@ -278,7 +284,7 @@ Link::~Link() {
 }
 
 bool Link::wait_imu(std::int64_t until_ns) noexcept {
-  if (!impl_->has_priority) impl_->adopt_priority();
+  if (impl_->loop_thread.load(std::memory_order_relaxed) == 0) impl_->loop_thread.store(gettid(), std::memory_order_relaxed);
   return impl_->imu.wait(impl_->imu_taken, impl_->on_the_wall(until_ns));
 }
 

@@ -45,9 +45,11 @@ struct Inner {
   };
 
   Status activate(const Tick&, const Inputs& in, const Params& params, const Outputs& last_applied) {
-    take_up_ = true;
-    blind_ = false;
     last_ = last_applied.actuators;
+    // Zeros are nobody's: the pilot flies, or a host begins in the air. Then trim and feed-forward are all there is to begin with.
+    take_up_ = last_.throttle_frac != 0 || last_.aileron_rad != 0 || last_.elevator_rad != 0 || last_.rudder_rad != 0;
+    if (!take_up_) roll_.reset(), pitch_.reset();
+    blind_ = false;
     roll_command_rate_.reset_to(in.attitude->roll_rad);
     washout_.reset_to(yaw_rate_error(*in.state, scheduling_airspeed(*in.state, params.airframe->limits)));
     return Status::ok;
@@ -62,9 +64,9 @@ struct Inner {
     const double rho = standard_air(state.origin_altitude_m + state.height_m).density_kgm3;
     const double speed_ratio = params.airframe->limits.airspeed_cruise_mps / Va;
     const double scale = std::clamp(speed_ratio * speed_ratio, 1 / params.scale_limit, params.scale_limit.value);
-    const bool flying = !standing(state) && (!state.airspeed_valid || state.airspeed_mps > 0.6 * params.airframe->limits.airspeed_min_mps);
-    if (!flying) roll_.reset(), pitch_.reset();
-    const double integrate = flying ? dt : 0;  // the ground holds the attitude: its error means nothing
+    const bool integrating = flying(state, params.airframe->limits);
+    if (!integrating) roll_.reset(), pitch_.reset();
+    const double integrate = integrating ? dt : 0;  // the ground holds the attitude: its error means nothing
 
     out.actuators.throttle_frac = std::clamp(command.throttle_frac, 0.0, 1.0);
     out.actuators.aileron_rad = roll_to_aileron(state, command, params, scale, integrate, dt);

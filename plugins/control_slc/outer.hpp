@@ -58,7 +58,8 @@ struct Outer {
   };
 
   Status activate(const Tick&, const Inputs& in, const Params& params, const Outputs& last_applied) {
-    commands_.start(params.law, *in.state, last_applied.attitude);
+    if (!commands_.take_over(params.law, *in.state, last_applied.attitude, tuning(params), params.airframe->limits))
+      altitude_.reset(), airspeed_.reset();
     return Status::ok;
   }
 

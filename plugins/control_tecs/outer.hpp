@@ -70,7 +70,8 @@ struct Outer {
   };
 
   Status activate(const Tick&, const Inputs& in, const Params& params, const Outputs& last_applied) {
-    commands_.start(params.law, *in.state, last_applied.attitude);
+    if (!commands_.take_over(params.law, *in.state, last_applied.attitude, tuning(params), params.airframe->limits))
+      pitch_.reset(), throttle_.reset();
     climb_rate_.reset_to(in.state->climb_rate_mps);
     acceleration_.reset();
     return Status::ok;

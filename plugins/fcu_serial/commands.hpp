@@ -4,6 +4,7 @@
 // Beard & McLain. `reversed` of the airframe turns a surface round, here and nowhere else.
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -51,6 +52,23 @@ inline std::optional<RosflightAuxCmd> to_aux(const AuxOutputs& a) {
     c.aux_cmd_array[i] = static_cast<float>(std::clamp(a.values_ratio[i], a.kinds[i] == AuxKind::motor ? 0.0 : -1.0, 1.0));
   }
   return c;
+}
+
+/// A motor that is switched off is stopped: the firmware leaves a disabled output as it was. `motors`: those that were commanded so far.
+inline void stop_motors(RosflightAuxCmd& c, std::array<bool, 14>& motors) {
+  constexpr auto motor = static_cast<std::uint8_t>(AuxKind::motor);
+  for (std::size_t i = 0; i < motors.size(); ++i) {
+    if (c.type_array[i] != 0) motors[i] = c.type_array[i] == motor;
+    if (motors[i]) c.type_array[i] = motor;
+  }
+}
+
+/// Of length 1: the firmware does not see to that. Nothing when it is no attitude.
+inline std::optional<ExternalAttitude> to_external_attitude(const Quat& q) {
+  const double norm = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+  if (!(std::abs(norm - 1) < 0.1)) return {};
+  return ExternalAttitude{static_cast<float>(q.w / norm), static_cast<float>(q.x / norm), static_cast<float>(q.y / norm),
+                          static_cast<float>(q.z / norm)};
 }
 
 }  // namespace fulmar::fcu

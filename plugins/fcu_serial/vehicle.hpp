@@ -110,7 +110,8 @@ class Vehicle {
     kind_pitot = 8,
     kind_gnss = 16,
     kind_other = 32,
-    kind_command = 64
+    kind_command = 64,
+    kind_aux = 128
   };
 
   /// What belongs to one flight. Times are flight time, but where it says host.
@@ -132,6 +133,7 @@ class Vehicle {
     std::int64_t attitude_ns = never_ns, disarmed_ns = never_ns;
     std::uint64_t gnss_stamp_us = 0;
     std::uint32_t told_kinds = 0;
+    std::array<bool, 14> aux_motors{};
     bool pitot_zeroed = false;  ///< by a reboot in flight
   };
 
@@ -260,15 +262,23 @@ class Vehicle {
   /// Repeated now and then: a frame may have been lost, or the controller rebooted.
   void send_aux(std::int64_t now_ns, const Optional<AuxOutputs>& aux) {
     if (!aux || (!aux.fresh() && now_ns - run_.aux_ns < aux_period_ns)) return;
-    if (const auto command = to_aux(*aux)) link_->send(*command);
     run_.aux_ns = now_ns;
+    auto command = to_aux(*aux);
+    if (!command) {
+      if ((run_.told_kinds & kind_aux) == 0)
+        run_.notices.say(fulmar::Severity::error, "an auxiliary output is not finite; such outputs are not sent");
+      run_.told_kinds |= kind_aux;
+      return;
+    }
+    stop_motors(*command, run_.aux_motors);
+    link_->send(*command);
   }
 
   void send_attitude(std::int64_t now_ns, const Optional<VehicleState>& state) {
     if (!state || !state.fresh() || !state->attitude_valid || now_ns - run_.attitude_ns < attitude_period_ns) return;
-    const Quat& q = state->attitude;
-    if (!within(1.1, q.w, q.x, q.y, q.z)) return;
-    link_->send(ExternalAttitude{static_cast<float>(q.w), static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)});
+    const auto attitude = to_external_attitude(state->attitude);
+    if (!attitude) return;
+    link_->send(*attitude);
     run_.attitude_ns = now_ns;
   }
 

@@ -213,6 +213,26 @@ TEST_CASE("parameters arrive in configure and retune, the last outputs in activa
   CHECK(bench.component().taken_over == 0.25);
 }
 
+TEST_CASE("activated with nothing to go on from, a component does not get what was handed over before") {
+  const fulmar_component c = detail::component_entry<Everything>();
+  fulmar_error error{};
+  void* instance = c.create(1, &error);
+  REQUIRE(instance != nullptr);
+  const std::vector<fulmar_input> in(c.input_count);
+  std::vector<fulmar_input> last(c.output_count);
+  const fulmar_tick tick{};
+  Actuators actuators;
+  actuators.aileron_rad = 0.25;
+  last[0].data = &actuators;
+  const auto& component = static_cast<detail::Instance<Everything>*>(instance)->component;
+  REQUIRE(c.activate(instance, &tick, in.data(), last.data(), &error) == FULMAR_OK);
+  CHECK(component.taken_over == 0.25);
+  last[0].data = nullptr;
+  REQUIRE(c.activate(instance, &tick, in.data(), last.data(), &error) == FULMAR_OK);
+  CHECK(component.taken_over == 0);
+  c.destroy(instance);
+}
+
 TEST_CASE("values of every kind cross into Params") {
   const fulmar_component c = detail::component_entry<Everything>();
   fulmar_error error{};

@@ -99,7 +99,10 @@ void Client::take(const Packet& packet) {
     const auto ack = packet.as<RosflightCmdAck>();
     acks_[ack.command] = {now_ns(), ack.success == 1};
   }
-  if (packet.is<RosflightVersion>()) version_ = printable(text(packet.as<RosflightVersion>().version));
+  if (packet.is<RosflightVersion>()) {
+    version_ = printable(text(packet.as<RosflightVersion>().version));
+    if (version_.empty()) version_ = "without a version";  // an answer all the same
+  }
   if (packet.is<Statustext>()) {
     const auto message = packet.as<Statustext>();
     said_.push_back({now_ns(), message.severity, printable(text(message.text))});

@@ -35,7 +35,9 @@ struct Judge {
 };
 
 void firmware(Judge& j) {
-  if (j.f.version.empty())
+  if (j.f.version.empty() && j.f.status.armed == 0)
+    j.warn("firmware", "it refuses to tell its version, though disarmed: power-cycle it");
+  else if (j.f.version.empty())
     j.add(Verdict::note, "firmware", "it refuses to tell its version, as it does while armed");
   else
     j.ok("firmware", j.f.version);
@@ -212,7 +214,9 @@ void line(Judge& j) {
     j.warn("load", load + ": on a UART take 921600; USB does not care");
   else
     j.ok("load", load);
-  if (!j.f.round_trip_s) return j.fail("round trip", "no answer to any of 20 questions: the line to the controller is cut");
+  if (!j.f.round_trip_s)
+    return j.fail("round trip",
+                  "none of 20 questions was answered within 100 ms: too slow to fly on, or the line to the controller is cut");
   const std::string trip = fixed(1000 * *j.f.round_trip_s, 2) + " ms";
   if (*j.f.round_trip_s > 0.05)
     j.fail("round trip", trip + ": too slow to fly on");

@@ -155,7 +155,7 @@ TEST_CASE("an interrupted flight closes its log and exits 130") {
   CHECK(j["result"] == "interrupted");
   CHECK(fs::exists(log));
   const std::string again =
-      (folder() / "again.mcap").string();  // a shell lets its background commands ignore the signal until they handle it
+      (folder() / "signalled.mcap").string();  // a shell lets its background commands ignore the signal until they handle it
   const Result code = shell(program + "run " + hourglass + " --speed real --log " + again + " >/dev/null & until [ -e " + again +
                             ".part ]; do sleep 0.1; done; sleep 0.5; kill -INT $!; wait $!; echo $?");
   CHECK(code.out == "130\n");

@@ -212,3 +212,19 @@ TEST_CASE("when attitude is known again it is held once the command answers to i
   CHECK(std::abs(bench.out.actuators.elevator_rad - last.elevator_rad) < 1e-6);
   CHECK(std::abs(bench.out.actuators.rudder_rad - last.rudder_rad) < 0.01);
 }
+
+TEST_CASE("when a pilot hands back the surfaces begin at their trim: what nobody commanded is not taken up") {
+  Bench<Inner> bench;
+  auto& airframe = bench.params.airframe.value;
+  airframe.elevator.trim_rad = -0.12, airframe.aileron.trim_rad = 0.03;
+  VehicleState s = flying();
+  s.roll_rad = 0.02, s.pitch_rad = 0.05;
+  bench.set(bench.in.state, s);
+  bench.set(bench.in.attitude, AttitudeCommand{0.02, 0.05, 0.5});
+  for (int i = 0; i < 100; ++i) {
+    bench.activate();
+    bench.step(0.01);
+  }
+  CHECK(bench.out.actuators.elevator_rad == doctest::Approx(-0.12).epsilon(0.02));
+  CHECK(bench.out.actuators.aileron_rad == doctest::Approx(0.03).epsilon(0.02));
+}

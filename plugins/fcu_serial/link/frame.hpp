@@ -147,10 +147,17 @@ class Parser {
     packet.id = p[5];
     std::memcpy(packet.payload.data(), p + frame_header, n);
     ++counts_.frames;
-    if (has_sequence_) counts_.missing += static_cast<std::uint8_t>(packet.sequence - sequence_ - 1);
-    has_sequence_ = true;
-    sequence_ = packet.sequence;
+    count_missing(packet.sequence);
     take(static_cast<const Packet&>(packet));
+  }
+
+  /// A frame that comes twice, or behind its successor, as over UDP, is not 255 that were lost.
+  void count_missing(std::uint8_t sequence) {
+    const auto between = static_cast<std::uint8_t>(sequence - sequence_ - 1);
+    if (has_sequence_ && between >= 256 - most_late) return;
+    if (has_sequence_) counts_.missing += between;
+    has_sequence_ = true;
+    sequence_ = sequence;
   }
 
   std::size_t skip() {
@@ -158,6 +165,7 @@ class Parser {
     return 1;
   }
 
+  static constexpr int most_late = 8;
   std::array<std::uint8_t, 512> buffer_{};
   std::size_t size_ = 0;
   std::uint8_t sequence_ = 0;

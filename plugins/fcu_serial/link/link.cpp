@@ -209,11 +209,7 @@ std::int64_t Link::Impl::date(const Packet& packet, std::int64_t arrived_ns) {
 }
 
 void Link::Impl::time_answered(const Timesync& answer, std::int64_t arrived_ns) {
-  const ClockSync::Verdict verdict = dater.clock.answered(answer.ts1, answer.tc1, arrived_ns);
-  if (verdict == ClockSync::Verdict::jumped) {
-    dater.forget_stamps();
-    rebooted(arrived_ns);
-  }
+  if (dater.answered(answer.ts1, answer.tc1, arrived_ns) == ClockSync::Verdict::jumped) rebooted(arrived_ns);
   if (!dater.clock.synchronised()) return;
   round_trip_ns.store(dater.clock.round_trip_ns(), std::memory_order_relaxed);
   offset_ns.store(dater.clock.offset_ns(arrived_ns), std::memory_order_relaxed);

@@ -191,6 +191,18 @@ class Dater {
  public:
   ClockSync clock;
 
+  /// TIMESYNC came. `jumped`: the controller's clock was put back, as a reboot does. One that leaps forward is followed.
+  ClockSync::Verdict answered(std::int64_t ts1, std::int64_t tc1, std::int64_t now_ns) {
+    // An inertial sample was stamped before it came. A clock that is further behind was read too early: a controller in simulation that
+    // was held up has not rebooted.
+    if (imu_bound_.known(now_ns) && ts1 - tc1 > imu_bound_.ns() + ClockSync::jump_ns) return ClockSync::Verdict::ignored;
+    const std::int64_t before_ns = clock.synchronised() ? clock.offset_ns(now_ns) : 0;
+    const ClockSync::Verdict verdict = clock.answered(ts1, tc1, now_ns);
+    if (verdict != ClockSync::Verdict::jumped) return verdict;
+    forget_stamps();
+    return clock.offset_ns(now_ns) > before_ns ? verdict : ClockSync::Verdict::taken;
+  }
+
   /// Of a stamp in us on the controller's clock. Never after the arrival and never 1 s before it: then the arrival counts, `undated` too.
   std::int64_t date_us(std::uint64_t stamp_us, std::int64_t arrived_ns) { return date(stamp_us, 1000, 0, arrived_ns); }
 
@@ -205,6 +217,8 @@ class Dater {
 
   /// Of an inertial sample: strictly increasing. Arrivals must be.
   std::int64_t date_imu(std::uint64_t stamp_us, std::int64_t arrived_ns) {
+    if (stamp_us < static_cast<std::uint64_t>(ClockSync::longest_ns / 1000))
+      imu_bound_.take(arrived_ns - static_cast<std::int64_t>(stamp_us) * 1000, arrived_ns);
     last_imu_ns_ = std::min(arrived_ns, std::max(date_us(stamp_us, arrived_ns), last_imu_ns_ + 1));
     return last_imu_ns_;
   }
@@ -216,6 +230,7 @@ class Dater {
     if (!back || twice) {
       earlier_us_.reset();
       newest_us_ = twice ? stamp_us : std::max(stamp_us, newest_us_);
+      if (twice) imu_bound_ = {};
     } else {
       earlier_us_ = stamp_us;
     }
@@ -233,6 +248,27 @@ class Dater {
  private:
   static constexpr std::int64_t oldest_ns = 1'000'000'000, tolerance_ns = 2'000'000;
 
+  /// What host time - controller's time can be at most, of the samples of the last second or so.
+  class Bound {
+   public:
+    void take(std::int64_t bound_ns, std::int64_t arrived_ns) {
+      if (arrived_ns - begun_ns_ < part_ns) {
+        now_ns_ = std::min(now_ns_, bound_ns);
+      } else {
+        before_ns_ = arrived_ns - begun_ns_ < 2 * part_ns ? now_ns_ : bound_ns;
+        now_ns_ = bound_ns;
+        begun_ns_ = arrived_ns;
+      }
+    }
+    /// Not after a while without samples: then the answers alone count.
+    bool known(std::int64_t at_ns) const { return at_ns - begun_ns_ < patience_ns; }
+    std::int64_t ns() const { return std::min(now_ns_, before_ns_); }
+
+   private:
+    static constexpr std::int64_t part_ns = 500'000'000, patience_ns = 5'000'000'000;
+    std::int64_t begun_ns_ = -patience_ns, now_ns_ = 0, before_ns_ = 0;
+  };
+
   std::int64_t date(std::uint64_t stamp, std::int64_t unit_ns, std::int64_t middle_ns, std::int64_t arrived_ns) {
     if (!clock.synchronised()) return arrived_ns;
     const bool possible = stamp < static_cast<std::uint64_t>(ClockSync::longest_ns / unit_ns);
@@ -244,6 +280,7 @@ class Dater {
     return std::min(at, arrived_ns);
   }
 
+  Bound imu_bound_;
   std::int64_t last_imu_ns_ = 0;
   std::uint64_t newest_us_ = 0, undated_ = 0;
   std::optional<std::uint64_t> earlier_us_;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <vector>
 
 #include "fulmar/random.hpp"
 
@@ -186,6 +187,50 @@ TEST_CASE("a silence of minutes is no reboot, however the crystals run") {
   clock.forget_questions();
   CHECK(take(clock, ask(clock, c, 605 * second)) == ClockSync::Verdict::taken);  // 120 ms apart by now
   CHECK(worst_error(clock, c, 606 * second, 620 * second, 608 * second) < 500 * us);
+}
+
+/// The controller sends an inertial sample, which takes 300 us.
+void sample(Dater& dater, const Controller& c, std::int64_t host_ns) {
+  const auto stamp_us = static_cast<std::uint64_t>(c.clock_ns(host_ns) / us);
+  dater.started_anew(stamp_us);
+  dater.date_imu(stamp_us, host_ns + 300 * us);
+}
+/// Samples at 400 Hz, questions at 10 Hz. How often the clock was put back.
+int fly(Dater& dater, Controller& c, std::int64_t from_ns, std::int64_t until_ns) {
+  int jumps = 0;
+  for (std::int64_t t = from_ns; t < until_ns; t += 2500 * us) {
+    sample(dater, c, t);
+    if (t % (100 * ms) != 0) continue;
+    const Answer a = ask(dater.clock, c, t);
+    if (dater.answered(a.ts1, a.tc1, a.came_ns) == ClockSync::Verdict::jumped) ++jumps;
+  }
+  return jumps;
+}
+
+TEST_CASE("answers of a controller in simulation that was held up after it had read its clock are no reboot") {
+  Dater dater;
+  Controller c;
+  REQUIRE(fly(dater, c, second, 5 * second) == 0);
+  const std::int64_t read_ns = c.clock_ns(5 * second);
+  std::vector<std::int64_t> asked;
+  for (int i = 0; i < 6; ++i) dater.clock.asked(asked.emplace_back(5 * second + i * 100 * ms));
+  for (const std::int64_t t : asked) CHECK(dater.answered(t, read_ns, 5600 * ms + t / 1000000) != ClockSync::Verdict::jumped);
+  CHECK(fly(dater, c, 5700 * ms, 8 * second) == 0);
+  CHECK(error_ns(dater.clock, c, 8 * second) < 200 * us);
+}
+
+TEST_CASE("a reboot is seen by the answers when its stamps go on from where the last ones were; a leap forward is none") {
+  Dater dater;
+  Controller c;
+  c.started_ns = 0;
+  REQUIRE(fly(dater, c, second, 4 * second) == 0);
+  c.started_ns = 5 * second;  // off the air for 6 s, and rebooted meanwhile: its stamps go on at 5 s
+  dater.clock.forget_questions();
+  CHECK(fly(dater, c, 10 * second, 13 * second) == 1);
+  CHECK(error_ns(dater.clock, c, 13 * second) < 50 * us);
+  c.started_ns -= 20 * second;
+  CHECK(fly(dater, c, 13 * second, 16 * second) == 0);
+  CHECK(error_ns(dater.clock, c, 16 * second) < 50 * us);
 }
 
 TEST_CASE("a question from before the unplugging is not answered after it") {

@@ -103,6 +103,40 @@ TEST_CASE("auxiliary outputs have their kinds and bounds; those that are off cou
   CHECK_FALSE(to_aux(a));
 }
 
+TEST_CASE("an auxiliary motor that is switched off is stopped; a servo stays, and what never was a motor is left alone") {
+  std::array<bool, 14> motors{};
+  AuxOutputs a;
+  a.kinds[10] = AuxKind::motor, a.values_ratio[10] = 0.6;
+  a.kinds[11] = AuxKind::servo, a.values_ratio[11] = 0.5;
+  const auto sent = [&] {
+    RosflightAuxCmd c = *to_aux(a);
+    stop_motors(c, motors);
+    return c;
+  };
+  CHECK(sent().aux_cmd_array[10] == 0.6f);
+  a.kinds[10] = a.kinds[11] = AuxKind::off;
+  for (int i = 0; i < 2; ++i) {
+    CHECK(sent().type_array[10] == 2);
+    CHECK(sent().aux_cmd_array[10] == 0);
+    CHECK(sent().type_array[11] == 0);
+    CHECK(sent().type_array[12] == 0);
+  }
+  a.kinds[10] = AuxKind::servo;
+  CHECK(sent().type_array[10] == 1);
+  a.kinds[10] = AuxKind::off;
+  CHECK(sent().type_array[10] == 0);
+}
+
+TEST_CASE("an attitude for the controller is of length 1, or is not sent") {
+  const auto c = to_external_attitude({0.95 * 0.8, 0.95 * 0.6, 0, 0});
+  REQUIRE(c);
+  CHECK(c->qw == doctest::Approx(0.8));
+  CHECK(c->qx == doctest::Approx(0.6));
+  CHECK_FALSE(to_external_attitude({0, 0, 0, 0}));
+  CHECK_FALSE(to_external_attitude({0.5, 0.5, 0, 0}));
+  CHECK_FALSE(to_external_attitude({not_a_number, 0, 0, 1}));
+}
+
 namespace {
 /// Commands that go out in ten seconds of ticks at 400 Hz when each `every`th brings a new one.
 int sent_in_ten_seconds(double rate_hz, int every) {

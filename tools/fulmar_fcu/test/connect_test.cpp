@@ -91,6 +91,24 @@ TEST_CASE("a build without a tag is taken as it is") {
   CHECK(client.version() == "e8cf6a0");
 }
 
+TEST_CASE("an answer without a version is an answer") {
+  peer::Options options;
+  options.version = "";
+  Bench bench(options);
+  Client client = bench.client();
+  client.connect();
+  CHECK(client.version() == "without a version");
+}
+
+TEST_CASE("frames that come twice are not taken for lost ones") {
+  Bench bench;
+  bench.faults.duplicate = 1;
+  Client client = bench.client();
+  client.connect();
+  CHECK(client.counts().frames > 300);
+  CHECK(client.counts().missing == 0);
+}
+
 TEST_CASE("an armed controller, and one that refuses to tell its version, are met all the same") {
   Bench bench;
   bench.firmware.provision();

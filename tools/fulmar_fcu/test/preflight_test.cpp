@@ -89,6 +89,7 @@ TEST_CASE("each thing that is wrong is told, with its parameter") {
   CHECK(warns(param_is("TAKE_MIN_THR", 1), "TAKE_MIN_THR is 1"));
   CHECK(warns(param_is("X_EQ_TORQUE", 0.5), "X_EQ_TORQUE is 0.50"));
   CHECK(fails(with([](Facts& f) { f.status.armed = 1; }), "ARMED"));
+  CHECK(warns(with([](Facts& f) { f.version = ""; }), "refuses to tell its version, though disarmed"));
   CHECK(fails(with([](Facts& f) { f.status.error_code = error_rc_lost; }), "radio lost"));
   CHECK(fails(with([](Facts& f) {
                 for (const char* n : {"ACC_X_BIAS", "GYRO_X_BIAS"}) set(f, n, 0);
@@ -104,7 +105,7 @@ TEST_CASE("each thing that is wrong is told, with its parameter") {
   CHECK(fails(with([](Facts& f) { f.battery->battery_voltage = 19; }), "19.0 V, and the airframe's has 24.0 V"));
   CHECK(fails(with([](Facts& f) { f.loss_ratio = 0.1; }), "10.00 % of the frames lost"));
   CHECK(warns(with([](Facts& f) { f.baud = 460800; }), "106 % of 460800 baud"));
-  CHECK(fails(with([](Facts& f) { f.round_trip_s.reset(); }), "round trip"));
+  CHECK(fails(with([](Facts& f) { f.round_trip_s.reset(); }), "round trip: none of 20 questions was answered within 100 ms"));
   CHECK(warns(with([](Facts& f) { f.round_trip_s = 0.02; }), "20.00 ms"));
   CHECK(fails(with([](Facts& f) { f.imu_hz = 50; }), "50 Hz"));
 }

@@ -165,7 +165,8 @@ class Peer {
   Line out_, in_;
   std::unique_ptr<Endpoint> end_;
   std::FILE* truth_ = nullptr;
-  std::int64_t now_us_ = 0, start_us_ = 0, wall_start_us_ = 0, first_command_us_ = -1, nmea_us_ = 0, worst_late_us_ = 0;
+  std::int64_t now_us_ = 0, start_us_ = 0, wall_start_us_ = 0, first_command_us_ = -1, nmea_us_ = 0, worst_late_us_ = 0,
+               worst_late_in_flight_us_ = 0;
   std::uint64_t steps_ = 0;
   bool rebooted_ = false, crashed_ = false, unplugged_ = false;
   double top_height_m_ = 0;
@@ -256,7 +257,9 @@ void Peer::run() {
   while (!stop_asked && static_cast<double>(now_us_) < end_us) {
     wait_until(std::min({firmware_.next_us(), out_.next_us(), in_.next_us()}));
     now_us_ = std::max(now_us_, peer_us());
-    worst_late_us_ = std::max(worst_late_us_, now_us_ - firmware_.next_us());
+    const std::int64_t late_us = now_us_ - firmware_.next_us();
+    worst_late_us_ = std::max(worst_late_us_, late_us);
+    if (first_command_us_ >= 0) worst_late_in_flight_us_ = std::max(worst_late_in_flight_us_, late_us);
     run_script();
     receive();
     firmware_.run(now_us_);
@@ -267,11 +270,11 @@ void Peer::run() {
 void Peer::print_result() const {
   std::printf(
       "{\"aircraft_crashed\": %s, \"armed\": %s, \"boots\": %u, \"commands\": %llu, \"dropped_frames\": %llu, \"duration_s\": %.1f, "
-      "\"override_reasons\": %u, \"top_height_m\": %.1f, \"worst_late_ms\": %.1f}\n",
+      "\"override_reasons\": %u, \"top_height_m\": %.1f, \"worst_late_ms\": %.1f, \"worst_late_wall_ms\": %.2f}\n",
       plane_.plant().crashed() ? "true" : "false", firmware_.armed() ? "true" : "false", firmware_.boots(),
       static_cast<unsigned long long>(firmware_.commands()), static_cast<unsigned long long>(firmware_.dropped()),
       1e-6 * static_cast<double>(now_us_ - start_us_), unsigned{firmware_.override_reasons()}, top_height_m_,
-      1e-3 * static_cast<double>(worst_late_us_));
+      1e-3 * static_cast<double>(worst_late_us_), 1e-3 * static_cast<double>(worst_late_in_flight_us_) / s_.scale);
 }
 
 }  // namespace

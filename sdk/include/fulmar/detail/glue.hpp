@@ -318,7 +318,10 @@ struct Thunks {
       I& i = self(instance);
       bind(i.in, inputs);
       for_each(i.last, [&]<class M>(M& member, std::size_t k) {
-        if (last[k].data) PortOf<M>::read_last(member, last[k]);
+        if (last[k].data)
+          PortOf<M>::read_last(member, last[k]);
+        else if constexpr (!requires { member.stamps_ns; })
+          member = M{};  // nobody's: not what was handed over once before
       });
       return i.component.activate(tick_of(*tick), i.in, i.params, i.last);
     });

@@ -16,6 +16,11 @@ struct OuterTuning {
   double throttle_rate_max_hz = 2;  ///< full range per second
 };
 
+/// Fast enough for surfaces to work and for errors to mean something.
+inline bool flying(const VehicleState& state, const FlightLimits& limits) {
+  return !standing(state) && (!state.airspeed_valid || state.airspeed_mps > 0.6 * limits.airspeed_min_mps);
+}
+
 enum class OuterAction : std::uint8_t { wait, take_off, hold, level };
 
 class OuterCommands {
@@ -28,6 +33,26 @@ class OuterCommands {
     pitch_.reset_to(last.pitch_rad);
     throttle_.reset_to(last.throttle_frac);
     if (law == OuterLaw::takeoff) run_.begin(state);
+  }
+
+  /// The same, or when nobody's command is in force - zeros: the pilot flies, or a host begins in the air - from the attitude that the
+  /// aircraft has, as far as the law may ask for it, and the throttle of level flight: the pilot's is not known, and what was asked for
+  /// before he flew says nothing about now. Returns false then: there is nothing that integrals could take up.
+  bool take_over(OuterLaw law, const VehicleState& state, const AttitudeCommand& last, const OuterTuning& tuning,
+                 const FlightLimits& limits) {
+    const bool somebodys = last.roll_rad != 0 || last.pitch_rad != 0 || last.throttle_frac != 0;
+    AttitudeCommand from = last;
+    if (!somebodys && flying(state, limits)) {
+      from.throttle_frac = limits.throttle_cruise_frac;
+      if (state.attitude_valid) {
+        from.roll_rad = std::clamp(state.roll_rad, -tuning.course.roll_max_rad, tuning.course.roll_max_rad);
+        from.pitch_rad = std::clamp(state.pitch_rad, limits.pitch_min_rad, limits.pitch_max_rad);
+      }
+    }
+    start(law, state, from);
+    levelling_ = false;
+    taking_up_ = taking_up_ && somebodys;
+    return somebodys;
   }
 
   /// What is to be done in this step; starts the law anew when it was changed without a hand-over.

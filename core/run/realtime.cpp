@@ -74,7 +74,7 @@ void take_real_time(int priority) {
 }
 
 void stay_on_one_cpu() noexcept {
-  if (has_stayed || sched_getaffinity(0, sizeof usual_cpus, &usual_cpus) != 0) return;
+  if (!has_stayed && sched_getaffinity(0, sizeof usual_cpus, &usual_cpus) != 0) return;
   cpu_set_t own;
   CPU_ZERO(&own);
   int last = CPU_SETSIZE - 1;

@@ -154,8 +154,8 @@ TEST_CASE("an interrupted flight closes its log and exits 130") {
   const json j = json::parse(r.out.substr(0, r.out.rfind('}') + 1));
   CHECK(j["result"] == "interrupted");
   CHECK(fs::exists(log));
-  const std::string again =
-      (folder() / "signalled.mcap").string();  // a shell lets its background commands ignore the signal until they handle it
+  // A shell lets its background commands ignore the signal until they handle it.
+  const std::string again = (folder() / "signalled.mcap").string();
   const Result code = shell(program + "run " + hourglass + " --speed real --log " + again + " >/dev/null & until [ -e " + again +
                             ".part ]; do sleep 0.1; done; sleep 0.5; kill -INT $!; wait $!; echo $?");
   CHECK(code.out == "130\n");

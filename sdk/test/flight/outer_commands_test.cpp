@@ -106,3 +106,36 @@ TEST_CASE("what the take-off law asked for is not taken up as trim, what another
   CHECK_FALSE(commands.taking_up());
   CHECK(commands.finish(0, 0, 0, {}, 0.01).throttle_frac == doctest::Approx(0.98));  // but the command goes on from it
 }
+
+TEST_CASE("where nobody's command is in force a law begins at the aircraft's attitude within its limits, and at cruise throttle") {
+  FlightLimits limits;
+  limits.airspeed_min_mps = 10, limits.throttle_cruise_frac = 0.5, limits.pitch_min_rad = -0.35, limits.pitch_max_rad = 0.4;
+  OuterTuning tuning;
+  tuning.course.roll_max_rad = 0.785;
+  OuterCommands commands;
+  const auto begins = [&](const VehicleState& s, const AttitudeCommand& last) {
+    const bool somebodys = commands.take_over(OuterLaw::hold, s, last, tuning, limits);
+    CHECK(somebodys == commands.taking_up());
+    return commands.last();
+  };
+  VehicleState s = at(15, 15, 70);
+  s.attitude_valid = true;
+  s.roll_rad = 2.5, s.pitch_rad = -1.2;
+  CHECK(begins(s, {}).roll_rad == 0.785);
+  CHECK(commands.last().pitch_rad == -0.35);
+  CHECK(commands.last().throttle_frac == 0.5);
+  s.roll_rad = 0.3, s.pitch_rad = 0.1;
+  CHECK(begins(s, {}).roll_rad == 0.3);
+  CHECK(commands.last().pitch_rad == 0.1);
+  s.attitude_valid = false;
+  CHECK(begins(s, {}).roll_rad == 0);
+  CHECK(commands.last().throttle_frac == 0.5);
+  CHECK(begins(s, {0.2, 0, 0}).roll_rad == 0.2);  // somebody's: taken as it is
+  CHECK(commands.last().throttle_frac == 0);
+  for (const double wind : {0.0, 5.0}) {  // on the ground the engine stays off
+    VehicleState ground = at(wind, 0, 0.2);
+    ground.attitude_valid = true, ground.pitch_rad = 0.15;
+    CHECK(begins(ground, {}).throttle_frac == 0);
+    CHECK(commands.last().pitch_rad == 0);
+  }
+}

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "standstill.hpp"
+#include "core/app/test/standstill.hpp"
 
 extern char** environ;
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The hourglass through the serial protocol: the host, a flight controller in software that behaves as ROSflight's, and sim_aero's
 // aircraft. FULMAR_LONG=1 flies two circuits in real time; otherwise the first turn and half a leg, five times faster.
-#include "hil.hpp"
+#include "core/app/test/hil.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 
+#include "core/app/test/hil_log.hpp"
 #include "fulmar/msg/actuators.hpp"
 #include "fulmar/msg/imu.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/msg/vehicle_status.hpp"
-#include "hil_log.hpp"
 
 using namespace fulmar::fcu::testing;
 

@@ -12,7 +12,7 @@ namespace {
 /// What says nothing of how it flew, or differs between equal flights.
 bool passed_over(const std::string& key) {
   for (const char* name : {"wall_time_s", "speedup", "step_time_us", "not_reproducible", "log_bytes", "log_messages", "log_sha256", "log",
-                           "seed", "allocations", "misses", "log_error", "phases", "guards"})
+                           "seed", "live", "dds", "allocations", "misses", "log_error", "phases", "guards"})
     if (key == name) return true;
   return false;
 }

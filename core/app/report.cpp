@@ -84,6 +84,32 @@ void add_figures(std::string& out, const std::string& title, const nlohmann::jso
 
 }  // namespace
 
+namespace {
+
+std::string dds_table(const DdsStats& dds) {
+  std::string out = format("\nDDS: %llu samples sent, %llu received, %llu refused, %llu lost\n", static_cast<unsigned long long>(dds.sent),
+                           static_cast<unsigned long long>(dds.received), static_cast<unsigned long long>(dds.refused),
+                           static_cast<unsigned long long>(dds.lost));
+  for (const DdsStats::Import& i : dds.imports)
+    out += format("  %-22s %llu samples, latency mean %.2f ms, max %.2f ms\n", i.port.c_str(), static_cast<unsigned long long>(i.received),
+                  1e3 * i.latency_mean_s, 1e3 * i.latency_max_s);
+  return out;
+}
+
+nlohmann::json dds_json(const DdsStats& dds) {
+  nlohmann::json imports = nlohmann::json::object();
+  for (const DdsStats::Import& i : dds.imports)
+    imports[i.port] = {{"topic", i.topic},
+                       {"received", i.received},
+                       {"refused", i.refused},
+                       {"lost", i.lost},
+                       {"latency_mean_s", i.latency_mean_s},
+                       {"latency_max_s", i.latency_max_s}};
+  return {{"sent", dds.sent}, {"received", dds.received}, {"refused", dds.refused}, {"lost", dds.lost}, {"imports", imports}};
+}
+
+}  // namespace
+
 std::string progress_line(const Graph& graph, const Flight& flight) {
   std::string line = format("%8.1f s  %-10s", 1e-9 * static_cast<double>(flight.now_ns()), flight.phase().c_str());
   for (const Shown& shown : graph.progress) {
@@ -132,7 +158,12 @@ nlohmann::json result_json(const Graph& graph, const Flight& flight, const Fligh
   for (const ComponentStats& c : result.components)
     if (c.misses > 0) j["misses"][c.name] = c.misses;
   for (const auto& [key, source] : graph.summary) j[key] = summary_of(graph, flight, source);
-  j["not_reproducible"] = {"log", "speedup", "step_time_us", "wall_time_s"};
+  j["live"] = nullptr;
+  if (result.live)
+    j["live"] = {
+        {"sent", result.live->sent}, {"dropped", result.live->dropped}, {"lost", result.live->lost}, {"refused", result.live->refused}};
+  j["dds"] = result.dds ? dds_json(*result.dds) : nlohmann::json(nullptr);
+  j["not_reproducible"] = {"dds", "live", "log", "speedup", "step_time_us", "wall_time_s"};
   return j;
 }
 
@@ -158,11 +189,16 @@ std::string result_table(const Graph& graph, const Flight& flight, const FlightR
   for (const ComponentStats& c : result.components)
     if (c.misses > 0)
       out += format("  %s: %llu results were late, or samples lost\n", c.name.c_str(), static_cast<unsigned long long>(c.misses));
-  if (!result.log.error.empty()) out += "\nlog incomplete: " + result.log.error + "\n";
+  if (result.live && result.live->sent > 0)
+    out +=
+        format("\nlive view: %llu messages, %llu dropped for clients that were slow\n", static_cast<unsigned long long>(result.live->sent),
+               static_cast<unsigned long long>(result.live->dropped + result.live->lost));
+  if (result.dds) out += dds_table(*result.dds);
   if (!result.log.file.empty())
     out +=
         format("\nlog %s (%.1f MB, %llu messages, %llu dropped)\n", result.log.file.c_str(), 1e-6 * static_cast<double>(result.log.bytes),
                static_cast<unsigned long long>(result.log.messages), static_cast<unsigned long long>(result.log.dropped));
+  if (result.log.files > 1) out += format("  in %zu files\n", result.log.files);
   return out;
 }
 

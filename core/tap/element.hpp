@@ -26,7 +26,11 @@ inline std::uint32_t primitive_size(fulmar_kind kind) {
     case FULMAR_BOOL:
     case FULMAR_U8:
     case FULMAR_ENUM:
+    case FULMAR_I8:
       return 1;
+    case FULMAR_I16:
+    case FULMAR_U16:
+      return 2;
     case FULMAR_I32:
     case FULMAR_U32:
     case FULMAR_F32:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See log.hpp. One thread beside the loop's takes records from the ring, encodes them straight into the open chunk and writes chunks.
+// See log.hpp. One thread beside the loop's takes samples from the tap, encodes them straight into the open chunk and writes chunks.
 #include "core/tap/log.hpp"
 
 #include <pthread.h>
@@ -14,9 +14,8 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/tap/element.hpp"
 #include "core/tap/mcap.hpp"
-#include "core/tap/ring.hpp"
+#include "core/tap/tap.hpp"
 #include "core/tap/wire.hpp"
 
 namespace fulmar::core {
@@ -32,25 +31,6 @@ constexpr const char* qos_profiles =
 
 constexpr std::chrono::milliseconds nap{2};  // of the log's thread when the ring is empty; the loop never pays for waking it
 
-/// The bytes of a message that carry something: all, or up to the last item of a list at its end.
-struct Extent {
-  std::uint32_t size = 0, count_at = 0, first_item = 0, stride = 0, capacity = 0;  // stride 0: no list at the end
-
-  explicit Extent(const Type& type) : size(type.size) {
-    const auto last =
-        std::max_element(type.fields.begin(), type.fields.end(), [](const Field& a, const Field& b) { return a.offset < b.offset; });
-    if (last == type.fields.end() || last->shape != FULMAR_LIST) return;
-    count_at = last->offset;
-    first_item = last->offset + last->items;
-    stride = last->stride;
-    capacity = last->count;
-  }
-  std::size_t of(const std::byte* data) const noexcept {
-    if (stride == 0) return size;
-    return first_item + std::size_t{stride} * std::min(load<std::uint32_t>(data + count_at), capacity);
-  }
-};
-
 struct Extra {  // an attachment, or metadata when there is no media type
   std::string name, media_type, content;
   Pairs pairs;
@@ -60,54 +40,54 @@ struct Extra {  // an attachment, or metadata when there is no media type
 
 struct Log::Impl {
   struct Channel {
-    Extent extent;
-    std::uint64_t sequence = 0;  // counts dropped messages too: a reader sees the gap
-  };
-  struct Sink {
     CdrEncoder encoder;
     std::uint16_t id = 0;
+    bool stored = true;
+    std::uint64_t expected = 0;  // the sequence of its next sample: a gap tells what was lost
   };
 
   Options options;
-  std::vector<Channel> channels;  // the loop's
-  std::vector<Sink> sinks;        // the log thread's
+  const Tap& tap;
+  const std::uint64_t begin;  // where the tap was
+  Tap::Cursor cursor;
+  std::vector<Channel> channels;
   std::size_t max_message = 0;
-  std::unique_ptr<Ring> ring;
   std::unique_ptr<McapWriter> writer;
-  bool begun = false;          // the loop has written
-  std::int64_t waited_ns = 0;  // the loop's
-  bool head_stored = false;    // the log thread has written what comes first
+  bool head_stored = false;  // the log thread has written what comes first
   std::mutex mutex;
   std::vector<Extra> head, tail;  // guarded
-  std::atomic<std::uint64_t> ring_drops{0};
   std::atomic<bool> stop{false}, broken{false};
-  std::uint64_t unstored = 0;  // the log thread's: messages that the writer was not even given
+  std::string trouble;                     // written before `broken` is set, and never again
+  std::uint64_t unstored = 0, missed = 0;  // messages that the writer was not given; that had been written over before they were read
   McapWriter::Result result;
   std::thread thread;
 
-  Impl(const Options& o, const std::vector<LogChannel>& list) : options(o) {
-    std::size_t largest = 0;
-    for (const LogChannel& c : list) {
-      channels.push_back({Extent(*c.type)});
-      sinks.push_back({CdrEncoder(*c.type)});
-      largest = std::max<std::size_t>(largest, c.type->size);
-      max_message = std::max(max_message, sinks.back().encoder.max_size());
+  Impl(const Options& o, Tap& from) : options(o), tap(from), begin(tap.written()), cursor(from, o.wait) {
+    for (std::size_t i = 0; i < tap.channels().size(); ++i) {
+      channels.push_back({CdrEncoder(*tap.channels()[i].type), 0, options.channels.empty() || options.channels[i]});
+      if (channels.back().stored) max_message = std::max(max_message, channels.back().encoder.max_size());
     }
-    ring = std::make_unique<Ring>(options.ring_bytes, largest);
-    writer = std::make_unique<McapWriter>(McapWriter::Options{
-        .file = options.file, .zstd_level = options.zstd_level, .max_message_bytes = max_message, .sync = !options.wait});
-    add_channels(list);
+    writer = std::make_unique<McapWriter>(McapWriter::Options{.file = options.file,
+                                                              .zstd_level = options.zstd_level,
+                                                              .max_message_bytes = max_message,
+                                                              .sync = !options.wait,
+                                                              .rotate_bytes = options.rotate_bytes,
+                                                              .rotate_ns = options.rotate_ns});
+    add_channels(tap.channels());
     start();
   }
 
-  void add_channels(const std::vector<LogChannel>& list) {
+  bool begun() const { return tap.written() != begin; }
+
+  void add_channels(const std::vector<TapChannel>& list) {
     std::map<std::pair<std::string, std::string>, std::uint16_t> schemas;  // by name and text
     for (std::size_t i = 0; i < list.size(); ++i) {
+      if (!channels[i].stored) continue;
       const Type& type = *list[i].type;
       const auto [at, is_new] = schemas.try_emplace({ros_name(type), ros_definition(type)});
       if (is_new) at->second = writer->add_schema(at->first.first, "ros2msg", at->first.second);
-      sinks[i].id = writer->add_channel(at->second, list[i].topic, "cdr",
-                                        {{"offered_qos_profiles", qos_profiles}, {"topic_type_hash", ros_type_hash(type)}});
+      channels[i].id = writer->add_channel(at->second, list[i].topic, "cdr",
+                                           {{"offered_qos_profiles", qos_profiles}, {"topic_type_hash", ros_type_hash(type)}});
     }
   }
 
@@ -137,24 +117,34 @@ struct Log::Impl {
     list.clear();
   }
 
-  void store(const Ring::Record& record) {
+  std::string lasting(const Tap::Sample& sample) const {
+    const bool rotates = options.rotate_bytes > 0 || options.rotate_ns > 0;
+    return rotates && options.lasting ? options.lasting(sample.channel, sample.data()) : "";
+  }
+
+  void store(const Tap::Sample& sample) {
     if (!head_stored) {
       head_stored = true;
       store_extras(head);
     }
-    const Sink& sink = sinks[record.channel];
+    const Channel& channel = channels[sample.channel];
     std::byte* room =
-        writer->begin_message(sink.id, static_cast<std::uint32_t>(record.sequence), time(record.log_ns), time(record.valid_ns));
-    writer->end_message(sink.encoder.encode(record.data(), room));
+        writer->begin_message(channel.id, static_cast<std::uint32_t>(sample.sequence), time(sample.now_ns), time(sample.valid_ns));
+    writer->end_message(channel.encoder.encode(sample.data(), room), lasting(sample));
   }
 
-  /// Takes all that is in the ring. Whatever happens here, the ring is emptied: the flight goes on.
+  /// Takes all that there is. Whatever happens here goes on taking: an unpaced flight waits for that.
   void drain() noexcept {
-    while (const Ring::Record* record = ring->next()) {
-      if (writer->failed() || !guarded([&] { store(*record); })) ++unstored;
-      ring->release();
+    while (const Tap::Sample* sample = cursor.next()) {
+      Channel& channel = channels[sample->channel];
+      if (!sample->for_log || !channel.stored) continue;
+      missed += sample->sequence - channel.expected;
+      channel.expected = sample->sequence + 1;
+      if (writer->failed() || !guarded([&] { store(*sample); })) ++unstored;
     }
-    if (writer->failed()) broken.store(true, std::memory_order_relaxed);
+    if (!writer->failed() || broken.load(std::memory_order_relaxed)) return;
+    guarded([this] { trouble = writer->error(); });
+    broken.store(true, std::memory_order_release);
   }
 
   void run() noexcept {
@@ -184,7 +174,7 @@ struct Log::Impl {
   }
 };
 
-Log::Log(const Options& options, const std::vector<LogChannel>& channels) : impl_(std::make_unique<Impl>(options, channels)) {}
+Log::Log(const Options& options, Tap& tap) : impl_(std::make_unique<Impl>(options, tap)) {}
 
 Log::~Log() {
   if (impl_->thread.joinable()) close();
@@ -192,44 +182,25 @@ Log::~Log() {
 
 void Log::attach(const std::string& name, const std::string& media_type, const std::string& content) {
   const std::lock_guard lock(impl_->mutex);
-  (impl_->begun ? impl_->tail : impl_->head).push_back({name, media_type.empty() ? "application/octet-stream" : media_type, content, {}});
+  (impl_->begun() ? impl_->tail : impl_->head).push_back({name, media_type.empty() ? "application/octet-stream" : media_type, content, {}});
 }
 
 void Log::metadata(const std::string& name, const std::vector<std::pair<std::string, std::string>>& pairs) {
   const std::lock_guard lock(impl_->mutex);
-  (impl_->begun ? impl_->tail : impl_->head).push_back({name, "", "", pairs});
+  (impl_->begun() ? impl_->tail : impl_->head).push_back({name, "", "", pairs});
 }
 
-void Log::write(std::size_t channel, std::int64_t log_ns, std::int64_t valid_ns, const std::byte* data) noexcept {
-  Impl& log = *impl_;
-  Impl::Channel& c = log.channels[channel];
-  log.begun = true;
-  const Ring::Record record{0, static_cast<std::uint32_t>(channel), c.sequence++, log_ns, valid_ns};
-  const std::size_t size = c.extent.of(data);
-  while (!log.ring->push(record, data, size)) {
-    if (!log.options.wait) {
-      log.ring_drops.fetch_add(1, std::memory_order_relaxed);
-      return;
-    }
-    const auto begin = std::chrono::steady_clock::now();
-    log.ring->wait_for_room();
-    log.waited_ns += std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - begin).count();
-  }
-}
+bool Log::failed() const noexcept { return impl_->broken.load(std::memory_order_acquire); }
 
-std::int64_t Log::take_wait_ns() noexcept { return std::exchange(impl_->waited_ns, 0); }
-
-std::uint64_t Log::dropped() const noexcept { return impl_->ring_drops.load(std::memory_order_relaxed); }
-
-bool Log::failed() const noexcept { return impl_->broken.load(std::memory_order_relaxed); }
+const std::string& Log::error() const noexcept { return impl_->trouble; }
 
 LogResult Log::close() {
   Impl& log = *impl_;
   log.stop.store(true, std::memory_order_release);
   log.thread.join();
   const McapWriter::Result& r = log.result;
-  const std::uint64_t dropped = log.ring_drops.load() + log.unstored + r.lost;
-  return {r.file, r.sha256, r.messages, r.bytes, dropped, r.error};
+  const std::uint64_t dropped = log.missed + log.unstored + r.lost;
+  return {r.file, r.sha256, r.messages, r.bytes, dropped, r.error, r.files.size()};
 }
 
 }  // namespace fulmar::core

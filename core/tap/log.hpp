@@ -1,43 +1,45 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The flight log: MCAP, profile ros2. The loop copies raw messages into a ring; a thread of its own encodes, compresses and writes.
+// The flight log: MCAP, profile ros2. A sink of the tap: a thread of its own encodes, compresses and writes what is marked for it.
 #pragma once
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "core/loader/type.hpp"
-
 namespace fulmar::core {
 
-struct LogChannel {
-  std::string topic;  // "/nav/state"
-  TypePtr type;
-};
+class Tap;
 
 struct LogResult {
-  std::filesystem::path file;  // ends in ".part" when it could not be finished
+  std::filesystem::path file;  // ends in ".part" when it could not be written whole
   std::string sha256;
   std::uint64_t messages = 0;
   std::uint64_t bytes = 0;
-  std::uint64_t dropped = 0;  // messages lost because the ring was full or the disk refused them
+  std::uint64_t dropped = 0;  // messages lost because the disk was too slow or refused them
   std::string error;          // "" or what the disk said
+  std::size_t files = 1;      // of one log that rotates; `file` is the first
 };
 
 class Log {
  public:
   struct Options {
-    std::filesystem::path file;  // written as file + ".part", renamed when closed; never overwrites
-    std::int64_t epoch_ns = 0;   // added to flight time
-    bool wait = true;            // unpaced simulation: the loop waits for the log; else a full ring drops, counted
-    std::size_t ring_bytes = 4u << 20;
-    int zstd_level = -5;  // below 0: faster. -5 costs 0.6 of level 1 for 6 % more bytes; 0: not compressed
+    std::filesystem::path file;       // written as file + ".part", renamed when closed; never overwrites
+    std::int64_t epoch_ns = 0;        // added to flight time
+    bool wait = true;                 // unpaced simulation: the loop waits for the log; else what it is too slow for is lost, counted
+    std::vector<bool> channels = {};  // of the tap's: those that the file has; empty: all
+    std::uint64_t rotate_bytes = 0;   // then a new file goes on; 0: never
+    std::int64_t rotate_ns = 0;
+    // The name of what a message tells and what holds until another of this name comes; "": until the channel says something else. Every
+    // further file begins with these. Called in the log's thread.
+    std::function<std::string(std::size_t channel, const std::byte* message)> lasting = {};
+    int zstd_level = 1;  // below 0: faster. -5 costs 0.6 of level 1 for 12 % more bytes; 0: not compressed
   };
   /// Throws Error when the file is there already or cannot be written.
-  Log(const Options& options, const std::vector<LogChannel>& channels);
+  Log(const Options& options, Tap& tap);
   ~Log();  // closes
   Log(const Log&) = delete;
   Log& operator=(const Log&) = delete;
@@ -47,15 +49,10 @@ class Log {
   void attach(const std::string& name, const std::string& media_type, const std::string& content);
   void metadata(const std::string& name, const std::vector<std::pair<std::string, std::string>>& pairs);
 
-  /// [tick] One message of channels[channel], `data` a struct of its type, valid at and logged at flight times. No allocation, no lock.
-  void write(std::size_t channel, std::int64_t log_ns, std::int64_t valid_ns, const std::byte* data) noexcept;
-
-  /// [tick] How long `write` has waited for room since this was last asked.
-  std::int64_t take_wait_ns() noexcept;
-  /// [tick] Messages lost so far because the ring was full.
-  std::uint64_t dropped() const noexcept;
-  /// [tick] The disk has failed: no more messages are stored. close() says why.
+  /// [tick] The disk has failed: no more messages are stored.
   bool failed() const noexcept;
+  /// Why; once it has failed.
+  const std::string& error() const noexcept;
 
   /// Flushes, closes, renames. Call once.
   LogResult close();

@@ -3,6 +3,7 @@
 #include "core/tap/out_file.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 #include <zlib.h>
 
@@ -15,11 +16,26 @@
 namespace fulmar::core {
 
 OutFile::OutFile(const std::filesystem::path& file) : file_(file), name_(file.string() + ".part") {
-  if (std::filesystem::exists(file_)) throw Error("'" + file_.string() + "' exists; a log never overwrites a file");
+  refuse(file_);
   fd_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (fd_ >= 0) return;
-  if (errno == EEXIST) throw Error("'" + name_.string() + "' exists: another run writes it, or one was interrupted; move it away first");
-  throw Error("cannot write '" + name_.string() + "': " + std::strerror(errno));
+  if (fd_ < 0) throw Error("cannot write '" + name_.string() + "': " + std::strerror(errno));
+  ::flock(fd_, LOCK_EX | LOCK_NB);  // gone with this process; a file system without locks is none to fail for
+}
+
+bool OutFile::grows(const std::filesystem::path& file) {
+  const int fd = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (fd < 0) return false;
+  const bool held = ::flock(fd, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(fd);
+  return held;
+}
+
+void OutFile::refuse(const std::filesystem::path& file) {
+  const std::string part = file.string() + ".part";
+  if (std::filesystem::exists(file)) throw Error("'" + file.string() + "' exists; a log never overwrites a file");
+  if (std::filesystem::exists(part))
+    throw Error("'" + part + "' exists: " +
+                (grows(part) ? "another run is writing it" : "a run was interrupted; move it away first, or fulmar log recover it"));
 }
 
 OutFile::~OutFile() {

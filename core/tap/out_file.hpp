@@ -14,6 +14,10 @@ class OutFile {
  public:
   /// Throws Error when FILE or FILE.part is there already, or cannot be made.
   explicit OutFile(const std::filesystem::path& file);
+  /// Throws Error when FILE or FILE.part is there already.
+  static void refuse(const std::filesystem::path& file);
+  /// Whether a program is writing this file.
+  static bool grows(const std::filesystem::path& file);
   ~OutFile();
   OutFile(const OutFile&) = delete;
   OutFile& operator=(const OutFile&) = delete;

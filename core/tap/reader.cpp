@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See reader.hpp. The reading ends at the first byte that is not as the format says; what came before stays.
+// See reader.hpp. The reading ends at the first byte that is not as the format says, or goes on behind it; what came before stays.
 #include "core/tap/reader.hpp"
 
 #include <zlib.h>
 #include <zstd.h>
 
+#include <algorithm>
+#include <array>
+#include <cstring>
 #include <fstream>
+#include <new>
 #include <set>
 
 #include "core/error.hpp"
@@ -16,8 +20,12 @@ namespace {
 
 using Data = std::span<const std::byte>;
 
-std::uint32_t crc_of(Data data) {
-  return static_cast<std::uint32_t>(::crc32_z(0, reinterpret_cast<const Bytef*>(data.data()), data.size()));
+constexpr std::uint64_t largest_chunk = 1u << 28;    // decompressed; a file that claims more is not one of a flight
+constexpr std::uint64_t largest_record = 1u << 28;   // the same of a record that has to be in memory
+constexpr std::uint64_t largest_schemas = 1u << 28;  // the same of all schemas and channels, which chunks can hold by the thousand
+
+std::uint32_t crc_of(std::uint32_t before, Data data) {
+  return static_cast<std::uint32_t>(::crc32_z(before, reinterpret_cast<const Bytef*>(data.data()), data.size()));
 }
 
 /// Reads values one after the other; throws Error at the end of the data.
@@ -56,134 +64,372 @@ void require(bool truth, const char* otherwise) {
   if (!truth) throw Error(otherwise);
 }
 
-struct Scanner {
-  McapFile& file;
-  Data bytes;
-  Data chunk;  // the last one, decompressed
+/// The content of a chunk, decompressed into `room`.
+Data open_chunk(const std::string& compression, Data stored, std::uint64_t size, std::vector<std::byte>& room) {
+  if (compression.empty()) {
+    require(stored.size() == size, "a chunk is not as long as it says");
+    room.assign(stored.begin(), stored.end());
+    return room;
+  }
+  if (compression != "zstd") throw Error("a chunk is compressed as '" + compression.substr(0, 32) + "'. Valid: zstd, or not at all");
+  require(size <= largest_chunk, "a chunk claims to hold more than 256 MB");
+  // A wrong size is found before memory is taken for it.
+  const unsigned long long says = ZSTD_getFrameContentSize(stored.data(), stored.size());
+  require(says == ZSTD_CONTENTSIZE_UNKNOWN || says == size, "a chunk does not decompress");
+  room.resize(size);
+  const std::size_t n = ZSTD_decompress(room.data(), size, stored.data(), stored.size());
+  require(!ZSTD_isError(n) && n == size, "a chunk does not decompress");
+  return room;
+}
+
+}  // namespace
+
+struct McapStream::Impl {
+  std::ifstream in;
+  BadChunks bad_chunks;
+  McapFile file;
+  std::uint64_t size = 0, place = 0;          // of the file; of the next record
+  std::uint64_t place_before = 0;             // of the record that is read now
+  std::uint8_t code_before = 0;               // its code
+  bool framed = false;                        // it was there up to the end that it claims
+  std::uint32_t crc = 0;                      // of the section up to there: the data, then the summary
+  std::vector<std::byte> record, chunk_room;  // that the pending messages point into
+  Data chunk;                                 // the last one, decompressed
+  std::vector<McapFile::Message> pending;
+  std::size_t given = 0;  // of the pending ones
+  bool in_chunk = false;  // they point into chunk_room, else into record
+  std::uint64_t messages = 0, defined_bytes = 0;
+  McapStream::LeftOut left_out;
+  bool damaged = false;  // something was left out, if only an index
   std::set<std::uint64_t> chunk_places, attachment_places, metadata_places;
-  std::size_t summary_start = 0;  // 0: not there yet
+  std::map<std::uint64_t, std::uint8_t> named;  // places that the summary names, and what is there: when damage is to be skipped
+  std::uint64_t summary_start = 0;              // 0: not there yet
   bool ended = false;
 
-  /// One record at `at`; returns where the next one begins.
-  std::size_t record(std::size_t at) {
-    Cursor head{bytes, at};
-    require(bytes.size() - at >= mcap::record_head, "the file ends inside a record");
-    const auto code = head.number<std::uint8_t>();
-    const auto length = head.number<std::uint64_t>();
-    require(length <= bytes.size() - head.at, "the file ends inside a record");
-    content(code, head.take(length), at);
-    return head.at;
+  Impl(const std::filesystem::path& path, BadChunks bad) : bad_chunks(bad) {
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(path, ignored)) in.open(path, std::ios::binary | std::ios::ate);
+    if (!in.is_open() || !in) throw Error("cannot read '" + path.string() + "'");
+    size = static_cast<std::uint64_t>(in.tellg());
+    in.seekg(0);
+    std::string magic(mcap::magic.size(), '\0');
+    if (size < magic.size() || !in.read(magic.data(), static_cast<std::streamsize>(magic.size())) || magic != mcap::magic)
+      throw Error("'" + path.string() + "' is no MCAP file");
+    if (skips()) read_summary();
+    seek(mcap::magic.size());
+    crc = crc_of(0, std::as_bytes(std::span(magic)));
   }
 
-  void content(std::uint8_t code, Data data, std::size_t place) {
-    Cursor in{data};
+  bool skips() const { return bad_chunks == BadChunks::skip; }
+
+  void seek(std::uint64_t to) {
+    in.clear();
+    in.seekg(static_cast<std::streamoff>(to));
+    place = to;
+  }
+
+  /// From the end of a file that was closed: the schemas and channels, for the case that those in the chunks are damaged, and where chunks,
+  /// attachments and metadata are. Nothing when it is not as it should be.
+  void read_summary() {
+    constexpr std::uint64_t tail = mcap::footer_record + mcap::magic.size(), data_end_record = mcap::record_head + 4;
+    if (size < mcap::magic.size() + data_end_record + tail) return;
+    try {
+      std::vector<std::byte> end(tail);
+      seek(size - tail);
+      read(end.data(), tail);
+      Cursor footer{end};
+      require(footer.number<std::uint8_t>() == mcap::footer && footer.number<std::uint64_t>() == 20, "there is no footer");
+      const auto start = footer.number<std::uint64_t>();
+      footer.take(8);
+      const Data summed = Data(end).first(footer.at);
+      const auto sum = footer.number<std::uint32_t>();
+      require(start > data_end_record && start < size - tail && size - tail - start <= largest_record, "there is no summary");
+      std::vector<std::byte> summary(size - tail - start);
+      seek(start);
+      read(summary.data(), summary.size());
+      require(sum == 0 || sum == crc_of(crc_of(0, summary), summed), "the checksum of the summary is wrong");
+      for (Cursor records{summary}; records.more();) {
+        const auto code = records.number<std::uint8_t>();
+        name_places(code, Cursor{records.take(records.number<std::uint64_t>())});
+      }
+      named[start - data_end_record] = mcap::data_end;
+    } catch (const Error&) {
+      named.clear();
+    }
+  }
+
+  void name_places(std::uint8_t code, Cursor of) {
+    if (code == mcap::schema || code == mcap::channel) definition(code, of);
+    if (code == mcap::chunk_index) of.take(16), named[of.number<std::uint64_t>()] = mcap::chunk;
+    if (code == mcap::attachment_index) named[of.number<std::uint64_t>()] = mcap::attachment;
+    if (code == mcap::metadata_index) named[of.number<std::uint64_t>()] = mcap::metadata;
+  }
+
+  void read(std::byte* to, std::uint64_t bytes) {
+    require(bytes <= size - place, "the file ends inside a record");
+    require(static_cast<bool>(in.read(reinterpret_cast<char*>(to), static_cast<std::streamsize>(bytes))), "the file cannot be read");
+    place += bytes;
+  }
+
+  /// Reads records until there are messages. False at the end.
+  bool fill() {
+    pending.clear();
+    given = 0;
+    try {
+      while (!ended && file.fault.empty() && pending.empty()) next_record_or_later();
+    } catch (const std::bad_alloc&) {
+      stop("there is not enough memory for a record");
+    } catch (const Error& e) {
+      stop(e.what());
+    }
+    messages += pending.size();
+    if (ended) file.complete = !damaged;
+    return !pending.empty();
+  }
+
+  void stop(const std::string& why) {
+    pending.clear();
+    file.fault = "byte " + std::to_string(place_before) + ": " + why;
+  }
+
+  /// Damage in the data costs the record in which it is, when damage is to be skipped.
+  void next_record_or_later() {
+    try {
+      next_record();
+    } catch (const Error&) {
+      if (!skips() || summary_start > 0) throw;
+      const auto known = named.find(place_before);
+      const std::uint8_t code = known != named.end() ? known->second : code_before;
+      const std::uint64_t behind = framed ? place : 0, next = next_place();
+      if (next == 0 && behind == 0) throw;
+      count(code);
+      pending.clear();
+      chunk = {};
+      seek(next > 0 ? next : behind);
+    }
+  }
+
+  void count(std::uint8_t code) {
+    damaged = true;
+    if (code == mcap::chunk) ++left_out.chunks;
+    if (code == mcap::attachment) ++left_out.attachments;
+    if (code == mcap::metadata) ++left_out.metadata;
+    if (code != mcap::chunk && code != mcap::attachment && code != mcap::metadata && named.empty()) ++left_out.others;
+  }
+
+  /// Where the reading goes on behind a damaged record; 0: nowhere.
+  std::uint64_t next_place() {
+    const auto later = named.upper_bound(place_before);
+    if (later != named.end() && later->first < size) return later->first;
+    if (!named.empty()) return 0;
+    constexpr std::uint64_t step = 64 << 10, overlap = mcap::record_head;
+    std::vector<std::byte> block(step + overlap);
+    for (std::uint64_t at = place_before + 1; at + overlap < size; at += step) {
+      const std::uint64_t bytes = std::min<std::uint64_t>(block.size(), size - at);
+      seek(at);
+      read(block.data(), bytes);
+      for (std::uint64_t i = 0; i + overlap <= bytes && i < step; ++i)
+        if (begins_record(Data(block).subspan(i, overlap), at + i)) return at + i;
+    }
+    return 0;
+  }
+
+  /// Whether a chunk, an attachment or metadata begins there: its length is the sum of the lengths in it.
+  bool begins_record(Data head, std::uint64_t at) {
+    const auto code = static_cast<std::uint8_t>(head[0]);
+    if (code != mcap::chunk && code != mcap::attachment && code != mcap::metadata) return false;
+    Cursor in_head{head, 1};
+    const auto length = in_head.number<std::uint64_t>();
+    if (length < 8 || length > size - at - head.size()) return false;
+    try {
+      seek(at + head.size());
+      return length == length_within(code);
+    } catch (const Error&) {
+      return false;
+    }
+  }
+
+  template <class T>
+  T number_here() {
+    std::array<std::byte, sizeof(T)> bytes;
+    read(bytes.data(), bytes.size());
+    return Cursor{bytes}.number<T>();
+  }
+  std::uint64_t pass_text() {
+    const auto length = number_here<std::uint32_t>();
+    require(length <= size - place, "the file ends inside a record");
+    seek(place + length);
+    return 4 + std::uint64_t{length};
+  }
+
+  std::uint64_t length_within(std::uint8_t code) {
+    if (code == mcap::metadata) return pass_text() + pass_text();  // one expression each: both are read
+    if (code == mcap::attachment) {
+      seek(place + 16);
+      const std::uint64_t words = pass_text() + pass_text();
+      return 16 + words + 8 + number_here<std::uint64_t>() + 4;
+    }
+    seek(place + 16 + 8 + 4);
+    const std::uint64_t compression = pass_text();
+    return 16 + 8 + 4 + compression + 8 + number_here<std::uint64_t>();
+  }
+
+  void next_record() {
+    place_before = place;
+    code_before = 0;
+    framed = false;
+    std::array<std::byte, mcap::record_head> head;
+    read(head.data(), head.size());
+    Cursor in_head{head};
+    const auto code = code_before = in_head.number<std::uint8_t>();
+    const auto length = in_head.number<std::uint64_t>();
+    require(length <= size - place, "the file ends inside a record");
+    if (skips() && summary_start == 0) check_frame(code, length);
+    require(length <= largest_record, "a record is longer than 256 MB");
+    record.resize(length);
+    read(record.data(), length);
+    framed = true;
+    if (code == mcap::footer) {
+      footer(head);
+      return;
+    }
+    const std::uint32_t before = crc;
+    crc = crc_of(crc_of(crc, head), record);
+    if (code == mcap::data_end) {
+      const auto sum = Cursor{record}.number<std::uint32_t>();
+      summary_start = place;
+      crc = 0;
+      require(sum == 0 || sum == before || damaged, "the checksum of the data is wrong");
+    } else {
+      content(code, record, place_before);
+    }
+  }
+
+  /// What has no checksum of its own, and what would swallow the next record.
+  void check_frame(std::uint8_t code, std::uint64_t length) const {
+    const auto here = named.find(place_before), next = named.upper_bound(place_before);
+    require(here == named.end() || here->second == code, "a record is not what the summary says");
+    require(next == named.end() || next->first >= place + length, "a record is longer than the summary says");
+    require((code > 0 && code <= mcap::data_end) || code >= 0x80, "a record is of no known kind");
+  }
+
+  void content(std::uint8_t code, Data data, std::uint64_t at) {
+    Cursor cursor{data};
     switch (code) {
       case mcap::header:
-        file.profile = in.text();
-        file.library = in.text();
+        file.profile = cursor.text();
+        file.library = cursor.text();
         break;
       case mcap::schema:
       case mcap::channel:
-        definition(code, in);
+        definition(code, cursor);
         break;
       case mcap::message:
-        message(in);
+        in_chunk = false;
+        message(cursor);
         break;
       case mcap::chunk:
-        open_chunk(in);
-        chunk_places.insert(place);
+        chunk_content(cursor);
+        ++file.chunks;
+        chunk_places.insert(at);
         break;
       case mcap::message_index:
-        check_message_index(in);
+        if (!skips()) {
+          check_message_index(cursor);
+          break;
+        }
+        cursor.take(2);
+        cursor.take(cursor.number<std::uint32_t>());
+        check_length(cursor);
         break;
       case mcap::attachment:
-        attachment(in);
-        attachment_places.insert(place);
+        attachment(cursor);
+        attachment_places.insert(at);
         break;
       case mcap::metadata:
-        file.metadata.push_back({in.text(), {}});
-        file.metadata.back().pairs = in.pairs();
-        metadata_places.insert(place);
-        break;
-      case mcap::data_end:
-        require(in.number<std::uint32_t>() == crc_of(bytes.first(place)), "the checksum of the data is wrong");
-        summary_start = place + mcap::record_head + data.size();
+        metadata(cursor);
+        metadata_places.insert(at);
         break;
       case mcap::statistics:
-        check_statistics(in);
+        if (!damaged) check_statistics(cursor);
         break;
       case mcap::chunk_index:
-        in.take(16);
-        require(chunk_places.contains(in.number<std::uint64_t>()), "a chunk index points at no chunk");
+        cursor.take(16);
+        require(damaged || chunk_places.contains(cursor.number<std::uint64_t>()), "a chunk index points at no chunk");
         break;
       case mcap::attachment_index:
-        require(attachment_places.contains(in.number<std::uint64_t>()), "an attachment index points at no attachment");
+        require(damaged || attachment_places.contains(cursor.number<std::uint64_t>()), "an attachment index points at no attachment");
         break;
       case mcap::metadata_index:
-        require(metadata_places.contains(in.number<std::uint64_t>()), "a metadata index points at no metadata");
-        break;
-      case mcap::footer:
-        footer(in, place);
+        require(damaged || metadata_places.contains(cursor.number<std::uint64_t>()), "a metadata index points at no metadata");
         break;
       default:
         break;  // the format may grow
     }
   }
 
-  void definition(std::uint8_t code, Cursor& in) {
-    const auto id = in.number<std::uint16_t>();
+  void definition(std::uint8_t code, Cursor& cursor) {
+    const auto id = cursor.number<std::uint16_t>();
+    const bool known = code == mcap::schema ? file.schemas.contains(id) : file.channels.contains(id);
+    if (!known) defined_bytes += cursor.data.size();
+    require(defined_bytes <= largest_schemas, "the schemas and channels take more than 256 MB");
     if (code == mcap::schema) {
-      McapFile::Schema schema{in.text(), in.text(), in.text()};
+      McapFile::Schema schema{cursor.text(), cursor.text(), cursor.text()};
       file.schemas.try_emplace(id, std::move(schema));
       return;
     }
-    McapFile::Channel channel{.schema = in.number<std::uint16_t>(), .topic = in.text(), .encoding = in.text(), .metadata = {}};
-    channel.metadata = in.pairs();
+    McapFile::Channel channel{.schema = cursor.number<std::uint16_t>(), .topic = cursor.text(), .encoding = cursor.text(), .metadata = {}};
+    channel.metadata = cursor.pairs();
     file.channels.try_emplace(id, std::move(channel));
   }
 
-  void message(Cursor& in) {
+  void message(Cursor& cursor) {
     McapFile::Message m;
-    m.channel = in.number<std::uint16_t>();
-    m.sequence = in.number<std::uint32_t>();
-    m.log_ns = in.number<std::uint64_t>();
-    m.publish_ns = in.number<std::uint64_t>();
-    m.data = in.data.subspan(in.at);
+    m.channel = cursor.number<std::uint16_t>();
+    m.sequence = cursor.number<std::uint32_t>();
+    m.log_ns = cursor.number<std::uint64_t>();
+    m.publish_ns = cursor.number<std::uint64_t>();
+    m.data = cursor.data.subspan(cursor.at);
+    if (skips() && !file.channels.contains(m.channel)) {  // it stood in a damaged chunk
+      damaged = true;
+      ++left_out.messages;
+      return;
+    }
     require(file.channels.contains(m.channel), "a message belongs to no channel");
-    file.messages.push_back(m);
+    pending.push_back(m);
   }
 
-  void open_chunk(Cursor& in) {
-    in.take(16);  // first and last time
-    const auto size = in.number<std::uint64_t>();
-    const auto crc = in.number<std::uint32_t>();
-    const std::string compression = in.text();
-    const Data stored = in.take(in.number<std::uint64_t>());
-    constexpr std::uint64_t most = 1u << 30;
-    require(size <= most, "a chunk claims to hold more than a gigabyte");
-    if (compression == "zstd") {
-      std::vector<std::byte>& room = file.memory.emplace_back(size);
-      const std::size_t n = ZSTD_decompress(room.data(), size, stored.data(), stored.size());
-      require(!ZSTD_isError(n) && n == size, "a chunk does not decompress");
-      chunk = room;
-    } else {
-      require(compression.empty() && stored.size() == size, "a chunk has an unknown compression");
-      chunk = stored;
-    }
-    require(crc == 0 || crc == crc_of(chunk), "the checksum of a chunk is wrong");
-    ++file.chunks;
+  void metadata(Cursor& cursor) {
+    McapFile::Metadata m{cursor.text(), {}};
+    m.pairs = cursor.pairs();
+    if (skips()) check_length(cursor);
+    file.metadata.push_back(std::move(m));
+  }
+
+  static void check_length(const Cursor& cursor) { require(!cursor.more(), "a record is longer than what is in it"); }
+
+  void chunk_content(Cursor& cursor) {
+    cursor.take(16);  // first and last time
+    const auto length = cursor.number<std::uint64_t>();
+    const auto sum = cursor.number<std::uint32_t>();
+    const std::string compression = cursor.text();
+    const Data stored = cursor.take(cursor.number<std::uint64_t>());
+    if (skips()) check_length(cursor);
+    chunk = open_chunk(compression, stored, length, chunk_room);
+    require(sum == 0 || sum == crc_of(0, chunk), "the checksum of a chunk is wrong");
     Cursor inside{chunk};
     while (inside.more()) {
-      const std::size_t place = inside.at;
+      const std::size_t at = inside.at;
       const auto code = inside.number<std::uint8_t>();
       require(code == mcap::schema || code == mcap::channel || code == mcap::message, "a chunk holds what does not belong there");
-      content(code, inside.take(inside.number<std::uint64_t>()), place);
+      content(code, inside.take(inside.number<std::uint64_t>()), at);
     }
+    in_chunk = true;
   }
 
-  void check_message_index(Cursor& in) {
-    const auto channel = in.number<std::uint16_t>();
-    Cursor entries{in.take(in.number<std::uint32_t>())};
+  void check_message_index(Cursor& cursor) {
+    const auto channel = cursor.number<std::uint16_t>();
+    Cursor entries{cursor.take(cursor.number<std::uint32_t>())};
     while (entries.more()) {
       const auto log_ns = entries.number<std::uint64_t>();
       const auto offset = entries.number<std::uint64_t>();
@@ -197,52 +443,61 @@ struct Scanner {
     }
   }
 
-  void attachment(Cursor& in) {
+  void attachment(Cursor& cursor) {
     McapFile::Attachment a;
-    a.log_ns = in.number<std::uint64_t>();
-    in.take(8);
-    a.name = in.text();
-    a.media_type = in.text();
-    const Data content = in.take(in.number<std::uint64_t>());
+    a.log_ns = cursor.number<std::uint64_t>();
+    cursor.take(8);
+    a.name = cursor.text();
+    a.media_type = cursor.text();
+    const Data content = cursor.take(cursor.number<std::uint64_t>());
     a.content.assign(reinterpret_cast<const char*>(content.data()), content.size());
-    const std::uint32_t sum = crc_of(in.data.first(in.at));
-    require(in.number<std::uint32_t>() == sum, "the checksum of an attachment is wrong");
+    const std::uint32_t sum = crc_of(0, cursor.data.first(cursor.at));
+    const auto stored = cursor.number<std::uint32_t>();
+    require(stored == 0 || stored == sum, "the checksum of an attachment is wrong");
+    if (skips()) check_length(cursor);
     file.attachments.push_back(std::move(a));
   }
 
-  void check_statistics(Cursor& in) const {
-    const bool messages = in.number<std::uint64_t>() == file.messages.size();
-    const bool schemas = in.number<std::uint16_t>() == file.schemas.size();
-    const bool channels = in.number<std::uint32_t>() == file.channels.size();
-    const bool attachments = in.number<std::uint32_t>() == file.attachments.size();
-    const bool metadata = in.number<std::uint32_t>() == file.metadata.size();
-    const bool chunks = in.number<std::uint32_t>() == file.chunks;
-    require(messages && schemas && channels && attachments && metadata && chunks, "the statistics do not fit the file");
+  /// Counts of schemas and channels are left aside: writers differ in whether those without a message count.
+  void check_statistics(Cursor& cursor) const {
+    const bool right_messages = cursor.number<std::uint64_t>() == messages;
+    cursor.take(2 + 4);
+    const bool attachments = cursor.number<std::uint32_t>() == file.attachments.size();
+    const bool metadata = cursor.number<std::uint32_t>() == file.metadata.size();
+    const bool chunks = cursor.number<std::uint32_t>() == file.chunks;
+    require(right_messages && attachments && metadata && chunks, "the statistics do not fit the file");
   }
 
-  void footer(Cursor& in, std::size_t place) {
-    require(in.number<std::uint64_t>() == summary_start, "the footer points beside the summary");
-    in.take(8);
-    const Data summed = bytes.subspan(summary_start, place + mcap::record_head + in.at - summary_start);
-    require(in.number<std::uint32_t>() == crc_of(summed), "the checksum of the summary is wrong");
-    const Data rest = bytes.subspan(place + mcap::footer_record);
-    require(rest.size() == mcap::magic.size() && std::memcmp(rest.data(), mcap::magic.data(), rest.size()) == 0,
-            "the closing magic is not there");
+  void footer(Data head) {
+    Cursor cursor{record};
+    const auto start = cursor.number<std::uint64_t>();
+    require(start == 0 || start == summary_start, "the footer points beside the summary");
+    cursor.take(8);
+    const std::uint32_t sum = crc_of(crc_of(crc, head), Data(record).first(cursor.at));
+    const auto stored = cursor.number<std::uint32_t>();
+    require(stored == 0 || stored == sum, "the checksum of the summary is wrong");
+    std::string magic(mcap::magic.size(), '\0');
+    require(size - place == magic.size(), "the closing magic is not there");
+    read(reinterpret_cast<std::byte*>(magic.data()), magic.size());
+    require(magic == mcap::magic, "the closing magic is not there");
     ended = true;
   }
 };
 
-std::vector<std::byte> contents(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary | std::ios::ate);
-  if (!in) throw Error("cannot read '" + path.string() + "'");
-  std::vector<std::byte> bytes(static_cast<std::size_t>(in.tellg()));
-  in.seekg(0);
-  if (!in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())))
-    throw Error("cannot read '" + path.string() + "'");
-  return bytes;
+McapStream::McapStream(const std::filesystem::path& file, BadChunks bad_chunks) : impl_(std::make_unique<Impl>(file, bad_chunks)) {}
+
+McapStream::~McapStream() = default;
+
+const McapFile::Message* McapStream::next() {
+  if (impl_->given == impl_->pending.size() && !impl_->fill()) return nullptr;
+  return &impl_->pending[impl_->given++];
 }
 
-}  // namespace
+const McapFile& McapStream::log() const { return impl_->file; }
+
+McapFile McapStream::take_log() { return std::move(impl_->file); }
+
+const McapStream::LeftOut& McapStream::left_out() const { return impl_->left_out; }
 
 std::uint16_t McapFile::channel(const std::string& topic) const {
   std::vector<std::string> topics;
@@ -260,20 +515,23 @@ const McapFile::Attachment* McapFile::attachment(const std::string& name) const 
   return nullptr;
 }
 
-McapFile read_mcap(const std::filesystem::path& path) {
-  McapFile file;
-  const std::vector<std::byte>& bytes = file.memory.emplace_back(contents(path));
-  const bool is_mcap = bytes.size() >= mcap::magic.size() && std::memcmp(bytes.data(), mcap::magic.data(), mcap::magic.size()) == 0;
-  if (!is_mcap) throw Error("'" + path.string() + "' is no MCAP file");
-  Scanner scanner{.file = file, .bytes = bytes, .chunk = {}, .chunk_places = {}, .attachment_places = {}, .metadata_places = {}};
-  std::size_t at = mcap::magic.size();
-  try {
-    while (!scanner.ended) at = scanner.record(at);
-    file.complete = true;
-  } catch (const Error& e) {
-    file.fault = "byte " + std::to_string(at) + ": " + e.what();
+McapFile read_mcap(const std::filesystem::path& path, std::uint64_t most_bytes) {
+  McapStream stream(path);
+  McapStream::Impl& s = *stream.impl_;
+  std::vector<McapFile::Message> messages;
+  std::uint64_t bytes = 0;
+  while (s.fill()) {
+    bytes += (s.in_chunk ? s.chunk_room : s.record).capacity() + s.pending.size() * sizeof(McapFile::Message);
+    if (bytes > most_bytes)
+      throw Error("'" + path.string() + "' is too large to be read as a whole: its messages take more than " +
+                  std::to_string(most_bytes >> 20) + " MB of memory");
+    messages.insert(messages.end(), s.pending.begin(), s.pending.end());
+    std::vector<std::byte>& room = s.in_chunk ? s.chunk_room : s.record;
+    s.file.memory.push_back(std::move(room));  // the bytes stay where they are: message indexes are still checked against them
+    room = {};
   }
-  return file;
+  s.file.messages = std::move(messages);
+  return std::move(s.file);
 }
 
 }  // namespace fulmar::core

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads MCAP files from the front, for tools and tests: every record, checksums verified. Of a file that was cut off, all that is whole.
+// Source: the MCAP file format specification, version 0.
 #pragma once
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -46,7 +48,7 @@ struct McapFile {
   std::uint32_t chunks = 0;
   bool complete = false;                      // ends with a footer, and its summary says the same as the file
   std::string fault;                          // "" or why reading ended before the end: "byte 4711: chunk ends after the file"
-  std::deque<std::vector<std::byte>> memory;  // the file and its chunks, decompressed
+  std::deque<std::vector<std::byte>> memory;  // that the messages point into
 
   McapFile() = default;
   McapFile(McapFile&&) = default;  // moving keeps the memory in place
@@ -57,7 +59,41 @@ struct McapFile {
   const Attachment* attachment(const std::string& name) const;
 };
 
-/// Throws Error when the file cannot be read at all or is no MCAP file.
-McapFile read_mcap(const std::filesystem::path& file);
+/// The messages of a file one after the other; no more than one chunk of them is in memory.
+class McapStream {
+ public:
+  enum class BadChunks {
+    end,  // the reading ends at the first byte that is not as the format says
+    skip  // what is damaged is left out, and the reading goes on at the next chunk, attachment or metadata: by the summary, else by sight
+  };
+  struct LeftOut {
+    std::uint32_t chunks = 0, attachments = 0, metadata = 0;  // that are damaged
+    std::uint32_t others = 0;                                 // of which nobody can tell what they were
+    std::uint64_t messages = 0;                               // whose channel only a damaged chunk told
+  };
+  /// Throws Error when the file cannot be read at all or is no MCAP file.
+  explicit McapStream(const std::filesystem::path& file, BadChunks bad_chunks = BadChunks::end);
+  ~McapStream();
+  McapStream(const McapStream&) = delete;
+  McapStream& operator=(const McapStream&) = delete;
+
+  /// Valid until the next call. nullptr at the end: then log().complete or log().fault tells which one.
+  const McapFile::Message* next();
+  /// What has been read so far, without the messages.
+  const McapFile& log() const;
+  /// The same, at the end, to keep.
+  McapFile take_log();
+  const LeftOut& left_out() const;
+
+ private:
+  friend McapFile read_mcap(const std::filesystem::path& file, std::uint64_t most_bytes);
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+constexpr std::uint64_t largest_log = std::uint64_t{8} << 30;  // bytes of memory
+
+/// The whole file in memory. Throws Error when it cannot be read at all, is no MCAP file, or its messages need more than `most_bytes`.
+McapFile read_mcap(const std::filesystem::path& file, std::uint64_t most_bytes = largest_log);
 
 }  // namespace fulmar::core

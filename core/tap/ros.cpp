@@ -18,6 +18,12 @@ const char* ros_primitive(fulmar_kind kind) {
     case FULMAR_U8:
     case FULMAR_ENUM:
       return "uint8";
+    case FULMAR_I8:
+      return "int8";
+    case FULMAR_I16:
+      return "int16";
+    case FULMAR_U16:
+      return "uint16";
     case FULMAR_I32:
       return "int32";
     case FULMAR_U32:
@@ -84,10 +90,15 @@ std::string constants(const Field& field, bool prefixed) {
   return text;
 }
 
-std::string field_line(const Field& f) {
+/// Lists of foreign messages have no bound: theirs are sequences, and the capacity is ours alone.
+bool unbounded(const Type& type, const Field& f) {
+  return f.shape == FULMAR_LIST && !type.ros.empty() && !type.ros.starts_with("fulmar_msgs/");
+}
+
+std::string field_line(const Type& type, const Field& f) {
   std::string line = f.kind == FULMAR_STRUCT ? short_name(*f.type) : ros_primitive(f.kind);
   if (f.shape == FULMAR_ARRAY) line += "[" + std::to_string(f.count) + "]";
-  if (f.shape == FULMAR_LIST) line += "[<=" + std::to_string(f.count) + "]";
+  if (f.shape == FULMAR_LIST) line += unbounded(type, f) ? "[]" : "[<=" + std::to_string(f.count) + "]";
   line += " " + f.name;
   std::string note = f.unit;
   if (f.kind == FULMAR_STRUCT && !f.type->frame.empty()) note += (note.empty() ? "" : ", ") + f.type->frame;
@@ -97,11 +108,11 @@ std::string field_line(const Field& f) {
 // ---- type hash -------------------------------------------------------------------------------------------------------------------
 
 /// type_description_interfaces/msg/FieldType
-int type_id(const Field& f) {
-  static const std::map<fulmar_kind, int> ids{{FULMAR_STRUCT, 1}, {FULMAR_U8, 3},    {FULMAR_ENUM, 3}, {FULMAR_I32, 6},
-                                              {FULMAR_U32, 7},    {FULMAR_I64, 8},   {FULMAR_U64, 9},  {FULMAR_F32, 10},
-                                              {FULMAR_F64, 11},   {FULMAR_BOOL, 15}, {FULMAR_TEXT, 17}};
-  const int shift = f.shape == FULMAR_ARRAY ? 48 : f.shape == FULMAR_LIST ? 96 : 0;
+int type_id(const Type& type, const Field& f) {
+  static const std::map<fulmar_kind, int> ids{{FULMAR_STRUCT, 1}, {FULMAR_I8, 2},   {FULMAR_U8, 3},    {FULMAR_ENUM, 3}, {FULMAR_I16, 4},
+                                              {FULMAR_U16, 5},    {FULMAR_I32, 6},  {FULMAR_U32, 7},   {FULMAR_I64, 8},  {FULMAR_U64, 9},
+                                              {FULMAR_F32, 10},   {FULMAR_F64, 11}, {FULMAR_BOOL, 15}, {FULMAR_TEXT, 17}};
+  const int shift = f.shape == FULMAR_ARRAY ? 48 : unbounded(type, f) ? 144 : f.shape == FULMAR_LIST ? 96 : 0;
   return ids.at(f.kind) + shift;
 }
 
@@ -114,7 +125,8 @@ std::string type_description(const Type& type) {
   std::string fields;
   for (const Field& f : type.fields) {
     const std::string nested = f.kind == FULMAR_STRUCT ? ros_name(*f.type) : "";
-    fields += (fields.empty() ? "" : ", ") + field_description(f.name, type_id(f), f.shape == FULMAR_SCALAR ? 0 : f.count, nested);
+    const std::uint32_t capacity = f.shape == FULMAR_SCALAR || unbounded(type, f) ? 0 : f.count;
+    fields += (fields.empty() ? "" : ", ") + field_description(f.name, type_id(type, f), capacity, nested);
   }
   if (fields.empty()) fields = field_description("structure_needs_at_least_one_member", 3, 0, "");
   return R"({"type_name": ")" + ros_name(type) + R"(", "fields": [)" + fields + "]}";
@@ -142,7 +154,7 @@ std::string ros_message_text(const Type& type) {
   std::string text;
   for (const Field& f : type.fields) {
     if (f.kind == FULMAR_ENUM) text += constants(f, enums > 1);
-    text += field_line(f);
+    text += field_line(type, f);
   }
   return text;
 }

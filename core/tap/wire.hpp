@@ -57,4 +57,9 @@ std::string ros_type_hash(const Type& type);
 /// its label; a number that is not finite is null.
 nlohmann::json to_json(const Type& type, const std::byte* data, bool degrees);
 
+/// The same for people: in the order of the fields; angles, angular rates and accelerations in degrees, under their shown names.
+nlohmann::ordered_json shown_json(const Type& type, const std::byte* data);
+/// "roll_rad" -> "roll_deg", "p_radps" -> "p_degps"; all others stay.
+std::string shown_name(const std::string& field);
+
 }  // namespace fulmar::core

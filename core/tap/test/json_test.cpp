@@ -31,6 +31,29 @@ TEST_CASE("radians become degrees with their key, inside nested structs too, and
   CHECK(shown["speed_mps"] == 1.5);
 }
 
+TEST_CASE("people see fields in the message's order, and rates in degrees as well as angles") {
+  struct Value {
+    double z_m = 1;
+    std::array<double, 2> rates_radps{0.5, -1};
+    double bank_rad = 2, a_radps2 = 3, load_ratio = 4;
+  } const value;
+  const TypePtr type =
+      make_type("Turns", sizeof value, 8,
+                {scalar("z_m", FULMAR_F64, 0, 8), array(scalar("rates_radps", FULMAR_F64, 8, 8), 2), scalar("bank_rad", FULMAR_F64, 24, 8),
+                 scalar("a_radps2", FULMAR_F64, 32, 8), scalar("load_ratio", FULMAR_F64, 40, 8)});
+  const nlohmann::ordered_json shown = shown_json(*type, bytes_of(value));
+  CHECK(shown_name("p_radps") == "p_degps");
+  CHECK(shown_name("p_degps") == "p_degps");
+  std::string keys;
+  for (const auto& item : shown.items()) keys += item.key() + " ";
+  CHECK(keys == "z_m rates_degps bank_deg a_degps2 load_ratio ");
+  CHECK(shown["rates_degps"][0].get<double>() == doctest::Approx(28.64788975654116).epsilon(1e-15));
+  CHECK(shown["bank_deg"].get<double>() == doctest::Approx(114.59155902616465).epsilon(1e-15));
+  CHECK(shown["a_degps2"].get<double>() == doctest::Approx(171.88733853924697).epsilon(1e-15));
+  CHECK(shown["load_ratio"] == 4.0);
+  CHECK(to_json(*type, bytes_of(value), true).contains("a_radps2"));  // results keep their rates
+}
+
 TEST_CASE("a number that is not finite is null, a label that does not exist a number, broken text stays JSON") {
   Mixed m = mixed_value();
   m.speed_mps = std::numeric_limits<double>::quiet_NaN();

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Logs written and read back: content, order, equal bytes for equal runs, and what is left when the process or the disk fails.
-#include "core/tap/log.hpp"
-
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -18,9 +16,11 @@
 #include <thread>
 
 #include "core/error.hpp"
+#include "core/tap/out_file.hpp"
 #include "core/tap/reader.hpp"
 #include "core/tap/recover.hpp"
 #include "core/tap/sha256.hpp"
+#include "core/tap/test/taped_log.hpp"
 #include "core/tap/test/types.hpp"
 #include "core/tap/wire.hpp"
 
@@ -55,7 +55,7 @@ struct Number {
 };
 TypePtr number_type() { return make_type("Number", 8, 8, {number("value_ratio", 0)}); }
 
-std::vector<LogChannel> two_channels() {
+std::vector<TapChannel> two_channels() {
   return {{"/mixed", mixed_type()}, {"/number", number_type()}, {"/silent", number_type()}, {"/other", number_type()}};
 }
 
@@ -69,7 +69,7 @@ Mixed mixed_at(int i) {
 }
 
 /// `ticks` ticks from -1 s on; one Mixed and, in every fourth, one Number.
-void fly(Log& log, int ticks, double value = 0.5) {
+void fly(TapedLog& log, int ticks, double value = 0.5) {
   for (int i = 0; i < ticks; ++i) {
     const std::int64_t now = i * period_ns - 1'000'000'000;
     const Mixed m = mixed_at(i);
@@ -80,7 +80,7 @@ void fly(Log& log, int ticks, double value = 0.5) {
 }
 
 LogResult write_log(const fs::path& file, int ticks, double value = 0.5, std::size_t ring_bytes = 4u << 20) {
-  Log log({.file = file, .epoch_ns = epoch_ns, .ring_bytes = ring_bytes}, two_channels());
+  TapedLog log({.file = file, .epoch_ns = epoch_ns}, two_channels(), ring_bytes);
   log.attach("mission.yaml", "application/yaml", "mission: test\n");
   log.metadata("run", {{"seed", "7"}, {"io", "sim"}});
   fly(log, ticks, value);
@@ -192,7 +192,7 @@ TEST_CASE("a log never overwrites a file, finished or not, nor one that appears 
   CHECK(contents(folder.path / "a.mcap.part") == "precious");
   CHECK_THROWS_AS(write_log(folder.path / "no_such_folder" / "a.mcap", 1), Error);
 
-  Log log({.file = folder.path / "late.mcap", .epoch_ns = epoch_ns}, two_channels());
+  TapedLog log({.file = folder.path / "late.mcap", .epoch_ns = epoch_ns}, two_channels());
   std::ofstream(folder.path / "late.mcap") << "precious";
   const LogResult result = log.close();
   CHECK(contents(folder.path / "late.mcap") == "precious");
@@ -211,8 +211,8 @@ TEST_CASE("a flight faster than its log loses messages only if it may not wait, 
   Wide wide;
   for (double& x : wide.x) x = static_cast<double>(random());  // hard to compress
   for (const bool wait : {false, true}) {
-    Log log({.file = folder.path / (wait ? "wait.mcap" : "drop.mcap"), .epoch_ns = epoch_ns, .wait = wait, .ring_bytes = 1u << 16},
-            {{"/wide", type}});
+    TapedLog log({.file = folder.path / (wait ? "wait.mcap" : "drop.mcap"), .epoch_ns = epoch_ns, .wait = wait}, {{"/wide", type}},
+                 1u << 16);
     constexpr std::uint64_t n = 5000;
     for (std::uint64_t i = 0; i < n; ++i) log.write(0, static_cast<std::int64_t>(i), 0, bytes_of(wide));
     const LogResult result = log.close();
@@ -239,7 +239,7 @@ TEST_CASE("a run killed in flight leaves a file whose whole chunks, mission incl
   REQUIRE(::pipe(pipe_ends) == 0);
   const pid_t child = ::fork();
   if (child == 0) {
-    Log log({.file = file, .epoch_ns = epoch_ns}, two_channels());
+    TapedLog log({.file = file, .epoch_ns = epoch_ns}, two_channels());
     log.attach("mission.yaml", "application/yaml", "mission: test\n");
     fly(log, 4000);
     // 10 s of flight: all but the last chunk, which is open, will get there
@@ -300,7 +300,7 @@ TEST_CASE("a file cut off at any byte gives the chunks before the cut; a flipped
   }
 }
 
-TEST_CASE("on a full disk the flight goes on, every message not stored is counted, and the file ends well") {
+TEST_CASE("on a full disk the flight goes on, every message not stored is counted, and the file stays one that was cut off") {
   const Folder folder;
   const fs::path file = folder.path / "a.mcap";
   const int status = in_child([&] {
@@ -313,15 +313,92 @@ TEST_CASE("on a full disk the flight goes on, every message not stored is counte
     if (result.sha256 != Sha256::of(contents(result.file))) return 4;
     const McapFile log = read_mcap(result.file);
     if (log.messages.size() != result.messages || !is_flight(log)) return 5;
+    if (log.complete || result.file != file.string() + ".part" || fs::exists(file)) return 6;
     return 0;
   });
   REQUIRE(WIFEXITED(status));
   CHECK(WEXITSTATUS(status) == 0);
 }
 
+TEST_CASE("a log that fails is told of while the flight lasts") {
+  const Folder folder;
+  const int status = in_child([&] {
+    const rlimit limit{20'000, 20'000};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    TapedLog log({.file = folder.path / "a.mcap", .epoch_ns = epoch_ns}, two_channels());
+    if (log.log.failed()) return 1;
+    fly(log, 40'000);
+    for (int i = 0; !log.log.failed(); ++i) {
+      if (i == 10'000) return 2;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return log.log.error() == "cannot write '" + (folder.path / "a.mcap.part").string() + "': File too large" ? 0 : 3;
+  });
+  REQUIRE(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 0);
+}
+
+TEST_CASE("a file of a log that rotates begins with the last sample of each topic, and of each name that a message is given") {
+  const Folder folder;
+  const auto positive = [](std::size_t channel, const std::byte* data) {
+    double value = 0;
+    std::memcpy(&value, data, sizeof value);
+    return channel == 1 && value > 0 ? "positive" : "";
+  };
+  TapedLog log({.file = folder.path / "a.mcap", .epoch_ns = epoch_ns, .rotate_ns = 1'000'000'000, .lasting = positive}, two_channels());
+  const auto write = [&](std::size_t channel, std::int64_t ms, double value) {
+    const Number n{value};
+    log.write(channel, ms * 1'000'000, ms * 1'000'000 - 500, bytes_of(n));
+  };
+  write(1, 0, 3), write(1, 100, 4), write(1, 200, -1), write(3, 300, 8), write(1, 900, -2), write(3, 990, 9), write(1, 1000, -3);
+  const LogResult result = log.close();
+  REQUIRE(result.files == 2);
+  CHECK(result.messages == 7);
+  CHECK(result.dropped == 0);
+  const McapFile second = read_mcap(folder.path / "a-2.mcap");
+  struct Wanted {
+    const char* topic;
+    std::uint32_t sequence;
+    std::int64_t ms;
+    double value;
+  };
+  const Wanted list[] = {{"/number", 1, 100, 4}, {"/number", 3, 900, -2}, {"/other", 1, 990, 9}, {"/number", 4, 1000, -3}};
+  REQUIRE(second.messages.size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const McapFile::Message& m = second.messages[i];
+    Number n{};
+    cdr_decode(*number_type(), m.data.data(), m.data.size(), bytes_of(n));
+    CHECK(second.channels.at(m.channel).topic == list[i].topic);
+    CHECK(m.sequence == list[i].sequence);
+    CHECK(m.log_ns == static_cast<std::uint64_t>(epoch_ns + list[i].ms * 1'000'000));
+    CHECK(m.publish_ns == m.log_ns - 500);
+    CHECK(n.value_ratio == list[i].value);
+  }
+}
+
+TEST_CASE("a file that is being written is known as such until its writer ends") {
+  const Folder folder;
+  const fs::path part = folder.path / "a.mcap.part";
+  {
+    TapedLog log({.file = folder.path / "a.mcap", .epoch_ns = epoch_ns}, two_channels());
+    fly(log, 1000);
+    CHECK(OutFile::grows(part));
+    CHECK_THROWS_WITH_AS(write_log(folder.path / "a.mcap", 1), doctest::Contains("another run is writing it"), Error);
+    log.close();
+    CHECK_FALSE(OutFile::grows(folder.path / "a.mcap"));
+  }
+  const int status = in_child([&] {
+    TapedLog log({.file = folder.path / "b.mcap", .epoch_ns = epoch_ns}, two_channels());
+    return ::kill(::getpid(), SIGKILL);
+  });
+  CHECK(WIFSIGNALED(status));
+  CHECK(fs::exists(folder.path / "b.mcap.part"));
+  CHECK_FALSE(OutFile::grows(folder.path / "b.mcap.part"));
+}
+
 TEST_CASE("a log whose file is removed in flight says so and counts its messages as lost") {
   const Folder folder;
-  Log log({.file = folder.path / "a.mcap", .epoch_ns = epoch_ns}, two_channels());
+  TapedLog log({.file = folder.path / "a.mcap", .epoch_ns = epoch_ns}, two_channels());
   fly(log, 1000);
   fs::remove(folder.path / "a.mcap.part");
   fly(log, 1000);

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "core/tap/log.hpp"
 #include "core/tap/reader.hpp"
+#include "core/tap/test/taped_log.hpp"
 #include "core/tap/test/types.hpp"
 #include "core/tap/wire.hpp"
 
@@ -24,7 +24,7 @@ struct Tail {
   bool last;
 };
 
-std::vector<LogChannel> channels() {
+std::vector<TapChannel> channels() {
   return {
       {"/mixed", mixed_type()},
       {"/empty", make_type("Empty", 1, 1, {})},
@@ -32,7 +32,7 @@ std::vector<LogChannel> channels() {
       {"/mixed_too", mixed_type()}};
 }
 
-void fly(Log& log) {
+void fly(TapedLog& log) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;
   for (int i = 0; i < 5000; ++i) {
@@ -55,11 +55,11 @@ void fly(Log& log) {
 }
 
 /// Read back with our own reader and decoder.
-nlohmann::json found(const McapFile& file, const std::vector<LogChannel>& list) {
+nlohmann::json found(const McapFile& file, const std::vector<TapChannel>& list) {
   nlohmann::json topics;
   for (const McapFile::Message& m : file.messages) {
     const std::string& topic = file.channels.at(m.channel).topic;
-    for (const LogChannel& c : list) {
+    for (const TapChannel& c : list) {
       if (c.topic != topic) continue;
       std::vector<std::byte> value(c.type->size);
       cdr_decode(*c.type, m.data.data(), m.data.size(), value.data());
@@ -76,7 +76,7 @@ nlohmann::json found(const McapFile& file, const std::vector<LogChannel>& list) 
 
 int main(int argc, char** argv) try {
   if (argc != 2) throw std::runtime_error("usage: tap_sample_log FILE");
-  Log log({.file = argv[1], .epoch_ns = 1'767'225'600'000'000'000}, channels());
+  TapedLog log({.file = argv[1], .epoch_ns = 1'767'225'600'000'000'000}, channels());
   log.attach("mission.yaml", "application/yaml", "mission: sample\n");
   log.metadata("run", {{"seed", "7"}});
   fly(log);

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// fulmar log info | recover | export | diff
+#pragma once
+#include <memory>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace fulmar::core {
+
+class LogCommand {
+ public:
+  /// Adds the command `log` to the program's.
+  explicit LogCommand(CLI::App& app);
+  ~LogCommand();
+  bool parsed() const;
+  /// The program's exit code. Throws Error.
+  int run() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Throws Error that says why what is named is no log: there is none, a directory, empty.
+void check_log_file(const std::string& file);
+
+}  // namespace fulmar::core

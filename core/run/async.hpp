@@ -14,6 +14,9 @@
 
 namespace fulmar::core {
 
+/// Tells whoever asked: "" when accepted, else why not. Called by the loop.
+using Reply = std::function<void(const char* refusal)>;
+
 class Async {
  public:
   /// One call on its way: filled in by the loop, worked on by the thread, taken back by the loop.
@@ -22,12 +25,13 @@ class Async {
     Call call = Call::step;
     bool dropped = false;  // its component has stopped flying meanwhile: nobody waits for the result
     std::int64_t due_ns = 0;
+    std::int64_t held_until_ns = 0;  // in a replay: it was late, and taken then
     fulmar_tick tick{};
     std::vector<fulmar_input> inputs, last;
     std::vector<std::vector<std::byte>> input_data, last_data;
     std::vector<std::vector<std::int64_t>> input_stamps;
     std::vector<std::vector<fulmar_answer>> answers;
-    std::vector<std::vector<std::function<void(const std::string&)>>> replies;
+    std::vector<std::vector<Reply>> replies;
     std::vector<fulmar_value> values;
     std::vector<fulmar_output> outputs;
     std::vector<std::vector<std::byte>> output_data;

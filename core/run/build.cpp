@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Set-up of a flight: creates and configures components, connects their ports, opens the log.
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "core/run/flight_impl.hpp"
+#include "core/run/playback.hpp"
+#include "core/tap/live/gate.hpp"
 #include "core/tap/sbom.hpp"
 #include "core/tap/wire.hpp"
 
 namespace fulmar::core {
 namespace {
 
-constexpr std::int64_t default_period_ns = 40'000'000;      // 25 Hz for what a replay computes anew
+constexpr std::int64_t default_period_ns = 100'000'000;     // 10 Hz for what a replay computes anew
 constexpr std::size_t tape_steps = 256;                     // of inputs kept per component, for the rehearsal of a swap
 constexpr std::int64_t default_max_age_ns = 1'000'000'000;  // of what a role publishes
 
@@ -23,6 +26,68 @@ std::uint64_t component_seed(std::uint64_t mission_seed, const std::string& name
   for (const char c : name) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
   h ^= h >> 30, h *= 0xbf58476d1ce4e5b9ull, h ^= h >> 27, h *= 0x94d049bb133111ebull;  // splitmix64's finaliser
   return h ^ (h >> 31);
+}
+
+namespace {
+
+/// "control_slc.so" -> "ControlSlc".
+std::string camel_case(const std::string& file) {
+  std::string name;
+  bool first = true;
+  for (const char c : std::filesystem::path(file).stem().string()) {
+    const bool word = std::isalnum(static_cast<unsigned char>(c)) != 0;
+    if (word) name += first ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
+    first = !word;
+  }
+  return name;
+}
+
+}  // namespace
+
+TypePtr probes_type(const PluginInfo& plugin, const ComponentInfo& component) {
+  Type probes;
+  probes.name = camel_case(plugin.file) + component.name + "Probes";
+  probes.align = 8;
+  for (const Port& port : component.outputs) {
+    if (port.type) continue;
+    Field f;
+    f.name = port.name;
+    f.offset = probes.size, f.stride = 8;
+    f.min = -std::numeric_limits<double>::infinity(), f.max = -f.min;
+    probes.fields.push_back(f);
+    probes.size += 8;
+  }
+  return std::make_shared<const Type>(probes);
+}
+
+const std::vector<TypePtr>& host_types() {
+  static const std::vector<TypePtr> list = {event_type(), ticks_type(), parameter_note_type(), command_note_type()};
+  return list;
+}
+
+TypePtr ticks_type() {
+  static const TypePtr type = [] {
+    Type t;
+    t.name = "Ticks";
+    t.size = sizeof(Ticks);
+    t.align = alignof(Ticks);
+    const auto number = [&](const char* name, fulmar_kind kind, std::size_t offset, std::uint32_t size) {
+      Field f;
+      f.name = name, f.kind = kind, f.offset = static_cast<std::uint32_t>(offset), f.stride = size;
+      t.fields.push_back(f);
+    };
+    const auto list = [&](const char* name, std::size_t count_at, std::size_t items_at) {
+      number(name, FULMAR_U32, count_at, 4);
+      Field& f = t.fields.back();
+      f.shape = FULMAR_LIST, f.count = Ticks::most, f.items = static_cast<std::uint32_t>(items_at - count_at);
+    };
+    number("first", FULMAR_U64, offsetof(Ticks, first), 8);
+    number("time_ns", FULMAR_I64, offsetof(Ticks, time_ns), 8);
+    list("period_ns", offsetof(Ticks, periods), offsetof(Ticks, period_ns));
+    list("hash", offsetof(Ticks, hashes), offsetof(Ticks, hash));
+    return std::make_shared<const Type>(t);
+  }();
+  return type;
 }
 
 TypePtr event_type() {
@@ -64,11 +129,12 @@ Flight::Impl::Impl(const Graph& g, const FlightOptions& o) : graph(g), options(o
   if (!options.drivers_from.empty() && !driven)
     throw Error("--drivers-from " + options.drivers_from.string() + ": the mission " + graph.mission +
                 " has no component with 'run: driver'");
+  imports = std::vector<Import>(graph.dds.imports.size());
   for (const Component& c : graph.components) units.push_back(std::make_unique<Unit>(c, unit_options(c)));
   connect();
   for (const auto& unit : units) unit->configure();
   if (graph.vehicle >= 0) units[static_cast<std::size_t>(graph.vehicle)]->prepare_last_frame(graph.failsafe);
-  if (options.log && graph.record) open_log();
+  open_tap();
   if (graph.arm) request_arming();
   std::size_t most = 0;
   for (const auto& unit : units) most = std::max(most, unit->slots.size());
@@ -86,6 +152,7 @@ UnitOptions Flight::Impl::unit_options(const Component& c) const {
   o.wait_for_async = graph.io == "sim";
   o.tape_steps = options.keep_inputs && !c.info().vehicle && c.run != RunMode::driver ? tape_steps : 0;
   if (c.run == RunMode::driver && !options.drivers_from.empty()) o.samples = recorded_samples(c);
+  if (options.playback) options.playback->stand_in(graph, c, o);
   return o;
 }
 
@@ -185,11 +252,27 @@ void Flight::Impl::find_told() {
   }
 }
 
+/// An input that is fed from outside reads a slot that no component writes.
+void Flight::Impl::import_into(const Unit& unit, Reader& reader) {
+  Import& import = imports[static_cast<std::size_t>(reader.wire->import)];
+  import.reader = &reader;
+  import.slot.port = reader.port;
+  import.slot.size = reader.port->type->size;
+  import.slot.published.resize(import.slot.size);
+  if (reader.port->kind != FULMAR_IN_VALUE) return;
+  reader.slot = &import.slot;
+  reader.plans.push_back(copy_plan(*reader.port->type, *reader.port->type));
+  // Nobody here can tell whether it still comes: a law must not fly on what has fallen silent.
+  reader.guarded = !reader.port->optional && unit.component->role >= 0;
+  if (reader.guarded && reader.max_age_ns == 0) reader.max_age_ns = default_max_age_ns;
+}
+
 void Flight::Impl::wire_reader(Unit& unit, Reader& reader) {
   const Source& from = reader.wire->from;
   reader.plans.clear();
   reader.slot = nullptr, reader.role = nullptr;
   reader.copied = 0;
+  if (reader.wire->import >= 0) return import_into(unit, reader);
   if (from.kind == Source::Kind::none) return;
   const bool value = reader.port->kind == FULMAR_IN_VALUE;
   if (from.kind == Source::Kind::component) {
@@ -231,47 +314,97 @@ std::int64_t Flight::Impl::record_period(const std::string& port, const Slot& sl
   return slot.port->kind == FULMAR_OUT_QUEUE ? 0 : default_period_ns;
 }
 
-void Flight::Impl::add_channels(std::vector<LogChannel>& channels) {
-  auto channel = [&](const std::string& topic, const TypePtr& type) {
-    channels.push_back({topic, type});
-    return static_cast<int>(channels.size() - 1);
+std::vector<TapChannel> Flight::Impl::channels() {
+  std::vector<TapChannel> list;
+  const auto find = [&](const std::string& topic) {
+    return static_cast<std::size_t>(std::find_if(list.begin(), list.end(), [&](const TapChannel& c) { return c.topic == topic; }) -
+                                    list.begin());
   };
-  event_channel = channel("/fulmar/event", event_type());
+  const auto channel = [&](std::string topic, const TypePtr& type) {
+    std::replace(topic.begin(), topic.end(), '.', '/');
+    list.push_back({"/" + topic, type});
+    return list.size() - 1;
+  };
+  // Who fills a role publishes as the role: one topic, whoever flies. Under its own name when its message has other fields than theirs.
+  const auto shared = [&](std::string name, const std::string& own, const TypePtr& type) {
+    std::replace(name.begin(), name.end(), '.', '/');
+    const std::size_t at = find("/" + name);
+    if (at == list.size()) return channel(name, type);
+    return list[at].type->hash == type->hash ? at : channel(own, type);
+  };
+  event_channel = channel("fulmar.event", event_type());
+  ticks_channel = channel("fulmar.ticks", ticks_type());
+  parameter_channel = channel("fulmar.parameter", parameter_note_type());
+  command_channel = channel("fulmar.command", command_note_type());
   for (const auto& unit : units) {
     const Component& c = *unit->component;
+    const bool stored_whole = c.info().vehicle || c.run == RunMode::driver;
     for (std::size_t i = 0; i < unit->slots.size(); ++i) {
       Slot& slot = unit->slots[i];
       if (!slot.port->type) continue;
-      std::string name = topic_name(graph, c, i);
+      const std::string name = topic_name(graph, c, i);
+      slot.channel = shared(name, c.name + "." + slot.port->name, slot.port->type);
+      if (slot.port->kind == FULMAR_OUT_EVENT) list[slot.channel].may_stay_silent = true;
       slot.log_period_ns = record_period(name, slot);
-      std::replace(name.begin(), name.end(), '.', '/');
-      if (slot.log_period_ns >= 0) slot.channel = channel("/" + name, slot.port->type);
+      if (!stored_whole) slot.hash = std::make_unique<MessageHash>(*slot.port->type);
     }
+    for (Reader& reader : unit->readers)
+      if (reader.port->kind == FULMAR_IN_REQUEST || reader.wire->import >= 0)
+        reader.channel = static_cast<int>(channel(c.name + "." + reader.port->name, reader.port->type));
     if (unit->probes.empty()) continue;
-    Type probes;
-    probes.name = unit->info->name + "Probes";
-    probes.size = static_cast<std::uint32_t>(8 * unit->probes.size());
-    probes.align = 8;
-    for (std::size_t k = 0; k < unit->probes.size(); ++k) {
-      Field f;
-      f.name = unit->slots[unit->probes[k]].port->name;
-      f.offset = static_cast<std::uint32_t>(8 * k), f.stride = 8;
-      f.min = -std::numeric_limits<double>::infinity(), f.max = -f.min;
-      probes.fields.push_back(f);
-    }
     unit->probe_period_ns = record_period(c.name + ".probes", unit->slots[unit->probes.front()]);
-    if (unit->probe_period_ns >= 0) unit->probe_channel = channel("/" + c.name + "/probes", std::make_shared<const Type>(probes));
+    unit->probe_channel = channel(c.name + ".probes", probes_type(*c.plugin, c.info()));
+  }
+  return list;
+}
+
+void Flight::Impl::open_tap() {
+  const bool logs = options.log && graph.record;
+  const bool shown = !unpaced() && (graph.live.on || graph.dds.on);  // as fast as possible is too fast for onlookers
+  if (!logs && !shown) return;
+  tap = std::make_unique<Tap>(channels());
+  if (logs) open_log();
+  if (shown) open_to_others();
+}
+
+/// Its threads are begun here, before the loop's thread is bound to a CPU and given its priority, which they must not inherit.
+void Flight::Impl::open_to_others() {
+  if (graph.live.on) {
+    try {
+      live::check_options(graph.live);
+    } catch (const Error& fault) {
+      throw Error(graph.live.where.text() + ": " + fault.what());
+    }
+  }
+  control = std::make_unique<FlightControl>(*this);
+  if (graph.dds.on) dds_bridge = std::make_unique<DdsBridge>(*tap, *control, graph.dds);
+  if (!graph.live.on) return;
+  try {
+    live_server = std::make_unique<LiveServer>(*tap, *control, graph.live);
+  } catch (const Error& fault) {  // another flight on this computer is no reason not to fly
+    if (options.say) options.say(std::string("nobody can watch this flight: ") + fault.what(), true);
   }
 }
 
 void Flight::Impl::open_log() {
-  std::vector<LogChannel> channels;
-  add_channels(channels);
   Log::Options o;
   o.file = options.log_file;
   o.epoch_ns = graph.epoch_ns;
   o.wait = unpaced();
-  log = std::make_unique<Log>(o, channels);
+  o.rotate_bytes = graph.rotate_bytes, o.rotate_ns = graph.rotate_ns;
+  o.lasting = lasting();
+  // What the host says and what comes from outside, always. A role's topic when anybody who fills it is recorded.
+  o.channels.assign(tap->channels().size(), true);
+  const auto each = [&](auto&& set) {
+    for (const auto& unit : units) {
+      for (const Slot& slot : unit->slots)
+        if (slot.port->type) set(slot.channel, slot.log_period_ns);
+      if (!unit->probes.empty()) set(unit->probe_channel, unit->probe_period_ns);
+    }
+  };
+  each([&](std::size_t channel, std::int64_t) { o.channels[channel] = false; });
+  each([&](std::size_t channel, std::int64_t period_ns) { o.channels[channel] = o.channels[channel] || period_ns >= 0; });
+  log = std::make_unique<Log>(o, *tap);
   attach_texts();
 }
 
@@ -314,6 +447,20 @@ std::string plugin_words(const PluginInfo& p) {
   return p.file + " " + p.version + " " + p.sha256 + (p.build_id.empty() ? "" : " build " + p.build_id);
 }
 
+namespace {
+
+/// What the command line changed, so that a replay can do the same.
+std::vector<std::pair<std::string, std::string>> overrides_text(const Overrides& o) {
+  std::vector<std::pair<std::string, std::string>> pairs;
+  if (o.io) pairs.emplace_back("io", *o.io);
+  if (o.seed) pairs.emplace_back("seed", std::to_string(*o.seed));
+  for (const auto& [role, component] : o.roles) pairs.emplace_back("role " + role, component);
+  for (const auto& [param, value] : o.set) pairs.emplace_back("set " + param, value);
+  return pairs;
+}
+
+}  // namespace
+
 void Flight::Impl::attach_texts() {
   for (const auto& [name, text] : graph.attachments) log->attach(name, "application/yaml", text);
   log->attach("parameters.json", "application/json", parameters_text());
@@ -329,11 +476,13 @@ void Flight::Impl::attach_texts() {
   }
   log->attach("sbom.json", "application/json", sbom_text(loaded));
   log->metadata("plugins", plugins);
+  log->metadata("overrides", overrides_text(graph.overrides));
   log->metadata("fulmar", {{"version", FULMAR_VERSION},
                            {"abi", std::to_string(FULMAR_ABI_MAJOR) + "." + std::to_string(FULMAR_ABI_MINOR)},
                            {"toolchain", __VERSION__},
                            {"mission", graph.mission},
                            {"io", graph.io},
+                           {"epoch_ns", std::to_string(graph.epoch_ns)},
                            {"seed", std::to_string(graph.seed)}});
 }
 

@@ -7,9 +7,11 @@
 #include <filesystem>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "core/loader/type.hpp"
+#include "core/tap/reader.hpp"
 #include "core/tap/ring.hpp"
 
 namespace fulmar::core {
@@ -20,6 +22,7 @@ struct SampleSource {
     std::uint32_t output = 0;  // of the component
     std::int64_t valid_at_ns = 0;
     const std::byte* data = nullptr;  // one message, or a double; valid until `release`
+    bool ends = false;                // what follows is published separately
   };
   virtual ~SampleSource() = default;
   /// [tick] The next sample that has arrived by now, or false.
@@ -70,18 +73,28 @@ class RecordedSamples final : public SampleSource {
   /// `topics`: one per output, "" for a probe. Throws Error when the log has none of them, or with other fields.
   RecordedSamples(const std::filesystem::path& log, const ComponentInfo& info, const std::vector<std::string>& topics,
                   std::int64_t epoch_ns);
+  /// The same, and the topic of its probes, "" for none; and when a guard stopped it, with what words.
+  RecordedSamples(const McapFile& log, const ComponentInfo& info, const std::vector<std::string>& topics, const std::string& probes,
+                  std::int64_t epoch_ns, std::vector<std::pair<std::int64_t, std::string>> faults);
   bool next(std::int64_t now_ns, Sample& sample) noexcept override;
   void release() noexcept override {}
-  const char* fault() const noexcept override { return ""; }
+  const char* fault() const noexcept override;
   std::uint64_t lost() const noexcept override { return 0; }
 
  private:
   struct Stored {
-    std::int64_t log_ns, valid_at_ns;
-    std::uint32_t output;
+    std::int64_t log_ns = 0, valid_at_ns = 0;
+    std::uint32_t output = 0;
     std::vector<std::byte> data;
+    bool ends = false;
   };
+  void add(const ComponentInfo& info, std::uint32_t output, const McapFile::Message& message, std::int64_t epoch_ns);
+  void add_probes(const ComponentInfo& info, const McapFile::Message& message, std::int64_t epoch_ns);
+
   std::vector<Stored> samples_;
+  std::vector<std::byte> probes_;  // the values of before
+  std::vector<std::pair<std::int64_t, std::string>> faults_;
+  std::int64_t now_ns_ = 0;
   std::size_t at_ = 0;
 };
 

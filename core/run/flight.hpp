@@ -14,6 +14,8 @@
 #include "core/graph/graph.hpp"
 #include "core/run/resume.hpp"
 #include "core/run/stats.hpp"
+#include "core/tap/dds/bridge.hpp"
+#include "core/tap/live/server.hpp"
 #include "core/tap/log.hpp"
 
 namespace fulmar::core {
@@ -26,6 +28,7 @@ struct FlightOptions {
   std::optional<Resume> resume;                               // where to go on, in place of the first phase
   bool keep_inputs = false;                                   // of every component's last steps, to rehearse a swap on
   std::filesystem::path drivers_from;                         // log whose samples are fed in place of the drivers
+  std::shared_ptr<class Playback> playback;                   // a log in place of the vehicle and the drivers
   std::atomic<int>* interrupt = nullptr;                      // not 0: the flight is asked to end; set back to 0 when it refuses
   std::function<void(const class Flight&)> progress;          // called about every 200 ms of wall time, between ticks
   std::function<void(const std::string&, bool warning)> say;  // one line for the user, as it happens: phases, guards
@@ -54,6 +57,8 @@ struct FlightResult {
   std::vector<GuardEvent> guards;
   std::vector<ComponentStats> components;
   LogResult log;
+  std::optional<LiveStats> live;  // of a flight that could be watched
+  std::optional<DdsStats> dds;
   std::uint64_t loop_allocations = 0;  // of the whole loop, after its first tick and before its last
 };
 
@@ -83,6 +88,10 @@ class Flight {
                std::function<void(const std::string&)> answered = {});
   /// A live change of a base parameter. Throws Error: unknown, not live, out of range.
   void set_parameter(const std::string& component, const std::string& param, const ParamValue& value);
+  /// A sample for an input that `dds.import` names. Throws Error when it is none.
+  void publish(const std::string& component, const std::string& port, const std::byte* message);
+  /// Throws Error for a phase that the mission does not have, and in the failsafe.
+  void enter_phase(const std::string& phase);
   /// Puts another file in a component's place, with its present parameters. Between flights: refused while armed or in the air. What is
   /// wrong with the file, or with how it behaves in a rehearsal, is thrown as Error, and the old one stays as it was.
   void swap(const std::string& component, const std::string& file);
@@ -90,6 +99,10 @@ class Flight {
   const class Tape* tape(const std::string& component) const;
   /// Lets a component fly again that a guard has stopped. A child that has died is started anew, on the ground alone.
   void reset_guards();
+  /// What others may ask of a flight that has `live:` or `dds:` and is paced, from any thread; else nullptr.
+  class Control* control() const;
+  /// Where the flight can be watched: the port that was taken; 0: nowhere.
+  std::uint16_t live_port() const;
 
   struct Impl;
 

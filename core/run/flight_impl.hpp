@@ -7,7 +7,11 @@
 
 #include "core/graph/condition.hpp"
 #include "core/run/flight.hpp"
+#include "core/run/flight_control.hpp"
 #include "core/run/unit.hpp"
+#include "core/tap/dds/bridge.hpp"
+#include "core/tap/live/server.hpp"
+#include "core/tap/tap.hpp"
 
 namespace fulmar::core {
 
@@ -20,6 +24,27 @@ struct Event {
   std::array<char, 207> text{};
 };
 TypePtr event_type();
+
+/// When the ticks were, and what came of them, for a replay: topic /fulmar/ticks, one message for some ticks in a row.
+struct Ticks {
+  static constexpr std::uint32_t most = 40;
+  std::uint64_t first = 0;
+  std::int64_t time_ns = 0;  // of the first
+  std::uint32_t periods = 0;
+  std::array<std::uint32_t, most> period_ns{};  // since the tick before; 0 for the first of the flight
+  std::uint32_t hashes = 0;
+  std::array<std::uint32_t, most> hash{};  // of what components published in it, but for the vehicle and drivers, whose samples are stored
+};
+TypePtr ticks_type();
+
+/// All that the host itself publishes.
+const std::vector<TypePtr>& host_types();
+/// The message of a component's probes: fulmar_msgs/msg/ControlSlcOuterProbes. ROS tells messages apart by name alone.
+TypePtr probes_type(const PluginInfo& plugin, const ComponentInfo& component);
+
+// What the wall clock did to a flight; a replay reads it out of the log.
+inline constexpr const char* over_budget_words = "was over its time budget in 5 steps in a row";
+inline constexpr const char* late_words = "took late a result that was due at ";  // + flight time in ns
 
 /// Under which name an output is logged: its role's, when it is one of the role's.
 std::string topic_name(const Graph& graph, const Component& component, std::size_t output);
@@ -56,11 +81,14 @@ struct Flight::Impl final : SampleReader {
   UnitOptions unit_options(const Component& component) const;
   void connect();  // as the graph says; whatever was connected before is not any more
   void wire_reader(Unit& unit, Reader& reader);
+  void import_into(const Unit& unit, Reader& reader);
   void find_flags();
   void find_told();
   void request_arming();
+  void open_tap();
   void open_log();
-  void add_channels(std::vector<LogChannel>& channels);
+  void open_to_others();
+  std::vector<TapChannel> channels();
   void attach_texts();
   std::unique_ptr<SampleSource> recorded_samples(const Component& component) const;
   std::int64_t record_period(const std::string& port, const Slot& slot) const;  // -1: not recorded
@@ -73,9 +101,17 @@ struct Flight::Impl final : SampleReader {
   bool collect(Unit& unit, int index);
   void step_unit(int index);
   void publish(Unit& unit);
-  void log_slot(Slot& slot);
-  void log_probes(Unit& unit);
+  void put_slot(Slot& slot);
+  void put_probes(Unit& unit);
+  void hash_published(const Unit& unit, std::uint64_t word) noexcept;
+  void note_tick();
+  void put_ticks();
+  void tell_control() noexcept;
   void clock(Unit& unit);
+  void stop_over_budget(Unit& unit);
+  void tell_late(Unit& unit);
+  void tell_overdue();
+  void note_refusals(Unit& unit) noexcept;
   bool controls(const Unit& unit) const noexcept;
   void watch_control() noexcept;
   void pace();
@@ -95,9 +131,17 @@ struct Flight::Impl final : SampleReader {
   void restart(std::size_t index);
   std::string in_use() const;  // why nothing can be swapped now, or ""
 
+  // requests.cpp: what enters between two ticks; these throw, but for the second
+  void apply_parameter(std::size_t component, std::size_t param, ParamValue& value, const ParameterNote& note);
+  enum class Taken : std::uint8_t { yes, full, idle };
+  Taken apply_request(std::size_t component, std::size_t input, const std::byte* message, Reply answered);
+  void apply_import(std::size_t import, const std::byte* message);
+  void apply_phase(int to, const CommandNote& note);
+
   // resume.cpp
   void resume_now();
   void resume_if_armed();
+  std::function<std::string(std::size_t, const std::byte*)> lasting() const;
 
   // phases.cpp
   void begin();
@@ -109,7 +153,7 @@ struct Flight::Impl final : SampleReader {
   void stop(int index);
   void failsafe(const char* why);
   const std::vector<Overlay>* overlay_of(int component) const;
-  void event(EventKind kind, const std::string& component, const std::string& text, bool warning = false);
+  void event(EventKind kind, const std::string& component, const std::string& text, bool warning = false, bool aloud = true);
   void tell(Told& told);
 
   const std::byte* sample(const Source& source) const noexcept override;
@@ -117,7 +161,7 @@ struct Flight::Impl final : SampleReader {
   const std::byte* message_of(const Source& source) const noexcept;
   Unit& unit(const std::string& component);  // throws Error
 
-  bool unpaced() const { return options.speed == 0 && graph.io == "sim"; }
+  bool unpaced() const { return options.playback || (options.speed == 0 && graph.io == "sim"); }
 
   Graph graph;  // its own: a swap changes it
   FlightOptions options;
@@ -126,8 +170,19 @@ struct Flight::Impl final : SampleReader {
   std::vector<Reader*> delayed;        // readers that see the previous tick's sample
   std::vector<const Slot*> hand_over;  // room for what was last applied
   Flight* owner = nullptr;
+  std::unique_ptr<Tap> tap;  // before what hangs on it
   std::unique_ptr<Log> log;
-  int event_channel = -1;
+  std::unique_ptr<FlightControl> control;
+  std::unique_ptr<LiveServer> live_server;  // these two end before what they speak to
+  std::unique_ptr<DdsBridge> dds_bridge;
+  std::size_t event_channel = 0, ticks_channel = 0, parameter_channel = 0, command_channel = 0;
+  struct Import {
+    Slot slot;
+    Reader* reader = nullptr;
+  };
+  std::vector<Import> imports;  // as in graph.dds.imports
+  Ticks ticks;
+  std::uint64_t tick_hash = 0;
 
   std::int64_t now_ns = 0;
   std::uint64_t index = 0;
@@ -148,7 +203,7 @@ struct Flight::Impl final : SampleReader {
   // on hardware, while the aircraft is armed
   std::string conclusion;  // how the flight will have ended; "": open
   Outcome conclusion_outcome = Outcome::failed;
-  bool silence_told = false, giving_up = false;
+  bool silence_told = false, giving_up = false, log_told = false;
   std::int64_t refused_ns = never;  // a signal
 
   FlightResult result;

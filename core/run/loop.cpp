@@ -2,11 +2,14 @@
 // The tick: vehicle read, steps in order, phase conditions, vehicle write. What is published goes to the tap at once.
 #include <time.h>
 
+#include <algorithm>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "core/run/allocation.hpp"
 #include "core/run/flight_impl.hpp"
+#include "core/run/playback.hpp"
 #include "core/run/realtime.hpp"
 
 namespace fulmar::core {
@@ -26,9 +29,10 @@ constexpr int overruns_allowed = 5;  // steps over budget in a row
 /// waited for its thread.
 void Flight::Impl::clock(Unit& unit) {
   const std::int64_t now = wall_clock_ns();
-  const std::int64_t took = now - wall_ns - (log ? log->take_wait_ns() : 0);
+  const std::int64_t took = now - wall_ns - (tap ? tap->take_wait_ns() : 0);
   unit.stats.time.add(took);
   wall_ns = now;
+  if (options.playback && options.playback->ran_over(unit.component->name, now_ns)) return stop_over_budget(unit);
   if (unit.component->budget_ns == 0 || unpaced()) return;  // an unpaced simulation knows no deadline
   if (took <= unit.component->budget_ns) {
     unit.overruns_in_a_row = 0;
@@ -36,26 +40,58 @@ void Flight::Impl::clock(Unit& unit) {
   }
   ++unit.stats.overruns;
   if (++unit.overruns_in_a_row < overruns_allowed || unit.stopped || unit.info->vehicle) return;
-  unit.fail("was over its time budget in 5 steps in a row");
+  stop_over_budget(unit);
+}
+
+void Flight::Impl::stop_over_budget(Unit& unit) {
+  unit.fail(over_budget_words);
   stop(static_cast<int>(unit.component - graph.components.data()));
 }
 
-void Flight::Impl::log_slot(Slot& slot) {
-  if (slot.channel < 0 || now_ns < slot.log_due_ns) return;
-  if (slot.log_period_ns > 0) {
-    const bool late = slot.log_due_ns == std::numeric_limits<std::int64_t>::min() || slot.log_due_ns + slot.log_period_ns <= now_ns;
-    slot.log_due_ns = (late ? now_ns : slot.log_due_ns) + slot.log_period_ns;
-  }
-  log->write(static_cast<std::size_t>(slot.channel), now_ns, slot.valid_at_ns, slot.published.data());
+namespace {
+
+/// Whether a sample is due, of those that come so often; the next is due a period later, without drift.
+bool due(std::int64_t now_ns, std::int64_t period_ns, std::int64_t& due_ns) noexcept {
+  if (period_ns < 0 || now_ns < due_ns) return false;
+  const bool late = due_ns == std::numeric_limits<std::int64_t>::min() || due_ns + period_ns <= now_ns;
+  due_ns = (late ? now_ns : due_ns) + period_ns;
+  return true;
 }
 
-void Flight::Impl::log_probes(Unit& unit) {
-  if (unit.probe_channel < 0 || now_ns < unit.probe_due_ns) return;
-  const bool late = unit.probe_due_ns == std::numeric_limits<std::int64_t>::min() || unit.probe_due_ns + unit.probe_period_ns <= now_ns;
-  unit.probe_due_ns = (late ? now_ns : unit.probe_due_ns) + unit.probe_period_ns;
+}  // namespace
+
+void Flight::Impl::put_slot(Slot& slot) {
+  if (slot.hash)
+    tick_hash = slot.hash->of(mix(mix(tick_hash, slot.channel), static_cast<std::uint64_t>(slot.valid_at_ns)), slot.published.data());
+  const bool for_log = log && due(now_ns, slot.log_period_ns, slot.log_due_ns);
+  if (tap->wanted(slot.channel, now_ns) || for_log) tap->write(slot.channel, now_ns, slot.valid_at_ns, slot.published.data(), for_log);
+}
+
+void Flight::Impl::put_probes(Unit& unit) {
   for (std::size_t k = 0; k < unit.probes.size(); ++k)
     std::memcpy(&unit.probe_values[k], unit.slots[unit.probes[k]].published.data(), sizeof(double));
-  log->write(static_cast<std::size_t>(unit.probe_channel), now_ns, now_ns, reinterpret_cast<const std::byte*>(unit.probe_values.data()));
+  const auto* const values = reinterpret_cast<const std::byte*>(unit.probe_values.data());
+  if (!unit.info->vehicle) tick_hash = hash_bytes(mix(tick_hash, unit.probe_channel), values, 8 * unit.probe_values.size());
+  const bool for_log = log && due(now_ns, unit.probe_period_ns, unit.probe_due_ns);
+  if (tap->wanted(unit.probe_channel, now_ns) || for_log) tap->write(unit.probe_channel, now_ns, now_ns, values, for_log);
+}
+
+/// At the end of a tick.
+void Flight::Impl::note_tick() {
+  if (index > 0 && now_ns - result.last_ns > std::int64_t{UINT32_MAX})
+    put_ticks();  // a period that has no room: the next message tells the time
+  if (ticks.hashes == 0) ticks.first = index, ticks.time_ns = now_ns;
+  const std::int64_t period_ns = index == 0 ? 0 : now_ns - result.last_ns;
+  ticks.period_ns[ticks.periods++] = static_cast<std::uint32_t>(std::clamp<std::int64_t>(period_ns, 0, UINT32_MAX));
+  ticks.hash[ticks.hashes++] = static_cast<std::uint32_t>(tick_hash ^ (tick_hash >> 32));
+  tick_hash = 0;
+  if (ticks.hashes == Ticks::most) put_ticks();
+}
+
+void Flight::Impl::put_ticks() {
+  if (ticks.hashes == 0) return;
+  tap->write(ticks_channel, now_ns, now_ns, reinterpret_cast<const std::byte*>(&ticks), true);
+  ticks.periods = ticks.hashes = 0;
 }
 
 void Flight::Impl::publish(Unit& unit) {
@@ -67,11 +103,11 @@ void Flight::Impl::publish(Unit& unit) {
       for (auto& [reader, plans] : slot.role->queues)
         reader->push(slot.published.data(), slot.valid_at_ns, plans[static_cast<std::size_t>(slot.filler)]);
     }
-    if (log) log_slot(slot);
+    if (tap) put_slot(slot);
     for (Told& told : tells)
       if (told.slot == &slot) tell(told);
   });
-  if (log && !unit.probes.empty()) log_probes(unit);
+  if (tap && !unit.probes.empty()) put_probes(unit);
 }
 
 void Flight::Impl::step_unit(int i) {
@@ -88,6 +124,7 @@ void Flight::Impl::step_unit(int i) {
     }
   }
   const Verdict verdict = unit.step(now_ns, index);
+  if (!unit.refusals.empty()) note_refusals(unit);
   if (verdict.kind == Verdict::Kind::stepped) publish(unit);
   if (verdict.kind == Verdict::Kind::stepped || verdict.kind == Verdict::Kind::bad) clock(unit);
   if (verdict.kind == Verdict::Kind::bad) stop(i);
@@ -108,11 +145,32 @@ void Flight::Impl::watch_control() noexcept {
     if (unit->active && unit->remote() && controls(*unit)) unit->fresh_start = true;
 }
 
+/// A replay takes them as late as the flight did.
+void Flight::Impl::tell_late(Unit& unit) {
+  for (const std::int64_t due_ns : unit.late_due_ns)
+    event(EventKind::notice, unit.component->name, late_words + std::to_string(due_ns) + " ns");
+  unit.late_due_ns.clear();
+}
+
+/// At the end of a flight: a result that has not come is not there in a replay either. It counts as taken after the last tick.
+void Flight::Impl::tell_overdue() {
+  for (const auto& unit : units) {
+    const auto due_ns = unit->overdue_ns(now_ns);
+    if (!due_ns) continue;
+    const std::int64_t last_ns = std::exchange(now_ns, now_ns + 1);
+    event(EventKind::notice, unit->component->name, late_words + std::to_string(*due_ns) + " ns");
+    now_ns = last_ns;
+  }
+}
+
 /// Results and samples that come from other threads. True when the unit can also be stepped.
 bool Flight::Impl::collect(Unit& unit, int i) {
   Verdict verdict = unit.collect(now_ns);
+  if (!unit.late_due_ns.empty()) tell_late(unit);
   for (; verdict.kind == Verdict::Kind::stepped; verdict = unit.collect(now_ns))
     if (unit.active && !unit.stopped) publish(unit);
+  if (!unit.late_due_ns.empty()) tell_late(unit);
+  if (!unit.refusals.empty()) note_refusals(unit);
   if (verdict.kind == Verdict::Kind::bad && unit.active) stop(i);
   wall_ns = wall_clock_ns();
   return unit.component->run == RunMode::async;
@@ -143,8 +201,10 @@ bool Flight::Impl::tick() {
     finish(Outcome::failed, "the vehicle failed: " + std::string(vehicle.problem.text));
     return false;
   }
+  vehicle.refusals.clear();  // not noted: in a replay there is nobody to refuse anything
   clock(vehicle);
   for (Reader* reader : delayed) reader->latch();
+  if (tap) note_tick();
   ++index;
   result.last_ns = now_ns;
   return !over();
@@ -158,13 +218,30 @@ void Flight::Impl::pace() {
   wall_ns = wall_clock_ns();
 }
 
+/// What onlookers are told of the flight as a whole. Of its components now and then.
+void Flight::Impl::tell_control() noexcept {
+  constexpr std::uint64_t every = 16;
+  control->note(phase, now_ns, armed_flag.says(false));
+  if (index % every != 0) return;
+  for (std::size_t i = 0; i < units.size(); ++i) control->note_stopped(i, units[i]->active, units[i]->stopped);
+}
+
 bool Flight::Impl::step() {
   if (ended) return false;
+  const std::uint64_t entering = thread_allocations();
+  const bool counted = !control || index == 0 || control->apply();
+  const std::uint64_t entered = counted ? thread_allocations() - entering : 0;
   if (index == 0 && graph.io == "fcu") stay_on_one_cpu();
   if (index == 0) wall_ns = wall_start_ns = progress_ns = wall_clock_ns();
   const std::uint64_t before = thread_allocations();
-  if (!tick()) return false;
-  if (index > 1) result.loop_allocations += thread_allocations() - before;
+  const bool goes_on = tick();
+  if (control) tell_control();
+  if (log && !log_told && log->failed()) {
+    log_told = true;
+    event(EventKind::notice, "", "the flight goes on without its log: " + log->error(), true);
+  }
+  if (!goes_on) return false;
+  if (index > 1) result.loop_allocations += thread_allocations() - before + entered;
   if (options.speed > 0 && graph.io == "sim") pace();
   if (options.progress && wall_ns - progress_ns > 200'000'000) {
     progress_ns = wall_ns;
@@ -180,6 +257,11 @@ FlightResult Flight::Impl::finish_flight() {
   result.ticks = index;
   if (!result.phases.empty()) result.phases.back().to_ns = now_ns;
   for (const auto& unit : units) result.components.push_back(unit->stats);
+  if (control) control->end();
+  if (live_server) result.live = live_server->stats();
+  if (dds_bridge) result.dds = dds_bridge->stats();
+  tell_overdue();
+  if (tap) put_ticks();
   if (log) result.log = log->close();
   return std::move(result);
 }

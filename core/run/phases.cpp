@@ -28,18 +28,31 @@ void make_printable(char* text) {
 
 }  // namespace
 
-void Flight::Impl::event(EventKind kind, const std::string& component, const std::string& text, bool warning) {
+void Flight::Impl::event(EventKind kind, const std::string& component, const std::string& text, bool warning, bool aloud) {
   Event e;
   e.kind = kind;
   std::snprintf(e.component.data(), e.component.size(), "%s", component.c_str());
   std::snprintf(e.text.data(), e.text.size(), "%s", text.c_str());
-  if (log) log->write(static_cast<std::size_t>(event_channel), now_ns, now_ns, reinterpret_cast<const std::byte*>(&e));
-  if (options.say) {
+  if (tap) tap->write(event_channel, now_ns, now_ns, reinterpret_cast<const std::byte*>(&e), true);
+  if (options.say && aloud) {
     char time[32];
     std::snprintf(time, sizeof time, "%8.2f s  ", 1e-9 * static_cast<double>(now_ns));
     options.say(time + (component.empty() ? "" : component + ": ") + text,
                 warning || kind == EventKind::guard || kind == EventKind::failsafe);
   }
+}
+
+/// Whoever asked has been told; this is for the log.
+void Flight::Impl::note_refusals(Unit& unit) noexcept {
+  for (const Unit::Refusal& r : unit.refusals) {
+    Event e;
+    e.kind = EventKind::request;
+    std::snprintf(e.component.data(), e.component.size(), "%s", unit.component->name.c_str());
+    std::snprintf(e.text.data(), e.text.size(), "%s refused: %s", unit.info->inputs[r.input].name.c_str(), r.reason.data());
+    make_printable(e.text.data());
+    if (tap) tap->write(event_channel, now_ns, now_ns, reinterpret_cast<const std::byte*>(&e), true);
+  }
+  unit.refusals.clear();
 }
 
 /// What a component has to tell people. Its words are its own: any bytes.
@@ -153,7 +166,7 @@ bool Flight::Impl::take_over(int role, int component, const Assignment& assignme
   }
   if (old) {
     old->active = false;
-    if (!old->fresh_start) old->deactivate();
+    old->fresh_start ? old->refuse_requests("does not fly any more") : old->deactivate();
   }
   state.active = component;
   unit.active = true;
@@ -167,6 +180,7 @@ void Flight::Impl::stop(int i) {
   Unit& unit = *units[static_cast<std::size_t>(i)];
   if (unit.stopped) return;
   unit.stopped = true;
+  unit.refuse_requests("was stopped");
   make_printable(unit.problem.text);
   const std::string what = unit.problem.text;
   const std::string name = unit.component->name;
@@ -223,13 +237,18 @@ const std::byte* Flight::Impl::message_of(const Source& source) const noexcept {
 }
 
 Flight::Flight(const Graph& graph, const FlightOptions& options) : impl_(std::make_unique<Impl>(graph, options)) { impl_->owner = this; }
-Flight::~Flight() { last_frame.store(nullptr, std::memory_order_release); }
+Flight::~Flight() {
+  last_frame.store(nullptr, std::memory_order_release);
+  if (impl_->control) impl_->control->end();  // answers go to those who asked, as long as they are there
+}
 FlightResult Flight::run() {
   while (impl_->step()) {
   }
   return impl_->finish_flight();
 }
 bool Flight::step() { return impl_->step(); }
+Control* Flight::control() const { return impl_->control.get(); }
+std::uint16_t Flight::live_port() const { return impl_->live_server ? impl_->live_server->port() : std::uint16_t{0}; }
 FlightResult Flight::finish() { return impl_->finish_flight(); }
 std::int64_t Flight::now_ns() const { return impl_->now_ns; }
 const std::string& Flight::phase() const { return impl_->graph.phases[static_cast<std::size_t>(impl_->phase)].name; }

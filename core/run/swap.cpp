@@ -2,6 +2,7 @@
 #include "core/run/swap.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include "core/graph/params.hpp"
 #include "core/loader/probe.hpp"
@@ -46,6 +47,10 @@ std::string structural_difference(const Graph& now, const Graph& next) {
   if (differs(now.phases, next.phases, [](const Phase& a, const Phase& b) { return a.name == b.name; })) return "other phases";
   if (now.order != next.order) return "another order of steps";
   if (now.tick_ns != next.tick_ns || now.io != next.io) return "another rate or io";
+  const auto same_import = [](const auto& a, const auto& b) {
+    return a.component == b.component && a.input == b.input && a.topic == b.topic;
+  };
+  if (differs(now.dds.imports, next.dds.imports, same_import)) return "other imports";
   return "";
 }
 
@@ -60,6 +65,18 @@ bool same_inputs(const ComponentInfo& a, const ComponentInfo& b) {
   return std::equal(a.inputs.begin(), a.inputs.end(), b.inputs.begin(), b.inputs.end(), [](const Port& x, const Port& y) {
     return x.name == y.name && x.kind == y.kind && x.capacity == y.capacity && x.type->hash == y.type->hash;
   });
+}
+
+/// What comes in from outside, in order: requests and imported inputs.
+bool same_entrances(const Component& a, const Component& b) {
+  const auto entrances = [](const Component& c) {
+    std::vector<std::tuple<std::string, std::uint32_t, std::uint64_t, int>> list;
+    for (std::size_t i = 0; i < c.info().inputs.size(); ++i)
+      if (const Port& port = c.info().inputs[i]; port.kind == FULMAR_IN_REQUEST || c.wires[i].import >= 0)
+        list.emplace_back(port.name, port.capacity, port.type->hash, c.wires[i].import);
+    return list;
+  };
+  return entrances(a) == entrances(b);
 }
 
 void rehearse(const Component& component, std::int64_t tick_ns, std::uint64_t seed, const Tape* tape) {
@@ -132,6 +149,9 @@ void Flight::Impl::replace(std::size_t at, const std::string& file) {
       throw Error(name + ": its outputs are not those of " + old.component->plugin->file +
                   ", and the log of this flight has room for those alone");
   }
+  if (!same_entrances(*old.component, component))
+    throw Error(name + ": its requests and imported inputs are not those of " + old.component->plugin->file +
+                ", and the log of this flight has room for those alone");
   carry_parameters(was, old.base, is, component.params);
   const std::uint64_t seed = component_seed(graph.seed, name);
   std::unique_ptr<Tape> now;  // nobody has stepped it yet: what it would see now
@@ -151,6 +171,7 @@ void Flight::Impl::restart(std::size_t i) {
   fresh->configure();
   fresh->active = old.active;
   fresh->keep_log_settings(old);
+  old.refuse_requests("was started anew");
   units[i] = std::move(fresh);
   connect();
   if (const std::vector<Overlay>* overlay = overlay_of(static_cast<int>(i)); overlay) units[i]->retune(overlay);
@@ -160,7 +181,7 @@ void Flight::Impl::restart(std::size_t i) {
 void Flight::Impl::install(std::size_t i, Graph&& next) {
   Component before = graph.components[i];
   const bool active = units[i]->active;
-  const Unit& old = *units[i];
+  Unit& old = *units[i];
   std::swap(graph.components[i], next.components[i]);
   std::unique_ptr<Unit> fresh;
   try {
@@ -177,12 +198,18 @@ void Flight::Impl::install(std::size_t i, Graph&& next) {
   graph.roles = std::move(next.roles);
   graph.done = std::move(next.done), graph.failed = std::move(next.failed);
   graph.overrides = std::move(next.overrides);
+  old.refuse_requests("was swapped");
   units[i] = std::move(fresh);
   connect();
   if (const std::vector<Overlay>* overlay = overlay_of(static_cast<int>(i)); overlay) units[i]->retune(overlay);
   const std::string words = "swapped: " + version_words(*before.plugin) + " -> " + version_words(*graph.components[i].plugin);
   event(EventKind::swap, before.name, words);
   const PluginInfo& plugin = *graph.components[i].plugin;
+  CommandNote note;
+  note.kind = CommandNote::Kind::swap;
+  std::snprintf(note.component.data(), note.component.size(), "%s", before.name.c_str());
+  std::snprintf(note.text.data(), note.text.size(), "%s", plugin_words(plugin).c_str());
+  if (tap) tap->write(command_channel, now_ns, now_ns, reinterpret_cast<const std::byte*>(&note), true);
   if (log) log->metadata("swap", {{"component", before.name}, {"plugin", plugin_words(plugin)}});
   next = Graph{};
   if (before.library && before.library.use_count() == 1) Library::unload(std::move(before.library));

@@ -21,8 +21,14 @@ void Reader::push(const std::byte* message, std::int64_t valid_at_ns, const Copy
   ++count;
 }
 
-void answer(std::function<void(const std::string&)>& reply, const fulmar_answer& a) {
-  reply(a.verdict == FULMAR_ACCEPTED ? "" : a.verdict == FULMAR_REFUSED ? a.reason : "was not answered");
+/// Tells whoever asked what came of a request.
+void Unit::answer(std::size_t input, Reply& reply, const fulmar_answer& a) noexcept {
+  const char* const why = a.verdict == FULMAR_ACCEPTED ? "" : a.verdict == FULMAR_REFUSED ? a.reason : "was not answered";
+  if (*why && refusals.size() < refusals.capacity()) {
+    refusals.emplace_back().input = static_cast<std::uint32_t>(input);
+    std::snprintf(refusals.back().reason.data(), refusals.back().reason.size(), "%s", why);
+  }
+  if (reply) reply(why);
   reply = nullptr;
 }
 
@@ -156,10 +162,8 @@ void Unit::consume() noexcept {
       r.seen = inputs_[i].sequence;
       continue;
     }
-    for (std::uint32_t k = 0; k < r.count; ++k) {
-      if (!r.replies[k]) continue;
-      answer(r.replies[k], r.answers[k]);
-    }
+    for (std::uint32_t k = 0; k < r.count; ++k)
+      if (r.port->kind == FULMAR_IN_REQUEST) answer(i, r.replies[k], r.answers[k]);
     r.count = r.lost = 0;
   }
 }
@@ -334,7 +338,19 @@ void Unit::forget_queues() noexcept {
     if (r.port->kind == FULMAR_IN_QUEUE) r.count = r.lost = 0;
 }
 
+void Unit::refuse_requests(const char* why) noexcept {
+  for (Reader& r : readers) {
+    if (r.port->kind != FULMAR_IN_REQUEST) continue;
+    for (std::uint32_t k = 0; k < r.count; ++k) {
+      if (r.replies[k]) r.replies[k](why);
+      r.replies[k] = nullptr;
+    }
+    r.count = r.lost = 0;
+  }
+}
+
 void Unit::deactivate() noexcept {
+  refuse_requests("does not fly any more");
   if (async_) async_->drop();
   if (async_ || started_ || !instance_) return;  // another thread is in it
   const Inside inside(component->name, "deactivate");

@@ -2,12 +2,15 @@
 // A component in flight: its instance, its inputs as views of other components' outputs, its outputs as double buffers.
 // A step writes into `staging`; what passes the guards is published, so a bad step leaves the last good output in place.
 #pragma once
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <cstring>
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +20,7 @@
 #include "core/run/driver.hpp"
 #include "core/run/stats.hpp"
 #include "core/run/tape.hpp"
+#include "core/tap/hash.hpp"
 
 namespace fulmar::core {
 
@@ -36,9 +40,10 @@ struct Slot {
   std::vector<std::pair<Reader*, const CopyPlan*>> queues;  // inputs that take every sample
   struct RoleSlot* role = nullptr;                          // the role output that this one provides
   int filler = -1;                                          // of that role
-  // log
-  int channel = -1;
-  std::int64_t log_period_ns = 0, log_due_ns = std::numeric_limits<std::int64_t>::min();
+  // tap
+  std::size_t channel = 0;
+  std::unique_ptr<MessageHash> hash;  // null: what it publishes is stored whole
+  std::int64_t log_period_ns = -1, log_due_ns = std::numeric_limits<std::int64_t>::min();
 };
 
 /// One output of a role: the slot of whoever published last while active.
@@ -74,7 +79,7 @@ struct Reader {
   std::vector<std::byte> items;
   std::vector<std::int64_t> stamps;
   std::vector<fulmar_answer> answers;
-  std::vector<std::function<void(const std::string&)>> replies;
+  std::vector<Reply> replies;
   std::uint32_t count = 0, lost = 0;
 
   const Slot* source() const { return slot ? slot : role ? role->current : nullptr; }
@@ -82,11 +87,9 @@ struct Reader {
   std::uint64_t sequence() const { return delayed ? copied : slot ? slot->sequence : role ? role->sequence : 0; }
   void latch() noexcept;  // delayed wires, at the end of a tick
   bool delayed = false;
+  int channel = -1;  // of the tap: what comes from outside is stored
   void push(const std::byte* message, std::int64_t valid_at_ns, const CopyPlan& plan) noexcept;
 };
-
-/// Tells whoever asked what came of a request.
-void answer(std::function<void(const std::string&)>& reply, const fulmar_answer& a);
 
 /// What a step came to.
 struct Verdict {
@@ -119,6 +122,9 @@ struct UnitOptions {
   bool wait_for_async = true;             // simulation: a result that is late is waited for; else counted
   std::size_t tape_steps = 0;             // inputs to keep; 0: none
   std::unique_ptr<SampleSource> samples;  // in place of a driver
+  class Playback* playback = nullptr;     // in place of the vehicle; outlives the unit
+  /// In a replay: due time of an asynchronous result -> when it was taken, for those that were late.
+  std::map<std::int64_t, std::int64_t> late;
 };
 
 class Unit {
@@ -151,6 +157,8 @@ class Unit {
   bool dead() noexcept { return child_ && !child_->check(); }
   /// Whether its results come by `collect`.
   bool remote() const noexcept { return async_ || samples_; }
+  /// When a result was due that has not come; nothing when none is late.
+  std::optional<std::int64_t> overdue_ns(std::int64_t now_ns) noexcept;
   /// [setup] Encodes the frame that the device is to get when the host dies, if the vehicle can.
   void prepare_last_frame(const std::vector<std::vector<std::byte>>& failsafe);
   Verdict read(std::int64_t& now_ns, std::uint64_t index) noexcept;  // the vehicle
@@ -159,6 +167,8 @@ class Unit {
   bool activate(std::int64_t now_ns, std::uint64_t index, const std::vector<const Slot*>& last) noexcept;
   void deactivate() noexcept;
   void forget_queues() noexcept;  // what came in while another one flew is not news
+  /// Requests that it will not answer: whoever asked is told why.
+  void refuse_requests(const char* why) noexcept;
 
   /// [tick] Publishes what the last good step wrote; `publish(slot, message, valid_at)` for each sample.
   template <class F>
@@ -180,10 +190,16 @@ class Unit {
   bool silent = false;                                          // vehicle: failsafe is over, inputs are withheld
   const std::vector<std::vector<std::byte>>* forced = nullptr;  // vehicle: failsafe values in place of its inputs
   int overruns_in_a_row = 0;
-  int probe_channel = -1;
+  std::vector<std::int64_t> late_due_ns;  // asynchronous results that the last `collect` took after a tick too late; room for some
+  struct Refusal {
+    std::uint32_t input = 0;
+    std::array<char, sizeof(fulmar_answer::reason)> reason{};
+  };
+  std::vector<Refusal> refusals;  // of requests, in the last step, for the log; room for some
+  std::size_t probe_channel = 0;
   std::vector<std::uint32_t> probes;  // outputs that are probes
   std::vector<double> probe_values;
-  std::int64_t probe_due_ns = std::numeric_limits<std::int64_t>::min(), probe_period_ns = 0;
+  std::int64_t probe_due_ns = std::numeric_limits<std::int64_t>::min(), probe_period_ns = -1;
 
  private:
   void create(const UnitOptions& options);
@@ -196,6 +212,7 @@ class Unit {
   enum class Inputs : std::uint8_t { good, missing, stale };
   Inputs prepare_inputs(std::int64_t now_ns) noexcept;
   void tell_missing() noexcept;
+  void answer(std::size_t input, Reply& reply, const fulmar_answer& a) noexcept;
   void prepare_outputs(std::int64_t now_ns) noexcept;
   bool outputs_good() noexcept;
   void consume() noexcept;
@@ -213,6 +230,8 @@ class Unit {
   std::unique_ptr<SampleSource> samples_;
   std::unique_ptr<Async> async_;
   bool wait_for_async_ = true;
+  std::map<std::int64_t, std::int64_t> late_;
+  std::int64_t collected_ns_ = std::numeric_limits<std::int64_t>::min(), before_ns_ = collected_ns_;  // the last two ticks of `collect`
   std::int64_t tick_ns_;
   bool started_ = false;  // the driver's thread
   std::int64_t heap_growth_ = 0;

@@ -2,6 +2,7 @@
 // A unit whose work is done in another thread: asynchronous steps, samples of drivers.
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "core/run/unit.hpp"
 
@@ -13,6 +14,7 @@ Async::Job* Unit::job(Async::Job::Call call, std::int64_t due_ns) noexcept {
   if (!j) return nullptr;
   j->call = call;
   j->due_ns = due_ns;
+  j->held_until_ns = due_ns;
   return j;
 }
 
@@ -23,6 +25,7 @@ Verdict Unit::submit(std::int64_t now_ns, const fulmar_tick& t) noexcept {
     ++stats.misses;
     return {Verdict::Kind::waiting};
   }
+  if (const auto late = late_.find(j->due_ns); late != late_.end()) j->held_until_ns = late->second;
   j->tick = t;
   Async::copy_inputs(inputs_, *info, *j);
   for (std::size_t i = 0; i < readers.size(); ++i) {
@@ -40,8 +43,16 @@ Verdict Unit::submit(std::int64_t now_ns, const fulmar_tick& t) noexcept {
 
 Verdict Unit::collect(std::int64_t now_ns) noexcept { return async_ ? collect_async(now_ns) : collect_samples(now_ns); }
 
+std::optional<std::int64_t> Unit::overdue_ns(std::int64_t now_ns) noexcept {
+  const Async::Job* const j = async_ ? async_->oldest() : nullptr;
+  return j && j->due_ns <= now_ns ? std::optional(j->due_ns) : std::nullopt;
+}
+
 Verdict Unit::collect_async(std::int64_t now_ns) noexcept {
-  for (Async::Job* j = async_->oldest(); j && j->due_ns <= now_ns; j = async_->oldest()) {
+  // at the first call of a tick: when the one before was
+  const std::int64_t before_ns = now_ns == collected_ns_ ? before_ns_ : std::exchange(collected_ns_, now_ns);
+  before_ns_ = before_ns;
+  for (Async::Job* j = async_->oldest(); j && j->held_until_ns <= now_ns; j = async_->oldest()) {
     if (!async_->done()) {
       if (!wait_for_async_) {
         if (!j->missed) ++stats.misses;
@@ -52,12 +63,11 @@ Verdict Unit::collect_async(std::int64_t now_ns) noexcept {
       async_->wait();
     }
     const bool step = j->call == Async::Job::Call::step;
+    if (step && j->due_ns <= before_ns && late_due_ns.size() < late_due_ns.capacity()) late_due_ns.push_back(j->due_ns);
     heap_growth_ += j->heap_growth;
     for (std::size_t i = 0; step && i < j->replies.size(); ++i)
-      for (std::uint32_t k = 0; k < (info->inputs[i].kind == FULMAR_IN_VALUE ? 0 : j->inputs[i].count); ++k) {
-        if (!j->replies[i][k]) continue;
-        answer(j->replies[i][k], j->answers[i][k]);
-      }
+      for (std::uint32_t k = 0; k < (info->inputs[i].kind == FULMAR_IN_REQUEST ? j->inputs[i].count : 0); ++k)
+        answer(i, j->replies[i][k], j->answers[i][k]);
     if (step) ++stats.steps, stats.time.add(j->took_ns);
     const bool wanted = !j->dropped && (step || j->status >= FULMAR_FAILED);
     const std::uint32_t status = j->status;
@@ -100,7 +110,7 @@ Verdict Unit::collect_samples(std::int64_t now_ns) noexcept {
     s.stamps[out.count++] = sample.valid_at_ns;
     samples_->release();
     any = true;
-    if (out.count >= s.port->capacity) break;  // the rest in the same tick, by the next call
+    if (out.count >= s.port->capacity || sample.ends) break;  // the rest in the same tick, by the next call
   }
   stats.misses = samples_->lost();
   if (any) {

@@ -2,6 +2,7 @@
 // A unit before and between flights: rooms for its ports, its instance in this process or in a child, its parameters.
 #include <cstdio>
 
+#include "core/run/playback.hpp"
 #include "core/run/realtime.hpp"
 #include "core/run/unit.hpp"
 
@@ -19,6 +20,7 @@ Unit::Unit(const Component& c, UnitOptions options)
       values_(info->params.size()),
       samples_(std::move(options.samples)),
       wait_for_async_(options.wait_for_async),
+      late_(std::move(options.late)),
       tick_ns_(options.tick_ns) {
   stats.name = c.name;
   active = c.role < 0;
@@ -46,6 +48,7 @@ Unit::Unit(const Component& c, UnitOptions options)
     r.stamps.resize(r.port->capacity);
     r.answers.resize(r.port->capacity);
     r.replies.resize(r.port->capacity);
+    if (r.port->kind == FULMAR_IN_REQUEST) refusals.reserve(32);
   }
   if (options.tape_steps > 0) tape = std::make_unique<Tape>(*info, options.tape_steps);
   if (!samples_) create(options);
@@ -53,6 +56,11 @@ Unit::Unit(const Component& c, UnitOptions options)
 
 void Unit::create(const UnitOptions& options) {
   const Component& c = *component;
+  if (options.playback) {
+    functions_ = &Playback::functions();
+    instance_ = options.playback;
+    return;
+  }
   if (c.run == RunMode::process) {
     IsolatedOptions o;
     o.name = c.name, o.copy = c.plugin->copy, o.script = c.plugin->script, o.file = c.plugin->file, o.path = c.plugin->path;
@@ -74,6 +82,7 @@ void Unit::create(const UnitOptions& options) {
     const std::int64_t period = c.period_ns > 0 ? c.period_ns : tick_ns_;
     const auto depth = static_cast<std::size_t>(c.latency_ns / period) + 4;  // steps on their way, and room for retune and activate
     async_ = std::make_unique<Async>(*functions_, instance_, *info, depth);
+    late_due_ns.reserve(depth);
   }
   if (c.run == RunMode::driver) samples_ = std::make_unique<Driver>(*functions_, instance_, *info);
 }
@@ -109,7 +118,10 @@ void Unit::keep_log_settings(const Unit& from) {
     if (k < 0) continue;
     const Slot& was = from.slots[static_cast<std::size_t>(k)];
     slots[i].channel = was.channel, slots[i].log_period_ns = was.log_period_ns, slots[i].log_due_ns = was.log_due_ns;
+    if (was.hash) slots[i].hash = std::make_unique<MessageHash>(*slots[i].port->type);
   }
+  for (Reader& reader : readers)
+    if (const int k = from.info->input(reader.port->name); k >= 0) reader.channel = from.readers[static_cast<std::size_t>(k)].channel;
   probe_channel = from.probe_channel, probe_period_ns = from.probe_period_ns, probe_due_ns = from.probe_due_ns;
 }
 

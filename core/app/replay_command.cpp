@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/app/replay_command.hpp"
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "core/app/compare.hpp"
+#include "core/app/log_command.hpp"
+#include "core/app/report.hpp"
+#include "core/run/replay.hpp"
+
+namespace fulmar::core {
+namespace {
+
+using nlohmann::json;
+
+std::atomic<bool> stop{false};
+void on_signal(int) { stop.store(true); }
+
+double seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
+
+/// A flight of the log, and the figures that come of it.
+struct Replayed {
+  Graph graph;
+  ReplayResult result;
+  json figures;
+};
+
+Replayed fly(const Recording& recording, const Overrides& changes, const std::string& out) {
+  const auto say = [](const std::string& text, bool warning) { spdlog::log(warning ? spdlog::level::warn : spdlog::level::info, text); };
+  Replayed r;
+  r.graph = recording.mission(changes, say);
+  ReplayOptions options;
+  options.out = out;
+  options.stop = &stop;
+  auto [flight, result] = replay(recording, r.graph, options);
+  r.figures = result_json(r.graph, *flight, result.flight);
+  if (out.empty()) r.figures["log"] = nullptr;
+  r.result = std::move(result);
+  return r;
+}
+
+json difference_json(const ReplayResult& r) {
+  json j;
+  j["first_tick"] = r.first_tick ? json{{"index", *r.first_tick}, {"time_s", seconds(r.first_tick_ns)}} : json(nullptr);
+  j["first_difference"] = nullptr;
+  if (r.first)
+    j["first_difference"] = {{"topic", r.first->topic},
+                             {"field", r.first->field},
+                             {"time_s", seconds(r.first->at_ns)},
+                             {"was", r.first->was},
+                             {"is", r.first->is}};
+  j["messages"] = r.messages;
+  j["differing_messages"] = r.differing_messages;
+  j["differing_bytes"] = r.differing_bytes;
+  return j;
+}
+
+json result_of(const Recording& recording, const Replayed& again) {
+  const ReplayResult& r = again.result;
+  json j = difference_json(r);
+  j["mission"] = again.graph.mission;
+  j["log"] = recording.path().string();
+  j["equal"] = r.equal();
+  j["same_file"] = r.same_file;
+  j["cut_off"] = r.cut_off;
+  j["ticks"] = r.ticks;
+  j["recorded_ticks"] = r.recorded_ticks;
+  j["flight_time_s"] = seconds(r.last_ns - r.first_ns);
+  j["wall_time_s"] = r.flight.wall_s;
+  j["notes"] = r.notes;
+  j["not_reproducible"] = {"wall_time_s"};
+  return j;
+}
+
+void print_difference(const ReplayResult& r) {
+  if (r.ticks != r.recorded_ticks)
+    std::printf("the replay has %llu ticks, the log %llu\n", static_cast<unsigned long long>(r.ticks),
+                static_cast<unsigned long long>(r.recorded_ticks));
+  if (r.first_tick)
+    std::printf("the first tick with other outputs is %llu, at %.4f s\n", static_cast<unsigned long long>(*r.first_tick),
+                seconds(r.first_tick_ns));
+  if (r.first)
+    std::printf("the first difference in the log: %s at %.4f s%s%s: %s, now %s\n", r.first->topic.c_str(), seconds(r.first->at_ns),
+                r.first->field.empty() ? "" : ", ", r.first->field.c_str(), r.first->was.c_str(), r.first->is.c_str());
+  std::printf("%llu of %llu messages differ, %llu bytes\n", static_cast<unsigned long long>(r.differing_messages),
+              static_cast<unsigned long long>(r.messages), static_cast<unsigned long long>(r.differing_bytes));
+}
+
+void print(const Replayed& again) {
+  const ReplayResult& r = again.result;
+  const double flown_s = seconds(r.last_ns - r.first_ns);
+  std::printf("%s: %llu ticks, %.1f s of flight in %.2f s: %.0f times real time\n", again.graph.mission.c_str(),
+              static_cast<unsigned long long>(r.ticks), flown_s, r.flight.wall_s, r.flight.wall_s > 0 ? flown_s / r.flight.wall_s : 0);
+  if (r.cut_off) std::printf("the log was cut off: compared up to its last whole tick, at %.4f s\n", seconds(r.last_ns));
+  for (const std::string& note : r.notes) std::printf("%s\n", note.c_str());
+  if (r.equal())
+    std::printf("equal: %llu messages, 0 differing bytes%s\n", static_cast<unsigned long long>(r.messages),
+                r.same_file ? "; both logs are the same file" : "");
+  else
+    print_difference(r);
+}
+
+/// What a change cannot reach is refused: the samples of the vehicle and of drivers come out of the log.
+void refuse_idle(const Graph& graph, const Overrides& changes) {
+  const auto check = [&](const std::string& words, const std::string& component) {
+    for (std::size_t i = 0; i < graph.components.size(); ++i) {
+      const Component& c = graph.components[i];
+      const bool vehicle = static_cast<int>(i) == graph.vehicle;
+      if (c.name == component && (vehicle || c.run == RunMode::driver))
+        throw Error(words + " would change nothing: " + component + " is " + (vehicle ? "the vehicle" : "a driver") +
+                    ", and in a replay its samples come out of the log. Fly the mission anew with fulmar run");
+    }
+  };
+  for (const auto& [name, value] : changes.set) check("--set " + name, name.substr(0, name.find('.')));
+  for (const auto& [component, file] : changes.with) check("--with " + component, component);
+}
+
+/// The log as it was and as it would have been, side by side.
+int experiment(const Recording& recording, const ReplayWords& words, json& out) {
+  refuse_idle(recording.mission(words.changes, {}), words.changes);
+  const Replayed was = fly(recording, {}, "");
+  const Replayed is = fly(recording, words.changes, words.out);
+  out = result_of(recording, is);
+  out["before"] = was.figures, out["after"] = is.figures, out["before_equals_log"] = was.result.equal();
+  if (!was.result.equal()) spdlog::warn("without the change, too, the replay differs from the log");
+  if (words.json) return 0;
+  print(is);
+  std::printf("%s", comparison(was.figures, is.figures).c_str());
+  return 0;
+}
+
+int run(const ReplayWords& words, json& out) {
+  check_log_file(words.log);
+  const Recording recording(words.log);
+  if (!words.changes.with.empty() || !words.changes.set.empty()) return experiment(recording, words, out);
+  const Replayed again = fly(recording, {}, words.out);
+  out = result_of(recording, again);
+  if (!words.json) print(again);
+  return again.result.equal() ? 0 : 1;
+}
+
+}  // namespace
+
+int replay_command(const ReplayWords& words) {
+  spdlog::set_default_logger(spdlog::stderr_color_mt("fulmar"));
+  spdlog::set_pattern("%^%v%$");
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
+  const int own = words.json ? dup(STDOUT_FILENO) : -1;  // what components print goes to standard error
+  if (own >= 0) dup2(STDERR_FILENO, STDOUT_FILENO);
+  json result;
+  int code = 1;
+  try {
+    code = run(words, result);
+  } catch (const Error&) {
+    if (!stop) throw;
+    spdlog::warn("interrupted");
+    return 130;
+  }
+  std::fflush(stdout);
+  if (own < 0) return code;
+  dup2(own, STDOUT_FILENO);
+  close(own);
+  std::printf("%s\n", result.dump(2, ' ', false, json::error_handler_t::replace).c_str());
+  return code;
+}
+
+}  // namespace fulmar::core

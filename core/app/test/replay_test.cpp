@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Flights are flown again from their logs: equal bytes, or the first tick and field that differ.
+#include "core/run/replay.hpp"
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "core/run/allocation.hpp"
+#include "core/run/test/lab.hpp"
+#include "core/tap/reader.hpp"
+#include "core/tap/recover.hpp"
+
+namespace {
+
+const std::string hourglass = FULMAR_SOURCE_DIR "/configs/missions/hourglass.yaml";
+
+std::pair<int, std::string> run_fulmar(const std::string& words) {
+  FILE* pipe = popen((std::string(FULMAR_BIN_DIR "/fulmar ") + words + " 2>/dev/null").c_str(), "r");
+  REQUIRE(pipe != nullptr);
+  std::string out;
+  char buffer[4096];
+  for (std::size_t n = 0; (n = fread(buffer, 1, sizeof buffer, pipe)) > 0;) out.append(buffer, n);
+  const int status = pclose(pipe);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, out};
+}
+
+std::string contents(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+fs::path fresh(const std::string& name) {
+  const fs::path file = folder().path / name;
+  fs::remove(file);
+  fs::remove(file.string() + ".part");
+  return file;
+}
+
+FlightOptions logged(const fs::path& file, double duration_s) {
+  FlightOptions o = options(duration_s);
+  o.log = true;
+  o.log_file = file;
+  return o;
+}
+
+ReplayResult replay_of(const fs::path& log, const Overrides& changes = {}, const fs::path& out = {}) {
+  const Recording recording(log);
+  const Graph graph = recording.mission(changes, {});
+  ReplayOptions o;
+  o.changes = changes;
+  o.out = out;
+  return replay(recording, graph, o).second;
+}
+
+std::string variant(const std::string& name) { return std::string(FULMAR_TEST_PLUGIN_DIR) + "/lab" + name + ".so"; }
+
+/// Both from end to end.
+void check_equal(const ReplayResult& r, const fs::path& log, const fs::path& again) {
+  CHECK(r.notes == std::vector<std::string>{});
+  if (r.first_tick) MESSAGE("first tick " << *r.first_tick);
+  if (r.first)
+    MESSAGE(r.first->topic << " " << r.first->at_ns << " ns, " << r.first->field << ": " << r.first->was << ", now " << r.first->is);
+  CHECK(r.equal());
+  CHECK(r.differing_bytes == 0);
+  CHECK(contents(log) == contents(again));
+  CHECK(fs::file_size(log) > 10'000);
+}
+
+}  // namespace
+
+TEST_CASE("a flight is flown again from its log alone, to the same file") {
+  const fs::path log = fresh("hourglass.mcap"), again = fresh("hourglass-again.mcap"), mission = folder().path / "mine.yaml";
+  std::ofstream(mission) << "mission: mine\nextends: " << FULMAR_SOURCE_DIR "/configs/missions/common.yaml\nairframe: "
+                         << FULMAR_SOURCE_DIR
+      "/configs/airframes/anaconda.yaml\norigin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\n"
+                         << "components: {sim: {params: {sensors: rosflight, turbulence: light}}, plan: {params: {plan: "
+                         << FULMAR_SOURCE_DIR "/configs/plans/hourglass.yaml}}}\n";
+  CHECK(run_fulmar("run " + mission.string() + " --duration 10 --seed 3 --set \"slc.roll_limit=30 deg\" --log " + log.string()).first == 0);
+  fs::remove(mission);
+  const auto [code, out] = run_fulmar("replay " + log.string() + " --json --log " + again.string());
+  CHECK(code == 0);
+  const nlohmann::json j = nlohmann::json::parse(out);
+  CHECK(j.at("equal") == true);
+  CHECK(j.at("differing_bytes") == 0);
+  CHECK(j.at("ticks") == 400 * 15);  // from -5 s to 10 s
+  CHECK(j.at("mission") == "mine");
+  CHECK(j.at("notes").empty());
+  CHECK(contents(log) == contents(again));
+  CHECK(contents(log).size() > 100'000);
+}
+
+TEST_CASE("another parameter is an experiment: the figures of both are told, and where they part") {
+  const fs::path log = fresh("experiment.mcap");
+  CHECK(run_fulmar("run " + hourglass + " --duration 20 --log " + log.string()).first == 0);
+  const auto [code, out] = run_fulmar("replay " + log.string() + " --json --set attitude.roll_kp=0.1");
+  CHECK(code == 0);
+  const nlohmann::json j = nlohmann::json::parse(out);
+  CHECK(j.at("before_equals_log") == true);
+  CHECK(j.at("equal") == false);
+  CHECK(j.at("first_difference").at("topic") == "/inner/actuators");
+  CHECK(j.at("after").at("estimation_rmse") == j.at("before").at("estimation_rmse"));  // it has nothing to do with the law
+}
+
+TEST_CASE("an experiment with what comes out of the log is refused, as it would change nothing") {
+  const fs::path log = fresh("vehicle.mcap"), said = folder().path / "said";
+  CHECK(run_fulmar("run " + hourglass + " --duration 1 --log " + log.string()).first == 0);
+  const auto refused = [&](const std::string& words, const fs::path& file) {
+    const int status = std::system((FULMAR_BIN_DIR "/fulmar replay " + file.string() + " " + words + " 2>" + said.string()).c_str());
+    CHECK(WEXITSTATUS(status) == 1);
+    return contents(said);
+  };
+  const std::string why = "sim is the vehicle, and in a replay its samples come out of the log. Fly the mission anew with fulmar run\n";
+  CHECK(refused("--set sim.turbulence=none", log) == "--set sim.turbulence would change nothing: " + why);
+  CHECK(refused("--with sim=" FULMAR_BIN_DIR "/../lib/fulmar/sim_aero.so", log) == "--with sim would change nothing: " + why);
+  const fs::path driven = fresh("driven.mcap");
+  Flight flight(mission("  fcu: {fills: vehicle, use: lab/Cart}\n  one: {fills: law, use: lab/Law, run: tick, params: {id: 1, u: 0.1}}\n"
+                        "  filter: {fills: sense, use: lab/Filter, run: tick}\n"
+                        "  watch: {use: lab/Watch, run: tick, in: {burst: gauge.reading}}\n"
+                        "  gauge: {use: lab/Ticker, run: driver, params: {samples: 30}}\nio: fcu\n"s +
+                        one_phase),
+                logged(driven, 1e6));
+  for (int i = 0; i < 100; ++i) flight.step();
+  flight.finish();
+  CHECK(refused("--set gauge.samples=3", driven).starts_with("--set gauge.samples would change nothing: gauge is a driver, and"));
+}
+
+TEST_CASE("what was asked of a flight is asked again in the same tick: parameters, requests, a swap, the reset of a guard") {
+  const fs::path log = fresh("asked.mcap"), again = fresh("asked-again.mcap");
+  const Graph g = mission(with_fallback);
+  Flight flight(g, logged(log, 1));
+  const auto steps = [&](int n) {
+    for (int i = 0; i < n; ++i) flight.step();
+  };
+  ParamValue v;
+  steps(100);
+  flight.swap("one", variant("_better"));
+  steps(100);
+  v.number[0] = 0.1234567890123;
+  flight.set_parameter("one", "u", v);
+  steps(300);
+  const double to_m = 7.25;
+  flight.request("watch", "ask", reinterpret_cast<const std::byte*>(&to_m));
+  steps(7);
+  flight.reset_guards();
+  while (flight.step()) {
+  }
+  const FlightResult r = flight.finish();
+  CHECK(r.outcome == Outcome::flown);
+  check_equal(replay_of(log, {}, again), log, again);
+}
+
+TEST_CASE("a law that does something else is found at its first tick and field") {
+  const fs::path log = fresh("changed.mcap");
+  Flight flight(mission(one_phase), logged(log, 0.5));
+  flight.run();
+  Overrides changes;
+  changes.with = {{"one", variant("_better")}};  // it halves what it is told
+  const ReplayResult r = replay_of(log, changes);
+  CHECK(!r.equal());
+  CHECK(r.first_tick == 0u);
+  CHECK(r.first_tick_ns == -1'000'000'000);
+  REQUIRE(r.first.has_value());
+  CHECK(r.first->topic == "/law/command");
+  CHECK(r.first->field == "u_frac");
+  CHECK(r.first->was == "0.1");
+  CHECK(r.first->is == "0.05");
+  CHECK(r.first->at_ns == -1'000'000'000);
+}
+
+TEST_CASE("a log is data: a plugin that lies where one flew runs only when it is that one, or is asked for") {
+  const fs::path log = fresh("own.mcap"), own = folder().path / "own.so", empty = folder().path / "empty-store";
+  const auto put = [&](const std::string& name) { fs::copy_file(variant(name), own, fs::copy_options::overwrite_existing); };
+  put("_better");
+  Flight(mission("  one: {fills: law, use: " + own.string() + "/Law, params: {id: 1, u: 0.1}}\n" + std::string(one_phase)),
+         logged(log, 0.5))
+      .run();
+  CHECK(replay_of(log).equal());
+  put("_throwing");
+  CHECK(replay_of(log).equal());  // the copy that was kept
+  fs::create_directory(empty);
+  fs::permissions(empty, fs::perms::owner_all);
+  const char* const before = std::getenv("FULMAR_STORE");
+  const std::string store = before ? before : "";
+  setenv("FULMAR_STORE", empty.c_str(), 1);
+  CHECK_THROWS_WITH_AS(replay_of(log), doctest::Contains("own.so is not what flew"), Error);
+  Overrides changes;
+  changes.with = {{"one", own.string()}};
+  CHECK_THROWS_AS(replay_of(log, changes), Error);  // it is loaded, and has no law today
+  before ? setenv("FULMAR_STORE", store.c_str(), 1) : unsetenv("FULMAR_STORE");
+}
+
+TEST_CASE("a log that was cut off is flown again as far as it is whole, as is what was recovered of it") {
+  const fs::path log = fresh("whole.mcap"), cut = fresh("cut.mcap"), recovered = fresh("recovered.mcap");
+  Flight flight(mission(with_fallback), logged(log, 3));
+  flight.run();
+  const std::string bytes = contents(log);
+  std::ofstream(cut, std::ios::binary) << bytes.substr(0, bytes.size() * 3 / 5);
+  recover_mcap(cut, recovered);
+  for (const fs::path& file : {cut, recovered}) {
+    const ReplayResult r = replay_of(file);
+    CHECK(r.equal());
+    CHECK(!r.same_file);
+    CHECK(r.cut_off == (file == cut));
+    CHECK(r.ticks > 400);
+    CHECK(r.ticks < 1601);
+    CHECK(r.messages > 1000);
+    CHECK(r.differing_messages == 0);
+  }
+}
+
+TEST_CASE("late work in other threads is as late again: drivers, asynchronous steps, on hardware") {
+  const fs::path log = fresh("threads.mcap"), again = fresh("threads-again.mcap");
+  const Graph g = mission(
+      "  fcu: {fills: vehicle, use: lab/Cart}\n  one: {fills: law, use: lab/Law, run: tick, params: {id: 1, u: 0.1}}\n"
+      "  filter: {fills: sense, use: lab/Filter, run: tick}\n"
+      "  watch: {use: lab/Watch, run: tick, in: {burst: gauge.reading}}\n"
+      "  gauge: {use: lab/Ticker, run: driver, params: {samples: 30, fails: true}}\n"
+      "  think: {use: lab/Thinker, run: async, latency: 5 ms, rate: 100 Hz, in: {signal: sense.signal}, params: {takes: 1 ms}}\n"
+      "io: fcu\nrecord: {ports: [\"*\"]}\n"s +
+      one_phase);
+  FlightOptions o = logged(log, 1e6);
+  Flight flight(g, o);
+  const auto begin = std::chrono::steady_clock::now();
+  for (int i = 0; i < 400; ++i) {
+    flight.step();
+    std::this_thread::sleep_until(begin + (i + 1) * std::chrono::microseconds(250));  // ten times too fast for the thinker
+  }
+  // no result is overdue when the log ends: of those it cannot tell
+  for (int i = 0; i < 40; ++i) {
+    flight.step();
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  const FlightResult r = flight.finish();
+  CHECK(r.log.dropped == 0);
+  for (const ComponentStats& c : r.components)
+    if (c.name == "think") CHECK(c.misses > 0);
+  check_equal(replay_of(log, {}, again), log, again);
+}
+
+TEST_CASE("what is no log of a flight is refused in a sentence") {
+  const auto refused = [](const fs::path& file) {
+    try {
+      replay_of(file);
+    } catch (const Error& fault) {
+      return std::string(fault.what());
+    }
+    return std::string();
+  };
+  const fs::path text = folder().path / "text.mcap";
+  std::ofstream(text) << "not a log";
+  CHECK(refused(text).find("is no MCAP file") != std::string::npos);
+  CHECK(refused(folder().path / "nowhere.mcap").find("cannot read") != std::string::npos);
+  const fs::path log = fresh("short.mcap"), cut = fresh("stump.mcap");
+  Flight flight(mission(one_phase), logged(log, 0.1));
+  flight.run();
+  std::ofstream(cut, std::ios::binary) << contents(log).substr(0, 40);
+  CHECK(refused(cut).find("no mission is attached to it") != std::string::npos);
+}
+
+TEST_CASE("ten minutes of flight are replayed with 0 differing bytes") {
+  const fs::path log = fresh("long.mcap"), again = fresh("long-again.mcap"), mission = folder().path / "long.yaml";
+  std::ofstream(mission) << "extends: " << fs::absolute(FULMAR_SOURCE_DIR "/configs/missions/common.yaml").string()
+                         << "\nairframe: " << FULMAR_SOURCE_DIR "/configs/airframes/anaconda.yaml\n"
+                         << "components: {sim: {params: {turbulence: light}}, plan: {params: {plan: "
+                         << FULMAR_SOURCE_DIR "/configs/plans/hourglass.yaml}}}\n";
+  const int seconds = counts_allocations() ? 600 : 30;  // the sanitizers make it slow
+  CHECK(run_fulmar("run " + mission.string() + " --duration " + std::to_string(seconds) + " --log " + log.string()).first == 0);
+  const auto [code, out] = run_fulmar("replay " + log.string() + " --json --log " + again.string());
+  CHECK(code == 0);
+  const nlohmann::json j = nlohmann::json::parse(out);
+  CHECK(j.at("differing_bytes") == 0);
+  CHECK(j.at("ticks") == 400 * (5 + seconds));
+  CHECK(contents(log) == contents(again));
+}
+
+TEST_CASE("samples from outside are stored as their input's, with their tick, and come again") {
+  const fs::path log = fresh("imported.mcap"), again = fresh("imported-again.mcap");
+  const Graph g = mission("  ear: {use: lab/OldReader}\n" + std::string(one_phase) + "dds: {import: {ear.signal: /lab/signal}}\n");
+  Flight flight(g, logged(log, 1));
+  for (int n = 0; flight.step(); ++n) {
+    const double tick_s = n * 0.25;
+    if (n % 7 == 3) flight.publish("ear", "signal", reinterpret_cast<const std::byte*>(&tick_s));
+  }
+  flight.finish();
+  const McapFile file = read_mcap(log);
+  const auto count = std::count_if(file.messages.begin(), file.messages.end(),
+                                   [&](const McapFile::Message& m) { return m.channel == file.channel("/ear/signal"); });
+  CHECK(count == 114);  // of 800 ticks
+  check_equal(replay_of(log, {}, again), log, again);
+}

@@ -74,6 +74,11 @@ void resolve_wires(Draft& draft);
 void check_fed(Draft& draft);
 void order_steps(Draft& draft);
 
+// tap_sections.cpp
+void mark_imports(Draft& draft);
+/// `ports`: the names under which outputs leave the flight.
+void resolve_dds(Draft& draft, const std::vector<std::string>& ports);
+
 // phases.cpp
 void assign_roles(Draft& draft);
 /// Conditions, figures and transitions. Before the graph is built: checks them and marks the components that they name.

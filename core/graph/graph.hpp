@@ -39,6 +39,7 @@ struct Wire {
   std::int64_t max_age_ns = 0;  // 0: any age
   bool delayed = false;         // carries the value of the previous tick: breaks a cycle
   Where where;
+  int import = -1;  // into DdsOptions::imports: fed from outside; `from` is none
 };
 
 /// How a component is run; design: tick in the loop's thread, process in a child, async with a latency, driver in a thread of its own.
@@ -125,6 +126,43 @@ struct RecordRule {
   std::int64_t period_ns = 0;      // 0: every sample
 };
 
+/// `live:` of the mission.
+struct LiveOptions {
+  bool on = false;
+  std::string host = "127.0.0.1";
+  std::uint16_t port = 8765;  // 0: any that is free
+  std::string token;          // that a client has to show; needed for hosts other than loopback
+  Where where;
+};
+
+/// `dds:` of the mission.
+struct DdsOptions {
+  struct Export {
+    std::string port;            // "nav.state"
+    std::string topic;           // "nav/state", behind the namespace; "/tf" stands as it is
+    std::int64_t period_ns = 0;  // 0: every sample
+    bool best_effort = false;
+    Where where;
+  };
+  struct Import {
+    int component = -1, input = -1;
+    std::string topic;
+    Where where;
+  };
+  bool on = false;
+  int domain = 0;
+  std::string name_space;               // "uav1": before every topic and service
+  std::vector<std::string> interfaces;  // addresses to use; default loopback alone
+  Where interfaces_where;
+  std::vector<std::string> peers;       // addresses to look for others at; default the interfaces
+  std::vector<Export> exports;
+  std::vector<Import> imports;
+  bool services = true, parameters = true;  // requests and parameters as ROS 2 services
+  bool humble = false;                      // ROS 2 Humble's form of the node's description, which differs from that of all since
+};
+
+class StoredFiles;
+
 /// What the command line changes.
 struct Overrides {
   std::optional<std::string> io;
@@ -132,6 +170,8 @@ struct Overrides {
   std::vector<std::pair<std::string, std::string>> roles;  // role=component
   std::vector<std::pair<std::string, std::string>> set;    // component.param=value (YAML text)
   std::vector<std::pair<std::string, std::string>> with;   // component=plugin file, in place of the file that its `use` names
+  std::shared_ptr<const StoredFiles> files;                // in place of the disk: of a mission that has flown
+  std::vector<std::string> flown;                          // SHA-256 of the plugins that have flown in it
 };
 
 struct Graph {
@@ -161,6 +201,10 @@ struct Graph {
   std::string record_file;  // "" : logs/<mission>-<UTC>.mcap
   bool record = true;
   std::vector<RecordRule> record_rules;
+  std::uint64_t rotate_bytes = 0;  // of the log: a new file then; 0: never
+  std::int64_t rotate_ns = 0;
+  LiveOptions live;
+  DdsOptions dds;
   /// Files whose contents cross into the flight, as read: mission, what it extends, airframe, plans. Name without folders -> text.
   std::vector<std::pair<std::string, std::string>> attachments;
   /// Where all of this came from, so that it can be read again.
@@ -175,6 +219,9 @@ Graph load_mission(const std::string& file, const Overrides& overrides = {});
 /// The same with components from elsewhere than plugin files.
 struct Catalogue;
 Graph load_mission(const std::string& file, const Overrides& overrides, Catalogue& catalogue);
+
+/// "127.0.0.1:8765" or "off", of the command line. Throws Error.
+LiveOptions parse_live(const std::string& listen);
 
 /// Whether a port's name, "nav.state", matches a pattern of `record.ports`, "nav.*".
 bool port_matches(const std::string& text, const std::string& pattern, std::size_t t = 0, std::size_t p = 0);

@@ -19,15 +19,8 @@ const std::vector<std::string> mission_keys = {"mission",  "extends", "io",     
                                                "tell",     "resume",  "live",       "dds"};
 const std::vector<std::string> component_keys = {"fills", "use",     "in",     "params",  "rate",   "only",
                                                  "run",   "latency", "budget", "max_age", "memory", "hang"};
-const std::vector<std::pair<std::string, std::string>> absent_sections = {{"live", "live view"}, {"dds", "DDS"}};
 
 constexpr const char* default_epoch = "2026-01-01T00:00Z";
-
-bool is_name(const std::string& text) {
-  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
-  return !text.empty() && letter(text[0]) && std::all_of(text.begin(), text.end(), [&](char c) { return letter(c) || digit(c); });
-}
 
 class Reader {
  public:
@@ -46,8 +39,8 @@ class Reader {
     each(keys, "components", [&](const Node::Entry& entry) { component(entry); });
     each(keys, "phases", [&](const Node::Entry& entry) { phase(entry); });
     record(keys);
-    for (const auto& [key, words] : absent_sections)
-      if (keys.has(key)) report_.add(keys.where(key), key + ": this build has no " + words + "; remove the section");
+    read_live(keys, m_, report_);
+    read_dds(keys, m_, report_);
   }
 
  private:
@@ -149,11 +142,7 @@ class Reader {
   std::optional<PortName> port_name(const Node& node, const std::string& path) {
     const auto text = scalar_text(node, path, "a port such as nav.state", report_);
     if (!text) return std::nullopt;
-    const auto dot = text->find('.');
-    if (dot != std::string::npos && is_name(text->substr(0, dot)) && is_name(text->substr(dot + 1)))
-      return PortName{text->substr(0, dot), text->substr(dot + 1)};
-    report_.add(node.where(), path + ": expected a port such as nav.state, found '" + *text + "'");
-    return std::nullopt;
+    return parse_port_name(*text, node.where(), path, report_);
   }
 
   std::vector<WireText> wires(const Node* map, const std::string& path) {
@@ -251,19 +240,7 @@ class Reader {
     if (c.run == RunMode::async && c.latency_ns == 0)
       report_.add(keys.has("latency") ? keys.where("latency") : keys.where("run"),
                   path + ": 'run: async' needs a latency above 0, as in latency: 200 ms: what it computes is seen that much later");
-    if (const auto text = keys.text("memory")) c.memory_bytes = bytes(*text, keys.where("memory"), path + ".memory");
-  }
-
-  /// "64 MB" -> 64e6. Reports a fault and returns 0.
-  std::uint64_t bytes(const std::string& text, const Where& where, const std::string& path) {
-    double number = 0;
-    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
-    std::string unit(end, text.data() + text.size());
-    unit.erase(0, unit.find_first_not_of(' ') == std::string::npos ? 0 : unit.find_first_not_of(' '));
-    for (const auto& [name, factor] : {std::pair{"kB", 1e3}, std::pair{"MB", 1e6}, std::pair{"GB", 1e9}})
-      if (code == std::errc{} && unit == name && number > 0 && number <= 1e6) return static_cast<std::uint64_t>(number * factor);
-    report_.add(where, path + ": '" + text + "' is no amount of memory; write it with kB, MB or GB, as in 64 MB");
-    return 0;
+    if (const auto text = keys.text("memory")) c.memory_bytes = parse_bytes(*text, keys.where("memory"), path + ".memory", report_);
   }
 
   void phase(const Node::Entry& entry) {
@@ -329,11 +306,12 @@ class Reader {
     if (!node) return;
     if (node->is(Node::Kind::scalar)) {
       m_.record = node->text != "off";
-      if (m_.record) report_.add(node->where(), "record: expected 'off' or a map {file, ports, rate}, found " + found_words(*node));
+      if (m_.record) report_.add(node->where(), "record: expected 'off' or a map {file, ports, rate, rotate}, found " + found_words(*node));
       return;
     }
-    const Keys keys(*node, "record", {"file", "ports", "rate"}, report_);
+    const Keys keys(*node, "record", {"file", "ports", "rate", "rotate"}, report_);
     m_.record_file = keys.text("file").value_or("");
+    if (keys.has("rotate")) rotate(keys);
     const auto rate = keys.positive("rate", "Hz");
     const std::int64_t period = rate ? std::llround(1e9 / *rate) : 0;
     const Node* ports = keys.get("ports");
@@ -359,6 +337,22 @@ class Reader {
     }
   }
 
+  /// "100 MB" or "10 min". A smaller file than the least would hold little but what each file begins with.
+  void rotate(const Keys& keys) {
+    constexpr std::uint64_t least_bytes = 1'000'000;
+    constexpr std::int64_t least_ns = 1'000'000'000;
+    const std::string text = keys.text("rotate").value_or("");
+    if (text.empty()) return;
+    if (text.ends_with('B'))
+      m_.rotate_bytes = parse_bytes(text, keys.where("rotate"), "record.rotate", report_);
+    else if (text.find_first_not_of("0123456789.") == std::string::npos)
+      report_.add(keys.where("rotate"), "record.rotate: " + text + " has no unit; give an amount or a time, as in 100 MB or 10 min");
+    else
+      m_.rotate_ns = keys.duration_ns("rotate").value_or(0);
+    if ((m_.rotate_bytes > 0 && m_.rotate_bytes < least_bytes) || (m_.rotate_ns > 0 && m_.rotate_ns < least_ns))
+      report_.add(keys.where("rotate"), "record.rotate: " + text + " is too little for a file; give at least 1 MB, or 1 s");
+  }
+
   void add_rule(const std::string& pattern, std::int64_t period_ns, const Where& where) {
     m_.record_rules.push_back({{pattern}, period_ns});
     m_.record_where.push_back(where);
@@ -380,14 +374,14 @@ Node laid_over(const Node& base, const Node& top) {
 }
 
 /// The mission's tree, laid over that of the file it extends.
-Node load_tree(MissionText& mission, Report& report) {
+Node load_tree(MissionText& mission, const StoredFiles* stored, Report& report) {
   Node root = parse_yaml(mission.file, report);
   const Node* extends = root.find("extends");
   if (!extends) return root;
   const auto name = scalar_text(*extends, "extends", "the name of a file", report);
   if (!name) return root;
   try {
-    const FilePtr base_file = read_source(mission.file->path.parent_path() / *name, *name);
+    const FilePtr base_file = read_source(mission.file->path.parent_path() / *name, *name, stored);
     mission.files.push_back(base_file);
     const Node base = parse_yaml(base_file, report);
     if (const Node* again = base.find("extends")) report.add(again->where(), "extends: a file that is extended cannot extend another one");
@@ -401,6 +395,31 @@ Node load_tree(MissionText& mission, Report& report) {
 }
 
 }  // namespace
+
+bool is_name(const std::string& text) {
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  return !text.empty() && letter(text[0]) && std::all_of(text.begin(), text.end(), [&](char c) { return letter(c) || digit(c); });
+}
+
+std::optional<PortName> parse_port_name(const std::string& text, const Where& where, const std::string& path, Report& report) {
+  const auto dot = text.find('.');
+  if (dot != std::string::npos && is_name(text.substr(0, dot)) && is_name(text.substr(dot + 1)))
+    return PortName{text.substr(0, dot), text.substr(dot + 1)};
+  report.add(where, path + ": expected a port such as nav.state, found '" + text + "'");
+  return std::nullopt;
+}
+
+std::uint64_t parse_bytes(const std::string& text, const Where& where, const std::string& path, Report& report) {
+  double number = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
+  std::string unit(end, text.data() + text.size());
+  unit.erase(0, unit.find_first_not_of(' ') == std::string::npos ? 0 : unit.find_first_not_of(' '));
+  for (const auto& [name, factor] : {std::pair{"kB", 1e3}, std::pair{"MB", 1e6}, std::pair{"GB", 1e9}})
+    if (code == std::errc{} && unit == name && number > 0 && number <= 1e6) return static_cast<std::uint64_t>(number * factor);
+  report.add(where, path + ": '" + text + "' is no amount of memory; write it with kB, MB or GB, as in 64 MB");
+  return 0;
+}
 
 const RoleText* MissionText::role(const std::string& wanted) const {
   for (const RoleText& role : roles)
@@ -444,9 +463,10 @@ std::int64_t parse_utc_ns(const std::string& text) {
 MissionText parse_mission(const std::string& file, const Overrides& overrides, Report& report) {
   MissionText mission;
   const fs::path path = file;
-  mission.file = std::make_shared<SourceFile>(SourceFile{path, path.filename().string(), read_source(path, file)->text});
+  mission.file =
+      std::make_shared<SourceFile>(SourceFile{path, path.filename().string(), read_source(path, file, overrides.files.get())->text});
   mission.files.push_back(mission.file);
-  const Node root = load_tree(mission, report);
+  const Node root = load_tree(mission, overrides.files.get(), report);
   Reader(mission, report).read(root);
   if (!root.is(Node::Kind::map)) report.throw_if_any();  // there is nothing to say of the rest
   if (overrides.io) {

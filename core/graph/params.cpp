@@ -24,7 +24,7 @@ FilePtr FileStore::read(const Node& node, const std::string& path) {
   for (const FilePtr& known : files_)
     if (known->path.lexically_normal() == file) return known;
   try {
-    const FilePtr found = read_source(file, node.text);
+    const FilePtr found = read_source(file, node.text, stored_);
     files_.push_back(found);
     return found;
   } catch (const Error& fault) {
@@ -217,7 +217,7 @@ std::string value_text(const ParamInfo& param, const ParamValue& value) {
     case FULMAR_STRING:
       return value.text;
     case FULMAR_VECTOR:
-      return "[" + number_text(value.number[0]) + ", " + number_text(value.number[1]) + ", " + number_text(value.number[2]) + "]" + unit;
+      return "[" + number_text(value.number[0]) + ", " + number_text(value.number[1]) + ", " + number_text(value.number[2]) + "]";
     case FULMAR_RECORD:
     case FULMAR_BLOB:
       return value.integer ? value.text : "not given";

@@ -14,7 +14,7 @@ namespace fulmar::core {
 /// Files that a mission names: each is read and parsed once, and its contents are kept for the log.
 class FileStore {
  public:
-  explicit FileStore(Report& report) : report_(report) {}
+  explicit FileStore(Report& report, const StoredFiles* stored = nullptr) : report_(report), stored_(stored) {}
   void keep(const FilePtr& file);
   /// The file that `node` names, relative to the folder of the file that `node` stands in. Null and a fault when there is none.
   FilePtr read(const Node& node, const std::string& path);
@@ -25,6 +25,7 @@ class FileStore {
 
  private:
   Report& report_;
+  const StoredFiles* stored_;  // in place of the disk
   std::vector<FilePtr> files_;
   std::map<std::string, Node> trees_;  // by path
 };

@@ -144,13 +144,13 @@ class UnitParser {
  public:
   explicit UnitParser(std::string_view text) : text_(text) {}
 
-  std::optional<Unit> parse() {
+  std::optional<PhysicalUnit> parse() {
     auto unit = expression(0);
     return unit && at_ == text_.size() ? unit : std::nullopt;
   }
 
  private:
-  std::optional<Unit> expression(int depth) {
+  std::optional<PhysicalUnit> expression(int depth) {
     auto unit = term(depth);
     while (unit && at_ < text_.size() && text_[at_] != ')') {
       const bool divide = separator();
@@ -175,7 +175,7 @@ class UnitParser {
     return divide;
   }
 
-  std::optional<Unit> term(int depth) {
+  std::optional<PhysicalUnit> term(int depth) {
     if (depth > 4) return std::nullopt;
     if (take("(")) {
       auto unit = expression(depth + 1);
@@ -185,7 +185,7 @@ class UnitParser {
     return factor();
   }
 
-  std::optional<Unit> factor() {
+  std::optional<PhysicalUnit> factor() {
     std::size_t end = at_;
     while (end < text_.size() && std::string_view(" /*()^").find(text_[end]) == std::string_view::npos &&
            !text_.substr(end).starts_with("\u00b7"))
@@ -208,13 +208,13 @@ class UnitParser {
       if (at_ >= text_.size() || text_[at_] < '1' || text_[at_] > '9') return std::nullopt;
       exponent = text_[at_++] - '0';
     }
-    Unit unit{symbol->dimension, symbol->factor, symbol->offset};
+    PhysicalUnit unit{symbol->dimension, symbol->factor, symbol->offset};
     for (int i = 1; i < exponent; ++i) unit = combine(unit, {symbol->dimension, symbol->factor, 0}, 1);
     return unit;
   }
 
-  static Unit combine(const Unit& a, const Unit& b, int sign) {
-    Unit unit = a;
+  static PhysicalUnit combine(const PhysicalUnit& a, const PhysicalUnit& b, int sign) {
+    PhysicalUnit unit = a;
     for (std::size_t i = 0; i < unit.dimension.size(); ++i)
       unit.dimension[i] = static_cast<std::int8_t>(a.dimension[i] + sign * b.dimension[i]);
     unit.factor = sign > 0 ? a.factor * b.factor : a.factor / b.factor;
@@ -235,7 +235,7 @@ class UnitParser {
   std::size_t at_ = 0;
 };
 
-const Named* named(const Unit& unit) {
+const Named* named(const PhysicalUnit& unit) {
   for (const Named& entry : names)
     if (entry.dimension == unit.dimension) return &entry;
   return nullptr;
@@ -266,15 +266,15 @@ std::string short_number(double value) {
 }
 
 /// Is a bare number clear enough where a unit is required? Plain numbers, and latitude and longitude.
-bool needs_no_unit(const Unit& unit, const std::string& text) { return unit.dimension == none || text == "deg"; }
+bool needs_no_unit(const PhysicalUnit& unit, const std::string& text) { return unit.dimension == none || text == "deg"; }
 
-std::string how_to_write(const Unit& unit) {
+std::string how_to_write(const PhysicalUnit& unit) {
   const Named* entry = named(unit);
   return entry ? std::string(entry->name) + " is written with " + entry->examples : "";
 }
 
 /// The unit that was written, as SI; "g" is the gram where a mass is wanted.
-Unit written_unit(const Quantity& quantity, const std::string& unit, const std::optional<Unit>& wanted) {
+PhysicalUnit written_unit(const Quantity& quantity, const std::string& unit, const std::optional<PhysicalUnit>& wanted) {
   const auto written = quantity.unit == "g" && wanted && wanted->dimension == mass ? parse_unit("gram") : parse_unit(quantity.unit);
   if (written) return *written;
   const std::string hint = wanted ? how_to_write(*wanted) : "write " + unit;
@@ -283,13 +283,13 @@ Unit written_unit(const Quantity& quantity, const std::string& unit, const std::
 
 }  // namespace
 
-std::optional<Unit> parse_unit(std::string_view text) {
+std::optional<PhysicalUnit> parse_unit(std::string_view text) {
   text = trimmed(text);
-  if (text.empty() || text == "-") return Unit{};
+  if (text.empty() || text == "-") return PhysicalUnit{};
   return UnitParser(text).parse();
 }
 
-std::string dimension_name(const Unit& unit) {
+std::string dimension_name(const PhysicalUnit& unit) {
   const Named* entry = named(unit);
   return entry ? entry->name : "";
 }
@@ -326,7 +326,7 @@ double convert(const Quantity& quantity, const std::string& unit, UnitRule rule)
     return quantity.number;
   }
   if (quantity.unit == unit) return quantity.number;
-  const Unit written = written_unit(quantity, unit, wanted);
+  const PhysicalUnit written = written_unit(quantity, unit, wanted);
   if (!wanted) throw Error(quantity.text + ": the unit here is " + unit);
   if (written.dimension != wanted->dimension) {
     const std::string is = dimension_name(written), is_not = dimension_name(*wanted);

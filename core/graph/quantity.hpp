@@ -12,17 +12,17 @@
 namespace fulmar::core {
 
 /// A unit: what it measures and how large it is in SI. The angle counts as a dimension, so that "5 deg" is not a plain number.
-struct Unit {
+struct PhysicalUnit {
   std::array<std::int8_t, 6> dimension{};  // powers of m, kg, s, A, K, rad
   double factor = 1;                       // SI value = number * factor + offset
   double offset = 0;                       // degC alone
 };
 
 /// "m/s", "rad/(m/s)", "kg m^2"; "", "frac", "ratio", "1" are plain numbers. Nothing when a symbol is unknown.
-std::optional<Unit> parse_unit(std::string_view text);
+std::optional<PhysicalUnit> parse_unit(std::string_view text);
 
 /// "a length", "an angle", "a plain number"; "" for a dimension without a name.
-std::string dimension_name(const Unit& unit);
+std::string dimension_name(const PhysicalUnit& unit);
 bool same_dimension(const std::string& unit_a, const std::string& unit_b);
 
 /// What multiplies a value in `from` to get one in `to`. 1 when either is unknown. Both must have the same dimension.

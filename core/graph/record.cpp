@@ -185,6 +185,12 @@ class Filler {
       switch (field.kind) {
         case FULMAR_U8:
           return put_integer<std::uint8_t>(at, quantity.text, value, scaled);
+        case FULMAR_I8:
+          return put_integer<std::int8_t>(at, quantity.text, value, scaled);
+        case FULMAR_I16:
+          return put_integer<std::int16_t>(at, quantity.text, value, scaled);
+        case FULMAR_U16:
+          return put_integer<std::uint16_t>(at, quantity.text, value, scaled);
         case FULMAR_I32:
           return put_integer<std::int32_t>(at, quantity.text, value, scaled);
         case FULMAR_U32:

@@ -6,6 +6,8 @@
 #include "core/graph/draft.hpp"
 #include "core/graph/quantity.hpp"
 #include "core/graph/trust.hpp"
+#include "core/loader/home.hpp"
+#include "core/loader/script.hpp"
 
 namespace fulmar::core {
 namespace fs = std::filesystem;
@@ -50,14 +52,24 @@ std::string not_there(const Draft& draft, const std::string& name) {
 
 namespace {
 
+/// "build/my_law.so", against "control_slc/Outer" as `use` has it.
+bool is_file(const std::string& word) {
+  std::error_code fault;
+  return word.ends_with(".so") || !script_host(word).empty() || fs::is_regular_file(word + ".so", fault);
+}
+
 void load_component(Draft& draft, Catalogue& catalogue, Candidate& candidate) {
   const ComponentText& text = *candidate.text;
   if (text.use.empty()) return;
   const std::string path = "components." + text.name;
   try {
     auto [plugin, component] = split_use(text.use);
-    for (const auto& [name, file] : draft.overrides.with)
-      if (name == text.name) plugin = fs::absolute(file).string();
+    for (const auto& [name, word] : draft.overrides.with) {
+      if (name != text.name) continue;
+      const auto [named, part] = is_file(word) ? std::pair{word, std::string()} : split_use(word);
+      plugin = is_file(named) ? fs::absolute(named).string() : named;
+      if (!part.empty()) component = part;
+    }
     candidate.plugin = catalogue.open(plugin);
     const auto& components = candidate.plugin.info->components;
     if (components.empty()) throw Error(plugin + " holds no component");
@@ -315,11 +327,8 @@ bool provides(const Graph& graph, const Component& component, int output) {
   return false;
 }
 
-void read_record_rules(Draft& draft) {
-  Graph& graph = draft.graph;
-  graph.record = draft.text.record;
-  graph.record_file = draft.text.record_file;
-  graph.record_rules = draft.text.record_rules;
+/// The names under which outputs are recorded, shown and exported.
+std::vector<std::string> tap_ports(const Graph& graph) {
   std::vector<std::string> ports;
   for (const Role& role : graph.roles)
     for (const RolePort& port : role.outputs) ports.push_back(role.name + "." + port.name);
@@ -332,6 +341,15 @@ void read_record_rules(Draft& draft) {
     }
     if (probes) ports.push_back(component.name + ".probes");
   }
+  return ports;
+}
+
+void read_record_rules(Draft& draft, const std::vector<std::string>& ports) {
+  Graph& graph = draft.graph;
+  graph.record = draft.text.record;
+  graph.record_file = draft.text.record_file;
+  graph.record_rules = draft.text.record_rules;
+  graph.rotate_bytes = draft.text.rotate_bytes, graph.rotate_ns = draft.text.rotate_ns;
   for (std::size_t i = 0; i < graph.record_rules.size(); ++i) {
     const std::string& pattern = graph.record_rules[i].ports[0];
     if (pattern.size() < 200 && std::count(pattern.begin(), pattern.end(), '*') < 5 &&
@@ -386,7 +404,29 @@ void resolve(Draft& draft, Catalogue& catalogue) {
   order_steps(draft);
   read_failsafe(draft);
   read_control(draft);
-  read_record_rules(draft);
+  const std::vector<std::string> ports = tap_ports(draft.graph);
+  read_record_rules(draft, ports);
+  resolve_dds(draft, ports);
+}
+
+}  // namespace
+
+namespace {
+
+/// The mission's list was kept when it flew. A log is data: what lies beside it runs only when it is what flew, or is asked for by name.
+Expected admit_again(const fs::path& plugin, const Overrides& overrides) {
+  check_private_file(plugin);
+  if (overrides.flown.empty()) return {};
+  const std::vector<fs::path> ours = plugin_folders();
+  if (std::find(ours.begin(), ours.end(), plugin.parent_path()) != ours.end()) return {};
+  for (const auto& [component, use] : overrides.with) {
+    const fs::path file = split_use(use).first;
+    if (file == plugin || file.filename() == plugin.filename() || file.filename() == plugin.stem()) return {};
+  }
+  const std::string sha256 = sha256_file(plugin);
+  if (std::find(overrides.flown.begin(), overrides.flown.end(), sha256) == overrides.flown.end())
+    throw Error(plugin.string() + " is not what flew: its SHA-256 is " + sha256 + "; --with flies it all the same");
+  return {overrides.flown, "the log"};
 }
 
 }  // namespace
@@ -397,8 +437,10 @@ Graph load_mission(const std::string& file, const Overrides& overrides, Catalogu
   for (const auto& [name, with] : overrides.with) report.opened("--with " + name + "=" + with);
   for (const auto& [name, value] : overrides.set) report.opened("--set " + name + "=" + value);
   const MissionText text = parse_mission(file, overrides, report);
-  catalogue.admit = [trust = Trust(text, report)](const fs::path& plugin) { return trust.check(plugin); };
-  FileStore files(report);
+  catalogue.admit = [trust = Trust(text, report), &overrides](const fs::path& plugin) {
+    return overrides.files ? admit_again(plugin, overrides) : trust.check(plugin);
+  };
+  FileStore files(report, overrides.files.get());
   for (const FilePtr& read : text.files) files.keep(read);
   Draft draft{text, overrides, report, files, {}, {}, {}, {}};
   resolve(draft, catalogue);

@@ -139,6 +139,7 @@ void resolve_wires(Draft& draft) {
     }
     for (const WireText& wire : candidate.text->in) connect(draft, i, wire, "components." + candidate.name() + ".in." + wire.input);
   }
+  mark_imports(draft);
 }
 
 namespace {
@@ -185,7 +186,7 @@ void check_fed(Draft& draft) {
       const Wire& wire = candidate.wires[i];
       const std::string path = "components." + candidate.name() + ": the input '" + input.name + "' ";
       if (wire.from.kind == Source::Kind::none) {
-        if (wire_reported(draft, candidate, input.name)) continue;
+        if (wire.import >= 0 || wire_reported(draft, candidate, input.name)) continue;
         const std::vector<std::string> fitting = proposals(draft, candidate, input);
         draft.report.add(candidate.text->where, path + "is not wired; " +
                                                     (fitting.empty() ? "there is no output of type " + input.type->name

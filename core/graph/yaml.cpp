@@ -7,11 +7,19 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
+#include <map>
 #include <sstream>
 
 #include "core/graph/quantity.hpp"
+#include "core/graph/stored_files.hpp"
 
 namespace fulmar::core {
+namespace {
+
+constexpr std::size_t most_faults = 100;  // nobody reads more, and each is compared with those before it
+
+}  // namespace
 
 // ---- report -----------------------------------------------------------------------------------------------------------------
 
@@ -25,9 +33,12 @@ std::size_t Report::rank(const std::string& file) {
 void Report::opened(const std::string& file) { rank(file); }
 
 void Report::add(const Where& where, const std::string& sentence) {
+  if (faults_.size() > most_faults) return;
   for (const Fault& fault : faults_)
     if (fault.where.line == where.line && fault.where.file == where.file && fault.sentence == sentence) return;
-  faults_.push_back({rank(where.file), where, sentence});
+  if (faults_.size() < most_faults) return faults_.push_back({rank(where.file), where, sentence});
+  constexpr std::size_t last = std::numeric_limits<std::size_t>::max();
+  faults_.push_back({last, {where.file, 0}, "there are more faults than these " + std::to_string(most_faults)});
 }
 
 std::string Report::text() const {
@@ -64,7 +75,8 @@ std::string found_words(const Node& node) {
   }
 }
 
-FilePtr read_source(const std::filesystem::path& path, const std::string& name) {
+FilePtr read_source(const std::filesystem::path& path, const std::string& name, const StoredFiles* stored) {
+  if (stored) return stored->read(path, name);
   std::error_code code;
   if (std::filesystem::is_directory(path, code)) throw Error(name + " is a folder, not a file");
   constexpr std::uintmax_t limit = 16u << 20;
@@ -112,19 +124,18 @@ struct Builder {
       for (const auto& item : from) node.items.push_back(build(item, node.line, depth + 1));
     } else if (from.IsMap()) {
       node.kind = Node::Kind::map;
-      for (const auto& pair : from) add_entry(node, pair.first, pair.second, depth);
+      std::map<std::string, int> lines;  // of the keys so far; a map, because no choice of keys makes it slow
+      for (const auto& pair : from) add_entry(node, lines, pair.first, pair.second, depth);
     }
     return node;
   }
 
-  void add_entry(Node& node, const YAML::Node& key, const YAML::Node& value, int depth) {
+  void add_entry(Node& node, std::map<std::string, int>& lines, const YAML::Node& key, const YAML::Node& value, int depth) {
     const int line = line_of(key, node.line);
     if (!key.IsScalar()) return report.add({file->name, line}, "a key must be a word, not a list, a map or nothing");
     const std::string& name = key.Scalar();
-    for (const Node::Entry& entry : node.entries) {
-      if (entry.key != name) continue;
-      return report.add({file->name, line}, "'" + name + "' is given twice; the first is in line " + std::to_string(entry.line));
-    }
+    if (const auto [first, is_new] = lines.try_emplace(name, line); !is_new)
+      return report.add({file->name, line}, "'" + name + "' is given twice; the first is in line " + std::to_string(first->second));
     Node child = build(value, line, depth + 1);
     node.entries.push_back({name, line, std::move(child)});
   }

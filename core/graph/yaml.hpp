@@ -19,7 +19,7 @@ struct SourceFile {
 };
 using FilePtr = std::shared_ptr<const SourceFile>;
 
-/// All faults of a set-up: each once, ordered by file (as the files were opened) and line.
+/// The faults of a set-up: each once, ordered by file (as the files were opened) and line; of very many the first hundred that were found.
 class Report {
  public:
   void add(const Where& where, const std::string& sentence);
@@ -66,8 +66,9 @@ struct Node::Entry {
 /// What stands there, for a sentence: "nothing", "a list", "a map", "'text'".
 std::string found_words(const Node& node);
 
-/// Reads a file. Throws Error when it cannot be read. `name` is what faults call it.
-FilePtr read_source(const std::filesystem::path& path, const std::string& name);
+class StoredFiles;
+/// Reads a file. Throws Error when it cannot be read. `name` is what faults call it. `stored`: in place of the disk.
+FilePtr read_source(const std::filesystem::path& path, const std::string& name, const StoredFiles* stored = nullptr);
 /// Text that stands in no file, such as a value on the command line: faults name it without a line.
 FilePtr make_source(const std::string& text, const std::string& name);
 

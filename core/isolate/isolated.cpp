@@ -27,7 +27,7 @@ std::int64_t useful_spin(std::int64_t wanted_ns) {
 
 const ComponentInfo& isolatable(const ComponentInfo& info, const IsolatedOptions& options) {
   if (info.vehicle) throw Error(options.name + ": a vehicle cannot run in a process of its own.");
-  if (info.name.size() >= sizeof Control::component) throw Error(options.name + ": the component's name is longer than 255 bytes.");
+  if (info.name.size() >= sizeof ControlBlock::component) throw Error(options.name + ": the component's name is longer than 255 bytes.");
   return info;
 }
 
@@ -81,7 +81,7 @@ Isolated::Isolated(const ComponentInfo& info, const IsolatedOptions& options)
 // The child answers call 1, its own set-up, without being asked.
 void Isolated::prepare() {
   options_.spin_ns = useful_spin(options_.spin_ns);
-  Control& c = *new (memory_.data()) Control{};
+  ControlBlock& c = *new (memory_.data()) ControlBlock{};
   c.request = number_;
   c.call = Call::create;
   c.version = shared_version;
@@ -230,7 +230,7 @@ std::uint32_t Isolated::retune(const fulmar_value* values, fulmar_error* error) 
 
 std::uint32_t Isolated::call(Call what, std::int64_t limit_ns, fulmar_error* error) noexcept {
   if (!alive_) return dead(error);
-  Control& c = control();
+  ControlBlock& c = control();
   c.call = what;
   c.request.store(++number_);  // ordered before the look at child_sleeps, as the child's two are
   if (c.child_sleeps.load() != 0) futex_wake(c.request);
@@ -245,7 +245,7 @@ std::uint32_t Isolated::call(Call what, std::int64_t limit_ns, fulmar_error* err
 // The child's crash handler wakes the host; of an exit or a kill the host learns by asking between naps.
 bool Isolated::wait(std::int64_t limit_ns) noexcept {
   constexpr std::int64_t first_nap_ns = 200'000, longest_nap_ns = 1'000'000;
-  Control& c = control();
+  ControlBlock& c = control();
   if (spin_until(std::min(options_.spin_ns, limit_ns), [&] { return answered(); })) return true;
   const std::int64_t end = monotonic_ns() + limit_ns;
   for (std::int64_t nap_ns = first_nap_ns;; nap_ns = std::min(2 * nap_ns, longest_nap_ns)) {

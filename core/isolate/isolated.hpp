@@ -60,7 +60,7 @@ class Isolated {
     std::uint64_t sequence = 0;
     std::int64_t valid_at_ns = 0;
   };
-  Control& control() const noexcept { return *reinterpret_cast<Control*>(memory_.data()); }
+  ControlBlock& control() const noexcept { return *reinterpret_cast<ControlBlock*>(memory_.data()); }
   template <class T>
   T* at(std::size_t offset) const noexcept {
     return reinterpret_cast<T*>(memory_.data() + offset);

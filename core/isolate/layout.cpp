@@ -25,7 +25,7 @@ struct Signature {
 };
 
 struct Room {
-  std::size_t end = sizeof(Control);
+  std::size_t end = sizeof(ControlBlock);
   std::size_t take(std::size_t bytes) {
     const std::size_t at = (end + cache_line - 1) / cache_line * cache_line;
     end = at + bytes;
@@ -73,7 +73,7 @@ Layout::Layout(const ComponentInfo& info) {
   size = (room.end + page - 1) / page * page;
 
   Signature all;
-  all.add(sizeof(Control));
+  all.add(sizeof(ControlBlock));
   all.add(size);
   sign(all, info.inputs);
   sign(all, info.outputs);

@@ -26,7 +26,7 @@ enum class Call : std::uint32_t { create = 1, configure, retune, activate, deact
 enum class Stage : std::uint32_t { loaded, created, running };
 
 /// At the start of the memory. Each side writes lines of its own, so that a call moves two lines and no more.
-struct Control {
+struct ControlBlock {
   // the host's
   alignas(cache_line) std::atomic<std::uint32_t> request;  // counts calls; what the child sleeps on
   std::atomic<std::uint32_t> host_sleeps;

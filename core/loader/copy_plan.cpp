@@ -14,6 +14,12 @@ const char* kind_word(fulmar_kind kind) {
       return "bool";
     case FULMAR_U8:
       return "u8";
+    case FULMAR_I8:
+      return "i8";
+    case FULMAR_I16:
+      return "i16";
+    case FULMAR_U16:
+      return "u16";
     case FULMAR_I32:
       return "i32";
     case FULMAR_U32:

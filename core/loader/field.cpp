@@ -118,6 +118,12 @@ double number_at(fulmar_kind kind, const std::byte* at) noexcept {
     case FULMAR_U8:
     case FULMAR_ENUM:
       return read<std::uint8_t>(at);
+    case FULMAR_I8:
+      return read<std::int8_t>(at);
+    case FULMAR_I16:
+      return read<std::int16_t>(at);
+    case FULMAR_U16:
+      return read<std::uint16_t>(at);
     case FULMAR_I32:
       return read<std::int32_t>(at);
     case FULMAR_U32:

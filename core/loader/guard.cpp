@@ -43,7 +43,7 @@ bool bytes_at_most(const std::byte* at, std::uint32_t count, double max) noexcep
   return worst <= limit;
 }
 
-bool integral(fulmar_kind kind) { return kind == FULMAR_I32 || kind == FULMAR_U32 || kind == FULMAR_I64 || kind == FULMAR_U64; }
+bool integral(fulmar_kind kind) { return (kind >= FULMAR_I32 && kind <= FULMAR_U64) || (kind >= FULMAR_I8 && kind <= FULMAR_U16); }
 bool whole_byte(fulmar_kind kind) { return kind == FULMAR_BOOL || kind == FULMAR_U8 || kind == FULMAR_ENUM; }
 
 // The largest value of a one-byte kind that the guard lets pass.

@@ -118,7 +118,11 @@ std::uint32_t element_size(const Field& field) {
     case FULMAR_BOOL:
     case FULMAR_U8:
     case FULMAR_ENUM:
+    case FULMAR_I8:
       return 1;
+    case FULMAR_I16:
+    case FULMAR_U16:
+      return 2;
     case FULMAR_I32:
     case FULMAR_U32:
     case FULMAR_F32:
@@ -151,7 +155,7 @@ Field TableReader::read_field(const fulmar_field& from, const std::string& owner
   field.name = text(from.name, owner + ": the name of a field");
   if (!is_identifier(field.name)) throw Error(owner + ": '" + field.name + "' is no name for a field");
   const std::string what = owner + ": field '" + field.name + "'";
-  if (from.kind < FULMAR_BOOL || from.kind > FULMAR_STRUCT)
+  if (from.kind < FULMAR_BOOL || from.kind > FULMAR_U16)
     throw Error(what + " has kind " + std::to_string(from.kind) + ", which this host does not know");
   if (from.shape > FULMAR_LIST) throw Error(what + " has shape " + std::to_string(from.shape) + ", which this host does not know");
   field.unit = text(from.unit, what + ": the unit");

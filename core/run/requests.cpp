@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What enters a flight from outside, between ticks: requests, live parameters, the reset of a guard.
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <utility>
+
+#include "core/graph/params.hpp"
 #include "core/run/flight_impl.hpp"
 
 namespace fulmar::core {
@@ -17,21 +23,39 @@ void Flight::request(const std::string& component, const std::string& port, cons
                      std::function<void(const std::string&)> answered) {
   Unit& unit = impl_->unit(component);
   std::vector<std::string> names;
-  for (Reader& r : unit.readers) {
+  for (std::size_t i = 0; i < unit.readers.size(); ++i) {
+    const Reader& r = unit.readers[i];
     if (r.port->kind != FULMAR_IN_REQUEST) continue;
     names.push_back(r.port->name);
     if (r.port->name != port) continue;
-    CopyPlan whole;
-    whole.size = r.port->type->size;
-    if (r.count == r.port->capacity)
-      throw Error(component + "." + port + " has " + std::to_string(r.count) + " requests waiting; there is no room for more");
     if (const Guard guard(*r.port->type); !guard.check(message)) throw Error(component + "." + port + ": " + guard.explain(message));
-    r.push(message, impl_->now_ns, whole);
-    r.replies[r.count - 1] = std::move(answered);
-    impl_->event(EventKind::request, component, port);
-    return;
+    const auto index = static_cast<std::size_t>(unit.component - impl_->graph.components.data());
+    Reply reply;
+    if (answered) reply = [answered = std::move(answered)](const char* refusal) { answered(refusal); };
+    switch (impl_->apply_request(index, i, message, std::move(reply))) {
+      case Impl::Taken::yes:
+        return;
+      case Impl::Taken::idle:
+        throw Error(component + " does not fly now");
+      case Impl::Taken::full:
+        throw Error(component + "." + port + " has " + std::to_string(r.count) + " requests waiting; there is no room for more");
+    }
   }
   throw Error("'" + component + "' takes no request '" + port + "'." + choices_text(port, names));
+}
+
+Flight::Impl::Taken Flight::Impl::apply_request(std::size_t component, std::size_t input, const std::byte* message, Reply answered) {
+  Unit& unit = *units[component];
+  Reader& r = unit.readers[input];
+  if (index > 0 && (!unit.active || unit.stopped)) return Taken::idle;
+  if (r.count == r.port->capacity) return Taken::full;
+  CopyPlan whole;
+  whole.size = r.port->type->size;
+  r.push(message, now_ns, whole);
+  r.replies[r.count - 1] = std::move(answered);
+  if (tap) tap->write(static_cast<std::size_t>(r.channel), now_ns, now_ns, message, true);
+  event(EventKind::request, unit.component->name, r.port->name, false, false);  // not told aloud: a tool may send hundreds
+  return Taken::yes;
 }
 
 void Flight::set_parameter(const std::string& component, const std::string& param, const ParamValue& value) {
@@ -48,10 +72,70 @@ void Flight::set_parameter(const std::string& component, const std::string& para
   if (info.kind != FULMAR_VECTOR && !(number >= info.min && number <= info.max))
     throw Error(component + "." + param + ": " + std::to_string(number) + " is outside " + std::to_string(info.min) + " .. " +
                 std::to_string(info.max));
-  unit.base[static_cast<std::size_t>(i)] = value;
-  const std::vector<Overlay>* overlay = impl_->overlay_of(static_cast<int>(unit.component - impl_->graph.components.data()));
-  if (!unit.dead() && !unit.retune(overlay)) throw Error(component + ": " + unit.problem.text);
-  impl_->event(EventKind::parameter, component, param + " = " + std::to_string(number));
+  ParameterNote note;
+  std::snprintf(note.component.data(), note.component.size(), "%s", component.c_str());
+  std::snprintf(note.name.data(), note.name.size(), "%s", param.c_str());
+  std::snprintf(note.text.data(), note.text.size(), "%s", value_text(info, value).c_str());
+  ParamValue taken = value;
+  impl_->apply_parameter(static_cast<std::size_t>(unit.component - impl_->graph.components.data()), static_cast<std::size_t>(i), taken,
+                         note);
+}
+
+void Flight::publish(const std::string& component, const std::string& port, const std::byte* message) {
+  for (const Reader& r : impl_->unit(component).readers) {
+    if (r.port->name != port || r.wire->import < 0) continue;
+    if (const Guard guard(*r.port->type); !guard.check(message)) throw Error(component + "." + port + ": " + guard.explain(message));
+    return impl_->apply_import(static_cast<std::size_t>(r.wire->import), message);
+  }
+  throw Error("'" + component + "' takes no imported samples for '" + port + "'");
+}
+
+void Flight::enter_phase(const std::string& phase) {
+  std::vector<std::string> names;
+  for (const Phase& p : impl_->graph.phases) names.push_back(p.name);
+  const auto at = std::find(names.begin(), names.end(), phase);
+  if (at == names.end()) throw Error("there is no phase '" + phase + "'." + choices_text(phase, names));
+  CommandNote note;
+  note.kind = CommandNote::Kind::phase;
+  std::snprintf(note.text.data(), note.text.size(), "%s", phase.c_str());
+  impl_->apply_phase(static_cast<int>(at - names.begin()), note);
+}
+
+/// `value` is what was in force when this returns.
+void Flight::Impl::apply_parameter(std::size_t component, std::size_t param, ParamValue& value, const ParameterNote& note) {
+  Unit& unit = *units[component];
+  std::swap(unit.base[param], value);
+  if (!unit.dead() && !unit.retune(overlay_of(static_cast<int>(component)))) {
+    std::swap(unit.base[param], value);
+    unit.retune(overlay_of(static_cast<int>(component)));
+    throw Error(unit.component->name + ": " + unit.problem.text);
+  }
+  if (tap) tap->write(parameter_channel, now_ns, now_ns, reinterpret_cast<const std::byte*>(&note), true);
+  Event e;  // not told aloud: a script may set thousands
+  e.kind = EventKind::parameter;
+  std::snprintf(e.component.data(), e.component.size(), "%s", note.component.data());
+  std::snprintf(e.text.data(), e.text.size(), "%s = %.130s", note.name.data(), note.text.data());
+  if (tap) tap->write(event_channel, now_ns, now_ns, reinterpret_cast<const std::byte*>(&e), true);
+}
+
+void Flight::Impl::apply_import(std::size_t import, const std::byte* message) {
+  Import& i = imports[import];
+  Slot& slot = i.slot;
+  std::memcpy(slot.published.data(), message, slot.size);
+  slot.valid_at_ns = now_ns;
+  ++slot.sequence;
+  if (i.reader->port->kind != FULMAR_IN_VALUE) {
+    CopyPlan whole;
+    whole.size = slot.size;
+    i.reader->push(message, now_ns, whole);
+  }
+  if (tap) tap->write(static_cast<std::size_t>(i.reader->channel), now_ns, now_ns, message, true);
+}
+
+void Flight::Impl::apply_phase(int to, const CommandNote& note) {
+  if (in_failsafe) throw Error("the flight is in its failsafe: no phase can be entered");
+  if (tap) tap->write(command_channel, now_ns, now_ns, reinterpret_cast<const std::byte*>(&note), true);
+  enter(to);  // the present one, too: whoever it names takes over again
 }
 
 const std::vector<Overlay>* Flight::Impl::overlay_of(int component) const {
@@ -63,6 +147,9 @@ const std::vector<Overlay>* Flight::Impl::overlay_of(int component) const {
 const Tape* Flight::tape(const std::string& component) const { return impl_->unit(component).tape.get(); }
 
 void Flight::reset_guards() {
+  CommandNote note;
+  note.kind = CommandNote::Kind::reset;
+  if (impl_->tap) impl_->tap->write(impl_->command_channel, impl_->now_ns, impl_->now_ns, reinterpret_cast<const std::byte*>(&note), true);
   for (std::size_t i = 0; i < impl_->units.size(); ++i) {
     Unit* unit = impl_->units[i].get();
     if (!unit->stopped) continue;

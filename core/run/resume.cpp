@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <optional>
 
 #include "core/graph/condition.hpp"
@@ -122,6 +123,19 @@ Resume read_resume(const Graph& graph, const fs::path& log) try {
   throw Error(log.string() + ": " + fault.what());
 }
 
+namespace {
+
+/// Of a file in which nothing stands yet the one before knows more: a log that had just rotated, a host that died as it began.
+bool holds_message(const fs::path& log) {
+  try {
+    return McapStream(log).next() != nullptr;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+}  // namespace
+
 fs::path newest_log(const Graph& graph, double max_age_s) {
   const fs::path usual = graph.record_file.empty() ? "logs/" + graph.mission + "-" : graph.record_file;
   const fs::path folder = usual.has_parent_path() ? usual.parent_path() : ".";
@@ -136,7 +150,7 @@ fs::path newest_log(const Graph& graph, double max_age_s) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with(stem) || !(name.ends_with(".mcap") || name.ends_with(".mcap.part"))) continue;
     const fs::file_time_type time = entry.last_write_time(code);
-    if (code || time <= newest_time) continue;
+    if (code || time <= newest_time || !holds_message(entry.path())) continue;
     newest = entry.path();
     newest_time = time;
   }
@@ -144,6 +158,21 @@ fs::path newest_log(const Graph& graph, double max_age_s) {
 }
 
 // ---- in flight --------------------------------------------------------------------------------------------------------------
+
+/// What every file of a log begins with, for it to be read, and resumed from, without the one before: see Log::Options.
+std::function<std::string(std::size_t, const std::byte*)> Flight::Impl::lasting() const {
+  return [event = event_channel, parameter = parameter_channel, command = command_channel](std::size_t channel, const std::byte* message) {
+    std::string name;
+    if (channel == event && reinterpret_cast<const Event*>(message)->kind == EventKind::phase) name = "phase";
+    if (channel == parameter) {
+      const auto* const note = reinterpret_cast<const ParameterNote*>(message);
+      name = std::string("parameter ") + note->component.data() + "." + note->name.data();
+    }
+    if (channel == command && reinterpret_cast<const CommandNote*>(message)->kind == CommandNote::Kind::swap)
+      name = std::string("swap ") + reinterpret_cast<const CommandNote*>(message)->component.data();
+    return name;
+  };
+}
 
 /// Before the first step, or when a vehicle turns out to be armed.
 void Flight::Impl::resume_now() {

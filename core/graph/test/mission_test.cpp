@@ -48,8 +48,6 @@ TEST_CASE("keys of the file are known, given once and of the right type") {
   CHECK(changed("seed: 7", "timeout: -3 s") == "6: timeout: -3 s is negative");
   CHECK(changed("io: sim", "io: simulator") == "2: io: unknown word 'simulator'. Valid: sim, fcu.");
   CHECK(changed("arm: auto", "arm: atuo") == "7: arm: unknown word 'atuo'. Did you mean 'auto'? Valid: auto, off.");
-  CHECK(changed("seed: 7", "live: {listen: 1}\ndds: {}") ==
-        "6: live: this build has no live view; remove the section\n7: dds: this build has no DDS; remove the section");
   CHECK(changed("mission: hourglass", "mission: a/b") == "1: mission: a name without '/' is wanted, found 'a/b'");
   CHECK(changed("progress: [", "progress: x #[") == "9: progress: expected a list of fields such as [nav.state.height_m], found 'x'");
   CHECK(changed("\ncomponents:", "\ncomponents: []\ncomponent:")

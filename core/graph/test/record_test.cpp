@@ -3,6 +3,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <ctime>
+
 #include "core/graph/test/shelf.hpp"
 #include "core/graph/test/shelf_types.hpp"
 #include "fulmar/msg/actuators.hpp"
@@ -140,4 +143,33 @@ TEST_CASE("faults inside nested things name the way to them") {
 TEST_CASE("a fraction outside -1 .. 1 is refused") {
   CHECK(read<Actuators>("throttle: 150 %\n").faults == "file.yaml:1: throttle: 150 % is outside -100 .. 100 %");
   CHECK(read<Actuators>("throttle_frac: 0.5\n").value.throttle_frac == 0.5);
+}
+
+TEST_CASE("of very many faults a hundred are told, and that there are more") {
+  std::string yaml;
+  for (int i = 0; i < 1000; ++i) yaml += "unknown_" + std::to_string(i) + ": 1\n";
+  const std::string faults = read<Actuators>(yaml).faults;
+  CHECK(std::count(faults.begin(), faults.end(), '\n') == 100);
+  CHECK(faults.find("file.yaml:1: unknown field 'unknown_0'") == 0);
+  CHECK(faults.find("file.yaml:100: unknown field 'unknown_99'") != std::string::npos);
+  CHECK(faults.ends_with("\nfile.yaml: there are more faults than these 100"));
+  Report again;  // the same fault is no further one
+  for (int k = 0; k < 3; ++k)
+    for (int i = 1; i <= 100; ++i) again.add({"file.yaml", i}, "no");
+  CHECK(again.text().ends_with("\nfile.yaml:100: no"));
+}
+
+TEST_CASE("the time that a text takes grows as its length, whatever stands in it") {
+  std::string keys, twice;
+  for (int i = 0; i < 100'000; ++i) keys += (i > 0 ? ", k" : "{k") + std::to_string(i) + ": 1";
+  for (int i = 0; i < 25'000; ++i) twice += (i > 0 ? ", k" : "{k") + std::to_string(i / 2) + ": 1";
+  const std::clock_t begin = std::clock();
+  Report report;
+  const Node node = parse_yaml(make_source(keys + "}", "keys"), report);
+  CHECK(node.entries.size() == 100'000);
+  CHECK(report.empty());
+  CHECK(parse_yaml(make_source(twice + "}", "twice"), report).entries.size() == 12'500);
+  CHECK(report.text().find("'k0' is given twice") != std::string::npos);
+  // A second and a half of the CPU on a slow machine; when each is compared with all before it is a minute.
+  CHECK(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC < 10);
 }

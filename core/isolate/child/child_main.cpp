@@ -84,7 +84,7 @@ int main(int argc, char** argv) {
   }
   prepare();
   const auto size = static_cast<std::size_t>(about.st_size);
-  if (size < sizeof(Control)) return 2;
+  if (size < sizeof(ControlBlock)) return 2;
   void* memory = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, shared_descriptor, 0);
   if (memory == MAP_FAILED) return 2;
   Session session(static_cast<std::byte*>(memory), size);

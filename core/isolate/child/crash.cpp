@@ -9,7 +9,7 @@
 namespace fulmar::core {
 namespace {
 
-Control* shared = nullptr;
+ControlBlock* shared = nullptr;
 std::uintptr_t stack_top = 0;
 
 // A fault where the main stack would have grown to, had its limit allowed it. A large frame may step over its end by far.
@@ -31,7 +31,7 @@ void last_act(int signal, siginfo_t* about, void*) {
 
 }  // namespace
 
-void tell_crashes(Control& control) {
+void tell_crashes(ControlBlock& control) {
   shared = &control;
   stack_top = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
   constexpr std::size_t size = 64 * 1024;

@@ -6,6 +6,6 @@
 namespace fulmar::core {
 
 /// Handles the signals of a crash on a stack of their own, for the calling thread.
-void tell_crashes(Control& control);
+void tell_crashes(ControlBlock& control);
 
 }  // namespace fulmar::core

@@ -194,7 +194,7 @@ std::uint32_t Session::run(Call call, fulmar_error& error) {
 // ---- the hand-shake --------------------------------------------------------------------------------------------------------------
 
 void Session::answer(std::uint32_t number, std::uint32_t status, const fulmar_error& error) noexcept {
-  Control& c = control();
+  ControlBlock& c = control();
   c.status = status;
   c.has_error = error.text[0] != '\0' ? 1 : 0;
   if (c.has_error) std::memcpy(c.error.text, error.text, sizeof error.text);
@@ -204,7 +204,7 @@ void Session::answer(std::uint32_t number, std::uint32_t status, const fulmar_er
 
 // Wakes once a second to see that the host is still there: the kernel's word on its death is bound to one of its threads.
 std::uint32_t Session::wait(std::uint32_t done) noexcept {
-  Control& c = control();
+  ControlBlock& c = control();
   const auto asked = [&] { return c.request.load(std::memory_order_acquire) != done; };
   if (spin_until(c.spin_ns, asked)) return c.request.load(std::memory_order_acquire);
   while (!asked()) {

@@ -28,7 +28,7 @@ class Session {
   void close() noexcept;
   /// Answers call 1, the set-up.
   void answer(std::uint32_t number, std::uint32_t status, const fulmar_error& error) noexcept;
-  Control& control() const noexcept { return *reinterpret_cast<Control*>(memory_); }
+  ControlBlock& control() const noexcept { return *reinterpret_cast<ControlBlock*>(memory_); }
 
  private:
   template <class T>

@@ -70,7 +70,7 @@ TEST_CASE("the page of a plugin holds everything that the plugin says of itself"
   for (std::size_t at; (at = page.find(hash)) != std::string::npos;) page.replace(at, 16, "HASH");
   CHECK(page == R"page(# good
 
-`good.so`, version 1.2.0, ABI 1.1
+`good.so`, version 1.2.0, ABI 1.2
 
 | component | what |
 | --- | --- |

@@ -293,7 +293,7 @@ TEST_CASE("the description of a plugin lines up") {
   std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(info.components[0].inputs[0].type->hash));
   for (std::size_t at; (at = text.find(hash)) != std::string::npos;) text.replace(at, 16, "HASH");
   CHECK(text == R"(good.so  version 1.2.0
-  abi        1.1
+  abi        1.2
   toolchain  a C compiler
   flags      NDEBUG
   sha256     aaaaaaaaaaaaaaaa

@@ -13,6 +13,7 @@
 
 #include "core/run/allocation.hpp"
 #include "core/run/test/lab.hpp"
+#include "core/tap/reader.hpp"
 #include "core/tap/wire.hpp"
 
 TEST_CASE("what the vehicle reads is flown on in the same tick, and written in it") {
@@ -250,6 +251,29 @@ TEST_CASE("a request is answered by the step that sees it") {
   REQUIRE(answers.size() == 2);
   CHECK(answers[0].empty());
   CHECK(answers[1] == "cannot go back");
+}
+
+TEST_CASE("the log tells what was asked, and what was refused and why") {
+  const Graph g = mission(one_phase);
+  FlightOptions o = options(0.2);
+  o.log = true;
+  o.log_file = folder().path / "asked.mcap";
+  Flight flight(g, o);
+  const double go = 1, back = -1;
+  for (const double* to : {&go, &back}) flight.request("watch", "ask", reinterpret_cast<const std::byte*>(to));
+  flight.run();
+  const McapFile file = read_mcap(o.log_file);
+  std::vector<std::string> told;
+  for (const McapFile::Message& m : file.messages) {
+    if (m.channel != file.channel("/fulmar/event")) continue;
+    const std::string bytes(reinterpret_cast<const char*>(m.data.data()), m.data.size());
+    for (const char* text : {"ask refused: cannot go back", "ask"})
+      if (bytes.find("watch") != std::string::npos && bytes.find(text) != std::string::npos) {
+        told.push_back(text);
+        break;
+      }
+  }
+  CHECK(told == std::vector<std::string>{"ask", "ask", "ask refused: cannot go back"});
 }
 
 TEST_CASE("a live parameter changes the base under an overlay, a set-up parameter does not change") {

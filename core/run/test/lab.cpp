@@ -245,9 +245,11 @@ struct Watch {  ///< fills no role
   };
   struct Params {
     Param noise{0, "", 0, 1, "adds chance to the tally"};
+    Param stop_at{1e9, "s", -1e9, 1e9, "throws from here on"};
   };
   explicit Watch(std::uint64_t seed) : seed_(seed) {}
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
+    if (tick.now_s() >= p.stop_at) throw std::runtime_error("nothing to be seen");
     tally_.steps_ratio += 1;
     tally_.dt_s = tick.dt_s();
     tally_.lost_ratio += in.burst.lost();

@@ -37,7 +37,7 @@ TEST_CASE("a component in a child publishes the same bytes as in the loop") {
   log_hash(here, "here.mcap", 1);
   log_hash(there, "there.mcap", 1);
   const auto a = messages("here.mcap", "/law/command"), b = messages("there.mcap", "/law/command");
-  CHECK(a.size() > 40);
+  CHECK(a.size() > 20);  // 10 Hz
   CHECK(a == b);
   CHECK(messages("here.mcap", "/one/probes") == messages("there.mcap", "/one/probes"));
 }

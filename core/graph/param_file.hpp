@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writes the values that parameters have in a flight back into the files that they came from, and leaves comments and layout as they are.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/graph/graph.hpp"
+
+namespace fulmar::core {
+
+/// A parameter as a flight has it.
+struct SavedParam {
+  std::string component, use;  // "slc", "control_slc/Outer"
+  ParamInfo info;
+  ParamValue value;  // base
+};
+
+struct FileEdit {
+  std::filesystem::path path;
+  std::string name;  // for people
+  std::string before, after;
+};
+
+struct SavePlan {
+  std::vector<FileEdit> files;       // those that change
+  std::vector<std::string> changed;  // "slc.roll_kp"
+  std::vector<std::string> refused;  // sentences: what has to be written by hand, and why
+};
+
+/// Where a value stands decides where it is written: `params:` of the mission, that of the file it extends, the airframe's; the mission
+/// when it stands nowhere. Values keep the unit and the quotes that they are written in. A change that would alter anything else, through
+/// an anchor say, is refused. Records and blobs are left out. Throws Error when a file cannot be read.
+SavePlan plan_save(const std::filesystem::path& mission, const std::vector<SavedParam>& params);
+
+/// The lines that change, with those that replace them: "anaconda.yaml:54" and "-", "+".
+std::string diff_text(const FileEdit& edit);
+
+/// All of the file or nothing. Throws Error, also when the file has changed since it was read.
+void write_edit(const FileEdit& edit);
+
+}  // namespace fulmar::core

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The sections of a mission that say who may look on and take part: `live:` and `dds:`.
+#include <arpa/inet.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+
+#include "core/graph/draft.hpp"
+
+namespace fulmar::core {
+namespace {
+
+constexpr int most_domain = 232;        // of DDS: the ports of the next one would lie above 65535
+constexpr double slowest_hz = 1 / 9e9;  // the nanoseconds of a longer period are no 64-bit number
+
+bool is_ipv4(const std::string& text) {
+  in_addr address{};
+  return inet_pton(AF_INET, text.c_str(), &address) == 1;
+}
+
+bool is_address(const std::string& text) {
+  in6_addr address{};
+  return text == "localhost" || is_ipv4(text) || inet_pton(AF_INET6, text.c_str(), &address) == 1;
+}
+
+/// "127.0.0.1:8765", "[::1]:8765", "8765".
+bool split_address(const std::string& text, LiveOptions& live) {
+  const auto colon = text.rfind(':');
+  const std::string port = colon == std::string::npos ? text : text.substr(colon + 1);
+  const auto [end, code] = std::from_chars(port.data(), port.data() + port.size(), live.port);
+  if (code != std::errc{} || end != port.data() + port.size() || port.empty()) return false;
+  if (colon == std::string::npos) return true;
+  std::string host = text.substr(0, colon);
+  if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
+  live.host = host;
+  return is_address(host);
+}
+
+bool is_topic(const std::string& text, bool namespaces) {
+  if (text.empty() || text.back() == '/') return false;
+  std::size_t at = text[0] == '/' ? 1 : 0;
+  if (namespaces && at == 1) return false;
+  while (at <= text.size()) {
+    const std::size_t slash = std::min(text.find('/', at), text.size());
+    if (!is_name(text.substr(at, slash - at))) return false;
+    at = slash + 1;
+  }
+  return true;
+}
+
+class DdsReader {
+ public:
+  DdsReader(MissionText& mission, Report& report) : m_(mission), report_(report) {}
+
+  void read(const Node& node) {
+    const Keys keys(node, "dds", {"domain", "namespace", "interfaces", "peers", "export", "import", "services", "parameters", "humble"},
+                    report_);
+    DdsOptions& dds = m_.dds;
+    dds.on = true;
+    if (const auto domain = keys.positive("domain", "", true)) {
+      if (*domain > most_domain || std::floor(*domain) != *domain)
+        report_.add(keys.where("domain"), "dds.domain: expected a whole number from 0 to " + std::to_string(most_domain));
+      else
+        dds.domain = static_cast<int>(*domain);
+    }
+    dds.name_space = keys.text("namespace").value_or("");
+    if (!dds.name_space.empty() && !is_topic(dds.name_space, true))
+      report_.add(keys.where("namespace"),
+                  "dds.namespace: expected names with '/' between them such as uav1, found '" + dds.name_space + "'");
+    addresses(keys, "interfaces", dds.interfaces);
+    if (keys.has("interfaces")) dds.interfaces_where = keys.where("interfaces");
+    addresses(keys, "peers", dds.peers);
+    dds.services = keys.flag("services").value_or(true);
+    dds.parameters = keys.flag("parameters").value_or(true);
+    dds.humble = keys.flag("humble").value_or(false);
+    if (const Node* list = keys.get("export")) exports(*list);
+    if (const Node* map = keys.get("import")) imports(*map);
+  }
+
+ private:
+  void addresses(const Keys& keys, const std::string& key, std::vector<std::string>& out) {
+    const Node* node = keys.get(key);
+    if (!node) return;
+    if (!node->is(Node::Kind::sequence))
+      return report_.add(node->where(), "dds." + key + ": expected a list of addresses such as [192.168.1.7], found " + found_words(*node));
+    for (const Node& item : node->items) {
+      const auto text = scalar_text(item, "dds." + key, "an address such as 192.168.1.7", report_);
+      if (text && !is_ipv4(*text))
+        report_.add(item.where(), "dds." + key + ": expected an IPv4 address such as 192.168.1.7, found '" + *text + "'");
+      else if (text)
+        out.push_back(*text);
+    }
+  }
+
+  void exports(const Node& list) {
+    if (!list.is(Node::Kind::sequence))
+      return report_.add(list.where(), "dds.export: expected a list of ports such as [nav.state], found " + found_words(list));
+    for (const Node& item : list.items) {
+      DdsOptions::Export e;
+      e.where = item.where();
+      if (item.is(Node::Kind::map)) {
+        const Keys keys(item, "dds.export", {"port", "topic", "rate", "best_effort"}, report_);
+        e.port = keys.text("port").value_or("");
+        e.topic = keys.text("topic").value_or("");
+        if (const auto hz = keys.positive("rate", "Hz")) {
+          if (*hz < slowest_hz)
+            report_.add(keys.where("rate"), "dds.export.rate: expected at least one in 285 years");
+          else
+            e.period_ns = std::llround(1e9 / *hz);
+        }
+        e.best_effort = keys.flag("best_effort").value_or(false);
+        if (!keys.has("port"))
+          report_.add(item.where(), "dds.export: 'port' is missing, as in {port: nav.state, topic: /state, rate: 50 Hz}");
+      } else {
+        e.port = scalar_text(item, "dds.export", "a port such as nav.state, or {port, topic, rate, best_effort}", report_).value_or("");
+      }
+      if (e.port.empty() || !parse_port_name(e.port, e.where, "dds.export", report_)) continue;
+      if (e.topic.empty()) {
+        e.topic = e.port;  // relative: behind the namespace
+        std::replace(e.topic.begin(), e.topic.end(), '.', '/');
+      }
+      if (topic(e.topic, e.where, "dds.export")) m_.dds.exports.push_back(std::move(e));
+    }
+  }
+
+  void imports(const Node& map) {
+    if (!map.is(Node::Kind::map))
+      return report_.add(map.where(), "dds.import: expected a map {component.input: /topic}, found " + found_words(map));
+    for (const Node::Entry& entry : map.entries) {
+      const std::string path = "dds.import." + entry.key;
+      const auto to = parse_port_name(entry.key, entry.where(), "dds.import", report_);
+      const auto name = scalar_text(entry.value, path, "a topic such as /fulmar/plan_edits", report_);
+      if (to && name && topic(*name, entry.where(), path)) m_.dds_imports.push_back({*to, *name, entry.where()});
+    }
+  }
+
+  bool topic(const std::string& text, const Where& where, const std::string& path) {
+    if (is_topic(text, false)) return true;
+    report_.add(where, path + ": expected a topic such as /nav/state (letters, digits, _ and /), found '" + text + "'");
+    return false;
+  }
+
+  MissionText& m_;
+  Report& report_;
+};
+
+}  // namespace
+
+void read_live(const Keys& mission, MissionText& text, Report& report) {
+  const Node* node = mission.get("live");
+  if (!node || (node->is(Node::Kind::scalar) && node->text == "off")) return;
+  if (!node->is(Node::Kind::map)) {
+    report.add(node->where(), "live: expected 'off' or a map {listen, token}, found " + found_words(*node));
+    return;
+  }
+  const Keys keys(*node, "live", {"listen", "token"}, report);
+  text.live.on = true;
+  text.live.where = node->where();
+  if (const auto listen = keys.text("listen"); listen && !split_address(*listen, text.live))
+    report.add(keys.where("listen"), "live.listen: expected an address and a port such as 127.0.0.1:8765, found '" + *listen + "'");
+  text.live.token = keys.text("token").value_or("");
+}
+
+LiveOptions parse_live(const std::string& listen) {
+  LiveOptions live;
+  live.where = {"--live " + listen, 0};
+  live.on = listen != "off";
+  if (live.on && !split_address(listen, live))
+    throw Error("--live " + listen + ": expected an address and a port such as 127.0.0.1:8765, or off");
+  return live;
+}
+
+void read_dds(const Keys& mission, MissionText& text, Report& report) {
+  const Node* node = mission.get("dds");
+  if (!node || (node->is(Node::Kind::scalar) && node->text == "off")) return;
+  if (!node->is(Node::Kind::map))
+    return report.add(node->where(), "dds: expected 'off' or a map {export, import}, found " + found_words(*node));
+  DdsReader(text, report).read(*node);
+}
+
+/// Inputs that are fed from outside. Before it is checked who feeds the others.
+void mark_imports(Draft& draft) {
+  for (std::size_t n = 0; n < draft.text.dds_imports.size(); ++n) {
+    const ImportText& import = draft.text.dds_imports[n];
+    const std::string path = "dds.import." + import.to.text();
+    const int index = draft.candidate(import.to.owner);
+    if (index < 0) {
+      if (!draft.text.component(import.to.owner)) draft.report.add(import.where, path + ": " + not_there(draft, import.to.owner));
+      continue;  // it exists with another io
+    }
+    Candidate& candidate = draft.candidates[static_cast<std::size_t>(index)];
+    if (!candidate.loaded) continue;
+    const int input = candidate.info().input(import.to.port);
+    if (input < 0) {
+      std::vector<std::string> names;
+      for (const Port& port : candidate.info().inputs) names.push_back(port.name);
+      draft.report.add(import.where, path + ": " + candidate.use + " has no such input." + choices_text(import.to.port, names));
+      continue;
+    }
+    Wire& wire = candidate.wires[static_cast<std::size_t>(input)];
+    if (candidate.info().inputs[static_cast<std::size_t>(input)].kind == FULMAR_IN_REQUEST)
+      draft.report.add(import.where, path + ": this is a request, which others make through a service; a topic feeds a value or a queue");
+    // What the mission imports replaces a wire of the file that it extends: nothing else takes that one out.
+    const bool replaces = import.where.file == draft.text.file->name && wire.where.file != import.where.file;
+    if (wire.from.kind != Source::Kind::none && !replaces)
+      draft.report.add(import.where, path + ": a wire feeds this input already (" + wire.where.text() + "); remove one of the two");
+    wire.from = {};
+    wire.import = static_cast<int>(n);
+    if (wire.max_age_ns == 0) wire.max_age_ns = candidate.text->max_age_ns;
+    wire.where = import.where;
+  }
+}
+
+namespace {
+
+/// Of a role's output or a component's; empty for a probe.
+TypePtr type_of_port(const Graph& graph, const std::string& port) {
+  const std::size_t dot = port.find('.');
+  const std::string owner = port.substr(0, dot), output = port.substr(dot + 1);
+  for (const Role& role : graph.roles)
+    for (const RolePort& p : role.outputs)
+      if (role.name == owner && p.name == output) return p.type;
+  for (const Component& c : graph.components)
+    if (const int o = c.name == owner ? c.info().output(output) : -1; o >= 0) return c.info().outputs[static_cast<std::size_t>(o)].type;
+  return nullptr;
+}
+
+/// The topics of DDS: each has one type. By their full names.
+class DdsTopics {
+ public:
+  DdsTopics(const DdsOptions& dds, Report& report) : dds_(dds), report_(report) {}
+
+  void add(const std::string& topic, const TypePtr& type, const Where& where, const std::string& path) {
+    const std::string name = topic.starts_with('/') ? topic : (dds_.name_space.empty() ? "/" : "/" + dds_.name_space + "/") + topic;
+    if (!type) return;
+    const auto [at, is_new] = topics_.emplace(name, Topic{type, where});
+    const Type& known = *at->second.type;
+    if (is_new || (known.ros == type->ros && (!known.ros.empty() || known.name == type->name))) return;
+    report_.add(where, path + ": the topic " + name + " has the type " + words(known) + " already (" + at->second.where.text() +
+                           "); it cannot be " + words(*type) + ", too");
+  }
+
+ private:
+  struct Topic {
+    TypePtr type;
+    Where where;
+  };
+  static const std::string& words(const Type& type) { return type.ros.empty() ? type.name : type.ros; }
+
+  const DdsOptions& dds_;
+  Report& report_;
+  std::map<std::string, Topic> topics_;
+};
+
+}  // namespace
+
+/// After the wires of the graph are built.
+void resolve_dds(Draft& draft, const std::vector<std::string>& ports) {
+  Graph& graph = draft.graph;
+  graph.live = draft.text.live;
+  graph.dds = draft.text.dds;
+  for (std::size_t c = 0; c < graph.components.size(); ++c)
+    for (std::size_t i = 0; i < graph.components[c].wires.size(); ++i) {
+      Wire& wire = graph.components[c].wires[i];
+      if (wire.import < 0) continue;
+      const ImportText& import = draft.text.dds_imports[static_cast<std::size_t>(wire.import)];
+      wire.import = static_cast<int>(graph.dds.imports.size());
+      graph.dds.imports.push_back({static_cast<int>(c), static_cast<int>(i), import.topic, import.where});
+    }
+  DdsTopics types(graph.dds, draft.report);
+  for (const DdsOptions::Import& i : graph.dds.imports) {
+    const Component& c = graph.components[static_cast<std::size_t>(i.component)];
+    const Port& port = c.info().inputs[static_cast<std::size_t>(i.input)];
+    types.add(i.topic, port.type, i.where, "dds.import." + c.name + "." + port.name);
+  }
+  std::vector<std::string> topics;
+  for (const DdsOptions::Export& e : graph.dds.exports) {
+    types.add(e.topic, type_of_port(graph, e.port), e.where, "dds.export: " + e.port);
+    if (std::find(ports.begin(), ports.end(), e.port) == ports.end())
+      draft.report.add(e.where, "dds.export: there is no port '" + e.port + "'." + choices_text(e.port, ports));
+    if (std::find(topics.begin(), topics.end(), e.topic) != topics.end())
+      draft.report.add(e.where, "dds.export: two ports have the topic " + e.topic);
+    topics.push_back(e.topic);
+  }
+}
+
+}  // namespace fulmar::core

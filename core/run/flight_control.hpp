@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The Control of a flight. Commands are checked and prepared in the thread that gives them, cross into the loop through a lock-free queue,
+// take effect between two ticks, and go back through another one to be answered and freed.
+#pragma once
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/graph/graph.hpp"
+#include "core/run/flight.hpp"
+#include "core/tap/control.hpp"
+
+namespace fulmar::core {
+
+/// What a parameter was set to, for the log and a replay: topic /fulmar/parameter.
+struct ParameterNote {
+  std::array<char, 48> component{};
+  std::array<char, 64> name{};
+  std::array<char, 256> text{};  // as in a mission file, exact
+};
+TypePtr parameter_note_type();
+
+/// What else was commanded: topic /fulmar/command.
+struct CommandNote {
+  enum class Kind : std::uint8_t { phase, swap, reset } kind = Kind::phase;
+  std::array<char, 48> component{};
+  std::array<char, 256> text{};  // name of the phase; plugin that was swapped in
+};
+TypePtr command_note_type();
+
+/// One producer, one consumer, pointers; full: refused.
+template <class T, std::size_t N>
+class PointerQueue {
+ public:
+  bool push(T* p) noexcept {
+    const std::size_t at = head_.load(std::memory_order_relaxed);
+    if (at - tail_.load(std::memory_order_acquire) == N) return false;
+    room_[at % N] = p;
+    head_.store(at + 1, std::memory_order_release);
+    return true;
+  }
+  T* pop() noexcept {
+    const std::size_t at = tail_.load(std::memory_order_relaxed);
+    if (at == head_.load(std::memory_order_acquire)) return nullptr;
+    T* const p = room_[at % N];
+    tail_.store(at + 1, std::memory_order_release);
+    return p;
+  }
+
+ private:
+  std::array<T*, N> room_{};
+  alignas(64) std::atomic<std::size_t> head_{0};
+  alignas(64) std::atomic<std::size_t> tail_{0};
+};
+
+class FlightControl final : public Control {
+ public:
+  explicit FlightControl(Flight::Impl& flight);
+  ~FlightControl() override;
+
+  /// [tick] Between two ticks. So many commands at most: who sends thousands does not starve the loop. False when there was work among
+  /// them that is done on the ground alone and allocates: a swap, a reset.
+  bool apply() noexcept;
+  /// [tick] What `view` tells of the flight.
+  void note(int phase, std::int64_t now_ns, bool armed) noexcept;
+  void note_stopped(std::size_t component, bool active, bool stopped) noexcept;
+  /// The flight is over: nothing is taken any more, what waits is answered.
+  void end();
+
+  FlightView view() const override;
+  void set_parameter(const std::string& component, const std::string& param, const std::string& text, Answer answer) override;
+  void request(const std::string& component, const std::string& port, const std::string& text, Answer answer) override;
+  void request(const std::string& component, const std::string& port, std::vector<std::byte> message, Answer answer) override;
+  bool publish(const std::string& component, const std::string& port, std::vector<std::byte> message) override;
+  void enter_phase(const std::string& phase, Answer answer) override;
+  void swap(const std::string& component, const std::string& file, Answer answer) override;
+  void reset_guards(Answer answer) override;
+  void on_parameter(std::function<void(const std::string&, const std::string&)> changed) override;
+  std::uint64_t lost_samples() const override { return lost_samples_.load(std::memory_order_relaxed); }
+
+ private:
+  struct Command;
+  struct Directory;
+  static constexpr std::size_t most_waiting = 1024, most_per_tick = 32, most_of_import = 64;
+
+  void send(std::unique_ptr<Command> command);
+  bool take(Command& command) noexcept;
+  bool apply(Command& command);
+  bool apply_request(Command& command);
+  bool refuse(Command& command, const char* why) noexcept;
+  void done(Command& command) noexcept;
+  void run() noexcept;
+  void answer_done();
+
+  Flight::Impl& flight_;
+  PointerQueue<Command, most_waiting> in_, samples_;  // nobody's samples keep a parameter waiting
+  PointerQueue<Command, 2 * most_waiting> out_;
+  std::array<Command*, most_waiting> held_{};  // the loop's: requests for which there was no room yet, in their order
+  std::size_t held_count_ = 0;
+  bool grounded_ = false;
+  std::atomic<int> phase_{0};
+  std::atomic<std::int64_t> now_ns_{0};
+  std::atomic<bool> armed_{false}, over_{false}, stop_{false};
+  std::unique_ptr<std::atomic<std::uint8_t>[]> states_;  // per component: 1 active, 2 stopped
+  std::atomic<std::uint64_t> lost_samples_{0};
+
+  mutable std::mutex mutex_;  // never the loop's
+  std::shared_ptr<const Directory> directory_;
+  std::vector<std::vector<ParamValue>> base_;  // what the loop has taken over
+  std::map<Command*, std::unique_ptr<Command>> waiting_;
+  std::size_t waiting_samples_ = 0;      // of them
+  std::vector<std::size_t> waiting_of_;  // samples per import
+  std::vector<std::function<void(const std::string&, const std::string&)>> changed_;
+  std::thread thread_;
+};
+
+}  // namespace fulmar::core

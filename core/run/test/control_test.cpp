@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What others ask of a flight from threads of their own: when it takes effect, what is refused, what the loop pays for a flood.
+#include "core/tap/control.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <future>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "core/run/test/lab.hpp"
+
+namespace {
+
+const std::string watched = "live: {listen: \"127.0.0.1:0\"}\n";
+
+/// Paced, so that onlookers are let in, and in no need to wait for the clock.
+FlightOptions quick(double duration_s = 1000) {
+  FlightOptions o = options(duration_s);
+  o.speed = 1e6;
+  return o;
+}
+
+/// An answer that comes from another thread.
+class Reply {
+ public:
+  Control::Answer take() {
+    return [promise = promise_](const std::string& refusal) { promise->set_value(refusal); };
+  }
+  /// The flight goes on until it is there.
+  std::string wait(Flight& flight) {
+    while (future_.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) flight.step();
+    return future_.get();
+  }
+  std::string wait() { return future_.get(); }
+
+ private:
+  std::shared_ptr<std::promise<std::string>> promise_ = std::make_shared<std::promise<std::string>>();
+  std::future<std::string> future_ = promise_->get_future();
+};
+
+const ParameterView& parameter(const FlightView& view, const std::string& component, const std::string& name) {
+  for (const ComponentView& c : view.components)
+    for (const ParameterView& p : c.params)
+      if (c.name == component && p.info.name == name) return p;
+  FAIL("no parameter " << name);
+  return view.components[0].params[0];
+}
+
+std::string refusal(const std::function<void()>& ask) {
+  try {
+    ask();
+  } catch (const Error& fault) {
+    return fault.what();
+  }
+  return "";
+}
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+std::string variant(const std::string& name) { return std::string(FULMAR_TEST_PLUGIN_DIR) + "/lab" + name + ".so"; }
+
+double commanded(const Graph& g, const Flight& flight) { return value(g, flight, "one", "command", "u_frac"); }
+
+}  // namespace
+
+TEST_CASE("a parameter that is set reaches the controller at the next tick, and everybody who looks") {
+  const Graph g = mission(watched + one_phase);
+  Flight flight(g, quick());
+  Control* const control = flight.control();
+  REQUIRE(control != nullptr);
+  CHECK(flight.live_port() != 0);
+  REQUIRE(flight.step());
+  REQUIRE(flight.step());
+  CHECK(commanded(g, flight) == 0.1);
+  std::promise<std::string> told;
+  control->on_parameter([&](const std::string& component, const std::string& name) { told.set_value(component + "." + name); });
+  Reply reply;
+  control->set_parameter("one", "u", "-0.25", reply.take());
+  CHECK(commanded(g, flight) == 0.1);  // not in the middle of a tick
+  REQUIRE(flight.step());
+  CHECK(commanded(g, flight) == -0.25);
+  CHECK(reply.wait() == "");
+  CHECK(told.get_future().get() == "one.u");
+  CHECK(parameter(control->view(), "one", "u").base.number[0] == -0.25);
+}
+
+TEST_CASE("what cannot be is refused in the asker's thread, with what would be right, and changes nothing") {
+  const Graph g = mission(watched + one_phase);
+  Flight flight(g, quick());
+  Control& control = *flight.control();
+  REQUIRE(flight.step());
+  const auto none = [](const std::string&) { FAIL("nobody may be answered"); };
+  CHECK(holds(refusal([&] { control.set_parameter("one", "u", "1.5", none); }), "1.5 is outside -1 .. 1"));
+  CHECK(holds(refusal([&] { control.set_parameter("one", "u", "nan", none); }), "u"));
+  CHECK(holds(refusal([&] { control.set_parameter("one", "u", "fast", none); }), "fast"));
+  CHECK(holds(refusal([&] { control.set_parameter("one", "uu", "0", none); }), "Did you mean 'u'?"));
+  CHECK(holds(refusal([&] { control.set_parameter("ome", "u", "0", none); }), "Did you mean 'one'?"));
+  CHECK(holds(refusal([&] { control.set_parameter("one", "fixed", "0", none); }), "set-up parameter"));
+  CHECK(holds(refusal([&] { control.set_parameter("one", "fault", "nothing", none); }), "none"));
+  CHECK(holds(refusal([&] { control.enter_phase("fli", none); }), "Did you mean 'fly'?"));
+  CHECK(holds(refusal([&] { control.request("watch", "asks", "{}", none); }), "Did you mean 'ask'?"));
+  CHECK(holds(refusal([&] { control.request("watch", "ask", "{too_m: 1}", none); }), "too_m"));
+  CHECK(holds(refusal([&] { control.publish("watch", "burst", {}); }), "imported"));
+  CHECK(holds(refusal([&] { control.swap("nobody", "x.so", none); }), "there is no component 'nobody'"));
+  REQUIRE(flight.step());
+  CHECK(commanded(g, flight) == 0.1);
+}
+
+TEST_CASE("a request is answered by its component in its next step, and one that nobody can answer when the flight ends") {
+  const Graph g = mission(watched + one_phase);
+  std::string last;
+  Reply late;
+  {
+    Flight flight(g, quick());
+    Control& control = *flight.control();
+    REQUIRE(flight.step());
+    Reply good, bad;
+    control.request("watch", "ask", "{to_m: 1}", good.take());
+    CHECK(good.wait(flight) == "");
+    control.request("watch", "ask", "{to_m: -1}", bad.take());
+    CHECK(bad.wait(flight) == "cannot go back");
+    control.request("watch", "ask", "{to_m: 1}", late.take());
+    flight.finish();
+    CHECK(refusal([&] { control.enter_phase("fly", {}); }) == "the flight has ended");
+  }
+  CHECK(late.wait() == "the flight has ended");
+}
+
+TEST_CASE("thousands of parameters per second neither block nor starve the loop, and the last that was taken stands") {
+  Graph g = mission(watched + one_phase);
+  g.timeout_ns = 0;  // as long as the flood lasts
+  Flight flight(g, quick(1e6));
+  Control& control = *flight.control();
+  REQUIRE(flight.step());
+  std::atomic<int> accepted{0}, full{0}, answered{0};
+  std::atomic<bool> over{false};
+  std::thread flood([&] {
+    for (int n = 1; n <= 20'000; ++n) {
+      const std::string text = std::to_string(n % 1000) + "e-4";
+      const std::string why = refusal([&] { control.set_parameter("one", "u", text, [&](const std::string&) { ++answered; }); });
+      ++(why.empty() ? accepted : full);
+      if (!why.empty()) CHECK(holds(why, "there is no room for more"));
+    }
+    over = true;
+  });
+  int ticks = 0;
+  bool flies = true;
+  for (; flies && (!over || answered < accepted); ++ticks) flies = flight.step();
+  flood.join();
+  REQUIRE(flies);
+  CHECK(accepted + full == 20'000);
+  CHECK(answered == accepted);
+  CHECK(ticks >= accepted / 32);  // no more than so many in one tick
+  const double last = commanded(g, flight);
+  CHECK(parameter(control.view(), "one", "u").base.number[0] == last);
+  const FlightResult result = flight.finish();
+  CHECK(result.loop_allocations == 0);
+}
+
+TEST_CASE("what was asked of a component before it was swapped is not done to the one after it") {
+  const Graph g = mission(watched + one_phase);
+  Flight flight(g, quick());
+  Control& control = *flight.control();
+  REQUIRE(flight.step());
+  Reply swapped, set, asked;
+  control.swap("one", variant("_better"), swapped.take());
+  control.set_parameter("one", "u", "0.7", set.take());
+  CHECK(swapped.wait(flight) == "");
+  CHECK(holds(set.wait(flight), "swapped meanwhile"));
+  CHECK(parameter(control.view(), "one", "u").base.number[0] == 0.1);
+  control.set_parameter("one", "u", "0.7", asked.take());
+  CHECK(asked.wait(flight) == "");
+}
+
+TEST_CASE("requests wait for room in their order, hold up no parameter, and cost the loop no allocation") {
+  const Graph g = mission(watched + one_phase);
+  Flight flight(g, quick());
+  Control& control = *flight.control();
+  REQUIRE(flight.step());
+  REQUIRE(flight.step());
+  constexpr int many = 200;  // Watch::ask has room for few
+  std::vector<int> order;
+  std::mutex mutex;
+  for (int n = 0; n < many; ++n)
+    control.request("watch", "ask", n % 10 == 9 ? "{to_m: -1}" : "{to_m: 1}", [&, n](const std::string& refusal) {
+      const std::lock_guard lock(mutex);
+      CHECK(refusal == (n % 10 == 9 ? "cannot go back" : ""));
+      order.push_back(n);
+    });
+  Reply set;
+  control.set_parameter("one", "u", "0.5", set.take());
+  const auto answered = [&] {
+    const std::lock_guard lock(mutex);
+    return order.size();
+  };
+  while (answered() < many) REQUIRE(flight.step());
+  CHECK(std::is_sorted(order.begin(), order.end()));
+  CHECK(set.wait(flight) == "");
+  CHECK(flight.finish().loop_allocations == 0);
+}
+
+TEST_CASE("a request to a component that does not fly is refused, not kept for the day when it does") {
+  const Graph g = mission(watched + one_phase);
+  Flight flight(g, quick());
+  Control& control = *flight.control();
+  REQUIRE(flight.step());
+  Reply stop, before, after;
+  control.set_parameter("watch", "stop_at", "-100 s", stop.take());
+  control.request("watch", "ask", "{to_m: 1}", before.take());
+  CHECK(before.wait(flight) == "was not answered");  // that step threw
+  control.request("watch", "ask", "{to_m: 1}", after.take());
+  CHECK(after.wait(flight) == "does not fly now");
+  const std::byte message[sizeof(double)]{};
+  CHECK(refusal([&] { flight.request("watch", "ask", message); }) == "watch does not fly now");
+}
+
+TEST_CASE("a law whose imported input falls silent is stopped like any other") {
+  mission(watched + with_fallback);
+  const fs::path file = folder().path / "fed-from-outside.yaml";  // takes the wire of lab.yaml out
+  std::ofstream(file) << "extends: lab.yaml\ndds: {import: {one.signal: /lab/signal}}\n";
+  Graph g = load_mission(file.string(), {});
+  g.dds.on = false;
+  Flight flight(g, quick());
+  Control& control = *flight.control();
+  const auto type = g.components[static_cast<std::size_t>(g.dds.imports.at(0).component)].info().inputs.at(0).type;
+  for (int n = 0; n < 40; ++n) {
+    REQUIRE(flight.step());
+    CHECK(control.publish("one", "signal", std::vector<std::byte>(type->size)));
+  }
+  CHECK(value(g, flight, "sim", "applied", "u_frac") == 0.1);
+  const std::int64_t silent_ns = flight.now_ns();
+  while (value(g, flight, "sim", "applied", "u_frac") == 0.1) REQUIRE(flight.step());
+  CHECK(value(g, flight, "sim", "applied", "u_frac") == 0.2);
+  CHECK(flight.now_ns() - silent_ns == doctest::Approx(1e9).epsilon(0.02));  // docs/loop.md: 1 s
+  const FlightResult result = flight.finish();
+  REQUIRE(result.guards.size() == 1);
+  CHECK(holds(result.guards[0].what, "input 'signal' is"));
+}
+
+TEST_CASE("a flood of one import takes no room of another's, and what it loses is told") {
+  const Graph whole = mission("  ear: {use: lab/OldReader}\n  other: {use: lab/OldReader}\n" + watched + one_phase +
+                              "dds: {import: {ear.signal: /lab/flood, other.signal: /lab/calm}}\n");
+  Graph g = whole;
+  g.dds.on = false;
+  Flight flight(g, quick());
+  Control& control = *flight.control();
+  REQUIRE(flight.step());
+  std::vector<std::byte> message(sizeof(double));
+  int taken = 0;
+  for (int n = 0; n < 3000; ++n) taken += control.publish("ear", "signal", message);
+  CHECK(taken == 64);
+  CHECK(control.lost_samples() == 3000 - 64);
+  CHECK(control.publish("other", "signal", message));
+  Reply set;
+  control.set_parameter("one", "u", "0.9", set.take());
+  REQUIRE(flight.step());
+  CHECK(commanded(g, flight) == 0.9);  // no sample keeps a parameter waiting
+  for (int n = 0; n < 3; ++n) REQUIRE(flight.step());
+  CHECK(value(g, flight, "other", "tally", "steps_ratio") >= 1);
+}
+
+TEST_CASE("a phase is entered between two ticks, and onlookers see it") {
+  const Graph g =
+      mission(watched + "phases:\n  fly: {law: one, next: [{to: rest, when: \"vehicle.signal.x_m < 0\"}]}\n  rest: {law: two}\n");
+  Flight flight(g, quick());
+  Control& control = *flight.control();
+  REQUIRE(flight.step());
+  CHECK(control.view().phase == "fly");
+  Reply reply;
+  control.enter_phase("rest", reply.take());
+  REQUIRE(flight.step());
+  CHECK(flight.phase() == "rest");
+  CHECK(value(g, flight, "two", "command", "u_frac") == 0.2);
+  CHECK(control.view().phase == "rest");
+  CHECK(reply.wait() == "");
+}
+
+TEST_CASE("what a phase hides is told; the present phase can be entered anew, after a reset for one") {
+  const Graph g = mission("  one:    {fills: law, use: lab/Law, params: {id: 1, u: 0.1, fault: fails, fault_at: 0.02 s}}\n" + watched +
+                          "phases:\n  fly: {law: {use: one, fallback: two, set: {u: 0.3}}}\n");
+  Flight flight(g, quick());
+  Control& control = *flight.control();
+  REQUIRE(flight.step());
+  CHECK(commanded(g, flight) == 0.3);
+  CHECK(parameter(control.view(), "one", "u").overlaid);
+  CHECK_FALSE(parameter(control.view(), "two", "u").overlaid);
+  Reply hidden;
+  control.set_parameter("one", "u", "0.7", hidden.take());
+  REQUIRE(flight.step());
+  CHECK(commanded(g, flight) == 0.3);
+  CHECK(parameter(control.view(), "one", "u").base.number[0] != 0.3);
+  while (value(g, flight, "sim", "applied", "u_frac") != 0.2) REQUIRE(flight.step());
+  Reply healed, reset, again;
+  control.set_parameter("one", "fault", "none", healed.take());
+  control.reset_guards(reset.take());
+  control.enter_phase("fly", again.take());
+  REQUIRE(flight.step());
+  REQUIRE(flight.step());
+  CHECK(value(g, flight, "sim", "applied", "u_frac") == 0.3);
+}
+
+TEST_CASE("a sample from outside is the input's at the next tick; a damaged one is refused") {
+  const Graph whole = mission("  ear: {use: lab/OldReader}\n" + watched + one_phase + "dds: {import: {ear.signal: /lab/signal}}\n");
+  Graph g = whole;
+  g.dds.on = false;  // by hand here
+  Flight flight(g, quick());
+  Control& control = *flight.control();
+  REQUIRE(flight.step());
+  const TypePtr type = [&] {
+    for (const ComponentView& c : control.view().components)
+      if (c.name == "ear") return c.inputs[0].type;
+    return TypePtr{};
+  }();
+  REQUIRE(type);
+  std::vector<std::byte> message(type->size);
+  CHECK(holds(refusal([&] { control.publish("ear", "signal", {message.begin(), message.end() - 1}); }), "bytes are no"));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  std::memcpy(message.data() + type->fields[0].offset, &nan, sizeof nan);
+  CHECK(holds(refusal([&] { control.publish("ear", "signal", message); }), "nan"));
+  const double tick_s = 5;
+  std::memcpy(message.data() + type->fields[0].offset, &tick_s, sizeof tick_s);
+  REQUIRE(flight.step());
+  CHECK(flight.sample(port(g, "ear", "tally")) == nullptr);  // it has not had a sample yet
+  control.publish("ear", "signal", message);
+  REQUIRE(flight.step());
+  CHECK(value(g, flight, "ear", "tally", "steps_ratio") == 1);
+  CHECK(value(g, flight, "ear", "tally", "dt_s") == doctest::Approx(tick_s - 1e-9 * static_cast<double>(flight.now_ns())));
+  CHECK(control.lost_samples() == 0);
+}
+
+TEST_CASE("as fast as the machine allows nobody is let in, and a token is asked for where others could come") {
+  Flight flight(mission(watched + one_phase), options(0.1));
+  CHECK(flight.control() == nullptr);
+  CHECK(flight.live_port() == 0);
+  const Graph open = mission("live: {listen: \"0.0.0.0:0\"}\n"s + one_phase);
+  CHECK_THROWS_WITH_AS(Flight(open, quick()), doctest::Contains("live.token"), Error);
+}
+
+TEST_CASE("a port that is taken keeps nobody from flying") {
+  const Graph g = mission(watched + one_phase);
+  Flight first(g, quick());
+  Graph same = g;
+  same.live.port = first.live_port();
+  std::vector<std::string> said;
+  FlightOptions o = quick(0.05);
+  o.say = [&](const std::string& line, bool warning) {
+    if (warning) said.push_back(line);
+  };
+  Flight second(same, o);
+  CHECK(second.live_port() == 0);
+  CHECK(second.run().outcome == Outcome::flown);
+  REQUIRE(said.size() == 1);
+  CHECK(holds(said[0], "nobody can watch this flight"));
+  CHECK(holds(said[0], std::to_string(same.live.port)));
+}
+
+TEST_CASE("who fills a role publishes as the role: one topic, whoever flies") {
+  Flight flight(mission(watched + "phases:\n  fly: {law: one, next: [{to: rest, when: \"vehicle.signal.x_m < 0\"}]}\n  rest: {law: two}\n"),
+                quick());
+  std::vector<int> channels;
+  for (const ComponentView& c : flight.control()->view().components)
+    for (const PortView& port : c.outputs)
+      if (port.name == "command") channels.push_back(port.channel);
+  REQUIRE(channels.size() == 2);
+  CHECK(channels[0] == channels[1]);
+  CHECK(channels[0] >= 0);
+}

@@ -7,7 +7,10 @@
 #include <iostream>
 
 #include "core/app/extern_command.hpp"
+#include "core/app/log_command.hpp"
 #include "core/app/new_command.hpp"
+#include "core/app/remote/remote.hpp"
+#include "core/app/replay_command.hpp"
 #include "core/app/run_command.hpp"
 #include "core/error.hpp"
 #include "core/graph/graph.hpp"
@@ -108,6 +111,8 @@ int run_app(int argc, char** argv) {
   run->add_option("--repeat", run_options.repeat, "so many flights in one host")->check(CLI::Range(1, 1000000));
   run->add_flag("--watch", run_options.watch, "after a flight wait until a plugin or file of the mission changes, fly again, and compare");
   run->add_option("--build", run_options.build, "with --watch: command to run when a source file beside the mission has changed");
+  run->add_option("--live", run_options.live, "ADDRESS:PORT where onlookers connect, or off; default: what the mission says")
+      ->type_name("ADDRESS:PORT");
   run->add_flag("--realtime{" + std::to_string(usual_priority) + "}", run_options.realtime,
                 "real-time priority, 1 to 99 as in --realtime=70, and locked memory for the loop")
       ->check(CLI::Range(1, 99));
@@ -134,16 +139,35 @@ int run_app(int argc, char** argv) {
   new_plugin->add_option("--mission", new_options.mission, "whose role it fills; default the shipped hourglass");
   new_plugin->add_option("--dir", new_options.folder, "folder to write; default ./NAME");
 
+  ReplayWords replay_words;
+  std::vector<std::string> replay_set, replay_with;
+  CLI::App* replay =
+      app.add_subcommand("replay", "fly a log again: what entered the flight is fed to its mission, and what comes out is compared");
+  replay->add_option("LOG", replay_words.log, "log of a flight (MCAP)")->required();
+  replay->add_option("--with", replay_with, "COMPONENT=PLUGIN.so: an experiment with another file for a component")
+      ->type_name("COMPONENT=FILE")
+      ->allow_extra_args(false);
+  replay->add_option("--set", replay_set, "COMPONENT.PARAMETER=VALUE: an experiment with another parameter")
+      ->type_name("COMP.PARAM=VALUE")
+      ->allow_extra_args(false);
+  replay->add_option("--log", replay_words.out, "where to write the log of the replay; default nowhere");
+  replay->add_flag("--json", replay_words.json, "print one JSON object");
+
+  const LogCommand log(app);
+  const RemoteCommands remote(app, programs);
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) names.push_back(command->get_name());
   if (argc > 1 && argv[1][0] != '-' && std::find(names.begin(), names.end(), argv[1]) == names.end()) {
     become_extern_command(argv + 1);
     for (const std::string& word : extern_commands()) names.push_back(word);
+    std::erase(names, "complete");  // for shells
     std::fprintf(stderr, "fulmar: there is no command '%s'.%s\n", argv[1], choices_text(argv[1], names).c_str());
     return 2;
   }
   try {
     app.parse(argc, argv);
+    if (const auto code = remote.run()) return *code;
+    if (log.parsed()) return log.run();
     if (run->parsed()) {
       run_options.mission = mission.mission;
       run_options.overrides = mission.overrides(run);
@@ -156,6 +180,10 @@ int run_app(int argc, char** argv) {
     if (graph->parsed()) {
       std::cout << print_graph(load_mission(mission.mission, mission.overrides(graph)), format);
       return 0;
+    }
+    if (replay->parsed()) {
+      replay_words.changes.set = pairs(replay_set), replay_words.changes.with = pairs(replay_with);
+      return replay_command(replay_words);
     }
     if (new_plugin->parsed()) return new_command(new_options);
     const std::shared_ptr<Library> library = Library::open(plugin);
@@ -170,7 +198,10 @@ int run_app(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return run_app(argc, argv);
+    const int code = run_app(argc, argv);
+    if (code != 0 || (std::fflush(stdout) == 0 && std::ferror(stdout) == 0)) return code;
+    std::fprintf(stderr, "fulmar: the output cannot be written; is the disk full?\n");
+    return 1;
   } catch (const fulmar::core::Error& e) {
     std::fprintf(stderr, "%s\n", e.what());
   } catch (const std::exception& e) {

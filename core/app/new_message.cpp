@@ -31,6 +31,12 @@ class Writer {
         return "bool";
       case FULMAR_U8:
         return "std::uint8_t";
+      case FULMAR_I8:
+        return "std::int8_t";
+      case FULMAR_I16:
+        return "std::int16_t";
+      case FULMAR_U16:
+        return "std::uint16_t";
       case FULMAR_I32:
         return "std::int32_t";
       case FULMAR_U32:

@@ -190,7 +190,7 @@ namespace {
 /// Flights of one mission in one host: the graph that flies now, and how the last flight went.
 class Session {
  public:
-  explicit Session(const RunOptions& options) : options_(options), graph_(load_mission(options.mission, options.overrides)) {
+  explicit Session(const RunOptions& options) : options_(options), graph_(load()) {
     if (!graph_.record && !options.log_file.empty())
       throw Error("--log " + options.log_file + ": the mission says record: off; there is no log to write");
   }
@@ -205,6 +205,7 @@ class Session {
   bool has_flown() const { return !results_.empty(); }
 
  private:
+  Graph load() const;
   std::filesystem::path log_file() const;
   std::optional<Resume> resume() const;
   void forget_before();
@@ -213,6 +214,7 @@ class Session {
   std::vector<std::filesystem::path> files() const;
   void prepare_last_words(const std::string& log) const;
   void take_priority() const;
+  void tell_onlookers() const;
 
   const RunOptions& options_;
   Graph graph_;
@@ -221,6 +223,17 @@ class Session {
   std::vector<nlohmann::json> results_;
   std::unique_ptr<FileStamps> stamps_, sources_;
 };
+
+Graph Session::load() const {
+  Graph graph = load_mission(options_.mission, options_.overrides);
+  if (!options_.live.empty()) {
+    const std::string token = graph.live.token;
+    graph.live = parse_live(options_.live);
+    graph.live.token = token;
+  }
+  if (const char* token = std::getenv("FULMAR_TOKEN"); token && *token) graph.live.token = token;
+  return graph;
+}
 
 std::filesystem::path Session::log_file() const {
   if (options_.no_log || !graph_.record) return {};
@@ -268,6 +281,16 @@ void Session::take_priority() const {
   if (graph_.io == "fcu") spdlog::warn("the loop runs without real-time priority; --realtime gives it one");
 }
 
+void Session::tell_onlookers() const {
+  if (graph_.dds.on && graph_.io == "sim" && options_.speed == 0)
+    spdlog::warn("dds: nothing is exported or imported as fast as the machine allows; fly with --speed real");
+  if (!options_.live.empty() && graph_.live.on && graph_.io == "sim" && options_.speed == 0)
+    spdlog::warn("--live: nobody can follow as fast as the machine allows; fly with --speed real");
+  if (last_->live_port() != 0 && !options_.json)
+    spdlog::info("live view: ws://{}{}{}:{}", graph_.live.host.find(':') == std::string::npos ? "" : "[", graph_.live.host,
+                 graph_.live.host.find(':') == std::string::npos ? "" : "]", last_->live_port());
+}
+
 int Session::fly() {
   if (!stamps_) stamps_ = std::make_unique<FileStamps>(files());
   if (!options_.build.empty() && !sources_)
@@ -295,6 +318,7 @@ int Session::fly() {
   take_priority();
   last_ = std::make_unique<Flight>(graph_, o);
   forget_before();
+  tell_onlookers();
   const FlightResult result = last_->run();
   alarm(0);
   progress.clear();
@@ -305,9 +329,14 @@ int Session::fly() {
     if (results_.size() > 1) std::printf("%s", comparison(results_[results_.size() - 2], results_.back()).c_str());
     std::fflush(stdout);
   }
-  if (!result.log.error.empty()) spdlog::warn("log: {}; {} messages were lost", result.log.error, result.log.dropped);
+  const bool whole = result.log.error.empty();
+  if (!whole)
+    spdlog::warn("the log is not whole: {}; {} messages were lost, and what there is is in {}", result.log.error, result.log.dropped,
+                 result.log.file.string());
+  else if (result.log.dropped > 0)
+    spdlog::warn("the log has gaps: the disk was too slow for {} messages", result.log.dropped);
   if (result.outcome == Outcome::interrupted) return 130;
-  return result.outcome == Outcome::flown ? 0 : 1;
+  return result.outcome == Outcome::flown && whole ? 0 : 1;
 }
 
 std::vector<std::filesystem::path> Session::files() const {
@@ -337,7 +366,7 @@ void Session::rehearse_changes(const Graph& next) const {
 bool Session::reload(const std::vector<std::filesystem::path>& changed) {
   for (const auto& file : changed) spdlog::info("changed: {}", file.filename().string());
   try {
-    Graph next = load_mission(options_.mission, options_.overrides);
+    Graph next = load();
     rehearse_changes(next);
     before_ = std::make_unique<Graph>(std::exchange(graph_, std::move(next)));
     stamps_ = std::make_unique<FileStamps>(files());

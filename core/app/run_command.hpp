@@ -21,6 +21,7 @@ struct RunOptions {
   std::string drivers_from;           // log whose driver samples are fed in place of the drivers
   std::optional<std::string> resume;  // log where to go on; "": the newest of the mission
   bool no_resume = false;             // on hardware: begin at the beginning, whatever the newest log says
+  std::string live;                   // where onlookers connect, in place of the mission's `live:`; "off": nowhere
   int realtime = 0;                   // priority of the loop's thread; 0: an ordinary one
 };
 

@@ -185,15 +185,21 @@ TEST_CASE("a real-time flight takes its time") {
 }
 
 TEST_CASE("on a full disk the flight goes on and the loss is told") {
-  // no file may grow beyond 64 blocks of 512 bytes
+  // no file may grow beyond 1024 blocks of 512 bytes
   const std::string log = (folder() / "full.mcap").string();
-  const Result r = shell("ulimit -f 64; " + program + "run " + hourglass + " --json --duration 60 --log " + log);
-  CHECK(r.code == 0);
+  const Result r = shell("ulimit -f 1024; " + program + "run " + hourglass + " --json --duration 60 --log " + log);
+  CHECK(r.code == 1);
   const json j = json::parse(r.out);
   CHECK(j["result"] == "flown");
   CHECK(j["log_dropped"].get<std::uint64_t>() > 1000);
   CHECK(j["log_error"].is_string());
-  CHECK(r.err.find("messages were lost") != std::string::npos);
+  const std::string why = "cannot write '" + log + ".part': File too large";
+  CHECK(r.err.find("the flight goes on without its log: " + why) < r.err.find("phase cruise"));
+  CHECK(r.err.find("the log is not whole: " + why + "; ") != std::string::npos);
+  CHECK(r.err.find(" messages were lost, and what there is is in " + log + ".part\n") != std::string::npos);
+  CHECK_FALSE(fs::exists(log));
+  CHECK(fulmar("log info " + log + ".part").out.find("complete") == std::string::npos);
+  CHECK(fulmar("replay " + log + ".part").out.find("the log was cut off") != std::string::npos);
 }
 
 TEST_CASE("inspect and graph speak to people") {
@@ -306,9 +312,17 @@ TEST_CASE("what cannot be is refused before anything flies") {
   CHECK(driver.code == 1);
   CHECK(driver.err.find("has no component with 'run: driver'") != std::string::npos);
   CHECK(fulmar("run " + hourglass + " --with slc=").code == 2);
+  CHECK(fulmar("check " + hourglass + " --with slc=control_slc").code == 0);
+  CHECK(fulmar("check " + hourglass + " --with slc=control_slc/Outer").code == 0);
+  const Result no_plugin = fulmar("check " + hourglass + " --with slc=control_slk");
+  CHECK(no_plugin.err.find("there is no plugin 'control_slk'") != std::string::npos);
+  CHECK(no_plugin.err.find("Valid: control_slc,") != std::string::npos);
   const Result full = shell(program + "run " + hourglass + " --json --no-log --duration 1 > /dev/full");
   CHECK(full.code == 1);
   CHECK(full.err.find("the result cannot be written") != std::string::npos);
+  const Result page = shell(program + "check " + hourglass + " > /dev/full");
+  CHECK(page.code == 1);
+  CHECK(page.err == "fulmar: the output cannot be written; is the disk full?\n");
 }
 
 TEST_CASE("a list of allowed plugins is understood in a mission that is named without a folder") {

@@ -7,14 +7,17 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/run/flight.hpp"
+#include "core/tap/reader.hpp"
 
 using namespace fulmar::core;
 namespace fs = std::filesystem;
@@ -28,6 +31,19 @@ struct Folder {
   Folder() { fs::create_directories(path); }
   ~Folder() { fs::remove_all(path); }
 };
+
+/// The hourglass, beside it, with this `record:`.
+fs::path recorded_hourglass(const fs::path& folder, const std::string& record) {
+  std::ifstream in(hourglass);
+  std::ofstream out(folder / "turn.yaml");
+  for (std::string line; std::getline(in, line);) {
+    for (const std::string word : {"common.yaml", "../"})
+      if (const auto at = line.find(word); at != std::string::npos) line.insert(at, FULMAR_SOURCE_DIR "/configs/missions/");
+    out << line << "\n";
+  }
+  out << "record: " << record << "\n";
+  return folder / "turn.yaml";
+}
 
 double field(const Graph& graph, const Flight& flight, const std::string& component, const std::string& port, const std::string& name) {
   const auto at = std::find_if(graph.components.begin(), graph.components.end(), [&](const Component& c) { return c.name == component; });
@@ -83,6 +99,70 @@ TEST_CASE("a host that starts again in the air goes on in the same phase with th
     CHECK(items[0] == (resumes ? item : 0));
     CHECK(items[1] == (resumes ? item + 1 : 1));
   }
+}
+
+TEST_CASE("a flight resumes from any file of a log that rotates, whole or cut off, and with the phase and waypoint of that time") {
+  const Folder folder;
+  const Graph graph =
+      load_mission(recorded_hourglass(folder.path, "{file: " + (folder.path / "a.mcap").string() + ", rotate: 20 s}").string());
+  FlightOptions o;
+  o.log_file = graph.record_file;
+  o.duration_s = 110;
+  Flight flight(graph, o);
+  struct Then {
+    std::int64_t now_ns;
+    std::string phase;
+    double item;
+  };
+  std::vector<Then> flown;
+  for (bool goes_on = true; goes_on;) {
+    goes_on = flight.step();
+    flown.push_back({flight.now_ns(), flight.phase(), field(graph, flight, "manage", "progress", "item")});
+  }
+  CHECK(flight.finish().log.files == 6);
+  for (const char* name : {"a-2.mcap", "a-3.mcap", "a-4.mcap", "a-5.mcap", "a-6.mcap"})
+    for (const double left : {1.0, 0.6}) {
+      const fs::path cut = folder.path / "cut.mcap.part";
+      fs::copy_file(folder.path / name, cut, fs::copy_options::overwrite_existing);
+      fs::resize_file(cut, static_cast<std::uintmax_t>(left * static_cast<double>(fs::file_size(cut))));
+      const auto end_ns = static_cast<std::int64_t>(read_mcap(cut).messages.back().log_ns) - graph.epoch_ns;
+      const auto then = std::find_if(flown.begin(), flown.end(), [&](const Then& t) { return t.now_ns >= end_ns; });
+      REQUIRE(then != flown.end());
+      const Resume resume = read_resume(graph, cut);
+      CHECK(resume.phase == then->phase);
+      CHECK(resume.missing.empty());
+      REQUIRE(resume.params.size() == 1);
+      CHECK(resume.params[0].value.number[0] == then->item);
+    }
+  CHECK(flown.front().item != flown.back().item);
+
+  // The newest that tells anything: one that had just been begun does not.
+  fs::remove(folder.path / "cut.mcap.part");
+  std::ofstream(folder.path / "a-7.mcap.part") << "";
+  fs::copy_file(folder.path / "a-6.mcap", folder.path / "a-8.mcap.part");
+  fs::resize_file(folder.path / "a-8.mcap.part", 40);
+  fs::last_write_time(folder.path / "a-5.mcap", fs::last_write_time(folder.path / "a-6.mcap") - std::chrono::seconds(1));
+  CHECK(newest_log(graph, 0) == folder.path / "a-6.mcap");
+}
+
+TEST_CASE("a host that is killed between two files of its log goes on where it was; of a later file alone nothing is replayed") {
+  const Folder folder;
+  recorded_hourglass(folder.path, "{file: a.mcap, rotate: 10 s}");
+  const std::string here = "cd " + folder.path.string() + " && ", run = FULMAR_BIN_DIR "/fulmar run turn.yaml ";
+  const std::string killed = "while kill -0 $! && [ ! -e a-4.mcap.part ]; do sleep 0.02; done; kill -9 $!; wait $!";
+  CHECK(shell(here + "(" + run + "--speed 20 & " + killed + ")").first == 137);
+  CHECK(fs::exists(folder.path / "a.mcap"));
+  CHECK(fs::exists(folder.path / "a-2.mcap"));
+  const auto [code, out] = shell(here + run + "--no-log --duration 1 --resume");
+  CHECK(code == 0);
+  CHECK(out.find("resumes from ./a-") != std::string::npos);
+  CHECK(out.find("resumed: phase cruise, manage.first_item = ") != std::string::npos);
+  const auto later = shell(here + FULMAR_BIN_DIR "/fulmar replay a-2.mcap");
+  CHECK(later.first == 1);
+  CHECK(later.second.find("a-2.mcap: it is file 2 of a log that rotated, and a replay begins with the first tick: give a.mcap, ") == 0);
+  const auto first = shell(here + FULMAR_BIN_DIR "/fulmar replay a.mcap");
+  CHECK(first.first == 0);
+  CHECK(first.second.find("\nequal: ") != std::string::npos);
 }
 
 TEST_CASE("--resume takes the log that it is given, or the newest of the mission; what it cannot use it says") {

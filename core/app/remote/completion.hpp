@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Completion of the command line in shells: commands and options from the table of commands, the rest from the running flight.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace fulmar::core {
+
+class Session;
+
+/// `shell`: "bash" or "zsh".
+std::string completion_script(const CLI::App& app, const std::string& shell);
+
+/// The words of a kind (port, field, param, component, request, phase) that begin with `prefix`.
+std::vector<std::string> completions(Session& session, const std::string& kind, const std::string& prefix);
+
+/// Prints them, one per line. Silent when there is no flight; never takes long.
+int complete_command(const std::string& at, const std::string& token, const std::string& kind, const std::string& prefix);
+
+}  // namespace fulmar::core

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `fulmar ros2 ...`, as the program fulmar-ros2. Exit codes: 0 done; 1 it failed; 2 wrong usage.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "core/graph/catalogue.hpp"
+#include "core/graph/graph.hpp"
+#include "core/loader/home.hpp"
+#include "tools/fulmar_ros2/interface_package.hpp"
+
+namespace {
+
+namespace core = fulmar::core;
+namespace ros2 = fulmar::ros2;
+
+struct Options {
+  std::string folder, mission;
+  std::vector<std::string> plugins;
+};
+
+/// The plugins that are named, or those of a mission; else all that are installed.
+void collect(const Options& options, ros2::Collector& collector) {
+  if (!options.mission.empty()) {
+    const core::Graph graph = core::load_mission(options.mission);
+    for (const core::Component& component : graph.components) collector.add(*component.plugin);
+  }
+  core::PluginCatalogue catalogue(core::plugin_folders());
+  std::vector<std::string> names = options.plugins;
+  if (names.empty() && options.mission.empty()) {
+    for (const std::string& name : catalogue.names()) {
+      if (name.find('.') == std::string::npos) names.push_back(name);  // plugins; scripts have no messages of their own
+    }
+  }
+  for (const std::string& name : names) {
+    const bool is_file = std::filesystem::exists(name);
+    collector.add(is_file ? core::Library::open(name)->info() : *catalogue.open(name).info);
+  }
+}
+
+int write_interfaces(const Options& options) {
+  ros2::Collector collector;
+  collect(options, collector);
+  const ros2::Package package = collector.package();
+  ros2::write_package(package, options.folder);
+  const std::size_t services = static_cast<std::size_t>(
+      std::count_if(package.files.begin(), package.files.end(), [](const auto& f) { return f.first.starts_with("srv/"); }));
+  std::printf(
+      "%s: package fulmar_msgs with %zu messages and %zu services. In a ROS 2 workspace: colcon build --packages-select fulmar_msgs\n",
+      options.folder.c_str(), package.hashes.size(), services);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"What ROS 2 needs to know of Fulmar.", "fulmar ros2"};
+  app.set_version_flag("--version", "fulmar ros2 " FULMAR_VERSION);
+  app.require_subcommand(1);
+  app.footer("Example: fulmar ros2 interface-package ~/ros2_ws/src/fulmar_msgs");
+  Options options;
+  CLI::App* package = app.add_subcommand("interface-package", "writes the package fulmar_msgs: messages and services, for colcon");
+  package->add_option("DIR", options.folder, "new, empty, or written by this command before")->required();
+  package->add_option("PLUGIN", options.plugins, "names or files of plugins; none: all that are installed");
+  package->add_option("--mission", options.mission, "the plugins of this mission")->check(CLI::ExistingFile);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;
+  }
+  try {
+    return write_interfaces(options);
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 1;
+  }
+}

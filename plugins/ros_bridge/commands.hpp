@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From standard messages of ROS 2 into the flight: a goal becomes a plan of one waypoint, a twist becomes a course, a height, a speed.
+#pragma once
+#include <algorithm>
+
+#include "convert.hpp"
+#include "fulmar/flight/angles.hpp"
+#include "fulmar/msg/guidance_command.hpp"
+#include "fulmar/msg/plan_edit.hpp"
+#include "fulmar/msg/vehicle_state.hpp"
+
+namespace fulmar::ros_bridge {
+
+enum class GoalMode : std::uint8_t { replace, append };
+
+/// rviz's "2D Goal Pose", or any node's.
+struct Goal {
+  static constexpr const char* doc = "Turns a goal pose of ROS 2 (ENU) into edits of the plan.";
+  struct Inputs {
+    Queue<RosPoseStamped> goal;
+    Optional<VehicleState> state;
+  };
+  struct Outputs {
+    OutQueue<PlanEdit> edits;
+    Probe refused_ratio;  // goals that could not be taken since the start
+  };
+  struct Params {
+    Choice<GoalMode> mode{GoalMode::replace, "replace: the goal is the whole plan; append: it is the last waypoint"};
+    Flag use_heading{false, "arrive in the direction that the pose points to"};
+    Param height{0, "m", 0, 10000, "above the origin, of goals with z = 0, as rviz sends them; 0: the present height"};
+    Param airspeed{0, "m/s", 0, 200, "of the leg to the goal; 0: the plan's"};
+  };
+
+  Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
+    refused_ += in.goal.lost();
+    for (const auto& sample : in.goal) {
+      if (!take(tick, sample.value, in, p, out)) ++refused_;
+    }
+    out.refused_ratio = refused_;
+    return Status::ok;
+  }
+
+ private:
+  static bool take(const Tick& tick, const RosPoseStamped& goal, const Inputs& in, const Params& p, Outputs& out) {
+    PlanEdit edit;
+    edit.waypoint.position_m = ned(goal.pose.position);
+    const Vec3<Ned>& at = edit.waypoint.position_m;
+    if (!std::isfinite(at.north) || !std::isfinite(at.east) || !std::isfinite(at.down)) return false;
+    if (at.down == 0 && !choose_height(in, p, edit.waypoint)) return false;
+    edit.waypoint.airspeed_mps = p.airspeed;
+    edit.waypoint.has_course = p.use_heading && course_of(goal.pose.orientation, edit.waypoint.course_rad);
+    if (out.edits.count + 2 > out.edits.items.size()) return false;
+    if (p.mode.value == GoalMode::replace) {
+      PlanEdit clear;
+      clear.kind = PlanEditKind::clear;
+      out.edits.push(clear, tick.now_ns);
+    }
+    return out.edits.push(edit, tick.now_ns);
+  }
+  static bool choose_height(const Inputs& in, const Params& p, Waypoint& w) {
+    const bool known = in.state && in.state->height_valid;
+    if (p.height <= 0 && !known) return false;
+    w.position_m.down = p.height > 0 ? -p.height : -in.state->height_m;
+    return true;
+  }
+
+  std::uint32_t refused_ = 0;
+};
+
+/// Flies by twists: linear.x true airspeed, linear.z climb, angular.z turn to the left, in FLU. Fills the role `guide`.
+struct Velocity {
+  static constexpr const char* doc = "Guides by twists of ROS 2: speed ahead, climb, turn to the left.";
+  struct Inputs {
+    In<VehicleState> state;
+    Optional<RosTwist> twist;
+  };
+  struct Outputs {
+    GuidanceCommand command;
+  };
+  struct Params {
+    Param airspeed_min{10, "m/s", 0, 200, "slower ones are raised to it"};
+    Param airspeed_max{25, "m/s", 0, 200, "faster ones are cut"};
+    Param climb_max{3, "m/s", 0, 50, "either way"};
+    Param turn_max{0.4, "rad/s", 0, 2, "either way"};
+    Param height_min{20, "m", 0, 10000, "above the origin; the commanded height stays above it"};
+    Param timeout{0.5, "s", 0.05, 60, "a twist that is older is forgotten: straight on, level, at the last airspeed"};
+  };
+
+  Status activate(const Tick& tick, const Inputs& in, const Params& p, const Outputs&) {
+    begin(*in.state, p);
+    begun_ = true;
+    last_ns_ = tick.now_ns;
+    return Status::ok;
+  }
+
+  Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
+    constexpr double g = 9.80665;
+    if (!begun_) begin(*in.state, p);
+    const double dt = begun_ ? 1e-9 * static_cast<double>(tick.now_ns - last_ns_) : 0;
+    begun_ = true;
+    last_ns_ = tick.now_ns;
+    const bool heard = in.twist && in.twist.age_s() <= p.timeout && usable(*in.twist);
+    double turn = 0, climb = 0;  // to the right; up
+    if (heard) {
+      turn = std::clamp(-in.twist->angular.z, -p.turn_max.value, p.turn_max.value);
+      climb = std::clamp(in.twist->linear.z, -p.climb_max.value, p.climb_max.value);
+      command_.airspeed_mps = std::clamp(in.twist->linear.x, p.airspeed_min.value, std::max(p.airspeed_min.value, p.airspeed_max.value));
+    }
+    command_.course_rad = wrap_pi(command_.course_rad + turn * dt);
+    const double height = std::max(command_.height_m + climb * dt, p.height_min.value);
+    command_.climb_rate_mps = height > p.height_min ? climb : 0;
+    command_.height_m = height;
+    command_.roll_feedforward_rad = std::atan(in.state->ground_speed_mps * turn / g);  // coordinated turn, B&M (9.14) without wind
+    out.command = command_;
+    return heard ? Status::ok : Status::degraded;
+  }
+
+ private:
+  static bool usable(const RosTwist& t) { return std::isfinite(t.linear.x) && std::isfinite(t.linear.z) && std::isfinite(t.angular.z); }
+  void begin(const VehicleState& s, const Params& p) {
+    command_ = {};
+    command_.course_rad = s.course_rad;
+    command_.height_m = std::max(s.height_m, p.height_min.value);
+    command_.airspeed_mps = std::clamp(s.airspeed_mps, p.airspeed_min.value, std::max(p.airspeed_min.value, p.airspeed_max.value));
+  }
+
+  GuidanceCommand command_;
+  bool begun_ = false;
+  std::int64_t last_ns_ = 0;
+};
+
+}  // namespace fulmar::ros_bridge

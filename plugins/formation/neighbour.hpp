@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Another aircraft, as far as it is heard: for conditions of phases, for figures, and for those who fly by it.
+#pragma once
+#include "other_aircraft.hpp"
+
+namespace fulmar::formation {
+
+enum class Hearing : std::uint8_t {
+  never,         ///< nothing yet
+  heard,         ///< and all that it says is usable
+  silent,        ///< heard before
+  lost,          ///< speaks, but does not know where it is
+  other_origin,  ///< counts its position from another point, or does not know from where
+};
+
+/// What is known of another aircraft.
+struct Sight {
+  Hearing hearing = Hearing::never;
+  double age_s = unknown_std;             ///< of what it said last
+  double distance_m = unknown_std;        ///< now
+  double least_distance_m = unknown_std;  ///< so far, since both are in the air
+};
+
+struct Neighbour {
+  static constexpr const char* doc = "Hears another aircraft: whether it speaks, how far off it is, and its state for those who fly by it.";
+  struct Inputs {
+    In<VehicleState> state;
+    Optional<VehicleState> heard;  // imported
+  };
+  struct Outputs {
+    Out<VehicleState> other;  // as it came, while all of it is usable; valid when it was sent
+    Sight sight;
+  };
+  struct Params {
+    Param timeout{2, "s", 0.02, 60, "silence after which it counts as silent"};
+    Param latency{0, "s", 0, 5, "age of its state when it arrives here, as far as it is known"};
+    Param airborne{5, "m", 0, 1000, "height above which both count for the least distance"};
+  };
+
+  Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out);
+
+ private:
+  Sight sight_;
+};
+
+inline Hearing hearing(const VehicleState& own, const Optional<VehicleState>& heard, double timeout_s) {
+  if (!heard) return Hearing::never;
+  if (heard.age_s() > timeout_s) return Hearing::silent;
+  if (!located(*heard)) return Hearing::lost;
+  return same_origin(own, *heard) ? Hearing::heard : Hearing::other_origin;
+}
+
+inline Status Neighbour::step(const Tick&, const Inputs& in, const Params& p, Outputs& out) {
+  const VehicleState& own = *in.state;
+  sight_.hearing = hearing(own, in.heard, p.timeout);
+  sight_.age_s = in.heard ? in.heard.age_s() + p.latency : unknown_std;
+  sight_.distance_m = unknown_std;
+  const bool heard = sight_.hearing == Hearing::heard;
+  if (heard && located(own)) {
+    sight_.distance_m = Relative(own, Motion(*in.heard, sight_.age_s)).distance();
+    if (own.height_m > p.airborne && in.heard->height_m > p.airborne)
+      sight_.least_distance_m = std::min(sight_.least_distance_m, sight_.distance_m);
+  }
+  if (heard && in.heard.fresh()) out.other.publish(*in.heard, in.heard.valid_at_ns() - std::llround(1e9 * p.latency));
+  out.sight = sight_;
+  return heard ? Status::ok : Status::degraded;
+}
+
+}  // namespace fulmar::formation

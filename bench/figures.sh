@@ -51,6 +51,21 @@ speed() { # speed MISSION: median of five runs, log written, all threads on one 
   build/bin/bench_isolation
   echo '```'
   echo
+  echo "## What leaves the loop"
+  echo
+  echo "\`build/bin/bench_tap\`: processor time of the loop's thread per tick, the hourglass in real time at 400 Hz; with every port at its full rate into a log, to two"
+  echo "clients that subscribe to everything, and four ports to a DDS reader, beside a flight that nothing leaves. Below, what was lost on the way."
+  echo
+  echo '```'
+  build/bin/bench_tap
+  echo '```'
+  echo
+  echo "\`build/bin/bench_tap --sizes\`: the log of the hourglass, 1 MB = 10^6 bytes."
+  echo
+  echo '```'
+  build/bin/bench_tap --sizes
+  echo '```'
+  echo
   if [ -x build/bin/bench_python ]; then
     echo "## What Python costs"
     echo

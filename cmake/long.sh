@@ -6,11 +6,11 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 export FULMAR_LONG=1
 build/bin/loader_test
-[ ! -x build-sanitize/bin/loader_test ] || build-sanitize/bin/loader_test
-for folder in build build-sanitize; do
+[ ! -x build-clang/bin/loader_test ] || build-clang/bin/loader_test
+for folder in build build-clang; do
   [ ! -x $folder/bin/run_test ] || $folder/bin/run_test --test-case="many swaps*"
 done
-for folder in build build-sanitize; do
+for folder in build build-clang; do
   [ ! -x $folder/bin/fcu_link_test ] || $folder/bin/fcu_link_test --test-case="whatever bytes come*"
 done
 build/bin/fcu_hil_test

@@ -19,7 +19,8 @@ for mission in hourglass two_schemes orbit lla calm reference_gnss slow_planner;
   expect "$mission result" "$(value "$scratch/$mission.json" result)" flown
   expect "$mission log_dropped" "$(value "$scratch/$mission.json" log_dropped)" 0
   grep -q '"guards": \[\]' "$scratch/$mission.json" || { echo "$mission: a guard fired"; exit 1; }
-  echo "$mission: $(value "$scratch/$mission.json" flight_time_s) s of flight, $(value "$scratch/$mission.json" speedup) times real time"
+  $fulmar replay "$scratch/$mission.mcap" >"$scratch/replay.txt" || { cat "$scratch/replay.txt"; exit 1; }
+  echo "$mission: $(value "$scratch/$mission.json" flight_time_s) s of flight, $(value "$scratch/$mission.json" speedup) times real time; its replay gives equal bytes"
 done
 
 # the same seed with two flights at once, against the first one; then another seed
@@ -41,6 +42,8 @@ echo "every plugin exports its entry alone"
 if command -v node >/dev/null && [ -d core/tap/test/node/node_modules ]; then
   node core/tap/test/node/read_log.mjs "$scratch/hourglass.mcap" >"$scratch/node.txt" || { tail -5 "$scratch/node.txt"; exit 1; }
   echo "an independent reader decodes every message of the hourglass"
+  $fulmar log export "$scratch/calm.mcap" --to csv --out "$scratch/csv" >/dev/null
+  node core/tap/test/node/export_test.mjs "$scratch/calm.mcap" "$scratch/csv"
 else
   echo "no node here: the log was not opened by an independent reader"
 fi

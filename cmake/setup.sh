@@ -2,7 +2,7 @@
 # Shared by ./fly and ./check: the packages of Debian 12 and Ubuntu that Fulmar needs, and the build. Sourced, not run.
 
 packages=(g++ cmake ninja-build ccache libeigen3-dev libboost-dev libyaml-cpp-dev libspdlog-dev libzstd-dev zlib1g-dev libssl-dev
-          libgeographiclib-dev nlohmann-json3-dev libcli11-dev doctest-dev)
+          libgeographiclib-dev libfastrtps-dev libfastcdr-dev nlohmann-json3-dev libcli11-dev doctest-dev)
 
 # Without these the plugin for Python and its module are left out.
 python_packages=(python3 python3-dev pybind11-dev python3-numpy)

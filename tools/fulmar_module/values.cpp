@@ -32,6 +32,12 @@ py::object element_dtype(const Field& field) {
     case FULMAR_U8:
     case FULMAR_ENUM:
       return py::str("u1");
+    case FULMAR_I8:
+      return py::str("i1");
+    case FULMAR_I16:
+      return py::str("i2");
+    case FULMAR_U16:
+      return py::str("u2");
     case FULMAR_I32:
       return py::str("i4");
     case FULMAR_U32:

@@ -17,7 +17,7 @@
 #include <stdint.h>
 
 #define FULMAR_ABI_MAJOR 1u
-#define FULMAR_ABI_MINOR 1u
+#define FULMAR_ABI_MINOR 2u
 #define FULMAR_VERSION "0.1.0"
 #define FULMAR_ENTRY_SYMBOL "fulmar_plugin_entry"
 
@@ -38,7 +38,10 @@ enum fulmar_kind { /* kind of one element */
   FULMAR_F64 = 8,
   FULMAR_ENUM = 9,  /* one byte; `labels` names its values 0, 1, ... */
   FULMAR_TEXT = 10, /* char[stride], NUL-terminated */
-  FULMAR_STRUCT = 11 /* described by `type` */
+  FULMAR_STRUCT = 11, /* described by `type` */
+  FULMAR_I8 = 12,     /* from ABI 1.2 on, for foreign messages; so the next two */
+  FULMAR_I16 = 13,
+  FULMAR_U16 = 14
 };
 
 enum fulmar_shape {

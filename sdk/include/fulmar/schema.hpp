@@ -161,6 +161,12 @@ consteval std::uint32_t kind_of() {
     return FULMAR_BOOL;
   else if constexpr (std::is_same_v<T, std::uint8_t>)
     return FULMAR_U8;
+  else if constexpr (std::is_same_v<T, std::int8_t>)
+    return FULMAR_I8;
+  else if constexpr (std::is_same_v<T, std::int16_t>)
+    return FULMAR_I16;
+  else if constexpr (std::is_same_v<T, std::uint16_t>)
+    return FULMAR_U16;
   else if constexpr (std::is_same_v<T, std::int32_t>)
     return FULMAR_I32;
   else if constexpr (std::is_same_v<T, std::uint32_t>)

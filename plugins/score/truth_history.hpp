@@ -64,7 +64,7 @@ class TruthHistory {
   };
   const Entry& newest() const { return ring_[(count_ - 1) % ring_.size()]; }
 
-  std::array<Entry, 64> ring_{};  // 0.64 s at 100 Hz: a fix is never older
+  std::array<Entry, 64> ring_{};  // 1.28 s at 50 Hz: a fix is never older
   std::uint64_t count_ = 0;
 };
 

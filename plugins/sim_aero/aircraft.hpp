@@ -45,7 +45,7 @@ class Aircraft {
     Vector<Ned> wind_ned{{0, 0, 0}, "m/s", -50, 50, "steady velocity of the air"};
     Choice<Turbulence> turbulence{Turbulence::none, "Dryden model at 50 m", setup};
     Choice<SensorSet> sensors{SensorSet::rosflight, "errors of the sensors", setup};
-    Param truth_rate{100, "Hz", 1, 2000, "of the truth", setup};
+    Param truth_rate{50, "Hz", 1, 2000, "of the truth", setup};
     Param start_north{0, "m", -1e5, 1e5, "position at flight time 0", setup};
     Param start_east{0, "m", -1e5, 1e5, "position at flight time 0", setup};
     Param start_height{0, "m", 0, 5000, "0: on the ground; more: in trimmed level flight", setup};

@@ -21,6 +21,7 @@ struct SensorSpec {
   double gnss_latency_s = 0;
   double horizontal_std_m = 0.01, vertical_std_m = 0.01, speed_std_mps = 0.01;  ///< what the receiver claims
   double temperature_kelvin = 300.15;                                           ///< of the sensors
+  bool single_precision = false;                                                ///< of all but the receiver, as a flight controller sends
 };
 
 /// rosflight_sim's `standalone_sensors` with the defaults of its code. Its walks are per sample; here they are turned into rates at the
@@ -28,6 +29,7 @@ struct SensorSpec {
 inline SensorSpec rosflight_sensors() {
   SensorSpec s;
   s.baro_hz = 100;
+  s.single_precision = true;
   const double T_imu = 1.0 / 400, T_mag = 1.0 / 50, T_gnss = 1.0 / 10;
   // x <- exp(-T/tau) x + step n has this stationary deviation
   const auto stationary = [](double step, double T, double tau) { return step / std::sqrt(-std::expm1(-2 * T / tau)); };
@@ -52,6 +54,7 @@ inline SensorSpec rosflight_sensors() {
 inline SensorSpec ublox_sensors() {
   SensorSpec s;
   s.mag_hz = 100;
+  s.single_precision = true;
   constexpr double degree = 0.017453292519943295;
   for (std::size_t i = 0; i < 3; ++i) {
     const bool horizontal = i < 2;

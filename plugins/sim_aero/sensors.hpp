@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -35,6 +36,12 @@ class Due {
   std::int64_t period_ns_ = 1, next_ns_ = 0;
 };
 
+/// Rounded to the 24 bits of single precision. Not by a cast to float and back: where g++ 12 makes vectors of it, it leaves it out.
+inline double to_single(double value) {
+  constexpr std::uint64_t lost = (std::uint64_t{1} << 29) - 1;
+  return std::bit_cast<double>((std::bit_cast<std::uint64_t>(value) + (lost >> 1) + 1) & ~lost);
+}
+
 class Sensors {
  public:
   Sensors(const SensorSpec& spec, double tick_hz, const LocalFrame& frame, const Eigen::Vector3d& field_n, std::uint64_t seed)
@@ -59,15 +66,15 @@ class Sensors {
 
   Imu imu(const Plant& plant) {
     Imu out;
-    out.rate_radps = from_eigen<Body>(plant.state().omega_b + gyro_.next(imu_random_));
-    out.specific_force_mps2 = from_eigen<Body>(plant.specific_force() + accel_.next(imu_random_));
+    out.rate_radps = sent<Body>(plant.state().omega_b + gyro_.next(imu_random_));
+    out.specific_force_mps2 = sent<Body>(plant.specific_force() + accel_.next(imu_random_));
     out.temperature_kelvin = spec_.temperature_kelvin;
     return out;
   }
 
-  Mag mag(const Plant& plant) { return {from_eigen<Body>(plant.state().q_nb.conjugate() * field_n_ + mag_.next(mag_random_))}; }
+  Mag mag(const Plant& plant) { return {sent<Body>(plant.state().q_nb.conjugate() * field_n_ + mag_.next(mag_random_))}; }
 
-  Baro baro(const Plant& plant) { return {plant.air().pressure_pa + baro_.next(baro_random_), spec_.temperature_kelvin}; }
+  Baro baro(const Plant& plant) { return {sent(plant.air().pressure_pa + baro_.next(baro_random_)), spec_.temperature_kelvin}; }
 
   /// (7.10); the tube takes all of the flow up to 20 degrees off its axis, less beyond, and nothing from 60 degrees on.
   Pitot pitot(const Plant& plant) {
@@ -75,8 +82,8 @@ class Sensors {
     const double Va = v_r.norm(), cosine = Va > 0 ? v_r.x() / Va : 1;
     const double taken = std::clamp((cosine - 0.5) / (0.9397 - 0.5), 0.0, 1.0);
     Pitot out;
-    out.pressure_pa = pitot_scale_ * taken * 0.5 * plant.air().density_kgm3 * Va * Va + pitot_.next(pitot_random_);
-    out.indicated_airspeed_mps = indicated_airspeed(out.pressure_pa);
+    out.pressure_pa = sent(pitot_scale_ * taken * 0.5 * plant.air().density_kgm3 * Va * Va + pitot_.next(pitot_random_));
+    out.indicated_airspeed_mps = sent(indicated_airspeed(out.pressure_pa));
     out.temperature_kelvin = spec_.temperature_kelvin;
     return out;
   }
@@ -102,6 +109,12 @@ class Sensors {
   const SensorSpec& spec() const { return spec_; }
 
  private:
+  double sent(double value) const { return spec_.single_precision ? to_single(value) : value; }
+  template <class Frame>
+  Vec3<Frame> sent(const Eigen::Vector3d& value) const {
+    return from_eigen<Frame>(Eigen::Vector3d(sent(value.x()), sent(value.y()), sent(value.z())));
+  }
+
   SensorSpec spec_;
   LocalFrame frame_;
   Eigen::Vector3d field_n_;

@@ -118,7 +118,7 @@ TEST_CASE("a controller: it is flown for as long as was asked, armed by its pilo
   CHECK(r.code == 0);
   CHECK(r.says("hourglass: flown (duration reached)"));
   CHECK(back);
-  CHECK(fcu.commands() > 300);
+  CHECK(fcu.commands() > 100);  // 20 Hz and more in the 6 s with a cable; how many come in a tick's time is shown elsewhere
   for (const char* words : {"connected: ROSflight v2.0.1", "fcu: armed", "the pilot flies: attitude switch, throttle switch",
                             "the pilot hands over", "in control", "device is gone; looking for it", "is back after 1.", "disarmed"}) {
     CAPTURE(words);

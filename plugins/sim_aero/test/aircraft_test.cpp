@@ -104,7 +104,7 @@ TEST_CASE("each sensor speaks at its rate, to the sample") {
     CHECK(seen.baro == (set == SensorSet::rosflight ? 1000 : 500));
     CHECK(seen.pitot == 1000);
     CHECK(seen.rc == 500);
-    CHECK(seen.truth == 1000);
+    CHECK(seen.truth == 500);
     CHECK(seen.status >= 100);
     CHECK(seen.status <= 101);
   }

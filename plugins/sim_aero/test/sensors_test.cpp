@@ -68,6 +68,33 @@ TEST_CASE("perfect sensors say what is") {
   CHECK((g.longitude_deg + 111.6474138) * std::numbers::pi / 180 * (6387068.0 + 1457) * std::cos(0.70243) == Approx(-40).epsilon(1e-3));
 }
 
+TEST_CASE("sensors with errors say what fits into single precision, on each axis; perfect ones say all digits") {
+  const Plant p = flying();
+  const auto fits = [](double x) {
+    volatile const float single = static_cast<float>(x);
+    return x == static_cast<double>(single);
+  };
+  for (const SensorSet set : {SensorSet::rosflight, SensorSet::ublox}) {
+    Sensors s = sensors(set);
+    for (int n = 0; n < 100; ++n) {
+      const Imu imu = s.imu(p);
+      for (const Vec3<Body>& v : {imu.rate_radps, imu.specific_force_mps2, s.mag(p).field_tesla}) {
+        CHECK(fits(v.x));
+        CHECK(fits(v.y));
+        CHECK(fits(v.z));
+      }
+      CHECK(fits(s.baro(p).pressure_pa));
+      const Pitot pitot = s.pitot(p);
+      CHECK(fits(pitot.pressure_pa));
+      CHECK(fits(pitot.indicated_airspeed_mps));
+    }
+  }
+  CHECK(!fits(sensors(SensorSet::perfect).mag(p).field_tesla.x));
+  CHECK(to_single(-9.80665) == -9.8066501617431640625);  // IEEE 754: 9.80665f
+  CHECK(to_single(0.1) == 0.100000001490116119384765625);
+  CHECK(to_single(0) == 0);
+}
+
 TEST_CASE("the rosflight sensors have the deviations of its simulator") {
   const Plant p = flying();
   Sensors s = sensors(SensorSet::rosflight);

@@ -9,9 +9,13 @@ if(FULMAR_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
 endif()
-# The host computes little: built in half the time.
+# What is compiled longest computes least: the host, and still more the words of the command line and the ground tools. They keep line
+# numbers for a debugger; their variables are in a build of type Debug.
+set(FULMAR_HOST_FLAGS $<$<NOT:$<CONFIG:Debug>>:-g1>)
+set(FULMAR_TOOL_FLAGS $<$<NOT:$<CONFIG:Debug>>:-g1> $<$<NOT:$<CONFIG:Debug>>:-O1>)
 if(FULMAR_SANITIZE)
   set(FULMAR_HOST_FLAGS -O0)
+  set(FULMAR_TOOL_FLAGS -O0)
 endif()
 find_program(ccache_program ccache)
 if(ccache_program)

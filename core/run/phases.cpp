@@ -166,7 +166,8 @@ bool Flight::Impl::take_over(int role, int component, const Assignment& assignme
   }
   if (old) {
     old->active = false;
-    old->fresh_start ? old->refuse_requests("does not fly any more") : old->deactivate();
+    old->refuse_requests("does not fly any more");
+    if (!old->fresh_start) old->deactivate();
   }
   state.active = component;
   unit.active = true;

@@ -350,7 +350,6 @@ void Unit::refuse_requests(const char* why) noexcept {
 }
 
 void Unit::deactivate() noexcept {
-  refuse_requests("does not fly any more");
   if (async_) async_->drop();
   if (async_ || started_ || !instance_) return;  // another thread is in it
   const Inside inside(component->name, "deactivate");

@@ -218,6 +218,23 @@ TEST_CASE("a request to a component that does not fly is refused, not kept for t
   CHECK(refusal([&] { flight.request("watch", "ask", message); }) == "watch does not fly now");
 }
 
+TEST_CASE("a request that its component has not come to when the flight ends is answered once") {
+  const Graph g =
+      mission("  watch: {use: lab/Watch, rate: 1 Hz, in: {burst: vehicle.burst, applied: vehicle.applied}}\n" + watched + one_phase);
+  std::atomic<int> answers{0};
+  {
+    Flight flight(g, quick());
+    REQUIRE(flight.step());
+    flight.control()->request("watch", "ask", "{to_m: 1}", [&](const std::string& refusal) {
+      ++answers;
+      CHECK(refusal == "the flight has ended");
+    });
+    for (int n = 0; n < 3; ++n) REQUIRE(flight.step());  // it waits at the component
+    flight.finish();
+  }
+  CHECK(answers == 1);
+}
+
 TEST_CASE("a law whose imported input falls silent is stopped like any other") {
   mission(watched + with_fallback);
   const fs::path file = folder().path / "fed-from-outside.yaml";  // takes the wire of lab.yaml out

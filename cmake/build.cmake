@@ -19,9 +19,25 @@ if(FULMAR_SANITIZE)
 endif()
 find_program(ccache_program ccache)
 if(ccache_program)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${ccache_program})
+  # A precompiled header holds the time of its making and the macros that were defined then: ccache asks for leave to overlook them.
+  set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros ${ccache_program})
   set(CMAKE_C_COMPILER_LAUNCHER ${ccache_program})
 endif()
+
+# fulmar_precompile(TARGET HEADER): the files of TARGET find cmake/precompiled/HEADER already read. They include what they need all the same
+# and compile without it. fulmar_precompile(TARGET FROM OTHER): as OTHER, which has the same flags.
+option(FULMAR_PRECOMPILE "Precompiled headers" ON)
+function(fulmar_precompile target header)
+  if(NOT FULMAR_PRECOMPILE)
+    return()
+  endif()
+  if(header STREQUAL FROM)
+    target_precompile_headers(${target} REUSE_FROM ${ARGV2})
+  else()
+    target_precompile_headers(${target} PRIVATE ${CMAKE_SOURCE_DIR}/cmake/precompiled/${header})
+  endif()
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)  # or ccache keeps nothing
+endfunction()
 
 # fulmar_harden(target...): what is shipped resists what a damaged file or a faulty plugin may do to it. Plugins built elsewhere have flags
 # of their own. Fortified functions need an optimised build; the sanitizers replace them.
@@ -50,10 +66,24 @@ function(fulmar_harden)
   endforeach()
 endfunction()
 
+# fulmar_unite(TARGET [FILES]): compiles TARGET in batches of FILES sources (8). What the files of a folder share, headers and above all the
+# templates of the standard library, is then read, expanded and optimised once a batch. Each file compiles alone as well (./check --long).
+option(FULMAR_UNITE "Several source files are compiled together" ON)
+function(fulmar_unite target)
+  set(files 8)
+  if(ARGC GREATER 1)
+    set(files ${ARGV1})
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${FULMAR_UNITE} UNITY_BUILD_BATCH_SIZE ${files})
+  if(FULMAR_UNITE)  # what one file keeps to itself is no fault in the struct that it defines, though another file has included it
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
+endfunction()
+
 # The folder beside the product that holds reference data, when it is there. Tests that need it skip with a message.
 get_filename_component(FULMAR_REFERENCE_DATA "${CMAKE_SOURCE_DIR}/../shared/data" ABSOLUTE)
 
-# fulmar_test(NAME source... [REAL_TIME] LINK library...): one doctest program build/bin/NAME and one ctest entry. Runs in the source tree's
+# fulmar_test(NAME source... [REAL_TIME] [FLIES] LINK library...): one doctest program build/bin/NAME and one ctest entry. Runs in the source tree's
 # root. REAL_TIME: by the clock on the wall, so alone, and not with the sanitizers, which make it slow.
 function(fulmar_test name)
   if(NOT FULMAR_TESTS)
@@ -64,17 +94,16 @@ function(fulmar_test name)
      AND CMAKE_CURRENT_SOURCE_DIR MATCHES "/plugins/(estimator_ekf|sim_aero|path|control_slc|control_tecs|score)$")
     return()
   endif()
-  cmake_parse_arguments(arg "REAL_TIME" "" "LINK" ${ARGN})
+  cmake_parse_arguments(arg "REAL_TIME;FLIES" "" "LINK" ${ARGN})
   add_executable(${name} ${arg_UNPARSED_ARGUMENTS})
   target_link_libraries(${name} PRIVATE fulmar_test_main fulmar::sdk ${arg_LINK})
   target_compile_definitions(${name} PRIVATE FULMAR_REFERENCE_DATA="${FULMAR_REFERENCE_DATA}" FULMAR_BIN_DIR="${CMAKE_BINARY_DIR}/bin"
                              FULMAR_PLUGIN_DIR="${CMAKE_BINARY_DIR}/lib/fulmar" FULMAR_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR})
-  # Compiles in half the time. Where a test holds no Eigen its own code need not be quick; what it tests is optimised in its library.
-  target_compile_options(${name} PRIVATE -g1)
-  if(FULMAR_SANITIZE OR CMAKE_CURRENT_SOURCE_DIR MATCHES "/(core|tools|plugins/fcu_serial)(/|$)")
-    target_compile_options(${name} PRIVATE -O0)
-  endif()
+  # A test's own code need not be quick, and what it tests is optimised in its library: -O0 compiles in half the time. Only where it holds
+  # the plugin itself and integrates flights with it, that is worth -O1.
+  target_compile_options(${name} PRIVATE -g1 $<IF:$<AND:$<BOOL:${arg_FLIES}>,$<NOT:$<BOOL:${FULMAR_SANITIZE}>>>,-O1,-O0>)
+  fulmar_unite(${name} 6)
   if(arg_REAL_TIME AND FULMAR_SANITIZE)
     set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
     return()

@@ -21,7 +21,7 @@ namespace {
 using nlohmann::json;
 
 std::atomic<bool> stop{false};
-void on_signal(int) { stop.store(true); }
+void stop_replay(int) { stop.store(true); }
 
 double seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
 
@@ -152,7 +152,7 @@ int replay_command(const ReplayWords& words) {
   spdlog::set_default_logger(spdlog::stderr_color_mt("fulmar"));
   spdlog::set_pattern("%^%v%$");
   struct sigaction action {};
-  action.sa_handler = on_signal;
+  action.sa_handler = stop_replay;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
   const int own = words.json ? dup(STDOUT_FILENO) : -1;  // what components print goes to standard error
   if (own >= 0) dup2(STDERR_FILENO, STDOUT_FILENO);

@@ -53,7 +53,7 @@ unsigned patience_s = 10;  // between a signal and the end of the flight
 /// The first signal ends the flight between two ticks; when the flight refuses it, the next one is the first again. One that follows an
 /// unanswered one, half a second later or more (timeout(1) sends two at once), or ten seconds without an end, ends the program: a component
 /// may be hanging.
-void on_signal(int signal) {
+void note_signal(int signal) {
   static timespec latest{};
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
@@ -108,7 +108,7 @@ void install_handlers(bool hardware) {
   static const int registered = std::atexit(on_exit);
   if (registered != 0) write_text("fulmar: no room for an exit handler\n");
   struct sigaction action {};
-  action.sa_handler = on_signal;
+  action.sa_handler = note_signal;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
   sigaction(SIGALRM, &action, nullptr);
@@ -433,8 +433,8 @@ namespace {
 /// With --json standard output belongs to the result alone: what components print goes to standard error.
 class ResultFile {
  public:
-  explicit ResultFile(bool json) {
-    if (!json) return;
+  explicit ResultFile(bool as_json) {
+    if (!as_json) return;
     const int own = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
     if (own < 0) return;  // there is no standard output
     file_ = fdopen(own, "w");

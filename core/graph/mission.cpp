@@ -22,9 +22,9 @@ const std::vector<std::string> component_keys = {"fills", "use",     "in",     "
 
 constexpr const char* default_epoch = "2026-01-01T00:00Z";
 
-class Reader {
+class MissionReader {
  public:
-  Reader(MissionText& mission, Report& report) : m_(mission), report_(report) {}
+  MissionReader(MissionText& mission, Report& report) : m_(mission), report_(report) {}
 
   void read(const Node& root) {
     const Keys keys(root, "", mission_keys, report_);
@@ -467,7 +467,7 @@ MissionText parse_mission(const std::string& file, const Overrides& overrides, R
       std::make_shared<SourceFile>(SourceFile{path, path.filename().string(), read_source(path, file, overrides.files.get())->text});
   mission.files.push_back(mission.file);
   const Node root = load_tree(mission, overrides.files.get(), report);
-  Reader(mission, report).read(root);
+  MissionReader(mission, report).read(root);
   if (!root.is(Node::Kind::map)) report.throw_if_any();  // there is nothing to say of the rest
   if (overrides.io) {
     if (*overrides.io == "sim" || *overrides.io == "fcu")

@@ -9,6 +9,8 @@
 #include <cstring>
 #include <string_view>
 
+#include "core/loader/elf.hpp"
+
 namespace fulmar::core {
 namespace {
 
@@ -16,13 +18,6 @@ constexpr std::string_view owner("GNU\0", 4);
 
 // Notes are padded to 4 bytes, whatever the word size: so do gcc and clang write the build id.
 std::uint64_t padded(std::uint32_t size) { return (std::uint64_t{size} + 3) & ~std::uint64_t{3}; }
-
-template <class T>
-bool read(std::span<const std::byte> bytes, std::uint64_t offset, T& out) {
-  if (offset > bytes.size() || bytes.size() - offset < sizeof out) return false;
-  std::memcpy(&out, bytes.data() + offset, sizeof out);
-  return true;
-}
 
 std::string hex(std::span<const std::byte> bytes) {
   std::string text;
@@ -37,7 +32,7 @@ std::string hex(std::span<const std::byte> bytes) {
 
 std::string build_id_in_notes(std::span<const std::byte> notes) {
   ElfW(Nhdr) note{};
-  while (read(notes, 0, note)) {
+  while (read_header(notes, 0, note)) {
     const std::uint64_t name = sizeof note, content = name + padded(note.n_namesz), end = content + padded(note.n_descsz);
     if (content + note.n_descsz > notes.size()) return "";
     if (note.n_type == NT_GNU_BUILD_ID && note.n_namesz == owner.size() && std::memcmp(notes.data() + name, owner.data(), 4) == 0)
@@ -50,10 +45,10 @@ std::string build_id_in_notes(std::span<const std::byte> notes) {
 
 std::string build_id(std::span<const std::byte> file) {
   ElfW(Ehdr) header{};
-  if (!read(file, 0, header) || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0 || header.e_phentsize != sizeof(ElfW(Phdr))) return "";
+  if (!read_header(file, 0, header) || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0 || header.e_phentsize != sizeof(ElfW(Phdr))) return "";
   for (std::uint64_t i = 0; i < header.e_phnum; ++i) {
     ElfW(Phdr) segment{};
-    if (!read(file, header.e_phoff + i * sizeof segment, segment)) return "";
+    if (!read_header(file, header.e_phoff + i * sizeof segment, segment)) return "";
     if (segment.p_type != PT_NOTE || segment.p_offset > file.size() || file.size() - segment.p_offset < segment.p_filesz) continue;
     const std::string id =
         build_id_in_notes(file.subspan(static_cast<std::size_t>(segment.p_offset), static_cast<std::size_t>(segment.p_filesz)));

@@ -28,24 +28,17 @@ unsigned host_machine() {
   return machine;
 }
 
-template <class T>
-bool read(std::span<const std::byte> bytes, std::uint64_t offset, T& out) {
-  if (offset > bytes.size() || bytes.size() - offset < sizeof out) return false;
-  std::memcpy(&out, bytes.data() + offset, sizeof out);
-  return true;
-}
-
 // Bytes that the headers promise, or 0 when the program headers do not fit into the file themselves.
 template <class Header, class Segment>
 std::uint64_t promised_bytes(std::span<const std::byte> bytes) {
   Header header{};
-  if (!read(bytes, 0, header) || header.e_phentsize != sizeof(Segment) || header.e_phnum == 0) return 0;
+  if (!read_header(bytes, 0, header) || header.e_phentsize != sizeof(Segment) || header.e_phnum == 0) return 0;
   if (header.e_shoff > UINT64_MAX / 2) return 0;
   // the section headers usually come last: a copy that is still being written lacks them
   std::uint64_t end = header.e_shoff + std::uint64_t{header.e_shnum} * header.e_shentsize;
   for (std::uint64_t i = 0; i < header.e_phnum; ++i) {
     Segment segment{};
-    if (!read(bytes, header.e_phoff + i * sizeof segment, segment)) return 0;
+    if (!read_header(bytes, header.e_phoff + i * sizeof segment, segment)) return 0;
     if (segment.p_type != PT_LOAD) continue;
     if (segment.p_offset > UINT64_MAX / 2 || segment.p_filesz > UINT64_MAX / 2) return 0;
     end = std::max<std::uint64_t>(end, std::uint64_t{segment.p_offset} + segment.p_filesz);
@@ -84,7 +77,7 @@ std::string elf_fault(std::span<const std::byte> bytes) {
     std::uint16_t type, machine;
   } start{};
   if (bytes.size() < SELFMAG || std::memcmp(bytes.data(), ELFMAG, SELFMAG) != 0) return "is not a plugin: not an ELF shared object";
-  if (!read(bytes, 0, start)) return "is not a plugin: its ELF header is cut off";
+  if (!read_header(bytes, 0, start)) return "is not a plugin: its ELF header is cut off";
   if (start.ident[EI_DATA] != host_order)
     start.machine = static_cast<std::uint16_t>(static_cast<unsigned>(start.machine) << 8 | start.machine >> 8);
   if (start.machine != host_machine())

@@ -2,6 +2,8 @@
 // A look at an ELF file's header, for a sentence that people understand before the system's loader sees the file. Nothing is executed.
 #pragma once
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <span>
 #include <string>
 
@@ -12,5 +14,13 @@ std::string elf_fault(std::span<const std::byte> bytes);
 
 /// "x86_64", "aarch64", ... of an ELF machine number (System V ABI, e_machine).
 std::string machine_name(unsigned machine);
+
+/// Copies a header out of a file. False when the file ends before it does.
+template <class T>
+bool read_header(std::span<const std::byte> file, std::uint64_t offset, T& out) {
+  if (offset > file.size() || file.size() - offset < sizeof out) return false;
+  std::memcpy(&out, file.data() + offset, sizeof out);
+  return true;
+}
 
 }  // namespace fulmar::core

@@ -11,7 +11,7 @@ namespace fulmar::core {
 namespace {
 
 template <class T>
-double read(const std::byte* at) noexcept {
+double as_double(const std::byte* at) noexcept {
   T x;
   std::memcpy(&x, at, sizeof x);
   return static_cast<double>(x);
@@ -117,25 +117,25 @@ double number_at(fulmar_kind kind, const std::byte* at) noexcept {
     case FULMAR_BOOL:
     case FULMAR_U8:
     case FULMAR_ENUM:
-      return read<std::uint8_t>(at);
+      return as_double<std::uint8_t>(at);
     case FULMAR_I8:
-      return read<std::int8_t>(at);
+      return as_double<std::int8_t>(at);
     case FULMAR_I16:
-      return read<std::int16_t>(at);
+      return as_double<std::int16_t>(at);
     case FULMAR_U16:
-      return read<std::uint16_t>(at);
+      return as_double<std::uint16_t>(at);
     case FULMAR_I32:
-      return read<std::int32_t>(at);
+      return as_double<std::int32_t>(at);
     case FULMAR_U32:
-      return read<std::uint32_t>(at);
+      return as_double<std::uint32_t>(at);
     case FULMAR_I64:
-      return read<std::int64_t>(at);
+      return as_double<std::int64_t>(at);
     case FULMAR_U64:
-      return read<std::uint64_t>(at);
+      return as_double<std::uint64_t>(at);
     case FULMAR_F32:
-      return read<float>(at);
+      return as_double<float>(at);
     case FULMAR_F64:
-      return read<double>(at);
+      return as_double<double>(at);
     case FULMAR_TEXT:
     case FULMAR_STRUCT:
       break;

@@ -13,7 +13,7 @@ namespace fulmar::core {
 namespace {
 
 template <class T>
-T read(const std::byte* at) noexcept {
+T load(const std::byte* at) noexcept {
   T x;
   std::memcpy(&x, at, sizeof x);
   return x;
@@ -25,14 +25,14 @@ bool finite_run(const std::byte* at, std::uint32_t count) noexcept {
   std::uint64_t carry[4] = {0, 0, 0, 0};
   std::uint32_t i = 0;
   for (; i + 4 <= count; i += 4, at += 32)
-    for (std::uint32_t k = 0; k < 4; ++k) carry[k] |= (read<std::uint64_t>(at + std::size_t{8} * k) & magnitude) + one;
-  for (; i < count; ++i, at += 8) carry[0] |= (read<std::uint64_t>(at) & magnitude) + one;
+    for (std::uint32_t k = 0; k < 4; ++k) carry[k] |= (load<std::uint64_t>(at + std::size_t{8} * k) & magnitude) + one;
+  for (; i < count; ++i, at += 8) carry[0] |= (load<std::uint64_t>(at) & magnitude) + one;
   return ((carry[0] | carry[1] | carry[2] | carry[3]) >> 63) == 0;
 }
 
 bool finite_floats(const std::byte* at, std::uint32_t count) noexcept {
   std::uint32_t carry = 0;
-  for (std::uint32_t i = 0; i < count; ++i) carry |= (read<std::uint32_t>(at + std::size_t{4} * i) & 0x7fffffffu) + 0x00800000u;
+  for (std::uint32_t i = 0; i < count; ++i) carry |= (load<std::uint32_t>(at + std::size_t{4} * i) & 0x7fffffffu) + 0x00800000u;
   return (carry >> 31) == 0;
 }
 
@@ -177,7 +177,7 @@ bool Guard::run(const Step* step, const Step* end, const std::byte* data) noexce
         break;
       case Step::Kind::range_f64:
         for (std::uint32_t i = 0; i < step->count; ++i, at += step->stride) {
-          const auto x = read<double>(at);
+          const auto x = load<double>(at);
           if (!(x >= step->min && x <= step->max)) return false;
         }
         break;
@@ -192,7 +192,7 @@ bool Guard::run(const Step* step, const Step* end, const std::byte* data) noexce
           if (std::memchr(at, '\0', step->stride) == nullptr) return false;
         break;
       case Step::Kind::repeat: {
-        const std::uint32_t count = step->counted ? read<std::uint32_t>(data + step->count_offset) : step->count;
+        const std::uint32_t count = step->counted ? load<std::uint32_t>(data + step->count_offset) : step->count;
         if (count > step->count) return false;
         for (std::uint32_t i = 0; i < count; ++i, at += step->stride)
           if (!run(step + 1, step + step->end, at)) return false;
@@ -229,7 +229,7 @@ class Explainer {
   bool one_field(const Field& field, const std::byte* at) noexcept {
     std::uint32_t count = field.count;
     if (field.shape == FULMAR_LIST) {
-      count = read<std::uint32_t>(at);
+      count = load<std::uint32_t>(at);
       if (count > field.count) return append(" has %u items, more than its %u", count, field.count);
       at += field.items;
     }

@@ -9,8 +9,7 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::size_t header_bytes = 4;
-constexpr std::array<std::byte, header_bytes> header{std::byte{0}, std::byte{1}, std::byte{0}, std::byte{0}};  // CDR_LE
+constexpr std::array<std::byte, cdr_header_bytes> header{std::byte{0}, std::byte{1}, std::byte{0}, std::byte{0}};  // CDR_LE
 
 using Op = CdrEncoder::Op;
 
@@ -183,15 +182,15 @@ struct Writer {
 
 // ---- decoding ------------------------------------------------------------------------------------------------------------------
 
-struct Reader {
+struct Decoder {
   const std::byte* bytes;
-  std::size_t size, at = header_bytes;
+  std::size_t size, at = cdr_header_bytes;
   const Type& whole;
 
   [[noreturn]] void fail(const std::string& why) const { throw Error("bytes do not hold a " + whole.name + ": " + why); }
 
   const std::byte* take(std::size_t n, std::size_t align) {
-    at += (align - (at - header_bytes) % align) % align;
+    at += (align - (at - cdr_header_bytes) % align) % align;
     if (at > size || size - at < n) fail("they end after " + std::to_string(size));
     const std::byte* here = bytes + at;
     at += n;
@@ -235,12 +234,12 @@ CdrEncoder::CdrEncoder(const Type& type) {
   Compiler compiler;
   compiler.type(type, 0);
   ops_ = std::move(compiler.ops);
-  max_size_ = header_bytes + bound(ops_.data(), ops_.data() + ops_.size());
+  max_size_ = cdr_header_bytes + bound(ops_.data(), ops_.data() + ops_.size());
 }
 
 std::size_t CdrEncoder::encode(const std::byte* data, std::byte* out) const noexcept {
-  std::memcpy(out, header.data(), header_bytes);
-  Writer writer{out + header_bytes, out + header_bytes};
+  std::memcpy(out, header.data(), cdr_header_bytes);
+  Writer writer{out + cdr_header_bytes, out + cdr_header_bytes};
   writer.run(ops_.data(), ops_.data() + ops_.size(), data);
   return static_cast<std::size_t>(writer.at - out);
 }
@@ -252,11 +251,11 @@ void CdrEncoder::encode(const std::byte* data, std::vector<std::byte>& out) cons
 }
 
 void cdr_decode(const Type& type, const std::byte* bytes, std::size_t size, std::byte* message) {
-  Reader reader{bytes, size, header_bytes, type};
-  if (size < header_bytes || std::memcmp(bytes, header.data(), 2) != 0) reader.fail("no little-endian CDR header");
+  Decoder decoder{bytes, size, cdr_header_bytes, type};
+  if (size < cdr_header_bytes || std::memcmp(bytes, header.data(), 2) != 0) decoder.fail("no little-endian CDR header");
   std::memset(message, 0, type.size);
-  reader.type(type, message);
-  if (size - reader.at > 3) reader.fail(std::to_string(size - reader.at) + " bytes are left over");  // up to 3: padding of the whole
+  decoder.type(type, message);
+  if (size - decoder.at > 3) decoder.fail(std::to_string(size - decoder.at) + " bytes are left over");  // up to 3: padding of the whole
 }
 
 }  // namespace fulmar::core

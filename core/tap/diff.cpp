@@ -13,12 +13,12 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::size_t most_columns = 100'000;
+constexpr std::size_t most_compared_columns = 100'000;
 constexpr const char* ticks_topic = "/fulmar/ticks";
-using Data = std::vector<std::byte>;
+using MessageBytes = std::vector<std::byte>;
 
 struct Stored {
-  Data data;
+  MessageBytes data;
   std::uint64_t valid_ns;  // as the log has it: its publish time
   bool operator==(const Stored&) const = default;
 };
@@ -43,7 +43,7 @@ struct Side {
       const std::string& topic = stream.log().channels.at(ahead->channel).topic;
       channels.try_emplace(topic, ahead->channel);
       if (now[topic].empty()) order.push_back(topic);
-      now[topic].push_back({Data(ahead->data.begin(), ahead->data.end()), ahead->publish_ns});
+      now[topic].push_back({MessageBytes(ahead->data.begin(), ahead->data.end()), ahead->publish_ns});
     }
   }
   std::int64_t flight_ns(std::uint64_t ns) const { return static_cast<std::int64_t>(ns - log_epoch_ns(stream.log(), first_ns)); }
@@ -54,7 +54,7 @@ struct Value {
 };
 
 /// The message field by field; empty when it cannot be decoded.
-std::vector<Value> values(const Side& side, const std::string& topic, const Data& message) {
+std::vector<Value> values(const Side& side, const std::string& topic, const MessageBytes& message) {
   try {
     const McapFile& log = side.stream.log();
     const McapFile::Channel& channel = log.channels.at(side.channels.at(topic));
@@ -62,7 +62,7 @@ std::vector<Value> values(const Side& side, const std::string& topic, const Data
     if (schema == log.schemas.end() || schema->second.encoding != "ros2msg" || channel.encoding != "cdr") return {};
     RosField root = parse_ros2msg(schema->second.name, schema->second.text);
     measure(root, message);
-    const std::vector<Column> columns = lay_out(root, most_columns);
+    const std::vector<Column> columns = lay_out(root, most_compared_columns);
     std::vector<Cell> row;
     decode(root, message, row);
     std::vector<Value> list;
@@ -78,7 +78,7 @@ std::vector<Value> values(const Side& side, const std::string& topic, const Data
 
 /// The first field that is not the same, or else a byte; of samples that hold the same, when they are valid.
 LogDiff::First first_field(const Side& a, const Side& b, const std::string& topic, const Stored& in_a, const Stored& in_b) {
-  const Data &left = in_a.data, &right = in_b.data;
+  const MessageBytes &left = in_a.data, &right = in_b.data;
   if (left == right) return {topic, "valid at", 0, std::to_string(in_a.valid_ns), std::to_string(in_b.valid_ns)};
   const std::vector<Value> x = values(a, topic, left), y = values(b, topic, right);
   for (std::size_t i = 0; i < std::max(x.size(), y.size()); ++i) {
@@ -94,7 +94,7 @@ LogDiff::First first_field(const Side& a, const Side& b, const std::string& topi
   }
   const auto [p, q] = std::mismatch(left.begin(), left.end(), right.begin(), right.end());
   const std::string at = "byte " + std::to_string(p - left.begin());
-  const auto text = [](Data::const_iterator byte, Data::const_iterator end) {
+  const auto text = [](MessageBytes::const_iterator byte, MessageBytes::const_iterator end) {
     return byte == end ? std::string("absent") : std::to_string(static_cast<int>(*byte));
   };
   LogDiff::First f;
@@ -155,7 +155,7 @@ struct Comparison {
   }
 
   /// Of two messages {first, time_ns, period_ns[], hash[]}.
-  void note_tick(const Data& left, const Data& right) {
+  void note_tick(const MessageBytes& left, const MessageBytes& right) {
     if (diff.first_tick) return;
     const std::vector<Value> x = values(a, ticks_topic, left), y = values(b, ticks_topic, right);
     LogDiff::Tick tick;

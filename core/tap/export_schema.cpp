@@ -9,13 +9,13 @@
 #include <map>
 
 #include "core/error.hpp"
+#include "core/tap/wire.hpp"
 
 namespace fulmar::core {
 namespace {
 
 constexpr int deepest = 16;
 constexpr std::size_t most_fields = 20'000;  // of a definition, nested ones counted each time
-constexpr std::size_t header_bytes = 4;
 
 // ---- the definition ------------------------------------------------------------------------------------------------------------
 
@@ -153,15 +153,15 @@ std::size_t size_of(RosKind kind) {
 
 struct Bytes {
   std::span<const std::byte> data;
-  std::size_t at = header_bytes;
+  std::size_t at = cdr_header_bytes;
 
   explicit Bytes(std::span<const std::byte> message) : data(message) {
-    if (message.size() < header_bytes) throw Error("a message is too short");
+    if (message.size() < cdr_header_bytes) throw Error("a message is too short");
     const auto form = static_cast<unsigned>(message[0]) << 8 | static_cast<unsigned>(message[1]);
     if (form != 1) throw Error("a message has the encapsulation " + std::to_string(form) + "; only 1, plain little-endian CDR, is read");
   }
   const std::byte* take(std::size_t size, std::size_t align) {
-    at += (align - (at - header_bytes) % align) % align;
+    at += (align - (at - cdr_header_bytes) % align) % align;
     if (at > data.size() || size > data.size() - at) throw Error("a message is too short for its definition");
     at += size;
     return data.data() + (at - size);

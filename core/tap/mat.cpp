@@ -15,9 +15,9 @@ namespace fulmar::core {
 namespace {
 
 constexpr std::size_t longest_name = 63;
-constexpr std::size_t largest = 0x7fffffff;  // bytes of a variable
+constexpr std::size_t largest_variable = 0x7fffffff;  // bytes of a variable
 
-enum Data : std::uint32_t {
+enum MatKind : std::uint32_t {
   mi_int8 = 1,
   mi_uint8,
   mi_int16,
@@ -50,7 +50,7 @@ enum Class : std::uint32_t {
 constexpr std::uint32_t logical = 0x200;
 
 struct Form {
-  Data data;
+  MatKind data;
   std::uint32_t shape;
 };
 Form form_of(MatValue::Kind kind) {
@@ -64,7 +64,7 @@ std::string u32(std::uint32_t x) { return {reinterpret_cast<const char*>(&x), 4}
 
 /// A data element: tag, bytes, padding to 8.
 std::string element(std::uint32_t type, std::string_view bytes) {
-  if (bytes.size() > largest) throw Error("a MAT file of level 5 holds at most 2 GB per variable; export to npz, or fewer topics");
+  if (bytes.size() > largest_variable) throw Error("a MAT file of level 5 holds at most 2 GB per variable; export to npz, or fewer topics");
   std::string s = u32(type) + u32(static_cast<std::uint32_t>(bytes.size()));
   s += bytes;
   s.append((8 - s.size() % 8) % 8, '\0');
@@ -84,7 +84,7 @@ std::string plain(const std::string& text) {
   return s;
 }
 
-std::string deflated(const std::string& bytes) {
+std::string deflate_text(const std::string& bytes) {
   uLongf size = ::compressBound(bytes.size());
   std::string out(size, '\0');
   if (::compress2(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), 1) != Z_OK)
@@ -164,7 +164,7 @@ MatWriter::MatWriter(const std::filesystem::path& file) : file_(file) {
 }
 
 void MatWriter::add(const std::string& name, const MatValue& value) {
-  const std::string bytes = deflated(value.named(name));
+  const std::string bytes = deflate_text(value.named(name));
   const std::string tag = u32(mi_compressed) + u32(static_cast<std::uint32_t>(bytes.size()));  // not padded
   if (!out_.write(tag.data(), 8) || !out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size())))
     throw Error("cannot write '" + file_.string() + "': the disk refuses it");

@@ -11,6 +11,9 @@
 
 namespace fulmar::core {
 
+/// The encapsulation header before every message.
+inline constexpr std::size_t cdr_header_bytes = 4;
+
 /// Encodes messages of one type: a 4-byte encapsulation header and the body, little endian. Compiled at load into a flat list of copies.
 class CdrEncoder {
  public:

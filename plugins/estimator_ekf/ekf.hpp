@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The component: sensors in, VehicleState out. Silent until it is aligned.
 #pragma once
+#include <fulmar/eigen.hpp>
 #include <fulmar/msg/imu.hpp>
 
 #include "navigator.hpp"

@@ -2,6 +2,7 @@
 // From sensors to the filter: alignment, which sample is used when and with what noise, recovery. Knows no ports; time is in seconds.
 // The filter and its equations: fulmar/flight/ekf.hpp and ekf_models.hpp.
 #pragma once
+#include <fulmar/eigen.hpp>
 #include <fulmar/flight/ekf_models.hpp>
 #include <fulmar/flight/geodesy.hpp>
 #include <fulmar/flight/magnetic_model.hpp>

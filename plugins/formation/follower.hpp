@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "fulmar/eigen.hpp"
 #include "fulmar/flight/angles.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/guidance_command.hpp"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fulmar/eigen.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/plugin.hpp"
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "fulmar/eigen.hpp"
 #include "fulmar/flight/geodesy.hpp"
 #include "fulmar/msg/gnss.hpp"
 #include "fulmar/msg/vehicle_state.hpp"

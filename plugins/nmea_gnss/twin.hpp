@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <stdexcept>
 
+#include "fulmar/eigen.hpp"
 #include "fulmar/flight/geodesy.hpp"
 #include "fulmar/msg/gnss.hpp"
 #include "fulmar/msg/vehicle_state.hpp"

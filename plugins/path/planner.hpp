@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "fulmar/eigen.hpp"
 #include "fulmar/flight/geodesy.hpp"
 #include "fulmar/msg/origin.hpp"
 #include "fulmar/msg/plan_edit.hpp"

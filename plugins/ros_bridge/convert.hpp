@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "fulmar/eigen.hpp"
 #include "fulmar/msg/gnss.hpp"
 #include "fulmar/plugin.hpp"
 #include "ros_messages.hpp"

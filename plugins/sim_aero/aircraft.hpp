@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "actuation.hpp"
+#include "fulmar/eigen.hpp"
 #include "fulmar/flight/magnetic_model.hpp"
 #include "fulmar/msg/arm_request.hpp"
 #include "fulmar/msg/origin.hpp"

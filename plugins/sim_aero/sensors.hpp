@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "fulmar/eigen.hpp"
 #include "fulmar/flight/atmosphere.hpp"
 #include "fulmar/flight/geodesy.hpp"
 #include "fulmar/msg/baro.hpp"

@@ -13,6 +13,8 @@
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/testing.hpp"
 
+namespace plugin_test {
+
 using namespace fulmar;
 
 namespace {
@@ -285,3 +287,5 @@ TEST_CASE("the bench counts allocations and a plain step makes none") {
           asm volatile("" ::"r"(v.data()) : "memory");
         }) == 1);
 }
+
+}  // namespace plugin_test

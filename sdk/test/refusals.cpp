@@ -2,6 +2,9 @@
 // What must not compile, one case per number. CASE 0 is the control: all of it without the fault compiles.
 #include <vector>
 
+#if CASE == 3
+#include "fulmar/eigen.hpp"
+#endif
 #include "fulmar/plugin.hpp"
 
 using namespace fulmar;

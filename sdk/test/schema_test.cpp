@@ -4,14 +4,18 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <cstddef>
 #include <string>
 
+#include "fulmar/eigen.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/gnss.hpp"
 #include "fulmar/msg/path.hpp"
 #include "fulmar/msg/plan.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
+
+namespace schema_test {
 
 using namespace fulmar;
 
@@ -137,3 +141,5 @@ TEST_CASE("a list refuses what it has no room for") {
   CHECK_FALSE(list.push_back(3));
   CHECK(list.size() == 2);
 }
+
+}  // namespace schema_test

@@ -14,7 +14,7 @@
 namespace fulmar::core {
 namespace {
 
-using json = nlohmann::ordered_json;
+using nlohmann::ordered_json;
 
 class Echo {
  public:
@@ -67,13 +67,13 @@ class Echo {
     const TypePtr type = session_.type(sample.topic);
     message_.resize(type->size);
     cdr_decode(*type, sample.bytes.data(), sample.bytes.size(), message_.data());
-    const json message = shown_json(*type, message_.data());
+    const ordered_json message = shown_json(*type, message_.data());
     if (options_.csv) return print_csv(message, time_s);
     for (const PortField& p : ports_) {
       if (p.topic != sample.topic || (options_.count > 0 && printed_ >= options_.count)) continue;
-      const json part = part_of(message, p.field);
+      const ordered_json part = part_of(message, p.field);
       if (options_.json)
-        std::printf("%s\n", json{{"port", p.label}, {"time_s", time_s}, {"value", part}}.dump().c_str());
+        std::printf("%s\n", ordered_json{{"port", p.label}, {"time_s", time_s}, {"value", part}}.dump().c_str());
       else if (part.is_object())
         std::printf("%.4f s  %s\n%s", time_s, p.label.c_str(), message_lines(part).c_str());
       else

@@ -9,13 +9,13 @@
 namespace fulmar::core {
 namespace {
 
-using json = nlohmann::ordered_json;
+using nlohmann::ordered_json;
 
 bool one_column(const Field& field) { return field.shape == FULMAR_LIST || (field.shape == FULMAR_ARRAY && field.kind == FULMAR_STRUCT); }
 
 }  // namespace
 
-std::string short_text(const json& value) {
+std::string short_text(const ordered_json& value) {
   if (value.is_number_float()) {
     char buffer[32];
     std::snprintf(buffer, sizeof buffer, "%.6g", value.get<double>());
@@ -30,7 +30,7 @@ std::string short_text(const json& value) {
   return value.is_object() ? "{" + text + "}" : "[" + text + "]";
 }
 
-std::string message_lines(const json& message) {
+std::string message_lines(const ordered_json& message) {
   std::string text;
   for (const auto& [key, value] : message.items()) text += "  " + key + ": " + short_text(value) + "\n";
   return text;
@@ -52,11 +52,11 @@ std::vector<std::string> columns(const Type& type, const std::string& prefix) {
 }
 
 // The inner fields of a struct whose name ends in _rad are numbers in degrees already: shown_json has turned them, under their own names.
-std::vector<std::string> cells(const Type& type, const json& message) {
+std::vector<std::string> cells(const Type& type, const ordered_json& message) {
   std::vector<std::string> list;
   for (const Field& f : type.fields) {
     const auto found = message.find(shown_name(f.name));
-    const json value = found == message.end() ? json(nullptr) : *found;
+    const ordered_json value = found == message.end() ? ordered_json(nullptr) : *found;
     if (one_column(f) || (f.shape == FULMAR_SCALAR && f.kind != FULMAR_STRUCT)) {
       list.push_back(csv_cell(value));
     } else if (f.shape == FULMAR_ARRAY) {
@@ -68,7 +68,7 @@ std::vector<std::string> cells(const Type& type, const json& message) {
   return list;
 }
 
-std::string csv_cell(const json& value) {
+std::string csv_cell(const ordered_json& value) {
   if (value.is_null()) return "";
   std::string text = value.is_string() ? value.get<std::string>() : value.dump();
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;

@@ -13,17 +13,17 @@ namespace {
 
 using nlohmann::json;
 
-struct Word {
+struct PathWord {
   std::string name;
   std::vector<std::uint32_t> index;  // of [3]; one at most
 };
 
 /// "waypoints[3].airspeed_mps" -> words. Throws Error.
-std::vector<Word> words_of(const std::string& field) {
-  std::vector<Word> words;
+std::vector<PathWord> words_of(const std::string& field) {
+  std::vector<PathWord> words;
   for (std::size_t from = 0; from <= field.size();) {
     const std::size_t dot = std::min(field.find('.', from), field.size());
-    Word word{field.substr(from, dot - from), {}};
+    PathWord word{field.substr(from, dot - from), {}};
     if (const std::size_t open = word.name.find('['); open != std::string::npos) {
       std::uint32_t index = 0;
       const char* end = word.name.data() + word.name.size();
@@ -54,7 +54,7 @@ Names check_field(const Type& type, const std::string& field, const std::string&
   Names names;
   const Type* at = &type;
   std::string path = port;
-  for (const Word& word : words_of(field)) {
+  for (const PathWord& word : words_of(field)) {
     if (!at) throw Error(path + " is one value, it has no '" + word.name + "'");
     const Field* found = find_field(*at, word.name);
     if (!found) {
@@ -159,7 +159,7 @@ std::vector<std::string> port_names(Session& session) {
 nlohmann::ordered_json part_of(const nlohmann::ordered_json& message, const std::string& field) {
   const nlohmann::ordered_json* at = &message;
   if (field.empty()) return message;
-  for (const Word& word : words_of(field)) {
+  for (const PathWord& word : words_of(field)) {
     if (!at->is_object()) return nullptr;
     const auto found = at->find(shown_name(word.name));
     if (found == at->end()) return nullptr;

@@ -10,6 +10,7 @@
 
 #include "core/app/test/hil.hpp"
 #include "core/app/test/hil_log.hpp"
+#include "fulmar/eigen.hpp"
 #include "fulmar/msg/plan.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 

@@ -12,6 +12,8 @@
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/msg/vehicle_status.hpp"
 
+namespace condition_test {
+
 using namespace fulmar;
 using namespace fulmar::core;
 using namespace fulmar::core::test;
@@ -191,3 +193,5 @@ TEST_CASE("a wrong condition is refused with a sentence") {
   CHECK(refused("plan.plan.waypoints.airspeed_mps > 3") == "'waypoints' is a list of at most 1024: say waypoints[0].");
   CHECK(refused(std::string(200, '(') + "vehicle.status.armed") == "the condition is nested too deep");
 }
+
+}  // namespace condition_test

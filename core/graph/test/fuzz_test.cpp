@@ -6,6 +6,8 @@
 
 #include "core/graph/test/shelf.hpp"
 
+namespace fuzz_test {
+
 using namespace fulmar::core;
 using namespace fulmar::core::test;
 
@@ -80,3 +82,5 @@ TEST_CASE("200 altered airframe and plan files are taken or refused with a sente
   }
   CHECK(refused > 50);
 }
+
+}  // namespace fuzz_test

@@ -6,6 +6,8 @@
 
 #include "core/graph/test/shelf.hpp"
 
+namespace mission_test {
+
 using namespace fulmar::core;
 using namespace fulmar::core::test;
 
@@ -334,3 +336,5 @@ TEST_CASE("the epoch is a time in UTC") {
   for (const char* text : {"", "2026-01-01", "2026-01-01T00:00", "2026-01-01T24:00Z", "2026-01-01T00:00:60Z", "2026-01-01T00:00xZ"})
     CHECK_THROWS_AS(parse_utc_ns(text), Error);
 }
+
+}  // namespace mission_test

@@ -14,6 +14,8 @@
 
 #include "core/graph/yaml_edit.hpp"
 
+namespace param_file_test {
+
 namespace fs = std::filesystem;
 using namespace fulmar::core;
 
@@ -229,3 +231,5 @@ TEST_CASE("a shipped mission keeps every byte but those of the value") {
   CHECK(plan.files[0].after.size() == plan.files[0].before.size() + 3);
   CHECK(diff_text(plan.files[0]).find("+     course_kp: 2.25            # 1.15 rad/s") != std::string::npos);
 }
+
+}  // namespace param_file_test

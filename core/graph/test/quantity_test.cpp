@@ -6,6 +6,8 @@
 #include <functional>
 #include <limits>
 
+namespace quantity_test {
+
 using namespace fulmar::core;
 
 namespace {
@@ -115,3 +117,5 @@ TEST_CASE("the unit suffix of a field is split off") {
   CHECK_FALSE(split_suffix("has_course"));
   CHECK_FALSE(split_suffix("_m"));
 }
+
+}  // namespace quantity_test

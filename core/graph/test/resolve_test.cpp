@@ -13,6 +13,8 @@
 #include "fulmar/msg/origin.hpp"
 #include "fulmar/msg/plan.hpp"
 
+namespace resolve_test {
+
 using namespace fulmar;
 using namespace fulmar::core;
 using namespace fulmar::core::test;
@@ -366,3 +368,5 @@ TEST_CASE("the graph is printed for people and for tools") {
   CHECK(mermaid.find("  c_follow -- command --> c_slc\n") != std::string::npos);
   CHECK_THROWS_WITH_AS(print_graph(graph, "svg"), "unknown format 'svg'. Valid: text, dot, mermaid.", Error);
 }
+
+}  // namespace resolve_test

@@ -4,6 +4,8 @@
 
 #include "core/graph/test/shelf.hpp"
 
+namespace tap_sections_test {
+
 using namespace fulmar::core;
 using namespace fulmar::core::test;
 
@@ -160,3 +162,5 @@ TEST_CASE("a log goes on in a new file after so many bytes or so much time") {
   holds(faults("record: {rotate: 1 ns}"), "6: record.rotate: 1 ns is too little for a file; give at least 1 MB, or 1 s");
   holds(faults("record: {rotate: 999 kB}"), "6: record.rotate: 999 kB is too little for a file; give at least 1 MB, or 1 s");
 }
+
+}  // namespace tap_sections_test

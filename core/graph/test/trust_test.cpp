@@ -14,6 +14,8 @@
 #include "core/loader/store.hpp"
 #include "shelf.hpp"
 
+namespace trust_test {
+
 using namespace fulmar::core;
 namespace fs = std::filesystem;
 
@@ -188,3 +190,5 @@ TEST_CASE("a mission asks before it opens a file, and says where the file is use
   unsetenv("FULMAR_PROBE");
   unsetenv("FULMAR_STORE");
 }
+
+}  // namespace trust_test

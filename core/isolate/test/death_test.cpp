@@ -5,6 +5,8 @@
 #include "core/error.hpp"
 #include "workshop.hpp"
 
+namespace death_test {
+
 using namespace workshop;
 
 namespace {
@@ -122,3 +124,5 @@ TEST_CASE("a component that cannot be destroyed says so and is gone all the same
   }
   CHECK(no_children());
 }
+
+}  // namespace death_test

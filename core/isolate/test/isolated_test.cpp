@@ -9,6 +9,8 @@
 #include "core/tap/wire.hpp"
 #include "workshop.hpp"
 
+namespace isolated_test {
+
 using namespace workshop;
 
 namespace {
@@ -255,3 +257,5 @@ TEST_CASE("the proxy takes nothing from the host's heap in flight") {
   CHECK(thread_allocations() == before);
   CHECK_FALSE(dying.child->alive());
 }
+
+}  // namespace isolated_test

@@ -10,6 +10,8 @@
 #include "core/error.hpp"
 #include "workshop.hpp"
 
+namespace process_test {
+
 using namespace workshop;
 namespace fs = std::filesystem;
 
@@ -149,3 +151,5 @@ TEST_CASE("a child leaves a core file only where somebody asked for one") {
     ::unsetenv("FULMAR_CORE");
   }
 }
+
+}  // namespace process_test

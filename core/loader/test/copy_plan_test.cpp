@@ -7,6 +7,8 @@
 #include "core/loader/type.hpp"
 #include "tables.hpp"
 
+namespace copy_plan_test {
+
 using namespace fulmar::core;
 using namespace tables;
 
@@ -145,3 +147,5 @@ TEST_CASE("a difference inside a nested struct is named with its path") {
 TEST_CASE("no plan is made for tables that do not fit") {
   CHECK_THROWS_WITH_AS(copy_plan(*old_route(), *copy_type(route)), "reader knows a field 'throttle_frac' that the writer lacks", Error);
 }
+
+}  // namespace copy_plan_test

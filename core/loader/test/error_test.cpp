@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+namespace error_test {
+
 using namespace fulmar::core;
 
 TEST_CASE("the nearest name is found through a slip of the pen") {
@@ -32,3 +34,5 @@ TEST_CASE("choices read as a sentence") {
   CHECK(choices_text("zzzzzz", {"height_m", "course_rad"}) == " Valid: height_m, course_rad.");
   CHECK(choices_text("x", {}) == " Valid: none.");
 }
+
+}  // namespace error_test

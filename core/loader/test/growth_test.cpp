@@ -9,10 +9,10 @@
 #include "core/loader/table.hpp"
 #include "workshop.hpp"
 
+namespace growth_test {
+
 using namespace fulmar::core;
 using namespace workshop;
-
-namespace {
 
 // A struct of which ABI 1.0 knew the first two members.
 struct Grown {
@@ -20,10 +20,13 @@ struct Grown {
   std::uint64_t added;
 };
 
-}  // namespace
+}  // namespace growth_test
 
 template <>
-inline constexpr std::uint32_t fulmar::core::size_in_1_0<Grown> = offsetof(Grown, kind) + sizeof(Grown::kind);
+inline constexpr std::uint32_t fulmar::core::size_in_1_0<growth_test::Grown> =
+    offsetof(growth_test::Grown, kind) + sizeof(growth_test::Grown::kind);
+
+namespace growth_test {
 
 TEST_CASE("the sizes of ABI 1.0 stay what they were, whatever is appended") {
   if (sizeof(void*) != 8) return;
@@ -102,3 +105,5 @@ TEST_CASE("of an entry of ABI 1.0 no more is read than ABI 1.0 had") {
   CHECK_THROWS_WITH(read_entry(at_the_end, "old.so"), "old.so: its entry lies outside its memory");
   ::munmap(memory, 2 * page);
 }
+
+}  // namespace growth_test

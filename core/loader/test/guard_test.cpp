@@ -9,6 +9,8 @@
 #include "core/loader/type.hpp"
 #include "tables.hpp"
 
+namespace guard_test {
+
 using namespace fulmar::core;
 using namespace tables;
 
@@ -136,3 +138,5 @@ TEST_CASE("an explanation never writes beyond its room") {
     CHECK(text[size] == '#');
   }
 }
+
+}  // namespace guard_test

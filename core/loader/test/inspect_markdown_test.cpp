@@ -10,6 +10,8 @@
 #include "tables.hpp"
 #include "workshop.hpp"
 
+namespace inspect_markdown_test {
+
 using namespace fulmar::core;
 using namespace workshop;
 
@@ -186,3 +188,5 @@ TEST_CASE("a message with one of everything, and a file with its defaults") {
   CHECK(has(page, "| `start` | [Route](#route) |"));
   CHECK(page.find("### Route") == page.rfind("### Route"));  // once, though it is a port's message too
 }
+
+}  // namespace inspect_markdown_test

@@ -13,6 +13,8 @@
 #include "core/loader/inspect.hpp"
 #include "workshop.hpp"
 
+namespace library_test {
+
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer)
 #define __SANITIZE_ADDRESS__ 1  // clang's way to say it
@@ -328,3 +330,5 @@ TEST_CASE("the field tables tell kind, unit, frame and place") {
   CHECK(text.find("  position_m.north  f64   m            8\n") != std::string::npos);
   CHECK(text.find("  mode              enum               32    idle, glide\n") != std::string::npos);
 }
+
+}  // namespace library_test

@@ -13,6 +13,8 @@
 #include "core/loader/store.hpp"
 #include "workshop.hpp"
 
+namespace refusal_test {
+
 using namespace workshop;
 
 namespace {
@@ -220,3 +222,5 @@ TEST_CASE("the store is private and its copies are read-only") {
 TEST_CASE("SHA-256 gives the digest of FIPS 180-2") {
   CHECK(fulmar::core::sha256_hex("abc", 3) == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
+
+}  // namespace refusal_test

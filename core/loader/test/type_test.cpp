@@ -8,6 +8,8 @@
 #include "core/error.hpp"
 #include "tables.hpp"
 
+namespace type_test {
+
 using namespace fulmar::core;
 using namespace tables;
 
@@ -186,3 +188,5 @@ TEST_CASE("a name that is not there is answered with the valid ones") {
     CHECK(fault(bad) == "'" + std::string(bad) + "' in '" + bad + "' is not understood; an index is written like waypoints[3].");
   for (const char* bad : {"", ".", "lap.", "[0]", "position_m..north"}) CHECK(fault(bad) != "found");
 }
+
+}  // namespace type_test

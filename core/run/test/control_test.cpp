@@ -13,6 +13,8 @@
 
 #include "core/run/test/lab.hpp"
 
+namespace control_test {
+
 namespace {
 
 const std::string watched = "live: {listen: \"127.0.0.1:0\"}\n";
@@ -386,3 +388,5 @@ TEST_CASE("who fills a role publishes as the role: one topic, whoever flies") {
   CHECK(channels[0] == channels[1]);
   CHECK(channels[0] >= 0);
 }
+
+}  // namespace control_test

@@ -16,6 +16,8 @@
 #include "core/tap/reader.hpp"
 #include "core/tap/wire.hpp"
 
+namespace flight_test {
+
 TEST_CASE("what the vehicle reads is flown on in the same tick, and written in it") {
   const Graph g = mission(one_phase);
   Flight flight(g, options(0.5));
@@ -399,3 +401,5 @@ TEST_CASE("a role's condition reads the right field of whoever fills the role, w
   CHECK(r.phases.size() == 3);
   CHECK(value(g, flight, "sim", "applied", "u_frac") == 0.75);
 }
+
+}  // namespace flight_test

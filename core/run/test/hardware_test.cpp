@@ -13,6 +13,8 @@
 #include "core/run/test/lab.hpp"
 #include "core/tap/reader.hpp"
 
+namespace hardware_test {
+
 namespace {
 
 Graph craft(const std::string& tail, const std::vector<std::pair<std::string, std::string>>& set = {}, const std::string& io = "fcu") {
@@ -410,3 +412,5 @@ TEST_CASE("the newest log of a mission is found, cut off or whole, unless it is 
   std::ofstream(place / "run-4.mcap.part") << "begun, and nothing in it";
   CHECK(newest_log(g, 600).filename() == "run-3.mcap");
 }
+
+}  // namespace hardware_test

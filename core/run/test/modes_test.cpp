@@ -6,6 +6,8 @@
 #include "core/run/test/lab.hpp"
 #include "core/tap/reader.hpp"
 
+namespace modes_test {
+
 namespace {
 
 std::string log_hash(const Graph& g, const std::string& name, double duration_s, double speed = 0) {
@@ -191,3 +193,5 @@ TEST_CASE("on hardware, a plugin that did not come with the host flies in a chil
   CHECK(mode("two") == RunMode::tick);
   for (const Component& c : mission(with_fallback).components) CHECK(c.run == RunMode::tick);
 }
+
+}  // namespace modes_test

@@ -7,6 +7,8 @@
 #include "core/run/allocation.hpp"
 #include "core/run/test/lab.hpp"
 
+namespace safety_test {
+
 namespace {
 
 struct Row {
@@ -140,3 +142,5 @@ TEST_CASE("when a component takes the host with it, the device gets the last fra
     CHECK(fs::exists(log.string() + ".part"));
   }
 }
+
+}  // namespace safety_test

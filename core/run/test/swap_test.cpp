@@ -3,6 +3,8 @@
 #include "core/run/test/lab.hpp"
 #include "core/tap/reader.hpp"
 
+namespace swap_test {
+
 namespace {
 
 std::string variant(const std::string& variant) { return std::string(FULMAR_TEST_PLUGIN_DIR) + "/lab" + variant + ".so"; }
@@ -135,3 +137,5 @@ TEST_CASE("a child that has died is started anew on the ground, and never in the
   CHECK(has(said_after_reset("-0.5 s", -400'000'000), "one: guard reset"));
   CHECK(has(said_after_reset("0.1 s", 150'000'000), "started anew on the ground; the aircraft is armed"));
 }
+
+}  // namespace swap_test

@@ -11,6 +11,8 @@
 #include "core/tap/test/types.hpp"
 #include "core/tap/wire.hpp"
 
+namespace cdr_test {
+
 using namespace fulmar::core;
 using namespace fulmar::core::test;
 
@@ -273,3 +275,5 @@ TEST_CASE("the compiled encoder agrees with an encoder that does nothing clever,
   }
   CHECK(with_bytes > 500);  // the types were not all trivial
 }
+
+}  // namespace cdr_test

@@ -13,6 +13,8 @@
 #include "core/tap/tap.hpp"
 #include "core/tap/test/types.hpp"
 
+namespace cursor_test {
+
 using namespace fulmar::core;
 using fulmar::core::test::make_type;
 
@@ -155,3 +157,5 @@ TEST_CASE("the loop gives what any sink wants, at the shortest of the periods th
   CHECK(given(4000, 5000) == 0);
   CHECK_FALSE(tap.wanted(1, 0));
 }
+
+}  // namespace cursor_test

@@ -13,6 +13,8 @@
 #include "core/tap/recover.hpp"
 #include "core/tap/test/log_kit.hpp"
 
+namespace damaged_test {
+
 using namespace fulmar::core;
 using namespace fulmar::core::test;
 
@@ -311,3 +313,5 @@ TEST_CASE("schemas without end are not kept in memory") {
   CHECK(stream.log().schemas.size() == 15);  // 16 of 16 MB and some bytes are more than 256 MB
   CHECK(stream.log().fault.ends_with(": the schemas and channels take more than 256 MB"));
 }
+
+}  // namespace damaged_test

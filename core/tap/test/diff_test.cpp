@@ -7,6 +7,8 @@
 #include "core/error.hpp"
 #include "core/tap/test/log_kit.hpp"
 
+namespace diff_test {
+
 using namespace fulmar::core;
 using namespace fulmar::core::test;
 
@@ -139,3 +141,5 @@ TEST_CASE("where the components differed without a message of it, the hash of th
   CHECK(d.first_tick->index == 6);
   CHECK(d.first_tick->time_ns == 60);
 }
+
+}  // namespace diff_test

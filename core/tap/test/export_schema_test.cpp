@@ -9,6 +9,8 @@
 #include "core/error.hpp"
 #include "core/tap/test/log_kit.hpp"
 
+namespace export_schema_test {
+
 using namespace fulmar::core;
 using namespace fulmar::core::test;
 
@@ -111,3 +113,5 @@ TEST_CASE("a message that is shorter, longer or of another encapsulation than it
   RosField list = parse_ros2msg("a/msg/B", "float64[] x\n");
   CHECK_THROWS_AS(measure(list, bytes({0, 1, 0, 0, 255, 255, 255, 255})), Error);
 }
+
+}  // namespace export_schema_test

@@ -11,6 +11,8 @@
 #include "core/tap/info.hpp"
 #include "core/tap/test/log_kit.hpp"
 
+namespace export_test {
+
 using namespace fulmar::core;
 using namespace fulmar::core::test;
 
@@ -257,3 +259,5 @@ TEST_CASE("what a log costs is told by topic, and adds up to the file") {
   for (const LogInfo::Topic& t : info.topics) sum += t.stored_bytes;
   CHECK(sum == doctest::Approx(static_cast<double>(written.bytes)).epsilon(0.01));
 }
+
+}  // namespace export_test

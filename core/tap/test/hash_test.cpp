@@ -10,6 +10,8 @@
 #include "core/tap/test/types.hpp"
 #include "core/tap/wire.hpp"
 
+namespace hash_test {
+
 using namespace fulmar::core;
 using namespace fulmar::core::test;
 
@@ -46,3 +48,5 @@ TEST_CASE("a million neighbouring numbers have a million hashes") {
   for (std::uint64_t i = 0; i < 1'000'000; ++i) found.insert(hash_bytes(0, reinterpret_cast<const std::byte*>(&i), sizeof i));
   CHECK(found.size() == 1'000'000);
 }
+
+}  // namespace hash_test

@@ -8,6 +8,8 @@
 #include "core/tap/test/types.hpp"
 #include "core/tap/wire.hpp"
 
+namespace json_test {
+
 using namespace fulmar::core;
 using namespace fulmar::core::test;
 using nlohmann::json;
@@ -69,3 +71,5 @@ TEST_CASE("a number that is not finite is null, a label that does not exist a nu
         "b");
   CHECK_NOTHROW(shown.dump());
 }
+
+}  // namespace json_test

@@ -24,6 +24,8 @@
 #include "core/tap/test/types.hpp"
 #include "core/tap/wire.hpp"
 
+namespace log_test {
+
 using namespace fulmar::core;
 using namespace fulmar::core::test;
 namespace fs = std::filesystem;
@@ -414,3 +416,5 @@ TEST_CASE("a file that is no log is refused") {
   CHECK_THROWS_AS(read_mcap(folder.path / "a.mcap"), Error);
   CHECK_THROWS_AS(read_mcap(folder.path / "none.mcap"), Error);
 }
+
+}  // namespace log_test

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <thread>
 
+namespace ring_test {
+
 using fulmar::core::Ring;
 
 namespace {
@@ -78,3 +80,5 @@ TEST_CASE("a ring asked to be too small for its messages grows until it holds fo
   const Ring ring(64, 100'000);
   CHECK(ring.capacity() >= 400'000);
 }
+
+}  // namespace ring_test

@@ -11,6 +11,8 @@
 #include "core/tap/test/types.hpp"
 #include "core/tap/wire.hpp"
 
+namespace ros_parse_test {
+
 using namespace fulmar::core;
 using namespace fulmar::core::test;
 
@@ -95,3 +97,5 @@ TEST_CASE("a definition that cannot be read is refused with the line that is wro
   CHECK(refusal([] { parse_ros_definition("B", ""); }) == "'B' is no ROS message type, which has the form package/msg/Name");
   CHECK(parse_ros_definition("a/msg/Empty", "")->size == 1);
 }
+
+}  // namespace ros_parse_test

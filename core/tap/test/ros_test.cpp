@@ -5,6 +5,8 @@
 #include "core/tap/test/types.hpp"
 #include "core/tap/wire.hpp"
 
+namespace ros_test {
+
 using namespace fulmar::core;
 using namespace fulmar::core::test;
 
@@ -75,3 +77,5 @@ TEST_CASE("the message text of a foreign type is that of its own package") {
   CHECK(ros_definition(*header()) == "builtin_interfaces/Time stamp\nstring frame_id\n" + std::string(80, '=') +
                                          "\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n");
 }
+
+}  // namespace ros_test

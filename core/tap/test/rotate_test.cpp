@@ -10,6 +10,8 @@
 #include "core/tap/sha256.hpp"
 #include "core/tap/test/log_kit.hpp"
 
+namespace rotate_test {
+
 using namespace fulmar::core;
 using namespace fulmar::core::test;
 
@@ -149,3 +151,5 @@ TEST_CASE("a log that would rotate onto a file is refused; one whose next file c
   CHECK(check_parts(result) == 5000 + 2);
   CHECK(contents(folder.path / "a-3.mcap") == "precious");
 }
+
+}  // namespace rotate_test

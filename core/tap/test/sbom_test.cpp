@@ -10,6 +10,8 @@
 
 #include "core/loader/build_id.hpp"
 
+namespace sbom_test {
+
 using namespace fulmar::core;
 using nlohmann::json;
 
@@ -157,3 +159,5 @@ TEST_CASE("notes are read with their padding, and bent ones give nothing") {
   CHECK(build_id_in_notes(std::as_bytes(std::span(huge))) == "");
   CHECK(build_id(bytes) == "");
 }
+
+}  // namespace sbom_test

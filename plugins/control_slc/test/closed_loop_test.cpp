@@ -8,6 +8,8 @@
 #include "plugins/control_slc/outer.hpp"
 #include "sdk/test/flight/flight_model.hpp"
 
+namespace closed_loop_test {
+
 using namespace fulmar;
 
 namespace {
@@ -241,3 +243,5 @@ TEST_CASE(
   }
   CHECK(step < 4 * deg);
 }
+
+}  // namespace closed_loop_test

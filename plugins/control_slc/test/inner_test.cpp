@@ -9,6 +9,8 @@
 #include <fulmar/testing.hpp>
 #include <numbers>
 
+namespace inner_test {
+
 using namespace fulmar;
 using Inner = slc::Inner;
 
@@ -228,3 +230,5 @@ TEST_CASE("when a pilot hands back the surfaces begin at their trim: what nobody
   CHECK(bench.out.actuators.elevator_rad == doctest::Approx(-0.12).epsilon(0.02));
   CHECK(bench.out.actuators.aileron_rad == doctest::Approx(0.03).epsilon(0.02));
 }
+
+}  // namespace inner_test

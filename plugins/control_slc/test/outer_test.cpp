@@ -8,6 +8,8 @@
 #include <fulmar/random.hpp>
 #include <fulmar/testing.hpp>
 
+namespace outer_test {
+
 using namespace fulmar;
 using Outer = slc::Outer;
 
@@ -351,3 +353,5 @@ TEST_CASE("without a velocity there is no course to hold: wings level, height go
   CHECK(bench.out.attitude.pitch_rad > 0.1);
   CHECK(bench.step(0.01) == Status::degraded);
 }
+
+}  // namespace outer_test

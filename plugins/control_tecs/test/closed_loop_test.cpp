@@ -7,6 +7,8 @@
 #include "plugins/control_tecs/outer.hpp"
 #include "sdk/test/flight/flight_model.hpp"
 
+namespace closed_loop_test {
+
 using namespace fulmar;
 
 namespace {
@@ -106,3 +108,5 @@ TEST_CASE("a dead engine ends in a glide at the commanded airspeed, not in a sta
   CHECK(slowest > 10.2);  // stalls at 10
   CHECK(flight.state.climb_rate_mps < 0);
 }
+
+}  // namespace closed_loop_test

@@ -8,6 +8,8 @@
 
 #include "plugins/control_tecs/outer.hpp"
 
+namespace tecs_test {
+
 using namespace fulmar;
 using Outer = tecs::Outer;
 
@@ -358,3 +360,5 @@ TEST_CASE("without a velocity there is no course to hold: wings level") {
   CHECK(settle(bench, s, c).roll_rad == doctest::Approx(0));
   CHECK(bench.step(0.01) == Status::degraded);
 }
+
+}  // namespace tecs_test

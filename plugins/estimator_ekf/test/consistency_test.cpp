@@ -8,6 +8,8 @@
 
 #include "synthetic_flight.hpp"
 
+namespace consistency_test {
+
 using namespace synthetic;
 
 namespace {
@@ -120,3 +122,5 @@ TEST_CASE("over forty flights the normalised errors of attitude, velocity and po
   CHECK(mean / judged == doctest::Approx(dof).epsilon(0.12));
   CHECK(innovations / measurements == doctest::Approx(1).epsilon(0.05));
 }
+
+}  // namespace consistency_test

@@ -5,6 +5,8 @@
 
 #include "flight_bench.hpp"
 
+namespace gap_test {
+
 using namespace synthetic;
 
 namespace {
@@ -306,3 +308,5 @@ TEST_CASE("when only the newest of several inertial samples is seen, attitude st
   };
   g.run();
 }
+
+}  // namespace gap_test

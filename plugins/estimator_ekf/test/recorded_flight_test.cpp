@@ -11,6 +11,8 @@
 
 #include "../ekf.hpp"
 
+namespace recorded_flight_test {
+
 using namespace fulmar;
 using fulmar::estimator::Ekf;
 using fulmar::estimator::Vector3d;
@@ -164,3 +166,5 @@ TEST_CASE("on a real flight ten and thirty seconds without GNSS stay within the 
     CHECK(errors.back() < worst);
   }
 }
+
+}  // namespace recorded_flight_test

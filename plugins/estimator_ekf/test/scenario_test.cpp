@@ -4,6 +4,9 @@
 #include <doctest/doctest.h>
 
 #include "flight_bench.hpp"
+#include "fulmar/testing.hpp"
+
+namespace scenario_test {
 
 using namespace synthetic;
 
@@ -359,3 +362,5 @@ TEST_CASE("a step allocates nothing, from the first sample through the whole fli
   CHECK(allocations([] { sink = new int; }) == 1);  // the counter counts
   delete sink;
 }
+
+}  // namespace scenario_test

@@ -280,7 +280,7 @@ struct Element<std::array<T, N>> {
 };
 
 template <class T>
-consteval std::string_view type_name(bool bits) {
+constexpr std::string_view type_name(bool bits) {
   if constexpr (std::is_same_v<T, float>)
     return "float";
   else if constexpr (std::is_same_v<T, double>)
@@ -303,9 +303,6 @@ consteval std::string_view type_name(bool bits) {
     return "int64_t";
 }
 
-template <class M, std::size_t I>
-using MemberOf = std::remove_pointer_t<decltype(std::get<I>(fulmar::detail::members(std::declval<M&>())).p)>;
-
 struct Layout {
   std::size_t length = 0;
   std::uint8_t crc_extra = 0;
@@ -316,15 +313,16 @@ template <class M>
 consteval Layout layout() {
   Layout out;
   std::uint16_t crc = crc_text(0xffff, M::name);
-  const auto add = [&]<std::size_t I>(std::integral_constant<std::size_t, I>) {
-    using E = Element<MemberOf<M, I>>;
-    constexpr std::string_view field = fulmar::detail::FieldName<M, I>::view;
+  std::size_t i = 0;
+  const auto add = [&]<class Member>(const Member*) {
+    using E = Element<Member>;
+    const std::string_view field = fulmar::detail::FieldNames<M>::view(i++);
     crc = crc_text(crc_text(crc, type_name<typename E::type>(field == "param_value")), field);
     if (E::count > 0) crc = crc_byte(crc, static_cast<std::uint8_t>(E::count));
-    out.length += sizeof(MemberOf<M, I>);
+    out.length += sizeof(Member);
   };
-  [&]<std::size_t... I>(std::index_sequence<I...>) { (add(std::integral_constant<std::size_t, I>{}), ...); }
-  (std::make_index_sequence<fulmar::detail::member_count<M>()>{});
+  const auto all = [&]<class... Member>(fulmar::detail::Types<Member...>) { (add(static_cast<const Member*>(nullptr)), ...); };
+  all(fulmar::detail::MemberTypes<M>{});
   out.crc_extra = static_cast<std::uint8_t>((crc & 0xff) ^ (crc >> 8));
   return out;
 }

@@ -8,6 +8,8 @@
 
 #include "device.hpp"
 
+namespace fcu_run_test {
+
 using namespace fulmar::fcu;
 using namespace fulmar::fcu::testing;
 
@@ -125,3 +127,5 @@ TEST_CASE("a controller: it is flown for as long as was asked, armed by its pilo
     CHECK(r.says(words));
   }
 }
+
+}  // namespace fcu_run_test

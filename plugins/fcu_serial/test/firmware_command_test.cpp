@@ -6,6 +6,8 @@
 
 #include "companion.hpp"
 
+namespace firmware_command_test {
+
 using namespace fulmar;
 using namespace fulmar::fcu;
 using namespace fulmar::fcu::peer;
@@ -210,3 +212,5 @@ TEST_CASE("auxiliary outputs take what the mixer does not own, and keep it when 
   c.wait(0.05);
   CHECK(c.fcu.outputs()[10] == doctest::Approx(0.75));
 }
+
+}  // namespace firmware_command_test

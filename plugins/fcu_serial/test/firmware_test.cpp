@@ -7,6 +7,8 @@
 
 #include "companion.hpp"
 
+namespace firmware_test {
+
 using namespace fulmar;
 using namespace fulmar::fcu;
 using namespace fulmar::fcu::peer;
@@ -301,3 +303,5 @@ TEST_CASE("the controller's attitude follows a steady roll") {
   const auto m = c.last<AttitudeQuaternion>();
   CHECK(2 * std::atan2(m.q2, m.q1) == doctest::Approx(phi).epsilon(0.01));
 }
+
+}  // namespace firmware_test

@@ -13,6 +13,8 @@
 #include "plugins/fcu_serial/link/port.hpp"
 #include "scripted_controller.hpp"
 
+namespace link_test {
+
 using namespace fulmar::fcu;
 using namespace fulmar::fcu::testing;
 
@@ -266,3 +268,5 @@ TEST_CASE("the link is the same over UDP, whoever of the two is there first") {
   REQUIRE(link->pop(r));
   CHECK(r.packet.as<SmallImu>().time_boot_us == 4321);
 }
+
+}  // namespace link_test

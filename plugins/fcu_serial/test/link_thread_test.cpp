@@ -17,6 +17,8 @@
 #include "fulmar/testing.hpp"
 #include "scripted_controller.hpp"
 
+namespace link_thread_test {
+
 using namespace fulmar::fcu;
 using namespace fulmar::fcu::testing;
 
@@ -201,3 +203,5 @@ TEST_CASE("the link's thread gets the priority of the loop that waits for it") {
   CHECK((sched_getscheduler(id) & ~SCHED_RESET_ON_FORK) == SCHED_FIFO);
   CHECK(got.sched_priority == 3);
 }
+
+}  // namespace link_thread_test

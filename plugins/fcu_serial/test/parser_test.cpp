@@ -13,6 +13,8 @@
 #include "fulmar/random.hpp"
 #include "plugins/fcu_serial/link/frame.hpp"
 
+namespace parser_test {
+
 using namespace fulmar;
 using namespace fulmar::fcu;
 
@@ -128,13 +130,11 @@ template <class M>
 std::vector<std::pair<std::string, std::size_t>> members_of() {
   std::vector<std::pair<std::string, std::size_t>> out;
   M message{};
-  [&]<std::size_t... I>(std::index_sequence<I...>) {
-    const auto offset = [&](const void* p) {
-      return static_cast<std::size_t>(static_cast<const char*>(p) - reinterpret_cast<const char*>(&message));
-    };
-    (out.emplace_back(fulmar::detail::FieldName<M, I>::view, offset(std::get<I>(fulmar::detail::members(message)).p)), ...);
-  }
-  (std::make_index_sequence<fulmar::detail::member_count<M>()>{});
+  fulmar::detail::for_each(message, [&](const auto& member, std::size_t i) {
+    const auto* at = reinterpret_cast<const char*>(&member);
+    out.emplace_back(fulmar::detail::FieldNames<M>::view(i),
+                     static_cast<std::size_t>(at - reinterpret_cast<const char*>(&message)));
+  });
   return out;
 }
 
@@ -378,3 +378,5 @@ TEST_CASE("whatever bytes come, each packet is a frame that stood in them, in or
   CHECK(damaged > fed / 200);
   CHECK(parser.counts().frames == packets);
 }
+
+}  // namespace parser_test

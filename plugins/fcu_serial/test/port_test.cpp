@@ -17,6 +17,8 @@
 
 #include "pty.hpp"
 
+namespace port_test {
+
 using namespace fulmar::fcu;
 using fulmar::fcu::testing::Pty;
 
@@ -312,3 +314,5 @@ TEST_CASE("opening a port leaves the process's signals as they were") {
   sigaction(SIGPIPE, nullptr, &after);
   CHECK((after.sa_handler == SIG_DFL));
 }
+
+}  // namespace port_test

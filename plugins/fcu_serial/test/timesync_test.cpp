@@ -12,6 +12,8 @@
 
 #include "fulmar/random.hpp"
 
+namespace timesync_test {
+
 using namespace fulmar;
 using namespace fulmar::fcu;
 
@@ -350,3 +352,5 @@ TEST_CASE("whatever stamps and answers come, dates are within the second before 
   }
   CHECK(dater.undated() > 1000);
 }
+
+}  // namespace timesync_test

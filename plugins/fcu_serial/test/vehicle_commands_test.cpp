@@ -6,6 +6,8 @@
 #include "plugins/fcu_serial/commands.hpp"
 #include "plugins/fcu_serial/pace.hpp"
 
+namespace vehicle_commands_test {
+
 using namespace fulmar;
 using namespace fulmar::fcu;
 using doctest::Approx;
@@ -173,3 +175,5 @@ TEST_CASE("a new command that came too early goes out when it may") {
   CHECK_FALSE(pace.due(false, 7'500'000));
   CHECK(pace.due(false, 10'000'000));
 }
+
+}  // namespace vehicle_commands_test

@@ -2,6 +2,8 @@
 // The vehicle against the software flight controller, in virtual time: what goes wrong.
 #include "flying.hpp"
 
+namespace vehicle_faults_test {
+
 using namespace fulmar;
 using namespace fulmar::fcu;
 using namespace fulmar::fcu::testing;
@@ -243,3 +245,5 @@ TEST_CASE("a controller that comes back is asked for its version") {
   CHECK(f.world.count<RosflightCmd>() == before + 1);
   CHECK_FALSE(f.heard("another firmware"));
 }
+
+}  // namespace vehicle_faults_test

@@ -6,6 +6,8 @@
 #include "plugins/fcu_serial/radio.hpp"
 #include "plugins/fcu_serial/sensors.hpp"
 
+namespace vehicle_sensors_test {
+
 using namespace fulmar;
 using namespace fulmar::fcu;
 using doctest::Approx;
@@ -213,3 +215,5 @@ TEST_CASE("integers of parameters are bits, negative ones included") {
   real.param_value = std::bit_cast<std::uint32_t>(not_a_number);
   CHECK(integer_of(real) == 0);
 }
+
+}  // namespace vehicle_sensors_test

@@ -6,6 +6,8 @@
 #include "plugins/fcu_serial/greeting.hpp"
 #include "plugins/fcu_serial/state.hpp"
 
+namespace vehicle_state_test {
+
 using namespace fulmar;
 using namespace fulmar::fcu;
 
@@ -270,3 +272,5 @@ TEST_CASE("what is wrong with a device is one sentence that says what to do") {
   g.versioned = false, g.armed = true;
   CHECK(why() == "");
 }
+
+}  // namespace vehicle_state_test

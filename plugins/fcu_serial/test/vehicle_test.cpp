@@ -2,6 +2,9 @@
 // The vehicle against the software flight controller, in virtual time.
 #define FULMAR_COUNT_ALLOCATIONS
 #include "flying.hpp"
+#include "fulmar/testing.hpp"
+
+namespace vehicle_test {
 
 using namespace fulmar;
 using namespace fulmar::fcu;
@@ -189,3 +192,5 @@ TEST_CASE("a surface that is reversed in both places is a warning") {
   CHECK(f.heard("REV_ELEVATOR is set, and the airframe file reverses it again: take one away"));
   CHECK_FALSE(f.heard("REV_AILERON"));
 }
+
+}  // namespace vehicle_test

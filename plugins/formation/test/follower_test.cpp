@@ -6,6 +6,9 @@
 #include <doctest/doctest.h>
 
 #include "plugins/formation/test/scene.hpp"
+#include "fulmar/testing.hpp"
+
+namespace follower_test {
 
 using namespace fulmar;
 using namespace fulmar::formation;
@@ -304,3 +307,5 @@ TEST_CASE("a formation closes from a hundred metres and holds through turns, in 
   CHECK(std::sqrt(square / n) < 2.6);  // twice what it is
   CHECK(worst < 6.5);
 }
+
+}  // namespace follower_test

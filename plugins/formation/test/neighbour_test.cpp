@@ -6,6 +6,8 @@
 
 #include "plugins/formation/test/scene.hpp"
 
+namespace neighbour_test {
+
 using namespace fulmar;
 using namespace fulmar::formation;
 using namespace fulmar::formation::testing;
@@ -88,3 +90,5 @@ TEST_CASE("a step of it allocates nothing") {
   bench.step(0.01);
   CHECK(allocations([&] { bench.step(0.01); }) == 0);
 }
+
+}  // namespace neighbour_test

@@ -16,6 +16,8 @@
 #include "device.hpp"
 #include "sentences.hpp"
 
+namespace flight_test {
+
 namespace fs = std::filesystem;
 using nlohmann::json;
 
@@ -106,3 +108,5 @@ TEST_CASE("a flight whose receiver is not there flies without it") {
   CHECK(result["result"] == "flown");
   CHECK(result["difference"].is_null());
 }
+
+}  // namespace flight_test

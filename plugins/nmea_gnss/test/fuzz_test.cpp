@@ -10,6 +10,8 @@
 #include "plugins/nmea_gnss/epochs.hpp"
 #include "sentences.hpp"
 
+namespace fuzz_test {
+
 using namespace fulmar;
 using namespace fulmar::nmea;
 
@@ -79,3 +81,5 @@ TEST_CASE("no mutation of the sentences crashes the reader or makes it break a p
   CHECK(lines.good() > 50000);
   CHECK(lines.bad() > 10000);
 }
+
+}  // namespace fuzz_test

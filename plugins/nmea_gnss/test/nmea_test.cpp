@@ -11,6 +11,8 @@
 #include "plugins/nmea_gnss/epochs.hpp"
 #include "sentences.hpp"
 
+namespace nmea_test {
+
 using namespace fulmar;
 using namespace fulmar::nmea;
 
@@ -206,3 +208,5 @@ TEST_CASE("the quality of a fix becomes its type") {
   CHECK(type('5', 3) == FixType::rtk_float);
   CHECK(type('6', 3) == FixType::dead_reckoning);
 }
+
+}  // namespace nmea_test

@@ -13,6 +13,8 @@
 #include "fulmar/testing.hpp"
 #include "sentences.hpp"
 
+namespace receiver_test {
+
 using namespace fulmar;
 using namespace fulmar::nmea;
 
@@ -104,3 +106,5 @@ TEST_CASE("a port that is not named, is no port, or a rate that no port has is r
   CHECK(bench.configure() == Status::failed);
   CHECK(bench.error() == "the parameter 'baud' is 12345. Valid: 4800, 9600, 19200, 38400, 57600, 115200, 230400, 460800, 921600");
 }
+
+}  // namespace receiver_test

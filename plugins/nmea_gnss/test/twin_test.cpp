@@ -10,6 +10,8 @@
 #include "fulmar/testing.hpp"
 #include "plugins/nmea_gnss/compare.hpp"
 
+namespace twin_test {
+
 using namespace fulmar;
 using namespace fulmar::nmea;
 
@@ -143,3 +145,5 @@ TEST_CASE("a reference without a fix is not compared") {
   bench.step(0.01);
   CHECK_FALSE(bench.out.difference.written);
 }
+
+}  // namespace twin_test

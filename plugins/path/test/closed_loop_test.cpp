@@ -5,6 +5,8 @@
 #include "flight.hpp"
 #include "fulmar/random.hpp"
 
+namespace closed_loop_test {
+
 using namespace fulmar;
 using namespace fulmar::test;
 
@@ -135,3 +137,5 @@ TEST_CASE("a plan that is changed again and again in flight never upsets its out
     CHECK(flight.progress().item <= plan.waypoints.count);
   }
 }
+
+}  // namespace closed_loop_test

@@ -6,6 +6,8 @@
 #include "fulmar/random.hpp"
 #include "plugins/path/planner.hpp"
 
+namespace manager_test {
+
 using namespace fulmar;
 using namespace fulmar::path;
 using namespace fulmar::test;
@@ -331,3 +333,5 @@ TEST_CASE("planner and manager together: edits in flight by request") {
   CHECK(planner.answer(planner.in.edit) != "accepted");
   CHECK_FALSE(planner.out.plan.written);
 }
+
+}  // namespace manager_test

@@ -9,6 +9,8 @@
 
 #include "fulmar/testing.hpp"
 
+namespace planner_test {
+
 using namespace fulmar;
 using namespace fulmar::path;
 
@@ -232,3 +234,5 @@ TEST_CASE("edits of the queue are applied in order, and what is refused is count
   CHECK(bench.out.plan.value.waypoints.count == 2);
   CHECK(bench.out.refused_ratio.value == 1);
 }
+
+}  // namespace planner_test

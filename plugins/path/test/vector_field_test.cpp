@@ -7,6 +7,8 @@
 #include "fulmar/random.hpp"
 #include "fulmar/testing.hpp"
 
+namespace vector_field_test {
+
 using namespace fulmar;
 using namespace fulmar::path;
 
@@ -177,3 +179,5 @@ TEST_CASE("without a position it flies straight on at the height last asked for,
   CHECK(bench.out.command.climb_rate_mps == 0);
   CHECK(command(bench, at(0, 55, 0.3), orbit(Turn::right, 50)).roll_feedforward_rad == before.roll_feedforward_rad);
 }
+
+}  // namespace vector_field_test

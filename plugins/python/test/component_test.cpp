@@ -10,6 +10,8 @@
 
 #include "open_script.hpp"
 
+namespace component_test {
+
 using namespace fulmar;
 using namespace script_test;
 
@@ -362,3 +364,5 @@ TEST_CASE("an exception in the constructor or in configure is told at set-up") {
   CHECK(law.configure() == FULMAR_FAILED);
   CHECK(std::string(law.error.text).starts_with("law.py:3 in configure: OSError: no polar"));
 }
+
+}  // namespace component_test

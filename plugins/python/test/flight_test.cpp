@@ -11,6 +11,8 @@
 #include <iterator>
 #include <string>
 
+namespace flight_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -150,3 +152,5 @@ TEST_CASE("a script that never ends, crashes or leaves while it is imported is s
   CHECK(fulmar("check " + mission("import os\nos.abort()\n")).err.find("law.py crashed while being loaded (signal 6)") !=
         std::string::npos);
 }
+
+}  // namespace flight_test

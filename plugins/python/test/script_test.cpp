@@ -10,6 +10,8 @@
 
 #include "open_script.hpp"
 
+namespace script_test {
+
 using namespace script_test;
 namespace fs = std::filesystem;
 
@@ -195,3 +197,5 @@ TEST_CASE("several classes of a file are several components, in their order; hel
   CHECK(one.result<double>("e_m") == 1);
   CHECK(std::string(Law(text).c->name) == "Two");
 }
+
+}  // namespace script_test

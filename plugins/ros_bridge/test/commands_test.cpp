@@ -6,6 +6,8 @@
 
 #include "fulmar/testing.hpp"
 
+namespace commands_test {
+
 using namespace fulmar;
 using namespace fulmar::ros_bridge;
 
@@ -105,3 +107,5 @@ TEST_CASE("a twist that is old, absent or no number flies straight on and level"
   CHECK(bench.step(0.01) == Status::degraded);
   CHECK(bench.out.command.airspeed_mps == 25);
 }
+
+}  // namespace commands_test

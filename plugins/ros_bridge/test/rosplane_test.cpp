@@ -6,6 +6,8 @@
 #include "fulmar/testing.hpp"
 #include "plugins/ros_bridge/rosplane_in.hpp"
 
+namespace rosplane_test {
+
 using namespace fulmar;
 using namespace fulmar::ros_bridge;
 
@@ -302,3 +304,5 @@ TEST_CASE("an estimator's state comes back as it went out, and its zeros before 
   CHECK(in.step(0.01) == Status::degraded);
   CHECK_FALSE(in.out.state.written);
 }
+
+}  // namespace rosplane_test

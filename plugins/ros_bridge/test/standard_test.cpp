@@ -8,6 +8,8 @@
 #include "fulmar/flight/attitude.hpp"
 #include "fulmar/testing.hpp"
 
+namespace standard_test {
+
 using namespace fulmar;
 using namespace fulmar::ros_bridge;
 
@@ -216,3 +218,5 @@ TEST_CASE("a step allocates nothing") {
   CHECK(allocations([&] { bench.step(0.01); }) == 0);
   CHECK(bench.out.odometry.written);
 }
+
+}  // namespace standard_test

@@ -9,6 +9,8 @@
 
 #include "fulmar/testing.hpp"
 
+namespace score_test {
+
 using namespace fulmar;
 using namespace fulmar::score;
 
@@ -319,3 +321,5 @@ TEST_CASE("a step of the score does not allocate") {
   }
   CHECK(count == 0);
 }
+
+}  // namespace score_test

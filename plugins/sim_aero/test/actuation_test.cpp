@@ -9,6 +9,8 @@
 #include "fly.hpp"
 #include "plugins/sim_aero/aircraft.hpp"
 
+namespace actuation_test {
+
 using namespace fulmar;
 using namespace fulmar::sim;
 using doctest::Approx;
@@ -81,3 +83,5 @@ TEST_CASE("the aircraft's servo moves a latency later") {
   CHECK(std::abs(deflection_after(0.05, 12)) < 0.01);  // on its way to neutral: nothing has come yet
   CHECK(deflection_after(0.05, 12 + 20) == Approx(deflection_after(0, 12)).epsilon(0.02));
 }
+
+}  // namespace actuation_test

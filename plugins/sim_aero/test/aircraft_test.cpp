@@ -6,6 +6,9 @@
 
 #include "fly.hpp"
 #include "plugins/sim_aero/truth_state.hpp"
+#include "fulmar/testing.hpp"
+
+namespace aircraft_test {
 
 using namespace fulmar;
 using namespace fulmar::sim;
@@ -382,3 +385,5 @@ TEST_CASE("truth as navigation state keeps the stamp and claims small deviations
   nav.step(0.01);
   CHECK_FALSE(nav.out.state.written);  // nothing new
 }
+
+}  // namespace aircraft_test

@@ -7,6 +7,8 @@
 
 #include "sdk/test/flight/airframe_file.hpp"
 
+namespace plant_test {
+
 using namespace fulmar;
 using namespace fulmar::sim;
 using doctest::Approx;
@@ -234,3 +236,5 @@ TEST_CASE("the ground holds at a tick of 100 Hz, too") {
   CHECK(p.state().v_n.norm() < 1e-3);
   CHECK_FALSE(p.crashed());
 }
+
+}  // namespace plant_test

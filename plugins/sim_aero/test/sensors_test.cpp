@@ -8,6 +8,8 @@
 
 #include "sdk/test/flight/airframe_file.hpp"
 
+namespace sensors_test {
+
 using namespace fulmar;
 using namespace fulmar::sim;
 using doctest::Approx;
@@ -250,3 +252,5 @@ TEST_CASE("a delayed sample comes late, in order, with the time that it was vali
   CHECK(delay.pop(200, 150) == nullptr);
   CHECK(delay.pop(250, 150)->value == 2);
 }
+
+}  // namespace sensors_test

@@ -10,6 +10,8 @@
 #include "fulmar/testing.hpp"
 #include "plugins/slow_planner/watch.hpp"
 
+namespace detour_test {
+
 using namespace fulmar;
 using namespace fulmar::slow_planner;
 
@@ -235,3 +237,5 @@ TEST_CASE("the watch keeps the least distance from the rim") {
   CHECK(bench.out.clearance.value.least_m == doctest::Approx(40));
   CHECK(bench.out.clearance.value.now_m == doctest::Approx(120));
 }
+
+}  // namespace detour_test

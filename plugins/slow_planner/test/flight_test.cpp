@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+namespace flight_test {
+
 using nlohmann::json;
 
 namespace {
@@ -42,3 +44,5 @@ TEST_CASE("the mission is flown round the zone to its end, and two flights leave
   REQUIRE(flights[0]["log_sha256"].is_string());
   CHECK(flights[0]["log_sha256"] == flights[1]["log_sha256"]);
 }
+
+}  // namespace flight_test

@@ -4,6 +4,8 @@
 
 #include <doctest/doctest.h>
 
+namespace rrt_star_test {
+
 using namespace fulmar;
 using namespace fulmar::slow_planner;
 
@@ -86,3 +88,5 @@ TEST_CASE("the same random numbers give the same way") {
   for (std::size_t i = 0; i < a.size(); ++i) CHECK((a[i].north_m == b[i].north_m && a[i].east_m == b[i].east_m));
   CHECK((a.size() != c.size() || a[1].north_m != c[1].north_m));
 }
+
+}  // namespace rrt_star_test

@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Frames in the type: a vector knows whether it is north-east-down or body, and the two do not mix.
-// The only bridge to Eigen: `eigen()` inside an algorithm, `from_eigen` at its door.
+//
+// Plain numbers, without Eigen, which takes longer to read than the rest of the SDK together. An algorithm that wants matrices includes
+// fulmar/eigen.hpp: `eigen()` inside it, `from_eigen` at its door.
 #pragma once
-#include <Eigen/Core>
-#include <Eigen/Geometry>
+#include <type_traits>
+
+namespace Eigen {
+template <typename Scalar, int Rows, int Cols, int Options, int MaxRows, int MaxCols>
+class Matrix;
+template <typename Scalar, int Options>
+class Quaternion;
+}  // namespace Eigen
 
 namespace fulmar {
 
@@ -31,32 +39,74 @@ struct Quat {
   friend constexpr bool operator==(const Quat&, const Quat&) = default;
 };
 
-inline Eigen::Vector3d eigen(const Vec3<Ned>& v) { return {v.north, v.east, v.down}; }
-inline Eigen::Vector3d eigen(const Vec3<Body>& v) { return {v.x, v.y, v.z}; }
-inline Eigen::Quaterniond eigen(const Quat& q) { return {q.w, q.x, q.y, q.z}; }
+template <class Frame>
+constexpr Vec3<Frame> operator+(const Vec3<Frame>& a, const Vec3<Frame>& b) {
+  const auto& [a0, a1, a2] = a;
+  const auto& [b0, b1, b2] = b;
+  return {a0 + b0, a1 + b1, a2 + b2};
+}
+template <class Frame>
+constexpr Vec3<Frame> operator-(const Vec3<Frame>& a, const Vec3<Frame>& b) {
+  const auto& [a0, a1, a2] = a;
+  const auto& [b0, b1, b2] = b;
+  return {a0 - b0, a1 - b1, a2 - b2};
+}
+template <class Frame>
+constexpr Vec3<Frame> operator*(double k, const Vec3<Frame>& v) {
+  const auto& [v0, v1, v2] = v;
+  return {k * v0, k * v1, k * v2};
+}
 
-/// `from_eigen<Ned>(v)`: the author states the frame, once, where the algorithm ends.
-template <class Frame>
-Vec3<Frame> from_eigen(const Eigen::Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
+namespace detail {
+/// q v q* by two cross products: v + 2 w (u x v) + 2 u x (u x v) with u the vector part; `sign` -1 turns the other way.
+template <class To, class From>
+constexpr Vec3<To> rotated(const Quat& q, double sign, const Vec3<From>& v) {
+  const auto& [v0, v1, v2] = v;
+  const double u0 = sign * q.x, u1 = sign * q.y, u2 = sign * q.z;
+  const double s0 = u1 * v2 - u2 * v1, s1 = u2 * v0 - u0 * v2, s2 = u0 * v1 - u1 * v0;
+  const double t0 = s0 + s0, t1 = s1 + s1, t2 = s2 + s2;
+  return {v0 + q.w * t0 + (u1 * t2 - u2 * t1), v1 + q.w * t1 + (u2 * t0 - u0 * t2), v2 + q.w * t2 + (u0 * t1 - u1 * t0)};
 }
-inline Quat from_eigen(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
-
-template <class Frame>
-Vec3<Frame> operator+(const Vec3<Frame>& a, const Vec3<Frame>& b) {
-  return from_eigen<Frame>(eigen(a) + eigen(b));
-}
-template <class Frame>
-Vec3<Frame> operator-(const Vec3<Frame>& a, const Vec3<Frame>& b) {
-  return from_eigen<Frame>(eigen(a) - eigen(b));
-}
-template <class Frame>
-Vec3<Frame> operator*(double k, const Vec3<Frame>& v) {
-  return from_eigen<Frame>(k * eigen(v));
-}
+}  // namespace detail
 
 /// Rotation by an attitude: `to_ned(q, v_body)`, `to_body(q, v_ned)`.
-inline Vec3<Ned> to_ned(const Quat& q, const Vec3<Body>& v) { return from_eigen<Ned>(eigen(q) * eigen(v)); }
-inline Vec3<Body> to_body(const Quat& q, const Vec3<Ned>& v) { return from_eigen<Body>(eigen(q).conjugate() * eigen(v)); }
+constexpr Vec3<Ned> to_ned(const Quat& q, const Vec3<Body>& v) { return detail::rotated<Ned>(q, 1, v); }
+constexpr Vec3<Body> to_body(const Quat& q, const Vec3<Ned>& v) { return detail::rotated<Body>(q, -1, v); }
+
+// ---- the door to Eigen ----------------------------------------------------------------------------------------------------------
+// Templates, so that Eigen is needed where they are used and nowhere else.
+
+namespace detail {
+using EigenVector3 = Eigen::Matrix<double, 3, 1, 0, 3, 1>;
+using EigenQuaternion = Eigen::Quaternion<double, 0>;
+
+template <class E>
+constexpr bool eigen_is_there() {
+  constexpr bool there = requires { sizeof(E); };
+  static_assert(there, "eigen() and from_eigen() need Eigen: #include \"fulmar/eigen.hpp\"");
+  return there;
+}
+}  // namespace detail
+
+template <class Frame, class Vector3d = detail::EigenVector3>
+auto eigen(const Vec3<Frame>& v) {
+  if constexpr (detail::eigen_is_there<Vector3d>()) {
+    const auto& [v0, v1, v2] = v;
+    return Vector3d(v0, v1, v2);
+  }
+}
+template <class Quaterniond = detail::EigenQuaternion>
+auto eigen(const Quat& q) {
+  if constexpr (detail::eigen_is_there<Quaterniond>()) return Quaterniond(q.w, q.x, q.y, q.z);
+}
+/// `from_eigen<Ned>(v)`: the author states the frame, once, where the algorithm ends.
+template <class Frame, class Vector3d = detail::EigenVector3>
+Vec3<Frame> from_eigen(const std::type_identity_t<Vector3d>& v) {
+  return {v.x(), v.y(), v.z()};
+}
+template <class Quaterniond = detail::EigenQuaternion>
+Quat from_eigen(const std::type_identity_t<Quaterniond>& q) {
+  return {q.w(), q.x(), q.y(), q.z()};
+}
 
 }  // namespace fulmar

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A plain struct describes itself: names, kinds, counts, offsets, units and frames of its fields, at compile time, without a macro.
 //
-// How: count the members by brace initialisation and bind them (detail/members.hpp); a pointer to a member of an object that is declared
-// and never defined, used as a template argument, appears with the member's name in the signature of a function; offsets follow from the
-// layout rule of standard-layout aggregates and are checked against sizeof.
+// How: count the members by brace initialisation and bind them (detail/members.hpp); pointers to the members of an object that is declared
+// and never defined, used as template arguments, appear with the members' names in the signature of a function; offsets follow from the
+// layout rule of standard-layout aggregates and are checked against sizeof. Everything is worked out once per type, not once per field:
+// this is what most of the time to compile a plugin went into.
 #pragma once
 #include <array>
 #include <cstdint>
 #include <limits>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 #include "fulmar/abi.h"
 #include "fulmar/detail/members.hpp"
@@ -36,7 +38,7 @@ struct Holder {
 template <class T>
 extern const Holder<T> fake;
 
-template <auto A>
+template <auto... A>
 consteval const char* value_signature() {
   return __PRETTY_FUNCTION__;
 }
@@ -55,42 +57,84 @@ constexpr std::string_view last_word(std::string_view s) {
   return s.substr(b);
 }
 
-template <std::size_t N>
-struct Name {
-  std::array<char, N + 1> bytes{};
+/// Texts that are cut out of a signature, each closed with a NUL, one after the other.
+template <std::size_t count, std::size_t room>
+struct Words {
+  std::array<char, room> bytes{};
+  std::array<std::size_t, count> begin{};
 };
-template <std::size_t N>
-consteval Name<N> make_name(std::string_view s) {
-  Name<N> name;
-  for (std::size_t i = 0; i < N; ++i) name.bytes[i] = s[i];
-  return name;
+/// Where each of `count` words lies in a signature, and what all of them take with their NULs.
+template <std::size_t count>
+struct Found {
+  std::array<std::string_view, count> words{};
+  std::size_t room = 0;
+};
+template <std::size_t count, std::size_t room>
+consteval Words<count, room> cut_out(const Found<count>& found) {
+  Words<count, room> out;
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    out.begin[i] = at;
+    for (const char c : found.words[i]) out.bytes[at++] = c;
+    out.bytes[at++] = '\0';
+  }
+  return out;
 }
 
-template <class T, std::size_t I>
-struct FieldName {
-  static constexpr std::string_view view = last_word(value_signature<std::get<I>(members(fake<T>.value))>());
-  static constexpr auto stored = make_name<view.size()>(view);
-  static constexpr const char* c_str = stored.bytes.data();
+/// Address of a member as a template argument of class type: clang 14 accepts it so, and not bare.
+struct At {
+  const void* address;
+};
+struct ToAddresses {
+  template <class... M>
+  constexpr std::array<At, sizeof...(M)> operator()(const M&... member) const {
+    return {At{&member}...};
+  }
+};
+
+/// Names of the members of T. All of them stand in one signature: "... {At{(... ::position_m)}, At{(... ::speed_mps)}}".
+template <class T>
+struct FieldNames {
+  static constexpr std::size_t count = member_count<T>();
+
+  template <std::size_t... I>
+  static constexpr std::string_view signature(std::index_sequence<I...>) {
+    constexpr auto addresses = with_members(fake<T>.value, ToAddresses{});  // no member: nothing may ask the linker for `fake`
+    return value_signature<addresses[I]...>();
+  }
+  /// From the last to the first: the word before a closing brace; then on to the brace that opens it.
+  static constexpr Found<count> find() {
+    Found<count> out;
+    if constexpr (count > 0) {
+      std::string_view rest = signature(std::make_index_sequence<count>{});
+      rest = rest.substr(0, rest.rfind('}') + (rest.ends_with("}}]") ? 0 : 1));  // gcc closes the list itself with a brace as well
+      for (std::size_t i = count; i-- > 0;) {
+        rest = rest.substr(0, rest.rfind('}'));
+        out.words[i] = last_word(rest);
+        out.room += out.words[i].size() + 1;
+        for (int depth = 1; depth > 0; rest.remove_suffix(1)) depth += rest.back() == '}' ? 1 : rest.back() == '{' ? -1 : 0;
+      }
+    }
+    return out;
+  }
+  static constexpr Found<count> found = find();
+  static constexpr auto stored = cut_out<count, found.room>(found);
+  static constexpr const char* c_str(std::size_t i) { return stored.bytes.data() + stored.begin[i]; }
+  static constexpr std::string_view view(std::size_t i) { return found.words[i]; }
 };
 #if defined(__clang__)
 #pragma clang diagnostic pop
 #endif
 
-template <auto V>
-struct EnumName {
-  static constexpr std::string_view signature = value_signature<V>();
-  // "... = fulmar::PathKind::line]" or, for a number that names nothing, "... = (fulmar::PathKind)7]"
-  static constexpr std::string_view tail = signature.substr(signature.rfind("= "));
-  static constexpr std::string_view view = last_word(tail);
-  static constexpr bool valid = !(view[0] >= '0' && view[0] <= '9');
-  static constexpr auto stored = make_name<view.size()>(view);
-  static constexpr const char* c_str = stored.bytes.data();
-};
-
+/// A name as text that lives as long as the plugin.
 template <class T>
 struct TypeName {
-  static constexpr std::string_view view = last_word(type_signature<T>());
-  static constexpr auto stored = make_name<view.size()>(view);
+  static constexpr Found<1> find() {
+    const std::string_view name = last_word(type_signature<T>());
+    return {{name}, name.size() + 1};
+  }
+  static constexpr Found<1> found = find();
+  static constexpr auto stored = cut_out<1, found.room>(found);
   static constexpr const char* c_str = stored.bytes.data();
 };
 template <>
@@ -102,22 +146,60 @@ struct TypeName<Vec3<Body>> {
   static constexpr const char* c_str = "Vec3Body";
 };
 
-template <class E, std::size_t N = 0>
-consteval std::size_t label_count() {
-  if constexpr (N < 128 && EnumName<static_cast<E>(N)>::valid)
-    return label_count<E, N + 1>();
-  else
-    return N;
-}
+/// Names of the first `tried` values of an enum, as one signature prints them: "... {Kind::line, Kind::orbit, (Kind)2}" or with <>.
+template <class E, std::size_t tried>
+struct Enumerators {
+  template <std::size_t... I>
+  static constexpr std::string_view signature(std::index_sequence<I...>) {
+    return value_signature<static_cast<E>(I)...>();
+  }
+  /// How many values have a name, up to the first that has none, and these names.
+  static constexpr std::pair<std::size_t, std::array<std::string_view, tried>> find() {
+    std::pair<std::size_t, std::array<std::string_view, tried>> out{};
+    std::string_view rest = signature(std::make_index_sequence<tried>{});
+    rest = rest.substr(rest.rfind("A = ") + 5);
+    for (std::size_t i = 0, depth = 0, n = 0; i < rest.size() && out.first < tried; ++i) {
+      const char c = rest[i];
+      if ((c == ',' && depth == 0) || i + 2 == rest.size()) {  // i + 2: before the closing "}]" or ">]"
+        const std::string_view name = last_word(rest.substr(n, i - n));
+        if (name[0] >= '0' && name[0] <= '9') break;  // a number: names nothing
+        out.second[out.first++] = name;
+        n = i + 1;
+      } else if (c == '(' || c == '{' || c == '<') {
+        ++depth;
+      } else if (c == ')' || c == '}' || c == '>') {
+        --depth;
+      }
+    }
+    return out;
+  }
+  static constexpr auto found = find();
+};
+
 template <class E>
 struct Labels {
-  static constexpr std::size_t count = label_count<E>();
-  static_assert(count > 0, "an enum of a message names its values from 0 on, without gaps");
-  template <std::size_t... I>
-  static consteval std::array<const char*, count> make(std::index_sequence<I...>) {
-    return {EnumName<static_cast<E>(I)>::c_str...};
+  static constexpr std::size_t most = 128;
+  static constexpr auto some() {
+    if constexpr (constexpr std::size_t first = 16; Enumerators<E, first>::found.first < first)
+      return Enumerators<E, first>::found;
+    else
+      return Enumerators<E, most>::found;
   }
-  static constexpr std::array<const char*, count> names = make(std::make_index_sequence<count>{});
+  static constexpr std::size_t count = some().first;
+  static_assert(count > 0, "an enum of a message names its values from 0 on, without gaps");
+  static constexpr Found<count> find() {
+    Found<count> out;
+    for (std::size_t i = 0; i < count; ++i) out.room += (out.words[i] = some().second[i]).size() + 1;
+    return out;
+  }
+  static constexpr Found<count> found = find();
+  static constexpr auto stored = cut_out<count, found.room>(found);
+  static constexpr std::array<const char*, count> make() {
+    std::array<const char*, count> out{};
+    for (std::size_t i = 0; i < count; ++i) out[i] = stored.bytes.data() + stored.begin[i];
+    return out;
+  }
+  static constexpr std::array<const char*, count> names = make();
 };
 
 // ---- kinds ------------------------------------------------------------------------------------------------------------------
@@ -204,63 +286,7 @@ concept Foreign = requires {
 // ---- tables -----------------------------------------------------------------------------------------------------------------
 
 template <class T>
-struct Table;
-
-template <class T, std::size_t I>
-using MemberType = std::remove_cvref_t<decltype(*std::get<I>(members(std::declval<T&>())).p)>;
-
-template <class T, std::size_t I>
-consteval std::size_t member_offset() {
-  if constexpr (I == 0)
-    return 0;
-  else {
-    constexpr std::size_t end = member_offset<T, I - 1>() + sizeof(MemberType<T, I - 1>), a = alignof(MemberType<T, I>);
-    return (end + a - 1) / a * a;
-  }
-}
-/// Where the struct would end by the layout rule; differs from sizeof when the rule does not hold.
-template <class T>
-consteval std::size_t layout_size() {
-  constexpr std::size_t n = member_count<T>();
-  if constexpr (n == 0)
-    return sizeof(T);
-  else
-    return (member_offset<T, n - 1>() + sizeof(MemberType<T, n - 1>) + alignof(T) - 1) / alignof(T) * alignof(T);
-}
-
-template <class T>
 constexpr const fulmar_type* type_table();
-
-template <class T, std::size_t I>
-consteval fulmar_field make_field() {
-  using Member = MemberType<T, I>;
-  using Element = typename Shape<Member>::Element;
-  constexpr std::uint32_t kind = kind_of<Element>();
-  constexpr std::string_view name = FieldName<T, I>::view;
-  constexpr int unit = has_own_names<T> || Foreign<T> ? -1 : find_unit(name);
-  constexpr bool needs_unit = (kind == FULMAR_F32 || kind == FULMAR_F64 || is_frame_vector<Element>)&&!has_own_names<T> && !Foreign<T>;
-  static_assert(!needs_unit || unit >= 0,
-                "every floating-point field name ends in its unit: _m, _mps, _rad, _s, _ratio, ... (fulmar/detail/units.hpp)");
-  constexpr bool has_unit = needs_unit || (unit >= 0 && (kind == FULMAR_I64 || kind == FULMAR_U64) && name.ends_with("_ns"));
-
-  fulmar_field f{};
-  f.name = FieldName<T, I>::c_str;
-  f.unit = has_unit && unit >= 0 ? units[static_cast<std::size_t>(unit)].printed : "";
-  f.kind = kind;
-  f.shape = Shape<Member>::shape;
-  f.offset = static_cast<std::uint32_t>(member_offset<T, I>());
-  f.count = Shape<Member>::count;
-  f.stride = sizeof(Element);
-  f.items = Shape<Member>::items;
-  f.min = needs_unit && unit >= 0 ? units[static_cast<std::size_t>(unit)].min : -std::numeric_limits<double>::infinity();
-  f.max = needs_unit && unit >= 0 ? units[static_cast<std::size_t>(unit)].max : std::numeric_limits<double>::infinity();
-  if constexpr (kind == FULMAR_STRUCT) f.type = type_table<Element>();
-  if constexpr (kind == FULMAR_ENUM) {
-    f.labels = Labels<Element>::names.data();
-    f.label_count = Labels<Element>::count;
-  }
-  return f;
-}
 
 template <class T>
 consteval const char* frame_of() {
@@ -277,22 +303,109 @@ consteval const char* ros_of() {
     return "";
 }
 
+/// What the type of a member tells of its field: all but name, unit and offset.
+template <class Member>
+consteval fulmar_field field_of() {
+  using Element = typename Shape<Member>::Element;
+  fulmar_field f{};
+  f.name = f.unit = "";
+  f.kind = kind_of<Element>();
+  f.shape = Shape<Member>::shape;
+  f.count = Shape<Member>::count;
+  f.stride = sizeof(Element);
+  f.items = Shape<Member>::items;
+  f.min = -std::numeric_limits<double>::infinity();
+  f.max = std::numeric_limits<double>::infinity();
+  if constexpr (kind_of<Element>() == FULMAR_STRUCT) f.type = type_table<Element>();
+  if constexpr (kind_of<Element>() == FULMAR_ENUM) {
+    f.labels = Labels<Element>::names.data();
+    f.label_count = Labels<Element>::count;
+  }
+  return f;
+}
+template <class Member>
+inline constexpr fulmar_field field_table = field_of<Member>();
+
+/// A number whose name has to end in its unit.
+template <class Member>
+inline constexpr bool is_measured = std::is_floating_point_v<typename Shape<Member>::Element> ||
+                                    is_frame_vector<typename Shape<Member>::Element>;
+
+/// Of each member: where it begins, by the layout rule; last, where the struct ends.
+template <class... M>
+consteval std::array<std::size_t, sizeof...(M) + 1> offsets_of(std::size_t align) {
+  const std::array<std::size_t, sizeof...(M) + 1> sizes{sizeof(M)..., 0}, aligns{alignof(M)..., align};
+  std::array<std::size_t, sizeof...(M) + 1> out{};
+  for (std::size_t i = 0, end = 0; i < out.size(); ++i) {
+    out[i] = (end + aligns[i] - 1) / aligns[i] * aligns[i];
+    end = out[i] + sizes[i];
+  }
+  return out;
+}
+
+template <class T, std::size_t count>
+struct Rows {
+  std::array<fulmar_field, count> fields{};
+  std::size_t nameless = count;  ///< the first number whose name does not end in a unit
+};
+template <class T, class... M>
+consteval Rows<T, sizeof...(M)> rows_of(Types<M...>) {
+  constexpr std::size_t count = sizeof...(M);
+  constexpr bool exempt = has_own_names<T> || Foreign<T>;
+  Rows<T, count> out{{field_table<M>...}};
+  if constexpr (count > 0) {
+    const std::array<bool, count> measured{is_measured<M>...};
+    const auto offsets = offsets_of<M...>(alignof(T));
+    for (std::size_t i = count; i-- > 0;) {
+      fulmar_field& f = out.fields[i];
+      f.name = FieldNames<T>::c_str(i);
+      f.offset = static_cast<std::uint32_t>(offsets[i]);
+      const std::string_view name = FieldNames<T>::view(i);
+      const bool stamp = (f.kind == FULMAR_I64 || f.kind == FULMAR_U64) && name.ends_with("_ns");
+      if (exempt || !(measured[i] || stamp)) continue;
+      const int unit = find_unit(name);
+      if (unit < 0) {
+        out.nameless = i;
+        continue;
+      }
+      f.unit = units[static_cast<std::size_t>(unit)].printed;
+      if (!measured[i]) continue;
+      f.min = units[static_cast<std::size_t>(unit)].min;
+      f.max = units[static_cast<std::size_t>(unit)].max;
+    }
+  }
+  return out;
+}
+
+/// Refuses a number without a unit; the compiler names the struct and the place of the field in it.
+template <class T, std::size_t field, std::size_t count>
+struct EveryNumberHasAUnit {
+  static_assert(field == count,
+                "every floating-point field name ends in its unit: _m, _mps, _rad, _s, _ratio, ... (fulmar/detail/units.hpp)");
+};
+
 template <class T>
 struct Table {
   static_assert(std::is_aggregate_v<T>, "a message is a plain struct: no constructor, no base class, no private member");
   static_assert(std::is_trivially_copyable_v<T>, "a message is trivially copyable: no std::string, no std::vector, no Eigen type");
   static_assert(std::is_standard_layout_v<T>, "a message is a plain struct");
   static constexpr std::size_t count = member_count<T>();
-  static_assert(layout_size<T>() == sizeof(T), "the layout of this struct is unusual: no alignas, no bit fields, no C arrays");
-
-  template <std::size_t... I>
-  static consteval std::array<fulmar_field, count> make(std::index_sequence<I...>) {
-    return {make_field<T, I>()...};
+  template <class... M>
+  static constexpr std::size_t end_of(Types<M...>) {
+    return count == 0 ? sizeof(T) : offsets_of<M...>(alignof(T))[count];
   }
-  static constexpr std::array<fulmar_field, count> fields = make(std::make_index_sequence<count>{});
+  static_assert(end_of(MemberTypes<T>{}) == sizeof(T), "the layout of this struct is unusual: no alignas, no bit fields, no C arrays");
 
-  static constexpr fulmar_type type{TypeName<T>::c_str,   frame_of<T>(), ros_of<T>(), fields.data(), static_cast<std::uint32_t>(count),
-                                    sizeof(fulmar_field), sizeof(T),     alignof(T)};
+  static constexpr Rows<T, count> rows = rows_of<T>(MemberTypes<T>{});
+  static constexpr EveryNumberHasAUnit<T, rows.nameless, count> rule{};
+  static constexpr fulmar_type type{TypeName<T>::c_str,
+                                    frame_of<T>(),
+                                    ros_of<T>(),
+                                    rows.fields.data(),
+                                    static_cast<std::uint32_t>(count),
+                                    sizeof(fulmar_field),
+                                    sizeof(T),
+                                    alignof(T)};
 };
 
 template <class T>

@@ -8,9 +8,11 @@
 //   CHECK(bench.out.actuators.aileron_rad == doctest::Approx(...));
 //
 // `bench.out` holds what the step published. An Out<T> has `written` set when it spoke; an OutQueue has its `count`.
-// To count allocations, one source file of the test program defines FULMAR_COUNT_ALLOCATIONS before it includes this header;
+// To count allocations, one source file of the test program defines FULMAR_COUNT_ALLOCATIONS before it includes this header (without it the
+// program does not link);
 // `allocations([&] { bench.step(0.01); })` is then the number of calls of operator new and malloc in between.
-#pragma once
+#ifndef FULMAR_TESTING_HPP
+#define FULMAR_TESTING_HPP
 #include <cstdlib>
 #include <memory>
 #include <new>
@@ -22,10 +24,12 @@
 namespace fulmar {
 
 inline thread_local std::uint64_t allocation_count = 0;
+void one_source_file_defines_FULMAR_COUNT_ALLOCATIONS() noexcept;
 
 /// Allocations that `work` makes in this thread.
 template <class F>
 std::uint64_t allocations(F&& work) {
+  one_source_file_defines_FULMAR_COUNT_ALLOCATIONS();  // who counts nothing would always find none
   const std::uint64_t before = allocation_count;
   asm volatile("" ::: "memory");  // clang takes it that operator new changes nothing that anybody can see
   work();
@@ -191,7 +195,12 @@ class Bench {
 
 }  // namespace fulmar
 
-#ifdef FULMAR_COUNT_ALLOCATIONS
+#endif  // FULMAR_TESTING_HPP
+
+// Beyond the guard: the file that counts need not be the first of those that are compiled together.
+#if defined(FULMAR_COUNT_ALLOCATIONS) && !defined(FULMAR_COUNTS_ALLOCATIONS)
+#define FULMAR_COUNTS_ALLOCATIONS
+void fulmar::one_source_file_defines_FULMAR_COUNT_ALLOCATIONS() noexcept {}
 // Replaces the global allocation functions of this program.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   ++fulmar::allocation_count;

@@ -7,6 +7,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <fulmar/eigen.hpp>
 #include <fulmar/flight/angles.hpp>
 #include <fulmar/flight/atmosphere.hpp>
 #include <fulmar/msg/baro.hpp>

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #define FULMAR_COUNT_ALLOCATIONS
+#include <fulmar/eigen.hpp>
 #include <fulmar/testing.hpp>
 
 #include "my_law.hpp"

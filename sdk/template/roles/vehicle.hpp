@@ -6,6 +6,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <fulmar/eigen.hpp>
 #include <fulmar/flight/angles.hpp>
 #include <fulmar/flight/atmosphere.hpp>
 #include <fulmar/flight/magnetic_model.hpp>

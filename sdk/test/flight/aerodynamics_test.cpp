@@ -8,6 +8,8 @@
 
 #include "airframe_file.hpp"
 
+namespace aerodynamics_test {
+
 using namespace fulmar;
 using doctest::Approx;
 using Eigen::Vector3d;
@@ -180,3 +182,5 @@ TEST_CASE("controls turn the aircraft the way that the conventions say") {
   CHECK(coefficients(a, down)[4] < rest[4]);   // elevator: nose down
   CHECK(coefficients(a, left)[5] < rest[5]);   // rudder: nose left
 }
+
+}  // namespace aerodynamics_test

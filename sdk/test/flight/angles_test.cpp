@@ -3,6 +3,8 @@
 
 #include <fulmar/flight/angles.hpp>
 
+namespace angles_test {
+
 using namespace fulmar;
 static constexpr double pi = std::numbers::pi;
 
@@ -44,3 +46,5 @@ TEST_CASE("the smooth step has the cubic's values, flat ends, and runs both ways
   CHECK(smoothly(4, 5, 5) == 0);
   CHECK(smoothly(5, 5, 5) == 1);
 }
+
+}  // namespace angles_test

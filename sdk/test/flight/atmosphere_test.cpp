@@ -5,6 +5,8 @@
 
 #include "check_case.hpp"
 
+namespace atmosphere_test {
+
 using namespace fulmar;
 using doctest::Approx;
 
@@ -54,3 +56,5 @@ TEST_CASE("indicated airspeed is what the pressure means at sea level, true airs
   CHECK(true_airspeed(indicated, rho) == Approx(Va));
   CHECK(indicated_airspeed(-10) == Approx(-indicated_airspeed(10)));
 }
+
+}  // namespace atmosphere_test

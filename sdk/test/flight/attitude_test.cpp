@@ -7,6 +7,8 @@
 #include <fulmar/random.hpp>
 #include <numbers>
 
+namespace attitude_test {
+
 using namespace fulmar;
 
 namespace {
@@ -71,3 +73,5 @@ TEST_CASE("two directions give the attitude back; noise in the second leaves the
     CHECK((tilted * (q.conjugate() * f) - f).norm() < 1e-9);
   }
 }
+
+}  // namespace attitude_test

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <vector>
 
+namespace dryden_test {
+
 using namespace fulmar;
 using doctest::Approx;
 using Eigen::Vector3d;
@@ -90,3 +92,5 @@ TEST_CASE("calm air has no gusts, and one seed always the same") {
   CHECK(gusts(5, 0.0025, 17, 100) == gusts(5, 0.0025, 17, 100));
   CHECK(gusts(5, 0.0025, 17, 100) != gusts(6, 0.0025, 17, 100));
 }
+
+}  // namespace dryden_test

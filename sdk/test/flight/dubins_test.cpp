@@ -10,6 +10,8 @@
 
 #include "fulmar/random.hpp"
 
+namespace dubins_test {
+
 using namespace fulmar;
 
 namespace {
@@ -151,3 +153,5 @@ TEST_CASE("all six words agree with 216 solutions of an independent implementati
   }
   CHECK(rows == 216);
 }
+
+}  // namespace dubins_test

@@ -9,6 +9,8 @@
 #include <fulmar/random.hpp>
 #include <numbers>
 
+namespace ekf_test {
+
 using namespace fulmar;
 using Eigen::Vector3d;
 
@@ -275,3 +277,5 @@ TEST_CASE("a needle that points to the declination gives the true heading in bot
       CHECK(ekf::magnetic_heading(turned, x.q_nb.conjugate() * field, declination).innovation == doctest::Approx(0.1));
     }
 }
+
+}  // namespace ekf_test

@@ -5,6 +5,8 @@
 #include <fulmar/flight/filters.hpp>
 #include <numbers>
 
+namespace filters_test {
+
 using namespace fulmar;
 using Complex = std::complex<double>;
 
@@ -94,3 +96,5 @@ TEST_CASE("the rate limiter moves at its limit and no faster, up and down apart"
   CHECK(limiter.step(-9, -1, 5, 0.1) == doctest::Approx(1.4));
   CHECK(limiter.step(1.41, -1, 5, 0.1) == doctest::Approx(1.41));
 }
+
+}  // namespace filters_test

@@ -6,6 +6,8 @@
 #include <fulmar/flight/geodesy.hpp>
 #include <numbers>
 
+namespace geodesy_test {
+
 using namespace fulmar;
 
 namespace {
@@ -61,3 +63,5 @@ TEST_CASE("there and back again is a micrometre") {
   CHECK((frame.to_ned(g.lat_deg, g.lon_deg, g.alt_m) - p).norm() < 1e-6);
   CHECK(frame.origin().lat_deg == doctest::Approx(-37.96));
 }
+
+}  // namespace geodesy_test

@@ -10,6 +10,8 @@
 #include <sstream>
 #include <string>
 
+namespace magnetic_model_test {
+
 using namespace fulmar;
 
 namespace {
@@ -89,3 +91,5 @@ TEST_CASE("a year passes from one to the next, leap or not") {
   CHECK(decimal_year(-1 * s) == doctest::Approx(1970).epsilon(1e-9));
   CHECK(decimal_year(-1 * s) < 1970);
 }
+
+}  // namespace magnetic_model_test

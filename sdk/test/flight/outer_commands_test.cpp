@@ -3,6 +3,8 @@
 
 #include <fulmar/flight/outer_commands.hpp>
 
+namespace outer_commands_test {
+
 using namespace fulmar;
 
 namespace {
@@ -139,3 +141,5 @@ TEST_CASE("where nobody's command is in force a law begins at the aircraft's att
     CHECK(commands.last().pitch_rad == 0);
   }
 }
+
+}  // namespace outer_commands_test

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <fulmar/flight/pid.hpp>
 
+namespace pid_test {
+
 using namespace fulmar;
 
 TEST_CASE("a PID adds its four terms") {
@@ -78,3 +80,5 @@ TEST_CASE("a PI loop round a double integrator with rate feedback settles as its
   }
   CHECK(x == doctest::Approx(1 - 3 * std::exp(-2.0)).epsilon(1e-3));
 }
+
+}  // namespace pid_test

@@ -5,6 +5,8 @@
 
 #include "airframe_file.hpp"
 
+namespace propulsion_test {
+
 using namespace fulmar;
 using doctest::Approx;
 
@@ -48,3 +50,5 @@ TEST_CASE("the propeller's speed stays finite and never turns backwards, whateve
       CHECK(Omega >= 0);
     }
 }
+
+}  // namespace propulsion_test

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+namespace random_test {
+
 using fulmar::Random;
 
 TEST_CASE("splitmix64 gives the published sequence of seed 1234567") {
@@ -86,3 +88,5 @@ TEST_CASE("successive normal numbers are uncorrelated, and so are the streams of
   CHECK(std::abs(serial / n) < 4 / std::sqrt(n));
   CHECK(std::abs(cross / n) < 4 / std::sqrt(n));
 }
+
+}  // namespace random_test

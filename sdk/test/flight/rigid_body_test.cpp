@@ -9,6 +9,8 @@
 #include "check_case.hpp"
 #include "fulmar/flight/atmosphere.hpp"
 
+namespace rigid_body_test {
+
 using namespace fulmar;
 using Eigen::Vector3d;
 
@@ -173,3 +175,5 @@ TEST_CASE("NASA check case 6: a sphere with drag in the standard atmosphere") {
   CHECK(std::abs(-x.p_n.z() / foot - nasa->at(row, "altitudeMsl_ft")) < 0.1);
   CHECK(std::abs(x.v_n.z() / foot - nasa->at(row, "feVelocity_ft_s_Z")) < 0.02);
 }
+
+}  // namespace rigid_body_test

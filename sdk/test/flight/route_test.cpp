@@ -9,6 +9,8 @@
 
 #include "fulmar/random.hpp"
 
+namespace route_test {
+
 using namespace fulmar;
 
 namespace {
@@ -263,3 +265,5 @@ TEST_CASE("waypoints within a metre are one place, and a plan in one place is a 
   CHECK_FALSE(Route(plan).is_point());
   CHECK(Route(plan).leg(2).length_m < 1e-6);  // no loop to fly half a metre sideways
 }
+
+}  // namespace route_test

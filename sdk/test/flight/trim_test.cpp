@@ -5,6 +5,8 @@
 
 #include "airframe_file.hpp"
 
+namespace trim_test {
+
 using namespace fulmar;
 using doctest::Approx;
 
@@ -62,3 +64,5 @@ TEST_CASE("below the stall there is no trim, and the limits of the airframe file
     CHECK_FALSE(trimmed_flight(a, 0.75 * a.limits.airspeed_min_mps, rho).found);
   }
 }
+
+}  // namespace trim_test

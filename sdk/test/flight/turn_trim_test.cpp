@@ -5,6 +5,8 @@
 
 #include "sdk/test/flight/flight_model.hpp"
 
+namespace turn_trim_test {
+
 using namespace fulmar;
 
 TEST_CASE("turn rates are those of a heading that turns at g tan(phi) / Va") {
@@ -50,3 +52,5 @@ TEST_CASE("a turn needs more angle of attack and more elevator up, and an airfra
   CHECK(none.alpha_rad == 0);
   CHECK(none.elevator_rad == 0);
 }
+
+}  // namespace turn_trim_test

@@ -4,6 +4,8 @@
 #include <fulmar/flight/wind_triangle.hpp>
 #include <numbers>
 
+namespace wind_triangle_test {
+
 using namespace fulmar;
 static constexpr double pi = std::numbers::pi;
 
@@ -46,3 +48,5 @@ TEST_CASE("the bank for a curvature makes the lift's horizontal part turn the gr
   const double L = 9.80665 / std::cos(phi);
   CHECK(L * std::sin(phi) * std::cos(0.3) == doctest::Approx(20.0 * 20.0 / 80));
 }
+
+}  // namespace wind_triangle_test

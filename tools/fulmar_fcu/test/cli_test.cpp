@@ -8,6 +8,8 @@
 
 #include "plugins/fcu_serial/test/device.hpp"
 
+namespace cli_test {
+
 namespace {
 
 using namespace fulmar::fcu;
@@ -114,3 +116,5 @@ TEST_CASE("a port that another program holds is told with its name") {
 }
 
 }  // namespace
+
+}  // namespace cli_test

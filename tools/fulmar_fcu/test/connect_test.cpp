@@ -4,6 +4,8 @@
 
 #include "lossy_port.hpp"
 
+namespace connect_test {
+
 namespace {
 
 using namespace fulmar::fcu;
@@ -147,3 +149,5 @@ TEST_CASE("the round trip is measured on the line") {
 }
 
 }  // namespace
+
+}  // namespace connect_test

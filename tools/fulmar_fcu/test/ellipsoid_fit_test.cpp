@@ -8,6 +8,8 @@
 #include "fulmar/random.hpp"
 #include "tools/fulmar_fcu/mag_fit.hpp"
 
+namespace ellipsoid_fit_test {
+
 namespace {
 
 using Eigen::Matrix3d;
@@ -137,3 +139,5 @@ TEST_CASE("a calibration that is in force is taken off before the fit, and the n
 }
 
 }  // namespace
+
+}  // namespace ellipsoid_fit_test

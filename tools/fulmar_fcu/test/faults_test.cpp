@@ -11,6 +11,8 @@
 #include "lossy_port.hpp"
 #include "tools/fulmar_fcu/app.hpp"
 
+namespace faults_test {
+
 namespace {
 
 using namespace fulmar::fcu;
@@ -221,3 +223,5 @@ TEST_CASE("what moves or changes an armed aircraft is refused before anything is
 }
 
 }  // namespace
+
+}  // namespace faults_test

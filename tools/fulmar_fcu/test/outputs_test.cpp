@@ -10,6 +10,8 @@
 #include "tools/fulmar_fcu/app.hpp"
 #include "tools/fulmar_fcu/mag_fit.hpp"
 
+namespace outputs_test {
+
 namespace {
 
 using namespace fulmar::fcu;
@@ -162,3 +164,5 @@ TEST_CASE("the guide is done after six sides, each turned once around") {
 }
 
 }  // namespace
+
+}  // namespace outputs_test

@@ -9,6 +9,8 @@
 
 #include "lossy_port.hpp"
 
+namespace param_file_test {
+
 namespace {
 
 using namespace fulmar::fcu;
@@ -106,3 +108,5 @@ TEST_CASE("a loaded mixer of one's own survives that the choice of a mixer fills
 }
 
 }  // namespace
+
+}  // namespace param_file_test

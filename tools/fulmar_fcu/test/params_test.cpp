@@ -8,6 +8,8 @@
 
 #include "lossy_port.hpp"
 
+namespace params_test {
+
 namespace {
 
 using namespace fulmar::fcu;
@@ -128,3 +130,5 @@ TEST_CASE("patterns find names") {
 }
 
 }  // namespace
+
+}  // namespace params_test

@@ -9,6 +9,8 @@
 #include "tools/fulmar_fcu/mixer.hpp"
 #include "tools/fulmar_fcu/radio.hpp"
 
+namespace preflight_test {
+
 namespace {
 
 using namespace fulmar::fcu;
@@ -171,3 +173,5 @@ TEST_CASE("the command ends with 1 on a FAIL and with 0 without one") {
 }
 
 }  // namespace
+
+}  // namespace preflight_test

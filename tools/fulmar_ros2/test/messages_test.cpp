@@ -9,6 +9,8 @@
 #include "fulmar/schema.hpp"
 #include "plugins/ros_bridge/rosplane_messages.hpp"
 
+namespace messages_test {
+
 using namespace fulmar;
 using namespace fulmar::ros_bridge;
 
@@ -76,3 +78,5 @@ TEST_CASE("small whole numbers come back from the wire, and are shown with their
   CHECK(core::number_at(*field.field, reinterpret_cast<const std::byte*>(&back) + field.offset) == -3);
   CHECK(core::Guard(*type).check(reinterpret_cast<const std::byte*>(&back)));
 }
+
+}  // namespace messages_test

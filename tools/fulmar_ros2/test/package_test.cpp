@@ -20,6 +20,8 @@
 #include "core/tap/wire.hpp"
 #include "tools/fulmar_ros2/interface_package.hpp"
 
+namespace package_test {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -211,3 +213,5 @@ TEST_CASE("the program writes a package, refuses another's folder with 1, and te
   CHECK(run("") == 2);
   CHECK(run("--help") == 0);
 }
+
+}  // namespace package_test

@@ -14,6 +14,8 @@
 #include "core/tap/test/types.hpp"
 #include "core/tap/wire.hpp"
 
+namespace canvas_test {
+
 using namespace fulmar::core;
 using json = nlohmann::ordered_json;
 
@@ -94,3 +96,5 @@ TEST_CASE("a message is one line per field for people, and one cell per number i
   CHECK(part_of(message, "legs[0].course_rad").get<double>() == doctest::Approx(28.6478897565));
   CHECK(part_of(message, "legs[2].course_rad").is_null());
 }
+
+}  // namespace canvas_test

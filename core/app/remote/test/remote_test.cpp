@@ -19,6 +19,8 @@
 #include "core/tap/live/server.hpp"
 #include "core/tap/live/test/mock.hpp"
 
+namespace remote_test {
+
 namespace fs = std::filesystem;
 using namespace fulmar::core;
 using nlohmann::json;
@@ -381,3 +383,5 @@ TEST_CASE("bash completes commands, options, and names of the running flight") {
   CHECK(std::find(all.begin(), all.end(), "param") != all.end());
   CHECK(std::find(all.begin(), all.end(), "complete") == all.end());
 }
+
+}  // namespace remote_test

@@ -5,6 +5,8 @@
 
 #include "core/tap/live/test/hub_fixture.hpp"
 
+namespace calls_test {
+
 using namespace fulmar::core;
 using namespace fulmar::core::live;
 using namespace fulmar::core::live::test;
@@ -138,3 +140,5 @@ TEST_CASE_FIXTURE(Fixture, "only what the mission imports can be published on") 
   CHECK(refusal("/plan/edits", "cdr", "std_msgs/msg/String") == "/plan/edits takes fulmar_msgs/msg/Mixed, not std_msgs/msg/String");
   CHECK(counters.refused == 3);
 }
+
+}  // namespace calls_test

@@ -5,6 +5,8 @@
 
 #include "core/error.hpp"
 
+namespace gate_test {
+
 using namespace fulmar::core;
 using namespace fulmar::core::live;
 
@@ -86,3 +88,5 @@ TEST_CASE("who sends more than the bucket holds waits until it has run dry by as
   CHECK(bucket.take(5, t0 + std::chrono::hours(1)).count() == 0);  // never more than the burst
   CHECK(bucket.take(1, t0 + std::chrono::hours(1)).count() > 0);
 }
+
+}  // namespace gate_test

@@ -5,6 +5,8 @@
 
 #include "core/tap/live/test/hub_fixture.hpp"
 
+namespace hub_test {
+
 using namespace fulmar::core;
 using namespace fulmar::core::live;
 using namespace fulmar::core::live::test;
@@ -341,3 +343,5 @@ TEST_CASE_FIXTURE(Fixture, "answers for a client that has gone reach nobody") {
   CHECK(other.binaries.empty());
   CHECK(peer.binaries.empty());
 }
+
+}  // namespace hub_test

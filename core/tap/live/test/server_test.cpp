@@ -21,6 +21,8 @@
 #include "core/tap/live/test/mock.hpp"
 #include "core/tap/wire.hpp"
 
+namespace server_test {
+
 using namespace fulmar::core;
 using namespace fulmar::core::test;
 using nlohmann::json;
@@ -384,3 +386,5 @@ TEST_CASE_FIXTURE(Fixture, "a server with a stuck client and half a handshake en
   server.reset();
   CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(15));
 }
+
+}  // namespace server_test

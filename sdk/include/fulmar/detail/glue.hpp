@@ -90,32 +90,31 @@ consteval const fulmar_type* message_table() {
     return nullptr;
 }
 
+template <class M, bool inputs>
+consteval fulmar_port port_of() {
+  using Port = PortOf<M>;
+  static_assert(!inputs || Port::kind < FULMAR_OUT_VALUE, "Inputs holds In<T>, Optional<T>, Queue<T> and Request<T>");
+  static_assert(inputs || Port::kind >= FULMAR_OUT_VALUE, "Outputs holds messages, Out<T>, OutQueue<T> and Probe");
+  return {"", message_table<M>(), Port::kind, Port::flags, Port::capacity};
+}
+
 template <class S, bool inputs>
 struct Ports {
   static constexpr std::size_t count = member_count<S>();
-  template <std::size_t I>
-  static consteval fulmar_port one() {
-    using Port = PortOf<MemberType<S, I>>;
-    static_assert(!inputs || Port::kind < FULMAR_OUT_VALUE, "Inputs holds In<T>, Optional<T>, Queue<T> and Request<T>");
-    static_assert(inputs || Port::kind >= FULMAR_OUT_VALUE, "Outputs holds messages, Out<T>, OutQueue<T> and Probe");
-    static_assert(Port::kind != FULMAR_OUT_PROBE || find_unit(FieldName<S, I>::view) >= 0,
-                  "a probe's name ends in its unit: roll_error_rad");
-    return {FieldName<S, I>::c_str, message_table<MemberType<S, I>>(), Port::kind, Port::flags, Port::capacity};
+  template <class... M>
+  static constexpr std::array<fulmar_port, count> make(Types<M...>) {
+    std::array<fulmar_port, count> out{port_of<M, inputs>()...};
+    for (std::size_t i = 0; i < count; ++i) out[i].name = FieldNames<S>::c_str(i);
+    return out;
   }
-  template <std::size_t... I>
-  static consteval std::array<fulmar_port, count> make(std::index_sequence<I...>) {
-    return {one<I>()...};
+  static constexpr std::array<fulmar_port, count> table = make(MemberTypes<S>{});
+  static constexpr bool probes_have_units() {
+    for (std::size_t i = 0; i < count; ++i)
+      if (table[i].kind == FULMAR_OUT_PROBE && find_unit(FieldNames<S>::view(i)) < 0) return false;
+    return true;
   }
-  static constexpr std::array<fulmar_port, count> table = make(std::make_index_sequence<count>{});
+  static_assert(probes_have_units(), "a probe's name ends in its unit: roll_error_rad");
 };
-
-/// Calls f(member, i) for each member of a struct.
-template <class S, class F>
-void for_each(S& s, F&& f) {
-  auto all = members(s);
-  [&]<std::size_t... I>(std::index_sequence<I...>) { (f(*std::get<I>(all).p, I), ...); }
-  (std::make_index_sequence<std::tuple_size_v<decltype(all)>>{});
-}
 
 // ---- parameters ---------------------------------------------------------------------------------------------------------------
 
@@ -204,21 +203,57 @@ inline void assign(Blob& p, const fulmar_value& v) {
   p.name = v.text ? v.text : "";
 }
 
+template <class M>
+concept Parameter = requires(const M& m) { param_entry(m); };
+
+/// Calls f(parameter) for each parameter of a struct, those of its groups (structs of parameters) in their places.
+template <class S, class F>
+constexpr void for_each_param(S& params, F& f) {
+  with_members(params, [&f](auto&... member) { (visit_param(member, f), ...); });
+}
+template <class M, class F>
+constexpr void visit_param(M& member, F& f) {
+  if constexpr (Parameter<M>) {
+    f(member);
+  } else {
+    static_assert(std::is_class_v<M> && std::is_aggregate_v<M>, "Params holds Param, Flag, Count, Choice, TextParam, Vector, Record, Blob and structs of these");
+    for_each_param(member, f);
+  }
+}
+
 template <class S>
 struct ParamTable {
-  static constexpr std::size_t count = member_count<S>();
   static constexpr S initial{};
-  template <std::size_t I>
-  static consteval fulmar_param one() {
-    fulmar_param e = param_entry(*std::get<I>(members(initial)).p);
-    e.name = FieldName<S, I>::c_str;
-    return e;
+  static constexpr std::size_t count_all() {
+    std::size_t n = 0;
+    auto one = [&](const auto&) { ++n; };
+    for_each_param(initial, one);
+    return n;
   }
-  template <std::size_t... I>
-  static consteval std::array<fulmar_param, count> make(std::index_sequence<I...>) {
-    return {one<I>()...};
+  static constexpr std::size_t count = count_all();
+  /// The name of a parameter is that of its member, in a group as well.
+  template <class G, class... M>
+  static constexpr void name(std::array<fulmar_param, count>& out, std::size_t& at, Types<M...>) {
+    std::size_t i = 0;
+    [[maybe_unused]] const auto one = [&]<class P>(const P*) {
+      if constexpr (Parameter<P>)
+        out[at++].name = FieldNames<G>::c_str(i);
+      else
+        name<P>(out, at, MemberTypes<P>{});
+      ++i;
+    };
+    (one(static_cast<const M*>(nullptr)), ...);
   }
-  static constexpr std::array<fulmar_param, count> table = make(std::make_index_sequence<count>{});
+  static constexpr std::array<fulmar_param, count> make() {
+    std::array<fulmar_param, count> out{};
+    std::size_t at = 0;
+    auto one = [&](const auto& param) { out[at++] = param_entry(param); };
+    for_each_param(initial, one);
+    at = 0;
+    name<S>(out, at, MemberTypes<S>{});
+    return out;
+  }
+  static constexpr std::array<fulmar_param, count> table = make();
 };
 
 // ---- thunks -------------------------------------------------------------------------------------------------------------------
@@ -284,7 +319,8 @@ struct Thunks {
     });
   }
   static void take(typename C::Params& params, const fulmar_value* values) {
-    for_each(params, [&](auto& member, std::size_t i) { assign(member, values[i]); });
+    auto one = [&](auto& param) { assign(param, *values++); };
+    for_each_param(params, one);
   }
 
   static void* create(std::uint64_t seed, fulmar_error* error) {

@@ -2,7 +2,6 @@
 // Energy per mass and its rate: what throttle adds to and pitch shares out between speed and height.
 // Lambregts, "Vertical flight path and speed control autopilot design using total energy principles", AIAA 83-2239 (1983).
 #pragma once
-#include <Eigen/Core>
 #include <cmath>
 
 #include "fulmar/flight/atmosphere.hpp"
@@ -15,8 +14,9 @@ namespace fulmar {
 inline double airspeed_rate(const VehicleState& state) {
   const double ca = std::cos(state.alpha_rad), sa = std::sin(state.alpha_rad), cb = std::cos(state.beta_rad), sb = std::sin(state.beta_rad);
   const double cp = std::cos(state.pitch_rad);
-  const Eigen::Vector3d gravity_b(-std::sin(state.pitch_rad), cp * std::sin(state.roll_rad), cp * std::cos(state.roll_rad));
-  return Eigen::Vector3d(ca * cb, sb, sa * cb).dot(eigen(state.specific_force_mps2) + isa::g0 * gravity_b);
+  const Vec3<Body> gravity_b{-std::sin(state.pitch_rad), cp * std::sin(state.roll_rad), cp * std::cos(state.roll_rad)};
+  const Vec3<Body> a_b = state.specific_force_mps2 + isa::g0 * gravity_b;
+  return ca * cb * a_b.x + sb * a_b.y + sa * cb * a_b.z;
 }
 
 /// Rates of the specific energies, m2/s3.

@@ -4,13 +4,18 @@
 set -euo pipefail
 cd "$(dirname "$0")/../build"
 mapfile -t sources < <(cd .. && find core -name '*.cpp' ! -path '*/test/*')
+# An object's list names all that it was made of: the source, or the sources that were compiled together, and every header.
 read_files=$(ninja -t deps | awk -v sources="${sources[*]}" '
+  function end_of_object(   i) {
+    if (of_core) for (i = 1; i <= n_sdk; i++) print "message: " of_core " reads " sdk[i]
+    of_core = ""; n_sdk = 0
+  }
   BEGIN { n = split(sources, list, " "); for (i = 1; i <= n; i++) wanted[list[i]] = 1 }
-  /^[^ ].*: #deps/ { object = $1; first = 1; next }
+  /^[^ ].*: #deps/ { end_of_object(); next }
   NF == 0 { next }
-  first { first = 0; source = $1; sub(/^.*\/core\//, "core/", source); keep = (source in wanted); if (keep) seen[source] = 1 }
-  keep && /\/sdk\/include\// && !/\/sdk\/include\/fulmar\/abi\.h$/ { print "message: " source " reads " $1 }
-  END { for (s in seen) print "source: " s }')
+  /\/core\/.*\.cpp$/ { source = $1; sub(/^.*\/core\//, "core/", source); if (source in wanted) { of_core = source; seen[source] = 1 } }
+  /\/sdk\/include\// && !/\/sdk\/include\/fulmar\/abi\.h$/ { sdk[++n_sdk] = $1 }
+  END { end_of_object(); for (s in seen) print "source: " s }')
 messages=$(sed -n 's/^message: //p' <<<"$read_files")
 for source in "${sources[@]}"; do
   grep -qxF "source: $source" <<<"$read_files" || { echo "$source has not been compiled"; exit 1; }

@@ -19,25 +19,9 @@ if(FULMAR_SANITIZE)
 endif()
 find_program(ccache_program ccache)
 if(ccache_program)
-  # A precompiled header holds the time of its making and the macros that were defined then: ccache asks for leave to overlook them.
-  set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros ${ccache_program})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${ccache_program})
   set(CMAKE_C_COMPILER_LAUNCHER ${ccache_program})
 endif()
-
-# fulmar_precompile(TARGET HEADER): the files of TARGET find cmake/precompiled/HEADER already read. They include what they need all the same
-# and compile without it. fulmar_precompile(TARGET FROM OTHER): as OTHER, which has the same flags.
-option(FULMAR_PRECOMPILE "Precompiled headers" ON)
-function(fulmar_precompile target header)
-  if(NOT FULMAR_PRECOMPILE)
-    return()
-  endif()
-  if(header STREQUAL FROM)
-    target_precompile_headers(${target} REUSE_FROM ${ARGV2})
-  else()
-    target_precompile_headers(${target} PRIVATE ${CMAKE_SOURCE_DIR}/cmake/precompiled/${header})
-  endif()
-  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)  # or ccache keeps nothing
-endfunction()
 
 # fulmar_harden(target...): what is shipped resists what a damaged file or a faulty plugin may do to it. Plugins built elsewhere have flags
 # of their own. Fortified functions need an optimised build; the sanitizers replace them.
@@ -67,7 +51,8 @@ function(fulmar_harden)
 endfunction()
 
 # fulmar_unite(TARGET [FILES]): compiles TARGET in batches of FILES sources (8). What the files of a folder share, headers and above all the
-# templates of the standard library, is then read, expanded and optimised once a batch. Each file compiles alone as well (./check --long).
+# templates of the standard library, is then read, expanded and optimised once a batch. Each file compiles alone as well: ./check --long
+# builds everything with -DFULMAR_UNITE=OFF.
 option(FULMAR_UNITE "Several source files are compiled together" ON)
 function(fulmar_unite target)
   set(files 8)

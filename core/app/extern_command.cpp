@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* prefix = "fulmar-";
+constexpr const char* program_prefix = "fulmar-";
 
 bool can_run(const fs::path& file) {
   std::error_code fault;
@@ -50,7 +50,7 @@ std::vector<std::string> extern_commands() {
   std::vector<std::string> words;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, fault)) {
     const std::string name = entry.path().filename().string();
-    const std::string word = name.rfind(prefix, 0) == 0 ? name.substr(std::strlen(prefix)) : "";
+    const std::string word = name.rfind(program_prefix, 0) == 0 ? name.substr(std::strlen(program_prefix)) : "";
     if (is_command(word) && can_run(entry.path())) words.push_back(word);
   }
   std::sort(words.begin(), words.end());
@@ -59,7 +59,7 @@ std::vector<std::string> extern_commands() {
 
 void become_extern_command(char** words) {
   const std::string word = words[0];
-  const fs::path program = is_command(word) ? find_program(prefix + word) : fs::path();
+  const fs::path program = is_command(word) ? find_program(program_prefix + word) : fs::path();
   if (program.empty()) return;
   std::string name = program.string();
   words[0] = name.data();

@@ -162,6 +162,8 @@ int run_app(int argc, char** argv) {
     for (const std::string& word : extern_commands()) names.push_back(word);
     std::erase(names, "complete");  // for shells
     std::fprintf(stderr, "fulmar: there is no command '%s'.%s\n", argv[1], choices_text(argv[1], names).c_str());
+    if (const std::string word = argv[1]; word == "fcu" || word == "ros2")
+      std::fprintf(stderr, "The program fulmar-%s is not there: ./fly leaves it out, `cmake --build build --target tools` makes it.\n", argv[1]);
     return 2;
   }
   try {

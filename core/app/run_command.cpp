@@ -37,7 +37,7 @@
 namespace fulmar::core {
 namespace {
 
-std::atomic<int> interrupted{0};  // a signal that the flight has not refused
+std::atomic<int> signal_seen{0};  // a signal that the flight has not refused
 char last_words[512];             // where the log lies, prepared beforehand
 
 void write_text(const char* text) { write_last_words(text); }
@@ -58,11 +58,11 @@ void note_signal(int signal) {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
   const bool patience_over = signal == SIGALRM;
-  if (patience_over && interrupted.load() == 0) return;
+  if (patience_over && signal_seen.load() == 0) return;
   const double since_s = static_cast<double>(now.tv_sec - latest.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec - latest.tv_nsec);
   if (!patience_over && since_s < 0.5 && latest.tv_sec > 0) return;
   latest = now;
-  if (!patience_over && interrupted.exchange(signal) == 0) {
+  if (!patience_over && signal_seen.exchange(signal) == 0) {
     alarm(patience_s);
     return;
   }
@@ -306,7 +306,7 @@ int Session::fly() {
   o.log_file = log_file();
   o.log = !o.log_file.empty();
   if (o.log_file.has_parent_path()) std::filesystem::create_directories(o.log_file.parent_path());
-  o.interrupt = &interrupted;
+  o.interrupt = &signal_seen;
   o.progress = [&](const Flight& flight) { progress.show(flight); };
   o.say = [&](const std::string& text, bool warning) { progress.say(text, warning); };
   prepare_last_words(o.log_file.string());
@@ -410,11 +410,11 @@ void Session::take_changes() {
 bool Session::wait_for_change() {
   spdlog::info("\nwaiting for a change; Ctrl-C ends");
   std::string gone;
-  while (interrupted.load() == 0) {
+  while (signal_seen.load() == 0) {
     if (sources_)
       if (const auto changed = sources_->changed(); !changed.empty()) {
         spdlog::info("changed: {}; building", changed[0].filename().string());
-        if (!run_build(options_.build, interrupted) && interrupted.load() == 0)
+        if (!run_build(options_.build, signal_seen) && signal_seen.load() == 0)
           spdlog::warn("the build failed; what flew before stays as it is");
       }
     if (const auto changed = stamps_->changed(); !changed.empty() && reload(changed)) return true;

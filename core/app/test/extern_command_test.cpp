@@ -102,6 +102,16 @@ TEST_CASE("a command that exists nowhere is told with what there is, and a built
   }
 }
 
+TEST_CASE("a program of ours that was not built is told with how to build it") {
+  const Home home;
+  for (const std::string word : {"fcu", "ros2"}) {
+    const Home::Result missing = home.fulmar(word + " status");
+    CHECK(missing.code == 2);
+    CHECK(holds(missing.text, "The program fulmar-" + word + " is not there: ./fly leaves it out, `cmake --build build --target tools` makes it."));
+  }
+  CHECK_FALSE(holds(home.fulmar("fca").text, "is not there"));
+}
+
 TEST_CASE("what runs does not depend on the present folder: relative folders of PATH are passed over") {
   const Home home;
   fs::create_directories(home.folder / "elsewhere" / "path");

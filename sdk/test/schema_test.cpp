@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <random>
 #include <string>
 
 #include "fulmar/eigen.hpp"
@@ -126,6 +127,65 @@ TEST_CASE("a vector goes to Eigen and back, and rotates as the attitude says") {
   CHECK(nose.north == doctest::Approx(0));
   CHECK(nose.east == doctest::Approx(1));
   CHECK(to_body(east_facing, nose).x == doctest::Approx(1));
+}
+
+TEST_CASE("sums, multiples and rotations are those of Eigen, to the last bit") {
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal;
+  const auto n = [&] { return normal(random); };
+  for (int i = 0; i < 10'000; ++i) {
+    const Vec3<Ned> a{n(), n(), n()}, b{n(), n(), n()};
+    const Vec3<Body> v{n(), n(), n()};
+    const Quat q{n(), n(), n(), n()};
+    const double k = n();
+    REQUIRE(a + b == from_eigen<Ned>(eigen(a) + eigen(b)));
+    REQUIRE(a - b == from_eigen<Ned>(eigen(a) - eigen(b)));
+    REQUIRE(k * v == from_eigen<Body>(k * eigen(v)));
+    REQUIRE(to_ned(q, v) == from_eigen<Ned>(eigen(q) * eigen(v)));
+    REQUIRE(to_body(q, a) == from_eigen<Body>(eigen(q).conjugate() * eigen(a)));
+    REQUIRE(from_eigen(eigen(q)) == q);
+  }
+}
+
+namespace {
+
+enum class Many : std::uint8_t { a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, the_eighteenth };
+enum class Gap : std::uint8_t { first, second, fourth = 3 };
+template <class T, int n>
+struct Pair {
+  T one{}, two{};
+};
+struct Widest {
+  double a0_m, a1_m, a2_m, a3_m, a4_m, a5_m, a6_m, a7_m, a8_m, a9_m, b0_m, b1_m, b2_m, b3_m, b4_m, b5_m, b6_m, b7_m, b8_m, b9_m, c0_m,
+      c1_m, c2_m, c3_m, c4_m, c5_m, c6_m, c7_m, c8_m, c9_m, d0_m, d1_m, d2_m, d3_m, d4_m, d5_m, d6_m, d7_m, d8_m, d9_m, e0_m, e1_m, e2_m,
+      e3_m, e4_m, e5_m, e6_m, e7_m, e8_m, e9_m, f0_m, f1_m, f2_m, f3_m, f4_m, f5_m, f6_m, f7_m, f8_m, f9_m, g0_m, g1_m, g2_m;
+  bool last;
+};
+struct Nested {
+  Pair<std::array<List<Quat, 2>, 3>, 4> not_a_message;  // members are counted and named whatever they are
+  Text<2> t;
+  Gap gap;
+};
+
+}  // namespace
+
+TEST_CASE("members are counted and named from none to 64") {
+  struct None {};
+  CHECK(detail::member_count<None>() == 0);
+  CHECK(detail::member_count<ForeignPose>() == 3);
+  CHECK(detail::member_count<Nested>() == 3);
+  CHECK(detail::FieldNames<Nested>::view(0) == "not_a_message");
+  CHECK(detail::FieldNames<Nested>::view(2) == "gap");
+  CHECK(detail::member_count<Widest>() == 64);
+  CHECK(field(describe<Widest>(), "g2_m").offset == offsetof(Widest, g2_m));
+  CHECK(field(describe<Widest>(), "last").offset == offsetof(Widest, last));
+  CHECK(std::string(describe<Widest>().fields[31].name) == "d1_m");
+}
+
+TEST_CASE("an enum's labels end where a number names nothing, however many there are") {
+  CHECK(detail::Labels<Many>::count == 18);
+  CHECK(std::string(detail::Labels<Many>::names[17]) == "the_eighteenth");
+  CHECK(detail::Labels<Gap>::count == 2);
 }
 
 TEST_CASE("text is cut where its room ends") {

@@ -50,19 +50,29 @@ function(fulmar_harden)
   endforeach()
 endfunction()
 
-# fulmar_unite(TARGET [FILES]): compiles TARGET in batches of FILES sources (8). What the files of a folder share, headers and above all the
-# templates of the standard library, is then read, expanded and optimised once a batch. Each file compiles alone as well: ./check --long
-# builds everything with -DFULMAR_UNITE=OFF.
+# fulmar_unite(TARGET [FILES]): compiles the sources of each folder of TARGET in batches of FILES (8). What the files of a folder share, headers
+# and above all the templates of the standard library, is then read, expanded and optimised once a batch. Each file compiles alone as well:
+# ./check --long builds everything with -DFULMAR_UNITE=OFF.
 option(FULMAR_UNITE "Several source files are compiled together" ON)
 function(fulmar_unite target)
+  if(NOT FULMAR_UNITE)
+    return()
+  endif()
   set(files 8)
   if(ARGC GREATER 1)
     set(files ${ARGV1})
   endif()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${FULMAR_UNITE} UNITY_BUILD_BATCH_SIZE ${files})
-  if(FULMAR_UNITE)  # what one file keeps to itself is no fault in the struct that it defines, though another file has included it
-    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
-  endif()
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    get_filename_component(folder ${source} DIRECTORY)
+    string(MAKE_C_IDENTIFIER "of_${folder}" folder)
+    math(EXPR batch "${count_${folder}}0 / ${files}0")
+    math(EXPR count_${folder} "${count_${folder}}0 / 10 + 1")
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${folder}_${batch})
+  endforeach()
+  # what one file keeps to itself is no fault in the struct that it defines, though another file has included it
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()
 
 # The folder beside the product that holds reference data, when it is there. Tests that need it skip with a message.

@@ -23,7 +23,7 @@ using nlohmann::json;
 std::atomic<bool> stop{false};
 void stop_replay(int) { stop.store(true); }
 
-double seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
+double flight_seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
 
 /// A flight of the log, and the figures that come of it.
 struct Replayed {
@@ -48,12 +48,12 @@ Replayed fly(const Recording& recording, const Overrides& changes, const std::st
 
 json difference_json(const ReplayResult& r) {
   json j;
-  j["first_tick"] = r.first_tick ? json{{"index", *r.first_tick}, {"time_s", seconds(r.first_tick_ns)}} : json(nullptr);
+  j["first_tick"] = r.first_tick ? json{{"index", *r.first_tick}, {"time_s", flight_seconds(r.first_tick_ns)}} : json(nullptr);
   j["first_difference"] = nullptr;
   if (r.first)
     j["first_difference"] = {{"topic", r.first->topic},
                              {"field", r.first->field},
-                             {"time_s", seconds(r.first->at_ns)},
+                             {"time_s", flight_seconds(r.first->at_ns)},
                              {"was", r.first->was},
                              {"is", r.first->is}};
   j["messages"] = r.messages;
@@ -72,7 +72,7 @@ json result_of(const Recording& recording, const Replayed& again) {
   j["cut_off"] = r.cut_off;
   j["ticks"] = r.ticks;
   j["recorded_ticks"] = r.recorded_ticks;
-  j["flight_time_s"] = seconds(r.last_ns - r.first_ns);
+  j["flight_time_s"] = flight_seconds(r.last_ns - r.first_ns);
   j["wall_time_s"] = r.flight.wall_s;
   j["notes"] = r.notes;
   j["not_reproducible"] = {"wall_time_s"};
@@ -85,9 +85,9 @@ void print_difference(const ReplayResult& r) {
                 static_cast<unsigned long long>(r.recorded_ticks));
   if (r.first_tick)
     std::printf("the first tick with other outputs is %llu, at %.4f s\n", static_cast<unsigned long long>(*r.first_tick),
-                seconds(r.first_tick_ns));
+                flight_seconds(r.first_tick_ns));
   if (r.first)
-    std::printf("the first difference in the log: %s at %.4f s%s%s: %s, now %s\n", r.first->topic.c_str(), seconds(r.first->at_ns),
+    std::printf("the first difference in the log: %s at %.4f s%s%s: %s, now %s\n", r.first->topic.c_str(), flight_seconds(r.first->at_ns),
                 r.first->field.empty() ? "" : ", ", r.first->field.c_str(), r.first->was.c_str(), r.first->is.c_str());
   std::printf("%llu of %llu messages differ, %llu bytes\n", static_cast<unsigned long long>(r.differing_messages),
               static_cast<unsigned long long>(r.messages), static_cast<unsigned long long>(r.differing_bytes));
@@ -95,10 +95,10 @@ void print_difference(const ReplayResult& r) {
 
 void print(const Replayed& again) {
   const ReplayResult& r = again.result;
-  const double flown_s = seconds(r.last_ns - r.first_ns);
+  const double flown_s = flight_seconds(r.last_ns - r.first_ns);
   std::printf("%s: %llu ticks, %.1f s of flight in %.2f s: %.0f times real time\n", again.graph.mission.c_str(),
               static_cast<unsigned long long>(r.ticks), flown_s, r.flight.wall_s, r.flight.wall_s > 0 ? flown_s / r.flight.wall_s : 0);
-  if (r.cut_off) std::printf("the log was cut off: compared up to its last whole tick, at %.4f s\n", seconds(r.last_ns));
+  if (r.cut_off) std::printf("the log was cut off: compared up to its last whole tick, at %.4f s\n", flight_seconds(r.last_ns));
   for (const std::string& note : r.notes) std::printf("%s\n", note.c_str());
   if (r.equal())
     std::printf("equal: %llu messages, 0 differing bytes%s\n", static_cast<unsigned long long>(r.messages),

@@ -117,7 +117,7 @@ std::string new_text(const SavedParam& p) {
 
 // ---- places ---------------------------------------------------------------------------------------------------------------------
 
-struct Place {
+struct FilePlace {
   std::size_t file = 0;  // into Saver::files_
   YamlPath path;
 };
@@ -153,20 +153,20 @@ class Saver {
     for (std::size_t i = 0; i < files_.size(); ++i) {
       const Node* airframe = roots_[i].find("airframe");
       if (!airframe) continue;
-      if (airframe->is(Node::Kind::map)) airframe_ = Place{i, {"airframe", "params"}};
+      if (airframe->is(Node::Kind::map)) airframe_ = FilePlace{i, {"airframe", "params"}};
       if (!airframe->is(Node::Kind::scalar)) break;
       open(files_[i].path.parent_path() / airframe->text, airframe->text);
-      airframe_ = Place{files_.size() - 1, {"params"}};
+      airframe_ = FilePlace{files_.size() - 1, {"params"}};
       break;
     }
   }
 
   void save(SavedParam p) {
     if (p.info.kind == FULMAR_RECORD || p.info.kind == FULMAR_BLOB) return;
-    const std::optional<Place> place = find(p);
+    const std::optional<FilePlace> place = find(p);
     if (place && p.info.kind == FULMAR_VECTOR && !p.info.type) p.info.type = names_of(*at_path(roots_[place->file], place->path));
     if (place ? already(p, *place) : same_value(p.info, p.value, initial_value(p.info))) return;
-    const Place where = place.value_or(Place{0, {"components", p.component, "params", p.info.name}});
+    const FilePlace where = place.value_or(FilePlace{0, {"components", p.component, "params", p.info.name}});
     const std::string name = p.component + "." + p.info.name;
     try {
       const std::string& before = files_[where.file].after;
@@ -193,10 +193,10 @@ class Saver {
     files_.push_back({path, path.filename().string(), file->text, file->text});
   }
 
-  std::optional<Place> find(const SavedParam& p) const {
+  std::optional<FilePlace> find(const SavedParam& p) const {
     const YamlPath own{"components", p.component, "params", p.info.name};
     for (std::size_t i = 0; i < std::min<std::size_t>(files_.size(), 2); ++i)
-      if (at_path(roots_[i], own)) return Place{i, own};
+      if (at_path(roots_[i], own)) return FilePlace{i, own};
     if (!airframe_) return std::nullopt;
     const Node* sections = at_path(roots_[airframe_->file], airframe_->path);
     const auto [plugin, component] = split_use(p.use);
@@ -205,7 +205,7 @@ class Saver {
       const auto [for_plugin, for_component] = split_use(section.key);
       if (for_plugin != plugin && for_plugin != plugin + ".so") continue;
       if ((!for_component.empty() && for_component != component) || !section.value.find(p.info.name)) continue;
-      Place place = *airframe_;
+      FilePlace place = *airframe_;
       place.path.push_back(section.key);
       place.path.push_back(p.info.name);
       return place;
@@ -230,7 +230,7 @@ class Saver {
     read_param(p.info, node, p.info.name, value, none, report);
     return report.empty() && same_value(p.info, value, p.value);
   }
-  bool already(const SavedParam& p, const Place& place) const { return says(p, *at_path(roots_[place.file], place.path)); }
+  bool already(const SavedParam& p, const FilePlace& place) const { return says(p, *at_path(roots_[place.file], place.path)); }
 
   static std::string replaced(const std::string& text, const YamlPath& path, const SavedParam& p) {
     const std::optional<YamlSpan> span = find_value(text, path);
@@ -274,7 +274,7 @@ class Saver {
   }
 
   /// The file after the change says what the flight has, and of everything else what it said before.
-  static void check(const std::string& before, const std::string& after, const Place& where, const SavedParam& p) {
+  static void check(const std::string& before, const std::string& after, const FilePlace& where, const SavedParam& p) {
     const Node root = parsed(after, "");
     const Node* node = at_path(root, where.path);
     if (!node || !says(p, *node)) throw Error("the file would not say that");
@@ -294,7 +294,7 @@ class Saver {
 
   std::vector<FileEdit> files_;  // mission, what it extends, airframe
   std::vector<Node> roots_;
-  std::optional<Place> airframe_;
+  std::optional<FilePlace> airframe_;
   SavePlan plan_;
 };
 

@@ -18,7 +18,7 @@ constexpr Dimension kelvin{0, 0, 0, 0, 1, 0}, angle{0, 0, 0, 0, 0, 1}, per_time{
 constexpr Dimension speed{1, 0, -1, 0, 0, 0}, acceleration{1, 0, -2, 0, 0, 0}, turn_rate{0, 0, -1, 0, 0, 1},
     turn_acceleration{0, 0, -2, 0, 0, 1};
 constexpr Dimension force{1, 1, -2, 0, 0, 0}, pressure{-1, 1, -2, 0, 0, 0}, energy{2, 1, -2, 0, 0, 0}, power{2, 1, -3, 0, 0, 0};
-constexpr Dimension voltage{2, 1, -3, -1, 0, 0}, resistance{2, 1, -3, -2, 0, 0}, field{0, 1, -2, -1, 0, 0}, area{2, 0, 0, 0, 0, 0};
+constexpr Dimension voltage{2, 1, -3, -1, 0, 0}, resistance{2, 1, -3, -2, 0, 0}, magnetic_field{0, 1, -2, -1, 0, 0}, area{2, 0, 0, 0, 0, 0};
 constexpr Dimension inertia{2, 1, 0, 0, 0, 0}, density{-3, 1, 0, 0, 0, 0}, charge{0, 0, 1, 1, 0, 0};
 constexpr double pi = std::numbers::pi;
 
@@ -95,11 +95,11 @@ constexpr Symbol symbols[] = {
     {"mAh", charge, 3.6},
     {"ohm", resistance, 1},
     {"mohm", resistance, 1e-3},
-    {"T", field, 1},
-    {"tesla", field, 1},
-    {"uT", field, 1e-6},
-    {"nT", field, 1e-9},
-    {"gauss", field, 1e-4},
+    {"T", magnetic_field, 1},
+    {"tesla", magnetic_field, 1},
+    {"uT", magnetic_field, 1e-6},
+    {"nT", magnetic_field, 1e-9},
+    {"gauss", magnetic_field, 1e-4},
 };
 
 struct Named {
@@ -107,7 +107,7 @@ struct Named {
   const char* name;
   const char* examples;
 };
-constexpr Named names[] = {
+constexpr Named unit_names[] = {
     {none, "a plain number", "no unit, or %"},
     {length, "a length", "m, cm, mm, km, ft, in, nmi"},
     {area, "an area", "m^2"},
@@ -130,7 +130,7 @@ constexpr Named names[] = {
     {current, "a current", "A, mA"},
     {charge, "an electric charge", "Ah, mAh"},
     {resistance, "a resistance", "ohm, mohm"},
-    {field, "a magnetic field", "T, uT, nT, gauss"},
+    {magnetic_field, "a magnetic field", "T, uT, nT, gauss"},
 };
 
 const Symbol* find_symbol(std::string_view name) {
@@ -236,7 +236,7 @@ class UnitParser {
 };
 
 const Named* named(const PhysicalUnit& unit) {
-  for (const Named& entry : names)
+  for (const Named& entry : unit_names)
     if (entry.dimension == unit.dimension) return &entry;
   return nullptr;
 }

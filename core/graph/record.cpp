@@ -20,7 +20,7 @@ void put(std::byte* at, T value) {
 }
 
 /// How one value is written: the unit it inherits, whether the key left the unit out, and its name for faults.
-struct Place {
+struct RecordPlace {
   std::string path;
   std::string unit;
   UnitRule rule = UnitRule::optional;
@@ -30,7 +30,7 @@ class Filler {
  public:
   explicit Filler(Report& report) : report_(report) {}
 
-  void fill_struct(const Type& type, const Node& node, std::byte* data, const Place& place, const std::vector<std::string>& also) {
+  void fill_struct(const Type& type, const Node& node, std::byte* data, const RecordPlace& place, const std::vector<std::string>& also) {
     if (node.is(Node::Kind::sequence) && is_tuple(type)) return fill_tuple(type, node, data, place);
     if (!node.is(Node::Kind::map))
       return fault(node, place.path, "expected a map with the fields of " + type.name + ", found " + found_words(node));
@@ -49,7 +49,7 @@ class Filler {
     }
   }
 
-  void fill_field(const Field& field, const Node& node, std::byte* at, const Place& place) {
+  void fill_field(const Field& field, const Node& node, std::byte* at, const RecordPlace& place) {
     if (field.shape == FULMAR_SCALAR) return fill_element(field, node, at, place);
     const bool list = field.shape == FULMAR_LIST;
     if (!node.is(Node::Kind::sequence))
@@ -74,7 +74,7 @@ class Filler {
                                               [](const Field& field) { return field.kind == FULMAR_F64 && field.shape == FULMAR_SCALAR; });
   }
 
-  void fill_tuple(const Type& type, const Node& node, std::byte* data, const Place& place) {
+  void fill_tuple(const Type& type, const Node& node, std::byte* data, const RecordPlace& place) {
     std::vector<std::string> names;
     for (const Field& field : type.fields) names.push_back(field.name);
     if (node.items.size() != names.size())
@@ -85,7 +85,7 @@ class Filler {
       fill_element(type.fields[i], node.items[i], data + type.fields[i].offset, {place.path + "." + names[i], place.unit, place.rule});
   }
 
-  const Field* field_for(const Type& type, const Node::Entry& entry, const Place& place, const std::vector<std::string>& also) {
+  const Field* field_for(const Type& type, const Node::Entry& entry, const RecordPlace& place, const std::vector<std::string>& also) {
     if (const Field* field = field_of_key(type, entry.key)) return field;
     std::vector<std::string> names, shorter, same;
     for (const Field& field : type.fields) {
@@ -105,7 +105,7 @@ class Filler {
     return nullptr;
   }
 
-  void fill_element(const Field& field, const Node& node, std::byte* at, const Place& place) {
+  void fill_element(const Field& field, const Node& node, std::byte* at, const RecordPlace& place) {
     switch (field.kind) {
       case FULMAR_STRUCT:
         return fill_struct(*field.type, node, at, place, {});
@@ -124,7 +124,7 @@ class Filler {
     }
   }
 
-  void fill_enum(const Field& field, const Node& node, std::byte* at, const Place& place) {
+  void fill_enum(const Field& field, const Node& node, std::byte* at, const RecordPlace& place) {
     const auto text = scalar_text(node, place.path, "one of " + join(field.labels), report_);
     if (!text) return;
     const auto it = std::find(field.labels.begin(), field.labels.end(), *text);
@@ -132,7 +132,7 @@ class Filler {
     put(at, static_cast<std::uint8_t>(it - field.labels.begin()));
   }
 
-  void fill_text(const Field& field, const Node& node, std::byte* at, const Place& place) {
+  void fill_text(const Field& field, const Node& node, std::byte* at, const RecordPlace& place) {
     if (!node.is(Node::Kind::scalar)) return fault(node, place.path, "expected text, found " + found_words(node));
     if (node.text.size() >= field.stride)
       return fault(node, place.path,
@@ -141,7 +141,7 @@ class Filler {
     std::memcpy(at, node.text.data(), node.text.size());
   }
 
-  void fill_float(const Field& field, const Node& node, std::byte* at, const Place& place) {
+  void fill_float(const Field& field, const Node& node, std::byte* at, const RecordPlace& place) {
     if (!node.is(Node::Kind::scalar))
       return fault(node, place.path, "expected a number" + unit_words(place.unit) + ", found " + found_words(node));
     try {
@@ -174,7 +174,7 @@ class Filler {
     put(at, static_cast<T>(value));
   }
 
-  void fill_integer(const Field& field, const Node& node, std::byte* at, const Place& place) {
+  void fill_integer(const Field& field, const Node& node, std::byte* at, const RecordPlace& place) {
     if (!node.is(Node::Kind::scalar)) return fault(node, place.path, "expected a whole number, found " + found_words(node));
     try {
       const Quantity quantity = parse_quantity(node.text);

@@ -14,7 +14,7 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::string_view owner("GNU\0", 4);
+constexpr std::string_view note_owner("GNU\0", 4);
 
 // Notes are padded to 4 bytes, whatever the word size: so do gcc and clang write the build id.
 std::uint64_t padded(std::uint32_t size) { return (std::uint64_t{size} + 3) & ~std::uint64_t{3}; }
@@ -35,7 +35,7 @@ std::string build_id_in_notes(std::span<const std::byte> notes) {
   while (read_header(notes, 0, note)) {
     const std::uint64_t name = sizeof note, content = name + padded(note.n_namesz), end = content + padded(note.n_descsz);
     if (content + note.n_descsz > notes.size()) return "";
-    if (note.n_type == NT_GNU_BUILD_ID && note.n_namesz == owner.size() && std::memcmp(notes.data() + name, owner.data(), 4) == 0)
+    if (note.n_type == NT_GNU_BUILD_ID && note.n_namesz == note_owner.size() && std::memcmp(notes.data() + name, note_owner.data(), 4) == 0)
       return hex(notes.subspan(static_cast<std::size_t>(content), note.n_descsz));
     if (end > notes.size()) return "";
     notes = notes.subspan(static_cast<std::size_t>(end));

@@ -14,17 +14,17 @@
 namespace fulmar::core {
 namespace {
 
-constexpr int deepest = 16;
-constexpr std::size_t most_fields = 20'000;  // of a definition, nested ones counted each time
+constexpr int deepest_table = 16;
+constexpr std::size_t most_table_fields = 20'000;  // of a definition, nested ones counted each time
 
 // ---- the definition ------------------------------------------------------------------------------------------------------------
 
-const std::map<std::string_view, RosKind> primitives{
+const std::map<std::string_view, RosKind> cell_kinds{
     {"bool", RosKind::flag},  {"byte", RosKind::u8},     {"char", RosKind::u8},     {"int8", RosKind::i8},    {"uint8", RosKind::u8},
     {"int16", RosKind::i16},  {"uint16", RosKind::u16},  {"int32", RosKind::i32},   {"uint32", RosKind::u32}, {"int64", RosKind::i64},
     {"uint64", RosKind::u64}, {"float32", RosKind::f32}, {"float64", RosKind::f64}, {"string", RosKind::text}};
 
-std::string_view trimmed(std::string_view s) {
+std::string_view stripped(std::string_view s) {
   const std::size_t first = s.find_first_not_of(" \t\r");
   if (first == std::string_view::npos) return {};
   return s.substr(first, s.find_last_not_of(" \t\r") - first + 1);
@@ -56,11 +56,11 @@ class Definition {
     sections_[section];
     while (!text.empty()) {
       const std::size_t end = text.find('\n');
-      const std::string_view line = trimmed(text.substr(0, end));
+      const std::string_view line = stripped(text.substr(0, end));
       text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
       if (line.starts_with("====")) continue;
       if (line.starts_with("MSG:")) {
-        section = short_name(trimmed(line.substr(4)));
+        section = short_name(stripped(line.substr(4)));
       } else if (!line.empty() && line[0] != '#') {
         sections_[section].push_back(line);
       }
@@ -70,7 +70,7 @@ class Definition {
   void structure(const std::string& name, RosField& made, int depth) {
     const auto section = sections_.find(name);
     if (section == sections_.end()) throw Error("the definition of " + name + " is missing");
-    if (depth > deepest) throw Error(name + " is nested too deeply, or holds itself");
+    if (depth > deepest_table) throw Error(name + " is nested too deeply, or holds itself");
     made.kind = RosKind::structure;
     std::vector<std::pair<std::int64_t, std::string>> constants;
     for (const std::string_view line : section->second) add_line(line, name, made, constants, depth);
@@ -81,19 +81,19 @@ class Definition {
   void add_line(std::string_view line, const std::string& owner, RosField& made,
                 std::vector<std::pair<std::int64_t, std::string>>& constants, int depth) {
     const std::string_view type = line.substr(0, line.find_first_of(" \t"));
-    std::string_view rest = trimmed(line.substr(type.size()));
+    std::string_view rest = stripped(line.substr(type.size()));
     const std::size_t equals = rest.find('='), note = rest.find('#');
     if (equals < note) {
       std::int64_t value = 0;
-      const std::string_view digits = trimmed(rest.substr(equals + 1, note == std::string_view::npos ? note : note - equals - 1));
-      if (read_number(digits, value)) constants.emplace_back(value, small(trimmed(rest.substr(0, equals))));
+      const std::string_view digits = stripped(rest.substr(equals + 1, note == std::string_view::npos ? note : note - equals - 1));
+      if (read_number(digits, value)) constants.emplace_back(value, small(stripped(rest.substr(0, equals))));
       return;
     }
-    rest = trimmed(rest.substr(0, note));
+    rest = stripped(rest.substr(0, note));
     RosField field;
     field.name = std::string(rest.substr(0, rest.find_first_of(" \t")));  // a default value may follow
     if (field.name.empty() || field.name.size() > 256) throw Error(owner + ": '" + std::string(line) + "' is no field");
-    if (++fields_ > most_fields) throw Error(owner + " has too many fields");
+    if (++fields_ > most_table_fields) throw Error(owner + " has too many fields");
     kind(type, owner, field, depth);
     if (field.kind != RosKind::structure && field.kind != RosKind::text && field.kind < RosKind::f32)
       field.labels = labels(constants, field);
@@ -111,7 +111,7 @@ class Definition {
       if (type.back() != ']' || !counted) throw Error(owner + ": '" + std::string(type) + "' is no type");
     }
     if (element.starts_with("string<=")) element = "string";
-    if (const auto known = primitives.find(element); known != primitives.end()) {
+    if (const auto known = cell_kinds.find(element); known != cell_kinds.end()) {
       field.kind = known->second;
     } else if (const std::string full = resolve(element, owner); !full.empty()) {
       structure(full, field, depth + 1);
@@ -151,11 +151,11 @@ std::size_t size_of(RosKind kind) {
   return sizes[static_cast<std::size_t>(kind)];
 }
 
-struct Bytes {
+struct CdrBytes {
   std::span<const std::byte> data;
   std::size_t at = cdr_header_bytes;
 
-  explicit Bytes(std::span<const std::byte> message) : data(message) {
+  explicit CdrBytes(std::span<const std::byte> message) : data(message) {
     if (message.size() < cdr_header_bytes) throw Error("a message is too short");
     const auto form = static_cast<unsigned>(message[0]) << 8 | static_cast<unsigned>(message[1]);
     if (form != 1) throw Error("a message has the encapsulation " + std::to_string(form) + "; only 1, plain little-endian CDR, is read");
@@ -182,7 +182,7 @@ struct Bytes {
   }
 };
 
-Cell value(const RosField& f, Bytes& in) {
+Cell value(const RosField& f, CdrBytes& in) {
   Cell cell;
   const auto whole = [&](std::int64_t x) { cell.kind = Cell::Kind::whole, cell.whole = x; };
   const auto natural = [&](std::uint64_t x) { cell.kind = Cell::Kind::natural, cell.natural = x; };
@@ -215,7 +215,7 @@ Cell value(const RosField& f, Bytes& in) {
   return cell.kind = Cell::Kind::text, cell.text = in.text(), cell;
 }
 
-void measure_field(RosField& f, Bytes& in) {
+void measure_field(RosField& f, CdrBytes& in) {
   std::uint32_t n = f.count;
   if (f.shape == RosField::Shape::list) n = in.number<std::uint32_t>();
   if (f.kind < RosKind::text) {
@@ -252,7 +252,7 @@ void name_columns(const RosField& f, const std::string& name, bool in_list, std:
 }
 
 /// Fills the field's cells from `to` on.
-void decode_field(const RosField& f, Bytes& in, Cell* to) {
+void decode_field(const RosField& f, CdrBytes& in, Cell* to) {
   std::uint32_t n = f.count;
   if (f.shape == RosField::Shape::list) {
     n = in.number<std::uint32_t>();
@@ -284,7 +284,7 @@ RosField parse_ros2msg(const std::string& name, const std::string& text) {
 }
 
 void measure(RosField& root, std::span<const std::byte> message) {
-  Bytes in(message);
+  CdrBytes in(message);
   for (RosField& f : root.fields) measure_field(f, in);
   in.finish();
 }
@@ -298,7 +298,7 @@ std::vector<Column> lay_out(RosField& root, std::size_t most) {
 
 void decode(const RosField& root, std::span<const std::byte> message, std::vector<Cell>& row) {
   row.assign(root.width, Cell{});
-  Bytes in(message);
+  CdrBytes in(message);
   Cell* to = row.data();
   for (const RosField& f : root.fields) {
     decode_field(f, in, to);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "tools/fulmar_fcu/app.hpp"
 #include "tools/fulmar_fcu/calibrate.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
 #include <cstdio>
 
 #include "tools/fulmar_fcu/app.hpp"
@@ -10,40 +11,40 @@ namespace fulmar::fcu {
 
 namespace {
 
-constexpr double micro = 1e-6;
-const std::array<const char*, 12> names{"MAG_CAL_A00", "MAG_CAL_A01", "MAG_CAL_A02", "MAG_CAL_A10", "MAG_CAL_A11", "MAG_CAL_A12",
+constexpr double microtesla = 1e-6;
+const std::array<const char*, 12> correction_names{"MAG_CAL_A00", "MAG_CAL_A01", "MAG_CAL_A02", "MAG_CAL_A10", "MAG_CAL_A11", "MAG_CAL_A12",
                                         "MAG_CAL_A20", "MAG_CAL_A21", "MAG_CAL_A22", "MAG_X_BIAS",  "MAG_Y_BIAS",  "MAG_Z_BIAS"};
 
 struct Correction {
-  Eigen::Matrix3d A = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  Matrix3 A = identity3;
+  Vector3 b{};
 };
 
 Correction correction_of(const std::vector<Param>& params) {
   Correction c;
-  for (Eigen::Index i = 0; i < 9; ++i) c.A(i / 3, i % 3) = params[static_cast<std::size_t>(i)].number();
-  for (Eigen::Index i = 0; i < 3; ++i) c.b(i) = params[static_cast<std::size_t>(9 + i)].number();
+  for (std::size_t i = 0; i < 9; ++i) c.A[i / 3][i % 3] = params[i].number();
+  for (std::size_t i = 0; i < 3; ++i) c.b[i] = params[9 + i].number();
   return c;
 }
 
 std::string text_of(const EllipsoidFit& fit, std::size_t samples) {
-  std::string out = std::to_string(samples) + " samples. Field " + fixed(fit.field / micro, 1) + " uT, hard iron " +
-                    fixed(fit.bias.x() / micro, 1) + " " + fixed(fit.bias.y() / micro, 1) + " " + fixed(fit.bias.z() / micro, 1) +
+  std::string out = std::to_string(samples) + " samples. Field " + fixed(fit.field / microtesla, 1) + " uT, hard iron " +
+                    fixed(fit.bias[0] / microtesla, 1) + " " + fixed(fit.bias[1] / microtesla, 1) + " " + fixed(fit.bias[2] / microtesla, 1) +
                     " uT, axes differ by a factor of " + fixed(fit.stretch_ratio, 2) + ",\nscatter " + fixed(100 * fit.residual_ratio, 1) +
                     " %, covered " + fixed(100 * fit.coverage_ratio, 0) + " % of all directions, known to " +
                     fixed(100 * fit.uncertainty_ratio, 1) + " %.\n";
   return out;
 }
 
-EllipsoidFit judged(const std::vector<Eigen::Vector3d>& samples) {
+EllipsoidFit judged(const std::vector<Vector3>& samples) {
   const EllipsoidFit fit = fit_ellipsoid(samples);
   if (fit.ok()) std::printf("%s", text_of(fit, samples.size()).c_str());
-  if (const std::string fault = objection(fit, micro); !fault.empty()) throw Error(fault);
+  if (const std::string fault = objection(fit, microtesla); !fault.empty()) throw Error(fault);
   return fit;
 }
 
 /// Listens until all six sides are done.
-std::vector<Eigen::Vector3d> collect(Client& client, const Correction& old) {
+std::vector<Vector3> collect(Client& client, const Correction& old) {
   MagGuide guide;
   std::int64_t progress_ns = client.now_ns();
   std::size_t kept = 0;
@@ -75,17 +76,17 @@ std::vector<Eigen::Vector3d> collect(Client& client, const Correction& old) {
 
 void set_all(Client& client, const std::vector<Param>& before, const EllipsoidFit& fit) {
   std::array<double, 12> values{};
-  for (Eigen::Index i = 0; i < 9; ++i) values[static_cast<std::size_t>(i)] = fit.shape(i / 3, i % 3);
-  for (Eigen::Index i = 0; i < 3; ++i) values[static_cast<std::size_t>(9 + i)] = fit.bias(i);
+  for (std::size_t i = 0; i < 9; ++i) values[i] = fit.shape[i / 3][i % 3];
+  for (std::size_t i = 0; i < 3; ++i) values[9 + i] = fit.bias[i];
   for (std::size_t i = 0; i < before.size(); ++i) {
     client.refuse_armed("changing its parameters");
     set_param(client, before[i], std::bit_cast<std::uint32_t>(static_cast<float>(values[i])));
   }
-  const std::vector<Param> after = read_some(client, {names.begin(), names.end()});
+  const std::vector<Param> after = read_some(client, {correction_names.begin(), correction_names.end()});
   for (std::size_t i = 0; i < after.size(); ++i)
     if (after[i].bits != std::bit_cast<std::uint32_t>(static_cast<float>(values[i])))
       throw Error(after[i].name + " did not take its value: try again.");
-  if (after.size() != names.size()) throw Error(client.name() + " did not answer when the parameters were read back: try again.");
+  if (after.size() != correction_names.size()) throw Error(client.name() + " did not answer when the parameters were read back: try again.");
 }
 
 }  // namespace
@@ -98,15 +99,15 @@ int try_mag_file(const Options&, const HardwareOptions& what) {
 
 int calibrate_mag(Client& client, const Options& options, const HardwareOptions& what) {
   client.refuse_armed("the magnetometer calibration");
-  const std::vector<Param> before = read_some(client, {names.begin(), names.end()});
-  if (before.size() != names.size()) throw Error(client.name() + " does not tell its MAG_ parameters: the calibration was not begun.");
+  const std::vector<Param> before = read_some(client, {correction_names.begin(), correction_names.end()});
+  if (before.size() != correction_names.size()) throw Error(client.name() + " does not tell its MAG_ parameters: the calibration was not begun.");
   const Correction old = correction_of(before);
-  if (what.file.empty() && !(std::fabs(old.A.determinant()) > 1e-6))
+  if (what.file.empty() && !(std::fabs(determinant(old.A)) > 1e-6))
     throw Error("The MAG_CAL_A parameters are no sound matrix: set the identity first.");
   if (what.file.empty() && !on_terminal()) throw Error("The aircraft is turned by hand, which takes a terminal; or use --from FILE.csv.");
   if (what.file.empty())
     std::printf("Take the aircraft outside, away from iron. Lay it on each of six sides, and turn it once around the vertical on each.\n");
-  const std::vector<Eigen::Vector3d> samples = what.file.empty() ? collect(client, old) : read_samples(what.file);
+  const std::vector<Vector3> samples = what.file.empty() ? collect(client, old) : read_samples(what.file);
   if (!what.record.empty()) write_param_file(what.record, samples_text(samples), false);
   const EllipsoidFit fit = judged(samples);
   if (what.dry_run) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/fulmar_fcu/mag_fit.hpp"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <numbers>
 #include <sstream>
@@ -16,26 +18,36 @@ namespace {
 constexpr std::array<const char*, MagGuide::sides> side_words{"nose down",     "nose up",         "left wing up",
                                                               "right wing up", "upright (level)", "upside down"};
 
+double dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vector3 cross(const Vector3& a, const Vector3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+Vector3 column(const Matrix3& A, std::size_t i) { return {A[0][i], A[1][i], A[2][i]}; }
+
 std::string percent(double ratio) { return fixed(100 * ratio, 1) + " %"; }
 
-bool three_numbers(std::string line, Eigen::Vector3d& out) {
+bool three_numbers(std::string line, Vector3& out) {
   for (char& c : line)
     if (c == ',' || c == ';' || c == '\t' || c == '\r') c = ' ';
   std::istringstream words(line);
   std::string word;
-  for (int i = 0; i < 3; ++i) {
+  for (double& number : out) {
     if (!(words >> word)) return false;
-    const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), out(i));
-    if (code != std::errc{} || end != word.data() + word.size() || !std::isfinite(out(i))) return false;
+    const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (code != std::errc{} || end != word.data() + word.size() || !std::isfinite(number)) return false;
   }
   return !(words >> word);
 }
 
 }  // namespace
 
-Eigen::Vector3d uncorrected(const Eigen::Vector3d& reported, const Eigen::Matrix3d& A, const Eigen::Vector3d& b) {
-  return A.fullPivLu().solve(reported) + b;
+Vector3 uncorrected(const Vector3& reported, const Matrix3& A, const Vector3& b) {
+  const Vector3 x = column(A, 0), y = column(A, 1), z = column(A, 2), yz = cross(y, z);
+  const double size = dot(x, yz);  // Cramer's rule
+  return {dot(reported, yz) / size + b[0], dot(reported, cross(z, x)) / size + b[1], dot(reported, cross(x, y)) / size + b[2]};
 }
+
+double determinant(const Matrix3& A) { return dot(A[0], cross(A[1], A[2])); }
 
 std::string objection(const EllipsoidFit& fit, double micro) {
   if (!fit.ok()) return "No calibration: " + fit.fault + ". Turn the aircraft all ways, away from iron and cables.";
@@ -57,13 +69,13 @@ std::string objection(const EllipsoidFit& fit, double micro) {
   return "";
 }
 
-std::vector<Eigen::Vector3d> read_samples(const std::string& path) {
+std::vector<Vector3> read_samples(const std::string& path) {
   std::ifstream file(path);
   if (!file) throw core::Error(path + " cannot be read.");
-  std::vector<Eigen::Vector3d> out;
+  std::vector<Vector3> out;
   std::string line;
   for (int n = 1; std::getline(file, line); ++n) {
-    Eigen::Vector3d m;
+    Vector3 m{};
     if (line.empty() || line[0] == '#') continue;
     if (three_numbers(line, m))
       out.push_back(m);
@@ -73,30 +85,32 @@ std::vector<Eigen::Vector3d> read_samples(const std::string& path) {
   return out;
 }
 
-std::string samples_text(const std::vector<Eigen::Vector3d>& samples) {
+std::string samples_text(const std::vector<Vector3>& samples) {
   std::ostringstream out;
   out.precision(9);
   out << "x_tesla,y_tesla,z_tesla\n";
-  for (const Eigen::Vector3d& m : samples) out << m.x() << "," << m.y() << "," << m.z() << "\n";
+  for (const Vector3& m : samples) out << m[0] << "," << m[1] << "," << m[2] << "\n";
   return out.str();
 }
 
-void MagGuide::turn(const Eigen::Vector3d& accel, const Eigen::Vector3d& gyro, double dt_s) {
-  const double g = accel.norm();
-  int axis = 0;
-  const double most_of = accel.cwiseAbs().maxCoeff(&axis);
-  if (std::fabs(g - 9.81) > 1.5 || most_of < 0.9 * g) {
+void MagGuide::turn(const Vector3& accel, const Vector3& gyro, double dt_s) {
+  const double g = std::sqrt(dot(accel, accel));
+  std::size_t axis = 0;
+  for (const std::size_t i : {1u, 2u})
+    if (std::fabs(accel[i]) > std::fabs(accel[axis])) axis = i;
+  if (std::fabs(g - 9.81) > 1.5 || std::fabs(accel[axis]) < 0.9 * g) {
     side_ = -1;
     return;
   }
   // at rest the accelerometer shows what is up: +x nose up, +y right wing up, +z upside down
   static constexpr std::array<std::array<int, 2>, 3> side_of{{{0, 1}, {2, 3}, {4, 5}}};
-  side_ = side_of[static_cast<std::size_t>(axis)][accel(axis) > 0 ? 1 : 0];
-  if (dt_s > 0 && dt_s < 0.5) angle_rad_ += gyro.dot(accel / g) * dt_s;
+  side_ = side_of[axis][accel[axis] > 0 ? 1 : 0];
+  if (dt_s > 0 && dt_s < 0.5) angle_rad_ += dot(gyro, accel) / g * dt_s;
 }
 
-void MagGuide::take(const Eigen::Vector3d& m) {
-  if (side_ < 0 || !m.allFinite()) return;
+void MagGuide::take(const Vector3& m) {
+  const bool finite = std::isfinite(m[0]) && std::isfinite(m[1]) && std::isfinite(m[2]);
+  if (side_ < 0 || !finite) return;
   const double turn = angle_rad_ / (2 * std::numbers::pi);
   const auto part = static_cast<std::size_t>((turn - std::floor(turn)) * parts) % parts;
   int& n = count_[static_cast<std::size_t>(side_)][part];

@@ -25,18 +25,18 @@ double value(const std::vector<Param>& params, const std::string& name) {
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 bool used(double gain) { return std::fabs(gain) > 1e-6; }
 
-std::string padded(std::string text, std::size_t width) { return std::string(text.size() < width ? width - text.size() : 0, ' ') + text; }
+std::string right_aligned(std::string text, std::size_t width) { return std::string(text.size() < width ? width - text.size() : 0, ' ') + text; }
 
 void put_matrix(std::string& out, const Matrix& matrix, const char* title) {
-  out += std::string(title) + "\n" + padded("output", 12);
-  for (int j = 0; j < 10; ++j) out += padded(std::to_string(j), 7);
+  out += std::string(title) + "\n" + right_aligned("output", 12);
+  for (int j = 0; j < 10; ++j) out += right_aligned(std::to_string(j), 7);
   out += "\n";
   for (int i = 0; i < 10; ++i) {
     const bool any = std::any_of(matrix[at(i)].begin(), matrix[at(i)].end(), used);
     const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.command == i; });
     if (!any && row == rows.end()) continue;
-    out += padded(row == rows.end() ? "u[" + std::to_string(i) + "]" : row->name, 12);
-    for (const double gain : matrix[at(i)]) out += padded(used(gain) ? fixed(gain, 2) : ".", 7);
+    out += right_aligned(row == rows.end() ? "u[" + std::to_string(i) + "]" : row->name, 12);
+    for (const double gain : matrix[at(i)]) out += right_aligned(used(gain) ? fixed(gain, 2) : ".", 7);
     out += "\n";
   }
 }
@@ -140,8 +140,8 @@ std::string mixer_text(const Mixer& m) {
   for (int j = 0; j < 10; ++j) {
     std::string kind = kinds[static_cast<std::size_t>(m.kind[at(j)])];
     kind.resize(7, ' ');
-    out += padded(std::to_string(j), 6) + "  " + kind +
-           padded(m.kind[at(j)] == OutputKind::none ? "" : fixed(m.rate_hz[at(j)], 0) + " Hz", 7) + "  " + output_words(m, j) + "\n";
+    out += right_aligned(std::to_string(j), 6) + "  " + kind +
+           right_aligned(m.kind[at(j)] == OutputKind::none ? "" : fixed(m.rate_hz[at(j)], 0) + " Hz", 7) + "  " + output_words(m, j) + "\n";
   }
   out += "\n";
   put_matrix(out, m.primary, "primary matrix");

@@ -29,14 +29,13 @@ void watch(Client& client) {
         "No radio frames come: without them the firmware moves nothing. Switch the transmitter on, and look at 'fulmar fcu status'.");
 }
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 void note(const Client& client, std::vector<Moved>& moved) {
   const auto raw = client.last<RosflightOutputRaw>();
   if (!raw || client.age_s<RosflightOutputRaw>() > 0.1) return;
   for (Moved& m : moved) {
-    m.low = std::min(m.low, static_cast<double>(raw->values[at(m.output)]));
-    m.high = std::max(m.high, static_cast<double>(raw->values[at(m.output)]));
+    m.low = std::min(m.low, static_cast<double>(raw->values[static_cast<std::size_t>(m.output)]));
+    m.high = std::max(m.high, static_cast<double>(raw->values[static_cast<std::size_t>(m.output)]));
   }
 }
 

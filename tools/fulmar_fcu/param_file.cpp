@@ -47,7 +47,7 @@ void refuse_twice(const std::vector<FileParam>& list, core::Report& report) {
         report.add(list[i].where, list[i].name + " stands twice in this file, first in line " + std::to_string(list[j].where.line));
 }
 
-std::string padded(std::string text, std::size_t width) {
+std::string left_aligned(std::string text, std::size_t width) {
   if (text.size() < width) text.append(width - text.size(), ' ');
   return text;
 }
@@ -74,7 +74,7 @@ std::string param_file_text(const std::vector<Param>& params, const std::string&
   std::string out = "# Parameters of a ROSflight flight controller" + (version.empty() ? "" : ", firmware " + version) +
                     ". Load: fulmar fcu params load FILE.\n# Behind each value: its index and type.\n";
   for (const Param& param : params)
-    out += padded(param.name + ": " + param.text(), 34) + " # " + std::to_string(param.index) + (param.whole ? " int\n" : " float\n");
+    out += left_aligned(param.name + ": " + param.text(), 34) + " # " + std::to_string(param.index) + (param.whole ? " int\n" : " float\n");
   return out;
 }
 
@@ -130,8 +130,8 @@ std::vector<Change> changes(const std::vector<FileParam>& file, const std::vecto
 }
 
 std::string changes_text(const std::vector<Change>& list) {
-  std::string out = padded("parameter", 18) + padded("controller", 16) + "file\n";
-  for (const Change& change : list) out += padded(change.now.name, 18) + padded(change.now.text(), 16) + change.wanted() + "\n";
+  std::string out = left_aligned("parameter", 18) + left_aligned("controller", 16) + "file\n";
+  for (const Change& change : list) out += left_aligned(change.now.name, 18) + left_aligned(change.now.text(), 16) + change.wanted() + "\n";
   return out;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/fulmar_fcu/status.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "tools/fulmar_fcu/words.hpp"
@@ -151,7 +153,7 @@ std::string status_text(const Client& client, const Meter& meter) {
   return out;
 }
 
-nlohmann::json status_json(const Client& client, const Meter& meter) {
+std::string status_json(const Client& client, const Meter& meter) {
   nlohmann::json out{{"port", client.name()}, {"version", client.version().empty() ? nlohmann::json() : nlohmann::json(client.version())}};
   if (const auto s = client.last<RosflightStatus>()) {
     out["armed"] = s->armed != 0;
@@ -173,7 +175,9 @@ nlohmann::json status_json(const Client& client, const Meter& meter) {
   }
   for (const Kind& kind : kinds) out["rates_hz"][kind.name] = meter.rate(client, kind.id);
   out["link"] = {{"kB_per_s", meter.bytes_per_s(client) / 1000}, {"loss_ratio", meter.loss_ratio(client)}};
-  return out;
+  return out.dump(1);
 }
+
+std::string version_json(const Client& client) { return nlohmann::json{{"version", client.version()}}.dump(1); }
 
 }  // namespace fulmar::fcu

@@ -2,7 +2,6 @@
 // What a controller says of itself, for people and as JSON.
 #pragma once
 #include <array>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "tools/fulmar_fcu/client.hpp"
@@ -33,6 +32,8 @@ std::string control_words(const RosflightStatus& status, double rc_age_s);
 
 /// Several lines, each "what   value".
 std::string status_text(const Client& client, const Meter& meter);
-nlohmann::json status_json(const Client& client, const Meter& meter);
+/// One JSON object, indented.
+std::string status_json(const Client& client, const Meter& meter);
+std::string version_json(const Client& client);
 
 }  // namespace fulmar::fcu

@@ -10,7 +10,7 @@ namespace {
 
 void print(const Client& client, const Meter& meter, const Options& options) {
   if (options.json)
-    std::printf("%s\n", status_json(client, meter).dump(1).c_str());
+    std::printf("%s\n", status_json(client, meter).c_str());
   else
     std::printf("%s", status_text(client, meter).c_str());
   std::fflush(stdout);
@@ -41,7 +41,7 @@ int version_command(Client& client, const Options& options) {
     throw Error(client.armed() ? "The aircraft is armed: the controller tells its version only while disarmed."
                                : "The controller refuses to tell its version.");
   if (options.json)
-    std::printf("%s\n", nlohmann::json{{"version", client.version()}}.dump(1).c_str());
+    std::printf("%s\n", version_json(client).c_str());
   else
     std::printf("%s\n", client.version().c_str());
   return 0;

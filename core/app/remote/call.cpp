@@ -3,6 +3,7 @@
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "core/app/remote/commands.hpp"
 #include "core/app/remote/session.hpp"

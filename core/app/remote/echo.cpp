@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "core/app/remote/commands.hpp"
@@ -24,7 +25,7 @@ class Echo {
       for (const PortField& p : ports_)
         if (p.topic != ports_[0].topic)
           throw Error("--csv takes fields of one port; " + p.label + " is of another than " + ports_[0].label);
-    epoch_ns_ = session.view().value("epoch_ns", std::int64_t{0});
+    epoch_ns_ = session.epoch_ns();
     for (const PortField& p : ports_) session.subscribe(p.topic);
   }
 

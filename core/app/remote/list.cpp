@@ -2,6 +2,7 @@
 // `fulmar list`: what flies, what it publishes, what it can be asked.
 #include <cstdio>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "core/app/remote/commands.hpp"
 #include "core/app/remote/ports.hpp"

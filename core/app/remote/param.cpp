@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "core/app/remote/commands.hpp"
 #include "core/app/remote/parameters.hpp"

@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <numbers>
-#include <regex>
 
 #include "core/app/remote/canvas.hpp"
 #include "core/app/remote/commands.hpp"
@@ -27,10 +26,19 @@ struct Curve {
   double factor = 1;  // radians are shown in degrees
 };
 
+/// Whether a name in a path like "rates_radps.roll" or "angles_rad[2]" ends so.
+bool a_name_ends(const std::string& path, const std::string& ending) {
+  for (std::size_t at = path.find(ending); at != std::string::npos; at = path.find(ending, at + 1)) {
+    const std::size_t behind = at + ending.size();
+    if (behind == path.size() || path[behind] == '.' || path[behind] == '[') return true;
+  }
+  return false;
+}
+
 /// "deg/s" of "rates_radps.roll"; "" when no part of the name is of radians.
 std::string degrees_unit(const std::string& field) {
   for (const auto& [ending, unit] : {std::pair{"_rad", "deg"}, std::pair{"_radps", "deg/s"}, std::pair{"_radps2", "deg/s2"}})
-    if (std::regex_search(field, std::regex(std::string(ending) + "(\\.|\\[|$)"))) return unit;
+    if (a_name_ends(field, ending)) return unit;
   return "";
 }
 
@@ -67,7 +75,7 @@ class Plot {
   Plot(Session& session, const PlotOptions& options)
       : session_(session), seconds_(options.seconds), series_(options.fields.size()), live_(isatty(STDOUT_FILENO) != 0) {
     for (std::size_t i = 0; i < options.fields.size(); ++i) curves_.push_back(find_curve(session, options.fields[i], series_[i]));
-    epoch_ns_ = session.view().value("epoch_ns", std::int64_t{0});
+    epoch_ns_ = session.epoch_ns();
     for (const Curve& curve : curves_) session.subscribe(curve.port.topic);
   }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/app/remote/session.hpp"
 
+#include <algorithm>
 #include <cstring>
+#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "core/tap/ros_parse.hpp"
@@ -39,6 +41,7 @@ const json& list_of(const json& object, const char* key) {
 }  // namespace
 
 Session::Session(const LiveAddress& target, Milliseconds patience) : client_(target, patience), at_(target.text()), patience_(patience) {}
+Session::~Session() = default;
 
 // ---- what the flight says -------------------------------------------------------------------------------------------------------
 
@@ -56,7 +59,7 @@ void Session::handle_text(const std::string& text) {
     services_known_ = true;
   } else if (op == "serviceCallFailure" && number_of(message, "callId") == calls_) {
     failure_ = text_of(message, "message");
-    answer_ = json(nullptr);
+    answer_ = std::make_unique<json>();
   }
 }
 
@@ -73,8 +76,8 @@ void Session::handle_binary(const std::string& bytes) {
   } else if (op == service_response && bytes.size() >= answer_header && read_le<std::uint32_t>(bytes, 5) == calls_) {
     const std::size_t encoding = read_le<std::uint32_t>(bytes, 9);
     if (encoding > bytes.size() - answer_header) return;
-    answer_ = json::parse(bytes.substr(answer_header + encoding), nullptr, false);
-    if (answer_->is_discarded()) answer_ = json(nullptr), failure_ = "the answer is no JSON";
+    answer_ = std::make_unique<json>(json::parse(bytes.substr(answer_header + encoding), nullptr, false));
+    if (answer_->is_discarded()) *answer_ = json(nullptr), failure_ = "the answer is no JSON";
   }
 }
 
@@ -150,7 +153,7 @@ json Session::call(const std::string& service, const json& request) {
   bytes += encoding + request.dump();
   answer_.reset(), failure_.clear();
   client_.send_binary(bytes);
-  pump_until([this] { return answer_.has_value(); }, "answer");
+  pump_until([this] { return answer_ != nullptr; }, "answer");
   if (!failure_.empty()) throw Error(failure_);
   return *std::move(answer_);
 }
@@ -168,5 +171,7 @@ json Session::view() {
   if (!answer.is_object()) throw Error("the flight on " + at_ + " does not say what it is");
   return answer;
 }
+
+std::int64_t Session::epoch_ns() { return view().value("epoch_ns", std::int64_t{0}); }
 
 }  // namespace fulmar::core

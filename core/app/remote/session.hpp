@@ -4,7 +4,8 @@
 #include <chrono>
 #include <cstdint>
 #include <map>
-#include <nlohmann/json.hpp>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ class Session {
   using Milliseconds = std::chrono::milliseconds;
 
   explicit Session(const LiveAddress& target, Milliseconds patience = std::chrono::seconds(5));
+  ~Session();
 
   struct Channel {
     std::uint32_t id = 0;
@@ -32,6 +34,8 @@ class Session {
 
   /// What the flight is, as /fulmar/view answers.
   json view();
+  /// Of that: the time that samples are stamped with, at the begin of the flight.
+  std::int64_t epoch_ns();
   /// Calls a service and returns its answer. Throws Error when there is no such service or the flight refuses to hear of it.
   json call(const std::string& service, const json& request);
   /// Whether accepted; the reason when not.
@@ -69,7 +73,7 @@ class Session {
   std::vector<Sample> samples_;
   std::size_t taken_ = 0;
   std::uint32_t calls_ = 0;
-  std::optional<json> answer_;  // of call number calls_
+  std::unique_ptr<json> answer_;  // of call number calls_
   std::string failure_;
 };
 

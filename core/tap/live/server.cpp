@@ -5,33 +5,26 @@
 #include <pthread.h>
 #include <signal.h>
 
-#include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/post.hpp>
-#include <boost/asio/steady_timer.hpp>
 #include <chrono>
 #include <thread>
 
 #include "core/tap/live/gate.hpp"
 #include "core/tap/live/page.hpp"
 #include "core/tap/live/session.hpp"
+#include "core/tap/live/websocket.hpp"
 
 namespace fulmar::core {
 namespace {
 
-namespace net = boost::asio;
-using boost::system::error_code;
-using net::ip::tcp;
 using std::chrono::milliseconds;
 
 constexpr milliseconds turn{5}, idle_turn{50}, accept_pause{100}, farewell_limit{1500};
 constexpr std::size_t most_connections = 64;
 
-net::ip::address address_of(const std::string& host) {
-  error_code ec;
+std::string address_of(const std::string& host) {
   const std::string bare = host.starts_with('[') && host.ends_with(']') ? host.substr(1, host.size() - 2) : host;
-  const net::ip::address address = net::ip::make_address(bare == "localhost" ? "127.0.0.1" : bare, ec);
-  if (ec)
+  const std::string address = bare == "localhost" ? "127.0.0.1" : bare;
+  if (!live::Listener::is_address(address))
     throw Error("live.listen: '" + host +
                 "' is no address. Valid: 127.0.0.1 (this computer alone), 0.0.0.0 (all), or one of this computer's.");
   return address;
@@ -40,14 +33,14 @@ net::ip::address address_of(const std::string& host) {
 }  // namespace
 
 struct LiveServer::Impl {
-  // Connections die with `io`, and speak to `hub` and `context` when they do.
+  // Connections die with `loop`, and speak to `hub` and `context` when they do.
   LiveOptions options;
   live::Counters counters;
   live::Hub hub;
   live::Context context;
-  net::io_context io{1};
-  tcp::acceptor acceptor{io};
-  net::steady_timer timer{io}, accept_timer{io}, farewell{io};
+  live::Loop loop;
+  live::Listener listener{loop};
+  live::Timer timer{loop}, accept_timer{loop}, farewell{loop};
   bool stopping = false;
   std::uint16_t port = 0;
   std::thread thread;
@@ -56,7 +49,7 @@ struct LiveServer::Impl {
       : options(checked(o)),
         hub(tap, control, counters),
         context{options, hub, counters, live::page(hub.mission(), tap), [this] { pump(); }, {}} {
-    hub.begin([this] { net::post(io, [this] { hub.answers(); }); });
+    hub.begin([this] { loop.post([this] { hub.answers(); }); });
     listen();
     accept();
     pump();
@@ -64,7 +57,7 @@ struct LiveServer::Impl {
   }
 
   ~Impl() {
-    net::post(io, [this] { stop(); });
+    loop.post([this] { stop(); });
     thread.join();
     hub.close();
   }
@@ -75,36 +68,29 @@ struct LiveServer::Impl {
   }
 
   void listen() {
-    const tcp::endpoint at(address_of(options.host), options.port);
-    const auto refuse = [&](const error_code& ec) {
+    if (const auto refusal = listener.listen(address_of(options.host), options.port)) {
       const std::string where = options.host + ":" + std::to_string(options.port);
-      const bool taken = ec == net::error::address_in_use;
-      throw Error(
-          "live: cannot listen on " + where + ": " + ec.message() +
-          (taken ? ". Another flight may have the port: stop it, or give this one another with live.listen (port 0: any that is free)."
-                 : ". Give an address of this computer with live.listen."));
-    };
-    error_code ec;
-    acceptor.open(at.protocol(), ec);
-    if (!ec) acceptor.set_option(tcp::acceptor::reuse_address(true), ec);
-    if (!ec) acceptor.bind(at, ec);
-    if (!ec) acceptor.listen(net::socket_base::max_listen_connections, ec);
-    if (ec) refuse(ec);
-    port = acceptor.local_endpoint().port();
+      throw Error("live: cannot listen on " + where + ": " + refusal->why +
+                  (refusal->taken
+                       ? ". Another flight may have the port: stop it, or give this one another with live.listen (port 0: any that is "
+                         "free)."
+                       : ". Give an address of this computer with live.listen."));
+    }
+    port = listener.port();
   }
 
   void accept() {
-    acceptor.async_accept([this](error_code ec, tcp::socket socket) {
+    listener.accept([this](std::optional<live::ServerEnd> end) {
       if (stopping) return;
-      if (!ec && context.sessions.size() < most_connections) {
-        live::begin_session(std::move(socket), context);
+      const bool given = end.has_value();
+      if (given && context.sessions.size() < most_connections) {
+        live::begin_session(*std::move(end), loop, context);
       } else {
         ++counters.refused;
       }
-      if (!ec) return accept();
-      accept_timer.expires_after(accept_pause);  // out of file descriptors, most likely
-      accept_timer.async_wait([this](error_code stopped) {
-        if (!stopped) accept();
+      if (given) return accept();
+      accept_timer.start(accept_pause, [this](bool due) {  // out of file descriptors, most likely
+        if (due) accept();
       });
     });
   }
@@ -123,7 +109,7 @@ struct LiveServer::Impl {
   void run() {
     for (;;) {
       try {
-        io.run();
+        loop.run();
         return;
       } catch (const std::exception&) {
         ++counters.refused;
@@ -138,9 +124,8 @@ struct LiveServer::Impl {
 
   /// In place of the one that was to be next.
   void next_turn(milliseconds after) {
-    timer.expires_after(after);
-    timer.async_wait([this](error_code ec) {
-      if (ec || stopping) return;
+    timer.start(after, [this](bool due) {
+      if (!due || stopping) return;
       const bool more = hub.tick();
       next_turn(more ? milliseconds(0) : hub.clients() > 0 ? turn : idle_turn);
     });
@@ -148,25 +133,22 @@ struct LiveServer::Impl {
 
   void stop() {
     stopping = true;
-    error_code ignored;
-    acceptor.close(ignored);
+    listener.close();
     timer.cancel();
     accept_timer.cancel();
     while (hub.tick()) {
     }
     const std::set<live::Session*> all = context.sessions;
     for (live::Session* session : all) session->finish();
-    farewell.expires_after(farewell_limit);
-    farewell.async_wait([this](error_code ec) {
-      if (!ec) io.stop();
+    farewell.start(farewell_limit, [this](bool due) {
+      if (due) loop.stop();
     });
     wait_for_sessions();
   }
 
   void wait_for_sessions() {
     if (context.sessions.empty()) return void(farewell.cancel());
-    timer.expires_after(turn);
-    timer.async_wait([this](error_code) { wait_for_sessions(); });
+    timer.start(turn, [this](bool) { wait_for_sessions(); });
   }
 };
 

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One connection: a plain HTTP request, or a client of the live protocol.
 #pragma once
-#include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
 #include <cstddef>
 #include <functional>
 #include <memory>
 #include <set>
 
 #include "core/tap/live/hub.hpp"
+#include "core/tap/live/websocket.hpp"
 
 namespace fulmar::core::live {
 
@@ -32,6 +31,6 @@ struct Context {
 };
 
 /// Lives as long as it has something to wait for.
-void begin_session(boost::asio::ip::tcp::socket socket, Context& context);
+void begin_session(ServerEnd end, Loop& loop, Context& context);
 
 }  // namespace fulmar::core::live

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "fulmar/random.hpp"
-#include "tools/fulmar_fcu/mag_fit.hpp"
+#include "tools/fulmar_fcu/test/with_eigen.hpp"
 
 namespace ellipsoid_fit_test {
 
@@ -14,7 +14,10 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using fulmar::fcu::fit_ellipsoid;
+using fulmar::fcu::test::fit_ellipsoid;
+using fulmar::fcu::test::plain;
+using fulmar::fcu::test::rows_of;
+using fulmar::fcu::test::with_eigen;
 
 constexpr double field = 48e-6;  // tesla
 
@@ -135,7 +138,8 @@ TEST_CASE("a calibration that is in force is taken off before the fit, and the n
   A0 << 1.2, 0.1, 0, 0.02, 0.9, 0, 0, -0.1, 1.05;
   const Vector3d b0(-4e-6, 9e-6, 2e-6);
   const Vector3d raw = sensor.read(Vector3d(1, 2, 3)), reported = A0 * (raw - b0);
-  CHECK((fulmar::fcu::uncorrected(reported, A0, b0) - raw).norm() < 1e-15);
+  const Vector3d found = with_eigen(fulmar::fcu::uncorrected(plain(reported), rows_of(A0), plain(b0)));
+  CHECK((found - raw).norm() < 1e-15);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "captured.hpp"
 #include "lossy_port.hpp"
 #include "tools/fulmar_fcu/app.hpp"
-#include "tools/fulmar_fcu/mag_fit.hpp"
+#include "tools/fulmar_fcu/test/with_eigen.hpp"
 
 namespace outputs_test {
 
@@ -17,6 +17,7 @@ namespace {
 using namespace fulmar::fcu;
 using fulmar::fcu::test::Bench;
 using fulmar::fcu::test::Captured;
+using fulmar::fcu::test::plain;
 using peer::param;
 
 struct Standing : Bench {
@@ -118,7 +119,7 @@ TEST_CASE("samples of a file become the twelve parameters that undo their distor
     samples.push_back(A.inverse() * (48e-6 * v.normalized()) + b);
   }
   const std::string path = "/tmp/fulmar_fcu_mag_" + std::to_string(::getpid()) + ".csv";
-  std::ofstream(path) << samples_text(samples);
+  std::ofstream(path) << samples_text(plain(samples));
   Client client = bench.client();
   client.connect();
   HardwareOptions what;
@@ -148,7 +149,7 @@ TEST_CASE("the guide is done after six sides, each turned once around") {
     CHECK(guide.done_sides() == side++);
     CHECK_FALSE(guide.done());
     for (int k = 0; k < 2000; ++k) {  // one turn in 20 s, 100 Hz
-      guide.turn(9.81 * up, up * (2 * 3.14159265 / 20), 0.01);
+      guide.turn(plain(9.81 * up), plain(up * (2 * 3.14159265 / 20)), 0.01);
       guide.take({1e-5, 2e-5, 3e-5});
     }
   }

@@ -69,8 +69,9 @@ struct Outer {
     Record<Airframe> airframe{"limits, trims, and the derivatives for the feed-forward of turns"};
   };
 
-  Status activate(const Tick&, const Inputs& in, const Params& params, const Outputs& last_applied) {
-    if (!commands_.take_over(params.law, *in.state, last_applied.attitude, tuning(params), params.airframe->limits))
+  Status activate(const Tick&, const Inputs& in, const Params& params, const Applied<Outputs>& last) {
+    const AttitudeCommand* attitude = last.has(last->attitude) ? &last->attitude : nullptr;
+    if (!commands_.take_over(params.law, *in.state, attitude, tuning(params), params.airframe->limits))
       pitch_.reset(), throttle_.reset();
     climb_rate_.reset_to(in.state->climb_rate_mps);
     acceleration_.reset();

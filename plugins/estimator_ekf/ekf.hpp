@@ -30,10 +30,11 @@ struct Ekf {
   void configure(const Params& p) { navigator_.start(p); }
   void retune(const Params& p) { navigator_.tune(p); }
 
-  Status activate(const Tick& tick, const Inputs& in, const Params& p, const Outputs& last_applied) {
-    const VehicleState& s = last_applied.state.value;
+  Status activate(const Tick& tick, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
+    const VehicleState& s = last->state.value;
     const bool running = navigator_.aligned() && tick.now_ns - stepped_ns_ < 100'000'000;
-    if (running || in.imu.sequence() == 0 || !(s.attitude_valid && s.velocity_valid)) return Status::ok;
+    const bool known = last.has(last->state) && s.attitude_valid && s.velocity_valid;
+    if (running || in.imu.sequence() == 0 || !known) return Status::ok;
     navigator_.resume(s, p, 1e-9 * static_cast<double>(in.imu.valid_at_ns()));
     imu_ns_ = in.imu.valid_at_ns();
     published_ = false;

@@ -110,6 +110,11 @@ struct Component {
 #else
   struct Params {};
 #endif
+#if CASE == 19
+  Status activate(const Tick&, const Inputs&, const Params&, const Applied<Outputs>& last) {
+    return last.has(last->roll_error_rad.value) ? Status::ok : Status::failed;
+  }
+#endif
   Status step(const Tick&, const Inputs&, const Params&, Outputs&) { return Status::ok; }
 };
 FULMAR_PLUGIN("1.0.0", Component)

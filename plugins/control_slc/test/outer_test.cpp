@@ -303,6 +303,27 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a glide, all zeros, is somebody's command; after nobody a law begins at attitude and cruise") {
+  for (const bool somebody : {true, false}) {
+    Bench<Outer> bench;
+    VehicleState s = flying();
+    s.roll_rad = 0.3, s.pitch_rad = 0.1, s.height_m = 60;  // too low: the law asks for more than trim
+    bench.set(bench.in.state, s);
+    bench.set(bench.in.command, level());
+    REQUIRE((somebody ? bench.activate(Outer::Outputs{}) : bench.activate()) == Status::ok);
+    REQUIRE(bench.step(0.01) == Status::ok);
+    const AttitudeCommand& a = bench.out.attitude;
+    const double throttle = somebody ? 0 : 0.5, pitch = somebody ? 0 : 0.1, roll = somebody ? 0 : 0.3;
+    CHECK(std::abs(a.throttle_frac - throttle) <= 0.0201);  // 2 per second
+    CHECK(std::abs(a.pitch_rad - pitch) <= 0.0081);         // 0.8 rad/s
+    CHECK(std::abs(a.roll_rad - roll) <= 0.0401);           // smoothed towards 0 with 0.1 s
+    // The integral takes up what it may of the difference between the glide and what the law would ask for;
+    // after nobody nothing.
+    CHECK(bench.out.throttle_integral_frac.value == doctest::Approx(somebody ? -0.2 : 0).epsilon(0.02));
+    CHECK(bench.out.pitch_integral_rad.value == doctest::Approx(somebody ? -0.1 : 0).epsilon(0.01));
+  }
+}
+
 TEST_CASE("a step allocates nothing") {
   Bench<Outer> bench;
   settle(bench, flying(), level());

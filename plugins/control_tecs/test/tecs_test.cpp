@@ -319,6 +319,32 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a glide, all zeros, is somebody's command; after nobody a law begins at attitude and cruise") {
+  for (const bool somebody : {true, false}) {
+    Bench<Outer> bench;
+    configure(bench);
+    VehicleState s = flying();
+    s.roll_rad = 0.3, s.pitch_rad = 0.1, s.height_m = 60;  // too low: the law asks for more than trim
+    bench.set(bench.in.state, s);
+    bench.set(bench.in.command, level());
+    REQUIRE((somebody ? bench.activate(Outer::Outputs{}) : bench.activate()) == Status::ok);
+    REQUIRE(bench.step(0.01) == Status::ok);
+    const AttitudeCommand& a = bench.out.attitude;
+    const double throttle = somebody ? 0 : 0.5, pitch = somebody ? 0 : 0.1, roll = somebody ? 0 : 0.3;
+    CHECK(std::abs(a.throttle_frac - throttle) <= 0.0201);  // 2 per second
+    CHECK(std::abs(a.pitch_rad - pitch) <= 0.0081);         // 0.8 rad/s
+    CHECK(std::abs(a.roll_rad - roll) <= 0.0401);           // smoothed towards 0 with 0.1 s
+    // The integrals take up the difference between the glide and what the law would ask for: of throttle what
+    // they may; of pitch, 0 = B_ff / (g V) + k (B_c - B) / (g V) + I with B_ff = B_c = g 4 m/s2 10 ms and
+    // B = 0.4 V g sin(0.1). After nobody nothing.
+    const double B_c = g * 0.04, B = 0.4 * cruise * g * std::sin(0.1);
+    const double integral = -(B_c + 0.6 * (B_c - B)) / (g * cruise);
+    CHECK(bench.out.throttle_integral_frac.value == doctest::Approx(somebody ? -0.2 : 0).epsilon(0.02));
+    CHECK(std::abs(bench.out.pitch_integral_rad.value - (somebody ? integral : 0)) < 3e-4);
+    CHECK(integral > 0.015);
+  }
+}
+
 TEST_CASE("a step allocates nothing") {
   Bench<Outer> bench;
   settle(bench, flying(), level());

@@ -107,6 +107,25 @@ struct Component {
   struct Params {
     double gain = 1;
   };
+#elif CASE == 20
+  struct Lateral {
+    Param gain{1, "", 0, 1, "of roll"};
+  };
+  struct Vertical {
+    Param gain{1, "", 0, 1, "of pitch"};
+  };
+  struct Params {
+    Lateral lateral;
+    Vertical vertical;
+  };
+#elif CASE == 21
+  struct Lateral {
+    Param gain{1, "", 0, 1, "of roll"};
+    const char* note = "";
+  };
+  struct Params {
+    Lateral lateral;
+  };
 #else
   struct Params {};
 #endif

@@ -206,6 +206,9 @@ inline void assign(Blob& p, const fulmar_value& v) {
 template <class M>
 concept Parameter = requires(const M& m) { param_entry(m); };
 
+template <class M, class F>
+constexpr void visit_param(M& member, F& f);
+
 /// Calls f(parameter) for each parameter of a struct, those of its groups (structs of parameters) in their places.
 template <class S, class F>
 constexpr void for_each_param(S& params, F& f) {
@@ -216,7 +219,9 @@ constexpr void visit_param(M& member, F& f) {
   if constexpr (Parameter<M>) {
     f(member);
   } else {
-    static_assert(std::is_class_v<M> && std::is_aggregate_v<M>, "Params holds Param, Flag, Count, Choice, TextParam, Vector, Record, Blob and structs of these");
+    static_assert(
+        std::is_class_v<M> && std::is_aggregate_v<M>,
+        "Params holds Param, Flag, Count, Choice, TextParam, Vector, Record, Blob and structs of these");
     for_each_param(member, f);
   }
 }
@@ -254,6 +259,14 @@ struct ParamTable {
     return out;
   }
   static constexpr std::array<fulmar_param, count> table = make();
+  static constexpr bool names_differ() {
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t k = 0; k < i; ++k)
+        if (std::string_view(table[i].name) == table[k].name) return false;
+    return true;
+  }
+  static_assert(names_differ(),
+                "two parameters have one name: a group's members are parameters beside all others");
 };
 
 // ---- thunks -------------------------------------------------------------------------------------------------------------------

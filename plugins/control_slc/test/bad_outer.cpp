@@ -30,8 +30,8 @@ struct BadOuter {
   };
 
   Status activate(const Tick& tick, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
-    gains_.airframe.value = *p.airframe;
-    gains_.airframe.is_given = true;
+    gains_.common.airframe.value = *p.airframe;
+    gains_.common.airframe.is_given = true;
     return law_.activate(tick, in, gains_, last);
   }
 

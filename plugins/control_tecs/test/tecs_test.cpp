@@ -29,7 +29,7 @@ GuidanceCommand level() {
 }
 
 void configure(Bench<Outer>& bench) {
-  bench.params.airframe.value.mass_kg = 4.5;
+  bench.params.common.airframe.value.mass_kg = 4.5;
   bench.params.airspeed_kff.value = 0;
 }
 const AttitudeCommand& settle(Bench<Outer>& bench, const VehicleState& state, const GuidanceCommand& command, double seconds = 3) {
@@ -78,7 +78,8 @@ struct PointMassFlight {
   explicit PointMassFlight(double speed_weight) {
     configure(bench);
     bench.params.speed_weight.value = speed_weight;
-    bench.params.airframe.value.limits.climb_rate_max_mps = bench.params.airframe.value.limits.sink_rate_max_mps = 5;
+    bench.params.common.airframe.value.limits.climb_rate_max_mps =
+        bench.params.common.airframe.value.limits.sink_rate_max_mps = 5;
   }
   void run(double seconds, double acceleration_limit = 1e9) {
     for (double t = 0; t < seconds; t += 0.02) {
@@ -160,8 +161,8 @@ TEST_CASE("throttle stays in 0 to 1, trim included, pitch within the pitch limit
   double least = 1, most = 0;
   for (OuterLaw law : {OuterLaw::hold, OuterLaw::takeoff}) {
     Bench<Outer> bench;
-    bench.params.law.value = law;
-    bench.params.airframe.value.limits.throttle_cruise_frac = 0.9;
+    bench.params.common.law.value = law;
+    bench.params.common.airframe.value.limits.throttle_cruise_frac = 0.9;
     for (int i = 0; i < 20000; ++i) {
       VehicleState s = flying();
       s.height_m = random.uniform(-50, 500), s.climb_rate_mps = random.uniform(-15, 15), s.airspeed_mps = random.uniform(0, 60);

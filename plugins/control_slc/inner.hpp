@@ -44,10 +44,11 @@ struct Inner {
     Record<Airframe> airframe{"throws, trims, cruise speed, and the derivatives for the feed-forward of turns"};
   };
 
-  Status activate(const Tick&, const Inputs& in, const Params& params, const Outputs& last_applied) {
-    last_ = last_applied.actuators;
-    // Zeros are nobody's: the pilot flies, or a host begins in the air. Then trim and feed-forward are all there is to begin with.
-    take_up_ = last_.throttle_frac != 0 || last_.aileron_rad != 0 || last_.elevator_rad != 0 || last_.rudder_rad != 0;
+  Status activate(const Tick&, const Inputs& in, const Params& params, const Applied<Outputs>& last) {
+    last_ = last->actuators;
+    // Nobody's when the pilot flies, or a host begins in the air: then trim and feed-forward are all there is
+    // to begin with.
+    take_up_ = last.has(last->actuators);
     if (!take_up_) roll_.reset(), pitch_.reset();
     blind_ = false;
     roll_command_rate_.reset_to(in.attitude->roll_rad);

@@ -3,10 +3,10 @@
 // speed. Lambregts, AIAA 83-2239 (1983); the arrangement of rate demands and limits is that of the field's open autopilots. Equations:
 // README.
 #pragma once
-#include <fulmar/flight/atmosphere.hpp>
 #include <fulmar/flight/energy.hpp>
-#include <fulmar/flight/outer_commands.hpp>
-#include <fulmar/flight/turn_trim.hpp>
+#include <fulmar/flight/filters.hpp>
+#include <fulmar/flight/outer_law.hpp>
+#include <fulmar/flight/pid.hpp>
 #include <fulmar/msg/attitude_command.hpp>
 #include <fulmar/msg/controller_internals.hpp>
 #include <fulmar/msg/guidance_command.hpp>
@@ -32,13 +32,7 @@ struct Outer {
     Probe underspeed_ratio;
   };
   struct Params {
-    Choice<OuterLaw> law{OuterLaw::hold, "hold: follow guidance; takeoff: full throttle, wings level, rotate, keep the runway's course"};
-
-    Param course_kp{2.0, "rad/rad", 0, 10, "roll per course error at cruise ground speed: course bandwidth = kp g / Va"};
-    Param course_ki{0.0, "rad/(rad s)", 0, 2, "roll per integrated course error"};
-    Param roll_limit{0.785, "rad", 0.05, 1.2, "largest roll command; the airframe's own limit holds as well"};
-    Param roll_rate_limit{1.0, "rad/s", 0.1, 6, "fastest change of the roll command"};
-    Param roll_smoothing{0.1, "s", 0, 2, "time constant of the roll command"};
+    OuterParams common;
 
     Param altitude_gain{1.2, "1/s", 0, 5, "climb rate demanded per height error"};
     Param airspeed_gain{1.2, "1/s", 0, 5, "acceleration demanded per airspeed error"};
@@ -51,51 +45,28 @@ struct Outer {
     Param throttle_integral{0.6, "1/s", 0, 5, "the same, per integrated error"};
     Param pitch_damping{0.6, "ratio", 0, 5, "flight path angle per error of the energy balance rate over g V"};
     Param pitch_integral{0.2, "1/s", 0, 5, "the same, per integrated error"};
-    Param turn_kff{1.0, "ratio", 0, 2, "share of the pitch and throttle that a banked turn needs, fed forward"};
     Param airspeed_kff{0.03, "1/(m/s)", 0, 0.2, "throttle per airspeed demand above cruise"};
     Param thrust{50.0, "N", 1, 10000, "force per unit of throttle near cruise: turns energy rates into throttle"};
-    Param pitch_limit{0.35, "rad", 0.02, 1.0, "largest pitch command, either way; the airframe's own limits hold as well"};
-    Param pitch_rate_limit{0.8, "rad/s", 0.05, 6, "fastest change of the pitch command"};
-    Param throttle_rate_limit{2.0, "1/s", 0.1, 20, "fastest change of the throttle"};
     Param underspeed_band{0.15, "ratio", 0.01, 0.5,
                           "airspeed below the minimum, as a share of it, at which speed has all priority and throttle is full"};
-
-    Param takeoff_throttle{1.0, "ratio", 0, 1, "throttle of the take-off law"};
-    Param takeoff_pitch{0.21, "rad", 0, 0.6, "pitch of the take-off law after rotation"};
-    Param takeoff_airspeed{13.0, "m/s", 3, 60, "airspeed at which the take-off law rotates"};
-    Param takeoff_kp{1.0, "rad/rad", 0, 5, "roll per course error of the take-off law, airborne"};
-    Param takeoff_roll_limit{0.15, "rad", 0, 0.5, "largest roll command of the take-off law"};
-
-    Record<Airframe> airframe{"limits, trims, and the derivatives for the feed-forward of turns"};
   };
 
-  Status activate(const Tick&, const Inputs& in, const Params& params, const Outputs& last_applied) {
-    if (!commands_.take_over(params.law, *in.state, last_applied.attitude, tuning(params), params.airframe->limits))
-      pitch_.reset(), throttle_.reset();
+  Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
+    if (!loop_.activate(*in.state, p.common, last)) pitch_.reset(), throttle_.reset();
     climb_rate_.reset_to(in.state->climb_rate_mps);
     acceleration_.reset();
     return Status::ok;
   }
 
-  Status step(const Tick& tick, const Inputs& in, const Params& params, Outputs& out) {
-    const VehicleState& state = *in.state;
-    const double dt = std::clamp(tick.dt_s(), 0.0, 0.1);  // a gap must not throw the integrators
-    const OuterAction action = commands_.begin(params.law, state);
-    out.internals = {};
-    if (action != OuterAction::hold) rest(state, out);
-    if (action == OuterAction::wait) out.attitude = commands_.wait();
-    if (action == OuterAction::take_off) out.attitude = commands_.take_off(state, tuning(params), params.airframe->limits, dt);
-    if (action == OuterAction::hold) hold(state, *in.command, params, dt, out);
-    if (action == OuterAction::level) level(state, params, dt, out);
-    out.internals.law = commands_.law();
-    out.internals.course_error_rad = commands_.course_error_rad();
-    out.internals.roll_saturated = commands_.roll_saturated();
-    out.internals.roll_rad = out.attitude.roll_rad;
-    out.internals.pitch_rad = out.attitude.pitch_rad;
+  Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
+    const auto resting = [&] { rest(*in.state, out); };
+    const auto holding = [&](const LevelTurn& turn, double dt) {
+      return hold(*in.state, *in.command, p, turn, dt, out);
+    };
+    const Status status = loop_.step(tick, *in.state, *in.command, p.common, out, resting, holding);
     out.pitch_integral_rad = pitch_.integral();
     out.throttle_integral_frac = throttle_.integral();
-    const bool flying = action == OuterAction::hold || action == OuterAction::level;
-    return flying && !enough_known(state) ? Status::degraded : Status::ok;
+    return status;
   }
 
  private:
@@ -107,17 +78,6 @@ struct Outer {
     double underspeed = 0;    ///< 0: none, 1: speed before everything
     double Va = 0, Va_c = 0;
   };
-
-  static OuterTuning tuning(const Params& p) {
-    const FlightLimits& limits = p.airframe->limits;
-    OuterTuning t;
-    t.course = {p.course_kp,       p.course_ki,     limits.airspeed_cruise_mps, std::min<double>(p.roll_limit, limits.roll_max_rad),
-                p.roll_rate_limit, p.roll_smoothing};
-    t.takeoff = {p.takeoff_throttle, p.takeoff_pitch, p.takeoff_airspeed, p.takeoff_kp, p.takeoff_roll_limit};
-    t.pitch_rate_max_radps = p.pitch_rate_limit;
-    t.throttle_rate_max_hz = p.throttle_rate_limit;
-    return t;
-  }
 
   void rest(const VehicleState& state, Outputs& out) {
     pitch_.reset();
@@ -131,27 +91,14 @@ struct Outer {
     out.underspeed_ratio = 0.0;
   }
 
-  /// Attitude or height is not known.
-  void level(const VehicleState& state, const Params& p, double dt, Outputs& out) {
-    const FlightLimits& limits = p.airframe->limits;
-    const double rho = standard_air(state.origin_altitude_m + state.height_m).density_kgm3;
-    const double alpha = turn_trim(*p.airframe, 0, limits.airspeed_cruise_mps, rho).alpha_rad;
-    out.attitude = commands_.level(alpha, limits.throttle_cruise_frac, tuning(p), dt);
-  }
-
-  void hold(const VehicleState& state, const GuidanceCommand& command, const Params& p, double dt, Outputs& out) {
-    const OuterTuning t = tuning(p);
-    const double phi = commands_.roll(state, command, t, dt);
+  PitchThrottle hold(const VehicleState& state, const GuidanceCommand& command, const Params& p,
+                     const LevelTurn& turn, double dt, Outputs& out) {
     Energy e;
-    e.Va = scheduling_airspeed(state, p.airframe->limits);
-    const double rho = standard_air(state.origin_altitude_m + state.height_m).density_kgm3;
-    const TurnTrim turn = turn_trim(*p.airframe, phi, e.Va, rho), level = turn_trim(*p.airframe, 0, e.Va, rho);
-    e.turn_drag = p.turn_kff * (turn.drag_newton - level.drag_newton) * e.Va / p.airframe->mass_kg;
+    e.Va = turn.Va_mps;
+    e.turn_drag = turn.drag_newton * e.Va / p.common.airframe->mass_kg;
     demand(state, command, p, dt, e, out);
-    const double theta_trim = level.alpha_rad + p.turn_kff * (turn.alpha_rad * std::cos(phi) - level.alpha_rad);
-    const double theta = balance_to_pitch(state, p, e, theta_trim, dt, out);
-    const double throttle = total_to_throttle(state, p, e, dt, out);
-    out.attitude = commands_.finish(phi, theta, throttle, t, dt);
+    const double theta = balance_to_pitch(state, p, e, turn.pitch_rad, dt, out);
+    return {theta, total_to_throttle(state, p, e, dt, out)};
   }
 
   /// Gain times error near the goal; further away the rate from which the goal can be reached at that acceleration:
@@ -164,7 +111,7 @@ struct Outer {
 
   /// Rates wanted of height and speed, within what the engine can give and the drag can take.
   void demand(const VehicleState& state, const GuidanceCommand& command, const Params& p, double dt, Energy& e, Outputs& out) {
-    const FlightLimits& limits = p.airframe->limits;
+    const FlightLimits& limits = p.common.airframe->limits;
     const double most = isa::g0 * limits.climb_rate_max_mps, least = -isa::g0 * limits.sink_rate_max_mps;  // of the total energy rate
     if (state.airspeed_valid) {
       const double slowest = limits.airspeed_min_mps * (1 - p.underspeed_band);
@@ -182,7 +129,7 @@ struct Outer {
     const double error = command.height_m - state.height_m;
     const double wanted = command.climb_rate_mps + approach_rate(error, p.altitude_gain, 0.5 * p.climb_acceleration_limit);
     const double bounded = std::clamp(wanted, -limits.sink_rate_max_mps, limits.climb_rate_max_mps);
-    if (commands_.taking_up()) climb_rate_.reset_to(state.climb_rate_mps);
+    if (loop_.commands.taking_up()) climb_rate_.reset_to(state.climb_rate_mps);
     e.wanted.potential = isa::g0 * climb_rate_.step(bounded, p.climb_acceleration_limit, dt);
     e.present.potential = isa::g0 * state.climb_rate_mps;
     e.total_wanted = std::clamp(e.wanted.total(), least, most);
@@ -203,10 +150,10 @@ struct Outer {
     const double climb = e.wanted.potential * (1 - e.underspeed) - (1 - w_h) * missing;
     const double B_ff = climb - w_V * e.wanted.kinetic;
     const double per_gV = 1 / (isa::g0 * e.Va);
-    const PitchLimits pitch(state, p.airframe->limits, p.pitch_limit);
+    const PitchLimits pitch(state, p.common.airframe->limits, p.common.pitch_limit);
     const PidInput in{.error = error * per_gV, .rate = 0, .feedforward = theta_trim + B_ff * per_gV, .min = pitch.min, .max = pitch.max};
     const PidGains gains{p.pitch_damping, p.pitch_integral, 0};
-    if (commands_.taking_up()) pitch_.reset_to(commands_.last().pitch_rad, gains, in, 0.1);
+    if (loop_.commands.taking_up()) pitch_.reset_to(loop_.commands.last().pitch_rad, gains, in, 0.1);
     const double theta = pitch_.step(gains, in, dt);
     out.internals.pitch_saturated = pitch_.saturated();
     out.balance_rate_error_ratio = error;
@@ -215,9 +162,9 @@ struct Outer {
 
   /// delta_t = trim + m / (Va T) [E_c + E_turn + k (E_c - E)] + integral, E = g hdot + Va Vadot.
   double total_to_throttle(const VehicleState& state, const Params& p, const Energy& e, double dt, Outputs& out) {
-    const FlightLimits& limits = p.airframe->limits;
+    const FlightLimits& limits = p.common.airframe->limits;
     const double E_c = e.total_wanted;
-    const double per_rate = p.airframe->mass_kg / (e.Va * p.thrust);
+    const double per_rate = p.common.airframe->mass_kg / (e.Va * p.thrust);
     const double trim = limits.throttle_cruise_frac + p.airspeed_kff * (e.Va_c - limits.airspeed_cruise_mps);
     const double feedforward = trim + per_rate * (E_c + e.turn_drag);
     if (!state.airspeed_valid) {
@@ -227,14 +174,14 @@ struct Outer {
     const double error = E_c - e.present.total();
     const PidInput in{.error = per_rate * error, .rate = 0, .feedforward = feedforward, .min = 0, .max = 1};
     const PidGains gains{p.throttle_damping, p.throttle_integral * (1 - e.underspeed), 0};
-    if (commands_.taking_up()) throttle_.reset_to(commands_.last().throttle_frac, gains, in, 0.2);
+    if (loop_.commands.taking_up()) throttle_.reset_to(loop_.commands.last().throttle_frac, gains, in, 0.2);
     const double throttle = throttle_.step(gains, in, dt);
     out.internals.throttle_saturated = throttle_.saturated();
     out.total_rate_error_ratio = error;
     return e.underspeed + (1 - e.underspeed) * throttle;
   }
 
-  OuterCommands commands_;
+  OuterLoop loop_;
   Pid pitch_, throttle_;
   RateLimiter climb_rate_;
   LowPass acceleration_;

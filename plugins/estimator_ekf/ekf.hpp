@@ -4,7 +4,7 @@
 #include <fulmar/eigen.hpp>
 #include <fulmar/msg/imu.hpp>
 
-#include "navigator.hpp"
+#include "navigator_updates.hpp"
 
 namespace fulmar::estimator {
 
@@ -30,13 +30,14 @@ struct Ekf {
   void configure(const Params& p) { navigator_.start(p); }
   void retune(const Params& p) { navigator_.tune(p); }
 
-  Status activate(const Tick& tick, const Inputs& in, const Params& p, const Outputs& last_applied) {
-    const VehicleState& s = last_applied.state.value;
+  Status activate(const Tick& tick, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
+    const VehicleState& s = last->state.value;
     const bool running = navigator_.aligned() && tick.now_ns - stepped_ns_ < 100'000'000;
-    if (running || in.imu.sequence() == 0 || !(s.attitude_valid && s.velocity_valid)) return Status::ok;
+    const bool known = last.has(last->state) && s.attitude_valid && s.velocity_valid;
+    if (running || in.imu.sequence() == 0 || !known) return Status::ok;
     navigator_.resume(s, p, 1e-9 * static_cast<double>(in.imu.valid_at_ns()));
     imu_ns_ = in.imu.valid_at_ns();
-    published_ = false;
+    shown_ = Shown::nothing;
     return Status::ok;
   }
 
@@ -46,15 +47,27 @@ struct Ekf {
     if (!newer(in.imu, imu_ns_, tick) || !inertial(in, p)) return coast(tick, in.imu.fresh(), p, out);
     sensors(in, tick, p);
     if (!navigator_.aligned()) return navigator_.regaining() ? blind(in.imu.valid_at_ns(), p, out) : Status::degraded;
-    coasting_ = false;
     fill(navigator_.filter().state(), navigator_.filter().R_nb(), navigator_.filter().rate_b(), p);
-    if (navigator_.filter().time_s() - deviations_s_ > 0.0099) fill_deviations(p);
-    publish(in.imu.valid_at_ns(), out);
+    if (navigator_.filter().time_s() - deviations_s_ > deviations_after_s) fill_deviations(p);
+    publish(in.imu.valid_at_ns(), Shown::measured, out);
     probes(out);
     return healthy() ? Status::ok : Status::degraded;
   }
 
  private:
+  /// What was published last.
+  enum class Shown : std::uint8_t {
+    nothing,
+    measured,  ///< the filter's state, or that there is none
+    coasted    ///< the state carried on through a gap
+  };
+  // Deviations beyond which a part of the state is not called valid.
+  static constexpr double tilt_valid_rad = 0.25, yaw_valid_rad = 0.5, speed_valid_mps = 3;
+  static constexpr double position_valid_m = 50, height_valid_m = 20;
+  static constexpr double tube_std_mps = 2;             ///< of the tube alone, rolling or standing
+  static constexpr double pitot_lost_s = 1;             ///< without an accepted sample
+  static constexpr double deviations_after_s = 0.0099;  ///< renewed at 100 Hz; a sample may be a little early
+
   /// A sample whose time is later than that of the one before, and not in the future.
   template <class Port>
   static bool newer(const Port& port, std::int64_t last_ns, const Tick& tick) {
@@ -80,10 +93,10 @@ struct Ekf {
     if (take(in.gnss, gnss_ns_, tick)) navigator_.gnss(*in.gnss, 1e-9 * static_cast<double>(in.gnss.valid_at_ns()), p);
     if (take(in.pitot, pitot_ns_, tick)) navigator_.pitot(in.pitot->pressure_pa, p);
   }
-  void publish(std::int64_t valid_at_ns, Outputs& out) {
+  void publish(std::int64_t valid_at_ns, Shown what, Outputs& out) {
     out.state.publish(state_, valid_at_ns);
     published_ns_ = valid_at_ns;
-    published_ = true;
+    shown_ = what;
   }
   Status coast(const Tick& tick, bool sample, const Params& p, Outputs& out);
   Status blind(std::int64_t valid_at_ns, const Params& p, Outputs& out);
@@ -103,7 +116,8 @@ struct Ekf {
   static constexpr std::int64_t ahead_ns = 10'000'000, long_ago = -(std::int64_t{1} << 62);
   std::int64_t imu_ns_ = long_ago, mag_ns_ = long_ago, baro_ns_ = long_ago, gnss_ns_ = long_ago, pitot_ns_ = long_ago;
   std::int64_t stepped_ns_ = 0, published_ns_ = 0;
-  bool rate_started_ = false, published_ = false, coasting_ = false;
+  Shown shown_ = Shown::nothing;
+  bool rate_started_ = false;  ///< the smoothed rate has begun
   ekf::Nominal coasted_;  ///< the state carried on through a gap
 };
 
@@ -111,12 +125,13 @@ struct Ekf {
 /// stays where it was, and nothing of it is called valid.
 inline Status Ekf::coast(const Tick& tick, bool sample, const Params& p, Outputs& out) {
   const double gap_s = 1e-9 * static_cast<double>(tick.now_ns - imu_ns_);
-  if (!published_ || gap_s <= coasted_s) return sample || gap_s > coasted_s ? Status::degraded : Status::ok;
+  if (shown_ == Shown::nothing || gap_s <= coasted_s)
+    return sample || gap_s > coasted_s ? Status::degraded : Status::ok;
   if (!navigator_.aligned() || gap_s > p.max_coast) return blind(tick.now_ns, p, out);
   const ErrorStateEkf& f = navigator_.filter();
-  if (!coasting_) coasted_ = f.state();
-  const double dt = 1e-9 * static_cast<double>(tick.now_ns - (coasting_ ? published_ns_ : imu_ns_));
-  coasting_ = true;
+  const bool coasting = shown_ == Shown::coasted;
+  if (!coasting) coasted_ = f.state();
+  const double dt = 1e-9 * static_cast<double>(tick.now_ns - (coasting ? published_ns_ : imu_ns_));
   ekf::Nominal& x = coasted_;
   const Vector3d v_before = x.v_n, omega_b = coasted_rate(x, gap_s, p);
   x.v_n += dt * (x.q_nb * exp_map(0.5 * dt * omega_b) * f.specific_force_b() + Vector3d(0, 0, p.gravity));
@@ -125,7 +140,7 @@ inline Status Ekf::coast(const Tick& tick, bool sample, const Params& p, Outputs
   fill(x, x.q_nb.toRotationMatrix(), omega_b, p);
   fill_deviations(p);
   widen(gap_s, p);
-  publish(tick.now_ns, out);
+  publish(tick.now_ns, Shown::coasted, out);
   return Status::degraded;
 }
 
@@ -148,9 +163,9 @@ inline Status Ekf::blind(std::int64_t valid_at_ns, const Params& p, Outputs& out
   s.rate_radps = {};
   s.specific_force_mps2 = {};
   s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = s.wind_valid = false;
-  rate_started_ = coasting_ = false;
+  rate_started_ = false;
   deviations_s_ = never;
-  publish(valid_at_ns, out);
+  publish(valid_at_ns, Shown::measured, out);
   return Status::degraded;
 }
 
@@ -220,22 +235,28 @@ inline void Ekf::fill_deviations(const Params& p) {
   s.velocity_std_mps = three(ekf::vel);
   s.position_std_m = three(ekf::pos);
   s.wind_std_mps = {f.std(ekf::wind), f.std(ekf::wind + 1), unknown_std};
-  const bool pitot = now - h.pitot_s < 1, tube = !navigator_.airborne() && navigator_.pitot_mps() > 0;
-  s.airspeed_std_mps = navigator_.airborne() ? f.expected_std(ekf::true_airspeed(f.state(), 0), 0) : tube ? 2 : unknown_std;
+  const bool pitot = now - h.pitot_s < pitot_lost_s,
+             tube = !navigator_.airborne() && navigator_.pitot_mps() > 0;
+  s.airspeed_std_mps = navigator_.airborne() ? f.expected_std(ekf::true_airspeed(f.state(), 0), 0)
+                       : tube                ? tube_std_mps
+                                             : unknown_std;
   const auto origin = navigator_.origin();
   s.origin_latitude_deg = origin.lat_deg;
   s.origin_longitude_deg = origin.lon_deg;
   s.origin_altitude_m = origin.alt_m;
-  s.origin_valid = navigator_.origin_known();
+  const Seen& seen = navigator_.seen();
+  s.origin_valid = seen.origin;
   const bool known = !navigator_.settling();
-  s.attitude_valid = known && navigator_.yaw_known() && std::max(s.attitude_std_rad.north, s.attitude_std_rad.east) < 0.25 &&
-                     s.attitude_std_rad.down < 0.5;
-  s.velocity_valid = known && std::max({s.velocity_std_mps.north, s.velocity_std_mps.east, s.velocity_std_mps.down}) < 3;
-  s.position_valid = known && navigator_.position_known() && now - h.position_s < p.gnss_timeout &&
-                     std::max(s.position_std_m.north, s.position_std_m.east) < 50;
-  s.height_valid = known && navigator_.height_known() && s.position_std_m.down < 20;
-  s.wind_valid = known && std::max(s.wind_std_mps.north, s.wind_std_mps.east) < 3;
-  s.airspeed_valid = known && (navigator_.airborne() ? pitot || s.airspeed_std_mps < 3 : tube);
+  s.attitude_valid = known && seen.yaw &&
+                     std::max(s.attitude_std_rad.north, s.attitude_std_rad.east) < tilt_valid_rad &&
+                     s.attitude_std_rad.down < yaw_valid_rad;
+  s.velocity_valid = known && std::max({s.velocity_std_mps.north, s.velocity_std_mps.east,
+                                        s.velocity_std_mps.down}) < speed_valid_mps;
+  s.position_valid = known && seen.position && now - h.position_s < p.gnss_timeout &&
+                     std::max(s.position_std_m.north, s.position_std_m.east) < position_valid_m;
+  s.height_valid = known && seen.height && s.position_std_m.down < height_valid_m;
+  s.wind_valid = known && std::max(s.wind_std_mps.north, s.wind_std_mps.east) < speed_valid_mps;
+  s.airspeed_valid = known && (navigator_.airborne() ? pitot || s.airspeed_std_mps < speed_valid_mps : tube);
 }
 
 inline void Ekf::probes(Outputs& out) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From sensors to the filter: alignment, which sample is used when and with what noise, recovery. Knows no ports; time is in seconds.
-// The filter and its equations: fulmar/flight/ekf.hpp and ekf_models.hpp.
+// From sensors to the filter: alignment, which sample is used when and with what noise, recovery. Knows no
+// ports; time is in seconds. The filter and its equations: fulmar/flight/ekf.hpp and ekf_models.hpp. Users
+// include navigator_updates.hpp.
 #pragma once
 #include <fulmar/eigen.hpp>
 #include <fulmar/flight/ekf_models.hpp>
@@ -12,6 +13,7 @@
 #include <fulmar/msg/pitot.hpp>
 #include <fulmar/msg/vehicle_state.hpp>
 #include <fulmar/msg/vehicle_status.hpp>
+#include <optional>
 
 #include "alignment.hpp"
 #include "params.hpp"
@@ -26,6 +28,27 @@ struct Health {
   double horizontal_ratio = 0, height_ratio = 0, velocity_ratio = 0, baro_ratio = 0, pitot_ratio = 0, sideslip_ratio = 0, heading_ratio = 0;
   double position_s = never, velocity_s = never, height_s = never, baro_s = never, pitot_s = never, heading_s = never;
   std::uint32_t refused = 0;
+};
+
+/// What the navigator knows of its attitude, and how it came to it.
+///   waiting -> aligning -> running -> lost -> regained -> lost ...; lost -> running when it stands again;
+///   any -> running when it takes over from an estimate that flies.
+enum class Mode : std::uint8_t {
+  waiting,   ///< for the first inertial sample
+  aligning,  ///< for the first attitude: at rest or in flight
+  running,   ///< aligned, with a full prior
+  lost,      ///< a gap was too long to be bridged: looks for the attitude anew, keeps what changes slowly
+  regained   ///< aligned again in flight
+};
+
+/// What was seen or told and still holds; each comes and goes by itself.
+struct Seen {
+  bool yaw = false, position = false, height = false;
+  bool origin = false;     ///< of the local frame
+  bool altitude = false;   ///< by pressure, as long as there is no origin
+  bool field = false;      ///< the Earth's magnetic field, by the model
+  bool year = false;       ///< from a receiver, for that model
+  bool baro_zero = false;  ///< the barometer's offset has begun
 };
 
 class Navigator {
@@ -58,7 +81,8 @@ class Navigator {
   /// Takes over from an estimate that flies already.
   void resume(const VehicleState& s, const Params& p, double time_s) {
     start(p);
-    if (s.origin_valid && !origin_known_) set_origin(s.origin_latitude_deg, s.origin_longitude_deg, s.origin_altitude_m);
+    if (s.origin_valid && !seen_.origin)
+      set_origin(s.origin_latitude_deg, s.origin_longitude_deg, s.origin_altitude_m);
     ekf::Nominal x;
     x.q_nb = eigen(s.attitude);
     x.v_n = eigen(s.velocity_mps);
@@ -67,7 +91,6 @@ class Navigator {
     x.accel_bias = eigen(s.accel_bias_mps2);
     x.wind = eigen(s.wind_mps).head<2>();
     begin(x, p, time_s, 0.05, 0.05);
-    has_imu_ = true;
     const auto at_least = [&](int i, double std, double low, double high) { filter_.forget(i, 1, std::clamp(std, low, high)); };
     for (int i = 0; i < 3; ++i) {
       filter_.forget(ekf::vel + i, 1, 1);
@@ -75,49 +98,42 @@ class Navigator {
     }
     at_least(ekf::wind, s.wind_std_mps.north, 0.5, p.wind_std);
     at_least(ekf::wind + 1, s.wind_std_mps.east, 0.5, p.wind_std);
-    position_known_ = s.position_valid;
+    seen_.position = s.position_valid;
     filter_.forget(ekf::pos, 3, s.position_valid ? 5 : 1e3);
-    yaw_known_ = true;
+    seen_.yaw = true;
   }
 
-  bool aligned() const { return aligned_; }
-  bool regaining() const { return regaining_; }  ///< not aligned since a gap
+  bool aligned() const { return mode_ == Mode::running || mode_ == Mode::regained; }
+  bool regaining() const { return mode_ == Mode::lost; }  ///< not aligned since a gap
   /// Found again after a gap, and the next fixes still move it: commands that follow it would step.
   bool settling() const {
     constexpr double tilt_std = 0.025, longest_s = 0.5;
-    return regained_ && time_s_ - aligned_s_ < longest_s && std::max(filter_.std(ekf::theta), filter_.std(ekf::theta + 1)) > tilt_std;
+    return mode_ == Mode::regained && time_s_ - aligned_s_ < longest_s &&
+           std::max(filter_.std(ekf::theta), filter_.std(ekf::theta + 1)) > tilt_std;
   }
-  bool yaw_known() const { return yaw_known_; }
-  bool origin_known() const { return origin_known_; }
-  bool position_known() const { return position_known_; }
-  bool height_known() const { return height_known_; }
+  const Seen& seen() const { return seen_; }
   bool airborne() const { return airborne_; }
-  bool resting() const { return resting_; }
   const ErrorStateEkf& filter() const { return filter_; }
   const Health& health() const { return health_; }
   LocalFrame::Geodetic origin() const { return frame_.origin(); }
   double pitot_mps() const { return pitot_mps_; }  ///< smoothed true airspeed of the tube alone
   double time_s() const { return time_s_; }
 
-  void status(const VehicleStatus& s) {
-    has_status_ = true;
-    armed_ = s.armed;
-    on_ground_ = s.on_ground;
-  }
+  void status(const VehicleStatus& s) { status_ = s; }
 
   /// One inertial sample, valid at `time_s`. False: it is not newer than the last one and was ignored.
   bool imu(const Vector3d& omega_b, const Vector3d& f_b, double time_s, const Params& p) {
     const double dt = time_s - time_s_;
-    if (has_imu_ && !(dt > 0)) return false;
+    if (mode_ != Mode::waiting && !(dt > 0)) return false;
     time_s_ = time_s;
-    if (!has_imu_) {
-      has_imu_ = true;
+    if (mode_ == Mode::waiting) {
+      mode_ = Mode::aligning;
       return true;
     }
-    if (aligned_ && dt > p.max_coast) lose();
+    if (aligned() && dt > p.max_coast) lose();
     still_.update(omega_b, f_b, dt);
     resting_ = still_.still() && at_rest_by_others(p);
-    if (!aligned_) {
+    if (!aligned()) {
       flight_.imu(omega_b - filter_.state().gyro_bias, f_b - filter_.state().accel_bias, dt);
       if (resting_) align_at_rest(p);
       return true;
@@ -126,7 +142,7 @@ class Navigator {
     if (dt > coasted_s) bridged(dt, p);
     if (resting_ && time_s_ - rest_fused_s_ > 0.05) rest(p);
     update_airborne(p);
-    if (airborne_ && yaw_known_ && time_s_ - sideslip_s_ > 0.1 - 1e-4) sideslip(p);
+    if (airborne_ && seen_.yaw && time_s_ - sideslip_s_ > 0.1 - 1e-4) sideslip(p);
     return true;
   }
 
@@ -152,13 +168,13 @@ class Navigator {
 
   void set_origin(double lat_deg, double lon_deg, double alt_m) {
     frame_ = LocalFrame(lat_deg, lon_deg, alt_m);
-    origin_known_ = true;
+    seen_.origin = true;
     altitude_m_ = alt_m;
     magnetic_model(lat_deg, lon_deg, alt_m);
   }
   void magnetic_model(double lat_deg, double lon_deg, double alt_m) {
     field_n_ = magnetic_field_ned(lat_deg, lon_deg, alt_m, year_);
-    field_known_ = true;
+    seen_.field = true;
   }
   double declination() const { return std::atan2(field_n_.y(), field_n_.x()); }
 
@@ -166,9 +182,10 @@ class Navigator {
   bool at_rest_by_others(const Params& p) const {
     const bool gnss_slow = time_s_ - gnss_s_ < 2 && gnss_speed_ < 1.5, gnss_fast = time_s_ - gnss_s_ < 2 && gnss_speed_ >= 1.5;
     const bool pitot_slow = time_s_ - pitot_s_ < 1 && pitot_mps_ < p.min_airspeed;
-    const bool stands_again = regaining_ && gnss_slow && !(time_s_ - pitot_s_ < 1 && pitot_mps_ >= p.min_airspeed);
-    if (gnss_fast || (has_status_ && armed_ && !stands_again)) return false;
-    return has_status_ || gnss_slow || pitot_slow;
+    const bool stands_again =
+        regaining() && gnss_slow && !(time_s_ - pitot_s_ < 1 && pitot_mps_ >= p.min_airspeed);
+    if (gnss_fast || (status_ && status_->armed && !stands_again)) return false;
+    return status_ || gnss_slow || pitot_slow;
   }
 
   void begin(const ekf::Nominal& x, const Params& p, double time_s, double tilt_std, double yaw_std) {
@@ -185,16 +202,15 @@ class Navigator {
     std(ekf::heading) = p.mag_deviation;
     time_s_ = time_s;
     filter_.reset(x, std, time_s);
-    aligned_ = true;
-    regaining_ = regained_ = false;
+    mode_ = Mode::running;
     aligned_s_ = time_s;
-    yaw_known_ = yaw_std < 0.5;
+    seen_.yaw = yaw_std < 0.5;
   }
 
   /// After a gap that was too long to be bridged: the attitude has to be found anew.
   void lose() {
-    aligned_ = resting_ = false;
-    regaining_ = true;
+    mode_ = Mode::lost;
+    resting_ = false;
     rest_since_s_ = never;
     flight_ = {};
   }
@@ -223,10 +239,9 @@ class Navigator {
     const ekf::Covariance P = filter_.covariance();
     filter_.reset(x, ekf::Vector::Zero(), time_s_);
     filter_.set_covariance(P);
-    aligned_ = regained_ = true;
-    regaining_ = false;
+    mode_ = Mode::regained;
     aligned_s_ = time_s_;
-    yaw_known_ = yaw_std < 0.5;
+    seen_.yaw = yaw_std < 0.5;
   }
 
   void align_at_rest(const Params& p) {
@@ -240,8 +255,8 @@ class Navigator {
     // At rest nothing but the accelerometers tells the tilt, and tilt the yaw by the dip of the field: no prior of their own, the updates
     // at rest tie them to the prior of the accelerometer bias.
     begin(x, p, time_s_, 0.5, has_mag ? 1 : 1.8);
-    yaw_known_ = has_mag;
-    position_known_ = height_known_ = baro_zeroed_ = false;
+    seen_.yaw = has_mag;
+    seen_.position = seen_.height = seen_.baro_zero = false;
     filter_.forget(ekf::gyro_bias, 3, 0.01);
     rest(p);
     if (has_mag) mag(mag_b_, p);
@@ -249,12 +264,13 @@ class Navigator {
 
   void align_in_flight(const Gnss& g, double time_s, const Params& p) {
     const Vector3d v_n = eigen(g.velocity_mps);
-    const bool has_mag = field_known_ && time_s_ - mag_s_ < 0.5;
+    const bool has_mag = seen_.field && time_s_ - mag_s_ < 0.5;
     const Vector3d wind_n(filter_.state().wind.x(), filter_.state().wind.y(), 0);
-    const auto found = flight_.fix(v_n, {p.gravity, has_mag ? &field_n_ : nullptr, regaining_ ? &wind_n : nullptr,
-                                         regaining_ ? std::clamp(time_s_ - time_s, 0.0, 1.0) : 0});
+    const auto found =
+        flight_.fix(v_n, {p.gravity, has_mag ? &field_n_ : nullptr, regaining() ? &wind_n : nullptr,
+                          regaining() ? std::clamp(time_s_ - time_s, 0.0, 1.0) : 0});
     if (!found || v_n.head<2>().norm() < p.min_airspeed) return;
-    if (regaining_) {
+    if (regaining()) {
       regain(g, *found, has_mag, time_s, p);
       return;
     }
@@ -262,7 +278,7 @@ class Navigator {
     x.q_nb = found->q_nb;
     x.v_n = v_n;
     begin(x, p, time_s_, 0.2, has_mag ? 0.3 : 0.4);
-    yaw_known_ = true;
+    seen_.yaw = true;
     place(g, time_s, p);
   }
 
@@ -277,7 +293,7 @@ class Navigator {
     const double limit = airborne_ ? 0.7 * p.min_airspeed : p.min_airspeed;
     const double Va = ekf::air_velocity(filter_.state()).norm();
     const bool fast = Va > limit || (time_s_ - pitot_s_ < 1 && pitot_mps_ > limit && filter_.state().v_n.norm() > 0.5 * limit);
-    airborne_ = fast && !resting_ && !(has_status_ && !armed_ && on_ground_);
+    airborne_ = fast && !resting_ && !(status_ && !status_->armed && status_->on_ground);
   }
 
   void sideslip(const Params& p) {
@@ -308,12 +324,11 @@ class Navigator {
   double gnss_s_ = never, gnss_speed_ = 0, mag_s_ = never, mag_fused_s_ = never, pitot_s_ = never, pitot_mps_ = 0, baro_s_ = never;
   std::int64_t origin_count_ = 0;
   double baro_pa_ = 0;
-  bool has_imu_ = false, aligned_ = false, regaining_ = false, regained_ = false, yaw_known_ = false, origin_known_ = false,
-       position_known_ = false, height_known_ = false;
-  bool field_known_ = false, year_known_ = false, baro_zeroed_ = false, altitude_known_ = false;
-  bool has_status_ = false, armed_ = false, on_ground_ = false, resting_ = false, airborne_ = false;
+  Mode mode_ = Mode::waiting;
+  Seen seen_;
+  std::optional<VehicleStatus> status_;  ///< the last that the vehicle told
+  bool resting_ = false;                 ///< stands, by the inertial unit and another witness
+  bool airborne_ = false;                ///< the air carries it: alpha, beta and the tube mean something
 };
 
 }  // namespace fulmar::estimator
-
-#include "navigator_updates.hpp"

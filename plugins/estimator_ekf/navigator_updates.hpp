@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the navigator does with each sample of GNSS, magnetometer, barometer and pitot tube. Part of navigator.hpp.
+// What the navigator (navigator.hpp) does with each sample of GNSS, magnetometer, barometer and pitot tube.
 #pragma once
 #include "navigator.hpp"
 
@@ -18,30 +18,30 @@ inline void Navigator::collect_origin(const Gnss& g, const Params& p) {
   } else {
     set_origin(g.latitude_deg, g.longitude_deg, g.altitude_m);
   }
-  baro_zeroed_ = false;
+  seen_.baro_zero = false;
 }
 
 inline void Navigator::gnss(const Gnss& g, double valid_s, const Params& p) {
   if (!good(g)) return;
   gnss_s_ = time_s_;
   gnss_speed_ = eigen(g.velocity_mps).norm();
-  if (g.utc_ns > 0 && !year_known_) {
+  if (g.utc_ns > 0 && !seen_.year) {
     year_ = decimal_year(g.utc_ns);
-    year_known_ = true;
-    field_known_ = false;
+    seen_.year = true;
+    seen_.field = false;
   }
-  if (!field_known_) magnetic_model(g.latitude_deg, g.longitude_deg, g.altitude_m);
-  if (!origin_known_) collect_origin(g, p);
-  if (!aligned_) {
+  if (!seen_.field) magnetic_model(g.latitude_deg, g.longitude_deg, g.altitude_m);
+  if (!seen_.origin) collect_origin(g, p);
+  if (!aligned()) {
     if (!resting_) align_in_flight(g, valid_s - p.gnss_delay, p);
     return;
   }
   const double time_s = std::min(valid_s - p.gnss_delay, time_s_);
   const ErrorStateEkf::Past past = filter_.at(time_s);
   if (!past.known) return;
-  if (!yaw_known_) yaw_from_course(eigen(g.velocity_mps));
+  if (!seen_.yaw) yaw_from_course(eigen(g.velocity_mps));
   gnss_velocity(g, past, time_s, p);
-  if (origin_known_) gnss_position(g, time_s, p);
+  if (seen_.origin) gnss_position(g, time_s, p);
 }
 
 /// Without a magnetometer the take-off run shows the yaw.
@@ -53,7 +53,7 @@ inline void Navigator::yaw_from_course(const Vector3d& v_n) {
   filter_.forget(ekf::theta + 2, 1, 0.35);
   filter_.place(filter_.state().p_n, v_n);
   filter_.forget(ekf::vel, 3, 1);
-  yaw_known_ = true;
+  seen_.yaw = true;
 }
 
 inline void Navigator::gnss_velocity(const Gnss& g, const ErrorStateEkf::Past& past, double time_s, const Params& p) {
@@ -80,7 +80,7 @@ inline void Navigator::gnss_velocity(const Gnss& g, const ErrorStateEkf::Past& p
 
 /// The first fix, and the one that is believed after all.
 inline void Navigator::place(const Gnss& g, double time_s, const Params& p) {
-  if (!origin_known_) return;
+  if (!seen_.origin) return;
   const Vector3d p_n = frame_.to_ned(g.latitude_deg, g.longitude_deg, g.altitude_m);
   filter_.place(p_n + std::max(time_s_ - time_s, 0.0) * filter_.state().v_n, filter_.state().v_n);
   filter_.forget(ekf::pos, 2, known(g.horizontal_std_m, p.gnss_horizontal_std, 1));
@@ -88,28 +88,29 @@ inline void Navigator::place(const Gnss& g, double time_s, const Params& p) {
   // On the ground the place of the start tells the height better than the receiver, unless the receiver contradicts.
   if (resting_)
     filter_.fuse(ekf::position(filter_, filter_.at(time_s_), 2, -p.start_height), p.start_height_std * p.start_height_std, p.gnss_gate);
-  position_known_ = height_known_ = true;
-  baro_zeroed_ = false;
+  seen_.position = seen_.height = true;
+  seen_.baro_zero = false;
 }
 
 /// The first fix after a gap that ends an alignment. The barometer goes on from where it was, if the receiver does not contradict it: its
 /// offset is known better than the height by one fix, and the height must not jump.
 inline void Navigator::regain(const Gnss& g, const FlightAlignment::Found& found, bool has_mag, double time_s, const Params& p) {
   const double late = std::clamp(time_s_ - time_s, 0.0, 1.0);
-  const bool zeroed = baro_zeroed_;
+  const bool zeroed = seen_.baro_zero;
   const double tilt = known(g.speed_std_mps, p.gnss_speed_std, 0.1) / (p.gravity * found.window_s);
   begin_again(found.q_nb, eigen(g.velocity_mps) + late * found.a_n, p, std::clamp(1.5 * tilt, 0.05, 0.2), has_mag ? 0.15 : 0.4);
-  yaw_known_ = true;
+  seen_.yaw = true;
   place(g, time_s, p);
   health_.position_s = health_.velocity_s = health_.height_s = time_s_;
   if (!zeroed || time_s_ - baro_s_ > 0.5) return;
   const double std = p.baro_noise * ekf::metres_per_pascal(standard_air(altitude_m_ - filter_.state().p_n.z())) + 0.5;
-  baro_zeroed_ = filter_.fuse(ekf::baro_height(filter_.state(), baro_pa_, altitude_m_), std * std, 3).accepted;
+  seen_.baro_zero =
+      filter_.fuse(ekf::baro_height(filter_.state(), baro_pa_, altitude_m_), std * std, 3).accepted;
 }
 
 inline void Navigator::gnss_position(const Gnss& g, double time_s, const Params& p) {
   const Vector3d p_n = frame_.to_ned(g.latitude_deg, g.longitude_deg, g.altitude_m);
-  if (!position_known_) {
+  if (!seen_.position) {
     place(g, time_s, p);
     health_.position_s = health_.height_s = time_s_;
     return;
@@ -137,7 +138,7 @@ inline void Navigator::gnss_position(const Gnss& g, double time_s, const Params&
   } else if (++health_.refused; time_s_ - std::max(health_.height_s, aligned_s_) > p.gnss_reset_after) {
     filter_.place(filter_.state().p_n + Vector3d(0, 0, z(2).innovation), filter_.state().v_n);
     filter_.forget(ekf::pos + 2, 1, v_std);
-    baro_zeroed_ = false;
+    seen_.baro_zero = false;
     health_.height_s = time_s_;
   }
 }
@@ -147,15 +148,15 @@ inline void Navigator::mag(const Vector3d& field_b, const Params& p) {
   if (!(strength > 1e-6) || !field_b.allFinite()) return;
   mag_s_ = time_s_;
   mag_b_ = field_b;
-  if (!aligned_) {
+  if (!aligned()) {
     flight_.mag(field_b);
     return;
   }
   const double horizontal = field_n_.head<2>().norm() / field_n_.norm();
-  if (!field_known_ || horizontal < 0.15) return;   // near the magnetic poles the needle does not know
+  if (!seen_.field || horizontal < 0.15) return;    // near the magnetic poles the needle does not know
   if (time_s_ - mag_fused_s_ < 0.1 - 1e-4) return;  // its errors are correlated: more samples would not be more information
   mag_fused_s_ = time_s_;
-  if (!yaw_known_) yaw_from_field(field_b);
+  if (!seen_.yaw) yaw_from_field(field_b);
   const double std = p.mag_noise / horizontal;
   const ekf::Fused fused = filter_.fuse(ekf::magnetic_heading(filter_.state(), field_b, declination()), std * std, p.mag_gate);
   health_.heading_ratio = fused.ratio;
@@ -170,27 +171,27 @@ inline void Navigator::yaw_from_field(const Vector3d& field_b) {
   const double turn = ekf::magnetic_heading(filter_.state(), field_b, declination()).innovation;
   filter_.set_attitude(exp_map({0, 0, turn}) * filter_.state().q_nb);
   filter_.forget(ekf::theta + 2, 1, 1);
-  yaw_known_ = true;
+  seen_.yaw = true;
 }
 
 inline void Navigator::baro(double pressure_pa, const Params& p) {
   if (!(pressure_pa > 1e4 && pressure_pa < 1.2e5)) return;
   baro_s_ = time_s_;
   baro_pa_ = pressure_pa;
-  if (!origin_known_ && !altitude_known_) {
+  if (!seen_.origin && !seen_.altitude) {
     altitude_m_ = pressure_altitude(pressure_pa);
-    altitude_known_ = true;
+    seen_.altitude = true;
   }
-  if (!aligned_) return;
+  if (!aligned()) return;
   air_ = standard_air(altitude_m_ - filter_.state().p_n.z());
-  if (!baro_zeroed_) {
+  if (!seen_.baro_zero) {
     ekf::Vector dx = ekf::Vector::Zero();
     dx(ekf::baro) = ekf::baro_height(filter_.state(), pressure_pa, altitude_m_).innovation;
     filter_.correct(dx);
-    const double height_std = height_known_ ? filter_.std(ekf::pos + 2) : 0.5;
-    if (!height_known_) filter_.forget(ekf::pos + 2, 1, 0.5);
+    const double height_std = seen_.height ? filter_.std(ekf::pos + 2) : 0.5;
+    if (!seen_.height) filter_.forget(ekf::pos + 2, 1, 0.5);
     filter_.forget(ekf::baro, 1, std::max(height_std, 1.0));
-    height_known_ = baro_zeroed_ = true;
+    seen_.height = seen_.baro_zero = true;
   }
   const double dynamic_pa = airborne_ ? 0.5 * air_.density_kgm3 * ekf::air_velocity(filter_.state()).squaredNorm() : 0;
   const double std = std::hypot(p.baro_noise, p.baro_position_error * dynamic_pa) * ekf::metres_per_pascal(air_);
@@ -199,19 +200,19 @@ inline void Navigator::baro(double pressure_pa, const Params& p) {
   if (fused.accepted) {
     health_.baro_s = time_s_;
   } else if (++health_.refused; time_s_ - std::max(health_.baro_s, aligned_s_) > p.gnss_reset_after) {
-    baro_zeroed_ = false;
+    seen_.baro_zero = false;
     health_.baro_s = time_s_;
   }
 }
 
 inline void Navigator::pitot(double pressure_pa, const Params& p) {
   if (!std::isfinite(pressure_pa)) return;
-  if (time_s_ - baro_s_ > 1) air_ = standard_air(altitude_m_ - (aligned_ ? filter_.state().p_n.z() : 0));
+  if (time_s_ - baro_s_ > 1) air_ = standard_air(altitude_m_ - (aligned() ? filter_.state().p_n.z() : 0));
   const double Va = p.pitot_scale * std::sqrt(2 * std::max(pressure_pa, 0.0) / air_.density_kgm3);
   const double dt = std::clamp(time_s_ - pitot_s_, 0.0, 1.0);
   pitot_mps_ = pitot_s_ == never ? Va : pitot_mps_ + (Va - pitot_mps_) * (1 - std::exp(-dt / 0.2));
   pitot_s_ = time_s_;
-  if (!aligned_ || !airborne_ || Va < 0.5 * p.min_airspeed) return;
+  if (!aligned() || !airborne_ || Va < 0.5 * p.min_airspeed) return;
   const double noise = p.pitot_noise / (air_.density_kgm3 * Va);
   const ekf::Fused fused =
       filter_.fuse(ekf::true_airspeed(filter_.state(), Va), noise * noise + p.pitot_speed_std * p.pitot_speed_std, p.air_gate);

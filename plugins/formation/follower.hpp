@@ -57,7 +57,7 @@ struct Follower {
       throw std::runtime_error("offset: the slot is " + std::to_string(far) + " m from the leader, nearer than separation, " +
                                std::to_string(p.separation.value) + " m");
   }
-  Status activate(const Tick& tick, const Inputs& in, const Params& p, const Outputs& last_applied);
+  Status activate(const Tick& tick, const Inputs& in, const Params& p, const Applied<Outputs>& last);
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out);
 
  private:
@@ -144,10 +144,11 @@ inline bool usable(const VehicleState& own, const Optional<VehicleState>& other,
 }
 
 /// Nobody hands over to it without a leader. At the very beginning there is nobody who could stay, and the leader is waited for.
-inline Status Follower::activate(const Tick&, const Inputs& in, const Params& p, const Outputs& last_applied) {
+inline Status Follower::activate(const Tick&, const Inputs& in, const Params& p,
+                                 const Applied<Outputs>& last) {
   slot_.reached = felt_ = false;
-  commanded_ = last_applied.command.written;
-  if (commanded_) last_ = last_applied.command.value;
+  commanded_ = last.has(last->command);
+  if (commanded_) last_ = last->command.value;
   return commanded_ && !usable(*in.state, in.leader, p.timeout) ? Status::failed : Status::ok;
 }
 

@@ -20,9 +20,9 @@ Status silence(const Optional<T>& port) {
 }
 
 /// Nobody hands over to a node that is silent. At the very beginning there is nobody to stay, and it is waited for.
-template <class T, class M>
-Status take_over(const Optional<T>& port, const Param& timeout, const Out<M>& last_applied) {
-  return silent(port, timeout) && last_applied.written ? Status::failed : Status::ok;
+template <class T, class Outputs>
+Status take_over(const Optional<T>& port, const Param& timeout, const Applied<Outputs>& last) {
+  return silent(port, timeout) && last.given() ? Status::failed : Status::ok;
 }
 
 template <class... F>
@@ -43,8 +43,8 @@ struct RosplaneFollower {
   struct Params {
     Param timeout{0.5, "s", 0.02, 60, "silence after which it has failed"};
   };
-  Status activate(const Tick&, const Inputs& in, const Params& p, const Outputs& last_applied) {
-    return take_over(in.controller_command, p.timeout, last_applied.command);
+  Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
+    return take_over(in.controller_command, p.timeout, last);
   }
   Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out) {
     if (silent(in.controller_command, p.timeout)) return silence(in.controller_command);
@@ -76,8 +76,8 @@ struct RosplaneController {
     Param timeout{0.1, "s", 0.01, 60, "silence after which it has failed"};
   };
   void configure(const Params& p) { throws_ = Throws::of(*p.airframe, p.elevator_up); }
-  Status activate(const Tick&, const Inputs& in, const Params& p, const Outputs& last_applied) {
-    return take_over(in.command, p.timeout, last_applied.actuators);
+  Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
+    return take_over(in.command, p.timeout, last);
   }
   Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out) {
     if (silent(in.command, p.timeout)) return silence(in.command);
@@ -196,8 +196,8 @@ struct RosplaneEstimator {
   struct Params {
     Param timeout{0.1, "s", 0.01, 60, "silence after which it has failed"};
   };
-  Status activate(const Tick&, const Inputs& in, const Params& p, const Outputs& last_applied) {
-    return take_over(in.estimated_state, p.timeout, last_applied.state);
+  Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
+    return take_over(in.estimated_state, p.timeout, last);
   }
   Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out);
 };

@@ -107,8 +107,32 @@ struct Component {
   struct Params {
     double gain = 1;
   };
+#elif CASE == 20
+  struct Lateral {
+    Param gain{1, "", 0, 1, "of roll"};
+  };
+  struct Vertical {
+    Param gain{1, "", 0, 1, "of pitch"};
+  };
+  struct Params {
+    Lateral lateral;
+    Vertical vertical;
+  };
+#elif CASE == 21
+  struct Lateral {
+    Param gain{1, "", 0, 1, "of roll"};
+    const char* note = "";
+  };
+  struct Params {
+    Lateral lateral;
+  };
 #else
   struct Params {};
+#endif
+#if CASE == 19
+  Status activate(const Tick&, const Inputs&, const Params&, const Applied<Outputs>& last) {
+    return last.has(last->roll_error_rad.value) ? Status::ok : Status::failed;
+  }
 #endif
   Status step(const Tick&, const Inputs&, const Params&, Outputs&) { return Status::ok; }
 };

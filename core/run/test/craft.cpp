@@ -21,7 +21,7 @@ struct State {
   double tick_s = 0;
 };
 
-struct Applied {
+struct Received {
   double u_frac = 0;
   bool present = false;
 };
@@ -39,7 +39,7 @@ struct Craft {
   };
   struct Outputs {
     Out<State> status;
-    Out<Applied> applied;  ///< what write received in the tick before
+    Out<Received> applied;  ///< what write received in the tick before
     OutQueue<Note, 4> notices;
     Note remark;  ///< written in every tick
   };
@@ -77,7 +77,7 @@ struct Craft {
 
  private:
   std::int64_t n_ = 0;
-  Applied applied_;
+  Received applied_;
 };
 
 /// Integrates 1 per second from whatever it was activated with: 0.

@@ -21,7 +21,7 @@ Graph craft(const std::string& tail, const std::vector<std::pair<std::string, st
   const fs::path file = folder().path / "craft.yaml";
   std::ofstream(file) << "mission: craft\nrate: 400 Hz\nio: " << io << "\nfailsafe: {u_frac: -0.25, for: 0.5 s}\n"
                       << "roles:\n"
-                         "  vehicle: {in: {command: law.command}, out: {status: State, applied: Applied, notices?: Note}}\n"
+                         "  vehicle: {in: {command: law.command}, out: {status: State, applied: Received, notices?: Note}}\n"
                          "  law:     {in: {state: vehicle.status}, out: {command: Command}}\n"
                          "components:\n"
                          "  craft: {fills: vehicle, use: craft/Craft}\n"

@@ -27,7 +27,7 @@ struct Command {
   std::uint32_t by = 0;  ///< who computed it
 };
 
-struct Applied {
+struct Received {
   double u_frac = 0, seen_m = 0;
   std::uint32_t by = 0;
   bool present = false, fresh = false;
@@ -48,7 +48,7 @@ struct Cart {
   };
   struct Outputs {
     Out<Signal> signal;
-    Out<Applied> applied;  ///< what write received in the tick before
+    Out<Received> applied;  ///< what write received in the tick before
     OutQueue<Signal, 4> burst;
     Out<Arm> status;
   };
@@ -92,7 +92,7 @@ struct Cart {
  private:
   std::int64_t n_ = 0;
   bool armed_ = false;
-  Applied applied_;
+  Received applied_;
   fulmar_last_frame frame_{-1, 0, {}};
 };
 
@@ -237,7 +237,7 @@ struct Tally {
 struct Watch {  ///< fills no role
   struct Inputs {
     Queue<Signal> burst;
-    Optional<Applied> applied;
+    Optional<Received> applied;
     Request<Step> ask;
   };
   struct Outputs {
@@ -404,7 +404,7 @@ struct Hungry {  ///< a law with an input that never comes, and no activate
 struct Statute {
   using Inputs = Law::Inputs;
   struct Outputs {
-    Applied applied;
+    Received applied;
   };
   using Params = Law::Params;
   Status step(const Tick&, const Inputs&, const Params&, Outputs&) { return Status::ok; }

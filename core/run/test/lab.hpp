@@ -42,7 +42,7 @@ arm: auto
 timeout: 100 s
 failsafe: {u_frac: -0.25, for: 0.5 s}
 roles:
-  vehicle: {in: {command: law.command}, out: {signal: Signal, applied: Applied, burst: Signal, status: Arm}}
+  vehicle: {in: {command: law.command}, out: {signal: Signal, applied: Received, burst: Signal, status: Arm}}
   sense:   {in: {signal: vehicle.signal}, out: {signal: Signal}}
   law:     {in: {signal: sense.signal}, out: {command: Command}}
 components:

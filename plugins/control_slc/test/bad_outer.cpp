@@ -29,9 +29,9 @@ struct BadOuter {
     Param at{1e9, "s", 0, 1e9, "when"};
   };
 
-  Status activate(const Tick& tick, const Inputs& in, const Params& p, const Outputs& last) {
-    gains_.airframe.value = *p.airframe;
-    gains_.airframe.is_given = true;
+  Status activate(const Tick& tick, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
+    gains_.common.airframe.value = *p.airframe;
+    gains_.common.airframe.is_given = true;
     return law_.activate(tick, in, gains_, last);
   }
 

@@ -24,7 +24,7 @@ struct Flight {
   double t = 0;
 
   explicit Flight(Turbulence turbulence = Turbulence::none, std::uint64_t seed = 1) : model(test::anaconda(), turbulence, seed) {
-    for (Record<Airframe>* record : {&outer.params.airframe, &inner.params.airframe})
+    for (Record<Airframe>* record : {&outer.params.common.airframe, &inner.params.airframe})
       record->value = model.airframe, record->is_given = true;
     state = model.state();
   }
@@ -140,7 +140,7 @@ TEST_CASE("after the take-off law the climb goes on without a jump of any surfac
   Flight flight;
   flight.model.x.p_n.z() = -2;
   flight.model.x.v_n.x() = 14;
-  flight.outer.params.law.value = OuterLaw::takeoff;
+  flight.outer.params.common.law.value = OuterLaw::takeoff;
   flight.run(0.01);
   const double course = flight.state.course_rad;
   flight.run(60 / 4.0, [] {});
@@ -149,7 +149,7 @@ TEST_CASE("after the take-off law the climb goes on without a jump of any surfac
   CHECK(flight.state.airspeed_mps > 14);
   AttitudeCommand last = flight.outer.out.attitude;
   double pitch_jump = 0, throttle_jump = 0;
-  flight.outer.params.law.value = OuterLaw::hold;
+  flight.outer.params.common.law.value = OuterLaw::hold;
   flight.outer.retune();
   flight.run(40, [&] {
     const AttitudeCommand& now = flight.outer.out.attitude;

@@ -152,6 +152,24 @@ TEST_CASE("taking over continues the last deflections") {
   CHECK(bench.out.actuators.elevator_rad == doctest::Approx(-0.12));
 }
 
+TEST_CASE("surfaces at zero in a glide are somebody's command; after nobody the law begins at its trim") {
+  for (const bool somebody : {true, false}) {
+    Bench<Inner> bench;
+    auto& airframe = bench.params.airframe.value;
+    airframe.elevator.trim_rad = -0.04, airframe.aileron.trim_rad = 0.03;
+    VehicleState s = flying();
+    s.pitch_rad = 0.02, s.roll_rad = 0.01;
+    bench.set(bench.in.state, s);
+    bench.set(bench.in.attitude, AttitudeCommand{0.02, 0.03, 0});
+    REQUIRE((somebody ? bench.activate(Inner::Outputs{}) : bench.activate()) == Status::ok);
+    REQUIRE(bench.step(0.01) == Status::ok);
+    // after nobody: trim and gain times error, 1.2 and 4.0 times 0.01 rad
+    CHECK(std::abs(bench.out.actuators.aileron_rad - (somebody ? 0 : 0.042)) < 1e-3);
+    CHECK(std::abs(bench.out.actuators.elevator_rad - (somebody ? 0 : -0.08)) < 1e-3);
+    CHECK(bench.out.actuators.throttle_frac == 0);
+  }
+}
+
 TEST_CASE("deflections stay within the throws and throttle in 0 to 1, for any state and command") {
   Random random(3);
   Bench<Inner> bench;

@@ -153,7 +153,7 @@ TEST_CASE("throttle stays in 0 to 1, pitch and roll in their limits, for any sta
   Random random(11);
   for (OuterLaw law : {OuterLaw::hold, OuterLaw::takeoff}) {
     Bench<Outer> bench;
-    bench.params.law.value = law;
+    bench.params.common.law.value = law;
     for (int i = 0; i < 20000; ++i) {
       VehicleState s = flying();
       s.height_m = random.uniform(-50, 500), s.climb_rate_mps = random.uniform(-15, 15), s.airspeed_mps = random.uniform(0, 60);
@@ -189,7 +189,7 @@ TEST_CASE("taking over is bumpless from any last command") {
     s.height_m = random.uniform(40, 100), s.airspeed_mps = random.uniform(11, 20), s.course_rad = random.uniform(-3, 3);
     bench.set(bench.in.state, s);
     bench.set(bench.in.command, level());
-    bench.params.law.value = i % 2 ? OuterLaw::takeoff : OuterLaw::hold;
+    bench.params.common.law.value = i % 2 ? OuterLaw::takeoff : OuterLaw::hold;
     Outer::Outputs last;
     last.attitude = {random.uniform(-0.7, 0.7), random.uniform(-0.3, 0.3), random.uniform(0, 1)};
     bench.activate(last);
@@ -216,11 +216,11 @@ TEST_CASE("a live change of the law is bumpless as well") {
   Bench<Outer> bench;
   VehicleState s = flying();
   s.height_m = 30;
-  bench.params.law.value = OuterLaw::takeoff;
+  bench.params.common.law.value = OuterLaw::takeoff;
   settle(bench, s, level());
   CHECK(bench.out.attitude.throttle_frac == 1);
   CHECK(bench.out.attitude.pitch_rad == doctest::Approx(0.21));
-  bench.params.law.value = OuterLaw::hold;
+  bench.params.common.law.value = OuterLaw::hold;
   bench.retune();
   bench.step(0.01);
   CHECK(bench.out.internals.law == OuterLaw::hold);
@@ -230,7 +230,7 @@ TEST_CASE("a live change of the law is bumpless as well") {
 
 TEST_CASE("the take-off law keeps the runway's course, waits with the rotation, and ignores guidance") {
   Bench<Outer> bench;
-  bench.params.law.value = OuterLaw::takeoff;
+  bench.params.common.law.value = OuterLaw::takeoff;
   VehicleState s = flying();
   s.height_m = 0.3, s.airspeed_mps = s.ground_speed_mps = 0, s.yaw_rad = s.course_rad = 1.0;
   GuidanceCommand c = level();
@@ -300,6 +300,27 @@ TEST_CASE(
     double least = 1;
     for (int i = 0; i < 50; ++i) bench.step(0.01), least = std::min(least, bench.out.attitude.throttle_frac);
     CHECK(least > 0.3);  // half a metre per second too fast asks for that
+  }
+}
+
+TEST_CASE("a glide, all zeros, is somebody's command; after nobody a law begins at attitude and cruise") {
+  for (const bool somebody : {true, false}) {
+    Bench<Outer> bench;
+    VehicleState s = flying();
+    s.roll_rad = 0.3, s.pitch_rad = 0.1, s.height_m = 60;  // too low: the law asks for more than trim
+    bench.set(bench.in.state, s);
+    bench.set(bench.in.command, level());
+    REQUIRE((somebody ? bench.activate(Outer::Outputs{}) : bench.activate()) == Status::ok);
+    REQUIRE(bench.step(0.01) == Status::ok);
+    const AttitudeCommand& a = bench.out.attitude;
+    const double throttle = somebody ? 0 : 0.5, pitch = somebody ? 0 : 0.1, roll = somebody ? 0 : 0.3;
+    CHECK(std::abs(a.throttle_frac - throttle) <= 0.0201);  // 2 per second
+    CHECK(std::abs(a.pitch_rad - pitch) <= 0.0081);         // 0.8 rad/s
+    CHECK(std::abs(a.roll_rad - roll) <= 0.0401);           // smoothed towards 0 with 0.1 s
+    // The integral takes up what it may of the difference between the glide and what the law would ask for;
+    // after nobody nothing.
+    CHECK(bench.out.throttle_integral_frac.value == doctest::Approx(somebody ? -0.2 : 0).epsilon(0.02));
+    CHECK(bench.out.pitch_integral_rad.value == doctest::Approx(somebody ? -0.1 : 0).epsilon(0.01));
   }
 }
 

@@ -30,8 +30,8 @@ struct Flight {
   VehicleState state;
 
   explicit Flight(Turbulence turbulence = Turbulence::none, std::uint64_t seed = 1) : model(test::anaconda(), turbulence, seed) {
-    outer.params.airframe.value = model.airframe;
-    outer.params.airframe.is_given = true;
+    outer.params.common.airframe.value = model.airframe;
+    outer.params.common.airframe.is_given = true;
     state = model.state();
   }
   template <class Observe>

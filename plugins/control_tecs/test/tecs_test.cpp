@@ -29,7 +29,7 @@ GuidanceCommand level() {
 }
 
 void configure(Bench<Outer>& bench) {
-  bench.params.airframe.value.mass_kg = 4.5;
+  bench.params.common.airframe.value.mass_kg = 4.5;
   bench.params.airspeed_kff.value = 0;
 }
 const AttitudeCommand& settle(Bench<Outer>& bench, const VehicleState& state, const GuidanceCommand& command, double seconds = 3) {
@@ -78,7 +78,8 @@ struct PointMassFlight {
   explicit PointMassFlight(double speed_weight) {
     configure(bench);
     bench.params.speed_weight.value = speed_weight;
-    bench.params.airframe.value.limits.climb_rate_max_mps = bench.params.airframe.value.limits.sink_rate_max_mps = 5;
+    bench.params.common.airframe.value.limits.climb_rate_max_mps =
+        bench.params.common.airframe.value.limits.sink_rate_max_mps = 5;
   }
   void run(double seconds, double acceleration_limit = 1e9) {
     for (double t = 0; t < seconds; t += 0.02) {
@@ -160,8 +161,8 @@ TEST_CASE("throttle stays in 0 to 1, trim included, pitch within the pitch limit
   double least = 1, most = 0;
   for (OuterLaw law : {OuterLaw::hold, OuterLaw::takeoff}) {
     Bench<Outer> bench;
-    bench.params.law.value = law;
-    bench.params.airframe.value.limits.throttle_cruise_frac = 0.9;
+    bench.params.common.law.value = law;
+    bench.params.common.airframe.value.limits.throttle_cruise_frac = 0.9;
     for (int i = 0; i < 20000; ++i) {
       VehicleState s = flying();
       s.height_m = random.uniform(-50, 500), s.climb_rate_mps = random.uniform(-15, 15), s.airspeed_mps = random.uniform(0, 60);
@@ -316,6 +317,32 @@ TEST_CASE(
     double least = 1;
     for (int i = 0; i < 50; ++i) bench.step(0.01), least = std::min(least, bench.out.attitude.throttle_frac);
     CHECK(least > 0.3);  // half a metre per second too fast asks for that
+  }
+}
+
+TEST_CASE("a glide, all zeros, is somebody's command; after nobody a law begins at attitude and cruise") {
+  for (const bool somebody : {true, false}) {
+    Bench<Outer> bench;
+    configure(bench);
+    VehicleState s = flying();
+    s.roll_rad = 0.3, s.pitch_rad = 0.1, s.height_m = 60;  // too low: the law asks for more than trim
+    bench.set(bench.in.state, s);
+    bench.set(bench.in.command, level());
+    REQUIRE((somebody ? bench.activate(Outer::Outputs{}) : bench.activate()) == Status::ok);
+    REQUIRE(bench.step(0.01) == Status::ok);
+    const AttitudeCommand& a = bench.out.attitude;
+    const double throttle = somebody ? 0 : 0.5, pitch = somebody ? 0 : 0.1, roll = somebody ? 0 : 0.3;
+    CHECK(std::abs(a.throttle_frac - throttle) <= 0.0201);  // 2 per second
+    CHECK(std::abs(a.pitch_rad - pitch) <= 0.0081);         // 0.8 rad/s
+    CHECK(std::abs(a.roll_rad - roll) <= 0.0401);           // smoothed towards 0 with 0.1 s
+    // The integrals take up the difference between the glide and what the law would ask for: of throttle what
+    // they may; of pitch, 0 = B_ff / (g V) + k (B_c - B) / (g V) + I with B_ff = B_c = g 4 m/s2 10 ms and
+    // B = 0.4 V g sin(0.1). After nobody nothing.
+    const double B_c = g * 0.04, B = 0.4 * cruise * g * std::sin(0.1);
+    const double integral = -(B_c + 0.6 * (B_c - B)) / (g * cruise);
+    CHECK(bench.out.throttle_integral_frac.value == doctest::Approx(somebody ? -0.2 : 0).epsilon(0.02));
+    CHECK(std::abs(bench.out.pitch_integral_rad.value - (somebody ? integral : 0)) < 3e-4);
+    CHECK(integral > 0.015);
   }
 }
 

@@ -187,8 +187,7 @@ TEST_CASE("nobody hands over to it without a leader") {
   Scene s;
   Follower::Outputs before;
   s.bench.set(s.bench.in.state, at_slot());
-  CHECK(s.bench.activate(before) == Status::ok);  // nobody has flown yet
-  before.command.publish({});
+  CHECK(s.bench.activate() == Status::ok);  // nobody has flown yet
   CHECK(s.bench.activate(before) == Status::failed);
   s.bench.set(s.bench.in.leader, s.leader);
   CHECK(s.bench.activate(before) == Status::ok);

@@ -204,9 +204,8 @@ TEST_CASE("a follower's commands guide; a follower that falls silent has failed,
 
 TEST_CASE("nobody hands over to a silent follower, but the beginning waits for it") {
   Bench<RosplaneFollower> bench;
-  RosplaneFollower::Outputs applied;
-  CHECK(bench.activate(applied) == Status::ok);
-  applied.command.written = true;
+  const RosplaneFollower::Outputs applied;
+  CHECK(bench.activate() == Status::ok);
   CHECK(bench.activate(applied) == Status::failed);
   bench.set(bench.in.controller_command, RosplaneControllerCommands{});
   CHECK(bench.activate(applied) == Status::ok);

@@ -9,9 +9,12 @@
 //   };
 //   FULMAR_PLUGIN("1.0.0", AttitudeHold)
 //
-// Optional members: a constructor from a 64-bit seed, `configure`, `retune`, `activate`, `deactivate`, `static constexpr const char* doc`.
-// A vehicle has `read(Tick&, const Params&, Outputs&)` and `write(const Tick&, const Inputs&, const Params&)` in place of `step`, and may
-// have `const fulmar_last_frame* last_frame(const Inputs& failsafe)`: what its device is to get when the host dies (abi.h).
+// Optional members: a constructor from a 64-bit seed, `configure`, `retune`, `deactivate`,
+// `static constexpr const char* doc`, and
+//   Status activate(const Tick&, const Inputs&, const Params&, const Applied<Outputs>& last);
+// where `last` may be a `const Outputs&` too. A vehicle has `read(Tick&, const Params&, Outputs&)` and
+// `write(const Tick&, const Inputs&, const Params&)` in place of `step`, and may have
+// `const fulmar_last_frame* last_frame(const Inputs& failsafe)`: what its device gets when the host dies (abi.h).
 #pragma once
 #include <cstdint>
 #include <cstring>
@@ -167,6 +170,37 @@ struct Probe {
     value = number;
     written = true;
     return *this;
+  }
+};
+
+/// What was last applied in the component's role, whoever made it: `activate` goes on from there.
+///   if (last.has(last->attitude)) throttle_ = last->attitude.throttle_frac;
+template <class Outputs>
+struct Applied {
+  Outputs outputs{};            ///< what nobody made is zeros, which may be a command too
+  std::uint64_t made_bits = 0;  ///< one per output, in their order: the host has one to go on from
+
+  const Outputs* operator->() const { return &outputs; }
+  operator const Outputs&() const { return outputs; }  // NOLINT(google-explicit-constructor)
+
+  /// Somebody flew: at least one output was applied. Not so when the flight begins and while the pilot flies.
+  bool given() const { return made_bits != 0; }
+  /// This output was applied: `last.has(last->attitude)`. A predecessor need not have all of its successor's.
+  template <class M>
+  bool has(const M& output) const {
+    static_assert(detail::has_member<Outputs, M>,
+                  "has() asks for one of the outputs: last.has(last->attitude)");
+    bool made = false;
+    detail::for_each(outputs, [&]<class Member>(const Member& member, std::size_t i) {
+      if constexpr (std::is_same_v<Member, M>)
+        made = made || (&member == &output && (made_bits >> i & 1) != 0);
+    });
+    return made;
+  }
+  /// All of these were applied.
+  static Applied all(const Outputs& applied) {
+    constexpr std::size_t n = detail::member_count<Outputs>();
+    return {applied, n < 64 ? (std::uint64_t{1} << n % 64) - 1 : ~std::uint64_t{0}};
   }
 };
 

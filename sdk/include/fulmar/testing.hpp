@@ -120,9 +120,22 @@ class Bench {
       return Status::ok;
     });
   }
-  Status activate(const typename C::Outputs& last_applied = {}) {
+  /// Nobody flew before: the flight begins, or the pilot flies.
+  Status activate() { return activate(Applied<typename C::Outputs>{}); }
+  /// Somebody did, and all of this was applied last.
+  Status activate(const typename C::Outputs& applied) {
+    return activate(Applied<typename C::Outputs>::all(applied));
+  }
+  /// As the host says it: some outputs were applied, others not. A template: `activate({})` means an Outputs.
+  template <std::same_as<Applied<typename C::Outputs>> A>
+  Status activate(const A& last) {
     if (!configured_) configure();
-    return call([&] { return self().component.activate(tick, in, self().params, last_applied); });
+    return call([&] {
+      if constexpr (detail::TakesOutputs<C>)
+        return self().component.activate(tick, in, self().params, last.outputs);
+      else
+        return self().component.activate(tick, in, self().params, last);
+    });
   }
 
   /// Advances time by dt and steps once.

@@ -43,9 +43,10 @@ struct MyLaw {  // fills the role `nav`
     Param declination{0.19, "rad", -3.2, 3.2, "of the compass, when it began by itself"};
   };
 
-  Status activate(const Tick&, const Inputs& in, const Params&, const Outputs& last) {
-    const VehicleState& s = last.state;
-    if (!s.attitude_valid || !s.position_valid || !s.origin_valid) return Status::ok;  // nobody flew before: `step` begins
+  Status activate(const Tick&, const Inputs& in, const Params&, const Applied<Outputs>& last) {
+    const VehicleState& s = last->state;
+    const bool known = last.has(last->state) && s.attitude_valid && s.position_valid && s.origin_valid;
+    if (!known) return Status::ok;  // `step` begins
     q_ = eigen(s.attitude);
     v_ = v_gnss_ = eigen(s.velocity_mps);
     p_ = p_gnss_ = eigen(s.position_m);

@@ -115,29 +115,34 @@ TEST_CASE("where nobody's command is in force a law begins at the aircraft's att
   OuterTuning tuning;
   tuning.course.roll_max_rad = 0.785;
   OuterCommands commands;
-  const auto begins = [&](const VehicleState& s, const AttitudeCommand& last) {
+  const auto begins = [&](const VehicleState& s, const AttitudeCommand* last) {
     const bool somebodys = commands.take_over(OuterLaw::hold, s, last, tuning, limits);
+    CHECK(somebodys == (last != nullptr));
     CHECK(somebodys == commands.taking_up());
     return commands.last();
   };
+  const AttitudeCommand turn{0.2, 0, 0}, glide;
   VehicleState s = at(15, 15, 70);
   s.attitude_valid = true;
   s.roll_rad = 2.5, s.pitch_rad = -1.2;
-  CHECK(begins(s, {}).roll_rad == 0.785);
+  CHECK(begins(s, nullptr).roll_rad == 0.785);
   CHECK(commands.last().pitch_rad == -0.35);
   CHECK(commands.last().throttle_frac == 0.5);
   s.roll_rad = 0.3, s.pitch_rad = 0.1;
-  CHECK(begins(s, {}).roll_rad == 0.3);
+  CHECK(begins(s, nullptr).roll_rad == 0.3);
   CHECK(commands.last().pitch_rad == 0.1);
+  CHECK(begins(s, &glide).roll_rad == 0);  // zeros are a command
+  CHECK(commands.last().pitch_rad == 0);
+  CHECK(commands.last().throttle_frac == 0);
   s.attitude_valid = false;
-  CHECK(begins(s, {}).roll_rad == 0);
+  CHECK(begins(s, nullptr).roll_rad == 0);
   CHECK(commands.last().throttle_frac == 0.5);
-  CHECK(begins(s, {0.2, 0, 0}).roll_rad == 0.2);  // somebody's: taken as it is
+  CHECK(begins(s, &turn).roll_rad == 0.2);  // somebody's: taken as it is
   CHECK(commands.last().throttle_frac == 0);
   for (const double wind : {0.0, 5.0}) {  // on the ground the engine stays off
     VehicleState ground = at(wind, 0, 0.2);
     ground.attitude_valid = true, ground.pitch_rad = 0.15;
-    CHECK(begins(ground, {}).throttle_frac == 0);
+    CHECK(begins(ground, nullptr).throttle_frac == 0);
     CHECK(commands.last().pitch_rad == 0);
   }
 }

@@ -206,6 +206,9 @@ inline void assign(Blob& p, const fulmar_value& v) {
 template <class M>
 concept Parameter = requires(const M& m) { param_entry(m); };
 
+template <class M, class F>
+constexpr void visit_param(M& member, F& f);
+
 /// Calls f(parameter) for each parameter of a struct, those of its groups (structs of parameters) in their places.
 template <class S, class F>
 constexpr void for_each_param(S& params, F& f) {
@@ -216,7 +219,9 @@ constexpr void visit_param(M& member, F& f) {
   if constexpr (Parameter<M>) {
     f(member);
   } else {
-    static_assert(std::is_class_v<M> && std::is_aggregate_v<M>, "Params holds Param, Flag, Count, Choice, TextParam, Vector, Record, Blob and structs of these");
+    static_assert(
+        std::is_class_v<M> && std::is_aggregate_v<M>,
+        "Params holds Param, Flag, Count, Choice, TextParam, Vector, Record, Blob and structs of these");
     for_each_param(member, f);
   }
 }
@@ -254,6 +259,14 @@ struct ParamTable {
     return out;
   }
   static constexpr std::array<fulmar_param, count> table = make();
+  static constexpr bool names_differ() {
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t k = 0; k < i; ++k)
+        if (std::string_view(table[i].name) == table[k].name) return false;
+    return true;
+  }
+  static_assert(names_differ(),
+                "two parameters have one name: a group's members are parameters beside all others");
 };
 
 // ---- thunks -------------------------------------------------------------------------------------------------------------------
@@ -271,7 +284,7 @@ struct Instance {
   C component;
   typename C::Inputs in{};
   typename C::Outputs out{};
-  typename C::Outputs last{};
+  Applied<typename C::Outputs> last{};
   typename C::Params params{};
 };
 
@@ -299,6 +312,18 @@ concept Vehicle = requires(C c, Tick& tick, const typename C::Params& p, typenam
   c.read(tick, p, out);
 };
 
+/// `activate` as it was written before there was Applied: `last` is the outputs alone.
+template <class C>
+concept TakesOutputs = requires(C c, const Tick& t, const typename C::Inputs& in, const typename C::Params& p,
+                                const typename C::Outputs& last) {
+  { c.activate(t, in, p, last) } -> std::same_as<Status>;
+};
+template <class C>
+concept TakesApplied = requires(C c, const Tick& t, const typename C::Inputs& in, const typename C::Params& p,
+                                const Applied<typename C::Outputs>& last) {
+  { c.activate(t, in, p, last) } -> std::same_as<Status>;
+};
+
 template <class C>
 struct Thunks {
   using I = Instance<C>;
@@ -321,6 +346,18 @@ struct Thunks {
   static void take(typename C::Params& params, const fulmar_value* values) {
     auto one = [&](auto& param) { assign(param, *values++); };
     for_each_param(params, one);
+  }
+
+  static void take_last(Applied<typename C::Outputs>& applied, const fulmar_input* last) {
+    applied.made_bits = 0;
+    for_each(applied.outputs, [&]<class M>(M& member, std::size_t k) {
+      if (last[k].data) {
+        PortOf<M>::read_last(member, last[k]);
+        applied.made_bits |= std::uint64_t{1} << k;
+      } else if constexpr (!requires { member.stamps_ns; }) {
+        member = M{};  // nobody's: not what was handed over once before
+      }
+    });
   }
 
   static void* create(std::uint64_t seed, fulmar_error* error) {
@@ -353,13 +390,11 @@ struct Thunks {
     return guarded(error, [&] {
       I& i = self(instance);
       bind(i.in, inputs);
-      for_each(i.last, [&]<class M>(M& member, std::size_t k) {
-        if (last[k].data)
-          PortOf<M>::read_last(member, last[k]);
-        else if constexpr (!requires { member.stamps_ns; })
-          member = M{};  // nobody's: not what was handed over once before
-      });
-      return i.component.activate(tick_of(*tick), i.in, i.params, i.last);
+      take_last(i.last, last);
+      if constexpr (TakesOutputs<C>)
+        return i.component.activate(tick_of(*tick), i.in, i.params, i.last.outputs);
+      else
+        return i.component.activate(tick_of(*tick), i.in, i.params, i.last);
     });
   }
   static void deactivate(void* instance) {
@@ -439,10 +474,7 @@ consteval fulmar_component component_entry() {
   e.port_stride = sizeof(fulmar_port), e.param_stride = sizeof(fulmar_param);
   e.flags = vehicle ? FULMAR_VEHICLE : 0;
   e.create = &T::create, e.destroy = &T::destroy, e.configure = &T::configure, e.retune = &T::retune;
-  if constexpr (requires(C c, const Tick& t, const typename C::Inputs& in, const typename C::Params& p, const typename C::Outputs& last) {
-                  { c.activate(t, in, p, last) } -> std::same_as<Status>;
-                })
-    e.activate = &T::activate;
+  if constexpr (TakesOutputs<C> || TakesApplied<C>) e.activate = &T::activate;
   if constexpr (requires(C c) { c.deactivate(); }) e.deactivate = &T::deactivate;
   if constexpr (vehicle) {
     e.read = &T::read;

@@ -124,6 +124,14 @@ struct ToTypes {
 template <class T>
 using MemberTypes = decltype(with_members(std::declval<T&>(), ToTypes{}));
 
+template <class M, class T>
+inline constexpr bool among = false;
+template <class M, class... N>
+inline constexpr bool among<M, Types<N...>> = (std::is_same_v<M, N> || ...);
+/// S has a member of type M.
+template <class S, class M>
+inline constexpr bool has_member = among<M, MemberTypes<S>>;
+
 /// Calls f(member, i) for each member of a struct.
 template <class S, class F>
 constexpr void for_each(S& s, F&& f) {

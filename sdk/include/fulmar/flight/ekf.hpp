@@ -192,15 +192,6 @@ class ErrorStateEkf {
   void inflate(int first, int count, double std) {
     for (int i = first; i < first + count; ++i) P_(i, i) += std * std;
   }
-  /// Time passes without a sample: the velocity is carried on, what the gyros missed is unknown.
-  void skip(double dt, double rate_std_radps, double accel_std_mps2) {
-    x_.p_n += x_.v_n * dt;
-    time_s_ += dt;
-    has_sample_ = false;
-    inflate(ekf::theta, 3, rate_std_radps * dt);
-    inflate(ekf::vel, 3, accel_std_mps2 * dt);
-    inflate(ekf::pos, 3, 0.5 * accel_std_mps2 * dt * dt);
-  }
   void place(const Vector3& p_n, const Vector3& v_n) {
     ekf::Vector dx = ekf::Vector::Zero();
     dx.segment<3>(ekf::vel) = v_n - x_.v_n;

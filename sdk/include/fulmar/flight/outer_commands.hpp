@@ -35,14 +35,14 @@ class OuterCommands {
     if (law == OuterLaw::takeoff) run_.begin(state);
   }
 
-  /// The same, or when nobody's command is in force - zeros: the pilot flies, or a host begins in the air - from the attitude that the
-  /// aircraft has, as far as the law may ask for it, and the throttle of level flight: the pilot's is not known, and what was asked for
-  /// before he flew says nothing about now. Returns false then: there is nothing that integrals could take up.
-  bool take_over(OuterLaw law, const VehicleState& state, const AttitudeCommand& last, const OuterTuning& tuning,
-                 const FlightLimits& limits) {
-    const bool somebodys = last.roll_rad != 0 || last.pitch_rad != 0 || last.throttle_frac != 0;
-    AttitudeCommand from = last;
-    if (!somebodys && flying(state, limits)) {
+  /// The same, or when nobody's command is in force - `last` is null: the pilot flies, or a host begins in
+  /// the air - from the attitude that the aircraft has, as far as the law may ask for it, and the throttle of
+  /// level flight: the pilot's is not known, and what was asked for before he flew says nothing about now.
+  /// Zeros are a command: a glide, wings level. Returns whether integrals have something to take up.
+  bool take_over(OuterLaw law, const VehicleState& state, const AttitudeCommand* last,
+                 const OuterTuning& tuning, const FlightLimits& limits) {
+    AttitudeCommand from = last ? *last : AttitudeCommand{};
+    if (!last && flying(state, limits)) {
       from.throttle_frac = limits.throttle_cruise_frac;
       if (state.attitude_valid) {
         from.roll_rad = std::clamp(state.roll_rad, -tuning.course.roll_max_rad, tuning.course.roll_max_rad);
@@ -51,8 +51,8 @@ class OuterCommands {
     }
     start(law, state, from);
     levelling_ = false;
-    taking_up_ = taking_up_ && somebodys;
-    return somebodys;
+    taking_up_ = taking_up_ && last;
+    return last != nullptr;
   }
 
   /// What is to be done in this step; starts the law anew when it was changed without a hand-over.

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a message may be made of, beside numbers, enums, frames and std::array: fixed text and fixed-capacity lists.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "fulmar/frames.hpp"
+
+namespace fulmar {
+
+/// Text of at most N - 1 bytes. Longer text is cut.
+template <std::size_t N>
+struct Text {
+  std::array<char, N> bytes{};
+
+  constexpr Text() = default;
+  constexpr Text(std::string_view text) {  // NOLINT(google-explicit-constructor): a literal is a text
+    const std::size_t n = std::min(text.size(), N - 1);
+    for (std::size_t i = 0; i < n; ++i) bytes[i] = text[i];
+  }
+  constexpr Text(const char* text) : Text(std::string_view(text)) {}  // NOLINT(google-explicit-constructor)
+
+  constexpr std::string_view view() const {
+    const auto end = std::find(bytes.begin(), bytes.end(), '\0');
+    return {bytes.data(), static_cast<std::size_t>(end - bytes.begin())};
+  }
+  friend constexpr bool operator==(const Text& a, const Text& b) { return a.view() == b.view(); }
+};
+
+/// At most N items; only the first `count` are there, logged and sent.
+template <class T, std::size_t N>
+struct List {
+  std::uint32_t count = 0;
+  std::array<T, N> items{};
+
+  static constexpr std::size_t capacity() { return N; }
+  constexpr std::size_t size() const { return count; }
+  constexpr bool empty() const { return count == 0; }
+  constexpr bool full() const { return count == N; }
+  constexpr const T& operator[](std::size_t i) const { return items[i]; }
+  constexpr T& operator[](std::size_t i) { return items[i]; }
+  constexpr const T* begin() const { return items.data(); }
+  constexpr const T* end() const { return items.data() + count; }
+  constexpr T* begin() { return items.data(); }
+  constexpr T* end() { return items.data() + count; }
+  /// False, and nothing added, when the list is full.
+  constexpr bool push_back(const T& item) {
+    if (full()) return false;
+    items[count++] = item;
+    return true;
+  }
+  constexpr void clear() { count = 0; }
+};
+
+/// Deviation of a quantity that nobody knows: large, finite, and so honest to every weighted sum.
+inline constexpr double unknown_std = 1e9;
+
+}  // namespace fulmar

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a plugin author includes: ports, parameters, tick, status, and FULMAR_PLUGIN, which makes the entry of the binary contract.
+//
+//   struct AttitudeHold {
+//     struct Inputs  { In<VehicleState> state;  In<AttitudeCommand> attitude; };
+//     struct Outputs { Actuators actuators;  Probe roll_error_rad; };
+//     struct Params  { Param roll_kp{0.55, "rad/rad", 0, 2, "aileron per roll error"}; };
+//     Status step(const Tick&, const Inputs&, const Params&, Outputs&);
+//   };
+//   FULMAR_PLUGIN("1.0.0", AttitudeHold)
+//
+// Optional members: a constructor from a 64-bit seed, `configure`, `retune`, `activate`, `deactivate`, `static constexpr const char* doc`.
+// A vehicle has `read(Tick&, const Params&, Outputs&)` and `write(const Tick&, const Inputs&, const Params&)` in place of `step`, and may
+// have `const fulmar_last_frame* last_frame(const Inputs& failsafe)`: what its device is to get when the host dies (abi.h).
+#pragma once
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+
+#include "fulmar/schema.hpp"
+
+namespace fulmar {
+
+/// One pass of the loop, as a component sees it. Time is flight time, 0 at the first armed tick.
+struct Tick {
+  std::int64_t now_ns = 0;
+  std::int64_t dt_ns = 0;  ///< since this component's previous step; its nominal period in the first one
+  std::uint64_t index = 0;
+  double now_s() const { return 1e-9 * static_cast<double>(now_ns); }
+  double dt_s() const { return 1e-9 * static_cast<double>(dt_ns); }
+};
+
+enum class Status : std::uint32_t { ok = FULMAR_OK, degraded = FULMAR_DEGRADED, failed = FULMAR_FAILED };
+
+// ---- inputs: views of what the host holds; valid during the call --------------------------------------------------------------
+
+/// The latest sample of a wire. There is one whenever `step` is called.
+template <class T>
+struct In {
+  const fulmar_input* input = nullptr;  ///< set by the glue
+
+  const T& operator*() const { return *static_cast<const T*>(input->data); }
+  const T* operator->() const { return static_cast<const T*>(input->data); }
+  bool fresh() const { return input && (input->flags & FULMAR_FRESH) != 0; }  ///< not seen by the previous step
+  bool stale() const { return input && (input->flags & FULMAR_STALE) != 0; }  ///< older than the wire's max_age
+  std::int64_t valid_at_ns() const { return input->valid_at_ns; }
+  double age_s() const { return 1e-9 * static_cast<double>(input->age_ns); }
+  std::uint64_t sequence() const { return input ? input->sequence : 0; }  ///< counts samples from 1
+};
+
+/// As In, but the component also steps without it: `if (in.gnss && in.gnss.fresh()) ...`.
+template <class T>
+struct Optional : In<T> {
+  explicit operator bool() const { return this->input && this->input->data; }
+};
+
+template <class T>
+struct Sample {
+  const T& value;
+  std::int64_t valid_at_ns;
+};
+
+/// Every sample since the last step, oldest first: `for (const auto& sample : in.edits)`.
+template <class T>
+struct Queue {
+  const fulmar_input* input = nullptr;
+
+  struct Iterator {
+    const fulmar_input* input;
+    std::uint32_t i;
+    Sample<T> operator*() const { return {static_cast<const T*>(input->data)[i], input->stamps_ns[i]}; }
+    Iterator& operator++() {
+      ++i;
+      return *this;
+    }
+    bool operator!=(const Iterator& other) const { return i != other.i; }
+  };
+  Iterator begin() const { return {input, 0}; }
+  Iterator end() const { return {input, size()}; }
+  std::uint32_t size() const { return input ? input->count : 0; }
+  bool empty() const { return size() == 0; }
+  std::uint32_t lost() const { return input ? input->lost : 0; }  ///< samples that found no room since the last step
+};
+
+/// Questions from outside or from another component, each to be answered in the step that sees it: `for (auto request : in.edit)`.
+/// What is not answered counts as refused.
+template <class T>
+struct Request {
+  const fulmar_input* input = nullptr;
+
+  struct One {
+    const T& asked;
+    fulmar_answer& answer;
+    const T& value() const { return asked; }
+    void accept() const { answer.verdict = FULMAR_ACCEPTED; }
+    void refuse(std::string_view reason) const {
+      answer.verdict = FULMAR_REFUSED;
+      const std::size_t n = std::min(reason.size(), sizeof answer.reason - 1);
+      std::memcpy(answer.reason, reason.data(), n);
+      answer.reason[n] = '\0';
+    }
+  };
+  struct Iterator {
+    const fulmar_input* input;
+    std::uint32_t i;
+    One operator*() const { return {static_cast<const T*>(input->data)[i], input->answers[i]}; }
+    Iterator& operator++() {
+      ++i;
+      return *this;
+    }
+    bool operator!=(const Iterator& other) const { return i != other.i; }
+  };
+  Iterator begin() const { return {input, 0}; }
+  Iterator end() const { return {input, size()}; }
+  std::uint32_t size() const { return input ? input->count : 0; }
+  bool empty() const { return size() == 0; }
+};
+
+// ---- outputs. A plain message is published in every step. ---------------------------------------------------------------------
+
+/// A message that may stay silent.
+template <class T>
+struct Out {
+  T value{};
+  std::int64_t valid_at_ns = 0;
+  bool written = false, dated = false;
+
+  void publish(const T& message) {
+    value = message;
+    written = true;
+    dated = false;
+  }
+  void publish(const T& message, std::int64_t valid_at) {
+    publish(message);
+    valid_at_ns = valid_at;
+    dated = true;
+  }
+};
+
+/// Time of validity of a sample of a driver: the time at which the loop takes it over. A driver has no flight time of its own.
+inline constexpr std::int64_t on_arrival = FULMAR_ON_ARRIVAL;
+
+/// None, one or several messages per step; at most N.
+template <class T, std::size_t N = 16>
+struct OutQueue {
+  std::array<T, N> items{};
+  std::array<std::int64_t, N> stamps_ns{};
+  std::uint32_t count = 0, lost = 0;
+
+  /// False when there is no room; the loss is counted and told to the reader.
+  bool push(const T& message, std::int64_t valid_at_ns) {
+    if (count == N) {
+      ++lost;
+      return false;
+    }
+    items[count] = message;
+    stamps_ns[count++] = valid_at_ns;
+    return true;
+  }
+};
+
+/// One number to look at: logged and plottable, without a message. Its name ends in its unit.
+struct Probe {
+  double value = 0;
+  bool written = false;
+  Probe& operator=(double number) {
+    value = number;
+    written = true;
+    return *this;
+  }
+};
+
+// ---- parameters ---------------------------------------------------------------------------------------------------------------
+
+enum class Access : std::uint8_t { live, setup };
+inline constexpr Access live = Access::live;    ///< may change between ticks
+inline constexpr Access setup = Access::setup;  ///< fixed when the flight begins
+
+struct Param {
+  double value = 0;
+  const char* unit = "";
+  double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
+  const char* doc = "";
+  Access access = live;
+  constexpr operator double() const { return value; }  // NOLINT(google-explicit-constructor)
+};
+
+struct Flag {
+  bool value = false;
+  const char* doc = "";
+  Access access = live;
+  constexpr operator bool() const { return value; }  // NOLINT(google-explicit-constructor)
+};
+
+struct Count {
+  std::int64_t value = 0;
+  std::int64_t min = 0, max = std::numeric_limits<std::int32_t>::max();
+  const char* doc = "";
+  Access access = live;
+  constexpr operator std::int64_t() const { return value; }  // NOLINT(google-explicit-constructor)
+};
+
+/// One of the names of an enum.
+template <class E>
+struct Choice {
+  E value{};
+  const char* doc = "";
+  Access access = live;
+  constexpr operator E() const { return value; }  // NOLINT(google-explicit-constructor)
+};
+
+template <std::size_t N>
+struct TextParam {
+  Text<N> value{};
+  const char* doc = "";
+  std::string_view view() const { return value.view(); }
+};
+
+template <class Frame>
+struct Vector {
+  Vec3<Frame> value{};
+  const char* unit = "";
+  double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();  ///< of each element
+  const char* doc = "";
+  Access access = live;
+};
+
+enum class Need : std::uint8_t { optional, required };
+inline constexpr Need required = Need::required;
+
+/// A YAML file that the host has read into a described struct.
+template <class T>
+struct Record {
+  const char* doc = "";
+  Need need = Need::optional;
+  T value{};
+  bool is_given = false;
+  bool given() const { return is_given; }  ///< the mission names one
+  const T& operator*() const { return value; }
+  const T* operator->() const { return &value; }
+};
+
+/// The bytes of a file. They belong to the host and stay until the next `configure`.
+struct Blob {
+  const char* doc = "";
+  Need need = Need::optional;
+  const std::byte* data = nullptr;
+  std::size_t size = 0;
+  const char* name = "";
+};
+
+}  // namespace fulmar
+
+#include "fulmar/detail/glue.hpp"

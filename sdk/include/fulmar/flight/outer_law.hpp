@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the outer laws have in common beside how they hold height and speed: their parameters, the course of a
+// step, and what a banked turn costs. A law is left with a function from a turn to pitch and throttle.
+//
+//   struct Params { OuterParams common;  Param height_kp{...}; };
+//   Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
+//     if (!loop_.activate(*in.state, p.common, last)) integral_.reset();
+//     return Status::ok;
+//   }
+//   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
+//     const auto rest = [&] { integral_.reset(); };
+//     const auto hold = [&](const LevelTurn& turn, double dt_s) { ...; return PitchThrottle{theta, throttle};
+//     }; return loop_.step(tick, *in.state, *in.command, p.common, out, rest, hold);
+//   }
+#pragma once
+#include "fulmar/flight/atmosphere.hpp"
+#include "fulmar/flight/outer_commands.hpp"
+#include "fulmar/flight/turn_trim.hpp"
+#include "fulmar/plugin.hpp"
+
+namespace fulmar {
+
+/// Parameters of every outer law: course and bank, limits of the commands, take-off. A group: its members are
+/// parameters of the law itself.
+struct OuterParams {
+  Choice<OuterLaw> law{
+      OuterLaw::hold,
+      "hold: follow guidance; takeoff: full throttle, wings level, rotate, keep the runway's course"};
+
+  Param course_kp{2.0, "rad/rad", 0, 10,
+                  "roll per course error at cruise ground speed: course bandwidth = kp g / Va"};
+  Param course_ki{0.0, "rad/(rad s)", 0, 2, "roll per integrated course error"};
+  Param roll_limit{0.785, "rad", 0.05, 1.2, "largest roll command; the airframe's own limit holds as well"};
+  Param roll_rate_limit{1.0, "rad/s", 0.1, 6, "fastest change of the roll command"};
+  Param roll_smoothing{0.1, "s", 0, 2, "time constant of the roll command"};
+
+  Param pitch_limit{0.35, "rad", 0.02, 1.0,
+                    "largest pitch command, either way; the airframe's own limits hold as well"};
+  Param pitch_rate_limit{0.8, "rad/s", 0.05, 6, "fastest change of the pitch command"};
+  Param throttle_rate_limit{2.0, "1/s", 0.1, 20, "fastest change of the throttle"};
+  Param turn_kff{1.0, "ratio", 0, 2, "share of the pitch and throttle that a banked turn needs, fed forward"};
+
+  Param takeoff_throttle{1.0, "ratio", 0, 1, "throttle of the take-off law"};
+  Param takeoff_pitch{0.21, "rad", 0, 0.6, "pitch of the take-off law after rotation"};
+  Param takeoff_airspeed{13.0, "m/s", 3, 60, "airspeed at which the take-off law rotates"};
+  Param takeoff_kp{1.0, "rad/rad", 0, 5, "roll per course error of the take-off law, airborne"};
+  Param takeoff_roll_limit{0.15, "rad", 0, 0.5, "largest roll command of the take-off law"};
+
+  Record<Airframe> airframe{"limits, trims, and the derivatives for the feed-forward of turns"};
+};
+
+inline OuterTuning tuning(const OuterParams& p) {
+  const FlightLimits& limits = p.airframe->limits;
+  OuterTuning t;
+  t.course = {p.course_kp,
+              p.course_ki,
+              limits.airspeed_cruise_mps,
+              std::min<double>(p.roll_limit, limits.roll_max_rad),
+              p.roll_rate_limit,
+              p.roll_smoothing};
+  t.takeoff = {p.takeoff_throttle, p.takeoff_pitch, p.takeoff_airspeed, p.takeoff_kp, p.takeoff_roll_limit};
+  t.pitch_rate_max_radps = p.pitch_rate_limit;
+  t.throttle_rate_max_hz = p.throttle_rate_limit;
+  return t;
+}
+
+/// The level turn that is asked for, and what it needs beside level flight at the same airspeed: the share
+/// `turn_kff` of it, by the airframe's model (turn_trim.hpp).
+struct LevelTurn {
+  double Va_mps;       ///< true airspeed for divisions: never near 0 (scheduling_airspeed)
+  double pitch_rad;    ///< trim, the turn's share included
+  double drag_newton;  ///< beyond that of level flight
+};
+struct PitchThrottle {
+  double pitch_rad, throttle_frac;
+};
+
+/// Air density at the aircraft, kg/m3, of the standard atmosphere.
+inline double air_density(const VehicleState& state) {
+  return standard_air(state.origin_altitude_m + state.height_m).density_kgm3;
+}
+
+inline LevelTurn level_turn(double roll_rad, const VehicleState& state, const OuterParams& p) {
+  const double Va = scheduling_airspeed(state, p.airframe->limits), rho = air_density(state);
+  const TurnTrim turn = turn_trim(*p.airframe, roll_rad, Va, rho), level = turn_trim(*p.airframe, 0, Va, rho);
+  return {Va, level.alpha_rad + p.turn_kff * (turn.alpha_rad * std::cos(roll_rad) - level.alpha_rad),
+          p.turn_kff * (turn.drag_newton - level.drag_newton)};
+}
+
+/// An outer law but for height and speed. Its component publishes `attitude` and `internals`.
+struct OuterLoop {
+  OuterCommands commands;
+
+  /// Goes on from what was applied last. False: nobody flew, and integrals are to begin empty.
+  template <class Outputs>
+  bool activate(const VehicleState& state, const OuterParams& p, const Applied<Outputs>& last) {
+    const AttitudeCommand* attitude = last.has(last->attitude) ? &last->attitude : nullptr;
+    return commands.take_over(p.law, state, attitude, tuning(p), p.airframe->limits);
+  }
+
+  /// One step. `rest()` is called when nothing is held - standing, take-off, state not known - and empties
+  /// the law's integrals; `hold(LevelTurn, dt_s)` when height and speed are, and returns their PitchThrottle.
+  template <class Outputs, class Rest, class Hold>
+  Status step(const Tick& tick, const VehicleState& state, const GuidanceCommand& command,
+              const OuterParams& p, Outputs& out, Rest&& rest, Hold&& hold) {
+    const double dt = std::clamp(tick.dt_s(), 0.0, 0.1);  // a gap must not throw the integrators
+    const OuterTuning t = tuning(p);
+    const OuterAction action = commands.begin(p.law, state);
+    out.internals = {};
+    if (action != OuterAction::hold) rest();
+    switch (action) {
+      case OuterAction::wait:
+        out.attitude = commands.wait();
+        break;
+      case OuterAction::take_off:
+        out.attitude = commands.take_off(state, t, p.airframe->limits, dt);
+        break;
+      case OuterAction::level:
+        out.attitude = level(state, p, t, dt);
+        break;
+      case OuterAction::hold: {
+        const double phi = commands.roll(state, command, t, dt);
+        const PitchThrottle wanted = hold(level_turn(phi, state, p), dt);
+        out.attitude = commands.finish(phi, wanted.pitch_rad, wanted.throttle_frac, t, dt);
+      }
+    }
+    tell(out.attitude, out.internals);
+    const bool flying = action == OuterAction::hold || action == OuterAction::level;
+    return flying && !enough_known(state) ? Status::degraded : Status::ok;
+  }
+
+ private:
+  /// Attitude or height is not known: the trim of level flight at cruise speed.
+  AttitudeCommand level(const VehicleState& state, const OuterParams& p, const OuterTuning& t, double dt_s) {
+    const FlightLimits& limits = p.airframe->limits;
+    const double alpha = turn_trim(*p.airframe, 0, limits.airspeed_cruise_mps, air_density(state)).alpha_rad;
+    return commands.level(alpha, limits.throttle_cruise_frac, t, dt_s);
+  }
+
+  void tell(const AttitudeCommand& attitude, ControllerInternals& internals) const {
+    internals.law = commands.law();
+    internals.course_error_rad = commands.course_error_rad();
+    internals.roll_saturated = commands.roll_saturated();
+    internals.roll_rad = attitude.roll_rad;
+    internals.pitch_rad = attitude.pitch_rad;
+  }
+};
+
+}  // namespace fulmar

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the outer laws share: their parameters, the course of a step, and what a turn costs.
+#include <doctest/doctest.h>
+
+#include <fulmar/flight/outer_law.hpp>
+#include <string>
+
+#include "sdk/test/flight/flight_model.hpp"
+
+namespace outer_law_test {
+
+using namespace fulmar;
+
+namespace {
+
+struct Outputs {
+  AttitudeCommand attitude;
+  ControllerInternals internals;
+};
+
+VehicleState flying() {
+  VehicleState s;
+  s.height_m = 70, s.origin_altitude_m = 1387;
+  s.airspeed_mps = s.ground_speed_mps = 17;
+  s.airspeed_valid = s.attitude_valid = s.velocity_valid = s.height_valid = s.position_valid = true;
+  return s;
+}
+
+/// A law that counts what it is asked for.
+struct Counting {
+  OuterLoop loop;
+  OuterParams params;
+  Outputs out;
+  PitchThrottle answer{0.1, 0.6};
+  LevelTurn turn{};
+  double dt_s = 0;
+  int rests = 0, holds = 0;
+
+  Status step(const VehicleState& state, const GuidanceCommand& command, double after_s = 0.01) {
+    Tick tick;
+    tick.dt_ns = static_cast<std::int64_t>(1e9 * after_s);
+    const auto rest = [&] { ++rests; };
+    const auto hold = [&](const LevelTurn& wanted, double dt) {
+      ++holds, turn = wanted, dt_s = dt;
+      return answer;
+    };
+    return loop.step(tick, state, command, params, out, rest, hold);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("every shared parameter comes to its place, and of two roll limits the smaller one holds") {
+  OuterParams p;
+  p.course_kp.value = 1.5, p.course_ki.value = 0.25, p.roll_limit.value = 0.6, p.roll_rate_limit.value = 0.75;
+  p.roll_smoothing.value = 0.125, p.pitch_rate_limit.value = 0.3, p.throttle_rate_limit.value = 3;
+  p.takeoff_throttle.value = 0.9, p.takeoff_pitch.value = 0.2, p.takeoff_airspeed.value = 12;
+  p.takeoff_kp.value = 0.7, p.takeoff_roll_limit.value = 0.1;
+  FlightLimits& limits = p.airframe.value.limits;
+  limits.airspeed_cruise_mps = 18, limits.roll_max_rad = 0.8;
+  const OuterTuning t = tuning(p);
+  CHECK(t.course.kp == 1.5);
+  CHECK(t.course.ki == 0.25);
+  CHECK(t.course.cruise_mps == 18);
+  CHECK(t.course.roll_max_rad == 0.6);
+  CHECK(t.course.roll_rate_max_radps == 0.75);
+  CHECK(t.course.smoothing_s == 0.125);
+  CHECK(t.pitch_rate_max_radps == 0.3);
+  CHECK(t.throttle_rate_max_hz == 3);
+  CHECK(t.takeoff.throttle_frac == 0.9);
+  CHECK(t.takeoff.pitch_rad == 0.2);
+  CHECK(t.takeoff.rotate_mps == 12);
+  CHECK(t.takeoff.course_kp == 0.7);
+  CHECK(t.takeoff.roll_max_rad == 0.1);
+  limits.roll_max_rad = 0.3;
+  CHECK(tuning(p).course.roll_max_rad == 0.3);
+}
+
+TEST_CASE(
+    "a level turn needs the pitch that keeps height and more drag than level flight, by the share fed "
+    "forward") {
+  OuterParams p;
+  p.airframe.value = test::anaconda();
+  const VehicleState s = flying();
+  const double rho = standard_air(1387 + 70).density_kgm3, phi = 0.7;
+  const TurnTrim level = turn_trim(*p.airframe, 0, 17, rho), turn = turn_trim(*p.airframe, phi, 17, rho);
+  REQUIRE(turn.alpha_rad * std::cos(phi) - level.alpha_rad > 0.01);
+  REQUIRE(turn.drag_newton - level.drag_newton > 0.5);
+  CHECK(level_turn(0, s, p).pitch_rad == doctest::Approx(level.alpha_rad).epsilon(1e-6));
+  CHECK(level_turn(0, s, p).drag_newton == 0);
+  for (const double share : {0.0, 0.5, 1.0}) {
+    p.turn_kff.value = share;
+    const LevelTurn needs = level_turn(phi, s, p);
+    CHECK(needs.Va_mps == 17);
+    // Of the angle of attack that the turn needs only its vertical part is pitch.
+    const double pitch = level.alpha_rad + share * (turn.alpha_rad * std::cos(phi) - level.alpha_rad);
+    CHECK(std::abs(needs.pitch_rad - pitch) < 1e-12);
+    CHECK(std::abs(needs.drag_newton - share * (turn.drag_newton - level.drag_newton)) < 1e-12);
+  }
+}
+
+TEST_CASE("only when height and speed are held is the law asked; else it rests") {
+  Counting law;
+  law.params.airframe.value = test::anaconda();
+  VehicleState ground;
+  ground.airspeed_valid = ground.attitude_valid = ground.height_valid = ground.velocity_valid = true;
+  CHECK(law.step(ground, {}) == Status::ok);
+  CHECK(law.rests == 1);
+  CHECK(law.out.attitude.throttle_frac == 0);
+
+  law.params.law.value = OuterLaw::takeoff;
+  CHECK(law.step(flying(), {}) == Status::ok);
+  CHECK(law.rests == 2);
+  CHECK(law.out.internals.law == OuterLaw::takeoff);
+  CHECK(law.holds == 0);
+
+  law.params.law.value = OuterLaw::hold;
+  GuidanceCommand command;
+  command.course_rad = 0.1;
+  for (int i = 0; i < 300; ++i) CHECK_EQ(law.step(flying(), command), Status::ok);
+  CHECK(law.rests == 2);
+  CHECK(law.holds == 300);
+  CHECK(law.dt_s == doctest::Approx(0.01));
+  const double phi =
+      2.0 * 17 / law.params.airframe->limits.airspeed_cruise_mps * 0.1;  // kp Vg / Vg_ref times error
+  CHECK(law.out.attitude.roll_rad == doctest::Approx(phi).epsilon(1e-6));
+  CHECK(law.turn.drag_newton ==
+        doctest::Approx(level_turn(phi, flying(), law.params).drag_newton).epsilon(1e-6));
+  CHECK(law.turn.drag_newton > 0);
+  CHECK(law.out.attitude.pitch_rad == 0.1);
+  CHECK(law.out.attitude.throttle_frac == 0.6);
+  CHECK(law.out.internals.roll_rad == law.out.attitude.roll_rad);
+  CHECK(law.out.internals.pitch_rad == 0.1);
+  CHECK(law.out.internals.course_error_rad == doctest::Approx(0.1));
+  CHECK(law.out.internals.law == OuterLaw::hold);
+
+  law.step(flying(), command, 5);
+  CHECK(law.dt_s == 0.1);  // a gap does not throw integrators
+  VehicleState lost = flying();
+  lost.height_valid = false;
+  for (int i = 0; i < 300; ++i) CHECK_EQ(law.step(lost, command), Status::degraded);
+  CHECK(law.rests == 302);
+  const FlightLimits& limits = law.params.airframe->limits;
+  CHECK(law.out.attitude.throttle_frac == limits.throttle_cruise_frac);
+  const double rho = standard_air(1387 + 70).density_kgm3;
+  const double alpha = turn_trim(*law.params.airframe, 0, limits.airspeed_cruise_mps, rho).alpha_rad;
+  CHECK(law.out.attitude.pitch_rad == doctest::Approx(alpha).epsilon(1e-9));
+  CHECK(std::abs(law.out.attitude.roll_rad) < 1e-6);
+
+  VehicleState slow_air = flying();
+  slow_air.airspeed_valid = false;
+  CHECK(law.step(slow_air, command) == Status::degraded);  // held, but not all that is asked for
+  CHECK(law.holds == 302);
+}
+
+TEST_CASE("a law goes on from what was applied in its role, and begins anew after nobody") {
+  OuterLoop loop;
+  OuterParams p;
+  Outputs outputs;
+  outputs.attitude = {0.2, -0.1, 0.7};
+  CHECK(loop.activate(flying(), p, Applied<Outputs>::all(outputs)));
+  CHECK(loop.commands.last().throttle_frac == 0.7);
+  CHECK(loop.commands.taking_up());
+  auto others = Applied<Outputs>::all(outputs);
+  others.made_bits = 0b10;  // somebody flew, but he made no attitude command
+  CHECK_FALSE(loop.activate(flying(), p, others));
+  CHECK(loop.commands.last().throttle_frac == p.airframe->limits.throttle_cruise_frac);
+  CHECK_FALSE(loop.commands.taking_up());
+}
+
+}  // namespace outer_law_test

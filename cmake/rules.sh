@@ -22,4 +22,11 @@ git grep -nIE '\b(TODO|FIXME|XXX|HACK|TEMPORARY)\b' -- '*.cpp' '*.hpp' '*.h' '*.
 for file in $(git ls-files '*.cpp' '*.hpp' '*.h' '*.c' '*.sh' '*.cmake' '*CMakeLists.txt' '*.mjs'); do
   head -n 3 "$file" | grep -q 'SPDX-License-Identifier: BSD-3-Clause' || echo "$file"
 done | refuse "Every source file names its licence:"
+# The files of a folder are compiled together: of two helpers with one name, each in an unnamed namespace, the wrong one would be called in silence.
+for folder in $(git ls-files 'core/*.cpp' 'tools/*.cpp' 'plugins/*.cpp' | grep -v '/test/' | xargs -n 1 dirname | sort -u); do
+  for file in $(git ls-files "$folder/*.cpp" | grep -E "^$folder/[^/]+$"); do
+    sed -nE 's/^([A-Za-z_][A-Za-z0-9_:<>,&* ]*[ &*])([a-z_][a-z0-9_]*)\(.*/\2/p; s/^(struct|class|enum class|enum) ([A-Za-z0-9_]+).*\{.*/\2/p' "$file" |
+      sort -u | sed "s|\$| $file|"
+  done | sort | awk '$1 == "main" { next } $1 == last { print $1 ": " file ", " $2 } { last = $1; file = $2 }'
+done | refuse "A name is given once in a folder:"
 exit $bad

@@ -8,7 +8,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// What a port carries, as its writer has it.
-TypePtr type_of(const Graph& graph, const PortName& from) {
+TypePtr sent_type(const Graph& graph, const PortName& from) {
   for (const Role& role : graph.roles)
     if (role.name == from.owner)
       for (const RolePort& port : role.outputs)
@@ -23,7 +23,7 @@ TypePtr type_of(const Graph& graph, const PortName& from) {
 
 void read_inputs(const MissionView& mission, const RoleText& role, Contract& contract) {
   for (const WireText& wire : role.in) {
-    ContractInput input{wire.input, wire.from, type_of(mission.graph, wire.from), FULMAR_IN_VALUE, false};
+    ContractInput input{wire.input, wire.from, sent_type(mission.graph, wire.from), FULMAR_IN_VALUE, false};
     if (const int i = contract.shipped.input(wire.input); i >= 0) {
       const Port& port = contract.shipped.inputs[static_cast<std::size_t>(i)];
       input.kind = port.kind;

@@ -40,12 +40,12 @@ namespace {
 std::atomic<int> signal_seen{0};  // a signal that the flight has not refused
 char last_words[512];             // where the log lies, prepared beforehand
 
-void write_text(const char* text) { write_last_words(text); }
+void write_to_terminal(const char* text) { write_last_words(text); }
 
 /// What the vehicle's device is to hear when the host goes. Async-signal-safe.
 void send_last_frame() {
   const fulmar_last_frame* frame = last_frame.exchange(nullptr, std::memory_order_acq_rel);
-  if (frame && frame->fd >= 0 && write(frame->fd, frame->data, frame->size) < 0) write_text("\nfulmar: the last frame could not be sent");
+  if (frame && frame->fd >= 0 && write(frame->fd, frame->data, frame->size) < 0) write_to_terminal("\nfulmar: the last frame could not be sent");
 }
 
 unsigned patience_s = 10;  // between a signal and the end of the flight
@@ -68,9 +68,9 @@ void note_signal(int signal) {
   }
   send_last_frame();
   const char* component = in_step.load(std::memory_order_relaxed);
-  write_text(patience_over ? "\nfulmar: ended, since the flight did not" : "\nfulmar: ended by the second signal");
-  if (component) write_text(" in the "), write_text(in_call.load(std::memory_order_relaxed)), write_text(" of "), write_text(component);
-  write_text(last_words);
+  write_to_terminal(patience_over ? "\nfulmar: ended, since the flight did not" : "\nfulmar: ended by the second signal");
+  if (component) write_to_terminal(" in the "), write_to_terminal(in_call.load(std::memory_order_relaxed)), write_to_terminal(" of "), write_to_terminal(component);
+  write_to_terminal(last_words);
   _exit(130);
 }
 
@@ -82,12 +82,12 @@ void on_crash(int signal) {
                      : signal == SIGABRT ? " (abort)"
                      : signal == SIGFPE  ? " (arithmetic fault)"
                                          : "";
-  write_text("\nfulmar: ");
-  write_text(component ? component : "the host");
-  write_text(" crashed");
-  if (component) write_text(" in its "), write_text(in_call.load(std::memory_order_relaxed));
-  write_text(what);
-  write_text(last_words);
+  write_to_terminal("\nfulmar: ");
+  write_to_terminal(component ? component : "the host");
+  write_to_terminal(" crashed");
+  if (component) write_to_terminal(" in its "), write_to_terminal(in_call.load(std::memory_order_relaxed));
+  write_to_terminal(what);
+  write_to_terminal(last_words);
   raise(signal);  // the default action, restored by SA_RESETHAND
 }
 
@@ -96,17 +96,17 @@ void on_exit() {
   const char* component = in_step.load(std::memory_order_relaxed);
   if (!component) return;
   send_last_frame();
-  write_text("\nfulmar: ");
-  write_text(component);
-  write_text(" ended the program in its ");
-  write_text(in_call.load(std::memory_order_relaxed));
-  write_text(last_words);
+  write_to_terminal("\nfulmar: ");
+  write_to_terminal(component);
+  write_to_terminal(" ended the program in its ");
+  write_to_terminal(in_call.load(std::memory_order_relaxed));
+  write_to_terminal(last_words);
   _exit(1);  // whatever code it asked for, nothing has been flown to its end
 }
 
 void install_handlers(bool hardware) {
   static const int registered = std::atexit(on_exit);
-  if (registered != 0) write_text("fulmar: no room for an exit handler\n");
+  if (registered != 0) write_to_terminal("fulmar: no room for an exit handler\n");
   struct sigaction action {};
   action.sa_handler = note_signal;
   sigaction(SIGINT, &action, nullptr);

@@ -44,7 +44,7 @@ const char* kind_word(fulmar_kind kind) {
 
 namespace {
 
-std::string shape_text(const Field& field) {
+std::string shape_words(const Field& field) {
   if (field.shape == FULMAR_ARRAY) return "an array of " + std::to_string(field.count);
   return field.shape == FULMAR_LIST ? "a list of at most " + std::to_string(field.count) : "one value";
 }
@@ -61,7 +61,7 @@ std::string fields_differ(const Type& from, const Type& to, const std::string& p
 std::string field_differs(const Field& from, const Field& to, const std::string& path) {
   if (from.kind != to.kind) return differ(path, "kind ", kind_word(to.kind), kind_word(from.kind));
   const bool longer = to.shape == FULMAR_LIST && from.count <= to.count;  // a reader's list may have more room
-  if (from.shape != to.shape || (from.count != to.count && !longer)) return differ(path, "", shape_text(to), shape_text(from));
+  if (from.shape != to.shape || (from.count != to.count && !longer)) return differ(path, "", shape_words(to), shape_words(from));
   if (from.unit != to.unit) return differ(path, "unit ", or_none(to.unit), or_none(from.unit));
   if (to.kind == FULMAR_TEXT && from.stride > to.stride)
     return differ(path, "room for ", std::to_string(to.stride) + " bytes", std::to_string(from.stride));

@@ -109,7 +109,7 @@ std::string use_text(const std::string& plugin, const ComponentInfo& component) 
   return "```yaml\nname: {use: " + plugin + "/" + component.name + (wires.empty() ? "" : ", in: {" + join(wires) + "}") + "}\n```\n\n";
 }
 
-std::string component_text(const std::string& plugin, const ComponentInfo& component) {
+std::string component_page(const std::string& plugin, const ComponentInfo& component) {
   std::string text = "## " + component.name + "\n\n";
   if (!component.doc.empty()) text += cell(component.doc) + "\n\n";
   text += use_text(plugin, component);
@@ -138,13 +138,13 @@ std::string vector_initial(const Field& field, const std::byte* at) {
 }
 
 /// One row per field; the fields of a struct in a struct follow with their path, those of a vector stand in its row.
-void field_rows(const Type& type, const std::string& path, const std::byte* data, Table& table) {
+void table_rows(const Type& type, const std::string& path, const std::byte* data, Table& table) {
   for (const Field& field : type.fields) {
     const std::byte* at = data == nullptr ? nullptr : data + field.offset;
     const std::string name = path + field.name, many = shape_text(field);
     if (field.kind == FULMAR_STRUCT && field.type->frame.empty()) {
       if (!many.empty()) table.row({code(name), cell(field.type->name + many)});
-      field_rows(*field.type, name + (many.empty() ? "." : "[]."), many.empty() ? at : nullptr, table);
+      table_rows(*field.type, name + (many.empty() ? "." : "[]."), many.empty() ? at : nullptr, table);
       continue;
     }
     if (field.kind == FULMAR_STRUCT) {
@@ -163,7 +163,7 @@ std::string type_text(const Type& type, const std::byte* initial) {
   if (!type.frame.empty()) text += ", " + type.frame;
   if (!type.ros.empty()) text += ", ROS type `" + type.ros + "`";
   Table table({"field", "kind", "unit", "frame", "default", "range"});
-  field_rows(type, "", initial, table);
+  table_rows(type, "", initial, table);
   return text + "\n\n" + table.text();
 }
 
@@ -203,7 +203,7 @@ std::string describe_plugin_markdown(const PluginInfo& plugin) {
   Table components({"component", "what"});
   for (const ComponentInfo& component : plugin.components) components.row({link_to(component.name), cell(component.doc)});
   text += components.text();
-  for (const ComponentInfo& component : plugin.components) text += component_text(name, component);
+  for (const ComponentInfo& component : plugin.components) text += component_page(name, component);
   text += types_text(plugin);
   text.pop_back();  // one newline at the end
   return text;

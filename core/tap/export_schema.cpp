@@ -43,7 +43,7 @@ bool read_number(std::string_view text, T& value) {
 }
 
 /// "geometry_msgs/msg/Point" and "geometry_msgs/Point" are one.
-std::string short_name(std::string_view name) {
+std::string section_name(std::string_view name) {
   std::string s(name);
   const std::size_t middle = s.find("/msg/");
   return middle == std::string::npos ? s : s.erase(middle, 4);
@@ -52,7 +52,7 @@ std::string short_name(std::string_view name) {
 class Definition {
  public:
   Definition(const std::string& name, std::string_view text) {
-    std::string section = short_name(name);
+    std::string section = section_name(name);
     sections_[section];
     while (!text.empty()) {
       const std::size_t end = text.find('\n');
@@ -60,7 +60,7 @@ class Definition {
       text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
       if (line.starts_with("====")) continue;
       if (line.starts_with("MSG:")) {
-        section = short_name(stripped(line.substr(4)));
+        section = section_name(stripped(line.substr(4)));
       } else if (!line.empty() && line[0] != '#') {
         sections_[section].push_back(line);
       }
@@ -122,7 +122,7 @@ class Definition {
 
   /// A bare name belongs to the package of its owner.
   std::string resolve(std::string_view name, const std::string& owner) const {
-    const std::string full = short_name(name);
+    const std::string full = section_name(name);
     if (sections_.contains(full)) return full;
     const std::string near = owner.substr(0, owner.find('/') + 1) + full;
     if (sections_.contains(near)) return near;
@@ -279,7 +279,7 @@ std::string shortest(T x) {
 
 RosField parse_ros2msg(const std::string& name, const std::string& text) {
   RosField root;
-  Definition(name, text).structure(short_name(name), root, 0);
+  Definition(name, text).structure(section_name(name), root, 0);
   return root;
 }
 

@@ -63,7 +63,7 @@ Form form_of(MatValue::Kind kind) {
 std::string u32(std::uint32_t x) { return {reinterpret_cast<const char*>(&x), 4}; }
 
 /// A data element: tag, bytes, padding to 8.
-std::string element(std::uint32_t type, std::string_view bytes) {
+std::string mat_element(std::uint32_t type, std::string_view bytes) {
   if (bytes.size() > largest_variable) throw Error("a MAT file of level 5 holds at most 2 GB per variable; export to npz, or fewer topics");
   std::string s = u32(type) + u32(static_cast<std::uint32_t>(bytes.size()));
   s += bytes;
@@ -72,8 +72,8 @@ std::string element(std::uint32_t type, std::string_view bytes) {
 }
 
 std::string flags_and_dims(std::uint32_t shape, std::size_t rows, std::size_t columns) {
-  return element(mi_uint32, u32(shape) + u32(0)) +
-         element(mi_int32, u32(static_cast<std::uint32_t>(rows)) + u32(static_cast<std::uint32_t>(columns)));
+  return mat_element(mi_uint32, u32(shape) + u32(0)) +
+         mat_element(mi_int32, u32(static_cast<std::uint32_t>(rows)) + u32(static_cast<std::uint32_t>(columns)));
 }
 
 /// What is no code point of one character becomes '?': character arrays count in characters, not in bytes.
@@ -116,13 +116,13 @@ std::string mat_name(const std::string& name) {
   return s.substr(0, longest_name);
 }
 
-std::string MatValue::named(const std::string& name) const { return element(mi_matrix, flags_dims_ + element(mi_int8, name) + body_); }
+std::string MatValue::named(const std::string& name) const { return mat_element(mi_matrix, flags_dims_ + mat_element(mi_int8, name) + body_); }
 
 MatValue MatValue::numbers(Kind kind, std::size_t count, std::span<const std::byte> data) {
   const Form form = form_of(kind);
   MatValue v;
   v.flags_dims_ = flags_and_dims(form.shape, count, 1);
-  v.body_ = element(form.data, {reinterpret_cast<const char*>(data.data()), data.size()});
+  v.body_ = mat_element(form.data, {reinterpret_cast<const char*>(data.data()), data.size()});
   return v;
 }
 
@@ -132,7 +132,7 @@ MatValue MatValue::texts(const std::vector<std::string>& texts) {
   for (const std::string& t : texts) {
     MatValue cell;
     cell.flags_dims_ = flags_and_dims(mx_char, t.empty() ? 0 : 1, t.size());
-    cell.body_ = element(mi_utf8, plain(t));
+    cell.body_ = mat_element(mi_utf8, plain(t));
     v.body_ += cell.named("");
   }
   return v;
@@ -148,7 +148,7 @@ MatValue MatValue::structure(const std::vector<std::pair<std::string, MatValue>>
   }
   MatValue v;
   v.flags_dims_ = flags_and_dims(mx_struct, 1, 1);
-  v.body_ = u32(4u << 16 | mi_int32) + u32(longest_name + 1) + element(mi_int8, names);  // a small element: size and type in one word
+  v.body_ = u32(4u << 16 | mi_int32) + u32(longest_name + 1) + mat_element(mi_int8, names);  // a small element: size and type in one word
   for (const auto& [name, value] : fields) v.body_ += value.named("");
   return v;
 }

@@ -21,7 +21,7 @@ constexpr std::uint16_t utf8_names = 1u << 11, deflated = 8;
 constexpr int level = 1;  // noise does not shrink, whatever is spent on it
 
 template <class... Numbers>
-std::string bytes_of(Numbers... numbers) {
+std::string little_endian(Numbers... numbers) {
   std::string bytes;
   (bytes.append(reinterpret_cast<const char*>(&numbers), sizeof numbers), ...);
   return bytes;
@@ -46,7 +46,7 @@ std::string deflate_both(const std::string& first, std::span<const std::byte> se
   return out;
 }
 
-std::uint32_t crc_of(const std::string& first, std::span<const std::byte> second) {
+std::uint32_t entry_crc(const std::string& first, std::span<const std::byte> second) {
   uLong crc = ::crc32_z(0, reinterpret_cast<const Bytef*>(first.data()), first.size());
   if (!second.empty()) crc = ::crc32_z(crc, reinterpret_cast<const Bytef*>(second.data()), second.size());
   return static_cast<std::uint32_t>(crc);
@@ -56,7 +56,7 @@ std::string npy_header(const std::string& type, std::size_t count) {
   std::string text = "{'descr': '" + type + "', 'fortran_order': False, 'shape': (" + std::to_string(count) + ",), }";
   text.append((64 - (10 + text.size() + 1) % 64) % 64, ' ');
   text += '\n';
-  return std::string("\x93NUMPY\x01\0", 8) + bytes_of(static_cast<std::uint16_t>(text.size())) + text;
+  return std::string("\x93NUMPY\x01\0", 8) + little_endian(static_cast<std::uint16_t>(text.size())) + text;
 }
 
 /// UTF-8 as code points; a byte that is none becomes U+FFFD.
@@ -102,14 +102,14 @@ void NpzWriter::entry(const std::string& name, const std::string& header, std::s
   if (size > largest / 2 || place_ + size > largest || entries_.size() >= std::numeric_limits<std::uint16_t>::max())
     throw Error("the arrays need more than an npz file of 4 GB holds; export fewer topics at a time with --topic");
   std::string content = deflate_both(header, data);
-  Entry e{name + ".npy", crc_of(header, data), 0, static_cast<std::uint32_t>(size), static_cast<std::uint32_t>(place_), deflated};
+  Entry e{name + ".npy", entry_crc(header, data), 0, static_cast<std::uint32_t>(size), static_cast<std::uint32_t>(place_), deflated};
   if (content.size() >= size) {
     content = header + std::string(reinterpret_cast<const char*>(data.data()), data.size());
     e.method = 0;
   }
   e.stored = static_cast<std::uint32_t>(content.size());
   write("PK\3\4" +
-        bytes_of(version, utf8_names, e.method, std::uint16_t{0}, first_date, e.crc, e.stored, e.size,
+        little_endian(version, utf8_names, e.method, std::uint16_t{0}, first_date, e.crc, e.stored, e.size,
                  static_cast<std::uint16_t>(e.name.size()), std::uint16_t{0}) +
         e.name);
   write(content);
@@ -138,14 +138,14 @@ void NpzWriter::finish() {
   const std::uint64_t start = place_;
   for (const Entry& e : entries_) {
     write("PK\1\2" +
-          bytes_of(version, version, utf8_names, e.method, std::uint16_t{0}, first_date, e.crc, e.stored, e.size,
+          little_endian(version, version, utf8_names, e.method, std::uint16_t{0}, first_date, e.crc, e.stored, e.size,
                    static_cast<std::uint16_t>(e.name.size()), std::uint16_t{0}, std::uint16_t{0}, std::uint16_t{0}, std::uint16_t{0},
                    std::uint32_t{0}, e.place) +
           e.name);
   }
   const auto count = static_cast<std::uint16_t>(entries_.size());
   if (place_ > largest) throw Error("the arrays need more than an npz file of 4 GB holds; export fewer topics at a time with --topic");
-  write("PK\5\6" + bytes_of(std::uint16_t{0}, std::uint16_t{0}, count, count, static_cast<std::uint32_t>(place_ - start),
+  write("PK\5\6" + little_endian(std::uint16_t{0}, std::uint16_t{0}, count, count, static_cast<std::uint32_t>(place_ - start),
                             static_cast<std::uint32_t>(start), std::uint16_t{0}));
   out_.close();
   if (!out_) throw Error("cannot write '" + file_.string() + "': the disk refuses it");

@@ -8,7 +8,7 @@ namespace fulmar::fcu {
 
 namespace {
 
-const std::vector<Calibration>& all() {
+const std::vector<Calibration>& calibrations() {
   static const std::vector<Calibration> list{
       {"imu",
        Command::accel_calibration,
@@ -155,8 +155,8 @@ class Run {
 }  // namespace
 
 const Calibration* find_calibration(const std::string& name) {
-  const auto it = std::find_if(all().begin(), all().end(), [&](const Calibration& c) { return c.name == name; });
-  return it == all().end() ? nullptr : &*it;
+  const auto it = std::find_if(calibrations().begin(), calibrations().end(), [&](const Calibration& c) { return c.name == name; });
+  return it == calibrations().end() ? nullptr : &*it;
 }
 
 Calibrated calibrate(Client& client, const Calibration& what, const std::function<void(double)>& progress) {

@@ -17,7 +17,7 @@ struct Row {
 constexpr std::array<Row, 4> rows{
     {{row_throttle, "throttle"}, {row_aileron, "aileron"}, {row_elevator, "elevator"}, {row_rudder, "rudder"}}};
 
-double value(const std::vector<Param>& params, const std::string& name) {
+double param_value(const std::vector<Param>& params, const std::string& name) {
   const auto it = std::find_if(params.begin(), params.end(), [&](const Param& p) { return p.name == name; });
   return it == params.end() ? 0 : it->number();
 }
@@ -52,16 +52,16 @@ std::vector<int> Mixer::outputs_of(int command) const {
 
 Mixer mixer_of(const std::vector<Param>& params) {
   Mixer m;
-  m.choice = static_cast<int>(value(params, "PRIMARY_MIXER"));
-  m.secondary_choice = static_cast<int>(value(params, "SECONDARY_MIXER"));
+  m.choice = static_cast<int>(param_value(params, "PRIMARY_MIXER"));
+  m.secondary_choice = static_cast<int>(param_value(params, "SECONDARY_MIXER"));
   for (int j = 0; j < 10; ++j) {
-    const int kind = static_cast<int>(value(params, "PRI_MIXER_OUT_" + std::to_string(j)));
+    const int kind = static_cast<int>(param_value(params, "PRI_MIXER_OUT_" + std::to_string(j)));
     m.kind[at(j)] = kind >= 0 && kind <= 3 ? static_cast<OutputKind>(kind) : OutputKind::none;
-    m.rate_hz[at(j)] = value(params, "PRI_MIXER_PWM_" + std::to_string(j));
+    m.rate_hz[at(j)] = param_value(params, "PRI_MIXER_PWM_" + std::to_string(j));
     for (int i = 0; i < 10; ++i) {
       const std::string place = std::to_string(i) + "_" + std::to_string(j);
-      m.primary[at(i)][at(j)] = value(params, "PRI_MIXER_" + place);
-      m.secondary[at(i)][at(j)] = value(params, "SEC_MIXER_" + place);
+      m.primary[at(i)][at(j)] = param_value(params, "PRI_MIXER_" + place);
+      m.secondary[at(i)][at(j)] = param_value(params, "SEC_MIXER_" + place);
     }
   }
   // 255: no second one; the first is used for both

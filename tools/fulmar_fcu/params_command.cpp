@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* unsaved = "It is in the controller's memory and gone after a power cycle: 'fulmar fcu params write' keeps it.\n";
 
-nlohmann::json json_of(const Param& param) {
+nlohmann::json param_json(const Param& param) {
   // the text of the float, not of the double next to it: 0.1, not 0.10000000149
   const nlohmann::json value = param.whole ? nlohmann::json(param.integer()) : nlohmann::json::parse(param.text(), nullptr, false);
   return {{"name", param.name},
@@ -29,7 +29,7 @@ std::vector<Param> all(Client& client) {
   return list;
 }
 
-void print(const Param& param) {
+void print_param(const Param& param) {
   std::printf("%3u  %-16s  %-5s  %s\n", static_cast<unsigned>(param.index), param.name.c_str(), param.whole ? "int" : "float",
               param.text().c_str());
 }
@@ -51,9 +51,9 @@ int params_list(Client& client, const Options& options, const ParamsOptions& wha
     if (!what.pattern.empty() && !matches(param.name, what.pattern)) continue;
     ++shown;
     if (options.json)
-      out.push_back(json_of(param));
+      out.push_back(param_json(param));
     else
-      print(param);
+      print_param(param);
   }
   if (options.json) std::printf("%s\n", out.dump(1).c_str());
   if (shown == 0 && !what.pattern.empty())
@@ -64,7 +64,7 @@ int params_list(Client& client, const Options& options, const ParamsOptions& wha
 int params_get(Client& client, const Options& options, const ParamsOptions& what) {
   const Param param = read_param(client, what.name);
   if (options.json)
-    std::printf("%s\n", json_of(param).dump(1).c_str());
+    std::printf("%s\n", param_json(param).dump(1).c_str());
   else
     std::printf("%s\n", param.text().c_str());
   return 0;

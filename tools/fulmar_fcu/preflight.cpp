@@ -189,7 +189,7 @@ void outside(Judge& j) {
     j.ok("battery", fixed(volt, 1) + " V" + (j.f.uptime_s < 60 ? ", still settling: the controller filters it over 20 s" : ""));
 }
 
-void line(Judge& j) {
+void judge_line(Judge& j) {
   if (j.f.imu_hz < 100)
     j.fail("IMU rate", fixed(j.f.imu_hz, 0) + " Hz: the loop needs 400");
   else if (j.f.imu_hz < 380)
@@ -264,7 +264,7 @@ std::vector<Item> judge(const Facts& facts) {
   radio(j);
   pilot(j);
   outside(j);
-  line(j);
+  judge_line(j);
   j.add(Verdict::note, "parameters", "whether they are all written cannot be asked: 'fulmar fcu params write' makes sure");
   return j.items;
 }

@@ -20,7 +20,7 @@ struct PathWord {
 };
 
 /// "waypoints[3].airspeed_mps" -> words. Throws Error.
-std::vector<PathWord> words_of(const std::string& field) {
+std::vector<PathWord> path_words(const std::string& field) {
   std::vector<PathWord> words;
   for (std::size_t from = 0; from <= field.size();) {
     const std::size_t dot = std::min(field.find('.', from), field.size());
@@ -55,7 +55,7 @@ Names check_field(const Type& type, const std::string& field, const std::string&
   Names names;
   const Type* at = &type;
   std::string path = port;
-  for (const PathWord& word : words_of(field)) {
+  for (const PathWord& word : path_words(field)) {
     if (!at) throw Error(path + " is one value, it has no '" + word.name + "'");
     const Field* found = find_field(*at, word.name);
     if (!found) {
@@ -160,7 +160,7 @@ std::vector<std::string> port_names(Session& session) {
 nlohmann::ordered_json part_of(const nlohmann::ordered_json& message, const std::string& field) {
   const nlohmann::ordered_json* at = &message;
   if (field.empty()) return message;
-  for (const PathWord& word : words_of(field)) {
+  for (const PathWord& word : path_words(field)) {
     if (!at->is_object()) return nullptr;
     const auto found = at->find(shown_name(word.name));
     if (found == at->end()) return nullptr;

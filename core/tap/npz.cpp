@@ -15,7 +15,7 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::uint64_t largest = std::numeric_limits<std::uint32_t>::max();  // of what has 32 bits in the format
+constexpr std::uint64_t largest_32 = std::numeric_limits<std::uint32_t>::max();  // of what has 32 bits in the format
 constexpr std::uint16_t version = 20, first_date = 0x21;                      // 2.0; 1980-01-01
 constexpr std::uint16_t utf8_names = 1u << 11, deflated = 8;
 constexpr int level = 1;  // noise does not shrink, whatever is spent on it
@@ -99,7 +99,7 @@ void NpzWriter::write(const std::string& bytes) {
 
 void NpzWriter::entry(const std::string& name, const std::string& header, std::span<const std::byte> data) {
   const std::uint64_t size = header.size() + data.size();
-  if (size > largest / 2 || place_ + size > largest || entries_.size() >= std::numeric_limits<std::uint16_t>::max())
+  if (size > largest_32 / 2 || place_ + size > largest_32 || entries_.size() >= std::numeric_limits<std::uint16_t>::max())
     throw Error("the arrays need more than an npz file of 4 GB holds; export fewer topics at a time with --topic");
   std::string content = deflate_both(header, data);
   Entry e{name + ".npy", entry_crc(header, data), 0, static_cast<std::uint32_t>(size), static_cast<std::uint32_t>(place_), deflated};
@@ -127,7 +127,7 @@ void NpzWriter::add(const std::string& name, const std::vector<std::string>& tex
     points.push_back(code_points(t));
     width = std::max(width, points.back().size());
   }
-  if (width * texts.size() > largest / 8)
+  if (width * texts.size() > largest_32 / 8)
     throw Error(name + " is more text than an npz file holds; export fewer topics at a time with --topic");
   std::vector<std::byte> data(texts.size() * width * 4);
   for (std::size_t i = 0; i < points.size(); ++i) std::memcpy(data.data() + i * width * 4, points[i].data(), points[i].size() * 4);
@@ -144,7 +144,7 @@ void NpzWriter::finish() {
           e.name);
   }
   const auto count = static_cast<std::uint16_t>(entries_.size());
-  if (place_ > largest) throw Error("the arrays need more than an npz file of 4 GB holds; export fewer topics at a time with --topic");
+  if (place_ > largest_32) throw Error("the arrays need more than an npz file of 4 GB holds; export fewer topics at a time with --topic");
   write("PK\5\6" + little_endian(std::uint16_t{0}, std::uint16_t{0}, count, count, static_cast<std::uint32_t>(place_ - start),
                             static_cast<std::uint32_t>(start), std::uint16_t{0}));
   out_.close();

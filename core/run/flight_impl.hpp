@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The inside of a flight: units, role outputs, phase, guards and log channels.
 #pragma once
-#include <array>
 #include <string>
 #include <vector>
 
@@ -10,41 +9,16 @@
 #include "core/run/flight_control.hpp"
 #include "core/run/unit.hpp"
 #include "core/tap/dds/bridge.hpp"
+#include "core/tap/events.hpp"
 #include "core/tap/live/server.hpp"
 #include "core/tap/tap.hpp"
 
 namespace fulmar::core {
 
-enum class EventKind : std::uint8_t { phase, guard, request, parameter, failsafe, swap, notice, end, resume };
-
-/// What happened, for the log: topic /fulmar/event.
-struct Event {
-  EventKind kind = EventKind::phase;
-  std::array<char, 48> component{};
-  std::array<char, 207> text{};
-};
-TypePtr event_type();
-
-/// When the ticks were, and what came of them, for a replay: topic /fulmar/ticks, one message for some ticks in a row.
-struct Ticks {
-  static constexpr std::uint32_t most = 40;
-  std::uint64_t first = 0;
-  std::int64_t time_ns = 0;  // of the first
-  std::uint32_t periods = 0;
-  std::array<std::uint32_t, most> period_ns{};  // since the tick before; 0 for the first of the flight
-  std::uint32_t hashes = 0;
-  std::array<std::uint32_t, most> hash{};  // of what components published in it, but for the vehicle and drivers, whose samples are stored
-};
-TypePtr ticks_type();
-
 /// All that the host itself publishes.
 const std::vector<TypePtr>& host_types();
 /// The message of a component's probes: fulmar_msgs/msg/ControlSlcOuterProbes. ROS tells messages apart by name alone.
 TypePtr probes_type(const PluginInfo& plugin, const ComponentInfo& component);
-
-// What the wall clock did to a flight; a replay reads it out of the log.
-inline constexpr const char* over_budget_words = "was over its time budget in 5 steps in a row";
-inline constexpr const char* late_words = "took late a result that was due at ";  // + flight time in ns
 
 /// Under which name an output is logged: its role's, when it is one of the role's.
 std::string topic_name(const Graph& graph, const Component& component, std::size_t output);
@@ -103,13 +77,14 @@ struct Flight::Impl final : SampleReader {
   void publish(Unit& unit);
   void put_slot(Slot& slot);
   void put_probes(Unit& unit);
-  void hash_published(const Unit& unit, std::uint64_t word) noexcept;
   void note_tick();
   void put_ticks();
   void tell_control() noexcept;
   void clock(Unit& unit);
   void stop_over_budget(Unit& unit);
+  void note_late(const Unit& unit, std::int64_t due_ns);
   void tell_late(Unit& unit);
+  bool vehicle_failed();
   void tell_overdue();
   void note_refusals(Unit& unit) noexcept;
   bool controls(const Unit& unit) const noexcept;
@@ -120,7 +95,7 @@ struct Flight::Impl final : SampleReader {
   bool over();
   bool held_for(const Condition& condition, std::int64_t for_ns, std::int64_t& since_ns) const noexcept;
   bool armed_hardware() const noexcept;
-  void conclude(Outcome outcome, const std::string& reason, const char* what);
+  void conclude(Code code, Outcome outcome, const std::string& reason, const char* what);
   void after_failsafe();
   void heed_signal();
   void finish(Outcome outcome, std::string reason);
@@ -150,10 +125,12 @@ struct Flight::Impl final : SampleReader {
   void enter(int phase);
   void fill(int role, const Assignment& assignment, bool overlaid);
   bool take_over(int role, int component, const Assignment& assignment);
-  void stop(int index);
-  void failsafe(const char* why);
+  void stop(int index, Code code = Code::guard);
+  void failsafe(const Event& why);
+  void note_phase(const Phase& entered);
   const std::vector<Overlay>* overlay_of(int component) const;
-  void event(EventKind kind, const std::string& component, const std::string& text, bool warning = false, bool aloud = true);
+  /// What happened: for the log, and aloud for people.
+  void note(const Event& event, bool aloud = true);
   void tell(Told& told);
 
   const std::byte* sample(const Source& source) const noexcept override;
@@ -203,7 +180,7 @@ struct Flight::Impl final : SampleReader {
   // on hardware, while the aircraft is armed
   std::string conclusion;  // how the flight will have ended; "": open
   Outcome conclusion_outcome = Outcome::failed;
-  bool silence_told = false, giving_up = false, log_told = false;
+  bool silence_told = false, giving_up = false, log_told = false, resuming = false;
   std::int64_t refused_ns = never;  // a signal
 
   FlightResult result;

@@ -54,7 +54,9 @@ Flight::Impl::Taken Flight::Impl::apply_request(std::size_t component, std::size
   r.push(message, now_ns, whole);
   r.replies[r.count - 1] = std::move(answered);
   if (tap) tap->write(static_cast<std::size_t>(r.channel), now_ns, now_ns, message, true);
-  event(EventKind::request, unit.component->name, r.port->name, false, false);  // not told aloud: a tool may send hundreds
+  Event e = event_of(Code::request_taken, unit.component->name, r.port->name);
+  say(e, "%s", r.port->name.c_str());
+  this->note(e, false);  // not told aloud: a tool may send hundreds
   return Taken::yes;
 }
 
@@ -111,11 +113,11 @@ void Flight::Impl::apply_parameter(std::size_t component, std::size_t param, Par
     throw Error(unit.component->name + ": " + unit.problem.text);
   }
   if (tap) tap->write(parameter_channel, now_ns, now_ns, reinterpret_cast<const std::byte*>(&note), true);
-  Event e;  // not told aloud: a script may set thousands
-  e.kind = EventKind::parameter;
-  std::snprintf(e.component.data(), e.component.size(), "%s", note.component.data());
-  std::snprintf(e.text.data(), e.text.size(), "%s = %.130s", note.name.data(), note.text.data());
-  if (tap) tap->write(event_channel, now_ns, now_ns, reinterpret_cast<const std::byte*>(&e), true);
+  Event e = event_of(resuming ? Code::resumed : Code::parameter_set, note.component.data(), note.name.data());
+  e.severity = Severity::info;
+  e.value = unit.base[param].number[0];
+  say(e, "%s = %s", note.name.data(), note.text.data());
+  this->note(e, false);  // not told aloud: a script may set thousands
 }
 
 void Flight::Impl::apply_import(std::size_t import, const std::byte* message) {
@@ -156,7 +158,10 @@ void Flight::reset_guards() {
     const std::string name = unit->component->name;
     if (unit->dead()) {
       if (const std::string why = impl_->in_use(); !why.empty()) {
-        impl_->event(EventKind::request, name, "guard not reset: its process has ended, and is started anew on the ground; " + why);
+        Event e = event_of(Code::guard_not_reset, name);
+        put(e.cause, why);
+        say(e, "guard not reset: its process has ended, and is started anew on the ground; %s", why.c_str());
+        impl_->note(e);
         continue;
       }
       impl_->restart(i);
@@ -165,7 +170,9 @@ void Flight::reset_guards() {
     unit->stopped = false;
     unit->overruns_in_a_row = 0;
     unit->fresh_start = true;
-    impl_->event(EventKind::request, name, "guard reset");
+    Event e = event_of(Code::guard_reset, name);
+    say(e, "guard reset");
+    impl_->note(e);
   }
 }
 

@@ -202,9 +202,10 @@ void Flight::Impl::install(std::size_t i, Graph&& next) {
   units[i] = std::move(fresh);
   connect();
   if (const std::vector<Overlay>* overlay = overlay_of(static_cast<int>(i)); overlay) units[i]->retune(overlay);
-  const std::string words = "swapped: " + version_words(*before.plugin) + " -> " + version_words(*graph.components[i].plugin);
-  event(EventKind::swap, before.name, words);
   const PluginInfo& plugin = *graph.components[i].plugin;
+  Event e = event_of(Code::swapped, before.name, plugin.file);
+  say(e, "swapped: %s -> %s", version_words(*before.plugin).c_str(), version_words(plugin).c_str());
+  note(e);
   CommandNote note;
   note.kind = CommandNote::Kind::swap;
   std::snprintf(note.component.data(), note.component.size(), "%s", before.name.c_str());

@@ -155,6 +155,8 @@ class Unit {
   void keep_log_settings(const Unit& from);
   /// Whether its child has died.
   bool dead() noexcept { return child_ && !child_->check(); }
+  /// Whether it died because it did not answer in time: for the wall clock alone.
+  bool hung() const noexcept { return child_ && child_->hung(); }
   /// Whether its results come by `collect`.
   bool remote() const noexcept { return async_ || samples_; }
   /// When a result was due that has not come; nothing when none is late.
@@ -203,7 +205,6 @@ class Unit {
 
  private:
   void create(const UnitOptions& options);
-  void charge_heap(std::int64_t growth) noexcept;
   bool heap_good() noexcept;
   Verdict submit(std::int64_t now_ns, const fulmar_tick& tick) noexcept;
   Verdict collect_async(std::int64_t now_ns) noexcept;

@@ -18,6 +18,7 @@
 #include "core/isolate/isolated.hpp"
 #include "core/run/async.hpp"
 #include "core/run/driver.hpp"
+#include "core/run/inside.hpp"
 #include "core/run/stats.hpp"
 #include "core/run/tape.hpp"
 #include "core/tap/hash.hpp"
@@ -95,21 +96,6 @@ struct Reader {
 struct Verdict {
   enum class Kind : std::uint8_t { stepped, not_due, waiting, bad, submitted } kind = Kind::stepped;
   bool degraded = false;
-};
-
-/// Name of the component whose code runs now, or nullptr: for whoever has to tell of a crash or a hang.
-inline std::atomic<const char*> in_step{nullptr};
-inline std::atomic<const char*> in_call{"step"};  // which of its functions
-
-/// As long as it lives, the component's code runs in this thread.
-struct Inside {
-  Inside(const std::string& component, const char* call) noexcept {
-    in_call.store(call, std::memory_order_relaxed);
-    in_step.store(component.c_str(), std::memory_order_relaxed);
-  }
-  ~Inside() { in_step.store(nullptr, std::memory_order_relaxed); }
-  Inside(const Inside&) = delete;
-  Inside& operator=(const Inside&) = delete;
 };
 
 /// The vehicle's last word, encoded beforehand, for the handler of a crash; nullptr when it has none.

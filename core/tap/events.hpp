@@ -10,13 +10,11 @@
 #include <string_view>
 #include <vector>
 
+#include "core/loader/names.hpp"
 #include "core/loader/type.hpp"
 #include "core/tap/reader.hpp"
 
 namespace fulmar::core {
-
-/// Room for the names that the log holds, with the zero at their end. A mission with longer ones is refused.
-inline constexpr std::size_t component_room = 48, name_room = 64;
 
 /// What an event tells, and which of its fields count. The words of each, its kind and severity stand in events.cpp in this order.
 enum class Code : std::uint8_t {

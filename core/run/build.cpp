@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/run/flight_impl.hpp"
+#include "core/run/flown_plugin.hpp"
 #include "core/run/playback.hpp"
 #include "core/tap/live/gate.hpp"
 #include "core/tap/sbom.hpp"
@@ -61,7 +62,7 @@ TypePtr probes_type(const PluginInfo& plugin, const ComponentInfo& component) {
 }
 
 const std::vector<TypePtr>& host_types() {
-  static const std::vector<TypePtr> list = {host_type<Event>(), host_type<Ticks>(), parameter_note_type(), command_note_type()};
+  static const std::vector<TypePtr> list = {host_type<Event>(), host_type<Ticks>(), host_type<CommandNote>()};
   return list;
 }
 
@@ -87,6 +88,7 @@ Flight::Impl::Impl(const Graph& g, const FlightOptions& o) : graph(g), options(o
   connect();
   for (const auto& unit : units) unit->configure();
   if (graph.vehicle >= 0) units[static_cast<std::size_t>(graph.vehicle)]->prepare_last_frame(graph.failsafe);
+  commands = std::make_shared<const CommandTable>(graph);
   open_tap();
   if (graph.arm) request_arming();
   std::size_t most = 0;
@@ -287,8 +289,8 @@ std::vector<TapChannel> Flight::Impl::channels() {
   };
   event_channel = channel("fulmar.event", host_type<Event>());
   ticks_channel = channel("fulmar.ticks", host_type<Ticks>());
-  parameter_channel = channel("fulmar.parameter", parameter_note_type());
-  command_channel = channel("fulmar.command", command_note_type());
+  parameter_channel = channel("fulmar.parameter", host_type<CommandNote>());
+  command_channel = channel("fulmar.command", host_type<CommandNote>());
   for (const auto& unit : units) {
     const Component& c = *unit->component;
     const bool stored_whole = c.info().vehicle || c.run == RunMode::driver;
@@ -396,10 +398,6 @@ std::string Flight::Impl::parameters_text() const {
   return all.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-std::string plugin_words(const PluginInfo& p) {
-  return p.file + " " + p.version + " " + p.sha256 + (p.build_id.empty() ? "" : " build " + p.build_id);
-}
-
 namespace {
 
 /// What the command line changed, so that a replay can do the same.
@@ -424,7 +422,7 @@ void Flight::Impl::attach_texts() {
   std::vector<const PluginInfo*> loaded;
   for (const Component& c : graph.components) {
     const PluginInfo& p = *c.plugin;
-    plugins.emplace_back(c.name, plugin_words(p));
+    for (const auto& [key, value] : flown_pairs(p)) plugins.emplace_back(c.name + "." + key, value);
     if (std::find(loaded.begin(), loaded.end(), &p) == loaded.end()) loaded.push_back(&p);
   }
   log->attach("sbom.json", "application/json", sbom_text(loaded));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When a flight ends. An armed aircraft on hardware is not left by the host: whatever the verdict, it flies or stays silent until disarmed.
+// When a flight ends. An armed aircraft on hardware is not left by the host: whatever the verdict, it flies
+// or stays silent until disarmed.
 #include <cstdio>
 
 #include "core/run/flight_impl.hpp"
@@ -18,7 +19,8 @@ std::string short_number(double x) {
 
 }  // namespace
 
-bool Flight::Impl::held_for(const Condition& condition, std::int64_t for_ns, std::int64_t& since_ns) const noexcept {
+bool Flight::Impl::held_for(const Condition& condition, std::int64_t for_ns,
+                            std::int64_t& since_ns) const noexcept {
   if (!condition.holds(*this)) {
     since_ns = never;
     return false;
@@ -41,7 +43,8 @@ bool Flight::Impl::over() {
     conclude(Code::duration_reached, in_failsafe ? Outcome::failed : Outcome::flown,
              in_failsafe ? failsafe_reason : "duration reached", "");
   else if (graph.timeout_ns > 0 && graph.io == "sim" && now_ns >= graph.timeout_ns)
-    finish(Outcome::failed, "not done within " + short_number(1e-9 * static_cast<double>(graph.timeout_ns)) + " s of flight");
+    finish(Outcome::failed,
+           "not done within " + short_number(1e-9 * static_cast<double>(graph.timeout_ns)) + " s of flight");
   if (!ended && !conclusion.empty() && !armed_hardware()) {
     const bool lost = in_failsafe && conclusion_outcome == Outcome::flown;
     finish(lost ? Outcome::failed : conclusion_outcome, lost ? failsafe_reason : conclusion);
@@ -72,7 +75,8 @@ void Flight::Impl::after_failsafe() {
   note(e);
 }
 
-/// A signal asks for the end. While the aircraft is armed it has to be repeated; what the signal's handler does is in run_command.cpp.
+/// A signal asks for the end. While the aircraft is armed it has to be repeated; what the signal's handler
+/// does is in run_command.cpp.
 void Flight::Impl::heed_signal() {
   if (!armed_hardware()) return finish(Outcome::interrupted, "by a signal");
   if (giving_up) return;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/graph/condition.hpp"
+#include "core/run/command.hpp"
 #include "core/run/flight.hpp"
 #include "core/run/flight_control.hpp"
 #include "core/run/unit.hpp"
@@ -22,9 +23,6 @@ TypePtr probes_type(const PluginInfo& plugin, const ComponentInfo& component);
 
 /// Under which name an output is logged: its role's, when it is one of the role's.
 std::string topic_name(const Graph& graph, const Component& component, std::size_t output);
-
-/// What flew, for the log: file, version, SHA-256, build id.
-std::string plugin_words(const PluginInfo& plugin);
 
 /// Seed of a component: a mix of the mission's seed and the component's name, so that adding a component changes no other's noise.
 std::uint64_t component_seed(std::uint64_t mission_seed, const std::string& name);
@@ -101,17 +99,23 @@ struct Flight::Impl final : SampleReader {
   void finish(Outcome outcome, std::string reason);
 
   // swap.cpp
+  void swap(std::size_t index, const std::string& file);
   void replace(std::size_t index, const std::string& file);
   void install(std::size_t index, Graph&& next);
   void restart(std::size_t index);
   std::string in_use() const;  // why nothing can be swapped now, or ""
 
-  // requests.cpp: what enters between two ticks; these throw, but for the second
-  void apply_parameter(std::size_t component, std::size_t param, ParamValue& value, const ParameterNote& note);
+  // requests.cpp: what enters between two ticks, checked before; these throw
   enum class Taken : std::uint8_t { yes, full, idle };
-  Taken apply_request(std::size_t component, std::size_t input, const std::byte* message, Reply answered);
+  /// Of a parameter `command` then holds the value that was in force.
+  Taken take(Command& command, Reply answered);
+  void apply_parameter(Command& command, Code told);
+  Taken apply_request(const Command& command, Reply answered);
   void apply_import(std::size_t import, const std::byte* message);
-  void apply_phase(int to, const CommandNote& note);
+  void apply_phase(const Command& command);
+  void reset_guards(const Command& command);
+  bool reset_guard(std::size_t index);
+  void put_command(const CommandNote& note);
 
   // resume.cpp
   void resume_now();
@@ -136,7 +140,6 @@ struct Flight::Impl final : SampleReader {
   const std::byte* sample(const Source& source) const noexcept override;
   const Slot* slot_of(const Source& source) const;
   const std::byte* message_of(const Source& source) const noexcept;
-  Unit& unit(const std::string& component);  // throws Error
 
   bool unpaced() const { return options.playback || (options.speed == 0 && graph.io == "sim"); }
 
@@ -147,7 +150,8 @@ struct Flight::Impl final : SampleReader {
   std::vector<Reader*> delayed;        // readers that see the previous tick's sample
   std::vector<const Slot*> hand_over;  // room for what was last applied
   Flight* owner = nullptr;
-  std::unique_ptr<Tap> tap;  // before what hangs on it
+  std::shared_ptr<const CommandTable> commands;  // what the graph has to command
+  std::unique_ptr<Tap> tap;                      // before what hangs on it
   std::unique_ptr<Log> log;
   std::unique_ptr<FlightControl> control;
   std::unique_ptr<LiveServer> live_server;  // these two end before what they speak to
@@ -180,7 +184,7 @@ struct Flight::Impl final : SampleReader {
   // on hardware, while the aircraft is armed
   std::string conclusion;  // how the flight will have ended; "": open
   Outcome conclusion_outcome = Outcome::failed;
-  bool silence_told = false, giving_up = false, log_told = false, resuming = false;
+  bool silence_told = false, giving_up = false, log_told = false;
   std::int64_t refused_ns = never;  // a signal
 
   FlightResult result;

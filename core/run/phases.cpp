@@ -15,7 +15,10 @@ Severity severity_of(const Told& told) noexcept {
   const auto label = static_cast<std::size_t>(told.slot->published[told.severity->offset]);
   if (label >= told.severity->labels.size()) return Severity::info;
   const std::string& word = told.severity->labels[label];
-  return word == "warning" ? Severity::warning : word == "error" ? Severity::error : word == "critical" ? Severity::critical : Severity::info;
+  return word == "warning"    ? Severity::warning
+         : word == "error"    ? Severity::error
+         : word == "critical" ? Severity::critical
+                              : Severity::info;
 }
 
 /// What a component said of itself when a guard stopped it.
@@ -112,10 +115,12 @@ void Flight::Impl::enter(int to) {
   if (!result.phases.empty()) result.phases.back().to_ns = now_ns;
   result.phases.push_back({to_phase.name, now_ns, now_ns});
   note_phase(to_phase);
-  for (std::size_t r = 0; r < roles.size(); ++r) fill(static_cast<int>(r), to_phase.roles[r], !from_phase.roles[r].set.empty());
+  for (std::size_t r = 0; r < roles.size(); ++r)
+    fill(static_cast<int>(r), to_phase.roles[r], !from_phase.roles[r].set.empty());
 }
 
-/// Who flies in a role from now on: the component that the phase names, else its fallback, else who flies already.
+/// Who flies in a role from now on: the component that the phase names, else its fallback, else who flies
+/// already.
 void Flight::Impl::fill(int role, const Assignment& assignment, bool overlaid) {
   RoleState& state = roles[static_cast<std::size_t>(role)];
   if (assignment.component < 0) return;
@@ -126,7 +131,9 @@ void Flight::Impl::fill(int role, const Assignment& assignment, bool overlaid) {
       continue;
     }
     const bool own = wanted == assignment.component && !assignment.set.empty();
-    if ((own || overlaid) && !units[static_cast<std::size_t>(wanted)]->retune(own ? &assignment.set : nullptr)) stop(wanted);
+    if ((own || overlaid) &&
+        !units[static_cast<std::size_t>(wanted)]->retune(own ? &assignment.set : nullptr))
+      stop(wanted);
     return;
   }
   if (state.active < 0) return;
@@ -141,7 +148,8 @@ bool Flight::Impl::take_over(int role, int component, const Assignment& assignme
   Unit& unit = *units[static_cast<std::size_t>(component)];
   Unit* old = state.active >= 0 ? units[static_cast<std::size_t>(state.active)].get() : nullptr;
   const bool tuned = unit.retune(component == assignment.component ? &assignment.set : nullptr);
-  if (tuned && !unit.ready() && (!old || old->fresh_start)) {  // nobody has flown yet: the newcomer begins when its inputs are there
+  if (tuned && !unit.ready() &&
+      (!old || old->fresh_start)) {  // nobody has flown yet: the newcomer begins when its inputs are there
     if (old) old->active = false;
     state.active = component;
     unit.active = unit.fresh_start = true;
@@ -152,15 +160,18 @@ bool Flight::Impl::take_over(int role, int component, const Assignment& assignme
   last.assign(unit.slots.size(), nullptr);
   for (std::size_t i = 0; i < unit.slots.size(); ++i) {
     const RoleSlot* slot = unit.slots[i].role;
-    if (slot && slot->current && slot->current->port->type->hash == unit.slots[i].port->type->hash) last[i] = slot->current;
+    if (slot && slot->current && slot->current->port->type->hash == unit.slots[i].port->type->hash)
+      last[i] = slot->current;
   }
   unit.forget_queues();
   if (!tuned || !unit.activate(now_ns, index, last)) {
     make_printable(unit.problem.text);
-    Event e = guard_event(unit.hung() ? Code::hung : Code::cannot_take_over, unit.component->name, unit.problem.text);
+    Event e = guard_event(unit.hung() ? Code::hung : Code::cannot_take_over, unit.component->name,
+                          unit.problem.text);
     say(e, "cannot take over: %s", unit.problem.text);
     note(e);
-    result.guards.push_back({now_ns, unit.component->name, e.words.data(), state.active >= 0 ? "the old one stays" : "nobody flies"});
+    result.guards.push_back({now_ns, unit.component->name, e.words.data(),
+                             state.active >= 0 ? "the old one stays" : "nobody flies"});
     return false;
   }
   if (old) {
@@ -193,7 +204,8 @@ void Flight::Impl::stop(int i, Code code) {
   if (state.active != i) return;
   const Assignment& a = graph.phases[static_cast<std::size_t>(phase)].roles[static_cast<std::size_t>(role)];
   const int fallback = a.fallback;
-  if (fallback >= 0 && fallback != i && !units[static_cast<std::size_t>(fallback)]->stopped && take_over(role, fallback, a)) {
+  if (fallback >= 0 && fallback != i && !units[static_cast<std::size_t>(fallback)]->stopped &&
+      take_over(role, fallback, a)) {
     const std::string& other = graph.components[static_cast<std::size_t>(fallback)].name;
     result.guards[at].action = other + " takes over";
     Event e = event_of(Code::took_over, name, other);
@@ -203,7 +215,7 @@ void Flight::Impl::stop(int i, Code code) {
   }
   if (!drives_vehicle[static_cast<std::size_t>(role)]) return;
   result.guards[at].action = "failsafe";
-  Event why = event_of(Code::failsafe);
+  Event why = event_of(Code::failsafe, "", name);
   put(why.cause, what);
   say(why, "failsafe: %s: %s", name.c_str(), what.c_str());
   failsafe(why);
@@ -224,7 +236,9 @@ const Slot* Flight::Impl::slot_of(const Source& source) const {
   if (source.kind == Source::Kind::component)
     return &units[static_cast<std::size_t>(source.index)]->slots[static_cast<std::size_t>(source.output)];
   if (source.kind == Source::Kind::role)
-    return roles[static_cast<std::size_t>(source.index)].slots[static_cast<std::size_t>(source.output)].current;
+    return roles[static_cast<std::size_t>(source.index)]
+        .slots[static_cast<std::size_t>(source.output)]
+        .current;
   return nullptr;
 }
 
@@ -237,11 +251,16 @@ const std::byte* Flight::Impl::sample(const Source& source) const noexcept {
 
 const std::byte* Flight::Impl::message_of(const Source& source) const noexcept {
   if (source.kind == Source::Kind::role)
-    return roles[static_cast<std::size_t>(source.index)].slots[static_cast<std::size_t>(source.output)].message();
+    return roles[static_cast<std::size_t>(source.index)]
+        .slots[static_cast<std::size_t>(source.output)]
+        .message();
   return slot_of(source)->published.data();
 }
 
-Flight::Flight(const Graph& graph, const FlightOptions& options) : impl_(std::make_unique<Impl>(graph, options)) { impl_->owner = this; }
+Flight::Flight(const Graph& graph, const FlightOptions& options)
+    : impl_(std::make_unique<Impl>(graph, options)) {
+  impl_->owner = this;
+}
 Flight::~Flight() {
   last_frame.store(nullptr, std::memory_order_release);
   if (impl_->control) impl_->control->end();  // answers go to those who asked, as long as they are there
@@ -253,10 +272,14 @@ FlightResult Flight::run() {
 }
 bool Flight::step() { return impl_->step(); }
 Control* Flight::control() const { return impl_->control.get(); }
-std::uint16_t Flight::live_port() const { return impl_->live_server ? impl_->live_server->port() : std::uint16_t{0}; }
+std::uint16_t Flight::live_port() const {
+  return impl_->live_server ? impl_->live_server->port() : std::uint16_t{0};
+}
 FlightResult Flight::finish() { return impl_->finish_flight(); }
 std::int64_t Flight::now_ns() const { return impl_->now_ns; }
-const std::string& Flight::phase() const { return impl_->graph.phases[static_cast<std::size_t>(impl_->phase)].name; }
+const std::string& Flight::phase() const {
+  return impl_->graph.phases[static_cast<std::size_t>(impl_->phase)].name;
+}
 const std::byte* Flight::sample(const Source& source) const {
   const Slot* slot = impl_->slot_of(source);
   return slot && slot->sequence > 0 ? impl_->message_of(source) : nullptr;

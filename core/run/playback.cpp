@@ -2,15 +2,11 @@
 #include "core/run/playback.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "core/run/flight_impl.hpp"
-#include "core/tap/ros_parse.hpp"
 #include "core/tap/wire.hpp"
 
 namespace fulmar::core {
@@ -251,9 +247,9 @@ void Playback::stand_in(const Graph& graph, const Component& component, UnitOpti
 namespace {
 
 struct InputPort {
+  CommandKind kind = CommandKind::request;
   std::string component, port;
   TypePtr type;
-  Entry::Kind kind = Entry::Kind::request;
 };
 
 /// Topics of requests and imports.
@@ -266,50 +262,21 @@ std::map<std::uint16_t, InputPort> input_channels(const McapFile& file, const Gr
       const bool import = component.wires[i].import >= 0;
       const std::string topic = "/" + component.name + "/" + port.name;
       if ((!request && !import) || !has_topic(file, topic)) continue;
-      inputs[channel_of(file, topic, *port.type)] = {component.name, port.name, port.type,
-                                                     request ? Entry::Kind::request : Entry::Kind::import};
+      inputs[channel_of(file, topic, *port.type)] = {request ? CommandKind::request : CommandKind::import, component.name, port.name,
+                                                     port.type};
     }
   return inputs;
 }
 
-/// Reads the host's own messages by the log's own schema.
-class JsonTopic {
- public:
-  JsonTopic(const McapFile& file, const std::string& topic) {
-    if (!has_topic(file, topic)) return;
-    channel_ = file.channel(topic);
-    const McapFile::Schema& schema = file.schemas.at(file.channels.at(*channel_).schema);
-    type_ = parse_ros_definition(schema.name, schema.text);
-    message_.resize(type_->size);
-  }
-  bool holds(const McapFile::Message& m) const { return channel_ == m.channel; }
-  nlohmann::json read(const McapFile::Message& m) {
-    cdr_decode(*type_, m.data.data(), m.data.size(), message_.data());
-    return to_json(*type_, message_.data(), false);
-  }
-
- private:
-  std::optional<std::uint16_t> channel_;
-  TypePtr type_;
-  std::vector<std::byte> message_;
-};
-
-Entry::Kind command_kind(const std::string& word) {
-  if (word == "phase") return Entry::Kind::phase;
-  if (word == "swap") return Entry::Kind::swap;
-  if (word == "reset") return Entry::Kind::reset;
-  throw Error("the log has a command '" + word + "' that this version does not know");
-}
-
-}  // namespace
-
-namespace {
-
-Resume::Param resumed_parameter(const Entry& entry) {
-  Resume::Param p{entry.component, entry.name, {}};
-  p.value.number[0] = std::strtod(entry.text.c_str(), nullptr);
-  p.value.integer = std::llround(p.value.number[0]);
-  return p;
+/// Of a parameter that this mission does not have the value stays unread: whoever applies the command says so.
+Command command_of(const CommandNote& note, const Graph& graph) {
+  Command command = command_of(note.kind, note.component.data(), note.name.data());
+  command.note = note;
+  if (note.kind != CommandKind::parameter) return command;
+  for (const Component& c : graph.components)
+    if (const int i = c.name == command.component ? c.info().param(command.name) : -1; i >= 0)
+      command.value = value_of(note, c.info().params[static_cast<std::size_t>(i)]);
+  return command;
 }
 
 }  // namespace
@@ -323,18 +290,20 @@ void Playback::take_resume(const Event& e, bool begun) {
     return;
   }
   if (!resume_ || entries_.empty()) return;
-  const Entry& set = entries_.back();
-  if (set.kind != Entry::Kind::parameter || set.component != e.component.data() || set.name != e.name.data()) return;
-  resume_->params.push_back(resumed_parameter(set));
+  Command& set = entries_.back().command;
+  if (set.kind != CommandKind::parameter || set.component != e.component.data() || set.name != e.name.data()) return;
+  resume_->params.push_back({set.component, set.name, std::move(set.value)});
   entries_.pop_back();
 }
 
 void Playback::index_entries(const Graph& graph) {
-  JsonTopic parameters(file_, "/fulmar/parameter"), commands(file_, "/fulmar/command");
+  const HostTopic<CommandNote> parameters(file_, CommandNote::parameter_topic), commands(file_);
   const std::map<std::uint16_t, InputPort> inputs = input_channels(file_, graph);
   for (const auto& [channel, port] : inputs) check_gaps(channel);
-  for (const char* topic : {"/fulmar/parameter", "/fulmar/command"})
-    if (has_topic(file_, topic)) check_gaps(file_.channel(topic));
+  for (const auto& topic : {parameters, commands}) {
+    topic.check();
+    if (topic.there()) check_gaps(topic.channel());
+  }
   bool begun = false;  // the first thing that a flight says is its phase
   for (const McapFile::Message& m : file_.messages) {
     if (events_.holds(m)) {
@@ -343,21 +312,18 @@ void Playback::index_entries(const Graph& graph) {
       take_resume(event, begun);
       continue;
     }
-    const std::int64_t now = flight_ns(m.log_ns, epoch_ns_);
     Entry entry;
     if (const auto at = inputs.find(m.channel); at != inputs.end()) {
-      entry.kind = at->second.kind, entry.component = at->second.component, entry.name = at->second.port;
-      entry.message.resize(at->second.type->size);
-      cdr_decode(*at->second.type, m.data.data(), m.data.size(), entry.message.data());
-    } else if (parameters.holds(m)) {
-      const nlohmann::json j = parameters.read(m);
-      entry.kind = Entry::Kind::parameter, entry.component = j.at("component"), entry.name = j.at("name"), entry.text = j.at("text");
-    } else if (commands.holds(m)) {
-      const nlohmann::json j = commands.read(m);
-      entry.kind = command_kind(j.at("kind")), entry.component = j.at("component"), entry.text = j.at("text");
+      const InputPort& port = at->second;
+      entry.command = fulmar::core::command_of(port.kind, port.component, port.port);
+      entry.command.message.resize(port.type->size);
+      cdr_decode(*port.type, m.data.data(), m.data.size(), entry.command.message.data());
+    } else if (parameters.holds(m) || commands.holds(m)) {
+      entry.command = command_of(commands.read(m.data), graph);
     } else {
       continue;
     }
+    const std::int64_t now = flight_ns(m.log_ns, epoch_ns_);
     if (begun)
       entry.before = static_cast<std::size_t>(std::upper_bound(ticks_.time_ns.begin(), ticks_.time_ns.end(), now) - ticks_.time_ns.begin());
     if (now <= ticks_.time_ns.back()) entries_.push_back(std::move(entry));

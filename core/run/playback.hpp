@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/graph/graph.hpp"
+#include "core/run/command.hpp"
 #include "core/run/driver.hpp"
 #include "core/run/resume.hpp"
 #include "core/tap/events.hpp"
@@ -27,13 +28,10 @@ struct TickList {
 /// Throws Error when the log has none, or does not begin with the flight.
 TickList read_ticks(const McapFile& file);
 
-/// Something that entered between two ticks.
+/// Something that entered between two ticks. Of a swap `command.note` tells which plugin.
 struct Entry {
-  enum class Kind : std::uint8_t { parameter, request, import, phase, swap, reset };
-  Kind kind = Kind::parameter;
   std::size_t before = 0;  // the index of the tick that saw it first
-  std::string component, name, text;
-  std::vector<std::byte> message;  // of a request or import: a struct of the port's type
+  Command command;
 };
 
 class Playback {

@@ -162,12 +162,11 @@ std::function<std::string(std::size_t, const std::byte*)> Flight::Impl::lasting(
   return [event = event_channel, parameter = parameter_channel, command = command_channel](std::size_t channel, const std::byte* message) {
     std::string name;
     if (channel == event && reinterpret_cast<const Event*>(message)->code == Code::phase_entered) name = "phase";
-    if (channel == parameter) {
-      const auto* const note = reinterpret_cast<const ParameterNote*>(message);
-      name = std::string("parameter ") + note->component.data() + "." + note->name.data();
-    }
-    if (channel == command && reinterpret_cast<const CommandNote*>(message)->kind == CommandNote::Kind::swap)
-      name = std::string("swap ") + reinterpret_cast<const CommandNote*>(message)->component.data();
+    if (channel != parameter && channel != command) return name;
+    const auto* const note = reinterpret_cast<const CommandNote*>(message);
+    const std::string component = note->component.data();
+    if (note->kind == CommandKind::parameter) name = "parameter " + component + "." + note->name.data();
+    if (note->kind == CommandKind::swap) name = "swap " + component;
     return name;
   };
 }
@@ -182,9 +181,12 @@ void Flight::Impl::resume_now() {
   Event e = event_of(Code::resumed, "", resume.phase);
   say(e, "resumed: %s", resume.text().c_str());
   note(e);
-  resuming = true;
-  for (const Resume::Param& p : resume.params) owner->set_parameter(p.component, p.param, p.value);
-  resuming = false;
+  for (const Resume::Param& p : resume.params) {
+    Command command = command_of(CommandKind::parameter, p.component, p.param);
+    command.value = p.value;
+    commands->prepare(command);
+    apply_parameter(command, Code::resumed);
+  }
   if (index == 0)
     phase = to;
   else if (to != phase)

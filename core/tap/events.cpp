@@ -76,9 +76,21 @@ class HostTable {
   HostTable& add(const char* name, std::array<char, N> Message::*member) {
     return field(name, FULMAR_TEXT, member, N);
   }
-  HostTable& add(const char* name, std::uint64_t Message::*member) { return field(name, FULMAR_U64, member, 8); }
-  HostTable& add(const char* name, std::int64_t Message::*member) { return field(name, FULMAR_I64, member, 8); }
-  HostTable& add(const char* name, double Message::*member) { return number(field(name, FULMAR_F64, member, 8)); }
+  HostTable& add(const char* name, std::uint64_t Message::*member) {
+    return field(name, FULMAR_U64, member, 8);
+  }
+  HostTable& add(const char* name, std::int64_t Message::*member) {
+    return field(name, FULMAR_I64, member, 8);
+  }
+  HostTable& add(const char* name, double Message::*member) {
+    return number(field(name, FULMAR_F64, member, 8));
+  }
+  template <std::size_t N>
+  HostTable& add(const char* name, std::array<double, N> Message::*member) {
+    number(field(name, FULMAR_F64, member, 8));
+    type_.fields.back().shape = FULMAR_ARRAY, type_.fields.back().count = N;
+    return *this;
+  }
   template <class Enum>
   HostTable& add(const char* name, Enum Message::*member, std::vector<std::string> labels) {
     static_assert(sizeof(Enum) == 1);
@@ -87,7 +99,8 @@ class HostTable {
     return *this;
   }
   template <std::size_t N>
-  HostTable& add(const char* name, std::uint32_t Message::*count, std::array<std::uint32_t, N> Message::*items) {
+  HostTable& add(const char* name, std::uint32_t Message::*count,
+                 std::array<std::uint32_t, N> Message::*items) {
     field(name, FULMAR_U32, count, 4);
     Field& f = type_.fields.back();
     f.shape = FULMAR_LIST, f.count = N, f.items = offset(items) - f.offset;
@@ -99,7 +112,8 @@ class HostTable {
   template <class Member>
   static std::uint32_t offset(Member Message::*member) {
     static const Message one{};
-    return static_cast<std::uint32_t>(reinterpret_cast<const std::byte*>(&(one.*member)) - reinterpret_cast<const std::byte*>(&one));
+    return static_cast<std::uint32_t>(reinterpret_cast<const std::byte*>(&(one.*member)) -
+                                      reinterpret_cast<const std::byte*>(&one));
   }
   template <class Member>
   HostTable& field(const char* name, fulmar_kind kind, Member Message::*member, std::size_t stride) {
@@ -145,7 +159,24 @@ const TypePtr& host_type<Ticks>() {
   return type;
 }
 
-// ---- events ----------------------------------------------------------------------------------------------------------------------
+template <>
+const TypePtr& host_type<CommandNote>() {
+  static const TypePtr type =
+      HostTable<CommandNote>("Command")
+          .add("kind", &CommandNote::kind, {"parameter", "phase", "swap", "reset", "request", "import"})
+          .add("component", &CommandNote::component)
+          .add("name", &CommandNote::name)
+          .add("number", &CommandNote::number)
+          .add("integer", &CommandNote::integer)
+          .add("text", &CommandNote::text)
+          .add("version", &CommandNote::version)
+          .add("sha256", &CommandNote::sha256)
+          .type();
+  return type;
+}
+
+// ---- events
+// ----------------------------------------------------------------------------------------------------------------------
 
 const char* kind_words(Code code) noexcept {
   return static_cast<std::size_t>(code) < std::size(code_rows) ? row_of(code).kind : "unknown";
@@ -168,11 +199,15 @@ void say(Event& e, const char* format, ...) noexcept {
 
 void make_printable(char* text) noexcept {
   for (auto* p = reinterpret_cast<unsigned char*>(text); *p != 0;) {
-    const int more =
-        *p < 0x80 ? 0 : (*p & 0xe0) == 0xc0 && *p >= 0xc2 ? 1 : (*p & 0xf0) == 0xe0 ? 2 : *p >= 0xf0 ? 3 : -1;
+    const int more = *p < 0x80                           ? 0
+                     : (*p & 0xe0) == 0xc0 && *p >= 0xc2 ? 1
+                     : (*p & 0xf0) == 0xe0               ? 2
+                     : *p >= 0xf0                        ? 3
+                                                         : -1;
     int there = 0;
     while (there < more && (p[there + 1] & 0xc0) == 0x80) ++there;
-    const bool too_long = (*p == 0xe0 && p[1] < 0xa0) || (*p == 0xf0 && p[1] < 0x90);  // a shorter form exists
+    const bool too_long =
+        (*p == 0xe0 && p[1] < 0xa0) || (*p == 0xf0 && p[1] < 0x90);  // a shorter form exists
     const bool no_character = (*p == 0xed && p[1] >= 0xa0) || *p > 0xf4 || (*p == 0xf4 && p[1] >= 0x90);
     if (more < 0 || there < more || too_long || no_character) {
       *p++ = '?';
@@ -183,9 +218,11 @@ void make_printable(char* text) noexcept {
   }
 }
 
-// ---- out of a log ----------------------------------------------------------------------------------------------------------------
+// ---- out of a log
+// ----------------------------------------------------------------------------------------------------------------
 
-HostMessages::HostMessages(const McapFile& file, const char* topic, TypePtr type) : topic_(topic), type_(std::move(type)) {
+HostMessages::HostMessages(const McapFile& file, const char* topic, TypePtr type)
+    : topic_(topic), type_(std::move(type)) {
   for (const auto& [id, channel] : file.channels) {
     if (channel.topic != topic) continue;
     const auto schema = file.schemas.find(channel.schema);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The words of events are for people: a log in which each of them says something else is replayed and resumed as before. And logs whose
-// events have no codes yet.
+// The words of events are for people: a log in which each of them says something else is replayed and resumed
+// as before. And logs whose events have no codes yet.
 #include <algorithm>
 #include <atomic>
 #include <functional>
@@ -46,7 +46,8 @@ void rewrite(const fs::path& from, const fs::path& to, const Type& event_type, c
   for (const auto& [id, channel] : file.channels) {
     const McapFile::Schema& schema = file.schemas.at(channel.schema);
     const std::string text = id == events.channel() ? ros_definition(event_type) : schema.text;
-    channels[id] = writer.add_channel(writer.add_schema(schema.name, schema.encoding, text), channel.topic, channel.encoding, channel.metadata);
+    channels[id] = writer.add_channel(writer.add_schema(schema.name, schema.encoding, text), channel.topic,
+                                      channel.encoding, channel.metadata);
   }
   const CdrEncoder encoder(event_type);
   for (const auto& m : file.messages) {
@@ -82,7 +83,8 @@ constexpr const char* misleading[] = {"phase nowhere",
                                       "ÜBERSETZT, mit Kommas, ohne Sinn"};
 
 /// Every event says what `word` gives for it.
-fs::path translated(const fs::path& log, const std::string& name, const std::function<std::string(std::size_t)>& word) {
+fs::path translated(const fs::path& log, const std::string& name,
+                    const std::function<std::string(std::size_t)>& word) {
   const fs::path to = fresh(name);
   std::size_t n = 0;
   rewrite(log, to, *host_type<Event>(), [&](const Event& e) {
@@ -104,9 +106,9 @@ ReplayResult replay_of(const fs::path& log, const fs::path& out) {
 std::size_t count(const fs::path& log, Code code) {
   const McapFile file = read_mcap(log);
   const HostTopic<Event> events(file);
-  return static_cast<std::size_t>(std::count_if(file.messages.begin(), file.messages.end(), [&](const McapFile::Message& m) {
-    return events.holds(m) && events.read(m.data).code == code;
-  }));
+  return static_cast<std::size_t>(std::count_if(
+      file.messages.begin(), file.messages.end(),
+      [&](const McapFile::Message& m) { return events.holds(m) && events.read(m.data).code == code; }));
 }
 
 /// The flight is the same whatever its events say, to the byte of the replay's own log.
@@ -125,7 +127,8 @@ void check_words_mean_nothing(const fs::path& log) {
     CHECK(r.notes == std::vector<std::string>{});
     CHECK(contents(out) == contents(again));
     const LogDiff d = diff_logs(log, other);
-    for (const auto& [topic, counts] : d.topics) CHECK_MESSAGE((topic == Event::topic) == (counts.different > 0), topic);
+    for (const auto& [topic, counts] : d.topics)
+      CHECK_MESSAGE((topic == Event::topic) == (counts.different > 0), topic);
   }
 }
 
@@ -139,11 +142,12 @@ FlightOptions logged(const fs::path& file, double duration_s, double speed = 0) 
 
 Graph craft(const std::string& tail, const std::vector<std::pair<std::string, std::string>>& set) {
   const fs::path file = folder().path / "craft.yaml";
-  std::ofstream(file) << "mission: craft\nrate: 400 Hz\nio: fcu\nfailsafe: {u_frac: -0.25, for: 0.5 s}\nroles:\n"
-                         "  vehicle: {in: {command: law.command}, out: {status: State, applied: Applied}}\n"
-                         "  law:     {in: {state: vehicle.status}, out: {command: Command}}\ncomponents:\n"
-                         "  craft: {fills: vehicle, use: craft/Craft}\n  law_a: {fills: law, use: craft/Hoarder, run: tick}\n"
-                      << tail;
+  std::ofstream(file)
+      << "mission: craft\nrate: 400 Hz\nio: fcu\nfailsafe: {u_frac: -0.25, for: 0.5 s}\nroles:\n"
+         "  vehicle: {in: {command: law.command}, out: {status: State, applied: Applied}}\n"
+         "  law:     {in: {state: vehicle.status}, out: {command: Command}}\ncomponents:\n"
+         "  craft: {fills: vehicle, use: craft/Craft}\n  law_a: {fills: law, use: craft/Hoarder, run: tick}\n"
+      << tail;
   Overrides o;
   o.set = set;
   return load_mission(file.string(), o);
@@ -213,7 +217,9 @@ TEST_CASE("words mean nothing: what the wall clock did") {
   check_words_mean_nothing(hung);
 }
 
-TEST_CASE("words mean nothing: an armed aircraft whose owner, and then a signal, wants the end; a flight that goes on where another ended") {
+TEST_CASE(
+    "words mean nothing: an armed aircraft whose owner, and then a signal, wants the end; a flight that goes "
+    "on where another ended") {
   const std::vector<std::pair<std::string, std::string>> armed = {{"craft.arm_at", "0"}};
   const fs::path first = fresh("first.mcap"), second = fresh("second.mcap");
   std::atomic<int> interrupt{0};
@@ -234,7 +240,8 @@ TEST_CASE("words mean nothing: an armed aircraft whose owner, and then a signal,
 
   const Graph graph = craft(two_phases, armed);
   for (const char* words : {"", "phase first", "phase third"}) {
-    const Resume resume = read_resume(graph, translated(first, "told.mcap", [&](std::size_t) { return std::string(words); }));
+    const Resume resume =
+        read_resume(graph, translated(first, "told.mcap", [&](std::size_t) { return std::string(words); }));
     CHECK(resume.text() == read_resume(graph, first).text());
     CHECK(resume.phase == "second");
   }
@@ -258,7 +265,87 @@ TEST_CASE("words mean nothing: an armed aircraft whose owner, and then a signal,
   check_words_mean_nothing(second);
 }
 
-// ---- logs from before there were codes -------------------------------------------------------------------------------------------
+TEST_CASE("a name as long as the log has room for is found again: a guard, a late result") {
+  const std::string name(47, 'n');
+  const fs::path log = fresh("long-name.mcap");
+  Flight(mission("  " + name +
+                     ": {fills: law, use: lab/Law, budget: 500 us, params: {id: 1, u: 0.1}}\nphases:\n  fly: "
+                     "{law: {use: " +
+                     name + ", fallback: two}}\n",
+                 {{name + ".fault", "slow"}, {name + ".fault_at", "0.1"}}),
+         logged(log, 0.3, 4))
+      .run();
+  CHECK(count(log, Code::over_budget) == 1);
+  check_words_mean_nothing(log);
+  CHECK_THROWS_WITH_AS(mission("  n" + name + ": {fills: law, use: lab/Law}\n" + one_phase),
+                       doctest::Contains("has 48 characters; a name has 47 at most"), Error);
+}
+
+TEST_CASE(
+    "a flight resumes with more parameters than a line has room for, and is replayed with all of them") {
+  constexpr int laws = 30;
+  std::string tail, rules, phases;
+  for (int i = 0; i < laws; ++i) {
+    const std::string n = std::to_string(i), name = "law_with_a_long_name_" + n;
+    tail += "  " + name + ": {fills: law, use: craft/Hoarder, run: tick}\n";
+    rules += (i > 0 ? ", " : "") + name + ".heirloom: law.command.u_frac";
+    phases +=
+        "  p" + n + ": {law: " + name +
+        (i + 1 < laws ? ", next: [{to: p" + std::to_string(i + 1) + ", when: \"vehicle.status.tick_s > " +
+                            (i == 0 ? "0.2" : "1000") + " s\"}]}\n"
+                      : "}\n");
+  }
+  const Graph graph = craft(tail + "resume: {" + rules + "}\nphases:\n" + phases, {{"craft.arm_at", "0"}});
+  const fs::path first = fresh("many.mcap"), second = fresh("many-2.mcap");
+  Flight gone(graph, logged(first, 100));
+  fly_until(gone, 0.5);
+  gone.finish();
+  FlightOptions o = logged(second, 100);
+  o.resume = read_resume(graph, first);
+  REQUIRE(o.resume->params.size() == laws);
+  CHECK(o.resume->phase == "p1");
+  CHECK(o.resume->text().size() > 512);
+  Flight flight(graph, o);
+  fly_until(flight, 0.5);
+  flight.finish();
+  CHECK(count(second, Code::resumed) == laws + 1);
+  CHECK(count(second, Code::parameter_set) == 0);
+  check_words_mean_nothing(second);
+}
+
+TEST_CASE("every live parameter comes again as it was taken: a number, a word, a phase, a swap") {
+  const fs::path log = fresh("values.mcap");
+  Flight flight(mission("phases:\n  a: {law: one, next: [{to: b, when: \"vehicle.signal.tick_s > 1000 "
+                        "s\"}]}\n  b: {law: two}\n"),
+                logged(log, 0.5));
+  ParamValue exact, word;
+  exact.number[0] = 0.1 + 0.2;  // no short decimal
+  word.integer = 1;
+  for (int n = 0; flight.step(); ++n) {
+    if (n == 50) flight.swap("two", std::string(FULMAR_TEST_PLUGIN_DIR) + "/lab_better.so");
+    if (n == 410) flight.set_parameter("one", "u", exact);
+    if (n == 420) flight.set_parameter("one", "fault", word);
+    if (n == 430) flight.enter_phase("b");
+  }
+  flight.finish();
+  const McapFile file = read_mcap(log);
+  const HostTopic<CommandNote> commands(file), parameters(file, CommandNote::parameter_topic);
+  std::vector<CommandNote> notes;
+  for (const auto& m : file.messages)
+    if (commands.holds(m) || parameters.holds(m)) notes.push_back(commands.read(m.data));
+  REQUIRE(notes.size() == 4);
+  CHECK(std::string(notes[0].text.data()) == "lab_better.so");
+  CHECK(std::string(notes[0].version.data()) == "1.0.0");
+  CHECK(std::string(notes[0].sha256.data()).size() == 64);
+  CHECK(notes[1].number[0] == 0.1 + 0.2);
+  CHECK(std::string(notes[1].name.data()) == "u");
+  CHECK(notes[2].integer == 1);
+  CHECK(std::string(notes[3].name.data()) == "b");
+  check_words_mean_nothing(log);
+}
+
+// ---- logs from before there were codes
+// -------------------------------------------------------------------------------------------
 
 namespace {
 
@@ -268,14 +355,16 @@ struct OldEvent {
   std::array<char, 207> text{};
 };
 
-const std::vector<std::string> old_kinds = {"phase", "guard", "request", "parameter", "failsafe", "swap", "notice", "end", "resume"};
+const std::vector<std::string> old_kinds = {"phase", "guard",  "request", "parameter", "failsafe",
+                                            "swap",  "notice", "end",     "resume"};
 
 Type old_event_type() {
   Type t;
   t.name = "Event", t.size = sizeof(OldEvent);
   const auto add = [&](const char* name, fulmar_kind kind, std::size_t offset, std::size_t stride) {
     Field f;
-    f.name = name, f.kind = kind, f.offset = static_cast<std::uint32_t>(offset), f.stride = static_cast<std::uint32_t>(stride);
+    f.name = name, f.kind = kind, f.offset = static_cast<std::uint32_t>(offset),
+    f.stride = static_cast<std::uint32_t>(stride);
     t.fields.push_back(f);
   };
   add("kind", FULMAR_ENUM, 0, 1);
@@ -289,7 +378,8 @@ fs::path old_log(const fs::path& log) {
   const fs::path to = fresh("old.mcap");
   rewrite(log, to, old_event_type(), [](const Event& e) {
     OldEvent old;
-    old.kind = static_cast<std::uint8_t>(std::find(old_kinds.begin(), old_kinds.end(), kind_words(e.code)) - old_kinds.begin());
+    old.kind = static_cast<std::uint8_t>(std::find(old_kinds.begin(), old_kinds.end(), kind_words(e.code)) -
+                                         old_kinds.begin());
     old.component = e.component;
     put(old.text, e.words.data());
     return bytes_of(old);
@@ -299,7 +389,9 @@ fs::path old_log(const fs::path& log) {
 
 }  // namespace
 
-TEST_CASE("a log whose events have no codes is read, exported and compared; to replay or resume from it is refused in a sentence") {
+TEST_CASE(
+    "a log whose events have no codes is read, exported and compared; to replay or resume from it is refused "
+    "in a sentence") {
   const fs::path log = fresh("new.mcap");
   Flight(mission(with_fallback, {{"one.fault", "nan"}, {"one.fault_at", "0.2"}}), logged(log, 0.6)).run();
   const fs::path old = old_log(log);
@@ -322,12 +414,14 @@ TEST_CASE("a log whose events have no codes is read, exported and compared; to r
   CHECK(contents(tables / "fulmar.event.csv").find("one") != std::string::npos);
 
   const LogDiff d = diff_logs(old, log);
-  for (const auto& [topic, counts] : d.topics) CHECK_MESSAGE((topic == Event::topic) == (counts.different > 0), topic);
+  for (const auto& [topic, counts] : d.topics)
+    CHECK_MESSAGE((topic == Event::topic) == (counts.different > 0), topic);
   REQUIRE(d.first.has_value());
   CHECK(d.first->topic == Event::topic);
   CHECK(!d.first_tick.has_value());
 
-  const std::string why = "the log's /fulmar/event has other fields than Event has here: it was written by another version";
+  const std::string why =
+      "the log's /fulmar/event has other fields than Event has here: it was written by another version";
   CHECK_THROWS_WITH_AS(replay_of(old, fresh("never.mcap")), doctest::Contains(why.c_str()), Error);
   const Recording recording(log);
   CHECK_THROWS_WITH_AS(read_resume(recording.mission({}, {}), old), doctest::Contains(why.c_str()), Error);
@@ -337,7 +431,8 @@ TEST_CASE("every code has a kind that people know, and bytes that are no code ar
   const fs::path log = fresh("new.mcap"), odd = fresh("odd.mcap");
   Flight(mission(one_phase), logged(log, 0.1)).run();
   for (std::size_t code = 0; code < host_type<Event>()->fields[0].labels.size(); ++code)
-    CHECK(std::find(old_kinds.begin(), old_kinds.end(), kind_words(static_cast<Code>(code))) != old_kinds.end());
+    CHECK(std::find(old_kinds.begin(), old_kinds.end(), kind_words(static_cast<Code>(code))) !=
+          old_kinds.end());
   for (const int code : {200, 255}) {
     fs::remove(odd);
     rewrite(log, odd, *host_type<Event>(), [&](const Event& e) {

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <map>
 
 #include "core/run/replay.hpp"
@@ -425,6 +426,41 @@ TEST_CASE(
   CHECK_THROWS_WITH_AS(replay_of(old, fresh("never.mcap")), doctest::Contains(why.c_str()), Error);
   const Recording recording(log);
   CHECK_THROWS_WITH_AS(read_resume(recording.mission({}, {}), old), doctest::Contains(why.c_str()), Error);
+}
+
+TEST_CASE("an event of any code, its fields empty or full, is read without fault wherever it stands") {
+  const fs::path log = fresh("any.mcap"), odd = fresh("odd.mcap");
+  Flight(mission(with_fallback, {{"one.fault", "nan"}, {"one.fault_at", "0.02"}}), logged(log, 0.05)).run();
+  const Graph graph = Recording(log).mission({}, {});
+  const std::size_t codes = host_type<Event>()->fields[0].labels.size();
+  for (std::size_t code = 0; code < codes; ++code)
+    for (const bool full : {false, true}) {
+      CAPTURE(code);
+      CAPTURE(full);
+      fs::remove(odd);
+      std::size_t n = 0;
+      rewrite(log, odd, *host_type<Event>(), [&](const Event& e) {
+        if (n++ % 3 == 0) return bytes_of(e);  // the phase, so that there is one
+        Event other = event_of(static_cast<Code>(code));
+        if (!full) return bytes_of(other);
+        const std::string most(other.words.size() - 1, '\xff');
+        put(other.component, most), put(other.name, most), put(other.cause, most), put(other.words, most);
+        other.value_ns = std::numeric_limits<std::int64_t>::min(),
+        other.value = std::numeric_limits<double>::infinity();
+        return bytes_of(other);
+      });
+      CHECK(read_info(odd).events.size() == n);
+      try {
+        CHECK(read_resume(graph, odd).phase == "fly");
+      } catch (const Error& fault) {  // of a phase without a name, or with another
+        CHECK(static_cast<Code>(code) == Code::phase_entered);
+      }
+      try {
+        replay_of(odd, fresh("odd-again.mcap"));
+      } catch (const Error& fault) {
+        CHECK_MESSAGE(static_cast<Code>(code) == Code::resumed, fault.what());
+      }
+    }
 }
 
 TEST_CASE("every code has a kind that people know, and bytes that are no code are an event all the same") {

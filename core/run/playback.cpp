@@ -269,7 +269,7 @@ std::map<std::uint16_t, InputPort> input_channels(const McapFile& file, const Gr
 }
 
 /// Of a parameter that this mission does not have the value stays unread: whoever applies the command says so.
-Command command_of(const CommandNote& note, const Graph& graph) {
+Command logged_command(const CommandNote& note, const Graph& graph) {
   Command command = command_of(note.kind, note.component.data(), note.name.data());
   command.note = note;
   if (note.kind != CommandKind::parameter) return command;
@@ -315,11 +315,11 @@ void Playback::index_entries(const Graph& graph) {
     Entry entry;
     if (const auto at = inputs.find(m.channel); at != inputs.end()) {
       const InputPort& port = at->second;
-      entry.command = fulmar::core::command_of(port.kind, port.component, port.port);
+      entry.command = command_of(port.kind, port.component, port.port);
       entry.command.message.resize(port.type->size);
       cdr_decode(*port.type, m.data.data(), m.data.size(), entry.command.message.data());
     } else if (parameters.holds(m) || commands.holds(m)) {
-      entry.command = command_of(commands.read(m.data), graph);
+      entry.command = logged_command(commands.read(m.data), graph);
     } else {
       continue;
     }

@@ -19,13 +19,6 @@ struct Where {
   std::string text() const { return line > 0 ? file + ":" + std::to_string(line) : file; }
 };
 
-/// Collects every fault of a set-up, so that they are reported in one go.
-struct Faults {
-  std::vector<std::string> list;
-  void add(const Where& where, const std::string& sentence) { list.push_back(where.text() + ": " + sentence); }
-  bool empty() const { return list.empty(); }
-};
-
 /// The name in `choices` nearest to `name` by edit distance, or "" when none is near. For "did you mean".
 std::string nearest(std::string_view name, const std::vector<std::string>& choices);
 

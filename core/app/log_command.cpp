@@ -103,6 +103,18 @@ json info_json(const LogInfo& info) {
   return o;
 }
 
+/// Which plugins flew, one line for each: its pairs are "slc.file", "slc.version", ...
+std::vector<std::pair<std::string, std::string>> shown_pairs(const McapFile::Metadata& m) {
+  if (m.name != "plugins") return m.pairs;
+  std::vector<std::pair<std::string, std::string>> list;
+  for (const auto& [key, value] : m.pairs) {
+    const std::string component = key.substr(0, key.rfind('.'));
+    if (list.empty() || list.back().first != component) list.emplace_back(component, "");
+    list.back().second += (list.back().second.empty() ? "" : " ") + std::string(key.ends_with(".build_id") ? "build " : "") + value;
+  }
+  return list;
+}
+
 void print_head(const LogInfo& info, const std::string& file) {
   std::printf("%s: %s, %.1f MB, %s\n", file.c_str(), printable(info.file.library).c_str(), static_cast<double>(info.bytes) / 1e6,
               printable(ending(info.file)).c_str());
@@ -112,7 +124,7 @@ void print_head(const LogInfo& info, const std::string& file) {
   std::printf("\n");
   for (const McapFile::Metadata& m : info.file.metadata) {
     if (!m.pairs.empty()) std::printf("\n%s\n", printable(m.name).c_str());
-    for (const auto& [key, value] : m.pairs) {
+    for (const auto& [key, value] : shown_pairs(m)) {
       const bool epoch = key == "epoch_ns";
       std::printf("  %-20s %s\n", epoch ? "epoch" : printable(key).c_str(), epoch ? utc_text(value).c_str() : printable(value).c_str());
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads the keys of a mission file. What they mean together is resolve.cpp's business.
 #include "core/graph/mission.hpp"
+#include "core/loader/names.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -49,7 +50,11 @@ class MissionReader {
     const Node* node = keys.get(key);
     if (!node) return;
     if (!node->is(Node::Kind::map)) return report_.add(node->where(), key + ": expected a map of names, found " + found_words(*node));
+    const std::size_t most = (key == "phases" ? name_room : component_room) - 1;
     for (const Node::Entry& entry : node->entries) {
+      if (entry.key.size() > most)
+        report_.add(entry.where(), key + ": '" + entry.key + "' has " + std::to_string(entry.key.size()) +
+                                       " characters; a name has " + std::to_string(most) + " at most");
       if (is_name(entry.key))
         read_entry(entry);
       else

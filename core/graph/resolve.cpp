@@ -8,6 +8,7 @@
 #include "core/graph/trust.hpp"
 #include "core/loader/home.hpp"
 #include "core/loader/script.hpp"
+#include "core/loader/names.hpp"
 
 namespace fulmar::core {
 namespace fs = std::filesystem;
@@ -263,9 +264,22 @@ void run_mode(Draft& draft, const Candidate& candidate, Component& component) {
   }
 }
 
+/// Those that a command can name, and that the log therefore tells.
+void check_names(Draft& draft, const Candidate& candidate) {
+  const auto check = [&](const char* what, const std::string& name) {
+    if (name.size() < name_room) return;
+    draft.report.add(candidate.text->where, "components." + candidate.name() + ": the " + what + " '" + name + "' of " + candidate.use +
+                                                " has " + std::to_string(name.size()) + " characters; a name has " +
+                                                std::to_string(name_room - 1) + " at most");
+  };
+  for (const Port& port : candidate.info().inputs) check("input", port.name);
+  for (const ParamInfo& param : candidate.info().params) check("parameter", param.name);
+}
+
 void build_components(Draft& draft) {
   for (Candidate& candidate : draft.candidates) {
     if (!candidate.used || !candidate.loaded) continue;
+    check_names(draft, candidate);
     candidate.component = static_cast<int>(draft.graph.components.size());
     Component component;
     component.name = candidate.name();

@@ -260,6 +260,7 @@ bool Isolated::wait(std::int64_t limit_ns) noexcept {
       return false;
     }
     if (monotonic_ns() < end) continue;
+    hung_ = true;
     std::snprintf(death_, sizeof death_, "hung: no answer within %.6g ms", 1e-6 * static_cast<double>(limit_ns));
     alive_ = false;
     process_.kill();

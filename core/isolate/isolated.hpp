@@ -44,6 +44,8 @@ class Isolated {
   bool check() noexcept;
   /// How the child died: "crashed (segmentation fault)", "ended itself (exit code 3)", "hung: no answer within 20 ms". "" while it lives.
   const char* death() const noexcept { return death_; }
+  /// Whether it died because it did not answer in time.
+  bool hung() const noexcept { return hung_; }
   /// Heap calls of all steps so far. 0 where the child cannot count.
   std::uint64_t allocations() const noexcept { return control().allocations; }
   /// Bytes that its heap has grown by since configure.
@@ -90,7 +92,7 @@ class Isolated {
   SharedMemory memory_;
   std::vector<Sample> copied_;
   std::uint32_t number_ = 1;  // of the call under way
-  bool alive_ = true, finished_ = false;
+  bool alive_ = true, finished_ = false, hung_ = false;
   char death_[96] = "";
   Process process_;  // last: it needs the memory prepared, and ends first
 };

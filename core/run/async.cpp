@@ -7,6 +7,8 @@
 
 #include <cstring>
 
+#include "core/run/inside.hpp"
+
 namespace fulmar::core {
 namespace {
 
@@ -39,11 +41,12 @@ void prepare(Async::Job& job, const ComponentInfo& info) {
 
 }  // namespace
 
-Async::Async(const fulmar_component& functions, void* instance, const ComponentInfo& info, std::size_t depth)
-    : functions_(functions), instance_(instance), jobs_(depth) {
+Async::Async(const std::string& name, const fulmar_component& functions, void* instance, const ComponentInfo& info, std::size_t depth)
+    : name_(name), functions_(functions), instance_(instance), jobs_(depth) {
   for (Job& job : jobs_) prepare(job, info);
-  sigset_t all, before;  // signals are for the main thread
+  sigset_t all, before;  // signals are for the main thread, but those with which the component crashes this one
   sigfillset(&all);
+  for (const int fault : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) sigdelset(&all, fault);
   pthread_sigmask(SIG_SETMASK, &all, &before);
   thread_ = std::thread([this] { run(); });
   pthread_setname_np(thread_.native_handle(), "fulmar-async");
@@ -101,6 +104,8 @@ void Async::work(Job& job) noexcept {
   const HeapUse heap = thread_heap();
   const std::int64_t begin = clock_ns();
   job.error.text[0] = '\0';
+  static constexpr const char* calls[] = {"step", "retune", "activate"};
+  const Inside inside(name_, calls[static_cast<std::size_t>(job.call)]);
   switch (job.call) {
     case Job::Call::step:
       for (std::size_t i = 0; i < job.outputs.size(); ++i)

@@ -43,7 +43,7 @@ class Async {
   };
 
   /// `depth`: calls that can be on their way at once.
-  Async(const fulmar_component& functions, void* instance, const ComponentInfo& info, std::size_t depth);
+  Async(const std::string& name, const fulmar_component& functions, void* instance, const ComponentInfo& info, std::size_t depth);
   ~Async();  // ends the thread, after the call that it is in
   Async(const Async&) = delete;
   Async& operator=(const Async&) = delete;
@@ -66,6 +66,7 @@ class Async {
   void work(Job& job) noexcept;
   Job& at(std::uint64_t n) { return jobs_[static_cast<std::size_t>(n % jobs_.size())]; }
 
+  std::string name_;  // of the component
   const fulmar_component& functions_;
   void* instance_;
   std::vector<Job> jobs_;

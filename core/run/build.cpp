@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/run/flight_impl.hpp"
+#include "core/run/flown_plugin.hpp"
 #include "core/run/playback.hpp"
 #include "core/tap/live/gate.hpp"
 #include "core/tap/sbom.hpp"
@@ -61,55 +62,8 @@ TypePtr probes_type(const PluginInfo& plugin, const ComponentInfo& component) {
 }
 
 const std::vector<TypePtr>& host_types() {
-  static const std::vector<TypePtr> list = {event_type(), ticks_type(), parameter_note_type(), command_note_type()};
+  static const std::vector<TypePtr> list = {host_type<Event>(), host_type<Ticks>(), host_type<CommandNote>()};
   return list;
-}
-
-TypePtr ticks_type() {
-  static const TypePtr type = [] {
-    Type t;
-    t.name = "Ticks";
-    t.size = sizeof(Ticks);
-    t.align = alignof(Ticks);
-    const auto number = [&](const char* name, fulmar_kind kind, std::size_t offset, std::uint32_t size) {
-      Field f;
-      f.name = name, f.kind = kind, f.offset = static_cast<std::uint32_t>(offset), f.stride = size;
-      t.fields.push_back(f);
-    };
-    const auto list = [&](const char* name, std::size_t count_at, std::size_t items_at) {
-      number(name, FULMAR_U32, count_at, 4);
-      Field& f = t.fields.back();
-      f.shape = FULMAR_LIST, f.count = Ticks::most, f.items = static_cast<std::uint32_t>(items_at - count_at);
-    };
-    number("first", FULMAR_U64, offsetof(Ticks, first), 8);
-    number("time_ns", FULMAR_I64, offsetof(Ticks, time_ns), 8);
-    list("period_ns", offsetof(Ticks, periods), offsetof(Ticks, period_ns));
-    list("hash", offsetof(Ticks, hashes), offsetof(Ticks, hash));
-    return std::make_shared<const Type>(t);
-  }();
-  return type;
-}
-
-TypePtr event_type() {
-  static const TypePtr type = [] {
-    Type t;
-    t.name = "Event";
-    t.size = sizeof(Event);
-    t.align = alignof(Event);
-    auto text = [&](const char* name, std::size_t offset, std::size_t size) {
-      Field f;
-      f.name = name, f.kind = FULMAR_TEXT, f.offset = static_cast<std::uint32_t>(offset), f.stride = static_cast<std::uint32_t>(size);
-      t.fields.push_back(f);
-    };
-    Field kind;
-    kind.name = "kind", kind.kind = FULMAR_ENUM, kind.stride = 1;
-    kind.labels = {"phase", "guard", "request", "parameter", "failsafe", "swap", "notice", "end", "resume"};
-    t.fields.push_back(kind);
-    text("component", offsetof(Event, component), sizeof(Event::component));
-    text("text", offsetof(Event, text), sizeof(Event::text));
-    return std::make_shared<const Type>(t);
-  }();
-  return type;
 }
 
 std::string topic_name(const Graph& graph, const Component& c, std::size_t output) {
@@ -134,6 +88,7 @@ Flight::Impl::Impl(const Graph& g, const FlightOptions& o) : graph(g), options(o
   connect();
   for (const auto& unit : units) unit->configure();
   if (graph.vehicle >= 0) units[static_cast<std::size_t>(graph.vehicle)]->prepare_last_frame(graph.failsafe);
+  commands = std::make_shared<const CommandTable>(graph);
   open_tap();
   if (graph.arm) request_arming();
   std::size_t most = 0;
@@ -332,10 +287,10 @@ std::vector<TapChannel> Flight::Impl::channels() {
     if (at == list.size()) return channel(name, type);
     return list[at].type->hash == type->hash ? at : channel(own, type);
   };
-  event_channel = channel("fulmar.event", event_type());
-  ticks_channel = channel("fulmar.ticks", ticks_type());
-  parameter_channel = channel("fulmar.parameter", parameter_note_type());
-  command_channel = channel("fulmar.command", command_note_type());
+  event_channel = channel("fulmar.event", host_type<Event>());
+  ticks_channel = channel("fulmar.ticks", host_type<Ticks>());
+  parameter_channel = channel("fulmar.parameter", host_type<CommandNote>());
+  command_channel = channel("fulmar.command", host_type<CommandNote>());
   for (const auto& unit : units) {
     const Component& c = *unit->component;
     const bool stored_whole = c.info().vehicle || c.run == RunMode::driver;
@@ -443,10 +398,6 @@ std::string Flight::Impl::parameters_text() const {
   return all.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-std::string plugin_words(const PluginInfo& p) {
-  return p.file + " " + p.version + " " + p.sha256 + (p.build_id.empty() ? "" : " build " + p.build_id);
-}
-
 namespace {
 
 /// What the command line changed, so that a replay can do the same.
@@ -471,7 +422,7 @@ void Flight::Impl::attach_texts() {
   std::vector<const PluginInfo*> loaded;
   for (const Component& c : graph.components) {
     const PluginInfo& p = *c.plugin;
-    plugins.emplace_back(c.name, plugin_words(p));
+    for (const auto& [key, value] : flown_pairs(p)) plugins.emplace_back(c.name + "." + key, value);
     if (std::find(loaded.begin(), loaded.end(), &p) == loaded.end()) loaded.push_back(&p);
   }
   log->attach("sbom.json", "application/json", sbom_text(loaded));

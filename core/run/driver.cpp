@@ -13,6 +13,7 @@
 #include <span>
 
 #include "core/error.hpp"
+#include "core/run/inside.hpp"
 #include "core/run/realtime.hpp"
 #include "core/tap/wire.hpp"
 
@@ -31,8 +32,8 @@ constexpr int patience_ms = 2000;  // for the step that a driver is in when the 
 
 }  // namespace
 
-Driver::Driver(const fulmar_component& functions, void* instance, const ComponentInfo& info)
-    : functions_(functions), instance_(instance), info_(info), ring_(ring_bytes, largest(info)) {
+Driver::Driver(const std::string& name, const fulmar_component& functions, void* instance, const ComponentInfo& info)
+    : name_(name), functions_(functions), instance_(instance), info_(info), ring_(ring_bytes, largest(info)) {
   for (const Port& port : info.outputs) {
     data_.emplace_back(std::size_t{port.capacity} * (port.type ? port.type->size : sizeof(double)));
     stamps_.emplace_back(port.capacity);
@@ -53,8 +54,9 @@ Driver::~Driver() {
 }
 
 void Driver::start() {
-  sigset_t all, before;  // signals are for the main thread
+  sigset_t all, before;  // signals are for the main thread, but those with which the component crashes this one
   sigfillset(&all);
+  for (const int fault : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) sigdelset(&all, fault);
   pthread_sigmask(SIG_SETMASK, &all, &before);
   thread_ = std::thread([this] { run(); });
   pthread_setname_np(thread_.native_handle(), "fulmar-driver");
@@ -65,7 +67,10 @@ bool Driver::step() noexcept {
   const fulmar_tick tick{now_ns_.load(std::memory_order_relaxed), 0, steps_++};
   for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i] = {data_[i].data(), stamps_[i].data(), tick.now_ns, 0, 0};
   error_.text[0] = '\0';
-  if (functions_.step(instance_, &tick, nullptr, outputs_.data(), &error_) >= FULMAR_FAILED) return false;
+  {
+    const Inside inside(name_, "step");
+    if (functions_.step(instance_, &tick, nullptr, outputs_.data(), &error_) >= FULMAR_FAILED) return false;
+  }
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
     const Port& port = info_.outputs[i];
     const std::size_t size = port.type ? port.type->size : sizeof(double);

@@ -36,7 +36,7 @@ struct SampleSource {
 
 class Driver final : public SampleSource {
  public:
-  Driver(const fulmar_component& functions, void* instance, const ComponentInfo& info);
+  Driver(const std::string& name, const fulmar_component& functions, void* instance, const ComponentInfo& info);
   ~Driver() override;
   Driver(const Driver&) = delete;
   Driver& operator=(const Driver&) = delete;
@@ -52,6 +52,7 @@ class Driver final : public SampleSource {
   void run() noexcept;
   bool step() noexcept;
 
+  std::string name_;  // of the component
   const fulmar_component& functions_;
   void* instance_;
   const ComponentInfo& info_;

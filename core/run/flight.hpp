@@ -82,6 +82,10 @@ class Flight {
   /// The present sample of a port, or nullptr.
   const std::byte* sample(const Source& source) const;
 
+  /// What is asked of the flight from outside, between ticks. Throws Error with the valid choices; of a request the component's answer comes
+  /// through `answered`: "" when accepted, else the reason.
+  void apply(struct Command command, std::function<void(const std::string&)> answered = {});
+  // The same by kind:
   /// A request from outside, to be answered by the component in its next step. Throws Error for a port that is no request.
   /// The answer comes through `answered`: "" when accepted, else the reason.
   void request(const std::string& component, const std::string& port, const std::byte* message,

@@ -13,26 +13,11 @@
 #include <vector>
 
 #include "core/graph/graph.hpp"
+#include "core/run/command.hpp"
 #include "core/run/flight.hpp"
 #include "core/tap/control.hpp"
 
 namespace fulmar::core {
-
-/// What a parameter was set to, for the log and a replay: topic /fulmar/parameter.
-struct ParameterNote {
-  std::array<char, 48> component{};
-  std::array<char, 64> name{};
-  std::array<char, 256> text{};  // as in a mission file, exact
-};
-TypePtr parameter_note_type();
-
-/// What else was commanded: topic /fulmar/command.
-struct CommandNote {
-  enum class Kind : std::uint8_t { phase, swap, reset } kind = Kind::phase;
-  std::array<char, 48> component{};
-  std::array<char, 256> text{};  // name of the phase; plugin that was swapped in
-};
-TypePtr command_note_type();
 
 /// One producer, one consumer, pointers; full: refused.
 template <class T, std::size_t N>
@@ -85,23 +70,23 @@ class FlightControl final : public Control {
   std::uint64_t lost_samples() const override { return lost_samples_.load(std::memory_order_relaxed); }
 
  private:
-  struct Command;
+  struct Waiting;
   struct Directory;
   static constexpr std::size_t most_waiting = 1024, most_per_tick = 32, most_of_import = 64;
 
-  void send(std::unique_ptr<Command> command);
-  bool take(Command& command) noexcept;
-  bool apply(Command& command);
-  bool apply_request(Command& command);
-  bool refuse(Command& command, const char* why) noexcept;
-  void done(Command& command) noexcept;
+  void send(Command command, Answer answer);
+  bool take(Waiting& waiting) noexcept;
+  bool apply(Waiting& waiting);
+  bool refuse(Waiting& waiting, const char* why) noexcept;
+  void done(Waiting& waiting) noexcept;
+  std::shared_ptr<const Directory> directory() const;
   void run() noexcept;
   void answer_done();
 
   Flight::Impl& flight_;
-  PointerQueue<Command, most_waiting> in_, samples_;  // nobody's samples keep a parameter waiting
-  PointerQueue<Command, 2 * most_waiting> out_;
-  std::array<Command*, most_waiting> held_{};  // the loop's: requests for which there was no room yet, in their order
+  PointerQueue<Waiting, most_waiting> in_, samples_;  // nobody's samples keep a parameter waiting
+  PointerQueue<Waiting, 2 * most_waiting> out_;
+  std::array<Waiting*, most_waiting> held_{};  // the loop's: requests for which there was no room yet, in their order
   std::size_t held_count_ = 0;
   bool grounded_ = false;
   std::atomic<int> phase_{0};
@@ -113,7 +98,7 @@ class FlightControl final : public Control {
   mutable std::mutex mutex_;  // never the loop's
   std::shared_ptr<const Directory> directory_;
   std::vector<std::vector<ParamValue>> base_;  // what the loop has taken over
-  std::map<Command*, std::unique_ptr<Command>> waiting_;
+  std::map<Waiting*, std::unique_ptr<Waiting>> waiting_;
   std::size_t waiting_samples_ = 0;      // of them
   std::vector<std::size_t> waiting_of_;  // samples per import
   std::vector<std::function<void(const std::string&, const std::string&)>> changed_;

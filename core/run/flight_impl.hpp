@@ -1,56 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The inside of a flight: units, role outputs, phase, guards and log channels.
 #pragma once
-#include <array>
 #include <string>
 #include <vector>
 
 #include "core/graph/condition.hpp"
+#include "core/run/command.hpp"
 #include "core/run/flight.hpp"
 #include "core/run/flight_control.hpp"
 #include "core/run/unit.hpp"
 #include "core/tap/dds/bridge.hpp"
+#include "core/tap/events.hpp"
 #include "core/tap/live/server.hpp"
 #include "core/tap/tap.hpp"
 
 namespace fulmar::core {
-
-enum class EventKind : std::uint8_t { phase, guard, request, parameter, failsafe, swap, notice, end, resume };
-
-/// What happened, for the log: topic /fulmar/event.
-struct Event {
-  EventKind kind = EventKind::phase;
-  std::array<char, 48> component{};
-  std::array<char, 207> text{};
-};
-TypePtr event_type();
-
-/// When the ticks were, and what came of them, for a replay: topic /fulmar/ticks, one message for some ticks in a row.
-struct Ticks {
-  static constexpr std::uint32_t most = 40;
-  std::uint64_t first = 0;
-  std::int64_t time_ns = 0;  // of the first
-  std::uint32_t periods = 0;
-  std::array<std::uint32_t, most> period_ns{};  // since the tick before; 0 for the first of the flight
-  std::uint32_t hashes = 0;
-  std::array<std::uint32_t, most> hash{};  // of what components published in it, but for the vehicle and drivers, whose samples are stored
-};
-TypePtr ticks_type();
 
 /// All that the host itself publishes.
 const std::vector<TypePtr>& host_types();
 /// The message of a component's probes: fulmar_msgs/msg/ControlSlcOuterProbes. ROS tells messages apart by name alone.
 TypePtr probes_type(const PluginInfo& plugin, const ComponentInfo& component);
 
-// What the wall clock did to a flight; a replay reads it out of the log.
-inline constexpr const char* over_budget_words = "was over its time budget in 5 steps in a row";
-inline constexpr const char* late_words = "took late a result that was due at ";  // + flight time in ns
-
 /// Under which name an output is logged: its role's, when it is one of the role's.
 std::string topic_name(const Graph& graph, const Component& component, std::size_t output);
-
-/// What flew, for the log: file, version, SHA-256, build id.
-std::string plugin_words(const PluginInfo& plugin);
 
 /// Seed of a component: a mix of the mission's seed and the component's name, so that adding a component changes no other's noise.
 std::uint64_t component_seed(std::uint64_t mission_seed, const std::string& name);
@@ -103,13 +75,14 @@ struct Flight::Impl final : SampleReader {
   void publish(Unit& unit);
   void put_slot(Slot& slot);
   void put_probes(Unit& unit);
-  void hash_published(const Unit& unit, std::uint64_t word) noexcept;
   void note_tick();
   void put_ticks();
   void tell_control() noexcept;
   void clock(Unit& unit);
   void stop_over_budget(Unit& unit);
+  void note_late(const Unit& unit, std::int64_t due_ns);
   void tell_late(Unit& unit);
+  bool vehicle_failed();
   void tell_overdue();
   void note_refusals(Unit& unit) noexcept;
   bool controls(const Unit& unit) const noexcept;
@@ -120,23 +93,29 @@ struct Flight::Impl final : SampleReader {
   bool over();
   bool held_for(const Condition& condition, std::int64_t for_ns, std::int64_t& since_ns) const noexcept;
   bool armed_hardware() const noexcept;
-  void conclude(Outcome outcome, const std::string& reason, const char* what);
+  void conclude(Code code, Outcome outcome, const std::string& reason, const char* what);
   void after_failsafe();
   void heed_signal();
   void finish(Outcome outcome, std::string reason);
 
   // swap.cpp
+  void swap(std::size_t index, const std::string& file);
   void replace(std::size_t index, const std::string& file);
   void install(std::size_t index, Graph&& next);
   void restart(std::size_t index);
   std::string in_use() const;  // why nothing can be swapped now, or ""
 
-  // requests.cpp: what enters between two ticks; these throw, but for the second
-  void apply_parameter(std::size_t component, std::size_t param, ParamValue& value, const ParameterNote& note);
+  // requests.cpp: what enters between two ticks, checked before; these throw
   enum class Taken : std::uint8_t { yes, full, idle };
-  Taken apply_request(std::size_t component, std::size_t input, const std::byte* message, Reply answered);
+  /// Of a parameter `command` then holds the value that was in force.
+  Taken take(Command& command, Reply answered);
+  void apply_parameter(Command& command, Code told);
+  Taken apply_request(const Command& command, Reply answered);
   void apply_import(std::size_t import, const std::byte* message);
-  void apply_phase(int to, const CommandNote& note);
+  void apply_phase(const Command& command);
+  void reset_guards(const Command& command);
+  bool reset_guard(std::size_t index);
+  void put_command(const CommandNote& note);
 
   // resume.cpp
   void resume_now();
@@ -150,16 +129,17 @@ struct Flight::Impl final : SampleReader {
   void enter(int phase);
   void fill(int role, const Assignment& assignment, bool overlaid);
   bool take_over(int role, int component, const Assignment& assignment);
-  void stop(int index);
-  void failsafe(const char* why);
+  void stop(int index, Code code = Code::guard);
+  void failsafe(const Event& why);
+  void note_phase(const Phase& entered);
   const std::vector<Overlay>* overlay_of(int component) const;
-  void event(EventKind kind, const std::string& component, const std::string& text, bool warning = false, bool aloud = true);
+  /// What happened: for the log, and aloud for people.
+  void note(const Event& event, bool aloud = true);
   void tell(Told& told);
 
   const std::byte* sample(const Source& source) const noexcept override;
   const Slot* slot_of(const Source& source) const;
   const std::byte* message_of(const Source& source) const noexcept;
-  Unit& unit(const std::string& component);  // throws Error
 
   bool unpaced() const { return options.playback || (options.speed == 0 && graph.io == "sim"); }
 
@@ -170,7 +150,8 @@ struct Flight::Impl final : SampleReader {
   std::vector<Reader*> delayed;        // readers that see the previous tick's sample
   std::vector<const Slot*> hand_over;  // room for what was last applied
   Flight* owner = nullptr;
-  std::unique_ptr<Tap> tap;  // before what hangs on it
+  std::shared_ptr<const CommandTable> commands;  // what the graph has to command
+  std::unique_ptr<Tap> tap;                      // before what hangs on it
   std::unique_ptr<Log> log;
   std::unique_ptr<FlightControl> control;
   std::unique_ptr<LiveServer> live_server;  // these two end before what they speak to

@@ -44,8 +44,8 @@ void Flight::Impl::clock(Unit& unit) {
 }
 
 void Flight::Impl::stop_over_budget(Unit& unit) {
-  unit.fail(over_budget_words);
-  stop(static_cast<int>(unit.component - graph.components.data()));
+  unit.fail("was over its time budget in 5 steps in a row");
+  stop(static_cast<int>(unit.component - graph.components.data()), Code::over_budget);
 }
 
 namespace {
@@ -145,10 +145,16 @@ void Flight::Impl::watch_control() noexcept {
     if (unit->active && unit->remote() && controls(*unit)) unit->fresh_start = true;
 }
 
+void Flight::Impl::note_late(const Unit& unit, std::int64_t due_ns) {
+  Event e = event_of(Code::late_result, unit.component->name);
+  e.value_ns = due_ns;
+  say(e, "took late a result that was due at %lld ns", static_cast<long long>(due_ns));
+  note(e);
+}
+
 /// A replay takes them as late as the flight did.
 void Flight::Impl::tell_late(Unit& unit) {
-  for (const std::int64_t due_ns : unit.late_due_ns)
-    event(EventKind::notice, unit.component->name, late_words + std::to_string(due_ns) + " ns");
+  for (const std::int64_t due_ns : unit.late_due_ns) note_late(unit, due_ns);
   unit.late_due_ns.clear();
 }
 
@@ -158,7 +164,7 @@ void Flight::Impl::tell_overdue() {
     const auto due_ns = unit->overdue_ns(now_ns);
     if (!due_ns) continue;
     const std::int64_t last_ns = std::exchange(now_ns, now_ns + 1);
-    event(EventKind::notice, unit->component->name, late_words + std::to_string(*due_ns) + " ns");
+    note_late(*unit, *due_ns);
     now_ns = last_ns;
   }
 }
@@ -176,15 +182,26 @@ bool Flight::Impl::collect(Unit& unit, int i) {
   return unit.component->run == RunMode::async;
 }
 
+/// The flight is over.
+bool Flight::Impl::vehicle_failed() {
+  Unit& vehicle = *units[static_cast<std::size_t>(graph.vehicle)];
+  make_printable(vehicle.problem.text);
+  Event e = event_of(Code::vehicle_failed, vehicle.component->name);
+  put(e.cause, vehicle.problem.text);
+  say(e, "%s", vehicle.problem.text);
+  note(e);
+  finish(Outcome::failed, "the vehicle failed: " + std::string(vehicle.problem.text));
+  return false;
+}
+
 bool Flight::Impl::tick() {
   Unit& vehicle = *units[static_cast<std::size_t>(graph.vehicle)];
   const Verdict read = vehicle.read(now_ns, index);
   if (index == 0) result.first_ns = now_ns;
   if (read.kind == Verdict::Kind::bad) {
-    event(EventKind::guard, vehicle.component->name, vehicle.problem.text);
+    const bool goes_on = vehicle_failed();
     result.guards.push_back({now_ns, vehicle.component->name, vehicle.problem.text, "flight ended"});
-    finish(Outcome::failed, "the vehicle failed: " + std::string(vehicle.problem.text));
-    return false;
+    return goes_on;
   }
   if (index == 0) begin();
   publish(vehicle);
@@ -196,11 +213,7 @@ bool Flight::Impl::tick() {
   transitions();
 
   if (in_failsafe && now_ns - failsafe_since_ns >= graph.failsafe_ns) vehicle.silent = true;
-  if (vehicle.write(now_ns, index).kind == Verdict::Kind::bad) {
-    event(EventKind::guard, vehicle.component->name, vehicle.problem.text);
-    finish(Outcome::failed, "the vehicle failed: " + std::string(vehicle.problem.text));
-    return false;
-  }
+  if (vehicle.write(now_ns, index).kind == Verdict::Kind::bad) return vehicle_failed();
   vehicle.refusals.clear();  // not noted: in a replay there is nobody to refuse anything
   clock(vehicle);
   for (Reader* reader : delayed) reader->latch();
@@ -238,7 +251,10 @@ bool Flight::Impl::step() {
   if (control) tell_control();
   if (log && !log_told && log->failed()) {
     log_told = true;
-    event(EventKind::notice, "", "the flight goes on without its log: " + log->error(), true);
+    Event e = event_of(Code::log_failed);
+    put(e.cause, log->error());
+    say(e, "the flight goes on without its log: %s", log->error().c_str());
+    note(e);
   }
   if (!goes_on) return false;
   if (index > 1) result.loop_allocations += thread_allocations() - before + entered;

@@ -9,68 +9,68 @@ namespace fulmar::core {
 
 namespace {
 
-/// What a component says of itself goes to terminals, logs and JSON: one line of UTF-8.
-void make_printable(char* text) {
-  for (auto* p = reinterpret_cast<unsigned char*>(text); *p != 0;) {
-    const int more = *p < 0x80 ? 0 : (*p & 0xe0) == 0xc0 && *p >= 0xc2 ? 1 : (*p & 0xf0) == 0xe0 ? 2 : *p >= 0xf0 ? 3 : -1;
-    int there = 0;
-    while (there < more && (p[there + 1] & 0xc0) == 0x80) ++there;
-    const bool too_long = (*p == 0xe0 && p[1] < 0xa0) || (*p == 0xf0 && p[1] < 0x90);  // a shorter form exists
-    const bool no_character = (*p == 0xed && p[1] >= 0xa0) || *p > 0xf4 || (*p == 0xf4 && p[1] >= 0x90);
-    if (more < 0 || there < more || too_long || no_character) {
-      *p++ = '?';
-      continue;
-    }
-    if (*p < 0x20 || *p == 0x7f) *p = ' ';
-    p += more + 1;
-  }
+/// How bad what a component tells is, by the label that it gives it.
+Severity severity_of(const Told& told) noexcept {
+  if (!told.severity) return Severity::info;
+  const auto label = static_cast<std::size_t>(told.slot->published[told.severity->offset]);
+  if (label >= told.severity->labels.size()) return Severity::info;
+  const std::string& word = told.severity->labels[label];
+  return word == "warning"    ? Severity::warning
+         : word == "error"    ? Severity::error
+         : word == "critical" ? Severity::critical
+                              : Severity::info;
+}
+
+/// What a component said of itself when a guard stopped it.
+Event guard_event(Code code, const std::string& component, const char* problem) noexcept {
+  Event e = event_of(code, component);
+  put(e.cause, problem);
+  say(e, "%s", problem);
+  return e;
 }
 
 }  // namespace
 
-void Flight::Impl::event(EventKind kind, const std::string& component, const std::string& text, bool warning, bool aloud) {
-  Event e;
-  e.kind = kind;
-  std::snprintf(e.component.data(), e.component.size(), "%s", component.c_str());
-  std::snprintf(e.text.data(), e.text.size(), "%s", text.c_str());
+void Flight::Impl::note(const Event& e, bool aloud) {
   if (tap) tap->write(event_channel, now_ns, now_ns, reinterpret_cast<const std::byte*>(&e), true);
-  if (options.say && aloud) {
-    char time[32];
-    std::snprintf(time, sizeof time, "%8.2f s  ", 1e-9 * static_cast<double>(now_ns));
-    options.say(time + (component.empty() ? "" : component + ": ") + text,
-                warning || kind == EventKind::guard || kind == EventKind::failsafe);
-  }
+  if (!options.say || !aloud) return;
+  char time[32];
+  std::snprintf(time, sizeof time, "%8.2f s  ", 1e-9 * static_cast<double>(now_ns));
+  const std::string who = e.component[0] != '\0' ? e.component.data() + std::string(": ") : "";
+  options.say(time + who + e.words.data(), e.severity >= Severity::warning);
 }
 
 /// Whoever asked has been told; this is for the log.
 void Flight::Impl::note_refusals(Unit& unit) noexcept {
   for (const Unit::Refusal& r : unit.refusals) {
-    Event e;
-    e.kind = EventKind::request;
-    std::snprintf(e.component.data(), e.component.size(), "%s", unit.component->name.c_str());
-    std::snprintf(e.text.data(), e.text.size(), "%s refused: %s", unit.info->inputs[r.input].name.c_str(), r.reason.data());
-    make_printable(e.text.data());
-    if (tap) tap->write(event_channel, now_ns, now_ns, reinterpret_cast<const std::byte*>(&e), true);
+    const std::string& port = unit.info->inputs[r.input].name;
+    Event e = event_of(Code::request_refused, unit.component->name, port);
+    put(e.cause, r.reason.data());
+    say(e, "%s refused: %s", port.c_str(), r.reason.data());
+    note(e, false);
   }
   unit.refusals.clear();
 }
 
 /// What a component has to tell people. Its words are its own: any bytes.
 void Flight::Impl::tell(Told& told) {
-  const std::byte* const message = told.slot->published.data();
-  const auto* const text = reinterpret_cast<const char*>(message + told.text->offset);
+  const auto* const text = reinterpret_cast<const char*>(told.slot->published.data() + told.text->offset);
   const std::size_t size = strnlen(text, told.text->stride);
   if (!told.last.empty()) {
     if (std::memcmp(told.last.data(), text, told.text->stride) == 0) return;
     std::memcpy(told.last.data(), text, told.text->stride);
   }
   if (size == 0) return;
-  std::string words(text, size);
-  make_printable(words.data());
-  const auto label = told.severity ? static_cast<std::size_t>(message[told.severity->offset]) : 0;
-  const std::string severity = told.severity && label < told.severity->labels.size() ? told.severity->labels[label] : "";
-  event(EventKind::notice, told.slot->owner->component->name, words,
-        severity == "warning" || severity == "error" || severity == "critical");
+  Event e = event_of(Code::notice, told.slot->owner->component->name);
+  e.severity = severity_of(told);
+  say(e, "%.*s", static_cast<int>(size), text);
+  note(e);
+}
+
+void Flight::Impl::note_phase(const Phase& entered) {
+  Event e = event_of(Code::phase_entered, "", entered.name);
+  say(e, "phase %s", entered.name.c_str());
+  note(e);
 }
 
 /// The first phase: nobody has flown before, so each component is activated when its inputs have arrived.
@@ -87,7 +87,7 @@ void Flight::Impl::begin() {
   }
   next_since.assign(first.next.size(), never);
   result.phases.push_back({first.name, now_ns, now_ns});
-  event(EventKind::phase, "", "phase " + first.name);
+  note_phase(first);
 }
 
 void Flight::Impl::transitions() {
@@ -114,11 +114,13 @@ void Flight::Impl::enter(int to) {
   next_since.assign(to_phase.next.size(), never);
   if (!result.phases.empty()) result.phases.back().to_ns = now_ns;
   result.phases.push_back({to_phase.name, now_ns, now_ns});
-  event(EventKind::phase, "", "phase " + to_phase.name);
-  for (std::size_t r = 0; r < roles.size(); ++r) fill(static_cast<int>(r), to_phase.roles[r], !from_phase.roles[r].set.empty());
+  note_phase(to_phase);
+  for (std::size_t r = 0; r < roles.size(); ++r)
+    fill(static_cast<int>(r), to_phase.roles[r], !from_phase.roles[r].set.empty());
 }
 
-/// Who flies in a role from now on: the component that the phase names, else its fallback, else who flies already.
+/// Who flies in a role from now on: the component that the phase names, else its fallback, else who flies
+/// already.
 void Flight::Impl::fill(int role, const Assignment& assignment, bool overlaid) {
   RoleState& state = roles[static_cast<std::size_t>(role)];
   if (assignment.component < 0) return;
@@ -129,13 +131,16 @@ void Flight::Impl::fill(int role, const Assignment& assignment, bool overlaid) {
       continue;
     }
     const bool own = wanted == assignment.component && !assignment.set.empty();
-    if ((own || overlaid) && !units[static_cast<std::size_t>(wanted)]->retune(own ? &assignment.set : nullptr)) stop(wanted);
+    if ((own || overlaid) &&
+        !units[static_cast<std::size_t>(wanted)]->retune(own ? &assignment.set : nullptr))
+      stop(wanted);
     return;
   }
-  const std::string& name = graph.roles[static_cast<std::size_t>(role)].name;
-  if (state.active >= 0)
-    event(EventKind::guard, name,
-          "nobody that this phase names can fly: " + units[static_cast<std::size_t>(state.active)]->component->name + " goes on");
+  if (state.active < 0) return;
+  const std::string& present = units[static_cast<std::size_t>(state.active)]->component->name;
+  Event e = event_of(Code::nobody_else, graph.roles[static_cast<std::size_t>(role)].name, present);
+  say(e, "nobody that this phase names can fly: %s goes on", present.c_str());
+  note(e);
 }
 
 bool Flight::Impl::take_over(int role, int component, const Assignment& assignment) {
@@ -143,7 +148,8 @@ bool Flight::Impl::take_over(int role, int component, const Assignment& assignme
   Unit& unit = *units[static_cast<std::size_t>(component)];
   Unit* old = state.active >= 0 ? units[static_cast<std::size_t>(state.active)].get() : nullptr;
   const bool tuned = unit.retune(component == assignment.component ? &assignment.set : nullptr);
-  if (tuned && !unit.ready() && (!old || old->fresh_start)) {  // nobody has flown yet: the newcomer begins when its inputs are there
+  if (tuned && !unit.ready() &&
+      (!old || old->fresh_start)) {  // nobody has flown yet: the newcomer begins when its inputs are there
     if (old) old->active = false;
     state.active = component;
     unit.active = unit.fresh_start = true;
@@ -154,14 +160,18 @@ bool Flight::Impl::take_over(int role, int component, const Assignment& assignme
   last.assign(unit.slots.size(), nullptr);
   for (std::size_t i = 0; i < unit.slots.size(); ++i) {
     const RoleSlot* slot = unit.slots[i].role;
-    if (slot && slot->current && slot->current->port->type->hash == unit.slots[i].port->type->hash) last[i] = slot->current;
+    if (slot && slot->current && slot->current->port->type->hash == unit.slots[i].port->type->hash)
+      last[i] = slot->current;
   }
   unit.forget_queues();
   if (!tuned || !unit.activate(now_ns, index, last)) {
     make_printable(unit.problem.text);
-    const std::string text = "cannot take over: " + std::string(unit.problem.text);
-    event(EventKind::guard, unit.component->name, text);
-    result.guards.push_back({now_ns, unit.component->name, text, state.active >= 0 ? "the old one stays" : "nobody flies"});
+    Event e = guard_event(unit.hung() ? Code::hung : Code::cannot_take_over, unit.component->name,
+                          unit.problem.text);
+    say(e, "cannot take over: %s", unit.problem.text);
+    note(e);
+    result.guards.push_back({now_ns, unit.component->name, e.words.data(),
+                             state.active >= 0 ? "the old one stays" : "nobody flies"});
     return false;
   }
   if (old) {
@@ -177,7 +187,7 @@ bool Flight::Impl::take_over(int role, int component, const Assignment& assignme
 }
 
 /// A guard has fired: the last good output is held; the fallback takes over; when nobody is left, failsafe.
-void Flight::Impl::stop(int i) {
+void Flight::Impl::stop(int i, Code code) {
   Unit& unit = *units[static_cast<std::size_t>(i)];
   if (unit.stopped) return;
   unit.stopped = true;
@@ -186,7 +196,7 @@ void Flight::Impl::stop(int i) {
   const std::string what = unit.problem.text;
   const std::string name = unit.component->name;
   const int role = unit.component->role;
-  event(EventKind::guard, name, what);
+  note(guard_event(unit.hung() ? Code::hung : code, name, what.c_str()));
   result.guards.push_back({now_ns, name, what, "held"});
   const std::size_t at = result.guards.size() - 1;
   if (role < 0) return;
@@ -194,33 +204,41 @@ void Flight::Impl::stop(int i) {
   if (state.active != i) return;
   const Assignment& a = graph.phases[static_cast<std::size_t>(phase)].roles[static_cast<std::size_t>(role)];
   const int fallback = a.fallback;
-  if (fallback >= 0 && fallback != i && !units[static_cast<std::size_t>(fallback)]->stopped && take_over(role, fallback, a)) {
+  if (fallback >= 0 && fallback != i && !units[static_cast<std::size_t>(fallback)]->stopped &&
+      take_over(role, fallback, a)) {
     const std::string& other = graph.components[static_cast<std::size_t>(fallback)].name;
     result.guards[at].action = other + " takes over";
-    event(EventKind::guard, name, other + " takes over");
+    Event e = event_of(Code::took_over, name, other);
+    say(e, "%s takes over", other.c_str());
+    note(e);
     return;
   }
   if (!drives_vehicle[static_cast<std::size_t>(role)]) return;
   result.guards[at].action = "failsafe";
-  failsafe((name + ": " + what).c_str());
+  Event why = event_of(Code::failsafe, "", name);
+  put(why.cause, what);
+  say(why, "failsafe: %s: %s", name.c_str(), what.c_str());
+  failsafe(why);
 }
 
-void Flight::Impl::failsafe(const char* why) {
+void Flight::Impl::failsafe(const Event& why) {
   if (in_failsafe) return;
   in_failsafe = true;
   failsafe_since_ns = now_ns;
-  failsafe_reason = "failsafe: " + std::string(why);
+  failsafe_reason = why.words.data();
   Unit& vehicle = *units[static_cast<std::size_t>(graph.vehicle)];
   vehicle.forced = &graph.failsafe;
   if (graph.failsafe.empty()) vehicle.silent = true;
-  event(EventKind::failsafe, "", failsafe_reason);
+  note(why);
 }
 
 const Slot* Flight::Impl::slot_of(const Source& source) const {
   if (source.kind == Source::Kind::component)
     return &units[static_cast<std::size_t>(source.index)]->slots[static_cast<std::size_t>(source.output)];
   if (source.kind == Source::Kind::role)
-    return roles[static_cast<std::size_t>(source.index)].slots[static_cast<std::size_t>(source.output)].current;
+    return roles[static_cast<std::size_t>(source.index)]
+        .slots[static_cast<std::size_t>(source.output)]
+        .current;
   return nullptr;
 }
 
@@ -233,11 +251,16 @@ const std::byte* Flight::Impl::sample(const Source& source) const noexcept {
 
 const std::byte* Flight::Impl::message_of(const Source& source) const noexcept {
   if (source.kind == Source::Kind::role)
-    return roles[static_cast<std::size_t>(source.index)].slots[static_cast<std::size_t>(source.output)].message();
+    return roles[static_cast<std::size_t>(source.index)]
+        .slots[static_cast<std::size_t>(source.output)]
+        .message();
   return slot_of(source)->published.data();
 }
 
-Flight::Flight(const Graph& graph, const FlightOptions& options) : impl_(std::make_unique<Impl>(graph, options)) { impl_->owner = this; }
+Flight::Flight(const Graph& graph, const FlightOptions& options)
+    : impl_(std::make_unique<Impl>(graph, options)) {
+  impl_->owner = this;
+}
 Flight::~Flight() {
   last_frame.store(nullptr, std::memory_order_release);
   if (impl_->control) impl_->control->end();  // answers go to those who asked, as long as they are there
@@ -249,10 +272,14 @@ FlightResult Flight::run() {
 }
 bool Flight::step() { return impl_->step(); }
 Control* Flight::control() const { return impl_->control.get(); }
-std::uint16_t Flight::live_port() const { return impl_->live_server ? impl_->live_server->port() : std::uint16_t{0}; }
+std::uint16_t Flight::live_port() const {
+  return impl_->live_server ? impl_->live_server->port() : std::uint16_t{0};
+}
 FlightResult Flight::finish() { return impl_->finish_flight(); }
 std::int64_t Flight::now_ns() const { return impl_->now_ns; }
-const std::string& Flight::phase() const { return impl_->graph.phases[static_cast<std::size_t>(impl_->phase)].name; }
+const std::string& Flight::phase() const {
+  return impl_->graph.phases[static_cast<std::size_t>(impl_->phase)].name;
+}
 const std::byte* Flight::sample(const Source& source) const {
   const Slot* slot = impl_->slot_of(source);
   return slot && slot->sequence > 0 ? impl_->message_of(source) : nullptr;

@@ -2,15 +2,11 @@
 #include "core/run/playback.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "core/run/flight_impl.hpp"
-#include "core/tap/ros_parse.hpp"
 #include "core/tap/wire.hpp"
 
 namespace fulmar::core {
@@ -43,24 +39,18 @@ std::string topic_in(const McapFile& file, const Graph& graph, const Component& 
   return schema != file.schemas.end() && schema->second.text == ros_definition(*port.type) ? role : own;
 }
 
-template <class T>
-T decode(const Type& type, const McapFile::Message& message) {
-  T value;
-  cdr_decode(type, message.data.data(), message.data.size(), reinterpret_cast<std::byte*>(&value));
-  return value;
-}
-
 std::int64_t flight_ns(std::uint64_t log_ns, std::int64_t epoch_ns) { return static_cast<std::int64_t>(log_ns) - epoch_ns; }
 
 }  // namespace
 
 TickList read_ticks(const McapFile& file) {
-  if (!has_topic(file, "/fulmar/ticks")) throw Error("the log has no /fulmar/ticks: it is not a flight's, or older than replays");
-  const std::uint16_t channel = channel_of(file, "/fulmar/ticks", *ticks_type());
+  const HostTopic<Ticks> topic(file);
+  if (!topic.there()) throw Error("the log has no /fulmar/ticks: it is not a flight's, or older than replays");
+  topic.check();
   TickList list;
   for (const McapFile::Message& m : file.messages) {
-    if (m.channel != channel) continue;
-    const auto ticks = decode<Ticks>(*ticks_type(), m);
+    if (!topic.holds(m)) continue;
+    const Ticks ticks = topic.read(m.data);
     if (ticks.first != list.hash.size() || ticks.periods != ticks.hashes)
       throw Error(list.hash.empty() ? "the log begins with tick " + std::to_string(ticks.first) +
                                           " of its flight; a replay begins with the first: give the file before it"
@@ -78,41 +68,56 @@ TickList read_ticks(const McapFile& file) {
   return list;
 }
 
-Playback::Playback(const McapFile& file, const Graph& graph) : file_(file), epoch_ns_(graph.epoch_ns), ticks_(read_ticks(file)) {
+Playback::Playback(const McapFile& file, const Graph& graph)
+    : file_(file), epoch_ns_(graph.epoch_ns), ticks_(read_ticks(file)), events_(file) {
   samples_.resize(ticks_.time_ns.size());
-  const auto failures = told_of(graph.components[static_cast<std::size_t>(graph.vehicle)].name, true);
-  vehicle_failed_ = !failures.empty() && failures.back().first == ticks_.time_ns.back();
-  last_words_ = vehicle_failed_ ? failures.back().second : "the log ends here";
+  index_host();
   index_vehicle(graph);
   index_entries(graph);
-  index_host();
 }
 
 // ---- the host ---------------------------------------------------------------------------------------------------------------
 
-/// What only the host's events tell: signals, and an end that its owner had set.
 void Playback::index_host() {
-  const std::uint16_t events = channel_of(file_, "/fulmar/event", *event_type());
-  const auto ends = [](const std::string& text) { return text.ends_with("; flies on until disarmed"); };
-  for (const McapFile::Message& m : file_.messages) {
-    if (m.channel != events) continue;
-    const auto event = decode<Event>(*event_type(), m);
-    const std::string text = event.text.data();
-    const std::int64_t now = flight_ns(m.log_ns, epoch_ns_);
-    const bool refused = event.kind == EventKind::end && text.starts_with("the aircraft is armed: Ctrl-C");
-    const bool given_up = event.kind == EventKind::failsafe && text == "failsafe: control given up by a signal";
-    if (refused || given_up) signals_.push_back(now);
-    if (event.kind == EventKind::guard && text == over_budget_words) overruns_.emplace_back(now, event.component.data());
-    if (event.kind == EventKind::end && ends(text) && (text.starts_with("duration reached") || text.starts_with("failsafe: ")))
-      duration_s_ = 1e-9 * static_cast<double>(now);
+  file_.channel(Event::topic);  // throws when there is none
+  events_.check();
+  for (const McapFile::Message& m : file_.messages)
+    if (events_.holds(m)) take_event(events_.read(m.data), flight_ns(m.log_ns, epoch_ns_));
+}
+
+/// What only the host's events tell: the wall clock, signals, devices that failed, and an end that the flight's owner had set.
+void Playback::take_event(const Event& e, std::int64_t now_ns) {
+  switch (e.code) {
+    case Code::vehicle_failed:
+      vehicle_failed_ = now_ns == ticks_.time_ns.back();
+      if (vehicle_failed_) last_words_ = e.cause.data();
+      break;
+    case Code::duration_reached:
+      duration_s_ = 1e-9 * static_cast<double>(now_ns);
+      break;
+    case Code::guard:
+    case Code::hung:
+    case Code::over_budget:
+    case Code::late_result:
+    case Code::signal_refused:
+    case Code::gave_up:
+      told_.push_back({now_ns, e.value_ns, e.code, e.component.data(), e.cause.data()});
+      break;
+    default:
+      break;
   }
 }
 
-bool Playback::signalled(std::int64_t now_ns) const { return std::find(signals_.begin(), signals_.end(), now_ns) != signals_.end(); }
-
-bool Playback::ran_over(const std::string& component, std::int64_t now_ns) const {
-  return std::any_of(overruns_.begin(), overruns_.end(), [&](const auto& o) { return o.first == now_ns && o.second == component; });
+bool Playback::told(Code code, const std::string& component, std::int64_t now_ns) const {
+  return std::any_of(told_.begin(), told_.end(),
+                     [&](const Told& t) { return t.code == code && t.at_ns == now_ns && t.component == component; });
 }
+
+bool Playback::signalled(std::int64_t now_ns) const {
+  return told(Code::signal_refused, "", now_ns) || told(Code::gave_up, "", now_ns);
+}
+
+bool Playback::ran_over(const std::string& component, std::int64_t now_ns) const { return told(Code::over_budget, component, now_ns); }
 
 // ---- the vehicle ------------------------------------------------------------------------------------------------------------
 
@@ -123,10 +128,13 @@ void Playback::index_vehicle(const Graph& graph) {
   std::map<std::uint16_t, std::uint32_t> outputs;  // channel -> output
   for (std::uint32_t i = 0; i < vehicle_->outputs.size(); ++i) {
     const Port& port = vehicle_->outputs[i];
-    if (port.type)
-      outputs[channel_of(file_, topic_in(file_, graph, vehicle, i), *port.type)] = i;
-    else
+    if (!port.type) {
       probes_.push_back(i);
+      continue;
+    }
+    const std::string topic = topic_in(file_, graph, vehicle, i);
+    const bool silent = port.kind != FULMAR_OUT_VALUE && !has_topic(file_, topic);  // in the whole flight
+    if (!silent) outputs[channel_of(file_, topic, *port.type)] = i;
   }
   if (!probes_.empty()) outputs[file_.channel("/" + vehicle.name + "/probes")] = all_probes;
   for (const auto& [channel, output] : outputs) check_gaps(channel);
@@ -210,34 +218,28 @@ const fulmar_component& Playback::functions() {
   return table;
 }
 
-Playback::Told Playback::told_of(const std::string& component, bool guards) const {
-  Told list;
-  const std::uint16_t events = channel_of(file_, "/fulmar/event", *event_type());
-  for (const McapFile::Message& m : file_.messages) {
-    if (m.channel != events) continue;
-    const auto event = decode<Event>(*event_type(), m);
-    if (event.kind == (guards ? EventKind::guard : EventKind::notice) && event.component.data() == component)
-      list.emplace_back(flight_ns(m.log_ns, epoch_ns_), event.text.data());
-  }
-  return list;
-}
-
 void Playback::stand_in(const Graph& graph, const Component& component, UnitOptions& options) {
-  const Told guards = told_of(component.name, true);
-  // a child that hung will hang again: only then the wall clock ends it
-  options.paced = std::any_of(guards.begin(), guards.end(), [](const auto& g) { return g.second.starts_with("hung: "); });
+  std::vector<std::pair<std::int64_t, std::string>> faults;
+  options.paced = false;
   options.wait_for_async = true;
+  for (const Told& t : told_) {
+    if (t.component != component.name) continue;
+    if (t.code == Code::guard) faults.emplace_back(t.at_ns, t.cause);
+    // A child that hung will hang again: only then the wall clock ends it.
+    if (t.code == Code::hung) options.paced = true;
+    if (t.code == Code::late_result && component.run == RunMode::async) options.late[t.value_ns] = t.at_ns;
+  }
   if (component.info().vehicle) options.playback = this;
-  if (component.run == RunMode::async)
-    for (const auto& [at_ns, text] : told_of(component.name, false))
-      if (text.starts_with(late_words)) options.late[std::strtoll(text.c_str() + std::strlen(late_words), nullptr, 10)] = at_ns;
   if (component.run != RunMode::driver) return;
   std::vector<std::string> topics;
-  for (std::size_t i = 0; i < component.info().outputs.size(); ++i)
-    topics.push_back(component.info().outputs[i].type ? topic_in(file_, graph, component, i) : "");
-  const bool probes = std::any_of(topics.begin(), topics.end(), [](const std::string& topic) { return topic.empty(); });
+  bool probes = false;
+  for (std::size_t i = 0; i < component.info().outputs.size(); ++i) {
+    const std::string topic = component.info().outputs[i].type ? topic_in(file_, graph, component, i) : "";
+    probes = probes || topic.empty();
+    topics.push_back(has_topic(file_, topic) ? topic : "");  // one that was silent in the whole flight has none
+  }
   options.samples = std::make_unique<RecordedSamples>(file_, component.info(), topics, probes ? "/" + component.name + "/probes" : "",
-                                                      epoch_ns_, told_of(component.name, true));
+                                                      epoch_ns_, std::move(faults));
 }
 
 // ---- what was asked of the flight -------------------------------------------------------------------------------------------
@@ -245,9 +247,9 @@ void Playback::stand_in(const Graph& graph, const Component& component, UnitOpti
 namespace {
 
 struct InputPort {
+  CommandKind kind = CommandKind::request;
   std::string component, port;
   TypePtr type;
-  Entry::Kind kind = Entry::Kind::request;
 };
 
 /// Topics of requests and imports.
@@ -260,98 +262,68 @@ std::map<std::uint16_t, InputPort> input_channels(const McapFile& file, const Gr
       const bool import = component.wires[i].import >= 0;
       const std::string topic = "/" + component.name + "/" + port.name;
       if ((!request && !import) || !has_topic(file, topic)) continue;
-      inputs[channel_of(file, topic, *port.type)] = {component.name, port.name, port.type,
-                                                     request ? Entry::Kind::request : Entry::Kind::import};
+      inputs[channel_of(file, topic, *port.type)] = {request ? CommandKind::request : CommandKind::import, component.name, port.name,
+                                                     port.type};
     }
   return inputs;
 }
 
-/// Reads the host's own messages by the log's own schema.
-class HostTopic {
- public:
-  HostTopic(const McapFile& file, const std::string& topic) {
-    if (!has_topic(file, topic)) return;
-    channel_ = file.channel(topic);
-    const McapFile::Schema& schema = file.schemas.at(file.channels.at(*channel_).schema);
-    type_ = parse_ros_definition(schema.name, schema.text);
-    message_.resize(type_->size);
-  }
-  bool holds(const McapFile::Message& m) const { return channel_ == m.channel; }
-  nlohmann::json read(const McapFile::Message& m) {
-    cdr_decode(*type_, m.data.data(), m.data.size(), message_.data());
-    return to_json(*type_, message_.data(), false);
-  }
-
- private:
-  std::optional<std::uint16_t> channel_;
-  TypePtr type_;
-  std::vector<std::byte> message_;
-};
-
-Entry::Kind command_kind(const std::string& word) {
-  if (word == "phase") return Entry::Kind::phase;
-  if (word == "swap") return Entry::Kind::swap;
-  if (word == "reset") return Entry::Kind::reset;
-  throw Error("the log has a command '" + word + "' that this version does not know");
+/// Of a parameter that this mission does not have the value stays unread: whoever applies the command says so.
+Command logged_command(const CommandNote& note, const Graph& graph) {
+  Command command = command_of(note.kind, note.component.data(), note.name.data());
+  command.note = note;
+  if (note.kind != CommandKind::parameter) return command;
+  for (const Component& c : graph.components)
+    if (const int i = c.name == command.component ? c.info().param(command.name) : -1; i >= 0)
+      command.value = value_of(note, c.info().params[static_cast<std::size_t>(i)]);
+  return command;
 }
 
 }  // namespace
 
-namespace {
-
-/// "resumed: phase cruise, manage.first_item = 3"; the values follow as parameters. "not resumed: ...": nothing came of it.
-Resume resume_of(const std::string& text, bool if_armed) {
-  constexpr std::string_view words = "resumed: phase ";
-  Resume resume;
-  resume.if_armed = if_armed;
-  if (text.starts_with(words)) resume.phase = text.substr(words.size(), text.find(',') - words.size());
-  if (text.starts_with(words)) resume.params.resize(static_cast<std::size_t>(std::count(text.begin(), text.end(), ',')));
-  return resume;
+/// Where the flight went on, and the parameters with which it did: each was set just before its event.
+void Playback::take_resume(const Event& e, bool begun) {
+  if (e.code != Code::resumed && e.code != Code::not_resumed) return;
+  if (e.component[0] == '\0') {
+    resume_.emplace();
+    resume_->phase = e.name.data(), resume_->if_armed = begun;
+    return;
+  }
+  if (!resume_ || entries_.empty()) return;
+  Command& set = entries_.back().command;
+  if (set.kind != CommandKind::parameter || set.component != e.component.data() || set.name != e.name.data()) return;
+  resume_->params.push_back({set.component, set.name, std::move(set.value)});
+  entries_.pop_back();
 }
-
-Resume::Param resumed_parameter(const Entry& entry) {
-  Resume::Param p{entry.component, entry.name, {}};
-  p.value.number[0] = std::strtod(entry.text.c_str(), nullptr);
-  p.value.integer = std::llround(p.value.number[0]);
-  return p;
-}
-
-}  // namespace
 
 void Playback::index_entries(const Graph& graph) {
-  HostTopic parameters(file_, "/fulmar/parameter"), commands(file_, "/fulmar/command");
+  const HostTopic<CommandNote> parameters(file_, CommandNote::parameter_topic), commands(file_);
   const std::map<std::uint16_t, InputPort> inputs = input_channels(file_, graph);
   for (const auto& [channel, port] : inputs) check_gaps(channel);
-  for (const char* topic : {"/fulmar/parameter", "/fulmar/command"})
-    if (has_topic(file_, topic)) check_gaps(file_.channel(topic));
-  const std::uint16_t events = channel_of(file_, "/fulmar/event", *event_type());
-  std::size_t resumed = 0;
+  for (const auto& topic : {parameters, commands}) {
+    topic.check();
+    if (topic.there()) check_gaps(topic.channel());
+  }
   bool begun = false;  // the first thing that a flight says is its phase
   for (const McapFile::Message& m : file_.messages) {
-    if (m.channel == events) {
-      const auto event = decode<Event>(*event_type(), m);
-      begun = begun || event.kind == EventKind::phase;
-      if (event.kind == EventKind::resume) resume_ = resume_of(event.text.data(), begun);
+    if (events_.holds(m)) {
+      const Event event = events_.read(m.data);
+      begun = begun || event.code == Code::phase_entered;
+      take_resume(event, begun);
+      continue;
     }
-    const std::int64_t now = flight_ns(m.log_ns, epoch_ns_);
     Entry entry;
     if (const auto at = inputs.find(m.channel); at != inputs.end()) {
-      entry.kind = at->second.kind, entry.component = at->second.component, entry.name = at->second.port;
-      entry.message.resize(at->second.type->size);
-      cdr_decode(*at->second.type, m.data.data(), m.data.size(), entry.message.data());
-    } else if (parameters.holds(m)) {
-      const nlohmann::json j = parameters.read(m);
-      entry.kind = Entry::Kind::parameter, entry.component = j.at("component"), entry.name = j.at("name"), entry.text = j.at("text");
-    } else if (commands.holds(m)) {
-      const nlohmann::json j = commands.read(m);
-      entry.kind = command_kind(j.at("kind")), entry.component = j.at("component"), entry.text = j.at("text");
+      const InputPort& port = at->second;
+      entry.command = command_of(port.kind, port.component, port.port);
+      entry.command.message.resize(port.type->size);
+      cdr_decode(*port.type, m.data.data(), m.data.size(), entry.command.message.data());
+    } else if (parameters.holds(m) || commands.holds(m)) {
+      entry.command = logged_command(commands.read(m.data), graph);
     } else {
       continue;
     }
-    if (resume_ && resumed < resume_->params.size() && entry.kind == Entry::Kind::parameter) {
-      resume_->params[resumed++] = resumed_parameter(entry);
-      continue;
-    }
+    const std::int64_t now = flight_ns(m.log_ns, epoch_ns_);
     if (begun)
       entry.before = static_cast<std::size_t>(std::upper_bound(ticks_.time_ns.begin(), ticks_.time_ns.end(), now) - ticks_.time_ns.begin());
     if (now <= ticks_.time_ns.back()) entries_.push_back(std::move(entry));

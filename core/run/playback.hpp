@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "core/graph/graph.hpp"
+#include "core/run/command.hpp"
 #include "core/run/driver.hpp"
 #include "core/run/resume.hpp"
+#include "core/tap/events.hpp"
 #include "core/tap/reader.hpp"
 
 namespace fulmar::core {
@@ -26,13 +28,10 @@ struct TickList {
 /// Throws Error when the log has none, or does not begin with the flight.
 TickList read_ticks(const McapFile& file);
 
-/// Something that entered between two ticks.
+/// Something that entered between two ticks. Of a swap `command.note` tells which plugin.
 struct Entry {
-  enum class Kind : std::uint8_t { parameter, request, import, phase, swap, reset };
-  Kind kind = Kind::parameter;
   std::size_t before = 0;  // the index of the tick that saw it first
-  std::string component, name, text;
-  std::vector<std::byte> message;  // of a request or import: a struct of the port's type
+  Command command;
 };
 
 class Playback {
@@ -68,13 +67,19 @@ class Playback {
     const McapFile::Message* message = nullptr;
   };
   struct Functions;
+  /// What the host told of a component that a replay cannot find out by itself.
+  struct Told {
+    std::int64_t at_ns = 0, value_ns = 0;
+    Code code = Code::guard;
+    std::string component, cause;
+  };
+  void index_host();
+  void take_event(const Event& event, std::int64_t now_ns);
   void index_vehicle(const Graph& graph);
   void index_entries(const Graph& graph);
-  void index_host();
+  void take_resume(const Event& event, bool begun);
   void check_gaps(std::uint16_t channel);
-  /// When a guard stopped a component, and its words; what else the host told of it.
-  using Told = std::vector<std::pair<std::int64_t, std::string>>;
-  Told told_of(const std::string& component, bool guards) const;
+  bool told(Code code, const std::string& component, std::int64_t now_ns) const;
   void read(fulmar_tick& tick, fulmar_output* outputs);  // throws Error
 
   const McapFile& file_;
@@ -85,10 +90,10 @@ class Playback {
   std::vector<std::string> gaps_;
   std::vector<std::vector<Sample>> samples_;  // per tick
   std::vector<std::uint32_t> probes_;         // outputs that are probes
-  std::string last_words_;                    // of a vehicle that failed
+  std::string last_words_ = "the log ends here";  // of a vehicle that failed: what it said
   bool vehicle_failed_ = false;
-  std::vector<std::int64_t> signals_;
-  std::vector<std::pair<std::int64_t, std::string>> overruns_;  // when, who
+  HostTopic<Event> events_;
+  std::vector<Told> told_;
   std::optional<double> duration_s_;
   std::optional<Resume> resume_;
   std::size_t at_ = 0;

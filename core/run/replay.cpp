@@ -8,9 +8,9 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "core/graph/params.hpp"
 #include "core/graph/stored_files.hpp"
 #include "core/loader/store.hpp"
+#include "core/run/command.hpp"
 #include "core/run/playback.hpp"
 #include "core/run/replay_difference.hpp"
 #include "core/tap/mcap.hpp"
@@ -55,13 +55,6 @@ bool names_component(const std::vector<std::pair<std::string, std::string>>& wit
 
 }  // namespace
 
-FlownPlugin flown_plugin(const std::string& component, const std::string& words) {
-  const std::string text = words.substr(0, words.find(" build "));
-  const std::size_t hash = text.rfind(' '), version = hash == std::string::npos || hash == 0 ? hash : text.rfind(' ', hash - 1);
-  if (hash == 0 || version == std::string::npos) throw Error("'" + words + "' names no plugin");
-  return {component, text.substr(0, version), text.substr(version + 1, hash - version - 1), text.substr(hash + 1)};
-}
-
 // ---- the mission ------------------------------------------------------------------------------------------------------------
 
 Recording::Recording(const fs::path& log) try : path_(log), file_(read_mcap(log)) {
@@ -72,9 +65,10 @@ Recording::Recording(const fs::path& log) try : path_(log), file_(read_mcap(log)
   if (const McapFile::Metadata* series = find_metadata(file_, series_metadata))
     throw Error("it is file " + series->pairs.at(0).second + " of a log that rotated, and a replay begins with the first tick: give " +
                 first_of_series(log, series->pairs.at(0).second).string() + ", which is replayed as far as that file goes");
+  HostTopic<Event>(file_).check();
   mission_file_ = files.front().first;
   read_overrides();
-  read_plugins();
+  flown_ = flown_plugins(file_);
   overrides_.files = std::make_shared<const StoredFiles>(std::move(files));
 } catch (const Error& fault) {
   const std::string text = fault.what();
@@ -96,12 +90,6 @@ void Recording::read_overrides() {
     if (key.starts_with("role ")) overrides_.roles.emplace_back(key.substr(5), value);
     if (key.starts_with("set ")) overrides_.set.emplace_back(key.substr(4), value);
   }
-}
-
-void Recording::read_plugins() {
-  const McapFile::Metadata* const metadata = find_metadata(file_, "plugins");
-  if (!metadata) throw Error("it does not say which plugins flew");
-  for (const auto& [component, words] : metadata->pairs) flown_.push_back(flown_plugin(component, words));
 }
 
 /// The store names its files by content: a link gives the name back, which messages and logs show.
@@ -163,7 +151,7 @@ namespace {
 class Player {
  public:
   Player(const Recording& recording, const Graph& graph, FlightOptions options, ReplayResult& result)
-      : recording_(recording), graph_(graph), result_(result), playback_(std::make_shared<Playback>(recording.file(), graph)) {
+      : recording_(recording), result_(result), playback_(std::make_shared<Playback>(recording.file(), graph)) {
     options.playback = playback_;
     options.duration_s = playback_->duration_s();
     options.resume = playback_->resume();
@@ -175,57 +163,20 @@ class Player {
 
  private:
   void apply(const Entry& entry);
-  ParamValue value(const Entry& entry) const;
-  void swap(const Entry& entry);
 
   const Recording& recording_;
-  const Graph& graph_;
   ReplayResult& result_;
   std::shared_ptr<Playback> playback_;
   std::atomic<int> signal_{0};
   std::unique_ptr<Flight> flight_;
 };
 
-ParamValue Player::value(const Entry& entry) const {
-  const auto c = std::find_if(graph_.components.begin(), graph_.components.end(), [&](const auto& x) { return x.name == entry.component; });
-  const int i = c == graph_.components.end() ? -1 : c->info().param(entry.name);
-  if (i < 0) throw Error("there is no parameter " + entry.component + "." + entry.name);
-  const ParamInfo& info = c->info().params[static_cast<std::size_t>(i)];
-  const std::string name = entry.component + "." + entry.name;
-  ParamValue value = initial_value(info);
-  if (info.kind == FULMAR_STRING) {
-    value.text = entry.text;
-    return value;
-  }
-  // "[3, -4, 0] m/s": the unit is the parameter's
-  const std::string text = info.kind == FULMAR_VECTOR ? entry.text.substr(0, entry.text.rfind(']') + 1) : entry.text;
-  Report report;
-  FileStore files(report, graph_.overrides.files.get());
-  read_param(info, parse_yaml(make_source(text, name), report), name, value, files, report);
-  report.throw_if_any();
-  return value;
-}
-
-void Player::swap(const Entry& entry) {
-  const FlownPlugin flown = flown_plugin(entry.component, entry.text);
-  flight_->swap(entry.component, recording_.plugin(flown).string());
-}
-
 void Player::apply(const Entry& entry) try {
-  switch (entry.kind) {
-    case Entry::Kind::parameter:
-      return flight_->set_parameter(entry.component, entry.name, value(entry));
-    case Entry::Kind::request:
-      return flight_->request(entry.component, entry.name, entry.message.data());
-    case Entry::Kind::swap:
-      return swap(entry);
-    case Entry::Kind::reset:
-      return flight_->reset_guards();
-    case Entry::Kind::import:
-      return flight_->publish(entry.component, entry.name, entry.message.data());
-    case Entry::Kind::phase:
-      return flight_->enter_phase(entry.text);
-  }
+  Command command = entry.command;
+  const CommandNote& note = command.note;
+  if (command.kind == CommandKind::swap)
+    command.name = recording_.plugin({command.component, note.text.data(), note.version.data(), note.sha256.data()}).string();
+  flight_->apply(std::move(command));
 } catch (const Error& fault) {
   result_.notes.push_back("what entered before tick " + std::to_string(entry.before) + " cannot be repeated: " + fault.what());
 }

@@ -13,16 +13,10 @@
 
 #include "core/graph/graph.hpp"
 #include "core/run/flight.hpp"
+#include "core/run/flown_plugin.hpp"
 #include "core/tap/reader.hpp"
 
 namespace fulmar::core {
-
-/// What flew, as logs name it: "control_slc.so 1.0.0 <SHA-256> build <id>"; the file's name may have blanks.
-struct FlownPlugin {
-  std::string component, file, version, sha256;
-};
-/// Throws Error.
-FlownPlugin flown_plugin(const std::string& component, const std::string& words);
 
 /// A log that can be flown again.
 class Recording {
@@ -49,7 +43,6 @@ class Recording {
 
  private:
   void read_overrides();
-  void read_plugins();
   void use_copies(Overrides& overrides, const std::vector<const FlownPlugin*>& wanted, const Overrides& changes, const Say& say) const;
 
   std::filesystem::path path_;

@@ -1,121 +1,127 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What enters a flight from outside, between ticks: requests, live parameters, the reset of a guard.
-#include <algorithm>
-#include <cstdio>
+// What enters a flight from outside, between ticks. There is one door, Flight::apply; the others make a
+// command and go through it.
 #include <cstring>
 #include <utility>
 
-#include "core/graph/params.hpp"
 #include "core/run/flight_impl.hpp"
 
 namespace fulmar::core {
 
-Unit& Flight::Impl::unit(const std::string& component) {
-  std::vector<std::string> names;
-  for (const auto& u : units) {
-    if (u->component->name == component) return *u;
-    names.push_back(u->component->name);
+void Flight::apply(Command command, std::function<void(const std::string&)> answered) {
+  impl_->commands->prepare(command);
+  Reply reply;
+  if (answered) reply = [answered = std::move(answered)](const char* refusal) { answered(refusal); };
+  switch (impl_->take(command, std::move(reply))) {
+    case Impl::Taken::yes:
+      return;
+    case Impl::Taken::idle:
+      throw Error(command.component + " does not fly now");
+    case Impl::Taken::full:
+      const Reader& r = impl_->units[command.at]->readers[command.part];
+      throw Error(command.component + "." + command.name + " has " + std::to_string(r.count) +
+                  " requests waiting; there is no room for more");
   }
-  throw Error("there is no component '" + component + "'." + choices_text(component, names));
 }
+
+namespace {
+
+/// With a message whose size is that of the port's type.
+Command with_message(const CommandTable& commands, Command command, const std::byte* message) {
+  const bool imported = command.kind == CommandKind::import;
+  const Type& type = *commands.entrance(commands.component(command.component), command.name, imported).type;
+  command.message.assign(message, message + type.size);
+  return command;
+}
+
+}  // namespace
 
 void Flight::request(const std::string& component, const std::string& port, const std::byte* message,
                      std::function<void(const std::string&)> answered) {
-  Unit& unit = impl_->unit(component);
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < unit.readers.size(); ++i) {
-    const Reader& r = unit.readers[i];
-    if (r.port->kind != FULMAR_IN_REQUEST) continue;
-    names.push_back(r.port->name);
-    if (r.port->name != port) continue;
-    if (const Guard guard(*r.port->type); !guard.check(message)) throw Error(component + "." + port + ": " + guard.explain(message));
-    const auto index = static_cast<std::size_t>(unit.component - impl_->graph.components.data());
-    Reply reply;
-    if (answered) reply = [answered = std::move(answered)](const char* refusal) { answered(refusal); };
-    switch (impl_->apply_request(index, i, message, std::move(reply))) {
-      case Impl::Taken::yes:
-        return;
-      case Impl::Taken::idle:
-        throw Error(component + " does not fly now");
-      case Impl::Taken::full:
-        throw Error(component + "." + port + " has " + std::to_string(r.count) + " requests waiting; there is no room for more");
-    }
-  }
-  throw Error("'" + component + "' takes no request '" + port + "'." + choices_text(port, names));
+  apply(with_message(*impl_->commands, command_of(CommandKind::request, component, port), message),
+        std::move(answered));
 }
 
-Flight::Impl::Taken Flight::Impl::apply_request(std::size_t component, std::size_t input, const std::byte* message, Reply answered) {
-  Unit& unit = *units[component];
-  Reader& r = unit.readers[input];
+void Flight::publish(const std::string& component, const std::string& port, const std::byte* message) {
+  apply(with_message(*impl_->commands, command_of(CommandKind::import, component, port), message));
+}
+
+void Flight::set_parameter(const std::string& component, const std::string& param, const ParamValue& value) {
+  Command command = command_of(CommandKind::parameter, component, param);
+  command.value = value;
+  apply(std::move(command));
+}
+
+void Flight::enter_phase(const std::string& phase) { apply(command_of(CommandKind::phase, "", phase)); }
+void Flight::swap(const std::string& component, const std::string& file) {
+  apply(command_of(CommandKind::swap, component, file));
+}
+void Flight::reset_guards() { apply(command_of(CommandKind::reset)); }
+
+// ---- in the loop
+// ----------------------------------------------------------------------------------------------------------------
+
+void Flight::Impl::put_command(const CommandNote& note) {
+  const std::size_t channel = note.kind == CommandKind::parameter ? parameter_channel : command_channel;
+  if (tap) tap->write(channel, now_ns, now_ns, reinterpret_cast<const std::byte*>(&note), true);
+}
+
+Flight::Impl::Taken Flight::Impl::take(Command& command, Reply answered) {
+  switch (command.kind) {
+    case CommandKind::parameter:
+      apply_parameter(command, Code::parameter_set);
+      break;
+    case CommandKind::request:
+      return apply_request(command, std::move(answered));
+    case CommandKind::import:
+      apply_import(command.part, command.message.data());
+      break;
+    case CommandKind::phase:
+      apply_phase(command);
+      break;
+    case CommandKind::swap:
+      swap(command.at, command.name);
+      break;
+    case CommandKind::reset:
+      reset_guards(command);
+      break;
+  }
+  return Taken::yes;
+}
+
+Flight::Impl::Taken Flight::Impl::apply_request(const Command& command, Reply answered) {
+  Unit& unit = *units[command.at];
+  Reader& r = unit.readers[command.part];
   if (index > 0 && (!unit.active || unit.stopped)) return Taken::idle;
   if (r.count == r.port->capacity) return Taken::full;
   CopyPlan whole;
   whole.size = r.port->type->size;
-  r.push(message, now_ns, whole);
+  r.push(command.message.data(), now_ns, whole);
   r.replies[r.count - 1] = std::move(answered);
-  if (tap) tap->write(static_cast<std::size_t>(r.channel), now_ns, now_ns, message, true);
-  event(EventKind::request, unit.component->name, r.port->name, false, false);  // not told aloud: a tool may send hundreds
+  if (tap) tap->write(static_cast<std::size_t>(r.channel), now_ns, now_ns, command.message.data(), true);
+  Event e = event_of(Code::request_taken, unit.component->name, r.port->name);
+  say(e, "%s", r.port->name.c_str());
+  note(e, false);  // not told aloud: a tool may send hundreds
   return Taken::yes;
 }
 
-void Flight::set_parameter(const std::string& component, const std::string& param, const ParamValue& value) {
-  Unit& unit = impl_->unit(component);
-  const int i = unit.info->param(param);
-  if (i < 0) {
-    std::vector<std::string> names;
-    for (const ParamInfo& p : unit.info->params) names.push_back(p.name);
-    throw Error("'" + component + "' has no parameter '" + param + "'." + choices_text(param, names));
-  }
-  const ParamInfo& info = unit.info->params[static_cast<std::size_t>(i)];
-  if (!info.live) throw Error(component + "." + param + " is a set-up parameter: it cannot change in flight");
-  const double number = info.kind == FULMAR_NUMBER ? value.number[0] : static_cast<double>(value.integer);
-  if (info.kind != FULMAR_VECTOR && !(number >= info.min && number <= info.max))
-    throw Error(component + "." + param + ": " + std::to_string(number) + " is outside " + std::to_string(info.min) + " .. " +
-                std::to_string(info.max));
-  ParameterNote note;
-  std::snprintf(note.component.data(), note.component.size(), "%s", component.c_str());
-  std::snprintf(note.name.data(), note.name.size(), "%s", param.c_str());
-  std::snprintf(note.text.data(), note.text.size(), "%s", value_text(info, value).c_str());
-  ParamValue taken = value;
-  impl_->apply_parameter(static_cast<std::size_t>(unit.component - impl_->graph.components.data()), static_cast<std::size_t>(i), taken,
-                         note);
-}
-
-void Flight::publish(const std::string& component, const std::string& port, const std::byte* message) {
-  for (const Reader& r : impl_->unit(component).readers) {
-    if (r.port->name != port || r.wire->import < 0) continue;
-    if (const Guard guard(*r.port->type); !guard.check(message)) throw Error(component + "." + port + ": " + guard.explain(message));
-    return impl_->apply_import(static_cast<std::size_t>(r.wire->import), message);
-  }
-  throw Error("'" + component + "' takes no imported samples for '" + port + "'");
-}
-
-void Flight::enter_phase(const std::string& phase) {
-  std::vector<std::string> names;
-  for (const Phase& p : impl_->graph.phases) names.push_back(p.name);
-  const auto at = std::find(names.begin(), names.end(), phase);
-  if (at == names.end()) throw Error("there is no phase '" + phase + "'." + choices_text(phase, names));
-  CommandNote note;
-  note.kind = CommandNote::Kind::phase;
-  std::snprintf(note.text.data(), note.text.size(), "%s", phase.c_str());
-  impl_->apply_phase(static_cast<int>(at - names.begin()), note);
-}
-
-/// `value` is what was in force when this returns.
-void Flight::Impl::apply_parameter(std::size_t component, std::size_t param, ParamValue& value, const ParameterNote& note) {
-  Unit& unit = *units[component];
-  std::swap(unit.base[param], value);
-  if (!unit.dead() && !unit.retune(overlay_of(static_cast<int>(component)))) {
-    std::swap(unit.base[param], value);
-    unit.retune(overlay_of(static_cast<int>(component)));
+void Flight::Impl::apply_parameter(Command& command, Code told) {
+  Unit& unit = *units[command.at];
+  const CommandNote& taken = command.note;
+  const std::vector<Overlay>* const overlay = overlay_of(static_cast<int>(command.at));
+  std::swap(unit.base[command.part], command.value);
+  if (!unit.dead() && !unit.retune(overlay)) {
+    std::swap(unit.base[command.part], command.value);
+    unit.retune(overlay);
     throw Error(unit.component->name + ": " + unit.problem.text);
   }
-  if (tap) tap->write(parameter_channel, now_ns, now_ns, reinterpret_cast<const std::byte*>(&note), true);
-  Event e;  // not told aloud: a script may set thousands
-  e.kind = EventKind::parameter;
-  std::snprintf(e.component.data(), e.component.size(), "%s", note.component.data());
-  std::snprintf(e.text.data(), e.text.size(), "%s = %.130s", note.name.data(), note.text.data());
-  if (tap) tap->write(event_channel, now_ns, now_ns, reinterpret_cast<const std::byte*>(&e), true);
+  put_command(taken);
+  Event e = event_of(told, taken.component.data(), taken.name.data());
+  e.severity = Severity::info;
+  e.value = unit.info->params[command.part].kind == FULMAR_NUMBER ? taken.number[0]
+                                                                  : static_cast<double>(taken.integer);
+  say(e, "%s = %s", taken.name.data(), taken.text.data());
+  note(e, false);  // not told aloud: a script may set thousands
 }
 
 void Flight::Impl::apply_import(std::size_t import, const std::byte* message) {
@@ -132,10 +138,10 @@ void Flight::Impl::apply_import(std::size_t import, const std::byte* message) {
   if (tap) tap->write(static_cast<std::size_t>(i.reader->channel), now_ns, now_ns, message, true);
 }
 
-void Flight::Impl::apply_phase(int to, const CommandNote& note) {
+void Flight::Impl::apply_phase(const Command& command) {
   if (in_failsafe) throw Error("the flight is in its failsafe: no phase can be entered");
-  if (tap) tap->write(command_channel, now_ns, now_ns, reinterpret_cast<const std::byte*>(&note), true);
-  enter(to);  // the present one, too: whoever it names takes over again
+  put_command(command.note);
+  enter(static_cast<int>(command.part));  // the present one, too: whoever it names takes over again
 }
 
 const std::vector<Overlay>* Flight::Impl::overlay_of(int component) const {
@@ -144,29 +150,36 @@ const std::vector<Overlay>* Flight::Impl::overlay_of(int component) const {
   return nullptr;
 }
 
-const Tape* Flight::tape(const std::string& component) const { return impl_->unit(component).tape.get(); }
+const Tape* Flight::tape(const std::string& component) const {
+  return impl_->units[impl_->commands->component(component)]->tape.get();
+}
 
-void Flight::reset_guards() {
-  CommandNote note;
-  note.kind = CommandNote::Kind::reset;
-  if (impl_->tap) impl_->tap->write(impl_->command_channel, impl_->now_ns, impl_->now_ns, reinterpret_cast<const std::byte*>(&note), true);
-  for (std::size_t i = 0; i < impl_->units.size(); ++i) {
-    Unit* unit = impl_->units[i].get();
-    if (!unit->stopped) continue;
-    const std::string name = unit->component->name;
-    if (unit->dead()) {
-      if (const std::string why = impl_->in_use(); !why.empty()) {
-        impl_->event(EventKind::request, name, "guard not reset: its process has ended, and is started anew on the ground; " + why);
-        continue;
-      }
-      impl_->restart(i);
-      unit = impl_->units[i].get();
-    }
-    unit->stopped = false;
-    unit->overruns_in_a_row = 0;
-    unit->fresh_start = true;
-    impl_->event(EventKind::request, name, "guard reset");
+void Flight::Impl::reset_guards(const Command& command) {
+  put_command(command.note);
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    if (!units[i]->stopped || !reset_guard(i)) continue;
+    Event e = event_of(Code::guard_reset, units[i]->component->name);
+    say(e, "guard reset");
+    note(e);
   }
+}
+
+/// False: its process has ended, and this is no time to start another.
+bool Flight::Impl::reset_guard(std::size_t i) {
+  if (units[i]->dead()) {
+    if (const std::string why = in_use(); !why.empty()) {
+      Event e = event_of(Code::guard_not_reset, units[i]->component->name);
+      put(e.cause, why);
+      say(e, "guard not reset: its process has ended, and is started anew on the ground; %s", why.c_str());
+      note(e);
+      return false;
+    }
+    restart(i);
+  }
+  units[i]->stopped = false;
+  units[i]->overruns_in_a_row = 0;
+  units[i]->fresh_start = true;
+  return true;
 }
 
 }  // namespace fulmar::core

@@ -42,15 +42,13 @@ std::vector<std::byte> last_message(const McapFile& file, const std::string& top
 }
 
 std::string last_phase(const McapFile& file) {
-  const std::uint16_t channel = file.channel("/fulmar/event");
+  const HostTopic<Event> events(file);
+  events.check();
   std::string phase;
   for (const McapFile::Message& m : file.messages) {
-    if (m.channel != channel) continue;
-    Event event;
-    cdr_decode(*event_type(), m.data.data(), m.data.size(), reinterpret_cast<std::byte*>(&event));
-    constexpr std::string_view word = "phase ";
-    const std::string text = event.text.data();
-    if (event.kind == EventKind::phase && text.starts_with(word)) phase = text.substr(word.size());
+    if (!events.holds(m)) continue;
+    const Event event = events.read(m.data);
+    if (event.code == Code::phase_entered) phase = event.name.data();
   }
   if (phase.empty()) throw Error("the log holds no phase");
   return phase;
@@ -163,13 +161,12 @@ fs::path newest_log(const Graph& graph, double max_age_s) {
 std::function<std::string(std::size_t, const std::byte*)> Flight::Impl::lasting() const {
   return [event = event_channel, parameter = parameter_channel, command = command_channel](std::size_t channel, const std::byte* message) {
     std::string name;
-    if (channel == event && reinterpret_cast<const Event*>(message)->kind == EventKind::phase) name = "phase";
-    if (channel == parameter) {
-      const auto* const note = reinterpret_cast<const ParameterNote*>(message);
-      name = std::string("parameter ") + note->component.data() + "." + note->name.data();
-    }
-    if (channel == command && reinterpret_cast<const CommandNote*>(message)->kind == CommandNote::Kind::swap)
-      name = std::string("swap ") + reinterpret_cast<const CommandNote*>(message)->component.data();
+    if (channel == event && reinterpret_cast<const Event*>(message)->code == Code::phase_entered) name = "phase";
+    if (channel != parameter && channel != command) return name;
+    const auto* const note = reinterpret_cast<const CommandNote*>(message);
+    const std::string component = note->component.data();
+    if (note->kind == CommandKind::parameter) name = "parameter " + component + "." + note->name.data();
+    if (note->kind == CommandKind::swap) name = "swap " + component;
     return name;
   };
 }
@@ -181,8 +178,15 @@ void Flight::Impl::resume_now() {
   int to = 0;
   for (std::size_t i = 0; i < graph.phases.size(); ++i)
     if (graph.phases[i].name == resume.phase) to = static_cast<int>(i);
-  event(EventKind::resume, "", "resumed: " + resume.text(), true);
-  for (const Resume::Param& p : resume.params) owner->set_parameter(p.component, p.param, p.value);
+  Event e = event_of(Code::resumed, "", resume.phase);
+  say(e, "resumed: %s", resume.text().c_str());
+  note(e);
+  for (const Resume::Param& p : resume.params) {
+    Command command = command_of(CommandKind::parameter, p.component, p.param);
+    command.value = p.value;
+    commands->prepare(command);
+    apply_parameter(command, Code::resumed);
+  }
   if (index == 0)
     phase = to;
   else if (to != phase)
@@ -195,7 +199,9 @@ void Flight::Impl::resume_if_armed() {
   if (armed_flag.says(false) && !ground_flag.says(false)) return resume_now();
   if (now_ns - heard_ns < 1'000'000'000) return;
   options.resume.reset();
-  event(EventKind::resume, "", "not resumed: the aircraft is not in the air, armed");
+  Event e = event_of(Code::not_resumed);
+  say(e, "not resumed: the aircraft is not in the air, armed");
+  note(e);
 }
 
 }  // namespace fulmar::core

@@ -7,6 +7,7 @@
 #include "core/graph/params.hpp"
 #include "core/loader/probe.hpp"
 #include "core/run/flight_impl.hpp"
+#include "core/run/flown_plugin.hpp"
 
 namespace fulmar::core {
 
@@ -117,16 +118,14 @@ std::string Flight::Impl::in_use() const {
   return ground_flag.says(true) ? "" : "the aircraft is in the air";
 }
 
-void Flight::swap(const std::string& component, const std::string& file) {
-  Impl& flight = *impl_;
-  Unit& old = flight.unit(component);
-  const auto index = static_cast<std::size_t>(old.component - flight.graph.components.data());
-  const Unit& vehicle = *flight.units[static_cast<std::size_t>(flight.graph.vehicle)];
-  if (&old == &vehicle) throw Error(component + " is the vehicle: it holds the aircraft, and is changed when no flight goes on");
-  if (flight.graph.file.empty()) throw Error("this flight was not read from a mission file: nothing can be swapped in it");
-  if (const std::string why = flight.in_use(); !why.empty())
-    throw Error(component + " cannot be swapped: " + why + ". A component is swapped on the ground, disarmed");
-  flight.replace(index, file);
+void Flight::Impl::swap(std::size_t at, const std::string& file) {
+  const std::string& name = units[at]->component->name;
+  if (static_cast<int>(at) == graph.vehicle)
+    throw Error(name + " is the vehicle: it holds the aircraft, and is changed when no flight goes on");
+  if (graph.file.empty()) throw Error("this flight was not read from a mission file: nothing can be swapped in it");
+  if (const std::string why = in_use(); !why.empty())
+    throw Error(name + " cannot be swapped: " + why + ". A component is swapped on the ground, disarmed");
+  replace(at, file);
 }
 
 /// Reads the mission again with the new file; what is in the way is told by the same sentences as at the start.
@@ -180,6 +179,7 @@ void Flight::Impl::restart(std::size_t i) {
 /// From here on nothing can fail but what ends the host: the newcomer has been created before the old one goes.
 void Flight::Impl::install(std::size_t i, Graph&& next) {
   Component before = graph.components[i];
+  const CommandNote command = swap_note(before.name, *next.components[i].plugin);
   const bool active = units[i]->active;
   Unit& old = *units[i];
   std::swap(graph.components[i], next.components[i]);
@@ -202,15 +202,17 @@ void Flight::Impl::install(std::size_t i, Graph&& next) {
   units[i] = std::move(fresh);
   connect();
   if (const std::vector<Overlay>* overlay = overlay_of(static_cast<int>(i)); overlay) units[i]->retune(overlay);
-  const std::string words = "swapped: " + version_words(*before.plugin) + " -> " + version_words(*graph.components[i].plugin);
-  event(EventKind::swap, before.name, words);
   const PluginInfo& plugin = *graph.components[i].plugin;
-  CommandNote note;
-  note.kind = CommandNote::Kind::swap;
-  std::snprintf(note.component.data(), note.component.size(), "%s", before.name.c_str());
-  std::snprintf(note.text.data(), note.text.size(), "%s", plugin_words(plugin).c_str());
-  if (tap) tap->write(command_channel, now_ns, now_ns, reinterpret_cast<const std::byte*>(&note), true);
-  if (log) log->metadata("swap", {{"component", before.name}, {"plugin", plugin_words(plugin)}});
+  Event e = event_of(Code::swapped, before.name);
+  say(e, "swapped: %s -> %s", version_words(*before.plugin).c_str(), version_words(plugin).c_str());
+  note(e);
+  put_command(command);
+  if (log) {
+    auto pairs = flown_pairs(plugin);
+    pairs.emplace(pairs.begin(), "component", before.name);
+    log->metadata("swap", pairs);
+  }
+  commands = std::make_shared<const CommandTable>(graph);
   next = Graph{};
   if (before.library && before.library.use_count() == 1) Library::unload(std::move(before.library));
 }

@@ -212,9 +212,8 @@ Verdict Unit::step(std::int64_t now_ns, std::uint64_t index) noexcept {
     return {Verdict::Kind::bad};
   }
   if (!outputs_good() || !heap_good()) return {Verdict::Kind::bad};
-  const bool degraded = status == FULMAR_DEGRADED;
-  if (degraded) ++stats.degraded;
-  return {Verdict::Kind::stepped, degraded};
+  if (status == FULMAR_DEGRADED) ++stats.degraded;
+  return {Verdict::Kind::stepped};
 }
 
 bool Unit::heap_good() noexcept {
@@ -225,7 +224,7 @@ bool Unit::heap_good() noexcept {
 }
 
 Verdict Unit::read(std::int64_t& now_ns, std::uint64_t index) noexcept {
-  prepare_outputs(now_ns);
+  prepare_outputs(FULMAR_ON_ARRIVAL);
   fulmar_tick t{now_ns, tick_ns_, index};
   problem.text[0] = '\0';
   const std::uint64_t allocations = thread_allocations();
@@ -245,14 +244,13 @@ Verdict Unit::read(std::int64_t& now_ns, std::uint64_t index) noexcept {
                   static_cast<long long>(t.now_ns));
     return {Verdict::Kind::bad};
   }
-  // What read has not dated is valid at the time that read has set.
   for (fulmar_output& out : outputs_)
-    if (out.valid_at_ns == now_ns) out.valid_at_ns = t.now_ns;
+    if (out.valid_at_ns == FULMAR_ON_ARRIVAL) out.valid_at_ns = t.now_ns;  // read has not dated it, and now the time is known
   now_ns = t.now_ns;
   last_step_ns_ = now_ns;
   if (!outputs_good()) return {Verdict::Kind::bad};
   if (status == FULMAR_DEGRADED) ++stats.degraded;
-  return {Verdict::Kind::stepped, status == FULMAR_DEGRADED};
+  return {Verdict::Kind::stepped};
 }
 
 Verdict Unit::write(std::int64_t now_ns, std::uint64_t index) noexcept {
@@ -284,7 +282,7 @@ Verdict Unit::write(std::int64_t now_ns, std::uint64_t index) noexcept {
     if (!problem.text[0]) fail("says that it failed");
     return {Verdict::Kind::bad};
   }
-  return {Verdict::Kind::stepped, status == FULMAR_DEGRADED};
+  return {Verdict::Kind::stepped};
 }
 
 void Unit::tell_missing() noexcept {

@@ -18,6 +18,7 @@
 #include "core/isolate/isolated.hpp"
 #include "core/run/async.hpp"
 #include "core/run/driver.hpp"
+#include "core/run/inside.hpp"
 #include "core/run/stats.hpp"
 #include "core/run/tape.hpp"
 #include "core/tap/hash.hpp"
@@ -97,21 +98,6 @@ struct Verdict {
   bool degraded = false;
 };
 
-/// Name of the component whose code runs now, or nullptr: for whoever has to tell of a crash or a hang.
-inline std::atomic<const char*> in_step{nullptr};
-inline std::atomic<const char*> in_call{"step"};  // which of its functions
-
-/// As long as it lives, the component's code runs in this thread.
-struct Inside {
-  Inside(const std::string& component, const char* call) noexcept {
-    in_call.store(call, std::memory_order_relaxed);
-    in_step.store(component.c_str(), std::memory_order_relaxed);
-  }
-  ~Inside() { in_step.store(nullptr, std::memory_order_relaxed); }
-  Inside(const Inside&) = delete;
-  Inside& operator=(const Inside&) = delete;
-};
-
 /// The vehicle's last word, encoded beforehand, for the handler of a crash; nullptr when it has none.
 inline std::atomic<const fulmar_last_frame*> last_frame{nullptr};
 
@@ -155,6 +141,8 @@ class Unit {
   void keep_log_settings(const Unit& from);
   /// Whether its child has died.
   bool dead() noexcept { return child_ && !child_->check(); }
+  /// Whether it died because it did not answer in time: for the wall clock alone.
+  bool hung() const noexcept { return child_ && child_->hung(); }
   /// Whether its results come by `collect`.
   bool remote() const noexcept { return async_ || samples_; }
   /// When a result was due that has not come; nothing when none is late.
@@ -203,7 +191,6 @@ class Unit {
 
  private:
   void create(const UnitOptions& options);
-  void charge_heap(std::int64_t growth) noexcept;
   bool heap_good() noexcept;
   Verdict submit(std::int64_t now_ns, const fulmar_tick& tick) noexcept;
   Verdict collect_async(std::int64_t now_ns) noexcept;

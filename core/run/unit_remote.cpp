@@ -89,7 +89,7 @@ Verdict Unit::collect_async(std::int64_t now_ns) noexcept {
     }
     if (!outputs_good() || !heap_good()) return {Verdict::Kind::bad};
     if (status == FULMAR_DEGRADED) ++stats.degraded;
-    return {Verdict::Kind::stepped, status == FULMAR_DEGRADED};
+    return {Verdict::Kind::stepped};
   }
   return {Verdict::Kind::not_due};
 }

@@ -81,10 +81,10 @@ void Unit::create(const UnitOptions& options) {
   if (c.run == RunMode::async) {
     const std::int64_t period = c.period_ns > 0 ? c.period_ns : tick_ns_;
     const auto depth = static_cast<std::size_t>(c.latency_ns / period) + 4;  // steps on their way, and room for retune and activate
-    async_ = std::make_unique<Async>(*functions_, instance_, *info, depth);
+    async_ = std::make_unique<Async>(c.name, *functions_, instance_, *info, depth);
     late_due_ns.reserve(depth);
   }
-  if (c.run == RunMode::driver) samples_ = std::make_unique<Driver>(*functions_, instance_, *info);
+  if (c.run == RunMode::driver) samples_ = std::make_unique<Driver>(c.name, *functions_, instance_, *info);
 }
 
 Unit::~Unit() {

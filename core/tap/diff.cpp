@@ -3,10 +3,10 @@
 #include "core/tap/diff.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/tap/events.hpp"
 #include "core/tap/export_table.hpp"
 #include "core/tap/reader.hpp"
 
@@ -14,7 +14,6 @@ namespace fulmar::core {
 namespace {
 
 constexpr std::size_t most_compared_columns = 100'000;
-constexpr const char* ticks_topic = "/fulmar/ticks";
 using MessageBytes = std::vector<std::byte>;
 
 struct Stored {
@@ -141,9 +140,9 @@ struct Comparison {
         continue;
       }
       ++counts.different;
-      if (topic == ticks_topic) note_tick(left[i].data, right[i].data);
-      if (first_pair && first_pair->topic != ticks_topic) continue;
-      if (first_pair && (topic == ticks_topic || a.flight_ns(ns) > first_pair->time_ns)) continue;
+      if (topic == Ticks::topic) note_tick(left[i].data, right[i].data);
+      if (first_pair && first_pair->topic != Ticks::topic) continue;
+      if (first_pair && (topic == Ticks::topic || a.flight_ns(ns) > first_pair->time_ns)) continue;
       first_pair = first_field(a, b, topic, left[i], right[i]);
       first_pair->time_ns = a.flight_ns(ns);
     }
@@ -154,24 +153,18 @@ struct Comparison {
     first_absent.try_emplace(topic, LogDiff::First{topic, "", a.flight_ns(ns), word(left.size()), word(right.size())});
   }
 
-  /// Of two messages {first, time_ns, period_ns[], hash[]}.
-  void note_tick(const MessageBytes& left, const MessageBytes& right) {
-    if (diff.first_tick) return;
-    const std::vector<Value> x = values(a, ticks_topic, left), y = values(b, ticks_topic, right);
-    LogDiff::Tick tick;
-    std::map<std::string, std::string> fields;
-    for (const Value& v : x) fields[v.name] = v.text;
-    for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i) {
-      if (x[i].name != y[i].name || x[i].text == y[i].text) continue;
-      if (!x[i].name.starts_with("hash[")) continue;
-      const std::uint64_t k = std::strtoull(x[i].name.c_str() + 5, nullptr, 10);
-      tick.index = std::strtoull(fields["first"].c_str(), nullptr, 10) + k;
-      tick.time_ns = std::strtoll(fields["time_ns"].c_str(), nullptr, 10);
-      for (std::uint64_t j = 1; j <= k; ++j)
-        tick.time_ns += std::strtoll(fields["period_ns[" + std::to_string(j) + "]"].c_str(), nullptr, 10);
-      diff.first_tick = tick;
+  void note_tick(const MessageBytes& left, const MessageBytes& right) try {
+    const HostTopic<Ticks> in_a(a.stream.log()), in_b(b.stream.log());
+    if (diff.first_tick || !in_a.same() || !in_b.same()) return;
+    const Ticks x = in_a.read(left), y = in_b.read(right);
+    std::int64_t time_ns = x.time_ns;
+    for (std::uint32_t i = 0; i < std::min(x.hashes, y.hashes); ++i) {
+      if (i > 0) time_ns += x.period_ns[i];
+      if (x.hash[i] == y.hash[i]) continue;
+      diff.first_tick = {x.first + i, time_ns};
       return;
     }
+  } catch (const Error&) {  // no message of the host's: the bytes differ, and that is all
   }
 
   std::optional<LogDiff::First> first_pair;

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "core/error.hpp"
+#include "core/tap/events.hpp"
 #include "core/tap/export_table.hpp"
 #include "core/tap/mcap_bytes.hpp"
 
@@ -18,7 +19,6 @@ namespace {
 constexpr std::size_t sample_bytes = 128u << 10;  // of a topic, compressed in one go
 constexpr std::size_t index_bytes = 16;           // of a message in its chunk's index
 constexpr std::size_t most_events = 100'000;
-constexpr std::string_view phase_word = "phase ";
 
 /// How well the bytes of one topic compress.
 struct Weight {
@@ -80,7 +80,7 @@ struct Reading {
       first_ns = std::min(first_ns, m->log_ns);
       last_ns = std::max(last_ns, m->log_ns);
       ++info.messages;
-      if (w.topic.topic == "/fulmar/event" && events.size() < most_events) {
+      if (w.topic.topic == core::Event::topic && events.size() < most_events) {
         events.emplace_back(m->log_ns, std::vector<std::byte>(m->data.begin(), m->data.end()));
         event_channel = m->channel;
       }
@@ -108,36 +108,47 @@ struct Reading {
       info.topics.push_back(w.topic);
     }
     read_events(log, epoch);
-    for (const LogInfo::Event& e : info.events) {
-      if (e.kind != "phase" || !e.text.starts_with(phase_word)) continue;
-      if (!info.phases.empty()) info.phases.back().end_ns = e.time_ns;
-      info.phases.push_back({e.text.substr(phase_word.size()), e.time_ns, info.end_ns});
-    }
     info.file = stream.take_log();
   }
 
-  /// Events have fields kind, component, text; another program's topic of that name may have others.
-  void read_events(const McapFile& log, std::uint64_t epoch) {
-    if (events.empty()) return;
-    try {
-      const auto schema = log.schemas.find(log.channels.at(event_channel).schema);
-      if (schema == log.schemas.end()) return;
-      RosField root = parse_ros2msg(schema->second.name, schema->second.text);
-      for (const auto& [ns, bytes] : events) measure(root, bytes);
-      const std::vector<Column> columns = lay_out(root, 1000);
-      std::vector<Cell> row;
-      for (const auto& [ns, bytes] : events) {
-        decode(root, bytes, row);
-        LogInfo::Event e{static_cast<std::int64_t>(ns - epoch), "", "", ""};
-        for (std::size_t i = 0; i < row.size(); ++i) {
-          if (columns[i].name == "kind") e.kind = cell_label(*columns[i].field, row[i]);
-          if (columns[i].name == "component") e.component = cell_text(row[i]);
-          if (columns[i].name == "text") e.text = cell_text(row[i]);
-        }
-        info.events.push_back(std::move(e));
+  void begin_phase(const std::string& name, std::int64_t now_ns) {
+    if (!info.phases.empty()) info.phases.back().end_ns = now_ns;
+    info.phases.push_back({name, now_ns, info.end_ns});
+  }
+
+  void read_events(const McapFile& log, std::uint64_t epoch) try {
+    const HostTopic<core::Event> topic(log);
+    if (!topic.same()) return read_other_events(log, epoch);
+    for (const auto& [ns, bytes] : events) {
+      const core::Event e = topic.read(bytes);
+      const auto now_ns = static_cast<std::int64_t>(ns - epoch);
+      info.events.push_back({now_ns, kind_words(e.code), e.component.data(), e.words.data()});
+      if (e.code == Code::phase_entered) begin_phase(e.name.data(), now_ns);
+    }
+  } catch (const Error&) {
+    return;
+  }
+
+  /// Events of another version or of another program: `text` says what happened, and in Fulmar's logs before there were codes a phase has
+  /// its name behind a word.
+  void read_other_events(const McapFile& log, std::uint64_t epoch) {
+    constexpr std::string_view phase_word = "phase ";
+    const auto schema = events.empty() ? log.schemas.end() : log.schemas.find(log.channels.at(event_channel).schema);
+    if (schema == log.schemas.end()) return;
+    RosField root = parse_ros2msg(schema->second.name, schema->second.text);
+    for (const auto& [ns, bytes] : events) measure(root, bytes);
+    const std::vector<Column> columns = lay_out(root, 1000);
+    std::vector<Cell> row;
+    for (const auto& [ns, bytes] : events) {
+      decode(root, bytes, row);
+      LogInfo::Event e{static_cast<std::int64_t>(ns - epoch), "", "", ""};
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        if (columns[i].name == "kind") e.kind = cell_label(*columns[i].field, row[i]);
+        if (columns[i].name == "component") e.component = cell_text(row[i]);
+        if (columns[i].name == "text" || columns[i].name == "words") e.text = cell_text(row[i]);
       }
-    } catch (const Error&) {
-      return;
+      if (e.kind == "phase" && e.text.starts_with(phase_word)) begin_phase(e.text.substr(phase_word.size()), e.time_ns);
+      info.events.push_back(std::move(e));
     }
   }
 };

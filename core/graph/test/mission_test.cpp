@@ -58,6 +58,28 @@ TEST_CASE("keys of the file are known, given once and of the right type") {
         std::string::npos);
 }
 
+TEST_CASE("a name that the log has no room for is refused with its line, one that just fits is not") {
+  const std::string c47(47, 'c'), c48(48, 'c'), p63(63, 'p'), p64(64, 'p');
+  const auto said = [](const std::string& text) { return changed("\ncomponents:\n", "\ncomponents:\n  " + text + "\n"); };
+  CHECK(said(c47 + ": {use: score}").find("characters") == std::string::npos);
+  CHECK(said(c48 + ": {use: score}").find("21: components: '" + c48 + "' has 48 characters; a name has 47 at most") != std::string::npos);
+  const auto role = [](const std::string& name) { return changed("\nroles:\n", "\nroles:\n  " + name + ": {in: {}, out: {}}\n"); };
+  CHECK(role(c47).find("characters") == std::string::npos);
+  CHECK(role(c48).find("roles: '" + c48 + "' has 48 characters; a name has 47 at most") != std::string::npos);
+  const auto phase = [](const std::string& name) { return changed("\nphases:\n", "\nphases:\n  " + name + ": {}\n"); };
+  CHECK(phase(p63).find("characters") == std::string::npos);
+  CHECK(phase(p64).find("phases: '" + p64 + "' has 64 characters; a name has 63 at most") != std::string::npos);
+  for (const std::size_t size : {std::size_t{63}, std::size_t{64}}) {
+    Mission mission;
+    mission.shelf.plugins.at("score")->components.at(0).params.push_back({});
+    mission.shelf.plugins.at("score")->components.at(0).params.back().name = std::string(size, 'q');
+    const std::string faults = mission.faults();
+    const std::string sentence = "components.score: the parameter '" + std::string(size, 'q') + "' of score";
+    CHECK((faults.find(sentence) != std::string::npos) == (size == 64));
+    CHECK((faults.find(" has 64 characters; a name has 63 at most") != std::string::npos) == (size == 64));
+  }
+}
+
 TEST_CASE("broken YAML is told in one sentence with its line") {
   CHECK(broken("a: [1, 2\nb: 3\n") == "hourglass.yaml:2: not valid YAML: a '[' is not closed, or a ',' is missing");
   CHECK(broken("a: {x: 1\nb: 2") == "hourglass.yaml:2: not valid YAML: a '{' is not closed, or a ',' is missing");

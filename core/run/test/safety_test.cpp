@@ -108,6 +108,26 @@ TEST_CASE("a step over its budget five times in a row, paced: the fallback takes
   }
 }
 
+TEST_CASE("a component that crashes in a thread of its own is named, whatever the loop is in") {
+  if (!FULMAR_CRASH_TESTS) return;
+  const fs::path log = folder().path / "crash-async.mcap", said = folder().path / "said-async";
+  struct End {
+    const char *fault, *told;
+  };
+  for (const End& end : {End{"crashes", "one crashed in its step (segmentation fault)"}, End{"aborts", "one crashed in its step (abort)"}}) {
+    CAPTURE(end.fault);
+    fs::remove(log.string() + ".part");
+    mission("  one: {fills: law, use: lab/Law, run: async, latency: 10 ms, params: {fault: "s + end.fault + ", fault_at: 0.1 s}}\n" +
+            one_phase);
+    std::ignore = std::system((std::string(FULMAR_BIN_DIR) + "/fulmar run " + (folder().path / "lab.yaml").string() + " --log " + log.string() +
+                               " >/dev/null 2>" + said.string())
+                                  .c_str());
+    std::ifstream in(said);
+    const std::string words((std::istreambuf_iterator<char>(in)), {});
+    CHECK_MESSAGE(words.find(end.told) != std::string::npos, words);
+  }
+}
+
 TEST_CASE("when a component takes the host with it, the device gets the last frame that the vehicle encoded") {
   if (!FULMAR_CRASH_TESTS) {
     MESSAGE("skipped: a sanitized build handles crashes by itself");

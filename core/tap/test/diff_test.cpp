@@ -5,29 +5,13 @@
 #include <doctest/doctest.h>
 
 #include "core/error.hpp"
+#include "core/tap/events.hpp"
 #include "core/tap/test/log_kit.hpp"
 
 namespace diff_test {
 
 using namespace fulmar::core;
 using namespace fulmar::core::test;
-
-namespace {
-
-struct Ticks {
-  std::uint64_t first;
-  std::int64_t time_ns;
-  Items<std::uint32_t, 4> period_ns, hash;
-};
-TypePtr ticks_type() {
-  using L = Items<std::uint32_t, 4>;
-  return make_type("Ticks", sizeof(Ticks), 8,
-                   {scalar("first", FULMAR_U64, offsetof(Ticks, first), 8), scalar("time_ns", FULMAR_I64, offsetof(Ticks, time_ns), 8),
-                    list(scalar("period_ns", FULMAR_U32, offsetof(Ticks, period_ns), 4), 4, offsetof(L, items)),
-                    list(scalar("hash", FULMAR_U32, offsetof(Ticks, hash), 4), 4, offsetof(L, items))});
-}
-
-}  // namespace
 
 TEST_CASE("equal logs are equal, whatever their chunks and compression") {
   const Folder folder;
@@ -128,10 +112,10 @@ TEST_CASE("where the components differed without a message of it, the hash of th
   const Folder folder;
   for (const bool other : {false, true}) {
     Sample sample({.file = folder.path / (other ? "b.mcap" : "a.mcap")});
-    const std::uint16_t ticks = sample.channel("/fulmar/ticks", *ticks_type());
+    const std::uint16_t ticks = sample.channel("/fulmar/ticks", *host_type<Ticks>());
     for (std::uint32_t i = 0; i < 3; ++i) {
-      Ticks t{i * 4, i * 40, {4, {10, 10, 10, 10}}, {4, {1, 2, 3, 4}}};
-      if (other && i == 1) t.hash.items[2] = 9, t.period_ns.items[3] = 11;
+      Ticks t{i * 4, i * 40, 4, {10, 10, 10, 10}, 4, {1, 2, 3, 4}};
+      if (other && i == 1) t.hash[2] = 9, t.period_ns[3] = 11;
       sample.write(ticks, i * 40 + 30, bytes_of(t));
     }
     sample.writer.close();

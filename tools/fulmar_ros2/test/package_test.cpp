@@ -134,9 +134,10 @@ TEST_CASE("a package of a mission has every message that a log of it holds, with
   for (const char* name : {"Event", "Ticks", "Plan", "ControlSlcOuterProbes"})
     CHECK(texts.count("fulmar_msgs/msg/" + std::string(name)) == 1);
   // what this flight had no occasion for
-  CHECK(readme.find(fulmar::core::ros_type_hash(*fulmar::core::parameter_note_type())) != std::string::npos);
-  CHECK(readme.find(fulmar::core::ros_type_hash(*fulmar::core::command_note_type())) != std::string::npos);
-  CHECK(read(package / "msg/ParameterSet.msg") == "string component\nstring name\nstring text\n");
+  CHECK(readme.find(fulmar::core::ros_type_hash(*fulmar::core::host_type<fulmar::core::CommandNote>())) != std::string::npos);
+  CHECK(read(package / "msg/Command.msg") ==
+        "uint8 PARAMETER=0\nuint8 PHASE=1\nuint8 SWAP=2\nuint8 RESET=3\nuint8 REQUEST=4\nuint8 IMPORT=5\nuint8 kind\n"
+        "string component\nstring name\nfloat64[3] number\nint64 integer\nstring text\nstring version\nstring sha256\n");
   CHECK(read(package / "msg/ControlTecsOuterProbes.msg").find("float64 underspeed_ratio\n") != std::string::npos);
 }
 

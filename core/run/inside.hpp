@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whose code a thread is in, for whoever has to tell of a crash or a hang. The handler of a signal that a
+// component raises runs in the component's own thread, so each thread has its own answer.
+#pragma once
+#include <atomic>
+#include <string>
+
+namespace fulmar::core {
+
+/// Name of the component whose code runs in this thread, or nullptr.
+inline constinit thread_local std::atomic<const char*> in_step{nullptr};
+inline constinit thread_local std::atomic<const char*> in_call{"step"};  // which of its functions
+
+/// As long as it lives, the component's code runs in this thread. The name has to live as long.
+struct Inside {
+  Inside(const std::string& component, const char* call) noexcept {
+    in_call.store(call, std::memory_order_relaxed);
+    in_step.store(component.c_str(), std::memory_order_relaxed);
+  }
+  ~Inside() { in_step.store(nullptr, std::memory_order_relaxed); }
+  Inside(const Inside&) = delete;
+  Inside& operator=(const Inside&) = delete;
+};
+
+}  // namespace fulmar::core

@@ -145,7 +145,7 @@ Graph craft(const std::string& tail, const std::vector<std::pair<std::string, st
   const fs::path file = folder().path / "craft.yaml";
   std::ofstream(file)
       << "mission: craft\nrate: 400 Hz\nio: fcu\nfailsafe: {u_frac: -0.25, for: 0.5 s}\nroles:\n"
-         "  vehicle: {in: {command: law.command}, out: {status: State, applied: Applied}}\n"
+         "  vehicle: {in: {command: law.command}, out: {status: State, applied: Received}}\n"
          "  law:     {in: {state: vehicle.status}, out: {command: Command}}\ncomponents:\n"
          "  craft: {fills: vehicle, use: craft/Craft}\n  law_a: {fills: law, use: craft/Hoarder, run: tick}\n"
       << tail;

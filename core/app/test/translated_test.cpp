@@ -128,8 +128,8 @@ void check_words_mean_nothing(const fs::path& log) {
     CHECK(r.notes == std::vector<std::string>{});
     CHECK(contents(out) == contents(again));
     const LogDiff d = diff_logs(log, other);
-    for (const auto& [topic, counts] : d.topics)
-      CHECK_MESSAGE((topic == Event::topic) == (counts.different > 0), topic);
+    for (const auto& t : d.topics)
+      CHECK_MESSAGE((t.first == Event::topic) == (t.second.different > 0), t.first);
   }
 }
 
@@ -415,8 +415,8 @@ TEST_CASE(
   CHECK(contents(tables / "fulmar.event.csv").find("one") != std::string::npos);
 
   const LogDiff d = diff_logs(old, log);
-  for (const auto& [topic, counts] : d.topics)
-    CHECK_MESSAGE((topic == Event::topic) == (counts.different > 0), topic);
+  for (const auto& t : d.topics)
+    CHECK_MESSAGE((t.first == Event::topic) == (t.second.different > 0), t.first);
   REQUIRE(d.first.has_value());
   CHECK(d.first->topic == Event::topic);
   CHECK(!d.first_tick.has_value());

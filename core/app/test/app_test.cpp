@@ -194,8 +194,10 @@ TEST_CASE("on a full disk the flight goes on and the loss is told") {
   CHECK(j["log_dropped"].get<std::uint64_t>() > 1000);
   CHECK(j["log_error"].is_string());
   const std::string why = "cannot write '" + log + ".part': File too large";
-  CHECK(r.err.find("the flight goes on without its log: " + why) < r.err.find("phase cruise"));
-  CHECK(r.err.find("the log is not whole: " + why + "; ") != std::string::npos);
+  // The loop says it, in flight; how far it has come by then is a matter of two threads and of what else the machine does.
+  const std::size_t told = r.err.find("the flight goes on without its log: " + why), summed_up = r.err.find("the log is not whole: " + why + "; ");
+  CHECK(summed_up != std::string::npos);
+  CHECK(told < summed_up);
   CHECK(r.err.find(" messages were lost, and what there is is in " + log + ".part\n") != std::string::npos);
   CHECK_FALSE(fs::exists(log));
   CHECK(fulmar("log info " + log + ".part").out.find("complete") == std::string::npos);

@@ -104,14 +104,18 @@ struct Fixture {
   void call(const std::string& name, const std::string& encoding, const std::string& payload, std::uint32_t call_id = 9) {
     hub.binary(id, "\2" + le(service(name)) + le(call_id) + le(static_cast<std::uint32_t>(encoding.size())) + encoding + payload);
   }
+  /// The answer to this call; those to calls made before may still come in between.
   json call_json(const std::string& name, const std::string& payload) {
-    const std::size_t before = peer.binaries.size();
+    const std::uint32_t asked = service(name);
+    std::size_t next = peer.binaries.size();
+    const auto answered = [&] {
+      for (; next < peer.binaries.size(); ++next)
+        if (const std::string& answer = peer.binaries[next]; answer[0] == 3 && u32(answer, 1) == asked && u32(answer, 5) == 9) return true;
+      return false;
+    };
     call(name, "json", payload);
-    REQUIRE(until([&] { return peer.binaries.size() > before; }));
-    const std::string& answer = peer.binaries.back();
-    REQUIRE(answer[0] == 3);
-    CHECK(u32(answer, 1) == service(name));
-    CHECK(u32(answer, 5) == 9);
+    REQUIRE(until(answered));
+    const std::string& answer = peer.binaries[next];
     CHECK(u32(answer, 9) == 4);
     CHECK(answer.substr(13, 4) == "json");
     return json::parse(answer.substr(17));

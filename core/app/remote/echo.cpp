@@ -94,7 +94,7 @@ class Echo {
     std::printf("%s\n", line.c_str());
   }
 
-  void print_csv(const json& message, double time_s) {
+  void print_csv(const ordered_json& message, double time_s) {
     char time[32];
     std::snprintf(time, sizeof time, "%.9g", time_s);
     std::string line = time;

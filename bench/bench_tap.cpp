@@ -18,9 +18,9 @@
 #include <string>
 #include <vector>
 
-#include "core/app/remote/session.hpp"
+#include "tools/fulmar_live/session.hpp"
 #include "core/run/flight.hpp"
-#include "core/tap/dds/participant.hpp"
+#include "core/dds/participant.hpp"
 
 using namespace fulmar::core;
 using nlohmann::json;

@@ -7,9 +7,9 @@
 #include <iostream>
 
 #include "core/app/extern_command.hpp"
-#include "core/app/log_command.hpp"
-#include "core/app/new_command.hpp"
-#include "core/app/remote/remote.hpp"
+#include "tools/fulmar_log/log_command.hpp"
+#include "tools/fulmar_new/new_command.hpp"
+#include "tools/fulmar_live/remote.hpp"
 #include "core/app/replay_command.hpp"
 #include "core/app/run_command.hpp"
 #include "core/error.hpp"

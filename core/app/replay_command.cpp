@@ -11,9 +11,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/app/compare.hpp"
-#include "core/app/log_command.hpp"
+#include "tools/fulmar_log/log_command.hpp"
 #include "core/app/report.hpp"
-#include "core/run/replay.hpp"
+#include "core/replay/replay.hpp"
 
 namespace fulmar::core {
 namespace {

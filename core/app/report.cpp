@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "core/tap/wire.hpp"
+#include "core/types/wire.hpp"
 
 namespace fulmar::core {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "core/error.hpp"
 #include "core/loader/library.hpp"
-#include "core/loader/type.hpp"
+#include "core/types/type.hpp"
 
 namespace fulmar::core {
 

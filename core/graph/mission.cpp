@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads the keys of a mission file. What they mean together is resolve.cpp's business.
 #include "core/graph/mission.hpp"
-#include "core/loader/names.hpp"
+#include "core/types/names.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/graph/yaml.hpp"
-#include "core/loader/type.hpp"
+#include "core/types/type.hpp"
 
 namespace fulmar::core {
 

@@ -8,7 +8,7 @@
 #include "core/graph/trust.hpp"
 #include "core/loader/home.hpp"
 #include "core/loader/script.hpp"
-#include "core/loader/names.hpp"
+#include "core/types/names.hpp"
 
 namespace fulmar::core {
 namespace fs = std::filesystem;

@@ -3,7 +3,7 @@
 #pragma once
 #include <string>
 
-#include "core/loader/type.hpp"
+#include "core/types/type.hpp"
 
 namespace fulmar::core::inspect_text {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/loader/type.hpp"
+#include "core/types/type.hpp"
 
 namespace fulmar::core {
 

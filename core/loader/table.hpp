@@ -9,7 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/loader/memory.hpp"
-#include "core/loader/type.hpp"
+#include "core/types/type.hpp"
 
 namespace fulmar::core {
 
@@ -61,16 +61,7 @@ class TableReader {
   int depth_ = 0;
 };
 
-/// A name that people can write in a mission file: letters, digits and underscores, no digit first.
-bool is_identifier(std::string_view name);
-
-/// "bool", "f64", "struct".
-const char* kind_word(fulmar_kind kind);
-
-/// Bytes of one element.
-std::uint32_t element_size(const Field& field);
-
-/// Bytes from a field's offset to its end.
-std::uint64_t field_span(const Field& field);
+/// Copies a plugin's type table. Throws Error on a table that contradicts itself (overlap, size, unknown kind).
+TypePtr copy_type(const fulmar_type& type);
 
 }  // namespace fulmar::core

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/loader/type.hpp"
+#include "core/types/type.hpp"
 #include "core/run/allocation.hpp"
 
 namespace fulmar::core {

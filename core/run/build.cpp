@@ -8,10 +8,10 @@
 
 #include "core/run/flight_impl.hpp"
 #include "core/run/flown_plugin.hpp"
-#include "core/run/playback.hpp"
-#include "core/tap/live/gate.hpp"
-#include "core/tap/sbom.hpp"
-#include "core/tap/wire.hpp"
+#include "core/replay/playback.hpp"
+#include "core/live/gate.hpp"
+#include "core/log/sbom.hpp"
+#include "core/types/wire.hpp"
 
 namespace fulmar::core {
 namespace {

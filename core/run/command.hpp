@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/graph/graph.hpp"
-#include "core/tap/events.hpp"
+#include "core/log/events.hpp"
 
 namespace fulmar::core {
 

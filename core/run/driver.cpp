@@ -15,7 +15,7 @@
 #include "core/error.hpp"
 #include "core/run/inside.hpp"
 #include "core/run/realtime.hpp"
-#include "core/tap/wire.hpp"
+#include "core/types/wire.hpp"
 
 namespace fulmar::core {
 namespace {

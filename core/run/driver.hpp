@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/loader/type.hpp"
-#include "core/tap/reader.hpp"
-#include "core/tap/ring.hpp"
+#include "core/types/type.hpp"
+#include "core/log/reader.hpp"
+#include "core/run/ring.hpp"
 
 namespace fulmar::core {
 

@@ -14,8 +14,8 @@
 #include "core/graph/graph.hpp"
 #include "core/run/resume.hpp"
 #include "core/run/stats.hpp"
-#include "core/tap/dds/bridge.hpp"
-#include "core/tap/live/server.hpp"
+#include "core/dds/bridge.hpp"
+#include "core/live/server.hpp"
 #include "core/tap/log.hpp"
 
 namespace fulmar::core {

@@ -9,9 +9,9 @@
 #include "core/run/flight.hpp"
 #include "core/run/flight_control.hpp"
 #include "core/run/unit.hpp"
-#include "core/tap/dds/bridge.hpp"
-#include "core/tap/events.hpp"
-#include "core/tap/live/server.hpp"
+#include "core/dds/bridge.hpp"
+#include "core/log/events.hpp"
+#include "core/live/server.hpp"
 #include "core/tap/tap.hpp"
 
 namespace fulmar::core {

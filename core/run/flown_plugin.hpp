@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/loader/type.hpp"
-#include "core/tap/reader.hpp"
+#include "core/types/type.hpp"
+#include "core/log/reader.hpp"
 
 namespace fulmar::core {
 

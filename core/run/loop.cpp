@@ -9,7 +9,7 @@
 
 #include "core/run/allocation.hpp"
 #include "core/run/flight_impl.hpp"
-#include "core/run/playback.hpp"
+#include "core/replay/playback.hpp"
 #include "core/run/realtime.hpp"
 
 namespace fulmar::core {

@@ -9,8 +9,8 @@
 
 #include "core/graph/condition.hpp"
 #include "core/run/flight_impl.hpp"
-#include "core/tap/reader.hpp"
-#include "core/tap/wire.hpp"
+#include "core/log/reader.hpp"
+#include "core/types/wire.hpp"
 
 namespace fulmar::core {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <vector>
 
-#include "core/loader/type.hpp"
+#include "core/types/type.hpp"
 
 namespace fulmar::core {
 

@@ -21,7 +21,7 @@
 #include "core/run/inside.hpp"
 #include "core/run/stats.hpp"
 #include "core/run/tape.hpp"
-#include "core/tap/hash.hpp"
+#include "core/types/hash.hpp"
 
 namespace fulmar::core {
 

@@ -2,7 +2,7 @@
 // A unit before and between flights: rooms for its ports, its instance in this process or in a child, its parameters.
 #include <cstdio>
 
-#include "core/run/playback.hpp"
+#include "core/replay/playback.hpp"
 #include "core/run/realtime.hpp"
 #include "core/run/unit.hpp"
 

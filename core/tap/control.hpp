@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/graph/graph.hpp"
-#include "core/loader/type.hpp"
+#include "core/types/type.hpp"
 
 namespace fulmar::core {
 

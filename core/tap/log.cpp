@@ -14,9 +14,9 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/tap/mcap.hpp"
+#include "core/log/mcap.hpp"
 #include "core/tap/tap.hpp"
-#include "core/tap/wire.hpp"
+#include "core/types/wire.hpp"
 
 namespace fulmar::core {
 namespace {

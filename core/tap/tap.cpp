@@ -11,7 +11,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/tap/element.hpp"
+#include "core/types/element.hpp"
 
 namespace fulmar::core {
 namespace {

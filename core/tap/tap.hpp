@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "core/loader/type.hpp"
+#include "core/types/type.hpp"
 
 namespace fulmar::core {
 

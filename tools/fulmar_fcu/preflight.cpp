@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/loader/table.hpp"
 #include "core/graph/record.hpp"
 #include "tools/fulmar_fcu/mixer.hpp"
 #include "tools/fulmar_fcu/radio.hpp"

@@ -7,7 +7,7 @@
 #include "core/app/report.hpp"
 #include "core/graph/params.hpp"
 #include "core/graph/record.hpp"
-#include "core/tap/wire.hpp"
+#include "core/types/wire.hpp"
 #include "values.hpp"
 
 namespace fulmar::module {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "core/tap/wire.hpp"
+#include "core/types/wire.hpp"
 
 namespace fulmar::module {
 namespace py = pybind11;

@@ -3,7 +3,7 @@
 #pragma once
 #include <pybind11/pybind11.h>
 
-#include "core/loader/type.hpp"
+#include "core/types/type.hpp"
 
 namespace fulmar::module {
 

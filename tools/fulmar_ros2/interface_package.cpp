@@ -11,8 +11,8 @@
 
 #include "core/error.hpp"
 #include "core/run/flight_impl.hpp"
-#include "core/tap/ros_service.hpp"
-#include "core/tap/wire.hpp"
+#include "core/types/ros_service.hpp"
+#include "core/types/wire.hpp"
 
 namespace fulmar::ros2 {
 namespace {

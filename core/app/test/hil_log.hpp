@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "core/loader/type.hpp"
-#include "core/tap/reader.hpp"
-#include "core/tap/wire.hpp"
+#include "core/loader/table.hpp"
+#include "core/types/type.hpp"
+#include "core/log/reader.hpp"
+#include "core/types/wire.hpp"
 #include "fulmar/schema.hpp"
 
 namespace fulmar::fcu::testing {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Flights are flown again from their logs: equal bytes, or the first tick and field that differ.
-#include "core/run/replay.hpp"
+#include "core/replay/replay.hpp"
 
 #include <sys/wait.h>
 
@@ -13,8 +13,8 @@
 
 #include "core/run/allocation.hpp"
 #include "core/run/test/lab.hpp"
-#include "core/tap/reader.hpp"
-#include "core/tap/recover.hpp"
+#include "core/log/reader.hpp"
+#include "tools/fulmar_log/recover.hpp"
 
 namespace {
 

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "core/run/flight.hpp"
-#include "core/tap/reader.hpp"
+#include "core/log/reader.hpp"
 
 using namespace fulmar::core;
 namespace fs = std::filesystem;

@@ -24,10 +24,11 @@
 #include <thread>
 #include <vector>
 
-#include "core/app/remote/session.hpp"
+#include "tools/fulmar_live/session.hpp"
+#include "core/loader/table.hpp"
 #include "core/app/test/standstill.hpp"
-#include "core/tap/reader.hpp"
-#include "core/tap/wire.hpp"
+#include "core/log/reader.hpp"
+#include "core/types/wire.hpp"
 #include "fulmar/msg/plan_edit.hpp"
 #include "fulmar/schema.hpp"
 

@@ -5,7 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/loader/type.hpp"
+#include "core/loader/table.hpp"
+#include "core/types/type.hpp"
 #include "fulmar/schema.hpp"
 
 namespace fulmar::core::test {

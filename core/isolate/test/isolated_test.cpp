@@ -6,7 +6,7 @@
 #include <random>
 
 #include "core/run/allocation.hpp"
-#include "core/tap/wire.hpp"
+#include "core/types/wire.hpp"
 #include "workshop.hpp"
 
 namespace isolated_test {

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "core/error.hpp"
-#include "core/loader/type.hpp"
+#include "core/types/type.hpp"
 #include "tables.hpp"
 
 namespace copy_plan_test {

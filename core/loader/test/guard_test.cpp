@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "core/loader/type.hpp"
+#include "core/types/type.hpp"
 #include "tables.hpp"
 
 namespace guard_test {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/loader/table.hpp"
 #include "fulmar/abi.h"
 
 namespace tables {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/loader/type.hpp"
+#include "core/types/type.hpp"
 
 #include <doctest/doctest.h>
 

@@ -13,8 +13,8 @@
 
 #include "core/run/allocation.hpp"
 #include "core/run/test/lab.hpp"
-#include "core/tap/reader.hpp"
-#include "core/tap/wire.hpp"
+#include "core/log/reader.hpp"
+#include "core/types/wire.hpp"
 
 namespace flight_test {
 

@@ -11,8 +11,8 @@
 
 #include "core/run/resume.hpp"
 #include "core/run/test/lab.hpp"
-#include "core/tap/events.hpp"
-#include "core/tap/reader.hpp"
+#include "core/log/events.hpp"
+#include "core/log/reader.hpp"
 
 namespace hardware_test {
 

@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "core/run/test/lab.hpp"
-#include "core/tap/reader.hpp"
+#include "core/log/reader.hpp"
 
 namespace modes_test {
 

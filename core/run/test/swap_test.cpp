@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A component's file is swapped on the ground, in a host that goes on: parameters stay, a bad newcomer leaves the old one flying-ready.
 #include "core/run/test/lab.hpp"
-#include "core/tap/reader.hpp"
+#include "core/log/reader.hpp"
 
 namespace swap_test {
 

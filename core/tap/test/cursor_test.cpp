@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/tap/tap.hpp"
-#include "core/tap/test/types.hpp"
+#include "core/types/test/types.hpp"
 
 namespace cursor_test {
 

@@ -16,13 +16,13 @@
 #include <thread>
 
 #include "core/error.hpp"
-#include "core/tap/out_file.hpp"
-#include "core/tap/reader.hpp"
-#include "core/tap/recover.hpp"
-#include "core/tap/sha256.hpp"
+#include "core/log/out_file.hpp"
+#include "core/log/reader.hpp"
+#include "tools/fulmar_log/recover.hpp"
+#include "core/types/sha256.hpp"
 #include "core/tap/test/taped_log.hpp"
-#include "core/tap/test/types.hpp"
-#include "core/tap/wire.hpp"
+#include "core/types/test/types.hpp"
+#include "core/types/wire.hpp"
 
 namespace log_test {
 

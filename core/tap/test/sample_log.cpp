@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "core/tap/reader.hpp"
+#include "core/log/reader.hpp"
 #include "core/tap/test/taped_log.hpp"
-#include "core/tap/test/types.hpp"
-#include "core/tap/wire.hpp"
+#include "core/types/test/types.hpp"
+#include "core/types/wire.hpp"
 
 using namespace fulmar::core;
 using namespace fulmar::core::test;

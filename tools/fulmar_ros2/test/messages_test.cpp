@@ -5,7 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/tap/wire.hpp"
+#include "core/loader/table.hpp"
+#include "core/types/wire.hpp"
 #include "fulmar/schema.hpp"
 #include "plugins/ros_bridge/rosplane_messages.hpp"
 

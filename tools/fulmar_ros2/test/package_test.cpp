@@ -15,9 +15,9 @@
 
 #include "core/loader/library.hpp"
 #include "core/run/flight_control.hpp"
-#include "core/tap/reader.hpp"
-#include "core/tap/ros_parse.hpp"
-#include "core/tap/wire.hpp"
+#include "core/log/reader.hpp"
+#include "core/types/ros_parse.hpp"
+#include "core/types/wire.hpp"
 #include "tools/fulmar_ros2/interface_package.hpp"
 
 namespace package_test {

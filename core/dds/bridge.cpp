@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// See bridge.hpp. Two threads beside those of Fast DDS: one sends what the loop publishes, one takes what comes in.
+#include "core/dds/bridge.hpp"
+
+#include <pthread.h>
+#include <signal.h>
+#include <spdlog/spdlog.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "core/error.hpp"
+#include "core/dds/services.hpp"
+#include "core/dds/topics.hpp"
+
+namespace fulmar::core {
+namespace {
+
+constexpr std::chrono::milliseconds nap{2};       // of the thread that sends when the ring is empty; the loop never pays for waking it
+constexpr std::chrono::milliseconds breath{2};    // between two looks at what comes in: a flood does not take a processor
+constexpr std::chrono::milliseconds longest{50};  // sleep of the thread that takes
+
+/// Threads that are created meanwhile take no signals: those are for the main thread.
+class NoSignals {
+ public:
+  NoSignals() {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before_);
+  }
+  ~NoSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  NoSignals(const NoSignals&) = delete;
+  NoSignals& operator=(const NoSignals&) = delete;
+
+ private:
+  sigset_t before_{};
+};
+
+}  // namespace
+
+struct DdsBridge::Impl {
+  DdsOptions options;
+  std::shared_ptr<dds::Waker> waker = std::make_shared<dds::Waker>();
+  dds::Others others;
+  std::unique_ptr<dds::Participant> owner;  // made after the topics are known, ends after them
+  dds::Exports exports;
+  dds::Imports imports;
+  dds::Servers servers;
+  std::unique_ptr<dds::ParameterEvents> events;
+  std::unique_ptr<dds::NodeInfo> node;
+  std::atomic<std::uint64_t> requests{0}, requests_refused{0};
+  std::atomic<bool> stop{false};
+  std::thread sender, taker;
+
+  Impl(Tap& tap, Control& control, const FlightView& view, const DdsOptions& o)
+      : options(o), exports(tap, options, others), imports(control, view, options, others) {
+    owner = std::make_unique<dds::Participant>(options, found());
+    dds::Participant& participant = *owner;
+    exports.open(participant);
+    imports.open(participant, *waker);
+    if (options.services) add_request_services(servers, participant, options, control, view, waker);
+    if (options.parameters) {
+      add_parameter_services(servers, participant, options, control, waker);
+      events = std::make_unique<dds::ParameterEvents>(participant, options, control, waker);
+    }
+    std::vector<dds::Guid> readers = imports.readers(), writers = exports.writers();
+    for (const auto& server : servers) {
+      readers.push_back(server->reader().guid());
+      writers.push_back(server->writer().guid());
+    }
+    if (events) writers.push_back(events->writer().guid());
+    node = std::make_unique<dds::NodeInfo>(participant, options, readers, writers);
+    sender = std::thread([this] { guarded([this] { send(); }); });
+    taker = std::thread([this] { guarded([this] { take(); }); });
+    pthread_setname_np(sender.native_handle(), "fulmar-dds-out");
+    pthread_setname_np(taker.native_handle(), "fulmar-dds-in");
+  }
+
+  ~Impl() {
+    stop.store(true);
+    waker->wake();
+    if (sender.joinable()) sender.join();
+    if (taker.joinable()) taker.join();
+  }
+
+  dds::Participant::Found found() {
+    return [this](const std::string& topic, const std::string& type, bool writer, bool best_effort) {
+      others.found(topic, type, writer, best_effort);
+    };
+  }
+
+  /// Whatever happens here, the flight goes on.
+  template <class F>
+  static void guarded(F&& f) noexcept {
+    try {
+      f();
+    } catch (const std::exception& e) {
+      spdlog::error("dds ends early: {}", e.what());
+    }
+  }
+
+  void send() {
+    while (!stop.load(std::memory_order_relaxed)) {
+      exports.pump();
+      std::this_thread::sleep_for(nap);
+    }
+    exports.pump();
+  }
+
+  void take() {
+    bool all = true;
+    while (!stop.load(std::memory_order_relaxed)) {
+      if (all) waker->wait(longest);
+      all = imports.pump(*owner, *waker);
+      std::uint64_t taken = 0, refused = 0;
+      for (const auto& server : servers) {
+        all = server->serve() && !server->waiting() && all;
+        taken += server->taken();
+        refused += server->refused();
+      }
+      requests.store(taken, std::memory_order_relaxed);
+      requests_refused.store(refused, std::memory_order_relaxed);
+      if (events) events->pump();
+      std::this_thread::sleep_for(breath);
+    }
+  }
+};
+
+DdsBridge::DdsBridge(Tap& tap, Control& control, const DdsOptions& options) {
+  const NoSignals quiet;
+  impl_ = std::make_unique<Impl>(tap, control, control.view(), options);
+}
+
+DdsBridge::~DdsBridge() = default;
+
+DdsStats DdsBridge::stats() const {
+  DdsStats stats;
+  stats.sent = impl_->exports.sent();
+  stats.lost = impl_->exports.lost();
+  stats.requests = impl_->requests.load(std::memory_order_relaxed);
+  stats.refused = impl_->requests_refused.load(std::memory_order_relaxed);
+  stats.imports = impl_->imports.stats();
+  for (const DdsStats::Import& i : stats.imports) {
+    stats.received += i.received;
+    stats.refused += i.refused;
+    stats.lost += i.lost;
+  }
+  return stats;
+}
+
+}  // namespace fulmar::core

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Requests as ROS 2 services, and the parameters of all components as those of one ROS 2 node, so that `ros2 service`, `ros2 param` and rqt
+// reach a flight.
+#pragma once
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/tap/control.hpp"
+#include "core/dds/participant.hpp"
+#include "core/dds/rcl.hpp"
+#include "core/dds/server.hpp"
+
+namespace fulmar::core::dds {
+
+/// The node that parameters belong to: "/fulmar", or "/uav1/fulmar".
+inline constexpr const char* node_name = "fulmar";
+
+using Servers = std::vector<std::unique_ptr<Server>>;
+
+/// A service per request port: "/plan/edit", type fulmar_msgs/srv/PlanEdit.
+void add_request_services(Servers& servers, Participant& participant, const DdsOptions& options, Control& control, const FlightView& view,
+                          const std::shared_ptr<Waker>& waker);
+
+/// The services of a node that has parameters: "slc.roll_kp" is the parameter roll_kp of the component slc.
+void add_parameter_services(Servers& servers, Participant& participant, const DdsOptions& options, Control& control,
+                            const std::shared_ptr<Waker>& waker);
+
+/// Topic /parameter_events: tells of each change, whoever made it.
+class ParameterEvents {
+ public:
+  ParameterEvents(Participant& participant, const DdsOptions& options, Control& control, std::shared_ptr<Waker> waker);
+  void pump();
+  const Writer& writer() const { return *writer_; }
+
+ private:
+  struct Inbox {
+    std::mutex mutex;
+    std::vector<std::pair<std::string, std::string>> changed;
+    std::shared_ptr<Waker> waker;
+  };
+  Control& control_;
+  std::string node_;
+  std::unique_ptr<Writer> writer_;
+  std::shared_ptr<Inbox> inbox_;
+};
+
+/// Topic ros_discovery_info: says which endpoints belong to the node, without which ROS 2 tools do not see one.
+class NodeInfo {
+ public:
+  NodeInfo(Participant& participant, const DdsOptions& options, const std::vector<Guid>& readers, const std::vector<Guid>& writers);
+
+ private:
+  std::unique_ptr<Writer> writer_;
+};
+
+/// A parameter as ROS 2 sees it. For tests.
+RclType rcl_type(const ParamInfo& info);
+RclValue rcl_value(const ParameterView& parameter);
+/// The text that a mission file would have for it. Throws Error when the parameter has no such values.
+std::string parameter_text(const ParamInfo& info, const RclValue& value);
+
+}  // namespace fulmar::core::dds

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// See describe.hpp. Source of the protocol's messages: the Foxglove WebSocket protocol, version 1.
+#include "core/live/describe.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/graph/params.hpp"
+#include "core/types/wire.hpp"
+
+namespace fulmar::core::live {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* answer_text = "bool accepted\nstring reason\n";
+
+std::string topic_of(const Tap& tap, const ComponentView& component, const PortView& port) {
+  const auto channel = static_cast<std::size_t>(port.channel);
+  if (port.channel >= 0 && channel < tap.channels().size()) return tap.channels()[channel].topic;
+  return "/" + component.name + "/" + port.name;
+}
+
+/// "fulmar_msgs/msg/Waypoint" -> "fulmar_msgs/srv/Waypoint".
+std::string service_type(const std::string& message) {
+  const std::size_t at = message.find("/msg/");
+  return at == std::string::npos ? message : message.substr(0, at) + "/srv/" + message.substr(at + 5);
+}
+
+struct Form {
+  std::string type, request_name, request, response;
+};
+
+Form form_of(const Service& service) {
+  if (service.what == Service::What::request) {
+    const std::string name = ros_name(*service.type);
+    return {service_type(name), name, ros_definition(*service.type), answer_text};
+  }
+  static const std::map<Service::What, const char*> words = {{Service::What::set_parameter, "SetParameter"},
+                                                             {Service::What::phase, "EnterPhase"},
+                                                             {Service::What::swap, "Swap"},
+                                                             {Service::What::reset_guards, "ResetGuards"},
+                                                             {Service::What::view, "View"}};
+  Form form;
+  form.type = std::string("fulmar_msgs/srv/") + words.at(service.what);
+  form.request_name = form.type + "_Request";
+  for (const std::string& argument : service.arguments) form.request += "string " + argument + "\n";
+  form.response = service.what == Service::What::view ? "string json\n" : answer_text;
+  return form;
+}
+
+const char* kind_word(fulmar_param_kind kind) {
+  switch (kind) {
+    case FULMAR_NUMBER:
+      return "number";
+    case FULMAR_FLAG:
+      return "flag";
+    case FULMAR_COUNT:
+      return "count";
+    case FULMAR_CHOICE:
+      return "choice";
+    case FULMAR_STRING:
+      return "text";
+    case FULMAR_VECTOR:
+      return "vector";
+    case FULMAR_RECORD:
+      return "record";
+    case FULMAR_BLOB:
+      return "blob";
+  }
+  return "";
+}
+
+json finite(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+
+json value_json(const ParamInfo& info, const ParamValue& value) {
+  switch (info.kind) {
+    case FULMAR_NUMBER:
+      return finite(value.number[0]);
+    case FULMAR_FLAG:
+      return value.integer != 0;
+    case FULMAR_COUNT:
+      return value.integer;
+    case FULMAR_CHOICE:
+      if (value.integer >= 0 && static_cast<std::size_t>(value.integer) < info.choices.size())
+        return info.choices[static_cast<std::size_t>(value.integer)];
+      return value.integer;
+    case FULMAR_VECTOR:
+      return {finite(value.number[0]), finite(value.number[1]), finite(value.number[2])};
+    default:
+      return value.text;
+  }
+}
+
+json param_json(const ParameterView& parameter) {
+  const ParamInfo& info = parameter.info;
+  return {{"name", info.name},
+          {"kind", kind_word(info.kind)},
+          {"unit", info.unit},
+          {"doc", info.doc},
+          {"value", value_json(info, parameter.base)},
+          {"text", value_text(info, parameter.base)},
+          {"initial", value_json(info, initial_value(info))},
+          {"min", finite(info.min)},
+          {"max", finite(info.max)},
+          {"choices", info.choices},
+          {"live", info.live},
+          {"required", info.required},
+          {"overlaid", parameter.overlaid}};
+}
+
+json port_json(const Tap& tap, const ComponentView& component, const PortView& port, bool input) {
+  json result{{"name", port.name}, {"type", port.type ? ros_name(*port.type) : ""}};
+  if (!input || port.request || port.imported) result["topic"] = topic_of(tap, component, port);
+  if (!input) return result;
+  result["source"] = port.source;
+  result["request"] = port.request;
+  result["imported"] = port.imported;
+  return result;
+}
+
+json component_json(const ComponentView& component, const Tap& tap) {
+  json params = json::array(), inputs = json::array(), outputs = json::array();
+  for (const ParameterView& p : component.params) params.push_back(param_json(p));
+  for (const PortView& p : component.inputs) inputs.push_back(port_json(tap, component, p, true));
+  for (const PortView& p : component.outputs) outputs.push_back(port_json(tap, component, p, false));
+  return {{"name", component.name}, {"use", component.use},       {"role", component.role},       {"doc", component.doc},
+          {"run", component.run},   {"active", component.active}, {"stopped", component.stopped}, {"params", params},
+          {"inputs", inputs},       {"outputs", outputs}};
+}
+
+/// The topics behind "nav.state": of the component, or of all that fill the role.
+std::vector<std::string> topics_of_source(const FlightView& view, const Tap& tap, const std::string& source) {
+  std::vector<std::string> topics;
+  const std::size_t dot = source.find('.');
+  if (dot == std::string::npos) return topics;
+  const std::string owner = source.substr(0, dot), port = source.substr(dot + 1);
+  for (const ComponentView& c : view.components) {
+    if (c.name != owner && c.role != owner) continue;
+    for (const PortView& p : c.outputs)
+      if (p.name == port) topics.push_back(topic_of(tap, c, p));
+  }
+  return topics;
+}
+
+json lists(const std::map<std::string, std::vector<std::string>>& map, const char* key) {
+  json list = json::array();
+  for (const auto& [name, ids] : map) list.push_back({{"name", name}, {key, ids}});
+  return list;
+}
+
+}  // namespace
+
+std::vector<Service> services_of(const FlightView& view) {
+  using What = Service::What;
+  std::vector<Service> list = {{What::set_parameter, "/fulmar/set_parameter", "", "", {}, {"component", "name", "text"}},
+                               {What::phase, "/fulmar/phase", "", "", {}, {"phase"}},
+                               {What::swap, "/fulmar/swap", "", "", {}, {"component", "file"}},
+                               {What::reset_guards, "/fulmar/reset_guards", "", "", {}, {}},
+                               {What::view, "/fulmar/view", "", "", {}, {}}};
+  for (const ComponentView& c : view.components)
+    for (const PortView& p : c.inputs)
+      if (p.request && p.type) list.push_back({What::request, "/" + c.name + "/" + p.name, c.name, p.name, p.type, {}});
+  return list;
+}
+
+json advertise(const Tap& tap) {
+  json channels = json::array();
+  for (const TapChannel& c : tap.channels()) {
+    channels.push_back({{"id", channels.size() + 1},
+                        {"topic", c.topic},
+                        {"encoding", "cdr"},
+                        {"schemaName", ros_name(*c.type)},
+                        {"schemaEncoding", "ros2msg"},
+                        {"schema", ros_definition(*c.type)}});
+  }
+  return {{"op", "advertise"}, {"channels", channels}};
+}
+
+json advertise_services(const std::vector<Service>& services) {
+  json list = json::array();
+  for (const Service& s : services) {
+    const Form form = form_of(s);
+    const auto side = [](const std::string& name, const std::string& text) {
+      return json{{"encoding", "cdr"}, {"schemaName", name}, {"schemaEncoding", "ros2msg"}, {"schema", text}};
+    };
+    list.push_back({{"id", list.size() + 1},
+                    {"name", s.name},
+                    {"type", form.type},
+                    {"request", side(form.request_name, form.request)},
+                    {"response", side(form.type + "_Response", form.response)},
+                    {"requestSchema", form.request},  // for clients from before `request`
+                    {"responseSchema", form.response}});
+  }
+  return {{"op", "advertiseServices"}, {"services", list}};
+}
+
+json connection_graph(const FlightView& view, const Tap& tap, const std::vector<Service>& services) {
+  std::map<std::string, std::vector<std::string>> published, subscribed, provided;
+  for (const ComponentView& c : view.components) {
+    for (const PortView& p : c.outputs) published[topic_of(tap, c, p)].push_back(c.name);
+    for (const PortView& p : c.inputs) {
+      if (p.imported) subscribed["/" + c.name + "/" + p.name].push_back(c.name);
+      for (const std::string& topic : topics_of_source(view, tap, p.source)) subscribed[topic].push_back(c.name);
+    }
+  }
+  for (const TapChannel& c : tap.channels())
+    if (c.topic.starts_with("/fulmar/")) published[c.topic].push_back("fulmar");
+  for (const Service& s : services) provided[s.name].push_back(s.component.empty() ? "fulmar" : s.component);
+  return {{"op", "connectionGraphUpdate"},
+          {"publishedTopics", lists(published, "publisherIds")},
+          {"subscribedTopics", lists(subscribed, "subscriberIds")},
+          {"advertisedServices", lists(provided, "providerIds")},
+          {"removedTopics", json::array()},
+          {"removedServices", json::array()}};
+}
+
+json view_json(const FlightView& view, const Tap& tap) {
+  json components = json::array();
+  for (const ComponentView& c : view.components) components.push_back(component_json(c, tap));
+  return {{"mission", view.mission}, {"file", view.file},         {"io", view.io},       {"phase", view.phase}, {"phases", view.phases},
+          {"now_ns", view.now_ns},   {"epoch_ns", view.epoch_ns}, {"armed", view.armed}, {"over", view.over},   {"components", components}};
+}
+
+json parameter_json(const std::string& name, const ParameterView& parameter) {
+  json result{{"name", name}};
+  json value = value_json(parameter.info, parameter.base);
+  const bool number = parameter.info.kind == FULMAR_NUMBER, vector = parameter.info.kind == FULMAR_VECTOR;
+  const bool whole =
+      !value.is_null() && !(value.is_array() && std::any_of(value.begin(), value.end(), [](const json& v) { return v.is_null(); }));
+  if (whole) result["value"] = std::move(value);
+  if (whole && number) result["type"] = "float64";
+  if (whole && vector) result["type"] = "float64_array";
+  return result;
+}
+
+const ParameterView* find_parameter(const FlightView& view, std::string_view name) {
+  const std::size_t dot = name.find('.');
+  if (dot == std::string_view::npos) return nullptr;
+  for (const ComponentView& c : view.components) {
+    if (c.name != name.substr(0, dot)) continue;
+    for (const ParameterView& p : c.params)
+      if (p.info.name == name.substr(dot + 1)) return &p;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> parameter_names(const FlightView& view) {
+  std::vector<std::string> names;
+  for (const ComponentView& c : view.components)
+    for (const ParameterView& p : c.params) names.push_back(c.name + "." + p.info.name);
+  return names;
+}
+
+std::string mission_text(const json& value, bool text_parameter) {
+  return value.is_string() && !text_parameter ? value.get<std::string>() : dumped(value);
+}
+
+std::string dumped(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
+
+}  // namespace fulmar::core::live

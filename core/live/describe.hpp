@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A flight in the words of the live protocol: channels, services, parameters, connection graph, and the whole view as JSON.
+//
+// The view, answer of the service /fulmar/view:
+//   {mission, file, io, phase, phases: [..], now_ns, epoch_ns, armed, over, components: [
+//     {name, use, role, doc, run, active, stopped,
+//      params:  [{name, kind, unit, doc, value, text, initial, min, max, choices, live, required, overlaid, file}],
+//      inputs:  [{name, type, source, request, imported, topic}],
+//      outputs: [{name, type, topic}]}]}
+// `value` is in the parameter's unit, `text` as people write it ("0.55 rad/rad"); `type` is a ROS 2 name, "" for a probe; `topic` is that
+// of the channel, of the service for a request, or that an imported input is published on.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/types/type.hpp"
+#include "core/tap/control.hpp"
+#include "core/tap/tap.hpp"
+
+namespace fulmar::core::live {
+
+/// A service of the protocol: a request of a component, or one of the host's own.
+struct Service {
+  enum class What : std::uint8_t { request, set_parameter, phase, swap, reset_guards, view };
+  What what = What::request;
+  std::string name;                    // "/plan/add_waypoints"
+  std::string component, port;         // of a request
+  TypePtr type;                        // of a request
+  std::vector<std::string> arguments;  // of the host's own: texts
+};
+std::vector<Service> services_of(const FlightView& view);
+
+/// Channel and service ids are indexes, counted from 1.
+nlohmann::json advertise(const Tap& tap);
+nlohmann::json advertise_services(const std::vector<Service>& services);
+nlohmann::json connection_graph(const FlightView& view, const Tap& tap, const std::vector<Service>& services);
+nlohmann::json view_json(const FlightView& view, const Tap& tap);
+
+/// {name, value, type} as the protocol has it; no value when the parameter's is no finite number.
+nlohmann::json parameter_json(const std::string& name, const ParameterView& parameter);
+/// The parameter "slc.roll_kp", or nullptr.
+const ParameterView* find_parameter(const FlightView& view, std::string_view name);
+std::vector<std::string> parameter_names(const FlightView& view);
+/// A value as a mission file would have it. Texts stay as they are ("20 deg"), unless the parameter is one.
+std::string mission_text(const nlohmann::json& value, bool text_parameter);
+
+/// XCDR1 of {bool accepted, string reason}, and of {string text}.
+std::string cdr_answer(bool accepted, std::string_view reason);
+std::string cdr_text(std::string_view text);
+/// XCDR1 of so many strings. Throws Error.
+std::vector<std::string> cdr_texts(std::string_view bytes, std::size_t count);
+
+/// JSON as text; bytes that are not UTF-8 are replaced.
+std::string dumped(const nlohmann::json& value);
+
+}  // namespace fulmar::core::live

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// See gate.hpp.
+#include "core/live/gate.hpp"
+
+#include <arpa/inet.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "core/error.hpp"
+
+namespace fulmar::core::live {
+namespace {
+
+std::string lower(std::string_view text) {
+  std::string s(text);
+  std::transform(s.begin(), s.end(), s.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return s;
+}
+
+bool is_address(const std::string& host) {
+  in6_addr room{};
+  return inet_pton(AF_INET, host.c_str(), &room) == 1 || inet_pton(AF_INET6, host.c_str(), &room) == 1;
+}
+
+bool is_any(const std::string& host) { return host == "0.0.0.0" || host == "::"; }
+
+int hex(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+}
+
+std::string percent_decoded(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '%' && i + 2 < text.size() && hex(text[i + 1]) >= 0 && hex(text[i + 2]) >= 0) {
+      out += static_cast<char>(hex(text[i + 1]) * 16 + hex(text[i + 2]));
+      i += 2;
+    } else {
+      out += text[i];
+    }
+  }
+  return out;
+}
+
+/// The token that a request shows, "" when it shows none.
+std::string shown_token(const Caller& caller) {
+  constexpr std::string_view bearer = "bearer ";
+  if (lower(caller.authorization).starts_with(bearer)) return caller.authorization.substr(bearer.size());
+  std::string_view rest = caller.target;
+  const std::size_t query = rest.find('?');
+  if (query == std::string_view::npos) return "";
+  rest.remove_prefix(query + 1);
+  while (!rest.empty()) {
+    const std::string_view pair = rest.substr(0, rest.find('&'));
+    if (pair.starts_with("token=")) return percent_decoded(pair.substr(6));
+    rest.remove_prefix(std::min(rest.size(), pair.size() + 1));
+  }
+  return "";
+}
+
+std::string authority_of_origin(const std::string& origin) {
+  for (const std::string_view scheme : {"http://", "https://"})
+    if (origin.starts_with(scheme)) return origin.substr(scheme.size());
+  return "";
+}
+
+/// An address cannot be made to point elsewhere, a name can.
+bool host_is_ours(const LiveOptions& options, const std::string& host) {
+  return is_loopback(host) || host == lower(options.host) || (is_any(options.host) && is_address(host));
+}
+
+bool origin_is_ours(const Caller& caller) {
+  const std::string origin = lower(authority_of_origin(caller.origin));
+  return !origin.empty() && (origin == lower(caller.host) || is_loopback(host_of_authority(origin)));
+}
+
+}  // namespace
+
+void check_options(const LiveOptions& options) {
+  if (!options.token.empty() || is_loopback(lower(options.host))) return;
+  throw Error("live.listen: " + options.host +
+              " can be reached from other computers. Give a token in FULMAR_TOKEN or live.token, which every client then has to show, or listen on 127.0.0.1");
+}
+
+Verdict admit(const LiveOptions& options, const Caller& caller) {
+  const std::string host = host_of_authority(lower(caller.host));
+  if (host.empty()) return {400, "The request names no host."};
+  if (!options.token.empty()) {
+    if (same_secret(shown_token(caller), options.token)) return {};
+    return {401, "This flight wants its token: ?token=... behind the address, or the header 'Authorization: Bearer ...'."};
+  }
+  if (!host_is_ours(options, host))
+    return {403, "This flight does not answer to the name '" + host + "'; use the address that it listens on."};
+  if (!caller.origin.empty() && !origin_is_ours(caller))
+    return {403, "Pages of '" + caller.origin + "' may not speak to this flight. Set live.token in the mission and give it: ?token=..."};
+  return {};
+}
+
+std::string_view path_of(std::string_view target) { return target.substr(0, target.find('?')); }
+
+std::string host_of_authority(std::string_view authority) {
+  if (authority.find_first_of("@/ ") != std::string_view::npos) return "";
+  if (authority.starts_with('[')) {
+    const std::size_t end = authority.find(']');
+    return end == std::string_view::npos ? "" : std::string(authority.substr(1, end - 1));
+  }
+  return std::string(authority.substr(0, authority.find(':')));
+}
+
+bool is_loopback(const std::string& host) {
+  in_addr v4{};
+  if (inet_pton(AF_INET, host.c_str(), &v4) == 1) return (ntohl(v4.s_addr) >> 24) == 127;
+  return host == "localhost" || host == "::1";
+}
+
+bool same_secret(std::string_view a, std::string_view b) {
+  volatile unsigned char difference = a.size() == b.size() ? 0 : 1;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const char other = b.empty() ? '\0' : b[i % b.size()];
+    difference = static_cast<unsigned char>(difference | static_cast<unsigned char>(a[i] ^ other));
+  }
+  return difference == 0;
+}
+
+Bucket::Clock::duration Bucket::take(double cost, Clock::time_point now) {
+  level_ = std::min(burst_, level_ + rate_ * std::chrono::duration<double>(now - at_).count()) - cost;
+  at_ = now;
+  if (level_ >= 0) return {};
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(-level_ / rate_));
+}
+
+}  // namespace fulmar::core::live

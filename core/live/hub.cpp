@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// See hub.hpp. Clients, samples, status.
+#include "core/live/hub.hpp"
+
+#include <algorithm>
+#include <random>
+
+#include "core/live/hub_impl.hpp"
+
+namespace fulmar::core::live {
+namespace {
+
+using nlohmann::json;
+using std::chrono::steady_clock;
+
+constexpr std::size_t most_unanswered = 4096;
+constexpr std::size_t samples_per_turn = 8192;  // then clients are heard again
+constexpr std::chrono::milliseconds time_period{50};
+constexpr std::chrono::seconds drops_period{1};
+constexpr int depth_limit = 32;
+// A port that may stay silent and does not: so many samples in a row, each within this time of the one before. Nobody waits for its next
+// one, and the loop need not copy it while nobody looks.
+constexpr std::size_t stream_samples = 400;
+constexpr std::int64_t stream_gap_ns = 100'000'000;
+constexpr char op_data = 1, op_time = 2;
+
+std::shared_ptr<const std::string> shared(std::string text) { return std::make_shared<const std::string>(std::move(text)); }
+
+template <class T>
+void put(char* to, T value) {
+  std::memcpy(to, &value, sizeof value);
+}
+
+/// Distinguishes two runs on one port, so that a client that comes back knows that it is another flight.
+std::string session_id() {
+  std::random_device random;
+  return std::to_string(random()) + std::to_string(random());
+}
+
+}  // namespace
+
+bool too_deep(std::string_view text) {
+  int depth = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quoted && c == '\\') ++i;
+    if (c == '"') quoted = !quoted;
+    if (quoted) continue;
+    if ((c == '[' || c == '{') && ++depth > depth_limit) return true;
+    if (c == ']' || c == '}') --depth;
+  }
+  return false;
+}
+
+void Mailbox::post(std::function<void()> task) {
+  const std::lock_guard lock(mutex_);
+  if (!open_) return;
+  tasks_.push_back(std::move(task));
+  if (tasks_.size() == 1) wake_();
+}
+
+std::vector<std::function<void()>> Mailbox::take() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(tasks_, {});
+}
+
+void Mailbox::close() {
+  const std::lock_guard lock(mutex_);
+  open_ = false;
+  tasks_.clear();
+}
+
+Hub::Hub(Tap& tap, Control& control, Counters& counters) : tap_(tap), control_(control), counters_(counters) {
+  const FlightView now = view();
+  mission_ = now.mission;
+  services_ = services_of(now);
+  for (const std::string& name : parameter_names(now))
+    if (find_parameter(now, name)->info.kind == FULMAR_STRING) text_parameters_.insert(name);
+  std::size_t largest = 0;
+  for (const TapChannel& c : tap_.channels()) {
+    channels_.push_back({CdrEncoder(*c.type), {}, c.may_stay_silent});
+    largest = std::max(largest, channels_.back().encoder.max_size());
+  }
+  scratch_.resize(largest);
+  const json info = {{"op", "serverInfo"},
+                     {"name", "Fulmar: " + now.mission},
+                     {"capabilities", {"clientPublish", "parameters", "parametersSubscribe", "services", "connectionGraph", "time"}},
+                     {"supportedEncodings", {"cdr", "json"}},
+                     {"metadata", {{"mission", now.mission}, {"io", now.io}, {"version", FULMAR_VERSION}}},
+                     {"sessionId", session_id()}};
+  info_ = shared(dumped(info));
+  advertisement_ = shared(dumped(advertise(tap_)));
+  service_list_ = shared(dumped(advertise_services(services_)));
+}
+
+Hub::~Hub() { close(); }
+
+void Hub::begin(std::function<void()> wake) {
+  mailbox_ = std::make_shared<Mailbox>(std::move(wake));
+  cursor_ = std::make_unique<Tap::Cursor>(tap_);
+  for (std::size_t i = 0; i < channels_.size(); ++i)
+    if (channels_[i].keeps) cursor_->want(i, 0);
+  control_.on_parameter([this, mailbox = mailbox_](const std::string& component, const std::string& param) {
+    mailbox->post([this, name = component + "." + param] { changed_.insert(name); });
+  });
+}
+
+void Hub::close() {
+  if (mailbox_) mailbox_->close();
+}
+
+Hub::ClientId Hub::add(Peer& peer) {
+  if (clients_.empty()) want_time(0);
+  const ClientId id = next_id_++;
+  Client& client = *clients_.emplace(id, std::make_unique<Client>()).first->second;
+  client.id = id;
+  client.peer = &peer;
+  counters_.clients = clients_.size();
+  for (const auto& message : {info_, advertisement_, service_list_}) send_text(client, message);
+  return id;
+}
+
+void Hub::remove(ClientId id) {
+  Client* client = find(id);
+  if (client == nullptr) return;
+  while (!client->subscriptions.empty()) stop_listening(*client, client->subscriptions.begin()->first);
+  clients_.erase(id);
+  counters_.clients = clients_.size();
+  if (clients_.empty()) want_time(-1);
+}
+
+/// Clients want to know the time in any case.
+void Hub::want_time(std::int64_t period_ns) {
+  for (std::size_t i = 0; i < channels_.size(); ++i)
+    if (tap_.channels()[i].topic == "/fulmar/ticks") cursor_->want(i, period_ns);
+}
+
+void Hub::stop_listening(Client& client, std::uint32_t subscription) {
+  const auto at = client.subscriptions.find(subscription);
+  Channel& channel = channels_[at->second];
+  std::erase_if(channel.listeners, [&](const auto& listener) { return listener.first == &client; });
+  const bool clock = tap_.channels()[at->second].topic == "/fulmar/ticks";
+  if (channel.listeners.empty() && !channel.keeps && !clock) cursor_->want(at->second, -1);
+  client.subscriptions.erase(at);
+}
+
+bool Hub::busy(ClientId id) const {
+  const auto at = clients_.find(id);
+  return at != clients_.end() && at->second->unanswered >= most_unanswered;
+}
+
+Hub::Client* Hub::find(ClientId id) {
+  const auto at = clients_.find(id);
+  return at == clients_.end() ? nullptr : at->second.get();
+}
+
+FlightView Hub::view() {
+  FlightView now = control_.view();
+  epoch_ns_ = now.epoch_ns;
+  return now;
+}
+
+// ---- from clients --------------------------------------------------------------------------------------------------------------
+
+template <class Work>
+void Hub::guarded(ClientId id, const Work& work) {
+  Client* client = find(id);
+  if (client == nullptr) return;
+  try {
+    work(*client);
+  } catch (const Malformed& e) {
+    refuse(*client, e.what());
+    client->peer->close(1007, e.what());
+  } catch (const json::exception& e) {
+    refuse(*client, std::string("the message has not the form that its op asks for: ") + e.what());
+    client->peer->close(1007, "wrong types");
+  } catch (const Error& e) {
+    refuse(*client, e.what());
+  } catch (const std::exception& e) {
+    refuse(*client, e.what());
+    client->peer->close(1011, "the server cannot go on with this client");
+  }
+}
+
+void Hub::text(ClientId id, std::string_view message) {
+  guarded(id, [&](Client& client) {
+    if (too_deep(message)) throw Malformed("the JSON is nested too deeply");
+    const json parsed = json::parse(message, nullptr, false);
+    if (!parsed.is_object()) throw Malformed("a text message has to be a JSON object");
+    const auto name = parsed.at("op").get<std::string>();
+    const auto op = ops().find(name);
+    if (op == ops().end()) {
+      std::vector<std::string> words;
+      for (const auto& [word, function] : ops()) words.push_back(word);
+      throw Error("there is no op '" + name + "'." + choices_text(name, words));
+    }
+    (this->*op->second)(client, parsed);
+  });
+}
+
+void Hub::binary(ClientId id, std::string_view message) {
+  guarded(id, [&](Client& client) {
+    if (message.empty()) throw Malformed("a binary message is empty");
+    switch (message[0]) {
+      case 1:
+        return client_data(client, message);
+      case 2:
+        return service_request(client, message);
+      default:
+        throw Error("there is no binary op " + std::to_string(static_cast<unsigned char>(message[0])) +
+                    ". Valid: 1 (data), 2 (service call).");
+    }
+  });
+}
+
+// ---- to clients ----------------------------------------------------------------------------------------------------------------
+
+void Hub::send_text(Client& client, std::shared_ptr<const std::string> text) {
+  Message message;
+  message.body = std::move(text);
+  client.peer->send(std::move(message));
+}
+
+void Hub::send_json(Client& client, const json& message) { send_text(client, shared(dumped(message))); }
+
+void Hub::status(Client& client, int level, const std::string& message) {
+  send_json(client, {{"op", "status"}, {"level", level}, {"message", message}});
+}
+
+void Hub::refuse(Client& client, const std::string& why) {
+  ++counters_.refused;
+  status(client, 2, why);
+}
+
+void Hub::answers() {
+  for (const auto& task : mailbox_->take()) task();
+}
+
+bool Hub::tick() {
+  answers();
+  if (!cursor_) return false;
+  const bool more = drain();
+  flush_parameters();
+  warn_of_drops();
+  return more;
+}
+
+bool Hub::drain() {
+  Message message;
+  std::size_t count = 0;
+  const Tap::Sample* sample = nullptr;
+  while (count < samples_per_turn && (sample = cursor_->next()) != nullptr) {
+    ++count;
+    newest_ns_ = sample->now_ns;
+    time_known_ = true;
+    Channel& channel = channels_[sample->channel];
+    if (channel.listeners.empty() && !channel.keeps) continue;
+    const std::size_t size = channel.encoder.encode(sample->data(), scratch_.data());
+    message.body = shared(std::string(reinterpret_cast<const char*>(scratch_.data()), size));
+    for (const auto& [client, subscription] : channel.listeners) offer(*client, message, subscription, sample->now_ns);
+    if (channel.keeps) keep(sample->channel, sample->now_ns, message.body);
+  }
+  counters_.lost += cursor_->lost() - std::exchange(lost_before_, cursor_->lost());
+  if (count > 0) send_time();
+  return count == samples_per_turn;
+}
+
+void Hub::offer(Client& client, Message& message, std::uint32_t subscription, std::int64_t now_ns) {
+  message.binary = true;
+  message.head_size = message.head.size();
+  message.head[0] = op_data;
+  put(&message.head[1], subscription);
+  put(&message.head[5], static_cast<std::uint64_t>(std::max<std::int64_t>(0, epoch_ns_ + now_ns)));
+  if (client.peer->offer(message)) {
+    ++counters_.sent;
+  } else {
+    ++client.dropped;
+    ++counters_.dropped;
+  }
+}
+
+void Hub::keep(std::size_t index, std::int64_t now_ns, std::shared_ptr<const std::string> body) {
+  Channel& channel = channels_[index];
+  channel.in_a_row = channel.last && now_ns - channel.last_ns <= stream_gap_ns ? channel.in_a_row + 1 : 0;
+  channel.last_ns = now_ns;
+  channel.last = std::move(body);
+  if (channel.in_a_row < stream_samples) return;
+  channel.keeps = false;
+  channel.last = nullptr;
+  if (channel.listeners.empty()) cursor_->want(index, -1);
+}
+
+void Hub::send_time() {
+  const auto now = steady_clock::now();
+  if (!time_known_ || now - time_sent_ < time_period) return;
+  time_sent_ = now;
+  Message message;
+  message.binary = true;
+  message.head_size = 9;
+  message.head[0] = op_time;
+  message.body = shared("");
+  put(&message.head[1], static_cast<std::uint64_t>(std::max<std::int64_t>(0, epoch_ns_ + newest_ns_)));
+  for (const auto& [id, client] : clients_) client->peer->offer(message);
+}
+
+void Hub::warn_of_drops() {
+  const auto now = steady_clock::now();
+  if (now - drops_told_ < drops_period) return;
+  drops_told_ = now;
+  for (const auto& [id, client] : clients_) {
+    if (client->dropped == client->told) continue;
+    status(*client, 1,
+           "This connection is too slow for what it has subscribed to: " + std::to_string(client->dropped) + " messages left out.");
+    client->told = client->dropped;
+  }
+}
+
+/// Values as they are now: to who has set them, and to who watches them.
+void Hub::flush_parameters() {
+  if (replies_.empty() && changed_.empty()) return;
+  const FlightView now = view();
+  for (const std::shared_ptr<Pending>& reply : std::exchange(replies_, {})) {
+    Client* client = find(reply->client);
+    if (client == nullptr) continue;
+    json values = json::array();
+    for (const std::string& name : reply->names) {
+      const ParameterView* p = find_parameter(now, name);
+      if (p == nullptr) continue;
+      values.push_back(parameter_json(name, *p));
+      if (p->overlaid) status(*client, 1, name + " is set, but the phase '" + now.phase + "' has another value for it while it lasts.");
+    }
+    if (reply->id) send_json(*client, {{"op", "parameterValues"}, {"parameters", values}, {"id", *reply->id}});
+  }
+  const std::set<std::string> changed = std::exchange(changed_, {});
+  for (const auto& [id, client] : clients_) {
+    json values = json::array();
+    for (const std::string& name : changed) {
+      const ParameterView* p = client->watched.contains(name) ? find_parameter(now, name) : nullptr;
+      if (p != nullptr) values.push_back(parameter_json(name, *p));
+    }
+    if (!values.empty()) send_json(*client, {{"op", "parameterValues"}, {"parameters", values}});
+  }
+}
+
+}  // namespace fulmar::core::live

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The live protocol without sockets: what clients have subscribed to, what they ask, what they get. Source: the Foxglove WebSocket
+// protocol, version 1. One thread, but for the answers of the control, which come through a mailbox.
+#pragma once
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/tap/control.hpp"
+#include "core/live/describe.hpp"
+#include "core/live/server.hpp"
+#include "core/tap/tap.hpp"
+#include "core/types/wire.hpp"
+
+namespace fulmar::core::live {
+
+/// One message to a client: a head of its own and bytes that all clients share.
+struct Message {
+  std::array<char, 13> head{};
+  std::size_t head_size = 0;
+  std::shared_ptr<const std::string> body;
+  bool binary = false;
+  std::size_t size() const { return head_size + body->size(); }
+};
+
+/// A client's connection. None of these calls comes back into the hub.
+class Peer {
+ public:
+  virtual ~Peer() = default;
+  /// Data. False when the client has not taken what came before: then it goes without.
+  virtual bool offer(const Message& message) = 0;
+  /// Anything else. A client that does not take these either is closed.
+  virtual void send(Message message) = 0;
+  virtual void close(std::uint16_t code, const std::string& why) = 0;
+};
+
+struct Counters {
+  std::atomic<std::uint64_t> clients{0}, sent{0}, dropped{0}, lost{0}, refused{0};
+};
+
+/// From other threads into the hub's.
+class Mailbox {
+ public:
+  /// `wake` is called from the thread that posts, for the first task of a batch.
+  explicit Mailbox(std::function<void()> wake) : wake_(std::move(wake)) {}
+  void post(std::function<void()> task);
+  std::vector<std::function<void()>> take();
+  void close();
+
+ private:
+  std::mutex mutex_;
+  std::function<void()> wake_;
+  std::vector<std::function<void()>> tasks_;
+  bool open_ = true;
+};
+
+class Hub {
+ public:
+  Hub(Tap& tap, Control& control, Counters& counters);
+  ~Hub();
+  /// Once, before the first client. `wake` is called from threads of the control's when there is something for `answers`.
+  void begin(std::function<void()> wake);
+  /// No `wake` from here on.
+  void close();
+  Hub(const Hub&) = delete;
+  Hub& operator=(const Hub&) = delete;
+
+  using ClientId = std::uint64_t;
+  ClientId add(Peer& peer);
+  void remove(ClientId id);
+  std::size_t clients() const { return clients_.size(); }
+  void text(ClientId id, std::string_view message);
+  void binary(ClientId id, std::string_view message);
+  /// So much that it has asked for is unanswered that nothing more is to be read from it for now.
+  bool busy(ClientId id) const;
+
+  /// What waits in the mailbox.
+  void answers();
+  /// Every few ms while there are clients, else now and then: samples out, parameters that have changed. True when there is more to send
+  /// at once.
+  bool tick();
+
+  const std::string& mission() const { return mission_; }
+
+ private:
+  struct Client;
+  struct Import;
+  struct Pending;
+  struct Channel {
+    CdrEncoder encoder;
+    std::vector<std::pair<Client*, std::uint32_t>> listeners;  // and their subscription
+    bool keeps = false;                                        // the last sample, for who subscribes later
+    std::size_t in_a_row = 0;                                  // samples that came soon after the one before
+    std::int64_t last_ns = 0;
+    std::shared_ptr<const std::string> last = nullptr;
+  };
+  using json = nlohmann::json;
+  using Op = void (Hub::*)(Client&, const json&);
+  static const std::map<std::string, Op, std::less<>>& ops();
+
+  // ops of clients
+  void subscribe(Client& client, const json& message);
+  void unsubscribe(Client& client, const json& message);
+  void client_advertise(Client& client, const json& message);
+  void client_unadvertise(Client& client, const json& message);
+  void get_parameters(Client& client, const json& message);
+  void set_parameters(Client& client, const json& message);
+  void subscribe_parameters(Client& client, const json& message);
+  void unsubscribe_parameters(Client& client, const json& message);
+  void subscribe_graph(Client& client, const json& message);
+  void unsubscribe_graph(Client& client, const json& message);
+  void client_data(Client& client, std::string_view message);
+  void service_request(Client& client, std::string_view message);
+
+  void import_channel(Client& client, const json& channel);
+  void call(Client& client, const Service& service, std::uint32_t service_id, std::uint32_t call_id, bool as_json,
+            std::string_view payload);
+  void call_request(const Service& service, bool as_json, std::string_view payload, Control::Answer answer);
+  void call_host(const Service& service, const std::vector<std::string>& texts, Control::Answer answer);
+  void set_one(const std::shared_ptr<Pending>& pending, const json& parameter);
+
+  FlightView view();
+  void stop_listening(Client& client, std::uint32_t subscription);
+  bool drain();
+  void keep(std::size_t index, std::int64_t now_ns, std::shared_ptr<const std::string> body);
+  void offer(Client& client, Message& message, std::uint32_t subscription, std::int64_t now_ns);
+  void send_time();
+  void want_time(std::int64_t period_ns);
+  void flush_parameters();
+  void warn_of_drops();
+
+  Client* find(ClientId id);
+  void send_text(Client& client, std::shared_ptr<const std::string> text);
+  void send_json(Client& client, const json& message);
+  void status(Client& client, int level, const std::string& message);
+  void refuse(Client& client, const std::string& why);
+  template <class Work>
+  void guarded(ClientId id, const Work& work);
+
+  Tap& tap_;
+  Control& control_;
+  Counters& counters_;
+  std::shared_ptr<Mailbox> mailbox_;
+  std::string mission_;
+  std::int64_t epoch_ns_ = 0, newest_ns_ = 0;
+  bool time_known_ = false;
+  std::chrono::steady_clock::time_point time_sent_{}, drops_told_{};
+  std::vector<Service> services_;
+  std::set<std::string> text_parameters_;  // whose value is a text: "40 deg" is no number there
+  std::vector<Channel> channels_;
+  std::shared_ptr<const std::string> info_, advertisement_, service_list_;
+  std::vector<std::byte> scratch_;
+  std::unique_ptr<Tap::Cursor> cursor_;  // from `begin` on: what is published seldom is kept before there is a client
+  std::uint64_t lost_before_ = 0;        // of the cursor, in the counters already
+  std::map<ClientId, std::unique_ptr<Client>> clients_;
+  ClientId next_id_ = 1;
+  std::vector<std::shared_ptr<Pending>> replies_;  // sets whose every answer is there
+  std::set<std::string> changed_;                  // parameters
+};
+
+}  // namespace fulmar::core::live

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// See hub.hpp. What clients send in binary: samples for imported inputs, and calls of services.
+#include "core/graph/record.hpp"
+#include "core/graph/yaml.hpp"
+#include "core/live/hub_impl.hpp"
+
+namespace fulmar::core::live {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t data_head = 1 + 4, call_head = 1 + 4 + 4 + 4;
+constexpr char op_answer = 3;
+
+std::vector<std::byte> from_cdr(const Type& type, const Guard& guard, std::string_view payload) {
+  std::vector<std::byte> message(type.size);
+  cdr_decode(type, reinterpret_cast<const std::byte*>(payload.data()), payload.size(), message.data());
+  if (!guard.check(message.data())) throw Error(guard.explain(message.data()));
+  return message;
+}
+
+/// JSON is YAML: names, units and faults are those of a mission file. Fields that are left out are zero.
+std::vector<std::byte> from_json(const Type& type, const Guard& guard, std::string_view payload) {
+  std::vector<std::byte> message(type.size);
+  Report report;
+  const Node node = parse_yaml(make_source(std::string(payload), type.name), report);
+  if (report.empty()) fill_record(type, node, message.data(), "", report);
+  report.throw_if_any();
+  if (!guard.check(message.data())) throw Error(guard.explain(message.data()));
+  return message;
+}
+
+/// The arguments of one of the host's own services.
+std::vector<std::string> arguments(const Service& service, bool as_json, std::string_view payload) {
+  if (!as_json) return service.arguments.empty() ? std::vector<std::string>() : cdr_texts(payload, service.arguments.size());
+  const json object = payload.empty() ? json::object() : json::parse(payload, nullptr, false);
+  std::vector<std::string> texts;
+  for (const std::string& name : service.arguments) {
+    const auto value = object.is_object() ? object.find(name) : object.end();
+    if (value == object.end() || !value->is_string()) throw Error("the request needs the text '" + name + "'");
+    texts.push_back(value->get<std::string>());
+  }
+  return texts;
+}
+
+/// Only an object, and none that a parser would have to dig for.
+void check_json(std::string_view payload) {
+  if (too_deep(payload)) throw Error("the request is nested too deeply");
+  if (!payload.empty() && !json::parse(payload, nullptr, false).is_object()) throw Error("the request is no JSON object");
+}
+
+}  // namespace
+
+void Hub::client_data(Client& client, std::string_view message) {
+  const std::uint32_t id = read_u32(message, 1);
+  const auto at = client.imports.find(id);
+  if (at == client.imports.end()) throw Error("channel " + std::to_string(id) + " is not advertised");
+  const Import& import = at->second;
+  const std::string_view payload = message.substr(data_head);
+  try {
+    if (import.as_json) check_json(payload);
+    if (!control_.publish(import.component, import.port, (import.as_json ? from_json : from_cdr)(*import.type, import.guard, payload)))
+      ++counters_.lost;
+  } catch (const Error& e) {
+    throw Error(import.topic + ": " + e.what());
+  }
+}
+
+void Hub::service_request(Client& client, std::string_view message) {
+  const std::uint32_t service_id = read_u32(message, 1), call_id = read_u32(message, 5), size = read_u32(message, 9);
+  if (message.size() - call_head < size) throw Malformed("a service call ends within the name of its encoding");
+  const std::string encoding(message.substr(call_head, size));
+  const auto fail = [&](const std::string& why) {
+    ++counters_.refused;
+    send_json(client, {{"op", "serviceCallFailure"}, {"serviceId", service_id}, {"callId", call_id}, {"message", why}});
+  };
+  if (service_id == 0 || service_id > services_.size()) return fail("there is no service " + std::to_string(service_id));
+  if (encoding != "cdr" && encoding != "json") return fail("there is no encoding '" + encoding + "'. Valid: cdr, json.");
+  try {
+    call(client, services_[service_id - 1], service_id, call_id, encoding == "json", message.substr(call_head + size));
+  } catch (const Malformed& e) {
+    fail(e.what());
+  }
+}
+
+void Hub::call(Client& client, const Service& service, std::uint32_t service_id, std::uint32_t call_id, bool as_json,
+               std::string_view payload) {
+  const auto reply = [this, id = client.id, service_id, call_id, as_json](std::string body) {
+    Client* caller = find(id);
+    if (caller == nullptr) return;
+    const std::string_view encoding = as_json ? "json" : "cdr";
+    std::string bytes(1, op_answer);
+    for (const std::uint32_t n : {service_id, call_id, static_cast<std::uint32_t>(encoding.size())})
+      bytes.append(reinterpret_cast<const char*>(&n), sizeof n);
+    Message message;
+    message.binary = true;
+    message.body = std::make_shared<const std::string>(bytes.append(encoding) + body);
+    caller->peer->send(std::move(message));
+  };
+  if (service.what == Service::What::view) {
+    const std::string text = dumped(view_json(view(), tap_));
+    return reply(as_json ? text : cdr_text(text));
+  }
+  const auto done = [this, reply, as_json, id = client.id](const std::string& refusal) {
+    if (Client* caller = find(id)) --caller->unanswered;
+    reply(as_json ? dumped({{"accepted", refusal.empty()}, {"reason", refusal}}) : cdr_answer(refusal.empty(), refusal));
+  };
+  const Control::Answer answer = [mailbox = mailbox_, done](const std::string& refusal) {
+    mailbox->post([done, refusal] { done(refusal); });
+  };
+  ++client.unanswered;
+  try {
+    if (as_json) check_json(payload);
+    if (service.what == Service::What::request) return call_request(service, as_json, payload, answer);
+    call_host(service, arguments(service, as_json, payload), answer);
+  } catch (const Error& e) {
+    done(e.what());
+  }
+}
+
+void Hub::call_request(const Service& service, bool as_json, std::string_view payload, Control::Answer answer) {
+  if (as_json) return control_.request(service.component, service.port, payload.empty() ? "{}" : std::string(payload), std::move(answer));
+  control_.request(service.component, service.port, from_cdr(*service.type, Guard(*service.type), payload), std::move(answer));
+}
+
+void Hub::call_host(const Service& service, const std::vector<std::string>& texts, Control::Answer answer) {
+  switch (service.what) {
+    case Service::What::set_parameter:
+      return control_.set_parameter(texts[0], texts[1], texts[2], std::move(answer));
+    case Service::What::phase:
+      return control_.enter_phase(texts[0], std::move(answer));
+    case Service::What::swap:
+      return control_.swap(texts[0], texts[1], std::move(answer));
+    case Service::What::reset_guards:
+      return control_.reset_guards(std::move(answer));
+    case Service::What::request:
+    case Service::What::view:
+      break;
+  }
+}
+
+}  // namespace fulmar::core::live

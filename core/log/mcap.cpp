@@ -1,0 +1,524 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// See mcap.hpp. A schema and a channel stand in the chunk of the channel's first message, and again in the summary.
+#include "core/log/mcap.hpp"
+
+#include <zlib.h>
+#include <zstd.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include "core/error.hpp"
+#include "core/log/mcap_bytes.hpp"
+#include "core/log/out_file.hpp"
+
+namespace fulmar::core {
+namespace {
+
+using mcap::Bytes;
+
+std::uint32_t block_crc(const std::byte* data, std::size_t size) {
+  return static_cast<std::uint32_t>(::crc32_z(0, reinterpret_cast<const Bytef*>(data), size));
+}
+
+struct Schema {
+  std::string name, encoding, text;
+  bool begun = false, stored = false;  // in this or an earlier chunk; in a chunk that is in the file
+
+  void write(Bytes& out, std::uint16_t id) const {
+    const std::size_t start = out.begin(mcap::schema);
+    out.number(id).text(name).text(encoding).text(text);
+    out.end(start);
+  }
+};
+
+struct Entry {
+  std::uint64_t log_ns, offset;  // in the chunk
+};
+
+/// A message's record, for the files to come.
+struct Kept {
+  std::vector<std::byte> record;
+
+  template <class T>
+  T at(std::size_t place) const {
+    T value;
+    std::memcpy(&value, record.data() + mcap::record_head + place, sizeof value);
+    return value;
+  }
+  std::uint16_t channel() const { return at<std::uint16_t>(0); }
+  std::uint64_t log_ns() const { return at<std::uint64_t>(6); }
+};
+
+struct Channel {
+  std::uint16_t schema = 0;
+  std::string topic, encoding;
+  Pairs metadata;
+  bool begun = false, stored = false;
+  std::uint64_t messages = 0;  // in the file
+  std::vector<Entry> index{};  // of the open chunk
+  Kept last{};                 // of those without a name
+
+  void write(Bytes& out, std::uint16_t id) const {
+    const std::size_t start = out.begin(mcap::channel);
+    out.number(id).number(schema).text(topic).text(encoding).pairs(metadata);
+    out.end(start);
+  }
+};
+
+struct Span {
+  std::uint64_t first = std::numeric_limits<std::uint64_t>::max(), last = 0;
+  void add(std::uint64_t ns) {
+    first = std::min(first, ns);
+    last = std::max(last, ns);
+  }
+};
+
+struct ZstdFree {
+  void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
+};
+
+}  // namespace
+
+struct McapWriter::Impl {
+  Options options;
+  std::unique_ptr<OutFile> out;
+  std::vector<Part> parts;        // files that are closed
+  std::string trouble;            // with a file that is closed, or could not be begun
+  std::vector<Schema> schemas;    // id = index + 1
+  std::vector<Channel> channels;  // id = index
+  std::unique_ptr<ZSTD_CCtx, ZstdFree> zstd{ZSTD_createCCtx()};
+
+  Bytes chunk;  // the open one
+  std::size_t message_start = 0;
+  std::uint64_t chunk_messages = 0;
+  Span chunk_span;
+
+  Bytes block;  // what goes to the file in one piece
+  struct Counts {
+    Bytes chunk_indexes, attachment_indexes, metadata_indexes;
+    std::uint32_t chunks = 0, attachments = 0, metadata_records = 0;
+    std::uint64_t messages = 0, repeated = 0, largest_chunk = 0;
+    Span span;
+  };
+  Counts file;                               // of the open file
+  std::uint64_t begin_ns = 0;                // the log time at which it was begun
+  Bytes extras;                              // records of attachments and metadata, for the files to come
+  std::map<std::string, Kept> lasting;       // by name
+  std::uint64_t offered = 0, delivered = 0;  // messages begun; those of them that are in files that are closed
+
+  explicit Impl(const Options& o) : options(o) {
+    if (rotates()) OutFile::refuse(part_name(2));
+    out = begin_file(options.file);
+    chunk.reserve(options.chunk_bytes + options.max_message_bytes);
+  }
+
+  bool broken() const { return !out->error().empty(); }
+  bool rotates() const { return options.rotate_bytes > 0 || options.rotate_ns > 0; }
+
+  /// "a.mcap", "a-2.mcap", "a-3.mcap"
+  std::filesystem::path part_name(std::size_t number) const {
+    const std::filesystem::path& first = options.file;
+    if (number == 1) return first;
+    return first.parent_path() / (first.stem().string() + "-" + std::to_string(number) + first.extension().string());
+  }
+
+  std::unique_ptr<OutFile> begin_file(const std::filesystem::path& name) {
+    auto begun = std::make_unique<OutFile>(name);
+    block.clear();
+    block.raw(mcap::magic.data(), mcap::magic.size());
+    const std::size_t start = block.begin(mcap::header);
+    block.text(options.profile).text(options.library);
+    block.end(start);
+    if (begun->append(block.data(), block.size())) return begun;
+    const std::string why = begun->error();
+    begun.reset();
+    std::error_code ignored;
+    std::filesystem::remove(name.string() + ".part", ignored);
+    throw Error(why);
+  }
+
+  /// The present file ends here, between two chunks. One that cannot be begun leaves the present one as it is, for good.
+  void rotate(std::uint64_t log_ns) {
+    std::unique_ptr<OutFile> next;
+    try {
+      next = begin_file(part_name(parts.size() + 2));
+    } catch (const Error& e) {
+      trouble = std::string(e.what()) + "; the log went on in '" + out->name().string() + "'";
+      options.rotate_bytes = 0, options.rotate_ns = 0;
+      return;
+    }
+    end_file();
+    out = std::move(next);
+    file = {};
+    for (Schema& s : schemas) s.begun = s.stored = false;
+    for (Channel& c : channels) c.begun = c.stored = false, c.messages = 0;
+    begin_ns = log_ns;
+    store_extras();
+    repeat();
+  }
+
+  /// What could not be written whole is left as if it had been cut off: no summary, no name. Nobody shall take it for a whole log.
+  void end_file() {
+    if (!broken()) {
+      summary();
+      if (out->append(block.data(), block.size())) out->finish();
+    }
+    if (broken()) {
+      trouble = out->error();
+      if (!std::filesystem::exists(out->name())) file.messages = file.repeated = 0;  // somebody has removed the file
+    }
+    delivered += file.messages - file.repeated;
+    parts.push_back({out->name(), out->sha256(), file.messages, out->size()});
+  }
+
+  /// The records that began the first file begin the next one, too, and then which one of them it is.
+  void store_extras() {
+    for (std::size_t at = 0; at < extras.size();) {
+      std::uint64_t length = 0;
+      std::memcpy(&length, extras.data() + at + 1, sizeof length);
+      store_extra(extras.data() + at, mcap::record_head + length);
+      at += mcap::record_head + length;
+    }
+    block.clear();
+    const std::size_t start = block.begin(mcap::metadata);
+    block.text(series_metadata).pairs({{"file", std::to_string(parts.size() + 1)}});
+    block.end(start);
+    store_extra(block.data(), block.size());
+  }
+
+  /// What was said last, in the order of its time, as a chunk of its own.
+  void repeat() {
+    std::vector<const Kept*> list;
+    for (const auto& [name, kept] : lasting) list.push_back(&kept);
+    for (const Channel& c : channels)
+      if (!c.last.record.empty()) list.push_back(&c.last);
+    std::stable_sort(list.begin(), list.end(), [](const Kept* a, const Kept* b) { return a->log_ns() < b->log_ns(); });
+    for (const Kept* kept : list) {
+      note_message(kept->channel(), kept->log_ns());
+      chunk.raw(kept->record.data(), kept->record.size());
+    }
+    flush();
+    file.repeated = file.messages;
+  }
+
+  /// The message that was just ended.
+  void keep(const std::string& name) {
+    const std::byte* const record = chunk.data() + message_start;
+    std::uint16_t channel = 0;
+    std::memcpy(&channel, record + mcap::record_head, sizeof channel);
+    (name.empty() ? channels[channel].last : lasting[name])
+        .record.assign(record, static_cast<const std::byte*>(chunk.data()) + chunk.size());
+  }
+
+  /// A message that comes next in the chunk.
+  void note_message(std::uint16_t channel, std::uint64_t log_ns) {
+    if (!channels[channel].begun) introduce(channel);
+    channels[channel].index.push_back({log_ns, chunk.size()});
+    chunk_span.add(log_ns);
+    ++chunk_messages;
+  }
+
+  /// An attachment or metadata, whole.
+  void extra(const std::byte* record, std::size_t size) {
+    extras.raw(record, size);
+    store_extra(record, size);
+  }
+
+  void store_extra(const std::byte* record, std::size_t size) {
+    const std::uint64_t place = out->size();
+    if (!out->append(record, size)) return;
+    if (static_cast<mcap::Code>(*record) == mcap::attachment) {
+      index_attachment(record, size, place);
+    } else {
+      index_metadata(record, size, place);
+    }
+  }
+
+  static std::uint32_t length_at(const std::byte* at) {
+    std::uint32_t length = 0;
+    std::memcpy(&length, at, sizeof length);
+    return length;
+  }
+
+  /// Times, name and media type as they stand in the record: code, length, 2 times, name, media type, content.
+  void index_attachment(const std::byte* record, std::size_t size, std::uint64_t place) {
+    const std::byte *times = record + mcap::record_head, *name = times + 16, *type = name + 4 + length_at(name);
+    const std::byte* content = type + 4 + length_at(type);
+    ++file.attachments;
+    Bytes& index = file.attachment_indexes;
+    const std::size_t start = index.begin(mcap::attachment_index);
+    index.number(place).number(std::uint64_t{size}).raw(times, 16).raw(content, 8);
+    index.raw(name, static_cast<std::size_t>(content - name));
+    index.end(start);
+  }
+
+  void index_metadata(const std::byte* record, std::size_t size, std::uint64_t place) {
+    const std::byte* name = record + mcap::record_head;
+    ++file.metadata_records;
+    Bytes& index = file.metadata_indexes;
+    const std::size_t start = index.begin(mcap::metadata_index);
+    index.number(place).number(std::uint64_t{size}).raw(name, 4 + length_at(name));
+    index.end(start);
+  }
+
+  /// Whether the message that comes at `log_ns` belongs to the next file.
+  bool full(std::uint64_t log_ns) const {
+    if (file.messages == file.repeated && chunk_messages == 0) return false;
+    if (options.rotate_ns > 0 && log_ns >= begin_ns + static_cast<std::uint64_t>(options.rotate_ns)) return true;
+    return options.rotate_bytes > 0 && chunk_messages == 0 && out->size() + file.largest_chunk > options.rotate_bytes;
+  }
+
+  /// Before a message: ends the chunk, and the file, that it does not belong to any more.
+  void make_place(std::uint64_t log_ns) {
+    if (offered == 0) begin_ns = log_ns;
+    const bool long_enough = chunk_messages > 0 && log_ns >= chunk_span.first + static_cast<std::uint64_t>(options.chunk_ns);
+    if (long_enough || chunk.size() >= options.chunk_bytes) flush();
+    if (broken() || !full(log_ns)) return;
+    flush();
+    if (!broken()) rotate(log_ns);
+  }
+
+  /// The schema and channel records that a channel's first message needs before it.
+  void introduce(std::uint16_t id) {
+    Channel& channel = channels[id];
+    if (channel.schema > 0) {
+      Schema& schema = schemas[channel.schema - 1u];
+      if (!schema.begun) schema.write(chunk, channel.schema);
+      schema.begun = true;
+    }
+    channel.write(chunk, id);
+    channel.begun = true;
+  }
+
+  /// Compresses the open chunk to the end of `block`. False when that cannot be.
+  bool compress() {
+    if (options.zstd_level == 0) {
+      block.append(chunk);
+      return true;
+    }
+    const std::size_t before = block.size(), most = ZSTD_compressBound(chunk.size());
+    const std::size_t n = ZSTD_compressCCtx(zstd.get(), block.grow(most), most, chunk.data(), chunk.size(), options.zstd_level);
+    if (ZSTD_isError(n)) {
+      out->fail(std::string("cannot compress: ") + ZSTD_getErrorName(n));
+      return false;
+    }
+    block.shrink(before + n);
+    return true;
+  }
+
+  void flush() {
+    if (chunk_messages == 0) return;
+    if (!broken()) store_chunk();
+    for (Channel& c : channels) c.index.clear();
+    chunk.clear();
+    chunk_messages = 0;
+    chunk_span = {};
+  }
+
+  void store_chunk() {
+    const std::string_view compression = options.zstd_level == 0 ? "" : "zstd";
+    block.clear();
+    const std::size_t start = block.begin(mcap::chunk);
+    block.number(chunk_span.first)
+        .number(chunk_span.last)
+        .number(std::uint64_t{chunk.size()})
+        .number(block_crc(chunk.data(), chunk.size()))
+        .text(compression);
+    const std::size_t data = block.number(std::uint64_t{0}).size();
+    if (!compress()) return;
+    const std::uint64_t compressed = block.size() - data;
+    block.patch(data - 8, compressed);
+    block.end(start);
+    const std::uint64_t chunk_length = block.size();
+
+    Bytes offsets;  // of each channel's index
+    for (std::size_t id = 0; id < channels.size(); ++id) {
+      const std::vector<Entry>& index = channels[id].index;
+      if (index.empty()) continue;
+      offsets.number(static_cast<std::uint16_t>(id)).number(out->size() + block.size());
+      const std::size_t record = block.begin(mcap::message_index);
+      block.number(static_cast<std::uint16_t>(id)).number(static_cast<std::uint32_t>(index.size() * sizeof(Entry)));
+      block.raw(index.data(), index.size() * sizeof(Entry));
+      block.end(record);
+    }
+    const std::uint64_t place = out->size();
+    if (!out->append(block.data(), block.size())) return;
+    if (options.sync) out->sync();
+
+    Bytes& chunk_indexes = file.chunk_indexes;
+    const std::size_t record = chunk_indexes.begin(mcap::chunk_index);
+    chunk_indexes.number(chunk_span.first).number(chunk_span.last).number(place).number(chunk_length);
+    chunk_indexes.number(static_cast<std::uint32_t>(offsets.size())).append(offsets).number(std::uint64_t{block.size() - chunk_length});
+    chunk_indexes.text(compression).number(compressed).number(std::uint64_t{chunk.size()});
+    chunk_indexes.end(record);
+    note_stored();
+  }
+
+  void note_stored() {
+    ++file.chunks;
+    file.messages += chunk_messages;
+    file.largest_chunk = std::max<std::uint64_t>(file.largest_chunk, block.size());
+    file.span.add(chunk_span.first);
+    file.span.add(chunk_span.last);
+    for (Channel& c : channels) {
+      c.messages += c.index.size();
+      c.stored = c.begun;
+      if (c.begun && c.schema > 0) schemas[c.schema - 1u].stored = true;
+    }
+  }
+
+  void statistics(Bytes& to) const {
+    const std::size_t start = to.begin(mcap::statistics);
+    Bytes counts;
+    std::uint16_t schema_count = 0;
+    std::uint32_t channel_count = 0;
+    for (const Schema& s : schemas) schema_count = static_cast<std::uint16_t>(schema_count + s.stored);
+    for (std::size_t id = 0; id < channels.size(); ++id) {
+      if (!channels[id].stored) continue;
+      ++channel_count;
+      counts.number(static_cast<std::uint16_t>(id)).number(channels[id].messages);
+    }
+    to.number(file.messages).number(schema_count).number(channel_count);
+    to.number(file.attachments).number(file.metadata_records).number(file.chunks);
+    to.number(file.messages > 0 ? file.span.first : std::uint64_t{0}).number(file.span.last);
+    to.number(static_cast<std::uint32_t>(counts.size())).append(counts);
+    to.end(start);
+  }
+
+  /// Data end, summary, its offsets and footer, as one block.
+  void summary() {
+    block.clear();
+    const std::size_t end = block.begin(mcap::data_end);
+    block.number(out->crc());
+    block.end(end);
+    const std::size_t summary_start = block.size();
+
+    Bytes offsets;
+    std::size_t group = summary_start;
+    const auto end_group = [&](mcap::Code code) {
+      if (block.size() > group) {
+        const std::size_t start = offsets.begin(mcap::summary_offset);
+        offsets.number(code).number(out->size() + group).number(std::uint64_t{block.size() - group});
+        offsets.end(start);
+      }
+      group = block.size();
+    };
+    for (std::size_t i = 0; i < schemas.size(); ++i) {
+      if (schemas[i].stored) schemas[i].write(block, static_cast<std::uint16_t>(i + 1));
+    }
+    end_group(mcap::schema);
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+      if (channels[i].stored) channels[i].write(block, static_cast<std::uint16_t>(i));
+    }
+    end_group(mcap::channel);
+    statistics(block);
+    end_group(mcap::statistics);
+    block.append(file.chunk_indexes);
+    end_group(mcap::chunk_index);
+    block.append(file.attachment_indexes);
+    end_group(mcap::attachment_index);
+    block.append(file.metadata_indexes);
+    end_group(mcap::metadata_index);
+    const std::size_t offset_start = block.size();
+    block.append(offsets);
+
+    const std::size_t start = block.begin(mcap::footer);
+    block.number(std::uint64_t{out->size() + summary_start}).number(std::uint64_t{out->size() + offset_start});
+    block.patch(start - 8, std::uint64_t{20});  // the sum covers the footer up to itself, its length too
+    block.number(block_crc(block.data() + summary_start, block.size() - summary_start));
+    block.raw(mcap::magic.data(), mcap::magic.size());
+  }
+};
+
+std::filesystem::path first_of_series(const std::filesystem::path& file, const std::string& number) {
+  std::filesystem::path first = file.extension() == ".part" ? file.parent_path() / file.stem() : file;
+  std::string stem = first.stem().string();
+  if (stem.ends_with("-" + number)) stem.resize(stem.size() - number.size() - 1);
+  return first.parent_path() / (stem + first.extension().string());
+}
+
+McapWriter::McapWriter(const Options& options) : impl_(std::make_unique<Impl>(options)) {}
+
+McapWriter::~McapWriter() = default;
+
+std::uint16_t McapWriter::add_schema(const std::string& name, const std::string& encoding, const std::string& text) {
+  impl_->schemas.push_back({name, encoding, text});
+  return static_cast<std::uint16_t>(impl_->schemas.size());
+}
+
+std::uint16_t McapWriter::add_channel(std::uint16_t schema, const std::string& topic, const std::string& encoding, const Pairs& metadata) {
+  if (impl_->channels.size() > std::numeric_limits<std::uint16_t>::max()) throw Error("a log holds at most 65536 channels");
+  impl_->channels.push_back({.schema = schema, .topic = topic, .encoding = encoding, .metadata = metadata});
+  return static_cast<std::uint16_t>(impl_->channels.size() - 1);
+}
+
+std::byte* McapWriter::begin_message(std::uint16_t channel, std::uint32_t sequence, std::uint64_t log_ns, std::uint64_t publish_ns) {
+  Impl& w = *impl_;
+  w.make_place(log_ns);
+  w.note_message(channel, log_ns);
+  w.chunk.reserve(mcap::record_head + mcap::message_head + w.options.max_message_bytes);
+  w.message_start = w.chunk.size();
+  ++w.offered;
+  std::byte* at = w.chunk.grow(mcap::record_head + mcap::message_head);
+  *at = static_cast<std::byte>(mcap::message);
+  at += mcap::record_head;  // the length follows in end_message
+  std::memcpy(at, &channel, 2);
+  std::memcpy(at + 2, &sequence, 4);
+  std::memcpy(at + 6, &log_ns, 8);
+  std::memcpy(at + 14, &publish_ns, 8);
+  return at + mcap::message_head;
+}
+
+void McapWriter::end_message(std::size_t size, const std::string& lasting) {
+  Impl& w = *impl_;
+  w.chunk.grow(size);
+  w.chunk.end(w.message_start + mcap::record_head);
+  if (w.rotates()) w.keep(lasting);
+}
+
+void McapWriter::attach(const std::string& name, const std::string& media_type, const std::string& content, std::uint64_t time_ns) {
+  Impl& w = *impl_;
+  if (w.broken()) return;
+  w.block.clear();
+  const std::size_t start = w.block.begin(mcap::attachment);
+  w.block.number(time_ns)
+      .number(time_ns)
+      .text(name)
+      .text(media_type)
+      .number(std::uint64_t{content.size()})
+      .raw(content.data(), content.size());
+  w.block.number(block_crc(w.block.data() + start, w.block.size() - start));
+  w.block.end(start);
+  w.extra(w.block.data(), w.block.size());
+}
+
+void McapWriter::metadata(const std::string& name, const Pairs& pairs) {
+  Impl& w = *impl_;
+  if (w.broken()) return;
+  w.block.clear();
+  const std::size_t start = w.block.begin(mcap::metadata);
+  w.block.text(name).pairs(pairs);
+  w.block.end(start);
+  w.extra(w.block.data(), w.block.size());
+}
+
+bool McapWriter::failed() const { return impl_->broken(); }
+
+const std::string& McapWriter::error() const { return impl_->out->error(); }
+
+void McapWriter::fail(const std::string& why) { impl_->out->fail(why); }
+
+McapWriter::Result McapWriter::close() {
+  Impl& w = *impl_;
+  w.flush();
+  w.end_file();
+  Result result{.sha256 = w.parts[0].sha256, .error = w.trouble, .file = w.parts[0].file, .files = w.parts};
+  for (const Part& p : w.parts) result.bytes += p.bytes;
+  result.messages = w.delivered;
+  result.lost = w.offered - w.delivered;
+  return result;
+}
+
+}  // namespace fulmar::core

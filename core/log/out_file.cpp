@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Linux: write(2), and rename that never replaces.
+#include "core/log/out_file.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "core/error.hpp"
+
+namespace fulmar::core {
+
+OutFile::OutFile(const std::filesystem::path& file) : file_(file), name_(file.string() + ".part") {
+  refuse(file_);
+  fd_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  if (fd_ < 0) throw Error("cannot write '" + name_.string() + "': " + std::strerror(errno));
+  ::flock(fd_, LOCK_EX | LOCK_NB);  // gone with this process; a file system without locks is none to fail for
+}
+
+bool OutFile::grows(const std::filesystem::path& file) {
+  const int fd = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (fd < 0) return false;
+  const bool held = ::flock(fd, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(fd);
+  return held;
+}
+
+void OutFile::refuse(const std::filesystem::path& file) {
+  const std::string part = file.string() + ".part";
+  if (std::filesystem::exists(file)) throw Error("'" + file.string() + "' exists; a log never overwrites a file");
+  if (std::filesystem::exists(part))
+    throw Error("'" + part + "' exists: " +
+                (grows(part) ? "another run is writing it" : "a run was interrupted; move it away first, or fulmar log recover it"));
+}
+
+OutFile::~OutFile() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+bool OutFile::failed(const char* what) {
+  fail(std::string("cannot ") + what + " '" + name_.string() + "': " + std::strerror(errno));
+  return false;
+}
+
+void OutFile::fail(const std::string& why) {
+  if (error_.empty()) error_ = why;
+}
+
+bool OutFile::append(const void* block, std::size_t size) {
+  const char* at = static_cast<const char*>(block);
+  for (std::size_t left = size; left > 0;) {
+    const ssize_t n = ::write(fd_, at, left);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) {
+      failed("write");
+      // Take back what was written of the block: a reader finds whole records up to the end.
+      if (::ftruncate(fd_, static_cast<off_t>(size_)) == 0) ::lseek(fd_, static_cast<off_t>(size_), SEEK_SET);
+      return false;
+    }
+    at += n;
+    left -= static_cast<std::size_t>(n);
+  }
+  size_ += size;
+  crc_ = static_cast<std::uint32_t>(::crc32_z(crc_, static_cast<const Bytef*>(block), size));
+  sha_.add(block, size);
+  return true;
+}
+
+bool OutFile::sync() { return ::fdatasync(fd_) == 0 || errno == EINVAL || errno == EROFS || failed("store"); }
+
+bool OutFile::finish() {
+  const int closed = ::close(fd_);
+  fd_ = -1;
+  if (closed != 0) return failed("close");
+  int named = ::renameat2(AT_FDCWD, name_.c_str(), AT_FDCWD, file_.c_str(), RENAME_NOREPLACE);
+  if (named != 0 && (errno == EINVAL || errno == ENOSYS)) {  // a file system without this flag
+    errno = EEXIST;
+    named = std::filesystem::exists(file_) ? -1 : std::rename(name_.c_str(), file_.c_str());
+  }
+  if (named != 0) return failed("rename");
+  name_ = file_;
+  return true;
+}
+
+}  // namespace fulmar::core

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What entered a flight from outside, out of its log: the outputs of the vehicle and of drivers, tick by tick, in place of the devices; and
+// what was asked of the flight between ticks.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/graph/graph.hpp"
+#include "core/run/command.hpp"
+#include "core/run/driver.hpp"
+#include "core/run/resume.hpp"
+#include "core/log/events.hpp"
+#include "core/log/reader.hpp"
+
+namespace fulmar::core {
+
+struct UnitOptions;
+
+/// The ticks of a flight, of the log's topic /fulmar/ticks.
+struct TickList {
+  std::vector<std::int64_t> time_ns;
+  std::vector<std::uint32_t> hash;  // of what the components have published in that tick
+};
+/// Throws Error when the log has none, or does not begin with the flight.
+TickList read_ticks(const McapFile& file);
+
+/// Something that entered between two ticks. Of a swap `command.note` tells which plugin.
+struct Entry {
+  std::size_t before = 0;  // the index of the tick that saw it first
+  Command command;
+};
+
+class Playback {
+ public:
+  /// `file` must outlive it. Throws Error when a topic is missing or has other fields than the graph's.
+  Playback(const McapFile& file, const Graph& graph);
+
+  const TickList& ticks() const { return ticks_; }
+  const std::vector<Entry>& entries() const { return entries_; }
+  /// What the log lacks of the vehicle's samples, one sentence per topic: a replay cannot be equal then.
+  const std::vector<std::string>& gaps() const { return gaps_; }
+
+  /// The flight ended with a fault of its vehicle, after the last tick.
+  bool vehicle_failed() const { return vehicle_failed_; }
+
+  /// When the owner of a hardware flight had it end while the aircraft was armed, seconds of flight.
+  std::optional<double> duration_s() const { return duration_s_; }
+  /// Where the flight went on, when it was the second of one.
+  const std::optional<Resume>& resume() const { return resume_; }
+  /// Whether a signal to the host took effect at the end of this tick.
+  bool signalled(std::int64_t now_ns) const;
+  /// Whether the wall clock stopped a component in this tick.
+  bool ran_over(const std::string& component, std::int64_t now_ns) const;
+
+  /// [setup] Takes the place of the vehicle or of a driver; frees everybody from the wall clock.
+  void stand_in(const Graph& graph, const Component& component, UnitOptions& options);
+  /// The vehicle's functions, for an instance of this class. Commands go nowhere.
+  static const fulmar_component& functions();
+
+ private:
+  struct Sample {
+    std::uint32_t output = 0;
+    const McapFile::Message* message = nullptr;
+  };
+  struct Functions;
+  /// What the host told of a component that a replay cannot find out by itself.
+  struct Told {
+    std::int64_t at_ns = 0, value_ns = 0;
+    Code code = Code::guard;
+    std::string component, cause;
+  };
+  void index_host();
+  void take_event(const Event& event, std::int64_t now_ns);
+  void index_vehicle(const Graph& graph);
+  void index_entries(const Graph& graph);
+  void take_resume(const Event& event, bool begun);
+  void check_gaps(std::uint16_t channel);
+  bool told(Code code, const std::string& component, std::int64_t now_ns) const;
+  void read(fulmar_tick& tick, fulmar_output* outputs);  // throws Error
+
+  const McapFile& file_;
+  std::int64_t epoch_ns_;
+  const ComponentInfo* vehicle_ = nullptr;
+  TickList ticks_;
+  std::vector<Entry> entries_;
+  std::vector<std::string> gaps_;
+  std::vector<std::vector<Sample>> samples_;  // per tick
+  std::vector<std::uint32_t> probes_;         // outputs that are probes
+  std::string last_words_ = "the log ends here";  // of a vehicle that failed: what it said
+  bool vehicle_failed_ = false;
+  HostTopic<Event> events_;
+  std::vector<Told> told_;
+  std::optional<double> duration_s_;
+  std::optional<Resume> resume_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace fulmar::core

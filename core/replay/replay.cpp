@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/replay/replay.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <csignal>
+#include <cstdlib>
+
+#include "core/graph/stored_files.hpp"
+#include "core/loader/store.hpp"
+#include "core/run/command.hpp"
+#include "core/replay/playback.hpp"
+#include "core/replay/replay_difference.hpp"
+#include "core/log/mcap.hpp"
+
+namespace fulmar::core {
+namespace {
+
+namespace fs = std::filesystem;
+
+const McapFile::Metadata* find_metadata(const McapFile& file, const std::string& name) {
+  for (const McapFile::Metadata& m : file.metadata)
+    if (m.name == name) return &m;
+  return nullptr;
+}
+
+fs::path private_folder() {
+  std::string name = (fs::temp_directory_path() / "fulmar-replay-XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr) throw Error("cannot make a folder in " + fs::temp_directory_path().string());
+  return name;
+}
+
+struct TemporaryFolder {
+  fs::path path = private_folder();
+  TemporaryFolder() = default;
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+};
+
+/// Nobody listens to a replay, nor speaks to it.
+Graph alone(Graph graph) {
+  graph.live.on = graph.dds.on = false;
+  return graph;
+}
+
+bool names_component(const std::vector<std::pair<std::string, std::string>>& with, const std::string& component) {
+  return std::any_of(with.begin(), with.end(), [&](const auto& w) { return w.first == component; });
+}
+
+}  // namespace
+
+// ---- the mission ------------------------------------------------------------------------------------------------------------
+
+Recording::Recording(const fs::path& log) try : path_(log), file_(read_mcap(log)) {
+  std::vector<std::pair<std::string, std::string>> files;
+  for (const McapFile::Attachment& a : file_.attachments)
+    if (a.media_type == "application/yaml") files.emplace_back(a.name, a.content);
+  if (files.empty()) throw Error("no mission is attached to it: it is not the log of a flight");
+  if (const McapFile::Metadata* series = find_metadata(file_, series_metadata))
+    throw Error("it is file " + series->pairs.at(0).second + " of a log that rotated, and a replay begins with the first tick: give " +
+                first_of_series(log, series->pairs.at(0).second).string() + ", which is replayed as far as that file goes");
+  HostTopic<Event>(file_).check();
+  mission_file_ = files.front().first;
+  read_overrides();
+  flown_ = flown_plugins(file_);
+  overrides_.files = std::make_shared<const StoredFiles>(std::move(files));
+} catch (const Error& fault) {
+  const std::string text = fault.what();
+  throw Error(text.find(log.string()) == std::string::npos ? log.string() + ": " + text : text);
+}
+
+Recording::~Recording() {
+  std::error_code ignored;
+  if (!folder_.empty()) fs::remove_all(folder_, ignored);
+}
+
+void Recording::read_overrides() {
+  const McapFile::Metadata* const metadata = find_metadata(file_, "overrides");
+  if (!metadata) throw Error("it does not say how its mission was changed on the command line: it is older than replays");
+  for (const auto& [key, value] : metadata->pairs) {
+    std::uint64_t seed = 0;
+    if (key == "io") overrides_.io = value;
+    if (key == "seed" && std::from_chars(value.data(), value.data() + value.size(), seed).ec == std::errc{}) overrides_.seed = seed;
+    if (key.starts_with("role ")) overrides_.roles.emplace_back(key.substr(5), value);
+    if (key.starts_with("set ")) overrides_.set.emplace_back(key.substr(4), value);
+  }
+}
+
+/// The store names its files by content: a link gives the name back, which messages and logs show.
+fs::path Recording::plugin(const FlownPlugin& flown) const {
+  const fs::path copy = version_that_flew(flown.file, flown.version, flown.sha256);
+  if (folder_.empty()) folder_ = private_folder();
+  const fs::path link = folder_ / flown.sha256 / fs::path(flown.file).filename();
+  fs::create_directories(link.parent_path());
+  std::error_code there;
+  fs::create_symlink(copy, link, there);
+  return link;
+}
+
+void Recording::use_copies(Overrides& overrides, const std::vector<const FlownPlugin*>& wanted, const Overrides& changes,
+                           const Say& say) const {
+  overrides.with.clear();
+  for (const FlownPlugin* flown : wanted) {
+    if (names_component(changes.with, flown->component)) continue;
+    try {
+      overrides.with.emplace_back(flown->component, plugin(*flown).string());
+    } catch (const Error& fault) {
+      if (say) say(flown->component + ": " + fault.what(), true);
+    }
+  }
+  overrides.with.insert(overrides.with.end(), changes.with.begin(), changes.with.end());
+}
+
+Graph Recording::mission(const Overrides& changes, const Say& say) const {
+  Overrides overrides = overrides_;
+  overrides.set.insert(overrides.set.end(), changes.set.begin(), changes.set.end());
+  overrides.with = changes.with;
+  for (const FlownPlugin& flown : flown_) overrides.flown.push_back(flown.sha256);
+  std::vector<const FlownPlugin*> wanted;
+  Graph graph;
+  try {
+    graph = load_mission(mission_file_, overrides);
+    for (const FlownPlugin& flown : flown_)
+      for (const Component& c : graph.components)
+        if (c.name == flown.component && c.plugin->sha256 != flown.sha256 && !names_component(changes.with, c.name))
+          wanted.push_back(&flown);
+    if (wanted.empty()) return alone(std::move(graph));
+  } catch (const Error&) {  // a plugin that lay beside the mission, or has changed since
+    for (const FlownPlugin& flown : flown_) wanted.push_back(&flown);
+  }
+  use_copies(overrides, wanted, changes, say);
+  graph = {};
+  graph = load_mission(mission_file_, overrides);
+  for (const FlownPlugin& flown : flown_)
+    for (const Component& c : graph.components)
+      if (say && c.name == flown.component && c.plugin->sha256 != flown.sha256 && !names_component(changes.with, c.name))
+        say(c.name + ": " + c.plugin->file + " " + c.plugin->version + " with SHA-256 " + c.plugin->sha256 + " flies in its place", true);
+  return alone(std::move(graph));
+}
+
+// ---- the flight -------------------------------------------------------------------------------------------------------------
+
+namespace {
+
+class Player {
+ public:
+  Player(const Recording& recording, const Graph& graph, FlightOptions options, ReplayResult& result)
+      : recording_(recording), result_(result), playback_(std::make_shared<Playback>(recording.file(), graph)) {
+    options.playback = playback_;
+    options.duration_s = playback_->duration_s();
+    options.resume = playback_->resume();
+    options.interrupt = &signal_;
+    flight_ = std::make_unique<Flight>(graph, options);
+  }
+  const Playback& playback() const { return *playback_; }
+  std::unique_ptr<Flight> fly(const std::atomic<bool>* stop);
+
+ private:
+  void apply(const Entry& entry);
+
+  const Recording& recording_;
+  ReplayResult& result_;
+  std::shared_ptr<Playback> playback_;
+  std::atomic<int> signal_{0};
+  std::unique_ptr<Flight> flight_;
+};
+
+void Player::apply(const Entry& entry) try {
+  Command command = entry.command;
+  const CommandNote& note = command.note;
+  if (command.kind == CommandKind::swap)
+    command.name = recording_.plugin({command.component, note.text.data(), note.version.data(), note.sha256.data()}).string();
+  flight_->apply(std::move(command));
+} catch (const Error& fault) {
+  result_.notes.push_back("what entered before tick " + std::to_string(entry.before) + " cannot be repeated: " + fault.what());
+}
+
+std::unique_ptr<Flight> Player::fly(const std::atomic<bool>* stop) {
+  const std::vector<Entry>& entries = playback_->entries();
+  const std::vector<std::int64_t>& times = playback_->ticks().time_ns;
+  const std::size_t ticks = times.size();
+  std::size_t next = 0;
+  bool goes_on = true;
+  for (std::size_t tick = 0; goes_on && tick <= ticks; ++tick) {
+    for (; next < entries.size() && entries[next].before <= tick; ++next) apply(entries[next]);
+    if (stop && stop->load(std::memory_order_relaxed)) throw Error("interrupted");
+    if (tick < ticks && playback_->signalled(times[tick])) signal_ = SIGINT;
+    if (tick < ticks || playback_->vehicle_failed()) goes_on = flight_->step();
+  }
+  result_.flight = flight_->finish();
+  return std::move(flight_);
+}
+
+}  // namespace
+
+std::pair<std::unique_ptr<Flight>, ReplayResult> replay(const Recording& recording, const Graph& graph, const ReplayOptions& options) {
+  ReplayResult result;
+  const TemporaryFolder folder;
+  FlightOptions o;
+  o.log_file = options.out.empty() ? folder.path / "replay.mcap" : options.out;
+  o.progress = options.progress;
+  Player player(recording, graph, o, result);
+  const TickList& ticks = player.playback().ticks();
+  result.notes = player.playback().gaps();
+  result.cut_off = !recording.file().complete;
+  result.recorded_ticks = ticks.hash.size();
+  result.first_ns = ticks.time_ns.front(), result.last_ns = ticks.time_ns.back();
+  std::unique_ptr<Flight> flight = player.fly(options.stop);
+  result.ticks = result.flight.ticks;
+  if (!result.flight.log.error.empty()) throw Error("the replay's log: " + result.flight.log.error);
+  result.same_file = result.flight.log.sha256 == sha256_file(recording.path());
+  if (result.same_file) {
+    result.messages = recording.file().messages.size();
+  } else {
+    const McapFile again = read_mcap(result.flight.log.file);
+    find_differences(recording.file(), ticks, again, read_ticks(again), graph.epoch_ns, result);
+  }
+  return {std::move(flight), std::move(result)};
+}
+
+}  // namespace fulmar::core

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The ring under stress: what comes out is what went in, in order, whatever the sizes and wherever the memory wraps.
+#include "core/run/ring.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <thread>
+
+namespace ring_test {
+
+using fulmar::core::Ring;
+
+namespace {
+
+/// Message i: a size and bytes that follow from i alone.
+std::size_t size_of_message(std::uint64_t i) { return 1 + (i * 2654435761u) % 700; }
+std::byte byte_of_message(std::uint64_t i, std::size_t k) { return static_cast<std::byte>(i * 31 + k * 7); }
+
+std::vector<std::byte> content(std::uint64_t i) {
+  std::vector<std::byte> bytes(size_of_message(i));
+  for (std::size_t k = 0; k < bytes.size(); ++k) bytes[k] = byte_of_message(i, k);
+  return bytes;
+}
+Ring::Record record(std::uint64_t i) {
+  return {0, static_cast<std::uint32_t>(i % 13), i, static_cast<std::int64_t>(i) * 5, -static_cast<std::int64_t>(i)};
+}
+bool intact(const Ring::Record& r, std::uint64_t i) {
+  const std::vector<std::byte> bytes = content(i);
+  const Ring::Record want = record(i);
+  return r.channel == want.channel && r.sequence == i && r.log_ns == want.log_ns && r.valid_ns == want.valid_ns &&
+         std::equal(bytes.begin(), bytes.end(), r.data());
+}
+
+}  // namespace
+
+TEST_CASE("a ring hands over 100000 messages of mixed sizes while the producer waits for room") {
+  Ring ring(4096, 701);
+  constexpr std::uint64_t n = 100'000;
+  std::uint64_t good = 0, seen = 0;
+  std::thread consumer([&] {
+    while (seen < n) {
+      const Ring::Record* r = ring.next();
+      if (r == nullptr) {
+        std::this_thread::yield();
+        continue;
+      }
+      good += intact(*r, seen++);
+      ring.release();
+    }
+  });
+  for (std::uint64_t i = 0; i < n; ++i) {
+    const std::vector<std::byte> bytes = content(i);
+    while (!ring.push(record(i), bytes.data(), bytes.size())) ring.wait_for_room();
+  }
+  consumer.join();
+  CHECK(good == n);
+}
+
+TEST_CASE("a full ring refuses, and takes again when the consumer has made room; nothing refused comes out") {
+  Ring ring(4096, 701);
+  std::uint64_t pushed = 0, taken = 0;
+  for (int round = 0; round < 1000; ++round) {
+    std::vector<std::byte> bytes = content(pushed);
+    while (ring.push(record(pushed), bytes.data(), bytes.size())) bytes = content(++pushed);
+    CHECK(pushed > taken);
+    const std::uint64_t most = taken + 1 + static_cast<std::uint64_t>(round) % 40;
+    while (taken < most) {
+      const Ring::Record* r = ring.next();
+      if (r == nullptr) break;
+      REQUIRE(intact(*r, taken));
+      ++taken;
+      ring.release();
+    }
+  }
+  CHECK(taken > 2000);
+}
+
+TEST_CASE("a ring asked to be too small for its messages grows until it holds four") {
+  const Ring ring(64, 100'000);
+  CHECK(ring.capacity() >= 400'000);
+}
+
+}  // namespace ring_test

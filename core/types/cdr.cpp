@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// XCDR1, plain little-endian: OMG DDS-XTypes 1.3, section 7.4.1. Numbers are aligned to their size (at most 8) from the start of the body.
+#include <array>
+
+#include "core/error.hpp"
+#include "core/types/element.hpp"
+#include "core/types/wire.hpp"
+
+namespace fulmar::core {
+namespace {
+
+constexpr std::array<std::byte, cdr_header_bytes> header{std::byte{0}, std::byte{1}, std::byte{0}, std::byte{0}};  // CDR_LE
+
+using Op = CdrEncoder::Op;
+
+// ---- compiling -----------------------------------------------------------------------------------------------------------------
+
+struct Compiler {
+  std::vector<Op> ops;
+  std::size_t mergeable_from = 0;  // ops before this one belong to another level
+
+  /// `bytes` of elements of `size` each, one after the other. Joins the previous copy where neither the struct nor the wire has padding
+  /// between.
+  void copy(std::uint32_t offset, std::uint32_t size, std::uint32_t bytes) {
+    if (ops.size() > mergeable_from) {
+      Op& last = ops.back();
+      const bool joined = last.what == Op::copy && last.offset + last.bytes == offset && size <= last.align && last.bytes % size == 0;
+      if (joined) {
+        last.bytes += bytes;
+        return;
+      }
+    }
+    ops.push_back({.what = Op::copy, .align = static_cast<std::uint8_t>(size), .offset = offset, .bytes = bytes});
+  }
+
+  void element(const Field& f, std::uint32_t offset) {
+    if (f.kind == FULMAR_STRUCT) {
+      type(*f.type, offset);
+    } else if (f.kind == FULMAR_TEXT) {
+      ops.push_back({.what = Op::text, .offset = offset, .bytes = f.stride});
+    } else {
+      copy(offset, primitive_size(f.kind), primitive_size(f.kind));
+    }
+  }
+
+  /// The ops of one element follow op `head`.
+  void body(std::size_t head, const Field& f) {
+    mergeable_from = ops.size();
+    element(f, 0);
+    mergeable_from = ops.size();
+    ops[head].body = static_cast<std::uint32_t>(ops.size() - head - 1);
+  }
+
+  void array(const Field& f, std::uint32_t offset) {
+    constexpr std::uint32_t unrolled = 8;
+    if (f.stride == primitive_size(f.kind)) {
+      copy(offset, f.stride, f.stride * f.count);
+    } else if (f.count <= unrolled) {
+      for (std::uint32_t i = 0; i < f.count; ++i) element(f, offset + i * f.stride);
+    } else {
+      ops.push_back({.what = Op::loop, .offset = offset, .count = f.count, .stride = f.stride});
+      body(ops.size() - 1, f);
+    }
+  }
+
+  void list(const Field& f, std::uint32_t offset) {
+    const std::size_t head = ops.size();
+    ops.push_back({.what = Op::list, .offset = offset, .count = f.count, .stride = f.stride, .items = f.items});
+    body(head, f);
+    const Op& first = ops.back();
+    const bool whole =
+        ops[head].body == 1 && first.what == Op::copy && first.offset == 0 && first.bytes == f.stride && f.stride % first.align == 0;
+    if (!whole) return;
+    ops[head].align = first.align;
+    ops[head].bytes = f.stride;
+    ops[head].body = 0;
+    ops.pop_back();
+    mergeable_from = ops.size();
+  }
+
+  void type(const Type& t, std::uint32_t offset) {
+    if (t.fields.empty()) ops.push_back({.what = Op::dummy});  // ROS 2: an empty struct has one dummy byte
+    for (const Field& f : t.fields) {
+      if (f.shape == FULMAR_LIST) {
+        list(f, offset + f.offset);
+      } else if (f.shape == FULMAR_ARRAY) {
+        array(f, offset + f.offset);
+      } else {
+        element(f, offset + f.offset);
+      }
+    }
+  }
+};
+
+/// Upper bound of what the ops write, padding included.
+std::size_t bound(const Op* op, const Op* end) {
+  std::size_t sum = 0;
+  for (; op != end; ++op) {
+    switch (op->what) {
+      case Op::copy:
+        sum += op->align - 1u + op->bytes;
+        break;
+      case Op::text:
+        sum += 3 + 4 + op->bytes + 1;
+        break;
+      case Op::dummy:
+        sum += 1;
+        break;
+      case Op::list:
+      case Op::loop: {
+        const std::size_t one = op->body > 0 ? bound(op + 1, op + 1 + op->body) : op->bytes;
+        sum += 3 + 4 + 7 + op->count * one;
+        op += op->body;
+        break;
+      }
+    }
+  }
+  return sum;
+}
+
+// ---- encoding ------------------------------------------------------------------------------------------------------------------
+
+struct Writer {
+  std::byte* const start;  // of the body
+  std::byte* at;
+
+  void align(std::size_t to) noexcept {
+    while ((static_cast<std::size_t>(at - start) & (to - 1)) != 0) *at++ = std::byte{0};
+  }
+  void copy(const std::byte* from, std::size_t bytes) noexcept {
+    std::memcpy(at, from, bytes);
+    at += bytes;
+  }
+  void count(std::uint32_t n) noexcept {
+    align(4);
+    std::memcpy(at, &n, 4);
+    at += 4;
+  }
+  void text(std::string_view s) noexcept {
+    count(static_cast<std::uint32_t>(s.size() + 1));  // the NUL counts
+    copy(reinterpret_cast<const std::byte*>(s.data()), s.size());
+    *at++ = std::byte{0};
+  }
+
+  void run(const Op* op, const Op* end, const std::byte* data) noexcept {
+    for (; op != end; ++op) {
+      switch (op->what) {
+        case Op::copy:
+          align(op->align);
+          copy(data + op->offset, op->bytes);
+          break;
+        case Op::text:
+          text(text_at(data + op->offset, op->bytes));
+          break;
+        case Op::dummy:
+          *at++ = std::byte{0};
+          break;
+        case Op::loop:
+          elements(*op, data + op->offset, op->count);
+          op += op->body;
+          break;
+        case Op::list: {
+          const std::uint32_t n = std::min(load<std::uint32_t>(data + op->offset), op->count);
+          count(n);
+          if (n > 0) elements(*op, data + op->offset + op->items, n);
+          op += op->body;
+          break;
+        }
+      }
+    }
+  }
+
+  void elements(const Op& op, const std::byte* first, std::uint32_t n) noexcept {
+    if (op.body == 0) {
+      align(op.align);
+      copy(first, std::size_t{n} * op.bytes);
+      return;
+    }
+    for (std::uint32_t i = 0; i < n; ++i) run(&op + 1, &op + 1 + op.body, first + std::size_t{i} * op.stride);
+  }
+};
+
+// ---- decoding ------------------------------------------------------------------------------------------------------------------
+
+struct Decoder {
+  const std::byte* bytes;
+  std::size_t size, at = cdr_header_bytes;
+  const Type& whole;
+
+  [[noreturn]] void fail(const std::string& why) const { throw Error("bytes do not hold a " + whole.name + ": " + why); }
+
+  const std::byte* take(std::size_t n, std::size_t align) {
+    at += (align - (at - cdr_header_bytes) % align) % align;
+    if (at > size || size - at < n) fail("they end after " + std::to_string(size));
+    const std::byte* here = bytes + at;
+    at += n;
+    return here;
+  }
+
+  void element(const Field& f, std::byte* to) {
+    if (f.kind == FULMAR_STRUCT) {
+      type(*f.type, to);
+    } else if (f.kind == FULMAR_TEXT) {
+      const std::uint32_t n = load<std::uint32_t>(take(4, 4));
+      const std::byte* text = take(n, 1);
+      if (n == 0 || text[n - 1] != std::byte{0}) fail(f.name + " does not end in NUL");
+      if (n > f.stride) fail(f.name + " is longer than " + std::to_string(f.stride - 1));
+      std::memcpy(to, text, n);
+    } else {
+      const std::uint32_t n = primitive_size(f.kind);
+      std::memcpy(to, take(n, n), n);
+    }
+  }
+
+  void type(const Type& t, std::byte* to) {
+    if (t.fields.empty()) take(1, 1);
+    for (const Field& f : t.fields) {
+      std::byte* first = to + f.offset;
+      std::uint32_t n = f.shape == FULMAR_ARRAY ? f.count : 1;
+      if (f.shape == FULMAR_LIST) {
+        n = load<std::uint32_t>(take(4, 4));
+        if (n > f.count) fail(f.name + " has " + std::to_string(n) + " items, its capacity is " + std::to_string(f.count));
+        std::memcpy(first, &n, 4);
+        first += f.items;
+      }
+      for (std::uint32_t i = 0; i < n; ++i) element(f, first + std::size_t{i} * f.stride);
+    }
+  }
+};
+
+}  // namespace
+
+CdrEncoder::CdrEncoder(const Type& type) {
+  Compiler compiler;
+  compiler.type(type, 0);
+  ops_ = std::move(compiler.ops);
+  max_size_ = cdr_header_bytes + bound(ops_.data(), ops_.data() + ops_.size());
+}
+
+std::size_t CdrEncoder::encode(const std::byte* data, std::byte* out) const noexcept {
+  std::memcpy(out, header.data(), cdr_header_bytes);
+  Writer writer{out + cdr_header_bytes, out + cdr_header_bytes};
+  writer.run(ops_.data(), ops_.data() + ops_.size(), data);
+  return static_cast<std::size_t>(writer.at - out);
+}
+
+void CdrEncoder::encode(const std::byte* data, std::vector<std::byte>& out) const {
+  const std::size_t before = out.size();
+  out.resize(before + max_size_);
+  out.resize(before + encode(data, out.data() + before));
+}
+
+void cdr_decode(const Type& type, const std::byte* bytes, std::size_t size, std::byte* message) {
+  Decoder decoder{bytes, size, cdr_header_bytes, type};
+  if (size < cdr_header_bytes || std::memcmp(bytes, header.data(), 2) != 0) decoder.fail("no little-endian CDR header");
+  std::memset(message, 0, type.size);
+  decoder.type(type, message);
+  if (size - decoder.at > 3) decoder.fail(std::to_string(size - decoder.at) + " bytes are left over");  // up to 3: padding of the whole
+}
+
+}  // namespace fulmar::core

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whether a reader's table fits a writer's, and the moves that carry a message from one to the other.
+#include <algorithm>
+#include <cstring>
+
+#include "core/error.hpp"
+#include "core/types/type.hpp"
+
+namespace fulmar::core {
+
+const char* kind_word(fulmar_kind kind) {
+  switch (kind) {
+    case FULMAR_BOOL:
+      return "bool";
+    case FULMAR_U8:
+      return "u8";
+    case FULMAR_I8:
+      return "i8";
+    case FULMAR_I16:
+      return "i16";
+    case FULMAR_U16:
+      return "u16";
+    case FULMAR_I32:
+      return "i32";
+    case FULMAR_U32:
+      return "u32";
+    case FULMAR_I64:
+      return "i64";
+    case FULMAR_U64:
+      return "u64";
+    case FULMAR_F32:
+      return "f32";
+    case FULMAR_F64:
+      return "f64";
+    case FULMAR_ENUM:
+      return "enum";
+    case FULMAR_TEXT:
+      return "text";
+    case FULMAR_STRUCT:
+      return "struct";
+  }
+  return "?";
+}
+
+namespace {
+
+std::string shape_words(const Field& field) {
+  if (field.shape == FULMAR_ARRAY) return "an array of " + std::to_string(field.count);
+  return field.shape == FULMAR_LIST ? "a list of at most " + std::to_string(field.count) : "one value";
+}
+
+std::string or_none(const std::string& text) { return text.empty() ? "none" : text; }
+
+std::string differ(const std::string& path, const std::string& what, const std::string& reader, const std::string& writer) {
+  return path + ": reader has " + what + reader + ", writer " + writer;
+}
+
+std::string fields_differ(const Type& from, const Type& to, const std::string& path);
+
+// "" when the reader's field `to` can be filled from the writer's field `from`.
+std::string field_differs(const Field& from, const Field& to, const std::string& path) {
+  if (from.kind != to.kind) return differ(path, "kind ", kind_word(to.kind), kind_word(from.kind));
+  const bool longer = to.shape == FULMAR_LIST && from.count <= to.count;  // a reader's list may have more room
+  if (from.shape != to.shape || (from.count != to.count && !longer)) return differ(path, "", shape_words(to), shape_words(from));
+  if (from.unit != to.unit) return differ(path, "unit ", or_none(to.unit), or_none(from.unit));
+  if (to.kind == FULMAR_TEXT && from.stride > to.stride)
+    return differ(path, "room for ", std::to_string(to.stride) + " bytes", std::to_string(from.stride));
+  if (to.kind == FULMAR_ENUM) {  // every label that the writer may send has the same meaning to the reader
+    const bool known = from.labels.size() <= to.labels.size() && std::equal(from.labels.begin(), from.labels.end(), to.labels.begin());
+    if (!known) return differ(path, "labels ", join(to.labels), join(from.labels));
+  }
+  if (to.kind != FULMAR_STRUCT) return "";
+  if (from.type->frame != to.type->frame) return differ(path, "frame ", or_none(to.type->frame), or_none(from.type->frame));
+  return fields_differ(*from.type, *to.type, path + ".");
+}
+
+std::string fields_differ(const Type& from, const Type& to, const std::string& path) {
+  for (const Field& field : to.fields) {
+    const Field* source = from.find(field.name);
+    if (source == nullptr) return "reader knows a field '" + path + field.name + "' that the writer lacks";
+    const std::string fault = field_differs(*source, field, path + field.name);
+    if (!fault.empty()) return fault;
+  }
+  return "";
+}
+
+class Mover {
+ public:
+  void fields(const Type& from, const Type& to, std::uint32_t from_base, std::uint32_t to_base) {
+    for (const Field& field : to.fields) one(*from.find(field.name), field, from_base, to_base);
+  }
+
+  std::vector<CopyPlan::Move> merged() {
+    std::sort(moves_.begin(), moves_.end(), [](const auto& a, const auto& b) { return a.to < b.to; });
+    std::vector<CopyPlan::Move> result;
+    for (const CopyPlan::Move& move : moves_) {
+      if (!result.empty() && joins(result.back(), move)) {
+        result.back().bytes = move.to + move.bytes - result.back().to;
+      } else {
+        result.push_back(move);
+      }
+    }
+    return result;
+  }
+
+ private:
+  void one(const Field& from, const Field& to, std::uint32_t from_base, std::uint32_t to_base) {
+    std::uint32_t source = from_base + from.offset, target = to_base + to.offset;
+    if (to.shape == FULMAR_LIST) {
+      moves_.push_back({source, target, sizeof(std::uint32_t)});
+      source += from.items;
+      target += to.items;
+    }
+    for (std::uint32_t i = 0; i < from.count; ++i, source += from.stride, target += to.stride) {
+      if (to.kind == FULMAR_STRUCT) {
+        fields(*from.type, *to.type, source, target);
+      } else {
+        moves_.push_back({source, target, element_size(from)});
+      }
+    }
+  }
+
+  // Padding between two fields that lie equally far apart on both sides may be copied along.
+  static bool joins(const CopyPlan::Move& a, const CopyPlan::Move& b) {
+    const std::uint32_t gap = b.to - (a.to + a.bytes);
+    return b.from - (a.from + a.bytes) == gap && gap < 8;
+  }
+
+  std::vector<CopyPlan::Move> moves_;
+};
+
+// Nothing but the labels of an enum, a range or a name differs: the bytes lie where the reader wants them.
+bool same_layout(const Type& from, const Type& to) {
+  if (from.size != to.size || from.fields.size() != to.fields.size()) return false;
+  for (std::size_t i = 0; i < to.fields.size(); ++i) {
+    const Field &a = from.fields[i], &b = to.fields[i];
+    if (a.name != b.name || a.kind != b.kind || a.shape != b.shape || a.offset != b.offset || a.count != b.count || a.stride != b.stride ||
+        a.items != b.items)
+      return false;
+    if (b.kind == FULMAR_STRUCT && !same_layout(*a.type, *b.type)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string incompatibility(const Type& from, const Type& to) {
+  if (from.hash == to.hash) return "";
+  if (from.frame != to.frame) return "reader has frame " + or_none(to.frame) + ", writer " + or_none(from.frame);
+  return fields_differ(from, to, "");
+}
+
+CopyPlan copy_plan(const Type& from, const Type& to) {
+  if (const std::string fault = incompatibility(from, to); !fault.empty()) throw Error(fault);
+  CopyPlan plan;
+  plan.size = to.size;
+  plan.whole = from.hash == to.hash || same_layout(from, to);
+  if (plan.whole) return plan;
+  Mover mover;
+  mover.fields(from, to, 0, 0);
+  plan.moves = mover.merged();
+  return plan;
+}
+
+void CopyPlan::run(const std::byte* from, std::byte* to) const {
+  if (whole) {
+    std::memcpy(to, from, size);
+    return;
+  }
+  for (const Move& move : moves) std::memcpy(to + move.to, from + move.from, move.bytes);
+}
+
+}  // namespace fulmar::core

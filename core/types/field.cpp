@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Fields by name, and their numbers.
+#include <charconv>
+#include <cstring>
+#include <limits>
+
+#include "core/error.hpp"
+#include "core/types/type.hpp"
+
+namespace fulmar::core {
+namespace {
+
+template <class T>
+double as_double(const std::byte* at) noexcept {
+  T x;
+  std::memcpy(&x, at, sizeof x);
+  return static_cast<double>(x);
+}
+
+// One part of a dotted name: "waypoints[3]" is {"waypoints", 3}; without brackets the index is -1.
+struct Part {
+  std::string_view name;
+  std::int64_t index = -1;
+};
+
+Part parse_part(std::string_view part, std::string_view dotted) {
+  const std::size_t open = part.find('[');
+  if (open == std::string_view::npos) return {part, -1};
+  const std::string_view digits = part.substr(open + 1, part.size() - open - 2);
+  std::uint32_t index = 0;
+  const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
+  if (part.back() != ']' || part.size() < open + 3 || fault != std::errc() || end != digits.data() + digits.size())
+    throw Error("'" + std::string(part) + "' in '" + std::string(dotted) + "' is not understood; an index is written like waypoints[3].");
+  return {part.substr(0, open), index};
+}
+
+const Field& find_field(const Type& type, std::string_view name) {
+  if (const Field* field = type.find(name)) return *field;
+  std::vector<std::string> names;
+  for (const Field& field : type.fields) names.push_back(field.name);
+  throw Error(type.name + " has no field '" + std::string(name) + "'." + choices_text(name, names));
+}
+
+// The number of items of a list, as a field of its own.
+const Field& count_field() {
+  static const Field field = [] {
+    Field f;
+    f.name = "count";
+    f.kind = FULMAR_U32;
+    f.stride = sizeof(std::uint32_t);
+    f.max = std::numeric_limits<std::uint32_t>::max();
+    return f;
+  }();
+  return field;
+}
+
+void enter(FieldRef& ref, const Field& field, const Part& part) {
+  const std::string name(part.name);
+  ref.field = &field;
+  ref.offset += field.offset;
+  if (!field.unit.empty()) ref.unit = field.unit;
+  if (field.shape == FULMAR_SCALAR) {
+    if (part.index >= 0) throw Error("'" + name + "' is a single value and takes no index.");
+    return;
+  }
+  const std::string kind = field.shape == FULMAR_LIST ? "list of at most " : "array of ";
+  if (part.index < 0)
+    throw Error("'" + name + "' is a" + (field.shape == FULMAR_LIST ? " " : "n ") + kind + std::to_string(field.count) + ": say " + name +
+                "[0].");
+  if (part.index >= field.count)
+    throw Error("'" + name + "[" + std::to_string(part.index) + "]' does not exist: '" + name + "' is a" +
+                (field.shape == FULMAR_LIST ? " " : "n ") + kind + std::to_string(field.count) + ", counted from 0.");
+  const auto index = static_cast<std::uint32_t>(part.index);
+  if (field.shape == FULMAR_LIST) {
+    ref.items.push_back({ref.offset, index});
+    ref.offset += field.items;
+  }
+  ref.offset += index * field.stride;
+}
+
+}  // namespace
+
+bool FieldRef::present(const std::byte* message) const noexcept {
+  for (const Item& item : items) {
+    std::uint32_t count = 0;
+    std::memcpy(&count, message + item.count_offset, sizeof count);
+    if (item.index >= count) return false;
+  }
+  return true;
+}
+
+FieldRef resolve_field(const Type& type, std::string_view dotted) {
+  FieldRef ref;
+  const Type* inside = &type;
+  std::string_view rest = dotted;
+  while (true) {
+    const std::size_t dot = rest.find('.');
+    const bool last = dot == std::string_view::npos;
+    const Part part = parse_part(rest.substr(0, dot), dotted);
+    if (inside == nullptr) throw Error("'" + ref.field->name + "' has no fields, so '" + std::string(dotted) + "' does not exist.");
+    const Field& field = find_field(*inside, part.name);
+    if (!last && field.shape == FULMAR_LIST && part.index < 0 && rest.substr(dot + 1) == "count") {
+      ref.field = &count_field();
+      ref.offset += field.offset;
+      ref.unit.clear();
+      return ref;
+    }
+    enter(ref, field, part);
+    if (last) return ref;
+    inside = field.kind == FULMAR_STRUCT ? field.type.get() : nullptr;
+    rest = rest.substr(dot + 1);
+  }
+}
+
+double number_at(fulmar_kind kind, const std::byte* at) noexcept {
+  switch (kind) {
+    case FULMAR_BOOL:
+    case FULMAR_U8:
+    case FULMAR_ENUM:
+      return as_double<std::uint8_t>(at);
+    case FULMAR_I8:
+      return as_double<std::int8_t>(at);
+    case FULMAR_I16:
+      return as_double<std::int16_t>(at);
+    case FULMAR_U16:
+      return as_double<std::uint16_t>(at);
+    case FULMAR_I32:
+      return as_double<std::int32_t>(at);
+    case FULMAR_U32:
+      return as_double<std::uint32_t>(at);
+    case FULMAR_I64:
+      return as_double<std::int64_t>(at);
+    case FULMAR_U64:
+      return as_double<std::uint64_t>(at);
+    case FULMAR_F32:
+      return as_double<float>(at);
+    case FULMAR_F64:
+      return as_double<double>(at);
+    case FULMAR_TEXT:
+    case FULMAR_STRUCT:
+      break;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace fulmar::core

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A message as JSON, for people: command line, pages, results.
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "core/types/element.hpp"
+#include "core/types/wire.hpp"
+
+namespace fulmar::core {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+/// What of radians becomes degrees.
+enum class Turned : std::uint8_t { none, angles, all };
+
+std::string key_of(const std::string& field, Turned turned) {
+  if (turned == Turned::none || (turned == Turned::angles && !field.ends_with("_rad"))) return field;
+  return shown_name(field);
+}
+
+template <class Json>
+Json number(double value, double scale) {
+  return std::isfinite(value) ? Json(value * scale) : Json(nullptr);
+}
+
+template <class Json>
+Json text(std::string_view bytes) {
+  // A plugin may write any bytes; JSON holds UTF-8 alone.
+  return Json::parse(Json(std::string(bytes)).dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+template <class Json>
+Json label(const Field& field, std::uint8_t value) {
+  return value < field.labels.size() ? Json(field.labels[value]) : Json(value);
+}
+
+template <class Json>
+Json object(const Type& type, const std::byte* data, Turned degrees, double scale);
+
+template <class Json>
+Json element(const Field& f, const std::byte* at, Turned degrees, double scale) {
+  switch (f.kind) {
+    case FULMAR_BOOL:
+      return load<std::uint8_t>(at) != 0;
+    case FULMAR_U8:
+      return load<std::uint8_t>(at);
+    case FULMAR_I8:
+      return load<std::int8_t>(at);
+    case FULMAR_I16:
+      return load<std::int16_t>(at);
+    case FULMAR_U16:
+      return load<std::uint16_t>(at);
+    case FULMAR_I32:
+      return load<std::int32_t>(at);
+    case FULMAR_U32:
+      return load<std::uint32_t>(at);
+    case FULMAR_I64:
+      return load<std::int64_t>(at);
+    case FULMAR_U64:
+      return load<std::uint64_t>(at);
+    case FULMAR_F32:
+      return number<Json>(static_cast<double>(load<float>(at)), scale);
+    case FULMAR_F64:
+      return number<Json>(load<double>(at), scale);
+    case FULMAR_ENUM:
+      return label<Json>(f, load<std::uint8_t>(at));
+    case FULMAR_TEXT:
+      return text<Json>(text_at(at, f.stride));
+    case FULMAR_STRUCT:
+      return object<Json>(*f.type, at, degrees, scale);
+  }
+  return nullptr;
+}
+
+/// `scale`: of all numbers, when an outer field has turned radians into degrees.
+template <class Json>
+Json object(const Type& type, const std::byte* data, Turned degrees, double scale) {
+  Json result = Json::object();
+  for (const Field& f : type.fields) {
+    const std::string key = key_of(f.name, degrees);
+    const double factor = key != f.name ? 180.0 / std::numbers::pi : scale;
+    const auto [first, count] = elements(f, data);
+    if (f.shape == FULMAR_SCALAR) {
+      result[key] = element<Json>(f, first, degrees, factor);
+      continue;
+    }
+    Json& list = result[key] = Json::array();
+    for (std::uint32_t i = 0; i < count; ++i) list.push_back(element<Json>(f, first + std::size_t{i} * f.stride, degrees, factor));
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string shown_name(const std::string& field) {
+  for (const std::string_view ending : {"_rad", "_radps", "_radps2"})
+    if (field.ends_with(ending)) return field.substr(0, field.size() - ending.size()) + "_deg" + std::string(ending.substr(4));
+  return field;
+}
+
+json to_json(const Type& type, const std::byte* data, bool degrees) {
+  return object<json>(type, data, degrees ? Turned::angles : Turned::none, 1.0);
+}
+
+ordered_json shown_json(const Type& type, const std::byte* data) { return object<ordered_json>(type, data, Turned::all, 1.0); }
+
+}  // namespace fulmar::core

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// ROS 2 names, message text and type hash of a message. Sources: ROS 2 design "interface definition", REP 2016 (RIHS01).
+#include <cctype>
+#include <map>
+#include <set>
+
+#include "core/types/element.hpp"
+#include "core/types/sha256.hpp"
+#include "core/types/wire.hpp"
+
+namespace fulmar::core {
+namespace {
+
+const char* ros_primitive(fulmar_kind kind) {
+  switch (kind) {
+    case FULMAR_BOOL:
+      return "bool";
+    case FULMAR_U8:
+    case FULMAR_ENUM:
+      return "uint8";
+    case FULMAR_I8:
+      return "int8";
+    case FULMAR_I16:
+      return "int16";
+    case FULMAR_U16:
+      return "uint16";
+    case FULMAR_I32:
+      return "int32";
+    case FULMAR_U32:
+      return "uint32";
+    case FULMAR_I64:
+      return "int64";
+    case FULMAR_U64:
+      return "uint64";
+    case FULMAR_F32:
+      return "float32";
+    case FULMAR_F64:
+      return "float64";
+    default:
+      return "string";
+  }
+}
+
+/// "fulmar_msgs/VehicleState": how a field and a `MSG:` line name a type.
+std::string short_name(const Type& type) {
+  std::string name = ros_name(type);
+  const std::size_t middle = name.find("/msg/");
+  return middle == std::string::npos ? name : name.erase(middle, 4);
+}
+
+/// The types inside a type, each once, in order of appearance.
+void nested_types(const Type& type, std::vector<const Type*>& list, std::set<std::string>& seen) {
+  for (const Field& f : type.fields) {
+    if (f.kind != FULMAR_STRUCT || !seen.insert(ros_name(*f.type)).second) continue;
+    list.push_back(f.type.get());
+    nested_types(*f.type, list, seen);
+  }
+}
+std::vector<const Type*> nested_types(const Type& type) {
+  std::vector<const Type*> list;
+  std::set<std::string> seen{ros_name(type)};
+  nested_types(type, list, seen);
+  return list;
+}
+
+/// A ROS constant: upper-case letters, digits, single underscores, beginning with a letter.
+std::string constant_name(std::string_view text) {
+  std::string name;
+  for (const char c : text) {
+    const auto u = static_cast<unsigned char>(c);
+    if (std::isalnum(u)) {
+      name += static_cast<char>(std::toupper(u));
+    } else if (!name.empty() && name.back() != '_') {
+      name += '_';
+    }
+  }
+  while (!name.empty() && name.back() == '_') name.pop_back();
+  return name;
+}
+
+/// Labels of a message's enum fields carry the field's name where there are several such fields, or where a label does not begin with a
+/// letter.
+std::string constants(const Field& field, bool prefixed) {
+  for (const std::string& label : field.labels)
+    prefixed = prefixed || !std::isalpha(static_cast<unsigned char>(label.empty() ? '0' : label[0]));
+  std::string text;
+  for (std::size_t i = 0; i < field.labels.size(); ++i) {
+    text += "uint8 " + constant_name((prefixed ? field.name + "_" : "") + field.labels[i]) + "=" + std::to_string(i) + "\n";
+  }
+  return text;
+}
+
+/// Lists of foreign messages have no bound: theirs are sequences, and the capacity is ours alone.
+bool unbounded(const Type& type, const Field& f) {
+  return f.shape == FULMAR_LIST && !type.ros.empty() && !type.ros.starts_with("fulmar_msgs/");
+}
+
+std::string field_line(const Type& type, const Field& f) {
+  std::string line = f.kind == FULMAR_STRUCT ? short_name(*f.type) : ros_primitive(f.kind);
+  if (f.shape == FULMAR_ARRAY) line += "[" + std::to_string(f.count) + "]";
+  if (f.shape == FULMAR_LIST) line += unbounded(type, f) ? "[]" : "[<=" + std::to_string(f.count) + "]";
+  line += " " + f.name;
+  std::string note = f.unit;
+  if (f.kind == FULMAR_STRUCT && !f.type->frame.empty()) note += (note.empty() ? "" : ", ") + f.type->frame;
+  return line + (note.empty() ? "" : "  # " + note) + "\n";
+}
+
+// ---- type hash -------------------------------------------------------------------------------------------------------------------
+
+/// type_description_interfaces/msg/FieldType
+int type_id(const Type& type, const Field& f) {
+  static const std::map<fulmar_kind, int> ids{{FULMAR_STRUCT, 1}, {FULMAR_I8, 2},   {FULMAR_U8, 3},    {FULMAR_ENUM, 3}, {FULMAR_I16, 4},
+                                              {FULMAR_U16, 5},    {FULMAR_I32, 6},  {FULMAR_U32, 7},   {FULMAR_I64, 8},  {FULMAR_U64, 9},
+                                              {FULMAR_F32, 10},   {FULMAR_F64, 11}, {FULMAR_BOOL, 15}, {FULMAR_TEXT, 17}};
+  const int shift = f.shape == FULMAR_ARRAY ? 48 : unbounded(type, f) ? 144 : f.shape == FULMAR_LIST ? 96 : 0;
+  return ids.at(f.kind) + shift;
+}
+
+std::string field_description(const std::string& name, int id, std::uint32_t capacity, const std::string& nested) {
+  return R"({"name": ")" + name + R"(", "type": {"type_id": )" + std::to_string(id) + R"(, "capacity": )" + std::to_string(capacity) +
+         R"(, "string_capacity": 0, "nested_type_name": ")" + nested + R"("}})";
+}
+
+std::string type_description(const Type& type) {
+  std::string fields;
+  for (const Field& f : type.fields) {
+    const std::string nested = f.kind == FULMAR_STRUCT ? ros_name(*f.type) : "";
+    const std::uint32_t capacity = f.shape == FULMAR_SCALAR || unbounded(type, f) ? 0 : f.count;
+    fields += (fields.empty() ? "" : ", ") + field_description(f.name, type_id(type, f), capacity, nested);
+  }
+  if (fields.empty()) fields = field_description("structure_needs_at_least_one_member", 3, 0, "");
+  return R"({"type_name": ")" + ros_name(type) + R"(", "fields": [)" + fields + "]}";
+}
+
+}  // namespace
+
+std::string ros_name(const Type& type) {
+  if (!type.ros.empty()) {
+    const std::size_t slash = type.ros.find('/');
+    const bool brief = slash != std::string::npos && type.ros.find('/', slash + 1) == std::string::npos;
+    return brief ? type.ros.substr(0, slash) + "/msg" + type.ros.substr(slash) : type.ros;
+  }
+  std::string name;
+  for (const char c : type.name) {
+    if (std::isalnum(static_cast<unsigned char>(c))) name += c;
+  }
+  if (!name.empty()) name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+  return "fulmar_msgs/msg/" + name;
+}
+
+std::string ros_message_text(const Type& type) {
+  std::size_t enums = 0;
+  for (const Field& f : type.fields) enums += f.kind == FULMAR_ENUM;
+  std::string text;
+  for (const Field& f : type.fields) {
+    if (f.kind == FULMAR_ENUM) text += constants(f, enums > 1);
+    text += field_line(type, f);
+  }
+  return text;
+}
+
+std::string ros_definition(const Type& type) {
+  std::string text = ros_message_text(type);
+  for (const Type* nested : nested_types(type))
+    text += std::string(80, '=') + "\nMSG: " + short_name(*nested) + "\n" + ros_message_text(*nested);
+  return text;
+}
+
+std::string ros_type_hash(const Type& type) {
+  std::map<std::string, std::string> referenced;  // sorted by name
+  for (const Type* nested : nested_types(type)) referenced[ros_name(*nested)] = type_description(*nested);
+  std::string list;
+  for (const auto& [name, description] : referenced) list += (list.empty() ? "" : ", ") + description;
+  return "RIHS01_" +
+         Sha256::of(R"({"type_description": )" + type_description(type) + R"(, "referenced_type_descriptions": [)" + list + "]}");
+}
+
+}  // namespace fulmar::core

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Text of ROS 2 message definitions -> type tables. Source: ROS 2 design "interface definition"; MCAP's registry of well-known schema
+// encodings, `ros2msg`.
+#include "core/types/ros_parse.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "core/types/element.hpp"
+
+namespace fulmar::core {
+namespace {
+
+constexpr std::uint32_t text_room = 4096;
+constexpr std::uint32_t list_room = 256;
+constexpr std::uint64_t largest_struct = 1u << 26;
+constexpr std::size_t most_fields = 1024;
+constexpr int deepest = 16;
+
+const std::map<std::string_view, fulmar_kind> primitives{
+    {"bool", FULMAR_BOOL},  {"byte", FULMAR_U8},     {"char", FULMAR_U8},     {"uint8", FULMAR_U8},   {"int8", FULMAR_I8},
+    {"int16", FULMAR_I16},  {"uint16", FULMAR_U16},  {"int32", FULMAR_I32},   {"uint32", FULMAR_U32}, {"int64", FULMAR_I64},
+    {"uint64", FULMAR_U64}, {"float32", FULMAR_F32}, {"float64", FULMAR_F64}, {"string", FULMAR_TEXT}};
+
+std::string_view trimmed(std::string_view s) {
+  const std::size_t first = s.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return s.substr(first, s.find_last_not_of(" \t\r") - first + 1);
+}
+
+/// The first word, cut off from `s`.
+std::string_view take_word(std::string_view& s) {
+  s = trimmed(s);
+  const std::string_view word = s.substr(0, s.find_first_of(" \t"));
+  s = trimmed(s.substr(word.size()));
+  return word;
+}
+
+/// "geometry_msgs/Point" and "geometry_msgs/msg/Point" are one; a bare name belongs to `package`.
+std::string full_name(std::string_view name, const std::string& package) {
+  const std::size_t slash = name.find('/');
+  if (slash == std::string_view::npos) return (name == "Header" ? "std_msgs" : package) + "/msg/" + std::string(name);
+  if (name.find('/', slash + 1) != std::string_view::npos) return std::string(name);
+  return std::string(name.substr(0, slash)) + "/msg" + std::string(name.substr(slash));
+}
+std::string package_of(const std::string& full) { return full.substr(0, full.find('/')); }
+
+struct Constant {
+  std::string name;
+  long long value = 0;
+};
+
+std::uint32_t align_up(std::uint64_t at, std::uint32_t align) { return static_cast<std::uint32_t>((at + align - 1) / align * align); }
+
+class Parser {
+ public:
+  Parser(const std::string& name, const std::string& text) : hash_seed_(text) {
+    std::istringstream lines(text);
+    std::string line, section = full_name(name, package_of(name));
+    sections_[section];
+    while (std::getline(lines, line)) {
+      const std::string_view words = trimmed(line);
+      if (words.starts_with("===")) continue;
+      if (words.starts_with("MSG:"))
+        section = full_name(trimmed(words.substr(4)), package_of(name));
+      else
+        sections_[section].push_back(line);
+    }
+  }
+
+  TypePtr type(const std::string& name, int depth) {
+    if (const auto known = types_.find(name); known != types_.end()) return known->second;
+    const auto section = sections_.find(name);
+    if (section == sections_.end()) throw Error("the definition of " + name + " is missing");
+    if (depth > deepest) throw Error(name + " is nested too deeply, or holds itself");
+    Type made;
+    made.name = name.substr(name.rfind('/') + 1);
+    if (package_of(name) != "fulmar_msgs") made.ros = name;
+    std::uint64_t end = 0;
+    std::vector<Constant> constants;
+    for (const std::string& line : section->second) read_line(line, name, depth, made, end, constants);
+    made.size = align_up(std::max<std::uint64_t>(end, 1), made.align);
+    made.hash = std::hash<std::string>{}(name + "\n" + hash_seed_);
+    if (const auto frame = frames_.find(name); frame != frames_.end()) made.frame = frame->second;
+    return types_[name] = std::make_shared<const Type>(std::move(made));
+  }
+
+ private:
+  [[noreturn]] static void fail(const std::string& name, const std::string& line, const std::string& why) {
+    throw Error(name + ": '" + std::string(trimmed(line)) + "': " + why);
+  }
+
+  void read_line(const std::string& line, const std::string& name, int depth, Type& made, std::uint64_t& end,
+                 std::vector<Constant>& constants) {
+    const std::size_t hash = line.find('#');
+    std::string_view words = trimmed(std::string_view(line).substr(0, hash));
+    if (words.empty()) return;
+    const std::string_view type_word = take_word(words);
+    if (is_constant(words)) {
+      constant(words, constants);
+      return;
+    }
+    Field field;
+    field.name = std::string(take_word(words));  // what may follow is a default value
+    if (field.name.empty()) fail(name, line, "a field needs a type and a name");
+    if (made.fields.size() >= most_fields) fail(name, line, "too many fields");
+    const std::string note(hash == std::string::npos ? "" : trimmed(std::string_view(line).substr(hash + 1)));
+    std::string_view element = type_word;
+    if (!shape(element, field)) fail(name, line, "a list's length cannot be read");
+    if (!kind(element, name, note, depth, field)) fail(name, line, "the type " + std::string(element) + " is not known here");
+    if (field.kind == FULMAR_U8 && field.shape == FULMAR_SCALAR) labels(constants, field);
+    constants.clear();
+    place(field, name, made, end);
+  }
+
+  /// NAME=1, NAME =1, NAME = 1
+  static bool is_constant(std::string_view words) {
+    const std::string_view first = take_word(words);
+    return first.find('=') != std::string_view::npos || words.starts_with('=');
+  }
+
+  static void constant(std::string_view words, std::vector<Constant>& constants) {
+    Constant c;
+    const std::size_t equals = words.find('=');
+    c.name = std::string(trimmed(words.substr(0, equals)));
+    const std::string_view value = trimmed(words.substr(equals + 1));
+    if (std::from_chars(value.data(), value.data() + value.size(), c.value).ec != std::errc{}) c.value = -1;  // text, say: labels nothing
+    constants.push_back(c);
+  }
+
+  /// Cuts "[3]", "[<=8]", "[]" off.
+  static bool shape(std::string_view& element, Field& field) {
+    const std::size_t open = element.find('[');
+    if (open == std::string_view::npos) return field.count = 1, true;
+    if (element.back() != ']') return false;
+    std::string_view inside = element.substr(open + 1, element.size() - open - 2);
+    element = element.substr(0, open);
+    field.shape = FULMAR_ARRAY;
+    if (inside.empty() || inside.starts_with("<=")) field.shape = FULMAR_LIST;
+    if (inside.empty()) return field.count = list_room, true;
+    if (inside.starts_with("<=")) inside.remove_prefix(2);
+    const auto [at, code] = std::from_chars(inside.data(), inside.data() + inside.size(), field.count);
+    return code == std::errc{} && at == inside.data() + inside.size() && field.count > 0;
+  }
+
+  bool kind(std::string_view element, const std::string& name, const std::string& note, int depth, Field& field) {
+    std::uint32_t room = text_room;
+    if (element.starts_with("string<=")) {
+      const std::string_view bound = element.substr(8);
+      if (std::from_chars(bound.data(), bound.data() + bound.size(), room).ec != std::errc{} || room > largest_struct / 2) return false;
+      ++room;  // the NUL
+      element = "string";
+    }
+    field.unit = note;
+    if (const auto known = primitives.find(element); known != primitives.end()) {
+      field.kind = known->second;
+      field.stride = field.kind == FULMAR_TEXT ? room : primitive_size(field.kind);
+      return true;
+    }
+    const std::string full = full_name(element, package_of(name));
+    if (sections_.find(full) == sections_.end()) return false;
+    split_frame(full, field);
+    field.kind = FULMAR_STRUCT;
+    field.type = type(full, depth + 1);
+    field.stride = field.type->size;
+    return true;
+  }
+
+  /// "m/s, ned": the last word is the frame of the struct.
+  void split_frame(const std::string& full, Field& field) {
+    static constexpr std::array<std::string_view, 3> frames{"ned", "body", "body to ned"};
+    const std::size_t comma = field.unit.rfind(", ");
+    const std::string last = comma == std::string::npos ? field.unit : field.unit.substr(comma + 2);
+    if (std::find(frames.begin(), frames.end(), last) == frames.end()) return;
+    frames_[full] = last;
+    field.unit = comma == std::string::npos ? "" : field.unit.substr(0, comma);
+  }
+
+  /// What ros_message_text makes of an enum: constants 0, 1, ..., some with the field's name before them.
+  static void labels(const std::vector<Constant>& constants, Field& field) {
+    if (constants.empty()) return;
+    const auto small = [](std::string word) {
+      for (char& c : word) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+      return word;
+    };
+    const std::string prefix = small(field.name) + "_";
+    bool prefixed = true;
+    for (std::size_t i = 0; i < constants.size(); ++i) {
+      if (constants[i].value != static_cast<long long>(i)) return;
+      prefixed = prefixed && small(constants[i].name).starts_with(prefix);
+    }
+    for (const Constant& c : constants) field.labels.push_back(small(c.name).substr(prefixed ? prefix.size() : 0));
+    field.kind = FULMAR_ENUM;
+  }
+
+  static void place(Field& field, const std::string& name, Type& made, std::uint64_t& end) {
+    const std::uint32_t own = field.kind == FULMAR_STRUCT ? field.type->align : field.kind == FULMAR_TEXT ? 1 : primitive_size(field.kind);
+    const bool list = field.shape == FULMAR_LIST;
+    const std::uint32_t align = list ? std::max(own, 4u) : own;
+    field.offset = align_up(end, align);
+    field.items = list ? align_up(4, own) : 0;
+    field.min = -std::numeric_limits<double>::infinity();
+    field.max = std::numeric_limits<double>::infinity();
+    end = std::uint64_t{field.offset} + field.items + std::uint64_t{field.count} * field.stride;
+    if (end > largest_struct) throw Error(name + " is too large: '" + field.name + "' ends at " + std::to_string(end) + " bytes");
+    made.align = std::max(made.align, align);
+    made.fields.push_back(std::move(field));
+  }
+
+  std::string hash_seed_;
+  std::map<std::string, std::vector<std::string>> sections_;
+  std::map<std::string, std::string> frames_;
+  std::map<std::string, TypePtr> types_;
+};
+
+}  // namespace
+
+TypePtr parse_ros_definition(const std::string& name, const std::string& text) {
+  if (name.find('/') == std::string::npos) throw Error("'" + name + "' is no ROS message type, which has the form package/msg/Name");
+  return Parser(name, text).type(full_name(name, ""), 0);
+}
+
+}  // namespace fulmar::core

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The hash of a message sees each byte that the wire form carries, and no other: held against the wire form itself.
+#include "core/types/hash.hpp"
+
+#include <doctest/doctest.h>
+
+#include <set>
+#include <vector>
+
+#include "core/types/test/types.hpp"
+#include "core/types/wire.hpp"
+
+namespace hash_test {
+
+using namespace fulmar::core;
+using namespace fulmar::core::test;
+
+TEST_CASE("a changed byte changes the hash if, and only if, it changes the wire form") {
+  const TypePtr type = mixed_type();
+  const MessageHash hash(*type);
+  const CdrEncoder encoder(*type);
+  const Mixed usual = mixed_value();
+  const auto wire = [&](const std::byte* m) {
+    std::vector<std::byte> bytes;
+    encoder.encode(m, bytes);
+    return bytes;
+  };
+  std::vector<std::byte> message(type->size);
+  std::memcpy(message.data(), &usual, sizeof usual);
+  const auto before = wire(message.data());
+  const std::uint64_t of_usual = hash.of(1, message.data());
+  int seen = 0, unseen = 0;
+  for (std::size_t i = 0; i < message.size(); ++i) {
+    const std::byte kept = message[i];
+    message[i] ^= std::byte{1};
+    const bool differs = wire(message.data()) != before;
+    CHECK_MESSAGE((hash.of(1, message.data()) != of_usual) == differs, "byte " << i);
+    (differs ? seen : unseen)++;
+    message[i] = kept;
+  }
+  CHECK(seen > 60);
+  CHECK(unseen > 0);  // padding, unused items
+  CHECK(hash.of(2, message.data()) != of_usual);
+}
+
+TEST_CASE("a million neighbouring numbers have a million hashes") {
+  std::set<std::uint64_t> found;
+  for (std::uint64_t i = 0; i < 1'000'000; ++i) found.insert(hash_bytes(0, reinterpret_cast<const std::byte*>(&i), sizeof i));
+  CHECK(found.size() == 1'000'000);
+}
+
+}  // namespace hash_test

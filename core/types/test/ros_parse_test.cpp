@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Message definitions read back: our own text, and the text of messages that ROS 2 publishes.
+#include "core/types/ros_parse.hpp"
+
+#include <doctest/doctest.h>
+
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/types/test/types.hpp"
+#include "core/types/wire.hpp"
+
+namespace ros_parse_test {
+
+using namespace fulmar::core;
+using namespace fulmar::core::test;
+
+namespace {
+
+std::string refusal(const std::function<void()>& run) {
+  try {
+    run();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("a definition of ours comes back with the same fields, units, frames and labels") {
+  const TypePtr type = parse_ros_definition("fulmar_msgs/msg/Mixed", ros_definition(*mixed_type()));
+  CHECK(type->name == "Mixed");
+  CHECK(type->ros.empty());
+  REQUIRE(type->fields.size() == 13);
+  CHECK(type->find("speed_mps")->unit == "m/s");
+  CHECK(type->find("mode")->labels == std::vector<std::string>{"idle", "hold", "2d_fix"});
+  CHECK(type->find("attitude_std_rad")->unit == "rad");
+  CHECK(type->find("attitude_std_rad")->type->frame == "ned");
+  const Type& leg = *type->find("legs")->type;
+  CHECK(leg.find("kind")->labels == std::vector<std::string>{"line", "orbit"});
+  CHECK(leg.find("position_m")->unit == "m");
+  CHECK(ros_definition(*type) == ros_definition(*mixed_type()));
+  CHECK(ros_type_hash(*type) == ros_type_hash(*mixed_type()));
+}
+
+TEST_CASE("bytes that were encoded from the struct decode with the type that was read from the text") {
+  const Mixed value = mixed_value();
+  std::vector<std::byte> bytes;
+  CdrEncoder(*mixed_type()).encode(bytes_of(value), bytes);
+  const TypePtr type = parse_ros_definition("fulmar_msgs/Mixed", ros_definition(*mixed_type()));
+  std::vector<std::byte> message(type->size);
+  cdr_decode(*type, bytes.data(), bytes.size(), message.data());
+  CHECK(to_json(*type, message.data(), false) == nlohmann::json::parse(R"({
+    "armed": true, "speed_mps": 1.5, "count": 7, "gains_ratio": [1, 2, -2], "name": "ab", "samples_volt": [0.5, 1], "mode": "hold",
+    "stamp_ns": -2, "load_ratio": 0.25, "offset": -3, "attitude_std_rad": {"north": 0.5, "east": 1, "down": 2}, "tags": ["x", "yzw"],
+    "legs": [{"kind": "orbit", "has_course": true, "course_rad": 0.5, "position_m": {"north": 3, "east": 4, "down": 5}},
+             {"kind": "line", "has_course": false, "course_rad": -0.5, "position_m": {"north": 6, "east": 7, "down": 8}}]})"));
+}
+
+// geometry_msgs/msg/PoseStamped as ROS 2 ships it, comments and all; its hash is the published one.
+TEST_CASE("a definition of ROS 2 itself is read: comments, short names, nested packages") {
+  const std::string rule = std::string(80, '=') + "\n";
+  const std::string text =
+      "# A Pose with reference coordinate frame and timestamp\n\nstd_msgs/Header header\nPose pose\n" + rule +
+      "MSG: std_msgs/Header\n# Two-integer timestamp\nbuiltin_interfaces/Time stamp\n\n# Transform frame\nstring frame_id\n" + rule +
+      "MSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n" + rule +
+      "MSG: geometry_msgs/Pose\nPoint position\nQuaternion orientation\n" + rule +
+      "MSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n" + rule +
+      "MSG: geometry_msgs/Quaternion\r\nfloat64 x 0\r\nfloat64 y 0\r\nfloat64 z 0\r\nfloat64 w 1\r\n";
+  const TypePtr type = parse_ros_definition("geometry_msgs/msg/PoseStamped", text);
+  CHECK(ros_type_hash(*type) == "RIHS01_10f3786d7d40fd2b54367835614bff85d4ad3b5dab62bf8bca0cc232d73b4cd8");
+  CHECK(resolve_field(*type, "pose.orientation.w").unit == "");
+}
+
+TEST_CASE("constants that do not count from 0 make no labels, bounds of text and lists are kept") {
+  const TypePtr type =
+      parse_ros_definition("a/msg/B", "uint8 LOW=1\nuint8 HIGH = 2\nuint8 level\nstring NAME=\"x=y\"\nstring<=7 name\nint32[] all\n");
+  CHECK(type->ros == "a/msg/B");
+  REQUIRE(type->fields.size() == 3);
+  CHECK(type->fields[0].kind == FULMAR_U8);
+  CHECK(type->fields[0].labels.empty());
+  CHECK(type->fields[1].stride == 8);
+  CHECK(type->fields[2].shape == FULMAR_LIST);
+  CHECK(type->fields[2].count == 256);
+}
+
+TEST_CASE("a definition that cannot be read is refused with the line that is wrong") {
+  const auto refused = [](const std::string& text) { return refusal([&] { parse_ros_definition("a/msg/B", text); }); };
+  CHECK(refused("complex64 x\n") == "a/msg/B: 'complex64 x': the type complex64 is not known here");
+  CHECK(refused("float64\n") == "a/msg/B: 'float64': a field needs a type and a name");
+  CHECK(refused("float64[x] y\n") == "a/msg/B: 'float64[x] y': a list's length cannot be read");
+  CHECK(refused("float64[0] y\n") == "a/msg/B: 'float64[0] y': a list's length cannot be read");
+  CHECK(refused("float64[4000000000] y\n") == "a/msg/B is too large: 'y' ends at 32000000000 bytes");
+  CHECK(refused("B b\n") == "a/msg/B is nested too deeply, or holds itself");
+  CHECK(refusal([] { parse_ros_definition("B", ""); }) == "'B' is no ROS message type, which has the form package/msg/Name");
+  CHECK(parse_ros_definition("a/msg/Empty", "")->size == 1);
+}
+
+}  // namespace ros_parse_test

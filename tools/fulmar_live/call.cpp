@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `fulmar call | phase | swap | reset`: what a flight can be asked for.
+#include <cctype>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tools/fulmar_live/commands.hpp"
+#include "tools/fulmar_live/session.hpp"
+#include "core/graph/catalogue.hpp"
+#include "core/graph/quantity.hpp"
+#include "core/graph/yaml.hpp"
+
+namespace fulmar::core {
+namespace {
+
+using nlohmann::json;
+
+/// YAML as people write it -> JSON. What is no number, flag or null is text: "80 m" is for the flight to read.
+json to_json(const Node& node) {
+  if (node.is(Node::Kind::map)) {
+    json object = json::object();
+    for (const Node::Entry& entry : node.entries) object[entry.key] = to_json(entry.value);
+    return object;
+  }
+  if (node.is(Node::Kind::sequence)) {
+    json list = json::array();
+    for (const Node& item : node.items) list.push_back(to_json(item));
+    return list;
+  }
+  if (!node.is(Node::Kind::scalar)) return nullptr;
+  if (node.quoted) return node.text;
+  if (node.text == "true" || node.text == "false") return node.text == "true";
+  const json number = json::parse(node.text, nullptr, false);
+  return number.is_number() ? number : json(node.text);
+}
+
+json read_yaml(const std::string& text) {
+  Report report;
+  const Node node = parse_yaml(make_source(text, "'" + text + "'"), report);
+  report.throw_if_any();
+  return to_json(node);
+}
+
+json message_of(const std::vector<std::string>& words) {
+  if (words.empty()) return json::object();
+  if (words.size() == 1 && words[0].starts_with('{')) {
+    json message = read_yaml(words[0]);
+    if (!message.is_object()) throw WrongUsage("'" + words[0] + "' is no map {field: value}");
+    return message;
+  }
+  json message = json::object();
+  for (const std::string& word : words) {
+    const std::size_t equals = word.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw WrongUsage("'" + word + "' is not of the form field=value; or give all in braces, as in '{radius_m: 80}'");
+    const std::string field = word.substr(0, equals);
+    if (message.contains(field)) throw WrongUsage("the field '" + field + "' is given twice");
+    message[field] = read_yaml(word.substr(equals + 1));
+  }
+  return message;
+}
+
+int tell(const Session::Verdict& verdict, const std::string& what) {
+  if (verdict.accepted) return std::printf("%s: accepted\n", what.c_str()), 0;
+  std::fprintf(stderr, "%s: refused: %s\n", what.c_str(), verdict.reason.c_str());
+  return 1;
+}
+
+/// "/plan/add_waypoints" of "plan.add_waypoints". Throws Error with the choices.
+std::string request_service(const json& view, const std::string& name) {
+  std::vector<std::string> names;
+  for (const json& c : view.value("components", json::array()))
+    for (const json& p : c.value("inputs", json::array()))
+      if (p.value("request", false)) names.push_back(c.value("name", "") + "." + p.value("name", ""));
+  for (const std::string& known : names)
+    if (known == name) return "/" + name.substr(0, name.find('.')) + "/" + name.substr(name.find('.') + 1);
+  throw Error("this flight takes no request '" + name + "'." + choices_text(name, names));
+}
+
+/// All fields 0 is hardly what anybody means: a waypoint at 0, 0, 0, or not armed.
+void require_no_fields(Session& session, const std::string& service, const std::string& name) {
+  if (!session.channels().contains(service)) return;
+  std::vector<std::string> fields;
+  for (const Field& f : session.type(service)->fields) fields.push_back(f.name);
+  if (!fields.empty())
+    throw WrongUsage(name + " needs a field at least, as in fulmar call " + name + " " + fields.front() + "=VALUE. Valid: " + join(fields) +
+                     ".");
+}
+
+/// A plugin's file here, "my_law.so" or "my_law.so/Law", as the host has a current directory of its own. Anything else is for the host to
+/// read: "control_slc/Outer".
+std::string swap_file(const std::string& word) {
+  const auto [file, part] = split_use(word);
+  std::error_code fault;
+  if (!(file.ends_with(".so") || file.ends_with(".py")) || !std::filesystem::is_regular_file(file, fault)) return word;
+  return std::filesystem::absolute(file, fault).string() + (part.empty() ? "" : "/" + part);
+}
+
+}  // namespace
+
+int call_command(const LiveAddress& target, const std::string& request, const std::vector<std::string>& words) {
+  const json message = message_of(words);
+  Session session(target);
+  std::string name = request;
+  if (name.starts_with('/')) name.erase(0, 1);
+  if (const std::size_t slash = name.find('/'); slash != std::string::npos) name[slash] = '.';
+  const std::string service = request_service(session.view(), name);
+  if (message.empty()) require_no_fields(session, service, name);
+  return tell(session.order(service, message), name);
+}
+
+int phase_command(const LiveAddress& target, const std::string& phase) {
+  Session session(target);
+  const json view = session.view();
+  const std::vector<std::string> phases = view.value("phases", std::vector<std::string>());
+  bool known = false;
+  for (const std::string& name : phases) known = known || name == phase;
+  if (!known) throw Error("this flight has no phase '" + phase + "'." + choices_text(phase, phases));
+  return tell(session.order("/fulmar/phase", {{"phase", phase}}), "phase " + phase);
+}
+
+int swap_command(const LiveAddress& target, const std::string& component, const std::string& file) {
+  Session session(target);
+  std::vector<std::string> names;
+  const json view = session.view();
+  for (const json& c : view.value("components", json::array())) names.push_back(c.value("name", ""));
+  bool known = false;
+  for (const std::string& name : names) known = known || name == component;
+  if (!known) throw Error("this flight has no component '" + component + "'." + choices_text(component, names));
+  return tell(session.order("/fulmar/swap", {{"component", component}, {"file", swap_file(file)}}), "swap " + component);
+}
+
+int reset_command(const LiveAddress& target) {
+  Session session(target);
+  return tell(session.order("/fulmar/reset_guards", json::object()), "reset");
+}
+
+}  // namespace fulmar::core

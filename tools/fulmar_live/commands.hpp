@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The words for a running flight. Each returns the exit code, and throws Error when there is no flight or no such name.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tools/fulmar_live/client.hpp"
+
+namespace fulmar::core {
+
+/// What was typed cannot be meant: exit code 2.
+struct WrongUsage : Error {
+  using Error::Error;
+};
+
+int list_command(const LiveAddress& target, bool rates, bool json);
+
+struct EchoOptions {
+  std::vector<std::string> ports;
+  double rate_hz = 0;       // of each port at most; 0: all
+  std::uint64_t count = 0;  // samples, then the end; 0: until the flight ends
+  bool json = false, csv = false;
+};
+int echo_command(const LiveAddress& target, const EchoOptions& options);
+
+struct PlotOptions {
+  std::vector<std::string> fields;
+  double seconds = 10;  // of flight that are shown
+};
+int plot_command(const LiveAddress& target, const PlotOptions& options);
+
+int param_list_command(const LiveAddress& target, const std::string& pattern, bool json);
+int param_get_command(const LiveAddress& target, const std::vector<std::string>& names, bool json);
+/// NAME VALUE [NAME VALUE ...]: one after another, up to the first that is refused.
+int param_set_command(const LiveAddress& target, const std::vector<std::string>& words);
+struct SaveOptions {
+  std::string component, mission;
+  bool dry_run = false, yes = false;
+};
+int param_save_command(const LiveAddress& target, const SaveOptions& options);
+
+/// `words`: one text in braces, or key=value.
+int call_command(const LiveAddress& target, const std::string& request, const std::vector<std::string>& words);
+int phase_command(const LiveAddress& target, const std::string& phase);
+int swap_command(const LiveAddress& target, const std::string& component, const std::string& file);
+int reset_command(const LiveAddress& target);
+
+}  // namespace fulmar::core

@@ -1,0 +1,367 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/fulmar_live/param_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <optional>
+
+#include "core/graph/catalogue.hpp"
+#include "core/graph/params.hpp"
+#include "core/graph/quantity.hpp"
+#include "core/graph/yaml.hpp"
+#include "tools/fulmar_live/yaml_edit.hpp"
+
+namespace fulmar::core {
+namespace fs = std::filesystem;
+namespace {
+
+// ---- values as text -------------------------------------------------------------------------------------------------------------
+
+bool same_number(double a, double b) { return std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b)); }
+
+bool same_value(const ParamInfo& info, const ParamValue& a, const ParamValue& b) {
+  switch (info.kind) {
+    case FULMAR_NUMBER:
+      return same_number(a.number[0], b.number[0]);
+    case FULMAR_VECTOR:
+      return same_number(a.number[0], b.number[0]) && same_number(a.number[1], b.number[1]) && same_number(a.number[2], b.number[2]);
+    case FULMAR_STRING:
+      return a.text == b.text;
+    default:
+      return a.integer == b.integer;
+  }
+}
+
+/// The shortest number that, in this unit, reads back as `value`.
+std::string number_in(double value, const std::string& unit, const std::string& declared) {
+  const std::string tail = unit.empty() ? "" : " " + unit;
+  std::string text;
+  for (int digits = 1; digits <= 17; ++digits) {
+    char buffer[40];
+    std::snprintf(buffer, sizeof buffer, "%.*g", digits, unit.empty() ? value : value / unit_factor(unit, declared));
+    text = number_text(std::strtod(buffer, nullptr)) + tail;
+    if (quantity_in(text, declared, UnitRule::optional) == value) break;
+  }
+  return text;
+}
+
+/// A number where none is written yet: angles in degrees when that is short.
+std::string new_number(double value, const std::string& declared) {
+  constexpr std::size_t brief = 8;
+  if (declared.empty() || declared == "frac" || declared == "ratio") return number_text(value);
+  const auto unit = parse_unit(declared);
+  if (!unit || unit->dimension == PhysicalUnit{}.dimension) return number_text(value);  // rad/rad: a gain
+  if (declared == "rad") {
+    const std::string degrees = number_in(value, "deg", declared);
+    if (degrees.size() <= brief + 4 && quantity_in(degrees, declared, UnitRule::optional) == value) return degrees;
+  }
+  const std::string text = number_text(value) + " " + declared;
+  try {
+    if (quantity_in(text, declared, UnitRule::optional) == value) return text;
+  } catch (const Error&) {
+  }
+  return number_text(value);
+}
+
+std::string number_like(const std::string& old, double value, const std::string& declared) {
+  try {
+    const Quantity quantity = parse_quantity(unquoted(old));
+    if (quantity.unit.empty() || same_dimension(quantity.unit, declared))
+      return quoted_like(old, number_in(value, quantity.unit, declared));
+  } catch (const Error&) {  // an alias, say
+  }
+  return new_number(value, declared);
+}
+
+std::string word_text(const std::string& word) {
+  constexpr const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./";
+  const bool bare =
+      !word.empty() && word.find_first_not_of(plain) == std::string::npos && std::isalpha(static_cast<unsigned char>(word[0]));
+  static const std::vector<std::string> taken = {"true", "false", "yes", "no", "on", "off", "null"};
+  return bare && std::find(taken.begin(), taken.end(), word) == taken.end() ? word : quoted_like("\"", word);
+}
+
+std::string scalar_like(const std::string& old, const SavedParam& p) {
+  switch (p.info.kind) {
+    case FULMAR_NUMBER:
+      return number_like(old, p.value.number[0], p.info.unit);
+    case FULMAR_COUNT:
+      return quoted_like(old, std::to_string(p.value.integer));
+    case FULMAR_FLAG:
+      return p.value.integer ? "true" : "false";
+    case FULMAR_CHOICE:
+      return quoted_like(old, p.info.choices.at(static_cast<std::size_t>(p.value.integer)));
+    default: {
+      const std::string quoted = quoted_like(old, p.value.text);
+      return quoted != p.value.text ? quoted : word_text(p.value.text);
+    }
+  }
+}
+
+std::string new_text(const SavedParam& p) {
+  if (p.info.kind == FULMAR_NUMBER) return new_number(p.value.number[0], p.info.unit);
+  if (p.info.kind != FULMAR_VECTOR) return scalar_like("", p);
+  std::string text;
+  for (const double x : p.value.number) text += (text.empty() ? "[" : ", ") + new_number(x, p.info.unit);
+  return text + "]";
+}
+
+// ---- places ---------------------------------------------------------------------------------------------------------------------
+
+struct FilePlace {
+  std::size_t file = 0;  // into Saver::files_
+  YamlPath path;
+};
+
+const Node* at_path(const Node& root, const YamlPath& path) {
+  const Node* node = &root;
+  for (const std::string& key : path)
+    if (!(node = node->find(key))) return nullptr;
+  return node;
+}
+
+/// Every value with its path, as text that cannot be mistaken.
+void flatten(const Node& node, const std::string& path, std::map<std::string, std::string>& out) {
+  if (node.is(Node::Kind::map) || node.is(Node::Kind::sequence)) out[path] = node.is(Node::Kind::map) ? "{" : "[";
+  if (node.is(Node::Kind::scalar)) out[path] = (node.quoted ? "'" : "=") + node.text;
+  for (const Node::Entry& entry : node.entries) flatten(entry.value, path + "\n" + entry.key, out);
+  for (std::size_t i = 0; i < node.items.size(); ++i) flatten(node.items[i], path + "\n" + std::to_string(i), out);
+}
+
+Node parsed(const std::string& text, const std::string& name) {
+  Report report;
+  const Node root = parse_yaml(make_source(text, name), report);
+  report.throw_if_any();
+  return root;
+}
+
+class Saver {
+ public:
+  explicit Saver(const fs::path& mission) {
+    open(mission, mission.string());
+    if (const Node* base = roots_[0].find("extends"); base && base->is(Node::Kind::scalar))
+      open(mission.parent_path() / base->text, base->text);
+    for (std::size_t i = 0; i < files_.size(); ++i) {
+      const Node* airframe = roots_[i].find("airframe");
+      if (!airframe) continue;
+      if (airframe->is(Node::Kind::map)) airframe_ = FilePlace{i, {"airframe", "params"}};
+      if (!airframe->is(Node::Kind::scalar)) break;
+      open(files_[i].path.parent_path() / airframe->text, airframe->text);
+      airframe_ = FilePlace{files_.size() - 1, {"params"}};
+      break;
+    }
+  }
+
+  void save(SavedParam p) {
+    if (p.info.kind == FULMAR_RECORD || p.info.kind == FULMAR_BLOB) return;
+    const std::optional<FilePlace> place = find(p);
+    if (place && p.info.kind == FULMAR_VECTOR && !p.info.type) p.info.type = names_of(*at_path(roots_[place->file], place->path));
+    if (place ? already(p, *place) : same_value(p.info, p.value, initial_value(p.info))) return;
+    const FilePlace where = place.value_or(FilePlace{0, {"components", p.component, "params", p.info.name}});
+    const std::string name = p.component + "." + p.info.name;
+    try {
+      const std::string& before = files_[where.file].after;
+      const std::string after = place ? replaced(before, where.path, p) : with_entry(before, where.path, new_text(p));
+      check(before, after, where, p);
+      files_[where.file].after = after;
+      roots_[where.file] = parsed(after, files_[where.file].name);
+      plan_.changed.push_back(name);
+    } catch (const Error& fault) {
+      plan_.refused.push_back(files_[where.file].name + ": " + name + " is " + new_text(p) + " now; write it by hand: " + fault.what());
+    }
+  }
+
+  SavePlan plan() {
+    for (FileEdit& file : files_)
+      if (file.before != file.after) plan_.files.push_back(file);
+    return plan_;
+  }
+
+ private:
+  void open(const fs::path& path, const std::string& name) {
+    const FilePtr file = read_source(path, name);
+    roots_.push_back(parsed(file->text, name));
+    files_.push_back({path, path.filename().string(), file->text, file->text});
+  }
+
+  std::optional<FilePlace> find(const SavedParam& p) const {
+    const YamlPath own{"components", p.component, "params", p.info.name};
+    for (std::size_t i = 0; i < std::min<std::size_t>(files_.size(), 2); ++i)
+      if (at_path(roots_[i], own)) return FilePlace{i, own};
+    if (!airframe_) return std::nullopt;
+    const Node* sections = at_path(roots_[airframe_->file], airframe_->path);
+    const auto [plugin, component] = split_use(p.use);
+    for (std::size_t i = 0; sections && i < sections->entries.size(); ++i) {
+      const Node::Entry& section = sections->entries[i];
+      const auto [for_plugin, for_component] = split_use(section.key);
+      if (for_plugin != plugin && for_plugin != plugin + ".so") continue;
+      if ((!for_component.empty() && for_component != component) || !section.value.find(p.info.name)) continue;
+      FilePlace place = *airframe_;
+      place.path.push_back(section.key);
+      place.path.push_back(p.info.name);
+      return place;
+    }
+    return std::nullopt;
+  }
+
+  /// Who speaks to a flight from outside does not know the elements' names: they are those of the frame that the file speaks of.
+  static TypePtr names_of(const Node& map) {
+    Type type;
+    type.fields.resize(3);
+    const bool ned = map.find("north") || map.find("east") || map.find("down");
+    for (std::size_t i = 0; i < 3; ++i) type.fields[i].name = std::vector{ned ? "north" : "x", ned ? "east" : "y", ned ? "down" : "z"}[i];
+    return std::make_shared<const Type>(std::move(type));
+  }
+
+  /// Whether the file says what the flight has.
+  static bool says(const SavedParam& p, const Node& node) {
+    Report report;
+    FileStore none(report);
+    ParamValue value = initial_value(p.info);
+    read_param(p.info, node, p.info.name, value, none, report);
+    return report.empty() && same_value(p.info, value, p.value);
+  }
+  bool already(const SavedParam& p, const FilePlace& place) const { return says(p, *at_path(roots_[place.file], place.path)); }
+
+  static std::string replaced(const std::string& text, const YamlPath& path, const SavedParam& p) {
+    const std::optional<YamlSpan> span = find_value(text, path);
+    if (!span) throw Error("it is written in a form that is not changed here");
+    const std::string old = text.substr(span->begin, span->end - span->begin);
+    using Form = YamlSpan::Form;
+    if (span->form == Form::alias) return with_value(text, *span, new_text(p));
+    if (p.info.kind != FULMAR_VECTOR) return with_value(text, *span, scalar_like(old, p));
+    if (span->form == Form::map) return vector_keys(text, path, p);
+    const std::vector<YamlSpan> items = list_items(text, *span);
+    if (items.size() != 3) throw Error("a list is changed only when it is written in brackets, [a, b, c]");
+    std::string changed = text;
+    for (std::size_t i = 3; i-- > 0;) {
+      const std::string item = text.substr(items[i].begin, items[i].end - items[i].begin);
+      if (!holds(item, p.value.number[i], p.info.unit))
+        changed = with_value(changed, items[i], number_like(item, p.value.number[i], p.info.unit));
+    }
+    return changed;
+  }
+
+  static bool holds(const std::string& item, double value, const std::string& unit) {
+    try {
+      return same_number(quantity_in(unquoted(item), unit, UnitRule::optional), value);
+    } catch (const Error&) {
+      return false;
+    }
+  }
+
+  static std::string vector_keys(std::string text, const YamlPath& path, const SavedParam& p) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      YamlPath key = path;
+      key.push_back(p.info.type->fields[i].name);
+      const std::optional<YamlSpan> span = find_value(text, key);
+      const std::string old = span ? text.substr(span->begin, span->end - span->begin) : "";
+      if (span && !holds(old, p.value.number[i], p.info.unit))
+        text = with_value(text, *span, number_like(old, p.value.number[i], p.info.unit));
+      if (!span && !same_number(p.value.number[i], p.info.initial[i]))
+        text = with_entry(text, key, new_number(p.value.number[i], p.info.unit));
+    }
+    return text;
+  }
+
+  /// The file after the change says what the flight has, and of everything else what it said before.
+  static void check(const std::string& before, const std::string& after, const FilePlace& where, const SavedParam& p) {
+    const Node root = parsed(after, "");
+    const Node* node = at_path(root, where.path);
+    if (!node || !says(p, *node)) throw Error("the file would not say that");
+    std::map<std::string, std::string> old, now;
+    flatten(parsed(before, ""), "", old);
+    flatten(root, "", now);
+    std::string own;
+    for (const std::string& key : where.path) own += "\n" + key;
+    for (const auto& [path, value] : old) {
+      const auto same = now.find(path);
+      if (path.starts_with(own) || (same != now.end() && (same->second == value || own.starts_with(path)))) continue;
+      std::string words = path.substr(1);
+      std::replace(words.begin(), words.end(), '\n', '.');
+      throw Error("the same text also gives " + words);
+    }
+  }
+
+  std::vector<FileEdit> files_;  // mission, what it extends, airframe
+  std::vector<Node> roots_;
+  std::optional<FilePlace> airframe_;
+  SavePlan plan_;
+};
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    lines.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return lines;
+}
+
+bool write_all(int file, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t n = ::write(file, text.data(), text.size());
+    if (n < 0 && errno != EINTR) return false;
+    text.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
+  }
+  return true;
+}
+
+}  // namespace
+
+SavePlan plan_save(const fs::path& mission, const std::vector<SavedParam>& params) {
+  Saver saver(mission);
+  for (const SavedParam& p : params) saver.save(p);
+  return saver.plan();
+}
+
+// Changes touch single lines or add some; so the next equal line behind a difference ends it.
+std::string diff_text(const FileEdit& edit) {
+  const std::vector<std::string> old = lines_of(edit.before), now = lines_of(edit.after);
+  std::string text;
+  std::size_t i = 0, j = 0;
+  while (i < old.size() || j < now.size()) {
+    if (i < old.size() && j < now.size() && old[i] == now[j]) {
+      ++i, ++j;
+      continue;
+    }
+    const bool added = i >= old.size() || (now.size() - j > old.size() - i &&
+                                           std::find(now.begin() + static_cast<std::ptrdiff_t>(j), now.end(), old[i]) != now.end());
+    text += edit.name + ":" + std::to_string(j + 1) + "\n";
+    if (!added) text += "- " + old[i++] + "\n";
+    if (j < now.size()) text += "+ " + now[j++] + "\n";
+  }
+  return text;
+}
+
+void write_edit(const FileEdit& edit) {
+  if (read_source(edit.path, edit.path.string())->text != edit.before)
+    throw Error(edit.path.string() + " has changed meanwhile; nothing was written to it");
+  std::error_code fault;
+  const fs::path target = fs::canonical(edit.path, fault);
+  const auto mode = static_cast<mode_t>(fs::status(target, fault).permissions());
+  std::string fresh = (target.parent_path() / ("." + target.filename().string() + ".XXXXXX")).string();  // a name that nobody has
+  const auto failed = [&](int code) { throw Error(edit.path.string() + " cannot be written: " + std::strerror(code)); };
+  if (fault) failed(fault.value());
+  const int file = ::mkostemp(fresh.data(), O_CLOEXEC);
+  if (file < 0) failed(errno);
+  // On the disk before it takes the name: else a loss of power could leave an empty file under it.
+  int code = write_all(file, edit.after) && ::fchmod(file, mode) == 0 && ::fsync(file) == 0 ? 0 : errno;
+  if (::close(file) != 0 && code == 0) code = errno;
+  if (code == 0 && ::rename(fresh.c_str(), target.c_str()) != 0) code = errno;
+  if (code == 0) return;
+  ::unlink(fresh.c_str());
+  failed(code);
+}
+
+}  // namespace fulmar::core

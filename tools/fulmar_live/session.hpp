@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A running flight as the command line sees it: the Foxglove WebSocket protocol over a Client. Source: foxglove/ws-protocol, docs/spec.md.
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/fulmar_live/client.hpp"
+#include "core/types/type.hpp"
+
+namespace fulmar::core {
+
+class Session {
+ public:
+  using json = nlohmann::json;
+  using Milliseconds = std::chrono::milliseconds;
+
+  explicit Session(const LiveAddress& target, Milliseconds patience = std::chrono::seconds(5));
+  ~Session();
+
+  struct Channel {
+    std::uint32_t id = 0;
+    std::string topic, schema_name, schema, encoding;
+  };
+  /// By topic. Those that the flight has told of so far: the first call waits for them.
+  const std::map<std::string, Channel>& channels();
+  /// The type of a channel's messages, read from its schema. Throws Error.
+  TypePtr type(const std::string& topic);
+
+  /// What the flight is, as /fulmar/view answers.
+  json view();
+  /// Of that: the time that samples are stamped with, at the begin of the flight.
+  std::int64_t epoch_ns();
+  /// Calls a service and returns its answer. Throws Error when there is no such service or the flight refuses to hear of it.
+  json call(const std::string& service, const json& request);
+  /// Whether accepted; the reason when not.
+  struct Verdict {
+    bool accepted = false;
+    std::string reason;
+  };
+  Verdict order(const std::string& service, const json& request);
+
+  void subscribe(const std::string& topic);
+  struct Sample {
+    std::string topic;
+    std::int64_t time_ns = 0;      // as the flight stamps it: its epoch and flight time
+    std::vector<std::byte> bytes;  // CDR
+  };
+  /// The next sample of what is subscribed; nothing when none comes in that time.
+  std::optional<Sample> next(Milliseconds limit);
+
+ private:
+  void handle_text(const std::string& text);
+  void handle_binary(const std::string& bytes);
+  bool pump(Milliseconds limit);
+  template <class Ready>
+  void pump_until(const Ready& ready, const char* what);
+  std::uint32_t service_id(const std::string& name);
+
+  Client client_;
+  std::string at_;
+  Milliseconds patience_;
+  bool advertised_ = false, services_known_ = false;
+  std::map<std::string, Channel> channels_;
+  std::map<std::string, TypePtr> types_;
+  std::map<std::string, std::uint32_t> services_;
+  std::map<std::uint32_t, std::string> subscriptions_;  // id -> topic
+  std::vector<Sample> samples_;
+  std::size_t taken_ = 0;
+  std::uint32_t calls_ = 0;
+  std::unique_ptr<json> answer_;  // of call number calls_
+  std::string failure_;
+};
+
+}  // namespace fulmar::core

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parameters written back into mission and airframe files: the expected texts are written by hand.
+#include "tools/fulmar_live/param_file.hpp"
+
+#include <doctest/doctest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "tools/fulmar_live/yaml_edit.hpp"
+
+namespace param_file_test {
+
+namespace fs = std::filesystem;
+using namespace fulmar::core;
+
+namespace {
+
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("fulmar-param-file-test-" + std::to_string(getpid()));
+  Folder() { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+  fs::path file(const std::string& name, const std::string& text) const {
+    std::ofstream(path / name, std::ios::binary) << text;
+    return path / name;
+  }
+};
+
+SavedParam number(const std::string& name, double value, const std::string& unit = "", const std::string& component = "slc") {
+  SavedParam p;
+  p.component = component, p.use = "control_slc/Outer";
+  p.info.name = name, p.info.unit = unit, p.info.live = true;
+  p.info.min = -std::numeric_limits<double>::infinity(), p.info.max = -p.info.min;
+  p.value.number[0] = value;
+  return p;
+}
+SavedParam vector(const std::string& name, double a, double b, double c, const std::string& unit) {
+  SavedParam p = number(name, a, unit);
+  p.info.kind = FULMAR_VECTOR;
+  p.value.number[1] = b, p.value.number[2] = c;
+  return p;
+}
+SavedParam text(const std::string& name, const std::string& value) {
+  SavedParam p = number(name, 0);
+  p.info.kind = FULMAR_STRING, p.info.capacity = 64;
+  p.value.text = value;
+  return p;
+}
+SavedParam choice(const std::string& name, std::int64_t value) {
+  SavedParam p = number(name, 0);
+  p.info.kind = FULMAR_CHOICE, p.info.choices = {"none", "light", "severe"};
+  p.value.integer = value;
+  return p;
+}
+
+/// The mission after saving, when nothing else changes and nothing is refused.
+std::string saved(const std::string& mission, const std::vector<SavedParam>& params) {
+  const Folder folder;
+  const fs::path file = folder.file("m.yaml", mission);
+  const SavePlan plan = plan_save(file, params);
+  for (const std::string& sentence : plan.refused) FAIL_CHECK(sentence);
+  if (plan.files.empty()) return mission;
+  REQUIRE(plan.files.size() == 1);
+  write_edit(plan.files[0]);
+  std::stringstream now;
+  now << std::ifstream(file, std::ios::binary).rdbuf();
+  return now.str();
+}
+std::string refused(const std::string& mission, const std::vector<SavedParam>& params) {
+  const Folder folder;
+  const SavePlan plan = plan_save(folder.file("m.yaml", mission), params);
+  CHECK(plan.files.empty());
+  return plan.refused.size() == 1 ? plan.refused[0] : "";
+}
+
+}  // namespace
+
+TEST_CASE("a value is replaced where it stands: unit, comment and layout stay") {
+  CHECK(saved("components:\n  slc:\n    params:\n      roll_limit: 40 deg   # not more\n      roll_kp:   0.5\n",
+              {number("roll_limit", 0.7330382858376184, "rad"), number("roll_kp", 0.625, "rad/rad")}) ==
+        "components:\n  slc:\n    params:\n      roll_limit: 42 deg   # not more\n      roll_kp:   0.625\n");
+  CHECK(saved("components:\r\n  slc: {use: x, params: {speed: 60 km/h, roll_kp: 1}, rate: 100 Hz}\r\n", {number("speed", 25, "m/s")}) ==
+        "components:\r\n  slc: {use: x, params: {speed: 90 km/h, roll_kp: 1}, rate: 100 Hz}\r\n");
+}
+
+TEST_CASE("what the file says already is left alone, to the last digit of its writer") {
+  const std::string mission = "components: {slc: {params: {roll_limit: 40.0 deg, wind: [3.0, 4, 0], law: 'light'}}}";
+  CHECK(saved(mission, {number("roll_limit", 0.6981317007977318, "rad"), vector("wind", 3, 4, 0, "m/s"), choice("law", 1)}) == mission);
+  CHECK(saved(mission, {number("roll_limit", 0.6981317007977318, "rad"), number("unsaid", 0, "m")}) == mission);
+}
+
+TEST_CASE("quotes stay quotes, and text that YAML would misread gets some") {
+  CHECK(saved("components: {slc: {params: {a: \"40 deg\", b: 'x', c: plain, d: word}}}",
+              {number("a", 0.7330382858376184, "rad"), text("b", "it's"), text("c", "on"), text("d", "a: b # c")}) ==
+        "components: {slc: {params: {a: \"42 deg\", b: 'it''s', c: \"on\", d: \"a: b # c\"}}}");
+  CHECK(saved("components: {slc: {params: {law: none}}}", {choice("law", 2)}) == "components: {slc: {params: {law: severe}}}");
+}
+
+TEST_CASE("of a vector only the elements that differ are written, each in its unit") {
+  CHECK(saved("components: {slc: {params: {wind: [3.0, -4 m/s, 36 km/h]  # n e d\n}}}", {vector("wind", 3, -5.5, 5, "m/s")}) ==
+        "components: {slc: {params: {wind: [3.0, -5.5 m/s, 18 km/h]  # n e d\n}}}");
+  CHECK(saved("components:\n  slc:\n    params:\n      wind: {north: 3, east: 4}  # calm\n", {vector("wind", 3, 2, 1, "m/s")}) ==
+        "components:\n  slc:\n    params:\n      wind: {north: 3, east: 2, down: 1 m/s}  # calm\n");
+}
+
+TEST_CASE("a value that stands nowhere is added to the mission where it belongs") {
+  const SavedParam p = number("roll_limit", 0.7330382858376184, "rad");
+  CHECK(
+      saved("mission: m\ncomponents:\n  slc:\n    params:\n      roll_kp: 1    # fine\n      # the end\n  tecs: {}\n", {p}) ==
+      "mission: m\ncomponents:\n  slc:\n    params:\n      roll_kp: 1    # fine\n      roll_limit: 42 deg\n      # the end\n  tecs: {}\n");
+  CHECK(saved("components:\n  slc: {use: x, params: {a: 1}}  # here\n", {p}) ==
+        "components:\n  slc: {use: x, params: {a: 1, roll_limit: 42 deg}}  # here\n");
+  CHECK(saved("components:\n  slc: {use: x}\n", {p}) == "components:\n  slc: {use: x, params: {roll_limit: 42 deg}}\n");
+  CHECK(saved("components:\n  slc: {params: {}}\n", {p}) == "components:\n  slc: {params: {roll_limit: 42 deg}}\n");
+  CHECK(saved("components:\n  slc:\n    params:\n    rate: 1 Hz\n", {p}) ==
+        "components:\n  slc:\n    params: {roll_limit: 42 deg}\n    rate: 1 Hz\n");
+  CHECK(saved("components:\n  tecs: {}\ndone: a\n", {p}) == "components:\n  tecs: {}\n  slc: {params: {roll_limit: 42 deg}}\ndone: a\n");
+  CHECK(saved("mission: m", {p}) == "mission: m\ncomponents: {slc: {params: {roll_limit: 42 deg}}}\n");
+  CHECK(saved("components:\n  slc: {\n    params: {a: 1,  # one\n             b: 2  # two, {\n    }}\n",
+              {p, number("gain", 0.3, "rad/rad")}) ==
+        "components:\n  slc: {\n    params: {a: 1,  # one\n             b: 2, roll_limit: 42 deg, gain: 0.3  # two, {\n    }}\n");
+}
+
+TEST_CASE("an alias is replaced by the value; an anchor whose aliases others use is left alone") {
+  const std::string mission = "components:\n  slc: {params: {roll_kp: &k 0.5, pitch_kp: *k}}\n";
+  CHECK(saved(mission, {number("pitch_kp", 0.75, "rad/rad"), number("roll_kp", 0.5, "rad/rad")}) ==
+        "components:\n  slc: {params: {roll_kp: &k 0.5, pitch_kp: 0.75}}\n");
+  CHECK(refused(mission, {number("roll_kp", 0.75, "rad/rad")}) ==
+        "m.yaml: slc.roll_kp is 0.75 now; write it by hand: the same text also gives components.slc.params.pitch_kp");
+  CHECK(refused("x: &g {roll_kp: 1}\ncomponents: {slc: {params: *g}}\n", {number("yaw_kp", 2)}) ==
+        "m.yaml: slc.yaw_kp is 2 now; write it by hand: 'params' is *g, which stands elsewhere");
+}
+
+TEST_CASE("a value is written into the file that it came from: what the mission extends, or the airframe") {
+  const Folder folder;
+  folder.file("plane.yaml",
+              "mass: 4.5 kg\nparams:\n  control_slc/Outer:\n    course_kp: 2   # 1.15 rad/s\n  control_slc/Inner:\n    course_kp: 7\n");
+  folder.file("common.yaml", "components:\n  slc: {params: {climb_kff: 0.05}}\nroles: {r: {out: {truth?: T}}}\n");
+  const fs::path mission =
+      folder.file("m.yaml", "extends: common.yaml\nairframe: plane.yaml\ncomponents:\n  slc: {params: {thrust: 50 N}}\n");
+  const SavePlan plan =
+      plan_save(mission, {number("course_kp", 2.5, "rad/rad"), number("climb_kff", 0.06, "1/m"), number("thrust", 55.5, "N")});
+  CHECK(plan.refused.empty());
+  CHECK(plan.changed == std::vector<std::string>{"slc.course_kp", "slc.climb_kff", "slc.thrust"});
+  REQUIRE(plan.files.size() == 3);
+  CHECK(diff_text(plan.files[0]) == "m.yaml:4\n-   slc: {params: {thrust: 50 N}}\n+   slc: {params: {thrust: 55.5 N}}\n");
+  CHECK(diff_text(plan.files[1]) == "common.yaml:2\n-   slc: {params: {climb_kff: 0.05}}\n+   slc: {params: {climb_kff: 0.06}}\n");
+  CHECK(diff_text(plan.files[2]) == "plane.yaml:4\n-     course_kp: 2   # 1.15 rad/s\n+     course_kp: 2.5   # 1.15 rad/s\n");
+}
+
+TEST_CASE("an added line is shown as one, and a file that has changed meanwhile is not written") {
+  const Folder folder;
+  const fs::path mission = folder.file("m.yaml", "components:\n  slc:\n    params:\n      a: 1\n  tecs: {}\n");
+  const SavePlan plan = plan_save(mission, {number("b", 2)});
+  REQUIRE(plan.files.size() == 1);
+  CHECK(diff_text(plan.files[0]) == "m.yaml:5\n+       b: 2\n");
+  folder.file("m.yaml", "mission: other\n");
+  CHECK_THROWS_WITH_AS(write_edit(plan.files[0]), (mission.string() + " has changed meanwhile; nothing was written to it").c_str(), Error);
+}
+
+TEST_CASE("writing leaves other files alone, and keeps the mode of its own and the link to it") {
+  const Folder folder;
+  const fs::path mission = folder.file("m.yaml", "components:\n  slc:\n    params:\n      a: 1\n");
+  const fs::path copy = folder.file("m.yaml.new", "mine\n");
+  fs::permissions(mission, fs::perms::owner_all | fs::perms::group_read);
+  fs::create_symlink("m.yaml", folder.path / "link.yaml");
+  const auto text = [](const fs::path& file) {
+    std::stringstream now;
+    now << std::ifstream(file, std::ios::binary).rdbuf();
+    return now.str();
+  };
+  const auto names = [&] {
+    std::vector<std::string> list;
+    for (const auto& entry : fs::directory_iterator(folder.path)) list.push_back(entry.path().filename());
+    std::sort(list.begin(), list.end());
+    return list;
+  };
+  const std::vector<std::string> there = names();
+  write_edit(plan_save(folder.path / "link.yaml", {number("a", 2)}).files.at(0));
+  CHECK(text(mission) == "components:\n  slc:\n    params:\n      a: 2\n");
+  CHECK(text(copy) == "mine\n");
+  CHECK(fs::status(mission).permissions() == (fs::perms::owner_all | fs::perms::group_read));
+  CHECK(fs::is_symlink(folder.path / "link.yaml"));
+  CHECK(names() == there);
+}
+
+TEST_CASE("what cannot be written whole leaves the file as it was, and nothing beside it") {
+  const Folder folder;
+  const std::string before = "components:\n  slc:\n    params:\n      a: 1\n";
+  const fs::path mission = folder.file("m.yaml", before);
+  const FileEdit edit = plan_save(mission, {number("a", 2)}).files.at(0);
+  rlimit usual{};
+  REQUIRE(::getrlimit(RLIMIT_FSIZE, &usual) == 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{10, usual.rlim_max};
+  ::setrlimit(RLIMIT_FSIZE, &small);  // as if the disk were full after ten bytes
+  std::string said;
+  try {
+    write_edit(edit);
+  } catch (const Error& e) {
+    said = e.what();
+  }
+  ::setrlimit(RLIMIT_FSIZE, &usual);
+  std::signal(SIGXFSZ, handler);
+  CHECK(said == mission.string() + " cannot be written: File too large");
+  std::stringstream now;
+  now << std::ifstream(mission, std::ios::binary).rdbuf();
+  CHECK(now.str() == before);
+  CHECK(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()) == 1);
+}
+
+TEST_CASE("block scalars and broken files are refused") {
+  CHECK(refused("components:\n  slc:\n    params:\n      note: |\n        a\n", {text("note", "b")}) ==
+        "m.yaml: slc.note is b now; write it by hand: it is written in a form that is not changed here");
+  CHECK(refused("components:\n  slc:\n    params:\n      wind:\n        - 1\n        - 2\n        - 3\n", {vector("wind", 1, 2, 4, "m")}) ==
+        "m.yaml: slc.wind is [1 m, 2 m, 4 m] now; write it by hand: a list is changed only when it is written in brackets, [a, b, c]");
+  const Folder folder;
+  CHECK_THROWS_AS(plan_save(folder.file("m.yaml", "a: {b\n"), {number("x", 1)}), Error);
+}
+
+TEST_CASE("a shipped mission keeps every byte but those of the value") {
+  const fs::path source = fs::path(FULMAR_SOURCE_DIR) / "configs";
+  const SavePlan plan = plan_save(source / "missions/hourglass.yaml", {number("course_kp", 2.25, "rad/rad")});
+  REQUIRE(plan.files.size() == 1);
+  CHECK(plan.files[0].path.filename() == "anaconda.yaml");
+  CHECK(plan.files[0].after.size() == plan.files[0].before.size() + 3);
+  CHECK(diff_text(plan.files[0]).find("+     course_kp: 2.25            # 1.15 rad/s") != std::string::npos);
+}
+
+}  // namespace param_file_test

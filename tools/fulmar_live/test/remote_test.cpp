@@ -1,0 +1,387 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The words for a running flight, as a user types them, against the live view of a mock flight at 400 Hz.
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <thread>
+
+#include "tools/fulmar_live/completion.hpp"
+#include "tools/fulmar_live/ports.hpp"
+#include "tools/fulmar_live/session.hpp"
+#include "core/live/server.hpp"
+#include "core/live/test/mock.hpp"
+
+namespace remote_test {
+
+namespace fs = std::filesystem;
+using namespace fulmar::core;
+using nlohmann::json;
+
+namespace {
+
+struct MockFlight {
+  Tap tap{test::mock_channels()};
+  test::MockControl control;
+  std::unique_ptr<LiveServer> server;
+  std::atomic<bool> stop{false};
+  std::thread loop;
+
+  explicit MockFlight(const std::string& token = "") {
+    LiveOptions options;
+    options.port = 0;
+    options.token = token;
+    server = std::make_unique<LiveServer>(tap, control, options);
+    loop = std::thread([this] {
+      auto due = std::chrono::steady_clock::now();
+      for (int i = 0; !stop; ++i) {
+        test::mock_tick(tap, i);
+        std::this_thread::sleep_until(due += std::chrono::microseconds(2500));
+      }
+    });
+  }
+  ~MockFlight() {
+    stop = true;
+    loop.join();
+  }
+  std::string at() const { return "127.0.0.1:" + std::to_string(server->port()); }
+  LiveAddress target(const std::string& token = "") const { return parse_target(at(), token); }
+  bool heard(const std::string& what) const {
+    for (const std::string& word : control.heard())
+      if (word == what) return true;
+    return false;
+  }
+};
+
+struct Result {
+  int code = -1;
+  std::string out, err;
+};
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("fulmar-remote-test-" + std::to_string(getpid()) + "-" + std::to_string(next()));
+  Folder() { fs::create_directories(path); }
+  static int next() {
+    static int number = 0;
+    return number++;
+  }
+  ~Folder() { fs::remove_all(path); }
+};
+
+std::string content(const fs::path& file) {
+  std::stringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+Result shell(const std::string& command) {
+  const Folder folder;
+  Result r;
+  FILE* pipe = popen(("(" + command + ") 2>" + (folder.path / "err").string()).c_str(), "r");
+  REQUIRE(pipe != nullptr);
+  char buffer[4096];
+  for (std::size_t n = 0; (n = fread(buffer, 1, sizeof buffer, pipe)) > 0;) r.out.append(buffer, n);
+  const int status = pclose(pipe);
+  r.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  r.err = content(folder.path / "err");
+  return r;
+}
+
+const std::string program = FULMAR_BIN_DIR "/fulmar";
+
+Result typed(const MockFlight& flight, const std::string& words) {
+  return shell("FULMAR_LIVE=" + flight.at() + " " + program + " " + words);
+}
+
+std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> list;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) list.push_back(line);
+  return list;
+}
+
+/// What bash offers at the end of a line.
+std::vector<std::string> completed(const MockFlight& flight, const std::string& line) {
+  const std::string script =
+      "source <(" + program + " completion bash); COMP_LINE='" + line +
+      "'; COMP_POINT=${#COMP_LINE}; read -ra COMP_WORDS <<<\"$COMP_LINE\"; [[ $COMP_LINE == *\" \" ]] && COMP_WORDS+=(\"\"); "
+      "COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); COMP_WORDS[0]=" +
+      program + "; _fulmar; printf \"%s\\n\" \"${COMPREPLY[@]}\"";
+  const fs::path file = fs::temp_directory_path() / ("fulmar-completion-" + std::to_string(getpid()) + ".sh");
+  std::ofstream(file) << script;
+  const Result r = shell("FULMAR_LIVE=" + flight.at() + " bash " + file.string());
+  fs::remove(file);
+  CHECK(r.err == "");
+  std::vector<std::string> list = lines(r.out);
+  std::erase(list, "");
+  return list;
+}
+
+using Words = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("without a flight every word says what to do") {
+  for (const char* words :
+       {"list", "echo nav.state", "plot a.b.c", "param list", "param set a.b 1", "call a.b", "phase x", "swap a b", "reset"}) {
+    const Result r = shell(program + " " + words + " --at 127.0.0.1:1");
+    CHECK(r.code == 1);
+    CHECK(r.err == "no flight listens on 127.0.0.1:1: start one with fulmar run MISSION --speed real --live 8765, or name it with --at\n");
+  }
+  CHECK(shell(program + " list --at 127.0.0.1:0x").err == "'127.0.0.1:0x': '0x' is no port; give HOST:PORT, as in 127.0.0.1:8765\n");
+  CHECK(shell(program + " complete port x --at 127.0.0.1:1").out == "");
+}
+
+TEST_CASE("addresses are read as people write them") {
+  CHECK(parse_target("uav:1234").text() == "uav:1234");
+  CHECK(parse_target("uav").text() == "uav:8765");
+  CHECK(parse_target(":1234").text() == "127.0.0.1:1234");
+  CHECK(parse_target("[::1]:1234").text() == "[::1]:1234");
+  CHECK(parse_target("::1").text() == "[::1]:8765");
+  CHECK_THROWS_AS(parse_target("uav:99999"), Error);
+}
+
+TEST_CASE("a token is asked for, and taken from the command line or the environment") {
+  const MockFlight flight("secret");
+  const std::string at = program + " reset --at " + flight.at();
+  CHECK(shell("FULMAR_TOKEN=secret " + at).out == "reset: accepted\n");
+  CHECK(shell(at + " --token secret").code == 0);
+  const Result wrong = shell(at + " --token sesame");
+  CHECK(wrong.code == 1);
+  CHECK(wrong.err == "the flight on " + flight.at() + " refuses this token: give it with --token or in FULMAR_TOKEN\n");
+}
+
+TEST_CASE("list names components, ports with their rates, requests and phases") {
+  const MockFlight flight;
+  const Result r = typed(flight, "list");
+  CHECK(r.code == 0);
+  CHECK(r.out ==
+        "mock <1> (io: sim), phase cruise, 0.0 s, not armed\nphases: hold, cruise\n"
+        "\nslc: control_slc/Outer, fills outer, flies\n  slc.leg  Leg\n"
+        "\nplan: path/Planner, waits\n  plan.mixed    Mixed\n  plan.add_leg  Leg    request\n  plan.edits    Mixed  imported\n");
+  const json view = json::parse(typed(flight, "list --json --rates").out);
+  CHECK(view["components"][0]["params"][0]["name"] == "roll_kp");
+  CHECK(view["rates_hz"]["/slc/leg"].get<double>() == doctest::Approx(400).epsilon(0.2));
+  CHECK(view["rates_hz"]["/fulmar/ticks"].get<double>() == doctest::Approx(10).epsilon(0.3));
+}
+
+// Sample i at i * 2.5 ms has a course of i * 0.001 rad.
+TEST_CASE("echo prints fields in degrees, whole messages, JSON lines and CSV, as many as are asked for") {
+  const MockFlight flight;
+  const auto course_deg = [](double time_s) { return time_s / 0.0025 * 0.001 * 57.29577951308232; };
+  Result r = typed(flight, "echo slc.leg.course_deg --count 3");
+  CHECK(r.code == 0);
+  REQUIRE(lines(r.out).size() == 3);
+  for (const std::string& line : lines(r.out)) {
+    double time_s = 0, value = 0;
+    REQUIRE(std::sscanf(line.c_str(), "%lf s  slc.leg.course_deg %lf", &time_s, &value) == 2);
+    CHECK(value == doctest::Approx(course_deg(time_s)).epsilon(1e-4));
+  }
+  r = typed(flight, "echo slc.leg --count 1");
+  CHECK(r.out.find("  kind: orbit\n") != std::string::npos);
+  CHECK(r.out.find("  position_m: {north: 1, east: 2, down: 3}\n") != std::string::npos);
+
+  r = typed(flight, "echo slc.leg.position_m.east slc.leg.course_rad --count 4 --json");
+  REQUIRE(lines(r.out).size() == 4);
+  const json second = json::parse(lines(r.out)[1]);
+  CHECK(json::parse(lines(r.out)[0])["value"] == 2.0);
+  CHECK(second["port"] == "slc.leg.course_deg");
+  CHECK(second["value"].get<double>() == doctest::Approx(course_deg(second["time_s"])).epsilon(1e-9));
+
+  CHECK(typed(flight, "echo slc.leg --count 0").err.starts_with("--count: give a whole number from 1, not '0'\n"));
+  CHECK(typed(flight, "echo slc.leg --rate 0").err.starts_with("--rate: give a number above 0, not '0'\n"));
+
+  r = typed(flight, "echo slc.leg --csv --count 2 --rate 20");
+  const Words rows = lines(r.out);
+  REQUIRE(rows.size() == 3);
+  CHECK(rows[0] == "time_s,kind,has_course,course_deg,position_m.north,position_m.east,position_m.down");
+  CHECK(rows[1].ends_with(",1.0,2.0,3.0"));
+  CHECK(std::stod(rows[2]) - std::stod(rows[1]) == doctest::Approx(0.05).epsilon(1e-6));
+}
+
+TEST_CASE("echo says that it waits when a port stays silent, and of which") {
+  const MockFlight flight;
+  const Result r = shell("FULMAR_LIVE=" + flight.at() + " timeout 4 " + program + " echo plan.add_leg slc.leg.course_deg --rate 1");
+  CHECK(r.code == 124);
+  CHECK(r.err == "waiting for the first sample of plan.add_leg\n");
+  CHECK(lines(r.out).size() >= 2);
+}
+
+TEST_CASE("names that are not there are answered with the nearest and the choices") {
+  const MockFlight flight;
+  const auto said = [&](const std::string& words) {
+    const Result r = typed(flight, words);
+    CHECK(r.code == 1);
+    return r.err;
+  };
+  CHECK(said("echo slx.leg") == "nothing in this flight is called 'slx'. Did you mean 'slc'? Valid: fulmar, plan, slc.\n");
+  CHECK(said("echo slc.lag") == "slc has no port 'lag'. Did you mean 'leg'? Valid: leg.\n");
+  CHECK(said("echo slc") == "'slc' is no port: give slc.PORT. Valid: leg.\n");
+  CHECK(said("echo slc.leg.corse_deg") ==
+        "slc.leg has no field 'corse_deg'. Did you mean 'course_deg'? Valid: kind, has_course, course_deg, position_m.\n");
+  CHECK(said("plot slc.leg") ==
+        "'slc.leg' is a message: give one of its fields, as in slc.leg.kind. Valid: kind, has_course, course_deg, position_m.\n");
+  CHECK(said("param get slc.rol_kp").starts_with("slc has no parameter 'rol_kp'. Did you mean 'roll_kp'? Valid: roll_kp, law,"));
+  CHECK(said("phase cruse") == "this flight has no phase 'cruse'. Did you mean 'cruise'? Valid: hold, cruise.\n");
+  CHECK(said("call plan.add_log a=1") ==
+        "this flight takes no request 'plan.add_log'. Did you mean 'plan.add_leg'? Valid: plan.add_leg.\n");
+  CHECK(said("swap sls x.so") == "this flight has no component 'sls'. Did you mean 'slc'? Valid: slc, plan.\n");
+}
+
+TEST_CASE("parameters are listed with range and kind, read, and set as in a mission file") {
+  const MockFlight flight;
+  CHECK(lines(typed(flight, "param list slc.roll*").out) == Words{"slc.roll_kp  0.55 rad/rad  0 .. 2 rad/rad  live"});
+  CHECK(lines(typed(flight, "param list slc").out).size() == 6);
+  CHECK(typed(flight, "param get slc.roll_kp").out == "0.55 rad/rad\n");
+  CHECK(json::parse(typed(flight, "param get slc.law --json").out)["choices"] == json{"climb", "takeoff"});
+
+  Result r = typed(flight, "param set slc.roll_kp 0.75 slc.wind '[1, 2, -3]'");
+  CHECK(r.code == 0);
+  CHECK(r.out == "slc.roll_kp: 0.55 rad/rad -> 0.75\nslc.wind: [3, -4, 0] rad/rad -> [1, 2, -3]\n");
+  CHECK(flight.heard("set slc.roll_kp 0.75"));
+  CHECK(flight.heard("set slc.wind [1, 2, -3]"));
+  CHECK(typed(flight, "param get slc.roll_kp").out == "0.75 rad/rad\n");
+  CHECK(typed(flight, "param set slc.law takeoff").out ==
+        "slc.law: climb -> takeoff, from the next phase on: this phase sets it to something else\n");
+
+  r = typed(flight, "param set slc.roll_kp 9");
+  CHECK(r.code == 1);
+  CHECK(r.err == "slc.roll_kp is not set to 9: 9 is outside 0 .. 2 rad/rad\n");
+  CHECK(typed(flight, "param set slc.roll_kp").err == "'slc.roll_kp' has no value: give NAME VALUE [NAME VALUE ...]\n");
+  CHECK(typed(flight, "param set slc.roll_kp").code == 2);
+  CHECK(typed(flight, "param set").code == 2);
+  r = typed(flight, "param set slc.wind '[1, 1, 1]' slc.roll_kp 9 slc.count 8");
+  CHECK(r.err == "slc.roll_kp is not set to 9: 9 is outside 0 .. 2 rad/rad; already set: slc.wind; not tried: slc.count\n");
+  CHECK(typed(flight, "param set --help").out.find("NAME VALUE [NAME VALUE ...]") != std::string::npos);
+  CHECK(typed(flight, "param set slc.roll_kp -1").code == 0);  // no option
+}
+
+TEST_CASE("what flies is saved to the mission's file when that is agreed to, and comments stay") {
+  const MockFlight flight;
+  const Folder folder;
+  const fs::path file = folder.path / "m.yaml";
+  const std::string before =
+      "mission: mock <1>\ncomponents:\n  slc:\n    params: {roll_kp: 0.5, note: '40 deg', wind: [3, -4, 0]}  # gains\n";
+  const std::string after =
+      "mission: mock <1>\ncomponents:\n  slc:\n    params: {roll_kp: 0.625, note: '40 deg', wind: [3, -4, 0], count: 7, on: true}  # "
+      "gains\n";
+  std::ofstream(file) << before;
+  REQUIRE(typed(flight, "param set slc.roll_kp 0.625").code == 0);
+  Result r = typed(flight, "param save slc --dry-run --mission " + file.string());
+  CHECK(r.code == 0);
+  CHECK(r.out == "m.yaml:4\n- " + lines(before)[3] + "\n+ " + lines(after)[3] + "\n");
+  CHECK(content(file) == before);
+  r = typed(flight, "param save --mission " + file.string() + " </dev/null");
+  CHECK(r.code == 1);
+  CHECK(r.err == "nothing was written: say --yes, or answer at a terminal\n");
+  CHECK(typed(flight, "param save --yes --mission " + file.string()).code == 0);
+  CHECK(content(file) == after);
+  CHECK(typed(flight, "param save --yes --mission " + file.string()).out == "The files say already what flies.\n");
+  const fs::path other = folder.path / "other.yaml";
+  std::ofstream(other) << "components:\n  slc:\n    params: {roll_kp: 0.5}\n";
+  r = typed(flight, "param save --yes --mission " + other.string());
+  CHECK(r.code == 1);
+  CHECK(r.err == other.string() + " is the mission 'other', but 'mock <1>' flies: nothing was written\n");
+  CHECK(content(other) == "components:\n  slc:\n    params: {roll_kp: 0.5}\n");
+  CHECK(typed(flight, "param save").err == "the flight does not say which file its mission is: give it with --mission\n");
+}
+
+TEST_CASE("requests, phases and swaps are asked for; a refusal is told and is exit code 1") {
+  const MockFlight flight;
+  Result r = typed(flight, "call plan.add_leg kind=line course_rad='20 deg' has_course=true position_m='[1, 2, 3]'");
+  CHECK(r.code == 0);
+  CHECK(r.out == "plan.add_leg: accepted\n");
+  CHECK(flight.heard(R"(request plan.add_leg {"course_rad":"20 deg","has_course":true,"kind":"line","position_m":[1,2,3]})"));
+  CHECK(typed(flight, "call plan/add_leg '{kind: line, course_rad: 0.5}'").code == 0);
+  CHECK(flight.heard(R"(request plan.add_leg {"course_rad":0.5,"kind":"line"})"));
+  r = typed(flight, "call plan.add_leg '{\"kind\": \"orbit\"}'");
+  CHECK(r.code == 1);
+  CHECK(r.err == "plan.add_leg: refused: no orbits here\n");
+  r = typed(flight, "call plan.add_leg kind");
+  CHECK(r.code == 2);
+  CHECK(r.err == "'kind' is not of the form field=value; or give all in braces, as in '{radius_m: 80}'\n");
+  for (const char* nothing : {"call plan.add_leg", "call plan.add_leg '{}'"}) {
+    r = typed(flight, nothing);
+    CHECK(r.code == 2);
+    CHECK(r.err ==
+          "plan.add_leg needs a field at least, as in fulmar call plan.add_leg kind=VALUE. Valid: kind, has_course, course_rad, "
+          "position_m.\n");
+  }
+  CHECK_FALSE(flight.heard("request plan.add_leg {}"));
+  CHECK(typed(flight, "call plan.add_leg kind=line kind=orbit").err == "the field 'kind' is given twice\n");
+  CHECK(typed(flight, "call plan.add_leg '{kind: line, kind: orbit}'").code == 1);
+  CHECK(typed(flight, "phase hold").out == "phase hold: accepted\n");
+  r = typed(flight, "swap slc some.so");
+  CHECK(r.code == 1);
+  CHECK(r.err == "swap slc: refused: the vehicle is armed\n");
+  CHECK(flight.heard("swap slc some.so"));
+  const Folder folder;  // what lies here by the name of a plugin is no file of it
+  fs::create_directories(folder.path / "control_slc");
+  std::ofstream(folder.path / "my.so") << "x";
+  const auto swapped = [&](const std::string& word) {
+    shell("cd " + folder.path.string() + " && FULMAR_LIVE=" + flight.at() + " " + program + " swap slc " + word);
+  };
+  for (const char* word : {"control_slc", "control_slc/Outer", "my.so", "./my.so/Law"}) swapped(word);
+  CHECK(flight.heard("swap slc control_slc"));
+  CHECK(flight.heard("swap slc control_slc/Outer"));
+  CHECK(flight.heard("swap slc " + (folder.path / "my.so").string()));
+  CHECK(flight.heard("swap slc " + (folder.path / "./my.so").string() + "/Law"));
+}
+
+TEST_CASE("a plot that is no terminal's is a picture at the end") {
+  const MockFlight flight;
+  const Result r = typed(flight, "plot slc.leg.course_deg plan.mixed.speed_mps --seconds 0.5");
+  CHECK(r.code == 0);
+  CHECK(r.out.find("1 slc.leg.course_deg  ") == 0);
+  CHECK(r.out.find(" deg\n2 plan.mixed.speed_mps  ") != std::string::npos);
+  CHECK(r.out.find('\x1b') == std::string::npos);
+  CHECK(lines(r.out).size() == 23);
+  CHECK(r.out.find("\xE2\xA0") != std::string::npos);  // braille
+}
+
+TEST_CASE("the end of a flight ends echo and is told") {
+  auto flight = std::make_unique<MockFlight>();
+  Session session(flight->target());
+  session.subscribe("/slc/leg");
+  REQUIRE(session.next(std::chrono::seconds(5)).has_value());
+  flight->server.reset();
+  CHECK_THROWS_AS(
+      {
+        while (session.next(std::chrono::seconds(5))) {
+        }
+      },
+      FlightEnded);
+}
+
+TEST_CASE("bash completes commands, options, and names of the running flight") {
+  const MockFlight flight;
+  CHECK(completed(flight, "fulmar ech") == Words{"echo"});
+  CHECK(completed(flight, "fulmar param s") == Words{"set", "save"});
+  CHECK(completed(flight, "fulmar echo --c") == Words{"--count", "--csv"});
+  CHECK(completed(flight, "fulmar echo s") == Words{"slc.leg"});
+  CHECK(completed(flight, "fulmar echo --rate 5 slc.leg.c") == Words{"slc.leg.course_deg"});
+  CHECK(completed(flight, "fulmar plot slc.leg.position_m.n") == Words{"slc.leg.position_m.north"});
+  CHECK(completed(flight, "fulmar plot plan.m") == Words{"plan.mixed."});
+  CHECK(completed(flight, "fulmar param set slc.r") == Words{"slc.roll_kp"});
+  CHECK(completed(flight, "fulmar param set slc.roll_kp ") == Words{});
+  CHECK(completed(flight, "fulmar param set slc.roll_kp 0.5 slc.l") == Words{"slc.law"});
+  CHECK(completed(flight, "fulmar param save ") == Words{"plan", "slc"});
+  CHECK(completed(flight, "fulmar call p") == Words{"plan.add_leg"});
+  CHECK(completed(flight, "fulmar phase ") == Words{"cruise", "hold"});
+  CHECK(completed(flight, "fulmar run --io ") == Words{"sim", "fcu"});
+  CHECK(completed(flight, "fulmar run configs/missions/hourg") == Words{"configs/missions/hourglass.yaml"});
+  CHECK(completed(flight, "fulmar echo s --at 127.0.0.1:1 sl") == Words{});
+  CHECK(completed(flight, "fulmar fcu ") == Words{});
+  const Words all = completed(flight, "fulmar ");
+  CHECK(std::find(all.begin(), all.end(), "fcu") != all.end());
+  CHECK(std::find(all.begin(), all.end(), "param") != all.end());
+  CHECK(std::find(all.begin(), all.end(), "complete") == all.end());
+}
+
+}  // namespace remote_test

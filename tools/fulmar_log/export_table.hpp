@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A log as tables, one per topic: a row per message, a column per number, text or label. Read twice: once for the widths, once for the
+// rows, so that a long log needs no more memory than a chunk of it.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tools/fulmar_log/export_schema.hpp"
+#include "core/log/reader.hpp"
+
+namespace fulmar::core {
+
+struct Table {
+  std::string topic;  // "/nav/state"
+  std::string name;   // "nav.state"; no two alike
+  RosField root;
+  std::vector<Column> columns;  // beside the times
+  std::uint64_t rows = 0;
+};
+
+/// When flight time 0 was, in log time: what a Fulmar log says, else the first message's time.
+std::uint64_t log_epoch_ns(const McapFile& log, std::uint64_t first_ns);
+
+class Tables {
+ public:
+  struct Row {
+    std::size_t table = 0;
+    std::int64_t time_ns = 0, valid_ns = 0;  // flight time: of the log entry, of validity
+    const std::vector<Cell>* cells = nullptr;
+  };
+
+  /// First reading. No topics: all. Throws Error for a topic that is not there, or is named and cannot be decoded; one that is not named is
+  /// left out, and `left_out` says why.
+  Tables(const std::filesystem::path& log, const std::vector<std::string>& topics);
+
+  const std::vector<Table>& list() const { return tables_; }
+  const std::vector<std::string>& left_out() const { return left_out_; }
+  /// "" or why the log ends before its end.
+  const std::string& fault() const { return fault_; }
+  /// Second reading: all rows of the tables for which `wanted`, in file order.
+  void rows(const std::function<bool(std::size_t)>& wanted, const std::function<void(const Row&)>& take) const;
+
+ private:
+  struct Source {
+    int table = -1;   // -1: not exported
+    std::string why;  // it cannot be
+  };
+  Source add(const McapFile& log, std::uint16_t channel);
+  void lay_out_all();
+
+  std::filesystem::path file_;
+  std::vector<std::string> topics_;
+  std::vector<Table> tables_;
+  std::map<std::uint16_t, Source> sources_;  // by channel
+  std::vector<std::string> left_out_;
+  std::uint64_t epoch_ns_ = 0;
+  std::string fault_;
+};
+
+}  // namespace fulmar::core

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/fulmar_new/new_command.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "tools/fulmar_new/new_contract.hpp"
+#include "tools/fulmar_new/new_mission.hpp"
+#include "tools/fulmar_new/new_places.hpp"
+#include "tools/fulmar_new/new_source.hpp"
+#include "core/error.hpp"
+
+namespace fulmar::core {
+namespace fs = std::filesystem;
+namespace {
+
+std::string read_text(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw Error("cannot read " + file.string());
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw Error("cannot write " + file.string());
+}
+
+std::string replaced(std::string text, const std::vector<std::pair<std::string, std::string>>& words) {
+  for (const auto& [from, to] : words)
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) text.replace(at, from.size(), to);
+  return text;
+}
+
+void check_name(const std::string& name) {
+  const auto good = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; };
+  const bool letter_first = !name.empty() && !(name[0] >= '0' && name[0] <= '9') && name[0] != '_';
+  if (!letter_first || name.size() > 60 || !std::all_of(name.begin(), name.end(), good))
+    throw Error("'" + name + "' is no name for a plugin: letters, digits and _, a letter first, as in my_law");
+  static const std::vector<std::string> taken = {"all",           "clean",      "help", "install", "package",  "test",  "edit_cache",
+                                                 "rebuild_cache", "fulmar_sdk", "std",  "fulmar",  "messages", "class", "struct",
+                                                 "double",        "float",      "int",  "bool",    "char",     "new",   "delete",
+                                                 "this",          "auto",       "void", "main",    "template"};
+  if (std::find(taken.begin(), taken.end(), name) != taken.end())
+    throw Error("'" + name + "' means something to the build already. Choose another name, as in my_" + name);
+}
+
+void check_free(const MissionView& mission, const std::string& name) {
+  const char* what = mission.text.component(name) ? "component" : mission.text.role(name) ? "role" : nullptr;
+  if (what)
+    throw Error("the mission " + mission.graph.mission + " has a " + what + " called '" + name +
+                "' already. Choose another name, as in my_" + name);
+}
+
+/// The mission that --mission names: a file, or a shipped one by its name.
+fs::path mission_file(const NewOptions& options, const Places& places) {
+  const std::string name = options.mission.empty() ? "hourglass" : options.mission;
+  std::error_code code;
+  if (fs::is_regular_file(name, code)) return name;
+  const fs::path shipped = places.missions / (name.ends_with(".yaml") ? name : name + ".yaml");
+  if (fs::is_regular_file(shipped, code)) return shipped;
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(places.missions, code))
+    if (entry.path().extension() == ".yaml" && read_text(entry.path()).find("\nmission:") != std::string::npos)
+      names.push_back(entry.path().stem());
+  std::sort(names.begin(), names.end());
+  throw Error("--mission " + name + ": there is no such file, and no shipped mission of that name." + choices_text(name, names));
+}
+
+/// The struct's name: not one that the SDK has, or `In<Path>` in it would mean two things.
+std::string type_name(const std::string& name, const fs::path& include) {
+  const std::string type = pascal_case(name);
+  std::error_code code;
+  for (const auto& entry : fs::recursive_directory_iterator(include / "fulmar", code)) {
+    if (entry.path().extension() != ".hpp") continue;
+    const std::string text = read_text(entry.path());
+    for (const char* kind : {"struct ", "class ", "enum class ", "using "})
+      for (const char* end : {" {", " :", ";", " ="})
+        if (text.find(kind + type + end) != std::string::npos) return type + "Component";
+  }
+  return type;
+}
+
+/// Templates say in their first lines which ports they are for: "// ports in: state VehicleState, ..." and "// ports out: ...".
+std::string ports_line(const std::string& source, const std::string& which) {
+  const std::string key = "// ports " + which + ": ";
+  const std::size_t at = source.find(key);
+  if (at == std::string::npos) return "";
+  return ", " + source.substr(at + key.size(), source.find('\n', at) - at - key.size()) + ",";
+}
+
+bool fits(const std::string& source, const Contract& contract) {
+  const std::string in = ports_line(source, "in"), out = ports_line(source, "out");
+  if (in.empty() || out.empty()) return false;
+  const auto there = [](const std::string& list, const std::string& name, const std::string& type) {
+    return list.find(", " + name + " " + type + ",") != std::string::npos;
+  };
+  const auto wanted = std::count(in.begin(), in.end(), ',') - 1;
+  const auto given = std::count_if(contract.inputs.begin(), contract.inputs.end(),
+                                   [&](const ContractInput& input) { return there(in, input.name, input.type->name); });
+  return wanted == given && std::all_of(contract.outputs.begin(), contract.outputs.end(), [&](const ContractOutput& output) {
+           return output.optional || there(out, output.name, output.type_name);
+         });
+}
+
+std::string without_ports_lines(std::string source) {
+  for (std::size_t at = 0; (at = source.find("// ports ")) != std::string::npos;) source.erase(at, source.find('\n', at) + 1 - at);
+  return source;
+}
+
+std::string contract_table(const Contract& contract) {
+  std::string text = "| port | message | wired |\n|---|---|---|\n";
+  for (const ContractInput& input : contract.inputs)
+    text += "| in `" + input.name + "` | `" + input.type->name + "` | " +
+            (input.from.owner.empty() ? "by the host" : "from `" + input.from.text() + "`") + " |\n";
+  for (const ContractOutput& output : contract.outputs)
+    text += "| out `" + output.name + "` | `" + output.type_name + "` | " + (output.optional ? "optional" : "") + " |\n";
+  return text;
+}
+
+struct Project {
+  fs::path folder;
+  std::vector<std::pair<std::string, std::string>> files;  // name -> text
+};
+
+Project make_project(const NewOptions& options, const Places& places, const MissionView& mission, const Contract& contract) {
+  const std::string type = type_name(options.name, places.include);
+  const std::vector<std::pair<std::string, std::string>> names{{"my_law", options.name}, {"MyLaw", type}};
+  const fs::path role_template = places.templates / "roles" / (contract.role + ".hpp");
+  NewComponent component{options.name, {}};
+  NewSource source;
+  std::error_code code;
+  if (fs::is_regular_file(role_template, code) && fits(read_text(role_template), contract)) {
+    source.header = replaced(without_ports_lines(read_text(role_template)), names);
+    source.test = replaced(read_text(places.templates / "roles" / (contract.role + "_test.cpp")), names);
+  } else {
+    source = write_source(contract, options.name, type, places.include);
+    for (const ContractOutput& output : contract.outputs)
+      if (!contract.vehicle() && !output.optional) component.references.push_back(output.name);
+  }
+  const bool system = places.prefix == "/usr" || places.prefix == "/usr/local";
+  const std::string flies = contract.vehicle() ? "It flies from the start, in place of `" + contract.shipped_text->name + "`."
+                                               : "It flies in the phase `" + contract.phase + "`; `" + contract.shipped_text->name +
+                                                     "`, which flew there before, takes over if it fails.";
+  std::vector<std::pair<std::string, std::string>> words = names;
+  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{{"@role@", contract.role},
+                                                                                 {"@mission@", contract.mission},
+                                                                                 {"@prefix@", system ? "" : places.prefix.string()},
+                                                                                 {"@program@", program_word()},
+                                                                                 {"@flies@", flies},
+                                                                                 {"@contract@", contract_table(contract)}})
+    words.emplace_back(from, to);
+
+  Project project{options.folder.empty() ? fs::path(options.name) : fs::path(options.folder), {}};
+  project.files = {{options.name + ".hpp", source.header},
+                   {options.name + "_test.cpp", source.test},
+                   {"mission.yaml", write_mission(mission, contract, component)}};
+  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{{"my_law.cpp", options.name + ".cpp"},
+                                                                                 {"CMakeLists.txt", "CMakeLists.txt"},
+                                                                                 {"CMakePresets.json", "CMakePresets.json"},
+                                                                                 {"README.md", "README.md"},
+                                                                                 {"clang-format", ".clang-format"},
+                                                                                 {"gitignore", ".gitignore"}})
+    project.files.emplace_back(to, replaced(read_text(places.templates / from), words));
+  return project;
+}
+
+/// Nothing is ever overwritten.
+void write_project(const Project& project) {
+  std::error_code code;
+  if (fs::exists(project.folder, code) && !fs::is_directory(project.folder, code))
+    throw Error(project.folder.string() + " is a file, not a folder");
+  if (fs::exists(project.folder, code) && !fs::is_empty(project.folder, code))
+    throw Error("the folder " + project.folder.string() + " is not empty");
+  fs::create_directories(project.folder, code);
+  if (code) throw Error("cannot make the folder " + project.folder.string() + ": " + code.message());
+  for (const auto& [name, text] : project.files) write_text(project.folder / name, text);
+}
+
+void tell(const Project& project, const Contract& contract, const std::string& name) {
+  std::printf("%s: a component for the role %s of the mission %s, written to %s\n", name.c_str(), contract.role.c_str(),
+              contract.mission.c_str(), project.folder.string().c_str());
+  for (const ContractInput& input : contract.inputs)
+    std::printf("  in   %-12s %-18s %s\n", input.name.c_str(), input.type->name.c_str(),
+                input.from.owner.empty() ? "from the host" : ("from " + input.from.text()).c_str());
+  for (const ContractOutput& output : contract.outputs)
+    std::printf("  out  %-12s %-18s%s\n", output.name.c_str(), output.type_name.c_str(), output.optional ? " optional" : "");
+  if (contract.vehicle())
+    std::printf("It flies from the start, in place of %s.\n", contract.shipped_text->name.c_str());
+  else
+    std::printf("It flies in the phase %s; %s takes over if it fails.\n", contract.phase.c_str(), contract.shipped_text->name.c_str());
+  std::printf(
+      "Next:\n  cd %s && cmake --preset default && cmake --build build\n  ctest --test-dir build --output-on-failure\n  %s run "
+      "mission.yaml\n",
+      shell_word(project.folder.string()).c_str(), program_word().c_str());
+}
+
+}  // namespace
+
+int new_command(const NewOptions& options) {
+  check_name(options.name);
+  const Places places = find_places(this_program());
+  const MissionView mission = view_mission(mission_file(options, places));
+  const Contract contract = read_contract(mission, options.role);
+  check_free(mission, options.name);
+  const Project project = make_project(options, places, mission, contract);
+  write_project(project);
+  tell(project, contract, options.name);
+  return 0;
+}
+
+}  // namespace fulmar::core

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From a message's field table back to the C++ struct that has this table. sdk/include/fulmar/schema.hpp is the other direction.
+#include <algorithm>
+
+#include "tools/fulmar_new/new_source.hpp"
+
+namespace fulmar::core {
+namespace {
+
+class Writer {
+ public:
+  void add(const Type& type) {
+    if (known(type) || std::find(done_.begin(), done_.end(), type.name) != done_.end()) return;
+    done_.push_back(type.name);
+    for (const Field& field : type.fields)
+      if (field.type) add(*field.type);
+    std::string body;
+    if (!type.ros.empty()) body += "  static constexpr const char* ros_type = \"" + type.ros + "\";\n";
+    for (const Field& field : type.fields) body += "  " + declared(type, field) + ";\n";
+    text_ += "struct " + type.name + " {\n" + body + "};\n\n";
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  /// Types that the SDK's own headers have.
+  static bool known(const Type& type) { return type.name == "Vec3Ned" || type.name == "Vec3Body" || type.name == "Quat"; }
+
+  std::string element(const Type& type, const Field& field) {
+    switch (field.kind) {
+      case FULMAR_BOOL:
+        return "bool";
+      case FULMAR_U8:
+        return "std::uint8_t";
+      case FULMAR_I8:
+        return "std::int8_t";
+      case FULMAR_I16:
+        return "std::int16_t";
+      case FULMAR_U16:
+        return "std::uint16_t";
+      case FULMAR_I32:
+        return "std::int32_t";
+      case FULMAR_U32:
+        return "std::uint32_t";
+      case FULMAR_I64:
+        return "std::int64_t";
+      case FULMAR_U64:
+        return "std::uint64_t";
+      case FULMAR_F32:
+        return "float";
+      case FULMAR_F64:
+        return "double";
+      case FULMAR_TEXT:
+        return "Text<" + std::to_string(field.stride) + ">";
+      case FULMAR_ENUM:
+        return enumeration(type, field);
+      case FULMAR_STRUCT:
+        break;
+    }
+    if (field.type->name == "Vec3Ned") return "Vec3<Ned>";
+    if (field.type->name == "Vec3Body") return "Vec3<Body>";
+    return field.type->name;
+  }
+
+  /// The table has the labels of an enum and not its name.
+  std::string enumeration(const Type& type, const Field& field) {
+    const std::string name = type.name + pascal_case(field.name);
+    text_ += "enum class " + name + " : std::uint8_t { ";
+    for (std::size_t i = 0; i < field.labels.size(); ++i) text_ += (i > 0 ? ", " : "") + field.labels[i];
+    text_ += " };\n";
+    return name;
+  }
+
+  std::string declared(const Type& type, const Field& field) {
+    const std::string item = element(type, field), count = std::to_string(field.count);
+    if (field.shape == FULMAR_ARRAY) return "std::array<" + item + ", " + count + "> " + field.name + "{}";
+    if (field.shape == FULMAR_LIST) return "List<" + item + ", " + count + "> " + field.name;
+    return item + " " + field.name + (field.kind == FULMAR_STRUCT || field.kind == FULMAR_TEXT ? "" : "{}");
+  }
+
+  std::vector<std::string> done_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string message_source(const Type& type) {
+  Writer writer;
+  writer.add(type);
+  return writer.text();
+}
+
+}  // namespace fulmar::core

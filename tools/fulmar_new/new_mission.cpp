@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/fulmar_new/new_mission.hpp"
+
+#include <algorithm>
+
+#include "core/graph/catalogue.hpp"
+#include "core/graph/quantity.hpp"
+
+namespace fulmar::core {
+namespace fs = std::filesystem;
+namespace {
+
+Node scalar(const std::string& text) {
+  Node node;
+  node.kind = Node::Kind::scalar;
+  node.text = text;
+  return node;
+}
+
+Node map_of(std::vector<std::pair<std::string, Node>> entries) {
+  Node node;
+  node.kind = Node::Kind::map;
+  for (auto& [key, value] : entries) node.entries.push_back({key, 0, std::move(value)});
+  return node;
+}
+
+/// A file name in `node`, said relative to the folder of the file in which it stands, made absolute.
+std::string file_word(const Node& node) {
+  if (!node.file || node.file->path.empty() || node.text.empty()) return node.text;
+  std::error_code code;
+  const fs::path file = fs::absolute(node.file->path.parent_path() / node.text, code).lexically_normal();
+  return fs::is_regular_file(file, code) ? file.string() : node.text;
+}
+
+std::string flow(const Node& node) {
+  std::string text;
+  const auto add = [&](const std::string& item) { text += (text.empty() ? "" : ", ") + item; };
+  switch (node.kind) {
+    case Node::Kind::scalar:
+      break;
+    case Node::Kind::sequence:
+      for (const Node& item : node.items) add(flow(item));
+      return "[" + text + "]";
+    case Node::Kind::map:
+      for (const Node::Entry& entry : node.entries) add(entry.key + ": " + flow(entry.value));
+      return "{" + text + "}";
+    default:
+      return "~";
+  }
+  const std::string word = file_word(node);
+  const bool special = word.empty() || word.find_first_of(",[]{}\"'\\#\n") != std::string::npos || word.find(": ") != std::string::npos;
+  if (!node.quoted && !special) return word;
+  for (const char c : word) text += c == '"' || c == '\\' ? std::string{'\\', c} : c == '\n' ? std::string("\\n") : std::string(1, c);
+  return "\"" + text + "\"";
+}
+
+/// One line per key; sections of names have one line per name.
+std::string block(const Node& root) {
+  std::string text;
+  for (const Node::Entry& entry : root.entries) {
+    const bool section = entry.key == "components" || entry.key == "phases" || entry.key == "roles";
+    if (!section || !entry.value.is(Node::Kind::map)) {
+      text += entry.key + ": " + flow(entry.value) + "\n";
+      continue;
+    }
+    text += entry.key + ":\n";
+    for (const Node::Entry& item : entry.value.entries) text += "  " + item.key + ": " + flow(item.value) + "\n";
+  }
+  return text;
+}
+
+Node wire(const WireText& from) {
+  if (!from.max_age_ns && !from.delayed) return scalar(from.from.text());
+  std::vector<std::pair<std::string, Node>> keys{{"from", scalar(from.from.text())}};
+  if (from.max_age_ns) keys.emplace_back("max_age", scalar(std::to_string(*from.max_age_ns) + " ns"));
+  if (from.delayed) keys.emplace_back("delayed", scalar("true"));
+  return map_of(std::move(keys));
+}
+
+std::string rate_text(const ComponentText& component) { return number_text(component.rate_hz) + " Hz"; }
+
+/// A plugin that lies beside the given mission is not beside the new one: its absolute name, or "" when it is found without.
+std::string plugin_beside(const MissionView& mission, const std::string& use) {
+  auto [plugin, component] = split_use(use);
+  std::error_code code;
+  fs::path file = mission.file.parent_path() / (plugin.ends_with(".so") ? plugin : plugin + ".so");
+  if (fs::path(plugin).is_absolute() || !fs::is_regular_file(file, code)) return "";
+  return file.lexically_normal().string() + (component.empty() ? "" : "/" + component);
+}
+
+/// The shipped component once more, without a role: its wires are those of the role and its own.
+Node reference(const MissionView& mission, const Contract& contract) {
+  const ComponentText& shipped = *contract.shipped_text;
+  const std::string beside = plugin_beside(mission, shipped.use);
+  std::vector<std::pair<std::string, Node>> keys{{"use", scalar(beside.empty() ? shipped.use : beside)}};
+  if (shipped.rate_hz > 0) keys.emplace_back("rate", scalar(rate_text(shipped)));
+  Node wires = map_of({});
+  for (const WireText& own : shipped.in) wires.entries.push_back({own.input, 0, wire(own)});
+  for (const WireText& common : mission.text.role(contract.role)->in)
+    if (contract.shipped.input(common.input) >= 0 && !wires.find(common.input)) wires.entries.push_back({common.input, 0, wire(common)});
+  if (!wires.entries.empty()) keys.emplace_back("in", std::move(wires));
+  Node params = shipped.params;
+  if (contract.shipped_set.is(Node::Kind::map))
+    params = params.is(Node::Kind::map) ? merged(params, contract.shipped_set, 1) : contract.shipped_set;
+  if (params.is(Node::Kind::map)) keys.emplace_back("params", params);
+  return map_of(std::move(keys));
+}
+
+Node new_component(const MissionView& mission, const Contract& contract, const NewComponent& component) {
+  std::vector<std::pair<std::string, Node>> keys{{"fills", scalar(contract.role)},
+                                                 {"use", scalar("build/lib/fulmar/" + component.name + ".so")}};
+  if (contract.shipped_text->rate_hz > 0) keys.emplace_back("rate", scalar(rate_text(*contract.shipped_text)));
+  Node wires = map_of({});
+  for (const std::string& output : component.references)
+    wires.entries.push_back({"reference_" + output, 0, scalar(reference_name(mission, component.name) + "." + output)});
+  if (!wires.entries.empty()) keys.emplace_back("in", std::move(wires));
+  return map_of(std::move(keys));
+}
+
+/// What the new mission says of components and phases, to be laid over the given one.
+Node additions(const MissionView& mission, const Contract& contract, const NewComponent& component) {
+  Node components = map_of({});
+  for (const ComponentText& text : mission.text.components) {
+    const std::string beside = plugin_beside(mission, text.use);
+    std::vector<std::pair<std::string, Node>> keys;
+    if (!beside.empty()) keys.emplace_back("use", scalar(beside));
+    const bool sits_there = contract.vehicle() && text.fills == contract.role && text.only.empty() &&
+                            (text.name == "sim" || text.name == "fcu" ? text.name == mission.text.io : true);
+    if (sits_there) keys.emplace_back("only", scalar(mission.text.io == "sim" ? "fcu" : "sim"));  // makes room: there is one vehicle
+    if (!keys.empty()) components.entries.push_back({text.name, 0, map_of(std::move(keys))});
+  }
+  if (!component.references.empty())
+    components.entries.push_back({reference_name(mission, component.name), 0, reference(mission, contract)});
+  components.entries.push_back({component.name, 0, new_component(mission, contract, component)});
+  Node root = map_of({{"components", std::move(components)}});
+  if (contract.vehicle()) return root;
+  Node use = map_of({{"use", scalar(component.name)}, {"fallback", scalar(contract.shipped_text->name)}});
+  root.entries.push_back({"phases", 0, map_of({{contract.phase, map_of({{contract.role, std::move(use)}})}})});
+  return root;
+}
+
+}  // namespace
+
+std::string reference_name(const MissionView& mission, const std::string& name) {
+  const std::string plain = "reference";
+  const bool taken = name == plain || mission.text.component(plain) || mission.text.role(plain);
+  return taken ? name + "_reference" : plain;
+}
+
+std::string write_mission(const MissionView& mission, const Contract& contract, const NewComponent& component) {
+  const Node* extends = mission.root.find("extends");
+  std::error_code code;
+  Node root = map_of({{"mission", scalar(component.name)}});
+  if (extends) {
+    root.entries.push_back({"extends", 0, *extends});
+    for (const Node::Entry& entry : mission.root.entries)
+      if (entry.key != "mission" && entry.key != "extends") root.entries.push_back(entry);
+  } else {
+    root.entries.push_back({"extends", 0, scalar(mission.file.string())});
+  }
+  const Node top = additions(mission, contract, component);
+  for (const Node::Entry& entry : top.entries) {
+    const auto same = std::find_if(root.entries.begin(), root.entries.end(), [&](const Node::Entry& e) { return e.key == entry.key; });
+    if (same == root.entries.end())
+      root.entries.push_back(entry);
+    else
+      same->value = merged(same->value, entry.value, entry.key == "components" ? 3 : 2);
+  }
+  std::string head = "# The mission " + contract.mission + " with " + component.name + " in the role " + contract.role + ". ";
+  if (contract.vehicle())
+    head += "The vehicle that was there steps aside.\n";
+  else
+    head +=
+        "It flies in the phase " + contract.phase + "; " + contract.shipped_text->name + ", which flew there, takes over if it fails.\n";
+  if (!component.references.empty())
+    head += "# " + reference_name(mission, component.name) + " is " + contract.shipped_use + " once more: what " + component.name +
+            " passes on until it has a law of its own.\n";
+  return head + block(root);
+}
+
+}  // namespace fulmar::core

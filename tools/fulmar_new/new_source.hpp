@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The source of a new component that no template fits: it passes on what the shipped one computes, until its author knows better.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tools/fulmar_new/new_contract.hpp"
+
+namespace fulmar::core {
+
+struct NewSource {
+  std::string header, test;
+};
+
+/// `type` is the component's struct. `include` is the SDK's folder of headers: what it has no message for is written into the header.
+NewSource write_source(const Contract& contract, const std::string& name, const std::string& type, const std::filesystem::path& include);
+
+/// "my_law" -> "MyLaw", "VehicleState" -> "vehicle_state"
+std::string pascal_case(const std::string& name);
+std::string snake_case(const std::string& name);
+
+/// The C++ struct of a message, with those that it is made of before it.
+std::string message_source(const Type& type);
+
+}  // namespace fulmar::core

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `fulmar new`: what it reads from a mission, what it writes, what it refuses. That the projects build and fly is tried by installed.sh.
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+#include "tools/fulmar_new/new_contract.hpp"
+#include "tools/fulmar_new/new_mission.hpp"
+#include "tools/fulmar_new/new_places.hpp"
+#include "tools/fulmar_new/new_source.hpp"
+
+namespace fs = std::filesystem;
+using namespace fulmar::core;
+
+namespace {
+
+const fs::path program = FULMAR_BIN_DIR "/fulmar";
+const fs::path missions = FULMAR_SOURCE_DIR "/configs/missions";
+
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("fulmar-new-test-" + std::to_string(getpid()));
+  Folder() { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+};
+const fs::path& folder() {
+  static Folder f;
+  return f.path;
+}
+
+struct Result {
+  int code;
+  std::string words;
+};
+Result call(const std::string& arguments) {
+  const std::string command = "cd " + folder().string() + " && " + program.string() + " " + arguments + " 2>&1";
+  FILE* pipe = popen(command.c_str(), "r");
+  REQUIRE(pipe != nullptr);
+  std::string words;
+  char buffer[4096];
+  for (std::size_t n = 0; (n = fread(buffer, 1, sizeof buffer, pipe)) > 0;) words.append(buffer, n);
+  return {WEXITSTATUS(pclose(pipe)), words};
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file);
+  REQUIRE(in);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+fs::path file_with(const std::string& name, const std::string& text) {
+  std::ofstream(folder() / name) << text;
+  return folder() / name;
+}
+
+/// The host loads what `new` wrote, with a stand-in for the plugin that is not built: the fallback flies.
+Graph loaded(const fs::path& mission, const std::string& plugin, const std::string& stand_in) {
+  const std::string line = "use: build/lib/fulmar/" + plugin + ".so";
+  std::string text = text_of(mission);
+  const std::size_t at = text.find(line);
+  REQUIRE(at != std::string::npos);
+  return load_mission(file_with("stand_in.yaml", text.replace(at, line.size(), "use: " + stand_in)).string());
+}
+
+}  // namespace
+
+TEST_CASE("the contract of a role is what the mission says of it") {
+  const MissionView mission = view_mission(missions / "hourglass.yaml");
+  const Contract outer = read_contract(mission, "outer");
+  REQUIRE(outer.inputs.size() == 2);
+  CHECK(outer.inputs[1].name == "command");
+  CHECK(outer.inputs[1].type->name == "GuidanceCommand");
+  CHECK(outer.inputs[1].from.text() == "guide.command");
+  REQUIRE(outer.outputs.size() == 1);
+  CHECK(outer.outputs[0].type_name == "AttitudeCommand");
+  CHECK(outer.phase == "cruise");
+  CHECK(outer.shipped_text->name == "slc");
+  const Contract vehicle = read_contract(mission, "vehicle");
+  CHECK(vehicle.inputs.back().kind == FULMAR_IN_REQUEST);  // arm
+  CHECK(vehicle.outputs.back().optional);                  // truth
+  CHECK_THROWS_WITH_AS(read_contract(mission, "gude"),
+                       "--role gude: hourglass.yaml has no such role. Did you mean 'guide'? Valid: vehicle, nav, guide, outer, inner.",
+                       Error);
+}
+
+TEST_CASE("the project of a shipped role is complete, and its mission names the shipped law as fallback") {
+  const Result made = call("new my_law --role outer");
+  REQUIRE_MESSAGE(made.code == 0, made.words);
+  for (const char* file : {"my_law.hpp", "my_law.cpp", "my_law_test.cpp", "mission.yaml", "README.md", "CMakeLists.txt",
+                           "CMakePresets.json", ".clang-format", ".gitignore"})
+    CHECK_MESSAGE(fs::is_regular_file(folder() / "my_law" / file), file);
+  CHECK(holds(text_of(folder() / "my_law" / "my_law.hpp"), "In<GuidanceCommand> command;"));
+  CHECK_FALSE(holds(text_of(folder() / "my_law" / "my_law.hpp"), "// ports"));
+  CHECK_FALSE(holds(text_of(folder() / "my_law" / "README.md"), "@"));
+  CHECK_FALSE(holds(text_of(folder() / "my_law" / "CMakePresets.json"), "@"));
+  const Graph graph = loaded(folder() / "my_law" / "mission.yaml", "my_law", "control_tecs/Outer");
+  std::size_t outer = 0;
+  while (graph.roles.at(outer).name != "outer") ++outer;
+  const Assignment& cruise = graph.phases.back().roles[outer];
+  CHECK(graph.components[static_cast<std::size_t>(cruise.component)].name == "my_law");
+  CHECK(graph.components[static_cast<std::size_t>(cruise.fallback)].name == "slc");
+  CHECK(graph.components[static_cast<std::size_t>(cruise.component)].period_ns == 10'000'000);
+}
+
+TEST_CASE("what takes the vehicle's role has it for itself") {
+  REQUIRE(call("new glider --role vehicle").code == 0);
+  const Graph graph = loaded(folder() / "glider" / "mission.yaml", "glider", "sim_aero/Aircraft");
+  CHECK(graph.components[static_cast<std::size_t>(graph.vehicle)].name == "glider");
+}
+
+TEST_CASE("a role of somebody's own mission gets a body that passes on what was there, and messages that the SDK lacks") {
+  const std::string common = (missions / "common.yaml").string();
+  file_with("own.yaml", "mission: own\nextends: " + common +
+                            "\nairframe: " FULMAR_SOURCE_DIR
+                            "/configs/airframes/anaconda.yaml\n"
+                            "roles:\n  judge: {in: {state: nav.state, command: guide.command}, out: {figures: Figures}}\n"
+                            "components:\n  referee: {fills: judge, use: score/Score, rate: 50 Hz, params: {start_height: 30 m}}\n"
+                            "  plan: {params: {plan: " FULMAR_SOURCE_DIR "/configs/plans/hourglass.yaml}}\n");
+  const Result made = call("new my_judge --role judge --mission own.yaml --dir deep/er");
+  REQUIRE_MESSAGE(made.code == 0, made.words);
+  const std::string header = text_of(folder() / "deep/er/my_judge.hpp"), written = text_of(folder() / "deep/er/mission.yaml");
+  CHECK(holds(header, "fulmar/msg/guidance_command.hpp>\n"));
+  CHECK(holds(header, "struct Figures {"));
+  CHECK(holds(header, "Out<messages::Figures> figures;"));
+  CHECK(holds(written,
+              "reference: {use: score/Score, rate: 50 Hz, in: {state: nav.state, command: guide.command}, params: {start_height: 30 m}}"));
+  CHECK(holds(written, "in: {reference_figures: reference.figures}"));
+}
+
+TEST_CASE("file names of the given mission are still found from the new one") {
+  fs::create_directories(folder() / "beside");
+  fs::copy_file(missions / "common.yaml", folder() / "beside/common.yaml");
+  fs::copy_file(FULMAR_SOURCE_DIR "/configs/airframes/anaconda.yaml", folder() / "beside/air.yaml");
+  fs::copy_file(FULMAR_SOURCE_DIR "/configs/plans/hourglass.yaml", folder() / "beside/plan one.yaml");
+  fs::copy_file(FULMAR_PLUGIN_DIR "/control_tecs.so", folder() / "beside/home.so");
+  std::ofstream(folder() / "beside/m.yaml")
+      << "extends: common.yaml\nairframe: air.yaml\ncomponents:\n  plan: {params: {plan: \"plan one.yaml\"}}\n"
+         "  slc: {use: home.so/Outer}\nphases:\n  takeoff: {outer: tecs}\n";
+  REQUIRE(call("new far --role inner --mission beside/m.yaml --dir 'a b'").code == 0);
+  const Graph graph = loaded(folder() / "a b/mission.yaml", "far", "control_slc/Inner");
+  CHECK(graph.airframe == (folder() / "beside/air.yaml").string());
+  for (const Component& component : graph.components)
+    if (component.name == "slc") CHECK(component.plugin->path == (folder() / "beside/home.so").string());
+}
+
+TEST_CASE("the C++ struct of a message says what its field table says") {
+  auto inner = std::make_shared<Type>();
+  inner->name = "Point";
+  inner->fields = {{.name = "at_m", .unit = "m", .type = nullptr, .labels = {}, .kind = FULMAR_F32}};
+  Type type;
+  type.name = "Track";
+  Field mode{.name = "mode", .unit = "", .type = nullptr, .labels = {"off", "on"}, .kind = FULMAR_ENUM};
+  Field points{.name = "points", .unit = "", .type = inner, .labels = {}, .kind = FULMAR_STRUCT, .shape = FULMAR_LIST};
+  points.count = 8;
+  Field name{.name = "title", .unit = "", .type = nullptr, .labels = {}, .kind = FULMAR_TEXT};
+  name.stride = 24;
+  type.fields = {mode, points, name};
+  CHECK(message_source(type) ==
+        "struct Point {\n  float at_m{};\n};\n\nenum class TrackMode : std::uint8_t { off, on };\nstruct Track {\n  TrackMode mode{};\n"
+        "  List<Point, 8> points;\n  Text<24> title;\n};\n\n");
+}
+
+TEST_CASE("a struct never takes a name that the SDK has") {
+  REQUIRE(call("new gnss --role nav").code == 0);
+  CHECK(holds(text_of(folder() / "gnss/gnss.hpp"), "struct GnssComponent {"));
+}
+
+TEST_CASE("what cannot be written is refused with a sentence, and nothing is overwritten") {
+  CHECK(call("new 9lives --role outer").words == "'9lives' is no name for a plugin: letters, digits and _, a letter first, as in my_law\n");
+  CHECK(call("new test --role outer").words == "'test' means something to the build already. Choose another name, as in my_test\n");
+  CHECK(call("new ekf --role nav").words ==
+        "the mission hourglass has a component called 'ekf' already. Choose another name, as in my_ekf\n");
+  CHECK(holds(
+      call("new a_law --role outer --mission hourglas").words,
+      "--mission hourglas: there is no such file, and no shipped mission of that name. Did you mean 'hourglass'? Valid: calm, "));
+  file_with("taken", "mine");
+  CHECK(call("new a_law --role outer --dir taken").words == "taken is a file, not a folder\n");
+  fs::create_directories(folder() / "full");
+  file_with("full/file", "mine");
+  const Result refused = call("new a_law --role outer --dir full");
+  CHECK(refused.code == 1);
+  CHECK(refused.words == "the folder full is not empty\n");
+  CHECK(text_of(folder() / "full/file") == "mine");
+  CHECK_THROWS_AS(find_places("/nowhere/bin/fulmar"), Error);
+}
+
+TEST_CASE("a shell reads back the word that is written for it") {
+  for (const std::string word : {"plain/path-1.yaml", "two words", "it's", "a$b`c"}) {
+    FILE* pipe = popen(("printf %s " + shell_word(word)).c_str(), "r");
+    char buffer[64] = {};
+    CHECK(fread(buffer, 1, sizeof buffer - 1, pipe) == word.size());
+    pclose(pipe);
+    CHECK(buffer == word);
+  }
+}

@@ -28,7 +28,9 @@ bool can_run(const fs::path& file) {
 /// A word that can be a command: no path, and no helper that only the host itself starts.
 bool is_command(const std::string& word) {
   constexpr const char* letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
-  return !word.empty() && word[0] != '-' && word.find_first_not_of(letters) == std::string::npos && word != "probe" && word != "child";
+  static const std::vector<std::string> parts{"child", "live", "log", "new", "probe"};  // of Fulmar, no commands
+  return !word.empty() && word[0] != '-' && word.find_first_not_of(letters) == std::string::npos &&
+         std::find(parts.begin(), parts.end(), word) == parts.end();
 }
 
 fs::path find_program(const std::string& name) {
@@ -42,7 +44,42 @@ fs::path find_program(const std::string& name) {
   return {};
 }
 
+void become(const fs::path& program, const std::string& word, char** words) {
+  std::string name = program.string();
+  words[0] = name.data();
+  ::execv(name.c_str(), words);
+  throw Error("fulmar " + word + ": " + name + " cannot be started: " + std::strerror(errno));
+}
+
 }  // namespace
+
+const std::vector<OwnCommand>& own_commands() {
+  static const std::vector<OwnCommand> list = {
+      {"new", "fulmar-new", "write the project of a plugin that fills a role of a mission"},
+      {"log", "fulmar-log", "look at a log, repair it, export it, compare it"},
+      {"list", "fulmar-live", "components of a running flight, their ports, requests and phases"},
+      {"echo", "fulmar-live", "print messages of a running flight; angles in degrees"},
+      {"plot", "fulmar-live", "plot fields of a running flight in the terminal"},
+      {"param", "fulmar-live", "parameters of a running flight"},
+      {"call", "fulmar-live", "ask a component for something: {field: value, ...} or field=value ..."},
+      {"phase", "fulmar-live", "enter a phase of the mission"},
+      {"swap", "fulmar-live", "another plugin file for a component, on the ground"},
+      {"reset", "fulmar-live", "let components fly again that a guard has stopped"},
+      {"completion", "fulmar-live", "print what completes words in a shell"},
+      {"complete", "fulmar-live", ""}};  // asked by shells, in no help
+  return list;
+}
+
+void become_own_command(char** words) {
+  if (words[1] == nullptr) return;
+  const std::string word = words[1];
+  for (const OwnCommand& command : own_commands()) {
+    if (command.word != word) continue;
+    const fs::path program = own_program(command.program);
+    if (program.empty()) throw Error("fulmar " + word + ": the program " + command.program + " is missing beside this one");
+    become(program, word, words);
+  }
+}
 
 std::vector<std::string> extern_commands() {
   std::error_code fault;
@@ -60,11 +97,7 @@ std::vector<std::string> extern_commands() {
 void become_extern_command(char** words) {
   const std::string word = words[0];
   const fs::path program = is_command(word) ? find_program(program_prefix + word) : fs::path();
-  if (program.empty()) return;
-  std::string name = program.string();
-  words[0] = name.data();
-  ::execv(name.c_str(), words);
-  throw Error("fulmar " + word + ": " + name + " cannot be started: " + std::strerror(errno));
+  if (!program.empty()) become(program, word, words);
 }
 
 }  // namespace fulmar::core

@@ -6,6 +6,16 @@
 
 namespace fulmar::core {
 
+/// A command of Fulmar's own that another program carries out: `fulmar echo` is `fulmar-live echo`.
+struct OwnCommand {
+  const char *word, *program, *says;
+};
+/// In the order of the help.
+const std::vector<OwnCommand>& own_commands();
+
+/// Becomes the program beside this one that carries out words[1], when that is such a command; else returns. Throws Error.
+void become_own_command(char** words);
+
 /// The commands whose programs stand beside the host, sorted: {"aero", "fcu"}.
 std::vector<std::string> extern_commands();
 

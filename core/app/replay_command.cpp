@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/app/compare.hpp"
-#include "tools/fulmar_log/log_command.hpp"
+#include "core/log/log_file.hpp"
 #include "core/app/report.hpp"
 #include "core/replay/replay.hpp"
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/fulmar_live/completion.hpp"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
+#include "core/error.hpp"
+#include "core/loader/home.hpp"
 #include "tools/fulmar_live/parameters.hpp"
 #include "tools/fulmar_live/ports.hpp"
 #include "tools/fulmar_live/session.hpp"
@@ -37,36 +39,35 @@ const std::map<std::string, std::string> option_kinds{{"--io", "io"},           
                                                       {"--log", "file"},        {"--drivers-from", "log"}, {"--resume", "log"},
                                                       {"--mission", "mission"}, {"--with", "file"}};
 
-struct Row {
-  std::string command, options, valued, subcommands;
-};
-
-void add_rows(const CLI::App& app, const std::string& path, std::vector<Row>& rows) {
-  Row row{path, "", "", ""};
-  for (const CLI::Option* option : app.get_options()) {
-    for (const std::string& name : option->get_lnames()) {
-      row.options += (row.options.empty() ? "--" : " --") + name;
-      if (option->get_items_expected_max() > 0 && option->get_expected_min() > 0) row.valued += " --" + name;
-    }
-  }
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    if (command->get_group().empty()) continue;
-    row.subcommands += (row.subcommands.empty() ? "" : " ") + command->get_name();
-    add_rows(*command, path + (path.empty() ? "" : " ") + command->get_name(), rows);
-  }
-  rows.push_back(row);
+/// What a program beside this one prints of its commands. Throws Error.
+std::string rows_of(const char* name) {
+  const std::string program = own_program(name).string();
+  if (program.empty()) throw Error(std::string("the program ") + name + " is missing beside this one");
+  std::string quoted = "'";
+  for (const char c : program) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  std::FILE* pipe = ::popen((quoted + "' --rows").c_str(), "r");
+  if (pipe == nullptr) throw Error(program + " cannot be started");
+  std::string text;
+  char buffer[4096];
+  for (std::size_t n = 0; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) text.append(buffer, n);
+  if (::pclose(pipe) != 0) throw Error(program + " does not tell its commands");
+  return text;
 }
 
 /// The same in both shells: the lines of a `case` by command.
-std::string table(const CLI::App& app) {
-  std::vector<Row> rows;
-  add_rows(app, "", rows);
+std::string table() {
   std::string text;
-  for (const Row& row : rows) {
-    const auto place = places.find(row.command);
-    text += "    '" + row.command + "') options='" + row.options + "' valued='" + row.valued + " ' subcommands='" + row.subcommands +
-            "' kinds='" + (place == places.end() ? "" : place->second.kinds) +
-            "' repeat=" + std::to_string(place == places.end() ? 0 : place->second.repeat) + " ;;\n";
+  for (const char* program : {"fulmar", "fulmar-log", "fulmar-new", "fulmar-live"}) {
+    std::istringstream rows(rows_of(program));
+    std::string command, options, valued, subcommands;
+    while (std::getline(rows, command, '\t') && std::getline(rows, options, '\t') && std::getline(rows, valued, '\t') &&
+           std::getline(rows, subcommands)) {
+      if (command.empty() && std::string_view(program) != "fulmar") continue;  // only the host knows all commands
+      const auto place = places.find(command);
+      const bool placed = place != places.end();
+      text += "    '" + command + "') options='" + options + "' valued='" + valued + " ' subcommands='" + subcommands + "' kinds='" +
+              (placed ? place->second.kinds : "") + "' repeat=" + std::to_string(placed ? place->second.repeat : 0) + " ;;\n";
+    }
   }
   return text;
 }
@@ -244,9 +245,9 @@ std::set<std::string> words_of(Session& session, const std::string& kind, const 
 
 }  // namespace
 
-std::string completion_script(const CLI::App& app, const std::string& shell) {
+std::string completion_script(const std::string& shell) {
   const std::string script = shell == "zsh" ? zsh_script : bash_script;
-  return replaced(replaced(script, "@commands@", table(app)), "@options@", option_table());
+  return replaced(replaced(script, "@commands@", table()), "@options@", option_table());
 }
 
 std::vector<std::string> completions(Session& session, const std::string& kind, const std::string& prefix) {

@@ -4,16 +4,12 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace fulmar::core {
 
 class Session;
 
-/// `shell`: "bash" or "zsh".
-std::string completion_script(const CLI::App& app, const std::string& shell);
+/// `shell`: "bash" or "zsh". The commands are those that the programs beside this one tell of themselves. Throws Error.
+std::string completion_script(const std::string& shell);
 
 /// The words of a kind (port, field, param, component, request, phase) that begin with `prefix`.
 std::vector<std::string> completions(Session& session, const std::string& kind, const std::string& prefix);

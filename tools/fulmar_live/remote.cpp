@@ -154,7 +154,7 @@ struct RemoteCommands::Impl {
     CLI::App* script = app.add_subcommand("completion", "print what completes words in a shell");
     script->add_option("SHELL", shell, "bash or zsh")->required()->check(CLI::IsMember({"bash", "zsh"}))->type_name("");
     script->footer("Example: source <(fulmar completion bash)");
-    actions.emplace_back(script, [this] { return std::fputs(completion_script(app, shell).c_str(), stdout), 0; });
+    actions.emplace_back(script, [this] { return std::fputs(completion_script(shell).c_str(), stdout), 0; });
     CLI::App* complete = app.add_subcommand("complete", "words of a running flight, for shells")->group("");
     complete->add_option("KIND", kind)->required();
     complete->add_option("PREFIX", prefix);
@@ -177,11 +177,11 @@ RemoteCommands::RemoteCommands(CLI::App& app, std::vector<std::string> programs)
 
 RemoteCommands::~RemoteCommands() = default;
 
-std::optional<int> RemoteCommands::run() const {
+int RemoteCommands::run() const {
   try {
     for (const auto& [command, action] : impl_->actions)
       if (command->parsed()) return action();
-    return std::nullopt;
+    return 2;
   } catch (const WrongUsage& wrong) {
     std::fprintf(stderr, "%s\n", wrong.what());
     return 2;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of the command line that speaks to a running flight, and the completion of all of it.
+// The words of a running flight, and the completion of the whole command line.
 #pragma once
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +19,8 @@ class RemoteCommands {
   ~RemoteCommands();
   RemoteCommands(const RemoteCommands&) = delete;
   RemoteCommands& operator=(const RemoteCommands&) = delete;
-  /// The exit code of the command that was parsed; nothing when it was another one.
-  std::optional<int> run() const;
+  /// The exit code of the command that was parsed.
+  int run() const;
 
  private:
   struct Impl;

@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/log/log_file.hpp"
 #include "tools/fulmar_log/diff.hpp"
 #include "tools/fulmar_log/export_log.hpp"
 #include "tools/fulmar_log/info.hpp"
@@ -309,17 +310,6 @@ struct LogCommand::Impl {
     diff->add_flag("--messages", messages_only, "metadata and attachments are told, but do not decide the exit code");
   }
 };
-
-void check_log_file(const std::string& file) {
-  std::error_code fault;
-  const auto refuse = [&](const std::string& why) { throw Error("cannot read '" + file + "': " + why); };
-  const fs::file_status status = fs::status(file, fault);
-  if (!fs::exists(status)) refuse(status.type() == fs::file_type::not_found ? "there is no such file" : fault.message());
-  if (fs::is_directory(status)) refuse("it is a directory");
-  if (!fs::is_regular_file(status)) refuse("it is no file");
-  if (access(file.c_str(), R_OK) != 0) refuse(std::strerror(errno));
-  if (fs::file_size(file, fault) == 0) refuse("it is empty");
-}
 
 LogCommand::LogCommand(CLI::App& app) : impl_(std::make_unique<Impl>(app)) {}
 LogCommand::~LogCommand() = default;

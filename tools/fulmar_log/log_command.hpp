@@ -24,7 +24,4 @@ class LogCommand {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Throws Error that says why what is named is no log: there is none, a directory, empty.
-void check_log_file(const std::string& file);
-
 }  // namespace fulmar::core

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/app/program.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstring>
+
+#include "core/error.hpp"
+
+namespace fulmar::core {
+namespace {
+
+void add_rows(const CLI::App& app, const std::string& path, std::string& rows) {
+  std::string options, valued, subcommands;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) {
+      options += (options.empty() ? "--" : " --") + name;
+      if (option->get_items_expected_max() > 0 && option->get_expected_min() > 0) valued += " --" + name;
+    }
+  }
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->get_group().empty()) continue;
+    subcommands += (subcommands.empty() ? "" : " ") + command->get_name();
+    // what another program does is told by that program
+    if (!command->get_prefix_command()) add_rows(*command, path + (path.empty() ? "" : " ") + command->get_name(), rows);
+  }
+  rows += path + "\t" + options + "\t" + valued + "\t" + subcommands + "\n";
+}
+
+int ended_by(CLI::App& app, const std::function<int()>& words) {
+  try {
+    return words();
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;
+  }
+}
+
+}  // namespace
+
+std::string command_rows(const CLI::App& app) {
+  std::string rows;
+  add_rows(app, "", rows);
+  return rows;
+}
+
+bool asked_for_rows(int argc, char** argv) { return argc == 2 && std::strcmp(argv[1], "--rows") == 0; }
+
+int run_program(CLI::App& app, const std::function<int()>& words) {
+  try {
+    const int code = ended_by(app, words);
+    if (code != 0 || (std::fflush(stdout) == 0 && std::ferror(stdout) == 0)) return code;
+    std::fprintf(stderr, "fulmar: the output cannot be written; is the disk full?\n");
+  } catch (const Error& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "fulmar: %s\n", e.what());
+  }
+  return 1;
+}
+
+}  // namespace fulmar::core

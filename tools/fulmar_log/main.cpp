@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `fulmar log ...`, as the program fulmar-log. Exit codes: 0 done; 1 it failed, or the logs differ; 2 wrong usage.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "core/app/program.hpp"
+#include "tools/fulmar_log/log_command.hpp"
+
+int main(int argc, char** argv) {
+  using namespace fulmar::core;
+  CLI::App app{"The words of logs.", "fulmar"};
+  app.require_subcommand(1);
+  const LogCommand log(app);
+  return run_program(app, [&] {
+    if (asked_for_rows(argc, argv)) return std::fputs(command_rows(app).c_str(), stdout), 0;
+    app.parse(argc, argv);
+    return log.run();
+  });
+}

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `fulmar new ...`, as the program fulmar-new. Exit codes: 0 done; 1 it failed; 2 wrong usage.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "core/app/program.hpp"
+#include "tools/fulmar_new/new_command.hpp"
+
+int main(int argc, char** argv) {
+  using namespace fulmar::core;
+  CLI::App app{"The words of new projects.", "fulmar"};
+  app.require_subcommand(1);
+  NewOptions options;
+  CLI::App* command = app.add_subcommand("new", "write the project of a plugin that fills a role of a mission");
+  command->add_option("NAME", options.name, "of the plugin: letters, digits and _")->required();
+  command->add_option("--role", options.role, "that it fills, as in outer")->required();
+  command->add_option("--mission", options.mission, "whose role it fills; default the shipped hourglass");
+  command->add_option("--dir", options.folder, "folder to write; default ./NAME");
+  command->footer("Example: fulmar new my_law --role outer");
+  return run_program(app, [&] {
+    if (asked_for_rows(argc, argv)) return std::fputs(command_rows(app).c_str(), stdout), 0;
+    app.parse(argc, argv);
+    return new_command(options);
+  });
+}

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/app/replay_command.hpp"
 
-#include <spdlog/sinks/stdout_color_sinks.h>
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -14,6 +12,7 @@
 #include "core/log/log_file.hpp"
 #include "core/app/report.hpp"
 #include "core/replay/replay.hpp"
+#include "core/say.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -33,7 +32,7 @@ struct Replayed {
 };
 
 Replayed fly(const Recording& recording, const Overrides& changes, const std::string& out) {
-  const auto say = [](const std::string& text, bool warning) { spdlog::log(warning ? spdlog::level::warn : spdlog::level::info, text); };
+  const auto say = [](const std::string& text, bool warning) { say_aloud(text, warning ? Tone::warning : Tone::info); };
   Replayed r;
   r.graph = recording.mission(changes, say);
   ReplayOptions options;
@@ -129,7 +128,7 @@ int experiment(const Recording& recording, const ReplayWords& words, json& out) 
   const Replayed is = fly(recording, words.changes, words.out);
   out = result_of(recording, is);
   out["before"] = was.figures, out["after"] = is.figures, out["before_equals_log"] = was.result.equal();
-  if (!was.result.equal()) spdlog::warn("without the change, too, the replay differs from the log");
+  if (!was.result.equal()) warn("without the change, too, the replay differs from the log");
   if (words.json) return 0;
   print(is);
   std::printf("%s", comparison(was.figures, is.figures).c_str());
@@ -149,8 +148,7 @@ int run(const ReplayWords& words, json& out) {
 }  // namespace
 
 int replay_command(const ReplayWords& words) {
-  spdlog::set_default_logger(spdlog::stderr_color_mt("fulmar"));
-  spdlog::set_pattern("%^%v%$");
+  speak_on_standard_error();
   struct sigaction action {};
   action.sa_handler = stop_replay;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
@@ -162,7 +160,7 @@ int replay_command(const ReplayWords& words) {
     code = run(words, result);
   } catch (const Error&) {
     if (!stop) throw;
-    spdlog::warn("interrupted");
+    warn("interrupted");
     return 130;
   }
   std::fflush(stdout);

@@ -2,8 +2,6 @@
 #include "core/app/run_command.hpp"
 
 #include <fcntl.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -33,6 +31,7 @@
 #include "core/run/flight_impl.hpp"
 #include "core/run/realtime.hpp"
 #include "core/run/swap.hpp"
+#include "core/say.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -160,7 +159,7 @@ class Progress {
   }
   void say(const std::string& text, bool warning) {
     clear();
-    spdlog::log(warning ? spdlog::level::warn : spdlog::level::info, text);
+    say_aloud(text, warning ? Tone::warning : Tone::info);
   }
   void clear() {
     if (drawn_) std::fprintf(stderr, "\r\033[K");
@@ -257,13 +256,13 @@ std::optional<Resume> Session::resume() const {
     if (asked && !resume.missing.empty()) throw Error(log.string() + ": " + resume.missing[0]);
     if (!asked && !resume.armed) return std::nullopt;
     resume.if_armed = !asked;
-    for (const std::string& missing : resume.missing) spdlog::warn("{}: {}", log.string(), missing);
+    for (const std::string& missing : resume.missing) warn(log.string() + ": " + missing);
     if (!options_.json)
-      spdlog::info("{}{}: {}", resume.if_armed ? "if the aircraft is armed, resumes from " : "resumes from ", log.string(), resume.text());
+      say_aloud((resume.if_armed ? "if the aircraft is armed, resumes from " : "resumes from ") + log.string() + ": " + resume.text());
     return resume;
   } catch (const Error& fault) {
     if (asked) throw;
-    spdlog::warn("not resumed: {}", fault.what());
+    warn(std::string("not resumed: ") + fault.what());
     return std::nullopt;
   }
 }
@@ -278,17 +277,17 @@ void Session::take_priority() const {
     throw CLI::ValidationError(
         "--realtime would give a CPU to this flight alone: it belongs to --io fcu, or to a simulation with --speed real");
   if (options_.realtime > 0) return take_real_time(options_.realtime);
-  if (graph_.io == "fcu") spdlog::warn("the loop runs without real-time priority; --realtime gives it one");
+  if (graph_.io == "fcu") warn("the loop runs without real-time priority; --realtime gives it one");
 }
 
 void Session::tell_onlookers() const {
   if (graph_.dds.on && graph_.io == "sim" && options_.speed == 0)
-    spdlog::warn("dds: nothing is exported or imported as fast as the machine allows; fly with --speed real");
+    warn("dds: nothing is exported or imported as fast as the machine allows; fly with --speed real");
   if (!options_.live.empty() && graph_.live.on && graph_.io == "sim" && options_.speed == 0)
-    spdlog::warn("--live: nobody can follow as fast as the machine allows; fly with --speed real");
-  if (last_->live_port() != 0 && !options_.json)
-    spdlog::info("live view: ws://{}{}{}:{}", graph_.live.host.find(':') == std::string::npos ? "" : "[", graph_.live.host,
-                 graph_.live.host.find(':') == std::string::npos ? "" : "]", last_->live_port());
+    warn("--live: nobody can follow as fast as the machine allows; fly with --speed real");
+  if (last_->live_port() == 0 || options_.json) return;
+  const bool v6 = graph_.live.host.find(':') != std::string::npos;
+  say_aloud("live view: ws://" + (v6 ? "[" + graph_.live.host + "]" : graph_.live.host) + ":" + std::to_string(last_->live_port()));
 }
 
 int Session::fly() {
@@ -314,7 +313,7 @@ int Session::fly() {
   if (graph_.io == "fcu" || options_.speed > 0) print_without_waiting();
   if (options_.json) dup2(STDERR_FILENO, STDOUT_FILENO);  // what components print
   install_handlers(graph_.io != "sim");
-  if (!options_.json) spdlog::info("{}: {}, seed {}", graph_.mission, graph_.io == "sim" ? "simulation" : "flight controller", graph_.seed);
+  if (!options_.json) say_aloud(graph_.mission + (graph_.io == "sim" ? ": simulation" : ": flight controller") + ", seed " + std::to_string(graph_.seed));
   take_priority();
   last_ = std::make_unique<Flight>(graph_, o);
   forget_before();
@@ -331,10 +330,10 @@ int Session::fly() {
   }
   const bool whole = result.log.error.empty();
   if (!whole)
-    spdlog::warn("the log is not whole: {}; {} messages were lost, and what there is is in {}", result.log.error, result.log.dropped,
-                 result.log.file.string());
+    warn("the log is not whole: " + result.log.error + "; " + std::to_string(result.log.dropped) +
+         " messages were lost, and what there is is in " + result.log.file.string());
   else if (result.log.dropped > 0)
-    spdlog::warn("the log has gaps: the disk was too slow for {} messages", result.log.dropped);
+    warn("the log has gaps: the disk was too slow for " + std::to_string(result.log.dropped) + " messages");
   if (result.outcome == Outcome::interrupted) return 130;
   return result.outcome == Outcome::flown && whole ? 0 : 1;
 }
@@ -358,13 +357,13 @@ void Session::rehearse_changes(const Graph& next) const {
     } catch (const Error& fault) {
       throw Error(c.name + ": " + version_words(*c.plugin) + " fails its rehearsal: " + fault.what());
     }
-    spdlog::info("{}: {} -> {}{}", c.name, version_words(*was->plugin), version_words(*c.plugin),
-                 tape ? ", rehearsed on " + std::to_string(tape->size()) + " steps" : "");
+    say_aloud(c.name + ": " + version_words(*was->plugin) + " -> " + version_words(*c.plugin) +
+              (tape ? ", rehearsed on " + std::to_string(tape->size()) + " steps" : ""));
   }
 }
 
 bool Session::reload(const std::vector<std::filesystem::path>& changed) {
-  for (const auto& file : changed) spdlog::info("changed: {}", file.filename().string());
+  for (const auto& file : changed) say_aloud("changed: " + file.filename().string());
   try {
     Graph next = load();
     rehearse_changes(next);
@@ -372,8 +371,8 @@ bool Session::reload(const std::vector<std::filesystem::path>& changed) {
     stamps_ = std::make_unique<FileStamps>(files());
     return true;
   } catch (const Error& fault) {
-    spdlog::warn("{}", fault.what());
-    spdlog::warn("what flew before stays as it is");
+    warn(fault.what());
+    warn("what flew before stays as it is");
     return false;
   }
 }
@@ -397,8 +396,8 @@ std::optional<int> Session::try_fly() {
     last_.reset();
     if (!before_) throw;
     graph_ = std::move(*std::exchange(before_, nullptr));
-    spdlog::warn("{}", fault.what());
-    spdlog::warn("what flew before stays as it is");
+    warn(fault.what());
+    warn("what flew before stays as it is");
     return std::nullopt;
   }
 }
@@ -408,18 +407,18 @@ void Session::take_changes() {
 }
 
 bool Session::wait_for_change() {
-  spdlog::info("\nwaiting for a change; Ctrl-C ends");
+  say_aloud("\nwaiting for a change; Ctrl-C ends");
   std::string gone;
   while (signal_seen.load() == 0) {
     if (sources_)
       if (const auto changed = sources_->changed(); !changed.empty()) {
-        spdlog::info("changed: {}; building", changed[0].filename().string());
+        say_aloud("changed: " + changed[0].filename().string() + "; building");
         if (!run_build(options_.build, signal_seen) && signal_seen.load() == 0)
-          spdlog::warn("the build failed; what flew before stays as it is");
+          warn("the build failed; what flew before stays as it is");
       }
     if (const auto changed = stamps_->changed(); !changed.empty() && reload(changed)) return true;
     const std::string missing = stamps_->missing().string();
-    if (!missing.empty() && missing != gone) spdlog::warn("{} is gone; waiting for it", missing);
+    if (!missing.empty() && missing != gone) warn(missing + " is gone; waiting for it");
     gone = missing;
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
@@ -459,8 +458,7 @@ class ResultFile {
 }  // namespace
 
 int run_command(const RunOptions& options) {
-  spdlog::set_default_logger(spdlog::stderr_color_mt("fulmar"));
-  spdlog::set_pattern("%^%v%$");
+  speak_on_standard_error();
   if (!options.build.empty() && !options.watch) throw CLI::ValidationError("--build belongs to --watch");
   ResultFile output(options.json);
   Session session(options);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/app/words.hpp"
+#include "core/quiet_thread.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -74,13 +75,7 @@ void print_without_waiting() {
   left = ends[0];
   dup2(ends[1], STDERR_FILENO);
   close(ends[1]);
-  sigset_t all, before;  // signals are for the main thread
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  std::thread thread(pass_on);
-  pthread_setname_np(thread.native_handle(), "fulmar-words");
-  thread.detach();
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  quiet_thread("fulmar-words", pass_on).detach();
   std::atexit(pass_on_words);
 }
 

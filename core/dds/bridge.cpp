@@ -4,7 +4,6 @@
 
 #include <pthread.h>
 #include <signal.h>
-#include <spdlog/spdlog.h>
 
 #include <atomic>
 #include <chrono>
@@ -13,6 +12,8 @@
 #include "core/error.hpp"
 #include "core/dds/services.hpp"
 #include "core/dds/topics.hpp"
+#include "core/quiet_thread.hpp"
+#include "core/say.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -20,22 +21,6 @@ namespace {
 constexpr std::chrono::milliseconds nap{2};       // of the thread that sends when the ring is empty; the loop never pays for waking it
 constexpr std::chrono::milliseconds breath{2};    // between two looks at what comes in: a flood does not take a processor
 constexpr std::chrono::milliseconds longest{50};  // sleep of the thread that takes
-
-/// Threads that are created meanwhile take no signals: those are for the main thread.
-class NoSignals {
- public:
-  NoSignals() {
-    sigset_t all;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before_);
-  }
-  ~NoSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  NoSignals(const NoSignals&) = delete;
-  NoSignals& operator=(const NoSignals&) = delete;
-
- private:
-  sigset_t before_{};
-};
 
 }  // namespace
 
@@ -96,7 +81,7 @@ struct DdsBridge::Impl {
     try {
       f();
     } catch (const std::exception& e) {
-      spdlog::error("dds ends early: {}", e.what());
+      say_aloud(std::string("dds ends early: ") + e.what(), Tone::error);
     }
   }
 

@@ -2,13 +2,13 @@
 // See topics.hpp.
 #include "core/dds/topics.hpp"
 
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <chrono>
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/say.hpp"
 
 namespace fulmar::core::dds {
 namespace {
@@ -43,12 +43,12 @@ void Others::found(const std::string& topic, const std::string& type, bool write
   const char* who = writer ? "writes" : "reads";
   if (t.type != type) {
     if (!std::exchange(t.told_type, true))
-      spdlog::warn("dds: somebody {} {} with the type {}; here it is {}: the two do not meet", who, topic, type, t.type);
+      warn(std::string("dds: somebody ") + who + " " + topic + " with the type " + type + "; here it is " + t.type + ": the two do not meet");
   } else if (writer && best_effort) {
     t.best_effort_writer = true;
   } else if (!writer && !best_effort && t.best_effort) {
     if (!std::exchange(t.told_effort, true))
-      spdlog::warn("dds: somebody reads {} reliably, but it is exported with best_effort: the two do not meet", topic);
+      warn("dds: somebody reads " + topic + " reliably, but it is exported with best_effort: the two do not meet");
   }
 }
 
@@ -193,7 +193,7 @@ void Imports::use(Topic& topic, const Reader::Sample& sample) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   const double latency_s = static_cast<double>(std::chrono::nanoseconds(now).count() - sample.written_ns) * 1e-9;
   if (!why.empty() && !std::exchange(topic.told, true))
-    spdlog::warn("dds: a sample of {} for {} is refused: {}; more of them are counted, not told", topic.stats.topic, topic.stats.port, why);
+    warn("dds: a sample of " + topic.stats.topic + " for " + topic.stats.port + " is refused: " + why + "; more of them are counted, not told");
   const std::lock_guard lock(mutex_);
   DdsStats::Import& stats = topic.stats;
   if (!why.empty()) {

@@ -12,6 +12,7 @@
 #include "core/live/page.hpp"
 #include "core/live/session.hpp"
 #include "core/live/websocket.hpp"
+#include "core/quiet_thread.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -95,15 +96,7 @@ struct LiveServer::Impl {
     });
   }
 
-  /// The thread takes no signal: they are for the main thread.
-  void start() {
-    sigset_t all, before;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before);
-    thread = std::thread([this] { run(); });
-    pthread_setname_np(thread.native_handle(), "fulmar-live");
-    pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  }
+  void start() { thread = quiet_thread("fulmar-live", [this] { run(); }); }
 
   /// What goes wrong with one connection (no memory, an option that the system refuses) ends that connection alone.
   void run() {

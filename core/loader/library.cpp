@@ -3,9 +3,6 @@
 // these.
 #include "core/loader/library.hpp"
 
-#include <dlfcn.h>
-
-#include <boost/dll/shared_library.hpp>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -18,9 +15,9 @@
 #include "core/loader/elf.hpp"
 #include "core/loader/float_mode.hpp"
 #include "core/loader/home.hpp"
-#include "core/loader/load_fault.hpp"
 #include "core/loader/probe.hpp"
 #include "core/loader/script.hpp"
+#include "core/loader/shared_object.hpp"
 #include "core/loader/store.hpp"
 #include "core/loader/table.hpp"
 
@@ -58,13 +55,6 @@ std::vector<std::byte> read_file(const fs::path& file, const std::string& name) 
   return bytes;
 }
 
-bool is_mapped(const fs::path& copy) {
-  void* handle = ::dlopen(copy.c_str(), RTLD_LAZY | RTLD_NOLOAD);
-  if (handle == nullptr) return false;
-  ::dlclose(handle);
-  return true;
-}
-
 // Throws unless a child has loaded it. `host`: of a script, the copy of the plugin that opens it; `file`: where the author keeps it.
 void try_in_child(const fs::path& copy, const std::string& key, const std::string& name, const fs::path& host = {},
                   const fs::path& file = {}) {
@@ -81,21 +71,19 @@ void try_in_child(const fs::path& copy, const std::string& key, const std::strin
 }  // namespace
 
 struct Library::Handle {
-  boost::dll::shared_library file;
+  SharedObject file;
+  const fulmar_plugin* plugin = nullptr;  // of the file
   std::shared_ptr<Library> host;  // of a script, which is closed before its host
   std::unique_ptr<Script> script;
   std::vector<fulmar_component> functions;
 
   void load(const fs::path& copy, const std::string& name) {
     const FloatModeGuard guard;
-    boost::dll::fs::error_code fault;
-    file.load(copy, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local, fault);
-    // the child could load it, so this process can; unless, for one, it is out of address space
-    if (fault) throw Error(load_fault(name, ::dlerror()));
-    if (!file.has(FULMAR_ENTRY_SYMBOL)) throw Error(no_entry_fault(name));
+    file.load(copy, name);
+    plugin = &file.entry(name);
   }
 
-  const fulmar_plugin& entry() const { return script ? script->entry() : file.get<const fulmar_plugin>(FULMAR_ENTRY_SYMBOL); }
+  const fulmar_plugin& entry() const { return script ? script->entry() : *plugin; }
 
   bool hosts_scripts() const { return entry().abi_minor >= 1 && entry().open_script != nullptr; }
 

@@ -17,6 +17,7 @@
 #include "core/log/mcap.hpp"
 #include "core/tap/tap.hpp"
 #include "core/types/wire.hpp"
+#include "core/quiet_thread.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -91,15 +92,7 @@ struct Log::Impl {
     }
   }
 
-  /// The thread takes no signal: they are for the main thread, and one for a file at its size limit comes back as an error of write.
-  void start() {
-    sigset_t all, before;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before);
-    thread = std::thread([this] { run(); });
-    pthread_setname_np(thread.native_handle(), "fulmar-log");
-    pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  }
+  void start() { thread = quiet_thread("fulmar-log", [this] { run(); }); }
 
   std::uint64_t time(std::int64_t flight_ns) const {
     return static_cast<std::uint64_t>(std::max<std::int64_t>(0, options.epoch_ns + flight_ns));

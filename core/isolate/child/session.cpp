@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/isolate/child/session.hpp"
 
-#include <dlfcn.h>
 #include <sys/mman.h>
 
 #include <cerrno>
@@ -12,7 +11,7 @@
 #include "core/isolate/child/heap.hpp"
 #include "core/loader/float_mode.hpp"
 #include "core/loader/library.hpp"
-#include "core/loader/load_fault.hpp"
+#include "core/loader/shared_object.hpp"
 #include "core/loader/table.hpp"
 
 namespace fulmar::core {
@@ -21,11 +20,9 @@ namespace fulmar::core {
 
 void Session::load(const Order& order) {
   const FloatModeGuard guard;
-  void* library = ::dlopen(order.copy, RTLD_NOW | RTLD_LOCAL);
-  if (!library) throw Error(load_fault(order.file, ::dlerror()));
-  const void* entry = ::dlsym(library, FULMAR_ENTRY_SYMBOL);
-  if (!entry) throw Error(no_entry_fault(order.file));
-  plugin_ = static_cast<const fulmar_plugin*>(entry);
+  static SharedObject library;  // open as long as the child lives
+  library.load(order.copy, order.file);
+  plugin_ = &library.entry(order.file);
   if (!*order.script) return;
   if (plugin_->abi_major != FULMAR_ABI_MAJOR) throw Error(std::string(order.file) + ": its host is of another ABI");
   script_ = std::make_unique<Script>(*plugin_, order.path, read_script(order.script));

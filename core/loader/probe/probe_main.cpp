@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // fulmar-probe COPY NAME [SCRIPT FILE]: loads, reads and unloads one plugin, or one script by the plugin at COPY, and reports on standard
 // output. Run by the host with a time limit.
-#include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -14,9 +13,9 @@
 #include "core/error.hpp"
 #include "core/loader/float_mode.hpp"
 #include "core/loader/library.hpp"
-#include "core/loader/load_fault.hpp"
 #include "core/loader/probe_report.hpp"
 #include "core/loader/script.hpp"
+#include "core/loader/shared_object.hpp"
 
 using namespace fulmar::core;
 
@@ -66,13 +65,11 @@ void prepare() {
 
 // The host has tried the plugin at `host` by itself; here it runs a script.
 int try_script(const char* host, const char* copy, const char* file, const std::string& name) {
-  void* library = ::dlopen(host, RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) return refuse(load_fault(script_host(file), ::dlerror()));
-  const void* entry = ::dlsym(library, FULMAR_ENTRY_SYMBOL);
-  if (entry == nullptr) return refuse(no_entry_fault(script_host(file)));
-  const FloatMode before = FloatMode::now();
+  static SharedObject library;  // an interpreter is not closed again
   try {
-    const Script script(*static_cast<const fulmar_plugin*>(entry), file, read_script(copy));
+    library.load(host, script_host(file));
+    const FloatMode before = FloatMode::now();
+    const Script script(library.entry(script_host(file)), file, read_script(copy));
     say(report_loaded);
     read_entry(script.entry(), name);
     if (!(FloatMode::now() == before)) return refuse(name + " changes the floating-point mode when it is loaded");
@@ -86,21 +83,19 @@ int try_script(const char* host, const char* copy, const char* file, const std::
 
 int try_plugin(const char* copy, const std::string& name) {
   const FloatMode before = FloatMode::now();
-  void* library = ::dlopen(copy, RTLD_NOW | RTLD_LOCAL);
-  const bool same_mode = FloatMode::now() == before;
-  if (library == nullptr) return refuse(load_fault(name, ::dlerror()));
-  say(report_loaded);
-  const void* entry = ::dlsym(library, FULMAR_ENTRY_SYMBOL);
-  if (entry == nullptr) return refuse(no_entry_fault(name));
+  static SharedObject library;  // a plugin that is refused is not closed
   try {
-    read_entry(*static_cast<const fulmar_plugin*>(entry), name);
+    library.load(copy, name);
+    const bool same_mode = FloatMode::now() == before;
+    say(report_loaded);
+    read_entry(library.entry(name), name);
+    if (!same_mode) return refuse(name + " changes the floating-point mode when it is loaded (built with -ffast-math?)");
   } catch (const Error& fault) {
     return refuse(fault.what());
   }
-  if (!same_mode) return refuse(name + " changes the floating-point mode when it is loaded (built with -ffast-math?)");
   say(report_read);
-  ::dlclose(library);
-  if (void* still = ::dlopen(copy, RTLD_LAZY | RTLD_NOLOAD); still != nullptr) say(report_stays);
+  library.unload();
+  if (is_mapped(copy)) say(report_stays);
   say(report_good);
   return 0;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From a plain struct to the C tables and functions of abi.h. Every thunk catches everything: no exception crosses.
+// A part of plugin.hpp, which includes it at its end.
 #pragma once
 #include <concepts>
 #include <exception>
@@ -7,7 +8,6 @@
 #include <utility>
 
 #include "fulmar/detail/params.hpp"
-#include "fulmar/plugin.hpp"
 
 namespace fulmar::detail {
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From a struct of parameters, with its groups, to the table of abi.h, and from the host's values back into it.
+// A part of plugin.hpp, which includes it at its end.
 #pragma once
 #include <array>
 #include <cstring>
 #include <string_view>
 #include <type_traits>
-
-#include "fulmar/plugin.hpp"
 
 namespace fulmar::detail {
 

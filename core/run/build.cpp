@@ -104,7 +104,7 @@ UnitOptions Flight::Impl::unit_options(const Component& c) const {
   o.tick_ns = graph.tick_ns;
   o.seed = component_seed(graph.seed, c.name);
   o.paced = !unpaced();
-  o.wait_for_async = graph.io == "sim";
+  o.wait_for_async = graph.io == Io::sim;
   o.tape_steps = options.keep_inputs && !c.info().vehicle && c.run != RunMode::driver ? tape_steps : 0;
   if (c.run == RunMode::driver && !options.drivers_from.empty()) o.samples = recorded_samples(c);
   if (options.playback) options.playback->stand_in(graph, c, o);
@@ -175,16 +175,11 @@ void Flight::Impl::connect() {
     if (w.from.kind == Source::Kind::role) drives_vehicle[static_cast<std::size_t>(w.from.index)] = true;
 }
 
-/// Flags that any vehicle may have, by name: the host knows no messages.
 void Flight::Impl::find_flags() {
-  const Unit& vehicle = *units[static_cast<std::size_t>(graph.vehicle)];
-  for (const auto& [name, flag] : {std::pair{"armed", &armed_flag}, {"on_ground", &ground_flag}, {"in_control", &control_flag}}) {
-    *flag = {};
-    for (const Slot& slot : vehicle.slots) {
-      const Field* const field = slot.port->type ? slot.port->type->find(name) : nullptr;
-      if (!flag->slot && field && field->kind == FULMAR_BOOL) *flag = {&slot, field->offset};
-    }
-  }
+  const auto view = [this](const VehicleFlag& flag) { return FlagView{slot_of(flag.from), flag.offset}; };
+  armed_flag = view(graph.flags.armed);
+  ground_flag = view(graph.flags.on_ground);
+  control_flag = view(graph.flags.in_control);
 }
 
 void Flight::Impl::find_told() {
@@ -432,7 +427,7 @@ void Flight::Impl::attach_texts() {
                            {"abi", std::to_string(FULMAR_ABI_MAJOR) + "." + std::to_string(FULMAR_ABI_MINOR)},
                            {"toolchain", __VERSION__},
                            {"mission", graph.mission},
-                           {"io", graph.io},
+                           {"io", io_word(graph.io)},
                            {"epoch_ns", std::to_string(graph.epoch_ns)},
                            {"seed", std::to_string(graph.seed)}});
 }

@@ -29,7 +29,7 @@ bool Flight::Impl::held_for(const Condition& condition, std::int64_t for_ns,
   return now_ns - since_ns >= for_ns;
 }
 
-bool Flight::Impl::armed_hardware() const noexcept { return graph.io == "fcu" && armed_flag.says(false); }
+bool Flight::Impl::armed_hardware() const noexcept { return graph.io == Io::fcu && armed_flag.says(false); }
 
 bool Flight::Impl::over() {
   const bool open = conclusion.empty();
@@ -42,7 +42,7 @@ bool Flight::Impl::over() {
   else if (open && options.duration_s && now_ns >= static_cast<std::int64_t>(*options.duration_s * 1e9))
     conclude(Code::duration_reached, in_failsafe ? Outcome::failed : Outcome::flown,
              in_failsafe ? failsafe_reason : "duration reached", "");
-  else if (graph.timeout_ns > 0 && graph.io == "sim" && now_ns >= graph.timeout_ns)
+  else if (graph.timeout_ns > 0 && graph.io == Io::sim && now_ns >= graph.timeout_ns)
     finish(Outcome::failed,
            "not done within " + short_number(1e-9 * static_cast<double>(graph.timeout_ns)) + " s of flight");
   if (!ended && !conclusion.empty() && !armed_hardware()) {

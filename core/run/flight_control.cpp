@@ -79,7 +79,7 @@ ComponentView view_of(const Flight::Impl& flight, const Unit& unit) {
 
 FlightControl::Directory::Directory(const Flight::Impl& flight) : commands(flight.commands) {
   if (!flight.graph.file.empty()) view.file = std::filesystem::absolute(flight.graph.file).string();
-  view.mission = flight.graph.mission, view.io = flight.graph.io, view.epoch_ns = flight.graph.epoch_ns;
+  view.mission = flight.graph.mission, view.io = io_word(flight.graph.io), view.epoch_ns = flight.graph.epoch_ns;
   for (const Phase& p : flight.graph.phases) {
     view.phases.push_back(p.name);
     overlaid.emplace_back();

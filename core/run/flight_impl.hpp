@@ -27,8 +27,9 @@ std::string topic_name(const Graph& graph, const Component& component, std::size
 /// Seed of a component: a mix of the mission's seed and the component's name, so that adding a component changes no other's noise.
 std::uint64_t component_seed(std::uint64_t mission_seed, const std::string& name);
 
-/// A flag in what the vehicle says of itself.
-struct VehicleFlag {
+/// A flag of the vehicle's contract, as it stands now. `unknown`: what counts of a vehicle that has no such
+/// flag, or has not published it yet.
+struct FlagView {
   const Slot* slot = nullptr;
   std::uint32_t offset = 0;
   bool says(bool unknown) const noexcept { return slot && slot->sequence > 0 ? slot->published[offset] != std::byte{0} : unknown; }
@@ -141,7 +142,7 @@ struct Flight::Impl final : SampleReader {
   const Slot* slot_of(const Source& source) const;
   const std::byte* message_of(const Source& source) const noexcept;
 
-  bool unpaced() const { return options.playback || (options.speed == 0 && graph.io == "sim"); }
+  bool unpaced() const { return options.playback || (options.speed == 0 && graph.io == Io::sim); }
 
   Graph graph;  // its own: a swap changes it
   FlightOptions options;
@@ -175,7 +176,7 @@ struct Flight::Impl final : SampleReader {
   bool in_failsafe = false, ended = false;
   std::string failsafe_reason;
   std::vector<bool> drives_vehicle, control_roles;  // per role
-  VehicleFlag armed_flag, ground_flag, control_flag;
+  FlagView armed_flag, ground_flag, control_flag;
   bool was_armed = false;
   bool out_of_control = false;  // the vehicle says that it does not obey
   std::vector<Told> tells;

@@ -138,7 +138,7 @@ bool Flight::Impl::controls(const Unit& unit) const noexcept {
 /// Nothing may wind up while nobody obeys. What works in another thread is not called anew in every step, but once when control returns.
 /// A simulated aircraft is armed at a known time: until then its controllers may do as they like.
 void Flight::Impl::watch_control() noexcept {
-  was_armed = was_armed || graph.io == "fcu" || armed_flag.says(true) || control_flag.says(false);
+  was_armed = was_armed || graph.io == Io::fcu || armed_flag.says(true) || control_flag.says(false);
   const bool was = std::exchange(out_of_control, was_armed && !control_flag.says(true));
   if (!was || out_of_control) return;
   for (const auto& unit : units)
@@ -244,7 +244,7 @@ bool Flight::Impl::step() {
   const std::uint64_t entering = thread_allocations();
   const bool counted = !control || index == 0 || control->apply();
   const std::uint64_t entered = counted ? thread_allocations() - entering : 0;
-  if (index == 0 && graph.io == "fcu") stay_on_one_cpu();
+  if (index == 0 && graph.io == Io::fcu) stay_on_one_cpu();
   if (index == 0) wall_ns = wall_start_ns = progress_ns = wall_clock_ns();
   const std::uint64_t before = thread_allocations();
   const bool goes_on = tick();
@@ -258,7 +258,7 @@ bool Flight::Impl::step() {
   }
   if (!goes_on) return false;
   if (index > 1) result.loop_allocations += thread_allocations() - before + entered;
-  if (options.speed > 0 && graph.io == "sim") pace();
+  if (options.speed > 0 && graph.io == Io::sim) pace();
   if (options.progress && wall_ns - progress_ns > 200'000'000) {
     progress_ns = wall_ns;
     options.progress(*static_cast<const Flight*>(owner));

@@ -114,7 +114,7 @@ TEST_CASE("one word flies the mission on hardware: only the chosen vehicle exist
   Overrides overrides;
   overrides.io = "fcu";
   const Graph graph = mission.load(overrides);
-  CHECK(graph.io == "fcu");
+  CHECK(graph.io == Io::fcu);
   CHECK_FALSE(graph.arm);  // on hardware the pilot arms
   CHECK(index_of(graph, "sim") == -1);
   CHECK(graph.components[static_cast<std::size_t>(graph.vehicle)].name == "fcu");

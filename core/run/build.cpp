@@ -77,7 +77,7 @@ std::string topic_name(const Graph& graph, const Component& c, std::size_t outpu
   return c.name + "." + c.info().outputs[output].name;
 }
 
-Flight::Impl::Impl(const Graph& g, const FlightOptions& o) : graph(g), options(o) {
+Flight::Impl::Impl(const Graph& g, const FlightOptions& o) : graph(g), options(o), ending(g.failsafe_ns) {
   const bool driven =
       std::any_of(graph.components.begin(), graph.components.end(), [](const Component& c) { return c.run == RunMode::driver; });
   if (!options.drivers_from.empty() && !driven)

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/graph/graph.hpp"
+#include "core/run/ending.hpp"
 #include "core/run/resume.hpp"
 #include "core/run/stats.hpp"
 #include "core/dds/bridge.hpp"
@@ -33,8 +34,6 @@ struct FlightOptions {
   std::function<void(const class Flight&)> progress;          // called about every 200 ms of wall time, between ticks
   std::function<void(const std::string&, bool warning)> say;  // one line for the user, as it happens: phases, guards
 };
-
-enum class Outcome : std::uint8_t { flown, failed, interrupted };
 
 struct PhaseVisit {
   std::string name;

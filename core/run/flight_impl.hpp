@@ -6,6 +6,7 @@
 
 #include "core/graph/condition.hpp"
 #include "core/run/command.hpp"
+#include "core/run/ending.hpp"
 #include "core/run/flight.hpp"
 #include "core/run/flight_control.hpp"
 #include "core/run/unit.hpp"
@@ -90,14 +91,14 @@ struct Flight::Impl final : SampleReader {
   void watch_control() noexcept;
   void pace();
 
-  // ending.cpp
+  // verdict.cpp
   bool over();
   bool held_for(const Condition& condition, std::int64_t for_ns, std::int64_t& since_ns) const noexcept;
   bool armed_hardware() const noexcept;
-  void conclude(Code code, Outcome outcome, const std::string& reason, const char* what);
-  void after_failsafe();
-  void heed_signal();
-  void finish(Outcome outcome, std::string reason);
+  void end_by(Ending::Cue cue);
+  void carry_out(Ending::Act act);
+  void tell_verdict(Code code, const char* what);
+  std::string reason_text() const;
 
   // swap.cpp
   void swap(std::size_t index, const std::string& file);
@@ -172,9 +173,8 @@ struct Flight::Impl final : SampleReader {
   static constexpr std::int64_t never = std::numeric_limits<std::int64_t>::min();
   std::vector<std::int64_t> any_since, next_since;  // since when a transition's condition holds
   std::int64_t done_since_ns = never, failed_since_ns = never;
-  std::int64_t failsafe_since_ns = 0;
-  bool in_failsafe = false, ended = false;
-  std::string failsafe_reason;
+  Ending ending;
+  decltype(Event::words) failsafe_words{};  // why nobody can fly any more
   std::vector<bool> drives_vehicle, control_roles;  // per role
   FlagView armed_flag, ground_flag, control_flag;
   bool was_armed = false;
@@ -182,11 +182,7 @@ struct Flight::Impl final : SampleReader {
   std::vector<Told> tells;
   std::int64_t heard_ns = never;  // the vehicle's first word, while it is open whether to resume
 
-  // on hardware, while the aircraft is armed
-  std::string conclusion;  // how the flight will have ended; "": open
-  Outcome conclusion_outcome = Outcome::failed;
-  bool silence_told = false, giving_up = false, log_told = false;
-  std::int64_t refused_ns = never;  // a signal
+  bool log_told = false;
 
   FlightResult result;
   std::int64_t wall_ns = 0, wall_start_ns = 0, progress_ns = 0;

@@ -190,7 +190,7 @@ bool Flight::Impl::vehicle_failed() {
   put(e.cause, vehicle.problem.text);
   say(e, "%s", vehicle.problem.text);
   note(e);
-  finish(Outcome::failed, "the vehicle failed: " + std::string(vehicle.problem.text));
+  end_by(Ending::Cue::vehicle_failed);
   return false;
 }
 
@@ -212,8 +212,8 @@ bool Flight::Impl::tick() {
   for (const int i : graph.order) step_unit(i);
   transitions();
 
-  if (in_failsafe && now_ns - failsafe_since_ns >= graph.failsafe_ns) vehicle.silent = true;
-  if (vehicle.write(now_ns, index).kind == Verdict::Kind::bad) return vehicle_failed();
+  if (vehicle.write(now_ns, index, ending.steering(now_ns), graph.failsafe).kind == Verdict::Kind::bad)
+    return vehicle_failed();
   vehicle.refusals.clear();  // not noted: in a replay there is nobody to refuse anything
   clock(vehicle);
   for (Reader* reader : delayed) reader->latch();
@@ -240,7 +240,7 @@ void Flight::Impl::tell_control() noexcept {
 }
 
 bool Flight::Impl::step() {
-  if (ended) return false;
+  if (ending.over()) return false;
   const std::uint64_t entering = thread_allocations();
   const bool counted = !control || index == 0 || control->apply();
   const std::uint64_t entered = counted ? thread_allocations() - entering : 0;
@@ -267,7 +267,7 @@ bool Flight::Impl::step() {
 }
 
 FlightResult Flight::Impl::finish_flight() {
-  if (!ended) finish(Outcome::interrupted, "ended by its owner");
+  if (!ending.over()) end_by(Ending::Cue::abandoned);
   leave_cpu_of_loop();
   result.wall_s = 1e-9 * static_cast<double>(wall_clock_ns() - wall_start_ns);
   result.ticks = index;

@@ -222,13 +222,9 @@ void Flight::Impl::stop(int i, Code code) {
 }
 
 void Flight::Impl::failsafe(const Event& why) {
-  if (in_failsafe) return;
-  in_failsafe = true;
-  failsafe_since_ns = now_ns;
-  failsafe_reason = why.words.data();
-  Unit& vehicle = *units[static_cast<std::size_t>(graph.vehicle)];
-  vehicle.forced = &graph.failsafe;
-  if (graph.failsafe.empty()) vehicle.silent = true;
+  if (ending.in_failsafe()) return;
+  end_by(Ending::Cue::nobody);
+  failsafe_words = why.words;
   note(why);
 }
 

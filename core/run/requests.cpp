@@ -139,7 +139,7 @@ void Flight::Impl::apply_import(std::size_t import, const std::byte* message) {
 }
 
 void Flight::Impl::apply_phase(const Command& command) {
-  if (in_failsafe) throw Error("the flight is in its failsafe: no phase can be entered");
+  if (ending.in_failsafe()) throw Error("the flight is in its failsafe: no phase can be entered");
   put_command(command.note);
   enter(static_cast<int>(command.part));  // the present one, too: whoever it names takes over again
 }

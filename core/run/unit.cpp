@@ -253,14 +253,16 @@ Verdict Unit::read(std::int64_t& now_ns, std::uint64_t index) noexcept {
   return {Verdict::Kind::stepped};
 }
 
-Verdict Unit::write(std::int64_t now_ns, std::uint64_t index) noexcept {
-  if (prepare_inputs(now_ns) != Inputs::good && !forced && !silent) return {Verdict::Kind::waiting};
+Verdict Unit::write(std::int64_t now_ns, std::uint64_t index, Ending::Steering steering,
+                    const std::vector<std::vector<std::byte>>& failsafe) noexcept {
+  if (prepare_inputs(now_ns) != Inputs::good && steering == Ending::Steering::commands)
+    return {Verdict::Kind::waiting};
   for (std::size_t i = 0; i < readers.size(); ++i) {
     if (readers[i].port->kind != FULMAR_IN_VALUE) continue;
-    if (silent)
+    if (steering == Ending::Steering::nothing)
       inputs_[i] = {};
-    else if (forced && !(*forced)[i].empty()) {
-      inputs_[i].data = (*forced)[i].data();
+    else if (steering == Ending::Steering::failsafe && !failsafe[i].empty()) {
+      inputs_[i].data = failsafe[i].data();
       inputs_[i].valid_at_ns = now_ns;
       inputs_[i].age_ns = 0;
       inputs_[i].count = 1;

@@ -18,6 +18,7 @@
 #include "core/isolate/isolated.hpp"
 #include "core/run/async.hpp"
 #include "core/run/driver.hpp"
+#include "core/run/ending.hpp"
 #include "core/run/inside.hpp"
 #include "core/run/stats.hpp"
 #include "core/run/tape.hpp"
@@ -150,7 +151,9 @@ class Unit {
   /// [setup] Encodes the frame that the device is to get when the host dies, if the vehicle can.
   void prepare_last_frame(const std::vector<std::vector<std::byte>>& failsafe);
   Verdict read(std::int64_t& now_ns, std::uint64_t index) noexcept;  // the vehicle
-  Verdict write(std::int64_t now_ns, std::uint64_t index) noexcept;  // the vehicle
+  /// The vehicle gets its inputs, or the failsafe's values in their place, or none.
+  Verdict write(std::int64_t now_ns, std::uint64_t index, Ending::Steering steering,
+                const std::vector<std::vector<std::byte>>& failsafe) noexcept;
   /// [tick] `last`: per output, the slot last applied in the role, or nullptr.
   bool activate(std::int64_t now_ns, std::uint64_t index, const std::vector<const Slot*>& last) noexcept;
   void deactivate() noexcept;
@@ -175,8 +178,6 @@ class Unit {
   bool active = false;                                          // fills a role now, or fills none and always steps
   bool stopped = false;                                         // by a guard
   bool fresh_start = true;                                      // activate has not been called yet
-  bool silent = false;                                          // vehicle: failsafe is over, inputs are withheld
-  const std::vector<std::vector<std::byte>>* forced = nullptr;  // vehicle: failsafe values in place of its inputs
   int overruns_in_a_row = 0;
   std::vector<std::int64_t> late_due_ns;  // asynchronous results that the last `collect` took after a tick too late; room for some
   struct Refusal {

@@ -30,7 +30,8 @@
 #include "core/app/words.hpp"
 #include "core/run/allocation.hpp"
 #include "core/run/flight.hpp"
-#include "core/run/flight_impl.hpp"
+#include "core/run/last_words.hpp"
+#include "core/run/published.hpp"
 #include "core/run/realtime.hpp"
 #include "core/run/swap.hpp"
 

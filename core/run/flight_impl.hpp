@@ -9,6 +9,7 @@
 #include "core/run/ending.hpp"
 #include "core/run/flight.hpp"
 #include "core/run/flight_control.hpp"
+#include "core/run/published.hpp"
 #include "core/run/unit.hpp"
 #include "core/dds/bridge.hpp"
 #include "core/log/events.hpp"
@@ -16,17 +17,6 @@
 #include "core/tap/tap.hpp"
 
 namespace fulmar::core {
-
-/// All that the host itself publishes.
-const std::vector<TypePtr>& host_types();
-/// The message of a component's probes: fulmar_msgs/msg/ControlSlcOuterProbes. ROS tells messages apart by name alone.
-TypePtr probes_type(const PluginInfo& plugin, const ComponentInfo& component);
-
-/// Under which name an output is logged: its role's, when it is one of the role's.
-std::string topic_name(const Graph& graph, const Component& component, std::size_t output);
-
-/// Seed of a component: a mix of the mission's seed and the component's name, so that adding a component changes no other's noise.
-std::uint64_t component_seed(std::uint64_t mission_seed, const std::string& name);
 
 /// A flag of the vehicle's contract, as it stands now. `unknown`: what counts of a vehicle that has no such
 /// flag, or has not published it yet.
@@ -143,7 +133,7 @@ struct Flight::Impl final : SampleReader {
   const Slot* slot_of(const Source& source) const;
   const std::byte* message_of(const Source& source) const noexcept;
 
-  bool unpaced() const { return options.playback || (options.speed == 0 && graph.io == Io::sim); }
+  bool unpaced() const { return options.circumstances || (options.speed == 0 && graph.io == Io::sim); }
 
   Graph graph;  // its own: a swap changes it
   FlightOptions options;

@@ -362,7 +362,7 @@ TEST_CASE("disarmed in the air nothing is swapped, by the flag that the mission 
 }
 
 TEST_CASE("on hardware a vehicle that does not say what protects its aircraft is refused, with what to write") {
-  const std::string all = " Its flags: gear.motors_live, gear.obeys, state.armed, state.on_ground, state.in_control.";
+  const std::string all = " Its flags: applied.present, gear.motors_live, gear.obeys, state.armed, state.on_ground, state.in_control.";
   CHECK(refusal("") ==
         "strange.yaml:5: roles.vehicle: with io: fcu the vehicle has to say whether it is armed, on the ground and in control, and craft "
         "(craft/Strange) has no flag armed, on_ground, in_control in an output 'status'; name its own at the role vehicle, as in flags: "
@@ -373,14 +373,14 @@ TEST_CASE("on hardware a vehicle that does not say what protects its aircraft is
 }
 
 TEST_CASE("a flag that cannot be one is refused with the choices, in simulation too") {
-  const std::string all = " Its flags: gear.motors_live, gear.obeys, state.armed, state.on_ground, state.in_control.";
+  const std::string all = " Its flags: applied.present, gear.motors_live, gear.obeys, state.armed, state.on_ground, state.in_control.";
   const auto fault = [](const std::string& armed) { return refusal(", flags: {armed: " + armed + "}", "sim"); };
   const std::string at = "strange.yaml:5: roles.vehicle.flags.armed: ";
   CHECK(fault("state.tick_s") == at + "'state.tick_s' of craft/Strange is no flag, which is true or false." + all);
   CHECK(fault("geer.obeys") == at + "craft (craft/Strange) has no output 'geer'. Did you mean 'gear'? Valid: applied, gear, state.");
   CHECK(fault("armed") == at + "expected a field of an output such as status.armed, found 'armed'." + all);
   CHECK(fault("gear.obey").find("Did you mean 'obeys'?") != std::string::npos);
-  CHECK(refusal(", flags: {arm: gear.obeys}", "sim").find("unknown key 'arm'. Did you mean 'armed'? Valid: armed, on_ground, in_control.") !=
+  CHECK(refusal(", flags: {arm: gear.obeys}", "sim").find("unknown key 'arm'. Valid: armed, on_ground, in_control.") !=
         std::string::npos);
   CHECK(fault("lamps.red") == at + "craft (craft/Strange) has no output 'lamps'. Valid: applied, gear, state.");
   CHECK(refusal(", flags: {armed: lamps.red}", "sim", its_ports + ", lamps?: Lamps") == "");

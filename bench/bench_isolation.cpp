@@ -189,20 +189,20 @@ class Guarded {
  public:
   explicit Guarded(const Component& c) : unit_(c, {}) {
     unit_.configure();
-    slots_.resize(unit_.readers.size());
+    slots_.resize(unit_.in.readers.size());
     for (std::size_t i = 0; i < slots_.size(); ++i) {
-      const Port& port = *unit_.readers[i].port;
+      const Port& port = *unit_.in.readers[i].port;
       slots_[i].published.resize(port.type->size);
       slots_[i].port = &port;
-      unit_.readers[i].slot = &slots_[i];
-      unit_.readers[i].plans.push_back(copy_plan(*port.type, *port.type));
+      unit_.in.readers[i].slot = &slots_[i];
+      unit_.in.readers[i].plans.push_back(copy_plan(*port.type, *port.type));
     }
   }
   void step() {
     const std::int64_t begin = monotonic_ns();
     for (Slot& slot : slots_) ++slot.sequence;
     if (unit_.step(now_ns_ += 2'500'000, 0).kind != Verdict::Kind::stepped) throw Error(unit_.problem.text);
-    unit_.publish([](Slot&) {});
+    unit_.out.publish([](Slot&) {});
     times_.add(monotonic_ns() - begin);
   }
 

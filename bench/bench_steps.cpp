@@ -9,7 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "core/run/flight_impl.hpp"
+#include "core/run/flight.hpp"
+#include "core/run/unit.hpp"
 
 using namespace fulmar::core;
 
@@ -61,33 +62,33 @@ void add_hops(std::vector<Row>& rows) {
   Unit source(begin, UnitOptions{}), unit(hop, UnitOptions{});
   source.configure();
   unit.configure();
-  unit.readers[0].slot = &source.slots[0];
-  unit.readers[0].plans.push_back(copy_plan(*source.slots[0].port->type, *unit.readers[0].port->type));
+  unit.in.readers[0].slot = &source.out.slots[0];
+  unit.in.readers[0].plans.push_back(copy_plan(*source.out.slots[0].port->type, *unit.in.readers[0].port->type));
   std::int64_t now = 0;
   source.step(now, 0);
-  source.publish([](Slot&) {});
+  source.out.publish([](Slot&) {});
 
   // bare: the call through the contract, the block copied in and out
   const fulmar_component& functions = library->functions(1);
   fulmar_error error{};
   void* instance = functions.create(1, &error);
-  std::vector<std::byte> out(unit.slots[0].size);
+  std::vector<std::byte> out(unit.out.slots[0].size);
   std::int64_t stamp = 0;
   fulmar_input input{};
-  input.data = source.slots[0].published.data();
+  input.data = source.out.slots[0].published.data();
   fulmar_output output{out.data(), &stamp, 0, 0, 0};
   const fulmar_tick tick{0, 2'500'000, 0};
   rows.push_back(time_batches("200-byte hop, bare", [&] { functions.step(instance, &tick, &input, &output, &error); }));
   functions.destroy(instance);
   rows.push_back(time_batches("200-byte hop, guarded", [&] {
     unit.step(now += 2'500'000, 0);
-    unit.publish([](Slot&) {});
+    unit.out.publish([](Slot&) {});
   }));
   Histogram histogram;
   rows.push_back(time_batches("200-byte hop, guarded and timed", [&] {
     const std::int64_t before = now_ns();
     unit.step(now += 2'500'000, 0);
-    unit.publish([](Slot&) {});
+    unit.out.publish([](Slot&) {});
     histogram.add(now_ns() - before);
   }));
 }
@@ -96,14 +97,15 @@ void add_mission(std::vector<Row>& rows, const std::string& file) {
   const Graph graph = load_mission(file);
   FlightOptions options;
   options.log = false;
-  Flight::Impl flight(graph, options);
+  Flight flight(graph, options);
   std::vector<double> ticks;
   ticks.reserve(200'000);
-  flight.wall_ns = now_ns();
-  for (std::int64_t begin = flight.wall_ns; flight.tick(); begin = now_ns()) ticks.push_back(static_cast<double>(now_ns() - begin));
-  for (const auto& unit : flight.units)
-    rows.push_back(
-        {graph.mission + ": " + unit->component->use, 1e3 * unit->stats.time.quantile_us(0.5), 1e3 * unit->stats.time.quantile_us(0.99)});
+  for (std::int64_t begin = now_ns(); flight.step(); begin = now_ns()) ticks.push_back(static_cast<double>(now_ns() - begin));
+  const FlightResult result = flight.finish();
+  for (std::size_t i = 0; i < result.components.size(); ++i) {
+    const Histogram& time = result.components[i].time;
+    rows.push_back({graph.mission + ": " + graph.components[i].use, 1e3 * time.quantile_us(0.5), 1e3 * time.quantile_us(0.99)});
+  }
   double sum = 0;
   for (const double t : ticks) sum += t;
   const double mean = sum / static_cast<double>(ticks.size());

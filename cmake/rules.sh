@@ -11,6 +11,7 @@ refuse() { # refuse SENTENCE, reads offending lines
   printf '%s\n%s\n' "$1" "$lines"
   bad=1
 }
+python3 cmake/layers.py >/dev/null || python3 cmake/layers.py | refuse "The folders of core stand on each other:"
 git grep -nE '^#include [<"]core/' -- plugins sdk examples | refuse "Plugins and SDK must not include core:"
 git grep -nE '^#include [<"](\.\./)*plugins/' -- core sdk plugins | grep -vE '^plugins/([^/]+)/test/.*plugins/\1/|^plugins/fcu_serial/test/peer/.*plugins/sim_aero/' |
   refuse "Nobody includes a plugin but its own test, and the peer that flies the simulated aircraft:"

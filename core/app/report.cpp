@@ -131,7 +131,7 @@ std::string progress_line(const Graph& graph, const Flight& flight) {
 nlohmann::json result_json(const Graph& graph, const Flight& flight, const FlightResult& result) {
   nlohmann::json j;
   j["mission"] = graph.mission;
-  j["io"] = graph.io;
+  j["io"] = io_word(graph.io);
   j["seed"] = graph.seed;
   j["result"] = word(result.outcome);
   j["reason"] = result.reason;

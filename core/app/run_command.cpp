@@ -28,7 +28,8 @@
 #include "core/app/words.hpp"
 #include "core/run/allocation.hpp"
 #include "core/run/flight.hpp"
-#include "core/run/flight_impl.hpp"
+#include "core/run/last_words.hpp"
+#include "core/run/published.hpp"
 #include "core/run/realtime.hpp"
 #include "core/run/swap.hpp"
 #include "core/say.hpp"
@@ -135,7 +136,7 @@ std::filesystem::path free_name(const std::filesystem::path& wanted) {
 
 /// logs/<mission>-<UTC>.mcap. A host that is started again in the air must not stand still before the log of its predecessor.
 std::filesystem::path default_log(const Graph& graph) {
-  if (!graph.record_file.empty()) return graph.io == "fcu" ? free_name(graph.record_file) : std::filesystem::path(graph.record_file);
+  if (!graph.record_file.empty()) return graph.io == Io::fcu ? free_name(graph.record_file) : std::filesystem::path(graph.record_file);
   const std::time_t now = std::time(nullptr);
   std::tm utc{};
   gmtime_r(&now, &utc);
@@ -238,7 +239,7 @@ std::filesystem::path Session::log_file() const {
   if (options_.no_log || !graph_.record) return {};
   if (options_.log_file.empty()) return default_log(graph_);
   const std::filesystem::path file = options_.log_file;
-  if (results_.empty()) return graph_.io == "fcu" ? free_name(file) : file;
+  if (results_.empty()) return graph_.io == Io::fcu ? free_name(file) : file;
   return file.parent_path() / (file.stem().string() + "-" + std::to_string(results_.size() + 1) + file.extension().string());
 }
 
@@ -246,7 +247,7 @@ std::filesystem::path Session::log_file() const {
 std::optional<Resume> Session::resume() const {
   constexpr double short_time_s = 600;
   const bool asked = options_.resume.has_value();
-  if (!results_.empty() || options_.no_resume || (!asked && graph_.io != "fcu")) return std::nullopt;
+  if (!results_.empty() || options_.no_resume || (!asked && graph_.io != Io::fcu)) return std::nullopt;
   const std::filesystem::path log =
       asked && !options_.resume->empty() ? std::filesystem::path(*options_.resume) : newest_log(graph_, asked ? 0 : short_time_s);
   if (log.empty() && !asked) return std::nullopt;
@@ -273,17 +274,17 @@ void Session::prepare_last_words(const std::string& log) const {
 }
 
 void Session::take_priority() const {
-  if (options_.realtime > 0 && graph_.io == "sim" && options_.speed == 0)
+  if (options_.realtime > 0 && graph_.io == Io::sim && options_.speed == 0)
     throw CLI::ValidationError(
         "--realtime would give a CPU to this flight alone: it belongs to --io fcu, or to a simulation with --speed real");
   if (options_.realtime > 0) return take_real_time(options_.realtime);
-  if (graph_.io == "fcu") warn("the loop runs without real-time priority; --realtime gives it one");
+  if (graph_.io == Io::fcu) warn("the loop runs without real-time priority; --realtime gives it one");
 }
 
 void Session::tell_onlookers() const {
-  if (graph_.dds.on && graph_.io == "sim" && options_.speed == 0)
+  if (graph_.dds.on && graph_.io == Io::sim && options_.speed == 0)
     warn("dds: nothing is exported or imported as fast as the machine allows; fly with --speed real");
-  if (!options_.live.empty() && graph_.live.on && graph_.io == "sim" && options_.speed == 0)
+  if (!options_.live.empty() && graph_.live.on && graph_.io == Io::sim && options_.speed == 0)
     warn("--live: nobody can follow as fast as the machine allows; fly with --speed real");
   if (last_->live_port() == 0 || options_.json) return;
   const bool v6 = graph_.live.host.find(':') != std::string::npos;
@@ -301,7 +302,7 @@ int Session::fly() {
   o.duration_s = options_.duration_s;
   o.drivers_from = options_.drivers_from;
   o.resume = resume();
-  o.keep_inputs = options_.watch || graph_.io == "fcu";
+  o.keep_inputs = options_.watch || graph_.io == Io::fcu;
   o.log_file = log_file();
   o.log = !o.log_file.empty();
   if (o.log_file.has_parent_path()) std::filesystem::create_directories(o.log_file.parent_path());
@@ -310,10 +311,10 @@ int Session::fly() {
   o.say = [&](const std::string& text, bool warning) { progress.say(text, warning); };
   prepare_last_words(o.log_file.string());
   patience_s = 10 + static_cast<unsigned>(graph_.failsafe_ns / 1'000'000'000);  // a flight that gives up control sends its failsafe first
-  if (graph_.io == "fcu" || options_.speed > 0) print_without_waiting();
+  if (graph_.io == Io::fcu || options_.speed > 0) print_without_waiting();
   if (options_.json) dup2(STDERR_FILENO, STDOUT_FILENO);  // what components print
-  install_handlers(graph_.io != "sim");
-  if (!options_.json) say_aloud(graph_.mission + (graph_.io == "sim" ? ": simulation" : ": flight controller") + ", seed " + std::to_string(graph_.seed));
+  install_handlers(graph_.io != Io::sim);
+  if (!options_.json) say_aloud(graph_.mission + (graph_.io == Io::sim ? ": simulation" : ": flight controller") + ", seed " + std::to_string(graph_.seed));
   take_priority();
   last_ = std::make_unique<Flight>(graph_, o);
   forget_before();

@@ -107,11 +107,7 @@ void Exports::pump() {
 
 /// The ring holds what any sink wants, at any rate.
 void Exports::send(Topic& topic, const Tap::Sample& sample) {
-  if (topic.period_ns > 0) {
-    if (sample.now_ns < topic.due_ns) return;
-    const std::int64_t next = topic.due_ns + topic.period_ns;
-    topic.due_ns = next > sample.now_ns ? next : sample.now_ns + topic.period_ns;
-  }
+  if (topic.period_ns > 0 && !topic.due.take(sample.now_ns, topic.period_ns)) return;
   const bool read = topic.writer->readers() > 0;
   if (!read && !topic.endpoint.transient_local) return;
   if (topic.endpoint.transient_local && sample.now_ns - std::exchange(topic.last_ns, sample.now_ns) > delivered_ns) topic.writer->forget();

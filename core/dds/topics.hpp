@@ -3,7 +3,6 @@
 #pragma once
 #include <atomic>
 #include <deque>
-#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -11,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/due.hpp"
 #include "core/tap/control.hpp"
 #include "core/dds/bridge.hpp"
 #include "core/dds/participant.hpp"
@@ -54,7 +54,8 @@ class Exports {
  private:
   struct Topic {
     Endpoint endpoint;
-    std::int64_t period_ns = 0, due_ns = std::numeric_limits<std::int64_t>::min();
+    std::int64_t period_ns = 0;
+    Due due;
     std::int64_t last_ns = 0;
     std::unique_ptr<CdrEncoder> encoder;
     std::unique_ptr<Writer> writer;

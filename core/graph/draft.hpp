@@ -90,4 +90,7 @@ void compile_phases(Draft& draft);
 void read_values(Draft& draft);
 void read_failsafe(Draft& draft);
 
+// vehicle_flags.cpp: what protects the aircraft, after the graph is built
+void read_vehicle_flags(Draft& draft);
+
 }  // namespace fulmar::core

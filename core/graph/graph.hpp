@@ -42,6 +42,22 @@ struct Wire {
   int import = -1;  // into DdsOptions::imports: fed from outside; `from` is none
 };
 
+/// Which aircraft: a simulated one, or one behind a flight controller.
+enum class Io : std::uint8_t { sim, fcu };
+inline const std::vector<std::string> io_words = {"sim", "fcu"};
+inline const std::string& io_word(Io io) { return io_words[static_cast<std::size_t>(io)]; }
+
+/// A flag of the vehicle's contract: a bool in one of its outputs.
+struct VehicleFlag {
+  Source from;               // an output of the vehicle's component; none: it has no such flag
+  std::uint32_t offset = 0;  // of the bool in that output's message
+};
+
+/// What the host must know of an aircraft that it is to protect.
+struct VehicleFlags {
+  VehicleFlag armed, on_ground, in_control;
+};
+
 /// How a component is run; design: tick in the loop's thread, process in a child, async with a latency, driver in a thread of its own.
 enum class RunMode : std::uint8_t { tick, process, async, driver };
 
@@ -176,7 +192,7 @@ struct Overrides {
 
 struct Graph {
   std::string mission;
-  std::string io = "sim";
+  Io io = Io::sim;
   std::string airframe;  // file name, "" when there is none
   std::int64_t tick_ns = 2'500'000;
   std::int64_t epoch_ns = 0;  // UTC of flight time 0
@@ -188,6 +204,7 @@ struct Graph {
   std::vector<Transition> any;
   std::vector<int> order;  // steps, the vehicle left out
   int vehicle = -1;
+  VehicleFlags flags;  // of the vehicle; with Io::fcu it has all of them
   std::shared_ptr<const Condition> done, failed;        // may be empty
   std::int64_t done_for_ns = 0, failed_for_ns = 0;      // how long they have to hold
   std::int64_t timeout_ns = 0;                          // of flight time; 0: none

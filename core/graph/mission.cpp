@@ -23,6 +23,13 @@ const std::vector<std::string> component_keys = {"fills", "use",     "in",     "
 
 constexpr const char* default_epoch = "2026-01-01T00:00Z";
 
+/// Nothing for any other word.
+std::optional<Io> io_of(const std::string& word) {
+  const auto at = std::find(io_words.begin(), io_words.end(), word);
+  if (at == io_words.end()) return std::nullopt;
+  return static_cast<Io>(at - io_words.begin());
+}
+
 class MissionReader {
  public:
   MissionReader(MissionText& mission, Report& report) : m_(mission), report_(report) {}
@@ -66,7 +73,7 @@ class MissionReader {
     m_.name = keys.text("mission").value_or(m_.file->path.stem().string());
     if (m_.name.find('/') != std::string::npos || m_.name.find_first_of("\n\r\t") != std::string::npos)
       report_.add(keys.where("mission"), "mission: a name without '/' is wanted, found '" + m_.name + "'");
-    m_.io = keys.word("io", {"sim", "fcu"}).value_or("sim");
+    m_.io = io_of(keys.word("io", io_words).value_or("sim")).value_or(Io::sim);
     m_.rate_hz = keys.positive("rate", "Hz").value_or(400);
     if (m_.rate_hz > 100'000 || m_.rate_hz < 0.1)
       report_.add(keys.where("rate"), "rate: " + number_text(m_.rate_hz) + " Hz is outside 0.1 .. 100000 Hz");
@@ -183,7 +190,10 @@ class MissionReader {
 
   void role(const Node::Entry& entry) {
     const std::string path = "roles." + entry.key;
-    const Keys keys(entry.value, path, {"in", "out"}, report_);
+    const bool vehicle = entry.key == "vehicle";
+    const std::vector<std::string> valid =
+        vehicle ? std::vector<std::string>{"in", "out", "flags"} : std::vector<std::string>{"in", "out"};
+    const Keys keys(entry.value, path, valid, report_);
     RoleText role;
     role.name = entry.key;
     role.where = entry.where();
@@ -203,7 +213,16 @@ class MissionReader {
         else if (type)
           text.type = *type, role.out.push_back(text);
       }
+    if (const Node* flags = keys.get("flags"); flags && vehicle) vehicle_flags(*flags, path + ".flags", role);
     m_.roles.push_back(std::move(role));
+  }
+
+  /// What protects the aircraft: which of the vehicle's fields say it.
+  void vehicle_flags(const Node& node, const std::string& path, RoleText& role) {
+    const std::vector<std::string> names = {"armed", "on_ground", "in_control"};
+    const Keys flags(node, path, names, report_);
+    for (const std::string& name : names)
+      if (const auto text = flags.text(name)) role.flags.push_back({name, {*text, flags.where(name)}});
   }
 
   void component(const Node::Entry& entry) {
@@ -218,7 +237,8 @@ class MissionReader {
     c.where_use = keys.where("use");
     if (!keys.has("use") && entry.value.is(Node::Kind::map))
       report_.add(entry.where(), path + ": 'use' is missing; it names the plugin, as in use: control_slc/Outer");
-    c.only = keys.word("only", {"sim", "fcu"}).value_or("");
+    c.only = io_of(keys.word("only", io_words).value_or(""));
+    if (!keys.has("only") && c.fills == "vehicle") c.only = io_of(c.name);
     c.in = wires(keys.get("in"), path + ".in");
     if (const Node* params = keys.get("params")) {
       c.params = *params;
@@ -475,10 +495,11 @@ MissionText parse_mission(const std::string& file, const Overrides& overrides, R
   MissionReader(mission, report).read(root);
   if (!root.is(Node::Kind::map)) report.throw_if_any();  // there is nothing to say of the rest
   if (overrides.io) {
-    if (*overrides.io == "sim" || *overrides.io == "fcu")
-      mission.io = *overrides.io;
+    if (const auto io = io_of(*overrides.io))
+      mission.io = *io;
     else
-      report.add({"--io " + *overrides.io, 0}, "unknown word '" + *overrides.io + "'." + choices_text(*overrides.io, {"sim", "fcu"}));
+      report.add({"--io " + *overrides.io, 0},
+                 "unknown word '" + *overrides.io + "'." + choices_text(*overrides.io, io_words));
   }
   if (overrides.seed) mission.seed = *overrides.seed;
   return mission;

@@ -32,15 +32,23 @@ struct RoleOutText {
   Where where;
 };
 
+/// A word of the file with its place: a port, a field, a condition.
+struct Word {
+  std::string text;
+  Where where;
+};
+
 struct RoleText {
   std::string name;
   std::vector<WireText> in;
   std::vector<RoleOutText> out;
+  std::vector<std::pair<std::string, Word>> flags;  // of the role vehicle: armed -> status.armed
   Where where;
 };
 
 struct ComponentText {
-  std::string name, fills, use, only;
+  std::string name, fills, use;
+  std::optional<Io> only;  // nothing: it exists with both
   std::vector<WireText> in;
   Node params;
   double rate_hz = 0;  // 0: every tick
@@ -78,15 +86,10 @@ struct ImportText {
   Where where;
 };
 
-/// A word of the file with its place: a port, a field, a condition.
-struct Word {
-  std::string text;
-  Where where;
-};
-
 struct MissionText {
   FilePtr file;
-  std::string name, io;
+  std::string name;
+  Io io = Io::sim;
   double rate_hz = 400;
   std::int64_t epoch_ns = 0;
   std::uint64_t seed = 1;

@@ -52,7 +52,7 @@ class Text {
   explicit Text(const Graph& graph) : graph_(graph) {}
 
   std::string print() {
-    out_ = "mission " + graph_.mission + ", io " + graph_.io + ", " + number_text(1e9 / static_cast<double>(graph_.tick_ns)) +
+    out_ = "mission " + graph_.mission + ", io " + io_word(graph_.io) + ", " + number_text(1e9 / static_cast<double>(graph_.tick_ns)) +
            " Hz, seed " + std::to_string(graph_.seed) + "\n";
     order();
     wires();

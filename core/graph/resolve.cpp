@@ -28,10 +28,7 @@ int Draft::role(const std::string& name) const {
   return -1;
 }
 
-bool Draft::is_out(const ComponentText& c) const {
-  if (!c.only.empty()) return c.only != text.io;
-  return c.fills == "vehicle" && (c.name == "sim" || c.name == "fcu") && c.name != text.io;
-}
+bool Draft::is_out(const ComponentText& c) const { return c.only && *c.only != text.io; }
 
 std::vector<std::string> Draft::candidate_names() const {
   std::vector<std::string> names;
@@ -47,7 +44,7 @@ std::vector<std::string> Draft::role_names() const {
 
 std::string not_there(const Draft& draft, const std::string& name) {
   if (const ComponentText* out = draft.text.component(name); out && draft.is_out(*out))
-    return name + " exists only with io: " + (out->only.empty() ? out->name : out->only);
+    return name + " exists only with io: " + io_word(*out->only);
   return "there is no component '" + name + "'." + choices_text(name, draft.candidate_names());
 }
 
@@ -182,7 +179,7 @@ void resolve_roles(Draft& draft) {
     role.unclear = true;
     std::string why = "; write 'fills: " + role.text->name + "' at one";
     for (const ComponentText& text : draft.text.components)
-      if (text.fills == role.text->name) why = " with io: " + draft.text.io + "; " + not_there(draft, text.name);
+      if (text.fills == role.text->name) why = " with io: " + io_word(draft.text.io) + "; " + not_there(draft, text.name);
     draft.report.add(role.text->where, "roles." + role.text->name + ": no component fills it" + why);
   }
 }
@@ -247,7 +244,7 @@ bool installed(const PluginInfo& plugin) {
 void run_mode(Draft& draft, const Candidate& candidate, Component& component) {
   const ComponentText& text = *candidate.text;
   const ComponentInfo& info = candidate.info();
-  const bool foreign = draft.text.io == "fcu" && !info.vehicle && component.library && !installed(*component.plugin);
+  const bool foreign = draft.text.io == Io::fcu && !info.vehicle && component.library && !installed(*component.plugin);
   component.run = text.run.value_or(foreign ? RunMode::process : RunMode::tick);
   component.latency_ns = text.latency_ns;
   component.hang_ns = text.hang_ns > 0 ? text.hang_ns : default_hang_ns;
@@ -395,7 +392,7 @@ void read_head(Draft& draft) {
   graph.tick_ns = std::llround(1e9 / text.rate_hz);
   graph.epoch_ns = text.epoch_ns;
   graph.seed = text.seed;
-  graph.arm = text.arm && text.io == "sim";
+  graph.arm = text.arm && text.io == Io::sim;
   graph.timeout_ns = text.timeout_ns;
   if (text.airframe.is(Node::Kind::scalar)) graph.airframe = text.airframe.text;
 }
@@ -417,6 +414,7 @@ void resolve(Draft& draft, Catalogue& catalogue) {
   compile_phases(draft);
   order_steps(draft);
   read_failsafe(draft);
+  read_vehicle_flags(draft);
   read_control(draft);
   const std::vector<std::string> ports = tap_ports(draft.graph);
   read_record_rules(draft, ports);

@@ -10,15 +10,15 @@
 #include <vector>
 
 #include "core/graph/graph.hpp"
+#include "core/run/circumstances.hpp"
 #include "core/run/command.hpp"
-#include "core/run/driver.hpp"
 #include "core/run/resume.hpp"
 #include "core/log/events.hpp"
 #include "core/log/reader.hpp"
 
 namespace fulmar::core {
 
-struct UnitOptions;
+class RecordedVehicle;
 
 /// The ticks of a flight, of the log's topic /fulmar/ticks.
 struct TickList {
@@ -34,10 +34,11 @@ struct Entry {
   Command command;
 };
 
-class Playback {
+class Playback final : public Circumstances {
  public:
   /// `file` must outlive it. Throws Error when a topic is missing or has other fields than the graph's.
   Playback(const McapFile& file, const Graph& graph);
+  ~Playback() override;
 
   const TickList& ticks() const { return ticks_; }
   const std::vector<Entry>& entries() const { return entries_; }
@@ -53,20 +54,10 @@ class Playback {
   const std::optional<Resume>& resume() const { return resume_; }
   /// Whether a signal to the host took effect at the end of this tick.
   bool signalled(std::int64_t now_ns) const;
-  /// Whether the wall clock stopped a component in this tick.
-  bool ran_over(const std::string& component, std::int64_t now_ns) const;
-
-  /// [setup] Takes the place of the vehicle or of a driver; frees everybody from the wall clock.
-  void stand_in(const Graph& graph, const Component& component, UnitOptions& options);
-  /// The vehicle's functions, for an instance of this class. Commands go nowhere.
-  static const fulmar_component& functions();
+  bool ran_over(const std::string& component, std::int64_t now_ns) const override;
+  void stand_in(const Graph& graph, const Component& component, UnitOptions& options) override;
 
  private:
-  struct Sample {
-    std::uint32_t output = 0;
-    const McapFile::Message* message = nullptr;
-  };
-  struct Functions;
   /// What the host told of a component that a replay cannot find out by itself.
   struct Told {
     std::int64_t at_ns = 0, value_ns = 0;
@@ -75,28 +66,23 @@ class Playback {
   };
   void index_host();
   void take_event(const Event& event, std::int64_t now_ns);
-  void index_vehicle(const Graph& graph);
   void index_entries(const Graph& graph);
   void take_resume(const Event& event, bool begun);
-  void check_gaps(std::uint16_t channel);
+  void check_gap(std::uint16_t channel);
   bool told(Code code, const std::string& component, std::int64_t now_ns) const;
-  void read(fulmar_tick& tick, fulmar_output* outputs);  // throws Error
 
   const McapFile& file_;
   std::int64_t epoch_ns_;
-  const ComponentInfo* vehicle_ = nullptr;
   TickList ticks_;
   std::vector<Entry> entries_;
   std::vector<std::string> gaps_;
-  std::vector<std::vector<Sample>> samples_;  // per tick
-  std::vector<std::uint32_t> probes_;         // outputs that are probes
-  std::string last_words_ = "the log ends here";  // of a vehicle that failed: what it said
+  std::unique_ptr<RecordedVehicle> vehicle_;  // until it takes its place
+  std::string last_words_;                    // of a vehicle that failed
   bool vehicle_failed_ = false;
   HostTopic<Event> events_;
   std::vector<Told> told_;
   std::optional<double> duration_s_;
   std::optional<Resume> resume_;
-  std::size_t at_ = 0;
 };
 
 }  // namespace fulmar::core

@@ -152,7 +152,7 @@ class Player {
  public:
   Player(const Recording& recording, const Graph& graph, FlightOptions options, ReplayResult& result)
       : recording_(recording), result_(result), playback_(std::make_shared<Playback>(recording.file(), graph)) {
-    options.playback = playback_;
+    options.circumstances = playback_;
     options.duration_s = playback_->duration_s();
     options.resume = playback_->resume();
     options.interrupt = &signal_;

@@ -20,26 +20,35 @@ std::int64_t clock_ns() noexcept {
 
 void prepare(Async::Job& job, const ComponentInfo& info) {
   const std::size_t in = info.inputs.size(), out = info.outputs.size();
-  job.inputs.resize(in), job.input_data.resize(in), job.input_stamps.resize(in), job.answers.resize(in), job.replies.resize(in);
+  job.in = {std::vector<fulmar_input>(in), std::vector<std::vector<std::byte>>(in),
+            std::vector<std::vector<std::int64_t>>(in), std::vector<std::vector<fulmar_answer>>(in),
+            std::vector<std::vector<Reply>>(in)};
   for (std::size_t i = 0; i < in; ++i) {
     const Port& port = info.inputs[i];
-    job.input_data[i].resize(std::size_t{port.capacity} * port.type->size);
+    job.in.data[i].resize(std::size_t{port.capacity} * port.type->size);
     if (port.kind == FULMAR_IN_VALUE) continue;
-    job.input_stamps[i].resize(port.capacity);
-    job.answers[i].resize(port.capacity);
-    job.replies[i].resize(port.capacity);
+    job.in.stamps[i].resize(port.capacity);
+    job.in.answers[i].resize(port.capacity);
+    job.in.replies[i].resize(port.capacity);
   }
-  job.outputs.resize(out), job.output_data.resize(out), job.output_stamps.resize(out), job.last.resize(out), job.last_data.resize(out);
-  for (std::size_t i = 0; i < out; ++i) {
-    const Port& port = info.outputs[i];
-    job.output_data[i].resize(std::size_t{port.capacity} * (port.type ? port.type->size : sizeof(double)));
-    job.output_stamps[i].resize(port.capacity);
-    job.last_data[i].resize(job.output_data[i].size());
-  }
+  job.out = OutputRoom(info);
+  job.last.views.resize(out);
+  job.last.data = job.out.data;
   job.values.resize(info.params.size());
 }
 
 }  // namespace
+
+OutputRoom::OutputRoom(const ComponentInfo& info) : views(info.outputs.size()) {
+  for (const Port& port : info.outputs) {
+    data.emplace_back(std::size_t{port.capacity} * (port.type ? port.type->size : sizeof(double)));
+    stamps.emplace_back(port.capacity);
+  }
+}
+
+void OutputRoom::prepare(std::int64_t now_ns) noexcept {
+  for (std::size_t i = 0; i < views.size(); ++i) views[i] = {data[i].data(), stamps[i].data(), now_ns, 0, 0};
+}
 
 Async::Async(const std::string& name, const fulmar_component& functions, void* instance, const ComponentInfo& info, std::size_t depth)
     : name_(name), functions_(functions), instance_(instance), jobs_(depth) {
@@ -85,18 +94,18 @@ void Async::drop() noexcept {
 void Async::copy_inputs(const std::vector<fulmar_input>& from, const ComponentInfo& info, Job& job) noexcept {
   for (std::size_t i = 0; i < from.size(); ++i) {
     const Port& port = info.inputs[i];
-    fulmar_input& to = job.inputs[i];
+    fulmar_input& to = job.in.views[i];
     to = from[i];
     if (from[i].count > 0 && from[i].data)
-      std::memcpy(job.input_data[i].data(), from[i].data, std::size_t{from[i].count} * port.type->size);
-    to.data = from[i].data ? job.input_data[i].data() : nullptr;
+      std::memcpy(job.in.data[i].data(), from[i].data, std::size_t{from[i].count} * port.type->size);
+    to.data = from[i].data ? job.in.data[i].data() : nullptr;
     if (port.kind == FULMAR_IN_VALUE) continue;
     for (std::uint32_t k = 0; k < from[i].count; ++k) {
-      job.input_stamps[i][k] = from[i].stamps_ns[k];
-      job.answers[i][k] = {};
+      job.in.stamps[i][k] = from[i].stamps_ns[k];
+      job.in.answers[i][k] = {};
     }
-    to.stamps_ns = job.input_stamps[i].data();
-    to.answers = job.answers[i].data();
+    to.stamps_ns = job.in.stamps[i].data();
+    to.answers = job.in.answers[i].data();
   }
 }
 
@@ -108,15 +117,14 @@ void Async::work(Job& job) noexcept {
   const Inside inside(name_, calls[static_cast<std::size_t>(job.call)]);
   switch (job.call) {
     case Job::Call::step:
-      for (std::size_t i = 0; i < job.outputs.size(); ++i)
-        job.outputs[i] = {job.output_data[i].data(), job.output_stamps[i].data(), job.tick.now_ns, 0, 0};
-      job.status = functions_.step(instance_, &job.tick, job.inputs.data(), job.outputs.data(), &job.error);
+      job.out.prepare(job.tick.now_ns);
+      job.status = functions_.step(instance_, &job.tick, job.in.views.data(), job.out.views.data(), &job.error);
       break;
     case Job::Call::retune:
       job.status = functions_.retune(instance_, job.values.data(), &job.error);
       break;
     case Job::Call::activate:
-      job.status = functions_.activate(instance_, &job.tick, job.inputs.data(), job.last.data(), &job.error);
+      job.status = functions_.activate(instance_, &job.tick, job.in.views.data(), job.last.views.data(), &job.error);
       break;
   }
   job.took_ns = clock_ns() - begin;

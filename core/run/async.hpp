@@ -17,8 +17,28 @@ namespace fulmar::core {
 /// Tells whoever asked: "" when accepted, else why not. Called by the loop.
 using Reply = std::function<void(const char* refusal)>;
 
+/// Room for what a component publishes in a thread of its own; `views` point to the rest.
+struct OutputRoom {
+  explicit OutputRoom(const ComponentInfo& info);
+  OutputRoom() = default;
+  /// [tick] Empty again, dated now.
+  void prepare(std::int64_t now_ns) noexcept;
+
+  std::vector<fulmar_output> views;
+  std::vector<std::vector<std::byte>> data;
+  std::vector<std::vector<std::int64_t>> stamps;
+};
+
 class Async {
  public:
+  /// Samples of inputs, copied: `views` point to the rest.
+  struct Inputs {
+    std::vector<fulmar_input> views;
+    std::vector<std::vector<std::byte>> data;
+    std::vector<std::vector<std::int64_t>> stamps;
+    std::vector<std::vector<fulmar_answer>> answers;
+    std::vector<std::vector<Reply>> replies;
+  };
   /// One call on its way: filled in by the loop, worked on by the thread, taken back by the loop.
   struct Job {
     enum class Call : std::uint8_t { step, retune, activate };
@@ -27,15 +47,9 @@ class Async {
     std::int64_t due_ns = 0;
     std::int64_t held_until_ns = 0;  // in a replay: it was late, and taken then
     fulmar_tick tick{};
-    std::vector<fulmar_input> inputs, last;
-    std::vector<std::vector<std::byte>> input_data, last_data;
-    std::vector<std::vector<std::int64_t>> input_stamps;
-    std::vector<std::vector<fulmar_answer>> answers;
-    std::vector<std::vector<Reply>> replies;
+    Inputs in, last;
+    OutputRoom out;
     std::vector<fulmar_value> values;
-    std::vector<fulmar_output> outputs;
-    std::vector<std::vector<std::byte>> output_data;
-    std::vector<std::vector<std::int64_t>> output_stamps;
     std::uint32_t status = 0;
     fulmar_error error{};
     std::int64_t took_ns = 0, heap_growth = 0;

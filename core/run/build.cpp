@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/run/circumstances.hpp"
 #include "core/run/flight_impl.hpp"
 #include "core/run/flown_plugin.hpp"
-#include "core/replay/playback.hpp"
 #include "core/live/gate.hpp"
 #include "core/log/sbom.hpp"
 #include "core/types/wire.hpp"
@@ -22,62 +22,7 @@ constexpr std::int64_t default_max_age_ns = 1'000'000'000;  // of what a role pu
 
 }  // namespace
 
-std::uint64_t component_seed(std::uint64_t mission_seed, const std::string& name) {
-  std::uint64_t h = mission_seed ^ 0x9e3779b97f4a7c15ull;
-  for (const char c : name) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
-  h ^= h >> 30, h *= 0xbf58476d1ce4e5b9ull, h ^= h >> 27, h *= 0x94d049bb133111ebull;  // splitmix64's finaliser
-  return h ^ (h >> 31);
-}
-
-namespace {
-
-/// "control_slc.so" -> "ControlSlc".
-std::string camel_case(const std::string& file) {
-  std::string name;
-  bool first = true;
-  for (const char c : std::filesystem::path(file).stem().string()) {
-    const bool word = std::isalnum(static_cast<unsigned char>(c)) != 0;
-    if (word) name += first ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
-    first = !word;
-  }
-  return name;
-}
-
-}  // namespace
-
-TypePtr probes_type(const PluginInfo& plugin, const ComponentInfo& component) {
-  Type probes;
-  probes.name = camel_case(plugin.file) + component.name + "Probes";
-  probes.align = 8;
-  for (const Port& port : component.outputs) {
-    if (port.type) continue;
-    Field f;
-    f.name = port.name;
-    f.offset = probes.size, f.stride = 8;
-    f.min = -std::numeric_limits<double>::infinity(), f.max = -f.min;
-    probes.fields.push_back(f);
-    probes.size += 8;
-  }
-  return std::make_shared<const Type>(probes);
-}
-
-const std::vector<TypePtr>& host_types() {
-  static const std::vector<TypePtr> list = {host_type<Event>(), host_type<Ticks>(), host_type<CommandNote>()};
-  return list;
-}
-
-std::string topic_name(const Graph& graph, const Component& c, std::size_t output) {
-  if (c.role >= 0) {
-    const Role& role = graph.roles[static_cast<std::size_t>(c.role)];
-    for (std::size_t f = 0; f < role.fillers.size(); ++f)
-      for (std::size_t k = 0; k < role.outputs.size(); ++k)
-        if (&graph.components[static_cast<std::size_t>(role.fillers[f])] == &c && role.provides[f][k] == static_cast<int>(output))
-          return role.name + "." + role.outputs[k].name;
-  }
-  return c.name + "." + c.info().outputs[output].name;
-}
-
-Flight::Impl::Impl(const Graph& g, const FlightOptions& o) : graph(g), options(o) {
+Flight::Impl::Impl(const Graph& g, const FlightOptions& o) : graph(g), options(o), ending(g.failsafe_ns) {
   const bool driven =
       std::any_of(graph.components.begin(), graph.components.end(), [](const Component& c) { return c.run == RunMode::driver; });
   if (!options.drivers_from.empty() && !driven)
@@ -92,7 +37,7 @@ Flight::Impl::Impl(const Graph& g, const FlightOptions& o) : graph(g), options(o
   open_tap();
   if (graph.arm) request_arming();
   std::size_t most = 0;
-  for (const auto& unit : units) most = std::max(most, unit->slots.size());
+  for (const auto& unit : units) most = std::max(most, unit->out.slots.size());
   hand_over.reserve(most);
   any_since.assign(graph.any.size(), never);
   result.phases.reserve(64);
@@ -104,10 +49,10 @@ UnitOptions Flight::Impl::unit_options(const Component& c) const {
   o.tick_ns = graph.tick_ns;
   o.seed = component_seed(graph.seed, c.name);
   o.paced = !unpaced();
-  o.wait_for_async = graph.io == "sim";
+  o.wait_for_async = graph.io == Io::sim;
   o.tape_steps = options.keep_inputs && !c.info().vehicle && c.run != RunMode::driver ? tape_steps : 0;
   if (c.run == RunMode::driver && !options.drivers_from.empty()) o.samples = recorded_samples(c);
-  if (options.playback) options.playback->stand_in(graph, c, o);
+  if (options.circumstances) options.circumstances->stand_in(graph, c, o);
   return o;
 }
 
@@ -125,11 +70,11 @@ std::unique_ptr<SampleSource> Flight::Impl::recorded_samples(const Component& c)
 void Flight::Impl::request_arming() {
   Unit& vehicle = *units[static_cast<std::size_t>(graph.vehicle)];
   const int port = vehicle.info->input("arm");
-  const Field* armed = port < 0 ? nullptr : vehicle.readers[static_cast<std::size_t>(port)].port->type->find("armed");
-  if (!armed || armed->kind != FULMAR_BOOL || vehicle.readers[static_cast<std::size_t>(port)].port->kind != FULMAR_IN_REQUEST)
+  const Field* armed = port < 0 ? nullptr : vehicle.in.readers[static_cast<std::size_t>(port)].port->type->find("armed");
+  if (!armed || armed->kind != FULMAR_BOOL || vehicle.in.readers[static_cast<std::size_t>(port)].port->kind != FULMAR_IN_REQUEST)
     throw Error(vehicle.component->where.text() + ": arm: auto needs a vehicle with a request 'arm' that has a field 'armed'; " +
                 vehicle.component->name + " has none");
-  Reader& reader = vehicle.readers[static_cast<std::size_t>(port)];
+  Reader& reader = vehicle.in.readers[static_cast<std::size_t>(port)];
   std::vector<std::byte> message(reader.port->type->size);
   message[armed->offset] = std::byte{1};
   CopyPlan whole;
@@ -144,7 +89,7 @@ void Flight::Impl::connect() {
   control_roles.assign(graph.roles.size(), false);
   for (const int role : graph.control) control_roles[static_cast<std::size_t>(role)] = true;
   for (const auto& unit : units)
-    for (Slot& slot : unit->slots) slot.queues.clear(), slot.role = nullptr, slot.filler = -1;
+    for (Slot& slot : unit->out.slots) slot.queues.clear(), slot.role = nullptr, slot.filler = -1;
   for (std::size_t r = 0; r < roles.size(); ++r) {
     const Role& role = graph.roles[r];
     roles[r].slots.resize(role.outputs.size());
@@ -158,7 +103,7 @@ void Flight::Impl::connect() {
       for (std::size_t f = 0; f < role.fillers.size(); ++f) {
         const int output = role.provides[f][k];
         if (output < 0) continue;
-        Slot& slot = units[static_cast<std::size_t>(role.fillers[f])]->slots[static_cast<std::size_t>(output)];
+        Slot& slot = units[static_cast<std::size_t>(role.fillers[f])]->out.slots[static_cast<std::size_t>(output)];
         slot.role = &role_slot;
         slot.filler = static_cast<int>(f);
         role_slot.plans[f] = copy_plan(*slot.port->type, *role_slot.type);
@@ -167,7 +112,7 @@ void Flight::Impl::connect() {
     }
   }
   for (const auto& unit : units)
-    for (Reader& reader : unit->readers) wire_reader(*unit, reader);
+    for (Reader& reader : unit->in.readers) wire_reader(*unit, reader);
   find_told();
   if (graph.vehicle < 0) return;
   find_flags();
@@ -175,23 +120,18 @@ void Flight::Impl::connect() {
     if (w.from.kind == Source::Kind::role) drives_vehicle[static_cast<std::size_t>(w.from.index)] = true;
 }
 
-/// Flags that any vehicle may have, by name: the host knows no messages.
 void Flight::Impl::find_flags() {
-  const Unit& vehicle = *units[static_cast<std::size_t>(graph.vehicle)];
-  for (const auto& [name, flag] : {std::pair{"armed", &armed_flag}, {"on_ground", &ground_flag}, {"in_control", &control_flag}}) {
-    *flag = {};
-    for (const Slot& slot : vehicle.slots) {
-      const Field* const field = slot.port->type ? slot.port->type->find(name) : nullptr;
-      if (!flag->slot && field && field->kind == FULMAR_BOOL) *flag = {&slot, field->offset};
-    }
-  }
+  const auto view = [this](const VehicleFlag& flag) { return FlagView{slot_of(flag.from), flag.offset}; };
+  armed_flag = view(graph.flags.armed);
+  ground_flag = view(graph.flags.on_ground);
+  control_flag = view(graph.flags.in_control);
 }
 
 void Flight::Impl::find_told() {
   tells.clear();
   const auto add = [&](int component, int output) {
     if (output < 0) return;
-    const Slot& slot = units[static_cast<std::size_t>(component)]->slots[static_cast<std::size_t>(output)];
+    const Slot& slot = units[static_cast<std::size_t>(component)]->out.slots[static_cast<std::size_t>(output)];
     Told told{&slot, slot.port->type->find("text"), slot.port->type->find("severity"), {}};
     if (!told.text || told.text->kind != FULMAR_TEXT) return;
     if (!told.severity) told.severity = slot.port->type->find("level");
@@ -231,7 +171,7 @@ void Flight::Impl::wire_reader(Unit& unit, Reader& reader) {
   if (from.kind == Source::Kind::none) return;
   const bool value = reader.port->kind == FULMAR_IN_VALUE;
   if (from.kind == Source::Kind::component) {
-    Slot& slot = units[static_cast<std::size_t>(from.index)]->slots[static_cast<std::size_t>(from.output)];
+    Slot& slot = units[static_cast<std::size_t>(from.index)]->out.slots[static_cast<std::size_t>(from.output)];
     reader.slot = &slot;
     reader.plans.push_back(copy_plan(*slot.port->type, *reader.port->type));
     if (!value) slot.queues.emplace_back(&reader, &reader.plans.front());
@@ -243,7 +183,7 @@ void Flight::Impl::wire_reader(Unit& unit, Reader& reader) {
       const int output = role.provides[f][static_cast<std::size_t>(from.output)];
       const Unit& filler = *units[static_cast<std::size_t>(role.fillers[f])];
       reader.plans.push_back(output < 0 ? CopyPlan{}
-                                        : copy_plan(*filler.slots[static_cast<std::size_t>(output)].port->type, *reader.port->type));
+                                        : copy_plan(*filler.out.slots[static_cast<std::size_t>(output)].port->type, *reader.port->type));
     }
     if (!value) slot.queues.emplace_back(&reader, reader.plans);
     // What a role publishes is watched: a law that is fed by nobody must not fly on. Sensors come and go, estimators know.
@@ -294,21 +234,21 @@ std::vector<TapChannel> Flight::Impl::channels() {
   for (const auto& unit : units) {
     const Component& c = *unit->component;
     const bool stored_whole = c.info().vehicle || c.run == RunMode::driver;
-    for (std::size_t i = 0; i < unit->slots.size(); ++i) {
-      Slot& slot = unit->slots[i];
+    for (std::size_t i = 0; i < unit->out.slots.size(); ++i) {
+      Slot& slot = unit->out.slots[i];
       if (!slot.port->type) continue;
       const std::string name = topic_name(graph, c, i);
-      slot.channel = shared(name, c.name + "." + slot.port->name, slot.port->type);
-      if (slot.port->kind == FULMAR_OUT_EVENT) list[slot.channel].may_stay_silent = true;
-      slot.log_period_ns = record_period(name, slot);
+      slot.log.channel = shared(name, c.name + "." + slot.port->name, slot.port->type);
+      if (slot.port->kind == FULMAR_OUT_EVENT) list[slot.log.channel].may_stay_silent = true;
+      slot.log.period_ns = record_period(name, slot);
       if (!stored_whole) slot.hash = std::make_unique<MessageHash>(*slot.port->type);
     }
-    for (Reader& reader : unit->readers)
+    for (Reader& reader : unit->in.readers)
       if (reader.port->kind == FULMAR_IN_REQUEST || reader.wire->import >= 0)
         reader.channel = static_cast<int>(channel(c.name + "." + reader.port->name, reader.port->type));
-    if (unit->probes.empty()) continue;
-    unit->probe_period_ns = record_period(c.name + ".probes", unit->slots[unit->probes.front()]);
-    unit->probe_channel = channel(c.name + ".probes", probes_type(*c.plugin, c.info()));
+    if (unit->out.probes.outputs.empty()) continue;
+    unit->out.probes.log.period_ns = record_period(c.name + ".probes", unit->out.slots[unit->out.probes.outputs.front()]);
+    unit->out.probes.log.channel = channel(c.name + ".probes", probes_type(*c.plugin, c.info()));
   }
   return list;
 }
@@ -352,9 +292,9 @@ void Flight::Impl::open_log() {
   o.channels.assign(tap->channels().size(), true);
   const auto each = [&](auto&& set) {
     for (const auto& unit : units) {
-      for (const Slot& slot : unit->slots)
-        if (slot.port->type) set(slot.channel, slot.log_period_ns);
-      if (!unit->probes.empty()) set(unit->probe_channel, unit->probe_period_ns);
+      for (const Slot& slot : unit->out.slots)
+        if (slot.port->type) set(slot.log.channel, slot.log.period_ns);
+      if (!unit->out.probes.outputs.empty()) set(unit->out.probes.log.channel, unit->out.probes.log.period_ns);
     }
   };
   each([&](std::size_t channel, std::int64_t) { o.channels[channel] = false; });
@@ -432,7 +372,7 @@ void Flight::Impl::attach_texts() {
                            {"abi", std::to_string(FULMAR_ABI_MAJOR) + "." + std::to_string(FULMAR_ABI_MINOR)},
                            {"toolchain", __VERSION__},
                            {"mission", graph.mission},
-                           {"io", graph.io},
+                           {"io", io_word(graph.io)},
                            {"epoch_ns", std::to_string(graph.epoch_ns)},
                            {"seed", std::to_string(graph.seed)}});
 }

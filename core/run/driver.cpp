@@ -33,13 +33,7 @@ constexpr int patience_ms = 2000;  // for the step that a driver is in when the 
 }  // namespace
 
 Driver::Driver(const std::string& name, const fulmar_component& functions, void* instance, const ComponentInfo& info)
-    : name_(name), functions_(functions), instance_(instance), info_(info), ring_(ring_bytes, largest(info)) {
-  for (const Port& port : info.outputs) {
-    data_.emplace_back(std::size_t{port.capacity} * (port.type ? port.type->size : sizeof(double)));
-    stamps_.emplace_back(port.capacity);
-  }
-  outputs_.resize(info.outputs.size());
-}
+    : name_(name), functions_(functions), instance_(instance), info_(info), out_(info), ring_(ring_bytes, largest(info)) {}
 
 Driver::~Driver() {
   stop_.store(true, std::memory_order_release);
@@ -65,19 +59,19 @@ void Driver::start() {
 
 bool Driver::step() noexcept {
   const fulmar_tick tick{now_ns_.load(std::memory_order_relaxed), 0, steps_++};
-  for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i] = {data_[i].data(), stamps_[i].data(), tick.now_ns, 0, 0};
+  out_.prepare(tick.now_ns);
   error_.text[0] = '\0';
   {
     const Inside inside(name_, "step");
-    if (functions_.step(instance_, &tick, nullptr, outputs_.data(), &error_) >= FULMAR_FAILED) return false;
+    if (functions_.step(instance_, &tick, nullptr, out_.views.data(), &error_) >= FULMAR_FAILED) return false;
   }
-  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+  for (std::size_t i = 0; i < out_.views.size(); ++i) {
     const Port& port = info_.outputs[i];
     const std::size_t size = port.type ? port.type->size : sizeof(double);
-    std::uint64_t lost = outputs_[i].lost;
-    for (std::uint32_t k = 0; k < std::min(outputs_[i].count, port.capacity); ++k) {
-      const Ring::Record record{0, static_cast<std::uint32_t>(i), 0, 0, port.type ? stamps_[i][k] : FULMAR_ON_ARRIVAL};
-      if (!ring_.push(record, data_[i].data() + k * size, size)) ++lost;
+    std::uint64_t lost = out_.views[i].lost;
+    for (std::uint32_t k = 0; k < std::min(out_.views[i].count, port.capacity); ++k) {
+      const Ring::Record record{0, static_cast<std::uint32_t>(i), 0, 0, port.type ? out_.stamps[i][k] : FULMAR_ON_ARRIVAL};
+      if (!ring_.push(record, out_.data[i].data() + k * size, size)) ++lost;
     }
     if (lost > 0) lost_.fetch_add(lost, std::memory_order_relaxed);
   }

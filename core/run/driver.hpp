@@ -12,11 +12,12 @@
 
 #include "core/types/type.hpp"
 #include "core/log/reader.hpp"
+#include "core/run/async.hpp"
 #include "core/run/ring.hpp"
 
 namespace fulmar::core {
 
-/// What a driver has to say at a tick. One consumer: the loop.
+/// What a driver has to say at a tick. One consumer: the loop, which also starts it.
 struct SampleSource {
   struct Sample {
     std::uint32_t output = 0;  // of the component
@@ -25,6 +26,8 @@ struct SampleSource {
     bool ends = false;                // what follows is published separately
   };
   virtual ~SampleSource() = default;
+  /// [tick] Once, before the first sample is asked for.
+  virtual void start() {}
   /// [tick] The next sample that has arrived by now, or false.
   virtual bool next(std::int64_t now_ns, Sample& sample) noexcept = 0;
   virtual void release() noexcept = 0;
@@ -41,8 +44,7 @@ class Driver final : public SampleSource {
   Driver(const Driver&) = delete;
   Driver& operator=(const Driver&) = delete;
 
-  /// [tick] Begins once; tells the thread the time.
-  void start();
+  void start() override;
   bool next(std::int64_t now_ns, Sample& sample) noexcept override;
   void release() noexcept override { ring_.release(); }
   const char* fault() const noexcept override { return failed_.load(std::memory_order_acquire) ? error_.text : ""; }
@@ -56,9 +58,7 @@ class Driver final : public SampleSource {
   const fulmar_component& functions_;
   void* instance_;
   const ComponentInfo& info_;
-  std::vector<fulmar_output> outputs_;
-  std::vector<std::vector<std::byte>> data_;
-  std::vector<std::vector<std::int64_t>> stamps_;
+  OutputRoom out_;
   Ring ring_;
   fulmar_error error_{};
   std::uint64_t steps_ = 0;

@@ -1,104 +1,163 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When a flight ends. An armed aircraft on hardware is not left by the host: whatever the verdict, it flies
-// or stays silent until disarmed.
-#include <cstdio>
-
-#include "core/run/flight_impl.hpp"
+// An armed aircraft on hardware is not left by the host: whatever the verdict, it flies or stays silent until
+// it is disarmed.
+#include "core/run/ending.hpp"
 
 namespace fulmar::core {
 namespace {
 
-constexpr std::int64_t silence_ns = 1'000'000'000;  // after a failsafe before the flight is called lost
-constexpr std::int64_t repeat_ns = 5'000'000'000;   // how long a refused signal can be repeated
+using State = Ending::State;
+using Act = Ending::Act;
+using Reason = Ending::Reason;
+using Table = std::array<std::array<Ending::Step, 12>, 6>;
 
-std::string short_number(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", x);
-  return text;
+constexpr Ending::Step stays(State state) { return {state, Act::none, Reason::none}; }
+constexpr Ending::Step ends(Reason why) { return {State::over, Act::end, why}; }
+constexpr Ending::Step as_decided = {State::over, Act::end, Reason::none};
+
+/// Rows: the states; columns: the cues, in the order of their declarations.
+constexpr Table table = {{
+    // flying
+    {{{State::concluded, Act::tell_done, Reason::done},
+      {State::concluded, Act::tell_failed, Reason::failed},
+      {State::concluded, Act::tell_duration, Reason::duration},
+      ends(Reason::timeout),
+      {State::failsafe, Act::none, Reason::none},
+      stays(State::flying),
+      stays(State::flying),
+      ends(Reason::signal),
+      {State::flying, Act::refuse_signal, Reason::none},
+      {State::giving_up, Act::give_up, Reason::none},
+      ends(Reason::vehicle_failed),
+      ends(Reason::abandoned)}},
+    // concluded: the first verdict stands
+    {{stays(State::concluded),
+      stays(State::concluded),
+      stays(State::concluded),
+      ends(Reason::timeout),
+      {State::failsafe, Act::none, Reason::none},
+      stays(State::concluded),
+      as_decided,
+      ends(Reason::signal),
+      {State::concluded, Act::refuse_signal, Reason::none},
+      {State::giving_up, Act::give_up, Reason::none},
+      ends(Reason::vehicle_failed),
+      ends(Reason::abandoned)}},
+    // failsafe: never done; who had asked for a duration learns that it was not flown
+    {{stays(State::failsafe),
+      {State::failsafe, Act::tell_failed, Reason::failed},
+      {State::failsafe, Act::tell_duration, Reason::failsafe},
+      ends(Reason::timeout),
+      stays(State::failsafe),
+      {State::silent, Act::tell_silent, Reason::failsafe},
+      as_decided,
+      ends(Reason::signal),
+      {State::failsafe, Act::refuse_signal, Reason::none},
+      {State::giving_up, Act::none, Reason::none},
+      ends(Reason::vehicle_failed),
+      ends(Reason::abandoned)}},
+    // giving_up: the failsafe is flown to its end, then the host goes
+    {{stays(State::giving_up),
+      {State::giving_up, Act::tell_failed, Reason::failed},
+      {State::giving_up, Act::tell_duration, Reason::failsafe},
+      ends(Reason::timeout),
+      stays(State::giving_up),
+      ends(Reason::gave_up),
+      as_decided,
+      ends(Reason::signal),
+      stays(State::giving_up),
+      stays(State::giving_up),
+      ends(Reason::vehicle_failed),
+      ends(Reason::abandoned)}},
+    // silent: there is nothing left to give up
+    {{stays(State::silent),
+      stays(State::silent),
+      stays(State::silent),
+      ends(Reason::timeout),
+      stays(State::silent),
+      stays(State::silent),
+      as_decided,
+      ends(Reason::signal),
+      {State::silent, Act::refuse_signal, Reason::none},
+      ends(Reason::failsafe),
+      ends(Reason::vehicle_failed),
+      ends(Reason::abandoned)}},
+    // over
+    {{stays(State::over), stays(State::over), stays(State::over), stays(State::over), stays(State::over),
+      stays(State::over), stays(State::over), stays(State::over), stays(State::over), stays(State::over),
+      stays(State::over), stays(State::over)}},
+}};
+
+constexpr bool is_told(Act act) {
+  return act == Act::tell_done || act == Act::tell_failed || act == Act::tell_duration || act == Act::tell_silent;
 }
 
 }  // namespace
 
-bool Flight::Impl::held_for(const Condition& condition, std::int64_t for_ns,
-                            std::int64_t& since_ns) const noexcept {
-  if (!condition.holds(*this)) {
-    since_ns = never;
-    return false;
+Ending::Step Ending::step(State state, Cue cue) noexcept {
+  return table[static_cast<std::size_t>(state)][static_cast<std::size_t>(cue)];
+}
+
+Outcome Ending::outcome(Reason reason) noexcept {
+  switch (reason) {
+    case Reason::done:
+    case Reason::duration:
+      return Outcome::flown;
+    case Reason::gave_up:
+    case Reason::signal:
+    case Reason::abandoned:
+      return Outcome::interrupted;
+    default:
+      return Outcome::failed;
   }
-  if (since_ns == never) since_ns = now_ns;
-  return now_ns - since_ns >= for_ns;
 }
 
-bool Flight::Impl::armed_hardware() const noexcept { return graph.io == "fcu" && armed_flag.says(false); }
-
-bool Flight::Impl::over() {
-  const bool open = conclusion.empty();
-  if (open && graph.done && !in_failsafe && held_for(*graph.done, graph.done_for_ns, done_since_ns))
-    conclude(Code::concluded, Outcome::flown, graph.done->text(), "done: ");
-  else if (open && graph.failed && held_for(*graph.failed, graph.failed_for_ns, failed_since_ns))
-    conclude(Code::concluded, Outcome::failed, graph.failed->text(), "failed: ");
-  else if (in_failsafe && now_ns - failsafe_since_ns >= graph.failsafe_ns + silence_ns)
-    after_failsafe();
-  else if (open && options.duration_s && now_ns >= static_cast<std::int64_t>(*options.duration_s * 1e9))
-    conclude(Code::duration_reached, in_failsafe ? Outcome::failed : Outcome::flown,
-             in_failsafe ? failsafe_reason : "duration reached", "");
-  else if (graph.timeout_ns > 0 && graph.io == "sim" && now_ns >= graph.timeout_ns)
-    finish(Outcome::failed,
-           "not done within " + short_number(1e-9 * static_cast<double>(graph.timeout_ns)) + " s of flight");
-  if (!ended && !conclusion.empty() && !armed_hardware()) {
-    const bool lost = in_failsafe && conclusion_outcome == Outcome::flown;
-    finish(lost ? Outcome::failed : conclusion_outcome, lost ? failsafe_reason : conclusion);
+Ending::Act Ending::take(Cue cue, std::int64_t now_ns) noexcept {
+  const Step step = Ending::step(state_, cue);
+  const bool was_flown = !in_failsafe();
+  state_ = step.next;
+  if (step.reason != Reason::none) reason_ = step.reason;
+  if (step.act == Act::refuse_signal) refused_ns_ = now_ns;
+  if (was_flown && in_failsafe()) {
+    failsafe_since_ns_ = now_ns;
+    // what was flown up to here is lost now
+    if (reason_ != Reason::none && outcome(reason_) == Outcome::flown) reason_ = Reason::failsafe;
   }
-  if (!ended && options.interrupt && options.interrupt->load(std::memory_order_relaxed) != 0) heed_signal();
-  return ended;
+  return step.act;
 }
 
-void Flight::Impl::conclude(Code code, Outcome outcome, const std::string& reason, const char* what) {
-  conclusion = reason;
-  conclusion_outcome = outcome;
-  if (!armed_hardware()) return;
-  Event e = event_of(code);
-  if (outcome == Outcome::failed) e.severity = Severity::error;
-  say(e, "%s%s; flies on until disarmed", what, reason.c_str());
-  note(e);
+/// The first of those that exclude each other.
+Ending::Cue Ending::cue_of(const Facts& f, bool& any) const noexcept {
+  any = true;
+  if (f.done && asks_done()) return Cue::done;
+  if (f.failed && asks_failed()) return Cue::failed;
+  if (in_failsafe() && f.now_ns - failsafe_since_ns_ >= failsafe_ns_ + silence_ns) return Cue::silence;
+  if (f.duration && asks_failed()) return Cue::duration;
+  any = f.timeout;
+  return Cue::timeout;
 }
 
-void Flight::Impl::after_failsafe() {
-  if (silence_told) return;
-  silence_told = true;
-  conclusion = failsafe_reason;
-  conclusion_outcome = Outcome::failed;
-  if (giving_up) return finish(Outcome::interrupted, failsafe_reason);
-  if (!armed_hardware()) return;
-  Event e = event_of(Code::silent);
-  say(e, "silent until disarmed: the aircraft is its pilot's");
-  note(e);
+Ending::Cue Ending::signal_cue(const Facts& f) const noexcept {
+  if (!f.armed) return Cue::signal;
+  return refused_ns_ != never && f.now_ns - refused_ns_ <= repeat_ns ? Cue::second_signal : Cue::first_signal;
 }
 
-/// A signal asks for the end. While the aircraft is armed it has to be repeated; what the signal's handler
-/// does is in run_command.cpp.
-void Flight::Impl::heed_signal() {
-  if (!armed_hardware()) return finish(Outcome::interrupted, "by a signal");
-  if (giving_up) return;
-  if (refused_ns == never || now_ns - refused_ns > repeat_ns) {
-    refused_ns = now_ns;
-    options.interrupt->store(0, std::memory_order_relaxed);
-    Event e = event_of(Code::signal_refused);
-    say(e, "the aircraft is armed: Ctrl-C once more within 5 s gives up control");
-    return note(e);
-  }
-  giving_up = true;
-  if (silence_told) return finish(Outcome::failed, failsafe_reason);
-  if (in_failsafe) return;
-  Event why = event_of(Code::gave_up);
-  say(why, "failsafe: control given up by a signal");
-  failsafe(why);
+Ending::Acts Ending::tick(const Facts& facts) noexcept {
+  Acts acts;
+  const auto give = [&](Cue cue) {
+    const Act act = take(cue, facts.now_ns);
+    if (act != Act::none && (facts.armed || !is_told(act))) acts.list[acts.count++] = act;
+  };
+  bool any = false;
+  if (const Cue cue = cue_of(facts, any); any) give(cue);
+  if (reason_ != Reason::none && !facts.armed) give(Cue::disarmed);
+  if (facts.signal) give(signal_cue(facts));
+  return acts;
 }
 
-void Flight::Impl::finish(Outcome outcome, std::string reason) {
-  ended = true;
-  result.outcome = outcome;
-  result.reason = std::move(reason);
+Ending::Steering Ending::steering(std::int64_t now_ns) const noexcept {
+  if (!in_failsafe()) return Steering::commands;
+  return now_ns - failsafe_since_ns_ >= failsafe_ns_ ? Steering::nothing : Steering::failsafe;
 }
 
 }  // namespace fulmar::core

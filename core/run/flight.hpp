@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/graph/graph.hpp"
+#include "core/run/ending.hpp"
 #include "core/run/resume.hpp"
 #include "core/run/stats.hpp"
 #include "core/dds/bridge.hpp"
@@ -28,13 +29,11 @@ struct FlightOptions {
   std::optional<Resume> resume;                               // where to go on, in place of the first phase
   bool keep_inputs = false;                                   // of every component's last steps, to rehearse a swap on
   std::filesystem::path drivers_from;                         // log whose samples are fed in place of the drivers
-  std::shared_ptr<class Playback> playback;                   // a log in place of the vehicle and the drivers
+  std::shared_ptr<class Circumstances> circumstances;         // of a flight that is flown again
   std::atomic<int>* interrupt = nullptr;                      // not 0: the flight is asked to end; set back to 0 when it refuses
   std::function<void(const class Flight&)> progress;          // called about every 200 ms of wall time, between ticks
   std::function<void(const std::string&, bool warning)> say;  // one line for the user, as it happens: phases, guards
 };
-
-enum class Outcome : std::uint8_t { flown, failed, interrupted };
 
 struct PhaseVisit {
   std::string name;

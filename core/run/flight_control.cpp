@@ -59,17 +59,17 @@ ComponentView view_of(const Flight::Impl& flight, const Unit& unit) {
   v.name = c.name, v.use = c.use, v.doc = c.info().doc, v.run = modes[static_cast<std::size_t>(c.run)];
   if (c.role >= 0) v.role = flight.graph.roles[static_cast<std::size_t>(c.role)].name;
   for (std::size_t i = 0; i < c.info().params.size(); ++i) v.params.push_back({c.info().params[i], unit.base[i], false});
-  for (std::size_t i = 0; i < unit.readers.size(); ++i) {
-    const Reader& r = unit.readers[i];
+  for (std::size_t i = 0; i < unit.in.readers.size(); ++i) {
+    const Reader& r = unit.in.readers[i];
     PortView port{r.port->name, r.port->type, source_name(flight.graph, c.wires[i])};
     port.request = r.port->kind == FULMAR_IN_REQUEST;
     port.imported = c.wires[i].import >= 0;
     port.channel = r.channel;
     v.inputs.push_back(std::move(port));
   }
-  for (const Slot& s : unit.slots) {
+  for (const Slot& s : unit.out.slots) {
     PortView port{s.port->name, s.port->type, ""};
-    port.channel = static_cast<int>(s.port->type ? s.channel : unit.probe_channel);
+    port.channel = static_cast<int>(s.port->type ? s.log.channel : unit.out.probes.log.channel);
     v.outputs.push_back(std::move(port));
   }
   return v;
@@ -79,7 +79,7 @@ ComponentView view_of(const Flight::Impl& flight, const Unit& unit) {
 
 FlightControl::Directory::Directory(const Flight::Impl& flight) : commands(flight.commands) {
   if (!flight.graph.file.empty()) view.file = std::filesystem::absolute(flight.graph.file).string();
-  view.mission = flight.graph.mission, view.io = flight.graph.io, view.epoch_ns = flight.graph.epoch_ns;
+  view.mission = flight.graph.mission, view.io = io_word(flight.graph.io), view.epoch_ns = flight.graph.epoch_ns;
   for (const Phase& p : flight.graph.phases) {
     view.phases.push_back(p.name);
     overlaid.emplace_back();

@@ -6,8 +6,10 @@
 
 #include "core/graph/condition.hpp"
 #include "core/run/command.hpp"
+#include "core/run/ending.hpp"
 #include "core/run/flight.hpp"
 #include "core/run/flight_control.hpp"
+#include "core/run/published.hpp"
 #include "core/run/unit.hpp"
 #include "core/dds/bridge.hpp"
 #include "core/log/events.hpp"
@@ -16,19 +18,9 @@
 
 namespace fulmar::core {
 
-/// All that the host itself publishes.
-const std::vector<TypePtr>& host_types();
-/// The message of a component's probes: fulmar_msgs/msg/ControlSlcOuterProbes. ROS tells messages apart by name alone.
-TypePtr probes_type(const PluginInfo& plugin, const ComponentInfo& component);
-
-/// Under which name an output is logged: its role's, when it is one of the role's.
-std::string topic_name(const Graph& graph, const Component& component, std::size_t output);
-
-/// Seed of a component: a mix of the mission's seed and the component's name, so that adding a component changes no other's noise.
-std::uint64_t component_seed(std::uint64_t mission_seed, const std::string& name);
-
-/// A flag in what the vehicle says of itself.
-struct VehicleFlag {
+/// A flag of the vehicle's contract, as it stands now. `unknown`: what counts of a vehicle that has no such
+/// flag, or has not published it yet.
+struct FlagView {
   const Slot* slot = nullptr;
   std::uint32_t offset = 0;
   bool says(bool unknown) const noexcept { return slot && slot->sequence > 0 ? slot->published[offset] != std::byte{0} : unknown; }
@@ -89,14 +81,14 @@ struct Flight::Impl final : SampleReader {
   void watch_control() noexcept;
   void pace();
 
-  // ending.cpp
+  // verdict.cpp
   bool over();
   bool held_for(const Condition& condition, std::int64_t for_ns, std::int64_t& since_ns) const noexcept;
   bool armed_hardware() const noexcept;
-  void conclude(Code code, Outcome outcome, const std::string& reason, const char* what);
-  void after_failsafe();
-  void heed_signal();
-  void finish(Outcome outcome, std::string reason);
+  void end_by(Ending::Cue cue);
+  void carry_out(Ending::Act act);
+  void tell_verdict(Code code, const char* what);
+  std::string reason_text() const;
 
   // swap.cpp
   void swap(std::size_t index, const std::string& file);
@@ -141,7 +133,7 @@ struct Flight::Impl final : SampleReader {
   const Slot* slot_of(const Source& source) const;
   const std::byte* message_of(const Source& source) const noexcept;
 
-  bool unpaced() const { return options.playback || (options.speed == 0 && graph.io == "sim"); }
+  bool unpaced() const { return options.circumstances || (options.speed == 0 && graph.io == Io::sim); }
 
   Graph graph;  // its own: a swap changes it
   FlightOptions options;
@@ -171,21 +163,16 @@ struct Flight::Impl final : SampleReader {
   static constexpr std::int64_t never = std::numeric_limits<std::int64_t>::min();
   std::vector<std::int64_t> any_since, next_since;  // since when a transition's condition holds
   std::int64_t done_since_ns = never, failed_since_ns = never;
-  std::int64_t failsafe_since_ns = 0;
-  bool in_failsafe = false, ended = false;
-  std::string failsafe_reason;
+  Ending ending;
+  decltype(Event::words) failsafe_words{};  // why nobody can fly any more
   std::vector<bool> drives_vehicle, control_roles;  // per role
-  VehicleFlag armed_flag, ground_flag, control_flag;
+  FlagView armed_flag, ground_flag, control_flag;
   bool was_armed = false;
   bool out_of_control = false;  // the vehicle says that it does not obey
   std::vector<Told> tells;
   std::int64_t heard_ns = never;  // the vehicle's first word, while it is open whether to resume
 
-  // on hardware, while the aircraft is armed
-  std::string conclusion;  // how the flight will have ended; "": open
-  Outcome conclusion_outcome = Outcome::failed;
-  bool silence_told = false, giving_up = false, log_told = false;
-  std::int64_t refused_ns = never;  // a signal
+  bool log_told = false;
 
   FlightResult result;
   std::int64_t wall_ns = 0, wall_start_ns = 0, progress_ns = 0;

@@ -9,7 +9,7 @@
 
 #include "core/run/allocation.hpp"
 #include "core/run/flight_impl.hpp"
-#include "core/replay/playback.hpp"
+#include "core/run/circumstances.hpp"
 #include "core/run/realtime.hpp"
 
 namespace fulmar::core {
@@ -32,7 +32,7 @@ void Flight::Impl::clock(Unit& unit) {
   const std::int64_t took = now - wall_ns - (tap ? tap->take_wait_ns() : 0);
   unit.stats.time.add(took);
   wall_ns = now;
-  if (options.playback && options.playback->ran_over(unit.component->name, now_ns)) return stop_over_budget(unit);
+  if (options.circumstances && options.circumstances->ran_over(unit.component->name, now_ns)) return stop_over_budget(unit);
   if (unit.component->budget_ns == 0 || unpaced()) return;  // an unpaced simulation knows no deadline
   if (took <= unit.component->budget_ns) {
     unit.overruns_in_a_row = 0;
@@ -48,32 +48,20 @@ void Flight::Impl::stop_over_budget(Unit& unit) {
   stop(static_cast<int>(unit.component - graph.components.data()), Code::over_budget);
 }
 
-namespace {
-
-/// Whether a sample is due, of those that come so often; the next is due a period later, without drift.
-bool due(std::int64_t now_ns, std::int64_t period_ns, std::int64_t& due_ns) noexcept {
-  if (period_ns < 0 || now_ns < due_ns) return false;
-  const bool late = due_ns == std::numeric_limits<std::int64_t>::min() || due_ns + period_ns <= now_ns;
-  due_ns = (late ? now_ns : due_ns) + period_ns;
-  return true;
-}
-
-}  // namespace
-
 void Flight::Impl::put_slot(Slot& slot) {
   if (slot.hash)
-    tick_hash = slot.hash->of(mix(mix(tick_hash, slot.channel), static_cast<std::uint64_t>(slot.valid_at_ns)), slot.published.data());
-  const bool for_log = log && due(now_ns, slot.log_period_ns, slot.log_due_ns);
-  if (tap->wanted(slot.channel, now_ns) || for_log) tap->write(slot.channel, now_ns, slot.valid_at_ns, slot.published.data(), for_log);
+    tick_hash = slot.hash->of(mix(mix(tick_hash, slot.log.channel), static_cast<std::uint64_t>(slot.valid_at_ns)), slot.published.data());
+  const bool for_log = log && slot.log.due.take(now_ns, slot.log.period_ns);
+  if (tap->wanted(slot.log.channel, now_ns) || for_log) tap->write(slot.log.channel, now_ns, slot.valid_at_ns, slot.published.data(), for_log);
 }
 
 void Flight::Impl::put_probes(Unit& unit) {
-  for (std::size_t k = 0; k < unit.probes.size(); ++k)
-    std::memcpy(&unit.probe_values[k], unit.slots[unit.probes[k]].published.data(), sizeof(double));
-  const auto* const values = reinterpret_cast<const std::byte*>(unit.probe_values.data());
-  if (!unit.info->vehicle) tick_hash = hash_bytes(mix(tick_hash, unit.probe_channel), values, 8 * unit.probe_values.size());
-  const bool for_log = log && due(now_ns, unit.probe_period_ns, unit.probe_due_ns);
-  if (tap->wanted(unit.probe_channel, now_ns) || for_log) tap->write(unit.probe_channel, now_ns, now_ns, values, for_log);
+  for (std::size_t k = 0; k < unit.out.probes.outputs.size(); ++k)
+    std::memcpy(&unit.out.probes.values[k], unit.out.slots[unit.out.probes.outputs[k]].published.data(), sizeof(double));
+  const auto* const values = reinterpret_cast<const std::byte*>(unit.out.probes.values.data());
+  if (!unit.info->vehicle) tick_hash = hash_bytes(mix(tick_hash, unit.out.probes.log.channel), values, 8 * unit.out.probes.values.size());
+  const bool for_log = log && unit.out.probes.log.due.take(now_ns, unit.out.probes.log.period_ns);
+  if (tap->wanted(unit.out.probes.log.channel, now_ns) || for_log) tap->write(unit.out.probes.log.channel, now_ns, now_ns, values, for_log);
 }
 
 /// At the end of a tick.
@@ -95,7 +83,7 @@ void Flight::Impl::put_ticks() {
 }
 
 void Flight::Impl::publish(Unit& unit) {
-  unit.publish([&](Slot& slot) {
+  unit.out.publish([&](Slot& slot) {
     for (auto& [reader, plan] : slot.queues) reader->push(slot.published.data(), slot.valid_at_ns, *plan);
     if (slot.role) {
       slot.role->current = &slot;
@@ -107,24 +95,24 @@ void Flight::Impl::publish(Unit& unit) {
     for (Told& told : tells)
       if (told.slot == &slot) tell(told);
   });
-  if (tap && !unit.probes.empty()) put_probes(unit);
+  if (tap && !unit.out.probes.outputs.empty()) put_probes(unit);
 }
 
 void Flight::Impl::step_unit(int i) {
   Unit& unit = *units[static_cast<std::size_t>(i)];
-  if (unit.remote() && !collect(unit, i)) return;
+  if (unit.runner().remote() && !collect(unit, i)) return;
   if (!unit.active || unit.stopped || !unit.due(now_ns)) return;
   const bool idle = out_of_control && controls(unit);
-  if (unit.fresh_start || (idle && !unit.remote())) {
-    if (!unit.ready()) return;
+  if (unit.fresh_start || (idle && !unit.runner().remote())) {
+    if (!unit.in.ready()) return;
     if (!unit.activate(now_ns, index, {})) {
-      if (!idle || unit.dead()) return stop(i);
+      if (!idle || unit.runner().dead()) return stop(i);
       unit.fresh_start = true;  // it flies nothing now; what is in its way may have passed when it does
       return;
     }
   }
   const Verdict verdict = unit.step(now_ns, index);
-  if (!unit.refusals.empty()) note_refusals(unit);
+  if (!unit.in.refusals.empty()) note_refusals(unit);
   if (verdict.kind == Verdict::Kind::stepped) publish(unit);
   if (verdict.kind == Verdict::Kind::stepped || verdict.kind == Verdict::Kind::bad) clock(unit);
   if (verdict.kind == Verdict::Kind::bad) stop(i);
@@ -138,11 +126,11 @@ bool Flight::Impl::controls(const Unit& unit) const noexcept {
 /// Nothing may wind up while nobody obeys. What works in another thread is not called anew in every step, but once when control returns.
 /// A simulated aircraft is armed at a known time: until then its controllers may do as they like.
 void Flight::Impl::watch_control() noexcept {
-  was_armed = was_armed || graph.io == "fcu" || armed_flag.says(true) || control_flag.says(false);
+  was_armed = was_armed || graph.io == Io::fcu || armed_flag.says(true) || control_flag.says(false);
   const bool was = std::exchange(out_of_control, was_armed && !control_flag.says(true));
   if (!was || out_of_control) return;
   for (const auto& unit : units)
-    if (unit->active && unit->remote() && controls(*unit)) unit->fresh_start = true;
+    if (unit->active && unit->runner().remote() && controls(*unit)) unit->fresh_start = true;
 }
 
 void Flight::Impl::note_late(const Unit& unit, std::int64_t due_ns) {
@@ -154,14 +142,14 @@ void Flight::Impl::note_late(const Unit& unit, std::int64_t due_ns) {
 
 /// A replay takes them as late as the flight did.
 void Flight::Impl::tell_late(Unit& unit) {
-  for (const std::int64_t due_ns : unit.late_due_ns) note_late(unit, due_ns);
-  unit.late_due_ns.clear();
+  for (const std::int64_t due_ns : unit.runner().late_due_ns) note_late(unit, due_ns);
+  unit.runner().late_due_ns.clear();
 }
 
 /// At the end of a flight: a result that has not come is not there in a replay either. It counts as taken after the last tick.
 void Flight::Impl::tell_overdue() {
   for (const auto& unit : units) {
-    const auto due_ns = unit->overdue_ns(now_ns);
+    const auto due_ns = unit->runner().overdue_ns(now_ns);
     if (!due_ns) continue;
     const std::int64_t last_ns = std::exchange(now_ns, now_ns + 1);
     note_late(*unit, *due_ns);
@@ -172,14 +160,14 @@ void Flight::Impl::tell_overdue() {
 /// Results and samples that come from other threads. True when the unit can also be stepped.
 bool Flight::Impl::collect(Unit& unit, int i) {
   Verdict verdict = unit.collect(now_ns);
-  if (!unit.late_due_ns.empty()) tell_late(unit);
+  if (!unit.runner().late_due_ns.empty()) tell_late(unit);
   for (; verdict.kind == Verdict::Kind::stepped; verdict = unit.collect(now_ns))
     if (unit.active && !unit.stopped) publish(unit);
-  if (!unit.late_due_ns.empty()) tell_late(unit);
-  if (!unit.refusals.empty()) note_refusals(unit);
+  if (!unit.runner().late_due_ns.empty()) tell_late(unit);
+  if (!unit.in.refusals.empty()) note_refusals(unit);
   if (verdict.kind == Verdict::Kind::bad && unit.active) stop(i);
   wall_ns = wall_clock_ns();
-  return unit.component->run == RunMode::async;
+  return unit.runner().stepped_by_loop();
 }
 
 /// The flight is over.
@@ -190,7 +178,7 @@ bool Flight::Impl::vehicle_failed() {
   put(e.cause, vehicle.problem.text);
   say(e, "%s", vehicle.problem.text);
   note(e);
-  finish(Outcome::failed, "the vehicle failed: " + std::string(vehicle.problem.text));
+  end_by(Ending::Cue::vehicle_failed);
   return false;
 }
 
@@ -212,9 +200,9 @@ bool Flight::Impl::tick() {
   for (const int i : graph.order) step_unit(i);
   transitions();
 
-  if (in_failsafe && now_ns - failsafe_since_ns >= graph.failsafe_ns) vehicle.silent = true;
-  if (vehicle.write(now_ns, index).kind == Verdict::Kind::bad) return vehicle_failed();
-  vehicle.refusals.clear();  // not noted: in a replay there is nobody to refuse anything
+  if (vehicle.write(now_ns, index, ending.steering(now_ns), graph.failsafe).kind == Verdict::Kind::bad)
+    return vehicle_failed();
+  vehicle.in.refusals.clear();  // not noted: in a replay there is nobody to refuse anything
   clock(vehicle);
   for (Reader* reader : delayed) reader->latch();
   if (tap) note_tick();
@@ -240,11 +228,11 @@ void Flight::Impl::tell_control() noexcept {
 }
 
 bool Flight::Impl::step() {
-  if (ended) return false;
+  if (ending.over()) return false;
   const std::uint64_t entering = thread_allocations();
   const bool counted = !control || index == 0 || control->apply();
   const std::uint64_t entered = counted ? thread_allocations() - entering : 0;
-  if (index == 0 && graph.io == "fcu") stay_on_one_cpu();
+  if (index == 0 && graph.io == Io::fcu) stay_on_one_cpu();
   if (index == 0) wall_ns = wall_start_ns = progress_ns = wall_clock_ns();
   const std::uint64_t before = thread_allocations();
   const bool goes_on = tick();
@@ -258,7 +246,7 @@ bool Flight::Impl::step() {
   }
   if (!goes_on) return false;
   if (index > 1) result.loop_allocations += thread_allocations() - before + entered;
-  if (options.speed > 0 && graph.io == "sim") pace();
+  if (options.speed > 0 && graph.io == Io::sim) pace();
   if (options.progress && wall_ns - progress_ns > 200'000'000) {
     progress_ns = wall_ns;
     options.progress(*static_cast<const Flight*>(owner));
@@ -267,7 +255,7 @@ bool Flight::Impl::step() {
 }
 
 FlightResult Flight::Impl::finish_flight() {
-  if (!ended) finish(Outcome::interrupted, "ended by its owner");
+  if (!ending.over()) end_by(Ending::Cue::abandoned);
   leave_cpu_of_loop();
   result.wall_s = 1e-9 * static_cast<double>(wall_clock_ns() - wall_start_ns);
   result.ticks = index;

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "core/run/flight_impl.hpp"
+#include "core/run/last_words.hpp"
 
 namespace fulmar::core {
 
@@ -42,14 +43,14 @@ void Flight::Impl::note(const Event& e, bool aloud) {
 
 /// Whoever asked has been told; this is for the log.
 void Flight::Impl::note_refusals(Unit& unit) noexcept {
-  for (const Unit::Refusal& r : unit.refusals) {
+  for (const Intake::Refusal& r : unit.in.refusals) {
     const std::string& port = unit.info->inputs[r.input].name;
     Event e = event_of(Code::request_refused, unit.component->name, port);
     put(e.cause, r.reason.data());
     say(e, "%s refused: %s", port.c_str(), r.reason.data());
     note(e, false);
   }
-  unit.refusals.clear();
+  unit.in.refusals.clear();
 }
 
 /// What a component has to tell people. Its words are its own: any bytes.
@@ -148,7 +149,7 @@ bool Flight::Impl::take_over(int role, int component, const Assignment& assignme
   Unit& unit = *units[static_cast<std::size_t>(component)];
   Unit* old = state.active >= 0 ? units[static_cast<std::size_t>(state.active)].get() : nullptr;
   const bool tuned = unit.retune(component == assignment.component ? &assignment.set : nullptr);
-  if (tuned && !unit.ready() &&
+  if (tuned && !unit.in.ready() &&
       (!old || old->fresh_start)) {  // nobody has flown yet: the newcomer begins when its inputs are there
     if (old) old->active = false;
     state.active = component;
@@ -157,16 +158,16 @@ bool Flight::Impl::take_over(int role, int component, const Assignment& assignme
   }
   // The outputs last applied in the role, as far as the newcomer's messages are of the same make.
   std::vector<const Slot*>& last = hand_over;
-  last.assign(unit.slots.size(), nullptr);
-  for (std::size_t i = 0; i < unit.slots.size(); ++i) {
-    const RoleSlot* slot = unit.slots[i].role;
-    if (slot && slot->current && slot->current->port->type->hash == unit.slots[i].port->type->hash)
+  last.assign(unit.out.slots.size(), nullptr);
+  for (std::size_t i = 0; i < unit.out.slots.size(); ++i) {
+    const RoleSlot* slot = unit.out.slots[i].role;
+    if (slot && slot->current && slot->current->port->type->hash == unit.out.slots[i].port->type->hash)
       last[i] = slot->current;
   }
-  unit.forget_queues();
+  unit.in.forget_queues();
   if (!tuned || !unit.activate(now_ns, index, last)) {
     make_printable(unit.problem.text);
-    Event e = guard_event(unit.hung() ? Code::hung : Code::cannot_take_over, unit.component->name,
+    Event e = guard_event(unit.runner().hung() ? Code::hung : Code::cannot_take_over, unit.component->name,
                           unit.problem.text);
     say(e, "cannot take over: %s", unit.problem.text);
     note(e);
@@ -176,7 +177,7 @@ bool Flight::Impl::take_over(int role, int component, const Assignment& assignme
   }
   if (old) {
     old->active = false;
-    old->refuse_requests("does not fly any more");
+    old->in.refuse_requests("does not fly any more");
     if (!old->fresh_start) old->deactivate();
   }
   state.active = component;
@@ -191,12 +192,12 @@ void Flight::Impl::stop(int i, Code code) {
   Unit& unit = *units[static_cast<std::size_t>(i)];
   if (unit.stopped) return;
   unit.stopped = true;
-  unit.refuse_requests("was stopped");
+  unit.in.refuse_requests("was stopped");
   make_printable(unit.problem.text);
   const std::string what = unit.problem.text;
   const std::string name = unit.component->name;
   const int role = unit.component->role;
-  note(guard_event(unit.hung() ? Code::hung : code, name, what.c_str()));
+  note(guard_event(unit.runner().hung() ? Code::hung : code, name, what.c_str()));
   result.guards.push_back({now_ns, name, what, "held"});
   const std::size_t at = result.guards.size() - 1;
   if (role < 0) return;
@@ -222,19 +223,15 @@ void Flight::Impl::stop(int i, Code code) {
 }
 
 void Flight::Impl::failsafe(const Event& why) {
-  if (in_failsafe) return;
-  in_failsafe = true;
-  failsafe_since_ns = now_ns;
-  failsafe_reason = why.words.data();
-  Unit& vehicle = *units[static_cast<std::size_t>(graph.vehicle)];
-  vehicle.forced = &graph.failsafe;
-  if (graph.failsafe.empty()) vehicle.silent = true;
+  if (ending.in_failsafe()) return;
+  end_by(Ending::Cue::nobody);
+  failsafe_words = why.words;
   note(why);
 }
 
 const Slot* Flight::Impl::slot_of(const Source& source) const {
   if (source.kind == Source::Kind::component)
-    return &units[static_cast<std::size_t>(source.index)]->slots[static_cast<std::size_t>(source.output)];
+    return &units[static_cast<std::size_t>(source.index)]->out.slots[static_cast<std::size_t>(source.output)];
   if (source.kind == Source::Kind::role)
     return roles[static_cast<std::size_t>(source.index)]
         .slots[static_cast<std::size_t>(source.output)]

@@ -18,8 +18,8 @@ void Flight::apply(Command command, std::function<void(const std::string&)> answ
     case Impl::Taken::idle:
       throw Error(command.component + " does not fly now");
     case Impl::Taken::full:
-      const Reader& r = impl_->units[command.at]->readers[command.part];
-      throw Error(command.component + "." + command.name + " has " + std::to_string(r.count) +
+      const Reader& r = impl_->units[command.at]->in.readers[command.part];
+      throw Error(command.component + "." + command.name + " has " + std::to_string(r.pending.count) +
                   " requests waiting; there is no room for more");
   }
 }
@@ -91,13 +91,13 @@ Flight::Impl::Taken Flight::Impl::take(Command& command, Reply answered) {
 
 Flight::Impl::Taken Flight::Impl::apply_request(const Command& command, Reply answered) {
   Unit& unit = *units[command.at];
-  Reader& r = unit.readers[command.part];
+  Reader& r = unit.in.readers[command.part];
   if (index > 0 && (!unit.active || unit.stopped)) return Taken::idle;
-  if (r.count == r.port->capacity) return Taken::full;
+  if (r.pending.count == r.port->capacity) return Taken::full;
   CopyPlan whole;
   whole.size = r.port->type->size;
   r.push(command.message.data(), now_ns, whole);
-  r.replies[r.count - 1] = std::move(answered);
+  r.pending.replies[r.pending.count - 1] = std::move(answered);
   if (tap) tap->write(static_cast<std::size_t>(r.channel), now_ns, now_ns, command.message.data(), true);
   Event e = event_of(Code::request_taken, unit.component->name, r.port->name);
   say(e, "%s", r.port->name.c_str());
@@ -110,7 +110,7 @@ void Flight::Impl::apply_parameter(Command& command, Code told) {
   const CommandNote& taken = command.note;
   const std::vector<Overlay>* const overlay = overlay_of(static_cast<int>(command.at));
   std::swap(unit.base[command.part], command.value);
-  if (!unit.dead() && !unit.retune(overlay)) {
+  if (!unit.runner().dead() && !unit.retune(overlay)) {
     std::swap(unit.base[command.part], command.value);
     unit.retune(overlay);
     throw Error(unit.component->name + ": " + unit.problem.text);
@@ -139,7 +139,7 @@ void Flight::Impl::apply_import(std::size_t import, const std::byte* message) {
 }
 
 void Flight::Impl::apply_phase(const Command& command) {
-  if (in_failsafe) throw Error("the flight is in its failsafe: no phase can be entered");
+  if (ending.in_failsafe()) throw Error("the flight is in its failsafe: no phase can be entered");
   put_command(command.note);
   enter(static_cast<int>(command.part));  // the present one, too: whoever it names takes over again
 }
@@ -166,7 +166,7 @@ void Flight::Impl::reset_guards(const Command& command) {
 
 /// False: its process has ended, and this is no time to start another.
 bool Flight::Impl::reset_guard(std::size_t i) {
-  if (units[i]->dead()) {
+  if (units[i]->runner().dead()) {
     if (const std::string why = in_use(); !why.empty()) {
       Event e = event_of(Code::guard_not_reset, units[i]->component->name);
       put(e.cause, why);

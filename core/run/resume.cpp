@@ -55,18 +55,15 @@ std::string last_phase(const McapFile& file) {
 }
 
 bool armed_at_end(const Graph& graph, const McapFile& file) {
-  const Component& vehicle = graph.components[static_cast<std::size_t>(graph.vehicle)];
-  for (std::size_t i = 0; i < vehicle.info().outputs.size(); ++i) {
-    const Port& port = vehicle.info().outputs[i];
-    const Field* const armed = port.type ? port.type->find("armed") : nullptr;
-    if (!armed || armed->kind != FULMAR_BOOL) continue;
-    try {
-      return last_message(file, topic_path(topic_name(graph, vehicle, i)), *port.type)[armed->offset] != std::byte{0};
-    } catch (const Error&) {
-      return false;
-    }
+  const VehicleFlag& armed = graph.flags.armed;
+  if (armed.from.kind == Source::Kind::none) return false;
+  const Component& vehicle = graph.components[static_cast<std::size_t>(armed.from.index)];
+  const Type& type = *vehicle.info().outputs[static_cast<std::size_t>(armed.from.output)].type;
+  try {
+    return last_message(file, topic_of(graph, armed.from), type)[armed.offset] != std::byte{0};
+  } catch (const Error&) {
+    return false;
   }
-  return false;
 }
 
 Resume::Param read_rule(const Graph& graph, const McapFile& file, const ResumeRule& rule) {

@@ -91,26 +91,6 @@ void rehearse(const Component& component, std::int64_t tick_ns, std::uint64_t se
   if (tape && !unit.rehearse(*tape)) throw Error(std::string(unit.problem.text));
 }
 
-bool Unit::rehearse(const Tape& from) noexcept {
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    const Tape::Step step = from.step(i);
-    inputs_ = step.inputs;
-    problem.text[0] = '\0';
-    if (i == 0 && functions_->activate &&
-        functions_->activate(instance_, &step.tick, inputs_.data(), last_.data(), &problem) >= FULMAR_FAILED) {
-      if (!problem.text[0]) fail("refuses to take over");
-      return false;
-    }
-    prepare_outputs(step.tick.now_ns);
-    if (functions_->step(instance_, &step.tick, inputs_.data(), outputs_.data(), &problem) >= FULMAR_FAILED) {
-      if (!problem.text[0]) fail("says that it failed");
-      return false;
-    }
-    if (!outputs_good()) return false;
-  }
-  return true;
-}
-
 // ---- in a flight that goes on -----------------------------------------------------------------------------------------------
 
 std::string Flight::Impl::in_use() const {
@@ -170,7 +150,7 @@ void Flight::Impl::restart(std::size_t i) {
   fresh->configure();
   fresh->active = old.active;
   fresh->keep_log_settings(old);
-  old.refuse_requests("was started anew");
+  old.in.refuse_requests("was started anew");
   units[i] = std::move(fresh);
   connect();
   if (const std::vector<Overlay>* overlay = overlay_of(static_cast<int>(i)); overlay) units[i]->retune(overlay);
@@ -198,7 +178,7 @@ void Flight::Impl::install(std::size_t i, Graph&& next) {
   graph.roles = std::move(next.roles);
   graph.done = std::move(next.done), graph.failed = std::move(next.failed);
   graph.overrides = std::move(next.overrides);
-  old.refuse_requests("was swapped");
+  old.in.refuse_requests("was swapped");
   units[i] = std::move(fresh);
   connect();
   if (const std::vector<Overlay>* overlay = overlay_of(static_cast<int>(i)); overlay) units[i]->retune(overlay);

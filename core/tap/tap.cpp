@@ -8,15 +8,13 @@
 #include <bit>
 #include <chrono>
 #include <cstring>
-#include <limits>
 #include <utility>
 
+#include "core/due.hpp"
 #include "core/types/element.hpp"
 
 namespace fulmar::core {
 namespace {
-
-constexpr std::int64_t never = std::numeric_limits<std::int64_t>::min();
 
 constexpr std::size_t record_size(std::size_t data) { return (sizeof(Tap::Sample) + data + 7) & ~std::size_t{7}; }
 
@@ -49,7 +47,7 @@ struct Mark {
 struct Tap::Channel {
   Extent extent;
   std::uint64_t for_log = 0;  // samples
-  std::int64_t due_ns = never;
+  Due due;
   std::atomic<std::int64_t> wanted_ns{-1};
 };
 
@@ -71,10 +69,7 @@ Tap::~Tap() = default;
 bool Tap::wanted(std::size_t channel, std::int64_t now_ns) noexcept {
   Channel& c = state_[channel];
   const std::int64_t period_ns = c.wanted_ns.load(std::memory_order_relaxed);
-  if (period_ns < 0 || now_ns < c.due_ns) return false;
-  const bool late = c.due_ns == never || c.due_ns + period_ns <= now_ns;
-  c.due_ns = (late ? now_ns : c.due_ns) + period_ns;
-  return true;
+  return c.due.take(now_ns, period_ns);
 }
 
 void Tap::put(const Sample& sample, const std::byte* data, std::size_t size) noexcept {

@@ -124,9 +124,11 @@ Node additions(const MissionView& mission, const Contract& contract, const NewCo
     const std::string beside = plugin_beside(mission, text.use);
     std::vector<std::pair<std::string, Node>> keys;
     if (!beside.empty()) keys.emplace_back("use", scalar(beside));
-    const bool sits_there = contract.vehicle() && text.fills == contract.role && text.only.empty() &&
-                            (text.name == "sim" || text.name == "fcu" ? text.name == mission.text.io : true);
-    if (sits_there) keys.emplace_back("only", scalar(mission.text.io == "sim" ? "fcu" : "sim"));  // makes room: there is one vehicle
+    const bool named_so = text.only && text.name == io_word(*text.only);
+    const bool sits_there = contract.vehicle() && text.fills == contract.role &&
+                            (!text.only || (named_so && *text.only == mission.text.io));
+    if (sits_there)  // makes room: there is one vehicle
+      keys.emplace_back("only", scalar(io_word(mission.text.io == Io::sim ? Io::fcu : Io::sim)));
     if (!keys.empty()) components.entries.push_back({text.name, 0, map_of(std::move(keys))});
   }
   if (!component.references.empty())

@@ -114,12 +114,47 @@ TEST_CASE("one word flies the mission on hardware: only the chosen vehicle exist
   Overrides overrides;
   overrides.io = "fcu";
   const Graph graph = mission.load(overrides);
-  CHECK(graph.io == "fcu");
+  CHECK(graph.io == Io::fcu);
   CHECK_FALSE(graph.arm);  // on hardware the pilot arms
   CHECK(index_of(graph, "sim") == -1);
   CHECK(graph.components[static_cast<std::size_t>(graph.vehicle)].name == "fcu");
   CHECK(wire(graph, "score", "truth").from.kind == Source::Kind::none);  // there is no truth on hardware
   CHECK(graph.roles[0].provides[0].back() == -1);
+}
+
+TEST_CASE("what protects the aircraft is in the vehicle's status, unless the mission names it") {
+  Mission mission;
+  Overrides overrides;
+  overrides.io = "fcu";
+  const auto field = [](const Graph& graph, const VehicleFlag& flag) {
+    const Component& vehicle = graph.components[static_cast<std::size_t>(flag.from.index)];
+    const Port& port = vehicle.info().outputs[static_cast<std::size_t>(flag.from.output)];
+    for (const Field& f : port.type->fields)
+      if (f.offset == flag.offset) return vehicle.name + "." + port.name + "." + f.name;
+    return std::string();
+  };
+  const Graph usual = mission.load(overrides);
+  CHECK(field(usual, usual.flags.armed) == "fcu.status.armed");
+  CHECK(field(usual, usual.flags.on_ground) == "fcu.status.on_ground");
+  CHECK(field(usual, usual.flags.in_control) == "fcu.status.in_control");
+  mission.replace("truth?: VehicleState}}", "truth?: VehicleState}, flags: {in_control: status.override}}");
+  const Graph named = mission.load(overrides);
+  CHECK(field(named, named.flags.in_control) == "fcu.status.override");
+  CHECK(field(named, named.flags.armed) == "fcu.status.armed");  // what is not named is as usual
+}
+
+TEST_CASE("only a vehicle called sim or fcu exists with that io alone without saying so") {
+  Mission mission;
+  mission.replace("  truth:  {fills: nav, use: sim_aero/TruthState, in: {truth: vehicle.truth}, only: sim}",
+                  "  truth:  {fills: nav, use: sim_aero/TruthState, in: {truth: vehicle.truth}, only: sim}\n"
+                  "  other:  {fills: vehicle, use: fcu_serial, only: fcu}");
+  CHECK(index_of(mission.load(), "other") == -1);
+  mission.replace("  fcu:    {fills: vehicle,", "  fcu:    {only: sim, fills: vehicle,");
+  CHECK(mission.faults().find("a mission has one vehicle") == std::string::npos);  // the first that fills the role
+  Overrides overrides;
+  overrides.io = "fcu";
+  const Graph graph = mission.load(overrides);  // only: has the last word
+  CHECK(graph.components[static_cast<std::size_t>(graph.vehicle)].name == "other");
 }
 
 TEST_CASE("a required input that nobody feeds on hardware is told") {

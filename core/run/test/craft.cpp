@@ -17,6 +17,7 @@ struct Command {
 
 struct State {
   bool armed = false;
+  bool on_ground = false;
   bool in_control = false;
   double tick_s = 0;
 };
@@ -60,7 +61,7 @@ struct Craft {
     }
     const bool armed = t >= p.arm_at && t < p.disarm_at;
     const bool pilot = t >= p.pilot_from && t < p.pilot_until;
-    out.status.publish({armed, armed && !pilot, t});
+    out.status.publish({armed, !armed, armed && !pilot, t});
     if (n_ > 1) out.applied.publish(applied_);
     if (n_ > 1 && t >= p.note_at && t < p.note_at + 0.0025) {
       out.notices.push({"all is well", Level::info}, tick.now_ns);
@@ -78,6 +79,44 @@ struct Craft {
  private:
   std::int64_t n_ = 0;
   Received applied_;
+};
+
+struct Wheels {
+  bool down = false;
+};
+
+struct Gear {
+  Wheels wheels;
+  bool motors_live = false;
+  bool obeys = false;
+};
+
+/// The craft with flags under names of its own: it arms at once, takes off at 1 s, disarms at 3 s, in the air.
+struct Strange {
+  struct Inputs {
+    Optional<Command> command;
+  };
+  struct Outputs {
+    Out<Received> applied;
+    Out<Gear> gear;
+    Out<State> state;  ///< says nothing: not even whether it is armed
+  };
+  struct Params {
+    Param speak_at{0, "s", 0, 1e9, "says nothing before"};
+  };
+  Status read(Tick& tick, const Params& p, Outputs& out) {
+    tick.now_ns = 2'500'000 * n_++;
+    const double t = tick.now_s();
+    out.state.publish({false, false, false, t});
+    if (t < p.speak_at) return Status::ok;
+    const bool armed = t < 3;
+    out.gear.publish({{t < 1}, armed, armed});
+    return Status::ok;
+  }
+  Status write(const Tick&, const Inputs&, const Params&) { return Status::ok; }
+
+ private:
+  std::int64_t n_ = 0;
 };
 
 /// Integrates 1 per second from whatever it was activated with: 0.
@@ -118,4 +157,4 @@ struct Hoarder {
 
 }  // namespace
 
-FULMAR_PLUGIN("1.0.0", Craft, Hoarder)
+FULMAR_PLUGIN("1.0.0", Craft, Hoarder, Strange)

@@ -300,6 +300,112 @@ TEST_CASE("what cannot be controlled or told is refused with a sentence, and a v
   CHECK(load_mission(file.string()).tell.empty());
 }
 
+// ---- what protects the aircraft -------------------------------------------------------------------------------
+
+namespace {
+
+/// The craft again, with flags under names of its own (craft.cpp: Strange).
+Graph strange(const std::string& flags, const std::string& io = "fcu", const std::string& out = "gear: Gear",
+              const std::string& tail = "") {
+  const fs::path file = folder().path / "strange.yaml";
+  std::ofstream(file) << "mission: strange\nio: " << io << "\nfailsafe: {u_frac: -0.25, for: 0.5 s}\nroles:\n"
+                      << "  vehicle: {in: {command: law.command}, out: {" << out << "}" << flags << "}\n"
+                      << "  law:     {in: {state: vehicle.state}, out: {command: Command}}\n"
+                      << "components:\n  craft: {fills: vehicle, use: craft/Strange}\n"
+                      << "  law_a: {fills: law, use: craft/Hoarder, run: tick}\n"
+                      << tail;
+  return load_mission(file.string());
+}
+
+const std::string its_flags =
+    ",\n    flags: {armed: gear.motors_live, on_ground: gear.wheels.down, in_control: gear.obeys}";
+const std::string its_ports = "gear: Gear, state: State";
+
+std::string refusal(const std::string& flags, const std::string& io = "fcu", const std::string& out = its_ports) {
+  try {
+    strange(flags, io, out);
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("a flag of any name protects the aircraft once the mission names it") {
+  const Graph g = strange(its_flags, "fcu", its_ports, "done: \"vehicle.state.tick_s > 1 s\"\n");
+  std::atomic<int> interrupt{0};
+  Said said;
+  FlightOptions o = listening(said);
+  o.interrupt = &interrupt;
+  Flight flight(g, o);
+  CHECK(fly_until(flight, 1.5));  // done, and armed: it goes on
+  CHECK(said.count("flies on until disarmed") == 1);
+  interrupt = 2;
+  CHECK(fly_until(flight, 2));
+  CHECK(interrupt == 0);
+  CHECK(said.count("the aircraft is armed: Ctrl-C once more within 5 s gives up control") == 1);
+  CHECK_THROWS_WITH(flight.swap("law_a", FULMAR_TEST_PLUGIN_DIR "/craft.so"),
+                    "law_a cannot be swapped: the aircraft is armed. A component is swapped on the ground, disarmed");
+  while (flight.step()) {  // it disarms in the air at 3 s
+  }
+  CHECK(flight.finish().last_ns == 3'000'000'000);
+}
+
+TEST_CASE("disarmed in the air nothing is swapped, by the flag that the mission names") {
+  const Graph g = strange(its_flags, "fcu", its_ports);
+  Said said;
+  Flight flight(g, listening(said));
+  CHECK(fly_until(flight, 3.5));
+  CHECK_THROWS_WITH(flight.swap("law_a", FULMAR_TEST_PLUGIN_DIR "/craft.so"),
+                    "law_a cannot be swapped: the aircraft is in the air. A component is swapped on the ground, disarmed");
+}
+
+TEST_CASE("on hardware a vehicle that does not say what protects its aircraft is refused, with what to write") {
+  const std::string all = " Its flags: applied.present, gear.motors_live, gear.obeys, state.armed, state.on_ground, state.in_control.";
+  CHECK(refusal("") ==
+        "strange.yaml:5: roles.vehicle: with io: fcu the vehicle has to say whether it is armed, on the ground and in control, and craft "
+        "(craft/Strange) has no flag armed, on_ground, in_control in an output 'status'; name its own at the role vehicle, as in flags: "
+        "{armed: PORT.FIELD, on_ground: PORT.FIELD, in_control: PORT.FIELD}." + all);
+  CHECK(refusal(", flags: {armed: gear.motors_live, in_control: gear.obeys}").find("has no flag on_ground in an output") !=
+        std::string::npos);
+  CHECK(refusal("", "sim") == "");  // what is simulated can be left alone
+}
+
+TEST_CASE("a flag that cannot be one is refused with the choices, in simulation too") {
+  const std::string all = " Its flags: applied.present, gear.motors_live, gear.obeys, state.armed, state.on_ground, state.in_control.";
+  const auto fault = [](const std::string& armed) { return refusal(", flags: {armed: " + armed + "}", "sim"); };
+  const std::string at = "strange.yaml:5: roles.vehicle.flags.armed: ";
+  CHECK(fault("state.tick_s") == at + "'state.tick_s' of craft/Strange is no flag, which is true or false." + all);
+  CHECK(fault("geer.obeys") == at + "craft (craft/Strange) has no output 'geer'. Did you mean 'gear'? Valid: applied, gear, state.");
+  CHECK(fault("armed") == at + "expected a field of an output such as status.armed, found 'armed'." + all);
+  CHECK(fault("gear.obey").find("Did you mean 'obeys'?") != std::string::npos);
+  CHECK(refusal(", flags: {arm: gear.obeys}", "sim").find("unknown key 'arm'. Valid: armed, on_ground, in_control.") !=
+        std::string::npos);
+  CHECK(fault("lamps.red") == at + "craft (craft/Strange) has no output 'lamps'. Valid: applied, gear, state.");
+  CHECK(refusal(", flags: {armed: lamps.red}", "sim", its_ports + ", lamps?: Lamps") == "");
+  CHECK(refusal(", flags: {armed: lamps.red}", "fcu", its_ports + ", lamps?: Lamps").find("has no flag armed, on_ground, in_control") !=
+        std::string::npos);
+}
+
+TEST_CASE("a vehicle that has not said anything yet counts as disarmed, on the ground and in control: a host can be ended at its desk") {
+  const Graph g = strange(its_flags, "fcu", its_ports, "control: [law]\n");
+  Overrides mute = g.overrides;
+  mute.set = {{"craft.speak_at", "1e6"}};
+  const Graph silent = load_mission(g.file, mute);
+  std::atomic<int> interrupt{0};
+  Said said;
+  FlightOptions o = listening(said);
+  o.interrupt = &interrupt;
+  Flight flight(silent, o);
+  CHECK(fly_until(flight, 1));
+  interrupt = 2;
+  CHECK_FALSE(flight.step());
+  const FlightResult r = flight.finish();
+  CHECK(r.outcome == Outcome::interrupted);
+  CHECK(r.reason == "by a signal");
+}
+
 // ---- a restart in the air -----------------------------------------------------------------------------------------------------
 
 namespace {

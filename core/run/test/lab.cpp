@@ -41,6 +41,10 @@ struct Step {
   double to_m = 0;
 };
 
+struct Stance {
+  bool stands = false, obeys = false;
+};
+
 struct Cart {
   struct Inputs {
     Optional<Command> command;
@@ -51,6 +55,7 @@ struct Cart {
     Out<Received> applied;  ///< what write received in the tick before
     OutQueue<Signal, 4> burst;
     Out<Arm> status;
+    Out<Stance> stance;  ///< flags that only a mission can name
   };
   struct Params {
     Param rate{400, "Hz", 1, 10000, "tick rate", setup};
@@ -76,6 +81,7 @@ struct Cart {
     if (n_ > 0) out.applied.publish(applied_);
     for (int i = 0; i < p.burst_size; ++i) out.burst.push({s.x_m + 0.1 * i, 0}, tick.now_ns + i);
     out.status.publish({armed_ && tick.now_ns >= 0});
+    out.stance.publish({!armed_, armed_});
     ++n_;
     return Status::ok;
   }

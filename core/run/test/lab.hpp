@@ -60,6 +60,9 @@ inline Graph mission(const std::string& tail, const std::vector<std::pair<std::s
   std::ofstream out(file);
   for (std::string line; std::getline(lines, line);) {
     const std::string key = line.substr(0, line.find(':') + 1);
+    // on hardware a mission has to name what the cart's status does not say
+    if (key == "  vehicle:" && tail.find("io: fcu") != std::string::npos)
+      line.insert(line.find("{in:") + 1, "flags: {on_ground: stance.stands, in_control: stance.obeys}, ");
     if (!line.starts_with("  ") || key.empty() || ("\n" + tail).find("\n" + key) == std::string::npos) out << line << "\n";
   }
   out << tail;

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What protects an aircraft: which fields of its vehicle say that it is armed, on the ground, and under the
+// host's control. The host knows no message, so the mission names them; unless it does, they are looked for in
+// the output 'status'.
+#include <algorithm>
+#include <array>
+
+#include "core/graph/draft.hpp"
+
+namespace fulmar::core {
+namespace {
+
+constexpr const char* default_port = "status";
+
+struct Wanted {
+  const char* name;
+  VehicleFlag VehicleFlags::*flag;
+};
+constexpr std::array<Wanted, 3> wanted = {Wanted{"armed", &VehicleFlags::armed},
+                                          {"on_ground", &VehicleFlags::on_ground},
+                                          {"in_control", &VehicleFlags::in_control}};
+
+/// All that could be named: "status.armed, status.in_control".
+std::vector<std::string> flag_names(const ComponentInfo& vehicle) {
+  std::vector<std::string> names;
+  for (const Port& port : vehicle.outputs)
+    for (std::size_t i = 0; port.type && i < port.type->fields.size(); ++i)
+      if (const Field& field = port.type->fields[i]; field.kind == FULMAR_BOOL && field.shape == FULMAR_SCALAR)
+        names.push_back(port.name + "." + field.name);
+  return names;
+}
+
+std::string flags_text(const ComponentInfo& vehicle) {
+  const std::vector<std::string> names = flag_names(vehicle);
+  return names.empty() ? " It has no flag in any output." : " Its flags: " + join(names) + ".";
+}
+
+/// "status.armed", found in the vehicle's outputs. Throws Error with the valid choices.
+VehicleFlag named_flag(const Graph& graph, const std::string& text) {
+  const Component& vehicle = graph.components[static_cast<std::size_t>(graph.vehicle)];
+  const ComponentInfo& info = vehicle.info();
+  const auto dot = text.find('.');
+  if (dot == std::string::npos)
+    throw Error("expected a field of an output such as status.armed, found '" + text + "'." + flags_text(info));
+  const std::string port = text.substr(0, dot);
+  const int output = info.output(port);
+  std::vector<std::string> ports;
+  for (const Port& each : info.outputs)
+    if (each.type) ports.push_back(each.name);
+  if (output < 0 || !info.outputs[static_cast<std::size_t>(output)].type)
+    throw Error(vehicle.name + " (" + vehicle.use + ") has no output '" + port + "'." + choices_text(port, ports));
+  const FieldRef field =
+      resolve_field(*info.outputs[static_cast<std::size_t>(output)].type, std::string_view(text).substr(dot + 1));
+  if (field.field->kind != FULMAR_BOOL)
+    throw Error("'" + text + "' of " + vehicle.use + " is no flag, which is true or false." + flags_text(info));
+  return {{Source::Kind::component, graph.vehicle, output}, field.offset};
+}
+
+/// The flag of that name in the output 'status'; none when there is none.
+VehicleFlag usual_flag(const Graph& graph, const char* name) {
+  const ComponentInfo& info = graph.components[static_cast<std::size_t>(graph.vehicle)].info();
+  const int output = info.output(default_port);
+  const TypePtr type = output < 0 ? nullptr : info.outputs[static_cast<std::size_t>(output)].type;
+  const Field* const field = type ? type->find(name) : nullptr;
+  if (!field || field->kind != FULMAR_BOOL || field->shape != FULMAR_SCALAR) return {};
+  return {{Source::Kind::component, graph.vehicle, output}, field->offset};
+}
+
+/// Of an optional output that this vehicle does not have, nothing can be said: it is there with the other io.
+bool not_in_this_run(const Draft& draft, const RoleText& role, const std::string& text) {
+  const ComponentInfo& info = draft.graph.components[static_cast<std::size_t>(draft.graph.vehicle)].info();
+  const std::string port = text.substr(0, text.find('.'));
+  return info.output(port) < 0 &&
+         std::any_of(role.out.begin(), role.out.end(), [&](const auto& out) { return out.optional && out.name == port; });
+}
+
+/// An aircraft of which the host does not know whether it is armed would be left in the air by a Ctrl-C.
+void check_complete(Draft& draft, const std::vector<std::string>& missing) {
+  const Component& vehicle = draft.graph.components[static_cast<std::size_t>(draft.graph.vehicle)];
+  const RoleText* const role = draft.text.role("vehicle");
+  std::string example;
+  for (const std::string& name : missing) example += (example.empty() ? "" : ", ") + name + ": PORT.FIELD";
+  draft.report.add(role ? role->where : vehicle.where,
+                   std::string(role ? "roles.vehicle" : "components." + vehicle.name) +
+                       ": with io: fcu the vehicle has to say whether it is armed, on the ground and in control, and " +
+                       vehicle.name + " (" + vehicle.use + ") has no flag " + join(missing) + " in an output '" +
+                       default_port + "'; name its own at the role vehicle, as in flags: {" + example + "}." +
+                       flags_text(vehicle.info()));
+}
+
+}  // namespace
+
+void read_vehicle_flags(Draft& draft) {
+  Graph& graph = draft.graph;
+  if (graph.vehicle < 0) return;
+  const RoleText* const role = draft.text.role("vehicle");
+  std::vector<std::string> missing;
+  for (const Wanted& each : wanted) {
+    VehicleFlag& flag = graph.flags.*each.flag;
+    flag = usual_flag(graph, each.name);
+    bool refused = false;
+    for (std::size_t i = 0; role && i < role->flags.size(); ++i) {
+      const auto& [name, word] = role->flags[i];
+      if (name != each.name) continue;
+      flag = {};
+      if (not_in_this_run(draft, *role, word.text)) continue;
+      try {
+        flag = named_flag(graph, word.text);
+      } catch (const Error& fault) {
+        refused = true;
+        draft.report.add(word.where, "roles.vehicle.flags." + name + ": " + fault.what());
+      }
+    }
+    if (flag.from.kind == Source::Kind::none && !refused) missing.emplace_back(each.name);
+  }
+  if (graph.io == Io::fcu && !missing.empty()) check_complete(draft, missing);
+}
+
+}  // namespace fulmar::core

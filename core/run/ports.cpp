@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/run/ports.hpp"
+
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+namespace fulmar::core {
+
+void put_problem(fulmar_error& problem, const char* format, ...) noexcept {
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(problem.text, sizeof problem.text, format, arguments);
+  va_end(arguments);
+}
+
+void Reader::push(const std::byte* message, std::int64_t valid_at_ns, const CopyPlan& plan) noexcept {
+  Pending& p = pending;
+  if (p.count == port->capacity) {
+    ++p.lost;
+    return;
+  }
+  plan.run(message, p.items.data() + std::size_t{p.count} * port->type->size);
+  p.stamps[p.count] = valid_at_ns;
+  p.answers[p.count] = {};
+  p.replies[p.count] = nullptr;
+  ++p.count;
+}
+
+void Reader::latch() noexcept {
+  const Slot* s = source();
+  const std::uint64_t now = published();
+  if (!s || now == copied) return;
+  plans[role ? static_cast<std::size_t>(s->filler) : 0].run(s->published.data(), copy.data());
+  copied = now;
+  copied_valid_ns = s->valid_at_ns;
+}
+
+// ---- inputs ------------------------------------------------------------------------------------------------
+
+Intake::Intake(const Component& component)
+    : readers(component.info().inputs.size()), views(component.info().inputs.size()) {
+  for (std::size_t i = 0; i < readers.size(); ++i) {
+    Reader& r = readers[i];
+    r.port = &component.info().inputs[i];
+    r.wire = &component.wires[i];
+    r.max_age_ns = r.wire->max_age_ns;
+    if (r.port->kind == FULMAR_IN_VALUE) continue;
+    r.pending.items.resize(std::size_t{r.port->capacity} * r.port->type->size);
+    r.pending.stamps.resize(r.port->capacity);
+    r.pending.answers.resize(r.port->capacity);
+    r.pending.replies.resize(r.port->capacity);
+    if (r.port->kind == FULMAR_IN_REQUEST) refusals.reserve(32);
+  }
+}
+
+namespace {
+
+bool lacks_sample(const Reader& r) noexcept {
+  return !r.port->optional && r.port->kind == FULMAR_IN_VALUE && r.sequence() == 0;
+}
+
+/// The view of a value that has a sample.
+void view_sample(Reader& r, std::int64_t now_ns, fulmar_input& in) noexcept {
+  const Slot* const s = r.source();
+  const CopyPlan& plan = r.plans[r.role ? static_cast<std::size_t>(s->filler) : 0];
+  in.data = s->published.data();
+  in.valid_at_ns = s->valid_at_ns;
+  if (r.delayed) {
+    in.data = r.copy.data();
+    in.valid_at_ns = r.copied_valid_ns;
+  } else if (!plan.whole) {
+    if (r.copied != in.sequence) plan.run(s->published.data(), r.copy.data());
+    r.copied = in.sequence;
+    in.data = r.copy.data();
+  }
+  in.age_ns = now_ns - in.valid_at_ns;
+  in.count = 1;
+  if (in.sequence != r.seen) in.flags |= FULMAR_FRESH;
+  if (r.max_age_ns > 0 && in.age_ns > r.max_age_ns) in.flags |= FULMAR_STALE;
+}
+
+}  // namespace
+
+bool Intake::ready() const noexcept {
+  for (const Reader& r : readers)
+    if (lacks_sample(r)) return false;
+  return true;
+}
+
+void Intake::tell_missing(fulmar_error& problem) const noexcept {
+  for (const Reader& r : readers)
+    if (lacks_sample(r)) put_problem(problem, "input '%s' has no sample", r.port->name.c_str());
+}
+
+Intake::State Intake::prepare(std::int64_t now_ns, fulmar_error& problem) noexcept {
+  for (std::size_t i = 0; i < readers.size(); ++i) {
+    Reader& r = readers[i];
+    fulmar_input& in = views[i];
+    in.flags = 0;
+    if (r.port->kind != FULMAR_IN_VALUE) {
+      in.data = r.pending.items.data();
+      in.stamps_ns = r.pending.stamps.data();
+      in.answers = r.pending.answers.data();
+      in.count = r.pending.count;
+      in.lost = r.pending.lost;
+      continue;
+    }
+    in.sequence = r.sequence();
+    if (!r.source() || in.sequence == 0) {
+      in = {};
+      if (!r.port->optional) return State::missing;
+      continue;
+    }
+    view_sample(r, now_ns, in);
+    if (!r.guarded || (in.flags & FULMAR_STALE) == 0) continue;
+    put_problem(problem, "input '%s' is %.3f s old, the limit is %.3f s", r.port->name.c_str(),
+                1e-9 * static_cast<double>(in.age_ns), 1e-9 * static_cast<double>(r.max_age_ns));
+    return State::stale;
+  }
+  return State::good;
+}
+
+void Intake::consume() noexcept {
+  for (std::size_t i = 0; i < readers.size(); ++i) {
+    Reader& r = readers[i];
+    if (r.port->kind == FULMAR_IN_VALUE) {
+      r.seen = views[i].sequence;
+      continue;
+    }
+    for (std::uint32_t k = 0; k < r.pending.count; ++k)
+      if (r.port->kind == FULMAR_IN_REQUEST) answer(i, r.pending.replies[k], r.pending.answers[k]);
+    r.pending.count = r.pending.lost = 0;
+  }
+}
+
+/// Tells whoever asked what came of a request.
+void Intake::answer(std::size_t input, Reply& reply, const fulmar_answer& a) noexcept {
+  const char* const why = a.verdict == FULMAR_ACCEPTED  ? ""
+                          : a.verdict == FULMAR_REFUSED ? a.reason
+                                                        : "was not answered";
+  if (*why && refusals.size() < refusals.capacity()) {
+    refusals.emplace_back().input = static_cast<std::uint32_t>(input);
+    std::snprintf(refusals.back().reason.data(), refusals.back().reason.size(), "%s", why);
+  }
+  if (reply) reply(why);
+  reply = nullptr;
+}
+
+void Intake::forget_queues() noexcept {
+  for (Reader& r : readers)
+    if (r.port->kind == FULMAR_IN_QUEUE) r.pending.count = r.pending.lost = 0;
+}
+
+void Intake::refuse_requests(const char* why) noexcept {
+  for (Reader& r : readers) {
+    if (r.port->kind != FULMAR_IN_REQUEST) continue;
+    for (std::uint32_t k = 0; k < r.pending.count; ++k) {
+      if (r.pending.replies[k]) r.pending.replies[k](why);
+      r.pending.replies[k] = nullptr;
+    }
+    r.pending.count = r.pending.lost = 0;
+  }
+}
+
+// ---- outputs -----------------------------------------------------------------------------------------------
+
+Outlets::Outlets(const Component& component, Unit& owner)
+    : slots(component.info().outputs.size()), views(component.info().outputs.size()) {
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    Slot& s = slots[i];
+    s.port = &component.info().outputs[i];
+    s.owner = &owner;
+    s.size = s.port->type ? s.port->type->size : sizeof(double);
+    s.staging.resize(std::size_t{s.size} * s.port->capacity);
+    s.published.resize(s.size);
+    s.stamps.resize(s.port->capacity);
+    if (s.port->type)
+      s.guard = std::make_unique<Guard>(*s.port->type);
+    else
+      probes.outputs.push_back(static_cast<std::uint32_t>(i));
+  }
+  probes.values.resize(probes.outputs.size());
+}
+
+void Outlets::prepare(std::int64_t now_ns) noexcept {
+  for (std::size_t i = 0; i < slots.size(); ++i)
+    views[i] = {slots[i].staging.data(), slots[i].stamps.data(), now_ns, 0, 0};
+}
+
+namespace {
+
+bool probe_good(const Slot& s, const fulmar_output& out, fulmar_error& problem) noexcept {
+  double value = 0;
+  std::memcpy(&value, s.staging.data(), sizeof value);
+  if (out.count == 0 || std::isfinite(value)) return true;
+  put_problem(problem, "probe '%s' is not finite", s.port->name.c_str());
+  return false;
+}
+
+bool messages_good(Slot& s, const fulmar_output& out, fulmar_error& problem) noexcept {
+  const std::uint32_t count = s.port->kind == FULMAR_OUT_VALUE ? 1 : out.count;
+  if (count > s.port->capacity) {
+    put_problem(problem, "output '%s' holds %u items, there is room for %u", s.port->name.c_str(), count,
+                s.port->capacity);
+    return false;
+  }
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const std::byte* message = s.staging.data() + std::size_t{k} * s.size;
+    if (s.guard->check(message)) continue;
+    const int n = std::snprintf(problem.text, sizeof problem.text, "output '%s': ", s.port->name.c_str());
+    s.guard->explain_to(message, problem.text + n, sizeof problem.text - static_cast<std::size_t>(n));
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool Outlets::good(fulmar_error& problem) noexcept {
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    const bool probe = slots[i].port->kind == FULMAR_OUT_PROBE;
+    if (!(probe ? probe_good(slots[i], views[i], problem) : messages_good(slots[i], views[i], problem)))
+      return false;
+  }
+  return true;
+}
+
+}  // namespace fulmar::core

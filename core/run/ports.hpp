@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The ports of a component in flight. Its inputs are views of other components' outputs, its outputs are double
+// buffers: a step writes into `staging`, and what passes the guards is published, so a bad step leaves the last
+// good output in place.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "core/due.hpp"
+#include "core/graph/graph.hpp"
+#include "core/run/async.hpp"
+#include "core/types/hash.hpp"
+
+namespace fulmar::core {
+
+class Unit;
+struct Reader;
+
+/// Where what is published goes in the tap, and how often the log takes it.
+struct LogPlace {
+  std::size_t channel = 0;
+  std::int64_t period_ns = -1;  // -1: never, 0: every time
+  Due due;
+};
+
+/// One output of one component: the last published sample, and those that take every sample.
+struct Slot {
+  const Port* port = nullptr;
+  Unit* owner = nullptr;
+  std::uint32_t size = 0;  // of one message
+  std::vector<std::byte> staging, published;
+  std::vector<std::int64_t> stamps;
+  std::int64_t valid_at_ns = 0;
+  std::uint64_t sequence = 0;  // 0: never published
+  std::unique_ptr<Guard> guard;
+  std::vector<std::pair<Reader*, const CopyPlan*>> queues;  // inputs that take every sample
+  struct RoleSlot* role = nullptr;                          // the role output that this one provides
+  int filler = -1;                                          // of that role
+  std::unique_ptr<MessageHash> hash;                        // null: what it publishes is stored whole
+  LogPlace log;
+};
+
+/// One output of a role: the slot of whoever published last while active.
+struct RoleSlot {
+  TypePtr type;
+  const Slot* current = nullptr;
+  std::uint64_t sequence = 0;
+  std::vector<std::pair<Reader*, std::vector<CopyPlan>>> queues;  // plans: one per filler
+  // for those who know the role's own table: conditions, figures
+  std::vector<CopyPlan> plans;  // one per filler
+  mutable std::vector<std::byte> copy;
+  const std::byte* message() const noexcept {
+    const CopyPlan& plan = plans[static_cast<std::size_t>(current->filler)];
+    if (plan.whole) return current->published.data();
+    plan.run(current->published.data(), copy.data());
+    return copy.data();
+  }
+};
+
+/// What waits at a queue or request input for the next step.
+struct Pending {
+  std::vector<std::byte> items;
+  std::vector<std::int64_t> stamps;
+  std::vector<fulmar_answer> answers;
+  std::vector<Reply> replies;
+  std::uint32_t count = 0, lost = 0;
+};
+
+/// One input of one component.
+struct Reader {
+  const Port* port = nullptr;
+  const Wire* wire = nullptr;
+  std::int64_t max_age_ns = 0;  // 0: any
+  bool guarded = false;         // a sample that is too old stops the component
+  bool delayed = false;         // it sees what was there at the end of the previous tick
+  const Slot* slot = nullptr;
+  const RoleSlot* role = nullptr;
+  std::vector<CopyPlan> plans;  // value inputs: of the slot, or one per filler of the role
+  std::vector<std::byte> copy;  // where the plan is not a whole copy
+  std::uint64_t copied = 0, seen = 0;
+  std::int64_t copied_valid_ns = 0;
+  Pending pending;
+  int channel = -1;  // of the tap: what comes from outside is stored
+
+  const Slot* source() const { return slot ? slot : role ? role->current : nullptr; }
+  /// Samples published on the wire so far, and of those the ones that a step may see.
+  std::uint64_t published() const { return slot ? slot->sequence : role ? role->sequence : 0; }
+  std::uint64_t sequence() const { return delayed ? copied : published(); }
+  void latch() noexcept;  // delayed wires, at the end of a tick
+  void push(const std::byte* message, std::int64_t valid_at_ns, const CopyPlan& plan) noexcept;
+};
+
+/// The inputs of a component, as its functions take them.
+class Intake {
+ public:
+  enum class State : std::uint8_t { good, missing, stale };
+  /// A request that was refused in the last step, for the log.
+  struct Refusal {
+    std::uint32_t input = 0;
+    std::array<char, sizeof(fulmar_answer::reason)> reason{};
+  };
+
+  explicit Intake(const Component& component);
+  /// [tick] Whether every required input has a sample.
+  bool ready() const noexcept;
+  /// [tick] Fills `views`. When an input is too old, `problem` says which.
+  State prepare(std::int64_t now_ns, fulmar_error& problem) noexcept;
+  /// [tick] Says in `problem` which required input has no sample.
+  void tell_missing(fulmar_error& problem) const noexcept;
+  /// [tick] After a step: what it has seen is not news any more, and its answers go to those who asked.
+  void consume() noexcept;
+  void answer(std::size_t input, Reply& reply, const fulmar_answer& a) noexcept;
+  /// [tick] What came in while another one flew is not news.
+  void forget_queues() noexcept;
+  /// [tick] Requests that will not be answered: whoever asked is told why.
+  void refuse_requests(const char* why) noexcept;
+
+  std::vector<Reader> readers;
+  std::vector<fulmar_input> views;
+  std::vector<Refusal> refusals;  // room for some
+};
+
+/// All probes of a component are one message of the tap.
+struct Probes {
+  std::vector<std::uint32_t> outputs;
+  std::vector<double> values;
+  LogPlace log;
+};
+
+/// The outputs of a component, as its functions take them. Probes too.
+class Outlets {
+ public:
+  Outlets(const Component& component, Unit& owner);
+  /// [tick] Room for what a step publishes, dated now unless it says otherwise.
+  void prepare(std::int64_t now_ns) noexcept;
+  /// [tick] Whether what the step has written passes the guards; else `problem` says what does not.
+  bool good(fulmar_error& problem) noexcept;
+  /// [tick] Publishes it; `each(slot)` for each sample.
+  template <class F>
+  void publish(F&& each);
+
+  std::vector<Slot> slots;
+  std::vector<fulmar_output> views;
+  Probes probes;
+};
+
+template <class F>
+void Outlets::publish(F&& each) {
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    Slot& s = slots[i];
+    const fulmar_output& out = views[i];
+    if (s.port->kind == FULMAR_OUT_PROBE) {
+      if (out.count > 0) std::memcpy(s.published.data(), s.staging.data(), sizeof(double)), ++s.sequence;
+      continue;
+    }
+    const std::uint32_t count = s.port->kind == FULMAR_OUT_VALUE ? 1 : out.count;
+    if (out.lost > 0) {
+      for (auto& [reader, plan] : s.queues) reader->pending.lost += out.lost;
+      if (s.role)
+        for (auto& [reader, plans] : s.role->queues) reader->pending.lost += out.lost;
+    }
+    for (std::uint32_t k = 0; k < count; ++k) {
+      std::memcpy(s.published.data(), s.staging.data() + std::size_t{k} * s.size, s.size);
+      s.valid_at_ns = s.port->kind == FULMAR_OUT_QUEUE ? s.stamps[k] : out.valid_at_ns;
+      ++s.sequence;
+      each(s);
+    }
+  }
+}
+
+[[gnu::format(printf, 2, 3)]] void put_problem(fulmar_error& problem, const char* format, ...) noexcept;
+
+}  // namespace fulmar::core

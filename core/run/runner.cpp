@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/run/runner.hpp"
+
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/run/inside.hpp"
+#include "core/run/realtime.hpp"
+
+namespace fulmar::core {
+
+void put_if_silent(fulmar_error& problem, const char* text) noexcept {
+  if (problem.text[0] == '\0') put_problem(problem, "%s", text);
+}
+
+namespace {
+
+void* create_instance(const Component& c, const fulmar_component& functions, std::uint64_t seed) {
+  fulmar_error problem{};
+  const Inside inside(c.name, "constructor");
+  void* const instance = functions.create(seed, &problem);
+  if (!instance) throw Error(c.where.text() + ": " + c.name + ": cannot be created: " + problem.text);
+  return instance;
+}
+
+std::unique_ptr<Isolated> spawn(const Component& c, std::uint64_t seed, bool paced) {
+  IsolatedOptions o;
+  o.name = c.name, o.copy = c.plugin->copy, o.script = c.plugin->script, o.file = c.plugin->file, o.path = c.plugin->path;
+  o.index = c.index_in_plugin, o.seed = seed;
+  if (paced) o.hang_ns = c.hang_ns;
+  auto child = std::make_unique<Isolated>(c.info(), o);
+  wait_for_child(child->pid());
+  return child;
+}
+
+}  // namespace
+
+// ---- in the loop's thread ------------------------------------------------------------------------------------
+
+Direct::Direct(const Component& c, std::uint64_t seed)
+    : Direct(c, c.library->functions(c.index_in_plugin),
+             create_instance(c, c.library->functions(c.index_in_plugin), seed)) {}
+
+Direct::~Direct() {
+  const Inside inside(name_, "destructor");
+  functions_.destroy(instance_);
+}
+
+std::uint32_t Direct::configure(const fulmar_value* values, fulmar_error& problem) {
+  const Inside inside(name_, "configure");
+  return functions_.configure(instance_, values, &problem);
+}
+
+const fulmar_last_frame* Direct::last_frame(const fulmar_input* failsafe, fulmar_error& problem) {
+  if (!functions_.get_extension) return nullptr;
+  const auto encode =
+      reinterpret_cast<fulmar_last_frame_function>(const_cast<void*>(functions_.get_extension(FULMAR_LAST_FRAME)));
+  return encode ? encode(instance_, failsafe, &problem) : nullptr;
+}
+
+bool Direct::retune(const std::vector<fulmar_value>& values, fulmar_error& problem) noexcept {
+  if (!functions_.retune) return true;
+  const Inside inside(name_, "retune");
+  return functions_.retune(instance_, values.data(), &problem) != FULMAR_FAILED;
+}
+
+bool Direct::activate(const fulmar_tick& tick, const std::vector<fulmar_input>& inputs,
+                      const std::vector<fulmar_input>& last, fulmar_error& problem) noexcept {
+  if (!functions_.activate) return true;
+  const Inside inside(name_, "activate");
+  if (functions_.activate(instance_, &tick, inputs.data(), last.data(), &problem) < FULMAR_FAILED) return true;
+  put_if_silent(problem, "refuses to take over");
+  return false;
+}
+
+void Direct::deactivate() noexcept {
+  const Inside inside(name_, "deactivate");
+  if (functions_.deactivate) functions_.deactivate(instance_);
+}
+
+Verdict Direct::step(const fulmar_tick& tick, Intake& in, Outlets& out, fulmar_error& problem) noexcept {
+  const HeapUse before = thread_heap();
+  std::uint32_t status = FULMAR_OK;
+  {
+    const Inside inside(name_, "step");
+    status = functions_.step(instance_, &tick, in.views.data(), out.views.data(), &problem);
+  }
+  const HeapUse now = thread_heap();
+  heap_.calls += now.calls - before.calls;
+  heap_.bytes += now.bytes - before.bytes;
+  if (status >= FULMAR_FAILED) {
+    put_if_silent(problem, "says that it failed");
+    return {Verdict::Kind::bad};
+  }
+  return {Verdict::Kind::stepped, status == FULMAR_DEGRADED};
+}
+
+std::uint32_t Direct::read(fulmar_tick& tick, Outlets& out, fulmar_error& problem) noexcept {
+  const std::uint64_t before = thread_allocations();
+  const Inside inside(name_, "read");
+  const std::uint32_t status = functions_.read(instance_, &tick, out.views.data(), &problem);
+  heap_.calls += thread_allocations() - before;
+  return status;
+}
+
+std::uint32_t Direct::write(const fulmar_tick& tick, const Intake& in, fulmar_error& problem) noexcept {
+  const std::uint64_t before = thread_allocations();
+  const Inside inside(name_, "write");
+  const std::uint32_t status = functions_.write(instance_, &tick, in.views.data(), &problem);
+  heap_.calls += thread_allocations() - before;
+  return status;
+}
+
+// ---- in a child ----------------------------------------------------------------------------------------------
+
+Child::Child(const Component& c, std::uint64_t seed, bool paced) : Child(c, spawn(c, seed, paced)) {}
+
+Child::Child(const Component& c, std::unique_ptr<Isolated> child)
+    : Direct(c, Isolated::functions(), child.get()), child_(std::move(child)) {}
+
+Verdict Child::step(const fulmar_tick& tick, Intake& in, Outlets& out, fulmar_error& problem) noexcept {
+  const Verdict verdict = Direct::step(tick, in, out, problem);
+  heap_ = {child_->allocations(), child_->heap_growth()};
+  return verdict;
+}
+
+}  // namespace fulmar::core

@@ -28,7 +28,7 @@ bool can_run(const fs::path& file) {
 /// A word that can be a command: no path, and no helper that only the host itself starts.
 bool is_command(const std::string& word) {
   constexpr const char* letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
-  static const std::vector<std::string> parts{"child", "live", "log", "new", "probe"};  // of Fulmar, no commands
+  static const std::vector<std::string> parts{"child", "inspect", "live", "log", "new", "probe"};  // of Fulmar, no commands
   return !word.empty() && word[0] != '-' && word.find_first_not_of(letters) == std::string::npos &&
          std::find(parts.begin(), parts.end(), word) == parts.end();
 }
@@ -55,6 +55,8 @@ void become(const fs::path& program, const std::string& word, char** words) {
 
 const std::vector<OwnCommand>& own_commands() {
   static const std::vector<OwnCommand> list = {
+      {"graph", "fulmar-inspect", "print components, wires, order and phases of a mission"},
+      {"inspect", "fulmar-inspect", "print what a plugin file offers"},
       {"new", "fulmar-new", "write the project of a plugin that fills a role of a mission"},
       {"log", "fulmar-log", "look at a log, repair it, export it, compare it"},
       {"list", "fulmar-live", "components of a running flight, their ports, requests and phases"},

@@ -5,72 +5,20 @@
 #include <charconv>
 #include <cstdio>
 #include <functional>
-#include <iostream>
 #include <string_view>
 
 #include "core/app/extern_command.hpp"
+#include "core/app/mission_options.hpp"
 #include "core/app/program.hpp"
 #include "core/app/replay_command.hpp"
 #include "core/app/run_command.hpp"
 #include "core/error.hpp"
 #include "core/graph/graph.hpp"
-#include "core/loader/inspect.hpp"
-#include "core/loader/library.hpp"
 #include "core/run/realtime.hpp"
 
 namespace {
 
 using namespace fulmar::core;
-
-const CLI::Validator whole_number(
-    [](const std::string& text) {
-      const bool good = !text.empty() && text.size() < 20 && text.find_first_not_of("0123456789") == std::string::npos;
-      return good ? std::string() : "give a whole number from 0, not '" + text + "'";
-    },
-    "NUMBER");
-
-/// "a=b" -> {a, b}
-std::vector<std::pair<std::string, std::string>> pairs(const std::vector<std::string>& words) {
-  std::vector<std::pair<std::string, std::string>> out;
-  for (const std::string& word : words) {
-    const std::size_t equals = word.find('=');
-    if (equals == std::string::npos || equals == 0) throw CLI::ValidationError("'" + word + "' is not of the form name=value");
-    out.emplace_back(word.substr(0, equals), word.substr(equals + 1));
-  }
-  return out;
-}
-
-struct MissionOptions {
-  std::string mission, io;
-  std::uint64_t seed = 0;
-  bool seed_given = false;
-  std::vector<std::string> roles, set, with;
-
-  void add(CLI::App* command) {
-    command->add_option("MISSION", mission, "mission file (YAML)")->required();
-    command->add_option("--io", io, "sim or fcu: simulated aircraft or flight controller")->check(CLI::IsMember({"sim", "fcu"}));
-    command->add_option("--role", roles, "ROLE=COMPONENT: who fills a role in every phase")
-        ->type_name("ROLE=COMPONENT")
-        ->allow_extra_args(false);
-    command->add_option("--with", with, "COMPONENT=PLUGIN.so: another file for a component")
-        ->type_name("COMPONENT=FILE")
-        ->allow_extra_args(false);
-    command->add_option("--seed", seed, "seed of all noise")->check(whole_number);
-    command->add_option("--set", set, "COMPONENT.PARAMETER=VALUE")->type_name("COMP.PARAM=VALUE")->allow_extra_args(false);
-  }
-  Overrides overrides(const CLI::App* command) const {
-    Overrides o;
-    if (!io.empty()) o.io = io;
-    if (command->count("--seed") > 0) o.seed = seed;
-    o.roles = pairs(roles);
-    o.set = pairs(set);
-    o.with = pairs(with);
-    for (const auto& [component, file] : o.with)
-      if (file.empty())
-        throw CLI::ValidationError("--with " + component + "=: a file is missing, as in --with " + component + "=my_law.so");
-    return o;
-  }
-};
 
 int check(const std::string& mission, const Overrides& overrides) {
   const Graph graph = load_mission(mission, overrides);
@@ -84,9 +32,8 @@ struct Commands {
   CLI::App app{"Fulmar: a fixed-wing autopilot for research. A mission is a YAML file; its components are plugins."};
   MissionOptions mission;
   RunOptions run;
-  std::string speed = "max", format = "text", plugin, resume_log;
+  std::string speed = "max", resume_log;
   double duration = 0;
-  bool fields = false, markdown = false;
   ReplayWords replay;
   std::vector<std::string> replay_set, replay_with;
   std::vector<std::pair<CLI::App*, std::function<int()>>> actions;
@@ -98,12 +45,11 @@ struct Commands {
     app.footer("Example: fulmar run configs/missions/hourglass.yaml --seed 3 --set slc.roll_limit=\"30 deg\"" +
                (programs.empty() ? "" : "\n\nPrograms beside this one: " + join(programs) + " (fulmar " + programs[0] + " --help)"));
     add_run();
-    add_looks();
-    for (const OwnCommand& command : own_commands())
-      if (command.word == std::string_view("new")) name_other(command);
-    add_replay();
-    for (const OwnCommand& command : own_commands())
-      if (command.word != std::string_view("new")) name_other(command);
+    add_check();
+    for (const OwnCommand& command : own_commands()) {
+      if (command.word == std::string_view("log")) add_replay();
+      name_other(command);
+    }
   }
 
   /// What another program carries out stands here for the help alone.
@@ -158,25 +104,10 @@ struct Commands {
     };
   }
 
-  void add_looks() {
-    CLI::App* check_command = add("check", "check a mission file: every fault in one go", {});
-    mission.add(check_command);
-    actions.back().second = [this, check_command] { return check(mission.mission, mission.overrides(check_command)); };
-    CLI::App* graph = add("graph", "print components, wires, order and phases of a mission", {});
-    mission.add(graph);
-    graph->add_option("--format", format, "text, dot or mermaid")->check(CLI::IsMember({"text", "dot", "mermaid"}));
-    actions.back().second = [this, graph] {
-      std::cout << print_graph(load_mission(mission.mission, mission.overrides(graph)), format);
-      return 0;
-    };
-    CLI::App* inspect = add("inspect", "print what a plugin file offers", [this] {
-      const std::shared_ptr<Library> library = Library::open(plugin);
-      std::cout << (markdown ? describe_plugin_markdown(library->info()) : describe_plugin(library->info(), fields));
-      return 0;
-    });
-    inspect->add_option("PLUGIN", plugin, "shared object")->required();
-    inspect->add_flag("--fields", fields, "also the fields of every message");
-    inspect->add_flag("--markdown", markdown, "as a page of reference: Markdown with every parameter, port and field");
+  void add_check() {
+    CLI::App* command = add("check", "check a mission file: every fault in one go", {});
+    mission.add(command);
+    actions.back().second = [this, command] { return check(mission.mission, mission.overrides(command)); };
   }
 
   void add_replay() {

@@ -243,7 +243,4 @@ LiveOptions parse_live(const std::string& listen);
 /// Whether a port's name, "nav.state", matches a pattern of `record.ports`, "nav.*".
 bool port_matches(const std::string& text, const std::string& pattern, std::size_t t = 0, std::size_t p = 0);
 
-/// The graph for people: components, wires, order, phases. Formats: "text", "dot", "mermaid".
-std::string print_graph(const Graph& graph, const std::string& format);
-
 }  // namespace fulmar::core

@@ -57,7 +57,7 @@ std::string rows_of(const char* name) {
 /// The same in both shells: the lines of a `case` by command.
 std::string table() {
   std::string text;
-  for (const char* program : {"fulmar", "fulmar-log", "fulmar-new", "fulmar-live"}) {
+  for (const char* program : {"fulmar", "fulmar-inspect", "fulmar-log", "fulmar-new", "fulmar-live"}) {
     std::istringstream rows(rows_of(program));
     std::string command, options, valued, subcommands;
     while (std::getline(rows, command, '\t') && std::getline(rows, options, '\t') && std::getline(rows, valued, '\t') &&

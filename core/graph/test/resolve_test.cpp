@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "tools/fulmar_inspect/print_graph.hpp"
 #include "core/graph/condition.hpp"
 #include "core/graph/params.hpp"
 #include "core/graph/test/shelf.hpp"

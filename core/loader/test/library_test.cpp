@@ -10,7 +10,7 @@
 #include <random>
 #include <sstream>
 
-#include "core/loader/inspect.hpp"
+#include "tools/fulmar_inspect/inspect.hpp"
 #include "workshop.hpp"
 
 namespace library_test {

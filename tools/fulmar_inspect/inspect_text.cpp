@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/loader/inspect_text.hpp"
+#include "tools/fulmar_inspect/inspect_text.hpp"
 
 #include <cmath>
 #include <cstdio>

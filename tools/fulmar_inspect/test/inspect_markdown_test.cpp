@@ -6,9 +6,9 @@
 #include <cstring>
 #include <sstream>
 
-#include "core/loader/inspect.hpp"
-#include "tables.hpp"
-#include "workshop.hpp"
+#include "tools/fulmar_inspect/inspect.hpp"
+#include "core/loader/test/tables.hpp"
+#include "core/loader/test/workshop.hpp"
 
 namespace inspect_markdown_test {
 

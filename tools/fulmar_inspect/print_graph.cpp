@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The graph for people: plain text, Graphviz dot, Mermaid.
+#include "tools/fulmar_inspect/print_graph.hpp"
+
 #include <algorithm>
 
 #include "core/graph/condition.hpp"
-#include "core/graph/graph.hpp"
 #include "core/graph/quantity.hpp"
 
 namespace fulmar::core {

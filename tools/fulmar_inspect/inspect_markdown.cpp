@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "core/loader/inspect.hpp"
-#include "core/loader/inspect_text.hpp"
+#include "tools/fulmar_inspect/inspect.hpp"
+#include "tools/fulmar_inspect/inspect_text.hpp"
 
 namespace fulmar::core {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Text of `fulmar inspect`.
-#include "core/loader/inspect.hpp"
+#include "tools/fulmar_inspect/inspect.hpp"
 
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "core/loader/inspect_text.hpp"
+#include "tools/fulmar_inspect/inspect_text.hpp"
 
 namespace fulmar::core {
 namespace {

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The words that name a mission and what is different in it this time: of every command that loads one.
+#pragma once
+#include <CLI/CLI.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/graph/graph.hpp"
+
+namespace fulmar::core {
+
+/// "a=b" -> {a, b}. Throws CLI::ValidationError.
+std::vector<std::pair<std::string, std::string>> pairs(const std::vector<std::string>& words);
+
+struct MissionOptions {
+  std::string mission, io;
+  std::uint64_t seed = 0;
+  std::vector<std::string> roles, set, with;
+
+  void add(CLI::App* command);
+  /// Throws CLI::ValidationError.
+  Overrides overrides(const CLI::App* command) const;
+};
+
+}  // namespace fulmar::core

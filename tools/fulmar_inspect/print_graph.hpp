@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A mission's graph for people and for tools that draw.
+#pragma once
+#include <string>
+
+#include "core/graph/graph.hpp"
+
+namespace fulmar::core {
+
+/// Components, wires, order, phases. Formats: "text", "dot", "mermaid". Throws Error for another one.
+std::string print_graph(const Graph& graph, const std::string& format);
+
+}  // namespace fulmar::core

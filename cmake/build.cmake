@@ -80,8 +80,15 @@ endfunction()
 # The folder beside the product that holds reference data, when it is there. Tests that need it skip with a message.
 get_filename_component(FULMAR_REFERENCE_DATA "${CMAKE_SOURCE_DIR}/../shared/data" ABSOLUTE)
 
-# fulmar_test(NAME source... [REAL_TIME] [FLIES] LINK library...): one doctest program build/bin/NAME and one ctest entry. Runs in the source tree's
-# root. REAL_TIME: by the clock on the wall, so alone, and not with the sanitizers, which make it slow.
+# fulmar_test(NAME source... [REAL_TIME] [ALONE] [WAITS] [FLIES] [PARTS case...] [COST seconds] [ENVIRONMENT variable=value] LINK library...):
+# one doctest program build/bin/NAME. Runs in the source tree's root.
+#   REAL_TIME    by the clock on the wall: not beside what computes, and not with the sanitizers, which make it slow
+#   ALONE        nor beside another one by the clock
+#   WAITS        for others more than it computes: takes half a processor of `ctest -j`, which counts halves
+#   FLIES        computes in its own code
+#   PARTS        one ctest entry for each range of cases; what is given are the numbers of the first cases of all ranges but the first one.
+#                Each part runs by itself, so a case in one uses nothing that a case in another one has made
+#   COST         roughly how long it takes: the longest begin first, also where no run has measured them
 function(fulmar_test name)
   if(NOT FULMAR_TESTS)
     return()
@@ -91,7 +98,7 @@ function(fulmar_test name)
      AND CMAKE_CURRENT_SOURCE_DIR MATCHES "/plugins/(estimator_ekf|sim_aero|path|control_slc|control_tecs|score)$")
     return()
   endif()
-  cmake_parse_arguments(arg "REAL_TIME;FLIES" "" "LINK" ${ARGN})
+  cmake_parse_arguments(arg "REAL_TIME;ALONE;WAITS;FLIES" "COST;ENVIRONMENT" "LINK;PARTS" ${ARGN})
   add_executable(${name} ${arg_UNPARSED_ARGUMENTS})
   target_link_libraries(${name} PRIVATE fulmar_test_main fulmar::sdk ${arg_LINK})
   target_compile_definitions(${name} PRIVATE FULMAR_REFERENCE_DATA="${FULMAR_REFERENCE_DATA}" FULMAR_BIN_DIR="${CMAKE_BINARY_DIR}/bin"
@@ -105,8 +112,40 @@ function(fulmar_test name)
     set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
     return()
   endif()
-  add_test(NAME ${name} COMMAND ${name} WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
-  if(arg_REAL_TIME)
-    set_tests_properties(${name} PROPERTIES RUN_SERIAL ON LABELS real_time)
+  fulmar_test_entries(${name})
+endfunction()
+
+# The ctest entries of fulmar_test(), whose arguments it reads.
+function(fulmar_test_entries name)
+  set(processors 2)
+  if(arg_WAITS OR arg_REAL_TIME)
+    set(processors 1)
   endif()
+  set(first 1)
+  set(number 1)
+  foreach(next IN LISTS arg_PARTS ITEMS end)
+    set(entry ${name})
+    set(range "")
+    if(arg_PARTS)
+      set(entry ${name}_${number})
+      set(range --first=${first})
+      if(NOT next STREQUAL end)
+        math(EXPR last "${next} - 1")
+        list(APPEND range --last=${last})
+      endif()
+    endif()
+    add_test(NAME ${entry} COMMAND ${name} ${range} WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
+    set_tests_properties(${entry} PROPERTIES PROCESSORS ${processors} ENVIRONMENT "${arg_ENVIRONMENT}")
+    if(arg_REAL_TIME)
+      set_tests_properties(${entry} PROPERTIES LABELS real_time)
+    endif()
+    if(arg_ALONE)
+      set_tests_properties(${entry} PROPERTIES RUN_SERIAL ON)
+    endif()
+    if(arg_COST)
+      set_tests_properties(${entry} PROPERTIES COST ${arg_COST})
+    endif()
+    set(first ${next})
+    math(EXPR number "${number} + 1")
+  endforeach()
 endfunction()

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -201,7 +202,7 @@ inline Flown fly_peer(const Scratch& s, const Plan& plan, const std::vector<std:
 
 /// A flight during which the machine did not stand still: one in which it did says nothing, and is flown again.
 inline Flown fly_undisturbed(const Scratch& s, const Plan& plan, const std::vector<std::string>& peer_words = {}, bool log = false) {
-  static int left = 8;  // of the flights that may be in vain, in all tests together
+  static std::atomic<int> left = 8;  // of the flights that may be in vain, in all tests together
   // The controller forgets a command after 100 ms of its time.
   const double most_s = 0.075 / plan.scale;
   std::string held_up;

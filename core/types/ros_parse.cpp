@@ -15,6 +15,7 @@
 
 #include "core/error.hpp"
 #include "core/types/element.hpp"
+#include "core/types/text.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -38,18 +39,6 @@ template <class T>
 bool read_number(std::string_view text, T& value) {
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
   return code == std::errc{} && end == text.data() + text.size();
-}
-
-std::string small(std::string_view text) {
-  std::string word(text);
-  for (char& c : word) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return word;
-}
-
-std::string_view trimmed(std::string_view s) {
-  const std::size_t first = s.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return s.substr(first, s.find_last_not_of(" \t\r") - first + 1);
 }
 
 /// The first word, cut off from `s`.
@@ -153,7 +142,7 @@ class Parser {
     const std::size_t equals = words.find('=');
     std::int64_t value = 0;  // what has another one names no value of a field
     if (read_number(trimmed(words.substr(equals + 1)), value))
-      constants.emplace_back(value, small(trimmed(words.substr(0, equals))));
+      constants.emplace_back(value, lower(trimmed(words.substr(0, equals))));
   }
 
   /// Cuts "[3]", "[<=8]", "[]" off.
@@ -205,7 +194,7 @@ class Parser {
   /// Without the field's name, where all of them begin with it. What ros_message_text makes of an enum are
   /// the constants 0, 1, ... of a uint8.
   static void take_constants(Constants& constants, Field& field) {
-    const std::string prefix = small(field.name) + "_";
+    const std::string prefix = lower(field.name) + "_";
     const bool prefixed =
         std::all_of(constants.begin(), constants.end(), [&](const auto& c) { return c.second.starts_with(prefix); });
     bool counted = field.kind == FULMAR_U8 && field.shape == FULMAR_SCALAR && !constants.empty();

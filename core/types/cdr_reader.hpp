@@ -41,8 +41,8 @@ class CdrReader {
     const auto size = load<std::uint32_t>(take(4));
     return {reinterpret_cast<const char*>(take(1, size)), size};
   }
-  /// Nothing but padding of the whole may be left.
-  void finish(std::size_t padding) const {
+  /// Nothing but padding of the whole may be left: 3 bytes of our own messages, up to 7 of others.
+  void finish(std::size_t padding = 7) const {
     if (data_.size() - at_ > padding) throw Error("a message is longer than its definition");
   }
 

@@ -3,18 +3,16 @@
 #include "tools/fulmar_log/export_schema.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <type_traits>
 
 #include "core/types/cdr_reader.hpp"
 #include "core/types/ros_parse.hpp"
+#include "core/types/text.hpp"
 
 namespace fulmar::core {
 namespace {
 
 constexpr std::size_t most_table_fields = 20'000;  // nested ones counted each time
-constexpr std::size_t longest_padding = 7;         // behind a message, of writers that align the whole to 8
 
 /// A field as a table has it, with all that is in it.
 RosField table_field(const Field& f, std::size_t& count) {
@@ -104,13 +102,6 @@ void decode_field(const RosField& f, CdrReader& in, Cell* to) {
   }
 }
 
-template <class T>
-std::string shortest(T x) {
-  std::array<char, 40> text;
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), x).ptr;
-  return {text.data(), end};
-}
-
 }  // namespace
 
 RosField parse_ros2msg(const std::string& name, const std::string& text) {
@@ -123,7 +114,7 @@ RosField parse_ros2msg(const std::string& name, const std::string& text) {
 void measure(RosField& root, std::span<const std::byte> message) {
   CdrReader in(message);
   for (RosField& f : root.fields) measure_field(f, in);
-  in.finish(longest_padding);
+  in.finish();
 }
 
 std::vector<Column> lay_out(RosField& root, std::size_t most) {
@@ -141,7 +132,7 @@ void decode(const RosField& root, std::span<const std::byte> message, std::vecto
     decode_field(f, in, to);
     to += cells(f);
   }
-  in.finish(longest_padding);
+  in.finish();
 }
 
 std::string cell_text(const Cell& cell) {
@@ -153,9 +144,9 @@ std::string cell_text(const Cell& cell) {
     case Cell::Kind::natural:
       return std::to_string(cell.natural);
     case Cell::Kind::single:
-      return shortest(cell.single);
+      return number_text(cell.single);
     case Cell::Kind::real:
-      return shortest(cell.real);
+      return number_text(cell.real);
     case Cell::Kind::text:
       return std::string(cell.text);
   }

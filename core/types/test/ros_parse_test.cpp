@@ -59,6 +59,26 @@ TEST_CASE("bytes that were encoded from the struct decode with the type that was
              {"kind": "line", "has_course": false, "course_rad": -0.5, "position_m": {"north": 6, "east": 7, "down": 8}}]})"));
 }
 
+TEST_CASE("bytes are listed value by value with the type that was read from the text, however long their lists") {
+  std::vector<std::byte> bytes;
+  CdrEncoder(*mixed_type()).encode(bytes_of(mixed_value()), bytes);
+  const TypePtr type = parse_ros_schema("fulmar_msgs/msg/Mixed", ros_definition(*mixed_type()));
+  std::string text;
+  for (const CdrValue& v : cdr_values(*type, bytes, 100)) text += v.name + "=" + v.text + " ";
+  CHECK(text ==
+        "armed=1 speed_mps=1.5 count=7 gains_ratio[0]=1 gains_ratio[1]=2 gains_ratio[2]=-2 name=ab samples_volt[0]=0.5 "
+        "samples_volt[1]=1 mode=hold stamp_ns=-2 load_ratio=0.25 offset=-3 attitude_std_rad.north=0.5 attitude_std_rad.east=1 "
+        "attitude_std_rad.down=2 tags[0]=x tags[1]=yzw legs[0].kind=orbit legs[0].has_course=1 legs[0].course_rad=0.5 "
+        "legs[0].position_m.north=3 legs[0].position_m.east=4 legs[0].position_m.down=5 legs[1].kind=line legs[1].has_course=0 "
+        "legs[1].course_rad=-0.5 legs[1].position_m.north=6 legs[1].position_m.east=7 legs[1].position_m.down=8 ");
+  CHECK_THROWS_AS(cdr_values(*type, bytes, 10), Error);
+  for (std::size_t n = 0; n < bytes.size(); ++n)
+    CHECK_THROWS_AS(cdr_values(*type, std::span(bytes).first(n), 100), Error);
+  std::vector<std::byte> many{std::byte{0}, std::byte{1}, std::byte{0}, std::byte{0}, std::byte{44}, std::byte{1}, std::byte{0}, std::byte{0}};
+  many.resize(8 + 300);
+  CHECK(cdr_values(*parse_ros_schema("a/msg/B", "uint8[] x\n"), many, 1000).size() == 300);
+}
+
 // geometry_msgs/msg/PoseStamped as ROS 2 ships it, comments and all; its hash is the published one.
 TEST_CASE("a definition of ROS 2 itself is read: comments, short names, nested packages") {
   const std::string rule = std::string(80, '=') + "\n";

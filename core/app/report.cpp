@@ -122,7 +122,7 @@ std::string progress_line(const Graph& graph, const Flight& flight) {
     }
     double value = number_at(*shown.field.field, message + shown.field.offset);
     if (unit == "rad") value *= 180 / std::numbers::pi, unit = "deg", name = name.substr(0, name.size() - 4);
-    const bool whole = shown.field.field->kind != FULMAR_F64 && shown.field.field->kind != FULMAR_F32;
+    const bool whole = !is_real(shown.field.field->kind);
     line += format("  %s %.*f%s%s", split_unit(name).first.c_str(), whole ? 0 : 1, value, unit.empty() ? "" : " ", unit.c_str());
   }
   return line;

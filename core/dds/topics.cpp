@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/say.hpp"
+#include "core/types/text.hpp"
 
 namespace fulmar::core::dds {
 namespace {
@@ -20,11 +21,6 @@ constexpr std::size_t samples_per_wake = 16;
 // A reader that joins late gets the last sample of a port that may stay silent ("latched" in ROS). The writer has room for more than one,
 // so that a quick series reaches the slow readers, too; what is older than this has reached them and is let go for the new one.
 constexpr std::int64_t delivered_ns = 1'000'000'000;
-
-std::string without_dots(std::string port) {
-  std::replace(port.begin(), port.end(), '.', '/');
-  return "/" + port;
-}
 
 }  // namespace
 
@@ -70,9 +66,9 @@ Exports::Exports(Tap& tap, const DdsOptions& options, Others& others) : cursor_(
   std::vector<std::string> names;
   for (const TapChannel& c : tap.channels()) names.push_back(c.topic);
   for (const DdsOptions::Export& e : options.exports) {
-    const auto at = std::find(names.begin(), names.end(), without_dots(e.port));
+    const auto at = std::find(names.begin(), names.end(), "/" + slashed(e.port));
     if (at == names.end())
-      throw Error(e.where.text() + ": dds.export: there is no '" + e.port + "' to export." + choices_text(without_dots(e.port), names));
+      throw Error(e.where.text() + ": dds.export: there is no '" + e.port + "' to export." + choices_text("/" + slashed(e.port), names));
     const auto channel = static_cast<std::size_t>(at - names.begin());
     const Type& type = *tap.channels()[channel].type;
     Topic topic;

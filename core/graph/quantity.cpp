@@ -241,12 +241,6 @@ const Named* named(const PhysicalUnit& unit) {
   return nullptr;
 }
 
-std::string_view trimmed(std::string_view text) {
-  const auto begin = text.find_first_not_of(" \t\r\n");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
-}
-
 std::string_view word_after_dot(std::string_view text) {
   while (!text.empty() && (text.front() == '+' || text.front() == '-')) text.remove_prefix(1);
   if (!text.empty() && text.front() == '.') text.remove_prefix(1);
@@ -364,12 +358,6 @@ std::optional<Suffixed> split_suffix(const std::string& name) {
   for (const auto& [suffix, unit] : suffixes)
     if (std::string_view(name).substr(underscore + 1) == suffix) return Suffixed{name.substr(0, underscore), unit};
   return std::nullopt;
-}
-
-std::string number_text(double value) {
-  char text[40];
-  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
-  return {text, end};
 }
 
 }  // namespace fulmar::core

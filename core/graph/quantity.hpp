@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "core/types/text.hpp"
 
 namespace fulmar::core {
 
@@ -55,8 +56,5 @@ struct Suffixed {
   std::string name, unit;
 };
 std::optional<Suffixed> split_suffix(const std::string& field);
-
-/// Shortest text that reads back as the same number: 0.55, 9, 1e-05.
-std::string number_text(double value);
 
 }  // namespace fulmar::core

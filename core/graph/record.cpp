@@ -106,22 +106,12 @@ class Filler {
   }
 
   void fill_element(const Field& field, const Node& node, std::byte* at, const RecordPlace& place) {
-    switch (field.kind) {
-      case FULMAR_STRUCT:
-        return fill_struct(*field.type, node, at, place, {});
-      case FULMAR_BOOL:
-        if (const auto flag = scalar_flag(node, place.path, report_)) put(at, static_cast<std::uint8_t>(*flag));
-        return;
-      case FULMAR_ENUM:
-        return fill_enum(field, node, at, place);
-      case FULMAR_TEXT:
-        return fill_text(field, node, at, place);
-      case FULMAR_F32:
-      case FULMAR_F64:
-        return fill_float(field, node, at, place);
-      default:
-        return fill_integer(field, node, at, place);
-    }
+    if (field.kind == FULMAR_STRUCT) return fill_struct(*field.type, node, at, place, {});
+    if (field.kind == FULMAR_ENUM) return fill_enum(field, node, at, place);
+    if (field.kind == FULMAR_TEXT) return fill_text(field, node, at, place);
+    if (is_real(field.kind)) return fill_float(field, node, at, place);
+    if (field.kind != FULMAR_BOOL) return fill_integer(field, node, at, place);
+    if (const auto flag = scalar_flag(node, place.path, report_)) put(at, static_cast<std::uint8_t>(*flag));
   }
 
   void fill_enum(const Field& field, const Node& node, std::byte* at, const RecordPlace& place) {
@@ -182,24 +172,9 @@ class Filler {
       if (!quantity.unit.empty()) value = std::round(value * 1e3) / 1e3;  // 0.1 s is 1e8 ns, whatever the last bit says
       check_range(quantity, value, place.unit, field.min, field.max);
       const bool scaled = !quantity.unit.empty();
-      switch (field.kind) {
-        case FULMAR_U8:
-          return put_integer<std::uint8_t>(at, quantity.text, value, scaled);
-        case FULMAR_I8:
-          return put_integer<std::int8_t>(at, quantity.text, value, scaled);
-        case FULMAR_I16:
-          return put_integer<std::int16_t>(at, quantity.text, value, scaled);
-        case FULMAR_U16:
-          return put_integer<std::uint16_t>(at, quantity.text, value, scaled);
-        case FULMAR_I32:
-          return put_integer<std::int32_t>(at, quantity.text, value, scaled);
-        case FULMAR_U32:
-          return put_integer<std::uint32_t>(at, quantity.text, value, scaled);
-        case FULMAR_I64:
-          return put_integer<std::int64_t>(at, quantity.text, value, scaled);
-        default:
-          return put_integer<std::uint64_t>(at, quantity.text, value, scaled);
-      }
+      with_number(field.kind, at, [&](auto was) {
+        if constexpr (std::is_integral_v<decltype(was)>) put_integer<decltype(was)>(at, quantity.text, value, scaled);
+      });
     } catch (const Error& error) {
       fault(node, place.path, error.what());
     }

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "core/graph/draft.hpp"
+#include "core/types/text.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -117,10 +118,7 @@ class DdsReader {
         e.port = scalar_text(item, "dds.export", "a port such as nav.state, or {port, topic, rate, best_effort}", report_).value_or("");
       }
       if (e.port.empty() || !parse_port_name(e.port, e.where, "dds.export", report_)) continue;
-      if (e.topic.empty()) {
-        e.topic = e.port;  // relative: behind the namespace
-        std::replace(e.topic.begin(), e.topic.end(), '.', '/');
-      }
+      if (e.topic.empty()) e.topic = slashed(e.port);  // relative: behind the namespace
       if (topic(e.topic, e.where, "dds.export")) m_.dds.exports.push_back(std::move(e));
     }
   }

@@ -8,15 +8,10 @@
 #include <cctype>
 
 #include "core/error.hpp"
+#include "core/types/text.hpp"
 
 namespace fulmar::core::live {
 namespace {
-
-std::string lower(std::string_view text) {
-  std::string s(text);
-  std::transform(s.begin(), s.end(), s.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return s;
-}
 
 bool is_address(const std::string& host) {
   in6_addr room{};

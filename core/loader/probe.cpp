@@ -20,6 +20,7 @@
 #include "core/error.hpp"
 #include "core/loader/home.hpp"
 #include "core/loader/probe_report.hpp"
+#include "core/types/text.hpp"
 
 extern char** environ;
 
@@ -123,12 +124,6 @@ Outcome watch(const Child& child, double limit_s) {
   } while (read_some(child.report, outcome.report) && outcome.report.size() > before);
   ::close(child.report);
   return outcome;
-}
-
-std::string number_text(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", x);
-  return text;
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "core/loader/store.hpp"
 #include "core/run/command.hpp"
 #include "core/replay/playback.hpp"
-#include "core/replay/replay_difference.hpp"
+#include "core/log/diff.hpp"
 #include "core/log/mcap.hpp"
 
 namespace fulmar::core {
@@ -197,6 +197,21 @@ std::unique_ptr<Flight> Player::fly(const std::atomic<bool>* stop) {
   return std::move(flight_);
 }
 
+/// Fills in what differs between the log and the replay's own, up to the last tick of the log.
+void find_differences(const fs::path& was, const fs::path& is, std::int64_t epoch_ns, ReplayResult& result) {
+  const auto last_ns = static_cast<std::uint64_t>(result.last_ns + epoch_ns);
+  const LogDiff diff = diff_logs(was, is, {.last_ns = last_ns, .whole_topics = true});
+  result.messages = diff.messages;
+  result.differing_messages = diff.differing_messages, result.differing_bytes = diff.differing_bytes;
+  if (diff.first_tick) result.first_tick = diff.first_tick->index, result.first_tick_ns = diff.first_tick->time_ns;
+  if (!diff.first || diff.first->topic == Ticks::topic) return;
+  const LogDiff::First& first = *diff.first;
+  const auto word = [&](const std::string& text) {
+    return text == "absent" ? "none" : first.field.empty() ? "a sample" : text;
+  };
+  result.first = Difference{first.topic, first.field, word(first.a), word(first.b), first.time_ns};
+}
+
 }  // namespace
 
 std::pair<std::unique_ptr<Flight>, ReplayResult> replay(const Recording& recording, const Graph& graph, const ReplayOptions& options) {
@@ -218,8 +233,7 @@ std::pair<std::unique_ptr<Flight>, ReplayResult> replay(const Recording& recordi
   if (result.same_file) {
     result.messages = recording.file().messages.size();
   } else {
-    const McapFile again = read_mcap(result.flight.log.file);
-    find_differences(recording.file(), ticks, again, read_ticks(again), graph.epoch_ns, result);
+    find_differences(recording.path(), result.flight.log.file, graph.epoch_ns, result);
   }
   return {std::move(flight), std::move(result)};
 }

@@ -2,9 +2,8 @@
 // XCDR1, plain little-endian: OMG DDS-XTypes 1.3, section 7.4.1. Numbers are aligned to their size (at most 8) from the start of the body.
 #include <array>
 
-#include "core/error.hpp"
-#include "core/types/element.hpp"
-#include "core/types/wire.hpp"
+#include "core/types/cdr_reader.hpp"
+#include "core/types/text.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -183,47 +182,73 @@ struct Writer {
 // ---- decoding ------------------------------------------------------------------------------------------------------------------
 
 struct Decoder {
-  const std::byte* bytes;
-  std::size_t size, at = cdr_header_bytes;
-  const Type& whole;
-
-  [[noreturn]] void fail(const std::string& why) const { throw Error("bytes do not hold a " + whole.name + ": " + why); }
-
-  const std::byte* take(std::size_t n, std::size_t align) {
-    at += (align - (at - cdr_header_bytes) % align) % align;
-    if (at > size || size - at < n) fail("they end after " + std::to_string(size));
-    const std::byte* here = bytes + at;
-    at += n;
-    return here;
-  }
+  CdrReader in;
 
   void element(const Field& f, std::byte* to) {
-    if (f.kind == FULMAR_STRUCT) {
-      type(*f.type, to);
-    } else if (f.kind == FULMAR_TEXT) {
-      const std::uint32_t n = load<std::uint32_t>(take(4, 4));
-      const std::byte* text = take(n, 1);
-      if (n == 0 || text[n - 1] != std::byte{0}) fail(f.name + " does not end in NUL");
-      if (n > f.stride) fail(f.name + " is longer than " + std::to_string(f.stride - 1));
-      std::memcpy(to, text, n);
-    } else {
-      const std::uint32_t n = primitive_size(f.kind);
-      std::memcpy(to, take(n, n), n);
-    }
+    if (f.kind == FULMAR_STRUCT) return type(*f.type, to);
+    const std::string_view text = in.text();
+    if (text.empty() || text.back() != '\0') throw Error(f.name + " does not end in NUL");
+    if (text.size() > f.stride) throw Error(f.name + " is longer than " + std::to_string(f.stride - 1));
+    std::memcpy(to, text.data(), text.size());
   }
 
   void type(const Type& t, std::byte* to) {
-    if (t.fields.empty()) take(1, 1);
+    if (t.fields.empty()) in.take(1);
     for (const Field& f : t.fields) {
       std::byte* first = to + f.offset;
-      std::uint32_t n = f.shape == FULMAR_ARRAY ? f.count : 1;
+      const std::uint32_t n = in.elements(f), size = primitive_size(f.kind);
       if (f.shape == FULMAR_LIST) {
-        n = load<std::uint32_t>(take(4, 4));
-        if (n > f.count) fail(f.name + " has " + std::to_string(n) + " items, its capacity is " + std::to_string(f.count));
+        if (n > f.count)
+          throw Error(f.name + " has " + std::to_string(n) + " items, its capacity is " + std::to_string(f.count));
         std::memcpy(first, &n, 4);
         first += f.items;
       }
-      for (std::uint32_t i = 0; i < n; ++i) element(f, first + std::size_t{i} * f.stride);
+      if (size > 0 && size == f.stride) {
+        std::memcpy(first, in.take(size, n), std::size_t{size} * n);
+        continue;
+      }
+      for (std::uint32_t i = 0; i < n; ++i, first += f.stride) {
+        if (size > 0)
+          std::memcpy(first, in.take(size), size);
+        else
+          element(f, first);
+      }
+    }
+  }
+};
+
+// ---- value by value ------------------------------------------------------------------------------------------------------------
+
+struct Lister {
+  CdrReader in;
+  std::size_t most;
+  std::vector<CdrValue> list{};
+
+  std::string value(const Field& f) {
+    if (f.kind == FULMAR_TEXT) {
+      const std::string_view text = in.text();
+      return std::string(text.substr(0, text.find('\0')));
+    }
+    return with_number(f.kind, in.take(primitive_size(f.kind)), [&](auto x) {
+      for (const auto& [number, word] : f.constants)
+        if (static_cast<decltype(x)>(number) == x) return word;
+      return number_text(x);
+    });
+  }
+
+  void type(const Type& t, const std::string& path) {
+    if (t.fields.empty()) in.take(1);
+    for (const Field& f : t.fields) {
+      const std::uint32_t n = in.elements(f);
+      for (std::uint32_t i = 0; i < n; ++i) {
+        const std::string name = path + f.name + (f.shape == FULMAR_SCALAR ? "" : "[" + std::to_string(i) + "]");
+        if (f.kind == FULMAR_STRUCT)
+          type(*f.type, name + ".");
+        else if (list.size() < most)
+          list.push_back({name, value(f)});
+        else
+          throw Error("a message has more than " + std::to_string(most) + " values");
+      }
     }
   }
 };
@@ -250,12 +275,20 @@ void CdrEncoder::encode(const std::byte* data, std::vector<std::byte>& out) cons
   out.resize(before + encode(data, out.data() + before));
 }
 
-void cdr_decode(const Type& type, const std::byte* bytes, std::size_t size, std::byte* message) {
-  Decoder decoder{bytes, size, cdr_header_bytes, type};
-  if (size < cdr_header_bytes || std::memcmp(bytes, header.data(), 2) != 0) decoder.fail("no little-endian CDR header");
+std::vector<CdrValue> cdr_values(const Type& schema, std::span<const std::byte> message, std::size_t most) {
+  Lister lister{CdrReader(message), most};
+  lister.type(schema, "");
+  lister.in.finish();
+  return std::move(lister.list);
+}
+
+void cdr_decode(const Type& type, const std::byte* bytes, std::size_t size, std::byte* message) try {
+  Decoder decoder{CdrReader({bytes, size})};
   std::memset(message, 0, type.size);
   decoder.type(type, message);
-  if (size - decoder.at > 3) decoder.fail(std::to_string(size - decoder.at) + " bytes are left over");  // up to 3: padding of the whole
+  decoder.in.finish(3);
+} catch (const Error& e) {
+  throw Error("bytes do not hold a " + type.name + ": " + e.what());
 }
 
 }  // namespace fulmar::core

@@ -8,40 +8,6 @@
 
 namespace fulmar::core {
 
-const char* kind_word(fulmar_kind kind) {
-  switch (kind) {
-    case FULMAR_BOOL:
-      return "bool";
-    case FULMAR_U8:
-      return "u8";
-    case FULMAR_I8:
-      return "i8";
-    case FULMAR_I16:
-      return "i16";
-    case FULMAR_U16:
-      return "u16";
-    case FULMAR_I32:
-      return "i32";
-    case FULMAR_U32:
-      return "u32";
-    case FULMAR_I64:
-      return "i64";
-    case FULMAR_U64:
-      return "u64";
-    case FULMAR_F32:
-      return "f32";
-    case FULMAR_F64:
-      return "f64";
-    case FULMAR_ENUM:
-      return "enum";
-    case FULMAR_TEXT:
-      return "text";
-    case FULMAR_STRUCT:
-      return "struct";
-  }
-  return "?";
-}
-
 namespace {
 
 std::string shape_words(const Field& field) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <string_view>
 
 #include "core/types/type.hpp"
@@ -12,37 +11,6 @@
 namespace fulmar::core {
 
 static_assert(std::endian::native == std::endian::little, "message bytes are copied to the wire as they are");
-
-template <class T>
-T load(const std::byte* at) noexcept {
-  T value;
-  std::memcpy(&value, at, sizeof value);
-  return value;
-}
-
-/// Bytes of one number, bool or enum; 0 for text and structs.
-inline std::uint32_t primitive_size(fulmar_kind kind) {
-  switch (kind) {
-    case FULMAR_BOOL:
-    case FULMAR_U8:
-    case FULMAR_ENUM:
-    case FULMAR_I8:
-      return 1;
-    case FULMAR_I16:
-    case FULMAR_U16:
-      return 2;
-    case FULMAR_I32:
-    case FULMAR_U32:
-    case FULMAR_F32:
-      return 4;
-    case FULMAR_I64:
-    case FULMAR_U64:
-    case FULMAR_F64:
-      return 8;
-    default:
-      return 0;
-  }
-}
 
 /// The elements that are there: 1, all of an array, or what a list counts. A count beyond the capacity is cut.
 struct Elements {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fields by name, and their numbers.
+// Fields by name.
 #include <charconv>
 #include <cstring>
 #include <limits>
@@ -9,13 +9,6 @@
 
 namespace fulmar::core {
 namespace {
-
-template <class T>
-double as_double(const std::byte* at) noexcept {
-  T x;
-  std::memcpy(&x, at, sizeof x);
-  return static_cast<double>(x);
-}
 
 // One part of a dotted name: "waypoints[3]" is {"waypoints", 3}; without brackets the index is -1.
 struct Part {
@@ -110,37 +103,6 @@ FieldRef resolve_field(const Type& type, std::string_view dotted) {
     inside = field.kind == FULMAR_STRUCT ? field.type.get() : nullptr;
     rest = rest.substr(dot + 1);
   }
-}
-
-double number_at(fulmar_kind kind, const std::byte* at) noexcept {
-  switch (kind) {
-    case FULMAR_BOOL:
-    case FULMAR_U8:
-    case FULMAR_ENUM:
-      return as_double<std::uint8_t>(at);
-    case FULMAR_I8:
-      return as_double<std::int8_t>(at);
-    case FULMAR_I16:
-      return as_double<std::int16_t>(at);
-    case FULMAR_U16:
-      return as_double<std::uint16_t>(at);
-    case FULMAR_I32:
-      return as_double<std::int32_t>(at);
-    case FULMAR_U32:
-      return as_double<std::uint32_t>(at);
-    case FULMAR_I64:
-      return as_double<std::int64_t>(at);
-    case FULMAR_U64:
-      return as_double<std::uint64_t>(at);
-    case FULMAR_F32:
-      return as_double<float>(at);
-    case FULMAR_F64:
-      return as_double<double>(at);
-    case FULMAR_TEXT:
-    case FULMAR_STRUCT:
-      break;
-  }
-  return std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace fulmar::core

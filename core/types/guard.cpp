@@ -36,8 +36,7 @@ bool bytes_at_most(const std::byte* at, std::uint32_t count, double max) noexcep
   return worst <= limit;
 }
 
-bool integral(fulmar_kind kind) { return (kind >= FULMAR_I32 && kind <= FULMAR_U64) || (kind >= FULMAR_I8 && kind <= FULMAR_U16); }
-bool whole_byte(fulmar_kind kind) { return kind == FULMAR_BOOL || kind == FULMAR_U8 || kind == FULMAR_ENUM; }
+bool whole_byte(fulmar_kind kind) { return primitive_size(kind) == 1 && kind != FULMAR_I8; }
 
 // The largest value of a one-byte kind that the guard lets pass.
 double byte_limit(const Field& field) {
@@ -82,14 +81,12 @@ struct Guard::Compiler {
     const bool ranged = std::isfinite(field.min) || std::isfinite(field.max);
     const bool dense = field.stride == element_size(field) || count == 1;
     if (field.kind == FULMAR_STRUCT) return structs(field, offset, count);
+    if (is_integer(field.kind) && !ranged) return;  // any will do
     if (field.kind == FULMAR_TEXT) {
       step.kind = Step::Kind::text;
     } else if (whole_byte(field.kind) && !ranged && dense) {
-      if (field.kind == FULMAR_U8) return;  // any byte will do
       step.kind = Step::Kind::bytes;
       step.max = byte_limit(field);
-    } else if (integral(field.kind) && !ranged) {
-      return;
     } else if (!ranged && dense) {
       step.kind = field.kind == FULMAR_F64 ? Step::Kind::finite_f64 : Step::Kind::finite_f32;
     } else {

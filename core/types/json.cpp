@@ -42,37 +42,12 @@ Json object(const Type& type, const std::byte* data, Turned degrees, double scal
 
 template <class Json>
 Json element(const Field& f, const std::byte* at, Turned degrees, double scale) {
-  switch (f.kind) {
-    case FULMAR_BOOL:
-      return load<std::uint8_t>(at) != 0;
-    case FULMAR_U8:
-      return load<std::uint8_t>(at);
-    case FULMAR_I8:
-      return load<std::int8_t>(at);
-    case FULMAR_I16:
-      return load<std::int16_t>(at);
-    case FULMAR_U16:
-      return load<std::uint16_t>(at);
-    case FULMAR_I32:
-      return load<std::int32_t>(at);
-    case FULMAR_U32:
-      return load<std::uint32_t>(at);
-    case FULMAR_I64:
-      return load<std::int64_t>(at);
-    case FULMAR_U64:
-      return load<std::uint64_t>(at);
-    case FULMAR_F32:
-      return number<Json>(static_cast<double>(load<float>(at)), scale);
-    case FULMAR_F64:
-      return number<Json>(load<double>(at), scale);
-    case FULMAR_ENUM:
-      return label<Json>(f, load<std::uint8_t>(at));
-    case FULMAR_TEXT:
-      return text<Json>(text_at(at, f.stride));
-    case FULMAR_STRUCT:
-      return object<Json>(*f.type, at, degrees, scale);
-  }
-  return nullptr;
+  if (f.kind == FULMAR_STRUCT) return object<Json>(*f.type, at, degrees, scale);
+  if (f.kind == FULMAR_TEXT) return text<Json>(text_at(at, f.stride));
+  if (f.kind == FULMAR_ENUM) return label<Json>(f, load<std::uint8_t>(at));
+  if (f.kind == FULMAR_BOOL) return load<std::uint8_t>(at) != 0;
+  if (is_real(f.kind)) return number<Json>(number_at(f, at), scale);
+  return with_number(f.kind, at, [](auto x) { return Json(x); });
 }
 
 /// `scale`: of all numbers, when an outer field has turned radians into degrees.

@@ -11,36 +11,6 @@
 namespace fulmar::core {
 namespace {
 
-const char* ros_primitive(fulmar_kind kind) {
-  switch (kind) {
-    case FULMAR_BOOL:
-      return "bool";
-    case FULMAR_U8:
-    case FULMAR_ENUM:
-      return "uint8";
-    case FULMAR_I8:
-      return "int8";
-    case FULMAR_I16:
-      return "int16";
-    case FULMAR_U16:
-      return "uint16";
-    case FULMAR_I32:
-      return "int32";
-    case FULMAR_U32:
-      return "uint32";
-    case FULMAR_I64:
-      return "int64";
-    case FULMAR_U64:
-      return "uint64";
-    case FULMAR_F32:
-      return "float32";
-    case FULMAR_F64:
-      return "float64";
-    default:
-      return "string";
-  }
-}
-
 /// "fulmar_msgs/VehicleState": how a field and a `MSG:` line name a type.
 std::string short_name(const Type& type) {
   std::string name = ros_name(type);
@@ -96,7 +66,7 @@ bool unbounded(const Type& type, const Field& f) {
 }
 
 std::string field_line(const Type& type, const Field& f) {
-  std::string line = f.kind == FULMAR_STRUCT ? short_name(*f.type) : ros_primitive(f.kind);
+  std::string line = f.kind == FULMAR_STRUCT ? short_name(*f.type) : kind_row(f.kind).ros;
   if (f.shape == FULMAR_ARRAY) line += "[" + std::to_string(f.count) + "]";
   if (f.shape == FULMAR_LIST) line += unbounded(type, f) ? "[]" : "[<=" + std::to_string(f.count) + "]";
   line += " " + f.name;
@@ -109,11 +79,8 @@ std::string field_line(const Type& type, const Field& f) {
 
 /// type_description_interfaces/msg/FieldType
 int type_id(const Type& type, const Field& f) {
-  static const std::map<fulmar_kind, int> ids{{FULMAR_STRUCT, 1}, {FULMAR_I8, 2},   {FULMAR_U8, 3},    {FULMAR_ENUM, 3}, {FULMAR_I16, 4},
-                                              {FULMAR_U16, 5},    {FULMAR_I32, 6},  {FULMAR_U32, 7},   {FULMAR_I64, 8},  {FULMAR_U64, 9},
-                                              {FULMAR_F32, 10},   {FULMAR_F64, 11}, {FULMAR_BOOL, 15}, {FULMAR_TEXT, 17}};
   const int shift = f.shape == FULMAR_ARRAY ? 48 : unbounded(type, f) ? 144 : f.shape == FULMAR_LIST ? 96 : 0;
-  return ids.at(f.kind) + shift;
+  return kind_row(f.kind).ros_id + shift;
 }
 
 std::string field_description(const std::string& name, int id, std::uint32_t capacity, const std::string& nested) {

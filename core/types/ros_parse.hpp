@@ -13,4 +13,8 @@ namespace fulmar::core {
 /// list without a bound for 256 items. Throws Error on a definition that cannot be read.
 TypePtr parse_ros_definition(const std::string& name, const std::string& text);
 
+/// The same without a layout, for what takes the bytes one value after the other: a list without a bound has count 0, a text without one
+/// stride 0.
+TypePtr parse_ros_schema(const std::string& name, const std::string& text);
+
 }  // namespace fulmar::core

@@ -24,29 +24,8 @@ bool is_identifier(std::string_view name) {
 }
 
 std::uint32_t element_size(const Field& field) {
-  switch (field.kind) {
-    case FULMAR_BOOL:
-    case FULMAR_U8:
-    case FULMAR_ENUM:
-    case FULMAR_I8:
-      return 1;
-    case FULMAR_I16:
-    case FULMAR_U16:
-      return 2;
-    case FULMAR_I32:
-    case FULMAR_U32:
-    case FULMAR_F32:
-      return 4;
-    case FULMAR_I64:
-    case FULMAR_U64:
-    case FULMAR_F64:
-      return 8;
-    case FULMAR_TEXT:
-      return field.stride;
-    case FULMAR_STRUCT:
-      return field.type->size;
-  }
-  return 0;
+  if (field.kind == FULMAR_TEXT) return field.stride;
+  return field.kind == FULMAR_STRUCT ? field.type->size : primitive_size(field.kind);
 }
 
 std::uint64_t field_span(const Field& field) {

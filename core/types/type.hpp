@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fulmar/abi.h"
+#include "core/types/kinds.hpp"
 
 namespace fulmar::core {
 
@@ -19,6 +19,7 @@ struct Field {
   std::string unit;
   TypePtr type;                     // of a struct
   std::vector<std::string> labels;  // of an enum
+  std::vector<std::pair<std::int64_t, std::string>> constants;  // of a ROS definition, which name its values
   fulmar_kind kind = FULMAR_F64;
   fulmar_shape shape = FULMAR_SCALAR;
   std::uint32_t offset = 0, count = 1, stride = 0, items = 0;
@@ -81,9 +82,6 @@ struct PluginInfo {
 /// A name that people can write in a mission file: letters, digits and underscores, no digit first.
 bool is_identifier(std::string_view name);
 
-/// "bool", "f64", "struct".
-const char* kind_word(fulmar_kind kind);
-
 /// Bytes of one element.
 std::uint32_t element_size(const Field& field);
 
@@ -106,7 +104,9 @@ struct FieldRef {
 FieldRef resolve_field(const Type& type, std::string_view dotted);
 
 /// The element at `at` (the start of the message + FieldRef::offset) as a number. Bool and enum count from 0. Text and structs are nan.
-double number_at(fulmar_kind kind, const std::byte* at) noexcept;
+inline double number_at(fulmar_kind kind, const std::byte* at) noexcept {
+  return with_number(kind, at, [](auto x) { return static_cast<double>(x); });
+}
 inline double number_at(const Field& field, const std::byte* at) noexcept { return number_at(field.kind, at); }
 
 /// Why a reader of type `to` cannot be fed by a writer of type `from`: names the first field that differs. "" when it can.

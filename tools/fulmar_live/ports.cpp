@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/types/text.hpp"
 #include "core/types/wire.hpp"
 
 namespace fulmar::core {
@@ -101,11 +102,7 @@ std::string topic_by_component(const json& view, const std::string& component, c
 
 }  // namespace
 
-std::string topic_of(const std::string& port) {
-  std::string topic = "/" + port;
-  std::replace(topic.begin(), topic.end(), '.', '/');
-  return topic;
-}
+std::string topic_of(const std::string& port) { return "/" + slashed(port); }
 
 std::string port_of(const std::string& topic) {
   std::string port = topic.substr(topic.starts_with('/') ? 1 : 0);

@@ -2,7 +2,6 @@
 // See export_arrays.hpp.
 #include "tools/fulmar_log/export_arrays.hpp"
 
-#include <array>
 #include <cstring>
 #include <limits>
 
@@ -15,9 +14,9 @@ constexpr std::size_t batch_bytes = 200u << 20;
 constexpr std::int64_t most_labels = 256;
 
 /// Whole numbers in lists are doubles: only these have a nan for what is missing.
-RosKind array_kind(const Column& c) {
-  const bool as_it_is = !c.in_list || c.field->kind >= RosKind::f32;
-  return as_it_is ? c.field->kind : RosKind::f64;
+fulmar_kind array_kind(const Column& c) {
+  const bool as_it_is = !c.in_list || is_real(c.field->kind) || c.field->kind == FULMAR_TEXT;
+  return as_it_is ? c.field->kind : FULMAR_F64;
 }
 
 std::vector<std::string> labels(const RosField& f) {
@@ -33,13 +32,13 @@ std::vector<std::string> labels(const RosField& f) {
 std::vector<Array> begin_arrays(const Table& table) {
   std::vector<Array> list{{.name = "time_s"}, {.name = "valid_s"}};
   for (const Column& c : table.columns) list.push_back({.name = c.name, .kind = array_kind(c), .labels = labels(*c.field)});
-  for (Array& a : list) a.data.reserve(table.rows * array_element_bytes(a.kind));
+  for (Array& a : list) a.data.reserve(table.rows * primitive_size(a.kind));
   return list;
 }
 
 std::size_t bytes_of(const Table& table) {
   std::size_t row = 16;
-  for (const Column& c : table.columns) row += c.field->kind == RosKind::text ? 64 : array_element_bytes(array_kind(c));
+  for (const Column& c : table.columns) row += c.field->kind == FULMAR_TEXT ? 64 : primitive_size(array_kind(c));
   return row * table.rows;
 }
 
@@ -66,25 +65,20 @@ double as_double(const Cell& cell) {
 }
 
 void add(Array& to, const Cell& cell) {
-  if (to.kind == RosKind::text) {
+  if (to.kind == FULMAR_TEXT) {
     to.texts.emplace_back(cell.kind == Cell::Kind::text ? cell.text : std::string_view{});
-  } else if (to.kind == RosKind::f64) {
+  } else if (to.kind == FULMAR_F64) {
     put(to, as_double(cell));
-  } else if (to.kind == RosKind::f32) {
+  } else if (to.kind == FULMAR_F32) {
     put(to, cell.kind == Cell::Kind::single ? cell.single : std::numeric_limits<float>::quiet_NaN());
   } else {  // little-endian: the low bytes are the number
-    const std::size_t before = to.data.size(), size = array_element_bytes(to.kind);
+    const std::size_t before = to.data.size(), size = primitive_size(to.kind);
     to.data.resize(before + size);
     std::memcpy(to.data.data() + before, &cell.natural, size);
   }
 }
 
 }  // namespace
-
-std::size_t array_element_bytes(RosKind kind) {
-  static constexpr std::array<std::size_t, 13> sizes{1, 1, 1, 2, 2, 4, 4, 8, 8, 4, 8, 0, 0};
-  return sizes[static_cast<std::size_t>(kind)];
-}
 
 void for_each_table(const Tables& tables, const std::function<void(const Table&, const std::vector<Array>&)>& take) {
   const std::vector<Table>& list = tables.list();

@@ -12,13 +12,11 @@ namespace fulmar::core {
 
 struct Array {
   std::string name;  // "time_s", "legs[1].position_m.north"
-  RosKind kind = RosKind::f64;
+  fulmar_kind kind = FULMAR_F64;
   std::vector<std::byte> data{};      // one element after the other
   std::vector<std::string> texts{};   // of kind text
   std::vector<std::string> labels{};  // of the numbers 0, 1, ...; empty: none
 };
-
-std::size_t array_element_bytes(RosKind kind);
 
 /// Table after table, those that have rows. As many are in memory at a time as fit into some 200 MB, and at least one.
 void for_each_table(const Tables& tables, const std::function<void(const Table&, const std::vector<Array>&)>& take);

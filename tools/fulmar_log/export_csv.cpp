@@ -44,7 +44,7 @@ struct Csv {
     for (std::size_t i = 0; i < table.columns.size(); ++i) {
       const Cell& cell = (*row.cells)[i];
       const RosField& field = *table.columns[i].field;
-      const bool absent_text = cell.kind == Cell::Kind::none && field.kind == RosKind::text;
+      const bool absent_text = cell.kind == Cell::Kind::none && field.kind == FULMAR_TEXT;
       buffer += ',';
       if (!absent_text) buffer += cell.kind == Cell::Kind::text ? csv_text(cell.text) : cell_text(cell);
       if (field.labels.empty()) continue;

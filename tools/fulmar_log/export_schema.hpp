@@ -11,17 +11,17 @@
 #include <utility>
 #include <vector>
 
+#include "core/types/type.hpp"
+
 namespace fulmar::core {
 
-enum class RosKind : std::uint8_t { flag, i8, u8, i16, u16, i32, u32, i64, u64, f32, f64, text, structure };
-
-/// A field, and what is in it.
+/// A field of one message type, and what is in it; a struct that stands in several places is in the tree several times.
 struct RosField {
   std::string name;
-  RosKind kind = RosKind::f64;
-  enum class Shape : std::uint8_t { scalar, array, list } shape = Shape::scalar;
+  fulmar_kind kind = FULMAR_STRUCT;  // an enum is its byte
+  fulmar_shape shape = FULMAR_SCALAR;
   std::uint32_t count = 1;                                     // of an array
-  std::vector<std::pair<std::int64_t, std::string>> labels{};  // constants right before a field of whole numbers, in small letters
+  std::vector<std::pair<std::int64_t, std::string>> labels{};  // constants that name values, in small letters
   std::vector<RosField> fields{};                              // of a structure
   std::uint32_t longest = 0;                                   // of a list, among the messages that were measured
   std::size_t width = 1;                                       // cells of one element; set by `lay_out`

@@ -3,9 +3,9 @@
 #include "tools/fulmar_log/export_table.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 #include "core/error.hpp"
+#include "core/log/log_file.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -29,23 +29,7 @@ std::string table_name(const std::string& topic, const std::vector<Table>& other
   return unique;
 }
 
-const std::string* find(const McapFile& log, const std::string& metadata, const std::string& key) {
-  for (const McapFile::Metadata& m : log.metadata)
-    for (const auto& [k, value] : m.pairs)
-      if (m.name == metadata && k == key) return &value;
-  return nullptr;
-}
-
 }  // namespace
-
-std::uint64_t log_epoch_ns(const McapFile& log, std::uint64_t first_ns) {
-  if (const std::string* text = find(log, "fulmar", "epoch_ns")) {
-    std::uint64_t ns = 0;
-    if (std::from_chars(text->data(), text->data() + text->size(), ns).ec == std::errc{}) return ns;
-  }
-  // The attachments of a Fulmar log bear the time of the epoch.
-  return log.library == "fulmar" && !log.attachments.empty() ? log.attachments[0].log_ns : first_ns;
-}
 
 Tables::Source Tables::add(const McapFile& log, std::uint16_t channel) {
   const McapFile::Channel& c = log.channels.at(channel);

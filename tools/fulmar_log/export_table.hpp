@@ -22,9 +22,6 @@ struct Table {
   std::uint64_t rows = 0;
 };
 
-/// When flight time 0 was, in log time: what a Fulmar log says, else the first message's time.
-std::uint64_t log_epoch_ns(const McapFile& log, std::uint64_t first_ns);
-
 class Tables {
  public:
   struct Row {

@@ -10,8 +10,10 @@
 
 #include "core/error.hpp"
 #include "core/log/events.hpp"
-#include "tools/fulmar_log/export_table.hpp"
+#include "core/log/log_file.hpp"
 #include "core/log/mcap_bytes.hpp"
+#include "core/types/ros_parse.hpp"
+#include "core/types/wire.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -135,17 +137,13 @@ struct Reading {
     constexpr std::string_view phase_word = "phase ";
     const auto schema = events.empty() ? log.schemas.end() : log.schemas.find(log.channels.at(event_channel).schema);
     if (schema == log.schemas.end()) return;
-    RosField root = parse_ros2msg(schema->second.name, schema->second.text);
-    for (const auto& [ns, bytes] : events) measure(root, bytes);
-    const std::vector<Column> columns = lay_out(root, 1000);
-    std::vector<Cell> row;
+    const TypePtr type = parse_ros_schema(schema->second.name, schema->second.text);
     for (const auto& [ns, bytes] : events) {
-      decode(root, bytes, row);
       LogInfo::Event e{static_cast<std::int64_t>(ns - epoch), "", "", ""};
-      for (std::size_t i = 0; i < row.size(); ++i) {
-        if (columns[i].name == "kind") e.kind = cell_label(*columns[i].field, row[i]);
-        if (columns[i].name == "component") e.component = cell_text(row[i]);
-        if (columns[i].name == "text" || columns[i].name == "words") e.text = cell_text(row[i]);
+      for (const auto& [name, text] : cdr_values(*type, bytes, 1000)) {
+        if (name == "kind") e.kind = text;
+        if (name == "component") e.component = text;
+        if (name == "text" || name == "words") e.text = text;
       }
       if (e.kind == "phase" && e.text.starts_with(phase_word)) begin_phase(e.text.substr(phase_word.size()), e.time_ns);
       info.events.push_back(std::move(e));

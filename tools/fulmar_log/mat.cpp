@@ -53,11 +53,15 @@ struct Form {
   MatKind data;
   std::uint32_t shape;
 };
-Form form_of(MatValue::Kind kind) {
-  static constexpr Form forms[]{{mi_uint8, mx_uint8 | logical}, {mi_int8, mx_int8},     {mi_uint8, mx_uint8},   {mi_int16, mx_int16},
-                                {mi_uint16, mx_uint16},         {mi_int32, mx_int32},   {mi_uint32, mx_uint32}, {mi_int64, mx_int64},
-                                {mi_uint64, mx_uint64},         {mi_single, mx_single}, {mi_double, mx_double}};
-  return forms[static_cast<std::size_t>(kind)];
+/// In the order of fulmar_kind.
+Form form_of(fulmar_kind kind) {
+  static constexpr Form none{mi_matrix, mx_cell};  // text and structs; an enum is its byte
+  static constexpr std::array<Form, kind_rows.size()> forms{
+      {{mi_uint8, mx_uint8 | logical}, {mi_uint8, mx_uint8},   {mi_int32, mx_int32},   {mi_uint32, mx_uint32},
+       {mi_int64, mx_int64},           {mi_uint64, mx_uint64}, {mi_single, mx_single}, {mi_double, mx_double},
+       {mi_uint8, mx_uint8},           none,                   none,                   {mi_int8, mx_int8},
+       {mi_int16, mx_int16},           {mi_uint16, mx_uint16}}};
+  return forms[static_cast<std::size_t>(kind) - FULMAR_BOOL];
 }
 
 std::string u32(std::uint32_t x) { return {reinterpret_cast<const char*>(&x), 4}; }
@@ -118,7 +122,7 @@ std::string mat_name(const std::string& name) {
 
 std::string MatValue::named(const std::string& name) const { return mat_element(mi_matrix, flags_dims_ + mat_element(mi_int8, name) + body_); }
 
-MatValue MatValue::numbers(Kind kind, std::size_t count, std::span<const std::byte> data) {
+MatValue MatValue::numbers(fulmar_kind kind, std::size_t count, std::span<const std::byte> data) {
   const Form form = form_of(kind);
   MatValue v;
   v.flags_dims_ = flags_and_dims(form.shape, count, 1);
@@ -182,9 +186,8 @@ void export_mat(const Tables& tables, const std::filesystem::path& file) {
   for_each_table(tables, [&](const Table& table, const std::vector<Array>& arrays) {
     std::vector<std::pair<std::string, MatValue>> fields;
     for (const Array& a : arrays) {
-      const bool text = a.kind == RosKind::text;
-      fields.emplace_back(a.name,
-                          text ? MatValue::texts(a.texts) : MatValue::numbers(static_cast<MatValue::Kind>(a.kind), table.rows, a.data));
+      const bool text = a.kind == FULMAR_TEXT;
+      fields.emplace_back(a.name, text ? MatValue::texts(a.texts) : MatValue::numbers(a.kind, table.rows, a.data));
       if (!a.labels.empty()) fields.emplace_back(a.name + "_labels", MatValue::texts(a.labels));
     }
     out.add(unlike(mat_name(table.name), taken), MatValue::structure(fields));

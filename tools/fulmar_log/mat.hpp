@@ -9,14 +9,15 @@
 #include <string>
 #include <vector>
 
+#include "core/types/kinds.hpp"
+
 namespace fulmar::core {
 
 /// A value, in the bytes of the format.
 class MatValue {
  public:
-  enum class Kind { flag, i8, u8, i16, u16, i32, u32, i64, u64, f32, f64 };
   /// A column of numbers.
-  static MatValue numbers(Kind kind, std::size_t count, std::span<const std::byte> data);
+  static MatValue numbers(fulmar_kind kind, std::size_t count, std::span<const std::byte> data);
   /// A column of cells, each a text.
   static MatValue texts(const std::vector<std::string>& texts);
   /// A struct of 1 x 1. Names are cut to 63 letters, digits and underscores, and made different.

@@ -78,9 +78,10 @@ std::u32string code_points(const std::string& text) {
   return points;
 }
 
-const char* numpy_type(RosKind kind) {
-  static constexpr const char* names[]{"|b1", "|i1", "|u1", "<i2", "<u2", "<i4", "<u4", "<i8", "<u8", "<f4", "<f8"};
-  return names[static_cast<std::size_t>(kind)];
+/// "<f8", "|u1", "|b1"
+std::string numpy_type(fulmar_kind kind) {
+  const char letter = kind == FULMAR_ENUM ? 'u' : kind_word(kind)[0];
+  return (primitive_size(kind) == 1 ? "|" : "<") + (letter + std::to_string(primitive_size(kind)));
 }
 
 }  // namespace
@@ -157,7 +158,7 @@ void export_npz(const Tables& tables, const std::filesystem::path& file) {
   for_each_table(tables, [&](const Table& table, const std::vector<Array>& arrays) {
     for (const Array& a : arrays) {
       const std::string name = table.name + "." + a.name;
-      if (a.kind == RosKind::text) {
+      if (a.kind == FULMAR_TEXT) {
         out.add(name, a.texts);
       } else {
         out.add(name, numpy_type(a.kind), table.rows, a.data);

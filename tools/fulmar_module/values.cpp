@@ -26,35 +26,11 @@ const std::optional<py::module_>& numpy() {
 py::object dtype_of(const Type& type);
 
 py::object element_dtype(const Field& field) {
-  switch (field.kind) {
-    case FULMAR_BOOL:
-      return py::str("?");
-    case FULMAR_U8:
-    case FULMAR_ENUM:
-      return py::str("u1");
-    case FULMAR_I8:
-      return py::str("i1");
-    case FULMAR_I16:
-      return py::str("i2");
-    case FULMAR_U16:
-      return py::str("u2");
-    case FULMAR_I32:
-      return py::str("i4");
-    case FULMAR_U32:
-      return py::str("u4");
-    case FULMAR_I64:
-      return py::str("i8");
-    case FULMAR_U64:
-      return py::str("u8");
-    case FULMAR_F32:
-      return py::str("f4");
-    case FULMAR_F64:
-      return py::str("f8");
-    case FULMAR_TEXT:
-      return py::str("S" + std::to_string(field.stride));
-    case FULMAR_STRUCT:
-      break;
-  }
+  if (field.kind == FULMAR_BOOL) return py::str("?");
+  if (field.kind == FULMAR_ENUM) return py::str("u1");
+  if (field.kind == FULMAR_TEXT) return py::str("S" + std::to_string(field.stride));
+  if (field.kind != FULMAR_STRUCT)  // NumPy counts in bytes: "f8"
+    return py::str(kind_word(field.kind)[0] + std::to_string(primitive_size(field.kind)));
   if (!field.type->frame.empty()) return py::make_tuple("f8", py::make_tuple(field.type->fields.size()));  // Vec3, Quat
   return dtype_of(*field.type);
 }
@@ -109,10 +85,7 @@ py::object value_of(const Field& field, const std::byte* at) {
   if (field.kind == FULMAR_BOOL) return py::bool_(number != 0);
   if (field.kind == FULMAR_ENUM && static_cast<std::size_t>(number) < field.labels.size())
     return py::str(field.labels[static_cast<std::size_t>(number)]);
-  if (field.kind == FULMAR_F32 || field.kind == FULMAR_F64) return py::float_(number);
-  std::int64_t whole = static_cast<std::int64_t>(number);
-  if (field.kind == FULMAR_I64) std::memcpy(&whole, at, sizeof whole);
-  return py::int_(whole);
+  return with_number(field.kind, at, [](auto x) -> py::object { return py::cast(x); });
 }
 
 }  // namespace fulmar::module

@@ -26,36 +26,11 @@ class Writer {
   static bool known(const Type& type) { return type.name == "Vec3Ned" || type.name == "Vec3Body" || type.name == "Quat"; }
 
   std::string element(const Type& type, const Field& field) {
-    switch (field.kind) {
-      case FULMAR_BOOL:
-        return "bool";
-      case FULMAR_U8:
-        return "std::uint8_t";
-      case FULMAR_I8:
-        return "std::int8_t";
-      case FULMAR_I16:
-        return "std::int16_t";
-      case FULMAR_U16:
-        return "std::uint16_t";
-      case FULMAR_I32:
-        return "std::int32_t";
-      case FULMAR_U32:
-        return "std::uint32_t";
-      case FULMAR_I64:
-        return "std::int64_t";
-      case FULMAR_U64:
-        return "std::uint64_t";
-      case FULMAR_F32:
-        return "float";
-      case FULMAR_F64:
-        return "double";
-      case FULMAR_TEXT:
-        return "Text<" + std::to_string(field.stride) + ">";
-      case FULMAR_ENUM:
-        return enumeration(type, field);
-      case FULMAR_STRUCT:
-        break;
-    }
+    if (field.kind == FULMAR_TEXT) return "Text<" + std::to_string(field.stride) + ">";
+    if (field.kind == FULMAR_ENUM) return enumeration(type, field);
+    if (field.kind == FULMAR_BOOL) return "bool";
+    if (is_real(field.kind)) return field.kind == FULMAR_F32 ? "float" : "double";
+    if (field.kind != FULMAR_STRUCT) return std::string("std::") + kind_row(field.kind).ros + "_t";
     if (field.type->name == "Vec3Ned") return "Vec3<Ned>";
     if (field.type->name == "Vec3Body") return "Vec3<Body>";
     return field.type->name;

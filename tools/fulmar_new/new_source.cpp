@@ -135,7 +135,7 @@ class SourceWriter {
   static std::string number_in(const Type& type) {
     for (const Field& field : type.fields) {
       if (field.shape != FULMAR_SCALAR) continue;
-      if (field.kind == FULMAR_F64 || field.kind == FULMAR_F32) return field.name;
+      if (is_real(field.kind)) return field.name;
       const std::string inner = field.kind == FULMAR_STRUCT ? number_in(*field.type) : "";
       if (!inner.empty()) return field.name + "." + inner;
     }

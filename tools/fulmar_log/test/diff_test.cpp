@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Logs compared: equal ones, and each way in which two can differ.
-#include "tools/fulmar_log/diff.hpp"
+#include "core/log/diff.hpp"
 
 #include <doctest/doctest.h>
 
@@ -106,6 +106,46 @@ TEST_CASE("a message more, a topic more, other metadata, another attachment: eac
   CHECK_FALSE(e.first.has_value());  // what is in both is the same
   CHECK(e.metadata == std::vector<std::string>{"run: seed is 8 and 7"});
   CHECK(e.attachments == std::vector<std::string>{"plan.yaml differs from line 2 on"});
+}
+
+TEST_CASE("what comes later than is asked for is not compared; what differs is counted in messages and bytes") {
+  const Folder folder;
+  write_sample({.file = folder.path / "a.mcap"}, 100);
+  write_sample({.file = folder.path / "b.mcap"}, 110, [](int i, Mixed& m) {
+    if (i == 40) m.count ^= 0x0101;  // two bytes
+    if (i >= 50) m.mode = 0;
+  });
+  const auto after = [](int i) { return static_cast<std::uint64_t>(epoch_ns - 1'000'000'000 + i * 2'500'000LL); };
+  const LogDiff none = diff_logs(folder.path / "a.mcap", folder.path / "b.mcap", {.last_ns = after(39)});
+  CHECK(none.messages_equal());
+  CHECK(none.messages == 40 + 10);
+  CHECK(none.differing_messages == 0);
+  const LogDiff one = diff_logs(folder.path / "a.mcap", folder.path / "b.mcap", {.last_ns = after(49)});
+  CHECK(one.differing_messages == 1);
+  CHECK(one.differing_bytes == 2);
+  CHECK(one.first->field == "count");
+}
+
+TEST_CASE("a topic that only one log has holds the first difference where that is asked for, and the ticks never before others") {
+  const Folder folder;
+  for (const bool other : {false, true}) {
+    Sample sample({.file = folder.path / (other ? "b.mcap" : "a.mcap")});
+    const std::uint16_t ticks = sample.channel("/fulmar/ticks", *host_type<Ticks>());
+    const std::uint16_t x = sample.channel("/x", *number_type());
+    const Ticks t{0, 0, 2, {0, 10}, 2, {1, other ? 3u : 2u}};
+    sample.write(ticks, 10, bytes_of(t));
+    const Number n{1};
+    if (!other) sample.write(x, 20, bytes_of(n));
+    sample.writer.close();
+  }
+  const LogDiff d = diff_logs(folder.path / "a.mcap", folder.path / "b.mcap");
+  CHECK(d.first->topic == "/fulmar/ticks");
+  CHECK(d.first_tick->index == 1);
+  CHECK(d.differing_messages == 1);
+  const LogDiff e = diff_logs(folder.path / "a.mcap", folder.path / "b.mcap", {.whole_topics = true});
+  CHECK(e.first->topic == "/x");
+  CHECK(e.first->a == "a message");
+  CHECK(e.first->b == "absent");
 }
 
 TEST_CASE("where the components differed without a message of it, the hash of the ticks tells the tick") {

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // See diff.hpp.
-#include "tools/fulmar_log/diff.hpp"
+#include "core/log/diff.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <deque>
 
 #include "core/error.hpp"
 #include "core/log/events.hpp"
-#include "tools/fulmar_log/export_table.hpp"
+#include "core/log/log_file.hpp"
 #include "core/log/reader.hpp"
+#include "core/types/ros_parse.hpp"
+#include "core/types/wire.hpp"
 
 namespace fulmar::core {
 namespace {
 
-constexpr std::size_t most_compared_columns = 100'000;
+constexpr std::size_t most_compared_values = 100'000;
 using MessageBytes = std::vector<std::byte>;
 
 struct Stored {
@@ -22,64 +24,76 @@ struct Stored {
   bool operator==(const Stored&) const = default;
 };
 
+struct HashedTick {
+  std::uint64_t index;
+  std::int64_t time_ns;
+  std::uint32_t hash;
+};
+
 /// One of the two logs: the messages of one log time after the other.
 struct Side {
   McapStream stream;
+  std::uint64_t last_ns;
   const McapFile::Message* ahead;
   std::map<std::string, std::vector<Stored>> now;  // by topic, of the present log time
   std::vector<std::string> order;                  // of the topics there, as they stand in the file
   std::map<std::string, std::uint16_t> channels;
   std::uint64_t first_ns = std::numeric_limits<std::uint64_t>::max();
 
-  explicit Side(const std::filesystem::path& file) : stream(file), ahead(stream.next()) {
+  std::deque<HashedTick> ticks;                    // that wait for those of the other log
+  std::optional<HostTopic<Ticks>> tick_topic;
+
+  Side(const std::filesystem::path& file, std::uint64_t last) : stream(file), last_ns(last), ahead(next()) {
     if (ahead != nullptr) first_ns = ahead->log_ns;
+  }
+  const McapFile::Message* next() {
+    const McapFile::Message* m = stream.next();
+    while (m != nullptr && m->log_ns > last_ns) m = stream.next();
+    return m;
   }
   std::uint64_t next_ns() const { return ahead != nullptr ? ahead->log_ns : std::numeric_limits<std::uint64_t>::max(); }
   void take(std::uint64_t ns) {
     for (auto& [topic, list] : now) list.clear();
     order.clear();
-    for (; ahead != nullptr && ahead->log_ns == ns; ahead = stream.next()) {
+    for (; ahead != nullptr && ahead->log_ns == ns; ahead = next()) {
       const std::string& topic = stream.log().channels.at(ahead->channel).topic;
       channels.try_emplace(topic, ahead->channel);
       if (now[topic].empty()) order.push_back(topic);
       now[topic].push_back({MessageBytes(ahead->data.begin(), ahead->data.end()), ahead->publish_ns});
+      if (topic == Ticks::topic) take_ticks(ahead->data);
     }
+  }
+  void take_ticks(std::span<const std::byte> data) try {
+    if (!tick_topic) tick_topic.emplace(stream.log());
+    if (!tick_topic->same()) return;
+    const Ticks t = tick_topic->read(data);
+    std::int64_t time_ns = t.time_ns;
+    for (std::uint32_t i = 0; i < std::min(t.hashes, t.periods); ++i) {
+      if (i > 0) time_ns += t.period_ns[i];
+      ticks.push_back({t.first + i, time_ns, t.hash[i]});
+    }
+  } catch (const Error&) {  // no message of the host's: the bytes differ, and that is all
   }
   std::int64_t flight_ns(std::uint64_t ns) const { return static_cast<std::int64_t>(ns - log_epoch_ns(stream.log(), first_ns)); }
 };
 
-struct Value {
-  std::string name, text;
-};
-
 /// The message field by field; empty when it cannot be decoded.
-std::vector<Value> values(const Side& side, const std::string& topic, const MessageBytes& message) {
-  try {
-    const McapFile& log = side.stream.log();
-    const McapFile::Channel& channel = log.channels.at(side.channels.at(topic));
-    const auto schema = log.schemas.find(channel.schema);
-    if (schema == log.schemas.end() || schema->second.encoding != "ros2msg" || channel.encoding != "cdr") return {};
-    RosField root = parse_ros2msg(schema->second.name, schema->second.text);
-    measure(root, message);
-    const std::vector<Column> columns = lay_out(root, most_compared_columns);
-    std::vector<Cell> row;
-    decode(root, message, row);
-    std::vector<Value> list;
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string_view label = cell_label(*columns[i].field, row[i]);
-      list.push_back({columns[i].name, label.empty() ? cell_text(row[i]) : std::string(label)});
-    }
-    return list;
-  } catch (const Error&) {
-    return {};
-  }
+std::vector<CdrValue> values(const Side& side, const std::string& topic, const MessageBytes& message) try {
+  const McapFile& log = side.stream.log();
+  const McapFile::Channel& channel = log.channels.at(side.channels.at(topic));
+  const auto schema = log.schemas.find(channel.schema);
+  const bool ours = channel.encoding == "cdr" && schema != log.schemas.end() && schema->second.encoding == "ros2msg";
+  if (!ours) return {};
+  return cdr_values(*parse_ros_schema(schema->second.name, schema->second.text), message, most_compared_values);
+} catch (const Error&) {
+  return {};
 }
 
 /// The first field that is not the same, or else a byte; of samples that hold the same, when they are valid.
 LogDiff::First first_field(const Side& a, const Side& b, const std::string& topic, const Stored& in_a, const Stored& in_b) {
   const MessageBytes &left = in_a.data, &right = in_b.data;
   if (left == right) return {topic, "valid at", 0, std::to_string(in_a.valid_ns), std::to_string(in_b.valid_ns)};
-  const std::vector<Value> x = values(a, topic, left), y = values(b, topic, right);
+  const std::vector<CdrValue> x = values(a, topic, left), y = values(b, topic, right);
   for (std::size_t i = 0; i < std::max(x.size(), y.size()); ++i) {
     const bool in_x = i < x.size(), in_y = i < y.size();
     if (in_x && in_y && x[i].name == y[i].name && x[i].text == y[i].text) continue;
@@ -101,17 +115,24 @@ LogDiff::First first_field(const Side& a, const Side& b, const std::string& topi
   return f;
 }
 
+std::uint64_t count_differing(const MessageBytes& a, const MessageBytes& b) {
+  const std::size_t both = std::min(a.size(), b.size());
+  std::uint64_t n = std::max(a.size(), b.size()) - both;
+  for (std::size_t i = 0; i < both; ++i) n += a[i] != b[i];
+  return n;
+}
+
 struct Comparison {
   Side a, b;
-  LogDiff diff;
-
-  Comparison(const std::filesystem::path& file_a, const std::filesystem::path& file_b) : a(file_a), b(file_b) {}
+  bool whole_topics;
+  LogDiff diff{};
 
   void run() {
     while (a.ahead != nullptr || b.ahead != nullptr) {
       const std::uint64_t ns = std::min(a.next_ns(), b.next_ns());
       a.take(ns);
       b.take(ns);
+      compare_ticks();
       for (const std::string& topic : a.order) compare(topic, ns);
       for (const std::string& topic : b.order)
         if (a.now[topic].empty()) compare(topic, ns);
@@ -125,9 +146,17 @@ struct Comparison {
       it = in_a && in_b ? std::next(it) : diff.topics.erase(it);
     }
     diff.first = first_pair;
-    for (const auto& [topic, first] : first_absent) {  // a topic that is only in one is told by that
-      if (diff.topics.contains(topic) && (!diff.first || first.time_ns < diff.first->time_ns)) diff.first = first;
+    for (const auto& [topic, first] : first_absent) {
+      if (!whole_topics && !diff.topics.contains(topic)) continue;  // it is told by being in one alone
+      if (precedes(topic, first.time_ns, diff.first)) diff.first = first;
     }
+  }
+
+  /// The ticks tell that something differs, and not what: anything else is told before them.
+  static bool precedes(const std::string& topic, std::int64_t time_ns, const std::optional<LogDiff::First>& other) {
+    if (!other) return true;
+    const bool of_ticks = topic == Ticks::topic, other_of_ticks = other->topic == Ticks::topic;
+    return of_ticks == other_of_ticks ? time_ns < other->time_ns : other_of_ticks;
   }
 
   void compare(const std::string& topic, std::uint64_t ns) {
@@ -140,12 +169,12 @@ struct Comparison {
         continue;
       }
       ++counts.different;
-      if (topic == Ticks::topic) note_tick(left[i].data, right[i].data);
-      if (first_pair && first_pair->topic != Ticks::topic) continue;
-      if (first_pair && (topic == Ticks::topic || a.flight_ns(ns) > first_pair->time_ns)) continue;
-      first_pair = first_field(a, b, topic, left[i], right[i]);
-      first_pair->time_ns = a.flight_ns(ns);
+      if (precedes(topic, a.flight_ns(ns), first_pair)) {
+        first_pair = first_field(a, b, topic, left[i], right[i]);
+        first_pair->time_ns = a.flight_ns(ns);
+      }
     }
+    if (topic != Ticks::topic) count(left, right);
     counts.only_a += left.size() - both;
     counts.only_b += right.size() - both;
     if (left.size() == right.size()) return;
@@ -153,22 +182,29 @@ struct Comparison {
     first_absent.try_emplace(topic, LogDiff::First{topic, "", a.flight_ns(ns), word(left.size()), word(right.size())});
   }
 
-  void note_tick(const MessageBytes& left, const MessageBytes& right) try {
-    const HostTopic<Ticks> in_a(a.stream.log()), in_b(b.stream.log());
-    if (diff.first_tick || !in_a.same() || !in_b.same()) return;
-    const Ticks x = in_a.read(left), y = in_b.read(right);
-    std::int64_t time_ns = x.time_ns;
-    for (std::uint32_t i = 0; i < std::min(x.hashes, y.hashes); ++i) {
-      if (i > 0) time_ns += x.period_ns[i];
-      if (x.hash[i] == y.hash[i]) continue;
-      diff.first_tick = {x.first + i, time_ns};
-      return;
+  void count(const std::vector<Stored>& left, const std::vector<Stored>& right) {
+    static const Stored none{};
+    diff.messages += left.size();
+    for (std::size_t i = 0; i < std::max(left.size(), right.size()); ++i) {
+      const Stored &x = i < left.size() ? left[i] : none, &y = i < right.size() ? right[i] : none;
+      const bool in_one = i >= left.size() || i >= right.size();
+      diff.differing_messages += in_one || x != y;
+      diff.differing_bytes += count_differing(x.data, y.data);
     }
-  } catch (const Error&) {  // no message of the host's: the bytes differ, and that is all
   }
 
-  std::optional<LogDiff::First> first_pair;
-  std::map<std::string, LogDiff::First> first_absent;  // by topic
+  void compare_ticks() {
+    while (!a.ticks.empty() && !b.ticks.empty()) {
+      const HashedTick x = a.ticks.front(), y = b.ticks.front();
+      if (x.index <= y.index) a.ticks.pop_front();
+      if (y.index <= x.index) b.ticks.pop_front();
+      if (diff.first_tick || x.index != y.index || (x.hash == y.hash && x.time_ns == y.time_ns)) continue;
+      diff.first_tick = {x.index, x.time_ns};
+    }
+  }
+
+  std::optional<LogDiff::First> first_pair{};
+  std::map<std::string, LogDiff::First> first_absent{};  // by topic
 };
 
 using Named = std::map<std::string, std::string>;
@@ -212,8 +248,9 @@ bool LogDiff::messages_equal() const {
   return same && only_a.empty() && only_b.empty() && fault_a.empty() == fault_b.empty();
 }
 
-LogDiff diff_logs(const std::filesystem::path& file_a, const std::filesystem::path& file_b) {
-  Comparison comparison(file_a, file_b);
+LogDiff diff_logs(const std::filesystem::path& file_a, const std::filesystem::path& file_b,
+                  const DiffOptions& options) {
+  Comparison comparison{{file_a, options.last_ns}, {file_b, options.last_ns}, options.whole_topics};
   comparison.run();
   LogDiff diff = std::move(comparison.diff);
   const McapFile &a = comparison.a.stream.log(), &b = comparison.b.stream.log();

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What differs between two logs. Both are read once, side by side; messages of a topic are compared at equal log times,
-// what they hold and when it is valid.
+// What differs between two logs. Both are read once, side by side; messages of a topic are compared at equal log
+// times, what they hold and when it is valid.
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -15,7 +16,7 @@ struct LogDiff {
   struct First {
     std::string topic, field;  // field "" when a message is only in one, or cannot be decoded
     std::int64_t time_ns = 0;  // flight time
-    std::string a, b;          // values; "absent" for a message that is not there; of "valid at" times since 1970 in ns
+    std::string a, b;  // values; "absent" for a message that is not there; of "valid at" times since 1970 in ns
   };
   struct Tick {
     std::uint64_t index = 0;
@@ -25,19 +26,27 @@ struct LogDiff {
     std::uint64_t equal = 0, different = 0;  // pairs of messages at equal times
     std::uint64_t only_a = 0, only_b = 0;
   };
-  std::optional<First> first;
-  /// The first tick of which /fulmar/ticks says that the components published something else, whether or not that was recorded.
+  std::optional<First> first;  // in a topic of the ticks alone when nothing else differs
+  /// The first tick of which /fulmar/ticks says that the components published something else, whether or not that
+  /// was recorded.
   std::optional<Tick> first_tick;
   std::map<std::string, Topic> topics;             // in both
   std::vector<std::string> only_a, only_b;         // topics
   std::vector<std::string> metadata, attachments;  // "fulmar: seed is 7 and 8", "mission.yaml differs at line 4"
   std::string fault_a, fault_b;                    // "" or why a log ends before its end
+  std::uint64_t messages = 0;                      // of the first log; these three without the ticks
+  std::uint64_t differing_messages = 0, differing_bytes = 0;
 
   bool messages_equal() const;
   bool equal() const { return messages_equal() && metadata.empty() && attachments.empty(); }
 };
 
+struct DiffOptions {
+  std::uint64_t last_ns = std::numeric_limits<std::uint64_t>::max();  // log time: what is later is not compared
+  bool whole_topics = false;  // a topic that only one log has may hold the first difference, too
+};
+
 /// Throws Error for what is no log.
-LogDiff diff_logs(const std::filesystem::path& a, const std::filesystem::path& b);
+LogDiff diff_logs(const std::filesystem::path& a, const std::filesystem::path& b, const DiffOptions& options = {});
 
 }  // namespace fulmar::core

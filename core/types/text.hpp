@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Small things that are done to texts.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <string>
+#include <string_view>
+
+namespace fulmar::core {
+
+/// Without the white space at both ends.
+inline std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view white = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(white);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(white) - first + 1);
+}
+
+/// In small letters, of ASCII alone.
+inline std::string lower(std::string_view text) {
+  std::string small(text);
+  for (char& c : small) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return small;
+}
+
+/// "0.1", "7": the shortest that reads back the same.
+template <class Number>
+std::string number_text(Number x) {
+  std::array<char, 40> text;
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), x).ptr};
+}
+
+/// "nav.state" -> "nav/state": ports have dots, topics have slashes.
+inline std::string slashed(std::string port) {
+  std::replace(port.begin(), port.end(), '.', '/');
+  return port;
+}
+
+}  // namespace fulmar::core

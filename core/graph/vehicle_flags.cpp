@@ -10,13 +10,13 @@
 namespace fulmar::core {
 namespace {
 
-constexpr const char* default_port = "status";
+constexpr const char* usual_port = "status";
 
 struct Wanted {
   const char* name;
   VehicleFlag VehicleFlags::*flag;
 };
-constexpr std::array<Wanted, 3> wanted = {Wanted{"armed", &VehicleFlags::armed},
+constexpr std::array<Wanted, 3> all_flags = {Wanted{"armed", &VehicleFlags::armed},
                                           {"on_ground", &VehicleFlags::on_ground},
                                           {"in_control", &VehicleFlags::in_control}};
 
@@ -59,7 +59,7 @@ VehicleFlag named_flag(const Graph& graph, const std::string& text) {
 /// The flag of that name in the output 'status'; none when there is none.
 VehicleFlag usual_flag(const Graph& graph, const char* name) {
   const ComponentInfo& info = graph.components[static_cast<std::size_t>(graph.vehicle)].info();
-  const int output = info.output(default_port);
+  const int output = info.output(usual_port);
   const TypePtr type = output < 0 ? nullptr : info.outputs[static_cast<std::size_t>(output)].type;
   const Field* const field = type ? type->find(name) : nullptr;
   if (!field || field->kind != FULMAR_BOOL || field->shape != FULMAR_SCALAR) return {};
@@ -84,7 +84,7 @@ void check_complete(Draft& draft, const std::vector<std::string>& missing) {
                    std::string(role ? "roles.vehicle" : "components." + vehicle.name) +
                        ": with io: fcu the vehicle has to say whether it is armed, on the ground and in control, and " +
                        vehicle.name + " (" + vehicle.use + ") has no flag " + join(missing) + " in an output '" +
-                       default_port + "'; name its own at the role vehicle, as in flags: {" + example + "}." +
+                       usual_port + "'; name its own at the role vehicle, as in flags: {" + example + "}." +
                        flags_text(vehicle.info()));
 }
 
@@ -95,7 +95,7 @@ void read_vehicle_flags(Draft& draft) {
   if (graph.vehicle < 0) return;
   const RoleText* const role = draft.text.role("vehicle");
   std::vector<std::string> missing;
-  for (const Wanted& each : wanted) {
+  for (const Wanted& each : all_flags) {
     VehicleFlag& flag = graph.flags.*each.flag;
     flag = usual_flag(graph, each.name);
     bool refused = false;

@@ -163,7 +163,7 @@ void Playback::take_resume(const Event& e, bool begun) {
     resume_->phase = e.name.data(), resume_->if_armed = begun;
     return;
   }
-  if (!resume_ || entries_.empty()) return;
+  if (e.code == Code::not_resumed || !resume_ || entries_.empty()) return;  // of a parameter: it was not set
   Command& set = entries_.back().command;
   if (set.kind != CommandKind::parameter || set.component != e.component.data() || set.name != e.name.data()) return;
   resume_->params.push_back({set.component, set.name, std::move(set.value)});

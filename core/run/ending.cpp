@@ -16,7 +16,7 @@ constexpr Ending::Step ends(Reason why) { return {State::over, Act::end, why}; }
 constexpr Ending::Step as_decided = {State::over, Act::end, Reason::none};
 
 /// Rows: the states; columns: the cues, in the order of their declarations.
-constexpr Table table = {{
+constexpr Table transition_table = {{
     // flying
     {{{State::concluded, Act::tell_done, Reason::done},
       {State::concluded, Act::tell_failed, Reason::failed},
@@ -95,7 +95,7 @@ constexpr bool is_told(Act act) {
 }  // namespace
 
 Ending::Step Ending::step(State state, Cue cue) noexcept {
-  return table[static_cast<std::size_t>(state)][static_cast<std::size_t>(cue)];
+  return transition_table[static_cast<std::size_t>(state)][static_cast<std::size_t>(cue)];
 }
 
 Outcome Ending::outcome(Reason reason) noexcept {

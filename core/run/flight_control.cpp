@@ -57,11 +57,11 @@ ComponentView view_of(const Flight::Impl& flight, const Unit& unit) {
   const Component& c = *unit.component;
   ComponentView v;
   v.name = c.name, v.use = c.use, v.doc = c.info().doc, v.run = modes[static_cast<std::size_t>(c.run)];
-  if (c.role >= 0) v.role = flight.graph.roles[static_cast<std::size_t>(c.role)].name;
+  if (c.role >= 0) v.role = flight.state.graph.roles[static_cast<std::size_t>(c.role)].name;
   for (std::size_t i = 0; i < c.info().params.size(); ++i) v.params.push_back({c.info().params[i], unit.base[i], false});
   for (std::size_t i = 0; i < unit.in.readers.size(); ++i) {
     const Reader& r = unit.in.readers[i];
-    PortView port{r.port->name, r.port->type, source_name(flight.graph, c.wires[i])};
+    PortView port{r.port->name, r.port->type, source_name(flight.state.graph, c.wires[i])};
     port.request = r.port->kind == FULMAR_IN_REQUEST;
     port.imported = c.wires[i].import >= 0;
     port.channel = r.channel;
@@ -78,23 +78,23 @@ ComponentView view_of(const Flight::Impl& flight, const Unit& unit) {
 }  // namespace
 
 FlightControl::Directory::Directory(const Flight::Impl& flight) : commands(flight.commands) {
-  if (!flight.graph.file.empty()) view.file = std::filesystem::absolute(flight.graph.file).string();
-  view.mission = flight.graph.mission, view.io = io_word(flight.graph.io), view.epoch_ns = flight.graph.epoch_ns;
-  for (const Phase& p : flight.graph.phases) {
+  if (!flight.state.graph.file.empty()) view.file = std::filesystem::absolute(flight.state.graph.file).string();
+  view.mission = flight.state.graph.mission, view.io = io_word(flight.state.graph.io), view.epoch_ns = flight.state.graph.epoch_ns;
+  for (const Phase& p : flight.state.graph.phases) {
     view.phases.push_back(p.name);
     overlaid.emplace_back();
     for (const Assignment& a : p.roles)
       for (const Overlay& o : a.set) overlaid.back().emplace_back(static_cast<std::size_t>(a.component), static_cast<std::size_t>(o.param));
   }
-  for (const auto& unit : flight.units) view.components.push_back(view_of(flight, *unit));
+  for (const auto& unit : flight.wiring.units) view.components.push_back(view_of(flight, *unit));
 }
 
 FlightControl::FlightControl(Flight::Impl& flight)
     : flight_(flight),
-      states_(std::make_unique<std::atomic<std::uint8_t>[]>(flight.units.size())),
+      seen_(flight.wiring.units.size()),
       directory_(std::make_shared<const Directory>(flight)) {
-  for (const auto& unit : flight.units) base_.push_back(unit->base);
-  waiting_of_.resize(flight.imports.size());
+  for (const auto& unit : flight.wiring.units) base_.push_back(unit->base);
+  waiting_.of_import.resize(flight.wiring.imports.size());
   sigset_t all, before;  // signals are for the main thread
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -108,37 +108,37 @@ FlightControl::~FlightControl() { end(); }
 // ---- the loop ---------------------------------------------------------------------------------------------------------------------
 
 void FlightControl::note(int phase, std::int64_t now_ns, bool armed) noexcept {
-  phase_.store(phase, std::memory_order_relaxed);
-  now_ns_.store(now_ns, std::memory_order_relaxed);
-  armed_.store(armed, std::memory_order_relaxed);
+  seen_.phase.store(phase, std::memory_order_relaxed);
+  seen_.now_ns.store(now_ns, std::memory_order_relaxed);
+  seen_.armed.store(armed, std::memory_order_relaxed);
 }
 
 void FlightControl::note_stopped(std::size_t component, bool active, bool stopped) noexcept {
-  states_[component].store(static_cast<std::uint8_t>((active ? 1 : 0) | (stopped ? 2 : 0)), std::memory_order_relaxed);
+  seen_.states[component].store(static_cast<std::uint8_t>((active ? 1 : 0) | (stopped ? 2 : 0)), std::memory_order_relaxed);
 }
 
-void FlightControl::done(Waiting& waiting) noexcept { out_.push(&waiting); }  // has room for all that can wait
+void FlightControl::done(Waiting& waiting) noexcept { queues_.out.push(&waiting); }  // has room for all that can wait
 
 bool FlightControl::apply() noexcept {
   std::size_t applied = 0, left = 0;
-  grounded_ = false;
-  for (std::size_t i = 0; i < held_count_; ++i)
-    if (applied < most_per_tick && take(*held_[i]))
+  held_.grounded = false;
+  for (std::size_t i = 0; i < held_.count; ++i)
+    if (applied < most_per_tick && take(*held_.list[i]))
       ++applied;
     else
-      held_[left++] = held_[i];
-  held_count_ = left;
+      held_.list[left++] = held_.list[i];
+  held_.count = left;
   for (; applied < most_per_tick; ++applied) {
-    Waiting* const waiting = in_.pop();
+    Waiting* const waiting = queues_.in.pop();
     if (!waiting) break;
-    if (!take(*waiting)) held_[held_count_++] = waiting;
+    if (!take(*waiting)) held_.list[held_.count++] = waiting;
   }
   for (std::size_t n = 0; n < most_per_tick; ++n) {
-    Waiting* const sample = samples_.pop();
+    Waiting* const sample = queues_.samples.pop();
     if (!sample) break;
     take(*sample);
   }
-  return !grounded_;
+  return !held_.grounded;
 }
 
 bool FlightControl::take(Waiting& w) noexcept {
@@ -158,9 +158,9 @@ bool FlightControl::refuse(Waiting& w, const char* why) noexcept {
 /// False: not now. A request has its turn when there is room for it, and is answered by its component.
 bool FlightControl::apply(Waiting& w) {
   Command& c = w.command;
-  if (c.made_for && c.made_for != flight_.units[c.at]->component->plugin)
+  if (c.made_for && c.made_for != flight_.wiring.units[c.at]->component->plugin)
     return refuse(w, "its component was swapped meanwhile; ask again");
-  if (c.kind == CommandKind::swap || c.kind == CommandKind::reset) grounded_ = true;
+  if (c.kind == CommandKind::swap || c.kind == CommandKind::reset) held_.grounded = true;
   Reply reply;
   if (c.kind == CommandKind::request) reply = [this, &w](const char* refusal) { refuse(w, refusal); };
   const Flight::Impl::Taken taken = flight_.take(c, std::move(reply));
@@ -186,9 +186,9 @@ void FlightControl::send(Command command, Answer answer) {
   Waiting* const w = waiting.get();
   const std::lock_guard lock(mutex_);
   if (over_.load()) throw Error("the flight has ended");
-  if (const std::size_t commands = waiting_.size() - waiting_samples_; commands >= most_waiting || !in_.push(w))
+  if (const std::size_t commands = waiting_.all.size() - waiting_.samples; commands >= most_waiting || !queues_.in.push(w))
     throw Error(std::to_string(commands) + " commands are waiting for the flight; there is no room for more");
-  waiting_.emplace(w, std::move(waiting));
+  waiting_.all.emplace(w, std::move(waiting));
 }
 
 void FlightControl::end() {
@@ -202,8 +202,8 @@ void FlightControl::end() {
   answer_done();
   {
     const std::lock_guard lock(mutex_);
-    left = std::move(waiting_);
-    waiting_.clear();
+    left = std::move(waiting_.all);
+    waiting_.all.clear();
   }
   for (const auto& [pointer, waiting] : left)
     if (waiting->answer) waiting->answer("the flight has ended");
@@ -217,18 +217,18 @@ void FlightControl::run() noexcept {
 }
 
 void FlightControl::answer_done() {
-  while (Waiting* const w = out_.pop()) {
+  while (Waiting* const w = queues_.out.pop()) {
     const Command& c = w->command;
     std::unique_ptr<Waiting> waiting;
     decltype(changed_) changed;
     const bool accepted = w->refusal[0] == '\0';
     {
       const std::lock_guard lock(mutex_);
-      const auto at = waiting_.find(w);
+      const auto at = waiting_.all.find(w);
       waiting = std::move(at->second);
-      waiting_.erase(at);
+      waiting_.all.erase(at);
       if (c.kind == CommandKind::import) {
-        --waiting_samples_, --waiting_of_[c.part];
+        --waiting_.samples, --waiting_.of_import[c.part];
         if (!accepted) lost_samples_.fetch_add(1, std::memory_order_relaxed);
       }
       if (accepted && c.kind == CommandKind::parameter) {
@@ -251,13 +251,13 @@ void FlightControl::answer_done() {
 FlightView FlightControl::view() const {
   const std::lock_guard lock(mutex_);
   FlightView v = directory_->view;
-  const auto phase = static_cast<std::size_t>(phase_.load(std::memory_order_relaxed));
+  const auto phase = static_cast<std::size_t>(seen_.phase.load(std::memory_order_relaxed));
   v.phase = v.phases.at(phase);
-  v.now_ns = now_ns_.load(std::memory_order_relaxed);
-  v.armed = armed_.load(std::memory_order_relaxed);
+  v.now_ns = seen_.now_ns.load(std::memory_order_relaxed);
+  v.armed = seen_.armed.load(std::memory_order_relaxed);
   v.over = over_.load();
   for (std::size_t i = 0; i < v.components.size(); ++i) {
-    const std::uint8_t state = states_[i].load(std::memory_order_relaxed);
+    const std::uint8_t state = seen_.states[i].load(std::memory_order_relaxed);
     v.components[i].active = state & 1, v.components[i].stopped = state & 2;
     for (std::size_t k = 0; k < v.components[i].params.size(); ++k) v.components[i].params[k].base = base_[i][k];
   }
@@ -312,12 +312,12 @@ bool FlightControl::publish(const std::string& component, const std::string& por
   Waiting* const w = waiting.get();
   const std::lock_guard lock(mutex_);
   // So many of each: a flood of one import takes no other's place.
-  if (over_.load() || waiting_of_[c.part] >= most_of_import || !samples_.push(w)) {
+  if (over_.load() || waiting_.of_import[c.part] >= most_of_import || !queues_.samples.push(w)) {
     lost_samples_.fetch_add(1, std::memory_order_relaxed);
     return false;
   }
-  ++waiting_samples_, ++waiting_of_[c.part];
-  waiting_.emplace(w, std::move(waiting));
+  ++waiting_.samples, ++waiting_.of_import[c.part];
+  waiting_.all.emplace(w, std::move(waiting));
   return true;
 }
 

@@ -83,24 +83,42 @@ class FlightControl final : public Control {
   void run() noexcept;
   void answer_done();
 
+  struct Queues {
+    PointerQueue<Waiting, most_waiting> in, samples;  // nobody's samples keep a parameter waiting
+    PointerQueue<Waiting, 2 * most_waiting> out;
+  };
+  /// The loop's: requests for which there was no room yet, in their order.
+  struct Held {
+    std::array<Waiting*, most_waiting> list{};
+    std::size_t count = 0;
+    bool grounded = false;  // something was done that is done on the ground alone
+  };
+  /// What the loop tells of the flight.
+  struct Seen {
+    explicit Seen(std::size_t components) : states(std::make_unique<std::atomic<std::uint8_t>[]>(components)) {}
+    std::atomic<int> phase{0};
+    std::atomic<std::int64_t> now_ns{0};
+    std::atomic<bool> armed{false};
+    std::unique_ptr<std::atomic<std::uint8_t>[]> states;  // per component: 1 active, 2 stopped
+  };
+  /// All that waits to be applied or answered.
+  struct Account {
+    std::map<Waiting*, std::unique_ptr<Waiting>> all;
+    std::size_t samples = 0;             // of them
+    std::vector<std::size_t> of_import;  // samples per import
+  };
+
   Flight::Impl& flight_;
-  PointerQueue<Waiting, most_waiting> in_, samples_;  // nobody's samples keep a parameter waiting
-  PointerQueue<Waiting, 2 * most_waiting> out_;
-  std::array<Waiting*, most_waiting> held_{};  // the loop's: requests for which there was no room yet, in their order
-  std::size_t held_count_ = 0;
-  bool grounded_ = false;
-  std::atomic<int> phase_{0};
-  std::atomic<std::int64_t> now_ns_{0};
-  std::atomic<bool> armed_{false}, over_{false}, stop_{false};
-  std::unique_ptr<std::atomic<std::uint8_t>[]> states_;  // per component: 1 active, 2 stopped
+  Queues queues_;
+  Held held_;
+  Seen seen_;
+  std::atomic<bool> over_{false}, stop_{false};
   std::atomic<std::uint64_t> lost_samples_{0};
 
-  mutable std::mutex mutex_;  // never the loop's
+  mutable std::mutex mutex_;  // never the loop's; guards what follows
   std::shared_ptr<const Directory> directory_;
   std::vector<std::vector<ParamValue>> base_;  // what the loop has taken over
-  std::map<Waiting*, std::unique_ptr<Waiting>> waiting_;
-  std::size_t waiting_samples_ = 0;      // of them
-  std::vector<std::size_t> waiting_of_;  // samples per import
+  Account waiting_;
   std::vector<std::function<void(const std::string&, const std::string&)>> changed_;
   std::thread thread_;
 };

@@ -27,6 +27,12 @@ void Reader::push(const std::byte* message, std::int64_t valid_at_ns, const Copy
   ++p.count;
 }
 
+void Reader::push(const std::byte* message, std::int64_t valid_at_ns) noexcept {
+  CopyPlan whole;
+  whole.size = port->type->size;
+  push(message, valid_at_ns, whole);
+}
+
 void Reader::latch() noexcept {
   const Slot* s = source();
   const std::uint64_t now = published();

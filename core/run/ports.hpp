@@ -92,6 +92,8 @@ struct Reader {
   std::uint64_t sequence() const { return delayed ? copied : published(); }
   void latch() noexcept;  // delayed wires, at the end of a tick
   void push(const std::byte* message, std::int64_t valid_at_ns, const CopyPlan& plan) noexcept;
+  /// A message of the port's own type.
+  void push(const std::byte* message, std::int64_t valid_at_ns) noexcept;
 };
 
 /// The inputs of a component, as its functions take them.

@@ -9,6 +9,7 @@
 
 #include "core/graph/condition.hpp"
 #include "core/run/flight_impl.hpp"
+#include "core/run/published.hpp"
 #include "core/log/reader.hpp"
 #include "core/types/wire.hpp"
 
@@ -152,53 +153,47 @@ fs::path newest_log(const Graph& graph, double max_age_s) {
   return newest;
 }
 
-// ---- in flight --------------------------------------------------------------------------------------------------------------
+// ---- in flight -------------------------------------------------------------------------------------------------
 
-/// What every file of a log begins with, for it to be read, and resumed from, without the one before: see Log::Options.
-std::function<std::string(std::size_t, const std::byte*)> Flight::Impl::lasting() const {
-  return [event = event_channel, parameter = parameter_channel, command = command_channel](std::size_t channel, const std::byte* message) {
-    std::string name;
-    if (channel == event && reinterpret_cast<const Event*>(message)->code == Code::phase_entered) name = "phase";
-    if (channel != parameter && channel != command) return name;
-    const auto* const note = reinterpret_cast<const CommandNote*>(message);
-    const std::string component = note->component.data();
-    if (note->kind == CommandKind::parameter) name = "parameter " + component + "." + note->name.data();
-    if (note->kind == CommandKind::swap) name = "swap " + component;
-    return name;
-  };
-}
-
-/// Before the first step, or when a vehicle turns out to be armed.
+/// Before the first step, or when a vehicle turns out to be armed. The parameters are those of a log: one that cannot be
+/// set any more is told, and the flight goes on without it.
 void Flight::Impl::resume_now() {
-  const Resume resume = std::move(*options.resume);
-  options.resume.reset();
-  int to = 0;
-  for (std::size_t i = 0; i < graph.phases.size(); ++i)
-    if (graph.phases[i].name == resume.phase) to = static_cast<int>(i);
+  const Resume resume = std::move(*state.options.resume);
+  state.options.resume.reset();
+  const auto& phases = state.graph.phases;
+  const auto at = std::find_if(phases.begin(), phases.end(), [&](const Phase& p) { return p.name == resume.phase; });
+  const int to = at == phases.end() ? 0 : static_cast<int>(at - phases.begin());
+  if (state.index == 0) roles.begin_in(to);
   Event e = event_of(Code::resumed, "", resume.phase);
   say(e, "resumed: %s", resume.text().c_str());
-  note(e);
-  for (const Resume::Param& p : resume.params) {
-    Command command = command_of(CommandKind::parameter, p.component, p.param);
-    command.value = p.value;
+  recorder.note(e);
+  for (const Resume::Param& param : resume.params) resume_parameter(param);
+  if (to != roles.phase()) roles.enter(to);
+}
+
+void Flight::Impl::resume_parameter(const Resume::Param& param) {
+  try {
+    Command command = command_of(CommandKind::parameter, param.component, param.param);
+    command.value = param.value;
     commands->prepare(command);
     apply_parameter(command, Code::resumed);
+  } catch (const Error& fault) {
+    Event e = event_of(Code::not_resumed, param.component, param.param);
+    put(e.cause, fault.what());
+    say(e, "not resumed: %s", fault.what());
+    recorder.note(e);
   }
-  if (index == 0)
-    phase = to;
-  else if (to != phase)
-    enter(to);
 }
 
 void Flight::Impl::resume_if_armed() {
-  if (!armed_flag.slot || armed_flag.slot->sequence == 0) return;
-  if (heard_ns == never) heard_ns = now_ns;
-  if (armed_flag.says(false) && !ground_flag.says(false)) return resume_now();
-  if (now_ns - heard_ns < 1'000'000'000) return;
-  options.resume.reset();
+  if (!protection.has_spoken()) return;
+  if (heard_ns == never_ns) heard_ns = state.now_ns;
+  if (protection.flies()) return resume_now();
+  if (state.now_ns - heard_ns < 1'000'000'000) return;
+  state.options.resume.reset();
   Event e = event_of(Code::not_resumed);
   say(e, "not resumed: the aircraft is not in the air, armed");
-  note(e);
+  recorder.note(e);
 }
 
 }  // namespace fulmar::core

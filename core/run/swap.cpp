@@ -7,7 +7,7 @@
 #include "core/graph/params.hpp"
 #include "core/loader/probe.hpp"
 #include "core/run/flight_impl.hpp"
-#include "core/run/flown_plugin.hpp"
+#include "core/run/published.hpp"
 
 namespace fulmar::core {
 
@@ -91,26 +91,41 @@ void rehearse(const Component& component, std::int64_t tick_ns, std::uint64_t se
   if (tape && !unit.rehearse(*tape)) throw Error(std::string(unit.problem.text));
 }
 
-// ---- in a flight that goes on -----------------------------------------------------------------------------------------------
+// ---- in a flight that goes on ----------------------------------------------------------------------------------
 
-std::string Flight::Impl::in_use() const {
-  if (armed_flag.says(false)) return "the aircraft is armed";
-  return ground_flag.says(true) ? "" : "the aircraft is in the air";
-}
-
-void Flight::Impl::swap(std::size_t at, const std::string& file) {
-  const std::string& name = units[at]->component->name;
-  if (static_cast<int>(at) == graph.vehicle)
+void Flight::Impl::swap(int at, const std::string& file) {
+  const std::string& name = wiring.unit(at).component->name;
+  if (at == state.graph.vehicle)
     throw Error(name + " is the vehicle: it holds the aircraft, and is changed when no flight goes on");
-  if (graph.file.empty()) throw Error("this flight was not read from a mission file: nothing can be swapped in it");
-  if (const std::string why = in_use(); !why.empty())
+  if (state.graph.file.empty()) throw Error("this flight was not read from a mission file: nothing can be swapped in it");
+  if (const std::string why = protection.in_use(); !why.empty())
     throw Error(name + " cannot be swapped: " + why + ". A component is swapped on the ground, disarmed");
   replace(at, file);
 }
 
+namespace {
+
+/// The log of a flight has room for the ports that it began with.
+void check_ports(const Component& was, const Component& is) {
+  for (const Port& port : was.info().outputs) {
+    const int k = is.info().output(port.name);
+    if (k >= 0 && was.info().outputs.size() == is.info().outputs.size() &&
+        (!port.type || is.info().outputs[static_cast<std::size_t>(k)].type->hash == port.type->hash))
+      continue;
+    throw Error(was.name + ": its outputs are not those of " + was.plugin->file +
+                ", and the log of this flight has room for those alone");
+  }
+  if (!same_entrances(was, is))
+    throw Error(was.name + ": its requests and imported inputs are not those of " + was.plugin->file +
+                ", and the log of this flight has room for those alone");
+}
+
+}  // namespace
+
 /// Reads the mission again with the new file; what is in the way is told by the same sentences as at the start.
-void Flight::Impl::replace(std::size_t at, const std::string& file) {
-  Unit& old = *units[at];
+void Flight::Impl::replace(int at, const std::string& file) {
+  const Graph& graph = state.graph;
+  const Unit& old = wiring.unit(at);
   const std::string name = old.component->name;
   check_unloads(*old.component->plugin, *old.info);
   Overrides overrides = graph.overrides;
@@ -119,79 +134,72 @@ void Flight::Impl::replace(std::size_t at, const std::string& file) {
   Graph next = load_mission(graph.file, overrides);
   if (const std::string difference = structural_difference(graph, next); !difference.empty())
     throw Error(graph.file + " has changed since this flight began (" + difference + "): end it, and fly again");
-  Component& component = next.components[at];
-  const ComponentInfo &was = *old.info, &is = component.info();
-  for (const Port& port : was.outputs) {
-    const int k = is.output(port.name);
-    if (k < 0 || (port.type && is.outputs[static_cast<std::size_t>(k)].type->hash != port.type->hash) ||
-        was.outputs.size() != is.outputs.size())
-      throw Error(name + ": its outputs are not those of " + old.component->plugin->file +
-                  ", and the log of this flight has room for those alone");
-  }
-  if (!same_entrances(*old.component, component))
-    throw Error(name + ": its requests and imported inputs are not those of " + old.component->plugin->file +
-                ", and the log of this flight has room for those alone");
-  carry_parameters(was, old.base, is, component.params);
-  const std::uint64_t seed = component_seed(graph.seed, name);
-  std::unique_ptr<Tape> now;  // nobody has stepped it yet: what it would see now
-  const Tape* tape = old.tape.get();
-  if (component.run != RunMode::driver) {
-    if (!tape || tape->size() == 0) now = old.present_inputs(now_ns, index), tape = now.get();
-    rehearse(component, graph.tick_ns, seed, same_inputs(was, is) ? tape : nullptr);
-  }
+  Component& newcomer = next.components[static_cast<std::size_t>(at)];
+  check_ports(*old.component, newcomer);
+  carry_parameters(*old.info, old.base, newcomer.info(), newcomer.params);
+  if (newcomer.run != RunMode::driver) rehearse_newcomer(old, newcomer);
   install(at, std::move(next));
 }
 
+/// On what its predecessor saw last, or, when nobody has stepped yet, on what it would see now.
+void Flight::Impl::rehearse_newcomer(const Unit& old, const Component& newcomer) {
+  std::unique_ptr<Tape> now;
+  const Tape* tape = old.tape.get();
+  if (!tape || tape->size() == 0) {
+    now = wiring.unit(wiring.index_of(old)).present_inputs(state.now_ns, state.index);
+    tape = now.get();
+  }
+  const std::uint64_t seed = component_seed(state.graph.seed, newcomer.name);
+  rehearse(newcomer, state.graph.tick_ns, seed, same_inputs(*old.info, newcomer.info()) ? tape : nullptr);
+}
+
+/// A configured unit takes the place of another: what asked the old one is told `why`.
+void Flight::Impl::put_in_place(int at, std::unique_ptr<Unit> fresh, const char* why) {
+  std::unique_ptr<Unit>& place = wiring.units[static_cast<std::size_t>(at)];
+  fresh->active = place->active;
+  fresh->keep_log_settings(*place);
+  place->in.refuse_requests(why);
+  place = std::move(fresh);
+  connect();
+  if (const std::vector<Overlay>* overlay = roles.overlay_of(at); overlay) place->retune(overlay);
+}
+
 /// A new child for a component whose child has died; parameters are those of now.
-void Flight::Impl::restart(std::size_t i) {
-  Unit& old = *units[i];
-  auto fresh = std::make_unique<Unit>(graph.components[i], unit_options(graph.components[i]));
+void Flight::Impl::restart(int at) {
+  const Unit& old = wiring.unit(at);
+  std::unique_ptr<Unit> fresh = wiring.make_unit(*old.component);
   fresh->base = old.base;
   fresh->configure();
-  fresh->active = old.active;
-  fresh->keep_log_settings(old);
-  old.in.refuse_requests("was started anew");
-  units[i] = std::move(fresh);
-  connect();
-  if (const std::vector<Overlay>* overlay = overlay_of(static_cast<int>(i)); overlay) units[i]->retune(overlay);
+  put_in_place(at, std::move(fresh), "was started anew");
 }
 
 /// From here on nothing can fail but what ends the host: the newcomer has been created before the old one goes.
-void Flight::Impl::install(std::size_t i, Graph&& next) {
+void Flight::Impl::install(int at, Graph&& next) {
+  Graph& graph = state.graph;
+  const auto i = static_cast<std::size_t>(at);
   Component before = graph.components[i];
   const CommandNote command = swap_note(before.name, *next.components[i].plugin);
-  const bool active = units[i]->active;
-  Unit& old = *units[i];
   std::swap(graph.components[i], next.components[i]);
   std::unique_ptr<Unit> fresh;
   try {
-    fresh = std::make_unique<Unit>(graph.components[i], unit_options(graph.components[i]));
+    fresh = wiring.make_unit(graph.components[i]);
     fresh->configure();
   } catch (...) {
     std::swap(graph.components[i], next.components[i]);
     throw;
   }
-  fresh->active = active;
-  fresh->keep_log_settings(old);
   graph.phases = std::move(next.phases);
   graph.any = std::move(next.any);
   graph.roles = std::move(next.roles);
   graph.done = std::move(next.done), graph.failed = std::move(next.failed);
   graph.overrides = std::move(next.overrides);
-  old.in.refuse_requests("was swapped");
-  units[i] = std::move(fresh);
-  connect();
-  if (const std::vector<Overlay>* overlay = overlay_of(static_cast<int>(i)); overlay) units[i]->retune(overlay);
+  put_in_place(at, std::move(fresh), "was swapped");
   const PluginInfo& plugin = *graph.components[i].plugin;
   Event e = event_of(Code::swapped, before.name);
   say(e, "swapped: %s -> %s", version_words(*before.plugin).c_str(), version_words(plugin).c_str());
-  note(e);
-  put_command(command);
-  if (log) {
-    auto pairs = flown_pairs(plugin);
-    pairs.emplace(pairs.begin(), "component", before.name);
-    log->metadata("swap", pairs);
-  }
+  recorder.note(e);
+  recorder.put_command(command);
+  recorder.note_swap(before.name, plugin);
   commands = std::make_shared<const CommandTable>(graph);
   next = Graph{};
   if (before.library && before.library.use_count() == 1) Library::unload(std::move(before.library));

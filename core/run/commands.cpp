@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What enters a flight from outside, between ticks. There is one door, Flight::Impl::take: commands have been checked
+// and prepared by then, and each is in the log before it takes effect.
+#include <cstring>
+#include <utility>
+
+#include "core/run/flight_impl.hpp"
+
+namespace fulmar::core {
+
+Flight::Impl::Taken Flight::Impl::take(Command& command, Reply answered) {
+  switch (command.kind) {
+    case CommandKind::parameter:
+      apply_parameter(command, Code::parameter_set);
+      break;
+    case CommandKind::request:
+      return apply_request(command, std::move(answered));
+    case CommandKind::import:
+      wiring.publish_import(command.part, command.message.data());
+      recorder.put_input(wiring.imports[command.part].reader->channel, command.message.data());
+      break;
+    case CommandKind::phase:
+      apply_phase(command);
+      break;
+    case CommandKind::swap:
+      swap(static_cast<int>(command.at), command.name);
+      break;
+    case CommandKind::reset:
+      reset_guards(command);
+      break;
+  }
+  return Taken::yes;
+}
+
+Flight::Impl::Taken Flight::Impl::apply_request(const Command& command, Reply answered) {
+  Unit& unit = *wiring.units[command.at];
+  Reader& r = unit.in.readers[command.part];
+  if (state.index > 0 && (!unit.active || unit.stopped)) return Taken::idle;
+  if (r.pending.count == r.port->capacity) return Taken::full;
+  r.push(command.message.data(), state.now_ns);
+  r.pending.replies[r.pending.count - 1] = std::move(answered);
+  recorder.put_input(r.channel, command.message.data());
+  Event e = event_of(Code::request_taken, unit.component->name, r.port->name);
+  say(e, "%s", r.port->name.c_str());
+  recorder.note(e, false);  // not told aloud: a tool may send hundreds
+  return Taken::yes;
+}
+
+void Flight::Impl::apply_parameter(Command& command, Code told) {
+  Unit& unit = *wiring.units[command.at];
+  const CommandNote& taken = command.note;
+  const std::vector<Overlay>* const overlay = roles.overlay_of(static_cast<int>(command.at));
+  std::swap(unit.base[command.part], command.value);
+  if (!unit.runner().dead() && !unit.retune(overlay)) {
+    std::swap(unit.base[command.part], command.value);
+    unit.retune(overlay);
+    throw Error(unit.component->name + ": " + unit.problem.text);
+  }
+  recorder.put_command(taken);
+  Event e = event_of(told, taken.component.data(), taken.name.data());
+  e.severity = Severity::info;
+  const bool number = unit.info->params[command.part].kind == FULMAR_NUMBER;
+  e.value = number ? taken.number[0] : static_cast<double>(taken.integer);
+  say(e, "%s = %s", taken.name.data(), taken.text.data());
+  recorder.note(e, false);  // not told aloud: a script may set thousands
+}
+
+void Flight::Impl::apply_phase(const Command& command) {
+  if (end.in_failsafe()) throw Error("the flight is in its failsafe: no phase can be entered");
+  recorder.put_command(command.note);
+  roles.enter(static_cast<int>(command.part));  // the present one, too: whoever it names takes over again
+}
+
+void Flight::Impl::reset_guards(const Command& command) {
+  recorder.put_command(command.note);
+  for (const auto& unit : wiring.units) {
+    const std::string& name = unit->component->name;
+    if (!unit->stopped || !reset_guard(wiring.index_of(*unit))) continue;
+    Event e = event_of(Code::guard_reset, name);
+    say(e, "guard reset");
+    recorder.note(e);
+  }
+}
+
+/// False: its process has ended, and this is no time to start another.
+bool Flight::Impl::reset_guard(int component) {
+  if (wiring.unit(component).runner().dead()) {
+    if (const std::string why = protection.in_use(); !why.empty()) {
+      Event e = event_of(Code::guard_not_reset, wiring.unit(component).component->name);
+      put(e.cause, why);
+      say(e, "guard not reset: its process has ended, and is started anew on the ground; %s", why.c_str());
+      recorder.note(e);
+      return false;
+    }
+    restart(component);
+  }
+  Unit& unit = wiring.unit(component);
+  unit.stopped = false;
+  unit.overruns_in_a_row = 0;
+  unit.fresh_start = true;
+  return true;
+}
+
+}  // namespace fulmar::core

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Who flies: the present phase, who fills which role in it, hand-over, guards and fallbacks.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "core/log/events.hpp"
+#include "core/run/flight_end.hpp"
+#include "core/run/flight_state.hpp"
+#include "core/run/protection.hpp"
+#include "core/run/recorder.hpp"
+#include "core/run/stopwatch.hpp"
+#include "core/run/wiring.hpp"
+
+namespace fulmar::core {
+
+class Roles {
+ public:
+  Roles(FlightState& state, Wiring& wiring, Recorder& recorder, Protection& protection, FlightEnd& end,
+        Stopwatch& stopwatch);
+  /// [setup] Which roles feed the vehicle, and which are held while it does not obey; anew when units were exchanged.
+  void connect();
+
+  int phase() const noexcept { return phase_; }
+  /// What the present phase lays over a component's parameters, or nullptr.
+  const std::vector<Overlay>* overlay_of(int component) const noexcept;
+
+  // phases.cpp
+  /// [tick] In another phase than the first one. Before `begin`.
+  void begin_in(int phase) noexcept { phase_ = phase; }
+  /// [tick] In the first tick: nobody has flown before, so each component is activated when its inputs have arrived.
+  void begin();
+  void transitions();
+  void enter(int phase);
+
+  // roles.cpp
+  /// [tick] Steps a component if it is due, and takes what has arrived from elsewhere.
+  void step(int component);
+  /// [tick] Of the time it took; a component over its budget is stopped.
+  void charge(Unit& unit);
+  /// [tick] Whoever works in another thread begins anew, now that control has returned.
+  void begin_anew() noexcept;
+  /// [tick] A guard has fired: the last good output is held; the fallback takes over; when nobody is left, failsafe.
+  void stop(int component, Code code = Code::guard);
+  /// At the end of a flight: a result that has not come is not there in a replay either.
+  void tell_overdue();
+
+ private:
+  bool try_transitions(const std::vector<Transition>& list, std::vector<std::int64_t>& since);
+  void note_phase(const Phase& entered);
+  void fill(int role, const Assignment& assignment, bool overlaid);
+  bool take_over(int role, int component, const Assignment& assignment);
+  void fill_hand_over(const Unit& unit);
+  void cannot_take_over(Unit& unit, bool somebody_stays);
+  bool fall_back(int role, int stopped, std::size_t guard);
+  bool collect(Unit& unit, int component);
+  bool ready_to_step(Unit& unit, int component);
+  bool is_held(const Unit& unit) const noexcept;
+  void note_late(const Unit& unit, std::int64_t due_ns);
+  void tell_late(Unit& unit);
+  const Phase& present() const noexcept { return state_.graph.phases[static_cast<std::size_t>(phase_)]; }
+  int& active(int role) noexcept { return active_[static_cast<std::size_t>(role)]; }
+
+  FlightState& state_;
+  Wiring& wiring_;
+  Recorder& recorder_;
+  Protection& protection_;
+  FlightEnd& end_;
+  Stopwatch& stopwatch_;
+  int phase_ = 0;
+  std::vector<int> active_;                          // per role: the component that fills it now, or -1
+  std::vector<bool> drives_vehicle_, control_roles_;  // per role
+  std::vector<std::int64_t> any_since_, next_since_;  // since when a transition's condition holds
+  std::vector<const Slot*> hand_over_;                // room for what was last applied
+};
+
+}  // namespace fulmar::core

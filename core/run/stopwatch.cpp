@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/run/stopwatch.hpp"
+
+#include <time.h>
+
+#include "core/run/circumstances.hpp"
+
+namespace fulmar::core {
+namespace {
+
+std::int64_t wall_clock_ns() noexcept {
+  timespec t{};
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
+}
+
+constexpr int overruns_allowed = 5;  // steps over budget in a row
+constexpr std::int64_t show_every_ns = 200'000'000;
+
+}  // namespace
+
+void Stopwatch::begin() noexcept { wall_ns_ = begin_ns_ = shown_ns_ = wall_clock_ns(); }
+
+void Stopwatch::skip() noexcept { wall_ns_ = wall_clock_ns(); }
+
+/// What the loop has waited for the log's thread is not the unit's.
+bool Stopwatch::charge(Unit& unit) noexcept {
+  const std::int64_t now = wall_clock_ns();
+  const std::int64_t took = now - wall_ns_ - recorder_.take_wait_ns();
+  unit.stats.time.add(took);
+  wall_ns_ = now;
+  const auto& circumstances = state_.options.circumstances;
+  if (circumstances && circumstances->ran_over(unit.component->name, state_.now_ns)) return true;
+  if (unit.component->budget_ns == 0 || state_.unpaced()) return false;  // an unpaced simulation knows no deadline
+  if (took <= unit.component->budget_ns) {
+    unit.overruns_in_a_row = 0;
+    return false;
+  }
+  ++unit.stats.overruns;
+  return ++unit.overruns_in_a_row >= overruns_allowed && !unit.stopped && !unit.info->vehicle;
+}
+
+void Stopwatch::pace() noexcept {
+  const double flown_ns = static_cast<double>(state_.now_ns - state_.result.first_ns);
+  const std::int64_t due = begin_ns_ + static_cast<std::int64_t>(flown_ns / state_.options.speed);
+  const timespec t{due / 1'000'000'000, due % 1'000'000'000};
+  clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr);
+  skip();
+}
+
+bool Stopwatch::time_to_show() noexcept {
+  if (wall_ns_ - shown_ns_ <= show_every_ns) return false;
+  shown_ns_ = wall_ns_;
+  return true;
+}
+
+double Stopwatch::elapsed_s() const noexcept { return 1e-9 * static_cast<double>(wall_clock_ns() - begin_ns_); }
+
+}  // namespace fulmar::core

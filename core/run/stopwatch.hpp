@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The clock on the wall: what a step takes of it, whether that is too much, and when the next tick may begin.
+#pragma once
+#include <cstdint>
+
+#include "core/run/flight_state.hpp"
+#include "core/run/recorder.hpp"
+
+namespace fulmar::core {
+
+class Stopwatch {
+ public:
+  Stopwatch(const FlightState& state, Recorder& recorder) : state_(state), recorder_(recorder) {}
+
+  /// [tick] In the first one.
+  void begin() noexcept;
+  /// [tick] Charges the time since the last reading to `unit`: one reading between two steps times both. True when the
+  /// unit has been over its budget for too long.
+  bool charge(Unit& unit) noexcept;
+  /// [tick] The time since the last reading is nobody's.
+  void skip() noexcept;
+  /// [tick] Sleeps until the wall clock has caught up with flight time.
+  void pace() noexcept;
+  /// [tick] Every 200 ms.
+  bool time_to_show() noexcept;
+  double elapsed_s() const noexcept;
+
+ private:
+  const FlightState& state_;
+  Recorder& recorder_;
+  std::int64_t wall_ns_ = 0, begin_ns_ = 0, shown_ns_ = 0;
+};
+
+}  // namespace fulmar::core

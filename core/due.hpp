@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What comes every so often, without drift: due times are whole nanoseconds, and the next one is a period after
-// the last due time, however late that was served. After a gap the schedule starts anew instead of catching up.
+// What comes every so often, without drift: due times are whole nanoseconds, and the next one is a period
+// after the last due time, however late that was served. After a gap the schedule starts anew instead of
+// catching up.
 #pragma once
 #include <cstdint>
 #include <limits>

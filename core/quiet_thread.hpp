@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Threads beside the loop's. No signal is theirs: those are for the main thread, and one for a file at its size limit comes back as an error
-// of write.
+// Threads beside the loop's. No signal is theirs: those are for the main thread, and one for a file at its
+// size limit comes back as an error of write.
 #pragma once
 #include <pthread.h>
 
@@ -10,7 +10,8 @@
 
 namespace fulmar::core {
 
-/// While it lives this thread takes no signal, and neither do those that it creates meanwhile, in all their life.
+/// While it lives this thread takes no signal, and neither do those that it creates meanwhile, in all their
+/// life.
 class NoSignals {
  public:
   NoSignals() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What protects an aircraft: which fields of its vehicle say that it is armed, on the ground, and under the
-// host's control. The host knows no message, so the mission names them; unless it does, they are looked for in
-// the output 'status'.
+// host's control. The host knows no message, so the mission names them; unless it does, they are looked for
+// in the output 'status'.
 #include <algorithm>
 #include <array>
 
@@ -17,15 +17,16 @@ struct Wanted {
   VehicleFlag VehicleFlags::*flag;
 };
 constexpr std::array<Wanted, 3> all_flags = {Wanted{"armed", &VehicleFlags::armed},
-                                          {"on_ground", &VehicleFlags::on_ground},
-                                          {"in_control", &VehicleFlags::in_control}};
+                                             {"on_ground", &VehicleFlags::on_ground},
+                                             {"in_control", &VehicleFlags::in_control}};
 
 /// All that could be named: "status.armed, status.in_control".
 std::vector<std::string> flag_names(const ComponentInfo& vehicle) {
   std::vector<std::string> names;
   for (const Port& port : vehicle.outputs)
     for (std::size_t i = 0; port.type && i < port.type->fields.size(); ++i)
-      if (const Field& field = port.type->fields[i]; field.kind == FULMAR_BOOL && field.shape == FULMAR_SCALAR)
+      if (const Field& field = port.type->fields[i];
+          field.kind == FULMAR_BOOL && field.shape == FULMAR_SCALAR)
         names.push_back(port.name + "." + field.name);
   return names;
 }
@@ -41,18 +42,21 @@ VehicleFlag named_flag(const Graph& graph, const std::string& text) {
   const ComponentInfo& info = vehicle.info();
   const auto dot = text.find('.');
   if (dot == std::string::npos)
-    throw Error("expected a field of an output such as status.armed, found '" + text + "'." + flags_text(info));
+    throw Error("expected a field of an output such as status.armed, found '" + text + "'." +
+                flags_text(info));
   const std::string port = text.substr(0, dot);
   const int output = info.output(port);
   std::vector<std::string> ports;
   for (const Port& each : info.outputs)
     if (each.type) ports.push_back(each.name);
   if (output < 0 || !info.outputs[static_cast<std::size_t>(output)].type)
-    throw Error(vehicle.name + " (" + vehicle.use + ") has no output '" + port + "'." + choices_text(port, ports));
-  const FieldRef field =
-      resolve_field(*info.outputs[static_cast<std::size_t>(output)].type, std::string_view(text).substr(dot + 1));
+    throw Error(vehicle.name + " (" + vehicle.use + ") has no output '" + port + "'." +
+                choices_text(port, ports));
+  const FieldRef field = resolve_field(*info.outputs[static_cast<std::size_t>(output)].type,
+                                       std::string_view(text).substr(dot + 1));
   if (field.field->kind != FULMAR_BOOL)
-    throw Error("'" + text + "' of " + vehicle.use + " is no flag, which is true or false." + flags_text(info));
+    throw Error("'" + text + "' of " + vehicle.use + " is no flag, which is true or false." +
+                flags_text(info));
   return {{Source::Kind::component, graph.vehicle, output}, field.offset};
 }
 
@@ -70,8 +74,9 @@ VehicleFlag usual_flag(const Graph& graph, const char* name) {
 bool not_in_this_run(const Draft& draft, const RoleText& role, const std::string& text) {
   const ComponentInfo& info = draft.graph.components[static_cast<std::size_t>(draft.graph.vehicle)].info();
   const std::string port = text.substr(0, text.find('.'));
-  return info.output(port) < 0 &&
-         std::any_of(role.out.begin(), role.out.end(), [&](const auto& out) { return out.optional && out.name == port; });
+  return info.output(port) < 0 && std::any_of(role.out.begin(), role.out.end(), [&](const auto& out) {
+           return out.optional && out.name == port;
+         });
 }
 
 /// An aircraft of which the host does not know whether it is armed would be left in the air by a Ctrl-C.
@@ -80,12 +85,13 @@ void check_complete(Draft& draft, const std::vector<std::string>& missing) {
   const RoleText* const role = draft.text.role("vehicle");
   std::string example;
   for (const std::string& name : missing) example += (example.empty() ? "" : ", ") + name + ": PORT.FIELD";
-  draft.report.add(role ? role->where : vehicle.where,
-                   std::string(role ? "roles.vehicle" : "components." + vehicle.name) +
-                       ": with io: fcu the vehicle has to say whether it is armed, on the ground and in control, and " +
-                       vehicle.name + " (" + vehicle.use + ") has no flag " + join(missing) + " in an output '" +
-                       usual_port + "'; name its own at the role vehicle, as in flags: {" + example + "}." +
-                       flags_text(vehicle.info()));
+  draft.report.add(
+      role ? role->where : vehicle.where,
+      std::string(role ? "roles.vehicle" : "components." + vehicle.name) +
+          ": with io: fcu the vehicle has to say whether it is armed, on the ground and in control, and " +
+          vehicle.name + " (" + vehicle.use + ") has no flag " + join(missing) + " in an output '" +
+          usual_port + "'; name its own at the role vehicle, as in flags: {" + example + "}." +
+          flags_text(vehicle.info()));
 }
 
 }  // namespace

@@ -17,20 +17,24 @@ std::string log_topic(std::string name) {
 }  // namespace
 
 bool has_topic(const McapFile& file, const std::string& topic) {
-  return std::any_of(file.channels.begin(), file.channels.end(), [&](const auto& c) { return c.second.topic == topic; });
+  return std::any_of(file.channels.begin(), file.channels.end(),
+                     [&](const auto& c) { return c.second.topic == topic; });
 }
 
 std::uint16_t channel_of(const McapFile& file, const std::string& topic, const Type& type) {
   const std::uint16_t channel = file.channel(topic);
   const auto schema = file.schemas.find(file.channels.at(channel).schema);
   if (schema == file.schemas.end() || schema->second.text != ros_definition(type))
-    throw Error("the log's " + topic + " has other fields than " + type.name + " has here: it was written by another version");
+    throw Error("the log's " + topic + " has other fields than " + type.name +
+                " has here: it was written by another version");
   return channel;
 }
 
-std::string topic_in(const McapFile& file, const Graph& graph, const Component& component, std::size_t output) {
+std::string topic_in(const McapFile& file, const Graph& graph, const Component& component,
+                     std::size_t output) {
   const Port& port = component.info().outputs[output];
-  const std::string role = log_topic(topic_name(graph, component, output)), own = log_topic(component.name + "." + port.name);
+  const std::string role = log_topic(topic_name(graph, component, output)),
+                    own = log_topic(component.name + "." + port.name);
   if (role == own || !has_topic(file, own) || !has_topic(file, role)) return role;
   const auto schema = file.schemas.find(file.channels.at(file.channel(role)).schema);
   return schema != file.schemas.end() && schema->second.text == ros_definition(*port.type) ? role : own;

@@ -12,8 +12,10 @@ namespace fulmar::core {
 bool has_topic(const McapFile& file, const std::string& topic);
 /// The channel of a topic whose messages are of this type. Throws Error.
 std::uint16_t channel_of(const McapFile& file, const std::string& topic, const Type& type);
-/// Under which of its two names the log has an output: a role's topic, or, where that has another filler's fields, its own.
-std::string topic_in(const McapFile& file, const Graph& graph, const Component& component, std::size_t output);
+/// Under which of its two names the log has an output: a role's topic, or, where that has another filler's
+/// fields, its own.
+std::string topic_in(const McapFile& file, const Graph& graph, const Component& component,
+                     std::size_t output);
 /// How many samples of a channel the log has lost, as a sentence; "": none.
 std::string gap_in(const McapFile& file, std::uint16_t channel);
 

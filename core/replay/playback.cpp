@@ -13,17 +13,19 @@ namespace fulmar::core {
 
 TickList read_ticks(const McapFile& file) {
   const HostTopic<Ticks> topic(file);
-  if (!topic.there()) throw Error("the log has no /fulmar/ticks: it is not a flight's, or older than replays");
+  if (!topic.there())
+    throw Error("the log has no /fulmar/ticks: it is not a flight's, or older than replays");
   topic.check();
   TickList list;
   for (const McapFile::Message& m : file.messages) {
     if (!topic.holds(m)) continue;
     const Ticks ticks = topic.read(m.data);
     if (ticks.first != list.hash.size() || ticks.periods != ticks.hashes)
-      throw Error(list.hash.empty() ? "the log begins with tick " + std::to_string(ticks.first) +
-                                          " of its flight; a replay begins with the first: give the file before it"
-                                    : "the log has lost its ticks " + std::to_string(list.hash.size()) + " to " +
-                                          std::to_string(ticks.first) + ": it can be replayed no further than that");
+      throw Error(list.hash.empty()
+                      ? "the log begins with tick " + std::to_string(ticks.first) +
+                            " of its flight; a replay begins with the first: give the file before it"
+                      : "the log has lost its ticks " + std::to_string(list.hash.size()) + " to " +
+                            std::to_string(ticks.first) + ": it can be replayed no further than that");
     std::int64_t now = ticks.time_ns;
     for (std::uint32_t i = 0; i < ticks.hashes; ++i) {
       if (i > 0) now += ticks.period_ns[i];
@@ -32,7 +34,8 @@ TickList read_ticks(const McapFile& file) {
     }
   }
   if (list.hash.empty()) throw Error("the log holds no tick");
-  if (!std::is_sorted(list.time_ns.begin(), list.time_ns.end(), std::less_equal<>())) throw Error("the log's ticks are not in order");
+  if (!std::is_sorted(list.time_ns.begin(), list.time_ns.end(), std::less_equal<>()))
+    throw Error("the log's ticks are not in order");
   return list;
 }
 
@@ -47,7 +50,8 @@ Playback::Playback(const McapFile& file, const Graph& graph)
 
 Playback::~Playback() = default;
 
-// ---- the host ---------------------------------------------------------------------------------------------------------------
+// ---- the host
+// ---------------------------------------------------------------------------------------------------------------
 
 void Playback::index_host() {
   file_.channel(Event::topic);  // throws when there is none
@@ -56,16 +60,15 @@ void Playback::index_host() {
     if (events_.holds(m)) take_event(events_.read(m.data), flight_ns(m.log_ns, epoch_ns_));
 }
 
-/// What only the host's events tell: the wall clock, signals, devices that failed, and an end that the flight's owner had set.
+/// What only the host's events tell: the wall clock, signals, devices that failed, and an end that the
+/// flight's owner had set.
 void Playback::take_event(const Event& e, std::int64_t now_ns) {
   switch (e.code) {
     case Code::vehicle_failed:
       vehicle_failed_ = now_ns == ticks_.time_ns.back();
       last_words_ = e.cause.data();
       break;
-    case Code::duration_reached:
-      duration_s_ = 1e-9 * static_cast<double>(now_ns);
-      break;
+    case Code::duration_reached: duration_s_ = 1e-9 * static_cast<double>(now_ns); break;
     case Code::guard:
     case Code::hung:
     case Code::over_budget:
@@ -74,23 +77,26 @@ void Playback::take_event(const Event& e, std::int64_t now_ns) {
     case Code::gave_up:
       told_.push_back({now_ns, e.value_ns, e.code, e.component.data(), e.cause.data()});
       break;
-    default:
-      break;
+    default: break;
   }
 }
 
 bool Playback::told(Code code, const std::string& component, std::int64_t now_ns) const {
-  return std::any_of(told_.begin(), told_.end(),
-                     [&](const Told& t) { return t.code == code && t.at_ns == now_ns && t.component == component; });
+  return std::any_of(told_.begin(), told_.end(), [&](const Told& t) {
+    return t.code == code && t.at_ns == now_ns && t.component == component;
+  });
 }
 
 bool Playback::signalled(std::int64_t now_ns) const {
   return told(Code::signal_refused, "", now_ns) || told(Code::gave_up, "", now_ns);
 }
 
-bool Playback::ran_over(const std::string& component, std::int64_t now_ns) const { return told(Code::over_budget, component, now_ns); }
+bool Playback::ran_over(const std::string& component, std::int64_t now_ns) const {
+  return told(Code::over_budget, component, now_ns);
+}
 
-// ---- in place of vehicle and drivers -----------------------------------------------------------------------
+// ---- in place of vehicle and drivers
+// -----------------------------------------------------------------------
 
 void Playback::stand_in(const Graph& graph, const Component& component, UnitOptions& options) {
   std::vector<std::pair<std::int64_t, std::string>> faults;
@@ -110,13 +116,16 @@ void Playback::stand_in(const Graph& graph, const Component& component, UnitOpti
   for (std::size_t i = 0; i < component.info().outputs.size(); ++i) {
     const std::string topic = component.info().outputs[i].type ? topic_in(file_, graph, component, i) : "";
     probes = probes || topic.empty();
-    topics.push_back(has_topic(file_, topic) ? topic : "");  // one that was silent in the whole flight has none
+    topics.push_back(has_topic(file_, topic) ? topic
+                                             : "");  // one that was silent in the whole flight has none
   }
-  options.samples = std::make_unique<RecordedSamples>(file_, component.info(), topics, probes ? "/" + component.name + "/probes" : "",
+  options.samples = std::make_unique<RecordedSamples>(file_, component.info(), topics,
+                                                      probes ? "/" + component.name + "/probes" : "",
                                                       epoch_ns_, std::move(faults));
 }
 
-// ---- what was asked of the flight -------------------------------------------------------------------------------------------
+// ---- what was asked of the flight
+// -------------------------------------------------------------------------------------------
 
 namespace {
 
@@ -136,13 +145,14 @@ std::map<std::uint16_t, InputPort> input_channels(const McapFile& file, const Gr
       const bool import = component.wires[i].import >= 0;
       const std::string topic = "/" + component.name + "/" + port.name;
       if ((!request && !import) || !has_topic(file, topic)) continue;
-      inputs[channel_of(file, topic, *port.type)] = {request ? CommandKind::request : CommandKind::import, component.name, port.name,
-                                                     port.type};
+      inputs[channel_of(file, topic, *port.type)] = {request ? CommandKind::request : CommandKind::import,
+                                                     component.name, port.name, port.type};
     }
   return inputs;
 }
 
-/// Of a parameter that this mission does not have the value stays unread: whoever applies the command says so.
+/// Of a parameter that this mission does not have the value stays unread: whoever applies the command says
+/// so.
 Command logged_command(const CommandNote& note, const Graph& graph) {
   Command command = command_of(note.kind, note.component.data(), note.name.data());
   command.note = note;
@@ -165,7 +175,8 @@ void Playback::take_resume(const Event& e, bool begun) {
   }
   if (e.code == Code::not_resumed || !resume_ || entries_.empty()) return;  // of a parameter: it was not set
   Command& set = entries_.back().command;
-  if (set.kind != CommandKind::parameter || set.component != e.component.data() || set.name != e.name.data()) return;
+  if (set.kind != CommandKind::parameter || set.component != e.component.data() || set.name != e.name.data())
+    return;
   resume_->params.push_back({set.component, set.name, std::move(set.value)});
   entries_.pop_back();
 }
@@ -203,7 +214,8 @@ void Playback::index_entries(const Graph& graph) {
     }
     const std::int64_t now = flight_ns(m.log_ns, epoch_ns_);
     if (begun)
-      entry.before = static_cast<std::size_t>(std::upper_bound(ticks_.time_ns.begin(), ticks_.time_ns.end(), now) - ticks_.time_ns.begin());
+      entry.before = static_cast<std::size_t>(
+          std::upper_bound(ticks_.time_ns.begin(), ticks_.time_ns.end(), now) - ticks_.time_ns.begin());
     if (now <= ticks_.time_ns.back()) entries_.push_back(std::move(entry));
   }
 }

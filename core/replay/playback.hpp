@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What entered a flight from outside, out of its log: the outputs of the vehicle and of drivers, tick by tick, in place of the devices; and
-// what was asked of the flight between ticks.
+// What entered a flight from outside, out of its log: the outputs of the vehicle and of drivers, tick by
+// tick, in place of the devices; and what was asked of the flight between ticks.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "core/graph/graph.hpp"
+#include "core/log/events.hpp"
+#include "core/log/reader.hpp"
 #include "core/run/circumstances.hpp"
 #include "core/run/command.hpp"
 #include "core/run/resume.hpp"
-#include "core/log/events.hpp"
-#include "core/log/reader.hpp"
 
 namespace fulmar::core {
 

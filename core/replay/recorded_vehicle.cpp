@@ -10,7 +10,8 @@
 
 namespace fulmar::core {
 
-RecordedVehicle::RecordedVehicle(const McapFile& file, const Graph& graph, const std::vector<std::int64_t>& time_ns)
+RecordedVehicle::RecordedVehicle(const McapFile& file, const Graph& graph,
+                                 const std::vector<std::int64_t>& time_ns)
     : time_ns_(time_ns),
       epoch_ns_(graph.epoch_ns),
       info_(graph.components[static_cast<std::size_t>(graph.vehicle)].info()),
@@ -55,7 +56,8 @@ void RecordedVehicle::put(const Sample& sample, fulmar_output& out) const {
   const McapFile::Message& m = *sample.message;
   auto* const to = static_cast<std::byte*>(out.data);
   if (!port.type) {  // all probes in one message of doubles
-    const auto k = static_cast<std::size_t>(std::find(probes_.begin(), probes_.end(), sample.output) - probes_.begin());
+    const auto k =
+        static_cast<std::size_t>(std::find(probes_.begin(), probes_.end(), sample.output) - probes_.begin());
     std::memcpy(to, m.data.data() + 4 + 8 * k, 8);
     out.count = 1;
     return;

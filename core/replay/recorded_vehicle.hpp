@@ -13,8 +13,8 @@ namespace fulmar::core {
 
 class RecordedVehicle final : public Runner {
  public:
-  /// `file` and `time_ns`, the times of the ticks, must outlive it. Throws Error when a topic is missing or has other
-  /// fields than the graph's.
+  /// `file` and `time_ns`, the times of the ticks, must outlive it. Throws Error when a topic is missing or
+  /// has other fields than the graph's.
   RecordedVehicle(const McapFile& file, const Graph& graph, const std::vector<std::int64_t>& time_ns);
 
   /// What the log lacks of its samples, one sentence per topic.

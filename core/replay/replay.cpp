@@ -10,10 +10,10 @@
 
 #include "core/graph/stored_files.hpp"
 #include "core/loader/store.hpp"
-#include "core/run/command.hpp"
-#include "core/replay/playback.hpp"
 #include "core/log/diff.hpp"
 #include "core/log/mcap.hpp"
+#include "core/replay/playback.hpp"
+#include "core/run/command.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -28,7 +28,8 @@ const McapFile::Metadata* find_metadata(const McapFile& file, const std::string&
 
 fs::path private_folder() {
   std::string name = (fs::temp_directory_path() / "fulmar-replay-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) throw Error("cannot make a folder in " + fs::temp_directory_path().string());
+  if (::mkdtemp(name.data()) == nullptr)
+    throw Error("cannot make a folder in " + fs::temp_directory_path().string());
   return name;
 }
 
@@ -49,13 +50,15 @@ Graph alone(Graph graph) {
   return graph;
 }
 
-bool names_component(const std::vector<std::pair<std::string, std::string>>& with, const std::string& component) {
+bool names_component(const std::vector<std::pair<std::string, std::string>>& with,
+                     const std::string& component) {
   return std::any_of(with.begin(), with.end(), [&](const auto& w) { return w.first == component; });
 }
 
 }  // namespace
 
-// ---- the mission ------------------------------------------------------------------------------------------------------------
+// ---- the mission
+// ------------------------------------------------------------------------------------------------------------
 
 Recording::Recording(const fs::path& log) try : path_(log), file_(read_mcap(log)) {
   std::vector<std::pair<std::string, std::string>> files;
@@ -63,8 +66,10 @@ Recording::Recording(const fs::path& log) try : path_(log), file_(read_mcap(log)
     if (a.media_type == "application/yaml") files.emplace_back(a.name, a.content);
   if (files.empty()) throw Error("no mission is attached to it: it is not the log of a flight");
   if (const McapFile::Metadata* series = find_metadata(file_, series_metadata))
-    throw Error("it is file " + series->pairs.at(0).second + " of a log that rotated, and a replay begins with the first tick: give " +
-                first_of_series(log, series->pairs.at(0).second).string() + ", which is replayed as far as that file goes");
+    throw Error("it is file " + series->pairs.at(0).second +
+                " of a log that rotated, and a replay begins with the first tick: give " +
+                first_of_series(log, series->pairs.at(0).second).string() +
+                ", which is replayed as far as that file goes");
   HostTopic<Event>(file_).check();
   mission_file_ = files.front().first;
   read_overrides();
@@ -82,11 +87,13 @@ Recording::~Recording() {
 
 void Recording::read_overrides() {
   const McapFile::Metadata* const metadata = find_metadata(file_, "overrides");
-  if (!metadata) throw Error("it does not say how its mission was changed on the command line: it is older than replays");
+  if (!metadata)
+    throw Error("it does not say how its mission was changed on the command line: it is older than replays");
   for (const auto& [key, value] : metadata->pairs) {
     std::uint64_t seed = 0;
     if (key == "io") overrides_.io = value;
-    if (key == "seed" && std::from_chars(value.data(), value.data() + value.size(), seed).ec == std::errc{}) overrides_.seed = seed;
+    if (key == "seed" && std::from_chars(value.data(), value.data() + value.size(), seed).ec == std::errc{})
+      overrides_.seed = seed;
     if (key.starts_with("role ")) overrides_.roles.emplace_back(key.substr(5), value);
     if (key.starts_with("set ")) overrides_.set.emplace_back(key.substr(4), value);
   }
@@ -103,8 +110,8 @@ fs::path Recording::plugin(const FlownPlugin& flown) const {
   return link;
 }
 
-void Recording::use_copies(Overrides& overrides, const std::vector<const FlownPlugin*>& wanted, const Overrides& changes,
-                           const Say& say) const {
+void Recording::use_copies(Overrides& overrides, const std::vector<const FlownPlugin*>& wanted,
+                           const Overrides& changes, const Say& say) const {
   overrides.with.clear();
   for (const FlownPlugin* flown : wanted) {
     if (names_component(changes.with, flown->component)) continue;
@@ -128,7 +135,8 @@ Graph Recording::mission(const Overrides& changes, const Say& say) const {
     graph = load_mission(mission_file_, overrides);
     for (const FlownPlugin& flown : flown_)
       for (const Component& c : graph.components)
-        if (c.name == flown.component && c.plugin->sha256 != flown.sha256 && !names_component(changes.with, c.name))
+        if (c.name == flown.component && c.plugin->sha256 != flown.sha256 &&
+            !names_component(changes.with, c.name))
           wanted.push_back(&flown);
     if (wanted.empty()) return alone(std::move(graph));
   } catch (const Error&) {  // a plugin that lay beside the mission, or has changed since
@@ -139,19 +147,25 @@ Graph Recording::mission(const Overrides& changes, const Say& say) const {
   graph = load_mission(mission_file_, overrides);
   for (const FlownPlugin& flown : flown_)
     for (const Component& c : graph.components)
-      if (say && c.name == flown.component && c.plugin->sha256 != flown.sha256 && !names_component(changes.with, c.name))
-        say(c.name + ": " + c.plugin->file + " " + c.plugin->version + " with SHA-256 " + c.plugin->sha256 + " flies in its place", true);
+      if (say && c.name == flown.component && c.plugin->sha256 != flown.sha256 &&
+          !names_component(changes.with, c.name))
+        say(c.name + ": " + c.plugin->file + " " + c.plugin->version + " with SHA-256 " + c.plugin->sha256 +
+                " flies in its place",
+            true);
   return alone(std::move(graph));
 }
 
-// ---- the flight -------------------------------------------------------------------------------------------------------------
+// ---- the flight
+// -------------------------------------------------------------------------------------------------------------
 
 namespace {
 
 class Player {
  public:
   Player(const Recording& recording, const Graph& graph, FlightOptions options, ReplayResult& result)
-      : recording_(recording), result_(result), playback_(std::make_shared<Playback>(recording.file(), graph)) {
+      : recording_(recording),
+        result_(result),
+        playback_(std::make_shared<Playback>(recording.file(), graph)) {
     options.circumstances = playback_;
     options.duration_s = playback_->duration_s();
     options.resume = playback_->resume();
@@ -175,10 +189,13 @@ void Player::apply(const Entry& entry) try {
   Command command = entry.command;
   const CommandNote& note = command.note;
   if (command.kind == CommandKind::swap)
-    command.name = recording_.plugin({command.component, note.text.data(), note.version.data(), note.sha256.data()}).string();
+    command.name =
+        recording_.plugin({command.component, note.text.data(), note.version.data(), note.sha256.data()})
+            .string();
   flight_->apply(std::move(command));
 } catch (const Error& fault) {
-  result_.notes.push_back("what entered before tick " + std::to_string(entry.before) + " cannot be repeated: " + fault.what());
+  result_.notes.push_back("what entered before tick " + std::to_string(entry.before) +
+                          " cannot be repeated: " + fault.what());
 }
 
 std::unique_ptr<Flight> Player::fly(const std::atomic<bool>* stop) {
@@ -203,7 +220,8 @@ void find_differences(const fs::path& was, const fs::path& is, std::int64_t epoc
   const LogDiff diff = diff_logs(was, is, {.last_ns = last_ns, .whole_topics = true});
   result.messages = diff.messages;
   result.differing_messages = diff.differing_messages, result.differing_bytes = diff.differing_bytes;
-  if (diff.first_tick) result.first_tick = diff.first_tick->index, result.first_tick_ns = diff.first_tick->time_ns;
+  if (diff.first_tick)
+    result.first_tick = diff.first_tick->index, result.first_tick_ns = diff.first_tick->time_ns;
   if (!diff.first || diff.first->topic == Ticks::topic) return;
   const LogDiff::First& first = *diff.first;
   const auto word = [&](const std::string& text) {
@@ -214,7 +232,8 @@ void find_differences(const fs::path& was, const fs::path& is, std::int64_t epoc
 
 }  // namespace
 
-std::pair<std::unique_ptr<Flight>, ReplayResult> replay(const Recording& recording, const Graph& graph, const ReplayOptions& options) {
+std::pair<std::unique_ptr<Flight>, ReplayResult> replay(const Recording& recording, const Graph& graph,
+                                                        const ReplayOptions& options) {
   ReplayResult result;
   const TemporaryFolder folder;
   FlightOptions o;

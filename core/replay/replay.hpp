@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "core/graph/graph.hpp"
+#include "core/log/reader.hpp"
 #include "core/run/flight.hpp"
 #include "core/run/flown_plugin.hpp"
-#include "core/log/reader.hpp"
 
 namespace fulmar::core {
 
@@ -34,16 +34,17 @@ class Recording {
   /// What the command line of the flight said, so far as it changed the mission.
   const Overrides& overrides() const { return overrides_; }
 
-  /// The mission as the log holds it, with the plugin files that flew: those of the installation when they have the same content, else the
-  /// copies of the store. What is to be had no more is replaced by what there is, with a warning. `changes`: --with and --set of an
-  /// experiment. Throws Error.
+  /// The mission as the log holds it, with the plugin files that flew: those of the installation when they
+  /// have the same content, else the copies of the store. What is to be had no more is replaced by what there
+  /// is, with a warning. `changes`: --with and --set of an experiment. Throws Error.
   Graph mission(const Overrides& changes, const Say& say) const;
   /// A file of that content, under its own name. Throws Error when there is none.
   std::filesystem::path plugin(const FlownPlugin& flown) const;
 
  private:
   void read_overrides();
-  void use_copies(Overrides& overrides, const std::vector<const FlownPlugin*>& wanted, const Overrides& changes, const Say& say) const;
+  void use_copies(Overrides& overrides, const std::vector<const FlownPlugin*>& wanted,
+                  const Overrides& changes, const Say& say) const;
 
   std::filesystem::path path_;
   McapFile file_;
@@ -81,6 +82,7 @@ struct ReplayResult {
 };
 
 /// Flies it. `graph` is recording.mission(...). The flight is handed over for its figures.
-std::pair<std::unique_ptr<Flight>, ReplayResult> replay(const Recording& recording, const Graph& graph, const ReplayOptions& options);
+std::pair<std::unique_ptr<Flight>, ReplayResult> replay(const Recording& recording, const Graph& graph,
+                                                        const ReplayOptions& options);
 
 }  // namespace fulmar::core

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counts what a thread takes from the heap, so that the host can tell which component allocates in flight, and which keeps what it takes.
+// Counts what a thread takes from the heap, so that the host can tell which component allocates in flight,
+// and which keeps what it takes.
 #pragma once
 #include <cstdint>
 

@@ -50,10 +50,12 @@ void OutputRoom::prepare(std::int64_t now_ns) noexcept {
   for (std::size_t i = 0; i < views.size(); ++i) views[i] = {data[i].data(), stamps[i].data(), now_ns, 0, 0};
 }
 
-Async::Async(const std::string& name, const fulmar_component& functions, void* instance, const ComponentInfo& info, std::size_t depth)
+Async::Async(const std::string& name, const fulmar_component& functions, void* instance,
+             const ComponentInfo& info, std::size_t depth)
     : name_(name), functions_(functions), instance_(instance), jobs_(depth) {
   for (Job& job : jobs_) prepare(job, info);
-  sigset_t all, before;  // signals are for the main thread, but those with which the component crashes this one
+  sigset_t all,
+      before;  // signals are for the main thread, but those with which the component crashes this one
   sigfillset(&all);
   for (const int fault : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) sigdelset(&all, fault);
   pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -80,10 +82,13 @@ void Async::submit() noexcept {
   submitted_.notify_one();
 }
 
-Async::Job* Async::oldest() noexcept { return submitted_.load(std::memory_order_relaxed) > taken_ ? &at(taken_) : nullptr; }
+Async::Job* Async::oldest() noexcept {
+  return submitted_.load(std::memory_order_relaxed) > taken_ ? &at(taken_) : nullptr;
+}
 
 void Async::wait() const noexcept {
-  for (std::uint64_t n = finished_.load(std::memory_order_acquire); n <= taken_; n = finished_.load(std::memory_order_acquire))
+  for (std::uint64_t n = finished_.load(std::memory_order_acquire); n <= taken_;
+       n = finished_.load(std::memory_order_acquire))
     finished_.wait(n, std::memory_order_acquire);
 }
 
@@ -118,13 +123,13 @@ void Async::work(Job& job) noexcept {
   switch (job.call) {
     case Job::Call::step:
       job.out.prepare(job.tick.now_ns);
-      job.status = functions_.step(instance_, &job.tick, job.in.views.data(), job.out.views.data(), &job.error);
+      job.status =
+          functions_.step(instance_, &job.tick, job.in.views.data(), job.out.views.data(), &job.error);
       break;
-    case Job::Call::retune:
-      job.status = functions_.retune(instance_, job.values.data(), &job.error);
-      break;
+    case Job::Call::retune: job.status = functions_.retune(instance_, job.values.data(), &job.error); break;
     case Job::Call::activate:
-      job.status = functions_.activate(instance_, &job.tick, job.in.views.data(), job.last.views.data(), &job.error);
+      job.status =
+          functions_.activate(instance_, &job.tick, job.in.views.data(), job.last.views.data(), &job.error);
       break;
   }
   job.took_ns = clock_ns() - begin;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `run: async`: a component is stepped in a thread of its own, on copies of its inputs; the loop takes each result when its latency is
-// over.
+// `run: async`: a component is stepped in a thread of its own, on copies of its inputs; the loop takes each
+// result when its latency is over.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -9,8 +9,8 @@
 #include <thread>
 #include <vector>
 
-#include "core/types/type.hpp"
 #include "core/run/allocation.hpp"
+#include "core/types/type.hpp"
 
 namespace fulmar::core {
 
@@ -57,7 +57,8 @@ class Async {
   };
 
   /// `depth`: calls that can be on their way at once.
-  Async(const std::string& name, const fulmar_component& functions, void* instance, const ComponentInfo& info, std::size_t depth);
+  Async(const std::string& name, const fulmar_component& functions, void* instance, const ComponentInfo& info,
+        std::size_t depth);
   ~Async();  // ends the thread, after the call that it is in
   Async(const Async&) = delete;
   Async& operator=(const Async&) = delete;
@@ -73,7 +74,8 @@ class Async {
   /// [tick] Nobody wants the results of what is on its way.
   void drop() noexcept;
 
-  static void copy_inputs(const std::vector<fulmar_input>& from, const ComponentInfo& info, Job& job) noexcept;
+  static void copy_inputs(const std::vector<fulmar_input>& from, const ComponentInfo& info,
+                          Job& job) noexcept;
 
  private:
   void run() noexcept;

@@ -162,19 +162,12 @@ void CommandTable::prepare(Command& c) const {
   c.note.kind = c.kind;
   put_whole(c.note.component, c.component, "the name");
   switch (c.kind) {
-    case CommandKind::parameter:
-      prepare_parameter(c);
-      break;
+    case CommandKind::parameter: prepare_parameter(c); break;
     case CommandKind::request:
-    case CommandKind::import:
-      prepare_message(c);
-      break;
-    case CommandKind::phase:
-      c.part = phase(c.name);
-      break;
+    case CommandKind::import: prepare_message(c); break;
+    case CommandKind::phase: c.part = phase(c.name); break;
     case CommandKind::swap:  // told when it has been done
-    case CommandKind::reset:
-      return;
+    case CommandKind::reset: return;
   }
   put_whole(c.note.name, c.name, c.kind == CommandKind::phase ? "the phase" : "the name");
 }

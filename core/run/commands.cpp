@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What enters a flight from outside, between ticks. There is one door, Flight::Impl::take: commands have been checked
-// and prepared by then, and each is in the log before it takes effect.
+// What enters a flight from outside, between ticks. There is one door, Flight::Impl::take: commands have been
+// checked and prepared by then, and each is in the log before it takes effect.
 #include <cstring>
 #include <utility>
 
@@ -10,24 +10,15 @@ namespace fulmar::core {
 
 Flight::Impl::Taken Flight::Impl::take(Command& command, Reply answered) {
   switch (command.kind) {
-    case CommandKind::parameter:
-      apply_parameter(command, Code::parameter_set);
-      break;
-    case CommandKind::request:
-      return apply_request(command, std::move(answered));
+    case CommandKind::parameter: apply_parameter(command, Code::parameter_set); break;
+    case CommandKind::request: return apply_request(command, std::move(answered));
     case CommandKind::import:
       wiring.publish_import(command.part, command.message.data());
       recorder.put_input(wiring.imports[command.part].reader->channel, command.message.data());
       break;
-    case CommandKind::phase:
-      apply_phase(command);
-      break;
-    case CommandKind::swap:
-      swap(static_cast<int>(command.at), command.name);
-      break;
-    case CommandKind::reset:
-      reset_guards(command);
-      break;
+    case CommandKind::phase: apply_phase(command); break;
+    case CommandKind::swap: swap(static_cast<int>(command.at), command.name); break;
+    case CommandKind::reset: reset_guards(command); break;
   }
   return Taken::yes;
 }

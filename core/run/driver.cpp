@@ -32,8 +32,14 @@ constexpr int patience_ms = 2000;  // for the step that a driver is in when the 
 
 }  // namespace
 
-Driver::Driver(const std::string& name, const fulmar_component& functions, void* instance, const ComponentInfo& info)
-    : name_(name), functions_(functions), instance_(instance), info_(info), out_(info), ring_(ring_bytes, largest(info)) {}
+Driver::Driver(const std::string& name, const fulmar_component& functions, void* instance,
+               const ComponentInfo& info)
+    : name_(name),
+      functions_(functions),
+      instance_(instance),
+      info_(info),
+      out_(info),
+      ring_(ring_bytes, largest(info)) {}
 
 Driver::~Driver() {
   stop_.store(true, std::memory_order_release);
@@ -41,14 +47,16 @@ Driver::~Driver() {
   for (int i = 0; i < patience_ms && !ended_.load(std::memory_order_acquire); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   if (!ended_.load(std::memory_order_acquire)) {
-    std::fprintf(stderr, "fulmar: the driver %s does not return from its step; the host ends without it\n", info_.name.c_str());
+    std::fprintf(stderr, "fulmar: the driver %s does not return from its step; the host ends without it\n",
+                 info_.name.c_str());
     std::_Exit(1);
   }
   thread_.join();
 }
 
 void Driver::start() {
-  sigset_t all, before;  // signals are for the main thread, but those with which the component crashes this one
+  sigset_t all,
+      before;  // signals are for the main thread, but those with which the component crashes this one
   sigfillset(&all);
   for (const int fault : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) sigdelset(&all, fault);
   pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -70,7 +78,8 @@ bool Driver::step() noexcept {
     const std::size_t size = port.type ? port.type->size : sizeof(double);
     std::uint64_t lost = out_.views[i].lost;
     for (std::uint32_t k = 0; k < std::min(out_.views[i].count, port.capacity); ++k) {
-      const Ring::Record record{0, static_cast<std::uint32_t>(i), 0, 0, port.type ? out_.stamps[i][k] : FULMAR_ON_ARRIVAL};
+      const Ring::Record record{0, static_cast<std::uint32_t>(i), 0, 0,
+                                port.type ? out_.stamps[i][k] : FULMAR_ON_ARRIVAL};
       if (!ring_.push(record, out_.data[i].data() + k * size, size)) ++lost;
     }
     if (lost > 0) lost_.fetch_add(lost, std::memory_order_relaxed);
@@ -93,16 +102,19 @@ bool Driver::next(std::int64_t now_ns, Sample& sample) noexcept {
   now_ns_.store(now_ns, std::memory_order_relaxed);
   const Ring::Record* record = ring_.next();
   if (!record) return false;
-  sample = {record->channel, record->valid_ns == FULMAR_ON_ARRIVAL ? now_ns : record->valid_ns, record->data(), false};
+  sample = {record->channel, record->valid_ns == FULMAR_ON_ARRIVAL ? now_ns : record->valid_ns,
+            record->data(), false};
   return true;
 }
 
-RecordedSamples::RecordedSamples(const std::filesystem::path& log, const ComponentInfo& info, const std::vector<std::string>& topics,
-                                 std::int64_t epoch_ns)
+RecordedSamples::RecordedSamples(const std::filesystem::path& log, const ComponentInfo& info,
+                                 const std::vector<std::string>& topics, std::int64_t epoch_ns)
     : RecordedSamples(read_mcap(log), info, topics, "", epoch_ns, {}) {}
 
-RecordedSamples::RecordedSamples(const McapFile& file, const ComponentInfo& info, const std::vector<std::string>& topics,
-                                 const std::string& probes, std::int64_t epoch_ns, std::vector<std::pair<std::int64_t, std::string>> faults)
+RecordedSamples::RecordedSamples(const McapFile& file, const ComponentInfo& info,
+                                 const std::vector<std::string>& topics, const std::string& probes,
+                                 std::int64_t epoch_ns,
+                                 std::vector<std::pair<std::int64_t, std::string>> faults)
     : faults_(std::move(faults)) {
   constexpr std::uint32_t all_probes = ~0u;
   std::map<std::uint16_t, std::uint32_t> outputs;  // channel -> output
@@ -122,20 +134,24 @@ RecordedSamples::RecordedSamples(const McapFile& file, const ComponentInfo& info
     else
       add(info, at->second, m, epoch_ns);
   }
-  std::stable_sort(samples_.begin(), samples_.end(), [](const Stored& a, const Stored& b) { return a.log_ns < b.log_ns; });
+  std::stable_sort(samples_.begin(), samples_.end(),
+                   [](const Stored& a, const Stored& b) { return a.log_ns < b.log_ns; });
 }
 
 /// What is published together is in the order of the outputs.
-void RecordedSamples::add(const ComponentInfo& info, std::uint32_t output, const McapFile::Message& m, std::int64_t epoch_ns) {
-  Stored s{static_cast<std::int64_t>(m.log_ns) - epoch_ns, static_cast<std::int64_t>(m.publish_ns) - epoch_ns, output,
-           std::vector<std::byte>(info.outputs[output].type->size)};
+void RecordedSamples::add(const ComponentInfo& info, std::uint32_t output, const McapFile::Message& m,
+                          std::int64_t epoch_ns) {
+  Stored s{static_cast<std::int64_t>(m.log_ns) - epoch_ns, static_cast<std::int64_t>(m.publish_ns) - epoch_ns,
+           output, std::vector<std::byte>(info.outputs[output].type->size)};
   cdr_decode(*info.outputs[output].type, m.data.data(), m.data.size(), s.data.data());
   if (!samples_.empty() && output < samples_.back().output) samples_.back().ends = true;
   samples_.push_back(std::move(s));
 }
 
-/// Probes are stored at the end of each publication, all in one message of doubles, and in a publication one of them changes at most.
-void RecordedSamples::add_probes(const ComponentInfo& info, const McapFile::Message& m, std::int64_t epoch_ns) {
+/// Probes are stored at the end of each publication, all in one message of doubles, and in a publication one
+/// of them changes at most.
+void RecordedSamples::add_probes(const ComponentInfo& info, const McapFile::Message& m,
+                                 std::int64_t epoch_ns) {
   const std::int64_t log_ns = static_cast<std::int64_t>(m.log_ns) - epoch_ns;
   const std::span<const std::byte> values = m.data.subspan(std::min<std::size_t>(4, m.data.size()));
   probes_.resize(values.size());
@@ -147,7 +163,8 @@ void RecordedSamples::add_probes(const ComponentInfo& info, const McapFile::Mess
     if (info.outputs[i].type) continue;
     if (8 * k + 8 > values.size()) throw Error("the log has other probes of " + info.name);
     if (k == 0) first = i;
-    if (std::memcmp(values.data() + 8 * k, probes_.data() + 8 * k, 8) != 0) changed = i, changed_at = k, any = true;
+    if (std::memcmp(values.data() + 8 * k, probes_.data() + 8 * k, 8) != 0)
+      changed = i, changed_at = k, any = true;
     ++k;
   }
   if (any || alone) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `run: driver`: a component that does input and output is stepped again and again in a thread of its own; its samples wait in a ring until
-// the next tick takes them. Or, in its place, the samples that a log holds.
+// `run: driver`: a component that does input and output is stepped again and again in a thread of its own;
+// its samples wait in a ring until the next tick takes them. Or, in its place, the samples that a log holds.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/types/type.hpp"
 #include "core/log/reader.hpp"
 #include "core/run/async.hpp"
 #include "core/run/ring.hpp"
+#include "core/types/type.hpp"
 
 namespace fulmar::core {
 
@@ -39,7 +39,8 @@ struct SampleSource {
 
 class Driver final : public SampleSource {
  public:
-  Driver(const std::string& name, const fulmar_component& functions, void* instance, const ComponentInfo& info);
+  Driver(const std::string& name, const fulmar_component& functions, void* instance,
+         const ComponentInfo& info);
   ~Driver() override;
   Driver(const Driver&) = delete;
   Driver& operator=(const Driver&) = delete;
@@ -47,7 +48,9 @@ class Driver final : public SampleSource {
   void start() override;
   bool next(std::int64_t now_ns, Sample& sample) noexcept override;
   void release() noexcept override { ring_.release(); }
-  const char* fault() const noexcept override { return failed_.load(std::memory_order_acquire) ? error_.text : ""; }
+  const char* fault() const noexcept override {
+    return failed_.load(std::memory_order_acquire) ? error_.text : "";
+  }
   std::uint64_t lost() const noexcept override { return lost_.load(std::memory_order_relaxed); }
 
  private:
@@ -71,12 +74,14 @@ class Driver final : public SampleSource {
 /// Samples of a component's queues from the log of another flight, at the ticks at which they entered then.
 class RecordedSamples final : public SampleSource {
  public:
-  /// `topics`: one per output, "" for a probe. Throws Error when the log has none of them, or with other fields.
-  RecordedSamples(const std::filesystem::path& log, const ComponentInfo& info, const std::vector<std::string>& topics,
-                  std::int64_t epoch_ns);
+  /// `topics`: one per output, "" for a probe. Throws Error when the log has none of them, or with other
+  /// fields.
+  RecordedSamples(const std::filesystem::path& log, const ComponentInfo& info,
+                  const std::vector<std::string>& topics, std::int64_t epoch_ns);
   /// The same, and the topic of its probes, "" for none; and when a guard stopped it, with what words.
-  RecordedSamples(const McapFile& log, const ComponentInfo& info, const std::vector<std::string>& topics, const std::string& probes,
-                  std::int64_t epoch_ns, std::vector<std::pair<std::int64_t, std::string>> faults);
+  RecordedSamples(const McapFile& log, const ComponentInfo& info, const std::vector<std::string>& topics,
+                  const std::string& probes, std::int64_t epoch_ns,
+                  std::vector<std::pair<std::int64_t, std::string>> faults);
   bool next(std::int64_t now_ns, Sample& sample) noexcept override;
   void release() noexcept override {}
   const char* fault() const noexcept override;
@@ -89,7 +94,8 @@ class RecordedSamples final : public SampleSource {
     std::vector<std::byte> data;
     bool ends = false;
   };
-  void add(const ComponentInfo& info, std::uint32_t output, const McapFile::Message& message, std::int64_t epoch_ns);
+  void add(const ComponentInfo& info, std::uint32_t output, const McapFile::Message& message,
+           std::int64_t epoch_ns);
   void add_probes(const ComponentInfo& info, const McapFile::Message& message, std::int64_t epoch_ns);
 
   std::vector<Stored> samples_;

@@ -89,7 +89,8 @@ constexpr Table transition_table = {{
 }};
 
 constexpr bool is_told(Act act) {
-  return act == Act::tell_done || act == Act::tell_failed || act == Act::tell_duration || act == Act::tell_silent;
+  return act == Act::tell_done || act == Act::tell_failed || act == Act::tell_duration ||
+         act == Act::tell_silent;
 }
 
 }  // namespace
@@ -101,14 +102,11 @@ Ending::Step Ending::step(State state, Cue cue) noexcept {
 Outcome Ending::outcome(Reason reason) noexcept {
   switch (reason) {
     case Reason::done:
-    case Reason::duration:
-      return Outcome::flown;
+    case Reason::duration: return Outcome::flown;
     case Reason::gave_up:
     case Reason::signal:
-    case Reason::abandoned:
-      return Outcome::interrupted;
-    default:
-      return Outcome::failed;
+    case Reason::abandoned: return Outcome::interrupted;
+    default: return Outcome::failed;
   }
 }
 

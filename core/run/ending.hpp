@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a flight ends, as one state machine. What is true at the end of a tick goes in, what the flight has to do
-// and to tell comes out. It knows no aircraft, no mission and no words, so its table is tested alone.
+// How a flight ends, as one state machine. What is true at the end of a tick goes in, what the flight has to
+// do and to tell comes out. It knows no aircraft, no mission and no words, so its table is tested alone.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -18,7 +18,7 @@ class Ending {
     concluded,  // how the flight will have ended is decided; an armed aircraft flies on under command
     failsafe,   // nobody can fly: the vehicle gets the failsafe's values for their time, then nothing
     giving_up,  // the same, and a signal has asked for the end
-    silent,     // the vehicle has heard nothing for a while: the aircraft is its pilot's, if it is still armed
+    silent,  // the vehicle has heard nothing for a while: the aircraft is its pilot's, if it is still armed
     over,
   };
   /// What can make a difference to a flight's end.
@@ -36,7 +36,8 @@ class Ending {
     vehicle_failed,  // time stands still without it
     abandoned,       // by the flight's owner
   };
-  /// What the flight has to do about it. What is told is told of armed aircraft alone: of others the end says all.
+  /// What the flight has to do about it. What is told is told of armed aircraft alone: of others the end says
+  /// all.
   enum class Act : std::uint8_t {
     none,
     tell_done,
@@ -106,8 +107,9 @@ class Ending {
   bool asks_failed() const noexcept { return reason_ == Reason::none && !over(); }
   Steering steering(std::int64_t now_ns) const noexcept;
 
-  static constexpr std::int64_t silence_ns = 1'000'000'000;  // after a failsafe, before the flight is called lost
-  static constexpr std::int64_t repeat_ns = 5'000'000'000;   // how long a refused signal can be repeated
+  static constexpr std::int64_t silence_ns =
+      1'000'000'000;  // after a failsafe, before the flight is called lost
+  static constexpr std::int64_t repeat_ns = 5'000'000'000;  // how long a refused signal can be repeated
 
  private:
   static constexpr std::int64_t never = std::numeric_limits<std::int64_t>::min();

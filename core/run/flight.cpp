@@ -14,7 +14,8 @@ Flight::Flight(const Graph& graph, const FlightOptions& options)
 
 Flight::~Flight() {
   last_frame.store(nullptr, std::memory_order_release);
-  if (impl_->onlookers.control) impl_->onlookers.control->end();  // answers go to those who asked, as long as they are there
+  if (impl_->onlookers.control)
+    impl_->onlookers.control->end();  // answers go to those who asked, as long as they are there
 }
 
 FlightResult Flight::run() {
@@ -25,7 +26,8 @@ FlightResult Flight::run() {
 bool Flight::step() { return impl_->step(); }
 FlightResult Flight::finish() { return impl_->finish(); }
 
-// ---- to look at ----------------------------------------------------------------------------------------------
+// ---- to look at
+// ----------------------------------------------------------------------------------------------
 
 Control* Flight::control() const { return impl_->onlookers.control.get(); }
 std::uint16_t Flight::live_port() const {
@@ -43,17 +45,16 @@ const Tape* Flight::tape(const std::string& component) const {
   return impl_->wiring.units[impl_->commands->component(component)]->tape.get();
 }
 
-// ---- to command ----------------------------------------------------------------------------------------------
+// ---- to command
+// ----------------------------------------------------------------------------------------------
 
 void Flight::apply(Command command, std::function<void(const std::string&)> answered) {
   impl_->commands->prepare(command);
   Reply reply;
   if (answered) reply = [answered = std::move(answered)](const char* refusal) { answered(refusal); };
   switch (impl_->take(command, std::move(reply))) {
-    case Impl::Taken::yes:
-      return;
-    case Impl::Taken::idle:
-      throw Error(command.component + " does not fly now");
+    case Impl::Taken::yes: return;
+    case Impl::Taken::idle: throw Error(command.component + " does not fly now");
     case Impl::Taken::full:
       const Reader& r = impl_->wiring.units[command.at]->in.readers[command.part];
       throw Error(command.component + "." + command.name + " has " + std::to_string(r.pending.count) +

@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "core/dds/bridge.hpp"
 #include "core/graph/graph.hpp"
+#include "core/live/server.hpp"
 #include "core/run/ending.hpp"
 #include "core/run/resume.hpp"
 #include "core/run/stats.hpp"
-#include "core/dds/bridge.hpp"
-#include "core/live/server.hpp"
 #include "core/tap/log.hpp"
 
 namespace fulmar::core {
@@ -25,14 +25,15 @@ struct FlightOptions {
   double speed = 0;                  // times real time; 0: as fast as the machine allows
   std::optional<double> duration_s;  // of flight time from 0; then the flight counts as flown
   bool log = true;
-  std::filesystem::path log_file;                             // must not exist
-  std::optional<Resume> resume;                               // where to go on, in place of the first phase
-  bool keep_inputs = false;                                   // of every component's last steps, to rehearse a swap on
-  std::filesystem::path drivers_from;                         // log whose samples are fed in place of the drivers
-  std::shared_ptr<class Circumstances> circumstances;         // of a flight that is flown again
-  std::atomic<int>* interrupt = nullptr;                      // not 0: the flight is asked to end; set back to 0 when it refuses
-  std::function<void(const class Flight&)> progress;          // called about every 200 ms of wall time, between ticks
-  std::function<void(const std::string&, bool warning)> say;  // one line for the user, as it happens: phases, guards
+  std::filesystem::path log_file;      // must not exist
+  std::optional<Resume> resume;        // where to go on, in place of the first phase
+  bool keep_inputs = false;            // of every component's last steps, to rehearse a swap on
+  std::filesystem::path drivers_from;  // log whose samples are fed in place of the drivers
+  std::shared_ptr<class Circumstances> circumstances;  // of a flight that is flown again
+  std::atomic<int>* interrupt = nullptr;  // not 0: the flight is asked to end; set back to 0 when it refuses
+  std::function<void(const class Flight&)> progress;  // called about every 200 ms of wall time, between ticks
+  std::function<void(const std::string&, bool warning)>
+      say;  // one line for the user, as it happens: phases, guards
 };
 
 struct PhaseVisit {
@@ -81,12 +82,12 @@ class Flight {
   /// The present sample of a port, or nullptr.
   const std::byte* sample(const Source& source) const;
 
-  /// What is asked of the flight from outside, between ticks. Throws Error with the valid choices; of a request the component's answer comes
-  /// through `answered`: "" when accepted, else the reason.
+  /// What is asked of the flight from outside, between ticks. Throws Error with the valid choices; of a
+  /// request the component's answer comes through `answered`: "" when accepted, else the reason.
   void apply(struct Command command, std::function<void(const std::string&)> answered = {});
   // The same by kind:
-  /// A request from outside, to be answered by the component in its next step. Throws Error for a port that is no request.
-  /// The answer comes through `answered`: "" when accepted, else the reason.
+  /// A request from outside, to be answered by the component in its next step. Throws Error for a port that
+  /// is no request. The answer comes through `answered`: "" when accepted, else the reason.
   void request(const std::string& component, const std::string& port, const std::byte* message,
                std::function<void(const std::string&)> answered = {});
   /// A live change of a base parameter. Throws Error: unknown, not live, out of range.
@@ -95,12 +96,14 @@ class Flight {
   void publish(const std::string& component, const std::string& port, const std::byte* message);
   /// Throws Error for a phase that the mission does not have, and in the failsafe.
   void enter_phase(const std::string& phase);
-  /// Puts another file in a component's place, with its present parameters. Between flights: refused while armed or in the air. What is
-  /// wrong with the file, or with how it behaves in a rehearsal, is thrown as Error, and the old one stays as it was.
+  /// Puts another file in a component's place, with its present parameters. Between flights: refused while
+  /// armed or in the air. What is wrong with the file, or with how it behaves in a rehearsal, is thrown as
+  /// Error, and the old one stays as it was.
   void swap(const std::string& component, const std::string& file);
   /// The inputs that a component saw last, nullptr when they are not kept.
   const class Tape* tape(const std::string& component) const;
-  /// Lets a component fly again that a guard has stopped. A child that has died is started anew, on the ground alone.
+  /// Lets a component fly again that a guard has stopped. A child that has died is started anew, on the
+  /// ground alone.
   void reset_guards();
   /// What others may ask of a flight that has `live:` or `dds:` and is paced, from any thread; else nullptr.
   class Control* control() const;

@@ -19,10 +19,13 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::size_t longest_value = 4096;         // of a parameter's text
-constexpr auto nap = std::chrono::milliseconds(2);  // of the thread that answers; the loop never pays for waking it
+constexpr std::size_t longest_value = 4096;  // of a parameter's text
+constexpr auto nap =
+    std::chrono::milliseconds(2);  // of the thread that answers; the loop never pays for waking it
 
-Node parsed(const std::string& text, const std::string& name, Report& report) { return parse_yaml(make_source(text, name), report); }
+Node parsed(const std::string& text, const std::string& name, Report& report) {
+  return parse_yaml(make_source(text, name), report);
+}
 
 }  // namespace
 
@@ -37,7 +40,8 @@ struct FlightControl::Waiting {
 struct FlightControl::Directory {
   FlightView view;
   std::shared_ptr<const CommandTable> commands;
-  std::vector<std::vector<std::pair<std::size_t, std::size_t>>> overlaid;  // per phase: component and parameter
+  std::vector<std::vector<std::pair<std::size_t, std::size_t>>>
+      overlaid;  // per phase: component and parameter
 
   explicit Directory(const Flight::Impl& flight);
 };
@@ -46,8 +50,10 @@ namespace {
 
 std::string source_name(const Graph& graph, const Wire& wire) {
   if (wire.from.kind == Source::Kind::none) return "";
-  const auto index = static_cast<std::size_t>(wire.from.index), output = static_cast<std::size_t>(wire.from.output);
-  if (wire.from.kind == Source::Kind::role) return graph.roles[index].name + "." + graph.roles[index].outputs[output].name;
+  const auto index = static_cast<std::size_t>(wire.from.index),
+             output = static_cast<std::size_t>(wire.from.output);
+  if (wire.from.kind == Source::Kind::role)
+    return graph.roles[index].name + "." + graph.roles[index].outputs[output].name;
   const Component& c = graph.components[index];
   return c.name + "." + c.info().outputs[output].name;
 }
@@ -58,7 +64,8 @@ ComponentView view_of(const Flight::Impl& flight, const Unit& unit) {
   ComponentView v;
   v.name = c.name, v.use = c.use, v.doc = c.info().doc, v.run = modes[static_cast<std::size_t>(c.run)];
   if (c.role >= 0) v.role = flight.state.graph.roles[static_cast<std::size_t>(c.role)].name;
-  for (std::size_t i = 0; i < c.info().params.size(); ++i) v.params.push_back({c.info().params[i], unit.base[i], false});
+  for (std::size_t i = 0; i < c.info().params.size(); ++i)
+    v.params.push_back({c.info().params[i], unit.base[i], false});
   for (std::size_t i = 0; i < unit.in.readers.size(); ++i) {
     const Reader& r = unit.in.readers[i];
     PortView port{r.port->name, r.port->type, source_name(flight.state.graph, c.wires[i])};
@@ -78,13 +85,17 @@ ComponentView view_of(const Flight::Impl& flight, const Unit& unit) {
 }  // namespace
 
 FlightControl::Directory::Directory(const Flight::Impl& flight) : commands(flight.commands) {
-  if (!flight.state.graph.file.empty()) view.file = std::filesystem::absolute(flight.state.graph.file).string();
-  view.mission = flight.state.graph.mission, view.io = io_word(flight.state.graph.io), view.epoch_ns = flight.state.graph.epoch_ns;
+  if (!flight.state.graph.file.empty())
+    view.file = std::filesystem::absolute(flight.state.graph.file).string();
+  view.mission = flight.state.graph.mission, view.io = io_word(flight.state.graph.io),
+  view.epoch_ns = flight.state.graph.epoch_ns;
   for (const Phase& p : flight.state.graph.phases) {
     view.phases.push_back(p.name);
     overlaid.emplace_back();
     for (const Assignment& a : p.roles)
-      for (const Overlay& o : a.set) overlaid.back().emplace_back(static_cast<std::size_t>(a.component), static_cast<std::size_t>(o.param));
+      for (const Overlay& o : a.set)
+        overlaid.back().emplace_back(static_cast<std::size_t>(a.component),
+                                     static_cast<std::size_t>(o.param));
   }
   for (const auto& unit : flight.wiring.units) view.components.push_back(view_of(flight, *unit));
 }
@@ -105,7 +116,8 @@ FlightControl::FlightControl(Flight::Impl& flight)
 
 FlightControl::~FlightControl() { end(); }
 
-// ---- the loop ---------------------------------------------------------------------------------------------------------------------
+// ---- the loop
+// ---------------------------------------------------------------------------------------------------------------------
 
 void FlightControl::note(int phase, std::int64_t now_ns, bool armed) noexcept {
   seen_.phase.store(phase, std::memory_order_relaxed);
@@ -114,10 +126,13 @@ void FlightControl::note(int phase, std::int64_t now_ns, bool armed) noexcept {
 }
 
 void FlightControl::note_stopped(std::size_t component, bool active, bool stopped) noexcept {
-  seen_.states[component].store(static_cast<std::uint8_t>((active ? 1 : 0) | (stopped ? 2 : 0)), std::memory_order_relaxed);
+  seen_.states[component].store(static_cast<std::uint8_t>((active ? 1 : 0) | (stopped ? 2 : 0)),
+                                std::memory_order_relaxed);
 }
 
-void FlightControl::done(Waiting& waiting) noexcept { queues_.out.push(&waiting); }  // has room for all that can wait
+void FlightControl::done(Waiting& waiting) noexcept {
+  queues_.out.push(&waiting);
+}  // has room for all that can wait
 
 bool FlightControl::apply() noexcept {
   std::size_t applied = 0, left = 0;
@@ -172,7 +187,8 @@ bool FlightControl::apply(Waiting& w) {
   return true;
 }
 
-// ---- any other thread -------------------------------------------------------------------------------------------------------------
+// ---- any other thread
+// -------------------------------------------------------------------------------------------------------------
 
 std::shared_ptr<const FlightControl::Directory> FlightControl::directory() const {
   const std::lock_guard lock(mutex_);
@@ -186,7 +202,8 @@ void FlightControl::send(Command command, Answer answer) {
   Waiting* const w = waiting.get();
   const std::lock_guard lock(mutex_);
   if (over_.load()) throw Error("the flight has ended");
-  if (const std::size_t commands = waiting_.all.size() - waiting_.samples; commands >= most_waiting || !queues_.in.push(w))
+  if (const std::size_t commands = waiting_.all.size() - waiting_.samples;
+      commands >= most_waiting || !queues_.in.push(w))
     throw Error(std::to_string(commands) + " commands are waiting for the flight; there is no room for more");
   waiting_.all.emplace(w, std::move(waiting));
 }
@@ -259,13 +276,16 @@ FlightView FlightControl::view() const {
   for (std::size_t i = 0; i < v.components.size(); ++i) {
     const std::uint8_t state = seen_.states[i].load(std::memory_order_relaxed);
     v.components[i].active = state & 1, v.components[i].stopped = state & 2;
-    for (std::size_t k = 0; k < v.components[i].params.size(); ++k) v.components[i].params[k].base = base_[i][k];
+    for (std::size_t k = 0; k < v.components[i].params.size(); ++k)
+      v.components[i].params[k].base = base_[i][k];
   }
-  for (const auto& [component, param] : directory_->overlaid[phase]) v.components[component].params[param].overlaid = true;
+  for (const auto& [component, param] : directory_->overlaid[phase])
+    v.components[component].params[param].overlaid = true;
   return v;
 }
 
-void FlightControl::set_parameter(const std::string& component, const std::string& param, const std::string& text, Answer answer) {
+void FlightControl::set_parameter(const std::string& component, const std::string& param,
+                                  const std::string& text, Answer answer) {
   Command command = command_of(CommandKind::parameter, component, param);
   std::shared_ptr<const CommandTable> commands;
   std::size_t at = 0, part = 0;
@@ -276,8 +296,8 @@ void FlightControl::set_parameter(const std::string& component, const std::strin
     command.value = base_[at][part];
   }
   if (text.size() > longest_value)
-    throw Error(component + "." + param + ": a value of " + std::to_string(text.size()) + " characters; " + std::to_string(longest_value) +
-                " are allowed");
+    throw Error(component + "." + param + ": a value of " + std::to_string(text.size()) + " characters; " +
+                std::to_string(longest_value) + " are allowed");
   const ParamInfo& info = commands->info(at).params[part];
   check_live(component, info);
   Report report;
@@ -287,7 +307,8 @@ void FlightControl::set_parameter(const std::string& component, const std::strin
   send(std::move(command), std::move(answer));
 }
 
-void FlightControl::request(const std::string& component, const std::string& port, const std::string& text, Answer answer) {
+void FlightControl::request(const std::string& component, const std::string& port, const std::string& text,
+                            Answer answer) {
   const std::shared_ptr<const CommandTable> commands = directory()->commands;
   const TypePtr type = commands->entrance(commands->component(component), port, false).type;
   std::vector<std::byte> message(type->size);
@@ -298,13 +319,15 @@ void FlightControl::request(const std::string& component, const std::string& por
   request(component, port, std::move(message), std::move(answer));
 }
 
-void FlightControl::request(const std::string& component, const std::string& port, std::vector<std::byte> message, Answer answer) {
+void FlightControl::request(const std::string& component, const std::string& port,
+                            std::vector<std::byte> message, Answer answer) {
   Command command = command_of(CommandKind::request, component, port);
   command.message = std::move(message);
   send(std::move(command), std::move(answer));
 }
 
-bool FlightControl::publish(const std::string& component, const std::string& port, std::vector<std::byte> message) {
+bool FlightControl::publish(const std::string& component, const std::string& port,
+                            std::vector<std::byte> message) {
   auto waiting = std::make_unique<Waiting>();
   Command& c = waiting->command = command_of(CommandKind::import, component, port);
   c.message = std::move(message);

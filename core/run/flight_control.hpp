@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Control of a flight. Commands are checked and prepared in the thread that gives them, cross into the loop through a lock-free queue,
-// take effect between two ticks, and go back through another one to be answered and freed.
+// The Control of a flight. Commands are checked and prepared in the thread that gives them, cross into the
+// loop through a lock-free queue, take effect between two ticks, and go back through another one to be
+// answered and freed.
 #pragma once
 #include <array>
 #include <atomic>
@@ -49,8 +50,8 @@ class FlightControl final : public Control {
   explicit FlightControl(Flight::Impl& flight);
   ~FlightControl() override;
 
-  /// [tick] Between two ticks. So many commands at most: who sends thousands does not starve the loop. False when there was work among
-  /// them that is done on the ground alone and allocates: a swap, a reset.
+  /// [tick] Between two ticks. So many commands at most: who sends thousands does not starve the loop. False
+  /// when there was work among them that is done on the ground alone and allocates: a swap, a reset.
   bool apply() noexcept;
   /// [tick] What `view` tells of the flight.
   void note(int phase, std::int64_t now_ns, bool armed) noexcept;
@@ -59,10 +60,14 @@ class FlightControl final : public Control {
   void end();
 
   FlightView view() const override;
-  void set_parameter(const std::string& component, const std::string& param, const std::string& text, Answer answer) override;
-  void request(const std::string& component, const std::string& port, const std::string& text, Answer answer) override;
-  void request(const std::string& component, const std::string& port, std::vector<std::byte> message, Answer answer) override;
-  bool publish(const std::string& component, const std::string& port, std::vector<std::byte> message) override;
+  void set_parameter(const std::string& component, const std::string& param, const std::string& text,
+                     Answer answer) override;
+  void request(const std::string& component, const std::string& port, const std::string& text,
+               Answer answer) override;
+  void request(const std::string& component, const std::string& port, std::vector<std::byte> message,
+               Answer answer) override;
+  bool publish(const std::string& component, const std::string& port,
+               std::vector<std::byte> message) override;
   void enter_phase(const std::string& phase, Answer answer) override;
   void swap(const std::string& component, const std::string& file, Answer answer) override;
   void reset_guards(Answer answer) override;
@@ -95,7 +100,8 @@ class FlightControl final : public Control {
   };
   /// What the loop tells of the flight.
   struct Seen {
-    explicit Seen(std::size_t components) : states(std::make_unique<std::atomic<std::uint8_t>[]>(components)) {}
+    explicit Seen(std::size_t components)
+        : states(std::make_unique<std::atomic<std::uint8_t>[]>(components)) {}
     std::atomic<int> phase{0};
     std::atomic<std::int64_t> now_ns{0};
     std::atomic<bool> armed{false};

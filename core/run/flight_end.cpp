@@ -22,9 +22,10 @@ bool FlightEnd::reached() {
   facts.armed = protection_.armed_hardware();
   facts.done =
       graph.done && ending_.asks_done() && wiring_.held_for(*graph.done, graph.done_for_ns, done_since_ns_);
-  facts.failed =
-      graph.failed && ending_.asks_failed() && wiring_.held_for(*graph.failed, graph.failed_for_ns, failed_since_ns_);
-  facts.duration = options.duration_s && state_.now_ns >= static_cast<std::int64_t>(*options.duration_s * 1e9);
+  facts.failed = graph.failed && ending_.asks_failed() &&
+                 wiring_.held_for(*graph.failed, graph.failed_for_ns, failed_since_ns_);
+  facts.duration =
+      options.duration_s && state_.now_ns >= static_cast<std::int64_t>(*options.duration_s * 1e9);
   facts.timeout = graph.timeout_ns > 0 && !state_.on_hardware() && state_.now_ns >= graph.timeout_ns;
   facts.signal = options.interrupt && options.interrupt->load(std::memory_order_relaxed) != 0;
   for (const Ending::Act act : ending_.tick(facts)) carry_out(act);
@@ -40,23 +41,17 @@ void FlightEnd::failsafe(const Event& why) {
 
 void FlightEnd::carry_out(Ending::Act act) {
   switch (act) {
-    case Ending::Act::none:
-      return;
-    case Ending::Act::tell_done:
-      return tell_verdict(Code::concluded, "done: ");
-    case Ending::Act::tell_failed:
-      return tell_verdict(Code::concluded, "failed: ");
-    case Ending::Act::tell_duration:
-      return tell_verdict(Code::duration_reached, "");
+    case Ending::Act::none: return;
+    case Ending::Act::tell_done: return tell_verdict(Code::concluded, "done: ");
+    case Ending::Act::tell_failed: return tell_verdict(Code::concluded, "failed: ");
+    case Ending::Act::tell_duration: return tell_verdict(Code::duration_reached, "");
     case Ending::Act::tell_silent: {
       Event e = event_of(Code::silent);
       say(e, "silent until disarmed: the aircraft is its pilot's");
       return recorder_.note(e);
     }
-    case Ending::Act::refuse_signal:
-      return refuse_signal();
-    case Ending::Act::give_up:
-      return give_up();
+    case Ending::Act::refuse_signal: return refuse_signal();
+    case Ending::Act::give_up: return give_up();
     case Ending::Act::end:
       state_.result.outcome = Ending::outcome(ending_.reason());
       state_.result.reason = reason_text();
@@ -87,25 +82,19 @@ void FlightEnd::tell_verdict(Code code, const char* what) {
 
 std::string FlightEnd::reason_text() const {
   switch (ending_.reason()) {
-    case Ending::Reason::none:
-      break;
-    case Ending::Reason::done:
-      return state_.graph.done->text();
-    case Ending::Reason::failed:
-      return state_.graph.failed->text();
-    case Ending::Reason::duration:
-      return "duration reached";
+    case Ending::Reason::none: break;
+    case Ending::Reason::done: return state_.graph.done->text();
+    case Ending::Reason::failed: return state_.graph.failed->text();
+    case Ending::Reason::duration: return "duration reached";
     case Ending::Reason::timeout:
-      return "not done within " + short_number(1e-9 * static_cast<double>(state_.graph.timeout_ns)) + " s of flight";
+      return "not done within " + short_number(1e-9 * static_cast<double>(state_.graph.timeout_ns)) +
+             " s of flight";
     case Ending::Reason::failsafe:
-    case Ending::Reason::gave_up:
-      return failsafe_words_.data();
-    case Ending::Reason::signal:
-      return "by a signal";
+    case Ending::Reason::gave_up: return failsafe_words_.data();
+    case Ending::Reason::signal: return "by a signal";
     case Ending::Reason::vehicle_failed:
       return "the vehicle failed: " + std::string(wiring_.vehicle().problem.text);
-    case Ending::Reason::abandoned:
-      return "ended by its owner";
+    case Ending::Reason::abandoned: return "ended by its owner";
   }
   return "";
 }

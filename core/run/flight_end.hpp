@@ -16,7 +16,11 @@ namespace fulmar::core {
 class FlightEnd {
  public:
   FlightEnd(FlightState& state, const Wiring& wiring, Recorder& recorder, const Protection& protection)
-      : state_(state), wiring_(wiring), recorder_(recorder), protection_(protection), ending_(state.graph.failsafe_ns) {}
+      : state_(state),
+        wiring_(wiring),
+        recorder_(recorder),
+        protection_(protection),
+        ending_(state.graph.failsafe_ns) {}
 
   /// [tick] At its end: whether that was the last one.
   bool reached();

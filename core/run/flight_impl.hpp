@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The inside of a flight: its parts, from the bottom up, and the loop that goes through them. For core/run alone.
+// The inside of a flight: its parts, from the bottom up, and the loop that goes through them. For core/run
+// alone.
 #pragma once
 #include <cstdint>
 #include <memory>

@@ -63,14 +63,15 @@ void Flight::Impl::request_arming() {
 void Flight::Impl::open_tap() {
   const Graph& graph = state.graph;
   const bool logs = state.options.log && graph.record;
-  const bool shown = !state.unpaced() && (graph.live.on || graph.dds.on);  // as fast as possible is too fast for onlookers
+  const bool shown =
+      !state.unpaced() && (graph.live.on || graph.dds.on);  // as fast as possible is too fast for onlookers
   if (!logs && !shown) return;
   recorder.open(wiring.units, logs);
   if (shown) open_to_others();
 }
 
-/// Threads of onlookers are begun here, before the loop's thread is bound to a CPU and given its priority, which they
-/// must not inherit.
+/// Threads of onlookers are begun here, before the loop's thread is bound to a CPU and given its priority,
+/// which they must not inherit.
 void Flight::Impl::open_to_others() {
   const Graph& graph = state.graph;
   if (graph.live.on) {
@@ -81,12 +82,14 @@ void Flight::Impl::open_to_others() {
     }
   }
   onlookers.control = std::make_unique<FlightControl>(*this);
-  if (graph.dds.on) onlookers.dds = std::make_unique<DdsBridge>(*recorder.tap(), *onlookers.control, graph.dds);
+  if (graph.dds.on)
+    onlookers.dds = std::make_unique<DdsBridge>(*recorder.tap(), *onlookers.control, graph.dds);
   if (!graph.live.on) return;
   try {
     onlookers.live = std::make_unique<LiveServer>(*recorder.tap(), *onlookers.control, graph.live);
   } catch (const Error& fault) {  // another flight on this computer is no reason not to fly
-    if (state.options.say) state.options.say(std::string("nobody can watch this flight: ") + fault.what(), true);
+    if (state.options.say)
+      state.options.say(std::string("nobody can watch this flight: ") + fault.what(), true);
   }
 }
 

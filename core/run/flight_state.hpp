@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What all parts of a flight look at: its mission, what its owner wants, the time, and what came of it so far.
+// What all parts of a flight look at: its mission, what its owner wants, the time, and what came of it so
+// far.
 #pragma once
 #include <cstdint>
 #include <limits>

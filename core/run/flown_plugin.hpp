@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/types/type.hpp"
 #include "core/log/reader.hpp"
+#include "core/types/type.hpp"
 
 namespace fulmar::core {
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tick: vehicle read, steps in order, phase conditions, vehicle write. What is published goes to the tap at once.
+// The tick: vehicle read, steps in order, phase conditions, vehicle write. What is published goes to the tap
+// at once.
 #include "core/run/allocation.hpp"
 #include "core/run/flight_impl.hpp"
 #include "core/run/realtime.hpp"
@@ -29,7 +30,8 @@ bool Flight::Impl::tick() {
   if (state.index == 0) state.result.first_ns = state.now_ns;
   if (read.kind == Verdict::Kind::bad) {
     vehicle_failed();
-    state.result.guards.push_back({state.now_ns, vehicle.component->name, vehicle.problem.text, "flight ended"});
+    state.result.guards.push_back(
+        {state.now_ns, vehicle.component->name, vehicle.problem.text, "flight ended"});
     return false;
   }
   if (state.index == 0) begin();

@@ -52,7 +52,8 @@ void Roles::enter(int phase) {
     fill(static_cast<int>(r), entered.roles[r], !before.roles[r].set.empty());
 }
 
-/// Who flies in a role from now on: the component that the phase names, else its fallback, else who flies already.
+/// Who flies in a role from now on: the component that the phase names, else its fallback, else who flies
+/// already.
 void Roles::fill(int role, const Assignment& assignment, bool overlaid) {
   if (assignment.component < 0) return;
   for (const int wanted : {assignment.component, assignment.fallback}) {

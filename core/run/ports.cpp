@@ -42,7 +42,8 @@ void Reader::latch() noexcept {
   copied_valid_ns = s->valid_at_ns;
 }
 
-// ---- inputs ------------------------------------------------------------------------------------------------
+// ---- inputs
+// ------------------------------------------------------------------------------------------------
 
 Intake::Intake(const Component& component)
     : readers(component.info().inputs.size()), views(component.info().inputs.size()) {
@@ -169,7 +170,8 @@ void Intake::refuse_requests(const char* why) noexcept {
   }
 }
 
-// ---- outputs -----------------------------------------------------------------------------------------------
+// ---- outputs
+// -----------------------------------------------------------------------------------------------
 
 Outlets::Outlets(const Component& component, Unit& owner)
     : slots(component.info().outputs.size()), views(component.info().outputs.size()) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ports of a component in flight. Its inputs are views of other components' outputs, its outputs are double
-// buffers: a step writes into `staging`, and what passes the guards is published, so a bad step leaves the last
-// good output in place.
+// The ports of a component in flight. Its inputs are views of other components' outputs, its outputs are
+// double buffers: a step writes into `staging`, and what passes the guards is published, so a bad step leaves
+// the last good output in place.
 #pragma once
 #include <array>
 #include <cstdint>

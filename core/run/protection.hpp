@@ -15,8 +15,9 @@ class Protection {
   /// [setup] Where the flags stand; anew when units were exchanged.
   void connect(const Wiring& wiring) noexcept;
 
-  /// What counts of a vehicle that has no such flag, or has not published it yet: disarmed, on the ground, in control.
-  /// Nothing that the host does reaches a vehicle that is silent, and at its desk a host must end by one signal.
+  /// What counts of a vehicle that has no such flag, or has not published it yet: disarmed, on the ground, in
+  /// control. Nothing that the host does reaches a vehicle that is silent, and at its desk a host must end by
+  /// one signal.
   bool armed() const noexcept { return armed_.says(false); }
   bool on_ground() const noexcept { return on_ground_.says(true); }
   /// In the air for certain: it says so.
@@ -37,7 +38,9 @@ class Protection {
     const Slot* slot = nullptr;
     std::uint32_t offset = 0;
     bool spoken() const noexcept { return slot && slot->sequence > 0; }
-    bool says(bool unknown) const noexcept { return spoken() ? slot->published[offset] != std::byte{0} : unknown; }
+    bool says(bool unknown) const noexcept {
+      return spoken() ? slot->published[offset] != std::byte{0} : unknown;
+    }
   };
   const FlightState& state_;
   Flag armed_, on_ground_, in_control_;

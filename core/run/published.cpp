@@ -12,7 +12,8 @@ namespace fulmar::core {
 std::uint64_t component_seed(std::uint64_t mission_seed, const std::string& name) {
   std::uint64_t h = mission_seed ^ 0x9e3779b97f4a7c15ull;
   for (const char c : name) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
-  h ^= h >> 30, h *= 0xbf58476d1ce4e5b9ull, h ^= h >> 27, h *= 0x94d049bb133111ebull;  // splitmix64's finaliser
+  h ^= h >> 30, h *= 0xbf58476d1ce4e5b9ull, h ^= h >> 27,
+      h *= 0x94d049bb133111ebull;  // splitmix64's finaliser
   return h ^ (h >> 31);
 }
 
@@ -58,7 +59,8 @@ std::string topic_name(const Graph& graph, const Component& c, std::size_t outpu
     const Role& role = graph.roles[static_cast<std::size_t>(c.role)];
     for (std::size_t f = 0; f < role.fillers.size(); ++f)
       for (std::size_t k = 0; k < role.outputs.size(); ++k)
-        if (&graph.components[static_cast<std::size_t>(role.fillers[f])] == &c && role.provides[f][k] == static_cast<int>(output))
+        if (&graph.components[static_cast<std::size_t>(role.fillers[f])] == &c &&
+            role.provides[f][k] == static_cast<int>(output))
           return role.name + "." + role.outputs[k].name;
   }
   return c.name + "." + c.info().outputs[output].name;

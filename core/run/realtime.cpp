@@ -28,10 +28,12 @@ rlim_t limit_of(auto resource) {
 [[noreturn]] void refuse(int priority, const std::string& what, int fault) {
   std::error_code none;
   const std::string self = std::filesystem::read_symlink("/proc/self/exe", none).string();
-  throw Error("--realtime: fulmar is not permitted " + what + ": " + std::strerror(fault) +
-              "; allow it by one of: two lines in /etc/security/limits.d/fulmar.conf, '@dialout - rtprio " + std::to_string(priority) +
-              "' and '@dialout - memlock unlimited', and a new login; or 'sudo setcap cap_sys_nice,cap_ipc_lock+ep " + self +
-              "'; or the systemd unit fulmar@.service, whose limits allow it");
+  throw Error(
+      "--realtime: fulmar is not permitted " + what + ": " + std::strerror(fault) +
+      "; allow it by one of: two lines in /etc/security/limits.d/fulmar.conf, '@dialout - rtprio " +
+      std::to_string(priority) +
+      "' and '@dialout - memlock unlimited', and a new login; or 'sudo setcap cap_sys_nice,cap_ipc_lock+ep " +
+      self + "'; or the systemd unit fulmar@.service, whose limits allow it");
 }
 
 /// The stack grows by page faults; a tick is to have none.
@@ -42,7 +44,8 @@ rlim_t limit_of(auto resource) {
   explicit_bzero(pages, sizeof pages);
 }
 
-/// A limit that holds what there is now would let an allocation fail later. Whoever may exceed it can reserve more than it.
+/// A limit that holds what there is now would let an allocation fail later. Whoever may exceed it can reserve
+/// more than it.
 bool may_lock_all() {
   const rlim_t limit = limit_of(RLIMIT_MEMLOCK);
   if (limit == RLIM_INFINITY) return true;
@@ -59,16 +62,21 @@ void take_real_time(int priority) {
   if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0 || !may_lock_all()) {
     const int fault = errno;
     munlockall();
-    refuse(priority, "to lock its memory (limit " + std::to_string(limit_of(RLIMIT_MEMLOCK) / 1024) + " kB)", fault);
+    refuse(priority, "to lock its memory (limit " + std::to_string(limit_of(RLIMIT_MEMLOCK) / 1024) + " kB)",
+           fault);
   }
   const sched_param wanted{priority};
   if (sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &wanted) != 0) {
     const int fault = errno;
     munlockall();
-    refuse(priority, "to run with priority " + std::to_string(priority) + " (limit " + std::to_string(limit_of(RLIMIT_RTPRIO)) + ")",
+    refuse(priority,
+           "to run with priority " + std::to_string(priority) + " (limit " +
+               std::to_string(limit_of(RLIMIT_RTPRIO)) + ")",
            fault);
   }
-  mallopt(M_TRIM_THRESHOLD, -1);  // what the heap has once is not given back, to be faulted in again: for components that allocate
+  mallopt(
+      M_TRIM_THRESHOLD,
+      -1);  // what the heap has once is not given back, to be faulted in again: for components that allocate
   mallopt(M_MMAP_MAX, 0);
   take_stack();
 }

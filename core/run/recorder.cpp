@@ -64,7 +64,8 @@ void Recorder::put(Slot& slot) {
     LogPlace& place = slot.log;
     const std::int64_t now_ns = state_.now_ns;
     if (slot.hash)
-      tick_hash_ = slot.hash->of(mix(mix(tick_hash_, place.channel), static_cast<std::uint64_t>(slot.valid_at_ns)), message);
+      tick_hash_ = slot.hash->of(
+          mix(mix(tick_hash_, place.channel), static_cast<std::uint64_t>(slot.valid_at_ns)), message);
     const bool for_log = log_ && place.due.take(now_ns, place.period_ns);
     if (tap_->wanted(place.channel, now_ns) || for_log)
       tap_->write(place.channel, now_ns, slot.valid_at_ns, message, for_log);
@@ -99,9 +100,11 @@ void Recorder::put_input(int channel, const std::byte* message) {
 void Recorder::note_tick() {
   if (!tap_) return;
   const std::int64_t since_last_ns = state_.index == 0 ? 0 : state_.now_ns - state_.result.last_ns;
-  if (since_last_ns > std::int64_t{UINT32_MAX}) put_ticks();  // a period that has no room: the next message tells the time
+  if (since_last_ns > std::int64_t{UINT32_MAX})
+    put_ticks();  // a period that has no room: the next message tells the time
   if (ticks_.hashes == 0) ticks_.first = state_.index, ticks_.time_ns = state_.now_ns;
-  ticks_.period_ns[ticks_.periods++] = static_cast<std::uint32_t>(std::clamp<std::int64_t>(since_last_ns, 0, UINT32_MAX));
+  ticks_.period_ns[ticks_.periods++] =
+      static_cast<std::uint32_t>(std::clamp<std::int64_t>(since_last_ns, 0, UINT32_MAX));
   ticks_.hash[ticks_.hashes++] = static_cast<std::uint32_t>(tick_hash_ ^ (tick_hash_ >> 32));
   tick_hash_ = 0;
   if (ticks_.hashes == Ticks::most) put_ticks();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What leaves a flight: messages, probes, events, commands, ticks and their hashes into the tap and its log, words
-// to people.
+// What leaves a flight: messages, probes, events, commands, ticks and their hashes into the tap and its log,
+// words to people.
 #pragma once
 #include <cstddef>
 #include <cstdint>

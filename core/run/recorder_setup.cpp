@@ -25,11 +25,12 @@ class Recorder::ChannelList {
     list.push_back({"/" + topic, type});
     return list.size() - 1;
   }
-  /// Who fills a role publishes as the role: one topic, whoever flies. Under its own name when its message has other
-  /// fields than theirs.
+  /// Who fills a role publishes as the role: one topic, whoever flies. Under its own name when its message
+  /// has other fields than theirs.
   std::size_t add_shared(std::string name, const std::string& own, const TypePtr& type) {
     std::replace(name.begin(), name.end(), '.', '/');
-    const auto there = std::find_if(list.begin(), list.end(), [&](const TapChannel& c) { return c.topic == "/" + name; });
+    const auto there =
+        std::find_if(list.begin(), list.end(), [&](const TapChannel& c) { return c.topic == "/" + name; });
     if (there == list.end()) return add(name, type);
     return there->type->hash == type->hash ? static_cast<std::size_t>(there - list.begin()) : add(own, type);
   }
@@ -92,7 +93,8 @@ void Recorder::open_log(const Units& units) {
   o.wait = state_.unpaced();
   o.rotate_bytes = graph.rotate_bytes, o.rotate_ns = graph.rotate_ns;
   o.lasting = lasting();
-  // What the host says and what comes from outside, always. A role's topic when anybody who fills it is recorded.
+  // What the host says and what comes from outside, always. A role's topic when anybody who fills it is
+  // recorded.
   o.channels.assign(tap_->channels().size(), true);
   const auto each = [&](auto&& set) {
     for (const auto& unit : units) {
@@ -102,16 +104,20 @@ void Recorder::open_log(const Units& units) {
     }
   };
   each([&](const LogPlace& place) { o.channels[place.channel] = false; });
-  each([&](const LogPlace& place) { o.channels[place.channel] = o.channels[place.channel] || place.period_ns >= 0; });
+  each([&](const LogPlace& place) {
+    o.channels[place.channel] = o.channels[place.channel] || place.period_ns >= 0;
+  });
   log_ = std::make_unique<Log>(o, *tap_);
   attach_texts(units);
 }
 
-/// What every file of a log begins with, for it to be read, and resumed from, without the one before: see Log::Options.
+/// What every file of a log begins with, for it to be read, and resumed from, without the one before: see
+/// Log::Options.
 std::function<std::string(std::size_t, const std::byte*)> Recorder::lasting() const {
   return [at = channels_](std::size_t channel, const std::byte* message) {
     std::string name;
-    if (channel == at.event && reinterpret_cast<const Event*>(message)->code == Code::phase_entered) name = "phase";
+    if (channel == at.event && reinterpret_cast<const Event*>(message)->code == Code::phase_entered)
+      name = "phase";
     if (channel != at.parameter && channel != at.command) return name;
     const auto* const note = reinterpret_cast<const CommandNote*>(message);
     const std::string component = note->component.data();
@@ -125,20 +131,13 @@ namespace {
 
 nlohmann::json parameter_json(const ParamInfo& p, const ParamValue& v) {
   switch (p.kind) {
-    case FULMAR_NUMBER:
-      return v.number[0];
-    case FULMAR_FLAG:
-      return v.integer != 0;
-    case FULMAR_COUNT:
-      return v.integer;
-    case FULMAR_CHOICE:
-      return p.choices.at(static_cast<std::size_t>(v.integer));
-    case FULMAR_VECTOR:
-      return {v.number[0], v.number[1], v.number[2]};
-    case FULMAR_RECORD:
-      return to_json(*p.type, v.data.data(), false);
-    default:
-      return v.text;
+    case FULMAR_NUMBER: return v.number[0];
+    case FULMAR_FLAG: return v.integer != 0;
+    case FULMAR_COUNT: return v.integer;
+    case FULMAR_CHOICE: return p.choices.at(static_cast<std::size_t>(v.integer));
+    case FULMAR_VECTOR: return {v.number[0], v.number[1], v.number[2]};
+    case FULMAR_RECORD: return to_json(*p.type, v.data.data(), false);
+    default: return v.text;
   }
 }
 
@@ -183,13 +182,14 @@ void Recorder::attach_texts(const Units& units) {
   log_->attach("sbom.json", "application/json", sbom_text(loaded));
   log_->metadata("plugins", plugins);
   log_->metadata("overrides", overrides_text(graph.overrides));
-  log_->metadata("fulmar", {{"version", FULMAR_VERSION},
-                            {"abi", std::to_string(FULMAR_ABI_MAJOR) + "." + std::to_string(FULMAR_ABI_MINOR)},
-                            {"toolchain", __VERSION__},
-                            {"mission", graph.mission},
-                            {"io", io_word(graph.io)},
-                            {"epoch_ns", std::to_string(graph.epoch_ns)},
-                            {"seed", std::to_string(graph.seed)}});
+  log_->metadata("fulmar",
+                 {{"version", FULMAR_VERSION},
+                  {"abi", std::to_string(FULMAR_ABI_MAJOR) + "." + std::to_string(FULMAR_ABI_MINOR)},
+                  {"toolchain", __VERSION__},
+                  {"mission", graph.mission},
+                  {"io", io_word(graph.io)},
+                  {"epoch_ns", std::to_string(graph.epoch_ns)},
+                  {"seed", std::to_string(graph.seed)}});
 }
 
 void Recorder::note_swap(const std::string& component, const PluginInfo& plugin) {
@@ -199,7 +199,8 @@ void Recorder::note_swap(const std::string& component, const PluginInfo& plugin)
   log_->metadata("swap", pairs);
 }
 
-// ---- texts for people ----------------------------------------------------------------------------------------
+// ---- texts for people
+// ----------------------------------------------------------------------------------------
 
 void Recorder::listen(const Units& units) {
   told_.clear();
@@ -219,7 +220,8 @@ void Recorder::listen_to(const Unit& unit, int output) {
   Told told{&slot, slot.port->type->find("text"), slot.port->type->find("severity"), {}};
   if (!told.text || told.text->kind != FULMAR_TEXT) return;
   if (!told.severity) told.severity = slot.port->type->find("level");
-  if (told.severity && (told.severity->kind != FULMAR_ENUM || told.severity->shape != FULMAR_SCALAR)) told.severity = nullptr;
+  if (told.severity && (told.severity->kind != FULMAR_ENUM || told.severity->shape != FULMAR_SCALAR))
+    told.severity = nullptr;
   if (slot.port->kind == FULMAR_OUT_VALUE) told.last.assign(told.text->stride, '\0');
   told_.push_back(std::move(told));
 }

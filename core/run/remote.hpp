@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runners whose work is done in another thread, or was done in another flight: their results come by `collect`.
+// Runners whose work is done in another thread, or was done in another flight: their results come by
+// `collect`.
 #pragma once
 #include <cstdint>
 #include <limits>
@@ -20,8 +21,8 @@ class AsyncRunner final : public Direct {
  public:
   /// `wait`: for a result that is late, as simulation does; else it is counted as missed, and taken when it
   /// comes. `late`: those that a replay takes as late as the flight did.
-  AsyncRunner(const Component& component, std::uint64_t seed, std::int64_t period_ns, bool wait, LateResults late,
-              ComponentStats& stats);
+  AsyncRunner(const Component& component, std::uint64_t seed, std::int64_t period_ns, bool wait,
+              LateResults late, ComponentStats& stats);
 
   void rest() noexcept override { async_.reset(); }
   bool retune(const std::vector<fulmar_value>& values, fulmar_error& problem) noexcept override;
@@ -51,7 +52,8 @@ class AsyncRunner final : public Direct {
 /// Samples that have arrived, as many at once as one publication holds.
 class Arrivals {
  public:
-  Arrivals(std::unique_ptr<SampleSource> source, ComponentStats& stats) : source_(std::move(source)), stats_(stats) {}
+  Arrivals(std::unique_ptr<SampleSource> source, ComponentStats& stats)
+      : source_(std::move(source)), stats_(stats) {}
   Verdict collect(std::int64_t now_ns, Outlets& out, fulmar_error& problem) noexcept;
   bool started() const noexcept { return started_; }
   void end() noexcept { source_.reset(); }
@@ -85,7 +87,8 @@ class DriverRunner final : public Direct {
 /// In the place of a driver: what one said in another flight. There is no instance.
 class RecordedRunner final : public Runner {
  public:
-  RecordedRunner(std::unique_ptr<SampleSource> source, ComponentStats& stats) : arrivals_(std::move(source), stats) {}
+  RecordedRunner(std::unique_ptr<SampleSource> source, ComponentStats& stats)
+      : arrivals_(std::move(source), stats) {}
   Verdict collect(std::int64_t now_ns, Intake&, Outlets& out, fulmar_error& problem) noexcept override {
     return arrivals_.collect(now_ns, out, problem);
   }

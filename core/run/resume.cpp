@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "core/graph/condition.hpp"
+#include "core/log/reader.hpp"
 #include "core/run/flight_impl.hpp"
 #include "core/run/published.hpp"
-#include "core/log/reader.hpp"
 #include "core/types/wire.hpp"
 
 namespace fulmar::core {
@@ -24,7 +24,8 @@ std::string topic_path(std::string name) {
 
 std::string topic_of(const Graph& graph, const Source& source) {
   if (source.kind == Source::Kind::component)
-    return topic_path(topic_name(graph, graph.components[static_cast<std::size_t>(source.index)], static_cast<std::size_t>(source.output)));
+    return topic_path(topic_name(graph, graph.components[static_cast<std::size_t>(source.index)],
+                                 static_cast<std::size_t>(source.output)));
   const Role& role = graph.roles[static_cast<std::size_t>(source.index)];
   return topic_path(role.name + "." + role.outputs[static_cast<std::size_t>(source.output)].name);
 }
@@ -34,8 +35,8 @@ std::vector<std::byte> last_message(const McapFile& file, const std::string& top
   const std::uint16_t channel = file.channel(topic);
   if (file.schemas.at(file.channels.at(channel).schema).text != ros_definition(type))
     throw Error("the log's " + topic + " has other fields than " + type.name + " of this mission");
-  const auto last =
-      std::find_if(file.messages.rbegin(), file.messages.rend(), [&](const McapFile::Message& m) { return m.channel == channel; });
+  const auto last = std::find_if(file.messages.rbegin(), file.messages.rend(),
+                                 [&](const McapFile::Message& m) { return m.channel == channel; });
   if (last == file.messages.rend()) throw Error("the log holds no sample of " + topic);
   std::vector<std::byte> message(type.size);
   cdr_decode(type, last->data.data(), last->data.size(), message.data());
@@ -70,13 +71,16 @@ bool armed_at_end(const Graph& graph, const McapFile& file) {
 Resume::Param read_rule(const Graph& graph, const McapFile& file, const ResumeRule& rule) {
   const auto dot = rule.param.find('.');
   Resume::Param p{rule.param.substr(0, dot), rule.param.substr(dot + 1), {}};
-  const auto component =
-      std::find_if(graph.components.begin(), graph.components.end(), [&](const Component& c) { return c.name == p.component; });
-  if (component == graph.components.end()) throw Error("there is no component '" + p.component + "' in this run");
+  const auto component = std::find_if(graph.components.begin(), graph.components.end(),
+                                      [&](const Component& c) { return c.name == p.component; });
+  if (component == graph.components.end())
+    throw Error("there is no component '" + p.component + "' in this run");
   if (!rule.field.type) throw Error(rule.field.text + " is a probe, and a flight resumes from messages");
-  const std::vector<std::byte> message = last_message(file, topic_of(graph, rule.field.from), *rule.field.type);
+  const std::vector<std::byte> message =
+      last_message(file, topic_of(graph, rule.field.from), *rule.field.type);
   const double x = number_at(*rule.field.field.field, message.data() + rule.field.field.offset);
-  const ParamInfo& info = component->info().params[static_cast<std::size_t>(component->info().param(p.param))];
+  const ParamInfo& info =
+      component->info().params[static_cast<std::size_t>(component->info().param(p.param))];
   if (!(x >= info.min && x <= info.max))
     throw Error(rule.field.text + " was " + std::to_string(x) + ", which " + rule.param + " does not allow");
   p.value.number[0] = x;
@@ -107,7 +111,8 @@ Resume read_resume(const Graph& graph, const fs::path& log) try {
   std::vector<std::string> phases;
   for (const Phase& phase : graph.phases) phases.push_back(phase.name);
   if (std::find(phases.begin(), phases.end(), resume.phase) == phases.end())
-    throw Error("it ends in the phase '" + resume.phase + "', which this mission does not have." + choices_text(resume.phase, phases));
+    throw Error("it ends in the phase '" + resume.phase + "', which this mission does not have." +
+                choices_text(resume.phase, phases));
   resume.armed = armed_at_end(graph, file);
   for (const ResumeRule& rule : graph.resume) try {
       resume.params.push_back(read_rule(graph, file, rule));
@@ -121,7 +126,8 @@ Resume read_resume(const Graph& graph, const fs::path& log) try {
 
 namespace {
 
-/// Of a file in which nothing stands yet the one before knows more: a log that had just rotated, a host that died as it began.
+/// Of a file in which nothing stands yet the one before knows more: a log that had just rotated, a host that
+/// died as it began.
 bool holds_message(const fs::path& log) {
   try {
     return McapStream(log).next() != nullptr;
@@ -140,8 +146,8 @@ fs::path newest_log(const Graph& graph, double max_age_s) {
   fs::path newest;
   fs::file_time_type newest_time = fs::file_time_type::min();
   if (max_age_s > 0)
-    newest_time = fs::file_time_type::clock::now() -
-                  std::chrono::duration_cast<fs::file_time_type::duration>(std::chrono::duration<double>(max_age_s));
+    newest_time = fs::file_time_type::clock::now() - std::chrono::duration_cast<fs::file_time_type::duration>(
+                                                         std::chrono::duration<double>(max_age_s));
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, code)) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with(stem) || !(name.ends_with(".mcap") || name.ends_with(".mcap.part"))) continue;
@@ -153,15 +159,17 @@ fs::path newest_log(const Graph& graph, double max_age_s) {
   return newest;
 }
 
-// ---- in flight -------------------------------------------------------------------------------------------------
+// ---- in flight
+// -------------------------------------------------------------------------------------------------
 
-/// Before the first step, or when a vehicle turns out to be armed. The parameters are those of a log: one that cannot be
-/// set any more is told, and the flight goes on without it.
+/// Before the first step, or when a vehicle turns out to be armed. The parameters are those of a log: one
+/// that cannot be set any more is told, and the flight goes on without it.
 void Flight::Impl::resume_now() {
   const Resume resume = std::move(*state.options.resume);
   state.options.resume.reset();
   const auto& phases = state.graph.phases;
-  const auto at = std::find_if(phases.begin(), phases.end(), [&](const Phase& p) { return p.name == resume.phase; });
+  const auto at =
+      std::find_if(phases.begin(), phases.end(), [&](const Phase& p) { return p.name == resume.phase; });
   const int to = at == phases.end() ? 0 : static_cast<int>(at - phases.begin());
   if (state.index == 0) roles.begin_in(to);
   Event e = event_of(Code::resumed, "", resume.phase);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lock-free ring of records of any size between one producer (the loop) and one consumer (a sink's thread).
 //
-// A record lies in one piece, 8-aligned; what is left at the end of the memory is skipped by a record without channel.
-// `head_` and `tail_` count bytes for ever; each thread keeps its own copy of the other's count and looks again only when that one is used
-// up.
+// A record lies in one piece, 8-aligned; what is left at the end of the memory is skipped by a record without
+// channel. `head_` and `tail_` count bytes for ever; each thread keeps its own copy of the other's count and
+// looks again only when that one is used up.
 #pragma once
 #include <atomic>
 #include <bit>
@@ -26,9 +26,11 @@ class Ring {
     const std::byte* data() const { return reinterpret_cast<const std::byte*>(this + 1); }
   };
 
-  /// At least `bytes`, and room for four records of `max_data`: then a half-empty ring has room for any record.
+  /// At least `bytes`, and room for four records of `max_data`: then a half-empty ring has room for any
+  /// record.
   Ring(std::size_t bytes, std::size_t max_data)
-      : capacity_(std::bit_ceil(std::max(bytes, 4 * record_size(max_data)))), memory_(capacity_ / sizeof(std::uint64_t)) {}
+      : capacity_(std::bit_ceil(std::max(bytes, 4 * record_size(max_data)))),
+        memory_(capacity_ / sizeof(std::uint64_t)) {}
 
   /// Producer. False, and nothing written, when there is no room.
   bool push(Record record, const std::byte* data, std::size_t size) noexcept {
@@ -82,7 +84,9 @@ class Ring {
   static constexpr std::uint32_t skipped = ~0u;
   static constexpr std::size_t line = 64;  // bytes of a cache line; each thread writes lines of its own
 
-  static constexpr std::size_t record_size(std::size_t data) { return (sizeof(Record) + data + 7) & ~std::size_t{7}; }
+  static constexpr std::size_t record_size(std::size_t data) {
+    return (sizeof(Record) + data + 7) & ~std::size_t{7};
+  }
   struct Mark {
     std::uint32_t size, channel;
   };

@@ -49,7 +49,8 @@ const std::vector<Overlay>* Roles::overlay_of(int component) const noexcept {
   return nullptr;
 }
 
-// ---- steps -------------------------------------------------------------------------------------------------
+// ---- steps
+// -------------------------------------------------------------------------------------------------
 
 void Roles::step(int component) {
   Unit& unit = wiring_.unit(component);
@@ -63,8 +64,8 @@ void Roles::step(int component) {
   if (bad) stop(component);
 }
 
-/// Who begins is activated first, with nobody before it. Who is held begins anew in every step, so that nothing winds
-/// up while the vehicle does not obey; in another thread once, when control returns.
+/// Who begins is activated first, with nobody before it. Who is held begins anew in every step, so that
+/// nothing winds up while the vehicle does not obey; in another thread once, when control returns.
 bool Roles::ready_to_step(Unit& unit, int component) {
   const bool held = protection_.out_of_control() && is_held(unit);
   if (!unit.fresh_start && (!held || unit.runner().remote())) return true;
@@ -130,7 +131,8 @@ void Roles::tell_overdue() {
   }
 }
 
-// ---- guards and hand-over ----------------------------------------------------------------------------------
+// ---- guards and hand-over
+// ----------------------------------------------------------------------------------
 
 void Roles::stop(int component, Code code) {
   Unit& unit = wiring_.unit(component);
@@ -181,7 +183,8 @@ bool Roles::take_over(int role, int component, const Assignment& assignment) {
   Unit& unit = wiring_.unit(component);
   Unit* const old = active(role) >= 0 ? &wiring_.unit(active(role)) : nullptr;
   const bool tuned = unit.retune(component == assignment.component ? &assignment.set : nullptr);
-  if (tuned && !unit.in.ready() && (!old || old->fresh_start)) {  // nobody has flown yet: it begins when its inputs are there
+  if (tuned && !unit.in.ready() &&
+      (!old || old->fresh_start)) {  // nobody has flown yet: it begins when its inputs are there
     if (old) old->active = false;
     active(role) = component;
     unit.active = unit.fresh_start = true;

@@ -18,7 +18,8 @@ class Roles {
  public:
   Roles(FlightState& state, Wiring& wiring, Recorder& recorder, Protection& protection, FlightEnd& end,
         Stopwatch& stopwatch);
-  /// [setup] Which roles feed the vehicle, and which are held while it does not obey; anew when units were exchanged.
+  /// [setup] Which roles feed the vehicle, and which are held while it does not obey; anew when units were
+  /// exchanged.
   void connect();
 
   int phase() const noexcept { return phase_; }
@@ -28,7 +29,8 @@ class Roles {
   // phases.cpp
   /// [tick] In another phase than the first one. Before `begin`.
   void begin_in(int phase) noexcept { phase_ = phase; }
-  /// [tick] In the first tick: nobody has flown before, so each component is activated when its inputs have arrived.
+  /// [tick] In the first tick: nobody has flown before, so each component is activated when its inputs have
+  /// arrived.
   void begin();
   void transitions();
   void enter(int phase);
@@ -40,7 +42,8 @@ class Roles {
   void charge(Unit& unit);
   /// [tick] Whoever works in another thread begins anew, now that control has returned.
   void begin_anew() noexcept;
-  /// [tick] A guard has fired: the last good output is held; the fallback takes over; when nobody is left, failsafe.
+  /// [tick] A guard has fired: the last good output is held; the fallback takes over; when nobody is left,
+  /// failsafe.
   void stop(int component, Code code = Code::guard);
   /// At the end of a flight: a result that has not come is not there in a replay either.
   void tell_overdue();
@@ -68,7 +71,7 @@ class Roles {
   FlightEnd& end_;
   Stopwatch& stopwatch_;
   int phase_ = 0;
-  std::vector<int> active_;                          // per role: the component that fills it now, or -1
+  std::vector<int> active_;                           // per role: the component that fills it now, or -1
   std::vector<bool> drives_vehicle_, control_roles_;  // per role
   std::vector<std::int64_t> any_since_, next_since_;  // since when a transition's condition holds
   std::vector<const Slot*> hand_over_;                // room for what was last applied

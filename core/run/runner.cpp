@@ -25,7 +25,8 @@ void* create_instance(const Component& c, const fulmar_component& functions, std
 
 std::unique_ptr<Isolated> spawn(const Component& c, std::uint64_t seed, bool paced) {
   IsolatedOptions o;
-  o.name = c.name, o.copy = c.plugin->copy, o.script = c.plugin->script, o.file = c.plugin->file, o.path = c.plugin->path;
+  o.name = c.name, o.copy = c.plugin->copy, o.script = c.plugin->script, o.file = c.plugin->file,
+  o.path = c.plugin->path;
   o.index = c.index_in_plugin, o.seed = seed;
   if (paced) o.hang_ns = c.hang_ns;
   auto child = std::make_unique<Isolated>(c.info(), o);
@@ -35,7 +36,8 @@ std::unique_ptr<Isolated> spawn(const Component& c, std::uint64_t seed, bool pac
 
 }  // namespace
 
-// ---- in the loop's thread ------------------------------------------------------------------------------------
+// ---- in the loop's thread
+// ------------------------------------------------------------------------------------
 
 Direct::Direct(const Component& c, std::uint64_t seed)
     : Direct(c, c.library->functions(c.index_in_plugin),
@@ -53,8 +55,8 @@ std::uint32_t Direct::configure(const fulmar_value* values, fulmar_error& proble
 
 const fulmar_last_frame* Direct::last_frame(const fulmar_input* failsafe, fulmar_error& problem) {
   if (!functions_.get_extension) return nullptr;
-  const auto encode =
-      reinterpret_cast<fulmar_last_frame_function>(const_cast<void*>(functions_.get_extension(FULMAR_LAST_FRAME)));
+  const auto encode = reinterpret_cast<fulmar_last_frame_function>(
+      const_cast<void*>(functions_.get_extension(FULMAR_LAST_FRAME)));
   return encode ? encode(instance_, failsafe, &problem) : nullptr;
 }
 
@@ -68,7 +70,8 @@ bool Direct::activate(const fulmar_tick& tick, const std::vector<fulmar_input>& 
                       const std::vector<fulmar_input>& last, fulmar_error& problem) noexcept {
   if (!functions_.activate) return true;
   const Inside inside(name_, "activate");
-  if (functions_.activate(instance_, &tick, inputs.data(), last.data(), &problem) < FULMAR_FAILED) return true;
+  if (functions_.activate(instance_, &tick, inputs.data(), last.data(), &problem) < FULMAR_FAILED)
+    return true;
   put_if_silent(problem, "refuses to take over");
   return false;
 }
@@ -111,7 +114,8 @@ std::uint32_t Direct::write(const fulmar_tick& tick, const Intake& in, fulmar_er
   return status;
 }
 
-// ---- in a child ----------------------------------------------------------------------------------------------
+// ---- in a child
+// ----------------------------------------------------------------------------------------------
 
 Child::Child(const Component& c, std::uint64_t seed, bool paced) : Child(c, spawn(c, seed, paced)) {}
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a component is run: in the loop's thread, in a child, in a thread of its own, again and again in one that
-// does input and output, or out of a log. The loop speaks to all of them by the calls of the contract.
+// How a component is run: in the loop's thread, in a child, in a thread of its own, again and again in one
+// that does input and output, or out of a log. The loop speaks to all of them by the calls of the contract.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -35,12 +35,13 @@ class Runner {
   /// [tick] False: refused, `problem` says why.
   virtual bool retune(const std::vector<fulmar_value>&, fulmar_error&) noexcept { return true; }
   /// [tick] `last`: what was applied last, per output.
-  virtual bool activate(const fulmar_tick&, const std::vector<fulmar_input>&, const std::vector<fulmar_input>&,
-                        fulmar_error&) noexcept {
+  virtual bool activate(const fulmar_tick&, const std::vector<fulmar_input>&,
+                        const std::vector<fulmar_input>&, fulmar_error&) noexcept {
     return true;
   }
   virtual void deactivate() noexcept {}
-  /// [tick] Steps on the inputs prepared; what it publishes is then in `out`, but when its results come by `collect`.
+  /// [tick] Steps on the inputs prepared; what it publishes is then in `out`, but when its results come by
+  /// `collect`.
   virtual Verdict step(const fulmar_tick&, Intake&, Outlets&, fulmar_error&) noexcept {
     return {Verdict::Kind::waiting};
   }
@@ -55,7 +56,8 @@ class Runner {
   /// Whether its results come by `collect`, and whether the loop steps it.
   virtual bool remote() const noexcept { return false; }
   virtual bool stepped_by_loop() const noexcept { return true; }
-  /// Whether its process has died, and whether it did because it did not answer in time: for the wall clock alone.
+  /// Whether its process has died, and whether it did because it did not answer in time: for the wall clock
+  /// alone.
   virtual bool dead() noexcept { return false; }
   virtual bool hung() const noexcept { return false; }
   /// What its calls have taken from the heap.
@@ -100,7 +102,8 @@ class Direct : public Runner {
 /// The same in a child: a crash or a hang costs the component, not the flight.
 class Child final : public Direct {
  public:
-  /// [setup] Throws Error. `paced`: wall time matters, a child that hangs is given up after Component::hang_ns.
+  /// [setup] Throws Error. `paced`: wall time matters, a child that hangs is given up after
+  /// Component::hang_ns.
   Child(const Component& component, std::uint64_t seed, bool paced);
   Verdict step(const fulmar_tick& tick, Intake& in, Outlets& out, fulmar_error& problem) noexcept override;
   bool dead() noexcept override { return !child_->check(); }

@@ -31,7 +31,8 @@ bool Stopwatch::charge(Unit& unit) noexcept {
   wall_ns_ = now;
   const auto& circumstances = state_.options.circumstances;
   if (circumstances && circumstances->ran_over(unit.component->name, state_.now_ns)) return true;
-  if (unit.component->budget_ns == 0 || state_.unpaced()) return false;  // an unpaced simulation knows no deadline
+  if (unit.component->budget_ns == 0 || state_.unpaced())
+    return false;  // an unpaced simulation knows no deadline
   if (took <= unit.component->budget_ns) {
     unit.overruns_in_a_row = 0;
     return false;
@@ -54,6 +55,8 @@ bool Stopwatch::time_to_show() noexcept {
   return true;
 }
 
-double Stopwatch::elapsed_s() const noexcept { return 1e-9 * static_cast<double>(wall_clock_ns() - begin_ns_); }
+double Stopwatch::elapsed_s() const noexcept {
+  return 1e-9 * static_cast<double>(wall_clock_ns() - begin_ns_);
+}
 
 }  // namespace fulmar::core

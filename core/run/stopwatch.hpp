@@ -14,8 +14,8 @@ class Stopwatch {
 
   /// [tick] In the first one.
   void begin() noexcept;
-  /// [tick] Charges the time since the last reading to `unit`: one reading between two steps times both. True when the
-  /// unit has been over its budget for too long.
+  /// [tick] Charges the time since the last reading to `unit`: one reading between two steps times both. True
+  /// when the unit has been over its budget for too long.
   bool charge(Unit& unit) noexcept;
   /// [tick] The time since the last reading is nobody's.
   void skip() noexcept;

@@ -15,19 +15,22 @@ std::string version_words(const PluginInfo& plugin) {
   return plugin.file + " " + plugin.version + " (" + plugin.sha256.substr(0, 12) + ")";
 }
 
-void carry_parameters(const ComponentInfo& from, const std::vector<ParamValue>& values, const ComponentInfo& to,
-                      std::vector<ParamValue>& into) {
+void carry_parameters(const ComponentInfo& from, const std::vector<ParamValue>& values,
+                      const ComponentInfo& to, std::vector<ParamValue>& into) {
   for (std::size_t i = 0; i < from.params.size(); ++i) {
     const ParamInfo& old = from.params[i];
     const int k = to.param(old.name);
     if (k < 0) continue;
     const ParamInfo& now = to.params[static_cast<std::size_t>(k)];
     if (now.kind != old.kind || now.choices != old.choices) continue;
-    if ((now.kind == FULMAR_RECORD || now.kind == FULMAR_VECTOR) && now.type->hash != old.type->hash) continue;
-    const double number = now.kind == FULMAR_NUMBER ? values[i].number[0] : static_cast<double>(values[i].integer);
+    if ((now.kind == FULMAR_RECORD || now.kind == FULMAR_VECTOR) && now.type->hash != old.type->hash)
+      continue;
+    const double number =
+        now.kind == FULMAR_NUMBER ? values[i].number[0] : static_cast<double>(values[i].integer);
     const bool ranged = now.kind == FULMAR_NUMBER || now.kind == FULMAR_COUNT;
     if (ranged && !(number >= now.min && number <= now.max))
-      throw Error("its parameter '" + now.name + "' does not allow the present value " + value_text(old, values[i]));
+      throw Error("its parameter '" + now.name + "' does not allow the present value " +
+                  value_text(old, values[i]));
     into[static_cast<std::size_t>(k)] = values[i];
   }
 }
@@ -43,9 +46,11 @@ std::string structural_difference(const Graph& now, const Graph& next) {
     return a.name == b.name && a.role == b.role && a.period_ns == b.period_ns && a.run == b.run;
   };
   if (differs(now.components, next.components, same_component)) return "other components";
-  if (differs(now.roles, next.roles, [](const Role& a, const Role& b) { return a.name == b.name && a.fillers == b.fillers; }))
+  if (differs(now.roles, next.roles,
+              [](const Role& a, const Role& b) { return a.name == b.name && a.fillers == b.fillers; }))
     return "other roles";
-  if (differs(now.phases, next.phases, [](const Phase& a, const Phase& b) { return a.name == b.name; })) return "other phases";
+  if (differs(now.phases, next.phases, [](const Phase& a, const Phase& b) { return a.name == b.name; }))
+    return "other phases";
   if (now.order != next.order) return "another order of steps";
   if (now.tick_ns != next.tick_ns || now.io != next.io) return "another rate or io";
   const auto same_import = [](const auto& a, const auto& b) {
@@ -58,14 +63,17 @@ std::string structural_difference(const Graph& now, const Graph& next) {
 void check_unloads(const PluginInfo& was, const ComponentInfo& component) {
   if (component.resident || !was.script.empty() || !stays_mapped(was.copy)) return;
   throw Error(was.file +
-              " cannot be unloaded (a unique symbol or a thread-local destructor keeps it): the new file would fly its code. "
+              " cannot be unloaded (a unique symbol or a thread-local destructor keeps it): the new file "
+              "would fly its code. "
               "Restart the host");
 }
 
 bool same_inputs(const ComponentInfo& a, const ComponentInfo& b) {
-  return std::equal(a.inputs.begin(), a.inputs.end(), b.inputs.begin(), b.inputs.end(), [](const Port& x, const Port& y) {
-    return x.name == y.name && x.kind == y.kind && x.capacity == y.capacity && x.type->hash == y.type->hash;
-  });
+  return std::equal(a.inputs.begin(), a.inputs.end(), b.inputs.begin(), b.inputs.end(),
+                    [](const Port& x, const Port& y) {
+                      return x.name == y.name && x.kind == y.kind && x.capacity == y.capacity &&
+                             x.type->hash == y.type->hash;
+                    });
 }
 
 /// What comes in from outside, in order: requests and imported inputs.
@@ -91,13 +99,15 @@ void rehearse(const Component& component, std::int64_t tick_ns, std::uint64_t se
   if (tape && !unit.rehearse(*tape)) throw Error(std::string(unit.problem.text));
 }
 
-// ---- in a flight that goes on ----------------------------------------------------------------------------------
+// ---- in a flight that goes on
+// ----------------------------------------------------------------------------------
 
 void Flight::Impl::swap(int at, const std::string& file) {
   const std::string& name = wiring.unit(at).component->name;
   if (at == state.graph.vehicle)
     throw Error(name + " is the vehicle: it holds the aircraft, and is changed when no flight goes on");
-  if (state.graph.file.empty()) throw Error("this flight was not read from a mission file: nothing can be swapped in it");
+  if (state.graph.file.empty())
+    throw Error("this flight was not read from a mission file: nothing can be swapped in it");
   if (const std::string why = protection.in_use(); !why.empty())
     throw Error(name + " cannot be swapped: " + why + ". A component is swapped on the ground, disarmed");
   replace(at, file);
@@ -122,7 +132,8 @@ void check_ports(const Component& was, const Component& is) {
 
 }  // namespace
 
-/// Reads the mission again with the new file; what is in the way is told by the same sentences as at the start.
+/// Reads the mission again with the new file; what is in the way is told by the same sentences as at the
+/// start.
 void Flight::Impl::replace(int at, const std::string& file) {
   const Graph& graph = state.graph;
   const Unit& old = wiring.unit(at);
@@ -133,7 +144,8 @@ void Flight::Impl::replace(int at, const std::string& file) {
   overrides.with.emplace_back(name, file);
   Graph next = load_mission(graph.file, overrides);
   if (const std::string difference = structural_difference(graph, next); !difference.empty())
-    throw Error(graph.file + " has changed since this flight began (" + difference + "): end it, and fly again");
+    throw Error(graph.file + " has changed since this flight began (" + difference +
+                "): end it, and fly again");
   Component& newcomer = next.components[static_cast<std::size_t>(at)];
   check_ports(*old.component, newcomer);
   carry_parameters(*old.info, old.base, newcomer.info(), newcomer.params);
@@ -173,7 +185,8 @@ void Flight::Impl::restart(int at) {
   put_in_place(at, std::move(fresh), "was started anew");
 }
 
-/// From here on nothing can fail but what ends the host: the newcomer has been created before the old one goes.
+/// From here on nothing can fail but what ends the host: the newcomer has been created before the old one
+/// goes.
 void Flight::Impl::install(int at, Graph&& next) {
   Graph& graph = state.graph;
   const auto i = static_cast<std::size_t>(at);

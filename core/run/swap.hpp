@@ -8,9 +8,9 @@
 
 namespace fulmar::core {
 
-/// Creates and configures the component in a child and steps it through what its predecessor saw last. Throws Error with a sentence:
-/// a constructor that throws, refused parameters, an output that is not finite, a crash, a hang. `tape` may be nullptr: nobody has stepped
-/// yet.
+/// Creates and configures the component in a child and steps it through what its predecessor saw last. Throws
+/// Error with a sentence: a constructor that throws, refused parameters, an output that is not finite, a
+/// crash, a hang. `tape` may be nullptr: nobody has stepped yet.
 void rehearse(const Component& component, std::int64_t tick_ns, std::uint64_t seed, const Tape* tape);
 
 /// Whether what one has seen can be shown to the other.
@@ -20,10 +20,11 @@ bool same_inputs(const ComponentInfo& a, const ComponentInfo& b);
 void check_unloads(const PluginInfo& was, const ComponentInfo& component);
 
 /// Base parameters of the same name and kind, from the predecessor.
-void carry_parameters(const ComponentInfo& from, const std::vector<ParamValue>& values, const ComponentInfo& to,
-                      std::vector<ParamValue>& into);
+void carry_parameters(const ComponentInfo& from, const std::vector<ParamValue>& values,
+                      const ComponentInfo& to, std::vector<ParamValue>& into);
 
-/// Why `next` cannot take the place of `now` in a flight that goes on: other components, roles, wires or order. "" when it can.
+/// Why `next` cannot take the place of `now` in a flight that goes on: other components, roles, wires or
+/// order. "" when it can.
 std::string structural_difference(const Graph& now, const Graph& next);
 
 /// "my_law.so 1.0.0 (0123456789ab)"

@@ -34,7 +34,8 @@ void Tape::record(const fulmar_tick& tick, const std::vector<fulmar_input>& inpu
       s.slot = (s.slot + 1) % s.slots;
       s.sequence = to.sequence;
       std::memcpy(s.data.data() + s.slot * s.capacity * s.item, to.data, count * s.item);
-      if (to.stamps_ns) std::memcpy(s.stamps.data() + s.slot * s.capacity, to.stamps_ns, count * sizeof(std::int64_t));
+      if (to.stamps_ns)
+        std::memcpy(s.stamps.data() + s.slot * s.capacity, to.stamps_ns, count * sizeof(std::int64_t));
     }
     to.data = s.data.data() + s.slot * s.capacity * s.item;
     if (to.stamps_ns) to.stamps_ns = s.stamps.data() + s.slot * s.capacity;

@@ -19,13 +19,15 @@ class Tape {
   /// [tick]
   void record(const fulmar_tick& tick, const std::vector<fulmar_input>& inputs) noexcept;
 
-  std::size_t size() const { return static_cast<std::size_t>(count_ < entries_.size() ? count_ : entries_.size()); }
+  std::size_t size() const {
+    return static_cast<std::size_t>(count_ < entries_.size() ? count_ : entries_.size());
+  }
   /// The i-th of the steps kept, oldest first. The pointers are the tape's.
   Step step(std::size_t i) const;
 
  private:
-  /// The samples of one input, each copied once, however many steps saw it. A big message that changes often is kept for fewer steps: older
-  /// ones then show a newer sample.
+  /// The samples of one input, each copied once, however many steps saw it. A big message that changes often
+  /// is kept for fewer steps: older ones then show a newer sample.
   struct Samples {
     std::uint32_t item = 0, capacity = 1;
     std::vector<std::byte> data;

@@ -5,7 +5,8 @@
 
 namespace fulmar::core {
 
-// ---- before and between flights ------------------------------------------------------------------------------
+// ---- before and between flights
+// ------------------------------------------------------------------------------
 
 Unit::Unit(const Component& c, UnitOptions options)
     : component(&c),
@@ -14,7 +15,8 @@ Unit::Unit(const Component& c, UnitOptions options)
       out(c, *this),
       base(c.params),
       active(c.role < 0),
-      arguments_{std::vector<fulmar_input>(info->outputs.size()), std::vector<fulmar_value>(info->params.size())},
+      arguments_{std::vector<fulmar_input>(info->outputs.size()),
+                 std::vector<fulmar_value>(info->params.size())},
       schedule_{options.tick_ns, never, {}} {
   stats.name = c.name;
   if (options.tape_steps > 0) tape = std::make_unique<Tape>(*info, options.tape_steps);
@@ -27,14 +29,12 @@ std::unique_ptr<Runner> Unit::make_runner(UnitOptions& options) {
   if (options.samples) return std::make_unique<RecordedRunner>(std::move(options.samples), stats);
   const std::int64_t period_ns = c.period_ns > 0 ? c.period_ns : schedule_.tick_ns;
   switch (c.run) {
-    case RunMode::process:
-      return std::make_unique<Child>(c, options.seed, options.paced);
+    case RunMode::process: return std::make_unique<Child>(c, options.seed, options.paced);
     case RunMode::async:
-      return std::make_unique<AsyncRunner>(c, options.seed, period_ns, options.wait_for_async, std::move(options.late), stats);
-    case RunMode::driver:
-      return std::make_unique<DriverRunner>(c, options.seed, stats);
-    case RunMode::tick:
-      break;
+      return std::make_unique<AsyncRunner>(c, options.seed, period_ns, options.wait_for_async,
+                                           std::move(options.late), stats);
+    case RunMode::driver: return std::make_unique<DriverRunner>(c, options.seed, stats);
+    case RunMode::tick: break;
   }
   return std::make_unique<Direct>(c, options.seed);
 }
@@ -48,7 +48,8 @@ void Unit::configure() {
   fill_values(nullptr, true);
   problem.text[0] = '\0';
   if (runner_->configure(arguments_.values.data(), problem) != FULMAR_FAILED) return;
-  throw Error(component->where.text() + ": " + component->name + ": " + (problem.text[0] ? problem.text : "refuses its parameters"));
+  throw Error(component->where.text() + ": " + component->name + ": " +
+              (problem.text[0] ? problem.text : "refuses its parameters"));
 }
 
 std::unique_ptr<Tape> Unit::present_inputs(std::int64_t now_ns, std::uint64_t index) {
@@ -83,7 +84,8 @@ void Unit::prepare_last_frame(const std::vector<std::vector<std::byte>>& failsaf
   }
   problem.text[0] = '\0';
   const fulmar_last_frame* const frame = runner_->last_frame(inputs.data(), problem);
-  if (!frame && problem.text[0]) throw Error(component->where.text() + ": " + component->name + ": " + problem.text);
+  if (!frame && problem.text[0])
+    throw Error(component->where.text() + ": " + component->name + ": " + problem.text);
   if (frame) last_frame.store(frame, std::memory_order_release);
 }
 
@@ -100,7 +102,8 @@ bool Unit::rehearse(const Tape& from) noexcept {
   return true;
 }
 
-// ---- in a tick -----------------------------------------------------------------------------------------------
+// ---- in a tick
+// -----------------------------------------------------------------------------------------------
 
 void Unit::fill_values(const std::vector<Overlay>* overlay, bool with_data) noexcept {
   const auto put = [&](std::size_t i, const ParamValue& v) {
@@ -167,7 +170,9 @@ Verdict Unit::step(std::int64_t now_ns, std::uint64_t index) noexcept {
   return guarded(verdict);
 }
 
-Verdict Unit::collect(std::int64_t now_ns) noexcept { return guarded(runner_->collect(now_ns, in, out, problem)); }
+Verdict Unit::collect(std::int64_t now_ns) noexcept {
+  return guarded(runner_->collect(now_ns, in, out, problem));
+}
 
 Verdict Unit::read(std::int64_t& now_ns, std::uint64_t index) noexcept {
   out.prepare(FULMAR_ON_ARRIVAL);
@@ -181,11 +186,13 @@ Verdict Unit::read(std::int64_t& now_ns, std::uint64_t index) noexcept {
     return {Verdict::Kind::bad};
   }
   if (index > 0 && t.now_ns <= now_ns) {
-    put_problem(problem, "time went from %lld to %lld ns", static_cast<long long>(now_ns), static_cast<long long>(t.now_ns));
+    put_problem(problem, "time went from %lld to %lld ns", static_cast<long long>(now_ns),
+                static_cast<long long>(t.now_ns));
     return {Verdict::Kind::bad};
   }
   for (fulmar_output& view : out.views)
-    if (view.valid_at_ns == FULMAR_ON_ARRIVAL) view.valid_at_ns = t.now_ns;  // read has not dated it, and now the time is known
+    if (view.valid_at_ns == FULMAR_ON_ARRIVAL)
+      view.valid_at_ns = t.now_ns;  // read has not dated it, and now the time is known
   now_ns = t.now_ns;
   schedule_.last_step_ns = now_ns;
   if (!out.good(problem)) return {Verdict::Kind::bad};
@@ -193,7 +200,8 @@ Verdict Unit::read(std::int64_t& now_ns, std::uint64_t index) noexcept {
   return {Verdict::Kind::stepped};
 }
 
-void Unit::steer(std::int64_t now_ns, Ending::Steering steering, const std::vector<std::vector<std::byte>>& failsafe) noexcept {
+void Unit::steer(std::int64_t now_ns, Ending::Steering steering,
+                 const std::vector<std::vector<std::byte>>& failsafe) noexcept {
   for (std::size_t i = 0; i < in.readers.size(); ++i) {
     if (in.readers[i].port->kind != FULMAR_IN_VALUE) continue;
     fulmar_input& view = in.views[i];

@@ -21,9 +21,9 @@ namespace fulmar::core {
 struct UnitOptions {
   std::int64_t tick_ns = 2'500'000;
   std::uint64_t seed = 0;
-  bool paced = false;                     // wall time matters: a child that hangs is given up after Component::hang_ns
-  bool wait_for_async = true;             // simulation: a result that is late is waited for; else counted
-  std::size_t tape_steps = 0;             // inputs to keep; 0: none
+  bool paced = false;          // wall time matters: a child that hangs is given up after Component::hang_ns
+  bool wait_for_async = true;  // simulation: a result that is late is waited for; else counted
+  std::size_t tape_steps = 0;  // inputs to keep; 0: none
   std::unique_ptr<Runner> runner;         // in place of what its `run:` says
   std::unique_ptr<SampleSource> samples;  // in place of a driver
   LateResults late;                       // of an asynchronous component
@@ -46,7 +46,8 @@ class Unit {
 
   /// [tick] Steps once if due and ready. On `bad`, `problem` says what.
   Verdict step(std::int64_t now_ns, std::uint64_t index) noexcept;
-  /// [tick] What has arrived from elsewhere: a result of an asynchronous step, samples of a driver. `not_due`: nothing more in this tick.
+  /// [tick] What has arrived from elsewhere: a result of an asynchronous step, samples of a driver.
+  /// `not_due`: nothing more in this tick.
   Verdict collect(std::int64_t now_ns) noexcept;
   /// [tick] Of the vehicle. It moves the time on.
   Verdict read(std::int64_t& now_ns, std::uint64_t index) noexcept;
@@ -57,7 +58,8 @@ class Unit {
   bool activate(std::int64_t now_ns, std::uint64_t index, const std::vector<const Slot*>& last) noexcept;
   void deactivate() noexcept { runner_->deactivate(); }
 
-  /// [setup] Steps through what another one saw; false, and `problem`, at the first thing that a guard would not let pass.
+  /// [setup] Steps through what another one saw; false, and `problem`, at the first thing that a guard would
+  /// not let pass.
   bool rehearse(const Tape& from) noexcept;
   /// [setup] What a step would see now; nullptr when an input is missing.
   std::unique_ptr<Tape> present_inputs(std::int64_t now_ns, std::uint64_t index);
@@ -95,7 +97,8 @@ class Unit {
   std::unique_ptr<Runner> make_runner(UnitOptions& options);
   void fill_values(const std::vector<Overlay>* overlay, bool with_data) noexcept;
   void fill_last(std::int64_t now_ns, const std::vector<const Slot*>& last) noexcept;
-  void steer(std::int64_t now_ns, Ending::Steering steering, const std::vector<std::vector<std::byte>>& failsafe) noexcept;
+  void steer(std::int64_t now_ns, Ending::Steering steering,
+             const std::vector<std::vector<std::byte>>& failsafe) noexcept;
   Verdict guarded(Verdict verdict) noexcept;
   bool heap_good() noexcept;
   fulmar_tick tick(std::int64_t now_ns, std::uint64_t index) const noexcept;

@@ -11,7 +11,7 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::size_t tape_steps = 256;                     // of inputs kept per component, for the rehearsal of a swap
+constexpr std::size_t tape_steps = 256;  // of inputs kept per component, for the rehearsal of a swap
 constexpr std::int64_t default_max_age_ns = 1'000'000'000;  // of what a role publishes, or comes from outside
 
 }  // namespace
@@ -45,10 +45,12 @@ std::unique_ptr<SampleSource> Wiring::recorded_samples(const Component& c) const
     std::replace(name.begin(), name.end(), '.', '/');
     topics.push_back(name);
   }
-  return std::make_unique<RecordedSamples>(state_.options.drivers_from, c.info(), topics, state_.graph.epoch_ns);
+  return std::make_unique<RecordedSamples>(state_.options.drivers_from, c.info(), topics,
+                                           state_.graph.epoch_ns);
 }
 
-// ---- wires -------------------------------------------------------------------------------------------------
+// ---- wires
+// -------------------------------------------------------------------------------------------------
 
 void Wiring::connect() {
   delayed_.clear();
@@ -113,9 +115,11 @@ void Wiring::connect_to_role(Unit& unit, Reader& reader) {
     reader.plans.push_back(copy_plan(*filler.port->type, *reader.port->type));
   }
   if (reader.port->kind != FULMAR_IN_VALUE) return void(slot.queues.emplace_back(&reader, reader.plans));
-  // What a role publishes is watched: a law that is fed by nobody must not fly on. Sensors come and go, estimators know.
+  // What a role publishes is watched: a law that is fed by nobody must not fly on. Sensors come and go,
+  // estimators know.
   const bool of_vehicle = std::count(role.fillers.begin(), role.fillers.end(), state_.graph.vehicle) > 0;
-  const bool watched = !reader.port->optional && unit.component->role >= 0 && !unit.info->vehicle && !of_vehicle;
+  const bool watched =
+      !reader.port->optional && unit.component->role >= 0 && !unit.info->vehicle && !of_vehicle;
   if (watched && reader.max_age_ns == 0) reader.max_age_ns = default_max_age_ns;
 }
 
@@ -142,7 +146,8 @@ void Wiring::connect_reader(Unit& unit, Reader& reader) {
     if (reader.delayed || !plan.whole) reader.copy.assign(reader.port->type->size, std::byte{0});
 }
 
-// ---- samples -----------------------------------------------------------------------------------------------
+// ---- samples
+// -----------------------------------------------------------------------------------------------
 
 void Wiring::publish(Unit& unit, Recorder& recorder) {
   unit.out.publish([&](Slot& slot) {
@@ -167,7 +172,8 @@ void Wiring::publish_import(std::size_t import, const std::byte* message) {
   if (reader->port->kind != FULMAR_IN_VALUE) reader->push(message, state_.now_ns);
 }
 
-bool Wiring::held_for(const Condition& condition, std::int64_t for_ns, std::int64_t& since_ns) const noexcept {
+bool Wiring::held_for(const Condition& condition, std::int64_t for_ns,
+                      std::int64_t& since_ns) const noexcept {
   if (!condition.holds(*this)) {
     since_ns = never_ns;
     return false;

@@ -43,7 +43,8 @@ class Wiring final : public SampleReader {
   const std::byte* sample(const Source& source) const noexcept override;
   /// [tick] Whether a condition has held for that long; `since_ns` remembers since when, between ticks.
   bool held_for(const Condition& condition, std::int64_t for_ns, std::int64_t& since_ns) const noexcept;
-  /// [tick] Whoever publishes there now, or nullptr; and the message, in the role's own table, once there is one.
+  /// [tick] Whoever publishes there now, or nullptr; and the message, in the role's own table, once there is
+  /// one.
   const Slot* slot_of(const Source& source) const noexcept;
   const std::byte* message_of(const Source& source) const noexcept;
 

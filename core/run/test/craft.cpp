@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A vehicle as on hardware: its pilot arms, takes over and gives back at given times, and it has something to say. And a law that hoards.
+// A vehicle as on hardware: its pilot arms, takes over and gives back at given times, and it has something to
+// say. And a law that hoards.
 #include <time.h>
 
 #include <algorithm>
@@ -91,7 +92,8 @@ struct Gear {
   bool obeys = false;
 };
 
-/// The craft with flags under names of its own: it arms at once, takes off at 1 s, disarms at 3 s, in the air.
+/// The craft with flags under names of its own: it arms at once, takes off at 1 s, disarms at 3 s, in the
+/// air.
 struct Strange {
   struct Inputs {
     Optional<Command> command;

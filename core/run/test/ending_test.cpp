@@ -20,8 +20,9 @@ namespace {
 
 constexpr State states[] = {State::flying,    State::concluded, State::failsafe,
                             State::giving_up, State::silent,    State::over};
-constexpr Cue cues[] = {Cue::done,     Cue::failed, Cue::duration,     Cue::timeout,       Cue::nobody,         Cue::silence,
-                        Cue::disarmed, Cue::signal, Cue::first_signal, Cue::second_signal, Cue::vehicle_failed, Cue::abandoned};
+constexpr Cue cues[] = {Cue::done,         Cue::failed,        Cue::duration,       Cue::timeout,
+                        Cue::nobody,       Cue::silence,       Cue::disarmed,       Cue::signal,
+                        Cue::first_signal, Cue::second_signal, Cue::vehicle_failed, Cue::abandoned};
 
 bool in_failsafe(State s) { return s == State::failsafe || s == State::giving_up || s == State::silent; }
 
@@ -41,8 +42,7 @@ Ending::Step expected(State s, Cue c) {
       if (s == State::flying) return {State::concluded, Act::tell_duration, Reason::duration};
       if (s == State::failsafe || s == State::giving_up) return {s, Act::tell_duration, Reason::failsafe};
       return nothing;
-    case Cue::timeout:
-      return {State::over, Act::end, Reason::timeout};
+    case Cue::timeout: return {State::over, Act::end, Reason::timeout};
     case Cue::nobody:
       return in_failsafe(s) ? nothing : Ending::Step{State::failsafe, Act::none, Reason::none};
     case Cue::silence:
@@ -51,18 +51,15 @@ Ending::Step expected(State s, Cue c) {
       return nothing;
     case Cue::disarmed:  // nothing has been decided yet of one that flies
       return s == State::flying ? nothing : Ending::Step{State::over, Act::end, Reason::none};
-    case Cue::signal:
-      return {State::over, Act::end, Reason::signal};
+    case Cue::signal: return {State::over, Act::end, Reason::signal};
     case Cue::first_signal:
       return s == State::giving_up ? nothing : Ending::Step{s, Act::refuse_signal, Reason::none};
     case Cue::second_signal:
       if (s == State::giving_up) return nothing;
       if (s == State::silent) return {State::over, Act::end, Reason::failsafe};
       return {State::giving_up, s == State::failsafe ? Act::none : Act::give_up, Reason::none};
-    case Cue::vehicle_failed:
-      return {State::over, Act::end, Reason::vehicle_failed};
-    case Cue::abandoned:
-      return {State::over, Act::end, Reason::abandoned};
+    case Cue::vehicle_failed: return {State::over, Act::end, Reason::vehicle_failed};
+    case Cue::abandoned: return {State::over, Act::end, Reason::abandoned};
   }
   return nothing;
 }
@@ -123,7 +120,8 @@ TEST_CASE("without an armed aircraft a verdict ends the flight in its tick, and 
   CHECK(e.reason() == Reason::done);
 }
 
-TEST_CASE("of two verdicts in one tick done counts; failed comes before the duration, that before the timeout") {
+TEST_CASE(
+    "of two verdicts in one tick done counts; failed comes before the duration, that before the timeout") {
   Facts f;
   f.done = f.failed = f.duration = f.timeout = true;
   for (const Reason expected_reason : {Reason::done, Reason::failed, Reason::duration, Reason::timeout}) {
@@ -173,7 +171,8 @@ TEST_CASE("a failsafe that nobody is armed in ends a second after its values, fa
   CHECK(e.reason() == Reason::failsafe);
 }
 
-TEST_CASE("what was flown before a failsafe has failed; what had failed before has failed for its own reason") {
+TEST_CASE(
+    "what was flown before a failsafe has failed; what had failed before has failed for its own reason") {
   for (const bool failed : {false, true}) {
     Ending e(2 * second);
     armed(e, 1, [&](Facts& f) { (failed ? f.failed : f.done) = true; });
@@ -193,7 +192,9 @@ TEST_CASE("a failsafe does not begin anew, and a later verdict is told once") {
   CHECK(e.reason() == Reason::failsafe);
 }
 
-TEST_CASE("a signal is refused while armed; a second one within five seconds gives up, and ends after the silence") {
+TEST_CASE(
+    "a signal is refused while armed; a second one within five seconds gives up, and ends after the "
+    "silence") {
   Ending e(2 * second);
   CHECK(armed(e, 1, with_signal) == std::vector{Act::refuse_signal});
   CHECK(armed(e, 6.1, with_signal) == std::vector{Act::refuse_signal});  // too late: a first one again

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flights with io: fcu on a vehicle that stands for hardware (craft.cpp): who is in control, how such a flight ends, what is told.
+// Flights with io: fcu on a vehicle that stands for hardware (craft.cpp): who is in control, how such a
+// flight ends, what is told.
 #include <time.h>
 #include <unistd.h>
 
@@ -9,25 +10,27 @@
 #include <fstream>
 #include <iterator>
 
-#include "core/run/resume.hpp"
-#include "core/run/test/lab.hpp"
 #include "core/log/events.hpp"
 #include "core/log/reader.hpp"
+#include "core/run/resume.hpp"
+#include "core/run/test/lab.hpp"
 
 namespace hardware_test {
 
 namespace {
 
-Graph craft(const std::string& tail, const std::vector<std::pair<std::string, std::string>>& set = {}, const std::string& io = "fcu") {
+Graph craft(const std::string& tail, const std::vector<std::pair<std::string, std::string>>& set = {},
+            const std::string& io = "fcu") {
   const fs::path file = folder().path / "craft.yaml";
-  std::ofstream(file) << "mission: craft\nrate: 400 Hz\nio: " << io << "\nfailsafe: {u_frac: -0.25, for: 0.5 s}\n"
-                      << "roles:\n"
-                         "  vehicle: {in: {command: law.command}, out: {status: State, applied: Received, notices?: Note}}\n"
-                         "  law:     {in: {state: vehicle.status}, out: {command: Command}}\n"
-                         "components:\n"
-                         "  craft: {fills: vehicle, use: craft/Craft}\n"
-                         "  law_a: {fills: law, use: craft/Hoarder, run: tick}\n"
-                      << tail;
+  std::ofstream(file)
+      << "mission: craft\nrate: 400 Hz\nio: " << io << "\nfailsafe: {u_frac: -0.25, for: 0.5 s}\n"
+      << "roles:\n"
+         "  vehicle: {in: {command: law.command}, out: {status: State, applied: Received, notices?: Note}}\n"
+         "  law:     {in: {state: vehicle.status}, out: {command: Command}}\n"
+         "components:\n"
+         "  craft: {fills: vehicle, use: craft/Craft}\n"
+         "  law_a: {fills: law, use: craft/Hoarder, run: tick}\n"
+      << tail;
   Overrides o;
   o.set = set;
   return load_mission(file.string(), o);
@@ -37,14 +40,17 @@ struct Said {
   std::vector<std::string> lines;
   std::vector<bool> warnings;
   int count(const std::string& part) const {
-    return static_cast<int>(std::count_if(lines.begin(), lines.end(), [&](const auto& s) { return s.find(part) != std::string::npos; }));
+    return static_cast<int>(std::count_if(lines.begin(), lines.end(),
+                                          [&](const auto& s) { return s.find(part) != std::string::npos; }));
   }
 };
 
 FlightOptions listening(Said& said) {
   FlightOptions o;
   o.log = false;
-  o.say = [&said](const std::string& line, bool warning) { said.lines.push_back(line), said.warnings.push_back(warning); };
+  o.say = [&said](const std::string& line, bool warning) {
+    said.lines.push_back(line), said.warnings.push_back(warning);
+  };
   return o;
 }
 
@@ -75,7 +81,9 @@ void let_others_sleep() {
 
 double applied(const Graph& g, const Flight& f) { return value(g, f, "craft", "applied", "u_frac"); }
 bool obeyed(const Graph& g, const Flight& f) { return value(g, f, "craft", "applied", "present") > 0; }
-double hoard(const Graph& g, const Flight& f, const std::string& law = "law_a") { return value(g, f, law, "hoard_ratio", ""); }
+double hoard(const Graph& g, const Flight& f, const std::string& law = "law_a") {
+  return value(g, f, law, "hoard_ratio", "");
+}
 
 }  // namespace
 
@@ -99,7 +107,9 @@ TEST_CASE("as long as the vehicle does not obey, its controllers begin anew in e
   }
 }
 
-TEST_CASE("in simulation the time before arming is the controllers' own, and so is a flight whose vehicle says nothing of control") {
+TEST_CASE(
+    "in simulation the time before arming is the controllers' own, and so is a flight whose vehicle says "
+    "nothing of control") {
   const Graph g = craft("control: [law]\n", {{"craft.arm_at", "1"}, {"craft.pilot_from", "2"}}, "sim");
   Said said;
   Flight flight(g, listening(said));
@@ -114,19 +124,22 @@ TEST_CASE("in simulation the time before arming is the controllers' own, and so 
 }
 
 TEST_CASE("a controller that works in another thread begins anew once, when control returns") {
-  const Graph g =
-      craft("  law_b: {fills: law, use: craft/Hoarder, run: async, latency: 10 ms}\nphases:\n  fly: {law: law_b}\ncontrol: [law]\n",
-            {{"craft.pilot_from", "1"}, {"craft.pilot_until", "3"}});
+  const Graph g = craft(
+      "  law_b: {fills: law, use: craft/Hoarder, run: async, latency: 10 ms}\nphases:\n  fly: {law: "
+      "law_b}\ncontrol: [law]\n",
+      {{"craft.pilot_from", "1"}, {"craft.pilot_until", "3"}});
   Said said;
   FlightOptions o = listening(said);
   Flight flight(g, o);
-  while (flight.now_ns() < 3'500'000'000 && flight.step()) let_others_sleep();  // hardware does not wait for a thread
+  while (flight.now_ns() < 3'500'000'000 && flight.step())
+    let_others_sleep();  // hardware does not wait for a thread
   CHECK(value(g, flight, "law_b", "activations_ratio", "") == 2);
   CHECK(hoard(g, flight, "law_b") < 0.6);
   CHECK(said.count("law_b") == 0);
 }
 
-TEST_CASE("a controller that refuses to begin while the pilot flies is not lost; one that refuses afterwards is") {
+TEST_CASE(
+    "a controller that refuses to begin while the pilot flies is not lost; one that refuses afterwards is") {
   for (const bool late : {false, true}) {
     const Graph g = craft("control: [law]\n", {{"craft.pilot_from", "1"},
                                                {"craft.pilot_until", "2"},
@@ -141,7 +154,8 @@ TEST_CASE("a controller that refuses to begin while the pilot flies is not lost;
 }
 
 TEST_CASE("a mission that is done while armed flies on until the aircraft is disarmed, and says so once") {
-  const Graph g = craft("done: \"vehicle.status.tick_s > 1 s\"\ntimeout: 1.5 s\n", {{"craft.disarm_at", "3"}});
+  const Graph g =
+      craft("done: \"vehicle.status.tick_s > 1 s\"\ntimeout: 1.5 s\n", {{"craft.disarm_at", "3"}});
   Said said;
   Flight flight(g, listening(said));
   CHECK(fly_until(flight, 2.9));
@@ -155,9 +169,12 @@ TEST_CASE("a mission that is done while armed flies on until the aircraft is dis
   CHECK(r.reason == "vehicle.status.tick_s > 1 s");
 }
 
-TEST_CASE("a mission that has failed while armed flies on until the aircraft is disarmed; disarmed it ends at once") {
+TEST_CASE(
+    "a mission that has failed while armed flies on until the aircraft is disarmed; disarmed it ends at "
+    "once") {
   for (const double disarm_at : {2.0, 0.5}) {
-    const Graph g = craft("failed: \"vehicle.status.tick_s > 1 s\"\n", {{"craft.disarm_at", std::to_string(disarm_at)}});
+    const Graph g =
+        craft("failed: \"vehicle.status.tick_s > 1 s\"\n", {{"craft.disarm_at", std::to_string(disarm_at)}});
     Said said;
     Flight flight(g, listening(said));
     while (flight.step()) {
@@ -183,8 +200,10 @@ TEST_CASE("a duration does not take an armed aircraft out of the air") {
   CHECK(Flight(bench, o).run().last_ns == 1'000'000'000);
 }
 
-TEST_CASE("after a failsafe an armed aircraft hears nothing more, and the flight has failed when it is disarmed") {
-  const Graph g = craft("done: \"vehicle.status.tick_s > 4 s\"\n", {{"law_a.fail_at", "1"}, {"craft.disarm_at", "5"}});
+TEST_CASE(
+    "after a failsafe an armed aircraft hears nothing more, and the flight has failed when it is disarmed") {
+  const Graph g =
+      craft("done: \"vehicle.status.tick_s > 4 s\"\n", {{"law_a.fail_at", "1"}, {"craft.disarm_at", "5"}});
   Said said;
   Flight flight(g, listening(said));
   CHECK(fly_until(flight, 1.4));
@@ -233,7 +252,8 @@ TEST_CASE("a signal is refused while armed; repeated within five seconds it give
 }
 
 TEST_CASE(
-    "a signal ends a flight on hardware at once when the aircraft is not armed, and one that is silent after a failsafe when repeated") {
+    "a signal ends a flight on hardware at once when the aircraft is not armed, and one that is silent after "
+    "a failsafe when repeated") {
   std::atomic<int> interrupt{2};
   Said said;
   FlightOptions o = listening(said);
@@ -255,7 +275,9 @@ TEST_CASE(
   CHECK(flight.finish().outcome == Outcome::failed);
 }
 
-TEST_CASE("what a vehicle tells stands on the terminal and in the log, with its severity; any bytes become one line") {
+TEST_CASE(
+    "what a vehicle tells stands on the terminal and in the log, with its severity; any bytes become one "
+    "line") {
   const Graph g = craft("tell: [vehicle.notices, craft.remark]\n", {{"craft.note_at", "0.5"}});
   Said said;
   FlightOptions o = listening(said);
@@ -278,7 +300,9 @@ TEST_CASE("what a vehicle tells stands on the terminal and in the log, with its 
   CHECK(notices == 3);
 }
 
-TEST_CASE("what cannot be controlled or told is refused with a sentence, and a vehicle that has nothing to tell is not at fault") {
+TEST_CASE(
+    "what cannot be controlled or told is refused with a sentence, and a vehicle that has nothing to tell is "
+    "not at fault") {
   const auto fault = [](const std::string& tail) {
     try {
       craft(tail);
@@ -287,20 +311,27 @@ TEST_CASE("what cannot be controlled or told is refused with a sentence, and a v
     }
     return std::string();
   };
-  CHECK(fault("control: [lawn]\n") == "craft.yaml:11: control: there is no role 'lawn'. Did you mean 'law'? Valid: vehicle, law.");
-  CHECK(fault("control: [vehicle]\n") == "craft.yaml:11: control: the vehicle obeys or not; name the roles whose outputs lead to it");
-  CHECK(fault("control: law\n") == "craft.yaml:11: control: expected a list of roles such as [guide, outer, inner], found 'law'");
-  CHECK(fault("tell: [vehicle.status]\n") == "craft.yaml:11: tell: 'vehicle.status' is State, which has no text 'text' to tell");
-  CHECK(fault("tell: [notices]\n") == "craft.yaml:11: tell: expected a port such as vehicle.notices, found 'notices'");
+  CHECK(fault("control: [lawn]\n") ==
+        "craft.yaml:11: control: there is no role 'lawn'. Did you mean 'law'? Valid: vehicle, law.");
+  CHECK(fault("control: [vehicle]\n") ==
+        "craft.yaml:11: control: the vehicle obeys or not; name the roles whose outputs lead to it");
+  CHECK(fault("control: law\n") ==
+        "craft.yaml:11: control: expected a list of roles such as [guide, outer, inner], found 'law'");
+  CHECK(fault("tell: [vehicle.status]\n") ==
+        "craft.yaml:11: tell: 'vehicle.status' is State, which has no text 'text' to tell");
+  CHECK(fault("tell: [notices]\n") ==
+        "craft.yaml:11: tell: expected a port such as vehicle.notices, found 'notices'");
   CHECK(fault("tell: [vehicle.notes]\n").find("the role vehicle has no output 'notes'") != std::string::npos);
   CHECK(fault("tell: [vehicle.notices]\n").empty());
   const fs::path file = folder().path / "quiet.yaml";
-  std::ofstream(file) << "roles:\n  vehicle: {out: {status: Arm, notices?: Note}}\ncomponents:\n  cart: {fills: vehicle, use: lab/Cart}\n"
+  std::ofstream(file) << "roles:\n  vehicle: {out: {status: Arm, notices?: Note}}\ncomponents:\n  cart: "
+                         "{fills: vehicle, use: lab/Cart}\n"
                          "tell: [vehicle.notices]\n";
   CHECK(load_mission(file.string()).tell.empty());
 }
 
-// ---- what protects the aircraft -------------------------------------------------------------------------------
+// ---- what protects the aircraft
+// -------------------------------------------------------------------------------
 
 namespace {
 
@@ -321,7 +352,8 @@ const std::string its_flags =
     ",\n    flags: {armed: gear.motors_live, on_ground: gear.wheels.down, in_control: gear.obeys}";
 const std::string its_ports = "gear: Gear, state: State";
 
-std::string refusal(const std::string& flags, const std::string& io = "fcu", const std::string& out = its_ports) {
+std::string refusal(const std::string& flags, const std::string& io = "fcu",
+                    const std::string& out = its_ports) {
   try {
     strange(flags, io, out);
   } catch (const Error& e) {
@@ -345,8 +377,9 @@ TEST_CASE("a flag of any name protects the aircraft once the mission names it") 
   CHECK(fly_until(flight, 2));
   CHECK(interrupt == 0);
   CHECK(said.count("the aircraft is armed: Ctrl-C once more within 5 s gives up control") == 1);
-  CHECK_THROWS_WITH(flight.swap("law_a", FULMAR_TEST_PLUGIN_DIR "/craft.so"),
-                    "law_a cannot be swapped: the aircraft is armed. A component is swapped on the ground, disarmed");
+  CHECK_THROWS_WITH(
+      flight.swap("law_a", FULMAR_TEST_PLUGIN_DIR "/craft.so"),
+      "law_a cannot be swapped: the aircraft is armed. A component is swapped on the ground, disarmed");
   while (flight.step()) {  // it disarms in the air at 3 s
   }
   CHECK(flight.finish().last_ns == 3'000'000'000);
@@ -357,38 +390,54 @@ TEST_CASE("disarmed in the air nothing is swapped, by the flag that the mission 
   Said said;
   Flight flight(g, listening(said));
   CHECK(fly_until(flight, 3.5));
-  CHECK_THROWS_WITH(flight.swap("law_a", FULMAR_TEST_PLUGIN_DIR "/craft.so"),
-                    "law_a cannot be swapped: the aircraft is in the air. A component is swapped on the ground, disarmed");
+  CHECK_THROWS_WITH(
+      flight.swap("law_a", FULMAR_TEST_PLUGIN_DIR "/craft.so"),
+      "law_a cannot be swapped: the aircraft is in the air. A component is swapped on the ground, disarmed");
 }
 
-TEST_CASE("on hardware a vehicle that does not say what protects its aircraft is refused, with what to write") {
-  const std::string all = " Its flags: applied.present, gear.motors_live, gear.obeys, state.armed, state.on_ground, state.in_control.";
+TEST_CASE(
+    "on hardware a vehicle that does not say what protects its aircraft is refused, with what to write") {
+  const std::string all =
+      " Its flags: applied.present, gear.motors_live, gear.obeys, state.armed, state.on_ground, "
+      "state.in_control.";
   CHECK(refusal("") ==
-        "strange.yaml:5: roles.vehicle: with io: fcu the vehicle has to say whether it is armed, on the ground and in control, and craft "
-        "(craft/Strange) has no flag armed, on_ground, in_control in an output 'status'; name its own at the role vehicle, as in flags: "
-        "{armed: PORT.FIELD, on_ground: PORT.FIELD, in_control: PORT.FIELD}." + all);
-  CHECK(refusal(", flags: {armed: gear.motors_live, in_control: gear.obeys}").find("has no flag on_ground in an output") !=
-        std::string::npos);
+        "strange.yaml:5: roles.vehicle: with io: fcu the vehicle has to say whether it is armed, on the "
+        "ground and in control, and craft "
+        "(craft/Strange) has no flag armed, on_ground, in_control in an output 'status'; name its own at the "
+        "role vehicle, as in flags: "
+        "{armed: PORT.FIELD, on_ground: PORT.FIELD, in_control: PORT.FIELD}." +
+            all);
+  CHECK(refusal(", flags: {armed: gear.motors_live, in_control: gear.obeys}")
+            .find("has no flag on_ground in an output") != std::string::npos);
   CHECK(refusal("", "sim") == "");  // what is simulated can be left alone
 }
 
 TEST_CASE("a flag that cannot be one is refused with the choices, in simulation too") {
-  const std::string all = " Its flags: applied.present, gear.motors_live, gear.obeys, state.armed, state.on_ground, state.in_control.";
-  const auto fault = [](const std::string& armed) { return refusal(", flags: {armed: " + armed + "}", "sim"); };
+  const std::string all =
+      " Its flags: applied.present, gear.motors_live, gear.obeys, state.armed, state.on_ground, "
+      "state.in_control.";
+  const auto fault = [](const std::string& armed) {
+    return refusal(", flags: {armed: " + armed + "}", "sim");
+  };
   const std::string at = "strange.yaml:5: roles.vehicle.flags.armed: ";
-  CHECK(fault("state.tick_s") == at + "'state.tick_s' of craft/Strange is no flag, which is true or false." + all);
-  CHECK(fault("geer.obeys") == at + "craft (craft/Strange) has no output 'geer'. Did you mean 'gear'? Valid: applied, gear, state.");
+  CHECK(fault("state.tick_s") ==
+        at + "'state.tick_s' of craft/Strange is no flag, which is true or false." + all);
+  CHECK(fault("geer.obeys") ==
+        at + "craft (craft/Strange) has no output 'geer'. Did you mean 'gear'? Valid: applied, gear, state.");
   CHECK(fault("armed") == at + "expected a field of an output such as status.armed, found 'armed'." + all);
   CHECK(fault("gear.obey").find("Did you mean 'obeys'?") != std::string::npos);
-  CHECK(refusal(", flags: {arm: gear.obeys}", "sim").find("unknown key 'arm'. Valid: armed, on_ground, in_control.") !=
-        std::string::npos);
-  CHECK(fault("lamps.red") == at + "craft (craft/Strange) has no output 'lamps'. Valid: applied, gear, state.");
+  CHECK(refusal(", flags: {arm: gear.obeys}", "sim")
+            .find("unknown key 'arm'. Valid: armed, on_ground, in_control.") != std::string::npos);
+  CHECK(fault("lamps.red") ==
+        at + "craft (craft/Strange) has no output 'lamps'. Valid: applied, gear, state.");
   CHECK(refusal(", flags: {armed: lamps.red}", "sim", its_ports + ", lamps?: Lamps") == "");
-  CHECK(refusal(", flags: {armed: lamps.red}", "fcu", its_ports + ", lamps?: Lamps").find("has no flag armed, on_ground, in_control") !=
-        std::string::npos);
+  CHECK(refusal(", flags: {armed: lamps.red}", "fcu", its_ports + ", lamps?: Lamps")
+            .find("has no flag armed, on_ground, in_control") != std::string::npos);
 }
 
-TEST_CASE("a vehicle that has not said anything yet counts as disarmed, on the ground and in control: a host can be ended at its desk") {
+TEST_CASE(
+    "a vehicle that has not said anything yet counts as disarmed, on the ground and in control: a host can "
+    "be ended at its desk") {
   const Graph g = strange(its_flags, "fcu", its_ports, "control: [law]\n");
   Overrides mute = g.overrides;
   mute.set = {{"craft.speak_at", "1e6"}};
@@ -406,7 +455,8 @@ TEST_CASE("a vehicle that has not said anything yet counts as disarmed, on the g
   CHECK(r.reason == "by a signal");
 }
 
-// ---- a restart in the air -----------------------------------------------------------------------------------------------------
+// ---- a restart in the air
+// -----------------------------------------------------------------------------------------------------
 
 namespace {
 
@@ -463,7 +513,8 @@ TEST_CASE("a log that does not fit is refused with a sentence; a field that it d
   CHECK(fault(renamed) == ": is a log of the mission craft, not of crafty");
   Graph phases = g;
   phases.phases[1].name = "third";
-  CHECK(fault(phases) == ": it ends in the phase 'second', which this mission does not have. Valid: first, third.");
+  CHECK(fault(phases) ==
+        ": it ends in the phase 'second', which this mission does not have. Valid: first, third.");
   const Graph more = craft("record: {ports: [craft.remark]}\n" + two_phases);
   const Resume r = read_resume(more, cut_log(more, 3));
   CHECK(r.phase == "second");
@@ -471,13 +522,16 @@ TEST_CASE("a log that does not fit is refused with a sentence; a field that it d
   CHECK(r.missing[0].starts_with("resume.law_a.heirloom: the log has no topic '/law/command'."));
 }
 
-TEST_CASE("a flight resumes when its vehicle is armed in its first second, and begins at the beginning otherwise") {
+TEST_CASE(
+    "a flight resumes when its vehicle is armed in its first second, and begins at the beginning otherwise") {
   const Graph g = craft(two_phases);
   Resume resume = read_resume(g, cut_log(g, 3));
   for (const bool asked : {true, false})
     for (const double arm_at : {0.15, 1.1}) {
-      const Graph next = craft("phases:\n  first: {next: [{to: second, when: \"vehicle.status.tick_s > 1000 s\"}]}\n  second: {}\n",
-                               {{"craft.arm_at", std::to_string(arm_at)}});
+      const Graph next = craft(
+          "phases:\n  first: {next: [{to: second, when: \"vehicle.status.tick_s > 1000 s\"}]}\n  second: "
+          "{}\n",
+          {{"craft.arm_at", std::to_string(arm_at)}});
       Said said;
       FlightOptions o = listening(said);
       resume.if_armed = !asked;

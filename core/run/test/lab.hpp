@@ -53,7 +53,9 @@ components:
   watch:  {use: lab/Watch, in: {burst: vehicle.burst, applied: vehicle.applied}}
 )";
 
-inline Graph mission(const std::string& tail, const std::vector<std::pair<std::string, std::string>>& set = {}, std::uint64_t seed = 1) {
+inline Graph mission(const std::string& tail,
+                     const std::vector<std::pair<std::string, std::string>>& set = {},
+                     std::uint64_t seed = 1) {
   const fs::path file = folder().path / "lab.yaml";
   // a component that the tail describes takes the place of the one in the base
   std::istringstream lines{std::string(base)};
@@ -63,7 +65,8 @@ inline Graph mission(const std::string& tail, const std::vector<std::pair<std::s
     // on hardware a mission has to name what the cart's status does not say
     if (key == "  vehicle:" && tail.find("io: fcu") != std::string::npos)
       line.insert(line.find("{in:") + 1, "flags: {on_ground: stance.stands, in_control: stance.obeys}, ");
-    if (!line.starts_with("  ") || key.empty() || ("\n" + tail).find("\n" + key) == std::string::npos) out << line << "\n";
+    if (!line.starts_with("  ") || key.empty() || ("\n" + tail).find("\n" + key) == std::string::npos)
+      out << line << "\n";
   }
   out << tail;
   out.close();
@@ -92,12 +95,15 @@ inline Source port(const Graph& graph, const std::string& component, const std::
 }
 
 /// A field of a port's present sample.
-inline double value(const Graph& graph, const Flight& flight, const std::string& component, const std::string& output,
-                    const std::string& field) {
+inline double value(const Graph& graph, const Flight& flight, const std::string& component,
+                    const std::string& output, const std::string& field) {
   const Source s = port(graph, component, output);
   const std::byte* message = flight.sample(s);
   REQUIRE(message != nullptr);
-  const TypePtr type = graph.components[static_cast<std::size_t>(s.index)].info().outputs[static_cast<std::size_t>(s.output)].type;
+  const TypePtr type = graph.components[static_cast<std::size_t>(s.index)]
+                           .info()
+                           .outputs[static_cast<std::size_t>(s.output)]
+                           .type;
   if (!type) {  // a probe
     double number = 0;
     std::memcpy(&number, message, sizeof number);

@@ -10,13 +10,18 @@
 
 namespace fulmar::core {
 
+/// Those with which code crashes its own thread.
+enum class Faults : bool { blocked, taken };
+
 /// While it lives this thread takes no signal, and neither do those that it creates meanwhile, in all their
 /// life.
 class NoSignals {
  public:
-  NoSignals() {
+  explicit NoSignals(Faults faults = Faults::blocked) {
     sigset_t all;
     sigfillset(&all);
+    if (faults == Faults::taken)
+      for (const int fault : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) sigdelset(&all, fault);
     pthread_sigmask(SIG_SETMASK, &all, &before_);
   }
   ~NoSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
@@ -27,10 +32,11 @@ class NoSignals {
   sigset_t before_{};
 };
 
-/// A thread that takes no signal. `name` has at most 15 characters: that is what Linux shows of it.
+/// A thread that takes no signal, but those of faults when it runs a component's code, whose crash is told.
+/// `name` has at most 15 characters: that is what Linux shows of it.
 template <class Work>
-std::thread quiet_thread(const char* name, Work work) {
-  const NoSignals none;
+std::thread quiet_thread(const char* name, Work work, Faults faults = Faults::blocked) {
+  const NoSignals none(faults);
   std::thread thread(std::move(work));
   pthread_setname_np(thread.native_handle(), name);
   return thread;

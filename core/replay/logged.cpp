@@ -4,17 +4,10 @@
 #include <algorithm>
 
 #include "core/run/published.hpp"
+#include "core/types/text.hpp"
 #include "core/types/wire.hpp"
 
 namespace fulmar::core {
-namespace {
-
-std::string log_topic(std::string name) {
-  std::replace(name.begin(), name.end(), '.', '/');
-  return "/" + name;
-}
-
-}  // namespace
 
 bool has_topic(const McapFile& file, const std::string& topic) {
   return std::any_of(file.channels.begin(), file.channels.end(),
@@ -33,8 +26,8 @@ std::uint16_t channel_of(const McapFile& file, const std::string& topic, const T
 std::string topic_in(const McapFile& file, const Graph& graph, const Component& component,
                      std::size_t output) {
   const Port& port = component.info().outputs[output];
-  const std::string role = log_topic(topic_name(graph, component, output)),
-                    own = log_topic(component.name + "." + port.name);
+  const std::string role = "/" + slashed(topic_name(graph, component, output)),
+                    own = "/" + slashed(component.name + "." + port.name);
   if (role == own || !has_topic(file, own) || !has_topic(file, role)) return role;
   const auto schema = file.schemas.find(file.channels.at(file.channel(role)).schema);
   return schema != file.schemas.end() && schema->second.text == ros_definition(*port.type) ? role : own;

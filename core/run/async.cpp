@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/run/async.hpp"
 
-#include <pthread.h>
-#include <signal.h>
 #include <time.h>
 
 #include <cstring>
 
+#include "core/quiet_thread.hpp"
 #include "core/run/inside.hpp"
 
 namespace fulmar::core {
@@ -54,14 +53,8 @@ Async::Async(const std::string& name, const fulmar_component& functions, void* i
              const ComponentInfo& info, std::size_t depth)
     : name_(name), functions_(functions), instance_(instance), jobs_(depth) {
   for (Job& job : jobs_) prepare(job, info);
-  sigset_t all,
-      before;  // signals are for the main thread, but those with which the component crashes this one
-  sigfillset(&all);
-  for (const int fault : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) sigdelset(&all, fault);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  thread_ = std::thread([this] { run(); });
-  pthread_setname_np(thread_.native_handle(), "fulmar-async");
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  thread_ = quiet_thread(
+      "fulmar-async", [this] { run(); }, Faults::taken);
 }
 
 Async::~Async() {

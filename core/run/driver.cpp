@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/run/driver.hpp"
 
-#include <pthread.h>
-#include <signal.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -13,6 +10,7 @@
 #include <span>
 
 #include "core/error.hpp"
+#include "core/quiet_thread.hpp"
 #include "core/run/inside.hpp"
 #include "core/run/realtime.hpp"
 #include "core/types/wire.hpp"
@@ -55,14 +53,8 @@ Driver::~Driver() {
 }
 
 void Driver::start() {
-  sigset_t all,
-      before;  // signals are for the main thread, but those with which the component crashes this one
-  sigfillset(&all);
-  for (const int fault : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) sigdelset(&all, fault);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  thread_ = std::thread([this] { run(); });
-  pthread_setname_np(thread_.native_handle(), "fulmar-driver");
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  thread_ = quiet_thread(
+      "fulmar-driver", [this] { run(); }, Faults::taken);
 }
 
 bool Driver::step() noexcept {

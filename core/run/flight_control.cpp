@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/run/flight_control.hpp"
 
-#include <pthread.h>
-#include <signal.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
@@ -14,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/graph/params.hpp"
 #include "core/graph/record.hpp"
+#include "core/quiet_thread.hpp"
 #include "core/run/flight_impl.hpp"
 
 namespace fulmar::core {
@@ -106,12 +104,7 @@ FlightControl::FlightControl(Flight::Impl& flight)
       directory_(std::make_shared<const Directory>(flight)) {
   for (const auto& unit : flight.wiring.units) base_.push_back(unit->base);
   waiting_.of_import.resize(flight.wiring.imports.size());
-  sigset_t all, before;  // signals are for the main thread
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  thread_ = std::thread([this] { run(); });
-  pthread_setname_np(thread_.native_handle(), "fulmar-control");
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  thread_ = quiet_thread("fulmar-control", [this] { run(); });
 }
 
 FlightControl::~FlightControl() { end(); }

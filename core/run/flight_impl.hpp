@@ -65,7 +65,7 @@ struct Flight::Impl {
 
   // resume.cpp
   void resume_if_armed();
-  void resume_now();
+  void resume_now(bool begun);  // `begun`: the flight is in its first phase already
   void resume_parameter(const Resume::Param& param);
 
   FlightState state;

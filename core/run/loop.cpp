@@ -20,7 +20,7 @@ bool Flight::Impl::vehicle_failed() {
 }
 
 void Flight::Impl::begin() {
-  if (state.options.resume && !state.options.resume->if_armed) resume_now();
+  if (state.options.resume && !state.options.resume->if_armed) resume_now(false);
   roles.begin();
 }
 

@@ -117,8 +117,8 @@ void Recorder::put_ticks() {
 }
 
 void Recorder::check_log() {
-  if (!log_ || log_failed_ || !log_->failed()) return;
-  log_failed_ = true;
+  if (!log_ || told_log_failed_ || !log_->failed()) return;
+  told_log_failed_ = true;
   Event e = event_of(Code::log_failed);
   fulmar::core::put(e.cause, log_->error());
   say(e, "the flight goes on without its log: %s", log_->error().c_str());

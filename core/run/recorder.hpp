@@ -79,7 +79,7 @@ class Recorder {
   Ticks ticks_;
   std::uint64_t tick_hash_ = 0;
   std::vector<Told> told_;
-  bool log_failed_ = false;  // told
+  bool told_log_failed_ = false;
 };
 
 }  // namespace fulmar::core

@@ -8,6 +8,7 @@
 #include "core/run/flown_plugin.hpp"
 #include "core/run/published.hpp"
 #include "core/run/recorder.hpp"
+#include "core/types/text.hpp"
 #include "core/types/wire.hpp"
 
 namespace fulmar::core {
@@ -20,17 +21,15 @@ constexpr std::int64_t default_period_ns = 100'000'000;  // 10 Hz for what a rep
 /// The channels of a tap, each topic once.
 class Recorder::ChannelList {
  public:
-  std::size_t add(std::string topic, const TypePtr& type) {
-    std::replace(topic.begin(), topic.end(), '.', '/');
-    list.push_back({"/" + topic, type});
+  std::size_t add(const std::string& port, const TypePtr& type) {
+    list.push_back({"/" + slashed(port), type});
     return list.size() - 1;
   }
   /// Who fills a role publishes as the role: one topic, whoever flies. Under its own name when its message
   /// has other fields than theirs.
-  std::size_t add_shared(std::string name, const std::string& own, const TypePtr& type) {
-    std::replace(name.begin(), name.end(), '.', '/');
-    const auto there =
-        std::find_if(list.begin(), list.end(), [&](const TapChannel& c) { return c.topic == "/" + name; });
+  std::size_t add_shared(const std::string& name, const std::string& own, const TypePtr& type) {
+    const auto there = std::find_if(list.begin(), list.end(),
+                                    [&](const TapChannel& c) { return c.topic == "/" + slashed(name); });
     if (there == list.end()) return add(name, type);
     return there->type->hash == type->hash ? static_cast<std::size_t>(there - list.begin()) : add(own, type);
   }

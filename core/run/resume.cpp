@@ -11,23 +11,19 @@
 #include "core/log/reader.hpp"
 #include "core/run/flight_impl.hpp"
 #include "core/run/published.hpp"
+#include "core/types/text.hpp"
 #include "core/types/wire.hpp"
 
 namespace fulmar::core {
 namespace {
 namespace fs = std::filesystem;
 
-std::string topic_path(std::string name) {
-  std::replace(name.begin(), name.end(), '.', '/');
-  return "/" + name;
-}
-
 std::string topic_of(const Graph& graph, const Source& source) {
   if (source.kind == Source::Kind::component)
-    return topic_path(topic_name(graph, graph.components[static_cast<std::size_t>(source.index)],
-                                 static_cast<std::size_t>(source.output)));
+    return "/" + slashed(topic_name(graph, graph.components[static_cast<std::size_t>(source.index)],
+                                    static_cast<std::size_t>(source.output)));
   const Role& role = graph.roles[static_cast<std::size_t>(source.index)];
-  return topic_path(role.name + "." + role.outputs[static_cast<std::size_t>(source.output)].name);
+  return "/" + slashed(role.name + "." + role.outputs[static_cast<std::size_t>(source.output)].name);
 }
 
 /// The last message of a topic, decoded. Throws Error when there is none or it has other fields.
@@ -164,14 +160,14 @@ fs::path newest_log(const Graph& graph, double max_age_s) {
 
 /// Before the first step, or when a vehicle turns out to be armed. The parameters are those of a log: one
 /// that cannot be set any more is told, and the flight goes on without it.
-void Flight::Impl::resume_now() {
+void Flight::Impl::resume_now(bool begun) {
   const Resume resume = std::move(*state.options.resume);
   state.options.resume.reset();
   const auto& phases = state.graph.phases;
   const auto at =
       std::find_if(phases.begin(), phases.end(), [&](const Phase& p) { return p.name == resume.phase; });
   const int to = at == phases.end() ? 0 : static_cast<int>(at - phases.begin());
-  if (state.index == 0) roles.begin_in(to);
+  if (!begun) roles.begin_in(to);
   Event e = event_of(Code::resumed, "", resume.phase);
   say(e, "resumed: %s", resume.text().c_str());
   recorder.note(e);
@@ -196,7 +192,7 @@ void Flight::Impl::resume_parameter(const Resume::Param& param) {
 void Flight::Impl::resume_if_armed() {
   if (!protection.has_spoken()) return;
   if (heard_ns == never_ns) heard_ns = state.now_ns;
-  if (protection.flies()) return resume_now();
+  if (protection.flies()) return resume_now(true);
   if (state.now_ns - heard_ns < 1'000'000'000) return;
   state.options.resume.reset();
   Event e = event_of(Code::not_resumed);

@@ -7,6 +7,7 @@
 
 #include "core/run/circumstances.hpp"
 #include "core/run/published.hpp"
+#include "core/types/text.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -40,11 +41,8 @@ std::unique_ptr<Unit> Wiring::make_unit(const Component& c) const {
 
 std::unique_ptr<SampleSource> Wiring::recorded_samples(const Component& c) const {
   std::vector<std::string> topics;
-  for (std::size_t i = 0; i < c.info().outputs.size(); ++i) {
-    std::string name = c.info().outputs[i].type ? "/" + topic_name(state_.graph, c, i) : "";
-    std::replace(name.begin(), name.end(), '.', '/');
-    topics.push_back(name);
-  }
+  for (std::size_t i = 0; i < c.info().outputs.size(); ++i)
+    topics.push_back(c.info().outputs[i].type ? "/" + slashed(topic_name(state_.graph, c, i)) : "");
   return std::make_unique<RecordedSamples>(state_.options.drivers_from, c.info(), topics,
                                            state_.graph.epoch_ns);
 }

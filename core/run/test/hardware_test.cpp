@@ -550,6 +550,48 @@ TEST_CASE(
     }
 }
 
+namespace {
+
+/// The flight goes on in the second phase, with a parameter that the first one lays another value over.
+Resume into_second(double heirloom) {
+  Resume resume;
+  resume.phase = "second";
+  resume.params.push_back({"law_a", "heirloom", {}});
+  resume.params[0].value.number[0] = heirloom;
+  return resume;
+}
+
+const std::string overlaid_first =
+    "phases:\n  first: {law: {use: law_a, set: {heirloom: 0.9}}, next: [{to: second, when: "
+    "\"vehicle.status.tick_s > 1000 s\"}]}\n  second: {}\n";
+
+}  // namespace
+
+TEST_CASE("a flight that resumes flies with the overlay of the phase in which it goes on, not of the first") {
+  const Graph g = craft(overlaid_first);
+  Said said;
+  FlightOptions o = listening(said);
+  o.resume = into_second(0.4);
+  Flight flight(g, o);
+  CHECK(fly_until(flight, 0.1));
+  CHECK(flight.phase() == "second");
+  CHECK(applied(g, flight) == doctest::Approx(0.4));
+}
+
+TEST_CASE("a parameter of a log that cannot be set any more is told, and the flight goes on without it") {
+  const Graph g = craft(overlaid_first);
+  Said said;
+  FlightOptions o = listening(said);
+  o.resume = into_second(7);
+  o.resume->if_armed = true;  // in a tick
+  Flight flight(g, o);
+  CHECK(fly_until(flight, 1));
+  CHECK(flight.phase() == "second");
+  CHECK(said.count("phase ") == 3);  // the first, what is resumed, and the second: all in the first tick
+  CHECK(said.count("law_a: not resumed: law_a.heirloom: 7") == 1);
+  CHECK(applied(g, flight) == doctest::Approx(1).epsilon(0.01));
+}
+
 TEST_CASE("the newest log of a mission is found, cut off or whole, unless it is too old") {
   const fs::path place = folder().path / "newest";
   fs::create_directories(place);

@@ -4,15 +4,13 @@
 #include <algorithm>
 
 #include "core/run/published.hpp"
+#include "core/types/text.hpp"
 #include "core/types/wire.hpp"
 
 namespace fulmar::core {
 namespace {
 
-std::string log_topic(std::string name) {
-  std::replace(name.begin(), name.end(), '.', '/');
-  return "/" + name;
-}
+std::string log_topic(const std::string& port) { return "/" + slashed(port); }
 
 }  // namespace
 

@@ -2,7 +2,7 @@
 // XCDR1, plain little-endian: OMG DDS-XTypes 1.3, section 7.4.1. Numbers are aligned to their size (at most 8) from the start of the body.
 #include <array>
 
-#include "core/types/cdr_reader.hpp"
+#include "core/types/cdr_bytes.hpp"
 #include "core/types/text.hpp"
 #include "core/types/walk.hpp"
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// XCDR1 bytes, value by value: OMG DDS-XTypes 1.3, section 7.4.1. Numbers are aligned to their size from the
+// XCDR1 bytes by hand, value by value: OMG DDS-XTypes 1.3, section 7.4.1. Numbers are aligned to their size from the
 // start of the body, which begins behind the encapsulation header.
 #pragma once
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/types/element.hpp"
@@ -31,15 +32,32 @@ class CdrReader {
     at_ += bytes;
     return data_.data() + (at_ - bytes);
   }
+  template <class T>
+  T number() {
+    return load<T>(take(sizeof(T)));
+  }
+  /// Of elements that take at least so many bytes each: a count that the bytes cannot hold is refused before
+  /// room is made for it.
+  std::size_t count(std::size_t least) {
+    const std::size_t n = number<std::uint32_t>();
+    if (n * least > data_.size() - at_) throw Error("a list counts more than the bytes hold");
+    return n;
+  }
   /// How many elements follow: one, those of an array, or as many as a list says.
   std::uint32_t elements(const Field& field) {
-    if (field.shape == FULMAR_LIST) return load<std::uint32_t>(take(4));
+    if (field.shape == FULMAR_LIST) return number<std::uint32_t>();
     return field.shape == FULMAR_ARRAY ? field.count : 1;
   }
   /// The NUL at its end included, if it has one.
   std::string_view text() {
-    const auto size = load<std::uint32_t>(take(4));
+    const auto size = number<std::uint32_t>();
     return {reinterpret_cast<const char*>(take(1, size)), size};
+  }
+  /// Without the NUL, which has to be there.
+  std::string_view ended_text() {
+    const std::string_view all = text();
+    if (all.empty() || all.back() != '\0') throw Error("a text does not end in NUL");
+    return all.substr(0, all.size() - 1);
   }
   /// Nothing but padding of the whole may be left: 3 bytes of our own messages, up to 7 of others.
   void finish(std::size_t padding = 7) const {
@@ -49,6 +67,38 @@ class CdrReader {
  private:
   std::span<const std::byte> data_;
   std::size_t at_ = cdr_header_bytes;
+};
+
+/// Writes a message that has no type table.
+class CdrOut {
+ public:
+  template <class T>
+  void number(T value) {
+    while ((bytes_.size() - cdr_header_bytes) % sizeof(T) != 0) bytes_.push_back(std::byte{0});
+    const auto* first = reinterpret_cast<const std::byte*>(&value);
+    bytes_.insert(bytes_.end(), first, first + sizeof(T));
+  }
+  void flag(bool value) { number<std::uint8_t>(value ? 1 : 0); }
+  void count(std::size_t n) { number(static_cast<std::uint32_t>(n)); }
+  void text(std::string_view s) {
+    count(s.size() + 1);
+    const auto* first = reinterpret_cast<const std::byte*>(s.data());
+    bytes_.insert(bytes_.end(), first, first + s.size());
+    bytes_.push_back(std::byte{0});
+  }
+  template <class T>
+  void numbers(const std::vector<T>& list) {
+    count(list.size());
+    for (const T x : list) number(x);
+  }
+  void texts(const std::vector<std::string>& list) {
+    count(list.size());
+    for (const std::string& s : list) text(s);
+  }
+  std::vector<std::byte> take() { return std::move(bytes_); }
+
+ private:
+  std::vector<std::byte> bytes_{std::byte{0}, std::byte{1}, std::byte{0}, std::byte{0}};  // CDR_LE
 };
 
 }  // namespace fulmar::core

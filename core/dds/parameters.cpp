@@ -147,37 +147,33 @@ Bytes list_parameters(const Control& control, CdrIn in) {
   return out.take();
 }
 
-Bytes get_parameters(const Control& control, CdrIn in) {
+/// Writes an answer for each name that was asked for.
+template <class Answer>
+Bytes each_name(const Control& control, CdrIn& in, Answer answer) {
   const std::vector<std::string> names = in.texts();
   const Known known(control);
   CdrOut out;
   out.count(names.size());
-  for (const std::string& name : names) {
-    const ParameterView* p = known.find(name);
-    (p ? rcl_value(*p) : RclValue{}).write(out);
-  }
+  for (const std::string& name : names) answer(out, name, known.find(name));
   return out.take();
+}
+
+Bytes get_parameters(const Control& control, CdrIn in) {
+  return each_name(control, in, [](CdrOut& out, const std::string&, const ParameterView* p) {
+    (p ? rcl_value(*p) : RclValue{}).write(out);
+  });
 }
 
 Bytes get_parameter_types(const Control& control, CdrIn in) {
-  const std::vector<std::string> names = in.texts();
-  const Known known(control);
-  CdrOut out;
-  out.count(names.size());
-  for (const std::string& name : names) {
-    const ParameterView* p = known.find(name);
+  return each_name(control, in, [](CdrOut& out, const std::string&, const ParameterView* p) {
     out.number(static_cast<std::uint8_t>(p ? rcl_type(p->info) : RclType::not_set));
-  }
-  return out.take();
+  });
 }
 
 Bytes describe_parameters(const Control& control, CdrIn in) {
-  const std::vector<std::string> names = in.texts();
-  const Known known(control);
-  CdrOut out;
-  out.count(names.size());
-  for (const std::string& name : names) descriptor(name, known.find(name)).write(out);
-  return out.take();
+  return each_name(control, in, [](CdrOut& out, const std::string& name, const ParameterView* p) {
+    descriptor(name, p).write(out);
+  });
 }
 
 // ---- answers that change something -------------------------------------------------------------------------------------------------

@@ -13,14 +13,10 @@ void RclValue::write(CdrOut& out) const {
   out.number(integer);
   out.number(number);
   out.text(text);
-  for (const auto* list : {&bytes, &booleans}) {
-    out.count(list->size());
-    for (const std::uint8_t x : *list) out.number(x);
-  }
-  out.count(integers.size());
-  for (const std::int64_t x : integers) out.number(x);
-  out.count(numbers.size());
-  for (const double x : numbers) out.number(x);
+  out.numbers(bytes);
+  out.numbers(booleans);
+  out.numbers(integers);
+  out.numbers(numbers);
   out.texts(texts);
 }
 

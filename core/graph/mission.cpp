@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 
@@ -458,11 +459,6 @@ const ComponentText* MissionText::component(const std::string& wanted) const {
   return nullptr;
 }
 
-static int days_in_month(int year, int month) {
-  if (month == 2) return year % 4 == 0 && (year % 100 != 0 || year % 400 == 0) ? 29 : 28;
-  return month == 4 || month == 6 || month == 9 || month == 11 ? 30 : 31;
-}
-
 std::int64_t parse_utc_ns(const std::string& text) {
   int year = 0, month = 0, day = 0, hour = 0, minute = 0, used = 0;
   double second = 0;
@@ -475,13 +471,10 @@ std::int64_t parse_utc_ns(const std::string& text) {
     const auto [end, code] = std::from_chars(rest.data() + 1, rest.data() + rest.size(), second);
     if (rest[0] != ':' || code != std::errc{} || end != rest.data() + rest.size() || !(second >= 0 && second < 60)) throw wrong();
   }
-  if (year < 1970 || year > 2200 || month < 1 || month > 12 || day < 1 || day > days_in_month(year, month) || hour < 0 || hour > 23 ||
-      minute < 0 || minute > 59)
-    throw wrong();
-  // days since 1970-01-01 of the proleptic Gregorian calendar; March-based years, Howard Hinnant's algorithm
-  const int y = year - (month <= 2 ? 1 : 0), era = y / 400, year_of_era = y - era * 400;
-  const int day_of_year = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
-  const std::int64_t days = era * 146097LL + year_of_era * 365 + year_of_era / 4 - year_of_era / 100 + day_of_year - 719468;
+  const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(static_cast<unsigned>(month)),
+                                         std::chrono::day(static_cast<unsigned>(day))};
+  if (year < 1970 || year > 2200 || !date.ok() || hour < 0 || hour > 23 || minute < 0 || minute > 59) throw wrong();
+  const std::int64_t days = std::chrono::sys_days(date).time_since_epoch().count();
   return (days * 86400 + hour * 3600 + minute * 60) * 1'000'000'000 + std::llround(second * 1e9);
 }
 

@@ -248,8 +248,7 @@ std::string_view word_after_dot(std::string_view text) {
 }
 
 bool names_no_number(std::string_view text) {
-  std::string word;
-  for (const char c : word_after_dot(text)) word += static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  const std::string word = lower(word_after_dot(text));
   return word == "nan" || word == "inf" || word == "infinity";
 }
 

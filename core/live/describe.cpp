@@ -52,27 +52,8 @@ Form form_of(const Service& service) {
   return form;
 }
 
-const char* kind_word(fulmar_param_kind kind) {
-  switch (kind) {
-    case FULMAR_NUMBER:
-      return "number";
-    case FULMAR_FLAG:
-      return "flag";
-    case FULMAR_COUNT:
-      return "count";
-    case FULMAR_CHOICE:
-      return "choice";
-    case FULMAR_STRING:
-      return "text";
-    case FULMAR_VECTOR:
-      return "vector";
-    case FULMAR_RECORD:
-      return "record";
-    case FULMAR_BLOB:
-      return "blob";
-  }
-  return "";
-}
+/// In the order of fulmar_param_kind.
+constexpr const char* param_kinds[]{"", "number", "flag", "count", "choice", "text", "vector", "record", "blob"};
 
 json finite(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
@@ -98,7 +79,7 @@ json value_json(const ParamInfo& info, const ParamValue& value) {
 json param_json(const ParameterView& parameter) {
   const ParamInfo& info = parameter.info;
   return {{"name", info.name},
-          {"kind", kind_word(info.kind)},
+          {"kind", param_kinds[info.kind]},
           {"unit", info.unit},
           {"doc", info.doc},
           {"value", value_json(info, parameter.base)},

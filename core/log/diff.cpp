@@ -16,6 +16,7 @@ namespace fulmar::core {
 namespace {
 
 constexpr std::size_t most_compared_values = 100'000;
+constexpr std::size_t most_waiting = 100'000;  // ticks, where the other log has none
 using MessageBytes = std::vector<std::byte>;
 
 struct Stored {
@@ -65,7 +66,7 @@ struct Side {
   }
   void take_ticks(std::span<const std::byte> data) try {
     if (!tick_topic) tick_topic.emplace(stream.log());
-    if (!tick_topic->same()) return;
+    if (!tick_topic->same() || ticks.size() > most_waiting) return;
     const Ticks t = tick_topic->read(data);
     std::int64_t time_ns = t.time_ns;
     for (std::uint32_t i = 0; i < std::min(t.hashes, t.periods); ++i) {
@@ -90,29 +91,22 @@ std::vector<CdrValue> values(const Side& side, const std::string& topic, const M
 }
 
 /// The first field that is not the same, or else a byte; of samples that hold the same, when they are valid.
-LogDiff::First first_field(const Side& a, const Side& b, const std::string& topic, const Stored& in_a, const Stored& in_b) {
+MessageDiff::First first_field(const Side& a, const Side& b, const std::string& topic, const Stored& in_a,
+                               const Stored& in_b, std::int64_t time_ns) {
   const MessageBytes &left = in_a.data, &right = in_b.data;
-  if (left == right) return {topic, "valid at", 0, std::to_string(in_a.valid_ns), std::to_string(in_b.valid_ns)};
+  if (left == right) return {topic, "valid at", time_ns, std::to_string(in_a.valid_ns), std::to_string(in_b.valid_ns)};
   const std::vector<CdrValue> x = values(a, topic, left), y = values(b, topic, right);
   for (std::size_t i = 0; i < std::max(x.size(), y.size()); ++i) {
-    const bool in_x = i < x.size(), in_y = i < y.size();
-    if (in_x && in_y && x[i].name == y[i].name && x[i].text == y[i].text) continue;
-    const bool same_name = !in_x || !in_y || x[i].name == y[i].name;
-    LogDiff::First f;
-    f.topic = topic;
-    f.field = in_x ? x[i].name : y[i].name;
-    f.a = in_x ? x[i].text : "absent";
-    f.b = !in_y ? "absent" : same_name ? y[i].text : y[i].name + " " + y[i].text;
-    return f;
+    const bool in_x = i < x.size(), in_y = i < y.size(), same_name = !in_x || !in_y || x[i].name == y[i].name;
+    if (in_x && in_y && same_name && x[i].text == y[i].text) continue;
+    const std::string text = !in_y ? "absent" : same_name ? y[i].text : y[i].name + " " + y[i].text;
+    return {topic, in_x ? x[i].name : y[i].name, time_ns, in_x ? x[i].text : "absent", text};
   }
   const auto [p, q] = std::mismatch(left.begin(), left.end(), right.begin(), right.end());
-  const std::string at = "byte " + std::to_string(p - left.begin());
   const auto text = [](MessageBytes::const_iterator byte, MessageBytes::const_iterator end) {
     return byte == end ? std::string("absent") : std::to_string(static_cast<int>(*byte));
   };
-  LogDiff::First f;
-  f.topic = topic, f.field = at, f.a = text(p, left.end()), f.b = text(q, right.end());
-  return f;
+  return {topic, "byte " + std::to_string(p - left.begin()), time_ns, text(p, left.end()), text(q, right.end())};
 }
 
 std::uint64_t count_differing(const MessageBytes& a, const MessageBytes& b) {
@@ -125,7 +119,7 @@ std::uint64_t count_differing(const MessageBytes& a, const MessageBytes& b) {
 struct Comparison {
   Side a, b;
   bool whole_topics;
-  LogDiff diff{};
+  MessageDiff diff{};
 
   void run() {
     while (a.ahead != nullptr || b.ahead != nullptr) {
@@ -153,43 +147,36 @@ struct Comparison {
   }
 
   /// The ticks tell that something differs, and not what: anything else is told before them.
-  static bool precedes(const std::string& topic, std::int64_t time_ns, const std::optional<LogDiff::First>& other) {
+  static bool precedes(const std::string& topic, std::int64_t time_ns, const std::optional<MessageDiff::First>& other) {
     if (!other) return true;
     const bool of_ticks = topic == Ticks::topic, other_of_ticks = other->topic == Ticks::topic;
     return of_ticks == other_of_ticks ? time_ns < other->time_ns : other_of_ticks;
   }
 
   void compare(const std::string& topic, std::uint64_t ns) {
+    static const MessageBytes none;
     const std::vector<Stored>&left = a.now[topic], &right = b.now[topic];
-    LogDiff::Topic& counts = diff.topics[topic];
-    const std::size_t both = std::min(left.size(), right.size());
-    for (std::size_t i = 0; i < both; ++i) {
-      if (left[i] == right[i]) {
+    MessageDiff::Topic& counts = diff.topics[topic];
+    const bool of_ticks = topic == Ticks::topic;
+    const std::int64_t time_ns = a.flight_ns(ns);
+    if (!of_ticks) diff.messages += left.size();
+    for (std::size_t i = 0; i < std::max(left.size(), right.size()); ++i) {
+      const Stored* const x = i < left.size() ? &left[i] : nullptr;
+      const Stored* const y = i < right.size() ? &right[i] : nullptr;
+      if (x && y && *x == *y) {
         ++counts.equal;
         continue;
       }
-      ++counts.different;
-      if (precedes(topic, a.flight_ns(ns), first_pair)) {
-        first_pair = first_field(a, b, topic, left[i], right[i]);
-        first_pair->time_ns = a.flight_ns(ns);
+      ++(!x ? counts.only_b : !y ? counts.only_a : counts.different);
+      if (!of_ticks) {
+        ++diff.differing_messages;
+        diff.differing_bytes += count_differing(x ? x->data : none, y ? y->data : none);
       }
-    }
-    if (topic != Ticks::topic) count(left, right);
-    counts.only_a += left.size() - both;
-    counts.only_b += right.size() - both;
-    if (left.size() == right.size()) return;
-    const auto word = [&](std::size_t n) { return n > both ? "a message" : "absent"; };
-    first_absent.try_emplace(topic, LogDiff::First{topic, "", a.flight_ns(ns), word(left.size()), word(right.size())});
-  }
-
-  void count(const std::vector<Stored>& left, const std::vector<Stored>& right) {
-    static const Stored none{};
-    diff.messages += left.size();
-    for (std::size_t i = 0; i < std::max(left.size(), right.size()); ++i) {
-      const Stored &x = i < left.size() ? left[i] : none, &y = i < right.size() ? right[i] : none;
-      const bool in_one = i >= left.size() || i >= right.size();
-      diff.differing_messages += in_one || x != y;
-      diff.differing_bytes += count_differing(x.data, y.data);
+      const auto word = [](const Stored* there) { return there ? "a message" : "absent"; };
+      if (!x || !y)
+        first_absent.try_emplace(topic, MessageDiff::First{topic, "", time_ns, word(x), word(y)});
+      else if (precedes(topic, time_ns, first_pair))
+        first_pair = first_field(a, b, topic, *x, *y, time_ns);
     }
   }
 
@@ -203,64 +190,24 @@ struct Comparison {
     }
   }
 
-  std::optional<LogDiff::First> first_pair{};
-  std::map<std::string, LogDiff::First> first_absent{};  // by topic
+  std::optional<MessageDiff::First> first_pair{};
+  std::map<std::string, MessageDiff::First> first_absent{};  // by topic
 };
-
-using Named = std::map<std::string, std::string>;
-
-Named metadata_of(const McapFile& log) {
-  Named all;
-  for (const McapFile::Metadata& m : log.metadata)
-    for (const auto& [key, value] : m.pairs) all[m.name + ": " + key] = value;
-  return all;
-}
-
-Named attachments_of(const McapFile& log) {
-  Named all;
-  for (const McapFile::Attachment& a : log.attachments) all[a.name] = a.content;
-  return all;
-}
-
-std::size_t line_of_difference(const std::string& a, const std::string& b) {
-  const auto [p, q] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
-  return 1 + static_cast<std::size_t>(std::count(a.begin(), p, '\n'));
-}
-
-template <class Sentence>
-std::vector<std::string> differences(const Named& a, const Named& b, Sentence sentence) {
-  std::vector<std::string> list;
-  for (const auto& [name, value] : a) {
-    const auto other = b.find(name);
-    if (other == b.end()) list.push_back(name + " is only in the first");
-    if (other != b.end() && other->second != value) list.push_back(sentence(name, value, other->second));
-  }
-  for (const auto& [name, value] : b)
-    if (!a.contains(name)) list.push_back(name + " is only in the second");
-  return list;
-}
 
 }  // namespace
 
-bool LogDiff::messages_equal() const {
+bool MessageDiff::messages_equal() const {
   const bool same = std::all_of(topics.begin(), topics.end(),
                                 [](const auto& t) { return t.second.different == 0 && t.second.only_a == 0 && t.second.only_b == 0; });
   return same && only_a.empty() && only_b.empty() && fault_a.empty() == fault_b.empty();
 }
 
-LogDiff diff_logs(const std::filesystem::path& file_a, const std::filesystem::path& file_b,
-                  const DiffOptions& options) {
+MessageDiff diff_messages(const std::filesystem::path& file_a, const std::filesystem::path& file_b,
+                          const DiffOptions& options) {
   Comparison comparison{{file_a, options.last_ns}, {file_b, options.last_ns}, options.whole_topics};
   comparison.run();
-  LogDiff diff = std::move(comparison.diff);
-  const McapFile &a = comparison.a.stream.log(), &b = comparison.b.stream.log();
-  diff.metadata = differences(metadata_of(a), metadata_of(b), [](const std::string& name, const std::string& x, const std::string& y) {
-    return name + " is " + x + " and " + y;
-  });
-  diff.attachments =
-      differences(attachments_of(a), attachments_of(b), [](const std::string& name, const std::string& x, const std::string& y) {
-        return name + " differs from line " + std::to_string(line_of_difference(x, y)) + " on";
-      });
+  MessageDiff diff = std::move(comparison.diff);
+  diff.log_a = comparison.a.stream.take_log(), diff.log_b = comparison.b.stream.take_log();
   return diff;
 }
 

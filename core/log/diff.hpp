@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What differs between two logs. Both are read once, side by side; messages of a topic are compared at equal log
+// What differs between the messages of two logs. Both are read once, side by side; messages of a topic are compared at equal log
 // times, what they hold and when it is valid.
 #pragma once
 #include <cstdint>
@@ -10,9 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "core/log/reader.hpp"
+
 namespace fulmar::core {
 
-struct LogDiff {
+struct MessageDiff {
   struct First {
     std::string topic, field;  // field "" when a message is only in one, or cannot be decoded
     std::int64_t time_ns = 0;  // flight time
@@ -32,13 +34,13 @@ struct LogDiff {
   std::optional<Tick> first_tick;
   std::map<std::string, Topic> topics;             // in both
   std::vector<std::string> only_a, only_b;         // topics
-  std::vector<std::string> metadata, attachments;  // "fulmar: seed is 7 and 8", "mission.yaml differs at line 4"
   std::string fault_a, fault_b;                    // "" or why a log ends before its end
   std::uint64_t messages = 0;                      // of the first log; these three without the ticks
   std::uint64_t differing_messages = 0, differing_bytes = 0;
 
+  McapFile log_a, log_b;  // what stands beside the messages
+
   bool messages_equal() const;
-  bool equal() const { return messages_equal() && metadata.empty() && attachments.empty(); }
 };
 
 struct DiffOptions {
@@ -47,6 +49,6 @@ struct DiffOptions {
 };
 
 /// Throws Error for what is no log.
-LogDiff diff_logs(const std::filesystem::path& a, const std::filesystem::path& b, const DiffOptions& options = {});
+MessageDiff diff_messages(const std::filesystem::path& a, const std::filesystem::path& b, const DiffOptions& options = {});
 
 }  // namespace fulmar::core

@@ -217,13 +217,13 @@ std::unique_ptr<Flight> Player::fly(const std::atomic<bool>* stop) {
 /// Fills in what differs between the log and the replay's own, up to the last tick of the log.
 void find_differences(const fs::path& was, const fs::path& is, std::int64_t epoch_ns, ReplayResult& result) {
   const auto last_ns = static_cast<std::uint64_t>(result.last_ns + epoch_ns);
-  const LogDiff diff = diff_logs(was, is, {.last_ns = last_ns, .whole_topics = true});
+  const MessageDiff diff = diff_messages(was, is, {.last_ns = last_ns, .whole_topics = true});
   result.messages = diff.messages;
   result.differing_messages = diff.differing_messages, result.differing_bytes = diff.differing_bytes;
   if (diff.first_tick)
     result.first_tick = diff.first_tick->index, result.first_tick_ns = diff.first_tick->time_ns;
   if (!diff.first || diff.first->topic == Ticks::topic) return;
-  const LogDiff::First& first = *diff.first;
+  const MessageDiff::First& first = *diff.first;
   const auto word = [&](const std::string& text) {
     return text == "absent" ? "none" : first.field.empty() ? "a sample" : text;
   };

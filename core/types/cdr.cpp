@@ -2,8 +2,9 @@
 // XCDR1, plain little-endian: OMG DDS-XTypes 1.3, section 7.4.1. Numbers are aligned to their size (at most 8) from the start of the body.
 #include <array>
 
-#include "core/types/cdr_reader.hpp"
+#include "core/types/cdr_bytes.hpp"
 #include "core/types/text.hpp"
+#include "core/types/walk.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -32,63 +33,42 @@ struct Compiler {
     ops.push_back({.what = Op::copy, .align = static_cast<std::uint8_t>(size), .offset = offset, .bytes = bytes});
   }
 
-  void element(const Field& f, std::uint32_t offset) {
-    if (f.kind == FULMAR_STRUCT) {
-      type(*f.type, offset);
-    } else if (f.kind == FULMAR_TEXT) {
+  static constexpr std::uint32_t unrolled = 8;
+
+  void value(const Field& f, std::uint32_t offset) {
+    if (f.kind == FULMAR_TEXT)
       ops.push_back({.what = Op::text, .offset = offset, .bytes = f.stride});
-    } else {
+    else
       copy(offset, primitive_size(f.kind), primitive_size(f.kind));
-    }
   }
 
-  /// The ops of one element follow op `head`.
-  void body(std::size_t head, const Field& f) {
+  bool at_once(const Field& f, std::uint32_t offset) {
+    const bool packed = f.stride == primitive_size(f.kind);
+    if (packed) copy(offset, f.stride, f.stride * f.count);
+    return packed;
+  }
+
+  std::size_t begin(const Field& f, std::uint32_t offset) {
+    const auto what = f.shape == FULMAR_LIST ? Op::list : Op::loop;
+    ops.push_back({.what = what, .offset = offset, .count = f.count, .stride = f.stride, .items = f.items});
     mergeable_from = ops.size();
-    element(f, 0);
-    mergeable_from = ops.size();
-    ops[head].body = static_cast<std::uint32_t>(ops.size() - head - 1);
+    return ops.size() - 1;
   }
 
-  void array(const Field& f, std::uint32_t offset) {
-    constexpr std::uint32_t unrolled = 8;
-    if (f.stride == primitive_size(f.kind)) {
-      copy(offset, f.stride, f.stride * f.count);
-    } else if (f.count <= unrolled) {
-      for (std::uint32_t i = 0; i < f.count; ++i) element(f, offset + i * f.stride);
-    } else {
-      ops.push_back({.what = Op::loop, .offset = offset, .count = f.count, .stride = f.stride});
-      body(ops.size() - 1, f);
+  void end(std::size_t head) {
+    Op& loop = ops[head];
+    loop.body = static_cast<std::uint32_t>(ops.size() - head - 1);
+    const Op item = ops.back();
+    const bool whole = loop.what == Op::list && loop.body == 1 && item.what == Op::copy && item.offset == 0 &&
+                       item.bytes == loop.stride && loop.stride % item.align == 0;
+    if (whole) {  // the items are copied in one go
+      loop.align = item.align, loop.bytes = loop.stride, loop.body = 0;
+      ops.pop_back();
     }
-  }
-
-  void list(const Field& f, std::uint32_t offset) {
-    const std::size_t head = ops.size();
-    ops.push_back({.what = Op::list, .offset = offset, .count = f.count, .stride = f.stride, .items = f.items});
-    body(head, f);
-    const Op& first = ops.back();
-    const bool whole =
-        ops[head].body == 1 && first.what == Op::copy && first.offset == 0 && first.bytes == f.stride && f.stride % first.align == 0;
-    if (!whole) return;
-    ops[head].align = first.align;
-    ops[head].bytes = f.stride;
-    ops[head].body = 0;
-    ops.pop_back();
     mergeable_from = ops.size();
   }
 
-  void type(const Type& t, std::uint32_t offset) {
-    if (t.fields.empty()) ops.push_back({.what = Op::dummy});  // ROS 2: an empty struct has one dummy byte
-    for (const Field& f : t.fields) {
-      if (f.shape == FULMAR_LIST) {
-        list(f, offset + f.offset);
-      } else if (f.shape == FULMAR_ARRAY) {
-        array(f, offset + f.offset);
-      } else {
-        element(f, offset + f.offset);
-      }
-    }
-  }
+  void empty() { ops.push_back({.what = Op::dummy}); }  // ROS 2: an empty struct has one dummy byte
 };
 
 /// Upper bound of what the ops write, padding included.
@@ -257,7 +237,7 @@ struct Lister {
 
 CdrEncoder::CdrEncoder(const Type& type) {
   Compiler compiler;
-  compiler.type(type, 0);
+  walk(type, 0, compiler);
   ops_ = std::move(compiler.ops);
   max_size_ = cdr_header_bytes + bound(ops_.data(), ops_.data() + ops_.size());
 }

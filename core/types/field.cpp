@@ -36,14 +36,14 @@ const Field& find_field(const Type& type, std::string_view name) {
 
 // The number of items of a list, as a field of its own.
 const Field& count_field() {
-  static const Field field = [] {
-    Field f;
-    f.name = "count";
-    f.kind = FULMAR_U32;
-    f.stride = sizeof(std::uint32_t);
-    f.max = std::numeric_limits<std::uint32_t>::max();
-    return f;
-  }();
+  static const Field field{.name = "count",
+                           .unit = "",
+                           .type = nullptr,
+                           .labels = {},
+                           .constants = {},
+                           .kind = FULMAR_U32,
+                           .stride = sizeof(std::uint32_t),
+                           .max = std::numeric_limits<std::uint32_t>::max()};
   return field;
 }
 

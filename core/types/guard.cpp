@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/types/element.hpp"
+#include "core/types/walk.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -53,7 +54,7 @@ double high(const Field& field) { return std::min(field.max, std::numeric_limits
 // ---- from a type to steps ----------------------------------------------------------------------------------------------------
 
 struct Guard::Compiler {
-  static constexpr std::uint32_t unroll = 64;  // larger arrays of structs become a loop
+  static constexpr std::uint32_t unrolled = 64;
   std::vector<Step> steps;
 
   void add(const Step& step) {
@@ -73,14 +74,9 @@ struct Guard::Compiler {
 
   // Elements `count` of `field` from `offset` on.
   void elements(const Field& field, std::uint32_t offset, std::uint32_t count) {
-    Step step;
-    step.element = field.kind;
-    step.offset = offset;
-    step.count = count;
-    step.stride = field.stride;
+    Step step{.element = field.kind, .offset = offset, .count = count, .stride = field.stride};
     const bool ranged = std::isfinite(field.min) || std::isfinite(field.max);
     const bool dense = field.stride == element_size(field) || count == 1;
-    if (field.kind == FULMAR_STRUCT) return structs(field, offset, count);
     if (is_integer(field.kind) && !ranged) return;  // any will do
     if (field.kind == FULMAR_TEXT) {
       step.kind = Step::Kind::text;
@@ -97,47 +93,28 @@ struct Guard::Compiler {
     add(step);
   }
 
-  void structs(const Field& field, std::uint32_t offset, std::uint32_t count) {
-    if (count <= unroll) {
-      for (std::uint32_t i = 0; i < count; ++i) fields(*field.type, offset + i * field.stride);
-      return;
-    }
-    Step step;
-    step.kind = Step::Kind::repeat;
-    step.offset = offset;
-    step.count = count;
-    step.stride = field.stride;
-    repeat(step, field);
+  void value(const Field& field, std::uint32_t offset) { elements(field, offset, 1); }
+
+  bool at_once(const Field& field, std::uint32_t offset) {
+    elements(field, offset, field.count);
+    return true;
   }
 
-  void repeat(const Step& step, const Field& field) {
-    const std::size_t head = steps.size();
-    steps.push_back(step);
+  std::size_t begin(const Field& field, std::uint32_t offset) {
+    const bool counted = field.shape == FULMAR_LIST;
+    steps.push_back({.kind = Step::Kind::repeat,
+                     .offset = offset + (counted ? field.items : 0),
+                     .count = field.count,
+                     .stride = field.stride,
+                     .count_offset = offset,
+                     .counted = counted});
     joinable = false;
-    if (field.kind == FULMAR_STRUCT) {
-      fields(*field.type, 0);
-    } else {
-      elements(field, 0, 1);
-    }
+    return steps.size() - 1;
+  }
+
+  void end(std::size_t head) {
     steps[head].end = static_cast<std::uint32_t>(steps.size() - head);
     joinable = false;
-  }
-
-  void fields(const Type& type, std::uint32_t base) {
-    for (const Field& field : type.fields) {
-      if (field.shape != FULMAR_LIST) {
-        elements(field, base + field.offset, field.count);
-        continue;
-      }
-      Step step;
-      step.kind = Step::Kind::repeat;
-      step.counted = true;
-      step.count_offset = base + field.offset;
-      step.offset = base + field.offset + field.items;
-      step.count = field.count;
-      step.stride = field.stride;
-      repeat(step, field);
-    }
   }
 
  private:
@@ -146,7 +123,7 @@ struct Guard::Compiler {
 
 Guard::Guard(const Type& type) : type_(std::make_shared<const Type>(type)) {
   Compiler compiler;
-  compiler.fields(type, 0);
+  walk(type, 0, compiler);
   steps_ = std::move(compiler.steps);
 }
 

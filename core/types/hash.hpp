@@ -11,6 +11,7 @@
 
 #include "core/types/type.hpp"
 #include "core/types/element.hpp"
+#include "core/types/walk.hpp"
 
 namespace fulmar::core {
 
@@ -32,7 +33,11 @@ inline std::uint64_t hash_bytes(std::uint64_t h, const std::byte* data, std::siz
 
 class MessageHash {
  public:
-  explicit MessageHash(const Type& type) { add(type, 0); }
+  explicit MessageHash(const Type& type) {
+    Compiler compiler;
+    walk(type, 0, compiler);
+    steps_ = std::move(compiler.steps);
+  }
 
   std::uint64_t of(std::uint64_t h, const std::byte* data) const noexcept {
     return run(steps_.data(), steps_.data() + steps_.size(), h, data);
@@ -47,36 +52,39 @@ class MessageHash {
     bool counted = false;                            // by the number at the offset, else always `count`
   };
 
-  void add_bytes(std::uint32_t offset, std::uint32_t size) {
-    if (!steps_.empty() && steps_.back().kind == Step::Kind::bytes && steps_.back().offset + steps_.back().size == offset && !closed_)
-      steps_.back().size += size;
-    else
-      steps_.push_back({Step::Kind::bytes, offset, size});
-    closed_ = false;
-  }
-  void add_element(const Field& f, std::uint32_t offset) {
-    if (f.kind == FULMAR_STRUCT) return add(*f.type, offset);
-    if (f.kind != FULMAR_TEXT) return add_bytes(offset, primitive_size(f.kind));
-    steps_.push_back({Step::Kind::text, offset, f.stride});
-  }
-  void add(const Type& type, std::uint32_t base) {
-    for (const Field& f : type.fields) {
-      const std::uint32_t at = base + f.offset;
-      const bool packed = f.kind != FULMAR_STRUCT && f.kind != FULMAR_TEXT && f.stride == primitive_size(f.kind);
-      if (f.shape == FULMAR_SCALAR) {
-        add_element(f, at);
-      } else if (f.shape == FULMAR_ARRAY && packed) {
-        add_bytes(at, f.count * f.stride);
-      } else {
-        const std::size_t loop = steps_.size();
-        steps_.push_back({Step::Kind::list, at, 0, f.count, f.stride, f.shape == FULMAR_LIST ? f.items : 0, 0, f.shape == FULMAR_LIST});
-        closed_ = true;
-        add_element(f, 0);
-        steps_[loop].body = static_cast<std::uint32_t>(steps_.size() - loop - 1);
-        closed_ = true;
-      }
+  struct Compiler {
+    static constexpr std::uint32_t unrolled = 0;
+    std::vector<Step> steps;
+    bool closed = false;  // the last step belongs to a loop that has ended, or has just begun
+
+    void bytes(std::uint32_t offset, std::uint32_t size) {
+      const bool run = !steps.empty() && steps.back().kind == Step::Kind::bytes && !closed;
+      if (run && steps.back().offset + steps.back().size == offset)
+        steps.back().size += size;
+      else
+        steps.push_back({Step::Kind::bytes, offset, size});
+      closed = false;
     }
-  }
+    void value(const Field& f, std::uint32_t offset) {
+      if (f.kind != FULMAR_TEXT) return bytes(offset, primitive_size(f.kind));
+      steps.push_back({Step::Kind::text, offset, f.stride});
+    }
+    bool at_once(const Field& f, std::uint32_t offset) {
+      const bool packed = f.stride == primitive_size(f.kind);
+      if (packed) bytes(offset, f.count * f.stride);
+      return packed;
+    }
+    std::size_t begin(const Field& f, std::uint32_t offset) {
+      const bool counted = f.shape == FULMAR_LIST;
+      steps.push_back({Step::Kind::list, offset, 0, f.count, f.stride, counted ? f.items : 0, 0, counted});
+      closed = true;
+      return steps.size() - 1;
+    }
+    void end(std::size_t loop) {
+      steps[loop].body = static_cast<std::uint32_t>(steps.size() - loop - 1);
+      closed = true;
+    }
+  };
 
   static std::uint64_t run(const Step* step, const Step* end, std::uint64_t h, const std::byte* data) noexcept {
     for (; step != end; ++step) {
@@ -96,7 +104,6 @@ class MessageHash {
   }
 
   std::vector<Step> steps_;
-  bool closed_ = false;  // the last step belongs to a loop that has ended, or has just begun
 };
 
 }  // namespace fulmar::core

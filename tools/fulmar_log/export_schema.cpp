@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "core/types/cdr_reader.hpp"
+#include "core/types/cdr_bytes.hpp"
 #include "core/types/ros_parse.hpp"
 #include "core/types/text.hpp"
 
@@ -51,7 +51,7 @@ Cell value(const RosField& f, CdrReader& in) {
 }
 
 std::uint32_t elements(const RosField& f, CdrReader& in) {
-  return f.shape == FULMAR_LIST ? load<std::uint32_t>(in.take(4)) : f.count;
+  return f.shape == FULMAR_LIST ? in.number<std::uint32_t>() : f.count;
 }
 
 void measure_field(RosField& f, CdrReader& in) {

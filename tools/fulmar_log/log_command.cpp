@@ -15,7 +15,7 @@
 
 #include "core/error.hpp"
 #include "core/log/log_file.hpp"
-#include "core/log/diff.hpp"
+#include "tools/fulmar_log/diff.hpp"
 #include "tools/fulmar_log/export_log.hpp"
 #include "tools/fulmar_log/info.hpp"
 #include "tools/fulmar_log/recover.hpp"

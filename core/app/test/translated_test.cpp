@@ -11,7 +11,7 @@
 #include "core/replay/replay.hpp"
 #include "core/run/resume.hpp"
 #include "core/run/test/lab.hpp"
-#include "core/log/diff.hpp"
+#include "tools/fulmar_log/diff.hpp"
 #include "core/log/events.hpp"
 #include "tools/fulmar_log/export_log.hpp"
 #include "tools/fulmar_log/info.hpp"

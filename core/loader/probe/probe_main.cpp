@@ -11,6 +11,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/loader/crash_signal.hpp"
 #include "core/loader/float_mode.hpp"
 #include "core/loader/library.hpp"
 #include "core/loader/probe_report.hpp"
@@ -18,19 +19,6 @@
 #include "core/loader/shared_object.hpp"
 
 using namespace fulmar::core;
-
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define __SANITIZE_ADDRESS__ 1  // clang's way to say it
-#endif
-#endif
-#ifdef __SANITIZE_ADDRESS__
-// A crash is to end this process by its signal, which the host names.
-extern "C" const char* __asan_default_options();
-extern "C" const char* __asan_default_options() {
-  return "handle_segv=0:handle_sigbus=0:handle_abort=0:handle_sigfpe=0:handle_sigill=0:detect_leaks=0";
-}
-#endif
 
 namespace {
 

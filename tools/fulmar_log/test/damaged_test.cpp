@@ -7,7 +7,7 @@
 #include <random>
 
 #include "core/error.hpp"
-#include "core/log/diff.hpp"
+#include "tools/fulmar_log/diff.hpp"
 #include "tools/fulmar_log/export_log.hpp"
 #include "tools/fulmar_log/info.hpp"
 #include "core/log/reader.hpp"

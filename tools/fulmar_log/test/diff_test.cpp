@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Logs compared: equal ones, and each way in which two can differ.
-#include "core/log/diff.hpp"
+#include "tools/fulmar_log/diff.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// XCDR1 bytes by hand, value by value: OMG DDS-XTypes 1.3, section 7.4.1. Numbers are aligned to their size from the
+// start of the body, which begins behind the encapsulation header.
+#pragma once
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/types/element.hpp"
+#include "core/types/wire.hpp"
+
+namespace fulmar::core {
+
+/// All functions throw Error on bytes that do not hold what is asked for.
+class CdrReader {
+ public:
+  explicit CdrReader(std::span<const std::byte> message) : data_(message) {
+    if (message.size() < cdr_header_bytes) throw Error("a message is too short");
+    const auto form = static_cast<unsigned>(message[0]) << 8 | static_cast<unsigned>(message[1]);
+    if (form != 1)
+      throw Error("a message has the encapsulation " + std::to_string(form) +
+                  "; only 1, plain little-endian CDR, is read");
+  }
+
+  /// `count` elements of `size` bytes each, one after the other; the size is a power of two.
+  const std::byte* take(std::size_t size, std::uint32_t count = 1) {
+    if (count > 0) at_ = ((at_ - cdr_header_bytes + size - 1) & ~(size - 1)) + cdr_header_bytes;
+    const std::size_t bytes = size * count;
+    if (at_ > data_.size() || bytes > data_.size() - at_)
+      throw Error("a message is too short for its definition");
+    at_ += bytes;
+    return data_.data() + (at_ - bytes);
+  }
+  template <class T>
+  T number() {
+    return load<T>(take(sizeof(T)));
+  }
+  /// Of elements that take at least so many bytes each: a count that the bytes cannot hold is refused before
+  /// room is made for it.
+  std::size_t count(std::size_t least) {
+    const std::size_t n = number<std::uint32_t>();
+    if (n * least > data_.size() - at_) throw Error("a list counts more than the bytes hold");
+    return n;
+  }
+  /// How many elements follow: one, those of an array, or as many as a list says.
+  std::uint32_t elements(const Field& field) {
+    if (field.shape == FULMAR_LIST) return number<std::uint32_t>();
+    return field.shape == FULMAR_ARRAY ? field.count : 1;
+  }
+  /// The NUL at its end included, if it has one.
+  std::string_view text() {
+    const auto size = number<std::uint32_t>();
+    return {reinterpret_cast<const char*>(take(1, size)), size};
+  }
+  /// Without the NUL, which has to be there.
+  std::string_view ended_text() {
+    const std::string_view all = text();
+    if (all.empty() || all.back() != '\0') throw Error("a text does not end in NUL");
+    return all.substr(0, all.size() - 1);
+  }
+  /// Nothing but padding of the whole may be left: 3 bytes of our own messages, up to 7 of others.
+  void finish(std::size_t padding = 7) const {
+    if (data_.size() - at_ > padding) throw Error("a message is longer than its definition");
+  }
+
+ private:
+  std::span<const std::byte> data_;
+  std::size_t at_ = cdr_header_bytes;
+};
+
+/// Writes a message that has no type table.
+class CdrOut {
+ public:
+  template <class T>
+  void number(T value) {
+    while ((bytes_.size() - cdr_header_bytes) % sizeof(T) != 0) bytes_.push_back(std::byte{0});
+    const auto* first = reinterpret_cast<const std::byte*>(&value);
+    bytes_.insert(bytes_.end(), first, first + sizeof(T));
+  }
+  void flag(bool value) { number<std::uint8_t>(value ? 1 : 0); }
+  void count(std::size_t n) { number(static_cast<std::uint32_t>(n)); }
+  void text(std::string_view s) {
+    count(s.size() + 1);
+    const auto* first = reinterpret_cast<const std::byte*>(s.data());
+    bytes_.insert(bytes_.end(), first, first + s.size());
+    bytes_.push_back(std::byte{0});
+  }
+  template <class T>
+  void numbers(const std::vector<T>& list) {
+    count(list.size());
+    for (const T x : list) number(x);
+  }
+  void texts(const std::vector<std::string>& list) {
+    count(list.size());
+    for (const std::string& s : list) text(s);
+  }
+  std::vector<std::byte> take() { return std::move(bytes_); }
+
+ private:
+  std::vector<std::byte> bytes_{std::byte{0}, std::byte{1}, std::byte{0}, std::byte{0}};  // CDR_LE
+};
+
+}  // namespace fulmar::core

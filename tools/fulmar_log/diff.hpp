@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What differs between two logs: their messages, and what stands beside them.
+#pragma once
+#include "core/log/diff.hpp"
+
+namespace fulmar::core {
+
+struct LogDiff : MessageDiff {
+  std::vector<std::string> metadata, attachments;  // "fulmar: seed is 7 and 8", "mission.yaml differs at line 4"
+
+  bool equal() const { return messages_equal() && metadata.empty() && attachments.empty(); }
+};
+
+/// Throws Error for what is no log.
+LogDiff diff_logs(const std::filesystem::path& a, const std::filesystem::path& b, const DiffOptions& options = {});
+
+}  // namespace fulmar::core

@@ -17,19 +17,19 @@
 #include "core/isolate/child/crash.hpp"
 #include "core/isolate/child/heap.hpp"
 #include "core/isolate/child/session.hpp"
+#include "core/sanitized.hpp"
 
 using namespace fulmar::core;
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define __SANITIZE_ADDRESS__ 1  // clang's way to say it
-#endif
-#endif
-#ifdef __SANITIZE_ADDRESS__
+#ifdef FULMAR_SANITIZED
 // A crash is to end this process by its signal, which the host names.
 extern "C" const char* __asan_default_options();
 extern "C" const char* __asan_default_options() {
   return "handle_segv=0:handle_sigbus=0:handle_abort=0:handle_sigfpe=0:handle_sigill=0:detect_leaks=0:use_sigaltstack=0";
+}
+extern "C" const char* __tsan_default_options();
+extern "C" const char* __tsan_default_options() {
+  return "handle_segv=0:handle_sigbus=0:handle_abort=0:handle_sigfpe=0:handle_sigill=0:use_sigaltstack=0";
 }
 #endif
 

@@ -5,7 +5,14 @@ add_compile_options(-Wall -Wextra -Wconversion -Wshadow -ffp-contract=off)
 if(FULMAR_WERROR)
   add_compile_options(-Werror)
 endif()
-if(FULMAR_SANITIZE)
+# The tests with threads, for the thread sanitizer: `ctest -L threads`.
+add_custom_target(threads)
+if(FULMAR_SANITIZE_THREADS)
+  set(FULMAR_SANITIZE ON)  # slow, with an allocator of its own
+  add_compile_options(-fsanitize=thread -fno-omit-frame-pointer)
+  # its allocation functions, too, are not weak: those of a test that counts come first
+  add_link_options(-fsanitize=thread -Wl,--allow-multiple-definition)
+elseif(FULMAR_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
 endif()
@@ -80,12 +87,13 @@ endfunction()
 # The folder beside the product that holds reference data, when it is there. Tests that need it skip with a message.
 get_filename_component(FULMAR_REFERENCE_DATA "${CMAKE_SOURCE_DIR}/../shared/data" ABSOLUTE)
 
-# fulmar_test(NAME source... [REAL_TIME] [ALONE] [WAITS] [FLIES] [PARTS case...] [COST seconds] [ENVIRONMENT variable=value] LINK library...):
+# fulmar_test(NAME source... [REAL_TIME] [ALONE] [WAITS] [FLIES] [THREADS] [PARTS case...] [COST seconds] [ENVIRONMENT variable=value] LINK library...):
 # one doctest program build/bin/NAME. Runs in the source tree's root.
 #   REAL_TIME    by the clock on the wall: not beside what computes, and not with the sanitizers, which make it slow
 #   ALONE        nor beside another one by the clock
 #   WAITS        for others more than it computes: takes half a processor of `ctest -j`, which counts halves
 #   FLIES        computes in its own code
+#   THREADS      of several threads: also under the thread sanitizer, and nothing else is
 #   PARTS        one ctest entry for each range of cases; what is given are the numbers of the first cases of all ranges but the first one.
 #                Each part runs by itself, so a case in one uses nothing that a case in another one has made
 #   COST         roughly how long it takes: the longest begin first, also where no run has measured them
@@ -98,7 +106,7 @@ function(fulmar_test name)
      AND CMAKE_CURRENT_SOURCE_DIR MATCHES "/plugins/(estimator_ekf|sim_aero|path|control_slc|control_tecs|score)$")
     return()
   endif()
-  cmake_parse_arguments(arg "REAL_TIME;ALONE;WAITS;FLIES" "COST;ENVIRONMENT" "LINK;PARTS" ${ARGN})
+  cmake_parse_arguments(arg "REAL_TIME;ALONE;WAITS;FLIES;THREADS" "COST;ENVIRONMENT" "LINK;PARTS" ${ARGN})
   add_executable(${name} ${arg_UNPARSED_ARGUMENTS})
   target_link_libraries(${name} PRIVATE fulmar_test_main fulmar::sdk ${arg_LINK})
   target_compile_definitions(${name} PRIVATE FULMAR_REFERENCE_DATA="${FULMAR_REFERENCE_DATA}" FULMAR_BIN_DIR="${CMAKE_BINARY_DIR}/bin"
@@ -108,7 +116,7 @@ function(fulmar_test name)
   # the plugin itself and integrates flights with it, that is worth -O1.
   target_compile_options(${name} PRIVATE -g1 $<IF:$<AND:$<BOOL:${arg_FLIES}>,$<NOT:$<BOOL:${FULMAR_SANITIZE}>>>,-O1,-O0>)
   fulmar_unite(${name} 6)
-  if(arg_REAL_TIME AND FULMAR_SANITIZE)
+  if((arg_REAL_TIME AND FULMAR_SANITIZE) OR (FULMAR_SANITIZE_THREADS AND NOT arg_THREADS))
     set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
     return()
   endif()
@@ -123,6 +131,9 @@ function(fulmar_test_entries name)
   endif()
   set(first 1)
   set(number 1)
+  if(arg_THREADS)
+    add_dependencies(threads ${name})
+  endif()
   foreach(next IN LISTS arg_PARTS ITEMS end)
     set(entry ${name})
     set(range "")
@@ -138,6 +149,8 @@ function(fulmar_test_entries name)
     set_tests_properties(${entry} PROPERTIES PROCESSORS ${processors} ENVIRONMENT "${arg_ENVIRONMENT}")
     if(arg_REAL_TIME)
       set_tests_properties(${entry} PROPERTIES LABELS real_time)
+    elseif(arg_THREADS)
+      set_tests_properties(${entry} PROPERTIES LABELS threads)
     endif()
     if(arg_ALONE)
       set_tests_properties(${entry} PROPERTIES RUN_SERIAL ON)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # The long campaigns: every file compiled by itself, more seeds, more byte flips, 10 000 loads and unloads of a plugin and 1000 swaps, 1e8 bytes of noise from a flight
-# controller, under the address sanitizer too; the hourglass through a flight controller's port in real time.
+# controller, under the address sanitizer too; what has several threads under the thread sanitizer; the hourglass through a flight controller's port in real time.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export FULMAR_LONG=1
@@ -9,6 +9,19 @@ export FULMAR_LONG=1
 # Every source file compiles by itself, with what it includes itself.
 source cmake/setup.sh
 configure_and_build build-single -DFULMAR_TESTS=ON -DFULMAR_UNITE=OFF -DCMAKE_BUILD_TYPE=Debug -- >build/check/single.log 2>&1 || { tail -n 60 build/check/single.log; exit 1; }
+
+# The tests of several threads under the thread sanitizer. Programs that they start tell of a race in files of their own.
+threads() {
+  local reports
+  reports=$(mktemp -d)
+  configure_and_build build-threads -DFULMAR_TESTS=ON -DFULMAR_SANITIZE_THREADS=ON -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \
+    -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1\ -g1 -- threads >build/check/threads.log 2>&1 || { tail -n 60 build/check/threads.log; return 1; }
+  (cd build-threads && unset FULMAR_LONG && TSAN_OPTIONS="suppressions=$PWD/../cmake/threads.supp log_path=$reports/report" \
+    ctest -L threads --output-on-failure --repeat until-pass:2) || { cat "$reports"/* 2>/dev/null | head -n 200; return 1; }
+  if [ -n "$(ls "$reports")" ]; then cat "$reports"/* | head -n 200; return 1; fi
+  rm -r "$reports"
+}
+threads
 build/bin/loader_test
 [ ! -x build-clang/bin/loader_test ] || build-clang/bin/loader_test
 for folder in build build-clang; do

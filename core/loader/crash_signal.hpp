@@ -3,15 +3,16 @@
 // signal, which the host names.
 #pragma once
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define __SANITIZE_ADDRESS__ 1  // clang's way to say it
-#endif
-#endif
-#ifdef __SANITIZE_ADDRESS__
+#include "core/sanitized.hpp"
+
+#ifdef FULMAR_SANITIZED
 extern "C" const char* __asan_default_options();
 extern "C" const char* __asan_default_options() {
   return "handle_segv=0:handle_sigbus=0:handle_abort=0:handle_sigfpe=0:handle_sigill=0:detect_leaks=0:"
          "use_sigaltstack=0";
+}
+extern "C" const char* __tsan_default_options();
+extern "C" const char* __tsan_default_options() {
+  return "handle_segv=0:handle_sigbus=0:handle_abort=0:handle_sigfpe=0:handle_sigill=0:use_sigaltstack=0";
 }
 #endif

@@ -7,15 +7,10 @@
 #include <cerrno>
 #include <cstddef>
 
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define FULMAR_SANITIZED
-#endif
-#endif
-#ifndef FULMAR_SANITIZED
+#include "core/sanitized.hpp"
+
+#if defined(__GLIBC__) && !defined(FULMAR_SANITIZED)
 #define FULMAR_COUNTS
-#endif
 #endif
 
 namespace {

@@ -11,6 +11,8 @@
 namespace fulmar::core {
 namespace {
 
+constexpr std::size_t other_calls = 4;  // retune and activate, on their way beside the steps
+
 std::int64_t clock_ns() noexcept {
   timespec t{};
   clock_gettime(CLOCK_MONOTONIC, &t);
@@ -51,7 +53,8 @@ void OutputRoom::prepare(std::int64_t now_ns) noexcept {
 
 Async::Async(const std::string& name, const fulmar_component& functions, void* instance,
              const ComponentInfo& info, std::size_t depth)
-    : name_(name), functions_(functions), instance_(instance), jobs_(depth) {
+    : name_(name), functions_(functions), instance_(instance), jobs_(depth + other_calls),
+      most_steps_(depth) {
   for (Job& job : jobs_) prepare(job, info);
   thread_ = quiet_thread(
       "fulmar-async", [this] { run(); }, Faults::taken);
@@ -63,7 +66,8 @@ Async::~Async() {
   thread_.join();
 }
 
-Async::Job* Async::room() noexcept {
+Async::Job* Async::room(Job::Call call) noexcept {
+  if (call == Job::Call::step && steps_ >= most_steps_) return nullptr;
   const std::uint64_t n = submitted_.load(std::memory_order_relaxed);
   return n - taken_ < jobs_.size() ? &at(n) : nullptr;
 }
@@ -71,8 +75,14 @@ Async::Job* Async::room() noexcept {
 void Async::submit() noexcept {
   Job& job = at(submitted_.load(std::memory_order_relaxed));
   job.dropped = job.missed = false;
+  steps_ += job.call == Job::Call::step;
   submitted_.fetch_add(1, std::memory_order_release);
   submitted_.notify_one();
+}
+
+void Async::release() noexcept {
+  steps_ -= at(taken_).call == Job::Call::step;
+  ++taken_;
 }
 
 Async::Job* Async::oldest() noexcept {

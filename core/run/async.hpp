@@ -56,21 +56,22 @@ class Async {
     bool missed = false;  // counted
   };
 
-  /// `depth`: calls that can be on their way at once.
+  /// `depth`: steps that can be on their way at once.
   Async(const std::string& name, const fulmar_component& functions, void* instance, const ComponentInfo& info,
         std::size_t depth);
   ~Async();  // ends the thread, after the call that it is in
   Async(const Async&) = delete;
   Async& operator=(const Async&) = delete;
 
-  /// [tick] A free job to fill in, or nullptr; `submit` hands it over.
-  Job* room() noexcept;
+  /// [tick] A free job to fill in, or nullptr; `submit` hands it over. Steps have room of their own: whether there is some does not depend
+  /// on how long a retune or an activate takes, which a replay does not know.
+  Job* room(Job::Call call) noexcept;
   void submit() noexcept;
   /// [tick] The oldest call on its way, or nullptr; `release` when it has been taken.
   Job* oldest() noexcept;
   bool done() const noexcept { return finished_.load(std::memory_order_acquire) > taken_; }
   void wait() const noexcept;
-  void release() noexcept { ++taken_; }
+  void release() noexcept;
   /// [tick] Nobody wants the results of what is on its way.
   void drop() noexcept;
 
@@ -87,6 +88,7 @@ class Async {
   void* instance_;
   std::vector<Job> jobs_;
   std::uint64_t taken_ = 0;                  // the loop's
+  std::size_t most_steps_, steps_ = 0;       // on their way; the loop's
   std::atomic<std::uint64_t> submitted_{0};  // counts for ever; the top bit asks the thread to end
   std::atomic<std::uint64_t> finished_{0};
   static constexpr std::uint64_t ending = std::uint64_t{1} << 63;

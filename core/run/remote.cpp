@@ -10,7 +10,7 @@
 namespace fulmar::core {
 namespace {
 
-/// Steps on their way at once, and room for retune and activate.
+/// Steps on their way at once.
 std::size_t depth_of(const Component& c, std::int64_t period_ns) {
   return static_cast<std::size_t>(c.latency_ns / period_ns) + 4;
 }
@@ -27,7 +27,7 @@ AsyncRunner::AsyncRunner(const Component& component, std::uint64_t seed, std::in
 
 /// A free job. In simulation there is always one in the end: results are waited for.
 Async::Job* AsyncRunner::job(Async::Job::Call call, std::int64_t due_ns) noexcept {
-  Async::Job* const j = async_->room();
+  Async::Job* const j = async_->room(call);
   if (!j) return nullptr;
   j->call = call;
   j->due_ns = due_ns;

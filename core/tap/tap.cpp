@@ -42,6 +42,20 @@ struct Mark {
   std::uint32_t size, channel;
 };
 
+constexpr std::size_t word = sizeof(std::uint64_t);
+static_assert(sizeof(Mark) == word && sizeof(Tap::Sample) % word == 0);
+
+/// The loop may write a word while a sink reads it: each is atomic, and a copy that was overtaken is worth nothing.
+void store_words(std::uint64_t* to, const void* from, std::size_t bytes) noexcept {
+  const auto* next = static_cast<const std::byte*>(from);
+  for (; bytes >= word; bytes -= word, next += word, ++to)
+    std::atomic_ref(*to).store(load<std::uint64_t>(next), std::memory_order_relaxed);
+  if (bytes == 0) return;
+  std::uint64_t rest = 0;
+  std::memcpy(&rest, next, bytes);
+  std::atomic_ref(*to).store(rest, std::memory_order_relaxed);
+}
+
 }  // namespace
 
 struct Tap::Channel {
@@ -80,11 +94,11 @@ void Tap::put(const Sample& sample, const std::byte* data, std::size_t size) noe
   std::atomic_thread_fence(std::memory_order_release);  // who sees a byte of the following sees this as well
   if (skip > 0) {
     const Mark mark{static_cast<std::uint32_t>(skip), skipped};
-    std::memcpy(memory() + at, &mark, sizeof mark);
+    store_words(words_at(at), &mark, sizeof mark);
   }
-  std::byte* const to = memory() + (begin & (capacity_ - 1));
-  std::memcpy(to, &sample, sizeof sample);
-  std::memcpy(to + sizeof sample, data, size);
+  std::uint64_t* const to = words_at(begin & (capacity_ - 1));
+  store_words(to, &sample, sizeof sample);
+  store_words(to + sizeof sample / word, data, size);
   if (const std::uint64_t slice = begin / (capacity_ / slices); slice != slice_) {
     slice_ = slice;
     begins_[slice % slices].store(begin, std::memory_order_release);
@@ -143,7 +157,11 @@ Tap::Cursor::~Cursor() {
 }
 
 bool Tap::Cursor::take(std::uint64_t at, std::size_t bytes, std::byte* to) const noexcept {
-  std::memcpy(to, tap_.memory() + (at & (tap_.capacity_ - 1)), bytes);
+  std::uint64_t* from = tap_.words_at(at & (tap_.capacity_ - 1));
+  for (std::size_t i = 0; i < bytes; i += word, ++from) {
+    const std::uint64_t w = std::atomic_ref(*from).load(std::memory_order_relaxed);
+    std::memcpy(to + i, &w, word);
+  }
   std::atomic_thread_fence(std::memory_order_acquire);
   return tap_.reserved_.load(std::memory_order_relaxed) - at <= tap_.capacity_;
 }

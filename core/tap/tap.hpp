@@ -88,7 +88,7 @@ class Tap {
   static constexpr std::size_t line = 64;   // bytes of a cache line; each thread writes lines of its own
   static constexpr std::size_t slices = 8;  // of the ring: each remembers where its first record begins
 
-  std::byte* memory() const noexcept { return reinterpret_cast<std::byte*>(const_cast<std::uint64_t*>(memory_.data())); }
+  std::uint64_t* words_at(std::size_t byte) noexcept { return memory_.data() + byte / sizeof(std::uint64_t); }
   void put(const Sample& sample, const std::byte* data, std::size_t size) noexcept;
   void wait_for_room(std::size_t bytes) noexcept;
   void combine_wants(std::size_t channel);

@@ -2,10 +2,10 @@
 #include "tools/fulmar_fcu/params.hpp"
 
 #include <algorithm>
+#include <bitset>
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <set>
 
 namespace fulmar::fcu {
 
@@ -16,9 +16,9 @@ std::string upper(std::string text) {
   return text;
 }
 
-std::set<std::uint16_t> indices(const Client& client) {
-  std::set<std::uint16_t> have;
-  for (const auto& [name, param] : client.params()) have.insert(param.index);
+std::bitset<65536> indices(const Client& client) {
+  std::bitset<65536> have;
+  for (const auto& [name, param] : client.params()) have.set(param.index);
   return have;
 }
 
@@ -32,19 +32,19 @@ void ask_list(Client& client, const std::function<void()>& tell) {
   while (client.wait(60 * ms, [&] { return client.count<ParamValue>() > before; })) {
     before = client.count<ParamValue>();
     tell();
-    if (indices(client).size() >= client.param_count()) return;
+    if (indices(client).count() >= client.param_count()) return;
   }
 }
 
 /// Asks for some of those that are missing.
 void ask_missing(Client& client) {
   constexpr int window = 24;  // far below the controller's fifo of 256 packets
-  const std::set<std::uint16_t> have = indices(client);
+  const auto have = indices(client);
   std::vector<std::uint16_t> asked;
   for (std::uint16_t i = 0; i < client.param_count() && asked.size() < window; ++i)
-    if (have.count(i) == 0) asked.push_back(i);
+    if (!have.test(i)) asked.push_back(i);
   for (const std::uint16_t i : asked) client.send(ParamRequestRead{static_cast<std::int16_t>(i), client.system(), 0, {}});
-  client.wait(100 * ms, [&] { return indices(client).size() >= have.size() + asked.size(); });
+  client.wait(100 * ms, [&] { return indices(client).count() >= have.count() + asked.size(); });
 }
 
 void ask_one(Client& client, const std::string& name) { client.send(ParamRequestRead{-1, client.system(), 0, field<16>(name)}); }
@@ -90,14 +90,14 @@ std::uint32_t parse_real(const Param& param, const std::string& text) {
 std::vector<Param> read_params(Client& client, const std::function<void(std::size_t, std::size_t)>& progress) {
   client.forget_params();
   const auto tell = [&] {
-    if (progress) progress(indices(client).size(), client.param_count());
+    if (progress) progress(indices(client).count(), client.param_count());
   };
   ask_list(client, tell);
   if (client.params().empty()) throw Error(client.name() + " does not answer the request for its parameters: is the line to it cut?");
   int idle = 0;
-  for (std::size_t have = indices(client).size(); have < client.param_count() && idle < 20;) {
+  for (std::size_t have = indices(client).count(); have < client.param_count() && idle < 20;) {
     ask_missing(client);
-    const std::size_t got = indices(client).size();
+    const std::size_t got = indices(client).count();
     idle = got > have ? 0 : idle + 1;
     have = got;
     tell();

@@ -243,6 +243,28 @@ TEST_CASE("late work in other threads is as late again: drivers, asynchronous st
   check_equal(replay_of(log, {}, again), log, again);
 }
 
+TEST_CASE("who takes long to take over in another thread, and misses steps meanwhile, misses the same ones again") {
+  const fs::path log = fresh("takes-over.mcap"), again = fresh("takes-over-again.mcap");
+  const Graph g = mission(
+      "  fcu: {fills: vehicle, use: lab/Cart}\n  one: {fills: law, use: lab/Law, run: tick, params: {id: 1, u: 0.1}}\n"
+      "  filter: {fills: sense, use: lab/Filter, run: tick}\n"
+      "  think: {use: lab/Thinker, run: async, latency: 5 ms, rate: 100 Hz, in: {signal: sense.signal},"
+      " params: {takes: 0 ms, takes_over: 100 ms}}\n"
+      "io: fcu\nrecord: {ports: [\"*\"]}\n"s +
+      one_phase);
+  Flight flight(g, logged(log, 1e6));
+  for (int i = 0; i < 100; ++i) flight.step();  // faster than it takes over
+  for (int i = 0; i < 40; ++i) {
+    flight.step();
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  const FlightResult r = flight.finish();
+  CHECK(r.log.dropped == 0);
+  for (const ComponentStats& c : r.components)
+    if (c.name == "think") CHECK(c.misses > 0);
+  check_equal(replay_of(log, {}, again), log, again);
+}
+
 TEST_CASE("what is no log of a flight is refused in a sentence") {
   const auto refused = [](const fs::path& file) {
     try {

@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stands in front of glibc's allocator, as in the host, and weighs as well. Under the address sanitizer its own counters serve.
+// Stands in front of glibc's allocator, as in the host, and weighs as well. Under a sanitizer its own counters serve.
 #include "core/isolate/child/heap.hpp"
 
 #include <atomic>
 #include <cerrno>
 #include <cstddef>
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define FULMAR_SANITIZED
-#endif
-#endif
-#ifdef __SANITIZE_ADDRESS__
-#define FULMAR_SANITIZED
-#endif
+#include "core/sanitized.hpp"
 
 namespace {
 thread_local std::uint64_t calls = 0;

@@ -17,6 +17,7 @@
 #include "core/loader/probe_report.hpp"
 #include "core/loader/script.hpp"
 #include "core/loader/shared_object.hpp"
+#include "core/sanitized.hpp"
 
 using namespace fulmar::core;
 

@@ -359,8 +359,10 @@ struct Thinker {
     Param takes{5, "ms", 0, 1000, "of the wall clock"};
     Param gain{1, "", -10, 10, "on what it saw"};
     Flag fails{false, "fails"};
+    Param takes_over{0, "ms", 0, 1000, "of the wall clock until it has taken over"};
   };
-  Status activate(const Tick&, const Inputs& in, const Params&, const Outputs&) {
+  Status activate(const Tick&, const Inputs& in, const Params& p, const Outputs&) {
+    std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(p.takes_over));
     began_m_ = in.signal->x_m;
     return Status::ok;
   }

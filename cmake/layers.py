@@ -81,7 +81,7 @@ def declared(statement):
     statement = re.sub(r"\b(?:public|private|protected)\s*:", "", statement).strip()
     while re.search(r"<[^<>]*>", statement):
         statement = re.sub(r"<[^<>]*>", "", statement)
-    if re.match(r"(?:static|using|friend|enum|struct|class|union|template|explicit|virtual|typedef|=|[),&|])", statement):
+    if re.match(r"(?:static|using|friend|enum|struct|class|union|template|explicit|virtual|typedef|=|[),&|])", statement) or "operator" in statement:
         return 0
     declaration = statement.split("=")[0]
     if "(" in declaration or not re.match(r"[\w:\s&*\[\],]+$", declaration) or not re.search(r"[\w\]&*>]\s+[\w*&]", declaration):

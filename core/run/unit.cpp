@@ -17,7 +17,7 @@ Unit::Unit(const Component& c, UnitOptions options)
       active(c.role < 0),
       arguments_{std::vector<fulmar_input>(info->outputs.size()),
                  std::vector<fulmar_value>(info->params.size())},
-      schedule_{options.tick_ns, never, {}} {
+      schedule_{options.tick_ns, Schedule::never, {}} {
   stats.name = c.name;
   if (options.tape_steps > 0) tape = std::make_unique<Tape>(*info, options.tape_steps);
   runner_ = make_runner(options);
@@ -127,7 +127,8 @@ bool Unit::retune(const std::vector<Overlay>* overlay) noexcept {
 
 fulmar_tick Unit::tick(std::int64_t now_ns, std::uint64_t index) const noexcept {
   const std::int64_t nominal = component->period_ns > 0 ? component->period_ns : schedule_.tick_ns;
-  return {now_ns, schedule_.last_step_ns == never ? nominal : now_ns - schedule_.last_step_ns, index};
+  return {now_ns, schedule_.last_step_ns == Schedule::never ? nominal : now_ns - schedule_.last_step_ns,
+          index};
 }
 
 void Unit::stepped(std::int64_t now_ns) noexcept {
@@ -251,7 +252,7 @@ bool Unit::activate(std::int64_t now_ns, std::uint64_t index, const std::vector<
   if (inputs == Intake::State::missing) in.tell_missing(problem);
   if (inputs != Intake::State::good) return false;
   fresh_start = false;
-  schedule_.last_step_ns = never;  // dt of the first step is the nominal period, not the absence
+  schedule_.last_step_ns = Schedule::never;  // dt of the first step is the nominal period, not the absence
   fill_last(now_ns, last);
   problem.text[0] = '\0';
   return runner_->activate(tick(now_ns, index), in.views, arguments_.last, problem);

@@ -85,8 +85,8 @@ class Unit {
   int overruns_in_a_row = 0;
 
  private:
-  static constexpr std::int64_t never = std::numeric_limits<std::int64_t>::min();
   struct Schedule {
+    static constexpr std::int64_t never = std::numeric_limits<std::int64_t>::min();
     std::int64_t tick_ns = 0, last_step_ns = never;
     Due due;
   };

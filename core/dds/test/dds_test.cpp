@@ -443,13 +443,13 @@ TEST_CASE("a request port is a ROS 2 service: accepted, refused with the compone
     return client.rest();
   };
   CHECK(call() == "010000000100000000000000\n");  // true, an empty text, up to 4 bytes
-  REQUIRE(scene.control.requested.size() == 1);
-  CHECK(std::memcmp(scene.control.requested[0].data() + offsetof(Leg, position_m), &leg.position_m, sizeof leg.position_m) == 0);
-  scene.control.refuse_requests = "no";
+  REQUIRE(scene.control.requested().size() == 1);
+  CHECK(std::memcmp(scene.control.requested()[0].data() + offsetof(Leg, position_m), &leg.position_m, sizeof leg.position_m) == 0);
+  scene.control.refuse_requests("no");
   CHECK(call() == "00000000030000006e6f0000\n");
   bytes[4] = std::byte{7};                              // a label that is not there
   CHECK(call().find("6b696e64") != std::string::npos);  // "kind ..."
-  CHECK(scene.control.requested.size() == 2);
+  CHECK(scene.control.requested().size() == 2);
   CHECK(scene.bridge->stats().requests == 3);
 }
 
@@ -476,7 +476,7 @@ TEST_CASE("parameters are those of one ROS 2 node: listed, read, described, set,
   CHECK(param("set slc.roll_kp 0.6") == "set\n");
   CHECK(param("get slc.roll_kp") == "type 3 0 0 0.59999999999999998 '' []\n");
   CHECK(param("set_text slc.law takeoff") == "set\n");
-  CHECK(scene.control.set == std::vector<std::string>{"slc.roll_kp=0.6", "slc.law=\"takeoff\""});
+  CHECK(scene.control.parameters_set() == std::vector<std::string>{"slc.roll_kp=0.6", "slc.law=\"takeoff\""});
   CHECK(param("set slc.roll_k 1 slc.span_m 3") ==
         "refused: there is no parameter 'slc.roll_k'. Did you mean 'slc.roll_kp'? Valid: slc.law, slc.roll_kp, slc.span_m.\n"
         "refused: slc.span_m is set before the flight\n");

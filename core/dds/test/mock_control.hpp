@@ -18,9 +18,7 @@ namespace fulmar::core::test {
 class MockControl : public Control {
  public:
   FlightView flight;
-  std::vector<std::vector<std::byte>> published, requested;
-  std::vector<std::string> set;  // "slc.roll_kp=0.6"
-  std::string refuse_requests;   // the reason
+  std::vector<std::vector<std::byte>> published;  // guarded by mutex
 
   MockControl() : thread_([this] { answer_all(); }) {}
   ~MockControl() override {
@@ -34,6 +32,20 @@ class MockControl : public Control {
 
   mutable std::mutex mutex;
 
+  std::vector<std::vector<std::byte>> requested() const {
+    const std::lock_guard lock(mutex);
+    return requested_;
+  }
+  /// "slc.roll_kp=0.6"
+  std::vector<std::string> parameters_set() const {
+    const std::lock_guard lock(mutex);
+    return set_;
+  }
+  void refuse_requests(const std::string& reason) {
+    const std::lock_guard lock(mutex);
+    refusal_ = reason;
+  }
+
   FlightView view() const override {
     const std::lock_guard lock(mutex);
     return flight;
@@ -45,7 +57,7 @@ class MockControl : public Control {
         if (c.name != component || p.info.name != param) continue;
         if (!p.info.live) throw Error(component + "." + param + " is set before the flight");
         if (p.info.kind == FULMAR_NUMBER) p.base.number[0] = std::stod(text);
-        set.push_back(component + "." + param + "=" + text);
+        set_.push_back(component + "." + param + "=" + text);
         work_.emplace_back([this, component, param, answer] {
           answer("");
           for (const auto& told : changed_) told(component, param);
@@ -59,8 +71,8 @@ class MockControl : public Control {
   void request(const std::string&, const std::string&, const std::string&, Answer) override { throw Error("not by text"); }
   void request(const std::string&, const std::string&, std::vector<std::byte> message, Answer answer) override {
     const std::lock_guard lock(mutex);
-    requested.push_back(std::move(message));
-    work_.emplace_back([this, answer] { answer(refuse_requests); });
+    requested_.push_back(std::move(message));
+    work_.emplace_back([reason = refusal_, answer] { answer(reason); });
     wake_.notify_one();
   }
   bool publish(const std::string& component, const std::string& port, std::vector<std::byte> message) override {
@@ -92,6 +104,9 @@ class MockControl : public Control {
     }
   }
 
+  std::vector<std::vector<std::byte>> requested_;
+  std::vector<std::string> set_;
+  std::string refusal_;
   std::condition_variable wake_;
   std::deque<std::function<void()>> work_;
   std::vector<std::function<void(const std::string&, const std::string&)>> changed_;

@@ -211,7 +211,8 @@ TEST_CASE("a plan far from the zones passes through at once, unchanged") {
   for (std::size_t i = 0; i < 4; ++i) CHECK(same_position(planning.plan().waypoints[i], plan.waypoints[i]));
 }
 
-TEST_CASE("it takes memory while it thinks: what it is made to show") {
+// The thread sanitizer's allocation functions stand before those that count.
+TEST_CASE("it takes memory while it thinks: what it is made to show" * doctest::skip(FULMAR_COUNTS_NOTHING)) {
   Planning planning;
   planning.configure();
   CHECK(allocations([&] { planning.step(0.5); }) > 1000);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From an inertial sample on the wire of a flight controller to the command of that tick on the wire back, at 400 Hz, with the shipped
-// controllers in every tick and the log written; beside a bare echo on the same pseudo-terminal in the same run. Both with and without
-// real-time priority. The figures mean something on a machine that does nothing else.
-// bench_fcu_latency [--json] [--seconds N]
+// From an inertial sample on the wire of a flight controller to the command of that tick on the wire back, at
+// 400 Hz, with the shipped controllers in every tick and the log written; beside a bare echo on the same
+// pseudo-terminal in the same run. Both with and without real-time priority. The figures mean something on a
+// machine that does nothing else. bench_fcu_latency [--json] [--seconds N]
 #include <poll.h>
 #include <sched.h>
 #include <sys/prctl.h>
@@ -40,7 +40,8 @@ bool real_time(int priority) {
   return ::sched_setscheduler(0, priority > 0 ? SCHED_FIFO : SCHED_OTHER, &p) == 0;
 }
 
-// ---- the two who answer -----------------------------------------------------------------------------------------------------------
+// ---- the two who answer
+// -----------------------------------------------------------------------------------------------------------
 
 /// Answers each read of a frame at once with a frame of a command's size.
 [[noreturn]] void echo(const std::string& port) {
@@ -56,11 +57,12 @@ bool real_time(int priority) {
 /// The shipped mission with commands in every tick.
 std::string mission(const fs::path& folder) {
   const std::string configs = FULMAR_SOURCE_DIR "/configs/", file = (folder / "latency.yaml").string();
-  std::ofstream(file) << "mission: latency\nextends: " << configs << "missions/common.yaml\nairframe: " << configs
-                      << "airframes/anaconda.yaml\norigin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\n"
-                      << "done: \"manage.progress.circuits >= 2\"\ncomponents:\n"
-                      << "  plan: {params: {plan: " << configs << "plans/hourglass.yaml}}\n"
-                      << "  attitude: {fills: inner, use: control_slc/Inner, rate: 400 Hz}\n";
+  std::ofstream(file)
+      << "mission: latency\nextends: " << configs << "missions/common.yaml\nairframe: " << configs
+      << "airframes/anaconda.yaml\norigin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\n"
+      << "done: \"manage.progress.circuits >= 2\"\ncomponents:\n"
+      << "  plan: {params: {plan: " << configs << "plans/hourglass.yaml}}\n"
+      << "  attitude: {fills: inner, use: control_slc/Inner, rate: 400 Hz}\n";
   return file;
 }
 
@@ -69,10 +71,12 @@ pid_t fly(const fs::path& folder, const std::string& port, bool real) {
   if (child != 0) return child;
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   real_time(0);
-  const std::string file = mission(folder), log = (folder / "latency.mcap").string(), set = "fcu.port=" + port;
-  if (!std::freopen((folder / "host.txt").c_str(), "w", stderr) || !std::freopen("/dev/null", "w", stdout)) std::_Exit(1);
-  ::execl(FULMAR_BIN_DIR "/fulmar", "fulmar", "run", file.c_str(), "--io", "fcu", "--set", set.c_str(), "--log", log.c_str(),
-          real ? "--realtime" : nullptr, nullptr);
+  const std::string file = mission(folder), log = (folder / "latency.mcap").string(),
+                    set = "fcu.port=" + port;
+  if (!std::freopen((folder / "host.txt").c_str(), "w", stderr) || !std::freopen("/dev/null", "w", stdout))
+    std::_Exit(1);
+  ::execl(FULMAR_BIN_DIR "/fulmar", "fulmar", "run", file.c_str(), "--io", "fcu", "--set", set.c_str(),
+          "--log", log.c_str(), real ? "--realtime" : nullptr, nullptr);
   std::_Exit(127);
 }
 
@@ -86,7 +90,8 @@ void end(pid_t child) {
   ::waitpid(child, nullptr, 0);
 }
 
-// ---- the controller ---------------------------------------------------------------------------------------------------------------
+// ---- the controller
+// ---------------------------------------------------------------------------------------------------------------
 
 struct Figures {
   std::vector<double> trip_us, interval_us;
@@ -106,7 +111,8 @@ class Controller {
   /// So long; the first second does not count. `alone`: inertial samples and nothing else goes out.
   Figures measure(double seconds, bool alone) {
     Figures f;
-    const std::int64_t first_ns = now_ns() + 1'000'000'000, last_ns = first_ns + static_cast<std::int64_t>(1e9 * seconds);
+    const std::int64_t first_ns = now_ns() + 1'000'000'000,
+                       last_ns = first_ns + static_cast<std::int64_t>(1e9 * seconds);
     sent_ns_ = arrived_ns_ = 0;
     while (now_ns() < last_ns) {
       wait();
@@ -120,7 +126,8 @@ class Controller {
   bool wait_for_commands(double seconds) {
     const auto before = firmware_.commands();
     Figures none;
-    for (const std::int64_t last_ns = now_ns() + static_cast<std::int64_t>(1e9 * seconds); now_ns() < last_ns;) {
+    for (const std::int64_t last_ns = now_ns() + static_cast<std::int64_t>(1e9 * seconds);
+         now_ns() < last_ns;) {
       wait();
       receive(none, false);
       firmware_.run(clock_us());
@@ -158,12 +165,14 @@ class Controller {
     std::vector<std::uint8_t> rest;
     while (firmware_.take(frame)) {
       if (frame.bytes[5] != SmallImu::id) {
-        rest.insert(rest.end(), frame.bytes.begin(), frame.bytes.begin() + static_cast<std::ptrdiff_t>(frame.size));
+        rest.insert(rest.end(), frame.bytes.begin(),
+                    frame.bytes.begin() + static_cast<std::ptrdiff_t>(frame.size));
         continue;
       }
       if (counts) {
         ++f.samples;
-        if (sent_ns_ > 0) ++f.unanswered;  // in its period: the answer counts from the oldest sample without one
+        if (sent_ns_ > 0)
+          ++f.unanswered;  // in its period: the answer counts from the oldest sample without one
       }
       if (sent_ns_ == 0) sent_ns_ = now_ns();
       port_.write(frame.view());
@@ -177,7 +186,8 @@ class Controller {
   std::int64_t begun_ns_ = 0, sent_ns_ = 0, arrived_ns_ = 0;
 };
 
-// ---- figures ----------------------------------------------------------------------------------------------------------------------
+// ---- figures
+// ----------------------------------------------------------------------------------------------------------------------
 
 double quantile(std::vector<double> v, double q) {
   if (v.empty()) return NAN;
@@ -227,7 +237,8 @@ nlohmann::json run(const fs::path& folder, double seconds, bool real) {
   if (!controller.wait_for_commands(30)) {
     end(host);
     std::ifstream said(folder / "host.txt");
-    throw std::runtime_error("the host sends no commands: " + std::string(std::istreambuf_iterator<char>(said), {}));
+    throw std::runtime_error("the host sends no commands: " +
+                             std::string(std::istreambuf_iterator<char>(said), {}));
   }
   const Figures whole = controller.measure(seconds, false);
   end(host);
@@ -244,14 +255,17 @@ nlohmann::json run(const fs::path& folder, double seconds, bool real) {
 void print(const char* title, const nlohmann::json& r) {
   if (r.is_null()) return static_cast<void>(std::printf("%s: not allowed here\n", title));
   std::printf("%s\n%-34s %9s %9s %9s\n", title, "", "p50 us", "p99 us", "max us");
-  for (const auto& [key, words] : {std::pair{"echo", "bare echo"}, {"host", "sample to command"}, {"excess", "excess"}})
-    std::printf("  %-32s %9.1f %9.1f %9.1f\n", words, r[key]["p50_us"].get<double>(), r[key]["p99_us"].get<double>(),
-                r[key]["max_us"].get<double>());
+  for (const auto& [key, words] :
+       {std::pair{"echo", "bare echo"}, {"host", "sample to command"}, {"excess", "excess"}})
+    std::printf("  %-32s %9.1f %9.1f %9.1f\n", words, r[key]["p50_us"].get<double>(),
+                r[key]["p99_us"].get<double>(), r[key]["max_us"].get<double>());
   const auto& l = r["loop"];
   std::printf(
-      "  jitter of the commands' period    %9.1f %9.1f; longest gap %.1f ms, %d above 5 ms; %d of %d samples unanswered in their period\n",
-      l["jitter_p50_us"].get<double>(), l["jitter_p99_us"].get<double>(), 1e-3 * l["longest_gap_us"].get<double>(),
-      l["gaps_over_5_ms"].get<int>(), r["host"]["unanswered"].get<int>(), r["host"]["samples"].get<int>());
+      "  jitter of the commands' period    %9.1f %9.1f; longest gap %.1f ms, %d above 5 ms; %d of %d samples "
+      "unanswered in their period\n",
+      l["jitter_p50_us"].get<double>(), l["jitter_p99_us"].get<double>(),
+      1e-3 * l["longest_gap_us"].get<double>(), l["gaps_over_5_ms"].get<int>(),
+      r["host"]["unanswered"].get<int>(), r["host"]["samples"].get<int>());
 }
 
 }  // namespace

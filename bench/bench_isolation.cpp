@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a step in a child costs above the bare round trip between two processes of the same run, asleep and spinning; and a step in this
-// process, bare, and guarded and timed. The figures mean something on a machine that does nothing else.
-// bench_isolation [--json]
+// What a step in a child costs above the bare round trip between two processes of the same run, asleep and
+// spinning; and a step in this process, bare, and guarded and timed. The figures mean something on a machine
+// that does nothing else. bench_isolation [--json]
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -24,9 +24,12 @@ using namespace fulmar::core;
 namespace {
 
 constexpr std::int64_t spin_ns = 50'000;
-constexpr int block = 5000, blocks = 24;  // 120 000 round trips of each kind, taken in turns: what disturbs one disturbs all
+constexpr int block = 5000,
+              blocks =
+                  24;  // 120 000 round trips of each kind, taken in turns: what disturbs one disturbs all
 
-// ---- the bare round trip -------------------------------------------------------------------------------------------------------
+// ---- the bare round trip
+// -------------------------------------------------------------------------------------------------------
 
 struct Word {
   alignas(cache_line) std::atomic<std::uint32_t> value;
@@ -83,7 +86,8 @@ class Echo {
   std::unique_ptr<Process> process_;
 };
 
-// ---- a law --------------------------------------------------------------------------------------------------------------------
+// ---- a law
+// --------------------------------------------------------------------------------------------------------------------
 
 Component law_component() {
   Component c;
@@ -114,7 +118,8 @@ struct Law {
   fulmar_tick tick{0, 2'500'000, 0};
   fulmar_error error{};
 
-  Law(const ComponentInfo& info, const fulmar_component& table, void* self) : functions(&table), instance(self), stamps(1) {
+  Law(const ComponentInfo& info, const fulmar_component& table, void* self)
+      : functions(&table), instance(self), stamps(1) {
     for (const Port& port : info.inputs) {
       in.emplace_back(port.type->size);
       inputs.push_back({in.back().data(), nullptr, nullptr, 0, 0, 0, 1, 0, FULMAR_FRESH, 0});
@@ -130,11 +135,13 @@ struct Law {
     ++tick.index;
     for (fulmar_input& i : inputs) ++i.sequence, i.valid_at_ns = tick.now_ns;
     for (fulmar_output& o : outputs) o.valid_at_ns = tick.now_ns, o.count = 0;
-    if (functions->step(instance, &tick, inputs.data(), outputs.data(), &error) != FULMAR_OK) throw Error(error.text);
+    if (functions->step(instance, &tick, inputs.data(), outputs.data(), &error) != FULMAR_OK)
+      throw Error(error.text);
   }
 };
 
-// ---- figures ------------------------------------------------------------------------------------------------------------------
+// ---- figures
+// ------------------------------------------------------------------------------------------------------------------
 
 struct Row {
   std::string name;
@@ -181,7 +188,9 @@ struct Figures {
   Row bare_asleep{"round trip asleep, bare", {}}, step_asleep{"step in a child, asleep", {}};
   Row bare_spinning{"round trip spinning, bare", {}}, step_spinning{"step in a child, spinning", {}};
   Row in_process{"step in this process, bare", {}}, guarded{"step in this process, guarded and timed", {}};
-  std::vector<Row*> rows() { return {&bare_asleep, &step_asleep, &bare_spinning, &step_spinning, &in_process, &guarded}; }
+  std::vector<Row*> rows() {
+    return {&bare_asleep, &step_asleep, &bare_spinning, &step_spinning, &in_process, &guarded};
+  }
 };
 
 // The loop's own way to step it.
@@ -245,15 +254,19 @@ void print(Figures& f, bool json) {
   ::getloadavg(&load, 1);
   const unsigned cpus = std::thread::hardware_concurrency();
   if (!json) {
-    for (Row* row : f.rows()) std::printf("%-48s %9.0f %9.0f ns\n", row->name.c_str(), row->quantile(0.5), row->quantile(0.99));
+    for (Row* row : f.rows())
+      std::printf("%-48s %9.0f %9.0f ns\n", row->name.c_str(), row->quantile(0.5), row->quantile(0.99));
     std::printf("%-48s %9.0f           ns\n%-48s %9.0f           ns\n", "a child's own cost, asleep", asleep,
                 "a child's own cost, spinning", spinning);
     std::printf("%u CPUs, load average %.2f\n", cpus, load);
     return;
   }
-  nlohmann::json all = {
-      {"child asleep, excess_ns", asleep}, {"child spinning, excess_ns", spinning}, {"load_average", load}, {"cpus", cpus}};
-  for (Row* row : f.rows()) all[row->name] = {{"p50_ns", row->quantile(0.5)}, {"p99_ns", row->quantile(0.99)}};
+  nlohmann::json all = {{"child asleep, excess_ns", asleep},
+                        {"child spinning, excess_ns", spinning},
+                        {"load_average", load},
+                        {"cpus", cpus}};
+  for (Row* row : f.rows())
+    all[row->name] = {{"p50_ns", row->quantile(0.5)}, {"p99_ns", row->quantile(0.99)}};
   std::printf("%s\n", all.dump(2).c_str());
 }
 

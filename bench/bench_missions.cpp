@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flies the hourglass with ten seeds and both sensor presets and compares the means with the figures of the ROSplane 2.0 paper:
-// tracking with its hardware flight, estimation with its simulated estimator. Exits 1 when a figure is worse.
-// bench_missions [--json | --markdown] [--seeds N] [--mission FILE]
+// Flies the hourglass with ten seeds and both sensor presets and compares the means with the figures of the
+// ROSplane 2.0 paper: tracking with its hardware flight, estimation with its simulated estimator. Exits 1
+// when a figure is worse. bench_missions [--json | --markdown] [--seeds N] [--mission FILE]
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -67,8 +67,8 @@ void add_flight(Figures& figures, const nlohmann::json& result) {
   }
   for (const char* axis : {"north", "east"}) {
     const std::string key = std::string(axis) + "_m";
-    figures["estimation_over_gnss"][std::string(axis) + "_ratio"].add(result["estimation_rmse"][key].get<double>() /
-                                                                      result["gnss_error_rmse"][key].get<double>());
+    figures["estimation_over_gnss"][std::string(axis) + "_ratio"].add(
+        result["estimation_rmse"][key].get<double>() / result["gnss_error_rmse"][key].get<double>());
   }
 }
 
@@ -114,13 +114,17 @@ int main(int argc, char** argv) {
     else if (std::strcmp(argv[i], "--mission") == 0 && i + 1 < argc)
       mission = argv[++i];
     else
-      return std::fprintf(stderr, "usage: bench_missions [--json | --markdown] [--seeds N] [--mission FILE]\n"), 2;
+      return std::fprintf(stderr,
+                          "usage: bench_missions [--json | --markdown] [--seeds N] [--mission FILE]\n"),
+             2;
   }
   int bad = 0;
   nlohmann::json all = nlohmann::json::object();
   try {
     if (format == "markdown")
-      std::printf("| sensors | figure | | mean of %d seeds | worst | to be below |\n|---|---|---|---|---|---|\n", seeds);
+      std::printf(
+          "| sensors | figure | | mean of %d seeds | worst | to be below |\n|---|---|---|---|---|---|\n",
+          seeds);
     for (const std::string preset : {"rosflight", "ublox"}) {
       Figures figures;
       bad += fly(figures, mission, preset, seeds);
@@ -134,11 +138,12 @@ int main(int argc, char** argv) {
           if (format == "json")
             all[preset][group][key] = {{"mean", figure.mean()}, {"worst", figure.worst}};
           else if (format == "markdown")
-            std::printf("| %s | %s | %s | %.3f | %.3f | %s |\n", preset.c_str(), group.c_str(), key.c_str(), figure.mean(), figure.worst,
-                        limit);
+            std::printf("| %s | %s | %s | %.3f | %.3f | %s |\n", preset.c_str(), group.c_str(), key.c_str(),
+                        figure.mean(), figure.worst, limit);
           else
-            std::printf("%-10s %-22s %-14s %9.3f  worst %9.3f  %s%s%s\n", preset.c_str(), group.c_str(), key.c_str(), figure.mean(),
-                        figure.worst, bar ? "below " : "", limit, worse ? "  WORSE" : "");
+            std::printf("%-10s %-22s %-14s %9.3f  worst %9.3f  %s%s%s\n", preset.c_str(), group.c_str(),
+                        key.c_str(), figure.mean(), figure.worst, bar ? "below " : "", limit,
+                        worse ? "  WORSE" : "");
         }
     }
   } catch (const std::exception& e) {

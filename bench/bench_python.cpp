@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a step in Python costs above the same step in C++: VehicleState and GuidanceCommand in, AttitudeCommand and a probe out, 100 Hz.
-// bench_python [--json]
+// What a step in Python costs above the same step in C++: VehicleState and GuidanceCommand in,
+// AttitudeCommand and a probe out, 100 Hz. bench_python [--json]
 #include <dlfcn.h>
 #include <time.h>
 
@@ -44,7 +44,8 @@ class Stepper {
     instance_ = c.create(1, &error);
     if (instance_ == nullptr) throw std::runtime_error(error.text);
     std::vector<fulmar_value> values(c.param_count);
-    for (std::uint32_t i = 0; i < c.param_count; ++i) std::memcpy(values[i].number, c.params[i].initial, sizeof c.params[i].initial);
+    for (std::uint32_t i = 0; i < c.param_count; ++i)
+      std::memcpy(values[i].number, c.params[i].initial, sizeof c.params[i].initial);
     if (c.configure(instance_, values.data(), &error) != FULMAR_OK) throw std::runtime_error(error.text);
     for (fulmar_input& in : inputs_) in.count = 1, in.sequence = 1, in.flags = FULMAR_FRESH;
     inputs_[0].data = &state_;
@@ -60,7 +61,8 @@ class Stepper {
     for (int i = 0; i < steps; ++i) {
       const fulmar_tick tick{10'000'000ll * i, 10'000'000, static_cast<std::uint64_t>(i)};
       command_.course_rad = 0.001 * (i % 100);
-      fulmar_output outputs[2] = {{&attitude_, nullptr, tick.now_ns, 0, 0}, {&probe_, nullptr, tick.now_ns, 0, 0}};
+      fulmar_output outputs[2] = {{&attitude_, nullptr, tick.now_ns, 0, 0},
+                                  {&probe_, nullptr, tick.now_ns, 0, 0}};
       const std::int64_t begin = now_ns();
       const std::uint32_t status = c_.step(instance_, &tick, inputs_, outputs, &error);
       each.push_back(1e-3 * static_cast<double>(now_ns() - begin));
@@ -112,14 +114,17 @@ int main(int argc, char** argv) {
                 {"100_hz, asleep between", 500, 10'000'000, true}};
     std::string out = "{";
     for (const auto& way : ways) {
-      const Times bare = in_cpp.run(way.steps, way.pause_ns, way.asleep), step = in_python.run(way.steps, way.pause_ns, way.asleep);
+      const Times bare = in_cpp.run(way.steps, way.pause_ns, way.asleep),
+                  step = in_python.run(way.steps, way.pause_ns, way.asleep);
       char line[320];
       std::snprintf(line, sizeof line,
-                    json ? "%s\n  \"%s\": {\"cpp_p50_us\": %.3f, \"cpp_p99_us\": %.3f, \"excess_p50_us\": %.3f, \"python_p50_us\": %.3f, "
+                    json ? "%s\n  \"%s\": {\"cpp_p50_us\": %.3f, \"cpp_p99_us\": %.3f, \"excess_p50_us\": "
+                           "%.3f, \"python_p50_us\": %.3f, "
                            "\"python_p99_us\": %.3f}"
-                         : "%s%s: C++ %.2f us p50, %.2f us p99; excess of Python %.2f us p50; Python %.2f us p50, %.2f us p99\n",
-                    json && out.size() > 1 ? "," : "", way.name, bare.p50_us, bare.p99_us, step.p50_us - bare.p50_us, step.p50_us,
-                    step.p99_us);
+                         : "%s%s: C++ %.2f us p50, %.2f us p99; excess of Python %.2f us p50; Python %.2f us "
+                           "p50, %.2f us p99\n",
+                    json && out.size() > 1 ? "," : "", way.name, bare.p50_us, bare.p99_us,
+                    step.p50_us - bare.p50_us, step.p50_us, step.p99_us);
       if (json)
         out += line;
       else

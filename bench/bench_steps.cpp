@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a step costs: each shipped component and the whole tick in the hourglass missions, and a 200-byte port hop, bare, guarded and timed.
-// bench_steps [--json] [MISSION...]
+// What a step costs: each shipped component and the whole tick in the hourglass missions, and a 200-byte port
+// hop, bare, guarded and timed. bench_steps [--json] [MISSION...]
 #include <time.h>
 
 #include <algorithm>
@@ -63,7 +63,8 @@ void add_hops(std::vector<Row>& rows) {
   source.configure();
   unit.configure();
   unit.in.readers[0].slot = &source.out.slots[0];
-  unit.in.readers[0].plans.push_back(copy_plan(*source.out.slots[0].port->type, *unit.in.readers[0].port->type));
+  unit.in.readers[0].plans.push_back(
+      copy_plan(*source.out.slots[0].port->type, *unit.in.readers[0].port->type));
   std::int64_t now = 0;
   source.step(now, 0);
   source.out.publish([](Slot&) {});
@@ -78,7 +79,8 @@ void add_hops(std::vector<Row>& rows) {
   input.data = source.out.slots[0].published.data();
   fulmar_output output{out.data(), &stamp, 0, 0, 0};
   const fulmar_tick tick{0, 2'500'000, 0};
-  rows.push_back(time_batches("200-byte hop, bare", [&] { functions.step(instance, &tick, &input, &output, &error); }));
+  rows.push_back(
+      time_batches("200-byte hop, bare", [&] { functions.step(instance, &tick, &input, &output, &error); }));
   functions.destroy(instance);
   rows.push_back(time_batches("200-byte hop, guarded", [&] {
     unit.step(now += 2'500'000, 0);
@@ -100,11 +102,13 @@ void add_mission(std::vector<Row>& rows, const std::string& file) {
   Flight flight(graph, options);
   std::vector<double> ticks;
   ticks.reserve(200'000);
-  for (std::int64_t begin = now_ns(); flight.step(); begin = now_ns()) ticks.push_back(static_cast<double>(now_ns() - begin));
+  for (std::int64_t begin = now_ns(); flight.step(); begin = now_ns())
+    ticks.push_back(static_cast<double>(now_ns() - begin));
   const FlightResult result = flight.finish();
   for (std::size_t i = 0; i < result.components.size(); ++i) {
     const Histogram& time = result.components[i].time;
-    rows.push_back({graph.mission + ": " + graph.components[i].use, 1e3 * time.quantile_us(0.5), 1e3 * time.quantile_us(0.99)});
+    rows.push_back({graph.mission + ": " + graph.components[i].use, 1e3 * time.quantile_us(0.5),
+                    1e3 * time.quantile_us(0.99)});
   }
   double sum = 0;
   for (const double t : ticks) sum += t;
@@ -124,7 +128,9 @@ int main(int argc, char** argv) {
     else
       missions.emplace_back(argv[i]);
   }
-  if (missions.empty()) missions = {"configs/missions/hourglass.yaml", "configs/missions/two_schemes.yaml", "configs/missions/calm.yaml"};
+  if (missions.empty())
+    missions = {"configs/missions/hourglass.yaml", "configs/missions/two_schemes.yaml",
+                "configs/missions/calm.yaml"};
   try {
     std::vector<Row> rows;
     add_hops(rows);

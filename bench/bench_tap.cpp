@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What it costs the loop to be recorded and watched, and how large the log becomes.
-// bench_tap [--json] [--seconds N] [--rounds N] [--each]   flies in real time, alternately: nothing leaves the loop; every port at its full
-//   rate into a log, to two clients that subscribe to everything, and four ports to a DDS reader. Processor time of the loop's thread
-//   alone, per tick, the pause until the next one included. --each: log, clients and DDS one by one as well. Exits 1 when something was
-//   dropped.
-// bench_tap --sizes [--json]   flies as fast as possible: megabytes of log per minute of flight, with every port at full rate and by
-// default
+// bench_tap [--json] [--seconds N] [--rounds N] [--each]   flies in real time, alternately: nothing leaves
+// the loop; every port at its full
+//   rate into a log, to two clients that subscribe to everything, and four ports to a DDS reader. Processor
+//   time of the loop's thread alone, per tick, the pause until the next one included. --each: log, clients
+//   and DDS one by one as well. Exits 1 when something was dropped.
+// bench_tap --sizes [--json]   flies as fast as possible: megabytes of log per minute of flight, with every
+// port at full rate and by default
 #include <sched.h>
 #include <time.h>
 #include <unistd.h>
@@ -18,9 +19,9 @@
 #include <string>
 #include <vector>
 
-#include "tools/fulmar_live/session.hpp"
-#include "core/run/flight.hpp"
 #include "core/dds/participant.hpp"
+#include "core/run/flight.hpp"
+#include "tools/fulmar_live/session.hpp"
 
 using namespace fulmar::core;
 using nlohmann::json;
@@ -40,7 +41,8 @@ std::string topic_of(std::string port) {
   return "/" + port;
 }
 
-// ---- the other side: this program once more, in processes of its own --------------------------------------------------------------
+// ---- the other side: this program once more, in processes of its own
+// --------------------------------------------------------------
 
 int print(const json& result) {
   std::printf("%s\n", result.dump().c_str());
@@ -80,7 +82,8 @@ int be_reader(const std::string& domain) {
                                           .type_hash = {}},
                                          waker));
   std::uint64_t all = 0, states = 0;
-  for (auto heard = steady_clock::now(); steady_clock::now() - heard < (all > 0 ? std::chrono::seconds(pause) : patience);) {
+  for (auto heard = steady_clock::now();
+       steady_clock::now() - heard < (all > 0 ? std::chrono::seconds(pause) : patience);) {
     waker.wait(std::chrono::milliseconds(50));
     for (std::size_t i = 0; i < readers.size(); ++i)
       while (const std::size_t n = readers[i]->take(64, [](const dds::Reader::Sample&) {})) {
@@ -94,7 +97,8 @@ int be_reader(const std::string& domain) {
 /// This program once more.
 class Process {
  public:
-  explicit Process(const std::string& words) : pipe_(popen(("/proc/" + std::to_string(getpid()) + "/exe " + words).c_str(), "r")) {}
+  explicit Process(const std::string& words)
+      : pipe_(popen(("/proc/" + std::to_string(getpid()) + "/exe " + words).c_str(), "r")) {}
   Process(Process&& other) noexcept : pipe_(std::exchange(other.pipe_, nullptr)) {}
   Process& operator=(Process&&) = delete;
   ~Process() {
@@ -112,11 +116,14 @@ class Process {
   FILE* pipe_;
 };
 
-// ---- flights ------------------------------------------------------------------------------------------------------------------------
+// ---- flights
+// ------------------------------------------------------------------------------------------------------------------------
 
 /// Who listens: of "log", "live", "dds".
 using Sinks = std::vector<std::string>;
-bool has(const Sinks& sinks, const char* name) { return std::find(sinks.begin(), sinks.end(), name) != sinks.end(); }
+bool has(const Sinks& sinks, const char* name) {
+  return std::find(sinks.begin(), sinks.end(), name) != sinks.end();
+}
 
 struct Scratch {
   fs::path folder = fs::temp_directory_path() / ("fulmar-bench-tap-" + std::to_string(getpid()));
@@ -134,7 +141,8 @@ Graph graph_of(const Sinks& sinks) {
   graph.live.host = "127.0.0.1", graph.live.port = 0;
   graph.dds.on = has(sinks, "dds");
   graph.dds.domain = 1 + static_cast<int>(getpid() % 200);
-  for (const auto& [port, type] : exported) graph.dds.exports.push_back({.port = port, .topic = topic_of(port), .where = {}});
+  for (const auto& [port, type] : exported)
+    graph.dds.exports.push_back({.port = port, .topic = topic_of(port), .where = {}});
   return graph;
 }
 
@@ -185,11 +193,15 @@ int fly(double seconds, const Sinks& sinks) {
   }
   const FlightResult r = flight->finish();
   flight.reset();  // it says good-bye
-  json told = {{"p50_us", quantile(ticks_us, 0.5)}, {"p99_us", quantile(ticks_us, 0.99)}, {"ticks", r.ticks}, {"wall_s", r.wall_s}};
+  json told = {{"p50_us", quantile(ticks_us, 0.5)},
+               {"p99_us", quantile(ticks_us, 0.99)},
+               {"ticks", r.ticks},
+               {"wall_s", r.wall_s}};
   std::uint64_t lost = r.log.dropped;
   if (o.log) told["log_dropped"] = r.log.dropped;
   if (r.live)
-    told["live_sent"] = r.live->sent, told["live_dropped"] = r.live->dropped + r.live->lost, lost += r.live->dropped + r.live->lost;
+    told["live_sent"] = r.live->sent, told["live_dropped"] = r.live->dropped + r.live->lost,
+    lost += r.live->dropped + r.live->lost;
   if (r.dds) told["dds_sent"] = r.dds->sent, told["dds_dropped"] = r.dds->lost, lost += r.dds->lost;
   told["dropped"] = lost;
   for (Process& other : others) told["received"].push_back(other.result());
@@ -200,13 +212,16 @@ struct Kind {
   std::string name, sinks;
 };
 
-/// Two flights at once, so that whatever the machine does falls on both: one that nothing leaves, one that is listened to.
+/// Two flights at once, so that whatever the machine does falls on both: one that nothing leaves, one that is
+/// listened to.
 json fly_both(const Kind& kind, double seconds) {
   const std::string words = "--fly " + std::to_string(seconds) + " ";
   Process bare(words), heard(words + kind.sinks);
   const json one = bare.result(), two = heard.result();
   if (one.is_null() || two.is_null()) throw Error("a flight has failed");
-  return {{"nothing", one}, {kind.name, two}, {"ratio_p50", two["p50_us"].get<double>() / one["p50_us"].get<double>()}};
+  return {{"nothing", one},
+          {kind.name, two},
+          {"ratio_p50", two["p50_us"].get<double>() / one["p50_us"].get<double>()}};
 }
 
 int bench_loop(double seconds, int rounds, bool each, bool as_json) {
@@ -223,19 +238,23 @@ int bench_loop(double seconds, int rounds, bool each, bool as_json) {
       dropped = dropped || pair[kind.name]["dropped"] != 0;
       if (as_json) continue;
       for (const std::string& name : {std::string("nothing"), kind.name})
-        std::printf("%-22s %7.2f p50 %8.2f p99 us per tick%s\n", name.c_str(), pair[name]["p50_us"].get<double>(),
-                    pair[name]["p99_us"].get<double>(),
-                    name == "nothing" ? "" : (", " + std::to_string(pair[name]["dropped"].get<int>()) + " dropped").c_str());
+        std::printf("%-22s %7.2f p50 %8.2f p99 us per tick%s\n", name.c_str(),
+                    pair[name]["p50_us"].get<double>(), pair[name]["p99_us"].get<double>(),
+                    name == "nothing"
+                        ? ""
+                        : (", " + std::to_string(pair[name]["dropped"].get<int>()) + " dropped").c_str());
     }
     const double ratio = quantile(ratios, 0.5);
-    if (!as_json) std::printf("%-22s %7.3f times as much, median of %d flights\n", kind.name.c_str(), ratio, rounds);
+    if (!as_json)
+      std::printf("%-22s %7.3f times as much, median of %d flights\n", kind.name.c_str(), ratio, rounds);
     all[kind.name] = {{"ratio_p50", ratio}, {"flights", pairs}};
   }
   if (as_json) std::printf("%s\n", all.dump(2).c_str());
   return dropped ? 1 : 0;
 }
 
-// ---- sizes --------------------------------------------------------------------------------------------------------------------------
+// ---- sizes
+// --------------------------------------------------------------------------------------------------------------------------
 
 double megabytes_per_minute(bool full) {
   const Scratch scratch;
@@ -245,7 +264,8 @@ double megabytes_per_minute(bool full) {
   o.log_file = scratch.folder / "flight.mcap";
   Flight flight(graph, o);
   const FlightResult r = flight.run();
-  if (r.outcome != Outcome::flown || !r.log.error.empty()) throw Error("not flown: " + r.reason + " " + r.log.error);
+  if (r.outcome != Outcome::flown || !r.log.error.empty())
+    throw Error("not flown: " + r.reason + " " + r.log.error);
   return 1e-6 * static_cast<double>(r.log.bytes) / (1e-9 / 60 * static_cast<double>(r.last_ns - r.first_ns));
 }
 
@@ -254,8 +274,10 @@ int bench_sizes(bool as_json) {
   if (as_json)
     std::printf("%s\n", json{{"full_mb_per_min", full}, {"default_mb_per_min", usual}}.dump(2).c_str());
   else
-    std::printf("every port at its full rate  %6.2f MB per minute of flight\ndefault                      %6.2f MB per minute of flight\n",
-                full, usual);
+    std::printf(
+        "every port at its full rate  %6.2f MB per minute of flight\ndefault                      %6.2f MB "
+        "per minute of flight\n",
+        full, usual);
   return 0;
 }
 
@@ -268,7 +290,8 @@ int main(int argc, char** argv) {
   try {
     if (argc == 3 && std::strcmp(argv[1], "--client") == 0) return be_client(argv[2]);
     if (argc == 3 && std::strcmp(argv[1], "--reader") == 0) return be_reader(argv[2]);
-    if (argc >= 3 && std::strcmp(argv[1], "--fly") == 0) return fly(std::atof(argv[2]), Sinks(argv + 3, argv + argc));
+    if (argc >= 3 && std::strcmp(argv[1], "--fly") == 0)
+      return fly(std::atof(argv[2]), Sinks(argv + 3, argv + argc));
     for (int i = 1; i < argc; ++i) {
       const std::string word = argv[i];
       if (word == "--json")
@@ -282,7 +305,10 @@ int main(int argc, char** argv) {
       else if (word == "--rounds" && i + 1 < argc)
         rounds = std::atoi(argv[++i]);
       else
-        return std::fprintf(stderr, "usage: bench_tap [--json] [--seconds N] [--rounds N] [--each] | bench_tap --sizes [--json]\n"), 2;
+        return std::fprintf(stderr,
+                            "usage: bench_tap [--json] [--seconds N] [--rounds N] [--each] | bench_tap "
+                            "--sizes [--json]\n"),
+               2;
     }
     return sizes ? bench_sizes(as_json) : bench_loop(seconds, rounds, each, as_json);
   } catch (const std::exception& e) {

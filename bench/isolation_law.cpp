@@ -19,7 +19,8 @@ struct Law {
   };
   struct Params {};
   Status step(const Tick&, const Inputs& in, const Params&, Outputs& out) {
-    out.attitude = {in.command->course_rad - in.state->course_rad, in.command->height_m - in.state->height_m, 0.5};
+    out.attitude = {in.command->course_rad - in.state->course_rad, in.command->height_m - in.state->height_m,
+                    0.5};
     return Status::ok;
   }
 };

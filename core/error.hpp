@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Set-up errors: one exception type, one sentence with file:line and the valid choices. Nothing here is used in a tick.
+// Set-up errors: one exception type, one sentence with file:line and the valid choices. Nothing here is used
+// in a tick.
 #pragma once
 #include <stdexcept>
 #include <string>

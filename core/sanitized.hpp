@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which sanitizer this is built with; gcc and clang say it in ways of their own. A sanitizer has an allocator and signal handlers of its own.
+// Which sanitizer this is built with; gcc and clang say it in ways of their own. A sanitizer has an allocator
+// and signal handlers of its own.
 #pragma once
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

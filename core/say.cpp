@@ -7,7 +7,9 @@
 namespace fulmar::core {
 
 void say_aloud(const std::string& text, Tone tone) {
-  const auto level = tone == Tone::error ? spdlog::level::err : tone == Tone::warning ? spdlog::level::warn : spdlog::level::info;
+  const auto level = tone == Tone::error     ? spdlog::level::err
+                     : tone == Tone::warning ? spdlog::level::warn
+                                             : spdlog::level::info;
   spdlog::log(level, "{}", text);
 }
 

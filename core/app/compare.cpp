@@ -11,13 +11,15 @@ namespace {
 
 /// What says nothing of how it flew, or differs between equal flights.
 bool passed_over(const std::string& key) {
-  for (const char* name : {"wall_time_s", "speedup", "step_time_us", "not_reproducible", "log_bytes", "log_messages", "log_sha256", "log",
-                           "seed", "live", "dds", "allocations", "misses", "log_error", "phases", "guards"})
+  for (const char* name :
+       {"wall_time_s", "speedup", "step_time_us", "not_reproducible", "log_bytes", "log_messages",
+        "log_sha256", "log", "seed", "live", "dds", "allocations", "misses", "log_error", "phases", "guards"})
     if (key == name) return true;
   return false;
 }
 
-void walk(const nlohmann::json& before, const nlohmann::json& after, const std::string& path, std::vector<std::string>& lines, int& equal) {
+void walk(const nlohmann::json& before, const nlohmann::json& after, const std::string& path,
+          std::vector<std::string>& lines, int& equal) {
   for (const auto& [key, now] : after.items()) {
     if ((path.empty() && passed_over(key)) || !before.contains(key)) continue;
     const nlohmann::json& was = before.at(key);
@@ -37,7 +39,9 @@ void walk(const nlohmann::json& before, const nlohmann::json& after, const std::
       const double percent = a != 0 ? 100 * (b - a) / std::abs(a) : 0;
       std::snprintf(text, sizeof text, "  %-44s %12.4g %12.4g %+9.1f %%\n", name.c_str(), a, b, percent);
     } else {
-      const auto words = [](const nlohmann::json& j) { return j.is_string() ? j.get<std::string>() : j.dump(); };
+      const auto words = [](const nlohmann::json& j) {
+        return j.is_string() ? j.get<std::string>() : j.dump();
+      };
       std::snprintf(text, sizeof text, "  %-44s %12s %12s\n", name.c_str(), words(was).substr(0, 40).c_str(),
                     words(now).substr(0, 40).c_str());
     }
@@ -53,10 +57,12 @@ std::string comparison(const nlohmann::json& before, const nlohmann::json& after
   walk(before, after, "", lines, equal);
   if (lines.empty()) return "\ncompared with the flight before: no figure has changed\n";
   char head[128];
-  std::snprintf(head, sizeof head, "\n%-46s %12s %12s %11s\n", "compared with the flight before", "before", "now", "change");
+  std::snprintf(head, sizeof head, "\n%-46s %12s %12s %11s\n", "compared with the flight before", "before",
+                "now", "change");
   std::string out = head;
   for (const std::string& line : lines) out += line;
-  if (equal > 0) out += "  " + std::to_string(equal) + (equal == 1 ? " figure has" : " figures have") + " not changed\n";
+  if (equal > 0)
+    out += "  " + std::to_string(equal) + (equal == 1 ? " figure has" : " figures have") + " not changed\n";
   return out;
 }
 

@@ -6,7 +6,8 @@
 
 namespace fulmar::core {
 
-/// A table of the figures that both results have and that differ: before, after, change. Results as result_json makes them.
+/// A table of the figures that both results have and that differ: before, after, change. Results as
+/// result_json makes them.
 std::string comparison(const nlohmann::json& before, const nlohmann::json& after);
 
 }  // namespace fulmar::core

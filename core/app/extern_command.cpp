@@ -28,7 +28,8 @@ bool can_run(const fs::path& file) {
 /// A word that can be a command: no path, and no helper that only the host itself starts.
 bool is_command(const std::string& word) {
   constexpr const char* letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
-  static const std::vector<std::string> parts{"child", "inspect", "live", "log", "new", "probe"};  // of Fulmar, no commands
+  static const std::vector<std::string> parts{"child", "inspect", "live",
+                                              "log",   "new",     "probe"};  // of Fulmar, no commands
   return !word.empty() && word[0] != '-' && word.find_first_not_of(letters) == std::string::npos &&
          std::find(parts.begin(), parts.end(), word) == parts.end();
 }
@@ -78,7 +79,8 @@ void become_own_command(char** words) {
   for (const OwnCommand& command : own_commands()) {
     if (command.word != word) continue;
     const fs::path program = own_program(command.program);
-    if (program.empty()) throw Error("fulmar " + word + ": the program " + command.program + " is missing beside this one");
+    if (program.empty())
+      throw Error("fulmar " + word + ": the program " + command.program + " is missing beside this one");
     become(program, word, words);
   }
 }
@@ -89,7 +91,8 @@ std::vector<std::string> extern_commands() {
   std::vector<std::string> words;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, fault)) {
     const std::string name = entry.path().filename().string();
-    const std::string word = name.rfind(program_prefix, 0) == 0 ? name.substr(std::strlen(program_prefix)) : "";
+    const std::string word =
+        name.rfind(program_prefix, 0) == 0 ? name.substr(std::strlen(program_prefix)) : "";
     if (is_command(word) && can_run(entry.path())) words.push_back(word);
   }
   std::sort(words.begin(), words.end());

@@ -13,14 +13,16 @@ struct OwnCommand {
 /// In the order of the help.
 const std::vector<OwnCommand>& own_commands();
 
-/// Becomes the program beside this one that carries out words[1], when that is such a command; else returns. Throws Error.
+/// Becomes the program beside this one that carries out words[1], when that is such a command; else returns.
+/// Throws Error.
 void become_own_command(char** words);
 
 /// The commands whose programs stand beside the host, sorted: {"aero", "fcu"}.
 std::vector<std::string> extern_commands();
 
-/// Becomes the program fulmar-<word>, which stands beside the host or else in PATH; `words` begin with the command's own name and end with
-/// nullptr. Returns only when there is no such program. Throws Error when there is one that cannot be started.
+/// Becomes the program fulmar-<word>, which stands beside the host or else in PATH; `words` begin with the
+/// command's own name and end with nullptr. Returns only when there is no such program. Throws Error when
+/// there is one that cannot be started.
 void become_extern_command(char** words);
 
 }  // namespace fulmar::core

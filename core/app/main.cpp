@@ -22,14 +22,15 @@ using namespace fulmar::core;
 
 int check(const std::string& mission, const Overrides& overrides) {
   const Graph graph = load_mission(mission, overrides);
-  std::printf("%s is in order: %zu components, %zu roles, %zu phases.\n", mission.c_str(), graph.components.size(), graph.roles.size(),
-              graph.phases.size());
+  std::printf("%s is in order: %zu components, %zu roles, %zu phases.\n", mission.c_str(),
+              graph.components.size(), graph.roles.size(), graph.phases.size());
   return 0;
 }
 
 /// The commands of this program, in the order of the help, which names those of other programs too.
 struct Commands {
-  CLI::App app{"Fulmar: a fixed-wing autopilot for research. A mission is a YAML file; its components are plugins."};
+  CLI::App app{
+      "Fulmar: a fixed-wing autopilot for research. A mission is a YAML file; its components are plugins."};
   MissionOptions mission;
   RunOptions run;
   std::string speed = "max", resume_log;
@@ -42,8 +43,11 @@ struct Commands {
     app.set_version_flag("--version", "fulmar " FULMAR_VERSION);
     app.require_subcommand(1);
     const std::vector<std::string> programs = extern_commands();
-    app.footer("Example: fulmar run configs/missions/hourglass.yaml --seed 3 --set slc.roll_limit=\"30 deg\"" +
-               (programs.empty() ? "" : "\n\nPrograms beside this one: " + join(programs) + " (fulmar " + programs[0] + " --help)"));
+    app.footer(
+        "Example: fulmar run configs/missions/hourglass.yaml --seed 3 --set slc.roll_limit=\"30 deg\"" +
+        (programs.empty()
+             ? ""
+             : "\n\nPrograms beside this one: " + join(programs) + " (fulmar " + programs[0] + " --help)"));
     add_run();
     add_check();
     for (const OwnCommand& command : own_commands()) {
@@ -81,18 +85,30 @@ struct Commands {
     command->add_flag("--no-log", run.no_log, "write no log");
     command->add_flag("--json", run.json, "print one JSON object instead of a table");
     command->add_option("--repeat", run.repeat, "so many flights in one host")->check(CLI::Range(1, 1000000));
-    command->add_flag("--watch", run.watch, "after a flight wait until a plugin or file of the mission changes, fly again, and compare");
-    command->add_option("--build", run.build, "with --watch: command to run when a source file beside the mission has changed");
-    command->add_option("--live", run.live, "ADDRESS:PORT where onlookers connect, or off; default: what the mission says")
+    command->add_flag(
+        "--watch", run.watch,
+        "after a flight wait until a plugin or file of the mission changes, fly again, and compare");
+    command->add_option("--build", run.build,
+                        "with --watch: command to run when a source file beside the mission has changed");
+    command
+        ->add_option("--live", run.live,
+                     "ADDRESS:PORT where onlookers connect, or off; default: what the mission says")
         ->type_name("ADDRESS:PORT");
-    command->add_flag("--realtime{" + std::to_string(usual_priority) + "}", run.realtime,
-                  "real-time priority, 1 to 99 as in --realtime=70, and locked memory for the loop")
+    command
+        ->add_flag("--realtime{" + std::to_string(usual_priority) + "}", run.realtime,
+                   "real-time priority, 1 to 99 as in --realtime=70, and locked memory for the loop")
         ->check(CLI::Range(1, 99));
-    command->add_option("--drivers-from", run.drivers_from, "take the samples of drivers from this log, in place of their devices");
-    CLI::Option* resume = command->add_option("--resume", resume_log, "go on where this log ended, or without a file the newest of the mission")
-                              ->expected(0, 1)
-                              ->type_name("[LOG]");
-    command->add_flag("--no-resume", run.no_resume, "with --io fcu: begin at the beginning, also when the newest log ended in the air")
+    command->add_option("--drivers-from", run.drivers_from,
+                        "take the samples of drivers from this log, in place of their devices");
+    CLI::Option* resume =
+        command
+            ->add_option("--resume", resume_log,
+                         "go on where this log ended, or without a file the newest of the mission")
+            ->expected(0, 1)
+            ->type_name("[LOG]");
+    command
+        ->add_flag("--no-resume", run.no_resume,
+                   "with --io fcu: begin at the beginning, also when the newest log ended in the air")
         ->excludes(resume);
     actions.back().second = [this, command, resume] {
       run.mission = mission.mission;
@@ -111,15 +127,21 @@ struct Commands {
   }
 
   void add_replay() {
-    CLI::App* command = add("replay", "fly a log again: what entered the flight is fed to its mission, and what comes out is compared", [this] {
-      replay.changes.set = pairs(replay_set), replay.changes.with = pairs(replay_with);
-      return replay_command(replay);
-    });
+    CLI::App* command =
+        add("replay",
+            "fly a log again: what entered the flight is fed to its mission, and what comes out is compared",
+            [this] {
+              replay.changes.set = pairs(replay_set), replay.changes.with = pairs(replay_with);
+              return replay_command(replay);
+            });
     command->add_option("LOG", replay.log, "log of a flight (MCAP)")->required();
-    command->add_option("--with", replay_with, "COMPONENT=PLUGIN.so: an experiment with another file for a component")
+    command
+        ->add_option("--with", replay_with,
+                     "COMPONENT=PLUGIN.so: an experiment with another file for a component")
         ->type_name("COMPONENT=FILE")
         ->allow_extra_args(false);
-    command->add_option("--set", replay_set, "COMPONENT.PARAMETER=VALUE: an experiment with another parameter")
+    command
+        ->add_option("--set", replay_set, "COMPONENT.PARAMETER=VALUE: an experiment with another parameter")
         ->type_name("COMP.PARAM=VALUE")
         ->allow_extra_args(false);
     command->add_option("--log", replay.out, "where to write the log of the replay; default nowhere");
@@ -128,7 +150,8 @@ struct Commands {
 
   std::vector<std::string> names() const {
     std::vector<std::string> list;
-    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) list.push_back(command->get_name());
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+      list.push_back(command->get_name());
     return list;
   }
 
@@ -139,9 +162,13 @@ struct Commands {
     for (const std::string& word : extern_commands()) valid.push_back(word);
     std::erase(valid, "complete");  // for shells
     const std::string word = words[0];
-    std::fprintf(stderr, "fulmar: there is no command '%s'.%s\n", words[0], choices_text(word, valid).c_str());
+    std::fprintf(stderr, "fulmar: there is no command '%s'.%s\n", words[0],
+                 choices_text(word, valid).c_str());
     if (word == "fcu" || word == "ros2")
-      std::fprintf(stderr, "The program fulmar-%s is not there: ./fly leaves it out, `cmake --build build --target tools` makes it.\n", words[0]);
+      std::fprintf(stderr,
+                   "The program fulmar-%s is not there: ./fly leaves it out, `cmake --build build --target "
+                   "tools` makes it.\n",
+                   words[0]);
     return 2;
   }
 
@@ -149,7 +176,8 @@ struct Commands {
     if (asked_for_rows(argc, argv)) return std::fputs(command_rows(app).c_str(), stdout), 0;
     become_own_command(argv);
     const std::vector<std::string> known = names();
-    if (argc > 1 && argv[1][0] != '-' && std::find(known.begin(), known.end(), argv[1]) == known.end()) return other_program(argv + 1);
+    if (argc > 1 && argv[1][0] != '-' && std::find(known.begin(), known.end(), argv[1]) == known.end())
+      return other_program(argv + 1);
     app.parse(argc, argv);
     for (const auto& [command, action] : actions)
       if (command->parsed()) return action();

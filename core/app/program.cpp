@@ -22,7 +22,8 @@ void add_rows(const CLI::App& app, const std::string& path, std::string& rows) {
     if (command->get_group().empty()) continue;
     subcommands += (subcommands.empty() ? "" : " ") + command->get_name();
     // what another program does is told by that program
-    if (!command->get_prefix_command()) add_rows(*command, path + (path.empty() ? "" : " ") + command->get_name(), rows);
+    if (!command->get_prefix_command())
+      add_rows(*command, path + (path.empty() ? "" : " ") + command->get_name(), rows);
   }
   rows += path + "\t" + options + "\t" + valued + "\t" + subcommands + "\n";
 }

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/app/compare.hpp"
-#include "core/log/log_file.hpp"
 #include "core/app/report.hpp"
+#include "core/log/log_file.hpp"
 #include "core/replay/replay.hpp"
 #include "core/say.hpp"
 
@@ -32,7 +32,9 @@ struct Replayed {
 };
 
 Replayed fly(const Recording& recording, const Overrides& changes, const std::string& out) {
-  const auto say = [](const std::string& text, bool warning) { say_aloud(text, warning ? Tone::warning : Tone::info); };
+  const auto say = [](const std::string& text, bool warning) {
+    say_aloud(text, warning ? Tone::warning : Tone::info);
+  };
   Replayed r;
   r.graph = recording.mission(changes, say);
   ReplayOptions options;
@@ -47,7 +49,8 @@ Replayed fly(const Recording& recording, const Overrides& changes, const std::st
 
 json difference_json(const ReplayResult& r) {
   json j;
-  j["first_tick"] = r.first_tick ? json{{"index", *r.first_tick}, {"time_s", flight_seconds(r.first_tick_ns)}} : json(nullptr);
+  j["first_tick"] = r.first_tick ? json{{"index", *r.first_tick}, {"time_s", flight_seconds(r.first_tick_ns)}}
+                                 : json(nullptr);
   j["first_difference"] = nullptr;
   if (r.first)
     j["first_difference"] = {{"topic", r.first->topic},
@@ -83,21 +86,26 @@ void print_difference(const ReplayResult& r) {
     std::printf("the replay has %llu ticks, the log %llu\n", static_cast<unsigned long long>(r.ticks),
                 static_cast<unsigned long long>(r.recorded_ticks));
   if (r.first_tick)
-    std::printf("the first tick with other outputs is %llu, at %.4f s\n", static_cast<unsigned long long>(*r.first_tick),
-                flight_seconds(r.first_tick_ns));
+    std::printf("the first tick with other outputs is %llu, at %.4f s\n",
+                static_cast<unsigned long long>(*r.first_tick), flight_seconds(r.first_tick_ns));
   if (r.first)
-    std::printf("the first difference in the log: %s at %.4f s%s%s: %s, now %s\n", r.first->topic.c_str(), flight_seconds(r.first->at_ns),
-                r.first->field.empty() ? "" : ", ", r.first->field.c_str(), r.first->was.c_str(), r.first->is.c_str());
-  std::printf("%llu of %llu messages differ, %llu bytes\n", static_cast<unsigned long long>(r.differing_messages),
-              static_cast<unsigned long long>(r.messages), static_cast<unsigned long long>(r.differing_bytes));
+    std::printf("the first difference in the log: %s at %.4f s%s%s: %s, now %s\n", r.first->topic.c_str(),
+                flight_seconds(r.first->at_ns), r.first->field.empty() ? "" : ", ", r.first->field.c_str(),
+                r.first->was.c_str(), r.first->is.c_str());
+  std::printf(
+      "%llu of %llu messages differ, %llu bytes\n", static_cast<unsigned long long>(r.differing_messages),
+      static_cast<unsigned long long>(r.messages), static_cast<unsigned long long>(r.differing_bytes));
 }
 
 void print(const Replayed& again) {
   const ReplayResult& r = again.result;
   const double flown_s = flight_seconds(r.last_ns - r.first_ns);
-  std::printf("%s: %llu ticks, %.1f s of flight in %.2f s: %.0f times real time\n", again.graph.mission.c_str(),
-              static_cast<unsigned long long>(r.ticks), flown_s, r.flight.wall_s, r.flight.wall_s > 0 ? flown_s / r.flight.wall_s : 0);
-  if (r.cut_off) std::printf("the log was cut off: compared up to its last whole tick, at %.4f s\n", flight_seconds(r.last_ns));
+  std::printf("%s: %llu ticks, %.1f s of flight in %.2f s: %.0f times real time\n",
+              again.graph.mission.c_str(), static_cast<unsigned long long>(r.ticks), flown_s, r.flight.wall_s,
+              r.flight.wall_s > 0 ? flown_s / r.flight.wall_s : 0);
+  if (r.cut_off)
+    std::printf("the log was cut off: compared up to its last whole tick, at %.4f s\n",
+                flight_seconds(r.last_ns));
   for (const std::string& note : r.notes) std::printf("%s\n", note.c_str());
   if (r.equal())
     std::printf("equal: %llu messages, 0 differing bytes%s\n", static_cast<unsigned long long>(r.messages),
@@ -113,8 +121,9 @@ void refuse_idle(const Graph& graph, const Overrides& changes) {
       const Component& c = graph.components[i];
       const bool vehicle = static_cast<int>(i) == graph.vehicle;
       if (c.name == component && (vehicle || c.run == RunMode::driver))
-        throw Error(words + " would change nothing: " + component + " is " + (vehicle ? "the vehicle" : "a driver") +
-                    ", and in a replay its samples come out of the log. Fly the mission anew with fulmar run");
+        throw Error(
+            words + " would change nothing: " + component + " is " + (vehicle ? "the vehicle" : "a driver") +
+            ", and in a replay its samples come out of the log. Fly the mission anew with fulmar run");
     }
   };
   for (const auto& [name, value] : changes.set) check("--set " + name, name.substr(0, name.find('.')));

@@ -14,7 +14,8 @@ struct ReplayWords {
   bool json = false;
 };
 
-/// Flies a log again and tells what differs. Returns the exit code: 0 equal, 1 different; 0 for an experiment that could be flown.
+/// Flies a log again and tells what differs. Returns the exit code: 0 equal, 1 different; 0 for an experiment
+/// that could be flown.
 int replay_command(const ReplayWords& words);
 
 }  // namespace fulmar::core

@@ -45,21 +45,23 @@ void write_to_terminal(const char* text) { write_last_words(text); }
 /// What the vehicle's device is to hear when the host goes. Async-signal-safe.
 void send_last_frame() {
   const fulmar_last_frame* frame = last_frame.exchange(nullptr, std::memory_order_acq_rel);
-  if (frame && frame->fd >= 0 && write(frame->fd, frame->data, frame->size) < 0) write_to_terminal("\nfulmar: the last frame could not be sent");
+  if (frame && frame->fd >= 0 && write(frame->fd, frame->data, frame->size) < 0)
+    write_to_terminal("\nfulmar: the last frame could not be sent");
 }
 
 unsigned patience_s = 10;  // between a signal and the end of the flight
 
-/// The first signal ends the flight between two ticks; when the flight refuses it, the next one is the first again. One that follows an
-/// unanswered one, half a second later or more (timeout(1) sends two at once), or ten seconds without an end, ends the program: a component
-/// may be hanging.
+/// The first signal ends the flight between two ticks; when the flight refuses it, the next one is the first
+/// again. One that follows an unanswered one, half a second later or more (timeout(1) sends two at once), or
+/// ten seconds without an end, ends the program: a component may be hanging.
 void note_signal(int signal) {
   static timespec latest{};
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
   const bool patience_over = signal == SIGALRM;
   if (patience_over && signal_seen.load() == 0) return;
-  const double since_s = static_cast<double>(now.tv_sec - latest.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec - latest.tv_nsec);
+  const double since_s = static_cast<double>(now.tv_sec - latest.tv_sec) +
+                         1e-9 * static_cast<double>(now.tv_nsec - latest.tv_nsec);
   if (!patience_over && since_s < 0.5 && latest.tv_sec > 0) return;
   latest = now;
   if (!patience_over && signal_seen.exchange(signal) == 0) {
@@ -68,8 +70,11 @@ void note_signal(int signal) {
   }
   send_last_frame();
   const char* component = in_step.load(std::memory_order_relaxed);
-  write_to_terminal(patience_over ? "\nfulmar: ended, since the flight did not" : "\nfulmar: ended by the second signal");
-  if (component) write_to_terminal(" in the "), write_to_terminal(in_call.load(std::memory_order_relaxed)), write_to_terminal(" of "), write_to_terminal(component);
+  write_to_terminal(patience_over ? "\nfulmar: ended, since the flight did not"
+                                  : "\nfulmar: ended by the second signal");
+  if (component)
+    write_to_terminal(" in the "), write_to_terminal(in_call.load(std::memory_order_relaxed)),
+        write_to_terminal(" of "), write_to_terminal(component);
   write_to_terminal(last_words);
   _exit(130);
 }
@@ -130,13 +135,16 @@ void install_handlers(bool hardware) {
 std::filesystem::path free_name(const std::filesystem::path& wanted) {
   std::filesystem::path file = wanted;
   for (int n = 2; std::filesystem::exists(file) || std::filesystem::exists(file.string() + ".part"); ++n)
-    file = wanted.parent_path() / (wanted.stem().string() + "-" + std::to_string(n) + wanted.extension().string());
+    file = wanted.parent_path() /
+           (wanted.stem().string() + "-" + std::to_string(n) + wanted.extension().string());
   return file;
 }
 
-/// logs/<mission>-<UTC>.mcap. A host that is started again in the air must not stand still before the log of its predecessor.
+/// logs/<mission>-<UTC>.mcap. A host that is started again in the air must not stand still before the log of
+/// its predecessor.
 std::filesystem::path default_log(const Graph& graph) {
-  if (!graph.record_file.empty()) return graph.io == Io::fcu ? free_name(graph.record_file) : std::filesystem::path(graph.record_file);
+  if (!graph.record_file.empty())
+    return graph.io == Io::fcu ? free_name(graph.record_file) : std::filesystem::path(graph.record_file);
   const std::time_t now = std::time(nullptr);
   std::tm utc{};
   gmtime_r(&now, &utc);
@@ -181,7 +189,8 @@ double parse_speed(const std::string& text) {
   double speed = 0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), speed);
   if (code != std::errc{} || end != text.data() + text.size() || !(speed > 0) || !(speed <= 1e6))
-    throw CLI::ValidationError("--speed '" + text + "': give real, max, or a multiple of real time, for example 10");
+    throw CLI::ValidationError("--speed '" + text +
+                               "': give real, max, or a multiple of real time, for example 10");
   return speed;
 }
 
@@ -197,11 +206,14 @@ class Session {
 
   int fly();
   std::optional<int> try_fly();
-  /// Waits until a file has changed that the mission uses and the mission can be flown with it. False: interrupted.
+  /// Waits until a file has changed that the mission uses and the mission can be flown with it. False:
+  /// interrupted.
   bool wait_for_change();
   /// Uses whatever has changed since the last flight, if anything has.
   void take_changes();
-  nlohmann::json results() const { return results_.size() == 1 ? results_[0] : nlohmann::json{{"flights", results_}}; }
+  nlohmann::json results() const {
+    return results_.size() == 1 ? results_[0] : nlohmann::json{{"flights", results_}};
+  }
   bool has_flown() const { return !results_.empty(); }
 
  private:
@@ -240,18 +252,23 @@ std::filesystem::path Session::log_file() const {
   if (options_.log_file.empty()) return default_log(graph_);
   const std::filesystem::path file = options_.log_file;
   if (results_.empty()) return graph_.io == Io::fcu ? free_name(file) : file;
-  return file.parent_path() / (file.stem().string() + "-" + std::to_string(results_.size() + 1) + file.extension().string());
+  return file.parent_path() /
+         (file.stem().string() + "-" + std::to_string(results_.size() + 1) + file.extension().string());
 }
 
-/// Where to go on: as asked; on hardware also after a host that ended in the air a short time ago, when the vehicle confirms it.
+/// Where to go on: as asked; on hardware also after a host that ended in the air a short time ago, when the
+/// vehicle confirms it.
 std::optional<Resume> Session::resume() const {
   constexpr double short_time_s = 600;
   const bool asked = options_.resume.has_value();
   if (!results_.empty() || options_.no_resume || (!asked && graph_.io != Io::fcu)) return std::nullopt;
-  const std::filesystem::path log =
-      asked && !options_.resume->empty() ? std::filesystem::path(*options_.resume) : newest_log(graph_, asked ? 0 : short_time_s);
+  const std::filesystem::path log = asked && !options_.resume->empty()
+                                        ? std::filesystem::path(*options_.resume)
+                                        : newest_log(graph_, asked ? 0 : short_time_s);
   if (log.empty() && !asked) return std::nullopt;
-  if (log.empty()) throw Error("--resume: there is no log of the mission " + graph_.mission + "; name one, as in --resume FILE.mcap");
+  if (log.empty())
+    throw Error("--resume: there is no log of the mission " + graph_.mission +
+                "; name one, as in --resume FILE.mcap");
   try {
     Resume resume = read_resume(graph_, log);
     if (asked && !resume.missing.empty()) throw Error(log.string() + ": " + resume.missing[0]);
@@ -259,7 +276,8 @@ std::optional<Resume> Session::resume() const {
     resume.if_armed = !asked;
     for (const std::string& missing : resume.missing) warn(log.string() + ": " + missing);
     if (!options_.json)
-      say_aloud((resume.if_armed ? "if the aircraft is armed, resumes from " : "resumes from ") + log.string() + ": " + resume.text());
+      say_aloud((resume.if_armed ? "if the aircraft is armed, resumes from " : "resumes from ") +
+                log.string() + ": " + resume.text());
     return resume;
   } catch (const Error& fault) {
     if (asked) throw;
@@ -269,14 +287,16 @@ std::optional<Resume> Session::resume() const {
 }
 
 void Session::prepare_last_words(const std::string& log) const {
-  std::snprintf(last_words, sizeof last_words, "%s%s%s\n", log.empty() ? "." : ". What was logged until then is in ", log.c_str(),
+  std::snprintf(last_words, sizeof last_words, "%s%s%s\n",
+                log.empty() ? "." : ". What was logged until then is in ", log.c_str(),
                 log.empty() ? "" : ".part");
 }
 
 void Session::take_priority() const {
   if (options_.realtime > 0 && graph_.io == Io::sim && options_.speed == 0)
     throw CLI::ValidationError(
-        "--realtime would give a CPU to this flight alone: it belongs to --io fcu, or to a simulation with --speed real");
+        "--realtime would give a CPU to this flight alone: it belongs to --io fcu, or to a simulation with "
+        "--speed real");
   if (options_.realtime > 0) return take_real_time(options_.realtime);
   if (graph_.io == Io::fcu) warn("the loop runs without real-time priority; --realtime gives it one");
 }
@@ -288,13 +308,15 @@ void Session::tell_onlookers() const {
     warn("--live: nobody can follow as fast as the machine allows; fly with --speed real");
   if (last_->live_port() == 0 || options_.json) return;
   const bool v6 = graph_.live.host.find(':') != std::string::npos;
-  say_aloud("live view: ws://" + (v6 ? "[" + graph_.live.host + "]" : graph_.live.host) + ":" + std::to_string(last_->live_port()));
+  say_aloud("live view: ws://" + (v6 ? "[" + graph_.live.host + "]" : graph_.live.host) + ":" +
+            std::to_string(last_->live_port()));
 }
 
 int Session::fly() {
   if (!stamps_) stamps_ = std::make_unique<FileStamps>(files());
   if (!options_.build.empty() && !sources_)
-    sources_ = std::make_unique<FileStamps>(source_files(std::filesystem::absolute(options_.mission).parent_path()));
+    sources_ =
+        std::make_unique<FileStamps>(source_files(std::filesystem::absolute(options_.mission).parent_path()));
   last_.reset();
   Progress progress(graph_);
   FlightOptions o;
@@ -310,11 +332,15 @@ int Session::fly() {
   o.progress = [&](const Flight& flight) { progress.show(flight); };
   o.say = [&](const std::string& text, bool warning) { progress.say(text, warning); };
   prepare_last_words(o.log_file.string());
-  patience_s = 10 + static_cast<unsigned>(graph_.failsafe_ns / 1'000'000'000);  // a flight that gives up control sends its failsafe first
+  patience_s =
+      10 + static_cast<unsigned>(graph_.failsafe_ns /
+                                 1'000'000'000);  // a flight that gives up control sends its failsafe first
   if (graph_.io == Io::fcu || options_.speed > 0) print_without_waiting();
   if (options_.json) dup2(STDERR_FILENO, STDOUT_FILENO);  // what components print
   install_handlers(graph_.io != Io::sim);
-  if (!options_.json) say_aloud(graph_.mission + (graph_.io == Io::sim ? ": simulation" : ": flight controller") + ", seed " + std::to_string(graph_.seed));
+  if (!options_.json)
+    say_aloud(graph_.mission + (graph_.io == Io::sim ? ": simulation" : ": flight controller") + ", seed " +
+              std::to_string(graph_.seed));
   take_priority();
   last_ = std::make_unique<Flight>(graph_, o);
   forget_before();
@@ -326,7 +352,8 @@ int Session::fly() {
   results_.push_back(result_json(graph_, *last_, result));
   if (!options_.json) {
     std::printf("%s", result_table(graph_, *last_, result).c_str());
-    if (results_.size() > 1) std::printf("%s", comparison(results_[results_.size() - 2], results_.back()).c_str());
+    if (results_.size() > 1)
+      std::printf("%s", comparison(results_[results_.size() - 2], results_.back()).c_str());
     std::fflush(stdout);
   }
   const bool whole = result.log.error.empty();
@@ -349,8 +376,11 @@ std::vector<std::filesystem::path> Session::files() const {
 /// The newcomers among the components are tried in a child on what their predecessors saw last.
 void Session::rehearse_changes(const Graph& next) const {
   for (const Component& c : next.components) {
-    const auto was = std::find_if(graph_.components.begin(), graph_.components.end(), [&](const Component& o) { return o.name == c.name; });
-    if (was == graph_.components.end() || was->plugin->sha256 == c.plugin->sha256 || c.info().vehicle || c.run == RunMode::driver) continue;
+    const auto was = std::find_if(graph_.components.begin(), graph_.components.end(),
+                                  [&](const Component& o) { return o.name == c.name; });
+    if (was == graph_.components.end() || was->plugin->sha256 == c.plugin->sha256 || c.info().vehicle ||
+        c.run == RunMode::driver)
+      continue;
     check_unloads(*was->plugin, was->info());
     const Tape* tape = last_ && same_inputs(was->info(), c.info()) ? last_->tape(c.name) : nullptr;
     try {

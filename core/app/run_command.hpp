@@ -15,14 +15,14 @@ struct RunOptions {
   std::optional<double> duration_s;
   std::string log_file;
   bool no_log = false, json = false;
-  int repeat = 0;                     // flights in one host; 0: one, or with `watch` until interrupted
-  bool watch = false;                 // a plugin or file that changes is used by the next flight
-  std::string build;                  // command that watch runs when a source file beside the mission has changed
-  std::string drivers_from;           // log whose driver samples are fed in place of the drivers
+  int repeat = 0;            // flights in one host; 0: one, or with `watch` until interrupted
+  bool watch = false;        // a plugin or file that changes is used by the next flight
+  std::string build;         // command that watch runs when a source file beside the mission has changed
+  std::string drivers_from;  // log whose driver samples are fed in place of the drivers
   std::optional<std::string> resume;  // log where to go on; "": the newest of the mission
   bool no_resume = false;             // on hardware: begin at the beginning, whatever the newest log says
-  std::string live;                   // where onlookers connect, in place of the mission's `live:`; "off": nowhere
-  int realtime = 0;                   // priority of the loop's thread; 0: an ordinary one
+  std::string live;  // where onlookers connect, in place of the mission's `live:`; "off": nowhere
+  int realtime = 0;  // priority of the loop's thread; 0: an ordinary one
 };
 
 /// "real" -> 1, "max" -> 0, "10" -> 10. Throws CLI::ValidationError (wrong usage).

@@ -52,12 +52,13 @@ fs::path FileStamps::missing() const {
 std::vector<fs::path> source_files(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code fault;
-  for (fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, fault), end; !fault && it != end;
-       it.increment(fault)) {
+  for (fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, fault), end;
+       !fault && it != end; it.increment(fault)) {
     const fs::path& path = it->path();
     const std::string name = path.filename().string(), kind = path.extension().string();
     if (it->is_directory(fault)) {
-      if (name.starts_with(".") || fs::exists(path / "CMakeCache.txt", fault) || it.depth() > 6) it.disable_recursion_pending();
+      if (name.starts_with(".") || fs::exists(path / "CMakeCache.txt", fault) || it.depth() > 6)
+        it.disable_recursion_pending();
       continue;
     }
     for (const char* wanted : {".cpp", ".cc", ".c", ".hpp", ".h", ".py"})

@@ -10,7 +10,8 @@
 
 namespace fulmar::core {
 
-/// The state of some files. A file that is written again with the same bytes counts as changed; what comes of it is the same.
+/// The state of some files. A file that is written again with the same bytes counts as changed; what comes of
+/// it is the same.
 class FileStamps {
  public:
   explicit FileStamps(std::vector<std::filesystem::path> files) : files_(std::move(files)), stamps_(read()) {}
@@ -30,11 +31,12 @@ class FileStamps {
   std::map<std::filesystem::path, Stamp> stamps_;
 };
 
-/// Source files (.cpp .cc .c .hpp .h .py CMakeLists.txt) below a folder; hidden folders and build folders are passed over.
+/// Source files (.cpp .cc .c .hpp .h .py CMakeLists.txt) below a folder; hidden folders and build folders are
+/// passed over.
 std::vector<std::filesystem::path> source_files(const std::filesystem::path& folder);
 
-/// Runs a command of the user's through the shell, its output on standard error. True when it exits with 0; ended, with all that
-/// it has begun, when `interrupted`.
+/// Runs a command of the user's through the shell, its output on standard error. True when it exits with 0;
+/// ended, with all that it has begun, when `interrupted`.
 bool run_build(const std::string& command, const std::atomic<int>& interrupted);
 
 }  // namespace fulmar::core

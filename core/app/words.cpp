@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/app/words.hpp"
-#include "core/quiet_thread.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -15,6 +14,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <thread>
+
+#include "core/quiet_thread.hpp"
 
 namespace fulmar::core {
 namespace {

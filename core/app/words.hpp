@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Standard error in a flight that must not wait: a terminal may be stopped, an ssh session stall, a journal be slow.
+// Standard error in a flight that must not wait: a terminal may be stopped, an ssh session stall, a journal
+// be slow.
 #pragma once
 
 namespace fulmar::core {
 
-/// From now on nobody who prints on standard error waits for its reader: a thread passes the words on, and those that find no room are
-/// lost. At the end of the program what is left is passed on, for at most a second. May be called again.
+/// From now on nobody who prints on standard error waits for its reader: a thread passes the words on, and
+/// those that find no room are lost. At the end of the program what is left is passed on, for at most a
+/// second. May be called again.
 void print_without_waiting();
 
-/// Waits until all that was printed has been passed on, at most a second: before something is printed on standard output.
+/// Waits until all that was printed has been passed on, at most a second: before something is printed on
+/// standard output.
 void pass_on_words() noexcept;
 
 /// Whether the reader is a terminal.

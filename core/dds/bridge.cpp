@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See bridge.hpp. Two threads beside those of Fast DDS: one sends what the loop publishes, one takes what comes in.
+// See bridge.hpp. Two threads beside those of Fast DDS: one sends what the loop publishes, one takes what
+// comes in.
 #include "core/dds/bridge.hpp"
 
 #include <pthread.h>
@@ -9,17 +10,19 @@
 #include <chrono>
 #include <thread>
 
-#include "core/error.hpp"
 #include "core/dds/services.hpp"
 #include "core/dds/topics.hpp"
+#include "core/error.hpp"
 #include "core/quiet_thread.hpp"
 #include "core/say.hpp"
 
 namespace fulmar::core {
 namespace {
 
-constexpr std::chrono::milliseconds nap{2};       // of the thread that sends when the ring is empty; the loop never pays for waking it
-constexpr std::chrono::milliseconds breath{2};    // between two looks at what comes in: a flood does not take a processor
+constexpr std::chrono::milliseconds nap{
+    2};  // of the thread that sends when the ring is empty; the loop never pays for waking it
+constexpr std::chrono::milliseconds breath{
+    2};  // between two looks at what comes in: a flood does not take a processor
 constexpr std::chrono::milliseconds longest{50};  // sleep of the thread that takes
 
 }  // namespace

@@ -7,23 +7,18 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "core/graph/quantity.hpp"
 #include "core/dds/services.hpp"
+#include "core/graph/quantity.hpp"
 
 namespace fulmar::core::dds {
 
 RclType rcl_type(const ParamInfo& info) {
   switch (info.kind) {
-    case FULMAR_NUMBER:
-      return RclType::number;
-    case FULMAR_FLAG:
-      return RclType::boolean;
-    case FULMAR_COUNT:
-      return RclType::integer;
-    case FULMAR_VECTOR:
-      return RclType::numbers;
-    default:
-      return RclType::text;
+    case FULMAR_NUMBER: return RclType::number;
+    case FULMAR_FLAG: return RclType::boolean;
+    case FULMAR_COUNT: return RclType::integer;
+    case FULMAR_VECTOR: return RclType::numbers;
+    default: return RclType::text;
   }
 }
 
@@ -33,41 +28,33 @@ RclValue rcl_value(const ParameterView& parameter) {
   RclValue value;
   value.type = rcl_type(info);
   switch (info.kind) {
-    case FULMAR_NUMBER:
-      value.number = base.number[0];
-      break;
-    case FULMAR_FLAG:
-      value.boolean = base.integer != 0;
-      break;
-    case FULMAR_COUNT:
-      value.integer = base.integer;
-      break;
+    case FULMAR_NUMBER: value.number = base.number[0]; break;
+    case FULMAR_FLAG: value.boolean = base.integer != 0; break;
+    case FULMAR_COUNT: value.integer = base.integer; break;
     case FULMAR_CHOICE: {
       const auto i = static_cast<std::size_t>(base.integer);
       value.text = i < info.choices.size() ? info.choices[i] : "";
       break;
     }
-    case FULMAR_VECTOR:
-      value.numbers.assign(base.number, base.number + 3);
-      break;
-    default:
-      value.text = base.text;
+    case FULMAR_VECTOR: value.numbers.assign(base.number, base.number + 3); break;
+    default: value.text = base.text;
   }
   return value;
 }
 
 std::string parameter_text(const ParamInfo& info, const RclValue& value) {
-  const bool text_kind = info.kind == FULMAR_CHOICE || info.kind == FULMAR_STRING || info.kind == FULMAR_RECORD || info.kind == FULMAR_BLOB;
+  const bool text_kind = info.kind == FULMAR_CHOICE || info.kind == FULMAR_STRING ||
+                         info.kind == FULMAR_RECORD || info.kind == FULMAR_BLOB;
   switch (value.type) {
-    case RclType::boolean:
-      return value.boolean ? "true" : "false";
-    case RclType::integer:
-      return std::to_string(value.integer);
+    case RclType::boolean: return value.boolean ? "true" : "false";
+    case RclType::integer: return std::to_string(value.integer);
     case RclType::number:
       if (!std::isfinite(value.number)) throw Error("it is not a finite number");
       return number_text(value.number);
     case RclType::text:  // "20 deg" sets a number, too
-      return text_kind ? nlohmann::json(value.text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) : value.text;
+      return text_kind
+                 ? nlohmann::json(value.text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
+                 : value.text;
     case RclType::numbers:
     case RclType::integers: {
       std::string list;
@@ -113,9 +100,11 @@ RclDescriptor descriptor(const std::string& name, const ParameterView* p) {
   if (p == nullptr) return d;
   const ParamInfo& info = p->info;
   d.type = rcl_type(info);
-  d.description = info.doc + (info.unit.empty() ? "" : (info.doc.empty() ? "" : " ") + ("[" + info.unit + "]"));
+  d.description =
+      info.doc + (info.unit.empty() ? "" : (info.doc.empty() ? "" : " ") + ("[" + info.unit + "]"));
   if (info.kind == FULMAR_CHOICE) d.constraints = "one of " + join(info.choices);
-  if (p->overlaid) d.constraints += d.constraints.empty() ? "the present phase sets it" : "; the present phase sets it";
+  if (p->overlaid)
+    d.constraints += d.constraints.empty() ? "the present phase sets it" : "; the present phase sets it";
   d.read_only = !info.live;
   d.min = info.min;
   d.max = info.max;
@@ -125,7 +114,8 @@ RclDescriptor descriptor(const std::string& name, const ParameterView* p) {
   return d;
 }
 
-// ---- answers that only look ------------------------------------------------------------------------------------------------------
+// ---- answers that only look
+// ------------------------------------------------------------------------------------------------------
 
 Bytes list_parameters(const Control& control, CdrIn in) {
   const std::vector<std::string> prefixes = in.texts();
@@ -134,9 +124,10 @@ Bytes list_parameters(const Control& control, CdrIn in) {
   std::set<std::string> components;
   for (const std::string& name : Known(control).names()) {
     const std::string component = name.substr(0, name.find('.'));
-    const bool asked = prefixes.empty() || std::any_of(prefixes.begin(), prefixes.end(), [&](const std::string& p) {
-                         return name == p || name.compare(0, p.size() + 1, p + ".") == 0;
-                       });
+    const bool asked =
+        prefixes.empty() || std::any_of(prefixes.begin(), prefixes.end(), [&](const std::string& p) {
+          return name == p || name.compare(0, p.size() + 1, p + ".") == 0;
+        });
     if (!asked || (depth == 1 && prefixes.empty())) continue;
     names.push_back(name);
     components.insert(component);
@@ -176,7 +167,8 @@ Bytes describe_parameters(const Control& control, CdrIn in) {
   });
 }
 
-// ---- answers that change something -------------------------------------------------------------------------------------------------
+// ---- answers that change something
+// -------------------------------------------------------------------------------------------------
 
 /// Collects what becomes of each parameter of one call; the last answer sends the reply.
 struct Results {
@@ -202,11 +194,13 @@ struct Results {
   }
 };
 
-void set_one(Control& control, const Known& known, const RclParameter& parameter, const std::function<void(const std::string&)>& answer) {
+void set_one(Control& control, const Known& known, const RclParameter& parameter,
+             const std::function<void(const std::string&)>& answer) {
   try {
     const auto at = known.by_name.find(parameter.name);
     if (at == known.by_name.end())
-      throw Error("there is no parameter '" + parameter.name + "'." + choices_text(parameter.name, known.names()));
+      throw Error("there is no parameter '" + parameter.name + "'." +
+                  choices_text(parameter.name, known.names()));
     const auto& [component, p] = at->second;
     control.set_parameter(component->name, p->info.name, parameter_text(p->info, parameter.value), answer);
   } catch (const Error& fault) {
@@ -224,8 +218,11 @@ void set_parameters(Control& control, CdrIn in, const Server::Reply& reply, bool
   if (list.empty()) return results->open == 0 ? results->send() : results->set(0, "");
   // Each change takes effect between two ticks, and two need not share the pair.
   const bool several = at_once && list.size() > 1;
-  if (several) return results->set(0, "several parameters cannot be set in one instant; set_parameters sets them one after the other");
-  if (list.size() > most_at_once) throw Error("more than " + std::to_string(most_at_once) + " parameters in one call");
+  if (several)
+    return results->set(
+        0, "several parameters cannot be set in one instant; set_parameters sets them one after the other");
+  if (list.size() > most_at_once)
+    throw Error("more than " + std::to_string(most_at_once) + " parameters in one call");
   const Known known(control);
   for (std::size_t i = 0; i < list.size(); ++i)
     set_one(control, known, list[i], [results, i](const std::string& refusal) { results->set(i, refusal); });
@@ -233,25 +230,31 @@ void set_parameters(Control& control, CdrIn in, const Server::Reply& reply, bool
 
 }  // namespace
 
-void add_parameter_services(Servers& servers, Participant& participant, const DdsOptions& options, Control& control,
-                            const std::shared_ptr<Waker>& waker) {
+void add_parameter_services(Servers& servers, Participant& participant, const DdsOptions& options,
+                            Control& control, const std::shared_ptr<Waker>& waker) {
   auto add = [&](const std::string& service, const std::string& type, Server::Handle handle) {
     const std::string name = "rcl_interfaces/srv/" + type;
     const Server::Names names{std::string(node_name) + "/" + service, name + "_Request", name + "_Response"};
-    servers.push_back(std::make_unique<Server>(participant, options.name_space, names, waker, std::move(handle)));
+    servers.push_back(
+        std::make_unique<Server>(participant, options.name_space, names, waker, std::move(handle)));
   };
   auto look = [&control](Bytes (*answer)(const Control&, CdrIn)) {
-    return [&control, answer](std::span<const std::byte> request, const Server::Reply& reply) { reply(answer(control, CdrIn(request))); };
+    return [&control, answer](std::span<const std::byte> request, const Server::Reply& reply) {
+      reply(answer(control, CdrIn(request)));
+    };
   };
   add("list_parameters", "ListParameters", look(list_parameters));
   add("get_parameters", "GetParameters", look(get_parameters));
   add("get_parameter_types", "GetParameterTypes", look(get_parameter_types));
   add("describe_parameters", "DescribeParameters", look(describe_parameters));
-  add("set_parameters", "SetParameters", [&control](std::span<const std::byte> request, const Server::Reply& reply) {
-    set_parameters(control, CdrIn(request), reply, false);
-  });
+  add("set_parameters", "SetParameters",
+      [&control](std::span<const std::byte> request, const Server::Reply& reply) {
+        set_parameters(control, CdrIn(request), reply, false);
+      });
   add("set_parameters_atomically", "SetParametersAtomically",
-      [&control](std::span<const std::byte> request, const Server::Reply& reply) { set_parameters(control, CdrIn(request), reply, true); });
+      [&control](std::span<const std::byte> request, const Server::Reply& reply) {
+        set_parameters(control, CdrIn(request), reply, true);
+      });
 }
 
 }  // namespace fulmar::core::dds

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See participant.hpp. The only file that includes Fast DDS. Names and user data as rmw_fastrtps and rmw_dds_common write them.
+// See participant.hpp. The only file that includes Fast DDS. Names and user data as rmw_fastrtps and
+// rmw_dds_common write them.
 #include "core/dds/participant.hpp"
 
 #include <arpa/inet.h>
@@ -74,7 +75,9 @@ struct RawType : fd::TopicDataType {
     return true;
   }
   std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override {
-    return [data] { return static_cast<std::uint32_t>(static_cast<const std::span<const std::byte>*>(data)->size()); };
+    return [data] {
+      return static_cast<std::uint32_t>(static_cast<const std::span<const std::byte>*>(data)->size());
+    };
   }
   void* createData() override { return new Bytes; }
   void deleteData(void* data) override { delete static_cast<Bytes*>(data); }
@@ -164,7 +167,8 @@ struct RawReader : Reader {
       if (!info.valid_data) continue;
       Sample sample;
       sample.bytes = bytes;
-      sample.from = {guid_of(info.sample_identity.writer_guid()), info.sample_identity.sequence_number().to64long()};
+      sample.from = {guid_of(info.sample_identity.writer_guid()),
+                     info.sample_identity.sequence_number().to64long()};
       sample.answer_to = guid_of(info.related_sample_identity.writer_guid());
       sample.written_ns = info.source_timestamp.to_ns();
       count(sample.from);
@@ -185,7 +189,8 @@ struct RawReader : Reader {
 template <class Qos>
 void set_qos(Qos& qos, const Endpoint& e) {
   qos.reliability().kind = e.best_effort ? fd::BEST_EFFORT_RELIABILITY_QOS : fd::RELIABLE_RELIABILITY_QOS;
-  qos.durability().kind = e.transient_local ? fd::TRANSIENT_LOCAL_DURABILITY_QOS : fd::VOLATILE_DURABILITY_QOS;
+  qos.durability().kind =
+      e.transient_local ? fd::TRANSIENT_LOCAL_DURABILITY_QOS : fd::VOLATILE_DURABILITY_QOS;
   qos.history().kind = fd::KEEP_LAST_HISTORY_QOS;
   qos.history().depth = e.depth;
   qos.resource_limits().max_samples = e.depth * 2;
@@ -214,7 +219,8 @@ void check_own(const std::string& address, const Where& where) {
   for (const ifaddrs* a = first; a; a = a->ifa_next) {
     char text[INET_ADDRSTRLEN];
     if (!a->ifa_addr || a->ifa_addr->sa_family != AF_INET) continue;
-    if (::inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in*>(a->ifa_addr)->sin_addr, text, sizeof text)) own.emplace_back(text);
+    if (::inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in*>(a->ifa_addr)->sin_addr, text, sizeof text))
+      own.emplace_back(text);
   }
   ::freeifaddrs(first);
   if (address.starts_with("127.") || std::find(own.begin(), own.end(), address) != own.end()) return;
@@ -225,7 +231,8 @@ void check_own(const std::string& address, const Where& where) {
 /// One transport, bound to the given addresses; discovery by unicast alone.
 fd::DomainParticipantQos participant_qos(const DdsOptions& options) {
   fd::DomainParticipantQos qos;
-  const std::vector<std::string> own = options.interfaces.empty() ? std::vector<std::string>{"127.0.0.1"} : options.interfaces;
+  const std::vector<std::string> own =
+      options.interfaces.empty() ? std::vector<std::string>{"127.0.0.1"} : options.interfaces;
   auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
   udp->interfaceWhiteList = own;
   udp->maxInitialPeersRange = participants_per_host;
@@ -270,11 +277,12 @@ struct Participant::Impl : fd::DomainParticipantListener {
     const auto at = topics.find(e.topic);
     if (at != topics.end()) {
       if (at->second->get_type_name() != e.type)
-        throw Error("dds: the topic " + e.topic + " has the type " + at->second->get_type_name() + " here, it cannot be " + e.type +
-                    ", too");
+        throw Error("dds: the topic " + e.topic + " has the type " + at->second->get_type_name() +
+                    " here, it cannot be " + e.type + ", too");
       return at->second;
     }
-    if (participant->find_type(e.type).empty()) fd::TypeSupport(new RawType(e.type, e.max_bytes)).register_type(participant);
+    if (participant->find_type(e.type).empty())
+      fd::TypeSupport(new RawType(e.type, e.max_bytes)).register_type(participant);
     fd::Topic* made = participant->create_topic(e.topic, e.type, fd::TOPIC_QOS_DEFAULT);
     if (made == nullptr) throw Error("dds: the topic " + e.topic + " could not be made");
     return topics[e.topic] = made;
@@ -284,14 +292,16 @@ struct Participant::Impl : fd::DomainParticipantListener {
 Participant::Participant(const DdsOptions& options, Found found) : impl_(std::make_unique<Impl>()) {
   constexpr int highest_domain = 232;  // its ports are the last ones below 65536
   if (options.domain < 0 || options.domain > highest_domain)
-    throw Error("dds: domain " + std::to_string(options.domain) + " is outside 0 .. " + std::to_string(highest_domain));
+    throw Error("dds: domain " + std::to_string(options.domain) + " is outside 0 .. " +
+                std::to_string(highest_domain));
   impl_->found = std::move(found);
   const fd::DomainParticipantQos qos = participant_qos(options);
-  impl_->participant = fd::DomainParticipantFactory::get_instance()->create_participant(static_cast<std::uint32_t>(options.domain), qos,
-                                                                                        impl_.get(), fd::StatusMask::none());
+  impl_->participant = fd::DomainParticipantFactory::get_instance()->create_participant(
+      static_cast<std::uint32_t>(options.domain), qos, impl_.get(), fd::StatusMask::none());
   if (impl_->participant == nullptr)
     throw Error("dds: no participant could be made in domain " + std::to_string(options.domain) + " on " +
-                (options.interfaces.empty() ? "127.0.0.1" : join(options.interfaces)) + "; are these addresses of this computer?");
+                (options.interfaces.empty() ? "127.0.0.1" : join(options.interfaces)) +
+                "; are these addresses of this computer?");
   impl_->publisher = impl_->participant->create_publisher(fd::PUBLISHER_QOS_DEFAULT);
   impl_->subscriber = impl_->participant->create_subscriber(fd::SUBSCRIBER_QOS_DEFAULT);
 }
@@ -312,8 +322,10 @@ std::unique_ptr<Writer> Participant::writer(const Endpoint& endpoint) {
   qos.publish_mode().kind = fd::ASYNCHRONOUS_PUBLISH_MODE;
   qos.representation().m_value.push_back(fd::XCDR_DATA_REPRESENTATION);
   fd::Topic* topic = impl_->topic(endpoint);
-  writer->writer = impl_->publisher->create_datawriter(topic, qos, &writer->listener, fd::StatusMask::publication_matched());
-  if (writer->writer == nullptr) throw Error("dds: the topic " + endpoint.topic + " could not be opened for writing");
+  writer->writer = impl_->publisher->create_datawriter(topic, qos, &writer->listener,
+                                                       fd::StatusMask::publication_matched());
+  if (writer->writer == nullptr)
+    throw Error("dds: the topic " + endpoint.topic + " could not be opened for writing");
   return writer;
 }
 
@@ -323,8 +335,10 @@ std::unique_ptr<Reader> Participant::reader(const Endpoint& endpoint, Waker& wak
   set_qos(qos, endpoint);
   fd::Topic* topic = impl_->topic(endpoint);
   reader->reader = impl_->subscriber->create_datareader(topic, qos, &reader->listener,
-                                                        fd::StatusMask::data_available() << fd::StatusMask::subscription_matched());
-  if (reader->reader == nullptr) throw Error("dds: the topic " + endpoint.topic + " could not be opened for reading");
+                                                        fd::StatusMask::data_available()
+                                                            << fd::StatusMask::subscription_matched());
+  if (reader->reader == nullptr)
+    throw Error("dds: the topic " + endpoint.topic + " could not be opened for reading");
   return reader;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fast DDS behind plain classes: a participant that speaks to the given addresses alone, writers and readers of ready-made CDR bytes.
-// Settings: those with which ROS 2 (rmw_fastrtps) and Cyclone DDS understand it, without multicast and without shared memory.
+// Fast DDS behind plain classes: a participant that speaks to the given addresses alone, writers and readers
+// of ready-made CDR bytes. Settings: those with which ROS 2 (rmw_fastrtps) and Cyclone DDS understand it,
+// without multicast and without shared memory.
 #pragma once
 #include <array>
 #include <chrono>
@@ -94,7 +95,8 @@ class Reader {
 class Participant {
  public:
   /// Told of every writer and reader elsewhere that speaks of a topic; from a thread of Fast DDS.
-  using Found = std::function<void(const std::string& topic, const std::string& type, bool writer, bool best_effort)>;
+  using Found =
+      std::function<void(const std::string& topic, const std::string& type, bool writer, bool best_effort)>;
 
   /// Throws Error.
   Participant(const DdsOptions& options, Found found);

@@ -23,7 +23,8 @@ void RclValue::write(CdrOut& out) const {
 RclValue RclValue::read(CdrIn& in) {
   RclValue value;
   const auto type = in.number<std::uint8_t>();
-  if (type > static_cast<std::uint8_t>(RclType::texts)) throw Error("there is no parameter type " + std::to_string(type));
+  if (type > static_cast<std::uint8_t>(RclType::texts))
+    throw Error("there is no parameter type " + std::to_string(type));
   value.type = static_cast<RclType>(type);
   value.boolean = in.flag();
   value.integer = in.number<std::int64_t>();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The messages of a ROS 2 node that are not ours: parameters (rcl_interfaces) and the graph (rmw_dds_common). They hold strings and lists
-// of any length, so they have no type table; they are written and read by hand, XCDR1 little endian.
+// The messages of a ROS 2 node that are not ours: parameters (rcl_interfaces) and the graph (rmw_dds_common).
+// They hold strings and lists of any length, so they have no type table; they are written and read by hand,
+// XCDR1 little endian.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -31,7 +32,18 @@ class CdrIn : public CdrReader {
 };
 
 /// rcl_interfaces/msg/ParameterType
-enum class RclType : std::uint8_t { not_set, boolean, integer, number, text, bytes, booleans, integers, numbers, texts };
+enum class RclType : std::uint8_t {
+  not_set,
+  boolean,
+  integer,
+  number,
+  text,
+  bytes,
+  booleans,
+  integers,
+  numbers,
+  texts
+};
 
 /// rcl_interfaces/msg/ParameterValue
 struct RclValue {

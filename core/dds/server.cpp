@@ -11,14 +11,16 @@ namespace {
 
 constexpr std::size_t requests_per_wake = 16;
 constexpr int request_depth = 64;
-constexpr std::chrono::milliseconds patience{500};  // for the client's reader to be found: discovery of two endpoints is not simultaneous
+constexpr std::chrono::milliseconds patience{
+    500};  // for the client's reader to be found: discovery of two endpoints is not simultaneous
 
 /// Kinds of entity as RTPS 2.3, table 9.1, numbers them.
 bool is_reader(const Guid& guid) { return guid[15] == 0x04 || guid[15] == 0x07; }
 
 }  // namespace
 
-Server::Server(Participant& participant, const std::string& name_space, const Names& names, std::shared_ptr<Waker> waker, Handle handle)
+Server::Server(Participant& participant, const std::string& name_space, const Names& names,
+               std::shared_ptr<Waker> waker, Handle handle)
     : handle_(std::move(handle)), inbox_(std::make_shared<Inbox>()) {
   inbox_->waker = std::move(waker);
   Endpoint reply, request;
@@ -32,7 +34,8 @@ Server::Server(Participant& participant, const std::string& name_space, const Na
 }
 
 bool Server::serve() {
-  const bool all = reader_->take(requests_per_wake, [this](const Reader::Sample& sample) { take(sample); }) < requests_per_wake;
+  const bool all = reader_->take(requests_per_wake, [this](const Reader::Sample& sample) { take(sample); }) <
+                   requests_per_wake;
   {
     const std::lock_guard lock(inbox_->mutex);
     std::move(inbox_->answers.begin(), inbox_->answers.end(), std::back_inserter(due_));
@@ -41,7 +44,8 @@ bool Server::serve() {
   const Clock::time_point now = Clock::now();
   std::erase_if(due_, [&](Answer& answer) {
     if (answer.latest == Clock::time_point{}) answer.latest = now + patience;
-    const bool ready = !is_reader(answer.request.guid) || writer_->reaches(answer.request.guid) || now >= answer.latest;
+    const bool ready =
+        !is_reader(answer.request.guid) || writer_->reaches(answer.request.guid) || now >= answer.latest;
     if (ready) writer_->reply(answer.bytes, answer.request);
     return ready;
   });
@@ -51,7 +55,8 @@ bool Server::serve() {
 void Server::take(const Reader::Sample& sample) {
   ++taken_;
   // A client says which of its readers wants the reply; one that does not is known by its writer.
-  const Identity request{sample.answer_to == Guid{} ? sample.from.guid : sample.answer_to, sample.from.sequence};
+  const Identity request{sample.answer_to == Guid{} ? sample.from.guid : sample.answer_to,
+                         sample.from.sequence};
   try {
     handle_(sample.bytes, [inbox = inbox_, request](Bytes bytes) {
       {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One ROS 2 service as rmw_fastrtps carries it: a topic for requests, one for replies, and the request's identity beside each reply.
+// One ROS 2 service as rmw_fastrtps carries it: a topic for requests, one for replies, and the request's
+// identity beside each reply.
 #pragma once
 #include <chrono>
 #include <cstdint>
@@ -19,14 +20,16 @@ class Server {
  public:
   /// May be called from any thread, once, also when the server is no more.
   using Reply = std::function<void(Bytes)>;
-  /// Called in the thread that calls `serve`. Throws Error when the bytes are no such request: it is counted, not answered.
+  /// Called in the thread that calls `serve`. Throws Error when the bytes are no such request: it is counted,
+  /// not answered.
   using Handle = std::function<void(std::span<const std::byte> request, Reply reply)>;
 
   struct Names {
     std::string service;            // "plan/edit"
     std::string request, response;  // ROS names: "fulmar_msgs/srv/PlanEdit_Request"
   };
-  Server(Participant& participant, const std::string& name_space, const Names& names, std::shared_ptr<Waker> waker, Handle handle);
+  Server(Participant& participant, const std::string& name_space, const Names& names,
+         std::shared_ptr<Waker> waker, Handle handle);
 
   /// Takes some requests and sends the replies that are due. Returns false when requests are left.
   bool serve();

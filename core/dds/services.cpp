@@ -35,15 +35,19 @@ struct Requests {
   void operator()(std::span<const std::byte> bytes, const Server::Reply& reply) const {
     std::vector<std::byte> message(type->size);
     cdr_decode(*type, bytes.data(), bytes.size(), message.data());
-    auto answer = [reply, encoder = encoder](const std::string& refusal) { reply(response(*encoder, refusal)); };
+    auto answer = [reply, encoder = encoder](const std::string& refusal) {
+      reply(response(*encoder, refusal));
+    };
     if (!guard.check(message.data())) return answer(guard.explain(message.data()));
-    if (unanswered->load() >= most_unanswered) return answer(std::to_string(most_unanswered) + " requests wait for their answer already");
+    if (unanswered->load() >= most_unanswered)
+      return answer(std::to_string(most_unanswered) + " requests wait for their answer already");
     ++*unanswered;
     try {
-      control.request(component, port, std::move(message), [answer, count = unanswered](const std::string& refusal) {
-        --*count;
-        answer(refusal);
-      });
+      control.request(component, port, std::move(message),
+                      [answer, count = unanswered](const std::string& refusal) {
+                        --*count;
+                        answer(refusal);
+                      });
     } catch (const Error& fault) {
       --*unanswered;
       answer(fault.what());
@@ -57,39 +61,47 @@ std::string node_space(const DdsOptions& options) {
 
 }  // namespace
 
-void add_request_services(Servers& servers, Participant& participant, const DdsOptions& options, Control& control, const FlightView& view,
-                          const std::shared_ptr<Waker>& waker) {
+void add_request_services(Servers& servers, Participant& participant, const DdsOptions& options,
+                          Control& control, const FlightView& view, const std::shared_ptr<Waker>& waker) {
   for (const ComponentView& component : view.components) {
     for (const PortView& port : component.inputs) {
       if (!port.request) continue;
       const TypePtr in = srv_request(*port.type), out = srv_response(*port.type);
       const Server::Names names{component.name + "/" + port.name, ros_name(*in), ros_name(*out)};
-      Requests handle{control, component.name, port.name, port.type, Guard(*port.type), std::make_shared<const CdrEncoder>(*out)};
-      servers.push_back(std::make_unique<Server>(participant, options.name_space, names, waker, std::move(handle)));
+      Requests handle{control,   component.name,    port.name,
+                      port.type, Guard(*port.type), std::make_shared<const CdrEncoder>(*out)};
+      servers.push_back(
+          std::make_unique<Server>(participant, options.name_space, names, waker, std::move(handle)));
     }
   }
 }
 
-// ---- events ----------------------------------------------------------------------------------------------------------------------
+// ---- events
+// ----------------------------------------------------------------------------------------------------------------------
 
-ParameterEvents::ParameterEvents(Participant& participant, const DdsOptions& options, Control& control, std::shared_ptr<Waker> waker)
-    : control_(control), node_(dds_topic("", options.name_space, node_name)), inbox_(std::make_shared<Inbox>()) {
+ParameterEvents::ParameterEvents(Participant& participant, const DdsOptions& options, Control& control,
+                                 std::shared_ptr<Waker> waker)
+    : control_(control),
+      node_(dds_topic("", options.name_space, node_name)),
+      inbox_(std::make_shared<Inbox>()) {
   inbox_->waker = std::move(waker);
   Endpoint e;
   e.topic = "rt/parameter_events";  // one for all nodes
   e.type = "rcl_interfaces::msg::dds_::ParameterEvent_";
   e.depth = 1000;  // as rclcpp has it
   writer_ = participant.writer(e);
-  control.on_parameter([inbox = std::weak_ptr(inbox_)](const std::string& component, const std::string& parameter) {
-    const auto box = inbox.lock();
-    if (!box) return;
-    {
-      const std::lock_guard lock(box->mutex);
-      const std::pair change{component, parameter};
-      if (std::find(box->changed.begin(), box->changed.end(), change) == box->changed.end()) box->changed.push_back(change);
-    }
-    box->waker->wake();
-  });
+  control.on_parameter(
+      [inbox = std::weak_ptr(inbox_)](const std::string& component, const std::string& parameter) {
+        const auto box = inbox.lock();
+        if (!box) return;
+        {
+          const std::lock_guard lock(box->mutex);
+          const std::pair change{component, parameter};
+          if (std::find(box->changed.begin(), box->changed.end(), change) == box->changed.end())
+            box->changed.push_back(change);
+        }
+        box->waker->wake();
+      });
 }
 
 void ParameterEvents::pump() {
@@ -118,7 +130,8 @@ void ParameterEvents::pump() {
   writer_->write(out.take());
 }
 
-// ---- node ------------------------------------------------------------------------------------------------------------------------
+// ---- node
+// ------------------------------------------------------------------------------------------------------------------------
 
 NodeInfo::NodeInfo(Participant& participant, const DdsOptions& options, const std::vector<Guid>& readers,
                    const std::vector<Guid>& writers) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Requests as ROS 2 services, and the parameters of all components as those of one ROS 2 node, so that `ros2 service`, `ros2 param` and rqt
-// reach a flight.
+// Requests as ROS 2 services, and the parameters of all components as those of one ROS 2 node, so that `ros2
+// service`, `ros2 param` and rqt reach a flight.
 #pragma once
 #include <memory>
 #include <mutex>
@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/tap/control.hpp"
 #include "core/dds/participant.hpp"
 #include "core/dds/rcl.hpp"
 #include "core/dds/server.hpp"
+#include "core/tap/control.hpp"
 
 namespace fulmar::core::dds {
 
@@ -21,17 +21,18 @@ inline constexpr const char* node_name = "fulmar";
 using Servers = std::vector<std::unique_ptr<Server>>;
 
 /// A service per request port: "/plan/edit", type fulmar_msgs/srv/PlanEdit.
-void add_request_services(Servers& servers, Participant& participant, const DdsOptions& options, Control& control, const FlightView& view,
-                          const std::shared_ptr<Waker>& waker);
+void add_request_services(Servers& servers, Participant& participant, const DdsOptions& options,
+                          Control& control, const FlightView& view, const std::shared_ptr<Waker>& waker);
 
 /// The services of a node that has parameters: "slc.roll_kp" is the parameter roll_kp of the component slc.
-void add_parameter_services(Servers& servers, Participant& participant, const DdsOptions& options, Control& control,
-                            const std::shared_ptr<Waker>& waker);
+void add_parameter_services(Servers& servers, Participant& participant, const DdsOptions& options,
+                            Control& control, const std::shared_ptr<Waker>& waker);
 
 /// Topic /parameter_events: tells of each change, whoever made it.
 class ParameterEvents {
  public:
-  ParameterEvents(Participant& participant, const DdsOptions& options, Control& control, std::shared_ptr<Waker> waker);
+  ParameterEvents(Participant& participant, const DdsOptions& options, Control& control,
+                  std::shared_ptr<Waker> waker);
   void pump();
   const Writer& writer() const { return *writer_; }
 
@@ -47,10 +48,12 @@ class ParameterEvents {
   std::shared_ptr<Inbox> inbox_;
 };
 
-/// Topic ros_discovery_info: says which endpoints belong to the node, without which ROS 2 tools do not see one.
+/// Topic ros_discovery_info: says which endpoints belong to the node, without which ROS 2 tools do not see
+/// one.
 class NodeInfo {
  public:
-  NodeInfo(Participant& participant, const DdsOptions& options, const std::vector<Guid>& readers, const std::vector<Guid>& writers);
+  NodeInfo(Participant& participant, const DdsOptions& options, const std::vector<Guid>& readers,
+           const std::vector<Guid>& writers);
 
  private:
   std::unique_ptr<Writer> writer_;

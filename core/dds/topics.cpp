@@ -2,7 +2,6 @@
 // See topics.hpp.
 #include "core/dds/topics.hpp"
 
-
 #include <algorithm>
 #include <chrono>
 #include <utility>
@@ -18,13 +17,15 @@ namespace {
 constexpr int import_depth = 64;
 constexpr std::size_t samples_per_wake = 16;
 
-// A reader that joins late gets the last sample of a port that may stay silent ("latched" in ROS). The writer has room for more than one,
-// so that a quick series reaches the slow readers, too; what is older than this has reached them and is let go for the new one.
+// A reader that joins late gets the last sample of a port that may stay silent ("latched" in ROS). The writer
+// has room for more than one, so that a quick series reaches the slow readers, too; what is older than this
+// has reached them and is let go for the new one.
 constexpr std::int64_t delivered_ns = 1'000'000'000;
 
 }  // namespace
 
-// ---- others ----------------------------------------------------------------------------------------------------------------------
+// ---- others
+// ----------------------------------------------------------------------------------------------------------------------
 
 void Others::expect(const std::string& topic, const std::string& type, bool we_write, bool best_effort) {
   const std::lock_guard lock(mutex_);
@@ -39,12 +40,14 @@ void Others::found(const std::string& topic, const std::string& type, bool write
   const char* who = writer ? "writes" : "reads";
   if (t.type != type) {
     if (!std::exchange(t.told_type, true))
-      warn(std::string("dds: somebody ") + who + " " + topic + " with the type " + type + "; here it is " + t.type + ": the two do not meet");
+      warn(std::string("dds: somebody ") + who + " " + topic + " with the type " + type + "; here it is " +
+           t.type + ": the two do not meet");
   } else if (writer && best_effort) {
     t.best_effort_writer = true;
   } else if (!writer && !best_effort && t.best_effort) {
     if (!std::exchange(t.told_effort, true))
-      warn("dds: somebody reads " + topic + " reliably, but it is exported with best_effort: the two do not meet");
+      warn("dds: somebody reads " + topic +
+           " reliably, but it is exported with best_effort: the two do not meet");
   }
 }
 
@@ -59,16 +62,19 @@ static std::string name_space_of(const std::string& topic, const DdsOptions& opt
   return topic.starts_with('/') ? "" : options.name_space;
 }
 
-// ---- exports ---------------------------------------------------------------------------------------------------------------------
+// ---- exports
+// ---------------------------------------------------------------------------------------------------------------------
 
-Exports::Exports(Tap& tap, const DdsOptions& options, Others& others) : cursor_(tap), of_channel_(tap.channels().size()) {
+Exports::Exports(Tap& tap, const DdsOptions& options, Others& others)
+    : cursor_(tap), of_channel_(tap.channels().size()) {
   std::vector<std::int64_t> wanted(tap.channels().size(), -1);
   std::vector<std::string> names;
   for (const TapChannel& c : tap.channels()) names.push_back(c.topic);
   for (const DdsOptions::Export& e : options.exports) {
     const auto at = std::find(names.begin(), names.end(), "/" + slashed(e.port));
     if (at == names.end())
-      throw Error(e.where.text() + ": dds.export: there is no '" + e.port + "' to export." + choices_text("/" + slashed(e.port), names));
+      throw Error(e.where.text() + ": dds.export: there is no '" + e.port + "' to export." +
+                  choices_text("/" + slashed(e.port), names));
     const auto channel = static_cast<std::size_t>(at - names.begin());
     const Type& type = *tap.channels()[channel].type;
     Topic topic;
@@ -106,7 +112,9 @@ void Exports::send(Topic& topic, const Tap::Sample& sample) {
   if (topic.period_ns > 0 && !topic.due.take(sample.now_ns, topic.period_ns)) return;
   const bool read = topic.writer->readers() > 0;
   if (!read && !topic.endpoint.transient_local) return;
-  if (topic.endpoint.transient_local && sample.now_ns - std::exchange(topic.last_ns, sample.now_ns) > delivered_ns) topic.writer->forget();
+  if (topic.endpoint.transient_local &&
+      sample.now_ns - std::exchange(topic.last_ns, sample.now_ns) > delivered_ns)
+    topic.writer->forget();
   const std::size_t size = topic.encoder->encode(sample.data(), bytes_.data());
   const bool written = topic.writer->write({bytes_.data(), size});
   if (read) (written ? sent_ : lost_).fetch_add(1, std::memory_order_relaxed);
@@ -118,9 +126,11 @@ std::vector<Guid> Exports::writers() const {
   return list;
 }
 
-// ---- imports ---------------------------------------------------------------------------------------------------------------------
+// ---- imports
+// ---------------------------------------------------------------------------------------------------------------------
 
-Imports::Imports(Control& control, const FlightView& view, const DdsOptions& options, Others& others) : control_(control), others_(others) {
+Imports::Imports(Control& control, const FlightView& view, const DdsOptions& options, Others& others)
+    : control_(control), others_(others) {
   for (const DdsOptions::Import& i : options.imports) {
     const ComponentView& component = view.components.at(static_cast<std::size_t>(i.component));
     const PortView& port = component.inputs.at(static_cast<std::size_t>(i.input));
@@ -183,9 +193,11 @@ void Imports::use(Topic& topic, const Reader::Sample& sample) {
   bool taken = false;
   const std::string why = refusal(topic, sample, taken);
   const auto now = std::chrono::system_clock::now().time_since_epoch();
-  const double latency_s = static_cast<double>(std::chrono::nanoseconds(now).count() - sample.written_ns) * 1e-9;
+  const double latency_s =
+      static_cast<double>(std::chrono::nanoseconds(now).count() - sample.written_ns) * 1e-9;
   if (!why.empty() && !std::exchange(topic.told, true))
-    warn("dds: a sample of " + topic.stats.topic + " for " + topic.stats.port + " is refused: " + why + "; more of them are counted, not told");
+    warn("dds: a sample of " + topic.stats.topic + " for " + topic.stats.port + " is refused: " + why +
+         "; more of them are counted, not told");
   const std::lock_guard lock(mutex_);
   DdsStats::Import& stats = topic.stats;
   if (!why.empty()) {

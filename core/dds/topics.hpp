@@ -10,17 +10,17 @@
 #include <string>
 #include <vector>
 
-#include "core/due.hpp"
-#include "core/tap/control.hpp"
 #include "core/dds/bridge.hpp"
 #include "core/dds/participant.hpp"
+#include "core/due.hpp"
+#include "core/tap/control.hpp"
 #include "core/tap/tap.hpp"
 #include "core/types/wire.hpp"
 
 namespace fulmar::core::dds {
 
-/// What is known of the endpoints of others, by DDS topic; told from threads of Fast DDS. What does not match by the rules of DDS is said
-/// once, since nothing else would say why no sample comes.
+/// What is known of the endpoints of others, by DDS topic; told from threads of Fast DDS. What does not match
+/// by the rules of DDS is said once, since nothing else would say why no sample comes.
 class Others {
  public:
   /// A topic of this bridge. Before the participant is made.

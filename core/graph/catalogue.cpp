@@ -61,7 +61,8 @@ FoundPlugin PluginCatalogue::open(const std::string& name) {
   if (file.empty()) {
     std::vector<std::string> searched;
     for (const fs::path& folder : folders_) searched.push_back(folder.string());
-    throw Error("there is no plugin '" + name + "'. Searched in " + join(searched) + "." + choices_text(name, names()));
+    throw Error("there is no plugin '" + name + "'. Searched in " + join(searched) + "." +
+                choices_text(name, names()));
   }
   std::error_code code;
   fs::path key = fs::canonical(file, code);
@@ -69,9 +70,11 @@ FoundPlugin PluginCatalogue::open(const std::string& name) {
   const auto it = opened_.find(key);
   if (it != opened_.end()) return it->second;
   const Expected expected = admit ? admit(file) : Expected{};
-  // a script runs inside the plugin that hosts its language: that one needs leave too, and its content is looked at as well
+  // a script runs inside the plugin that hosts its language: that one needs leave too, and its content is
+  // looked at as well
   std::shared_ptr<Library> host;
-  if (admit && !script_host(file).empty()) host = Library::open(Library::host_of(file), admit(Library::host_of(file)));
+  if (admit && !script_host(file).empty())
+    host = Library::open(Library::host_of(file), admit(Library::host_of(file)));
   FoundPlugin found;
   found.library = Library::open(file, expected);
   auto info = std::make_shared<PluginInfo>(found.library->info());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the plugin that a mission's `use:` names. An interface, so that tests and tools can bring components of their own.
+// Finds the plugin that a mission's `use:` names. An interface, so that tests and tools can bring components
+// of their own.
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -20,9 +21,11 @@ struct FoundPlugin {
 
 struct Catalogue {
   virtual ~Catalogue() = default;
-  /// Asked before a file is opened: throws Error when it may not be, and tells the content that it must have. See Trust.
+  /// Asked before a file is opened: throws Error when it may not be, and tells the content that it must have.
+  /// See Trust.
   std::function<Expected(const std::filesystem::path&)> admit;
-  /// `name` is a plugin ("control_slc") or a file ("my_law.so", "build/my_law.so"). Throws Error with a sentence.
+  /// `name` is a plugin ("control_slc") or a file ("my_law.so", "build/my_law.so"). Throws Error with a
+  /// sentence.
   virtual FoundPlugin open(const std::string& name) = 0;
 };
 
@@ -42,7 +45,8 @@ class PluginCatalogue : public Catalogue {
   std::map<std::filesystem::path, FoundPlugin> opened_;
 };
 
-/// "control_slc/Outer" -> {"control_slc", "Outer"}, "build/law.so/Outer" -> {"build/law.so", "Outer"}; no component: "".
+/// "control_slc/Outer" -> {"control_slc", "Outer"}, "build/law.so/Outer" -> {"build/law.so", "Outer"}; no
+/// component: "".
 std::pair<std::string, std::string> split_use(const std::string& use);
 
 }  // namespace fulmar::core

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Conditions: a recursive-descent compiler into a flat array of nodes, and its evaluation on the bytes of messages.
+// Conditions: a recursive-descent compiler into a flat array of nodes, and its evaluation on the bytes of
+// messages.
 //   or = and {"or" and};  and = not {"and" not};  not = "not" not | "(" or ")" | side [compare side]
 //   side = field | number [unit] | label;  compare = "<" | "<=" | ">" | ">=" | "==" | "!="
 #include "core/graph/condition.hpp"
@@ -12,7 +13,18 @@
 
 namespace fulmar::core {
 
-enum class Op : std::uint8_t { both, either, opposite, truth, less, less_equal, greater, greater_equal, equal, differs };
+enum class Op : std::uint8_t {
+  both,
+  either,
+  opposite,
+  truth,
+  less,
+  less_equal,
+  greater,
+  greater_equal,
+  equal,
+  differs
+};
 
 struct Condition::Node {
   struct Side {
@@ -48,16 +60,19 @@ class Lexer {
     if (at_ >= text_.size()) return {};
     const char c = text_[at_];
     if (letter(c)) return {Token::Kind::name, take_name()};
-    if (digit(c) || c == '.' || ((c == '-' || c == '+') && at_ + 1 < text_.size() && (digit(text_[at_ + 1]) || text_[at_ + 1] == '.')))
+    if (digit(c) || c == '.' ||
+        ((c == '-' || c == '+') && at_ + 1 < text_.size() &&
+         (digit(text_[at_ + 1]) || text_[at_ + 1] == '.')))
       return {Token::Kind::number, take_number()};
     for (const char* symbol : {"<=", ">=", "==", "!=", "<", ">", "(", ")"})
       if (text_.compare(at_, std::strlen(symbol), symbol) == 0) {
         at_ += std::strlen(symbol);
         return {Token::Kind::symbol, symbol};
       }
-    for (const auto& [wrong, hint] :
-         {std::pair{"&&", "write and"}, std::pair{"||", "write or"}, std::pair{"!", "write not"}, std::pair{"=", "write == to compare"}})
-      if (text_.compare(at_, std::strlen(wrong), wrong) == 0) throw Error(std::string("'") + wrong + "' is not understood; " + hint);
+    for (const auto& [wrong, hint] : {std::pair{"&&", "write and"}, std::pair{"||", "write or"},
+                                      std::pair{"!", "write not"}, std::pair{"=", "write == to compare"}})
+      if (text_.compare(at_, std::strlen(wrong), wrong) == 0)
+        throw Error(std::string("'") + wrong + "' is not understood; " + hint);
     throw Error("'" + text_.substr(at_, 12) + "' is not understood");
   }
 
@@ -69,7 +84,8 @@ class Lexer {
   /// Letters, digits, dots and indices: nav.state.position_m.north, plan.plan.waypoints[3].airspeed_mps
   std::string take_name() {
     const std::size_t begin = at_;
-    while (at_ < text_.size() && (letter(text_[at_]) || digit(text_[at_]) || text_[at_] == '.' || text_[at_] == '[' || text_[at_] == ']'))
+    while (at_ < text_.size() && (letter(text_[at_]) || digit(text_[at_]) || text_[at_] == '.' ||
+                                  text_[at_] == '[' || text_[at_] == ']'))
       ++at_;
     return text_.substr(begin, at_ - begin);
   }
@@ -78,17 +94,21 @@ class Lexer {
   std::string take_number() {
     const std::size_t begin = at_;
     ++at_;
-    const auto exponent_sign = [&] { return (text_[at_] == '-' || text_[at_] == '+') && (text_[at_ - 1] == 'e' || text_[at_ - 1] == 'E'); };
+    const auto exponent_sign = [&] {
+      return (text_[at_] == '-' || text_[at_] == '+') && (text_[at_ - 1] == 'e' || text_[at_ - 1] == 'E');
+    };
     const auto exponent = [&] {
       return (text_[at_] == 'e' || text_[at_] == 'E') && at_ + 1 < text_.size() &&
              (digit(text_[at_ + 1]) || text_[at_ + 1] == '-' || text_[at_ + 1] == '+');
     };
-    while (at_ < text_.size() && (digit(text_[at_]) || text_[at_] == '.' || exponent() || exponent_sign())) ++at_;
+    while (at_ < text_.size() && (digit(text_[at_]) || text_[at_] == '.' || exponent() || exponent_sign()))
+      ++at_;
     const std::size_t number_end = at_;
     skip_blanks();
     const std::size_t unit_begin = at_;
     const auto of_unit = [](char c) {
-      return letter(c) || digit(c) || c == '/' || c == '^' || c == '%' || static_cast<unsigned char>(c) >= 0x80;
+      return letter(c) || digit(c) || c == '/' || c == '^' || c == '%' ||
+             static_cast<unsigned char>(c) >= 0x80;
     };
     while (at_ < text_.size() && of_unit(text_[at_])) ++at_;
     const std::string unit = text_.substr(unit_begin, at_ - unit_begin);
@@ -116,7 +136,8 @@ const Field& probe_field() {
 
 class Compiler {
  public:
-  Compiler(const std::string& text, const FindPort& find, std::vector<CNode>& nodes, std::vector<Source>& ports)
+  Compiler(const std::string& text, const FindPort& find, std::vector<CNode>& nodes,
+           std::vector<Source>& ports)
       : lexer_(text), find_(find), nodes_(nodes), ports_(ports) {
     advance();
   }
@@ -142,7 +163,8 @@ class Compiler {
 
   void advance() { token_ = lexer_.next(); }
   bool take(const char* word) {
-    if (token_.kind == Token::Kind::end || token_.kind == Token::Kind::number || token_.text != word) return false;
+    if (token_.kind == Token::Kind::end || token_.kind == Token::Kind::number || token_.text != word)
+      return false;
     advance();
     return true;
   }
@@ -184,8 +206,9 @@ class Compiler {
 
   int comparison() {
     Operand a = operand();
-    static const std::pair<const char*, Op> compares[] = {{"<=", Op::less_equal}, {">=", Op::greater_equal}, {"<", Op::less},
-                                                          {">", Op::greater},     {"==", Op::equal},         {"!=", Op::differs}};
+    static const std::pair<const char*, Op> compares[] = {{"<=", Op::less_equal}, {">=", Op::greater_equal},
+                                                          {"<", Op::less},        {">", Op::greater},
+                                                          {"==", Op::equal},      {"!=", Op::differs}};
     for (const auto& [symbol, op] : compares) {
       if (!take(symbol)) continue;
       Operand b = operand();
@@ -194,7 +217,8 @@ class Compiler {
           throw Error("a comparison has two sides; join two of them with 'and'");
       return add(compared(symbol, op, std::move(a), std::move(b)));
     }
-    if (a.kind == Operand::Kind::label) throw Error("'" + a.text + "' is not a field; a field is written like nav.state.height_m");
+    if (a.kind == Operand::Kind::label)
+      throw Error("'" + a.text + "' is not a field; a field is written like nav.state.height_m");
     if (!a.is_bool()) throw Error("'" + a.text + "' is not true or false; compare it with something");
     CNode node;
     node.op = Op::truth;
@@ -204,9 +228,12 @@ class Compiler {
 
   CNode compared(const std::string& symbol, Op op, Operand a, Operand b) {
     if (a.kind != Operand::Kind::field) {  // 3 m < height: turn it round
-      if (b.kind != Operand::Kind::field) throw Error("'" + a.text + " " + symbol + " " + b.text + "' looks at no field");
-      static const std::pair<Op, Op> mirrored[] = {
-          {Op::less, Op::greater}, {Op::greater, Op::less}, {Op::less_equal, Op::greater_equal}, {Op::greater_equal, Op::less_equal}};
+      if (b.kind != Operand::Kind::field)
+        throw Error("'" + a.text + " " + symbol + " " + b.text + "' looks at no field");
+      static const std::pair<Op, Op> mirrored[] = {{Op::less, Op::greater},
+                                                   {Op::greater, Op::less},
+                                                   {Op::less_equal, Op::greater_equal},
+                                                   {Op::greater_equal, Op::less_equal}};
       for (const auto& [from, to] : mirrored)
         if (op == from) {
           op = to;
@@ -215,7 +242,8 @@ class Compiler {
       std::swap(a, b);
     }
     if ((a.is_enum() || a.is_bool() || b.is_enum() || b.is_bool()) && op != Op::equal && op != Op::differs)
-      throw Error("'" + (a.is_enum() || a.is_bool() ? a : b).text + "' has no order; compare it with == or !=");
+      throw Error("'" + (a.is_enum() || a.is_bool() ? a : b).text +
+                  "' has no order; compare it with == or !=");
     if (b.kind == Operand::Kind::label)
       b.side.number = label_number(a, b.text);
     else if (b.kind == Operand::Kind::number)
@@ -234,15 +262,19 @@ class Compiler {
       if (label == "true" || label == "false") return label == "true" ? 1 : 0;
       throw Error("'" + field.text + "' is true or false, not '" + label + "'");
     }
-    if (!field.is_enum()) throw Error("'" + field.text + "' is a number and cannot be compared with '" + label + "'");
+    if (!field.is_enum())
+      throw Error("'" + field.text + "' is a number and cannot be compared with '" + label + "'");
     const std::vector<std::string>& labels = field.side.field.field->labels;
     const auto it = std::find(labels.begin(), labels.end(), label);
-    if (it == labels.end()) throw Error("'" + field.text + "' is never '" + label + "'." + choices_text(label, labels));
+    if (it == labels.end())
+      throw Error("'" + field.text + "' is never '" + label + "'." + choices_text(label, labels));
     return static_cast<double>(it - labels.begin());
   }
 
   static double plain_number(const Operand& field, const Operand& number) {
-    if (field.is_enum()) throw Error("'" + field.text + "' is compared with a word. Valid: " + join(field.side.field.field->labels) + ".");
+    if (field.is_enum())
+      throw Error("'" + field.text +
+                  "' is compared with a word. Valid: " + join(field.side.field.field->labels) + ".");
     if (field.is_bool()) throw Error("'" + field.text + "' is true or false, not " + number.text);
     try {
       return convert(number.quantity, field.side.field.unit, UnitRule::optional);
@@ -252,13 +284,14 @@ class Compiler {
   }
 
   static void match_fields(const Operand& a, Operand& b) {
-    if (a.is_enum() != b.is_enum() || a.is_bool() != b.is_bool()) throw Error("'" + a.text + "' and '" + b.text + "' cannot be compared");
+    if (a.is_enum() != b.is_enum() || a.is_bool() != b.is_bool())
+      throw Error("'" + a.text + "' and '" + b.text + "' cannot be compared");
     if (a.is_enum() && a.side.field.field->labels != b.side.field.field->labels)
       throw Error("'" + a.text + "' and '" + b.text + "' have different words");
     const std::string &unit_a = a.side.field.unit, &unit_b = b.side.field.unit;
     if (!same_dimension(unit_a, unit_b))
-      throw Error("'" + a.text + "' is in " + (unit_a.empty() ? "plain numbers" : unit_a) + " and '" + b.text + "' in " +
-                  (unit_b.empty() ? "plain numbers" : unit_b));
+      throw Error("'" + a.text + "' is in " + (unit_a.empty() ? "plain numbers" : unit_a) + " and '" +
+                  b.text + "' in " + (unit_b.empty() ? "plain numbers" : unit_b));
     b.side.factor = unit_factor(unit_b, unit_a);
   }
 
@@ -268,14 +301,16 @@ class Compiler {
     if (token_.kind == Token::Kind::number) {
       operand.kind = Operand::Kind::number;
       operand.quantity = parse_quantity(token_.text);
-    } else if (token_.kind == Token::Kind::name && token_.text != "and" && token_.text != "or" && token_.text != "not") {
+    } else if (token_.kind == Token::Kind::name && token_.text != "and" && token_.text != "or" &&
+               token_.text != "not") {
       if (token_.text.find('.') == std::string::npos)
         operand.kind = Operand::Kind::label;
       else
         field(operand);
     } else {
-      throw Error(token_.kind == Token::Kind::end ? "the condition ends where a field or a number is expected"
-                                                  : "expected a field or a number before '" + token_.text + "'");
+      throw Error(token_.kind == Token::Kind::end
+                      ? "the condition ends where a field or a number is expected"
+                      : "expected a field or a number before '" + token_.text + "'");
     }
     advance();
     return operand;
@@ -288,7 +323,8 @@ class Compiler {
     operand.side.field = found.field;
     const fulmar_kind kind = found.field.field->kind;
     if (kind == FULMAR_STRUCT || kind == FULMAR_TEXT)
-      throw Error("'" + operand.text + "' is " + (kind == FULMAR_TEXT ? "text" : "a " + found.field.field->type->name) +
+      throw Error("'" + operand.text + "' is " +
+                  (kind == FULMAR_TEXT ? "text" : "a " + found.field.field->type->name) +
                   ", not a number, a word or true or false");
     if (std::find(ports_.begin(), ports_.end(), found.from) == ports_.end()) ports_.push_back(found.from);
   }
@@ -315,26 +351,22 @@ bool number_of(const CNode::Side& side, const SampleReader& reader, double& numb
 
 bool node_holds(const std::vector<CNode>& nodes, int index, const SampleReader& reader) noexcept {
   const CNode& node = nodes[static_cast<std::size_t>(index)];
-  if (node.op == Op::both) return node_holds(nodes, node.left, reader) && node_holds(nodes, node.right, reader);
-  if (node.op == Op::either) return node_holds(nodes, node.left, reader) || node_holds(nodes, node.right, reader);
+  if (node.op == Op::both)
+    return node_holds(nodes, node.left, reader) && node_holds(nodes, node.right, reader);
+  if (node.op == Op::either)
+    return node_holds(nodes, node.left, reader) || node_holds(nodes, node.right, reader);
   if (node.op == Op::opposite) return !node_holds(nodes, node.left, reader);
   double a = 0, b = 0;
   if (!number_of(node.a, reader, a)) return false;
   if (node.op == Op::truth) return a != 0;
   if (!number_of(node.b, reader, b)) return false;
   switch (node.op) {
-    case Op::less:
-      return a < b;
-    case Op::less_equal:
-      return a <= b;
-    case Op::greater:
-      return a > b;
-    case Op::greater_equal:
-      return a >= b;
-    case Op::equal:
-      return a == b;
-    default:
-      return a != b;
+    case Op::less: return a < b;
+    case Op::less_equal: return a <= b;
+    case Op::greater: return a > b;
+    case Op::greater_equal: return a >= b;
+    case Op::equal: return a == b;
+    default: return a != b;
   }
 }
 
@@ -343,12 +375,15 @@ bool node_holds(const std::vector<CNode>& nodes, int index, const SampleReader& 
 ShownField find_shown(const std::string& text, const FindPort& find) {
   const auto dot = text.find('.');
   const auto second = dot == std::string::npos ? dot : text.find('.', dot + 1);
-  if (dot == std::string::npos) throw Error("'" + text + "' is not a field; a field is written like nav.state.height_m");
+  if (dot == std::string::npos)
+    throw Error("'" + text + "' is not a field; a field is written like nav.state.height_m");
   ShownField shown;
-  const std::string owner = text.substr(0, dot), port = text.substr(dot + 1, second == std::string::npos ? second : second - dot - 1);
+  const std::string owner = text.substr(0, dot),
+                    port = text.substr(dot + 1, second == std::string::npos ? second : second - dot - 1);
   std::tie(shown.from, shown.type) = find(owner, port);
   if (!shown.type) {
-    if (second != std::string::npos) throw Error("'" + owner + "." + port + "' is a probe: one number, without fields");
+    if (second != std::string::npos)
+      throw Error("'" + owner + "." + port + "' is a probe: one number, without fields");
     shown.field.field = &probe_field();
     const auto suffixed = split_suffix(port);
     shown.field.unit = suffixed ? suffixed->unit : "";
@@ -357,7 +392,8 @@ ShownField find_shown(const std::string& text, const FindPort& find) {
   std::vector<std::string> names;
   for (const Field& field : shown.type->fields) names.push_back(field.name);
   if (second == std::string::npos)
-    throw Error("'" + text + "' is a whole " + shown.type->name + "; name a field of it. Valid: " + join(names) + ".");
+    throw Error("'" + text + "' is a whole " + shown.type->name +
+                "; name a field of it. Valid: " + join(names) + ".");
   shown.field = resolve_field(*shown.type, text.substr(second + 1));
   return shown;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Conditions of phases: comparisons of fields with numbers, units, enum labels or other fields; and, or, not, parentheses.
-// Compiled when the mission is read; evaluated in the tick without allocation. False while a port it looks at has no sample or is stale.
+// Conditions of phases: comparisons of fields with numbers, units, enum labels or other fields; and, or, not,
+// parentheses. Compiled when the mission is read; evaluated in the tick without allocation. False while a
+// port it looks at has no sample or is stale.
 #pragma once
 #include <functional>
 #include <memory>
@@ -22,7 +23,8 @@ struct SampleReader {
   ~SampleReader() = default;
 };
 
-/// A field of a port, found by its full name "nav.state.height_m"; a probe is named by its port alone. The type is empty for a probe.
+/// A field of a port, found by its full name "nav.state.height_m"; a probe is named by its port alone. The
+/// type is empty for a probe.
 struct ShownField {
   Source from;
   TypePtr type;
@@ -33,7 +35,8 @@ ShownField find_shown(const std::string& text, const FindPort& find);
 
 class Condition {
  public:
-  /// Throws Error with a sentence on bad syntax, unknown fields, units that do not fit, labels that do not exist.
+  /// Throws Error with a sentence on bad syntax, unknown fields, units that do not fit, labels that do not
+  /// exist.
   static std::shared_ptr<const Condition> compile(const std::string& text, const FindPort& find);
   bool holds(const SampleReader& reader) const noexcept;
   const std::string& text() const { return text_; }

@@ -13,7 +13,8 @@
 
 namespace fulmar::core {
 
-/// A component of the file that can exist in this run. Sources in its wires count candidates until the graph is built.
+/// A component of the file that can exist in this run. Sources in its wires count candidates until the graph
+/// is built.
 struct Candidate {
   const ComponentText* text = nullptr;
   FoundPlugin plugin;
@@ -64,7 +65,8 @@ struct Draft {
   std::vector<std::string> role_names() const;
 };
 
-// resolve.cpp: why a component of the file is not there: "fcu exists only with io: fcu", or that there is none of that name
+// resolve.cpp: why a component of the file is not there: "fcu exists only with io: fcu", or that there is
+// none of that name
 std::string not_there(const Draft& draft, const std::string& name);
 
 // wires.cpp
@@ -81,8 +83,8 @@ void resolve_dds(Draft& draft, const std::vector<std::string>& ports);
 
 // phases.cpp
 void assign_roles(Draft& draft);
-/// Conditions, figures and transitions. Before the graph is built: checks them and marks the components that they name.
-/// Afterwards: compiles them for the graph.
+/// Conditions, figures and transitions. Before the graph is built: checks them and marks the components that
+/// they name. Afterwards: compiles them for the graph.
 void name_ports(Draft& draft);
 void compile_phases(Draft& draft);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mission, resolved: which components, how they are wired, in which order they step, who fills which role in which phase.
-// Everything that can be wrong has been refused before one of these exists. The loop reads it and never changes it.
+// A mission, resolved: which components, how they are wired, in which order they step, who fills which role
+// in which phase. Everything that can be wrong has been refused before one of these exists. The loop reads it
+// and never changes it.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -58,7 +59,8 @@ struct VehicleFlags {
   VehicleFlag armed, on_ground, in_control;
 };
 
-/// How a component is run; design: tick in the loop's thread, process in a child, async with a latency, driver in a thread of its own.
+/// How a component is run; design: tick in the loop's thread, process in a child, async with a latency,
+/// driver in a thread of its own.
 enum class RunMode : std::uint8_t { tick, process, async, driver };
 
 struct Component {
@@ -170,11 +172,11 @@ struct DdsOptions {
   std::string name_space;               // "uav1": before every topic and service
   std::vector<std::string> interfaces;  // addresses to use; default loopback alone
   Where interfaces_where;
-  std::vector<std::string> peers;       // addresses to look for others at; default the interfaces
+  std::vector<std::string> peers;  // addresses to look for others at; default the interfaces
   std::vector<Export> exports;
   std::vector<Import> imports;
   bool services = true, parameters = true;  // requests and parameters as ROS 2 services
-  bool humble = false;                      // ROS 2 Humble's form of the node's description, which differs from that of all since
+  bool humble = false;  // ROS 2 Humble's form of the node's description, which differs from that of all since
 };
 
 class StoredFiles;
@@ -185,9 +187,10 @@ struct Overrides {
   std::optional<std::uint64_t> seed;
   std::vector<std::pair<std::string, std::string>> roles;  // role=component
   std::vector<std::pair<std::string, std::string>> set;    // component.param=value (YAML text)
-  std::vector<std::pair<std::string, std::string>> with;   // component=plugin file, in place of the file that its `use` names
-  std::shared_ptr<const StoredFiles> files;                // in place of the disk: of a mission that has flown
-  std::vector<std::string> flown;                          // SHA-256 of the plugins that have flown in it
+  std::vector<std::pair<std::string, std::string>>
+      with;  // component=plugin file, in place of the file that its `use` names
+  std::shared_ptr<const StoredFiles> files;  // in place of the disk: of a mission that has flown
+  std::vector<std::string> flown;            // SHA-256 of the plugins that have flown in it
 };
 
 struct Graph {
@@ -204,7 +207,7 @@ struct Graph {
   std::vector<Transition> any;
   std::vector<int> order;  // steps, the vehicle left out
   int vehicle = -1;
-  VehicleFlags flags;  // of the vehicle; with Io::fcu it has all of them
+  VehicleFlags flags;                                   // of the vehicle; with Io::fcu it has all of them
   std::shared_ptr<const Condition> done, failed;        // may be empty
   std::int64_t done_for_ns = 0, failed_for_ns = 0;      // how long they have to hold
   std::int64_t timeout_ns = 0;                          // of flight time; 0: none
@@ -222,7 +225,8 @@ struct Graph {
   std::int64_t rotate_ns = 0;
   LiveOptions live;
   DdsOptions dds;
-  /// Files whose contents cross into the flight, as read: mission, what it extends, airframe, plans. Name without folders -> text.
+  /// Files whose contents cross into the flight, as read: mission, what it extends, airframe, plans. Name
+  /// without folders -> text.
   std::vector<std::pair<std::string, std::string>> attachments;
   /// Where all of this came from, so that it can be read again.
   std::string file;
@@ -230,7 +234,8 @@ struct Graph {
   std::vector<std::filesystem::path> files;  // mission, what it extends, airframe, plans
 };
 
-/// Loads a mission file and everything that it names. On faults throws Error whose text holds all of them, one per line.
+/// Loads a mission file and everything that it names. On faults throws Error whose text holds all of them,
+/// one per line.
 Graph load_mission(const std::string& file, const Overrides& overrides = {});
 
 /// The same with components from elsewhere than plugin files.

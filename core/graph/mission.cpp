@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads the keys of a mission file. What they mean together is resolve.cpp's business.
 #include "core/graph/mission.hpp"
-#include "core/types/names.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -10,15 +9,16 @@
 #include <cstdio>
 
 #include "core/graph/quantity.hpp"
+#include "core/types/names.hpp"
 
 namespace fulmar::core {
 namespace fs = std::filesystem;
 namespace {
 
-const std::vector<std::string> mission_keys = {"mission",  "extends", "io",         "airframe", "origin", "rate",     "seed",
-                                               "arm",      "done",    "failed",     "timeout",  "epoch",  "progress", "summary",
-                                               "failsafe", "roles",   "components", "phases",   "record", "plugins",  "control",
-                                               "tell",     "resume",  "live",       "dds"};
+const std::vector<std::string> mission_keys = {
+    "mission", "extends", "io",      "airframe", "origin",  "rate",     "seed",  "arm",        "done",
+    "failed",  "timeout", "epoch",   "progress", "summary", "failsafe", "roles", "components", "phases",
+    "record",  "plugins", "control", "tell",     "resume",  "live",     "dds"};
 const std::vector<std::string> component_keys = {"fills", "use",     "in",     "params",  "rate",   "only",
                                                  "run",   "latency", "budget", "max_age", "memory", "hang"};
 
@@ -57,7 +57,8 @@ class MissionReader {
   void each(const Keys& keys, const std::string& key, F read_entry) {
     const Node* node = keys.get(key);
     if (!node) return;
-    if (!node->is(Node::Kind::map)) return report_.add(node->where(), key + ": expected a map of names, found " + found_words(*node));
+    if (!node->is(Node::Kind::map))
+      return report_.add(node->where(), key + ": expected a map of names, found " + found_words(*node));
     const std::size_t most = (key == "phases" ? name_room : component_room) - 1;
     for (const Node::Entry& entry : node->entries) {
       if (entry.key.size() > most)
@@ -66,7 +67,8 @@ class MissionReader {
       if (is_name(entry.key))
         read_entry(entry);
       else
-        report_.add(entry.where(), key + ": '" + entry.key + "' is not a name; names are letters, digits and _");
+        report_.add(entry.where(),
+                    key + ": '" + entry.key + "' is not a name; names are letters, digits and _");
     }
   }
 
@@ -114,26 +116,33 @@ class MissionReader {
   void shown(const Keys& keys) {
     ending(keys, "done", m_.done, m_.done_for_ns);
     ending(keys, "failed", m_.failed, m_.failed_for_ns);
-    list(keys, "progress", "a list of fields such as [nav.state.height_m]", "a field such as nav.state.height_m", m_.progress);
+    list(keys, "progress", "a list of fields such as [nav.state.height_m]",
+         "a field such as nav.state.height_m", m_.progress);
     list(keys, "control", "a list of roles such as [guide, outer, inner]", "the name of a role", m_.control);
-    list(keys, "tell", "a list of ports such as [vehicle.notices]", "a port such as vehicle.notices", m_.tell);
+    list(keys, "tell", "a list of ports such as [vehicle.notices]", "a port such as vehicle.notices",
+         m_.tell);
     map(keys, "summary", "a map {name: component.port}", "a port such as score.tracking", m_.summary);
-    map(keys, "resume", "a map {component.parameter: component.port.field}", "a field such as manage.progress.item", m_.resume);
+    map(keys, "resume", "a map {component.parameter: component.port.field}",
+        "a field such as manage.progress.item", m_.resume);
   }
 
-  void list(const Keys& keys, const std::string& key, const std::string& wanted, const std::string& item_wanted, std::vector<Word>& out) {
+  void list(const Keys& keys, const std::string& key, const std::string& wanted,
+            const std::string& item_wanted, std::vector<Word>& out) {
     const Node* node = keys.get(key);
     if (!node) return;
-    if (!node->is(Node::Kind::sequence)) report_.add(node->where(), key + ": expected " + wanted + ", found " + found_words(*node));
+    if (!node->is(Node::Kind::sequence))
+      report_.add(node->where(), key + ": expected " + wanted + ", found " + found_words(*node));
     for (const Node& item : node->items)
-      if (const auto text = scalar_text(item, key, item_wanted, report_)) out.push_back({*text, item.where()});
+      if (const auto text = scalar_text(item, key, item_wanted, report_))
+        out.push_back({*text, item.where()});
   }
 
-  void map(const Keys& keys, const std::string& key, const std::string& wanted, const std::string& item_wanted,
-           std::vector<std::pair<std::string, Word>>& out) {
+  void map(const Keys& keys, const std::string& key, const std::string& wanted,
+           const std::string& item_wanted, std::vector<std::pair<std::string, Word>>& out) {
     const Node* node = keys.get(key);
     if (!node) return;
-    if (!node->is(Node::Kind::map)) report_.add(node->where(), key + ": expected " + wanted + ", found " + found_words(*node));
+    if (!node->is(Node::Kind::map))
+      report_.add(node->where(), key + ": expected " + wanted + ", found " + found_words(*node));
     for (const Node::Entry& entry : node->entries)
       if (const auto text = scalar_text(entry.value, key + "." + entry.key, item_wanted, report_))
         out.push_back({entry.key, {*text, entry.where()}});
@@ -162,7 +171,8 @@ class MissionReader {
     std::vector<WireText> list;
     if (!map) return list;
     if (!map->is(Node::Kind::map)) {
-      report_.add(map->where(), path + ": expected a map {input: component.output}, found " + found_words(*map));
+      report_.add(map->where(),
+                  path + ": expected a map {input: component.output}, found " + found_words(*map));
       return list;
     }
     for (const Node::Entry& entry : map->entries) list.push_back(read_wire(entry, path + "." + entry.key));
@@ -208,9 +218,11 @@ class MissionReader {
         text.optional = port.key.ends_with('?');
         text.name = text.optional ? port.key.substr(0, port.key.size() - 1) : port.key;
         text.where = port.where();
-        const auto type = scalar_text(port.value, path + ".out." + port.key, "the name of a message type such as VehicleState", report_);
+        const auto type = scalar_text(port.value, path + ".out." + port.key,
+                                      "the name of a message type such as VehicleState", report_);
         if (!is_name(text.name))
-          report_.add(port.where(), path + ".out: '" + port.key + "' is not a name; an optional port ends in '?'");
+          report_.add(port.where(),
+                      path + ".out: '" + port.key + "' is not a name; an optional port ends in '?'");
         else if (type)
           text.type = *type, role.out.push_back(text);
       }
@@ -237,14 +249,16 @@ class MissionReader {
     c.use = keys.text("use").value_or("");
     c.where_use = keys.where("use");
     if (!keys.has("use") && entry.value.is(Node::Kind::map))
-      report_.add(entry.where(), path + ": 'use' is missing; it names the plugin, as in use: control_slc/Outer");
+      report_.add(entry.where(),
+                  path + ": 'use' is missing; it names the plugin, as in use: control_slc/Outer");
     c.only = io_of(keys.word("only", io_words).value_or(""));
     if (!keys.has("only") && c.fills == "vehicle") c.only = io_of(c.name);
     c.in = wires(keys.get("in"), path + ".in");
     if (const Node* params = keys.get("params")) {
       c.params = *params;
       if (!params->is(Node::Kind::map))
-        report_.add(params->where(), path + ".params: expected a map {parameter: value}, found " + found_words(*params));
+        report_.add(params->where(),
+                    path + ".params: expected a map {parameter: value}, found " + found_words(*params));
     }
     c.rate_hz = keys.positive("rate", "Hz").value_or(0);
     c.where_rate = keys.where("rate");
@@ -258,15 +272,20 @@ class MissionReader {
     static const std::vector<std::string> modes = {"tick", "process", "async", "driver"};
     const auto at = std::find(modes.begin(), modes.end(), keys.word("run", modes).value_or(""));
     if (at != modes.end()) c.run = static_cast<RunMode>(at - modes.begin());
-    if (keys.has("latency") && c.run != RunMode::async) report_.add(keys.where("latency"), path + ".latency: belongs to 'run: async'");
+    if (keys.has("latency") && c.run != RunMode::async)
+      report_.add(keys.where("latency"), path + ".latency: belongs to 'run: async'");
     // on hardware a child may be the default: `hang` may then stand alone
-    if (keys.has("hang") && c.run && c.run != RunMode::process) report_.add(keys.where("hang"), path + ".hang: belongs to 'run: process'");
+    if (keys.has("hang") && c.run && c.run != RunMode::process)
+      report_.add(keys.where("hang"), path + ".hang: belongs to 'run: process'");
     c.latency_ns = keys.duration_ns("latency").value_or(0);
     c.hang_ns = keys.duration_ns("hang").value_or(0);
     if (c.run == RunMode::async && c.latency_ns == 0)
       report_.add(keys.has("latency") ? keys.where("latency") : keys.where("run"),
-                  path + ": 'run: async' needs a latency above 0, as in latency: 200 ms: what it computes is seen that much later");
-    if (const auto text = keys.text("memory")) c.memory_bytes = parse_bytes(*text, keys.where("memory"), path + ".memory", report_);
+                  path +
+                      ": 'run: async' needs a latency above 0, as in latency: 200 ms: what it computes is "
+                      "seen that much later");
+    if (const auto text = keys.text("memory"))
+      c.memory_bytes = parse_bytes(*text, keys.where("memory"), path + ".memory", report_);
   }
 
   void phase(const Node::Entry& entry) {
@@ -290,7 +309,9 @@ class MissionReader {
 
   void transitions(const Node& list, const std::string& path, std::vector<TransitionText>& out) {
     if (!list.is(Node::Kind::sequence))
-      return report_.add(list.where(), path + ": expected a list such as [{to: cruise, when: \"...\"}], found " + found_words(list));
+      return report_.add(
+          list.where(),
+          path + ": expected a list such as [{to: cruise, when: \"...\"}], found " + found_words(list));
     for (const Node& item : list.items) {
       const Keys keys(item, path, {"to", "when", "for"}, report_);
       if (!item.is(Node::Kind::map)) continue;
@@ -300,7 +321,9 @@ class MissionReader {
       t.where_when = keys.where("when");
       for (const char* key : {"to", "when"})
         if (!keys.has(key))
-          report_.add(item.where(), path + ": '" + key + "' is missing, as in {to: cruise, when: \"nav.state.height_m > 30 m\"}");
+          report_.add(
+              item.where(),
+              path + ": '" + key + "' is missing, as in {to: cruise, when: \"nav.state.height_m > 30 m\"}");
       t.to = keys.text("to").value_or("");
       t.when = keys.text("when").value_or("");
       t.for_ns = keys.duration_ns("for").value_or(0);
@@ -320,9 +343,12 @@ class MissionReader {
       if (keys.has("fallback")) a.where_fallback = keys.where("fallback");
       if (const Node* set = keys.get("set")) a.set = *set;
       if (!a.set.is(Node::Kind::missing) && !a.set.is(Node::Kind::map))
-        report_.add(a.set.where(), path + ".set: expected a map {parameter: value}, found " + found_words(a.set)), a.set = Node{};
+        report_.add(a.set.where(),
+                    path + ".set: expected a map {parameter: value}, found " + found_words(a.set)),
+            a.set = Node{};
     } else {
-      a.use = scalar_text(entry.value, path, "the name of a component, or {use, set, fallback}", report_).value_or("");
+      a.use = scalar_text(entry.value, path, "the name of a component, or {use, set, fallback}", report_)
+                  .value_or("");
     }
     phase.roles.push_back(std::move(a));
   }
@@ -332,7 +358,9 @@ class MissionReader {
     if (!node) return;
     if (node->is(Node::Kind::scalar)) {
       m_.record = node->text != "off";
-      if (m_.record) report_.add(node->where(), "record: expected 'off' or a map {file, ports, rate, rotate}, found " + found_words(*node));
+      if (m_.record)
+        report_.add(node->where(), "record: expected 'off' or a map {file, ports, rate, rotate}, found " +
+                                       found_words(*node));
       return;
     }
     const Keys keys(*node, "record", {"file", "ports", "rate", "rotate"}, report_);
@@ -347,7 +375,8 @@ class MissionReader {
     }
     if (ports->is(Node::Kind::sequence)) {
       for (const Node& item : ports->items)
-        if (const auto text = scalar_text(item, "record.ports", "a port or a pattern such as \"nav.*\"", report_))
+        if (const auto text =
+                scalar_text(item, "record.ports", "a port or a pattern such as \"nav.*\"", report_))
           add_rule(*text, period, item.where());
     } else if (ports->is(Node::Kind::map)) {
       std::vector<std::string> names;
@@ -359,7 +388,8 @@ class MissionReader {
         add_rule(name, hz ? std::llround(1e9 / *hz) : 0, rates.where(name));
       }
     } else {
-      report_.add(ports->where(), "record.ports: expected a list of ports or a map {port: rate}, found " + found_words(*ports));
+      report_.add(ports->where(), "record.ports: expected a list of ports or a map {port: rate}, found " +
+                                      found_words(*ports));
     }
   }
 
@@ -372,11 +402,14 @@ class MissionReader {
     if (text.ends_with('B'))
       m_.rotate_bytes = parse_bytes(text, keys.where("rotate"), "record.rotate", report_);
     else if (text.find_first_not_of("0123456789.") == std::string::npos)
-      report_.add(keys.where("rotate"), "record.rotate: " + text + " has no unit; give an amount or a time, as in 100 MB or 10 min");
+      report_.add(keys.where("rotate"), "record.rotate: " + text +
+                                            " has no unit; give an amount or a time, as in 100 MB or 10 min");
     else
       m_.rotate_ns = keys.duration_ns("rotate").value_or(0);
-    if ((m_.rotate_bytes > 0 && m_.rotate_bytes < least_bytes) || (m_.rotate_ns > 0 && m_.rotate_ns < least_ns))
-      report_.add(keys.where("rotate"), "record.rotate: " + text + " is too little for a file; give at least 1 MB, or 1 s");
+    if ((m_.rotate_bytes > 0 && m_.rotate_bytes < least_bytes) ||
+        (m_.rotate_ns > 0 && m_.rotate_ns < least_ns))
+      report_.add(keys.where("rotate"),
+                  "record.rotate: " + text + " is too little for a file; give at least 1 MB, or 1 s");
   }
 
   void add_rule(const std::string& pattern, std::int64_t period_ns, const Where& where) {
@@ -388,14 +421,16 @@ class MissionReader {
   Report& report_;
 };
 
-/// Named things merge by name: a component's keys, its parameters and wires one by one, what a phase says of a role as a whole.
-/// Everything else is replaced as a whole.
+/// Named things merge by name: a component's keys, its parameters and wires one by one, what a phase says of
+/// a role as a whole. Everything else is replaced as a whole.
 Node laid_over(const Node& base, const Node& top) {
-  static const std::pair<const char*, int> depths[] = {{"components", 3}, {"roles", 3}, {"phases", 2}, {"summary", 1}};
+  static const std::pair<const char*, int> depths[] = {
+      {"components", 3}, {"roles", 3}, {"phases", 2}, {"summary", 1}};
   Node node = merged(base, top, 1);
   for (const auto& [key, depth] : depths)
     for (Node::Entry& entry : node.entries)
-      if (entry.key == key && base.find(key) && top.find(key)) entry.value = merged(*base.find(key), *top.find(key), depth);
+      if (entry.key == key && base.find(key) && top.find(key))
+        entry.value = merged(*base.find(key), *top.find(key), depth);
   return node;
 }
 
@@ -410,7 +445,8 @@ Node load_tree(MissionText& mission, const StoredFiles* stored, Report& report) 
     const FilePtr base_file = read_source(mission.file->path.parent_path() / *name, *name, stored);
     mission.files.push_back(base_file);
     const Node base = parse_yaml(base_file, report);
-    if (const Node* again = base.find("extends")) report.add(again->where(), "extends: a file that is extended cannot extend another one");
+    if (const Node* again = base.find("extends"))
+      report.add(again->where(), "extends: a file that is extended cannot extend another one");
     if (!base.is(Node::Kind::map) && !base.is(Node::Kind::missing))
       report.add(base.where(), "expected a map with the keys of a mission; found " + found_words(base));
     if (base.is(Node::Kind::map) && root.is(Node::Kind::map)) return laid_over(base, root);
@@ -425,10 +461,12 @@ Node load_tree(MissionText& mission, const StoredFiles* stored, Report& report) 
 bool is_name(const std::string& text) {
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
   const auto digit = [](char c) { return c >= '0' && c <= '9'; };
-  return !text.empty() && letter(text[0]) && std::all_of(text.begin(), text.end(), [&](char c) { return letter(c) || digit(c); });
+  return !text.empty() && letter(text[0]) &&
+         std::all_of(text.begin(), text.end(), [&](char c) { return letter(c) || digit(c); });
 }
 
-std::optional<PortName> parse_port_name(const std::string& text, const Where& where, const std::string& path, Report& report) {
+std::optional<PortName> parse_port_name(const std::string& text, const Where& where, const std::string& path,
+                                        Report& report) {
   const auto dot = text.find('.');
   if (dot != std::string::npos && is_name(text.substr(0, dot)) && is_name(text.substr(dot + 1)))
     return PortName{text.substr(0, dot), text.substr(dot + 1)};
@@ -436,14 +474,17 @@ std::optional<PortName> parse_port_name(const std::string& text, const Where& wh
   return std::nullopt;
 }
 
-std::uint64_t parse_bytes(const std::string& text, const Where& where, const std::string& path, Report& report) {
+std::uint64_t parse_bytes(const std::string& text, const Where& where, const std::string& path,
+                          Report& report) {
   double number = 0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
   std::string unit(end, text.data() + text.size());
   unit.erase(0, unit.find_first_not_of(' ') == std::string::npos ? 0 : unit.find_first_not_of(' '));
   for (const auto& [name, factor] : {std::pair{"kB", 1e3}, std::pair{"MB", 1e6}, std::pair{"GB", 1e9}})
-    if (code == std::errc{} && unit == name && number > 0 && number <= 1e6) return static_cast<std::uint64_t>(number * factor);
-  report.add(where, path + ": '" + text + "' is no amount of memory; write it with kB, MB or GB, as in 64 MB");
+    if (code == std::errc{} && unit == name && number > 0 && number <= 1e6)
+      return static_cast<std::uint64_t>(number * factor);
+  report.add(where,
+             path + ": '" + text + "' is no amount of memory; write it with kB, MB or GB, as in 64 MB");
   return 0;
 }
 
@@ -463,17 +504,22 @@ std::int64_t parse_utc_ns(const std::string& text) {
   int year = 0, month = 0, day = 0, hour = 0, minute = 0, used = 0;
   double second = 0;
   const auto wrong = [&] { return Error("'" + text + "' is not a time such as 2026-01-01T00:00Z"); };
-  if (std::sscanf(text.c_str(), "%4d-%2d-%2dT%2d:%2d%n", &year, &month, &day, &hour, &minute, &used) < 5) throw wrong();
+  if (std::sscanf(text.c_str(), "%4d-%2d-%2dT%2d:%2d%n", &year, &month, &day, &hour, &minute, &used) < 5)
+    throw wrong();
   std::string rest = text.substr(static_cast<std::size_t>(used));
   if (!rest.ends_with('Z')) throw wrong();
   rest.pop_back();
   if (!rest.empty()) {
     const auto [end, code] = std::from_chars(rest.data() + 1, rest.data() + rest.size(), second);
-    if (rest[0] != ':' || code != std::errc{} || end != rest.data() + rest.size() || !(second >= 0 && second < 60)) throw wrong();
+    if (rest[0] != ':' || code != std::errc{} || end != rest.data() + rest.size() ||
+        !(second >= 0 && second < 60))
+      throw wrong();
   }
-  const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(static_cast<unsigned>(month)),
+  const std::chrono::year_month_day date{std::chrono::year(year),
+                                         std::chrono::month(static_cast<unsigned>(month)),
                                          std::chrono::day(static_cast<unsigned>(day))};
-  if (year < 1970 || year > 2200 || !date.ok() || hour < 0 || hour > 23 || minute < 0 || minute > 59) throw wrong();
+  if (year < 1970 || year > 2200 || !date.ok() || hour < 0 || hour > 23 || minute < 0 || minute > 59)
+    throw wrong();
   const std::int64_t days = std::chrono::sys_days(date).time_since_epoch().count();
   return (days * 86400 + hour * 3600 + minute * 60) * 1'000'000'000 + std::llround(second * 1e9);
 }
@@ -481,8 +527,8 @@ std::int64_t parse_utc_ns(const std::string& text) {
 MissionText parse_mission(const std::string& file, const Overrides& overrides, Report& report) {
   MissionText mission;
   const fs::path path = file;
-  mission.file =
-      std::make_shared<SourceFile>(SourceFile{path, path.filename().string(), read_source(path, file, overrides.files.get())->text});
+  mission.file = std::make_shared<SourceFile>(
+      SourceFile{path, path.filename().string(), read_source(path, file, overrides.files.get())->text});
   mission.files.push_back(mission.file);
   const Node root = load_tree(mission, overrides.files.get(), report);
   MissionReader(mission, report).read(root);

@@ -119,13 +119,14 @@ struct MissionText {
   LiveOptions live;
   DdsOptions dds;                       // but for its imports
   std::vector<ImportText> dds_imports;  // into components that may not exist
-  std::vector<FilePtr> files;  // the mission and what it extends
+  std::vector<FilePtr> files;           // the mission and what it extends
 
   const RoleText* role(const std::string& name) const;
   const ComponentText* component(const std::string& name) const;
 };
 
-/// Reads a mission and the file that it extends. Faults go to the report; throws Error when there is no such file.
+/// Reads a mission and the file that it extends. Faults go to the report; throws Error when there is no such
+/// file.
 MissionText parse_mission(const std::string& file, const Overrides& overrides, Report& report);
 
 // tap_sections.cpp: `live:` and `dds:`
@@ -133,11 +134,13 @@ void read_live(const Keys& mission, MissionText& text, Report& report);
 void read_dds(const Keys& mission, MissionText& text, Report& report);
 
 /// "64 MB" -> 64e6. Reports a fault and returns 0.
-std::uint64_t parse_bytes(const std::string& text, const Where& where, const std::string& path, Report& report);
+std::uint64_t parse_bytes(const std::string& text, const Where& where, const std::string& path,
+                          Report& report);
 /// Letters, digits and _.
 bool is_name(const std::string& text);
 /// "nav.state"; nothing and a fault when it is not that.
-std::optional<PortName> parse_port_name(const std::string& text, const Where& where, const std::string& path, Report& report);
+std::optional<PortName> parse_port_name(const std::string& text, const Where& where, const std::string& path,
+                                        Report& report);
 
 /// "2026-01-01T00:00Z" as ns since 1970. Throws Error.
 std::int64_t parse_utc_ns(const std::string& text);

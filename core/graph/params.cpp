@@ -12,10 +12,13 @@
 namespace fulmar::core {
 namespace fs = std::filesystem;
 
-// ---- files ------------------------------------------------------------------------------------------------------------------
+// ---- files
+// ------------------------------------------------------------------------------------------------------------------
 
 void FileStore::keep(const FilePtr& file) {
-  const auto same = [&](const FilePtr& other) { return other->path.lexically_normal() == file->path.lexically_normal(); };
+  const auto same = [&](const FilePtr& other) {
+    return other->path.lexically_normal() == file->path.lexically_normal();
+  };
   if (std::none_of(files_.begin(), files_.end(), same)) files_.push_back(file);
 }
 
@@ -59,12 +62,14 @@ std::vector<std::pair<std::string, std::string>> FileStore::attachments() const 
   return list;
 }
 
-// ---- values -----------------------------------------------------------------------------------------------------------------
+// ---- values
+// -----------------------------------------------------------------------------------------------------------------
 
 ParamValue initial_value(const ParamInfo& param) {
   ParamValue value;
   std::copy(std::begin(param.initial), std::end(param.initial), std::begin(value.number));
-  value.integer = param.kind == FULMAR_RECORD || param.kind == FULMAR_BLOB ? 0 : std::llround(param.initial[0]);
+  value.integer =
+      param.kind == FULMAR_RECORD || param.kind == FULMAR_BLOB ? 0 : std::llround(param.initial[0]);
   if (param.kind == FULMAR_STRING) value.text = param.initial_text;
   if (param.kind == FULMAR_RECORD) value.data = param.initial_data;
   return value;
@@ -79,11 +84,14 @@ struct ParamReader {
   FileStore& files;
   Report& report;
 
-  void fault(const Node& node, const std::string& sentence) const { report.add(node.where(), path + ": " + sentence); }
+  void fault(const Node& node, const std::string& sentence) const {
+    report.add(node.where(), path + ": " + sentence);
+  }
   std::string unit_words() const { return param.unit.empty() ? "" : " in " + param.unit; }
 
   bool number_into(const Node& node, double& target) const {
-    if (!node.is(Node::Kind::scalar)) return fault(node, "expected a number" + unit_words() + ", found " + found_words(node)), false;
+    if (!node.is(Node::Kind::scalar))
+      return fault(node, "expected a number" + unit_words() + ", found " + found_words(node)), false;
     try {
       const Quantity quantity = parse_quantity(node.text);
       const double number = convert(quantity, param.unit, UnitRule::optional);
@@ -109,7 +117,8 @@ struct ParamReader {
     const auto word = scalar_text(node, path, "one of " + join(param.choices), report);
     if (!word) return;
     const auto it = std::find(param.choices.begin(), param.choices.end(), *word);
-    if (it == param.choices.end()) return fault(node, "unknown word '" + *word + "'." + choices_text(*word, param.choices));
+    if (it == param.choices.end())
+      return fault(node, "unknown word '" + *word + "'." + choices_text(*word, param.choices));
     value.integer = it - param.choices.begin();
     value.number[0] = static_cast<double>(value.integer);
   }
@@ -117,7 +126,8 @@ struct ParamReader {
   void text(const Node& node) const {
     if (!node.is(Node::Kind::scalar)) return fault(node, "expected text, found " + found_words(node));
     if (node.text.size() >= param.capacity)
-      return fault(node, "text of " + std::to_string(node.text.size()) + " bytes; there is room for " + std::to_string(param.capacity - 1));
+      return fault(node, "text of " + std::to_string(node.text.size()) + " bytes; there is room for " +
+                             std::to_string(param.capacity - 1));
     value.text = node.text;
   }
 
@@ -136,8 +146,8 @@ struct ParamReader {
       for (std::size_t i = 0; i < 3; ++i) good = element(node.items[i], names[i], numbers[i]) && good;
     } else {
       const bool list = node.is(Node::Kind::sequence);
-      return fault(node,
-                   "expected three numbers [" + join(names) + "], found " + (list ? std::to_string(node.items.size()) : found_words(node)));
+      return fault(node, "expected three numbers [" + join(names) + "], found " +
+                             (list ? std::to_string(node.items.size()) : found_words(node)));
     }
     if (good) std::copy(numbers, numbers + 3, value.number);
   }
@@ -148,8 +158,11 @@ struct ParamReader {
   }
 
   void record(const Node& node) const {
-    if (node.is(Node::Kind::map)) return read_record(param, node, path, node.file ? node.file->name : "", value, report);
-    if (!scalar_text(node, path, "the name of a YAML file, or a map with the fields of " + param.type->name, report)) return;
+    if (node.is(Node::Kind::map))
+      return read_record(param, node, path, node.file ? node.file->name : "", value, report);
+    if (!scalar_text(node, path, "the name of a YAML file, or a map with the fields of " + param.type->name,
+                     report))
+      return;
     const FilePtr file = files.read(node, path);
     if (file) read_record(param, files.tree(file), "", file->path.filename().string(), value, report);
   }
@@ -167,8 +180,8 @@ struct ParamReader {
 
 }  // namespace
 
-void read_record(const ParamInfo& param, const Node& map, const std::string& path, const std::string& name, ParamValue& value,
-                 Report& report, const std::vector<std::string>& also) {
+void read_record(const ParamInfo& param, const Node& map, const std::string& path, const std::string& name,
+                 ParamValue& value, Report& report, const std::vector<std::string>& also) {
   value.data = param.initial_data;
   value.data.resize(param.type->size);
   fill_record(*param.type, map, value.data.data(), path, report, also);
@@ -177,50 +190,40 @@ void read_record(const ParamInfo& param, const Node& map, const std::string& pat
   value.integer = 1;
 }
 
-void read_param(const ParamInfo& param, const Node& node, const std::string& path, ParamValue& value, FileStore& files, Report& report) {
+void read_param(const ParamInfo& param, const Node& node, const std::string& path, ParamValue& value,
+                FileStore& files, Report& report) {
   const ParamReader reader{param, path, value, files, report};
   switch (param.kind) {
-    case FULMAR_NUMBER:
-      reader.number_into(node, value.number[0]);
-      return;
+    case FULMAR_NUMBER: reader.number_into(node, value.number[0]); return;
     case FULMAR_FLAG:
-      if (const auto flag = scalar_flag(node, path, report)) value.integer = *flag ? 1 : 0, value.number[0] = *flag ? 1 : 0;
+      if (const auto flag = scalar_flag(node, path, report))
+        value.integer = *flag ? 1 : 0, value.number[0] = *flag ? 1 : 0;
       return;
-    case FULMAR_COUNT:
-      return reader.count(node);
-    case FULMAR_CHOICE:
-      return reader.choice(node);
-    case FULMAR_STRING:
-      return reader.text(node);
-    case FULMAR_VECTOR:
-      return reader.vector(node);
-    case FULMAR_RECORD:
-      return reader.record(node);
-    case FULMAR_BLOB:
-      return reader.blob(node);
+    case FULMAR_COUNT: return reader.count(node);
+    case FULMAR_CHOICE: return reader.choice(node);
+    case FULMAR_STRING: return reader.text(node);
+    case FULMAR_VECTOR: return reader.vector(node);
+    case FULMAR_RECORD: return reader.record(node);
+    case FULMAR_BLOB: return reader.blob(node);
   }
 }
 
 std::string value_text(const ParamInfo& param, const ParamValue& value) {
   const std::string unit = param.unit.empty() ? "" : " " + param.unit;
   switch (param.kind) {
-    case FULMAR_NUMBER:
-      return number_text(value.number[0]) + unit;
-    case FULMAR_FLAG:
-      return value.integer ? "true" : "false";
-    case FULMAR_COUNT:
-      return std::to_string(value.integer) + unit;
+    case FULMAR_NUMBER: return number_text(value.number[0]) + unit;
+    case FULMAR_FLAG: return value.integer ? "true" : "false";
+    case FULMAR_COUNT: return std::to_string(value.integer) + unit;
     case FULMAR_CHOICE: {
       const auto i = static_cast<std::size_t>(value.integer);
       return i < param.choices.size() ? param.choices[i] : std::to_string(value.integer);
     }
-    case FULMAR_STRING:
-      return value.text;
+    case FULMAR_STRING: return value.text;
     case FULMAR_VECTOR:
-      return "[" + number_text(value.number[0]) + ", " + number_text(value.number[1]) + ", " + number_text(value.number[2]) + "]";
+      return "[" + number_text(value.number[0]) + ", " + number_text(value.number[1]) + ", " +
+             number_text(value.number[2]) + "]";
     case FULMAR_RECORD:
-    case FULMAR_BLOB:
-      return value.integer ? value.text : "not given";
+    case FULMAR_BLOB: return value.integer ? value.text : "not given";
   }
   return "";
 }

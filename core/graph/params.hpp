@@ -14,12 +14,15 @@ namespace fulmar::core {
 /// Files that a mission names: each is read and parsed once, and its contents are kept for the log.
 class FileStore {
  public:
-  explicit FileStore(Report& report, const StoredFiles* stored = nullptr) : report_(report), stored_(stored) {}
+  explicit FileStore(Report& report, const StoredFiles* stored = nullptr)
+      : report_(report), stored_(stored) {}
   void keep(const FilePtr& file);
-  /// The file that `node` names, relative to the folder of the file that `node` stands in. Null and a fault when there is none.
+  /// The file that `node` names, relative to the folder of the file that `node` stands in. Null and a fault
+  /// when there is none.
   FilePtr read(const Node& node, const std::string& path);
   const Node& tree(const FilePtr& file);
-  /// Name without folders -> text, in the order of reading. Of two files of one name the second is called folder/name.
+  /// Name without folders -> text, in the order of reading. Of two files of one name the second is called
+  /// folder/name.
   std::vector<std::pair<std::string, std::string>> attachments() const;
   std::vector<std::filesystem::path> paths() const;
 
@@ -33,12 +36,15 @@ class FileStore {
 /// The value that a parameter has when nobody sets it.
 ParamValue initial_value(const ParamInfo& param);
 
-/// Sets `value` from YAML; on a fault it stays and the report says why. `path` names the parameter: "components.slc.params.roll_kp".
-void read_param(const ParamInfo& param, const Node& node, const std::string& path, ParamValue& value, FileStore& files, Report& report);
+/// Sets `value` from YAML; on a fault it stays and the report says why. `path` names the parameter:
+/// "components.slc.params.roll_kp".
+void read_param(const ParamInfo& param, const Node& node, const std::string& path, ParamValue& value,
+                FileStore& files, Report& report);
 
-/// Sets a record parameter from a map that stands somewhere else: an airframe file, the mission's origin. `also`: keys that are not fields.
-void read_record(const ParamInfo& param, const Node& map, const std::string& path, const std::string& name, ParamValue& value,
-                 Report& report, const std::vector<std::string>& also = {});
+/// Sets a record parameter from a map that stands somewhere else: an airframe file, the mission's origin.
+/// `also`: keys that are not fields.
+void read_record(const ParamInfo& param, const Node& map, const std::string& path, const std::string& name,
+                 ParamValue& value, Report& report, const std::vector<std::string>& also = {});
 
 /// The value as people write it: "0.55 rad/rad", "takeoff", "[3, -4, 0] m/s", the name of a file.
 std::string value_text(const ParamInfo& param, const ParamValue& value);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Phases: who fills which role when, overlays, transitions; and the ports that a mission names to show or to decide.
+// Phases: who fills which role when, overlays, transitions; and the ports that a mission names to show or to
+// decide.
 #include <algorithm>
 
 #include "core/graph/draft.hpp"
@@ -9,7 +10,8 @@ namespace fulmar::core {
 namespace {
 
 /// The candidate that a phase or the command line names for a role; -1 and a fault when it cannot fill it.
-int filler_named(Draft& draft, std::size_t role, const std::string& name, const Where& where, const std::string& path) {
+int filler_named(Draft& draft, std::size_t role, const std::string& name, const Where& where,
+                 const std::string& path) {
   const RoleDraft& wanted = draft.roles[role];
   const int i = draft.candidate(name);
   std::vector<std::string> fillers;
@@ -20,10 +22,11 @@ int filler_named(Draft& draft, std::size_t role, const std::string& name, const 
   if (known && draft.is_out(*known))
     why = not_there(draft, name);
   else if (known)
-    why = name + (known->fills.empty() ? " does not fill " : " fills " + known->fills + ", not ") + wanted.text->name + "." +
-          choices_text("", fillers);
+    why = name + (known->fills.empty() ? " does not fill " : " fills " + known->fills + ", not ") +
+          wanted.text->name + "." + choices_text("", fillers);
   else
-    why = "there is no component '" + name + "' that fills " + wanted.text->name + "." + choices_text(name, fillers);
+    why = "there is no component '" + name + "' that fills " + wanted.text->name + "." +
+          choices_text(name, fillers);
   draft.report.add(where, path.empty() ? why : path + ": " + why);
   return -1;
 }
@@ -37,12 +40,14 @@ std::vector<int> chosen_by_command(Draft& draft) {
     if (r < 0)
       draft.report.add(where, "there is no role '" + role + "'." + choices_text(role, draft.role_names()));
     else
-      chosen[static_cast<std::size_t>(r)] = filler_named(draft, static_cast<std::size_t>(r), component, where, "");
+      chosen[static_cast<std::size_t>(r)] =
+          filler_named(draft, static_cast<std::size_t>(r), component, where, "");
   }
   return chosen;
 }
 
-void read_overlay(Draft& draft, const Candidate& candidate, const Node& set, const std::string& path, std::vector<Overlay>& overlay) {
+void read_overlay(Draft& draft, const Candidate& candidate, const Node& set, const std::string& path,
+                  std::vector<Overlay>& overlay) {
   if (!set.is(Node::Kind::map) || !candidate.loaded) return;
   std::vector<std::string> live;
   for (const ParamInfo& param : candidate.info().params)
@@ -50,15 +55,17 @@ void read_overlay(Draft& draft, const Candidate& candidate, const Node& set, con
   for (const Node::Entry& entry : set.entries) {
     const int p = candidate.info().param(entry.key);
     if (p < 0) {
-      draft.report.add(entry.where(),
-                       path + ": " + candidate.name() + " has no parameter '" + entry.key + "'." + choices_text(entry.key, live));
+      draft.report.add(entry.where(), path + ": " + candidate.name() + " has no parameter '" + entry.key +
+                                          "'." + choices_text(entry.key, live));
       continue;
     }
     const ParamInfo& param = candidate.info().params[static_cast<std::size_t>(p)];
     if (!param.live) {
       draft.report.add(
           entry.where(),
-          path + "." + entry.key + ": is fixed when the flight begins; a phase can set live parameters alone. Live: " + join(live) + ".");
+          path + "." + entry.key +
+              ": is fixed when the flight begins; a phase can set live parameters alone. Live: " +
+              join(live) + ".");
       continue;
     }
     Overlay item{p, initial_value(param)};
@@ -67,8 +74,10 @@ void read_overlay(Draft& draft, const Candidate& candidate, const Node& set, con
   }
 }
 
-/// A phase's overlay on the component that --role puts in another one's place: the entries that it has a live parameter for.
-std::vector<Overlay> overlay_for(Draft& draft, const Candidate& candidate, const Node& set, const std::string& path) {
+/// A phase's overlay on the component that --role puts in another one's place: the entries that it has a live
+/// parameter for.
+std::vector<Overlay> overlay_for(Draft& draft, const Candidate& candidate, const Node& set,
+                                 const std::string& path) {
   std::vector<Overlay> overlay;
   if (!set.is(Node::Kind::map) || !candidate.loaded) return overlay;
   Node known = set;
@@ -81,23 +90,31 @@ std::vector<Overlay> overlay_for(Draft& draft, const Candidate& candidate, const
 }
 
 /// What a phase says of a role, checked also where --role then changes it.
-void read_assignment(Draft& draft, const AssignmentText& text, const std::string& path, int command, Assignment& assignment) {
+void read_assignment(Draft& draft, const AssignmentText& text, const std::string& path, int command,
+                     Assignment& assignment) {
   const auto role = static_cast<std::size_t>(draft.role(text.role));
   if (text.role == "vehicle")
-    return draft.report.add(text.where, path + ": the vehicle does not change in flight; choose it with io or with --role vehicle=NAME");
+    return draft.report.add(
+        text.where,
+        path + ": the vehicle does not change in flight; choose it with io or with --role vehicle=NAME");
   int use = draft.roles[role].fillers.empty() ? -1 : draft.roles[role].fillers.front();
   if (!text.use.empty()) use = filler_named(draft, role, text.use, text.where_use, path);
-  const int fallback = text.fallback.empty() ? -1 : filler_named(draft, role, text.fallback, text.where_fallback, path + ".fallback");
+  const int fallback = text.fallback.empty() ? -1
+                                             : filler_named(draft, role, text.fallback, text.where_fallback,
+                                                            path + ".fallback");
   if (fallback >= 0 && fallback == use)
-    draft.report.add(text.where_fallback, path + ".fallback: " + text.fallback + " is the component that fills the role already");
+    draft.report.add(text.where_fallback,
+                     path + ".fallback: " + text.fallback + " is the component that fills the role already");
   std::vector<Overlay> overlay;
-  if (use >= 0) read_overlay(draft, draft.candidates[static_cast<std::size_t>(use)], text.set, path + ".set", overlay);
+  if (use >= 0)
+    read_overlay(draft, draft.candidates[static_cast<std::size_t>(use)], text.set, path + ".set", overlay);
   assignment.component = command >= 0 ? command : use;
   if (fallback != assignment.component) assignment.fallback = fallback;
   if (assignment.component == use)
     assignment.set = std::move(overlay);
   else if (command >= 0)
-    assignment.set = overlay_for(draft, draft.candidates[static_cast<std::size_t>(command)], text.set, path + ".set");
+    assignment.set =
+        overlay_for(draft, draft.candidates[static_cast<std::size_t>(command)], text.set, path + ".set");
 }
 
 std::string phase_path(const PhaseText& phase) { return "phases." + phase.name; }
@@ -135,7 +152,8 @@ void assign_roles(Draft& draft) {
   }
 }
 
-// ---- ports that the mission names -------------------------------------------------------------------------------------------
+// ---- ports that the mission names
+// -------------------------------------------------------------------------------------------
 
 namespace {
 
@@ -165,7 +183,8 @@ FindPort finder(Draft& draft, bool built) {
     } else if (built) {
       const Role& role = draft.graph.roles[static_cast<std::size_t>(target.source.index)];
       const auto o = static_cast<std::size_t>(target.source.output);
-      const bool provided = std::any_of(role.provides.begin(), role.provides.end(), [&](const auto& outputs) { return outputs[o] >= 0; });
+      const bool provided = std::any_of(role.provides.begin(), role.provides.end(),
+                                        [&](const auto& outputs) { return outputs[o] >= 0; });
       if (!provided) throw NobodyProvides(owner + "." + port + " is provided by nobody in this run");
     }
     return std::pair{target.source, target.type};
@@ -184,8 +203,9 @@ void guarded(Draft& draft, const Where& where, const std::string& path, F run) {
 
 /// What every result has: a summary must not write over it.
 const std::vector<std::string> result_keys = {
-    "allocations",      "dds",    "flight_time_s", "guards", "io",   "live",    "log",          "log_dropped", "log_sha256", "mission",
-    "not_reproducible", "phases", "reason",        "result", "seed", "speedup", "step_time_us", "wall_time_s"};
+    "allocations", "dds",        "flight_time_s", "guards",           "io",     "live",   "log",
+    "log_dropped", "log_sha256", "mission",       "not_reproducible", "phases", "reason", "result",
+    "seed",        "speedup",    "step_time_us",  "wall_time_s"};
 
 std::pair<Source, TypePtr> find_port(const Word& word, const std::string& example, const FindPort& find) {
   const auto dot = word.text.find('.');
@@ -218,7 +238,8 @@ void read_told(Draft& draft, const FindPort& find) {
         const auto [source, type] = find_port(word, "vehicle.notices", find);
         const Field* const text = type ? type->find("text") : nullptr;
         if (!text || text->kind != FULMAR_TEXT)
-          throw Error("'" + word.text + "' is " + (type ? type->name : "a probe") + ", which has no text 'text' to tell");
+          throw Error("'" + word.text + "' is " + (type ? type->name : "a probe") +
+                      ", which has no text 'text' to tell");
         draft.graph.tell.push_back(source);
       } catch (const NobodyProvides&) {
       }
@@ -229,7 +250,8 @@ Shown shown(const Word& word, const FindPort& find) {
   const ShownField field = find_shown(word.text, find);
   const fulmar_kind kind = field.field.field->kind;
   if (kind == FULMAR_STRUCT || kind == FULMAR_TEXT)
-    throw Error("'" + word.text + "' is " + (kind == FULMAR_TEXT ? "text" : "a " + field.field.field->type->name) + ", not a number");
+    throw Error("'" + word.text + "' is " +
+                (kind == FULMAR_TEXT ? "text" : "a " + field.field.field->type->name) + ", not a number");
   return {word.text, field.from, field.field, field.type};
 }
 
@@ -246,7 +268,8 @@ void read_resume(Draft& draft, const FindPort& find) {
     const Word& word = entry.second;
     guarded(draft, word.where, "resume." + param, [&] {
       const auto dot = param.find('.');
-      if (dot == std::string::npos) throw Error("expected a parameter such as manage.first_item, found '" + param + "'");
+      if (dot == std::string::npos)
+        throw Error("expected a parameter such as manage.first_item, found '" + param + "'");
       const std::string name = param.substr(0, dot), of = param.substr(dot + 1);
       const int i = draft.candidate(name);
       if (i < 0) throw Error(not_there(draft, name));
@@ -258,20 +281,24 @@ void read_resume(Draft& draft, const FindPort& find) {
       if (p < 0) throw Error(name + " has no parameter '" + of + "'." + choices_text(of, names));
       const ParamInfo& info = candidate.info().params[static_cast<std::size_t>(p)];
       if (info.kind != FULMAR_COUNT && info.kind != FULMAR_NUMBER) throw Error(param + " is no number");
-      if (!info.live) throw Error(param + " is fixed when the flight begins; whether it resumes is known when the vehicle has spoken");
+      if (!info.live)
+        throw Error(
+            param +
+            " is fixed when the flight begins; whether it resumes is known when the vehicle has spoken");
       draft.graph.resume.push_back({param, shown(word, find)});
     });
   }
 }
 
-std::shared_ptr<const Condition> compiled(Draft& draft, const std::string& text, const Where& where, const std::string& path,
-                                          const FindPort& find) {
+std::shared_ptr<const Condition> compiled(Draft& draft, const std::string& text, const Where& where,
+                                          const std::string& path, const FindPort& find) {
   std::shared_ptr<const Condition> condition;
   guarded(draft, where, path, [&] { condition = Condition::compile(text, find); });
   return condition;
 }
 
-std::vector<Transition> transitions(Draft& draft, const std::vector<TransitionText>& texts, const std::string& path, const FindPort& find) {
+std::vector<Transition> transitions(Draft& draft, const std::vector<TransitionText>& texts,
+                                    const std::string& path, const FindPort& find) {
   std::vector<Transition> list;
   const auto phases = phases_of(draft.text);
   std::vector<std::string> names;
@@ -280,9 +307,11 @@ std::vector<Transition> transitions(Draft& draft, const std::vector<TransitionTe
     Transition transition;
     const auto it = std::find(names.begin(), names.end(), text.to);
     if (it == names.end() && !text.to.empty())
-      draft.report.add(text.where_to, path + ".to: there is no phase '" + text.to + "'." + choices_text(text.to, names));
+      draft.report.add(text.where_to,
+                       path + ".to: there is no phase '" + text.to + "'." + choices_text(text.to, names));
     if (it != names.end()) transition.to = static_cast<int>(it - names.begin());
-    if (!text.when.empty()) transition.when = compiled(draft, text.when, text.where_when, path + ".when", find);
+    if (!text.when.empty())
+      transition.when = compiled(draft, text.when, text.where_when, path + ".when", find);
     transition.for_ns = text.for_ns;
     transition.where = text.where;
     list.push_back(std::move(transition));
@@ -296,8 +325,10 @@ void compile_all(Draft& draft, bool built) {
   Graph& graph = draft.graph;
   graph.done_for_ns = draft.text.done_for_ns;
   graph.failed_for_ns = draft.text.failed_for_ns;
-  if (draft.text.done) graph.done = compiled(draft, draft.text.done->text, draft.text.done->where, "done", find);
-  if (draft.text.failed) graph.failed = compiled(draft, draft.text.failed->text, draft.text.failed->where, "failed", find);
+  if (draft.text.done)
+    graph.done = compiled(draft, draft.text.done->text, draft.text.done->where, "done", find);
+  if (draft.text.failed)
+    graph.failed = compiled(draft, draft.text.failed->text, draft.text.failed->where, "failed", find);
   read_shown(draft, find);
   read_summary(draft, find);
   read_told(draft, find);
@@ -333,7 +364,8 @@ void check_reachable(Draft& draft) {
   }
   for (std::size_t i = 0; i < reached.size(); ++i)
     if (!reached[i])
-      draft.report.add(graph.phases[i].where, "phases." + graph.phases[i].name + ": no transition leads here from " + graph.phases[0].name +
+      draft.report.add(graph.phases[i].where, "phases." + graph.phases[i].name +
+                                                  ": no transition leads here from " + graph.phases[0].name +
                                                   ", where the flight begins");
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Units: a table of symbols and a small parser for products and quotients of them. Factors are the SI brochure's and ISO 80000's.
+// Units: a table of symbols and a small parser for products and quotients of them. Factors are the SI
+// brochure's and ISO 80000's.
 #include "core/graph/quantity.hpp"
 
 #include <charconv>
@@ -13,12 +14,15 @@ namespace {
 
 using Dimension = std::array<std::int8_t, 6>;
 constexpr Dimension none{};
-constexpr Dimension length{1, 0, 0, 0, 0, 0}, mass{0, 1, 0, 0, 0, 0}, time{0, 0, 1, 0, 0, 0}, current{0, 0, 0, 1, 0, 0};
+constexpr Dimension length{1, 0, 0, 0, 0, 0}, mass{0, 1, 0, 0, 0, 0}, time{0, 0, 1, 0, 0, 0},
+    current{0, 0, 0, 1, 0, 0};
 constexpr Dimension kelvin{0, 0, 0, 0, 1, 0}, angle{0, 0, 0, 0, 0, 1}, per_time{0, 0, -1, 0, 0, 0};
 constexpr Dimension speed{1, 0, -1, 0, 0, 0}, acceleration{1, 0, -2, 0, 0, 0}, turn_rate{0, 0, -1, 0, 0, 1},
     turn_acceleration{0, 0, -2, 0, 0, 1};
-constexpr Dimension force{1, 1, -2, 0, 0, 0}, pressure{-1, 1, -2, 0, 0, 0}, energy{2, 1, -2, 0, 0, 0}, power{2, 1, -3, 0, 0, 0};
-constexpr Dimension voltage{2, 1, -3, -1, 0, 0}, resistance{2, 1, -3, -2, 0, 0}, magnetic_field{0, 1, -2, -1, 0, 0}, area{2, 0, 0, 0, 0, 0};
+constexpr Dimension force{1, 1, -2, 0, 0, 0}, pressure{-1, 1, -2, 0, 0, 0}, energy{2, 1, -2, 0, 0, 0},
+    power{2, 1, -3, 0, 0, 0};
+constexpr Dimension voltage{2, 1, -3, -1, 0, 0}, resistance{2, 1, -3, -2, 0, 0},
+    magnetic_field{0, 1, -2, -1, 0, 0}, area{2, 0, 0, 0, 0, 0};
 constexpr Dimension inertia{2, 1, 0, 0, 0, 0}, density{-3, 1, 0, 0, 0, 0}, charge{0, 0, 1, 1, 0, 0};
 constexpr double pi = std::numbers::pi;
 
@@ -259,7 +263,9 @@ std::string short_number(double value) {
 }
 
 /// Is a bare number clear enough where a unit is required? Plain numbers, and latitude and longitude.
-bool needs_no_unit(const PhysicalUnit& unit, const std::string& text) { return unit.dimension == none || text == "deg"; }
+bool needs_no_unit(const PhysicalUnit& unit, const std::string& text) {
+  return unit.dimension == none || text == "deg";
+}
 
 std::string how_to_write(const PhysicalUnit& unit) {
   const Named* entry = named(unit);
@@ -267,8 +273,11 @@ std::string how_to_write(const PhysicalUnit& unit) {
 }
 
 /// The unit that was written, as SI; "g" is the gram where a mass is wanted.
-PhysicalUnit written_unit(const Quantity& quantity, const std::string& unit, const std::optional<PhysicalUnit>& wanted) {
-  const auto written = quantity.unit == "g" && wanted && wanted->dimension == mass ? parse_unit("gram") : parse_unit(quantity.unit);
+PhysicalUnit written_unit(const Quantity& quantity, const std::string& unit,
+                          const std::optional<PhysicalUnit>& wanted) {
+  const auto written = quantity.unit == "g" && wanted && wanted->dimension == mass
+                           ? parse_unit("gram")
+                           : parse_unit(quantity.unit);
   if (written) return *written;
   const std::string hint = wanted ? how_to_write(*wanted) : "write " + unit;
   throw Error(quantity.text + ": unknown unit '" + quantity.unit + "'" + (hint.empty() ? "" : "; " + hint));
@@ -304,7 +313,8 @@ Quantity parse_quantity(std::string_view text) {
   std::string_view digits = text.starts_with('+') ? text.substr(1) : text;
   if (names_no_number(digits)) throw Error(quantity.text + " is not a finite number");
   const auto [end, code] = std::from_chars(digits.data(), digits.data() + digits.size(), quantity.number);
-  if (code == std::errc::result_out_of_range) throw Error(quantity.text + " is too large or too small for a number");
+  if (code == std::errc::result_out_of_range)
+    throw Error(quantity.text + " is too large or too small for a number");
   if (code != std::errc{} || end == digits.data()) throw Error("'" + quantity.text + "' is not a number");
   if (!std::isfinite(quantity.number)) throw Error(quantity.text + " is not a finite number");
   quantity.unit = std::string(trimmed(digits.substr(static_cast<std::size_t>(end - digits.data()))));
@@ -323,21 +333,25 @@ double convert(const Quantity& quantity, const std::string& unit, UnitRule rule)
   if (!wanted) throw Error(quantity.text + ": the unit here is " + unit);
   if (written.dimension != wanted->dimension) {
     const std::string is = dimension_name(written), is_not = dimension_name(*wanted);
-    throw Error(quantity.text + " is " + (is.empty() ? "" : is + ", ") + "not " + (is_not.empty() ? "in " + unit : is_not));
+    throw Error(quantity.text + " is " + (is.empty() ? "" : is + ", ") + "not " +
+                (is_not.empty() ? "in " + unit : is_not));
   }
   const double value = (quantity.number * written.factor + written.offset - wanted->offset) / wanted->factor;
   if (!std::isfinite(value)) throw Error(quantity.text + " is too large for a number");
   return value;
 }
 
-double quantity_in(std::string_view text, const std::string& unit, UnitRule rule) { return convert(parse_quantity(text), unit, rule); }
+double quantity_in(std::string_view text, const std::string& unit, UnitRule rule) {
+  return convert(parse_quantity(text), unit, rule);
+}
 
 void check_range(const Quantity& quantity, double value, const std::string& unit, double min, double max) {
   if (value >= min && value <= max) return;
   const std::string shown = quantity.unit.empty() ? unit : quantity.unit;
   const auto wanted = parse_unit(unit), written = parse_unit(shown);
   const auto in_shown = [&](double bound) {
-    if (!wanted || !written || shown == unit || wanted->dimension != written->dimension) return short_number(bound);
+    if (!wanted || !written || shown == unit || wanted->dimension != written->dimension)
+      return short_number(bound);
     return short_number((bound * wanted->factor + wanted->offset - written->offset) / written->factor);
   };
   const std::string tail = shown.empty() ? "" : " " + shown;
@@ -348,14 +362,16 @@ void check_range(const Quantity& quantity, double value, const std::string& unit
 
 std::optional<Suffixed> split_suffix(const std::string& name) {
   static constexpr std::pair<std::string_view, const char*> suffixes[] = {
-      {"mps2", "m/s2"}, {"radps2", "rad/s2"}, {"radps", "rad/s"}, {"mps", "m/s"},  {"kgm2", "kg m2"}, {"m2", "m2"},
-      {"m", "m"},       {"rad", "rad"},       {"deg", "deg"},     {"pa", "Pa"},    {"kelvin", "K"},   {"tesla", "T"},
-      {"volt", "V"},    {"amp", "A"},         {"ohm", "ohm"},     {"newton", "N"}, {"kg", "kg"},      {"hz", "Hz"},
-      {"ns", "ns"},     {"s", "s"},           {"frac", ""},       {"ratio", ""}};
+      {"mps2", "m/s2"}, {"radps2", "rad/s2"}, {"radps", "rad/s"}, {"mps", "m/s"}, {"kgm2", "kg m2"},
+      {"m2", "m2"},     {"m", "m"},           {"rad", "rad"},     {"deg", "deg"}, {"pa", "Pa"},
+      {"kelvin", "K"},  {"tesla", "T"},       {"volt", "V"},      {"amp", "A"},   {"ohm", "ohm"},
+      {"newton", "N"},  {"kg", "kg"},         {"hz", "Hz"},       {"ns", "ns"},   {"s", "s"},
+      {"frac", ""},     {"ratio", ""}};
   const auto underscore = name.rfind('_');
   if (underscore == std::string::npos || underscore == 0) return std::nullopt;
   for (const auto& [suffix, unit] : suffixes)
-    if (std::string_view(name).substr(underscore + 1) == suffix) return Suffixed{name.substr(0, underscore), unit};
+    if (std::string_view(name).substr(underscore + 1) == suffix)
+      return Suffixed{name.substr(0, underscore), unit};
   return std::nullopt;
 }
 

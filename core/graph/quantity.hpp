@@ -12,21 +12,24 @@
 
 namespace fulmar::core {
 
-/// A unit: what it measures and how large it is in SI. The angle counts as a dimension, so that "5 deg" is not a plain number.
+/// A unit: what it measures and how large it is in SI. The angle counts as a dimension, so that "5 deg" is
+/// not a plain number.
 struct PhysicalUnit {
   std::array<std::int8_t, 6> dimension{};  // powers of m, kg, s, A, K, rad
   double factor = 1;                       // SI value = number * factor + offset
   double offset = 0;                       // degC alone
 };
 
-/// "m/s", "rad/(m/s)", "kg m^2"; "", "frac", "ratio", "1" are plain numbers. Nothing when a symbol is unknown.
+/// "m/s", "rad/(m/s)", "kg m^2"; "", "frac", "ratio", "1" are plain numbers. Nothing when a symbol is
+/// unknown.
 std::optional<PhysicalUnit> parse_unit(std::string_view text);
 
 /// "a length", "an angle", "a plain number"; "" for a dimension without a name.
 std::string dimension_name(const PhysicalUnit& unit);
 bool same_dimension(const std::string& unit_a, const std::string& unit_b);
 
-/// What multiplies a value in `from` to get one in `to`. 1 when either is unknown. Both must have the same dimension.
+/// What multiplies a value in `from` to get one in `to`. 1 when either is unknown. Both must have the same
+/// dimension.
 double unit_factor(const std::string& from, const std::string& to);
 
 enum class UnitRule {
@@ -50,8 +53,8 @@ double quantity_in(std::string_view text, const std::string& unit, UnitRule rule
 /// Throws Error "9 is outside 0 .. 2 rad/rad", in the unit that the quantity was written in.
 void check_range(const Quantity& quantity, double value, const std::string& unit, double min, double max);
 
-/// The unit suffix that a field's name ends in: {"stall_alpha", "rad"}. A plain number (_frac, _ratio) has the unit "". Nothing without a
-/// suffix.
+/// The unit suffix that a field's name ends in: {"stall_alpha", "rad"}. A plain number (_frac, _ratio) has
+/// the unit "". Nothing without a suffix.
 struct Suffixed {
   std::string name, unit;
 };

@@ -19,7 +19,8 @@ void put(std::byte* at, T value) {
   std::memcpy(at, &value, sizeof value);
 }
 
-/// How one value is written: the unit it inherits, whether the key left the unit out, and its name for faults.
+/// How one value is written: the unit it inherits, whether the key left the unit out, and its name for
+/// faults.
 struct RecordPlace {
   std::string path;
   std::string unit;
@@ -30,22 +31,28 @@ class Filler {
  public:
   explicit Filler(Report& report) : report_(report) {}
 
-  void fill_struct(const Type& type, const Node& node, std::byte* data, const RecordPlace& place, const std::vector<std::string>& also) {
+  void fill_struct(const Type& type, const Node& node, std::byte* data, const RecordPlace& place,
+                   const std::vector<std::string>& also) {
     if (node.is(Node::Kind::sequence) && is_tuple(type)) return fill_tuple(type, node, data, place);
     if (!node.is(Node::Kind::map))
-      return fault(node, place.path, "expected a map with the fields of " + type.name + ", found " + found_words(node));
+      return fault(node, place.path,
+                   "expected a map with the fields of " + type.name + ", found " + found_words(node));
     std::vector<std::pair<const Field*, std::string>> seen;
     for (const Node::Entry& entry : node.entries) {
       if (std::find(also.begin(), also.end(), entry.key) != also.end()) continue;
       const std::string path = place.path.empty() ? entry.key : place.path + "." + entry.key;
       const Field* field = field_for(type, entry, place, also);
       if (!field) continue;
-      const auto twice = std::find_if(seen.begin(), seen.end(), [&](const auto& s) { return s.first == field; });
-      if (twice != seen.end()) report_.add(entry.where(), path + ": the same field as '" + twice->second + "', which is given above");
+      const auto twice =
+          std::find_if(seen.begin(), seen.end(), [&](const auto& s) { return s.first == field; });
+      if (twice != seen.end())
+        report_.add(entry.where(),
+                    path + ": the same field as '" + twice->second + "', which is given above");
       seen.emplace_back(field, entry.key);
       const bool own_unit = !field->unit.empty(), exact = entry.key == field->name;
       const UnitRule rule = own_unit ? (exact ? UnitRule::optional : UnitRule::required) : place.rule;
-      fill_field(*field, entry.value, data + field->offset, {path, own_unit ? field->unit : place.unit, rule});
+      fill_field(*field, entry.value, data + field->offset,
+                 {path, own_unit ? field->unit : place.unit, rule});
     }
   }
 
@@ -53,14 +60,18 @@ class Filler {
     if (field.shape == FULMAR_SCALAR) return fill_element(field, node, at, place);
     const bool list = field.shape == FULMAR_LIST;
     if (!node.is(Node::Kind::sequence))
-      return fault(node, place.path, "expected a list of " + size_words(field) + ", found " + found_words(node));
+      return fault(node, place.path,
+                   "expected a list of " + size_words(field) + ", found " + found_words(node));
     const std::size_t n = node.items.size();
     if (list ? n > field.count : n != field.count)
-      return fault(node, place.path, std::to_string(n) + (n == 1 ? " item" : " items") + ", but this is a list of " + size_words(field));
+      return fault(
+          node, place.path,
+          std::to_string(n) + (n == 1 ? " item" : " items") + ", but this is a list of " + size_words(field));
     if (list) put(at, static_cast<std::uint32_t>(n));
     std::byte* item = list ? at + field.items : at;
     for (std::size_t i = 0; i < n; ++i)
-      fill_element(field, node.items[i], item + i * field.stride, {place.path + "[" + std::to_string(i) + "]", place.unit, place.rule});
+      fill_element(field, node.items[i], item + i * field.stride,
+                   {place.path + "[" + std::to_string(i) + "]", place.unit, place.rule});
   }
 
  private:
@@ -70,22 +81,25 @@ class Filler {
 
   /// A vector or quaternion: plain numbers that take their unit from outside, so that a list says it all.
   static bool is_tuple(const Type& type) {
-    return !type.frame.empty() && std::all_of(type.fields.begin(), type.fields.end(),
-                                              [](const Field& field) { return field.kind == FULMAR_F64 && field.shape == FULMAR_SCALAR; });
+    return !type.frame.empty() && std::all_of(type.fields.begin(), type.fields.end(), [](const Field& field) {
+      return field.kind == FULMAR_F64 && field.shape == FULMAR_SCALAR;
+    });
   }
 
   void fill_tuple(const Type& type, const Node& node, std::byte* data, const RecordPlace& place) {
     std::vector<std::string> names;
     for (const Field& field : type.fields) names.push_back(field.name);
     if (node.items.size() != names.size())
-      return fault(
-          node, place.path,
-          "expected " + std::to_string(names.size()) + " numbers [" + join(names) + "], found " + std::to_string(node.items.size()));
+      return fault(node, place.path,
+                   "expected " + std::to_string(names.size()) + " numbers [" + join(names) + "], found " +
+                       std::to_string(node.items.size()));
     for (std::size_t i = 0; i < names.size(); ++i)
-      fill_element(type.fields[i], node.items[i], data + type.fields[i].offset, {place.path + "." + names[i], place.unit, place.rule});
+      fill_element(type.fields[i], node.items[i], data + type.fields[i].offset,
+                   {place.path + "." + names[i], place.unit, place.rule});
   }
 
-  const Field* field_for(const Type& type, const Node::Entry& entry, const RecordPlace& place, const std::vector<std::string>& also) {
+  const Field* field_for(const Type& type, const Node::Entry& entry, const RecordPlace& place,
+                         const std::vector<std::string>& also) {
     if (const Field* field = field_of_key(type, entry.key)) return field;
     std::vector<std::string> names, shorter, same;
     for (const Field& field : type.fields) {
@@ -97,11 +111,13 @@ class Filler {
     const std::string near = nearest(entry.key, shorter);
     const std::string prefix = place.path.empty() ? "" : place.path + ": ";
     if (same.size() > 1)
-      report_.add(entry.where(), prefix + "'" + entry.key + "' could be any of " + join(same) + "; write the full name");
+      report_.add(entry.where(),
+                  prefix + "'" + entry.key + "' could be any of " + join(same) + "; write the full name");
     else
       report_.add(entry.where(),
                   prefix + "unknown field '" + entry.key + "' of " + type.name + "." +
-                      (near.empty() ? choices_text(entry.key, names) : " Did you mean '" + near + "'?" + choices_text("", names)));
+                      (near.empty() ? choices_text(entry.key, names)
+                                    : " Did you mean '" + near + "'?" + choices_text("", names)));
     return nullptr;
   }
 
@@ -118,28 +134,33 @@ class Filler {
     const auto text = scalar_text(node, place.path, "one of " + join(field.labels), report_);
     if (!text) return;
     const auto it = std::find(field.labels.begin(), field.labels.end(), *text);
-    if (it == field.labels.end()) return fault(node, place.path, "unknown word '" + *text + "'." + choices_text(*text, field.labels));
+    if (it == field.labels.end())
+      return fault(node, place.path, "unknown word '" + *text + "'." + choices_text(*text, field.labels));
     put(at, static_cast<std::uint8_t>(it - field.labels.begin()));
   }
 
   void fill_text(const Field& field, const Node& node, std::byte* at, const RecordPlace& place) {
-    if (!node.is(Node::Kind::scalar)) return fault(node, place.path, "expected text, found " + found_words(node));
+    if (!node.is(Node::Kind::scalar))
+      return fault(node, place.path, "expected text, found " + found_words(node));
     if (node.text.size() >= field.stride)
       return fault(node, place.path,
-                   "text of " + std::to_string(node.text.size()) + " bytes; there is room for " + std::to_string(field.stride - 1));
+                   "text of " + std::to_string(node.text.size()) + " bytes; there is room for " +
+                       std::to_string(field.stride - 1));
     std::memset(at, 0, field.stride);
     std::memcpy(at, node.text.data(), node.text.size());
   }
 
   void fill_float(const Field& field, const Node& node, std::byte* at, const RecordPlace& place) {
     if (!node.is(Node::Kind::scalar))
-      return fault(node, place.path, "expected a number" + unit_words(place.unit) + ", found " + found_words(node));
+      return fault(node, place.path,
+                   "expected a number" + unit_words(place.unit) + ", found " + found_words(node));
     try {
       const Quantity quantity = parse_quantity(node.text);
       const double value = convert(quantity, place.unit, place.rule);
       check_range(quantity, value, place.unit, field.min, field.max);
       if (field.kind == FULMAR_F64) return put(at, value);
-      if (std::abs(value) > std::numeric_limits<float>::max()) throw Error(quantity.text + " is too large for this field");
+      if (std::abs(value) > std::numeric_limits<float>::max())
+        throw Error(quantity.text + " is too large for this field");
       put(at, static_cast<float>(value));
     } catch (const Error& error) {
       fault(node, place.path, error.what());
@@ -151,12 +172,14 @@ class Filler {
   template <class T>
   static void put_integer(std::byte* at, const std::string& text, double value, bool scaled) {
     T exact{};
-    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), exact);  // keeps all 64 bits
+    const auto [end, code] =
+        std::from_chars(text.data(), text.data() + text.size(), exact);  // keeps all 64 bits
     if (!scaled && code == std::errc{} && end == text.data() + text.size()) return put(at, exact);
     constexpr double lowest = static_cast<double>(std::numeric_limits<T>::lowest());
-    constexpr double above = std::is_same_v<T, std::int64_t>    ? 9223372036854775808.0
-                             : std::is_same_v<T, std::uint64_t> ? 18446744073709551616.0
-                                                                : static_cast<double>(std::numeric_limits<T>::max()) + 1;
+    constexpr double above = std::is_same_v<T, std::int64_t> ? 9223372036854775808.0
+                             : std::is_same_v<T, std::uint64_t>
+                                 ? 18446744073709551616.0
+                                 : static_cast<double>(std::numeric_limits<T>::max()) + 1;
     if (value != std::floor(value)) throw Error(text + " is not a whole number");
     if (value < lowest || value >= above)
       throw Error(text + " is outside " + std::to_string(std::numeric_limits<T>::lowest()) + " .. " +
@@ -165,15 +188,18 @@ class Filler {
   }
 
   void fill_integer(const Field& field, const Node& node, std::byte* at, const RecordPlace& place) {
-    if (!node.is(Node::Kind::scalar)) return fault(node, place.path, "expected a whole number, found " + found_words(node));
+    if (!node.is(Node::Kind::scalar))
+      return fault(node, place.path, "expected a whole number, found " + found_words(node));
     try {
       const Quantity quantity = parse_quantity(node.text);
       double value = convert(quantity, place.unit, place.rule);
-      if (!quantity.unit.empty()) value = std::round(value * 1e3) / 1e3;  // 0.1 s is 1e8 ns, whatever the last bit says
+      if (!quantity.unit.empty())
+        value = std::round(value * 1e3) / 1e3;  // 0.1 s is 1e8 ns, whatever the last bit says
       check_range(quantity, value, place.unit, field.min, field.max);
       const bool scaled = !quantity.unit.empty();
       with_number(field.kind, at, [&](auto was) {
-        if constexpr (std::is_integral_v<decltype(was)>) put_integer<decltype(was)>(at, quantity.text, value, scaled);
+        if constexpr (std::is_integral_v<decltype(was)>)
+          put_integer<decltype(was)>(at, quantity.text, value, scaled);
       });
     } catch (const Error& error) {
       fault(node, place.path, error.what());
@@ -213,7 +239,8 @@ void fill_record(const Type& type, const Node& node, std::byte* data, const std:
 
 void mark_given(const Type& type, std::byte* data) {
   const Field* field = type.find("given");
-  if (field && field->kind == FULMAR_BOOL && field->shape == FULMAR_SCALAR) put(data + field->offset, std::uint8_t{1});
+  if (field && field->kind == FULMAR_BOOL && field->shape == FULMAR_SCALAR)
+    put(data + field->offset, std::uint8_t{1});
 }
 
 }  // namespace fulmar::core

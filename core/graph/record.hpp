@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fills a described struct (an airframe, a plan, a message to send) from YAML. Every fault has the record's own file and line.
+// Fills a described struct (an airframe, a plan, a message to send) from YAML. Every fault has the record's
+// own file and line.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -10,9 +11,10 @@
 
 namespace fulmar::core {
 
-/// Writes the fields that `node` names into `data`, a struct of `type` that holds what is to stay where the file says nothing.
-/// Keys are field names, exact ("mass_kg: 4.5") or without the suffix and then with a unit ("stall_alpha: 15 deg").
-/// `path` is how faults name the struct, "" for a file of its own. Keys in `also` are left to the caller.
+/// Writes the fields that `node` names into `data`, a struct of `type` that holds what is to stay where the
+/// file says nothing. Keys are field names, exact ("mass_kg: 4.5") or without the suffix and then with a unit
+/// ("stall_alpha: 15 deg"). `path` is how faults name the struct, "" for a file of its own. Keys in `also`
+/// are left to the caller.
 void fill_record(const Type& type, const Node& node, std::byte* data, const std::string& path, Report& report,
                  const std::vector<std::string>& also = {});
 
@@ -22,7 +24,8 @@ const Field* field_of_key(const Type& type, const std::string& key);
 /// "stall_alpha_rad" -> "stall_alpha"; a name without a unit stays.
 std::string without_suffix(const std::string& field);
 
-/// The bare flag of a parameter record that tells whether it was supplied ("given"), set when the type has one.
+/// The bare flag of a parameter record that tells whether it was supplied ("given"), set when the type has
+/// one.
 void mark_given(const Type& type, std::byte* data);
 
 }  // namespace fulmar::core

@@ -74,7 +74,9 @@ void load_component(Draft& draft, Catalogue& catalogue, Candidate& candidate) {
     std::vector<std::string> names;
     for (const ComponentInfo& info : components) names.push_back(info.name);
     const auto it = component.empty() ? names.begin() : std::find(names.begin(), names.end(), component);
-    if (it == names.end()) throw Error("the plugin " + plugin + " has no component '" + component + "'." + choices_text(component, names));
+    if (it == names.end())
+      throw Error("the plugin " + plugin + " has no component '" + component + "'." +
+                  choices_text(component, names));
     candidate.index = static_cast<std::size_t>(it - names.begin());
     std::string stem = std::filesystem::path(candidate.plugin.info->file).stem().string();
     candidate.use = (stem.empty() ? plugin : stem) + "/" + *it;
@@ -89,7 +91,8 @@ void collect_candidates(Draft& draft, Catalogue& catalogue) {
     draft.roles.emplace_back();
     draft.roles.back().text = &text;
     if (draft.text.component(text.name))
-      draft.report.add(text.where, "roles." + text.name + ": there is a component of that name too; rename one of them");
+      draft.report.add(text.where,
+                       "roles." + text.name + ": there is a component of that name too; rename one of them");
   }
   for (const ComponentText& text : draft.text.components) {
     if (draft.is_out(text)) continue;
@@ -99,12 +102,13 @@ void collect_candidates(Draft& draft, Catalogue& catalogue) {
     if (!text.fills.empty()) {
       candidate.role = draft.role(text.fills);
       if (candidate.role < 0)
-        draft.report.add(text.where_fills, "components." + text.name + ": there is no role '" + text.fills + "'." +
-                                               choices_text(text.fills, draft.role_names()));
+        draft.report.add(text.where_fills, "components." + text.name + ": there is no role '" + text.fills +
+                                               "'." + choices_text(text.fills, draft.role_names()));
     }
     if (text.rate_hz > draft.text.rate_hz * (1 + 1e-9))
       draft.report.add(text.where_rate, "components." + text.name + ".rate: " + number_text(text.rate_hz) +
-                                            " Hz is above the mission's rate of " + number_text(draft.text.rate_hz) + " Hz");
+                                            " Hz is above the mission's rate of " +
+                                            number_text(draft.text.rate_hz) + " Hz");
     draft.candidates.push_back(std::move(candidate));
   }
 }
@@ -122,19 +126,21 @@ bool keeps_contract(Draft& draft, const RoleDraft& role, const Candidate& filler
   const ComponentInfo& info = filler.info();
   bool keeps = true;
   if (role.text->name == "vehicle" && !info.vehicle)
-    draft.report.add(filler.text->where_fills, path + filler.use + " is not a vehicle: it has 'step' in place of 'read' and 'write'");
-  if (role.text->name != "vehicle" && info.vehicle)
     draft.report.add(filler.text->where_fills,
-                     path + filler.use + " is a vehicle and can fill only the role vehicle, not " + role.text->name);
+                     path + filler.use + " is not a vehicle: it has 'step' in place of 'read' and 'write'");
+  if (role.text->name != "vehicle" && info.vehicle)
+    draft.report.add(
+        filler.text->where_fills,
+        path + filler.use + " is a vehicle and can fill only the role vehicle, not " + role.text->name);
   for (const RoleOutText& out : role.text->out) {
     const int i = info.output(out.name);
     const TypePtr type = i < 0 ? nullptr : info.outputs[static_cast<std::size_t>(i)].type;
     if (i < 0 && out.optional) continue;
     if (type && type->name == out.type) continue;
-    const std::string has =
-        i < 0 ? "; it has " + join(output_words(info)) : "; its '" + out.name + "' is " + (type ? type->name : "a probe");
-    draft.report.add(filler.text->where_fills,
-                     path + "the role " + role.text->name + " wants an output '" + out.name + "' of type " + out.type + has);
+    const std::string has = i < 0 ? "; it has " + join(output_words(info))
+                                  : "; its '" + out.name + "' is " + (type ? type->name : "a probe");
+    draft.report.add(filler.text->where_fills, path + "the role " + role.text->name + " wants an output '" +
+                                                   out.name + "' of type " + out.type + has);
     keeps = false;
   }
   return keeps;
@@ -152,14 +158,16 @@ TypePtr common_type(Draft& draft, const RoleDraft& role, const RoleOutText& out)
   }
   for (const auto& [reader, table] : given) {
     const TypePtr wanted = table;
-    if (std::all_of(given.begin(), given.end(), [&](const auto& writer) { return incompatibility(*writer.second, *wanted).empty(); }))
+    if (std::all_of(given.begin(), given.end(),
+                    [&](const auto& writer) { return incompatibility(*writer.second, *wanted).empty(); }))
       return wanted;
   }
   for (std::size_t i = 1; i < given.size(); ++i) {
     const std::string fault = incompatibility(*given[i].second, *given[0].second);
     if (fault.empty()) continue;
-    draft.report.add(given[i].first->text->where, "components." + given[i].first->name() + ": its '" + out.name +
-                                                      "' differs from that of " + given[0].first->name() + ": " + fault);
+    draft.report.add(given[i].first->text->where, "components." + given[i].first->name() + ": its '" +
+                                                      out.name + "' differs from that of " +
+                                                      given[0].first->name() + ": " + fault);
     break;
   }
   return given.empty() ? nullptr : given[0].second;
@@ -179,7 +187,8 @@ void resolve_roles(Draft& draft) {
     role.unclear = true;
     std::string why = "; write 'fills: " + role.text->name + "' at one";
     for (const ComponentText& text : draft.text.components)
-      if (text.fills == role.text->name) why = " with io: " + io_word(draft.text.io) + "; " + not_there(draft, text.name);
+      if (text.fills == role.text->name)
+        why = " with io: " + io_word(draft.text.io) + "; " + not_there(draft, text.name);
     draft.report.add(role.text->where, "roles." + role.text->name + ": no component fills it" + why);
   }
 }
@@ -198,7 +207,8 @@ void choose_vehicle(Draft& draft) {
   if (vehicles.size() > 1) draft.report.add(where, "a mission has one vehicle; here are " + join(vehicles));
 }
 
-/// Created are: components without a role, those that some phase assigns, and whatever these are wired to by name.
+/// Created are: components without a role, those that some phase assigns, and whatever these are wired to by
+/// name.
 void mark_used(Draft& draft) {
   std::vector<std::size_t> todo;
   const auto use = [&](std::size_t i) {
@@ -228,8 +238,9 @@ Source in_graph(const Draft& draft, Source source) {
 bool dangling(const Graph& graph, const Source& source) {
   if (source.kind != Source::Kind::role) return false;
   const Role& role = graph.roles[static_cast<std::size_t>(source.index)];
-  return std::all_of(role.provides.begin(), role.provides.end(),
-                     [&](const auto& outputs) { return outputs[static_cast<std::size_t>(source.output)] < 0; });
+  return std::all_of(role.provides.begin(), role.provides.end(), [&](const auto& outputs) {
+    return outputs[static_cast<std::size_t>(source.output)] < 0;
+  });
 }
 
 /// Plugins that come with the host lie in its own folder.
@@ -237,14 +248,17 @@ bool installed(const PluginInfo& plugin) {
   std::error_code code;
   const fs::path self = fs::read_symlink("/proc/self/exe", code);
   const fs::path folder = self.parent_path().parent_path() / "lib" / "fulmar";
-  return fs::weakly_canonical(fs::path(plugin.path).parent_path(), code) == fs::weakly_canonical(folder, code);
+  return fs::weakly_canonical(fs::path(plugin.path).parent_path(), code) ==
+         fs::weakly_canonical(folder, code);
 }
 
-/// How a component is run, and what each way of running cannot do. On hardware, what did not come with the host flies in a child.
+/// How a component is run, and what each way of running cannot do. On hardware, what did not come with the
+/// host flies in a child.
 void run_mode(Draft& draft, const Candidate& candidate, Component& component) {
   const ComponentText& text = *candidate.text;
   const ComponentInfo& info = candidate.info();
-  const bool foreign = draft.text.io == Io::fcu && !info.vehicle && component.library && !installed(*component.plugin);
+  const bool foreign =
+      draft.text.io == Io::fcu && !info.vehicle && component.library && !installed(*component.plugin);
   component.run = text.run.value_or(foreign ? RunMode::process : RunMode::tick);
   component.latency_ns = text.latency_ns;
   component.hang_ns = text.hang_ns > 0 ? text.hang_ns : default_hang_ns;
@@ -255,9 +269,11 @@ void run_mode(Draft& draft, const Candidate& candidate, Component& component) {
   if (component.run == RunMode::driver) {
     for (const Port& port : info.outputs)
       if (port.kind != FULMAR_OUT_QUEUE && port.kind != FULMAR_OUT_PROBE)
-        draft.report.add(text.where, path + ".run: a driver's outputs are queues; '" + port.name + "' of " + candidate.use + " is not one");
+        draft.report.add(text.where, path + ".run: a driver's outputs are queues; '" + port.name + "' of " +
+                                         candidate.use + " is not one");
     if (!info.inputs.empty())
-      draft.report.add(text.where, path + ".run: a driver has no inputs; " + candidate.use + " has '" + info.inputs[0].name + "'");
+      draft.report.add(text.where, path + ".run: a driver has no inputs; " + candidate.use + " has '" +
+                                       info.inputs[0].name + "'");
   }
 }
 
@@ -265,8 +281,9 @@ void run_mode(Draft& draft, const Candidate& candidate, Component& component) {
 void check_names(Draft& draft, const Candidate& candidate) {
   const auto check = [&](const char* what, const std::string& name) {
     if (name.size() < name_room) return;
-    draft.report.add(candidate.text->where, "components." + candidate.name() + ": the " + what + " '" + name + "' of " + candidate.use +
-                                                " has " + std::to_string(name.size()) + " characters; a name has " +
+    draft.report.add(candidate.text->where, "components." + candidate.name() + ": the " + what + " '" + name +
+                                                "' of " + candidate.use + " has " +
+                                                std::to_string(name.size()) + " characters; a name has " +
                                                 std::to_string(name_room - 1) + " at most");
   };
   for (const Port& port : candidate.info().inputs) check("input", port.name);
@@ -289,7 +306,8 @@ void build_components(Draft& draft) {
     component.period_ns = rate > 0 && rate < draft.text.rate_hz * (1 - 1e-9) ? std::llround(1e9 / rate) : 0;
     component.budget_ns = candidate.text->budget_ns;
     run_mode(draft, candidate, component);
-    if (component.run == RunMode::process) component.library.reset();  // its code is the child's business alone
+    if (component.run == RunMode::process)
+      component.library.reset();  // its code is the child's business alone
     component.params = candidate.params;
     component.where = candidate.text->where;
     if (candidate.info().vehicle) draft.graph.vehicle = candidate.component;
@@ -310,7 +328,8 @@ void build_roles(Draft& draft) {
       if (filler.component < 0 || !filler.assigned) continue;
       role.fillers.push_back(filler.component);
       role.provides.emplace_back();
-      for (const RolePort& port : role.outputs) role.provides.back().push_back(filler.info().output(port.name));
+      for (const RolePort& port : role.outputs)
+        role.provides.back().push_back(filler.info().output(port.name));
     }
     draft.graph.roles.push_back(std::move(role));
   }
@@ -348,7 +367,8 @@ std::vector<std::string> tap_ports(const Graph& graph) {
     for (std::size_t o = 0; o < component.info().outputs.size(); ++o) {
       const Port& port = component.info().outputs[o];
       probes = probes || !port.type;
-      if (port.type && !provides(graph, component, static_cast<int>(o))) ports.push_back(component.name + "." + port.name);
+      if (port.type && !provides(graph, component, static_cast<int>(o)))
+        ports.push_back(component.name + "." + port.name);
     }
     if (probes) ports.push_back(component.name + ".probes");
   }
@@ -364,11 +384,12 @@ void read_record_rules(Draft& draft, const std::vector<std::string>& ports) {
   for (std::size_t i = 0; i < graph.record_rules.size(); ++i) {
     const std::string& pattern = graph.record_rules[i].ports[0];
     if (pattern.size() < 200 && std::count(pattern.begin(), pattern.end(), '*') < 5 &&
-        std::any_of(ports.begin(), ports.end(), [&](const std::string& port) { return port_matches(port, pattern); }))
+        std::any_of(ports.begin(), ports.end(),
+                    [&](const std::string& port) { return port_matches(port, pattern); }))
       continue;
     const std::string near = nearest(pattern, ports);
-    draft.report.add(draft.text.record_where[i],
-                     "record.ports: '" + pattern + "' matches no port." + (near.empty() ? "" : " Did you mean '" + near + "'?"));
+    draft.report.add(draft.text.record_where[i], "record.ports: '" + pattern + "' matches no port." +
+                                                     (near.empty() ? "" : " Did you mean '" + near + "'?"));
   }
 }
 
@@ -376,9 +397,11 @@ void read_control(Draft& draft) {
   for (const Word& word : draft.text.control) {
     const int role = draft.role(word.text);
     if (role < 0)
-      draft.report.add(word.where, "control: there is no role '" + word.text + "'." + choices_text(word.text, draft.role_names()));
+      draft.report.add(word.where, "control: there is no role '" + word.text + "'." +
+                                       choices_text(word.text, draft.role_names()));
     else if (role == draft.vehicle_role())
-      draft.report.add(word.where, "control: the vehicle obeys or not; name the roles whose outputs lead to it");
+      draft.report.add(word.where,
+                       "control: the vehicle obeys or not; name the roles whose outputs lead to it");
     else
       draft.graph.control.push_back(role);
   }
@@ -425,7 +448,8 @@ void resolve(Draft& draft, Catalogue& catalogue) {
 
 namespace {
 
-/// The mission's list was kept when it flew. A log is data: what lies beside it runs only when it is what flew, or is asked for by name.
+/// The mission's list was kept when it flew. A log is data: what lies beside it runs only when it is what
+/// flew, or is asked for by name.
 Expected admit_again(const fs::path& plugin, const Overrides& overrides) {
   check_private_file(plugin);
   if (overrides.flown.empty()) return {};
@@ -437,7 +461,8 @@ Expected admit_again(const fs::path& plugin, const Overrides& overrides) {
   }
   const std::string sha256 = sha256_file(plugin);
   if (std::find(overrides.flown.begin(), overrides.flown.end(), sha256) == overrides.flown.end())
-    throw Error(plugin.string() + " is not what flew: its SHA-256 is " + sha256 + "; --with flies it all the same");
+    throw Error(plugin.string() + " is not what flew: its SHA-256 is " + sha256 +
+                "; --with flies it all the same");
   return {overrides.flown, "the log"};
 }
 

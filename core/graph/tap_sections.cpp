@@ -56,20 +56,24 @@ class DdsReader {
   DdsReader(MissionText& mission, Report& report) : m_(mission), report_(report) {}
 
   void read(const Node& node) {
-    const Keys keys(node, "dds", {"domain", "namespace", "interfaces", "peers", "export", "import", "services", "parameters", "humble"},
+    const Keys keys(node, "dds",
+                    {"domain", "namespace", "interfaces", "peers", "export", "import", "services",
+                     "parameters", "humble"},
                     report_);
     DdsOptions& dds = m_.dds;
     dds.on = true;
     if (const auto domain = keys.positive("domain", "", true)) {
       if (*domain > most_domain || std::floor(*domain) != *domain)
-        report_.add(keys.where("domain"), "dds.domain: expected a whole number from 0 to " + std::to_string(most_domain));
+        report_.add(keys.where("domain"),
+                    "dds.domain: expected a whole number from 0 to " + std::to_string(most_domain));
       else
         dds.domain = static_cast<int>(*domain);
     }
     dds.name_space = keys.text("namespace").value_or("");
     if (!dds.name_space.empty() && !is_topic(dds.name_space, true))
-      report_.add(keys.where("namespace"),
-                  "dds.namespace: expected names with '/' between them such as uav1, found '" + dds.name_space + "'");
+      report_.add(
+          keys.where("namespace"),
+          "dds.namespace: expected names with '/' between them such as uav1, found '" + dds.name_space + "'");
     addresses(keys, "interfaces", dds.interfaces);
     if (keys.has("interfaces")) dds.interfaces_where = keys.where("interfaces");
     addresses(keys, "peers", dds.peers);
@@ -85,11 +89,14 @@ class DdsReader {
     const Node* node = keys.get(key);
     if (!node) return;
     if (!node->is(Node::Kind::sequence))
-      return report_.add(node->where(), "dds." + key + ": expected a list of addresses such as [192.168.1.7], found " + found_words(*node));
+      return report_.add(
+          node->where(),
+          "dds." + key + ": expected a list of addresses such as [192.168.1.7], found " + found_words(*node));
     for (const Node& item : node->items) {
       const auto text = scalar_text(item, "dds." + key, "an address such as 192.168.1.7", report_);
       if (text && !is_ipv4(*text))
-        report_.add(item.where(), "dds." + key + ": expected an IPv4 address such as 192.168.1.7, found '" + *text + "'");
+        report_.add(item.where(),
+                    "dds." + key + ": expected an IPv4 address such as 192.168.1.7, found '" + *text + "'");
       else if (text)
         out.push_back(*text);
     }
@@ -97,7 +104,8 @@ class DdsReader {
 
   void exports(const Node& list) {
     if (!list.is(Node::Kind::sequence))
-      return report_.add(list.where(), "dds.export: expected a list of ports such as [nav.state], found " + found_words(list));
+      return report_.add(list.where(), "dds.export: expected a list of ports such as [nav.state], found " +
+                                           found_words(list));
     for (const Node& item : list.items) {
       DdsOptions::Export e;
       e.where = item.where();
@@ -113,9 +121,12 @@ class DdsReader {
         }
         e.best_effort = keys.flag("best_effort").value_or(false);
         if (!keys.has("port"))
-          report_.add(item.where(), "dds.export: 'port' is missing, as in {port: nav.state, topic: /state, rate: 50 Hz}");
+          report_.add(item.where(),
+                      "dds.export: 'port' is missing, as in {port: nav.state, topic: /state, rate: 50 Hz}");
       } else {
-        e.port = scalar_text(item, "dds.export", "a port such as nav.state, or {port, topic, rate, best_effort}", report_).value_or("");
+        e.port = scalar_text(item, "dds.export",
+                             "a port such as nav.state, or {port, topic, rate, best_effort}", report_)
+                     .value_or("");
       }
       if (e.port.empty() || !parse_port_name(e.port, e.where, "dds.export", report_)) continue;
       if (e.topic.empty()) e.topic = slashed(e.port);  // relative: behind the namespace
@@ -125,18 +136,21 @@ class DdsReader {
 
   void imports(const Node& map) {
     if (!map.is(Node::Kind::map))
-      return report_.add(map.where(), "dds.import: expected a map {component.input: /topic}, found " + found_words(map));
+      return report_.add(map.where(),
+                         "dds.import: expected a map {component.input: /topic}, found " + found_words(map));
     for (const Node::Entry& entry : map.entries) {
       const std::string path = "dds.import." + entry.key;
       const auto to = parse_port_name(entry.key, entry.where(), "dds.import", report_);
       const auto name = scalar_text(entry.value, path, "a topic such as /fulmar/plan_edits", report_);
-      if (to && name && topic(*name, entry.where(), path)) m_.dds_imports.push_back({*to, *name, entry.where()});
+      if (to && name && topic(*name, entry.where(), path))
+        m_.dds_imports.push_back({*to, *name, entry.where()});
     }
   }
 
   bool topic(const std::string& text, const Where& where, const std::string& path) {
     if (is_topic(text, false)) return true;
-    report_.add(where, path + ": expected a topic such as /nav/state (letters, digits, _ and /), found '" + text + "'");
+    report_.add(where, path + ": expected a topic such as /nav/state (letters, digits, _ and /), found '" +
+                           text + "'");
     return false;
   }
 
@@ -157,7 +171,8 @@ void read_live(const Keys& mission, MissionText& text, Report& report) {
   text.live.on = true;
   text.live.where = node->where();
   if (const auto listen = keys.text("listen"); listen && !split_address(*listen, text.live))
-    report.add(keys.where("listen"), "live.listen: expected an address and a port such as 127.0.0.1:8765, found '" + *listen + "'");
+    report.add(keys.where("listen"),
+               "live.listen: expected an address and a port such as 127.0.0.1:8765, found '" + *listen + "'");
   text.live.token = keys.text("token").value_or("");
 }
 
@@ -174,7 +189,8 @@ void read_dds(const Keys& mission, MissionText& text, Report& report) {
   const Node* node = mission.get("dds");
   if (!node || (node->is(Node::Kind::scalar) && node->text == "off")) return;
   if (!node->is(Node::Kind::map))
-    return report.add(node->where(), "dds: expected 'off' or a map {export, import}, found " + found_words(*node));
+    return report.add(node->where(),
+                      "dds: expected 'off' or a map {export, import}, found " + found_words(*node));
   DdsReader(text, report).read(*node);
 }
 
@@ -185,7 +201,8 @@ void mark_imports(Draft& draft) {
     const std::string path = "dds.import." + import.to.text();
     const int index = draft.candidate(import.to.owner);
     if (index < 0) {
-      if (!draft.text.component(import.to.owner)) draft.report.add(import.where, path + ": " + not_there(draft, import.to.owner));
+      if (!draft.text.component(import.to.owner))
+        draft.report.add(import.where, path + ": " + not_there(draft, import.to.owner));
       continue;  // it exists with another io
     }
     Candidate& candidate = draft.candidates[static_cast<std::size_t>(index)];
@@ -194,16 +211,21 @@ void mark_imports(Draft& draft) {
     if (input < 0) {
       std::vector<std::string> names;
       for (const Port& port : candidate.info().inputs) names.push_back(port.name);
-      draft.report.add(import.where, path + ": " + candidate.use + " has no such input." + choices_text(import.to.port, names));
+      draft.report.add(import.where, path + ": " + candidate.use + " has no such input." +
+                                         choices_text(import.to.port, names));
       continue;
     }
     Wire& wire = candidate.wires[static_cast<std::size_t>(input)];
     if (candidate.info().inputs[static_cast<std::size_t>(input)].kind == FULMAR_IN_REQUEST)
-      draft.report.add(import.where, path + ": this is a request, which others make through a service; a topic feeds a value or a queue");
+      draft.report.add(
+          import.where,
+          path +
+              ": this is a request, which others make through a service; a topic feeds a value or a queue");
     // What the mission imports replaces a wire of the file that it extends: nothing else takes that one out.
     const bool replaces = import.where.file == draft.text.file->name && wire.where.file != import.where.file;
     if (wire.from.kind != Source::Kind::none && !replaces)
-      draft.report.add(import.where, path + ": a wire feeds this input already (" + wire.where.text() + "); remove one of the two");
+      draft.report.add(import.where, path + ": a wire feeds this input already (" + wire.where.text() +
+                                         "); remove one of the two");
     wire.from = {};
     wire.import = static_cast<int>(n);
     if (wire.max_age_ns == 0) wire.max_age_ns = candidate.text->max_age_ns;
@@ -221,7 +243,8 @@ TypePtr type_of_port(const Graph& graph, const std::string& port) {
     for (const RolePort& p : role.outputs)
       if (role.name == owner && p.name == output) return p.type;
   for (const Component& c : graph.components)
-    if (const int o = c.name == owner ? c.info().output(output) : -1; o >= 0) return c.info().outputs[static_cast<std::size_t>(o)].type;
+    if (const int o = c.name == owner ? c.info().output(output) : -1; o >= 0)
+      return c.info().outputs[static_cast<std::size_t>(o)].type;
   return nullptr;
 }
 
@@ -231,13 +254,15 @@ class DdsTopics {
   DdsTopics(const DdsOptions& dds, Report& report) : dds_(dds), report_(report) {}
 
   void add(const std::string& topic, const TypePtr& type, const Where& where, const std::string& path) {
-    const std::string name = topic.starts_with('/') ? topic : (dds_.name_space.empty() ? "/" : "/" + dds_.name_space + "/") + topic;
+    const std::string name = topic.starts_with('/')
+                                 ? topic
+                                 : (dds_.name_space.empty() ? "/" : "/" + dds_.name_space + "/") + topic;
     if (!type) return;
     const auto [at, is_new] = topics_.emplace(name, Topic{type, where});
     const Type& known = *at->second.type;
     if (is_new || (known.ros == type->ros && (!known.ros.empty() || known.name == type->name))) return;
-    report_.add(where, path + ": the topic " + name + " has the type " + words(known) + " already (" + at->second.where.text() +
-                           "); it cannot be " + words(*type) + ", too");
+    report_.add(where, path + ": the topic " + name + " has the type " + words(known) + " already (" +
+                           at->second.where.text() + "); it cannot be " + words(*type) + ", too");
   }
 
  private:
@@ -277,7 +302,8 @@ void resolve_dds(Draft& draft, const std::vector<std::string>& ports) {
   for (const DdsOptions::Export& e : graph.dds.exports) {
     types.add(e.topic, type_of_port(graph, e.port), e.where, "dds.export: " + e.port);
     if (std::find(ports.begin(), ports.end(), e.port) == ports.end())
-      draft.report.add(e.where, "dds.export: there is no port '" + e.port + "'." + choices_text(e.port, ports));
+      draft.report.add(e.where,
+                       "dds.export: there is no port '" + e.port + "'." + choices_text(e.port, ports));
     if (std::find(topics.begin(), topics.end(), e.topic) != topics.end())
       draft.report.add(e.where, "dds.export: two ports have the topic " + e.topic);
     topics.push_back(e.topic);

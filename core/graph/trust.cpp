@@ -18,7 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_hash(const std::string& text) { return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos; }
+bool is_hash(const std::string& text) {
+  return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
 
 bool is_plugin_file(const std::string& name) { return name.ends_with(".so") || name.ends_with(".py"); }
 
@@ -30,7 +32,8 @@ fs::path real_path(const fs::path& file) {
 
 struct stat status_of(const fs::path& path) {
   struct stat info {};
-  if (::stat(path.c_str(), &info) != 0) throw Error(path.string() + " cannot be looked at: " + std::strerror(errno));
+  if (::stat(path.c_str(), &info) != 0)
+    throw Error(path.string() + " cannot be looked at: " + std::strerror(errno));
   return info;
 }
 
@@ -44,7 +47,8 @@ bool is_trusted_owner(uid_t owner) {
 void check_folder(const fs::path& folder, const std::string& name) {
   const struct stat info = status_of(folder);
   if ((info.st_mode & S_IWOTH) != 0 && (info.st_mode & S_ISVTX) == 0)
-    throw Error(name + " is not loaded: everybody may replace files in its folder; chmod o-w " + folder.string());
+    throw Error(name + " is not loaded: everybody may replace files in its folder; chmod o-w " +
+                folder.string());
 }
 
 }  // namespace
@@ -53,7 +57,8 @@ void check_private_file(const fs::path& file) {
   const fs::path path = real_path(file);
   const std::string name = file.filename().string();
   const struct stat info = status_of(path);
-  if ((info.st_mode & S_IWOTH) != 0) throw Error(name + " is not loaded: everybody may write to it; chmod o-w " + path.string());
+  if ((info.st_mode & S_IWOTH) != 0)
+    throw Error(name + " is not loaded: everybody may write to it; chmod o-w " + path.string());
   if (!is_trusted_owner(info.st_uid))
     throw Error(name + " is not loaded: it belongs to the user " + std::to_string(info.st_uid) +
                 ", neither to you nor to root; chown it: " + path.string());
@@ -73,9 +78,12 @@ void Trust::read(const Node& node, Report& report) {
   const Node* allow = keys.get("allow");
   where_ = allow != nullptr ? keys.where("allow") : node.where();
   if (!node.is(Node::Kind::map)) return;
-  if (allow == nullptr) return report.add(node.where(), "plugins: 'allow' is missing, as in {allow: [control_slc, my_law.so]}");
+  if (allow == nullptr)
+    return report.add(node.where(), "plugins: 'allow' is missing, as in {allow: [control_slc, my_law.so]}");
   if (!allow->is(Node::Kind::sequence))
-    return report.add(allow->where(), "plugins.allow: expected a list such as [control_slc, my_law.so], found " + found_words(*allow));
+    return report.add(
+        allow->where(),
+        "plugins.allow: expected a list such as [control_slc, my_law.so], found " + found_words(*allow));
   for (const Node& item : allow->items) read_entry(item, report);
 }
 
@@ -87,38 +95,43 @@ void Trust::read_entry(const Node& node, Report& report) {
     const Keys keys(node, path, {"file", "sha256"}, report);
     entry.text = keys.text("file").value_or("");
     entry.sha256 = keys.text("sha256").value_or("");
-    if (!keys.has("file")) report.add(node.where(), path + ": 'file' is missing, as in {file: my_law.so, sha256: ...}");
+    if (!keys.has("file"))
+      report.add(node.where(), path + ": 'file' is missing, as in {file: my_law.so, sha256: ...}");
     std::transform(entry.sha256.begin(), entry.sha256.end(), entry.sha256.begin(),
                    [](char c) { return c >= 'A' && c <= 'F' ? static_cast<char>(c + 32) : c; });
     if (keys.has("sha256") && !is_hash(entry.sha256))
-      return report.add(keys.where("sha256"), path + ".sha256: expected 64 hexadecimal digits, found " + found_words(*keys.get("sha256")));
+      return report.add(keys.where("sha256"), path + ".sha256: expected 64 hexadecimal digits, found " +
+                                                  found_words(*keys.get("sha256")));
   } else {
-    entry.text = scalar_text(node, path, "the name or file of a plugin, or {file, sha256}", report).value_or("");
+    entry.text =
+        scalar_text(node, path, "the name or file of a plugin, or {file, sha256}", report).value_or("");
   }
   if (entry.text.empty()) return;
   entry.files = meaning(entry.text, node, report);
   if (!entry.files.empty()) entries_.push_back(std::move(entry));
 }
 
-// "control_slc" is a plugin of that name; "my_law.so" a file beside this one, or a plugin of that name; "build/my_law.so" a file; "build/*"
-// every file of that folder.
+// "control_slc" is a plugin of that name; "my_law.so" a file beside this one, or a plugin of that name;
+// "build/my_law.so" a file; "build/*" every file of that folder.
 std::vector<fs::path> Trust::meaning(const std::string& text, const Node& node, Report& report) const {
   const fs::path path = text;
   const std::string last = path.filename().string();
   std::vector<fs::path> files;
   const bool pattern = text.find('*') != std::string::npos, named = text.find('/') == std::string::npos;
   if (pattern && (named || last != "*" || path.parent_path().string().find('*') != std::string::npos)) {
-    report.add(node.where(), "plugins.allow: '" + text + "': a '*' stands alone for the files of a folder, as in build/*");
+    report.add(node.where(),
+               "plugins.allow: '" + text + "': a '*' stands alone for the files of a folder, as in build/*");
   } else if (pattern) {
     files.push_back(real_path(home_ / path.parent_path()) / "*");
   } else if (!named && !is_plugin_file(last)) {
-    report.add(node.where(),
-               "plugins.allow: '" + text +
-                   "' is no file of a plugin; write the name of a plugin (control_slc), a file (build/my_law.so) or a folder (build/*)");
+    report.add(node.where(), "plugins.allow: '" + text +
+                                 "' is no file of a plugin; write the name of a plugin (control_slc), a file "
+                                 "(build/my_law.so) or a folder (build/*)");
   } else {
     if (is_plugin_file(last)) files.push_back(real_path(home_ / path));
     if (named)
-      for (const fs::path& folder : plugin_folders()) files.push_back(real_path(folder / (is_plugin_file(last) ? text : text + ".so")));
+      for (const fs::path& folder : plugin_folders())
+        files.push_back(real_path(folder / (is_plugin_file(last) ? text : text + ".so")));
   }
   return files;
 }
@@ -148,12 +161,16 @@ Expected Trust::check(const fs::path& file) const {
 
 void Trust::refuse(const fs::path& file) const {
   const std::vector<fs::path> folders = plugin_folders();
-  const bool named = std::any_of(folders.begin(), folders.end(), [&](const fs::path& f) { return real_path(f) == file.parent_path(); });
+  const bool named = std::any_of(folders.begin(), folders.end(),
+                                 [&](const fs::path& f) { return real_path(f) == file.parent_path(); });
   std::string entry = named && file.extension() == ".so" ? file.stem().string() : file.filename().string();
-  if (!named) entry = "{file: " + file.lexically_proximate(real_path(home_)).string() + ", sha256: " + sha256_file(file) + "}";
+  if (!named)
+    entry = "{file: " + file.lexically_proximate(real_path(home_)).string() +
+            ", sha256: " + sha256_file(file) + "}";
   std::vector<std::string> texts;
   for (const Entry& e : entries_) texts.push_back(e.text);
-  throw Error(file.filename().string() + " is not among the plugins that this mission allows: " + join(texts) + ". Write " + entry +
+  throw Error(file.filename().string() +
+              " is not among the plugins that this mission allows: " + join(texts) + ". Write " + entry +
               " into plugins.allow (" + where_.text() + ") if you trust it");
 }
 

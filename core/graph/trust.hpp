@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which plugin files a mission may load. A plugin is code that runs with the rights of its user: what others can change is never loaded,
-// and section `plugins` narrows the rest to a list.
+// Which plugin files a mission may load. A plugin is code that runs with the rights of its user: what others
+// can change is never loaded, and section `plugins` narrows the rest to a list.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace fulmar::core {
 
-/// Throws Error when others than the user and root could have written the file: it is writable by all, lies in a folder where all may
-/// replace it, or belongs to another user.
+/// Throws Error when others than the user and root could have written the file: it is writable by all, lies
+/// in a folder where all may replace it, or belongs to another user.
 void check_private_file(const std::filesystem::path& file);
 
 class Trust {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parameters of every component: declared value <- airframe file <- what the mission as a whole says <- `params:` <- --set. And the
-// failsafe.
+// Parameters of every component: declared value <- airframe file <- what the mission as a whole says <-
+// `params:` <- --set. And the failsafe.
 #include <algorithm>
 #include <cmath>
 
@@ -29,7 +29,8 @@ AirframeSource airframe_source(Draft& draft) {
   const Node& tree = draft.files.tree(file);
   if (tree.is(Node::Kind::map)) return {&tree, file->path.filename().string(), ""};
   if (!tree.is(Node::Kind::missing))
-    draft.report.add(tree.where(), "expected a map with the fields of an airframe; found " + found_words(tree));
+    draft.report.add(tree.where(),
+                     "expected a map with the fields of an airframe; found " + found_words(tree));
   return {};
 }
 
@@ -44,28 +45,31 @@ void set_params(Draft& draft, Candidate& candidate, const Node& map, const std::
   for (const Node::Entry& entry : map.entries) {
     const int p = info.param(entry.key);
     if (p < 0) {
-      draft.report.add(entry.where(),
-                       path + ": " + candidate.use + " has no parameter '" + entry.key + "'." + choices_text(entry.key, param_names(info)));
+      draft.report.add(entry.where(), path + ": " + candidate.use + " has no parameter '" + entry.key + "'." +
+                                          choices_text(entry.key, param_names(info)));
       continue;
     }
     const auto i = static_cast<std::size_t>(p);
     if (info.vehicle && (entry.key == "rate" || entry.key == "epoch")) {
-      draft.report.add(entry.where(), path + "." + entry.key + ": comes from the mission's '" + (entry.key == "rate" ? "rate" : "epoch") +
-                                          "'; set it there");
+      draft.report.add(entry.where(), path + "." + entry.key + ": comes from the mission's '" +
+                                          (entry.key == "rate" ? "rate" : "epoch") + "'; set it there");
       continue;
     }
-    read_param(info.params[i], entry.value, path + "." + entry.key, candidate.params[i], draft.files, draft.report);
+    read_param(info.params[i], entry.value, path + "." + entry.key, candidate.params[i], draft.files,
+               draft.report);
   }
 }
 
-/// Section `params` of the airframe file: gains belong to the aircraft. Components that this mission does not use are passed over.
+/// Section `params` of the airframe file: gains belong to the aircraft. Components that this mission does not
+/// use are passed over.
 void set_from_airframe(Draft& draft, Candidate& candidate, const AirframeSource& airframe) {
   const Node* sections = airframe.tree ? airframe.tree->find("params") : nullptr;
   if (!sections) return;
   const std::string prefix = airframe.path.empty() ? "params" : airframe.path + ".params";
   if (!sections->is(Node::Kind::map))
-    return draft.report.add(sections->where(),
-                            prefix + ": expected a map {plugin/Component: {parameter: value}}, found " + found_words(*sections));
+    return draft.report.add(
+        sections->where(),
+        prefix + ": expected a map {plugin/Component: {parameter: value}}, found " + found_words(*sections));
   const auto [plugin, component] = split_use(candidate.use);
   for (const Node::Entry& entry : sections->entries) {
     const auto [for_plugin, for_component] = split_use(entry.key);
@@ -74,12 +78,13 @@ void set_from_airframe(Draft& draft, Candidate& candidate, const AirframeSource&
     std::vector<std::string> names;
     for (const ComponentInfo& info : candidate.plugin.info->components) names.push_back(info.name);
     if (!for_component.empty() && std::find(names.begin(), names.end(), for_component) == names.end())
-      draft.report.add(entry.where(), prefix + ": the plugin " + plugin + " has no component '" + for_component + "'." +
-                                          choices_text(for_component, names));
+      draft.report.add(entry.where(), prefix + ": the plugin " + plugin + " has no component '" +
+                                          for_component + "'." + choices_text(for_component, names));
     if (for_component.empty() ? candidate.index != 0 : for_component != component) continue;
     if (!entry.value.is(Node::Kind::map))
-      draft.report.add(entry.value.where(),
-                       prefix + "." + entry.key + ": expected a map {parameter: value}, found " + found_words(entry.value));
+      draft.report.add(entry.value.where(), prefix + "." + entry.key +
+                                                ": expected a map {parameter: value}, found " +
+                                                found_words(entry.value));
     set_params(draft, candidate, entry.value, prefix + "." + entry.key);
   }
 }
@@ -98,9 +103,10 @@ void set_from_mission(Draft& draft, Candidate& candidate, const AirframeSource& 
     if (param.name == "rate") {
       value.number[0] = draft.text.rate_hz;
       if (value.number[0] < param.min || value.number[0] > param.max)
-        draft.report.add(candidate.text->where, "components." + candidate.name() + ": the mission's rate of " +
-                                                    number_text(draft.text.rate_hz) + " Hz is outside " + number_text(param.min) + " .. " +
-                                                    number_text(param.max) + " Hz of " + candidate.use);
+        draft.report.add(candidate.text->where,
+                         "components." + candidate.name() + ": the mission's rate of " +
+                             number_text(draft.text.rate_hz) + " Hz is outside " + number_text(param.min) +
+                             " .. " + number_text(param.max) + " Hz of " + candidate.use);
     }
     if (param.name == "epoch") value.number[0] = static_cast<double>(draft.text.epoch_ns) * 1e-9;
   }
@@ -129,13 +135,16 @@ void check_required(Draft& draft, const Candidate& candidate) {
   const ComponentInfo& info = candidate.info();
   for (std::size_t i = 0; i < info.params.size(); ++i) {
     const ParamInfo& param = info.params[i];
-    if (!param.required || candidate.params[i].integer != 0 || candidate.text->params.find(param.name)) continue;
-    if (param.name == "airframe" && !draft.text.airframe.is(Node::Kind::missing)) continue;  // it was refused: that is told already
+    if (!param.required || candidate.params[i].integer != 0 || candidate.text->params.find(param.name))
+      continue;
+    if (param.name == "airframe" && !draft.text.airframe.is(Node::Kind::missing))
+      continue;  // it was refused: that is told already
     if (param.name == "origin" && !draft.text.origin.is(Node::Kind::missing)) continue;
     const bool whole = param.name == "airframe" || param.name == "origin";
-    draft.report.add(candidate.text->where, "components." + candidate.name() + ": the parameter '" + param.name + "' is missing" +
-                                                (param.doc.empty() ? "" : " (" + param.doc + ")") +
-                                                (whole ? "; give the mission's '" + param.name + "'" : "; give it under params"));
+    draft.report.add(candidate.text->where,
+                     "components." + candidate.name() + ": the parameter '" + param.name + "' is missing" +
+                         (param.doc.empty() ? "" : " (" + param.doc + ")") +
+                         (whole ? "; give the mission's '" + param.name + "'" : "; give it under params"));
   }
 }
 
@@ -148,15 +157,20 @@ void check_origin(Draft& draft) {
     const Type& type = *candidate.info().params[static_cast<std::size_t>(i)].type;
     for (const char* needed : {"lat", "lon", "alt_msl"})
       if (std::none_of(draft.text.origin.entries.begin(), draft.text.origin.entries.end(),
-                       [&](const Node::Entry& entry) { return entry.key == needed || entry.key.rfind(std::string(needed) + "_", 0) == 0; }))
-        draft.report.add(draft.text.origin.where(), std::string("origin: ") + needed + " is missing; give lat, lon and alt_msl");
+                       [&](const Node::Entry& entry) {
+                         return entry.key == needed || entry.key.rfind(std::string(needed) + "_", 0) == 0;
+                       }))
+        draft.report.add(draft.text.origin.where(),
+                         std::string("origin: ") + needed + " is missing; give lat, lon and alt_msl");
     for (const auto& [name, limit] : {std::pair{"lat_deg", 90.0}, std::pair{"lon_deg", 180.0}}) {
       const Field* field = type.find(name);
       if (!field) continue;
-      const double value = number_at(*field, candidate.params[static_cast<std::size_t>(i)].data.data() + field->offset);
+      const double value =
+          number_at(*field, candidate.params[static_cast<std::size_t>(i)].data.data() + field->offset);
       if (std::abs(value) > limit)
-        draft.report.add(draft.text.origin.where(), std::string("origin: ") + name + ": " + number_text(value) + " is outside " +
-                                                        number_text(-limit) + " .. " + number_text(limit) + " deg");
+        draft.report.add(draft.text.origin.where(),
+                         std::string("origin: ") + name + ": " + number_text(value) + " is outside " +
+                             number_text(-limit) + " .. " + number_text(limit) + " deg");
     }
     return;
   }
@@ -169,7 +183,8 @@ void read_values(Draft& draft) {
   const Node& origin = draft.text.origin;
   if (!origin.is(Node::Kind::missing) && !origin.is(Node::Kind::map))
     draft.report.add(origin.where(),
-                     "origin: expected a map such as {lat: 40.25, lon: -111.65, alt_msl: 1387 m}, found " + found_words(origin));
+                     "origin: expected a map such as {lat: 40.25, lon: -111.65, alt_msl: 1387 m}, found " +
+                         found_words(origin));
   for (Candidate& candidate : draft.candidates) {
     if (!candidate.loaded) continue;
     for (const ParamInfo& param : candidate.info().params) candidate.params.push_back(initial_value(param));
@@ -184,7 +199,8 @@ void read_values(Draft& draft) {
     if (candidate.loaded) check_required(draft, candidate);
 }
 
-// ---- failsafe ---------------------------------------------------------------------------------------------------------------
+// ---- failsafe
+// ---------------------------------------------------------------------------------------------------------------
 
 void read_failsafe(Draft& draft) {
   Graph& graph = draft.graph;
@@ -194,12 +210,15 @@ void read_failsafe(Draft& draft) {
   const Node& node = draft.text.failsafe;
   if (node.is(Node::Kind::missing)) return;
   if (!node.is(Node::Kind::map))
-    return draft.report.add(node.where(), "failsafe: expected a map such as {throttle_frac: 0, for: 2 s}, found " + found_words(node));
+    return draft.report.add(
+        node.where(),
+        "failsafe: expected a map such as {throttle_frac: 0, for: 2 s}, found " + found_words(node));
   graph.failsafe.resize(info.inputs.size());
   std::vector<Node> parts(info.inputs.size());
   std::vector<std::string> names{"for"};
   for (const Port& port : info.inputs)
-    for (std::size_t f = 0; port.kind == FULMAR_IN_VALUE && f < port.type->fields.size(); ++f) names.push_back(port.type->fields[f].name);
+    for (std::size_t f = 0; port.kind == FULMAR_IN_VALUE && f < port.type->fields.size(); ++f)
+      names.push_back(port.type->fields[f].name);
   for (const Node::Entry& entry : node.entries) {
     bool known = entry.key == "for";
     for (std::size_t i = 0; i < info.inputs.size() && !known; ++i) {
@@ -208,7 +227,9 @@ void read_failsafe(Draft& draft) {
       parts[i].kind = Node::Kind::map;
       parts[i].entries.push_back(entry);
     }
-    if (!known) draft.report.add(entry.where(), "failsafe: the vehicle takes no '" + entry.key + "'." + choices_text(entry.key, names));
+    if (!known)
+      draft.report.add(entry.where(), "failsafe: the vehicle takes no '" + entry.key + "'." +
+                                          choices_text(entry.key, names));
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (parts[i].is(Node::Kind::missing)) continue;

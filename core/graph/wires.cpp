@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wires: what a port name means, whether the two ends fit, what is missing, and the order of the steps that follows.
+// Wires: what a port name means, whether the two ends fit, what is missing, and the order of the steps that
+// follows.
 #include <algorithm>
 
 #include "core/graph/draft.hpp"
@@ -28,11 +29,13 @@ Target role_target(const Draft& draft, int index, const PortName& name) {
     for (const int f : role.fillers) {
       const Candidate& filler = draft.candidates[static_cast<std::size_t>(f)];
       const int o = filler.loaded ? filler.info().output(name.port) : -1;
-      if (o >= 0 && filler.info().outputs[static_cast<std::size_t>(o)].kind == FULMAR_OUT_VALUE) target.kind = FULMAR_OUT_VALUE;
+      if (o >= 0 && filler.info().outputs[static_cast<std::size_t>(o)].kind == FULMAR_OUT_VALUE)
+        target.kind = FULMAR_OUT_VALUE;
     }
     return target;
   }
-  throw Error("the role " + name.owner + " has no output '" + name.port + "'." + choices_text(name.port, names));
+  throw Error("the role " + name.owner + " has no output '" + name.port + "'." +
+              choices_text(name.port, names));
 }
 
 Target component_target(const Draft& draft, int index, const PortName& name) {
@@ -55,12 +58,15 @@ Target component_target(const Draft& draft, int index, const PortName& name) {
 
 /// Why an output cannot feed an input; "" when it can.
 std::string misfit(const std::string& owner, const Port& input, const PortName& from, const Target& target) {
-  if (target.kind == FULMAR_OUT_PROBE) return from.text() + " is a probe: a number to look at, not a message to wire";
+  if (target.kind == FULMAR_OUT_PROBE)
+    return from.text() + " is a probe: a number to look at, not a message to wire";
   const std::string reason = incompatibility(*target.type, *input.type);
   if (!reason.empty()) {
     if (target.type->name == input.type->name)
-      return from.text() + " is another " + input.type->name + " than " + owner + "." + input.name + " takes: " + reason;
-    return owner + "." + input.name + " takes " + input.type->name + ", but " + from.text() + " is " + target.type->name;
+      return from.text() + " is another " + input.type->name + " than " + owner + "." + input.name +
+             " takes: " + reason;
+    return owner + "." + input.name + " takes " + input.type->name + ", but " + from.text() + " is " +
+           target.type->name;
   }
   if (input.kind == FULMAR_IN_REQUEST && target.kind == FULMAR_OUT_VALUE)
     return owner + "." + input.name + " is a request, but " + from.text() +
@@ -74,14 +80,16 @@ void connect(Draft& draft, std::size_t index, const WireText& text, const std::s
   const ComponentInfo& info = candidate.info();
   const int input = info.input(text.input);
   if (input < 0)
-    return draft.report.add(text.where,
-                            path + ": " + candidate.use + " has no such input." + choices_text(text.input, port_names(info.inputs)));
+    return draft.report.add(text.where, path + ": " + candidate.use + " has no such input." +
+                                            choices_text(text.input, port_names(info.inputs)));
   try {
     const Target target = find_target(draft, text.from);
     const auto i = static_cast<std::size_t>(input);
-    const std::string fault = target.unclear ? "" : misfit(candidate.name(), info.inputs[i], text.from, target);
+    const std::string fault =
+        target.unclear ? "" : misfit(candidate.name(), info.inputs[i], text.from, target);
     if (!fault.empty()) throw Error(fault);
-    candidate.wires[i] = {target.source, text.max_age_ns.value_or(candidate.text->max_age_ns), text.delayed, text.where};
+    candidate.wires[i] = {target.source, text.max_age_ns.value_or(candidate.text->max_age_ns), text.delayed,
+                          text.where};
   } catch (const Error& fault) {
     draft.report.add(text.where, path + ": " + fault.what());
   }
@@ -100,12 +108,13 @@ void check_role_wires(Draft& draft, const RoleDraft& role) {
     std::vector<std::string> inputs;
     for (const int f : role.fillers)
       if (draft.candidates[static_cast<std::size_t>(f)].loaded)
-        for (const Port& port : draft.candidates[static_cast<std::size_t>(f)].info().inputs) inputs.push_back(port.name);
+        for (const Port& port : draft.candidates[static_cast<std::size_t>(f)].info().inputs)
+          inputs.push_back(port.name);
     const bool known = std::find(inputs.begin(), inputs.end(), wire.input) != inputs.end();
     const std::string near = nearest(wire.input, inputs);
     if (!known && !near.empty() && !role.unclear)
-      draft.report.add(wire.where,
-                       path + ": no component that fills " + role.text->name + " has such an input. Did you mean '" + near + "'?");
+      draft.report.add(wire.where, path + ": no component that fills " + role.text->name +
+                                       " has such an input. Did you mean '" + near + "'?");
   }
 }
 
@@ -129,7 +138,8 @@ void resolve_wires(Draft& draft) {
     if (!candidate.loaded) continue;
     candidate.wires.resize(candidate.info().inputs.size());
     const auto own = [&](const std::string& input) {
-      return std::any_of(candidate.text->in.begin(), candidate.text->in.end(), [&](const WireText& wire) { return wire.input == input; });
+      return std::any_of(candidate.text->in.begin(), candidate.text->in.end(),
+                         [&](const WireText& wire) { return wire.input == input; });
     };
     if (candidate.role >= 0) {
       const RoleText& role = *draft.roles[static_cast<std::size_t>(candidate.role)].text;
@@ -137,7 +147,8 @@ void resolve_wires(Draft& draft) {
         if (candidate.info().input(wire.input) >= 0 && !own(wire.input))
           connect(draft, i, wire, "roles." + role.name + ".in." + wire.input);
     }
-    for (const WireText& wire : candidate.text->in) connect(draft, i, wire, "components." + candidate.name() + ".in." + wire.input);
+    for (const WireText& wire : candidate.text->in)
+      connect(draft, i, wire, "components." + candidate.name() + ".in." + wire.input);
   }
   mark_imports(draft);
 }
@@ -162,7 +173,8 @@ std::vector<std::string> proposals(const Draft& draft, const Candidate& reader, 
     const Candidate& writer = draft.candidates[i];
     if (&writer == &reader || !writer.loaded || writer.role >= 0) continue;
     for (const Port& port : writer.info().outputs)
-      offer({writer.name(), port.name}, component_target(draft, static_cast<int>(i), {writer.name(), port.name}));
+      offer({writer.name(), port.name},
+            component_target(draft, static_cast<int>(i), {writer.name(), port.name}));
   }
   return names;
 }
@@ -179,7 +191,8 @@ bool wire_reported(const Draft& draft, const Candidate& candidate, const std::st
 
 void check_fed(Draft& draft) {
   for (const Candidate& candidate : draft.candidates) {
-    if (!candidate.loaded || (candidate.role < 0 && !candidate.text->fills.empty())) continue;  // wires of an unknown role are unknown
+    if (!candidate.loaded || (candidate.role < 0 && !candidate.text->fills.empty()))
+      continue;  // wires of an unknown role are unknown
     for (std::size_t i = 0; i < candidate.wires.size(); ++i) {
       const Port& input = candidate.info().inputs[i];
       if (input.kind != FULMAR_IN_VALUE || input.optional) continue;
@@ -188,22 +201,27 @@ void check_fed(Draft& draft) {
       if (wire.from.kind == Source::Kind::none) {
         if (wire.import >= 0 || wire_reported(draft, candidate, input.name)) continue;
         const std::vector<std::string> fitting = proposals(draft, candidate, input);
-        draft.report.add(candidate.text->where, path + "is not wired; " +
-                                                    (fitting.empty() ? "there is no output of type " + input.type->name
-                                                                     : "outputs of type " + input.type->name + ": " + join(fitting)));
+        draft.report.add(
+            candidate.text->where,
+            path + "is not wired; " +
+                (fitting.empty() ? "there is no output of type " + input.type->name
+                                 : "outputs of type " + input.type->name + ": " + join(fitting)));
       } else if (wire.from.kind == Source::Kind::role && candidate.used) {
         const auto r = static_cast<std::size_t>(wire.from.index);
         const auto o = static_cast<std::size_t>(wire.from.output);
         const Role& role = draft.graph.roles[r];
-        const bool provided = std::any_of(role.provides.begin(), role.provides.end(), [&](const auto& outputs) { return outputs[o] >= 0; });
+        const bool provided = std::any_of(role.provides.begin(), role.provides.end(),
+                                          [&](const auto& outputs) { return outputs[o] >= 0; });
         if (provided || draft.roles[r].unclear) continue;
-        draft.report.add(wire.where, path + "needs " + role.name + "." + role.outputs[o].name + ", which nobody provides in this run");
+        draft.report.add(wire.where, path + "needs " + role.name + "." + role.outputs[o].name +
+                                         ", which nobody provides in this run");
       }
     }
   }
 }
 
-// ---- order ------------------------------------------------------------------------------------------------------------------
+// ---- order
+// ------------------------------------------------------------------------------------------------------------------
 
 namespace {
 
@@ -212,7 +230,8 @@ struct Edge {
   Where where;
 };
 
-/// [component] -> the steps that must come before it. The vehicle is read first and written last: it makes no edge.
+/// [component] -> the steps that must come before it. The vehicle is read first and written last: it makes no
+/// edge.
 std::vector<std::vector<Edge>> edges_of(const Graph& graph) {
   std::vector<std::vector<Edge>> before(graph.components.size());
   for (std::size_t i = 0; i < graph.components.size(); ++i) {
@@ -220,7 +239,8 @@ std::vector<std::vector<Edge>> edges_of(const Graph& graph) {
     for (const Wire& wire : graph.components[i].wires) {
       if (wire.delayed || wire.from.kind == Source::Kind::none) continue;
       std::vector<int> writers{wire.from.index};
-      if (wire.from.kind == Source::Kind::role) writers = graph.roles[static_cast<std::size_t>(wire.from.index)].fillers;
+      if (wire.from.kind == Source::Kind::role)
+        writers = graph.roles[static_cast<std::size_t>(wire.from.index)].fillers;
       for (const int writer : writers)
         if (writer != graph.vehicle) before[i].push_back({writer, wire.where});
     }
@@ -250,8 +270,10 @@ void report_cycle(Draft& draft, const std::vector<std::vector<Edge>>& before, co
   Where where;
   for (const Edge& edge : before[static_cast<std::size_t>(walked.front())])
     if (edge.from == walked.back()) where = edge.where;
-  draft.report.add(where, "the wires form a cycle: " + path + draft.graph.components[static_cast<std::size_t>(walked.front())].name +
-                              ". Mark one of them, as in {from: nav.state, delayed: true}: it then carries the value of the tick before");
+  draft.report.add(where, "the wires form a cycle: " + path +
+                              draft.graph.components[static_cast<std::size_t>(walked.front())].name +
+                              ". Mark one of them, as in {from: nav.state, delayed: true}: it then carries "
+                              "the value of the tick before");
 }
 
 }  // namespace
@@ -266,7 +288,8 @@ void order_steps(Draft& draft) {
     std::size_t next = n;
     for (std::size_t i = 0; i < n && next == n; ++i) {
       if (done[i] || static_cast<int>(i) == graph.vehicle) continue;
-      if (std::all_of(before[i].begin(), before[i].end(), [&](const Edge& edge) { return done[static_cast<std::size_t>(edge.from)]; }))
+      if (std::all_of(before[i].begin(), before[i].end(),
+                      [&](const Edge& edge) { return done[static_cast<std::size_t>(edge.from)]; }))
         next = i;
     }
     if (next == n) return report_cycle(draft, before, done);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// YAML files as a tree with places. yaml-cpp parses; this adds what it does not do: duplicate keys, limits, sentences.
+// YAML files as a tree with places. yaml-cpp parses; this adds what it does not do: duplicate keys, limits,
+// sentences.
 #include "core/graph/yaml.hpp"
 
 #include <yaml-cpp/yaml.h>
@@ -21,7 +22,8 @@ constexpr std::size_t most_faults = 100;  // nobody reads more, and each is comp
 
 }  // namespace
 
-// ---- report -----------------------------------------------------------------------------------------------------------------
+// ---- report
+// -----------------------------------------------------------------------------------------------------------------
 
 std::size_t Report::rank(const std::string& file) {
   const auto it = std::find(files_.begin(), files_.end(), file);
@@ -35,18 +37,22 @@ void Report::opened(const std::string& file) { rank(file); }
 void Report::add(const Where& where, const std::string& sentence) {
   if (faults_.size() > most_faults) return;
   for (const Fault& fault : faults_)
-    if (fault.where.line == where.line && fault.where.file == where.file && fault.sentence == sentence) return;
+    if (fault.where.line == where.line && fault.where.file == where.file && fault.sentence == sentence)
+      return;
   if (faults_.size() < most_faults) return faults_.push_back({rank(where.file), where, sentence});
   constexpr std::size_t last = std::numeric_limits<std::size_t>::max();
-  faults_.push_back({last, {where.file, 0}, "there are more faults than these " + std::to_string(most_faults)});
+  faults_.push_back(
+      {last, {where.file, 0}, "there are more faults than these " + std::to_string(most_faults)});
 }
 
 std::string Report::text() const {
   std::vector<Fault> sorted = faults_;
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const Fault& a, const Fault& b) { return a.rank != b.rank ? a.rank < b.rank : a.where.line < b.where.line; });
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Fault& a, const Fault& b) {
+    return a.rank != b.rank ? a.rank < b.rank : a.where.line < b.where.line;
+  });
   std::string all;
-  for (const Fault& fault : sorted) all += (all.empty() ? "" : "\n") + fault.where.text() + ": " + fault.sentence;
+  for (const Fault& fault : sorted)
+    all += (all.empty() ? "" : "\n") + fault.where.text() + ": " + fault.sentence;
   return all;
 }
 
@@ -54,7 +60,8 @@ void Report::throw_if_any() const {
   if (!empty()) throw Error(text());
 }
 
-// ---- tree -------------------------------------------------------------------------------------------------------------------
+// ---- tree
+// -------------------------------------------------------------------------------------------------------------------
 
 const Node* Node::find(const std::string& key) const {
   for (const Entry& entry : entries)
@@ -64,14 +71,10 @@ const Node* Node::find(const std::string& key) const {
 
 std::string found_words(const Node& node) {
   switch (node.kind) {
-    case Node::Kind::sequence:
-      return "a list";
-    case Node::Kind::map:
-      return "a map";
-    case Node::Kind::scalar:
-      return "'" + node.text + "'";
-    default:
-      return "nothing";
+    case Node::Kind::sequence: return "a list";
+    case Node::Kind::map: return "a map";
+    case Node::Kind::scalar: return "'" + node.text + "'";
+    default: return "nothing";
   }
 }
 
@@ -80,7 +83,8 @@ FilePtr read_source(const std::filesystem::path& path, const std::string& name, 
   std::error_code code;
   if (std::filesystem::is_directory(path, code)) throw Error(name + " is a folder, not a file");
   constexpr std::uintmax_t limit = 16u << 20;
-  if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code)) throw Error(name + " is not a file");
+  if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code))
+    throw Error(name + " is not a file");
   if (std::filesystem::file_size(path, code) > limit && !code)
     throw Error(name + " is larger than 16 MB: too large for a mission, an airframe or a plan");
   std::ifstream in(path, std::ios::binary);
@@ -91,7 +95,9 @@ FilePtr read_source(const std::filesystem::path& path, const std::string& name, 
   return std::make_shared<SourceFile>(SourceFile{path, name, text.str()});
 }
 
-FilePtr make_source(const std::string& text, const std::string& name) { return std::make_shared<SourceFile>(SourceFile{{}, name, text}); }
+FilePtr make_source(const std::string& text, const std::string& name) {
+  return std::make_shared<SourceFile>(SourceFile{{}, name, text});
+}
 
 namespace {
 
@@ -130,12 +136,15 @@ struct Builder {
     return node;
   }
 
-  void add_entry(Node& node, std::map<std::string, int>& lines, const YAML::Node& key, const YAML::Node& value, int depth) {
+  void add_entry(Node& node, std::map<std::string, int>& lines, const YAML::Node& key,
+                 const YAML::Node& value, int depth) {
     const int line = line_of(key, node.line);
-    if (!key.IsScalar()) return report.add({file->name, line}, "a key must be a word, not a list, a map or nothing");
+    if (!key.IsScalar())
+      return report.add({file->name, line}, "a key must be a word, not a list, a map or nothing");
     const std::string& name = key.Scalar();
     if (const auto [first, is_new] = lines.try_emplace(name, line); !is_new)
-      return report.add({file->name, line}, "'" + name + "' is given twice; the first is in line " + std::to_string(first->second));
+      return report.add({file->name, line}, "'" + name + "' is given twice; the first is in line " +
+                                                std::to_string(first->second));
     Node child = build(value, line, depth + 1);
     node.entries.push_back({name, line, std::move(child)});
   }
@@ -149,7 +158,8 @@ std::string plain_words(const std::string& said) {
       {"end of map flow not found", "a '{' is not closed, or a ',' is missing"},
       {"end of sequence flow not found", "a '[' is not closed, or a ',' is missing"},
       {"illegal map value",
-       "a ':' stands where none can: look at the indentation and at the line above; text that holds ': ' needs quotes"},
+       "a ':' stands where none can: look at the indentation and at the line above; text that holds ': ' "
+       "needs quotes"},
       {"illegal EOF in scalar", "a quote is not closed"},
       {"unknown token", "a character that cannot begin a value; put the text in quotes"},
       {"illegal block entry", "a '-' stands where no list can begin"},
@@ -159,7 +169,9 @@ std::string plain_words(const std::string& said) {
   return said;
 }
 
-bool part_of_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; }
+bool part_of_name(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
 
 bool begins_with_tab(const std::string& text, int line) {
   std::size_t at = 0;
@@ -171,10 +183,12 @@ bool begins_with_tab(const std::string& text, int line) {
   return first != std::string::npos && text[first] == '\t';
 }
 
-/// Optional ports are written {truth?: VehicleState}. YAML allows it; yaml-cpp 0.7 does not inside braces, so quote such keys for it.
+/// Optional ports are written {truth?: VehicleState}. YAML allows it; yaml-cpp 0.7 does not inside braces, so
+/// quote such keys for it.
 std::string quoted_optional_keys(const std::string& text) {
   std::string out;
-  char quote = 0;  // the open one; a quote opens only where a value can begin, and closes at the latest with its line
+  char quote =
+      0;  // the open one; a quote opens only where a value can begin, and closes at the latest with its line
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i], before = i > 0 ? text[i - 1] : '\n';
     const bool begins = std::string_view(" \t\n{[,:").find(before) != std::string_view::npos;
@@ -204,14 +218,17 @@ Node parse_yaml(const FilePtr& file, Report& report) {
   report.opened(file->name);
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(quoted_optional_keys(file->text));
-    if (documents.size() > 1) report.add({file->name, documents[1].Mark().line + 1}, "a second document begins here; a file holds one");
+    if (documents.size() > 1)
+      report.add({file->name, documents[1].Mark().line + 1},
+                 "a second document begins here; a file holds one");
     if (documents.empty()) return Node{Node::Kind::null, false, file->path.empty() ? 0 : 1, file, {}, {}, {}};
     return Builder{file, report}.build(documents[0], file->path.empty() ? 0 : 1, 0);
   } catch (const YAML::Exception& fault) {
     const bool placed = !fault.mark.is_null() && !file->path.empty();
     const bool tab = !fault.mark.is_null() && begins_with_tab(file->text, fault.mark.line);
-    report.add({file->name, placed ? fault.mark.line + 1 : 0},
-               "not valid YAML: " + (tab ? "a tab indents this line; YAML wants spaces" : plain_words(fault.msg)));
+    report.add(
+        {file->name, placed ? fault.mark.line + 1 : 0},
+        "not valid YAML: " + (tab ? "a tab indents this line; YAML wants spaces" : plain_words(fault.msg)));
   } catch (const std::exception& fault) {
     report.add({file->name, 0}, std::string("not valid YAML: ") + fault.what());
   }
@@ -222,7 +239,8 @@ Node merged(const Node& base, const Node& top, int depth) {
   if (depth == 0 || !base.is(Node::Kind::map) || !top.is(Node::Kind::map)) return top;
   Node node = base;
   for (const Node::Entry& entry : top.entries) {
-    const auto it = std::find_if(node.entries.begin(), node.entries.end(), [&](const Node::Entry& e) { return e.key == entry.key; });
+    const auto it = std::find_if(node.entries.begin(), node.entries.end(),
+                                 [&](const Node::Entry& e) { return e.key == entry.key; });
     if (it == node.entries.end()) {
       node.entries.push_back(entry);
     } else {
@@ -235,19 +253,22 @@ Node merged(const Node& base, const Node& top, int depth) {
   return node;
 }
 
-// ---- keys -------------------------------------------------------------------------------------------------------------------
+// ---- keys
+// -------------------------------------------------------------------------------------------------------------------
 
 Keys::Keys(const Node& map, std::string path, std::vector<std::string> valid, Report& report)
     : map_(map), path_(std::move(path)), report_(report) {
   const std::string prefix = path_.empty() ? "" : path_ + ": ";
   if (map.is(Node::Kind::missing)) return;
   if (!map.is(Node::Kind::map)) {
-    report_.add(map.where(), prefix + "expected a map with the keys " + join(valid) + "; found " + found_words(map));
+    report_.add(map.where(),
+                prefix + "expected a map with the keys " + join(valid) + "; found " + found_words(map));
     return;
   }
   for (const Node::Entry& entry : map.entries)
     if (std::find(valid.begin(), valid.end(), entry.key) == valid.end())
-      report_.add(entry.where(), prefix + "unknown key '" + entry.key + "'." + choices_text(entry.key, valid));
+      report_.add(entry.where(),
+                  prefix + "unknown key '" + entry.key + "'." + choices_text(entry.key, valid));
 }
 
 Where Keys::where(const std::string& key) const {
@@ -261,7 +282,8 @@ void Keys::wrong(const std::string& key, const std::string& expected) const {
   report_.add(node->where(), path(key) + ": expected " + expected + ", found " + found_words(*node));
 }
 
-std::optional<std::string> scalar_text(const Node& node, const std::string& path, const std::string& expected, Report& report) {
+std::optional<std::string> scalar_text(const Node& node, const std::string& path, const std::string& expected,
+                                       Report& report) {
   if (node.is(Node::Kind::scalar) && (node.quoted || !node.text.empty())) return node.text;
   report.add(node.where(), path + ": expected " + expected + ", found " + found_words(node));
   return std::nullopt;
@@ -289,10 +311,12 @@ std::optional<bool> Keys::flag(const std::string& key) const {
 std::optional<double> Keys::positive(const std::string& key, const std::string& unit, bool or_zero) const {
   const Node* node = get(key);
   if (!node) return std::nullopt;
-  if (!node->is(Node::Kind::scalar)) return wrong(key, "a number with a unit, such as 10 " + unit), std::nullopt;
+  if (!node->is(Node::Kind::scalar))
+    return wrong(key, "a number with a unit, such as 10 " + unit), std::nullopt;
   try {
     const double value = quantity_in(node->text, unit, UnitRule::required);
-    if (value < 0 || (value == 0 && !or_zero)) throw Error(node->text + (or_zero ? " is negative" : " is not above 0"));
+    if (value < 0 || (value == 0 && !or_zero))
+      throw Error(node->text + (or_zero ? " is negative" : " is not above 0"));
     return value;
   } catch (const Error& fault) {
     report_.add(node->where(), path(key) + ": " + fault.what());
@@ -315,7 +339,8 @@ std::optional<std::string> Keys::word(const std::string& key, const std::vector<
   if (!node) return std::nullopt;
   if (!node->is(Node::Kind::scalar)) return wrong(key, "one of " + join(words)), std::nullopt;
   if (std::find(words.begin(), words.end(), node->text) != words.end()) return node->text;
-  report_.add(node->where(), path(key) + ": unknown word '" + node->text + "'." + choices_text(node->text, words));
+  report_.add(node->where(),
+              path(key) + ": unknown word '" + node->text + "'." + choices_text(node->text, words));
   return std::nullopt;
 }
 

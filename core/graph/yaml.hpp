@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// YAML files as a tree that remembers file and line of every node, and the report that collects all faults of a set-up.
+// YAML files as a tree that remembers file and line of every node, and the report that collects all faults of
+// a set-up.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -19,7 +20,8 @@ struct SourceFile {
 };
 using FilePtr = std::shared_ptr<const SourceFile>;
 
-/// The faults of a set-up: each once, ordered by file (as the files were opened) and line; of very many the first hundred that were found.
+/// The faults of a set-up: each once, ordered by file (as the files were opened) and line; of very many the
+/// first hundred that were found.
 class Report {
  public:
   void add(const Where& where, const std::string& sentence);
@@ -67,15 +69,18 @@ struct Node::Entry {
 std::string found_words(const Node& node);
 
 class StoredFiles;
-/// Reads a file. Throws Error when it cannot be read. `name` is what faults call it. `stored`: in place of the disk.
-FilePtr read_source(const std::filesystem::path& path, const std::string& name, const StoredFiles* stored = nullptr);
+/// Reads a file. Throws Error when it cannot be read. `name` is what faults call it. `stored`: in place of
+/// the disk.
+FilePtr read_source(const std::filesystem::path& path, const std::string& name,
+                    const StoredFiles* stored = nullptr);
 /// Text that stands in no file, such as a value on the command line: faults name it without a line.
 FilePtr make_source(const std::string& text, const std::string& name);
 
 /// Parses a file. Broken YAML and duplicate keys go to the report; broken YAML gives a missing node.
 Node parse_yaml(const FilePtr& file, Report& report);
 
-/// `top` laid over `base`: maps merge key by key down to `depth` levels, anything else is replaced. What `base` has comes first.
+/// `top` laid over `base`: maps merge key by key down to `depth` levels, anything else is replaced. What
+/// `base` has comes first.
 Node merged(const Node& base, const Node& top, int depth);
 
 /// A map whose keys are known: reports unknown keys and wrong types, each with the valid choices.
@@ -105,7 +110,8 @@ class Keys {
 };
 
 /// The text of a scalar, or nothing and a fault.
-std::optional<std::string> scalar_text(const Node& node, const std::string& path, const std::string& expected, Report& report);
+std::optional<std::string> scalar_text(const Node& node, const std::string& path, const std::string& expected,
+                                       Report& report);
 std::optional<bool> scalar_flag(const Node& node, const std::string& path, Report& report);
 
 }  // namespace fulmar::core

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The host's side of an isolated component: copies in, rings, waits with an eye on the child's life, copies out.
+// The host's side of an isolated component: copies in, rings, waits with an eye on the child's life, copies
+// out.
 #include "core/isolate/isolated.hpp"
 
 #include <sched.h>
@@ -27,7 +28,8 @@ std::int64_t useful_spin(std::int64_t wanted_ns) {
 
 const ComponentInfo& isolatable(const ComponentInfo& info, const IsolatedOptions& options) {
   if (info.vehicle) throw Error(options.name + ": a vehicle cannot run in a process of its own.");
-  if (info.name.size() >= sizeof ControlBlock::component) throw Error(options.name + ": the component's name is longer than 255 bytes.");
+  if (info.name.size() >= sizeof ControlBlock::component)
+    throw Error(options.name + ": the component's name is longer than 255 bytes.");
   return info;
 }
 
@@ -48,24 +50,19 @@ void tell(fulmar_error* error, const char* text) noexcept {
 
 const char* signal_words(int signal, bool stack_overflow) noexcept {
   switch (signal) {
-    case SIGSEGV:
-      return stack_overflow ? "crashed (stack overflow)" : "crashed (segmentation fault)";
-    case SIGBUS:
-      return "crashed (bus error)";
-    case SIGFPE:
-      return "crashed (arithmetic error)";
-    case SIGILL:
-      return "crashed (illegal instruction)";
-    case SIGABRT:
-      return "aborted";
-    default:
-      return nullptr;
+    case SIGSEGV: return stack_overflow ? "crashed (stack overflow)" : "crashed (segmentation fault)";
+    case SIGBUS: return "crashed (bus error)";
+    case SIGFPE: return "crashed (arithmetic error)";
+    case SIGILL: return "crashed (illegal instruction)";
+    case SIGABRT: return "aborted";
+    default: return nullptr;
   }
 }
 
 }  // namespace
 
-// ---- set-up --------------------------------------------------------------------------------------------------------------------
+// ---- set-up
+// --------------------------------------------------------------------------------------------------------------------
 
 Isolated::Isolated(const ComponentInfo& info, const IsolatedOptions& options)
     : info_(isolatable(info, options)),
@@ -94,10 +91,13 @@ void Isolated::prepare() {
 
 void Isolated::refuse_setup() {
   const bool loaded = control().stage.load() != Stage::loaded;
-  if (!alive_) throw Error(options_.name + ": " + options_.file + " " + death_ + " while being " + (loaded ? "created" : "loaded"));
+  if (!alive_)
+    throw Error(options_.name + ": " + options_.file + " " + death_ + " while being " +
+                (loaded ? "created" : "loaded"));
   fulmar_error error = control().error;
   error.text[sizeof error.text - 1] = '\0';
-  throw Error(options_.name + ": " + (loaded ? "cannot be created: " : "") + (control().has_error ? error.text : "the constructor failed"));
+  throw Error(options_.name + ": " + (loaded ? "cannot be created: " : "") +
+              (control().has_error ? error.text : "the constructor failed"));
 }
 
 Isolated::~Isolated() { end(); }
@@ -109,7 +109,8 @@ std::string Isolated::end() {
   const bool died_before = !alive_;
   if (alive_) call(Call::quit, std::min(options_.setup_ns, 2 * second), nullptr);
   std::string problem;
-  if (!alive_ && !died_before) problem = options_.name + ": " + options_.file + " " + death_ + " while being destroyed";
+  if (!alive_ && !died_before)
+    problem = options_.name + ": " + options_.file + " " + death_ + " while being destroyed";
   const bool dumps = !alive_ && control().signal.load() != 0 && std::getenv("FULMAR_CORE") != nullptr;
   if (!process_.wait(dumps ? 10 * second : second)) process_.kill();
   alive_ = false;
@@ -117,15 +118,24 @@ std::string Isolated::end() {
   return problem;
 }
 
-// ---- copies in and out -----------------------------------------------------------------------------------------------------------
+// ---- copies in and out
+// -----------------------------------------------------------------------------------------------------------
 
 // What the child holds already is not copied again: a plan of a thousand items comes once.
-void Isolated::put_input(const Place& place, SharedInput& to, const fulmar_input& from, Sample& copied) noexcept {
-  to = {from.valid_at_ns, from.age_ns, from.sequence, from.count, from.lost, from.flags, from.data ? has_data : has_nothing};
+void Isolated::put_input(const Place& place, SharedInput& to, const fulmar_input& from,
+                         Sample& copied) noexcept {
+  to = {from.valid_at_ns,
+        from.age_ns,
+        from.sequence,
+        from.count,
+        from.lost,
+        from.flags,
+        from.data ? has_data : has_nothing};
   if (!from.data) return;
   std::byte* data = at<std::byte>(place.data);
   if (place.kind == FULMAR_IN_VALUE) {
-    const bool held = copied.data == from.data && copied.sequence == from.sequence && copied.valid_at_ns == from.valid_at_ns;
+    const bool held = copied.data == from.data && copied.sequence == from.sequence &&
+                      copied.valid_at_ns == from.valid_at_ns;
     if (held && from.sequence != 0 && (from.flags & FULMAR_FRESH) == 0) return;
     copied = {from.data, from.sequence, from.valid_at_ns};
     std::memcpy(data, from.data, place.message);
@@ -145,7 +155,8 @@ void Isolated::put_input(const Place& place, SharedInput& to, const fulmar_input
 void Isolated::put_tick_inputs(const fulmar_tick* tick, const fulmar_input* inputs) noexcept {
   control().tick = *tick;
   SharedInput* heads = at<SharedInput>(layout_.inputs_at);
-  for (std::size_t i = 0; i < layout_.inputs.size(); ++i) put_input(layout_.inputs[i], heads[i], inputs[i], copied_[i]);
+  for (std::size_t i = 0; i < layout_.inputs.size(); ++i)
+    put_input(layout_.inputs[i], heads[i], inputs[i], copied_[i]);
 }
 
 void Isolated::take_answers(const fulmar_input* inputs) noexcept {
@@ -154,13 +165,15 @@ void Isolated::take_answers(const fulmar_input* inputs) noexcept {
     if (place.kind != FULMAR_IN_REQUEST || !inputs[i].answers) continue;
     const std::size_t count = std::min(inputs[i].count, place.capacity);
     std::memcpy(inputs[i].answers, at<std::byte>(place.answers), count * sizeof(fulmar_answer));
-    for (std::size_t k = 0; k < count; ++k) inputs[i].answers[k].reason[sizeof inputs[i].answers[k].reason - 1] = '\0';
+    for (std::size_t k = 0; k < count; ++k)
+      inputs[i].answers[k].reason[sizeof inputs[i].answers[k].reason - 1] = '\0';
   }
 }
 
 void Isolated::put_outputs(const fulmar_output* outputs) noexcept {
   SharedOutput* heads = at<SharedOutput>(layout_.outputs_at);
-  for (std::size_t i = 0; i < layout_.outputs.size(); ++i) heads[i] = {outputs[i].valid_at_ns, outputs[i].count, outputs[i].lost};
+  for (std::size_t i = 0; i < layout_.outputs.size(); ++i)
+    heads[i] = {outputs[i].valid_at_ns, outputs[i].count, outputs[i].lost};
 }
 
 void Isolated::take_outputs(fulmar_output* outputs) noexcept {
@@ -174,7 +187,8 @@ void Isolated::take_outputs(fulmar_output* outputs) noexcept {
     const std::size_t count = place.kind == FULMAR_OUT_VALUE ? 1 : std::min(head.count, place.capacity);
     if (count == 0) continue;
     std::memcpy(outputs[i].data, at<std::byte>(place.data), count * place.message);
-    if (place.kind == FULMAR_OUT_QUEUE) std::memcpy(outputs[i].stamps_ns, at<std::byte>(place.stamps), count * sizeof(std::int64_t));
+    if (place.kind == FULMAR_OUT_QUEUE)
+      std::memcpy(outputs[i].stamps_ns, at<std::byte>(place.stamps), count * sizeof(std::int64_t));
   }
 }
 
@@ -182,7 +196,13 @@ void Isolated::put_last(const fulmar_input* last) noexcept {
   SharedInput* heads = at<SharedInput>(layout_.last_at);
   for (std::size_t i = 0; i < layout_.last.size(); ++i) {
     const fulmar_input& from = last[i];
-    heads[i] = {from.valid_at_ns, from.age_ns, from.sequence, from.count, from.lost, from.flags, from.data ? has_data : has_nothing};
+    heads[i] = {from.valid_at_ns,
+                from.age_ns,
+                from.sequence,
+                from.count,
+                from.lost,
+                from.flags,
+                from.data ? has_data : has_nothing};
     if (from.data) std::memcpy(at<std::byte>(layout_.last[i].data), from.data, layout_.last[i].message);
   }
 }
@@ -194,7 +214,8 @@ std::uint32_t Isolated::configure(const fulmar_value* values, fulmar_error* erro
   std::size_t size = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const fulmar_value& v = values[i];
-    heads[i] = {{v.number[0], v.number[1], v.number[2]}, v.integer, v.size, size, 0, v.data ? has_data : has_nothing, 0};
+    heads[i] = {{v.number[0], v.number[1], v.number[2]}, v.integer, v.size, size, 0,
+                v.data ? has_data : has_nothing,         0};
     size += aligned(std::strlen(v.text ? v.text : "") + 1);
     heads[i].data_at = size;
     if (v.data) size += aligned(v.size);
@@ -203,7 +224,8 @@ std::uint32_t Isolated::configure(const fulmar_value* values, fulmar_error* erro
   for (std::size_t i = 0; i < count; ++i) {
     const char* text = values[i].text ? values[i].text : "";
     std::memcpy(window.data() + heads[i].text_at, text, std::strlen(text) + 1);
-    if (values[i].data && values[i].size > 0) std::memcpy(window.data() + heads[i].data_at, values[i].data, values[i].size);
+    if (values[i].data && values[i].size > 0)
+      std::memcpy(window.data() + heads[i].data_at, values[i].data, values[i].size);
   }
   control().values_size = size;
   return call(Call::configure, options_.setup_ns, error);
@@ -226,7 +248,8 @@ std::uint32_t Isolated::retune(const fulmar_value* values, fulmar_error* error) 
   return call(Call::retune, options_.hang_ns, error);
 }
 
-// ---- the hand-shake --------------------------------------------------------------------------------------------------------------
+// ---- the hand-shake
+// --------------------------------------------------------------------------------------------------------------
 
 std::uint32_t Isolated::call(Call what, std::int64_t limit_ns, fulmar_error* error) noexcept {
   if (!alive_) return dead(error);
@@ -253,7 +276,8 @@ bool Isolated::wait(std::int64_t limit_ns) noexcept {
     const std::uint32_t seen = c.answer.load();
     if (seen != number_) futex_wait(c.answer, seen, nap_ns);
     c.host_sleeps.store(0, std::memory_order_relaxed);
-    const bool ended = has_ended();  // before the look at the answer: the last act of a child may be to answer
+    const bool ended =
+        has_ended();  // before the look at the answer: the last act of a child may be to answer
     if (answered()) return true;
     if (ended) {
       note_death();
@@ -261,7 +285,8 @@ bool Isolated::wait(std::int64_t limit_ns) noexcept {
     }
     if (monotonic_ns() < end) continue;
     hung_ = true;
-    std::snprintf(death_, sizeof death_, "hung: no answer within %.6g ms", 1e-6 * static_cast<double>(limit_ns));
+    std::snprintf(death_, sizeof death_, "hung: no answer within %.6g ms",
+                  1e-6 * static_cast<double>(limit_ns));
     alive_ = false;
     process_.kill();
     return false;
@@ -294,7 +319,8 @@ std::uint32_t Isolated::dead(fulmar_error* error) noexcept {
   return FULMAR_FAILED;
 }
 
-// ---- as a component --------------------------------------------------------------------------------------------------------------
+// ---- as a component
+// --------------------------------------------------------------------------------------------------------------
 
 struct Isolated::Thunks {
   static Isolated& self(void* instance) { return *static_cast<Isolated*>(instance); }
@@ -315,8 +341,8 @@ struct Isolated::Thunks {
     return self(instance).retune(values, error);
   }
 
-  static std::uint32_t activate(void* instance, const fulmar_tick* tick, const fulmar_input* inputs, const fulmar_input* last,
-                                fulmar_error* error) {
+  static std::uint32_t activate(void* instance, const fulmar_tick* tick, const fulmar_input* inputs,
+                                const fulmar_input* last, fulmar_error* error) {
     Isolated& i = self(instance);
     if (!i.info_.activates) return FULMAR_OK;
     if (!i.alive_) return i.dead(error);
@@ -332,8 +358,8 @@ struct Isolated::Thunks {
     i.call(Call::deactivate, i.options_.hang_ns, nullptr);
   }
 
-  static std::uint32_t step(void* instance, const fulmar_tick* tick, const fulmar_input* inputs, fulmar_output* outputs,
-                            fulmar_error* error) {
+  static std::uint32_t step(void* instance, const fulmar_tick* tick, const fulmar_input* inputs,
+                            fulmar_output* outputs, fulmar_error* error) {
     Isolated& i = self(instance);
     if (!i.alive_) return i.dead(error);
     i.put_tick_inputs(tick, inputs);

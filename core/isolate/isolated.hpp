@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A component in a child process, behind the same function table as one in this process: what it does wrong costs one step, not the host.
-// Arguments go through shared memory to fulmar-child, which loads the same file and calls the same functions: same ABI, same bytes.
+// A component in a child process, behind the same function table as one in this process: what it does wrong
+// costs one step, not the host. Arguments go through shared memory to fulmar-child, which loads the same file
+// and calls the same functions: same ABI, same bytes.
 #pragma once
 #include <sys/types.h>
 
@@ -18,12 +19,14 @@ struct IsolatedOptions {
   std::string name;          // of the component in the mission, for messages
   std::string copy, script;  // PluginInfo::copy, PluginInfo::script
   std::string file;          // PluginInfo::file, for messages
-  std::string path;          // PluginInfo::path, for a script that loads what lies beside it; a shared object needs none
-  std::size_t index = 0;     // of the component in the plugin
+  std::string
+      path;  // PluginInfo::path, for a script that loads what lies beside it; a shared object needs none
+  std::size_t index = 0;  // of the component in the plugin
   std::uint64_t seed = 0;
   std::int64_t hang_ns = 2'000'000'000;    // longest wait for a step, activate, deactivate or retune
   std::int64_t setup_ns = 10'000'000'000;  // longest wait for loading and creating, and for configure
-  std::int64_t spin_ns = 20'000;           // both sides look so long before they sleep; 0, or a single CPU: they sleep at once
+  std::int64_t spin_ns =
+      20'000;  // both sides look so long before they sleep; 0, or a single CPU: they sleep at once
 };
 
 class Isolated {
@@ -35,14 +38,16 @@ class Isolated {
   Isolated(const Isolated&) = delete;
   Isolated& operator=(const Isolated&) = delete;
 
-  /// Calls of a component whose instance is an Isolated*. `create` is NULL; `destroy` does nothing: the owner's destructor ends the child.
+  /// Calls of a component whose instance is an Isolated*. `create` is NULL; `destroy` does nothing: the
+  /// owner's destructor ends the child.
   static const fulmar_component& functions();
 
   /// As of the last call.
   bool alive() const noexcept { return alive_; }
   /// [setup] Whether it lives now: between flights no call would tell.
   bool check() noexcept;
-  /// How the child died: "crashed (segmentation fault)", "ended itself (exit code 3)", "hung: no answer within 20 ms". "" while it lives.
+  /// How the child died: "crashed (segmentation fault)", "ended itself (exit code 3)", "hung: no answer
+  /// within 20 ms". "" while it lives.
   const char* death() const noexcept { return death_; }
   /// Whether it died because it did not answer in time.
   bool hung() const noexcept { return hung_; }
@@ -52,7 +57,8 @@ class Isolated {
   std::int64_t heap_growth() const noexcept { return control().heap_growth; }
   pid_t pid() const noexcept { return process_.pid(); }
 
-  /// [setup] Destroys the component and ends the child; what the destructor does when nobody has. What went wrong in it, or "".
+  /// [setup] Destroys the component and ends the child; what the destructor does when nobody has. What went
+  /// wrong in it, or "".
   std::string end();
 
  private:

@@ -14,7 +14,8 @@ constexpr std::size_t page = 65536;  // the largest page of arm64
 struct Signature {
   std::uint64_t value = 0xcbf29ce484222325u;
   void add(const void* data, std::size_t size) {
-    for (std::size_t i = 0; i < size; ++i) value = (value ^ static_cast<const unsigned char*>(data)[i]) * 0x100000001b3u;
+    for (std::size_t i = 0; i < size; ++i)
+      value = (value ^ static_cast<const unsigned char*>(data)[i]) * 0x100000001b3u;
   }
   void add(std::uint64_t x) { add(&x, sizeof x); }
   void add(std::string_view text) {
@@ -39,7 +40,8 @@ Place place(Room& room, const Port& port, bool single) {
   p.message = port.type ? port.type->size : sizeof(double);
   p.capacity = single ? 1 : port.capacity;
   p.data = room.take(p.message * p.capacity);
-  const bool stamped = !single && (port.kind == FULMAR_IN_QUEUE || port.kind == FULMAR_IN_REQUEST || port.kind == FULMAR_OUT_QUEUE);
+  const bool stamped = !single && (port.kind == FULMAR_IN_QUEUE || port.kind == FULMAR_IN_REQUEST ||
+                                   port.kind == FULMAR_OUT_QUEUE);
   if (stamped) p.stamps = room.take(sizeof(std::int64_t) * p.capacity);
   if (!single && port.kind == FULMAR_IN_REQUEST) p.answers = room.take(sizeof(fulmar_answer) * p.capacity);
   return p;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Spawned, never forked: the host has threads. posix_spawn runs nothing of the host's between the two processes.
+// Spawned, never forked: the host has threads. posix_spawn runs nothing of the host's between the two
+// processes.
 #include "core/isolate/process.hpp"
 
 #include <fcntl.h>
@@ -30,13 +31,15 @@ namespace fs = std::filesystem;
 fs::path child_program() {
   if (const char* chosen = std::getenv("FULMAR_CHILD"); chosen != nullptr && *chosen != '\0') return chosen;
   const fs::path found = own_program("fulmar-child");
-  if (found.empty()) throw Error("the program fulmar-child is missing: no component can run in a process of its own.");
+  if (found.empty())
+    throw Error("the program fulmar-child is missing: no component can run in a process of its own.");
   return found;
 }
 
 // All pages at once, so that none is missing in flight.
 std::byte* map(int descriptor, std::size_t at, std::size_t size) {
-  void* data = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, descriptor, static_cast<off_t>(at));
+  void* data = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, descriptor,
+                      static_cast<off_t>(at));
   return data == MAP_FAILED ? nullptr : static_cast<std::byte*>(data);
 }
 
@@ -44,13 +47,16 @@ std::byte* map(int descriptor, std::size_t at, std::size_t size) {
   throw Error("cannot share " + std::to_string(size) + " bytes with a child: " + std::strerror(errno) + ".");
 }
 
-// Standard input is empty; what a component prints goes to the host's standard error, so that the host's output stays its own.
+// Standard input is empty; what a component prints goes to the host's standard error, so that the host's
+// output stays its own.
 struct Files {
   posix_spawn_file_actions_t actions;
   explicit Files(int memory) {
     posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, memory, shared_descriptor);  // first: it may be one of the standard three
-    if (::fcntl(STDERR_FILENO, F_GETFD) < 0) posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions, memory,
+                                     shared_descriptor);  // first: it may be one of the standard three
+    if (::fcntl(STDERR_FILENO, F_GETFD) < 0)
+      posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
 #if __GLIBC_PREREQ(2, 34)
@@ -73,7 +79,8 @@ struct Attributes {
     posix_spawnattr_setsigmask(&attributes, &none);
     posix_spawnattr_setsigdefault(&attributes, &all);
     posix_spawnattr_setpgroup(&attributes, 0);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+    posix_spawnattr_setflags(&attributes,
+                             POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
   }
   ~Attributes() { posix_spawnattr_destroy(&attributes); }
   Attributes(const Attributes&) = delete;
@@ -122,7 +129,8 @@ Process::Process(const std::vector<std::string>& words, const SharedMemory& memo
   arguments.push_back(nullptr);
   const Files files(memory.descriptor());
   const Attributes attributes;
-  const int fault = ::posix_spawn(&pid_, program.c_str(), &files.actions, &attributes.attributes, arguments.data(), environ);
+  const int fault = ::posix_spawn(&pid_, program.c_str(), &files.actions, &attributes.attributes,
+                                  arguments.data(), environ);
   if (fault != 0) throw Error("cannot start " + program + ": " + std::strerror(fault) + ".");
 }
 

@@ -10,7 +10,8 @@
 
 namespace fulmar::core {
 
-/// Anonymous memory with a descriptor that a child inherits. It grows and never shrinks: a child cannot take pages from under the host.
+/// Anonymous memory with a descriptor that a child inherits. It grows and never shrinks: a child cannot take
+/// pages from under the host.
 class SharedMemory {
  public:
   explicit SharedMemory(std::size_t size);  // throws Error
@@ -44,7 +45,8 @@ class SharedMemory {
 /// A child process. Ended and reaped with this object at the latest.
 class Process {
  public:
-  /// Spawns fulmar-child with `words` as its arguments; `memory` becomes its only descriptor besides the standard three. Throws Error.
+  /// Spawns fulmar-child with `words` as its arguments; `memory` becomes its only descriptor besides the
+  /// standard three. Throws Error.
   Process(const std::vector<std::string>& words, const SharedMemory& memory);
   ~Process();
   Process(const Process&) = delete;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The memory that a host and the child of an isolated component share, and how they wait for each other in it.
-// Host and child compute the same layout from the component's tables; no pointer crosses, and the host believes no number of the child.
+// The memory that a host and the child of an isolated component share, and how they wait for each other in
+// it. Host and child compute the same layout from the component's tables; no pointer crosses, and the host
+// believes no number of the child.
 #pragma once
 #include <linux/futex.h>
 #include <sys/syscall.h>
@@ -16,7 +17,8 @@
 
 namespace fulmar::core {
 
-// ---- contents ------------------------------------------------------------------------------------------------------------------
+// ---- contents
+// ------------------------------------------------------------------------------------------------------------------
 
 inline constexpr int shared_descriptor = 3;  // of the memory, in the child
 inline constexpr std::uint32_t shared_version = 1;
@@ -66,7 +68,8 @@ struct SharedOutput {
   std::uint32_t count, lost;
 };
 
-/// A fulmar_value. At configure, text and data lie behind the layout at the offsets; at retune, text lies at the parameter's place.
+/// A fulmar_value. At configure, text and data lie behind the layout at the offsets; at retune, text lies at
+/// the parameter's place.
 struct SharedValue {
   double number[3];
   std::int64_t integer;
@@ -95,7 +98,8 @@ struct Layout {
   std::uint64_t signature = 0;                                            // of all that decides it
 };
 
-// ---- waiting -------------------------------------------------------------------------------------------------------------------
+// ---- waiting
+// -------------------------------------------------------------------------------------------------------------------
 
 inline std::int64_t monotonic_ns() noexcept {
   timespec t{};
@@ -105,11 +109,14 @@ inline std::int64_t monotonic_ns() noexcept {
 
 /// Sleeps while `word` is `seen`, at most `limit_ns`. May wake for nothing.
 inline void futex_wait(std::atomic<std::uint32_t>& word, std::uint32_t seen, std::int64_t limit_ns) noexcept {
-  const timespec limit{static_cast<time_t>(limit_ns / 1'000'000'000), static_cast<long>(limit_ns % 1'000'000'000)};
+  const timespec limit{static_cast<time_t>(limit_ns / 1'000'000'000),
+                       static_cast<long>(limit_ns % 1'000'000'000)};
   syscall(SYS_futex, &word, FUTEX_WAIT, seen, &limit, nullptr, 0);
 }
 
-inline void futex_wake(std::atomic<std::uint32_t>& word) noexcept { syscall(SYS_futex, &word, FUTEX_WAKE, 1, nullptr, nullptr, 0); }
+inline void futex_wake(std::atomic<std::uint32_t>& word) noexcept {
+  syscall(SYS_futex, &word, FUTEX_WAKE, 1, nullptr, nullptr, 0);
+}
 
 /// Tells the core that this is a loop that waits.
 inline void spin_hint() noexcept {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A TCP stream under a WebSocket that gathers frames: as long as it is corked, up to a bound, what is written waits; then all goes in one
-// system call. Hundreds of small messages in a few milliseconds would else be as many calls. One thread; one write at a time.
-// Beast's operations end here: each becomes a `Resume`, so that what is below is compiled once and not for each of them.
+// A TCP stream under a WebSocket that gathers frames: as long as it is corked, up to a bound, what is written
+// waits; then all goes in one system call. Hundreds of small messages in a few milliseconds would else be as
+// many calls. One thread; one write at a time. Beast's operations end here: each becomes a `Resume`, so that
+// what is below is compiled once and not for each of them.
 #pragma once
 #include <array>
 #include <boost/asio/buffer.hpp>
@@ -59,7 +60,8 @@ class Corked {
     socket_.close(ignored);
   }
 
-  /// On: more will be written right after what is written next. The last write before a pause has to find it off.
+  /// On: more will be written right after what is written next. The last write before a pause has to find it
+  /// off.
   void cork(bool on) { corked_ = on; }
 
   template <class Buffers, class Handler>
@@ -67,7 +69,8 @@ class Corked {
     std::array<boost::asio::mutable_buffer, 2> to;  // Beast's buffers are in two parts at most
     std::size_t n = 0;
     const auto end = boost::asio::buffer_sequence_end(buffers);
-    for (auto part = boost::asio::buffer_sequence_begin(buffers); part != end && n < to.size(); ++part) to[n++] = *part;
+    for (auto part = boost::asio::buffer_sequence_begin(buffers); part != end && n < to.size(); ++part)
+      to[n++] = *part;
     socket_.async_read_some(to, Resume::of(std::forward<Handler>(handler)));
   }
 
@@ -88,7 +91,9 @@ class Corked {
   friend void async_teardown(boost::beast::role_type role, Corked& corked, Handler&& handler) {
     using boost::beast::websocket::async_teardown;
     async_teardown(role, corked.socket_,
-                   Resume::of([done = std::forward<Handler>(handler)](error_code ec, std::size_t) mutable { done(ec); }));
+                   Resume::of([done = std::forward<Handler>(handler)](error_code ec, std::size_t) mutable {
+                     done(ec);
+                   }));
   }
   friend void beast_close_socket(Corked& corked) { corked.close(); }
 
@@ -98,8 +103,9 @@ class Corked {
       return boost::asio::post(get_executor(), [size, resume = std::move(resume)] { resume({}, size); });
     going_.swap(held_);
     held_.clear();
-    boost::asio::async_write(socket_, boost::asio::buffer(going_),
-                             [size, resume = std::move(resume)](error_code ec, std::size_t) { resume(ec, ec ? 0 : size); });
+    boost::asio::async_write(
+        socket_, boost::asio::buffer(going_),
+        [size, resume = std::move(resume)](error_code ec, std::size_t) { resume(ec, ec ? 0 : size); });
   }
 
   static constexpr std::size_t most_held = 64u << 10;

@@ -53,26 +53,22 @@ Form form_of(const Service& service) {
 }
 
 /// In the order of fulmar_param_kind.
-constexpr const char* param_kinds[]{"", "number", "flag", "count", "choice", "text", "vector", "record", "blob"};
+constexpr const char* param_kinds[]{"",     "number", "flag",   "count", "choice",
+                                    "text", "vector", "record", "blob"};
 
 json finite(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
 json value_json(const ParamInfo& info, const ParamValue& value) {
   switch (info.kind) {
-    case FULMAR_NUMBER:
-      return finite(value.number[0]);
-    case FULMAR_FLAG:
-      return value.integer != 0;
-    case FULMAR_COUNT:
-      return value.integer;
+    case FULMAR_NUMBER: return finite(value.number[0]);
+    case FULMAR_FLAG: return value.integer != 0;
+    case FULMAR_COUNT: return value.integer;
     case FULMAR_CHOICE:
       if (value.integer >= 0 && static_cast<std::size_t>(value.integer) < info.choices.size())
         return info.choices[static_cast<std::size_t>(value.integer)];
       return value.integer;
-    case FULMAR_VECTOR:
-      return {finite(value.number[0]), finite(value.number[1]), finite(value.number[2])};
-    default:
-      return value.text;
+    case FULMAR_VECTOR: return {finite(value.number[0]), finite(value.number[1]), finite(value.number[2])};
+    default: return value.text;
   }
 }
 
@@ -108,9 +104,16 @@ json component_json(const ComponentView& component, const Tap& tap) {
   for (const ParameterView& p : component.params) params.push_back(param_json(p));
   for (const PortView& p : component.inputs) inputs.push_back(port_json(tap, component, p, true));
   for (const PortView& p : component.outputs) outputs.push_back(port_json(tap, component, p, false));
-  return {{"name", component.name}, {"use", component.use},       {"role", component.role},       {"doc", component.doc},
-          {"run", component.run},   {"active", component.active}, {"stopped", component.stopped}, {"params", params},
-          {"inputs", inputs},       {"outputs", outputs}};
+  return {{"name", component.name},
+          {"use", component.use},
+          {"role", component.role},
+          {"doc", component.doc},
+          {"run", component.run},
+          {"active", component.active},
+          {"stopped", component.stopped},
+          {"params", params},
+          {"inputs", inputs},
+          {"outputs", outputs}};
 }
 
 /// The topics behind "nav.state": of the component, or of all that fill the role.
@@ -137,14 +140,16 @@ json lists(const std::map<std::string, std::vector<std::string>>& map, const cha
 
 std::vector<Service> services_of(const FlightView& view) {
   using What = Service::What;
-  std::vector<Service> list = {{What::set_parameter, "/fulmar/set_parameter", "", "", {}, {"component", "name", "text"}},
-                               {What::phase, "/fulmar/phase", "", "", {}, {"phase"}},
-                               {What::swap, "/fulmar/swap", "", "", {}, {"component", "file"}},
-                               {What::reset_guards, "/fulmar/reset_guards", "", "", {}, {}},
-                               {What::view, "/fulmar/view", "", "", {}, {}}};
+  std::vector<Service> list = {
+      {What::set_parameter, "/fulmar/set_parameter", "", "", {}, {"component", "name", "text"}},
+      {What::phase, "/fulmar/phase", "", "", {}, {"phase"}},
+      {What::swap, "/fulmar/swap", "", "", {}, {"component", "file"}},
+      {What::reset_guards, "/fulmar/reset_guards", "", "", {}, {}},
+      {What::view, "/fulmar/view", "", "", {}, {}}};
   for (const ComponentView& c : view.components)
     for (const PortView& p : c.inputs)
-      if (p.request && p.type) list.push_back({What::request, "/" + c.name + "/" + p.name, c.name, p.name, p.type, {}});
+      if (p.request && p.type)
+        list.push_back({What::request, "/" + c.name + "/" + p.name, c.name, p.name, p.type, {}});
   return list;
 }
 
@@ -185,7 +190,8 @@ json connection_graph(const FlightView& view, const Tap& tap, const std::vector<
     for (const PortView& p : c.outputs) published[topic_of(tap, c, p)].push_back(c.name);
     for (const PortView& p : c.inputs) {
       if (p.imported) subscribed["/" + c.name + "/" + p.name].push_back(c.name);
-      for (const std::string& topic : topics_of_source(view, tap, p.source)) subscribed[topic].push_back(c.name);
+      for (const std::string& topic : topics_of_source(view, tap, p.source))
+        subscribed[topic].push_back(c.name);
     }
   }
   for (const TapChannel& c : tap.channels())
@@ -202,16 +208,19 @@ json connection_graph(const FlightView& view, const Tap& tap, const std::vector<
 json view_json(const FlightView& view, const Tap& tap) {
   json components = json::array();
   for (const ComponentView& c : view.components) components.push_back(component_json(c, tap));
-  return {{"mission", view.mission}, {"file", view.file},         {"io", view.io},       {"phase", view.phase}, {"phases", view.phases},
-          {"now_ns", view.now_ns},   {"epoch_ns", view.epoch_ns}, {"armed", view.armed}, {"over", view.over},   {"components", components}};
+  return {{"mission", view.mission},   {"file", view.file},     {"io", view.io},
+          {"phase", view.phase},       {"phases", view.phases}, {"now_ns", view.now_ns},
+          {"epoch_ns", view.epoch_ns}, {"armed", view.armed},   {"over", view.over},
+          {"components", components}};
 }
 
 json parameter_json(const std::string& name, const ParameterView& parameter) {
   json result{{"name", name}};
   json value = value_json(parameter.info, parameter.base);
   const bool number = parameter.info.kind == FULMAR_NUMBER, vector = parameter.info.kind == FULMAR_VECTOR;
-  const bool whole =
-      !value.is_null() && !(value.is_array() && std::any_of(value.begin(), value.end(), [](const json& v) { return v.is_null(); }));
+  const bool whole = !value.is_null() &&
+                     !(value.is_array() &&
+                       std::any_of(value.begin(), value.end(), [](const json& v) { return v.is_null(); }));
   if (whole) result["value"] = std::move(value);
   if (whole && number) result["type"] = "float64";
   if (whole && vector) result["type"] = "float64_array";

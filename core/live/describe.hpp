@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A flight in the words of the live protocol: channels, services, parameters, connection graph, and the whole view as JSON.
+// A flight in the words of the live protocol: channels, services, parameters, connection graph, and the whole
+// view as JSON.
 //
 // The view, answer of the service /fulmar/view:
 //   {mission, file, io, phase, phases: [..], now_ns, epoch_ns, armed, over, components: [
 //     {name, use, role, doc, run, active, stopped,
-//      params:  [{name, kind, unit, doc, value, text, initial, min, max, choices, live, required, overlaid, file}],
-//      inputs:  [{name, type, source, request, imported, topic}],
-//      outputs: [{name, type, topic}]}]}
-// `value` is in the parameter's unit, `text` as people write it ("0.55 rad/rad"); `type` is a ROS 2 name, "" for a probe; `topic` is that
-// of the channel, of the service for a request, or that an imported input is published on.
+//      params:  [{name, kind, unit, doc, value, text, initial, min, max, choices, live, required, overlaid,
+//      file}], inputs:  [{name, type, source, request, imported, topic}], outputs: [{name, type, topic}]}]}
+// `value` is in the parameter's unit, `text` as people write it ("0.55 rad/rad"); `type` is a ROS 2 name, ""
+// for a probe; `topic` is that of the channel, of the service for a request, or that an imported input is
+// published on.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -19,9 +20,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/types/type.hpp"
 #include "core/tap/control.hpp"
 #include "core/tap/tap.hpp"
+#include "core/types/type.hpp"
 
 namespace fulmar::core::live {
 

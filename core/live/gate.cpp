@@ -76,7 +76,8 @@ bool origin_is_ours(const Caller& caller) {
 void check_options(const LiveOptions& options) {
   if (!options.token.empty() || is_loopback(lower(options.host))) return;
   throw Error("live.listen: " + options.host +
-              " can be reached from other computers. Give a token in FULMAR_TOKEN or live.token, which every client then has to show, or listen on 127.0.0.1");
+              " can be reached from other computers. Give a token in FULMAR_TOKEN or live.token, which every "
+              "client then has to show, or listen on 127.0.0.1");
 }
 
 Verdict admit(const LiveOptions& options, const Caller& caller) {
@@ -84,12 +85,16 @@ Verdict admit(const LiveOptions& options, const Caller& caller) {
   if (host.empty()) return {400, "The request names no host."};
   if (!options.token.empty()) {
     if (same_secret(shown_token(caller), options.token)) return {};
-    return {401, "This flight wants its token: ?token=... behind the address, or the header 'Authorization: Bearer ...'."};
+    return {401,
+            "This flight wants its token: ?token=... behind the address, or the header 'Authorization: "
+            "Bearer ...'."};
   }
   if (!host_is_ours(options, host))
-    return {403, "This flight does not answer to the name '" + host + "'; use the address that it listens on."};
+    return {403,
+            "This flight does not answer to the name '" + host + "'; use the address that it listens on."};
   if (!caller.origin.empty() && !origin_is_ours(caller))
-    return {403, "Pages of '" + caller.origin + "' may not speak to this flight. Set live.token in the mission and give it: ?token=..."};
+    return {403, "Pages of '" + caller.origin +
+                     "' may not speak to this flight. Set live.token in the mission and give it: ?token=..."};
   return {};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who may speak to a flight: address, token, Host and Origin of a request. Without sockets. Against pages of other sites that a browser of
-// this computer shows (cross-site requests, DNS names that turn into 127.0.0.1).
+// Who may speak to a flight: address, token, Host and Origin of a request. Without sockets. Against pages of
+// other sites that a browser of this computer shows (cross-site requests, DNS names that turn into
+// 127.0.0.1).
 #pragma once
 #include <chrono>
 #include <string>
@@ -39,7 +40,8 @@ bool same_secret(std::string_view a, std::string_view b);
 class Bucket {
  public:
   using Clock = std::chrono::steady_clock;
-  Bucket(double per_second, double burst, Clock::time_point now) : rate_(per_second), burst_(burst), level_(burst), at_(now) {}
+  Bucket(double per_second, double burst, Clock::time_point now)
+      : rate_(per_second), burst_(burst), level_(burst), at_(now) {}
   /// Takes `cost`; returns how long to wait before anything else is taken.
   Clock::duration take(double cost, Clock::time_point now);
 

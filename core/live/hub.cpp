@@ -18,13 +18,15 @@ constexpr std::size_t samples_per_turn = 8192;  // then clients are heard again
 constexpr std::chrono::milliseconds time_period{50};
 constexpr std::chrono::seconds drops_period{1};
 constexpr int depth_limit = 32;
-// A port that may stay silent and does not: so many samples in a row, each within this time of the one before. Nobody waits for its next
-// one, and the loop need not copy it while nobody looks.
+// A port that may stay silent and does not: so many samples in a row, each within this time of the one
+// before. Nobody waits for its next one, and the loop need not copy it while nobody looks.
 constexpr std::size_t stream_samples = 400;
 constexpr std::int64_t stream_gap_ns = 100'000'000;
 constexpr char op_data = 1, op_time = 2;
 
-std::shared_ptr<const std::string> shared(std::string text) { return std::make_shared<const std::string>(std::move(text)); }
+std::shared_ptr<const std::string> shared(std::string text) {
+  return std::make_shared<const std::string>(std::move(text));
+}
 
 template <class T>
 void put(char* to, T value) {
@@ -83,12 +85,14 @@ Hub::Hub(Tap& tap, Control& control, Counters& counters) : tap_(tap), control_(c
     largest = std::max(largest, channels_.back().encoder.max_size());
   }
   scratch_.resize(largest);
-  const json info = {{"op", "serverInfo"},
-                     {"name", "Fulmar: " + now.mission},
-                     {"capabilities", {"clientPublish", "parameters", "parametersSubscribe", "services", "connectionGraph", "time"}},
-                     {"supportedEncodings", {"cdr", "json"}},
-                     {"metadata", {{"mission", now.mission}, {"io", now.io}, {"version", FULMAR_VERSION}}},
-                     {"sessionId", session_id()}};
+  const json info = {
+      {"op", "serverInfo"},
+      {"name", "Fulmar: " + now.mission},
+      {"capabilities",
+       {"clientPublish", "parameters", "parametersSubscribe", "services", "connectionGraph", "time"}},
+      {"supportedEncodings", {"cdr", "json"}},
+      {"metadata", {{"mission", now.mission}, {"io", now.io}, {"version", FULMAR_VERSION}}},
+      {"sessionId", session_id()}};
   info_ = shared(dumped(info));
   advertisement_ = shared(dumped(advertise(tap_)));
   service_list_ = shared(dumped(advertise_services(services_)));
@@ -161,7 +165,8 @@ FlightView Hub::view() {
   return now;
 }
 
-// ---- from clients --------------------------------------------------------------------------------------------------------------
+// ---- from clients
+// --------------------------------------------------------------------------------------------------------------
 
 template <class Work>
 void Hub::guarded(ClientId id, const Work& work) {
@@ -203,10 +208,8 @@ void Hub::binary(ClientId id, std::string_view message) {
   guarded(id, [&](Client& client) {
     if (message.empty()) throw Malformed("a binary message is empty");
     switch (message[0]) {
-      case 1:
-        return client_data(client, message);
-      case 2:
-        return service_request(client, message);
+      case 1: return client_data(client, message);
+      case 2: return service_request(client, message);
       default:
         throw Error("there is no binary op " + std::to_string(static_cast<unsigned char>(message[0])) +
                     ". Valid: 1 (data), 2 (service call).");
@@ -214,7 +217,8 @@ void Hub::binary(ClientId id, std::string_view message) {
   });
 }
 
-// ---- to clients ----------------------------------------------------------------------------------------------------------------
+// ---- to clients
+// ----------------------------------------------------------------------------------------------------------------
 
 void Hub::send_text(Client& client, std::shared_ptr<const std::string> text) {
   Message message;
@@ -258,7 +262,8 @@ bool Hub::drain() {
     if (channel.listeners.empty() && !channel.keeps) continue;
     const std::size_t size = channel.encoder.encode(sample->data(), scratch_.data());
     message.body = shared(std::string(reinterpret_cast<const char*>(scratch_.data()), size));
-    for (const auto& [client, subscription] : channel.listeners) offer(*client, message, subscription, sample->now_ns);
+    for (const auto& [client, subscription] : channel.listeners)
+      offer(*client, message, subscription, sample->now_ns);
     if (channel.keeps) keep(sample->channel, sample->now_ns, message.body);
   }
   counters_.lost += cursor_->lost() - std::exchange(lost_before_, cursor_->lost());
@@ -311,7 +316,8 @@ void Hub::warn_of_drops() {
   for (const auto& [id, client] : clients_) {
     if (client->dropped == client->told) continue;
     status(*client, 1,
-           "This connection is too slow for what it has subscribed to: " + std::to_string(client->dropped) + " messages left out.");
+           "This connection is too slow for what it has subscribed to: " + std::to_string(client->dropped) +
+               " messages left out.");
     client->told = client->dropped;
   }
 }
@@ -328,9 +334,12 @@ void Hub::flush_parameters() {
       const ParameterView* p = find_parameter(now, name);
       if (p == nullptr) continue;
       values.push_back(parameter_json(name, *p));
-      if (p->overlaid) status(*client, 1, name + " is set, but the phase '" + now.phase + "' has another value for it while it lasts.");
+      if (p->overlaid)
+        status(*client, 1,
+               name + " is set, but the phase '" + now.phase + "' has another value for it while it lasts.");
     }
-    if (reply->id) send_json(*client, {{"op", "parameterValues"}, {"parameters", values}, {"id", *reply->id}});
+    if (reply->id)
+      send_json(*client, {{"op", "parameterValues"}, {"parameters", values}, {"id", *reply->id}});
   }
   const std::set<std::string> changed = std::exchange(changed_, {});
   for (const auto& [id, client] : clients_) {

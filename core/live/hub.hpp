@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The live protocol without sockets: what clients have subscribed to, what they ask, what they get. Source: the Foxglove WebSocket
-// protocol, version 1. One thread, but for the answers of the control, which come through a mailbox.
+// The live protocol without sockets: what clients have subscribed to, what they ask, what they get. Source:
+// the Foxglove WebSocket protocol, version 1. One thread, but for the answers of the control, which come
+// through a mailbox.
 #pragma once
 #include <array>
 #include <atomic>
@@ -19,9 +20,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/tap/control.hpp"
 #include "core/live/describe.hpp"
 #include "core/live/server.hpp"
+#include "core/tap/control.hpp"
 #include "core/tap/tap.hpp"
 #include "core/types/wire.hpp"
 
@@ -71,7 +72,8 @@ class Hub {
  public:
   Hub(Tap& tap, Control& control, Counters& counters);
   ~Hub();
-  /// Once, before the first client. `wake` is called from threads of the control's when there is something for `answers`.
+  /// Once, before the first client. `wake` is called from threads of the control's when there is something
+  /// for `answers`.
   void begin(std::function<void()> wake);
   /// No `wake` from here on.
   void close();
@@ -89,8 +91,8 @@ class Hub {
 
   /// What waits in the mailbox.
   void answers();
-  /// Every few ms while there are clients, else now and then: samples out, parameters that have changed. True when there is more to send
-  /// at once.
+  /// Every few ms while there are clients, else now and then: samples out, parameters that have changed. True
+  /// when there is more to send at once.
   bool tick();
 
   const std::string& mission() const { return mission_; }
@@ -126,8 +128,8 @@ class Hub {
   void service_request(Client& client, std::string_view message);
 
   void import_channel(Client& client, const json& channel);
-  void call(Client& client, const Service& service, std::uint32_t service_id, std::uint32_t call_id, bool as_json,
-            std::string_view payload);
+  void call(Client& client, const Service& service, std::uint32_t service_id, std::uint32_t call_id,
+            bool as_json, std::string_view payload);
   void call_request(const Service& service, bool as_json, std::string_view payload, Control::Answer answer);
   void call_host(const Service& service, const std::vector<std::string>& texts, Control::Answer answer);
   void set_one(const std::shared_ptr<Pending>& pending, const json& parameter);
@@ -163,8 +165,9 @@ class Hub {
   std::vector<Channel> channels_;
   std::shared_ptr<const std::string> info_, advertisement_, service_list_;
   std::vector<std::byte> scratch_;
-  std::unique_ptr<Tap::Cursor> cursor_;  // from `begin` on: what is published seldom is kept before there is a client
-  std::uint64_t lost_before_ = 0;        // of the cursor, in the counters already
+  std::unique_ptr<Tap::Cursor>
+      cursor_;  // from `begin` on: what is published seldom is kept before there is a client
+  std::uint64_t lost_before_ = 0;  // of the cursor, in the counters already
   std::map<ClientId, std::unique_ptr<Client>> clients_;
   ClientId next_id_ = 1;
   std::vector<std::shared_ptr<Pending>> replies_;  // sets whose every answer is there

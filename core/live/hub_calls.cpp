@@ -32,12 +32,15 @@ std::vector<std::byte> from_json(const Type& type, const Guard& guard, std::stri
 
 /// The arguments of one of the host's own services.
 std::vector<std::string> arguments(const Service& service, bool as_json, std::string_view payload) {
-  if (!as_json) return service.arguments.empty() ? std::vector<std::string>() : cdr_texts(payload, service.arguments.size());
+  if (!as_json)
+    return service.arguments.empty() ? std::vector<std::string>()
+                                     : cdr_texts(payload, service.arguments.size());
   const json object = payload.empty() ? json::object() : json::parse(payload, nullptr, false);
   std::vector<std::string> texts;
   for (const std::string& name : service.arguments) {
     const auto value = object.is_object() ? object.find(name) : object.end();
-    if (value == object.end() || !value->is_string()) throw Error("the request needs the text '" + name + "'");
+    if (value == object.end() || !value->is_string())
+      throw Error("the request needs the text '" + name + "'");
     texts.push_back(value->get<std::string>());
   }
   return texts;
@@ -46,7 +49,8 @@ std::vector<std::string> arguments(const Service& service, bool as_json, std::st
 /// Only an object, and none that a parser would have to dig for.
 void check_json(std::string_view payload) {
   if (too_deep(payload)) throw Error("the request is nested too deeply");
-  if (!payload.empty() && !json::parse(payload, nullptr, false).is_object()) throw Error("the request is no JSON object");
+  if (!payload.empty() && !json::parse(payload, nullptr, false).is_object())
+    throw Error("the request is no JSON object");
 }
 
 }  // namespace
@@ -59,7 +63,8 @@ void Hub::client_data(Client& client, std::string_view message) {
   const std::string_view payload = message.substr(data_head);
   try {
     if (import.as_json) check_json(payload);
-    if (!control_.publish(import.component, import.port, (import.as_json ? from_json : from_cdr)(*import.type, import.guard, payload)))
+    if (!control_.publish(import.component, import.port,
+                          (import.as_json ? from_json : from_cdr)(*import.type, import.guard, payload)))
       ++counters_.lost;
   } catch (const Error& e) {
     throw Error(import.topic + ": " + e.what());
@@ -67,24 +72,31 @@ void Hub::client_data(Client& client, std::string_view message) {
 }
 
 void Hub::service_request(Client& client, std::string_view message) {
-  const std::uint32_t service_id = read_u32(message, 1), call_id = read_u32(message, 5), size = read_u32(message, 9);
-  if (message.size() - call_head < size) throw Malformed("a service call ends within the name of its encoding");
+  const std::uint32_t service_id = read_u32(message, 1), call_id = read_u32(message, 5),
+                      size = read_u32(message, 9);
+  if (message.size() - call_head < size)
+    throw Malformed("a service call ends within the name of its encoding");
   const std::string encoding(message.substr(call_head, size));
   const auto fail = [&](const std::string& why) {
     ++counters_.refused;
-    send_json(client, {{"op", "serviceCallFailure"}, {"serviceId", service_id}, {"callId", call_id}, {"message", why}});
+    send_json(
+        client,
+        {{"op", "serviceCallFailure"}, {"serviceId", service_id}, {"callId", call_id}, {"message", why}});
   };
-  if (service_id == 0 || service_id > services_.size()) return fail("there is no service " + std::to_string(service_id));
-  if (encoding != "cdr" && encoding != "json") return fail("there is no encoding '" + encoding + "'. Valid: cdr, json.");
+  if (service_id == 0 || service_id > services_.size())
+    return fail("there is no service " + std::to_string(service_id));
+  if (encoding != "cdr" && encoding != "json")
+    return fail("there is no encoding '" + encoding + "'. Valid: cdr, json.");
   try {
-    call(client, services_[service_id - 1], service_id, call_id, encoding == "json", message.substr(call_head + size));
+    call(client, services_[service_id - 1], service_id, call_id, encoding == "json",
+         message.substr(call_head + size));
   } catch (const Malformed& e) {
     fail(e.what());
   }
 }
 
-void Hub::call(Client& client, const Service& service, std::uint32_t service_id, std::uint32_t call_id, bool as_json,
-               std::string_view payload) {
+void Hub::call(Client& client, const Service& service, std::uint32_t service_id, std::uint32_t call_id,
+               bool as_json, std::string_view payload) {
   const auto reply = [this, id = client.id, service_id, call_id, as_json](std::string body) {
     Client* caller = find(id);
     if (caller == nullptr) return;
@@ -103,7 +115,8 @@ void Hub::call(Client& client, const Service& service, std::uint32_t service_id,
   }
   const auto done = [this, reply, as_json, id = client.id](const std::string& refusal) {
     if (Client* caller = find(id)) --caller->unanswered;
-    reply(as_json ? dumped({{"accepted", refusal.empty()}, {"reason", refusal}}) : cdr_answer(refusal.empty(), refusal));
+    reply(as_json ? dumped({{"accepted", refusal.empty()}, {"reason", refusal}})
+                  : cdr_answer(refusal.empty(), refusal));
   };
   const Control::Answer answer = [mailbox = mailbox_, done](const std::string& refusal) {
     mailbox->post([done, refusal] { done(refusal); });
@@ -118,24 +131,24 @@ void Hub::call(Client& client, const Service& service, std::uint32_t service_id,
   }
 }
 
-void Hub::call_request(const Service& service, bool as_json, std::string_view payload, Control::Answer answer) {
-  if (as_json) return control_.request(service.component, service.port, payload.empty() ? "{}" : std::string(payload), std::move(answer));
-  control_.request(service.component, service.port, from_cdr(*service.type, Guard(*service.type), payload), std::move(answer));
+void Hub::call_request(const Service& service, bool as_json, std::string_view payload,
+                       Control::Answer answer) {
+  if (as_json)
+    return control_.request(service.component, service.port, payload.empty() ? "{}" : std::string(payload),
+                            std::move(answer));
+  control_.request(service.component, service.port, from_cdr(*service.type, Guard(*service.type), payload),
+                   std::move(answer));
 }
 
 void Hub::call_host(const Service& service, const std::vector<std::string>& texts, Control::Answer answer) {
   switch (service.what) {
     case Service::What::set_parameter:
       return control_.set_parameter(texts[0], texts[1], texts[2], std::move(answer));
-    case Service::What::phase:
-      return control_.enter_phase(texts[0], std::move(answer));
-    case Service::What::swap:
-      return control_.swap(texts[0], texts[1], std::move(answer));
-    case Service::What::reset_guards:
-      return control_.reset_guards(std::move(answer));
+    case Service::What::phase: return control_.enter_phase(texts[0], std::move(answer));
+    case Service::What::swap: return control_.swap(texts[0], texts[1], std::move(answer));
+    case Service::What::reset_guards: return control_.reset_guards(std::move(answer));
     case Service::What::request:
-    case Service::What::view:
-      break;
+    case Service::What::view: break;
   }
 }
 

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "core/types/element.hpp"
 #include "core/live/hub.hpp"
+#include "core/types/element.hpp"
 
 namespace fulmar::core::live {
 
@@ -45,7 +45,8 @@ struct Hub::Pending {
 bool too_deep(std::string_view text);
 
 inline std::uint32_t read_u32(std::string_view bytes, std::size_t at) {
-  if (bytes.size() < at + 4) throw Malformed("a binary message of " + std::to_string(bytes.size()) + " bytes ends too early");
+  if (bytes.size() < at + 4)
+    throw Malformed("a binary message of " + std::to_string(bytes.size()) + " bytes ends too early");
   return load<std::uint32_t>(reinterpret_cast<const std::byte*>(bytes.data()) + at);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See hub.hpp. What clients may ask in JSON: subscriptions, parameters, channels of their own, the connection graph.
+// See hub.hpp. What clients may ask in JSON: subscriptions, parameters, channels of their own, the connection
+// graph.
 #include <algorithm>
 
 #include "core/graph/yaml.hpp"
@@ -13,7 +14,8 @@ using nlohmann::json;
 constexpr std::size_t most_imports = 64;  // of one client
 
 std::uint32_t id_of(const json& value) {
-  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > 0xffffffffu) throw Malformed("an id has to be a whole number of 32 bits");
+  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > 0xffffffffu)
+    throw Malformed("an id has to be a whole number of 32 bits");
   return value.get<std::uint32_t>();
 }
 
@@ -23,7 +25,9 @@ const json& array_at(const json& message, const char* key) {
   return value;
 }
 
-std::vector<std::string> names_at(const json& message) { return array_at(message, "parameterNames").get<std::vector<std::string>>(); }
+std::vector<std::string> names_at(const json& message) {
+  return array_at(message, "parameterNames").get<std::vector<std::string>>();
+}
 
 std::optional<std::string> request_id(const json& message) {
   const auto id = message.find("id");
@@ -34,16 +38,17 @@ std::optional<std::string> request_id(const json& message) {
 }  // namespace
 
 const std::map<std::string, Hub::Op, std::less<>>& Hub::ops() {
-  static const std::map<std::string, Op, std::less<>> map = {{"subscribe", &Hub::subscribe},
-                                                             {"unsubscribe", &Hub::unsubscribe},
-                                                             {"advertise", &Hub::client_advertise},
-                                                             {"unadvertise", &Hub::client_unadvertise},
-                                                             {"getParameters", &Hub::get_parameters},
-                                                             {"setParameters", &Hub::set_parameters},
-                                                             {"subscribeParameterUpdates", &Hub::subscribe_parameters},
-                                                             {"unsubscribeParameterUpdates", &Hub::unsubscribe_parameters},
-                                                             {"subscribeConnectionGraph", &Hub::subscribe_graph},
-                                                             {"unsubscribeConnectionGraph", &Hub::unsubscribe_graph}};
+  static const std::map<std::string, Op, std::less<>> map = {
+      {"subscribe", &Hub::subscribe},
+      {"unsubscribe", &Hub::unsubscribe},
+      {"advertise", &Hub::client_advertise},
+      {"unadvertise", &Hub::client_unadvertise},
+      {"getParameters", &Hub::get_parameters},
+      {"setParameters", &Hub::set_parameters},
+      {"subscribeParameterUpdates", &Hub::subscribe_parameters},
+      {"unsubscribeParameterUpdates", &Hub::unsubscribe_parameters},
+      {"subscribeConnectionGraph", &Hub::subscribe_graph},
+      {"unsubscribeConnectionGraph", &Hub::unsubscribe_graph}};
   return map;
 }
 
@@ -56,7 +61,8 @@ void Hub::subscribe(Client& client, const json& message) {
     }
     const std::size_t index = channel_id - 1;
     Channel& channel = channels_[index];
-    const bool has = std::any_of(channel.listeners.begin(), channel.listeners.end(), [&](const auto& l) { return l.first == &client; });
+    const bool has = std::any_of(channel.listeners.begin(), channel.listeners.end(),
+                                 [&](const auto& l) { return l.first == &client; });
     if (has || client.subscriptions.contains(id)) {
       refuse(client, has ? "channel " + std::to_string(channel_id) + " is subscribed to already"
                          : "subscription " + std::to_string(id) + " is in use");
@@ -89,24 +95,29 @@ void Hub::client_advertise(Client& client, const json& message) {
 
 void Hub::import_channel(Client& client, const json& channel) {
   const std::uint32_t id = id_of(channel.at("id"));
-  const auto topic = channel.at("topic").get<std::string>(), encoding = channel.at("encoding").get<std::string>();
+  const auto topic = channel.at("topic").get<std::string>(),
+             encoding = channel.at("encoding").get<std::string>();
   const std::string schema = channel.value("schemaName", "");
   if (encoding != "cdr" && encoding != "json")
     return refuse(client, topic + ": there is no encoding '" + encoding + "'. Valid: cdr, json.");
-  if (client.imports.contains(id)) return refuse(client, "channel " + std::to_string(id) + " is advertised already");
-  if (client.imports.size() >= most_imports) return refuse(client, "a client may advertise " + std::to_string(most_imports) + " channels");
+  if (client.imports.contains(id))
+    return refuse(client, "channel " + std::to_string(id) + " is advertised already");
+  if (client.imports.size() >= most_imports)
+    return refuse(client, "a client may advertise " + std::to_string(most_imports) + " channels");
   std::vector<std::string> topics;
   for (const ComponentView& c : view().components) {
     for (const PortView& p : c.inputs) {
       if (!p.imported || !p.type) continue;
       topics.push_back("/" + c.name + "/" + p.name);
       if (topics.back() != topic) continue;
-      if (!schema.empty() && schema != ros_name(*p.type)) return refuse(client, topic + " takes " + ros_name(*p.type) + ", not " + schema);
+      if (!schema.empty() && schema != ros_name(*p.type))
+        return refuse(client, topic + " takes " + ros_name(*p.type) + ", not " + schema);
       client.imports.emplace(id, Import{c.name, p.name, topic, p.type, encoding == "json", Guard(*p.type)});
       return;
     }
   }
-  refuse(client, "nothing can be published on '" + topic + "': the mission's dds.import does not name it." + choices_text(topic, topics));
+  refuse(client, "nothing can be published on '" + topic + "': the mission's dds.import does not name it." +
+                     choices_text(topic, topics));
 }
 
 void Hub::client_unadvertise(Client& client, const json& message) {
@@ -140,8 +151,10 @@ void Hub::set_parameters(Client& client, const json& message) {
   auto pending = std::make_shared<Pending>();
   pending->client = client.id;
   pending->id = request_id(message);
-  for (const json& parameter : list) pending->names.push_back(parameter.at("name").get<std::string>());  // all or none has a name
-  pending->open = list.size() + 1;  // one for this function, so that no answer is the last before all are asked for
+  for (const json& parameter : list)
+    pending->names.push_back(parameter.at("name").get<std::string>());  // all or none has a name
+  pending->open =
+      list.size() + 1;  // one for this function, so that no answer is the last before all are asked for
   client.unanswered += list.size();
   for (const json& parameter : list) set_one(pending, parameter);
   if (--pending->open == 0) replies_.push_back(pending);
@@ -164,7 +177,9 @@ void Hub::set_one(const std::shared_ptr<Pending>& pending, const json& parameter
     if (value == parameter.end() || value->is_null()) throw Error("a parameter cannot be removed");
     const std::string text = mission_text(*value, text_parameters_.contains(name));
     control_.set_parameter(name.substr(0, dot), name.substr(dot + 1), text,
-                           [mailbox = mailbox_, done](const std::string& refusal) { mailbox->post([done, refusal] { done(refusal); }); });
+                           [mailbox = mailbox_, done](const std::string& refusal) {
+                             mailbox->post([done, refusal] { done(refusal); });
+                           });
   } catch (const Error& e) {
     done(e.what());
   }

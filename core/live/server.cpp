@@ -23,11 +23,13 @@ constexpr milliseconds turn{5}, idle_turn{50}, accept_pause{100}, farewell_limit
 constexpr std::size_t most_connections = 64;
 
 std::string address_of(const std::string& host) {
-  const std::string bare = host.starts_with('[') && host.ends_with(']') ? host.substr(1, host.size() - 2) : host;
+  const std::string bare =
+      host.starts_with('[') && host.ends_with(']') ? host.substr(1, host.size() - 2) : host;
   const std::string address = bare == "localhost" ? "127.0.0.1" : bare;
   if (!live::Listener::is_address(address))
-    throw Error("live.listen: '" + host +
-                "' is no address. Valid: 127.0.0.1 (this computer alone), 0.0.0.0 (all), or one of this computer's.");
+    throw Error(
+        "live.listen: '" + host +
+        "' is no address. Valid: 127.0.0.1 (this computer alone), 0.0.0.0 (all), or one of this computer's.");
   return address;
 }
 
@@ -72,10 +74,10 @@ struct LiveServer::Impl {
     if (const auto refusal = listener.listen(address_of(options.host), options.port)) {
       const std::string where = options.host + ":" + std::to_string(options.port);
       throw Error("live: cannot listen on " + where + ": " + refusal->why +
-                  (refusal->taken
-                       ? ". Another flight may have the port: stop it, or give this one another with live.listen (port 0: any that is "
-                         "free)."
-                       : ". Give an address of this computer with live.listen."));
+                  (refusal->taken ? ". Another flight may have the port: stop it, or give this one another "
+                                    "with live.listen (port 0: any that is "
+                                    "free)."
+                                  : ". Give an address of this computer with live.listen."));
     }
     port = listener.port();
   }
@@ -96,9 +98,12 @@ struct LiveServer::Impl {
     });
   }
 
-  void start() { thread = quiet_thread("fulmar-live", [this] { run(); }); }
+  void start() {
+    thread = quiet_thread("fulmar-live", [this] { run(); });
+  }
 
-  /// What goes wrong with one connection (no memory, an option that the system refuses) ends that connection alone.
+  /// What goes wrong with one connection (no memory, an option that the system refuses) ends that connection
+  /// alone.
   void run() {
     for (;;) {
       try {
@@ -145,7 +150,8 @@ struct LiveServer::Impl {
   }
 };
 
-LiveServer::LiveServer(Tap& tap, Control& control, const LiveOptions& options) : impl_(std::make_unique<Impl>(tap, control, options)) {}
+LiveServer::LiveServer(Tap& tap, Control& control, const LiveOptions& options)
+    : impl_(std::make_unique<Impl>(tap, control, options)) {}
 LiveServer::~LiveServer() = default;
 std::uint16_t LiveServer::port() const { return impl_->port; }
 LiveStats LiveServer::stats() const {

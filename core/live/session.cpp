@@ -22,7 +22,7 @@ constexpr seconds handshake_limit{5}, idle_limit{120}, farewell_limit{1};
 constexpr std::size_t most_header_bytes = 8192;
 constexpr std::size_t most_message_bytes = 1u << 20;
 constexpr std::size_t most_clients = 16;
-constexpr int kernel_bytes = 512 << 10;                    // what the system holds for a client, at most: it is late already
+constexpr int kernel_bytes = 512 << 10;  // what the system holds for a client, at most: it is late already
 constexpr std::size_t most_queued_bytes = 4u << 20;        // then data is left out
 constexpr std::size_t most_owed_bytes = 16u << 20;         // then the client is closed
 constexpr double messages_per_s = 10'000, burst = 20'000;  // one for each KiB of a message, at least one
@@ -38,7 +38,10 @@ std::string chosen_protocol(const std::vector<std::string>& offered) {
 class Connection final : public Session, public Peer, public std::enable_shared_from_this<Connection> {
  public:
   Connection(ServerEnd end, Loop& loop, Context& context)
-      : context_(context), end_(std::move(end)), timer_(loop), bucket_(messages_per_s, burst, steady_clock::now()) {
+      : context_(context),
+        end_(std::move(end)),
+        timer_(loop),
+        bucket_(messages_per_s, burst, steady_clock::now()) {
     context_.sessions.insert(this);
   }
   ~Connection() override {
@@ -60,7 +63,8 @@ class Connection final : public Session, public Peer, public std::enable_shared_
   void cut() override { end_.cut(); }
 
   bool offer(const Message& message) override {
-    if (closing_ || queued_ + message.size() > most_queued_bytes) return closing_;  // one that is going misses nothing
+    if (closing_ || queued_ + message.size() > most_queued_bytes)
+      return closing_;  // one that is going misses nothing
     push(message);
     return true;
   }
@@ -88,9 +92,11 @@ class Connection final : public Session, public Peer, public std::enable_shared_
   void answer() {
     const ServerEnd::Request& request = end_.request();
     if (request.contradicts_itself) return respond(400, "The request contradicts itself.");
-    const Verdict verdict = admit(context_.options, {request.target, request.host, request.origin, request.authorization});
+    const Verdict verdict =
+        admit(context_.options, {request.target, request.host, request.origin, request.authorization});
     if (verdict.status != 200) return respond(verdict.status, verdict.why);
-    if (path_of(request.target) != "/") return respond(404, "There is nothing here. The page of the flight is at /.");
+    if (path_of(request.target) != "/")
+      return respond(404, "There is nothing here. The page of the flight is at /.");
     if (request.upgrade) return upgrade();
     if (!request.get && !request.head) return respond(405, "Only GET and HEAD are answered.");
     respond(200, context_.page);
@@ -98,20 +104,25 @@ class Connection final : public Session, public Peer, public std::enable_shared_
 
   void respond(unsigned status, const std::string& body) {
     if (status != 200) ++context_.counters.refused;
-    Fields fields{{"Content-Type", status == 200 ? "text/html; charset=utf-8" : "text/plain; charset=utf-8"},
-                  {"Content-Security-Policy", "default-src 'none'; style-src 'unsafe-inline'; frame-ancestors 'none'"},
-                  {"X-Content-Type-Options", "nosniff"},
-                  {"Referrer-Policy", "no-referrer"},
-                  {"Cache-Control", "no-store"}};
+    Fields fields{
+        {"Content-Type", status == 200 ? "text/html; charset=utf-8" : "text/plain; charset=utf-8"},
+        {"Content-Security-Policy", "default-src 'none'; style-src 'unsafe-inline'; frame-ancestors 'none'"},
+        {"X-Content-Type-Options", "nosniff"},
+        {"Referrer-Policy", "no-referrer"},
+        {"Cache-Control", "no-store"}};
     if (status == 401) fields.emplace_back("WWW-Authenticate", "Bearer");
-    end_.respond(status, fields, status == 200 ? body : body + "\n", [self = shared_from_this()] { self->end_.shut_down(); });
+    end_.respond(status, fields, status == 200 ? body : body + "\n",
+                 [self = shared_from_this()] { self->end_.shut_down(); });
   }
 
   // ---- the live protocol
   void upgrade() {
-    if (end_.request().more) return respond(400, "A client of the protocol waits for the answer to its handshake.");
+    if (end_.request().more)
+      return respond(400, "A client of the protocol waits for the answer to its handshake.");
     const std::string protocol = chosen_protocol(end_.request().protocols);
-    if (protocol.empty()) return respond(400, "This flight speaks the WebSocket subprotocols foxglove.sdk.v1 and foxglove.websocket.v1.");
+    if (protocol.empty())
+      return respond(
+          400, "This flight speaks the WebSocket subprotocols foxglove.sdk.v1 and foxglove.websocket.v1.");
     if (context_.hub.clients() >= most_clients)
       return respond(503, "This flight has " + std::to_string(most_clients) + " clients already.");
     timer_.cancel();  // the WebSocket has time-outs of its own
@@ -210,6 +221,8 @@ class Connection final : public Session, public Peer, public std::enable_shared_
 
 }  // namespace
 
-void begin_session(ServerEnd end, Loop& loop, Context& context) { std::make_shared<Connection>(std::move(end), loop, context)->begin(); }
+void begin_session(ServerEnd end, Loop& loop, Context& context) {
+  std::make_shared<Connection>(std::move(end), loop, context)->begin();
+}
 
 }  // namespace fulmar::core::live

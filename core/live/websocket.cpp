@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See websocket.hpp. The only file that knows Boost.Asio's sockets and Boost.Beast: it takes its time to compile. Both ends are of the
-// same types, and what is called back has always the same type, so that each of Beast's operations is compiled once.
+// See websocket.hpp. The only file that knows Boost.Asio's sockets and Boost.Beast: it takes its time to
+// compile. Both ends are of the same types, and what is called back has always the same type, so that each of
+// Beast's operations is compiled once.
 #include "core/live/websocket.hpp"
 
 #include <array>
@@ -40,7 +41,8 @@ std::array<net::const_buffer, 2> parts_of(std::string_view head, std::string_vie
 
 }  // namespace
 
-// ---- the loop -------------------------------------------------------------------------------------------------------------------
+// ---- the loop
+// -------------------------------------------------------------------------------------------------------------------
 
 struct Loop::Impl {
   net::io_context io{1};
@@ -72,7 +74,8 @@ void Timer::cancel() {
   impl_->timer.cancel();
 }
 
-// ---- the server's end -----------------------------------------------------------------------------------------------------------
+// ---- the server's end
+// -----------------------------------------------------------------------------------------------------------
 
 struct ServerEnd::Impl {
   Stream stream;
@@ -90,7 +93,8 @@ struct ServerEnd::Impl {
     request.host = field(http::field::host);
     request.origin = field(http::field::origin);
     request.authorization = field(http::field::authorization);
-    for (const auto& word : http::token_list(head[http::field::sec_websocket_protocol])) request.protocols.push_back(text_of(word));
+    for (const auto& word : http::token_list(head[http::field::sec_websocket_protocol]))
+      request.protocols.push_back(text_of(word));
     request.contradicts_itself = head.count(http::field::host) > 1 || head.count(http::field::origin) > 1;
     request.upgrade = websocket::is_upgrade(head);
     request.get = head.method() == http::verb::get;
@@ -100,8 +104,9 @@ struct ServerEnd::Impl {
 
   static Outcome outcome_of_read(error_code ec) {
     if (!ec) return Outcome::good;
-    const bool against_rules = ec == websocket::error::message_too_big || ec == websocket::error::buffer_overflow ||
-                               ec.category() == websocket::make_error_code(websocket::error::bad_opcode).category();
+    const bool against_rules =
+        ec == websocket::error::message_too_big || ec == websocket::error::buffer_overflow ||
+        ec.category() == websocket::make_error_code(websocket::error::bad_opcode).category();
     return against_rules && ec != websocket::error::closed ? Outcome::against_rules : Outcome::gone;
   }
 };
@@ -120,16 +125,19 @@ std::string_view ServerEnd::message() const {
 
 void ServerEnd::read_request(std::size_t most_bytes, Done done) {
   impl_->parser.header_limit(static_cast<std::uint32_t>(most_bytes));
-  http::async_read_header(impl_->corked(), impl_->buffer, impl_->parser,
-                          OnBytes([impl = impl_.get(), done = std::move(done)](error_code ec, std::size_t) {
-                            if (ec) return done(ec == http::error::end_of_stream ? Outcome::gone : Outcome::against_rules);
-                            impl->note_request();
-                            done(Outcome::good);
-                          }));
+  http::async_read_header(
+      impl_->corked(), impl_->buffer, impl_->parser,
+      OnBytes([impl = impl_.get(), done = std::move(done)](error_code ec, std::size_t) {
+        if (ec) return done(ec == http::error::end_of_stream ? Outcome::gone : Outcome::against_rules);
+        impl->note_request();
+        done(Outcome::good);
+      }));
 }
 
-void ServerEnd::respond(unsigned status, const Fields& fields, const std::string& body, std::function<void()> done) {
-  std::string answer = "HTTP/1.1 " + std::to_string(status) + " " + text_of(http::obsolete_reason(http::status(status))) + "\r\n";
+void ServerEnd::respond(unsigned status, const Fields& fields, const std::string& body,
+                        std::function<void()> done) {
+  std::string answer = "HTTP/1.1 " + std::to_string(status) + " " +
+                       text_of(http::obsolete_reason(http::status(status))) + "\r\n";
   for (const auto& [name, value] : fields) answer += name + ": " + value + "\r\n";
   answer += "Connection: close\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n";
   if (!impl_->request.head) answer += body;
@@ -146,35 +154,43 @@ void ServerEnd::accept(Terms terms, Done done) {
   impl_->corked().socket().set_option(net::socket_base::send_buffer_size(terms.kernel_bytes));
   Stream& stream = impl_->stream;
   stream.set_option(websocket::stream_base::timeout{terms.handshake_limit, terms.idle_limit, true});
-  stream.set_option(websocket::stream_base::decorator([protocol = std::move(terms.protocol)](websocket::response_type& response) {
-    response.set(http::field::sec_websocket_protocol, protocol);
-  }));
+  stream.set_option(websocket::stream_base::decorator(
+      [protocol = std::move(terms.protocol)](websocket::response_type& response) {
+        response.set(http::field::sec_websocket_protocol, protocol);
+      }));
   stream.read_message_max(terms.most_message_bytes);
   stream.auto_fragment(false);
-  stream.control_callback([on_control = std::move(terms.on_control)](websocket::frame_type, beast::string_view) { on_control(); });
-  stream.async_accept(impl_->parser.get(),
-                      OnFault([done = std::move(done)](error_code ec) { done(ec ? Outcome::against_rules : Outcome::good); }));
+  stream.control_callback([on_control = std::move(terms.on_control)](websocket::frame_type,
+                                                                     beast::string_view) { on_control(); });
+  stream.async_accept(impl_->parser.get(), OnFault([done = std::move(done)](error_code ec) {
+                        done(ec ? Outcome::against_rules : Outcome::good);
+                      }));
 }
 
 void ServerEnd::read(Done done) {
   impl_->buffer.clear();
-  impl_->stream.async_read(impl_->buffer,
-                           OnBytes([done = std::move(done)](error_code ec, std::size_t) { done(Impl::outcome_of_read(ec)); }));
+  impl_->stream.async_read(impl_->buffer, OnBytes([done = std::move(done)](error_code ec, std::size_t) {
+                             done(Impl::outcome_of_read(ec));
+                           }));
 }
 
 void ServerEnd::write(std::string_view head, std::string_view body, bool binary, bool more, Done done) {
   impl_->stream.binary(binary);
   impl_->corked().cork(more);
   impl_->stream.async_write(parts_of(head, body),
-                            OnBytes([done = std::move(done)](error_code ec, std::size_t) { done(ec ? Outcome::gone : Outcome::good); }));
+                            OnBytes([done = std::move(done)](error_code ec, std::size_t) {
+                              done(ec ? Outcome::gone : Outcome::good);
+                            }));
 }
 
 void ServerEnd::close(std::uint16_t code, const std::string& why, std::function<void()> done) {
   impl_->corked().cork(false);
-  impl_->stream.async_close({websocket::close_code(code), why}, OnFault([done = std::move(done)](error_code) { done(); }));
+  impl_->stream.async_close({websocket::close_code(code), why},
+                            OnFault([done = std::move(done)](error_code) { done(); }));
 }
 
-// ---- listening ------------------------------------------------------------------------------------------------------------------
+// ---- listening
+// ------------------------------------------------------------------------------------------------------------------
 
 struct Listener::Impl {
   tcp::acceptor acceptor;
@@ -214,7 +230,8 @@ void Listener::close() {
   impl_->acceptor.close(ignored);
 }
 
-// ---- the client's end -----------------------------------------------------------------------------------------------------------
+// ---- the client's end
+// -----------------------------------------------------------------------------------------------------------
 
 // Blocking calls of Beast's know no time limit, so the asynchronous ones are run here.
 struct ClientEnd::Impl {
@@ -266,7 +283,9 @@ struct ClientEnd::Impl {
     return fault;
   }
 
-  void note_end(error_code fault) { farewell = fault == websocket::error::closed ? stream.reason().reason.c_str() : ""; }
+  void note_end(error_code fault) {
+    farewell = fault == websocket::error::closed ? stream.reason().reason.c_str() : "";
+  }
 };
 
 ClientEnd::ClientEnd(std::chrono::milliseconds patience) : impl_(std::make_unique<Impl>(patience)) {}
@@ -289,15 +308,17 @@ ClientEnd::Reached ClientEnd::connect(const std::string& host, std::uint16_t por
   return Reached::yes;
 }
 
-ClientEnd::Answer ClientEnd::shake_hands(const std::string& host, const Fields& fields, std::size_t most_message_bytes) {
+ClientEnd::Answer ClientEnd::shake_hands(const std::string& host, const Fields& fields,
+                                         std::size_t most_message_bytes) {
   Stream& stream = impl_->stream;
   stream.read_message_max(most_message_bytes);
   stream.set_option(websocket::stream_base::decorator([fields](websocket::request_type& request) {
     for (const auto& [name, value] : fields) request.set(name, value);
   }));
   const websocket::response_type& response = impl_->response;
-  const error_code fault = impl_->wait(Impl::Clock::now() + impl_->patience,
-                                       [&](OnFault done) { stream.async_handshake(impl_->response, host, "/", std::move(done)); });
+  const error_code fault = impl_->wait(Impl::Clock::now() + impl_->patience, [&](OnFault done) {
+    stream.async_handshake(impl_->response, host, "/", std::move(done));
+  });
   if (!fault) return {true, false, 0, "", ""};
   if (fault != websocket::error::upgrade_declined) return {false, false, 0, "", fault.message()};
   return {false, true, response.result_int(), text_of(response.reason()), ""};
@@ -307,7 +328,9 @@ ClientEnd::Got ClientEnd::receive(std::chrono::milliseconds limit, std::string& 
   Impl& impl = *impl_;
   if (!impl.reading) {
     impl.reading = true, impl.read_done = false;
-    impl.stream.async_read(impl.buffer, OnBytes([&impl](error_code code, std::size_t) { impl.read_done = true, impl.read_fault = code; }));
+    impl.stream.async_read(impl.buffer, OnBytes([&impl](error_code code, std::size_t) {
+                             impl.read_done = true, impl.read_fault = code;
+                           }));
   }
   if (!impl.run_until(impl.read_done, Impl::Clock::now() + limit)) return Got::nothing;
   impl.reading = false;
@@ -321,8 +344,9 @@ ClientEnd::Got ClientEnd::receive(std::chrono::milliseconds limit, std::string& 
 
 bool ClientEnd::write(const std::string& data, bool binary) {
   impl_->stream.binary(binary);
-  const error_code fault = impl_->wait(Impl::Clock::now() + impl_->patience,
-                                       [&](OnBytes done) { impl_->stream.async_write(parts_of(data, {}), std::move(done)); });
+  const error_code fault = impl_->wait(Impl::Clock::now() + impl_->patience, [&](OnBytes done) {
+    impl_->stream.async_write(parts_of(data, {}), std::move(done));
+  });
   impl_->note_end(fault);
   return !fault;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Both ends of a WebSocket, and what one thread waits for. Without Boost: Asio's and Beast's templates take long to compile, so that
-// websocket.cpp alone knows them. All but Loop::post and Loop::stop belongs to the loop's thread.
+// Both ends of a WebSocket, and what one thread waits for. Without Boost: Asio's and Beast's templates take
+// long to compile, so that websocket.cpp alone knows them. All but Loop::post and Loop::stop belongs to the
+// loop's thread.
 #pragma once
 #include <chrono>
 #include <cstddef>
@@ -38,8 +39,8 @@ class Timer {
  public:
   explicit Timer(Loop& loop);
   ~Timer();
-  /// In place of what it was started for before. Each `then` is called once: whether its time has come, or another start or `cancel` was
-  /// quicker.
+  /// In place of what it was started for before. Each `then` is called once: whether its time has come, or
+  /// another start or `cancel` was quicker.
   void start(std::chrono::steady_clock::duration after, std::function<void(bool due)> then);
   void cancel();
 
@@ -48,8 +49,9 @@ class Timer {
   std::shared_ptr<Impl> impl_;
 };
 
-/// The server's end of a connection: first one HTTP request, then, when it asks for that and is accepted, a WebSocket. One read and one
-/// write at a time. What is called back may hold the owner: then the connection lives as long as it has something to wait for.
+/// The server's end of a connection: first one HTTP request, then, when it asks for that and is accepted, a
+/// WebSocket. One read and one write at a time. What is called back may hold the owner: then the connection
+/// lives as long as it has something to wait for.
 class ServerEnd {
  public:
   enum class Outcome { good, gone, against_rules };  // gone: nothing that anybody is to blame for
@@ -87,7 +89,8 @@ class ServerEnd {
   void read(Done done);
   std::string_view message() const;  // that was read
   bool got_text() const;
-  /// One message. `more`: another one follows at once, so that this one may wait for it. Both parts have to stay until `done`.
+  /// One message. `more`: another one follows at once, so that this one may wait for it. Both parts have to
+  /// stay until `done`.
   void write(std::string_view head, std::string_view body, bool binary, bool more, Done done);
   /// Says good-bye. Instead of a write.
   void close(std::uint16_t code, const std::string& why, std::function<void()> done);

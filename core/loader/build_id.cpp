@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads ELF notes. Source: System V Application Binary Interface, chapter 5 "Note Section"; NT_GNU_BUILD_ID of <elf.h>.
+// Reads ELF notes. Source: System V Application Binary Interface, chapter 5 "Note Section"; NT_GNU_BUILD_ID
+// of <elf.h>.
 #include "core/loader/build_id.hpp"
 
 #include <elf.h>
@@ -33,9 +34,11 @@ std::string hex(std::span<const std::byte> bytes) {
 std::string build_id_in_notes(std::span<const std::byte> notes) {
   ElfW(Nhdr) note{};
   while (read_header(notes, 0, note)) {
-    const std::uint64_t name = sizeof note, content = name + padded(note.n_namesz), end = content + padded(note.n_descsz);
+    const std::uint64_t name = sizeof note, content = name + padded(note.n_namesz),
+                        end = content + padded(note.n_descsz);
     if (content + note.n_descsz > notes.size()) return "";
-    if (note.n_type == NT_GNU_BUILD_ID && note.n_namesz == note_owner.size() && std::memcmp(notes.data() + name, note_owner.data(), 4) == 0)
+    if (note.n_type == NT_GNU_BUILD_ID && note.n_namesz == note_owner.size() &&
+        std::memcmp(notes.data() + name, note_owner.data(), 4) == 0)
       return hex(notes.subspan(static_cast<std::size_t>(content), note.n_descsz));
     if (end > notes.size()) return "";
     notes = notes.subspan(static_cast<std::size_t>(end));
@@ -45,13 +48,17 @@ std::string build_id_in_notes(std::span<const std::byte> notes) {
 
 std::string build_id(std::span<const std::byte> file) {
   ElfW(Ehdr) header{};
-  if (!read_header(file, 0, header) || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0 || header.e_phentsize != sizeof(ElfW(Phdr))) return "";
+  if (!read_header(file, 0, header) || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0 ||
+      header.e_phentsize != sizeof(ElfW(Phdr)))
+    return "";
   for (std::uint64_t i = 0; i < header.e_phnum; ++i) {
     ElfW(Phdr) segment{};
     if (!read_header(file, header.e_phoff + i * sizeof segment, segment)) return "";
-    if (segment.p_type != PT_NOTE || segment.p_offset > file.size() || file.size() - segment.p_offset < segment.p_filesz) continue;
-    const std::string id =
-        build_id_in_notes(file.subspan(static_cast<std::size_t>(segment.p_offset), static_cast<std::size_t>(segment.p_filesz)));
+    if (segment.p_type != PT_NOTE || segment.p_offset > file.size() ||
+        file.size() - segment.p_offset < segment.p_filesz)
+      continue;
+    const std::string id = build_id_in_notes(
+        file.subspan(static_cast<std::size_t>(segment.p_offset), static_cast<std::size_t>(segment.p_filesz)));
     if (!id.empty()) return id;
   }
   return "";

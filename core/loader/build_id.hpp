@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The build id that the linker writes into a program or library: what a debugger and a crash report know a build by.
+// The build id that the linker writes into a program or library: what a debugger and a crash report know a
+// build by.
 #pragma once
 #include <cstddef>
 #include <span>

@@ -32,7 +32,8 @@ unsigned host_machine() {
 template <class Header, class Segment>
 std::uint64_t promised_bytes(std::span<const std::byte> bytes) {
   Header header{};
-  if (!read_header(bytes, 0, header) || header.e_phentsize != sizeof(Segment) || header.e_phnum == 0) return 0;
+  if (!read_header(bytes, 0, header) || header.e_phentsize != sizeof(Segment) || header.e_phnum == 0)
+    return 0;
   if (header.e_shoff > UINT64_MAX / 2) return 0;
   // the section headers usually come last: a copy that is still being written lacks them
   std::uint64_t end = header.e_shoff + std::uint64_t{header.e_shnum} * header.e_shentsize;
@@ -50,24 +51,15 @@ std::uint64_t promised_bytes(std::span<const std::byte> bytes) {
 
 std::string machine_name(unsigned machine) {
   switch (machine) {
-    case EM_X86_64:
-      return "x86_64";
-    case EM_386:
-      return "i386";
-    case EM_AARCH64:
-      return "aarch64";
-    case EM_ARM:
-      return "arm";
-    case EM_RISCV:
-      return "riscv";
-    case EM_PPC64:
-      return "ppc64";
-    case EM_S390:
-      return "s390";
-    case EM_MIPS:
-      return "mips";
-    default:
-      return "machine " + std::to_string(machine);
+    case EM_X86_64: return "x86_64";
+    case EM_386: return "i386";
+    case EM_AARCH64: return "aarch64";
+    case EM_ARM: return "arm";
+    case EM_RISCV: return "riscv";
+    case EM_PPC64: return "ppc64";
+    case EM_S390: return "s390";
+    case EM_MIPS: return "mips";
+    default: return "machine " + std::to_string(machine);
   }
 }
 
@@ -76,19 +68,23 @@ std::string elf_fault(std::span<const std::byte> bytes) {
     std::array<unsigned char, EI_NIDENT> ident;
     std::uint16_t type, machine;
   } start{};
-  if (bytes.size() < SELFMAG || std::memcmp(bytes.data(), ELFMAG, SELFMAG) != 0) return "is not a plugin: not an ELF shared object";
+  if (bytes.size() < SELFMAG || std::memcmp(bytes.data(), ELFMAG, SELFMAG) != 0)
+    return "is not a plugin: not an ELF shared object";
   if (!read_header(bytes, 0, start)) return "is not a plugin: its ELF header is cut off";
   if (start.ident[EI_DATA] != host_order)
-    start.machine = static_cast<std::uint16_t>(static_cast<unsigned>(start.machine) << 8 | start.machine >> 8);
+    start.machine =
+        static_cast<std::uint16_t>(static_cast<unsigned>(start.machine) << 8 | start.machine >> 8);
   if (start.machine != host_machine())
     return "is built for " + machine_name(start.machine) + ", this host is " + machine_name(host_machine());
-  if (start.ident[EI_DATA] != host_order || start.ident[EI_CLASS] != host_class) return "is built for another word size or byte order";
+  if (start.ident[EI_DATA] != host_order || start.ident[EI_CLASS] != host_class)
+    return "is built for another word size or byte order";
   if (start.type != ET_DYN) return "is not a plugin: an ELF file, but not a shared object";
-  const std::uint64_t needed =
-      host_class == ELFCLASS64 ? promised_bytes<Elf64_Ehdr, Elf64_Phdr>(bytes) : promised_bytes<Elf32_Ehdr, Elf32_Phdr>(bytes);
+  const std::uint64_t needed = host_class == ELFCLASS64 ? promised_bytes<Elf64_Ehdr, Elf64_Phdr>(bytes)
+                                                        : promised_bytes<Elf32_Ehdr, Elf32_Phdr>(bytes);
   if (needed == 0) return "is not a plugin: its ELF program headers are damaged or cut off";
   if (needed > bytes.size())
-    return "is cut off: its header promises " + std::to_string(needed) + " bytes, the file has " + std::to_string(bytes.size());
+    return "is cut off: its header promises " + std::to_string(needed) + " bytes, the file has " +
+           std::to_string(bytes.size());
   return "";
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A look at an ELF file's header, for a sentence that people understand before the system's loader sees the file. Nothing is executed.
+// A look at an ELF file's header, for a sentence that people understand before the system's loader sees the
+// file. Nothing is executed.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +10,8 @@
 
 namespace fulmar::core {
 
-/// Why `bytes` cannot be a plugin of this host: "is not a plugin: not an ELF shared object". "" when nothing speaks against it.
+/// Why `bytes` cannot be a plugin of this host: "is not a plugin: not an ELF shared object". "" when nothing
+/// speaks against it.
 std::string elf_fault(std::span<const std::byte> bytes);
 
 /// "x86_64", "aarch64", ... of an ELF machine number (System V ABI, e_machine).

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads a plugin's entry symbol: the ABI version first, then every component, port and parameter, none believed unchecked.
+// Reads a plugin's entry symbol: the ABI version first, then every component, port and parameter, none
+// believed unchecked.
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -14,11 +15,14 @@ constexpr std::uint32_t most_components = 256, most_ports = 256, most_params = 1
 constexpr std::uint32_t most_items = 1u << 16;      // of a queue, per step
 constexpr std::uint32_t longest_string = 1u << 16;  // bytes of a string parameter
 
-std::string version_text(std::uint32_t major, std::uint32_t minor) { return std::to_string(major) + "." + std::to_string(minor); }
+std::string version_text(std::uint32_t major, std::uint32_t minor) {
+  return std::to_string(major) + "." + std::to_string(minor);
+}
 
 std::string names(TableReader& tables, const char* at, const std::string& what) {
   std::string name = tables.text(at, what);
-  if (!is_identifier(name)) throw Error(what + " is '" + name + "': letters, digits and underscores are allowed");
+  if (!is_identifier(name))
+    throw Error(what + " is '" + name + "': letters, digits and underscores are allowed");
   return name;
 }
 
@@ -31,10 +35,12 @@ Port read_port(TableReader& tables, const fulmar_port& from, const std::string& 
   const std::string what = "port '" + port.name + "' of " + owner;
   if (!is_input(from.kind) && !is_output(from.kind))
     throw Error(what + " has kind " + std::to_string(from.kind) + ", which this host does not know");
-  if (is_input(from.kind) != input) throw Error(what + (input ? " is an output among the inputs" : " is an input among the outputs"));
+  if (is_input(from.kind) != input)
+    throw Error(what + (input ? " is an output among the inputs" : " is an input among the outputs"));
   port.kind = static_cast<fulmar_port_kind>(from.kind);
   port.optional = (from.flags & FULMAR_PORT_OPTIONAL) != 0;
-  const bool queue = port.kind == FULMAR_IN_QUEUE || port.kind == FULMAR_IN_REQUEST || port.kind == FULMAR_OUT_QUEUE;
+  const bool queue =
+      port.kind == FULMAR_IN_QUEUE || port.kind == FULMAR_IN_REQUEST || port.kind == FULMAR_OUT_QUEUE;
   if (queue && (from.capacity == 0 || from.capacity > most_items))
     throw Error(what + " is a queue with room for " + std::to_string(from.capacity) + " items");
   port.capacity = queue ? from.capacity : 1;
@@ -42,15 +48,17 @@ Port read_port(TableReader& tables, const fulmar_port& from, const std::string& 
   return port;
 }
 
-std::vector<Port> read_ports(TableReader& tables, const fulmar_port* from, std::uint32_t count, std::uint32_t stride,
-                             const std::string& owner, bool input) {
+std::vector<Port> read_ports(TableReader& tables, const fulmar_port* from, std::uint32_t count,
+                             std::uint32_t stride, const std::string& owner, bool input) {
   const std::string what = std::string(input ? "the inputs" : "the outputs") + " of " + owner;
-  if (count > most_ports) throw Error(what + " are " + std::to_string(count) + "; " + std::to_string(most_ports) + " is the limit");
+  if (count > most_ports)
+    throw Error(what + " are " + std::to_string(count) + "; " + std::to_string(most_ports) + " is the limit");
   std::vector<Port> ports;
   for (std::uint32_t i = 0; i < count; ++i) {
     Port port = read_port(tables, tables.element(from, stride, i, what), owner, input);
     for (const Port& other : ports)
-      if (other.name == port.name) throw Error(owner + " has two " + (input ? "inputs '" : "outputs '") + port.name + "'");
+      if (other.name == port.name)
+        throw Error(owner + " has two " + (input ? "inputs '" : "outputs '") + port.name + "'");
     ports.push_back(std::move(port));
   }
   return ports;
@@ -59,7 +67,8 @@ std::vector<Port> read_ports(TableReader& tables, const fulmar_port* from, std::
 void read_record(TableReader& tables, const fulmar_param& from, ParamInfo& param, const std::string& what) {
   param.initial_data.resize(param.type->size);
   if (from.initial_data == nullptr) return;
-  if (!tables.memory().readable(from.initial_data, param.type->size)) throw Error(what + ": the default lies outside the plugin's memory");
+  if (!tables.memory().readable(from.initial_data, param.type->size))
+    throw Error(what + ": the default lies outside the plugin's memory");
   std::memcpy(param.initial_data.data(), from.initial_data, param.type->size);
 }
 
@@ -74,14 +83,12 @@ void check_numbers(const ParamInfo& param, const std::string& what) {
 
 void read_kind(TableReader& tables, const fulmar_param& from, ParamInfo& param, const std::string& what) {
   switch (param.kind) {
-    case FULMAR_VECTOR:
-      param.type = tables.type(from.type, what);
-      [[fallthrough]];
+    case FULMAR_VECTOR: param.type = tables.type(from.type, what); [[fallthrough]];
     case FULMAR_NUMBER:
-    case FULMAR_COUNT:
-      return check_numbers(param, what);
+    case FULMAR_COUNT: return check_numbers(param, what);
     case FULMAR_FLAG:
-      if (param.initial[0] != 0 && param.initial[0] != 1) throw Error(what + " has a default that is neither 0 nor 1");
+      if (param.initial[0] != 0 && param.initial[0] != 1)
+        throw Error(what + " has a default that is neither 0 nor 1");
       return;
     case FULMAR_CHOICE:
       if (from.choice_count == 0 || from.choice_count > most_choices)
@@ -93,13 +100,13 @@ void read_kind(TableReader& tables, const fulmar_param& from, ParamInfo& param, 
     case FULMAR_STRING:
       param.initial_text = tables.text(from.initial_text, what + ": the default");
       if (param.capacity > longest_string || param.initial_text.size() >= param.capacity)
-        throw Error(what + " has a default that does not fit into " + std::to_string(param.capacity) + " bytes");
+        throw Error(what + " has a default that does not fit into " + std::to_string(param.capacity) +
+                    " bytes");
       return;
     case FULMAR_RECORD:
       param.type = tables.type(from.type, what);
       return read_record(tables, from, param, what);
-    case FULMAR_BLOB:
-      return;
+    case FULMAR_BLOB: return;
   }
 }
 
@@ -123,7 +130,8 @@ ParamInfo read_param(TableReader& tables, const fulmar_param& from, const std::s
 }
 
 template <class Function>
-void check_function(const TableReader& tables, Function* function, bool needed, const char* name, const std::string& owner) {
+void check_function(const TableReader& tables, Function* function, bool needed, const char* name,
+                    const std::string& owner) {
   if (function == nullptr) {
     if (needed) throw Error(owner + " lacks the function " + name);
     return;
@@ -132,7 +140,8 @@ void check_function(const TableReader& tables, Function* function, bool needed, 
     throw Error("the function " + std::string(name) + " of " + owner + " lies outside the plugin's code");
 }
 
-void check_functions(const TableReader& tables, const fulmar_component& from, const ComponentInfo& info, const std::string& owner) {
+void check_functions(const TableReader& tables, const fulmar_component& from, const ComponentInfo& info,
+                     const std::string& owner) {
   check_function(tables, from.create, true, "create", owner);
   check_function(tables, from.destroy, true, "destroy", owner);
   check_function(tables, from.configure, true, "configure", owner);
@@ -157,9 +166,11 @@ ComponentInfo read_component(TableReader& tables, const fulmar_component& from) 
   info.inputs = read_ports(tables, from.inputs, from.input_count, from.port_stride, owner, true);
   info.outputs = read_ports(tables, from.outputs, from.output_count, from.port_stride, owner, false);
   if (from.param_count > most_params)
-    throw Error(owner + " has " + std::to_string(from.param_count) + " parameters; " + std::to_string(most_params) + " is the limit");
+    throw Error(owner + " has " + std::to_string(from.param_count) + " parameters; " +
+                std::to_string(most_params) + " is the limit");
   for (std::uint32_t i = 0; i < from.param_count; ++i) {
-    ParamInfo param = read_param(tables, tables.element(from.params, from.param_stride, i, "the parameters of " + owner), owner);
+    ParamInfo param = read_param(
+        tables, tables.element(from.params, from.param_stride, i, "the parameters of " + owner), owner);
     if (info.param(param.name) >= 0) throw Error(owner + " has two parameters '" + param.name + "'");
     info.params.push_back(std::move(param));
   }
@@ -181,7 +192,8 @@ void read_plugin(TableReader& tables, const fulmar_plugin& entry, PluginInfo& in
     throw Error("it has " + std::to_string(entry.component_count) + " components");
   check_script_functions(tables, entry);
   for (std::uint32_t i = 0; i < entry.component_count; ++i) {
-    ComponentInfo component = read_component(tables, tables.element(entry.components, entry.component_stride, i, "the components"));
+    ComponentInfo component =
+        read_component(tables, tables.element(entry.components, entry.component_stride, i, "the components"));
     for (const ComponentInfo& other : info.components)
       if (other.name == component.name) throw Error("it has two components '" + component.name + "'");
     info.components.push_back(std::move(component));
@@ -194,12 +206,13 @@ PluginInfo read_entry(const fulmar_plugin& entry, const std::string& file_name) 
   PluginInfo info;
   info.file = file_name;
   TableReader tables;
-  if (!tables.memory().readable(&entry, 2 * sizeof(std::uint32_t))) throw Error(file_name + ": its entry lies outside its memory");
+  if (!tables.memory().readable(&entry, 2 * sizeof(std::uint32_t)))
+    throw Error(file_name + ": its entry lies outside its memory");
   info.abi_major = entry.abi_major;
   info.abi_minor = entry.abi_minor;
   if (info.abi_major != FULMAR_ABI_MAJOR)
-    throw Error(file_name + " is built for ABI " + version_text(info.abi_major, info.abi_minor) + ", this host speaks " +
-                version_text(FULMAR_ABI_MAJOR, FULMAR_ABI_MINOR));
+    throw Error(file_name + " is built for ABI " + version_text(info.abi_major, info.abi_minor) +
+                ", this host speaks " + version_text(FULMAR_ABI_MAJOR, FULMAR_ABI_MINOR));
   const std::size_t size = info.abi_minor >= 1 ? sizeof entry : offsetof(fulmar_plugin, open_script);
   if (!tables.memory().readable(&entry, size)) throw Error(file_name + ": its entry lies outside its memory");
   fulmar_plugin copy{};  // a compiler may read all of what a reference refers to: an older entry ends earlier

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The floating-point mode of the calling thread. A library linked with -ffast-math switches denormals off when it is loaded; the host
-// restores the mode around every load, and the probing child refuses such a library.
+// The floating-point mode of the calling thread. A library linked with -ffast-math switches denormals off
+// when it is loaded; the host restores the mode around every load, and the probing child refuses such a
+// library.
 #pragma once
 #include <cfenv>
 #include <limits>
@@ -34,7 +35,8 @@ struct FloatMode {
   }
 
   static FloatMode now() {
-    volatile double smallest = std::numeric_limits<double>::denorm_min(), normal = std::numeric_limits<double>::min(), half = 0.5;
+    volatile double smallest = std::numeric_limits<double>::denorm_min(),
+                    normal = std::numeric_limits<double>::min(), half = 0.5;
     volatile long double one = 1, little = std::numeric_limits<long double>::epsilon();
     const volatile double doubled = smallest * (4 * half), halved = normal * half;
     const volatile long double sum = one + little;

@@ -14,7 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 
 void add(std::vector<fs::path>& folders, const fs::path& folder) {
-  if (!folder.empty() && std::find(folders.begin(), folders.end(), folder) == folders.end()) folders.push_back(folder);
+  if (!folder.empty() && std::find(folders.begin(), folders.end(), folder) == folders.end())
+    folders.push_back(folder);
 }
 
 fs::path running_program() {
@@ -26,7 +27,8 @@ fs::path running_program() {
 // The file that holds this function: the program, or a module of another program.
 fs::path own_file() {
   Dl_info info{};
-  if (::dladdr(reinterpret_cast<const void*>(&home_folders), &info) == 0 || info.dli_fname == nullptr) return {};
+  if (::dladdr(reinterpret_cast<const void*>(&home_folders), &info) == 0 || info.dli_fname == nullptr)
+    return {};
   std::error_code fault;
   const fs::path file = fs::canonical(info.dli_fname, fault);
   return fault ? fs::path() : file;

@@ -7,10 +7,12 @@
 
 namespace fulmar::core {
 
-/// That of the running program first; then, when the host is a library inside another program, that of the library.
+/// That of the running program first; then, when the host is a library inside another program, that of the
+/// library.
 std::vector<std::filesystem::path> home_folders();
 
-/// A program that belongs to the host, "fulmar-probe": beside the running program, or in bin/ of a home folder. Empty when it is missing.
+/// A program that belongs to the host, "fulmar-probe": beside the running program, or in bin/ of a home
+/// folder. Empty when it is missing.
 std::filesystem::path own_program(const std::string& name);
 
 /// The folders of FULMAR_PLUGIN_PATH (separated by ':'), then lib/fulmar of each home folder.

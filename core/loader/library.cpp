@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Opens a plugin: file -> ELF header -> private copy -> probing child -> this process. What can go wrong is refused at the earliest of
-// these.
+// Opens a plugin: file -> ELF header -> private copy -> probing child -> this process. What can go wrong is
+// refused at the earliest of these.
 #include "core/loader/library.hpp"
 
 #include <cerrno>
@@ -44,7 +44,8 @@ std::vector<std::byte> read_file(const fs::path& file, const std::string& name) 
   std::error_code fault;
   const fs::file_status status = fs::status(file, fault);
   if (!fs::exists(status)) throw Error(name + " does not exist: no file " + file.string());
-  if (!fs::is_regular_file(status)) throw Error(name + " is not a plugin: " + file.string() + " is not a regular file");
+  if (!fs::is_regular_file(status))
+    throw Error(name + " is not a plugin: " + file.string() + " is not a regular file");
   const std::uintmax_t size = fs::file_size(file, fault);
   if (fault || size > largest) throw Error(name + " is not a plugin: it is larger than 1 GiB");
   std::vector<std::byte> bytes(static_cast<std::size_t>(size));
@@ -55,9 +56,10 @@ std::vector<std::byte> read_file(const fs::path& file, const std::string& name) 
   return bytes;
 }
 
-// Throws unless a child has loaded it. `host`: of a script, the copy of the plugin that opens it; `file`: where the author keeps it.
-void try_in_child(const fs::path& copy, const std::string& key, const std::string& name, const fs::path& host = {},
-                  const fs::path& file = {}) {
+// Throws unless a child has loaded it. `host`: of a script, the copy of the plugin that opens it; `file`:
+// where the author keeps it.
+void try_in_child(const fs::path& copy, const std::string& key, const std::string& name,
+                  const fs::path& host = {}, const fs::path& file = {}) {
   if (registry().probed.count(key) > 0) return;
   const std::string fault = host.empty() ? probe(copy, name) : probe(host, name, {copy, file});
   if (!fault.empty()) {
@@ -73,7 +75,7 @@ void try_in_child(const fs::path& copy, const std::string& key, const std::strin
 struct Library::Handle {
   SharedObject file;
   const fulmar_plugin* plugin = nullptr;  // of the file
-  std::shared_ptr<Library> host;  // of a script, which is closed before its host
+  std::shared_ptr<Library> host;          // of a script, which is closed before its host
   std::unique_ptr<Script> script;
   std::vector<fulmar_component> functions;
 
@@ -135,7 +137,8 @@ fs::path Library::host_of(const fs::path& script) {
     if (fs::is_regular_file(folder / file, fault)) return folder / file;
     searched.push_back(folder.string());
   }
-  throw Error(script.filename().string() + " needs the plugin " + language + ", which is not there. Searched in " + join(searched) +
+  throw Error(script.filename().string() + " needs the plugin " + language +
+              ", which is not there. Searched in " + join(searched) +
               ". It is built where the development packages of the language are installed.");
 }
 
@@ -147,7 +150,8 @@ std::shared_ptr<Library> Library::open_script(const fs::path& file, const Expect
   const std::shared_ptr<Library> host = open(host_of(file));
   std::error_code fault;
   const fs::path place = fs::absolute(file, fault);
-  const std::string key = sha256 + " " + place.string();  // the place too: a script may load what lies beside it
+  const std::string key =
+      sha256 + " " + place.string();  // the place too: a script may load what lies beside it
   const std::lock_guard lock(registry().mutex);
   if (auto known = registry().loaded[key].lock()) return known;
   const std::shared_ptr<Library> library(new Library);
@@ -182,11 +186,14 @@ void Library::unload(std::shared_ptr<Library>&& library) {
   registry().loaded.erase(last->key_);
   const bool script = last->handle_->script != nullptr, hosts = !script && last->handle_->hosts_scripts();
   last->handle_->close();
-  if (script || hosts) return;  // an interpreter cannot be unloaded; what a script has given back, it frees itself
+  if (script || hosts)
+    return;  // an interpreter cannot be unloaded; what a script has given back, it frees itself
   for (const ComponentInfo& component : last->info_.components)
     if (component.resident) return;  // it says so itself, and is swapped by its own means
   if (is_mapped(last->copy_))
-    throw Error(name + " is still resident after unloading (a unique symbol or a thread-local destructor keeps it); restart the host");
+    throw Error(name +
+                " is still resident after unloading (a unique symbol or a thread-local destructor keeps it); "
+                "restart the host");
 }
 
 }  // namespace fulmar::core

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Opens plugin files: probed in a child process, loaded from a private content-addressed copy, unloaded for certain.
+// Opens plugin files: probed in a child process, loaded from a private content-addressed copy, unloaded for
+// certain.
 #pragma once
 #include <filesystem>
 #include <memory>
@@ -10,7 +11,8 @@
 
 namespace fulmar::core {
 
-/// The content that a mission lists for a file: SHA-256 in hex, and where they are listed. Without any, every content will do.
+/// The content that a mission lists for a file: SHA-256 in hex, and where they are listed. Without any, every
+/// content will do.
 struct Expected {
   std::vector<std::string> sha256;
   std::string where;
@@ -22,9 +24,10 @@ void check_content(const Expected& expected, const std::string& name, const std:
 /// A loaded plugin. The last owner unloads it; the host verifies that it is gone.
 class Library {
  public:
-  /// Probes and loads `file`. Throws Error with a sentence: no such file, not a plugin, wrong ABI, wrong architecture, missing dependency,
-  /// unknown port kind, contradictory table, floating-point flags, crash or time-out in the probing child. Content that is not expected is
-  /// refused before anything looks into it. A script is opened by the plugin that hosts its language, found by host_of.
+  /// Probes and loads `file`. Throws Error with a sentence: no such file, not a plugin, wrong ABI, wrong
+  /// architecture, missing dependency, unknown port kind, contradictory table, floating-point flags, crash or
+  /// time-out in the probing child. Content that is not expected is refused before anything looks into it. A
+  /// script is opened by the plugin that hosts its language, found by host_of.
   static std::shared_ptr<Library> open(const std::filesystem::path& file, const Expected& expected = {});
   /// The plugin file that hosts the language of a script. Throws Error when there is none.
   static std::filesystem::path host_of(const std::filesystem::path& script);
@@ -38,7 +41,8 @@ class Library {
   /// Where the private copy lies (debuggers want to know).
   const std::filesystem::path& copy() const { return copy_; }
 
-  /// Unloads now, when nobody else holds it. Throws Error "... is still resident after unloading" if code stays mapped.
+  /// Unloads now, when nobody else holds it. Throws Error "... is still resident after unloading" if code
+  /// stays mapped.
   static void unload(std::shared_ptr<Library>&& library);
 
  private:

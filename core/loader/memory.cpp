@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What this process can read and execute. Format of /proc/self/maps: proc(5), "begin-end perms ...", ascending.
+// What this process can read and execute. Format of /proc/self/maps: proc(5), "begin-end perms ...",
+// ascending.
 #include "core/loader/memory.hpp"
 
 #include <algorithm>
@@ -21,7 +22,8 @@ Memory::Memory() {
     at_start = std::strchr(line, '\n') != nullptr;  // a long path comes in several pieces
     std::uintptr_t begin = 0, end = 0;
     char perms[5] = "";
-    if (!begins_line || std::sscanf(line, "%" SCNxPTR "-%" SCNxPTR " %4s", &begin, &end, perms) != 3) continue;
+    if (!begins_line || std::sscanf(line, "%" SCNxPTR "-%" SCNxPTR " %4s", &begin, &end, perms) != 3)
+      continue;
     if (perms[0] == 'r') append(readable_, {begin, end});
     if (perms[2] == 'x') append(executable_, {begin, end});
     known_ = true;
@@ -41,7 +43,8 @@ bool Memory::covered(const std::vector<Range>& ranges, const void* at, std::size
   const auto begin = reinterpret_cast<std::uintptr_t>(at);
   if (begin == 0) return false;
   if (!known_) return true;
-  const auto after = std::upper_bound(ranges.begin(), ranges.end(), begin, [](std::uintptr_t x, const Range& r) { return x < r.begin; });
+  const auto after = std::upper_bound(ranges.begin(), ranges.end(), begin,
+                                      [](std::uintptr_t x, const Range& r) { return x < r.begin; });
   if (after == ranges.begin()) return false;
   const Range& range = *(after - 1);
   return begin < range.end && size <= range.end - begin;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What this process can read and execute, from /proc/self/maps: a damaged plugin's tables are refused, not followed into a crash.
+// What this process can read and execute, from /proc/self/maps: a damaged plugin's tables are refused, not
+// followed into a crash.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +16,8 @@ class Memory {
   bool readable(const void* at, std::size_t size) const { return covered(readable_, at, size); }
   bool executable(const void* at) const { return covered(executable_, at, 1); }
 
-  /// The NUL-terminated text at `at`. Throws Error naming `what` when it is null, outside the memory or longer than 4095 bytes.
+  /// The NUL-terminated text at `at`. Throws Error naming `what` when it is null, outside the memory or
+  /// longer than 4095 bytes.
   std::string text(const char* at, const std::string& what) const;
 
  private:

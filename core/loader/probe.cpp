@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Spawns fulmar-probe (never forks: the host has threads), reads its report through a pipe and keeps the time limit.
+// Spawns fulmar-probe (never forks: the host has threads), reads its report through a pipe and keeps the time
+// limit.
 #include "core/loader/probe.hpp"
 
 #include <fcntl.h>
@@ -35,7 +36,8 @@ fs::path probe_program() {
   if (const char* chosen = std::getenv("FULMAR_PROBE"); chosen != nullptr && *chosen != '\0') return chosen;
   if (const fs::path program = own_program("fulmar-probe"); !program.empty()) return program;
   std::error_code fault;
-  throw Error("the program fulmar-probe is missing beside " + fs::read_symlink("/proc/self/exe", fault).filename().string() +
+  throw Error("the program fulmar-probe is missing beside " +
+              fs::read_symlink("/proc/self/exe", fault).filename().string() +
               ": plugins cannot be tried before they are loaded.");
 }
 
@@ -52,14 +54,16 @@ struct Child {
 
 Child spawn(const fs::path& program, std::vector<std::string> words) {
   int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0) throw Error("cannot make a pipe: " + std::string(std::strerror(errno)) + ".");
+  if (::pipe2(ends, O_CLOEXEC) != 0)
+    throw Error("cannot make a pipe: " + std::string(std::strerror(errno)) + ".");
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_adddup2(&files, ends[1], STDOUT_FILENO);
   posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
 #if __GLIBC_PREREQ(2, 34)
-  posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);  // serial ports and sockets are none of its business
+  posix_spawn_file_actions_addclosefrom_np(
+      &files, STDERR_FILENO + 1);  // serial ports and sockets are none of its business
 #endif
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
@@ -69,12 +73,14 @@ Child spawn(const fs::path& program, std::vector<std::string> words) {
   posix_spawnattr_setsigmask(&attributes, &none);
   posix_spawnattr_setsigdefault(&attributes, &all);
   posix_spawnattr_setpgroup(&attributes, 0);  // its own group, so that its children can be stopped with it
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+  posix_spawnattr_setflags(&attributes,
+                           POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   Child child;
-  const int fault = ::posix_spawn(&child.pid, program.c_str(), &files, &attributes, arguments.data(), environ);
+  const int fault =
+      ::posix_spawn(&child.pid, program.c_str(), &files, &attributes, arguments.data(), environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&files);
   ::close(ends[1]);
@@ -103,7 +109,8 @@ bool read_some(int pipe, std::string& report) {
 
 Outcome watch(const Child& child, double limit_s) {
   Outcome outcome;
-  const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limit_s));
+  const auto deadline =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limit_s));
   ::fcntl(child.report, F_SETFL, O_NONBLOCK);
   bool open = true;
   while (Clock::now() < deadline) {
@@ -142,18 +149,21 @@ std::string probe(const fs::path& copy, const std::string& name, const ProbedScr
     return name + " did not finish " + doing + " within " + number_text(limit_s) + " s";
   }
   if (WIFSIGNALED(outcome.status))
-    return name + " crashed while being " + stage + " (signal " + std::to_string(WTERMSIG(outcome.status)) + ")";
+    return name + " crashed while being " + stage + " (signal " + std::to_string(WTERMSIG(outcome.status)) +
+           ")";
   if (const std::size_t at = report.find(report_fault); at != std::string::npos) {
     const std::size_t begin = at + report_fault.size();
     return report.substr(begin, report.find('\n', begin) - begin);
   }
   if (said(report_good) && WEXITSTATUS(outcome.status) == 0) return "";
-  return name + " ended the process while being " + stage + " (exit code " + std::to_string(WEXITSTATUS(outcome.status)) + ")";
+  return name + " ended the process while being " + stage + " (exit code " +
+         std::to_string(WEXITSTATUS(outcome.status)) + ")";
 }
 
 bool stays_mapped(const fs::path& copy) {
   const fs::path program = probe_program();
-  const Outcome outcome = watch(spawn(program, {program.string(), copy.string(), copy.filename().string()}), time_limit_s());
+  const Outcome outcome =
+      watch(spawn(program, {program.string(), copy.string(), copy.filename().string()}), time_limit_s());
   return outcome.report.find(report_stays) != std::string::npos;
 }
 

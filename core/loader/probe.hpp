@@ -11,12 +11,15 @@ struct ProbedScript {
   std::filesystem::path copy, file;
 };
 
-/// What is wrong with the plugin at `copy`, in a sentence that begins with `name`. "" when a child has loaded, read and unloaded it.
-/// With a script, `copy` is the plugin that hosts its language, and the script is what is tried.
-/// The time limit is 5 s, or FULMAR_PROBE_SECONDS. Throws Error when the program fulmar-probe is missing.
-std::string probe(const std::filesystem::path& copy, const std::string& name, const ProbedScript& script = {});
+/// What is wrong with the plugin at `copy`, in a sentence that begins with `name`. "" when a child has
+/// loaded, read and unloaded it. With a script, `copy` is the plugin that hosts its language, and the script
+/// is what is tried. The time limit is 5 s, or FULMAR_PROBE_SECONDS. Throws Error when the program
+/// fulmar-probe is missing.
+std::string probe(const std::filesystem::path& copy, const std::string& name,
+                  const ProbedScript& script = {});
 
-/// Whether a plugin that can be loaded stays in the process after it is closed: what takes its place would run its code. Tried in a child.
+/// Whether a plugin that can be loaded stays in the process after it is closed: what takes its place would
+/// run its code. Tried in a child.
 bool stays_mapped(const std::filesystem::path& copy);
 
 }  // namespace fulmar::core

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What fulmar-probe tells the host, one line each. Lines of an exit without `report_good` mean that the plugin ended the process.
+// What fulmar-probe tells the host, one line each. Lines of an exit without `report_good` mean that the
+// plugin ended the process.
 #pragma once
 #include <string_view>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A file in another language, opened by the plugin that hosts that language. Links the C library alone: children open scripts too.
+// A file in another language, opened by the plugin that hosts that language. Links the C library alone:
+// children open scripts too.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -14,8 +15,8 @@ std::string script_host(const std::filesystem::path& file);
 /// A script that is open. Closed with the object, which the hosting plugin outlives.
 class Script {
  public:
-  /// `host` is the entry of the hosting plugin. `text` is what is run; `file`, where the author keeps it, is for messages and for what the
-  /// script itself loads from beside it. Throws Error with a sentence.
+  /// `host` is the entry of the hosting plugin. `text` is what is run; `file`, where the author keeps it, is
+  /// for messages and for what the script itself loads from beside it. Throws Error with a sentence.
   Script(const fulmar_plugin& host, const std::string& file, const std::string& text);
   ~Script();
   Script(const Script&) = delete;

@@ -35,7 +35,8 @@ void SharedObject::unload() { impl_->file.unload(); }
 bool is_mapped(const std::filesystem::path& file) {
   boost::dll::shared_library open;
   boost::dll::fs::error_code fault;
-  open.load(file, static_cast<type>(RTLD_LAZY | RTLD_NOLOAD), fault);  // Boost.DLL passes on a mode that it does not name
+  open.load(file, static_cast<type>(RTLD_LAZY | RTLD_NOLOAD),
+            fault);  // Boost.DLL passes on a mode that it does not name
   return !fault;
 }
 

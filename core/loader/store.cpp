@@ -25,22 +25,27 @@ namespace fs = std::filesystem;
 constexpr std::size_t most_copies = 128;            // the least recently used go
 constexpr const char* suffixes[] = {".so", ".py"};  // of what is kept
 
-// Throws when the folder belongs to somebody else or others may put files there: they could swap the code between check and load.
+// Throws when the folder belongs to somebody else or others may put files there: they could swap the code
+// between check and load.
 void check_private(const fs::path& folder) {
   struct stat info {};
   if (::lstat(folder.c_str(), &info) != 0 || !S_ISDIR(info.st_mode))
     throw Error("the plugin store " + folder.string() + " is not a folder.");
   if (info.st_uid != ::geteuid())
-    throw Error("the plugin store " + folder.string() + " belongs to another user; set FULMAR_STORE to a folder of your own.");
+    throw Error("the plugin store " + folder.string() +
+                " belongs to another user; set FULMAR_STORE to a folder of your own.");
   if ((info.st_mode & (S_IWGRP | S_IWOTH)) != 0)
-    throw Error("the plugin store " + folder.string() + " is writable by others; chmod 700 it, or set FULMAR_STORE to another folder.");
+    throw Error("the plugin store " + folder.string() +
+                " is writable by others; chmod 700 it, or set FULMAR_STORE to another folder.");
 }
 
 // Makes the folder with mode 0700 unless it is there. False when that is impossible.
 bool make_private(const fs::path& folder) {
   std::error_code fault;
   if (fs::exists(folder, fault)) return true;
-  if (folder.has_parent_path() && !fs::exists(folder.parent_path(), fault) && !make_private(folder.parent_path())) return false;
+  if (folder.has_parent_path() && !fs::exists(folder.parent_path(), fault) &&
+      !make_private(folder.parent_path()))
+    return false;
   return ::mkdir(folder.c_str(), 0700) == 0 || errno == EEXIST;
 }
 
@@ -68,11 +73,16 @@ std::string environment(const char* name) {
 
 fs::path store_folder() {
   if (const std::string chosen = environment("FULMAR_STORE"); !chosen.empty()) {
-    if (!make_private(chosen)) throw Error("the plugin store " + chosen + " (FULMAR_STORE) cannot be made: " + std::strerror(errno) + ".");
+    if (!make_private(chosen))
+      throw Error("the plugin store " + chosen + " (FULMAR_STORE) cannot be made: " + std::strerror(errno) +
+                  ".");
     return chosen;
   }
   const std::string cache = environment("XDG_CACHE_HOME"), home = environment("HOME");
-  if (const fs::path root = !cache.empty() ? fs::path(cache) : home.empty() ? fs::path() : fs::path(home) / ".cache"; root.is_absolute()) {
+  if (const fs::path root = !cache.empty() ? fs::path(cache)
+                            : home.empty() ? fs::path()
+                                           : fs::path(home) / ".cache";
+      root.is_absolute()) {
     const fs::path folder = root / "fulmar" / "plugins";
     if (make_private(folder) && ::access(folder.c_str(), W_OK) == 0) return folder;
   }
@@ -93,7 +103,9 @@ void write_all(int file, std::span<const std::byte> bytes, const fs::path& path)
 void write_copy(const fs::path& path, std::span<const std::byte> bytes) {
   std::string name = path.string() + ".XXXXXX";
   const int file = ::mkostemp(name.data(), O_CLOEXEC);
-  if (file < 0) throw Error("cannot write into the plugin store " + path.parent_path().string() + ": " + std::strerror(errno) + ".");
+  if (file < 0)
+    throw Error("cannot write into the plugin store " + path.parent_path().string() + ": " +
+                std::strerror(errno) + ".");
   try {
     write_all(file, bytes, path);
     if (::fchmod(file, 0400) != 0 || ::rename(name.c_str(), path.c_str()) != 0)
@@ -106,9 +118,13 @@ void write_copy(const fs::path& path, std::span<const std::byte> bytes) {
   ::close(file);
 }
 
-bool is_suffix(const std::string& text) { return std::find(std::begin(suffixes), std::end(suffixes), text) != std::end(suffixes); }
+bool is_suffix(const std::string& text) {
+  return std::find(std::begin(suffixes), std::end(suffixes), text) != std::end(suffixes);
+}
 
-bool is_sha256(const std::string& text) { return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos; }
+bool is_sha256(const std::string& text) {
+  return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
 
 bool holds(const fs::path& copy, const std::string& sha256) {
   std::error_code fault;
@@ -122,7 +138,8 @@ void prune(const fs::path& folder) {
   std::error_code fault;
   std::vector<std::pair<fs::file_time_type, fs::path>> copies;
   for (const auto& entry : fs::directory_iterator(folder, fault))
-    if (is_suffix(entry.path().extension().string())) copies.emplace_back(entry.last_write_time(fault), entry.path());
+    if (is_suffix(entry.path().extension().string()))
+      copies.emplace_back(entry.last_write_time(fault), entry.path());
   if (copies.size() <= most_copies) return;
   std::sort(copies.begin(), copies.end());
   for (std::size_t i = 0; i + most_copies < copies.size(); ++i) fs::remove(copies[i].second, fault);
@@ -133,7 +150,8 @@ void prune(const fs::path& folder) {
 std::string sha256_hex(const void* data, std::size_t size) {
   unsigned char digest[EVP_MAX_MD_SIZE];
   unsigned length = 0;
-  if (EVP_Digest(data, size, digest, &length, EVP_sha256(), nullptr) != 1) throw Error("SHA-256 is not available.");
+  if (EVP_Digest(data, size, digest, &length, EVP_sha256(), nullptr) != 1)
+    throw Error("SHA-256 is not available.");
   std::string hex;
   for (unsigned i = 0; i < length; ++i) {
     hex += "0123456789abcdef"[digest[i] >> 4];
@@ -155,7 +173,8 @@ void check_content(const Expected& expected, const std::string& name, const std:
   if (expected.sha256.empty()) return;
   if (std::find(expected.sha256.begin(), expected.sha256.end(), sha256) != expected.sha256.end()) return;
   throw Error(name + " has the SHA-256 " + sha256 + ", but " + join(expected.sha256) + " is listed" +
-              (expected.where.empty() ? "" : " in " + expected.where) + "; a file that was changed or built anew is listed anew");
+              (expected.where.empty() ? "" : " in " + expected.where) +
+              "; a file that was changed or built anew is listed anew");
 }
 
 fs::path keep_copy(std::span<const std::byte> bytes, const std::string& sha256, const std::string& suffix) {
@@ -188,7 +207,8 @@ std::optional<fs::path> find_in_store(const std::string& sha256) {
 
 fs::path version_that_flew(const std::string& file, const std::string& version, const std::string& sha256) {
   if (const auto copy = find_in_store(sha256)) return *copy;
-  throw Error(file + " " + version + " with SHA-256 " + sha256 + " flew, but the plugin store " + store_folder().string() +
+  throw Error(file + " " + version + " with SHA-256 " + sha256 + " flew, but the plugin store " +
+              store_folder().string() +
               " no longer holds it; put that file back, or choose another with --with");
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The host's own copy of a type table, and the checks that make everything built on it safe: fields inside the struct, aligned, no overlap.
+// The host's own copy of a type table, and the checks that make everything built on it safe: fields inside
+// the struct, aligned, no overlap.
 #include "core/loader/table.hpp"
 
 #include <bit>
@@ -13,7 +14,8 @@ constexpr std::uint32_t most_fields = 1024;  // of one struct
 constexpr std::uint32_t largest_struct = 1u << 26;
 constexpr std::uint32_t most_labels = 256;  // an enum is one byte
 
-// FNV-1a, 64 bit (Fowler, Noll, Vo), with the finalizer of MurmurHash3 (Appleby): FNV alone leaves the high bits of short inputs poor.
+// FNV-1a, 64 bit (Fowler, Noll, Vo), with the finalizer of MurmurHash3 (Appleby): FNV alone leaves the high
+// bits of short inputs poor.
 class Hash {
  public:
   void bytes(const void* data, std::size_t size) {
@@ -21,7 +23,8 @@ class Hash {
     for (std::size_t i = 0; i < size; ++i) value_ = (value_ ^ at[i]) * 0x100000001b3u;
   }
   void number(std::uint64_t x) {
-    for (unsigned shift = 0; shift < 64; shift += 8) value_ = (value_ ^ ((x >> shift) & 0xffu)) * 0x100000001b3u;
+    for (unsigned shift = 0; shift < 64; shift += 8)
+      value_ = (value_ ^ ((x >> shift) & 0xffu)) * 0x100000001b3u;
   }
   void text(const std::string& s) {
     number(s.size());
@@ -48,8 +51,9 @@ std::uint64_t hash_of(const Type& type) {
   for (const Field& field : type.fields) {
     hash.text(field.name);
     hash.text(field.unit);
-    for (const std::uint32_t x : {static_cast<std::uint32_t>(field.kind), static_cast<std::uint32_t>(field.shape), field.offset,
-                                  field.count, field.stride, field.items})
+    for (const std::uint32_t x :
+         {static_cast<std::uint32_t>(field.kind), static_cast<std::uint32_t>(field.shape), field.offset,
+          field.count, field.stride, field.items})
       hash.number(x);
     hash.number(std::bit_cast<std::uint64_t>(field.min));
     hash.number(std::bit_cast<std::uint64_t>(field.max));
@@ -68,9 +72,11 @@ std::uint32_t alignment(const Field& field) {
 void check_layout(const Field& field, const std::string& what) {
   const std::uint32_t size = element_size(field);
   if (field.count == 0) throw Error(what + " has room for no element");
-  if (field.shape == FULMAR_SCALAR && field.count != 1) throw Error(what + " is one value and counts " + std::to_string(field.count));
+  if (field.shape == FULMAR_SCALAR && field.count != 1)
+    throw Error(what + " is one value and counts " + std::to_string(field.count));
   if (field.stride < size || size == 0) throw Error(what + " has elements that overlap");
-  if (field.shape == FULMAR_LIST && field.items < sizeof(std::uint32_t)) throw Error(what + " has items that overlap its count");
+  if (field.shape == FULMAR_LIST && field.items < sizeof(std::uint32_t))
+    throw Error(what + " has items that overlap its count");
   const std::uint32_t align = alignment(field);
   const bool count_aligned = field.shape != FULMAR_LIST || field.offset % alignof(std::uint32_t) == 0;
   const std::uint64_t first = std::uint64_t{field.offset} + (field.shape == FULMAR_LIST ? field.items : 0);
@@ -79,15 +85,18 @@ void check_layout(const Field& field, const std::string& what) {
 }
 
 void check_struct(const Type& type, const std::string& what) {
-  if (type.size == 0 || type.size > largest_struct) throw Error(what + " has a size of " + std::to_string(type.size) + " bytes");
+  if (type.size == 0 || type.size > largest_struct)
+    throw Error(what + " has a size of " + std::to_string(type.size) + " bytes");
   if (!std::has_single_bit(type.align) || type.align > 64 || type.size % type.align != 0)
-    throw Error(what + " has an alignment of " + std::to_string(type.align) + " and a size of " + std::to_string(type.size));
+    throw Error(what + " has an alignment of " + std::to_string(type.align) + " and a size of " +
+                std::to_string(type.size));
   std::vector<const Field*> order;
   for (const Field& field : type.fields) order.push_back(&field);
   std::sort(order.begin(), order.end(), [](const Field* a, const Field* b) { return a->offset < b->offset; });
   for (std::size_t i = 0; i < order.size(); ++i) {
     const Field& field = *order[i];
-    if (field.offset + field_span(field) > type.size) throw Error(what + ": field '" + field.name + "' reaches beyond the struct");
+    if (field.offset + field_span(field) > type.size)
+      throw Error(what + ": field '" + field.name + "' reaches beyond the struct");
     if (type.align % std::max(alignment(field), field.shape == FULMAR_LIST ? 4u : 1u) != 0)
       throw Error(what + ": field '" + field.name + "' is aligned more strictly than the struct");
     if (i > 0 && order[i - 1]->offset + field_span(*order[i - 1]) > field.offset)
@@ -97,7 +106,8 @@ void check_struct(const Type& type, const std::string& what) {
 
 }  // namespace
 
-std::vector<std::string> TableReader::texts(const char* const* at, std::uint32_t count, const std::string& what) const {
+std::vector<std::string> TableReader::texts(const char* const* at, std::uint32_t count,
+                                            const std::string& what) const {
   std::vector<std::string> list;
   for (std::uint32_t i = 0; i < count; ++i) list.push_back(text(element(at, sizeof(char*), i, what), what));
   return list;
@@ -110,7 +120,8 @@ Field TableReader::read_field(const fulmar_field& from, const std::string& owner
   const std::string what = owner + ": field '" + field.name + "'";
   if (from.kind < FULMAR_BOOL || from.kind > FULMAR_U16)
     throw Error(what + " has kind " + std::to_string(from.kind) + ", which this host does not know");
-  if (from.shape > FULMAR_LIST) throw Error(what + " has shape " + std::to_string(from.shape) + ", which this host does not know");
+  if (from.shape > FULMAR_LIST)
+    throw Error(what + " has shape " + std::to_string(from.shape) + ", which this host does not know");
   field.unit = text(from.unit, what + ": the unit");
   field.kind = static_cast<fulmar_kind>(from.kind);
   field.shape = static_cast<fulmar_shape>(from.shape);
@@ -141,7 +152,8 @@ std::shared_ptr<Type> TableReader::read_type(const fulmar_type& from, const std:
   type->size = from.size;
   type->align = from.align;
   if (from.field_count > most_fields)
-    throw Error(self + " has " + std::to_string(from.field_count) + " fields; " + std::to_string(most_fields) + " is the limit");
+    throw Error(self + " has " + std::to_string(from.field_count) + " fields; " +
+                std::to_string(most_fields) + " is the limit");
   for (std::uint32_t i = 0; i < from.field_count; ++i) {
     Field field = read_field(element(from.fields, from.field_stride, i, self + ": the fields"), self);
     if (type->find(field.name) != nullptr) throw Error(self + " has two fields '" + field.name + "'");
@@ -154,7 +166,8 @@ std::shared_ptr<Type> TableReader::read_type(const fulmar_type& from, const std:
 
 TypePtr TableReader::type(const fulmar_type* from, const std::string& what) {
   if (from == nullptr) throw Error(what + " has no type");
-  if (!memory_.readable(from, sizeof *from)) throw Error(what + ": the type lies outside the plugin's memory");
+  if (!memory_.readable(from, sizeof *from))
+    throw Error(what + ": the type lies outside the plugin's memory");
   if (const auto known = done_.find(from); known != done_.end()) return known->second;
   if (depth_ >= deepest) throw Error(what + " nests deeper than " + std::to_string(deepest) + " levels");
   ++depth_;  // not undone by an exception: a reader that has thrown is not used again

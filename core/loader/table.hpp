@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads type tables that somebody else wrote: every pointer is checked before it is followed, every number before it is believed.
+// Reads type tables that somebody else wrote: every pointer is checked before it is followed, every number
+// before it is believed.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -13,9 +14,10 @@
 
 namespace fulmar::core {
 
-/// Bytes of an element as ABI 1.0 had it, which every plugin of ABI 1 has at least: up to the member that was its last one then. A member
-/// that is added later goes to the end of its struct, the line here stays as it is, and 0 has to mean for it "as before". The struct's
-/// first version that has it decides whether it is there (abi_minor), or its value other than 0 does.
+/// Bytes of an element as ABI 1.0 had it, which every plugin of ABI 1 has at least: up to the member that was
+/// its last one then. A member that is added later goes to the end of its struct, the line here stays as it
+/// is, and 0 has to mean for it "as before". The struct's first version that has it decides whether it is
+/// there (abi_minor), or its value other than 0 does.
 template <class T>
 inline constexpr std::uint32_t size_in_1_0 = 0;
 #define FULMAR_SIZE_IN_1_0(type, last)               \
@@ -36,16 +38,20 @@ class TableReader {
   std::vector<std::string> texts(const char* const* at, std::uint32_t count, const std::string& what) const;
   const Memory& memory() const { return memory_; }
 
-  /// Element `i` of an array whose elements lie `stride` bytes apart. Longer elements come from a newer minor version: what this host does
-  /// not know is left out. Shorter ones come from an older one: what they lack is zero.
+  /// Element `i` of an array whose elements lie `stride` bytes apart. Longer elements come from a newer minor
+  /// version: what this host does not know is left out. Shorter ones come from an older one: what they lack
+  /// is zero.
   template <class T>
   T element(const T* base, std::uint32_t stride, std::uint32_t i, const std::string& what) const {
     constexpr std::uint32_t smallest = size_in_1_0<T>;
     if (stride < smallest || stride > largest_stride || stride % alignof(T) != 0)
-      throw Error(what + " lie " + std::to_string(stride) + " bytes apart, where " + std::to_string(smallest) + " are needed");
+      throw Error(what + " lie " + std::to_string(stride) + " bytes apart, where " +
+                  std::to_string(smallest) + " are needed");
     const std::size_t size = std::min<std::size_t>(stride, sizeof(T));
-    const auto at = reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(base) + std::uintptr_t{stride} * i);
-    if (base == nullptr || !memory_.readable(at, size)) throw Error(what + " lie outside the plugin's memory");
+    const auto at =
+        reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(base) + std::uintptr_t{stride} * i);
+    if (base == nullptr || !memory_.readable(at, size))
+      throw Error(what + " lie outside the plugin's memory");
     T copy{};
     std::memcpy(&copy, at, size);
     return copy;
@@ -61,7 +67,8 @@ class TableReader {
   int depth_ = 0;
 };
 
-/// Copies a plugin's type table. Throws Error on a table that contradicts itself (overlap, size, unknown kind).
+/// Copies a plugin's type table. Throws Error on a table that contradicts itself (overlap, size, unknown
+/// kind).
 TypePtr copy_type(const fulmar_type& type);
 
 }  // namespace fulmar::core

@@ -41,7 +41,7 @@ struct Side {
   std::map<std::string, std::uint16_t> channels;
   std::uint64_t first_ns = std::numeric_limits<std::uint64_t>::max();
 
-  std::deque<HashedTick> ticks;                    // that wait for those of the other log
+  std::deque<HashedTick> ticks;  // that wait for those of the other log
   std::optional<HostTopic<Ticks>> tick_topic;
 
   Side(const std::filesystem::path& file, std::uint64_t last) : stream(file), last_ns(last), ahead(next()) {
@@ -52,7 +52,9 @@ struct Side {
     while (m != nullptr && m->log_ns > last_ns) m = stream.next();
     return m;
   }
-  std::uint64_t next_ns() const { return ahead != nullptr ? ahead->log_ns : std::numeric_limits<std::uint64_t>::max(); }
+  std::uint64_t next_ns() const {
+    return ahead != nullptr ? ahead->log_ns : std::numeric_limits<std::uint64_t>::max();
+  }
   void take(std::uint64_t ns) {
     for (auto& [topic, list] : now) list.clear();
     order.clear();
@@ -75,7 +77,9 @@ struct Side {
     }
   } catch (const Error&) {  // no message of the host's: the bytes differ, and that is all
   }
-  std::int64_t flight_ns(std::uint64_t ns) const { return static_cast<std::int64_t>(ns - log_epoch_ns(stream.log(), first_ns)); }
+  std::int64_t flight_ns(std::uint64_t ns) const {
+    return static_cast<std::int64_t>(ns - log_epoch_ns(stream.log(), first_ns));
+  }
 };
 
 /// The message field by field; empty when it cannot be decoded.
@@ -83,9 +87,11 @@ std::vector<CdrValue> values(const Side& side, const std::string& topic, const M
   const McapFile& log = side.stream.log();
   const McapFile::Channel& channel = log.channels.at(side.channels.at(topic));
   const auto schema = log.schemas.find(channel.schema);
-  const bool ours = channel.encoding == "cdr" && schema != log.schemas.end() && schema->second.encoding == "ros2msg";
+  const bool ours =
+      channel.encoding == "cdr" && schema != log.schemas.end() && schema->second.encoding == "ros2msg";
   if (!ours) return {};
-  return cdr_values(*parse_ros_schema(schema->second.name, schema->second.text), message, most_compared_values);
+  return cdr_values(*parse_ros_schema(schema->second.name, schema->second.text), message,
+                    most_compared_values);
 } catch (const Error&) {
   return {};
 }
@@ -94,7 +100,8 @@ std::vector<CdrValue> values(const Side& side, const std::string& topic, const M
 MessageDiff::First first_field(const Side& a, const Side& b, const std::string& topic, const Stored& in_a,
                                const Stored& in_b, std::int64_t time_ns) {
   const MessageBytes &left = in_a.data, &right = in_b.data;
-  if (left == right) return {topic, "valid at", time_ns, std::to_string(in_a.valid_ns), std::to_string(in_b.valid_ns)};
+  if (left == right)
+    return {topic, "valid at", time_ns, std::to_string(in_a.valid_ns), std::to_string(in_b.valid_ns)};
   const std::vector<CdrValue> x = values(a, topic, left), y = values(b, topic, right);
   for (std::size_t i = 0; i < std::max(x.size(), y.size()); ++i) {
     const bool in_x = i < x.size(), in_y = i < y.size(), same_name = !in_x || !in_y || x[i].name == y[i].name;
@@ -106,7 +113,8 @@ MessageDiff::First first_field(const Side& a, const Side& b, const std::string& 
   const auto text = [](MessageBytes::const_iterator byte, MessageBytes::const_iterator end) {
     return byte == end ? std::string("absent") : std::to_string(static_cast<int>(*byte));
   };
-  return {topic, "byte " + std::to_string(p - left.begin()), time_ns, text(p, left.end()), text(q, right.end())};
+  return {topic, "byte " + std::to_string(p - left.begin()), time_ns, text(p, left.end()),
+          text(q, right.end())};
 }
 
 std::uint64_t count_differing(const MessageBytes& a, const MessageBytes& b) {
@@ -147,7 +155,8 @@ struct Comparison {
   }
 
   /// The ticks tell that something differs, and not what: anything else is told before them.
-  static bool precedes(const std::string& topic, std::int64_t time_ns, const std::optional<MessageDiff::First>& other) {
+  static bool precedes(const std::string& topic, std::int64_t time_ns,
+                       const std::optional<MessageDiff::First>& other) {
     if (!other) return true;
     const bool of_ticks = topic == Ticks::topic, other_of_ticks = other->topic == Ticks::topic;
     return of_ticks == other_of_ticks ? time_ns < other->time_ns : other_of_ticks;
@@ -197,8 +206,9 @@ struct Comparison {
 }  // namespace
 
 bool MessageDiff::messages_equal() const {
-  const bool same = std::all_of(topics.begin(), topics.end(),
-                                [](const auto& t) { return t.second.different == 0 && t.second.only_a == 0 && t.second.only_b == 0; });
+  const bool same = std::all_of(topics.begin(), topics.end(), [](const auto& t) {
+    return t.second.different == 0 && t.second.only_a == 0 && t.second.only_b == 0;
+  });
   return same && only_a.empty() && only_b.empty() && fault_a.empty() == fault_b.empty();
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What differs between the messages of two logs. Both are read once, side by side; messages of a topic are compared at equal log
-// times, what they hold and when it is valid.
+// What differs between the messages of two logs. Both are read once, side by side; messages of a topic are
+// compared at equal log times, what they hold and when it is valid.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -18,7 +18,8 @@ struct MessageDiff {
   struct First {
     std::string topic, field;  // field "" when a message is only in one, or cannot be decoded
     std::int64_t time_ns = 0;  // flight time
-    std::string a, b;  // values; "absent" for a message that is not there; of "valid at" times since 1970 in ns
+    std::string a,
+        b;  // values; "absent" for a message that is not there; of "valid at" times since 1970 in ns
   };
   struct Tick {
     std::uint64_t index = 0;
@@ -29,13 +30,13 @@ struct MessageDiff {
     std::uint64_t only_a = 0, only_b = 0;
   };
   std::optional<First> first;  // in a topic of the ticks alone when nothing else differs
-  /// The first tick of which /fulmar/ticks says that the components published something else, whether or not that
-  /// was recorded.
+  /// The first tick of which /fulmar/ticks says that the components published something else, whether or not
+  /// that was recorded.
   std::optional<Tick> first_tick;
-  std::map<std::string, Topic> topics;             // in both
-  std::vector<std::string> only_a, only_b;         // topics
-  std::string fault_a, fault_b;                    // "" or why a log ends before its end
-  std::uint64_t messages = 0;                      // of the first log; these three without the ticks
+  std::map<std::string, Topic> topics;      // in both
+  std::vector<std::string> only_a, only_b;  // topics
+  std::string fault_a, fault_b;             // "" or why a log ends before its end
+  std::uint64_t messages = 0;               // of the first log; these three without the ticks
   std::uint64_t differing_messages = 0, differing_bytes = 0;
 
   McapFile log_a, log_b;  // what stands beside the messages
@@ -44,11 +45,13 @@ struct MessageDiff {
 };
 
 struct DiffOptions {
-  std::uint64_t last_ns = std::numeric_limits<std::uint64_t>::max();  // log time: what is later is not compared
+  std::uint64_t last_ns =
+      std::numeric_limits<std::uint64_t>::max();  // log time: what is later is not compared
   bool whole_topics = false;  // a topic that only one log has may hold the first difference, too
 };
 
 /// Throws Error for what is no log.
-MessageDiff diff_messages(const std::filesystem::path& a, const std::filesystem::path& b, const DiffOptions& options = {});
+MessageDiff diff_messages(const std::filesystem::path& a, const std::filesystem::path& b,
+                          const DiffOptions& options = {});
 
 }  // namespace fulmar::core

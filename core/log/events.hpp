@@ -11,14 +11,14 @@
 #include <string_view>
 #include <vector>
 
+#include "core/log/reader.hpp"
 #include "core/types/names.hpp"
 #include "core/types/type.hpp"
-#include "core/log/reader.hpp"
 
 namespace fulmar::core {
 
-/// What an event tells, and which of its fields count. The label, kind and severity of each stand in events.cpp,
-/// in this order.
+/// What an event tells, and which of its fields count. The label, kind and severity of each stand in
+/// events.cpp, in this order.
 enum class Code : std::uint8_t {
   phase_entered,     // name: the phase
   guard,             // component: it was stopped; cause
@@ -89,7 +89,7 @@ struct CommandNote {
   std::array<char, name_room> name{};  // of the parameter, of the phase
   std::array<double, 3> number{};      // a parameter's value: a number or vector
   std::int64_t integer = 0;            // of a count, choice or flag
-  std::array<char, 256> text{};    // a text; any other value as in a mission file; of a swap the plugin's file
+  std::array<char, 256> text{};  // a text; any other value as in a mission file; of a swap the plugin's file
   std::array<char, 64> version{};  // of the plugin
   std::array<char, 65> sha256{};
 };

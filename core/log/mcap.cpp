@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See mcap.hpp. A schema and a channel stand in the chunk of the channel's first message, and again in the summary.
+// See mcap.hpp. A schema and a channel stand in the chunk of the channel's first message, and again in the
+// summary.
 #include "core/log/mcap.hpp"
 
 #include <zlib.h>
@@ -102,11 +103,12 @@ struct McapWriter::Impl {
     std::uint64_t messages = 0, repeated = 0, largest_chunk = 0;
     Span span;
   };
-  Counts file;                               // of the open file
-  std::uint64_t begin_ns = 0;                // the log time at which it was begun
-  Bytes extras;                              // records of attachments and metadata, for the files to come
-  std::map<std::string, Kept> lasting;       // by name
-  std::uint64_t offered = 0, delivered = 0;  // messages begun; those of them that are in files that are closed
+  Counts file;                          // of the open file
+  std::uint64_t begin_ns = 0;           // the log time at which it was begun
+  Bytes extras;                         // records of attachments and metadata, for the files to come
+  std::map<std::string, Kept> lasting;  // by name
+  std::uint64_t offered = 0,
+                delivered = 0;  // messages begun; those of them that are in files that are closed
 
   explicit Impl(const Options& o) : options(o) {
     if (rotates()) OutFile::refuse(part_name(2));
@@ -121,7 +123,8 @@ struct McapWriter::Impl {
   std::filesystem::path part_name(std::size_t number) const {
     const std::filesystem::path& first = options.file;
     if (number == 1) return first;
-    return first.parent_path() / (first.stem().string() + "-" + std::to_string(number) + first.extension().string());
+    return first.parent_path() /
+           (first.stem().string() + "-" + std::to_string(number) + first.extension().string());
   }
 
   std::unique_ptr<OutFile> begin_file(const std::filesystem::path& name) {
@@ -139,7 +142,8 @@ struct McapWriter::Impl {
     throw Error(why);
   }
 
-  /// The present file ends here, between two chunks. One that cannot be begun leaves the present one as it is, for good.
+  /// The present file ends here, between two chunks. One that cannot be begun leaves the present one as it
+  /// is, for good.
   void rotate(std::uint64_t log_ns) {
     std::unique_ptr<OutFile> next;
     try {
@@ -159,7 +163,8 @@ struct McapWriter::Impl {
     repeat();
   }
 
-  /// What could not be written whole is left as if it had been cut off: no summary, no name. Nobody shall take it for a whole log.
+  /// What could not be written whole is left as if it had been cut off: no summary, no name. Nobody shall
+  /// take it for a whole log.
   void end_file() {
     if (!broken()) {
       summary();
@@ -167,7 +172,8 @@ struct McapWriter::Impl {
     }
     if (broken()) {
       trouble = out->error();
-      if (!std::filesystem::exists(out->name())) file.messages = file.repeated = 0;  // somebody has removed the file
+      if (!std::filesystem::exists(out->name()))
+        file.messages = file.repeated = 0;  // somebody has removed the file
     }
     delivered += file.messages - file.repeated;
     parts.push_back({out->name(), out->sha256(), file.messages, out->size()});
@@ -194,7 +200,8 @@ struct McapWriter::Impl {
     for (const auto& [name, kept] : lasting) list.push_back(&kept);
     for (const Channel& c : channels)
       if (!c.last.record.empty()) list.push_back(&c.last);
-    std::stable_sort(list.begin(), list.end(), [](const Kept* a, const Kept* b) { return a->log_ns() < b->log_ns(); });
+    std::stable_sort(list.begin(), list.end(),
+                     [](const Kept* a, const Kept* b) { return a->log_ns() < b->log_ns(); });
     for (const Kept* kept : list) {
       note_message(kept->channel(), kept->log_ns());
       chunk.raw(kept->record.data(), kept->record.size());
@@ -242,9 +249,11 @@ struct McapWriter::Impl {
     return length;
   }
 
-  /// Times, name and media type as they stand in the record: code, length, 2 times, name, media type, content.
+  /// Times, name and media type as they stand in the record: code, length, 2 times, name, media type,
+  /// content.
   void index_attachment(const std::byte* record, std::size_t size, std::uint64_t place) {
-    const std::byte *times = record + mcap::record_head, *name = times + 16, *type = name + 4 + length_at(name);
+    const std::byte *times = record + mcap::record_head, *name = times + 16,
+                    *type = name + 4 + length_at(name);
     const std::byte* content = type + 4 + length_at(type);
     ++file.attachments;
     Bytes& index = file.attachment_indexes;
@@ -266,14 +275,17 @@ struct McapWriter::Impl {
   /// Whether the message that comes at `log_ns` belongs to the next file.
   bool full(std::uint64_t log_ns) const {
     if (file.messages == file.repeated && chunk_messages == 0) return false;
-    if (options.rotate_ns > 0 && log_ns >= begin_ns + static_cast<std::uint64_t>(options.rotate_ns)) return true;
-    return options.rotate_bytes > 0 && chunk_messages == 0 && out->size() + file.largest_chunk > options.rotate_bytes;
+    if (options.rotate_ns > 0 && log_ns >= begin_ns + static_cast<std::uint64_t>(options.rotate_ns))
+      return true;
+    return options.rotate_bytes > 0 && chunk_messages == 0 &&
+           out->size() + file.largest_chunk > options.rotate_bytes;
   }
 
   /// Before a message: ends the chunk, and the file, that it does not belong to any more.
   void make_place(std::uint64_t log_ns) {
     if (offered == 0) begin_ns = log_ns;
-    const bool long_enough = chunk_messages > 0 && log_ns >= chunk_span.first + static_cast<std::uint64_t>(options.chunk_ns);
+    const bool long_enough =
+        chunk_messages > 0 && log_ns >= chunk_span.first + static_cast<std::uint64_t>(options.chunk_ns);
     if (long_enough || chunk.size() >= options.chunk_bytes) flush();
     if (broken() || !full(log_ns)) return;
     flush();
@@ -299,7 +311,8 @@ struct McapWriter::Impl {
       return true;
     }
     const std::size_t before = block.size(), most = ZSTD_compressBound(chunk.size());
-    const std::size_t n = ZSTD_compressCCtx(zstd.get(), block.grow(most), most, chunk.data(), chunk.size(), options.zstd_level);
+    const std::size_t n =
+        ZSTD_compressCCtx(zstd.get(), block.grow(most), most, chunk.data(), chunk.size(), options.zstd_level);
     if (ZSTD_isError(n)) {
       out->fail(std::string("cannot compress: ") + ZSTD_getErrorName(n));
       return false;
@@ -339,7 +352,8 @@ struct McapWriter::Impl {
       if (index.empty()) continue;
       offsets.number(static_cast<std::uint16_t>(id)).number(out->size() + block.size());
       const std::size_t record = block.begin(mcap::message_index);
-      block.number(static_cast<std::uint16_t>(id)).number(static_cast<std::uint32_t>(index.size() * sizeof(Entry)));
+      block.number(static_cast<std::uint16_t>(id))
+          .number(static_cast<std::uint32_t>(index.size() * sizeof(Entry)));
       block.raw(index.data(), index.size() * sizeof(Entry));
       block.end(record);
     }
@@ -350,7 +364,9 @@ struct McapWriter::Impl {
     Bytes& chunk_indexes = file.chunk_indexes;
     const std::size_t record = chunk_indexes.begin(mcap::chunk_index);
     chunk_indexes.number(chunk_span.first).number(chunk_span.last).number(place).number(chunk_length);
-    chunk_indexes.number(static_cast<std::uint32_t>(offsets.size())).append(offsets).number(std::uint64_t{block.size() - chunk_length});
+    chunk_indexes.number(static_cast<std::uint32_t>(offsets.size()))
+        .append(offsets)
+        .number(std::uint64_t{block.size() - chunk_length});
     chunk_indexes.text(compression).number(compressed).number(std::uint64_t{chunk.size()});
     chunk_indexes.end(record);
     note_stored();
@@ -425,7 +441,8 @@ struct McapWriter::Impl {
     block.append(offsets);
 
     const std::size_t start = block.begin(mcap::footer);
-    block.number(std::uint64_t{out->size() + summary_start}).number(std::uint64_t{out->size() + offset_start});
+    block.number(std::uint64_t{out->size() + summary_start})
+        .number(std::uint64_t{out->size() + offset_start});
     block.patch(start - 8, std::uint64_t{20});  // the sum covers the footer up to itself, its length too
     block.number(block_crc(block.data() + summary_start, block.size() - summary_start));
     block.raw(mcap::magic.data(), mcap::magic.size());
@@ -443,18 +460,22 @@ McapWriter::McapWriter(const Options& options) : impl_(std::make_unique<Impl>(op
 
 McapWriter::~McapWriter() = default;
 
-std::uint16_t McapWriter::add_schema(const std::string& name, const std::string& encoding, const std::string& text) {
+std::uint16_t McapWriter::add_schema(const std::string& name, const std::string& encoding,
+                                     const std::string& text) {
   impl_->schemas.push_back({name, encoding, text});
   return static_cast<std::uint16_t>(impl_->schemas.size());
 }
 
-std::uint16_t McapWriter::add_channel(std::uint16_t schema, const std::string& topic, const std::string& encoding, const Pairs& metadata) {
-  if (impl_->channels.size() > std::numeric_limits<std::uint16_t>::max()) throw Error("a log holds at most 65536 channels");
+std::uint16_t McapWriter::add_channel(std::uint16_t schema, const std::string& topic,
+                                      const std::string& encoding, const Pairs& metadata) {
+  if (impl_->channels.size() > std::numeric_limits<std::uint16_t>::max())
+    throw Error("a log holds at most 65536 channels");
   impl_->channels.push_back({.schema = schema, .topic = topic, .encoding = encoding, .metadata = metadata});
   return static_cast<std::uint16_t>(impl_->channels.size() - 1);
 }
 
-std::byte* McapWriter::begin_message(std::uint16_t channel, std::uint32_t sequence, std::uint64_t log_ns, std::uint64_t publish_ns) {
+std::byte* McapWriter::begin_message(std::uint16_t channel, std::uint32_t sequence, std::uint64_t log_ns,
+                                     std::uint64_t publish_ns) {
   Impl& w = *impl_;
   w.make_place(log_ns);
   w.note_message(channel, log_ns);
@@ -478,7 +499,8 @@ void McapWriter::end_message(std::size_t size, const std::string& lasting) {
   if (w.rotates()) w.keep(lasting);
 }
 
-void McapWriter::attach(const std::string& name, const std::string& media_type, const std::string& content, std::uint64_t time_ns) {
+void McapWriter::attach(const std::string& name, const std::string& media_type, const std::string& content,
+                        std::uint64_t time_ns) {
   Impl& w = *impl_;
   if (w.broken()) return;
   w.block.clear();

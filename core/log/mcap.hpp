@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writer of MCAP files: chunks with indexes, attachments, metadata, summary, CRC-32 throughout. Source: the MCAP file format specification,
-// version 0. One thread. Once the file is open only std::bad_alloc is thrown; after the first fault of the disk no message is stored,
-// `error` says why, and the file keeps its ".part", without a summary. Every write is whole or taken back, so that what is there can always
-// be read.
+// Writer of MCAP files: chunks with indexes, attachments, metadata, summary, CRC-32 throughout. Source: the
+// MCAP file format specification, version 0. One thread. Once the file is open only std::bad_alloc is thrown;
+// after the first fault of the disk no message is stored, `error` says why, and the file keeps its ".part",
+// without a summary. Every write is whole or taken back, so that what is there can always be read.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -32,9 +32,10 @@ class McapWriter {
     std::int64_t chunk_ns = 1'000'000'000;  // of log time
     std::size_t max_message_bytes = 1u << 20;
     bool sync = false;  // to the disk after each chunk: for flights that may end with a loss of power
-    // A file that would grow beyond so many bytes, or holds so much log time, is closed, and name-2.mcap goes on: whole, with all schemas,
-    // channels, attachments and metadata, and with what was said last, at its own times: the last message of every channel, and of every
-    // name (see end_message). 0: never. It happens between two chunks, at the same message in equal runs.
+    // A file that would grow beyond so many bytes, or holds so much log time, is closed, and name-2.mcap goes
+    // on: whole, with all schemas, channels, attachments and metadata, and with what was said last, at its
+    // own times: the last message of every channel, and of every name (see end_message). 0: never. It happens
+    // between two chunks, at the same message in equal runs.
     std::uint64_t rotate_bytes = 0;
     std::int64_t rotate_ns = 0;
   };
@@ -52,7 +53,8 @@ class McapWriter {
     std::vector<Part> files;     // in the order of time
   };
 
-  /// Throws Error when the file, or its ".part", is already there or cannot be written; so also for the second one of those that rotate.
+  /// Throws Error when the file, or its ".part", is already there or cannot be written; so also for the
+  /// second one of those that rotate.
   explicit McapWriter(const Options& options);
   ~McapWriter();
   McapWriter(const McapWriter&) = delete;
@@ -60,14 +62,18 @@ class McapWriter {
 
   std::uint16_t add_schema(const std::string& name, const std::string& encoding, const std::string& text);
   /// Schema 0: none.
-  std::uint16_t add_channel(std::uint16_t schema, const std::string& topic, const std::string& encoding, const Pairs& metadata);
+  std::uint16_t add_channel(std::uint16_t schema, const std::string& topic, const std::string& encoding,
+                            const Pairs& metadata);
 
   /// Room of max_message_bytes for the bytes of a message; `end_message` says how many there were.
-  std::byte* begin_message(std::uint16_t channel, std::uint32_t sequence, std::uint64_t log_ns, std::uint64_t publish_ns);
-  /// `lasting`: the name of what it tells and what holds until another of this name comes; "": until the channel says something else.
+  std::byte* begin_message(std::uint16_t channel, std::uint32_t sequence, std::uint64_t log_ns,
+                           std::uint64_t publish_ns);
+  /// `lasting`: the name of what it tells and what holds until another of this name comes; "": until the
+  /// channel says something else.
   void end_message(std::size_t size, const std::string& lasting = {});
 
-  void attach(const std::string& name, const std::string& media_type, const std::string& content, std::uint64_t time_ns);
+  void attach(const std::string& name, const std::string& media_type, const std::string& content,
+              std::uint64_t time_ns);
   void metadata(const std::string& name, const Pairs& pairs);
 
   bool failed() const;  // no message is stored any more

@@ -50,7 +50,9 @@ class Bytes {
     if (size > 0) std::memcpy(grow(size), from, size);
     return *this;
   }
-  Bytes& text(std::string_view s) { return number(static_cast<std::uint32_t>(s.size())).raw(s.data(), s.size()); }
+  Bytes& text(std::string_view s) {
+    return number(static_cast<std::uint32_t>(s.size())).raw(s.data(), s.size());
+  }
   Bytes& pairs(const std::vector<std::pair<std::string, std::string>>& map) {
     std::uint32_t size = 0;
     for (const auto& [key, value] : map) size += static_cast<std::uint32_t>(8 + key.size() + value.size());

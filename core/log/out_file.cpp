@@ -32,10 +32,12 @@ bool OutFile::grows(const std::filesystem::path& file) {
 
 void OutFile::refuse(const std::filesystem::path& file) {
   const std::string part = file.string() + ".part";
-  if (std::filesystem::exists(file)) throw Error("'" + file.string() + "' exists; a log never overwrites a file");
+  if (std::filesystem::exists(file))
+    throw Error("'" + file.string() + "' exists; a log never overwrites a file");
   if (std::filesystem::exists(part))
     throw Error("'" + part + "' exists: " +
-                (grows(part) ? "another run is writing it" : "a run was interrupted; move it away first, or fulmar log recover it"));
+                (grows(part) ? "another run is writing it"
+                             : "a run was interrupted; move it away first, or fulmar log recover it"));
 }
 
 OutFile::~OutFile() {

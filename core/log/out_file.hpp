@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A file that grows by whole blocks under the name FILE.part and is FILE when it is finished. Counts, CRC-32 and SHA-256 run along.
+// A file that grows by whole blocks under the name FILE.part and is FILE when it is finished. Counts, CRC-32
+// and SHA-256 run along.
 #pragma once
 #include <cstddef>
 #include <cstdint>

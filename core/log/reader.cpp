@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See reader.hpp. The reading ends at the first byte that is not as the format says, or goes on behind it; what came before stays.
+// See reader.hpp. The reading ends at the first byte that is not as the format says, or goes on behind it;
+// what came before stays.
 #include "core/log/reader.hpp"
 
 #include <zlib.h>
@@ -20,12 +21,15 @@ namespace {
 
 using Data = std::span<const std::byte>;
 
-constexpr std::uint64_t largest_chunk = 1u << 28;    // decompressed; a file that claims more is not one of a flight
-constexpr std::uint64_t largest_record = 1u << 28;   // the same of a record that has to be in memory
-constexpr std::uint64_t largest_schemas = 1u << 28;  // the same of all schemas and channels, which chunks can hold by the thousand
+constexpr std::uint64_t largest_chunk =
+    1u << 28;  // decompressed; a file that claims more is not one of a flight
+constexpr std::uint64_t largest_record = 1u << 28;  // the same of a record that has to be in memory
+constexpr std::uint64_t largest_schemas =
+    1u << 28;  // the same of all schemas and channels, which chunks can hold by the thousand
 
 std::uint32_t crc_of(std::uint32_t before, Data data) {
-  return static_cast<std::uint32_t>(::crc32_z(before, reinterpret_cast<const Bytef*>(data.data()), data.size()));
+  return static_cast<std::uint32_t>(
+      ::crc32_z(before, reinterpret_cast<const Bytef*>(data.data()), data.size()));
 }
 
 /// Reads values one after the other; throws Error at the end of the data.
@@ -65,13 +69,15 @@ void require(bool truth, const char* otherwise) {
 }
 
 /// The content of a chunk, decompressed into `room`.
-Data open_chunk(const std::string& compression, Data stored, std::uint64_t size, std::vector<std::byte>& room) {
+Data open_chunk(const std::string& compression, Data stored, std::uint64_t size,
+                std::vector<std::byte>& room) {
   if (compression.empty()) {
     require(stored.size() == size, "a chunk is not as long as it says");
     room.assign(stored.begin(), stored.end());
     return room;
   }
-  if (compression != "zstd") throw Error("a chunk is compressed as '" + compression.substr(0, 32) + "'. Valid: zstd, or not at all");
+  if (compression != "zstd")
+    throw Error("a chunk is compressed as '" + compression.substr(0, 32) + "'. Valid: zstd, or not at all");
   require(size <= largest_chunk, "a chunk claims to hold more than 256 MB");
   // A wrong size is found before memory is taken for it.
   const unsigned long long says = ZSTD_getFrameContentSize(stored.data(), stored.size());
@@ -102,8 +108,9 @@ struct McapStream::Impl {
   McapStream::LeftOut left_out;
   bool damaged = false;  // something was left out, if only an index
   std::set<std::uint64_t> chunk_places, attachment_places, metadata_places;
-  std::map<std::uint64_t, std::uint8_t> named;  // places that the summary names, and what is there: when damage is to be skipped
-  std::uint64_t summary_start = 0;              // 0: not there yet
+  std::map<std::uint64_t, std::uint8_t>
+      named;  // places that the summary names, and what is there: when damage is to be skipped
+  std::uint64_t summary_start = 0;  // 0: not there yet
   bool ended = false;
 
   Impl(const std::filesystem::path& path, BadChunks bad) : bad_chunks(bad) {
@@ -113,7 +120,8 @@ struct McapStream::Impl {
     size = static_cast<std::uint64_t>(in.tellg());
     in.seekg(0);
     std::string magic(mcap::magic.size(), '\0');
-    if (size < magic.size() || !in.read(magic.data(), static_cast<std::streamsize>(magic.size())) || magic != mcap::magic)
+    if (size < magic.size() || !in.read(magic.data(), static_cast<std::streamsize>(magic.size())) ||
+        magic != mcap::magic)
       throw Error("'" + path.string() + "' is no MCAP file");
     if (skips()) read_summary();
     seek(mcap::magic.size());
@@ -128,22 +136,25 @@ struct McapStream::Impl {
     place = to;
   }
 
-  /// From the end of a file that was closed: the schemas and channels, for the case that those in the chunks are damaged, and where chunks,
-  /// attachments and metadata are. Nothing when it is not as it should be.
+  /// From the end of a file that was closed: the schemas and channels, for the case that those in the chunks
+  /// are damaged, and where chunks, attachments and metadata are. Nothing when it is not as it should be.
   void read_summary() {
-    constexpr std::uint64_t tail = mcap::footer_record + mcap::magic.size(), data_end_record = mcap::record_head + 4;
+    constexpr std::uint64_t tail = mcap::footer_record + mcap::magic.size(),
+                            data_end_record = mcap::record_head + 4;
     if (size < mcap::magic.size() + data_end_record + tail) return;
     try {
       std::vector<std::byte> end(tail);
       seek(size - tail);
       read(end.data(), tail);
       Cursor footer{end};
-      require(footer.number<std::uint8_t>() == mcap::footer && footer.number<std::uint64_t>() == 20, "there is no footer");
+      require(footer.number<std::uint8_t>() == mcap::footer && footer.number<std::uint64_t>() == 20,
+              "there is no footer");
       const auto start = footer.number<std::uint64_t>();
       footer.take(8);
       const Data summed = Data(end).first(footer.at);
       const auto sum = footer.number<std::uint32_t>();
-      require(start > data_end_record && start < size - tail && size - tail - start <= largest_record, "there is no summary");
+      require(start > data_end_record && start < size - tail && size - tail - start <= largest_record,
+              "there is no summary");
       std::vector<std::byte> summary(size - tail - start);
       seek(start);
       read(summary.data(), summary.size());
@@ -167,7 +178,8 @@ struct McapStream::Impl {
 
   void read(std::byte* to, std::uint64_t bytes) {
     require(bytes <= size - place, "the file ends inside a record");
-    require(static_cast<bool>(in.read(reinterpret_cast<char*>(to), static_cast<std::streamsize>(bytes))), "the file cannot be read");
+    require(static_cast<bool>(in.read(reinterpret_cast<char*>(to), static_cast<std::streamsize>(bytes))),
+            "the file cannot be read");
     place += bytes;
   }
 
@@ -214,7 +226,8 @@ struct McapStream::Impl {
     if (code == mcap::chunk) ++left_out.chunks;
     if (code == mcap::attachment) ++left_out.attachments;
     if (code == mcap::metadata) ++left_out.metadata;
-    if (code != mcap::chunk && code != mcap::attachment && code != mcap::metadata && named.empty()) ++left_out.others;
+    if (code != mcap::chunk && code != mcap::attachment && code != mcap::metadata && named.empty())
+      ++left_out.others;
   }
 
   /// Where the reading goes on behind a damaged record; 0: nowhere.
@@ -321,9 +334,7 @@ struct McapStream::Impl {
         file.library = cursor.text();
         break;
       case mcap::schema:
-      case mcap::channel:
-        definition(code, cursor);
-        break;
+      case mcap::channel: definition(code, cursor); break;
       case mcap::message:
         in_chunk = false;
         message(cursor);
@@ -355,16 +366,18 @@ struct McapStream::Impl {
         break;
       case mcap::chunk_index:
         cursor.take(16);
-        require(damaged || chunk_places.contains(cursor.number<std::uint64_t>()), "a chunk index points at no chunk");
+        require(damaged || chunk_places.contains(cursor.number<std::uint64_t>()),
+                "a chunk index points at no chunk");
         break;
       case mcap::attachment_index:
-        require(damaged || attachment_places.contains(cursor.number<std::uint64_t>()), "an attachment index points at no attachment");
+        require(damaged || attachment_places.contains(cursor.number<std::uint64_t>()),
+                "an attachment index points at no attachment");
         break;
       case mcap::metadata_index:
-        require(damaged || metadata_places.contains(cursor.number<std::uint64_t>()), "a metadata index points at no metadata");
+        require(damaged || metadata_places.contains(cursor.number<std::uint64_t>()),
+                "a metadata index points at no metadata");
         break;
-      default:
-        break;  // the format may grow
+      default: break;  // the format may grow
     }
   }
 
@@ -378,7 +391,10 @@ struct McapStream::Impl {
       file.schemas.try_emplace(id, std::move(schema));
       return;
     }
-    McapFile::Channel channel{.schema = cursor.number<std::uint16_t>(), .topic = cursor.text(), .encoding = cursor.text(), .metadata = {}};
+    McapFile::Channel channel{.schema = cursor.number<std::uint16_t>(),
+                              .topic = cursor.text(),
+                              .encoding = cursor.text(),
+                              .metadata = {}};
     channel.metadata = cursor.pairs();
     file.channels.try_emplace(id, std::move(channel));
   }
@@ -406,7 +422,9 @@ struct McapStream::Impl {
     file.metadata.push_back(std::move(m));
   }
 
-  static void check_length(const Cursor& cursor) { require(!cursor.more(), "a record is longer than what is in it"); }
+  static void check_length(const Cursor& cursor) {
+    require(!cursor.more(), "a record is longer than what is in it");
+  }
 
   void chunk_content(Cursor& cursor) {
     cursor.take(16);  // first and last time
@@ -421,7 +439,8 @@ struct McapStream::Impl {
     while (inside.more()) {
       const std::size_t at = inside.at;
       const auto code = inside.number<std::uint8_t>();
-      require(code == mcap::schema || code == mcap::channel || code == mcap::message, "a chunk holds what does not belong there");
+      require(code == mcap::schema || code == mcap::channel || code == mcap::message,
+              "a chunk holds what does not belong there");
       content(code, inside.take(inside.number<std::uint64_t>()), at);
     }
     in_chunk = true;
@@ -439,7 +458,8 @@ struct McapStream::Impl {
       at.take(8);
       const bool same_channel = at.number<std::uint16_t>() == channel;
       at.take(4);
-      require(is_message && same_channel && at.number<std::uint64_t>() == log_ns, "a message index points at something else");
+      require(is_message && same_channel && at.number<std::uint64_t>() == log_ns,
+              "a message index points at something else");
     }
   }
 
@@ -484,7 +504,8 @@ struct McapStream::Impl {
   }
 };
 
-McapStream::McapStream(const std::filesystem::path& file, BadChunks bad_chunks) : impl_(std::make_unique<Impl>(file, bad_chunks)) {}
+McapStream::McapStream(const std::filesystem::path& file, BadChunks bad_chunks)
+    : impl_(std::make_unique<Impl>(file, bad_chunks)) {}
 
 McapStream::~McapStream() = default;
 
@@ -527,7 +548,8 @@ McapFile read_mcap(const std::filesystem::path& path, std::uint64_t most_bytes) 
                   std::to_string(most_bytes >> 20) + " MB of memory");
     messages.insert(messages.end(), s.pending.begin(), s.pending.end());
     std::vector<std::byte>& room = s.in_chunk ? s.chunk_room : s.record;
-    s.file.memory.push_back(std::move(room));  // the bytes stay where they are: message indexes are still checked against them
+    s.file.memory.push_back(
+        std::move(room));  // the bytes stay where they are: message indexes are still checked against them
     room = {};
   }
   s.file.messages = std::move(messages);

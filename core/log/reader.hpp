@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads MCAP files from the front, for tools and tests: every record, checksums verified. Of a file that was cut off, all that is whole.
-// Source: the MCAP file format specification, version 0.
+// Reads MCAP files from the front, for tools and tests: every record, checksums verified. Of a file that was
+// cut off, all that is whole. Source: the MCAP file format specification, version 0.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -46,8 +46,8 @@ struct McapFile {
   std::vector<Attachment> attachments;
   std::vector<Metadata> metadata;
   std::uint32_t chunks = 0;
-  bool complete = false;                      // ends with a footer, and its summary says the same as the file
-  std::string fault;                          // "" or why reading ended before the end: "byte 4711: chunk ends after the file"
+  bool complete = false;  // ends with a footer, and its summary says the same as the file
+  std::string fault;      // "" or why reading ended before the end: "byte 4711: chunk ends after the file"
   std::deque<std::vector<std::byte>> memory;  // that the messages point into
 
   McapFile() = default;
@@ -64,7 +64,8 @@ class McapStream {
  public:
   enum class BadChunks {
     end,  // the reading ends at the first byte that is not as the format says
-    skip  // what is damaged is left out, and the reading goes on at the next chunk, attachment or metadata: by the summary, else by sight
+    skip  // what is damaged is left out, and the reading goes on at the next chunk, attachment or metadata:
+          // by the summary, else by sight
   };
   struct LeftOut {
     std::uint32_t chunks = 0, attachments = 0, metadata = 0;  // that are damaged
@@ -93,7 +94,8 @@ class McapStream {
 
 constexpr std::uint64_t largest_log = std::uint64_t{8} << 30;  // bytes of memory
 
-/// The whole file in memory. Throws Error when it cannot be read at all, is no MCAP file, or its messages need more than `most_bytes`.
+/// The whole file in memory. Throws Error when it cannot be read at all, is no MCAP file, or its messages
+/// need more than `most_bytes`.
 McapFile read_mcap(const std::filesystem::path& file, std::uint64_t most_bytes = largest_log);
 
 }  // namespace fulmar::core

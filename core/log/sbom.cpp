@@ -32,7 +32,9 @@ std::string build_id_of(const dl_phdr_info& object) {
     const ElfW(Phdr)& segment = object.dlpi_phdr[i];
     if (segment.p_type != PT_NOTE) continue;
     const auto* notes = reinterpret_cast<const std::byte*>(object.dlpi_addr + segment.p_vaddr);
-    if (const std::string id = build_id_in_notes({notes, static_cast<std::size_t>(segment.p_memsz)}); !id.empty()) return id;
+    if (const std::string id = build_id_in_notes({notes, static_cast<std::size_t>(segment.p_memsz)});
+        !id.empty())
+      return id;
   }
   return "";
 }
@@ -52,7 +54,8 @@ std::vector<Mapped> mapped_objects() {
   return all;
 }
 
-// Copies of plugins are called by their SHA-256. Those of the flight are told under their own names; others are not of this flight.
+// Copies of plugins are called by their SHA-256. Those of the flight are told under their own names; others
+// are not of this flight.
 bool is_copy(const std::string& name) {
   return name.size() == 67 && name.ends_with(".so") && name.find_first_not_of("0123456789abcdef") == 64;
 }
@@ -66,10 +69,13 @@ json list(json only) {
 
 json hash(const std::string& content) { return {{"alg", "SHA-256"}, {"content", content}}; }
 
-json property(const std::string& name, const std::string& value) { return {{"name", "fulmar:" + name}, {"value", value}}; }
+json property(const std::string& name, const std::string& value) {
+  return {{"name", "fulmar:" + name}, {"value", value}};
+}
 
 json host(const std::string& build_id) {
-  json component = {{"type", "application"}, {"bom-ref", host_ref}, {"name", "fulmar"}, {"version", FULMAR_VERSION}};
+  json component = {
+      {"type", "application"}, {"bom-ref", host_ref}, {"name", "fulmar"}, {"version", FULMAR_VERSION}};
   component["licenses"] = list(json{{"license", json{{"id", "BSD-3-Clause"}}}});
   if (build_id.empty())
     component["hashes"] = list(hash(sha256_file("/proc/self/exe")));
@@ -81,10 +87,12 @@ json host(const std::string& build_id) {
 std::string ref_of(const PluginInfo& plugin) { return "plugin:" + plugin.sha256; }
 
 json plugin_component(const PluginInfo& plugin) {
-  json component = {{"type", "library"}, {"bom-ref", ref_of(plugin)}, {"name", plugin.file}, {"version", plugin.version}};
+  json component = {
+      {"type", "library"}, {"bom-ref", ref_of(plugin)}, {"name", plugin.file}, {"version", plugin.version}};
   component["hashes"] = list(hash(plugin.sha256));
   json& properties = component["properties"] = json::array();
-  properties.push_back(property("abi", std::to_string(plugin.abi_major) + "." + std::to_string(plugin.abi_minor)));
+  properties.push_back(
+      property("abi", std::to_string(plugin.abi_major) + "." + std::to_string(plugin.abi_minor)));
   if (!plugin.build_id.empty()) properties.push_back(property("build_id", plugin.build_id));
   for (const ComponentInfo& part : plugin.components) properties.push_back(property("component", part.name));
   if (!plugin.flags.empty()) properties.push_back(property("flags", plugin.flags));
@@ -93,7 +101,8 @@ json plugin_component(const PluginInfo& plugin) {
 }
 
 json library_component(const Mapped& library) {
-  const std::string ref = "library:" + library.name + (library.build_id.empty() ? "" : ":" + library.build_id);
+  const std::string ref =
+      "library:" + library.name + (library.build_id.empty() ? "" : ":" + library.build_id);
   json component = {{"type", "library"}, {"bom-ref", ref}, {"name", library.name}};
   if (!library.build_id.empty()) component["properties"] = list(property("build_id", library.build_id));
   return component;

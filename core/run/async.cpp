@@ -53,7 +53,10 @@ void OutputRoom::prepare(std::int64_t now_ns) noexcept {
 
 Async::Async(const std::string& name, const fulmar_component& functions, void* instance,
              const ComponentInfo& info, std::size_t depth)
-    : name_(name), functions_(functions), instance_(instance), jobs_(depth + other_calls),
+    : name_(name),
+      functions_(functions),
+      instance_(instance),
+      jobs_(depth + other_calls),
       most_steps_(depth) {
   for (Job& job : jobs_) prepare(job, info);
   thread_ = quiet_thread(

@@ -63,8 +63,8 @@ class Async {
   Async(const Async&) = delete;
   Async& operator=(const Async&) = delete;
 
-  /// [tick] A free job to fill in, or nullptr; `submit` hands it over. Steps have room of their own: whether there is some does not depend
-  /// on how long a retune or an activate takes, which a replay does not know.
+  /// [tick] A free job to fill in, or nullptr; `submit` hands it over. Steps have room of their own: whether
+  /// there is some does not depend on how long a retune or an activate takes, which a replay does not know.
   Job* room(Job::Call call) noexcept;
   void submit() noexcept;
   /// [tick] The oldest call on its way, or nullptr; `release` when it has been taken.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What enters a flight from other threads: parameters, requests, phases, swaps, samples of foreign origin. The live view, the command
-// line and DDS speak to a flight through this and nothing else.
+// What enters a flight from other threads: parameters, requests, phases, swaps, samples of foreign origin.
+// The live view, the command line and DDS speak to a flight through this and nothing else.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -41,9 +41,10 @@ struct FlightView {
   std::string file;  // of the mission
 };
 
-/// Any thread may call any of these. What can be checked without the loop is checked in the caller's thread: those throw Error with the
-/// valid choices. What the loop then says comes through `answer`, once, from a thread of the control's: "" accepted, else the reason; a
-/// flight that ends before answers "the flight has ended".
+/// Any thread may call any of these. What can be checked without the loop is checked in the caller's thread:
+/// those throw Error with the valid choices. What the loop then says comes through `answer`, once, from a
+/// thread of the control's: "" accepted, else the reason; a flight that ends before answers "the flight has
+/// ended".
 class Control {
  public:
   using Answer = std::function<void(const std::string& refusal)>;
@@ -51,14 +52,19 @@ class Control {
 
   virtual FlightView view() const = 0;
   /// Text as in a mission file: "0.6", "20 deg", "[1, 2, 3]", "true", a choice.
-  virtual void set_parameter(const std::string& component, const std::string& param, const std::string& text, Answer answer) = 0;
-  /// Text as in a mission file (JSON is that, too): {lat_deg: 40.1, radius_m: 80}. Fields that are left out are zero.
-  virtual void request(const std::string& component, const std::string& port, const std::string& text, Answer answer) = 0;
+  virtual void set_parameter(const std::string& component, const std::string& param, const std::string& text,
+                             Answer answer) = 0;
+  /// Text as in a mission file (JSON is that, too): {lat_deg: 40.1, radius_m: 80}. Fields that are left out
+  /// are zero.
+  virtual void request(const std::string& component, const std::string& port, const std::string& text,
+                       Answer answer) = 0;
   /// The same, a struct of the request port's type.
-  virtual void request(const std::string& component, const std::string& port, std::vector<std::byte> message, Answer answer) = 0;
-  /// A sample for an input that `dds.import` names; a struct of its type. False: thrown away, counted, as more of them come than the loop
-  /// takes.
-  virtual bool publish(const std::string& component, const std::string& port, std::vector<std::byte> message) = 0;
+  virtual void request(const std::string& component, const std::string& port, std::vector<std::byte> message,
+                       Answer answer) = 0;
+  /// A sample for an input that `dds.import` names; a struct of its type. False: thrown away, counted, as
+  /// more of them come than the loop takes.
+  virtual bool publish(const std::string& component, const std::string& port,
+                       std::vector<std::byte> message) = 0;
   virtual void enter_phase(const std::string& phase, Answer answer) = 0;
   virtual void swap(const std::string& component, const std::string& file, Answer answer) = 0;
   virtual void reset_guards(Answer answer) = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See log.hpp. One thread beside the loop's takes samples from the tap, encodes them straight into the open chunk and writes chunks.
+// See log.hpp. One thread beside the loop's takes samples from the tap, encodes them straight into the open
+// chunk and writes chunks.
 #include "core/tap/log.hpp"
 
 #include <pthread.h>
@@ -15,14 +16,15 @@
 
 #include "core/error.hpp"
 #include "core/log/mcap.hpp"
+#include "core/quiet_thread.hpp"
 #include "core/tap/tap.hpp"
 #include "core/types/wire.hpp"
-#include "core/quiet_thread.hpp"
 
 namespace fulmar::core {
 namespace {
 
-/// Numeric form: the only one that Humble reads, and later distributions do too. Reliable, volatile, keep last 10.
+/// Numeric form: the only one that Humble reads, and later distributions do too. Reliable, volatile, keep
+/// last 10.
 constexpr const char* qos_profiles =
     "- history: 1\n  depth: 10\n  reliability: 1\n  durability: 2\n"
     "  deadline:\n    sec: 9223372036\n    nsec: 854775807\n"
@@ -30,7 +32,8 @@ constexpr const char* qos_profiles =
     "  liveliness: 1\n  liveliness_lease_duration:\n    sec: 9223372036\n    nsec: 854775807\n"
     "  avoid_ros_namespace_conventions: false\n";
 
-constexpr std::chrono::milliseconds nap{2};  // of the log's thread when the ring is empty; the loop never pays for waking it
+constexpr std::chrono::milliseconds nap{
+    2};  // of the log's thread when the ring is empty; the loop never pays for waking it
 
 struct Extra {  // an attachment, or metadata when there is no media type
   std::string name, media_type, content;
@@ -58,14 +61,17 @@ struct Log::Impl {
   std::mutex mutex;
   std::vector<Extra> head, tail;  // guarded
   std::atomic<bool> stop{false}, broken{false};
-  std::string trouble;                     // written before `broken` is set, and never again
-  std::uint64_t unstored = 0, missed = 0;  // messages that the writer was not given; that had been written over before they were read
+  std::string trouble;  // written before `broken` is set, and never again
+  std::uint64_t
+      unstored = 0,
+      missed = 0;  // messages that the writer was not given; that had been written over before they were read
   McapWriter::Result result;
   std::thread thread;
 
   Impl(const Options& o, Tap& from) : options(o), tap(from), begin(tap.written()), cursor(from, o.wait) {
     for (std::size_t i = 0; i < tap.channels().size(); ++i) {
-      channels.push_back({CdrEncoder(*tap.channels()[i].type), 0, options.channels.empty() || options.channels[i]});
+      channels.push_back(
+          {CdrEncoder(*tap.channels()[i].type), 0, options.channels.empty() || options.channels[i]});
       if (channels.back().stored) max_message = std::max(max_message, channels.back().encoder.max_size());
     }
     writer = std::make_unique<McapWriter>(McapWriter::Options{.file = options.file,
@@ -87,12 +93,15 @@ struct Log::Impl {
       const Type& type = *list[i].type;
       const auto [at, is_new] = schemas.try_emplace({ros_name(type), ros_definition(type)});
       if (is_new) at->second = writer->add_schema(at->first.first, "ros2msg", at->first.second);
-      channels[i].id = writer->add_channel(at->second, list[i].topic, "cdr",
-                                           {{"offered_qos_profiles", qos_profiles}, {"topic_type_hash", ros_type_hash(type)}});
+      channels[i].id = writer->add_channel(
+          at->second, list[i].topic, "cdr",
+          {{"offered_qos_profiles", qos_profiles}, {"topic_type_hash", ros_type_hash(type)}});
     }
   }
 
-  void start() { thread = quiet_thread("fulmar-log", [this] { run(); }); }
+  void start() {
+    thread = quiet_thread("fulmar-log", [this] { run(); });
+  }
 
   std::uint64_t time(std::int64_t flight_ns) const {
     return static_cast<std::uint64_t>(std::max<std::int64_t>(0, options.epoch_ns + flight_ns));
@@ -121,8 +130,8 @@ struct Log::Impl {
       store_extras(head);
     }
     const Channel& channel = channels[sample.channel];
-    std::byte* room =
-        writer->begin_message(channel.id, static_cast<std::uint32_t>(sample.sequence), time(sample.now_ns), time(sample.valid_ns));
+    std::byte* room = writer->begin_message(channel.id, static_cast<std::uint32_t>(sample.sequence),
+                                            time(sample.now_ns), time(sample.valid_ns));
     writer->end_message(channel.encoder.encode(sample.data(), room), lasting(sample));
   }
 
@@ -175,7 +184,8 @@ Log::~Log() {
 
 void Log::attach(const std::string& name, const std::string& media_type, const std::string& content) {
   const std::lock_guard lock(impl_->mutex);
-  (impl_->begun() ? impl_->tail : impl_->head).push_back({name, media_type.empty() ? "application/octet-stream" : media_type, content, {}});
+  (impl_->begun() ? impl_->tail : impl_->head)
+      .push_back({name, media_type.empty() ? "application/octet-stream" : media_type, content, {}});
 }
 
 void Log::metadata(const std::string& name, const std::vector<std::pair<std::string, std::string>>& pairs) {

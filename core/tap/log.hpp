@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The flight log: MCAP, profile ros2. A sink of the tap: a thread of its own encodes, compresses and writes what is marked for it.
+// The flight log: MCAP, profile ros2. A sink of the tap: a thread of its own encodes, compresses and writes
+// what is marked for it.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -27,14 +28,15 @@ struct LogResult {
 class Log {
  public:
   struct Options {
-    std::filesystem::path file;       // written as file + ".part", renamed when closed; never overwrites
-    std::int64_t epoch_ns = 0;        // added to flight time
-    bool wait = true;                 // unpaced simulation: the loop waits for the log; else what it is too slow for is lost, counted
+    std::filesystem::path file;  // written as file + ".part", renamed when closed; never overwrites
+    std::int64_t epoch_ns = 0;   // added to flight time
+    bool wait = true;  // unpaced simulation: the loop waits for the log; else what it is too slow for is
+                       // lost, counted
     std::vector<bool> channels = {};  // of the tap's: those that the file has; empty: all
     std::uint64_t rotate_bytes = 0;   // then a new file goes on; 0: never
     std::int64_t rotate_ns = 0;
-    // The name of what a message tells and what holds until another of this name comes; "": until the channel says something else. Every
-    // further file begins with these. Called in the log's thread.
+    // The name of what a message tells and what holds until another of this name comes; "": until the channel
+    // says something else. Every further file begins with these. Called in the log's thread.
     std::function<std::string(std::size_t channel, const std::byte* message)> lasting = {};
     int zstd_level = 1;  // below 0: faster. -5 costs 0.6 of level 1 for 12 % more bytes; 0: not compressed
   };
@@ -44,8 +46,9 @@ class Log {
   Log(const Log&) = delete;
   Log& operator=(const Log&) = delete;
 
-  /// [setup] Attachments and metadata of the file. What comes before the first message stands before it in the file, so that an interrupted
-  /// flight has it too; what comes later stands at the end. Nothing that differs between equal runs.
+  /// [setup] Attachments and metadata of the file. What comes before the first message stands before it in
+  /// the file, so that an interrupted flight has it too; what comes later stands at the end. Nothing that
+  /// differs between equal runs.
   void attach(const std::string& name, const std::string& media_type, const std::string& content);
   void metadata(const std::string& name, const std::vector<std::pair<std::string, std::string>>& pairs);
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See tap.hpp. The loop never looks at the cursors: it announces how far it is going to write, writes, and says that it has. A cursor
-// copies a record and then looks whether the announced end has come round to it meanwhile: the copy is then worth nothing (a sequence lock
-// on positions that count for ever). The cursor that holds back is the one whose position the loop does look at.
+// See tap.hpp. The loop never looks at the cursors: it announces how far it is going to write, writes, and
+// says that it has. A cursor copies a record and then looks whether the announced end has come round to it
+// meanwhile: the copy is then worth nothing (a sequence lock on positions that count for ever). The cursor
+// that holds back is the one whose position the loop does look at.
 #include "core/tap/tap.hpp"
 
 #include <algorithm>
@@ -16,16 +17,19 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::size_t record_size(std::size_t data) { return (sizeof(Tap::Sample) + data + 7) & ~std::size_t{7}; }
+constexpr std::size_t record_size(std::size_t data) {
+  return (sizeof(Tap::Sample) + data + 7) & ~std::size_t{7};
+}
 
 /// The bytes of a message that carry something: all, or up to the last item of a list at its end.
 struct Extent {
-  std::uint32_t size = 0, count_at = 0, first_item = 0, stride = 0, capacity = 0;  // stride 0: no list at the end
+  std::uint32_t size = 0, count_at = 0, first_item = 0, stride = 0,
+                capacity = 0;  // stride 0: no list at the end
 
   Extent() = default;
   explicit Extent(const Type& type) : size(type.size) {
-    const auto last =
-        std::max_element(type.fields.begin(), type.fields.end(), [](const Field& a, const Field& b) { return a.offset < b.offset; });
+    const auto last = std::max_element(type.fields.begin(), type.fields.end(),
+                                       [](const Field& a, const Field& b) { return a.offset < b.offset; });
     if (last == type.fields.end() || last->shape != FULMAR_LIST) return;
     count_at = last->offset;
     first_item = last->offset + last->items;
@@ -45,7 +49,8 @@ struct Mark {
 constexpr std::size_t word = sizeof(std::uint64_t);
 static_assert(sizeof(Mark) == word && sizeof(Tap::Sample) % word == 0);
 
-/// The loop may write a word while a sink reads it: each is atomic, and a copy that was overtaken is worth nothing.
+/// The loop may write a word while a sink reads it: each is atomic, and a copy that was overtaken is worth
+/// nothing.
 void store_words(std::uint64_t* to, const void* from, std::size_t bytes) noexcept {
   const auto* next = static_cast<const std::byte*>(from);
   for (; bytes >= word; bytes -= word, next += word, ++to)
@@ -65,7 +70,8 @@ struct Tap::Channel {
   std::atomic<std::int64_t> wanted_ns{-1};
 };
 
-Tap::Tap(std::vector<TapChannel> channels, std::size_t ring_bytes) : channels_(std::move(channels)), state_(channels_.size()) {
+Tap::Tap(std::vector<TapChannel> channels, std::size_t ring_bytes)
+    : channels_(std::move(channels)), state_(channels_.size()) {
   std::size_t largest = 0;
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     state_[i].extent = Extent(*channels_[i].type);
@@ -78,7 +84,8 @@ Tap::Tap(std::vector<TapChannel> channels, std::size_t ring_bytes) : channels_(s
 
 Tap::~Tap() = default;
 
-// ---- the loop ---------------------------------------------------------------------------------------------------------------------
+// ---- the loop
+// ---------------------------------------------------------------------------------------------------------------------
 
 bool Tap::wanted(std::size_t channel, std::int64_t now_ns) noexcept {
   Channel& c = state_[channel];
@@ -107,12 +114,15 @@ void Tap::put(const Sample& sample, const std::byte* data, std::size_t size) noe
   head_.store(end, std::memory_order_release);
 }
 
-void Tap::write(std::size_t channel, std::int64_t now_ns, std::int64_t valid_ns, const std::byte* data, bool for_log) noexcept {
+void Tap::write(std::size_t channel, std::int64_t now_ns, std::int64_t valid_ns, const std::byte* data,
+                bool for_log) noexcept {
   Channel& c = state_[channel];
   const std::size_t size = c.extent.of(data);
   const std::size_t need = record_size(size);
   if (held_.load(std::memory_order_relaxed)) wait_for_room(2 * need);
-  put({static_cast<std::uint32_t>(need), static_cast<std::uint32_t>(channel), number_++, c.for_log, now_ns, valid_ns, for_log}, data, size);
+  put({static_cast<std::uint32_t>(need), static_cast<std::uint32_t>(channel), number_++, c.for_log, now_ns,
+       valid_ns, for_log},
+      data, size);
   if (for_log) ++c.for_log;
 }
 
@@ -127,15 +137,20 @@ void Tap::wait_for_room(std::size_t bytes) noexcept {
        seen_tail_ = tail_.load(std::memory_order_seq_cst))
     tail_.wait(seen_tail_);
   waiting_.store(false, std::memory_order_relaxed);
-  waited_ns_ += std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - begin).count();
+  waited_ns_ +=
+      std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - begin).count();
 }
 
 std::int64_t Tap::take_wait_ns() noexcept { return std::exchange(waited_ns_, 0); }
 
-// ---- sinks ------------------------------------------------------------------------------------------------------------------------
+// ---- sinks
+// ------------------------------------------------------------------------------------------------------------------------
 
 Tap::Cursor::Cursor(Tap& tap, bool holds_back)
-    : tap_(tap), holds_back_(holds_back), wants_(tap.channels_.size(), -1), room_(tap.max_record_ / sizeof(std::uint64_t)) {
+    : tap_(tap),
+      holds_back_(holds_back),
+      wants_(tap.channels_.size(), -1),
+      room_(tap.max_record_ / sizeof(std::uint64_t)) {
   const std::lock_guard lock(tap_.mutex_);
   tap_.cursors_.push_back(this);
   read_ = released_ = seen_head_ = tap_.head_.load(std::memory_order_acquire);
@@ -178,7 +193,8 @@ void Tap::Cursor::skip_ahead() noexcept {
 const Tap::Sample* Tap::Cursor::next() noexcept {
   auto* const room = reinterpret_cast<std::byte*>(room_.data());
   for (;;) {
-    if (holds_back_ && read_ != released_ && (read_ - released_ >= tap_.capacity_ / 16 || read_ == seen_head_)) {
+    if (holds_back_ && read_ != released_ &&
+        (read_ - released_ >= tap_.capacity_ / 16 || read_ == seen_head_)) {
       released_ = read_;
       tap_.tail_.store(read_, std::memory_order_seq_cst);
       if (tap_.waiting_.load(std::memory_order_seq_cst)) tap_.tail_.notify_one();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Everything that leaves the loop: one ring, into which the loop copies each message once, and a cursor per sink (log, live view, DDS),
-// each read by the sink's own thread. A sink that is slow loses samples, counted, and delays nobody; the log alone may hold back an
-// unpaced simulation.
+// Everything that leaves the loop: one ring, into which the loop copies each message once, and a cursor per
+// sink (log, live view, DDS), each read by the sink's own thread. A sink that is slow loses samples, counted,
+// and delays nobody; the log alone may hold back an unpaced simulation.
 #pragma once
 #include <array>
 #include <atomic>
@@ -19,20 +19,24 @@ namespace fulmar::core {
 struct TapChannel {
   std::string topic;  // "/nav/state"
   TypePtr type;
-  bool may_stay_silent = false;  // of a port that need not publish in every step: its last sample is for those who come later, too
+  bool may_stay_silent = false;  // of a port that need not publish in every step: its last sample is for
+                                 // those who come later, too
 };
 
 class Tap {
  public:
   /// One message as it lies in the ring. Flight times.
   struct Sample {
-    std::uint32_t size = 0;      // of the record
-    std::uint32_t channel = 0;   // into channels()
-    std::uint64_t number = 0;    // of all records, from 0
-    std::uint64_t sequence = 0;  // of the channel's samples for the log, from 0: counts those that the log lost, too
+    std::uint32_t size = 0;     // of the record
+    std::uint32_t channel = 0;  // into channels()
+    std::uint64_t number = 0;   // of all records, from 0
+    std::uint64_t sequence =
+        0;  // of the channel's samples for the log, from 0: counts those that the log lost, too
     std::int64_t now_ns = 0, valid_ns = 0;
     bool for_log = false;
-    const std::byte* data() const { return reinterpret_cast<const std::byte*>(this + 1); }  // a struct of the channel's type
+    const std::byte* data() const {
+      return reinterpret_cast<const std::byte*>(this + 1);
+    }  // a struct of the channel's type
   };
 
   explicit Tap(std::vector<TapChannel> channels, std::size_t ring_bytes = 8u << 20);
@@ -42,10 +46,12 @@ class Tap {
 
   const std::vector<TapChannel>& channels() const { return channels_; }
 
-  /// [tick] Whether a sink other than the log wants a sample of the channel at this flight time. Counts it as given when it says so.
+  /// [tick] Whether a sink other than the log wants a sample of the channel at this flight time. Counts it as
+  /// given when it says so.
   bool wanted(std::size_t channel, std::int64_t now_ns) noexcept;
   /// [tick] No allocation, no lock. Waits only for a cursor that `holds_back`.
-  void write(std::size_t channel, std::int64_t now_ns, std::int64_t valid_ns, const std::byte* data, bool for_log) noexcept;
+  void write(std::size_t channel, std::int64_t now_ns, std::int64_t valid_ns, const std::byte* data,
+             bool for_log) noexcept;
   /// [tick] How long `write` has waited for room since this was last asked.
   std::int64_t take_wait_ns() noexcept;
   std::size_t ring_bytes() const { return capacity_; }
@@ -61,12 +67,13 @@ class Tap {
     Cursor(const Cursor&) = delete;
     Cursor& operator=(const Cursor&) = delete;
 
-    /// The next sample, a copy of its own that is valid until the next call; nullptr when there is nothing new.
+    /// The next sample, a copy of its own that is valid until the next call; nullptr when there is nothing
+    /// new.
     const Sample* next() noexcept;
     /// Samples written over before they were read, of all channels.
     std::uint64_t lost() const noexcept { return lost_; }
-    /// From now on at least one sample of the channel each so many ns of flight time; 0: every one; below 0: none. Others may want more.
-    /// What the log stores comes in any case: look at the times.
+    /// From now on at least one sample of the channel each so many ns of flight time; 0: every one; below 0:
+    /// none. Others may want more. What the log stores comes in any case: look at the times.
     void want(std::size_t channel, std::int64_t period_ns);
 
    private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// XCDR1, plain little-endian: OMG DDS-XTypes 1.3, section 7.4.1. Numbers are aligned to their size (at most 8) from the start of the body.
+// XCDR1, plain little-endian: OMG DDS-XTypes 1.3, section 7.4.1. Numbers are aligned to their size (at most
+// 8) from the start of the body.
 #include <array>
 
 #include "core/types/cdr_bytes.hpp"
@@ -9,28 +10,32 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::array<std::byte, cdr_header_bytes> header{std::byte{0}, std::byte{1}, std::byte{0}, std::byte{0}};  // CDR_LE
+constexpr std::array<std::byte, cdr_header_bytes> header{std::byte{0}, std::byte{1}, std::byte{0},
+                                                         std::byte{0}};  // CDR_LE
 
 using Op = CdrEncoder::Op;
 
-// ---- compiling -----------------------------------------------------------------------------------------------------------------
+// ---- compiling
+// -----------------------------------------------------------------------------------------------------------------
 
 struct Compiler {
   std::vector<Op> ops;
   std::size_t mergeable_from = 0;  // ops before this one belong to another level
 
-  /// `bytes` of elements of `size` each, one after the other. Joins the previous copy where neither the struct nor the wire has padding
-  /// between.
+  /// `bytes` of elements of `size` each, one after the other. Joins the previous copy where neither the
+  /// struct nor the wire has padding between.
   void copy(std::uint32_t offset, std::uint32_t size, std::uint32_t bytes) {
     if (ops.size() > mergeable_from) {
       Op& last = ops.back();
-      const bool joined = last.what == Op::copy && last.offset + last.bytes == offset && size <= last.align && last.bytes % size == 0;
+      const bool joined = last.what == Op::copy && last.offset + last.bytes == offset && size <= last.align &&
+                          last.bytes % size == 0;
       if (joined) {
         last.bytes += bytes;
         return;
       }
     }
-    ops.push_back({.what = Op::copy, .align = static_cast<std::uint8_t>(size), .offset = offset, .bytes = bytes});
+    ops.push_back(
+        {.what = Op::copy, .align = static_cast<std::uint8_t>(size), .offset = offset, .bytes = bytes});
   }
 
   static constexpr std::uint32_t unrolled = 8;
@@ -76,15 +81,9 @@ std::size_t bound(const Op* op, const Op* end) {
   std::size_t sum = 0;
   for (; op != end; ++op) {
     switch (op->what) {
-      case Op::copy:
-        sum += op->align - 1u + op->bytes;
-        break;
-      case Op::text:
-        sum += 3 + 4 + op->bytes + 1;
-        break;
-      case Op::dummy:
-        sum += 1;
-        break;
+      case Op::copy: sum += op->align - 1u + op->bytes; break;
+      case Op::text: sum += 3 + 4 + op->bytes + 1; break;
+      case Op::dummy: sum += 1; break;
       case Op::list:
       case Op::loop: {
         const std::size_t one = op->body > 0 ? bound(op + 1, op + 1 + op->body) : op->bytes;
@@ -97,7 +96,8 @@ std::size_t bound(const Op* op, const Op* end) {
   return sum;
 }
 
-// ---- encoding ------------------------------------------------------------------------------------------------------------------
+// ---- encoding
+// ------------------------------------------------------------------------------------------------------------------
 
 struct Writer {
   std::byte* const start;  // of the body
@@ -128,12 +128,8 @@ struct Writer {
           align(op->align);
           copy(data + op->offset, op->bytes);
           break;
-        case Op::text:
-          text(text_at(data + op->offset, op->bytes));
-          break;
-        case Op::dummy:
-          *at++ = std::byte{0};
-          break;
+        case Op::text: text(text_at(data + op->offset, op->bytes)); break;
+        case Op::dummy: *at++ = std::byte{0}; break;
         case Op::loop:
           elements(*op, data + op->offset, op->count);
           op += op->body;
@@ -159,7 +155,8 @@ struct Writer {
   }
 };
 
-// ---- decoding ------------------------------------------------------------------------------------------------------------------
+// ---- decoding
+// ------------------------------------------------------------------------------------------------------------------
 
 struct Decoder {
   CdrReader in;
@@ -179,7 +176,8 @@ struct Decoder {
       const std::uint32_t n = in.elements(f), size = primitive_size(f.kind);
       if (f.shape == FULMAR_LIST) {
         if (n > f.count)
-          throw Error(f.name + " has " + std::to_string(n) + " items, its capacity is " + std::to_string(f.count));
+          throw Error(f.name + " has " + std::to_string(n) + " items, its capacity is " +
+                      std::to_string(f.count));
         std::memcpy(first, &n, 4);
         first += f.items;
       }
@@ -197,7 +195,8 @@ struct Decoder {
   }
 };
 
-// ---- value by value ------------------------------------------------------------------------------------------------------------
+// ---- value by value
+// ------------------------------------------------------------------------------------------------------------
 
 struct Lister {
   CdrReader in;
@@ -221,7 +220,8 @@ struct Lister {
     for (const Field& f : t.fields) {
       const std::uint32_t n = in.elements(f);
       for (std::uint32_t i = 0; i < n; ++i) {
-        const std::string name = path + f.name + (f.shape == FULMAR_SCALAR ? "" : "[" + std::to_string(i) + "]");
+        const std::string name =
+            path + f.name + (f.shape == FULMAR_SCALAR ? "" : "[" + std::to_string(i) + "]");
         if (f.kind == FULMAR_STRUCT)
           type(*f.type, name + ".");
         else if (list.size() < most)

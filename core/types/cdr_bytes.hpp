@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// XCDR1 bytes by hand, value by value: OMG DDS-XTypes 1.3, section 7.4.1. Numbers are aligned to their size from the
-// start of the body, which begins behind the encapsulation header.
+// XCDR1 bytes by hand, value by value: OMG DDS-XTypes 1.3, section 7.4.1. Numbers are aligned to their size
+// from the start of the body, which begins behind the encapsulation header.
 #pragma once
 #include <span>
 #include <string_view>

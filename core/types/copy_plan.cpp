@@ -17,7 +17,8 @@ std::string shape_words(const Field& field) {
 
 std::string or_none(const std::string& text) { return text.empty() ? "none" : text; }
 
-std::string differ(const std::string& path, const std::string& what, const std::string& reader, const std::string& writer) {
+std::string differ(const std::string& path, const std::string& what, const std::string& reader,
+                   const std::string& writer) {
   return path + ": reader has " + what + reader + ", writer " + writer;
 }
 
@@ -26,17 +27,21 @@ std::string fields_differ(const Type& from, const Type& to, const std::string& p
 // "" when the reader's field `to` can be filled from the writer's field `from`.
 std::string field_differs(const Field& from, const Field& to, const std::string& path) {
   if (from.kind != to.kind) return differ(path, "kind ", kind_word(to.kind), kind_word(from.kind));
-  const bool longer = to.shape == FULMAR_LIST && from.count <= to.count;  // a reader's list may have more room
-  if (from.shape != to.shape || (from.count != to.count && !longer)) return differ(path, "", shape_words(to), shape_words(from));
+  const bool longer =
+      to.shape == FULMAR_LIST && from.count <= to.count;  // a reader's list may have more room
+  if (from.shape != to.shape || (from.count != to.count && !longer))
+    return differ(path, "", shape_words(to), shape_words(from));
   if (from.unit != to.unit) return differ(path, "unit ", or_none(to.unit), or_none(from.unit));
   if (to.kind == FULMAR_TEXT && from.stride > to.stride)
     return differ(path, "room for ", std::to_string(to.stride) + " bytes", std::to_string(from.stride));
   if (to.kind == FULMAR_ENUM) {  // every label that the writer may send has the same meaning to the reader
-    const bool known = from.labels.size() <= to.labels.size() && std::equal(from.labels.begin(), from.labels.end(), to.labels.begin());
+    const bool known = from.labels.size() <= to.labels.size() &&
+                       std::equal(from.labels.begin(), from.labels.end(), to.labels.begin());
     if (!known) return differ(path, "labels ", join(to.labels), join(from.labels));
   }
   if (to.kind != FULMAR_STRUCT) return "";
-  if (from.type->frame != to.type->frame) return differ(path, "frame ", or_none(to.type->frame), or_none(from.type->frame));
+  if (from.type->frame != to.type->frame)
+    return differ(path, "frame ", or_none(to.type->frame), or_none(from.type->frame));
   return fields_differ(*from.type, *to.type, path + ".");
 }
 
@@ -100,8 +105,8 @@ bool same_layout(const Type& from, const Type& to) {
   if (from.size != to.size || from.fields.size() != to.fields.size()) return false;
   for (std::size_t i = 0; i < to.fields.size(); ++i) {
     const Field &a = from.fields[i], &b = to.fields[i];
-    if (a.name != b.name || a.kind != b.kind || a.shape != b.shape || a.offset != b.offset || a.count != b.count || a.stride != b.stride ||
-        a.items != b.items)
+    if (a.name != b.name || a.kind != b.kind || a.shape != b.shape || a.offset != b.offset ||
+        a.count != b.count || a.stride != b.stride || a.items != b.items)
       return false;
     if (b.kind == FULMAR_STRUCT && !same_layout(*a.type, *b.type)) return false;
   }
@@ -112,7 +117,8 @@ bool same_layout(const Type& from, const Type& to) {
 
 std::string incompatibility(const Type& from, const Type& to) {
   if (from.hash == to.hash) return "";
-  if (from.frame != to.frame) return "reader has frame " + or_none(to.frame) + ", writer " + or_none(from.frame);
+  if (from.frame != to.frame)
+    return "reader has frame " + or_none(to.frame) + ", writer " + or_none(from.frame);
   return fields_differ(from, to, "");
 }
 

@@ -12,7 +12,8 @@ namespace fulmar::core {
 
 static_assert(std::endian::native == std::endian::little, "message bytes are copied to the wire as they are");
 
-/// The elements that are there: 1, all of an array, or what a list counts. A count beyond the capacity is cut.
+/// The elements that are there: 1, all of an array, or what a list counts. A count beyond the capacity is
+/// cut.
 struct Elements {
   const std::byte* first;
   std::uint32_t count;

@@ -22,8 +22,10 @@ Part parse_part(std::string_view part, std::string_view dotted) {
   const std::string_view digits = part.substr(open + 1, part.size() - open - 2);
   std::uint32_t index = 0;
   const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
-  if (part.back() != ']' || part.size() < open + 3 || fault != std::errc() || end != digits.data() + digits.size())
-    throw Error("'" + std::string(part) + "' in '" + std::string(dotted) + "' is not understood; an index is written like waypoints[3].");
+  if (part.back() != ']' || part.size() < open + 3 || fault != std::errc() ||
+      end != digits.data() + digits.size())
+    throw Error("'" + std::string(part) + "' in '" + std::string(dotted) +
+                "' is not understood; an index is written like waypoints[3].");
   return {part.substr(0, open), index};
 }
 
@@ -58,11 +60,12 @@ void enter(FieldRef& ref, const Field& field, const Part& part) {
   }
   const std::string kind = field.shape == FULMAR_LIST ? "list of at most " : "array of ";
   if (part.index < 0)
-    throw Error("'" + name + "' is a" + (field.shape == FULMAR_LIST ? " " : "n ") + kind + std::to_string(field.count) + ": say " + name +
-                "[0].");
+    throw Error("'" + name + "' is a" + (field.shape == FULMAR_LIST ? " " : "n ") + kind +
+                std::to_string(field.count) + ": say " + name + "[0].");
   if (part.index >= field.count)
     throw Error("'" + name + "[" + std::to_string(part.index) + "]' does not exist: '" + name + "' is a" +
-                (field.shape == FULMAR_LIST ? " " : "n ") + kind + std::to_string(field.count) + ", counted from 0.");
+                (field.shape == FULMAR_LIST ? " " : "n ") + kind + std::to_string(field.count) +
+                ", counted from 0.");
   const auto index = static_cast<std::uint32_t>(part.index);
   if (field.shape == FULMAR_LIST) {
     ref.items.push_back({ref.offset, index});
@@ -90,7 +93,9 @@ FieldRef resolve_field(const Type& type, std::string_view dotted) {
     const std::size_t dot = rest.find('.');
     const bool last = dot == std::string_view::npos;
     const Part part = parse_part(rest.substr(0, dot), dotted);
-    if (inside == nullptr) throw Error("'" + ref.field->name + "' has no fields, so '" + std::string(dotted) + "' does not exist.");
+    if (inside == nullptr)
+      throw Error("'" + ref.field->name + "' has no fields, so '" + std::string(dotted) +
+                  "' does not exist.");
     const Field& field = find_field(*inside, part.name);
     if (!last && field.shape == FULMAR_LIST && part.index < 0 && rest.substr(dot + 1) == "count") {
       ref.field = &count_field();

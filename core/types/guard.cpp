@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The check of every published message. Fields are flattened at load into steps; neighbouring doubles without a range become one run.
+// The check of every published message. Fields are flattened at load into steps; neighbouring doubles without
+// a range become one run.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -13,20 +14,23 @@
 namespace fulmar::core {
 namespace {
 
-// Adding one to the exponent of a number whose exponent is all ones, and of no other, carries into the sign bit (IEEE 754 binary64).
+// Adding one to the exponent of a number whose exponent is all ones, and of no other, carries into the sign
+// bit (IEEE 754 binary64).
 bool finite_run(const std::byte* at, std::uint32_t count) noexcept {
   constexpr std::uint64_t magnitude = 0x7fffffffffffffffu, one = 0x0010000000000000u;
   std::uint64_t carry[4] = {0, 0, 0, 0};
   std::uint32_t i = 0;
   for (; i + 4 <= count; i += 4, at += 32)
-    for (std::uint32_t k = 0; k < 4; ++k) carry[k] |= (load<std::uint64_t>(at + std::size_t{8} * k) & magnitude) + one;
+    for (std::uint32_t k = 0; k < 4; ++k)
+      carry[k] |= (load<std::uint64_t>(at + std::size_t{8} * k) & magnitude) + one;
   for (; i < count; ++i, at += 8) carry[0] |= (load<std::uint64_t>(at) & magnitude) + one;
   return ((carry[0] | carry[1] | carry[2] | carry[3]) >> 63) == 0;
 }
 
 bool finite_floats(const std::byte* at, std::uint32_t count) noexcept {
   std::uint32_t carry = 0;
-  for (std::uint32_t i = 0; i < count; ++i) carry |= (load<std::uint32_t>(at + std::size_t{4} * i) & 0x7fffffffu) + 0x00800000u;
+  for (std::uint32_t i = 0; i < count; ++i)
+    carry |= (load<std::uint32_t>(at + std::size_t{4} * i) & 0x7fffffffu) + 0x00800000u;
   return (carry >> 31) == 0;
 }
 
@@ -51,7 +55,8 @@ double high(const Field& field) { return std::min(field.max, std::numeric_limits
 
 }  // namespace
 
-// ---- from a type to steps ----------------------------------------------------------------------------------------------------
+// ---- from a type to steps
+// ----------------------------------------------------------------------------------------------------
 
 struct Guard::Compiler {
   static constexpr std::uint32_t unrolled = 64;
@@ -127,7 +132,8 @@ Guard::Guard(const Type& type) : type_(std::make_shared<const Type>(type)) {
   steps_ = std::move(compiler.steps);
 }
 
-// ---- in the tick -------------------------------------------------------------------------------------------------------------
+// ---- in the tick
+// -------------------------------------------------------------------------------------------------------------
 
 bool Guard::run(const Step* step, const Step* end, const std::byte* data) noexcept {
   for (; step != end; ++step) {
@@ -159,7 +165,8 @@ bool Guard::run(const Step* step, const Step* end, const std::byte* data) noexce
           if (std::memchr(at, '\0', step->stride) == nullptr) return false;
         break;
       case Step::Kind::repeat: {
-        const std::uint32_t count = step->counted ? load<std::uint32_t>(data + step->count_offset) : step->count;
+        const std::uint32_t count =
+            step->counted ? load<std::uint32_t>(data + step->count_offset) : step->count;
         if (count > step->count) return false;
         for (std::uint32_t i = 0; i < count; ++i, at += step->stride)
           if (!run(step + 1, step + step->end, at)) return false;
@@ -171,13 +178,17 @@ bool Guard::run(const Step* step, const Step* end, const std::byte* data) noexce
   return true;
 }
 
-bool Guard::check(const std::byte* data) const noexcept { return run(steps_.data(), steps_.data() + steps_.size(), data); }
+bool Guard::check(const std::byte* data) const noexcept {
+  return run(steps_.data(), steps_.data() + steps_.size(), data);
+}
 
-// ---- in words ----------------------------------------------------------------------------------------------------------------
+// ---- in words
+// ----------------------------------------------------------------------------------------------------------------
 
 namespace {
 
-// Walks a message as its table says and stops at the first bad value; its path and what is wrong with it stand in `text` then.
+// Walks a message as its table says and stops at the first bad value; its path and what is wrong with it
+// stand in `text` then.
 class Explainer {
  public:
   Explainer(char* text, std::size_t size) : text_(text), size_(size) { text_[0] = '\0'; }
@@ -211,7 +222,8 @@ class Explainer {
 
   bool element(const Field& field, const std::byte* at) noexcept {
     if (field.kind == FULMAR_STRUCT) return fields(*field.type, at);
-    if (field.kind == FULMAR_TEXT) return std::memchr(at, '\0', field.stride) == nullptr && append(" is a text without an end");
+    if (field.kind == FULMAR_TEXT)
+      return std::memchr(at, '\0', field.stride) == nullptr && append(" is a text without an end");
     const double x = number_at(field, at);
     if (std::isnan(x)) return append(" is nan");
     if (std::isinf(x)) return append(x > 0 ? " is inf" : " is -inf");

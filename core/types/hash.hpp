@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hash of what a message says: padding, what stands behind the end of a text, and items beyond a list's count do not count.
-// Four lanes of multiply and xor, finished as splitmix64; no cryptography: it finds differences that nobody made on purpose.
+// Hash of what a message says: padding, what stands behind the end of a text, and items beyond a list's count
+// do not count. Four lanes of multiply and xor, finished as splitmix64; no cryptography: it finds differences
+// that nobody made on purpose.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -9,8 +10,8 @@
 #include <cstring>
 #include <vector>
 
-#include "core/types/type.hpp"
 #include "core/types/element.hpp"
+#include "core/types/type.hpp"
 #include "core/types/walk.hpp"
 
 namespace fulmar::core {
@@ -86,7 +87,8 @@ class MessageHash {
     }
   };
 
-  static std::uint64_t run(const Step* step, const Step* end, std::uint64_t h, const std::byte* data) noexcept {
+  static std::uint64_t run(const Step* step, const Step* end, std::uint64_t h,
+                           const std::byte* data) noexcept {
     for (; step != end; ++step) {
       const std::byte* const at = data + step->offset;
       if (step->kind == Step::Kind::bytes) {
@@ -96,7 +98,8 @@ class MessageHash {
       } else {
         const std::uint32_t n = step->counted ? std::min(load<std::uint32_t>(at), step->count) : step->count;
         h = mix(h, n);
-        for (std::uint32_t k = 0; k < n; ++k) h = run(step + 1, step + 1 + step->body, h, at + step->items + std::size_t{k} * step->stride);
+        for (std::uint32_t k = 0; k < n; ++k)
+          h = run(step + 1, step + 1 + step->body, h, at + step->items + std::size_t{k} * step->stride);
         step += step->body;
       }
     }

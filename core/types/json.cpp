@@ -63,7 +63,8 @@ Json object(const Type& type, const std::byte* data, Turned degrees, double scal
       continue;
     }
     Json& list = result[key] = Json::array();
-    for (std::uint32_t i = 0; i < count; ++i) list.push_back(element<Json>(f, first + std::size_t{i} * f.stride, degrees, factor));
+    for (std::uint32_t i = 0; i < count; ++i)
+      list.push_back(element<Json>(f, first + std::size_t{i} * f.stride, degrees, factor));
   }
   return result;
 }
@@ -72,7 +73,8 @@ Json object(const Type& type, const std::byte* data, Turned degrees, double scal
 
 std::string shown_name(const std::string& field) {
   for (const std::string_view ending : {"_rad", "_radps", "_radps2"})
-    if (field.ends_with(ending)) return field.substr(0, field.size() - ending.size()) + "_deg" + std::string(ending.substr(4));
+    if (field.ends_with(ending))
+      return field.substr(0, field.size() - ending.size()) + "_deg" + std::string(ending.substr(4));
   return field;
 }
 
@@ -80,6 +82,8 @@ json to_json(const Type& type, const std::byte* data, bool degrees) {
   return object<json>(type, data, degrees ? Turned::angles : Turned::none, 1.0);
 }
 
-ordered_json shown_json(const Type& type, const std::byte* data) { return object<ordered_json>(type, data, Turned::all, 1.0); }
+ordered_json shown_json(const Type& type, const std::byte* data) {
+  return object<ordered_json>(type, data, Turned::all, 1.0);
+}
 
 }  // namespace fulmar::core

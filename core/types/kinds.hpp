@@ -69,29 +69,18 @@ decltype(auto) with_number(fulmar_kind kind, const std::byte* at, Take&& take) {
   switch (kind) {
     case FULMAR_BOOL:
     case FULMAR_U8:
-    case FULMAR_ENUM:
-      return take(load<std::uint8_t>(at));
-    case FULMAR_I8:
-      return take(load<std::int8_t>(at));
-    case FULMAR_I16:
-      return take(load<std::int16_t>(at));
-    case FULMAR_U16:
-      return take(load<std::uint16_t>(at));
-    case FULMAR_I32:
-      return take(load<std::int32_t>(at));
-    case FULMAR_U32:
-      return take(load<std::uint32_t>(at));
-    case FULMAR_I64:
-      return take(load<std::int64_t>(at));
-    case FULMAR_U64:
-      return take(load<std::uint64_t>(at));
-    case FULMAR_F32:
-      return take(load<float>(at));
-    case FULMAR_F64:
-      return take(load<double>(at));
+    case FULMAR_ENUM: return take(load<std::uint8_t>(at));
+    case FULMAR_I8: return take(load<std::int8_t>(at));
+    case FULMAR_I16: return take(load<std::int16_t>(at));
+    case FULMAR_U16: return take(load<std::uint16_t>(at));
+    case FULMAR_I32: return take(load<std::int32_t>(at));
+    case FULMAR_U32: return take(load<std::uint32_t>(at));
+    case FULMAR_I64: return take(load<std::int64_t>(at));
+    case FULMAR_U64: return take(load<std::uint64_t>(at));
+    case FULMAR_F32: return take(load<float>(at));
+    case FULMAR_F64: return take(load<double>(at));
     case FULMAR_TEXT:
-    case FULMAR_STRUCT:
-      break;
+    case FULMAR_STRUCT: break;
   }
   return take(std::numeric_limits<double>::quiet_NaN());
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ROS 2 names, message text and type hash of a message. Sources: ROS 2 design "interface definition", REP 2016 (RIHS01).
+// ROS 2 names, message text and type hash of a message. Sources: ROS 2 design "interface definition", REP
+// 2016 (RIHS01).
 #include <cctype>
 #include <map>
 #include <set>
@@ -48,14 +49,15 @@ std::string constant_name(std::string_view text) {
   return name;
 }
 
-/// Labels of a message's enum fields carry the field's name where there are several such fields, or where a label does not begin with a
-/// letter.
+/// Labels of a message's enum fields carry the field's name where there are several such fields, or where a
+/// label does not begin with a letter.
 std::string constants(const Field& field, bool prefixed) {
   for (const std::string& label : field.labels)
     prefixed = prefixed || !std::isalpha(static_cast<unsigned char>(label.empty() ? '0' : label[0]));
   std::string text;
   for (std::size_t i = 0; i < field.labels.size(); ++i) {
-    text += "uint8 " + constant_name((prefixed ? field.name + "_" : "") + field.labels[i]) + "=" + std::to_string(i) + "\n";
+    text += "uint8 " + constant_name((prefixed ? field.name + "_" : "") + field.labels[i]) + "=" +
+            std::to_string(i) + "\n";
   }
   return text;
 }
@@ -75,7 +77,8 @@ std::string field_line(const Type& type, const Field& f) {
   return line + (note.empty() ? "" : "  # " + note) + "\n";
 }
 
-// ---- type hash -------------------------------------------------------------------------------------------------------------------
+// ---- type hash
+// -------------------------------------------------------------------------------------------------------------------
 
 /// type_description_interfaces/msg/FieldType
 int type_id(const Type& type, const Field& f) {
@@ -83,9 +86,10 @@ int type_id(const Type& type, const Field& f) {
   return kind_row(f.kind).ros_id + shift;
 }
 
-std::string field_description(const std::string& name, int id, std::uint32_t capacity, const std::string& nested) {
-  return R"({"name": ")" + name + R"(", "type": {"type_id": )" + std::to_string(id) + R"(, "capacity": )" + std::to_string(capacity) +
-         R"(, "string_capacity": 0, "nested_type_name": ")" + nested + R"("}})";
+std::string field_description(const std::string& name, int id, std::uint32_t capacity,
+                              const std::string& nested) {
+  return R"({"name": ")" + name + R"(", "type": {"type_id": )" + std::to_string(id) + R"(, "capacity": )" +
+         std::to_string(capacity) + R"(, "string_capacity": 0, "nested_type_name": ")" + nested + R"("}})";
 }
 
 std::string type_description(const Type& type) {
@@ -138,8 +142,8 @@ std::string ros_type_hash(const Type& type) {
   for (const Type* nested : nested_types(type)) referenced[ros_name(*nested)] = type_description(*nested);
   std::string list;
   for (const auto& [name, description] : referenced) list += (list.empty() ? "" : ", ") + description;
-  return "RIHS01_" +
-         Sha256::of(R"({"type_description": )" + type_description(type) + R"(, "referenced_type_descriptions": [)" + list + "]}");
+  return "RIHS01_" + Sha256::of(R"({"type_description": )" + type_description(type) +
+                                R"(, "referenced_type_descriptions": [)" + list + "]}");
 }
 
 }  // namespace fulmar::core

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Text of ROS 2 message definitions -> type tables. Source: ROS 2 design "interface definition"; MCAP's registry of well-known schema
-// encodings, `ros2msg`.
+// Text of ROS 2 message definitions -> type tables. Source: ROS 2 design "interface definition"; MCAP's
+// registry of well-known schema encodings, `ros2msg`.
 #include "core/types/ros_parse.hpp"
 
 #include <algorithm>
@@ -60,11 +60,14 @@ std::string package_of(const std::string& full) { return full.substr(0, full.fin
 
 using Constants = std::vector<std::pair<std::int64_t, std::string>>;  // in small letters
 
-std::uint32_t align_up(std::uint64_t at, std::uint32_t align) { return static_cast<std::uint32_t>((at + align - 1) / align * align); }
+std::uint32_t align_up(std::uint64_t at, std::uint32_t align) {
+  return static_cast<std::uint32_t>((at + align - 1) / align * align);
+}
 
 class Parser {
  public:
-  Parser(const std::string& name, const std::string& text, bool laid_out) : hash_seed_(text), laid_out_(laid_out) {
+  Parser(const std::string& name, const std::string& text, bool laid_out)
+      : hash_seed_(text), laid_out_(laid_out) {
     std::istringstream lines(text);
     std::string line, section = full_name(name, package_of(name));
     sections_[section];
@@ -125,7 +128,8 @@ class Parser {
     const std::string note(hash == std::string::npos ? "" : trimmed(std::string_view(line).substr(hash + 1)));
     std::string_view element = type_word;
     if (!shape(element, field)) fail(name, line, "a list's length cannot be read");
-    if (!kind(element, name, note, depth, field)) fail(name, line, "the type " + std::string(element) + " is not known here");
+    if (!kind(element, name, note, depth, field))
+      fail(name, line, "the type " + std::string(element) + " is not known here");
     if (primitive_size(field.kind) > 0 && !is_real(field.kind)) take_constants(constants, field);
     constants.clear();
     if (laid_out_) place(field, name, made, end);
@@ -159,7 +163,8 @@ class Parser {
     return read_number(inside, field.count) && field.count > 0;
   }
 
-  bool kind(std::string_view element, const std::string& name, const std::string& note, int depth, Field& field) {
+  bool kind(std::string_view element, const std::string& name, const std::string& note, int depth,
+            Field& field) {
     field.unit = note;
     if (element.starts_with("string<=")) {
       if (!read_number(element.substr(8), field.stride) || field.stride > largest_struct / 2) return false;
@@ -195,8 +200,8 @@ class Parser {
   /// the constants 0, 1, ... of a uint8.
   static void take_constants(Constants& constants, Field& field) {
     const std::string prefix = lower(field.name) + "_";
-    const bool prefixed =
-        std::all_of(constants.begin(), constants.end(), [&](const auto& c) { return c.second.starts_with(prefix); });
+    const bool prefixed = std::all_of(constants.begin(), constants.end(),
+                                      [&](const auto& c) { return c.second.starts_with(prefix); });
     bool counted = field.kind == FULMAR_U8 && field.shape == FULMAR_SCALAR && !constants.empty();
     for (std::size_t i = 0; i < constants.size(); ++i) {
       if (prefixed) constants[i].second.erase(0, prefix.size());
@@ -210,7 +215,9 @@ class Parser {
 
   /// What has no bound gets room here.
   static void place(Field& field, const std::string& name, Type& made, std::uint64_t& end) {
-    const std::uint32_t own = field.kind == FULMAR_STRUCT ? field.type->align : field.kind == FULMAR_TEXT ? 1 : primitive_size(field.kind);
+    const std::uint32_t own = field.kind == FULMAR_STRUCT ? field.type->align
+                              : field.kind == FULMAR_TEXT ? 1
+                                                          : primitive_size(field.kind);
     const bool list = field.shape == FULMAR_LIST;
     if (field.stride == 0) field.stride = text_room;
     if (field.count == 0) field.count = list_room;
@@ -220,7 +227,8 @@ class Parser {
     field.min = -std::numeric_limits<double>::infinity();
     field.max = std::numeric_limits<double>::infinity();
     end = std::uint64_t{field.offset} + field.items + std::uint64_t{field.count} * field.stride;
-    if (end > largest_struct) throw Error(name + " is too large: '" + field.name + "' ends at " + std::to_string(end) + " bytes");
+    if (end > largest_struct)
+      throw Error(name + " is too large: '" + field.name + "' ends at " + std::to_string(end) + " bytes");
     made.align = std::max(made.align, align);
   }
 
@@ -236,7 +244,8 @@ class Parser {
 }  // namespace
 
 TypePtr parse_ros_definition(const std::string& name, const std::string& text) {
-  if (name.find('/') == std::string::npos) throw Error("'" + name + "' is no ROS message type, which has the form package/msg/Name");
+  if (name.find('/') == std::string::npos)
+    throw Error("'" + name + "' is no ROS message type, which has the form package/msg/Name");
   return Parser(name, text, true).type(full_name(name, ""), 0);
 }
 

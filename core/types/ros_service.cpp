@@ -26,7 +26,8 @@ Field member(const char* name, fulmar_kind kind, std::size_t offset, std::size_t
 std::string srv_name(const Type& request) {
   std::string name = ros_name(request);
   const std::string half = "_Request";
-  if (name.size() > half.size() && name.compare(name.size() - half.size(), half.size(), half) == 0) name.resize(name.size() - half.size());
+  if (name.size() > half.size() && name.compare(name.size() - half.size(), half.size(), half) == 0)
+    name.resize(name.size() - half.size());
   const std::size_t middle = name.find("/msg/");
   return middle == std::string::npos ? name : name.replace(middle, 5, "/srv/");
 }
@@ -43,11 +44,14 @@ TypePtr srv_response(const Type& request) {
   type.ros = srv_name(request) + "_Response";
   type.size = sizeof(ServiceResponse);
   type.align = alignof(ServiceResponse);
-  type.fields = {member("accepted", FULMAR_BOOL, offsetof(ServiceResponse, accepted), 1),
-                 member("reason", FULMAR_TEXT, offsetof(ServiceResponse, reason), sizeof(ServiceResponse::reason))};
+  type.fields = {
+      member("accepted", FULMAR_BOOL, offsetof(ServiceResponse, accepted), 1),
+      member("reason", FULMAR_TEXT, offsetof(ServiceResponse, reason), sizeof(ServiceResponse::reason))};
   return std::make_shared<const Type>(std::move(type));
 }
 
-std::string srv_text(const Type& request) { return ros_message_text(request) + "---\n" + ros_message_text(*srv_response(request)); }
+std::string srv_text(const Type& request) {
+  return ros_message_text(request) + "---\n" + ros_message_text(*srv_response(request));
+}
 
 }  // namespace fulmar::core

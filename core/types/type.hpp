@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The host's own copy of what a plugin says of its messages, ports and parameters. Outlives the plugin's file.
+// The host's own copy of what a plugin says of its messages, ports and parameters. Outlives the plugin's
+// file.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -17,8 +18,8 @@ using TypePtr = std::shared_ptr<const Type>;
 struct Field {
   std::string name;
   std::string unit;
-  TypePtr type;                     // of a struct
-  std::vector<std::string> labels;  // of an enum
+  TypePtr type;                                                 // of a struct
+  std::vector<std::string> labels;                              // of an enum
   std::vector<std::pair<std::int64_t, std::string>> constants;  // of a ROS definition, which name its values
   fulmar_kind kind = FULMAR_F64;
   fulmar_shape shape = FULMAR_SCALAR;
@@ -68,11 +69,12 @@ struct ComponentInfo {
 };
 
 struct PluginInfo {
-  std::string file;    // name without folders: "control_slc.so"
-  std::string path;    // where it was found; not for logs
-  std::string copy;    // the private copy that is loaded
-  std::string script;  // of a file in another language: its private copy; `copy` is then the plugin that hosts the language
-  std::string sha256;  // of the file, hex
+  std::string file;      // name without folders: "control_slc.so"
+  std::string path;      // where it was found; not for logs
+  std::string copy;      // the private copy that is loaded
+  std::string script;    // of a file in another language: its private copy; `copy` is then the plugin that
+                         // hosts the language
+  std::string sha256;    // of the file, hex
   std::string build_id;  // that the linker gave it, hex; "" when it gave none
   std::string version, toolchain, flags;
   std::uint32_t abi_major = 0, abi_minor = 0;
@@ -88,8 +90,9 @@ std::uint32_t element_size(const Field& field);
 /// Bytes from a field's offset to its end.
 std::uint64_t field_span(const Field& field);
 
-/// A struct's field addressed by a dotted name: "position_m.north", "waypoints[3].airspeed_mps", "waypoints.count" (of a list).
-/// Throws Error naming the valid choices. A whole array or list is no answer; a struct or a text is: look at field->kind.
+/// A struct's field addressed by a dotted name: "position_m.north", "waypoints[3].airspeed_mps",
+/// "waypoints.count" (of a list). Throws Error naming the valid choices. A whole array or list is no answer;
+/// a struct or a text is: look at field->kind.
 struct FieldRef {
   const Field* field = nullptr;  // the last one; lives as long as the type
   std::uint32_t offset = 0;      // from the start of the message to the element
@@ -103,13 +106,17 @@ struct FieldRef {
 };
 FieldRef resolve_field(const Type& type, std::string_view dotted);
 
-/// The element at `at` (the start of the message + FieldRef::offset) as a number. Bool and enum count from 0. Text and structs are nan.
+/// The element at `at` (the start of the message + FieldRef::offset) as a number. Bool and enum count from 0.
+/// Text and structs are nan.
 inline double number_at(fulmar_kind kind, const std::byte* at) noexcept {
   return with_number(kind, at, [](auto x) { return static_cast<double>(x); });
 }
-inline double number_at(const Field& field, const std::byte* at) noexcept { return number_at(field.kind, at); }
+inline double number_at(const Field& field, const std::byte* at) noexcept {
+  return number_at(field.kind, at);
+}
 
-/// Why a reader of type `to` cannot be fed by a writer of type `from`: names the first field that differs. "" when it can.
+/// Why a reader of type `to` cannot be fed by a writer of type `from`: names the first field that differs. ""
+/// when it can.
 std::string incompatibility(const Type& from, const Type& to);
 
 /// Moves the fields that a reader knows. Equal tables are one copy of everything.
@@ -124,14 +131,16 @@ struct CopyPlan {
 };
 CopyPlan copy_plan(const Type& from, const Type& to);
 
-/// Finds the first value in a message that is not finite, out of its range, or a label, flag, text end or list item that does not exist.
-/// `check` allocates nothing and returns false on a bad value; `explain` then says which: "airspeed_mps is nan".
+/// Finds the first value in a message that is not finite, out of its range, or a label, flag, text end or
+/// list item that does not exist. `check` allocates nothing and returns false on a bad value; `explain` then
+/// says which: "airspeed_mps is nan".
 class Guard {
  public:
   explicit Guard(const Type& type);
   bool check(const std::byte* data) const noexcept;
   std::string explain(const std::byte* data) const;
-  void explain_to(const std::byte* data, char* text, std::size_t size) const noexcept;  // the same without allocation
+  void explain_to(const std::byte* data, char* text,
+                  std::size_t size) const noexcept;  // the same without allocation
 
  private:
   struct Step {
@@ -140,7 +149,8 @@ class Guard {
     fulmar_kind element = FULMAR_F64;
     std::uint32_t offset = 0, count = 1, stride = 0;
     double min = 0, max = 0;
-    // repeat: the steps up to `end` apply to each item; a count at `count_offset` says how many when `counted`
+    // repeat: the steps up to `end` apply to each item; a count at `count_offset` says how many when
+    // `counted`
     std::uint32_t count_offset = 0, end = 0;
     bool counted = false;
   };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one wire form, derived from a type table: XCDR1 bytes, ROS 2 message text and hash, JSON. No code per message.
+// The one wire form, derived from a type table: XCDR1 bytes, ROS 2 message text and hash, JSON. No code per
+// message.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +16,8 @@ namespace fulmar::core {
 /// The encapsulation header before every message.
 inline constexpr std::size_t cdr_header_bytes = 4;
 
-/// Encodes messages of one type: a 4-byte encapsulation header and the body, little endian. Compiled at load into a flat list of copies.
+/// Encodes messages of one type: a 4-byte encapsulation header and the body, little endian. Compiled at load
+/// into a flat list of copies.
 class CdrEncoder {
  public:
   explicit CdrEncoder(const Type& type);
@@ -25,12 +27,14 @@ class CdrEncoder {
   std::size_t encode(const std::byte* data, std::byte* out) const noexcept;
   std::size_t max_size() const { return max_size_; }
 
-  /// One step of encoding. Alignment is that of XCDR1: to the element's size, counted from the start of the body.
+  /// One step of encoding. Alignment is that of XCDR1: to the element's size, counted from the start of the
+  /// body.
   struct Op {
     enum What : std::uint8_t { copy, text, list, loop, dummy } what = copy;
     std::uint8_t align = 1;    // copy: of its first element; list with body 0: of the elements
     std::uint32_t offset = 0;  // in the struct or element that the op belongs to
-    std::uint32_t bytes = 0;   // copy: all; text: room; list with body 0: of one element, its items are copied in one go
+    std::uint32_t bytes =
+        0;  // copy: all; text: room; list with body 0: of one element, its items are copied in one go
     std::uint32_t count = 0;   // list: capacity; loop: elements
     std::uint32_t stride = 0;  // list, loop: bytes from one element to the next
     std::uint32_t items = 0;   // list: bytes from offset to the first element
@@ -48,10 +52,11 @@ void cdr_decode(const Type& type, const std::byte* bytes, std::size_t size, std:
 /// A number, text or label in a message.
 struct CdrValue {
   std::string name;  // "legs[1].position_m.north"
-  std::string text;  // of a number the shortest that reads back the same; the constant's name where it has one
+  std::string
+      text;  // of a number the shortest that reads back the same; the constant's name where it has one
 };
-/// All values of a message whose type has no layout, in the order of its bytes. Throws Error when the bytes do not fit the type, or hold
-/// more than `most`.
+/// All values of a message whose type has no layout, in the order of its bytes. Throws Error when the bytes
+/// do not fit the type, or hold more than `most`.
 std::vector<CdrValue> cdr_values(const Type& schema, std::span<const std::byte> message, std::size_t most);
 
 /// "fulmar_msgs/msg/VehicleState", or the foreign message's own ROS name.
@@ -66,11 +71,12 @@ std::string ros_message_text(const Type& type);
 /// ROS 2 type hash (REP 2016): "RIHS01_" and the SHA-256 of the canonical description, in hex.
 std::string ros_type_hash(const Type& type);
 
-/// JSON of a message. Keys are field names; `_rad` fields are shown as `_deg` in degrees when `degrees` is set. Text is a string, an enum
-/// its label; a number that is not finite is null.
+/// JSON of a message. Keys are field names; `_rad` fields are shown as `_deg` in degrees when `degrees` is
+/// set. Text is a string, an enum its label; a number that is not finite is null.
 nlohmann::json to_json(const Type& type, const std::byte* data, bool degrees);
 
-/// The same for people: in the order of the fields; angles, angular rates and accelerations in degrees, under their shown names.
+/// The same for people: in the order of the fields; angles, angular rates and accelerations in degrees, under
+/// their shown names.
 nlohmann::ordered_json shown_json(const Type& type, const std::byte* data);
 /// "roll_rad" -> "roll_deg", "p_radps" -> "p_degps"; all others stay.
 std::string shown_name(const std::string& field);

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Outer loops in C11, against fulmar/abi.h and nothing else: course to roll, height to pitch, airspeed to throttle, all proportional.
- * Source: Beard & McLain, Small Unmanned Aircraft (2012), chapter 6. */
+/* Outer loops in C11, against fulmar/abi.h and nothing else: course to roll, height to pitch, airspeed to
+ * throttle, all proportional. Source: Beard & McLain, Small Unmanned Aircraft (2012), chapter 6. */
 #include <fulmar/abi.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
 
-/* ---- messages: only the fields that this law reads; the host copies those, wherever they lie in the writer's struct -------- */
+/* ---- messages: only the fields that this law reads; the host copies those, wherever they lie in the
+ * writer's struct -------- */
 
 struct state {
   double height_m, course_rad, airspeed_mps;
@@ -18,12 +19,18 @@ struct attitude { /* an output is written whole: every field that its readers kn
   double roll_rad, pitch_rad, throttle_frac;
 };
 
-#define NUMBER_IN(message, member, unit, min, max) \
-  { #member, unit, NULL, NULL, 0, FULMAR_F64, FULMAR_SCALAR, offsetof(struct message, member), 1, sizeof(double), 0, min, max }
+#define NUMBER_IN(message, member, unit, min, max)                                                \
+  {                                                                                               \
+#member, unit, NULL, NULL, 0, FULMAR_F64, FULMAR_SCALAR, offsetof(struct message, member), 1, \
+        sizeof(double), 0, min, max                                                               \
+  }
 #define NUMBER(message, member, unit) NUMBER_IN(message, member, unit, -INFINITY, INFINITY)
 #define LENGTH(array) (sizeof(array) / sizeof *(array))
-#define MESSAGE(name, message, fields) \
-  { name, "", "", fields, LENGTH(fields), sizeof(fulmar_field), sizeof(struct message), _Alignof(struct message) }
+#define MESSAGE(name, message, fields)                                                  \
+  {                                                                                     \
+    name, "", "", fields, LENGTH(fields), sizeof(fulmar_field), sizeof(struct message), \
+        _Alignof(struct message)                                                        \
+  }
 
 static const fulmar_field state_fields[] = {
     NUMBER(state, height_m, "m"),
@@ -45,7 +52,8 @@ static const fulmar_type state_type = MESSAGE("VehicleState", state, state_field
 static const fulmar_type command_type = MESSAGE("GuidanceCommand", command, command_fields);
 static const fulmar_type attitude_type = MESSAGE("AttitudeCommand", attitude, attitude_fields);
 
-/* ---- ports and parameters; the functions get them in this order ------------------------------------------------------------ */
+/* ---- ports and parameters; the functions get them in this order
+ * ------------------------------------------------------------ */
 
 enum { IN_STATE, IN_COMMAND };
 static const fulmar_port inputs[] = {
@@ -72,7 +80,9 @@ static const fulmar_param params[PARAM_COUNT] = {
     [PITCH_MAX] = PARAM("pitch_max", "rad", "limit, either way", 0.25, 0, 0.6),
 };
 
-/* ---- the law --------------------------------------------------------------------------------------------------------------- */
+/* ---- the law
+ * ---------------------------------------------------------------------------------------------------------------
+ */
 
 struct law {
   double param[PARAM_COUNT];
@@ -94,12 +104,14 @@ static uint32_t take_params(void* self, const fulmar_value* values, fulmar_error
   return FULMAR_OK;
 }
 
-static uint32_t step(void* self, const fulmar_tick* tick, const fulmar_input* in, fulmar_output* out, fulmar_error* error) {
+static uint32_t step(void* self, const fulmar_tick* tick, const fulmar_input* in, fulmar_output* out,
+                     fulmar_error* error) {
   (void)tick, (void)error;
   const double* p = ((const struct law*)self)->param;
   const struct state* x = in[IN_STATE].data;
   const struct command* c = in[IN_COMMAND].data;
-  const double chi_error = remainder(c->course_rad - x->course_rad, 6.283185307179586); /* the short way round */
+  const double chi_error =
+      remainder(c->course_rad - x->course_rad, 6.283185307179586); /* the short way round */
   const double h_error = c->height_m - x->height_m, Va_error = c->airspeed_mps - x->airspeed_mps;
   struct attitude* attitude = out[OUT_ATTITUDE].data;
   attitude->roll_rad = within(c->roll_feedforward_rad + p[COURSE_KP] * chi_error, -p[ROLL_MAX], p[ROLL_MAX]);
@@ -110,7 +122,8 @@ static uint32_t step(void* self, const fulmar_tick* tick, const fulmar_input* in
   return FULMAR_OK;
 }
 
-/* ---- what the host reads --------------------------------------------------------------------------------------------------- */
+/* ---- what the host reads
+ * --------------------------------------------------------------------------------------------------- */
 
 static const fulmar_component component = {
     .name = "CLaw",

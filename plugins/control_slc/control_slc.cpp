@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Successive loop closure: the outer and the inner loops of a fixed-wing autopilot. Beard & McLain (2012), chapter 6.
+// Successive loop closure: the outer and the inner loops of a fixed-wing autopilot. Beard & McLain (2012),
+// chapter 6.
 #include "inner.hpp"
 #include "outer.hpp"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Inner loops: roll -> aileron, pitch -> elevator, yaw damper -> rudder. Beard & McLain, Small Unmanned Aircraft (2012), section 6.3,
-// with dynamic-pressure scaling, rate feed-forward, and the rates and elevator of a coordinated turn as reference.
+// Inner loops: roll -> aileron, pitch -> elevator, yaw damper -> rudder. Beard & McLain, Small Unmanned
+// Aircraft (2012), section 6.3, with dynamic-pressure scaling, rate feed-forward, and the rates and elevator
+// of a coordinated turn as reference.
 #pragma once
 #include <fulmar/flight/atmosphere.hpp>
 #include <fulmar/flight/filters.hpp>
@@ -29,19 +30,23 @@ struct Inner {
     Param roll_kp{1.2, "rad/rad", 0, 20, "aileron per roll error"};
     Param roll_ki{0.1, "rad/(rad s)", 0, 10, "aileron per integrated roll error"};
     Param roll_kd{0.02, "rad s/rad", 0, 5, "aileron per roll rate"};
-    Param roll_kff{0.15, "rad s/rad", 0, 5, "aileron per commanded roll rate: the airframe's own roll damping"};
+    Param roll_kff{0.15, "rad s/rad", 0, 5,
+                   "aileron per commanded roll rate: the airframe's own roll damping"};
 
     Param pitch_kp{4.0, "rad/rad", 0, 40, "nose-up elevator per pitch error"};
     Param pitch_ki{2.0, "rad/(rad s)", 0, 40, "nose-up elevator per integrated pitch error"};
     Param pitch_kd{0.5, "rad s/rad", 0, 10, "elevator against pitch rate beyond that of the turn"};
-    Param turn_kff{1.0, "ratio", 0, 2, "share of the elevator that a banked turn and the present speed need, fed forward"};
+    Param turn_kff{1.0, "ratio", 0, 2,
+                   "share of the elevator that a banked turn and the present speed need, fed forward"};
 
     Param yaw_kd{0.3, "rad s/rad", 0, 5, "rudder against yaw rate beyond that of the turn"};
     Param yaw_washout{0.6, "rad/s", 0.01, 10, "wash-out pole of the yaw damper"};
 
     Param command_filter{0.04, "s", 0.005, 1, "time constant of the differentiated roll command"};
-    Param scale_limit{2.5, "ratio", 1, 10, "largest growth of the gains at low dynamic pressure, largest reduction at high"};
-    Record<Airframe> airframe{"throws, trims, cruise speed, and the derivatives for the feed-forward of turns"};
+    Param scale_limit{2.5, "ratio", 1, 10,
+                      "largest growth of the gains at low dynamic pressure, largest reduction at high"};
+    Record<Airframe> airframe{
+        "throws, trims, cruise speed, and the derivatives for the feed-forward of turns"};
   };
 
   Status activate(const Tick&, const Inputs& in, const Params& params, const Applied<Outputs>& last) {
@@ -64,7 +69,8 @@ struct Inner {
     const VehicleState state = blind_ ? as_commanded(*in.state, command, Va) : *in.state;
     const double rho = standard_air(state.origin_altitude_m + state.height_m).density_kgm3;
     const double speed_ratio = params.airframe->limits.airspeed_cruise_mps / Va;
-    const double scale = std::clamp(speed_ratio * speed_ratio, 1 / params.scale_limit, params.scale_limit.value);
+    const double scale =
+        std::clamp(speed_ratio * speed_ratio, 1 / params.scale_limit, params.scale_limit.value);
     const bool integrating = flying(state, params.airframe->limits);
     if (!integrating) roll_.reset(), pitch_.reset();
     const double integrate = integrating ? dt : 0;  // the ground holds the attitude: its error means nothing
@@ -82,8 +88,8 @@ struct Inner {
   }
 
  private:
-  /// Without an attitude nothing can be held. The aircraft is taken to follow its command: what is left are feed-forward, trim and the
-  /// integrals, which roll it level as the command goes there.
+  /// Without an attitude nothing can be held. The aircraft is taken to follow its command: what is left are
+  /// feed-forward, trim and the integrals, which roll it level as the command goes there.
   static VehicleState as_commanded(const VehicleState& last, const AttitudeCommand& command, double Va) {
     VehicleState state = last;
     const TurnRates turn = turn_rates(command.roll_rad, command.pitch_rad, Va);
@@ -92,7 +98,8 @@ struct Inner {
     state.rate_radps = {0, turn.q_radps, turn.r_radps};
     return state;
   }
-  /// Is the attitude known? After a time without it, only once the command answers to it: then no surface steps.
+  /// Is the attitude known? After a time without it, only once the command answers to it: then no surface
+  /// steps.
   void look(const Inputs& in, double Va) {
     if (!in.state->attitude_valid) {
       blind_ = true;
@@ -108,11 +115,12 @@ struct Inner {
   }
 
   /// delta_a = trim + scale [kp e + kd (p_c - p) + I] + kff p_c
-  double roll_to_aileron(const VehicleState& state, const AttitudeCommand& command, const Params& p, double scale, double integrate,
-                         double dt) {
+  double roll_to_aileron(const VehicleState& state, const AttitudeCommand& command, const Params& p,
+                         double scale, double integrate, double dt) {
     const Surface& aileron = p.airframe->aileron;
     const double p_c = std::clamp(roll_command_rate_.step(command.roll_rad, p.command_filter, dt), -3.0, 3.0);
-    // Damping by the air falls with the speed, the aileron's power with its square: the feed-forward scales by their quotient.
+    // Damping by the air falls with the speed, the aileron's power with its square: the feed-forward scales
+    // by their quotient.
     const PidInput in{.error = command.roll_rad - state.roll_rad,
                       .rate = state.rate_radps.x - p_c,
                       .feedforward = aileron.trim_rad + p.roll_kff * std::sqrt(scale) * p_c,
@@ -124,11 +132,12 @@ struct Inner {
   }
 
   /// delta_e = trim(turn, speed) - scale [kp e + kd (q_turn - q) + I]: positive elevator is nose down.
-  double pitch_to_elevator(const VehicleState& state, const AttitudeCommand& command, const Params& p, double scale, double Va, double rho,
-                           double integrate) {
+  double pitch_to_elevator(const VehicleState& state, const AttitudeCommand& command, const Params& p,
+                           double scale, double Va, double rho, double integrate) {
     const Surface& elevator = p.airframe->elevator;
     const FlightLimits& limits = p.airframe->limits;
-    const double turn = turn_trim(*p.airframe, state.roll_rad, std::max(Va, limits.airspeed_min_mps), rho).elevator_rad;
+    const double turn =
+        turn_trim(*p.airframe, state.roll_rad, std::max(Va, limits.airspeed_min_mps), rho).elevator_rad;
     const double cruise = turn_trim(*p.airframe, 0, limits.airspeed_cruise_mps, rho).elevator_rad;
     const double q_turn = turn_rates(state.roll_rad, state.pitch_rad, Va).q_radps;
     const PidInput in{.error = command.pitch_rad - state.pitch_rad,

@@ -12,7 +12,8 @@
 namespace fulmar::slc {
 
 struct Outer {
-  static constexpr const char* doc = "Course, height and airspeed hold by successive loop closure; take-off law.";
+  static constexpr const char* doc =
+      "Course, height and airspeed hold by successive loop closure; take-off law.";
   struct Inputs {
     In<VehicleState> state;
     In<GuidanceCommand> command;
@@ -35,7 +36,8 @@ struct Outer {
     Param airspeed_ki{0.06, "1/m", 0, 1, "throttle per integrated airspeed error"};
     Param airspeed_kff{0.03, "1/(m/s)", 0, 0.2, "throttle per airspeed demand above cruise"};
     Param climb_kff{0.04, "1/(m/s)", 0, 0.5, "throttle per demanded climb rate"};
-    Param thrust{50.0, "N", 1, 10000, "force per unit of throttle near cruise: turns the drag of a turn into throttle"};
+    Param thrust{50.0, "N", 1, 10000,
+                 "force per unit of throttle near cruise: turns the drag of a turn into throttle"};
   };
 
   Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
@@ -60,7 +62,8 @@ struct Outer {
   }
 
  private:
-  /// theta = theta_trim + hdot_c / Va + integral + kd (hdot_c - hdot),  hdot_c = feed-forward + kp Va (h_c - h) within the climb limits.
+  /// theta = theta_trim + hdot_c / Va + integral + kd (hdot_c - hdot),  hdot_c = feed-forward + kp Va (h_c -
+  /// h) within the climb limits.
   double height_to_pitch(const VehicleState& state, const GuidanceCommand& command, const Params& p,
                          const LevelTurn& turn, double dt, Outputs& out) {
     const FlightLimits& limits = p.common.airframe->limits;
@@ -83,9 +86,10 @@ struct Outer {
     return theta;
   }
 
-  /// delta_t = trim + feed-forward of climb, turn and speed + kp e + integral. Without airspeed: trim and feed-forward alone.
-  double airspeed_to_throttle(const VehicleState& state, const GuidanceCommand& command, const Params& p, double feedforward, double dt,
-                              Outputs& out) {
+  /// delta_t = trim + feed-forward of climb, turn and speed + kp e + integral. Without airspeed: trim and
+  /// feed-forward alone.
+  double airspeed_to_throttle(const VehicleState& state, const GuidanceCommand& command, const Params& p,
+                              double feedforward, double dt, Outputs& out) {
     const FlightLimits& limits = p.common.airframe->limits;
     const double trim = limits.throttle_cruise_frac + feedforward;
     if (!state.airspeed_valid) return std::clamp(trim, 0.0, 1.0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Outer loops by total energy: throttle controls the rate of the total energy, pitch the rate at which it is shared between height and
-// speed. Lambregts, AIAA 83-2239 (1983); the arrangement of rate demands and limits is that of the field's open autopilots. Equations:
-// README.
+// Outer loops by total energy: throttle controls the rate of the total energy, pitch the rate at which it is
+// shared between height and speed. Lambregts, AIAA 83-2239 (1983); the arrangement of rate demands and limits
+// is that of the field's open autopilots. Equations: README.
 #pragma once
 #include <fulmar/flight/energy.hpp>
 #include <fulmar/flight/filters.hpp>
@@ -15,7 +15,8 @@
 namespace fulmar::tecs {
 
 struct Outer {
-  static constexpr const char* doc = "Course hold, and height and airspeed by total energy rate; take-off law.";
+  static constexpr const char* doc =
+      "Course hold, and height and airspeed by total energy rate; take-off law.";
   struct Inputs {
     In<VehicleState> state;
     In<GuidanceCommand> command;
@@ -37,18 +38,25 @@ struct Outer {
     Param altitude_gain{1.2, "1/s", 0, 5, "climb rate demanded per height error"};
     Param airspeed_gain{1.2, "1/s", 0, 5, "acceleration demanded per airspeed error"};
     Param climb_acceleration_limit{4.0, "m/s2", 0.1, 30, "fastest change of the demanded climb rate"};
-    Param acceleration_filter{0.25, "s", 0, 5,
-                              "time constant of the measured acceleration: keeps the accelerometer's noise off the elevator"};
-    Param speed_weight{0.4, "ratio", 0, 2, "0: pitch holds height alone; 1: both; 2: pitch holds airspeed alone"};
+    Param acceleration_filter{
+        0.25, "s", 0, 5,
+        "time constant of the measured acceleration: keeps the accelerometer's noise off the elevator"};
+    Param speed_weight{0.4, "ratio", 0, 2,
+                       "0: pitch holds height alone; 1: both; 2: pitch holds airspeed alone"};
 
-    Param throttle_damping{0.5, "ratio", 0, 5, "throttle per error of the total energy rate, as a share of what the thrust model asks for"};
+    Param throttle_damping{
+        0.5, "ratio", 0, 5,
+        "throttle per error of the total energy rate, as a share of what the thrust model asks for"};
     Param throttle_integral{0.6, "1/s", 0, 5, "the same, per integrated error"};
-    Param pitch_damping{0.6, "ratio", 0, 5, "flight path angle per error of the energy balance rate over g V"};
+    Param pitch_damping{0.6, "ratio", 0, 5,
+                        "flight path angle per error of the energy balance rate over g V"};
     Param pitch_integral{0.2, "1/s", 0, 5, "the same, per integrated error"};
     Param airspeed_kff{0.03, "1/(m/s)", 0, 0.2, "throttle per airspeed demand above cruise"};
-    Param thrust{50.0, "N", 1, 10000, "force per unit of throttle near cruise: turns energy rates into throttle"};
-    Param underspeed_band{0.15, "ratio", 0.01, 0.5,
-                          "airspeed below the minimum, as a share of it, at which speed has all priority and throttle is full"};
+    Param thrust{50.0, "N", 1, 10000,
+                 "force per unit of throttle near cruise: turns energy rates into throttle"};
+    Param underspeed_band{
+        0.15, "ratio", 0.01, 0.5,
+        "airspeed below the minimum, as a share of it, at which speed has all priority and throttle is full"};
   };
 
   Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
@@ -101,8 +109,9 @@ struct Outer {
     return {theta, total_to_throttle(state, p, e, dt, out)};
   }
 
-  /// Gain times error near the goal; further away the rate from which the goal can be reached at that acceleration:
-  /// half of what the demand's rate limit allows, so that there is something left to correct with.
+  /// Gain times error near the goal; further away the rate from which the goal can be reached at that
+  /// acceleration: half of what the demand's rate limit allows, so that there is something left to correct
+  /// with.
   static double approach_rate(double error, double gain, double acceleration) {
     const double linear = gain > 0 ? acceleration / (gain * gain) : 0;
     if (std::abs(error) <= linear || gain <= 0) return gain * error;
@@ -110,14 +119,18 @@ struct Outer {
   }
 
   /// Rates wanted of height and speed, within what the engine can give and the drag can take.
-  void demand(const VehicleState& state, const GuidanceCommand& command, const Params& p, double dt, Energy& e, Outputs& out) {
+  void demand(const VehicleState& state, const GuidanceCommand& command, const Params& p, double dt,
+              Energy& e, Outputs& out) {
     const FlightLimits& limits = p.common.airframe->limits;
-    const double most = isa::g0 * limits.climb_rate_max_mps, least = -isa::g0 * limits.sink_rate_max_mps;  // of the total energy rate
+    const double most = isa::g0 * limits.climb_rate_max_mps,
+                 least = -isa::g0 * limits.sink_rate_max_mps;  // of the total energy rate
     if (state.airspeed_valid) {
       const double slowest = limits.airspeed_min_mps * (1 - p.underspeed_band);
-      e.underspeed = std::clamp((limits.airspeed_min_mps - state.airspeed_mps) / (limits.airspeed_min_mps - slowest), 0.0, 1.0);
+      e.underspeed = std::clamp(
+          (limits.airspeed_min_mps - state.airspeed_mps) / (limits.airspeed_min_mps - slowest), 0.0, 1.0);
       e.Va_c = std::clamp(command.airspeed_mps, limits.airspeed_min_mps, limits.airspeed_max_mps);
-      const double V_dot = std::clamp(p.airspeed_gain * (e.Va_c - state.airspeed_mps), 0.5 * least / e.Va, 0.5 * most / e.Va);
+      const double V_dot =
+          std::clamp(p.airspeed_gain * (e.Va_c - state.airspeed_mps), 0.5 * least / e.Va, 0.5 * most / e.Va);
       e.wanted.kinetic = e.Va * V_dot;
       e.present.kinetic = e.Va * acceleration_.step(airspeed_rate(state), p.acceleration_filter, dt);
       out.acceleration_demand_mps2 = V_dot;
@@ -127,7 +140,8 @@ struct Outer {
       out.acceleration_demand_mps2 = 0.0;
     }
     const double error = command.height_m - state.height_m;
-    const double wanted = command.climb_rate_mps + approach_rate(error, p.altitude_gain, 0.5 * p.climb_acceleration_limit);
+    const double wanted =
+        command.climb_rate_mps + approach_rate(error, p.altitude_gain, 0.5 * p.climb_acceleration_limit);
     const double bounded = std::clamp(wanted, -limits.sink_rate_max_mps, limits.climb_rate_max_mps);
     if (loop_.commands.taking_up()) climb_rate_.reset_to(state.climb_rate_mps);
     e.wanted.potential = isa::g0 * climb_rate_.step(bounded, p.climb_acceleration_limit, dt);
@@ -138,20 +152,26 @@ struct Outer {
     out.underspeed_ratio = e.underspeed;
   }
 
-  /// theta = theta_trim + [g hdot_c - w_V Va Vadot_c + k (B_c - B)] / (g Va) + integral,  B = w_h g hdot - w_V Va Vadot.
-  double balance_to_pitch(const VehicleState& state, const Params& p, const Energy& e, double theta_trim, double dt, Outputs& out) {
+  /// theta = theta_trim + [g hdot_c - w_V Va Vadot_c + k (B_c - B)] / (g Va) + integral,  B = w_h g hdot -
+  /// w_V Va Vadot.
+  double balance_to_pitch(const VehicleState& state, const Params& p, const Energy& e, double theta_trim,
+                          double dt, Outputs& out) {
     const double given = state.airspeed_valid ? p.speed_weight.value : 0;
     const double weight = 2 * e.underspeed + (1 - e.underspeed) * given;
     const double w_h = std::clamp(2 - weight, 0.0, 1.0), w_V = std::clamp(weight, 0.0, 1.0);
     const double B_c = e.wanted.balance(w_h, w_V), error = B_c - e.present.balance(w_h, w_V);
-    // The weights say which error pitch is to answer. The climb wanted needs its flight path angle whatever they are, as long as the
-    // engine gives what was asked of it.
+    // The weights say which error pitch is to answer. The climb wanted needs its flight path angle whatever
+    // they are, as long as the engine gives what was asked of it.
     const double missing = throttle_.saturated() ? e.total_wanted - e.present.total() : 0;
     const double climb = e.wanted.potential * (1 - e.underspeed) - (1 - w_h) * missing;
     const double B_ff = climb - w_V * e.wanted.kinetic;
     const double per_gV = 1 / (isa::g0 * e.Va);
     const PitchLimits pitch(state, p.common.airframe->limits, p.common.pitch_limit);
-    const PidInput in{.error = error * per_gV, .rate = 0, .feedforward = theta_trim + B_ff * per_gV, .min = pitch.min, .max = pitch.max};
+    const PidInput in{.error = error * per_gV,
+                      .rate = 0,
+                      .feedforward = theta_trim + B_ff * per_gV,
+                      .min = pitch.min,
+                      .max = pitch.max};
     const PidGains gains{p.pitch_damping, p.pitch_integral, 0};
     if (loop_.commands.taking_up()) pitch_.reset_to(loop_.commands.last().pitch_rad, gains, in, 0.1);
     const double theta = pitch_.step(gains, in, dt);
@@ -161,7 +181,8 @@ struct Outer {
   }
 
   /// delta_t = trim + m / (Va T) [E_c + E_turn + k (E_c - E)] + integral, E = g hdot + Va Vadot.
-  double total_to_throttle(const VehicleState& state, const Params& p, const Energy& e, double dt, Outputs& out) {
+  double total_to_throttle(const VehicleState& state, const Params& p, const Energy& e, double dt,
+                           Outputs& out) {
     const FlightLimits& limits = p.common.airframe->limits;
     const double E_c = e.total_wanted;
     const double per_rate = p.common.airframe->mass_kg / (e.Va * p.thrust);

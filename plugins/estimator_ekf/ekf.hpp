@@ -9,7 +9,8 @@
 namespace fulmar::estimator {
 
 struct Ekf {
-  static constexpr const char* doc = "Attitude, velocity, position, wind and sensor biases by an error-state extended Kalman filter.";
+  static constexpr const char* doc =
+      "Attitude, velocity, position, wind and sensor biases by an error-state extended Kalman filter.";
   struct Inputs {
     In<Imu> imu;
     Optional<Gnss> gnss;
@@ -46,7 +47,8 @@ struct Ekf {
     if (in.status && in.status.fresh()) navigator_.status(*in.status);
     if (!newer(in.imu, imu_ns_, tick) || !inertial(in, p)) return coast(tick, in.imu.fresh(), p, out);
     sensors(in, tick, p);
-    if (!navigator_.aligned()) return navigator_.regaining() ? blind(in.imu.valid_at_ns(), p, out) : Status::degraded;
+    if (!navigator_.aligned())
+      return navigator_.regaining() ? blind(in.imu.valid_at_ns(), p, out) : Status::degraded;
     fill(navigator_.filter().state(), navigator_.filter().R_nb(), navigator_.filter().rate_b(), p);
     if (navigator_.filter().time_s() - deviations_s_ > deviations_after_s) fill_deviations(p);
     publish(in.imu.valid_at_ns(), Shown::measured, out);
@@ -90,7 +92,8 @@ struct Ekf {
   void sensors(const Inputs& in, const Tick& tick, const Params& p) {
     if (take(in.mag, mag_ns_, tick)) navigator_.mag(eigen(in.mag->field_tesla), p);
     if (take(in.baro, baro_ns_, tick)) navigator_.baro(in.baro->pressure_pa, p);
-    if (take(in.gnss, gnss_ns_, tick)) navigator_.gnss(*in.gnss, 1e-9 * static_cast<double>(in.gnss.valid_at_ns()), p);
+    if (take(in.gnss, gnss_ns_, tick))
+      navigator_.gnss(*in.gnss, 1e-9 * static_cast<double>(in.gnss.valid_at_ns()), p);
     if (take(in.pitot, pitot_ns_, tick)) navigator_.pitot(in.pitot->pressure_pa, p);
   }
   void publish(std::int64_t valid_at_ns, Shown what, Outputs& out) {
@@ -100,7 +103,9 @@ struct Ekf {
   }
   Status coast(const Tick& tick, bool sample, const Params& p, Outputs& out);
   Status blind(std::int64_t valid_at_ns, const Params& p, Outputs& out);
-  bool healthy() const { return state_.attitude_valid && state_.velocity_valid && state_.position_valid && state_.height_valid; }
+  bool healthy() const {
+    return state_.attitude_valid && state_.velocity_valid && state_.position_valid && state_.height_valid;
+  }
 
   Vector3d coasted_rate(const ekf::Nominal& x, double gap_s, const Params& p) const;
   void fill(const ekf::Nominal& x, const Matrix3d& R_nb, const Vector3d& omega_b, const Params& p);
@@ -114,15 +119,16 @@ struct Ekf {
   Vector3d rate_ = Vector3d::Zero();
   double dt_s_ = 0, deviations_s_ = never;
   static constexpr std::int64_t ahead_ns = 10'000'000, long_ago = -(std::int64_t{1} << 62);
-  std::int64_t imu_ns_ = long_ago, mag_ns_ = long_ago, baro_ns_ = long_ago, gnss_ns_ = long_ago, pitot_ns_ = long_ago;
+  std::int64_t imu_ns_ = long_ago, mag_ns_ = long_ago, baro_ns_ = long_ago, gnss_ns_ = long_ago,
+               pitot_ns_ = long_ago;
   std::int64_t stepped_ns_ = 0, published_ns_ = 0;
   Shown shown_ = Shown::nothing;
   bool rate_started_ = false;  ///< the smoothed rate has begun
-  ekf::Nominal coasted_;  ///< the state carried on through a gap
+  ekf::Nominal coasted_;       ///< the state carried on through a gap
 };
 
-/// No inertial sample. Up to the limit the aircraft is taken to turn and to be carried as it was: the state goes on, flagged. After that it
-/// stays where it was, and nothing of it is called valid.
+/// No inertial sample. Up to the limit the aircraft is taken to turn and to be carried as it was: the state
+/// goes on, flagged. After that it stays where it was, and nothing of it is called valid.
 inline Status Ekf::coast(const Tick& tick, bool sample, const Params& p, Outputs& out) {
   const double gap_s = 1e-9 * static_cast<double>(tick.now_ns - imu_ns_);
   if (shown_ == Shown::nothing || gap_s <= coasted_s)
@@ -144,7 +150,8 @@ inline Status Ekf::coast(const Tick& tick, bool sample, const Params& p, Outputs
   return Status::degraded;
 }
 
-/// In a gap the rates go from those last seen to those of a steady turn: roll, which is steered, more slowly than what gusts do.
+/// In a gap the rates go from those last seen to those of a steady turn: roll, which is steered, more slowly
+/// than what gusts do.
 inline Vector3d Ekf::coasted_rate(const ekf::Nominal& x, double gap_s, const Params& p) const {
   const Euler e = euler_from(x.q_nb);
   const double V = x.v_n.head<2>().norm();
@@ -162,7 +169,8 @@ inline Status Ekf::blind(std::int64_t valid_at_ns, const Params& p, Outputs& out
   VehicleState& s = state_;
   s.rate_radps = {};
   s.specific_force_mps2 = {};
-  s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = s.wind_valid = false;
+  s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = s.wind_valid =
+      false;
   rate_started_ = false;
   deviations_s_ = never;
   publish(valid_at_ns, Shown::measured, out);
@@ -192,7 +200,8 @@ inline void Ekf::fill(const ekf::Nominal& x, const Matrix3d& R_nb, const Vector3
   s.pitch_rad = e.pitch_rad;
   s.yaw_rad = e.yaw_rad;
   if (p.rate_filter > 0 && rate_started_)
-    rate_ += (omega_b - rate_) * (1 - std::exp(-2 * std::numbers::pi * p.rate_filter * std::clamp(dt_s_, 0.0, 1.0)));
+    rate_ += (omega_b - rate_) *
+             (1 - std::exp(-2 * std::numbers::pi * p.rate_filter * std::clamp(dt_s_, 0.0, 1.0)));
   else
     rate_ = omega_b;
   rate_started_ = true;
@@ -205,7 +214,9 @@ inline void Ekf::fill(const ekf::Nominal& x, const Matrix3d& R_nb, const Vector3
   s.ground_speed_mps = std::sqrt(x.v_n.x() * x.v_n.x() + x.v_n.y() * x.v_n.y());
   // From the nose at rest to the velocity in motion without a step.
   const double moving = smoothly(s.ground_speed_mps, 1, 3);
-  s.course_rad = moving > 0 ? wrap_pi(e.yaw_rad + moving * angle_difference(std::atan2(x.v_n.y(), x.v_n.x()), e.yaw_rad)) : e.yaw_rad;
+  s.course_rad =
+      moving > 0 ? wrap_pi(e.yaw_rad + moving * angle_difference(std::atan2(x.v_n.y(), x.v_n.x()), e.yaw_rad))
+                 : e.yaw_rad;
   fill_air(x, R_nb);
 }
 

@@ -21,12 +21,15 @@
 namespace fulmar::estimator {
 
 inline constexpr double never = -1e9;
-inline constexpr double coasted_s = 0.02;  ///< so long without an inertial sample is a gap: slower units do not fly
+inline constexpr double coasted_s =
+    0.02;  ///< so long without an inertial sample is a gap: slower units do not fly
 
 /// What the last update of each kind said: innovation in deviations, and how long ago one was accepted.
 struct Health {
-  double horizontal_ratio = 0, height_ratio = 0, velocity_ratio = 0, baro_ratio = 0, pitot_ratio = 0, sideslip_ratio = 0, heading_ratio = 0;
-  double position_s = never, velocity_s = never, height_s = never, baro_s = never, pitot_s = never, heading_s = never;
+  double horizontal_ratio = 0, height_ratio = 0, velocity_ratio = 0, baro_ratio = 0, pitot_ratio = 0,
+         sideslip_ratio = 0, heading_ratio = 0;
+  double position_s = never, velocity_s = never, height_s = never, baro_s = never, pitot_s = never,
+         heading_s = never;
   std::uint32_t refused = 0;
 };
 
@@ -91,7 +94,9 @@ class Navigator {
     x.accel_bias = eigen(s.accel_bias_mps2);
     x.wind = eigen(s.wind_mps).head<2>();
     begin(x, p, time_s, 0.05, 0.05);
-    const auto at_least = [&](int i, double std, double low, double high) { filter_.forget(i, 1, std::clamp(std, low, high)); };
+    const auto at_least = [&](int i, double std, double low, double high) {
+      filter_.forget(i, 1, std::clamp(std, low, high));
+    };
     for (int i = 0; i < 3; ++i) {
       filter_.forget(ekf::vel + i, 1, 1);
       filter_.forget(ekf::gyro_bias + i, 1, 0.02);
@@ -153,18 +158,21 @@ class Navigator {
 
  private:
   static bool good(const Gnss& g) {
-    const bool solved =
-        g.fix == FixType::fix_3d || g.fix == FixType::combined || g.fix == FixType::rtk_float || g.fix == FixType::rtk_fixed;
-    return solved && std::abs(g.latitude_deg) <= 90 && std::abs(g.longitude_deg) <= 360 && std::isfinite(g.altitude_m) &&
-           eigen(g.velocity_mps).allFinite();
+    const bool solved = g.fix == FixType::fix_3d || g.fix == FixType::combined ||
+                        g.fix == FixType::rtk_float || g.fix == FixType::rtk_fixed;
+    return solved && std::abs(g.latitude_deg) <= 90 && std::abs(g.longitude_deg) <= 360 &&
+           std::isfinite(g.altitude_m) && eigen(g.velocity_mps).allFinite();
   }
   static double known(double reported, double otherwise, double floor) {
     const double std = reported > 0 && reported < 1e6 ? reported : otherwise;
     return std::max(std, floor);
   }
 
-  /// Fixes within twice the correlation time of their error know as much as one: the factor on their variance.
-  double samples_in(double correlation_s, double last_s) const { return 1 + 2 * correlation_s / std::clamp(time_s_ - last_s, 0.02, 10.0); }
+  /// Fixes within twice the correlation time of their error know as much as one: the factor on their
+  /// variance.
+  double samples_in(double correlation_s, double last_s) const {
+    return 1 + 2 * correlation_s / std::clamp(time_s_ - last_s, 0.02, 10.0);
+  }
 
   void set_origin(double lat_deg, double lon_deg, double alt_m) {
     frame_ = LocalFrame(lat_deg, lon_deg, alt_m);
@@ -178,9 +186,11 @@ class Navigator {
   }
   double declination() const { return std::atan2(field_n_.y(), field_n_.x()); }
 
-  /// Nothing but the inertial unit can be fooled by a smooth flight: another witness has to agree that the aircraft stands.
+  /// Nothing but the inertial unit can be fooled by a smooth flight: another witness has to agree that the
+  /// aircraft stands.
   bool at_rest_by_others(const Params& p) const {
-    const bool gnss_slow = time_s_ - gnss_s_ < 2 && gnss_speed_ < 1.5, gnss_fast = time_s_ - gnss_s_ < 2 && gnss_speed_ >= 1.5;
+    const bool gnss_slow = time_s_ - gnss_s_ < 2 && gnss_speed_ < 1.5,
+               gnss_fast = time_s_ - gnss_s_ < 2 && gnss_speed_ >= 1.5;
     const bool pitot_slow = time_s_ - pitot_s_ < 1 && pitot_mps_ < p.min_airspeed;
     const bool stands_again =
         regaining() && gnss_slow && !(time_s_ - pitot_s_ < 1 && pitot_mps_ >= p.min_airspeed);
@@ -219,9 +229,10 @@ class Navigator {
     filter_.inflate(ekf::theta, 3, 0.3 * p.gap_rate_std * dt * dt);
     filter_.inflate(ekf::vel, 3, 0.3 * p.gap_accel_std * dt * dt);
   }
-  /// Found anew after a gap: attitude and velocity. What changes slowly is kept and has become less sure: biases, wind, the barometer's
-  /// offset, the magnetometer's deviation.
-  void begin_again(const Quaterniond& q_nb, const Vector3d& v_n, const Params& p, double tilt_std, double yaw_std) {
+  /// Found anew after a gap: attitude and velocity. What changes slowly is kept and has become less sure:
+  /// biases, wind, the barometer's offset, the magnetometer's deviation.
+  void begin_again(const Quaterniond& q_nb, const Vector3d& v_n, const Params& p, double tilt_std,
+                   double yaw_std) {
     const double gap = std::sqrt(std::max(time_s_ - filter_.time_s(), 0.0));
     ekf::Nominal x = filter_.state();
     x.q_nb = q_nb;
@@ -252,8 +263,8 @@ class Navigator {
     const Vector3d f_b = still_.f();
     x.q_nb = has_mag ? attitude_at_rest(f_b, mag_b_, declination()) : attitude_at_rest(f_b);
     x.gyro_bias = still_.omega();
-    // At rest nothing but the accelerometers tells the tilt, and tilt the yaw by the dip of the field: no prior of their own, the updates
-    // at rest tie them to the prior of the accelerometer bias.
+    // At rest nothing but the accelerometers tells the tilt, and tilt the yaw by the dip of the field: no
+    // prior of their own, the updates at rest tie them to the prior of the accelerometer bias.
     begin(x, p, time_s_, 0.5, has_mag ? 1 : 1.8);
     seen_.yaw = has_mag;
     seen_.position = seen_.height = seen_.baro_zero = false;
@@ -286,13 +297,15 @@ class Navigator {
     rest_fused_s_ = time_s_;
     const ErrorStateEkf::Past now = filter_.at(time_s_);
     for (int i = 0; i < 3; ++i) filter_.fuse(ekf::velocity(filter_, now, i, 0), 0.05 * 0.05, 1e3);
-    for (int i = 0; i < 3; ++i) filter_.fuse(ekf::zero_rate(filter_.state(), i, still_.omega()(i)), 2e-3 * 2e-3, 1e3);
+    for (int i = 0; i < 3; ++i)
+      filter_.fuse(ekf::zero_rate(filter_.state(), i, still_.omega()(i)), 2e-3 * 2e-3, 1e3);
   }
 
   void update_airborne(const Params& p) {
     const double limit = airborne_ ? 0.7 * p.min_airspeed : p.min_airspeed;
     const double Va = ekf::air_velocity(filter_.state()).norm();
-    const bool fast = Va > limit || (time_s_ - pitot_s_ < 1 && pitot_mps_ > limit && filter_.state().v_n.norm() > 0.5 * limit);
+    const bool fast = Va > limit || (time_s_ - pitot_s_ < 1 && pitot_mps_ > limit &&
+                                     filter_.state().v_n.norm() > 0.5 * limit);
     airborne_ = fast && !resting_ && !(status_ && !status_->armed && status_->on_ground);
   }
 
@@ -300,11 +313,13 @@ class Navigator {
     sideslip_s_ = time_s_;
     const double side = p.sideslip_ratio * ekf::air_velocity(filter_.state()).norm();
     const double variance = p.sideslip_speed_std * p.sideslip_speed_std + side * side;
-    health_.sideslip_ratio = filter_.fuse_considering_attitude(ekf::zero_sideslip(filter_.state()), variance, p.air_gate).ratio;
+    health_.sideslip_ratio =
+        filter_.fuse_considering_attitude(ekf::zero_sideslip(filter_.state()), variance, p.air_gate).ratio;
   }
 
   void place(const Gnss& g, double time_s, const Params& p);
-  void regain(const Gnss& g, const FlightAlignment::Found& found, bool has_mag, double time_s, const Params& p);
+  void regain(const Gnss& g, const FlightAlignment::Found& found, bool has_mag, double time_s,
+              const Params& p);
   void collect_origin(const Gnss& g, const Params& p);
   void gnss_velocity(const Gnss& g, const ErrorStateEkf::Past& past, double time_s, const Params& p);
   void gnss_position(const Gnss& g, double time_s, const Params& p);
@@ -321,7 +336,8 @@ class Navigator {
   Air air_;
   double year_ = 2026.0, altitude_m_ = 0;  ///< of the origin; without one: by pressure
   double time_s_ = 0, aligned_s_ = 0, rest_since_s_ = never, rest_fused_s_ = never, sideslip_s_ = never;
-  double gnss_s_ = never, gnss_speed_ = 0, mag_s_ = never, mag_fused_s_ = never, pitot_s_ = never, pitot_mps_ = 0, baro_s_ = never;
+  double gnss_s_ = never, gnss_speed_ = 0, mag_s_ = never, mag_fused_s_ = never, pitot_s_ = never,
+         pitot_mps_ = 0, baro_s_ = never;
   std::int64_t origin_count_ = 0;
   double baro_pa_ = 0;
   Mode mode_ = Mode::waiting;

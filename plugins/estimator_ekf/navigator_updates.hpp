@@ -56,7 +56,8 @@ inline void Navigator::yaw_from_course(const Vector3d& v_n) {
   seen_.yaw = true;
 }
 
-inline void Navigator::gnss_velocity(const Gnss& g, const ErrorStateEkf::Past& past, double time_s, const Params& p) {
+inline void Navigator::gnss_velocity(const Gnss& g, const ErrorStateEkf::Past& past, double time_s,
+                                     const Params& p) {
   const Vector3d v_n = eigen(g.velocity_mps);
   const double std = known(g.speed_std_mps, p.gnss_speed_std, p.gnss_speed_floor), variance = std * std;
   double worst = 0;
@@ -73,7 +74,9 @@ inline void Navigator::gnss_velocity(const Gnss& g, const ErrorStateEkf::Past& p
     filter_.inflate(ekf::theta, 3, 0.1);
   } else {
     const double n = samples_in(p.gnss_climb_time, health_.velocity_s);
-    for (int i = 0; i < 3; ++i) filter_.fuse(ekf::velocity(filter_, filter_.at(time_s), i, v_n(i)), i < 2 ? variance : n * variance, 1e3);
+    for (int i = 0; i < 3; ++i)
+      filter_.fuse(ekf::velocity(filter_, filter_.at(time_s), i, v_n(i)), i < 2 ? variance : n * variance,
+                   1e3);
   }
   health_.velocity_s = time_s_;
 }
@@ -85,25 +88,31 @@ inline void Navigator::place(const Gnss& g, double time_s, const Params& p) {
   filter_.place(p_n + std::max(time_s_ - time_s, 0.0) * filter_.state().v_n, filter_.state().v_n);
   filter_.forget(ekf::pos, 2, known(g.horizontal_std_m, p.gnss_horizontal_std, 1));
   filter_.forget(ekf::pos + 2, 1, known(g.vertical_std_m, p.gnss_vertical_std, 1));
-  // On the ground the place of the start tells the height better than the receiver, unless the receiver contradicts.
+  // On the ground the place of the start tells the height better than the receiver, unless the receiver
+  // contradicts.
   if (resting_)
-    filter_.fuse(ekf::position(filter_, filter_.at(time_s_), 2, -p.start_height), p.start_height_std * p.start_height_std, p.gnss_gate);
+    filter_.fuse(ekf::position(filter_, filter_.at(time_s_), 2, -p.start_height),
+                 p.start_height_std * p.start_height_std, p.gnss_gate);
   seen_.position = seen_.height = true;
   seen_.baro_zero = false;
 }
 
-/// The first fix after a gap that ends an alignment. The barometer goes on from where it was, if the receiver does not contradict it: its
-/// offset is known better than the height by one fix, and the height must not jump.
-inline void Navigator::regain(const Gnss& g, const FlightAlignment::Found& found, bool has_mag, double time_s, const Params& p) {
+/// The first fix after a gap that ends an alignment. The barometer goes on from where it was, if the receiver
+/// does not contradict it: its offset is known better than the height by one fix, and the height must not
+/// jump.
+inline void Navigator::regain(const Gnss& g, const FlightAlignment::Found& found, bool has_mag, double time_s,
+                              const Params& p) {
   const double late = std::clamp(time_s_ - time_s, 0.0, 1.0);
   const bool zeroed = seen_.baro_zero;
   const double tilt = known(g.speed_std_mps, p.gnss_speed_std, 0.1) / (p.gravity * found.window_s);
-  begin_again(found.q_nb, eigen(g.velocity_mps) + late * found.a_n, p, std::clamp(1.5 * tilt, 0.05, 0.2), has_mag ? 0.15 : 0.4);
+  begin_again(found.q_nb, eigen(g.velocity_mps) + late * found.a_n, p, std::clamp(1.5 * tilt, 0.05, 0.2),
+              has_mag ? 0.15 : 0.4);
   seen_.yaw = true;
   place(g, time_s, p);
   health_.position_s = health_.velocity_s = health_.height_s = time_s_;
   if (!zeroed || time_s_ - baro_s_ > 0.5) return;
-  const double std = p.baro_noise * ekf::metres_per_pascal(standard_air(altitude_m_ - filter_.state().p_n.z())) + 0.5;
+  const double std =
+      p.baro_noise * ekf::metres_per_pascal(standard_air(altitude_m_ - filter_.state().p_n.z())) + 0.5;
   seen_.baro_zero =
       filter_.fuse(ekf::baro_height(filter_.state(), baro_pa_, altitude_m_), std * std, 3).accepted;
 }
@@ -153,12 +162,14 @@ inline void Navigator::mag(const Vector3d& field_b, const Params& p) {
     return;
   }
   const double horizontal = field_n_.head<2>().norm() / field_n_.norm();
-  if (!seen_.field || horizontal < 0.15) return;    // near the magnetic poles the needle does not know
-  if (time_s_ - mag_fused_s_ < 0.1 - 1e-4) return;  // its errors are correlated: more samples would not be more information
+  if (!seen_.field || horizontal < 0.15) return;  // near the magnetic poles the needle does not know
+  if (time_s_ - mag_fused_s_ < 0.1 - 1e-4)
+    return;  // its errors are correlated: more samples would not be more information
   mag_fused_s_ = time_s_;
   if (!seen_.yaw) yaw_from_field(field_b);
   const double std = p.mag_noise / horizontal;
-  const ekf::Fused fused = filter_.fuse(ekf::magnetic_heading(filter_.state(), field_b, declination()), std * std, p.mag_gate);
+  const ekf::Fused fused =
+      filter_.fuse(ekf::magnetic_heading(filter_.state(), field_b, declination()), std * std, p.mag_gate);
   health_.heading_ratio = fused.ratio;
   if (fused.accepted)
     health_.heading_s = time_s_;
@@ -193,9 +204,12 @@ inline void Navigator::baro(double pressure_pa, const Params& p) {
     filter_.forget(ekf::baro, 1, std::max(height_std, 1.0));
     seen_.height = seen_.baro_zero = true;
   }
-  const double dynamic_pa = airborne_ ? 0.5 * air_.density_kgm3 * ekf::air_velocity(filter_.state()).squaredNorm() : 0;
-  const double std = std::hypot(p.baro_noise, p.baro_position_error * dynamic_pa) * ekf::metres_per_pascal(air_);
-  const ekf::Fused fused = filter_.fuse(ekf::baro_height(filter_.state(), pressure_pa, altitude_m_), std * std, p.air_gate);
+  const double dynamic_pa =
+      airborne_ ? 0.5 * air_.density_kgm3 * ekf::air_velocity(filter_.state()).squaredNorm() : 0;
+  const double std =
+      std::hypot(p.baro_noise, p.baro_position_error * dynamic_pa) * ekf::metres_per_pascal(air_);
+  const ekf::Fused fused =
+      filter_.fuse(ekf::baro_height(filter_.state(), pressure_pa, altitude_m_), std * std, p.air_gate);
   health_.baro_ratio = fused.ratio;
   if (fused.accepted) {
     health_.baro_s = time_s_;
@@ -214,8 +228,8 @@ inline void Navigator::pitot(double pressure_pa, const Params& p) {
   pitot_s_ = time_s_;
   if (!aligned() || !airborne_ || Va < 0.5 * p.min_airspeed) return;
   const double noise = p.pitot_noise / (air_.density_kgm3 * Va);
-  const ekf::Fused fused =
-      filter_.fuse(ekf::true_airspeed(filter_.state(), Va), noise * noise + p.pitot_speed_std * p.pitot_speed_std, p.air_gate);
+  const ekf::Fused fused = filter_.fuse(ekf::true_airspeed(filter_.state(), Va),
+                                        noise * noise + p.pitot_speed_std * p.pitot_speed_std, p.air_gate);
   health_.pitot_ratio = fused.ratio;
   if (fused.accepted)
     health_.pitot_s = time_s_;

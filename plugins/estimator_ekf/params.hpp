@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parameters of the estimator. Noises are physical: densities per sqrt(Hz), deviations of one sample in the sensor's unit.
+// Parameters of the estimator. Noises are physical: densities per sqrt(Hz), deviations of one sample in the
+// sensor's unit.
 #pragma once
 #include <fulmar/msg/origin.hpp>
 #include <fulmar/plugin.hpp>
@@ -8,12 +9,14 @@ namespace fulmar::estimator {
 
 struct Params {
   Record<Origin> origin{"origin of the local frame; without it the first good fixes decide"};
-  Param start_height{0, "m", -1000, 1000, "above the origin, of the place where it stands when it is switched on"};
+  Param start_height{0, "m", -1000, 1000,
+                     "above the origin, of the place where it stands when it is switched on"};
   Param start_height_std{0.3, "m", 0.01, 1000, "how well that is known; 1000: not at all"};
 
   // inertial unit
   Param gyro_noise{5e-4, "rad/s/sqrt(Hz)", 1e-6, 0.1, "white noise of the gyros, vibration included"};
-  Param gyro_scale_error{2e-3, "1/sqrt(Hz)", 0, 0.1, "grows gyro_noise with the turn rate: scale and alignment errors"};
+  Param gyro_scale_error{2e-3, "1/sqrt(Hz)", 0, 0.1,
+                         "grows gyro_noise with the turn rate: scale and alignment errors"};
   Param gyro_bias_walk{2e-5, "rad/s/sqrt(s)", 0, 0.01, "how fast the gyro bias wanders"};
   Param gyro_bias_std{0.15, "rad/s", 1e-4, 1, "gyro bias before it is learnt"};
   Param accel_noise{0.02, "m/s2/sqrt(Hz)", 1e-5, 5, "white noise of the accelerometers, vibration included"};
@@ -21,17 +24,23 @@ struct Params {
   Param accel_bias_walk{5e-4, "m/s2/sqrt(s)", 0, 0.1, "how fast the accelerometer bias wanders"};
   Param accel_bias_std{0.35, "m/s2", 1e-3, 3, "accelerometer bias before it is learnt"};
   Param gravity{9.80665, "m/s2", 9.7, 9.9, "local gravity"};
-  Param max_coast{0.3, "s", 0.03, 2, "a gap of the inertial unit is bridged up to this; after a longer one the attitude is found anew"};
+  Param max_coast{
+      0.3, "s", 0.03, 2,
+      "a gap of the inertial unit is bridged up to this; after a longer one the attitude is found anew"};
   Param gap_rate_std{0.5, "rad/s", 0.01, 5, "turn rate that nobody saw in a gap"};
   Param gap_accel_std{5, "m/s2", 0.1, 50, "acceleration that nobody saw in a gap"};
 
   // satellite navigation; the receiver's own accuracies count when it reports them
-  Param gnss_delay{0, "s", 0, 0.5, "added to the age of a fix, for receivers whose stamp is the time of arrival"};
+  Param gnss_delay{0, "s", 0, 0.5,
+                   "added to the age of a fix, for receivers whose stamp is the time of arrival"};
   Param gnss_horizontal_std{2, "m", 0.01, 50, "when the receiver reports none"};
   Param gnss_vertical_std{4, "m", 0.01, 50, "when the receiver reports none"};
-  Param gnss_height_time{60, "s", 0, 1000,
-                         "correlation time of the receiver's height error: a fix counts for less the more of them come in it"};
-  Param gnss_climb_time{2, "s", 0, 100, "the same for the error of its vertical velocity, which would else be integrated to a height"};
+  Param gnss_height_time{
+      60, "s", 0, 1000,
+      "correlation time of the receiver's height error: a fix counts for less the more of them come in it"};
+  Param gnss_climb_time{
+      2, "s", 0, 100,
+      "the same for the error of its vertical velocity, which would else be integrated to a height"};
   Param gnss_speed_std{0.4, "m/s", 0.005, 10, "when the receiver reports none"};
   Param gnss_position_floor{0.1, "m", 0, 10, "no position is trusted more than this"};
   Param gnss_speed_floor{0.015, "m/s", 0, 10, "no velocity is trusted more than this"};
@@ -54,7 +63,8 @@ struct Params {
   Param gust_std{1, "m/s", 0, 10, "gusts along the flight: first-order Gauss-Markov"};
   Param gust_time{3, "s", 0.1, 60, "their correlation time"};
   Param sideslip_speed_std{2.0, "m/s", 0.05, 20,
-                           "side component of the air velocity, at 10 Hz; its gusts are correlated, so attitude does not follow it"};
+                           "side component of the air velocity, at 10 Hz; its gusts are correlated, so "
+                           "attitude does not follow it"};
   Param sideslip_ratio{0.1, "rad", 0, 1, "grows with the airspeed: sideslip of uncoordinated flight"};
   Param min_airspeed{8, "m/s", 2, 40, "below this neither pitot nor sideslip is used: rolling, not flying"};
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From radians to what the controller's mixer takes: mode 0, u[0] throttle, u[3] aileron, u[4] elevator, u[5] rudder. ROSflight firmware
-// 2.0, command manager and mixer: with the fixed-wing mixers and REV_* at 0, u = 1 is the full throw of a positive deflection as in
-// Beard & McLain. `reversed` of the airframe turns a surface round, here and nowhere else.
+// From radians to what the controller's mixer takes: mode 0, u[0] throttle, u[3] aileron, u[4] elevator, u[5]
+// rudder. ROSflight firmware 2.0, command manager and mixer: with the fixed-wing mixers and REV_* at 0, u = 1
+// is the full throw of a positive deflection as in Beard & McLain. `reversed` of the airframe turns a surface
+// round, here and nowhere else.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -21,19 +22,24 @@ namespace fulmar::fcu {
 struct Throws {
   double aileron = 1, elevator = 1, rudder = 1;  ///< rad at u = 1; negative when reversed
 
-  static Throws of(const Airframe& a) { return {one(a.aileron, "aileron"), one(a.elevator, "elevator"), one(a.rudder, "rudder")}; }
+  static Throws of(const Airframe& a) {
+    return {one(a.aileron, "aileron"), one(a.elevator, "elevator"), one(a.rudder, "rudder")};
+  }
 
  private:
   static double one(const Surface& s, const char* name) {
     if (!(s.limit_rad > 0.01) || !std::isfinite(s.limit_rad))
-      throw std::runtime_error(std::string("the airframe's ") + name + ".limit is its throw; it must be more than 0.01 rad");
+      throw std::runtime_error(std::string("the airframe's ") + name +
+                               ".limit is its throw; it must be more than 0.01 rad");
     return s.reversed ? -s.limit_rad : s.limit_rad;
   }
 };
 
-/// Nothing when a value is not finite: one NaN makes every output of the controller one, the motor's included.
+/// Nothing when a value is not finite: one NaN makes every output of the controller one, the motor's
+/// included.
 inline std::optional<OffboardControl> to_offboard(const Actuators& a, const Throws& t) {
-  if (!std::isfinite(a.throttle_frac) || !std::isfinite(a.aileron_rad) || !std::isfinite(a.elevator_rad) || !std::isfinite(a.rudder_rad))
+  if (!std::isfinite(a.throttle_frac) || !std::isfinite(a.aileron_rad) || !std::isfinite(a.elevator_rad) ||
+      !std::isfinite(a.rudder_rad))
     return {};
   OffboardControl c;
   c.u[0] = static_cast<float>(std::clamp(a.throttle_frac, 0.0, 1.0));
@@ -49,12 +55,14 @@ inline std::optional<RosflightAuxCmd> to_aux(const AuxOutputs& a) {
     if (a.kinds[i] == AuxKind::off) continue;
     if (!std::isfinite(a.values_ratio[i])) return {};
     c.type_array[i] = static_cast<std::uint8_t>(a.kinds[i]);
-    c.aux_cmd_array[i] = static_cast<float>(std::clamp(a.values_ratio[i], a.kinds[i] == AuxKind::motor ? 0.0 : -1.0, 1.0));
+    c.aux_cmd_array[i] =
+        static_cast<float>(std::clamp(a.values_ratio[i], a.kinds[i] == AuxKind::motor ? 0.0 : -1.0, 1.0));
   }
   return c;
 }
 
-/// A motor that is switched off is stopped: the firmware leaves a disabled output as it was. `motors`: those that were commanded so far.
+/// A motor that is switched off is stopped: the firmware leaves a disabled output as it was. `motors`: those
+/// that were commanded so far.
 inline void stop_motors(RosflightAuxCmd& c, std::array<bool, 14>& motors) {
   constexpr auto motor = static_cast<std::uint8_t>(AuxKind::motor);
   for (std::size_t i = 0; i < motors.size(); ++i) {
@@ -67,8 +75,8 @@ inline void stop_motors(RosflightAuxCmd& c, std::array<bool, 14>& motors) {
 inline std::optional<ExternalAttitude> to_external_attitude(const Quat& q) {
   const double norm = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
   if (!(std::abs(norm - 1) < 0.1)) return {};
-  return ExternalAttitude{static_cast<float>(q.w / norm), static_cast<float>(q.x / norm), static_cast<float>(q.y / norm),
-                          static_cast<float>(q.z / norm)};
+  return ExternalAttitude{static_cast<float>(q.w / norm), static_cast<float>(q.x / norm),
+                          static_cast<float>(q.y / norm), static_cast<float>(q.z / norm)};
 }
 
 }  // namespace fulmar::fcu

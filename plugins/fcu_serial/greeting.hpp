@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The first words with a device: is there a flight controller, of this make, new enough, and set up for a fixed wing?
+// The first words with a device: is there a flight controller, of this make, new enough, and set up for a
+// fixed wing?
 #pragma once
 #include <array>
 #include <cstdint>
@@ -12,23 +13,27 @@
 
 namespace fulmar::fcu {
 
-inline constexpr std::int64_t silence_patience_ns = 3'500'000'000;   ///< for the first frame
-inline constexpr std::int64_t noise_patience_ns = 2'000'000'000;     ///< the same, when other bytes come
-inline constexpr std::uint64_t noise_bytes = 200;                    ///< so many of them: more than two of the longest frames
-inline constexpr std::int64_t answer_patience_ns = 2'000'000'000;    ///< for all answers, from the first frame on
+inline constexpr std::int64_t silence_patience_ns = 3'500'000'000;  ///< for the first frame
+inline constexpr std::int64_t noise_patience_ns = 2'000'000'000;    ///< the same, when other bytes come
+inline constexpr std::uint64_t noise_bytes = 200;  ///< so many of them: more than two of the longest frames
+inline constexpr std::int64_t answer_patience_ns =
+    2'000'000'000;  ///< for all answers, from the first frame on
 inline constexpr std::int64_t greeting_patience_ns = 4'500'000'000;  ///< for everything
 inline constexpr std::int32_t oldest_firmware = 2;
 
 /// Parameters of the controller that this plugin must know.
-inline constexpr std::array<std::string_view, 8> watched_parameters{"FIXED_WING", "RC_X_CHN",    "RC_Y_CHN",     "RC_Z_CHN",
-                                                                    "RC_F_CHN",   "REV_AILERON", "REV_ELEVATOR", "REV_RUDDER"};
+inline constexpr std::array<std::string_view, 8> watched_parameters{
+    "FIXED_WING", "RC_X_CHN",    "RC_Y_CHN",     "RC_Z_CHN",
+    "RC_F_CHN",   "REV_AILERON", "REV_ELEVATOR", "REV_RUDDER"};
 
-/// The first number of "v2.0.1-3-gabc" or "2.0"; nothing when the text is no version, such as the bare hash of a build without tags.
+/// The first number of "v2.0.1-3-gabc" or "2.0"; nothing when the text is no version, such as the bare hash
+/// of a build without tags.
 inline std::optional<std::int32_t> major_version(std::string_view text) {
   if (!text.empty() && (text[0] == 'v' || text[0] == 'V')) text.remove_prefix(1);
   std::int32_t major = 0;
   std::size_t n = 0;
-  for (; n < text.size() && n < 4 && text[n] >= '0' && text[n] <= '9'; ++n) major = 10 * major + (text[n] - '0');
+  for (; n < text.size() && n < 4 && text[n] >= '0' && text[n] <= '9'; ++n)
+    major = 10 * major + (text[n] - '0');
   if (n == 0 || n >= text.size() || text[n] != '.') return {};
   return major;
 }
@@ -60,37 +65,49 @@ struct Greeting {
     }
   }
   bool complete() const {
-    const bool all = std::all_of(parameters.begin(), parameters.end(), [](const auto& p) { return p.has_value(); });
+    const bool all =
+        std::all_of(parameters.begin(), parameters.end(), [](const auto& p) { return p.has_value(); });
     return imu && all && (versioned || (refused && armed));  // an armed controller refuses to say its version
   }
   std::int32_t parameter(std::string_view name) const {
-    const auto at = std::find(watched_parameters.begin(), watched_parameters.end(), name) - watched_parameters.begin();
+    const auto at =
+        std::find(watched_parameters.begin(), watched_parameters.end(), name) - watched_parameters.begin();
     return parameters[static_cast<std::size_t>(at)].value_or(-1);
   }
 };
 
 /// Why this device cannot be flown, in one sentence with what to do; "" when it can.
-inline std::string objection(const Greeting& g, const LinkState& link, const std::string& port, std::int64_t baud) {
+inline std::string objection(const Greeting& g, const LinkState& link, const std::string& port,
+                             std::int64_t baud) {
   const bool serial = port.rfind("udp:", 0) != 0;
   if (link.frames == 0 && link.bytes == 0)
     return "nothing comes from " + port + ": is the flight controller powered, and is this its port?";
   if (link.frames == 0 && link.text_bytes * 20 >= link.bytes * 19)
-    return port + " sends text, not MAVLink: it is no flight controller, a satellite receiver perhaps; name another port";
+    return port +
+           " sends text, not MAVLink: it is no flight controller, a satellite receiver perhaps; name another "
+           "port";
   if (link.frames == 0)
-    return "of " + std::to_string(link.bytes) + " bytes from " + port + (serial ? " at " + std::to_string(baud) + " baud" : "") +
-           " none is a MAVLink 1 frame: " +
-           (serial ? "set the baud rate of the flight controller (ROSflight: 921600), or name another port" : "name another port");
+    return "of " + std::to_string(link.bytes) + " bytes from " + port +
+           (serial ? " at " + std::to_string(baud) + " baud" : "") + " none is a MAVLink 1 frame: " +
+           (serial ? "set the baud rate of the flight controller (ROSflight: 921600), or name another port"
+                   : "name another port");
   if (g.autopilot > 0)
-    return "the autopilot at " + port + " is of another make (MAV_AUTOPILOT " + std::to_string(g.autopilot) + "): ROSflight 2 is needed";
+    return "the autopilot at " + port + " is of another make (MAV_AUTOPILOT " + std::to_string(g.autopilot) +
+           "): ROSflight 2 is needed";
   if (const auto major = major_version(g.version); g.versioned && major && *major < oldest_firmware)
-    return "the flight controller at " + port + " runs ROSflight " + g.version + ": flash version 2.0 or later";
+    return "the flight controller at " + port + " runs ROSflight " + g.version +
+           ": flash version 2.0 or later";
   if (!g.imu)
-    return port + " speaks MAVLink, but sends no inertial samples: no ROSflight 2, or its inertial unit is dead; reboot it, or flash it";
+    return port +
+           " speaks MAVLink, but sends no inertial samples: no ROSflight 2, or its inertial unit is dead; "
+           "reboot it, or flash it";
   if (!g.versioned && !g.armed)
-    return "the flight controller at " + port + " does not say its version: it is older than ROSflight 2.0; flash version 2.0 or later";
+    return "the flight controller at " + port +
+           " does not say its version: it is older than ROSflight 2.0; flash version 2.0 or later";
   if (g.parameter("FIXED_WING") == 0)
     return "the flight controller at " + port +
-           " is set up for a multirotor: set FIXED_WING to 1, PRIMARY_MIXER to the aircraft's, write, and reboot it";
+           " is set up for a multirotor: set FIXED_WING to 1, PRIMARY_MIXER to the aircraft's, write, and "
+           "reboot it";
   return "";
 }
 

@@ -60,7 +60,8 @@ class LinkReport {
     counted_ns_ = now_ns;
   }
 
-  std::int64_t last_imu_ns_ = never_ns, worst_ns_ = 0, turnaround_ns_ = 0, told_ns_ = never_ns, counted_ns_ = never_ns;
+  std::int64_t last_imu_ns_ = never_ns, worst_ns_ = 0, turnaround_ns_ = 0, told_ns_ = never_ns,
+               counted_ns_ = never_ns;
   std::uint32_t gaps_ = 0;
   std::uint64_t samples_ = 0;
   double rate_hz_ = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When a command goes out: each new one, as often as is allowed, and the last one again before the controller would forget it.
+// When a command goes out: each new one, as often as is allowed, and the last one again before the controller
+// would forget it.
 #pragma once
 #include <cstdint>
 
@@ -20,12 +21,14 @@ class Pace {
   }
   void sent(std::int64_t now_ns) {
     sent_ns_ = now_ns;
-    next_ns_ = (now_ns - next_ns_ > period_ns_ ? now_ns : next_ns_) + period_ns_;  // a late tick does not put off the one after it
+    next_ns_ = (now_ns - next_ns_ > period_ns_ ? now_ns : next_ns_) +
+               period_ns_;  // a late tick does not put off the one after it
     waiting_ = false;
   }
 
  private:
-  static constexpr std::int64_t repeat_ns = 25'000'000;  ///< a quarter of the controller's patience: three may be lost
+  static constexpr std::int64_t repeat_ns =
+      25'000'000;  ///< a quarter of the controller's patience: three may be lost
   static constexpr std::int64_t slack_ns = 500'000;
   std::int64_t period_ns_, sent_ns_ = never_ns, next_ns_ = never_ns;
   bool waiting_ = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pilot's sticks and switches, by the controller's own map of channels. Source: ROSflight firmware 2.0, rc.cpp: a channel is
-// (us - 1000) / 1000, a stick is 2 (v - 0.5), the throttle is v.
+// The pilot's sticks and switches, by the controller's own map of channels. Source: ROSflight firmware 2.0,
+// rc.cpp: a channel is (us - 1000) / 1000, a stick is 2 (v - 0.5), the throttle is v.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -39,21 +39,25 @@ struct RcMap {
 };
 
 inline std::array<std::uint16_t, 8> channels_of(const RcChannels& m) {
-  return {m.chan1_raw, m.chan2_raw, m.chan3_raw, m.chan4_raw, m.chan5_raw, m.chan6_raw, m.chan7_raw, m.chan8_raw};
+  return {m.chan1_raw, m.chan2_raw, m.chan3_raw, m.chan4_raw,
+          m.chan5_raw, m.chan6_raw, m.chan7_raw, m.chan8_raw};
 }
 
-/// What the sticks mean to the aircraft. The firmware passes them on as it does a command, so that the sign of a stick is that of the
-/// command which moves the surface the same way: a positive elevator is nose down, a positive rudder nose left. The switches are the
-/// channels 5 to 8, lower end -1. A channel that is not there is in the middle; such a throttle is closed.
+/// What the sticks mean to the aircraft. The firmware passes them on as it does a command, so that the sign
+/// of a stick is that of the command which moves the surface the same way: a positive elevator is nose down,
+/// a positive rudder nose left. The switches are the channels 5 to 8, lower end -1. A channel that is not
+/// there is in the middle; such a throttle is closed.
 inline Rc to_rc(const RcChannels& m, const RcMap& map, const Throws& throws, bool link) {
   const std::array<std::uint16_t, 8> us = channels_of(m);
   const auto there = [&](std::int32_t i) {
-    return i >= 0 && i < 8 && us[static_cast<std::size_t>(i)] >= 500 && us[static_cast<std::size_t>(i)] <= 2500;
+    return i >= 0 && i < 8 && us[static_cast<std::size_t>(i)] >= 500 &&
+           us[static_cast<std::size_t>(i)] <= 2500;
   };
   const auto stick = [&](std::int32_t i) {
     return there(i) ? std::clamp((us[static_cast<std::size_t>(i)] - 1500) / 500.0, -1.0, 1.0) : 0.0;
   };
-  const double throttle = there(map.f) ? std::clamp((us[static_cast<std::size_t>(map.f)] - 1000) / 1000.0, 0.0, 1.0) : 0.0;
+  const double throttle =
+      there(map.f) ? std::clamp((us[static_cast<std::size_t>(map.f)] - 1000) / 1000.0, 0.0, 1.0) : 0.0;
   const auto sign = [](double full_throw) { return full_throw < 0 ? -1.0 : 1.0; };
   const double roll = sign(throws.aileron) * stick(map.x), pitch = -sign(throws.elevator) * stick(map.y),
                yaw = -sign(throws.rudder) * stick(map.z);

@@ -43,7 +43,8 @@ struct LinkStatus {
   double round_trip_s = 0;     ///< least of the last seconds
   std::int64_t offset_ns = 0;  ///< host's clock minus the controller's
   double drift_ratio = 0;      ///< how much faster the host's clock runs
-  double turnaround_s = 0;     ///< from the arrival of an inertial sample to its command, longest since the last report
+  double turnaround_s =
+      0;  ///< from the arrival of an inertial sample to its command, longest since the last report
 };
 
 }  // namespace fulmar::fcu

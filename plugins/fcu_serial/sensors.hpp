@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the controller's messages to the shared ones. Nothing when a value is not finite or out of this world: a broken sensor is silent.
-// Units and scaling: ROSflight sends SI, temperatures in kelvin, the field in tesla, indicated airspeed for 1.225 kg/m3.
+// From the controller's messages to the shared ones. Nothing when a value is not finite or out of this world:
+// a broken sensor is silent. Units and scaling: ROSflight sends SI, temperatures in kelvin, the field in
+// tesla, indicated airspeed for 1.225 kg/m3.
 #pragma once
 #include <cmath>
 #include <optional>
@@ -25,7 +26,9 @@ bool within(double limit, T... values) {
 }
 
 /// A thermometer that nobody needs does not silence its sensor.
-inline double kelvin(float value) { return within(500, value) && value > 150 ? static_cast<double>(value) : standard_kelvin; }
+inline double kelvin(float value) {
+  return within(500, value) && value > 150 ? static_cast<double>(value) : standard_kelvin;
+}
 
 inline std::optional<Imu> to_imu(const SmallImu& m) {
   if (!within(400, m.xacc, m.yacc, m.zacc) || !within(100, m.xgyro, m.ygyro, m.zgyro)) return {};
@@ -48,10 +51,14 @@ inline std::optional<Pitot> to_pitot(const DiffPressure& m) {
   return Pitot{m.diff_pressure, m.velocity, kelvin(m.temperature)};
 }
 
-inline double deviation(float claimed) { return within(1e6, claimed) && claimed > 0 ? static_cast<double>(claimed) : unknown_std; }
+inline double deviation(float claimed) {
+  return within(1e6, claimed) && claimed > 0 ? static_cast<double>(claimed) : unknown_std;
+}
 
 inline std::optional<Gnss> to_gnss(const RosflightGnss& m) {
-  if (!within(90, m.lat) || !within(180, m.lon) || !within(1e5, m.height) || !within(1e3, m.vel_n, m.vel_e, m.vel_d)) return {};
+  if (!within(90, m.lat) || !within(180, m.lon) || !within(1e5, m.height) ||
+      !within(1e3, m.vel_n, m.vel_e, m.vel_d))
+    return {};
   constexpr std::int64_t last_s = 4102444800;  // 2100-01-01
   Gnss g;
   g.latitude_deg = m.lat;
@@ -64,7 +71,8 @@ inline std::optional<Gnss> to_gnss(const RosflightGnss& m) {
   // A receiver without a date says 1970 or its own epoch.
   if (m.seconds > 1000000000 && m.seconds < last_s && std::abs(std::int64_t{m.nanos}) <= 1000000000)
     g.utc_ns = m.seconds * 1000000000 + m.nanos;
-  g.fix = m.fix_type <= static_cast<std::uint8_t>(FixType::rtk_fixed) ? static_cast<FixType>(m.fix_type) : FixType::none;
+  g.fix = m.fix_type <= static_cast<std::uint8_t>(FixType::rtk_fixed) ? static_cast<FixType>(m.fix_type)
+                                                                      : FixType::none;
   g.satellites = m.num_sat;
   return g;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who flies: what the controller says of itself, how old that is, and whether the host's commands move the aircraft. Each change is told
-// once.
+// Who flies: what the controller says of itself, how old that is, and whether the host's commands move the
+// aircraft. Each change is told once.
 #pragma once
 #include <cstdint>
 #include <limits>
@@ -11,18 +11,23 @@
 namespace fulmar::fcu {
 
 inline constexpr std::int64_t never_ns = std::numeric_limits<std::int64_t>::min() / 2;
-inline constexpr std::int64_t link_patience_ns = 200'000'000;     ///< without a frame: at least 400 come in each second
-inline constexpr std::int64_t gap_patience_ns = 50'000'000;       ///< without an inertial sample: flagged, nothing more
-inline constexpr std::int64_t rc_patience_ns = 500'000'000;       ///< without a frame of the radio: 111 come in each second
-inline constexpr std::int64_t status_patience_ns = 500'000'000;   ///< without a status: 10 come in each second
-inline constexpr std::int64_t command_patience_ns = 100'000'000;  ///< OFFBOARD_TIMEOUT: the controller forgets a command after this
+inline constexpr std::int64_t link_patience_ns =
+    200'000'000;  ///< without a frame: at least 400 come in each second
+inline constexpr std::int64_t gap_patience_ns =
+    50'000'000;  ///< without an inertial sample: flagged, nothing more
+inline constexpr std::int64_t rc_patience_ns =
+    500'000'000;  ///< without a frame of the radio: 111 come in each second
+inline constexpr std::int64_t status_patience_ns = 500'000'000;  ///< without a status: 10 come in each second
+inline constexpr std::int64_t command_patience_ns =
+    100'000'000;  ///< OFFBOARD_TIMEOUT: the controller forgets a command after this
 
 /// Bits of VehicleStatus::errors beside the controller's own eight.
 enum OwnError : std::uint32_t {
   own_error_rc_silent = 0x100,     ///< the radio's frames stopped
   own_error_link_down = 0x200,     ///< nothing comes from the controller
   own_error_sensors_dead = 0x400,  ///< sensors of the controller did not start
-  own_error_imu_silent = 0x800     ///< frames come, but no inertial samples: the controller's own control has stopped
+  own_error_imu_silent =
+      0x800  ///< frames come, but no inertial samples: the controller's own control has stopped
 };
 
 /// What was heard last, and when; times in ns of one clock.
@@ -31,7 +36,8 @@ struct Heard {
   double volt = 0, amp = 0;
   bool open = true;           ///< the device is there
   std::int64_t since_ns = 0;  ///< frames come without a break
-  std::int64_t frame_ns = never_ns, imu_ns = never_ns, status_ns = never_ns, rc_ns = never_ns, command_ns = never_ns;
+  std::int64_t frame_ns = never_ns, imu_ns = never_ns, status_ns = never_ns, rc_ns = never_ns,
+               command_ns = never_ns;
 
   void frame(std::int64_t now_ns) {
     if (now_ns - frame_ns >= link_patience_ns) since_ns = now_ns;
@@ -50,14 +56,17 @@ inline VehicleStatus evaluate(const Heard& h, std::int64_t now_ns) {
   s.override = (h.status.rc_override & override_by_pilot) != 0;
   s.override_reasons = h.status.rc_override;
   s.on_ground = !s.armed;
-  s.in_control = s.armed && !s.failsafe && s.offboard && (h.status.rc_override & (override_by_pilot | override_inactive)) == 0 && rc &&
-                 imu && now_ns - h.status_ns < status_patience_ns && now_ns - h.command_ns < command_patience_ns;
+  s.in_control = s.armed && !s.failsafe && s.offboard &&
+                 (h.status.rc_override & (override_by_pilot | override_inactive)) == 0 && rc && imu &&
+                 now_ns - h.status_ns < status_patience_ns && now_ns - h.command_ns < command_patience_ns;
   s.errors = h.status.error_code;
   if (!rc && now_ns - h.since_ns > rc_patience_ns) s.errors |= own_error_rc_silent;
   if (!link) s.errors |= own_error_link_down;
   if (h.status.num_errors > 0) s.errors |= own_error_sensors_dead;
   if (link && !imu && now_ns - h.since_ns > link_patience_ns) s.errors |= own_error_imu_silent;
-  s.health = !link || !imu ? Health::failed : s.errors != 0 || now_ns - h.imu_ns >= gap_patience_ns ? Health::degraded : Health::ok;
+  s.health = !link || !imu                                           ? Health::failed
+             : s.errors != 0 || now_ns - h.imu_ns >= gap_patience_ns ? Health::degraded
+                                                                     : Health::ok;
   s.battery_volt = h.volt;
   s.battery_amp = h.amp;
   s.rc_age_s = h.rc_ns == never_ns ? 1e9 : 1e-9 * static_cast<double>(now_ns - h.rc_ns);
@@ -66,8 +75,9 @@ inline VehicleStatus evaluate(const Heard& h, std::int64_t now_ns) {
 
 /// What differs between two states that a reader would want to know at once.
 inline bool changed(const VehicleStatus& a, const VehicleStatus& b) {
-  return a.armed != b.armed || a.failsafe != b.failsafe || a.offboard != b.offboard || a.override != b.override ||
-         a.override_reasons != b.override_reasons || a.in_control != b.in_control || a.errors != b.errors || a.health != b.health;
+  return a.armed != b.armed || a.failsafe != b.failsafe || a.offboard != b.offboard ||
+         a.override != b.override || a.override_reasons != b.override_reasons ||
+         a.in_control != b.in_control || a.errors != b.errors || a.health != b.health;
 }
 
 /// Tells each change of the state once.
@@ -90,9 +100,12 @@ class Teller {
   void tell_link(const VehicleStatus& s, const Heard& h, std::int64_t now_ns, Notices& out) {
     const bool down = (s.errors & own_error_link_down) != 0;
     if (down && !down_ && h.frame_ns != never_ns)
-      out.say(s.armed ? Level::critical : Level::warning, h.open ? "nothing comes from the flight controller; commands reach nobody"
-                                                                 : "the flight controller's device is gone; looking for it");
-    if (!down && down_) out.say(Level::info, (Line() << "the flight controller is back after ").seconds(now_ns - down_since_ns_));
+      out.say(s.armed ? Level::critical : Level::warning,
+              h.open ? "nothing comes from the flight controller; commands reach nobody"
+                     : "the flight controller's device is gone; looking for it");
+    if (!down && down_)
+      out.say(Level::info,
+              (Line() << "the flight controller is back after ").seconds(now_ns - down_since_ns_));
     if (down != down_) down_since_ns_ = h.frame_ns;
     down_ = down && h.frame_ns != never_ns;
   }
@@ -100,7 +113,8 @@ class Teller {
   void tell_arming(const VehicleStatus& s, Notices& out) {
     if (s.armed != told_.armed) out.say(Level::info, s.armed ? "armed" : "disarmed");
     if (s.failsafe && !told_.failsafe)
-      out.say(Level::critical, "failsafe: the flight controller has lost the radio; motor off, surfaces centred");
+      out.say(Level::critical,
+              "failsafe: the flight controller has lost the radio; motor off, surfaces centred");
     if (!s.failsafe && told_.failsafe) out.say(Level::warning, "failsafe is over");
   }
 
@@ -128,14 +142,16 @@ class Teller {
       if ((gone & bit) != 0) out.say(Level::info, Line() << "no longer: " << words);
     }
     if ((added & own_error_sensors_dead) != 0)
-      out.say(Level::warning, Line() << std::int64_t{h.status.num_errors} << " sensors of the flight controller did not start");
+      out.say(Level::warning, Line() << std::int64_t{h.status.num_errors}
+                                     << " sensors of the flight controller did not start");
     if ((added & own_error_imu_silent) != 0)
-      out.say(s.armed ? Level::critical : Level::error, "no inertial samples: the flight controller controls nothing any more");
+      out.say(s.armed ? Level::critical : Level::error,
+              "no inertial samples: the flight controller controls nothing any more");
     if ((gone & own_error_imu_silent) != 0) out.say(Level::info, "inertial samples come again");
     if ((added & own_error_rc_silent) != 0)
-      out.say(s.armed ? Level::critical : Level::warning, s.armed
-                                                              ? "no frames of the radio: the outputs are frozen, commands move nothing"
-                                                              : "no frames of the radio: is the receiver connected, and RC_TYPE right?");
+      out.say(s.armed ? Level::critical : Level::warning,
+              s.armed ? "no frames of the radio: the outputs are frozen, commands move nothing"
+                      : "no frames of the radio: is the receiver connected, and RC_TYPE right?");
     if ((gone & own_error_rc_silent) != 0 && begun_) out.say(Level::info, "frames of the radio come again");
   }
 

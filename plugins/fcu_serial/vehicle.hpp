@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The vehicle that is a ROSflight flight controller: its sensors come in, commands go out, and what it says of itself is told.
+// The vehicle that is a ROSflight flight controller: its sensors come in, commands go out, and what it says
+// of itself is told.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -20,7 +21,8 @@ namespace fulmar::fcu {
 template <class AnyLink>
 class Vehicle {
  public:
-  static constexpr const char* doc = "A flight controller that runs ROSflight 2, on a serial port or over UDP.";
+  static constexpr const char* doc =
+      "A flight controller that runs ROSflight 2, on a serial port or over UDP.";
   struct Inputs {
     Optional<Actuators> actuators;
     Optional<AuxOutputs> aux;
@@ -44,16 +46,23 @@ class Vehicle {
     TextParam<128> port{"/dev/ttyACM0", "a serial port, or udp:REMOTE:PORT of firmware in simulation"};
     Count baud{921600, 1200, 12000000, "bits per second; no matter to a USB port", setup};
     Record<Airframe> airframe{"throws and reversals of the surfaces", required};
-    Param command_rate{400, "Hz", 50, 1000, "commands per second at most: each new one goes out, 51 bytes", setup};
+    Param command_rate{400,  "Hz", 50, 1000, "commands per second at most: each new one goes out, 51 bytes",
+                       setup};
     Flag send_attitude{false, "sends the input `state` to correct the controller's own estimate, 50 Hz"};
-    Param time_scale{1,    "ratio", 0.1, 100, "flight time per time on the wall, for a controller in simulation whose clock runs faster",
-                     setup};
+    Param time_scale{
+        1,
+        "ratio",
+        0.1,
+        100,
+        "flight time per time on the wall, for a controller in simulation whose clock runs faster",
+        setup};
   };
 
   void configure(const Params& p) {
     const std::string port(p.port.view());
     if (port.empty())
-      throw std::runtime_error("the parameter 'port' is not set; it names the flight controller's port, such as /dev/ttyACM0");
+      throw std::runtime_error(
+          "the parameter 'port' is not set; it names the flight controller's port, such as /dev/ttyACM0");
     run_ = Run();
     run_.throws = Throws::of(*p.airframe);
     run_.pace = Pace(p.command_rate);
@@ -73,7 +82,8 @@ class Vehicle {
     run_.arrived_ns = wait(out);
     // Time goes by arrivals, so that the age of a sample is what its way here took.
     const std::int64_t host_ns = link_->now_ns();
-    run_.now_ns = std::max(flight_ns(run_.arrived_ns != never_ns ? run_.arrived_ns : host_ns), run_.now_ns + least_step_ns);
+    run_.now_ns = std::max(flight_ns(run_.arrived_ns != never_ns ? run_.arrived_ns : host_ns),
+                           run_.now_ns + least_step_ns);
     tick.now_ns = run_.now_ns;
     last_frame_.fd = link_->descriptor();
     return report(host_ns, out);
@@ -98,9 +108,12 @@ class Vehicle {
 
  private:
   static constexpr std::int64_t wait_ns = 10'000'000;
-  static constexpr std::int64_t least_step_ns = 100'000;  ///< samples that arrive together are ticks of their own
-  static constexpr std::int64_t backlog_ns = 50'000'000;  ///< older samples than this are not flown by any more
-  static constexpr std::int64_t status_period_ns = 100'000'000, aux_period_ns = 1'000'000'000, attitude_period_ns = 19'500'000;
+  static constexpr std::int64_t least_step_ns =
+      100'000;  ///< samples that arrive together are ticks of their own
+  static constexpr std::int64_t backlog_ns =
+      50'000'000;  ///< older samples than this are not flown by any more
+  static constexpr std::int64_t status_period_ns = 100'000'000, aux_period_ns = 1'000'000'000,
+                                attitude_period_ns = 19'500'000;
   static constexpr std::int64_t reboot_memory_ns = 1'000'000'000;
 
   enum Kind : std::uint32_t {
@@ -128,7 +141,8 @@ class Vehicle {
     LinkReport report;
     VehicleStatus status;  ///< last published
     Rc rc;
-    std::int64_t zero_ns = never_ns, arrived_ns = never_ns;  ///< host: of flight time 0; arrival of this tick's inertial sample
+    std::int64_t zero_ns = never_ns,
+                 arrived_ns = never_ns;  ///< host: of flight time 0; arrival of this tick's inertial sample
     std::int64_t now_ns = -least_step_ns, imu_valid_ns = never_ns, status_ns = never_ns, aux_ns = never_ns;
     std::int64_t attitude_ns = never_ns, disarmed_ns = never_ns;
     std::uint64_t gnss_stamp_us = 0;
@@ -199,13 +213,15 @@ class Vehicle {
 
   template <class T>
   void publish(Out<T>& port, const std::optional<T>& value, const Received& r, Kind kind, const char* name) {
-    if (usable(value.has_value(), kind, name)) port.publish(*value, flight_ns(std::min(r.valid_at_ns, r.arrived_ns)));
+    if (usable(value.has_value(), kind, name))
+      port.publish(*value, flight_ns(std::min(r.valid_at_ns, r.arrived_ns)));
   }
   bool usable(bool good, Kind kind, const char* name) {
     if (good) return true;
     ++run_.report.unusable;
     if ((run_.told_kinds & kind) == 0)
-      run_.notices.say(fulmar::Severity::warning, Line() << "the " << name << " gives values that cannot be; they are not used");
+      run_.notices.say(fulmar::Severity::warning,
+                       Line() << "the " << name << " gives values that cannot be; they are not used");
     run_.told_kinds |= kind;
     return false;
   }
@@ -218,9 +234,11 @@ class Vehicle {
     run_.imu_valid_ns = never_ns;
     if (!flying) return run_.notices.say(fulmar::Severity::warning, "the flight controller has rebooted");
     run_.pitot_zeroed = true;
+    run_.notices.say(
+        fulmar::Severity::critical,
+        "the flight controller has rebooted while armed: its motor is off until it is armed again");
     run_.notices.say(fulmar::Severity::critical,
-                     "the flight controller has rebooted while armed: its motor is off until it is armed again");
-    run_.notices.say(fulmar::Severity::critical, "it has zeroed its airspeed in the air: pitot not used any more, restart on the ground");
+                     "it has zeroed its airspeed in the air: pitot not used any more, restart on the ground");
   }
 
   Status report(std::int64_t host_ns, Outputs& out) {
@@ -238,13 +256,17 @@ class Vehicle {
       }
     }
     run_.notices.flush(out.notices, run_.now_ns);
-    if (run_.report.due(run_.now_ns)) out.link.publish(run_.report.take(link_->state(), host_ns, run_.now_ns));
+    if (run_.report.due(run_.now_ns))
+      out.link.publish(run_.report.take(link_->state(), host_ns, run_.now_ns));
     return (s.errors & own_error_link_down) != 0 ? Status::degraded : Status::ok;
   }
 
-  /// Nothing without a command, or with one that nobody has renewed: the controller then hands over to its pilot.
+  /// Nothing without a command, or with one that nobody has renewed: the controller then hands over to its
+  /// pilot.
   void send_command(std::int64_t now_ns, const Optional<Actuators>& actuators) {
-    if (!actuators || now_ns - actuators.valid_at_ns() > command_patience_ns || !run_.pace.due(actuators.fresh(), now_ns)) return;
+    if (!actuators || now_ns - actuators.valid_at_ns() > command_patience_ns ||
+        !run_.pace.due(actuators.fresh(), now_ns))
+      return;
     const auto command = to_offboard(*actuators, run_.throws);
     if (!command || !link_->send(*command)) {
       ++run_.report.unsent;
@@ -266,7 +288,8 @@ class Vehicle {
     auto command = to_aux(*aux);
     if (!command) {
       if ((run_.told_kinds & kind_aux) == 0)
-        run_.notices.say(fulmar::Severity::error, "an auxiliary output is not finite; such outputs are not sent");
+        run_.notices.say(fulmar::Severity::error,
+                         "an auxiliary output is not finite; such outputs are not sent");
       run_.told_kinds |= kind_aux;
       return;
     }
@@ -275,7 +298,8 @@ class Vehicle {
   }
 
   void send_attitude(std::int64_t now_ns, const Optional<VehicleState>& state) {
-    if (!state || !state.fresh() || !state->attitude_valid || now_ns - run_.attitude_ns < attitude_period_ns) return;
+    if (!state || !state.fresh() || !state->attitude_valid || now_ns - run_.attitude_ns < attitude_period_ns)
+      return;
     const auto attitude = to_external_attitude(state->attitude);
     if (!attitude) return;
     link_->send(*attitude);

@@ -19,7 +19,9 @@ void Vehicle<AnyLink>::greet(const std::string& port, std::int64_t baud, const A
   for (std::size_t i = 0; i < watched_parameters.size(); ++i)
     if (g.parameters[i]) run_.map.take(watched_parameters[i], *g.parameters[i]);
   Line line;
-  line << "connected: " << (g.versioned ? "ROSflight " + g.version : "an armed flight controller, which does not tell its version");
+  line << "connected: "
+       << (g.versioned ? "ROSflight " + g.version
+                       : "an armed flight controller, which does not tell its version");
   run_.notices.say(fulmar::Severity::info, line);
   tell_reversals(g, airframe);
 }
@@ -31,7 +33,8 @@ void Vehicle<AnyLink>::listen(Greeting& g) {
   while (!g.complete()) {
     const std::int64_t now_ns = link_->now_ns();
     if (now_ns - begun_ns > (first_ns == never_ns ? silence_patience_ns : greeting_patience_ns)) break;
-    if (first_ns == never_ns && now_ns - begun_ns > noise_patience_ns && link_->state().bytes > noise_bytes) break;
+    if (first_ns == never_ns && now_ns - begun_ns > noise_patience_ns && link_->state().bytes > noise_bytes)
+      break;
     if (first_ns != never_ns && now_ns - first_ns > answer_patience_ns) break;
     if (g.versioned && major_version(g.version).value_or(oldest_firmware) < oldest_firmware) break;
     if (!g.versioned && now_ns - asked_ns > 300'000'000) {
@@ -44,19 +47,23 @@ void Vehicle<AnyLink>::listen(Greeting& g) {
       if (r.event != LinkEvent::packet) continue;
       if (first_ns == never_ns) first_ns = r.arrived_ns;
       g.take(r.packet);
-      if (r.packet.template is<Statustext>()) run_.texts.forward(r.packet.template as<Statustext>(), r.arrived_ns, run_.notices);
+      if (r.packet.template is<Statustext>())
+        run_.texts.forward(r.packet.template as<Statustext>(), r.arrived_ns, run_.notices);
     }
   }
 }
 
-/// REV_* turns a surface round for pilot and host, the airframe file for the host alone. Both at once is hardly meant.
+/// REV_* turns a surface round for pilot and host, the airframe file for the host alone. Both at once is
+/// hardly meant.
 template <class AnyLink>
 void Vehicle<AnyLink>::tell_reversals(const Greeting& g, const Airframe& a) {
-  const std::array<std::pair<const char*, bool>, 3> surfaces{
-      {{"REV_AILERON", a.aileron.reversed}, {"REV_ELEVATOR", a.elevator.reversed}, {"REV_RUDDER", a.rudder.reversed}}};
+  const std::array<std::pair<const char*, bool>, 3> surfaces{{{"REV_AILERON", a.aileron.reversed},
+                                                              {"REV_ELEVATOR", a.elevator.reversed},
+                                                              {"REV_RUDDER", a.rudder.reversed}}};
   for (const auto& [name, reversed] : surfaces) {
     if (!reversed || g.parameter(name) <= 0) continue;
-    run_.notices.say(fulmar::Severity::warning, Line() << name << " is set, and the airframe file reverses it again: take one away");
+    run_.notices.say(fulmar::Severity::warning,
+                     Line() << name << " is set, and the airframe file reverses it again: take one away");
   }
 }
 
@@ -68,18 +75,19 @@ void Vehicle<AnyLink>::take(const Received& r, Outputs& out) {
     case SmallBaro::id:
       return publish(out.baro, to_baro(r.packet.template as<SmallBaro>()), r, kind_baro, "barometer");
     case DiffPressure::id:
-      if (!run_.pitot_zeroed) publish(out.pitot, to_pitot(r.packet.template as<DiffPressure>()), r, kind_pitot, "pitot tube");
+      if (!run_.pitot_zeroed)
+        publish(out.pitot, to_pitot(r.packet.template as<DiffPressure>()), r, kind_pitot, "pitot tube");
       return;
     case SmallRange::id:
       return publish(out.range, to_range(r.packet.template as<SmallRange>()), r, kind_other, "range finder");
     case AttitudeQuaternion::id:
-      return publish(out.attitude, to_attitude(r.packet.template as<AttitudeQuaternion>()), r, kind_other, "controller's estimator");
+      return publish(out.attitude, to_attitude(r.packet.template as<AttitudeQuaternion>()), r, kind_other,
+                     "controller's estimator");
     case RosflightOutputRaw::id:
-      return publish(out.outputs, to_outputs(r.packet.template as<RosflightOutputRaw>()), r, kind_other, "mixer");
-    case RosflightGnss::id:
-      return take_gnss(r, out);
-    default:
-      return take_state(r, out);
+      return publish(out.outputs, to_outputs(r.packet.template as<RosflightOutputRaw>()), r, kind_other,
+                     "mixer");
+    case RosflightGnss::id: return take_gnss(r, out);
+    default: return take_state(r, out);
   }
 }
 
@@ -106,29 +114,30 @@ void Vehicle<AnyLink>::take_state(const Received& r, Outputs& out) {
     }
     case RcChannels::id:
       heard.rc_ns = arrived_ns;
-      run_.rc = to_rc(r.packet.template as<RcChannels>(), run_.map, run_.throws, (heard.status.error_code & error_rc_lost) == 0);
+      run_.rc = to_rc(r.packet.template as<RcChannels>(), run_.map, run_.throws,
+                      (heard.status.error_code & error_rc_lost) == 0);
       return out.rc.publish(run_.rc, flight_ns(std::min(r.valid_at_ns, r.arrived_ns)));
     case RosflightBatteryStatus::id: {
       const auto battery = r.packet.template as<RosflightBatteryStatus>();
-      if (!usable(within(1e3, battery.battery_voltage, battery.battery_current), kind_other, "battery monitor")) return;
+      if (!usable(within(1e3, battery.battery_voltage, battery.battery_current), kind_other,
+                  "battery monitor"))
+        return;
       heard.volt = battery.battery_voltage;
       heard.amp = battery.battery_current;
       return;
     }
-    case ParamValue::id:
-      return take_parameter(r.packet.template as<ParamValue>());
-    case RosflightVersion::id:
-      return take_version(r.packet.template as<RosflightVersion>());
+    case ParamValue::id: return take_parameter(r.packet.template as<ParamValue>());
+    case RosflightVersion::id: return take_version(r.packet.template as<RosflightVersion>());
     case Statustext::id:
       return run_.texts.forward(r.packet.template as<Statustext>(), r.arrived_ns, run_.notices);
     case RosflightHardError::id: {
       const auto error = r.packet.template as<RosflightHardError>();
-      return run_.notices.say(fulmar::Severity::critical, Line() << "the flight controller crashed " << std::int64_t{error.reset_count}
-                                                                 << " times; error " << std::int64_t{error.error_code} << " at "
-                                                                 << std::int64_t{error.pc});
+      return run_.notices.say(fulmar::Severity::critical,
+                              Line() << "the flight controller crashed " << std::int64_t{error.reset_count}
+                                     << " times; error " << std::int64_t{error.error_code} << " at "
+                                     << std::int64_t{error.pc});
     }
-    default:
-      return;
+    default: return;
   }
 }
 
@@ -136,25 +145,30 @@ void Vehicle<AnyLink>::take_state(const Received& r, Outputs& out) {
 template <class AnyLink>
 void Vehicle<AnyLink>::take_parameter(const ParamValue& p) {
   const std::string_view name = id_of(p.param_id);
-  const auto at =
-      static_cast<std::size_t>(std::find(watched_parameters.begin(), watched_parameters.end(), name) - watched_parameters.begin());
+  const auto at = static_cast<std::size_t>(
+      std::find(watched_parameters.begin(), watched_parameters.end(), name) - watched_parameters.begin());
   if (at == watched_parameters.size()) return;
   const std::int32_t value = integer_of(p);
   const bool known = run_.parameters[at].has_value();
   if (known && *run_.parameters[at] == value) return;
   run_.parameters[at] = value;
   run_.map.take(name, value);
-  if (known) run_.notices.say(fulmar::Severity::warning, Line() << "the flight controller's " << name << " is now " << std::int64_t{value});
+  if (known)
+    run_.notices.say(fulmar::Severity::warning,
+                     Line() << "the flight controller's " << name << " is now " << std::int64_t{value});
 }
 
 template <class AnyLink>
 void Vehicle<AnyLink>::take_version(const RosflightVersion& m) {
   const Text<50> version(std::string_view(
-      m.version.data(), static_cast<std::size_t>(std::find(m.version.begin(), m.version.end(), '\0') - m.version.begin())));
+      m.version.data(),
+      static_cast<std::size_t>(std::find(m.version.begin(), m.version.end(), '\0') - m.version.begin())));
   if (version == run_.version) return;
   const bool known = !run_.version.view().empty();
   run_.version = version;
-  if (known) run_.notices.say(fulmar::Severity::warning, Line() << "this is another firmware: ROSflight " << version.view());
+  if (known)
+    run_.notices.say(fulmar::Severity::warning,
+                     Line() << "this is another firmware: ROSflight " << version.view());
 }
 
 }  // namespace fulmar::fcu

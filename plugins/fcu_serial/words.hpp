@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the controller says in bits, in words; and notices that wait until the loop takes them. Nothing here allocates.
+// What the controller says in bits, in words; and notices that wait until the loop takes them. Nothing here
+// allocates.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -25,7 +26,8 @@ class Line {
   Line& operator<<(std::int64_t number) {
     std::array<char, 20> digits{};
     std::size_t n = 0;
-    std::uint64_t rest = number < 0 ? 0 - static_cast<std::uint64_t>(number) : static_cast<std::uint64_t>(number);
+    std::uint64_t rest =
+        number < 0 ? 0 - static_cast<std::uint64_t>(number) : static_cast<std::uint64_t>(number);
     do digits[n++] = static_cast<char>('0' + rest % 10);
     while ((rest /= 10) != 0);
     if (number < 0) *this << "-";
@@ -44,7 +46,8 @@ class Line {
 
 /// Words of the bits that are set, with commas between them.
 template <std::size_t N>
-void list_bits(Line& line, std::uint32_t bits, const std::array<std::pair<std::uint32_t, std::string_view>, N>& words) {
+void list_bits(Line& line, std::uint32_t bits,
+               const std::array<std::pair<std::uint32_t, std::string_view>, N>& words) {
   bool first = true;
   for (const auto& [bit, word] : words) {
     if ((bits & bit) == 0) continue;
@@ -54,12 +57,13 @@ void list_bits(Line& line, std::uint32_t bits, const std::array<std::pair<std::u
   }
 }
 
-inline constexpr std::array<std::pair<std::uint32_t, std::string_view>, 6> override_words{{{override_attitude_switch, "attitude switch"},
-                                                                                           {override_throttle_switch, "throttle switch"},
-                                                                                           {override_stick_x, "roll stick"},
-                                                                                           {override_stick_y, "pitch stick"},
-                                                                                           {override_stick_z, "yaw stick"},
-                                                                                           {override_min_throttle, "lower throttle"}}};
+inline constexpr std::array<std::pair<std::uint32_t, std::string_view>, 6> override_words{
+    {{override_attitude_switch, "attitude switch"},
+     {override_throttle_switch, "throttle switch"},
+     {override_stick_x, "roll stick"},
+     {override_stick_y, "pitch stick"},
+     {override_stick_z, "yaw stick"},
+     {override_min_throttle, "lower throttle"}}};
 
 /// What the error bits mean, and what to do.
 inline constexpr std::array<std::pair<std::uint32_t, std::string_view>, 8> error_words{
@@ -93,7 +97,8 @@ class Notices {
   std::size_t count_ = 0;
 };
 
-/// Passes on the controller's own texts. What it repeats, such as why it does not arm, is told every ten seconds.
+/// Passes on the controller's own texts. What it repeats, such as why it does not arm, is told every ten
+/// seconds.
 class Forwarder {
  public:
   void forward(const Statustext& m, std::int64_t now_ns, Notices& notices) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keeps a slot beside a leader. Source: Beard & McLain, Small Unmanned Aircraft (2012), (10.8) for the course onto the line that the slot
-// flies along, (9.14) for turns; the rest is the kinematics of a point that is fixed to the leader's course.
+// Keeps a slot beside a leader. Source: Beard & McLain, Small Unmanned Aircraft (2012), (10.8) for the course
+// onto the line that the slot flies along, (9.14) for turns; the rest is the kinematics of a point that is
+// fixed to the leader's course.
 #pragma once
 #include <numbers>
 #include <stdexcept>
@@ -20,7 +21,7 @@ struct SlotError {
   double ahead_m = 0;  ///< along the slot's way
   double right_m = 0;  ///< of the slot's way
   double above_m = 0;
-  double rms_m = unknown_std;    ///< of the distance from the slot, while it was kept: from within `reached` on
+  double rms_m = unknown_std;  ///< of the distance from the slot, while it was kept: from within `reached` on
   double worst_m = unknown_std;  ///< the greatest of them
   bool reached = false;
   bool evading = false;  ///< keeps clear of another aircraft instead
@@ -38,8 +39,13 @@ struct Follower {
     Out<SlotError> slot;
   };
   struct Params {
-    Vector<Body> offset{{-20, 20, 0}, "m", -1000, 1000, "of the slot from the leader: ahead, right, down, along the leader's course"};
-    Param separation{10, "m", 1, 500, "from any other aircraft: nearer ones are kept clear of, and no slot is nearer"};
+    Vector<Body> offset{{-20, 20, 0},
+                        "m",
+                        -1000,
+                        1000,
+                        "of the slot from the leader: ahead, right, down, along the leader's course"};
+    Param separation{10, "m", 1, 500,
+                     "from any other aircraft: nearer ones are kept clear of, and no slot is nearer"};
     Param look_ahead{2, "s", 0, 10, "how long before it would be lost the separation is looked after"};
     Param timeout{4, "s", 0.02, 60, "silence of the leader after which this has failed"};
     Param chi_infinity{0.9, "rad", 0.1, 1.4, "approach angle to the slot's line from far away"};
@@ -54,7 +60,8 @@ struct Follower {
   void configure(const Params& p) { retune(p); }
   void retune(const Params& p) {
     if (const double far = eigen(p.offset.value).norm(); !(far >= p.separation))
-      throw std::runtime_error("offset: the slot is " + std::to_string(far) + " m from the leader, nearer than separation, " +
+      throw std::runtime_error("offset: the slot is " + std::to_string(far) +
+                               " m from the leader, nearer than separation, " +
                                std::to_string(p.separation.value) + " m");
   }
   Status activate(const Tick& tick, const Inputs& in, const Params& p, const Applied<Outputs>& last);
@@ -64,8 +71,9 @@ struct Follower {
   /// Of the last second: an estimator's wind is steadier, and gusts shift an aircraft by metres.
   const Eigen::Vector2d& feel_wind(const Tick& tick, const VehicleState& own) {
     constexpr double second = 1;
-    const Eigen::Vector2d now = Eigen::Vector2d(own.velocity_mps.north, own.velocity_mps.east) -
-                                own.airspeed_mps * Eigen::Vector2d(std::cos(own.yaw_rad), std::sin(own.yaw_rad));
+    const Eigen::Vector2d now =
+        Eigen::Vector2d(own.velocity_mps.north, own.velocity_mps.east) -
+        own.airspeed_mps * Eigen::Vector2d(std::cos(own.yaw_rad), std::sin(own.yaw_rad));
     const double dt = 1e-9 * static_cast<double>(tick.dt_ns);
     wind_ += (std::exchange(felt_, true) ? dt / (second + dt) : 1) * (now - wind_);
     return wind_;
@@ -86,7 +94,8 @@ struct Slot {
   double chi_dot = 0;  // of the leader's turn, and so of the slot's
   double climb_mps = 0;
 
-  Slot(const Motion& leader, const Vec3<Body>& offset) : chi(leader.chi), chi_dot(leader.chi_dot), climb_mps(-leader.v.z()) {
+  Slot(const Motion& leader, const Vec3<Body>& offset)
+      : chi(leader.chi), chi_dot(leader.chi_dot), climb_mps(-leader.v.z()) {
     constexpr double slow_mps = 3;
     const double c = std::cos(chi), s = std::sin(chi);
     const Eigen::Vector2d r(c * offset.x - s * offset.y, s * offset.x + c * offset.y);
@@ -96,10 +105,10 @@ struct Slot {
   }
 };
 
-/// Course, airspeed, height and bank that lead into the slot and along with it. `e`: where the aircraft is, as seen from the slot; `wind`:
-/// velocity of the air, north, east.
-inline GuidanceCommand into_slot(const VehicleState& own, const Slot& slot, const SlotError& e, const Eigen::Vector2d& wind,
-                                 const Follower::Params& p) {
+/// Course, airspeed, height and bank that lead into the slot and along with it. `e`: where the aircraft is,
+/// as seen from the slot; `wind`: velocity of the air, north, east.
+inline GuidanceCommand into_slot(const VehicleState& own, const Slot& slot, const SlotError& e,
+                                 const Eigen::Vector2d& wind, const Follower::Params& p) {
   constexpr double pi = std::numbers::pi, g = 9.80665;
   const double Vg = own.ground_speed_mps, scale = p.reference_speed / std::max(Vg, 0.3 * p.reference_speed);
   const double delta = -p.chi_infinity * (2 / pi) * std::atan(p.k_cross * scale * e.right_m);  // (10.8)
@@ -117,14 +126,16 @@ inline GuidanceCommand into_slot(const VehicleState& own, const Slot& slot, cons
   const double along = std::abs(angle_difference(slot.chi, own.course_rad));
   const double share = smoothly(std::abs(e.right_m), 40, 20) * smoothly(along, pi / 2, pi / 4);
   const double crab = std::max(std::cos(own.course_rad - own.yaw_rad), 0.5);
-  c.roll_feedforward_rad =
-      std::clamp(share * std::atan(Vg * slot.chi_dot / (g * crab)), -limits.roll_max_rad, limits.roll_max_rad);  // (9.14)
+  c.roll_feedforward_rad = std::clamp(share * std::atan(Vg * slot.chi_dot / (g * crab)), -limits.roll_max_rad,
+                                      limits.roll_max_rad);  // (9.14)
   return c;
 }
 
-/// Keeps clear of an aircraft that is near, or soon will be. The higher of the two climbs away; the lower one does not climb, and does not
-/// descend for it either, as the ground may be near. Who is behind slows down. True when that was needed.
-inline bool keep_clear(const VehicleState& own, const Motion& other, const Follower::Params& p, GuidanceCommand& c) {
+/// Keeps clear of an aircraft that is near, or soon will be. The higher of the two climbs away; the lower one
+/// does not climb, and does not descend for it either, as the ground may be near. Who is behind slows down.
+/// True when that was needed.
+inline bool keep_clear(const VehicleState& own, const Motion& other, const Follower::Params& p,
+                       GuidanceCommand& c) {
   const Relative to(own, other);
   if (to.nearest(p.look_ahead) >= p.separation) return false;
   if (to.p.z() >= 0) {  // it is below, or level
@@ -143,7 +154,8 @@ inline bool usable(const VehicleState& own, const Optional<VehicleState>& other,
   return other && other.age_s() <= timeout_s && located(*other) && same_origin(own, *other);
 }
 
-/// Nobody hands over to it without a leader. At the very beginning there is nobody who could stay, and the leader is waited for.
+/// Nobody hands over to it without a leader. At the very beginning there is nobody who could stay, and the
+/// leader is waited for.
 inline Status Follower::activate(const Tick&, const Inputs& in, const Params& p,
                                  const Applied<Outputs>& last) {
   slot_.reached = felt_ = false;
@@ -168,7 +180,8 @@ inline Status Follower::step(const Tick& tick, const Inputs& in, const Params& p
   slot_.above_m = -e.z();
   GuidanceCommand command = into_slot(own, slot, slot_, feel_wind(tick, own), p);
   slot_.evading = keep_clear(own, leader, p, command);
-  if (usable(own, in.neighbour, p.timeout)) slot_.evading |= keep_clear(own, Motion(*in.neighbour, in.neighbour.age_s()), p, command);
+  if (usable(own, in.neighbour, p.timeout))
+    slot_.evading |= keep_clear(own, Motion(*in.neighbour, in.neighbour.age_s()), p, command);
   slot_.reached = slot_.reached || e.norm() < p.reached;
   if (slot_.reached) {
     const double dt = 1e-9 * static_cast<double>(tick.dt_ns);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Another aircraft, as far as it is heard: for conditions of phases, for figures, and for those who fly by it.
+// Another aircraft, as far as it is heard: for conditions of phases, for figures, and for those who fly by
+// it.
 #pragma once
 #include "other_aircraft.hpp"
 
@@ -22,7 +23,8 @@ struct Sight {
 };
 
 struct Neighbour {
-  static constexpr const char* doc = "Hears another aircraft: whether it speaks, how far off it is, and its state for those who fly by it.";
+  static constexpr const char* doc =
+      "Hears another aircraft: whether it speaks, how far off it is, and its state for those who fly by it.";
   struct Inputs {
     In<VehicleState> state;
     Optional<VehicleState> heard;  // imported
@@ -61,7 +63,8 @@ inline Status Neighbour::step(const Tick&, const Inputs& in, const Params& p, Ou
     if (own.height_m > p.airborne && in.heard->height_m > p.airborne)
       sight_.least_distance_m = std::min(sight_.least_distance_m, sight_.distance_m);
   }
-  if (heard && in.heard.fresh()) out.other.publish(*in.heard, in.heard.valid_at_ns() - std::llround(1e9 * p.latency));
+  if (heard && in.heard.fresh())
+    out.other.publish(*in.heard, in.heard.valid_at_ns() - std::llround(1e9 * p.latency));
   out.sight = sight_;
   return heard ? Status::ok : Status::degraded;
 }

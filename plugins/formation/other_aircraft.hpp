@@ -10,28 +10,33 @@
 
 namespace fulmar::formation {
 
-/// Both count from one point: within 0.1 m on the ground and 0.5 m in height. An origin that is not known yet is none of the same.
+/// Both count from one point: within 0.1 m on the ground and 0.5 m in height. An origin that is not known yet
+/// is none of the same.
 inline bool same_origin(const VehicleState& a, const VehicleState& b) {
   constexpr double close_deg = 1e-6, close_m = 0.5;
-  return a.origin_valid && b.origin_valid && std::abs(a.origin_latitude_deg - b.origin_latitude_deg) < close_deg &&
+  return a.origin_valid && b.origin_valid &&
+         std::abs(a.origin_latitude_deg - b.origin_latitude_deg) < close_deg &&
          std::abs(a.origin_longitude_deg - b.origin_longitude_deg) < close_deg &&
          std::abs(a.origin_altitude_m - b.origin_altitude_m) < close_m;
 }
 
 inline bool located(const VehicleState& s) { return s.position_valid && s.height_valid && s.velocity_valid; }
 
-/// An aircraft by now, from a state that is some seconds old: on along its turn, as a radio that is silent for a second or two is no news.
+/// An aircraft by now, from a state that is some seconds old: on along its turn, as a radio that is silent
+/// for a second or two is no news.
 struct Motion {
   Eigen::Vector3d p, v;  // NED
   double chi = 0, chi_dot = 0;
 
-  explicit Motion(const VehicleState& s, double age_s = 0) : p(eigen(s.position_m)), v(eigen(s.velocity_mps)), chi(s.course_rad) {
+  explicit Motion(const VehicleState& s, double age_s = 0)
+      : p(eigen(s.position_m)), v(eigen(s.velocity_mps)), chi(s.course_rad) {
     constexpr double g = 9.80665, slow_mps = 3, bank_max = 1.0, crab_min = 0.5, turn_max = 1.0;
     const double Vg = std::hypot(v.x(), v.y());
     if (Vg > slow_mps) {
       chi = std::atan2(v.y(), v.x());
       if (s.attitude_valid)  // B&M (9.14)
-        chi_dot = g / Vg * std::tan(std::clamp(s.roll_rad, -bank_max, bank_max)) * std::max(std::cos(chi - s.yaw_rad), crab_min);
+        chi_dot = g / Vg * std::tan(std::clamp(s.roll_rad, -bank_max, bank_max)) *
+                  std::max(std::cos(chi - s.yaw_rad), crab_min);
     }
     const double turn = std::clamp(chi_dot * age_s, -turn_max, turn_max);
     const double chord = Vg * age_s * (std::abs(turn) > 1e-6 ? std::sin(turn / 2) / (turn / 2) : 1);
@@ -47,7 +52,8 @@ struct Motion {
 struct Relative {
   Eigen::Vector3d p, v;
 
-  Relative(const VehicleState& own, const Motion& other) : p(other.p - eigen(own.position_m)), v(other.v - eigen(own.velocity_mps)) {}
+  Relative(const VehicleState& own, const Motion& other)
+      : p(other.p - eigen(own.position_m)), v(other.v - eigen(own.velocity_mps)) {}
 
   double distance() const { return p.norm(); }
   /// Least distance within the next `ahead_s` if neither turns.

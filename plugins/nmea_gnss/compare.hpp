@@ -33,7 +33,9 @@ struct Compare {
     Probe horizontal_m;                   // of the last fix
   };
   struct Params {
-    Param latency{0, "s", 0, 0.6, "from the time of a reference fix to its arrival: it is compared with the estimate of then"};
+    Param latency{
+        0, "s", 0, 0.6,
+        "from the time of a reference fix to its arrival: it is compared with the estimate of then"};
   };
 
   Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out) {
@@ -44,7 +46,8 @@ struct Compare {
     for (const auto& fix : in.reference) {
       const FixType kind = fix.value.fix;
       if (kind == FixType::none || kind == FixType::time_only || kind == FixType::dead_reckoning) continue;
-      if (Vec3<Ned> then; at(fix.valid_at_ns - std::llround(1e9 * p.latency), then)) add(fix.value, then, out);
+      if (Vec3<Ned> then; at(fix.valid_at_ns - std::llround(1e9 * p.latency), then))
+        add(fix.value, then, out);
     }
     return Status::ok;
   }
@@ -55,7 +58,8 @@ struct Compare {
     Vec3<Ned> position_m;
   };
 
-  /// The estimate at a time, interpolated; a little beyond the newest it is carried on. False when it is too old.
+  /// The estimate at a time, interpolated; a little beyond the newest it is carried on. False when it is too
+  /// old.
   bool at(std::int64_t time_ns, Vec3<Ned>& result) const {
     const std::uint64_t kept = count_ < past_.size() ? count_ : past_.size();
     for (std::uint64_t k = 1; k <= kept; ++k) {
@@ -64,15 +68,18 @@ struct Compare {
       result = before.position_m;
       if (k == 1 || before.time_ns == time_ns) return true;
       const Past& after = past_[(count_ - k + 1) % past_.size()];
-      const double t = static_cast<double>(time_ns - before.time_ns) / static_cast<double>(after.time_ns - before.time_ns);
-      result = from_eigen<Ned>(eigen(before.position_m) + t * (eigen(after.position_m) - eigen(before.position_m)));
+      const double t =
+          static_cast<double>(time_ns - before.time_ns) / static_cast<double>(after.time_ns - before.time_ns);
+      result = from_eigen<Ned>(eigen(before.position_m) +
+                               t * (eigen(after.position_m) - eigen(before.position_m)));
       return true;
     }
     return false;
   }
 
   void add(const Gnss& fix, const Vec3<Ned>& estimate, Outputs& out) {
-    const Eigen::Vector3d error = eigen(estimate) - frame_.to_ned(fix.latitude_deg, fix.longitude_deg, fix.altitude_m);
+    const Eigen::Vector3d error =
+        eigen(estimate) - frame_.to_ned(fix.latitude_deg, fix.longitude_deg, fix.altitude_m);
     const double n = ++samples_;
     for (std::size_t i = 0; i < 3; ++i) {
       const double e = error[static_cast<Eigen::Index>(i)];
@@ -81,14 +88,16 @@ struct Compare {
     const double horizontal = std::hypot(error.x(), error.y());
     max_m_ = std::max(max_m_, horizontal);
     const auto& m = mean_square_;
-    out.difference.publish(
-        {std::sqrt(m[0]), std::sqrt(m[1]), std::sqrt(m[0] + m[1]), std::sqrt(m[2]), max_m_, static_cast<std::uint32_t>(samples_)});
+    out.difference.publish({std::sqrt(m[0]), std::sqrt(m[1]), std::sqrt(m[0] + m[1]), std::sqrt(m[2]), max_m_,
+                            static_cast<std::uint32_t>(samples_)});
     out.horizontal_m = horizontal;
   }
 
   void know_origin(const VehicleState& s) {
     const LocalFrame::Geodetic o = frame_.origin();
-    if (o.lat_deg == s.origin_latitude_deg && o.lon_deg == s.origin_longitude_deg && o.alt_m == s.origin_altitude_m) return;
+    if (o.lat_deg == s.origin_latitude_deg && o.lon_deg == s.origin_longitude_deg &&
+        o.alt_m == s.origin_altitude_m)
+      return;
     frame_ = LocalFrame(s.origin_latitude_deg, s.origin_longitude_deg, s.origin_altitude_m);
   }
 

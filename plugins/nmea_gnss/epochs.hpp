@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the sentences of one epoch to one Gnss sample: each sentence tells a part of it, all with the same time.
+// From the sentences of one epoch to one Gnss sample: each sentence tells a part of it, all with the same
+// time.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -19,19 +20,16 @@ inline FixType fix_type(int quality, int mode) {
     case 3:  // precise positioning service
     case 8:  // the receiver's own simulator
       return mode == 2 ? FixType::fix_2d : FixType::fix_3d;
-    case 4:
-      return FixType::rtk_fixed;
-    case 5:
-      return FixType::rtk_float;
-    case 6:
-      return FixType::dead_reckoning;
+    case 4: return FixType::rtk_fixed;
+    case 5: return FixType::rtk_float;
+    case 6: return FixType::dead_reckoning;
     default:  // 0 none, 7 typed in by hand
       return FixType::none;
   }
 }
 
-/// Puts sentences together. Which ones a receiver sends, and in which order, is learnt from its last epochs: a sample is emitted as soon as
-/// all of them are there. `emit` is called with each finished Gnss.
+/// Puts sentences together. Which ones a receiver sends, and in which order, is learnt from its last epochs:
+/// a sample is emitted as soon as all of them are there. `emit` is called with each finished Gnss.
 class Epochs {
  public:
   /// Deviation of one range: turns dilutions of precision into metres for a receiver that sends no GST.
@@ -83,7 +81,8 @@ class Epochs {
     return all & kind_rmc ? all & ~kind_vtg : all;  // VTG repeats what RMC says
   }
 
-  /// The epoch of a sentence. Another time begins another one; so does, without a time, a kind that was already there.
+  /// The epoch of a sentence. Another time begins another one; so does, without a time, a kind that was
+  /// already there.
   template <class Emit>
   Epoch& join(unsigned kind, std::optional<std::int64_t> time_ns, Emit&& emit) {
     const bool another = now_.time_ns != time_ns || (!time_ns && (now_.have & kind));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sentences of a satellite receiver: from bytes to lines, from lines to numbers. Pure: no I/O, no allocation, no exception.
-// Source: NMEA 0183 as publicly described in the protocol manuals of receivers (u-blox M8, Trimble, SiRF); units are turned into SI.
+// Sentences of a satellite receiver: from bytes to lines, from lines to numbers. Pure: no I/O, no allocation,
+// no exception. Source: NMEA 0183 as publicly described in the protocol manuals of receivers (u-blox M8,
+// Trimble, SiRF); units are turned into SI.
 #pragma once
 #include <array>
 #include <charconv>
@@ -33,8 +34,8 @@ inline int hex_digit(char c) {
   return -1;
 }
 
-/// Takes bytes one by one. A sentence begins with `$`, wherever that comes, and needs a checksum: the exclusive or of all between `$`
-/// and `*`. Whatever does not fit is dropped and counted.
+/// Takes bytes one by one. A sentence begins with `$`, wherever that comes, and needs a checksum: the
+/// exclusive or of all between `$` and `*`. Whatever does not fit is dropped and counted.
 class Lines {
  public:
   /// The sentence that this byte completes; valid until the next call.
@@ -95,7 +96,8 @@ class Lines {
   std::uint64_t good_ = 0, bad_ = 0;
 };
 
-// ---- numbers. Nothing when the part is empty or is not exactly what it should be. -------------------------------------------------
+// ---- numbers. Nothing when the part is empty or is not exactly what it should be.
+// -------------------------------------------------
 
 inline std::optional<double> number(std::string_view text) {
   if (text.empty() || text.find_first_not_of("0123456789.-") != std::string_view::npos) return {};
@@ -137,11 +139,13 @@ inline std::optional<std::int64_t> time_of_day(std::string_view text) {
   return ns;
 }
 
-/// ddmmyy -> nanoseconds from 1970 to that midnight. Two digits of a year: 80 to 99 are of the last century, as receivers have it.
+/// ddmmyy -> nanoseconds from 1970 to that midnight. Two digits of a year: 80 to 99 are of the last century,
+/// as receivers have it.
 inline std::optional<std::int64_t> date(std::string_view text) {
   const auto d = digits(text, 0, 2), m = digits(text, 2, 2), yy = digits(text, 4, 2);
   if (!d || !m || !yy || text.size() != 6 || *m < 1 || *m > 12) return {};
-  constexpr std::array<int, 13> before{0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334, 365};  // days of the year before a month
+  constexpr std::array<int, 13> before{0,   31,  59,  90,  120, 151, 181,
+                                       212, 243, 273, 304, 334, 365};  // days of the year before a month
   const auto month = static_cast<std::size_t>(*m);
   const int year = *yy >= 80 ? 1900 + *yy : 2000 + *yy;
   const bool leap = year % 4 == 0;  // from 1980 to 2079 without exception
@@ -152,7 +156,8 @@ inline std::optional<std::int64_t> date(std::string_view text) {
 }
 
 /// (d)ddmm.mmmm and its hemisphere -> degrees, north and east positive.
-inline std::optional<double> angle(std::string_view text, std::string_view hemisphere, char positive, char negative, double max_deg) {
+inline std::optional<double> angle(std::string_view text, std::string_view hemisphere, char positive,
+                                   char negative, double max_deg) {
   const auto value = number(text, 0, 100 * max_deg);
   if (!value || hemisphere.size() != 1 || (hemisphere[0] != positive && hemisphere[0] != negative)) return {};
   const double degrees = std::floor(*value / 100), minutes = *value - 100 * degrees;
@@ -161,7 +166,8 @@ inline std::optional<double> angle(std::string_view text, std::string_view hemis
   return hemisphere[0] == positive ? angle_deg : -angle_deg;
 }
 
-// ---- the five sentences -----------------------------------------------------------------------------------------------------------
+// ---- the five sentences
+// -----------------------------------------------------------------------------------------------------------
 
 inline constexpr double knot_mps = 1852.0 / 3600;
 inline constexpr double degree = std::numbers::pi / 180;
@@ -215,7 +221,8 @@ inline std::optional<Vtg> vtg(const Sentence& s) {
   Vtg r;
   if (const auto course = number(s[1], 0, 360)) r.course_rad = *course * degree;
   if (const auto knots = s[6] == "N" ? number(s[5], 0, 2000) : std::nullopt) r.speed_mps = *knots * knot_mps;
-  if (const auto kmh = s[8] == "K" ? number(s[7], 0, 4000) : std::nullopt; kmh && !r.speed_mps) r.speed_mps = *kmh / 3.6;
+  if (const auto kmh = s[8] == "K" ? number(s[7], 0, 4000) : std::nullopt; kmh && !r.speed_mps)
+    r.speed_mps = *kmh / 3.6;
   return r;
 }
 

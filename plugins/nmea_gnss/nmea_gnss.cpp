@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A satellite receiver on a serial port of the companion computer, its simulated twin, and a comparison with the estimate.
+// A satellite receiver on a serial port of the companion computer, its simulated twin, and a comparison with
+// the estimate.
 #include "compare.hpp"
 #include "receiver.hpp"
 #include "twin.hpp"

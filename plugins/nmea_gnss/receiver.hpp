@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A satellite receiver on a serial port of the companion computer. Runs in a thread of its own: `run: driver`.
+// A satellite receiver on a serial port of the companion computer. Runs in a thread of its own: `run:
+// driver`.
 #pragma once
 #include <sys/stat.h>
 
@@ -14,7 +15,8 @@
 namespace fulmar::nmea {
 
 struct Receiver {
-  static constexpr const char* doc = "NMEA 0183 from a serial port: one sample per epoch. Needs `run: driver`.";
+  static constexpr const char* doc =
+      "NMEA 0183 from a serial port: one sample per epoch. Needs `run: driver`.";
   struct Inputs {};
   struct Outputs {
     OutQueue<Gnss, 16> gnss;
@@ -28,9 +30,12 @@ struct Receiver {
 
   void configure(const Params& p) {
     path_ = p.port.view();
-    if (path_.empty()) throw std::runtime_error("the parameter 'port' is not set; it names a serial port, such as /dev/ttyUSB0");
+    if (path_.empty())
+      throw std::runtime_error(
+          "the parameter 'port' is not set; it names a serial port, such as /dev/ttyUSB0");
     struct stat found {};
-    if (stat(path_.c_str(), &found) == 0 && !S_ISCHR(found.st_mode)) throw std::runtime_error(path_ + " is not a serial port");
+    if (stat(path_.c_str(), &found) == 0 && !S_ISCHR(found.st_mode))
+      throw std::runtime_error(path_ + " is not a serial port");
     const auto code = baud_code(p.baud);
     if (!code) {
       throw std::runtime_error("the parameter 'baud' is " + std::to_string(p.baud.value) +
@@ -43,7 +48,8 @@ struct Receiver {
     port_.close();
   }
 
-  /// Waits for bytes, at most 50 ms. `degraded` while the device is not there; it is looked for ten times a second.
+  /// Waits for bytes, at most 50 ms. `degraded` while the device is not there; it is looked for ten times a
+  /// second.
   Status step(const Tick&, const Inputs&, const Params&, Outputs& out) {
     const auto emit = [&](const Gnss& sample) { out.gnss.push(sample, on_arrival); };
     if (!port_.is_open()) {

@@ -46,7 +46,8 @@ class SerialPort {
     fd_ = -1;
   }
 
-  /// Eight bits, no parity, no flow control, every byte as it comes. False when the device is not there or is no serial port.
+  /// Eight bits, no parity, no flow control, every byte as it comes. False when the device is not there or is
+  /// no serial port.
   bool open(const std::string& path, speed_t baud) {
     close();
     fd_ = ::open(path.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);

@@ -16,7 +16,8 @@
 namespace fulmar::nmea {
 
 struct Twin {
-  static constexpr const char* doc = "Simulated twin of the receiver: the truth with errors, in the same message.";
+  static constexpr const char* doc =
+      "Simulated twin of the receiver: the truth with errors, in the same message.";
   struct Inputs {
     In<VehicleState> truth;
     Optional<Gnss> clock;  // of the vehicle: to know the UTC
@@ -37,7 +38,8 @@ struct Twin {
   explicit Twin(std::uint64_t seed) : random_(seed) {}
 
   void configure(const Params& p) {
-    if (p.latency * p.rate > static_cast<double>(late_.size() - 1)) throw std::runtime_error("the latency holds more samples than fit");
+    if (p.latency * p.rate > static_cast<double>(late_.size() - 1))
+      throw std::runtime_error("the latency holds more samples than fit");
     period_ns_ = std::llround(1e9 / p.rate);
     latency_ns_ = std::llround(1e9 * p.latency);
     decay_ = std::exp(-1 / (p.rate * p.correlation_time));
@@ -66,7 +68,9 @@ struct Twin {
     Gnss sample;
     std::int64_t due_ns = 0;
   };
-  static double deviation(const Params& p, std::size_t axis) { return axis < 2 ? p.horizontal_std : p.vertical_std; }
+  static double deviation(const Params& p, std::size_t axis) {
+    return axis < 2 ? p.horizontal_std : p.vertical_std;
+  }
 
   Gnss solution(const VehicleState& truth, const Params& p, std::int64_t taken_ns) {
     Eigen::Vector3d p_n = eigen(truth.position_m);
@@ -93,7 +97,9 @@ struct Twin {
 
   void know_origin(const VehicleState& truth) {
     const LocalFrame::Geodetic o = frame_.origin();
-    if (o.lat_deg == truth.origin_latitude_deg && o.lon_deg == truth.origin_longitude_deg && o.alt_m == truth.origin_altitude_m) return;
+    if (o.lat_deg == truth.origin_latitude_deg && o.lon_deg == truth.origin_longitude_deg &&
+        o.alt_m == truth.origin_altitude_m)
+      return;
     frame_ = LocalFrame(truth.origin_latitude_deg, truth.origin_longitude_deg, truth.origin_altitude_m);
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Follows the route of the plan piece by piece: join, legs, final orbit. Beard & McLain, Small Unmanned Aircraft (2012), chapter 11,
-// with fillets and Dubins paths treated alike as pieces whose end is a length along them, so that no half-plane can be missed.
+// Follows the route of the plan piece by piece: join, legs, final orbit. Beard & McLain, Small Unmanned
+// Aircraft (2012), chapter 11, with fillets and Dubins paths treated alike as pieces whose end is a length
+// along them, so that no half-plane can be missed.
 #pragma once
 #include <cmath>
 #include <optional>
@@ -16,7 +17,8 @@
 namespace fulmar::path {
 
 struct Manager {
-  static constexpr const char* doc = "The piece of the plan's route that is to be flown now, and how far the plan has been flown.";
+  static constexpr const char* doc =
+      "The piece of the plan's route that is to be flown now, and how far the plan has been flown.";
   struct Inputs {
     In<VehicleState> state;
     In<Plan> plan;
@@ -28,7 +30,8 @@ struct Manager {
   struct Params {
     Param hold_height{50, "m", 0, 10000, "lowest height of the orbit that is flown while the plan is empty"};
     Count first_item{0, 0, 65535, "index of the waypoint to begin with; changed in flight: go there at once"};
-    Param rejoin_distance{25, "m", 5, 1000, "off the way to the plan by more than this: draw a new one from here"};
+    Param rejoin_distance{25, "m", 5, 1000,
+                          "off the way to the plan by more than this: draw a new one from here"};
   };
 
   void configure(const Params& p) { retune(p); }
@@ -79,15 +82,20 @@ struct Manager {
   Vec3<Ned> target_, from_;                  // of the leg: to recognise them after a change of the plan
 };
 
-inline Pose pose_of(const VehicleState& state) { return {state.position_m.north, state.position_m.east, state.course_rad}; }
+inline Pose pose_of(const VehicleState& state) {
+  return {state.position_m.north, state.position_m.east, state.course_rad};
+}
 
-inline bool same_spot(const Vec3<Ned>& a, const Vec3<Ned>& b) { return a.north == b.north && a.east == b.east; }
+inline bool same_spot(const Vec3<Ned>& a, const Vec3<Ned>& b) {
+  return a.north == b.north && a.east == b.east;
+}
 
 inline Status Manager::step(const Tick&, const Inputs& in, const Params& p, Outputs& out) {
   const VehicleState& state = *in.state;
   const Plan& plan = *in.plan;
   const Route route(plan);
-  if (!state.position_valid) {  // nothing is known of the progress; the path that was published stays in force
+  if (!state
+           .position_valid) {  // nothing is known of the progress; the path that was published stays in force
     out.progress = progress_;
     return Status::degraded;
   }
@@ -103,10 +111,12 @@ inline Status Manager::step(const Tick&, const Inputs& in, const Params& p, Outp
   return Status::ok;
 }
 
-/// Takes up a plan that is new or changed. The waypoint that is flown to stays the same one if it is still there.
+/// Takes up a plan that is new or changed. The waypoint that is flown to stays the same one if it is still
+/// there.
 inline void Manager::adopt(const Route& route, const Plan& plan, const VehicleState& state, const Params& p) {
   const std::optional<std::uint32_t> first = std::exchange(begin_with_, std::nullopt);
-  const bool was_empty = progress_.items == 0, jump = first || plan.jumps != jumps_ || was_empty || revision_ == 0;
+  const bool was_empty = progress_.items == 0,
+             jump = first || plan.jumps != jumps_ || was_empty || revision_ == 0;
   const bool was_idle = mode_ == Mode::idle;
   revision_ = plan.revision;
   jumps_ = plan.jumps;
@@ -121,7 +131,8 @@ inline void Manager::adopt(const Route& route, const Plan& plan, const VehicleSt
     return;
   }
   if (route.is_point()) {
-    const bool same = !jump && !was_idle && mode_ == Mode::orbit && same_spot(plan.waypoints[0].position_m, target_);
+    const bool same =
+        !jump && !was_idle && mode_ == Mode::orbit && same_spot(plan.waypoints[0].position_m, target_);
     item_ = 0;
     target_ = plan.waypoints[0].position_m;
     RouteOrbit orbit{target_.north, target_.east, route.height_m(0), route.radius_m(), orbit_.turn};
@@ -155,7 +166,8 @@ inline void Manager::keep_or_join(const Route& route, const Plan& plan, const Ve
   }
   if (mode_ == Mode::join) {
     const Pose end = route.passage(k).middle;
-    const bool same = end.north_m == leg_.end.north_m && end.east_m == leg_.end.east_m && end.course_rad == leg_.end.course_rad;
+    const bool same = end.north_m == leg_.end.north_m && end.east_m == leg_.end.east_m &&
+                      end.course_rad == leg_.end.course_rad;
     if (!same) return begin_join(route, state, k);
     item_ = k;
     return begin_piece(route, piece_);
@@ -177,7 +189,8 @@ inline void Manager::keep_or_join(const Route& route, const Plan& plan, const Ve
   begin_leg(route, leg, Mode::leg, k, piece);
 }
 
-/// Index of a waypoint at this point, the one nearest to `near` in the list; the plan's size when there is none.
+/// Index of a waypoint at this point, the one nearest to `near` in the list; the plan's size when there is
+/// none.
 inline std::uint32_t Manager::find(const Plan& plan, const Vec3<Ned>& point, std::uint32_t near) const {
   const std::uint32_t n = plan.waypoints.count;
   for (std::uint32_t d = 0; d < n; ++d) {
@@ -201,7 +214,8 @@ inline void Manager::begin_join(const Route& route, const VehicleState& state, s
   begin_leg(route, route.join(joined_from_, state.height_m, item), Mode::join, item, 0);
 }
 
-inline void Manager::begin_leg(const Route& route, const RouteLeg& leg, Mode mode, std::uint32_t item, std::size_t piece) {
+inline void Manager::begin_leg(const Route& route, const RouteLeg& leg, Mode mode, std::uint32_t item,
+                               std::size_t piece) {
   leg_ = leg;
   mode_ = mode;
   item_ = item;
@@ -222,7 +236,8 @@ inline void Manager::begin_piece(const Route& route, std::size_t index) {
   path_.origin_m = {piece.north_m, piece.east_m, -piece.height_m};
   if (piece.kind == PathKind::line) {
     const double norm = 1 / std::sqrt(1 + piece.climb_ratio * piece.climb_ratio);
-    path_.direction_ratio = {piece.unit_north_ratio * norm, piece.unit_east_ratio * norm, -piece.climb_ratio * norm};
+    path_.direction_ratio = {piece.unit_north_ratio * norm, piece.unit_east_ratio * norm,
+                             -piece.climb_ratio * norm};
   } else {
     path_.radius_m = piece.radius_m;
   }
@@ -255,9 +270,10 @@ inline void Manager::fly(const Route& route, const VehicleState& state, const Pa
     const Vec3<Ned>& at = state.position_m;
     const RoutePiece& piece = leg_[piece_];
     const double n = at.north - piece.north_m, e = at.east - piece.east_m;
-    const double off =
-        piece.kind == PathKind::line ? piece.unit_north_ratio * e - piece.unit_east_ratio * n : std::hypot(n, e) - piece.radius_m;
-    const bool moved = std::hypot(at.north - joined_from_.north_m, at.east - joined_from_.east_m) > route.radius_m();
+    const double off = piece.kind == PathKind::line ? piece.unit_north_ratio * e - piece.unit_east_ratio * n
+                                                    : std::hypot(n, e) - piece.radius_m;
+    const bool moved =
+        std::hypot(at.north - joined_from_.north_m, at.east - joined_from_.east_m) > route.radius_m();
     if (std::abs(off) > p.rejoin_distance && moved) begin_join(route, state, item_);
   }
   constexpr int pieces_per_step = 8;  // short ones are passed at once
@@ -278,7 +294,8 @@ inline void Manager::measure(const VehicleState& state) {
   const Vec3<Ned>& at = state.position_m;
   const RoutePiece& piece = leg_[piece_];
   const double s = piece.along(at.north, at.east);
-  along_m_ = piece.kind == PathKind::line ? s : along_m_ + piece.radius_m * wrap_pi((s - along_m_) / piece.radius_m);
+  along_m_ =
+      piece.kind == PathKind::line ? s : along_m_ + piece.radius_m * wrap_pi((s - along_m_) / piece.radius_m);
   const double n = at.north - leg_.end.north_m, e = at.east - leg_.end.east_m;
   if (piece_ + 1 == leg_.count) end_square_m2_ = std::min(end_square_m2_, n * n + e * e);
 }
@@ -303,9 +320,11 @@ inline void Manager::reach(const Route& route, const VehicleState& state) {
   begin_leg(route, leg, Mode::leg, route.after(item_), 0);
 }
 
-/// On the final orbit, around a single waypoint, or around nothing. Around a single waypoint of a circuit each full circle counts.
+/// On the final orbit, around a single waypoint, or around nothing. Around a single waypoint of a circuit
+/// each full circle counts.
 inline void Manager::circle(const Route& route, const VehicleState& state) {
-  const double n = state.position_m.north - orbit_.north_m, e = state.position_m.east - orbit_.east_m, d = std::hypot(n, e);
+  const double n = state.position_m.north - orbit_.north_m, e = state.position_m.east - orbit_.east_m,
+               d = std::hypot(n, e);
   const double azimuth = std::atan2(e, n);
   if (on_orbit_) {
     swept_rad_ += sign_of(orbit_.turn) * wrap_pi(azimuth - azimuth_rad_);
@@ -328,12 +347,14 @@ inline void Manager::fill(const Route& route, const Plan& plan, const VehicleSta
     path_.turn = orbit_.turn;
     path_.origin_m = {orbit_.north_m, orbit_.east_m, -orbit_.height_m};
     path_.radius_m = orbit_.radius_m;
-    path_.airspeed_mps = route.size() > 0 ? route.airspeed_mps(std::min(item_, route.size() - 1)) : plan.airspeed_mps;
+    path_.airspeed_mps =
+        route.size() > 0 ? route.airspeed_mps(std::min(item_, route.size() - 1)) : plan.airspeed_mps;
     path_.next_curvature_ratio = sign_of(orbit_.turn) / orbit_.radius_m;
   } else {
     const RoutePiece& piece = leg_[piece_];
     path_.remaining_m = piece.length_m - along_m_ + after_m_;
-    if (piece.kind == PathKind::orbit) {  // the height is given where the aircraft is: no doubt about turns more than half a circle
+    if (piece.kind == PathKind::orbit) {  // the height is given where the aircraft is: no doubt about turns
+                                          // more than half a circle
       const double s = std::clamp(along_m_, 0.0, piece.length_m);
       path_.start_rad = wrap_pi(piece.start_rad + sign_of(piece.turn) * s / piece.radius_m);
       path_.origin_m.down = -piece.height_at(s);
@@ -343,8 +364,8 @@ inline void Manager::fill(const Route& route, const Plan& plan, const VehicleSta
   }
   progress_.item = item_;
   progress_.joining = mode_ == Mode::join;
-  const Vec3<Ned> goal =
-      route.size() > 0 ? plan.waypoints[std::min(item_, route.size() - 1)].position_m : Vec3<Ned>{orbit_.north_m, orbit_.east_m, 0};
+  const Vec3<Ned> goal = route.size() > 0 ? plan.waypoints[std::min(item_, route.size() - 1)].position_m
+                                          : Vec3<Ned>{orbit_.north_m, orbit_.east_m, 0};
   progress_.distance_m = std::hypot(goal.north - state.position_m.north, goal.east - state.position_m.east);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keeps the list of waypoints: from a file, and from edits that come in flight. A bad edit is answered with a reason and changes nothing.
+// Keeps the list of waypoints: from a file, and from edits that come in flight. A bad edit is answered with a
+// reason and changes nothing.
 #pragma once
 #include <cmath>
 #include <memory>
@@ -63,7 +64,8 @@ inline Waypoint waypoint_of(const PlanFileWaypoint& f, std::size_t number) {
   const bool geodetic = given(f.lat_deg) || given(f.lon_deg) || given(f.alt_msl_m);
   const std::string who = "waypoint " + std::to_string(number) + " of the plan ";
   if (local == geodetic) throw std::runtime_error(who + "needs either north, east, up or lat, lon, alt_msl");
-  if (local && !(given(f.north_m) && given(f.east_m) && given(f.up_m))) throw std::runtime_error(who + "needs north, east and up");
+  if (local && !(given(f.north_m) && given(f.east_m) && given(f.up_m)))
+    throw std::runtime_error(who + "needs north, east and up");
   if (geodetic && !(given(f.lat_deg) && given(f.lon_deg) && given(f.alt_msl_m)))
     throw std::runtime_error(who + "needs lat, lon and alt_msl");
   Waypoint w;
@@ -90,13 +92,16 @@ inline void Planner::configure(const Params& p) {
   plan->end = p.plan->end;
   plan->airspeed_mps = p.plan->airspeed_mps;
   plan->turn_radius_m = p.plan->turn_radius_m;
-  if (!(plan->airspeed_mps > 0 && plan->airspeed_mps < 1000)) throw std::runtime_error("the plan's airspeed must be positive");
-  if (!(plan->turn_radius_m >= 1 && plan->turn_radius_m < 1e5)) throw std::runtime_error("the plan's turn_radius must be at least 1 m");
+  if (!(plan->airspeed_mps > 0 && plan->airspeed_mps < 1000))
+    throw std::runtime_error("the plan's airspeed must be positive");
+  if (!(plan->turn_radius_m >= 1 && plan->turn_radius_m < 1e5))
+    throw std::runtime_error("the plan's turn_radius must be at least 1 m");
   if (p.origin->given) know_origin(p.origin->lat_deg, p.origin->lon_deg, p.origin->alt_msl_m);
   for (std::size_t i = 0; i < p.plan->waypoints.size(); ++i) {
     Waypoint w = detail::waypoint_of(p.plan->waypoints[i], i + 1);
     resolve(w);
-    if (const char* fault = fault_of(w)) throw std::runtime_error("waypoint " + std::to_string(i + 1) + " of the plan: " + fault);
+    if (const char* fault = fault_of(w))
+      throw std::runtime_error("waypoint " + std::to_string(i + 1) + " of the plan: " + fault);
     plan->waypoints.push_back(w);
   }
   plan_ = *plan;
@@ -133,11 +138,12 @@ inline const char* Planner::apply(const PlanEdit& edit) {
   auto& list = plan_.waypoints;
   const std::uint32_t i = edit.index, n = list.count;
   const bool adds = edit.kind == PlanEditKind::append || edit.kind == PlanEditKind::insert;
-  const bool at_existing =
-      edit.kind == PlanEditKind::replace || edit.kind == PlanEditKind::remove || edit.kind == PlanEditKind::set_current;
+  const bool at_existing = edit.kind == PlanEditKind::replace || edit.kind == PlanEditKind::remove ||
+                           edit.kind == PlanEditKind::set_current;
   if (edit.kind > PlanEditKind::set_current) return "no such kind of edit";
   if (adds && list.full()) return "the plan is full: 1024 waypoints";
-  if (at_existing && i >= n) return n == 0 ? "the plan has no waypoints" : "there is no waypoint of this index; the first is 0";
+  if (at_existing && i >= n)
+    return n == 0 ? "the plan has no waypoints" : "there is no waypoint of this index; the first is 0";
   if (edit.kind == PlanEditKind::insert && i > n) return "the index is beyond the end of the plan";
 
   Waypoint w = edit.waypoint;
@@ -147,7 +153,9 @@ inline const char* Planner::apply(const PlanEdit& edit) {
     resolve(w);
     if (const char* fault = fault_of(w)) return fault;
     const std::uint32_t next = adds ? at : at + 1;
-    if (const char* fault = fault_of_neighbours(w, at > 0 ? &list[at - 1] : nullptr, next < n ? &list[next] : nullptr)) return fault;
+    if (const char* fault =
+            fault_of_neighbours(w, at > 0 ? &list[at - 1] : nullptr, next < n ? &list[next] : nullptr))
+      return fault;
   }
   switch (edit.kind) {
     case PlanEditKind::append:
@@ -157,9 +165,7 @@ inline const char* Planner::apply(const PlanEdit& edit) {
       ++list.count;
       if (at <= plan_.jump_item && at < n) ++plan_.jump_item;
       break;
-    case PlanEditKind::replace:
-      list[i] = w;
-      break;
+    case PlanEditKind::replace: list[i] = w; break;
     case PlanEditKind::remove:
       for (std::uint32_t k = i; k + 1 < n; ++k) list[k] = list[k + 1];
       --list.count;
@@ -189,17 +195,23 @@ inline const char* Planner::fault_of(const Waypoint& w) const {
     if (std::abs(w.longitude_deg) > 360) return "the longitude is beyond 360 degrees";
   }
   const Vec3<Ned>& p = w.position_m;
-  if (!std::isfinite(p.north) || !std::isfinite(p.east) || !std::isfinite(p.down)) return "a coordinate is not finite";
-  if (std::hypot(p.north, p.east) > farthest_m || std::abs(p.down) > farthest_m) return "more than 100 km from the origin";
+  if (!std::isfinite(p.north) || !std::isfinite(p.east) || !std::isfinite(p.down))
+    return "a coordinate is not finite";
+  if (std::hypot(p.north, p.east) > farthest_m || std::abs(p.down) > farthest_m)
+    return "more than 100 km from the origin";
   if (!std::isfinite(w.course_rad)) return "the course is not finite";
   if (!(w.airspeed_mps >= 0 && w.airspeed_mps < 1000)) return "the airspeed is negative or not finite";
   return nullptr;
 }
 
-inline const char* Planner::fault_of_neighbours(const Waypoint& w, const Waypoint* before, const Waypoint* after) const {
+inline const char* Planner::fault_of_neighbours(const Waypoint& w, const Waypoint* before,
+                                                const Waypoint* after) const {
   const auto close = [&](const Waypoint* other) {
-    if (!other || (!origin_known_ && (w.frame != WaypointFrame::local || other->frame != WaypointFrame::local))) return false;
-    return std::hypot(w.position_m.north - other->position_m.north, w.position_m.east - other->position_m.east) < closest_m;
+    if (!other ||
+        (!origin_known_ && (w.frame != WaypointFrame::local || other->frame != WaypointFrame::local)))
+      return false;
+    return std::hypot(w.position_m.north - other->position_m.north,
+                      w.position_m.east - other->position_m.east) < closest_m;
   };
   if (close(before)) return "less than 1 m from the waypoint before it";
   if (close(after)) return "less than 1 m from the waypoint after it";
@@ -207,7 +219,8 @@ inline const char* Planner::fault_of_neighbours(const Waypoint& w, const Waypoin
 }
 
 inline void Planner::resolve(Waypoint& w) const {
-  if (w.frame == WaypointFrame::geodetic && origin_known_ && std::abs(w.latitude_deg) <= 90 && std::isfinite(w.longitude_deg)) {
+  if (w.frame == WaypointFrame::geodetic && origin_known_ && std::abs(w.latitude_deg) <= 90 &&
+      std::isfinite(w.longitude_deg)) {
     w.position_m = from_eigen<Ned>(frame_.to_ned(w.latitude_deg, w.longitude_deg, w.altitude_m));
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Course, height and bank that lead onto a line or an orbit and along it.
-// Source: Beard & McLain, Small Unmanned Aircraft (2012), chapter 10: (10.8) lines, (10.13) orbits; (9.14) coordinated turn in wind.
+// Source: Beard & McLain, Small Unmanned Aircraft (2012), chapter 10: (10.8) lines, (10.13) orbits; (9.14)
+// coordinated turn in wind.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -29,8 +30,10 @@ struct VectorField {
     Param chi_infinity{1.05, "rad", 0.1, 1.57, "approach angle to a line from far away"};
     Param k_path{0.04, "1/m", 0.001, 1, "how sharply to turn onto a line, at the reference speed"};
     Param k_orbit{1.5, "ratio", 0.05, 20, "how sharply to turn onto an orbit, at the reference speed"};
-    Param reference_speed{17, "m/s", 1, 200, "ground speed for which k_path and k_orbit hold; they fall as it grows"};
-    Param lead_time{0.5, "s", 0, 5, "how long before a change of curvature its bank is commanded: what rolling takes"};
+    Param reference_speed{17, "m/s", 1, 200,
+                          "ground speed for which k_path and k_orbit hold; they fall as it grows"};
+    Param lead_time{0.5, "s", 0, 5,
+                    "how long before a change of curvature its bank is commanded: what rolling takes"};
     Param roll_max{0.785, "rad", 0, 1.4, "limit of the bank that is fed forward"};
   };
 
@@ -41,10 +44,12 @@ struct VectorField {
   bool commanded_ = false;
 };
 
-/// Bank that turns the ground track at curvature kappa (right positive): chi_dot = Vg kappa = g/Vg tan(phi) cos(chi - psi), B&M (9.14).
+/// Bank that turns the ground track at curvature kappa (right positive): chi_dot = Vg kappa = g/Vg tan(phi)
+/// cos(chi - psi), B&M (9.14).
 inline double bank_for(double kappa, double Vg, double chi_minus_psi, double roll_max) {
   constexpr double g = 9.80665;
-  const double crab = std::max(std::cos(chi_minus_psi), 0.5);  // beyond 60 deg of crab the formula means nothing
+  const double crab =
+      std::max(std::cos(chi_minus_psi), 0.5);  // beyond 60 deg of crab the formula means nothing
   return std::clamp(std::atan(Vg * Vg * kappa / (g * crab)), -roll_max, roll_max);
 }
 
@@ -52,7 +57,8 @@ inline Status VectorField::step(const Tick&, const Inputs& in, const Params& p, 
   constexpr double pi = std::numbers::pi;
   const VehicleState& state = *in.state;
   const Path& path = *in.path;
-  if (!state.position_valid && commanded_) {  // nobody knows where the path is: straight on, at the height that was last asked for
+  if (!state.position_valid &&
+      commanded_) {  // nobody knows where the path is: straight on, at the height that was last asked for
     last_.climb_rate_mps = last_.roll_feedforward_rad = 0;
     out.command = last_;
     out.cross_track_m = 0.0;
@@ -60,18 +66,21 @@ inline Status VectorField::step(const Tick&, const Inputs& in, const Params& p, 
     return Status::degraded;
   }
   const double Vg = state.ground_speed_mps, chi = state.course_rad;
-  const double n = state.position_m.north - path.origin_m.north, e = state.position_m.east - path.origin_m.east;
-  const double scale = p.reference_speed / std::max(Vg, 0.3 * p.reference_speed);  // one time constant at every speed
+  const double n = state.position_m.north - path.origin_m.north,
+               e = state.position_m.east - path.origin_m.east;
+  const double scale =
+      p.reference_speed / std::max(Vg, 0.3 * p.reference_speed);  // one time constant at every speed
   double chi_c = 0, height = -path.origin_m.down, kappa = 0, climb = 0, cross = 0, path_course = 0;
   if (path.kind == PathKind::line) {
     const Vec3<Ned>& q = path.direction_ratio;
     const double level = std::hypot(q.north, q.east);
-    const double q_n = level > 1e-6 ? q.north / level : std::cos(chi), q_e = level > 1e-6 ? q.east / level : std::sin(chi);
+    const double q_n = level > 1e-6 ? q.north / level : std::cos(chi),
+                 q_e = level > 1e-6 ? q.east / level : std::sin(chi);
     climb = level > 1e-6 ? -q.down / level : 0;
     path_course = std::atan2(q_e, q_n);
     cross = q_n * e - q_e * n;
     chi_c = path_course - p.chi_infinity * (2 / pi) * std::atan(p.k_path * scale * cross);  // (10.8)
-    height += climb * (n * q_n + e * q_e);                                                  // (10.5), at the projection
+    height += climb * (n * q_n + e * q_e);  // (10.5), at the projection
   } else {
     const double side = path.turn == Turn::right ? 1 : -1, R = std::max(path.radius_m, 1.0);
     const double d = std::hypot(n, e), azimuth = d > 1e-6 ? std::atan2(e, n) : wrap_pi(chi - side * pi / 2);
@@ -82,10 +91,14 @@ inline Status VectorField::step(const Tick&, const Inputs& in, const Params& p, 
     climb = path.climb_ratio;
     height += climb * side * R * wrap_pi(azimuth - path.start_rad);
   }
-  // The bank of the next piece is commanded early by the time it takes to roll into it. Far from the path there is no such point.
-  const bool on_path = std::abs(cross) < 0.5 * std::max(path.radius_m, 20.0) && std::abs(angle_difference(path_course, chi)) < pi / 2;
+  // The bank of the next piece is commanded early by the time it takes to roll into it. Far from the path
+  // there is no such point.
+  const bool on_path = std::abs(cross) < 0.5 * std::max(path.radius_m, 20.0) &&
+                       std::abs(angle_difference(path_course, chi)) < pi / 2;
   if (on_path && path.remaining_m < Vg * p.lead_time) kappa = path.next_curvature_ratio;
-  if (!on_path) kappa = path.kind == PathKind::line ? 0 : kappa * std::clamp(1.5 - std::abs(cross) / path.radius_m, 0.0, 1.0);
+  if (!on_path)
+    kappa =
+        path.kind == PathKind::line ? 0 : kappa * std::clamp(1.5 - std::abs(cross) / path.radius_m, 0.0, 1.0);
   out.command.course_rad = wrap_pi(chi_c);
   out.command.height_m = height;
   out.command.climb_rate_mps = climb * Vg * std::cos(chi - path_course);

@@ -12,7 +12,9 @@ namespace {
 // A probe that holds this was not written in this step. A NaN with a payload that no arithmetic makes.
 constexpr std::uint64_t unwritten = 0x7ff8f01a52deadull << 8;
 
-std::byte* place(const py::handle& number) { return reinterpret_cast<std::byte*>(py::cast<std::uintptr_t>(number)); }
+std::byte* place(const py::handle& number) {
+  return reinterpret_cast<std::byte*>(py::cast<std::uintptr_t>(number));
+}
 
 template <class T>
 T* meta_of(std::byte* at, std::size_t meta) {
@@ -24,21 +26,26 @@ T* meta_of(std::byte* at, std::size_t meta) {
 Instance::Instance(const py::handle& described, const std::string& file, std::uint64_t seed)
     : file_(file), instance_(runtime().attr("_make")(described, seed)) {
   const auto method = [&](const char* name) { return py::object(instance_.attr(name)); };
-  step_ = method("step"), read_ = method("read"), write_ = method("write"), configure_ = method("configure"), retune_ = method("retune");
+  step_ = method("step"), read_ = method("read"), write_ = method("write"), configure_ = method("configure"),
+  retune_ = method("retune");
   activate_ = method("activate"), deactivate_ = method("deactivate");
-  tick_ = method("tick"), inp_ = method("inp"), out_ = method("out"), last_ = method("last"), p_ = method("p");
+  tick_ = method("tick"), inp_ = method("inp"), out_ = method("out"), last_ = method("last"),
+  p_ = method("p");
   read_places(instance_);
 }
 
 void Instance::read_places(const py::handle& instance) {
   tick_view_ = reinterpret_cast<TickView*>(place(runtime().attr("_address")(tick_)));
   for (const py::handle& one : instance.attr("inputs")) {
-    const auto t = py::reinterpret_borrow<py::tuple>(one);  // kind, address, size, meta, stride, capacity, head
-    inputs_.push_back({py::cast<std::uint32_t>(t[0]), place(t[1]), py::cast<std::size_t>(t[2]), py::cast<std::size_t>(t[3]),
-                       py::cast<std::size_t>(t[4]), py::cast<std::uint32_t>(t[5]), reinterpret_cast<QueueHead*>(place(t[6]))});
+    const auto t =
+        py::reinterpret_borrow<py::tuple>(one);  // kind, address, size, meta, stride, capacity, head
+    inputs_.push_back({py::cast<std::uint32_t>(t[0]), place(t[1]), py::cast<std::size_t>(t[2]),
+                       py::cast<std::size_t>(t[3]), py::cast<std::size_t>(t[4]),
+                       py::cast<std::uint32_t>(t[5]), reinterpret_cast<QueueHead*>(place(t[6]))});
   }
   for (const py::handle& one : instance.attr("outputs")) {
-    const auto t = py::reinterpret_borrow<py::tuple>(one);  // kind, name, address, size, meta, capacity, head, own, previous
+    const auto t = py::reinterpret_borrow<py::tuple>(
+        one);  // kind, name, address, size, meta, capacity, head, own, previous
     Output o;
     o.kind = py::cast<std::uint32_t>(t[0]);
     o.name = t[1], o.own = t[7], o.previous = t[8];
@@ -58,10 +65,12 @@ void Instance::read_places(const py::handle& instance) {
   }
 }
 
-// ---- arguments -----------------------------------------------------------------------------------------------------------------
+// ---- arguments
+// -----------------------------------------------------------------------------------------------------------------
 
 void Instance::show(const fulmar_tick& tick) noexcept {
-  *tick_view_ = {tick.now_ns, tick.dt_ns, tick.index, 1e-9 * static_cast<double>(tick.now_ns), 1e-9 * static_cast<double>(tick.dt_ns)};
+  *tick_view_ = {tick.now_ns, tick.dt_ns, tick.index, 1e-9 * static_cast<double>(tick.now_ns),
+                 1e-9 * static_cast<double>(tick.dt_ns)};
 }
 
 void Instance::show(const fulmar_input* inputs) noexcept {
@@ -105,7 +114,8 @@ void Instance::answer(const fulmar_input* inputs) noexcept {
   }
 }
 
-// ---- results -------------------------------------------------------------------------------------------------------------------
+// ---- results
+// -------------------------------------------------------------------------------------------------------------------
 
 /// What a step wrote before it failed is not published by the next one.
 void Instance::forget() noexcept {
@@ -125,7 +135,8 @@ bool Instance::check_names() noexcept {
     const bool same = now == o.own.ptr();
     Py_DECREF(now);
     if (same) continue;
-    PyObject* done = PyObject_CallMethod(runtime().ptr(), "_rebound", "OOO", out_.ptr(), o.name.ptr(), o.own.ptr());
+    PyObject* done =
+        PyObject_CallMethod(runtime().ptr(), "_rebound", "OOO", out_.ptr(), o.name.ptr(), o.own.ptr());
     if (done == nullptr) return false;
     Py_DECREF(done);
   }
@@ -158,7 +169,8 @@ bool Instance::give(fulmar_output* outputs) noexcept {
   return true;
 }
 
-// ---- parameters ----------------------------------------------------------------------------------------------------------------
+// ---- parameters
+// ----------------------------------------------------------------------------------------------------------------
 
 /// One parameter. False with a Python exception.
 bool Instance::take(Parameter& p, const fulmar_value& v) {
@@ -173,10 +185,12 @@ bool Instance::take(Parameter& p, const fulmar_value& v) {
     value = p.choices[py::int_(v.integer)];
   } else if (p.kind == FULMAR_STRING) {
     const char* text = v.text != nullptr ? v.text : "";
-    value = py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(text, static_cast<Py_ssize_t>(std::strlen(text)), "replace"));
+    value = py::reinterpret_steal<py::object>(
+        PyUnicode_DecodeUTF8(text, static_cast<Py_ssize_t>(std::strlen(text)), "replace"));
   } else if (p.kind == FULMAR_VECTOR) {
     std::memcpy(p.at, v.number, sizeof v.number);
-  } else if (v.data != nullptr && p.kind == FULMAR_RECORD) {  // without data: a retune, which leaves records as they are
+  } else if (v.data != nullptr &&
+             p.kind == FULMAR_RECORD) {  // without data: a retune, which leaves records as they are
     if (v.size == p.size) std::memcpy(p.at, v.data, p.size);
     *reinterpret_cast<bool*>(p.at + p.meta) = v.integer != 0;
   } else if (v.data != nullptr) {
@@ -224,7 +238,8 @@ bool Instance::show_last(const fulmar_input* last) noexcept {
   return true;
 }
 
-// ---- calls ---------------------------------------------------------------------------------------------------------------------
+// ---- calls
+// ---------------------------------------------------------------------------------------------------------------------
 
 std::uint32_t Instance::fail(fulmar_error* error, bool print) noexcept {
   explain(file_, print, error);
@@ -232,9 +247,11 @@ std::uint32_t Instance::fail(fulmar_error* error, bool print) noexcept {
 }
 
 /// The status that a method returns; None is ok, and so is the absence of the method.
-std::uint32_t Instance::call(const py::object& method, PyObject* const* arguments, std::size_t count, fulmar_error* error) noexcept {
+std::uint32_t Instance::call(const py::object& method, PyObject* const* arguments, std::size_t count,
+                             fulmar_error* error) noexcept {
   if (method.is_none()) return FULMAR_OK;
-  PyObject* result = PyObject_Vectorcall(method.ptr(), arguments, count | PY_VECTORCALL_ARGUMENTS_OFFSET, nullptr);
+  PyObject* result =
+      PyObject_Vectorcall(method.ptr(), arguments, count | PY_VECTORCALL_ARGUMENTS_OFFSET, nullptr);
   if (result == nullptr) return fail(error);
   long status = FULMAR_OK;
   if (result != Py_None) {
@@ -266,8 +283,8 @@ std::uint32_t Instance::retune(const fulmar_value* values, fulmar_error* error) 
   return call(retune_, arguments + 1, 1, error);
 }
 
-std::uint32_t Instance::activate(const fulmar_tick& tick, const fulmar_input* inputs, const fulmar_input* last,
-                                 fulmar_error* error) noexcept {
+std::uint32_t Instance::activate(const fulmar_tick& tick, const fulmar_input* inputs,
+                                 const fulmar_input* last, fulmar_error* error) noexcept {
   show(tick);
   show(inputs);
   if (!show_last(last)) return fail(error);
@@ -281,7 +298,8 @@ void Instance::deactivate() noexcept {
   call(deactivate_, arguments + 1, 0, &ignored);
 }
 
-std::uint32_t Instance::step(const fulmar_tick& tick, const fulmar_input* inputs, fulmar_output* outputs, fulmar_error* error) noexcept {
+std::uint32_t Instance::step(const fulmar_tick& tick, const fulmar_input* inputs, fulmar_output* outputs,
+                             fulmar_error* error) noexcept {
   show(tick);
   show(inputs);
   forget();
@@ -302,7 +320,8 @@ std::uint32_t Instance::read(fulmar_tick& tick, fulmar_output* outputs, fulmar_e
   return status;
 }
 
-std::uint32_t Instance::write(const fulmar_tick& tick, const fulmar_input* inputs, fulmar_error* error) noexcept {
+std::uint32_t Instance::write(const fulmar_tick& tick, const fulmar_input* inputs,
+                              fulmar_error* error) noexcept {
   show(tick);
   show(inputs);
   PyObject* arguments[] = {nullptr, tick_.ptr(), inp_.ptr(), p_.ptr()};

@@ -38,15 +38,18 @@ struct TickView {
 
 class Instance {
  public:
-  /// `described` is a _Described of runtime.py; `file` is named in faults. Throws pybind11::error_already_set.
+  /// `described` is a _Described of runtime.py; `file` is named in faults. Throws
+  /// pybind11::error_already_set.
   Instance(const pybind11::handle& described, const std::string& file, std::uint64_t seed);
 
   // As in abi.h. The caller holds the interpreter's lock. No exception.
   std::uint32_t configure(const fulmar_value* values, fulmar_error* error) noexcept;
   std::uint32_t retune(const fulmar_value* values, fulmar_error* error) noexcept;
-  std::uint32_t activate(const fulmar_tick& tick, const fulmar_input* inputs, const fulmar_input* last, fulmar_error* error) noexcept;
+  std::uint32_t activate(const fulmar_tick& tick, const fulmar_input* inputs, const fulmar_input* last,
+                         fulmar_error* error) noexcept;
   void deactivate() noexcept;
-  std::uint32_t step(const fulmar_tick& tick, const fulmar_input* inputs, fulmar_output* outputs, fulmar_error* error) noexcept;
+  std::uint32_t step(const fulmar_tick& tick, const fulmar_input* inputs, fulmar_output* outputs,
+                     fulmar_error* error) noexcept;
   std::uint32_t read(fulmar_tick& tick, fulmar_output* outputs, fulmar_error* error) noexcept;
   std::uint32_t write(const fulmar_tick& tick, const fulmar_input* inputs, fulmar_error* error) noexcept;
 
@@ -84,7 +87,8 @@ class Instance {
   bool take(const fulmar_value* values) noexcept;
   bool take(Parameter& param, const fulmar_value& value);
   bool show_last(const fulmar_input* last) noexcept;
-  std::uint32_t call(const pybind11::object& method, PyObject* const* arguments, std::size_t count, fulmar_error* error) noexcept;
+  std::uint32_t call(const pybind11::object& method, PyObject* const* arguments, std::size_t count,
+                     fulmar_error* error) noexcept;
   std::uint32_t fail(fulmar_error* error, bool print = true) noexcept;
 
   std::string file_;

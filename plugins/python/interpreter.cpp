@@ -17,11 +17,13 @@ namespace {
 
 PyObject* runtime_module = nullptr;  // lives as long as the process
 
-// Modules in C do not name libpython among what they need: they look for its functions in the process's global scope. A host that has
-// loaded this plugin with RTLD_LOCAL has libpython out of their sight.
+// Modules in C do not name libpython among what they need: they look for its functions in the process's
+// global scope. A host that has loaded this plugin with RTLD_LOCAL has libpython out of their sight.
 void show_library() {
   Dl_info info{};
-  if (::dladdr(reinterpret_cast<const void*>(&Py_InitializeFromConfig), &info) == 0 || info.dli_fname == nullptr) return;
+  if (::dladdr(reinterpret_cast<const void*>(&Py_InitializeFromConfig), &info) == 0 ||
+      info.dli_fname == nullptr)
+    return;
   ::dlopen(info.dli_fname, RTLD_NOW | RTLD_GLOBAL | RTLD_NOLOAD);
 }
 
@@ -35,7 +37,8 @@ void check(const PyStatus& status, PyConfig& config) {
 // A virtual environment that is active gives its packages, as it does to the program python3.
 std::string executable() {
   const char* environment = std::getenv("VIRTUAL_ENV");
-  return environment != nullptr && *environment != '\0' ? std::string(environment) + "/bin/python3" : FULMAR_PYTHON_EXECUTABLE;
+  return environment != nullptr && *environment != '\0' ? std::string(environment) + "/bin/python3"
+                                                        : FULMAR_PYTHON_EXECUTABLE;
 }
 
 void initialize() {
@@ -46,7 +49,8 @@ void initialize() {
   config.parse_argv = 0;
   config.use_hash_seed = 1;  // the order of a set of strings is the same in every flight
   config.hash_seed = 0;
-  config.write_bytecode = 0;  // no __pycache__ beside the author's files, and none that is older than its source
+  config.write_bytecode =
+      0;  // no __pycache__ beside the author's files, and none that is older than its source
   config.buffered_stdio = 0;
   check(PyConfig_SetBytesString(&config, &config.executable, executable().c_str()), config);
   check(PyConfig_SetBytesString(&config, &config.program_name, executable().c_str()), config);
@@ -63,7 +67,8 @@ py::module_ make_module(const char* name, const char* file, const char* source) 
   if (!code) throw py::error_already_set();
   py::dict scope = module.attr("__dict__");
   scope["__builtins__"] = py::module_::import("builtins");
-  if (!py::reinterpret_steal<py::object>(PyEval_EvalCode(code.ptr(), scope.ptr(), scope.ptr()))) throw py::error_already_set();
+  if (!py::reinterpret_steal<py::object>(PyEval_EvalCode(code.ptr(), scope.ptr(), scope.ptr())))
+    throw py::error_already_set();
   return module;
 }
 
@@ -71,7 +76,8 @@ void make_modules() {
   const py::module_ plugin = make_module("fulmar_plugin", "fulmar_plugin.py", fulmar_plugin_source);
   plugin.attr("_units") = unit_rules();
   plugin.attr("_share")(message_tables());
-  runtime_module = make_module("fulmar_plugin_runtime", "fulmar_plugin_runtime.py", fulmar_runtime_source).release().ptr();
+  runtime_module =
+      make_module("fulmar_plugin_runtime", "fulmar_plugin_runtime.py", fulmar_runtime_source).release().ptr();
 }
 
 }  // namespace
@@ -101,7 +107,8 @@ void tell(fulmar_error* error, const std::string& text) noexcept {
   constexpr std::size_t room = sizeof error->text - 1;
   std::size_t n = text.size();
   if (n > room)
-    for (n = room - 3; n > 0 && (static_cast<unsigned char>(text[n]) & 0xc0u) == 0x80u;) --n;  // not inside a UTF-8 sequence
+    for (n = room - 3; n > 0 && (static_cast<unsigned char>(text[n]) & 0xc0u) == 0x80u;)
+      --n;  // not inside a UTF-8 sequence
   std::memcpy(error->text, text.data(), n);
   std::memcpy(error->text + n, "...", text.size() > room ? 4 : 1);
   if (text.size() <= room) error->text[n] = '\0';
@@ -114,7 +121,8 @@ void explain(const std::string& file, bool print, fulmar_error* error) noexcept 
     PyErr_Fetch(&type, &value, &trace);
     PyErr_NormalizeException(&type, &value, &trace);
     if (value != nullptr && trace != nullptr) PyException_SetTraceback(value, trace);
-    const auto kept_type = py::reinterpret_steal<py::object>(type), fault = py::reinterpret_steal<py::object>(value);
+    const auto kept_type = py::reinterpret_steal<py::object>(type),
+               fault = py::reinterpret_steal<py::object>(value);
     const auto kept_trace = py::reinterpret_steal<py::object>(trace);
     if (!fault) return;
     tell(error, py::str(runtime().attr("_explain")(fault, file)));

@@ -23,7 +23,8 @@ class Gil {
   Gil& operator=(const Gil&) = delete;
 
  private:
-  /// What Python holds of a thread stays when the thread lets go: making it anew would cost each step a memory mapping.
+  /// What Python holds of a thread stays when the thread lets go: making it anew would cost each step a
+  /// memory mapping.
   static void keep_thread() {
     if (PyGILState_GetThisThreadState() == nullptr) {
       PyGILState_Ensure();
@@ -35,13 +36,15 @@ class Gil {
   PyGILState_STATE state_;
 };
 
-/// Starts the interpreter unless this process has one, and makes the module fulmar_plugin. Throws std::runtime_error.
+/// Starts the interpreter unless this process has one, and makes the module fulmar_plugin. Throws
+/// std::runtime_error.
 void start();
 
 /// The module of runtime.py.
 const py::module_& runtime();
 
-/// Moves the pending Python exception into `error`: one sentence. All of its traceback goes to stderr when `print`.
+/// Moves the pending Python exception into `error`: one sentence. All of its traceback goes to stderr when
+/// `print`.
 void explain(const std::string& file, bool print, fulmar_error* error) noexcept;
 
 /// Text that does not fit ends in "...".

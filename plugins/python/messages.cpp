@@ -41,7 +41,8 @@ class Lister {
         labels = words;
       }
       if (f.kind == FULMAR_STRUCT) nested = py::int_(add(*f.type));
-      fields.append(py::make_tuple(f.name, f.unit, f.kind, f.shape, f.offset, f.count, f.stride, f.items, f.min, f.max, labels, nested));
+      fields.append(py::make_tuple(f.name, f.unit, f.kind, f.shape, f.offset, f.count, f.stride, f.items,
+                                   f.min, f.max, labels, nested));
     }
     py::object initial = py::none();
     for (const Shared& one : all)
@@ -70,7 +71,8 @@ py::list message_tables() {
 
 py::list unit_rules() {
   py::list rules;
-  for (const detail::Unit& unit : detail::units) rules.append(py::make_tuple(std::string(unit.suffix), unit.printed, unit.min, unit.max));
+  for (const detail::Unit& unit : detail::units)
+    rules.append(py::make_tuple(std::string(unit.suffix), unit.printed, unit.min, unit.max));
   return rules;
 }
 

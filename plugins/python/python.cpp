@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The plugin that hosts components written in Python. It has none of its own: open_script makes those of a file.
+// The plugin that hosts components written in Python. It has none of its own: open_script makes those of a
+// file.
 #include <pybind11/pybind11.h>
 
 #include <array>
@@ -17,7 +18,8 @@
 namespace fulmar::python {
 namespace {
 
-/// What `create` needs to know. The contract gives `create` no argument but the seed, so each open class has a function of its own.
+/// What `create` needs to know. The contract gives `create` no argument but the seed, so each open class has
+/// a function of its own.
 struct Prototype {
   py::object described;
   std::string file;
@@ -64,7 +66,8 @@ std::uint32_t retune(void* instance, const fulmar_value* values, fulmar_error* e
   const Gil gil;
   return self(instance).retune(values, error);
 }
-std::uint32_t activate(void* instance, const fulmar_tick* tick, const fulmar_input* inputs, const fulmar_input* last, fulmar_error* error) {
+std::uint32_t activate(void* instance, const fulmar_tick* tick, const fulmar_input* inputs,
+                       const fulmar_input* last, fulmar_error* error) {
   const Gil gil;
   return self(instance).activate(*tick, inputs, last, error);
 }
@@ -72,7 +75,8 @@ void deactivate(void* instance) {
   const Gil gil;
   self(instance).deactivate();
 }
-std::uint32_t step(void* instance, const fulmar_tick* tick, const fulmar_input* inputs, fulmar_output* outputs, fulmar_error* error) {
+std::uint32_t step(void* instance, const fulmar_tick* tick, const fulmar_input* inputs,
+                   fulmar_output* outputs, fulmar_error* error) {
   const Gil gil;
   return self(instance).step(*tick, inputs, outputs, error);
 }
@@ -80,7 +84,8 @@ std::uint32_t read(void* instance, fulmar_tick* tick, fulmar_output* outputs, fu
   const Gil gil;
   return self(instance).read(*tick, outputs, error);
 }
-std::uint32_t write(void* instance, const fulmar_tick* tick, const fulmar_input* inputs, fulmar_error* error) {
+std::uint32_t write(void* instance, const fulmar_tick* tick, const fulmar_input* inputs,
+                    fulmar_error* error) {
   const Gil gil;
   return self(instance).write(*tick, inputs, error);
 }
@@ -89,7 +94,8 @@ std::uint32_t write(void* instance, const fulmar_tick* tick, const fulmar_input*
 class OpenScript {
  public:
   OpenScript(const std::string& file, const py::bytes& text) {
-    const auto opened = py::reinterpret_borrow<py::tuple>(runtime().attr("_open")(file, text));  // module, components, version
+    const auto opened = py::reinterpret_borrow<py::tuple>(
+        runtime().attr("_open")(file, text));  // module, components, version
     module_ = opened[0];
     try {
       for (const py::handle& described : opened[1]) add(described, file);
@@ -123,7 +129,8 @@ class OpenScript {
   void add(const py::handle& described, const std::string& file) {
     std::size_t slot = 0;
     while (slot < most_classes && prototypes[slot] != nullptr) ++slot;
-    if (slot == most_classes) throw std::runtime_error("more than " + std::to_string(most_classes) + " Python classes are open");
+    if (slot == most_classes)
+      throw std::runtime_error("more than " + std::to_string(most_classes) + " Python classes are open");
     fulmar_component c = tables_.component(described);
     prototypes[slot] = new Prototype{py::reinterpret_borrow<py::object>(described), file};
     slots_.push_back(slot);
@@ -155,7 +162,8 @@ std::map<const fulmar_plugin*, std::unique_ptr<OpenScript>>& open_scripts() {
   return *scripts;
 }
 
-const fulmar_plugin* open_script(const char* file, const char* text, std::uint64_t size, fulmar_error* error) {
+const fulmar_plugin* open_script(const char* file, const char* text, std::uint64_t size,
+                                 fulmar_error* error) {
   try {
     start();
   } catch (const std::exception& e) {

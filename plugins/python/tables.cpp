@@ -10,11 +10,15 @@ T item(const py::handle& sequence, std::size_t i) {
   return py::cast<T>(py::reinterpret_borrow<py::tuple>(sequence)[i]);
 }
 
-bool none(const py::handle& sequence, std::size_t i) { return py::reinterpret_borrow<py::tuple>(sequence)[i].is_none(); }
+bool none(const py::handle& sequence, std::size_t i) {
+  return py::reinterpret_borrow<py::tuple>(sequence)[i].is_none();
+}
 
 }  // namespace
 
-const char* Tables::text(const py::handle& text) { return texts_.emplace_back(py::cast<std::string>(text)).c_str(); }
+const char* Tables::text(const py::handle& text) {
+  return texts_.emplace_back(py::cast<std::string>(text)).c_str();
+}
 
 const char* const* Tables::words(const py::handle& list) {
   std::vector<const char*> all;
@@ -24,7 +28,8 @@ const char* const* Tables::words(const py::handle& list) {
 
 const fulmar_type* Tables::type(const py::handle& message) {
   const py::object cls = message.attr("_message");
-  if (const auto table = py::cast<std::uintptr_t>(cls.attr("_table")); table != 0) return reinterpret_cast<const fulmar_type*>(table);
+  if (const auto table = py::cast<std::uintptr_t>(cls.attr("_table")); table != 0)
+    return reinterpret_cast<const fulmar_type*>(table);
   if (const auto known = known_.find(cls.ptr()); known != known_.end()) return known->second;
   std::vector<fulmar_field> fields;
   std::uint32_t align = 1;
@@ -53,16 +58,17 @@ const fulmar_type* Tables::type(const py::handle& message) {
   const auto size = py::cast<std::uint32_t>(ctypes.attr("sizeof")(cls));
   const char* ros = py::hasattr(cls, "ros_type") ? text(cls.attr("ros_type")) : "";
   const auto& kept = fields_.emplace_back(std::move(fields));
-  return known_[cls.ptr()] = &types_.emplace_back(fulmar_type{text(cls.attr("__name__")), "", ros, kept.data(),
-                                                              static_cast<std::uint32_t>(kept.size()), sizeof(fulmar_field), size, align});
+  return known_[cls.ptr()] = &types_.emplace_back(
+             fulmar_type{text(cls.attr("__name__")), "", ros, kept.data(),
+                         static_cast<std::uint32_t>(kept.size()), sizeof(fulmar_field), size, align});
 }
 
 // (name, kind, flags, capacity, message or None)
 const std::vector<fulmar_port>& Tables::ports(const py::handle& list) {
   std::vector<fulmar_port> all;
   for (const py::handle& p : list)
-    all.push_back({text(item<py::object>(p, 0)), none(p, 4) ? nullptr : type(item<py::object>(p, 4)), item<std::uint32_t>(p, 1),
-                   item<std::uint32_t>(p, 2), item<std::uint32_t>(p, 3)});
+    all.push_back({text(item<py::object>(p, 0)), none(p, 4) ? nullptr : type(item<py::object>(p, 4)),
+                   item<std::uint32_t>(p, 1), item<std::uint32_t>(p, 2), item<std::uint32_t>(p, 3)});
   return ports_.emplace_back(std::move(all));
 }
 

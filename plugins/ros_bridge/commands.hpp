@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From standard messages of ROS 2 into the flight: a goal becomes a plan of one waypoint, a twist becomes a course, a height, a speed.
+// From standard messages of ROS 2 into the flight: a goal becomes a plan of one waypoint, a twist becomes a
+// course, a height, a speed.
 #pragma once
 #include <algorithm>
 
@@ -25,9 +26,11 @@ struct Goal {
     Probe refused_ratio;  // goals that could not be taken since the start
   };
   struct Params {
-    Choice<GoalMode> mode{GoalMode::replace, "replace: the goal is the whole plan; append: it is the last waypoint"};
+    Choice<GoalMode> mode{GoalMode::replace,
+                          "replace: the goal is the whole plan; append: it is the last waypoint"};
     Flag use_heading{false, "arrive in the direction that the pose points to"};
-    Param height{0, "m", 0, 10000, "above the origin, of goals with z = 0, as rviz sends them; 0: the present height"};
+    Param height{0, "m", 0, 10000,
+                 "above the origin, of goals with z = 0, as rviz sends them; 0: the present height"};
     Param airspeed{0, "m/s", 0, 200, "of the leg to the goal; 0: the plan's"};
   };
 
@@ -41,7 +44,8 @@ struct Goal {
   }
 
  private:
-  static bool take(const Tick& tick, const RosPoseStamped& goal, const Inputs& in, const Params& p, Outputs& out) {
+  static bool take(const Tick& tick, const RosPoseStamped& goal, const Inputs& in, const Params& p,
+                   Outputs& out) {
     PlanEdit edit;
     edit.waypoint.position_m = ned(goal.pose.position);
     const Vec3<Ned>& at = edit.waypoint.position_m;
@@ -67,7 +71,8 @@ struct Goal {
   std::uint32_t refused_ = 0;
 };
 
-/// Flies by twists: linear.x true airspeed, linear.z climb, angular.z turn to the left, in FLU. Fills the role `guide`.
+/// Flies by twists: linear.x true airspeed, linear.z climb, angular.z turn to the left, in FLU. Fills the
+/// role `guide`.
 struct Velocity {
   static constexpr const char* doc = "Guides by twists of ROS 2: speed ahead, climb, turn to the left.";
   struct Inputs {
@@ -83,7 +88,8 @@ struct Velocity {
     Param climb_max{3, "m/s", 0, 50, "either way"};
     Param turn_max{0.4, "rad/s", 0, 2, "either way"};
     Param height_min{20, "m", 0, 10000, "above the origin; the commanded height stays above it"};
-    Param timeout{0.5, "s", 0.05, 60, "a twist that is older is forgotten: straight on, level, at the last airspeed"};
+    Param timeout{0.5, "s", 0.05, 60,
+                  "a twist that is older is forgotten: straight on, level, at the last airspeed"};
   };
 
   Status activate(const Tick& tick, const Inputs& in, const Params& p, const Outputs&) {
@@ -104,24 +110,29 @@ struct Velocity {
     if (heard) {
       turn = std::clamp(-in.twist->angular.z, -p.turn_max.value, p.turn_max.value);
       climb = std::clamp(in.twist->linear.z, -p.climb_max.value, p.climb_max.value);
-      command_.airspeed_mps = std::clamp(in.twist->linear.x, p.airspeed_min.value, std::max(p.airspeed_min.value, p.airspeed_max.value));
+      command_.airspeed_mps = std::clamp(in.twist->linear.x, p.airspeed_min.value,
+                                         std::max(p.airspeed_min.value, p.airspeed_max.value));
     }
     command_.course_rad = wrap_pi(command_.course_rad + turn * dt);
     const double height = std::max(command_.height_m + climb * dt, p.height_min.value);
     command_.climb_rate_mps = height > p.height_min ? climb : 0;
     command_.height_m = height;
-    command_.roll_feedforward_rad = std::atan(in.state->ground_speed_mps * turn / g);  // coordinated turn, B&M (9.14) without wind
+    command_.roll_feedforward_rad =
+        std::atan(in.state->ground_speed_mps * turn / g);  // coordinated turn, B&M (9.14) without wind
     out.command = command_;
     return heard ? Status::ok : Status::degraded;
   }
 
  private:
-  static bool usable(const RosTwist& t) { return std::isfinite(t.linear.x) && std::isfinite(t.linear.z) && std::isfinite(t.angular.z); }
+  static bool usable(const RosTwist& t) {
+    return std::isfinite(t.linear.x) && std::isfinite(t.linear.z) && std::isfinite(t.angular.z);
+  }
   void begin(const VehicleState& s, const Params& p) {
     command_ = {};
     command_.course_rad = s.course_rad;
     command_.height_m = std::max(s.height_m, p.height_min.value);
-    command_.airspeed_mps = std::clamp(s.airspeed_mps, p.airspeed_min.value, std::max(p.airspeed_min.value, p.airspeed_max.value));
+    command_.airspeed_mps = std::clamp(s.airspeed_mps, p.airspeed_min.value,
+                                       std::max(p.airspeed_min.value, p.airspeed_max.value));
   }
 
   GuidanceCommand command_;

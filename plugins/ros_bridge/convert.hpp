@@ -12,7 +12,8 @@
 
 namespace fulmar::ros_bridge {
 
-// ---- time ----------------------------------------------------------------------------------------------------------------------
+// ---- time
+// ----------------------------------------------------------------------------------------------------------------------
 
 constexpr std::int64_t second_ns = 1'000'000'000;
 
@@ -22,7 +23,8 @@ inline RosTime ros_time(std::int64_t utc_ns) {
   return {static_cast<std::int32_t>(sec), static_cast<std::uint32_t>(utc_ns - sec * second_ns)};
 }
 
-/// UTC of flight times: from the first fix that knows it, else from a parameter. Once known, it does not change: stamps never jump back.
+/// UTC of flight times: from the first fix that knows it, else from a parameter. Once known, it does not
+/// change: stamps never jump back.
 class Clock {
  public:
   void note(const Optional<Gnss>& gnss, std::int64_t epoch_s) {
@@ -33,14 +35,17 @@ class Clock {
     known_ = true;
   }
   std::int64_t utc_ns(std::int64_t flight_ns) const { return zero_ns_ + flight_ns; }
-  RosHeader header(std::int64_t flight_ns, const RosText& frame) const { return {ros_time(utc_ns(flight_ns)), frame}; }
+  RosHeader header(std::int64_t flight_ns, const RosText& frame) const {
+    return {ros_time(utc_ns(flight_ns)), frame};
+  }
 
  private:
   std::int64_t zero_ns_ = 0;
   bool known_ = false;
 };
 
-// ---- vectors -------------------------------------------------------------------------------------------------------------------
+// ---- vectors
+// -------------------------------------------------------------------------------------------------------------------
 
 inline RosVector3 enu(const Vec3<Ned>& v) { return {v.east, v.north, -v.down}; }
 inline RosVector3 flu(const Vec3<Body>& v) { return {v.x, -v.y, -v.z}; }
@@ -56,7 +61,8 @@ inline RosQuaternion ros(Eigen::Quaterniond q) {
   return {sign * q.x(), sign * q.y(), sign * q.z(), sign * q.w()};
 }
 
-// NED to ENU and back: half a turn about the horizontal axis between north and east. FRD to FLU and back: half a turn about forward.
+// NED to ENU and back: half a turn about the horizontal axis between north and east. FRD to FLU and back:
+// half a turn about forward.
 inline const Eigen::Quaterniond ned_enu{0, std::numbers::sqrt2 / 2, std::numbers::sqrt2 / 2, 0};
 inline const Eigen::Quaterniond frd_flu{0, 1, 0, 0};
 
@@ -69,7 +75,8 @@ inline RosQuaternion enu_heading(double course_rad) {
   return ros(Eigen::Quaterniond(std::cos(yaw / 2), 0, 0, std::sin(yaw / 2)));
 }
 
-/// Course, from north, clockwise, of where the x axis of an orientation in ENU points; false when it points up or down.
+/// Course, from north, clockwise, of where the x axis of an orientation in ENU points; false when it points
+/// up or down.
 inline bool course_of(const RosQuaternion& q, double& course_rad) {
   const double east = 1 - 2 * (q.y * q.y + q.z * q.z), north = 2 * (q.x * q.y + q.w * q.z);
   if (!(std::hypot(east, north) > 1e-3)) return false;
@@ -77,13 +84,16 @@ inline bool course_of(const RosQuaternion& q, double& course_rad) {
   return true;
 }
 
-// ---- covariances ---------------------------------------------------------------------------------------------------------------
+// ---- covariances
+// ---------------------------------------------------------------------------------------------------------------
 
 /// Puts a 3 x 3 block at row and column `at` of a matrix of `n` columns.
 template <std::size_t Size>
-void put_block(std::array<double, Size>& matrix, std::size_t n, std::size_t at, const Eigen::Matrix3d& block) {
+void put_block(std::array<double, Size>& matrix, std::size_t n, std::size_t at,
+               const Eigen::Matrix3d& block) {
   for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t k = 0; k < 3; ++k) matrix[(at + i) * n + at + k] = block(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
+    for (std::size_t k = 0; k < 3; ++k)
+      matrix[(at + i) * n + at + k] = block(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
 }
 
 /// Of deviations along north, east, down: the diagonal along east, north, up.
@@ -94,7 +104,9 @@ inline Eigen::Matrix3d enu_covariance(const Vec3<Ned>& std) {
 /// The same, turned into body axes, forward, left, up.
 inline Eigen::Matrix3d flu_covariance(const Quat& q_nb, const Vec3<Ned>& std) {
   const Eigen::Matrix3d R_fn = (eigen(q_nb) * frd_flu).conjugate().toRotationMatrix();
-  return R_fn * Eigen::Vector3d(std.north * std.north, std.east * std.east, std.down * std.down).asDiagonal() * R_fn.transpose();
+  return R_fn *
+         Eigen::Vector3d(std.north * std.north, std.east * std.east, std.down * std.down).asDiagonal() *
+         R_fn.transpose();
 }
 
 inline Eigen::Matrix3d even_covariance(double std) { return std * std * Eigen::Matrix3d::Identity(); }

@@ -7,5 +7,5 @@
 
 using namespace fulmar::ros_bridge;
 
-FULMAR_PLUGIN("1.0.0", Standard, Goal, Velocity, Rosplane, RosplaneFollower, RosplaneController, RosplanePath, RosplaneWaypoints,
-              RosplaneEstimator)
+FULMAR_PLUGIN("1.0.0", Standard, Goal, Velocity, Rosplane, RosplaneFollower, RosplaneController, RosplanePath,
+              RosplaneWaypoints, RosplaneEstimator)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nodes of ROSplane in the place of our components: each of these fills a role with what such a node publishes. A node that falls silent
-// fails, so that the phase's fallback takes over.
+// Nodes of ROSplane in the place of our components: each of these fills a role with what such a node
+// publishes. A node that falls silent fails, so that the phase's fallback takes over.
 #pragma once
 #include "fulmar/msg/plan_edit.hpp"
 #include "rosplane_out.hpp"
@@ -19,7 +19,8 @@ Status silence(const Optional<T>& port) {
   return port ? Status::failed : Status::degraded;
 }
 
-/// Nobody hands over to a node that is silent. At the very beginning there is nobody to stay, and it is waited for.
+/// Nobody hands over to a node that is silent. At the very beginning there is nobody to stay, and it is
+/// waited for.
 template <class T, class Outputs>
 Status take_over(const Optional<T>& port, const Param& timeout, const Applied<Outputs>& last) {
   return silent(port, timeout) && last.given() ? Status::failed : Status::ok;
@@ -33,7 +34,8 @@ inline bool all_finite(const std::array<float, 3>& v) { return all_finite(v[0], 
 
 /// A path follower, or signal_generator: /controller_command.
 struct RosplaneFollower {
-  static constexpr const char* doc = "Fills `guide` with the controller commands that a node of ROSplane publishes.";
+  static constexpr const char* doc =
+      "Fills `guide` with the controller commands that a node of ROSplane publishes.";
   struct Inputs {
     Optional<RosplaneControllerCommands> controller_command;
   };
@@ -63,7 +65,8 @@ struct RosplaneFollower {
 
 /// A controller: rosflight's /command.
 struct RosplaneController {
-  static constexpr const char* doc = "Fills `inner` with the command that a controller of ROSplane sends to the flight controller.";
+  static constexpr const char* doc =
+      "Fills `inner` with the command that a controller of ROSplane sends to the flight controller.";
   struct Inputs {
     Optional<RosflightCommand> command;
   };
@@ -72,7 +75,8 @@ struct RosplaneController {
   };
   struct Params {
     Record<Airframe> airframe{"whose throws a command of 1 means"};
-    Flag elevator_up{true, "positive elevator raises the nose, as ROSplane's anaconda has it with REV_ELEVATOR 1", setup};
+    Flag elevator_up{
+        true, "positive elevator raises the nose, as ROSplane's anaconda has it with REV_ELEVATOR 1", setup};
     Param timeout{0.1, "s", 0.01, 60, "silence after which it has failed"};
   };
   void configure(const Params& p) { throws_ = Throws::of(*p.airframe, p.elevator_up); }
@@ -84,8 +88,11 @@ struct RosplaneController {
     const RosflightCommand& c = *in.command;
     if (c.mode != 0 || !all_finite(c.u[0], c.u[3], c.u[4], c.u[5])) return Status::failed;
     if (!in.command.fresh()) return Status::ok;
-    const auto u = [&](std::size_t i, double low) { return std::clamp(static_cast<double>(c.u[i]), low, 1.0); };
-    out.actuators.publish({u(0, 0), throws_.aileron * u(3, -1), throws_.elevator * u(4, -1), throws_.rudder * u(5, -1)});
+    const auto u = [&](std::size_t i, double low) {
+      return std::clamp(static_cast<double>(c.u[i]), low, 1.0);
+    };
+    out.actuators.publish(
+        {u(0, 0), throws_.aileron * u(3, -1), throws_.elevator * u(4, -1), throws_.rudder * u(5, -1)});
     return Status::ok;
   }
 
@@ -112,7 +119,8 @@ struct RosplanePath {
     Path path;
     path.airspeed_mps = static_cast<double>(c.va_d);
     const bool line = c.path_type == 1;
-    if (!all_finite(c.va_d) || !(line ? all_finite(c.r) && all_finite(c.q) : all_finite(c.c) && c.rho >= 1)) return Status::degraded;
+    if (!all_finite(c.va_d) || !(line ? all_finite(c.r) && all_finite(c.q) : all_finite(c.c) && c.rho >= 1))
+      return Status::degraded;
     const auto vector = [](const std::array<float, 3>& v) { return Eigen::Vector3d(v[0], v[1], v[2]); };
     if (line) {
       const Eigen::Vector3d q = vector(c.q);
@@ -132,7 +140,8 @@ struct RosplanePath {
 
 /// A path planner: /waypoint_path, and the service /add_waypoint.
 struct RosplaneWaypoints {
-  static constexpr const char* doc = "Turns the waypoints that a node of ROSplane publishes, or asks for, into edits of the plan.";
+  static constexpr const char* doc =
+      "Turns the waypoints that a node of ROSplane publishes, or asks for, into edits of the plan.";
   struct Inputs {
     Queue<RosplaneWaypoint> waypoint_path;
     Request<RosplaneAddWaypoint> add_waypoint;
@@ -147,7 +156,8 @@ struct RosplaneWaypoints {
     for (const auto& sample : in.waypoint_path) {
       PlanEdit clear;
       clear.kind = PlanEditKind::clear;
-      const bool taken = sample.value.clear_wp_list ? out.edits.push(clear, tick.now_ns) : add(tick, sample.value, out);
+      const bool taken =
+          sample.value.clear_wp_list ? out.edits.push(clear, tick.now_ns) : add(tick, sample.value, out);
       if (!taken) ++refused_;
     }
     for (const auto request : in.add_waypoint) {
@@ -165,7 +175,8 @@ struct RosplaneWaypoints {
  private:
   template <class M>
   static bool add(const Tick& tick, const M& from, Outputs& out) {
-    if (!all_finite(from.w) || !all_finite(from.va_d) || (from.use_chi && !all_finite(from.chi_d))) return false;
+    if (!all_finite(from.w) || !all_finite(from.va_d) || (from.use_chi && !all_finite(from.chi_d)))
+      return false;
     const auto at = [&](std::size_t i) { return static_cast<double>(from.w[i]); };
     PlanEdit edit;
     Waypoint& w = edit.waypoint;
@@ -207,8 +218,9 @@ inline Status RosplaneEstimator::step(const Tick&, const Inputs& in, const Param
   if (!in.estimated_state.fresh()) return Status::ok;
   const RosplaneState& m = *in.estimated_state;
   const Eigen::Quaterniond q(m.quat.w, m.quat.x, m.quat.y, m.quat.z);
-  if (!all_finite(m.p_n, m.p_e, m.p_d, m.v_x, m.v_y, m.v_z, m.p, m.q, m.r, m.phi, m.theta, m.psi, m.va, m.alpha, m.beta, m.chi, m.w_n,
-                  m.w_e, m.b_x, m.b_y, m.b_z, q.norm(), m.initial_lat, m.initial_lon, m.initial_alt))
+  if (!all_finite(m.p_n, m.p_e, m.p_d, m.v_x, m.v_y, m.v_z, m.p, m.q, m.r, m.phi, m.theta, m.psi, m.va,
+                  m.alpha, m.beta, m.chi, m.w_n, m.w_e, m.b_x, m.b_y, m.b_z, q.norm(), m.initial_lat,
+                  m.initial_lon, m.initial_alt))
     return Status::failed;
   // before it is initialised, ROSplane's estimator publishes zeros
   if (!(q.norm() > 0.5) || (m.va == 0 && m.v_x == 0 && m.p_d == 0 && m.psi == 0)) return Status::degraded;
@@ -226,9 +238,11 @@ inline Status RosplaneEstimator::step(const Tick&, const Inputs& in, const Param
   s.course_rad = d(m.chi);
   s.airspeed_mps = d(m.va), s.alpha_rad = d(m.alpha), s.beta_rad = d(m.beta);
   s.wind_mps = {d(m.w_n), d(m.w_e), 0};
-  s.origin_latitude_deg = m.initial_lat, s.origin_longitude_deg = m.initial_lon, s.origin_altitude_m = m.initial_alt;
+  s.origin_latitude_deg = m.initial_lat, s.origin_longitude_deg = m.initial_lon,
+  s.origin_altitude_m = m.initial_alt;
   s.origin_valid = m.initial_lat != 0 || m.initial_lon != 0;
-  s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = s.wind_valid = true;
+  s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = s.wind_valid =
+      true;
   out.state.publish(s);
   return Status::ok;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages of ROSplane 2.0 and ROSflight 2.0, field for field as the packages rosplane_msgs and rosflight_msgs define them.
-// NED and FRD, SI; angles in radians but for latitude and longitude.
+// Messages of ROSplane 2.0 and ROSflight 2.0, field for field as the packages rosplane_msgs and
+// rosflight_msgs define them. NED and FRD, SI; angles in radians but for latitude and longitude.
 #pragma once
 #include "ros_messages.hpp"
 
@@ -59,7 +59,8 @@ struct RosplaneWaypoint {
   bool clear_wp_list = false;
 };
 
-/// The question of rosplane_msgs/srv/AddWaypoint; its answer, success and message, is what the host gives to every request.
+/// The question of rosplane_msgs/srv/AddWaypoint; its answer, success and message, is what the host gives to
+/// every request.
 struct RosplaneAddWaypoint {
   static constexpr const char* ros_type = "rosplane_msgs/srv/AddWaypoint_Request";
   std::array<float, 3> w{};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The flight in the messages of ROSplane 2.0 and ROSflight 2.0: NED and FRD, as theirs. Names of the ports are those of their topics.
+// The flight in the messages of ROSplane 2.0 and ROSflight 2.0: NED and FRD, as theirs. Names of the ports
+// are those of their topics.
 #pragma once
 #include <algorithm>
 
@@ -25,7 +26,8 @@ namespace fulmar::ros_bridge {
 
 inline float f32(double x) { return static_cast<float>(x); }
 
-/// What a command of 1 moves, rad. ROSplane's anaconda: positive elevator raises the nose, as its gains and REV_ELEVATOR 1 have it.
+/// What a command of 1 moves, rad. ROSplane's anaconda: positive elevator raises the nose, as its gains and
+/// REV_ELEVATOR 1 have it.
 struct Throws {
   double aileron = 0.35, elevator = 0.35, rudder = 0.35;
 
@@ -72,8 +74,12 @@ struct Rosplane {
   };
   struct Params {
     Record<Airframe> airframe{"whose throws are 1 in `command`"};
-    Flag elevator_up{true, "positive elevator in `command` raises the nose, as ROSplane's anaconda has it with REV_ELEVATOR 1", setup};
-    Count epoch{1767225600, 0, 4102444800, "UTC of flight time 0 in seconds since 1970, until a fix tells it; as the mission's epoch",
+    Flag elevator_up{
+        true,
+        "positive elevator in `command` raises the nose, as ROSplane's anaconda has it with REV_ELEVATOR 1",
+        setup};
+    Count epoch{1767225600, 0, 4102444800,
+                "UTC of flight time 0 in seconds since 1970, until a fix tells it; as the mission's epoch",
                 setup};
   };
 
@@ -122,7 +128,8 @@ inline void Rosplane::state(const Inputs& in, Outputs& out) const {
   m.phi = f32(s.roll_rad), m.theta = f32(s.pitch_rad), m.psi = f32(s.yaw_rad);
   m.b_x = f32(s.gyro_bias_radps.x), m.b_y = f32(s.gyro_bias_radps.y), m.b_z = f32(s.gyro_bias_radps.z);
   m.quat = as_is(s.attitude);
-  m.initial_lat = s.origin_latitude_deg, m.initial_lon = s.origin_longitude_deg, m.initial_alt = s.origin_altitude_m;
+  m.initial_lat = s.origin_latitude_deg, m.initial_lon = s.origin_longitude_deg,
+  m.initial_alt = s.origin_altitude_m;
   m.w_n = f32(s.wind_mps.north), m.w_e = f32(s.wind_mps.east);
   m.va = f32(s.airspeed_mps), m.alpha = f32(s.alpha_rad), m.beta = f32(s.beta_rad), m.chi = f32(s.course_rad);
   out.estimated_state.publish(m, at);
@@ -133,7 +140,8 @@ inline void Rosplane::controller(const Inputs& in, Outputs& out) const {
     const std::int64_t at = in.command.valid_at_ns();
     RosplaneControllerCommands m;
     m.header = clock_.header(at, {});
-    m.va_c = f32(in.command->airspeed_mps), m.h_c = f32(in.command->height_m), m.chi_c = f32(in.command->course_rad);
+    m.va_c = f32(in.command->airspeed_mps), m.h_c = f32(in.command->height_m),
+    m.chi_c = f32(in.command->course_rad);
     m.phi_ff = f32(in.command->roll_feedforward_rad);
     if (in.attitude) m.theta_c = f32(in.attitude->pitch_rad), m.phi_c = f32(in.attitude->roll_rad);
     out.controller_command.publish(m, at);
@@ -142,7 +150,8 @@ inline void Rosplane::controller(const Inputs& in, Outputs& out) const {
     const std::int64_t at = in.attitude.valid_at_ns();
     const bool takeoff = in.internals && in.internals->law == OuterLaw::takeoff;
     const std::uint8_t zone = takeoff ? 0 : 3;
-    out.controller_internals.publish({clock_.header(at, {}), f32(in.attitude->pitch_rad), f32(in.attitude->roll_rad), zone}, at);
+    out.controller_internals.publish(
+        {clock_.header(at, {}), f32(in.attitude->pitch_rad), f32(in.attitude->roll_rad), zone}, at);
   }
   if (in.actuators && in.actuators.fresh()) {
     const std::int64_t at = in.actuators.valid_at_ns();
@@ -226,13 +235,16 @@ inline void Rosplane::sensors(const Inputs& in, Outputs& out) const {
   if (in.pitot && in.pitot.fresh()) {
     const std::int64_t at = in.pitot.valid_at_ns();
     const Pitot& p = *in.pitot;
-    out.airspeed.publish({clock_.header(at, {}), f32(p.indicated_airspeed_mps), f32(p.pressure_pa), f32(p.temperature_kelvin)}, at);
+    out.airspeed.publish(
+        {clock_.header(at, {}), f32(p.indicated_airspeed_mps), f32(p.pressure_pa), f32(p.temperature_kelvin)},
+        at);
   }
 }
 
 inline std::uint8_t rosflight_fix(FixType fix) {
   if (fix == FixType::rtk_float || fix == FixType::rtk_fixed) return 3;
-  return static_cast<std::uint8_t>(fix);  // 0 none, 1 dead reckoning, 2 two, 3 three dimensions, 4 combined, 5 time only
+  return static_cast<std::uint8_t>(
+      fix);  // 0 none, 1 dead reckoning, 2 two, 3 three dimensions, 4 combined, 5 time only
 }
 
 inline void Rosplane::gnss(const Inputs& in, Outputs& out) const {
@@ -261,11 +273,14 @@ inline void Rosplane::vehicle(const Inputs& in, const Params& p, Outputs& out) c
     const Rc& rc = *in.rc;
     const std::int64_t at = in.rc.valid_at_ns();
     const auto stick = [](double frac) { return pulse_us(frac, 1500, 500); };
-    const double pitch = p.elevator_up ? rc.pitch_frac : -rc.pitch_frac;  // a stick has the sign of its surface; rudder left is positive
-    out.rc_raw.publish({clock_.header(at, {}),
-                        {stick(rc.roll_frac), stick(pitch), pulse_us(rc.throttle_frac, 1000, 1000), stick(-rc.yaw_frac),
-                         stick(rc.aux1_frac), stick(rc.aux2_frac), stick(rc.aux3_frac), stick(rc.aux4_frac)}},
-                       at);
+    const double pitch =
+        p.elevator_up ? rc.pitch_frac
+                      : -rc.pitch_frac;  // a stick has the sign of its surface; rudder left is positive
+    out.rc_raw.publish(
+        {clock_.header(at, {}),
+         {stick(rc.roll_frac), stick(pitch), pulse_us(rc.throttle_frac, 1000, 1000), stick(-rc.yaw_frac),
+          stick(rc.aux1_frac), stick(rc.aux2_frac), stick(rc.aux3_frac), stick(rc.aux4_frac)}},
+        at);
   }
   if (!in.status || !in.status.fresh()) return;
   const VehicleStatus& s = *in.status;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The flight in standard messages of ROS 2: world ENU, body FLU. Sources: REP 103, 105, 145 and the comments of the messages.
+// The flight in standard messages of ROS 2: world ENU, body FLU. Sources: REP 103, 105, 145 and the comments
+// of the messages.
 #pragma once
 #include <algorithm>
 
@@ -14,7 +15,8 @@
 namespace fulmar::ros_bridge {
 
 struct Standard {
-  static constexpr const char* doc = "Publishes the flight in standard messages of ROS 2: world east-north-up, body forward-left-up.";
+  static constexpr const char* doc =
+      "Publishes the flight in standard messages of ROS 2: world east-north-up, body forward-left-up.";
   struct Inputs {
     Optional<VehicleState> state;
     Optional<Imu> imu;
@@ -39,9 +41,11 @@ struct Standard {
     TextParam<48> world{"map", "frame of positions, ENU"};
     TextParam<48> base{"base_link", "frame of the body, FLU"};
     Flag ned_frames{true, "also tells the transforms to <world>_ned and <base>_frd"};
-    Count epoch{1767225600, 0, 4102444800, "UTC of flight time 0 in seconds since 1970, until a fix tells it; as the mission's epoch",
+    Count epoch{1767225600, 0, 4102444800,
+                "UTC of flight time 0 in seconds since 1970, until a fix tells it; as the mission's epoch",
                 setup};
-    Param geoid_separation{0, "m", -120, 100, "of the ellipsoid from mean sea level, which is added to altitudes of fixes"};
+    Param geoid_separation{0, "m", -120, 100,
+                           "of the ellipsoid from mean sea level, which is added to altitudes of fixes"};
     Param rate_std{0, "rad/s", 0, 10, "deviation of body rates, for covariances; 0: not known"};
     Param force_std{0, "m/s2", 0, 100, "deviation of the accelerometers, for covariances; 0: not known"};
   };
@@ -156,13 +160,10 @@ inline std::int8_t fix_status(FixType fix) {
   switch (fix) {
     case FixType::fix_2d:
     case FixType::fix_3d:
-    case FixType::combined:
-      return 0;
+    case FixType::combined: return 0;
     case FixType::rtk_float:
-    case FixType::rtk_fixed:
-      return 2;
-    default:
-      return -1;
+    case FixType::rtk_fixed: return 2;
+    default: return -1;
   }
 }
 
@@ -177,12 +178,14 @@ inline void Standard::publish_fix(const Inputs& in, const Params& p, Outputs& ou
   m.altitude = g.altitude_m + p.geoid_separation;
   if (g.horizontal_std_m < unknown_std && g.vertical_std_m < unknown_std) {
     m.position_covariance_type = 2;
-    put_block(m.position_covariance, 3, 0, enu_covariance({g.horizontal_std_m, g.horizontal_std_m, g.vertical_std_m}));
+    put_block(m.position_covariance, 3, 0,
+              enu_covariance({g.horizontal_std_m, g.horizontal_std_m, g.vertical_std_m}));
   }
   out.fix.publish(m, at);
 }
 
-inline RosPoseStamped Standard::pose_of(const RosHeader& header, const Vec3<Ned>& at, double course_rad) const {
+inline RosPoseStamped Standard::pose_of(const RosHeader& header, const Vec3<Ned>& at,
+                                        double course_rad) const {
   return {header, {enu_point(at), enu_heading(course_rad)}};
 }
 
@@ -203,7 +206,8 @@ inline void Standard::publish_plan(const Inputs& in, Outputs& out) const {
   out.plan.written = out.plan.dated = true;
 }
 
-/// A line: a kilometre of it. An orbit: once round, every 5 degrees, at the heights of the climb, if there is one.
+/// A line: a kilometre of it. An orbit: once round, every 5 degrees, at the heights of the climb, if there is
+/// one.
 inline void Standard::publish_piece(const Inputs& in, Outputs& out) const {
   const Path& path = *in.path;
   RosPath& m = out.piece.value;
@@ -211,7 +215,8 @@ inline void Standard::publish_piece(const Inputs& in, Outputs& out) const {
   m.poses.clear();
   if (path.kind == PathKind::line) {
     const Vec3<Ned>& q = path.direction_ratio;
-    const double length = path.remaining_m < 1000 ? std::max(path.remaining_m, 1.0) : 1000, course = std::atan2(q.east, q.north);
+    const double length = path.remaining_m < 1000 ? std::max(path.remaining_m, 1.0) : 1000,
+                 course = std::atan2(q.east, q.north);
     m.poses.push_back(pose_of(m.header, path.origin_m, course));
     m.poses.push_back(pose_of(m.header, path.origin_m + length * q, course));
   } else {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How well the flight is flown: tracking, estimation and injected GNSS errors, and a few figures. Takes no part in the flight.
+// How well the flight is flown: tracking, estimation and injected GNSS errors, and a few figures. Takes no
+// part in the flight.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -33,7 +34,8 @@ struct MeanSquare {
 class NearRoute {
  public:
   /// False where the route is not defined: no plan, or on the way to it.
-  bool nearest_to(const Plan& plan, const Progress& progress, double north_m, double east_m, RoutePoint& best);
+  bool nearest_to(const Plan& plan, const Progress& progress, double north_m, double east_m,
+                  RoutePoint& best);
 
  private:
   void update(const Route& route, std::uint32_t item);
@@ -66,7 +68,8 @@ struct Score {
     Out<Figures> figures;
   };
   struct Params {
-    Param start_height{20, "m", 0, 10000, "without a progress to tell of the first waypoint: score from this height on"};
+    Param start_height{20, "m", 0, 10000,
+                       "without a progress to tell of the first waypoint: score from this height on"};
   };
 
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out);
@@ -74,11 +77,14 @@ struct Score {
  private:
   struct Tracking {
     MeanSquare north, east, altitude, roll, pitch, course, airspeed;
-    TrackingError rms() const { return {north.rms(), east.rms(), altitude.rms(), roll.rms(), pitch.rms(), course.rms(), airspeed.rms()}; }
+    TrackingError rms() const {
+      return {north.rms(), east.rms(), altitude.rms(), roll.rms(), pitch.rms(), course.rms(), airspeed.rms()};
+    }
     bool any() const { return north.count + roll.count + course.count > 0; }
   };
   struct Estimation {
-    MeanSquare north, east, altitude, vel_x, vel_y, vel_z, roll, pitch, heading, course, airspeed, wind_n, wind_e;
+    MeanSquare north, east, altitude, vel_x, vel_y, vel_z, roll, pitch, heading, course, airspeed, wind_n,
+        wind_e;
   };
   struct Pending {  // a sample whose truth is not there yet
     bool waits = false;

@@ -19,9 +19,12 @@ inline void NearRoute::update(const Route& route, std::uint32_t item) {
   if (next != item && next != route.before(item)) add(next);
 }
 
-inline bool NearRoute::nearest_to(const Plan& plan, const Progress& progress, double north_m, double east_m, RoutePoint& best) {
+inline bool NearRoute::nearest_to(const Plan& plan, const Progress& progress, double north_m, double east_m,
+                                  RoutePoint& best) {
   const Route route(plan);
-  if (progress.joining || progress.reached == 0 || progress.plan_revision != plan.revision || progress.item >= route.size()) return false;
+  if (progress.joining || progress.reached == 0 || progress.plan_revision != plan.revision ||
+      progress.item >= route.size())
+    return false;
   if (revision_ != plan.revision || item_ != progress.item || (count_ == 0 && !point_)) {
     revision_ = plan.revision;
     item_ = progress.item;
@@ -30,8 +33,8 @@ inline bool NearRoute::nearest_to(const Plan& plan, const Progress& progress, do
   if (point_ || progress.finished) {
     const double n = north_m - orbit_.north_m, e = east_m - orbit_.east_m, d = std::hypot(n, e);
     const double unit_n = d > 1e-9 ? n / d : 1, unit_e = d > 1e-9 ? e / d : 0;
-    best = {orbit_.north_m + orbit_.radius_m * unit_n, orbit_.east_m + orbit_.radius_m * unit_e, orbit_.height_m,
-            std::abs(d - orbit_.radius_m)};
+    best = {orbit_.north_m + orbit_.radius_m * unit_n, orbit_.east_m + orbit_.radius_m * unit_e,
+            orbit_.height_m, std::abs(d - orbit_.radius_m)};
     return true;
   }
   NearestSearch search(north_m, east_m);
@@ -92,7 +95,8 @@ inline bool Score::nearest_point(const Inputs& in, const VehicleState& state, Ro
   point.height_m = -path.origin_m.down;
   if (path.kind == PathKind::line) {
     const Vec3<Ned>& q = path.direction_ratio;
-    const double level2 = std::max(q.north * q.north + q.east * q.east, 1e-12), s = (n * q.north + e * q.east) / level2;
+    const double level2 = std::max(q.north * q.north + q.east * q.east, 1e-12),
+                 s = (n * q.north + e * q.east) / level2;
     point.north_m += s * q.north;
     point.east_m += s * q.east;
     point.height_m -= s * q.down;
@@ -100,7 +104,8 @@ inline bool Score::nearest_point(const Inputs& in, const VehicleState& state, Ro
     const double d = std::hypot(n, e), azimuth = d > 1e-9 ? std::atan2(e, n) : path.start_rad;
     point.north_m += path.radius_m * std::cos(azimuth);
     point.east_m += path.radius_m * std::sin(azimuth);
-    point.height_m += path.climb_ratio * path.radius_m * sign_of(path.turn) * wrap_pi(azimuth - path.start_rad);
+    point.height_m +=
+        path.climb_ratio * path.radius_m * sign_of(path.turn) * wrap_pi(azimuth - path.start_rad);
   }
   return true;
 }
@@ -108,7 +113,8 @@ inline bool Score::nearest_point(const Inputs& in, const VehicleState& state, Ro
 inline void Score::note_truth(const Inputs& in) {
   if (!in.truth || !in.truth.fresh()) return;
   const VehicleState& truth = *in.truth;
-  const double lat = truth.origin_latitude_deg, lon = truth.origin_longitude_deg, alt = truth.origin_altitude_m;
+  const double lat = truth.origin_latitude_deg, lon = truth.origin_longitude_deg,
+               alt = truth.origin_altitude_m;
   if (truth.origin_valid && (lat != frame_lat_deg_ || lon != frame_lon_deg_ || alt != frame_alt_m_)) {
     frame_ = LocalFrame(lat, lon, alt);
     frame_lat_deg_ = lat;
@@ -129,12 +135,16 @@ inline void Score::estimate(const Inputs& in) {
   if (!state.position_valid || !state.attitude_valid || !state.velocity_valid) return;
   const std::int64_t time_ns = in.state.valid_at_ns();
   const TruthHistory::Found found = history_.at(time_ns, truth);
-  if (found == TruthHistory::Found::too_old || (found == TruthHistory::Found::not_yet && state_.waits)) return;
+  if (found == TruthHistory::Found::too_old || (found == TruthHistory::Found::not_yet && state_.waits))
+    return;
   Compared estimate = compared(state);
   if (state.origin_latitude_deg != frame_lat_deg_ || state.origin_longitude_deg != frame_lon_deg_ ||
       state.origin_altitude_m != frame_alt_m_) {
-    if (state.origin_valid && std::isfinite(frame_lat_deg_)) {  // another origin: the two local frames are parallel but for the metre
-      const auto o = from_eigen<Ned>(frame_.to_ned(state.origin_latitude_deg, state.origin_longitude_deg, state.origin_altitude_m));
+    if (state.origin_valid &&
+        std::isfinite(
+            frame_lat_deg_)) {  // another origin: the two local frames are parallel but for the metre
+      const auto o = from_eigen<Ned>(
+          frame_.to_ned(state.origin_latitude_deg, state.origin_longitude_deg, state.origin_altitude_m));
       estimate.north += o.north;
       estimate.east += o.east;
       estimate.height -= o.down;
@@ -167,7 +177,8 @@ inline void Score::add_estimation(const Compared& estimate, const Compared& trut
 inline void Score::fix(const Inputs& in) {
   if (!in.truth || !in.gnss || !std::isfinite(frame_lat_deg_)) return;
   if (in.gnss.fresh() && in.gnss->fix != FixType::none && in.gnss->fix != FixType::time_only) {
-    const auto p = from_eigen<Ned>(frame_.to_ned(in.gnss->latitude_deg, in.gnss->longitude_deg, in.gnss->altitude_m));
+    const auto p =
+        from_eigen<Ned>(frame_.to_ned(in.gnss->latitude_deg, in.gnss->longitude_deg, in.gnss->altitude_m));
     gnss_ = {true, in.gnss.valid_at_ns(), {}};
     gnss_.sample.north = p.north;
     gnss_.sample.east = p.east;
@@ -186,7 +197,8 @@ inline void Score::count(const Tick& tick, const Inputs& in) {
   if (in.progress) {
     const Progress& progress = *in.progress;
     figures_.waypoints_reached = progress.reached;
-    if (progress.reached > first_reached_) figures_.miss_distance_max_m = std::max(figures_.miss_distance_max_m, progress.miss_m);
+    if (progress.reached > first_reached_)
+      figures_.miss_distance_max_m = std::max(figures_.miss_distance_max_m, progress.miss_m);
     if (progress.circuits != circuits_) {
       figures_.lap_time_s = 1e-9 * static_cast<double>(tick.now_ns - lap_began_ns_);
       lap_began_ns_ = tick.now_ns;
@@ -207,7 +219,8 @@ inline void Score::count(const Tick& tick, const Inputs& in) {
   }
 }
 
-/// Once a second, and whenever the progress changes: a flight that ends with a waypoint ends with the figures of that moment.
+/// Once a second, and whenever the progress changes: a flight that ends with a waypoint ends with the figures
+/// of that moment.
 inline bool Score::due(const Tick& tick, const Inputs& in) {
   bool news = tick.now_ns - published_ns_ >= 1'000'000'000;
   if (in.progress && (in.progress->reached != reached_ || in.progress->circuits != circuits_)) {
@@ -224,8 +237,9 @@ inline void Score::publish(Outputs& out) const {
   if (tracking_true_.any()) out.tracking_true.publish(tracking_true_.rms());
   if (estimation_.north.count > 0) {
     const Estimation& s = estimation_;
-    out.estimation.publish({s.north.rms(), s.east.rms(), s.altitude.rms(), s.vel_x.rms(), s.vel_y.rms(), s.vel_z.rms(), s.roll.rms(),
-                            s.pitch.rms(), s.heading.rms(), s.course.rms(), s.airspeed.rms(), s.wind_n.rms(), s.wind_e.rms()});
+    out.estimation.publish({s.north.rms(), s.east.rms(), s.altitude.rms(), s.vel_x.rms(), s.vel_y.rms(),
+                            s.vel_z.rms(), s.roll.rms(), s.pitch.rms(), s.heading.rms(), s.course.rms(),
+                            s.airspeed.rms(), s.wind_n.rms(), s.wind_e.rms()});
   }
   if (gnss_north_.count > 0) out.gnss_error.publish({gnss_north_.rms(), gnss_east_.rms()});
   Figures figures = figures_;

@@ -13,23 +13,27 @@ namespace fulmar::score {
 
 /// What is compared, out of a VehicleState: 13 numbers.
 struct Compared {
-  double north = 0, east = 0, height = 0, vel_x = 0, vel_y = 0, vel_z = 0, airspeed = 0, wind_n = 0, wind_e = 0;
+  double north = 0, east = 0, height = 0, vel_x = 0, vel_y = 0, vel_z = 0, airspeed = 0, wind_n = 0,
+         wind_e = 0;
   double roll = 0, pitch = 0, heading = 0, course = 0;
 };
 
 inline Compared compared(const VehicleState& s) {
   const Vec3<Body> v = to_body(s.attitude, s.velocity_mps);
-  return {s.position_m.north, s.position_m.east, s.height_m, v.x,         v.y,       v.z,         s.airspeed_mps,
-          s.wind_mps.north,   s.wind_mps.east,   s.roll_rad, s.pitch_rad, s.yaw_rad, s.course_rad};
+  return {s.position_m.north, s.position_m.east, s.height_m,      v.x,        v.y,         v.z,
+          s.airspeed_mps,     s.wind_mps.north,  s.wind_mps.east, s.roll_rad, s.pitch_rad, s.yaw_rad,
+          s.course_rad};
 }
 
 /// Between two samples; angles go the short way.
 inline Compared between(const Compared& a, const Compared& b, double t) {
   const auto mix = [t](double x, double y) { return x + t * (y - x); };
   const auto turn = [t](double x, double y) { return wrap_pi(x + t * wrap_pi(y - x)); };
-  return {mix(a.north, b.north),  mix(a.east, b.east),         mix(a.height, b.height), mix(a.vel_x, b.vel_x),   mix(a.vel_y, b.vel_y),
-          mix(a.vel_z, b.vel_z),  mix(a.airspeed, b.airspeed), mix(a.wind_n, b.wind_n), mix(a.wind_e, b.wind_e), turn(a.roll, b.roll),
-          turn(a.pitch, b.pitch), turn(a.heading, b.heading),  turn(a.course, b.course)};
+  return {mix(a.north, b.north),       mix(a.east, b.east),     mix(a.height, b.height),
+          mix(a.vel_x, b.vel_x),       mix(a.vel_y, b.vel_y),   mix(a.vel_z, b.vel_z),
+          mix(a.airspeed, b.airspeed), mix(a.wind_n, b.wind_n), mix(a.wind_e, b.wind_e),
+          turn(a.roll, b.roll),        turn(a.pitch, b.pitch),  turn(a.heading, b.heading),
+          turn(a.course, b.course)};
 }
 
 class TruthHistory {
@@ -50,7 +54,8 @@ class TruthHistory {
       result = before.sample;
       if (before.time_ns == time_ns) return Found::yes;
       const Entry& after = ring_[(count_ - k + 1) % ring_.size()];
-      const double t = static_cast<double>(time_ns - before.time_ns) / static_cast<double>(after.time_ns - before.time_ns);
+      const double t =
+          static_cast<double>(time_ns - before.time_ns) / static_cast<double>(after.time_ns - before.time_ns);
       result = between(before.sample, after.sample, t);
       return Found::yes;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stands between a command and the servos of a real aircraft: the way over the link, a flight controller that takes commands over at
-// frames of its radio only, and pulses of finite resolution. ROSflight firmware 2.0: frames at 111 Hz, pulses of 1000 to 2000 us.
+// What stands between a command and the servos of a real aircraft: the way over the link, a flight controller
+// that takes commands over at frames of its radio only, and pulses of finite resolution. ROSflight
+// firmware 2.0: frames at 111 Hz, pulses of 1000 to 2000 us.
 #pragma once
 #include <array>
 #include <cmath>
@@ -56,8 +57,11 @@ class Actuation {
   Actuators pulses(const Actuators& c) const {
     if (step_ <= 0) return c;
     const auto round = [&](double fraction) { return std::round(fraction / step_) * step_; };
-    const auto servo = [&](double angle, double limit) { return limit > 0 ? (2 * round(0.5 + 0.5 * angle / limit) - 1) * limit : angle; };
-    return {round(c.throttle_frac), servo(c.aileron_rad, aileron_), servo(c.elevator_rad, elevator_), servo(c.rudder_rad, rudder_)};
+    const auto servo = [&](double angle, double limit) {
+      return limit > 0 ? (2 * round(0.5 + 0.5 * angle / limit) - 1) * limit : angle;
+    };
+    return {round(c.throttle_frac), servo(c.aileron_rad, aileron_), servo(c.elevator_rad, elevator_),
+            servo(c.rudder_rad, rudder_)};
   }
 
   Due mux_;

@@ -52,7 +52,13 @@ class Aircraft {
     Param start_height{0, "m", 0, 5000, "0: on the ground; more: in trimmed level flight", setup};
     Param start_heading{0, "rad", -6.3, 6.3, "from north, clockwise", setup};
     Param start_airspeed{0, "m/s", 0, 100, "of a start in the air; 0: the airframe's cruise", setup};
-    Param mux_rate{0, "Hz", 0, 2000, "commands move the outputs at frames of the radio only; 111 on ROSflight hardware; 0: at once", setup};
+    Param mux_rate{
+        0,
+        "Hz",
+        0,
+        2000,
+        "commands move the outputs at frames of the radio only; 111 on ROSflight hardware; 0: at once",
+        setup};
     Param pwm_resolution{0, "s", 0, 1e-4, "of the servos' pulses of 1 to 2 ms; 0: none", setup};
     Param link_latency{0, "s", 0, 0.1, "of commands on their way to the outputs", setup};
     Flag motor{true, "false: the motor stops"};
@@ -85,10 +91,12 @@ class Aircraft {
     command_ = {};
     actuation_ = Actuation({p.mux_rate, p.pwm_resolution, p.link_latency}, airframe_, now_ns_);
     status_ = {};
-    plant_.emplace(airframe_, Weather{eigen(p.wind_ned.value), p.turbulence}, origin_.alt_msl_m, mix_seed(seed_, 10));
+    plant_.emplace(airframe_, Weather{eigen(p.wind_ned.value), p.turbulence}, origin_.alt_msl_m,
+                   mix_seed(seed_, 10));
     place(p);
     const LocalFrame frame(origin_.lat_deg, origin_.lon_deg, origin_.alt_msl_m);
-    const Eigen::Vector3d field_n = magnetic_field_ned(origin_.lat_deg, origin_.lon_deg, origin_.alt_msl_m, decimal_year(epoch_ns_));
+    const Eigen::Vector3d field_n =
+        magnetic_field_ned(origin_.lat_deg, origin_.lon_deg, origin_.alt_msl_m, decimal_year(epoch_ns_));
     const SensorSpec spec = sensor_spec(p.sensors);
     sensors_.emplace(spec, p.rate, frame, field_n, seed_);
     gnss_delay_ = {};
@@ -124,11 +132,12 @@ class Aircraft {
 
   Status write(const Tick& tick, const Inputs& in, const Params& p) {
     for (auto request : in.arm) answer(request);
-    const bool heard = in.actuators && tick.now_ns - in.actuators.valid_at_ns() <= patience_ns && sound(*in.actuators);
+    const bool heard =
+        in.actuators && tick.now_ns - in.actuators.valid_at_ns() <= patience_ns && sound(*in.actuators);
     failsafe_ = armed_ && !heard && !p.pilot_flies;
     if (p.pilot_flies)
-      command_ = {p.stick_throttle, p.stick_roll * airframe_.aileron.limit_rad, -p.stick_pitch * airframe_.elevator.limit_rad,
-                  -p.stick_yaw * airframe_.rudder.limit_rad};
+      command_ = {p.stick_throttle, p.stick_roll * airframe_.aileron.limit_rad,
+                  -p.stick_pitch * airframe_.elevator.limit_rad, -p.stick_yaw * airframe_.rudder.limit_rad};
     else if (heard)
       command_ = *in.actuators;
     else if (released_)
@@ -140,10 +149,12 @@ class Aircraft {
   const Plant& plant() const { return *plant_; }
 
  private:
-  static constexpr std::int64_t patience_ns = 100000000;  ///< commands older than this are silence, as on ROSflight
+  static constexpr std::int64_t patience_ns =
+      100000000;  ///< commands older than this are silence, as on ROSflight
 
   static bool sound(const Actuators& a) {
-    return std::isfinite(a.throttle_frac) && std::isfinite(a.aileron_rad) && std::isfinite(a.elevator_rad) && std::isfinite(a.rudder_rad);
+    return std::isfinite(a.throttle_frac) && std::isfinite(a.aileron_rad) && std::isfinite(a.elevator_rad) &&
+           std::isfinite(a.rudder_rad);
   }
 
   void place(const Params& p) {
@@ -179,12 +190,14 @@ class Aircraft {
       if (p.pitot_works) out.pitot.publish(pitot);
     }
     if (gnss_due_(now_ns_)) gnss_delay_.push(sensors_->gnss(*plant_, epoch_ns_ + now_ns_), now_ns_);
-    if (const auto* late = gnss_delay_.pop(now_ns_, gnss_delay_ns_); late && p.gnss_works) out.gnss.publish(late->value, late->valid_at_ns);
+    if (const auto* late = gnss_delay_.pop(now_ns_, gnss_delay_ns_); late && p.gnss_works)
+      out.gnss.publish(late->value, late->valid_at_ns);
   }
 
   void publish_rc_and_status(const Params& p, Outputs& out) {
     if (rc_due_(now_ns_) && p.rc_link)
-      out.rc.publish({p.stick_roll, p.stick_pitch, p.stick_yaw, p.stick_throttle, p.aux1, p.aux2, p.aux3, p.aux4, true});
+      out.rc.publish(
+          {p.stick_roll, p.stick_pitch, p.stick_yaw, p.stick_throttle, p.aux1, p.aux2, p.aux3, p.aux4, true});
     VehicleStatus s;
     s.armed = armed_;
     s.override = p.pilot_flies;
@@ -193,8 +206,9 @@ class Aircraft {
     s.crashed = plant_->crashed();
     s.in_control = armed_ && !p.pilot_flies && !failsafe_ && !s.crashed;
     s.health = s.crashed ? Health::failed : Health::ok;
-    const bool changed = s.armed != status_.armed || s.override != status_.override || s.failsafe != status_.failsafe ||
-                         s.on_ground != status_.on_ground || s.crashed != status_.crashed;
+    const bool changed = s.armed != status_.armed || s.override != status_.override ||
+                         s.failsafe != status_.failsafe || s.on_ground != status_.on_ground ||
+                         s.crashed != status_.crashed;
     if (!status_rate_(now_ns_) && !changed) return;
     s.battery_volt = airframe_.propulsion.battery_volt;
     s.battery_amp = plant_->battery_amp();
@@ -250,7 +264,8 @@ inline VehicleState Aircraft::truth() const {
   s.origin_latitude_deg = origin_.lat_deg;
   s.origin_longitude_deg = origin_.lon_deg;
   s.origin_altitude_m = origin_.alt_msl_m;
-  s.origin_valid = s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = s.wind_valid = true;
+  s.origin_valid = s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid =
+      s.airspeed_valid = s.wind_valid = true;
   return s;
 }
 

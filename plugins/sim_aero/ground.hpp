@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flat ground and the gear on it: nose wheel, two main wheels, tail skid. Each is a spring and damper along the vertical; friction is a
-// bristle that stretches before it slips (Dahl/LuGre without the Stribeck part), so an aircraft that stands does not creep.
+// Flat ground and the gear on it: nose wheel, two main wheels, tail skid. Each is a spring and damper along
+// the vertical; friction is a bristle that stretches before it slips (Dahl/LuGre without the Stribeck part),
+// so an aircraft that stands does not creep.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -16,8 +17,10 @@ namespace fulmar::sim {
 
 class Ground {
  public:
-  explicit Ground(const Airframe& a) : rolling_(a.gear.rolling_friction_ratio), sliding_(a.gear.side_friction_ratio) {
-    const double weight = a.mass_kg * isa::g0, L = a.gear.length_m, h = a.gear.height_m + sag, y = a.gear.track_m / 2;
+  explicit Ground(const Airframe& a)
+      : rolling_(a.gear.rolling_friction_ratio), sliding_(a.gear.side_friction_ratio) {
+    const double weight = a.mass_kg * isa::g0, L = a.gear.length_m, h = a.gear.height_m + sag,
+                 y = a.gear.track_m / 2;
     const double tail_z = h - (1 - nose_share) * L * std::tan(tail_strike_pitch);
     // A nose wheel that carries little lets the elevator lift it before the wing carries all.
     legs_[0] = leg({(1 - nose_share) * L, 0, h}, nose_share * weight, rolling_);
@@ -25,8 +28,8 @@ class Ground {
     legs_[2] = leg({-nose_share * L, y, h}, (1 - nose_share) / 2 * weight, rolling_);
     legs_[3] = leg({-L, 0, tail_z}, nose_share * weight, sliding_);
     const double tip_z = -tip_rise * a.wing.span_m;
-    hull_ = {Eigen::Vector3d(0, -a.wing.span_m / 2, tip_z), Eigen::Vector3d(0, a.wing.span_m / 2, tip_z), Eigen::Vector3d(L, 0, 0),
-             Eigen::Vector3d(0, 0, -a.gear.height_m)};
+    hull_ = {Eigen::Vector3d(0, -a.wing.span_m / 2, tip_z), Eigen::Vector3d(0, a.wing.span_m / 2, tip_z),
+             Eigen::Vector3d(L, 0, 0), Eigen::Vector3d(0, 0, -a.gear.height_m)};
     for (const auto& l : legs_) reach_ = std::max(reach_, l.r_b.norm());
     for (const auto& r : hull_) reach_ = std::max(reach_, r.norm());
   }
@@ -42,9 +45,12 @@ class Ground {
     for (const auto& l : legs_) {
       const Contact c = contact(l, x, R, forward);
       if (c.normal <= 0) continue;
-      const double f = std::clamp(-l.k_t * l.bristle.x() - l.c_t * c.velocity.x(), -l.rolling * c.normal, l.rolling * c.normal);
-      const double s = std::clamp(-l.k_t * l.bristle.y() - l.c_t * c.velocity.y(), -sliding_ * c.normal, sliding_ * c.normal);
-      const Eigen::Vector3d force_n(f * forward.x() - s * forward.y(), f * forward.y() + s * forward.x(), -c.normal);
+      const double f = std::clamp(-l.k_t * l.bristle.x() - l.c_t * c.velocity.x(), -l.rolling * c.normal,
+                                  l.rolling * c.normal);
+      const double s = std::clamp(-l.k_t * l.bristle.y() - l.c_t * c.velocity.y(), -sliding_ * c.normal,
+                                  sliding_ * c.normal);
+      const Eigen::Vector3d force_n(f * forward.x() - s * forward.y(), f * forward.y() + s * forward.x(),
+                                    -c.normal);
       const Eigen::Vector3d force_b = R.transpose() * force_n;
       load.force_b += force_b;
       load.moment_b += l.r_b.cross(force_b);
@@ -85,12 +91,13 @@ class Ground {
   bool crashed() const { return crashed_; }
 
  private:
-  static constexpr double sag = 0.01;                ///< m: of the gear under the weight; sets the stiffness
-  static constexpr double damping = 0.7;             ///< of the aircraft bouncing on its gear, part of critical
-  static constexpr double nose_share = 0.15;         ///< of the weight on the nose wheel
+  static constexpr double sag = 0.01;         ///< m: of the gear under the weight; sets the stiffness
+  static constexpr double damping = 0.7;      ///< of the aircraft bouncing on its gear, part of critical
+  static constexpr double nose_share = 0.15;  ///< of the weight on the nose wheel
   static constexpr double tail_strike_pitch = 0.28;  ///< rad
-  static constexpr double tip_rise = 0.05;           ///< height of the wing tips above the centre of gravity, of the span
-  static constexpr double hardest_touch = 3;         ///< m/s
+  static constexpr double tip_rise =
+      0.05;  ///< height of the wing tips above the centre of gravity, of the span
+  static constexpr double hardest_touch = 3;  ///< m/s
 
   struct Leg {
     Eigen::Vector3d r_b = Eigen::Vector3d::Zero();  ///< of its foot, unloaded
@@ -102,7 +109,8 @@ class Ground {
   };
   struct Contact {
     double depth = 0, sink = 0, normal = 0;
-    Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< over the ground, along the heading and to its right
+    Eigen::Vector2d velocity =
+        Eigen::Vector2d::Zero();  ///< over the ground, along the heading and to its right
   };
 
   static Leg leg(const Eigen::Vector3d& r_b, double carried, double rolling) {
@@ -121,7 +129,8 @@ class Ground {
     l.down = false;
   }
 
-  static Contact contact(const Leg& l, const RigidBody& x, const Eigen::Matrix3d& R, const Eigen::Vector2d& forward) {
+  static Contact contact(const Leg& l, const RigidBody& x, const Eigen::Matrix3d& R,
+                         const Eigen::Vector2d& forward) {
     Contact c;
     c.depth = x.p_n.z() + R.row(2).dot(l.r_b);
     if (c.depth <= 0) return c;

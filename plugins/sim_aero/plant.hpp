@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The aircraft in its air: servos, motor, aerodynamics, turbulence and ground around a rigid body. Beard & McLain, chapters 3 and 4.
+// The aircraft in its air: servos, motor, aerodynamics, turbulence and ground around a rigid body. Beard &
+// McLain, chapters 3 and 4.
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
@@ -18,10 +19,12 @@
 
 namespace fulmar::sim {
 
-/// A servo: first-order lag, limited in rate and throw. Solved exactly for a command that is constant over a step.
+/// A servo: first-order lag, limited in rate and throw. Solved exactly for a command that is constant over a
+/// step.
 class Servo {
  public:
-  explicit Servo(const Surface& s) : limit_(s.limit_rad), rate_(s.rate_limit_radps), tau_(s.time_constant_s) {}
+  explicit Servo(const Surface& s)
+      : limit_(s.limit_rad), rate_(s.rate_limit_radps), tau_(s.time_constant_s) {}
 
   void advance(double command, double dt) {
     command = std::clamp(command, -limit_, limit_);
@@ -88,8 +91,10 @@ class Plant {
     ground_ = Ground(airframe_);
     x_ = RigidBody{};
     x_.p_n = p_n;
-    x_.q_nb = Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(trim.pitch_rad, Eigen::Vector3d::UnitY());
-    const Eigen::Vector3d v_r(Va * std::cos(trim.alpha_rad) * std::cos(trim.beta_rad), Va * std::sin(trim.beta_rad),
+    x_.q_nb = Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()) *
+              Eigen::AngleAxisd(trim.pitch_rad, Eigen::Vector3d::UnitY());
+    const Eigen::Vector3d v_r(Va * std::cos(trim.alpha_rad) * std::cos(trim.beta_rad),
+                              Va * std::sin(trim.beta_rad),
                               Va * std::sin(trim.alpha_rad) * std::cos(trim.beta_rad));
     x_.v_n = x_.q_nb * v_r + weather_.wind_n;
     aileron_.set(trim.deflections.aileron);
@@ -115,8 +120,8 @@ class Plant {
       Omega_ = Omega_steady + (Omega_ - Omega_steady) * motor_decay(0.5 * dt);
       stage = {{aileron_.angle(), elevator_.angle(), rudder_.angle()}, Omega_};
     }
-    x_ =
-        runge_kutta(x_, load_, dt, mass_, gravity(), [&](const RigidBody& x, double part) { return load(x, stage_[part > 0.75 ? 1 : 0]); });
+    x_ = runge_kutta(x_, load_, dt, mass_, gravity(),
+                     [&](const RigidBody& x, double part) { return load(x, stage_[part > 0.75 ? 1 : 0]); });
     ground_.advance(x_, dt);
     if (ground_.crashed()) {  // it stays where it hit
       x_.v_n.setZero();
@@ -126,7 +131,8 @@ class Plant {
     refresh();
   }
 
-  /// Carried along without forces: before arming, an aircraft that starts in the air keeps its steady flight, one on the ground is held.
+  /// Carried along without forces: before arming, an aircraft that starts in the air keeps its steady flight,
+  /// one on the ground is held.
   void carry(double dt) {
     x_.p_n += dt * x_.v_n;
     gust_b_ = dryden_.advance(dt, Va_);
@@ -181,7 +187,9 @@ class Plant {
     return motor_decay_;
   }
 
-  Eigen::Vector3d relative(const RigidBody& x) const { return x.q_nb.conjugate() * (x.v_n - weather_.wind_n) - gust_b_; }
+  Eigen::Vector3d relative(const RigidBody& x) const {
+    return x.q_nb.conjugate() * (x.v_n - weather_.wind_n) - gust_b_;
+  }
 
   Load load(const RigidBody& x, const Stage& s) const {
     const Eigen::Vector3d v_r = relative(x);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Three sets of sensors: without fault; as the ROSflight simulator has them; and as data sheets and receivers have them.
+// Three sets of sensors: without fault; as the ROSflight simulator has them; and as data sheets and receivers
+// have them.
 #pragma once
 #include <array>
 #include <cmath>
@@ -13,29 +14,33 @@ enum class SensorSet : std::uint8_t { perfect, rosflight, ublox };
 
 struct SensorSpec {
   double imu_hz = 400, gnss_hz = 10, mag_hz = 50, baro_hz = 50, pitot_hz = 100;
-  std::array<NoiseSpec, 3> gyro{}, accel{};                   ///< rad/s, m/s2
-  std::array<NoiseSpec, 3> mag{};                             ///< T
-  NoiseSpec baro{}, pitot{};                                  ///< Pa
-  double pitot_scale = 0;                                     ///< error of the pressure's scale, drawn from [-this, this]
+  std::array<NoiseSpec, 3> gyro{}, accel{};  ///< rad/s, m/s2
+  std::array<NoiseSpec, 3> mag{};            ///< T
+  NoiseSpec baro{}, pitot{};                 ///< Pa
+  double pitot_scale = 0;                    ///< error of the pressure's scale, drawn from [-this, this]
   std::array<NoiseSpec, 3> gnss_position{}, gnss_velocity{};  ///< NED; m, m/s
   double gnss_latency_s = 0;
   double horizontal_std_m = 0.01, vertical_std_m = 0.01, speed_std_mps = 0.01;  ///< what the receiver claims
   double temperature_kelvin = 300.15;                                           ///< of the sensors
-  bool single_precision = false;                                                ///< of all but the receiver, as a flight controller sends
+  bool single_precision = false;  ///< of all but the receiver, as a flight controller sends
 };
 
-/// rosflight_sim's `standalone_sensors` with the defaults of its code. Its walks are per sample; here they are turned into rates at the
-/// rate that it runs at, which gives the same process there and a sensible one elsewhere. What differs is said in the README.
+/// rosflight_sim's `standalone_sensors` with the defaults of its code. Its walks are per sample; here they
+/// are turned into rates at the rate that it runs at, which gives the same process there and a sensible one
+/// elsewhere. What differs is said in the README.
 inline SensorSpec rosflight_sensors() {
   SensorSpec s;
   s.baro_hz = 100;
   s.single_precision = true;
   const double T_imu = 1.0 / 400, T_mag = 1.0 / 50, T_gnss = 1.0 / 10;
   // x <- exp(-T/tau) x + step n has this stationary deviation
-  const auto stationary = [](double step, double T, double tau) { return step / std::sqrt(-std::expm1(-2 * T / tau)); };
+  const auto stationary = [](double step, double T, double tau) {
+    return step / std::sqrt(-std::expm1(-2 * T / tau));
+  };
   const std::array<double, 3> warm_up{0.003, -0.002, 0.001};
   for (std::size_t i = 0; i < 3; ++i) {
-    s.gyro[i] = {0.00226, 0.25, 0, stationary(0.033 * T_imu, T_imu, 1.0 / 20), 1.0 / 20, false, warm_up[i], 400};
+    s.gyro[i] = {0.00226,  0.25,  0,          stationary(0.033 * T_imu, T_imu, 1.0 / 20),
+                 1.0 / 20, false, warm_up[i], 400};
     s.accel[i] = {0.2, 0.6, 0.00001 / std::sqrt(T_imu)};
     s.mag[i] = {0, 0, 0, stationary(3e-6 * T_mag, T_mag, 1.0 / 7), 1.0 / 7, false};
     s.gnss_position[i] = {0, 0, 0, stationary((i < 2 ? 0.21 : 0.4) * T_gnss, T_gnss, 1100), 1100, false};
@@ -49,8 +54,9 @@ inline SensorSpec rosflight_sensors() {
   return s;
 }
 
-/// A MEMS inertial unit of the ICM-20602 class (4 mdeg/s and 100 ug per root Hz, 200 Hz bandwidth, after a calibration on the ground),
-/// a u-blox M8 class receiver (2.5 m CEP, 0.05 m/s), an MS5611 class barometer and a pitot tube that sees the wing's pressure field.
+/// A MEMS inertial unit of the ICM-20602 class (4 mdeg/s and 100 ug per root Hz, 200 Hz bandwidth, after a
+/// calibration on the ground), a u-blox M8 class receiver (2.5 m CEP, 0.05 m/s), an MS5611 class barometer
+/// and a pitot tube that sees the wing's pressure field.
 inline SensorSpec ublox_sensors() {
   SensorSpec s;
   s.mag_hz = 100;

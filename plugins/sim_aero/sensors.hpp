@@ -37,7 +37,8 @@ class Due {
   std::int64_t period_ns_ = 1, next_ns_ = 0;
 };
 
-/// Rounded to the 24 bits of single precision. Not by a cast to float and back: where g++ 12 makes vectors of it, it leaves it out.
+/// Rounded to the 24 bits of single precision. Not by a cast to float and back: where g++ 12 makes vectors of
+/// it, it leaves it out.
 inline double to_single(double value) {
   constexpr std::uint64_t lost = (std::uint64_t{1} << 29) - 1;
   return std::bit_cast<double>((std::bit_cast<std::uint64_t>(value) + (lost >> 1) + 1) & ~lost);
@@ -45,7 +46,8 @@ inline double to_single(double value) {
 
 class Sensors {
  public:
-  Sensors(const SensorSpec& spec, double tick_hz, const LocalFrame& frame, const Eigen::Vector3d& field_n, std::uint64_t seed)
+  Sensors(const SensorSpec& spec, double tick_hz, const LocalFrame& frame, const Eigen::Vector3d& field_n,
+          std::uint64_t seed)
       : spec_(spec),
         frame_(frame),
         field_n_(field_n),
@@ -73,17 +75,23 @@ class Sensors {
     return out;
   }
 
-  Mag mag(const Plant& plant) { return {sent<Body>(plant.state().q_nb.conjugate() * field_n_ + mag_.next(mag_random_))}; }
+  Mag mag(const Plant& plant) {
+    return {sent<Body>(plant.state().q_nb.conjugate() * field_n_ + mag_.next(mag_random_))};
+  }
 
-  Baro baro(const Plant& plant) { return {sent(plant.air().pressure_pa + baro_.next(baro_random_)), spec_.temperature_kelvin}; }
+  Baro baro(const Plant& plant) {
+    return {sent(plant.air().pressure_pa + baro_.next(baro_random_)), spec_.temperature_kelvin};
+  }
 
-  /// (7.10); the tube takes all of the flow up to 20 degrees off its axis, less beyond, and nothing from 60 degrees on.
+  /// (7.10); the tube takes all of the flow up to 20 degrees off its axis, less beyond, and nothing from 60
+  /// degrees on.
   Pitot pitot(const Plant& plant) {
     const Eigen::Vector3d v_r = plant.air_velocity_b();
     const double Va = v_r.norm(), cosine = Va > 0 ? v_r.x() / Va : 1;
     const double taken = std::clamp((cosine - 0.5) / (0.9397 - 0.5), 0.0, 1.0);
     Pitot out;
-    out.pressure_pa = sent(pitot_scale_ * taken * 0.5 * plant.air().density_kgm3 * Va * Va + pitot_.next(pitot_random_));
+    out.pressure_pa =
+        sent(pitot_scale_ * taken * 0.5 * plant.air().density_kgm3 * Va * Va + pitot_.next(pitot_random_));
     out.indicated_airspeed_mps = sent(indicated_airspeed(out.pressure_pa));
     out.temperature_kelvin = spec_.temperature_kelvin;
     return out;
@@ -119,7 +127,8 @@ class Sensors {
   SensorSpec spec_;
   LocalFrame frame_;
   Eigen::Vector3d field_n_;
-  Random imu_random_, gnss_random_, mag_random_, baro_random_, pitot_random_;  // one each: dropping a sensor leaves the others as they are
+  Random imu_random_, gnss_random_, mag_random_, baro_random_,
+      pitot_random_;  // one each: dropping a sensor leaves the others as they are
   Noise3 gyro_, accel_, mag_, gnss_position_, gnss_velocity_;
   Noise baro_, pitot_;
   double pitot_scale_ = 1;

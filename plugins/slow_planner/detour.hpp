@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Leads a plan round no-fly zones. Stands between the planner and the manager. A step takes a tenth of a second and a lot of memory: it
-// is made for `run: async`. See README.md.
+// Leads a plan round no-fly zones. Stands between the planner and the manager. A step takes a tenth of a
+// second and a lot of memory: it is made for `run: async`. See README.md.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -20,7 +20,8 @@ namespace fulmar::slow_planner {
 inline constexpr std::size_t no_leg = static_cast<std::size_t>(-1);
 
 struct Detour {
-  static constexpr const char* doc = "Leads a plan round no-fly zones, in the least time in the present wind. Needs `run: async`.";
+  static constexpr const char* doc =
+      "Leads a plan round no-fly zones, in the least time in the present wind. Needs `run: async`.";
   struct Inputs {
     In<VehicleState> state;  // for its wind
     In<Plan> plan;
@@ -48,7 +49,8 @@ struct Detour {
     double airspeed_mps = 15;
     bool blocked = false, solved = true;
     std::int64_t searches = 0;
-    double extra_m = 0;  // kept off more than the margin: grows while the fillets of what is found cut into the margin
+    double extra_m =
+        0;  // kept off more than the margin: grows while the fillets of what is found cut into the margin
     std::vector<Point> between;
   };
 
@@ -74,7 +76,8 @@ struct Detour {
 inline void Detour::configure(const Params& p) {
   zones_ = *p.zones;
   for (std::size_t i = 0; i < zones_.zones.size(); ++i) {
-    if (!(zones_.zones[i].radius_m > 0)) throw std::runtime_error("no-fly zone " + std::to_string(i + 1) + " needs a radius above 0");
+    if (!(zones_.zones[i].radius_m > 0))
+      throw std::runtime_error("no-fly zone " + std::to_string(i + 1) + " needs a radius above 0");
   }
   original_.reset();
   legs_.clear();
@@ -114,14 +117,16 @@ inline void Detour::adopt(const Plan& plan, const Params& p) {
     leg.to = {b.north, b.east};
     leg.airspeed_mps = route.airspeed_mps(i);
     if (route.before(i) == i || route.is_point()) continue;
-    leg.blocked = clearance(zones_, leg.from, leg.to) < p.margin || clearance(zones_, route.leg(i)) < p.margin;
+    leg.blocked =
+        clearance(zones_, leg.from, leg.to) < p.margin || clearance(zones_, route.leg(i)) < p.margin;
     leg.solved = !leg.blocked;
   }
   leg_of_.clear();
   changed_ = true;
 }
 
-/// The leg to search for now: first one that has no way yet, then the one searched least, unless it is being flown.
+/// The leg to search for now: first one that has no way yet, then the one searched least, unless it is being
+/// flown.
 inline std::size_t Detour::choose(const Inputs& in, const Params& p) const {
   std::size_t best = no_leg;
   for (std::size_t i = 0; i < legs_.size(); ++i) {
@@ -133,7 +138,8 @@ inline std::size_t Detour::choose(const Inputs& in, const Params& p) const {
   return best;
 }
 
-/// The leg that is flown and the one after it keep their shape, since the corner between them is already being flown to.
+/// The leg that is flown and the one after it keep their shape, since the corner between them is already
+/// being flown to.
 inline bool Detour::flown(std::size_t leg, const Progress& progress) const {
   if (progress.plan_revision != revision_ || leg_of_.empty()) return true;  // not known
   const std::size_t now = leg_of_[std::min<std::size_t>(progress.item, leg_of_.size() - 1)];
@@ -142,7 +148,8 @@ inline bool Detour::flown(std::size_t leg, const Progress& progress) const {
 
 inline void Detour::search(std::size_t i, const Params& p) {
   Leg& leg = legs_[i];
-  const Search s{zones_, p.margin + leg.extra_m + 1, 8, leg.airspeed_mps, wind_north_, wind_east_, p.iterations};
+  const Search s{zones_,      p.margin + leg.extra_m + 1, 8, leg.airspeed_mps, wind_north_, wind_east_,
+                 p.iterations};
   Random random(mix_seed(seed_, ++searches_));
   ++leg.searches;
   const std::vector<Point> way = RrtStar(s, leg.from, leg.to, random).run();
@@ -188,7 +195,8 @@ inline double Detour::time_of(const Plan& plan, std::size_t leg) const {
   return sum;
 }
 
-/// The original plan with the detours in it. A jump to a waypoint becomes one to the beginning of its leg's detour.
+/// The original plan with the detours in it. A jump to a waypoint becomes one to the beginning of its leg's
+/// detour.
 inline Plan& Detour::assemble() {
   Plan& plan = *result_;
   plan = *original_;
@@ -206,8 +214,9 @@ inline Plan& Detour::assemble() {
     for (const Point& point : leg.between) {
       along_m += distance(std::exchange(last, point), point);
       Waypoint w;
-      w.position_m = {point.north_m, point.east_m,
-                      start.position_m.down + (end.position_m.down - start.position_m.down) * along_m / length_m};
+      w.position_m = {
+          point.north_m, point.east_m,
+          start.position_m.down + (end.position_m.down - start.position_m.down) * along_m / length_m};
       w.airspeed_mps = end.airspeed_mps;
       if (plan.waypoints.push_back(w)) leg_of_.push_back(i);
     }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The quickest way between two points round the zones, in wind. Takes its time and its memory; a given number of samples and a given
-// random generator give one result. Sources: Karaman & Frazzoli, "Sampling-based algorithms for optimal motion planning" (2011), RRT*;
-// Gammell, Srinivasa & Barfoot, "Informed RRT*" (2014), for leaving out what cannot be better.
+// The quickest way between two points round the zones, in wind. Takes its time and its memory; a given number
+// of samples and a given random generator give one result. Sources: Karaman & Frazzoli, "Sampling-based
+// algorithms for optimal motion planning" (2011), RRT*; Gammell, Srinivasa & Barfoot, "Informed RRT*" (2014),
+// for leaving out what cannot be better.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -19,7 +20,8 @@ namespace fulmar::slow_planner {
 struct Search {
   Zones zones;
   double keep_off_m = 0;  ///< from the rims
-  double spare_m = 0;     ///< kept off more while the tree grows; pulling it tight uses that up: few corners, far from each other
+  double spare_m = 0;     ///< kept off more while the tree grows; pulling it tight uses that up: few corners,
+                          ///< far from each other
   double airspeed_mps = 15;
   double wind_north_mps = 0, wind_east_mps = 0;
   std::int64_t samples = 1000;
@@ -30,7 +32,8 @@ inline double flight_time(const Search& s, const Point& a, const Point& b) {
   const double d = distance(a, b);
   if (d == 0) return 0;
   const double c_n = (b.north_m - a.north_m) / d, c_e = (b.east_m - a.east_m) / d;
-  const double along = c_n * s.wind_north_mps + c_e * s.wind_east_mps, across = c_n * s.wind_east_mps - c_e * s.wind_north_mps;
+  const double along = c_n * s.wind_north_mps + c_e * s.wind_east_mps,
+               across = c_n * s.wind_east_mps - c_e * s.wind_north_mps;
   const double forward = s.airspeed_mps * s.airspeed_mps - across * across;  // wind triangle, B&M section 2.4
   const double Vg = along + std::sqrt(std::max(forward, 0.0));
   return forward > 0 && Vg > 0 ? d / Vg : std::numeric_limits<double>::infinity();
@@ -62,11 +65,13 @@ class RrtStar {
   RrtStar(const Search& search, const Point& from, const Point& to, Random& random)
       : s_(search), to_(to), random_(random), scale_(distance(from, to)) {
     const auto room = [&](const Point& p) { return clearance(s_.zones, p, p) - s_.keep_off_m; };
-    grown_off_m_ = s_.keep_off_m + std::clamp(std::min(room(from), room(to)), 0.0, s_.spare_m);  // the ends have to be free, too
+    grown_off_m_ = s_.keep_off_m + std::clamp(std::min(room(from), room(to)), 0.0,
+                                              s_.spare_m);  // the ends have to be free, too
     nodes_.push_back({from, 0, 0, {}});
     low_ = {std::min(from.north_m, to.north_m), std::min(from.east_m, to.east_m)};
     high_ = {std::max(from.north_m, to.north_m), std::max(from.east_m, to.east_m)};
-    for (const Zone& z : s_.zones.zones) {  // there must be room to go round each zone that stands near the way
+    for (const Zone& z :
+         s_.zones.zones) {  // there must be room to go round each zone that stands near the way
       const double r = z.radius_m + 2 * grown_off_m_ + 100;
       if (line_distance(from, to, {z.north_m, z.east_m}) > r) continue;
       low_ = {std::min(low_.north_m, z.north_m - r), std::min(low_.east_m, z.east_m - r)};
@@ -120,7 +125,8 @@ class RrtStar {
     std::size_t best = 0;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      const double n = nodes_[i].at.north_m - x.north_m, e = nodes_[i].at.east_m - x.east_m, square = n * n + e * e;
+      const double n = nodes_[i].at.north_m - x.north_m, e = nodes_[i].at.east_m - x.east_m,
+                   square = n * n + e * e;
       if (square < least) least = square, best = i;
     }
     return best;
@@ -147,7 +153,8 @@ class RrtStar {
       const double t = time_s + flight_time(s_, x, nodes_[i].at);
       if (t < nodes_[i].time_s && free(x, nodes_[i].at)) lead_over(i, added, t);
     }
-    if (distance(x, to_) <= 3 * step_m_ && time_s + flight_time(s_, x, to_) < best_s() && free(x, to_)) goal_parent_ = added;
+    if (distance(x, to_) <= 3 * step_m_ && time_s + flight_time(s_, x, to_) < best_s() && free(x, to_))
+      goal_parent_ = added;
   }
 
   void lead_over(std::size_t i, std::size_t parent, double time_s) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Leads a plan round no-fly zones by a search that takes its time, and watches that the flight keeps out of them.
+// Leads a plan round no-fly zones by a search that takes its time, and watches that the flight keeps out of
+// them.
 #include "detour.hpp"
 #include "watch.hpp"
 

@@ -23,7 +23,9 @@ struct Point {
   double north_m = 0, east_m = 0;
 };
 
-inline double distance(const Point& a, const Point& b) { return std::hypot(b.north_m - a.north_m, b.east_m - a.east_m); }
+inline double distance(const Point& a, const Point& b) {
+  return std::hypot(b.north_m - a.north_m, b.east_m - a.east_m);
+}
 
 /// From a straight line to a point.
 inline double line_distance(const Point& a, const Point& b, const Point& p) {
@@ -36,14 +38,16 @@ inline double line_distance(const Point& a, const Point& b, const Point& p) {
 /// To the rim of the nearest zone; negative inside. `unknown_std` when there are no zones.
 inline double clearance(const Zones& zones, const Point& a, const Point& b) {
   double least = unknown_std;
-  for (const Zone& z : zones.zones) least = std::min(least, line_distance(a, b, {z.north_m, z.east_m}) - z.radius_m);
+  for (const Zone& z : zones.zones)
+    least = std::min(least, line_distance(a, b, {z.north_m, z.east_m}) - z.radius_m);
   return least;
 }
 
 /// The same for a leg of a route as it is flown, with its fillets and turns.
 inline double clearance(const Zones& zones, const RouteLeg& leg) {
   double least = unknown_std;
-  for (const Zone& z : zones.zones) least = std::min(least, nearest(leg, z.north_m, z.east_m).distance_m - z.radius_m);
+  for (const Zone& z : zones.zones)
+    least = std::min(least, nearest(leg, z.north_m, z.east_m).distance_m - z.radius_m);
   return least;
 }
 

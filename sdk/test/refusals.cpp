@@ -73,10 +73,10 @@ inline double far(const Vec3<Ned>& v, const Quat& q) {
 #endif
 #if CASE == 17
 struct Wide {  // one member too many
-  double a0_m, a1_m, a2_m, a3_m, a4_m, a5_m, a6_m, a7_m, a8_m, a9_m, b0_m, b1_m, b2_m, b3_m, b4_m, b5_m, b6_m, b7_m, b8_m,
-      b9_m, c0_m, c1_m, c2_m, c3_m, c4_m, c5_m, c6_m, c7_m, c8_m, c9_m, d0_m, d1_m, d2_m, d3_m, d4_m, d5_m, d6_m, d7_m, d8_m,
-      d9_m, e0_m, e1_m, e2_m, e3_m, e4_m, e5_m, e6_m, e7_m, e8_m, e9_m, f0_m, f1_m, f2_m, f3_m, f4_m, f5_m, f6_m, f7_m, f8_m,
-      f9_m, g0_m, g1_m, g2_m, g3_m, g4_m;
+  double a0_m, a1_m, a2_m, a3_m, a4_m, a5_m, a6_m, a7_m, a8_m, a9_m, b0_m, b1_m, b2_m, b3_m, b4_m, b5_m, b6_m,
+      b7_m, b8_m, b9_m, c0_m, c1_m, c2_m, c3_m, c4_m, c5_m, c6_m, c7_m, c8_m, c9_m, d0_m, d1_m, d2_m, d3_m,
+      d4_m, d5_m, d6_m, d7_m, d8_m, d9_m, e0_m, e1_m, e2_m, e3_m, e4_m, e5_m, e6_m, e7_m, e8_m, e9_m, f0_m,
+      f1_m, f2_m, f3_m, f4_m, f5_m, f6_m, f7_m, f8_m, f9_m, g0_m, g1_m, g2_m, g3_m, g4_m;
 };
 static_assert(describe<Wide>().size == sizeof(Wide));
 #endif

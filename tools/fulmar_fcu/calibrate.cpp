@@ -66,8 +66,10 @@ const std::vector<Calibration>& calibrations() {
 
 bool says_one(const std::string& text, const std::vector<std::string>& parts) {
   std::string low = text;
-  std::transform(low.begin(), low.end(), low.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return std::any_of(parts.begin(), parts.end(), [&](const std::string& part) { return low.find(part) != std::string::npos; });
+  std::transform(low.begin(), low.end(), low.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::any_of(parts.begin(), parts.end(),
+                     [&](const std::string& part) { return low.find(part) != std::string::npos; });
 }
 
 /// One run: what has been heard of its end so far.
@@ -83,7 +85,8 @@ class Run {
     // It adds to what is there: asked twice it would count twice, so again only while nothing was added
     for (int i = 0; i < 3; ++i) {
       const std::optional<bool> answer = client_.command(what_.command, 1, 700 * ms);
-      if (answer && !*answer) throw Error("The controller refused " + deed() + (client_.armed() ? ": it is armed." : "."));
+      if (answer && !*answer)
+        throw Error("The controller refused " + deed() + (client_.armed() ? ": it is armed." : "."));
       if (answer || said(what_.good) || read_back()) return;
     }
     throw Error(client_.name() + " does not answer: " + deed() + " was not acknowledged.");
@@ -94,8 +97,8 @@ class Run {
     if (const Said* bad = said(what_.bad)) {
       last_failure_ = bad->text;
       if (!what_.repeats)
-        throw Error("The " + name() + " calibration failed; the controller says: '" + bad->text + "'. " + what_.prepare +
-                    " Then try again.");
+        throw Error("The " + name() + " calibration failed; the controller says: '" + bad->text + "'. " +
+                    what_.prepare + " Then try again.");
     }
     return said(what_.good) || changed_last();
   }
@@ -104,7 +107,9 @@ class Run {
   bool read_back() {
     after = read_some(client_, what_.params);
     if (after.size() != what_.params.size()) return false;
-    if (what_.zeroes && std::any_of(after.begin(), after.end(), [](const Param& p) { return p.number() == 0; })) return false;
+    if (what_.zeroes &&
+        std::any_of(after.begin(), after.end(), [](const Param& p) { return p.number() == 0; }))
+      return false;
     return differs();
   }
 
@@ -114,8 +119,8 @@ class Run {
   [[noreturn]] void give_up() const {
     const std::string limit = std::to_string(what_.limit_s) + " s";
     if (!last_failure_.empty())
-      throw Error("The " + name() + " calibration did not succeed within " + limit + "; the controller says: '" + last_failure_ + "'. " +
-                  what_.prepare);
+      throw Error("The " + name() + " calibration did not succeed within " + limit +
+                  "; the controller says: '" + last_failure_ + "'. " + what_.prepare);
     throw Error("The " + name() + " calibration was accepted, but no sign of its end came within " + limit +
                 ": it does not count; try again.");
   }
@@ -128,7 +133,8 @@ class Run {
     // what is told sooner than it can be done is about another one, such as that of the boot
     const std::int64_t soonest_ns = started_ns_ + (what_.zeroes ? what_.usual_s * second * 3 / 10 : 0);
     for (std::size_t i = texts_; i < client_.said().size(); ++i)
-      if (client_.said()[i].at_ns >= soonest_ns && says_one(client_.said()[i].text, parts)) return &client_.said()[i];
+      if (client_.said()[i].at_ns >= soonest_ns && says_one(client_.said()[i].text, parts))
+        return &client_.said()[i];
     return nullptr;
   }
   bool differs() const {
@@ -155,7 +161,8 @@ class Run {
 }  // namespace
 
 const Calibration* find_calibration(const std::string& name) {
-  const auto it = std::find_if(calibrations().begin(), calibrations().end(), [&](const Calibration& c) { return c.name == name; });
+  const auto it = std::find_if(calibrations().begin(), calibrations().end(),
+                               [&](const Calibration& c) { return c.name == name; });
   return it == calibrations().end() ? nullptr : &*it;
 }
 
@@ -163,14 +170,16 @@ Calibrated calibrate(Client& client, const Calibration& what, const std::functio
   client.refuse_armed(std::string("the ") + what.name + " calibration");
   Run run(client, what);
   run.before = read_some(client, what.params);
-  if (run.before.size() != what.params.size()) throw Error(client.name() + " does not tell its parameters: the calibration was not begun.");
+  if (run.before.size() != what.params.size())
+    throw Error(client.name() + " does not tell its parameters: the calibration was not begun.");
   run.start();
   const std::int64_t began = client.now_ns(), until = began + what.limit_s * second;
   while (client.now_ns() < until) {
     client.pump(100 * ms);
     if (progress) progress(run.elapsed_s());
     // a lost text or a lost echo does not matter for long: the result is read when it is due
-    const bool due = client.now_ns() - began > what.usual_s * second && static_cast<std::int64_t>(run.elapsed_s() * 10) % 10 == 0;
+    const bool due = client.now_ns() - began > what.usual_s * second &&
+                     static_cast<std::int64_t>(run.elapsed_s() * 10) % 10 == 0;
     if (!run.over() && !due) continue;
     if (run.read_back() || (run.said_good() && run.complete())) return {run.before, run.after};
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The controller's own calibrations: started by a command, done some seconds later, told by a text and by changed parameters.
-// What the firmware does and says: rosflight_firmware 2.0, sensors.cpp and controller.cpp.
+// The controller's own calibrations: started by a command, done some seconds later, told by a text and by
+// changed parameters. What the firmware does and says: rosflight_firmware 2.0, sensors.cpp and
+// controller.cpp.
 #pragma once
 #include <functional>
 #include <string>
@@ -28,7 +29,9 @@ const Calibration* find_calibration(const std::string& name);
 struct Calibrated {
   std::vector<Param> before, after;
 };
-/// Runs it to its end. Throws Error: armed, refused, failed (with the firmware's words), or no sign of its end within the limit.
-Calibrated calibrate(Client& client, const Calibration& what, const std::function<void(double elapsed_s)>& progress = {});
+/// Runs it to its end. Throws Error: armed, refused, failed (with the firmware's words), or no sign of its
+/// end within the limit.
+Calibrated calibrate(Client& client, const Calibration& what,
+                     const std::function<void(double elapsed_s)>& progress = {});
 
 }  // namespace fulmar::fcu

@@ -12,7 +12,9 @@ namespace fulmar::fcu {
 namespace {
 
 std::int64_t steady_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
 }
 
 std::string printable(std::string_view text) {
@@ -38,7 +40,9 @@ std::string Param::text() const {
   return {room.data(), end};
 }
 
-Client::Client(Endpoint endpoint) : endpoint_(std::move(endpoint)), port_(endpoint_.open()) { beat_ns_ = now_ns() - second; }
+Client::Client(Endpoint endpoint) : endpoint_(std::move(endpoint)), port_(endpoint_.open()) {
+  beat_ns_ = now_ns() - second;
+}
 
 void Client::reopen(std::int64_t limit_ns) {
   constexpr std::int64_t each = 100 * ms;
@@ -77,14 +81,17 @@ void Client::step(std::int64_t until_ns) {
     beat_ns_ = now;
     send(Heartbeat{});
   }
-  const auto timeout_ms = static_cast<int>(std::clamp((until_ns - now + ms - 1) / ms, std::int64_t{1}, std::int64_t{10}));
+  const auto timeout_ms =
+      static_cast<int>(std::clamp((until_ns - now + ms - 1) / ms, std::int64_t{1}, std::int64_t{10}));
   std::array<std::uint8_t, 4096> room;
   const std::size_t n = port_->read(room, timeout_ms);
   bytes_ += n;
   // MAVLink 2 begins its frames with 0xfd: none of ours, but worth a word
-  modern_ += static_cast<std::uint64_t>(std::count(room.begin(), room.begin() + static_cast<std::ptrdiff_t>(n), std::uint8_t{0xfd}));
+  modern_ += static_cast<std::uint64_t>(
+      std::count(room.begin(), room.begin() + static_cast<std::ptrdiff_t>(n), std::uint8_t{0xfd}));
   const auto readable = [](std::uint8_t b) { return (b >= ' ' && b <= '~') || b == '\r' || b == '\n'; };
-  readable_ += static_cast<std::uint64_t>(std::count_if(room.begin(), room.begin() + static_cast<std::ptrdiff_t>(n), readable));
+  readable_ += static_cast<std::uint64_t>(
+      std::count_if(room.begin(), room.begin() + static_cast<std::ptrdiff_t>(n), readable));
   parser_.feed({room.data(), n}, [&](const Packet& packet) { take(packet); });
 }
 
@@ -111,7 +118,9 @@ void Client::take(const Packet& packet) {
 }
 
 void Client::take_param(const ParamValue& value) {
-  if (value.param_index >= value.param_count || (value.param_type != param_int32 && value.param_type != param_real32)) return;
+  if (value.param_index >= value.param_count ||
+      (value.param_type != param_int32 && value.param_type != param_real32))
+    return;
   param_count_ = value.param_count;
   const std::string name = printable(text(value.param_id));
   params_[name] = {name, value.param_index, value.param_type == param_int32, value.param_value, now_ns()};
@@ -131,16 +140,24 @@ void Client::send_frame(const Frame& frame) {
 void Client::explain_silence() const {
   const Parser::Counts& seen = parser_.counts();
   if (bytes_ == 0)
-    throw Error(name() + " is silent: is the flight controller powered and this its port? On a UART both ends need the same --baud.");
+    throw Error(name() +
+                " is silent: is the flight controller powered and this its port? On a UART both ends need "
+                "the same --baud.");
   if (seen.frames == 0 && modern_ > 4 && modern_ * 100 > bytes_)
-    throw Error(name() + " talks MAVLink 2, as PX4 and ArduPilot do: Fulmar needs a flight controller with ROSflight firmware 2.");
+    throw Error(name() +
+                " talks MAVLink 2, as PX4 and ArduPilot do: Fulmar needs a flight controller with ROSflight "
+                "firmware 2.");
   if (seen.frames == 0 && readable_ * 20 >= bytes_ * 19)
-    throw Error(name() + " sends text, not MAVLink: it is no flight controller, a GNSS receiver perhaps; name another --port.");
+    throw Error(name() +
+                " sends text, not MAVLink: it is no flight controller, a GNSS receiver perhaps; name another "
+                "--port.");
   if (seen.frames == 0)
-    throw Error(name() + " talks (" + std::to_string(bytes_) +
-                " bytes), but not as a ROSflight flight controller: wrong --baud, or another device on this port.");
-  throw Error(name() + " talks MAVLink (" + std::to_string(seen.frames) +
-              " frames), but sends no status of ROSflight 2: flash ROSflight firmware 2, or choose the right port.");
+    throw Error(
+        name() + " talks (" + std::to_string(bytes_) +
+        " bytes), but not as a ROSflight flight controller: wrong --baud, or another device on this port.");
+  throw Error(
+      name() + " talks MAVLink (" + std::to_string(seen.frames) +
+      " frames), but sends no status of ROSflight 2: flash ROSflight firmware 2, or choose the right port.");
 }
 
 void Client::connect() {
@@ -151,15 +168,20 @@ void Client::connect() {
 
 void Client::ask_version() {
   for (int i = 0; i < 8 && version_.empty(); ++i) {
-    if (const auto ack = acks_.find(static_cast<std::uint8_t>(Command::send_version)); ack != acks_.end() && !ack->second.success) return;
+    if (const auto ack = acks_.find(static_cast<std::uint8_t>(Command::send_version));
+        ack != acks_.end() && !ack->second.success)
+      return;
     send(RosflightCmd{static_cast<std::uint8_t>(Command::send_version)});
     wait(250 * ms, [&] { return !version_.empty(); });
   }
   if (version_.empty())
-    throw Error(name() + " sends, but does not answer: a flight controller older than ROSflight 2, or the line to it is cut.");
+    throw Error(
+        name() +
+        " sends, but does not answer: a flight controller older than ROSflight 2, or the line to it is cut.");
   const std::size_t digit = version_.find_first_of("0123456789");
   int major = -1;
-  if (digit != std::string::npos) std::from_chars(version_.data() + digit, version_.data() + version_.size(), major);
+  if (digit != std::string::npos)
+    std::from_chars(version_.data() + digit, version_.data() + version_.size(), major);
   // "a1b2c3d" is a build without a tag; what it is cannot be told
   const bool numbered = digit == 0 || (digit == 1 && version_[0] == 'v');
   if (numbered && version_.find('.') != std::string::npos && major >= 0 && major < 2)
@@ -192,7 +214,9 @@ std::optional<bool> Client::command(Command c, int tries, std::int64_t each_ns) 
 
 void Client::demand(Command c, const std::string& deed) {
   const std::optional<bool> answer = command(c, 6);
-  if (!answer) throw Error(name() + " does not answer: " + deed + " was not acknowledged within 3 s; whether it was done is not known.");
+  if (!answer)
+    throw Error(name() + " does not answer: " + deed +
+                " was not acknowledged within 3 s; whether it was done is not known.");
   if (*answer) return;
   pump(100 * ms);  // a reason may follow
   if (armed()) throw Error("The controller refused " + deed + ": it is armed.");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One conversation with a ROSflight flight controller: keeps the heartbeat, remembers the last of every message, and waits with deadlines.
-// What the firmware answers and when: rosflight_firmware 2.0, comm_manager.
+// One conversation with a ROSflight flight controller: keeps the heartbeat, remembers the last of every
+// message, and waits with deadlines. What the firmware answers and when: rosflight_firmware 2.0,
+// comm_manager.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -92,7 +93,9 @@ class Client {
   std::uint64_t bytes() const { return bytes_; }
   const Parser::Counts& counts() const { return parser_.counts(); }
   const std::vector<Said>& said() const { return said_; }
-  const std::string& version() const { return version_; }  ///< "" when it refuses to tell, as it does while armed
+  const std::string& version() const {
+    return version_;
+  }  ///< "" when it refuses to tell, as it does while armed
   std::uint8_t system() const { return system_; }
 
   /// What the controller last said of each parameter, by name.
@@ -103,7 +106,8 @@ class Client {
   bool armed();  ///< as a fresh status says. Throws Error when none comes
   /// Throws Error "... is armed" when it is. `deed`: "calibrating".
   void refuse_armed(const std::string& deed);
-  /// Sends a command until it is acknowledged, or once only. True: accepted; false: refused; nothing: no answer in time.
+  /// Sends a command until it is acknowledged, or once only. True: accepted; false: refused; nothing: no
+  /// answer in time.
   std::optional<bool> command(Command c, int tries = 4, std::int64_t each_ns = 500 * ms);
   /// The same, and throws Error, one sentence, unless accepted. `deed`: "writing the parameters".
   void demand(Command c, const std::string& deed);

@@ -24,8 +24,8 @@ struct Shape {
   Eigen::Vector3d c = Eigen::Vector3d::Zero();
 };
 
-/// The inverse of a symmetric matrix without negative eigenvalues. False when rounding has left nothing of the smallest: then it is the
-/// inverse of the rest alone.
+/// The inverse of a symmetric matrix without negative eigenvalues. False when rounding has left nothing of
+/// the smallest: then it is the inverse of the rest alone.
 bool invert(const Matrix9& A, Matrix9& out) {
   const Eigen::LDLT<Matrix9> ldlt(A);
   const Vector9 pivots = ldlt.vectorD();
@@ -33,15 +33,17 @@ bool invert(const Matrix9& A, Matrix9& out) {
   return pivots.minCoeff() > 1e-14 * pivots.maxCoeff();
 }
 
-/// x2 + y2 + z2 = p0 (x2 + y2 - 2 z2) + p1 (x2 - 2 y2 + z2) + 2 p2 xy + 2 p3 xz + 2 p4 yz + 2 p5 x + 2 p6 y + 2 p7 z + p8
-/// By the normal equations: what they lose to rounding, the geometric fit that starts here gets back.
+/// x2 + y2 + z2 = p0 (x2 + y2 - 2 z2) + p1 (x2 - 2 y2 + z2) + 2 p2 xy + 2 p3 xz + 2 p4 yz + 2 p5 x + 2 p6 y +
+/// 2 p7 z + p8 By the normal equations: what they lose to rounding, the geometric fit that starts here gets
+/// back.
 bool quadric(const Points& points, Shape& out) {
   Matrix9 N = Matrix9::Zero(), inverse;
   Vector9 r = Vector9::Zero();
   for (const Eigen::Vector3d& u : points) {
     const double x = u.x(), y = u.y(), z = u.z();
     Vector9 row;
-    row << x * x + y * y - 2 * z * z, x * x - 2 * y * y + z * z, 2 * x * y, 2 * x * z, 2 * y * z, 2 * x, 2 * y, 2 * z, 1;
+    row << x * x + y * y - 2 * z * z, x * x - 2 * y * y + z * z, 2 * x * y, 2 * x * z, 2 * y * z, 2 * x,
+        2 * y, 2 * z, 1;
     N += row * row.transpose();
     r += u.squaredNorm() * row;
   }
@@ -59,8 +61,8 @@ bool quadric(const Points& points, Shape& out) {
   return true;
 }
 
-/// One Gauss-Newton step on L (xx, yy, zz, xy, xz, yz) and c. Returns its size; `rms` and `covariance` (over the square of one sample's
-/// standard deviation) are those before it.
+/// One Gauss-Newton step on L (xx, yy, zz, xy, xz, yz) and c. Returns its size; `rms` and `covariance` (over
+/// the square of one sample's standard deviation) are those before it.
 double improve(const Points& points, Shape& s, double& rms, Matrix9& covariance) {
   Matrix9 H = Matrix9::Zero();
   Vector9 b = Vector9::Zero();
@@ -70,8 +72,8 @@ double improve(const Points& points, Shape& s, double& rms, Matrix9& covariance)
     const Eigen::Vector3d d = u - s.c, q = s.L * d, n = q.normalized();
     const double r = q.norm() - 1, w = std::fabs(r) <= huber ? 1 : huber / std::fabs(r);
     Vector9 J;
-    J << n.x() * d.x(), n.y() * d.y(), n.z() * d.z(), n.x() * d.y() + n.y() * d.x(), n.x() * d.z() + n.z() * d.x(),
-        n.y() * d.z() + n.z() * d.y(), -(s.L * n);
+    J << n.x() * d.x(), n.y() * d.y(), n.z() * d.z(), n.x() * d.y() + n.y() * d.x(),
+        n.x() * d.z() + n.z() * d.x(), n.y() * d.z() + n.z() * d.y(), -(s.L * n);
     H += w * J * J.transpose();
     b -= w * r * J;
     sum += w * r * r;
@@ -99,7 +101,8 @@ int part_of_sphere(const Eigen::Vector3d& v) {
 
 double coverage(const Points& points, const Shape& s) {
   std::array<bool, 24> seen{};
-  for (const Eigen::Vector3d& u : points) seen[static_cast<std::size_t>(part_of_sphere(s.L * (u - s.c)))] = true;
+  for (const Eigen::Vector3d& u : points)
+    seen[static_cast<std::size_t>(part_of_sphere(s.L * (u - s.c)))] = true;
   return static_cast<double>(std::count(seen.begin(), seen.end(), true)) / static_cast<double>(seen.size());
 }
 
@@ -120,7 +123,8 @@ Scale scale_of(const Points& samples) {
   Scale out;
   for (const Eigen::Vector3d& m : samples) out.mean += m / static_cast<double>(samples.size());
   double square = 0;
-  for (const Eigen::Vector3d& m : samples) square += (m - out.mean).squaredNorm() / static_cast<double>(samples.size());
+  for (const Eigen::Vector3d& m : samples)
+    square += (m - out.mean).squaredNorm() / static_cast<double>(samples.size());
   out.size = std::sqrt(square);
   return out;
 }
@@ -144,12 +148,14 @@ EllipsoidFit fit_ellipsoid(const std::vector<Vector3>& samples) {
   Points points;
   for (const Vector3& m : samples) points.emplace_back(m[0], m[1], m[2]);
   const Scale scale = scale_of(points);
-  if (!(scale.size > 0) || !std::isfinite(scale.size)) return failed("the samples are all the same, or not finite");
+  if (!(scale.size > 0) || !std::isfinite(scale.size))
+    return failed("the samples are all the same, or not finite");
   for (Eigen::Vector3d& u : points) u = (u - scale.mean) / scale.size;
   Shape s;
   double rms = 0;
   Matrix9 covariance;
-  if (!quadric(points, s) || !refine(points, s, rms, covariance)) return failed("the samples lie on no ellipsoid");
+  if (!quadric(points, s) || !refine(points, s, rms, covariance))
+    return failed("the samples lie on no ellipsoid");
   const Eigen::Vector3d lambda = Eigen3(s.L).eigenvalues();
   if (!(lambda.minCoeff() > 0.05) || !s.c.allFinite()) return failed("the samples lie on no ellipsoid");
   const double size = std::cbrt(lambda.prod());

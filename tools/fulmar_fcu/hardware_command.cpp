@@ -31,7 +31,10 @@ bool came_back(Client& client, std::uint64_t before_us, std::int64_t limit_ns) {
 
 nlohmann::json json_of(const Mixer& m) {
   static constexpr std::array<const char*, 4> kinds{"none", "servo", "motor", "gpio"};
-  nlohmann::json out{{"primary", m.choice}, {"secondary", m.secondary_choice}, {"faults", mixer_faults(m)}, {"notes", mixer_remarks(m)}};
+  nlohmann::json out{{"primary", m.choice},
+                     {"secondary", m.secondary_choice},
+                     {"faults", mixer_faults(m)},
+                     {"notes", mixer_remarks(m)}};
   for (int j = 0; j < 10; ++j) {
     const auto at = static_cast<std::size_t>(j);
     out["outputs"].push_back({{"output", j},
@@ -53,21 +56,26 @@ int calibrate_command(Client& client, const Options& options, const HardwareOpti
   std::printf("%s\n", calibration.prepare);
   std::fflush(stdout);
   const Calibrated result = calibrate(client, calibration, [&](double elapsed_s) {
-    show_progress("calibrating " + what.what + ": " + fixed(elapsed_s, 0) + " s, usually " + std::to_string(calibration.usual_s) + " s");
+    show_progress("calibrating " + what.what + ": " + fixed(elapsed_s, 0) + " s, usually " +
+                  std::to_string(calibration.usual_s) + " s");
   });
   show_progress("");
   for (std::size_t i = 0; i < result.after.size(); ++i)
-    std::printf("%-16s %s -> %s\n", result.after[i].name.c_str(), result.before[i].text().c_str(), result.after[i].text().c_str());
+    std::printf("%-16s %s -> %s\n", result.after[i].name.c_str(), result.before[i].text().c_str(),
+                result.after[i].text().c_str());
   const auto same = [&](std::size_t i) { return result.before[i].bits == result.after[i].bits; };
   if (what.what == "rc" && same(0) && same(1) && same(2))
     std::printf("The sticks were in the middle: there was no trim to take over.\n");
   else if (what.what == "rc")
-    std::printf("Now put the transmitter's trims back to the middle: the controller adds these from now on.\n");
+    std::printf(
+        "Now put the transmitter's trims back to the middle: the controller adds these from now on.\n");
   std::printf("Calibrated, and read back.\n");
   if (what.write)
     write_flash(client);
   else
-    std::printf("It is in the controller's memory and gone after a power cycle: 'fulmar fcu params write' keeps it.\n");
+    std::printf(
+        "It is in the controller's memory and gone after a power cycle: 'fulmar fcu params write' keeps "
+        "it.\n");
   return 0;
 }
 
@@ -75,7 +83,9 @@ int reboot_command(Client& client, const Options&) {
   client.refuse_armed("a reboot");
   client.wait(second, [&] { return client.count<SmallImu>() > 0; });
   const std::uint64_t before_us = clock_us(client);
-  if (before_us == 0) throw Error(client.name() + " sends no inertial samples: whether it reboots could not be told. Power-cycle it.");
+  if (before_us == 0)
+    throw Error(client.name() +
+                " sends no inertial samples: whether it reboots could not be told. Power-cycle it.");
   bool answered = true;
   try {
     const std::optional<bool> answer = client.command(Command::reboot, 1, second);
@@ -85,16 +95,20 @@ int reboot_command(Client& client, const Options&) {
     client.reopen(10 * second);
   }
   if (!came_back(client, before_us, 10 * second))
-    throw Error(answered ? "The controller acknowledged, but did not restart: firmware 2.0 cannot on H7 boards, and its outputs may now be "
+    throw Error(answered ? "The controller acknowledged, but did not restart: firmware 2.0 cannot on H7 "
+                           "boards, and its outputs may now be "
                            "off. Power-cycle it."
                          : client.name() + " did not answer and did not restart: power-cycle it.");
-  std::printf("Rebooted. Barometer and airspeed are being zeroed for 12 s: keep it still, and the pitot tube covered.\n");
+  std::printf(
+      "Rebooted. Barometer and airspeed are being zeroed for 12 s: keep it still, and the pitot tube "
+      "covered.\n");
   return 0;
 }
 
 int mixer_command(Client& client, const Options& options) {
   const Mixer mixer = mixer_of(read_params(client));
-  std::printf("%s%s", options.json ? json_of(mixer).dump(1).c_str() : mixer_text(mixer).c_str(), options.json ? "\n" : "");
+  std::printf("%s%s", options.json ? json_of(mixer).dump(1).c_str() : mixer_text(mixer).c_str(),
+              options.json ? "\n" : "");
   return 0;
 }
 
@@ -109,16 +123,23 @@ int check_command(Client& client, const Options& options, const HardwareOptions&
   static constexpr std::array<const char*, 4> words{"OK", "note", "WARN", "FAIL"};
   for (const Item& item : items) {
     good = good && item.verdict != Verdict::fail;
-    list.push_back({{"verdict", words[static_cast<std::size_t>(item.verdict)]}, {"item", item.name}, {"text", item.text}});
+    list.push_back({{"verdict", words[static_cast<std::size_t>(item.verdict)]},
+                    {"item", item.name},
+                    {"text", item.text}});
   }
-  std::printf("%s%s", options.json ? list.dump(1).c_str() : items_text(items).c_str(), options.json ? "\n" : "");
+  std::printf("%s%s", options.json ? list.dump(1).c_str() : items_text(items).c_str(),
+              options.json ? "\n" : "");
   return good ? 0 : 1;
 }
 
 int outputs_command(Client& client, const Options&, const HardwareOptions& what) {
   client.refuse_armed("moving its surfaces");
-  std::printf("Aileron, elevator and rudder will move to half their throw, positive side first. The motor gets no command.\n");
-  if (!confirmed("Is the propeller OFF, and are all hands away?", what.propeller_off, "--propeller-off, once it is")) return 1;
+  std::printf(
+      "Aileron, elevator and rudder will move to half their throw, positive side first. The motor gets no "
+      "command.\n");
+  if (!confirmed("Is the propeller OFF, and are all hands away?", what.propeller_off,
+                 "--propeller-off, once it is"))
+    return 1;
   const Mixer mixer = mixer_of(read_params(client));
   take_outputs(client);
   for (const Surface& surface : surfaces()) {
@@ -129,10 +150,12 @@ int outputs_command(Client& client, const Options&, const HardwareOptions& what)
     std::printf("%-9s first %s\n", surface.name, surface.positive);
     std::fflush(stdout);
     for (const Moved& m : move_surface(client, mixer, surface.command, 0.5, 4 * second))
-      std::printf("          output %d went from %s to %s\n", m.output, fixed(m.low, 2).c_str(), fixed(m.high, 2).c_str());
+      std::printf("          output %d went from %s to %s\n", m.output, fixed(m.low, 2).c_str(),
+                  fixed(m.high, 2).c_str());
   }
   std::printf(
-      "The pilot has the surfaces again. One that went the other way first: set its REV_ parameter, or `reversed` in the airframe file, "
+      "The pilot has the surfaces again. One that went the other way first: set its REV_ parameter, or "
+      "`reversed` in the airframe file, "
       "not both.\n");
   return 0;
 }

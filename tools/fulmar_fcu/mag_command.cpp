@@ -12,8 +12,9 @@ namespace fulmar::fcu {
 namespace {
 
 constexpr double microtesla = 1e-6;
-const std::array<const char*, 12> correction_names{"MAG_CAL_A00", "MAG_CAL_A01", "MAG_CAL_A02", "MAG_CAL_A10", "MAG_CAL_A11", "MAG_CAL_A12",
-                                        "MAG_CAL_A20", "MAG_CAL_A21", "MAG_CAL_A22", "MAG_X_BIAS",  "MAG_Y_BIAS",  "MAG_Z_BIAS"};
+const std::array<const char*, 12> correction_names{"MAG_CAL_A00", "MAG_CAL_A01", "MAG_CAL_A02", "MAG_CAL_A10",
+                                                   "MAG_CAL_A11", "MAG_CAL_A12", "MAG_CAL_A20", "MAG_CAL_A21",
+                                                   "MAG_CAL_A22", "MAG_X_BIAS",  "MAG_Y_BIAS",  "MAG_Z_BIAS"};
 
 struct Correction {
   Matrix3 A = identity3;
@@ -28,11 +29,12 @@ Correction correction_of(const std::vector<Param>& params) {
 }
 
 std::string text_of(const EllipsoidFit& fit, std::size_t samples) {
-  std::string out = std::to_string(samples) + " samples. Field " + fixed(fit.field / microtesla, 1) + " uT, hard iron " +
-                    fixed(fit.bias[0] / microtesla, 1) + " " + fixed(fit.bias[1] / microtesla, 1) + " " + fixed(fit.bias[2] / microtesla, 1) +
-                    " uT, axes differ by a factor of " + fixed(fit.stretch_ratio, 2) + ",\nscatter " + fixed(100 * fit.residual_ratio, 1) +
-                    " %, covered " + fixed(100 * fit.coverage_ratio, 0) + " % of all directions, known to " +
-                    fixed(100 * fit.uncertainty_ratio, 1) + " %.\n";
+  std::string out = std::to_string(samples) + " samples. Field " + fixed(fit.field / microtesla, 1) +
+                    " uT, hard iron " + fixed(fit.bias[0] / microtesla, 1) + " " +
+                    fixed(fit.bias[1] / microtesla, 1) + " " + fixed(fit.bias[2] / microtesla, 1) +
+                    " uT, axes differ by a factor of " + fixed(fit.stretch_ratio, 2) + ",\nscatter " +
+                    fixed(100 * fit.residual_ratio, 1) + " %, covered " + fixed(100 * fit.coverage_ratio, 0) +
+                    " % of all directions, known to " + fixed(100 * fit.uncertainty_ratio, 1) + " %.\n";
   return out;
 }
 
@@ -52,7 +54,8 @@ std::vector<Vector3> collect(Client& client, const Correction& old) {
   client.on_packet = [&](const Packet& packet) {
     if (packet.is<SmallImu>()) {
       const auto m = packet.as<SmallImu>();
-      const double dt_s = imu_us == 0 ? 0 : (static_cast<double>(m.time_boot_us) - static_cast<double>(imu_us)) * 1e-6;
+      const double dt_s =
+          imu_us == 0 ? 0 : (static_cast<double>(m.time_boot_us) - static_cast<double>(imu_us)) * 1e-6;
       imu_us = m.time_boot_us;
       guide.turn({m.xacc, m.yacc, m.zacc}, {m.xgyro, m.ygyro, m.zgyro}, dt_s);
     } else if (packet.is<SmallMag>()) {
@@ -65,8 +68,10 @@ std::vector<Vector3> collect(Client& client, const Correction& old) {
     client.pump(200 * ms);
     if (guide.samples().size() > kept) progress_ns = client.now_ns();
     kept = guide.samples().size();
-    if (client.age_s<SmallMag>() > 3) throw Error("No magnetometer is heard: there is none, or it did not start.");
-    if (client.now_ns() - progress_ns > 120 * second) throw Error("Nothing new came for two minutes: given up, nothing was changed.");
+    if (client.age_s<SmallMag>() > 3)
+      throw Error("No magnetometer is heard: there is none, or it did not start.");
+    if (client.now_ns() - progress_ns > 120 * second)
+      throw Error("Nothing new came for two minutes: given up, nothing was changed.");
     if (guide.text() != shown) show_progress(shown = guide.text());
   }
   client.on_packet = nullptr;
@@ -86,7 +91,8 @@ void set_all(Client& client, const std::vector<Param>& before, const EllipsoidFi
   for (std::size_t i = 0; i < after.size(); ++i)
     if (after[i].bits != std::bit_cast<std::uint32_t>(static_cast<float>(values[i])))
       throw Error(after[i].name + " did not take its value: try again.");
-  if (after.size() != correction_names.size()) throw Error(client.name() + " did not answer when the parameters were read back: try again.");
+  if (after.size() != correction_names.size())
+    throw Error(client.name() + " did not answer when the parameters were read back: try again.");
 }
 
 }  // namespace
@@ -100,13 +106,17 @@ int try_mag_file(const Options&, const HardwareOptions& what) {
 int calibrate_mag(Client& client, const Options& options, const HardwareOptions& what) {
   client.refuse_armed("the magnetometer calibration");
   const std::vector<Param> before = read_some(client, {correction_names.begin(), correction_names.end()});
-  if (before.size() != correction_names.size()) throw Error(client.name() + " does not tell its MAG_ parameters: the calibration was not begun.");
+  if (before.size() != correction_names.size())
+    throw Error(client.name() + " does not tell its MAG_ parameters: the calibration was not begun.");
   const Correction old = correction_of(before);
   if (what.file.empty() && !(std::fabs(determinant(old.A)) > 1e-6))
     throw Error("The MAG_CAL_A parameters are no sound matrix: set the identity first.");
-  if (what.file.empty() && !on_terminal()) throw Error("The aircraft is turned by hand, which takes a terminal; or use --from FILE.csv.");
+  if (what.file.empty() && !on_terminal())
+    throw Error("The aircraft is turned by hand, which takes a terminal; or use --from FILE.csv.");
   if (what.file.empty())
-    std::printf("Take the aircraft outside, away from iron. Lay it on each of six sides, and turn it once around the vertical on each.\n");
+    std::printf(
+        "Take the aircraft outside, away from iron. Lay it on each of six sides, and turn it once around the "
+        "vertical on each.\n");
   const std::vector<Vector3> samples = what.file.empty() ? collect(client, old) : read_samples(what.file);
   if (!what.record.empty()) write_param_file(what.record, samples_text(samples), false);
   const EllipsoidFit fit = judged(samples);
@@ -120,7 +130,9 @@ int calibrate_mag(Client& client, const Options& options, const HardwareOptions&
   if (what.write)
     write_flash(client);
   else
-    std::printf("It is in the controller's memory and gone after a power cycle: 'fulmar fcu params write' keeps it.\n");
+    std::printf(
+        "It is in the controller's memory and gone after a power cycle: 'fulmar fcu params write' keeps "
+        "it.\n");
   return 0;
 }
 

@@ -15,8 +15,8 @@ namespace fulmar::fcu {
 
 namespace {
 
-constexpr std::array<const char*, MagGuide::sides> side_words{"nose down",     "nose up",         "left wing up",
-                                                              "right wing up", "upright (level)", "upside down"};
+constexpr std::array<const char*, MagGuide::sides> side_words{
+    "nose down", "nose up", "left wing up", "right wing up", "upright (level)", "upside down"};
 
 double dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Vector3 cross(const Vector3& a, const Vector3& b) {
@@ -44,18 +44,21 @@ bool three_numbers(std::string line, Vector3& out) {
 Vector3 uncorrected(const Vector3& reported, const Matrix3& A, const Vector3& b) {
   const Vector3 x = column(A, 0), y = column(A, 1), z = column(A, 2), yz = cross(y, z);
   const double size = dot(x, yz);  // Cramer's rule
-  return {dot(reported, yz) / size + b[0], dot(reported, cross(z, x)) / size + b[1], dot(reported, cross(x, y)) / size + b[2]};
+  return {dot(reported, yz) / size + b[0], dot(reported, cross(z, x)) / size + b[1],
+          dot(reported, cross(x, y)) / size + b[2]};
 }
 
 double determinant(const Matrix3& A) { return dot(A[0], cross(A[1], A[2])); }
 
 std::string objection(const EllipsoidFit& fit, double micro) {
-  if (!fit.ok()) return "No calibration: " + fit.fault + ". Turn the aircraft all ways, away from iron and cables.";
+  if (!fit.ok())
+    return "No calibration: " + fit.fault + ". Turn the aircraft all ways, away from iron and cables.";
   if (fit.coverage_ratio < 0.75)
     return "No calibration: the samples cover " + percent(fit.coverage_ratio) +
            " of all directions, 75 % are needed. Turn the aircraft all ways.";
   if (fit.uncertainty_ratio > 0.03)
-    return "No calibration: it would be known to " + percent(fit.uncertainty_ratio) + " only. Turn the aircraft further, all ways.";
+    return "No calibration: it would be known to " + percent(fit.uncertainty_ratio) +
+           " only. Turn the aircraft further, all ways.";
   if (fit.residual_ratio > 0.06)
     return "No calibration: the samples scatter by " + percent(fit.residual_ratio) +
            " about the fit. Go away from iron, cables and motors, keep telephones off, and turn slowly.";

@@ -9,19 +9,23 @@
 
 namespace fulmar::fcu {
 
-/// What the sensor read, from what the firmware reports: it applies A (m - b). ROSflight firmware 2.0, sensors.cpp.
+/// What the sensor read, from what the firmware reports: it applies A (m - b). ROSflight firmware 2.0,
+/// sensors.cpp.
 Vector3 uncorrected(const Vector3& reported, const Matrix3& A, const Vector3& b);
 
 double determinant(const Matrix3& A);
 
-/// Why a fit is not to be used, in one sentence with what to do; "" when it is good. `micro` is a microtesla in the samples' unit.
+/// Why a fit is not to be used, in one sentence with what to do; "" when it is good. `micro` is a microtesla
+/// in the samples' unit.
 std::string objection(const EllipsoidFit& fit, double micro);
 
-/// Three numbers a line: tesla, as the sensor read them. A first line that is no numbers is a title. Throws Error with file:line.
+/// Three numbers a line: tesla, as the sensor read them. A first line that is no numbers is a title. Throws
+/// Error with file:line.
 std::vector<Vector3> read_samples(const std::string& path);
 std::string samples_text(const std::vector<Vector3>& samples);
 
-/// Six sides to lay the aircraft on, told by gravity; on each it is turned once around the vertical, told by the gyroscope.
+/// Six sides to lay the aircraft on, told by gravity; on each it is turned once around the vertical, told by
+/// the gyroscope.
 class MagGuide {
  public:
   static constexpr int sides = 6, parts = 12, enough = 3, most = 12;

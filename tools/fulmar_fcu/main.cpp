@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `fulmar fcu ...`, as the program fulmar-fcu. Exit codes: 0 done; 1 it failed, or there is a difference; 2 wrong usage; 130 interrupted.
+// `fulmar fcu ...`, as the program fulmar-fcu. Exit codes: 0 done; 1 it failed, or there is a difference; 2
+// wrong usage; 130 interrupted.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <functional>
@@ -14,7 +15,10 @@ namespace core = fulmar::core;
 using Deed = std::function<int(Client&)>;
 
 struct CommandLine {
-  CLI::App app{"Looks after a flight controller with ROSflight firmware 2, on the ground: no flight may hold its port.", "fulmar fcu"};
+  CLI::App app{
+      "Looks after a flight controller with ROSflight firmware 2, on the ground: no flight may hold its "
+      "port.",
+      "fulmar fcu"};
   Options options;
   ParamsOptions params;
   HardwareOptions hardware;
@@ -27,7 +31,9 @@ struct CommandLine {
     app.add_option("--port", options.port, "serial device, or udp:ADDRESS:PORT for firmware in simulation")
         ->envname("FULMAR_FCU_PORT")
         ->capture_default_str();
-    app.add_option("--baud", options.baud, "of a serial line; USB does not care")->check(CLI::Range(1200, 12000000))->capture_default_str();
+    app.add_option("--baud", options.baud, "of a serial line; USB does not care")
+        ->check(CLI::Range(1200, 12000000))
+        ->capture_default_str();
     app.add_flag("--json", options.json, "print JSON, where there is something to print");
     app.footer("Example: fulmar fcu --port /dev/ttyACM0 check");
     app.fallthrough();
@@ -45,32 +51,42 @@ struct CommandLine {
   }
 
   void add_status() {
-    CLI::App* status = command(&app, "status", "what the controller says of itself, live",
-                               [this](Client& c) { return status_command(c, options, once || (!watch && !on_terminal())); });
-    CLI::Option* one = status->add_flag("--once", once, "one block of text; so it is when the output is no terminal");
-    status->add_flag("--watch", watch, "twice a second, until interrupted; so it is on a terminal")->excludes(one);
-    command(&app, "version", "the firmware's version", [this](Client& c) { return version_command(c, options); });
+    CLI::App* status = command(&app, "status", "what the controller says of itself, live", [this](Client& c) {
+      return status_command(c, options, once || (!watch && !on_terminal()));
+    });
+    CLI::Option* one =
+        status->add_flag("--once", once, "one block of text; so it is when the output is no terminal");
+    status->add_flag("--watch", watch, "twice a second, until interrupted; so it is on a terminal")
+        ->excludes(one);
+    command(&app, "version", "the firmware's version",
+            [this](Client& c) { return version_command(c, options); });
   }
 
   void add_params() {
     CLI::App* all = command(&app, "params", "the controller's parameters", {});
     all->require_subcommand(1);
-    CLI::App* list =
-        command(all, "list", "all of them, or those that match", [this](Client& c) { return params_list(c, options, params); });
+    CLI::App* list = command(all, "list", "all of them, or those that match",
+                             [this](Client& c) { return params_list(c, options, params); });
     list->add_option("PATTERN", params.pattern, "part of a name, or with * and ?, as in 'RC_*_CHN'");
-    CLI::App* get = command(all, "get", "one of them", [this](Client& c) { return params_get(c, options, params); });
+    CLI::App* get =
+        command(all, "get", "one of them", [this](Client& c) { return params_get(c, options, params); });
     get->add_option("NAME", params.name)->required();
-    CLI::App* set = command(all, "set", "sets one and reads it back", [this](Client& c) { return params_set(c, options, params); });
+    CLI::App* set = command(all, "set", "sets one and reads it back",
+                            [this](Client& c) { return params_set(c, options, params); });
     set->add_option("NAME", params.name)->required();
     set->add_option("VALUE", params.value)->required();
-    command(all, "write", "keeps them over a power cycle", [this](Client& c) { return params_write(c, options); });
-    CLI::App* save = command(all, "save", "writes them to a YAML file", [this](Client& c) { return params_save(c, options, params); });
-    CLI::App* load = command(all, "load", "sets those of a YAML file, ours or ROSflight's, after showing what changes",
-                             [this](Client& c) { return params_load(c, options, params); });
+    command(all, "write", "keeps them over a power cycle",
+            [this](Client& c) { return params_write(c, options); });
+    CLI::App* save = command(all, "save", "writes them to a YAML file",
+                             [this](Client& c) { return params_save(c, options, params); });
+    CLI::App* load =
+        command(all, "load", "sets those of a YAML file, ours or ROSflight's, after showing what changes",
+                [this](Client& c) { return params_load(c, options, params); });
     CLI::App* diff = command(all, "diff", "shows how they differ from a YAML file; exit code 1 when they do",
                              [this](Client& c) { return params_diff(c, options, params); });
     for (CLI::App* sub : {save, load, diff}) sub->add_option("FILE", params.file)->required();
-    for (CLI::App* sub : {set, load}) sub->add_flag("--write", params.write, "then keep them over a power cycle");
+    for (CLI::App* sub : {set, load})
+      sub->add_flag("--write", params.write, "then keep them over a power cycle");
     save->add_flag("--replace", params.replace, "overwrite a file that is there");
     load->add_flag("--yes", options.yes, "do not ask");
   }
@@ -93,7 +109,8 @@ struct CommandLine {
     one("airspeed", "pitot: cover the tube, 8 s");
     CLI::App* mag = one("mag", "magnetometer: turn the aircraft by hand on each of six sides");
     CLI::Option* from =
-        mag->add_option("--from", hardware.file, "samples of a file in place of turning: x,y,z in tesla, as the sensor read them");
+        mag->add_option("--from", hardware.file,
+                        "samples of a file in place of turning: x,y,z in tesla, as the sensor read them");
     mag->add_option("--record", hardware.record, "write the samples to a file")->excludes(from);
     mag->add_flag("--dry-run", hardware.dry_run, "tell the result, and set nothing");
     mag->add_flag("--yes", options.yes, "do not ask");
@@ -103,9 +120,11 @@ struct CommandLine {
     CLI::App* check = command(&app, "check", "the list before a flight; exit code 1 on a FAIL",
                               [this](Client& c) { return check_command(c, options, hardware); });
     check->add_option("--airframe", hardware.airframe, "the airframe file of this aircraft, to compare with");
-    command(&app, "mixer", "which output follows which command", [this](Client& c) { return mixer_command(c, options); });
-    CLI::App* outputs = command(&app, "test-outputs", "moves aileron, elevator and rudder; propeller off, disarmed",
-                                [this](Client& c) { return outputs_command(c, options, hardware); });
+    command(&app, "mixer", "which output follows which command",
+            [this](Client& c) { return mixer_command(c, options); });
+    CLI::App* outputs =
+        command(&app, "test-outputs", "moves aileron, elevator and rudder; propeller off, disarmed",
+                [this](Client& c) { return outputs_command(c, options, hardware); });
     outputs->add_flag("--propeller-off", hardware.propeller_off, "it is off: do not ask");
     command(&app, "reboot", "restarts the controller; what was not written is gone",
             [this](Client& c) { return reboot_command(c, options); });
@@ -118,11 +137,14 @@ std::string unknown_command(const CLI::App& all) {
   while (!app->get_subcommands().empty()) app = app->get_subcommands().front();
   const std::vector<std::string> rest = all.remaining(true);
   std::vector<std::string> names;
-  for (const CLI::App* sub : app->get_subcommands([](const CLI::App*) { return true; })) names.push_back(sub->get_name());
+  for (const CLI::App* sub : app->get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(sub->get_name());
   const std::string path = app == &all ? "" : " " + app->get_name();
-  if (!names.empty() && rest.empty()) return "fulmar fcu" + path + ": say what: " + core::join(names) + "; --help tells more.";
+  if (!names.empty() && rest.empty())
+    return "fulmar fcu" + path + ": say what: " + core::join(names) + "; --help tells more.";
   if (names.empty() || rest.front().front() == '-') return "";
-  return "fulmar fcu" + path + ": there is no command '" + rest.front() + "'." + core::choices_text(rest.front(), names);
+  return "fulmar fcu" + path + ": there is no command '" + rest.front() + "'." +
+         core::choices_text(rest.front(), names);
 }
 
 int usage(const CommandLine& line, const CLI::ParseError& e) {

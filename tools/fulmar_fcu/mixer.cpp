@@ -14,8 +14,10 @@ struct Row {
   int command;
   const char* name;
 };
-constexpr std::array<Row, 4> rows{
-    {{row_throttle, "throttle"}, {row_aileron, "aileron"}, {row_elevator, "elevator"}, {row_rudder, "rudder"}}};
+constexpr std::array<Row, 4> rows{{{row_throttle, "throttle"},
+                                   {row_aileron, "aileron"},
+                                   {row_elevator, "elevator"},
+                                   {row_rudder, "rudder"}}};
 
 double param_value(const std::vector<Param>& params, const std::string& name) {
   const auto it = std::find_if(params.begin(), params.end(), [&](const Param& p) { return p.name == name; });
@@ -25,7 +27,9 @@ double param_value(const std::vector<Param>& params, const std::string& name) {
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 bool used(double gain) { return std::fabs(gain) > 1e-6; }
 
-std::string right_aligned(std::string text, std::size_t width) { return std::string(text.size() < width ? width - text.size() : 0, ' ') + text; }
+std::string right_aligned(std::string text, std::size_t width) {
+  return std::string(text.size() < width ? width - text.size() : 0, ' ') + text;
+}
 
 void put_matrix(std::string& out, const Matrix& matrix, const char* title) {
   out += std::string(title) + "\n" + right_aligned("output", 12);
@@ -71,20 +75,23 @@ Mixer mixer_of(const std::vector<Param>& params) {
 
 std::vector<std::string> mixer_faults(const Mixer& m) {
   if (m.choice < 0 || m.choice > 11)
-    return {"PRIMARY_MIXER is " + std::to_string(m.choice) + ", none: set 9 (fixed wing), 10 (V-tail) or 11 (your own matrix)."};
+    return {"PRIMARY_MIXER is " + std::to_string(m.choice) +
+            ", none: set 9 (fixed wing), 10 (V-tail) or 11 (your own matrix)."};
   if (m.choice < 9)
-    return {"PRIMARY_MIXER is " + std::to_string(m.choice) + ", a multirotor's: set 9 (fixed wing), 10 (V-tail) or 11 (your own)."};
+    return {"PRIMARY_MIXER is " + std::to_string(m.choice) +
+            ", a multirotor's: set 9 (fixed wing), 10 (V-tail) or 11 (your own)."};
   std::vector<std::string> out;
   for (const Row& row : rows) {
     const OutputKind wanted = row.command == row_throttle ? OutputKind::motor : OutputKind::servo;
     const std::vector<int> outputs = m.outputs_of(row.command);
     if (outputs.empty() && row.command != row_rudder && row.command != row_aileron)
-      out.push_back(std::string("No output follows the ") + row.name + ": set a gain in SEC_MIXER_" + std::to_string(row.command) + "_*.");
+      out.push_back(std::string("No output follows the ") + row.name + ": set a gain in SEC_MIXER_" +
+                    std::to_string(row.command) + "_*.");
     for (const int j : outputs)
       if (m.kind[at(j)] != wanted)
         out.push_back("Output " + std::to_string(j) + " follows the " + row.name + " but is set up as a " +
-                      (wanted == OutputKind::motor ? "servo" : "motor") + ": set PRI_MIXER_OUT_" + std::to_string(j) +
-                      (wanted == OutputKind::motor ? " to 2." : " to 1."));
+                      (wanted == OutputKind::motor ? "servo" : "motor") + ": set PRI_MIXER_OUT_" +
+                      std::to_string(j) + (wanted == OutputKind::motor ? " to 2." : " to 1."));
   }
   return out;
 }
@@ -93,12 +100,14 @@ std::vector<std::string> mixer_remarks(const Mixer& m) {
   std::vector<std::string> out;
   for (const Row& row : rows) {
     if (m.outputs_of(row.command).empty() && (row.command == row_rudder || row.command == row_aileron))
-      out.push_back(std::string("No output follows the ") + row.name + ": right for an aircraft without one only.");
+      out.push_back(std::string("No output follows the ") + row.name +
+                    ": right for an aircraft without one only.");
     for (int j = 0; j < 10; ++j) {
       const double pilot = m.primary[at(row.command)][at(j)], computer = m.secondary[at(row.command)][at(j)];
       if (std::fabs(pilot - computer) > 1e-4 * (1 + std::fabs(pilot)))
-        out.push_back("Output " + std::to_string(j) + " answers the " + std::string(row.name) + " of the pilot by " + fixed(pilot, 2) +
-                      " and of the computer by " + fixed(computer, 2) + ": " +
+        out.push_back("Output " + std::to_string(j) + " answers the " + std::string(row.name) +
+                      " of the pilot by " + fixed(pilot, 2) + " and of the computer by " +
+                      fixed(computer, 2) + ": " +
                       (m.secondary_choice == 10 && std::fabs(computer) > std::fabs(pilot)
                            ? "the firmware's secondary V-tail has twice the gain. "
                            : "") +
@@ -119,16 +128,11 @@ std::string output_words(const Mixer& m, int output) {
 
 std::string mixer_name(int choice) {
   switch (choice) {
-    case 9:
-      return "9, fixed wing";
-    case 10:
-      return "10, inverted V-tail";
-    case 11:
-      return "11, custom";
-    case 255:
-      return "255, none";
-    default:
-      return std::to_string(choice) + (choice >= 0 && choice < 9 ? ", a multirotor's" : ", unknown");
+    case 9: return "9, fixed wing";
+    case 10: return "10, inverted V-tail";
+    case 11: return "11, custom";
+    case 255: return "255, none";
+    default: return std::to_string(choice) + (choice >= 0 && choice < 9 ? ", a multirotor's" : ", unknown");
   }
 }
 
@@ -136,12 +140,14 @@ std::string mixer_text(const Mixer& m) {
   static constexpr std::array<const char*, 4> kinds{"-", "servo", "motor", "gpio"};
   std::string out = "primary (the pilot's commands): " + mixer_name(m.choice) +
                     "\nsecondary (the computer's): " + mixer_name(m.secondary_choice) +
-                    (m.secondary_choice == 255 ? ", the primary serves for both" : "") + "\n\noutput  type     rate  follows\n";
+                    (m.secondary_choice == 255 ? ", the primary serves for both" : "") +
+                    "\n\noutput  type     rate  follows\n";
   for (int j = 0; j < 10; ++j) {
     std::string kind = kinds[static_cast<std::size_t>(m.kind[at(j)])];
     kind.resize(7, ' ');
     out += right_aligned(std::to_string(j), 6) + "  " + kind +
-           right_aligned(m.kind[at(j)] == OutputKind::none ? "" : fixed(m.rate_hz[at(j)], 0) + " Hz", 7) + "  " + output_words(m, j) + "\n";
+           right_aligned(m.kind[at(j)] == OutputKind::none ? "" : fixed(m.rate_hz[at(j)], 0) + " Hz", 7) +
+           "  " + output_words(m, j) + "\n";
   }
   out += "\n";
   put_matrix(out, m.primary, "primary matrix");

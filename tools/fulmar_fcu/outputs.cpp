@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::int64_t each = 20 * ms;  // far below OFFBOARD_TIMEOUT
 // the throttle is commanded 0, so that its override changes nothing
-constexpr std::uint16_t pilot_has_surfaces = override_attitude_switch | override_stick_x | override_stick_y | override_stick_z;
+constexpr std::uint16_t pilot_has_surfaces =
+    override_attitude_switch | override_stick_x | override_stick_y | override_stick_z;
 
 void command(Client& client, int row, double value) {
   OffboardControl c;
@@ -22,13 +23,14 @@ void command(Client& client, int row, double value) {
 
 void watch(Client& client) {
   const auto status = client.last<RosflightStatus>();
-  if (status && status->armed != 0) throw Error("It got ARMED: the test has stopped. Disarm it, and keep the arm switch off.");
+  if (status && status->armed != 0)
+    throw Error("It got ARMED: the test has stopped. Disarm it, and keep the arm switch off.");
   if (client.age_s<RosflightStatus>() > 1) throw Error(client.name() + " went silent: the test has stopped.");
   if (client.age_s<RcChannels>() > 0.5)
     throw Error(
-        "No radio frames come: without them the firmware moves nothing. Switch the transmitter on, and look at 'fulmar fcu status'.");
+        "No radio frames come: without them the firmware moves nothing. Switch the transmitter on, and look "
+        "at 'fulmar fcu status'.");
 }
-
 
 void note(const Client& client, std::vector<Moved>& moved) {
   const auto raw = client.last<RosflightOutputRaw>();
@@ -42,9 +44,10 @@ void note(const Client& client, std::vector<Moved>& moved) {
 }  // namespace
 
 const std::vector<Surface>& surfaces() {
-  static const std::vector<Surface> list{{row_aileron, "aileron", "rolls right: right aileron up, left aileron down"},
-                                         {row_elevator, "elevator", "nose down: trailing edge down"},
-                                         {row_rudder, "rudder", "nose left: trailing edge left"}};
+  static const std::vector<Surface> list{
+      {row_aileron, "aileron", "rolls right: right aileron up, left aileron down"},
+      {row_elevator, "elevator", "nose down: trailing edge down"},
+      {row_rudder, "rudder", "nose left: trailing edge left"}};
   return list;
 }
 
@@ -57,17 +60,22 @@ void take_outputs(Client& client) {
     client.pump(each);
     watch(client);
     const auto status = client.last<RosflightStatus>();
-    if (client.count<RosflightStatus>() > before + 2 && status->offboard != 0 && (status->rc_override & (pilot_has_surfaces | 0x1c0)) == 0)
+    if (client.count<RosflightStatus>() > before + 2 && status->offboard != 0 &&
+        (status->rc_override & (pilot_has_surfaces | 0x1c0)) == 0)
       return;
   }
   const auto status = client.last<RosflightStatus>();
   const auto pilots = override_words(static_cast<std::uint16_t>(status->rc_override & pilot_has_surfaces));
-  if (pilots.empty()) throw Error("The controller does not take commands from here: do they get lost, or is OFFBOARD_TIMEOUT too short?");
+  if (pilots.empty())
+    throw Error(
+        "The controller does not take commands from here: do they get lost, or is OFFBOARD_TIMEOUT too "
+        "short?");
   throw Error("The pilot has the outputs (" + core::join(pilots) +
               "): switch the override off and leave the sticks in the middle, then try again.");
 }
 
-std::vector<Moved> move_surface(Client& client, const Mixer& mixer, int row, double size, std::int64_t period_ns) {
+std::vector<Moved> move_surface(Client& client, const Mixer& mixer, int row, double size,
+                                std::int64_t period_ns) {
   std::vector<Moved> moved;
   for (const int output : mixer.outputs_of(row)) moved.push_back({output, 1, 0});
   const std::int64_t began = client.now_ns();
@@ -77,16 +85,18 @@ std::vector<Moved> move_surface(Client& client, const Mixer& mixer, int row, dou
     client.pump(each);
     watch(client);
     if (const auto status = client.last<RosflightStatus>(); (status->rc_override & pilot_has_surfaces) != 0)
-      throw Error("The pilot took over (" +
-                  core::join(override_words(static_cast<std::uint16_t>(status->rc_override & pilot_has_surfaces))) +
-                  "): the test has stopped.");
+      throw Error(
+          "The pilot took over (" +
+          core::join(override_words(static_cast<std::uint16_t>(status->rc_override & pilot_has_surfaces))) +
+          "): the test has stopped.");
     note(client, moved);
   }
   command(client, row, 0);
   client.pump(100 * ms);
   for (const Moved& m : moved)
     if (m.high - m.low < 0.05)
-      throw Error("Output " + std::to_string(m.output) + " did not follow: the controller says it stayed at " + fixed(m.high, 2) + ".");
+      throw Error("Output " + std::to_string(m.output) +
+                  " did not follow: the controller says it stayed at " + fixed(m.high, 2) + ".");
   return moved;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Moves one surface after the other, on the ground, as a computer in flight would: OFFBOARD_CONTROL, mode 0, throttle always 0. Servos
-// follow while disarmed, motors do not. The firmware passes commands on at frames of the radio only, and the pilot's side may hold the
-// outputs.
+// Moves one surface after the other, on the ground, as a computer in flight would: OFFBOARD_CONTROL, mode 0,
+// throttle always 0. Servos follow while disarmed, motors do not. The firmware passes commands on at frames
+// of the radio only, and the pilot's side may hold the outputs.
 #pragma once
 #include <functional>
 #include <string>
@@ -23,10 +23,12 @@ struct Moved {
   double low = 1, high = 0;  ///< as the controller reports them, 0 to 1
 };
 
-/// Takes the outputs with neutral commands. Throws Error when the pilot's side keeps them, or no radio frames come.
+/// Takes the outputs with neutral commands. Throws Error when the pilot's side keeps them, or no radio frames
+/// come.
 void take_outputs(Client& client);
-/// To +size and -size and back within `period_ns`. Throws Error when it gets armed, when the pilot takes over, or an output does not
-/// follow.
-std::vector<Moved> move_surface(Client& client, const Mixer& mixer, int command, double size, std::int64_t period_ns);
+/// To +size and -size and back within `period_ns`. Throws Error when it gets armed, when the pilot takes
+/// over, or an output does not follow.
+std::vector<Moved> move_surface(Client& client, const Mixer& mixer, int command, double size,
+                                std::int64_t period_ns);
 
 }  // namespace fulmar::fcu

@@ -28,7 +28,9 @@ void read_item(const Node& item, std::vector<FileParam>& out, core::Report& repo
   const core::Keys keys(item, "", {"name", "type", "value"}, report);
   if (!item.is(Node::Kind::map)) return;
   for (const char* key : {"name", "type", "value"})
-    if (!keys.has(key)) return report.add(item.where(), std::string("this parameter has no '") + key + "': it needs {name, type, value}");
+    if (!keys.has(key))
+      return report.add(item.where(),
+                        std::string("this parameter has no '") + key + "': it needs {name, type, value}");
   const std::optional<std::string> name = keys.text("name"), value = keys.text("value");
   const std::optional<bool> whole = type_of(*keys.get("type"), report);
   if (name && value && whole) out.push_back({*name, *value, whole, keys.where("value")});
@@ -36,7 +38,8 @@ void read_item(const Node& item, std::vector<FileParam>& out, core::Report& repo
 
 void read_entry(const Node::Entry& entry, std::vector<FileParam>& out, core::Report& report) {
   if (!entry.value.is(Node::Kind::scalar))
-    return report.add(entry.where(), entry.key + ": expected a number, found " + core::found_words(entry.value));
+    return report.add(entry.where(),
+                      entry.key + ": expected a number, found " + core::found_words(entry.value));
   out.push_back({entry.key, entry.value.text, {}, entry.where()});
 }
 
@@ -44,7 +47,8 @@ void refuse_twice(const std::vector<FileParam>& list, core::Report& report) {
   for (std::size_t i = 0; i < list.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (list[i].name == list[j].name)
-        report.add(list[i].where, list[i].name + " stands twice in this file, first in line " + std::to_string(list[j].where.line));
+        report.add(list[i].where, list[i].name + " stands twice in this file, first in line " +
+                                      std::to_string(list[j].where.line));
 }
 
 std::string left_aligned(std::string text, std::size_t width) {
@@ -63,7 +67,8 @@ std::vector<FileParam> read_param_file(const std::string& path) {
   } else if (root.is(Node::Kind::map)) {
     for (const Node::Entry& entry : root.entries) read_entry(entry, out, report);
   } else if (report.empty()) {
-    report.add({path, root.line}, "expected 'NAME: value' lines, or a list of {name, type, value}, found " + core::found_words(root));
+    report.add({path, root.line}, "expected 'NAME: value' lines, or a list of {name, type, value}, found " +
+                                      core::found_words(root));
   }
   refuse_twice(out, report);
   report.throw_if_any();
@@ -71,16 +76,19 @@ std::vector<FileParam> read_param_file(const std::string& path) {
 }
 
 std::string param_file_text(const std::vector<Param>& params, const std::string& version) {
-  std::string out = "# Parameters of a ROSflight flight controller" + (version.empty() ? "" : ", firmware " + version) +
+  std::string out = "# Parameters of a ROSflight flight controller" +
+                    (version.empty() ? "" : ", firmware " + version) +
                     ". Load: fulmar fcu params load FILE.\n# Behind each value: its index and type.\n";
   for (const Param& param : params)
-    out += left_aligned(param.name + ": " + param.text(), 34) + " # " + std::to_string(param.index) + (param.whole ? " int\n" : " float\n");
+    out += left_aligned(param.name + ": " + param.text(), 34) + " # " + std::to_string(param.index) +
+           (param.whole ? " int\n" : " float\n");
   return out;
 }
 
 void write_param_file(const std::string& path, const std::string& text, bool replace) {
   namespace fs = std::filesystem;
-  if (!replace && fs::exists(path)) throw Error(path + " is there already: choose another name, or add --replace.");
+  if (!replace && fs::exists(path))
+    throw Error(path + " is there already: choose another name, or add --replace.");
   const std::string part = path + ".part" + std::to_string(::getpid());
   {
     std::ofstream file(part, std::ios::binary);
@@ -112,15 +120,17 @@ std::vector<Change> changes(const std::vector<FileParam>& file, const std::vecto
     const auto it = std::find(names.begin(), names.end(), wanted.name);
     if (it == names.end()) {
       const std::string near = core::nearest(wanted.name, names);
-      report.add(wanted.where,
-                 "the controller has no parameter '" + wanted.name + "'." + (near.empty() ? "" : " Did you mean " + near + "?"));
+      report.add(wanted.where, "the controller has no parameter '" + wanted.name + "'." +
+                                   (near.empty() ? "" : " Did you mean " + near + "?"));
       continue;
     }
     const Param& param = now[static_cast<std::size_t>(it - names.begin())];
     try {
       if (wanted.whole && *wanted.whole != param.whole)
-        throw Error(wanted.name + " is of type " + (param.whole ? "6 (whole number)" : "9 (number)") + " in the controller.");
-      if (const std::uint32_t bits = parse_value(param, wanted.text); bits != param.bits) out.push_back({param, bits, wanted.where});
+        throw Error(wanted.name + " is of type " + (param.whole ? "6 (whole number)" : "9 (number)") +
+                    " in the controller.");
+      if (const std::uint32_t bits = parse_value(param, wanted.text); bits != param.bits)
+        out.push_back({param, bits, wanted.where});
     } catch (const Error& e) {
       report.add(wanted.where, e.what());
     }
@@ -131,7 +141,8 @@ std::vector<Change> changes(const std::vector<FileParam>& file, const std::vecto
 
 std::string changes_text(const std::vector<Change>& list) {
   std::string out = left_aligned("parameter", 18) + left_aligned("controller", 16) + "file\n";
-  for (const Change& change : list) out += left_aligned(change.now.name, 18) + left_aligned(change.now.text(), 16) + change.wanted() + "\n";
+  for (const Change& change : list)
+    out += left_aligned(change.now.name, 18) + left_aligned(change.now.text(), 16) + change.wanted() + "\n";
   return out;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parameters in files: ours, one "NAME: value" a line; and the list of {name, type, value} that ROSflight's own tools write.
+// Parameters in files: ours, one "NAME: value" a line; and the list of {name, type, value} that ROSflight's
+// own tools write.
 #pragma once
 #include <functional>
 #include <optional>
@@ -30,7 +31,8 @@ struct Change {
   std::string wanted() const;
 };
 
-/// What the file would change. Throws Error with every fault: unknown names, values that the type does not hold.
+/// What the file would change. Throws Error with every fault: unknown names, values that the type does not
+/// hold.
 std::vector<Change> changes(const std::vector<FileParam>& file, const std::vector<Param>& now);
 /// As a table: name, what the controller has, what the file has.
 std::string changes_text(const std::vector<Change>& list);

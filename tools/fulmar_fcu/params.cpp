@@ -12,7 +12,8 @@ namespace fulmar::fcu {
 namespace {
 
 std::string upper(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   return text;
 }
 
@@ -43,11 +44,14 @@ void ask_missing(Client& client) {
   std::vector<std::uint16_t> asked;
   for (std::uint16_t i = 0; i < client.param_count() && asked.size() < window; ++i)
     if (!have.test(i)) asked.push_back(i);
-  for (const std::uint16_t i : asked) client.send(ParamRequestRead{static_cast<std::int16_t>(i), client.system(), 0, {}});
+  for (const std::uint16_t i : asked)
+    client.send(ParamRequestRead{static_cast<std::int16_t>(i), client.system(), 0, {}});
   client.wait(100 * ms, [&] { return indices(client).count() >= have.count() + asked.size(); });
 }
 
-void ask_one(Client& client, const std::string& name) { client.send(ParamRequestRead{-1, client.system(), 0, field<16>(name)}); }
+void ask_one(Client& client, const std::string& name) {
+  client.send(ParamRequestRead{-1, client.system(), 0, field<16>(name)});
+}
 
 bool heard_since(const Client& client, const std::string& name, std::int64_t since_ns) {
   const auto it = client.params().find(name);
@@ -70,7 +74,8 @@ std::uint32_t parse_integer(const Param& param, const std::string& text) {
   if (code == std::errc::invalid_argument || end != text.data() + text.size())
     throw Error(param.name + " is a whole number, not '" + text + "'.");
   if (code != std::errc{} || value < INT32_MIN || value > INT32_MAX)
-    throw Error(text + " is too large for " + param.name + ": it holds whole numbers from -2147483648 to 2147483647.");
+    throw Error(text + " is too large for " + param.name +
+                ": it holds whole numbers from -2147483648 to 2147483647.");
   return std::bit_cast<std::uint32_t>(static_cast<std::int32_t>(value));
 }
 
@@ -80,20 +85,23 @@ std::uint32_t parse_real(const Param& param, const std::string& text) {
   const auto [end, code] = std::from_chars(begin, text.data() + text.size(), value);
   if (code == std::errc::result_out_of_range)
     throw Error(text + " is outside of what " + param.name + " holds: a number of 32 bits, up to 3.4e38.");
-  if (code != std::errc{} || end != text.data() + text.size()) throw Error(param.name + " is a number, not '" + text + "'.");
+  if (code != std::errc{} || end != text.data() + text.size())
+    throw Error(param.name + " is a number, not '" + text + "'.");
   if (!std::isfinite(value)) throw Error(param.name + " must be a finite number, not '" + text + "'.");
   return std::bit_cast<std::uint32_t>(value);
 }
 
 }  // namespace
 
-std::vector<Param> read_params(Client& client, const std::function<void(std::size_t, std::size_t)>& progress) {
+std::vector<Param> read_params(Client& client,
+                               const std::function<void(std::size_t, std::size_t)>& progress) {
   client.forget_params();
   const auto tell = [&] {
     if (progress) progress(indices(client).count(), client.param_count());
   };
   ask_list(client, tell);
-  if (client.params().empty()) throw Error(client.name() + " does not answer the request for its parameters: is the line to it cut?");
+  if (client.params().empty())
+    throw Error(client.name() + " does not answer the request for its parameters: is the line to it cut?");
   int idle = 0;
   for (std::size_t have = indices(client).count(); have < client.param_count() && idle < 20;) {
     ask_missing(client);
@@ -106,18 +114,21 @@ std::vector<Param> read_params(Client& client, const std::function<void(std::siz
   for (const auto& [name, param] : client.params()) list.push_back(param);
   std::sort(list.begin(), list.end(), [](const Param& a, const Param& b) { return a.index < b.index; });
   if (list.size() != client.param_count())
-    throw Error("Only " + std::to_string(list.size()) + " of " + std::to_string(client.param_count()) + " parameters came from " +
-                client.name() + ": the link loses too much; look at 'fulmar fcu check'.");
+    throw Error("Only " + std::to_string(list.size()) + " of " + std::to_string(client.param_count()) +
+                " parameters came from " + client.name() +
+                ": the link loses too much; look at 'fulmar fcu check'.");
   return list;
 }
 
 Param read_param(Client& client, const std::string& name) {
   const std::string wanted = upper(name);
-  if (wanted.empty() || wanted.size() > 16) throw Error("'" + name + "' is no name of a parameter: they have 1 to 16 characters.");
+  if (wanted.empty() || wanted.size() > 16)
+    throw Error("'" + name + "' is no name of a parameter: they have 1 to 16 characters.");
   for (int i = 0; i < 3; ++i) {
     const std::int64_t since = client.now_ns();
     ask_one(client, wanted);
-    if (client.wait(250 * ms, [&] { return heard_since(client, wanted, since); })) return client.params().at(wanted);
+    if (client.wait(250 * ms, [&] { return heard_since(client, wanted, since); }))
+      return client.params().at(wanted);
   }
   // a name that does not exist is answered by silence, as loss is
   std::vector<std::string> names;
@@ -132,7 +143,8 @@ std::vector<Param> read_some(Client& client, const std::vector<std::string>& nam
   const std::int64_t since = client.now_ns();
   const auto missing = [&] {
     std::vector<std::string> out;
-    std::copy_if(names.begin(), names.end(), std::back_inserter(out), [&](const std::string& n) { return !heard_since(client, n, since); });
+    std::copy_if(names.begin(), names.end(), std::back_inserter(out),
+                 [&](const std::string& n) { return !heard_since(client, n, since); });
     return out;
   };
   for (int i = 0; i < 8 && !missing().empty(); ++i) {
@@ -154,15 +166,19 @@ bool set_param(Client& client, const Param& now, std::uint32_t bits) {
   Param wanted = now;
   wanted.bits = bits;
   const std::int64_t since = client.now_ns();
-  const auto taken = [&] { return heard_since(client, now.name, since) && client.params().at(now.name).bits == bits; };
+  const auto taken = [&] {
+    return heard_since(client, now.name, since) && client.params().at(now.name).bits == bits;
+  };
   for (int i = 0; i < 6; ++i) {
-    client.send(ParamSet{bits, client.system(), 0, field<16>(now.name), now.whole ? param_int32 : param_real32});
+    client.send(
+        ParamSet{bits, client.system(), 0, field<16>(now.name), now.whole ? param_int32 : param_real32});
     ask_one(client, now.name);  // an echo comes only when the value changes; an answer to this comes always
     if (client.wait(250 * ms, taken)) return true;
   }
   if (!heard_since(client, now.name, since))
     throw Error(client.name() + " does not answer: whether " + now.name + " was set is not known.");
-  throw Error(now.name + " did not take " + wanted.text() + ": it is still " + client.params().at(now.name).text() + ".");
+  throw Error(now.name + " did not take " + wanted.text() + ": it is still " +
+              client.params().at(now.name).text() + ".");
 }
 
 bool matches(const std::string& name, const std::string& pattern) {

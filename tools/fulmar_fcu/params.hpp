@@ -9,19 +9,23 @@
 
 namespace fulmar::fcu {
 
-/// All parameters, sorted by index; asks again for those that got lost. Throws Error when the list stays incomplete.
-std::vector<Param> read_params(Client& client, const std::function<void(std::size_t have, std::size_t all)>& progress = {});
+/// All parameters, sorted by index; asks again for those that got lost. Throws Error when the list stays
+/// incomplete.
+std::vector<Param> read_params(Client& client,
+                               const std::function<void(std::size_t have, std::size_t all)>& progress = {});
 
 /// One parameter, freshly read. Throws Error with the nearest names when there is none of that name.
 Param read_param(Client& client, const std::string& name);
-/// Those of the names that exist, freshly read: `names` with the same lengths of patience. Missing ones are left out.
+/// Those of the names that exist, freshly read: `names` with the same lengths of patience. Missing ones are
+/// left out.
 std::vector<Param> read_some(Client& client, const std::vector<std::string>& names);
 
-/// What a text says as a value of this parameter's type. Throws Error "...: FIXED_WING is a whole number, not '1.5'".
+/// What a text says as a value of this parameter's type. Throws Error "...: FIXED_WING is a whole number, not
+/// '1.5'".
 std::uint32_t parse_value(const Param& param, const std::string& text);
 
-/// Sets a parameter and reads it back until it has these bits. Throws Error when it does not take. Nothing is sent when it has them
-/// already. False: it had them.
+/// Sets a parameter and reads it back until it has these bits. Throws Error when it does not take. Nothing is
+/// sent when it has them already. False: it had them.
 bool set_param(Client& client, const Param& now, std::uint32_t bits);
 
 /// "RC_ARM_CHN" matches "arm", "RC_*", "*CHN".

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/loader/table.hpp"
 #include "core/graph/record.hpp"
+#include "core/loader/table.hpp"
 #include "tools/fulmar_fcu/mixer.hpp"
 #include "tools/fulmar_fcu/radio.hpp"
 #include "tools/fulmar_fcu/words.hpp"
@@ -20,13 +20,16 @@ struct Judge {
   const Facts& f;
   std::vector<Item> items;
 
-  void add(Verdict verdict, const std::string& name, const std::string& text) { items.push_back({verdict, name, text}); }
+  void add(Verdict verdict, const std::string& name, const std::string& text) {
+    items.push_back({verdict, name, text});
+  }
   void ok(const std::string& name, const std::string& text) { add(Verdict::ok, name, text); }
   void warn(const std::string& name, const std::string& text) { add(Verdict::warn, name, text); }
   void fail(const std::string& name, const std::string& text) { add(Verdict::fail, name, text); }
 
   double value(const std::string& name) const {
-    const auto it = std::find_if(f.params.begin(), f.params.end(), [&](const Param& p) { return p.name == name; });
+    const auto it =
+        std::find_if(f.params.begin(), f.params.end(), [&](const Param& p) { return p.name == name; });
     return it == f.params.end() ? 0 : it->number();
   }
   int whole(const std::string& name) const { return static_cast<int>(value(name)); }
@@ -51,11 +54,13 @@ void firmware(Judge& j) {
   else
     j.ok("errors", "none");
   if (j.f.status.num_errors > 0)
-    j.warn("sensors", std::to_string(j.f.status.num_errors) + " did not start: 'fulmar fcu status' shows which are silent; power-cycle it");
+    j.warn("sensors", std::to_string(j.f.status.num_errors) +
+                          " did not start: 'fulmar fcu status' shows which are silent; power-cycle it");
 }
 
 void calibration(Judge& j) {
-  const bool bare = j.all_zero({"ACC_X_BIAS", "ACC_Y_BIAS", "ACC_Z_BIAS", "GYRO_X_BIAS", "GYRO_Y_BIAS", "GYRO_Z_BIAS"});
+  const bool bare =
+      j.all_zero({"ACC_X_BIAS", "ACC_Y_BIAS", "ACC_Z_BIAS", "GYRO_X_BIAS", "GYRO_Y_BIAS", "GYRO_Z_BIAS"});
   if (bare || (j.f.status.error_code & error_uncalibrated_imu) != 0)
     j.fail("IMU", "not calibrated: lay it level, 'fulmar fcu calibrate imu', then 'params write'");
   else
@@ -69,12 +74,14 @@ void calibration(Judge& j) {
   else
     j.ok("magnetometer", "calibrated");
   if (j.f.uptime_s < 12)
-    j.warn("zeroing", "booted " + fixed(j.f.uptime_s, 0) + " s ago: barometer and airspeed are zeroed in the first 12 s; keep it still");
+    j.warn("zeroing", "booted " + fixed(j.f.uptime_s, 0) +
+                          " s ago: barometer and airspeed are zeroed in the first 12 s; keep it still");
   if (j.f.pitot_hz == 0)
     j.warn("airspeed", "no sensor is heard: the pitot tube is unplugged, or there is none");
   else if (j.f.pitot && std::fabs(j.f.pitot->velocity) > 5)
     j.warn("airspeed",
-           fixed(j.f.pitot->velocity, 1) + " m/s at rest: cover the tube, 'fulmar fcu calibrate airspeed'; in wind this is right");
+           fixed(j.f.pitot->velocity, 1) +
+               " m/s at rest: cover the tube, 'fulmar fcu calibrate airspeed'; in wind this is right");
   else if (j.f.pitot)
     j.ok("airspeed", fixed(j.f.pitot->velocity, 1) + " m/s");
   if (j.f.baro_hz == 0)
@@ -94,10 +101,12 @@ void mixing(Judge& j) {
   for (const std::string& remark : remarks) j.warn("mixer", remark);
   if (faults.empty() && remarks.empty()) j.ok("mixer", mixer_name(mixer.choice));
   if (const int axis = j.whole("RC_F_AXIS"); axis != 0)
-    j.fail("throttle axis", "RC_F_AXIS is " + std::to_string(axis) + ": the throttle of a fixed wing is u[0]; set it to 0");
+    j.fail("throttle axis",
+           "RC_F_AXIS is " + std::to_string(axis) + ": the throttle of a fixed wing is u[0]; set it to 0");
   for (const char* name : {"X_EQ_TORQUE", "Y_EQ_TORQUE", "Z_EQ_TORQUE"})
     if (std::fabs(j.value(name)) > 0.3)
-      j.warn("trim", std::string(name) + " is " + fixed(j.value(name), 2) + ", and is added to every command: trim the linkage instead");
+      j.warn("trim", std::string(name) + " is " + fixed(j.value(name), 2) +
+                         ", and is added to every command: trim the linkage instead");
 }
 
 void reversal(Judge& j) {
@@ -109,13 +118,15 @@ void reversal(Judge& j) {
     const bool firmware = j.whole(param) != 0;
     const std::string name = surface;
     if (firmware && reversed)
-      j.fail("reversals",
-             std::string(param) + " is 1 and the airframe file says reversed: the " + name + " would be turned round twice; take one away");
+      j.fail("reversals", std::string(param) + " is 1 and the airframe file says reversed: the " + name +
+                              " would be turned round twice; take one away");
     else if (reversed)
-      j.warn("reversals", "the airframe file reverses the " + name + " for the computer alone, not for the pilot: better " + param +
+      j.warn("reversals", "the airframe file reverses the " + name +
+                              " for the computer alone, not for the pilot: better " + param +
                               " 1 and nothing in the file");
     else
-      j.ok("reversals", name + (firmware ? ": reversed by the firmware, for pilot and computer" : ": not reversed"));
+      j.ok("reversals",
+           name + (firmware ? ": reversed by the firmware, for pilot and computer" : ": not reversed"));
   };
   one("aileron", "REV_AILERON", j.f.airframe->aileron.reversed);
   one("elevator", "REV_ELEVATOR", j.f.airframe->elevator.reversed);
@@ -134,7 +145,8 @@ void timeouts(Judge& j) {
   const double thr = j.value("FAILSAFE_THR");
   if (thr > 0)
     j.add(Verdict::note, "failsafe",
-          "FAILSAFE_THR is " + fixed(thr, 2) + ", but without radio a fixed wing gets throttle 0 and centred surfaces all the same");
+          "FAILSAFE_THR is " + fixed(thr, 2) +
+              ", but without radio a fixed wing gets throttle 0 and centred surfaces all the same");
   else
     j.ok("failsafe", "without radio: throttle 0, surfaces centred");
 }
@@ -142,9 +154,12 @@ void timeouts(Judge& j) {
 void radio(Judge& j) {
   const RadioMap map = radio_map(j.f.params);
   if (j.f.rc_hz == 0)
-    return j.fail("radio", "no frames: switch the transmitter on; check receiver and RC_TYPE. Without them nothing reaches the outputs");
+    return j.fail("radio",
+                  "no frames: switch the transmitter on; check receiver and RC_TYPE. Without them nothing "
+                  "reaches the outputs");
   if (j.f.rc_hz < 40)
-    j.warn("radio", fixed(j.f.rc_hz, 0) + " frames a second: commands reach the outputs only with them; SBUS gives 111");
+    j.warn("radio", fixed(j.f.rc_hz, 0) +
+                        " frames a second: commands reach the outputs only with them; SBUS gives 111");
   else
     j.ok("radio", fixed(j.f.rc_hz, 0) + " frames a second");
   for (const std::string& fault : map_faults(map)) j.fail("channels", fault);
@@ -156,17 +171,21 @@ void radio(Judge& j) {
   else
     j.warn("override switch", "off: the computer flies as soon as it sends; begin with the pilot");
   const double stick = map.throttle(*j.f.rc);
-  if (stick > j.value("RC_ARM_THRESHOLD")) j.warn("throttle stick", "at " + fixed(100 * stick, 0) + " %: it must be down to arm");
+  if (stick > j.value("RC_ARM_THRESHOLD"))
+    j.warn("throttle stick", "at " + fixed(100 * stick, 0) + " %: it must be down to arm");
 }
 
 void pilot(Judge& j) {
   if (j.whole("TAKE_MIN_THR") != 0)
-    j.warn("throttle", "TAKE_MIN_THR is 1: the computer's throttle counts only below the pilot's stick; set 0, or fly with the stick up");
+    j.warn("throttle",
+           "TAKE_MIN_THR is 1: the computer's throttle counts only below the pilot's stick; set 0, or fly "
+           "with the stick up");
   else
     j.ok("throttle", "TAKE_MIN_THR is 0: to arm, the throttle override switch must be on");
   const double dev = j.value("RC_OVRD_DEV");
   if (dev >= 1)
-    j.warn("sticks", "RC_OVRD_DEV is " + fixed(dev, 2) + ": moving the sticks does not take over, only the switch does");
+    j.warn("sticks", "RC_OVRD_DEV is " + fixed(dev, 2) +
+                         ": moving the sticks does not take over, only the switch does");
   else
     j.ok("sticks", "more than " + fixed(100 * dev, 0) + " % of stick takes over");
 }
@@ -175,19 +194,23 @@ void outside(Judge& j) {
   if (!j.f.gnss)
     j.fail("GNSS", "silent: check the receiver's plug");
   else if (j.f.gnss->fix_type < 3 || j.f.gnss->fix_type == 5)
-    j.fail("GNSS", fix_words(j.f.gnss->fix_type) + ", " + std::to_string(j.f.gnss->num_sat) + " satellites: wait under open sky");
+    j.fail("GNSS", fix_words(j.f.gnss->fix_type) + ", " + std::to_string(j.f.gnss->num_sat) +
+                       " satellites: wait under open sky");
   else if (j.f.gnss->h_acc > 5 || j.f.gnss->num_sat < 6)
-    j.warn("GNSS", fix_words(j.f.gnss->fix_type) + ", " + std::to_string(j.f.gnss->num_sat) + " satellites, +-" +
-                       fixed(j.f.gnss->h_acc, 1) + " m: wait");
+    j.warn("GNSS", fix_words(j.f.gnss->fix_type) + ", " + std::to_string(j.f.gnss->num_sat) +
+                       " satellites, +-" + fixed(j.f.gnss->h_acc, 1) + " m: wait");
   else
-    j.ok("GNSS",
-         fix_words(j.f.gnss->fix_type) + ", " + std::to_string(j.f.gnss->num_sat) + " satellites, +-" + fixed(j.f.gnss->h_acc, 1) + " m");
-  if (!j.f.battery || j.f.battery->battery_voltage < 1) return j.warn("battery", "not measured: BATT_VOLT_MULT, or no sensor");
+    j.ok("GNSS", fix_words(j.f.gnss->fix_type) + ", " + std::to_string(j.f.gnss->num_sat) +
+                     " satellites, +-" + fixed(j.f.gnss->h_acc, 1) + " m");
+  if (!j.f.battery || j.f.battery->battery_voltage < 1)
+    return j.warn("battery", "not measured: BATT_VOLT_MULT, or no sensor");
   const double volt = j.f.battery->battery_voltage;
   if (j.f.airframe && volt < 0.85 * j.f.airframe->propulsion.battery_volt)
-    j.fail("battery", fixed(volt, 1) + " V, and the airframe's has " + fixed(j.f.airframe->propulsion.battery_volt, 1) + " V: charge it");
+    j.fail("battery", fixed(volt, 1) + " V, and the airframe's has " +
+                          fixed(j.f.airframe->propulsion.battery_volt, 1) + " V: charge it");
   else
-    j.ok("battery", fixed(volt, 1) + " V" + (j.f.uptime_s < 60 ? ", still settling: the controller filters it over 20 s" : ""));
+    j.ok("battery", fixed(volt, 1) + " V" +
+                        (j.f.uptime_s < 60 ? ", still settling: the controller filters it over 20 s" : ""));
 }
 
 void judge_line(Judge& j) {
@@ -198,8 +221,8 @@ void judge_line(Judge& j) {
   else
     j.ok("IMU rate", fixed(j.f.imu_hz, 0) + " Hz");
   j.add(Verdict::note, "other rates",
-        "mag " + fixed(j.f.mag_hz, 0) + ", baro " + fixed(j.f.baro_hz, 0) + ", airspeed " + fixed(j.f.pitot_hz, 0) + ", status " +
-            fixed(j.f.status_hz, 0) + " Hz");
+        "mag " + fixed(j.f.mag_hz, 0) + ", baro " + fixed(j.f.baro_hz, 0) + ", airspeed " +
+            fixed(j.f.pitot_hz, 0) + ", status " + fixed(j.f.status_hz, 0) + " Hz");
   const std::string loss = fixed(100 * j.f.loss_ratio, 2) + " % of the frames lost";
   if (j.f.loss_ratio > 0.05)
     j.fail("loss", loss + ": cable, or a baud rate that is too low");
@@ -217,7 +240,8 @@ void judge_line(Judge& j) {
     j.ok("load", load);
   if (!j.f.round_trip_s)
     return j.fail("round trip",
-                  "none of 20 questions was answered within 100 ms: too slow to fly on, or the line to the controller is cut");
+                  "none of 20 questions was answered within 100 ms: too slow to fly on, or the line to the "
+                  "controller is cut");
   const std::string trip = fixed(1000 * *j.f.round_trip_s, 2) + " ms";
   if (*j.f.round_trip_s > 0.05)
     j.fail("round trip", trip + ": too slow to fly on");
@@ -266,7 +290,8 @@ std::vector<Item> judge(const Facts& facts) {
   pilot(j);
   outside(j);
   judge_line(j);
-  j.add(Verdict::note, "parameters", "whether they are all written cannot be asked: 'fulmar fcu params write' makes sure");
+  j.add(Verdict::note, "parameters",
+        "whether they are all written cannot be asked: 'fulmar fcu params write' makes sure");
   return j.items;
 }
 
@@ -276,11 +301,14 @@ std::string items_text(const std::vector<Item>& items) {
   std::string out;
   for (const Item& item : items) {
     ++count[static_cast<std::size_t>(item.verdict)];
-    out += words[static_cast<std::size_t>(item.verdict)] + item.name + std::string(item.name.size() < 16 ? 16 - item.name.size() : 1, ' ') +
-           item.text + "\n";
+    out += words[static_cast<std::size_t>(item.verdict)] + item.name +
+           std::string(item.name.size() < 16 ? 16 - item.name.size() : 1, ' ') + item.text + "\n";
   }
-  out += std::to_string(count[3]) + " FAIL, " + std::to_string(count[2]) + " WARN, " + std::to_string(count[0]) + " OK: ";
-  return out + (count[3] > 0 ? "not ready.\n" : count[2] > 0 ? "ready, if the warnings are meant to be so.\n" : "ready.\n");
+  out += std::to_string(count[3]) + " FAIL, " + std::to_string(count[2]) + " WARN, " +
+         std::to_string(count[0]) + " OK: ";
+  return out + (count[3] > 0   ? "not ready.\n"
+                : count[2] > 0 ? "ready, if the warnings are meant to be so.\n"
+                               : "ready.\n");
 }
 
 Airframe read_airframe(const std::string& path) {
@@ -288,7 +316,8 @@ Airframe read_airframe(const std::string& path) {
   Airframe out;
   const core::Node root = core::parse_yaml(core::read_source(path, path), report);
   if (report.empty())
-    core::fill_record(*core::copy_type(fulmar::describe<Airframe>()), root, reinterpret_cast<std::byte*>(&out), "", report, {"params"});
+    core::fill_record(*core::copy_type(fulmar::describe<Airframe>()), root,
+                      reinterpret_cast<std::byte*>(&out), "", report, {"params"});
   report.throw_if_any();
   return out;
 }

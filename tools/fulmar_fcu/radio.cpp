@@ -13,13 +13,15 @@ int whole(const std::vector<Param>& params, const std::string& name) {
 }
 
 double value(const RcChannels& rc, int channel) {
-  return channel < 0 || channel > 7 ? 0 : (channels_us(rc)[static_cast<std::size_t>(channel)] - 1000.0) / 1000.0;
+  return channel < 0 || channel > 7 ? 0
+                                    : (channels_us(rc)[static_cast<std::size_t>(channel)] - 1000.0) / 1000.0;
 }
 
 }  // namespace
 
 std::array<std::uint16_t, 8> channels_us(const RcChannels& rc) {
-  return {rc.chan1_raw, rc.chan2_raw, rc.chan3_raw, rc.chan4_raw, rc.chan5_raw, rc.chan6_raw, rc.chan7_raw, rc.chan8_raw};
+  return {rc.chan1_raw, rc.chan2_raw, rc.chan3_raw, rc.chan4_raw,
+          rc.chan5_raw, rc.chan6_raw, rc.chan7_raw, rc.chan8_raw};
 }
 
 bool RadioMap::on(Switch s, const RcChannels& rc) const {
@@ -37,10 +39,11 @@ RadioMap radio_map(const std::vector<Param>& params) {
   map.z = whole(params, "RC_Z_CHN");
   map.f = whole(params, "RC_F_CHN");
   map.channels = whole(params, "RC_NUM_CHN");
-  map.channel = {whole(params, "RC_ARM_CHN"), whole(params, "RC_ATT_OVRD_CHN"), whole(params, "RC_THR_OVRD_CHN")};
+  map.channel = {whole(params, "RC_ARM_CHN"), whole(params, "RC_ATT_OVRD_CHN"),
+                 whole(params, "RC_THR_OVRD_CHN")};
   for (std::size_t s = 0; s < RadioMap::switches; ++s)
-    map.turned[s] =
-        map.channel[s] >= 4 && map.channel[s] <= 7 && whole(params, "SWITCH_" + std::to_string(map.channel[s] + 1) + "_DIR") < 0;
+    map.turned[s] = map.channel[s] >= 4 && map.channel[s] <= 7 &&
+                    whole(params, "SWITCH_" + std::to_string(map.channel[s] + 1) + "_DIR") < 0;
   return map;
 }
 
@@ -50,16 +53,23 @@ std::vector<std::string> map_faults(const RadioMap& map) {
   for (std::size_t i = 0; i < sticks.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
       if (sticks[i] == sticks[k])
-        out.push_back("two sticks are on channel " + std::to_string(sticks[i] + 1) + ": look at RC_X_CHN, RC_Y_CHN, RC_Z_CHN, RC_F_CHN");
-  if (std::any_of(sticks.begin(), sticks.end(), [&](int c) { return c < 0 || c >= std::min(map.channels, 8); }))
-    out.push_back("a stick is on a channel outside of 0 to RC_NUM_CHN - 1 (" + std::to_string(map.channels - 1) + ")");
-  const std::string range = ": switches may be on 4 to RC_NUM_CHN - 1 (" + std::to_string(map.channels - 1) + ")";
+        out.push_back("two sticks are on channel " + std::to_string(sticks[i] + 1) +
+                      ": look at RC_X_CHN, RC_Y_CHN, RC_Z_CHN, RC_F_CHN");
+  if (std::any_of(sticks.begin(), sticks.end(),
+                  [&](int c) { return c < 0 || c >= std::min(map.channels, 8); }))
+    out.push_back("a stick is on a channel outside of 0 to RC_NUM_CHN - 1 (" +
+                  std::to_string(map.channels - 1) + ")");
+  const std::string range =
+      ": switches may be on 4 to RC_NUM_CHN - 1 (" + std::to_string(map.channels - 1) + ")";
   if (!map.mapped(RadioMap::attitude_override))
-    out.push_back("no override switch: RC_ATT_OVRD_CHN is " + std::to_string(map.channel[RadioMap::attitude_override]) + range);
+    out.push_back("no override switch: RC_ATT_OVRD_CHN is " +
+                  std::to_string(map.channel[RadioMap::attitude_override]) + range);
   if (!map.mapped(RadioMap::throttle_override))
-    out.push_back("no throttle override switch: RC_THR_OVRD_CHN is " + std::to_string(map.channel[RadioMap::throttle_override]) + range);
+    out.push_back("no throttle override switch: RC_THR_OVRD_CHN is " +
+                  std::to_string(map.channel[RadioMap::throttle_override]) + range);
   if (map.channel[RadioMap::arm] >= 0 && !map.mapped(RadioMap::arm))
-    out.push_back("RC_ARM_CHN is " + std::to_string(map.channel[RadioMap::arm]) + range + ", or -1 to arm by the sticks");
+    out.push_back("RC_ARM_CHN is " + std::to_string(map.channel[RadioMap::arm]) + range +
+                  ", or -1 to arm by the sticks");
   if (map.mapped(RadioMap::arm) && (map.channel[RadioMap::arm] == map.channel[RadioMap::attitude_override] ||
                                     map.channel[RadioMap::arm] == map.channel[RadioMap::throttle_override]))
     out.push_back("one switch both arms and overrides: give RC_ARM_CHN a channel of its own");
@@ -68,12 +78,14 @@ std::vector<std::string> map_faults(const RadioMap& map) {
 
 std::string map_words(const RadioMap& map) {
   const auto number = [](int channel) { return std::to_string(channel + 1); };
-  return "roll " + number(map.x) + ", pitch " + number(map.y) + ", throttle " + number(map.f) + ", yaw " + number(map.z) + ", override " +
-         number(map.channel[RadioMap::attitude_override]) +
+  return "roll " + number(map.x) + ", pitch " + number(map.y) + ", throttle " + number(map.f) + ", yaw " +
+         number(map.z) + ", override " + number(map.channel[RadioMap::attitude_override]) +
          (map.channel[RadioMap::throttle_override] == map.channel[RadioMap::attitude_override]
               ? ""
               : ", throttle override " + number(map.channel[RadioMap::throttle_override])) +
-         (map.mapped(RadioMap::arm) ? ", arm " + number(map.channel[RadioMap::arm]) : ", armed by the sticks") + " (counted from 1)";
+         (map.mapped(RadioMap::arm) ? ", arm " + number(map.channel[RadioMap::arm])
+                                    : ", armed by the sticks") +
+         " (counted from 1)";
 }
 
 }  // namespace fulmar::fcu

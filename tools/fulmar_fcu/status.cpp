@@ -20,23 +20,31 @@ struct Euler {
 
 Euler euler(const AttitudeQuaternion& q) {
   const double w = q.q1, x = q.q2, y = q.q3, z = q.q4;
-  return {std::atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y)) * deg, std::asin(std::clamp(2 * (w * y - z * x), -1.0, 1.0)) * deg,
+  return {std::atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y)) * deg,
+          std::asin(std::clamp(2 * (w * y - z * x), -1.0, 1.0)) * deg,
           std::atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)) * deg};
 }
 
 std::array<std::uint16_t, 8> channels(const RcChannels& rc) {
-  return {rc.chan1_raw, rc.chan2_raw, rc.chan3_raw, rc.chan4_raw, rc.chan5_raw, rc.chan6_raw, rc.chan7_raw, rc.chan8_raw};
+  return {rc.chan1_raw, rc.chan2_raw, rc.chan3_raw, rc.chan4_raw,
+          rc.chan5_raw, rc.chan6_raw, rc.chan7_raw, rc.chan8_raw};
 }
 
 std::string line(const std::string& what, const std::string& value) {
   return what + std::string(what.size() < 13 ? 13 - what.size() : 1, ' ') + value + "\n";
 }
 
-std::string listed(const std::vector<std::string>& words) { return words.empty() ? "none" : core::join(words); }
+std::string listed(const std::vector<std::string>& words) {
+  return words.empty() ? "none" : core::join(words);
+}
 
-std::string age_words(double age_s) { return age_s > 1e6 ? "never heard" : age_s < 1.05 ? "" : fixed(age_s, 1) + " s old"; }
+std::string age_words(double age_s) {
+  return age_s > 1e6 ? "never heard" : age_s < 1.05 ? "" : fixed(age_s, 1) + " s old";
+}
 
-std::string with_age(const std::string& text, double age_s) { return age_s < 1.05 ? text : text + "  (" + age_words(age_s) + ")"; }
+std::string with_age(const std::string& text, double age_s) {
+  return age_s < 1.05 ? text : text + "  (" + age_words(age_s) + ")";
+}
 
 std::string radio_text(const Client& client) {
   const auto rc = client.last<RcChannels>();
@@ -44,7 +52,9 @@ std::string radio_text(const Client& client) {
   if (!rc) return line("radio", "no frame was ever heard");
   std::string out;
   for (const std::uint16_t us : channels(*rc)) out += std::to_string(us) + " ";
-  return line("radio", out + "us" + (age_s > 0.5 ? "  STOPPED " + fixed(age_s, 1) + " s ago: the outputs are frozen" : ""));
+  return line(
+      "radio",
+      out + "us" + (age_s > 0.5 ? "  STOPPED " + fixed(age_s, 1) + " s ago: the outputs are frozen" : ""));
 }
 
 std::string gnss_text(const Client& client) {
@@ -52,15 +62,18 @@ std::string gnss_text(const Client& client) {
   if (!g) return line("GNSS", "not heard");
   std::string out = fix_words(g->fix_type) + ", " + std::to_string(g->num_sat) + " satellites";
   if (g->fix_type >= 2 && g->fix_type != 5)
-    out += ", " + fixed(g->lat, 7) + " " + fixed(g->lon, 7) + ", " + fixed(g->height, 1) + " m, +-" + fixed(g->h_acc, 1) + " m";
+    out += ", " + fixed(g->lat, 7) + " " + fixed(g->lon, 7) + ", " + fixed(g->height, 1) + " m, +-" +
+           fixed(g->h_acc, 1) + " m";
   return line("GNSS", with_age(out, client.age_s<RosflightGnss>()));
 }
 
 std::string air_text(const Client& client) {
   std::string out;
   if (const auto baro = client.last<SmallBaro>())
-    out += fixed(baro->pressure, 0) + " Pa, " + fixed(baro->altitude, 1) + " m ISA, " + fixed(baro->temperature - 273.15, 1) + " degC";
-  if (const auto dp = client.last<DiffPressure>()) out += (out.empty() ? "" : "; ") + fixed(dp->velocity, 1) + " m/s indicated";
+    out += fixed(baro->pressure, 0) + " Pa, " + fixed(baro->altitude, 1) + " m ISA, " +
+           fixed(baro->temperature - 273.15, 1) + " degC";
+  if (const auto dp = client.last<DiffPressure>())
+    out += (out.empty() ? "" : "; ") + fixed(dp->velocity, 1) + " m/s indicated";
   return line("air", out.empty() ? "no barometer, no airspeed sensor heard" : out);
 }
 
@@ -69,13 +82,16 @@ std::string sensors_text(const Client& client) {
   const auto q = client.last<AttitudeQuaternion>();
   if (q) {
     const Euler e = euler(*q);
-    out += line("attitude", with_age("roll " + fixed(e.roll_deg, 1) + "  pitch " + fixed(e.pitch_deg, 1) + "  yaw " + fixed(e.yaw_deg, 1) +
-                                         " deg (yaw drifts: no compass in it)",
-                                     client.age_s<AttitudeQuaternion>()));
+    out +=
+        line("attitude", with_age("roll " + fixed(e.roll_deg, 1) + "  pitch " + fixed(e.pitch_deg, 1) +
+                                      "  yaw " + fixed(e.yaw_deg, 1) + " deg (yaw drifts: no compass in it)",
+                                  client.age_s<AttitudeQuaternion>()));
   }
   out += air_text(client) + gnss_text(client);
   const auto battery = client.last<RosflightBatteryStatus>();
-  out += line("battery", battery ? fixed(battery->battery_voltage, 2) + " V, " + fixed(battery->battery_current, 1) + " A" : "not heard");
+  out += line("battery", battery ? fixed(battery->battery_voltage, 2) + " V, " +
+                                       fixed(battery->battery_current, 1) + " A"
+                                 : "not heard");
   return out;
 }
 
@@ -96,9 +112,11 @@ std::string link_text(const Client& client, const Meter& meter) {
   std::string rates;
   for (const Kind& kind : kinds)
     if (client.count_of(kind.id) > 0)
-      rates += (rates.empty() ? "" : ", ") + std::string(kind.name) + " " + fixed(meter.rate(client, kind.id), 0);
-  return line("rates", rates + " Hz") + line("link", fixed(meter.bytes_per_s(client) / 1000, 1) + " kB/s, " +
-                                                         fixed(100 * meter.loss_ratio(client), 1) + " % of the frames lost");
+      rates +=
+          (rates.empty() ? "" : ", ") + std::string(kind.name) + " " + fixed(meter.rate(client, kind.id), 0);
+  return line("rates", rates + " Hz") +
+         line("link", fixed(meter.bytes_per_s(client) / 1000, 1) + " kB/s, " +
+                          fixed(100 * meter.loss_ratio(client), 1) + " % of the frames lost");
 }
 
 }  // namespace
@@ -110,13 +128,17 @@ void Meter::restart(const Client& client) {
   since_ns_ = client.now_ns();
 }
 
-double Meter::span_s(const Client& client) const { return std::max(1e-3, static_cast<double>(client.now_ns() - since_ns_) * 1e-9); }
+double Meter::span_s(const Client& client) const {
+  return std::max(1e-3, static_cast<double>(client.now_ns() - since_ns_) * 1e-9);
+}
 
 double Meter::rate(const Client& client, std::uint8_t id) const {
   return static_cast<double>(client.count_of(id) - count_[id]) / span_s(client);
 }
 
-double Meter::bytes_per_s(const Client& client) const { return static_cast<double>(client.bytes() - bytes_) / span_s(client); }
+double Meter::bytes_per_s(const Client& client) const {
+  return static_cast<double>(client.bytes() - bytes_) / span_s(client);
+}
 
 double Meter::loss_ratio(const Client& client) const {
   const auto missing = static_cast<double>(client.counts().missing - parser_.missing);
@@ -127,21 +149,25 @@ double Meter::loss_ratio(const Client& client) const {
 std::string control_words(const RosflightStatus& status, double rc_age_s) {
   if (status.failsafe != 0) return "nobody: failsafe, motor off and surfaces centred";
   if (rc_age_s > 0.5) return "nobody: without radio frames the outputs are frozen";
-  if ((status.rc_override & (override_by_pilot | override_inactive)) == 0 && status.offboard != 0) return "the computer";
+  if ((status.rc_override & (override_by_pilot | override_inactive)) == 0 && status.offboard != 0)
+    return "the computer";
   return "the pilot (" + core::join(override_words(status.rc_override)) + ")";
 }
 
 std::string status_text(const Client& client, const Meter& meter) {
   const auto status = client.last<RosflightStatus>();
   const auto heartbeat = client.last<Heartbeat>();
-  std::string out = line("controller", (client.version().empty() ? "firmware not told" : "ROSflight " + client.version()) +
-                                           (heartbeat ? heartbeat->type == 1 ? ", fixed wing" : ", NOT set up as a fixed wing" : "") +
-                                           ", on " + client.name());
+  std::string out =
+      line("controller",
+           (client.version().empty() ? "firmware not told" : "ROSflight " + client.version()) +
+               (heartbeat ? heartbeat->type == 1 ? ", fixed wing" : ", NOT set up as a fixed wing" : "") +
+               ", on " + client.name());
   if (status) {
     std::string state = status->armed != 0 ? "ARMED" : "disarmed";
     if (status->failsafe != 0) state += ", FAILSAFE";
     state += ", loop " + std::to_string(status->loop_time_us) + " us";
-    if (status->num_errors > 0) state += ", " + std::to_string(status->num_errors) + " sensor faults at start";
+    if (status->num_errors > 0)
+      state += ", " + std::to_string(status->num_errors) + " sensor faults at start";
     out += line("state", with_age(state, client.age_s<RosflightStatus>()));
     out += line("flies", control_words(*status, client.age_s<RcChannels>()));
     out += line("errors", listed(error_words(status->error_code)));
@@ -154,7 +180,9 @@ std::string status_text(const Client& client, const Meter& meter) {
 }
 
 std::string status_json(const Client& client, const Meter& meter) {
-  nlohmann::json out{{"port", client.name()}, {"version", client.version().empty() ? nlohmann::json() : nlohmann::json(client.version())}};
+  nlohmann::json out{
+      {"port", client.name()},
+      {"version", client.version().empty() ? nlohmann::json() : nlohmann::json(client.version())}};
   if (const auto s = client.last<RosflightStatus>()) {
     out["armed"] = s->armed != 0;
     out["failsafe"] = s->failsafe != 0;
@@ -164,11 +192,14 @@ std::string status_json(const Client& client, const Meter& meter) {
     out["loop_time_us"] = s->loop_time_us;
     out["sensor_faults"] = s->num_errors;
   }
-  if (const auto rc = client.last<RcChannels>()) out["radio"] = {{"channels_us", channels(*rc)}, {"age_s", client.age_s<RcChannels>()}};
-  if (const auto b = client.last<RosflightBatteryStatus>()) out["battery"] = {{"volt", b->battery_voltage}, {"amp", b->battery_current}};
+  if (const auto rc = client.last<RcChannels>())
+    out["radio"] = {{"channels_us", channels(*rc)}, {"age_s", client.age_s<RcChannels>()}};
+  if (const auto b = client.last<RosflightBatteryStatus>())
+    out["battery"] = {{"volt", b->battery_voltage}, {"amp", b->battery_current}};
   if (const auto g = client.last<RosflightGnss>())
-    out["gnss"] = {{"fix", fix_words(g->fix_type)}, {"satellites", g->num_sat}, {"lat_deg", g->lat}, {"lon_deg", g->lon},
-                   {"height_m", g->height},         {"h_acc_m", g->h_acc}};
+    out["gnss"] = {
+        {"fix", fix_words(g->fix_type)}, {"satellites", g->num_sat}, {"lat_deg", g->lat}, {"lon_deg", g->lon},
+        {"height_m", g->height},         {"h_acc_m", g->h_acc}};
   if (const auto q = client.last<AttitudeQuaternion>()) {
     const Euler e = euler(*q);
     out["attitude"] = {{"roll_deg", e.roll_deg}, {"pitch_deg", e.pitch_deg}, {"yaw_deg", e.yaw_deg}};
@@ -178,6 +209,8 @@ std::string status_json(const Client& client, const Meter& meter) {
   return out.dump(1);
 }
 
-std::string version_json(const Client& client) { return nlohmann::json{{"version", client.version()}}.dump(1); }
+std::string version_json(const Client& client) {
+  return nlohmann::json{{"version", client.version()}}.dump(1);
+}
 
 }  // namespace fulmar::fcu

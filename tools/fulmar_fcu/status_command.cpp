@@ -38,8 +38,9 @@ int status_command(Client& client, const Options& options, bool once) {
 
 int version_command(Client& client, const Options& options) {
   if (client.version().empty())
-    throw Error(client.armed() ? "The aircraft is armed: the controller tells its version only while disarmed."
-                               : "The controller refuses to tell its version.");
+    throw Error(client.armed()
+                    ? "The aircraft is armed: the controller tells its version only while disarmed."
+                    : "The controller refuses to tell its version.");
   if (options.json)
     std::printf("%s\n", version_json(client).c_str());
   else

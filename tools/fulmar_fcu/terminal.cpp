@@ -26,7 +26,8 @@ bool on_terminal() { return ::isatty(STDOUT_FILENO) == 1; }
 
 bool confirmed(const std::string& question, bool yes, const std::string& flag) {
   if (yes) return true;
-  if (::isatty(STDIN_FILENO) != 1 || !on_terminal()) throw Error("Nothing was changed: without a terminal to ask on, add " + flag + ".");
+  if (::isatty(STDIN_FILENO) != 1 || !on_terminal())
+    throw Error("Nothing was changed: without a terminal to ask on, add " + flag + ".");
   std::printf("%s [y/N] ", question.c_str());
   std::fflush(stdout);
   std::string answer;

@@ -52,13 +52,15 @@ std::vector<std::string> error_words(std::uint8_t bits) {
 
 std::string fix_words(std::uint8_t fix_type) {
   // u-blox UBX-NAV-PVT fixType; 6 and 7 are the board's own
-  static constexpr std::array<const char*, 8> words{"no fix",    "dead reckoning", "2D fix",   "3D fix", "3D fix and dead reckoning",
-                                                    "time only", "RTK float",      "RTK fixed"};
+  static constexpr std::array<const char*, 8> words{
+      "no fix",    "dead reckoning", "2D fix",   "3D fix", "3D fix and dead reckoning",
+      "time only", "RTK float",      "RTK fixed"};
   return fix_type < words.size() ? words[fix_type] : "fix type " + std::to_string(fix_type);
 }
 
 std::string severity_word(std::uint8_t severity) {
-  static constexpr std::array<const char*, 8> words{"emergency", "alert", "critical", "error", "warning", "notice", "info", "debug"};
+  static constexpr std::array<const char*, 8> words{"emergency", "alert",  "critical", "error",
+                                                    "warning",   "notice", "info",     "debug"};
   return severity < words.size() ? words[severity] : "severity " + std::to_string(severity);
 }
 

@@ -7,7 +7,8 @@
 
 namespace fulmar::fcu {
 
-/// Why the pilot's sticks and not the computer's commands reach the outputs: bits of ROSFLIGHT_STATUS.rc_override.
+/// Why the pilot's sticks and not the computer's commands reach the outputs: bits of
+/// ROSFLIGHT_STATUS.rc_override.
 std::vector<std::string> override_words(std::uint16_t bits);
 /// Bits of ROSFLIGHT_STATUS.error_code.
 std::vector<std::string> error_words(std::uint8_t bits);

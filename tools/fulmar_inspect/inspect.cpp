@@ -12,7 +12,8 @@ namespace {
 
 using namespace inspect_text;
 
-// Rows of words in columns as wide as their longest word, two blanks between. Columns that are empty everywhere vanish.
+// Rows of words in columns as wide as their longest word, two blanks between. Columns that are empty
+// everywhere vanish.
 class Columns {
  public:
   explicit Columns(std::size_t indent) : indent_(indent) {}
@@ -35,7 +36,8 @@ class Columns {
 
  private:
   static std::size_t width(const std::string& utf8) {
-    return static_cast<std::size_t>(std::count_if(utf8.begin(), utf8.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+    return static_cast<std::size_t>(
+        std::count_if(utf8.begin(), utf8.end(), [](char c) { return (c & 0xc0) != 0x80; }));
   }
   std::size_t indent_;
   std::vector<std::size_t> widths_;
@@ -47,7 +49,8 @@ std::string ports_text(const char* title, const std::vector<Port>& ports) {
   Columns columns(4);
   for (const Port& port : ports) {
     if (port.type) {
-      columns.row({port.name, port.type->name, port_kind(port), byte_text(port.type->size), hash_text(port.type->hash)});
+      columns.row({port.name, port.type->name, port_kind(port), byte_text(port.type->size),
+                   hash_text(port.type->hash)});
     } else {
       columns.row({port.name, "", port_kind(port)});
     }
@@ -60,7 +63,8 @@ std::string params_text(const std::vector<ParamInfo>& params) {
   Columns columns(4);
   for (const ParamInfo& param : params)
     columns.row({param.name, initial_text(param), limits_text(param),
-                 std::string(param.live ? "live" : "setup") + (param.required ? ", required" : ""), param.doc});
+                 std::string(param.live ? "live" : "setup") + (param.required ? ", required" : ""),
+                 param.doc});
   return "  parameters\n" + columns.text();
 }
 
@@ -73,10 +77,12 @@ std::string component_text(const ComponentInfo& component) {
   if (component.activates) traits.push_back("hands over without a bump");
   if (component.resident) traits.push_back("stays resident");
   if (!traits.empty()) text += "  " + join(traits) + "\n";
-  return text + ports_text("inputs", component.inputs) + ports_text("outputs", component.outputs) + params_text(component.params);
+  return text + ports_text("inputs", component.inputs) + ports_text("outputs", component.outputs) +
+         params_text(component.params);
 }
 
-void field_rows(const Type& type, const std::string& path, std::uint32_t base, const std::string& unit, Columns& columns) {
+void field_rows(const Type& type, const std::string& path, std::uint32_t base, const std::string& unit,
+                Columns& columns) {
   for (const Field& field : type.fields) {
     const std::string own_unit = field.unit.empty() ? unit : field.unit;
     const std::string frame = field.type ? field.type->frame : "";
@@ -85,14 +91,17 @@ void field_rows(const Type& type, const std::string& path, std::uint32_t base, c
     columns.row({path + field.name, element_text(field) + shape_text(field), own_unit, frame, at, limits});
     // inside an array or list the offsets count from the element
     const bool many = field.shape != FULMAR_SCALAR;
-    if (field.type) field_rows(*field.type, path + field.name + (many ? "[]." : "."), many ? 0 : base + field.offset, own_unit, columns);
+    if (field.type)
+      field_rows(*field.type, path + field.name + (many ? "[]." : "."), many ? 0 : base + field.offset,
+                 own_unit, columns);
   }
 }
 
 std::string messages_text(const PluginInfo& plugin) {
   std::vector<TypePtr> types;
   const auto add = [&](const TypePtr& type) {
-    const bool known = !type || std::any_of(types.begin(), types.end(), [&](const TypePtr& t) { return t->hash == type->hash; });
+    const bool known = !type || std::any_of(types.begin(), types.end(),
+                                            [&](const TypePtr& t) { return t->hash == type->hash; });
     if (!known) types.push_back(type);
   };
   for (const ComponentInfo& component : plugin.components) {
@@ -104,7 +113,8 @@ std::string messages_text(const PluginInfo& plugin) {
   std::string text;
   for (const TypePtr& type : types) {
     text += "\n" + type->name + "  " + byte_text(type->size) + "  " + hash_text(type->hash);
-    text += (type->frame.empty() ? "" : "  " + type->frame) + (type->ros.empty() ? "" : "  " + type->ros) + "\n";
+    text +=
+        (type->frame.empty() ? "" : "  " + type->frame) + (type->ros.empty() ? "" : "  " + type->ros) + "\n";
     Columns columns(2);
     columns.row({"field", "kind", "unit", "frame", "byte", "range"});
     field_rows(*type, "", 0, "", columns);

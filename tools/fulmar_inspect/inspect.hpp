@@ -7,7 +7,8 @@
 
 namespace fulmar::core {
 
-/// Version, components, ports and parameters in aligned columns; with `fields` also the tables of every message.
+/// Version, components, ports and parameters in aligned columns; with `fields` also the tables of every
+/// message.
 std::string describe_plugin(const PluginInfo& plugin, bool fields = false);
 
 /// The same, whole, as a page of Markdown.

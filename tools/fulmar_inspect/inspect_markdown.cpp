@@ -14,9 +14,11 @@ namespace {
 
 using namespace inspect_text;
 
-constexpr double unknown = 1e9;  // what the SDK calls unknown_std: a deviation that nobody knows, a field that a file may leave out
+constexpr double unknown =
+    1e9;  // what the SDK calls unknown_std: a deviation that nobody knows, a field that a file may leave out
 
-/// Text of a table's cell: nothing in it is mark-up but pairs of back-ticks. A bar ends a cell even between back-ticks.
+/// Text of a table's cell: nothing in it is mark-up but pairs of back-ticks. A bar ends a cell even between
+/// back-ticks.
 std::string cell(const std::string& text) {
   const bool paired = std::count(text.begin(), text.end(), '`') % 2 == 0;
   bool code = false;
@@ -42,7 +44,9 @@ std::string code(const std::string& text) { return text.empty() ? "" : "`" + tex
 /// A table; columns that are empty in every row are left out.
 class Table {
  public:
-  explicit Table(std::vector<std::string> head) : head_(std::move(head)), used_(head_.size(), false) { used_[0] = true; }
+  explicit Table(std::vector<std::string> head) : head_(std::move(head)), used_(head_.size(), false) {
+    used_[0] = true;
+  }
   void row(std::vector<std::string> cells) {
     cells.resize(head_.size());
     for (std::size_t i = 0; i < cells.size(); ++i) used_[i] = used_[i] || !cells[i].empty();
@@ -70,7 +74,8 @@ class Table {
 /// GitHub's rule for the anchor of a heading that is one word.
 std::string link_to(const std::string& heading) {
   std::string anchor = heading;
-  std::transform(anchor.begin(), anchor.end(), anchor.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  std::transform(anchor.begin(), anchor.end(), anchor.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
   return "[" + heading + "](#" + anchor + ")";
 }
 
@@ -79,14 +84,16 @@ std::string in_degrees(const ParamInfo& param) {
   const bool angle = param.unit == "rad" || param.unit == "rad/s" || param.unit == "rad/s2";
   if (param.kind != FULMAR_NUMBER || !angle || param.initial[0] == 0) return "";
   char text[48];
-  std::snprintf(text, sizeof text, " (%.4g deg%s)", param.initial[0] * 180 / std::numbers::pi, param.unit.c_str() + 3);
+  std::snprintf(text, sizeof text, " (%.4g deg%s)", param.initial[0] * 180 / std::numbers::pi,
+                param.unit.c_str() + 3);
   return text;
 }
 
 std::string ports(const char* title, const char* column, const std::vector<Port>& all) {
   if (all.empty()) return "";
   Table table({column, "message", "kind"});
-  for (const Port& port : all) table.row({code(port.name), port.type ? link_to(port.type->name) : "", port_kind(port)});
+  for (const Port& port : all)
+    table.row({code(port.name), port.type ? link_to(port.type->name) : "", port_kind(port)});
   return "### " + std::string(title) + "\n\n" + table.text();
 }
 
@@ -94,8 +101,10 @@ std::string parameters(const std::vector<ParamInfo>& all) {
   if (all.empty()) return "";
   Table table({"parameter", "default", "range", "set", "what"});
   for (const ParamInfo& param : all) {
-    const std::string initial = param.kind == FULMAR_RECORD ? link_to(param.type->name) : cell(initial_text(param) + in_degrees(param));
-    const std::string set = std::string(param.live ? "live" : "set-up") + (param.required ? ", required" : "");
+    const std::string initial = param.kind == FULMAR_RECORD ? link_to(param.type->name)
+                                                            : cell(initial_text(param) + in_degrees(param));
+    const std::string set =
+        std::string(param.live ? "live" : "set-up") + (param.required ? ", required" : "");
     table.row({code(param.name), initial, cell(limits_text(param)), set, cell(param.doc)});
   }
   return "### Parameters\n\n" + table.text();
@@ -106,7 +115,8 @@ std::string use_text(const std::string& plugin, const ComponentInfo& component) 
   std::vector<std::string> wires;
   for (const Port& port : component.inputs)
     if (port.kind == FULMAR_IN_VALUE && !port.optional) wires.push_back(port.name + ": ...");
-  return "```yaml\nname: {use: " + plugin + "/" + component.name + (wires.empty() ? "" : ", in: {" + join(wires) + "}") + "}\n```\n\n";
+  return "```yaml\nname: {use: " + plugin + "/" + component.name +
+         (wires.empty() ? "" : ", in: {" + join(wires) + "}") + "}\n```\n\n";
 }
 
 std::string component_page(const std::string& plugin, const ComponentInfo& component) {
@@ -116,7 +126,8 @@ std::string component_page(const std::string& plugin, const ComponentInfo& compo
   if (component.vehicle) text += "A vehicle: it keeps the time, and fills the role `vehicle`.\n\n";
   if (component.activates) text += "Takes over in flight without a bump.\n\n";
   if (component.resident) text += "Its library stays loaded once it is loaded.\n\n";
-  return text + ports("Inputs", "input", component.inputs) + ports("Outputs", "output", component.outputs) + parameters(component.params);
+  return text + ports("Inputs", "input", component.inputs) + ports("Outputs", "output", component.outputs) +
+         parameters(component.params);
 }
 
 /// What a field of a record is when the file does not name it. "" for what a file must list item by item.
@@ -126,7 +137,8 @@ std::string initial_of(const Field& field, const std::byte* at) {
   const double value = number_at(field, at);
   if (field.kind == FULMAR_BOOL) return value != 0 ? "true" : "false";
   if (field.kind == FULMAR_ENUM)
-    return value < static_cast<double>(field.labels.size()) ? field.labels[static_cast<std::size_t>(value)] : "";
+    return value < static_cast<double>(field.labels.size()) ? field.labels[static_cast<std::size_t>(value)]
+                                                            : "";
   return value == unknown ? "none" : number(value);
 }
 
@@ -137,7 +149,8 @@ std::string vector_initial(const Field& field, const std::byte* at) {
   return "[" + join(parts) + "]";
 }
 
-/// One row per field; the fields of a struct in a struct follow with their path, those of a vector stand in its row.
+/// One row per field; the fields of a struct in a struct follow with their path, those of a vector stand in
+/// its row.
 void table_rows(const Type& type, const std::string& path, const std::byte* data, Table& table) {
   for (const Field& field : type.fields) {
     const std::byte* at = data == nullptr ? nullptr : data + field.offset;
@@ -150,16 +163,19 @@ void table_rows(const Type& type, const std::string& path, const std::byte* data
     if (field.kind == FULMAR_STRUCT) {
       std::vector<std::string> axes;
       for (const Field& axis : field.type->fields) axes.push_back(axis.name);
-      table.row({code(name), cell("{" + join(axes) + "}" + many), cell(field.unit), field.type->frame, cell(vector_initial(field, at))});
+      table.row({code(name), cell("{" + join(axes) + "}" + many), cell(field.unit), field.type->frame,
+                 cell(vector_initial(field, at))});
       continue;
     }
     const std::string limits = field.kind == FULMAR_ENUM ? join(field.labels) : range(field.min, field.max);
-    table.row({code(name), cell(element_text(field) + many), cell(field.unit), "", cell(initial_of(field, at)), cell(limits)});
+    table.row({code(name), cell(element_text(field) + many), cell(field.unit), "",
+               cell(initial_of(field, at)), cell(limits)});
   }
 }
 
 std::string type_text(const Type& type, const std::byte* initial) {
-  std::string text = "### " + type.name + "\n\n" + byte_text(type.size) + ", layout `" + hash_text(type.hash) + "`";
+  std::string text =
+      "### " + type.name + "\n\n" + byte_text(type.size) + ", layout `" + hash_text(type.hash) + "`";
   if (!type.frame.empty()) text += ", " + type.frame;
   if (!type.ros.empty()) text += ", ROS type `" + type.ros + "`";
   Table table({"field", "kind", "unit", "frame", "default", "range"});
@@ -181,7 +197,8 @@ std::string types_text(const PluginInfo& plugin) {
   Section files, messages;
   for (const ComponentInfo& component : plugin.components)
     for (const ParamInfo& param : component.params)
-      if (param.kind == FULMAR_RECORD) files.add(param.type, param.initial_data.empty() ? nullptr : param.initial_data.data());
+      if (param.kind == FULMAR_RECORD)
+        files.add(param.type, param.initial_data.empty() ? nullptr : param.initial_data.data());
   messages.seen = files.seen;
   for (const ComponentInfo& component : plugin.components) {
     for (const Port& port : component.inputs) messages.add(port.type);
@@ -190,7 +207,8 @@ std::string types_text(const PluginInfo& plugin) {
   std::string text;
   if (!messages.text.empty()) text += "## Messages\n\n" + messages.text;
   if (!files.text.empty())
-    text += "## Files\n\nWhat the parameters above read. A field that is not named has its default.\n\n" + files.text;
+    text += "## Files\n\nWhat the parameters above read. A field that is not named has its default.\n\n" +
+            files.text;
   return text;
 }
 
@@ -201,7 +219,8 @@ std::string describe_plugin_markdown(const PluginInfo& plugin) {
   std::string text = "# " + name + "\n\n`" + plugin.file + "`, version " + cell(plugin.version) + ", ABI " +
                      std::to_string(plugin.abi_major) + "." + std::to_string(plugin.abi_minor) + "\n\n";
   Table components({"component", "what"});
-  for (const ComponentInfo& component : plugin.components) components.row({link_to(component.name), cell(component.doc)});
+  for (const ComponentInfo& component : plugin.components)
+    components.row({link_to(component.name), cell(component.doc)});
   text += components.text();
   for (const ComponentInfo& component : plugin.components) text += component_page(name, component);
   text += types_text(plugin);

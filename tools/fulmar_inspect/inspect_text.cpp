@@ -32,20 +32,13 @@ std::string byte_text(std::uint32_t size) { return std::to_string(size) + (size 
 std::string port_kind(const Port& port) {
   const std::string many = " of " + std::to_string(port.capacity);
   switch (port.kind) {
-    case FULMAR_IN_VALUE:
-      return port.optional ? "value, optional" : "value";
-    case FULMAR_IN_QUEUE:
-      return "queue" + many;
-    case FULMAR_IN_REQUEST:
-      return "request" + many;
-    case FULMAR_OUT_VALUE:
-      return "value";
-    case FULMAR_OUT_EVENT:
-      return "value, may stay silent";
-    case FULMAR_OUT_QUEUE:
-      return "queue" + many;
-    case FULMAR_OUT_PROBE:
-      return "probe";
+    case FULMAR_IN_VALUE: return port.optional ? "value, optional" : "value";
+    case FULMAR_IN_QUEUE: return "queue" + many;
+    case FULMAR_IN_REQUEST: return "request" + many;
+    case FULMAR_OUT_VALUE: return "value";
+    case FULMAR_OUT_EVENT: return "value, may stay silent";
+    case FULMAR_OUT_QUEUE: return "queue" + many;
+    case FULMAR_OUT_PROBE: return "probe";
   }
   return "?";
 }
@@ -54,27 +47,23 @@ std::string initial_text(const ParamInfo& param) {
   const std::string unit = param.unit.empty() ? "" : " " + param.unit;
   switch (param.kind) {
     case FULMAR_NUMBER:
-    case FULMAR_COUNT:
-      return number(param.initial[0]) + unit;
-    case FULMAR_FLAG:
-      return param.initial[0] != 0 ? "true" : "false";
-    case FULMAR_CHOICE:
-      return param.choices[static_cast<std::size_t>(param.initial[0])];
-    case FULMAR_STRING:
-      return "\"" + param.initial_text + "\"";
+    case FULMAR_COUNT: return number(param.initial[0]) + unit;
+    case FULMAR_FLAG: return param.initial[0] != 0 ? "true" : "false";
+    case FULMAR_CHOICE: return param.choices[static_cast<std::size_t>(param.initial[0])];
+    case FULMAR_STRING: return "\"" + param.initial_text + "\"";
     case FULMAR_VECTOR:
-      return "[" + number(param.initial[0]) + ", " + number(param.initial[1]) + ", " + number(param.initial[2]) + "]" + unit;
-    case FULMAR_RECORD:
-      return param.type->name + " (file)";
-    case FULMAR_BLOB:
-      return "bytes (file)";
+      return "[" + number(param.initial[0]) + ", " + number(param.initial[1]) + ", " +
+             number(param.initial[2]) + "]" + unit;
+    case FULMAR_RECORD: return param.type->name + " (file)";
+    case FULMAR_BLOB: return "bytes (file)";
   }
   return "?";
 }
 
 std::string limits_text(const ParamInfo& param) {
   if (param.kind == FULMAR_CHOICE) return join(param.choices);
-  const bool numeric = param.kind == FULMAR_NUMBER || param.kind == FULMAR_COUNT || param.kind == FULMAR_VECTOR;
+  const bool numeric =
+      param.kind == FULMAR_NUMBER || param.kind == FULMAR_COUNT || param.kind == FULMAR_VECTOR;
   return numeric ? range(param.min, param.max) : "";
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `fulmar inspect` and `fulmar graph`, as the program fulmar-inspect. Exit codes: 0 done; 1 it failed; 2 wrong usage.
+// `fulmar inspect` and `fulmar graph`, as the program fulmar-inspect. Exit codes: 0 done; 1 it failed; 2
+// wrong usage.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
@@ -18,19 +19,23 @@ int main(int argc, char** argv) {
   bool fields = false, markdown = false;
   CLI::App* graph = app.add_subcommand("graph", "print components, wires, order and phases of a mission");
   mission.add(graph);
-  graph->add_option("--format", format, "text, dot or mermaid")->check(CLI::IsMember({"text", "dot", "mermaid"}));
+  graph->add_option("--format", format, "text, dot or mermaid")
+      ->check(CLI::IsMember({"text", "dot", "mermaid"}));
   graph->footer("Example: fulmar graph configs/missions/hourglass.yaml --format mermaid");
   CLI::App* inspect = app.add_subcommand("inspect", "print what a plugin file offers");
   inspect->add_option("PLUGIN", plugin, "shared object")->required();
   inspect->add_flag("--fields", fields, "also the fields of every message");
-  inspect->add_flag("--markdown", markdown, "as a page of reference: Markdown with every parameter, port and field");
+  inspect->add_flag("--markdown", markdown,
+                    "as a page of reference: Markdown with every parameter, port and field");
   inspect->footer("Example: fulmar inspect build/lib/fulmar/control_slc.so");
   return run_program(app, [&] {
     if (asked_for_rows(argc, argv)) return std::fputs(command_rows(app).c_str(), stdout), 0;
     app.parse(argc, argv);
     const auto print = [](const std::string& text) { return std::fputs(text.c_str(), stdout), 0; };
-    if (graph->parsed()) return print(print_graph(load_mission(mission.mission, mission.overrides(graph)), format));
+    if (graph->parsed())
+      return print(print_graph(load_mission(mission.mission, mission.overrides(graph)), format));
     const std::shared_ptr<Library> library = Library::open(plugin);
-    return print(markdown ? describe_plugin_markdown(library->info()) : describe_plugin(library->info(), fields));
+    return print(markdown ? describe_plugin_markdown(library->info())
+                          : describe_plugin(library->info(), fields));
   });
 }

@@ -31,14 +31,11 @@ std::string rate_text(const Graph& graph, const Component& component) {
   const std::int64_t period = component.period_ns > 0 ? component.period_ns : graph.tick_ns;
   const std::string rate = number_text(1e9 / static_cast<double>(period)) + " Hz";
   switch (component.run) {
-    case RunMode::process:
-      return rate + ", in a child";
+    case RunMode::process: return rate + ", in a child";
     case RunMode::async:
       return rate + ", " + number_text(1e-6 * static_cast<double>(component.latency_ns)) + " ms later";
-    case RunMode::driver:
-      return "in a thread of its own";
-    default:
-      return rate;
+    case RunMode::driver: return "in a thread of its own";
+    default: return rate;
   }
 }
 
@@ -53,8 +50,9 @@ class Text {
   explicit Text(const Graph& graph) : graph_(graph) {}
 
   std::string print() {
-    out_ = "mission " + graph_.mission + ", io " + io_word(graph_.io) + ", " + number_text(1e9 / static_cast<double>(graph_.tick_ns)) +
-           " Hz, seed " + std::to_string(graph_.seed) + "\n";
+    out_ = "mission " + graph_.mission + ", io " + io_word(graph_.io) + ", " +
+           number_text(1e9 / static_cast<double>(graph_.tick_ns)) + " Hz, seed " +
+           std::to_string(graph_.seed) + "\n";
     order();
     wires();
     phases();
@@ -63,8 +61,8 @@ class Text {
 
  private:
   void component(const std::string& first, const Component& c) {
-    out_ += "  " + padded(first, 4) + padded(c.name, width_) + "  " + padded(c.use, use_width_) + "  " + padded(role_text(graph_, c), 8) +
-            "  " + rate_text(graph_, c) + "\n";
+    out_ += "  " + padded(first, 4) + padded(c.name, width_) + "  " + padded(c.use, use_width_) + "  " +
+            padded(role_text(graph_, c), 8) + "  " + rate_text(graph_, c) + "\n";
   }
 
   void order() {
@@ -74,7 +72,8 @@ class Text {
     }
     out_ += "\norder of a tick\n";
     if (graph_.vehicle >= 0) component("in", graph_.components[at(graph_.vehicle)]);
-    for (std::size_t i = 0; i < graph_.order.size(); ++i) component(std::to_string(i + 1), graph_.components[at(graph_.order[i])]);
+    for (std::size_t i = 0; i < graph_.order.size(); ++i)
+      component(std::to_string(i + 1), graph_.components[at(graph_.order[i])]);
     if (graph_.vehicle >= 0) component("out", graph_.components[at(graph_.vehicle)]);
   }
 
@@ -98,8 +97,8 @@ class Text {
   }
 
   void transition(const Transition& t) {
-    out_ += "    -> " + (t.to < 0 ? std::string("?") : graph_.phases[at(t.to)].name) + " when " + (t.when ? t.when->text() : "?") +
-            (t.for_ns > 0 ? " for " + seconds_text(t.for_ns) : "") + "\n";
+    out_ += "    -> " + (t.to < 0 ? std::string("?") : graph_.phases[at(t.to)].name) + " when " +
+            (t.when ? t.when->text() : "?") + (t.for_ns > 0 ? " for " + seconds_text(t.for_ns) : "") + "\n";
   }
 
   void phases() {
@@ -115,7 +114,8 @@ class Text {
   }
 
   void role(const Role& role, const Assignment& a, bool first) {
-    out_ += (first ? " " : ", ") + role.name + " " + (a.component < 0 ? "-" : graph_.components[at(a.component)].name);
+    out_ += (first ? " " : ", ") + role.name + " " +
+            (a.component < 0 ? "-" : graph_.components[at(a.component)].name);
     if (a.set.empty() && a.fallback < 0) return;
     out_ += " (";
     for (std::size_t i = 0; i < a.set.size(); ++i) {
@@ -123,7 +123,8 @@ class Text {
       out_ += (i > 0 ? ", " : "") + param.name;
     }
     if (!a.set.empty()) out_ += " set";
-    if (a.fallback >= 0) out_ += std::string(a.set.empty() ? "" : "; ") + "fallback " + graph_.components[at(a.fallback)].name;
+    if (a.fallback >= 0)
+      out_ += std::string(a.set.empty() ? "" : "; ") + "fallback " + graph_.components[at(a.fallback)].name;
     out_ += ")";
   }
 
@@ -140,8 +141,8 @@ void each_edge(const Graph& graph, F edge) {
     for (const Wire& wire : c.wires) {
       if (wire.from.kind == Source::Kind::none) continue;
       if (wire.from.kind == Source::Kind::component) {
-        edge(wire.from.index, static_cast<int>(i), graph.components[at(wire.from.index)].info().outputs[at(wire.from.output)].name,
-             wire.delayed);
+        edge(wire.from.index, static_cast<int>(i),
+             graph.components[at(wire.from.index)].info().outputs[at(wire.from.output)].name, wire.delayed);
         continue;
       }
       const Role& role = graph.roles[at(wire.from.index)];
@@ -155,7 +156,8 @@ void each_edge(const Graph& graph, F edge) {
 std::string dot(const Graph& graph) {
   std::string name = graph.mission;
   std::replace(name.begin(), name.end(), '"', '\'');
-  std::string out = "digraph \"" + name + "\" {\n  rankdir=LR;\n  node [shape=box, fontname=\"sans-serif\"];\n";
+  std::string out =
+      "digraph \"" + name + "\" {\n  rankdir=LR;\n  node [shape=box, fontname=\"sans-serif\"];\n";
   for (const Role& role : graph.roles) {
     out += "  subgraph cluster_" + role.name + " {\n    label=\"" + role.name + "\";\n";
     for (const int f : role.fillers) out += "    " + graph.components[at(f)].name + ";\n";
@@ -164,8 +166,8 @@ std::string dot(const Graph& graph) {
   for (const Component& c : graph.components)
     out += "  " + c.name + " [label=\"" + c.name + "\\n" + c.use + "\\n" + rate_text(graph, c) + "\"];\n";
   each_edge(graph, [&](int from, int to, const std::string& label, bool delayed) {
-    out += "  " + graph.components[at(from)].name + " -> " + graph.components[at(to)].name + " [label=\"" + label + "\"" +
-           (delayed ? ", style=dashed" : "") + "];\n";
+    out += "  " + graph.components[at(from)].name + " -> " + graph.components[at(to)].name + " [label=\"" +
+           label + "\"" + (delayed ? ", style=dashed" : "") + "];\n";
   });
   return out + "}\n";
 }
@@ -180,8 +182,8 @@ std::string mermaid(const Graph& graph) {
   for (const Component& c : graph.components)
     out += "  c_" + c.name + "[\"" + c.name + "<br/>" + c.use + "<br/>" + rate_text(graph, c) + "\"]\n";
   each_edge(graph, [&](int from, int to, const std::string& label, bool delayed) {
-    out += "  c_" + graph.components[at(from)].name + (delayed ? " -. " : " -- ") + label + (delayed ? " .-> " : " --> ") + "c_" +
-           graph.components[at(to)].name + "\n";
+    out += "  c_" + graph.components[at(from)].name + (delayed ? " -. " : " -- ") + label +
+           (delayed ? " .-> " : " --> ") + "c_" + graph.components[at(to)].name + "\n";
   });
   return out;
 }

@@ -5,18 +5,19 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "tools/fulmar_live/commands.hpp"
-#include "tools/fulmar_live/session.hpp"
 #include "core/graph/catalogue.hpp"
 #include "core/graph/quantity.hpp"
 #include "core/graph/yaml.hpp"
+#include "tools/fulmar_live/commands.hpp"
+#include "tools/fulmar_live/session.hpp"
 
 namespace fulmar::core {
 namespace {
 
 using nlohmann::json;
 
-/// YAML as people write it -> JSON. What is no number, flag or null is text: "80 m" is for the flight to read.
+/// YAML as people write it -> JSON. What is no number, flag or null is text: "80 m" is for the flight to
+/// read.
 json to_json(const Node& node) {
   if (node.is(Node::Kind::map)) {
     json object = json::object();
@@ -53,7 +54,8 @@ json message_of(const std::vector<std::string>& words) {
   for (const std::string& word : words) {
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos || equals == 0)
-      throw WrongUsage("'" + word + "' is not of the form field=value; or give all in braces, as in '{radius_m: 80}'");
+      throw WrongUsage("'" + word +
+                       "' is not of the form field=value; or give all in braces, as in '{radius_m: 80}'");
     const std::string field = word.substr(0, equals);
     if (message.contains(field)) throw WrongUsage("the field '" + field + "' is given twice");
     message[field] = read_yaml(word.substr(equals + 1));
@@ -84,22 +86,24 @@ void require_no_fields(Session& session, const std::string& service, const std::
   std::vector<std::string> fields;
   for (const Field& f : session.type(service)->fields) fields.push_back(f.name);
   if (!fields.empty())
-    throw WrongUsage(name + " needs a field at least, as in fulmar call " + name + " " + fields.front() + "=VALUE. Valid: " + join(fields) +
-                     ".");
+    throw WrongUsage(name + " needs a field at least, as in fulmar call " + name + " " + fields.front() +
+                     "=VALUE. Valid: " + join(fields) + ".");
 }
 
-/// A plugin's file here, "my_law.so" or "my_law.so/Law", as the host has a current directory of its own. Anything else is for the host to
-/// read: "control_slc/Outer".
+/// A plugin's file here, "my_law.so" or "my_law.so/Law", as the host has a current directory of its own.
+/// Anything else is for the host to read: "control_slc/Outer".
 std::string swap_file(const std::string& word) {
   const auto [file, part] = split_use(word);
   std::error_code fault;
-  if (!(file.ends_with(".so") || file.ends_with(".py")) || !std::filesystem::is_regular_file(file, fault)) return word;
+  if (!(file.ends_with(".so") || file.ends_with(".py")) || !std::filesystem::is_regular_file(file, fault))
+    return word;
   return std::filesystem::absolute(file, fault).string() + (part.empty() ? "" : "/" + part);
 }
 
 }  // namespace
 
-int call_command(const LiveAddress& target, const std::string& request, const std::vector<std::string>& words) {
+int call_command(const LiveAddress& target, const std::string& request,
+                 const std::vector<std::string>& words) {
   const json message = message_of(words);
   Session session(target);
   std::string name = request;
@@ -127,8 +131,10 @@ int swap_command(const LiveAddress& target, const std::string& component, const 
   for (const json& c : view.value("components", json::array())) names.push_back(c.value("name", ""));
   bool known = false;
   for (const std::string& name : names) known = known || name == component;
-  if (!known) throw Error("this flight has no component '" + component + "'." + choices_text(component, names));
-  return tell(session.order("/fulmar/swap", {{"component", component}, {"file", swap_file(file)}}), "swap " + component);
+  if (!known)
+    throw Error("this flight has no component '" + component + "'." + choices_text(component, names));
+  return tell(session.order("/fulmar/swap", {{"component", component}, {"file", swap_file(file)}}),
+              "swap " + component);
 }
 
 int reset_command(const LiveAddress& target) {

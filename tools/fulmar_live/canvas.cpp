@@ -26,13 +26,17 @@ std::string number(double value, int digits = 4) {
 class Dots {
  public:
   Dots(int columns, int rows)
-      : columns_(columns), rows_(rows), cells_(static_cast<std::size_t>(columns * rows)), owner_(cells_.size(), 0) {}
+      : columns_(columns),
+        rows_(rows),
+        cells_(static_cast<std::size_t>(columns * rows)),
+        owner_(cells_.size(), 0) {}
   int width() const { return 2 * columns_; }
   int height() const { return 4 * rows_; }
 
   void dot(int x, int y, std::size_t series) {  // from the lower left
     if (x < 0 || y < 0 || x >= width() || y >= height()) return;
-    static constexpr std::array<std::array<std::uint8_t, 2>, 4> bits{{{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}}};
+    static constexpr std::array<std::array<std::uint8_t, 2>, 4> bits{
+        {{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}}};
     const int down = height() - 1 - y;
     const auto at = static_cast<std::size_t>(down / 4 * columns_ + x / 2);
     cells_[at] |= bits[static_cast<std::size_t>(down % 4)][static_cast<std::size_t>(x % 2)];
@@ -55,7 +59,8 @@ class Dots {
         continue;
       }
       const unsigned code = 0x2800u + cells_[at];
-      const std::string character{static_cast<char>(0xE0u | (code >> 12)), static_cast<char>(0x80u | ((code >> 6) & 0x3Fu)),
+      const std::string character{static_cast<char>(0xE0u | (code >> 12)),
+                                  static_cast<char>(0x80u | ((code >> 6) & 0x3Fu)),
                                   static_cast<char>(0x80u | (code & 0x3Fu))};
       text += coloured(character, owner_[at], with_colours);
     }
@@ -83,11 +88,13 @@ Range range_of(const std::vector<Series>& series, double from) {
   if (range.low > range.high) return {0, 1};
   const double least = std::max(1e-9, 1e-6 * std::max(std::abs(range.low), std::abs(range.high)));
   if (range.high - range.low < least)
-    range = {range.low - std::max(0.5 * std::abs(range.low), least), range.high + std::max(0.5 * std::abs(range.high), least)};
+    range = {range.low - std::max(0.5 * std::abs(range.low), least),
+             range.high + std::max(0.5 * std::abs(range.high), least)};
   return range;
 }
 
-void draw_series(Dots& dots, const Series& s, std::size_t index, double from, double seconds, double low, double high) {
+void draw_series(Dots& dots, const Series& s, std::size_t index, double from, double seconds, double low,
+                 double high) {
   bool joined = false;
   int x_before = 0, y_before = 0;
   for (const auto& [time, value] : s.points) {
@@ -107,7 +114,9 @@ std::string legend(const std::vector<Series>& series, const PlotSize& size) {
   std::string text;
   for (std::size_t i = 0; i < series.size(); ++i) {
     const Series& s = series[i];
-    const std::string value = s.points.empty() ? "no sample yet" : number(s.points.back().second, 6) + (s.unit.empty() ? "" : " " + s.unit);
+    const std::string value = s.points.empty()
+                                  ? "no sample yet"
+                                  : number(s.points.back().second, 6) + (s.unit.empty() ? "" : " " + s.unit);
     std::string line = "\u2501\u2501 " + s.label + "  " + value;
     if (!size.colours && series.size() > 1) line = std::to_string(i + 1) + " " + s.label + "  " + value;
     text += coloured(line, i, size.colours) + "\n";
@@ -122,7 +131,8 @@ std::string time_line(double from, double seconds, std::size_t margin, int colum
     if (t < from || t > from + seconds) continue;
     const std::string text = number(t, 6);
     const auto at = static_cast<std::size_t>(std::lround((t - from) / seconds * (columns - 1)));
-    const std::size_t begin = std::min(margin + 1 + at - std::min(at, text.size() / 2), line.size() - 2 - text.size());
+    const std::size_t begin =
+        std::min(margin + 1 + at - std::min(at, text.size() / 2), line.size() - 2 - text.size());
     line.replace(begin, text.size(), text);
   }
   line.replace(line.size() - 1, 1, "s");
@@ -157,19 +167,22 @@ std::string draw_plot(const std::vector<Series>& series, double end_s, double se
   for (std::size_t i = 0; i < series.size(); ++i) draw_series(dots, series[i], i, from, seconds, low, high);
   std::vector<std::string> labels(static_cast<std::size_t>(rows));
   for (const double level : levels)
-    labels[static_cast<std::size_t>(std::lround((1 - (level - low) / (high - low)) * (rows - 1)))] = number(level);
+    labels[static_cast<std::size_t>(std::lround((1 - (level - low) / (high - low)) * (rows - 1)))] =
+        number(level);
 
   std::string text = legend(series, size);
   for (int r = 0; r < rows; ++r) {
     const std::string& label = labels[static_cast<std::size_t>(r)];
     const std::string dots_text = dots.row(r, size.colours);
-    std::string line = std::string(margin - label.size(), ' ') + label + (label.empty() ? "\u2502" : "\u2524") + dots_text;
+    std::string line =
+        std::string(margin - label.size(), ' ') + label + (label.empty() ? "\u2502" : "\u2524") + dots_text;
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + "\n";
   }
   std::string axis;
   for (int c = 0; c < columns; ++c) axis += "\u2500";
-  return text + std::string(margin, ' ') + "\u2514" + axis + "\n" + time_line(from, seconds, margin, columns) + "\n";
+  return text + std::string(margin, ' ') + "\u2514" + axis + "\n" +
+         time_line(from, seconds, margin, columns) + "\n";
 }
 
 }  // namespace fulmar::core

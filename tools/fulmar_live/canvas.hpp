@@ -22,7 +22,8 @@ struct PlotSize {
 /// The last `seconds` before `end_s`. Values that are not finite leave a gap.
 std::string draw_plot(const std::vector<Series>& series, double end_s, double seconds, const PlotSize& size);
 
-/// Round numbers for an axis: from at or below `low` to at or above `high`, 1, 2 or 5 times a power of ten apart, about `most` of them.
+/// Round numbers for an axis: from at or below `low` to at or above `high`, 1, 2 or 5 times a power of ten
+/// apart, about `most` of them.
 std::vector<double> ticks(double low, double high, int most);
 
 }  // namespace fulmar::core

@@ -51,23 +51,29 @@ struct Client::Impl {
   void connect() {
     using Reached = live::ClientEnd::Reached;
     const Reached reached = end.connect(target.host, target.port);
-    if (reached == Reached::no_host) throw Error("there is no host '" + target.host + "': give --at HOST:PORT, as in --at 127.0.0.1:8765");
+    if (reached == Reached::no_host)
+      throw Error("there is no host '" + target.host + "': give --at HOST:PORT, as in --at 127.0.0.1:8765");
     if (reached == Reached::nobody)
       throw Error("no flight listens on " + target.text() +
                   ": start one with fulmar run MISSION --speed real --live 8765, or name it with --at");
   }
 
   void shake_hands() {
-    live::Fields fields{{"Sec-WebSocket-Protocol", "foxglove.sdk.v1, foxglove.websocket.v1"}, {"User-Agent", "fulmar"}};
+    live::Fields fields{{"Sec-WebSocket-Protocol", "foxglove.sdk.v1, foxglove.websocket.v1"},
+                        {"User-Agent", "fulmar"}};
     if (!target.token.empty()) fields.emplace_back("Authorization", "Bearer " + target.token);
     const live::ClientEnd::Answer answer = end.shake_hands(target.text(), fields, most_message_bytes);
     if (answer.accepted) return;
-    if (!answer.declined) throw Error("what listens on " + target.text() + " is no flight (" + answer.fault + "): name one with --at");
+    if (!answer.declined)
+      throw Error("what listens on " + target.text() + " is no flight (" + answer.fault +
+                  "): name one with --at");
     constexpr unsigned unauthorized = 401, forbidden = 403;
     if (answer.status == unauthorized || answer.status == forbidden)
-      throw Error("the flight on " + target.text() + (target.token.empty() ? " wants a token" : " refuses this token") +
+      throw Error("the flight on " + target.text() +
+                  (target.token.empty() ? " wants a token" : " refuses this token") +
                   ": give it with --token or in FULMAR_TOKEN");
-    throw Error("the flight on " + target.text() + " refuses the connection: " + std::to_string(answer.status) + " " + answer.reason);
+    throw Error("the flight on " + target.text() +
+                " refuses the connection: " + std::to_string(answer.status) + " " + answer.reason);
   }
 
   void write(const std::string& data, bool binary) {
@@ -75,12 +81,14 @@ struct Client::Impl {
   }
 
   [[noreturn]] void gone() const {
-    if (!end.farewell().empty()) throw FlightEnded("the flight on " + target.text() + " has closed the connection: " + end.farewell());
+    if (!end.farewell().empty())
+      throw FlightEnded("the flight on " + target.text() + " has closed the connection: " + end.farewell());
     throw FlightEnded("the flight on " + target.text() + " has ended");
   }
 };
 
-Client::Client(const LiveAddress& target, std::chrono::milliseconds patience) : impl_(std::make_unique<Impl>(target, patience)) {
+Client::Client(const LiveAddress& target, std::chrono::milliseconds patience)
+    : impl_(std::make_unique<Impl>(target, patience)) {
   impl_->connect();
   impl_->shake_hands();
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A WebSocket connection to the live view of a running flight. One thread; every call returns within its time.
+// A WebSocket connection to the live view of a running flight. One thread; every call returns within its
+// time.
 #pragma once
 #include <chrono>
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The words for a running flight. Each returns the exit code, and throws Error when there is no flight or no such name.
+// The words for a running flight. Each returns the exit code, and throws Error when there is no flight or no
+// such name.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -41,7 +42,8 @@ struct SaveOptions {
 int param_save_command(const LiveAddress& target, const SaveOptions& options);
 
 /// `words`: one text in braces, or key=value.
-int call_command(const LiveAddress& target, const std::string& request, const std::vector<std::string>& words);
+int call_command(const LiveAddress& target, const std::string& request,
+                 const std::vector<std::string>& words);
 int phase_command(const LiveAddress& target, const std::string& phase);
 int swap_command(const LiveAddress& target, const std::string& component, const std::string& file);
 int reset_command(const LiveAddress& target);

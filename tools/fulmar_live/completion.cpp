@@ -9,17 +9,18 @@
 
 #include "core/error.hpp"
 #include "core/loader/home.hpp"
+#include "core/types/wire.hpp"
 #include "tools/fulmar_live/parameters.hpp"
 #include "tools/fulmar_live/ports.hpp"
 #include "tools/fulmar_live/session.hpp"
-#include "core/types/wire.hpp"
 
 namespace fulmar::core {
 namespace {
 
 using nlohmann::json;
 
-// ---- scripts --------------------------------------------------------------------------------------------------------------------
+// ---- scripts
+// --------------------------------------------------------------------------------------------------------------------
 
 /// What stands where after a command; the last `repeat` of them come again and again.
 struct Places {
@@ -27,17 +28,23 @@ struct Places {
   int repeat;
 };
 const std::map<std::string, Places> places{
-    {"run", {"mission", 0}},          {"check", {"mission", 0}},     {"graph", {"mission", 0}},    {"inspect", {"plugin", 0}},
-    {"replay", {"log", 0}},           {"report", {"log", 1}},        {"compare", {"mission", 0}},  {"log info", {"log", 0}},
-    {"log recover", {"log", 0}},      {"log export", {"log", 0}},    {"log diff", {"log log", 0}}, {"echo", {"port", 1}},
-    {"plot", {"field", 1}},           {"param list", {"param", 0}},  {"param get", {"param", 1}},  {"param set", {"param none", 2}},
-    {"param save", {"component", 0}}, {"call", {"request none", 1}}, {"phase", {"phase", 0}},      {"swap", {"component plugin", 0}},
+    {"run", {"mission", 0}},          {"check", {"mission", 0}},
+    {"graph", {"mission", 0}},        {"inspect", {"plugin", 0}},
+    {"replay", {"log", 0}},           {"report", {"log", 1}},
+    {"compare", {"mission", 0}},      {"log info", {"log", 0}},
+    {"log recover", {"log", 0}},      {"log export", {"log", 0}},
+    {"log diff", {"log log", 0}},     {"echo", {"port", 1}},
+    {"plot", {"field", 1}},           {"param list", {"param", 0}},
+    {"param get", {"param", 1}},      {"param set", {"param none", 2}},
+    {"param save", {"component", 0}}, {"call", {"request none", 1}},
+    {"phase", {"phase", 0}},          {"swap", {"component plugin", 0}},
     {"completion", {"shell", 0}}};
 
 /// Of options that take a value: a kind as above.
-const std::map<std::string, std::string> option_kinds{{"--io", "io"},           {"--format", "format"},    {"--speed", "speed"},
-                                                      {"--log", "file"},        {"--drivers-from", "log"}, {"--resume", "log"},
-                                                      {"--mission", "mission"}, {"--with", "file"}};
+const std::map<std::string, std::string> option_kinds{
+    {"--io", "io"},           {"--format", "format"},    {"--speed", "speed"},
+    {"--log", "file"},        {"--drivers-from", "log"}, {"--resume", "log"},
+    {"--mission", "mission"}, {"--with", "file"}};
 
 /// What a program beside this one prints of its commands. Throws Error.
 std::string rows_of(const char* name) {
@@ -60,13 +67,15 @@ std::string table() {
   for (const char* program : {"fulmar", "fulmar-inspect", "fulmar-log", "fulmar-new", "fulmar-live"}) {
     std::istringstream rows(rows_of(program));
     std::string command, options, valued, subcommands;
-    while (std::getline(rows, command, '\t') && std::getline(rows, options, '\t') && std::getline(rows, valued, '\t') &&
-           std::getline(rows, subcommands)) {
-      if (command.empty() && std::string_view(program) != "fulmar") continue;  // only the host knows all commands
+    while (std::getline(rows, command, '\t') && std::getline(rows, options, '\t') &&
+           std::getline(rows, valued, '\t') && std::getline(rows, subcommands)) {
+      if (command.empty() && std::string_view(program) != "fulmar")
+        continue;  // only the host knows all commands
       const auto place = places.find(command);
       const bool placed = place != places.end();
-      text += "    '" + command + "') options='" + options + "' valued='" + valued + " ' subcommands='" + subcommands + "' kinds='" +
-              (placed ? place->second.kinds : "") + "' repeat=" + std::to_string(placed ? place->second.repeat : 0) + " ;;\n";
+      text += "    '" + command + "') options='" + options + "' valued='" + valued + " ' subcommands='" +
+              subcommands + "' kinds='" + (placed ? place->second.kinds : "") +
+              "' repeat=" + std::to_string(placed ? place->second.repeat : 0) + " ;;\n";
     }
   }
   return text;
@@ -199,7 +208,8 @@ _fulmar() {
 _fulmar "$@"
 )zsh";
 
-// ---- words of a flight ----------------------------------------------------------------------------------------------------------
+// ---- words of a flight
+// ----------------------------------------------------------------------------------------------------------
 
 void fields_of(const Type& type, const std::string& before, std::set<std::string>& words) {
   for (const Field& f : type.fields) {
@@ -257,7 +267,8 @@ std::vector<std::string> completions(Session& session, const std::string& kind, 
   return list;
 }
 
-int complete_command(const std::string& at, const std::string& token, const std::string& kind, const std::string& prefix) {
+int complete_command(const std::string& at, const std::string& token, const std::string& kind,
+                     const std::string& prefix) {
   try {
     Session session(parse_target(at, token), std::chrono::milliseconds(500));
     for (const std::string& word : completions(session, kind, prefix)) std::printf("%s\n", word.c_str());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Completion of the command line in shells: commands and options from the table of commands, the rest from the running flight.
+// Completion of the command line in shells: commands and options from the table of commands, the rest from
+// the running flight.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,13 +9,15 @@ namespace fulmar::core {
 
 class Session;
 
-/// `shell`: "bash" or "zsh". The commands are those that the programs beside this one tell of themselves. Throws Error.
+/// `shell`: "bash" or "zsh". The commands are those that the programs beside this one tell of themselves.
+/// Throws Error.
 std::string completion_script(const std::string& shell);
 
 /// The words of a kind (port, field, param, component, request, phase) that begin with `prefix`.
 std::vector<std::string> completions(Session& session, const std::string& kind, const std::string& prefix);
 
 /// Prints them, one per line. Silent when there is no flight; never takes long.
-int complete_command(const std::string& at, const std::string& token, const std::string& kind, const std::string& prefix);
+int complete_command(const std::string& at, const std::string& token, const std::string& kind,
+                     const std::string& prefix);
 
 }  // namespace fulmar::core

@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/types/wire.hpp"
 #include "tools/fulmar_live/commands.hpp"
 #include "tools/fulmar_live/message_text.hpp"
 #include "tools/fulmar_live/ports.hpp"
 #include "tools/fulmar_live/session.hpp"
-#include "core/types/wire.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -24,7 +24,8 @@ class Echo {
     if (options.csv && ports_.size() > 1)
       for (const PortField& p : ports_)
         if (p.topic != ports_[0].topic)
-          throw Error("--csv takes fields of one port; " + p.label + " is of another than " + ports_[0].label);
+          throw Error("--csv takes fields of one port; " + p.label + " is of another than " +
+                      ports_[0].label);
     epoch_ns_ = session.epoch_ns();
     for (const PortField& p : ports_) session.subscribe(p.topic);
   }
@@ -51,7 +52,8 @@ class Echo {
     if (told_ || std::chrono::steady_clock::now() - begin_ < std::chrono::seconds(2)) return;
     told_ = true;
     for (const PortField& p : ports_)
-      if (!heard_.contains(p.topic)) std::fprintf(stderr, "waiting for the first sample of %s\n", p.label.c_str());
+      if (!heard_.contains(p.topic))
+        std::fprintf(stderr, "waiting for the first sample of %s\n", p.label.c_str());
   }
 
   bool due(const Session::Sample& sample) {
@@ -74,7 +76,8 @@ class Echo {
       if (p.topic != sample.topic || (options_.count > 0 && printed_ >= options_.count)) continue;
       const ordered_json part = part_of(message, p.field);
       if (options_.json)
-        std::printf("%s\n", ordered_json{{"port", p.label}, {"time_s", time_s}, {"value", part}}.dump().c_str());
+        std::printf("%s\n",
+                    ordered_json{{"port", p.label}, {"time_s", time_s}, {"value", part}}.dump().c_str());
       else if (part.is_object())
         std::printf("%.4f s  %s\n%s", time_s, p.label.c_str(), message_lines(part).c_str());
       else
@@ -99,7 +102,8 @@ class Echo {
     std::snprintf(time, sizeof time, "%.9g", time_s);
     std::string line = time;
     for (const PortField& p : ports_) {
-      const std::vector<std::string> values = p.field.empty() ? cells(*p.type, message) : std::vector{csv_cell(part_of(message, p.field))};
+      const std::vector<std::string> values =
+          p.field.empty() ? cells(*p.type, message) : std::vector{csv_cell(part_of(message, p.field))};
       for (const std::string& value : values) line += "," + value;
     }
     std::printf("%s\n", line.c_str());

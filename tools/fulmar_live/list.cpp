@@ -21,7 +21,8 @@ std::map<std::string, double> measure(Session& session) {
   for (const auto& [topic, channel] : session.channels()) session.subscribe(topic), counts[topic] = 0;
   const auto begin = Clock::now(), end = begin + std::chrono::seconds(1);
   for (auto now = begin; now < end; now = Clock::now())
-    if (const auto sample = session.next(std::chrono::duration_cast<Session::Milliseconds>(end - now))) counts[sample->topic] += 1;
+    if (const auto sample = session.next(std::chrono::duration_cast<Session::Milliseconds>(end - now)))
+      counts[sample->topic] += 1;
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   for (auto& [topic, count] : counts) count /= seconds;
   return counts;
@@ -42,7 +43,8 @@ std::string state_of(const json& component) {
 
 void print_component(const json& c, const std::map<std::string, double>& rates, bool with_rates) {
   const std::string role = c.value("role", ""), run = c.value("run", ""), name = c.value("name", "");
-  std::printf("\n%s: %s%s%s, %s\n", name.c_str(), c.value("use", "").c_str(), role.empty() ? "" : (", fills " + role).c_str(),
+  std::printf("\n%s: %s%s%s, %s\n", name.c_str(), c.value("use", "").c_str(),
+              role.empty() ? "" : (", fills " + role).c_str(),
               run.empty() || run == "tick" ? "" : (", run: " + run).c_str(), state_of(c).c_str());
   std::vector<std::vector<std::string>> rows;
   for (const json& p : c.value("outputs", json::array())) {
@@ -72,8 +74,9 @@ int list_command(const LiveAddress& target, bool rates, bool as_json) {
     std::printf("%s\n", view.dump().c_str());
     return 0;
   }
-  std::printf("%s (io: %s), phase %s, %.1f s, %s%s\n", view.value("mission", "").c_str(), view.value("io", "").c_str(),
-              view.value("phase", "").c_str(), static_cast<double>(view.value("now_ns", std::int64_t{0})) * 1e-9,
+  std::printf("%s (io: %s), phase %s, %.1f s, %s%s\n", view.value("mission", "").c_str(),
+              view.value("io", "").c_str(), view.value("phase", "").c_str(),
+              static_cast<double>(view.value("now_ns", std::int64_t{0})) * 1e-9,
               view.value("armed", false) ? "armed" : "not armed", view.value("over", false) ? ", over" : "");
   std::vector<std::string> phases = view.value("phases", std::vector<std::string>());
   std::printf("phases: %s\n", join(phases).c_str());

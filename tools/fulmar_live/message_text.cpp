@@ -11,7 +11,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-bool one_column(const Field& field) { return field.shape == FULMAR_LIST || (field.shape == FULMAR_ARRAY && field.kind == FULMAR_STRUCT); }
+bool one_column(const Field& field) {
+  return field.shape == FULMAR_LIST || (field.shape == FULMAR_ARRAY && field.kind == FULMAR_STRUCT);
+}
 
 }  // namespace
 
@@ -51,7 +53,8 @@ std::vector<std::string> columns(const Type& type, const std::string& prefix) {
   return names;
 }
 
-// The inner fields of a struct whose name ends in _rad are numbers in degrees already: shown_json has turned them, under their own names.
+// The inner fields of a struct whose name ends in _rad are numbers in degrees already: shown_json has turned
+// them, under their own names.
 std::vector<std::string> cells(const Type& type, const ordered_json& message) {
   std::vector<std::string> list;
   for (const Field& f : type.fields) {
@@ -72,7 +75,8 @@ std::string csv_cell(const ordered_json& value) {
   if (value.is_null()) return "";
   std::string text = value.is_string() ? value.get<std::string>() : value.dump();
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  for (std::size_t at = text.find('"'); at != std::string::npos; at = text.find('"', at + 2)) text.insert(at, 1, '"');
+  for (std::size_t at = text.find('"'); at != std::string::npos; at = text.find('"', at + 2))
+    text.insert(at, 1, '"');
   return '"' + text + '"';
 }
 

@@ -15,7 +15,8 @@ std::string short_text(const nlohmann::ordered_json& value);
 /// One field per line: "  roll_deg: 12.5".
 std::string message_lines(const nlohmann::ordered_json& message);
 
-/// Columns of a message of this type: every number by its path, a list or struct list as one column of JSON. Names as people read them.
+/// Columns of a message of this type: every number by its path, a list or struct list as one column of JSON.
+/// Names as people read them.
 std::vector<std::string> columns(const Type& type, const std::string& prefix);
 /// The cells of a message from shown_json, in the order of columns(). Absent numbers are empty.
 std::vector<std::string> cells(const Type& type, const nlohmann::ordered_json& message);

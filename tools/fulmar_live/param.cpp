@@ -6,12 +6,12 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "core/graph/mission.hpp"
 #include "tools/fulmar_live/commands.hpp"
+#include "tools/fulmar_live/param_file.hpp"
 #include "tools/fulmar_live/parameters.hpp"
 #include "tools/fulmar_live/session.hpp"
 #include "tools/fulmar_live/table.hpp"
-#include "core/graph/mission.hpp"
-#include "tools/fulmar_live/param_file.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -45,11 +45,12 @@ int param_list_command(const LiveAddress& target, const std::string& pattern, bo
   for (const NamedParam& p : params) {
     if (!asked_for(p, pattern)) continue;
     if (as_json) all.push_back(param_json(p, view));
-    rows.push_back(
-        {p.name, shown_value(p.info, p.value), shown_range(p.info), p.info.live ? "live" : "set-up", p.overlaid ? "overlaid" : ""});
+    rows.push_back({p.name, shown_value(p.info, p.value), shown_range(p.info),
+                    p.info.live ? "live" : "set-up", p.overlaid ? "overlaid" : ""});
   }
   if (rows.empty()) {
-    if (pattern.find('*') != std::string::npos) throw Error("no parameter of this flight is called like '" + pattern + "'");
+    if (pattern.find('*') != std::string::npos)
+      throw Error("no parameter of this flight is called like '" + pattern + "'");
     find_param(params, pattern);
   }
   std::fputs(as_json ? (all.dump() + "\n").c_str() : table_text(rows).c_str(), stdout);
@@ -75,7 +76,8 @@ int param_get_command(const LiveAddress& target, const std::vector<std::string>&
 
 namespace {
 
-/// The reason without the parameter's name, which the sentence has already: "slc.roll_limit: roll_limit: 100 deg is outside".
+/// The reason without the parameter's name, which the sentence has already: "slc.roll_limit: roll_limit: 100
+/// deg is outside".
 std::string without_name(std::string reason, const NamedParam& p) {
   for (const std::string& name : {p.name + ": ", p.info.name + ": "})
     if (reason.starts_with(name)) reason.erase(0, name.size());
@@ -86,22 +88,28 @@ std::string already_set(const std::vector<std::string>& words, std::size_t refus
   std::vector<std::string> before, after;
   for (std::size_t i = 0; i < words.size(); i += 2)
     if (i != refused) (i < refused ? before : after).push_back(words[i]);
-  return (before.empty() ? "" : "; already set: " + join(before)) + (after.empty() ? "" : "; not tried: " + join(after));
+  return (before.empty() ? "" : "; already set: " + join(before)) +
+         (after.empty() ? "" : "; not tried: " + join(after));
 }
 
 }  // namespace
 
 int param_set_command(const LiveAddress& target, const std::vector<std::string>& words) {
-  if (words.size() % 2 != 0) throw WrongUsage("'" + words.back() + "' has no value: give NAME VALUE [NAME VALUE ...]");
+  if (words.size() % 2 != 0)
+    throw WrongUsage("'" + words.back() + "' has no value: give NAME VALUE [NAME VALUE ...]");
   Session session(target);
   const std::vector<NamedParam> params = params_of(session.view());
-  for (std::size_t i = 0; i < words.size(); i += 2) find_param(params, words[i]);  // all names before the first change
+  for (std::size_t i = 0; i < words.size(); i += 2)
+    find_param(params, words[i]);  // all names before the first change
   for (std::size_t i = 0; i < words.size(); i += 2) {
     const NamedParam& p = find_param(params, words[i]);
-    const auto [accepted, reason] =
-        session.order("/fulmar/set_parameter", {{"component", p.component}, {"name", p.info.name}, {"text", words[i + 1]}});
-    if (!accepted) throw Error(p.name + " is not set to " + words[i + 1] + ": " + without_name(reason, p) + already_set(words, i));
-    std::printf("%s: %s -> %s%s\n", p.name.c_str(), shown_value(p.info, p.value).c_str(), words[i + 1].c_str(),
+    const auto [accepted, reason] = session.order(
+        "/fulmar/set_parameter", {{"component", p.component}, {"name", p.info.name}, {"text", words[i + 1]}});
+    if (!accepted)
+      throw Error(p.name + " is not set to " + words[i + 1] + ": " + without_name(reason, p) +
+                  already_set(words, i));
+    std::printf("%s: %s -> %s%s\n", p.name.c_str(), shown_value(p.info, p.value).c_str(),
+                words[i + 1].c_str(),
                 p.overlaid ? ", from the next phase on: this phase sets it to something else" : "");
   }
   return 0;
@@ -112,10 +120,12 @@ namespace {
 std::filesystem::path mission_file(const json& view, const std::string& given) {
   const std::string file = given.empty() ? view.value("file", "") : given;
   if (file.empty()) throw Error("the flight does not say which file its mission is: give it with --mission");
-  if (!std::filesystem::exists(file)) throw Error("there is no file " + file + " here: give the mission's with --mission");
+  if (!std::filesystem::exists(file))
+    throw Error("there is no file " + file + " here: give the mission's with --mission");
   Report report;  // faults are told when it is written
   const std::string name = parse_mission(file, {}, report).name, flies = view.value("mission", "");
-  if (name != flies) throw Error(file + " is the mission '" + name + "', but '" + flies + "' flies: nothing was written");
+  if (name != flies)
+    throw Error(file + " is the mission '" + name + "', but '" + flies + "' flies: nothing was written");
   return file;
 }
 

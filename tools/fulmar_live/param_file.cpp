@@ -24,20 +24,19 @@ namespace fulmar::core {
 namespace fs = std::filesystem;
 namespace {
 
-// ---- values as text -------------------------------------------------------------------------------------------------------------
+// ---- values as text
+// -------------------------------------------------------------------------------------------------------------
 
 bool same_number(double a, double b) { return std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b)); }
 
 bool same_value(const ParamInfo& info, const ParamValue& a, const ParamValue& b) {
   switch (info.kind) {
-    case FULMAR_NUMBER:
-      return same_number(a.number[0], b.number[0]);
+    case FULMAR_NUMBER: return same_number(a.number[0], b.number[0]);
     case FULMAR_VECTOR:
-      return same_number(a.number[0], b.number[0]) && same_number(a.number[1], b.number[1]) && same_number(a.number[2], b.number[2]);
-    case FULMAR_STRING:
-      return a.text == b.text;
-    default:
-      return a.integer == b.integer;
+      return same_number(a.number[0], b.number[0]) && same_number(a.number[1], b.number[1]) &&
+             same_number(a.number[2], b.number[2]);
+    case FULMAR_STRING: return a.text == b.text;
+    default: return a.integer == b.integer;
   }
 }
 
@@ -47,7 +46,8 @@ std::string number_in(double value, const std::string& unit, const std::string& 
   std::string text;
   for (int digits = 1; digits <= 17; ++digits) {
     char buffer[40];
-    std::snprintf(buffer, sizeof buffer, "%.*g", digits, unit.empty() ? value : value / unit_factor(unit, declared));
+    std::snprintf(buffer, sizeof buffer, "%.*g", digits,
+                  unit.empty() ? value : value / unit_factor(unit, declared));
     text = number_text(std::strtod(buffer, nullptr)) + tail;
     if (quantity_in(text, declared, UnitRule::optional) == value) break;
   }
@@ -62,7 +62,8 @@ std::string new_number(double value, const std::string& declared) {
   if (!unit || unit->dimension == PhysicalUnit{}.dimension) return number_text(value);  // rad/rad: a gain
   if (declared == "rad") {
     const std::string degrees = number_in(value, "deg", declared);
-    if (degrees.size() <= brief + 4 && quantity_in(degrees, declared, UnitRule::optional) == value) return degrees;
+    if (degrees.size() <= brief + 4 && quantity_in(degrees, declared, UnitRule::optional) == value)
+      return degrees;
   }
   const std::string text = number_text(value) + " " + declared;
   try {
@@ -84,22 +85,18 @@ std::string number_like(const std::string& old, double value, const std::string&
 
 std::string word_text(const std::string& word) {
   constexpr const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./";
-  const bool bare =
-      !word.empty() && word.find_first_not_of(plain) == std::string::npos && std::isalpha(static_cast<unsigned char>(word[0]));
+  const bool bare = !word.empty() && word.find_first_not_of(plain) == std::string::npos &&
+                    std::isalpha(static_cast<unsigned char>(word[0]));
   static const std::vector<std::string> taken = {"true", "false", "yes", "no", "on", "off", "null"};
   return bare && std::find(taken.begin(), taken.end(), word) == taken.end() ? word : quoted_like("\"", word);
 }
 
 std::string scalar_like(const std::string& old, const SavedParam& p) {
   switch (p.info.kind) {
-    case FULMAR_NUMBER:
-      return number_like(old, p.value.number[0], p.info.unit);
-    case FULMAR_COUNT:
-      return quoted_like(old, std::to_string(p.value.integer));
-    case FULMAR_FLAG:
-      return p.value.integer ? "true" : "false";
-    case FULMAR_CHOICE:
-      return quoted_like(old, p.info.choices.at(static_cast<std::size_t>(p.value.integer)));
+    case FULMAR_NUMBER: return number_like(old, p.value.number[0], p.info.unit);
+    case FULMAR_COUNT: return quoted_like(old, std::to_string(p.value.integer));
+    case FULMAR_FLAG: return p.value.integer ? "true" : "false";
+    case FULMAR_CHOICE: return quoted_like(old, p.info.choices.at(static_cast<std::size_t>(p.value.integer)));
     default: {
       const std::string quoted = quoted_like(old, p.value.text);
       return quoted != p.value.text ? quoted : word_text(p.value.text);
@@ -115,7 +112,8 @@ std::string new_text(const SavedParam& p) {
   return text + "]";
 }
 
-// ---- places ---------------------------------------------------------------------------------------------------------------------
+// ---- places
+// ---------------------------------------------------------------------------------------------------------------------
 
 struct FilePlace {
   std::size_t file = 0;  // into Saver::files_
@@ -131,10 +129,12 @@ const Node* at_path(const Node& root, const YamlPath& path) {
 
 /// Every value with its path, as text that cannot be mistaken.
 void flatten(const Node& node, const std::string& path, std::map<std::string, std::string>& out) {
-  if (node.is(Node::Kind::map) || node.is(Node::Kind::sequence)) out[path] = node.is(Node::Kind::map) ? "{" : "[";
+  if (node.is(Node::Kind::map) || node.is(Node::Kind::sequence))
+    out[path] = node.is(Node::Kind::map) ? "{" : "[";
   if (node.is(Node::Kind::scalar)) out[path] = (node.quoted ? "'" : "=") + node.text;
   for (const Node::Entry& entry : node.entries) flatten(entry.value, path + "\n" + entry.key, out);
-  for (std::size_t i = 0; i < node.items.size(); ++i) flatten(node.items[i], path + "\n" + std::to_string(i), out);
+  for (std::size_t i = 0; i < node.items.size(); ++i)
+    flatten(node.items[i], path + "\n" + std::to_string(i), out);
 }
 
 Node parsed(const std::string& text, const std::string& name) {
@@ -164,19 +164,22 @@ class Saver {
   void save(SavedParam p) {
     if (p.info.kind == FULMAR_RECORD || p.info.kind == FULMAR_BLOB) return;
     const std::optional<FilePlace> place = find(p);
-    if (place && p.info.kind == FULMAR_VECTOR && !p.info.type) p.info.type = names_of(*at_path(roots_[place->file], place->path));
+    if (place && p.info.kind == FULMAR_VECTOR && !p.info.type)
+      p.info.type = names_of(*at_path(roots_[place->file], place->path));
     if (place ? already(p, *place) : same_value(p.info, p.value, initial_value(p.info))) return;
     const FilePlace where = place.value_or(FilePlace{0, {"components", p.component, "params", p.info.name}});
     const std::string name = p.component + "." + p.info.name;
     try {
       const std::string& before = files_[where.file].after;
-      const std::string after = place ? replaced(before, where.path, p) : with_entry(before, where.path, new_text(p));
+      const std::string after =
+          place ? replaced(before, where.path, p) : with_entry(before, where.path, new_text(p));
       check(before, after, where, p);
       files_[where.file].after = after;
       roots_[where.file] = parsed(after, files_[where.file].name);
       plan_.changed.push_back(name);
     } catch (const Error& fault) {
-      plan_.refused.push_back(files_[where.file].name + ": " + name + " is " + new_text(p) + " now; write it by hand: " + fault.what());
+      plan_.refused.push_back(files_[where.file].name + ": " + name + " is " + new_text(p) +
+                              " now; write it by hand: " + fault.what());
     }
   }
 
@@ -204,7 +207,8 @@ class Saver {
       const Node::Entry& section = sections->entries[i];
       const auto [for_plugin, for_component] = split_use(section.key);
       if (for_plugin != plugin && for_plugin != plugin + ".so") continue;
-      if ((!for_component.empty() && for_component != component) || !section.value.find(p.info.name)) continue;
+      if ((!for_component.empty() && for_component != component) || !section.value.find(p.info.name))
+        continue;
       FilePlace place = *airframe_;
       place.path.push_back(section.key);
       place.path.push_back(p.info.name);
@@ -213,12 +217,14 @@ class Saver {
     return std::nullopt;
   }
 
-  /// Who speaks to a flight from outside does not know the elements' names: they are those of the frame that the file speaks of.
+  /// Who speaks to a flight from outside does not know the elements' names: they are those of the frame that
+  /// the file speaks of.
   static TypePtr names_of(const Node& map) {
     Type type;
     type.fields.resize(3);
     const bool ned = map.find("north") || map.find("east") || map.find("down");
-    for (std::size_t i = 0; i < 3; ++i) type.fields[i].name = std::vector{ned ? "north" : "x", ned ? "east" : "y", ned ? "down" : "z"}[i];
+    for (std::size_t i = 0; i < 3; ++i)
+      type.fields[i].name = std::vector{ned ? "north" : "x", ned ? "east" : "y", ned ? "down" : "z"}[i];
     return std::make_shared<const Type>(std::move(type));
   }
 
@@ -230,7 +236,9 @@ class Saver {
     read_param(p.info, node, p.info.name, value, none, report);
     return report.empty() && same_value(p.info, value, p.value);
   }
-  bool already(const SavedParam& p, const FilePlace& place) const { return says(p, *at_path(roots_[place.file], place.path)); }
+  bool already(const SavedParam& p, const FilePlace& place) const {
+    return says(p, *at_path(roots_[place.file], place.path));
+  }
 
   static std::string replaced(const std::string& text, const YamlPath& path, const SavedParam& p) {
     const std::optional<YamlSpan> span = find_value(text, path);
@@ -274,7 +282,8 @@ class Saver {
   }
 
   /// The file after the change says what the flight has, and of everything else what it said before.
-  static void check(const std::string& before, const std::string& after, const FilePlace& where, const SavedParam& p) {
+  static void check(const std::string& before, const std::string& after, const FilePlace& where,
+                    const SavedParam& p) {
     const Node root = parsed(after, "");
     const Node* node = at_path(root, where.path);
     if (!node || !says(p, *node)) throw Error("the file would not say that");
@@ -285,7 +294,8 @@ class Saver {
     for (const std::string& key : where.path) own += "\n" + key;
     for (const auto& [path, value] : old) {
       const auto same = now.find(path);
-      if (path.starts_with(own) || (same != now.end() && (same->second == value || own.starts_with(path)))) continue;
+      if (path.starts_with(own) || (same != now.end() && (same->second == value || own.starts_with(path))))
+        continue;
       std::string words = path.substr(1);
       std::replace(words.begin(), words.end(), '\n', '.');
       throw Error("the same text also gives " + words);
@@ -336,7 +346,8 @@ std::string diff_text(const FileEdit& edit) {
       continue;
     }
     const bool added = i >= old.size() || (now.size() - j > old.size() - i &&
-                                           std::find(now.begin() + static_cast<std::ptrdiff_t>(j), now.end(), old[i]) != now.end());
+                                           std::find(now.begin() + static_cast<std::ptrdiff_t>(j), now.end(),
+                                                     old[i]) != now.end());
     text += edit.name + ":" + std::to_string(j + 1) + "\n";
     if (!added) text += "- " + old[i++] + "\n";
     if (j < now.size()) text += "+ " + now[j++] + "\n";
@@ -350,8 +361,11 @@ void write_edit(const FileEdit& edit) {
   std::error_code fault;
   const fs::path target = fs::canonical(edit.path, fault);
   const auto mode = static_cast<mode_t>(fs::status(target, fault).permissions());
-  std::string fresh = (target.parent_path() / ("." + target.filename().string() + ".XXXXXX")).string();  // a name that nobody has
-  const auto failed = [&](int code) { throw Error(edit.path.string() + " cannot be written: " + std::strerror(code)); };
+  std::string fresh = (target.parent_path() / ("." + target.filename().string() + ".XXXXXX"))
+                          .string();  // a name that nobody has
+  const auto failed = [&](int code) {
+    throw Error(edit.path.string() + " cannot be written: " + std::strerror(code));
+  };
   if (fault) failed(fault.value());
   const int file = ::mkostemp(fresh.data(), O_CLOEXEC);
   if (file < 0) failed(errno);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes the values that parameters have in a flight back into the files that they came from, and leaves comments and layout as they are.
+// Writes the values that parameters have in a flight back into the files that they came from, and leaves
+// comments and layout as they are.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -28,9 +29,10 @@ struct SavePlan {
   std::vector<std::string> refused;  // sentences: what has to be written by hand, and why
 };
 
-/// Where a value stands decides where it is written: `params:` of the mission, that of the file it extends, the airframe's; the mission
-/// when it stands nowhere. Values keep the unit and the quotes that they are written in. A change that would alter anything else, through
-/// an anchor say, is refused. Records and blobs are left out. Throws Error when a file cannot be read.
+/// Where a value stands decides where it is written: `params:` of the mission, that of the file it extends,
+/// the airframe's; the mission when it stands nowhere. Values keep the unit and the quotes that they are
+/// written in. A change that would alter anything else, through an anchor say, is refused. Records and blobs
+/// are left out. Throws Error when a file cannot be read.
 SavePlan plan_save(const std::filesystem::path& mission, const std::vector<SavedParam>& params);
 
 /// The lines that change, with those that replace them: "anaconda.yaml:54" and "-", "+".

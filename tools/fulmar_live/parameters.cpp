@@ -17,9 +17,10 @@ namespace {
 
 using nlohmann::json;
 
-const std::map<std::string, fulmar_param_kind> kinds{{"number", FULMAR_NUMBER}, {"flag", FULMAR_FLAG},     {"count", FULMAR_COUNT},
-                                                     {"choice", FULMAR_CHOICE}, {"text", FULMAR_STRING},   {"string", FULMAR_STRING},
-                                                     {"vector", FULMAR_VECTOR}, {"record", FULMAR_RECORD}, {"blob", FULMAR_BLOB}};
+const std::map<std::string, fulmar_param_kind> kinds{
+    {"number", FULMAR_NUMBER}, {"flag", FULMAR_FLAG},     {"count", FULMAR_COUNT},
+    {"choice", FULMAR_CHOICE}, {"text", FULMAR_STRING},   {"string", FULMAR_STRING},
+    {"vector", FULMAR_VECTOR}, {"record", FULMAR_RECORD}, {"blob", FULMAR_BLOB}};
 
 double number_or(const json& object, const char* key, double otherwise) {
   const auto it = object.find(key);
@@ -44,7 +45,8 @@ ParamInfo param_info(const json& param) {
   info.name = param.value("name", "");
   const std::string kind = param.value("kind", "");
   const auto known = kinds.find(kind);
-  if (known == kinds.end()) throw Error("the parameter '" + info.name + "' is of a kind that is not known here: '" + kind + "'");
+  if (known == kinds.end())
+    throw Error("the parameter '" + info.name + "' is of a kind that is not known here: '" + kind + "'");
   info.kind = known->second;
   info.unit = param.value("unit", "");
   info.doc = param.value("doc", "");
@@ -66,14 +68,16 @@ ParamValue param_value(const ParamInfo& info, const json& value) {
   if (value.is_number_integer()) result.integer = value.get<std::int64_t>();
   if (value.is_array())
     for (std::size_t i = 0; i < std::min<std::size_t>(value.size(), 3); ++i)
-      result.number[i] = value[i].is_number() ? value[i].get<double>() : std::numeric_limits<double>::quiet_NaN();
+      result.number[i] =
+          value[i].is_number() ? value[i].get<double>() : std::numeric_limits<double>::quiet_NaN();
   if (value.is_string()) result.text = value.get<std::string>();
   if (info.kind == FULMAR_CHOICE) {
     const auto it = std::find(info.choices.begin(), info.choices.end(), result.text);
     if (it != info.choices.end()) result.integer = it - info.choices.begin();
   }
   if (info.kind == FULMAR_RECORD || info.kind == FULMAR_BLOB) result.integer = result.text.empty() ? 0 : 1;
-  if (info.kind != FULMAR_NUMBER && info.kind != FULMAR_VECTOR) result.number[0] = static_cast<double>(result.integer);
+  if (info.kind != FULMAR_NUMBER && info.kind != FULMAR_VECTOR)
+    result.number[0] = static_cast<double>(result.integer);
   return result;
 }
 

@@ -9,11 +9,13 @@
 
 namespace fulmar::core {
 
-/// {"name": "roll_kp", "kind": "number", ...} of the view -> what a host knows of the parameter. Throws Error.
+/// {"name": "roll_kp", "kind": "number", ...} of the view -> what a host knows of the parameter. Throws
+/// Error.
 ParamInfo param_info(const nlohmann::json& param);
 ParamValue param_value(const ParamInfo& info, const nlohmann::json& value);
 
-/// For people: angles in degrees, "40 deg"; and "2.9 .. 68.8 deg", "none light severe", "" when everything goes.
+/// For people: angles in degrees, "40 deg"; and "2.9 .. 68.8 deg", "none light severe", "" when everything
+/// goes.
 std::string shown_value(const ParamInfo& info, const ParamValue& value);
 std::string shown_range(const ParamInfo& info);
 

@@ -9,11 +9,11 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "core/types/wire.hpp"
 #include "tools/fulmar_live/canvas.hpp"
 #include "tools/fulmar_live/commands.hpp"
 #include "tools/fulmar_live/ports.hpp"
 #include "tools/fulmar_live/session.hpp"
-#include "core/types/wire.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -37,7 +37,8 @@ bool a_name_ends(const std::string& path, const std::string& ending) {
 
 /// "deg/s" of "rates_radps.roll"; "" when no part of the name is of radians.
 std::string degrees_unit(const std::string& field) {
-  for (const auto& [ending, unit] : {std::pair{"_rad", "deg"}, std::pair{"_radps", "deg/s"}, std::pair{"_radps2", "deg/s2"}})
+  for (const auto& [ending, unit] :
+       {std::pair{"_rad", "deg"}, std::pair{"_radps", "deg/s"}, std::pair{"_radps2", "deg/s2"}})
     if (a_name_ends(field, ending)) return unit;
   return "";
 }
@@ -64,7 +65,8 @@ Curve find_curve(Session& session, const std::string& name, Series& series) {
 PlotSize terminal() {
   PlotSize size;
   winsize window{};
-  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 0) size.columns = window.ws_col, size.rows = window.ws_row;
+  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 0)
+    size.columns = window.ws_col, size.rows = window.ws_row;
   const char* no_colour = std::getenv("NO_COLOR");
   size.colours = isatty(STDOUT_FILENO) != 0 && (!no_colour || !*no_colour);
   return size;
@@ -73,8 +75,12 @@ PlotSize terminal() {
 class Plot {
  public:
   Plot(Session& session, const PlotOptions& options)
-      : session_(session), seconds_(options.seconds), series_(options.fields.size()), live_(isatty(STDOUT_FILENO) != 0) {
-    for (std::size_t i = 0; i < options.fields.size(); ++i) curves_.push_back(find_curve(session, options.fields[i], series_[i]));
+      : session_(session),
+        seconds_(options.seconds),
+        series_(options.fields.size()),
+        live_(isatty(STDOUT_FILENO) != 0) {
+    for (std::size_t i = 0; i < options.fields.size(); ++i)
+      curves_.push_back(find_curve(session, options.fields[i], series_[i]));
     epoch_ns_ = session.epoch_ns();
     for (const Curve& curve : curves_) session.subscribe(curve.port.topic);
   }
@@ -115,7 +121,9 @@ class Plot {
     for (std::size_t i = 0; i < curves_.size(); ++i) {
       if (curves_[i].port.topic != sample.topic) continue;
       const FieldRef& f = curves_[i].field;
-      const double value = f.present(message_.data()) ? number_at(*f.field, message_.data() + f.offset) * curves_[i].factor : NAN;
+      const double value = f.present(message_.data())
+                               ? number_at(*f.field, message_.data() + f.offset) * curves_[i].factor
+                               : NAN;
       series_[i].points.emplace_back(time_s, value);
       while (series_[i].points.front().first < time_s - seconds_) series_[i].points.pop_front();
     }
@@ -124,7 +132,8 @@ class Plot {
   void show() const {
     std::string text = draw_plot(series_, last_s_, seconds_, terminal());
     text.pop_back();  // the last line's end would move the screen up
-    for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 4) text.insert(at, "\x1b[K");
+    for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 4)
+      text.insert(at, "\x1b[K");
     std::printf("\x1b[H%s\x1b[K\x1b[J", text.c_str());
     std::fflush(stdout);
   }

@@ -30,7 +30,8 @@ std::vector<PathWord> path_words(const std::string& field) {
       std::uint32_t index = 0;
       const char* end = word.name.data() + word.name.size();
       const auto [at, code] = std::from_chars(word.name.data() + open + 1, end, index);
-      if (code != std::errc{} || at + 1 != end || *at != ']') throw Error("'" + word.name + "': an index is written as in waypoints[3]");
+      if (code != std::errc{} || at + 1 != end || *at != ']')
+        throw Error("'" + word.name + "': an index is written as in waypoints[3]");
       word.index.push_back(index);
       word.name.resize(open);
     }
@@ -67,7 +68,8 @@ Names check_field(const Type& type, const std::string& field, const std::string&
     path += "." + word.name;
     if (!word.index.empty() && found->shape == FULMAR_SCALAR) throw Error(path + " is no list");
     if (!word.index.empty() && word.index[0] >= found->count)
-      throw Error(path + " has room for " + std::to_string(found->count) + "; the last one is [" + std::to_string(found->count - 1) + "]");
+      throw Error(path + " has room for " + std::to_string(found->count) + "; the last one is [" +
+                  std::to_string(found->count - 1) + "]");
     const std::string index = word.index.empty() ? "" : "[" + std::to_string(word.index[0]) + "]";
     names.own += (names.own.empty() ? "" : ".") + found->name + index;
     names.shown += (names.shown.empty() ? "" : ".") + shown_name(found->name) + index;
@@ -94,9 +96,12 @@ std::string topic_by_component(const json& view, const std::string& component, c
     owners.insert(owner_of(name));
     if (owner_of(name) == owner) ports.insert(name.substr(owner.size() + 1));
   }
-  if (ports.empty()) throw Error("nothing in this flight is called '" + owner + "'." + choices_text(owner, {owners.begin(), owners.end()}));
+  if (ports.empty())
+    throw Error("nothing in this flight is called '" + owner + "'." +
+                choices_text(owner, {owners.begin(), owners.end()}));
   const std::vector<std::string> choices(ports.begin(), ports.end());
-  if (port.empty()) throw Error("'" + owner + "' is no port: give " + owner + ".PORT. Valid: " + join(choices) + ".");
+  if (port.empty())
+    throw Error("'" + owner + "' is no port: give " + owner + ".PORT. Valid: " + join(choices) + ".");
   throw Error(owner + " has no port '" + port + "'." + choices_text(port, choices));
 }
 
@@ -150,7 +155,8 @@ std::vector<std::string> port_names(Session& session) {
   for (const auto& [topic, channel] : session.channels()) names.insert(port_of(topic));
   for (const json& c : session.view().value("components", json::array()))
     for (const json& p : c.value("outputs", json::array()))
-      if (session.channels().contains(p.value("topic", ""))) names.insert(c.value("name", "") + "." + p.value("name", ""));
+      if (session.channels().contains(p.value("topic", "")))
+        names.insert(c.value("name", "") + "." + p.value("name", ""));
   return {names.begin(), names.end()};
 }
 

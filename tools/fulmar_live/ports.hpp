@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ports and fields as people name them, "nav.state.position_m.north", looked up among the topics of a running flight.
+// Ports and fields as people name them, "nav.state.position_m.north", looked up among the topics of a running
+// flight.
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
-#include "tools/fulmar_live/session.hpp"
 #include "core/types/type.hpp"
+#include "tools/fulmar_live/session.hpp"
 
 namespace fulmar::core {
 
@@ -17,12 +18,15 @@ std::string port_of(const std::string& topic);
 struct PortField {
   std::string topic;
   TypePtr type;
-  std::string field;  // "position_m.north"; "" for the whole message. Angles are named as they are in the message: roll_rad
+  std::string field;  // "position_m.north"; "" for the whole message. Angles are named as they are in the
+                      // message: roll_rad
   std::string label;  // as people read it: "nav.state.roll_deg"
 };
 
-/// Finds the port by topic, by component ("ekf.state" where the topic is that of the role) or as a probe. Fields are checked; a name in
-/// `_deg` finds the field in `_rad`, one in `_degps` that in `_radps`. Throws Error with the nearest name and the choices.
+/// Finds the port by topic, by component ("ekf.state" where the topic is that of the role) or as a probe.
+/// Fields are checked; a name in
+/// `_deg` finds the field in `_rad`, one in `_degps` that in `_radps`. Throws Error with the nearest name and
+/// the choices.
 PortField find_port(Session& session, const std::string& name);
 
 /// Ports that can be echoed, as people name them, sorted.

@@ -38,7 +38,8 @@ struct RestFormatter : CLI::Formatter {
   }
 };
 
-const CLI::Validator above_zero = number_check("a number above 0", false), from_one = number_check("a whole number from 1", true);
+const CLI::Validator above_zero = number_check("a number above 0", false),
+                     from_one = number_check("a whole number from 1", true);
 
 }  // namespace
 
@@ -57,14 +58,16 @@ struct RemoteCommands::Impl {
 
   Impl(CLI::App& a, std::vector<std::string> p) : app(a), programs(std::move(p)) {}
 
-  // Not CLI11's envname: it sets the options of commands that are not given, too, and so wins over the command line.
+  // Not CLI11's envname: it sets the options of commands that are not given, too, and so wins over the
+  // command line.
   static std::string given(const std::string& word, const char* variable) {
     const char* value = std::getenv(variable);
     return word.empty() && value ? value : word;
   }
   LiveAddress target() const { return parse_target(given(at, "FULMAR_LIVE"), given(token, "FULMAR_TOKEN")); }
 
-  CLI::App* add(CLI::App& to, const std::string& word, const std::string& says, const std::string& example, std::function<int()> action) {
+  CLI::App* add(CLI::App& to, const std::string& word, const std::string& says, const std::string& example,
+                std::function<int()> action) {
     CLI::App* command = to.add_subcommand(word, says);
     command->footer("Example: fulmar " + example);
     add_target(command);
@@ -73,26 +76,32 @@ struct RemoteCommands::Impl {
   }
 
   void add_target(CLI::App* command) {
-    command->add_option("--at", at, "where the flight listens; default $FULMAR_LIVE, else 127.0.0.1:8765")->type_name("HOST:PORT");
+    command->add_option("--at", at, "where the flight listens; default $FULMAR_LIVE, else 127.0.0.1:8765")
+        ->type_name("HOST:PORT");
     command->add_option("--token", token, "what the flight asks for; default $FULMAR_TOKEN");
   }
 
   void look() {
-    CLI::App* list = add(app, "list", "components of a running flight, their ports, requests and phases", "list --rates",
-                         [this] { return list_command(target(), rates, json); });
+    CLI::App* list = add(app, "list", "components of a running flight, their ports, requests and phases",
+                         "list --rates", [this] { return list_command(target(), rates, json); });
     list->add_flag("--rates", rates, "count the samples of every port for a second");
     list->add_flag("--json", json, "print one JSON object");
 
-    CLI::App* show = add(app, "echo", "print messages of a running flight; angles in degrees", "echo nav.state.height_m --rate 2",
-                         [this] { return echo_command(target(), echo); });
-    show->add_option("PORT", echo.ports, "PORT, PORT.FIELD, or a component's probe")->required()->type_name("");
-    show->add_option("--rate", echo.rate_hz, "at most so many per second of flight")->check(above_zero)->type_name("NUMBER");
+    CLI::App* show = add(app, "echo", "print messages of a running flight; angles in degrees",
+                         "echo nav.state.height_m --rate 2", [this] { return echo_command(target(), echo); });
+    show->add_option("PORT", echo.ports, "PORT, PORT.FIELD, or a component's probe")
+        ->required()
+        ->type_name("");
+    show->add_option("--rate", echo.rate_hz, "at most so many per second of flight")
+        ->check(above_zero)
+        ->type_name("NUMBER");
     show->add_option("--count", echo.count, "end after so many")->check(from_one)->type_name("NUMBER");
     CLI::Option* as_json = show->add_flag("--json", echo.json, "one JSON object per line");
     show->add_flag("--csv", echo.csv, "a table; of one port")->excludes(as_json);
 
-    CLI::App* draw = add(app, "plot", "plot fields of a running flight in the terminal", "plot nav.state.roll_deg slc.attitude.roll_deg",
-                         [this] { return plot_command(target(), plot); });
+    CLI::App* draw =
+        add(app, "plot", "plot fields of a running flight in the terminal",
+            "plot nav.state.roll_deg slc.attitude.roll_deg", [this] { return plot_command(target(), plot); });
     draw->add_option("FIELD", plot.fields, "PORT.FIELD, or a component's probe")->required()->type_name("");
     draw->add_option("--seconds", plot.seconds, "so much of the flight")->check(CLI::Range(0.1, 36000.0));
   }
@@ -101,32 +110,38 @@ struct RemoteCommands::Impl {
     CLI::App* param = app.add_subcommand("param", "parameters of a running flight");
     param->require_subcommand(1);
     param->footer("Example: fulmar param set attitude.roll_kp 0.6 slc.roll_limit \"35 deg\"");
-    CLI::App* list = add(*param, "list", "values, ranges, and which can change in flight", "param list 'slc.roll*'",
-                         [this] { return param_list_command(target(), pattern, json); });
+    CLI::App* list =
+        add(*param, "list", "values, ranges, and which can change in flight", "param list 'slc.roll*'",
+            [this] { return param_list_command(target(), pattern, json); });
     list->add_option("NAME", pattern, "COMPONENT, COMPONENT.PARAMETER, or with a *")->type_name("");
     list->add_flag("--json", json, "print a JSON list");
     CLI::App* get = add(*param, "get", "values of parameters", "param get attitude.roll_kp",
                         [this] { return param_get_command(target(), words, json); });
     get->add_option("NAME", words, "COMPONENT.PARAMETER")->required()->type_name("");
     get->add_flag("--json", json, "one JSON object per line");
-    CLI::App* set =
-        add(*param, "set",
-            "change parameters in flight, between ticks. A name is COMPONENT.PARAMETER, a value is written as in a mission file.\n"
-            "Several are set one after another; the first that is refused ends it, and those before it stay set.",
-            "param set slc.roll_limit \"35 deg\" attitude.roll_kp 0.6", [] { return 0; });
+    CLI::App* set = add(
+        *param, "set",
+        "change parameters in flight, between ticks. A name is COMPONENT.PARAMETER, a value is written as in "
+        "a mission file.\n"
+        "Several are set one after another; the first that is refused ends it, and those before it stay set.",
+        "param set slc.roll_limit \"35 deg\" attitude.roll_kp 0.6", [] { return 0; });
     take_rest(set, "NAME VALUE [NAME VALUE ...]", [this] {
-      if (words.empty()) throw WrongUsage("give NAME VALUE [NAME VALUE ...], as in fulmar param set slc.roll_limit \"35 deg\"");
+      if (words.empty())
+        throw WrongUsage(
+            "give NAME VALUE [NAME VALUE ...], as in fulmar param set slc.roll_limit \"35 deg\"");
       return param_set_command(target(), words);
     });
-    CLI::App* keep = add(*param, "save", "write what flies back into the mission's and airframe's files, comments kept",
-                         "param save slc --dry-run", [this] { return param_save_command(target(), save); });
+    CLI::App* keep =
+        add(*param, "save", "write what flies back into the mission's and airframe's files, comments kept",
+            "param save slc --dry-run", [this] { return param_save_command(target(), save); });
     keep->add_option("COMPONENT", save.component, "its parameters alone")->type_name("");
     keep->add_option("--mission", save.mission, "the mission's file, when the flight runs elsewhere");
     keep->add_flag("--dry-run", save.dry_run, "show what would change");
     keep->add_flag("--yes", save.yes, "do not ask");
   }
 
-  /// The words after the options are the command's own: CLI11 would take [1, 2, 3] apart, and -0.5 for an option.
+  /// The words after the options are the command's own: CLI11 would take [1, 2, 3] apart, and -0.5 for an
+  /// option.
   void take_rest(CLI::App* command, const std::string& rest, std::function<int()> action) {
     command->allow_extras();
     command->formatter(std::make_shared<RestFormatter>(rest));
@@ -137,22 +152,31 @@ struct RemoteCommands::Impl {
   }
 
   void orders() {
-    CLI::App* call = add(app, "call", "ask a component for something: {field: value, ...} or field=value ...",
-                         "call plan.edit '{kind: append, waypoint: {position_m: {north: 100, east: 50, down: -80}}}'", [] { return 0; });
+    CLI::App* call =
+        add(app, "call", "ask a component for something: {field: value, ...} or field=value ...",
+            "call plan.edit '{kind: append, waypoint: {position_m: {north: 100, east: 50, down: -80}}}'",
+            [] { return 0; });
     call->add_option("REQUEST", name, "COMPONENT.REQUEST")->required()->type_name("");
-    take_rest(call, "FIELD=VALUE ... | '{FIELD: VALUE, ...}'", [this] { return call_command(target(), name, words); });
-    CLI::App* phase = add(app, "phase", "enter a phase of the mission", "phase cruise", [this] { return phase_command(target(), name); });
+    take_rest(call, "FIELD=VALUE ... | '{FIELD: VALUE, ...}'",
+              [this] { return call_command(target(), name, words); });
+    CLI::App* phase = add(app, "phase", "enter a phase of the mission", "phase cruise",
+                          [this] { return phase_command(target(), name); });
     phase->add_option("NAME", name, "of the phase")->required()->type_name("");
-    CLI::App* swap = add(app, "swap", "another plugin file for a component, on the ground", "swap my_law build/lib/fulmar/my_law.so",
+    CLI::App* swap = add(app, "swap", "another plugin file for a component, on the ground",
+                         "swap my_law build/lib/fulmar/my_law.so",
                          [this] { return swap_command(target(), component, file); });
     swap->add_option("COMPONENT", component, "of the mission")->required()->type_name("");
     swap->add_option("FILE", file, "plugin")->required()->type_name("");
-    add(app, "reset", "let components fly again that a guard has stopped", "reset", [this] { return reset_command(target()); });
+    add(app, "reset", "let components fly again that a guard has stopped", "reset",
+        [this] { return reset_command(target()); });
   }
 
   void completion() {
     CLI::App* script = app.add_subcommand("completion", "print what completes words in a shell");
-    script->add_option("SHELL", shell, "bash or zsh")->required()->check(CLI::IsMember({"bash", "zsh"}))->type_name("");
+    script->add_option("SHELL", shell, "bash or zsh")
+        ->required()
+        ->check(CLI::IsMember({"bash", "zsh"}))
+        ->type_name("");
     script->footer("Example: source <(fulmar completion bash)");
     actions.emplace_back(script, [this] { return std::fputs(completion_script(shell).c_str(), stdout), 0; });
     CLI::App* complete = app.add_subcommand("complete", "words of a running flight, for shells")->group("");
@@ -160,7 +184,8 @@ struct RemoteCommands::Impl {
     complete->add_option("PREFIX", prefix);
     add_target(complete);
     actions.emplace_back(complete, [this] {
-      if (kind != "program") return complete_command(given(at, "FULMAR_LIVE"), given(token, "FULMAR_TOKEN"), kind, prefix);
+      if (kind != "program")
+        return complete_command(given(at, "FULMAR_LIVE"), given(token, "FULMAR_TOKEN"), kind, prefix);
       for (const std::string& word : programs)
         if (word.starts_with(prefix)) std::printf("%s\n", word.c_str());
       return 0;
@@ -168,7 +193,8 @@ struct RemoteCommands::Impl {
   }
 };
 
-RemoteCommands::RemoteCommands(CLI::App& app, std::vector<std::string> programs) : impl_(std::make_unique<Impl>(app, std::move(programs))) {
+RemoteCommands::RemoteCommands(CLI::App& app, std::vector<std::string> programs)
+    : impl_(std::make_unique<Impl>(app, std::move(programs))) {
   impl_->look();
   impl_->parameters();
   impl_->orders();

@@ -22,7 +22,9 @@ T read_le(const std::string& bytes, std::size_t at) {
   std::memcpy(&value, bytes.data() + at, sizeof value);
   return value;
 }
-void append_u32(std::string& bytes, std::uint32_t value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); }
+void append_u32(std::string& bytes, std::uint32_t value) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
 
 std::string text_of(const json& object, const char* key) {
   const auto it = object.find(key);
@@ -40,10 +42,12 @@ const json& list_of(const json& object, const char* key) {
 
 }  // namespace
 
-Session::Session(const LiveAddress& target, Milliseconds patience) : client_(target, patience), at_(target.text()), patience_(patience) {}
+Session::Session(const LiveAddress& target, Milliseconds patience)
+    : client_(target, patience), at_(target.text()), patience_(patience) {}
 Session::~Session() = default;
 
-// ---- what the flight says -------------------------------------------------------------------------------------------------------
+// ---- what the flight says
+// -------------------------------------------------------------------------------------------------------
 
 void Session::handle_text(const std::string& text) {
   const json message = json::parse(text, nullptr, false);
@@ -51,8 +55,8 @@ void Session::handle_text(const std::string& text) {
   const std::string op = text_of(message, "op");
   if (op == "advertise") {
     for (const json& c : list_of(message, "channels"))
-      channels_[text_of(c, "topic")] = {number_of(c, "id"), text_of(c, "topic"), text_of(c, "schemaName"), text_of(c, "schema"),
-                                        text_of(c, "encoding")};
+      channels_[text_of(c, "topic")] = {number_of(c, "id"), text_of(c, "topic"), text_of(c, "schemaName"),
+                                        text_of(c, "schema"), text_of(c, "encoding")};
     advertised_ = true;
   } else if (op == "advertiseServices") {
     for (const json& s : list_of(message, "services")) services_[text_of(s, "name")] = number_of(s, "id");
@@ -71,9 +75,11 @@ void Session::handle_binary(const std::string& bytes) {
     const auto subscription = subscriptions_.find(read_le<std::uint32_t>(bytes, 1));
     if (subscription == subscriptions_.end()) return;
     const auto* first = reinterpret_cast<const std::byte*>(bytes.data());
-    samples_.push_back(
-        {subscription->second, static_cast<std::int64_t>(read_le<std::uint64_t>(bytes, 5)), {first + data_header, first + bytes.size()}});
-  } else if (op == service_response && bytes.size() >= answer_header && read_le<std::uint32_t>(bytes, 5) == calls_) {
+    samples_.push_back({subscription->second,
+                        static_cast<std::int64_t>(read_le<std::uint64_t>(bytes, 5)),
+                        {first + data_header, first + bytes.size()}});
+  } else if (op == service_response && bytes.size() >= answer_header &&
+             read_le<std::uint32_t>(bytes, 5) == calls_) {
     const std::size_t encoding = read_le<std::uint32_t>(bytes, 9);
     if (encoding > bytes.size() - answer_header) return;
     answer_ = std::make_unique<json>(json::parse(bytes.substr(answer_header + encoding), nullptr, false));
@@ -98,7 +104,8 @@ void Session::pump_until(const Ready& ready, const char* what) {
   }
 }
 
-// ---- channels and samples -------------------------------------------------------------------------------------------------------
+// ---- channels and samples
+// -------------------------------------------------------------------------------------------------------
 
 const std::map<std::string, Session::Channel>& Session::channels() {
   pump_until([this] { return advertised_; }, "list of topics");
@@ -109,7 +116,8 @@ TypePtr Session::type(const std::string& topic) {
   const auto known = types_.find(topic);
   if (known != types_.end()) return known->second;
   const Channel& channel = channels().at(topic);
-  if (channel.encoding != "cdr") throw Error(topic + " has the encoding '" + channel.encoding + "', which is not read here");
+  if (channel.encoding != "cdr")
+    throw Error(topic + " has the encoding '" + channel.encoding + "', which is not read here");
   return types_[topic] = parse_ros_definition(channel.schema_name, channel.schema);
 }
 
@@ -132,7 +140,8 @@ std::optional<Session::Sample> Session::next(Milliseconds limit) {
   return std::move(samples_[taken_++]);
 }
 
-// ---- services -------------------------------------------------------------------------------------------------------------------
+// ---- services
+// -------------------------------------------------------------------------------------------------------------------
 
 std::uint32_t Session::service_id(const std::string& name) {
   pump_until([this] { return services_known_; }, "list of services");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A running flight as the command line sees it: the Foxglove WebSocket protocol over a Client. Source: foxglove/ws-protocol, docs/spec.md.
+// A running flight as the command line sees it: the Foxglove WebSocket protocol over a Client. Source:
+// foxglove/ws-protocol, docs/spec.md.
 #pragma once
 #include <chrono>
 #include <cstdint>
@@ -10,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/fulmar_live/client.hpp"
 #include "core/types/type.hpp"
+#include "tools/fulmar_live/client.hpp"
 
 namespace fulmar::core {
 
@@ -36,7 +37,8 @@ class Session {
   json view();
   /// Of that: the time that samples are stamped with, at the begin of the flight.
   std::int64_t epoch_ns();
-  /// Calls a service and returns its answer. Throws Error when there is no such service or the flight refuses to hear of it.
+  /// Calls a service and returns its answer. Throws Error when there is no such service or the flight refuses
+  /// to hear of it.
   json call(const std::string& service, const json& request);
   /// Whether accepted; the reason when not.
   struct Verdict {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// yaml-cpp says where keys stand; from there on the text itself is read, so that an alias is seen as what it is.
+// yaml-cpp says where keys stand; from there on the text itself is read, so that an alias is seen as what it
+// is.
 #include "tools/fulmar_live/yaml_edit.hpp"
 
 #include <yaml-cpp/yaml.h>
@@ -12,7 +13,9 @@ namespace fulmar::core {
 namespace {
 
 bool blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
-bool word_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; }
+bool word_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
 
 /// As yaml.cpp has it: {truth?: T} is more than yaml-cpp 0.7 reads. Nothing moves.
 YAML::Node load(std::string text) {
@@ -96,7 +99,8 @@ std::optional<YamlSpan> value_at(const std::string& text, std::size_t at, bool f
   }
   if (at == text.size() || text[at] == '|' || text[at] == '>') return std::nullopt;
   const char c = text[at];
-  if (c == '{' || c == '[') return YamlSpan{at, end_of_flow(text, at), c == '{' ? Form::map : Form::list, true};
+  if (c == '{' || c == '[')
+    return YamlSpan{at, end_of_flow(text, at), c == '{' ? Form::map : Form::list, true};
   if (c == '"' || c == '\'') return YamlSpan{at, end_of_quoted(text, at), Form::scalar, flow};
   const YamlSpan span{at, end_of_plain(text, at, flow), c == '*' ? Form::alias : Form::scalar, flow};
   return span.end > span.begin ? std::optional(span) : std::nullopt;
@@ -108,7 +112,8 @@ std::size_t after_key(const std::string& text, const YAML::Mark& mark) {
     while (at < text.size() && !blank(text[at])) ++at;
     at = skip_blanks(text, at);
   }
-  at = at < text.size() && (text[at] == '"' || text[at] == '\'') ? end_of_quoted(text, at) : text.find(':', at);
+  at = at < text.size() && (text[at] == '"' || text[at] == '\'') ? end_of_quoted(text, at)
+                                                                 : text.find(':', at);
   if (at == std::string::npos) throw Error("a key without a value");
   return text.find(':', at) + 1;
 }
@@ -158,7 +163,9 @@ std::string into_flow(const std::string& text, const YamlSpan& map, const std::s
   std::size_t last = map.begin + 1;  // behind the last thing that counts
   for (std::size_t at = skip_blanks(text, last); at < map.end - 1; at = skip_blanks(text, at)) {
     const char c = text[at];
-    at = c == '"' || c == '\'' ? end_of_quoted(text, at) : c == '{' || c == '[' ? end_of_flow(text, at) : at + 1;
+    at = c == '"' || c == '\''  ? end_of_quoted(text, at)
+         : c == '{' || c == '[' ? end_of_flow(text, at)
+                                : at + 1;
     last = at;
   }
   const char before = text[last - 1];
@@ -187,7 +194,8 @@ std::optional<YamlSpan> find_value(const std::string& text, const YamlPath& path
   if (found.depth < path.size() || found.key.is_null() || found.node.IsNull()) return std::nullopt;
   std::optional<YamlSpan> span = value_at(text, after_key(text, found.key), found.flow);
   if (!span || span->form != YamlSpan::Form::scalar) return span;
-  if (found.node.IsMap() || found.node.IsSequence()) span->form = found.node.IsMap() ? YamlSpan::Form::map : YamlSpan::Form::list;
+  if (found.node.IsMap() || found.node.IsSequence())
+    span->form = found.node.IsMap() ? YamlSpan::Form::map : YamlSpan::Form::list;
   return span;
 }
 
@@ -238,10 +246,12 @@ std::string with_entry(const std::string& text, const YamlPath& path, const std:
     const std::size_t at = after_key(text, found.key);
     return text.substr(0, at) + " {" + entry + "}" + text.substr(at);
   }
-  if (!found.node.IsMap()) throw Error((at_root ? std::string("the file") : path[found.depth - 1]) + " is no map");
+  if (!found.node.IsMap())
+    throw Error((at_root ? std::string("the file") : path[found.depth - 1]) + " is no map");
   const std::optional<YamlSpan> span = value_at(text, at_root ? 0 : after_key(text, found.key), found.flow);
   if (span && span->form == YamlSpan::Form::alias)
-    throw Error("'" + path[found.depth - 1] + "' is " + text.substr(span->begin, span->end - span->begin) + ", which stands elsewhere");
+    throw Error("'" + path[found.depth - 1] + "' is " + text.substr(span->begin, span->end - span->begin) +
+                ", which stands elsewhere");
   if (span && span->form == YamlSpan::Form::map) return into_flow(text, *span, entry);
   return into_block(text, found.node, entry);
 }

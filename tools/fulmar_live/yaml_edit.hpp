@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Changes single values in the text of a YAML file and leaves everything else as it is: comments, layout, quotes, order.
+// Changes single values in the text of a YAML file and leaves everything else as it is: comments, layout,
+// quotes, order.
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -17,7 +18,8 @@ struct YamlSpan {
   bool flow = false;  // inside or itself in brackets
 };
 
-/// Nothing when the path is not there, or its value is empty, or in a form that is not edited here (block scalars).
+/// Nothing when the path is not there, or its value is empty, or in a form that is not edited here (block
+/// scalars).
 std::optional<YamlSpan> find_value(const std::string& text, const YamlPath& path);
 
 /// The items of a list in brackets.
@@ -30,8 +32,8 @@ std::string quoted_like(const std::string& old, const std::string& value);
 /// The text with one value in place of another.
 std::string with_value(const std::string& text, const YamlSpan& span, const std::string& value);
 
-/// The text with `value` at a path that is not there yet: at the end of the deepest map that is, what is missing on the way in braces.
-/// Throws Error when that is no map.
+/// The text with `value` at a path that is not there yet: at the end of the deepest map that is, what is
+/// missing on the way in braces. Throws Error when that is no map.
 std::string with_entry(const std::string& text, const YamlPath& path, const std::string& value);
 
 }  // namespace fulmar::core

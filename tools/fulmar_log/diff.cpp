@@ -42,15 +42,18 @@ std::vector<std::string> differences(const Named& a, const Named& b, Sentence se
 
 }  // namespace
 
-LogDiff diff_logs(const std::filesystem::path& a, const std::filesystem::path& b, const DiffOptions& options) {
+LogDiff diff_logs(const std::filesystem::path& a, const std::filesystem::path& b,
+                  const DiffOptions& options) {
   LogDiff diff{diff_messages(a, b, options), {}, {}};
-  diff.metadata = differences(metadata_of(diff.log_a), metadata_of(diff.log_b), [](const std::string& name, const std::string& x, const std::string& y) {
-    return name + " is " + x + " and " + y;
-  });
+  diff.metadata = differences(metadata_of(diff.log_a), metadata_of(diff.log_b),
+                              [](const std::string& name, const std::string& x, const std::string& y) {
+                                return name + " is " + x + " and " + y;
+                              });
   diff.attachments =
-      differences(attachments_of(diff.log_a), attachments_of(diff.log_b), [](const std::string& name, const std::string& x, const std::string& y) {
-        return name + " differs from line " + std::to_string(line_of_difference(x, y)) + " on";
-      });
+      differences(attachments_of(diff.log_a), attachments_of(diff.log_b),
+                  [](const std::string& name, const std::string& x, const std::string& y) {
+                    return name + " differs from line " + std::to_string(line_of_difference(x, y)) + " on";
+                  });
   return diff;
 }
 

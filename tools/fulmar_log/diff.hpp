@@ -6,12 +6,14 @@
 namespace fulmar::core {
 
 struct LogDiff : MessageDiff {
-  std::vector<std::string> metadata, attachments;  // "fulmar: seed is 7 and 8", "mission.yaml differs at line 4"
+  std::vector<std::string> metadata,
+      attachments;  // "fulmar: seed is 7 and 8", "mission.yaml differs at line 4"
 
   bool equal() const { return messages_equal() && metadata.empty() && attachments.empty(); }
 };
 
 /// Throws Error for what is no log.
-LogDiff diff_logs(const std::filesystem::path& a, const std::filesystem::path& b, const DiffOptions& options = {});
+LogDiff diff_logs(const std::filesystem::path& a, const std::filesystem::path& b,
+                  const DiffOptions& options = {});
 
 }  // namespace fulmar::core

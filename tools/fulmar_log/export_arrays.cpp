@@ -31,14 +31,16 @@ std::vector<std::string> labels(const RosField& f) {
 
 std::vector<Array> begin_arrays(const Table& table) {
   std::vector<Array> list{{.name = "time_s"}, {.name = "valid_s"}};
-  for (const Column& c : table.columns) list.push_back({.name = c.name, .kind = array_kind(c), .labels = labels(*c.field)});
+  for (const Column& c : table.columns)
+    list.push_back({.name = c.name, .kind = array_kind(c), .labels = labels(*c.field)});
   for (Array& a : list) a.data.reserve(table.rows * primitive_size(a.kind));
   return list;
 }
 
 std::size_t bytes_of(const Table& table) {
   std::size_t row = 16;
-  for (const Column& c : table.columns) row += c.field->kind == FULMAR_TEXT ? 64 : primitive_size(array_kind(c));
+  for (const Column& c : table.columns)
+    row += c.field->kind == FULMAR_TEXT ? 64 : primitive_size(array_kind(c));
   return row * table.rows;
 }
 
@@ -51,16 +53,11 @@ void put(Array& to, T value) {
 
 double as_double(const Cell& cell) {
   switch (cell.kind) {
-    case Cell::Kind::whole:
-      return static_cast<double>(cell.whole);
-    case Cell::Kind::natural:
-      return static_cast<double>(cell.natural);
-    case Cell::Kind::single:
-      return static_cast<double>(cell.single);
-    case Cell::Kind::real:
-      return cell.real;
-    default:
-      return std::numeric_limits<double>::quiet_NaN();
+    case Cell::Kind::whole: return static_cast<double>(cell.whole);
+    case Cell::Kind::natural: return static_cast<double>(cell.natural);
+    case Cell::Kind::single: return static_cast<double>(cell.single);
+    case Cell::Kind::real: return cell.real;
+    default: return std::numeric_limits<double>::quiet_NaN();
   }
 }
 
@@ -80,11 +77,13 @@ void add(Array& to, const Cell& cell) {
 
 }  // namespace
 
-void for_each_table(const Tables& tables, const std::function<void(const Table&, const std::vector<Array>&)>& take) {
+void for_each_table(const Tables& tables,
+                    const std::function<void(const Table&, const std::vector<Array>&)>& take) {
   const std::vector<Table>& list = tables.list();
   for (std::size_t first = 0, last = 0; first < list.size(); first = last) {
     std::vector<std::vector<Array>> arrays(list.size());
-    for (std::size_t bytes = 0; last < list.size() && (last == first || bytes + bytes_of(list[last]) <= batch_bytes); ++last) {
+    for (std::size_t bytes = 0;
+         last < list.size() && (last == first || bytes + bytes_of(list[last]) <= batch_bytes); ++last) {
       if (list[last].rows == 0) continue;
       bytes += bytes_of(list[last]);
       arrays[last] = begin_arrays(list[last]);

@@ -12,9 +12,11 @@ namespace fulmar::core {
 namespace fs = std::filesystem;
 
 std::string seconds_text(std::int64_t ns) {
-  const auto size = ns < 0 ? std::uint64_t{0} - static_cast<std::uint64_t>(ns) : static_cast<std::uint64_t>(ns);
+  const auto size =
+      ns < 0 ? std::uint64_t{0} - static_cast<std::uint64_t>(ns) : static_cast<std::uint64_t>(ns);
   std::array<char, 16> digits;
-  std::snprintf(digits.data(), digits.size(), "%09llu", static_cast<unsigned long long>(size % 1'000'000'000));
+  std::snprintf(digits.data(), digits.size(), "%09llu",
+                static_cast<unsigned long long>(size % 1'000'000'000));
   std::string fraction = digits.data();
   while (!fraction.empty() && fraction.back() == '0') fraction.pop_back();
   const std::string whole = (ns < 0 ? "-" : "") + std::to_string(size / 1'000'000'000);
@@ -34,7 +36,8 @@ void remove_parts(const Tables& tables, ExportForm form, const fs::path& out, bo
 
 }  // namespace
 
-ExportResult export_log(const fs::path& log, ExportForm form, fs::path out, const std::vector<std::string>& topics) {
+ExportResult export_log(const fs::path& log, ExportForm form, fs::path out,
+                        const std::vector<std::string>& topics) {
   const std::array<const char*, 3> endings{"-csv", ".npz", ".mat"};
   if (out.empty()) out = log.stem().string() + endings[static_cast<std::size_t>(form)];
   if (fs::exists(out) && (form != ExportForm::csv || !fs::is_directory(out)))

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A log for those who compute: one CSV file per topic, one NPZ file, one MAT file (level 5). The machine's view: every value exact, radians
-// stay radians. Columns: time_s (flight time at which it was logged), valid_s, then the fields: "legs[1].position_m.north". A list is as
-// wide as its longest; what is missing is nan. An enum is its number, and its label beside it.
+// A log for those who compute: one CSV file per topic, one NPZ file, one MAT file (level 5). The machine's
+// view: every value exact, radians stay radians. Columns: time_s (flight time at which it was logged),
+// valid_s, then the fields: "legs[1].position_m.north". A list is as wide as its longest; what is missing is
+// nan. An enum is its number, and its label beside it.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -26,7 +27,8 @@ struct ExportResult {
   std::string fault;                  // "" or why the log ends before its end
 };
 
-/// `out` empty: beside the log's name in the current directory. `topics` empty: all. Throws Error, and for a file that is there already.
+/// `out` empty: beside the log's name in the current directory. `topics` empty: all. Throws Error, and for a
+/// file that is there already.
 ExportResult export_log(const std::filesystem::path& log, ExportForm form, std::filesystem::path out,
                         const std::vector<std::string>& topics);
 

@@ -25,7 +25,8 @@ RosField table_field(const Field& f, std::size_t& count) {
   return made;
 }
 
-// ---- the bytes -----------------------------------------------------------------------------------------------------------------
+// ---- the bytes
+// -----------------------------------------------------------------------------------------------------------------
 
 template <class T>
 Cell number_cell(T x) {
@@ -84,7 +85,8 @@ void name_columns(const RosField& f, const std::string& name, bool in_list, std:
   for (std::uint32_t i = 0; i < n; ++i) {
     const std::string element = one ? name : name + "[" + std::to_string(i) + "]";
     if (f.kind != FULMAR_STRUCT) columns.push_back({element, &f, in_list || list});
-    for (const RosField& inner : f.fields) name_columns(inner, element + "." + inner.name, in_list || list, columns);
+    for (const RosField& inner : f.fields)
+      name_columns(inner, element + "." + inner.name, in_list || list, columns);
   }
 }
 
@@ -137,18 +139,12 @@ void decode(const RosField& root, std::span<const std::byte> message, std::vecto
 
 std::string cell_text(const Cell& cell) {
   switch (cell.kind) {
-    case Cell::Kind::none:
-      return "nan";
-    case Cell::Kind::whole:
-      return std::to_string(cell.whole);
-    case Cell::Kind::natural:
-      return std::to_string(cell.natural);
-    case Cell::Kind::single:
-      return number_text(cell.single);
-    case Cell::Kind::real:
-      return number_text(cell.real);
-    case Cell::Kind::text:
-      return std::string(cell.text);
+    case Cell::Kind::none: return "nan";
+    case Cell::Kind::whole: return std::to_string(cell.whole);
+    case Cell::Kind::natural: return std::to_string(cell.natural);
+    case Cell::Kind::single: return number_text(cell.single);
+    case Cell::Kind::real: return number_text(cell.real);
+    case Cell::Kind::text: return std::string(cell.text);
   }
   return {};
 }

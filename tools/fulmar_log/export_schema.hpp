@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages of any ROS 2 log as rows of cells: the definition that stands in the log and XCDR1 bytes, nothing from plugins. Lists of any
-// length; what is wide in one message is wide in the table. Source: ROS 2 design "interface definition"; OMG DDS-XTypes 1.3, 7.4.1.
+// Messages of any ROS 2 log as rows of cells: the definition that stands in the log and XCDR1 bytes, nothing
+// from plugins. Lists of any length; what is wide in one message is wide in the table. Source: ROS 2 design
+// "interface definition"; OMG DDS-XTypes 1.3, 7.4.1.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +16,8 @@
 
 namespace fulmar::core {
 
-/// A field of one message type, and what is in it; a struct that stands in several places is in the tree several times.
+/// A field of one message type, and what is in it; a struct that stands in several places is in the tree
+/// several times.
 struct RosField {
   std::string name;
   fulmar_kind kind = FULMAR_STRUCT;  // an enum is its byte
@@ -23,16 +25,23 @@ struct RosField {
   std::uint32_t count = 1;                                     // of an array
   std::vector<std::pair<std::int64_t, std::string>> labels{};  // constants that name values, in small letters
   std::vector<RosField> fields{};                              // of a structure
-  std::uint32_t longest = 0;                                   // of a list, among the messages that were measured
-  std::size_t width = 1;                                       // cells of one element; set by `lay_out`
+  std::uint32_t longest = 0;  // of a list, among the messages that were measured
+  std::size_t width = 1;      // cells of one element; set by `lay_out`
 };
 
-/// `name`: "fulmar_msgs/msg/Mixed"; `text`: of a schema with encoding ros2msg. The result is a nameless structure.
-/// Throws Error on what is no such definition.
+/// `name`: "fulmar_msgs/msg/Mixed"; `text`: of a schema with encoding ros2msg. The result is a nameless
+/// structure. Throws Error on what is no such definition.
 RosField parse_ros2msg(const std::string& name, const std::string& text);
 
 struct Cell {
-  enum class Kind : std::uint8_t { none, whole, natural, single, real, text } kind = Kind::none;  // none: beyond the end of a list
+  enum class Kind : std::uint8_t {
+    none,
+    whole,
+    natural,
+    single,
+    real,
+    text
+  } kind = Kind::none;  // none: beyond the end of a list
   union {
     std::int64_t whole;
     std::uint64_t natural = 0;
@@ -48,7 +57,8 @@ struct Column {
   bool in_list = false;
 };
 
-/// Takes a message's list lengths into account. Throws Error when its bytes do not fit the definition; so does `decode`.
+/// Takes a message's list lengths into account. Throws Error when its bytes do not fit the definition; so
+/// does `decode`.
 void measure(RosField& root, std::span<const std::byte> message);
 /// The columns of all messages that were measured. Throws Error when there are more than `most`.
 std::vector<Column> lay_out(RosField& root, std::size_t most);

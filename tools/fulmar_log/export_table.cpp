@@ -16,7 +16,8 @@ constexpr std::size_t most_columns = 10'000;
 std::string table_name(const std::string& topic, const std::vector<Table>& others) {
   std::string name;
   for (const char c : topic.substr(0, 100)) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+    const bool plain =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
     if (plain) name += c;
     if (!plain && !name.empty()) name += c == '/' ? '.' : '_';
   }
@@ -38,7 +39,8 @@ Tables::Source Tables::add(const McapFile& log, std::uint16_t channel) {
   const auto schema = log.schemas.find(c.schema);
   const std::string encoding = schema == log.schemas.end() ? "none" : schema->second.encoding;
   if (c.encoding != "cdr" || encoding != "ros2msg")
-    return {-1, "its messages are encoded as '" + c.encoding + "' with a schema of '" + encoding + "'; what is read is cdr with ros2msg"};
+    return {-1, "its messages are encoded as '" + c.encoding + "' with a schema of '" + encoding +
+                    "'; what is read is cdr with ros2msg"};
   try {
     RosField root = parse_ros2msg(schema->second.name, schema->second.text);
     tables_.push_back({c.topic, table_name(c.topic, tables_), std::move(root), {}});
@@ -48,7 +50,8 @@ Tables::Source Tables::add(const McapFile& log, std::uint16_t channel) {
   }
 }
 
-Tables::Tables(const std::filesystem::path& log, const std::vector<std::string>& topics) : file_(log), topics_(topics) {
+Tables::Tables(const std::filesystem::path& log, const std::vector<std::string>& topics)
+    : file_(log), topics_(topics) {
   McapStream stream(log);
   std::uint64_t first_ns = std::numeric_limits<std::uint64_t>::max();
   while (const McapFile::Message* m = stream.next()) {
@@ -92,7 +95,8 @@ void Tables::lay_out_all() {
   }
 }
 
-void Tables::rows(const std::function<bool(std::size_t)>& wanted, const std::function<void(const Row&)>& take) const {
+void Tables::rows(const std::function<bool(std::size_t)>& wanted,
+                  const std::function<void(const Row&)>& take) const {
   McapStream stream(file_);
   std::vector<Cell> cells;
   while (const McapFile::Message* m = stream.next()) {
@@ -101,7 +105,8 @@ void Tables::rows(const std::function<bool(std::size_t)>& wanted, const std::fun
     const auto table = static_cast<std::size_t>(at->second.table);
     if (!wanted(table)) continue;
     decode(tables_[table].root, m->data, cells);
-    take({table, static_cast<std::int64_t>(m->log_ns - epoch_ns_), static_cast<std::int64_t>(m->publish_ns - epoch_ns_), &cells});
+    take({table, static_cast<std::int64_t>(m->log_ns - epoch_ns_),
+          static_cast<std::int64_t>(m->publish_ns - epoch_ns_), &cells});
   }
 }
 

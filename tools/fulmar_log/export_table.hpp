@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A log as tables, one per topic: a row per message, a column per number, text or label. Read twice: once for the widths, once for the
-// rows, so that a long log needs no more memory than a chunk of it.
+// A log as tables, one per topic: a row per message, a column per number, text or label. Read twice: once for
+// the widths, once for the rows, so that a long log needs no more memory than a chunk of it.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/fulmar_log/export_schema.hpp"
 #include "core/log/reader.hpp"
+#include "tools/fulmar_log/export_schema.hpp"
 
 namespace fulmar::core {
 
@@ -30,8 +30,8 @@ class Tables {
     const std::vector<Cell>* cells = nullptr;
   };
 
-  /// First reading. No topics: all. Throws Error for a topic that is not there, or is named and cannot be decoded; one that is not named is
-  /// left out, and `left_out` says why.
+  /// First reading. No topics: all. Throws Error for a topic that is not there, or is named and cannot be
+  /// decoded; one that is not named is left out, and `left_out` says why.
   Tables(const std::filesystem::path& log, const std::vector<std::string>& topics);
 
   const std::vector<Table>& list() const { return tables_; }
@@ -39,7 +39,8 @@ class Tables {
   /// "" or why the log ends before its end.
   const std::string& fault() const { return fault_; }
   /// Second reading: all rows of the tables for which `wanted`, in file order.
-  void rows(const std::function<bool(std::size_t)>& wanted, const std::function<void(const Row&)>& take) const;
+  void rows(const std::function<bool(std::size_t)>& wanted,
+            const std::function<void(const Row&)>& take) const;
 
  private:
   struct Source {

@@ -57,7 +57,9 @@ struct Reading {
   std::vector<std::pair<std::uint64_t, std::vector<std::byte>>> events;
   std::uint16_t event_channel = 0;
 
-  explicit Reading(const std::filesystem::path& file) : stream(file) { info.bytes = std::filesystem::file_size(file); }
+  explicit Reading(const std::filesystem::path& file) : stream(file) {
+    info.bytes = std::filesystem::file_size(file);
+  }
 
   Weight& weight(std::uint16_t channel) {
     const auto known = channels.find(channel);
@@ -103,8 +105,8 @@ struct Reading {
     const double indexed = static_cast<double>(index_bytes * info.messages);
     const double rest = std::max(0.0, static_cast<double>(info.bytes) - extras - indexed);
     for (auto& [name, w] : weights) {
-      w.topic.stored_bytes =
-          rest * static_cast<double>(w.compressed) / std::max(1.0, all) + static_cast<double>(index_bytes * w.topic.messages);
+      w.topic.stored_bytes = rest * static_cast<double>(w.compressed) / std::max(1.0, all) +
+                             static_cast<double>(index_bytes * w.topic.messages);
       w.topic.first_ns -= static_cast<std::int64_t>(epoch);
       w.topic.last_ns -= static_cast<std::int64_t>(epoch);
       info.topics.push_back(w.topic);
@@ -131,11 +133,12 @@ struct Reading {
     return;
   }
 
-  /// Events of another version or of another program: `text` says what happened, and in Fulmar's logs before there were codes a phase has
-  /// its name behind a word.
+  /// Events of another version or of another program: `text` says what happened, and in Fulmar's logs before
+  /// there were codes a phase has its name behind a word.
   void read_other_events(const McapFile& log, std::uint64_t epoch) {
     constexpr std::string_view phase_word = "phase ";
-    const auto schema = events.empty() ? log.schemas.end() : log.schemas.find(log.channels.at(event_channel).schema);
+    const auto schema =
+        events.empty() ? log.schemas.end() : log.schemas.find(log.channels.at(event_channel).schema);
     if (schema == log.schemas.end()) return;
     const TypePtr type = parse_ros_schema(schema->second.name, schema->second.text);
     for (const auto& [ns, bytes] : events) {
@@ -145,7 +148,8 @@ struct Reading {
         if (name == "component") e.component = text;
         if (name == "text" || name == "words") e.text = text;
       }
-      if (e.kind == "phase" && e.text.starts_with(phase_word)) begin_phase(e.text.substr(phase_word.size()), e.time_ns);
+      if (e.kind == "phase" && e.text.starts_with(phase_word))
+        begin_phase(e.text.substr(phase_word.size()), e.time_ns);
       info.events.push_back(std::move(e));
     }
   }

@@ -15,7 +15,8 @@ struct LogInfo {
     std::string topic, type;
     std::uint64_t messages = 0;
     std::uint64_t bytes = 0;  // of the messages as they are, with their heads
-    double stored_bytes = 0;  // its part of the file: compressed alone, and scaled so that all topics together fill the file; its index
+    double stored_bytes = 0;  // its part of the file: compressed alone, and scaled so that all topics
+                              // together fill the file; its index
     std::int64_t first_ns = 0, last_ns = 0;  // flight time
   };
   struct Event {

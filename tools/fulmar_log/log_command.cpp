@@ -30,10 +30,14 @@ constexpr std::size_t shown = 20;  // lines of a list, unless all is asked for
 
 double seconds(std::int64_t ns) { return static_cast<double>(ns) / 1e9; }
 double rate_hz(const LogInfo::Topic& t) {
-  return t.messages > 1 && t.last_ns > t.first_ns ? static_cast<double>(t.messages - 1) / seconds(t.last_ns - t.first_ns) : 0;
+  return t.messages > 1 && t.last_ns > t.first_ns
+             ? static_cast<double>(t.messages - 1) / seconds(t.last_ns - t.first_ns)
+             : 0;
 }
 /// 0 for a log too short to tell.
-double per_minute(const LogInfo& info, double bytes) { return info.minutes() > 0 ? bytes / 1e6 / info.minutes() : 0; }
+double per_minute(const LogInfo& info, double bytes) {
+  return info.minutes() > 0 ? bytes / 1e6 / info.minutes() : 0;
+}
 
 std::string ending(const McapFile& file) { return file.complete ? "complete" : "cut off: " + file.fault; }
 
@@ -44,23 +48,30 @@ std::string printable(std::string text) {
   return text;
 }
 
-std::string counted(std::uint64_t n, const std::string& what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
+std::string counted(std::uint64_t n, const std::string& what) {
+  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+}
 
 /// "2026-01-01T00:00:00Z" of nanoseconds since 1970, as the log's metadata have them.
 std::string utc_text(const std::string& words) {
   std::int64_t ns = 0;
-  if (std::from_chars(words.data(), words.data() + words.size(), ns).ec != std::errc{} || ns < 0) return words;
+  if (std::from_chars(words.data(), words.data() + words.size(), ns).ec != std::errc{} || ns < 0)
+    return words;
   const std::time_t whole = ns / 1'000'000'000;
   std::tm utc{};
   char text[32];
-  if (gmtime_r(&whole, &utc) == nullptr || std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%S", &utc) == 0) return words;
+  if (gmtime_r(&whole, &utc) == nullptr || std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%S", &utc) == 0)
+    return words;
   const std::string fraction = ns % 1'000'000'000 == 0 ? "" : seconds_text(ns % 1'000'000'000).substr(1);
   return text + fraction + "Z";
 }
 
-void print_json(const json& object) { std::cout << object.dump(2, ' ', false, json::error_handler_t::replace) << "\n"; }
+void print_json(const json& object) {
+  std::cout << object.dump(2, ' ', false, json::error_handler_t::replace) << "\n";
+}
 
-// ---- info ----------------------------------------------------------------------------------------------------------------------
+// ---- info
+// ----------------------------------------------------------------------------------------------------------------------
 
 json topics_json(const LogInfo& info) {
   json topics = json::array();
@@ -100,7 +111,8 @@ json info_json(const LogInfo& info) {
     o["phases"].push_back({{"name", p.name}, {"begin_s", seconds(p.begin_ns)}, {"end_s", seconds(p.end_ns)}});
   o["events"] = json::array();
   for (const LogInfo::Event& e : info.events)
-    o["events"].push_back({{"time_s", seconds(e.time_ns)}, {"kind", e.kind}, {"component", e.component}, {"text", e.text}});
+    o["events"].push_back(
+        {{"time_s", seconds(e.time_ns)}, {"kind", e.kind}, {"component", e.component}, {"text", e.text}});
   return o;
 }
 
@@ -111,23 +123,26 @@ std::vector<std::pair<std::string, std::string>> shown_pairs(const McapFile::Met
   for (const auto& [key, value] : m.pairs) {
     const std::string component = key.substr(0, key.rfind('.'));
     if (list.empty() || list.back().first != component) list.emplace_back(component, "");
-    list.back().second += (list.back().second.empty() ? "" : " ") + std::string(key.ends_with(".build_id") ? "build " : "") + value;
+    list.back().second += (list.back().second.empty() ? "" : " ") +
+                          std::string(key.ends_with(".build_id") ? "build " : "") + value;
   }
   return list;
 }
 
 void print_head(const LogInfo& info, const std::string& file) {
-  std::printf("%s: %s, %.1f MB, %s\n", file.c_str(), printable(info.file.library).c_str(), static_cast<double>(info.bytes) / 1e6,
-              printable(ending(info.file)).c_str());
+  std::printf("%s: %s, %.1f MB, %s\n", file.c_str(), printable(info.file.library).c_str(),
+              static_cast<double>(info.bytes) / 1e6, printable(ending(info.file)).c_str());
   std::printf("%s in %s, flight time %.3f s to %.3f s", counted(info.messages, "message").c_str(),
               counted(info.file.chunks, "chunk").c_str(), seconds(info.begin_ns), seconds(info.end_ns));
-  if (info.minutes() > 0) std::printf(", %.2f MB per flight minute", per_minute(info, static_cast<double>(info.bytes)));
+  if (info.minutes() > 0)
+    std::printf(", %.2f MB per flight minute", per_minute(info, static_cast<double>(info.bytes)));
   std::printf("\n");
   for (const McapFile::Metadata& m : info.file.metadata) {
     if (!m.pairs.empty()) std::printf("\n%s\n", printable(m.name).c_str());
     for (const auto& [key, value] : shown_pairs(m)) {
       const bool epoch = key == "epoch_ns";
-      std::printf("  %-20s %s\n", epoch ? "epoch" : printable(key).c_str(), epoch ? utc_text(value).c_str() : printable(value).c_str());
+      std::printf("  %-20s %s\n", epoch ? "epoch" : printable(key).c_str(),
+                  epoch ? utc_text(value).c_str() : printable(value).c_str());
     }
   }
 }
@@ -135,23 +150,26 @@ void print_head(const LogInfo& info, const std::string& file) {
 void print_events(const LogInfo& info) {
   if (!info.phases.empty()) std::printf("\nphases\n");
   for (const LogInfo::Phase& p : info.phases)
-    std::printf("  %-20s %9.1f s to %.1f s\n", printable(p.name).c_str(), seconds(p.begin_ns), seconds(p.end_ns));
+    std::printf("  %-20s %9.1f s to %.1f s\n", printable(p.name).c_str(), seconds(p.begin_ns),
+                seconds(p.end_ns));
   std::size_t count = 0;
   for (const LogInfo::Event& e : info.events) {
     if (e.kind == "phase") continue;
     if (count == 0) std::printf("\nevents\n");
     if (++count <= shown)
-      std::printf("  %9.3f s  %-8s %-12s %s\n", seconds(e.time_ns), printable(e.kind).c_str(), printable(e.component).c_str(),
-                  printable(e.text).c_str());
+      std::printf("  %9.3f s  %-8s %-12s %s\n", seconds(e.time_ns), printable(e.kind).c_str(),
+                  printable(e.component).c_str(), printable(e.text).c_str());
   }
   if (count > shown) std::printf("  and %zu more: --json tells all\n", count - shown);
 }
 
 void print_topics(const LogInfo& info) {
-  std::printf("\n%-28s %9s %8s %9s  %s\n", "topic", "messages", "Hz", "raw MB", "MB per flight minute in the file");
+  std::printf("\n%-28s %9s %8s %9s  %s\n", "topic", "messages", "Hz", "raw MB",
+              "MB per flight minute in the file");
   for (const LogInfo::Topic& t : info.topics) {
-    std::printf("%-28s %9llu %8.1f %9.2f  %.3f\n", printable(t.topic).c_str(), static_cast<unsigned long long>(t.messages), rate_hz(t),
-                static_cast<double>(t.bytes) / 1e6, per_minute(info, t.stored_bytes));
+    std::printf("%-28s %9llu %8.1f %9.2f  %.3f\n", printable(t.topic).c_str(),
+                static_cast<unsigned long long>(t.messages), rate_hz(t), static_cast<double>(t.bytes) / 1e6,
+                per_minute(info, t.stored_bytes));
   }
   if (!info.file.attachments.empty()) std::printf("\nattachments\n");
   for (const McapFile::Attachment& a : info.file.attachments)
@@ -170,7 +188,8 @@ int info_command(const std::string& file, bool as_json) {
   return 0;
 }
 
-// ---- recover -------------------------------------------------------------------------------------------------------------------
+// ---- recover
+// -------------------------------------------------------------------------------------------------------------------
 
 /// "a.mcap.part" -> "a.mcap"; "a.mcap" -> "a-recovered.mcap"
 std::string recovered_name(const fs::path& file) {
@@ -182,7 +201,8 @@ int recover_command(const std::string& file, std::string out) {
   if (out.empty()) out = recovered_name(file);
   // The writer would refuse it: its own name is OUT.part. So the result gets a name beside it first.
   const bool own_part = fs::path(out + ".part") == fs::path(file);
-  if (own_part && fs::exists(out)) throw Error("'" + out + "' exists; a log never overwrites a file. Name another with --out");
+  if (own_part && fs::exists(out))
+    throw Error("'" + out + "' exists; a log never overwrites a file. Name another with --out");
   const std::string first = own_part ? out + ".recovered" : out;
   const Recovery r = recover_log(file, first);
   if (!r.written.error.empty()) throw Error(r.written.error);
@@ -194,41 +214,51 @@ int recover_command(const std::string& file, std::string out) {
   std::printf("%s: %s in %.1f MB.", name.c_str(), counted(r.written.messages, "message").c_str(),
               static_cast<double>(r.written.bytes) / 1e6);
   if (r.was_whole) std::printf(" '%s' is complete; nothing was lost.", file.c_str());
-  if (const std::string left_out = r.left_out_text(); !left_out.empty()) std::printf(" Left out: %s.", left_out.c_str());
+  if (const std::string left_out = r.left_out_text(); !left_out.empty())
+    std::printf(" Left out: %s.", left_out.c_str());
   if (!r.fault.empty()) std::printf(" Reading ended at %s.", printable(r.fault).c_str());
   std::printf("\n");
   return 0;
 }
 
-// ---- export --------------------------------------------------------------------------------------------------------------------
+// ---- export
+// --------------------------------------------------------------------------------------------------------------------
 
-int export_command(const std::string& file, const std::string& to, const std::string& out, const std::vector<std::string>& topics) {
+int export_command(const std::string& file, const std::string& to, const std::string& out,
+                   const std::vector<std::string>& topics) {
   const ExportForm form = to == "csv" ? ExportForm::csv : to == "npz" ? ExportForm::npz : ExportForm::mat;
   const ExportResult result = export_log(file, form, out, topics);
   std::uint64_t rows = 0;
   for (const ExportResult::Topic& t : result.topics) rows += t.rows;
   std::printf("%s: %s, %s.\n", result.out.string().c_str(), counted(result.topics.size(), "topic").c_str(),
               counted(rows, "message").c_str());
-  for (const std::string& why : result.left_out) std::fprintf(stderr, "left out: %s\n", printable(why).c_str());
-  if (!result.fault.empty()) std::fprintf(stderr, "the log is cut off: %s\n", printable(result.fault).c_str());
+  for (const std::string& why : result.left_out)
+    std::fprintf(stderr, "left out: %s\n", printable(why).c_str());
+  if (!result.fault.empty())
+    std::fprintf(stderr, "the log is cut off: %s\n", printable(result.fault).c_str());
   return 0;
 }
 
-// ---- diff ----------------------------------------------------------------------------------------------------------------------
+// ---- diff
+// ----------------------------------------------------------------------------------------------------------------------
 
 json diff_json(const LogDiff& d) {
-  json o{{"equal", d.equal()},     {"messages_equal", d.messages_equal()}, {"only_first", d.only_a},      {"only_second", d.only_b},
-         {"metadata", d.metadata}, {"attachments", d.attachments},         {"first_difference", nullptr}, {"first_tick", nullptr}};
+  json o{{"equal", d.equal()},          {"messages_equal", d.messages_equal()},
+         {"only_first", d.only_a},      {"only_second", d.only_b},
+         {"metadata", d.metadata},      {"attachments", d.attachments},
+         {"first_difference", nullptr}, {"first_tick", nullptr}};
   if (d.first)
     o["first_difference"] = {{"topic", d.first->topic},
                              {"field", d.first->field},
                              {"time_s", seconds(d.first->time_ns)},
                              {"first", d.first->a},
                              {"second", d.first->b}};
-  if (d.first_tick) o["first_tick"] = {{"tick", d.first_tick->index}, {"time_s", seconds(d.first_tick->time_ns)}};
+  if (d.first_tick)
+    o["first_tick"] = {{"tick", d.first_tick->index}, {"time_s", seconds(d.first_tick->time_ns)}};
   o["topics"] = json::object();
   for (const auto& [topic, t] : d.topics)
-    o["topics"][topic] = {{"equal", t.equal}, {"different", t.different}, {"only_first", t.only_a}, {"only_second", t.only_b}};
+    o["topics"][topic] = {
+        {"equal", t.equal}, {"different", t.different}, {"only_first", t.only_a}, {"only_second", t.only_b}};
   o["fault_first"] = d.fault_a.empty() ? json(nullptr) : json(d.fault_a);
   o["fault_second"] = d.fault_b.empty() ? json(nullptr) : json(d.fault_b);
   return o;
@@ -236,32 +266,38 @@ json diff_json(const LogDiff& d) {
 
 void print_first(const LogDiff& d) {
   if (d.first && d.first->field.empty()) {
-    std::printf("First difference at %s s: %s has %s in the first log, %s in the second.\n", seconds_text(d.first->time_ns).c_str(),
-                d.first->topic.c_str(), d.first->a.c_str(), d.first->b.c_str());
+    std::printf("First difference at %s s: %s has %s in the first log, %s in the second.\n",
+                seconds_text(d.first->time_ns).c_str(), d.first->topic.c_str(), d.first->a.c_str(),
+                d.first->b.c_str());
   } else if (d.first) {
-    std::printf("First difference at %s s: %s %s is %s in the first log, %s in the second.\n", seconds_text(d.first->time_ns).c_str(),
-                d.first->topic.c_str(), d.first->field.c_str(), printable(d.first->a).c_str(), printable(d.first->b).c_str());
+    std::printf("First difference at %s s: %s %s is %s in the first log, %s in the second.\n",
+                seconds_text(d.first->time_ns).c_str(), d.first->topic.c_str(), d.first->field.c_str(),
+                printable(d.first->a).c_str(), printable(d.first->b).c_str());
   }
   if (d.first_tick)
-    std::printf("The components' outputs differ from tick %llu on, at %s s.\n", static_cast<unsigned long long>(d.first_tick->index),
+    std::printf("The components' outputs differ from tick %llu on, at %s s.\n",
+                static_cast<unsigned long long>(d.first_tick->index),
                 seconds_text(d.first_tick->time_ns).c_str());
 }
 
 void print_diff(const LogDiff& d) {
   std::uint64_t messages = 0;
   for (const auto& [topic, t] : d.topics) messages += t.equal;
-  if (d.messages_equal()) std::printf("All %llu messages are equal.\n", static_cast<unsigned long long>(messages));
+  if (d.messages_equal())
+    std::printf("All %llu messages are equal.\n", static_cast<unsigned long long>(messages));
   print_first(d);
   for (const auto& [topic, t] : d.topics) {
     if (t.different + t.only_a + t.only_b == 0) continue;
-    std::printf("  %-28s %llu equal, %llu different", printable(topic).c_str(), static_cast<unsigned long long>(t.equal),
-                static_cast<unsigned long long>(t.different));
+    std::printf("  %-28s %llu equal, %llu different", printable(topic).c_str(),
+                static_cast<unsigned long long>(t.equal), static_cast<unsigned long long>(t.different));
     if (t.only_a > 0) std::printf(", %llu only in the first", static_cast<unsigned long long>(t.only_a));
     if (t.only_b > 0) std::printf(", %llu only in the second", static_cast<unsigned long long>(t.only_b));
     std::printf("\n");
   }
-  for (const std::string& topic : d.only_a) std::printf("  %s is only in the first log\n", printable(topic).c_str());
-  for (const std::string& topic : d.only_b) std::printf("  %s is only in the second log\n", printable(topic).c_str());
+  for (const std::string& topic : d.only_a)
+    std::printf("  %s is only in the first log\n", printable(topic).c_str());
+  for (const std::string& topic : d.only_b)
+    std::printf("  %s is only in the second log\n", printable(topic).c_str());
   for (const std::string& m : d.metadata) std::printf("  metadata: %s\n", printable(m).c_str());
   for (const std::string& a : d.attachments) std::printf("  attachment: %s\n", printable(a).c_str());
   if (!d.fault_a.empty()) std::printf("  the first log is cut off: %s\n", printable(d.fault_a).c_str());
@@ -298,16 +334,24 @@ struct LogCommand::Impl {
     recover->add_option("--out", out, "new file; default the name without .part");
     to_files = log->add_subcommand("export", "write a log as CSV, NPZ or MAT");
     to_files->add_option("FILE", file, "log")->required();
-    to_files->add_option("--to", form, "csv: a file per topic; npz: arrays for NumPy; mat: structs for MATLAB and Octave")
+    to_files
+        ->add_option("--to", form,
+                     "csv: a file per topic; npz: arrays for NumPy; mat: structs for MATLAB and Octave")
         ->required()
         ->check(CLI::IsMember({"csv", "npz", "mat"}));
-    to_files->add_option("--out", out, "new file, or folder of the CSV files; default the log's name in the current directory");
-    to_files->add_option("--topic", topics, "only this one, as in /nav/state; may be given again")->allow_extra_args(false);
-    diff = log->add_subcommand("diff", "whether two logs are equal, and if not, the first tick and field that differ; exit code 0 or 1");
+    to_files->add_option(
+        "--out", out,
+        "new file, or folder of the CSV files; default the log's name in the current directory");
+    to_files->add_option("--topic", topics, "only this one, as in /nav/state; may be given again")
+        ->allow_extra_args(false);
+    diff = log->add_subcommand(
+        "diff",
+        "whether two logs are equal, and if not, the first tick and field that differ; exit code 0 or 1");
     diff->add_option("A", file, "log")->required();
     diff->add_option("B", other, "log")->required();
     diff->add_flag("--json", as_json, "print one JSON object");
-    diff->add_flag("--messages", messages_only, "metadata and attachments are told, but do not decide the exit code");
+    diff->add_flag("--messages", messages_only,
+                   "metadata and attachments are told, but do not decide the exit code");
   }
 };
 

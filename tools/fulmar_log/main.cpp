@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `fulmar log ...`, as the program fulmar-log. Exit codes: 0 done; 1 it failed, or the logs differ; 2 wrong usage.
+// `fulmar log ...`, as the program fulmar-log. Exit codes: 0 done; 1 it failed, or the logs differ; 2 wrong
+// usage.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 

@@ -56,11 +56,20 @@ struct Form {
 /// In the order of fulmar_kind.
 Form form_of(fulmar_kind kind) {
   static constexpr Form none{mi_matrix, mx_cell};  // text and structs; an enum is its byte
-  static constexpr std::array<Form, kind_rows.size()> forms{
-      {{mi_uint8, mx_uint8 | logical}, {mi_uint8, mx_uint8},   {mi_int32, mx_int32},   {mi_uint32, mx_uint32},
-       {mi_int64, mx_int64},           {mi_uint64, mx_uint64}, {mi_single, mx_single}, {mi_double, mx_double},
-       {mi_uint8, mx_uint8},           none,                   none,                   {mi_int8, mx_int8},
-       {mi_int16, mx_int16},           {mi_uint16, mx_uint16}}};
+  static constexpr std::array<Form, kind_rows.size()> forms{{{mi_uint8, mx_uint8 | logical},
+                                                             {mi_uint8, mx_uint8},
+                                                             {mi_int32, mx_int32},
+                                                             {mi_uint32, mx_uint32},
+                                                             {mi_int64, mx_int64},
+                                                             {mi_uint64, mx_uint64},
+                                                             {mi_single, mx_single},
+                                                             {mi_double, mx_double},
+                                                             {mi_uint8, mx_uint8},
+                                                             none,
+                                                             none,
+                                                             {mi_int8, mx_int8},
+                                                             {mi_int16, mx_int16},
+                                                             {mi_uint16, mx_uint16}}};
   return forms[static_cast<std::size_t>(kind) - FULMAR_BOOL];
 }
 
@@ -68,7 +77,8 @@ std::string u32(std::uint32_t x) { return {reinterpret_cast<const char*>(&x), 4}
 
 /// A data element: tag, bytes, padding to 8.
 std::string mat_element(std::uint32_t type, std::string_view bytes) {
-  if (bytes.size() > largest_variable) throw Error("a MAT file of level 5 holds at most 2 GB per variable; export to npz, or fewer topics");
+  if (bytes.size() > largest_variable)
+    throw Error("a MAT file of level 5 holds at most 2 GB per variable; export to npz, or fewer topics");
   std::string s = u32(type) + u32(static_cast<std::uint32_t>(bytes.size()));
   s += bytes;
   s.append((8 - s.size() % 8) % 8, '\0');
@@ -77,7 +87,8 @@ std::string mat_element(std::uint32_t type, std::string_view bytes) {
 
 std::string flags_and_dims(std::uint32_t shape, std::size_t rows, std::size_t columns) {
   return mat_element(mi_uint32, u32(shape) + u32(0)) +
-         mat_element(mi_int32, u32(static_cast<std::uint32_t>(rows)) + u32(static_cast<std::uint32_t>(columns)));
+         mat_element(mi_int32,
+                     u32(static_cast<std::uint32_t>(rows)) + u32(static_cast<std::uint32_t>(columns)));
 }
 
 /// What is no code point of one character becomes '?': character arrays count in characters, not in bytes.
@@ -91,7 +102,8 @@ std::string plain(const std::string& text) {
 std::string deflate_text(const std::string& bytes) {
   uLongf size = ::compressBound(bytes.size());
   std::string out(size, '\0');
-  if (::compress2(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), 1) != Z_OK)
+  if (::compress2(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+                  bytes.size(), 1) != Z_OK)
     throw Error("cannot compress");
   out.resize(size);
   return out;
@@ -120,7 +132,9 @@ std::string mat_name(const std::string& name) {
   return s.substr(0, longest_name);
 }
 
-std::string MatValue::named(const std::string& name) const { return mat_element(mi_matrix, flags_dims_ + mat_element(mi_int8, name) + body_); }
+std::string MatValue::named(const std::string& name) const {
+  return mat_element(mi_matrix, flags_dims_ + mat_element(mi_int8, name) + body_);
+}
 
 MatValue MatValue::numbers(fulmar_kind kind, std::size_t count, std::span<const std::byte> data) {
   const Form form = form_of(kind);
@@ -152,19 +166,22 @@ MatValue MatValue::structure(const std::vector<std::pair<std::string, MatValue>>
   }
   MatValue v;
   v.flags_dims_ = flags_and_dims(mx_struct, 1, 1);
-  v.body_ = u32(4u << 16 | mi_int32) + u32(longest_name + 1) + mat_element(mi_int8, names);  // a small element: size and type in one word
+  v.body_ = u32(4u << 16 | mi_int32) + u32(longest_name + 1) +
+            mat_element(mi_int8, names);  // a small element: size and type in one word
   for (const auto& [name, value] : fields) v.body_ += value.named("");
   return v;
 }
 
 MatWriter::MatWriter(const std::filesystem::path& file) : file_(file) {
-  if (std::filesystem::exists(file)) throw Error("'" + file.string() + "' exists; an export overwrites no file");
+  if (std::filesystem::exists(file))
+    throw Error("'" + file.string() + "' exists; an export overwrites no file");
   out_.open(file.string() + ".part", std::ios::binary | std::ios::trunc);
   std::string head = "MATLAB 5.0 MAT-file, written by Fulmar";
   head.resize(116, ' ');
   head.resize(124, '\0');
   head += std::string("\0\x01IM", 4);
-  if (!out_.write(head.data(), static_cast<std::streamsize>(head.size()))) throw Error("cannot write '" + file.string() + "'");
+  if (!out_.write(head.data(), static_cast<std::streamsize>(head.size())))
+    throw Error("cannot write '" + file.string() + "'");
 }
 
 void MatWriter::add(const std::string& name, const MatValue& value) {
@@ -187,7 +204,8 @@ void export_mat(const Tables& tables, const std::filesystem::path& file) {
     std::vector<std::pair<std::string, MatValue>> fields;
     for (const Array& a : arrays) {
       const bool text = a.kind == FULMAR_TEXT;
-      fields.emplace_back(a.name, text ? MatValue::texts(a.texts) : MatValue::numbers(a.kind, table.rows, a.data));
+      fields.emplace_back(a.name,
+                          text ? MatValue::texts(a.texts) : MatValue::numbers(a.kind, table.rows, a.data));
       if (!a.labels.empty()) fields.emplace_back(a.name + "_labels", MatValue::texts(a.labels));
     }
     out.add(unlike(mat_name(table.name), taken), MatValue::structure(fields));

@@ -32,7 +32,8 @@ class MatValue {
 
 class MatWriter {
  public:
-  /// Throws Error when the file is there already or cannot be written; so do the others when the disk refuses. FILE.part until `finish`.
+  /// Throws Error when the file is there already or cannot be written; so do the others when the disk
+  /// refuses. FILE.part until `finish`.
   explicit MatWriter(const std::filesystem::path& file);
   void add(const std::string& name, const MatValue& value);
   void finish();

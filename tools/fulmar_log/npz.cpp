@@ -15,8 +15,9 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::uint64_t largest_32 = std::numeric_limits<std::uint32_t>::max();  // of what has 32 bits in the format
-constexpr std::uint16_t version = 20, first_date = 0x21;                      // 2.0; 1980-01-01
+constexpr std::uint64_t largest_32 =
+    std::numeric_limits<std::uint32_t>::max();            // of what has 32 bits in the format
+constexpr std::uint16_t version = 20, first_date = 0x21;  // 2.0; 1980-01-01
 constexpr std::uint16_t utf8_names = 1u << 11, deflated = 8;
 constexpr int level = 1;  // noise does not shrink, whatever is spent on it
 
@@ -30,7 +31,8 @@ std::string little_endian(Numbers... numbers) {
 /// A raw deflate stream of two pieces.
 std::string deflate_both(const std::string& first, std::span<const std::byte> second) {
   z_stream z{};
-  if (::deflateInit2(&z, level, Z_DEFLATED, -MAX_WBITS, MAX_MEM_LEVEL, Z_DEFAULT_STRATEGY) != Z_OK) throw Error("cannot compress");
+  if (::deflateInit2(&z, level, Z_DEFLATED, -MAX_WBITS, MAX_MEM_LEVEL, Z_DEFAULT_STRATEGY) != Z_OK)
+    throw Error("cannot compress");
   std::string out(::deflateBound(&z, first.size() + second.size()) + 64, '\0');
   z.next_out = reinterpret_cast<Bytef*>(out.data());
   z.avail_out = static_cast<uInt>(out.size());
@@ -53,7 +55,8 @@ std::uint32_t entry_crc(const std::string& first, std::span<const std::byte> sec
 }
 
 std::string npy_header(const std::string& type, std::size_t count) {
-  std::string text = "{'descr': '" + type + "', 'fortran_order': False, 'shape': (" + std::to_string(count) + ",), }";
+  std::string text =
+      "{'descr': '" + type + "', 'fortran_order': False, 'shape': (" + std::to_string(count) + ",), }";
   text.append((64 - (10 + text.size() + 1) % 64) % 64, ' ');
   text += '\n';
   return std::string("\x93NUMPY\x01\0", 8) + little_endian(static_cast<std::uint16_t>(text.size())) + text;
@@ -87,7 +90,8 @@ std::string numpy_type(fulmar_kind kind) {
 }  // namespace
 
 NpzWriter::NpzWriter(const std::filesystem::path& file) : file_(file) {
-  if (std::filesystem::exists(file)) throw Error("'" + file.string() + "' exists; an export overwrites no file");
+  if (std::filesystem::exists(file))
+    throw Error("'" + file.string() + "' exists; an export overwrites no file");
   out_.open(file.string() + ".part", std::ios::binary | std::ios::trunc);
   if (!out_) throw Error("cannot write '" + file.string() + "'");
 }
@@ -100,10 +104,17 @@ void NpzWriter::write(const std::string& bytes) {
 
 void NpzWriter::entry(const std::string& name, const std::string& header, std::span<const std::byte> data) {
   const std::uint64_t size = header.size() + data.size();
-  if (size > largest_32 / 2 || place_ + size > largest_32 || entries_.size() >= std::numeric_limits<std::uint16_t>::max())
-    throw Error("the arrays need more than an npz file of 4 GB holds; export fewer topics at a time with --topic");
+  if (size > largest_32 / 2 || place_ + size > largest_32 ||
+      entries_.size() >= std::numeric_limits<std::uint16_t>::max())
+    throw Error(
+        "the arrays need more than an npz file of 4 GB holds; export fewer topics at a time with --topic");
   std::string content = deflate_both(header, data);
-  Entry e{name + ".npy", entry_crc(header, data), 0, static_cast<std::uint32_t>(size), static_cast<std::uint32_t>(place_), deflated};
+  Entry e{name + ".npy",
+          entry_crc(header, data),
+          0,
+          static_cast<std::uint32_t>(size),
+          static_cast<std::uint32_t>(place_),
+          deflated};
   if (content.size() >= size) {
     content = header + std::string(reinterpret_cast<const char*>(data.data()), data.size());
     e.method = 0;
@@ -111,13 +122,14 @@ void NpzWriter::entry(const std::string& name, const std::string& header, std::s
   e.stored = static_cast<std::uint32_t>(content.size());
   write("PK\3\4" +
         little_endian(version, utf8_names, e.method, std::uint16_t{0}, first_date, e.crc, e.stored, e.size,
-                 static_cast<std::uint16_t>(e.name.size()), std::uint16_t{0}) +
+                      static_cast<std::uint16_t>(e.name.size()), std::uint16_t{0}) +
         e.name);
   write(content);
   entries_.push_back(std::move(e));
 }
 
-void NpzWriter::add(const std::string& name, const std::string& type, std::size_t count, std::span<const std::byte> data) {
+void NpzWriter::add(const std::string& name, const std::string& type, std::size_t count,
+                    std::span<const std::byte> data) {
   entry(name, npy_header(type, count), data);
 }
 
@@ -131,7 +143,8 @@ void NpzWriter::add(const std::string& name, const std::vector<std::string>& tex
   if (width * texts.size() > largest_32 / 8)
     throw Error(name + " is more text than an npz file holds; export fewer topics at a time with --topic");
   std::vector<std::byte> data(texts.size() * width * 4);
-  for (std::size_t i = 0; i < points.size(); ++i) std::memcpy(data.data() + i * width * 4, points[i].data(), points[i].size() * 4);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    std::memcpy(data.data() + i * width * 4, points[i].data(), points[i].size() * 4);
   add(name, "<U" + std::to_string(width), texts.size(), data);
 }
 
@@ -139,15 +152,18 @@ void NpzWriter::finish() {
   const std::uint64_t start = place_;
   for (const Entry& e : entries_) {
     write("PK\1\2" +
-          little_endian(version, version, utf8_names, e.method, std::uint16_t{0}, first_date, e.crc, e.stored, e.size,
-                   static_cast<std::uint16_t>(e.name.size()), std::uint16_t{0}, std::uint16_t{0}, std::uint16_t{0}, std::uint16_t{0},
-                   std::uint32_t{0}, e.place) +
+          little_endian(version, version, utf8_names, e.method, std::uint16_t{0}, first_date, e.crc, e.stored,
+                        e.size, static_cast<std::uint16_t>(e.name.size()), std::uint16_t{0}, std::uint16_t{0},
+                        std::uint16_t{0}, std::uint16_t{0}, std::uint32_t{0}, e.place) +
           e.name);
   }
   const auto count = static_cast<std::uint16_t>(entries_.size());
-  if (place_ > largest_32) throw Error("the arrays need more than an npz file of 4 GB holds; export fewer topics at a time with --topic");
-  write("PK\5\6" + little_endian(std::uint16_t{0}, std::uint16_t{0}, count, count, static_cast<std::uint32_t>(place_ - start),
-                            static_cast<std::uint32_t>(start), std::uint16_t{0}));
+  if (place_ > largest_32)
+    throw Error(
+        "the arrays need more than an npz file of 4 GB holds; export fewer topics at a time with --topic");
+  write("PK\5\6" + little_endian(std::uint16_t{0}, std::uint16_t{0}, count, count,
+                                 static_cast<std::uint32_t>(place_ - start),
+                                 static_cast<std::uint32_t>(start), std::uint16_t{0}));
   out_.close();
   if (!out_) throw Error("cannot write '" + file_.string() + "': the disk refuses it");
   std::filesystem::rename(file_.string() + ".part", file_);

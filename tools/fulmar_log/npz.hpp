@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// NPZ: arrays of NumPy in a zip file. Sources: NumPy's NEP 1 (format 1.0); PKWARE's APPNOTE 6.3, stored and deflated entries, no ZIP64.
+// NPZ: arrays of NumPy in a zip file. Sources: NumPy's NEP 1 (format 1.0); PKWARE's APPNOTE 6.3, stored and
+// deflated entries, no ZIP64.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -13,10 +14,12 @@ namespace fulmar::core {
 
 class NpzWriter {
  public:
-  /// Throws Error when the file is there already or cannot be written; so do the others when the disk refuses. FILE.part until `finish`.
+  /// Throws Error when the file is there already or cannot be written; so do the others when the disk
+  /// refuses. FILE.part until `finish`.
   explicit NpzWriter(const std::filesystem::path& file);
   /// `type` as NumPy writes it: "<f8", "|u1", "|b1".
-  void add(const std::string& name, const std::string& type, std::size_t count, std::span<const std::byte> data);
+  void add(const std::string& name, const std::string& type, std::size_t count,
+           std::span<const std::byte> data);
   /// An array of text.
   void add(const std::string& name, const std::vector<std::string>& texts);
   void finish();

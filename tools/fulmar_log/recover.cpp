@@ -15,7 +15,8 @@ namespace fulmar::core {
 std::string Recovery::left_out_text() const {
   std::string text;
   const auto add = [&](std::uint64_t n, const std::string& what, const char* rest) {
-    if (n > 0) text += (text.empty() ? "" : ", ") + std::to_string(n) + " " + what + (n == 1 ? "" : "s") + rest;
+    if (n > 0)
+      text += (text.empty() ? "" : ", ") + std::to_string(n) + " " + what + (n == 1 ? "" : "s") + rest;
   };
   add(left_out.chunks, "damaged chunk", "");
   add(left_out.attachments, "damaged attachment", "");
@@ -27,7 +28,8 @@ std::string Recovery::left_out_text() const {
 
 Recovery recover_log(const std::filesystem::path& from, const std::filesystem::path& to) {
   if (OutFile::grows(from))
-    throw Error("'" + from.string() + "' is still being written: its flight gives it its name; recover it when that has ended");
+    throw Error("'" + from.string() +
+                "' is still being written: its flight gives it its name; recover it when that has ended");
   McapStream first(from, McapStream::BadChunks::skip), second(from, McapStream::BadChunks::skip);
   return recover_log(first, second, to);
 }
@@ -35,10 +37,12 @@ Recovery recover_log(const std::filesystem::path& from, const std::filesystem::p
 Recovery recover_log(McapStream& first, McapStream& second, const std::filesystem::path& to) {
   std::size_t largest = 0;
   bool any = false;
-  for (const McapFile::Message* m = first.next(); m; m = first.next(), any = true) largest = std::max(largest, m->data.size());
+  for (const McapFile::Message* m = first.next(); m; m = first.next(), any = true)
+    largest = std::max(largest, m->data.size());
   const McapFile& log = first.log();
   if (!any && log.attachments.empty() && !log.complete)
-    throw Error("nothing of it can be saved: " + (log.fault.empty() ? "all that is in it is damaged" : log.fault));
+    throw Error("nothing of it can be saved: " +
+                (log.fault.empty() ? "all that is in it is damaged" : log.fault));
   McapWriter::Options options;
   options.file = to;
   options.profile = log.profile;
@@ -48,22 +52,26 @@ Recovery recover_log(McapStream& first, McapStream& second, const std::filesyste
 
   for (const McapFile::Attachment& a : log.attachments) out.attach(a.name, a.media_type, a.content, a.log_ns);
   for (const McapFile::Metadata& m : log.metadata) out.metadata(m.name, m.pairs);
-  std::map<std::uint16_t, std::uint16_t> schemas{{std::uint16_t{0}, std::uint16_t{0}}}, channels;  // old id, new id
+  std::map<std::uint16_t, std::uint16_t> schemas{{std::uint16_t{0}, std::uint16_t{0}}},
+      channels;  // old id, new id
   for (const auto& [id, s] : log.schemas) schemas[id] = out.add_schema(s.name, s.encoding, s.text);
   for (const auto& [id, c] : log.channels) {
     const auto schema = schemas.find(c.schema);
-    channels[id] = out.add_channel(schema == schemas.end() ? std::uint16_t{0} : schema->second, c.topic, c.encoding, c.metadata);
+    channels[id] = out.add_channel(schema == schemas.end() ? std::uint16_t{0} : schema->second, c.topic,
+                                   c.encoding, c.metadata);
   }
   bool grows = false;
   while (const McapFile::Message* m = second.next()) {
     const auto channel = channels.find(m->channel);
-    grows = channel == channels.end() || m->data.size() > largest;  // the first reading has not met it: there is no room for it
+    grows = channel == channels.end() ||
+            m->data.size() > largest;  // the first reading has not met it: there is no room for it
     if (grows) break;
     std::byte* room = out.begin_message(channel->second, m->sequence, m->log_ns, m->publish_ns);
     if (!m->data.empty()) std::memcpy(room, m->data.data(), m->data.size());
     out.end_message(m->data.size());
   }
-  Recovery r{out.close(), first.left_out(), grows ? "the file has grown while it was read" : log.fault, log.complete && !grows};
+  Recovery r{out.close(), first.left_out(), grows ? "the file has grown while it was read" : log.fault,
+             log.complete && !grows};
   std::error_code ignored;
   if (!r.written.error.empty()) std::filesystem::remove(r.written.file, ignored);
   return r;

@@ -19,12 +19,13 @@ struct Recovery {
   std::string left_out_text() const;  // "2 damaged chunks, 1 damaged attachment"; "": nothing
 };
 
-/// Reads `from` without what is damaged, and writes what is there to the new file `to`, or nothing when there is nothing. Throws Error as
-/// McapStream and McapWriter do, when nothing is left, and for a file that is still being written.
+/// Reads `from` without what is damaged, and writes what is there to the new file `to`, or nothing when there
+/// is nothing. Throws Error as McapStream and McapWriter do, when nothing is left, and for a file that is
+/// still being written.
 Recovery recover_log(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// The same of a file that is opened twice, and may have grown in between: the first message that the first reading did not foresee ends
-/// it.
+/// The same of a file that is opened twice, and may have grown in between: the first message that the first
+/// reading did not foresee ends it.
 Recovery recover_log(McapStream& first, McapStream& second, const std::filesystem::path& to);
 
 /// The same; what was written.

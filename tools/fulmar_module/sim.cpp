@@ -19,13 +19,16 @@ constexpr int ticks_between_signals = 400;  // Ctrl-C is looked at so often
 /// Python's own way to write JSON, which YAML contains: from values to what a mission file would say.
 Node as_yaml(const py::handle& value, const std::string& name, Report& report) {
   const py::module_ json = py::module_::import("json");
-  const py::object plain = py::cpp_function([](const py::object& x) { return x.attr("tolist")(); });  // numpy's numbers and arrays
-  const auto text = py::cast<std::string>(json.attr("dumps")(value, py::arg("default") = plain, py::arg("ensure_ascii") = false));
+  const py::object plain =
+      py::cpp_function([](const py::object& x) { return x.attr("tolist")(); });  // numpy's numbers and arrays
+  const auto text = py::cast<std::string>(
+      json.attr("dumps")(value, py::arg("default") = plain, py::arg("ensure_ascii") = false));
   return parse_yaml(make_source(text, name), report);
 }
 
 /// The choices for a name: those of its owner, or the owners when there is no such owner.
-std::string choices_of(const std::string& owner, const std::string& rest, const std::vector<std::string>& names) {
+std::string choices_of(const std::string& owner, const std::string& rest,
+                       const std::vector<std::string>& names) {
   std::vector<std::string> own, owners;
   for (const std::string& name : names) {
     const std::string one = name.substr(0, name.find('.'));
@@ -83,7 +86,8 @@ py::object Sim::run(std::optional<double> until_s) {
 
 void Sim::reset(std::optional<std::uint64_t> seed) {
   if (begun_ && !log_file_.empty())
-    throw Error("the log " + log_file_ + " holds the flight before: a flight with a log is not reset; make another Sim");
+    throw Error("the log " + log_file_ +
+                " holds the flight before: a flight with a log is not reset; make another Sim");
   flight_.reset();
   result_.reset();
   events_.clear();
@@ -96,9 +100,12 @@ double Sim::now_s() const { return flight_ ? 1e-9 * static_cast<double>(flight_-
 
 std::string Sim::phase() const { return begun_ ? flight_->phase() : ""; }
 
-py::object Sim::result() const { return done() ? py::module_::import("json").attr("loads")(*result_) : py::none(); }
+py::object Sim::result() const {
+  return done() ? py::module_::import("json").attr("loads")(*result_) : py::none();
+}
 
-// ---- ports ---------------------------------------------------------------------------------------------------------------------
+// ---- ports
+// ---------------------------------------------------------------------------------------------------------------------
 
 std::vector<std::string> Sim::ports() const {
   std::vector<std::string> names;
@@ -112,7 +119,8 @@ std::vector<std::string> Sim::ports() const {
 Source Sim::find_port(const std::string& owner, const std::string& port) const {
   for (std::size_t r = 0; r < graph_.roles.size(); ++r)
     for (std::size_t k = 0; graph_.roles[r].name == owner && k < graph_.roles[r].outputs.size(); ++k)
-      if (graph_.roles[r].outputs[k].name == port) return {Source::Kind::role, static_cast<int>(r), static_cast<int>(k)};
+      if (graph_.roles[r].outputs[k].name == port)
+        return {Source::Kind::role, static_cast<int>(r), static_cast<int>(k)};
   for (std::size_t i = 0; i < graph_.components.size(); ++i)
     if (const int k = graph_.components[i].info().output(port); graph_.components[i].name == owner && k >= 0)
       return {Source::Kind::component, static_cast<int>(i), k};
@@ -121,7 +129,8 @@ Source Sim::find_port(const std::string& owner, const std::string& port) const {
 
 TypePtr Sim::type_of(const Source& source) const {
   const auto i = static_cast<std::size_t>(source.index), k = static_cast<std::size_t>(source.output);
-  return source.kind == Source::Kind::role ? graph_.roles[i].outputs[k].type : graph_.components[i].info().outputs[k].type;
+  return source.kind == Source::Kind::role ? graph_.roles[i].outputs[k].type
+                                           : graph_.components[i].info().outputs[k].type;
 }
 
 py::object Sim::sample(const std::string& name) {
@@ -137,7 +146,8 @@ py::object Sim::sample(const std::string& name) {
   return field.present(message) ? value_of(*field.field, message + field.offset) : py::none();
 }
 
-// ---- parameters ----------------------------------------------------------------------------------------------------------------
+// ---- parameters
+// ----------------------------------------------------------------------------------------------------------------
 
 std::vector<std::string> Sim::parameters() const {
   std::vector<std::string> names;
@@ -159,20 +169,13 @@ py::object Sim::parameter(const std::string& name) const {
   const ParamInfo& info = graph_.components[i].info().params[k];
   const ParamValue& value = graph_.components[i].params[k];
   switch (info.kind) {
-    case FULMAR_NUMBER:
-      return py::float_(value.number[0]);
-    case FULMAR_FLAG:
-      return py::bool_(value.integer != 0);
-    case FULMAR_COUNT:
-      return py::int_(value.integer);
-    case FULMAR_CHOICE:
-      return py::str(info.choices.at(static_cast<std::size_t>(value.integer)));
-    case FULMAR_VECTOR:
-      return py::make_tuple(value.number[0], value.number[1], value.number[2]);
-    case FULMAR_RECORD:
-      return record_of(*info.type, value.data.data());
-    default:
-      return py::str(value.text);
+    case FULMAR_NUMBER: return py::float_(value.number[0]);
+    case FULMAR_FLAG: return py::bool_(value.integer != 0);
+    case FULMAR_COUNT: return py::int_(value.integer);
+    case FULMAR_CHOICE: return py::str(info.choices.at(static_cast<std::size_t>(value.integer)));
+    case FULMAR_VECTOR: return py::make_tuple(value.number[0], value.number[1], value.number[2]);
+    case FULMAR_RECORD: return record_of(*info.type, value.data.data());
+    default: return py::str(value.text);
   }
 }
 
@@ -192,7 +195,8 @@ void Sim::set_parameter(const std::string& name, const py::handle& value) {
   graph_.components[i].params[k] = changed;
 }
 
-// ---- requests ------------------------------------------------------------------------------------------------------------------
+// ---- requests
+// ------------------------------------------------------------------------------------------------------------------
 
 std::shared_ptr<Answer> Sim::request(const std::string& name, const py::handle& message) {
   if (done()) throw Error(name + ": the flight is over");
@@ -205,7 +209,8 @@ std::shared_ptr<Answer> Sim::request(const std::string& name, const py::handle& 
       names.push_back(c.name + "." + p.name);
       if (names.back() == name) asked = &p;
     }
-  if (asked == nullptr) throw py::key_error("there is no request '" + name + "'." + choices_text(name, names));
+  if (asked == nullptr)
+    throw py::key_error("there is no request '" + name + "'." + choices_text(name, names));
   Report report;
   std::vector<std::byte> bytes(asked->type->size);
   fill_record(*asked->type, as_yaml(message, name, report), bytes.data(), "", report);

@@ -31,11 +31,13 @@ py::object element_dtype(const Field& field) {
   if (field.kind == FULMAR_TEXT) return py::str("S" + std::to_string(field.stride));
   if (field.kind != FULMAR_STRUCT)  // NumPy counts in bytes: "f8"
     return py::str(kind_word(field.kind)[0] + std::to_string(primitive_size(field.kind)));
-  if (!field.type->frame.empty()) return py::make_tuple("f8", py::make_tuple(field.type->fields.size()));  // Vec3, Quat
+  if (!field.type->frame.empty())
+    return py::make_tuple("f8", py::make_tuple(field.type->fields.size()));  // Vec3, Quat
   return dtype_of(*field.type);
 }
 
-py::object make_dtype(const py::list& names, const py::list& formats, const py::list& offsets, std::uint32_t size) {
+py::object make_dtype(const py::list& names, const py::list& formats, const py::list& offsets,
+                      std::uint32_t size) {
   py::dict description;
   description["names"] = names;
   description["formats"] = formats;
@@ -56,7 +58,8 @@ py::object field_dtype(const Field& field) {
 }
 
 py::object dtype_of(const Type& type) {
-  static auto* const known = new std::map<std::uint64_t, py::object>;  // never destroyed: the interpreter may be gone by then
+  static auto* const known =
+      new std::map<std::uint64_t, py::object>;  // never destroyed: the interpreter may be gone by then
   if (const auto it = known->find(type.hash); it != known->end()) return it->second;
   py::list names, formats, offsets;
   for (const Field& field : type.fields) {
@@ -79,7 +82,8 @@ py::object value_of(const Field& field, const std::byte* at) {
   if (field.kind == FULMAR_STRUCT) return record_of(*field.type, at);
   if (field.kind == FULMAR_TEXT) {
     const char* text = reinterpret_cast<const char*>(at);
-    return py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(text, static_cast<Py_ssize_t>(::strnlen(text, field.stride)), "replace"));
+    return py::reinterpret_steal<py::object>(
+        PyUnicode_DecodeUTF8(text, static_cast<Py_ssize_t>(::strnlen(text, field.stride)), "replace"));
   }
   const double number = number_at(field, at);
   if (field.kind == FULMAR_BOOL) return py::bool_(number != 0);

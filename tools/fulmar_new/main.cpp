@@ -11,7 +11,8 @@ int main(int argc, char** argv) {
   CLI::App app{"The words of new projects.", "fulmar"};
   app.require_subcommand(1);
   NewOptions options;
-  CLI::App* command = app.add_subcommand("new", "write the project of a plugin that fills a role of a mission");
+  CLI::App* command =
+      app.add_subcommand("new", "write the project of a plugin that fills a role of a mission");
   command->add_option("NAME", options.name, "of the plugin: letters, digits and _")->required();
   command->add_option("--role", options.role, "that it fills, as in outer")->required();
   command->add_option("--mission", options.mission, "whose role it fills; default the shipped hourglass");

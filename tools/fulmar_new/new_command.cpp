@@ -7,11 +7,11 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/error.hpp"
 #include "tools/fulmar_new/new_contract.hpp"
 #include "tools/fulmar_new/new_mission.hpp"
 #include "tools/fulmar_new/new_places.hpp"
 #include "tools/fulmar_new/new_source.hpp"
-#include "core/error.hpp"
 
 namespace fulmar::core {
 namespace fs = std::filesystem;
@@ -34,19 +34,24 @@ void write_text(const fs::path& file, const std::string& text) {
 
 std::string replaced(std::string text, const std::vector<std::pair<std::string, std::string>>& words) {
   for (const auto& [from, to] : words)
-    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) text.replace(at, from.size(), to);
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+      text.replace(at, from.size(), to);
   return text;
 }
 
 void check_name(const std::string& name) {
-  const auto good = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; };
+  const auto good = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  };
   const bool letter_first = !name.empty() && !(name[0] >= '0' && name[0] <= '9') && name[0] != '_';
   if (!letter_first || name.size() > 60 || !std::all_of(name.begin(), name.end(), good))
-    throw Error("'" + name + "' is no name for a plugin: letters, digits and _, a letter first, as in my_law");
-  static const std::vector<std::string> taken = {"all",           "clean",      "help", "install", "package",  "test",  "edit_cache",
-                                                 "rebuild_cache", "fulmar_sdk", "std",  "fulmar",  "messages", "class", "struct",
-                                                 "double",        "float",      "int",  "bool",    "char",     "new",   "delete",
-                                                 "this",          "auto",       "void", "main",    "template"};
+    throw Error("'" + name +
+                "' is no name for a plugin: letters, digits and _, a letter first, as in my_law");
+  static const std::vector<std::string> taken = {
+      "all",           "clean",      "help", "install", "package",  "test",  "edit_cache",
+      "rebuild_cache", "fulmar_sdk", "std",  "fulmar",  "messages", "class", "struct",
+      "double",        "float",      "int",  "bool",    "char",     "new",   "delete",
+      "this",          "auto",       "void", "main",    "template"};
   if (std::find(taken.begin(), taken.end(), name) != taken.end())
     throw Error("'" + name + "' means something to the build already. Choose another name, as in my_" + name);
 }
@@ -67,10 +72,12 @@ fs::path mission_file(const NewOptions& options, const Places& places) {
   if (fs::is_regular_file(shipped, code)) return shipped;
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(places.missions, code))
-    if (entry.path().extension() == ".yaml" && read_text(entry.path()).find("\nmission:") != std::string::npos)
+    if (entry.path().extension() == ".yaml" &&
+        read_text(entry.path()).find("\nmission:") != std::string::npos)
       names.push_back(entry.path().stem());
   std::sort(names.begin(), names.end());
-  throw Error("--mission " + name + ": there is no such file, and no shipped mission of that name." + choices_text(name, names));
+  throw Error("--mission " + name + ": there is no such file, and no shipped mission of that name." +
+              choices_text(name, names));
 }
 
 /// The struct's name: not one that the SDK has, or `In<Path>` in it would mean two things.
@@ -87,7 +94,8 @@ std::string type_name(const std::string& name, const fs::path& include) {
   return type;
 }
 
-/// Templates say in their first lines which ports they are for: "// ports in: state VehicleState, ..." and "// ports out: ...".
+/// Templates say in their first lines which ports they are for: "// ports in: state VehicleState, ..." and
+/// "// ports out: ...".
 std::string ports_line(const std::string& source, const std::string& which) {
   const std::string key = "// ports " + which + ": ";
   const std::size_t at = source.find(key);
@@ -102,15 +110,18 @@ bool fits(const std::string& source, const Contract& contract) {
     return list.find(", " + name + " " + type + ",") != std::string::npos;
   };
   const auto wanted = std::count(in.begin(), in.end(), ',') - 1;
-  const auto given = std::count_if(contract.inputs.begin(), contract.inputs.end(),
-                                   [&](const ContractInput& input) { return there(in, input.name, input.type->name); });
-  return wanted == given && std::all_of(contract.outputs.begin(), contract.outputs.end(), [&](const ContractOutput& output) {
+  const auto given =
+      std::count_if(contract.inputs.begin(), contract.inputs.end(),
+                    [&](const ContractInput& input) { return there(in, input.name, input.type->name); });
+  return wanted == given &&
+         std::all_of(contract.outputs.begin(), contract.outputs.end(), [&](const ContractOutput& output) {
            return output.optional || there(out, output.name, output.type_name);
          });
 }
 
 std::string without_ports_lines(std::string source) {
-  for (std::size_t at = 0; (at = source.find("// ports ")) != std::string::npos;) source.erase(at, source.find('\n', at) + 1 - at);
+  for (std::size_t at = 0; (at = source.find("// ports ")) != std::string::npos;)
+    source.erase(at, source.find('\n', at) + 1 - at);
   return source;
 }
 
@@ -120,7 +131,8 @@ std::string contract_table(const Contract& contract) {
     text += "| in `" + input.name + "` | `" + input.type->name + "` | " +
             (input.from.owner.empty() ? "by the host" : "from `" + input.from.text() + "`") + " |\n";
   for (const ContractOutput& output : contract.outputs)
-    text += "| out `" + output.name + "` | `" + output.type_name + "` | " + (output.optional ? "optional" : "") + " |\n";
+    text += "| out `" + output.name + "` | `" + output.type_name + "` | " +
+            (output.optional ? "optional" : "") + " |\n";
   return text;
 }
 
@@ -129,7 +141,8 @@ struct Project {
   std::vector<std::pair<std::string, std::string>> files;  // name -> text
 };
 
-Project make_project(const NewOptions& options, const Places& places, const MissionView& mission, const Contract& contract) {
+Project make_project(const NewOptions& options, const Places& places, const MissionView& mission,
+                     const Contract& contract) {
   const std::string type = type_name(options.name, places.include);
   const std::vector<std::pair<std::string, std::string>> names{{"my_law", options.name}, {"MyLaw", type}};
   const fs::path role_template = places.templates / "roles" / (contract.role + ".hpp");
@@ -145,28 +158,31 @@ Project make_project(const NewOptions& options, const Places& places, const Miss
       if (!contract.vehicle() && !output.optional) component.references.push_back(output.name);
   }
   const bool system = places.prefix == "/usr" || places.prefix == "/usr/local";
-  const std::string flies = contract.vehicle() ? "It flies from the start, in place of `" + contract.shipped_text->name + "`."
-                                               : "It flies in the phase `" + contract.phase + "`; `" + contract.shipped_text->name +
-                                                     "`, which flew there before, takes over if it fails.";
+  const std::string flies =
+      contract.vehicle() ? "It flies from the start, in place of `" + contract.shipped_text->name + "`."
+                         : "It flies in the phase `" + contract.phase + "`; `" + contract.shipped_text->name +
+                               "`, which flew there before, takes over if it fails.";
   std::vector<std::pair<std::string, std::string>> words = names;
-  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{{"@role@", contract.role},
-                                                                                 {"@mission@", contract.mission},
-                                                                                 {"@prefix@", system ? "" : places.prefix.string()},
-                                                                                 {"@program@", program_word()},
-                                                                                 {"@flies@", flies},
-                                                                                 {"@contract@", contract_table(contract)}})
+  for (const auto& [from, to] :
+       std::vector<std::pair<std::string, std::string>>{{"@role@", contract.role},
+                                                        {"@mission@", contract.mission},
+                                                        {"@prefix@", system ? "" : places.prefix.string()},
+                                                        {"@program@", program_word()},
+                                                        {"@flies@", flies},
+                                                        {"@contract@", contract_table(contract)}})
     words.emplace_back(from, to);
 
   Project project{options.folder.empty() ? fs::path(options.name) : fs::path(options.folder), {}};
   project.files = {{options.name + ".hpp", source.header},
                    {options.name + "_test.cpp", source.test},
                    {"mission.yaml", write_mission(mission, contract, component)}};
-  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{{"my_law.cpp", options.name + ".cpp"},
-                                                                                 {"CMakeLists.txt", "CMakeLists.txt"},
-                                                                                 {"CMakePresets.json", "CMakePresets.json"},
-                                                                                 {"README.md", "README.md"},
-                                                                                 {"clang-format", ".clang-format"},
-                                                                                 {"gitignore", ".gitignore"}})
+  for (const auto& [from, to] :
+       std::vector<std::pair<std::string, std::string>>{{"my_law.cpp", options.name + ".cpp"},
+                                                        {"CMakeLists.txt", "CMakeLists.txt"},
+                                                        {"CMakePresets.json", "CMakePresets.json"},
+                                                        {"README.md", "README.md"},
+                                                        {"clang-format", ".clang-format"},
+                                                        {"gitignore", ".gitignore"}})
     project.files.emplace_back(to, replaced(read_text(places.templates / from), words));
   return project;
 }
@@ -184,19 +200,22 @@ void write_project(const Project& project) {
 }
 
 void tell(const Project& project, const Contract& contract, const std::string& name) {
-  std::printf("%s: a component for the role %s of the mission %s, written to %s\n", name.c_str(), contract.role.c_str(),
-              contract.mission.c_str(), project.folder.string().c_str());
+  std::printf("%s: a component for the role %s of the mission %s, written to %s\n", name.c_str(),
+              contract.role.c_str(), contract.mission.c_str(), project.folder.string().c_str());
   for (const ContractInput& input : contract.inputs)
     std::printf("  in   %-12s %-18s %s\n", input.name.c_str(), input.type->name.c_str(),
                 input.from.owner.empty() ? "from the host" : ("from " + input.from.text()).c_str());
   for (const ContractOutput& output : contract.outputs)
-    std::printf("  out  %-12s %-18s%s\n", output.name.c_str(), output.type_name.c_str(), output.optional ? " optional" : "");
+    std::printf("  out  %-12s %-18s%s\n", output.name.c_str(), output.type_name.c_str(),
+                output.optional ? " optional" : "");
   if (contract.vehicle())
     std::printf("It flies from the start, in place of %s.\n", contract.shipped_text->name.c_str());
   else
-    std::printf("It flies in the phase %s; %s takes over if it fails.\n", contract.phase.c_str(), contract.shipped_text->name.c_str());
+    std::printf("It flies in the phase %s; %s takes over if it fails.\n", contract.phase.c_str(),
+                contract.shipped_text->name.c_str());
   std::printf(
-      "Next:\n  cd %s && cmake --preset default && cmake --build build\n  ctest --test-dir build --output-on-failure\n  %s run "
+      "Next:\n  cd %s && cmake --preset default && cmake --build build\n  ctest --test-dir build "
+      "--output-on-failure\n  %s run "
       "mission.yaml\n",
       shell_word(project.folder.string()).c_str(), program_word().c_str());
 }

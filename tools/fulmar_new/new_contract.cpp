@@ -31,13 +31,14 @@ void read_inputs(const MissionView& mission, const RoleText& role, Contract& con
       if (!input.type) input.type = port.type;
     }
     if (!input.type)
-      throw Error(wire.where.text() + ": roles." + role.name + ".in." + wire.input + ": no component says what " + wire.from.text() +
-                  " carries");
+      throw Error(wire.where.text() + ": roles." + role.name + ".in." + wire.input +
+                  ": no component says what " + wire.from.text() + " carries");
     contract.inputs.push_back(std::move(input));
   }
   if (!contract.vehicle()) return;
   for (const Port& port : contract.shipped.inputs)  // requests of a vehicle, such as arm, come from the host
-    if (port.kind == FULMAR_IN_REQUEST) contract.inputs.push_back({port.name, {}, port.type, port.kind, true});
+    if (port.kind == FULMAR_IN_REQUEST)
+      contract.inputs.push_back({port.name, {}, port.type, port.kind, true});
 }
 
 void read_outputs(const Role& role, const RoleText& text, Contract& contract) {
@@ -73,7 +74,8 @@ Contract read_contract(const MissionView& mission, const std::string& role_name)
   for (const Role& role : graph.roles) names.push_back(role.name);
   const auto at = std::find(names.begin(), names.end(), role_name);
   if (at == names.end())
-    throw Error("--role " + role_name + ": " + mission.file.filename().string() + " has no such role." + choices_text(role_name, names));
+    throw Error("--role " + role_name + ": " + mission.file.filename().string() + " has no such role." +
+                choices_text(role_name, names));
   const auto r = static_cast<std::size_t>(at - names.begin());
 
   Contract contract;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a component must be to fill a role of a mission: wires in, messages out. Read from the mission and from who fills the role there.
+// What a component must be to fill a role of a mission: wires in, messages out. Read from the mission and
+// from who fills the role there.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -31,7 +32,7 @@ struct Contract {
   std::string role, mission;  // names
   std::vector<ContractInput> inputs;
   std::vector<ContractOutput> outputs;
-  std::string phase;                  // where the new component flies; "" for a vehicle, which flies in all of them
+  std::string phase;  // where the new component flies; "" for a vehicle, which flies in all of them
   const ComponentText* shipped_text;  // who fills the role there today; part of MissionView::text
   std::string shipped_use;            // "control_slc/Outer", or a file
   ComponentInfo shipped;
@@ -39,7 +40,8 @@ struct Contract {
   bool vehicle() const { return role == "vehicle"; }
 };
 
-/// A mission three ways: its own keys, what they mean with the file that it extends, and the graph that follows.
+/// A mission three ways: its own keys, what they mean with the file that it extends, and the graph that
+/// follows.
 struct MissionView {
   std::filesystem::path file;  // absolute
   Node root;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a message's field table back to the C++ struct that has this table. sdk/include/fulmar/schema.hpp is the other direction.
+// From a message's field table back to the C++ struct that has this table. sdk/include/fulmar/schema.hpp is
+// the other direction.
 #include <algorithm>
 
 #include "tools/fulmar_new/new_source.hpp"
@@ -23,7 +24,9 @@ class Writer {
 
  private:
   /// Types that the SDK's own headers have.
-  static bool known(const Type& type) { return type.name == "Vec3Ned" || type.name == "Vec3Body" || type.name == "Quat"; }
+  static bool known(const Type& type) {
+    return type.name == "Vec3Ned" || type.name == "Vec3Body" || type.name == "Quat";
+  }
 
   std::string element(const Type& type, const Field& field) {
     if (field.kind == FULMAR_TEXT) return "Text<" + std::to_string(field.stride) + ">";

@@ -36,21 +36,21 @@ std::string flow(const Node& node) {
   std::string text;
   const auto add = [&](const std::string& item) { text += (text.empty() ? "" : ", ") + item; };
   switch (node.kind) {
-    case Node::Kind::scalar:
-      break;
+    case Node::Kind::scalar: break;
     case Node::Kind::sequence:
       for (const Node& item : node.items) add(flow(item));
       return "[" + text + "]";
     case Node::Kind::map:
       for (const Node::Entry& entry : node.entries) add(entry.key + ": " + flow(entry.value));
       return "{" + text + "}";
-    default:
-      return "~";
+    default: return "~";
   }
   const std::string word = file_word(node);
-  const bool special = word.empty() || word.find_first_of(",[]{}\"'\\#\n") != std::string::npos || word.find(": ") != std::string::npos;
+  const bool special = word.empty() || word.find_first_of(",[]{}\"'\\#\n") != std::string::npos ||
+                       word.find(": ") != std::string::npos;
   if (!node.quoted && !special) return word;
-  for (const char c : word) text += c == '"' || c == '\\' ? std::string{'\\', c} : c == '\n' ? std::string("\\n") : std::string(1, c);
+  for (const char c : word)
+    text += c == '"' || c == '\\' ? std::string{'\\', c} : c == '\n' ? std::string("\\n") : std::string(1, c);
   return "\"" + text + "\"";
 }
 
@@ -64,7 +64,8 @@ std::string block(const Node& root) {
       continue;
     }
     text += entry.key + ":\n";
-    for (const Node::Entry& item : entry.value.entries) text += "  " + item.key + ": " + flow(item.value) + "\n";
+    for (const Node::Entry& item : entry.value.entries)
+      text += "  " + item.key + ": " + flow(item.value) + "\n";
   }
   return text;
 }
@@ -79,7 +80,8 @@ Node wire(const WireText& from) {
 
 std::string rate_text(const ComponentText& component) { return number_text(component.rate_hz) + " Hz"; }
 
-/// A plugin that lies beside the given mission is not beside the new one: its absolute name, or "" when it is found without.
+/// A plugin that lies beside the given mission is not beside the new one: its absolute name, or "" when it is
+/// found without.
 std::string plugin_beside(const MissionView& mission, const std::string& use) {
   auto [plugin, component] = split_use(use);
   std::error_code code;
@@ -97,7 +99,8 @@ Node reference(const MissionView& mission, const Contract& contract) {
   Node wires = map_of({});
   for (const WireText& own : shipped.in) wires.entries.push_back({own.input, 0, wire(own)});
   for (const WireText& common : mission.text.role(contract.role)->in)
-    if (contract.shipped.input(common.input) >= 0 && !wires.find(common.input)) wires.entries.push_back({common.input, 0, wire(common)});
+    if (contract.shipped.input(common.input) >= 0 && !wires.find(common.input))
+      wires.entries.push_back({common.input, 0, wire(common)});
   if (!wires.entries.empty()) keys.emplace_back("in", std::move(wires));
   Node params = shipped.params;
   if (contract.shipped_set.is(Node::Kind::map))
@@ -107,12 +110,14 @@ Node reference(const MissionView& mission, const Contract& contract) {
 }
 
 Node new_component(const MissionView& mission, const Contract& contract, const NewComponent& component) {
-  std::vector<std::pair<std::string, Node>> keys{{"fills", scalar(contract.role)},
-                                                 {"use", scalar("build/lib/fulmar/" + component.name + ".so")}};
-  if (contract.shipped_text->rate_hz > 0) keys.emplace_back("rate", scalar(rate_text(*contract.shipped_text)));
+  std::vector<std::pair<std::string, Node>> keys{
+      {"fills", scalar(contract.role)}, {"use", scalar("build/lib/fulmar/" + component.name + ".so")}};
+  if (contract.shipped_text->rate_hz > 0)
+    keys.emplace_back("rate", scalar(rate_text(*contract.shipped_text)));
   Node wires = map_of({});
   for (const std::string& output : component.references)
-    wires.entries.push_back({"reference_" + output, 0, scalar(reference_name(mission, component.name) + "." + output)});
+    wires.entries.push_back(
+        {"reference_" + output, 0, scalar(reference_name(mission, component.name) + "." + output)});
   if (!wires.entries.empty()) keys.emplace_back("in", std::move(wires));
   return map_of(std::move(keys));
 }
@@ -137,7 +142,8 @@ Node additions(const MissionView& mission, const Contract& contract, const NewCo
   Node root = map_of({{"components", std::move(components)}});
   if (contract.vehicle()) return root;
   Node use = map_of({{"use", scalar(component.name)}, {"fallback", scalar(contract.shipped_text->name)}});
-  root.entries.push_back({"phases", 0, map_of({{contract.phase, map_of({{contract.role, std::move(use)}})}})});
+  root.entries.push_back(
+      {"phases", 0, map_of({{contract.phase, map_of({{contract.role, std::move(use)}})}})});
   return root;
 }
 
@@ -149,7 +155,8 @@ std::string reference_name(const MissionView& mission, const std::string& name) 
   return taken ? name + "_reference" : plain;
 }
 
-std::string write_mission(const MissionView& mission, const Contract& contract, const NewComponent& component) {
+std::string write_mission(const MissionView& mission, const Contract& contract,
+                          const NewComponent& component) {
   const Node* extends = mission.root.find("extends");
   std::error_code code;
   Node root = map_of({{"mission", scalar(component.name)}});
@@ -162,21 +169,23 @@ std::string write_mission(const MissionView& mission, const Contract& contract, 
   }
   const Node top = additions(mission, contract, component);
   for (const Node::Entry& entry : top.entries) {
-    const auto same = std::find_if(root.entries.begin(), root.entries.end(), [&](const Node::Entry& e) { return e.key == entry.key; });
+    const auto same = std::find_if(root.entries.begin(), root.entries.end(),
+                                   [&](const Node::Entry& e) { return e.key == entry.key; });
     if (same == root.entries.end())
       root.entries.push_back(entry);
     else
       same->value = merged(same->value, entry.value, entry.key == "components" ? 3 : 2);
   }
-  std::string head = "# The mission " + contract.mission + " with " + component.name + " in the role " + contract.role + ". ";
+  std::string head = "# The mission " + contract.mission + " with " + component.name + " in the role " +
+                     contract.role + ". ";
   if (contract.vehicle())
     head += "The vehicle that was there steps aside.\n";
   else
-    head +=
-        "It flies in the phase " + contract.phase + "; " + contract.shipped_text->name + ", which flew there, takes over if it fails.\n";
+    head += "It flies in the phase " + contract.phase + "; " + contract.shipped_text->name +
+            ", which flew there, takes over if it fails.\n";
   if (!component.references.empty())
-    head += "# " + reference_name(mission, component.name) + " is " + contract.shipped_use + " once more: what " + component.name +
-            " passes on until it has a law of its own.\n";
+    head += "# " + reference_name(mission, component.name) + " is " + contract.shipped_use +
+            " once more: what " + component.name + " passes on until it has a law of its own.\n";
   return head + block(root);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The mission of a new plugin: the given one, with the new component in its role. Stays short by extending what the given one extends.
+// The mission of a new plugin: the given one, with the new component in its role. Stays short by extending
+// what the given one extends.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,14 +11,16 @@ namespace fulmar::core {
 
 /// What a mission is to say of the new component.
 struct NewComponent {
-  std::string name;                     // of component and plugin
-  std::vector<std::string> references;  // outputs that it passes on from a second instance of the shipped component; usually none
+  std::string name;  // of component and plugin
+  std::vector<std::string>
+      references;  // outputs that it passes on from a second instance of the shipped component; usually none
 };
 
 /// Name of the second instance: one that the mission does not use yet.
 std::string reference_name(const MissionView& mission, const std::string& name);
 
 /// The text of mission.yaml. File names in it are absolute, but that of the new plugin.
-std::string write_mission(const MissionView& mission, const Contract& contract, const NewComponent& component);
+std::string write_mission(const MissionView& mission, const Contract& contract,
+                          const NewComponent& component);
 
 }  // namespace fulmar::core

@@ -21,18 +21,21 @@ Places find_places(const fs::path& program) {
   std::error_code code;
   if (fs::is_directory(share / "missions", code)) {
     if (!fs::is_directory(share / "template", code))
-      throw Error("there are no templates in " + (share / "template").string() + ": install the package fulmar-dev");
+      throw Error("there are no templates in " + (share / "template").string() +
+                  ": install the package fulmar-dev");
     return {share / "missions", share / "template", prefix / "include", prefix};
   }
   for (fs::path root = prefix; root.has_relative_path(); root = root.parent_path())
     if (fs::is_directory(root / "sdk" / "template", code))
       return {root / "configs" / "missions", root / "sdk" / "template", root / "sdk" / "include", prefix};
-  throw Error("there are no missions in " + (share / "missions").string() + ", and no source tree above " + program.string());
+  throw Error("there are no missions in " + (share / "missions").string() + ", and no source tree above " +
+              program.string());
 }
 
 std::string shell_word(const std::string& text) {
   const auto plain = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) || std::string_view("_-./+=:@%,").find(c) != std::string_view::npos;
+    return std::isalnum(static_cast<unsigned char>(c)) ||
+           std::string_view("_-./+=:@%,").find(c) != std::string_view::npos;
   };
   bool quote = text.empty();
   std::string quoted = "'";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where this program's templates, missions and SDK are: in the prefix that it was installed to, or in the tree that it was built from.
+// Where this program's templates, missions and SDK are: in the prefix that it was installed to, or in the
+// tree that it was built from.
 #pragma once
 #include <filesystem>
 #include <string>

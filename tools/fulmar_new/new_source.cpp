@@ -18,7 +18,9 @@ bool has_header(const Type& type, const fs::path& include) {
 }
 
 /// Of one of the SDK's headers.
-std::string include_line(const std::string& header) { return "#include <" + ("fulmar/" + header) + ".hpp>\n"; }
+std::string include_line(const std::string& header) {
+  return "#include <" + ("fulmar/" + header) + ".hpp>\n";
+}
 
 /// Writes the parts of one component. "messages::" stands before the types that the header itself declares.
 class SourceWriter {
@@ -32,14 +34,18 @@ class SourceWriter {
   std::string header() const {
     std::string text = "// SPDX-License-Identifier: BSD-3-Clause\n";
     text += c_.vehicle() ? "// A vehicle that keeps the time and says nothing true yet.\n"
-                         : "// Fills the role " + c_.role + ". As generated it passes on what " + c_.shipped_use + " computes.\n";
+                         : "// Fills the role " + c_.role + ". As generated it passes on what " +
+                               c_.shipped_use + " computes.\n";
     text += "#pragma once\n";
     for (const std::string& header : headers_) text += include_line("msg/" + header);
-    text += include_line("plugin") + (c_.vehicle() ? "#include <cmath>\n" : "") + "\nusing namespace fulmar;\n\n";
+    text +=
+        include_line("plugin") + (c_.vehicle() ? "#include <cmath>\n" : "") + "\nusing namespace fulmar;\n\n";
     if (!own_.empty())
-      text += "namespace messages {  // as the mission's own plugins have them\n\n" + own_ + "}  // namespace messages\n\n";
+      text += "namespace messages {  // as the mission's own plugins have them\n\n" + own_ +
+              "}  // namespace messages\n\n";
     text += "struct " + type_ + " {  // fills the role `" + c_.role + "`\n";
-    text += "  static constexpr const char* doc = \"" + pascal_case(name_) + ".\";\n" + ports() + (c_.vehicle() ? vehicle_body() : body());
+    text += "  static constexpr const char* doc = \"" + pascal_case(name_) + ".\";\n" + ports() +
+            (c_.vehicle() ? vehicle_body() : body());
     return text + "};\n";
   }
 
@@ -68,14 +74,18 @@ class SourceWriter {
       }
     }
   }
-  std::string word(const Type& type) const { return (own_types_.count(type.name) ? "messages::" : "") + type.name; }
+  std::string word(const Type& type) const {
+    return (own_types_.count(type.name) ? "messages::" : "") + type.name;
+  }
 
   static std::string input_kind(const ContractInput& input) {
     if (input.kind == FULMAR_IN_QUEUE) return "Queue";
     if (input.kind == FULMAR_IN_REQUEST) return "Request";
     return input.optional ? "Optional" : "In";
   }
-  bool passes_on(const ContractOutput& output) const { return !c_.vehicle() && output.type && !output.optional; }
+  bool passes_on(const ContractOutput& output) const {
+    return !c_.vehicle() && output.type && !output.optional;
+  }
   static bool queue(const ContractOutput& output) { return output.kind == FULMAR_OUT_QUEUE; }
 
   std::string output_type(const ContractOutput& output) const {
@@ -86,30 +96,42 @@ class SourceWriter {
 
   std::string ports() const {
     std::string text = "  struct Inputs {\n", passed;
-    for (const ContractInput& input : c_.inputs) text += "    " + input_kind(input) + "<" + word(*input.type) + "> " + input.name + ";\n";
+    for (const ContractInput& input : c_.inputs)
+      text += "    " + input_kind(input) + "<" + word(*input.type) + "> " + input.name + ";\n";
     for (const ContractOutput& output : c_.outputs) {
       const char* kind = queue(output) ? "Queue" : output.kind == FULMAR_OUT_EVENT ? "Optional" : "In";
-      if (passes_on(output)) passed += std::string("    ") + kind + "<" + word(*output.type) + "> reference_" + output.name + ";\n";
+      if (passes_on(output))
+        passed +=
+            std::string("    ") + kind + "<" + word(*output.type) + "> reference_" + output.name + ";\n";
     }
     if (!passed.empty())
-      text += "    // What the shipped component says. When it has served, remove it here and in mission.yaml.\n" + passed;
+      text +=
+          "    // What the shipped component says. When it has served, remove it here and in "
+          "mission.yaml.\n" +
+          passed;
     text += "  };\n  struct Outputs {\n";
     for (const ContractOutput& output : c_.outputs)
-      if (output.type && (!output.optional || c_.vehicle())) text += "    " + output_type(output) + " " + output.name + ";\n";
+      if (output.type && (!output.optional || c_.vehicle()))
+        text += "    " + output_type(output) + " " + output.name + ";\n";
     if (!c_.vehicle()) return text + "  };\n  struct Params {};\n\n";
-    return text + "  };\n  struct Params {\n    Param rate{400, \"Hz\", 10, 2000, \"of the loop; the mission's\", setup};\n  };\n\n";
+    return text +
+           "  };\n  struct Params {\n    Param rate{400, \"Hz\", 10, 2000, \"of the loop; the mission's\", "
+           "setup};\n  };\n\n";
   }
 
   std::string body() const {
-    std::string text = "  Status step(const Tick&, const Inputs& in, const Params&, Outputs& out) {\n    // Your law goes here.\n";
+    std::string text =
+        "  Status step(const Tick&, const Inputs& in, const Params&, Outputs& out) {\n    // Your law goes "
+        "here.\n";
     for (const ContractOutput& output : c_.outputs) {
       if (!passes_on(output)) continue;
       const std::string from = "in.reference_" + output.name;
       if (queue(output))
-        text += "    for (const auto& sample : " + from + ") out." + output.name + ".push(sample.value, sample.valid_at_ns);\n";
+        text += "    for (const auto& sample : " + from + ") out." + output.name +
+                ".push(sample.value, sample.valid_at_ns);\n";
       else if (output.kind == FULMAR_OUT_EVENT)
-        text +=
-            "    if (" + from + " && " + from + ".fresh()) out." + output.name + ".publish(*" + from + ", " + from + ".valid_at_ns());\n";
+        text += "    if (" + from + " && " + from + ".fresh()) out." + output.name + ".publish(*" + from +
+                ", " + from + ".valid_at_ns());\n";
       else
         text += "    out." + output.name + " = *" + from + ";\n";
     }
@@ -118,17 +140,21 @@ class SourceWriter {
 
   std::string vehicle_body() const {
     std::string text =
-        "  void configure(const Params& p) {\n    period_ns_ = std::llround(1e9 / p.rate);\n    now_ns_ = -period_ns_;\n  }\n\n"
-        "  Status read(Tick& tick, const Params&, Outputs& out) {\n    tick.now_ns = now_ns_ += period_ns_;\n";
+        "  void configure(const Params& p) {\n    period_ns_ = std::llround(1e9 / p.rate);\n    now_ns_ = "
+        "-period_ns_;\n  }\n\n"
+        "  Status read(Tick& tick, const Params&, Outputs& out) {\n    tick.now_ns = now_ns_ += "
+        "period_ns_;\n";
     for (const ContractOutput& output : c_.outputs)
       if (output.type && !queue(output))
         text += "    out." + output.name + (output.kind == FULMAR_OUT_EVENT ? ".publish({});\n" : " = {};\n");
     text += "    return Status::ok;\n  }\n\n  Status write(const Tick&, const Inputs& in, const Params&) {\n";
     bool asked = false;
     for (const ContractInput& input : c_.inputs)
-      if (input.kind == FULMAR_IN_REQUEST) text += "    for (auto request : in." + input.name + ") request.accept();\n", asked = true;
+      if (input.kind == FULMAR_IN_REQUEST)
+        text += "    for (auto request : in." + input.name + ") request.accept();\n", asked = true;
     if (!asked) text += "    (void)in;\n";
-    return text + "    return Status::ok;\n  }\n\n private:\n  std::int64_t period_ns_ = 2500000, now_ns_ = 0;\n";
+    return text +
+           "    return Status::ok;\n  }\n\n private:\n  std::int64_t period_ns_ = 2500000, now_ns_ = 0;\n";
   }
 
   /// A number somewhere in the message, dotted; "" when there is none.
@@ -149,8 +175,12 @@ class SourceWriter {
         set += "  bench.set(bench.in." + input.name + ", " + word(*input.type) + "{});\n";
     for (const ContractOutput& output : c_.outputs) {
       if (!passes_on(output)) continue;
-      const std::string number = number_in(*output.type), from = "bench.in.reference_" + output.name, sent = "sent_" + output.name;
-      const std::string to = "bench.out." + output.name + (queue(output) ? ".items[0]" : output.kind == FULMAR_OUT_EVENT ? ".value" : "");
+      const std::string number = number_in(*output.type), from = "bench.in.reference_" + output.name,
+                        sent = "sent_" + output.name;
+      const std::string to = "bench.out." + output.name +
+                             (queue(output)                     ? ".items[0]"
+                              : output.kind == FULMAR_OUT_EVENT ? ".value"
+                                                                : "");
       set += "  " + word(*output.type) + " " + sent + "{};\n";
       if (!number.empty()) set += "  " + sent + "." + number + " = 0.25;\n";
       set += std::string("  bench.") + (queue(output) ? "push(" : "set(") + from + ", " + sent + ");\n";
@@ -159,13 +189,16 @@ class SourceWriter {
       if (output.kind == FULMAR_OUT_EVENT) check += "  CHECK(bench.out." + output.name + ".written);\n";
     }
     return "TEST_CASE(\"what the reference says is passed on\") {\n  Bench<" + type_ + "> bench;\n" + set +
-           "  REQUIRE(bench.step(0.01) == Status::ok);\n" + check + "  CHECK(allocations([&] { bench.step(0.01); }) == 0);\n}\n";
+           "  REQUIRE(bench.step(0.01) == Status::ok);\n" + check +
+           "  CHECK(allocations([&] { bench.step(0.01); }) == 0);\n}\n";
   }
 
   std::string vehicle_test() const {
     return "TEST_CASE(\"time begins at 0 and goes by one period\") {\n  Bench<" + type_ +
-           "> bench;\n  bench.params.rate.value = 100;\n  REQUIRE(bench.read() == Status::ok);\n  CHECK(bench.tick.now_ns == 0);\n"
-           "  REQUIRE(bench.read() == Status::ok);\n  CHECK(bench.tick.now_ns == 10000000);\n  CHECK(bench.write() == Status::ok);\n}\n";
+           "> bench;\n  bench.params.rate.value = 100;\n  REQUIRE(bench.read() == Status::ok);\n  "
+           "CHECK(bench.tick.now_ns == 0);\n"
+           "  REQUIRE(bench.read() == Status::ok);\n  CHECK(bench.tick.now_ns == 10000000);\n  "
+           "CHECK(bench.write() == Status::ok);\n}\n";
   }
 
   const Contract& c_;
@@ -195,7 +228,8 @@ std::string snake_case(const std::string& name) {
   return text;
 }
 
-NewSource write_source(const Contract& contract, const std::string& name, const std::string& type, const fs::path& include) {
+NewSource write_source(const Contract& contract, const std::string& name, const std::string& type,
+                       const fs::path& include) {
   const SourceWriter source(contract, name, type, include);
   return {source.header(), source.test()};
 }

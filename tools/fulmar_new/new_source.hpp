@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The source of a new component that no template fits: it passes on what the shipped one computes, until its author knows better.
+// The source of a new component that no template fits: it passes on what the shipped one computes, until its
+// author knows better.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -13,8 +14,10 @@ struct NewSource {
   std::string header, test;
 };
 
-/// `type` is the component's struct. `include` is the SDK's folder of headers: what it has no message for is written into the header.
-NewSource write_source(const Contract& contract, const std::string& name, const std::string& type, const std::filesystem::path& include);
+/// `type` is the component's struct. `include` is the SDK's folder of headers: what it has no message for is
+/// written into the header.
+NewSource write_source(const Contract& contract, const std::string& name, const std::string& type,
+                       const std::filesystem::path& include);
 
 /// "my_law" -> "MyLaw", "VehicleState" -> "vehicle_state"
 std::string pascal_case(const std::string& name);

@@ -39,8 +39,8 @@ class Collector {
   std::map<std::string, bool> foreign_;            // packages
 };
 
-/// Writes the package. A folder that is there must be empty or hold a package that this function has written; files of an earlier one that
-/// are no longer in it are removed. Throws Error.
+/// Writes the package. A folder that is there must be empty or hold a package that this function has written;
+/// files of an earlier one that are no longer in it are removed. Throws Error.
 void write_package(const Package& package, const std::filesystem::path& folder);
 
 }  // namespace fulmar::ros2

@@ -30,7 +30,8 @@ void collect(const Options& options, ros2::Collector& collector) {
   std::vector<std::string> names = options.plugins;
   if (names.empty() && options.mission.empty()) {
     for (const std::string& name : catalogue.names()) {
-      if (name.find('.') == std::string::npos) names.push_back(name);  // plugins; scripts have no messages of their own
+      if (name.find('.') == std::string::npos)
+        names.push_back(name);  // plugins; scripts have no messages of their own
     }
   }
   for (const std::string& name : names) {
@@ -44,10 +45,11 @@ int write_interfaces(const Options& options) {
   collect(options, collector);
   const ros2::Package package = collector.package();
   ros2::write_package(package, options.folder);
-  const std::size_t services = static_cast<std::size_t>(
-      std::count_if(package.files.begin(), package.files.end(), [](const auto& f) { return f.first.starts_with("srv/"); }));
+  const std::size_t services = static_cast<std::size_t>(std::count_if(
+      package.files.begin(), package.files.end(), [](const auto& f) { return f.first.starts_with("srv/"); }));
   std::printf(
-      "%s: package fulmar_msgs with %zu messages and %zu services. In a ROS 2 workspace: colcon build --packages-select fulmar_msgs\n",
+      "%s: package fulmar_msgs with %zu messages and %zu services. In a ROS 2 workspace: colcon build "
+      "--packages-select fulmar_msgs\n",
       options.folder.c_str(), package.hashes.size(), services);
   return 0;
 }
@@ -60,7 +62,8 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer("Example: fulmar ros2 interface-package ~/ros2_ws/src/fulmar_msgs");
   Options options;
-  CLI::App* package = app.add_subcommand("interface-package", "writes the package fulmar_msgs: messages and services, for colcon");
+  CLI::App* package = app.add_subcommand("interface-package",
+                                         "writes the package fulmar_msgs: messages and services, for colcon");
   package->add_option("DIR", options.folder, "new, empty, or written by this command before")->required();
   package->add_option("PLUGIN", options.plugins, "names or files of plugins; none: all that are installed");
   package->add_option("--mission", options.mission, "the plugins of this mission")->check(CLI::ExistingFile);

@@ -54,12 +54,14 @@ Result fulmar(const std::string& arguments) { return shell(program + arguments);
 fs::path mission(const std::string& text, const std::string& airframe = "anaconda.yaml") {
   const fs::path file = folder() / "mission.yaml";
   std::ofstream(file) << "mission: trial\nextends: " FULMAR_SOURCE_DIR
-                         "/configs/missions/common.yaml\nio: sim\nairframe: " FULMAR_SOURCE_DIR "/configs/airframes/"
+                         "/configs/missions/common.yaml\nio: sim\nairframe: " FULMAR_SOURCE_DIR
+                         "/configs/airframes/"
                       << airframe << "\norigin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\n"
                       << text;
   return file;
 }
-const std::string plan = "components:\n  plan: {params: {plan: " FULMAR_SOURCE_DIR "/configs/plans/hourglass.yaml}}\n";
+const std::string plan =
+    "components:\n  plan: {params: {plan: " FULMAR_SOURCE_DIR "/configs/plans/hourglass.yaml}}\n";
 
 }  // namespace
 
@@ -72,24 +74,29 @@ TEST_CASE("the JSON of a flight has the keys that scripts rely on, and null for 
   CHECK(j["result"] == "flown");
   CHECK(j["reason"] == "duration reached");
   CHECK(j["flight_time_s"].get<double>() == doctest::Approx(155).epsilon(1e-4));
-  CHECK(j["speedup"].get<double>() == doctest::Approx(j["flight_time_s"].get<double>() / j["wall_time_s"].get<double>()));
+  CHECK(j["speedup"].get<double>() ==
+        doctest::Approx(j["flight_time_s"].get<double>() / j["wall_time_s"].get<double>()));
   CHECK(j["log"].is_null());
   CHECK(j["log_sha256"].is_null());
   CHECK(j["log_dropped"] == 0);
   CHECK(j["guards"].empty());
   CHECK(j["phases"][0]["name"] == "hold");
   for (const char* key : {"p50", "p99", "max"}) CHECK(j["step_time_us"]["ekf"][key].get<double>() > 0);
-  for (const char* key : {"north_m", "east_m", "altitude_m", "roll_deg", "pitch_deg", "course_deg", "airspeed_mps"}) {
+  for (const char* key :
+       {"north_m", "east_m", "altitude_m", "roll_deg", "pitch_deg", "course_deg", "airspeed_mps"}) {
     CHECK(j["tracking_rmse"][key].is_number());
     CHECK(j["tracking_true_rmse"][key].is_number());
   }
-  for (const char* key : {"north_m", "east_m", "altitude_m", "vel_x_mps", "vel_y_mps", "vel_z_mps", "roll_deg", "pitch_deg", "heading_deg",
-                          "course_deg", "airspeed_mps", "wind_n_mps", "wind_e_mps"})
+  for (const char* key :
+       {"north_m", "east_m", "altitude_m", "vel_x_mps", "vel_y_mps", "vel_z_mps", "roll_deg", "pitch_deg",
+        "heading_deg", "course_deg", "airspeed_mps", "wind_n_mps", "wind_e_mps"})
     CHECK(j["estimation_rmse"][key].is_number());
   for (const char* key : {"north_m", "east_m"}) CHECK(j["gnss_error_rmse"][key].is_number());
-  for (const char* key : {"waypoints_reached", "miss_distance_max_m", "lap_time_s", "surface_rate_rms_radps", "airspeed_min_mps"})
+  for (const char* key : {"waypoints_reached", "miss_distance_max_m", "lap_time_s", "surface_rate_rms_radps",
+                          "airspeed_min_mps"})
     CHECK(j["mission_figures"].contains(key));
-  for (const auto& component : j["allocations"].items()) CHECK_MESSAGE(component.value() == 0, component.key());
+  for (const auto& component : j["allocations"].items())
+    CHECK_MESSAGE(component.value() == 0, component.key());
   std::string last;
   for (const auto& [key, value] : j.items()) {
     CHECK(last < key);
@@ -119,7 +126,8 @@ TEST_CASE("wrong usage exits 2") {
   CHECK(fulmar("run " + hourglass + " --speed fast").code == 2);
   CHECK(fulmar("run " + hourglass + " --io boat").code == 2);
   CHECK(fulmar("run " + hourglass + " --set nonsense").code == 2);
-  for (const char* duration : {"1e300", "nan", "-5", "0", "5x"}) CHECK(fulmar("run " + hourglass + " --duration=" + duration).code == 2);
+  for (const char* duration : {"1e300", "nan", "-5", "0", "5x"})
+    CHECK(fulmar("run " + hourglass + " --duration=" + duration).code == 2);
   CHECK(fulmar("run " + hourglass + " --seed=-1").code == 2);
   CHECK(fulmar("run " + hourglass + " --speed 0x10").code == 2);
   CHECK(fulmar("--help").code == 0);
@@ -153,30 +161,36 @@ TEST_CASE("an interrupted flight closes its log and exits 130") {
   const auto interrupted = [](const std::string& file) {  // once it flies, however long that takes
     return " & until [ -e " + file + ".part ]; do sleep 0.1; done; sleep 0.5; kill -INT $!; wait $!; echo ";
   };
-  const Result r = shell(program + "run " + hourglass + " --speed real --json --log " + log + interrupted(log) + "code $?");
+  const Result r = shell(program + "run " + hourglass + " --speed real --json --log " + log +
+                         interrupted(log) + "code $?");
   const json j = json::parse(r.out.substr(0, r.out.rfind('}') + 1));
   CHECK(j["result"] == "interrupted");
   CHECK(fs::exists(log));
   // A shell lets its background commands ignore the signal until they handle it.
   const std::string again = (folder() / "signalled.mcap").string();
-  const Result code = shell(program + "run " + hourglass + " --speed real --log " + again + " >/dev/null" + interrupted(again) + "$?");
+  const Result code = shell(program + "run " + hourglass + " --speed real --log " + again + " >/dev/null" +
+                            interrupted(again) + "$?");
   CHECK(code.out == "130\n");
 }
 
 TEST_CASE("a crash names the component, a second signal ends a hanging one") {
   if (!FULMAR_CRASH_TESTS) return;  // a sanitizer reports crashes in its own way
   const std::string lab = folder() / "lab.yaml";
-  std::ofstream(lab)
-      << "mission: lab\nroles:\n  vehicle: {in: {command: law.command}, out: {signal: Signal}}\n  law: {in: {signal: vehicle.signal}, out: "
-         "{command: Command}}\n"
-         "components:\n  sim: {fills: vehicle, use: lab/Cart}\n  one: {fills: law, use: lab/Law, params: {fault: crashes, fault_at: 0}}\n";
-  const std::string run =
-      "FULMAR_PLUGIN_PATH=" FULMAR_TEST_PLUGIN_DIR " " + program + "run " + lab + " --log " + (folder() / "crash.mcap").string();
+  std::ofstream(lab) << "mission: lab\nroles:\n  vehicle: {in: {command: law.command}, out: {signal: "
+                        "Signal}}\n  law: {in: {signal: vehicle.signal}, out: "
+                        "{command: Command}}\n"
+                        "components:\n  sim: {fills: vehicle, use: lab/Cart}\n  one: {fills: law, use: "
+                        "lab/Law, params: {fault: crashes, fault_at: 0}}\n";
+  const std::string run = "FULMAR_PLUGIN_PATH=" FULMAR_TEST_PLUGIN_DIR " " + program + "run " + lab +
+                          " --log " + (folder() / "crash.mcap").string();
   const Result crash = shell("ulimit -c 0; " + run);
-  CHECK(crash.err.find("fulmar: one crashed in its step (segmentation fault). What was logged until then is in ") != std::string::npos);
+  CHECK(crash.err.find(
+            "fulmar: one crashed in its step (segmentation fault). What was logged until then is in ") !=
+        std::string::npos);
   CHECK(fs::exists(folder() / "crash.mcap.part"));
-  const Result hang = shell("export FULMAR_PLUGIN_PATH=" FULMAR_TEST_PLUGIN_DIR "; " + program + "run " + lab +
-                            " --no-log --set one.fault=hangs & sleep 2; kill -INT $!; sleep 0.7; kill -INT $!; wait $!; echo $?");
+  const Result hang = shell(
+      "export FULMAR_PLUGIN_PATH=" FULMAR_TEST_PLUGIN_DIR "; " + program + "run " + lab +
+      " --no-log --set one.fault=hangs & sleep 2; kill -INT $!; sleep 0.7; kill -INT $!; wait $!; echo $?");
   CHECK(hang.out == "130\n");
   CHECK(hang.err.find("fulmar: ended by the second signal in the step of one") != std::string::npos);
 }
@@ -189,15 +203,18 @@ TEST_CASE("a real-time flight takes its time") {
 TEST_CASE("on a full disk the flight goes on and the loss is told") {
   // no file may grow beyond 1024 blocks of 512 bytes
   const std::string log = (folder() / "full.mcap").string();
-  const Result r = shell("ulimit -f 1024; " + program + "run " + hourglass + " --json --duration 60 --log " + log);
+  const Result r =
+      shell("ulimit -f 1024; " + program + "run " + hourglass + " --json --duration 60 --log " + log);
   CHECK(r.code == 1);
   const json j = json::parse(r.out);
   CHECK(j["result"] == "flown");
   CHECK(j["log_dropped"].get<std::uint64_t>() > 1000);
   CHECK(j["log_error"].is_string());
   const std::string why = "cannot write '" + log + ".part': File too large";
-  // The loop says it, in flight; how far it has come by then is a matter of two threads and of what else the machine does.
-  const std::size_t told = r.err.find("the flight goes on without its log: " + why), summed_up = r.err.find("the log is not whole: " + why + "; ");
+  // The loop says it, in flight; how far it has come by then is a matter of two threads and of what else the
+  // machine does.
+  const std::size_t told = r.err.find("the flight goes on without its log: " + why),
+                    summed_up = r.err.find("the log is not whole: " + why + "; ");
   CHECK(summed_up != std::string::npos);
   CHECK(told < summed_up);
   CHECK(r.err.find(" messages were lost, and what there is is in " + log + ".part\n") != std::string::npos);
@@ -220,8 +237,10 @@ TEST_CASE("inspect and graph speak to people") {
   }
 }
 
-TEST_CASE("--repeat flies so many flights in one host, each with its own log; equal flights have equal bytes") {
-  const Result r = fulmar("run " + hourglass + " --json --duration 5 --repeat 3 --log " + (folder() / "again.mcap").string());
+TEST_CASE(
+    "--repeat flies so many flights in one host, each with its own log; equal flights have equal bytes") {
+  const Result r = fulmar("run " + hourglass + " --json --duration 5 --repeat 3 --log " +
+                          (folder() / "again.mcap").string());
   REQUIRE(r.code == 0);
   const json flights = json::parse(r.out)["flights"];
   REQUIRE(flights.size() == 3);
@@ -267,11 +286,14 @@ void put(const fs::path& from, const fs::path& to) {
 
 }  // namespace
 
-TEST_CASE("--watch flies again with a plugin that has changed, compares, and stays with the old one when the new one is no good") {
+TEST_CASE(
+    "--watch flies again with a plugin that has changed, compares, and stays with the old one when the new "
+    "one is no good") {
   const fs::path mine = folder() / "mine.so", lib = FULMAR_PLUGIN_DIR;
   put(lib / "control_slc.so", mine);
   const fs::path file =
-      mission("done: \"nav.state.height_m > 40 m\"\n" + plan + "  mine: {fills: outer, use: mine.so/Outer, rate: 100 Hz}\n" +
+      mission("done: \"nav.state.height_m > 40 m\"\n" + plan +
+              "  mine: {fills: outer, use: mine.so/Outer, rate: 100 Hz}\n" +
               "phases:\n  takeoff: {outer: {use: mine, set: {law: takeoff}}}\n  cruise: {outer: mine}\n");
   const Background watch("run " + file.string() + " --no-log --watch");
   REQUIRE(watch.says("waiting for a change"));
@@ -293,13 +315,14 @@ TEST_CASE("--watch --build builds when a source has changed, and tells when that
   put(fs::path(FULMAR_PLUGIN_DIR) / "control_slc.so", place / "next.so");
   put(fs::path(FULMAR_PLUGIN_DIR) / "control_tecs.so", place / "mine.so");
   const fs::path general =
-      mission("done: \"nav.state.height_m > 40 m\"\n" + plan + "  mine: {fills: outer, use: mine.so/Outer, rate: 100 Hz}\n" +
+      mission("done: \"nav.state.height_m > 40 m\"\n" + plan +
+              "  mine: {fills: outer, use: mine.so/Outer, rate: 100 Hz}\n" +
               "phases:\n  takeoff: {outer: {use: mine, set: {law: takeoff}}}\n  cruise: {outer: mine}\n");
   fs::copy_file(general, place / "mission.yaml");
   std::ofstream(place / "law.cpp") << "1\n";
-  const Background watch("run " + (place / "mission.yaml").string() + " --no-log --watch --build \"grep -q 1 " +
-                         (place / "law.cpp").string() + " && mv " + (place / "next.so").string() + " " + (place / "mine.so").string() +
-                         "\"");
+  const Background watch("run " + (place / "mission.yaml").string() +
+                         " --no-log --watch --build \"grep -q 1 " + (place / "law.cpp").string() + " && mv " +
+                         (place / "next.so").string() + " " + (place / "mine.so").string() + "\"");
   REQUIRE(watch.says("waiting for a change"));
   std::ofstream(place / "law.cpp") << "nonsense\n";
   REQUIRE(watch.says("the build failed; what flew before stays as it is"));
@@ -311,7 +334,10 @@ TEST_CASE("--watch --build builds when a source has changed, and tells when that
 TEST_CASE("what cannot be is refused before anything flies") {
   const Result command = fulmar("runn " + hourglass);
   CHECK(command.code == 2);
-  CHECK(command.err.find("fulmar: there is no command 'runn'. Did you mean 'run'? Valid: run, check, graph, inspect, new") == 0);
+  CHECK(
+      command.err.find(
+          "fulmar: there is no command 'runn'. Did you mean 'run'? Valid: run, check, graph, inspect, new") ==
+      0);
   const Result driver = fulmar("run " + hourglass + " --no-log --drivers-from nowhere.mcap");
   CHECK(driver.code == 1);
   CHECK(driver.err.find("has no component with 'run: driver'") != std::string::npos);
@@ -342,7 +368,8 @@ TEST_CASE("an interrupt during a build ends the build and the program") {
   fs::create_directories(place);
   std::ofstream(place / "law.cpp") << "1\n";
   fs::copy_file(mission("done: \"nav.state.height_m > 20 m\"\n" + plan), place / "mission.yaml");
-  const Background watch("run " + (place / "mission.yaml").string() + " --no-log --watch --build \"sleep 4321\"");
+  const Background watch("run " + (place / "mission.yaml").string() +
+                         " --no-log --watch --build \"sleep 4321\"");
   REQUIRE(watch.says("waiting for a change"));
   std::ofstream(place / "law.cpp") << "2 \n";
   REQUIRE(watch.says("building"));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Signals to a program that flies hardware (core/run/test/craft.cpp): an armed aircraft is not left by accident.
+// Signals to a program that flies hardware (core/run/test/craft.cpp): an armed aircraft is not left by
+// accident.
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -31,19 +32,22 @@ struct Program {
     fs::create_directories(folder);
     fs::remove(err);
     const fs::path mission = folder / "craft.yaml";
-    std::ofstream(mission) << "mission: craft\nio: fcu\nrecord: " << record
-                           << "\nfailsafe: {u_frac: -0.25, for: 0.5 s}\n"
-                              "roles:\n  vehicle: {in: {command: law.command}, out: {status: State}}\n"
-                              "  law: {in: {state: vehicle.status}, out: {command: Command}}\n"
-                              "components:\n  craft: {fills: vehicle, use: craft/Craft, params: {real_time: true}}\n"
-                              "  law_a: {fills: law, use: craft/Hoarder, run: tick}\n"
-                              "phases:\n  first: {next: [{to: second, when: \"vehicle.status.tick_s > 0.1 s\"}]}\n  second: {}\n";
+    std::ofstream(mission)
+        << "mission: craft\nio: fcu\nrecord: " << record
+        << "\nfailsafe: {u_frac: -0.25, for: 0.5 s}\n"
+           "roles:\n  vehicle: {in: {command: law.command}, out: {status: State}}\n"
+           "  law: {in: {state: vehicle.status}, out: {command: Command}}\n"
+           "components:\n  craft: {fills: vehicle, use: craft/Craft, params: {real_time: true}}\n"
+           "  law_a: {fills: law, use: craft/Hoarder, run: tick}\n"
+           "phases:\n  first: {next: [{to: second, when: \"vehicle.status.tick_s > 0.1 s\"}]}\n  second: "
+           "{}\n";
     setenv("FULMAR_PLUGIN_PATH", FULMAR_TEST_PLUGIN_DIR, 1);
     pid = fork();
     if (pid == 0) {
       dup2(open(err.c_str(), O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
       dup2(open("/dev/null", O_WRONLY), STDOUT_FILENO);
-      execl(FULMAR_BIN_DIR "/fulmar", "fulmar", "run", mission.c_str(), "--set", set.c_str(), static_cast<char*>(nullptr));
+      execl(FULMAR_BIN_DIR "/fulmar", "fulmar", "run", mission.c_str(), "--set", set.c_str(),
+            static_cast<char*>(nullptr));
       _exit(99);
     }
   }
@@ -78,7 +82,9 @@ struct Program {
 
 }  // namespace
 
-TEST_CASE("the first signal is refused while armed, the second gives up control in order, and no alarm ends an armed flight") {
+TEST_CASE(
+    "the first signal is refused while armed, the second gives up control in order, and no alarm ends an "
+    "armed flight") {
   Program program("craft.arm_at=0");
   REQUIRE(program.says("phase second"));
   program.send(SIGTERM);
@@ -116,7 +122,9 @@ TEST_CASE("a signal ends the flight of a disarmed aircraft at once") {
   CHECK(program.text().find("the aircraft is armed") == std::string::npos);
 }
 
-TEST_CASE("while a component hangs, a second signal ends the program although the aircraft is armed: nobody flies it any more") {
+TEST_CASE(
+    "while a component hangs, a second signal ends the program although the aircraft is armed: nobody flies "
+    "it any more") {
   Program program("law_a.hang_at=0.5");
   REQUIRE(program.says("phase second"));
   pause_s(0.8);
@@ -128,7 +136,9 @@ TEST_CASE("while a component hangs, a second signal ends the program although th
   CHECK(program.text().find("fulmar: ended by the second signal in the step of law_a") != std::string::npos);
 }
 
-TEST_CASE("a host that was killed in the air takes up its phase when it is started again, beside the log of its predecessor") {
+TEST_CASE(
+    "a host that was killed in the air takes up its phase when it is started again, beside the log of its "
+    "predecessor") {
   const std::string record = "{file: " + (folder / "run.mcap").string() + "}";
   {
     Program first("craft.arm_at=0", record);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Commands that are programs of their own: found beside the host and in PATH, started with the remaining words, named when they are
-// missing.
+// Commands that are programs of their own: found beside the host and in PATH, started with the remaining
+// words, named when they are missing.
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -35,8 +35,8 @@ struct Home {
   };
   Result fulmar(const std::string& arguments) const {
     Result r;
-    const std::string command =
-        "cd " + folder.string() + " && PATH=" + (folder / "path").string() + ":path:$PATH bin/fulmar " + arguments + " 2>&1";
+    const std::string command = "cd " + folder.string() + " && PATH=" + (folder / "path").string() +
+                                ":path:$PATH bin/fulmar " + arguments + " 2>&1";
     FILE* pipe = popen(command.c_str(), "r");
     REQUIRE(pipe != nullptr);
     char buffer[4096];
@@ -49,14 +49,17 @@ struct Home {
 
 /// Tells which program it is and what it was given, one word a line.
 std::string teller(const std::string& name, int code) {
-  return "#!/bin/sh\necho " + name + "\nfor word in \"$@\"; do echo \"[$word]\"; done\nexit " + std::to_string(code) + "\n";
+  return "#!/bin/sh\necho " + name + "\nfor word in \"$@\"; do echo \"[$word]\"; done\nexit " +
+         std::to_string(code) + "\n";
 }
 
 bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 
-TEST_CASE("a word that is no command of the host starts the program of that name with the remaining words, and ends with its code") {
+TEST_CASE(
+    "a word that is no command of the host starts the program of that name with the remaining words, and "
+    "ends with its code") {
   const Home home;
   home.program("bin/fulmar-tell", teller("beside", 7));
   home.program("path/fulmar-tell", teller("path", 8));
@@ -91,7 +94,8 @@ TEST_CASE("a command that exists nowhere is told with what there is, and a built
   home.program("other", teller("other", 0));
   const Home::Result missing = home.fulmar("areo");
   CHECK(missing.code == 2);
-  CHECK(holds(missing.text, "there is no command 'areo'. Did you mean 'aero'? Valid: run, check, graph, inspect, new, "));
+  CHECK(holds(missing.text,
+              "there is no command 'areo'. Did you mean 'aero'? Valid: run, check, graph, inspect, new, "));
   CHECK(holds(missing.text, ", aero"));
   CHECK_FALSE(holds(home.fulmar("check none.yaml").text, "\ncheck"));
   for (const char* word : {"idle", "probe", "/../other", "../other", "''"}) {
@@ -107,7 +111,9 @@ TEST_CASE("a program of ours that was not built is told with how to build it") {
   for (const std::string word : {"fcu", "ros2"}) {
     const Home::Result missing = home.fulmar(word + " status");
     CHECK(missing.code == 2);
-    CHECK(holds(missing.text, "The program fulmar-" + word + " is not there: ./fly leaves it out, `cmake --build build --target tools` makes it."));
+    CHECK(holds(missing.text,
+                "The program fulmar-" + word +
+                    " is not there: ./fly leaves it out, `cmake --build build --target tools` makes it."));
   }
   CHECK_FALSE(holds(home.fulmar("fca").text, "is not there"));
 }
@@ -126,6 +132,6 @@ TEST_CASE("a program that cannot be started is named") {
   home.program("bin/fulmar-broken", "#!/no/such/interpreter\n");
   const Home::Result r = home.fulmar("broken");
   CHECK(r.code == 1);
-  CHECK(holds(r.text,
-              "fulmar broken: " + (home.folder / "bin" / "fulmar-broken").string() + " cannot be started: No such file or directory"));
+  CHECK(holds(r.text, "fulmar broken: " + (home.folder / "bin" / "fulmar-broken").string() +
+                          " cannot be started: No such file or directory"));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Several hosts on one computer that take part in each other's flights over DDS, on loopback: three aircraft in formation, and a planner
-// on the ground for a fourth. What came in is in each log, so that each flies again alone.
+// Several hosts on one computer that take part in each other's flights over DDS, on loopback: three aircraft
+// in formation, and a planner on the ground for a fourth. What came in is in each log, so that each flies
+// again alone.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -22,20 +23,24 @@ namespace {
 constexpr double speed = 5;         // of flight to wall: three simulations and DDS take a third of one CPU
 constexpr double duration_s = 105;  // of flight: take-off, joining, two corners
 constexpr double rate_hz = 20;      // of the exports
-constexpr int most_flights = 4;     // until the machine has not held one up; the second also for the sake of a quiet one
+constexpr int most_flights =
+    4;  // until the machine has not held one up; the second also for the sake of a quiet one
 
 /// A copy of the shipped missions in a folder of its own, in a DDS domain that other tests do not use.
 struct Hosts {
   fs::path folder = fs::temp_directory_path() / ("fulmar_fleet_" + std::to_string(getpid()));
   Hosts() {
     fs::create_directories(folder);
-    fs::copy(FULMAR_SOURCE_DIR "/configs", folder / "configs", fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+    fs::copy(FULMAR_SOURCE_DIR "/configs", folder / "configs",
+             fs::copy_options::recursive | fs::copy_options::overwrite_existing);
   }
   ~Hosts() { fs::remove_all(folder); }
 
   static std::string domain() { return std::to_string(1 + getpid() % 200); }
   fs::path log(const std::string& name) const { return folder / (name + ".mcap"); }
-  fs::path mission(const std::string& name) const { return folder / "configs" / "missions" / (name + ".yaml"); }
+  fs::path mission(const std::string& name) const {
+    return folder / "configs" / "missions" / (name + ".yaml");
+  }
   /// With every sample of these ports in the log.
   void adapt(const std::string& name, const std::string& ports) const {
     std::string text = Process::text(mission(name));
@@ -44,7 +49,8 @@ struct Hosts {
     text.insert(dds + 6, "  domain: " + domain() + "\n");
     std::ofstream(mission(name)) << text << "record: {ports: [" << ports << "]}\n";
   }
-  std::unique_ptr<Process> fly(const std::string& name, double seconds, const std::vector<std::string>& more = {}) const {
+  std::unique_ptr<Process> fly(const std::string& name, double seconds,
+                               const std::vector<std::string>& more = {}) const {
     fs::remove(log(name));
     std::vector<std::string> words{FULMAR_BIN_DIR "/fulmar",
                                    "run",
@@ -63,7 +69,8 @@ struct Hosts {
   }
   /// Alone: what the others said is in the log.
   void replays_to_equal_bytes(const std::string& name) const {
-    Process replay({FULMAR_BIN_DIR "/fulmar", "replay", log(name).string(), "--json"}, folder / "replay.json", folder / "replay.err");
+    Process replay({FULMAR_BIN_DIR "/fulmar", "replay", log(name).string(), "--json"}, folder / "replay.json",
+                   folder / "replay.err");
     CHECK_MESSAGE(replay.wait(60) == 0, name << ": " << replay.err());
     CHECK(number(replay.out(), "differing_bytes", "differing_bytes") == 0);
   }
@@ -73,7 +80,8 @@ using States = std::vector<Logged<VehicleState>>;
 
 /// The last one of a time, or before it.
 const VehicleState& at(const States& all, double t) {
-  const auto after = std::upper_bound(all.begin(), all.end(), t, [](double time, const auto& l) { return time < l.t; });
+  const auto after =
+      std::upper_bound(all.begin(), all.end(), t, [](double time, const auto& l) { return time < l.t; });
   return after == all.begin() ? after->value : std::prev(after)->value;
 }
 
@@ -91,7 +99,8 @@ struct Flight {
 /// What has been heard of another one, by when that one has said it.
 struct Link {
   double share = 0;    ///< of what was heard that the other has said
-  double shift_s = 0;  ///< from the other's time to one's own: both keep pace with the clock on the wall, whatever holds up a sample
+  double shift_s = 0;  ///< from the other's time to one's own: both keep pace with the clock on the wall,
+                       ///< whatever holds up a sample
   std::vector<std::pair<double, double>> words;  ///< when each was heard, and when it was said
 };
 
@@ -112,24 +121,28 @@ Link link(const Flight& own, const std::string& name, const Flight& other) {
 }
 
 /// Distance of an aircraft from its slot, both as their own estimators have it.
-double slot_rms(const Flight& f, const Flight& leader, const Eigen::Vector3d& offset, double from, double to) {
+double slot_rms(const Flight& f, const Flight& leader, const Eigen::Vector3d& offset, double from,
+                double to) {
   const double shift_s = link(f, "leader", leader).shift_s;
   double square = 0;
   int n = 0;
   for (const auto& l : f.nav) {
     if (l.t < from || l.t > to) continue;
     const VehicleState& lead = at(leader.nav, l.t - shift_s);
-    const double chi = std::atan2(lead.velocity_mps.east, lead.velocity_mps.north), c = std::cos(chi), s = std::sin(chi);
+    const double chi = std::atan2(lead.velocity_mps.east, lead.velocity_mps.north), c = std::cos(chi),
+                 s = std::sin(chi);
     const Eigen::Vector3d slot(c * offset.x() - s * offset.y(), s * offset.x() + c * offset.y(), offset.z());
     square += (place(l.value) - place(lead) - slot).squaredNorm(), ++n;
   }
   return n > 0 ? std::sqrt(square / n) : NAN;
 }
 
-bool both_fly(const VehicleState& own, const VehicleState& other) { return own.height_m > 5 && other.height_m > 5; }
+bool both_fly(const VehicleState& own, const VehicleState& other) {
+  return own.height_m > 5 && other.height_m > 5;
+}
 
-/// When a wingman in the air did not know where the other one was: the last word was old, or its own time was apart from the other's.
-/// Seen from the logs alone.
+/// When a wingman in the air did not know where the other one was: the last word was old, or its own time was
+/// apart from the other's. Seen from the logs alone.
 std::vector<double> out_of_touch(const Flight& own, const std::string& name, const Flight& other) {
   constexpr double old_s = 0.5;  // of flight: ten samples
   const Link heard = link(own, name, other);
@@ -148,11 +161,12 @@ struct Separation {
   double share = 0;  ///< of the time with both in the air that has been looked at
 };
 
-/// Of where two aircraft really were while both were in the air. Nobody keeps clear of what it cannot know: while a host stands still the
-/// others fly on, 20 m a second, and its own aircraft hangs in the air; so these times are left out, with those in which they part again.
-/// All other times count, whatever the machine did.
-Separation separation(const Flight& own, const Flight& other, double shift_s, const std::vector<double>& own_lost,
-                      const std::vector<double>& other_lost) {
+/// Of where two aircraft really were while both were in the air. Nobody keeps clear of what it cannot know:
+/// while a host stands still the others fly on, 20 m a second, and its own aircraft hangs in the air; so
+/// these times are left out, with those in which they part again. All other times count, whatever the machine
+/// did.
+Separation separation(const Flight& own, const Flight& other, double shift_s,
+                      const std::vector<double>& own_lost, const std::vector<double>& other_lost) {
   constexpr double parting_s = 10;
   const auto lost = [](const std::vector<double>& times, double t) {
     const auto first = std::lower_bound(times.begin(), times.end(), t - parting_s);
@@ -172,10 +186,12 @@ Separation separation(const Flight& own, const Flight& other, double shift_s, co
   return s;
 }
 
-/// An aircraft whose plan comes from another computer, and that computer: a host whose own aircraft stays on the ground.
+/// An aircraft whose plan comes from another computer, and that computer: a host whose own aircraft stays on
+/// the ground.
 void write_planner(const Hosts& hosts) {
   const std::string place =
-      "io: sim\nairframe: ../airframes/anaconda.yaml\norigin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\n";
+      "io: sim\nairframe: ../airframes/anaconda.yaml\norigin: {lat: 40.2463724, lon: -111.6474138, alt_msl: "
+      "1387 m}\n";
   std::ofstream(hosts.mission("far")) << "mission: far\nextends: common.yaml\n"
                                       << place << R"(
 seed: 7
@@ -209,10 +225,13 @@ struct Fleet {
   std::size_t plans = 0;     // that came from the laptop
   double stood_still_s = 9;  // the machine, on the wall: samples were late by that
   bool quiet() const { return stood_still_s < 0.1; }
-  bool held_up() const { return stood_still_s >= 0.4; }  // two seconds of flight: no wingman is where it should be after that
+  bool held_up() const {
+    return stood_still_s >= 0.4;
+  }  // two seconds of flight: no wingman is where it should be after that
 };
 
-Flight read(const Hosts& hosts, const std::string& name, Process& process, const std::vector<std::string>& imports) {
+Flight read(const Hosts& hosts, const std::string& name, Process& process,
+            const std::vector<std::string>& imports) {
   Flight f;
   f.code = process.wait(1);
   f.json = process.out(), f.said = process.err();
@@ -220,16 +239,20 @@ Flight read(const Hosts& hosts, const std::string& name, Process& process, const
   const core::McapFile file = core::read_mcap(hosts.log(name));
   f.nav = logged<VehicleState>(file, "/nav/state");
   f.truth = logged<VehicleState>(file, "/vehicle/truth");
-  for (const std::string& import : imports) f.heard[import] = logged<VehicleState>(file, "/" + import + "/heard");
+  for (const std::string& import : imports)
+    f.heard[import] = logged<VehicleState>(file, "/" + import + "/heard");
   return f;
 }
 
 void fly_all(Fleet& f) {
   // A machine that stands still for a third of a second stands still for two of the flight.
-  const std::vector<std::string> patience{"--set", "leader.timeout=8", "--set", "other.timeout=8", "--set", "formation.timeout=10"};
+  const std::vector<std::string> patience{"--set", "leader.timeout=8",    "--set", "other.timeout=8",
+                                          "--set", "formation.timeout=10"};
   const Standstill machine(false);
-  const auto leader = f.hosts.fly("fleet_leader", duration_s), right = f.hosts.fly("fleet_right", duration_s, patience),
-             left = f.hosts.fly("fleet_left", duration_s, patience), far = f.hosts.fly("far", 85), laptop = f.hosts.fly("laptop", 85);
+  const auto leader = f.hosts.fly("fleet_leader", duration_s),
+             right = f.hosts.fly("fleet_right", duration_s, patience),
+             left = f.hosts.fly("fleet_left", duration_s, patience), far = f.hosts.fly("far", 85),
+             laptop = f.hosts.fly("laptop", 85);
   for (Process* process : {leader.get(), right.get(), left.get(), far.get(), laptop.get()}) process->wait(90);
   f.stood_still_s = machine.worst_s();
   if (!f.quiet()) MESSAGE("this machine stood still for " << 1e3 * f.stood_still_s << " ms");
@@ -238,7 +261,8 @@ void fly_all(Fleet& f) {
   f.left = read(f.hosts, "fleet_left", *left, {"leader", "other"});
   f.far = read(f.hosts, "far", *far, {});
   f.laptop.code = laptop->wait(1), f.laptop.json = laptop->out(), f.laptop.said = laptop->err();
-  if (f.far.code == 0) f.plans = logged<fulmar::Plan>(core::read_mcap(f.hosts.log("far")), "/manage/plan").size();
+  if (f.far.code == 0)
+    f.plans = logged<fulmar::Plan>(core::read_mcap(f.hosts.log("far")), "/manage/plan").size();
 }
 
 const Fleet& fleet() {
@@ -257,26 +281,32 @@ const Fleet& fleet() {
 
 TEST_CASE("three hosts on one computer fly in formation by what they tell each other over DDS") {
   const Fleet& f = fleet();
-  for (const Flight* flight : {&f.leader, &f.right, &f.left}) REQUIRE_MESSAGE(flight->code == 0, flight->said);
-  for (const auto& [flight, offset] :
-       {std::pair{&f.right, Eigen::Vector3d(-20, 20, -5)}, std::pair{&f.left, Eigen::Vector3d(-20, -20, 5)}}) {
+  for (const Flight* flight : {&f.leader, &f.right, &f.left})
+    REQUIRE_MESSAGE(flight->code == 0, flight->said);
+  for (const auto& [flight, offset] : {std::pair{&f.right, Eigen::Vector3d(-20, 20, -5)},
+                                       std::pair{&f.left, Eigen::Vector3d(-20, -20, 5)}}) {
     const std::string& json = flight->json;
     CHECK_MESSAGE(json.find("\"guards\": []") != std::string::npos, json);
     const double end = flight->nav.back().t, rms = slot_rms(*flight, f.leader, offset, end * 2 / 3, end);
     MESSAGE("distance from the slot in the last third: " << rms << " m rms");
-    // 1 to 1.5 m. A third of a second without the leader is 1.5 s of flight, in which a wingman can be 10 m off; of more nothing is said.
+    // 1 to 1.5 m. A third of a second without the leader is 1.5 s of flight, in which a wingman can be 10 m
+    // off; of more nothing is said.
     if (!f.held_up()) CHECK(rms < (f.quiet() ? 3 : 10));
   }
   if (f.held_up())
-    FAIL_CHECK("this machine stood still for " << 1e3 * f.stood_still_s << " ms in the last of " << most_flights
-                                               << " flights: how well they keep their slots is not known; it has too much else to do");
+    FAIL_CHECK("this machine stood still for "
+               << 1e3 * f.stood_still_s << " ms in the last of " << most_flights
+               << " flights: how well they keep their slots is not known; it has too much else to do");
 }
 
 TEST_CASE("no two of the formation come nearer than their separation, in truth") {
   const Fleet& f = fleet();
   for (const Flight* flight : {&f.leader, &f.right, &f.left}) REQUIRE(flight->code == 0);
   const std::array<std::tuple<const Flight*, const char*, const Flight*>, 4> pairs{
-      {{&f.right, "leader", &f.leader}, {&f.left, "leader", &f.leader}, {&f.right, "other", &f.left}, {&f.left, "other", &f.right}}};
+      {{&f.right, "leader", &f.leader},
+       {&f.left, "leader", &f.leader},
+       {&f.right, "other", &f.left},
+       {&f.left, "other", &f.right}}};
   std::map<const Flight*, std::vector<double>> lost;
   for (const auto& [own, name, other] : pairs) {
     const std::vector<double> times = out_of_touch(*own, name, *other);
@@ -302,12 +332,15 @@ TEST_CASE("what one exports the others import, at its rate, with the latency in 
       const std::string port = std::string(name) + ".heard";
       REQUIRE(heard.size() > 100);
       const double hz = static_cast<double>(heard.size() - 1) / (heard.back().t - heard.front().t);
-      const double mean = flight->import(port, "latency_mean_s"), most = flight->import(port, "latency_max_s");
-      MESSAGE(port << ": " << hz << " Hz of flight, latency mean " << 1e3 * mean << " ms, max " << 1e3 * most << " ms on the wall");
+      const double mean = flight->import(port, "latency_mean_s"),
+                   most = flight->import(port, "latency_max_s");
+      MESSAGE(port << ": " << hz << " Hz of flight, latency mean " << 1e3 * mean << " ms, max " << 1e3 * most
+                   << " ms on the wall");
       CHECK(hz == doctest::Approx(rate_hz).epsilon(f.quiet() ? 0.05 : 0.5));
       CHECK(heard.front().t < 20);
       CHECK(flight->import(port, "refused") == 0);
-      CHECK(flight->import(port, "received") == doctest::Approx(static_cast<double>(heard.size())).epsilon(0.01));
+      CHECK(flight->import(port, "received") ==
+            doctest::Approx(static_cast<double>(heard.size())).epsilon(0.01));
       CHECK(mean > 10e-6);  // no thread is woken in less
       CHECK(mean < (f.quiet() ? 0.02 : 0.5));
       CHECK(most >= mean);
@@ -326,8 +359,9 @@ TEST_CASE("a planner in another host leads an aircraft round a no-fly zone") {
     if (p.north < 200 && passed == 0 && l.t > 40) passed = l.t;
     if (l.value.height_m > 20 && l.t > 40) least = std::min(least, std::hypot(p.north, p.east + 150) - 80);
   }
-  MESSAGE(f.plans << " plans; " << least << " m from the zone's rim; plans come in " << 1e3 * f.far.import("manage.plan", "latency_mean_s")
-                  << " ms, states in " << 1e3 * f.laptop.import("detour.state", "latency_mean_s") << " ms");
+  MESSAGE(f.plans << " plans; " << least << " m from the zone's rim; plans come in "
+                  << 1e3 * f.far.import("manage.plan", "latency_mean_s") << " ms, states in "
+                  << 1e3 * f.laptop.import("detour.state", "latency_mean_s") << " ms");
   CHECK(passed > 0);
   CHECK(least > 0);
   CHECK(f.far.import("manage.plan", "received") == static_cast<double>(f.plans));
@@ -337,5 +371,6 @@ TEST_CASE("a planner in another host leads an aircraft round a no-fly zone") {
 
 TEST_CASE("each of them flies again alone, byte for byte") {
   const Fleet& f = fleet();
-  for (const char* name : {"fleet_leader", "fleet_right", "fleet_left", "far", "laptop"}) f.hosts.replays_to_equal_bytes(name);
+  for (const char* name : {"fleet_leader", "fleet_right", "fleet_left", "far", "laptop"})
+    f.hosts.replays_to_equal_bytes(name);
 }

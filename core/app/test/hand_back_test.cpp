@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The hourglass, whose pilot flies for a while and gives back: controllers that did not obey have not wound up.
+// The hourglass, whose pilot flies for a while and gives back: controllers that did not obey have not wound
+// up.
 #include <doctest/doctest.h>
 #include <unistd.h>
 
@@ -17,11 +18,14 @@ namespace {
 
 Graph mission(bool held) {
   const std::string configs = std::string(FULMAR_SOURCE_DIR) + "/configs/";
-  const fs::path file = fs::temp_directory_path() / ("fulmar-hand-back-" + std::to_string(getpid()) + ".yaml");
-  std::ofstream(file) << "mission: hand_back\nextends: " << configs << "missions/common.yaml\nairframe: " << configs
-                      << "airframes/anaconda.yaml\norigin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\nseed: 7\n"
-                      << (held ? "" : "control: []\n") << "components:\n  sim:  {params: {sensors: rosflight, start_heading: 135 deg}}\n"
-                      << "  plan: {params: {plan: " << configs << "plans/hourglass.yaml}}\n";
+  const fs::path file =
+      fs::temp_directory_path() / ("fulmar-hand-back-" + std::to_string(getpid()) + ".yaml");
+  std::ofstream(file)
+      << "mission: hand_back\nextends: " << configs << "missions/common.yaml\nairframe: " << configs
+      << "airframes/anaconda.yaml\norigin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\nseed: 7\n"
+      << (held ? "" : "control: []\n")
+      << "components:\n  sim:  {params: {sensors: rosflight, start_heading: 135 deg}}\n"
+      << "  plan: {params: {plan: " << configs << "plans/hourglass.yaml}}\n";
   Graph graph = load_mission(file.string());
   fs::remove(file);
   return graph;
@@ -31,7 +35,8 @@ class Trial {
  public:
   explicit Trial(bool held) : graph_(mission(held)), flight_(graph_, options()) {}
   void pilot(double roll, double pitch, double throttle) {
-    set("stick_roll", roll), set("stick_pitch", pitch), set("stick_throttle", throttle), set("pilot_flies", 0, 1);
+    set("stick_roll", roll), set("stick_pitch", pitch), set("stick_throttle", throttle),
+        set("pilot_flies", 0, 1);
   }
   void give_back() { set("pilot_flies", 0, 0); }
   void fly_until(double t_s) {
@@ -47,8 +52,8 @@ class Trial {
     flight_.set_parameter("sim", param, v);
   }
   double field(const char* component, const char* port, const char* name) const {
-    const auto at =
-        std::find_if(graph_.components.begin(), graph_.components.end(), [&](const Component& c) { return c.name == component; });
+    const auto at = std::find_if(graph_.components.begin(), graph_.components.end(),
+                                 [&](const Component& c) { return c.name == component; });
     REQUIRE(at != graph_.components.end());
     const int output = at->info().output(port);
     const FieldRef ref = resolve_field(*at->info().outputs[static_cast<std::size_t>(output)].type, name);
@@ -66,8 +71,11 @@ class Trial {
 
 }  // namespace
 
-TEST_CASE("a pilot who has flown for 20 s gets no kick of the elevator when he gives back; without 'control' he does") {
-  constexpr double trim_stick = -0.165, throw_rad = 0.6981317;  // stick that holds about cruise; 40 degrees, of the airframe file
+TEST_CASE(
+    "a pilot who has flown for 20 s gets no kick of the elevator when he gives back; without 'control' he "
+    "does") {
+  constexpr double trim_stick = -0.165,
+                   throw_rad = 0.6981317;  // stick that holds about cruise; 40 degrees, of the airframe file
   double kick[2], lowest[2];
   for (const bool held : {false, true}) {
     Trial trial(held);
@@ -79,10 +87,11 @@ TEST_CASE("a pilot who has flown for 20 s gets no kick of the elevator when he g
     trial.fly_until(80.0025);  // the first command that the aircraft obeys
     kick[held] = std::abs(trial.elevator() + trim_stick * throw_rad);
     lowest[held] = 1e9;
-    for (double t = 80; t < 100; t += 0.1) trial.fly_until(t), lowest[held] = std::min(lowest[held], trial.truth("height_m"));
+    for (double t = 80; t < 100; t += 0.1)
+      trial.fly_until(t), lowest[held] = std::min(lowest[held], trial.truth("height_m"));
   }
-  MESSAGE("elevator's kick: " << kick[false] << " rad without, " << kick[true] << " rad with; lowest " << lowest[false] << " m, "
-                              << lowest[true] << " m");
+  MESSAGE("elevator's kick: " << kick[false] << " rad without, " << kick[true] << " rad with; lowest "
+                              << lowest[false] << " m, " << lowest[true] << " m");
   CHECK(kick[false] > 0.5);
   CHECK(kick[true] < 0.15);
   CHECK(lowest[true] > 60);  // of 70 m wanted

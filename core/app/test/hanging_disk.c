@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A disk that hangs, for LD_PRELOAD: as long as the file is there that FULMAR_HANG names, nothing is written to files that end in .part.
+// A disk that hangs, for LD_PRELOAD: as long as the file is there that FULMAR_HANG names, nothing is written
+// to files that end in .part.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <stdio.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hardware in the loop without hardware: the host and the program fcu_peer as two processes, with a pseudo-terminal in between.
+// Hardware in the loop without hardware: the host and the program fcu_peer as two processes, with a
+// pseudo-terminal in between.
 #pragma once
 #include <fcntl.h>
 #include <sched.h>
@@ -41,7 +42,8 @@ inline void nap(double seconds) {
 /// A program with its output in files; killed when it goes out of scope.
 class Process {
  public:
-  Process(const std::vector<std::string>& words, fs::path out, fs::path err) : out_(std::move(out)), err_(std::move(err)) {
+  Process(const std::vector<std::string>& words, fs::path out, fs::path err)
+      : out_(std::move(out)), err_(std::move(err)) {
     std::vector<char*> argv;
     for (const auto& w : words) argv.push_back(const_cast<char*>(w.c_str()));
     argv.push_back(nullptr);
@@ -104,7 +106,8 @@ inline double number(const std::string& json, const std::string& block, const st
 
 /// The peer's truth, a row per 10 ms.
 struct Row {
-  double t, north, east, height, roll, pitch, yaw, airspeed, throttle, aileron, elevator, rudder, armed, offboard, override, commands;
+  double t, north, east, height, roll, pitch, yaw, airspeed, throttle, aileron, elevator, rudder, armed,
+      offboard, override, commands;
   std::array<double, 4> u;  ///< the last command: throttle, aileron, elevator, rudder
 };
 inline std::vector<Row> rows(const fs::path& file) {
@@ -116,8 +119,9 @@ inline std::vector<Row> rows(const fs::path& file) {
     std::replace(line.begin(), line.end(), ',', ' ');
     std::istringstream s(line);
     Row r{};
-    s >> r.t >> r.north >> r.east >> r.height >> r.roll >> r.pitch >> r.yaw >> r.airspeed >> r.throttle >> r.aileron >> r.elevator >>
-        r.rudder >> r.armed >> r.offboard >> r.override >> r.commands >> r.u[0] >> r.u[1] >> r.u[2] >> r.u[3];
+    s >> r.t >> r.north >> r.east >> r.height >> r.roll >> r.pitch >> r.yaw >> r.airspeed >> r.throttle >>
+        r.aileron >> r.elevator >> r.rudder >> r.armed >> r.offboard >> r.override >> r.commands >> r.u[0] >>
+        r.u[1] >> r.u[2] >> r.u[3];
     if (s && r.t >= 0) all.push_back(r);
   }
   return all;
@@ -126,19 +130,22 @@ inline std::vector<Row> rows(const fs::path& file) {
 /// A folder for one flight, and the hourglass until this is so. The log has every sample of what is flown by.
 struct Scratch {
   fs::path folder;
-  explicit Scratch(const char* name) : folder(fs::temp_directory_path() / ("fulmar_hil_" + std::to_string(getpid()) + "_" + name)) {
+  explicit Scratch(const char* name)
+      : folder(fs::temp_directory_path() / ("fulmar_hil_" + std::to_string(getpid()) + "_" + name)) {
     fs::create_directories(folder);
   }
   ~Scratch() { fs::remove_all(folder); }
   fs::path log() const { return folder / "flight.mcap"; }
   std::string mission(const std::string& done) const {
-    const std::string configs = std::string(FULMAR_SOURCE_DIR) + "/configs/", file = (folder / "hil.yaml").string();
+    const std::string configs = std::string(FULMAR_SOURCE_DIR) + "/configs/",
+                      file = (folder / "hil.yaml").string();
     std::ofstream(file)
         << "mission: hil\nextends: " << configs << "missions/common.yaml\nairframe: " << configs
         << "airframes/anaconda.yaml\norigin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\nseed: 7\n"
         << "record: {file: " << log().string() << ", ports: [nav.state, inner.actuators]}\n"
         << "done: \"" << done << "\"\ncomponents:\n"
-        << "  sim:  {params: {sensors: rosflight, wind_ned: [3.5355, -3.5355, 0], turbulence: light, start_heading: 135 deg}}\n"
+        << "  sim:  {params: {sensors: rosflight, wind_ned: [3.5355, -3.5355, 0], turbulence: light, "
+           "start_heading: 135 deg}}\n"
         << "  plan: {params: {plan: " << configs << "plans/hourglass.yaml}}\n";
     return file;
   }
@@ -149,8 +156,9 @@ struct Flown {
   std::string json, said, peer;
   std::vector<Row> truth;
   double wall = 0;
-  bool measured = true;    ///< false: the machine did not let it be flown
-  double stood_still = 0;  ///< s on the wall: how late the peer or a thread of its own on any CPU was, at worst
+  bool measured = true;  ///< false: the machine did not let it be flown
+  double stood_still =
+      0;  ///< s on the wall: how late the peer or a thread of its own on any CPU was, at worst
   double tracking(const char* key) const { return number(json, "tracking_rmse", key); }
 };
 
@@ -162,12 +170,14 @@ struct Plan {
 };
 
 /// The pilot disarms when the host says that it is done.
-inline Flown fly_peer(const Scratch& s, const Plan& plan, const std::vector<std::string>& peer_words, bool log) {
+inline Flown fly_peer(const Scratch& s, const Plan& plan, const std::vector<std::string>& peer_words,
+                      bool log) {
   fs::remove(s.log());
   const auto file = [&](const char* name) { return s.folder / name; };
   const std::string port = file("fcu").string(), factor = std::to_string(plan.scale);
-  std::vector<std::string> words{FULMAR_BIN_DIR "/fcu_peer", "--link", port, "--scale", factor, "--mission-seed", "7", "--truth",
-                                 file("truth.csv").string()};
+  std::vector<std::string> words{
+      FULMAR_BIN_DIR "/fcu_peer", "--link", port, "--scale", factor, "--mission-seed", "7", "--truth",
+      file("truth.csv").string()};
   words.insert(words.end(), peer_words.begin(), peer_words.end());
   const bool realtime = realtime_allowed();  // what else the machine does is no matter then
   if (realtime) words.emplace_back("--realtime");
@@ -175,10 +185,12 @@ inline Flown fly_peer(const Scratch& s, const Plan& plan, const std::vector<std:
   for (int k = 0; k < 250 && !fs::exists(port); ++k) nap(0.02);
   Flown f;
   const double begun = wall_s();
-  std::vector<std::string> flight{FULMAR_BIN_DIR "/fulmar", "run",   s.mission(plan.done),      "--io", "fcu", "--json", "--set",
-                                  "fcu.port=" + port,       "--set", "fcu.time_scale=" + factor};
+  std::vector<std::string> flight{
+      FULMAR_BIN_DIR "/fulmar", "run",   s.mission(plan.done),      "--io", "fcu", "--json", "--set",
+      "fcu.port=" + port,       "--set", "fcu.time_scale=" + factor};
   if (!log) flight.emplace_back("--no-log");
-  if (plan.duration > 0) flight.insert(flight.end(), {"--duration", std::to_string(plan.duration + 2)});  // armed after 2 s
+  if (plan.duration > 0)
+    flight.insert(flight.end(), {"--duration", std::to_string(plan.duration + 2)});  // armed after 2 s
   if (realtime) flight.emplace_back("--realtime");
   const Standstill machine(realtime);
   Process host(flight, file("host.json"), file("host.err"));
@@ -200,8 +212,10 @@ inline Flown fly_peer(const Scratch& s, const Plan& plan, const std::vector<std:
   return f;
 }
 
-/// A flight during which the machine did not stand still: one in which it did says nothing, and is flown again.
-inline Flown fly_undisturbed(const Scratch& s, const Plan& plan, const std::vector<std::string>& peer_words = {}, bool log = false) {
+/// A flight during which the machine did not stand still: one in which it did says nothing, and is flown
+/// again.
+inline Flown fly_undisturbed(const Scratch& s, const Plan& plan,
+                             const std::vector<std::string>& peer_words = {}, bool log = false) {
   static std::atomic<int> left = 8;  // of the flights that may be in vain, in all tests together
   // The controller forgets a command after 100 ms of its time.
   const double most_s = 0.075 / plan.scale;
@@ -214,7 +228,8 @@ inline Flown fly_undisturbed(const Scratch& s, const Plan& plan, const std::vect
   }
   Flown none;
   none.measured = false;
-  none.said = "this machine stood still in each flight, at worst for " + held_up + " of " + std::to_string(std::lround(1e3 * most_s)) +
+  none.said = "this machine stood still in each flight, at worst for " + held_up + " of " +
+              std::to_string(std::lround(1e3 * most_s)) +
               " ms that are allowed: nothing can be said of the flight controller's link";
   return none;
 }

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/loader/table.hpp"
-#include "core/types/type.hpp"
 #include "core/log/reader.hpp"
+#include "core/types/type.hpp"
 #include "core/types/wire.hpp"
 #include "fulmar/schema.hpp"
 
@@ -26,7 +26,9 @@ std::vector<Logged<T>> logged(const core::McapFile& file, const std::string& top
   const core::TypePtr type = core::copy_type(*detail::type_table<T>());
   const std::uint16_t channel = file.channel(topic);
   const auto first_ns = static_cast<std::int64_t>(file.messages.front().log_ns);
-  const auto flight_s = [&](std::uint64_t ns) { return 1e-9 * static_cast<double>(static_cast<std::int64_t>(ns) - first_ns); };
+  const auto flight_s = [&](std::uint64_t ns) {
+    return 1e-9 * static_cast<double>(static_cast<std::int64_t>(ns) - first_ns);
+  };
   std::vector<Logged<T>> all;
   for (const core::McapFile::Message& m : file.messages) {
     if (m.channel != channel) continue;
@@ -54,7 +56,8 @@ std::vector<Gap> gaps(const std::vector<Logged<T>>& all, double least, double mo
 template <class T>
 std::vector<Logged<T>> between(const std::vector<Logged<T>>& all, double from, double to) {
   std::vector<Logged<T>> some;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(some), [&](const Logged<T>& l) { return l.t > from && l.t <= to; });
+  std::copy_if(all.begin(), all.end(), std::back_inserter(some),
+               [&](const Logged<T>& l) { return l.t > from && l.t <= to; });
   return some;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The hourglass through the serial protocol: the host, a flight controller in software that behaves as ROSflight's, and sim_aero's
-// aircraft. FULMAR_LONG=1 flies two circuits in real time; otherwise the first turn and half a leg, five times faster.
+// The hourglass through the serial protocol: the host, a flight controller in software that behaves as
+// ROSflight's, and sim_aero's aircraft. FULMAR_LONG=1 flies two circuits in real time; otherwise the first
+// turn and half a leg, five times faster.
 #include "core/app/test/hil.hpp"
 
 #include <doctest/doctest.h>
@@ -20,17 +21,19 @@ namespace {
 
 const bool in_full = std::getenv("FULMAR_LONG") != nullptr;
 const double scale = in_full ? 1 : 5;
-const Plan circuits =
-    in_full ? Plan{"manage.progress.circuits >= 2", 0, scale, 500} : Plan{"manage.progress.circuits >= 1", 93, scale, 100};
+const Plan circuits = in_full ? Plan{"manage.progress.circuits >= 2", 0, scale, 500}
+                              : Plan{"manage.progress.circuits >= 1", 93, scale, 100};
 
 /// Least horizontal distance to where an undisturbed flight was.
 double off_track(const Row& r, const std::vector<Row>& track) {
   double least = 1e9;
-  for (std::size_t k = 0; k < track.size(); k += 5) least = std::min(least, std::hypot(track[k].north - r.north, track[k].east - r.east));
+  for (std::size_t k = 0; k < track.size(); k += 5)
+    least = std::min(least, std::hypot(track[k].north - r.north, track[k].east - r.east));
   return least;
 }
 
-/// The largest change of a command within 10 ms, as long as commands come: after a hole it is the change of a longer time.
+/// The largest change of a command within 10 ms, as long as commands come: after a hole it is the change of a
+/// longer time.
 double largest_step(const std::vector<Row>& truth, double from, double to, std::size_t channel) {
   double most = 0;
   const auto came = [&](std::size_t k) { return truth[k].commands > truth[k - 1].commands; };
@@ -64,10 +67,11 @@ Disturbed fly_disturbed() {
   const Scratch s("disturbed");
   const Plan plan{"manage.progress.circuits >= 1", 92, scale, 200};
   Disturbed made;
-  made.flown = fly_undisturbed(s, plan,
-                               {"--unplug-at", "43", "--unplug-for", "5", "--override-at", "64", "--override-until", "69",
-                                "--rc-silent-at", "79", "--rc-back-at", "82", "--mute-at", "88", "--mute-for", "0.1"},
-                               true);
+  made.flown = fly_undisturbed(
+      s, plan,
+      {"--unplug-at", "43", "--unplug-for", "5", "--override-at", "64", "--override-until", "69",
+       "--rc-silent-at", "79", "--rc-back-at", "82", "--mute-at", "88", "--mute-for", "0.1"},
+      true);
   if (made.flown.code == 0) made.log = fulmar::core::read_mcap(s.log());
   return made;
 }
@@ -98,9 +102,13 @@ TEST_CASE("the hourglass through the serial protocol tracks as the simulator wit
   const Scratch s("sim");
   const Flown sim = fly_sim(s, circuits);
   REQUIRE(sim.code == 0);
-  const auto horizontal = [](const Flown& f) { return std::hypot(f.tracking("north_m"), f.tracking("east_m")); };
-  MESSAGE("position " << horizontal(fcu) << " m, simulated " << horizontal(sim) << " m; " << fcu.wall << " s on the wall");
-  // One circuit in a hurry holds few turns to average over, and every delay of this computer counts five times.
+  const auto horizontal = [](const Flown& f) {
+    return std::hypot(f.tracking("north_m"), f.tracking("east_m"));
+  };
+  MESSAGE("position " << horizontal(fcu) << " m, simulated " << horizontal(sim) << " m; " << fcu.wall
+                      << " s on the wall");
+  // One circuit in a hurry holds few turns to average over, and every delay of this computer counts five
+  // times.
   const double alike = in_full ? 0.2 : 0.4;
   CHECK(horizontal(fcu) == doctest::Approx(horizontal(sim)).epsilon(alike));
   for (const char* key : {"airspeed_mps", "altitude_m", "course_deg", "pitch_deg", "roll_deg"}) {
@@ -128,29 +136,36 @@ struct Deviation {
   /// No surface is told to jump by more than a fifth of its throw between two samples of the controllers.
   void no_step(const char* when, double from, double to) const {
     for (const std::size_t channel : {1u, 2u, 3u}) {
-      const double here = largest_step(f.truth, from, to, channel), usual = largest_step(plain, 30, 90, channel);
-      MESSAGE(std::string(when) << ": largest change of command " << channel << " in 10 ms " << here << " of the throw, usually " << usual);
+      const double here = largest_step(f.truth, from, to, channel),
+                   usual = largest_step(plain, 30, 90, channel);
+      MESSAGE(std::string(when) << ": largest change of command " << channel << " in 10 ms " << here
+                                << " of the throw, usually " << usual);
       CHECK(here < 0.2);
     }
   }
 };
 
-TEST_CASE("cable out for 5 s in a turn, the pilot for 5 s, no radio for 3 s, silence for 100 ms: told, and flown on without a step") {
+TEST_CASE(
+    "cable out for 5 s in a turn, the pilot for 5 s, no radio for 3 s, silence for 100 ms: told, and flown "
+    "on without a step") {
   const Flown& plain = undisturbed();
   if (!flown(plain)) return;
   REQUIRE_MESSAGE(plain.truth.size() > 1000, plain.said);
   const Flown& f = disturbed().flown;
   if (!flown(f)) return;
-  for (const char* words : {"the flight controller is back after 5", "the pilot flies: attitude switch, throttle switch",
-                            "the pilot hands over", "no frames of the radio: the outputs are frozen", "frames of the radio come again"})
+  for (const char* words :
+       {"the flight controller is back after 5", "the pilot flies: attitude switch, throttle switch",
+        "the pilot hands over", "no frames of the radio: the outputs are frozen",
+        "frames of the radio come again"})
     CHECK_MESSAGE(f.said.find(words) != std::string::npos, f.said);
 
   const Deviation d{plain.truth, f};
   double back = 0;
   for (const Row& r : f.truth)
     if (r.t > 44 && r.offboard > 0 && back == 0) back = r.t;
-  MESSAGE("cable: " << d.worst(43, 60) << " m off the track, lowest " << d.lowest(43, 60) << " m, commands again after " << back - 48
-                    << " s, " << d.worst(60, 64) << " m off from 12 s on");
+  MESSAGE("cable: " << d.worst(43, 60) << " m off the track, lowest " << d.lowest(43, 60)
+                    << " m, commands again after " << back - 48 << " s, " << d.worst(60, 64)
+                    << " m off from 12 s on");
   CHECK(back > 48);
   CHECK(back < 48 + 2 * scale);  // two seconds on the wall
   CHECK(d.lowest(43, 60) > 30);
@@ -168,13 +183,16 @@ TEST_CASE("cable out for 5 s in a turn, the pilot for 5 s, no radio for 3 s, sil
   MESSAGE("pilot: lowest throttle within 2 s of the hand-back " << least_throttle);
   CHECK(least_throttle > 0.2);
 
-  MESSAGE("no radio: " << d.worst(79, 86) << " m off the track; 100 ms of silence: " << d.worst(88, 90) << " m");
+  MESSAGE("no radio: " << d.worst(79, 86) << " m off the track; 100 ms of silence: " << d.worst(88, 90)
+                       << " m");
   CHECK(d.worst(79, 86) < 20);
   CHECK(d.worst(88, 90) < 5);
   d.no_step("radio", 82.1, 88);
 }
 
-TEST_CASE("the log of the cable out for 5 s: ticks go on, inertial samples are missing, the state is invalid after 0.3 s and valid again") {
+TEST_CASE(
+    "the log of the cable out for 5 s: ticks go on, inertial samples are missing, the state is invalid after "
+    "0.3 s and valid again") {
   const Disturbed& d = disturbed();
   if (!flown(d.flown)) return;
   const auto imu = logged<fulmar::Imu>(d.log, "/vehicle/imu");
@@ -194,11 +212,16 @@ TEST_CASE("the log of the cable out for 5 s: ticks go on, inertial samples are m
   double lost = 0, known = 0;
   for (const auto& s : in) {
     if (!s.value.attitude_valid && lost == 0) lost = s.t;
-    if (lost > 0) REQUIRE_FALSE((s.value.attitude_valid || s.value.velocity_valid || s.value.position_valid || s.value.airspeed_valid));
+    if (lost > 0)
+      REQUIRE_FALSE((s.value.attitude_valid || s.value.velocity_valid || s.value.position_valid ||
+                     s.value.airspeed_valid));
   }
   for (const auto& s : between(states, gap.to - 1e-6, gap.to + 20))
-    if (known == 0 && s.value.attitude_valid && s.value.velocity_valid && s.value.position_valid && s.value.height_valid) known = s.t;
-  MESSAGE("state invalid after " << lost - gap.from << " s, valid again " << known - gap.to << " s after the return");
+    if (known == 0 && s.value.attitude_valid && s.value.velocity_valid && s.value.position_valid &&
+        s.value.height_valid)
+      known = s.t;
+  MESSAGE("state invalid after " << lost - gap.from << " s, valid again " << known - gap.to
+                                 << " s after the return");
   CHECK(lost - gap.from > 0.25);  // max_coast is 0.3 s
   CHECK(lost - gap.from < 0.4);
   REQUIRE(known > 0);
@@ -221,7 +244,8 @@ TEST_CASE("the log of 100 ms of silence: the state stays valid, the gap is flagg
   REQUIRE(found.size() == 1);
   const Gap gap = found.front();
   double known = 0, widest = 0;
-  for (const auto& s : between(states, gap.from - 1, gap.from)) known = std::max(known, s.value.attitude_std_rad.north);
+  for (const auto& s : between(states, gap.from - 1, gap.from))
+    known = std::max(known, s.value.attitude_std_rad.north);
   const auto in = between(states, gap.from, gap.to - 1e-6);
   CHECK(in.size() >= 4);  // ticks without a sample
   for (const auto& s : between(states, gap.from - 1, gap.to + 1)) {
@@ -232,13 +256,15 @@ TEST_CASE("the log of 100 ms of silence: the state stays valid, the gap is flagg
   for (const auto& s : in) widest = std::max(widest, s.value.attitude_std_rad.north);
   CHECK(widest > 1.2 * known);  // what is carried on is less certain
   bool degraded = false, recovered = false;
-  for (const auto& s : between(logged<fulmar::VehicleStatus>(d.log, "/vehicle/status"), gap.from, gap.to + 0.5)) {
+  for (const auto& s :
+       between(logged<fulmar::VehicleStatus>(d.log, "/vehicle/status"), gap.from, gap.to + 0.5)) {
     degraded = degraded || (s.t < gap.to + 1e-6 && s.value.health == fulmar::Health::degraded);
     recovered = s.value.health == fulmar::Health::ok;
   }
   CHECK(degraded);
   CHECK(recovered);
-  const auto commands = between(logged<fulmar::Actuators>(d.log, "/inner/actuators"), gap.from - 0.1, gap.to + 1);
+  const auto commands =
+      between(logged<fulmar::Actuators>(d.log, "/inner/actuators"), gap.from - 0.1, gap.to + 1);
   double aileron = 0, elevator = 0, rudder = 0;
   for (std::size_t k = 1; k < commands.size(); ++k) {
     const fulmar::Actuators &a = commands[k - 1].value, &b = commands[k].value;
@@ -246,10 +272,12 @@ TEST_CASE("the log of 100 ms of silence: the state stays valid, the gap is flagg
     elevator = std::max(elevator, std::abs(b.elevator_rad - a.elevator_rad));
     rudder = std::max(rudder, std::abs(b.rudder_rad - a.rudder_rad));
   }
-  MESSAGE("silence for " << gap.length() << " s: " << in.size() << " states, attitude's deviation " << known << " -> " << widest
-                         << " rad; largest steps " << aileron << ", " << elevator << ", " << rudder << " rad");
+  MESSAGE("silence for " << gap.length() << " s: " << in.size() << " states, attitude's deviation " << known
+                         << " -> " << widest << " rad; largest steps " << aileron << ", " << elevator << ", "
+                         << rudder << " rad");
   CHECK(commands.size() > 50);
-  // In gusts the pitch rate is another one after 100 ms, and the damper answers it at once; throws are 0.7 rad.
+  // In gusts the pitch rate is another one after 100 ms, and the damper answers it at once; throws are 0.7
+  // rad.
   CHECK(aileron < 0.07);
   CHECK(elevator < 0.175);
   CHECK(rudder < 0.07);

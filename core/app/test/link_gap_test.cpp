@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The hourglass, whose vehicle falls silent in the middle of a turn, as when its cable falls out: no sensor for a while, then all of them
-// again. The flight goes on.
+// The hourglass, whose vehicle falls silent in the middle of a turn, as when its cable falls out: no sensor
+// for a while, then all of them again. The flight goes on.
 #include <doctest/doctest.h>
 #include <unistd.h>
 
@@ -28,13 +28,14 @@ struct Row {
 Graph mission(const std::string& outer, const std::string& sensors) {
   const std::string configs = std::string(FULMAR_SOURCE_DIR) + "/configs/";
   const fs::path file = fs::temp_directory_path() / ("fulmar-gap-" + std::to_string(getpid()) + ".yaml");
-  std::ofstream(file) << "mission: gap\nextends: " << configs << "missions/common.yaml\nairframe: " << configs
-                      << "airframes/anaconda.yaml\norigin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\nseed: 7\n"
-                      << "done: \"manage.progress.circuits >= 1\"\ncomponents:\n"
-                      << "  sim:  {params: {sensors: " << sensors
-                      << ", wind_ned: [3.5355, -3.5355, 0], turbulence: light, start_heading: 135 deg}}\n"
-                      << "  plan: {params: {plan: " << configs << "plans/hourglass.yaml}}\n"
-                      << "phases:\n  cruise: {outer: " << outer << "}\n";
+  std::ofstream(file)
+      << "mission: gap\nextends: " << configs << "missions/common.yaml\nairframe: " << configs
+      << "airframes/anaconda.yaml\norigin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\nseed: 7\n"
+      << "done: \"manage.progress.circuits >= 1\"\ncomponents:\n"
+      << "  sim:  {params: {sensors: " << sensors
+      << ", wind_ned: [3.5355, -3.5355, 0], turbulence: light, start_heading: 135 deg}}\n"
+      << "  plan: {params: {plan: " << configs << "plans/hourglass.yaml}}\n"
+      << "phases:\n  cruise: {outer: " << outer << "}\n";
   Graph graph = load_mission(file.string());
   fs::remove(file);
   return graph;
@@ -44,7 +45,8 @@ Graph mission(const std::string& outer, const std::string& sensors) {
 class Look {
  public:
   Look(const Graph& graph, const char* component, const char* output, const char* field) {
-    const auto found = std::find_if(graph.components.begin(), graph.components.end(), [&](const auto& c) { return c.name == component; });
+    const auto found = std::find_if(graph.components.begin(), graph.components.end(),
+                                    [&](const auto& c) { return c.name == component; });
     REQUIRE(found != graph.components.end());
     const int port = found->info().output(output);
     source_ = {Source::Kind::component, static_cast<int>(found - graph.components.begin()), port};
@@ -74,7 +76,8 @@ Flown fly(const Graph& graph, double silent_from_s = 1e9, double silent_for_s = 
   const Look north(graph, "sim", "truth", "position_m.north"), east(graph, "sim", "truth", "position_m.east"),
       down(graph, "sim", "truth", "position_m.down"), roll(graph, "sim", "truth", "roll_rad"),
       estimated_roll(graph, "ekf", "state", "roll_rad"), valid(graph, "ekf", "state", "attitude_valid"),
-      aileron(graph, "attitude", "actuators", "aileron_rad"), elevator(graph, "attitude", "actuators", "elevator_rad"),
+      aileron(graph, "attitude", "actuators", "aileron_rad"),
+      elevator(graph, "attitude", "actuators", "elevator_rad"),
       throttle(graph, "attitude", "actuators", "throttle_frac");
   Flown flown;
   bool silent = false;
@@ -88,16 +91,17 @@ Flown fly(const Graph& graph, double silent_from_s = 1e9, double silent_for_s = 
         flight.set_parameter("sim", sensor, works);
       silent = silence;
     }
-    flown.rows.push_back({t, north.at(flight), east.at(flight), down.at(flight), roll.at(flight), estimated_roll.at(flight),
-                          aileron.at(flight), elevator.at(flight), throttle.at(flight), valid.at<std::uint8_t>(flight) != 0});
+    flown.rows.push_back({t, north.at(flight), east.at(flight), down.at(flight), roll.at(flight),
+                          estimated_roll.at(flight), aileron.at(flight), elevator.at(flight),
+                          throttle.at(flight), valid.at<std::uint8_t>(flight) != 0});
   } while (flight.step());
   flown.result = flight.finish();
   return flown;
 }
 
 double middle_of_a_turn(const Flown& whole) {
-  const auto turn =
-      std::find_if(whole.rows.begin(), whole.rows.end(), [](const Row& r) { return r.t_s > 20 && std::abs(r.roll_rad) > 0.4; });
+  const auto turn = std::find_if(whole.rows.begin(), whole.rows.end(),
+                                 [](const Row& r) { return r.t_s > 20 && std::abs(r.roll_rad) > 0.4; });
   REQUIRE(turn != whole.rows.end());
   return turn->t_s + 0.5;
 }
@@ -106,10 +110,12 @@ double middle_of_a_turn(const Flown& whole) {
 
 namespace {
 
-/// What a gap did to the flight. Steps are those of one tick, in degrees: in the gap, in two seconds after it, and without a gap.
+/// What a gap did to the flight. Steps are those of one tick, in degrees: in the gap, in two seconds after
+/// it, and without a gap.
 struct Effect {
   double lowest_m = 1e9, highest_m = 0, off_track_m = 0, valid_after_s = -1, first_roll_error_deg = 0;
-  double aileron_back_deg = 0, elevator_back_deg = 0, aileron_always_deg = 0, elevator_always_deg = 0, throttle_back_frac = 0;
+  double aileron_back_deg = 0, elevator_back_deg = 0, aileron_always_deg = 0, elevator_always_deg = 0,
+         throttle_back_frac = 0;
 };
 
 Effect effect(const Flown& flown, const Flown& whole, double from_s, double length_s) {
@@ -148,7 +154,9 @@ Effect effect(const Flown& flown, const Flown& whole, double from_s, double leng
 
 }  // namespace
 
-TEST_CASE("all sensors fall silent in a turn, for 0.1, 1 or 5 s: the flight is completed and control resumes without a step") {
+TEST_CASE(
+    "all sensors fall silent in a turn, for 0.1, 1 or 5 s: the flight is completed and control resumes "
+    "without a step") {
   struct Setup {
     const char *outer, *sensors;
   };
@@ -158,7 +166,8 @@ TEST_CASE("all sensors fall silent in a turn, for 0.1, 1 or 5 s: the flight is c
     REQUIRE(whole.result.outcome == Outcome::flown);
     const double turn_s = middle_of_a_turn(whole);
     for (const double length_s : {0.1, 1.0, 5.0})
-      for (const double from_s : {turn_s, turn_s + 5, turn_s + 17}) {  // in the turn, rolling out of it, straight
+      for (const double from_s :
+           {turn_s, turn_s + 5, turn_s + 17}) {  // in the turn, rolling out of it, straight
         CAPTURE(std::string(setup.sensors));
         CAPTURE(length_s);
         CAPTURE(from_s);
@@ -166,11 +175,12 @@ TEST_CASE("all sensors fall silent in a turn, for 0.1, 1 or 5 s: the flight is c
         CHECK(flown.result.outcome == Outcome::flown);
         CHECK(flown.result.guards.empty());
         const Effect e = effect(flown, whole, from_s, length_s);
-        MESSAGE(std::string(setup.outer) << ", " << std::string(setup.sensors) << ", " << length_s << " s: valid after " << e.valid_after_s
-                                         << " s with " << e.first_roll_error_deg << " deg of roll error, " << e.off_track_m
-                                         << " m off the track, height " << e.lowest_m << " to " << e.highest_m << " m, steps of aileron "
-                                         << e.aileron_back_deg << " and elevator " << e.elevator_back_deg << " deg (otherwise "
-                                         << e.aileron_always_deg << " and " << e.elevator_always_deg << ")");
+        MESSAGE(std::string(setup.outer)
+                << ", " << std::string(setup.sensors) << ", " << length_s << " s: valid after "
+                << e.valid_after_s << " s with " << e.first_roll_error_deg << " deg of roll error, "
+                << e.off_track_m << " m off the track, height " << e.lowest_m << " to " << e.highest_m
+                << " m, steps of aileron " << e.aileron_back_deg << " and elevator " << e.elevator_back_deg
+                << " deg (otherwise " << e.aileron_always_deg << " and " << e.elevator_always_deg << ")");
         CHECK(e.valid_after_s >= 0);
         CHECK(e.valid_after_s < (length_s < 0.3 ? 0.05 : 2));
         CHECK(e.first_roll_error_deg < (length_s < 0.3 ? 2 : 5));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The hourglass, whose outer law fails in the middle of a turn: the fallback completes the flight, and the aircraft hardly leaves its path.
+// The hourglass, whose outer law fails in the middle of a turn: the fallback completes the flight, and the
+// aircraft hardly leaves its path.
 #include <doctest/doctest.h>
 #include <unistd.h>
 
@@ -29,7 +30,8 @@ Graph mission(const std::string& how) {
       << "mission: lost\nextends: " << configs << "missions/common.yaml\nairframe: " << configs
       << "airframes/anaconda.yaml\norigin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\nseed: 7\n"
       << "done: \"manage.progress.circuits >= 1\"\ncomponents:\n"
-      << "  sim:  {params: {sensors: rosflight, wind_ned: [3.5355, -3.5355, 0], turbulence: light, start_heading: 135 deg}}\n"
+      << "  sim:  {params: {sensors: rosflight, wind_ned: [3.5355, -3.5355, 0], turbulence: light, "
+         "start_heading: 135 deg}}\n"
       << "  plan: {params: {plan: " << configs << "plans/hourglass.yaml}}\n"
       << "  bad:  {fills: outer, use: bad_outer, rate: 100 Hz, " << how << "}\n"
       << "phases:\n  cruise: {outer: {use: bad, fallback: slc}}\n";
@@ -53,7 +55,8 @@ Flown fly(const Graph& graph, double speed) {
   const int output = graph.components[vehicle].info().output("truth");
   const Type& type = *graph.components[vehicle].info().outputs[static_cast<std::size_t>(output)].type;
   const auto offset = [&](const char* name) { return resolve_field(type, name).offset; };
-  const std::uint32_t at[] = {offset("position_m.north"), offset("position_m.east"), offset("position_m.down"), offset("roll_rad")};
+  const std::uint32_t at[] = {offset("position_m.north"), offset("position_m.east"),
+                              offset("position_m.down"), offset("roll_rad")};
   Flown flown;
   do {
     const std::byte* message = flight.sample({Source::Kind::component, graph.vehicle, output});
@@ -71,7 +74,8 @@ double deviation_m(const std::vector<Position>& a, const std::vector<Position>& 
   double most = 0;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
     REQUIRE(a[i].t_s == b[i].t_s);
-    most = std::max(most, std::hypot(a[i].north_m - b[i].north_m, a[i].east_m - b[i].east_m, a[i].down_m - b[i].down_m));
+    most = std::max(
+        most, std::hypot(a[i].north_m - b[i].north_m, a[i].east_m - b[i].east_m, a[i].down_m - b[i].down_m));
   }
   return most;
 }
@@ -81,8 +85,8 @@ double deviation_m(const std::vector<Position>& a, const std::vector<Position>& 
 TEST_CASE("a controller that goes in the middle of a turn costs less than 5 m") {
   const Flown whole = fly(mission("params: {}"), 0);
   REQUIRE(whole.result.outcome == Outcome::flown);
-  const auto turn =
-      std::find_if(whole.truth.begin(), whole.truth.end(), [](const Position& p) { return p.t_s > 20 && std::abs(p.roll_rad) > 0.4; });
+  const auto turn = std::find_if(whole.truth.begin(), whole.truth.end(),
+                                 [](const Position& p) { return p.t_s > 20 && std::abs(p.roll_rad) > 0.4; });
   REQUIRE(turn != whole.truth.end());
   const std::string when = ", at: " + std::to_string(turn->t_s + 0.5) + " s}";
   struct Row {
@@ -103,7 +107,8 @@ TEST_CASE("a controller that goes in the middle of a turn costs less than 5 m") 
       {"leak", "run: process, ", "its heap has grown", 0, true},
   };
   for (const Row& row : rows) {
-    if (row.crash && !counts_allocations()) continue;  // a sanitized child reports crashes in its own way, and has no count of its heap
+    if (row.crash && !counts_allocations())
+      continue;  // a sanitized child reports crashes in its own way, and has no count of its heap
     CAPTURE(std::string(row.fault));
     CAPTURE(std::string(row.how));
     const Flown flown = fly(mission(std::string(row.how) + "params: {fault: " + row.fault + when), row.speed);
@@ -113,8 +118,8 @@ TEST_CASE("a controller that goes in the middle of a turn costs less than 5 m") 
     CHECK(flown.result.guards[0].action == "slc takes over");
     CHECK(flown.result.guards[0].what.find(row.told) != std::string::npos);
     const double deviation = deviation_m(whole.truth, flown.truth);
-    MESSAGE(std::string(row.fault) << std::string(row.how[0] == 'r' ? ", in a child" : ", in the loop") << ": at most " << deviation
-                                   << " m from the flight without a fault");
+    MESSAGE(std::string(row.fault) << std::string(row.how[0] == 'r' ? ", in a child" : ", in the loop")
+                                   << ": at most " << deviation << " m from the flight without a fault");
     CHECK(deviation < 5);
     CHECK(deviation > 0);  // something did change hands
   }

@@ -41,7 +41,8 @@ std::string in_child(Work&& work) {
   close(ends[1]);
   std::string words;
   char buffer[4096];
-  for (ssize_t n = 0; (n = read(ends[0], buffer, sizeof buffer)) > 0;) words.append(buffer, static_cast<std::size_t>(n));
+  for (ssize_t n = 0; (n = read(ends[0], buffer, sizeof buffer)) > 0;)
+    words.append(buffer, static_cast<std::size_t>(n));
   close(ends[0]);
   int status = 0;
   waitpid(child, &status, 0);
@@ -52,9 +53,11 @@ std::string in_child(Work&& work) {
 /// What somebody without rights and limits is told.
 std::string as_nobody(rlim_t priorities, rlim_t memory) {
   return in_child([&]() -> std::string {
-    if (getuid() == 0 && (setgroups(0, nullptr) != 0 || setgid(65534) != 0 || setuid(65534) != 0)) return "cannot become nobody";
+    if (getuid() == 0 && (setgroups(0, nullptr) != 0 || setgid(65534) != 0 || setuid(65534) != 0))
+      return "cannot become nobody";
     const rlimit priority{priorities, priorities}, locked{memory, memory};
-    if (setrlimit(RLIMIT_RTPRIO, &priority) != 0 || setrlimit(RLIMIT_MEMLOCK, &locked) != 0) return "cannot lower a limit";
+    if (setrlimit(RLIMIT_RTPRIO, &priority) != 0 || setrlimit(RLIMIT_MEMLOCK, &locked) != 0)
+      return "cannot lower a limit";
     try {
       take_real_time(70);
     } catch (const Error& fault) {
@@ -69,8 +72,8 @@ std::string policy_of(pid_t thread) {
   sched_param p{};
   sched_getparam(thread, &p);
   if (policy == SCHED_OTHER) return "ordinary";
-  return ((policy & ~SCHED_RESET_ON_FORK) == SCHED_FIFO ? "fifo " : "other ") + std::to_string(p.sched_priority) +
-         (policy & SCHED_RESET_ON_FORK ? " not inherited" : "");
+  return ((policy & ~SCHED_RESET_ON_FORK) == SCHED_FIFO ? "fifo " : "other ") +
+         std::to_string(p.sched_priority) + (policy & SCHED_RESET_ON_FORK ? " not inherited" : "");
 }
 
 std::string first_line(const fs::path& file) {
@@ -126,8 +129,9 @@ TEST_CASE("without permission one sentence says what is missing and how to allow
   const std::string memory_alone = as_nobody(0, RLIM_INFINITY);
   if (memory_alone != "cannot lower a limit")  // a hard limit that this machine sets for everybody
     CHECK(memory_alone.find("--realtime: fulmar is not permitted to run with priority 70 (limit 0)") == 0);
-  for (const char* way : {"/etc/security/limits.d/fulmar.conf", "'@dialout - rtprio 70'", "'@dialout - memlock unlimited'",
-                          "setcap cap_sys_nice,cap_ipc_lock+ep ", "fulmar@.service"})
+  for (const char* way :
+       {"/etc/security/limits.d/fulmar.conf", "'@dialout - rtprio 70'", "'@dialout - memlock unlimited'",
+        "setcap cap_sys_nice,cap_ipc_lock+ep ", "fulmar@.service"})
     CHECK_MESSAGE(nothing.find(way) != std::string::npos, way);
   CHECK(nothing.find('\n') == std::string::npos);
 }
@@ -135,8 +139,11 @@ TEST_CASE("without permission one sentence says what is missing and how to allow
 TEST_CASE("memory that would not suffice later is not called enough") {
   rlimit here{};
   REQUIRE(getrlimit(RLIMIT_MEMLOCK, &here) == 0);
-  const rlim_t gigabyte = std::min<rlim_t>(here.rlim_max, rlim_t{1} << 30);  // more than this process has now, less than a flight may need
-  CHECK(as_nobody(0, gigabyte).find("to lock its memory (limit " + std::to_string(gigabyte / 1024) + " kB)") != std::string::npos);
+  const rlim_t gigabyte = std::min<rlim_t>(
+      here.rlim_max, rlim_t{1} << 30);  // more than this process has now, less than a flight may need
+  CHECK(
+      as_nobody(0, gigabyte).find("to lock its memory (limit " + std::to_string(gigabyte / 1024) + " kB)") !=
+      std::string::npos);
 }
 
 TEST_CASE("the thread that takes it has it, and what it starts afterwards has not") {
@@ -162,15 +169,18 @@ TEST_CASE("in flight the loop has it, its isolated component has one less, the l
   const fs::path folder = fs::temp_directory_path() / ("fulmar-realtime-test-" + std::to_string(getpid()));
   fs::create_directories(folder);
   std::ofstream(folder / "mission.yaml")
-      << "mission: trial\nextends: " FULMAR_SOURCE_DIR "/configs/missions/common.yaml\nairframe: " FULMAR_SOURCE_DIR
+      << "mission: trial\nextends: " FULMAR_SOURCE_DIR
+         "/configs/missions/common.yaml\nairframe: " FULMAR_SOURCE_DIR
          "/configs/airframes/anaconda.yaml\norigin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\n"
-         "components:\n  plan: {params: {plan: " FULMAR_SOURCE_DIR "/configs/plans/hourglass.yaml}}\n  slc: {run: process, hang: 5 s}\n";
+         "components:\n  plan: {params: {plan: " FULMAR_SOURCE_DIR
+         "/configs/plans/hourglass.yaml}}\n  slc: {run: process, hang: 5 s}\n";
   const pid_t host = fork();
   if (host == 0) {
     const int null = open("/dev/null", O_WRONLY);
     dup2(null, 1), dup2(null, 2);
     if (chdir(folder.c_str()) != 0) _exit(126);
-    execl(FULMAR_BIN_DIR "/fulmar", "fulmar", "run", "mission.yaml", "--speed", "real", "--duration", "60", "--realtime=75", nullptr);
+    execl(FULMAR_BIN_DIR "/fulmar", "fulmar", "run", "mission.yaml", "--speed", "real", "--duration", "60",
+          "--realtime=75", nullptr);
     _exit(127);
   }
   // it flies as soon as its log's thread is there
@@ -193,7 +203,9 @@ TEST_CASE("in flight the loop has it, its isolated component has one less, the l
   fs::remove_all(folder);
 }
 
-TEST_CASE("the loop's thread stays on one CPU; threads that it creates may leave it, and it does after the flight") {
+TEST_CASE(
+    "the loop's thread stays on one CPU; threads that it creates may leave it, and it does after the "
+    "flight") {
   const auto cpus = [] {
     cpu_set_t set;
     CPU_ZERO(&set);

@@ -11,9 +11,9 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "core/log/reader.hpp"
 #include "core/run/allocation.hpp"
 #include "core/run/test/lab.hpp"
-#include "core/log/reader.hpp"
 #include "tools/fulmar_log/recover.hpp"
 
 namespace {
@@ -58,14 +58,17 @@ ReplayResult replay_of(const fs::path& log, const Overrides& changes = {}, const
   return replay(recording, graph, o).second;
 }
 
-std::string variant(const std::string& name) { return std::string(FULMAR_TEST_PLUGIN_DIR) + "/lab" + name + ".so"; }
+std::string variant(const std::string& name) {
+  return std::string(FULMAR_TEST_PLUGIN_DIR) + "/lab" + name + ".so";
+}
 
 /// Both from end to end.
 void check_equal(const ReplayResult& r, const fs::path& log, const fs::path& again) {
   CHECK(r.notes == std::vector<std::string>{});
   if (r.first_tick) MESSAGE("first tick " << *r.first_tick);
   if (r.first)
-    MESSAGE(r.first->topic << " " << r.first->at_ns << " ns, " << r.first->field << ": " << r.first->was << ", now " << r.first->is);
+    MESSAGE(r.first->topic << " " << r.first->at_ns << " ns, " << r.first->field << ": " << r.first->was
+                           << ", now " << r.first->is);
   CHECK(r.equal());
   CHECK(r.differing_bytes == 0);
   CHECK(contents(log) == contents(again));
@@ -75,13 +78,17 @@ void check_equal(const ReplayResult& r, const fs::path& log, const fs::path& aga
 }  // namespace
 
 TEST_CASE("a flight is flown again from its log alone, to the same file") {
-  const fs::path log = fresh("hourglass.mcap"), again = fresh("hourglass-again.mcap"), mission = folder().path / "mine.yaml";
-  std::ofstream(mission) << "mission: mine\nextends: " << FULMAR_SOURCE_DIR "/configs/missions/common.yaml\nairframe: "
-                         << FULMAR_SOURCE_DIR
+  const fs::path log = fresh("hourglass.mcap"), again = fresh("hourglass-again.mcap"),
+                 mission = folder().path / "mine.yaml";
+  std::ofstream(mission)
+      << "mission: mine\nextends: " << FULMAR_SOURCE_DIR "/configs/missions/common.yaml\nairframe: "
+      << FULMAR_SOURCE_DIR
       "/configs/airframes/anaconda.yaml\norigin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\n"
-                         << "components: {sim: {params: {sensors: rosflight, turbulence: light}}, plan: {params: {plan: "
-                         << FULMAR_SOURCE_DIR "/configs/plans/hourglass.yaml}}}\n";
-  CHECK(run_fulmar("run " + mission.string() + " --duration 10 --seed 3 --set \"slc.roll_limit=30 deg\" --log " + log.string()).first == 0);
+      << "components: {sim: {params: {sensors: rosflight, turbulence: light}}, plan: {params: {plan: "
+      << FULMAR_SOURCE_DIR "/configs/plans/hourglass.yaml}}}\n";
+  CHECK(run_fulmar("run " + mission.string() +
+                   " --duration 10 --seed 3 --set \"slc.roll_limit=30 deg\" --log " + log.string())
+            .first == 0);
   fs::remove(mission);
   const auto [code, out] = run_fulmar("replay " + log.string() + " --json --log " + again.string());
   CHECK(code == 0);
@@ -104,22 +111,28 @@ TEST_CASE("another parameter is an experiment: the figures of both are told, and
   CHECK(j.at("before_equals_log") == true);
   CHECK(j.at("equal") == false);
   CHECK(j.at("first_difference").at("topic") == "/inner/actuators");
-  CHECK(j.at("after").at("estimation_rmse") == j.at("before").at("estimation_rmse"));  // it has nothing to do with the law
+  CHECK(j.at("after").at("estimation_rmse") ==
+        j.at("before").at("estimation_rmse"));  // it has nothing to do with the law
 }
 
 TEST_CASE("an experiment with what comes out of the log is refused, as it would change nothing") {
   const fs::path log = fresh("vehicle.mcap"), said = folder().path / "said";
   CHECK(run_fulmar("run " + hourglass + " --duration 1 --log " + log.string()).first == 0);
   const auto refused = [&](const std::string& words, const fs::path& file) {
-    const int status = std::system((FULMAR_BIN_DIR "/fulmar replay " + file.string() + " " + words + " 2>" + said.string()).c_str());
+    const int status = std::system(
+        (FULMAR_BIN_DIR "/fulmar replay " + file.string() + " " + words + " 2>" + said.string()).c_str());
     CHECK(WEXITSTATUS(status) == 1);
     return contents(said);
   };
-  const std::string why = "sim is the vehicle, and in a replay its samples come out of the log. Fly the mission anew with fulmar run\n";
+  const std::string why =
+      "sim is the vehicle, and in a replay its samples come out of the log. Fly the mission anew with fulmar "
+      "run\n";
   CHECK(refused("--set sim.turbulence=none", log) == "--set sim.turbulence would change nothing: " + why);
-  CHECK(refused("--with sim=" FULMAR_BIN_DIR "/../lib/fulmar/sim_aero.so", log) == "--with sim would change nothing: " + why);
+  CHECK(refused("--with sim=" FULMAR_BIN_DIR "/../lib/fulmar/sim_aero.so", log) ==
+        "--with sim would change nothing: " + why);
   const fs::path driven = fresh("driven.mcap");
-  Flight flight(mission("  fcu: {fills: vehicle, use: lab/Cart}\n  one: {fills: law, use: lab/Law, run: tick, params: {id: 1, u: 0.1}}\n"
+  Flight flight(mission("  fcu: {fills: vehicle, use: lab/Cart}\n  one: {fills: law, use: lab/Law, run: "
+                        "tick, params: {id: 1, u: 0.1}}\n"
                         "  filter: {fills: sense, use: lab/Filter, run: tick}\n"
                         "  watch: {use: lab/Watch, run: tick, in: {burst: gauge.reading}}\n"
                         "  gauge: {use: lab/Ticker, run: driver, params: {samples: 30}}\nio: fcu\n"s +
@@ -127,10 +140,13 @@ TEST_CASE("an experiment with what comes out of the log is refused, as it would 
                 logged(driven, 1e6));
   for (int i = 0; i < 100; ++i) flight.step();
   flight.finish();
-  CHECK(refused("--set gauge.samples=3", driven).starts_with("--set gauge.samples would change nothing: gauge is a driver, and"));
+  CHECK(refused("--set gauge.samples=3", driven)
+            .starts_with("--set gauge.samples would change nothing: gauge is a driver, and"));
 }
 
-TEST_CASE("what was asked of a flight is asked again in the same tick: parameters, requests, a swap, the reset of a guard") {
+TEST_CASE(
+    "what was asked of a flight is asked again in the same tick: parameters, requests, a swap, the reset of "
+    "a guard") {
   const fs::path log = fresh("asked.mcap"), again = fresh("asked-again.mcap");
   const Graph g = mission(with_fallback);
   Flight flight(g, logged(log, 1));
@@ -174,10 +190,14 @@ TEST_CASE("a law that does something else is found at its first tick and field")
 }
 
 TEST_CASE("a log is data: a plugin that lies where one flew runs only when it is that one, or is asked for") {
-  const fs::path log = fresh("own.mcap"), own = folder().path / "own.so", empty = folder().path / "empty-store";
-  const auto put = [&](const std::string& name) { fs::copy_file(variant(name), own, fs::copy_options::overwrite_existing); };
+  const fs::path log = fresh("own.mcap"), own = folder().path / "own.so",
+                 empty = folder().path / "empty-store";
+  const auto put = [&](const std::string& name) {
+    fs::copy_file(variant(name), own, fs::copy_options::overwrite_existing);
+  };
   put("_better");
-  Flight(mission("  one: {fills: law, use: " + own.string() + "/Law, params: {id: 1, u: 0.1}}\n" + std::string(one_phase)),
+  Flight(mission("  one: {fills: law, use: " + own.string() + "/Law, params: {id: 1, u: 0.1}}\n" +
+                 std::string(one_phase)),
          logged(log, 0.5))
       .run();
   CHECK(replay_of(log).equal());
@@ -217,11 +237,13 @@ TEST_CASE("a log that was cut off is flown again as far as it is whole, as is wh
 TEST_CASE("late work in other threads is as late again: drivers, asynchronous steps, on hardware") {
   const fs::path log = fresh("threads.mcap"), again = fresh("threads-again.mcap");
   const Graph g = mission(
-      "  fcu: {fills: vehicle, use: lab/Cart}\n  one: {fills: law, use: lab/Law, run: tick, params: {id: 1, u: 0.1}}\n"
+      "  fcu: {fills: vehicle, use: lab/Cart}\n  one: {fills: law, use: lab/Law, run: tick, params: {id: 1, "
+      "u: 0.1}}\n"
       "  filter: {fills: sense, use: lab/Filter, run: tick}\n"
       "  watch: {use: lab/Watch, run: tick, in: {burst: gauge.reading}}\n"
       "  gauge: {use: lab/Ticker, run: driver, params: {samples: 30, fails: true}}\n"
-      "  think: {use: lab/Thinker, run: async, latency: 5 ms, rate: 100 Hz, in: {signal: sense.signal}, params: {takes: 1 ms}}\n"
+      "  think: {use: lab/Thinker, run: async, latency: 5 ms, rate: 100 Hz, in: {signal: sense.signal}, "
+      "params: {takes: 1 ms}}\n"
       "io: fcu\nrecord: {ports: [\"*\"]}\n"s +
       one_phase);
   FlightOptions o = logged(log, 1e6);
@@ -229,7 +251,8 @@ TEST_CASE("late work in other threads is as late again: drivers, asynchronous st
   const auto begin = std::chrono::steady_clock::now();
   for (int i = 0; i < 400; ++i) {
     flight.step();
-    std::this_thread::sleep_until(begin + (i + 1) * std::chrono::microseconds(250));  // ten times too fast for the thinker
+    std::this_thread::sleep_until(
+        begin + (i + 1) * std::chrono::microseconds(250));  // ten times too fast for the thinker
   }
   // no result is overdue when the log ends: of those it cannot tell
   for (int i = 0; i < 40; ++i) {
@@ -243,10 +266,12 @@ TEST_CASE("late work in other threads is as late again: drivers, asynchronous st
   check_equal(replay_of(log, {}, again), log, again);
 }
 
-TEST_CASE("who takes long to take over in another thread, and misses steps meanwhile, misses the same ones again") {
+TEST_CASE(
+    "who takes long to take over in another thread, and misses steps meanwhile, misses the same ones again") {
   const fs::path log = fresh("takes-over.mcap"), again = fresh("takes-over-again.mcap");
   const Graph g = mission(
-      "  fcu: {fills: vehicle, use: lab/Cart}\n  one: {fills: law, use: lab/Law, run: tick, params: {id: 1, u: 0.1}}\n"
+      "  fcu: {fills: vehicle, use: lab/Cart}\n  one: {fills: law, use: lab/Law, run: tick, params: {id: 1, "
+      "u: 0.1}}\n"
       "  filter: {fills: sense, use: lab/Filter, run: tick}\n"
       "  think: {use: lab/Thinker, run: async, latency: 5 ms, rate: 100 Hz, in: {signal: sense.signal},"
       " params: {takes: 0 ms, takes_over: 100 ms}}\n"
@@ -286,13 +311,17 @@ TEST_CASE("what is no log of a flight is refused in a sentence") {
 }
 
 TEST_CASE("ten minutes of flight are replayed with 0 differing bytes") {
-  const fs::path log = fresh("long.mcap"), again = fresh("long-again.mcap"), mission = folder().path / "long.yaml";
-  std::ofstream(mission) << "extends: " << fs::absolute(FULMAR_SOURCE_DIR "/configs/missions/common.yaml").string()
+  const fs::path log = fresh("long.mcap"), again = fresh("long-again.mcap"),
+                 mission = folder().path / "long.yaml";
+  std::ofstream(mission) << "extends: "
+                         << fs::absolute(FULMAR_SOURCE_DIR "/configs/missions/common.yaml").string()
                          << "\nairframe: " << FULMAR_SOURCE_DIR "/configs/airframes/anaconda.yaml\n"
                          << "components: {sim: {params: {turbulence: light}}, plan: {params: {plan: "
                          << FULMAR_SOURCE_DIR "/configs/plans/hourglass.yaml}}}\n";
   const int seconds = counts_allocations() ? 600 : 30;  // the sanitizers make it slow
-  CHECK(run_fulmar("run " + mission.string() + " --duration " + std::to_string(seconds) + " --log " + log.string()).first == 0);
+  CHECK(run_fulmar("run " + mission.string() + " --duration " + std::to_string(seconds) + " --log " +
+                   log.string())
+            .first == 0);
   const auto [code, out] = run_fulmar("replay " + log.string() + " --json --log " + again.string());
   CHECK(code == 0);
   const nlohmann::json j = nlohmann::json::parse(out);
@@ -303,7 +332,8 @@ TEST_CASE("ten minutes of flight are replayed with 0 differing bytes") {
 
 TEST_CASE("samples from outside are stored as their input's, with their tick, and come again") {
   const fs::path log = fresh("imported.mcap"), again = fresh("imported-again.mcap");
-  const Graph g = mission("  ear: {use: lab/OldReader}\n" + std::string(one_phase) + "dds: {import: {ear.signal: /lab/signal}}\n");
+  const Graph g = mission("  ear: {use: lab/OldReader}\n" + std::string(one_phase) +
+                          "dds: {import: {ear.signal: /lab/signal}}\n");
   Flight flight(g, logged(log, 1));
   for (int n = 0; flight.step(); ++n) {
     const double tick_s = n * 0.25;
@@ -311,8 +341,9 @@ TEST_CASE("samples from outside are stored as their input's, with their tick, an
   }
   flight.finish();
   const McapFile file = read_mcap(log);
-  const auto count = std::count_if(file.messages.begin(), file.messages.end(),
-                                   [&](const McapFile::Message& m) { return m.channel == file.channel("/ear/signal"); });
+  const auto count =
+      std::count_if(file.messages.begin(), file.messages.end(),
+                    [&](const McapFile::Message& m) { return m.channel == file.channel("/ear/signal"); });
   CHECK(count == 114);  // of 800 ticks
   check_equal(replay_of(log, {}, again), log, again);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The hourglass, whose host is gone after a minute and starts again in the air: it goes on, and not from the beginning.
+// The hourglass, whose host is gone after a minute and starts again in the air: it goes on, and not from the
+// beginning.
 #include "core/run/resume.hpp"
 
 #include <doctest/doctest.h>
@@ -16,8 +17,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/run/flight.hpp"
 #include "core/log/reader.hpp"
+#include "core/run/flight.hpp"
 
 using namespace fulmar::core;
 namespace fs = std::filesystem;
@@ -38,19 +39,23 @@ fs::path recorded_hourglass(const fs::path& folder, const std::string& record) {
   std::ofstream out(folder / "turn.yaml");
   for (std::string line; std::getline(in, line);) {
     for (const std::string word : {"common.yaml", "../"})
-      if (const auto at = line.find(word); at != std::string::npos) line.insert(at, FULMAR_SOURCE_DIR "/configs/missions/");
+      if (const auto at = line.find(word); at != std::string::npos)
+        line.insert(at, FULMAR_SOURCE_DIR "/configs/missions/");
     out << line << "\n";
   }
   out << "record: " << record << "\n";
   return folder / "turn.yaml";
 }
 
-double field(const Graph& graph, const Flight& flight, const std::string& component, const std::string& port, const std::string& name) {
-  const auto at = std::find_if(graph.components.begin(), graph.components.end(), [&](const Component& c) { return c.name == component; });
+double field(const Graph& graph, const Flight& flight, const std::string& component, const std::string& port,
+             const std::string& name) {
+  const auto at = std::find_if(graph.components.begin(), graph.components.end(),
+                               [&](const Component& c) { return c.name == component; });
   REQUIRE(at != graph.components.end());
   const int output = at->info().output(port);
   const FieldRef ref = resolve_field(*at->info().outputs[static_cast<std::size_t>(output)].type, name);
-  const std::byte* message = flight.sample({Source::Kind::component, static_cast<int>(at - graph.components.begin()), output});
+  const std::byte* message =
+      flight.sample({Source::Kind::component, static_cast<int>(at - graph.components.begin()), output});
   return message ? number_at(*ref.field, message + ref.offset) : -1;
 }
 
@@ -76,7 +81,9 @@ TEST_CASE("a host that starts again in the air goes on in the same phase with th
   CHECK(gone.run().outcome == Outcome::flown);
   const double item = field(before, gone, "manage", "progress", "item");
   CHECK(item == 1);
-  const auto text = [&](const char* name) { return std::to_string(field(before, gone, "sim", "truth", name)); };
+  const auto text = [&](const char* name) {
+    return std::to_string(field(before, gone, "sim", "truth", name));
+  };
   Overrides in_the_air;
   in_the_air.set = {{"sim.start_height", text("height_m")},
                     {"sim.start_north", text("position_m.north")},
@@ -90,7 +97,8 @@ TEST_CASE("a host that starts again in the air goes on in the same phase with th
     Flight flight(after, o);
     std::vector<double> items;
     while (flight.now_ns() < 60'000'000'000 && flight.step())
-      if (const double now = field(after, flight, "manage", "progress", "item"); now >= 0 && (items.empty() || items.back() != now))
+      if (const double now = field(after, flight, "manage", "progress", "item");
+          now >= 0 && (items.empty() || items.back() != now))
         items.push_back(now);
     const FlightResult r = flight.finish();
     CHECK(r.guards.empty());
@@ -101,10 +109,13 @@ TEST_CASE("a host that starts again in the air goes on in the same phase with th
   }
 }
 
-TEST_CASE("a flight resumes from any file of a log that rotates, whole or cut off, and with the phase and waypoint of that time") {
+TEST_CASE(
+    "a flight resumes from any file of a log that rotates, whole or cut off, and with the phase and waypoint "
+    "of that time") {
   const Folder folder;
-  const Graph graph =
-      load_mission(recorded_hourglass(folder.path, "{file: " + (folder.path / "a.mcap").string() + ", rotate: 20 s}").string());
+  const Graph graph = load_mission(
+      recorded_hourglass(folder.path, "{file: " + (folder.path / "a.mcap").string() + ", rotate: 20 s}")
+          .string());
   FlightOptions o;
   o.log_file = graph.record_file;
   o.duration_s = 110;
@@ -126,7 +137,8 @@ TEST_CASE("a flight resumes from any file of a log that rotates, whole or cut of
       fs::copy_file(folder.path / name, cut, fs::copy_options::overwrite_existing);
       fs::resize_file(cut, static_cast<std::uintmax_t>(left * static_cast<double>(fs::file_size(cut))));
       const auto end_ns = static_cast<std::int64_t>(read_mcap(cut).messages.back().log_ns) - graph.epoch_ns;
-      const auto then = std::find_if(flown.begin(), flown.end(), [&](const Then& t) { return t.now_ns >= end_ns; });
+      const auto then =
+          std::find_if(flown.begin(), flown.end(), [&](const Then& t) { return t.now_ns >= end_ns; });
       REQUIRE(then != flown.end());
       const Resume resume = read_resume(graph, cut);
       CHECK(resume.phase == then->phase);
@@ -141,15 +153,20 @@ TEST_CASE("a flight resumes from any file of a log that rotates, whole or cut of
   std::ofstream(folder.path / "a-7.mcap.part") << "";
   fs::copy_file(folder.path / "a-6.mcap", folder.path / "a-8.mcap.part");
   fs::resize_file(folder.path / "a-8.mcap.part", 40);
-  fs::last_write_time(folder.path / "a-5.mcap", fs::last_write_time(folder.path / "a-6.mcap") - std::chrono::seconds(1));
+  fs::last_write_time(folder.path / "a-5.mcap",
+                      fs::last_write_time(folder.path / "a-6.mcap") - std::chrono::seconds(1));
   CHECK(newest_log(graph, 0) == folder.path / "a-6.mcap");
 }
 
-TEST_CASE("a host that is killed between two files of its log goes on where it was; of a later file alone nothing is replayed") {
+TEST_CASE(
+    "a host that is killed between two files of its log goes on where it was; of a later file alone nothing "
+    "is replayed") {
   const Folder folder;
   recorded_hourglass(folder.path, "{file: a.mcap, rotate: 10 s}");
-  const std::string here = "cd " + folder.path.string() + " && ", run = FULMAR_BIN_DIR "/fulmar run turn.yaml ";
-  const std::string killed = "while kill -0 $! && [ ! -e a-4.mcap.part ]; do sleep 0.02; done; kill -9 $!; wait $!";
+  const std::string here = "cd " + folder.path.string() + " && ",
+                    run = FULMAR_BIN_DIR "/fulmar run turn.yaml ";
+  const std::string killed =
+      "while kill -0 $! && [ ! -e a-4.mcap.part ]; do sleep 0.02; done; kill -9 $!; wait $!";
   CHECK(shell(here + "(" + run + "--speed 20 & " + killed + ")").first == 137);
   CHECK(fs::exists(folder.path / "a.mcap"));
   CHECK(fs::exists(folder.path / "a-2.mcap"));
@@ -159,18 +176,22 @@ TEST_CASE("a host that is killed between two files of its log goes on where it w
   CHECK(out.find("resumed: phase cruise, manage.first_item = ") != std::string::npos);
   const auto later = shell(here + FULMAR_BIN_DIR "/fulmar replay a-2.mcap");
   CHECK(later.first == 1);
-  CHECK(later.second.find("a-2.mcap: it is file 2 of a log that rotated, and a replay begins with the first tick: give a.mcap, ") == 0);
+  CHECK(later.second.find("a-2.mcap: it is file 2 of a log that rotated, and a replay begins with the first "
+                          "tick: give a.mcap, ") == 0);
   const auto first = shell(here + FULMAR_BIN_DIR "/fulmar replay a.mcap");
   CHECK(first.first == 0);
   CHECK(first.second.find("\nequal: ") != std::string::npos);
 }
 
-TEST_CASE("--resume takes the log that it is given, or the newest of the mission; what it cannot use it says") {
+TEST_CASE(
+    "--resume takes the log that it is given, or the newest of the mission; what it cannot use it says") {
   const Folder folder;
-  const std::string here = "cd " + folder.path.string() + " && ", run = FULMAR_BIN_DIR "/fulmar run " + hourglass;
+  const std::string here = "cd " + folder.path.string() + " && ",
+                    run = FULMAR_BIN_DIR "/fulmar run " + hourglass;
   const auto none = shell(here + run + " --no-log --resume");
   CHECK(none.first == 1);
-  CHECK(none.second == "--resume: there is no log of the mission hourglass; name one, as in --resume FILE.mcap\n");
+  CHECK(none.second ==
+        "--resume: there is no log of the mission hourglass; name one, as in --resume FILE.mcap\n");
   CHECK(shell(here + run + " --duration 20").first == 0);
   for (const std::string log : {"", " logs/hourglass-*.mcap"}) {
     const auto [code, out] = shell(here + run + " --no-log --duration 1 --resume" + log);
@@ -180,7 +201,8 @@ TEST_CASE("--resume takes the log that it is given, or the newest of the mission
     CHECK(out.find("   -5.00 s  phase cruise\n") != std::string::npos);
     CHECK(out.find("phase takeoff") == std::string::npos);
   }
-  const auto plain = shell(here + run + " --no-log --duration 1");  // simulation begins at the beginning unless asked
+  const auto plain =
+      shell(here + run + " --no-log --duration 1");  // simulation begins at the beginning unless asked
   CHECK(plain.second.find("resume") == std::string::npos);
   const auto other = shell(here + run + " --no-log --resume " + hourglass);
   CHECK(other.first == 1);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A flight in real time with everything leaving it at full rate: log, live clients, DDS. Then each of them in trouble: it alone loses.
+// A flight in real time with everything leaving it at full rate: log, live clients, DDS. Then each of them in
+// trouble: it alone loses.
 #include <arpa/inet.h>
 #include <doctest/doctest.h>
 #include <fcntl.h>
@@ -24,13 +25,13 @@
 #include <thread>
 #include <vector>
 
-#include "tools/fulmar_live/session.hpp"
-#include "core/loader/table.hpp"
 #include "core/app/test/standstill.hpp"
+#include "core/loader/table.hpp"
 #include "core/log/reader.hpp"
 #include "core/types/wire.hpp"
 #include "fulmar/msg/plan_edit.hpp"
 #include "fulmar/schema.hpp"
+#include "tools/fulmar_live/session.hpp"
 
 namespace fs = std::filesystem;
 using namespace fulmar::core;
@@ -43,7 +44,8 @@ namespace {
 
 constexpr std::int64_t tick_ns = 2'500'000;
 constexpr double settled_s = 5, flown_s = 8;  // on the ground before flight time 0, and after it
-constexpr double stall_s = 2.5;               // a busy machine keeps a thread waiting for a while; each trouble lasts longer than this
+constexpr double stall_s =
+    2.5;  // a busy machine keeps a thread waiting for a while; each trouble lasts longer than this
 
 int domain() { return 1 + static_cast<int>(getpid() % 200); }
 
@@ -66,10 +68,12 @@ class Running {
     fs::remove_all(folder_);
     fs::create_directories(folder_);
     std::ofstream(folder_ / "mission.yaml")
-        << "mission: trial\nextends: " FULMAR_SOURCE_DIR "/configs/missions/common.yaml\nairframe: " FULMAR_SOURCE_DIR
+        << "mission: trial\nextends: " FULMAR_SOURCE_DIR
+           "/configs/missions/common.yaml\nairframe: " FULMAR_SOURCE_DIR
            "/configs/airframes/anaconda.yaml\norigin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\n"
            "record: {ports: [\"*\"]}\ndds: {domain: "
-        << domain() << ", export: [nav.state, vehicle.imu, inner.actuators], import: {plan.edits: /plan_edits}}\n"
+        << domain()
+        << ", export: [nav.state, vehicle.imu, inner.actuators], import: {plan.edits: /plan_edits}}\n"
         << "components:\n  sim: {params: {sensors: rosflight, turbulence: light, truth_rate: 400 Hz}}\n"
            "  plan: {params: {plan: " FULMAR_SOURCE_DIR "/configs/plans/hourglass.yaml}}\n";
     pid_ = fork();
@@ -104,11 +108,12 @@ class Running {
     const int out = open((folder_ / "result.json").c_str(), O_WRONLY | O_CREAT, 0600),
               told = open((folder_ / "told").c_str(), O_WRONLY | O_CREAT, 0600);
     dup2(out, 1), dup2(told, 2);
-    if (!preload.empty()) setenv("LD_PRELOAD", preload.c_str(), 1), setenv("FULMAR_HANG", marker().c_str(), 1);
-    const std::string mission = (folder_ / "mission.yaml").string(), file = log().string(), live = "127.0.0.1:" + std::to_string(port_),
-                      duration = std::to_string(flown_s);
-    execl(FULMAR_BIN_DIR "/fulmar", "fulmar", "run", mission.c_str(), "--speed", "real", "--duration", duration.c_str(), "--live",
-          live.c_str(), "--log", file.c_str(), "--json", nullptr);
+    if (!preload.empty())
+      setenv("LD_PRELOAD", preload.c_str(), 1), setenv("FULMAR_HANG", marker().c_str(), 1);
+    const std::string mission = (folder_ / "mission.yaml").string(), file = log().string(),
+                      live = "127.0.0.1:" + std::to_string(port_), duration = std::to_string(flown_s);
+    execl(FULMAR_BIN_DIR "/fulmar", "fulmar", "run", mission.c_str(), "--speed", "real", "--duration",
+          duration.c_str(), "--live", live.c_str(), "--log", file.c_str(), "--json", nullptr);
     _exit(127);
   }
 
@@ -130,10 +135,12 @@ auto patiently(const Make& make) {
   }
 }
 
-/// Subscribes to everything, reads until the flight has ended, and remembers when what of the inertial unit came.
+/// Subscribes to everything, reads until the flight has ended, and remembers when what of the inertial unit
+/// came.
 class Onlooker {
  public:
-  explicit Onlooker(const LiveAddress& target) : session_(patiently([&] { return std::make_unique<Session>(target); })) {
+  explicit Onlooker(const LiveAddress& target)
+      : session_(patiently([&] { return std::make_unique<Session>(target); })) {
     for (const auto& [topic, channel] : session_->channels()) session_->subscribe(topic);
     thread_ = std::thread([this] { read(); });
   }
@@ -203,7 +210,8 @@ void check_whole(const json& result, const fs::path& file, Onlooker& onlooker) {
   CHECK(std::vector(first, all.end()) == seen);
   CHECK(seen.size() > 400 * 4);
   CHECK(onlooker.worst_delay_s() < stall_s + onlooker.standstill_s());
-  MESSAGE("the loop or the way to the client stood still for " << 1e3 * onlooker.worst_delay_s() << " ms at most, the machine for "
+  MESSAGE("the loop or the way to the client stood still for " << 1e3 * onlooker.worst_delay_s()
+                                                               << " ms at most, the machine for "
                                                                << 1e3 * onlooker.standstill_s() << " ms");
 }
 
@@ -219,7 +227,10 @@ void check_others_whole(const json& result, bool live, bool dds) {
 class Peer {
  public:
   Peer(const std::string& what, const std::string& words)
-      : pipe_(popen((FULMAR_BIN_DIR "/dds_peer " + what + " " + std::to_string(domain()) + " " + words + " 2>/dev/null").c_str(), "r")) {
+      : pipe_(popen((FULMAR_BIN_DIR "/dds_peer " + what + " " + std::to_string(domain()) + " " + words +
+                     " 2>/dev/null")
+                        .c_str(),
+                    "r")) {
     REQUIRE(pipe_ != nullptr);
   }
   ~Peer() { lines(); }
@@ -242,7 +253,8 @@ std::string edit_in_hex() {
   fulmar::PlanEdit edit;
   edit.kind = fulmar::PlanEditKind::remove, edit.index = 60000;
   std::vector<std::byte> bytes;
-  CdrEncoder(*copy_type(*fulmar::detail::type_table<fulmar::PlanEdit>())).encode(reinterpret_cast<const std::byte*>(&edit), bytes);
+  CdrEncoder(*copy_type(*fulmar::detail::type_table<fulmar::PlanEdit>()))
+      .encode(reinterpret_cast<const std::byte*>(&edit), bytes);
   std::string text;
   for (const std::byte b : bytes) {
     char two[3];
@@ -262,7 +274,8 @@ class StuckClient {
     at.sin_family = AF_INET, at.sin_addr.s_addr = htonl(INADDR_LOOPBACK), at.sin_port = htons(target.port);
     REQUIRE(connect(fd_, reinterpret_cast<sockaddr*>(&at), sizeof at) == 0);
     say("GET / HTTP/1.1\r\nHost: " + target.text() +
-        "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n"
+        "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Key: "
+        "dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n"
         "Sec-WebSocket-Protocol: foxglove.sdk.v1\r\n\r\n");
     char answer[12] = {};
     REQUIRE(recv(fd_, answer, sizeof answer, MSG_WAITALL) == sizeof answer);
@@ -280,16 +293,21 @@ class StuckClient {
   static std::string frame(const std::string& text) {
     REQUIRE(text.size() > 125);
     REQUIRE(text.size() < 65536);
-    const char head[] = {'\x81', '\xfe', static_cast<char>(text.size() >> 8), static_cast<char>(text.size() & 0xff), 0, 0, 0, 0};
+    const char head[] = {
+        '\x81', '\xfe', static_cast<char>(text.size() >> 8), static_cast<char>(text.size() & 0xff), 0, 0,
+        0,      0};
     return std::string(head, sizeof head) + text;
   }
-  void say(const std::string& bytes) { REQUIRE(send(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size())); }
+  void say(const std::string& bytes) {
+    REQUIRE(send(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size()));
+  }
   int fd_;
 };
 
 }  // namespace
 
-TEST_CASE("everything at full rate to a log, two clients and a DDS reader at 400 Hz: nothing is dropped anywhere") {
+TEST_CASE(
+    "everything at full rate to a log, two clients and a DDS reader at 400 Hz: nothing is dropped anywhere") {
   Running flight;
   Onlooker one(flight.target()), two(flight.target());
   Peer reader("read", state_words + "1200");
@@ -297,15 +315,19 @@ TEST_CASE("everything at full rate to a log, two clients and a DDS reader at 400
   const json result = flight.result();
   check_whole(result, flight.log(), one);
   CHECK(two.times_ns().back() == one.times_ns().back());
-  CHECK(static_cast<std::int64_t>(two.times_ns().size()) == 1 + (two.times_ns().back() - two.times_ns().front()) / tick_ns);
+  CHECK(static_cast<std::int64_t>(two.times_ns().size()) ==
+        1 + (two.times_ns().back() - two.times_ns().front()) / tick_ns);
   check_others_whole(result, true, true);
   CHECK(result.at("dds").at("sent") >= 1200);
 }
 
-TEST_CASE("a client that subscribes to everything and never reads loses samples; the other client and the log lose none") {
+TEST_CASE(
+    "a client that subscribes to everything and never reads loses samples; the other client and the log lose "
+    "none") {
   Running flight;
   Onlooker reading(flight.target());
-  const StuckClient stuck(flight.target(), patiently([&] { return Session(flight.target()).channels().size(); }));
+  const StuckClient stuck(flight.target(),
+                          patiently([&] { return Session(flight.target()).channels().size(); }));
   const json result = flight.result();
   check_whole(result, flight.log(), reading);
   CHECK(result.at("live").at("dropped") > 0);
@@ -317,7 +339,8 @@ TEST_CASE("a flood from DDS is cut and counted; the log, the client and the loop
   Running flight;
   Onlooker reading(flight.target());
   wait_until_heard(reading);
-  Peer flood("publish", "rt/plan_edits fulmar_msgs::msg::dds_::PlanEdit_ reliable 10000 " + edit_in_hex() + "*60000");
+  Peer flood("publish",
+             "rt/plan_edits fulmar_msgs::msg::dds_::PlanEdit_ reliable 10000 " + edit_in_hex() + "*60000");
   const json result = flight.result();
   check_whole(result, flight.log(), reading);
   check_others_whole(result, true, false);
@@ -332,8 +355,10 @@ TEST_CASE("a flood from DDS is cut and counted; the log, the client and the loop
   CHECK(taken + 1024 >= import.at("received").get<std::size_t>());
 }
 
-TEST_CASE("a disk that hangs for five seconds: the loop and the client go on, and the log is whole once it is over" *
-          doctest::skip(!FULMAR_PRELOAD_TESTS)) {
+TEST_CASE(
+    "a disk that hangs for five seconds: the loop and the client go on, and the log is whole once it is "
+    "over" *
+    doctest::skip(!FULMAR_PRELOAD_TESTS)) {
   Running flight(FULMAR_HANGING_DISK);
   Onlooker reading(flight.target());
   wait_until_heard(reading);

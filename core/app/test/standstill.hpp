@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the machine stood still: a thread on each CPU that wants to wake up every millisecond, and how late it was at worst.
+// Whether the machine stood still: a thread on each CPU that wants to wake up every millisecond, and how late
+// it was at worst.
 #pragma once
 #include <pthread.h>
 #include <sched.h>

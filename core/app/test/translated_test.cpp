@@ -8,15 +8,15 @@
 #include <limits>
 #include <map>
 
+#include "core/log/events.hpp"
+#include "core/log/mcap.hpp"
 #include "core/replay/replay.hpp"
 #include "core/run/resume.hpp"
 #include "core/run/test/lab.hpp"
+#include "core/types/wire.hpp"
 #include "tools/fulmar_log/diff.hpp"
-#include "core/log/events.hpp"
 #include "tools/fulmar_log/export_log.hpp"
 #include "tools/fulmar_log/info.hpp"
-#include "core/log/mcap.hpp"
-#include "core/types/wire.hpp"
 
 namespace translated_test {
 namespace {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A paced flight and the reader of its standard error: one that is slow or stands still delays nothing, one that reads gets every word.
+// A paced flight and the reader of its standard error: one that is slow or stands still delays nothing, one
+// that reads gets every word.
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -52,7 +53,8 @@ struct Host {
   std::string read_all() {
     std::string text;
     char buffer[4096];
-    for (ssize_t n = 0; (n = read(ends[0], buffer, sizeof buffer)) > 0;) text.append(buffer, static_cast<std::size_t>(n));
+    for (ssize_t n = 0; (n = read(ends[0], buffer, sizeof buffer)) > 0;)
+      text.append(buffer, static_cast<std::size_t>(n));
     return text;
   }
   /// The exit code, or -1 when it has not ended after so long.

@@ -15,15 +15,16 @@ typedef fulmar_msgs_msg_dds__Leg_ Leg;
 enum { patience_ms = 20000 };
 
 static void print(const Mixed* m) {
-  printf("%d %.17g %u [%.17g %.17g %.17g] '%s' [", m->armed, m->speed_mps, m->count, m->gains_ratio[0], m->gains_ratio[1],
-         m->gains_ratio[2], m->name);
+  printf("%d %.17g %u [%.17g %.17g %.17g] '%s' [", m->armed, m->speed_mps, m->count, m->gains_ratio[0],
+         m->gains_ratio[1], m->gains_ratio[2], m->name);
   for (uint32_t i = 0; i < m->samples_volt._length; ++i) printf("%.17g ", m->samples_volt._buffer[i]);
-  printf("] %u %lld %.9g %d (%.17g %.17g %.17g) '%s' '%s'", m->mode, (long long)m->stamp_ns, (double)m->load_ratio, m->offset,
-         m->attitude_std_rad.north, m->attitude_std_rad.east, m->attitude_std_rad.down, m->tags[0], m->tags[1]);
+  printf("] %u %lld %.9g %d (%.17g %.17g %.17g) '%s' '%s'", m->mode, (long long)m->stamp_ns,
+         (double)m->load_ratio, m->offset, m->attitude_std_rad.north, m->attitude_std_rad.east,
+         m->attitude_std_rad.down, m->tags[0], m->tags[1]);
   for (uint32_t i = 0; i < m->legs._length; ++i) {
     const Leg* leg = &m->legs._buffer[i];
-    printf(" {%u %d %.17g (%.17g %.17g %.17g)}", leg->kind, leg->has_course, leg->course_rad, leg->position_m.north, leg->position_m.east,
-           leg->position_m.down);
+    printf(" {%u %d %.17g (%.17g %.17g %.17g)}", leg->kind, leg->has_course, leg->course_rad,
+           leg->position_m.north, leg->position_m.east, leg->position_m.down);
   }
   printf("\n");
   fflush(stdout);
@@ -74,13 +75,15 @@ int main(int argc, char** argv) {
   if (argc != 5) return 2;
   const dds_entity_t participant = dds_create_participant((dds_domainid_t)atoi(argv[2]), NULL, NULL);
   if (participant < 0) return 3;
-  const dds_entity_t topic = dds_create_topic(participant, &fulmar_msgs_msg_dds__Mixed__desc, argv[3], NULL, NULL);
+  const dds_entity_t topic =
+      dds_create_topic(participant, &fulmar_msgs_msg_dds__Mixed__desc, argv[3], NULL, NULL);
   dds_qos_t* qos = dds_create_qos();
   dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_MSECS(100));
   dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 50);
   if (strcmp(argv[1], "read_late") == 0) dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
   const int n = atoi(argv[4]);
-  const int result = strncmp(argv[1], "read", 4) == 0 ? read_topic(participant, topic, qos, n) : write_topic(participant, topic, qos, n);
+  const int result = strncmp(argv[1], "read", 4) == 0 ? read_topic(participant, topic, qos, n)
+                                                      : write_topic(participant, topic, qos, n);
   dds_delete_qos(qos);
   dds_delete(participant);
   return result;

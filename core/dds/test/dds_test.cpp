@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bridge against other programs: one that speaks as rmw_fastrtps does, and one of another vendor's DDS. Every process finds the others
-// by unicast on the loopback address; the domain follows from the process number, so that tests do not meet.
+// The bridge against other programs: one that speaks as rmw_fastrtps does, and one of another vendor's DDS.
+// Every process finds the others by unicast on the loopback address; the domain follows from the process
+// number, so that tests do not meet.
 #include <doctest/doctest.h>
 #include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
@@ -20,8 +21,8 @@
 
 #include "core/dds/bridge.hpp"
 #include "core/dds/test/mock_control.hpp"
-#include "core/types/ros_service.hpp"
 #include "core/tap/tap.hpp"
+#include "core/types/ros_service.hpp"
 #include "core/types/test/types.hpp"
 #include "core/types/wire.hpp"
 
@@ -64,8 +65,10 @@ std::string peer(const std::string& what, const std::string& arguments) {
   return bin + "/dds_peer " + what + " " + std::to_string(domain()) + " " + arguments;
 }
 std::string cyclone(const std::string& what, const std::string& arguments) {
-  return "CYCLONEDDS_URI='<General><Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces><AllowMulticast>false"
-         "</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>30</"
+  return "CYCLONEDDS_URI='<General><Interfaces><NetworkInterface name=\"lo\" "
+         "multicast=\"false\"/></Interfaces><AllowMulticast>false"
+         "</AllowMulticast></General><Discovery><ParticipantIndex>auto</"
+         "ParticipantIndex><MaxAutoParticipantIndex>30</"
          "MaxAutoParticipantIndex>"
          "<Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery>' " +
          bin + "/dds_cyclone " + what + " " + std::to_string(domain()) + " " + arguments;
@@ -118,14 +121,17 @@ struct Scene {
   std::atomic<bool> stop{false};
   std::thread loop;
 
-  explicit Scene(bool may_stay_silent = false) : tap(std::vector<TapChannel>{TapChannel{"/nav/state", mixed_type(), may_stay_silent}}) {
+  explicit Scene(bool may_stay_silent = false)
+      : tap(std::vector<TapChannel>{TapChannel{"/nav/state", mixed_type(), may_stay_silent}}) {
     ComponentView follow, slc;
     follow.name = "follow";
-    follow.inputs = {{"leader", mixed_type(), "", -1, false, true}, {"edit", leg_type(), "", -1, true, false}};
+    follow.inputs = {{"leader", mixed_type(), "", -1, false, true},
+                     {"edit", leg_type(), "", -1, true, false}};
     slc.name = "slc";
     slc.params = {number_param("roll_kp", 0.55, true), number_param("span_m", 2, false)};
     ParameterView law;
-    law.info.name = "law", law.info.kind = FULMAR_CHOICE, law.info.choices = {"takeoff", "level"}, law.info.live = true;
+    law.info.name = "law", law.info.kind = FULMAR_CHOICE, law.info.choices = {"takeoff", "level"},
+    law.info.live = true;
     law.base.integer = 1;
     slc.params.push_back(law);
     control.flight.components = {follow, slc};
@@ -207,12 +213,14 @@ int multicast_members() {
 
 }  // namespace
 
-// ---- out -------------------------------------------------------------------------------------------------------------------------
+// ---- out
+// -------------------------------------------------------------------------------------------------------------------------
 
 TEST_CASE("another vendor's DDS reads an exported port, each value exact" * doctest::skip(!has_cyclone())) {
   Scene scene;
   scene.open();
-  scene.fly(std::chrono::milliseconds(10));  // the writer keeps 10: a reader that a busy machine holds up for 100 ms still gets all
+  scene.fly(std::chrono::milliseconds(
+      10));  // the writer keeps 10: a reader that a busy machine holds up for 100 ms still gets all
   Program reader(cyclone("read", "rt/nav/state 60"));
   std::istringstream lines(reader.rest());
   CHECK(reader.finish() == 0);
@@ -223,11 +231,14 @@ TEST_CASE("another vendor's DDS reads an exported port, each value exact" * doct
     REQUIRE(std::sscanf(line.c_str(), "1 %lf", &speed) == 1);
     CHECK(speed >= 1000);
     CAPTURE(n);
-    if (n >= 20) CHECK(speed == previous + 1);  // before, the two are still finding each other, and the writer keeps 10
+    if (n >= 20)
+      CHECK(speed == previous + 1);  // before, the two are still finding each other, and the writer keeps 10
     previous = speed;
     char expected[512];
     std::snprintf(expected, sizeof expected,
-                  "1 %.17g 7 [1 2 -2] 'ab' [0.5 1 ] 1 -2 0.25 -3 (0.5 1 2) 'x' 'yzw' {1 1 0.5 (3 4 5)} {0 0 -0.5 (6 7 8)}", speed);
+                  "1 %.17g 7 [1 2 -2] 'ab' [0.5 1 ] 1 -2 0.25 -3 (0.5 1 2) 'x' 'yzw' {1 1 0.5 (3 4 5)} {0 0 "
+                  "-0.5 (6 7 8)}",
+                  speed);
     CHECK(line == expected);
   }
   CHECK(n == 60);
@@ -249,7 +260,8 @@ TEST_CASE("an export with a period is thinned by flight time, under the vehicle'
   std::vector<double> speeds;
   for (std::string line; std::getline(lines, line);) {
     std::vector<std::byte> bytes;
-    for (std::size_t i = 0; i + 1 < line.size(); i += 2) bytes.push_back(static_cast<std::byte>(std::stoi(line.substr(i, 2), nullptr, 16)));
+    for (std::size_t i = 0; i + 1 < line.size(); i += 2)
+      bytes.push_back(static_cast<std::byte>(std::stoi(line.substr(i, 2), nullptr, 16)));
     Mixed m;
     cdr_decode(*mixed_type(), bytes.data(), bytes.size(), bytes_of(m));
     speeds.push_back(m.speed_mps);
@@ -258,7 +270,9 @@ TEST_CASE("an export with a period is thinned by flight time, under the vehicle'
   for (std::size_t i = 1; i < 5; ++i) CHECK(speeds[i] == speeds[i - 1] + 8);  // 8 ticks of 2.5 ms
 }
 
-TEST_CASE("who comes late gets the last sample of a port that may stay silent; a reader that wants no old ones meets it, too") {
+TEST_CASE(
+    "who comes late gets the last sample of a port that may stay silent; a reader that wants no old ones "
+    "meets it, too") {
   Scene scene(true);
   scene.open();
   Mixed m = mixed_value();
@@ -299,13 +313,17 @@ TEST_CASE("an export of a port that is not there is refused, with the choices") 
   Scene scene;
   scene.options.exports[0].port = "nav.stat";
   scene.options.exports[0].where = {"m.yaml", 7};
-  CHECK_THROWS_WITH_AS(scene.open(),
-                       doctest::Contains("m.yaml:7: dds.export: there is no 'nav.stat' to export. Did you mean '/nav/state'?"), Error);
+  CHECK_THROWS_WITH_AS(
+      scene.open(),
+      doctest::Contains("m.yaml:7: dds.export: there is no 'nav.stat' to export. Did you mean '/nav/state'?"),
+      Error);
 }
 
-// ---- in --------------------------------------------------------------------------------------------------------------------------
+// ---- in
+// --------------------------------------------------------------------------------------------------------------------------
 
-TEST_CASE("another vendor's DDS publishes into an imported port: the loop gets the exact struct" * doctest::skip(!has_cyclone())) {
+TEST_CASE("another vendor's DDS publishes into an imported port: the loop gets the exact struct" *
+          doctest::skip(!has_cyclone())) {
   Scene scene;
   scene.open();
   Program writer(cyclone("write", "rt/leader/state 3"));
@@ -321,13 +339,16 @@ TEST_CASE("another vendor's DDS publishes into an imported port: the loop gets t
   REQUIRE(stats.imports.size() == 1);
   CHECK(stats.imports[0].port == "follow.leader");
   CHECK(stats.imports[0].topic == "/leader/state");
-  MESSAGE("latency " << stats.imports[0].latency_mean_s * 1e3 << " ms, at most " << stats.imports[0].latency_max_s * 1e3 << " ms");
+  MESSAGE("latency " << stats.imports[0].latency_mean_s * 1e3 << " ms, at most "
+                     << stats.imports[0].latency_max_s * 1e3 << " ms");
   CHECK(stats.imports[0].latency_mean_s > 0);
   CHECK(stats.imports[0].latency_max_s >= stats.imports[0].latency_mean_s);
   CHECK(stats.imports[0].latency_max_s < 10);
 }
 
-TEST_CASE("samples of another layout, cut off, or with values that the input does not allow are refused and counted") {
+TEST_CASE(
+    "samples of another layout, cut off, or with values that the input does not allow are refused and "
+    "counted") {
   Scene scene;
   scene.open();
   Mixed good = mixed_value(), bad_label = good, infinite = good;
@@ -336,8 +357,8 @@ TEST_CASE("samples of another layout, cut off, or with values that the input doe
   const std::string text = hex(cdr(good));
   std::string many = text;
   many.replace(2 * (4 + 56), 8, "ffffffff");  // the length of a list
-  const std::string list = text.substr(0, 60) + " " + hex(cdr(bad_label)) + " " + hex(cdr(infinite)) + " " + many +
-                           " 00010000 0001 00000000" + " " + text + "0000000000 " + text;
+  const std::string list = text.substr(0, 60) + " " + hex(cdr(bad_label)) + " " + hex(cdr(infinite)) + " " +
+                           many + " 00010000 0001 00000000" + " " + text + "0000000000 " + text;
   Program writer(peer("publish", "rt/leader/state " + mixed_dds + " reliable 200 " + list));
   CHECK(soon([&] { return scene.published() == 1; }));
   CHECK(writer.finish() == 0);
@@ -349,7 +370,8 @@ TEST_CASE("samples of another layout, cut off, or with values that the input doe
 TEST_CASE("2000 samples with random bytes in them do no harm") {
   Scene scene;
   scene.open();
-  const std::string good = hex(cdr(mixed_value())), file = "/tmp/fulmar_dds_samples_" + std::to_string(getpid());
+  const std::string good = hex(cdr(mixed_value())),
+                    file = "/tmp/fulmar_dds_samples_" + std::to_string(getpid());
   {
     std::ofstream list(file);
     std::uint32_t x = 12345;
@@ -394,7 +416,8 @@ TEST_CASE("a flood of 20000 samples per second is cut, counted, and the loop's r
   scene.open();
   scene.fly();
   Program reader(peer("read", "rt/nav/state " + mixed_dds + " 400"));
-  Program flood(peer("publish", "rt/leader/state " + mixed_dds + " reliable 20000 " + hex(cdr(mixed_value())) + "*40000"));
+  Program flood(peer(
+      "publish", "rt/leader/state " + mixed_dds + " reliable 20000 " + hex(cdr(mixed_value())) + "*40000"));
   CHECK(reader.rest().size() > 400);
   CHECK(reader.finish() == 0);
   CHECK(flood.finish() == 0);
@@ -411,7 +434,8 @@ TEST_CASE("a flood of 20000 samples per second is cut, counted, and the loop's r
 TEST_CASE("what does not meet by the rules of DDS is told once, in a sentence") {
   std::ostringstream said;
   const auto usual = spdlog::default_logger();
-  spdlog::set_default_logger(std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(said)));
+  spdlog::set_default_logger(
+      std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(said)));
   spdlog::set_pattern("%v");
   Scene scene;
   scene.options.exports[0].best_effort = true;
@@ -419,19 +443,24 @@ TEST_CASE("what does not meet by the rules of DDS is told once, in a sentence") 
   const auto told = [&](const std::string& text) { return said.str().find(text) != std::string::npos; };
   {
     Program strict("timeout 3 " + peer("read", "rt/nav/state " + mixed_dds + " 1"));
-    Program other("timeout 3 " + peer("publish", "rt/leader/state geometry_msgs::msg::dds_::Pose_ reliable 100 00010000"));
+    Program other("timeout 3 " +
+                  peer("publish", "rt/leader/state geometry_msgs::msg::dds_::Pose_ reliable 100 00010000"));
   }
   spdlog::set_default_logger(usual);
   scene.bridge.reset();
-  CHECK(told("dds: somebody reads rt/nav/state reliably, but it is exported with best_effort: the two do not meet"));
+  CHECK(told(
+      "dds: somebody reads rt/nav/state reliably, but it is exported with best_effort: the two do not meet"));
   CHECK(
       told("dds: somebody writes rt/leader/state with the type geometry_msgs::msg::dds_::Pose_; here it is "
            "fulmar_msgs::msg::dds_::Mixed_: the two do not meet"));
 }
 
-// ---- services --------------------------------------------------------------------------------------------------------------------
+// ---- services
+// --------------------------------------------------------------------------------------------------------------------
 
-TEST_CASE("a request port is a ROS 2 service: accepted, refused with the component's reason, or refused by its ranges") {
+TEST_CASE(
+    "a request port is a ROS 2 service: accepted, refused with the component's reason, or refused by its "
+    "ranges") {
   Scene scene;
   scene.open();
   Leg leg{};
@@ -444,7 +473,8 @@ TEST_CASE("a request port is a ROS 2 service: accepted, refused with the compone
   };
   CHECK(call() == "010000000100000000000000\n");  // true, an empty text, up to 4 bytes
   REQUIRE(scene.control.requested().size() == 1);
-  CHECK(std::memcmp(scene.control.requested()[0].data() + offsetof(Leg, position_m), &leg.position_m, sizeof leg.position_m) == 0);
+  CHECK(std::memcmp(scene.control.requested()[0].data() + offsetof(Leg, position_m), &leg.position_m,
+                    sizeof leg.position_m) == 0);
   scene.control.refuse_requests("no");
   CHECK(call() == "00000000030000006e6f0000\n");
   bytes[4] = std::byte{7};                              // a label that is not there
@@ -456,7 +486,8 @@ TEST_CASE("a request port is a ROS 2 service: accepted, refused with the compone
 TEST_CASE("the text of a service has the request's fields, and what comes back") {
   CHECK(srv_text(*leg_type()) == ros_message_text(*leg_type()) + "---\nbool accepted\nstring reason\n");
   CHECK(srv_name(*leg_type()) == "fulmar_msgs/srv/Leg");
-  CHECK(srv_name(*make_type("Add", 1, 1, {}, "", "rosplane_msgs/srv/AddWaypoint_Request")) == "rosplane_msgs/srv/AddWaypoint");
+  CHECK(srv_name(*make_type("Add", 1, 1, {}, "", "rosplane_msgs/srv/AddWaypoint_Request")) ==
+        "rosplane_msgs/srv/AddWaypoint");
   CHECK(ros_name(*srv_response(*leg_type())) == "fulmar_msgs/srv/Leg_Response");
 }
 
@@ -468,7 +499,8 @@ TEST_CASE("parameters are those of one ROS 2 node: listed, read, described, set,
     return client.rest();
   };
   CHECK(param("list") == "slc.law\nslc.roll_kp\nslc.span_m\n");
-  CHECK(param("get slc.roll_kp slc.law nobody.x") == "type 3 0 0 0.55000000000000004 '' []\ntype 4 0 0 0 'level' []\ntype 0 0 0 0 '' []\n");
+  CHECK(param("get slc.roll_kp slc.law nobody.x") ==
+        "type 3 0 0 0.55000000000000004 '' []\ntype 4 0 0 0 'level' []\ntype 0 0 0 0 '' []\n");
   CHECK(param("describe slc.roll_kp slc.span_m slc.law") ==
         "slc.roll_kp type 3 'aileron per roll error [rad/rad]' '' read_only 0 0 to 2 step 0\n"
         "slc.span_m type 3 'aileron per roll error [rad/rad]' '' read_only 1 0 to 2 step 0\n"
@@ -478,7 +510,8 @@ TEST_CASE("parameters are those of one ROS 2 node: listed, read, described, set,
   CHECK(param("set_text slc.law takeoff") == "set\n");
   CHECK(scene.control.parameters_set() == std::vector<std::string>{"slc.roll_kp=0.6", "slc.law=\"takeoff\""});
   CHECK(param("set slc.roll_k 1 slc.span_m 3") ==
-        "refused: there is no parameter 'slc.roll_k'. Did you mean 'slc.roll_kp'? Valid: slc.law, slc.roll_kp, slc.span_m.\n"
+        "refused: there is no parameter 'slc.roll_k'. Did you mean 'slc.roll_kp'? Valid: slc.law, "
+        "slc.roll_kp, slc.span_m.\n"
         "refused: slc.span_m is set before the flight\n");
   CHECK(param("set_many slc.roll_kp 1 slc.law 0").rfind("refused: several parameters", 0) == 0);
 }
@@ -509,7 +542,8 @@ TEST_CASE("the node is described for ROS 2 tools, its ids 16 bytes long, 24 for 
     scene.options.humble = humble;
     scene.options.parameters = false;
     scene.open();
-    Program reader(peer("read", "ros_discovery_info rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_ 1 transient"));
+    Program reader(
+        peer("read", "ros_discovery_info rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_ 1 transient"));
     const std::string bytes = reader.rest();
     REQUIRE(bytes.size() > 100);
     // encapsulation, participant, one node: "/" and "fulmar"
@@ -525,7 +559,8 @@ TEST_CASE("the node is described for ROS 2 tools, its ids 16 bytes long, 24 for 
   CHECK(sizes[true] == sizes[false] + 5 * 8);
 }
 
-// ---- network ---------------------------------------------------------------------------------------------------------------------
+// ---- network
+// ---------------------------------------------------------------------------------------------------------------------
 
 TEST_CASE("every socket of the bridge is bound to the loopback address, and nobody joins a multicast group") {
   const std::set<std::string> before = udp_addresses();
@@ -546,7 +581,9 @@ TEST_CASE("an address that is none, or not this computer's, and a domain that do
   Scene scene;
   scene.options.interfaces = {"192.0.2.1"};  // of RFC 5737: nobody's
   scene.options.interfaces_where = {"m.yaml", 4};
-  CHECK_THROWS_WITH_AS(scene.open(), doctest::Contains("m.yaml:4: dds.interfaces: 192.0.2.1 is no address of this computer"), Error);
+  CHECK_THROWS_WITH_AS(
+      scene.open(), doctest::Contains("m.yaml:4: dds.interfaces: 192.0.2.1 is no address of this computer"),
+      Error);
   scene.options.interfaces = {"loopback"};
   CHECK_THROWS_WITH_AS(scene.open(), "dds: 'loopback' is not an IPv4 address such as 127.0.0.1", Error);
   scene.options.interfaces.clear();

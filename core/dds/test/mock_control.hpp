@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A flight that only remembers what comes in. Answers come from a thread of its own, as those of a real one do.
+// A flight that only remembers what comes in. Answers come from a thread of its own, as those of a real one
+// do.
 #pragma once
 #include <chrono>
 #include <condition_variable>
@@ -50,7 +51,8 @@ class MockControl : public Control {
     const std::lock_guard lock(mutex);
     return flight;
   }
-  void set_parameter(const std::string& component, const std::string& param, const std::string& text, Answer answer) override {
+  void set_parameter(const std::string& component, const std::string& param, const std::string& text,
+                     Answer answer) override {
     const std::lock_guard lock(mutex);
     for (ComponentView& c : flight.components) {
       for (ParameterView& p : c.params) {
@@ -68,14 +70,18 @@ class MockControl : public Control {
     }
     throw Error("there is no " + component + "." + param);
   }
-  void request(const std::string&, const std::string&, const std::string&, Answer) override { throw Error("not by text"); }
-  void request(const std::string&, const std::string&, std::vector<std::byte> message, Answer answer) override {
+  void request(const std::string&, const std::string&, const std::string&, Answer) override {
+    throw Error("not by text");
+  }
+  void request(const std::string&, const std::string&, std::vector<std::byte> message,
+               Answer answer) override {
     const std::lock_guard lock(mutex);
     requested_.push_back(std::move(message));
     work_.emplace_back([reason = refusal_, answer] { answer(reason); });
     wake_.notify_one();
   }
-  bool publish(const std::string& component, const std::string& port, std::vector<std::byte> message) override {
+  bool publish(const std::string& component, const std::string& port,
+               std::vector<std::byte> message) override {
     const std::lock_guard lock(mutex);
     if (component != "follow" || port != "leader") throw Error("not an input");
     published.push_back(std::move(message));

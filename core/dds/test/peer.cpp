@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The other side, as rmw_fastrtps is it: plain Fast DDS and Fast CDR, and nothing of the code under test.
-//   dds_peer publish DOMAIN TOPIC TYPE reliable|best_effort RATE HEX...   to the first reader; RATE 0: all at once; HEX*1000 repeats, @FILE
-//   reads them dds_peer read DOMAIN TOPIC TYPE N                                     prints samples as hex, and the writer's user data
-//   dds_peer call DOMAIN SERVICE PKG/SRV HEX                              prints the reply's body as hex
-//   dds_peer param DOMAIN NODE get|set|set_text|set_many|list|describe NAME [VALUE]
+//   dds_peer publish DOMAIN TOPIC TYPE reliable|best_effort RATE HEX...   to the first reader; RATE 0: all at
+//   once; HEX*1000 repeats, @FILE reads them dds_peer read DOMAIN TOPIC TYPE N prints samples as hex, and the
+//   writer's user data dds_peer call DOMAIN SERVICE PKG/SRV HEX                              prints the
+//   reply's body as hex dds_peer param DOMAIN NODE get|set|set_text|set_many|list|describe NAME [VALUE]
 #include <fastcdr/Cdr.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
@@ -74,7 +74,8 @@ struct Peer {
     rtps::IPLocator::setIPv4(loopback, "127.0.0.1");
     qos.wire_protocol().builtin.initialPeersList.push_back(loopback);
     qos.wire_protocol().builtin.metatrafficUnicastLocatorList.push_back(loopback);
-    participant = fd::DomainParticipantFactory::get_instance()->create_participant(static_cast<unsigned>(domain), qos);
+    participant =
+        fd::DomainParticipantFactory::get_instance()->create_participant(static_cast<unsigned>(domain), qos);
     publisher = participant->create_publisher(fd::PUBLISHER_QOS_DEFAULT);
     subscriber = participant->create_subscriber(fd::SUBSCRIBER_QOS_DEFAULT);
   }
@@ -172,7 +173,8 @@ int read(Peer& peer, const std::vector<std::string>& a) {
   Bytes bytes;
   fd::SampleInfo info;
   for (int left = std::stoi(a[2]); left > 0;) {
-    if (!wait_for([&] { return reader->take_next_sample(&bytes, &info) == ReturnCode_t::RETCODE_OK; })) return std::puts("nothing"), 1;
+    if (!wait_for([&] { return reader->take_next_sample(&bytes, &info) == ReturnCode_t::RETCODE_OK; }))
+      return std::puts("nothing"), 1;
     if (info.valid_data) print_hex(bytes), --left;
   }
   return 0;
@@ -193,12 +195,14 @@ Bytes call(Peer& peer, const std::string& service, const std::string& type, Byte
   fd::SampleInfo info;
   const bool done = wait_for([&] {
     if (reader->take_next_sample(&reply, &info) != ReturnCode_t::RETCODE_OK || !info.valid_data) return false;
-    return info.related_sample_identity.writer_guid() == reader->guid() && info.related_sample_identity.sequence_number() == number;
+    return info.related_sample_identity.writer_guid() == reader->guid() &&
+           info.related_sample_identity.sequence_number() == number;
   });
   return done ? reply : (std::puts("no reply"), Bytes{});
 }
 
-// ---- parameters as rclcpp sends them --------------------------------------------------------------------------------------------
+// ---- parameters as rclcpp sends them
+// --------------------------------------------------------------------------------------------
 
 struct Out {
   FastBuffer buffer;
@@ -221,10 +225,15 @@ struct Value {
   std::vector<int64_t> integers;
   std::vector<double> numbers;
   std::vector<std::string> texts;
-  void write(Cdr& cdr) const { cdr << type << boolean << integer << number << text << bytes << booleans << integers << numbers << texts; }
-  void read(Cdr& cdr) { cdr >> type >> boolean >> integer >> number >> text >> bytes >> booleans >> integers >> numbers >> texts; }
+  void write(Cdr& cdr) const {
+    cdr << type << boolean << integer << number << text << bytes << booleans << integers << numbers << texts;
+  }
+  void read(Cdr& cdr) {
+    cdr >> type >> boolean >> integer >> number >> text >> bytes >> booleans >> integers >> numbers >> texts;
+  }
   void print() const {
-    std::printf("type %d %d %lld %.17g '%s' [", type, boolean, static_cast<long long>(integer), number, text.c_str());
+    std::printf("type %d %d %lld %.17g '%s' [", type, boolean, static_cast<long long>(integer), number,
+                text.c_str());
     for (const double x : numbers) std::printf("%.17g ", x);
     std::printf("]\n");
   }
@@ -236,7 +245,8 @@ void describe(Cdr& cdr) {
   bool read_only = false, dynamic = false;
   uint32_t ranges = 0;
   cdr >> name >> type >> description >> constraints >> read_only >> dynamic >> ranges;
-  std::printf("%s type %d '%s' '%s' read_only %d", name.c_str(), type, description.c_str(), constraints.c_str(), read_only);
+  std::printf("%s type %d '%s' '%s' read_only %d", name.c_str(), type, description.c_str(),
+              constraints.c_str(), read_only);
   for (uint32_t i = 0; i < ranges; ++i) {
     double from = 0, to = 0, step = 0;
     cdr >> from >> to >> step;
@@ -247,7 +257,8 @@ void describe(Cdr& cdr) {
     int64_t from = 0, to = 0;
     uint64_t step = 0;
     cdr >> from >> to >> step;
-    std::printf(" %lld to %lld step %llu", static_cast<long long>(from), static_cast<long long>(to), static_cast<unsigned long long>(step));
+    std::printf(" %lld to %lld step %llu", static_cast<long long>(from), static_cast<long long>(to),
+                static_cast<unsigned long long>(step));
   }
   std::printf("\n");
 }
@@ -265,7 +276,8 @@ int param(Peer& peer, const std::vector<std::string>& a) {
   const std::string node = a[0], what = a[1];
   const bool sets = what.rfind("set", 0) == 0;
   Out out;
-  std::string service = sets ? "set_parameters" : what + "_parameters", type = sets ? "SetParameters" : "GetParameters";
+  std::string service = sets ? "set_parameters" : what + "_parameters",
+              type = sets ? "SetParameters" : "GetParameters";
   if (what == "list") {
     type = "ListParameters";
     out.cdr << std::vector<std::string>{} << uint64_t{0};

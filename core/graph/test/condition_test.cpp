@@ -30,18 +30,15 @@ struct World : SampleReader {
   bool has_state = true, has_status = true, has_path = true, has_plan = true;
 
   const std::byte* sample(const Source& source) const noexcept override {
-    const auto bytes = [](const auto& value, bool there) { return there ? reinterpret_cast<const std::byte*>(&value) : nullptr; };
+    const auto bytes = [](const auto& value, bool there) {
+      return there ? reinterpret_cast<const std::byte*>(&value) : nullptr;
+    };
     switch (source.index) {
-      case 0:
-        return bytes(state, has_state);
-      case 1:
-        return bytes(status, has_status);
-      case 2:
-        return bytes(path, has_path);
-      case 3:
-        return bytes(plan, has_plan);
-      default:
-        return bytes(probe, true);
+      case 0: return bytes(state, has_state);
+      case 1: return bytes(status, has_status);
+      case 2: return bytes(path, has_path);
+      case 3: return bytes(plan, has_plan);
+      default: return bytes(probe, true);
     }
   }
   static std::pair<Source, TypePtr> find(const std::string& owner, const std::string& port) {
@@ -75,7 +72,8 @@ TEST_CASE("and, or and not follow their truth tables and their precedence") {
         world.status.armed = a;
         world.status.override = b;
         world.status.failsafe = c;
-        const std::string A = "vehicle.status.armed", B = "vehicle.status.override", C = "vehicle.status.failsafe";
+        const std::string A = "vehicle.status.armed", B = "vehicle.status.override",
+                          C = "vehicle.status.failsafe";
         CHECK(world(A + " and " + B) == (a && b));
         CHECK(world(A + " or " + B) == (a || b));
         CHECK(world("not " + A) == !a);
@@ -154,7 +152,8 @@ TEST_CASE("a condition is false while any of its ports has no sample, a negated 
 }
 
 TEST_CASE("a condition lists each port that it looks at once") {
-  const auto condition = Condition::compile("nav.state.height_m > 3 m and nav.state.roll_rad < 1 or vehicle.status.armed", World::find);
+  const auto condition = Condition::compile(
+      "nav.state.height_m > 3 m and nav.state.roll_rad < 1 or vehicle.status.armed", World::find);
   CHECK(condition->ports().size() == 2);
   CHECK(condition->text() == "nav.state.height_m > 3 m and nav.state.roll_rad < 1 or vehicle.status.armed");
 }
@@ -165,7 +164,8 @@ TEST_CASE("a wrong condition is refused with a sentence") {
   CHECK(refused("nav.state.height_m < and") == "expected a field or a number before 'and'");
   CHECK(refused("(vehicle.status.armed") == "a ')' is missing");
   CHECK(refused("vehicle.status.armed)") == "a ')' without its '('");
-  CHECK(refused("vehicle.status.armed vehicle.status.override") == "expected 'and' or 'or' before 'vehicle.status.override'");
+  CHECK(refused("vehicle.status.armed vehicle.status.override") ==
+        "expected 'and' or 'or' before 'vehicle.status.override'");
   CHECK(refused("nav.state.height_m = 3") == "'=' is not understood; write == to compare");
   CHECK(refused("vehicle.status.armed && vehicle.status.override") == "'&&' is not understood; write and");
   CHECK(refused("!vehicle.status.armed") == "'!' is not understood; write not");
@@ -173,16 +173,24 @@ TEST_CASE("a wrong condition is refused with a sentence") {
   CHECK(refused("1 < nav.state.height_m < 3") == "a comparison has two sides; join two of them with 'and'");
   CHECK(refused("3 < 4") == "'3 < 4' looks at no field");
   CHECK(refused("armed") == "'armed' is not a field; a field is written like nav.state.height_m");
-  CHECK(refused("nav.state.height_m") == "'nav.state.height_m' is not true or false; compare it with something");
-  CHECK(refused("nav.state > 3").starts_with("'nav.state' is a whole VehicleState; name a field of it. Valid: position_m, "));
-  CHECK(refused("nav.state.position_m > 3") == "'nav.state.position_m' is a Vec3Ned, not a number, a word or true or false");
+  CHECK(refused("nav.state.height_m") ==
+        "'nav.state.height_m' is not true or false; compare it with something");
+  CHECK(refused("nav.state > 3")
+            .starts_with("'nav.state' is a whole VehicleState; name a field of it. Valid: position_m, "));
+  CHECK(refused("nav.state.position_m > 3") ==
+        "'nav.state.position_m' is a Vec3Ned, not a number, a word or true or false");
   CHECK(refused("nav.state.height_m < 3 s") == "'nav.state.height_m': 3 s is a time, not a length");
-  CHECK(refused("nav.state.height_m < nav.state.roll_rad") == "'nav.state.height_m' is in m and 'nav.state.roll_rad' in rad");
-  CHECK(refused("nav.state.height_m == low") == "'nav.state.height_m' is a number and cannot be compared with 'low'");
-  CHECK(refused("manage.path.kind == obrit") == "'manage.path.kind' is never 'obrit'. Did you mean 'orbit'? Valid: line, orbit.");
+  CHECK(refused("nav.state.height_m < nav.state.roll_rad") ==
+        "'nav.state.height_m' is in m and 'nav.state.roll_rad' in rad");
+  CHECK(refused("nav.state.height_m == low") ==
+        "'nav.state.height_m' is a number and cannot be compared with 'low'");
+  CHECK(refused("manage.path.kind == obrit") ==
+        "'manage.path.kind' is never 'obrit'. Did you mean 'orbit'? Valid: line, orbit.");
   CHECK(refused("manage.path.kind < orbit") == "'manage.path.kind' has no order; compare it with == or !=");
-  CHECK(refused("manage.path.kind == 1") == "'manage.path.kind' is compared with a word. Valid: line, orbit.");
-  CHECK(refused("manage.path.kind == manage.path.turn") == "'manage.path.kind' and 'manage.path.turn' have different words");
+  CHECK(refused("manage.path.kind == 1") ==
+        "'manage.path.kind' is compared with a word. Valid: line, orbit.");
+  CHECK(refused("manage.path.kind == manage.path.turn") ==
+        "'manage.path.kind' and 'manage.path.turn' have different words");
   CHECK(refused("vehicle.status.armed == 1") == "'vehicle.status.armed' is true or false, not 1");
   CHECK(refused("vehicle.status.armed == yes") == "'vehicle.status.armed' is true or false, not 'yes'");
   CHECK(refused("vehicle.status.armed == vehicle.status.health") ==
@@ -190,7 +198,8 @@ TEST_CASE("a wrong condition is refused with a sentence") {
   CHECK(refused("law.roll_error_rad.x > 3") == "'law.roll_error_rad' is a probe: one number, without fields");
   CHECK(refused("law.roll_error_rad > 3 m") == "'law.roll_error_rad': 3 m is a length, not an angle");
   CHECK(refused("nav.stat.height_m > 3") == "there is no port nav.stat");
-  CHECK(refused("plan.plan.waypoints.airspeed_mps > 3") == "'waypoints' is a list of at most 1024: say waypoints[0].");
+  CHECK(refused("plan.plan.waypoints.airspeed_mps > 3") ==
+        "'waypoints' is a list of at most 1024: say waypoints[0].");
   CHECK(refused(std::string(200, '(') + "vehicle.status.armed") == "the condition is nested too deep");
 }
 

@@ -23,20 +23,15 @@ struct Dice {
 };
 
 void mutate(std::string& text, Dice& dice) {
-  static const std::string bits[] = {"{",  "}",    "[",         "]",    ":",     ",",   "\n", "\t", " ",       "'",    "\"",
-                                     "#",  "&a",   "*a",        "?",    "-",     "!",   "|",  ">",  "%",       "@",    "\xff",
-                                     "\0", "null", "nav.state", ".nan", "1e999", "any", "0",  "-1", "vehicle", "next", "<<: "};
+  static const std::string bits[] = {
+      "{",  "}",    "[",         "]",    ":",     ",",   "\n", "\t", " ",       "'",    "\"",
+      "#",  "&a",   "*a",        "?",    "-",     "!",   "|",  ">",  "%",       "@",    "\xff",
+      "\0", "null", "nav.state", ".nan", "1e999", "any", "0",  "-1", "vehicle", "next", "<<: "};
   const std::size_t at = dice.below(text.size());
   switch (dice.below(5)) {
-    case 0:
-      text[at] = static_cast<char>(dice.below(256));
-      break;
-    case 1:
-      text.insert(at, bits[dice.below(std::size(bits))]);
-      break;
-    case 2:
-      text.erase(at, 1 + dice.below(8));
-      break;
+    case 0: text[at] = static_cast<char>(dice.below(256)); break;
+    case 1: text.insert(at, bits[dice.below(std::size(bits))]); break;
+    case 2: text.erase(at, 1 + dice.below(8)); break;
     case 3: {  // a word is replaced by another word of the file
       const std::size_t from = dice.below(text.size()), size = 1 + dice.below(12);
       text.replace(at, size, text.substr(from, size));

@@ -32,43 +32,62 @@ std::string broken(const std::string& text) {
 }
 
 const std::string keys =
-    "mission, extends, io, airframe, origin, rate, seed, arm, done, failed, timeout, epoch, progress, summary, failsafe, roles, "
+    "mission, extends, io, airframe, origin, rate, seed, arm, done, failed, timeout, epoch, progress, "
+    "summary, failsafe, roles, "
     "components, phases, record, plugins, control, tell, resume, live, dds";
 
 }  // namespace
 
 TEST_CASE("keys of the file are known, given once and of the right type") {
-  CHECK(changed("rate: 400 Hz", "rat: 400 Hz") == "5: unknown key 'rat'. Did you mean 'rate'? Valid: " + keys + ".");
+  CHECK(changed("rate: 400 Hz", "rat: 400 Hz") ==
+        "5: unknown key 'rat'. Did you mean 'rate'? Valid: " + keys + ".");
   CHECK(changed("seed: 7", "seed: 7\nseed: 8") == "7: 'seed' is given twice; the first is in line 6");
   CHECK(changed("rate: 400 Hz", "rate: 400 m") == "5: rate: 400 m is a length, not a frequency");
-  CHECK(changed("rate: 400 Hz", "rate: 400") == "5: rate: 400 has no unit; a frequency is written with Hz, kHz, 1/s");
-  CHECK(changed("rate: 400 Hz", "rate: [1]") == "5: rate: expected a number with a unit, such as 10 Hz, found a list");
+  CHECK(changed("rate: 400 Hz", "rate: 400") ==
+        "5: rate: 400 has no unit; a frequency is written with Hz, kHz, 1/s");
+  CHECK(changed("rate: 400 Hz", "rate: [1]") ==
+        "5: rate: expected a number with a unit, such as 10 Hz, found a list");
   CHECK(changed("rate: 400 Hz", "rate: 0 Hz") == "5: rate: 0 Hz is not above 0");
   CHECK(changed("rate: 400 Hz", "rate: .nan") == "5: rate: .nan is not a finite number");
   CHECK(changed("seed: 7", "seed: -7") == "6: seed: expected a whole number from 0, found '-7'");
-  CHECK(changed("seed: 7", "epoch: 2026-13-01T00:00Z") == "6: epoch: '2026-13-01T00:00Z' is not a time such as 2026-01-01T00:00Z");
+  CHECK(changed("seed: 7", "epoch: 2026-13-01T00:00Z") ==
+        "6: epoch: '2026-13-01T00:00Z' is not a time such as 2026-01-01T00:00Z");
   CHECK(changed("seed: 7", "timeout: -3 s") == "6: timeout: -3 s is negative");
   CHECK(changed("io: sim", "io: simulator") == "2: io: unknown word 'simulator'. Valid: sim, fcu.");
-  CHECK(changed("arm: auto", "arm: atuo") == "7: arm: unknown word 'atuo'. Did you mean 'auto'? Valid: auto, off.");
-  CHECK(changed("mission: hourglass", "mission: a/b") == "1: mission: a name without '/' is wanted, found 'a/b'");
-  CHECK(changed("progress: [", "progress: x #[") == "9: progress: expected a list of fields such as [nav.state.height_m], found 'x'");
+  CHECK(changed("arm: auto", "arm: atuo") ==
+        "7: arm: unknown word 'atuo'. Did you mean 'auto'? Valid: auto, off.");
+  CHECK(changed("mission: hourglass", "mission: a/b") ==
+        "1: mission: a name without '/' is wanted, found 'a/b'");
+  CHECK(changed("progress: [", "progress: x #[") ==
+        "9: progress: expected a list of fields such as [nav.state.height_m], found 'x'");
   CHECK(changed("\ncomponents:", "\ncomponents: []\ncomponent:")
-            .find("\n20: components: expected a map of names, found a list\n21: unknown key 'component'.") != std::string::npos);
-  CHECK(changed("  follow:", "  fol-low:").find("components: 'fol-low' is not a name; names are letters, digits and _") !=
+            .find("\n20: components: expected a map of names, found a list\n21: unknown key 'component'.") !=
+        std::string::npos);
+  CHECK(changed("  follow:", "  fol-low:")
+            .find("components: 'fol-low' is not a name; names are letters, digits and _") !=
         std::string::npos);
 }
 
 TEST_CASE("a name that the log has no room for is refused with its line, one that just fits is not") {
   const std::string c47(47, 'c'), c48(48, 'c'), p63(63, 'p'), p64(64, 'p');
-  const auto said = [](const std::string& text) { return changed("\ncomponents:\n", "\ncomponents:\n  " + text + "\n"); };
+  const auto said = [](const std::string& text) {
+    return changed("\ncomponents:\n", "\ncomponents:\n  " + text + "\n");
+  };
   CHECK(said(c47 + ": {use: score}").find("characters") == std::string::npos);
-  CHECK(said(c48 + ": {use: score}").find("21: components: '" + c48 + "' has 48 characters; a name has 47 at most") != std::string::npos);
-  const auto role = [](const std::string& name) { return changed("\nroles:\n", "\nroles:\n  " + name + ": {in: {}, out: {}}\n"); };
+  CHECK(said(c48 + ": {use: score}")
+            .find("21: components: '" + c48 + "' has 48 characters; a name has 47 at most") !=
+        std::string::npos);
+  const auto role = [](const std::string& name) {
+    return changed("\nroles:\n", "\nroles:\n  " + name + ": {in: {}, out: {}}\n");
+  };
   CHECK(role(c47).find("characters") == std::string::npos);
   CHECK(role(c48).find("roles: '" + c48 + "' has 48 characters; a name has 47 at most") != std::string::npos);
-  const auto phase = [](const std::string& name) { return changed("\nphases:\n", "\nphases:\n  " + name + ": {}\n"); };
+  const auto phase = [](const std::string& name) {
+    return changed("\nphases:\n", "\nphases:\n  " + name + ": {}\n");
+  };
   CHECK(phase(p63).find("characters") == std::string::npos);
-  CHECK(phase(p64).find("phases: '" + p64 + "' has 64 characters; a name has 63 at most") != std::string::npos);
+  CHECK(phase(p64).find("phases: '" + p64 + "' has 64 characters; a name has 63 at most") !=
+        std::string::npos);
   for (const std::size_t size : {std::size_t{63}, std::size_t{64}}) {
     Mission mission;
     mission.shelf.plugins.at("score")->components.at(0).params.push_back({});
@@ -81,32 +100,41 @@ TEST_CASE("a name that the log has no room for is refused with its line, one tha
 }
 
 TEST_CASE("broken YAML is told in one sentence with its line") {
-  CHECK(broken("a: [1, 2\nb: 3\n") == "hourglass.yaml:2: not valid YAML: a '[' is not closed, or a ',' is missing");
-  CHECK(broken("a: {x: 1\nb: 2") == "hourglass.yaml:2: not valid YAML: a '{' is not closed, or a ',' is missing");
-  CHECK(broken("mission: x\nio: sim\n\trate: 3\n") == "hourglass.yaml:3: not valid YAML: a tab indents this line; YAML wants spaces");
+  CHECK(broken("a: [1, 2\nb: 3\n") ==
+        "hourglass.yaml:2: not valid YAML: a '[' is not closed, or a ',' is missing");
+  CHECK(broken("a: {x: 1\nb: 2") ==
+        "hourglass.yaml:2: not valid YAML: a '{' is not closed, or a ',' is missing");
+  CHECK(broken("mission: x\nio: sim\n\trate: 3\n") ==
+        "hourglass.yaml:3: not valid YAML: a tab indents this line; YAML wants spaces");
   CHECK(broken("mission: x\n  io: sim\n") ==
-        "hourglass.yaml:2: not valid YAML: a ':' stands where none can: look at the indentation and at the line above; text that holds ': "
+        "hourglass.yaml:2: not valid YAML: a ':' stands where none can: look at the indentation and at the "
+        "line above; text that holds ': "
         "' needs quotes");
-  CHECK(broken("a: @x") == "hourglass.yaml:1: not valid YAML: a character that cannot begin a value; put the text in quotes");
+  CHECK(broken("a: @x") ==
+        "hourglass.yaml:1: not valid YAML: a character that cannot begin a value; put the text in quotes");
   CHECK(broken("a: &a [*a]") == "hourglass.yaml: not valid YAML: nested more than 60 deep");
   CHECK(broken("") == "hourglass.yaml:1: expected a map with the keys " + keys + "; found nothing");
   CHECK(broken("- a\n") == "hourglass.yaml:1: expected a map with the keys " + keys + "; found a list");
   CHECK(broken("mission: x\n---\nio: sim\n") ==
-        "hourglass.yaml: no component is a vehicle; a mission needs one, such as use: sim_aero\nhourglass.yaml:3: a second document begins "
+        "hourglass.yaml: no component is a vehicle; a mission needs one, such as use: "
+        "sim_aero\nhourglass.yaml:3: a second document begins "
         "here; a file holds one");
   Mission mission;
-  CHECK_THROWS_WITH_AS(load_mission("no/such.yaml", {}, mission.shelf), "there is no file no/such.yaml", Error);
+  CHECK_THROWS_WITH_AS(load_mission("no/such.yaml", {}, mission.shelf), "there is no file no/such.yaml",
+                       Error);
   CHECK_THROWS_WITH_AS(load_mission(mission.folder.path.string(), {}, mission.shelf),
                        (mission.folder.path.string() + " is a folder, not a file").c_str(), Error);
 }
 
 TEST_CASE("a plugin or component that is not there is told with its neighbours") {
   CHECK(changed("use: control_slc/Outer", "use: control_scl/Outer") ==
-        "28: components.slc: there is no plugin 'control_scl'. Searched in shelf. Did you mean 'control_slc'? Valid: control_slc, "
+        "28: components.slc: there is no plugin 'control_scl'. Searched in shelf. Did you mean "
+        "'control_slc'? Valid: control_slc, "
         "control_tecs, estimator_ekf, "
         "fcu_serial, my_law, path, score, sim_aero.");
   CHECK(changed("use: control_slc/Outer", "use: control_slc/Oter") ==
-        "28: components.slc: the plugin control_slc has no component 'Oter'. Did you mean 'Outer'? Valid: Outer, Inner.");
+        "28: components.slc: the plugin control_slc has no component 'Oter'. Did you mean 'Outer'? Valid: "
+        "Outer, Inner.");
   CHECK(changed("use: control_slc/Outer,", "") ==
         "28: components.slc: 'use' is missing; it names the plugin, as in use: control_slc/Outer");
 }
@@ -114,59 +142,74 @@ TEST_CASE("a plugin or component that is not there is told with its neighbours")
 TEST_CASE("roles are filled by components that keep the contract") {
   CHECK(changed("fills: guide,", "fills: giude,") ==
         "16: roles.guide: no component fills it; write 'fills: guide' at one\n"
-        "27: components.follow: there is no role 'giude'. Did you mean 'guide'? Valid: vehicle, nav, guide, outer, inner.");
-  CHECK(changed("out: {state: VehicleState}}", "out: {state: Gnss, extra: Imu}}") ==
-        "23: components.ekf: the role nav wants an output 'state' of type Gnss; its 'state' is VehicleState\n"
-        "23: components.ekf: the role nav wants an output 'extra' of type Imu; it has state: VehicleState\n"
-        "24: components.truth: the role nav wants an output 'state' of type Gnss; its 'state' is VehicleState\n"
-        "24: components.truth: the role nav wants an output 'extra' of type Imu; it has state: VehicleState");
+        "27: components.follow: there is no role 'giude'. Did you mean 'guide'? Valid: vehicle, nav, guide, "
+        "outer, inner.");
+  CHECK(
+      changed("out: {state: VehicleState}}", "out: {state: Gnss, extra: Imu}}") ==
+      "23: components.ekf: the role nav wants an output 'state' of type Gnss; its 'state' is VehicleState\n"
+      "23: components.ekf: the role nav wants an output 'extra' of type Imu; it has state: VehicleState\n"
+      "24: components.truth: the role nav wants an output 'state' of type Gnss; its 'state' is VehicleState\n"
+      "24: components.truth: the role nav wants an output 'extra' of type Imu; it has state: VehicleState");
   CHECK(changed("fills: nav, use: sim_aero/TruthState", "fills: vehicle, use: sim_aero/TruthState")
-            .find("24: components.truth: sim_aero/TruthState is not a vehicle: it has 'step' in place of 'read' and 'write'") !=
-        std::string::npos);
+            .find("24: components.truth: sim_aero/TruthState is not a vehicle: it has 'step' in place of "
+                  "'read' and 'write'") != std::string::npos);
   CHECK(changed("\n  nav:     {in", "\n  slc:     {out: {}}\n  nav:     {in") ==
-        "15: roles.slc: there is a component of that name too; rename one of them\n15: roles.slc: no component fills it; write 'fills: "
+        "15: roles.slc: there is a component of that name too; rename one of them\n15: roles.slc: no "
+        "component fills it; write 'fills: "
         "slc' at one");
 }
 
 TEST_CASE("wires end at ports that exist and fit") {
   CHECK(changed("plan: plan.plan", "plan: plan.pln") ==
-        "26: components.manage.in.plan: plan (path/Planner) has no output 'pln'. Did you mean 'plan'? Valid: plan.");
+        "26: components.manage.in.plan: plan (path/Planner) has no output 'pln'. Did you mean 'plan'? Valid: "
+        "plan.");
   CHECK(changed("plan: plan.plan", "plan: pln.plan") ==
-        "26: components.manage.in.plan: there is no role or component 'pln'. Did you mean 'plan'? Valid: vehicle, nav, guide, outer, "
+        "26: components.manage.in.plan: there is no role or component 'pln'. Did you mean 'plan'? Valid: "
+        "vehicle, nav, guide, outer, "
         "inner, sim, ekf, truth, plan, manage, "
         "follow, slc, tecs, attitude, mine, score.");
   CHECK(changed("plan: plan.plan", "plan: nav.stat") ==
-        "26: components.manage.in.plan: the role nav has no output 'stat'. Did you mean 'state'? Valid: state.");
-  CHECK(changed("plan: plan.plan", "plan: plan") == "26: components.manage.in.plan: expected a port such as nav.state, found 'plan'");
+        "26: components.manage.in.plan: the role nav has no output 'stat'. Did you mean 'state'? Valid: "
+        "state.");
+  CHECK(changed("plan: plan.plan", "plan: plan") ==
+        "26: components.manage.in.plan: expected a port such as nav.state, found 'plan'");
   CHECK(changed("plan: plan.plan", "plan: manage.progress") ==
         "26: components.manage.in.plan: manage.plan takes Plan, but manage.progress is Progress");
-  CHECK(changed(", plan: plan.plan", "") == "26: components.manage: the input 'plan' is not wired; outputs of type Plan: plan.plan");
+  CHECK(changed(", plan: plan.plan", "") ==
+        "26: components.manage: the input 'plan' is not wired; outputs of type Plan: plan.plan");
   CHECK(changed("path: manage.path}, out: {comm", "path: attitude.roll_error_rad}, out: {comm") ==
-        "16: roles.guide.in.path: attitude.roll_error_rad is a probe: a number to look at, not a message to wire");
-  CHECK(changed("{state: nav.state, path: manage.path}, out: {comm", "{state: nav.state, pth: manage.path}, out: {comm") ==
+        "16: roles.guide.in.path: attitude.roll_error_rad is a probe: a number to look at, not a message to "
+        "wire");
+  CHECK(changed("{state: nav.state, path: manage.path}, out: {comm",
+                "{state: nav.state, pth: manage.path}, out: {comm") ==
         "16: roles.guide.in.pth: no component that fills guide has such an input. Did you mean 'path'?\n"
         "27: components.follow: the input 'path' is not wired; outputs of type Path: manage.path");
   CHECK(changed("plan: plan.plan}", "plan: plan.plan, stat: nav.state}") ==
-        "26: components.manage.in.stat: path/Manager has no such input. Did you mean 'state'? Valid: state, plan.");
+        "26: components.manage.in.stat: path/Manager has no such input. Did you mean 'state'? Valid: state, "
+        "plan.");
   CHECK(changed("plan: plan.plan}", "plan: {from: plan.plan, max_age: 3 m, dely: true}}") ==
-        "26: components.manage.in.plan: unknown key 'dely'. Valid: from, max_age, delayed.\n26: components.manage.in.plan.max_age: 3 m is "
+        "26: components.manage.in.plan: unknown key 'dely'. Valid: from, max_age, delayed.\n26: "
+        "components.manage.in.plan.max_age: 3 m is "
         "a length, not a time");
   CHECK(changed("plan: plan.plan}", "plan: {max_age: 3 s}}") ==
         "26: components.manage.in.plan: 'from' is missing, as in {from: nav.state, max_age: 0.5 s}");
-  CHECK(changed("{state: nav.state, plan:", "{state: fcu.imu, plan:") == "26: components.manage.in.state: fcu exists only with io: fcu");
+  CHECK(changed("{state: nav.state, plan:", "{state: fcu.imu, plan:") ==
+        "26: components.manage.in.state: fcu exists only with io: fcu");
   CHECK(changed("use: path/Planner,", "use: path/Planner, in: {edit: plan.plan},") ==
         "25: components.plan.in.edit: plan.edit takes PlanEdit, but plan.plan is Plan");
 }
 
 TEST_CASE("a request is not fed by an output that is sent in every step") {
   Mission mission;
-  mission.shelf.plugins["path"]->components[1].outputs.push_back(mission.shelf.plugins["path"]->components[0].inputs[2]);
+  mission.shelf.plugins["path"]->components[1].outputs.push_back(
+      mission.shelf.plugins["path"]->components[0].inputs[2]);
   Port& port = mission.shelf.plugins["path"]->components[1].outputs.back();
   port.name = "wish";
   port.kind = FULMAR_OUT_VALUE;
   mission.replace("use: path/Planner,", "use: path/Planner, in: {edit: {from: manage.wish, delayed: true}},");
   CHECK(mission.faults() ==
-        "hourglass.yaml:25: components.plan.in.edit: plan.edit is a request, but manage.wish is sent in every step; a request is fed by an "
+        "hourglass.yaml:25: components.plan.in.edit: plan.edit is a request, but manage.wish is sent in "
+        "every step; a request is fed by an "
         "output that may stay silent");
   port.kind = FULMAR_OUT_EVENT;
   CHECK(mission.faults() == "");
@@ -179,35 +222,48 @@ TEST_CASE("messages of one name and another table are told apart by their first 
   ++other->hash;
   mission.shelf.plugins["path"]->components[1].inputs[1].type = other;
   CHECK(mission.faults() ==
-        "hourglass.yaml:26: components.manage.in.plan: plan.plan is another Plan than manage.plan takes: revision: reader has unit m, "
+        "hourglass.yaml:26: components.manage.in.plan: plan.plan is another Plan than manage.plan takes: "
+        "revision: reader has unit m, "
         "writer none");
 }
 
 TEST_CASE("parameters exist, fit and lie in their range") {
   CHECK(changed("turbulence: light", "turbulence: lihgt") ==
-        "21: components.sim.params.turbulence: unknown word 'lihgt'. Did you mean 'light'? Valid: none, light, moderate.");
+        "21: components.sim.params.turbulence: unknown word 'lihgt'. Did you mean 'light'? Valid: none, "
+        "light, moderate.");
   CHECK(changed("turbulence: light", "turbulnce: light") ==
-        "21: components.sim.params: sim_aero/Aircraft has no parameter 'turbulnce'. Did you mean 'turbulence'? Valid: rate, epoch, "
+        "21: components.sim.params: sim_aero/Aircraft has no parameter 'turbulnce'. Did you mean "
+        "'turbulence'? Valid: rate, epoch, "
         "wind_ned, turbulence, airframe, origin.");
-  CHECK(changed("[3, -4, 0]", "[3, -4]") == "21: components.sim.params.wind_ned: expected three numbers [north, east, down], found 2");
+  CHECK(changed("[3, -4, 0]", "[3, -4]") ==
+        "21: components.sim.params.wind_ned: expected three numbers [north, east, down], found 2");
   CHECK(changed("[3, -4, 0]", "[3 kt, -40 m/s, .inf]") ==
-        "21: components.sim.params.wind_ned.east: -40 m/s is outside -30 .. 30 m/s\n21: components.sim.params.wind_ned.down: .inf is not a "
+        "21: components.sim.params.wind_ned.east: -40 m/s is outside -30 .. 30 m/s\n21: "
+        "components.sim.params.wind_ned.down: .inf is not a "
         "finite number");
-  CHECK(changed("use: control_slc/Inner", "params: {roll_kp: 9, roll_limit: 80 deg}, use: control_slc/Inner") ==
-        "30: components.attitude.params.roll_kp: 9 is outside 0 .. 2 rad/rad\n30: components.attitude.params.roll_limit: 80 deg is outside "
-        "0 .. 60 deg");
+  CHECK(
+      changed("use: control_slc/Inner", "params: {roll_kp: 9, roll_limit: 80 deg}, use: control_slc/Inner") ==
+      "30: components.attitude.params.roll_kp: 9 is outside 0 .. 2 rad/rad\n30: "
+      "components.attitude.params.roll_limit: 80 deg is outside "
+      "0 .. 60 deg");
   CHECK(changed("use: estimator_ekf", "params: {use_mag: 3, skip: 1.5, gate: {}}, use: estimator_ekf") ==
-        "23: components.ekf.params.use_mag: expected true or false, found '3'\n23: components.ekf.params.skip: 1.5 is not a whole number\n"
+        "23: components.ekf.params.use_mag: expected true or false, found '3'\n23: "
+        "components.ekf.params.skip: 1.5 is not a whole number\n"
         "23: components.ekf.params.gate: expected a number in rad, found a map");
-  CHECK(changed("plans/hourglass.yaml", "plans/hourglas.yaml") == "25: components.plan.params.plan: there is no file plans/hourglas.yaml");
-  CHECK(changed("turbulence: light", "rate: 100 Hz") == "21: components.sim.params.rate: comes from the mission's 'rate'; set it there");
+  CHECK(changed("plans/hourglass.yaml", "plans/hourglas.yaml") ==
+        "25: components.plan.params.plan: there is no file plans/hourglas.yaml");
+  CHECK(changed("turbulence: light", "rate: 100 Hz") ==
+        "21: components.sim.params.rate: comes from the mission's 'rate'; set it there");
   CHECK(changed("airframe: anaconda.yaml\n", "") ==
-        "20: components.sim: the parameter 'airframe' is missing; give the mission's 'airframe'\n29: components.attitude: the parameter "
+        "20: components.sim: the parameter 'airframe' is missing; give the mission's 'airframe'\n29: "
+        "components.attitude: the parameter "
         "'airframe' is missing; give the mission's 'airframe'");
-  CHECK(changed("airframe: anaconda.yaml", "airframe: annaconda.yaml") == "3: airframe: there is no file annaconda.yaml");
+  CHECK(changed("airframe: anaconda.yaml", "airframe: annaconda.yaml") ==
+        "3: airframe: there is no file annaconda.yaml");
   CHECK(changed("alt_msl: 1387 m", "alt_msl: 1387, latt: 3") ==
         "4: origin.alt_msl: 1387 has no unit; a length is written with m, cm, mm, km, ft, in, nmi\n"
-        "4: origin: unknown field 'latt' of Origin. Did you mean 'lat'? Valid: lat_deg, lon_deg, alt_msl_m, given.");
+        "4: origin: unknown field 'latt' of Origin. Did you mean 'lat'? Valid: lat_deg, lon_deg, alt_msl_m, "
+        "given.");
   CHECK(changed("rate: 400 Hz", "rate: 4000 Hz") ==
         "21: components.sim: the mission's rate of 4000 Hz is outside 50 .. 2000 Hz of sim_aero/Aircraft");
 }
@@ -215,70 +271,93 @@ TEST_CASE("parameters exist, fit and lie in their range") {
 TEST_CASE("faults of a named file tell that file and its line") {
   Mission mission;
   mission.folder.write("plans/hourglass.yaml", "airspeed: 17 m/s\nwaypoints:\n  - {position_m: [1, 2]}\n");
-  mission.folder.write("anaconda.yaml", "mass: 4.5\nparams:\n  control_slc/Inner: {roll_kp: 7, roll_ki: 3}\n  control_slc/Iner: {}\n");
+  mission.folder.write(
+      "anaconda.yaml",
+      "mass: 4.5\nparams:\n  control_slc/Inner: {roll_kp: 7, roll_ki: 3}\n  control_slc/Iner: {}\n");
   CHECK(mission.faults() ==
         "anaconda.yaml:1: mass: 4.5 has no unit; a mass is written with kg, gram, lb\n"
         "anaconda.yaml:3: params.control_slc/Inner.roll_kp: 7 is outside 0 .. 2 rad/rad\n"
-        "anaconda.yaml:3: params.control_slc/Inner: control_slc/Inner has no parameter 'roll_ki'. Did you mean 'roll_kp'? Valid: roll_kp, "
+        "anaconda.yaml:3: params.control_slc/Inner: control_slc/Inner has no parameter 'roll_ki'. Did you "
+        "mean 'roll_kp'? Valid: roll_kp, "
         "roll_limit, airframe.\n"
-        "anaconda.yaml:4: params: the plugin control_slc has no component 'Iner'. Did you mean 'Inner'? Valid: Outer, Inner.\n"
+        "anaconda.yaml:4: params: the plugin control_slc has no component 'Iner'. Did you mean 'Inner'? "
+        "Valid: Outer, Inner.\n"
         "plans/hourglass.yaml:3: waypoints[0].position_m: expected 3 numbers [north, east, down], found 2");
 }
 
 TEST_CASE("rates, budgets and run modes are those that this build has") {
   CHECK(changed("rate: 100 Hz}\n  tecs", "rate: 1000 Hz, budget: 3}\n  tecs") ==
-        "28: components.slc.budget: 3 has no unit; a time is written with s, ms, us, ns, min, h\n28: components.slc.rate: 1000 Hz is above "
+        "28: components.slc.budget: 3 has no unit; a time is written with s, ms, us, ns, min, h\n28: "
+        "components.slc.rate: 1000 Hz is above "
         "the mission's rate of 400 Hz");
   CHECK(changed("rate: 100 Hz}\n  tecs", "run: process}\n  tecs") == "");
-  CHECK(changed("rate: 100 Hz}\n  tecs", "run: tick, hang: 5 ms}\n  tecs") == "28: components.slc.hang: belongs to 'run: process'");
+  CHECK(changed("rate: 100 Hz}\n  tecs", "run: tick, hang: 5 ms}\n  tecs") ==
+        "28: components.slc.hang: belongs to 'run: process'");
   CHECK(changed("rate: 100 Hz}\n  tecs", "memory: 5 m}\n  tecs") ==
         "28: components.slc.memory: '5 m' is no amount of memory; write it with kB, MB or GB, as in 64 MB");
   CHECK(changed("rate: 100 Hz}\n  tecs", "run: fast, latency: 20 ms}\n  tecs") ==
-        "28: components.slc.run: unknown word 'fast'. Valid: tick, process, async, driver.\n28: components.slc.latency: belongs to 'run: "
+        "28: components.slc.run: unknown word 'fast'. Valid: tick, process, async, driver.\n28: "
+        "components.slc.latency: belongs to 'run: "
         "async'");
 }
 
 TEST_CASE("phases name phases, roles and fillers that exist, and all can be reached") {
   CHECK(changed("to: takeoff", "to: take_off") ==
-        "36: phases.hold.next.to: there is no phase 'take_off'. Did you mean 'takeoff'? Valid: hold, takeoff, cruise, research.\n"
+        "36: phases.hold.next.to: there is no phase 'take_off'. Did you mean 'takeoff'? Valid: hold, "
+        "takeoff, cruise, research.\n"
         "37: phases.takeoff: no transition leads here from hold, where the flight begins");
-  CHECK(changed("outer: slc, next", "outer: ekf, next") == "36: phases.hold.outer: ekf fills nav, not outer. Valid: slc, tecs, mine.");
-  CHECK(changed("outer: slc, next", "outer: plan, next") == "36: phases.hold.outer: plan does not fill outer. Valid: slc, tecs, mine.");
+  CHECK(changed("outer: slc, next", "outer: ekf, next") ==
+        "36: phases.hold.outer: ekf fills nav, not outer. Valid: slc, tecs, mine.");
+  CHECK(changed("outer: slc, next", "outer: plan, next") ==
+        "36: phases.hold.outer: plan does not fill outer. Valid: slc, tecs, mine.");
   CHECK(changed("outer: slc, next", "outer: scl, next") ==
-        "36: phases.hold.outer: there is no component 'scl' that fills outer. Did you mean 'slc'? Valid: slc, tecs, mine.");
+        "36: phases.hold.outer: there is no component 'scl' that fills outer. Did you mean 'slc'? Valid: "
+        "slc, tecs, mine.");
   CHECK(changed("outer: slc, next", "guid: follow, outer: slc, next") ==
-        "36: phases.hold: unknown key 'guid'. Did you mean 'guide'? Valid: next, vehicle, nav, guide, outer, inner.");
+        "36: phases.hold: unknown key 'guid'. Did you mean 'guide'? Valid: next, vehicle, nav, guide, outer, "
+        "inner.");
   CHECK(changed("outer: slc, next", "vehicle: sim, outer: slc, next") ==
-        "36: phases.hold.vehicle: the vehicle does not change in flight; choose it with io or with --role vehicle=NAME");
+        "36: phases.hold.vehicle: the vehicle does not change in flight; choose it with io or with --role "
+        "vehicle=NAME");
   CHECK(changed("law: takeoff", "law: takeof") ==
-        "37: phases.takeoff.outer.set.law: unknown word 'takeof'. Did you mean 'takeoff'? Valid: normal, takeoff.");
+        "37: phases.takeoff.outer.set.law: unknown word 'takeof'. Did you mean 'takeoff'? Valid: normal, "
+        "takeoff.");
   CHECK(changed("law: takeoff", "span: 3") ==
-        "37: phases.takeoff.outer.set.span: is fixed when the flight begins; a phase can set live parameters alone. Live: course_kp, law.");
+        "37: phases.takeoff.outer.set.span: is fixed when the flight begins; a phase can set live parameters "
+        "alone. Live: course_kp, law.");
   CHECK(changed("law: takeoff", "laww: takeoff") ==
-        "37: phases.takeoff.outer.set: slc has no parameter 'laww'. Did you mean 'law'? Valid: course_kp, law.");
+        "37: phases.takeoff.outer.set: slc has no parameter 'laww'. Did you mean 'law'? Valid: course_kp, "
+        "law.");
   CHECK(changed("fallback: tecs", "fallback: mine") ==
         "39: phases.research.outer.fallback: mine is the component that fills the role already");
   CHECK(changed("to: research, when", "to: cruise, when") ==
         "39: phases.research: no transition leads here from hold, where the flight begins");
   CHECK(changed("{to: cruise, when: \"nav.state.height_m > 20 m\"}", "{when: \"vehicle.status.armed\"}") ==
         "36: phases.hold.next: 'to' is missing, as in {to: cruise, when: \"nav.state.height_m > 30 m\"}");
-  CHECK(changed("height_m < 3 m", "height_m < 3 s") == "36: phases.hold.next.when: 'nav.state.height_m': 3 s is a time, not a length");
+  CHECK(changed("height_m < 3 m", "height_m < 3 s") ==
+        "36: phases.hold.next.when: 'nav.state.height_m': 3 s is a time, not a length");
 }
 
 TEST_CASE("what is shown and decided names fields that exist") {
-  CHECK(changed("circuits >= 2", "circuits >= two") == "8: done: 'manage.progress.circuits' is a number and cannot be compared with 'two'");
-  CHECK(changed("nav.state.airspeed_mps,", "nav.state.airspeed,").starts_with("9: progress: VehicleState has no field 'airspeed'."));
+  CHECK(changed("circuits >= 2", "circuits >= two") ==
+        "8: done: 'manage.progress.circuits' is a number and cannot be compared with 'two'");
+  CHECK(changed("nav.state.airspeed_mps,", "nav.state.airspeed,")
+            .starts_with("9: progress: VehicleState has no field 'airspeed'."));
   CHECK(changed("score.tracking,", "score.traking,") ==
-        "10: summary.tracking_rmse: score (score/Score) has no output 'traking'. Did you mean 'tracking'? Valid: tracking, estimation.");
+        "10: summary.tracking_rmse: score (score/Score) has no output 'traking'. Did you mean 'tracking'? "
+        "Valid: tracking, estimation.");
   CHECK(changed("score.tracking,", "score.tracking.item,") ==
         "10: summary.tracking_rmse: expected a port such as score.tracking, found 'score.tracking.item'");
   CHECK(changed("throttle_frac: 0", "throtle_frac: 0") ==
-        "11: failsafe: the vehicle takes no 'throtle_frac'. Did you mean 'throttle_frac'? Valid: for, throttle_frac, aileron_rad, "
+        "11: failsafe: the vehicle takes no 'throtle_frac'. Did you mean 'throttle_frac'? Valid: for, "
+        "throttle_frac, aileron_rad, "
         "elevator_rad, rudder_rad.");
-  CHECK(changed("throttle_frac: 0, for: 2 s", "throttle: 150 %, for: 2 m") ==
-        "11: failsafe.for: 2 m is a length, not a time\n11: failsafe.throttle: 150 % is outside -100 .. 100 %");
+  CHECK(
+      changed("throttle_frac: 0, for: 2 s", "throttle: 150 %, for: 2 m") ==
+      "11: failsafe.for: 2 m is a length, not a time\n11: failsafe.throttle: 150 % is outside -100 .. 100 %");
   CHECK(changed("seed: 7", "record: {ports: [\"nav.*\", nav.stat, \"x*\"]}") ==
-        "6: record.ports: 'nav.stat' matches no port. Did you mean 'nav.state'?\n6: record.ports: 'x*' matches no port.");
+        "6: record.ports: 'nav.stat' matches no port. Did you mean 'nav.state'?\n6: record.ports: 'x*' "
+        "matches no port.");
 }
 
 TEST_CASE("a cycle is printed as a path, with the way out") {
@@ -291,7 +370,8 @@ TEST_CASE("a cycle is printed as a path, with the way out") {
   follow.inputs.back().optional = true;
   mission.replace("fills: guide,", "fills: guide, in: {back: inner.actuators},");
   CHECK(mission.faults() ==
-        "hourglass.yaml:27: the wires form a cycle: follow -> slc -> attitude -> follow. Mark one of them, as in {from: nav.state, "
+        "hourglass.yaml:27: the wires form a cycle: follow -> slc -> attitude -> follow. Mark one of them, "
+        "as in {from: nav.state, "
         "delayed: true}: it then carries the value of the "
         "tick before");
   mission.replace("back: inner.actuators", "back: {from: inner.actuators, delayed: true}");
@@ -315,15 +395,19 @@ TEST_CASE("ten faults give ten sentences in the order of the file") {
         "hourglass.yaml:5: rate: 400 m is a length, not a frequency\n"
         "hourglass.yaml:6: seed: expected a whole number from 0, found 'x'\n"
         "hourglass.yaml:8: done: 'manage.progress.circuits' is a number and cannot be compared with 'two'\n"
-        "hourglass.yaml:10: summary.tracking_rmse: there is no role or component 'scor'. Did you mean 'score'? Valid: vehicle, nav, guide, "
+        "hourglass.yaml:10: summary.tracking_rmse: there is no role or component 'scor'. Did you mean "
+        "'score'? Valid: vehicle, nav, guide, "
         "outer, inner, sim, ekf, truth, plan, "
         "manage, follow, slc, tecs, attitude, mine, score.\n"
-        "hourglass.yaml:11: failsafe: the vehicle takes no 'throtle_frac'. Did you mean 'throttle_frac'? Valid: for, throttle_frac, "
+        "hourglass.yaml:11: failsafe: the vehicle takes no 'throtle_frac'. Did you mean 'throttle_frac'? "
+        "Valid: for, throttle_frac, "
         "aileron_rad, elevator_rad, rudder_rad.\n"
-        "hourglass.yaml:21: components.sim.params.turbulence: unknown word 'lite'. Valid: none, light, moderate.\n"
+        "hourglass.yaml:21: components.sim.params.turbulence: unknown word 'lite'. Valid: none, light, "
+        "moderate.\n"
         "hourglass.yaml:27: components.follow.rate: 100 m is a length, not a frequency\n"
         "hourglass.yaml:37: phases.takeoff.outer.set.law: unknown word '3'. Valid: normal, takeoff.\n"
-        "hourglass.yaml:39: phases.research.outer.fallback: there is no component 'tec' that fills outer. Did you mean 'tecs'? Valid: slc, "
+        "hourglass.yaml:39: phases.research.outer.fallback: there is no component 'tec' that fills outer. "
+        "Did you mean 'tecs'? Valid: slc, "
         "tecs, mine.");
 }
 
@@ -332,17 +416,21 @@ TEST_CASE("the command line is checked like the file") {
   Overrides overrides;
   overrides.io = "boat";
   overrides.roles = {{"nva", "truth"}, {"nav", "slc"}, {"nav", "x"}};
-  overrides.set = {{"slc.course_kp", "9"},   {"slc", "9"},           {"slx.a", "1"},   {"slc.course_kpp", "9"},
-                   {"sim.wind_ned", "[1,2"}, {"sim.turbulence", ""}, {"fcu.port", "x"}};
+  overrides.set = {
+      {"slc.course_kp", "9"},   {"slc", "9"},           {"slx.a", "1"},   {"slc.course_kpp", "9"},
+      {"sim.wind_ned", "[1,2"}, {"sim.turbulence", ""}, {"fcu.port", "x"}};
   CHECK(mission.faults(overrides) ==
-        "--role nva=truth: there is no role 'nva'. Did you mean 'nav'? Valid: vehicle, nav, guide, outer, inner.\n"
+        "--role nva=truth: there is no role 'nva'. Did you mean 'nav'? Valid: vehicle, nav, guide, outer, "
+        "inner.\n"
         "--role nav=slc: slc fills outer, not nav. Valid: ekf, truth.\n"
         "--role nav=x: there is no component 'x' that fills nav. Valid: ekf, truth.\n"
         "--set slc.course_kp=9: slc.course_kp: 9 is outside 0 .. 3 rad/rad\n"
         "--set slc=9: expected component.parameter=value\n"
-        "--set slx.a=1: there is no component 'slx'. Did you mean 'slc'? Valid: sim, ekf, truth, plan, manage, follow, slc, tecs, "
+        "--set slx.a=1: there is no component 'slx'. Did you mean 'slc'? Valid: sim, ekf, truth, plan, "
+        "manage, follow, slc, tecs, "
         "attitude, mine, score.\n"
-        "--set slc.course_kpp=9: slc: control_slc/Outer has no parameter 'course_kpp'. Did you mean 'course_kp'? Valid: course_kp, law, "
+        "--set slc.course_kpp=9: slc: control_slc/Outer has no parameter 'course_kpp'. Did you mean "
+        "'course_kp'? Valid: course_kp, law, "
         "span, airframe.\n"
         "--set sim.wind_ned=[1,2: not valid YAML: a '[' is not closed, or a ',' is missing\n"
         "--set sim.turbulence=: sim.turbulence: expected one of none, light, moderate, found nothing\n"
@@ -355,7 +443,8 @@ TEST_CASE("the epoch is a time in UTC") {
   CHECK(parse_utc_ns("1970-01-01T00:00Z") == 0);
   CHECK(parse_utc_ns("2026-01-01T00:00Z") == 1767225600'000000000);
   CHECK(parse_utc_ns("2024-02-29T23:59:59.5Z") == 1709251199'500000000);
-  for (const char* text : {"", "2026-01-01", "2026-01-01T00:00", "2026-01-01T24:00Z", "2026-01-01T00:00:60Z", "2026-01-01T00:00xZ"})
+  for (const char* text : {"", "2026-01-01", "2026-01-01T00:00", "2026-01-01T24:00Z", "2026-01-01T00:00:60Z",
+                           "2026-01-01T00:00xZ"})
     CHECK_THROWS_AS(parse_utc_ns(text), Error);
 }
 

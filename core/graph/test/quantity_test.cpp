@@ -28,7 +28,8 @@ std::string refused(const char* text, const char* unit, UnitRule rule = UnitRule
 
 }  // namespace
 
-// Reference values: SI brochure (9th edition) and ISO 80000; 1 nautical mile = 1852 m, 1 ft = 0.3048 m, standard gravity 9.80665 m/s2.
+// Reference values: SI brochure (9th edition) and ISO 80000; 1 nautical mile = 1852 m, 1 ft = 0.3048 m,
+// standard gravity 9.80665 m/s2.
 TEST_CASE("quantities are converted into the declared unit") {
   CHECK(in("180 deg", "rad") == doctest::Approx(3.14159265358979).epsilon(1e-14));
   CHECK(in("90deg", "rad") == doctest::Approx(1.5707963267949).epsilon(1e-13));
@@ -86,8 +87,10 @@ TEST_CASE("a wrong quantity is refused with a sentence") {
   CHECK(refused("1e308 km", "m") == "1e308 km is too large for a number");
 }
 
-TEST_CASE("where a unit is required a bare number is refused, but for plain numbers and degrees of latitude") {
-  CHECK(refused("5", "m", UnitRule::required) == "5 has no unit; a length is written with m, cm, mm, km, ft, in, nmi");
+TEST_CASE(
+    "where a unit is required a bare number is refused, but for plain numbers and degrees of latitude") {
+  CHECK(refused("5", "m", UnitRule::required) ==
+        "5 has no unit; a length is written with m, cm, mm, km, ft, in, nmi");
   CHECK(refused("5", "rad", UnitRule::required) == "5 has no unit; an angle is written with deg, rad");
   CHECK(quantity_in("0.9", "", UnitRule::required) == 0.9);
   CHECK(quantity_in("40.25", "deg", UnitRule::required) == 40.25);
@@ -102,7 +105,8 @@ TEST_CASE("a range is told in the unit that was written") {
   };
   constexpr double inf = std::numeric_limits<double>::infinity();
   CHECK(outside("9", "rad/rad", 0, 2) == "9 is outside 0 .. 2 rad/rad");
-  CHECK(outside("200 deg", "rad", -3.14159265358979, 3.14159265358979) == "200 deg is outside -180 .. 180 deg");
+  CHECK(outside("200 deg", "rad", -3.14159265358979, 3.14159265358979) ==
+        "200 deg is outside -180 .. 180 deg");
   CHECK(outside("-1 cm", "m", 0, inf) == "-1 cm is below 0 cm");
   CHECK(outside("31 degC", "K", -inf, 303.15) == "31 degC is above 30 degC");
   CHECK(outside("180 deg", "rad", -3.1416, 3.1416) == "");

@@ -47,7 +47,8 @@ template <class T>
 Read<T> read(const std::string& yaml) {
   Read<T> result;
   Report report;
-  const Node node = parse_yaml(std::make_shared<SourceFile>(SourceFile{"folder/file.yaml", "file.yaml", yaml}), report);
+  const Node node =
+      parse_yaml(std::make_shared<SourceFile>(SourceFile{"folder/file.yaml", "file.yaml", yaml}), report);
   fill_record(*type_of<T>(), node, reinterpret_cast<std::byte*>(&result.value), "", report);
   result.faults = report.text();
   return result;
@@ -87,7 +88,8 @@ TEST_CASE("a plan's list is counted and vectors are lists or maps") {
 
 TEST_CASE("numbers of every kind arrive exactly") {
   const auto sample = read<Sample>(
-      "time: 100 ms\nbig: 18446744073709551615\nsmall: -2147483648\nbyte: 255\nnarrow_m: 0.5\ngains: [4, 5.5, 6e1]\nfew: [1 cm]\ntext: "
+      "time: 100 ms\nbig: 18446744073709551615\nsmall: -2147483648\nbyte: 255\nnarrow_m: 0.5\ngains: [4, "
+      "5.5, 6e1]\nfew: [1 cm]\ntext: "
       "seven77\ncolour: green\n");
   CHECK(sample.faults == "");
   CHECK(sample.value.time_ns == 100'000'000);
@@ -100,11 +102,13 @@ TEST_CASE("numbers of every kind arrive exactly") {
   CHECK(sample.value.few_m[0] == 0.01);
   CHECK(sample.value.text.view() == "seven77");
   CHECK(sample.value.colour == Colour::green);
-  CHECK(read<Sample>("time_ns: 9007199254740993\n").value.time_ns == 9007199254740993);  // 2^53 + 1 is no double
+  CHECK(read<Sample>("time_ns: 9007199254740993\n").value.time_ns ==
+        9007199254740993);  // 2^53 + 1 is no double
 }
 
 TEST_CASE("every fault of a record is told at once, with the line of its own file") {
-  CHECK(read<Sample>("big: -1\nsmall: 2147483648\nbyte: 1.5\nnarrow: 0.5\ngains: [1, 2]\nfew: [1 m, 2 m, 3 m]\ntext: eight888\ncolour: "
+  CHECK(read<Sample>("big: -1\nsmall: 2147483648\nbyte: 1.5\nnarrow: 0.5\ngains: [1, 2]\nfew: [1 m, 2 m, 3 "
+                     "m]\ntext: eight888\ncolour: "
                      "gren\nrange: 3 m\n"
                      "bigg: 3\ngains_ratio: 7\ntime: [1]\n")
             .faults ==
@@ -117,7 +121,8 @@ TEST_CASE("every fault of a record is told at once, with the line of its own fil
         "file.yaml:7: text: text of 8 bytes; there is room for 7\n"
         "file.yaml:8: colour: unknown word 'gren'. Did you mean 'green'? Valid: red, green.\n"
         "file.yaml:9: 'range' could be any of range_m, range_s; write the full name\n"
-        "file.yaml:10: unknown field 'bigg' of Sample. Did you mean 'big'? Valid: time_ns, big, small, byte, narrow_m, gains_ratio, few_m, "
+        "file.yaml:10: unknown field 'bigg' of Sample. Did you mean 'big'? Valid: time_ns, big, small, byte, "
+        "narrow_m, gains_ratio, few_m, "
         "text, colour, range_m, range_s.\n"
         "file.yaml:11: gains_ratio: the same field as 'gains', which is given above\n"
         "file.yaml:11: gains_ratio: expected a list of exactly 3, found '7'\n"
@@ -125,23 +130,30 @@ TEST_CASE("every fault of a record is told at once, with the line of its own fil
 }
 
 TEST_CASE("faults inside nested things name the way to them") {
-  CHECK(read<Airframe>("wing:\n  span: 3 kg\n  are: 1 m^2\naileron: [1]\nelevator: {reversed: maybe}\nmass_kg: .nan\n").faults ==
+  CHECK(read<Airframe>(
+            "wing:\n  span: 3 kg\n  are: 1 m^2\naileron: [1]\nelevator: {reversed: maybe}\nmass_kg: .nan\n")
+            .faults ==
         "file.yaml:2: wing.span: 3 kg is a mass, not a length\n"
-        "file.yaml:3: wing: unknown field 'are' of Wing. Did you mean 'area'? Valid: area_m2, span_m, chord_m, oswald_ratio, "
+        "file.yaml:3: wing: unknown field 'are' of Wing. Did you mean 'area'? Valid: area_m2, span_m, "
+        "chord_m, oswald_ratio, "
         "stall_alpha_rad, stall_sharpness_ratio.\n"
         "file.yaml:4: aileron: expected a map with the fields of Surface, found a list\n"
         "file.yaml:5: elevator.reversed: expected true or false, found 'maybe'\n"
         "file.yaml:6: mass_kg: .nan is not a finite number");
   CHECK(read<Plan>("waypoints:\n  - {position_m: [1, 2]}\n  - {position: [1, 2, 3]}\n  - 7\n").faults ==
         "file.yaml:2: waypoints[0].position_m: expected 3 numbers [north, east, down], found 2\n"
-        "file.yaml:3: waypoints[1].position.north: 1 has no unit; a length is written with m, cm, mm, km, ft, in, nmi\n"
-        "file.yaml:3: waypoints[1].position.east: 2 has no unit; a length is written with m, cm, mm, km, ft, in, nmi\n"
-        "file.yaml:3: waypoints[1].position.down: 3 has no unit; a length is written with m, cm, mm, km, ft, in, nmi\n"
+        "file.yaml:3: waypoints[1].position.north: 1 has no unit; a length is written with m, cm, mm, km, "
+        "ft, in, nmi\n"
+        "file.yaml:3: waypoints[1].position.east: 2 has no unit; a length is written with m, cm, mm, km, ft, "
+        "in, nmi\n"
+        "file.yaml:3: waypoints[1].position.down: 3 has no unit; a length is written with m, cm, mm, km, ft, "
+        "in, nmi\n"
         "file.yaml:4: waypoints[2]: expected a map with the fields of Waypoint, found '7'");
 }
 
 TEST_CASE("a fraction outside -1 .. 1 is refused") {
-  CHECK(read<Actuators>("throttle: 150 %\n").faults == "file.yaml:1: throttle: 150 % is outside -100 .. 100 %");
+  CHECK(read<Actuators>("throttle: 150 %\n").faults ==
+        "file.yaml:1: throttle: 150 % is outside -100 .. 100 %");
   CHECK(read<Actuators>("throttle_frac: 0.5\n").value.throttle_frac == 0.5);
 }
 

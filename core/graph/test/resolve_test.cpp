@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "tools/fulmar_inspect/print_graph.hpp"
 #include "core/graph/condition.hpp"
 #include "core/graph/params.hpp"
 #include "core/graph/test/shelf.hpp"
@@ -13,6 +12,7 @@
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/origin.hpp"
 #include "fulmar/msg/plan.hpp"
+#include "tools/fulmar_inspect/print_graph.hpp"
 
 namespace resolve_test {
 
@@ -151,7 +151,8 @@ TEST_CASE("only a vehicle called sim or fcu exists with that io alone without sa
                   "  other:  {fills: vehicle, use: fcu_serial, only: fcu}");
   CHECK(index_of(mission.load(), "other") == -1);
   mission.replace("  fcu:    {fills: vehicle,", "  fcu:    {only: sim, fills: vehicle,");
-  CHECK(mission.faults().find("a mission has one vehicle") == std::string::npos);  // the first that fills the role
+  CHECK(mission.faults().find("a mission has one vehicle") ==
+        std::string::npos);  // the first that fills the role
   Overrides overrides;
   overrides.io = "fcu";
   const Graph graph = mission.load(overrides);  // only: has the last word
@@ -165,7 +166,8 @@ TEST_CASE("a required input that nobody feeds on hardware is told") {
   Overrides overrides;
   overrides.io = "fcu";
   CHECK(mission.faults(overrides) ==
-        "hourglass.yaml:32: components.score: the input 'truth' needs vehicle.truth, which nobody provides in this run");
+        "hourglass.yaml:32: components.score: the input 'truth' needs vehicle.truth, which nobody provides "
+        "in this run");
 }
 
 TEST_CASE("the command line changes who fills a role, seed and parameters") {
@@ -180,7 +182,8 @@ TEST_CASE("the command line changes who fills a role, seed and parameters") {
     CHECK(filler(graph, phase, "nav") == "truth");
     CHECK(filler(graph, phase, "outer") == "tecs");
   }
-  REQUIRE(graph.phases[1].roles[3].set.size() == 1);  // the overlay goes with the phase, as far as the component knows its parameters
+  REQUIRE(graph.phases[1].roles[3].set.size() ==
+          1);  // the overlay goes with the phase, as far as the component knows its parameters
   CHECK(graph.phases[1].roles[3].set[0].param == component(graph, "tecs").info().param("law"));
   CHECK(graph.phases[3].roles[3].fallback == -1);
   CHECK(index_of(graph, "ekf") == -1);
@@ -190,7 +193,8 @@ TEST_CASE("the command line changes who fills a role, seed and parameters") {
 
 TEST_CASE("a component that fills nothing now but is wired by name exists and steps in every phase") {
   Mission mission;
-  mission.replace("score, in: {state: nav.state, truth: vehicle.truth", "score, in: {state: nav.state, truth: truth.state");
+  mission.replace("score, in: {state: nav.state, truth: vehicle.truth",
+                  "score, in: {state: nav.state, truth: truth.state");
   const Graph graph = mission.load();
   REQUIRE(index_of(graph, "truth") >= 0);
   CHECK(component(graph, "truth").role == -1);
@@ -198,11 +202,13 @@ TEST_CASE("a component that fills nothing now but is wired by name exists and st
   CHECK(wire(graph, "truth", "truth").from.kind == Source::Kind::role);
 }
 
-TEST_CASE("parameters come from the declaration, the airframe file, the mission and the command line, in this order") {
+TEST_CASE(
+    "parameters come from the declaration, the airframe file, the mission and the command line, in this "
+    "order") {
   Mission mission;
   CHECK(param(mission.load(), "attitude", "roll_limit").number[0] == 0.7853981634);  // declared
   CHECK(param(mission.load(), "attitude", "roll_kp").number[0] == 0.7);              // airframe file
-  CHECK(param(mission.load(), "tecs", "course_kp").number[0] == 1.1);                // the plugin's first component
+  CHECK(param(mission.load(), "tecs", "course_kp").number[0] == 1.1);  // the plugin's first component
   mission.replace("{fills: inner,", "{fills: inner, params: {roll_kp: 0.8},");
   CHECK(param(mission.load(), "attitude", "roll_kp").number[0] == 0.8);
   Overrides overrides;
@@ -241,7 +247,8 @@ TEST_CASE("without an origin the default is handed over and not called given") {
 
 TEST_CASE("records may stand in the mission itself") {
   Mission mission;
-  mission.replace("{plan: plans/hourglass.yaml}", "{plan: {airspeed: 40 kt, waypoints: [{position_m: [1, 2, -3]}]}}");
+  mission.replace("{plan: plans/hourglass.yaml}",
+                  "{plan: {airspeed: 40 kt, waypoints: [{position_m: [1, 2, -3]}]}}");
   const Plan plan = value<Plan>(param(mission.load(), "plan", "plan"));
   CHECK(plan.airspeed_mps == doctest::Approx(20.5777777778));
   CHECK(plan.waypoints[0].position_m.down == -3);
@@ -263,8 +270,9 @@ TEST_CASE("the failsafe is the struct that the vehicle is to be sent") {
 
 TEST_CASE("wires carry their age limit, their own or their component's") {
   Mission mission;
-  mission.replace("use: path/Manager, in: {state: nav.state, plan: plan.plan}",
-                  "use: path/Manager, max_age: 1 s, in: {state: {from: nav.state, max_age: 200 ms}, plan: plan.plan}");
+  mission.replace(
+      "use: path/Manager, in: {state: nav.state, plan: plan.plan}",
+      "use: path/Manager, max_age: 1 s, in: {state: {from: nav.state, max_age: 200 ms}, plan: plan.plan}");
   const Graph graph = mission.load();
   CHECK(wire(graph, "manage", "state").max_age_ns == 200'000'000);
   CHECK(wire(graph, "manage", "plan").max_age_ns == 1'000'000'000);
@@ -275,8 +283,10 @@ TEST_CASE("a component's own wire wins over that of its role") {
   Mission mission;
   mission.replace("{fills: guide, use", "{fills: guide, in: {state: vehicle.truth}, use");
   const Graph graph = mission.load();
-  CHECK(graph.roles[0].outputs[static_cast<std::size_t>(wire(graph, "follow", "state").from.output)].name == "truth");
-  CHECK(graph.roles[1].outputs[static_cast<std::size_t>(wire(graph, "slc", "state").from.output)].name == "state");
+  CHECK(graph.roles[0].outputs[static_cast<std::size_t>(wire(graph, "follow", "state").from.output)].name ==
+        "truth");
+  CHECK(graph.roles[1].outputs[static_cast<std::size_t>(wire(graph, "slc", "state").from.output)].name ==
+        "state");
 }
 
 TEST_CASE("ties of the order are broken by the file, wires by what they need") {
@@ -284,18 +294,22 @@ TEST_CASE("ties of the order are broken by the file, wires by what they need") {
   const auto at = mission.text.find("  score:  {use"), end = mission.text.find('\n', at) + 1;
   const std::string line = mission.text.substr(at, end - at);
   mission.text.erase(at, end - at);
-  mission.replace("\ncomponents:\n", "\ncomponents:\n" + line);  // first in the file, but it needs the attitude command of all three
+  mission.replace(
+      "\ncomponents:\n",
+      "\ncomponents:\n" + line);  // first in the file, but it needs the attitude command of all three
   const Graph graph = mission.load();
   CHECK(graph.components.front().name == "score");
   CHECK(names(graph, graph.order) == "ekf, plan, manage, follow, slc, tecs, mine, score, attitude");
 }
 
-TEST_CASE("a mission extends a base: named things merge, anything else is replaced, faults name the real file") {
+TEST_CASE(
+    "a mission extends a base: named things merge, anything else is replaced, faults name the real file") {
   Mission mission;
-  mission.folder.write("base/common.yaml",
-                       mission.text.replace(mission.text.find("airframe: anaconda.yaml"), 23, "airframe: ../anaconda.yaml"));
+  mission.folder.write("base/common.yaml", mission.text.replace(mission.text.find("airframe: anaconda.yaml"),
+                                                                23, "airframe: ../anaconda.yaml"));
   mission.text =
-      "mission: calm\nextends: base/common.yaml\nseed: 3\norigin: {lat: 1, lon: 2, alt_msl: 0 m}\ncomponents:\n  sim: {params: {turbulence: none}}\n  "
+      "mission: calm\nextends: base/common.yaml\nseed: 3\norigin: {lat: 1, lon: 2, alt_msl: 0 "
+      "m}\ncomponents:\n  sim: {params: {turbulence: none}}\n  "
       "plan: {params: {plan: plans/hourglass.yaml}}\n"
       "phases:\n  takeoff: {outer: tecs}\n";
   const Graph graph = mission.load();
@@ -318,15 +332,20 @@ TEST_CASE("a mission extends a base: named things merge, anything else is replac
   base.replace(base.find("[3, -4, 0]"), 10, "[3, -4, m]");
   mission.folder.write("base/common.yaml", base);
   CHECK(mission.faults() ==
-        "hourglass.yaml:3: unknown key 'sed'. Did you mean 'seed'? Valid: mission, extends, io, airframe, origin, rate, seed, arm, done, "
+        "hourglass.yaml:3: unknown key 'sed'. Did you mean 'seed'? Valid: mission, extends, io, airframe, "
+        "origin, rate, seed, arm, done, "
         "failed, timeout, epoch, progress, summary, "
         "failsafe, roles, components, phases, record, plugins, control, tell, resume, live, dds.\n"
-        "hourglass.yaml:6: components.sim.params.turbulence: unknown word 'nne'. Did you mean 'none'? Valid: none, light, moderate.\n"
+        "hourglass.yaml:6: components.sim.params.turbulence: unknown word 'nne'. Did you mean 'none'? Valid: "
+        "none, light, moderate.\n"
         "base/common.yaml:21: components.sim.params.wind_ned.down: 'm' is not a number");
   mission.folder.write("base/common.yaml", "extends: x.yaml\n");
-  CHECK(mission.faults().find("base/common.yaml:1: extends: a file that is extended cannot extend another one") != std::string::npos);
+  CHECK(mission.faults().find(
+            "base/common.yaml:1: extends: a file that is extended cannot extend another one") !=
+        std::string::npos);
   mission.replace("base/common.yaml", "base/comon.yaml");
-  CHECK(mission.faults().find("hourglass.yaml:2: extends: there is no file base/comon.yaml") != std::string::npos);
+  CHECK(mission.faults().find("hourglass.yaml:2: extends: there is no file base/comon.yaml") !=
+        std::string::npos);
 }
 
 TEST_CASE("two files of one name are both kept, and equal files once") {
@@ -357,11 +376,14 @@ TEST_CASE("recording is off, all, or by pattern") {
 TEST_CASE("a mission without roles and phases is one phase in which everything steps") {
   Mission mission;
   mission.text =
-      "airframe: anaconda.yaml\ncomponents:\n  boat: {use: sim_aero, in: {actuators: inner.actuators}}\n  est: {use: sim_aero/TruthState, "
+      "airframe: anaconda.yaml\ncomponents:\n  boat: {use: sim_aero, in: {actuators: inner.actuators}}\n  "
+      "est: {use: sim_aero/TruthState, "
       "in: {truth: boat.truth}}\n"
-      "  inner: {use: control_slc/Inner, in: {state: est.state, attitude: law.attitude}}\n  law: {use: control_tecs, in: {state: "
+      "  inner: {use: control_slc/Inner, in: {state: est.state, attitude: law.attitude}}\n  law: {use: "
+      "control_tecs, in: {state: "
       "est.state, command: follow.command}}\n"
-      "  follow: {use: path/VectorField, in: {state: est.state, path: m.path}}\n  m: {use: path/Manager, in: {state: est.state, plan: "
+      "  follow: {use: path/VectorField, in: {state: est.state, path: m.path}}\n  m: {use: path/Manager, in: "
+      "{state: est.state, plan: "
       "p.plan}}\n  p: {use: path}\n";
   const Graph graph = mission.load();
   CHECK(graph.mission == "hourglass");  // the file's name
@@ -375,7 +397,8 @@ TEST_CASE("the values of parameters are printed as people write them") {
   const Graph graph = mission.load();
   const auto text = [&](const char* owner, const char* name) {
     const Component& c = component(graph, owner);
-    return value_text(c.info().params.at(static_cast<std::size_t>(c.info().param(name))), param(graph, owner, name));
+    return value_text(c.info().params.at(static_cast<std::size_t>(c.info().param(name))),
+                      param(graph, owner, name));
   };
   CHECK(text("attitude", "roll_kp") == "0.7 rad/rad");
   CHECK(text("sim", "turbulence") == "light");
@@ -389,10 +412,13 @@ TEST_CASE("the graph is printed for people and for tools") {
   Mission mission;
   const Graph graph = mission.load();
   const std::string text = print_graph(graph, "text");
-  CHECK(text.starts_with(
-      "mission hourglass, io sim, 400 Hz, seed 7\n\norder of a tick\n  in  sim       sim_aero/Aircraft   vehicle   400 Hz\n"));
-  CHECK(text.find("  slc.command              <- guide.command         GuidanceCommand\n") != std::string::npos);
-  CHECK(text.find("  takeoff: vehicle sim, nav ekf, guide follow, outer slc (law set), inner attitude\n    -> cruise when "
+  CHECK(
+      text.starts_with("mission hourglass, io sim, 400 Hz, seed 7\n\norder of a tick\n  in  sim       "
+                       "sim_aero/Aircraft   vehicle   400 Hz\n"));
+  CHECK(text.find("  slc.command              <- guide.command         GuidanceCommand\n") !=
+        std::string::npos);
+  CHECK(text.find("  takeoff: vehicle sim, nav ekf, guide follow, outer slc (law set), inner attitude\n    "
+                  "-> cruise when "
                   "nav.state.height_m > 30 m for 0.5 s\n") != std::string::npos);
   CHECK(text.find("outer mine (fallback tecs)") != std::string::npos);
   const std::string dot = print_graph(graph, "dot");

@@ -28,8 +28,8 @@
 
 namespace fulmar::core::test {
 
-ComponentInfo& Shelf::add(const std::string& plugin, const std::string& name, std::vector<Port> inputs, std::vector<Port> outputs,
-                          std::vector<ParamInfo> params) {
+ComponentInfo& Shelf::add(const std::string& plugin, const std::string& name, std::vector<Port> inputs,
+                          std::vector<Port> outputs, std::vector<ParamInfo> params) {
   auto& info = plugins[plugin];
   if (!info) info = std::make_shared<PluginInfo>();
   info->file = plugin + ".so";
@@ -54,7 +54,8 @@ FoundPlugin Shelf::open(const std::string& name) {
 Shelf::Shelf() {
   constexpr double inf = std::numeric_limits<double>::infinity();
   const auto sensors = [] {
-    return std::vector<Port>{in<Imu>("imu"), in<Gnss>("gnss"), in<Mag>("mag"), in<Baro>("baro"), in<Pitot>("pitot")};
+    return std::vector<Port>{in<Imu>("imu"), in<Gnss>("gnss"), in<Mag>("mag"), in<Baro>("baro"),
+                             in<Pitot>("pitot")};
   };
   const auto vehicle_out = [] {
     return std::vector<Port>{out<Imu>("imu"),
@@ -76,14 +77,17 @@ Shelf::Shelf() {
   outputs.push_back(out<VehicleState>("truth"));
   add("sim_aero", "Aircraft", {in<Actuators>("actuators")}, outputs,
       {number("rate", 400, "Hz", 50, 2000, false), number("epoch", 0, "s", 0, 1e10, false), wind,
-       choice("turbulence", {"none", "light", "moderate"}), record<Airframe>("airframe", true), record<Origin>("origin", false)})
+       choice("turbulence", {"none", "light", "moderate"}), record<Airframe>("airframe", true),
+       record<Origin>("origin", false)})
       .vehicle = true;
   ParamInfo device;
   device.name = "port";
   device.kind = FULMAR_STRING;
   device.initial_text = "/dev/ttyACM0";
   device.capacity = 16;
-  add("fcu_serial", "Fcu", {in<Actuators>("actuators")}, vehicle_out(), {device, record<Airframe>("airframe", true)}).vehicle = true;
+  add("fcu_serial", "Fcu", {in<Actuators>("actuators")}, vehicle_out(),
+      {device, record<Airframe>("airframe", true)})
+      .vehicle = true;
   ParamInfo count;
   count.name = "skip";
   count.kind = FULMAR_COUNT;
@@ -96,33 +100,39 @@ Shelf::Shelf() {
   auto ekf_in = sensors();
   ekf_in.push_back(optional<VehicleStatus>("status"));
   add("estimator_ekf", "Ekf", ekf_in, {out<VehicleState>("state", FULMAR_OUT_EVENT)},
-      {flag, count, number("gate", 20 * 3.14159265358979 / 180, "rad", 0, 1), record<Origin>("origin", false)});
+      {flag, count, number("gate", 20 * 3.14159265358979 / 180, "rad", 0, 1),
+       record<Origin>("origin", false)});
   add("sim_aero", "TruthState", {in<VehicleState>("truth")}, {out<VehicleState>("state")});
   add("path", "Planner",
-      {optional<VehicleState>("state"), port<PlanEdit>("edits", FULMAR_IN_QUEUE), port<PlanEdit>("edit", FULMAR_IN_REQUEST)},
+      {optional<VehicleState>("state"), port<PlanEdit>("edits", FULMAR_IN_QUEUE),
+       port<PlanEdit>("edit", FULMAR_IN_REQUEST)},
       {out<Plan>("plan", FULMAR_OUT_EVENT)}, {record<Plan>("plan", false), record<Origin>("origin", false)});
-  add("path", "Manager", {in<VehicleState>("state"), in<Plan>("plan")}, {out<Path>("path"), out<Progress>("progress")});
+  add("path", "Manager", {in<VehicleState>("state"), in<Plan>("plan")},
+      {out<Path>("path"), out<Progress>("progress")});
   add("path", "VectorField", {in<VehicleState>("state"), in<Path>("path")}, {out<GuidanceCommand>("command")},
       {number("chi_inf", 1.2, "rad", 0, 1.5707963), number("k_path", 0.05, "1/m", 0, inf)});
   Port probe;
   probe.name = "roll_error_rad";
   probe.kind = FULMAR_OUT_PROBE;
   for (const char* plugin : {"control_slc", "control_tecs", "my_law"})
-    add(plugin, "Outer", {in<VehicleState>("state"), in<GuidanceCommand>("command")}, {out<AttitudeCommand>("attitude")},
-        {number("course_kp", 0.9, "rad/rad", 0, 3), choice("law", {"normal", "takeoff"}), number("span", 1, "m", 0.1, 10, false),
-         record<Airframe>("airframe", false)});
-  add("control_slc", "Inner", {in<VehicleState>("state"), in<AttitudeCommand>("attitude")}, {out<Actuators>("actuators"), probe},
+    add(plugin, "Outer", {in<VehicleState>("state"), in<GuidanceCommand>("command")},
+        {out<AttitudeCommand>("attitude")},
+        {number("course_kp", 0.9, "rad/rad", 0, 3), choice("law", {"normal", "takeoff"}),
+         number("span", 1, "m", 0.1, 10, false), record<Airframe>("airframe", false)});
+  add("control_slc", "Inner", {in<VehicleState>("state"), in<AttitudeCommand>("attitude")},
+      {out<Actuators>("actuators"), probe},
       {number("roll_kp", 0.55, "rad/rad", 0, 2), number("roll_limit", 0.7853981634, "rad", 0, 1.0471975512),
        record<Airframe>("airframe", true)});
   add("score", "Score",
-      {in<VehicleState>("state"), optional<VehicleState>("truth"), in<Path>("path"), in<GuidanceCommand>("command"),
-       in<AttitudeCommand>("attitude")},
+      {in<VehicleState>("state"), optional<VehicleState>("truth"), in<Path>("path"),
+       in<GuidanceCommand>("command"), in<AttitudeCommand>("attitude")},
       {out<Progress>("tracking"), out<Progress>("estimation")});
 }
 
 Folder::Folder() {
   static int number = 0;
-  path = std::filesystem::temp_directory_path() / ("fulmar_graph_" + std::to_string(::getpid()) + "_" + std::to_string(number++));
+  path = std::filesystem::temp_directory_path() /
+         ("fulmar_graph_" + std::to_string(::getpid()) + "_" + std::to_string(number++));
   std::filesystem::create_directories(path);
 }
 
@@ -209,7 +219,9 @@ Mission& Mission::replace(const std::string& from, const std::string& to) {
   return *this;
 }
 
-Graph Mission::load(const Overrides& overrides) { return load_mission(folder.write("hourglass.yaml", text), overrides, shelf); }
+Graph Mission::load(const Overrides& overrides) {
+  return load_mission(folder.write("hourglass.yaml", text), overrides, shelf);
+}
 
 std::string Mission::faults(const Overrides& overrides) {
   try {

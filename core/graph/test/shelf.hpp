@@ -17,8 +17,8 @@ struct Shelf : Catalogue {
   std::map<std::string, std::shared_ptr<PluginInfo>> plugins;
 
   Shelf();
-  ComponentInfo& add(const std::string& plugin, const std::string& name, std::vector<Port> inputs, std::vector<Port> outputs,
-                     std::vector<ParamInfo> params = {});
+  ComponentInfo& add(const std::string& plugin, const std::string& name, std::vector<Port> inputs,
+                     std::vector<Port> outputs, std::vector<ParamInfo> params = {});
   FoundPlugin open(const std::string& name) override;
 };
 

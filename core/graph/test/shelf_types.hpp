@@ -39,7 +39,8 @@ Port out(const std::string& name, fulmar_port_kind kind = FULMAR_OUT_VALUE) {
   return port<T>(name, kind);
 }
 
-inline ParamInfo number(const std::string& name, double initial, const std::string& unit, double min, double max, bool live = true) {
+inline ParamInfo number(const std::string& name, double initial, const std::string& unit, double min,
+                        double max, bool live = true) {
   ParamInfo p;
   p.name = name;
   p.unit = unit;

@@ -48,9 +48,11 @@ TEST_CASE("a flight can be watched where the mission says, and nowhere when it s
 
 TEST_CASE("a slip in live: is told with its line and what is wanted") {
   CHECK(faults("live: on") == "hourglass.yaml:6: live: expected 'off' or a map {listen, token}, found 'on'");
-  for (const char* address : {"here", "127.0.0.1:99999", "127.0.0.1:", ":80", "1.5", "300.1.1.1:80", "ground-station:80", "[::x]:80"}) {
+  for (const char* address : {"here", "127.0.0.1:99999", "127.0.0.1:", ":80", "1.5", "300.1.1.1:80",
+                              "ground-station:80", "[::x]:80"}) {
     CAPTURE(address);
-    holds(faults("live: {listen: \"" + std::string(address) + "\"}"), "6: live.listen: expected an address and a port");
+    holds(faults("live: {listen: \"" + std::string(address) + "\"}"),
+          "6: live.listen: expected an address and a port");
   }
   holds(faults("live: {port: 1}"), "6: live: unknown key 'port'");
 }
@@ -58,16 +60,19 @@ TEST_CASE("a slip in live: is told with its line and what is wanted") {
 TEST_CASE("ports are exported under ROS 2 names, inputs without a wire are fed by topics") {
   Mission mission;
   mission.replace("seed: 7",
-                  "dds: {domain: 7, namespace: uav1, export: [nav.state, {port: follow.command, topic: /cmd, rate: 50 Hz, "
+                  "dds: {domain: 7, namespace: uav1, export: [nav.state, {port: follow.command, topic: /cmd, "
+                  "rate: 50 Hz, "
                   "best_effort: true}], import: {plan.edits: /fulmar/plan_edits}}");
-  mission.replace("follow: {fills: guide, use: path/VectorField, rate: 100 Hz}", "follow: {fills: guide, use: path/VectorField}");
+  mission.replace("follow: {fills: guide, use: path/VectorField, rate: 100 Hz}",
+                  "follow: {fills: guide, use: path/VectorField}");
   const std::string text = mission.faults();
   holds(text, "6: dds.export: there is no port 'follow.command'");  // it leaves the flight as the role's
   Mission good;
-  const Graph g = good.replace("seed: 7",
-                               "dds: {domain: 7, namespace: uav1, export: [nav.state, {port: guide.command, topic: /cmd, "
-                               "rate: 50 Hz, best_effort: true}], import: {plan.edits: /fulmar/plan_edits}}")
-                      .load();
+  const Graph g =
+      good.replace("seed: 7",
+                   "dds: {domain: 7, namespace: uav1, export: [nav.state, {port: guide.command, topic: /cmd, "
+                   "rate: 50 Hz, best_effort: true}], import: {plan.edits: /fulmar/plan_edits}}")
+          .load();
   CHECK(g.dds.on);
   CHECK(g.dds.domain == 7);
   CHECK(g.dds.name_space == "uav1");
@@ -83,7 +88,9 @@ TEST_CASE("ports are exported under ROS 2 names, inputs without a wire are fed b
   CHECK(plan.wires[static_cast<std::size_t>(g.dds.imports[0].input)].import == 0);
 }
 
-TEST_CASE("what is imported counts as fed, and an input of a component that this run does not have is passed over") {
+TEST_CASE(
+    "what is imported counts as fed, and an input of a component that this run does not have is passed "
+    "over") {
   Mission mission;
   mission.replace("  plan:   {use: path/Planner",
                   "  other:  {use: path/VectorField, in: {path: manage.path}}\n  plan:   {use: path/Planner");
@@ -112,31 +119,39 @@ TEST_CASE("a slip in dds: is told with its line and what is wanted") {
   holds(faults("dds: {domain: 233}"), "6: dds.domain: expected a whole number from 0 to 232");
   holds(faults("dds: {domain: 1.5}"), "6: dds.domain: expected a whole number from 0 to 232");
   holds(faults("dds: {domain: 1e300}"), "6: dds.domain: expected a whole number from 0 to 232");
-  holds(faults("dds: {export: [{port: nav.state, rate: 1e-300 Hz}]}"), "6: dds.export.rate: expected at least one in 285 years");
+  holds(faults("dds: {export: [{port: nav.state, rate: 1e-300 Hz}]}"),
+        "6: dds.export.rate: expected at least one in 285 years");
   holds(faults("dds: {namespace: /uav1}"), "6: dds.namespace: expected names");
   holds(faults("dds: {interfaces: lo}"), "6: dds.interfaces: expected a list of addresses");
-  holds(faults("dds: {interfaces: [lo]}"), "6: dds.interfaces: expected an IPv4 address such as 192.168.1.7, found 'lo'");
-  holds(faults("dds: {peers: [127.0.0.1, foo]}"), "6: dds.peers: expected an IPv4 address such as 192.168.1.7, found 'foo'");
+  holds(faults("dds: {interfaces: [lo]}"),
+        "6: dds.interfaces: expected an IPv4 address such as 192.168.1.7, found 'lo'");
+  holds(faults("dds: {peers: [127.0.0.1, foo]}"),
+        "6: dds.peers: expected an IPv4 address such as 192.168.1.7, found 'foo'");
   holds(faults("dds: {namespace: a, export: [{port: nav.state, topic: x}], import: {plan.edits: /a/x}}"),
-        "6: dds.export: nav.state: the topic /a/x has the type PlanEdit already (hourglass.yaml:6); it cannot be VehicleState, too");
+        "6: dds.export: nav.state: the topic /a/x has the type PlanEdit already (hourglass.yaml:6); it "
+        "cannot be VehicleState, too");
   holds(faults("dds: on"), "6: dds: expected 'off' or a map {export, import}, found 'on'");
   holds(faults("dds: {export: nav.state}"), "6: dds.export: expected a list of ports");
   holds(faults("dds: {export: [nav.stat]}"), "Did you mean 'nav.state'?");
   holds(faults("dds: {export: [{topic: /x}]}"), "6: dds.export: 'port' is missing");
-  holds(faults("dds: {export: [{port: nav.state, topic: \"a b\"}]}"), "6: dds.export: expected a topic such as /nav/state");
+  holds(faults("dds: {export: [{port: nav.state, topic: \"a b\"}]}"),
+        "6: dds.export: expected a topic such as /nav/state");
   holds(faults("dds: {export: [{port: nav.state, topic: /x}, {port: manage.path, topic: /x}]}"),
         "6: dds.export: two ports have the topic /x");
   holds(faults("dds: {import: [plan.edits]}"), "6: dds.import: expected a map");
-  holds(faults("dds: {import: {plan.edis: /x}}"), "6: dds.import.plan.edis: path/Planner has no such input. Did you mean 'edits'?");
+  holds(faults("dds: {import: {plan.edis: /x}}"),
+        "6: dds.import.plan.edis: path/Planner has no such input. Did you mean 'edits'?");
   holds(faults("dds: {import: {plan.edit: /x}}"), "this is a request");
   holds(faults("dds: {import: {plant.edits: /x}}"), "there is no component 'plant'. Did you mean 'plan'?");
   holds(faults("dds: {import: {manage.state: /x}}"), "a wire feeds this input already (hourglass.yaml:26)");
   holds(faults("dds: {exports: []}"), "6: dds: unknown key 'exports'. Did you mean 'export'?");
 }
 
-TEST_CASE("a topic that is exported and imported with one type is in order, and so is one name in two namespaces") {
-  for (const char* import : {"{namespace: a, export: [{port: plan.plan, topic: x}], import: {plan.edits: x2}}",
-                             "{namespace: a, export: [{port: nav.state, topic: x}], import: {plan.edits: /x}}"}) {
+TEST_CASE(
+    "a topic that is exported and imported with one type is in order, and so is one name in two namespaces") {
+  for (const char* import :
+       {"{namespace: a, export: [{port: plan.plan, topic: x}], import: {plan.edits: x2}}",
+        "{namespace: a, export: [{port: nav.state, topic: x}], import: {plan.edits: /x}}"}) {
     CAPTURE(import);
     CHECK(faults("dds: " + std::string(import)) == "");
   }
@@ -144,7 +159,8 @@ TEST_CASE("a topic that is exported and imported with one type is in order, and 
 
 TEST_CASE("a mission takes DDS away that the file it extends has") {
   Mission mission;
-  mission.folder.write("base.yaml", mission.replace("seed: 7", "dds: {export: [nav.state], import: {plan.edits: /x}}").text);
+  mission.folder.write(
+      "base.yaml", mission.replace("seed: 7", "dds: {export: [nav.state], import: {plan.edits: /x}}").text);
   CHECK(mission.load().dds.on);
   mission.text = "mission: alone\nextends: base.yaml\ndds: off\n";
   const Graph g = mission.load();
@@ -159,8 +175,10 @@ TEST_CASE("a log goes on in a new file after so many bytes or so much time") {
   CHECK(time.replace("seed: 7", "record: {rotate: 10 min}").load().rotate_ns == 600'000'000'000);
   holds(faults("record: {rotate: 10}"), "6: record.rotate: 10 has no unit");
   holds(faults("record: {rotate: 5 XB}"), "6: record.rotate: '5 XB' is no amount of memory");
-  holds(faults("record: {rotate: 1 ns}"), "6: record.rotate: 1 ns is too little for a file; give at least 1 MB, or 1 s");
-  holds(faults("record: {rotate: 999 kB}"), "6: record.rotate: 999 kB is too little for a file; give at least 1 MB, or 1 s");
+  holds(faults("record: {rotate: 1 ns}"),
+        "6: record.rotate: 1 ns is too little for a file; give at least 1 MB, or 1 s");
+  holds(faults("record: {rotate: 999 kB}"),
+        "6: record.rotate: 999 kB is too little for a file; give at least 1 MB, or 1 s");
 }
 
 }  // namespace tap_sections_test

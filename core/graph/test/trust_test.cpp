@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which plugin files a mission may load: the list, the content, and who may have written them. The files are copies of no plugin at all:
-// what is refused is refused before anything opens it.
+// Which plugin files a mission may load: the list, the content, and who may have written them. The files are
+// copies of no plugin at all: what is refused is refused before anything opens it.
 #include "core/graph/trust.hpp"
 
 #include <doctest/doctest.h>
@@ -84,34 +84,43 @@ TEST_CASE("with a list the files on it may be loaded: by path, by folder, by nam
 TEST_CASE("a file that is not on the list is refused with what would have to be written") {
   Place place;
   CHECK(place.said("plugins:\n  allow: [control, other.so]\n", "build/law.so") ==
-        "law.so is not among the plugins that this mission allows: control, other.so. Write {file: build/law.so, sha256: " +
+        "law.so is not among the plugins that this mission allows: control, other.so. Write {file: "
+        "build/law.so, sha256: " +
             hash_of("a law") + "} into plugins.allow (m.yaml:3) if you trust it");
   CHECK(place.said("plugins: {allow: []}\n", "named/control.so") ==
-        "control.so is not among the plugins that this mission allows: none. Write control into plugins.allow (m.yaml:2) if you trust it");
+        "control.so is not among the plugins that this mission allows: none. Write control into "
+        "plugins.allow (m.yaml:2) if you trust it");
 }
 
-TEST_CASE("a name means an installed plugin, not a file of that name beside the mission; a folder means its own files alone") {
+TEST_CASE(
+    "a name means an installed plugin, not a file of that name beside the mission; a folder means its own "
+    "files alone") {
   Place place;
   place.put("control.so", "an impostor");
   fs::create_directory(place.folder.path / "build" / "deep");
   place.put("build/deep/x.so", "deep");
   CHECK(place.said("plugins: {allow: [control]}\n", "control.so").rfind("control.so is not among", 0) == 0);
-  CHECK(place.said("plugins: {allow: [\"build/*\"]}\n", "build/deep/x.so").rfind("x.so is not among", 0) == 0);
+  CHECK(place.said("plugins: {allow: [\"build/*\"]}\n", "build/deep/x.so").rfind("x.so is not among", 0) ==
+        0);
 }
 
 TEST_CASE("a link counts as what it leads to") {
   Place place;
   fs::create_symlink(place.folder.path / "other.so", place.folder.path / "build" / "link.so");
-  CHECK(place.said("plugins: {allow: [\"build/*\"]}\n", "build/link.so").rfind("other.so is not among", 0) == 0);
+  CHECK(place.said("plugins: {allow: [\"build/*\"]}\n", "build/link.so").rfind("other.so is not among", 0) ==
+        0);
   CHECK(place.said("plugins: {allow: [other.so]}\n", "build/link.so") == "");
 }
 
 TEST_CASE("listed content is asked for; a file may be listed with several, and without any") {
   Place place;
   const std::string a(64, 'a'), b(64, 'b');
-  CHECK(place.trust("plugins: {allow: [{file: other.so, sha256: " + a + "}]}\n").check(place.folder.path / "other.so").sha256 ==
-        std::vector<std::string>{a});
-  CHECK(place.trust("plugins: {allow: [{file: other.so, sha256: " + a + "}, {file: other.so, sha256: " + std::string(64, 'B') + "}]}\n")
+  CHECK(place.trust("plugins: {allow: [{file: other.so, sha256: " + a + "}]}\n")
+            .check(place.folder.path / "other.so")
+            .sha256 == std::vector<std::string>{a});
+  CHECK(place
+            .trust("plugins: {allow: [{file: other.so, sha256: " + a +
+                   "}, {file: other.so, sha256: " + std::string(64, 'B') + "}]}\n")
             .check(place.folder.path / "other.so")
             .sha256 == std::vector<std::string>{a, b});
   CHECK(place.trust("plugins: {allow: [{file: other.so, sha256: " + a + "}, other.so]}\n")
@@ -123,13 +132,15 @@ TEST_CASE("what all may write is refused, listed or not") {
   Place place;
   const fs::path real = fs::canonical(place.folder.path);
   ::chmod((real / "build/law.so").c_str(), 0646);
-  const std::string fault = "law.so is not loaded: everybody may write to it; chmod o-w " + (real / "build/law.so").string();
+  const std::string fault =
+      "law.so is not loaded: everybody may write to it; chmod o-w " + (real / "build/law.so").string();
   CHECK(place.said("", "build/law.so") == fault);
   CHECK(place.said("plugins: {allow: [build/law.so]}\n", "build/law.so") == fault);
   place.put("open/x.so", "x");
   ::chmod((real / "open").c_str(), 0777);
   CHECK(place.said("", "open/x.so") ==
-        "x.so is not loaded: everybody may replace files in its folder; chmod o-w " + (real / "open").string());
+        "x.so is not loaded: everybody may replace files in its folder; chmod o-w " +
+            (real / "open").string());
   ::chmod((real / "open").c_str(), 01777);  // as /tmp: others cannot replace it
   CHECK(place.said("", "open/x.so") == "");
 }
@@ -142,8 +153,9 @@ TEST_CASE("a file of another user is refused") {
   Place place;
   REQUIRE(::chown((place.folder.path / "other.so").c_str(), 4711, 4711) == 0);
   unsetenv("SUDO_UID");
-  CHECK(place.said("", "other.so") == "other.so is not loaded: it belongs to the user 4711, neither to you nor to root; chown it: " +
-                                          (fs::canonical(place.folder.path) / "other.so").string());
+  CHECK(place.said("", "other.so") ==
+        "other.so is not loaded: it belongs to the user 4711, neither to you nor to root; chown it: " +
+            (fs::canonical(place.folder.path) / "other.so").string());
   setenv("SUDO_UID", "4711", 1);
   CHECK(place.said("", "other.so") == "");
   unsetenv("SUDO_UID");
@@ -166,7 +178,8 @@ TEST_CASE("faults of the list are told with their line") {
   CHECK(fault("plugins: {allow: [{sha256: " + std::string(64, 'a') + "}]}\n") ==
         "m.yaml:2: plugins.allow: 'file' is missing, as in {file: my_law.so, sha256: ...}");
   CHECK(fault("plugins: {allow: [control/Outer]}\n") ==
-        "m.yaml:2: plugins.allow: 'control/Outer' is no file of a plugin; write the name of a plugin (control_slc), a file "
+        "m.yaml:2: plugins.allow: 'control/Outer' is no file of a plugin; write the name of a plugin "
+        "(control_slc), a file "
         "(build/my_law.so) or a folder (build/*)");
   CHECK(fault("plugins: {allow: [\"bu*ld/x.so\"]}\n") ==
         "m.yaml:2: plugins.allow: 'bu*ld/x.so': a '*' stands alone for the files of a folder, as in build/*");
@@ -174,8 +187,8 @@ TEST_CASE("faults of the list are told with their line") {
 
 TEST_CASE("a mission asks before it opens a file, and says where the file is used") {
   Place place;
-  const std::string file =
-      place.folder.write("m.yaml", "mission: m\nplugins: {allow: [other.so]}\ncomponents:\n  mine: {use: build/law.so}\n");
+  const std::string file = place.folder.write(
+      "m.yaml", "mission: m\nplugins: {allow: [other.so]}\ncomponents:\n  mine: {use: build/law.so}\n");
   const std::string store = (place.folder.path / "store").string();
   setenv("FULMAR_STORE", store.c_str(), 1);
   setenv("FULMAR_PROBE", "/nowhere/fulmar-probe", 1);
@@ -185,7 +198,10 @@ TEST_CASE("a mission asks before it opens a file, and says where the file is use
   } catch (const Error& fault) {
     said = fault.what();
   }
-  CHECK(said.find("m.yaml:4: components.mine: law.so is not among the plugins that this mission allows: other.so.") != std::string::npos);
+  CHECK(
+      said.find(
+          "m.yaml:4: components.mine: law.so is not among the plugins that this mission allows: other.so.") !=
+      std::string::npos);
   CHECK_FALSE(fs::exists(store));
   unsetenv("FULMAR_PROBE");
   unsetenv("FULMAR_STORE");

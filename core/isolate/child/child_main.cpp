@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fulmar-child NAME COPY SCRIPT PATH FILE INDEX SEED: runs one component for a host over the memory at descriptor 3. Started by the host.
+// fulmar-child NAME COPY SCRIPT PATH FILE INDEX SEED: runs one component for a host over the memory at
+// descriptor 3. Started by the host.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -30,7 +31,8 @@ void close_others() {
   for (int descriptor = shared_descriptor + 1; descriptor < 1024; ++descriptor) ::close(descriptor);
 }
 
-// No life after the host, no core file unless somebody wants one, nothing of the host's but the shared memory.
+// No life after the host, no core file unless somebody wants one, nothing of the host's but the shared
+// memory.
 void prepare() {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   close_others();
@@ -40,7 +42,8 @@ void prepare() {
     ::setrlimit(RLIMIT_CORE, &no_core);
   }
   rlimit stack{};
-  constexpr rlim_t enough = 64u << 20;  // without a limit a runaway recursion would take all memory before it is found out
+  constexpr rlim_t enough =
+      64u << 20;  // without a limit a runaway recursion would take all memory before it is found out
   if (::getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur == RLIM_INFINITY) {
     stack.rlim_cur = enough;
     ::setrlimit(RLIMIT_STACK, &stack);
@@ -73,13 +76,20 @@ int main(int argc, char** argv) {
   prepare();
   const auto size = static_cast<std::size_t>(about.st_size);
   if (size < sizeof(ControlBlock)) return 2;
-  void* memory = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, shared_descriptor, 0);
+  void* memory =
+      ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, shared_descriptor, 0);
   if (memory == MAP_FAILED) return 2;
   Session session(static_cast<std::byte*>(memory), size);
-  if (::getppid() != session.control().host_pid) return 1;  // it died before this process asked to die with it
+  if (::getppid() != session.control().host_pid)
+    return 1;  // it died before this process asked to die with it
   tell_crashes(session.control());
   count_heap();
-  const Order order{argv[2], argv[3], argv[4], argv[5], std::strtoull(argv[6], nullptr, 10), std::strtoull(argv[7], nullptr, 10)};
+  const Order order{argv[2],
+                    argv[3],
+                    argv[4],
+                    argv[5],
+                    std::strtoull(argv[6], nullptr, 10),
+                    std::strtoull(argv[7], nullptr, 10)};
   const int code = work(session, order);
   ::_exit(code);  // the plugin's exit handlers are not run: nobody waits for them
 }

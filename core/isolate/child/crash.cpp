@@ -12,7 +12,8 @@ namespace {
 ControlBlock* shared = nullptr;
 std::uintptr_t stack_top = 0;
 
-// A fault where the main stack would have grown to, had its limit allowed it. A large frame may step over its end by far.
+// A fault where the main stack would have grown to, had its limit allowed it. A large frame may step over its
+// end by far.
 bool below_stack(std::uintptr_t address) {
   constexpr std::uintptr_t step = 1u << 20;
   rlimit limit{};
@@ -20,9 +21,11 @@ bool below_stack(std::uintptr_t address) {
   return address < stack_top && address >= stack_top - limit.rlim_cur - step;
 }
 
-// Async-signal-safe: atomics and system calls alone. The signal, default again, strikes a second time and ends the process.
+// Async-signal-safe: atomics and system calls alone. The signal, default again, strikes a second time and
+// ends the process.
 void last_act(int signal, siginfo_t* about, void*) {
-  if (signal == SIGSEGV && about->si_code > 0 && below_stack(reinterpret_cast<std::uintptr_t>(about->si_addr)))
+  if (signal == SIGSEGV && about->si_code > 0 &&
+      below_stack(reinterpret_cast<std::uintptr_t>(about->si_addr)))
     shared->stack_overflow.store(1);
   shared->signal.store(static_cast<std::uint32_t>(signal));
   futex_wake(shared->answer);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stands in front of glibc's allocator, as in the host, and weighs as well. Under a sanitizer its own counters serve.
+// Stands in front of glibc's allocator, as in the host, and weighs as well. Under a sanitizer its own
+// counters serve.
 #include "core/isolate/child/heap.hpp"
 
 #include <atomic>
@@ -14,17 +15,21 @@ thread_local std::uint64_t calls = 0;
 
 #ifdef FULMAR_SANITIZED
 
-extern "C" {                                            // of sanitizer/allocator_interface.h, which not every gcc brings
+extern "C" {  // of sanitizer/allocator_interface.h, which not every gcc brings
 std::size_t __sanitizer_get_current_allocated_bytes();  // NOLINT
-int __sanitizer_install_malloc_and_free_hooks(void (*)(const volatile void*, std::size_t), void (*)(const volatile void*));  // NOLINT
+int __sanitizer_install_malloc_and_free_hooks(void (*)(const volatile void*, std::size_t),
+                                              void (*)(const volatile void*));  // NOLINT
 }
 
 namespace fulmar::core {
 void count_heap() noexcept {
-  __sanitizer_install_malloc_and_free_hooks([](const volatile void*, std::size_t) { ++calls; }, [](const volatile void*) {});
+  __sanitizer_install_malloc_and_free_hooks([](const volatile void*, std::size_t) { ++calls; },
+                                            [](const volatile void*) {});
 }
 std::uint64_t heap_calls() noexcept { return calls; }
-std::int64_t heap_bytes() noexcept { return static_cast<std::int64_t>(__sanitizer_get_current_allocated_bytes()); }
+std::int64_t heap_bytes() noexcept {
+  return static_cast<std::int64_t>(__sanitizer_get_current_allocated_bytes());
+}
 }  // namespace fulmar::core
 
 #elif defined(__GLIBC__)

@@ -16,7 +16,8 @@
 
 namespace fulmar::core {
 
-// ---- set-up --------------------------------------------------------------------------------------------------------------------
+// ---- set-up
+// --------------------------------------------------------------------------------------------------------------------
 
 void Session::load(const Order& order) {
   const FloatModeGuard guard;
@@ -24,7 +25,8 @@ void Session::load(const Order& order) {
   library.load(order.copy, order.file);
   plugin_ = &library.entry(order.file);
   if (!*order.script) return;
-  if (plugin_->abi_major != FULMAR_ABI_MAJOR) throw Error(std::string(order.file) + ": its host is of another ABI");
+  if (plugin_->abi_major != FULMAR_ABI_MAJOR)
+    throw Error(std::string(order.file) + ": its host is of another ABI");
   script_ = std::make_unique<Script>(*plugin_, order.path, read_script(order.script));
   plugin_ = &script_->entry();
 }
@@ -33,12 +35,14 @@ void Session::load(const Order& order) {
 void Session::check(const std::vector<ComponentInfo>& components, const Order& order) {
   const std::string wanted = control().component;
   if (order.index >= components.size() || components[order.index].name != wanted)
-    throw Error(std::string(order.file) + " has no component '" + wanted + "' in place " + std::to_string(order.index) +
-                " any more: its copy has changed");
+    throw Error(std::string(order.file) + " has no component '" + wanted + "' in place " +
+                std::to_string(order.index) + " any more: its copy has changed");
   info_ = components[order.index];
   layout_.emplace_back(info_);
-  if (layout_[0].signature != control().signature || layout_[0].size != control().layout_size || layout_[0].size > size_)
-    throw Error(std::string(order.file) + ": the ports or parameters of '" + wanted + "' are not those that the host knows");
+  if (layout_[0].signature != control().signature || layout_[0].size != control().layout_size ||
+      layout_[0].size > size_)
+    throw Error(std::string(order.file) + ": the ports or parameters of '" + wanted +
+                "' are not those that the host knows");
 }
 
 void Session::build() {
@@ -61,7 +65,8 @@ void Session::open(const Order& order) {
   load(order);
   check(read_entry(*plugin_, order.file).components, order);
   const TableReader tables;
-  functions_ = tables.element(plugin_->components, plugin_->component_stride, static_cast<std::uint32_t>(order.index), "the components");
+  functions_ = tables.element(plugin_->components, plugin_->component_stride,
+                              static_cast<std::uint32_t>(order.index), "the components");
   build();
   control().stage = Stage::created;
   fulmar_error error{};
@@ -76,7 +81,8 @@ void Session::close() noexcept {
   script_.reset();
 }
 
-// ---- calls ---------------------------------------------------------------------------------------------------------------------
+// ---- calls
+// ---------------------------------------------------------------------------------------------------------------------
 
 void Session::bind_input(const Place& place, const SharedInput& from, fulmar_input& to) noexcept {
   to = {};
@@ -110,7 +116,8 @@ std::uint32_t Session::step(fulmar_error& error) noexcept {
   const std::uint32_t status = functions_.step(instance_, &tick, inputs_.data(), outputs_.data(), &error);
   control().allocations += heap_calls() - calls;
   control().heap_growth = heap_bytes() - heap_at_configure_;
-  for (std::size_t i = 0; i < outputs_.size(); ++i) heads[i] = {outputs_[i].valid_at_ns, outputs_[i].count, outputs_[i].lost};
+  for (std::size_t i = 0; i < outputs_.size(); ++i)
+    heads[i] = {outputs_[i].valid_at_ns, outputs_[i].count, outputs_[i].lost};
   return status;
 }
 
@@ -141,7 +148,9 @@ std::uint32_t Session::configure(fulmar_error& error) {
   const SharedValue* heads = at<SharedValue>(layout_[0].values_at);
   const std::size_t size = control().values_size;
   void* window = nullptr;
-  if (size > 0) window = ::mmap(nullptr, size, PROT_READ, MAP_SHARED, shared_descriptor, static_cast<off_t>(layout_[0].size));
+  if (size > 0)
+    window =
+        ::mmap(nullptr, size, PROT_READ, MAP_SHARED, shared_descriptor, static_cast<off_t>(layout_[0].size));
   if (window == MAP_FAILED) throw Error(std::string("cannot read the parameters: ") + std::strerror(errno));
   const std::byte* from = static_cast<const std::byte*>(window);
   std::vector<std::string> texts(values_.size());
@@ -151,8 +160,11 @@ std::uint32_t Session::configure(fulmar_error& error) {
     texts[i] = reinterpret_cast<const char*>(from + v.text_at);
     if (v.has & has_data) data[i].assign(from + v.data_at, from + v.data_at + v.size);
     if ((v.has & has_data) && v.size == 0) data[i].reserve(1);  // empty, and given
-    values_[i] = {
-        {v.number[0], v.number[1], v.number[2]}, v.integer, texts[i].c_str(), v.has & has_data ? data[i].data() : nullptr, v.size};
+    values_[i] = {{v.number[0], v.number[1], v.number[2]},
+                  v.integer,
+                  texts[i].c_str(),
+                  v.has & has_data ? data[i].data() : nullptr,
+                  v.size};
   }
   if (window) ::munmap(window, size);
   const std::uint32_t status = functions_.configure(instance_, values_.data(), &error);
@@ -164,12 +176,9 @@ std::uint32_t Session::configure(fulmar_error& error) {
 
 std::uint32_t Session::run(Call call, fulmar_error& error) {
   switch (call) {
-    case Call::step:
-      return step(error);
-    case Call::activate:
-      return activate(error);
-    case Call::retune:
-      return retune(error);
+    case Call::step: return step(error);
+    case Call::activate: return activate(error);
+    case Call::retune: return retune(error);
     case Call::deactivate:
       if (functions_.deactivate) functions_.deactivate(instance_);
       return FULMAR_OK;
@@ -179,16 +188,14 @@ std::uint32_t Session::run(Call call, fulmar_error& error) {
       control().heap_growth = 0;
       return status;
     }
-    case Call::quit:
-      close();
-      return FULMAR_OK;
-    case Call::create:
-      break;
+    case Call::quit: close(); return FULMAR_OK;
+    case Call::create: break;
   }
   return FULMAR_FAILED;
 }
 
-// ---- the hand-shake --------------------------------------------------------------------------------------------------------------
+// ---- the hand-shake
+// --------------------------------------------------------------------------------------------------------------
 
 void Session::answer(std::uint32_t number, std::uint32_t status, const fulmar_error& error) noexcept {
   ControlBlock& c = control();
@@ -199,7 +206,8 @@ void Session::answer(std::uint32_t number, std::uint32_t status, const fulmar_er
   if (c.host_sleeps.load() != 0) futex_wake(c.answer);
 }
 
-// Wakes once a second to see that the host is still there: the kernel's word on its death is bound to one of its threads.
+// Wakes once a second to see that the host is still there: the kernel's word on its death is bound to one of
+// its threads.
 std::uint32_t Session::wait(std::uint32_t done) noexcept {
   ControlBlock& c = control();
   const auto asked = [&] { return c.request.load(std::memory_order_acquire) != done; };

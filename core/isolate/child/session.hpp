@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The child's side of an isolated component: its own instance, its own arrays of inputs and outputs over the shared memory.
+// The child's side of an isolated component: its own instance, its own arrays of inputs and outputs over the
+// shared memory.
 #pragma once
 #include <memory>
 #include <string>

@@ -30,9 +30,11 @@ TEST_CASE("every way to die in a step is one failed step with its name, and the 
     Fault fault;
     const char* death;
   };
-  for (const Case& c : {Case{segfault, "crashed (segmentation fault)"}, Case{overflow, "crashed (stack overflow)"}, Case{aborts, "aborted"},
-                        Case{terminates, "aborted"}, Case{exits, "ended itself (exit code 3)"}, Case{killed, "was killed (signal 9)"},
-                        Case{divides, "crashed (arithmetic error)"}, Case{hangs, "hung: no answer within 1500 ms"}}) {
+  for (const Case& c :
+       {Case{segfault, "crashed (segmentation fault)"}, Case{overflow, "crashed (stack overflow)"},
+        Case{aborts, "aborted"}, Case{terminates, "aborted"}, Case{exits, "ended itself (exit code 3)"},
+        Case{killed, "was killed (signal 9)"}, Case{divides, "crashed (arithmetic error)"},
+        Case{hangs, "hung: no answer within 1500 ms"}}) {
     CAPTURE(c.death);
     Rig rig("Faulty");
     IsolatedOptions options = options_for("Faulty");
@@ -105,10 +107,12 @@ TEST_CASE("dying in configure, activate and retune is told in the same way") {
 }
 
 TEST_CASE("a component that cannot be created is refused in a sentence") {
-  CHECK(fault_of_setup("CrashBorn") == "mine: isolate_lab.so crashed (segmentation fault) while being created");
+  CHECK(fault_of_setup("CrashBorn") ==
+        "mine: isolate_lab.so crashed (segmentation fault) while being created");
   CHECK(fault_of_setup("ExitBorn") == "mine: isolate_lab.so ended itself (exit code 3) while being created");
   CHECK(fault_of_setup("ThrowBorn") == "mine: cannot be created: the law is broken");
-  CHECK(fault_of_setup("HangBorn", 2'000'000'000) == "mine: isolate_lab.so hung: no answer within 2000 ms while being created");
+  CHECK(fault_of_setup("HangBorn", 2'000'000'000) ==
+        "mine: isolate_lab.so hung: no answer within 2000 ms while being created");
 }
 
 TEST_CASE("a component that cannot be destroyed says so and is gone all the same") {

@@ -67,17 +67,21 @@ bool same_output(const Rig& a, const Rig& b, std::size_t i) {
   const fulmar_output &x = a.outputs[i], &y = b.outputs[i];
   if (x.count != y.count || x.lost != y.lost || x.valid_at_ns != y.valid_at_ns) return false;
   const fulmar_port_kind kind = a.info.outputs[i].kind;
-  if (kind == FULMAR_OUT_QUEUE && std::memcmp(x.stamps_ns, y.stamps_ns, x.count * sizeof(std::int64_t)) != 0) return false;
+  if (kind == FULMAR_OUT_QUEUE && std::memcmp(x.stamps_ns, y.stamps_ns, x.count * sizeof(std::int64_t)) != 0)
+    return false;
   const Port& port = a.info.outputs[i];
-  const std::size_t count = kind == FULMAR_OUT_QUEUE ? x.count : 1, size = a.out_data[i].size() / port.capacity;
+  const std::size_t count = kind == FULMAR_OUT_QUEUE ? x.count : 1,
+                    size = a.out_data[i].size() / port.capacity;
   for (std::size_t k = 0; k < count; ++k)
-    if (!same_message(port.type.get(), a.out_data[i].data() + k * size, b.out_data[i].data() + k * size)) return false;
+    if (!same_message(port.type.get(), a.out_data[i].data() + k * size, b.out_data[i].data() + k * size))
+      return false;
   return true;
 }
 
 bool same_answers(const Rig& a, const Rig& b) {
   for (std::uint32_t k = 0; k < a.inputs[3].count; ++k)
-    if (a.answers[3][k].verdict != b.answers[3][k].verdict || std::strcmp(a.answers[3][k].reason, b.answers[3][k].reason) != 0)
+    if (a.answers[3][k].verdict != b.answers[3][k].verdict ||
+        std::strcmp(a.answers[3][k].reason, b.answers[3][k].reason) != 0)
       return false;
   return true;
 }
@@ -112,7 +116,9 @@ TEST_CASE("a component in a child computes the same bytes as in the host, whatev
   for (std::uint64_t n = 0; n < 3000; ++n) {
     for (Rig* rig : {&here, &there}) {
       give_anything(*rig, n);
-      if (n % 500 == 100) rig->choose("law", static_cast<int>(n / 500 % 3)), rig->value("gain").number[0] = 0.001 * static_cast<double>(n);
+      if (n % 500 == 100)
+        rig->choose("law", static_cast<int>(n / 500 % 3)),
+            rig->value("gain").number[0] = 0.001 * static_cast<double>(n);
       if (n % 500 == 100) rig->value("tag").text = n % 1000 == 100 ? "a longer tag" : "";
     }
     if (n % 500 == 100) wrong += here.retune() != there.retune();
@@ -130,7 +136,8 @@ TEST_CASE("a component in a child computes the same bytes as in the host, whatev
     wrong += same_answers(here, there) ? 0 : 1;
     silent += here.outputs[1].count == 0;
     full += here.outputs[2].lost;
-    for (std::uint32_t k = 0; k < here.inputs[3].count; ++k) refused += here.answers[3][k].verdict == FULMAR_REFUSED;
+    for (std::uint32_t k = 0; k < here.inputs[3].count; ++k)
+      refused += here.answers[3][k].verdict == FULMAR_REFUSED;
   }
   CHECK(wrong == 0);
   CHECK(refused > 600);  // every way is taken

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A laboratory for isolation: a component with every kind of port and parameter, and components that do everything wrong.
+// A laboratory for isolation: a component with every kind of port and parameter, and components that do
+// everything wrong.
 #include "fulmar/plugin.hpp"
 
 #include <unistd.h>
@@ -39,7 +40,8 @@ struct Sum {
 enum class Law : std::uint8_t { straight, square, cube };
 
 std::uint64_t mix(std::uint64_t h, const void* data, std::size_t size) {
-  for (std::size_t i = 0; i < size; ++i) h = (h ^ static_cast<const unsigned char*>(data)[i]) * 0x100000001b3u;
+  for (std::size_t i = 0; i < size; ++i)
+    h = (h ^ static_cast<const unsigned char*>(data)[i]) * 0x100000001b3u;
   return h;
 }
 template <class T>
@@ -105,7 +107,8 @@ struct Everything {
       n_ % 2 == 0 ? out.echo.publish(word) : out.echo.publish(word, tick.now_ns - 17);
     }
     for (std::uint64_t i = 0; i < n_ % 5; ++i)
-      out.series.push({x, static_cast<double>(i), static_cast<std::uint32_t>(n_)}, tick.now_ns - static_cast<std::int64_t>(i));
+      out.series.push({x, static_cast<double>(i), static_cast<std::uint32_t>(n_)},
+                      tick.now_ns - static_cast<std::int64_t>(i));
     out.last_m = in.signal->y_m;
     if (n_ % 7 == 0) out.rare_m = x;
     return in.signal->turn % 11 == 0 ? Status::degraded : Status::ok;
@@ -203,45 +206,29 @@ struct Faulty {
 
   static Status act(Fault fault) {
     switch (fault) {
-      case Fault::segfault:
-        *reinterpret_cast<volatile int*>(nowhere) = 1;
-        break;
-      case Fault::aborts:
-        std::abort();
-      case Fault::exits:
-        std::exit(3);
+      case Fault::segfault: *reinterpret_cast<volatile int*>(nowhere) = 1; break;
+      case Fault::aborts: std::abort();
+      case Fault::exits: std::exit(3);
       case Fault::hangs:
         for (;;) asm volatile("");
       case Fault::overflow: {
         volatile char room[1];
         return deeper(0, room) == 1 ? Status::failed : Status::ok;
       }
-      case Fault::throws:
-        throw std::runtime_error("the law is broken");
-      case Fault::leaks:
-        leak(1000);
-        break;
-      case Fault::killed:
-        ::raise(SIGKILL);
-        break;
-      case Fault::divides:
-        ::raise(SIGFPE);
-        break;
-      case Fault::prints:
-        std::puts("a word of the component");
-        break;
+      case Fault::throws: throw std::runtime_error("the law is broken");
+      case Fault::leaks: leak(1000); break;
+      case Fault::killed: ::raise(SIGKILL); break;
+      case Fault::divides: ::raise(SIGFPE); break;
+      case Fault::prints: std::puts("a word of the component"); break;
       case Fault::allocates: {
         std::vector<double> v(32);
         asm volatile("" ::"r"(v.data()) : "memory");
         break;
       }
-      case Fault::fails:
-        return Status::failed;
-      case Fault::terminates:
-        std::terminate();
+      case Fault::fails: return Status::failed;
+      case Fault::terminates: std::terminate();
       case Fault::none:
-      case Fault::nan:
-        break;
+      case Fault::nan: break;
     }
     return Status::ok;
   }
@@ -272,7 +259,8 @@ struct HangEnd : Mortal<Fault::none, Fault::hangs> {};
 struct Look {
   struct Inputs {};
   struct Outputs {
-    Sum open;  ///< sum_m: descriptors above the third; age_s: bytes on standard input; random: denormals are kept
+    Sum open;  ///< sum_m: descriptors above the third; age_s: bytes on standard input; random: denormals are
+               ///< kept
   };
   struct Params {};
   Status step(const Tick&, const Inputs&, const Params&, Outputs& out) {

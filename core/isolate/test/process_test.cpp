@@ -26,7 +26,8 @@ std::size_t open_files() {
 std::size_t shared_mappings() {
   std::ifstream in("/proc/self/maps");
   std::size_t n = 0;
-  for (std::string line; std::getline(in, line);) n += line.find("memfd:fulmar-child") != std::string::npos ? 1 : 0;
+  for (std::string line; std::getline(in, line);)
+    n += line.find("memfd:fulmar-child") != std::string::npos ? 1 : 0;
   return n;
 }
 
@@ -35,17 +36,20 @@ std::size_t shared_mappings() {
 TEST_CASE("a child that finds another component than its host knows is refused") {
   IsolatedOptions options = options_for("Faulty");
   ComponentInfo info = lab()->info().components[options.index];
-  CHECK_THROWS_WITH_AS(Isolated(lab()->info().components[0], options),
-                       doctest::Contains("mine: isolate_lab.so has no component 'Everything' in place 1 any more"), Error);
+  CHECK_THROWS_WITH_AS(
+      Isolated(lab()->info().components[0], options),
+      doctest::Contains("mine: isolate_lab.so has no component 'Everything' in place 1 any more"), Error);
   options.index = 400;
-  CHECK_THROWS_WITH_AS(Isolated(info, options), doctest::Contains("no component 'Faulty' in place 400"), Error);
+  CHECK_THROWS_WITH_AS(Isolated(info, options), doctest::Contains("no component 'Faulty' in place 400"),
+                       Error);
   options = options_for("Faulty");
   auto grown = std::make_shared<Type>(*info.inputs[0].type);
   grown->hash ^= 1;
   grown->size += 8;
   info.inputs[0].type = grown;
-  CHECK_THROWS_WITH_AS(Isolated(info, options),
-                       "mine: isolate_lab.so: the ports or parameters of 'Faulty' are not those that the host knows", Error);
+  CHECK_THROWS_WITH_AS(
+      Isolated(info, options),
+      "mine: isolate_lab.so: the ports or parameters of 'Faulty' are not those that the host knows", Error);
   info = lab()->info().components[options.index];
   info.vehicle = true;
   CHECK_THROWS_WITH_AS(Isolated(info, options), "mine: a vehicle cannot run in a process of its own.", Error);
@@ -53,7 +57,8 @@ TEST_CASE("a child that finds another component than its host knows is refused")
   options.copy = "/nowhere/at/all.so";
   CHECK_THROWS_WITH_AS(Isolated(info, options), doctest::Contains("mine: isolate_lab.so"), Error);
   ::setenv("FULMAR_CHILD", "/nowhere/fulmar-child", 1);
-  CHECK_THROWS_WITH_AS(Isolated(info, options_for("Faulty")), "cannot start /nowhere/fulmar-child: No such file or directory.", Error);
+  CHECK_THROWS_WITH_AS(Isolated(info, options_for("Faulty")),
+                       "cannot start /nowhere/fulmar-child: No such file or directory.", Error);
   ::unsetenv("FULMAR_CHILD");
   CHECK(no_children());
 }

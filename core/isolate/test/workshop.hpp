@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Drives a component of isolate_lab through its function table, in this process or in a child, and remembers what came out.
+// Drives a component of isolate_lab through its function table, in this process or in a child, and remembers
+// what came out.
 #pragma once
 #include <doctest/doctest.h>
 #include <sys/wait.h>
@@ -104,7 +105,9 @@ class Rig {
   Rig(const Rig&) = delete;
   Rig& operator=(const Rig&) = delete;
 
-  fulmar_value& value(const std::string& param) { return values.at(static_cast<std::size_t>(info.param(param))); }
+  fulmar_value& value(const std::string& param) {
+    return values.at(static_cast<std::size_t>(info.param(param)));
+  }
   void choose(const std::string& param, int choice) { value(param).integer = choice; }
   std::uint32_t configure() {
     error.text[0] = '\0';
@@ -122,7 +125,8 @@ class Rig {
   }
   std::uint32_t step() {
     error.text[0] = '\0';
-    for (std::size_t i = 0; i < outputs.size(); ++i) outputs[i] = {out_data[i].data(), out_stamps[i].data(), tick.now_ns, 0, 0};
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+      outputs[i] = {out_data[i].data(), out_stamps[i].data(), tick.now_ns, 0, 0};
     return table->step(instance, &tick, inputs.data(), outputs.data(), &error);
   }
   /// A first input of one Signal.

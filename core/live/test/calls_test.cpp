@@ -14,7 +14,8 @@ using namespace fulmar::core::live::test;
 TEST_CASE_FIXTURE(Fixture, "a request is called in JSON and in CDR") {
   CHECK(call_json("/plan/add_leg", R"({"course_rad": 0.5})") == json({{"accepted", true}, {"reason", ""}}));
   CHECK(control.heard().back() == R"(request plan.add_leg {"course_rad": 0.5})");
-  CHECK(call_json("/plan/add_leg", R"({"kind": "orbit"})") == json({{"accepted", false}, {"reason", "no orbits here"}}));
+  CHECK(call_json("/plan/add_leg", R"({"kind": "orbit"})") ==
+        json({{"accepted", false}, {"reason", "no orbits here"}}));
 
   const Leg leg{1, true, 0.25, {1, 2, 3}};
   const std::size_t before = peer.binaries.size();
@@ -26,9 +27,11 @@ TEST_CASE_FIXTURE(Fixture, "a request is called in JSON and in CDR") {
   CHECK(reinterpret_cast<const Leg*>(control.message().data())->course_rad == 0.25);
 }
 
-TEST_CASE_FIXTURE(Fixture, "a request may hold much, as long as it is flat, and brackets in its texts are text") {
+TEST_CASE_FIXTURE(Fixture,
+                  "a request may hold much, as long as it is flat, and brackets in its texts are text") {
   std::string legs;
-  for (int i = 0; i < 300; ++i) legs += std::string(i > 0 ? "," : "") + R"({"course_rad": 0.5, "limits": []})";
+  for (int i = 0; i < 300; ++i)
+    legs += std::string(i > 0 ? "," : "") + R"({"course_rad": 0.5, "limits": []})";
   CHECK(call_json("/plan/add_leg", R"({"legs": [)" + legs + "]}")["reason"] == "");
   CHECK(call_json("/plan/add_leg", R"({"name": ")" + std::string(300, '[') + R"("})")["reason"] == "");
   const std::string deep = R"({"legs": )" + std::string(100, '[') + std::string(100, ']') + "}";
@@ -39,11 +42,12 @@ TEST_CASE_FIXTURE(Fixture, "a request may hold much, as long as it is flat, and 
 TEST_CASE_FIXTURE(Fixture, "requests that do not hold what they should are answered, and reach nobody") {
   for (const char* payload : {"{", "[]", "5", "nonsense"})
     CHECK(call_json("/plan/add_leg", payload)["reason"] == "the request is no JSON object");
-  CHECK(call_json("/plan/add_leg", std::string(100'000, '['))["reason"] == "the request is nested too deeply");
+  CHECK(call_json("/plan/add_leg", std::string(100'000, '['))["reason"] ==
+        "the request is nested too deeply");
   Leg leg{1, true, 0.25, {1, 2, 3}};
   leg.course_rad = std::nan("");
-  for (const std::string& payload :
-       {std::string(), std::string("\0\1\0\0", 4), cdr_of(*leg_type(), leg), cdr_of(*leg_type(), Leg{7, true, 0, {}})}) {
+  for (const std::string& payload : {std::string(), std::string("\0\1\0\0", 4), cdr_of(*leg_type(), leg),
+                                     cdr_of(*leg_type(), Leg{7, true, 0, {}})}) {
     const std::size_t before = peer.binaries.size();
     call("/plan/add_leg", "cdr", payload);
     REQUIRE(until([&] { return peer.binaries.size() > before; }));
@@ -53,12 +57,15 @@ TEST_CASE_FIXTURE(Fixture, "requests that do not hold what they should are answe
 }
 
 TEST_CASE_FIXTURE(Fixture, "the host's own services") {
-  CHECK(call_json("/fulmar/set_parameter", R"({"component": "slc", "name": "roll_kp", "text": "0.8"})")["accepted"] == true);
-  CHECK(call_json("/fulmar/set_parameter", R"({"component": "slc", "name": "roll_kp", "text": "20 kg"})")["reason"] ==
+  CHECK(call_json("/fulmar/set_parameter",
+                  R"({"component": "slc", "name": "roll_kp", "text": "0.8"})")["accepted"] == true);
+  CHECK(call_json("/fulmar/set_parameter",
+                  R"({"component": "slc", "name": "roll_kp", "text": "20 kg"})")["reason"] ==
         "'20 kg' is not a number");
   CHECK(call_json("/fulmar/phase", R"({"phase": "hold"})")["accepted"] == true);
   CHECK(call_json("/fulmar/phase", R"({"phase": 5})")["reason"] == "the request needs the text 'phase'");
-  CHECK(call_json("/fulmar/swap", R"({"component": "slc", "file": "x.so"})")["reason"] == "the vehicle is armed");
+  CHECK(call_json("/fulmar/swap", R"({"component": "slc", "file": "x.so"})")["reason"] ==
+        "the vehicle is armed");
   CHECK(call_json("/fulmar/reset_guards", "")["accepted"] == true);
   const std::vector<std::string> expected = {"set slc.roll_kp 0.8", "phase hold", "swap slc x.so", "reset"};
   CHECK(control.heard() == expected);
@@ -67,7 +74,8 @@ TEST_CASE_FIXTURE(Fixture, "the host's own services") {
   CHECK(view["phases"] == json({"hold", "cruise"}));
   CHECK(view["components"][0]["params"][0]["text"] == "0.8 rad/rad");
   CHECK(view["components"][0]["params"][0]["max"] == 2.0);
-  CHECK(view["components"][0]["outputs"][0] == json({{"name", "leg"}, {"type", "fulmar_msgs/msg/Leg"}, {"topic", "/slc/leg"}}));
+  CHECK(view["components"][0]["outputs"][0] ==
+        json({{"name", "leg"}, {"type", "fulmar_msgs/msg/Leg"}, {"topic", "/slc/leg"}}));
   CHECK(view["components"][1]["inputs"][0]["topic"] == "/plan/add_leg");
   CHECK(view["components"][1]["inputs"][1]["imported"] == true);
 }
@@ -84,7 +92,8 @@ TEST_CASE_FIXTURE(Fixture, "the host's own services are called in CDR, too") {
   const std::string reason = std::string("the vehicle is armed") + '\0';
   CHECK(peer.binaries.back().substr(16) == header + std::string(4, '\0') + le(21) + reason);
   for (const std::string& payload :
-       {header, header + text("slc"), header + text("slc") + le(0xffffffff) + "law", text("slc") + text("x")}) {
+       {header, header + text("slc"), header + text("slc") + le(0xffffffff) + "law",
+        text("slc") + text("x")}) {
     const std::size_t before = peer.binaries.size();
     call("/fulmar/swap", "cdr", payload);
     REQUIRE(until([&] { return peer.binaries.size() > before; }));
@@ -95,8 +104,10 @@ TEST_CASE_FIXTURE(Fixture, "the host's own services are called in CDR, too") {
 
 TEST_CASE_FIXTURE(Fixture, "calls of services that are not there fail") {
   hub.binary(id, "\2" + le(99) + le(5) + le(4) + "json{}");
-  CHECK(*peer.last("serviceCallFailure") ==
-        json({{"op", "serviceCallFailure"}, {"serviceId", 99}, {"callId", 5}, {"message", "there is no service 99"}}));
+  CHECK(*peer.last("serviceCallFailure") == json({{"op", "serviceCallFailure"},
+                                                  {"serviceId", 99},
+                                                  {"callId", 5},
+                                                  {"message", "there is no service 99"}}));
   call("/fulmar/view", "ros1", "");
   CHECK(peer.last("serviceCallFailure")->at("message") == "there is no encoding 'ros1'. Valid: cdr, json.");
   CHECK(counters.refused == 2);
@@ -112,7 +123,8 @@ TEST_CASE_FIXTURE(Fixture, "a client publishes into an imported input, in CDR an
   REQUIRE(control.heard().size() == 1);
   CHECK(control.heard()[0] == "publish plan.edits");
   CHECK(control.message().size() == sizeof mixed);
-  CHECK(cdr_of(*mixed_type(), *reinterpret_cast<const Mixed*>(control.message().data())) == cdr_of(*mixed_type(), mixed));
+  CHECK(cdr_of(*mixed_type(), *reinterpret_cast<const Mixed*>(control.message().data())) ==
+        cdr_of(*mixed_type(), mixed));
   hub.binary(id, "\1" + le(2) + R"({"armed": true, "speed_mps": 2.5, "mode": "hold"})");
   REQUIRE(control.heard().size() == 2);
   CHECK(reinterpret_cast<const Mixed*>(control.message().data())->speed_mps == 2.5);
@@ -132,12 +144,15 @@ TEST_CASE_FIXTURE(Fixture, "a client publishes into an imported input, in CDR an
 
 TEST_CASE_FIXTURE(Fixture, "only what the mission imports can be published on") {
   const auto refusal = [&](const char* topic, const char* encoding, const char* schema) {
-    say({{"op", "advertise"}, {"channels", {{{"id", 1}, {"topic", topic}, {"encoding", encoding}, {"schemaName", schema}}}}});
+    say({{"op", "advertise"},
+         {"channels", {{{"id", 1}, {"topic", topic}, {"encoding", encoding}, {"schemaName", schema}}}}});
     return peer.last_status();
   };
   CHECK(refusal("/plan/add_leg", "cdr", "").find("nothing can be published on '/plan/add_leg'") == 0);
-  CHECK(refusal("/plan/edits", "protobuf", "") == "/plan/edits: there is no encoding 'protobuf'. Valid: cdr, json.");
-  CHECK(refusal("/plan/edits", "cdr", "std_msgs/msg/String") == "/plan/edits takes fulmar_msgs/msg/Mixed, not std_msgs/msg/String");
+  CHECK(refusal("/plan/edits", "protobuf", "") ==
+        "/plan/edits: there is no encoding 'protobuf'. Valid: cdr, json.");
+  CHECK(refusal("/plan/edits", "cdr", "std_msgs/msg/String") ==
+        "/plan/edits takes fulmar_msgs/msg/Mixed, not std_msgs/msg/String");
   CHECK(counters.refused == 3);
 }
 

@@ -28,7 +28,8 @@ TEST_CASE("an address that others can reach needs a token") {
                        doctest::Contains("0.0.0.0 can be reached from other computers. Give a token"), Error);
   CHECK_THROWS_AS(check_options(listening("192.168.1.5")), Error);
   CHECK_THROWS_AS(check_options(listening("::")), Error);
-  for (const char* host : {"127.0.0.1", "127.8.8.8", "localhost", "::1"}) CHECK_NOTHROW(check_options(listening(host)));
+  for (const char* host : {"127.0.0.1", "127.8.8.8", "localhost", "::1"})
+    CHECK_NOTHROW(check_options(listening(host)));
   CHECK_NOTHROW(check_options(listening("0.0.0.0", "secret")));
 }
 
@@ -36,18 +37,20 @@ TEST_CASE("names that this computer has for itself are answered, others are not"
   const LiveOptions options = listening("127.0.0.1");
   for (const char* host : {"localhost", "LocalHost:8765", "127.0.0.1:8765", "[::1]:8765", "localhost:9999"})
     CHECK(status(options, {"/", host, "", ""}) == 200);
-  for (const char* host :
-       {"evil.example", "evil.example:8765", "localhost.evil.example", "127.0.0.1.evil.example", "192.168.1.5", "[fe80::1]"})
+  for (const char* host : {"evil.example", "evil.example:8765", "localhost.evil.example",
+                           "127.0.0.1.evil.example", "192.168.1.5", "[fe80::1]"})
     CHECK(status(options, {"/", host, "", ""}) == 403);
-  for (const char* host : {"", ":8765", "[::1", "a@localhost", "localhost/x"}) CHECK(status(options, {"/", host, "", ""}) == 400);
+  for (const char* host : {"", ":8765", "[::1", "a@localhost", "localhost/x"})
+    CHECK(status(options, {"/", host, "", ""}) == 400);
 }
 
 TEST_CASE("pages of other sites may not speak to a flight") {
   const LiveOptions options = listening("127.0.0.1");
-  for (const char* origin : {"http://localhost:8765", "http://127.0.0.1:3000", "https://localhost", "http://[::1]:1"})
-    CHECK(status(options, {"/", "localhost:8765", origin, ""}) == 200);
   for (const char* origin :
-       {"http://evil.example", "https://localhost.evil.example", "null", "file://", "http://", "http://evil.example:8765"})
+       {"http://localhost:8765", "http://127.0.0.1:3000", "https://localhost", "http://[::1]:1"})
+    CHECK(status(options, {"/", "localhost:8765", origin, ""}) == 200);
+  for (const char* origin : {"http://evil.example", "https://localhost.evil.example", "null", "file://",
+                             "http://", "http://evil.example:8765"})
     CHECK(status(options, {"/", "localhost:8765", origin, ""}) == 403);
 }
 

@@ -49,7 +49,8 @@ struct TestPeer : Peer {
     return status == nullptr ? "" : status->at("message").get<std::string>();
   }
   std::size_t count(const std::string& op) const {
-    return static_cast<std::size_t>(std::count_if(texts.begin(), texts.end(), [&](const json& t) { return t.at("op") == op; }));
+    return static_cast<std::size_t>(
+        std::count_if(texts.begin(), texts.end(), [&](const json& t) { return t.at("op") == op; }));
   }
 };
 
@@ -101,8 +102,10 @@ struct Fixture {
     FAIL("no such service: " << name);
     return 0;
   }
-  void call(const std::string& name, const std::string& encoding, const std::string& payload, std::uint32_t call_id = 9) {
-    hub.binary(id, "\2" + le(service(name)) + le(call_id) + le(static_cast<std::uint32_t>(encoding.size())) + encoding + payload);
+  void call(const std::string& name, const std::string& encoding, const std::string& payload,
+            std::uint32_t call_id = 9) {
+    hub.binary(id, "\2" + le(service(name)) + le(call_id) + le(static_cast<std::uint32_t>(encoding.size())) +
+                       encoding + payload);
   }
   /// The answer to this call; those to calls made before may still come in between.
   json call_json(const std::string& name, const std::string& payload) {
@@ -110,7 +113,9 @@ struct Fixture {
     std::size_t next = peer.binaries.size();
     const auto answered = [&] {
       for (; next < peer.binaries.size(); ++next)
-        if (const std::string& answer = peer.binaries[next]; answer[0] == 3 && u32(answer, 1) == asked && u32(answer, 5) == 9) return true;
+        if (const std::string& answer = peer.binaries[next];
+            answer[0] == 3 && u32(answer, 1) == asked && u32(answer, 5) == 9)
+          return true;
       return false;
     };
     call(name, "json", payload);

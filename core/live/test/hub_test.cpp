@@ -15,7 +15,8 @@ TEST_CASE_FIXTURE(Fixture, "a client is told who serves, which channels there ar
   REQUIRE(peer.texts.size() == 3);
   const json& info = peer.texts[0];
   CHECK(info["op"] == "serverInfo");
-  CHECK(info["capabilities"] == json({"clientPublish", "parameters", "parametersSubscribe", "services", "connectionGraph", "time"}));
+  CHECK(info["capabilities"] ==
+        json({"clientPublish", "parameters", "parametersSubscribe", "services", "connectionGraph", "time"}));
   CHECK(info["supportedEncodings"] == json({"cdr", "json"}));
   CHECK(info["metadata"]["mission"] == "mock <1>");
   const json& channels = peer.texts[1]["channels"];
@@ -35,7 +36,9 @@ TEST_CASE_FIXTURE(Fixture, "a client is told who serves, which channels there ar
   CHECK(services[0]["requestSchema"] == "string component\nstring name\nstring text\n");
 }
 
-TEST_CASE_FIXTURE(Fixture, "a subscriber gets the channel's samples with its own subscription id and UTC, nobody else does") {
+TEST_CASE_FIXTURE(
+    Fixture,
+    "a subscriber gets the channel's samples with its own subscription id and UTC, nobody else does") {
   TestPeer other;
   hub.add(other);
   say({{"op", "subscribe"}, {"subscriptions", {{{"id", 77}, {"channelId", 2}}}}});
@@ -63,7 +66,8 @@ TEST_CASE_FIXTURE(Fixture, "the loop is asked for a channel as long as somebody 
   CHECK(tap.wanted(3, 0));  // time, as long as there are clients
   TestPeer other;
   const Hub::ClientId second = hub.add(other);
-  const std::string text = json({{"op", "subscribe"}, {"subscriptions", {{{"id", 1}, {"channelId", 1}}}}}).dump();
+  const std::string text =
+      json({{"op", "subscribe"}, {"subscriptions", {{{"id", 1}, {"channelId", 1}}}}}).dump();
   hub.text(id, text);
   hub.text(second, text);
   CHECK(tap.wanted(0, 1));
@@ -92,7 +96,9 @@ TEST_CASE("who subscribes late gets the last sample of a port that may stay sile
   publish(5'000'000, 0.5);  // before there is any client
   const auto subscriber = [&](TestPeer& peer) {
     const Hub::ClientId id = hub.add(peer);
-    hub.text(id, R"({"op": "subscribe", "subscriptions": [{"id": 7, "channelId": 2}, {"id": 8, "channelId": 1}]})");
+    hub.text(
+        id,
+        R"({"op": "subscribe", "subscriptions": [{"id": 7, "channelId": 2}, {"id": 8, "channelId": 1}]})");
     std::erase_if(peer.binaries, [](const std::string& b) { return b[0] != 1; });
     return id;
   };
@@ -115,7 +121,9 @@ TEST_CASE("who subscribes late gets the last sample of a port that may stay sile
   CHECK(counters.lost == 0);
 }
 
-TEST_CASE("a port that may stay silent but does not is left to those who look: the loop copies it for nobody else") {
+TEST_CASE(
+    "a port that may stay silent but does not is left to those who look: the loop copies it for nobody "
+    "else") {
   std::vector<TapChannel> channels = mock_channels();
   channels[1].may_stay_silent = true;
   Tap tap(channels);
@@ -141,7 +149,8 @@ TEST_CASE("a port that may stay silent but does not is left to those who look: t
 TEST_CASE_FIXTURE(Fixture, "a slow client goes without, is told so, and delays nobody") {
   TestPeer quick;
   const Hub::ClientId second = hub.add(quick);
-  const std::string text = json({{"op", "subscribe"}, {"subscriptions", {{{"id", 1}, {"channelId", 1}}}}}).dump();
+  const std::string text =
+      json({{"op", "subscribe"}, {"subscriptions", {{{"id", 1}, {"channelId", 1}}}}}).dump();
   hub.text(id, text);
   hub.text(second, text);
   peer.room = 10;
@@ -151,7 +160,8 @@ TEST_CASE_FIXTURE(Fixture, "a slow client goes without, is told so, and delays n
   CHECK(quick.binaries.size() == 51);  // and the time
   CHECK(counters.dropped == 40);
   CHECK(peer.last("status")->at("level") == 1);
-  CHECK(peer.last_status() == "This connection is too slow for what it has subscribed to: 40 messages left out.");
+  CHECK(peer.last_status() ==
+        "This connection is too slow for what it has subscribed to: 40 messages left out.");
   CHECK(quick.last("status") == nullptr);
 }
 
@@ -185,7 +195,8 @@ TEST_CASE_FIXTURE(Fixture, "parameters are read as what they are") {
   CHECK(peer.last_status().find("there is no parameter 'slc.roll_k'. Did you mean 'slc.roll_kp'?") == 0);
 }
 
-TEST_CASE_FIXTURE(Fixture, "parameters are set in the words of a mission file and answered with what they are then") {
+TEST_CASE_FIXTURE(Fixture,
+                  "parameters are set in the words of a mission file and answered with what they are then") {
   say({{"op", "setParameters"},
        {"id", "s"},
        {"parameters",
@@ -195,14 +206,16 @@ TEST_CASE_FIXTURE(Fixture, "parameters are set in the words of a mission file an
          {{"name", "slc.law"}, {"value", "takeoff"}},
          {{"name", "slc.on"}, {"value", false}}}}});
   REQUIRE(until([&] { return peer.last("parameterValues") != nullptr; }));
-  const std::vector<std::string> expected = {"set slc.roll_kp 0.7", "set slc.wind [1,2.5,0]", "set slc.note \"20 deg\"",
-                                             "set slc.law takeoff", "set slc.on false"};
+  const std::vector<std::string> expected = {"set slc.roll_kp 0.7", "set slc.wind [1,2.5,0]",
+                                             "set slc.note \"20 deg\"", "set slc.law takeoff",
+                                             "set slc.on false"};
   CHECK(control.heard() == expected);
   const json& reply = *peer.last("parameterValues");
   CHECK(reply["id"] == "s");
   CHECK(reply["parameters"].size() == 5);
   CHECK(reply["parameters"][0] == json({{"name", "slc.roll_kp"}, {"value", 0.7}, {"type", "float64"}}));
-  CHECK(peer.last_status() == "slc.law is set, but the phase 'cruise' has another value for it while it lasts.");
+  CHECK(peer.last_status() ==
+        "slc.law is set, but the phase 'cruise' has another value for it while it lasts.");
 }
 
 TEST_CASE_FIXTURE(Fixture, "a parameter that cannot be set says why, and what it still is") {
@@ -219,21 +232,26 @@ TEST_CASE_FIXTURE(Fixture, "a parameter that cannot be set says why, and what it
   for (const json& t : peer.texts)
     if (t["op"] == "status") told.push_back(t["message"]);
   CHECK(std::find(told.begin(), told.end(), "slc.roll_kp: 9 is outside 0 .. 2 rad/rad") != told.end());
-  CHECK(std::find(told.begin(), told.end(), "roll_kp: a parameter is named COMPONENT.PARAMETER") != told.end());
+  CHECK(std::find(told.begin(), told.end(), "roll_kp: a parameter is named COMPONENT.PARAMETER") !=
+        told.end());
   CHECK(std::find(told.begin(), told.end(), "slc.roll_kp: a parameter cannot be removed") != told.end());
-  CHECK(std::any_of(told.begin(), told.end(),
-                    [](const std::string& t) { return t.find("scl.roll_kp: there is no component 'scl'. Did you mean 'slc'?") == 0; }));
+  CHECK(std::any_of(told.begin(), told.end(), [](const std::string& t) {
+    return t.find("scl.roll_kp: there is no component 'scl'. Did you mean 'slc'?") == 0;
+  }));
   CHECK(counters.refused == 0);  // the rules of the protocol were kept
 }
 
 TEST_CASE_FIXTURE(Fixture, "who watches a parameter is told when anybody sets it") {
   TestPeer watcher;
   const Hub::ClientId second = hub.add(watcher);
-  hub.text(second, R"({"op": "subscribeParameterUpdates", "parameterNames": ["slc.roll_kp", "slc.nothing"]})");
+  hub.text(second,
+           R"({"op": "subscribeParameterUpdates", "parameterNames": ["slc.roll_kp", "slc.nothing"]})");
   CHECK(watcher.last_status().find("there is no parameter 'slc.nothing'") == 0);
-  say({{"op", "setParameters"}, {"parameters", {{{"name", "slc.roll_kp"}, {"value", 0.25}}, {{"name", "slc.on"}, {"value", true}}}}});
+  say({{"op", "setParameters"},
+       {"parameters", {{{"name", "slc.roll_kp"}, {"value", 0.25}}, {{"name", "slc.on"}, {"value", true}}}}});
   REQUIRE(until([&] { return watcher.last("parameterValues") != nullptr; }));
-  CHECK(watcher.last("parameterValues")->at("parameters") == json::parse(R"([{"name": "slc.roll_kp", "value": 0.25, "type": "float64"}])"));
+  CHECK(watcher.last("parameterValues")->at("parameters") ==
+        json::parse(R"([{"name": "slc.roll_kp", "value": 0.25, "type": "float64"}])"));
   CHECK(peer.last("parameterValues") == nullptr);  // it has not asked
   hub.text(second, R"({"op": "unsubscribeParameterUpdates", "parameterNames": []})");
   say({{"op", "setParameters"}, {"id", "x"}, {"parameters", {{{"name", "slc.roll_kp"}, {"value", 0.5}}}}});
@@ -242,7 +260,8 @@ TEST_CASE_FIXTURE(Fixture, "who watches a parameter is told when anybody sets it
   CHECK(watcher.count("parameterValues") == 1);
 }
 
-TEST_CASE_FIXTURE(Fixture, "ten thousand sets in one go are all answered, and nothing more is read meanwhile") {
+TEST_CASE_FIXTURE(Fixture,
+                  "ten thousand sets in one go are all answered, and nothing more is read meanwhile") {
   json list = json::array();
   for (int i = 0; i < 10'000; ++i) list.push_back({{"name", "slc.roll_kp"}, {"value", i * 1e-4}});
   say({{"op", "setParameters"}, {"id", "many"}, {"parameters", list}});
@@ -260,35 +279,40 @@ TEST_CASE_FIXTURE(Fixture, "the connection graph says who publishes, who reads a
       graph["publishedTopics"] ==
       json::parse(
           R"([{"name": "/fulmar/ticks", "publisherIds": ["fulmar"]}, {"name": "/plan/mixed", "publisherIds": ["plan"]}, {"name": "/slc/leg", "publisherIds": ["slc"]}])"));
-  CHECK(graph["subscribedTopics"] ==
-        json::parse(R"([{"name": "/plan/edits", "subscriberIds": ["plan"]}, {"name": "/plan/mixed", "subscriberIds": ["slc"]}])"));
+  CHECK(
+      graph["subscribedTopics"] ==
+      json::parse(
+          R"([{"name": "/plan/edits", "subscriberIds": ["plan"]}, {"name": "/plan/mixed", "subscriberIds": ["slc"]}])"));
   CHECK(graph["advertisedServices"].back() == json({{"name", "/plan/add_leg"}, {"providerIds", {"plan"}}}));
 }
 
-TEST_CASE_FIXTURE(Fixture, "what is no message of the protocol is answered with a close, what it does not know with a status") {
+TEST_CASE_FIXTURE(
+    Fixture,
+    "what is no message of the protocol is answered with a close, what it does not know with a status") {
   struct Bad {
     std::string text;
     int code;
   };
-  const std::vector<Bad> texts = {{"", 1007},
-                                  {"nonsense", 1007},
-                                  {"[]", 1007},
-                                  {"{}", 1007},
-                                  {R"({"op": 5})", 1007},
-                                  {R"({"op": "fly"})", 0},
-                                  {R"({"op": "subscribe"})", 1007},
-                                  {R"({"op": "subscribe", "subscriptions": 5})", 1007},
-                                  {R"({"op": "subscribe", "subscriptions": [5]})", 1007},
-                                  {R"({"op": "subscribe", "subscriptions": [{"id": -1, "channelId": 1}]})", 1007},
-                                  {R"({"op": "subscribe", "subscriptions": [{"id": 1, "channelId": 4294967297}]})", 1007},
-                                  {R"({"op": "subscribe", "subscriptions": [{"id": 1.5, "channelId": 1}]})", 1007},
-                                  {R"({"op": "getParameters", "parameterNames": [1]})", 1007},
-                                  {R"({"op": "getParameters", "parameterNames": [], "id": 5})", 1007},
-                                  {R"({"op": "setParameters", "parameters": [{"value": 1}]})", 1007},
-                                  {R"({"op": "setParameters", "parameters": {"a": 1}})", 1007},
-                                  {R"({"op": "advertise", "channels": [{"id": 1, "topic": [], "encoding": "cdr"}]})", 1007},
-                                  {"{\"op\": \"\xff\"}", 1007},
-                                  {std::string(1'000'000, '['), 1007}};
+  const std::vector<Bad> texts = {
+      {"", 1007},
+      {"nonsense", 1007},
+      {"[]", 1007},
+      {"{}", 1007},
+      {R"({"op": 5})", 1007},
+      {R"({"op": "fly"})", 0},
+      {R"({"op": "subscribe"})", 1007},
+      {R"({"op": "subscribe", "subscriptions": 5})", 1007},
+      {R"({"op": "subscribe", "subscriptions": [5]})", 1007},
+      {R"({"op": "subscribe", "subscriptions": [{"id": -1, "channelId": 1}]})", 1007},
+      {R"({"op": "subscribe", "subscriptions": [{"id": 1, "channelId": 4294967297}]})", 1007},
+      {R"({"op": "subscribe", "subscriptions": [{"id": 1.5, "channelId": 1}]})", 1007},
+      {R"({"op": "getParameters", "parameterNames": [1]})", 1007},
+      {R"({"op": "getParameters", "parameterNames": [], "id": 5})", 1007},
+      {R"({"op": "setParameters", "parameters": [{"value": 1}]})", 1007},
+      {R"({"op": "setParameters", "parameters": {"a": 1}})", 1007},
+      {R"({"op": "advertise", "channels": [{"id": 1, "topic": [], "encoding": "cdr"}]})", 1007},
+      {"{\"op\": \"\xff\"}", 1007},
+      {std::string(1'000'000, '['), 1007}};
   std::uint64_t refused = 0;
   for (const Bad& bad : texts) {
     CAPTURE(bad.text.substr(0, 100));
@@ -297,8 +321,12 @@ TEST_CASE_FIXTURE(Fixture, "what is no message of the protocol is answered with 
     CHECK(peer.closed == bad.code);
     CHECK(counters.refused == ++refused);
   }
-  for (const Bad& bad : std::vector<Bad>{
-           {"", 1007}, {"\1", 1007}, {"\1abc", 1007}, {"\2abc", 1007}, {"\2" + le(1) + le(1) + le(50) + "json", 1007}, {"\7", 0}}) {
+  for (const Bad& bad : std::vector<Bad>{{"", 1007},
+                                         {"\1", 1007},
+                                         {"\1abc", 1007},
+                                         {"\2abc", 1007},
+                                         {"\2" + le(1) + le(1) + le(50) + "json", 1007},
+                                         {"\7", 0}}) {
     peer.closed = 0;
     hub.binary(id, bad.text);
     CHECK(peer.closed == bad.code);
@@ -318,7 +346,8 @@ TEST_CASE_FIXTURE(Fixture, "a thousand messages with flipped bytes crash nothing
   say({{"op", "advertise"}, {"channels", {{{"id", 1}, {"topic", "/plan/edits"}, {"encoding", "cdr"}}}}});
   for (int i = 0; i < 1000; ++i) {
     std::string message = good[static_cast<std::size_t>(i) % good.size()];
-    for (int flips = 1 + i % 3; flips > 0; --flips) message[random() % message.size()] ^= static_cast<char>(1u << random() % 8);
+    for (int flips = 1 + i % 3; flips > 0; --flips)
+      message[random() % message.size()] ^= static_cast<char>(1u << random() % 8);
     if (i % 7 == 0) message.resize(random() % message.size());
     if (static_cast<std::size_t>(i) % good.size() < 3) {
       hub.text(id, message);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A flight for tests: two components, a ring, a control that remembers what it was told and answers in a thread of its own.
+// A flight for tests: two components, a ring, a control that remembers what it was told and answers in a
+// thread of its own.
 #pragma once
 #include <algorithm>
 #include <atomic>
@@ -20,7 +21,8 @@
 
 namespace fulmar::core::test {
 
-/// Parameters are texts of numbers between 0 and 2, but for slc.law (a choice), slc.note (a text) and slc.wind (a vector).
+/// Parameters are texts of numbers between 0 and 2, but for slc.law (a choice), slc.note (a text) and
+/// slc.wind (a vector).
 class MockControl : public Control {
  public:
   MockControl() : thread_([this] { answer(); }) {}
@@ -45,9 +47,12 @@ class MockControl : public Control {
     return v;
   }
 
-  void set_parameter(const std::string& component, const std::string& param, const std::string& text, Answer answer) override {
-    if (component != "slc") throw Error("there is no component '" + component + "'." + choices_text(component, {"slc", "plan"}));
-    if (param == "roll_kp" && (text.find_first_not_of("0123456789.e-") != std::string::npos)) throw Error("'" + text + "' is not a number");
+  void set_parameter(const std::string& component, const std::string& param, const std::string& text,
+                     Answer answer) override {
+    if (component != "slc")
+      throw Error("there is no component '" + component + "'." + choices_text(component, {"slc", "plan"}));
+    if (param == "roll_kp" && (text.find_first_not_of("0123456789.e-") != std::string::npos))
+      throw Error("'" + text + "' is not a number");
     note("set " + component + "." + param + " " + text);
     work([this, param, text, answer = std::move(answer)] {
       ++sets;
@@ -60,16 +65,21 @@ class MockControl : public Control {
       if (!wrong && changed_) changed_("slc", param);
     });
   }
-  void request(const std::string& component, const std::string& port, const std::string& text, Answer answer) override {
+  void request(const std::string& component, const std::string& port, const std::string& text,
+               Answer answer) override {
     note("request " + component + "." + port + " " + text);
-    work([answer = std::move(answer), text] { answer(text.find("\"orbit\"") == std::string::npos ? "" : "no orbits here"); });
+    work([answer = std::move(answer), text] {
+      answer(text.find("\"orbit\"") == std::string::npos ? "" : "no orbits here");
+    });
   }
-  void request(const std::string& component, const std::string& port, std::vector<std::byte> message, Answer answer) override {
+  void request(const std::string& component, const std::string& port, std::vector<std::byte> message,
+               Answer answer) override {
     note("request " + component + "." + port);
     take(std::move(message));
     work([answer = std::move(answer)] { answer(""); });
   }
-  bool publish(const std::string& component, const std::string& port, std::vector<std::byte> message) override {
+  bool publish(const std::string& component, const std::string& port,
+               std::vector<std::byte> message) override {
     note("publish " + component + "." + port);
     take(std::move(message));
     return true;
@@ -86,7 +96,9 @@ class MockControl : public Control {
     note("reset");
     work([answer = std::move(answer)] { answer(""); });
   }
-  void on_parameter(std::function<void(const std::string&, const std::string&)> changed) override { changed_ = std::move(changed); }
+  void on_parameter(std::function<void(const std::string&, const std::string&)> changed) override {
+    changed_ = std::move(changed);
+  }
   std::uint64_t lost_samples() const override { return 0; }
 
   std::vector<std::string> heard() const {

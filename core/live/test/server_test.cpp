@@ -46,7 +46,8 @@ struct Fixture {
   LiveOptions options;
   std::optional<LiveServer> server;
 
-  explicit Fixture(const std::vector<TapChannel>& channels = mock_channels(), std::size_t ring_bytes = 8u << 20)
+  explicit Fixture(const std::vector<TapChannel>& channels = mock_channels(),
+                   std::size_t ring_bytes = 8u << 20)
       : tap(channels, ring_bytes) {}
 
   void serve(const std::string& token = "", const std::string& host = "127.0.0.1") {
@@ -62,7 +63,8 @@ struct Fixture {
     return socket;
   }
 
-  Answer get(const std::string& target, const Headers& headers = {}, http::verb verb = http::verb::get) const {
+  Answer get(const std::string& target, const Headers& headers = {},
+             http::verb verb = http::verb::get) const {
     net::io_context io;
     net::ip::tcp::socket socket = connect(io);
     http::request<http::empty_body> request(verb, target, 11);
@@ -96,7 +98,8 @@ struct Fixture {
 };
 
 std::string handshake(const std::string& extra = "") {
-  return "GET / HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+  return "GET / HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: "
+         "Upgrade\r\nSec-WebSocket-Version: 13\r\n"
          "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Protocol: foxglove.websocket.v1\r\n" +
          extra + "\r\n";
 }
@@ -107,8 +110,8 @@ struct Client {
   websocket::stream<net::ip::tcp::socket> ws;
   std::string protocol;
 
-  explicit Client(const Fixture& f, const std::string& offered = "foxglove.sdk.v1", const std::string& target = "/",
-                  const Headers& headers = {})
+  explicit Client(const Fixture& f, const std::string& offered = "foxglove.sdk.v1",
+                  const std::string& target = "/", const Headers& headers = {})
       : ws(f.connect(io)) {
     ws.read_message_max(64u << 20);
     ws.set_option(websocket::stream_base::decorator([&](websocket::request_type& request) {
@@ -155,7 +158,8 @@ TEST_CASE_FIXTURE(Fixture, "a port that is taken is refused with what to do") {
   serve();
   LiveOptions same = options;
   same.port = server->port();
-  CHECK_THROWS_WITH_AS(LiveServer(tap, control, same), doctest::Contains("Another flight may have the port: stop it"), Error);
+  CHECK_THROWS_WITH_AS(LiveServer(tap, control, same),
+                       doctest::Contains("Another flight may have the port: stop it"), Error);
   same.host = "plane";
   CHECK_THROWS_WITH_AS(LiveServer(tap, control, same), doctest::Contains("live.listen"), Error);
   same.host = "0.0.0.0";
@@ -163,7 +167,8 @@ TEST_CASE_FIXTURE(Fixture, "a port that is taken is refused with what to do") {
   same = options;
   same.host = "192.0.2.1";  // of nobody
   same.token = "x";
-  CHECK_THROWS_WITH_AS(LiveServer(tap, control, same), doctest::Contains("Give an address of this computer"), Error);
+  CHECK_THROWS_WITH_AS(LiveServer(tap, control, same), doctest::Contains("Give an address of this computer"),
+                       Error);
 }
 
 TEST_CASE_FIXTURE(Fixture, "a browser gets a page that asks for nothing else") {
@@ -173,7 +178,8 @@ TEST_CASE_FIXTURE(Fixture, "a browser gets a page that asks for nothing else") {
   CHECK(page.content_type == "text/html; charset=utf-8");
   CHECK(page.body.find("<h1>mock &lt;1&gt;</h1>") != std::string::npos);
   CHECK(page.body.find("<td>/slc/leg<td>fulmar_msgs/msg/Leg") != std::string::npos);
-  for (const char* word : {"src=", "href=", "url(", "http://", "https://", "<script"}) CHECK(page.body.find(word) == std::string::npos);
+  for (const char* word : {"src=", "href=", "url(", "http://", "https://", "<script"})
+    CHECK(page.body.find(word) == std::string::npos);
   CHECK(get("/", {}, http::verb::head).status == 200);
   CHECK(server->stats().refused == 0);
 }
@@ -185,7 +191,8 @@ TEST_CASE_FIXTURE(Fixture, "requests against the rules are refused and counted")
   CHECK(get("/", {{"Host", "evil.example"}}).status == 403);
   CHECK(get("/", {{"Origin", "http://evil.example"}}).status == 403);
   CHECK(raw("GET / HTTP/1.1\r\n\r\n").find("400") != std::string::npos);
-  CHECK(raw("GET / HTTP/1.1\r\nHost: localhost\r\nHost: evil.example\r\n\r\n").find("400") != std::string::npos);
+  CHECK(raw("GET / HTTP/1.1\r\nHost: localhost\r\nHost: evil.example\r\n\r\n").find("400") !=
+        std::string::npos);
   CHECK(raw("nonsense\r\n\r\n").empty());
   CHECK(raw(handshake() + "too early").find("400") != std::string::npos);
   CHECK(raw("GET / HTTP/1.1\r\nHost: localhost\r\nX: " + std::string(100'000, 'x') + "\r\n\r\n").empty());
@@ -200,7 +207,9 @@ TEST_CASE_FIXTURE(Fixture, "with a token the page and the protocol are for who s
   CHECK(get("/?token=abc", {{"Host", "plane.example"}, {"Origin", "https://viewer.example"}}).status == 200);
   CHECK_THROWS(Client(*this));
   CHECK(Client(*this, "foxglove.sdk.v1", "/?token=abc").next("serverInfo")["name"] == "Fulmar: mock <1>");
-  CHECK(Client(*this, "foxglove.sdk.v1", "/", {{"Authorization", "Bearer abc"}}).next("advertise")["channels"].size() == 4);
+  CHECK(Client(*this, "foxglove.sdk.v1", "/", {{"Authorization", "Bearer abc"}})
+            .next("advertise")["channels"]
+            .size() == 4);
 }
 
 TEST_CASE_FIXTURE(Fixture, "both names of the protocol are spoken, others are refused") {
@@ -241,7 +250,8 @@ TEST_CASE_FIXTURE(Fixture, "two clients get every sample of what they subscribe 
   CHECK(server->stats().clients == 2);
 }
 
-TEST_CASE("a plan that was published long before anybody connected is not lost when the ring has gone round") {
+TEST_CASE(
+    "a plan that was published long before anybody connected is not lost when the ring has gone round") {
   std::vector<TapChannel> channels = mock_channels();
   channels[1].may_stay_silent = true;
   Fixture f(channels, 1u << 16);
@@ -308,13 +318,14 @@ TEST_CASE_FIXTURE(Fixture, "messages against the protocol close the connection w
 TEST_CASE_FIXTURE(Fixture, "frames that break the rules end the connection and are counted") {
   serve();
   const std::string mask("\1\2\3\4", 4);
-  const std::vector<std::string> frames = {std::string("\x81\x02{}", 4),                                        // not masked
-                                           std::string("\x83\x80", 2) + mask,                                   // reserved op
-                                           std::string("\xc1\x80", 2) + mask,                                   // reserved bit
-                                           std::string("\x80\x80", 2) + mask,                                   // continues nothing
-                                           std::string("\x89\xfe\x00\x7e", 4) + mask,                           // a long ping
-                                           std::string("\x81\xff\xff\xff\xff\xff\xff\xff\xff\xff", 10) + mask,  // 2^64 - 1 bytes
-                                           std::string("\x81\x81", 2) + mask + "\xfe"};                         // no UTF-8
+  const std::vector<std::string> frames = {
+      std::string("\x81\x02{}", 4),                                        // not masked
+      std::string("\x83\x80", 2) + mask,                                   // reserved op
+      std::string("\xc1\x80", 2) + mask,                                   // reserved bit
+      std::string("\x80\x80", 2) + mask,                                   // continues nothing
+      std::string("\x89\xfe\x00\x7e", 4) + mask,                           // a long ping
+      std::string("\x81\xff\xff\xff\xff\xff\xff\xff\xff\xff", 10) + mask,  // 2^64 - 1 bytes
+      std::string("\x81\x81", 2) + mask + "\xfe"};                         // no UTF-8
   for (const std::string& frame : frames) {
     CAPTURE(frame.size());
     net::io_context io;
@@ -346,7 +357,8 @@ TEST_CASE_FIXTURE(Fixture, "thousands of sets one by one are all answered") {
   serve();
   Client script(*this);
   for (int i = 0; i < 5000; ++i)
-    script.say(R"({"op": "setParameters", "id": "x", "parameters": [{"name": "slc.roll_kp", "value": )" + std::to_string(i) + "e-4}]}");
+    script.say(R"({"op": "setParameters", "id": "x", "parameters": [{"name": "slc.roll_kp", "value": )" +
+               std::to_string(i) + "e-4}]}");
   for (int i = 0; i < 5000; ++i) script.next("parameterValues");
   CHECK(control.sets == 5000);
   script.say(R"({"op": "getParameters", "parameterNames": ["slc.roll_kp"]})");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fulmar-probe COPY NAME [SCRIPT FILE]: loads, reads and unloads one plugin, or one script by the plugin at COPY, and reports on standard
-// output. Run by the host with a time limit.
+// fulmar-probe COPY NAME [SCRIPT FILE]: loads, reads and unloads one plugin, or one script by the plugin at
+// COPY, and reports on standard output. Run by the host with a time limit.
 #include <fcntl.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -40,7 +40,8 @@ int refuse(std::string sentence) {
   return 1;
 }
 
-// The report goes through a descriptor that the plugin does not know; what it prints goes nowhere. No core dump, no life after the host.
+// The report goes through a descriptor that the plugin does not know; what it prints goes nowhere. No core
+// dump, no life after the host.
 void prepare() {
   report_pipe = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 100);
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
@@ -61,7 +62,8 @@ int try_script(const char* host, const char* copy, const char* file, const std::
     const Script script(library.entry(script_host(file)), file, read_script(copy));
     say(report_loaded);
     read_entry(script.entry(), name);
-    if (!(FloatMode::now() == before)) return refuse(name + " changes the floating-point mode when it is loaded");
+    if (!(FloatMode::now() == before))
+      return refuse(name + " changes the floating-point mode when it is loaded");
     say(report_read);
   } catch (const Error& fault) {
     return refuse(fault.what());
@@ -78,7 +80,8 @@ int try_plugin(const char* copy, const std::string& name) {
     const bool same_mode = FloatMode::now() == before;
     say(report_loaded);
     read_entry(library.entry(name), name);
-    if (!same_mode) return refuse(name + " changes the floating-point mode when it is loaded (built with -ffast-math?)");
+    if (!same_mode)
+      return refuse(name + " changes the floating-point mode when it is loaded (built with -ffast-math?)");
   } catch (const Error& fault) {
     return refuse(fault.what());
   }
@@ -98,5 +101,6 @@ int main(int argc, char** argv) {
   }
   prepare();
   const int code = argc == 5 ? try_script(argv[1], argv[3], argv[4], argv[2]) : try_plugin(argv[1], argv[2]);
-  ::_exit(code);  // without the plugin's exit handlers: a plugin that stays resident has shown nothing wrong yet
+  ::_exit(
+      code);  // without the plugin's exit handlers: a plugin that stays resident has shown nothing wrong yet
 }

@@ -31,13 +31,16 @@ struct OldRoute {
 };
 
 TypePtr old_route() {
-  static const std::vector<fulmar_field> waypoint_rows{real("airspeed_mps", "m/s", 0), nested("position_m", "m", vec, 8)};
+  static const std::vector<fulmar_field> waypoint_rows{real("airspeed_mps", "m/s", 0),
+                                                       nested("position_m", "m", vec, 8)};
   static const fulmar_type old_waypoint = type("OldWaypoint", waypoint_rows, sizeof(OldWaypoint));
   static const std::vector<fulmar_field> rows{
-      labelled("mode", modes, offsetof(OldRoute, mode)), field("label", "", FULMAR_TEXT, offsetof(OldRoute, label), 20),
+      labelled("mode", modes, offsetof(OldRoute, mode)),
+      field("label", "", FULMAR_TEXT, offsetof(OldRoute, label), 20),
       list(nested("waypoints", "", old_waypoint, offsetof(OldRoute, waypoints)), 8,
            offsetof(OldRoute, waypoints.items) - offsetof(OldRoute, waypoints)),
-      nested("position_m", "m", vec, offsetof(OldRoute, position_m)), real("airspeed_mps", "m/s", offsetof(OldRoute, airspeed_mps))};
+      nested("position_m", "m", vec, offsetof(OldRoute, position_m)),
+      real("airspeed_mps", "m/s", offsetof(OldRoute, airspeed_mps))};
   return copy_type(type("OldRoute", rows, sizeof(OldRoute)));
 }
 
@@ -53,7 +56,8 @@ Route sample() {
   return r;
 }
 
-std::string verdict(const std::vector<fulmar_field>& reader, const std::vector<fulmar_field>& writer, std::size_t size = 64) {
+std::string verdict(const std::vector<fulmar_field>& reader, const std::vector<fulmar_field>& writer,
+                    std::size_t size = 64) {
   return incompatibility(*copy_type(type("W", writer, size)), *copy_type(type("R", reader, size)));
 }
 
@@ -97,8 +101,8 @@ TEST_CASE("a copy plan stays inside both messages") {
 }
 
 TEST_CASE("a field appended by the writer leaves one move for the rest") {
-  const std::vector<fulmar_field> reader{real("a_m", "m", 0), real("b_m", "m", 8), field("flag", "", FULMAR_BOOL, 16, 1),
-                                         real("c_m", "m", 24)};
+  const std::vector<fulmar_field> reader{real("a_m", "m", 0), real("b_m", "m", 8),
+                                         field("flag", "", FULMAR_BOOL, 16, 1), real("c_m", "m", 24)};
   std::vector<fulmar_field> writer = reader;
   writer.push_back(real("d_m", "m", 32));
   const CopyPlan plan = copy_plan(*copy_type(type("W", writer, 40)), *copy_type(type("R", reader, 32)));
@@ -117,17 +121,24 @@ TEST_CASE("a wider range or one more label changes no byte") {
 TEST_CASE("what does not fit is refused, naming the first field that differs") {
   const fulmar_type body = type("Vec3", vec_fields, sizeof(Vec), 8, "body");
   static const char* const others[] = {"idle", "climb", "glide"};
-  CHECK(verdict({real("airspeed_mps", "m/s", 0)}, {real("airspeed_mps", "km/h", 0)}) == "airspeed_mps: reader has unit m/s, writer km/h");
+  CHECK(verdict({real("airspeed_mps", "m/s", 0)}, {real("airspeed_mps", "km/h", 0)}) ==
+        "airspeed_mps: reader has unit m/s, writer km/h");
   CHECK(verdict({real("x", "m", 0)}, {real("x", "", 0)}) == "x: reader has unit m, writer none");
-  CHECK(verdict({real("beta_rad", "rad", 0)}, {real("alpha_rad", "rad", 0)}) == "reader knows a field 'beta_rad' that the writer lacks");
-  CHECK(verdict({nested("p_m", "m", vec, 0)}, {nested("p_m", "m", body, 0)}) == "p_m: reader has frame ned, writer body");
-  CHECK(verdict({real("x", "", 0)}, {field("x", "", FULMAR_F32, 0, 4)}) == "x: reader has kind f64, writer f32");
-  CHECK(verdict({array(real("x", "", 0), 3)}, {array(real("x", "", 0), 4)}) == "x: reader has an array of 3, writer an array of 4");
-  CHECK(verdict({real("x", "", 0)}, {array(real("x", "", 0), 4)}) == "x: reader has one value, writer an array of 4");
+  CHECK(verdict({real("beta_rad", "rad", 0)}, {real("alpha_rad", "rad", 0)}) ==
+        "reader knows a field 'beta_rad' that the writer lacks");
+  CHECK(verdict({nested("p_m", "m", vec, 0)}, {nested("p_m", "m", body, 0)}) ==
+        "p_m: reader has frame ned, writer body");
+  CHECK(verdict({real("x", "", 0)}, {field("x", "", FULMAR_F32, 0, 4)}) ==
+        "x: reader has kind f64, writer f32");
+  CHECK(verdict({array(real("x", "", 0), 3)}, {array(real("x", "", 0), 4)}) ==
+        "x: reader has an array of 3, writer an array of 4");
+  CHECK(verdict({real("x", "", 0)}, {array(real("x", "", 0), 4)}) ==
+        "x: reader has one value, writer an array of 4");
   CHECK(verdict({list(real("x", "", 0), 3, 8)}, {list(real("x", "", 0), 4, 8)}) ==
         "x: reader has a list of at most 3, writer a list of at most 4");
   CHECK(verdict({list(real("x", "", 0), 4, 8)}, {list(real("x", "", 0), 3, 8)}) == "");
-  CHECK(verdict({field("t", "", FULMAR_TEXT, 0, 8)}, {field("t", "", FULMAR_TEXT, 0, 16)}) == "t: reader has room for 8 bytes, writer 16");
+  CHECK(verdict({field("t", "", FULMAR_TEXT, 0, 8)}, {field("t", "", FULMAR_TEXT, 0, 16)}) ==
+        "t: reader has room for 8 bytes, writer 16");
   CHECK(verdict({labelled("mode", others, 0)}, {labelled("mode", modes, 0)}) ==
         "mode: reader has labels idle, climb, glide, writer idle, glide, climb");
 }
@@ -145,7 +156,8 @@ TEST_CASE("a difference inside a nested struct is named with its path") {
 }
 
 TEST_CASE("no plan is made for tables that do not fit") {
-  CHECK_THROWS_WITH_AS(copy_plan(*old_route(), *copy_type(route)), "reader knows a field 'throttle_frac' that the writer lacks", Error);
+  CHECK_THROWS_WITH_AS(copy_plan(*old_route(), *copy_type(route)),
+                       "reader knows a field 'throttle_frac' that the writer lacks", Error);
 }
 
 }  // namespace copy_plan_test

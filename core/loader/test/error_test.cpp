@@ -24,13 +24,16 @@ TEST_CASE("nothing is near a name that shares little") {
   CHECK(nearest("abc", {}) == "");
 }
 
-TEST_CASE("two neighbouring letters swapped are one slip") { CHECK(nearest("ekf2", {"efk2", "kkk2"}) == "efk2"); }
+TEST_CASE("two neighbouring letters swapped are one slip") {
+  CHECK(nearest("ekf2", {"efk2", "kkk2"}) == "efk2");
+}
 
 TEST_CASE("choices read as a sentence") {
   CHECK(join({}) == "none");
   CHECK(join({"a"}) == "a");
   CHECK(join({"a", "b", "c"}) == "a, b, c");
-  CHECK(choices_text("heigh_m", {"height_m", "course_rad"}) == " Did you mean 'height_m'? Valid: height_m, course_rad.");
+  CHECK(choices_text("heigh_m", {"height_m", "course_rad"}) ==
+        " Did you mean 'height_m'? Valid: height_m, course_rad.");
   CHECK(choices_text("zzzzzz", {"height_m", "course_rad"}) == " Valid: height_m, course_rad.");
   CHECK(choices_text("x", {}) == " Valid: none.");
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plugins of other minor versions of the contract: older ones with shorter tables, newer ones with longer ones.
+// Plugins of other minor versions of the contract: older ones with shorter tables, newer ones with longer
+// ones.
 #include <doctest/doctest.h>
 #include <sys/mman.h>
 
@@ -38,7 +39,8 @@ TEST_CASE("the sizes of ABI 1.0 stay what they were, whatever is appended") {
   CHECK(size_in_1_0<fulmar_component> == 144);
 }
 
-TEST_CASE("what a shorter element of an older version lacks is zero; a longer one of a newer version is cut") {
+TEST_CASE(
+    "what a shorter element of an older version lacks is zero; a longer one of a newer version is cut") {
   const TableReader tables;
   alignas(8) static const std::uint32_t older[] = {1, 2, 3, 4};
   for (std::uint32_t i = 0; i < 2; ++i) {
@@ -89,7 +91,8 @@ TEST_CASE("of an entry of ABI 1.0 no more is read than ABI 1.0 had") {
   const auto good = Library::open(plugin("good"));  // lends its component
   static char page_text[] = "1.0.0";
   constexpr std::size_t page = 65536, size = offsetof(fulmar_plugin, open_script);
-  auto* memory = static_cast<std::byte*>(::mmap(nullptr, 2 * page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0));
+  auto* memory = static_cast<std::byte*>(
+      ::mmap(nullptr, 2 * page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0));
   REQUIRE(memory != MAP_FAILED);
   fulmar_plugin entry{};
   entry.abi_major = FULMAR_ABI_MAJOR;

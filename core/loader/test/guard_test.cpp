@@ -55,15 +55,19 @@ TEST_CASE("each bad value is named") {
   CHECK(words([](Route& r) { r.position_m.east = -inf; }) == "position_m.east is -inf");
   CHECK(words([](Route& r) { r.throttle_frac = 1.25; }) == "throttle_frac is 1.25, outside [0, 1]");
   CHECK(words([](Route& r) { r.throttle_frac = not_a_number; }) == "throttle_frac is nan");
-  CHECK(words([](Route& r) { r.heading_rad = std::numeric_limits<float>::infinity(); }) == "heading_rad is inf");
+  CHECK(words([](Route& r) { r.heading_rad = std::numeric_limits<float>::infinity(); }) ==
+        "heading_rad is inf");
   CHECK(words([](Route& r) { r.lap = 10; }) == "lap is 10, outside [-2, 9]");
   CHECK(words([](Route& r) { r.gains_ratio[2] = not_a_number; }) == "gains_ratio[2] is nan");
   CHECK(words([](Route& r) { r.mode = 3; }) == "mode is 3, which no label names");
   CHECK(words([](Route& r) { r.valid = 2; }) == "valid is 2, which is neither false nor true");
-  CHECK(words([](Route& r) { std::memset(r.label, 'x', sizeof r.label); }) == "label is a text without an end");
+  CHECK(words([](Route& r) { std::memset(r.label, 'x', sizeof r.label); }) ==
+        "label is a text without an end");
   CHECK(words([](Route& r) { r.waypoints.count = 6; }) == "waypoints has 6 items, more than its 5");
-  CHECK(words([](Route& r) { r.waypoints.items[2].position_m.down = not_a_number; }) == "waypoints[2].position_m.down is nan");
-  CHECK(words([](Route& r) { r.waypoints.items[2].hold = 7; }) == "waypoints[2].hold is 7, which is neither false nor true");
+  CHECK(words([](Route& r) { r.waypoints.items[2].position_m.down = not_a_number; }) ==
+        "waypoints[2].position_m.down is nan");
+  CHECK(words([](Route& r) { r.waypoints.items[2].hold = 7; }) ==
+        "waypoints[2].hold is 7, which is neither false nor true");
   CHECK(words([](Route& r) { r.corners_m[1].north = not_a_number; }) == "corners_m[1].north is nan");
 }
 

@@ -21,7 +21,8 @@ namespace library_test {
 #endif
 #endif
 #ifdef __SANITIZE_ADDRESS__
-extern "C" std::size_t __sanitizer_get_current_allocated_bytes();  // the header of that name is not in every package
+extern "C" std::size_t
+__sanitizer_get_current_allocated_bytes();  // the header of that name is not in every package
 #endif
 
 using namespace fulmar::core;
@@ -145,7 +146,9 @@ TEST_CASE("parameters come with default, range, unit and kind") {
 
 TEST_CASE("a loaded component does its work") { CHECK(scaled(*Library::open(plugin("good"))) == 20); }
 
-TEST_CASE("more exported symbols than needed do no harm") { CHECK(scaled(*Library::open(plugin("good_open"))) == 20); }
+TEST_CASE("more exported symbols than needed do no harm") {
+  CHECK(scaled(*Library::open(plugin("good_open"))) == 20);
+}
 
 TEST_CASE("the version script leaves exactly the entry symbol visible") {
   const auto defined = [](const std::string& name) {
@@ -153,7 +156,8 @@ TEST_CASE("the version script leaves exactly the entry symbol visible") {
     REQUIRE(nm != nullptr);
     std::string symbols;
     char address[64], kind[8], symbol[256];
-    while (std::fscanf(nm, "%63s %7s %255s", address, kind, symbol) == 3) symbols += std::string(symbol) + " ";
+    while (std::fscanf(nm, "%63s %7s %255s", address, kind, symbol) == 3)
+      symbols += std::string(symbol) + " ";
     ::pclose(nm);
     return symbols;
   };
@@ -174,7 +178,8 @@ TEST_CASE("the private copy holds the same bytes and lies in the store") {
   CHECK(read(library->copy()) == read(plugin("good")));
 }
 
-TEST_CASE("a file that is rebuilt under the same path gives the new code, and the old one goes on meanwhile") {
+TEST_CASE(
+    "a file that is rebuilt under the same path gives the new code, and the old one goes on meanwhile") {
   const fs::path file = write("law.so", read(plugin("good")));
   auto old = Library::open(file);
   CHECK(scaled(*old) == 20);
@@ -209,15 +214,18 @@ TEST_CASE("loading and unloading again and again leaves nothing behind") {
   CHECK(verified == cycles);
   const Maps after = maps();
   CHECK(after.plugins == 0);
-  CHECK(after.lines <= before.lines + 8);                                // the C library's heap may have grown
+  CHECK(after.lines <= before.lines + 8);  // the C library's heap may have grown
   CHECK(heap_bytes() < heap_before + static_cast<std::size_t>(cycles));  // less than a byte per cycle
 }
 
 TEST_CASE("a plugin that stays resident is told so") {
-  const std::string fault = " is still resident after unloading (a unique symbol or a thread-local destructor keeps it); restart the host";
+  const std::string fault =
+      " is still resident after unloading (a unique symbol or a thread-local destructor keeps it); restart "
+      "the host";
   CHECK(unload_fault(Library::open(plugin("resident"))) == "resident.so" + fault);
   CHECK(unload_fault(Library::open(plugin("resident_thread"))) == "resident_thread.so" + fault);
-  if (fs::exists(plugin("resident_unique"))) CHECK(unload_fault(Library::open(plugin("resident_unique"))) == "resident_unique.so" + fault);
+  if (fs::exists(plugin("resident_unique")))
+    CHECK(unload_fault(Library::open(plugin("resident_unique"))) == "resident_unique.so" + fault);
 }
 
 TEST_CASE("a component that declares itself resident may stay") {
@@ -264,12 +272,14 @@ TEST_CASE("copies with a flipped byte never bring the host down") {
   CHECK(scaled(*Library::open(plugin("good"))) == 20);
 }
 
-TEST_CASE("of a thousand copies with a flipped byte none is opened when the SHA-256 of the good one is listed") {
+TEST_CASE(
+    "of a thousand copies with a flipped byte none is opened when the SHA-256 of the good one is listed") {
   const Expected expected{{sha256_file(plugin("good"))}, "first.yaml:3"};
   const fs::path store = folder() / "empty store";
   const Environment own_store("FULMAR_STORE", store.string());
   {
-    const Environment no_probe("FULMAR_PROBE", "/nowhere/fulmar-probe");  // whatever asked for a child would say so
+    const Environment no_probe("FULMAR_PROBE",
+                               "/nowhere/fulmar-probe");  // whatever asked for a child would say so
     for (const std::string& bytes : flipped_copies(1000)) {
       const std::string sha256 = sha256_hex(bytes.data(), bytes.size());
       std::string said = "accepted";
@@ -292,7 +302,8 @@ TEST_CASE("the description of a plugin lines up") {
   info.build_id = "0123abcd";
   std::string text = describe_plugin(info);
   char hash[20];
-  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(info.components[0].inputs[0].type->hash));
+  std::snprintf(hash, sizeof hash, "%016llx",
+                static_cast<unsigned long long>(info.components[0].inputs[0].type->hash));
   for (std::size_t at; (at = text.find(hash)) != std::string::npos;) text.replace(at, 16, "HASH");
   CHECK(text == R"(good.so  version 1.2.0
   abi        1.2

@@ -39,21 +39,26 @@ std::string host() {
 }  // namespace
 
 TEST_CASE("a file that is missing, a folder, or not a shared object is refused") {
-  CHECK(refusal(folder() / "no_such.so") == "no_such.so does not exist: no file " + (folder() / "no_such.so").string());
-  CHECK(refusal(FULMAR_TEST_PLUGIN_DIR "/stub") == "stub is not a plugin: " FULMAR_TEST_PLUGIN_DIR "/stub is not a regular file");
-  CHECK(refusal(write("text.so", "this is no code\n")) == "text.so is not a plugin: not an ELF shared object");
+  CHECK(refusal(folder() / "no_such.so") ==
+        "no_such.so does not exist: no file " + (folder() / "no_such.so").string());
+  CHECK(refusal(FULMAR_TEST_PLUGIN_DIR "/stub") == "stub is not a plugin: " FULMAR_TEST_PLUGIN_DIR
+                                                   "/stub is not a regular file");
+  CHECK(refusal(write("text.so", "this is no code\n")) ==
+        "text.so is not a plugin: not an ELF shared object");
   CHECK(refusal(write("empty.so", "")) == "empty.so is not a plugin: not an ELF shared object");
-  CHECK(refusal(write("stump.so", read(plugin("good")).substr(0, 10))) == "stump.so is not a plugin: its ELF header is cut off");
+  CHECK(refusal(write("stump.so", read(plugin("good")).substr(0, 10))) ==
+        "stump.so is not a plugin: its ELF header is cut off");
   CHECK(refusal(with_header("object.so", [](Elf64_Ehdr& h) { h.e_type = ET_REL; })) ==
         "object.so is not a plugin: an ELF file, but not a shared object");
 }
 
 TEST_CASE("a file that is cut off is refused before anything maps it") {
   const std::string whole = read(plugin("good"));
-  CHECK(refusal(write("short.so", whole.substr(0, whole.size() - 1))) == "short.so is cut off: its header promises " +
-                                                                             std::to_string(whole.size()) + " bytes, the file has " +
-                                                                             std::to_string(whole.size() - 1));
-  CHECK(refusal(write("header.so", whole.substr(0, 64))) == "header.so is not a plugin: its ELF program headers are damaged or cut off");
+  CHECK(refusal(write("short.so", whole.substr(0, whole.size() - 1))) ==
+        "short.so is cut off: its header promises " + std::to_string(whole.size()) + " bytes, the file has " +
+            std::to_string(whole.size() - 1));
+  CHECK(refusal(write("header.so", whole.substr(0, 64))) ==
+        "header.so is not a plugin: its ELF program headers are damaged or cut off");
   CHECK(refusal(with_header("far.so", [](Elf64_Ehdr& h) { h.e_phoff = ~0ull; })) ==
         "far.so is not a plugin: its ELF program headers are damaged or cut off");
 }
@@ -65,7 +70,8 @@ TEST_CASE("a file for another machine is refused") {
         "odd.so is built for machine 9999, this host is " + host());
   const Elf64_Half other = host() == "aarch64" ? EM_X86_64 : EM_AARCH64;
   CHECK(refusal(with_header("arm.so", [&](Elf64_Ehdr& h) { h.e_machine = other; })) ==
-        std::string("arm.so is built for ") + (other == EM_AARCH64 ? "aarch64" : "x86_64") + ", this host is " + host());
+        std::string("arm.so is built for ") + (other == EM_AARCH64 ? "aarch64" : "x86_64") +
+            ", this host is " + host());
 }
 
 TEST_CASE("a shared object that is no plugin, or of another ABI, is refused") {
@@ -75,8 +81,10 @@ TEST_CASE("a shared object that is no plugin, or of another ABI, is refused") {
 }
 
 TEST_CASE("a plugin whose needs are not met is refused") {
-  CHECK(refusal(plugin("missing_library")) == "missing_library.so needs libfulmar_test_stub.so, which is not there");
-  CHECK(refusal(plugin("missing_symbol")) == "missing_symbol.so needs the symbol fulmar_test_nowhere, which nothing provides");
+  CHECK(refusal(plugin("missing_library")) ==
+        "missing_library.so needs libfulmar_test_stub.so, which is not there");
+  CHECK(refusal(plugin("missing_symbol")) ==
+        "missing_symbol.so needs the symbol fulmar_test_nowhere, which nothing provides");
 }
 
 TEST_CASE("what the system's loader says becomes a sentence") {
@@ -93,11 +101,14 @@ TEST_CASE("what the system's loader says becomes a sentence") {
 }
 
 TEST_CASE("tables that the host does not understand are refused by name") {
-  CHECK(refusal(plugin("unknown_port")) == "unknown_port.so: port 'place' of component 'Point' has kind 99, which this host does not know");
-  CHECK(refusal(plugin("misplaced_port")) == "misplaced_port.so: port 'place' of component 'Point' is an input among the outputs");
+  CHECK(refusal(plugin("unknown_port")) ==
+        "unknown_port.so: port 'place' of component 'Point' has kind 99, which this host does not know");
+  CHECK(refusal(plugin("misplaced_port")) ==
+        "misplaced_port.so: port 'place' of component 'Point' is an input among the outputs");
   CHECK(refusal(plugin("unknown_param")) ==
         "unknown_param.so: parameter 'gain' of component 'Point' has kind 98, which this host does not know");
-  CHECK(refusal(plugin("unknown_field")) == "unknown_field.so: type 'Point': field 'x_m' has kind 97, which this host does not know");
+  CHECK(refusal(plugin("unknown_field")) ==
+        "unknown_field.so: type 'Point': field 'x_m' has kind 97, which this host does not know");
 }
 
 TEST_CASE("tables that contradict themselves are refused by name") {
@@ -106,9 +117,12 @@ TEST_CASE("tables that contradict themselves are refused by name") {
   CHECK(refusal(plugin("beyond")) == "beyond.so: type 'Point': field 'y_m' reaches beyond the struct");
   CHECK(refusal(plugin("same_names")) == "same_names.so: type 'Point' has two fields 'x_m'");
   CHECK(refusal(plugin("bad_name")) == "bad_name.so: type 'Point': 'y m' is no name for a field");
-  CHECK(refusal(plugin("bad_default")) == "bad_default.so: parameter 'gain' of component 'Point' has a default outside its range");
-  CHECK(refusal(plugin("bad_stride")) == "bad_stride.so: the outputs of component 'Point' lie 8 bytes apart, where 32 are needed");
-  CHECK(refusal(plugin("wild_text")) == "wild_text.so: component 'Point': the description lies outside the plugin's memory");
+  CHECK(refusal(plugin("bad_default")) ==
+        "bad_default.so: parameter 'gain' of component 'Point' has a default outside its range");
+  CHECK(refusal(plugin("bad_stride")) ==
+        "bad_stride.so: the outputs of component 'Point' lie 8 bytes apart, where 32 are needed");
+  CHECK(refusal(plugin("wild_text")) ==
+        "wild_text.so: component 'Point': the description lies outside the plugin's memory");
   CHECK(refusal(plugin("no_step")) == "no_step.so: component 'Point' lacks the function step");
   CHECK(refusal(plugin("no_read")) == "no_read.so: component 'Point' lacks the function read");
 }
@@ -122,12 +136,14 @@ TEST_CASE("what a plugin does while it is loaded happens to a child") {
 }
 
 TEST_CASE("a plugin that changes the floating-point mode is refused") {
-  CHECK(refusal(plugin("rounding")) == "rounding.so changes the floating-point mode when it is loaded (built with -ffast-math?)");
+  CHECK(refusal(plugin("rounding")) ==
+        "rounding.so changes the floating-point mode when it is loaded (built with -ffast-math?)");
   if (!fs::exists(plugin("fast_math"))) {
     MESSAGE("this compiler has no crtfastmath.o: denormals not tried");
     return;
   }
-  CHECK(refusal(plugin("fast_math")) == "fast_math.so changes the floating-point mode when it is loaded (built with -ffast-math?)");
+  CHECK(refusal(plugin("fast_math")) ==
+        "fast_math.so changes the floating-point mode when it is loaded (built with -ffast-math?)");
 }
 
 TEST_CASE("a refused plugin leaves no copy in the store") {
@@ -146,13 +162,15 @@ TEST_CASE("a store that others can write to is refused") {
   ::chmod(open.c_str(), 0777);
   const Environment store("FULMAR_STORE", open.string());
   CHECK(refusal(plugin("good_open")) ==
-        "the plugin store " + open.string() + " is writable by others; chmod 700 it, or set FULMAR_STORE to another folder.");
+        "the plugin store " + open.string() +
+            " is writable by others; chmod 700 it, or set FULMAR_STORE to another folder.");
 }
 
 TEST_CASE("a copy in the store that was tampered with is replaced") {
   const std::string text = "the true content";
   const auto keep = [&] {
-    return fulmar::core::keep_copy(std::as_bytes(std::span(text)), fulmar::core::sha256_hex(text.data(), text.size()));
+    return fulmar::core::keep_copy(std::as_bytes(std::span(text)),
+                                   fulmar::core::sha256_hex(text.data(), text.size()));
   };
   folder();
   const fs::path copy = keep();
@@ -186,7 +204,8 @@ TEST_CASE("a version that is no longer there is named") {
   } catch (const fulmar::core::Error& fault) {
     said = fault.what();
   }
-  CHECK(said == "my_law.so 1.4.0 with SHA-256 " + sha + " flew, but the plugin store " + (folder() / "store").string() +
+  CHECK(said == "my_law.so 1.4.0 with SHA-256 " + sha + " flew, but the plugin store " +
+                    (folder() / "store").string() +
                     " no longer holds it; put that file back, or choose another with --with");
 }
 
@@ -196,7 +215,8 @@ TEST_CASE("the store keeps the 128 copies that were used last") {
   const auto keep = [&](int i) {
     const std::string text = "copy " + std::to_string(i);
     kept.push_back(fulmar::core::sha256_hex(text.data(), text.size()));
-    const fs::path copy = fulmar::core::keep_copy(std::as_bytes(std::span(text)), kept.back(), i % 2 == 0 ? ".so" : ".py");
+    const fs::path copy =
+        fulmar::core::keep_copy(std::as_bytes(std::span(text)), kept.back(), i % 2 == 0 ? ".so" : ".py");
     // so that "last" does not hang on the clock's resolution
     fs::last_write_time(copy, fs::file_time_type::clock::now() - std::chrono::hours(200 - i));
   };
@@ -211,7 +231,8 @@ TEST_CASE("the store keeps the 128 copies that were used last") {
 TEST_CASE("the store is private and its copies are read-only") {
   const std::string text = "a copy";
   folder();
-  const fs::path copy = fulmar::core::keep_copy(std::as_bytes(std::span(text)), fulmar::core::sha256_hex(text.data(), text.size()));
+  const fs::path copy = fulmar::core::keep_copy(std::as_bytes(std::span(text)),
+                                                fulmar::core::sha256_hex(text.data(), text.size()));
   struct stat info {};
   REQUIRE(::stat(copy.c_str(), &info) == 0);
   CHECK((info.st_mode & 0777) == 0400);
@@ -220,7 +241,8 @@ TEST_CASE("the store is private and its copies are read-only") {
 }
 
 TEST_CASE("SHA-256 gives the digest of FIPS 180-2") {
-  CHECK(fulmar::core::sha256_hex("abc", 3) == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  CHECK(fulmar::core::sha256_hex("abc", 3) ==
+        "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 
 }  // namespace refusal_test

@@ -70,18 +70,23 @@ TEST_CASE("tables that contradict themselves are refused by name") {
   CHECK(fault_with({real("a", "", 0), real("b", "", 8)}, 16) == "accepted");
   CHECK(fault_with({real("a", "", 0), real("b", "", 0)}, 16) == "type 'T': fields 'a' and 'b' overlap");
   CHECK(fault_with({real("a", "", 0), real("b", "", 4)}, 16) == "type 'T': field 'b' is not aligned");
-  CHECK(fault_with({real("a", "", 0), real("b", "", 16)}, 16) == "type 'T': field 'b' reaches beyond the struct");
+  CHECK(fault_with({real("a", "", 0), real("b", "", 16)}, 16) ==
+        "type 'T': field 'b' reaches beyond the struct");
   CHECK(fault_with({real("a", "", 4294967288u)}, 16) == "type 'T': field 'a' reaches beyond the struct");
   CHECK(fault_with({real("a", "", 0), real("a", "", 8)}, 16) == "type 'T' has two fields 'a'");
   CHECK(fault_with({real("a b", "", 0)}, 8) == "type 'T': 'a b' is no name for a field");
-  CHECK(fault_with({field("a", "", 97, 0, 8)}, 8) == "type 'T': field 'a' has kind 97, which this host does not know");
+  CHECK(fault_with({field("a", "", 97, 0, 8)}, 8) ==
+        "type 'T': field 'a' has kind 97, which this host does not know");
   CHECK(fault_with({array(real("a", "", 0), 3)}, 16) == "type 'T': field 'a' reaches beyond the struct");
   CHECK(fault_with({array(real("a", "", 0), 0)}, 16) == "type 'T': field 'a' has room for no element");
-  CHECK(fault_with({list(real("a", "", 0), 1, 0)}, 16) == "type 'T': field 'a' has items that overlap its count");
+  CHECK(fault_with({list(real("a", "", 0), 1, 0)}, 16) ==
+        "type 'T': field 'a' has items that overlap its count");
   CHECK(fault_with({field("a", "", FULMAR_F64, 0, 4)}, 8) == "type 'T': field 'a' has elements that overlap");
   CHECK(fault_with({in_range(real("a", "", 0), 2, 1)}, 8) == "type 'T': field 'a' has a range that is empty");
-  CHECK(fault_with({in_range(real("a", "", 0), NAN, 1)}, 8) == "type 'T': field 'a' has a range that is empty");
-  CHECK(fault_with({real("a", "", 0)}, 8, 4) == "type 'T': field 'a' is aligned more strictly than the struct");
+  CHECK(fault_with({in_range(real("a", "", 0), NAN, 1)}, 8) ==
+        "type 'T': field 'a' has a range that is empty");
+  CHECK(fault_with({real("a", "", 0)}, 8, 4) ==
+        "type 'T': field 'a' is aligned more strictly than the struct");
   CHECK(fault_with({real("a", "", 0)}, 12, 8) == "type 'T' has an alignment of 8 and a size of 12");
   CHECK(fault_with({}, 0) == "type 'T' has a size of 0 bytes");
   CHECK(fault_with({}, 1, 1) == "accepted");  // a request without arguments
@@ -91,13 +96,15 @@ TEST_CASE("tables that contradict themselves are refused by name") {
 
 TEST_CASE("pointers into nowhere are refused, not followed") {
   const auto* nowhere = reinterpret_cast<const char*>(std::uintptr_t{16});
-  CHECK(fault_with({real(nowhere, "", 0)}, 8) == "type 'T': the name of a field lies outside the plugin's memory");
+  CHECK(fault_with({real(nowhere, "", 0)}, 8) ==
+        "type 'T': the name of a field lies outside the plugin's memory");
   fulmar_type wild = type("T", vec_fields, 24);
   wild.fields = reinterpret_cast<const fulmar_field*>(std::uintptr_t{64});
   CHECK(fault_of(wild) == "type 'T': the fields lie outside the plugin's memory");
   wild = type("T", vec_fields, 24);
   wild.field_stride = 8;
-  CHECK(fault_of(wild) == "type 'T': the fields lie 8 bytes apart, where " + std::to_string(sizeof(fulmar_field)) + " are needed");
+  CHECK(fault_of(wild) == "type 'T': the fields lie 8 bytes apart, where " +
+                              std::to_string(sizeof(fulmar_field)) + " are needed");
 }
 
 TEST_CASE("a type that contains itself is refused") {
@@ -129,7 +136,8 @@ TEST_CASE("a field is found by its dotted name") {
   CHECK(north.unit == "m");  // of the vector
   CHECK(north.items.empty());
   const FieldRef speed = resolve_field(*t, "waypoints[3].airspeed_mps");
-  CHECK(speed.offset == offsetof(Route, waypoints.items) + 3 * sizeof(Waypoint) + offsetof(Waypoint, airspeed_mps));
+  CHECK(speed.offset ==
+        offsetof(Route, waypoints.items) + 3 * sizeof(Waypoint) + offsetof(Waypoint, airspeed_mps));
   CHECK(speed.unit == "m/s");
   CHECK(resolve_field(*t, "gains_ratio[2]").offset == offsetof(Route, gains_ratio) + 16);
   CHECK(resolve_field(*t, "corners_m[1].down").offset == offsetof(Route, corners_m) + sizeof(Vec) + 16);
@@ -177,15 +185,18 @@ TEST_CASE("a name that is not there is answered with the valid ones") {
       return e.what();
     }
   };
-  CHECK(fault("position_m.noth") == "Vec3 has no field 'noth'. Did you mean 'north'? Valid: north, east, down.");
+  CHECK(fault("position_m.noth") ==
+        "Vec3 has no field 'noth'. Did you mean 'north'? Valid: north, east, down.");
   CHECK(fault("lap.count") == "'lap' has no fields, so 'lap.count' does not exist.");
   CHECK(fault("gains_ratio") == "'gains_ratio' is an array of 4: say gains_ratio[0].");
   CHECK(fault("waypoints") == "'waypoints' is a list of at most 5: say waypoints[0].");
-  CHECK(fault("waypoints[5].hold") == "'waypoints[5]' does not exist: 'waypoints' is a list of at most 5, counted from 0.");
+  CHECK(fault("waypoints[5].hold") ==
+        "'waypoints[5]' does not exist: 'waypoints' is a list of at most 5, counted from 0.");
   CHECK(fault("lap[0]") == "'lap' is a single value and takes no index.");
-  for (const char* bad :
-       {"gains_ratio[", "gains_ratio[]", "gains_ratio[x]", "gains_ratio[1", "gains_ratio[-1]", "gains_ratio[99999999999]"})
-    CHECK(fault(bad) == "'" + std::string(bad) + "' in '" + bad + "' is not understood; an index is written like waypoints[3].");
+  for (const char* bad : {"gains_ratio[", "gains_ratio[]", "gains_ratio[x]", "gains_ratio[1",
+                          "gains_ratio[-1]", "gains_ratio[99999999999]"})
+    CHECK(fault(bad) == "'" + std::string(bad) + "' in '" + bad +
+                            "' is not understood; an index is written like waypoints[3].");
   for (const char* bad : {"", ".", "lap.", "[0]", "position_m..north"}) CHECK(fault(bad) != "found");
 }
 

@@ -77,10 +77,12 @@ inline Mixed mixed_at(int i) {
 }
 
 /// `ticks` of 2.5 ms from -1 s on: /mixed in each, /number in every fourth. `change` may spoil a message.
-inline McapWriter::Result write_sample(McapWriter::Options options, int ticks, const std::function<void(int, Mixed&)>& change = {}) {
+inline McapWriter::Result write_sample(McapWriter::Options options, int ticks,
+                                       const std::function<void(int, Mixed&)>& change = {}) {
   options.max_message_bytes = 4096;
   Sample sample(options);
-  const std::uint16_t mixed = sample.channel("/mixed", *mixed_type()), numbers = sample.channel("/number", *number_type());
+  const std::uint16_t mixed = sample.channel("/mixed", *mixed_type()),
+                      numbers = sample.channel("/number", *number_type());
   for (int i = 0; i < ticks; ++i) {
     const std::int64_t now = i * 2'500'000LL - 1'000'000'000;
     Mixed m = mixed_at(i);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A log that goes on in further files: each whole, none larger than asked, all messages there once and in order.
+// A log that goes on in further files: each whole, none larger than asked, all messages there once and in
+// order.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -7,8 +8,8 @@
 
 #include "core/error.hpp"
 #include "core/log/reader.hpp"
-#include "core/types/sha256.hpp"
 #include "core/log/test/log_kit.hpp"
+#include "core/types/sha256.hpp"
 
 namespace rotate_test {
 
@@ -17,7 +18,8 @@ using namespace fulmar::core::test;
 
 namespace {
 
-/// All files together hold what one file would, and each the last of both channels from the file before; returns the messages.
+/// All files together hold what one file would, and each the last of both channels from the file before;
+/// returns the messages.
 std::size_t check_parts(const McapWriter::Result& result) {
   std::size_t messages = 0;
   std::uint32_t mixed = 0;
@@ -35,13 +37,15 @@ std::size_t check_parts(const McapWriter::Result& result) {
     REQUIRE(file.metadata.size() == (number == 1 ? 1 : 2));
     CHECK(file.metadata[0].pairs[1] == std::pair<std::string, std::string>("seed", "7"));
     if (number > 1) CHECK(file.metadata[1].name == "series");
-    if (number > 1) CHECK(file.metadata[1].pairs[0] == std::pair<std::string, std::string>("file", std::to_string(number)));
+    if (number > 1)
+      CHECK(file.metadata[1].pairs[0] == std::pair<std::string, std::string>("file", std::to_string(number)));
     CHECK(first_of_series(part.file, std::to_string(number)) == result.file);
     const std::uint16_t channel = file.channel("/mixed");
     CHECK(file.schemas.at(file.channels.at(channel).schema).text == ros_definition(*mixed_type()));
     if (number > 1) --mixed;  // the last one of the file before
     bool in_order = true;
-    for (const McapFile::Message& m : file.messages) in_order = in_order && (m.channel != channel || m.sequence == mixed++);
+    for (const McapFile::Message& m : file.messages)
+      in_order = in_order && (m.channel != channel || m.sequence == mixed++);
     CHECK(in_order);
     messages += file.messages.size();
   }
@@ -52,7 +56,8 @@ std::size_t check_parts(const McapWriter::Result& result) {
 
 TEST_CASE("a log is cut by flight time") {
   const Folder folder;
-  const auto result = write_sample({.file = folder.path / "a.mcap", .rotate_ns = 3'000'000'000}, 4000);  // 10 s
+  const auto result =
+      write_sample({.file = folder.path / "a.mcap", .rotate_ns = 3'000'000'000}, 4000);  // 10 s
   CHECK(result.error == "");
   REQUIRE(result.files.size() == 4);
   CHECK(result.files[1].file == folder.path / "a-2.mcap");
@@ -70,22 +75,27 @@ TEST_CASE("a log is cut by flight time") {
 
 TEST_CASE("a log is cut by size, the same way in equal runs") {
   const Folder folder;
-  const McapWriter::Options options{.file = folder.path / "a.mcap", .chunk_ns = 100'000'000, .rotate_bytes = 30'000};
+  const McapWriter::Options options{
+      .file = folder.path / "a.mcap", .chunk_ns = 100'000'000, .rotate_bytes = 30'000};
   McapWriter::Options again = options;
   again.file = folder.path / "b.mcap";
   const auto a = write_sample(options, 4000), b = write_sample(again, 4000);
   REQUIRE(a.files.size() > 2);
   CHECK(check_parts(a) == 5000 + 2 * (a.files.size() - 1));
-  for (const McapWriter::Part& part : a.files) CHECK(part.bytes < 30'000 + 10'000);  // the summary comes on top
+  for (const McapWriter::Part& part : a.files)
+    CHECK(part.bytes < 30'000 + 10'000);  // the summary comes on top
   REQUIRE(a.files.size() == b.files.size());
   for (std::size_t i = 0; i < a.files.size(); ++i) CHECK(a.files[i].sha256 == b.files[i].sha256);
 }
 
-TEST_CASE("every further file begins with what holds: the last of each name and of each channel, at their own times") {
+TEST_CASE(
+    "every further file begins with what holds: the last of each name and of each channel, at their own "
+    "times") {
   const Folder folder;
   McapWriter writer({.file = folder.path / "a.mcap", .max_message_bytes = 8, .rotate_ns = 3'000'000'000});
   std::vector<std::uint16_t> channels;
-  for (const char* topic : {"/dense", "/plan", "/event"}) channels.push_back(writer.add_channel(0, topic, "", {}));
+  for (const char* topic : {"/dense", "/plan", "/event"})
+    channels.push_back(writer.add_channel(0, topic, "", {}));
   struct Told {
     std::uint16_t channel;
     std::uint64_t log_ms, publish_ms;
@@ -93,11 +103,12 @@ TEST_CASE("every further file begins with what holds: the last of each name and 
     auto operator<=>(const Told&) const = default;
   };
   const auto write = [&](const Told& told, const std::string& lasting = "") {
-    *writer.begin_message(channels[told.channel], 7, told.log_ms * 1'000'000, told.publish_ms * 1'000'000) = std::byte(told.word);
+    *writer.begin_message(channels[told.channel], 7, told.log_ms * 1'000'000, told.publish_ms * 1'000'000) =
+        std::byte(told.word);
     writer.end_message(1, lasting);
   };
-  const Told plan{1, 1500, 1400, 'p'}, take_off{2, 1000, 1000, 't'}, cruise{2, 5990, 5990, 'c'}, wind{2, 2900, 2800, 'w'},
-      note{2, 2950, 2950, 'n'};
+  const Told plan{1, 1500, 1400, 'p'}, take_off{2, 1000, 1000, 't'}, cruise{2, 5990, 5990, 'c'},
+      wind{2, 2900, 2800, 'w'}, note{2, 2950, 2950, 'n'};
   for (std::uint64_t ms = 1000; ms < 11'000; ms += 10) {
     if (ms == 1000) write(take_off, "phase");
     if (ms == 1500) write(plan);
@@ -119,12 +130,14 @@ TEST_CASE("every further file begins with what holds: the last of each name and 
     CHECK(file.complete);
     std::vector<Told> found;
     for (const McapFile::Message& m : file.messages)
-      found.push_back({m.channel, m.log_ns / 1'000'000, m.publish_ns / 1'000'000, static_cast<char>(m.data[0])});
+      found.push_back(
+          {m.channel, m.log_ns / 1'000'000, m.publish_ns / 1'000'000, static_cast<char>(m.data[0])});
     REQUIRE(found.size() > begins[n].size());
     const auto end = found.begin() + static_cast<std::ptrdiff_t>(begins[n].size());
     CHECK(std::equal(found.begin(), end, begins[n].begin()));
     CHECK(*end == Told{0, 1000 + 3000 * n, 1000 + 3000 * n, 'd'});
-    CHECK(std::is_sorted(found.begin(), found.end(), [](const Told& a, const Told& b) { return a.log_ms < b.log_ms; }));
+    CHECK(std::is_sorted(found.begin(), found.end(),
+                         [](const Told& a, const Told& b) { return a.log_ms < b.log_ms; }));
   }
 }
 
@@ -138,10 +151,13 @@ TEST_CASE("the first file is the same as if the log would not rotate") {
   CHECK(contents(plain.file) == contents(both.file));
 }
 
-TEST_CASE("a log that would rotate onto a file is refused; one whose next file cannot be begun goes on where it is, and says so") {
+TEST_CASE(
+    "a log that would rotate onto a file is refused; one whose next file cannot be begun goes on where it "
+    "is, and says so") {
   const Folder folder;
   store(folder.path / "a-2.mcap", "precious");
-  CHECK_THROWS_WITH_AS(write_sample({.file = folder.path / "a.mcap", .rotate_ns = 1}, 1), doctest::Contains("a-2.mcap"), Error);
+  CHECK_THROWS_WITH_AS(write_sample({.file = folder.path / "a.mcap", .rotate_ns = 1}, 1),
+                       doctest::Contains("a-2.mcap"), Error);
   std::filesystem::remove(folder.path / "a-2.mcap");
   store(folder.path / "a-3.mcap", "precious");
   const auto result = write_sample({.file = folder.path / "a.mcap", .rotate_ns = 3'000'000'000}, 4000);

@@ -49,9 +49,11 @@ const json* named(const json& bom, const std::string& name) {
   return nullptr;
 }
 
-// What bom-1.5.schema.json asks of the parts that are used here: closed objects, required keys, enumerations and patterns.
+// What bom-1.5.schema.json asks of the parts that are used here: closed objects, required keys, enumerations
+// and patterns.
 void check_component(const json& c) {
-  static const std::set<std::string> keys = {"type", "bom-ref", "name", "version", "hashes", "licenses", "properties"};
+  static const std::set<std::string> keys = {"type",   "bom-ref",  "name",      "version",
+                                             "hashes", "licenses", "properties"};
   static const std::set<std::string> types = {"application",
                                               "framework",
                                               "library",
@@ -72,7 +74,8 @@ void check_component(const json& c) {
   // the schema's pattern for the content of a hash: 32, 40, 64, 96 or 128 hexadecimal digits
   const auto is_hash = [](const std::string& text) {
     const std::size_t n = text.size();
-    return (n == 32 || n == 40 || n == 64 || n == 96 || n == 128) && text.find_first_not_of("0123456789abcdefABCDEF") == std::string::npos;
+    return (n == 32 || n == 40 || n == 64 || n == 96 || n == 128) &&
+           text.find_first_not_of("0123456789abcdefABCDEF") == std::string::npos;
   };
   for (const json& h : c.value("hashes", json::array())) {
     CHECK(h.size() == 2);
@@ -95,9 +98,10 @@ TEST_CASE("the bill of materials has the shape of CycloneDX 1.5") {
   CHECK(bom.at("specVersion") == "1.5");
   CHECK(bom.at("version") == 1);
   for (const auto& item : bom.items())
-    CHECK_MESSAGE(
-        std::set<std::string>({"bomFormat", "specVersion", "version", "metadata", "components", "dependencies"}).count(item.key()) == 1,
-        item.key());
+    CHECK_MESSAGE(std::set<std::string>(
+                      {"bomFormat", "specVersion", "version", "metadata", "components", "dependencies"})
+                          .count(item.key()) == 1,
+                  item.key());
   CHECK(bom["metadata"].size() == 1);
   check_component(bom["metadata"].at("component"));
   std::set<std::string> refs{bom["metadata"]["component"]["bom-ref"]};
@@ -111,7 +115,8 @@ TEST_CASE("the bill of materials has the shape of CycloneDX 1.5") {
   CHECK(bom["dependencies"][0]["dependsOn"].size() == bom["components"].size());
 }
 
-TEST_CASE("a plugin is named with version, SHA-256, build id, toolchain and components, and without its folders") {
+TEST_CASE(
+    "a plugin is named with version, SHA-256, build id, toolchain and components, and without its folders") {
   const PluginInfo a = law('a', "a.so");
   const json bom = of({&a});
   const json* c = named(bom, "a.so");
@@ -129,7 +134,10 @@ TEST_CASE("the libraries of this process are in it, with the build id that reade
   const json bom = of({});
   const json* c = named(bom, "libc.so.6");
   REQUIRE(c != nullptr);
-  std::FILE* pipe = ::popen("readelf -n \"$(grep -o '/.*/libc\\.so\\.6' /proc/self/maps | head -n 1)\" | sed -n 's/.*Build ID: //p'", "r");
+  std::FILE* pipe = ::popen(
+      "readelf -n \"$(grep -o '/.*/libc\\.so\\.6' /proc/self/maps | head -n 1)\" | sed -n 's/.*Build ID: "
+      "//p'",
+      "r");
   REQUIRE(pipe != nullptr);
   char id[128] = "";
   const int read = std::fscanf(pipe, "%127s", id);
@@ -145,7 +153,8 @@ TEST_CASE("the same software gives the same text, in whatever order it is named"
 }
 
 TEST_CASE("notes are read with their padding, and bent ones give nothing") {
-  // two notes, the first of another owner with 3 bytes of content: the second begins at the next multiple of 4
+  // two notes, the first of another owner with 3 bytes of content: the second begins at the next multiple of
+  // 4
   const unsigned char notes[] = {4, 0, 0, 0, 3, 0, 0, 0, 9, 0, 0, 0, 'X', 'Y', 'Z', 0,   1, 2,    3,
                                  0, 4, 0, 0, 0, 2, 0, 0, 0, 3, 0, 0, 0,   'G', 'N', 'U', 0, 0xab, 0x0c};
   const auto bytes = std::as_bytes(std::span(notes));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What others ask of a flight from threads of their own: when it takes effect, what is refused, what the loop pays for a flood.
+// What others ask of a flight from threads of their own: when it takes effect, what is refused, what the loop
+// pays for a flood.
 #include "core/tap/control.hpp"
 
 #include <algorithm>
@@ -44,7 +45,8 @@ class Reply {
   std::future<std::string> future_ = promise_->get_future();
 };
 
-const ParameterView& parameter(const FlightView& view, const std::string& component, const std::string& name) {
+const ParameterView& parameter(const FlightView& view, const std::string& component,
+                               const std::string& name) {
   for (const ComponentView& c : view.components)
     for (const ParameterView& p : c.params)
       if (c.name == component && p.info.name == name) return p;
@@ -63,9 +65,13 @@ std::string refusal(const std::function<void()>& ask) {
 
 bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-std::string variant(const std::string& name) { return std::string(FULMAR_TEST_PLUGIN_DIR) + "/lab" + name + ".so"; }
+std::string variant(const std::string& name) {
+  return std::string(FULMAR_TEST_PLUGIN_DIR) + "/lab" + name + ".so";
+}
 
-double commanded(const Graph& g, const Flight& flight) { return value(g, flight, "one", "command", "u_frac"); }
+double commanded(const Graph& g, const Flight& flight) {
+  return value(g, flight, "one", "command", "u_frac");
+}
 
 }  // namespace
 
@@ -79,7 +85,8 @@ TEST_CASE("a parameter that is set reaches the controller at the next tick, and 
   REQUIRE(flight.step());
   CHECK(commanded(g, flight) == 0.1);
   std::promise<std::string> told;
-  control->on_parameter([&](const std::string& component, const std::string& name) { told.set_value(component + "." + name); });
+  control->on_parameter(
+      [&](const std::string& component, const std::string& name) { told.set_value(component + "." + name); });
   Reply reply;
   control->set_parameter("one", "u", "-0.25", reply.take());
   CHECK(commanded(g, flight) == 0.1);  // not in the middle of a tick
@@ -112,7 +119,9 @@ TEST_CASE("what cannot be is refused in the asker's thread, with what would be r
   CHECK(commanded(g, flight) == 0.1);
 }
 
-TEST_CASE("a request is answered by its component in its next step, and one that nobody can answer when the flight ends") {
+TEST_CASE(
+    "a request is answered by its component in its next step, and one that nobody can answer when the flight "
+    "ends") {
   const Graph g = mission(watched + one_phase);
   std::string last;
   Reply late;
@@ -132,7 +141,9 @@ TEST_CASE("a request is answered by its component in its next step, and one that
   CHECK(late.wait() == "the flight has ended");
 }
 
-TEST_CASE("thousands of parameters per second neither block nor starve the loop, and the last that was taken stands") {
+TEST_CASE(
+    "thousands of parameters per second neither block nor starve the loop, and the last that was taken "
+    "stands") {
   Graph g = mission(watched + one_phase);
   g.timeout_ns = 0;  // as long as the flood lasts
   Flight flight(g, quick(1e6));
@@ -143,7 +154,8 @@ TEST_CASE("thousands of parameters per second neither block nor starve the loop,
   std::thread flood([&] {
     for (int n = 1; n <= 20'000; ++n) {
       const std::string text = std::to_string(n % 1000) + "e-4";
-      const std::string why = refusal([&] { control.set_parameter("one", "u", text, [&](const std::string&) { ++answered; }); });
+      const std::string why =
+          refusal([&] { control.set_parameter("one", "u", text, [&](const std::string&) { ++answered; }); });
       ++(why.empty() ? accepted : full);
       if (!why.empty()) CHECK(holds(why, "there is no room for more"));
     }
@@ -188,11 +200,12 @@ TEST_CASE("requests wait for room in their order, hold up no parameter, and cost
   std::vector<int> order;
   std::mutex mutex;
   for (int n = 0; n < many; ++n)
-    control.request("watch", "ask", n % 10 == 9 ? "{to_m: -1}" : "{to_m: 1}", [&, n](const std::string& refusal) {
-      const std::lock_guard lock(mutex);
-      CHECK(refusal == (n % 10 == 9 ? "cannot go back" : ""));
-      order.push_back(n);
-    });
+    control.request("watch", "ask", n % 10 == 9 ? "{to_m: -1}" : "{to_m: 1}",
+                    [&, n](const std::string& refusal) {
+                      const std::lock_guard lock(mutex);
+                      CHECK(refusal == (n % 10 == 9 ? "cannot go back" : ""));
+                      order.push_back(n);
+                    });
   Reply set;
   control.set_parameter("one", "u", "0.5", set.take());
   const auto answered = [&] {
@@ -221,8 +234,9 @@ TEST_CASE("a request to a component that does not fly is refused, not kept for t
 }
 
 TEST_CASE("a request that its component has not come to when the flight ends is answered once") {
-  const Graph g =
-      mission("  watch: {use: lab/Watch, rate: 1 Hz, in: {burst: vehicle.burst, applied: vehicle.applied}}\n" + watched + one_phase);
+  const Graph g = mission(
+      "  watch: {use: lab/Watch, rate: 1 Hz, in: {burst: vehicle.burst, applied: vehicle.applied}}\n" +
+      watched + one_phase);
   std::atomic<int> answers{0};
   {
     Flight flight(g, quick());
@@ -245,7 +259,8 @@ TEST_CASE("a law whose imported input falls silent is stopped like any other") {
   g.dds.on = false;
   Flight flight(g, quick());
   Control& control = *flight.control();
-  const auto type = g.components[static_cast<std::size_t>(g.dds.imports.at(0).component)].info().inputs.at(0).type;
+  const auto type =
+      g.components[static_cast<std::size_t>(g.dds.imports.at(0).component)].info().inputs.at(0).type;
   for (int n = 0; n < 40; ++n) {
     REQUIRE(flight.step());
     CHECK(control.publish("one", "signal", std::vector<std::byte>(type->size)));
@@ -261,8 +276,9 @@ TEST_CASE("a law whose imported input falls silent is stopped like any other") {
 }
 
 TEST_CASE("a flood of one import takes no room of another's, and what it loses is told") {
-  const Graph whole = mission("  ear: {use: lab/OldReader}\n  other: {use: lab/OldReader}\n" + watched + one_phase +
-                              "dds: {import: {ear.signal: /lab/flood, other.signal: /lab/calm}}\n");
+  const Graph whole =
+      mission("  ear: {use: lab/OldReader}\n  other: {use: lab/OldReader}\n" + watched + one_phase +
+              "dds: {import: {ear.signal: /lab/flood, other.signal: /lab/calm}}\n");
   Graph g = whole;
   g.dds.on = false;
   Flight flight(g, quick());
@@ -283,8 +299,9 @@ TEST_CASE("a flood of one import takes no room of another's, and what it loses i
 }
 
 TEST_CASE("a phase is entered between two ticks, and onlookers see it") {
-  const Graph g =
-      mission(watched + "phases:\n  fly: {law: one, next: [{to: rest, when: \"vehicle.signal.x_m < 0\"}]}\n  rest: {law: two}\n");
+  const Graph g = mission(watched +
+                          "phases:\n  fly: {law: one, next: [{to: rest, when: \"vehicle.signal.x_m < "
+                          "0\"}]}\n  rest: {law: two}\n");
   Flight flight(g, quick());
   Control& control = *flight.control();
   REQUIRE(flight.step());
@@ -299,8 +316,9 @@ TEST_CASE("a phase is entered between two ticks, and onlookers see it") {
 }
 
 TEST_CASE("what a phase hides is told; the present phase can be entered anew, after a reset for one") {
-  const Graph g = mission("  one:    {fills: law, use: lab/Law, params: {id: 1, u: 0.1, fault: fails, fault_at: 0.02 s}}\n" + watched +
-                          "phases:\n  fly: {law: {use: one, fallback: two, set: {u: 0.3}}}\n");
+  const Graph g = mission(
+      "  one:    {fills: law, use: lab/Law, params: {id: 1, u: 0.1, fault: fails, fault_at: 0.02 s}}\n" +
+      watched + "phases:\n  fly: {law: {use: one, fallback: two, set: {u: 0.3}}}\n");
   Flight flight(g, quick());
   Control& control = *flight.control();
   REQUIRE(flight.step());
@@ -323,7 +341,8 @@ TEST_CASE("what a phase hides is told; the present phase can be entered anew, af
 }
 
 TEST_CASE("a sample from outside is the input's at the next tick; a damaged one is refused") {
-  const Graph whole = mission("  ear: {use: lab/OldReader}\n" + watched + one_phase + "dds: {import: {ear.signal: /lab/signal}}\n");
+  const Graph whole = mission("  ear: {use: lab/OldReader}\n" + watched + one_phase +
+                              "dds: {import: {ear.signal: /lab/signal}}\n");
   Graph g = whole;
   g.dds.on = false;  // by hand here
   Flight flight(g, quick());
@@ -336,7 +355,10 @@ TEST_CASE("a sample from outside is the input's at the next tick; a damaged one 
   }();
   REQUIRE(type);
   std::vector<std::byte> message(type->size);
-  CHECK(holds(refusal([&] { control.publish("ear", "signal", {message.begin(), message.end() - 1}); }), "bytes are no"));
+  CHECK(holds(refusal([&] {
+                control.publish("ear", "signal", {message.begin(), message.end() - 1});
+              }),
+              "bytes are no"));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   std::memcpy(message.data() + type->fields[0].offset, &nan, sizeof nan);
   CHECK(holds(refusal([&] { control.publish("ear", "signal", message); }), "nan"));
@@ -347,11 +369,13 @@ TEST_CASE("a sample from outside is the input's at the next tick; a damaged one 
   control.publish("ear", "signal", message);
   REQUIRE(flight.step());
   CHECK(value(g, flight, "ear", "tally", "steps_ratio") == 1);
-  CHECK(value(g, flight, "ear", "tally", "dt_s") == doctest::Approx(tick_s - 1e-9 * static_cast<double>(flight.now_ns())));
+  CHECK(value(g, flight, "ear", "tally", "dt_s") ==
+        doctest::Approx(tick_s - 1e-9 * static_cast<double>(flight.now_ns())));
   CHECK(control.lost_samples() == 0);
 }
 
-TEST_CASE("as fast as the machine allows nobody is let in, and a token is asked for where others could come") {
+TEST_CASE(
+    "as fast as the machine allows nobody is let in, and a token is asked for where others could come") {
   Flight flight(mission(watched + one_phase), options(0.1));
   CHECK(flight.control() == nullptr);
   CHECK(flight.live_port() == 0);
@@ -378,7 +402,8 @@ TEST_CASE("a port that is taken keeps nobody from flying") {
 }
 
 TEST_CASE("who fills a role publishes as the role: one topic, whoever flies") {
-  Flight flight(mission(watched + "phases:\n  fly: {law: one, next: [{to: rest, when: \"vehicle.signal.x_m < 0\"}]}\n  rest: {law: two}\n"),
+  Flight flight(mission(watched + "phases:\n  fly: {law: one, next: [{to: rest, when: \"vehicle.signal.x_m < "
+                                  "0\"}]}\n  rest: {law: two}\n"),
                 quick());
   std::vector<int> channels;
   for (const ComponentView& c : flight.control()->view().components)

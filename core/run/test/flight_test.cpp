@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The loop, flown in a laboratory (lab.cpp): order, rates, phases, hand-over, guards, failsafe, requests, equal bytes.
+// The loop, flown in a laboratory (lab.cpp): order, rates, phases, hand-over, guards, failsafe, requests,
+// equal bytes.
 #include "core/run/flight.hpp"
 
 #include <doctest/doctest.h>
@@ -11,9 +12,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/log/reader.hpp"
 #include "core/run/allocation.hpp"
 #include "core/run/test/lab.hpp"
-#include "core/log/reader.hpp"
 #include "core/types/wire.hpp"
 
 namespace flight_test {
@@ -63,17 +64,20 @@ TEST_CASE("what found no room in an output queue is told to the reader") {
 }
 
 TEST_CASE("a slow reader of a queue is told what it lost") {
-  const Graph g = mission(std::string("  slow: {use: lab/Watch, rate: 10 Hz, in: {burst: vehicle.burst}}\n") + one_phase);
+  const Graph g =
+      mission(std::string("  slow: {use: lab/Watch, rate: 10 Hz, in: {burst: vehicle.burst}}\n") + one_phase);
   Flight flight(g, options(0));
   flight.run();
-  const double taken = value(g, flight, "slow", "tally", "samples_ratio"), lost = value(g, flight, "slow", "tally", "lost_ratio");
+  const double taken = value(g, flight, "slow", "tally", "samples_ratio"),
+               lost = value(g, flight, "slow", "tally", "lost_ratio");
   CHECK(lost > 0);
   CHECK(taken + lost == 3 * 401);  // the last step is at the last tick
 }
 
 TEST_CASE("a component is not stepped before each required input has had a sample") {
   const Graph g = mission(
-      "  late: {use: lab/Late, in: {never: other.echo}}\n  other: {use: lab/Late, in: {never: {from: late.echo, delayed: true}}}\n" +
+      "  late: {use: lab/Late, in: {never: other.echo}}\n  other: {use: lab/Late, in: {never: {from: "
+      "late.echo, delayed: true}}}\n" +
       std::string(one_phase));
   Flight flight(g, options(0));
   CHECK(flight.run().outcome == Outcome::flown);
@@ -81,9 +85,10 @@ TEST_CASE("a component is not stepped before each required input has had a sampl
 }
 
 TEST_CASE("a delayed wire carries the sample of the previous tick, whoever steps first") {
-  const Graph g = mission(std::string("  early: {use: lab/OldReader, in: {signal: {from: filter.signal, delayed: true}}}\n"
-                                      "  late: {use: lab/OldReader, in: {signal: {from: vehicle.signal, delayed: true}}}\n") +
-                          one_phase);
+  const Graph g = mission(
+      std::string("  early: {use: lab/OldReader, in: {signal: {from: filter.signal, delayed: true}}}\n"
+                  "  late: {use: lab/OldReader, in: {signal: {from: vehicle.signal, delayed: true}}}\n") +
+      one_phase);
   Flight flight(g, options(0));
   flight.run();
   CHECK(value(g, flight, "early", "tally", "dt_s") == doctest::Approx(-0.0025));
@@ -92,7 +97,8 @@ TEST_CASE("a delayed wire carries the sample of the previous tick, whoever steps
 }
 
 TEST_CASE("a reader that knows fewer fields than the writer is fed by a copy plan") {
-  const Graph g = mission(std::string("  old: {use: lab/OldReader, in: {signal: vehicle.signal}}\n") + one_phase);
+  const Graph g =
+      mission(std::string("  old: {use: lab/OldReader, in: {signal: vehicle.signal}}\n") + one_phase);
   Flight flight(g, options(0));
   flight.run();
   CHECK(value(g, flight, "old", "tally", "steps_ratio") == 401);
@@ -103,7 +109,8 @@ TEST_CASE("a phase hands over in the tick in which its condition has held for it
   const Graph g = mission(
       "phases:\n"
       "  first:  {law: one, next: [{to: second, when: \"vehicle.status.armed\", for: 0.1 s}]}\n"
-      "  second: {law: {use: two, set: {u: 0.7}}, next: [{to: third, when: \"vehicle.signal.tick_s >= 0.3 s\"}]}\n"
+      "  second: {law: {use: two, set: {u: 0.7}}, next: [{to: third, when: \"vehicle.signal.tick_s >= 0.3 "
+      "s\"}]}\n"
       "  third:  {law: two}\n");
   std::vector<std::string> said;
   FlightOptions o = options(0.5);
@@ -120,13 +127,15 @@ TEST_CASE("a phase hands over in the tick in which its condition has held for it
   std::memcpy(&taken, flight.sample(port(g, "two", "taken_over_frac")), sizeof taken);
   CHECK(taken == doctest::Approx(0.1));
   CHECK(value(g, flight, "sim", "applied", "by") == 2);
-  CHECK(value(g, flight, "sim", "applied", "u_frac") == doctest::Approx(0.2));  // the overlay of `second` is gone
+  CHECK(value(g, flight, "sim", "applied", "u_frac") ==
+        doctest::Approx(0.2));  // the overlay of `second` is gone
 }
 
 TEST_CASE("an overlay holds while its phase lasts") {
   const Graph g = mission(
       "phases:\n"
-      "  first:  {law: {use: one, set: {u: 0.9}}, next: [{to: second, when: \"vehicle.signal.tick_s >= 0.3 s\"}]}\n"
+      "  first:  {law: {use: one, set: {u: 0.9}}, next: [{to: second, when: \"vehicle.signal.tick_s >= 0.3 "
+      "s\"}]}\n"
       "  second: {law: one}\n");
   FlightOptions o = options(0.2);
   Flight before(g, o);
@@ -156,7 +165,8 @@ TEST_CASE("every fault of a law is caught in its tick, the fallback flies in the
   struct Case {
     const char *fault, *what;
   };
-  for (const Case& c : {Case{"nan", "output 'command': u_frac is nan"}, Case{"range", "output 'command': u_frac is 1.5, outside [-1, 1]"},
+  for (const Case& c : {Case{"nan", "output 'command': u_frac is nan"},
+                        Case{"range", "output 'command': u_frac is 1.5, outside [-1, 1]"},
                         Case{"throws", "the law is broken  ?\xc3\xa9"}, Case{"fails", "says that it failed"},
                         Case{"probe_nan", "probe 'error_m' is not finite"}}) {
     CAPTURE(c.fault);
@@ -171,7 +181,8 @@ TEST_CASE("every fault of a law is caught in its tick, the fallback flies in the
     CHECK(r.guards[0].at_ns == 100'000'000);
     CHECK(value(g, flight, "two", "command", "by") == 2);
     CHECK(value(g, flight, "two", "command", "seen_m") == value(g, flight, "sim", "signal", "x_m"));
-    CHECK(value(g, flight, "one", "command", "u_frac") == doctest::Approx(0.1));  // the last good output is what is left
+    CHECK(value(g, flight, "one", "command", "u_frac") ==
+          doctest::Approx(0.1));  // the last good output is what is left
   }
 }
 
@@ -221,7 +232,8 @@ TEST_CASE("done, failed and timeout end a flight, in words") {
   const FlightResult flown = Flight(done, o).run();
   CHECK(flown.outcome == Outcome::flown);
   CHECK(flown.reason == "vehicle.signal.tick_s > 0.2 s");
-  const Graph held = mission(std::string("done: {when: \"vehicle.signal.tick_s > 0.2 s\", for: 0.1 s}\n") + one_phase);
+  const Graph held =
+      mission(std::string("done: {when: \"vehicle.signal.tick_s > 0.2 s\", for: 0.1 s}\n") + one_phase);
   CHECK(Flight(held, o).run().last_ns == 302'500'000);
   const Graph failed = mission(std::string("failed: \"vehicle.signal.tick_s > 0.2 s\"\n") + one_phase);
   CHECK(Flight(failed, o).run().outcome == Outcome::failed);
@@ -246,9 +258,11 @@ TEST_CASE("a request is answered by the step that sees it") {
   flight.request("watch", "ask", reinterpret_cast<const std::byte*>(&back), take);
   CHECK_THROWS_WITH(flight.request("wach", "ask", nullptr, take),
                     "there is no component 'wach'. Did you mean 'watch'? Valid: sim, filter, one, watch.");
-  CHECK_THROWS_WITH(flight.request("watch", "aks", nullptr, take), "'watch' takes no request 'aks'. Did you mean 'ask'? Valid: ask.");
+  CHECK_THROWS_WITH(flight.request("watch", "aks", nullptr, take),
+                    "'watch' takes no request 'aks'. Did you mean 'ask'? Valid: ask.");
   const double wrong = std::numeric_limits<double>::quiet_NaN();
-  CHECK_THROWS_WITH(flight.request("watch", "ask", reinterpret_cast<const std::byte*>(&wrong), take), "watch.ask: to_m is nan");
+  CHECK_THROWS_WITH(flight.request("watch", "ask", reinterpret_cast<const std::byte*>(&wrong), take),
+                    "watch.ask: to_m is nan");
   flight.run();
   REQUIRE(answers.size() == 2);
   CHECK(answers[0].empty());
@@ -262,7 +276,8 @@ TEST_CASE("the log tells what was asked, and what was refused and why") {
   o.log_file = folder().path / "asked.mcap";
   Flight flight(g, o);
   const double go = 1, back = -1;
-  for (const double* to : {&go, &back}) flight.request("watch", "ask", reinterpret_cast<const std::byte*>(to));
+  for (const double* to : {&go, &back})
+    flight.request("watch", "ask", reinterpret_cast<const std::byte*>(to));
   flight.run();
   const McapFile file = read_mcap(o.log_file);
   std::vector<std::string> told;
@@ -284,7 +299,8 @@ TEST_CASE("a live parameter changes the base under an overlay, a set-up paramete
   ParamValue v;
   v.number[0] = 0.6;
   flight.set_parameter("one", "u", v);
-  CHECK_THROWS_WITH(flight.set_parameter("one", "fixed", v), "one.fixed is a set-up parameter: it cannot change in flight");
+  CHECK_THROWS_WITH(flight.set_parameter("one", "fixed", v),
+                    "one.fixed is a set-up parameter: it cannot change in flight");
   v.number[0] = 4;
   CHECK_THROWS(flight.set_parameter("one", "u", v));
   flight.run();
@@ -383,18 +399,21 @@ TEST_CASE("a newcomer whose required input has no sample does not take over") {
 }
 
 TEST_CASE("a flight in failsafe is never done") {
-  const Graph g =
-      mission(std::string("done: \"vehicle.signal.tick_s > 0.3 s\"\n") + one_phase, {{"one.fault", "nan"}, {"one.fault_at", "0.1"}});
+  const Graph g = mission(std::string("done: \"vehicle.signal.tick_s > 0.3 s\"\n") + one_phase,
+                          {{"one.fault", "nan"}, {"one.fault_at", "0.1"}});
   FlightOptions o;
   o.log = false;
   CHECK(Flight(g, o).run().outcome == Outcome::failed);
 }
 
-TEST_CASE("a role's condition reads the right field of whoever fills the role, whatever else that one's message has") {
-  const Graph g = mission(
-      "  new: {fills: law, use: lab/NewLaw}\n"s + "phases:\n  old: {law: one, next: [{to: new, when: \"vehicle.status.armed\"}]}\n" +
-      "  new: {law: new, next: [{to: end, when: \"law.command.u_frac > 0.7\"}, {to: old, when: \"law.command.u_frac < -1\"}]}\n" +
-      "  end: {law: new}\n");
+TEST_CASE(
+    "a role's condition reads the right field of whoever fills the role, whatever else that one's message "
+    "has") {
+  const Graph g = mission("  new: {fills: law, use: lab/NewLaw}\n"s +
+                          "phases:\n  old: {law: one, next: [{to: new, when: \"vehicle.status.armed\"}]}\n" +
+                          "  new: {law: new, next: [{to: end, when: \"law.command.u_frac > 0.7\"}, {to: old, "
+                          "when: \"law.command.u_frac < -1\"}]}\n" +
+                          "  end: {law: new}\n");
   Flight flight(g, options(0.2));
   const FlightResult r = flight.run();
   CHECK(flight.phase() == "end");

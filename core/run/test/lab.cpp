@@ -91,7 +91,8 @@ struct Cart {
       request.accept();
     }
     applied_ = {};
-    if (in.command) applied_ = {in.command->u_frac, in.command->seen_m, in.command->by, true, in.command.fresh()};
+    if (in.command)
+      applied_ = {in.command->u_frac, in.command->seen_m, in.command->by, true, in.command.fresh()};
     return Status::ok;
   }
 
@@ -171,19 +172,11 @@ struct Law {
     out.taken_over_frac = taken_;
     if (!bad) return Status::ok;
     switch (p.fault) {
-      case Fault::nan:
-        out.command.u_frac = std::numeric_limits<double>::quiet_NaN();
-        break;
-      case Fault::range:
-        out.command.u_frac = 1.5;
-        break;
-      case Fault::throws:
-        throw std::runtime_error("the law is broken\n\x01\xff\xc3\xa9");
-      case Fault::fails:
-        return Status::failed;
-      case Fault::probe_nan:
-        out.error_m = std::numeric_limits<double>::infinity();
-        break;
+      case Fault::nan: out.command.u_frac = std::numeric_limits<double>::quiet_NaN(); break;
+      case Fault::range: out.command.u_frac = 1.5; break;
+      case Fault::throws: throw std::runtime_error("the law is broken\n\x01\xff\xc3\xa9");
+      case Fault::fails: return Status::failed;
+      case Fault::probe_nan: out.error_m = std::numeric_limits<double>::infinity(); break;
       case Fault::slow:
         for (int i = 0; i < 3'000'000; ++i) asm volatile("");
         break;
@@ -192,23 +185,14 @@ struct Law {
         asm volatile("" ::"r"(v.data()) : "memory");
         break;
       }
-      case Fault::crashes:
-        raise(SIGSEGV);
-        break;
+      case Fault::crashes: raise(SIGSEGV); break;
       case Fault::hangs:
         for (;;) asm volatile("");
-      case Fault::aborts:
-        std::abort();
-      case Fault::exits:
-        std::exit(3);
-      case Fault::overflows:
-        out.error_m = overflow(1);
-        break;
-      case Fault::leaks:
-        kept_.push_back(new char[1'000'000]);
-        break;
-      default:
-        break;
+      case Fault::aborts: std::abort();
+      case Fault::exits: std::exit(3);
+      case Fault::overflows: out.error_m = overflow(1); break;
+      case Fault::leaks: kept_.push_back(new char[1'000'000]); break;
+      default: break;
     }
     return Status::ok;
   }
@@ -324,7 +308,8 @@ struct OldReader {
   }
 };
 
-/// A device of its own: one sample per millisecond of the wall clock, at most `samples`; then it fails, or falls silent.
+/// A device of its own: one sample per millisecond of the wall clock, at most `samples`; then it fails, or
+/// falls silent.
 struct Ticker {
   struct Inputs {};
   struct Outputs {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "core/run/test/lab.hpp"
 #include "core/log/reader.hpp"
+#include "core/run/test/lab.hpp"
 
 namespace modes_test {
 
@@ -27,7 +27,8 @@ std::vector<std::string> messages(const std::string& log, const std::string& top
   const McapFile file = read_mcap(folder().path / log);
   std::vector<std::string> all;
   for (const McapFile::Message& m : file.messages)
-    if (m.channel == file.channel(topic)) all.emplace_back(reinterpret_cast<const char*>(m.data.data()), m.data.size());
+    if (m.channel == file.channel(topic))
+      all.emplace_back(reinterpret_cast<const char*>(m.data.data()), m.data.size());
   return all;
 }
 
@@ -35,7 +36,8 @@ std::vector<std::string> messages(const std::string& log, const std::string& top
 
 TEST_CASE("a component in a child publishes the same bytes as in the loop") {
   const Graph here = mission(one_phase);
-  const Graph there = mission("  one: {fills: law, use: lab/Law, run: process, params: {id: 1, u: 0.1}}\n"s + one_phase);
+  const Graph there =
+      mission("  one: {fills: law, use: lab/Law, run: process, params: {id: 1, u: 0.1}}\n"s + one_phase);
   log_hash(here, "here.mcap", 1);
   log_hash(there, "there.mcap", 1);
   const auto a = messages("here.mcap", "/law/command"), b = messages("there.mcap", "/law/command");
@@ -55,9 +57,12 @@ TEST_CASE("a child gets live changes and overlays") {
   CHECK(value(g, flight, "one", "command", "u_frac") == 0.3);
 }
 
-TEST_CASE("what an asynchronous step computes is seen its latency later, and belongs to the tick in which it began") {
-  const Graph g =
-      mission("  think: {use: lab/Thinker, run: async, latency: 50 ms, rate: 100 Hz, in: {signal: sense.signal}}\n"s + one_phase);
+TEST_CASE(
+    "what an asynchronous step computes is seen its latency later, and belongs to the tick in which it "
+    "began") {
+  const Graph g = mission(
+      "  think: {use: lab/Thinker, run: async, latency: 50 ms, rate: 100 Hz, in: {signal: sense.signal}}\n"s +
+      one_phase);
   Flight flight(g, options(0.5));
   const FlightResult r = flight.run();
   CHECK(r.outcome == Outcome::flown);
@@ -98,8 +103,9 @@ TEST_CASE("an asynchronous step that fails is stopped by its guard when its resu
 }
 
 TEST_CASE("live changes reach an asynchronous component in order") {
-  const Graph g =
-      mission("  think: {use: lab/Thinker, run: async, latency: 10 ms, in: {signal: sense.signal}, params: {takes: 0 ms}}\n"s + one_phase);
+  const Graph g = mission(
+      "  think: {use: lab/Thinker, run: async, latency: 10 ms, in: {signal: sense.signal}, params: {takes: 0 ms}}\n"s +
+      one_phase);
   Flight flight(g, options(1));
   ParamValue v;
   v.number[0] = -1;
@@ -149,7 +155,8 @@ TEST_CASE("samples of a driver enter at the next tick, are recorded whole, and f
 }
 
 TEST_CASE("a driver that fails is stopped, and told of") {
-  const Graph g = mission("  gauge: {use: lab/Ticker, run: driver, params: {samples: 3, fails: true}}\n"s + one_phase);
+  const Graph g =
+      mission("  gauge: {use: lab/Ticker, run: driver, params: {samples: 3, fails: true}}\n"s + one_phase);
   FlightOptions o = options(0.5);
   o.speed = 10;
   Flight flight(g, o);
@@ -169,16 +176,23 @@ TEST_CASE("run modes that do not fit are refused") {
     }
     return std::string();
   };
-  CHECK(refused("  think: {use: lab/Thinker, run: async, in: {signal: sense.signal}}\n").find("needs a latency above 0") !=
+  CHECK(refused("  think: {use: lab/Thinker, run: async, in: {signal: sense.signal}}\n")
+            .find("needs a latency above 0") != std::string::npos);
+  CHECK(
+      refused("  gauge: {use: lab/Ticker, latency: 20 ms, run: driver}\n").find("belongs to 'run: async'") !=
+      std::string::npos);
+  CHECK(refused("  gauge: {use: lab/Thinker, run: driver, in: {signal: sense.signal}}\n")
+            .find("a driver's outputs are queues") != std::string::npos);
+  CHECK(
+      refused("  sim: {fills: vehicle, use: lab/Cart, run: process}\n").find("a vehicle runs in the loop") !=
+      std::string::npos);
+  CHECK(refused("  one: {fills: law, use: lab/Law, memory: 64 parsecs}\n").find("is no amount of memory") !=
         std::string::npos);
-  CHECK(refused("  gauge: {use: lab/Ticker, latency: 20 ms, run: driver}\n").find("belongs to 'run: async'") != std::string::npos);
-  CHECK(refused("  gauge: {use: lab/Thinker, run: driver, in: {signal: sense.signal}}\n").find("a driver's outputs are queues") !=
-        std::string::npos);
-  CHECK(refused("  sim: {fills: vehicle, use: lab/Cart, run: process}\n").find("a vehicle runs in the loop") != std::string::npos);
-  CHECK(refused("  one: {fills: law, use: lab/Law, memory: 64 parsecs}\n").find("is no amount of memory") != std::string::npos);
 }
 
-TEST_CASE("on hardware, a plugin that did not come with the host flies in a child unless the mission says otherwise") {
+TEST_CASE(
+    "on hardware, a plugin that did not come with the host flies in a child unless the mission says "
+    "otherwise") {
   const std::string tail =
       "  fcu: {fills: vehicle, use: lab/Cart}\n  two: {fills: law, use: lab/Law, run: tick}\nphases:\n  fly: {law: {use: one, fallback: two}}\nio: fcu\n"s;
   const Graph g = mission(tail);

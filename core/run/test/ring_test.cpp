@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ring under stress: what comes out is what went in, in order, whatever the sizes and wherever the memory wraps.
+// The ring under stress: what comes out is what went in, in order, whatever the sizes and wherever the memory
+// wraps.
 #include "core/run/ring.hpp"
 
 #include <doctest/doctest.h>
@@ -23,13 +24,14 @@ std::vector<std::byte> content(std::uint64_t i) {
   return bytes;
 }
 Ring::Record record(std::uint64_t i) {
-  return {0, static_cast<std::uint32_t>(i % 13), i, static_cast<std::int64_t>(i) * 5, -static_cast<std::int64_t>(i)};
+  return {0, static_cast<std::uint32_t>(i % 13), i, static_cast<std::int64_t>(i) * 5,
+          -static_cast<std::int64_t>(i)};
 }
 bool intact(const Ring::Record& r, std::uint64_t i) {
   const std::vector<std::byte> bytes = content(i);
   const Ring::Record want = record(i);
-  return r.channel == want.channel && r.sequence == i && r.log_ns == want.log_ns && r.valid_ns == want.valid_ns &&
-         std::equal(bytes.begin(), bytes.end(), r.data());
+  return r.channel == want.channel && r.sequence == i && r.log_ns == want.log_ns &&
+         r.valid_ns == want.valid_ns && std::equal(bytes.begin(), bytes.end(), r.data());
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rows of docs/safety.md, made to happen in flight: what a component does wrong, in the loop and in a child, and what the host does.
+// The rows of docs/safety.md, made to happen in flight: what a component does wrong, in the loop and in a
+// child, and what the host does.
 #include <sys/wait.h>
 
 #include <csignal>
@@ -68,7 +69,9 @@ TEST_CASE("in the loop: whatever a step says or throws, the fallback flies in th
     if (row.in_loop) check_fallback(row, false);
 }
 
-TEST_CASE("in a child: a crash, an exit, a hang costs nothing but the component; the fallback flies in the same tick") {
+TEST_CASE(
+    "in a child: a crash, an exit, a hang costs nothing but the component; the fallback flies in the same "
+    "tick") {
   for (const Row& row : rows)
     if (FULMAR_CRASH_TESTS || row.in_loop) check_fallback(row, true);
 }
@@ -80,8 +83,9 @@ TEST_CASE("a component whose heap grows is stopped at its limit, in the loop and
   }
   for (const bool isolated : {false, true}) {
     CAPTURE(isolated);
-    const Graph g = mission("  one: {fills: law, use: lab/Law, memory: 10 MB, "s + (isolated ? "run: process, " : "") +
-                            "params: {fault: leaks, fault_at: 0 s}}\n" + with_fallback);
+    const Graph g =
+        mission("  one: {fills: law, use: lab/Law, memory: 10 MB, "s + (isolated ? "run: process, " : "") +
+                "params: {fault: leaks, fault_at: 0 s}}\n" + with_fallback);
     Flight flight(g, options(0.2));
     const FlightResult r = flight.run();
     CHECK(r.outcome == Outcome::flown);
@@ -95,8 +99,9 @@ TEST_CASE("a component whose heap grows is stopped at its limit, in the loop and
 TEST_CASE("a step over its budget five times in a row, paced: the fallback takes over; in a child too") {
   for (const bool isolated : {false, true}) {
     CAPTURE(isolated);
-    const Graph g = mission("  one: {fills: law, use: lab/Law, budget: 500 us, "s + (isolated ? "run: process, " : "") +
-                            "params: {fault: slow, fault_at: 0.1 s}}\n" + with_fallback);
+    const Graph g =
+        mission("  one: {fills: law, use: lab/Law, budget: 500 us, "s + (isolated ? "run: process, " : "") +
+                "params: {fault: slow, fault_at: 0.1 s}}\n" + with_fallback);
     FlightOptions o = options(0.3);
     o.speed = 4;
     Flight flight(g, o);
@@ -114,21 +119,24 @@ TEST_CASE("a component that crashes in a thread of its own is named, whatever th
   struct End {
     const char *fault, *told;
   };
-  for (const End& end : {End{"crashes", "one crashed in its step (segmentation fault)"}, End{"aborts", "one crashed in its step (abort)"}}) {
+  for (const End& end : {End{"crashes", "one crashed in its step (segmentation fault)"},
+                         End{"aborts", "one crashed in its step (abort)"}}) {
     CAPTURE(end.fault);
     fs::remove(log.string() + ".part");
-    mission("  one: {fills: law, use: lab/Law, run: async, latency: 10 ms, params: {fault: "s + end.fault + ", fault_at: 0.1 s}}\n" +
-            one_phase);
-    std::ignore = std::system((std::string(FULMAR_BIN_DIR) + "/fulmar run " + (folder().path / "lab.yaml").string() + " --log " + log.string() +
-                               " >/dev/null 2>" + said.string())
-                                  .c_str());
+    mission("  one: {fills: law, use: lab/Law, run: async, latency: 10 ms, params: {fault: "s + end.fault +
+            ", fault_at: 0.1 s}}\n" + one_phase);
+    std::ignore =
+        std::system((std::string(FULMAR_BIN_DIR) + "/fulmar run " + (folder().path / "lab.yaml").string() +
+                     " --log " + log.string() + " >/dev/null 2>" + said.string())
+                        .c_str());
     std::ifstream in(said);
     const std::string words((std::istreambuf_iterator<char>(in)), {});
     CHECK_MESSAGE(words.find(end.told) != std::string::npos, words);
   }
 }
 
-TEST_CASE("when a component takes the host with it, the device gets the last frame that the vehicle encoded") {
+TEST_CASE(
+    "when a component takes the host with it, the device gets the last frame that the vehicle encoded") {
   if (!FULMAR_CRASH_TESTS) {
     MESSAGE("skipped: a sanitized build handles crashes by itself");
     return;
@@ -137,20 +145,23 @@ TEST_CASE("when a component takes the host with it, the device gets the last fra
     const char *fault, *told;
     int code;
   };
-  for (const End& end :
-       {End{"crashes", "one crashed in its step (segmentation fault)", 128 + SIGSEGV},
-        End{"aborts", "one crashed in its step (abort)", 128 + SIGABRT}, End{"overflows", "one crashed in its step", 128 + SIGSEGV},
-        End{"exits", "one ended the program in its step", 1}}) {
+  for (const End& end : {End{"crashes", "one crashed in its step (segmentation fault)", 128 + SIGSEGV},
+                         End{"aborts", "one crashed in its step (abort)", 128 + SIGABRT},
+                         End{"overflows", "one crashed in its step", 128 + SIGSEGV},
+                         End{"exits", "one ended the program in its step", 1}}) {
     CAPTURE(end.fault);
     // the program itself, since its handlers are what is tested
-    const fs::path device = folder().path / "device", log = folder().path / "crash.mcap", said = folder().path / "said";
+    const fs::path device = folder().path / "device", log = folder().path / "crash.mcap",
+                   said = folder().path / "said";
     fs::remove(device);
     fs::remove(log.string() + ".part");
     mission("  sim: {fills: vehicle, use: lab/Cart, params: {device: " + device.string() +
-            "}}\n  one: {fills: law, use: lab/Law, params: {fault: " + end.fault + ", fault_at: 0.1 s}}\n" + with_fallback);
-    const int status = std::system((std::string(FULMAR_BIN_DIR) + "/fulmar run " + (folder().path / "lab.yaml").string() + " --log " +
-                                    log.string() + " >/dev/null 2>" + said.string())
-                                       .c_str());
+            "}}\n  one: {fills: law, use: lab/Law, params: {fault: " + end.fault + ", fault_at: 0.1 s}}\n" +
+            with_fallback);
+    const int status =
+        std::system((std::string(FULMAR_BIN_DIR) + "/fulmar run " + (folder().path / "lab.yaml").string() +
+                     " --log " + log.string() + " >/dev/null 2>" + said.string())
+                        .c_str());
     REQUIRE(WIFEXITED(status));
     CHECK(WEXITSTATUS(status) == end.code);
     double u = 0;

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A component's file is swapped on the ground, in a host that goes on: parameters stay, a bad newcomer leaves the old one flying-ready.
-#include "core/run/test/lab.hpp"
+// A component's file is swapped on the ground, in a host that goes on: parameters stay, a bad newcomer leaves
+// the old one flying-ready.
 #include "core/log/reader.hpp"
+#include "core/run/test/lab.hpp"
 
 namespace swap_test {
 
 namespace {
 
-std::string variant(const std::string& variant) { return std::string(FULMAR_TEST_PLUGIN_DIR) + "/lab" + variant + ".so"; }
+std::string variant(const std::string& variant) {
+  return std::string(FULMAR_TEST_PLUGIN_DIR) + "/lab" + variant + ".so";
+}
 
 // The cart arms itself at its first tick and says so from time 0 on: before that it stands on the ground.
 struct Ground {
@@ -40,9 +43,9 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 }  // namespace
 
 TEST_CASE("a swapped law flies with the parameters, overlays and live changes of before") {
-  Ground ground(
-      mission("phases:\n  wait: {law: {use: one, set: {id: 7}}, next: [{to: fly, when: \"vehicle.status.armed\"}]}\n  fly: {law: one}\n"),
-      true);
+  Ground ground(mission("phases:\n  wait: {law: {use: one, set: {id: 7}}, next: [{to: fly, when: "
+                        "\"vehicle.status.armed\"}]}\n  fly: {law: one}\n"),
+                true);
   ParamValue v;
   v.number[0] = 0.4;
   ground.flight->set_parameter("one", "u", v);
@@ -106,8 +109,9 @@ TEST_CASE("many swaps leave nothing behind") {
   const int swaps = std::getenv("FULMAR_LONG") ? 1000 : 12;
   Ground ground(mission(one_phase));
   for (int i = 0; i < swaps; ++i) {
-    ground.flight->swap("one", variant(i % 2 == 0 ? "_better" : ""));  // each unload is verified, or it throws
-    if (i % 5 > 0) continue;                                           // 300 ticks are left on the ground
+    ground.flight->swap("one",
+                        variant(i % 2 == 0 ? "_better" : ""));  // each unload is verified, or it throws
+    if (i % 5 > 0) continue;                                    // 300 ticks are left on the ground
     REQUIRE(ground.flight->step());
     REQUIRE(ground.u() == (i % 2 == 0 ? 0.05 : 0.1));
   }
@@ -117,7 +121,8 @@ TEST_CASE("a child that has died is started anew on the ground, and never in the
   if (!FULMAR_CRASH_TESTS) return;
   const auto said_after_reset = [](const char* fault_at, std::int64_t until_ns) {
     const Graph g =
-        mission("  one: {fills: law, use: lab/Law, run: process, params: {fault: crashes, fault_at: "s + fault_at + "}}\n" + with_fallback);
+        mission("  one: {fills: law, use: lab/Law, run: process, params: {fault: crashes, fault_at: "s +
+                fault_at + "}}\n" + with_fallback);
     std::string said;
     FlightOptions o = options(0.3);
     o.say = [&](const std::string& text, bool) { said += text + "\n"; };

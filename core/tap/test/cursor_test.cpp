@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tap under stress: what a cursor gives out is what went in, in order; what it was too slow for is counted to the message.
+// The tap under stress: what a cursor gives out is what went in, in order; what it was too slow for is
+// counted to the message.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -28,8 +29,10 @@ struct Block {
 std::vector<TapChannel> channels() {
   Field number, words;
   number.name = "number", number.kind = FULMAR_U64, number.stride = 8;
-  words.name = "words", words.kind = FULMAR_U64, words.shape = FULMAR_ARRAY, words.offset = 8, words.count = 40, words.stride = 8;
-  const TypePtr block = make_type("Block", sizeof(Block), 8, {number, words}), small = make_type("Small", 8, 8, {number});
+  words.name = "words", words.kind = FULMAR_U64, words.shape = FULMAR_ARRAY, words.offset = 8,
+  words.count = 40, words.stride = 8;
+  const TypePtr block = make_type("Block", sizeof(Block), 8, {number, words}),
+                small = make_type("Small", 8, 8, {number});
   return {{"/block", block}, {"/small", small}};
 }
 
@@ -43,15 +46,15 @@ Block block(std::uint64_t i) {
 /// Message i is a block, but every third a small one.
 void write(Tap& tap, std::uint64_t i) {
   const Block b = block(i);
-  tap.write(i % 3 == 2 ? 1 : 0, static_cast<std::int64_t>(i), -static_cast<std::int64_t>(i), reinterpret_cast<const std::byte*>(&b),
-            i % 2 == 0);
+  tap.write(i % 3 == 2 ? 1 : 0, static_cast<std::int64_t>(i), -static_cast<std::int64_t>(i),
+            reinterpret_cast<const std::byte*>(&b), i % 2 == 0);
 }
 
 bool intact(const Tap::Sample& s) {
   const std::uint64_t i = s.number;
   const Block want = block(i);
-  const bool header =
-      s.now_ns == static_cast<std::int64_t>(i) && s.valid_ns == -s.now_ns && s.channel == (i % 3 == 2 ? 1 : 0) && s.for_log == (i % 2 == 0);
+  const bool header = s.now_ns == static_cast<std::int64_t>(i) && s.valid_ns == -s.now_ns &&
+                      s.channel == (i % 3 == 2 ? 1 : 0) && s.for_log == (i % 2 == 0);
   return header && std::memcmp(s.data(), &want, s.channel == 1 ? 8 : sizeof want) == 0;
 }
 
@@ -59,7 +62,9 @@ constexpr std::uint64_t many = 200'000;
 
 }  // namespace
 
-TEST_CASE("a cursor that holds back gets every sample, while one that dawdles loses some, counted, and delays nobody") {
+TEST_CASE(
+    "a cursor that holds back gets every sample, while one that dawdles loses some, counted, and delays "
+    "nobody") {
   Tap tap(channels(), 1u << 15);
   Tap::Cursor binding(tap, true);
   std::atomic<bool> ended{false};
@@ -107,7 +112,8 @@ TEST_CASE("a cursor that holds back gets every sample, while one that dawdles lo
   CHECK(seen + lost <= many);  // it may have begun after the first
 }
 
-TEST_CASE("without a cursor that holds back the loop never waits; who comes back late goes on half a ring behind") {
+TEST_CASE(
+    "without a cursor that holds back the loop never waits; who comes back late goes on half a ring behind") {
   Tap tap(channels(), 1u << 15);
   Tap::Cursor slow(tap);
   for (std::uint64_t i = 0; i < 10'000; ++i) write(tap, i);

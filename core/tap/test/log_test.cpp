@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Logs written and read back: content, order, equal bytes for equal runs, and what is left when the process or the disk fails.
+// Logs written and read back: content, order, equal bytes for equal runs, and what is left when the process
+// or the disk fails.
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -18,11 +19,11 @@
 #include "core/error.hpp"
 #include "core/log/out_file.hpp"
 #include "core/log/reader.hpp"
-#include "tools/fulmar_log/recover.hpp"
-#include "core/types/sha256.hpp"
 #include "core/tap/test/taped_log.hpp"
+#include "core/types/sha256.hpp"
 #include "core/types/test/types.hpp"
 #include "core/types/wire.hpp"
+#include "tools/fulmar_log/recover.hpp"
 
 namespace log_test {
 
@@ -58,7 +59,10 @@ struct Number {
 TypePtr number_type() { return make_type("Number", 8, 8, {number("value_ratio", 0)}); }
 
 std::vector<TapChannel> two_channels() {
-  return {{"/mixed", mixed_type()}, {"/number", number_type()}, {"/silent", number_type()}, {"/other", number_type()}};
+  return {{"/mixed", mixed_type()},
+          {"/number", number_type()},
+          {"/silent", number_type()},
+          {"/other", number_type()}};
 }
 
 Mixed mixed_at(int i) {
@@ -111,13 +115,16 @@ bool is_flight(const McapFile& log) {
     if (topic == "/number") {
       Number n{};
       cdr_decode(*number_type(), m.data.data(), m.data.size(), bytes_of(n));
-      if (n.value_ratio != 0.5 * i || m.publish_ns != now || m.sequence != static_cast<std::uint32_t>(numbers)) return false;
+      if (n.value_ratio != 0.5 * i || m.publish_ns != now ||
+          m.sequence != static_cast<std::uint32_t>(numbers))
+        return false;
       ++numbers;
     } else {
       const Mixed want = mixed_at(i);
       std::vector<std::byte> bytes;
       encoder.encode(bytes_of(want), bytes);
-      if (!std::equal(bytes.begin(), bytes.end(), m.data.begin(), m.data.end()) || m.publish_ns != now - 1000) return false;
+      if (!std::equal(bytes.begin(), bytes.end(), m.data.begin(), m.data.end()) || m.publish_ns != now - 1000)
+        return false;
       ++mixed;
     }
   }
@@ -151,7 +158,8 @@ TEST_CASE("a log holds every message, attachment and metadata that went in") {
   const McapFile::Channel& channel = log.channels.at(log.channel("/mixed"));
   CHECK(channel.encoding == "cdr");
   CHECK(channel.metadata[0].first == "offered_qos_profiles");
-  CHECK(channel.metadata[1] == std::pair<std::string, std::string>("topic_type_hash", ros_type_hash(*mixed_type())));
+  CHECK(channel.metadata[1] ==
+        std::pair<std::string, std::string>("topic_type_hash", ros_type_hash(*mixed_type())));
   const McapFile::Schema& schema = log.schemas.at(channel.schema);
   CHECK(schema.name == "fulmar_msgs/msg/Mixed");
   CHECK(schema.encoding == "ros2msg");
@@ -160,7 +168,8 @@ TEST_CASE("a log holds every message, attachment and metadata that went in") {
   CHECK(log.attachment("mission.yaml")->content == "mission: test\n");
   CHECK(log.attachment("mission.yaml")->log_ns == static_cast<std::uint64_t>(epoch_ns));
   CHECK(log.attachment("result.json")->media_type == "application/json");
-  CHECK(log.metadata.at(0).pairs == std::vector<std::pair<std::string, std::string>>{{"seed", "7"}, {"io", "sim"}});
+  CHECK(log.metadata.at(0).pairs ==
+        std::vector<std::pair<std::string, std::string>>{{"seed", "7"}, {"io", "sim"}});
   CHECK_THROWS_WITH_AS(log.channel("/mixd"), doctest::Contains("/mixed"), Error);
 }
 
@@ -173,7 +182,9 @@ TEST_CASE("a log without messages is whole") {
   CHECK(log.attachments.size() == 2);
 }
 
-TEST_CASE("equal runs give equal bytes, whatever the file is called and however the ring fills; another run gives others") {
+TEST_CASE(
+    "equal runs give equal bytes, whatever the file is called and however the ring fills; another run gives "
+    "others") {
   const Folder folder;
   const LogResult a = write_log(folder.path / "a.mcap", 3000);
   const LogResult b = write_log(folder.path / "other_name.mcap", 3000, 0.5, 1u << 14);
@@ -203,7 +214,9 @@ TEST_CASE("a log never overwrites a file, finished or not, nor one that appears 
   CHECK(read_mcap(result.file).complete);
 }
 
-TEST_CASE("a flight faster than its log loses messages only if it may not wait, and every loss is counted and shows in the sequence") {
+TEST_CASE(
+    "a flight faster than its log loses messages only if it may not wait, and every loss is counted and "
+    "shows in the sequence") {
   const Folder folder;
   struct Wide {
     std::array<double, 500> x;
@@ -213,8 +226,9 @@ TEST_CASE("a flight faster than its log loses messages only if it may not wait, 
   Wide wide;
   for (double& x : wide.x) x = static_cast<double>(random());  // hard to compress
   for (const bool wait : {false, true}) {
-    TapedLog log({.file = folder.path / (wait ? "wait.mcap" : "drop.mcap"), .epoch_ns = epoch_ns, .wait = wait}, {{"/wide", type}},
-                 1u << 16);
+    TapedLog log(
+        {.file = folder.path / (wait ? "wait.mcap" : "drop.mcap"), .epoch_ns = epoch_ns, .wait = wait},
+        {{"/wide", type}}, 1u << 16);
     constexpr std::uint64_t n = 5000;
     for (std::uint64_t i = 0; i < n; ++i) log.write(0, static_cast<std::int64_t>(i), 0, bytes_of(wide));
     const LogResult result = log.close();
@@ -223,7 +237,8 @@ TEST_CASE("a flight faster than its log loses messages only if it may not wait, 
     CHECK(file.messages.size() == result.messages);
     bool rising = true;
     for (std::size_t i = 0; i < file.messages.size(); ++i) {
-      rising = rising && file.messages[i].sequence == file.messages[i].log_ns - static_cast<std::uint64_t>(epoch_ns);
+      rising = rising &&
+               file.messages[i].sequence == file.messages[i].log_ns - static_cast<std::uint64_t>(epoch_ns);
     }
     CHECK(rising);
     if (wait) {
@@ -245,7 +260,8 @@ TEST_CASE("a run killed in flight leaves a file whose whole chunks, mission incl
     log.attach("mission.yaml", "application/yaml", "mission: test\n");
     fly(log, 4000);
     // 10 s of flight: all but the last chunk, which is open, will get there
-    while (read_mcap(file.string() + ".part").messages.size() < 4400) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    while (read_mcap(file.string() + ".part").messages.size() < 4400)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
     const char ready = 'r';
     if (::write(pipe_ends[1], &ready, 1) != 1) ::_exit(3);
     for (;;) ::pause();
@@ -273,10 +289,13 @@ TEST_CASE("a run killed in flight leaves a file whose whole chunks, mission incl
   CHECK(whole.messages.size() == log.messages.size());
   CHECK(is_flight(whole));
   CHECK(whole.attachment("mission.yaml")->content == "mission: test\n");
-  CHECK(whole.channels.at(whole.channel("/mixed")).metadata == log.channels.at(log.channel("/mixed")).metadata);
+  CHECK(whole.channels.at(whole.channel("/mixed")).metadata ==
+        log.channels.at(log.channel("/mixed")).metadata);
 }
 
-TEST_CASE("a file cut off at any byte gives the chunks before the cut; a flipped byte never gives a wrong message") {
+TEST_CASE(
+    "a file cut off at any byte gives the chunks before the cut; a flipped byte never gives a wrong "
+    "message") {
   const Folder folder;
   const LogResult result = write_log(folder.path / "a.mcap", 1200);
   const std::string whole = contents(result.file);
@@ -302,7 +321,9 @@ TEST_CASE("a file cut off at any byte gives the chunks before the cut; a flipped
   }
 }
 
-TEST_CASE("on a full disk the flight goes on, every message not stored is counted, and the file stays one that was cut off") {
+TEST_CASE(
+    "on a full disk the flight goes on, every message not stored is counted, and the file stays one that was "
+    "cut off") {
   const Folder folder;
   const fs::path file = folder.path / "a.mcap";
   const int status = in_child([&] {
@@ -334,25 +355,32 @@ TEST_CASE("a log that fails is told of while the flight lasts") {
       if (i == 10'000) return 2;
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    return log.log.error() == "cannot write '" + (folder.path / "a.mcap.part").string() + "': File too large" ? 0 : 3;
+    return log.log.error() == "cannot write '" + (folder.path / "a.mcap.part").string() + "': File too large"
+               ? 0
+               : 3;
   });
   REQUIRE(WIFEXITED(status));
   CHECK(WEXITSTATUS(status) == 0);
 }
 
-TEST_CASE("a file of a log that rotates begins with the last sample of each topic, and of each name that a message is given") {
+TEST_CASE(
+    "a file of a log that rotates begins with the last sample of each topic, and of each name that a message "
+    "is given") {
   const Folder folder;
   const auto positive = [](std::size_t channel, const std::byte* data) {
     double value = 0;
     std::memcpy(&value, data, sizeof value);
     return channel == 1 && value > 0 ? "positive" : "";
   };
-  TapedLog log({.file = folder.path / "a.mcap", .epoch_ns = epoch_ns, .rotate_ns = 1'000'000'000, .lasting = positive}, two_channels());
+  TapedLog log(
+      {.file = folder.path / "a.mcap", .epoch_ns = epoch_ns, .rotate_ns = 1'000'000'000, .lasting = positive},
+      two_channels());
   const auto write = [&](std::size_t channel, std::int64_t ms, double value) {
     const Number n{value};
     log.write(channel, ms * 1'000'000, ms * 1'000'000 - 500, bytes_of(n));
   };
-  write(1, 0, 3), write(1, 100, 4), write(1, 200, -1), write(3, 300, 8), write(1, 900, -2), write(3, 990, 9), write(1, 1000, -3);
+  write(1, 0, 3), write(1, 100, 4), write(1, 200, -1), write(3, 300, 8), write(1, 900, -2), write(3, 990, 9),
+      write(1, 1000, -3);
   const LogResult result = log.close();
   REQUIRE(result.files == 2);
   CHECK(result.messages == 7);
@@ -364,7 +392,8 @@ TEST_CASE("a file of a log that rotates begins with the last sample of each topi
     std::int64_t ms;
     double value;
   };
-  const Wanted list[] = {{"/number", 1, 100, 4}, {"/number", 3, 900, -2}, {"/other", 1, 990, 9}, {"/number", 4, 1000, -3}};
+  const Wanted list[] = {
+      {"/number", 1, 100, 4}, {"/number", 3, 900, -2}, {"/other", 1, 990, 9}, {"/number", 4, 1000, -3}};
   REQUIRE(second.messages.size() == 4);
   for (std::size_t i = 0; i < 4; ++i) {
     const McapFile::Message& m = second.messages[i];
@@ -385,7 +414,8 @@ TEST_CASE("a file that is being written is known as such until its writer ends")
     TapedLog log({.file = folder.path / "a.mcap", .epoch_ns = epoch_ns}, two_channels());
     fly(log, 1000);
     CHECK(OutFile::grows(part));
-    CHECK_THROWS_WITH_AS(write_log(folder.path / "a.mcap", 1), doctest::Contains("another run is writing it"), Error);
+    CHECK_THROWS_WITH_AS(write_log(folder.path / "a.mcap", 1), doctest::Contains("another run is writing it"),
+                         Error);
     log.close();
     CHECK_FALSE(OutFile::grows(folder.path / "a.mcap"));
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// tap_sample_log FILE: writes a log with known values and prints, as one JSON object, what any reader must find in it.
-// Topic by topic: the messages in order, each {log_ns, publish_ns, sequence, value}; times as text, for readers without 64-bit integers.
+// tap_sample_log FILE: writes a log with known values and prints, as one JSON object, what any reader must
+// find in it. Topic by topic: the messages in order, each {log_ns, publish_ns, sequence, value}; times as
+// text, for readers without 64-bit integers.
 #include <exception>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -25,11 +26,12 @@ struct Tail {
 };
 
 std::vector<TapChannel> channels() {
-  return {
-      {"/mixed", mixed_type()},
-      {"/empty", make_type("Empty", 1, 1, {})},
-      {"/tail", make_type("Tail", sizeof(Tail), 8, {list(number("list", 0), 5, 8), scalar("last", FULMAR_BOOL, offsetof(Tail, last), 1)})},
-      {"/mixed_too", mixed_type()}};
+  return {{"/mixed", mixed_type()},
+          {"/empty", make_type("Empty", 1, 1, {})},
+          {"/tail",
+           make_type("Tail", sizeof(Tail), 8,
+                     {list(number("list", 0), 5, 8), scalar("last", FULMAR_BOOL, offsetof(Tail, last), 1)})},
+          {"/mixed_too", mixed_type()}};
 }
 
 void fly(TapedLog& log) {

@@ -25,12 +25,17 @@ static const fulmar_field axes[] = {
 };
 static const fulmar_type vector = {"Vec3", "ned", "", axes, 3, sizeof(fulmar_field), 24, 8};
 static const fulmar_field fields[] = {
-    {"airspeed_mps", "m/s", NULL, NULL, 0, FULMAR_F64, FULMAR_SCALAR, offsetof(struct sample, airspeed_mps), 1, 8, 0, -INFINITY, INFINITY},
-    {"position_m", "m", &vector, NULL, 0, FULMAR_STRUCT, FULMAR_SCALAR, offsetof(struct sample, position_m), 1, 24, 0, -INFINITY, INFINITY},
-    {"mode", "", NULL, modes, 2, FULMAR_ENUM, FULMAR_SCALAR, offsetof(struct sample, mode), 1, 1, 0, -INFINITY, INFINITY},
-    {"valid", "", NULL, NULL, 0, FULMAR_BOOL, FULMAR_SCALAR, offsetof(struct sample, valid), 1, 1, 0, -INFINITY, INFINITY},
+    {"airspeed_mps", "m/s", NULL, NULL, 0, FULMAR_F64, FULMAR_SCALAR, offsetof(struct sample, airspeed_mps),
+     1, 8, 0, -INFINITY, INFINITY},
+    {"position_m", "m", &vector, NULL, 0, FULMAR_STRUCT, FULMAR_SCALAR, offsetof(struct sample, position_m),
+     1, 24, 0, -INFINITY, INFINITY},
+    {"mode", "", NULL, modes, 2, FULMAR_ENUM, FULMAR_SCALAR, offsetof(struct sample, mode), 1, 1, 0,
+     -INFINITY, INFINITY},
+    {"valid", "", NULL, NULL, 0, FULMAR_BOOL, FULMAR_SCALAR, offsetof(struct sample, valid), 1, 1, 0,
+     -INFINITY, INFINITY},
 };
-static const fulmar_type sample_type = {"Sample", "", "", fields, 4, sizeof(fulmar_field), sizeof(struct sample), 8};
+static const fulmar_type sample_type = {
+    "Sample", "", "", fields, 4, sizeof(fulmar_field), sizeof(struct sample), 8};
 
 static const fulmar_port inputs[] = {
     {"state", &sample_type, FULMAR_IN_VALUE, 0, 1},
@@ -48,13 +53,52 @@ static const fulmar_port outputs[] = {
 static const struct sample initial = {17.0, {1.0, 2.0, -70.0}, 1, 1};
 static const char* const laws[] = {"hold", "climb"};
 static const fulmar_param params[] = {
-    {"gain", "rad/rad", "multiplies", "", NULL, NULL, NULL, 0, FULMAR_NUMBER, FULMAR_LIVE, 0, {0.5, 0, 0}, 0, 2},
+    {"gain",
+     "rad/rad",
+     "multiplies",
+     "",
+     NULL,
+     NULL,
+     NULL,
+     0,
+     FULMAR_NUMBER,
+     FULMAR_LIVE,
+     0,
+     {0.5, 0, 0},
+     0,
+     2},
     {"on", "", "does anything", "", NULL, NULL, NULL, 0, FULMAR_FLAG, FULMAR_LIVE, 0, {1, 0, 0}, 0, 1},
     {"repeats", "", "how often", "", NULL, NULL, NULL, 0, FULMAR_COUNT, 0, 0, {3, 0, 0}, 0, 10},
     {"law", "", "which one", "", laws, NULL, NULL, 2, FULMAR_CHOICE, FULMAR_LIVE, 0, {1, 0, 0}, 0, 1},
     {"label", "", "a word", "x", NULL, NULL, NULL, 0, FULMAR_STRING, 0, 32, {0, 0, 0}, 0, 0},
-    {"wind", "m/s", "of the air", "", NULL, &vector, NULL, 0, FULMAR_VECTOR, FULMAR_LIVE, 0, {3, -4, 0}, -30, 30},
-    {"start", "", "where it begins", "", NULL, &sample_type, &initial, 0, FULMAR_RECORD, 0, 0, {0, 0, 0}, 0, 0},
+    {"wind",
+     "m/s",
+     "of the air",
+     "",
+     NULL,
+     &vector,
+     NULL,
+     0,
+     FULMAR_VECTOR,
+     FULMAR_LIVE,
+     0,
+     {3, -4, 0},
+     -30,
+     30},
+    {"start",
+     "",
+     "where it begins",
+     "",
+     NULL,
+     &sample_type,
+     &initial,
+     0,
+     FULMAR_RECORD,
+     0,
+     0,
+     {0, 0, 0},
+     0,
+     0},
     {"table", "", "bytes", "", NULL, NULL, NULL, 0, FULMAR_BLOB, FULMAR_REQUIRED, 0, {0, 0, 0}, 0, 0},
 };
 
@@ -72,7 +116,8 @@ static uint32_t configure(void* self, const fulmar_value* values, fulmar_error* 
   return FULMAR_OK;
 }
 
-static uint32_t step(void* self, const fulmar_tick* tick, const fulmar_input* in, fulmar_output* out, fulmar_error* error) {
+static uint32_t step(void* self, const fulmar_tick* tick, const fulmar_input* in, fulmar_output* out,
+                     fulmar_error* error) {
   (void)self, (void)tick, (void)error;
   *(struct sample*)out[0].data = *(const struct sample*)in[0].data;
   ((struct sample*)out[0].data)->airspeed_mps *= FACTOR;
@@ -97,7 +142,16 @@ static const fulmar_component component = {
 };
 
 __attribute__((visibility("default"))) const fulmar_plugin fulmar_plugin_entry = {
-    FULMAR_ABI_MAJOR, FULMAR_ABI_MINOR, 1, sizeof(fulmar_component), VERSION, "a C compiler", "NDEBUG", &component, NULL, NULL,
+    FULMAR_ABI_MAJOR,
+    FULMAR_ABI_MINOR,
+    1,
+    sizeof(fulmar_component),
+    VERSION,
+    "a C compiler",
+    "NDEBUG",
+    &component,
+    NULL,
+    NULL,
 };
 
 /* Something else that is visible in the source: the version script hides it. */

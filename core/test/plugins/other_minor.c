@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A plugin of another minor version: every element of its tables is longer than this host's (a newer SDK), or its entry ends where that of
- * ABI 1.0 ended (an older SDK). */
+/* A plugin of another minor version: every element of its tables is longer than this host's (a newer SDK), or
+ * its entry ends where that of ABI 1.0 ended (an older SDK). */
 #include <fulmar/abi.h>
 #include <math.h>
 #include <stddef.h>
@@ -57,7 +57,8 @@ static uint32_t configure(void* self, const fulmar_value* values, fulmar_error* 
   (void)self, (void)values, (void)error;
   return FULMAR_OK;
 }
-static uint32_t step(void* self, const fulmar_tick* tick, const fulmar_input* in, fulmar_output* out, fulmar_error* error) {
+static uint32_t step(void* self, const fulmar_tick* tick, const fulmar_input* in, fulmar_output* out,
+                     fulmar_error* error) {
   (void)self, (void)tick, (void)in, (void)error;
   ((double*)out[1].data)[1] = 42;
   return FULMAR_OK;
@@ -85,8 +86,9 @@ typedef struct {
   fulmar_plugin base;
   TAIL
 } entry;
-__attribute__((visibility("default"))) const entry fulmar_plugin_entry = {
-    {FULMAR_ABI_MAJOR, MINOR, 2, sizeof(component), "1.0.0", "a C compiler", "", &components[0].base, NULL, NULL} TAIL_VALUE};
+__attribute__((visibility("default")))
+const entry fulmar_plugin_entry = {{FULMAR_ABI_MAJOR, MINOR, 2, sizeof(component), "1.0.0", "a C compiler",
+                                    "", &components[0].base, NULL, NULL} TAIL_VALUE};
 #else
 /* As abi.h of 1.0 had it. */
 typedef struct {
@@ -94,7 +96,8 @@ typedef struct {
   const char *version, *toolchain, *flags;
   const fulmar_component* components;
 } entry_1_0;
-_Static_assert(sizeof(entry_1_0) == offsetof(fulmar_plugin, open_script), "the entry of ABI 1.0 is the beginning of ours");
-__attribute__((visibility("default")))
-const entry_1_0 fulmar_plugin_entry = {FULMAR_ABI_MAJOR, MINOR, 2, sizeof(component), "1.0.0", "a C compiler", "", &components[0].base};
+_Static_assert(sizeof(entry_1_0) == offsetof(fulmar_plugin, open_script),
+               "the entry of ABI 1.0 is the beginning of ours");
+__attribute__((visibility("default"))) const entry_1_0 fulmar_plugin_entry = {
+    FULMAR_ABI_MAJOR, MINOR, 2, sizeof(component), "1.0.0", "a C compiler", "", &components[0].base};
 #endif

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Leaves a thread-local object with a destructor behind: the system's loader keeps the library until the thread ends.
+// Leaves a thread-local object with a destructor behind: the system's loader keeps the library until the
+// thread ends.
 #include <cstdlib>
 
 namespace {

@@ -49,11 +49,13 @@
 
 static const fulmar_field fields[] = {
     {"x_m", "m", NULL, NULL, 0, FIELD_KIND, FULMAR_SCALAR, 0, 1, 8, 0, -INFINITY, INFINITY},
-    {SECOND_NAME, "m", NULL, NULL, 0, FULMAR_F64, FULMAR_SCALAR, SECOND_OFFSET, SECOND_COUNT, 8, 0, -INFINITY, INFINITY},
+    {SECOND_NAME, "m", NULL, NULL, 0, FULMAR_F64, FULMAR_SCALAR, SECOND_OFFSET, SECOND_COUNT, 8, 0, -INFINITY,
+     INFINITY},
 };
 static const fulmar_type point = {"Point", "", "", fields, 2, sizeof(fulmar_field), 16, 8};
 static const fulmar_port outputs[] = {{"place", &point, PORT_KIND, 0, 1}};
-static const fulmar_param params[] = {{"gain", "", "", "", NULL, NULL, NULL, 0, PARAM_KIND, 0, 0, {DEFAULT, 0, 0}, 0, 2}};
+static const fulmar_param params[] = {
+    {"gain", "", "", "", NULL, NULL, NULL, 0, PARAM_KIND, 0, 0, {DEFAULT, 0, 0}, 0, 2}};
 
 static void* create(uint64_t seed, fulmar_error* error) {
   (void)seed, (void)error;
@@ -65,8 +67,10 @@ static uint32_t configure(void* self, const fulmar_value* values, fulmar_error* 
   (void)self, (void)values, (void)error;
   return FULMAR_OK;
 }
-uint32_t step(void* self, const fulmar_tick* tick, const fulmar_input* in, fulmar_output* out, fulmar_error* error);
-uint32_t step(void* self, const fulmar_tick* tick, const fulmar_input* in, fulmar_output* out, fulmar_error* error) {
+uint32_t step(void* self, const fulmar_tick* tick, const fulmar_input* in, fulmar_output* out,
+              fulmar_error* error);
+uint32_t step(void* self, const fulmar_tick* tick, const fulmar_input* in, fulmar_output* out,
+              fulmar_error* error) {
   (void)self, (void)tick, (void)in, (void)out, (void)error;
   return FULMAR_OK;
 }

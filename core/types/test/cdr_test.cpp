@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Expected bytes are written by hand from the XCDR1 rules; random types are checked against a second encoder that does nothing clever.
+// Expected bytes are written by hand from the XCDR1 rules; random types are checked against a second encoder
+// that does nothing clever.
 #include <doctest/doctest.h>
 
 #include <cstring>
@@ -48,9 +49,12 @@ TEST_CASE("a message of every kind has the bytes that XCDR1 asks for") {
   Mixed m;
   std::memset(&m, 0xAA, sizeof m);  // padding of the struct must not reach the wire
   const Mixed value = mixed_value();
-  m.armed = value.armed, m.speed_mps = value.speed_mps, m.count = value.count, m.gains_ratio = value.gains_ratio, m.name = value.name;
-  m.samples_volt.count = 2, m.samples_volt.items = value.samples_volt.items, m.mode = value.mode, m.stamp_ns = value.stamp_ns;
-  m.load_ratio = value.load_ratio, m.offset = value.offset, m.attitude_std_rad = value.attitude_std_rad, m.tags = value.tags;
+  m.armed = value.armed, m.speed_mps = value.speed_mps, m.count = value.count,
+  m.gains_ratio = value.gains_ratio, m.name = value.name;
+  m.samples_volt.count = 2, m.samples_volt.items = value.samples_volt.items, m.mode = value.mode,
+  m.stamp_ns = value.stamp_ns;
+  m.load_ratio = value.load_ratio, m.offset = value.offset, m.attitude_std_rad = value.attitude_std_rad,
+  m.tags = value.tags;
   m.legs.count = 2;
   for (std::size_t i = 0; i < 2; ++i) {
     Leg& leg = m.legs.items[i];
@@ -89,7 +93,8 @@ TEST_CASE("after an empty sequence nothing is aligned for the elements that are 
     Items<double, 2> list;
     bool tail;
   };
-  const TypePtr type = make_type("S", sizeof(S), 8, {list(number("list", 0), 2, 8), scalar("tail", FULMAR_BOOL, offsetof(S, tail), 1)});
+  const TypePtr type = make_type(
+      "S", sizeof(S), 8, {list(number("list", 0), 2, 8), scalar("tail", FULMAR_BOOL, offsetof(S, tail), 1)});
   const S s{{0, {9, 9}}, true};
   CHECK(encoded(*type, bytes_of(s)) == hex("00010000 00000000 01"));
 }
@@ -103,14 +108,16 @@ TEST_CASE("a list that counts beyond its capacity is cut, not read beyond its en
   CHECK(encoded(*type, bytes_of(s)) == hex("00010000 02000000 0506"));
 }
 
-TEST_CASE("text that fills its room ends in NUL on the wire, empty text is one NUL, an empty struct one byte") {
+TEST_CASE(
+    "text that fills its room ends in NUL on the wire, empty text is one NUL, an empty struct one byte") {
   struct S {
     std::array<char, 3> full, empty;
     char nothing;
   };
   const TypePtr none = make_type("Nothing", 1, 1, {});
-  const TypePtr type =
-      make_type("S", sizeof(S), 1, {scalar("full", FULMAR_TEXT, 0, 3), scalar("empty", FULMAR_TEXT, 3, 3), nested("nothing", none, 6)});
+  const TypePtr type = make_type(
+      "S", sizeof(S), 1,
+      {scalar("full", FULMAR_TEXT, 0, 3), scalar("empty", FULMAR_TEXT, 3, 3), nested("nothing", none, 6)});
   const S s{{'a', 'b', 'c'}, {}, 'x'};
   CHECK(encoded(*type, bytes_of(s)) == hex("00010000 04000000 61626300 01000000 00 00"));
 }
@@ -131,7 +138,8 @@ TEST_CASE("bytes that are cut off, too many, or not CDR are refused") {
   const Mixed m = mixed_value();
   Blob bytes = encoded(*type, bytes_of(m));
   Mixed out;
-  for (std::size_t n = 0; n < bytes.size(); ++n) CHECK_THROWS_AS(cdr_decode(*type, bytes.data(), n, bytes_of(out)), Error);
+  for (std::size_t n = 0; n < bytes.size(); ++n)
+    CHECK_THROWS_AS(cdr_decode(*type, bytes.data(), n, bytes_of(out)), Error);
   Blob longer = bytes;
   longer.resize(bytes.size() + 4);
   CHECK_THROWS_AS(cdr_decode(*type, longer.data(), longer.size(), bytes_of(out)), Error);
@@ -157,8 +165,7 @@ struct Plain {
   }
   void element(const Field& f, const std::byte* at) {
     switch (f.kind) {
-      case FULMAR_STRUCT:
-        return type(*f.type, at);
+      case FULMAR_STRUCT: return type(*f.type, at);
       case FULMAR_TEXT: {
         const auto n = static_cast<std::uint32_t>(::strnlen(reinterpret_cast<const char*>(at), f.stride));
         const std::uint32_t length = n + 1;
@@ -167,8 +174,7 @@ struct Plain {
         out.push_back(std::byte{0});
         return;
       }
-      default:
-        return raw(at, f.stride);
+      default: return raw(at, f.stride);
     }
   }
   void type(const Type& t, const std::byte* data) {
@@ -244,7 +250,9 @@ struct Maker {
 
 }  // namespace
 
-TEST_CASE("the compiled encoder agrees with an encoder that does nothing clever, and the decoder undoes it, for random types") {
+TEST_CASE(
+    "the compiled encoder agrees with an encoder that does nothing clever, and the decoder undoes it, for "
+    "random types") {
   Maker maker;
   std::size_t with_bytes = 0;
   for (int i = 0; i < 2000; ++i) {

@@ -41,8 +41,9 @@ TEST_CASE("people see fields in the message's order, and rates in degrees as wel
   } const value;
   const TypePtr type =
       make_type("Turns", sizeof value, 8,
-                {scalar("z_m", FULMAR_F64, 0, 8), array(scalar("rates_radps", FULMAR_F64, 8, 8), 2), scalar("bank_rad", FULMAR_F64, 24, 8),
-                 scalar("a_radps2", FULMAR_F64, 32, 8), scalar("load_ratio", FULMAR_F64, 40, 8)});
+                {scalar("z_m", FULMAR_F64, 0, 8), array(scalar("rates_radps", FULMAR_F64, 8, 8), 2),
+                 scalar("bank_rad", FULMAR_F64, 24, 8), scalar("a_radps2", FULMAR_F64, 32, 8),
+                 scalar("load_ratio", FULMAR_F64, 40, 8)});
   const nlohmann::ordered_json shown = shown_json(*type, bytes_of(value));
   CHECK(shown_name("p_radps") == "p_degps");
   CHECK(shown_name("p_degps") == "p_degps");
@@ -56,7 +57,8 @@ TEST_CASE("people see fields in the message's order, and rates in degrees as wel
   CHECK(to_json(*type, bytes_of(value), true).contains("a_radps2"));  // results keep their rates
 }
 
-TEST_CASE("a number that is not finite is null, a label that does not exist a number, broken text stays JSON") {
+TEST_CASE(
+    "a number that is not finite is null, a label that does not exist a number, broken text stays JSON") {
   Mixed m = mixed_value();
   m.speed_mps = std::numeric_limits<double>::quiet_NaN();
   m.load_ratio = -std::numeric_limits<float>::infinity();

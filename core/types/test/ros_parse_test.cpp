@@ -59,22 +59,29 @@ TEST_CASE("bytes that were encoded from the struct decode with the type that was
              {"kind": "line", "has_course": false, "course_rad": -0.5, "position_m": {"north": 6, "east": 7, "down": 8}}]})"));
 }
 
-TEST_CASE("bytes are listed value by value with the type that was read from the text, however long their lists") {
+TEST_CASE(
+    "bytes are listed value by value with the type that was read from the text, however long their lists") {
   std::vector<std::byte> bytes;
   CdrEncoder(*mixed_type()).encode(bytes_of(mixed_value()), bytes);
   const TypePtr type = parse_ros_schema("fulmar_msgs/msg/Mixed", ros_definition(*mixed_type()));
   std::string text;
   for (const CdrValue& v : cdr_values(*type, bytes, 100)) text += v.name + "=" + v.text + " ";
   CHECK(text ==
-        "armed=1 speed_mps=1.5 count=7 gains_ratio[0]=1 gains_ratio[1]=2 gains_ratio[2]=-2 name=ab samples_volt[0]=0.5 "
-        "samples_volt[1]=1 mode=hold stamp_ns=-2 load_ratio=0.25 offset=-3 attitude_std_rad.north=0.5 attitude_std_rad.east=1 "
-        "attitude_std_rad.down=2 tags[0]=x tags[1]=yzw legs[0].kind=orbit legs[0].has_course=1 legs[0].course_rad=0.5 "
-        "legs[0].position_m.north=3 legs[0].position_m.east=4 legs[0].position_m.down=5 legs[1].kind=line legs[1].has_course=0 "
-        "legs[1].course_rad=-0.5 legs[1].position_m.north=6 legs[1].position_m.east=7 legs[1].position_m.down=8 ");
+        "armed=1 speed_mps=1.5 count=7 gains_ratio[0]=1 gains_ratio[1]=2 gains_ratio[2]=-2 name=ab "
+        "samples_volt[0]=0.5 "
+        "samples_volt[1]=1 mode=hold stamp_ns=-2 load_ratio=0.25 offset=-3 attitude_std_rad.north=0.5 "
+        "attitude_std_rad.east=1 "
+        "attitude_std_rad.down=2 tags[0]=x tags[1]=yzw legs[0].kind=orbit legs[0].has_course=1 "
+        "legs[0].course_rad=0.5 "
+        "legs[0].position_m.north=3 legs[0].position_m.east=4 legs[0].position_m.down=5 legs[1].kind=line "
+        "legs[1].has_course=0 "
+        "legs[1].course_rad=-0.5 legs[1].position_m.north=6 legs[1].position_m.east=7 "
+        "legs[1].position_m.down=8 ");
   CHECK_THROWS_AS(cdr_values(*type, bytes, 10), Error);
   for (std::size_t n = 0; n < bytes.size(); ++n)
     CHECK_THROWS_AS(cdr_values(*type, std::span(bytes).first(n), 100), Error);
-  std::vector<std::byte> many{std::byte{0}, std::byte{1}, std::byte{0}, std::byte{0}, std::byte{44}, std::byte{1}, std::byte{0}, std::byte{0}};
+  std::vector<std::byte> many{std::byte{0},  std::byte{1}, std::byte{0}, std::byte{0},
+                              std::byte{44}, std::byte{1}, std::byte{0}, std::byte{0}};
   many.resize(8 + 300);
   CHECK(cdr_values(*parse_ros_schema("a/msg/B", "uint8[] x\n"), many, 1000).size() == 300);
 }
@@ -84,8 +91,9 @@ TEST_CASE("a definition of ROS 2 itself is read: comments, short names, nested p
   const std::string rule = std::string(80, '=') + "\n";
   const std::string text =
       "# A Pose with reference coordinate frame and timestamp\n\nstd_msgs/Header header\nPose pose\n" + rule +
-      "MSG: std_msgs/Header\n# Two-integer timestamp\nbuiltin_interfaces/Time stamp\n\n# Transform frame\nstring frame_id\n" + rule +
-      "MSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n" + rule +
+      "MSG: std_msgs/Header\n# Two-integer timestamp\nbuiltin_interfaces/Time stamp\n\n# Transform "
+      "frame\nstring frame_id\n" +
+      rule + "MSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n" + rule +
       "MSG: geometry_msgs/Pose\nPoint position\nQuaternion orientation\n" + rule +
       "MSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n" + rule +
       "MSG: geometry_msgs/Quaternion\r\nfloat64 x 0\r\nfloat64 y 0\r\nfloat64 z 0\r\nfloat64 w 1\r\n";
@@ -95,8 +103,9 @@ TEST_CASE("a definition of ROS 2 itself is read: comments, short names, nested p
 }
 
 TEST_CASE("constants that do not count from 0 make no labels, bounds of text and lists are kept") {
-  const TypePtr type =
-      parse_ros_definition("a/msg/B", "uint8 LOW=1\nuint8 HIGH = 2\nuint8 level\nstring NAME=\"x=y\"\nstring<=7 name\nint32[] all\n");
+  const TypePtr type = parse_ros_definition(
+      "a/msg/B",
+      "uint8 LOW=1\nuint8 HIGH = 2\nuint8 level\nstring NAME=\"x=y\"\nstring<=7 name\nint32[] all\n");
   CHECK(type->ros == "a/msg/B");
   REQUIRE(type->fields.size() == 3);
   CHECK(type->fields[0].kind == FULMAR_U8);
@@ -107,8 +116,9 @@ TEST_CASE("constants that do not count from 0 make no labels, bounds of text and
 }
 
 TEST_CASE("a schema tells what has no bound, and every whole number that constants name") {
-  const TypePtr type = parse_ros_schema(
-      "a/msg/B", "int8 FIX_NONE=-1\nint8 FIX_3D = 2 # metres\nfloat32 FIX_X=1.5\nint8[<=4] fix\nstring[] words\nstring<=7 name\n");
+  const TypePtr type = parse_ros_schema("a/msg/B",
+                                        "int8 FIX_NONE=-1\nint8 FIX_3D = 2 # metres\nfloat32 "
+                                        "FIX_X=1.5\nint8[<=4] fix\nstring[] words\nstring<=7 name\n");
   REQUIRE(type->fields.size() == 3);
   const Field &fix = type->fields[0], &words = type->fields[1], &name = type->fields[2];
   CHECK(fix.constants == std::vector<std::pair<std::int64_t, std::string>>{{-1, "none"}, {2, "3d"}});
@@ -123,14 +133,18 @@ TEST_CASE("a schema tells what has no bound, and every whole number that constan
 }
 
 TEST_CASE("a bare Header is the package's own, where it has one, else that of std_msgs") {
-  const std::string rule = std::string(80, '=') + "\n", theirs = rule + "MSG: std_msgs/Header\nstring frame_id\n";
-  CHECK(parse_ros_definition("a/msg/B", "Header h\n" + theirs)->find("h")->type->ros == "std_msgs/msg/Header");
+  const std::string rule = std::string(80, '=') + "\n",
+                    theirs = rule + "MSG: std_msgs/Header\nstring frame_id\n";
+  CHECK(parse_ros_definition("a/msg/B", "Header h\n" + theirs)->find("h")->type->ros ==
+        "std_msgs/msg/Header");
   const std::string own = theirs + rule + "MSG: a/Header\nint32 x\n";
   CHECK(parse_ros_definition("a/msg/B", "Header h\n" + own)->find("h")->type->ros == "a/msg/Header");
 }
 
 TEST_CASE("a definition that cannot be read is refused with the line that is wrong") {
-  const auto refused = [](const std::string& text) { return refusal([&] { parse_ros_definition("a/msg/B", text); }); };
+  const auto refused = [](const std::string& text) {
+    return refusal([&] { parse_ros_definition("a/msg/B", text); });
+  };
   CHECK(refused("complex64 x\n") == "a/msg/B: 'complex64 x': the type complex64 is not known here");
   CHECK(refused("float64\n") == "a/msg/B: 'float64': a field needs a type and a name");
   CHECK(refused("float64[x] y\n") == "a/msg/B: 'float64[x] y': a list's length cannot be read");
@@ -142,10 +156,12 @@ TEST_CASE("a definition that cannot be read is refused with the line that is wro
   CHECK(refused(many) == "a/msg/B: 'bool x20000': too many fields");
   std::string chain = "C10 x\nC20 y\n";  // the second is too deep by what the first has already read
   for (int i = 1; i <= 20; ++i)
-    chain += "====\nMSG: a/C" + std::to_string(i) + "\n" + (i == 1 ? "bool" : "C" + std::to_string(i - 1)) + " x\n";
+    chain += "====\nMSG: a/C" + std::to_string(i) + "\n" + (i == 1 ? "bool" : "C" + std::to_string(i - 1)) +
+             " x\n";
   CHECK(refused(chain) == "a/msg/C10 is nested too deeply, or holds itself");
   CHECK(refused("B b\n") == "a/msg/B is nested too deeply, or holds itself");
-  CHECK(refusal([] { parse_ros_definition("B", ""); }) == "'B' is no ROS message type, which has the form package/msg/Name");
+  CHECK(refusal([] { parse_ros_definition("B", ""); }) ==
+        "'B' is no ROS message type, which has the form package/msg/Name");
   CHECK(parse_ros_definition("a/msg/Empty", "")->size == 1);
 }
 

@@ -45,7 +45,8 @@ struct Mixed {
   Items<Leg, 3> legs;
 };
 
-inline Field scalar(std::string name, fulmar_kind kind, std::size_t offset, std::size_t stride, std::string unit = "") {
+inline Field scalar(std::string name, fulmar_kind kind, std::size_t offset, std::size_t stride,
+                    std::string unit = "") {
   Field f;
   f.name = std::move(name);
   f.unit = std::move(unit);
@@ -80,8 +81,8 @@ inline Field list(Field f, std::uint32_t capacity, std::size_t items) {
   f.items = static_cast<std::uint32_t>(items);
   return f;
 }
-inline TypePtr make_type(std::string name, std::size_t size, std::size_t align, std::vector<Field> fields, std::string frame = "",
-                         std::string ros = "") {
+inline TypePtr make_type(std::string name, std::size_t size, std::size_t align, std::vector<Field> fields,
+                         std::string frame = "", std::string ros = "") {
   Type t;
   t.name = std::move(name);
   t.frame = std::move(frame);
@@ -93,28 +94,33 @@ inline TypePtr make_type(std::string name, std::size_t size, std::size_t align, 
 }
 
 inline TypePtr vector_type() {
-  return make_type("Vec3Ned", sizeof(Vector), 8, {number("north", 0), number("east", 8), number("down", 16)}, "ned");
+  return make_type("Vec3Ned", sizeof(Vector), 8, {number("north", 0), number("east", 8), number("down", 16)},
+                   "ned");
 }
 inline TypePtr leg_type() {
-  return make_type(
-      "Leg", sizeof(Leg), 8,
-      {label("kind", {"line", "orbit"}, offsetof(Leg, kind)), scalar("has_course", FULMAR_BOOL, offsetof(Leg, has_course), 1),
-       number("course_rad", offsetof(Leg, course_rad), "rad"), nested("position_m", vector_type(), offsetof(Leg, position_m), "m")});
+  return make_type("Leg", sizeof(Leg), 8,
+                   {label("kind", {"line", "orbit"}, offsetof(Leg, kind)),
+                    scalar("has_course", FULMAR_BOOL, offsetof(Leg, has_course), 1),
+                    number("course_rad", offsetof(Leg, course_rad), "rad"),
+                    nested("position_m", vector_type(), offsetof(Leg, position_m), "m")});
 }
 inline TypePtr mixed_type() {
   using S = Items<double, 4>;
   using L = Items<Leg, 3>;
-  return make_type(
-      "Mixed", sizeof(Mixed), 8,
-      {scalar("armed", FULMAR_BOOL, offsetof(Mixed, armed), 1), number("speed_mps", offsetof(Mixed, speed_mps), "m/s"),
-       scalar("count", FULMAR_U32, offsetof(Mixed, count), 4), array(number("gains_ratio", offsetof(Mixed, gains_ratio)), 3),
-       scalar("name", FULMAR_TEXT, offsetof(Mixed, name), 8),
-       list(number("samples_volt", offsetof(Mixed, samples_volt), "V"), 4, offsetof(S, items)),
-       label("mode", {"idle", "hold", "2d_fix"}, offsetof(Mixed, mode)), scalar("stamp_ns", FULMAR_I64, offsetof(Mixed, stamp_ns), 8, "ns"),
-       scalar("load_ratio", FULMAR_F32, offsetof(Mixed, load_ratio), 4), scalar("offset", FULMAR_I32, offsetof(Mixed, offset), 4),
-       nested("attitude_std_rad", vector_type(), offsetof(Mixed, attitude_std_rad), "rad"),
-       array(scalar("tags", FULMAR_TEXT, offsetof(Mixed, tags), 4), 2),
-       list(nested("legs", leg_type(), offsetof(Mixed, legs)), 3, offsetof(L, items))});
+  return make_type("Mixed", sizeof(Mixed), 8,
+                   {scalar("armed", FULMAR_BOOL, offsetof(Mixed, armed), 1),
+                    number("speed_mps", offsetof(Mixed, speed_mps), "m/s"),
+                    scalar("count", FULMAR_U32, offsetof(Mixed, count), 4),
+                    array(number("gains_ratio", offsetof(Mixed, gains_ratio)), 3),
+                    scalar("name", FULMAR_TEXT, offsetof(Mixed, name), 8),
+                    list(number("samples_volt", offsetof(Mixed, samples_volt), "V"), 4, offsetof(S, items)),
+                    label("mode", {"idle", "hold", "2d_fix"}, offsetof(Mixed, mode)),
+                    scalar("stamp_ns", FULMAR_I64, offsetof(Mixed, stamp_ns), 8, "ns"),
+                    scalar("load_ratio", FULMAR_F32, offsetof(Mixed, load_ratio), 4),
+                    scalar("offset", FULMAR_I32, offsetof(Mixed, offset), 4),
+                    nested("attitude_std_rad", vector_type(), offsetof(Mixed, attitude_std_rad), "rad"),
+                    array(scalar("tags", FULMAR_TEXT, offsetof(Mixed, tags), 4), 2),
+                    list(nested("legs", leg_type(), offsetof(Mixed, legs)), 3, offsetof(L, items))});
 }
 
 inline Mixed mixed_value() {

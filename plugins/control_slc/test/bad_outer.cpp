@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shipped outer law until a moment in flight, then a fault: for tests of what a flight loses when its controller goes.
+// The shipped outer law until a moment in flight, then a fault: for tests of what a flight loses when its
+// controller goes.
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -39,26 +40,15 @@ struct BadOuter {
     const Status status = law_.step(tick, in, gains_, out);
     if (tick.now_s() < p.at) return status;
     switch (p.fault) {
-      case Fault::nan:
-        out.attitude.roll_rad = std::numeric_limits<double>::quiet_NaN();
-        break;
-      case Fault::throws:
-        throw std::runtime_error("lost");
-      case Fault::segfault:
-        raise(SIGSEGV);
-        break;
-      case Fault::abort:
-        std::abort();
+      case Fault::nan: out.attitude.roll_rad = std::numeric_limits<double>::quiet_NaN(); break;
+      case Fault::throws: throw std::runtime_error("lost");
+      case Fault::segfault: raise(SIGSEGV); break;
+      case Fault::abort: std::abort();
       case Fault::hang:
         for (;;) asm volatile("");
-      case Fault::leak:
-        kept_.emplace_back(10'000'000, 'x');
-        break;
-      case Fault::overrun:
-        busy(std::chrono::milliseconds(3));
-        break;
-      case Fault::none:
-        break;
+      case Fault::leak: kept_.emplace_back(10'000'000, 'x'); break;
+      case Fault::overrun: busy(std::chrono::milliseconds(3)); break;
+      case Fault::none: break;
     }
     return status;
   }

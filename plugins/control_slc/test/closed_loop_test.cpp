@@ -19,11 +19,13 @@ struct Flight {
   test::FlightModel model;
   Bench<slc::Outer> outer;
   Bench<slc::Inner> inner;
-  GuidanceCommand command{.course_rad = 0, .height_m = 70, .climb_rate_mps = 0, .airspeed_mps = 17, .roll_feedforward_rad = 0};
+  GuidanceCommand command{
+      .course_rad = 0, .height_m = 70, .climb_rate_mps = 0, .airspeed_mps = 17, .roll_feedforward_rad = 0};
   VehicleState state;
   double t = 0;
 
-  explicit Flight(Turbulence turbulence = Turbulence::none, std::uint64_t seed = 1) : model(test::anaconda(), turbulence, seed) {
+  explicit Flight(Turbulence turbulence = Turbulence::none, std::uint64_t seed = 1)
+      : model(test::anaconda(), turbulence, seed) {
     for (Record<Airframe>* record : {&outer.params.common.airframe, &inner.params.airframe})
       record->value = model.airframe, record->is_given = true;
     state = model.state();
@@ -65,7 +67,8 @@ TEST_CASE("level flight settles at course, height and airspeed") {
   CHECK(flight.state.airspeed_mps == doctest::Approx(17).epsilon(0.002));
 }
 
-TEST_CASE("a course step of 90 degrees has no overshoot to speak of and costs less than half a metre of height") {
+TEST_CASE(
+    "a course step of 90 degrees has no overshoot to speak of and costs less than half a metre of height") {
   Flight flight;
   flight.run(20);
   flight.command.course_rad = 90 * deg;
@@ -182,17 +185,24 @@ TEST_CASE("without airspeed the aircraft keeps its height on trim throttle") {
   CHECK(flight.model.state().airspeed_mps > 14);
 }
 
-TEST_CASE("in light turbulence and wind the holds are well inside half of the field's published tracking errors") {
-  // Published, Anaconda in 4 to 6 m/s of wind: altitude 1.19 m, airspeed 0.58 m/s, roll 7.55 deg, pitch 3.04 deg, course 8.51 deg RMS.
+TEST_CASE(
+    "in light turbulence and wind the holds are well inside half of the field's published tracking errors") {
+  // Published, Anaconda in 4 to 6 m/s of wind: altitude 1.19 m, airspeed 0.58 m/s, roll 7.55 deg, pitch 3.04
+  // deg, course 8.51 deg RMS.
   Rms height, airspeed, roll, pitch, course;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     Flight flight(Turbulence::light, seed);
     flight.model.wind_n = {3.5, -3.5, 0};
     flight.run(20);
     flight.run(120, [&] {
-      const double phase = std::fmod(flight.t, 40);  // straight, 35 degrees to the right, straight, to the left
-      flight.command.roll_feedforward_rad = phase < 10 ? 0 : phase < 20 ? 35 * deg : phase < 30 ? 0 : -35 * deg;
-      const double rate = 9.80665 * std::tan(flight.command.roll_feedforward_rad) / flight.state.ground_speed_mps;
+      const double phase =
+          std::fmod(flight.t, 40);  // straight, 35 degrees to the right, straight, to the left
+      flight.command.roll_feedforward_rad = phase < 10   ? 0
+                                            : phase < 20 ? 35 * deg
+                                            : phase < 30 ? 0
+                                                         : -35 * deg;
+      const double rate =
+          9.80665 * std::tan(flight.command.roll_feedforward_rad) / flight.state.ground_speed_mps;
       flight.command.course_rad = wrap_pi(flight.command.course_rad + rate * 0.01);
       height.add(flight.state.height_m - 70);
       airspeed.add(flight.state.airspeed_mps - 17);
@@ -209,14 +219,16 @@ TEST_CASE("in light turbulence and wind the holds are well inside half of the fi
 }
 
 TEST_CASE(
-    "blind for five seconds out of a 40 degree turn: it rolls out on feed-forward, keeps near its height, and goes on without a step") {
+    "blind for five seconds out of a 40 degree turn: it rolls out on feed-forward, keeps near its height, "
+    "and goes on without a step") {
   Flight flight;
   flight.run(20);
   const double rate = 9.80665 * std::tan(40 * deg) / 17;
   flight.command.roll_feedforward_rad = 40 * deg;
   flight.run(10, [&] { flight.command.course_rad = wrap_pi(flight.command.course_rad + rate * 0.01); });
   VehicleState stand_in = flight.model.state();
-  stand_in.attitude_valid = stand_in.velocity_valid = stand_in.height_valid = stand_in.position_valid = stand_in.airspeed_valid = false;
+  stand_in.attitude_valid = stand_in.velocity_valid = stand_in.height_valid = stand_in.position_valid =
+      stand_in.airspeed_valid = false;
   Actuators last;
   double lowest = 1e9, roll = 0, step = 0;
   const auto pass = [&](const VehicleState& s) {
@@ -239,7 +251,8 @@ TEST_CASE(
   for (int i = 0; i < 200; ++i) {
     pass(flight.model.state());
     const Actuators& now = flight.inner.out.actuators;
-    step = std::max({step, std::abs(now.aileron_rad - last.aileron_rad), std::abs(now.elevator_rad - last.elevator_rad)});
+    step = std::max(
+        {step, std::abs(now.aileron_rad - last.aileron_rad), std::abs(now.elevator_rad - last.elevator_rad)});
   }
   CHECK(step < 4 * deg);
 }

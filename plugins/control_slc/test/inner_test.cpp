@@ -24,7 +24,8 @@ VehicleState flying(double airspeed = cruise) {
   s.airspeed_valid = s.attitude_valid = true;
   return s;
 }
-const Actuators& step(Bench<Inner>& bench, const VehicleState& state, const AttitudeCommand& command, int steps = 200) {
+const Actuators& step(Bench<Inner>& bench, const VehicleState& state, const AttitudeCommand& command,
+                      int steps = 200) {
   bench.set(bench.in.state, state);
   bench.set(bench.in.attitude, command);
   for (int i = 0; i < steps; ++i) bench.step(0.01);
@@ -99,7 +100,8 @@ TEST_CASE("the yaw damper's frequency response is kd s / (s + p)") {
   }
 }
 
-TEST_CASE("in a steady coordinated turn the damper leaves the rudder alone and the pitch damper the elevator") {
+TEST_CASE(
+    "in a steady coordinated turn the damper leaves the rudder alone and the pitch damper the elevator") {
   Bench<Inner> bench;
   no_integrals(bench);
   VehicleState s = flying();
@@ -179,7 +181,8 @@ TEST_CASE("deflections stay within the throws and throttle in 0 to 1, for any st
     s.roll_rad = random.uniform(-3.14, 3.14), s.pitch_rad = random.uniform(-1.5, 1.5);
     s.rate_radps = {random.uniform(-10, 10), random.uniform(-10, 10), random.uniform(-10, 10)};
     bench.set(bench.in.state, s);
-    bench.set(bench.in.attitude, AttitudeCommand{random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-1, 2)});
+    bench.set(bench.in.attitude,
+              AttitudeCommand{random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-1, 2)});
     REQUIRE(bench.step(random.uniform(0, 0.3)) == Status::ok);
     const Actuators& u = bench.out.actuators;
     REQUIRE((u.throttle_frac >= 0 && u.throttle_frac <= 1));

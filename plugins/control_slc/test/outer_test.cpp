@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The outer loops against numbers worked out by hand: a default airframe has no aerodynamics, so feed-forwards of turns are zero.
+// The outer loops against numbers worked out by hand: a default airframe has no aerodynamics, so
+// feed-forwards of turns are zero.
 #define FULMAR_COUNT_ALLOCATIONS
 #include "plugins/control_slc/outer.hpp"
 
@@ -14,7 +15,8 @@ using namespace fulmar;
 using Outer = slc::Outer;
 
 namespace {
-constexpr double cruise = 15;  // of the default airframe; trim throttle 0.5, climb 4, sink 3 m/s, pitch +-0.35 rad
+constexpr double cruise =
+    15;  // of the default airframe; trim throttle 0.5, climb 4, sink 3 m/s, pitch +-0.35 rad
 
 VehicleState flying() {
   VehicleState s;
@@ -25,16 +27,22 @@ VehicleState flying() {
   return s;
 }
 GuidanceCommand level() {
-  return {.course_rad = 0, .height_m = 70, .climb_rate_mps = 0, .airspeed_mps = cruise, .roll_feedforward_rad = 0};
+  return {.course_rad = 0,
+          .height_m = 70,
+          .climb_rate_mps = 0,
+          .airspeed_mps = cruise,
+          .roll_feedforward_rad = 0};
 }
 
-const AttitudeCommand& settle(Bench<Outer>& bench, const VehicleState& state, const GuidanceCommand& command, double seconds = 3) {
+const AttitudeCommand& settle(Bench<Outer>& bench, const VehicleState& state, const GuidanceCommand& command,
+                              double seconds = 3) {
   bench.set(bench.in.state, state);
   bench.set(bench.in.command, command);
   for (int i = 0; i < static_cast<int>(seconds * 100); ++i) bench.step(0.01);
   return bench.out.attitude;
 }
-/// While a pilot flies, the host activates a law before each of its steps with nothing to go on from. The last is the first that is obeyed.
+/// While a pilot flies, the host activates a law before each of its steps with nothing to go on from. The
+/// last is the first that is obeyed.
 void pilot_flies(Bench<Outer>& bench, const VehicleState& state, const GuidanceCommand& command) {
   bench.set(bench.in.state, state);
   bench.set(bench.in.command, command);
@@ -43,7 +51,9 @@ void pilot_flies(Bench<Outer>& bench, const VehicleState& state, const GuidanceC
     bench.step(0.01);
   }
 }
-void no_integrals(Bench<Outer>& bench) { bench.params.altitude_ki.value = bench.params.airspeed_ki.value = 0; }
+void no_integrals(Bench<Outer>& bench) {
+  bench.params.altitude_ki.value = bench.params.airspeed_ki.value = 0;
+}
 }  // namespace
 
 TEST_CASE("roll is the course gain times the error plus the feed-forward, and grows with ground speed") {
@@ -156,11 +166,13 @@ TEST_CASE("throttle stays in 0 to 1, pitch and roll in their limits, for any sta
     bench.params.common.law.value = law;
     for (int i = 0; i < 20000; ++i) {
       VehicleState s = flying();
-      s.height_m = random.uniform(-50, 500), s.climb_rate_mps = random.uniform(-15, 15), s.airspeed_mps = random.uniform(0, 60);
-      s.ground_speed_mps = random.uniform(0, 60), s.course_rad = random.uniform(-3.14, 3.14), s.roll_rad = random.uniform(-3.14, 3.14);
+      s.height_m = random.uniform(-50, 500), s.climb_rate_mps = random.uniform(-15, 15),
+      s.airspeed_mps = random.uniform(0, 60);
+      s.ground_speed_mps = random.uniform(0, 60), s.course_rad = random.uniform(-3.14, 3.14),
+      s.roll_rad = random.uniform(-3.14, 3.14);
       s.pitch_rad = random.uniform(-1.5, 1.5), s.airspeed_valid = random.uniform() < 0.8;
-      const GuidanceCommand c{random.uniform(-10, 10), random.uniform(-100, 1000), random.uniform(-10, 10), random.uniform(-5, 60),
-                              random.uniform(-2, 2)};
+      const GuidanceCommand c{random.uniform(-10, 10), random.uniform(-100, 1000), random.uniform(-10, 10),
+                              random.uniform(-5, 60), random.uniform(-2, 2)};
       bench.set(bench.in.state, s);
       bench.set(bench.in.command, c);
       REQUIRE(bench.step(random.uniform(0, 0.5)) != Status::failed);
@@ -186,7 +198,8 @@ TEST_CASE("taking over is bumpless from any last command") {
   for (int i = 0; i < 200; ++i) {
     Bench<Outer> bench;
     VehicleState s = flying();
-    s.height_m = random.uniform(40, 100), s.airspeed_mps = random.uniform(11, 20), s.course_rad = random.uniform(-3, 3);
+    s.height_m = random.uniform(40, 100), s.airspeed_mps = random.uniform(11, 20),
+    s.course_rad = random.uniform(-3, 3);
     bench.set(bench.in.state, s);
     bench.set(bench.in.command, level());
     bench.params.common.law.value = i % 2 ? OuterLaw::takeoff : OuterLaw::hold;
@@ -285,7 +298,8 @@ TEST_CASE("without airspeed the throttle is trim and climb feed-forward, and the
 }
 
 TEST_CASE(
-    "when a pilot hands back the throttle begins at trim, roll and pitch at the attitude that he leaves, and nothing is learnt from him") {
+    "when a pilot hands back the throttle begins at trim, roll and pitch at the attitude that he leaves, and "
+    "nothing is learnt from him") {
   for (const double airspeed : {14.5, cruise, 15.5}) {
     Bench<Outer> bench;
     VehicleState s = flying();
@@ -330,7 +344,9 @@ TEST_CASE("a step allocates nothing") {
   CHECK(allocations([&] { bench.step(0.01); }) == 0);
 }
 
-TEST_CASE("without attitude or height it asks for level wings and the trim of cruise, as fast as a command may move, and says so") {
+TEST_CASE(
+    "without attitude or height it asks for level wings and the trim of cruise, as fast as a command may "
+    "move, and says so") {
   for (const bool attitude : {true, false}) {
     Bench<Outer> bench;
     VehicleState s = flying();
@@ -341,7 +357,8 @@ TEST_CASE("without attitude or height it asks for level wings and the trim of cr
     (attitude ? s.height_valid : s.attitude_valid) = false;
     CHECK(settle(bench, s, c, 0.3).roll_rad > 0.785 - 0.3 - 1e-9);
     CHECK(settle(bench, s, c).roll_rad == doctest::Approx(0).epsilon(1e-6));
-    CHECK(bench.out.attitude.pitch_rad == doctest::Approx(0));  // the default airframe has no derivatives to tell a trim from
+    CHECK(bench.out.attitude.pitch_rad ==
+          doctest::Approx(0));  // the default airframe has no derivatives to tell a trim from
     CHECK(bench.out.attitude.throttle_frac == doctest::Approx(0.5));
     CHECK(bench.step(0.01) == Status::degraded);
   }

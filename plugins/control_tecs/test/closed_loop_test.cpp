@@ -14,22 +14,26 @@ using namespace fulmar;
 namespace {
 constexpr double deg = std::numbers::pi / 180;
 
-/// Proportional attitude loops with damping about the turn's rates: no more than the outer loops need to be tried.
+/// Proportional attitude loops with damping about the turn's rates: no more than the outer loops need to be
+/// tried.
 Actuators attitude_loops(const VehicleState& s, const AttitudeCommand& c, const Airframe& a) {
   const TurnRates turn = turn_rates(s.roll_rad, s.pitch_rad, s.airspeed_mps);
   const double density = standard_air(s.origin_altitude_m + s.height_m).density_kgm3;
   const double trim = turn_trim(a, s.roll_rad, std::max(s.airspeed_mps, 10.0), density).elevator_rad;
   return {c.throttle_frac, 1.5 * (c.roll_rad - s.roll_rad) - 0.05 * s.rate_radps.x,
-          trim - 5 * (c.pitch_rad - s.pitch_rad) + 0.5 * (s.rate_radps.y - turn.q_radps), 0.3 * (s.rate_radps.z - turn.r_radps)};
+          trim - 5 * (c.pitch_rad - s.pitch_rad) + 0.5 * (s.rate_radps.y - turn.q_radps),
+          0.3 * (s.rate_radps.z - turn.r_radps)};
 }
 
 struct Flight {
   test::FlightModel model;
   Bench<tecs::Outer> outer;
-  GuidanceCommand command{.course_rad = 0, .height_m = 70, .climb_rate_mps = 0, .airspeed_mps = 17, .roll_feedforward_rad = 0};
+  GuidanceCommand command{
+      .course_rad = 0, .height_m = 70, .climb_rate_mps = 0, .airspeed_mps = 17, .roll_feedforward_rad = 0};
   VehicleState state;
 
-  explicit Flight(Turbulence turbulence = Turbulence::none, std::uint64_t seed = 1) : model(test::anaconda(), turbulence, seed) {
+  explicit Flight(Turbulence turbulence = Turbulence::none, std::uint64_t seed = 1)
+      : model(test::anaconda(), turbulence, seed) {
     outer.params.common.airframe.value = model.airframe;
     outer.params.common.airframe.is_given = true;
     state = model.state();
@@ -84,7 +88,8 @@ TEST_CASE("airspeed steps keep the height") {
   }
 }
 
-TEST_CASE("a course step of 90 degrees costs less than half a metre of height and a third of a metre per second") {
+TEST_CASE(
+    "a course step of 90 degrees costs less than half a metre of height and a third of a metre per second") {
   Flight flight;
   flight.run(20);
   flight.command.course_rad = 90 * deg;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The energy laws against numbers worked out by hand, over random states, and round an energy-consistent point mass.
+// The energy laws against numbers worked out by hand, over random states, and round an energy-consistent
+// point mass.
 #define FULMAR_COUNT_ALLOCATIONS
 #include <doctest/doctest.h>
 
@@ -14,7 +15,9 @@ using namespace fulmar;
 using Outer = tecs::Outer;
 
 namespace {
-constexpr double cruise = 15, g = 9.80665;  // default airframe: trim throttle 0.5, climb 4, sink 3 m/s, pitch +-0.35 rad, 10 to 25 m/s
+constexpr double
+    cruise = 15,
+    g = 9.80665;  // default airframe: trim throttle 0.5, climb 4, sink 3 m/s, pitch +-0.35 rad, 10 to 25 m/s
 
 VehicleState flying() {
   VehicleState s;
@@ -25,21 +28,27 @@ VehicleState flying() {
   return s;
 }
 GuidanceCommand level() {
-  return {.course_rad = 0, .height_m = 70, .climb_rate_mps = 0, .airspeed_mps = cruise, .roll_feedforward_rad = 0};
+  return {.course_rad = 0,
+          .height_m = 70,
+          .climb_rate_mps = 0,
+          .airspeed_mps = cruise,
+          .roll_feedforward_rad = 0};
 }
 
 void configure(Bench<Outer>& bench) {
   bench.params.common.airframe.value.mass_kg = 4.5;
   bench.params.airspeed_kff.value = 0;
 }
-const AttitudeCommand& settle(Bench<Outer>& bench, const VehicleState& state, const GuidanceCommand& command, double seconds = 3) {
+const AttitudeCommand& settle(Bench<Outer>& bench, const VehicleState& state, const GuidanceCommand& command,
+                              double seconds = 3) {
   bench.set(bench.in.state, state);
   bench.set(bench.in.command, command);
   for (int i = 0; i < static_cast<int>(seconds * 100 + 0.5); ++i) bench.step(0.01);
   return bench.out.attitude;
 }
 
-/// While a pilot flies, the host activates a law before each of its steps with nothing to go on from. The last is the first that is obeyed.
+/// While a pilot flies, the host activates a law before each of its steps with nothing to go on from. The
+/// last is the first that is obeyed.
 void pilot_flies(Bench<Outer>& bench, const VehicleState& state, const GuidanceCommand& command) {
   bench.set(bench.in.state, state);
   bench.set(bench.in.command, command);
@@ -49,7 +58,8 @@ void pilot_flies(Bench<Outer>& bench, const VehicleState& state, const GuidanceC
   }
 }
 
-/// Speed and height of a point mass whose path follows the pitch command and whose energy rate follows the throttle at once.
+/// Speed and height of a point mass whose path follows the pitch command and whose energy rate follows the
+/// throttle at once.
 struct PointMass {
   double V = 16, h = 100, gamma = 0, V_dot = 0;
   void step(const AttitudeCommand& u, double dt, double acceleration_limit = 1e9) {
@@ -63,8 +73,8 @@ struct PointMass {
   }
   VehicleState state() const {
     VehicleState s = flying();
-    s.airspeed_mps = V, s.ground_speed_mps = V * std::cos(gamma), s.height_m = h, s.climb_rate_mps = V * std::sin(gamma),
-    s.pitch_rad = gamma;
+    s.airspeed_mps = V, s.ground_speed_mps = V * std::cos(gamma), s.height_m = h,
+    s.climb_rate_mps = V * std::sin(gamma), s.pitch_rad = gamma;
     s.specific_force_mps2 = {V_dot + g * std::sin(gamma), 0, -g * std::cos(gamma)};
     return s;
   }
@@ -73,7 +83,8 @@ struct PointMass {
 struct PointMassFlight {
   Bench<Outer> bench;
   PointMass mass;
-  GuidanceCommand command{.course_rad = 0, .height_m = 100, .climb_rate_mps = 0, .airspeed_mps = 16, .roll_feedforward_rad = 0};
+  GuidanceCommand command{
+      .course_rad = 0, .height_m = 100, .climb_rate_mps = 0, .airspeed_mps = 16, .roll_feedforward_rad = 0};
   double worst_speed_error = 0, worst_throttle = 0;
   explicit PointMassFlight(double speed_weight) {
     configure(bench);
@@ -99,7 +110,8 @@ TEST_CASE("throttle is the total energy rate wanted over the power of the engine
   bench.params.throttle_integral.value = bench.params.pitch_integral.value = 0;
   VehicleState s = flying();
   s.airspeed_mps = 14.5;
-  // V_dot = 1.2 * 0.5 = 0.6; E_c = 14.5 * 0.6 = 8.7; 4.5 / (14.5 * 50) per unit of rate; damping 0.5 on the same error
+  // V_dot = 1.2 * 0.5 = 0.6; E_c = 14.5 * 0.6 = 8.7; 4.5 / (14.5 * 50) per unit of rate; damping 0.5 on the
+  // same error
   CHECK(settle(bench, s, level()).throttle_frac == doctest::Approx(0.5 + 8.7 * 4.5 / (14.5 * 50) * 1.5));
   CHECK(bench.out.acceleration_demand_mps2.value == doctest::Approx(0.6));
   s.specific_force_mps2.x = 0.6;  // the acceleration wanted is there: feed-forward alone
@@ -130,11 +142,14 @@ TEST_CASE("the acceleration along the air velocity is that of the body, gravity 
   CHECK(airspeed_rate(s) == doctest::Approx(0));
   s.pitch_rad = 0.1, s.alpha_rad = 0.02, s.specific_force_mps2 = {0.3, 0, -9.5};
   // Climbing at gamma = theta - alpha: V_dot = f . v_hat - g sin(gamma)
-  CHECK(airspeed_rate(s) == doctest::Approx(0.3 * std::cos(0.02) - 9.5 * std::sin(0.02) - g * std::sin(0.08)));
+  CHECK(airspeed_rate(s) ==
+        doctest::Approx(0.3 * std::cos(0.02) - 9.5 * std::sin(0.02) - g * std::sin(0.08)));
   // Banked, with sideslip: gravity in body axes from B&M (4.2).
   s.roll_rad = 0.5, s.beta_rad = 0.1;
-  const double along = std::cos(0.02) * std::cos(0.1), side = std::sin(0.1), down = std::sin(0.02) * std::cos(0.1);
-  const double ax = 0.3 - g * std::sin(0.1), ay = g * std::cos(0.1) * std::sin(0.5), az = -9.5 + g * std::cos(0.1) * std::cos(0.5);
+  const double along = std::cos(0.02) * std::cos(0.1), side = std::sin(0.1),
+               down = std::sin(0.02) * std::cos(0.1);
+  const double ax = 0.3 - g * std::sin(0.1), ay = g * std::cos(0.1) * std::sin(0.5),
+               az = -9.5 + g * std::cos(0.1) * std::cos(0.5);
   CHECK(airspeed_rate(s) == doctest::Approx(ax * along + ay * side + az * down));
 }
 
@@ -156,7 +171,9 @@ TEST_CASE("below the minimum airspeed speed has priority and the engine gives al
   CHECK(bench.out.underspeed_ratio.value == 0);
 }
 
-TEST_CASE("throttle stays in 0 to 1, trim included, pitch within the pitch limits, for any state, command and law") {
+TEST_CASE(
+    "throttle stays in 0 to 1, trim included, pitch within the pitch limits, for any state, command and "
+    "law") {
   Random random(17);
   double least = 1, most = 0;
   for (OuterLaw law : {OuterLaw::hold, OuterLaw::takeoff}) {
@@ -165,12 +182,14 @@ TEST_CASE("throttle stays in 0 to 1, trim included, pitch within the pitch limit
     bench.params.common.airframe.value.limits.throttle_cruise_frac = 0.9;
     for (int i = 0; i < 20000; ++i) {
       VehicleState s = flying();
-      s.height_m = random.uniform(-50, 500), s.climb_rate_mps = random.uniform(-15, 15), s.airspeed_mps = random.uniform(0, 60);
-      s.ground_speed_mps = random.uniform(0, 60), s.course_rad = random.uniform(-3.14, 3.14), s.roll_rad = random.uniform(-3.14, 3.14);
+      s.height_m = random.uniform(-50, 500), s.climb_rate_mps = random.uniform(-15, 15),
+      s.airspeed_mps = random.uniform(0, 60);
+      s.ground_speed_mps = random.uniform(0, 60), s.course_rad = random.uniform(-3.14, 3.14),
+      s.roll_rad = random.uniform(-3.14, 3.14);
       s.pitch_rad = random.uniform(-1.5, 1.5), s.airspeed_valid = random.uniform() < 0.8;
       s.specific_force_mps2 = {random.uniform(-20, 20), random.uniform(-20, 20), random.uniform(-40, 20)};
-      const GuidanceCommand c{random.uniform(-10, 10), random.uniform(-100, 1000), random.uniform(-10, 10), random.uniform(-5, 60),
-                              random.uniform(-2, 2)};
+      const GuidanceCommand c{random.uniform(-10, 10), random.uniform(-100, 1000), random.uniform(-10, 10),
+                              random.uniform(-5, 60), random.uniform(-2, 2)};
       bench.set(bench.in.state, s);
       bench.set(bench.in.command, c);
       REQUIRE(bench.step(random.uniform(0, 0.5)) != Status::failed);
@@ -254,7 +273,8 @@ TEST_CASE("taking over is bumpless, and in trim keeps what the last controller h
   for (int i = 0; i < 200; ++i) {
     Bench<Outer> bench;
     VehicleState s = flying();
-    s.height_m = random.uniform(40, 100), s.airspeed_mps = random.uniform(11, 20), s.course_rad = random.uniform(-3, 3);
+    s.height_m = random.uniform(40, 100), s.airspeed_mps = random.uniform(11, 20),
+    s.course_rad = random.uniform(-3, 3);
     bench.set(bench.in.state, s);
     bench.set(bench.in.command, level());
     Outer::Outputs last;
@@ -301,7 +321,8 @@ TEST_CASE("a command without airspeed does no harm") {
 }
 
 TEST_CASE(
-    "when a pilot hands back the throttle begins at trim, roll and pitch at the attitude that he leaves, and nothing is learnt from him") {
+    "when a pilot hands back the throttle begins at trim, roll and pitch at the attitude that he leaves, and "
+    "nothing is learnt from him") {
   for (const double airspeed : {14.5, cruise, 15.5}) {
     Bench<Outer> bench;
     configure(bench);
@@ -352,7 +373,9 @@ TEST_CASE("a step allocates nothing") {
   CHECK(allocations([&] { bench.step(0.01); }) == 0);
 }
 
-TEST_CASE("without attitude or height it asks for level wings and the trim of cruise; known again, it goes on from the attitude there is") {
+TEST_CASE(
+    "without attitude or height it asks for level wings and the trim of cruise; known again, it goes on from "
+    "the attitude there is") {
   for (const bool attitude : {true, false}) {
     Bench<Outer> bench;
     configure(bench);
@@ -363,7 +386,8 @@ TEST_CASE("without attitude or height it asks for level wings and the trim of cr
     s.roll_rad = 0.6, s.airspeed_mps = 5, s.airspeed_valid = false;  // stand-ins: nothing may follow them
     (attitude ? s.height_valid : s.attitude_valid) = false;
     CHECK(settle(bench, s, c).roll_rad == doctest::Approx(0).epsilon(1e-6));
-    CHECK(bench.out.attitude.pitch_rad == doctest::Approx(0));  // the default airframe has no derivatives to tell a trim from
+    CHECK(bench.out.attitude.pitch_rad ==
+          doctest::Approx(0));  // the default airframe has no derivatives to tell a trim from
     CHECK(bench.out.attitude.throttle_frac == doctest::Approx(0.5));
     CHECK(bench.step(0.01) == Status::degraded);
     s = flying();

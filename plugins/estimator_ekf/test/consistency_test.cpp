@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Is the filter's covariance the covariance of its errors? Monte Carlo with the noise the filter was told of; chi-square bounds after
-// Bar-Shalom, Li & Kirubarajan, Estimation with Applications to Tracking and Navigation (2001), section 5.4.
+// Is the filter's covariance the covariance of its errors? Monte Carlo with the noise the filter was told of;
+// chi-square bounds after Bar-Shalom, Li & Kirubarajan, Estimation with Applications to Tracking and
+// Navigation (2001), section 5.4.
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
@@ -14,14 +15,16 @@ using namespace synthetic;
 
 namespace {
 
-constexpr double accel_density = 0.02, gyro_density = 3e-4, position_std = 0.5, velocity_std = 0.05, heading_std = 0.03, baro_std = 0.4;
+constexpr double accel_density = 0.02, gyro_density = 3e-4, position_std = 0.5, velocity_std = 0.05,
+                 heading_std = 0.03, baro_std = 0.4;
 
 ErrorStateEkf matched() {
   ErrorStateEkf f;
   f.noise = {};
   f.noise.gyro = gyro_density;
   f.noise.accel = accel_density;
-  f.noise.gyro_bias_walk = f.noise.accel_bias_walk = f.noise.wind_walk = f.noise.wind_shear = f.noise.baro_walk = 0;
+  f.noise.gyro_bias_walk = f.noise.accel_bias_walk = f.noise.wind_walk = f.noise.wind_shear =
+      f.noise.baro_walk = 0;
   f.noise.heading_std = 1e-6;
   f.noise.gust_std = 1e-6;
   return f;
@@ -33,7 +36,8 @@ struct Statistics {
 };
 
 /// One run from a random initial error; adds to the sums of each second.
-void one_run(const std::vector<Truth>& flight, double hz, std::uint64_t seed, std::vector<Statistics>& seconds) {
+void one_run(const std::vector<Truth>& flight, double hz, std::uint64_t seed,
+             std::vector<Statistics>& seconds) {
   Random r(seed);
   const auto normal = [&] { return Vector3d(r.normal(), r.normal(), r.normal()); };
   const auto first = static_cast<std::size_t>(25 * hz);
@@ -74,12 +78,16 @@ void one_run(const std::vector<Truth>& flight, double hz, std::uint64_t seed, st
       second.innovations += ratio * ratio;
       ++second.measurements;
     };
-    for (int i = 0; i < 3; ++i) use(ekf::velocity(f, f.at(f.time_s()), i, x.v_n(i) + velocity_std * r.normal()), velocity_std);
-    for (int i = 0; i < 3; ++i) use(ekf::position(f, f.at(f.time_s()), i, x.p_n(i) + position_std * r.normal()), position_std);
-    ekf::Scalar heading = ekf::magnetic_heading(f.state(), x.q_nb.conjugate() * Vector3d(2e-5, 0, 0), heading_std * r.normal());
+    for (int i = 0; i < 3; ++i)
+      use(ekf::velocity(f, f.at(f.time_s()), i, x.v_n(i) + velocity_std * r.normal()), velocity_std);
+    for (int i = 0; i < 3; ++i)
+      use(ekf::position(f, f.at(f.time_s()), i, x.p_n(i) + position_std * r.normal()), position_std);
+    ekf::Scalar heading =
+        ekf::magnetic_heading(f.state(), x.q_nb.conjugate() * Vector3d(2e-5, 0, 0), heading_std * r.normal());
     use(heading, heading_std);
     ekf::Scalar height;
-    height.innovation = -x.p_n.z() + baro_bias + baro_std * r.normal() - (-f.state().p_n.z() + f.state().baro_m);
+    height.innovation =
+        -x.p_n.z() + baro_bias + baro_std * r.normal() - (-f.state().p_n.z() + f.state().baro_m);
     height.H(ekf::pos + 2) = -1;
     height.H(ekf::baro) = 1;
     use(height, baro_std);

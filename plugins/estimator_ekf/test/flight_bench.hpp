@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flies the component through a synthetic flight: samples may be changed on the way in, states are judged on the way out.
+// Flies the component through a synthetic flight: samples may be changed on the way in, states are judged on
+// the way out.
 #pragma once
 #include <fulmar/testing.hpp>
 #include <functional>
@@ -76,28 +77,34 @@ struct Flown {
   }
   void judge(const Truth& x, const Vector3d& gnss, Errors& e) const {
     ++e.samples;
-    const Vector3d v_b = x.q_nb.conjugate() * x.v_n, estimated = eigen(last.attitude).conjugate() * eigen(last.velocity_mps);
+    const Vector3d v_b = x.q_nb.conjugate() * x.v_n,
+                   estimated = eigen(last.attitude).conjugate() * eigen(last.velocity_mps);
     const Euler truth = euler_from(x.q_nb);
     e.body_velocity += (estimated - v_b).cwiseAbs2();
     e.position += (eigen(last.position_m) - x.p_n).cwiseAbs2();
     e.gnss += gnss.cwiseAbs2();
-    e.euler +=
-        Vector3d(wrap_pi(last.roll_rad - truth.roll_rad), wrap_pi(last.pitch_rad - truth.pitch_rad), wrap_pi(last.yaw_rad - truth.yaw_rad))
-            .cwiseAbs2();
+    e.euler += Vector3d(wrap_pi(last.roll_rad - truth.roll_rad), wrap_pi(last.pitch_rad - truth.pitch_rad),
+                        wrap_pi(last.yaw_rad - truth.yaw_rad))
+                   .cwiseAbs2();
     e.course += std::pow(wrap_pi(last.course_rad - std::atan2(x.v_n.y(), x.v_n.x())), 2);
     e.airspeed += std::pow(last.airspeed_mps - x.airspeed(), 2);
   }
 };
 
-inline double attitude_error(const VehicleState& s, const Truth& x) { return eigen(s.attitude).angularDistance(x.q_nb); }
+inline double attitude_error(const VehicleState& s, const Truth& x) {
+  return eigen(s.attitude).angularDistance(x.q_nb);
+}
 
 /// Nothing that is published may be a NaN, whatever the inputs were.
 inline bool all_finite(const VehicleState& s) {
-  return eigen(s.position_m).allFinite() && eigen(s.velocity_mps).allFinite() && eigen(s.attitude).coeffs().allFinite() &&
-         eigen(s.rate_radps).allFinite() && eigen(s.specific_force_mps2).allFinite() && eigen(s.wind_mps).allFinite() &&
-         std::isfinite(s.roll_rad + s.pitch_rad + s.yaw_rad + s.height_m + s.course_rad + s.airspeed_mps + s.alpha_rad + s.beta_rad) &&
-         eigen(s.position_std_m).allFinite() && eigen(s.velocity_std_mps).allFinite() && eigen(s.attitude_std_rad).allFinite() &&
-         eigen(s.wind_std_mps).allFinite() && std::isfinite(s.airspeed_std_mps);
+  return eigen(s.position_m).allFinite() && eigen(s.velocity_mps).allFinite() &&
+         eigen(s.attitude).coeffs().allFinite() && eigen(s.rate_radps).allFinite() &&
+         eigen(s.specific_force_mps2).allFinite() && eigen(s.wind_mps).allFinite() &&
+         std::isfinite(s.roll_rad + s.pitch_rad + s.yaw_rad + s.height_m + s.course_rad + s.airspeed_mps +
+                       s.alpha_rad + s.beta_rad) &&
+         eigen(s.position_std_m).allFinite() && eigen(s.velocity_std_mps).allFinite() &&
+         eigen(s.attitude_std_rad).allFinite() && eigen(s.wind_std_mps).allFinite() &&
+         std::isfinite(s.airspeed_std_mps);
 }
 
 }  // namespace synthetic

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The link to the sensors breaks and comes back: short gaps are coasted, long ones end in an alignment in the air. Samples whose times are
-// wrong, and a controller that has zeroed its pitot tube or its barometer in flight.
+// The link to the sensors breaks and comes back: short gaps are coasted, long ones end in an alignment in the
+// air. Samples whose times are wrong, and a controller that has zeroed its pitot tube or its barometer in
+// flight.
 #include <doctest/doctest.h>
 
 #include "flight_bench.hpp"
@@ -12,27 +13,32 @@ using namespace synthetic;
 namespace {
 constexpr double deg = std::numbers::pi / 180;
 
-bool all_valid(const VehicleState& s) { return s.attitude_valid && s.velocity_valid && s.position_valid && s.height_valid; }
+bool all_valid(const VehicleState& s) {
+  return s.attitude_valid && s.velocity_valid && s.position_valid && s.height_valid;
+}
 bool any_valid(const VehicleState& s) {
-  return s.attitude_valid || s.velocity_valid || s.position_valid || s.height_valid || s.airspeed_valid || s.wind_valid;
+  return s.attitude_valid || s.velocity_valid || s.position_valid || s.height_valid || s.airspeed_valid ||
+         s.wind_valid;
 }
 
-/// A flight with turns of 30 degrees and a gap of every sensor. In it the loop goes on every 10 ms, as it does when no inertial unit wakes
-/// it.
+/// A flight with turns of 30 degrees and a gap of every sensor. In it the loop goes on every 10 ms, as it
+/// does when no inertial unit wakes it.
 struct Gap {
   double from_s = 68, length_s = 0.1, after_s = 10;  ///< 68: in the middle of a turn to the right
   Quality quality = rosflight;
   std::uint64_t seed = 1;
   std::function<void(const Truth&, Samples&)> alter{};
   std::function<void(Bench<Ekf>&, const Truth&, const Samples&, double dt)> feed = feed_all;
-  std::function<void(const Truth&, const VehicleState&, Status, double since_s)> watch{};  ///< time since the gap began
+  std::function<void(const Truth&, const VehicleState&, Status, double since_s)>
+      watch{};  ///< time since the gap began
 
   VehicleState last{}, before{}, first{};  ///< before: of the gap; first: valid one after it
   Truth last_truth{};
   double valid_after_s = -1;                          ///< from the end of the gap to `first`
   double coasted_attitude = 0, coasted_position = 0;  ///< errors at the end of the gap
-  double first_attitude = 0, step_attitude = 0;       ///< error of `first`; largest move of the error between two states after it
-  Vector3d position_jump = Vector3d::Zero();          ///< of the error, from before the gap to `first`
+  double first_attitude = 0,
+         step_attitude = 0;  ///< error of `first`; largest move of the error between two states after it
+  Vector3d position_jump = Vector3d::Zero();  ///< of the error, from before the gap to `first`
   std::uint64_t allocated = 0;
 
   bool silent(double t) const { return t > from_s && t < from_s + length_s; }
@@ -146,7 +152,8 @@ TEST_CASE("after the longest coast the state says that it is none, and its devia
         CHECK(s.position_std_m.down > previous.position_std_m.down);
         CHECK(s.airspeed_std_mps > previous.airspeed_std_mps);
       }
-      if (since > 0.33) CHECK(eigen(s.position_m) == eigen(previous.position_m));  // a stand-in that goes nowhere
+      if (since > 0.33)
+        CHECK(eigen(s.position_m) == eigen(previous.position_m));  // a stand-in that goes nowhere
     }
     previous = s;
   };
@@ -155,7 +162,8 @@ TEST_CASE("after the longest coast the state says that it is none, and its devia
   CHECK(g.allocated == 0);
 }
 
-TEST_CASE("after a long gap the attitude is found again in the air, in wind, in turns, with what was known kept") {
+TEST_CASE(
+    "after a long gap the attitude is found again in the air, in wind, in turns, with what was known kept") {
   for (const bool fine : {true, false})
     for (const double from : places)
       for (const double length : {0.5, 2.0, 5.0})
@@ -211,7 +219,9 @@ TEST_CASE("a gap on the ground, disarmed or armed, ends in an alignment at rest,
   }
 }
 
-TEST_CASE("a pitot tube that was zeroed in flight is not believed, and the airspeed goes on from wind and velocity") {
+TEST_CASE(
+    "a pitot tube that was zeroed in flight is not believed, and the airspeed goes on from wind and "
+    "velocity") {
   for (const double length : {0.1, 5.0}) {
     Gap g{.length_s = length, .after_s = 40};
     double zero_pa = 0, worst = 0;
@@ -275,7 +285,11 @@ TEST_CASE("samples whose time repeats, jumps back or lies in the future are left
       if (other.gnss) other.gnss->latitude_deg += 1e-4;
       if (other.gnss) other.gnss->velocity_mps.north += 1;
     }
-    Gap::feed_all(bench, x, other, odd ? k % 40 == 0 ? 0 : k % 40 == 1 ? -3600 : 3600 : dt);  // repeats, an hour back, an hour ahead
+    Gap::feed_all(bench, x, other,
+                  odd ? k % 40 == 0   ? 0
+                        : k % 40 == 1 ? -3600
+                                      : 3600
+                      : dt);  // repeats, an hour back, an hour ahead
   };
   g.watch = [](const Truth& x, const VehicleState& s, Status, double since) {
     CHECK(all_finite(s));

@@ -55,11 +55,14 @@ struct Flight {
 inline Flight skywalker_x8(const std::string& folder) {
   constexpr double rad = std::numbers::pi / 180;
   Flight f;
-  for (const auto& r : read_csv(folder + "/imu.csv")) f.imu.push_back({r[0], {{r[4], r[5], r[6]}, {r[1], r[2], r[3]}, 300}});
-  for (const auto& r : read_csv(folder + "/mag.csv")) f.mag.push_back({r[0], {{r[1] * 1e-7, r[2] * 1e-7, r[3] * 1e-7}}});
+  for (const auto& r : read_csv(folder + "/imu.csv"))
+    f.imu.push_back({r[0], {{r[4], r[5], r[6]}, {r[1], r[2], r[3]}, 300}});
+  for (const auto& r : read_csv(folder + "/mag.csv"))
+    f.mag.push_back({r[0], {{r[1] * 1e-7, r[2] * 1e-7, r[3] * 1e-7}}});
   for (const auto& r : read_csv(folder + "/air.csv")) {
-    f.pitot.push_back(
-        {r[0], {0.5 * isa::sea_level_density * r[1] * r[1], r[1], 300}});  // ArduPilot of 2013 logs a speed made with sea-level density
+    f.pitot.push_back({r[0],
+                       {0.5 * isa::sea_level_density * r[1] * r[1], r[1],
+                        300}});  // ArduPilot of 2013 logs a speed made with sea-level density
     f.baro.push_back({r[0], {standard_air(25 + r[2]).pressure_pa, 300}});
   }
   double itow = 0;
@@ -77,7 +80,8 @@ inline Flight skywalker_x8(const std::string& folder) {
     g.satellites = static_cast<std::uint8_t>(r[3]);
     f.gnss.push_back(fix);
   }
-  for (const auto& r : read_csv(folder + "/ref_dcm_attitude.csv")) f.reference.push_back({r[0], r[1] * rad, r[2] * rad, r[3] * rad});
+  for (const auto& r : read_csv(folder + "/ref_dcm_attitude.csv"))
+    f.reference.push_back({r[0], r[1] * rad, r[2] * rad, r[3] * rad});
   return f;
 }
 

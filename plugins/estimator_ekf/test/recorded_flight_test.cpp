@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A real flight: Skywalker X-8, 2013, aerobatics included. There is no attitude truth: agreement with the estimate made on board is a
-// sanity bound, GNSS velocity and the drift without GNSS are measurements.
+// A real flight: Skywalker X-8, 2013, aerobatics included. There is no attitude truth: agreement with the
+// estimate made on board is a sanity bound, GNSS velocity and the drift without GNSS are measurements.
 #include "recorded_flight.hpp"
 
 #include <doctest/doctest.h>
@@ -73,13 +73,15 @@ Agreement agreement(const recorded::Flight& f, const std::vector<Estimate>& e, d
   for (const recorded::Reference& r : f.reference) {
     if (r.t < from_s || r.t > 560 || std::abs(r.pitch_rad) > 45 * deg) continue;
     const VehicleState& s = at(e, r.t);
-    sum.attitude +=
-        Vector3d(wrap_pi(s.roll_rad - r.roll_rad), wrap_pi(s.pitch_rad - r.pitch_rad), wrap_pi(s.yaw_rad - r.yaw_rad)).cwiseAbs2();
+    sum.attitude += Vector3d(wrap_pi(s.roll_rad - r.roll_rad), wrap_pi(s.pitch_rad - r.pitch_rad),
+                             wrap_pi(s.yaw_rad - r.yaw_rad))
+                        .cwiseAbs2();
     ++attitudes;
   }
   for (const recorded::Fix& fix : f.gnss) {
     if (fix.t < from_s || fix.t > 560) continue;
-    sum.velocity += (eigen(at(e, fix.t - f.gnss_delay_s).velocity_mps) - eigen(fix.gnss.velocity_mps)).cwiseAbs2();
+    sum.velocity +=
+        (eigen(at(e, fix.t - f.gnss_delay_s).velocity_mps) - eigen(fix.gnss.velocity_mps)).cwiseAbs2();
     ++fixes;
   }
   sum.attitude = (sum.attitude / attitudes).cwiseSqrt();
@@ -110,7 +112,9 @@ std::optional<recorded::Flight> flight() {
 
 }  // namespace
 
-TEST_CASE("on a real flight attitude agrees with the estimate made on board, velocity with GNSS, wind with the velocity triangle") {
+TEST_CASE(
+    "on a real flight attitude agrees with the estimate made on board, velocity with GNSS, wind with the "
+    "velocity triangle") {
   const auto f = flight();
   if (!f) return;
   const std::vector<Estimate> e = replay(*f, {});
@@ -130,7 +134,8 @@ TEST_CASE("on a real flight attitude agrees with the estimate made on board, vel
     east += s.wind_mps.east;
     squares += s.wind_mps.north * s.wind_mps.north;
     ++n;
-    CHECK_MESSAGE((s.attitude_valid && s.velocity_valid && s.position_valid && s.height_valid && s.airspeed_valid && s.wind_valid),
+    CHECK_MESSAGE((s.attitude_valid && s.velocity_valid && s.position_valid && s.height_valid &&
+                   s.airspeed_valid && s.wind_valid),
                   "at " << t);
   }
   CHECK(std::hypot(north / n - 5.84, east / n - 0.20) < 1);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The component on synthetic flights whose truth is known: accuracy, start, loss of each sensor, places on the Earth, hand-over.
+// The component on synthetic flights whose truth is known: accuracy, start, loss of each sensor, places on
+// the Earth, hand-over.
 #define FULMAR_COUNT_ALLOCATIONS
 #include <doctest/doctest.h>
 
@@ -20,7 +21,8 @@ Plan shorter(double duration_s, std::uint64_t seed = 1) {
 }
 }  // namespace
 
-TEST_CASE("with the sensors of the ROSflight simulator the errors are below the published ones of ROSplane 2.0") {
+TEST_CASE(
+    "with the sensors of the ROSflight simulator the errors are below the published ones of ROSplane 2.0") {
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     Flown f{.plan = shorter(150, seed)};
     const Errors e = f.run();
@@ -50,7 +52,9 @@ TEST_CASE("a receiver that is 0.15 s late is used at its time: velocity stays go
   CHECK(e.body_velocity.norm() < 0.2);
   CHECK(e.euler.norm() < 0.6 * deg);
   Flown ignored{.plan = shorter(150), .quality = ublox};
-  ignored.alter = [](const Truth&, Samples& s) { s.gnss_age_s = 0; };  // the same fixes, taken for present ones
+  ignored.alter = [](const Truth&, Samples& s) {
+    s.gnss_age_s = 0;
+  };  // the same fixes, taken for present ones
   CHECK(ignored.run().body_velocity.norm() > 3 * e.body_velocity.norm());
 }
 
@@ -77,7 +81,8 @@ TEST_CASE("what is published is consistent with itself") {
     CHECK(s.climb_rate_mps == -s.velocity_mps.down);
     CHECK(s.ground_speed_mps == doctest::Approx(std::hypot(s.velocity_mps.north, s.velocity_mps.east)));
     CHECK(eigen(s.attitude).norm() == doctest::Approx(1).epsilon(1e-6));
-    if (s.ground_speed_mps > 3) CHECK(std::abs(wrap_pi(s.course_rad - std::atan2(s.velocity_mps.east, s.velocity_mps.north))) < 1e-9);
+    if (s.ground_speed_mps > 3)
+      CHECK(std::abs(wrap_pi(s.course_rad - std::atan2(s.velocity_mps.east, s.velocity_mps.north))) < 1e-9);
     if (s.ground_speed_mps < 1) CHECK(s.course_rad == s.yaw_rad);
     CHECK(s.origin_altitude_m == 1387);
     if (x.t > 15) {
@@ -127,7 +132,8 @@ TEST_CASE("at any field elevation height is right to two per cent and airspeed t
 }
 
 TEST_CASE("south of the equator, east of Greenwich, it is as good") {
-  for (const auto& [lat, lon] : {std::pair{-37.96, 144.76}, std::pair{-54.8, -68.3}, std::pair{64.1, -21.9}, std::pair{0.1, 36.8}}) {
+  for (const auto& [lat, lon] :
+       {std::pair{-37.96, 144.76}, std::pair{-54.8, -68.3}, std::pair{64.1, -21.9}, std::pair{0.1, 36.8}}) {
     Flown f{.plan = shorter(90)};
     f.plan.lat_deg = lat;
     f.plan.lon_deg = lon;
@@ -137,10 +143,16 @@ TEST_CASE("south of the equator, east of Greenwich, it is as good") {
   }
 }
 
-TEST_CASE("started in the air it finds its attitude to five degrees within thirty seconds, with and without magnetometer and status") {
+TEST_CASE(
+    "started in the air it finds its attitude to five degrees within thirty seconds, with and without "
+    "magnetometer and status") {
   for (const bool magnetometer : {true, false})
     for (const double from : {30.0, 47.0, 61.0}) {  // in a turn, in a straight leg, in the next turn
-      Flown f{.plan = shorter(110), .from_s = from, .judge_from_s = from + 30, .origin_given = false, .status = magnetometer};
+      Flown f{.plan = shorter(110),
+              .from_s = from,
+              .judge_from_s = from + 30,
+              .origin_given = false,
+              .status = magnetometer};
       if (!magnetometer) f.alter = [](const Truth&, Samples& s) { s.mag.reset(); };
       double worst = 0;
       f.watch = [&](const Truth& x, const VehicleState& s, Status) {
@@ -155,7 +167,8 @@ TEST_CASE("started in the air it finds its attitude to five degrees within thirt
     }
 }
 
-TEST_CASE("without a magnetometer the take-off run shows the yaw, and until then attitude is not called valid") {
+TEST_CASE(
+    "without a magnetometer the take-off run shows the yaw, and until then attitude is not called valid") {
   Flown f{.plan = shorter(90)};
   f.alter = [](const Truth&, Samples& s) { s.mag.reset(); };
   f.watch = [](const Truth& x, const VehicleState& s, Status) {
@@ -269,7 +282,9 @@ TEST_CASE("a magnetometer beside a magnet does not turn the aircraft") {
   f.alter = [](const Truth& x, Samples& s) {
     if (s.mag && x.t > 60) s.mag->field_tesla = {2e-5, -3e-5, 1e-5};  // stuck
   };
-  f.watch = [](const Truth& x, const VehicleState& s, Status) { CHECK((x.t < 60 || attitude_error(s, x) < 3 * deg)); };
+  f.watch = [](const Truth& x, const VehicleState& s, Status) {
+    CHECK((x.t < 60 || attitude_error(s, x) < 3 * deg));
+  };
   f.run();
 }
 
@@ -278,7 +293,9 @@ TEST_CASE("the origin is the mean of the first fixes on the ground when the miss
   f.run();
   LocalFrame frame(f.plan.lat_deg, f.plan.lon_deg, f.plan.alt_m);
   REQUIRE(f.last.origin_valid);
-  CHECK(frame.to_ned(f.last.origin_latitude_deg, f.last.origin_longitude_deg, f.last.origin_altitude_m).norm() < 8);
+  CHECK(
+      frame.to_ned(f.last.origin_latitude_deg, f.last.origin_longitude_deg, f.last.origin_altitude_m).norm() <
+      8);
   CHECK((eigen(f.last.position_m) - f.last_truth.p_n).norm() < 9);
 }
 

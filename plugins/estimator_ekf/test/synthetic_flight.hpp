@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A flight whose truth is known by kinematics alone: rest, take-off run, climb, straight legs and banked turns both ways, in wind and
-// gusts; and what sensors of two qualities would read on it.
+// A flight whose truth is known by kinematics alone: rest, take-off run, climb, straight legs and banked
+// turns both ways, in wind and gusts; and what sensors of two qualities would read on it.
 #pragma once
 #include <fulmar/flight/atmosphere.hpp>
 #include <fulmar/flight/attitude.hpp>
@@ -23,7 +23,8 @@ using Eigen::Vector3d;
 using namespace fulmar;
 
 struct Plan {
-  double duration_s = 150, rate_hz = 400, rest_s = 5, speed_mps = 17, bank_rad = 0.6, initial_course_rad = 0.4;
+  double duration_s = 150, rate_hz = 400, rest_s = 5, speed_mps = 17, bank_rad = 0.6,
+         initial_course_rad = 0.4;
   double lat_deg = 40.2463724, lon_deg = -111.6474138, alt_m = 1387;
   Vector3d wind{3, -4, 0};
   double gust_mps = 0.8, gust_time_s = 5;
@@ -74,7 +75,8 @@ inline std::vector<Truth> fly(const Plan& plan) {
     const double V = speed.value, gamma = climb.value * (since > 0 ? 1 : 0);
     const double course_rate = V > 5 ? g * std::tan(bank.value) / V : 0;
     course += course_rate * dt;
-    x.v_n = V * Vector3d(std::cos(gamma) * std::cos(course), std::cos(gamma) * std::sin(course), -std::sin(gamma));
+    x.v_n = V * Vector3d(std::cos(gamma) * std::cos(course), std::cos(gamma) * std::sin(course),
+                         -std::sin(gamma));
     p += x.v_n * dt;
     x.p_n = p;
     const double phi = std::exp(-dt / plan.gust_time_s), kick = plan.gust_mps * std::sqrt(1 - phi * phi);
@@ -83,7 +85,8 @@ inline std::vector<Truth> fly(const Plan& plan) {
     const Vector3d u = x.v_n - plan.wind;  // the nose into the mean air, gusts from any side
     const double crab = wrap_pi(std::atan2(u.y(), u.x()) - course);
     const double alpha = lift.value * (0.03 + 0.08 * (1 / std::cos(bank.value) - 0.6));
-    x.q_nb = quaternion_from({bank.value, gamma + alpha * std::cos(bank.value), course + lift.value * crab + alpha * std::sin(bank.value)});
+    x.q_nb = quaternion_from({bank.value, gamma + alpha * std::cos(bank.value),
+                              course + lift.value * crab + alpha * std::sin(bank.value)});
   }
   for (std::size_t k = 0; k < n; ++k) {
     const Truth &a = flight[k > 0 ? k - 1 : 0], &b = flight[k + 1 < n ? k + 1 : k];
@@ -135,7 +138,8 @@ class Sensors {
         frame_(plan.lat_deg, plan.lon_deg, plan.alt_m),
         field_(magnetic_field_ned(plan.lat_deg, plan.lon_deg, plan.alt_m, 2026.0)) {
     const auto any = [&](double range) {
-      return Vector3d(random.uniform(-range, range), random.uniform(-range, range), random.uniform(-range, range));
+      return Vector3d(random.uniform(-range, range), random.uniform(-range, range),
+                      random.uniform(-range, range));
     };
     accel_bias = any(q.accel_bias);
     gyro_bias = any(q.gyro_bias);
@@ -181,7 +185,8 @@ class Sensors {
     if (k < late) return;
     const Truth& x = flight[k - late];
     for (int i = 0; i < 3; ++i)
-      position_error(i) = position_[static_cast<std::size_t>(i)].step(1 / q.gnss_hz, random) + q.position_white * random.normal();
+      position_error(i) = position_[static_cast<std::size_t>(i)].step(1 / q.gnss_hz, random) +
+                          q.position_white * random.normal();
     const auto g = frame_.from_ned(x.p_n + position_error);
     Gnss fix;
     fix.latitude_deg = g.lat_deg;

@@ -57,8 +57,8 @@ Frame encode(const M& message, std::uint8_t sequence, std::uint8_t system = comp
              std::uint8_t component = companion_component) {
   Frame f;
   f.size = length<M> + frame_overhead;
-  const std::array<std::uint8_t, frame_header> header{frame_magic, static_cast<std::uint8_t>(length<M>), sequence, system, component,
-                                                      M::id};
+  const std::array<std::uint8_t, frame_header> header{
+      frame_magic, static_cast<std::uint8_t>(length<M>), sequence, system, component, M::id};
   std::copy(header.begin(), header.end(), f.bytes.begin());
   std::memcpy(f.bytes.data() + frame_header, &message, length<M>);
   const std::uint16_t crc = frame_crc({f.bytes.data() + 1, frame_header - 1 + length<M>}, crc_extra<M>);
@@ -67,14 +67,15 @@ Frame encode(const M& message, std::uint8_t sequence, std::uint8_t system = comp
   return f;
 }
 
-/// Finds frames in a stream of bytes. After bytes that are no frame it goes on with the very next one, so that a false start costs no
-/// frame behind it.
+/// Finds frames in a stream of bytes. After bytes that are no frame it goes on with the very next one, so
+/// that a false start costs no frame behind it.
 class Parser {
  public:
   struct Counts {
-    std::uint64_t frames = 0;   ///< whole and good
-    std::uint64_t bad = 0;      ///< began like a frame that we know, and its checksum was wrong
-    std::uint64_t unknown = 0;  ///< whole and well framed as far as can be told, of a message that we do not know
+    std::uint64_t frames = 0;  ///< whole and good
+    std::uint64_t bad = 0;     ///< began like a frame that we know, and its checksum was wrong
+    std::uint64_t unknown =
+        0;  ///< whole and well framed as far as can be told, of a message that we do not know
     std::uint64_t skipped = 0;  ///< bytes outside of frames
     std::uint64_t missing = 0;  ///< frames that their sequence numbers say were lost
   };
@@ -124,7 +125,8 @@ class Parser {
     if (info.known && info.length != n) return skip();
     if (have < n + frame_overhead) return 0;
     if (!info.known) {
-      // Its checksum cannot be told without its seed. Only what follows shows whether it was one: go on with the next byte.
+      // Its checksum cannot be told without its seed. Only what follows shows whether it was one: go on with
+      // the next byte.
       ++counts_.unknown;
       return skip();
     }

@@ -26,7 +26,8 @@ bool has_open(const fs::path& process, const struct stat& device) {
     std::error_code gone;
     const std::string target = fs::read_symlink(at->path(), gone).string();
     struct stat other {};
-    if (target.starts_with("/dev/") && stat(target.c_str(), &other) == 0 && S_ISCHR(other.st_mode) && other.st_rdev == device.st_rdev) {
+    if (target.starts_with("/dev/") && stat(target.c_str(), &other) == 0 && S_ISCHR(other.st_mode) &&
+        other.st_rdev == device.st_rdev) {
       return true;
     }
   }
@@ -42,8 +43,11 @@ std::string lock_holder(const struct stat& file) {
     long pid = 0;
     unsigned major_number = 0, minor_number = 0;
     unsigned long inode = 0;
-    if (std::sscanf(line.c_str(), "%*s FLOCK %*s %*s %ld %x:%x:%lu", &pid, &major_number, &minor_number, &inode) != 4) continue;
-    if (inode == file.st_ino && makedev(major_number, minor_number) == file.st_dev && pid > 0) return program(pid);
+    if (std::sscanf(line.c_str(), "%*s FLOCK %*s %*s %ld %x:%x:%lu", &pid, &major_number, &minor_number,
+                    &inode) != 4)
+      continue;
+    if (inode == file.st_ino && makedev(major_number, minor_number) == file.st_dev && pid > 0)
+      return program(pid);
   }
   return {};
 }

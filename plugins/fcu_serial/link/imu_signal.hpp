@@ -20,12 +20,14 @@ class ImuSignal {
     if (sleeping_.load(std::memory_order_seq_cst)) futex(FUTEX_WAKE_PRIVATE, 1, nullptr);
   }
 
-  /// The loop, which has taken `taken` samples from the queue so far. False: the monotonic clock has reached `deadline_ns` without one.
+  /// The loop, which has taken `taken` samples from the queue so far. False: the monotonic clock has reached
+  /// `deadline_ns` without one.
   bool wait(std::uint32_t taken, std::int64_t deadline_ns) noexcept {
     const timespec deadline{deadline_ns / 1'000'000'000, deadline_ns % 1'000'000'000};
     while (!come(taken)) {
       sleeping_.store(true, std::memory_order_seq_cst);
-      const bool late = futex(FUTEX_WAIT_BITSET_PRIVATE, taken, &deadline) != 0 && errno != EAGAIN && errno != EINTR;
+      const bool late =
+          futex(FUTEX_WAIT_BITSET_PRIVATE, taken, &deadline) != 0 && errno != EAGAIN && errno != EINTR;
       sleeping_.store(false, std::memory_order_relaxed);
       if (late) return come(taken);
     }
@@ -37,7 +39,8 @@ class ImuSignal {
 
   long futex(int operation, std::uint32_t value, const timespec* deadline) noexcept {
     static_assert(sizeof count_ == sizeof value && std::atomic<std::uint32_t>::is_always_lock_free);
-    return syscall(SYS_futex, reinterpret_cast<std::uint32_t*>(&count_), operation, value, deadline, nullptr, FUTEX_BITSET_MATCH_ANY);
+    return syscall(SYS_futex, reinterpret_cast<std::uint32_t*>(&count_), operation, value, deadline, nullptr,
+                   FUTEX_BITSET_MATCH_ANY);
   }
 
   alignas(64) std::atomic<std::uint32_t> count_{0};

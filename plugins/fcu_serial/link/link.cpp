@@ -53,7 +53,8 @@ struct Link::Impl {
   // What LinkState tells. Written by the link's thread.
   std::atomic<bool> synchronised{false};
   std::atomic<std::int64_t> heard_ns{0}, round_trip_ns{0}, offset_ns{0};
-  std::atomic<std::uint64_t> frames{0}, bad{0}, missing{0}, lost_in_queue{0}, bytes{0}, text_bytes{0}, undated{0};
+  std::atomic<std::uint64_t> frames{0}, bad{0}, missing{0}, lost_in_queue{0}, bytes{0}, text_bytes{0},
+      undated{0};
   std::atomic<std::uint32_t> connections{0}, reboots{0};
   std::atomic<double> drift_ppm{0};
 
@@ -74,10 +75,13 @@ struct Link::Impl {
 
   std::int64_t now_ns() const noexcept {
     const std::int64_t elapsed = monotonic_ns() - start_ns;
-    return options.time_scale == 1 ? elapsed : std::llround(static_cast<double>(elapsed) * options.time_scale);
+    return options.time_scale == 1 ? elapsed
+                                   : std::llround(static_cast<double>(elapsed) * options.time_scale);
   }
   std::int64_t on_the_wall(std::int64_t host_ns) const noexcept {
-    return start_ns + (options.time_scale == 1 ? host_ns : std::llround(static_cast<double>(host_ns) / options.time_scale));
+    return start_ns + (options.time_scale == 1
+                           ? host_ns
+                           : std::llround(static_cast<double>(host_ns) / options.time_scale));
   }
 
   void begin();
@@ -99,7 +103,8 @@ struct Link::Impl {
   }
 };
 
-// ---- the link's thread ------------------------------------------------------------------------------------------------------------
+// ---- the link's thread
+// ------------------------------------------------------------------------------------------------------------
 
 void Link::Impl::begin() {
   // Signals are for the host's threads.
@@ -138,7 +143,8 @@ void Link::Impl::serve() {
 }
 
 void Link::Impl::reopen() {
-  for (int waited = 0; waited < reopen_ms && !stop.load(std::memory_order_relaxed); waited += 10) poll(nullptr, 0, 10);
+  for (int waited = 0; waited < reopen_ms && !stop.load(std::memory_order_relaxed); waited += 10)
+    poll(nullptr, 0, 10);
   if (stop.load(std::memory_order_relaxed)) return;
   try {
     port = Port::open(options.port, options.baud);
@@ -164,7 +170,8 @@ void Link::Impl::take_bytes(std::span<const std::uint8_t> came) {
   const std::int64_t now = now_ns();
   parser.feed(came, [&](const Packet& packet) { take(packet, now); });
   bytes.fetch_add(came.size(), std::memory_order_relaxed);
-  text_bytes.fetch_add(static_cast<std::uint64_t>(std::count_if(came.begin(), came.end(), is_text)), std::memory_order_relaxed);
+  text_bytes.fetch_add(static_cast<std::uint64_t>(std::count_if(came.begin(), came.end(), is_text)),
+                       std::memory_order_relaxed);
   frames.store(parser.counts().frames, std::memory_order_relaxed);
   bad.store(parser.counts().bad, std::memory_order_relaxed);
   missing.store(parser.counts().missing, std::memory_order_relaxed);
@@ -176,7 +183,8 @@ void Link::Impl::take_bytes(std::span<const std::uint8_t> came) {
 void Link::Impl::take(const Packet& packet, std::int64_t arrived_ns) {
   arrived_ns = last_arrival_ns = std::max(arrived_ns, last_arrival_ns + 1);
   heard_ns.store(arrived_ns, std::memory_order_relaxed);
-  if (packet.is<SmallImu>() || packet.is<Heartbeat>()) target_system = packet.system;  // other ids may be anything
+  if (packet.is<SmallImu>() || packet.is<Heartbeat>())
+    target_system = packet.system;  // other ids may be anything
   if (packet.is<SmallImu>() && dater.started_anew(packet.as<SmallImu>().time_boot_us)) {
     dater.clock.restart();
     rebooted(arrived_ns);
@@ -193,18 +201,13 @@ void Link::Impl::take(const Packet& packet, std::int64_t arrived_ns) {
 /// ATTITUDE, OUTPUT_RAW and RC have stamps of 1 ms; what has none is dated by its arrival.
 std::int64_t Link::Impl::date(const Packet& packet, std::int64_t arrived_ns) {
   switch (packet.id) {
-    case SmallImu::id:
-      return dater.date_imu(packet.as<SmallImu>().time_boot_us, arrived_ns);
+    case SmallImu::id: return dater.date_imu(packet.as<SmallImu>().time_boot_us, arrived_ns);
     case AttitudeQuaternion::id:
       return dater.date_ms32(packet.as<AttitudeQuaternion>().time_boot_ms, arrived_ns);
-    case RcChannels::id:
-      return dater.date_ms32(packet.as<RcChannels>().time_boot_ms, arrived_ns);
-    case RosflightOutputRaw::id:
-      return dater.date_ms(packet.as<RosflightOutputRaw>().stamp, arrived_ns);
-    case RosflightGnss::id:
-      return dater.date_us(packet.as<RosflightGnss>().rosflight_timestamp, arrived_ns);
-    default:
-      return arrived_ns;
+    case RcChannels::id: return dater.date_ms32(packet.as<RcChannels>().time_boot_ms, arrived_ns);
+    case RosflightOutputRaw::id: return dater.date_ms(packet.as<RosflightOutputRaw>().stamp, arrived_ns);
+    case RosflightGnss::id: return dater.date_us(packet.as<RosflightGnss>().rosflight_timestamp, arrived_ns);
+    default: return arrived_ns;
   }
 }
 
@@ -252,21 +255,25 @@ void Link::Impl::do_duties(std::int64_t now) {
   }
 }
 
-/// The loop waits for this thread: it gets the loop's policy and priority, and, when the loop stays on one CPU, that one. To hand a sample
-/// over is then a switch of threads; on another CPU the loop would wait until it has woken up. Asked of the kernel now and then: a host
-/// decides when it likes. The thread library keeps what it was told first.
+/// The loop waits for this thread: it gets the loop's policy and priority, and, when the loop stays on one
+/// CPU, that one. To hand a sample over is then a switch of threads; on another CPU the loop would wait until
+/// it has woken up. Asked of the kernel now and then: a host decides when it likes. The thread library keeps
+/// what it was told first.
 void Link::Impl::stay_with_loop() noexcept {
   const pid_t loop = loop_thread.load(std::memory_order_relaxed);
   sched_param priority{};
   const int policy = loop == 0 ? -1 : sched_getscheduler(loop);
-  if (policy >= 0 && sched_getparam(loop, &priority) == 0 && (policy != own_policy || priority.sched_priority != own_priority))
-    if (sched_setscheduler(0, policy, &priority) == 0) own_policy = policy, own_priority = priority.sched_priority;
+  if (policy >= 0 && sched_getparam(loop, &priority) == 0 &&
+      (policy != own_policy || priority.sched_priority != own_priority))
+    if (sched_setscheduler(0, policy, &priority) == 0)
+      own_policy = policy, own_priority = priority.sched_priority;
   cpu_set_t cpus;
   if (policy < 0 || sched_getaffinity(loop, sizeof cpus, &cpus) != 0 || CPU_EQUAL(&cpus, &own_cpus)) return;
   if (sched_setaffinity(0, sizeof cpus, &cpus) == 0) own_cpus = cpus;
 }
 
-// ---- the loop's thread ------------------------------------------------------------------------------------------------------------
+// ---- the loop's thread
+// ------------------------------------------------------------------------------------------------------------
 
 Link::Link(const LinkOptions& options) : impl_(std::make_unique<Impl>(options)) {
   impl_->port = Port::open(options.port, options.baud);
@@ -280,7 +287,8 @@ Link::~Link() {
 }
 
 bool Link::wait_imu(std::int64_t until_ns) noexcept {
-  if (impl_->loop_thread.load(std::memory_order_relaxed) == 0) impl_->loop_thread.store(gettid(), std::memory_order_relaxed);
+  if (impl_->loop_thread.load(std::memory_order_relaxed) == 0)
+    impl_->loop_thread.store(gettid(), std::memory_order_relaxed);
   return impl_->imu.wait(impl_->imu_taken, impl_->on_the_wall(until_ns));
 }
 
@@ -291,7 +299,9 @@ bool Link::pop(Received& out) noexcept {
 }
 
 bool Link::send_frame(const Frame& frame) noexcept { return impl_->outbox.send(frame); }
-std::uint8_t Link::next_sequence() noexcept { return impl_->sequence.fetch_add(1, std::memory_order_relaxed); }
+std::uint8_t Link::next_sequence() noexcept {
+  return impl_->sequence.fetch_add(1, std::memory_order_relaxed);
+}
 std::int64_t Link::now_ns() const noexcept { return impl_->now_ns(); }
 int Link::descriptor() const noexcept { return impl_->descriptor.load(); }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The link to a flight controller as the loop sees it: packets come through a lock-free queue, dated in host time; frames go out at once.
-// A thread of its own reads, keeps the connection, asks for the time and for the parameters that are watched, and sends the heartbeat.
+// The link to a flight controller as the loop sees it: packets come through a lock-free queue, dated in host
+// time; frames go out at once. A thread of its own reads, keeps the connection, asks for the time and for the
+// parameters that are watched, and sends the heartbeat.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -14,17 +15,20 @@ namespace fulmar::fcu {
 struct LinkOptions {
   std::string port = "/dev/ttyACM0";
   std::int64_t baud = 921600;
-  std::vector<std::string> watched;  ///< parameters that are read after every connection and reboot; their PARAM_VALUEs come as packets
-  double time_scale = 1;             ///< host time runs so many times faster than the clock on the wall: hardware in the loop, in a hurry
+  std::vector<std::string> watched;  ///< parameters that are read after every connection and reboot; their
+                                     ///< PARAM_VALUEs come as packets
+  double time_scale = 1;  ///< host time runs so many times faster than the clock on the wall: hardware in the
+                          ///< loop, in a hurry
 };
 
 enum class LinkEvent : std::uint8_t { packet, connected, disconnected, rebooted };
 
 struct Received {
   LinkEvent event = LinkEvent::packet;
-  std::int64_t arrived_ns = 0;   ///< host time
-  std::int64_t valid_at_ns = 0;  ///< host time: the stamp of the controller where the message has one, else the arrival
-  Packet packet;                 ///< of LinkEvent::packet
+  std::int64_t arrived_ns = 0;  ///< host time
+  std::int64_t valid_at_ns =
+      0;          ///< host time: the stamp of the controller where the message has one, else the arrival
+  Packet packet;  ///< of LinkEvent::packet
 };
 
 struct LinkState {
@@ -32,7 +36,8 @@ struct LinkState {
   std::int64_t heard_ns = 0;  ///< host time of the last good frame; 0: never
   std::uint64_t frames = 0, bad = 0, missing = 0, lost_in_queue = 0;
   std::uint64_t undated = 0;                ///< stamps that are impossible: the arrival stands in for them
-  std::uint64_t bytes = 0, text_bytes = 0;  ///< all that came, and what of it is printable or ends a line: a device of another kind
+  std::uint64_t bytes = 0, text_bytes = 0;  ///< all that came, and what of it is printable or ends a line: a
+                                            ///< device of another kind
   std::uint32_t connections = 0, reboots = 0;
   bool synchronised = false;
   std::int64_t round_trip_ns = 0;  ///< least of the last seconds
@@ -49,8 +54,8 @@ class Link {
   Link& operator=(const Link&) = delete;
 
   // From the loop's thread. None of these waits but wait_imu, none allocates.
-  /// Until an inertial sample is in the queue or `until_ns` of host time is over. True: there is one. At the first call the link's thread
-  /// gets the scheduling policy and priority of the caller, who waits for it.
+  /// Until an inertial sample is in the queue or `until_ns` of host time is over. True: there is one. At the
+  /// first call the link's thread gets the scheduling policy and priority of the caller, who waits for it.
   bool wait_imu(std::int64_t until_ns) noexcept;
   bool pop(Received& out) noexcept;
   template <class M>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The 25 messages that a ROSflight flight controller and its companion exchange: MAVLink 1 with the dialect of ROSflight 2.
-// Members stand in the order of the wire, largest elements first, so that a payload is the first bytes of its struct. Length and checksum
-// seed of each message follow from the struct itself; at the end they are compared with what the dialect's own generator makes of its XML.
-// Sources: MAVLink serialization guide; rosflight_firmware 2.0, comms/mavlink/v1.0/rosflight.xml.
+// The 25 messages that a ROSflight flight controller and its companion exchange: MAVLink 1 with the dialect
+// of ROSflight 2. Members stand in the order of the wire, largest elements first, so that a payload is the
+// first bytes of its struct. Length and checksum seed of each message follow from the struct itself; at the
+// end they are compared with what the dialect's own generator makes of its XML. Sources: MAVLink
+// serialization guide; rosflight_firmware 2.0, comms/mavlink/v1.0/rosflight.xml.
 #pragma once
 #include <array>
 #include <bit>
@@ -14,7 +15,8 @@
 
 namespace fulmar::fcu {
 
-static_assert(std::endian::native == std::endian::little, "the wire is little endian, and so must be the machine");
+static_assert(std::endian::native == std::endian::little,
+              "the wire is little endian, and so must be the machine");
 
 struct Heartbeat {  ///< either way, 1 Hz
   static constexpr std::uint8_t id = 0;
@@ -39,7 +41,8 @@ struct ParamRequestList {  ///< to the controller
   std::uint8_t target_system = 1, target_component = 0;
 };
 
-inline constexpr std::uint8_t param_int32 = 6, param_real32 = 9;  ///< param_type; an integer's bits stand in the float
+inline constexpr std::uint8_t param_int32 = 6,
+                              param_real32 = 9;  ///< param_type; an integer's bits stand in the float
 
 struct ParamValue {  ///< from the controller
   static constexpr std::uint8_t id = 22;
@@ -67,18 +70,22 @@ struct AttitudeQuaternion {  ///< from the controller: its own estimate
   float rollspeed = 0, pitchspeed = 0, yawspeed = 0;  ///< rad/s, filtered, bias removed
 };
 
-struct RcChannels {  ///< from the controller: one per frame of the radio. Channels 9 to 18, chancount and rssi are not filled in
+struct RcChannels {  ///< from the controller: one per frame of the radio. Channels 9 to 18, chancount and
+                     ///< rssi are not filled in
   static constexpr std::uint8_t id = 65;
   static constexpr std::string_view name = "RC_CHANNELS";
   std::uint32_t time_boot_ms = 0;
-  std::uint16_t chan1_raw = 0, chan2_raw = 0, chan3_raw = 0, chan4_raw = 0, chan5_raw = 0, chan6_raw = 0, chan7_raw = 0,
+  std::uint16_t chan1_raw = 0, chan2_raw = 0, chan3_raw = 0, chan4_raw = 0, chan5_raw = 0, chan6_raw = 0,
+                chan7_raw = 0,
                 chan8_raw = 0;  ///< us
-  std::uint16_t chan9_raw = 0, chan10_raw = 0, chan11_raw = 0, chan12_raw = 0, chan13_raw = 0, chan14_raw = 0, chan15_raw = 0;
+  std::uint16_t chan9_raw = 0, chan10_raw = 0, chan11_raw = 0, chan12_raw = 0, chan13_raw = 0, chan14_raw = 0,
+                chan15_raw = 0;
   std::uint16_t chan16_raw = 0, chan17_raw = 0, chan18_raw = 0;
   std::uint8_t chancount = 0, rssi = 0;
 };
 
-struct Timesync {  ///< either way, ns. A question has tc1 = 0; the answer has the controller's clock there and ts1 as it came
+struct Timesync {  ///< either way, ns. A question has tc1 = 0; the answer has the controller's clock there
+                   ///< and ts1 as it came
   static constexpr std::uint8_t id = 111;
   static constexpr std::string_view name = "TIMESYNC";
   std::int64_t tc1 = 0, ts1 = 0;
@@ -87,9 +94,10 @@ struct Timesync {  ///< either way, ns. A question has tc1 = 0; the answer has t
 struct OffboardControl {  ///< to the controller
   static constexpr std::uint8_t id = 180;
   static constexpr std::string_view name = "OFFBOARD_CONTROL";
-  std::array<float, 10> u{};  ///< mode 0, fixed wing: u[0] throttle 0..1; u[3] aileron, u[4] elevator, u[5] rudder -1..1
-  std::uint16_t ignore = 0;   ///< bit i: u[i] does not count
-  std::uint8_t mode = 0;      ///< 0: to the mixer as it is
+  std::array<float, 10>
+      u{};  ///< mode 0, fixed wing: u[0] throttle 0..1; u[3] aileron, u[4] elevator, u[5] rudder -1..1
+  std::uint16_t ignore = 0;  ///< bit i: u[i] does not count
+  std::uint8_t mode = 0;     ///< 0: to the mixer as it is
 };
 
 struct SmallImu {  ///< from the controller, SI
@@ -241,7 +249,12 @@ struct RosflightBatteryStatus {  ///< from the controller
   float battery_voltage = 0, battery_current = 0;  ///< V, A
 };
 
-enum class Severity : std::uint8_t { critical = 2, error = 3, warning = 4, info = 6 };  ///< those that the firmware uses
+enum class Severity : std::uint8_t {
+  critical = 2,
+  error = 3,
+  warning = 4,
+  info = 6
+};  ///< those that the firmware uses
 
 struct Statustext {  ///< from the controller
   static constexpr std::uint8_t id = 253;
@@ -250,7 +263,8 @@ struct Statustext {  ///< from the controller
   std::array<char, 50> text{};  ///< up to the first NUL
 };
 
-// ---- what follows from the structs ----------------------------------------------------------------------------------------------
+// ---- what follows from the structs
+// ----------------------------------------------------------------------------------------------
 
 inline constexpr std::size_t max_payload = 70;
 
@@ -308,7 +322,8 @@ struct Layout {
   std::uint8_t crc_extra = 0;
 };
 
-/// MAVLink, "CRC_EXTRA calculation": name and fields as text, in the order of the wire; the length of an array as a byte.
+/// MAVLink, "CRC_EXTRA calculation": name and fields as text, in the order of the wire; the length of an
+/// array as a byte.
 template <class M>
 consteval Layout layout() {
   Layout out;
@@ -321,7 +336,9 @@ consteval Layout layout() {
     if (E::count > 0) crc = crc_byte(crc, static_cast<std::uint8_t>(E::count));
     out.length += sizeof(Member);
   };
-  const auto all = [&]<class... Member>(fulmar::detail::Types<Member...>) { (add(static_cast<const Member*>(nullptr)), ...); };
+  const auto all = [&]<class... Member>(fulmar::detail::Types<Member...>) {
+    (add(static_cast<const Member*>(nullptr)), ...);
+  };
   all(fulmar::detail::MemberTypes<M>{});
   out.crc_extra = static_cast<std::uint8_t>((crc & 0xff) ^ (crc >> 8));
   return out;
@@ -338,10 +355,11 @@ inline constexpr std::uint8_t crc_extra = detail::layout<M>().crc_extra;
 template <class Visit>
 constexpr void for_each_message(Visit&& visit) {
   const auto each = [&]<class... M>() { (visit.template operator()<M>(), ...); };
-  each.template
-  operator()<Heartbeat, ParamRequestRead, ParamRequestList, ParamValue, ParamSet, AttitudeQuaternion, RcChannels, Timesync, OffboardControl,
-             SmallImu, SmallMag, SmallBaro, DiffPressure, SmallRange, RosflightCmd, RosflightCmdAck, RosflightOutputRaw, RosflightStatus,
-             RosflightVersion, RosflightAuxCmd, ExternalAttitude, RosflightHardError, RosflightGnss, RosflightBatteryStatus, Statustext>();
+  each.template operator()<
+      Heartbeat, ParamRequestRead, ParamRequestList, ParamValue, ParamSet, AttitudeQuaternion, RcChannels,
+      Timesync, OffboardControl, SmallImu, SmallMag, SmallBaro, DiffPressure, SmallRange, RosflightCmd,
+      RosflightCmdAck, RosflightOutputRaw, RosflightStatus, RosflightVersion, RosflightAuxCmd,
+      ExternalAttitude, RosflightHardError, RosflightGnss, RosflightBatteryStatus, Statustext>();
 }
 
 struct WireInfo {
@@ -352,7 +370,9 @@ struct WireInfo {
 /// By message id.
 inline constexpr std::array<WireInfo, 256> wire = [] {
   std::array<WireInfo, 256> table{};
-  for_each_message([&]<class M>() { table[M::id] = {static_cast<std::uint8_t>(length<M>), crc_extra<M>, true}; });
+  for_each_message([&]<class M>() {
+    table[M::id] = {static_cast<std::uint8_t>(length<M>), crc_extra<M>, true};
+  });
   return table;
 }();
 
@@ -372,7 +392,8 @@ constexpr std::array<char, N> field(std::string_view text) {
 // Length and CRC_EXTRA as the dialect's generator prints them.
 template <class M>
 consteval bool is(std::uint8_t id, std::size_t bytes, std::uint8_t seed) {
-  return M::id == id && length<M> == bytes && crc_extra<M> == seed && bytes <= max_payload && sizeof(M) >= bytes;
+  return M::id == id && length<M> == bytes && crc_extra<M> == seed && bytes <= max_payload &&
+         sizeof(M) >= bytes;
 }
 static_assert(is<Heartbeat>(0, 9, 50));
 static_assert(is<ParamRequestRead>(20, 20, 214));

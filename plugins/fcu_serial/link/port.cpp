@@ -27,7 +27,9 @@ class Owned final : public Port {
  public:
   template <class... Args>
   explicit Owned(const Args&... args) : io_(1), port_(io_, args...) {}
-  std::size_t read(std::span<std::uint8_t> room, int timeout_ms) override { return port_.read(room, timeout_ms); }
+  std::size_t read(std::span<std::uint8_t> room, int timeout_ms) override {
+    return port_.read(room, timeout_ms);
+  }
   bool write(std::span<const std::uint8_t> bytes) noexcept override { return port_.write(bytes); }
   int descriptor() const noexcept override { return port_.descriptor(); }
 
@@ -40,7 +42,8 @@ class Owned final : public Port {
 
 std::unique_ptr<Port> Port::open(const std::string& where, std::int64_t baud) {
   const KeepSigpipe keep;
-  if (where.empty()) throw PortError("no port is named: write a device, as /dev/ttyACM0, or udp:ADDRESS:PORT");
+  if (where.empty())
+    throw PortError("no port is named: write a device, as /dev/ttyACM0, or udp:ADDRESS:PORT");
   if (where.starts_with("udp:")) return std::make_unique<Owned<UdpPort>>(where);
   return std::make_unique<Owned<SerialPort>>(where, baud);
 }

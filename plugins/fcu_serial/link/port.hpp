@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The device at the other end: a serial port (raw, 8 data bits, no parity, 1 stop bit, any rate) or a UDP address.
+// The device at the other end: a serial port (raw, 8 data bits, no parity, 1 stop bit, any rate) or a UDP
+// address.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -17,8 +18,9 @@ struct PortError : std::runtime_error {
 
 class Port {
  public:
-  /// "/dev/ttyACM0", or "udp:REMOTE:PORT" and "udp:REMOTE:PORT:LOCAL_PORT" for firmware in simulation ("udp:127.0.0.1:14525" binds 14520).
-  /// Throws PortError: no such device, no permission, held by another program, no serial port, an impossible rate, an address in use.
+  /// "/dev/ttyACM0", or "udp:REMOTE:PORT" and "udp:REMOTE:PORT:LOCAL_PORT" for firmware in simulation
+  /// ("udp:127.0.0.1:14525" binds 14520). Throws PortError: no such device, no permission, held by another
+  /// program, no serial port, an impossible rate, an address in use.
   static std::unique_ptr<Port> open(const std::string& where, std::int64_t baud = 921600);
   virtual ~Port() = default;
   Port(const Port&) = delete;
@@ -26,9 +28,11 @@ class Port {
 
   /// Bytes that came within `timeout_ms`, 0 when none did. Throws PortError when the device has gone.
   virtual std::size_t read(std::span<std::uint8_t> room, int timeout_ms) = 0;
-  /// All of it or nothing; never waits. False when there is no room, or no device any more. Async-signal-safe.
+  /// All of it or nothing; never waits. False when there is no room, or no device any more.
+  /// Async-signal-safe.
   virtual bool write(std::span<const std::uint8_t> bytes) noexcept = 0;
-  /// For the last act of a dying host: one write of one frame to it reaches the device. -1 when there is none.
+  /// For the last act of a dying host: one write of one frame to it reaches the device. -1 when there is
+  /// none.
   virtual int descriptor() const noexcept = 0;
 
  protected:

@@ -58,10 +58,12 @@ std::string held(const std::string& path, const std::string& by) {
 
 [[noreturn]] void refuse_open(const std::string& path, int fault) {
   if (fault == ENOENT || fault == ENXIO || fault == ENODEV) {
-    throw PortError("there is no device " + path + " (" + candidates() + "): plug the flight controller in, or name its port");
+    throw PortError("there is no device " + path + " (" + candidates() +
+                    "): plug the flight controller in, or name its port");
   }
   if (fault == EACCES || fault == EPERM) {
-    throw PortError("no permission to open " + path + ": join its group with 'sudo usermod -aG " + group_of(path) +
+    throw PortError("no permission to open " + path + ": join its group with 'sudo usermod -aG " +
+                    group_of(path) +
                     " $USER' and log in again, or install the udev rule of docs/hardware.md");
   }
   struct stat info {};
@@ -89,16 +91,20 @@ void hold_alone(int descriptor, const std::string& path) {
   ioctl(descriptor, TIOCEXCL);
 }
 
-/// Every byte as it comes. Without HUPCL, closing leaves the modem lines alone: on some boards they are wired to reset.
+/// Every byte as it comes. Without HUPCL, closing leaves the modem lines alone: on some boards they are wired
+/// to reset.
 void make_raw(int descriptor, const std::string& path) {
   termios settings{};
-  if (tcgetattr(descriptor, &settings) != 0) throw PortError(path + " is no serial port: name one, as /dev/ttyACM0, or udp:ADDRESS:PORT");
+  if (tcgetattr(descriptor, &settings) != 0)
+    throw PortError(path + " is no serial port: name one, as /dev/ttyACM0, or udp:ADDRESS:PORT");
   cfmakeraw(&settings);
   settings.c_cflag |= CLOCAL | CREAD;
   settings.c_cflag &= ~static_cast<tcflag_t>(HUPCL);
-  settings.c_cc[VMIN] = 1;  // with O_NONBLOCK an empty line is EAGAIN then, and 0 bytes mean that the device has gone
+  settings.c_cc[VMIN] =
+      1;  // with O_NONBLOCK an empty line is EAGAIN then, and 0 bytes mean that the device has gone
   settings.c_cc[VTIME] = 0;
-  if (tcsetattr(descriptor, TCSANOW, &settings) != 0) throw PortError("cannot set up " + path + ": " + std::strerror(errno));
+  if (tcsetattr(descriptor, TCSANOW, &settings) != 0)
+    throw PortError("cannot set up " + path + ": " + std::strerror(errno));
 }
 
 void set_format(asio::serial_port& port, const std::string& path, std::int64_t baud) {
@@ -112,11 +118,15 @@ void set_format(asio::serial_port& port, const std::string& path, std::int64_t b
   port.set_option(base::baud_rate(static_cast<unsigned>(baud)), fault);
   if (!fault) return;
   const auto wanted = static_cast<unsigned>(baud), got = set_any_rate(port.native_handle(), wanted);
-  const bool near = got > wanted - wanted / 30 && got < wanted + wanted / 30;  // a UART samples ten bits with one start edge
-  if (!near) throw PortError(path + " cannot run at " + std::to_string(baud) + " baud: name a rate of its hardware, 921600 unless changed");
+  const bool near = got > wanted - wanted / 30 &&
+                    got < wanted + wanted / 30;  // a UART samples ten bits with one start edge
+  if (!near)
+    throw PortError(path + " cannot run at " + std::to_string(baud) +
+                    " baud: name a rate of its hardware, 921600 unless changed");
 }
 
-/// Some adapters (FTDI) keep bytes for 16 ms unless asked not to. Devices that know no such thing refuse, which is no harm.
+/// Some adapters (FTDI) keep bytes for 16 ms unless asked not to. Devices that know no such thing refuse,
+/// which is no harm.
 void deliver_at_once(int descriptor) {
   serial_struct settings{};
   if (ioctl(descriptor, TIOCGSERIAL, &settings) != 0) return;
@@ -126,9 +136,11 @@ void deliver_at_once(int descriptor) {
 
 }  // namespace
 
-SerialPort::SerialPort(asio::io_context& io, const std::string& path, std::int64_t baud) : path_(path), port_(io) {
+SerialPort::SerialPort(asio::io_context& io, const std::string& path, std::int64_t baud)
+    : path_(path), port_(io) {
   if (baud < 50 || baud > 50'000'000) {
-    throw PortError(std::to_string(baud) + " baud is no rate of a serial port: 921600 is usual, and 50 to 50000000 are possible");
+    throw PortError(std::to_string(baud) +
+                    " baud is no rate of a serial port: 921600 is usual, and 50 to 50000000 are possible");
   }
   refuse_kind(path);
   const int fd = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
@@ -148,7 +160,8 @@ SerialPort::SerialPort(asio::io_context& io, const std::string& path, std::int64
 }
 
 SerialPort::~SerialPort() {
-  if (port_.is_open()) ioctl(port_.native_handle(), TIOCNXCL);  // else it lasts as long as anybody has the device open
+  if (port_.is_open())
+    ioctl(port_.native_handle(), TIOCNXCL);  // else it lasts as long as anybody has the device open
 }
 
 std::size_t SerialPort::read(std::span<std::uint8_t> room, int timeout_ms) {
@@ -157,7 +170,8 @@ std::size_t SerialPort::read(std::span<std::uint8_t> room, int timeout_ms) {
   if (ready == 0 || (ready < 0 && errno == EINTR)) return 0;
   const ssize_t n = ready > 0 ? ::read(descriptor_, room.data(), room.size()) : -1;
   if (n > 0) return static_cast<std::size_t>(n);
-  if (n < 0 && (errno == EAGAIN || errno == EINTR) && (one.revents & (POLLHUP | POLLERR | POLLNVAL)) == 0) return 0;
+  if (n < 0 && (errno == EAGAIN || errno == EINTR) && (one.revents & (POLLHUP | POLLERR | POLLNVAL)) == 0)
+    return 0;
   tcflush(descriptor_, TCOFLUSH);  // else closing it may wait until nobody has taken what is left
   throw PortError(path_ + " has gone: is it still plugged in?");
 }

@@ -24,11 +24,13 @@ class SerialPort final : public Port {
   std::string path_;
   boost::asio::serial_port port_;
   int descriptor_ = -1;
-  std::array<std::uint8_t, 512> rest_{};  ///< of a write that the device took in part: it goes first, so that frames stay whole
+  std::array<std::uint8_t, 512>
+      rest_{};  ///< of a write that the device took in part: it goes first, so that frames stay whole
   std::size_t rest_size_ = 0;
 };
 
-/// A rate that is no constant of termios, through termios2. The rate that the driver then has, 0 when it refuses.
+/// A rate that is no constant of termios, through termios2. The rate that the driver then has, 0 when it
+/// refuses.
 unsigned set_any_rate(int descriptor, unsigned baud);
 
 }  // namespace fulmar::fcu

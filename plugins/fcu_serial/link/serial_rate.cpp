@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// In a file of its own: the kernel's termbits.h and the library's termios.h name the same things. Source: ioctl_tty(2), termios(3) on
-// BOTHER.
+// In a file of its own: the kernel's termbits.h and the library's termios.h name the same things. Source:
+// ioctl_tty(2), termios(3) on BOTHER.
 #include <asm/ioctls.h>
 #include <asm/termbits.h>
 #include <sys/ioctl.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lock-free queue of a fixed number of values between one producer and one consumer. Neither waits, neither allocates.
+// Lock-free queue of a fixed number of values between one producer and one consumer. Neither waits, neither
+// allocates.
 #pragma once
 #include <array>
 #include <atomic>
@@ -41,7 +42,9 @@ class SpscQueue {
   }
 
   /// Consumer.
-  bool empty() const noexcept { return tail_.load(std::memory_order_relaxed) == head_.load(std::memory_order_acquire); }
+  bool empty() const noexcept {
+    return tail_.load(std::memory_order_relaxed) == head_.load(std::memory_order_acquire);
+  }
 
  private:
   // Each thread writes cache lines of its own.

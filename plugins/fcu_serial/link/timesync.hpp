@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The controller's clock in host time. Questions and answers give bounds: the answer was stamped after the question left and before the
-// answer came, so offset = host - controller lies in [asked - stamp, came - stamp]. The messages that took least time, each way, bound it
-// best: one line each through the bounds of the last seconds, of one slope, each bound weighted by how far it is from the tightest. The
-// offset is in the middle, as if the quickest message took equal time both ways; by how much it does not cannot be told from one end.
-// Sources: RFC 5905 (NTP), section 10, clock filter; Paxson, On Calibrating Measurements of Packet Transit Times (1998).
+// The controller's clock in host time. Questions and answers give bounds: the answer was stamped after the
+// question left and before the answer came, so offset = host - controller lies in [asked - stamp, came -
+// stamp]. The messages that took least time, each way, bound it best: one line each through the bounds of the
+// last seconds, of one slope, each bound weighted by how far it is from the tightest. The offset is in the
+// middle, as if the quickest message took equal time both ways; by how much it does not cannot be told from
+// one end. Sources: RFC 5905 (NTP), section 10, clock filter; Paxson, On Calibrating Measurements of Packet
+// Transit Times (1998).
 #pragma once
 #include <algorithm>
 #include <array>
@@ -20,7 +22,8 @@ class ClockSync {
   static constexpr std::int64_t jump_ns = 10'000'000;         ///< more than that is another clock
   static constexpr std::int64_t patience_ns = 1'000'000'000;  ///< an answer that takes longer is none
   static constexpr double drift_limit = 500e-6;
-  static constexpr std::int64_t longest_ns = 300'000'000'000'000'000;  ///< nothing runs for ten years: a stamp beyond is garbage
+  static constexpr std::int64_t longest_ns =
+      300'000'000'000'000'000;  ///< nothing runs for ten years: a stamp beyond is garbage
 
   enum class Verdict : std::uint8_t { ignored, taken, jumped };
 
@@ -29,7 +32,8 @@ class ClockSync {
 
   /// TIMESYNC came. `jumped`: the clock is another one than before, and all is forgotten but this answer.
   Verdict answered(std::int64_t ts1, std::int64_t tc1, std::int64_t now_ns) {
-    if (tc1 <= 0 || tc1 > longest_ns || ts1 > now_ns || now_ns - ts1 > patience_ns || !was_asked(ts1)) return Verdict::ignored;
+    if (tc1 <= 0 || tc1 > longest_ns || ts1 > now_ns || now_ns - ts1 > patience_ns || !was_asked(ts1))
+      return Verdict::ignored;
     const Sample sample{now_ns, now_ns - ts1, ts1 + (now_ns - ts1) / 2 - tc1};
     const std::int64_t apart_ns = synchronised() ? beyond_bounds(sample) : 0;
     if (apart_ns > step_limit_ns) {
@@ -59,16 +63,20 @@ class ClockSync {
   /// Host time = controller's time + offset, for an event about now.
   std::int64_t offset_ns(std::int64_t now_ns) const {
     const double t = static_cast<double>(now_ns - line_at_ns_);
-    const double fading = std::clamp(1 - static_cast<double>(now_ns - bent_at_ns_) / static_cast<double>(blend_ns), 0.0, 1.0);
+    const double fading =
+        std::clamp(1 - static_cast<double>(now_ns - bent_at_ns_) / static_cast<double>(blend_ns), 0.0, 1.0);
     return line_ns_ + std::llround(slope_ * t + step_ns_ * fading);
   }
 
  private:
-  static constexpr std::int64_t blend_ns = 1'000'000'000;   // a new line takes over gradually: stamps of neighbours keep their distance
-  static constexpr double snap_ns = 2e6;                    // a worse error is not worth a smooth correction
-  static constexpr std::int64_t step_limit_ns = 2'000'000;  // bounds that are further apart than that are of two clocks
-  static constexpr double resolution_ns = 20e3;             // of the best message: what a scheduler does in a quiet moment
-  static constexpr double usual_drift = 100e-6;             // of two crystals; holds the line while its base is short
+  static constexpr std::int64_t blend_ns =
+      1'000'000'000;  // a new line takes over gradually: stamps of neighbours keep their distance
+  static constexpr double snap_ns = 2e6;  // a worse error is not worth a smooth correction
+  static constexpr std::int64_t step_limit_ns =
+      2'000'000;  // bounds that are further apart than that are of two clocks
+  static constexpr double resolution_ns =
+      20e3;  // of the best message: what a scheduler does in a quiet moment
+  static constexpr double usual_drift = 100e-6;  // of two crystals; holds the line while its base is short
 
   static constexpr std::size_t most = 128;  // a window's worth at 10 Hz
 
@@ -78,7 +86,8 @@ class ClockSync {
   };
 
   bool was_asked(std::int64_t ts1) {
-    const std::size_t kept = static_cast<std::size_t>(std::min<std::uint64_t>(question_count_, questions_.size()));
+    const std::size_t kept =
+        static_cast<std::size_t>(std::min<std::uint64_t>(question_count_, questions_.size()));
     for (std::size_t i = 0; i < kept; ++i) {
       if (questions_[i] != ts1) continue;
       questions_[i] = -1;  // an answer counts once
@@ -87,13 +96,16 @@ class ClockSync {
     return false;
   }
 
-  /// How far the bounds of this answer are from those of the line, more than the clocks can have drifted apart since the last one.
+  /// How far the bounds of this answer are from those of the line, more than the clocks can have drifted
+  /// apart since the last one.
   std::int64_t beyond_bounds(const Sample& s) const {
-    const std::int64_t distance = std::llabs(s.offset_ns - offset_ns(s.at_ns)) - s.round_trip_ns / 2 - least_ns_ / 2;
+    const std::int64_t distance =
+        std::llabs(s.offset_ns - offset_ns(s.at_ns)) - s.round_trip_ns / 2 - least_ns_ / 2;
     return distance - std::llround(drift_limit * static_cast<double>(s.at_ns - newest().at_ns));
   }
   bool confirms(const Sample& s) const {
-    return suspect_ && std::llabs(s.offset_ns - suspect_->offset_ns) <= step_limit_ns + s.round_trip_ns / 2 + suspect_->round_trip_ns / 2;
+    return suspect_ && std::llabs(s.offset_ns - suspect_->offset_ns) <=
+                           step_limit_ns + s.round_trip_ns / 2 + suspect_->round_trip_ns / 2;
   }
 
   void restart_line() {
@@ -121,11 +133,13 @@ class ClockSync {
     double w = 0, t = 0, y = 0, tightest = 0, resolution = 0;
   };
   double bound(const Sample& s, double sign) const {
-    return static_cast<double>(s.offset_ns - newest().offset_ns) + sign * 0.5 * static_cast<double>(s.round_trip_ns);
+    return static_cast<double>(s.offset_ns - newest().offset_ns) +
+           sign * 0.5 * static_cast<double>(s.round_trip_ns);
   }
   double age(const Sample& s) const { return static_cast<double>(s.at_ns - newest().at_ns); }
   double weight(const Sample& s, const Side& side) const {
-    const double looseness = side.sign * (bound(s, side.sign) - slope_ * age(s)) - side.tightest + side.resolution;
+    const double looseness =
+        side.sign * (bound(s, side.sign) - slope_ * age(s)) - side.tightest + side.resolution;
     return 1 / (looseness * looseness);
   }
   template <class Take>
@@ -147,7 +161,8 @@ class ClockSync {
     std::nth_element(begin, middle, end);
     side.tightest = *std::min_element(begin, middle + 1);
     side.resolution =
-        resolution_ns + 1.4 * (*middle - side.tightest) / static_cast<double>(n);  // what the least of n delays has above none
+        resolution_ns + 1.4 * (*middle - side.tightest) /
+                            static_cast<double>(n);  // what the least of n delays has above none
     each([&](const Sample& s) {
       const double w = weight(s, side);
       side.w += w, side.t += w * age(s), side.y += w * bound(s, sign);
@@ -156,7 +171,8 @@ class ClockSync {
     return side;
   }
 
-  /// Least squares over both sides with a common slope and a prior on it. The weights depend on the slope: twice.
+  /// Least squares over both sides with a common slope and a prior on it. The weights depend on the slope:
+  /// twice.
   void fit(std::int64_t now_ns) {
     least_ns_ = newest().round_trip_ns;
     each([&](const Sample& s) { least_ns_ = std::min(least_ns_, s.round_trip_ns); });
@@ -174,7 +190,8 @@ class ClockSync {
       slope_ = std::clamp(ty / tt, -drift_limit, drift_limit);
     }
     line_at_ns_ = now_ns;
-    line_ns_ = newest().offset_ns + std::llround(0.5 * (sides[0].y - slope_ * sides[0].t + sides[1].y - slope_ * sides[1].t));
+    line_ns_ = newest().offset_ns +
+               std::llround(0.5 * (sides[0].y - slope_ * sides[0].t + sides[1].y - slope_ * sides[1].t));
   }
 
   std::array<Sample, most> samples_{};
@@ -191,11 +208,13 @@ class Dater {
  public:
   ClockSync clock;
 
-  /// TIMESYNC came. `jumped`: the controller's clock was put back, as a reboot does. One that leaps forward is followed.
+  /// TIMESYNC came. `jumped`: the controller's clock was put back, as a reboot does. One that leaps forward
+  /// is followed.
   ClockSync::Verdict answered(std::int64_t ts1, std::int64_t tc1, std::int64_t now_ns) {
-    // An inertial sample was stamped before it came. A clock that is further behind was read too early: a controller in simulation that
-    // was held up has not rebooted.
-    if (imu_bound_.known(now_ns) && ts1 - tc1 > imu_bound_.ns() + ClockSync::jump_ns) return ClockSync::Verdict::ignored;
+    // An inertial sample was stamped before it came. A clock that is further behind was read too early: a
+    // controller in simulation that was held up has not rebooted.
+    if (imu_bound_.known(now_ns) && ts1 - tc1 > imu_bound_.ns() + ClockSync::jump_ns)
+      return ClockSync::Verdict::ignored;
     const std::int64_t before_ns = clock.synchronised() ? clock.offset_ns(now_ns) : 0;
     const ClockSync::Verdict verdict = clock.answered(ts1, tc1, now_ns);
     if (verdict != ClockSync::Verdict::jumped) return verdict;
@@ -203,17 +222,23 @@ class Dater {
     return clock.offset_ns(now_ns) > before_ns ? verdict : ClockSync::Verdict::taken;
   }
 
-  /// Of a stamp in us on the controller's clock. Never after the arrival and never 1 s before it: then the arrival counts, `undated` too.
-  std::int64_t date_us(std::uint64_t stamp_us, std::int64_t arrived_ns) { return date(stamp_us, 1000, 0, arrived_ns); }
+  /// Of a stamp in us on the controller's clock. Never after the arrival and never 1 s before it: then the
+  /// arrival counts, `undated` too.
+  std::int64_t date_us(std::uint64_t stamp_us, std::int64_t arrived_ns) {
+    return date(stamp_us, 1000, 0, arrived_ns);
+  }
 
-  /// Of a stamp cut to whole ms, of which the lowest 32 bits may be all there is: they wrap after 49.7 days. The middle of that ms.
+  /// Of a stamp cut to whole ms, of which the lowest 32 bits may be all there is: they wrap after 49.7 days.
+  /// The middle of that ms.
   std::int64_t date_ms32(std::uint32_t stamp_ms, std::int64_t arrived_ns) {
     if (!clock.synchronised()) return arrived_ns;
     const std::int64_t about_ms = (arrived_ns - clock.offset_ns(arrived_ns)) / 1'000'000;
     const auto ahead = static_cast<std::int32_t>(stamp_ms - static_cast<std::uint32_t>(about_ms));
     return date_ms(static_cast<std::uint64_t>(about_ms + ahead), arrived_ns);
   }
-  std::int64_t date_ms(std::uint64_t stamp_ms, std::int64_t arrived_ns) { return date(stamp_ms, 1'000'000, 500'000, arrived_ns); }
+  std::int64_t date_ms(std::uint64_t stamp_ms, std::int64_t arrived_ns) {
+    return date(stamp_ms, 1'000'000, 500'000, arrived_ns);
+  }
 
   /// Of an inertial sample: strictly increasing. Arrivals must be.
   std::int64_t date_imu(std::uint64_t stamp_us, std::int64_t arrived_ns) {
@@ -223,7 +248,8 @@ class Dater {
     return last_imu_ns_;
   }
 
-  /// Looks at each stamp of an inertial sample. True when the controller's clock has begun anew: two in a row that lie before the newest.
+  /// Looks at each stamp of an inertial sample. True when the controller's clock has begun anew: two in a row
+  /// that lie before the newest.
   bool started_anew(std::uint64_t stamp_us) {
     const bool back = stamp_us + static_cast<std::uint64_t>(ClockSync::jump_ns) / 1000 < newest_us_;
     const bool twice = back && earlier_us_ && stamp_us >= *earlier_us_;
@@ -269,10 +295,12 @@ class Dater {
     std::int64_t begun_ns_ = -patience_ns, now_ns_ = 0, before_ns_ = 0;
   };
 
-  std::int64_t date(std::uint64_t stamp, std::int64_t unit_ns, std::int64_t middle_ns, std::int64_t arrived_ns) {
+  std::int64_t date(std::uint64_t stamp, std::int64_t unit_ns, std::int64_t middle_ns,
+                    std::int64_t arrived_ns) {
     if (!clock.synchronised()) return arrived_ns;
     const bool possible = stamp < static_cast<std::uint64_t>(ClockSync::longest_ns / unit_ns);
-    const std::int64_t at = possible ? static_cast<std::int64_t>(stamp) * unit_ns + middle_ns + clock.offset_ns(arrived_ns) : 0;
+    const std::int64_t at =
+        possible ? static_cast<std::int64_t>(stamp) * unit_ns + middle_ns + clock.offset_ns(arrived_ns) : 0;
     if (!possible || at > arrived_ns + tolerance_ns || at < arrived_ns - oldest_ns) {
       ++undated_;
       return arrived_ns;

@@ -22,7 +22,9 @@ struct Address {
 };
 
 [[noreturn]] void refuse_address(const std::string& where) {
-  throw PortError("'" + where + "' is no address: write udp:ADDRESS:PORT or udp:ADDRESS:PORT:LOCAL_PORT, as udp:127.0.0.1:14525");
+  throw PortError(
+      "'" + where +
+      "' is no address: write udp:ADDRESS:PORT or udp:ADDRESS:PORT:LOCAL_PORT, as udp:127.0.0.1:14525");
 }
 
 unsigned short port_number(const std::string& text, const std::string& where) {
@@ -51,7 +53,9 @@ udp::endpoint endpoint(const Address& address, const std::string& where) {
   boost::system::error_code fault;
   const std::string number = address.remote == "localhost" ? "127.0.0.1" : address.remote;
   const auto host = boost::asio::ip::make_address_v4(number, fault);
-  if (fault) throw PortError("'" + address.remote + "' in '" + where + "' is no IPv4 number: write it as udp:127.0.0.1:14525");
+  if (fault)
+    throw PortError("'" + address.remote + "' in '" + where +
+                    "' is no IPv4 number: write it as udp:127.0.0.1:14525");
   return {host, address.remote_port};
 }
 
@@ -61,14 +65,17 @@ UdpPort::UdpPort(boost::asio::io_context& io, const std::string& where) : socket
   const Address address = parse(where);
   const udp::endpoint remote = endpoint(address, where);
   // What comes from this machine is expected on it alone.
-  const udp::endpoint local(
-      remote.address().is_loopback() ? remote.address() : boost::asio::ip::address(boost::asio::ip::address_v4::any()), address.local_port);
+  const udp::endpoint local(remote.address().is_loopback()
+                                ? remote.address()
+                                : boost::asio::ip::address(boost::asio::ip::address_v4::any()),
+                            address.local_port);
   boost::system::error_code fault;
   socket_.open(udp::v4(), fault);
   if (!fault) fcntl(socket_.native_handle(), F_SETFD, FD_CLOEXEC);
   if (!fault) socket_.bind(local, fault);
   if (fault == boost::asio::error::address_in_use) {
-    throw PortError("UDP port " + std::to_string(address.local_port) + " is held by another program: end that first, or choose one with " +
+    throw PortError("UDP port " + std::to_string(address.local_port) +
+                    " is held by another program: end that first, or choose one with " +
                     "udp:" + address.remote + ":" + std::to_string(address.remote_port) + ":LOCAL_PORT");
   }
   if (!fault) socket_.connect(remote, fault);  // then others are not heard
@@ -79,7 +86,8 @@ UdpPort::UdpPort(boost::asio::io_context& io, const std::string& where) : socket
 std::size_t UdpPort::read(std::span<std::uint8_t> room, int timeout_ms) {
   pollfd one{descriptor_, POLLIN, 0};
   if (poll(&one, 1, timeout_ms) <= 0) return 0;
-  const ssize_t n = recv(descriptor_, room.data(), room.size(), MSG_DONTWAIT);  // a refused connection: nobody is there yet
+  const ssize_t n =
+      recv(descriptor_, room.data(), room.size(), MSG_DONTWAIT);  // a refused connection: nobody is there yet
   return n > 0 ? static_cast<std::size_t>(n) : 0;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which parameters of the controller have to be asked for, and when. An answer may get lost: the firmware drops what finds no room.
+// Which parameters of the controller have to be asked for, and when. An answer may get lost: the firmware
+// drops what finds no room.
 #pragma once
 #include <cstdint>
 #include <string>

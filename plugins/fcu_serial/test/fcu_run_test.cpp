@@ -63,7 +63,8 @@ TEST_CASE("bytes of another baud rate") {
     pty.write(noise);
     pause_us(2000);
   });
-  refused(fly(device.name(), "--set fcu.baud=115200"), "at 115200 baud none is a MAVLink 1 frame: set the baud rate");
+  refused(fly(device.name(), "--set fcu.baud=115200"),
+          "at 115200 baud none is a MAVLink 1 frame: set the baud rate");
 }
 
 TEST_CASE("a satellite receiver") {
@@ -109,7 +110,8 @@ TEST_CASE("a controller: it is flown for as long as was asked, armed by its pilo
   Device device([&](Pty& pty) {
     if (begun == 0 && fcu.commands() > 0) begun = wall_us();
     const std::int64_t t = begun == 0 ? 0 : wall_us() - begun;
-    fcu.inputs.rc_us[4] = t > 1'000'000 && t < 6'500'000 ? 2000 : 1000;  // the flight does not end while it is armed
+    fcu.inputs.rc_us[4] =
+        t > 1'000'000 && t < 6'500'000 ? 2000 : 1000;  // the flight does not end while it is armed
     fcu.inputs.rc_us[5] = t > 1'000'000 && t < 1'500'000 ? 2000 : 1000;
     if (!pulled && t > 4'000'000) pty.pull(), pulled = true;
     if (!back && t > 5'000'000) pty.plug(), back = true;
@@ -120,9 +122,11 @@ TEST_CASE("a controller: it is flown for as long as was asked, armed by its pilo
   CHECK(r.code == 0);
   CHECK(r.says("hourglass: flown (duration reached)"));
   CHECK(back);
-  CHECK(fcu.commands() > 100);  // 20 Hz and more in the 6 s with a cable; how many come in a tick's time is shown elsewhere
-  for (const char* words : {"connected: ROSflight v2.0.1", "fcu: armed", "the pilot flies: attitude switch, throttle switch",
-                            "the pilot hands over", "in control", "device is gone; looking for it", "is back after 1.", "disarmed"}) {
+  CHECK(fcu.commands() >
+        100);  // 20 Hz and more in the 6 s with a cable; how many come in a tick's time is shown elsewhere
+  for (const char* words : {"connected: ROSflight v2.0.1", "fcu: armed",
+                            "the pilot flies: attitude switch, throttle switch", "the pilot hands over",
+                            "in control", "device is gone; looking for it", "is back after 1.", "disarmed"}) {
     CAPTURE(words);
     CHECK(r.says(words));
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The software flight controller answers, echoes, keeps silent and calibrates as ROSflight firmware 2.0.1 does.
+// The software flight controller answers, echoes, keeps silent and calibrates as ROSflight firmware 2.0.1
+// does.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -16,7 +17,9 @@ namespace {
 ParamSet whole(std::string_view name, std::int32_t value) {
   return {std::bit_cast<std::uint32_t>(value), 1, 0, field<16>(name), param_int32};
 }
-ParamSet real(std::string_view name, float value) { return {std::bit_cast<std::uint32_t>(value), 1, 0, field<16>(name), param_real32}; }
+ParamSet real(std::string_view name, float value) {
+  return {std::bit_cast<std::uint32_t>(value), 1, 0, field<16>(name), param_real32};
+}
 bool acknowledged(const Companion& c, Command command) {
   const auto ack = c.last<RosflightCmdAck>();
   return ack.command == static_cast<std::uint8_t>(command) && ack.success == 1;
@@ -46,7 +49,9 @@ TEST_CASE("a crystal that runs 50 ppm fast gains 50 us per second") {
   CHECK(c.fcu.clock_us() - 10000000 == doctest::Approx(500).epsilon(0.01));
 }
 
-TEST_CASE("a parameter is echoed only when it changes; unknown names, wrong types and foreign systems are met with silence") {
+TEST_CASE(
+    "a parameter is echoed only when it changes; unknown names, wrong types and foreign systems are met with "
+    "silence") {
   Companion c;
   c.wait(0.5);
   c.forget();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The software flight controller streams, arms, overrides and fails as ROSflight firmware 2.0.1 was measured to.
+// The software flight controller streams, arms, overrides and fails as ROSflight firmware 2.0.1 was measured
+// to.
 #include <doctest/doctest.h>
 
 #include <cmath>

@@ -41,12 +41,13 @@ struct Flying {
     auto& out = bench.out;
     ticks_ns.push_back(bench.tick.now_ns);
     count("gnss", out.gnss), count("mag", out.mag), count("baro", out.baro), count("pitot", out.pitot);
-    count("attitude", out.attitude), count("outputs", out.outputs), count("link", out.link), count("rc", out.rc),
-        count("status", out.status);
+    count("attitude", out.attitude), count("outputs", out.outputs), count("link", out.link),
+        count("rc", out.rc), count("status", out.status);
     if (out.imu.written) imu_ns.push_back(out.imu.valid_at_ns);
     if (out.status.written) status = out.status.value;
     if (out.rc.written) rc = out.rc.value;
-    for (std::uint32_t i = 0; i < out.notices.count; ++i) told += std::string(out.notices.items[i].text.view()) + "\n";
+    for (std::uint32_t i = 0; i < out.notices.count; ++i)
+      told += std::string(out.notices.items[i].text.view()) + "\n";
     if (commands && ticks_ns.size() % 4 == 1) bench.set(bench.in.actuators, command);
     bench.write();
     return result;

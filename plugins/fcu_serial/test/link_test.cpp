@@ -24,7 +24,8 @@ TEST_CASE("a port that cannot be opened is refused when the link is made") {
   CHECK_THROWS_AS(Link{options}, PortError);
 }
 
-TEST_CASE("the controller hears a heartbeat and a question for its time at once, from system 1, component 50") {
+TEST_CASE(
+    "the controller hears a heartbeat and a question for its time at once, from system 1, component 50") {
   Controller c;
   const Link link(options_of(c));
   REQUIRE(c.listen_until([&] { return !c.heard[Heartbeat::id].empty() && !c.heard[Timesync::id].empty(); }));
@@ -43,7 +44,8 @@ TEST_CASE("heartbeats and questions come at 1 and 10 Hz of host time, which may 
     options.time_scale = scale;
     const Link link(options);
     REQUIRE(c.listen_until([&] { return c.heard[Heartbeat::id].size() == 3; }));
-    // Each of them carries the host's time: no clock of the test is needed. The third heartbeat is due at 2 s.
+    // Each of them carries the host's time: no clock of the test is needed. The third heartbeat is due at 2
+    // s.
     const std::vector<Packet>& questions = c.heard[Timesync::id];
     CHECK(questions.size() <= 22);
     CHECK(questions.size() >= 10);
@@ -73,7 +75,8 @@ TEST_CASE("the loop sleeps until an inertial sample or its deadline") {
   CHECK(link.now_ns() < from + patience_ms * ms / 2);  // woken, not late
   later.join();
   CHECK(link.wait_imu(0));  // it is still there
-  REQUIRE(pop_until(link, c, [](const Received& r) { return r.event == LinkEvent::packet && r.packet.is<SmallImu>(); }));
+  REQUIRE(pop_until(
+      link, c, [](const Received& r) { return r.event == LinkEvent::packet && r.packet.is<SmallImu>(); }));
   CHECK_FALSE(link.wait_imu(0));
 }
 
@@ -120,14 +123,17 @@ TEST_CASE("packets come out in order and whole, behind the event of the connecti
   CHECK(link.descriptor() >= 0);
 }
 
-TEST_CASE("with its questions answered, stamps of the controller become host time to half of the round trip") {
+TEST_CASE(
+    "with its questions answered, stamps of the controller become host time to half of the round trip") {
   for (const double scale : {1.0, 4.0}) {
     CAPTURE(scale);
     Controller c;
     LinkOptions options = options_of(c);
     options.time_scale = scale;
     Link link(options);
-    c.clock_ns = [&] { return link.now_ns() + 5000 * second; };  // started 5000 s ago, runs at the host's pace
+    c.clock_ns = [&] {
+      return link.now_ns() + 5000 * second;
+    };  // started 5000 s ago, runs at the host's pace
     REQUIRE(c.listen_until([&] { return link.state().synchronised && c.heard[Timesync::id].size() > 5; }));
     for (Received r; link.pop(r);) continue;
     std::vector<std::int64_t> sent;
@@ -143,7 +149,8 @@ TEST_CASE("with its questions answered, stamps of the controller become host tim
       if (!r.packet.is<SmallImu>()) return false;
       CHECK(r.valid_at_ns <= r.arrived_ns);
       // An answer's bounds are a round trip apart; a later, quicker one may have narrowed them.
-      CHECK(std::llabs(r.valid_at_ns - sent[at]) <= s.round_trip_ns + static_cast<std::int64_t>(500e3 * scale));
+      CHECK(std::llabs(r.valid_at_ns - sent[at]) <=
+            s.round_trip_ns + static_cast<std::int64_t>(500e3 * scale));
       return ++at == sent.size();
     }));
     CHECK(s.undated == 0);
@@ -169,7 +176,8 @@ TEST_CASE("watched parameters are asked for until they have come, ten at a time,
     const std::vector<std::string> all = c.asked_for();
     return std::find(all.begin(), all.end(), name) != all.end();
   };
-  REQUIRE(c.listen_until([&] { return asked("RC_ARM_THRESHOLD") && asked("PARAMETER_9") && asked("PARAMETER_11"); }));
+  REQUIRE(c.listen_until(
+      [&] { return asked("RC_ARM_THRESHOLD") && asked("PARAMETER_9") && asked("PARAMETER_11"); }));
   CHECK_FALSE(asked("PARAMETER_1"));
   for (const std::string& name : options.watched) c.answer_parameter(name, 7);
   REQUIRE(pop_until(link, c, [](const Received& r) {
@@ -182,7 +190,8 @@ TEST_CASE("watched parameters are asked for until they have come, ten at a time,
   CHECK(c.asked_for().empty());
 }
 
-TEST_CASE("requests go to the system that the controller says it is, which PARAM_VALUE and texts do not tell") {
+TEST_CASE(
+    "requests go to the system that the controller says it is, which PARAM_VALUE and texts do not tell") {
   Controller c;
   LinkOptions options = options_of(c);
   options.watched = {"SYS_ID"};

@@ -48,12 +48,14 @@ TEST_CASE("unplugged and plugged in elsewhere: told both, nothing is sent meanwh
   const std::int64_t back = monotonic_ns();
   REQUIRE(pop_until(link, c, event_is(LinkEvent::connected)));
   c.send_imu(static_cast<std::uint64_t>(c.clock_ns() / 1000));
-  REQUIRE(pop_until(link, c, [](const Received& r) { return r.event == LinkEvent::packet && r.packet.is<SmallImu>(); }));
+  REQUIRE(pop_until(
+      link, c, [](const Received& r) { return r.event == LinkEvent::packet && r.packet.is<SmallImu>(); }));
   MESSAGE("packets flow again " << (monotonic_ns() - back) / ms << " ms after the device is back");
   CHECK(monotonic_ns() - back < 20 * second);
   CHECK(link.send(OffboardControl{}));
-  REQUIRE(
-      c.listen_until([&] { return !c.asked_for().empty() && !c.heard[Heartbeat::id].empty() && !c.heard[OffboardControl::id].empty(); }));
+  REQUIRE(c.listen_until([&] {
+    return !c.asked_for().empty() && !c.heard[Heartbeat::id].empty() && !c.heard[OffboardControl::id].empty();
+  }));
   for (int i = 0; i < 200; ++i) c.send_imu(static_cast<std::uint64_t>(c.clock_ns() / 1000)), c.listen(2);
   const LinkState s = link.state();
   CHECK(s.connections == 2);
@@ -92,13 +94,15 @@ TEST_CASE("frames of the loop and of the link's thread go out whole and in order
   constexpr std::size_t commands = 30'000;
   Controller c;
   LinkOptions options = options_of(c);
-  options.time_scale = 1000;  // its own thread asks for the time whenever it is awake, and each sample wakes it
+  options.time_scale =
+      1000;  // its own thread asks for the time whenever it is awake, and each sample wakes it
   Link link(options);
   std::atomic<std::size_t> arrived{0};
   std::thread loop([&] {
     OffboardControl command;
     for (std::size_t i = 0; i < commands; ++i) {
-      while (i > arrived + 8) sched_yield();  // there is room on the line and in what is left for the other thread
+      while (i > arrived + 8)
+        sched_yield();  // there is room on the line and in what is left for the other thread
       command.u[0] = static_cast<float>(i);
       if (!link.send(command)) break;
     }
@@ -113,7 +117,8 @@ TEST_CASE("frames of the loop and of the link's thread go out whole and in order
   const std::vector<Packet>& got = c.heard[OffboardControl::id];
   REQUIRE(got.size() == commands);
   bool in_order = true;
-  for (std::size_t i = 0; i < commands; ++i) in_order = in_order && got[i].as<OffboardControl>().u[0] == static_cast<float>(i);
+  for (std::size_t i = 0; i < commands; ++i)
+    in_order = in_order && got[i].as<OffboardControl>().u[0] == static_cast<float>(i);
   CHECK(in_order);
   CHECK(c.heard[Timesync::id].size() > 100);
   CHECK(c.parser.counts().bad == 0);
@@ -191,7 +196,8 @@ TEST_CASE("the link's thread gets the priority of the loop that waits for it") {
     const sched_param wanted{3};
     permitted = sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &wanted) == 0;
     // The link's thread may be about to begin.
-    for (int i = 0; i < 200 && permitted && sched_getscheduler(id) == SCHED_OTHER; ++i) link.wait_imu(link.now_ns() + 10 * ms);
+    for (int i = 0; i < 200 && permitted && sched_getscheduler(id) == SCHED_OTHER; ++i)
+      link.wait_imu(link.now_ns() + 10 * ms);
   });
   loop.join();
   if (!permitted) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages and frames against the dialect written down a second time: types and names in the order of its XML (rosflight_firmware 2.0,
-// comms/mavlink/rosflight.xml), the rule of order, a bitwise checksum, and the numbers of the generated headers.
+// Messages and frames against the dialect written down a second time: types and names in the order of its XML
+// (rosflight_firmware 2.0, comms/mavlink/rosflight.xml), the rule of order, a bitwise checksum, and the
+// numbers of the generated headers.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -37,17 +38,24 @@ std::string channels(int first, int last) {
 
 const std::vector<Dialect> dialect{
     {0, "HEARTBEAT", 50,
-     "uint8_t type uint8_t autopilot uint8_t base_mode uint32_t custom_mode uint8_t system_status uint8_t mavlink_version"},
-    {20, "PARAM_REQUEST_READ", 214, "uint8_t target_system uint8_t target_component char[16] param_id int16_t param_index"},
+     "uint8_t type uint8_t autopilot uint8_t base_mode uint32_t custom_mode uint8_t system_status uint8_t "
+     "mavlink_version"},
+    {20, "PARAM_REQUEST_READ", 214,
+     "uint8_t target_system uint8_t target_component char[16] param_id int16_t param_index"},
     {21, "PARAM_REQUEST_LIST", 159, "uint8_t target_system uint8_t target_component"},
-    {22, "PARAM_VALUE", 220, "char[16] param_id float param_value uint8_t param_type uint16_t param_count uint16_t param_index"},
-    {23, "PARAM_SET", 168, "uint8_t target_system uint8_t target_component char[16] param_id float param_value uint8_t param_type"},
+    {22, "PARAM_VALUE", 220,
+     "char[16] param_id float param_value uint8_t param_type uint16_t param_count uint16_t param_index"},
+    {23, "PARAM_SET", 168,
+     "uint8_t target_system uint8_t target_component char[16] param_id float param_value uint8_t param_type"},
     {31, "ATTITUDE_QUATERNION", 246,
-     "uint32_t time_boot_ms float q1 float q2 float q3 float q4 float rollspeed float pitchspeed float yawspeed"},
+     "uint32_t time_boot_ms float q1 float q2 float q3 float q4 float rollspeed float pitchspeed float "
+     "yawspeed"},
     {65, "RC_CHANNELS", 118, "uint32_t time_boot_ms uint8_t chancount" + channels(1, 18) + " uint8_t rssi"},
     {111, "TIMESYNC", 34, "int64_t tc1 int64_t ts1"},
     {180, "OFFBOARD_CONTROL", 90, "uint8_t mode uint16_t ignore float[10] u"},
-    {181, "SMALL_IMU", 67, "uint64_t time_boot_us float xacc float yacc float zacc float xgyro float ygyro float zgyro float temperature"},
+    {181, "SMALL_IMU", 67,
+     "uint64_t time_boot_us float xacc float yacc float zacc float xgyro float ygyro float zgyro float "
+     "temperature"},
     {182, "SMALL_MAG", 218, "float xmag float ymag float zmag"},
     {183, "SMALL_BARO", 206, "float altitude float pressure float temperature"},
     {184, "DIFF_PRESSURE", 169, "float velocity float diff_pressure float temperature"},
@@ -56,14 +64,17 @@ const std::vector<Dialect> dialect{
     {189, "ROSFLIGHT_CMD_ACK", 113, "uint8_t command uint8_t success"},
     {190, "ROSFLIGHT_OUTPUT_RAW", 181, "uint64_t stamp float[14] values"},
     {191, "ROSFLIGHT_STATUS", 12,
-     "uint8_t armed uint8_t failsafe uint16_t rc_override uint8_t offboard uint8_t error_code uint8_t control_mode int16_t num_errors "
+     "uint8_t armed uint8_t failsafe uint16_t rc_override uint8_t offboard uint8_t error_code uint8_t "
+     "control_mode int16_t num_errors "
      "int16_t loop_time_us"},
     {192, "ROSFLIGHT_VERSION", 134, "char[50] version"},
     {193, "ROSFLIGHT_AUX_CMD", 1, "uint8_t[14] type_array float[14] aux_cmd_array"},
     {195, "EXTERNAL_ATTITUDE", 65, "float qw float qx float qy float qz"},
-    {196, "ROSFLIGHT_HARD_ERROR", 10, "uint32_t error_code uint32_t pc uint32_t reset_count uint32_t doRearm"},
+    {196, "ROSFLIGHT_HARD_ERROR", 10,
+     "uint32_t error_code uint32_t pc uint32_t reset_count uint32_t doRearm"},
     {197, "ROSFLIGHT_GNSS", 221,
-     "int64_t seconds int32_t nanos uint8_t fix_type uint8_t num_sat double lat double lon float height float vel_n float vel_e float "
+     "int64_t seconds int32_t nanos uint8_t fix_type uint8_t num_sat double lat double lon float height "
+     "float vel_n float vel_e float "
      "vel_d "
      "float h_acc float v_acc float s_acc uint64_t rosflight_timestamp"},
     {199, "ROSFLIGHT_BATTERY_STATUS", 48, "float battery_voltage float battery_current"},
@@ -77,8 +88,9 @@ struct Field {
 
 /// The order of the wire: larger elements first, else as the XML has them.
 std::vector<Field> wire_order(const std::string& text) {
-  const std::map<std::string, std::size_t> sizes{{"char", 1},     {"uint8_t", 1}, {"int16_t", 2}, {"uint16_t", 2}, {"int32_t", 4},
-                                                 {"uint32_t", 4}, {"float", 4},   {"int64_t", 8}, {"uint64_t", 8}, {"double", 8}};
+  const std::map<std::string, std::size_t> sizes{
+      {"char", 1},     {"uint8_t", 1}, {"int16_t", 2}, {"uint16_t", 2}, {"int32_t", 4},
+      {"uint32_t", 4}, {"float", 4},   {"int64_t", 8}, {"uint64_t", 8}, {"double", 8}};
   std::vector<Field> fields;
   std::istringstream in(text);
   for (std::string type, name; in >> type >> name;) {
@@ -88,7 +100,9 @@ std::vector<Field> wire_order(const std::string& text) {
     f.type = type.substr(0, bracket);
     f.name = name;
     f.size = sizes.at(f.type);
-    fields.insert(std::find_if(fields.begin(), fields.end(), [&](const Field& other) { return other.size < f.size; }), f);
+    fields.insert(
+        std::find_if(fields.begin(), fields.end(), [&](const Field& other) { return other.size < f.size; }),
+        f);
   }
   std::size_t at = 0;
   for (Field& f : fields) f.offset = at, at += f.bytes();
@@ -145,8 +159,11 @@ Bytes random_bytes(Random& random, std::size_t n) {
 }
 
 /// A whole frame of this message with this payload, made without the code under test.
-Bytes frame_of(const Dialect& d, const Bytes& payload, std::uint8_t sequence, std::uint8_t system = 1, std::uint8_t component = 250) {
-  Bytes out{0xfe, static_cast<std::uint8_t>(payload.size()), sequence, system, component, static_cast<std::uint8_t>(d.id)};
+Bytes frame_of(const Dialect& d, const Bytes& payload, std::uint8_t sequence, std::uint8_t system = 1,
+               std::uint8_t component = 250) {
+  Bytes out{0xfe,      static_cast<std::uint8_t>(payload.size()),
+            sequence,  system,
+            component, static_cast<std::uint8_t>(d.id)};
   out.insert(out.end(), payload.begin(), payload.end());
   Bytes summed(out.begin() + 1, out.end());
   summed.push_back(static_cast<std::uint8_t>(d.crc_extra));
@@ -167,7 +184,8 @@ Bytes random_frame(Random& random, std::uint8_t sequence) {
 }
 
 Bytes bytes_of(const Packet& p) {
-  return frame_of(known(p.id), Bytes(p.payload.begin(), p.payload.begin() + p.length), p.sequence, p.system, p.component);
+  return frame_of(known(p.id), Bytes(p.payload.begin(), p.payload.begin() + p.length), p.sequence, p.system,
+                  p.component);
 }
 
 std::vector<Packet> parse(Parser& parser, std::span<const std::uint8_t> bytes, std::size_t chunk = SIZE_MAX) {
@@ -184,7 +202,8 @@ std::vector<Packet> parse(Parser& parser, std::span<const std::uint8_t> bytes, s
 
 TEST_CASE("the bitwise checksum is the one of the MAVLink documents") {
   const std::string nine = "123456789";
-  CHECK(bitwise_crc(Bytes(nine.begin(), nine.end())) == 0x6f91);  // the catalogue's check value of CRC-16/MCRF4XX
+  CHECK(bitwise_crc(Bytes(nine.begin(), nine.end())) ==
+        0x6f91);  // the catalogue's check value of CRC-16/MCRF4XX
 }
 
 TEST_CASE("length, seed, names and places of every field of all 25 messages follow from the dialect") {
@@ -209,7 +228,9 @@ TEST_CASE("length, seed, names and places of every field of all 25 messages foll
   CHECK(dialect.size() == 25);
 }
 
-TEST_CASE("every message with random bytes in all fields goes out as the dialect frames it and comes back the same") {
+TEST_CASE(
+    "every message with random bytes in all fields goes out as the dialect frames it and comes back the "
+    "same") {
   Random random(1);
   for (int round = 0; round < 200; ++round) {
     for_each_message([&]<class M>() {
@@ -275,7 +296,8 @@ TEST_CASE("every frame among garbage is found, and the frame behind a damaged on
     stream.insert(stream.end(), frame.begin(), frame.end());
     good.push_back(frame);
   }
-  stream.insert(stream.end(), max_frame, 0);  // a false start at the very end waits for what it takes for its rest
+  stream.insert(stream.end(), max_frame,
+                0);  // a false start at the very end waits for what it takes for its rest
   std::vector<Bytes> found;
   for (const Packet& p : parse(parser, stream, 100)) found.push_back(bytes_of(p));
   std::size_t at = 0;
@@ -288,7 +310,9 @@ TEST_CASE("every frame among garbage is found, and the frame behind a damaged on
   CHECK(parser.counts().bad > 300);
 }
 
-TEST_CASE("a frame of a known message with another length, a longer one than any, and a frame of MAVLink 2 are none") {
+TEST_CASE(
+    "a frame of a known message with another length, a longer one than any, and a frame of MAVLink 2 are "
+    "none") {
   Parser parser;
   const Bytes heartbeat = frame_of(known(0), Bytes(9, 1), 0);
   Bytes wrong_length = frame_of(known(0), Bytes(8, 1), 0);
@@ -311,7 +335,9 @@ TEST_CASE("a whole frame of an unknown message is counted and hides nothing") {
 
 TEST_CASE("missing frames are counted by their sequence, over its wrap, and not over a new connection") {
   Parser parser;
-  const auto feed = [&](int sequence) { parse(parser, frame_of(known(188), {1}, static_cast<std::uint8_t>(sequence))); };
+  const auto feed = [&](int sequence) {
+    parse(parser, frame_of(known(188), {1}, static_cast<std::uint8_t>(sequence)));
+  };
   feed(253);
   feed(254);
   CHECK(parser.counts().missing == 0);
@@ -337,20 +363,11 @@ TEST_CASE("whatever bytes come, each packet is a frame that stood in them, in or
       for (std::uint64_t hits = random.bits() % 3; hits > 0 && !piece.empty(); --hits) {
         const std::size_t at = random.bits() % piece.size();
         switch (random.bits() % 5) {
-          case 0:
-            piece[at] = static_cast<std::uint8_t>(random.bits());
-            break;
-          case 1:
-            piece.erase(piece.begin() + static_cast<std::ptrdiff_t>(at), piece.end());
-            break;
-          case 2:
-            piece.insert(piece.begin() + static_cast<std::ptrdiff_t>(at), 0xfe);
-            break;
-          case 3:
-            piece[at] ^= static_cast<std::uint8_t>(1U << (random.bits() % 8));
-            break;
-          default:
-            piece.insert(piece.end(), piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(at));
+          case 0: piece[at] = static_cast<std::uint8_t>(random.bits()); break;
+          case 1: piece.erase(piece.begin() + static_cast<std::ptrdiff_t>(at), piece.end()); break;
+          case 2: piece.insert(piece.begin() + static_cast<std::ptrdiff_t>(at), 0xfe); break;
+          case 3: piece[at] ^= static_cast<std::uint8_t>(1U << (random.bits() % 8)); break;
+          default: piece.insert(piece.end(), piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(at));
         }
         ++damaged;
       }

@@ -123,7 +123,8 @@ TEST_CASE("a device that is not there is named, with those that are or that none
 
 TEST_CASE("a folder, a file and a device without a line are no serial ports") {
   CHECK(has(fault_of("/tmp"), "/tmp is a folder, no serial port"));
-  const std::string file = std::filesystem::temp_directory_path() / ("fulmar_port_" + std::to_string(getpid()));
+  const std::string file =
+      std::filesystem::temp_directory_path() / ("fulmar_port_" + std::to_string(getpid()));
   std::ofstream(file) << "x";
   CHECK(has(fault_of(file), file + " is a file, no serial port"));
   std::filesystem::remove(file);
@@ -133,7 +134,8 @@ TEST_CASE("a folder, a file and a device without a line are no serial ports") {
 
 TEST_CASE("an impossible rate is refused with what is possible") {
   const Pty pty;
-  for (const std::int64_t baud : {std::int64_t{0}, std::int64_t{-9600}, std::int64_t{49}, std::int64_t{1} << 40}) {
+  for (const std::int64_t baud :
+       {std::int64_t{0}, std::int64_t{-9600}, std::int64_t{49}, std::int64_t{1} << 40}) {
     CHECK(has(fault_of(pty.name(), baud), std::to_string(baud) + " baud is no rate of a serial port"));
   }
 }
@@ -176,8 +178,10 @@ TEST_CASE("a port is held against a second opening, by root, too, and free again
   if (geteuid() == 0) CHECK(fault_as_nobody(pty.device()) == "opened");
 }
 
-TEST_CASE("an opened line is raw with 8 data bits, at any rate, and closing it leaves the modem lines alone") {
-  for (const std::int64_t baud : {std::int64_t{921600}, std::int64_t{9600}, std::int64_t{250000}, std::int64_t{1234567}}) {
+TEST_CASE(
+    "an opened line is raw with 8 data bits, at any rate, and closing it leaves the modem lines alone") {
+  for (const std::int64_t baud :
+       {std::int64_t{921600}, std::int64_t{9600}, std::int64_t{250000}, std::int64_t{1234567}}) {
     CAPTURE(baud);
     const Pty pty;
     const auto port = Port::open(pty.name(), baud);
@@ -233,7 +237,8 @@ TEST_CASE("a line that takes no more loses whole frames, never parts of one") {
   }
   REQUIRE(refused == 10);
   const auto drain = [&] {
-    while (const std::size_t n = pty.read(room, 50)) came.insert(came.end(), room.begin(), room.begin() + static_cast<std::ptrdiff_t>(n));
+    while (const std::size_t n = pty.read(room, 50))
+      came.insert(came.end(), room.begin(), room.begin() + static_cast<std::ptrdiff_t>(n));
   };
   drain();
   std::fill(frame.begin(), frame.end(), std::uint8_t{0xaa});
@@ -261,12 +266,14 @@ TEST_CASE("a device that goes throws from read, refuses writes, and its name may
 }
 
 TEST_CASE("an address that is none is refused with an example") {
-  for (const char* where : {"udp:", "udp:127.0.0.1", "udp:127.0.0.1:", "udp:127.0.0.1:x", "udp:127.0.0.1:0", "udp:127.0.0.1:70000",
-                            "udp::14525", "udp:127.0.0.1:14525:", "udp:127.0.0.1:14525:14520:1", "udp:127.0.0.1:145 25"}) {
+  for (const char* where : {"udp:", "udp:127.0.0.1", "udp:127.0.0.1:", "udp:127.0.0.1:x", "udp:127.0.0.1:0",
+                            "udp:127.0.0.1:70000", "udp::14525",
+                            "udp:127.0.0.1:14525:", "udp:127.0.0.1:14525:14520:1", "udp:127.0.0.1:145 25"}) {
     CAPTURE(where);
     CHECK(has(fault_of(where), "is no address: write udp:ADDRESS:PORT"));
   }
-  CHECK(has(fault_of("udp:autopilot.local:14525"), "'autopilot.local' in 'udp:autopilot.local:14525' is no IPv4 number"));
+  CHECK(has(fault_of("udp:autopilot.local:14525"),
+            "'autopilot.local' in 'udp:autopilot.local:14525' is no IPv4 number"));
   CHECK(fault_of("udp:localhost:14525:" + std::to_string(free_port())) == "opened");
 }
 
@@ -280,7 +287,8 @@ TEST_CASE("a UDP port that is taken is refused, with a way out") {
 TEST_CASE("datagrams pass both ways; nobody there is no fault; strangers are not heard") {
   const int local = free_port();
   UdpPeer peer;
-  const auto port = Port::open("udp:127.0.0.1:" + std::to_string(peer.number()) + ":" + std::to_string(local));
+  const auto port =
+      Port::open("udp:127.0.0.1:" + std::to_string(peer.number()) + ":" + std::to_string(local));
   const std::vector<std::uint8_t> message{1, 2, 3, 0, 255};
   std::vector<std::uint8_t> room(100);
   CHECK(port->write(message));
@@ -290,14 +298,17 @@ TEST_CASE("datagrams pass both ways; nobody there is no fault; strangers are not
   to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   to.sin_port = htons(static_cast<std::uint16_t>(local));
   const UdpPeer stranger;
-  const auto send_from = [&](int fd) { return sendto(fd, message.data(), message.size(), 0, reinterpret_cast<sockaddr*>(&to), sizeof to); };
+  const auto send_from = [&](int fd) {
+    return sendto(fd, message.data(), message.size(), 0, reinterpret_cast<sockaddr*>(&to), sizeof to);
+  };
   REQUIRE(send_from(stranger.fd()) == 5);
   CHECK(port->read(room, 50) == 0);
   REQUIRE(send_from(peer.fd()) == 5);
   CHECK(port->read(room, 1000) == 5);
   CHECK(std::equal(message.begin(), message.end(), room.begin()));
 
-  const auto alone = Port::open("udp:127.0.0.1:" + std::to_string(free_port()) + ":" + std::to_string(free_port()));
+  const auto alone =
+      Port::open("udp:127.0.0.1:" + std::to_string(free_port()) + ":" + std::to_string(free_port()));
   for (int i = 0; i < 5; ++i) {
     CHECK(alone->write(message));
     CHECK(alone->read(room, 1) == 0);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A device for tests that can be plugged in and pulled out: a pseudo-terminal and a link to it, which keeps its name.
+// A device for tests that can be plugged in and pulled out: a pseudo-terminal and a link to it, which keeps
+// its name.
 #pragma once
 #include <fcntl.h>
 #include <poll.h>
@@ -21,7 +22,8 @@ class Pty {
  public:
   Pty() {
     static std::atomic<int> count{0};
-    link_ = std::filesystem::temp_directory_path() / ("fulmar_fcu_" + std::to_string(getpid()) + "_" + std::to_string(count++));
+    link_ = std::filesystem::temp_directory_path() /
+            ("fulmar_fcu_" + std::to_string(getpid()) + "_" + std::to_string(count++));
     std::filesystem::remove(link_);
     plug();
   }
@@ -40,7 +42,8 @@ class Pty {
     pull();
     std::array<char, 64> path{};
     int slave = -1;
-    if (openpty(&master_, &slave, path.data(), nullptr, nullptr) != 0) throw std::runtime_error("no pseudo-terminal");
+    if (openpty(&master_, &slave, path.data(), nullptr, nullptr) != 0)
+      throw std::runtime_error("no pseudo-terminal");
     fcntl(master_, F_SETFL, O_NONBLOCK);
     fcntl(master_, F_SETFD, FD_CLOEXEC);
     // Raw from the start: until the other side has set it up, the line discipline would echo what is written.

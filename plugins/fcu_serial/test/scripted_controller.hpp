@@ -23,7 +23,8 @@ inline std::int64_t monotonic_ns() {
   return now.tv_sec * second + now.tv_nsec;
 }
 
-/// A controller by hand: sends what it is told to, keeps what it hears, answers questions when it has a clock.
+/// A controller by hand: sends what it is told to, keeps what it hears, answers questions when it has a
+/// clock.
 class Controller {
  public:
   Pty pty;
@@ -61,7 +62,8 @@ class Controller {
   }
   std::vector<std::string> asked_for() {
     std::vector<std::string> names;
-    for (const Packet& p : heard[ParamRequestRead::id]) names.emplace_back(text(p.as<ParamRequestRead>().param_id));
+    for (const Packet& p : heard[ParamRequestRead::id])
+      names.emplace_back(text(p.as<ParamRequestRead>().param_id));
     return names;
   }
   void answer_parameter(const std::string& name, std::uint32_t bits) {
@@ -76,7 +78,8 @@ class Controller {
 };
 
 /// What comes out of the queue until one is like this.
-inline bool pop_until(Link& link, Controller& controller, const std::function<bool(const Received&)>& wanted) {
+inline bool pop_until(Link& link, Controller& controller,
+                      const std::function<bool(const Received&)>& wanted) {
   for (const std::int64_t end = monotonic_ns() + patience_ms * ms; monotonic_ns() < end;) {
     for (Received r; link.pop(r);) {
       if (wanted(r)) return true;

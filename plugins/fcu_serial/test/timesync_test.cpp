@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The controller's clock against a simulated one: drift, jitter, garbage, reboots. All times are simulated, none are of the wall.
+// The controller's clock against a simulated one: drift, jitter, garbage, reboots. All times are simulated,
+// none are of the wall.
 #include "plugins/fcu_serial/link/timesync.hpp"
 
 #include <doctest/doctest.h>
@@ -56,7 +57,8 @@ std::int64_t error_ns(const ClockSync& clock, const Controller& c, std::int64_t 
 }
 
 /// Asks at 10 Hz; the worst error after `settled_ns`, looked at 100 times a second.
-std::int64_t worst_error(ClockSync& clock, Controller& c, std::int64_t from_ns, std::int64_t until_ns, std::int64_t settled_ns) {
+std::int64_t worst_error(ClockSync& clock, Controller& c, std::int64_t from_ns, std::int64_t until_ns,
+                         std::int64_t settled_ns) {
   std::int64_t worst = 0;
   for (std::int64_t t = from_ns; t < until_ns; t += 10 * ms) {
     if (t % (100 * ms) == 0) take(clock, ask(clock, c, t));
@@ -120,9 +122,11 @@ TEST_CASE("one question in ten is answered 50 ms late, one twice, one never: not
       a.came_ns += 70 * ms;
       CHECK(take(clock, a) == ClockSync::Verdict::ignored);  // an answer counts once
     }
-    CHECK(clock.answered(a.ts1 - 7, a.tc1, a.came_ns + 1) == ClockSync::Verdict::ignored);       // of somebody else's question
-    CHECK(clock.answered(t + 5 * second, a.tc1, a.came_ns + 2) == ClockSync::Verdict::ignored);  // of the future
-    CHECK(clock.answered(t, 0, a.came_ns + 3) == ClockSync::Verdict::ignored);                   // a question, not an answer
+    CHECK(clock.answered(a.ts1 - 7, a.tc1, a.came_ns + 1) ==
+          ClockSync::Verdict::ignored);  // of somebody else's question
+    CHECK(clock.answered(t + 5 * second, a.tc1, a.came_ns + 2) ==
+          ClockSync::Verdict::ignored);                                         // of the future
+    CHECK(clock.answered(t, 0, a.came_ns + 3) == ClockSync::Verdict::ignored);  // a question, not an answer
     CHECK(clock.answered(t, INT64_MAX, a.came_ns + 3) == ClockSync::Verdict::ignored);
     if (t > 3 * second) worst = std::max(worst, error_ns(clock, c, t));
   }
@@ -149,7 +153,8 @@ TEST_CASE("a first answer that was 80 ms late is corrected by the next and is no
   CHECK(error_ns(clock, c, 2 * second) < 50 * us);
 }
 
-TEST_CASE("a clock that jumps by more than 10 ms is another one once two answers agree; by 5 ms it is followed") {
+TEST_CASE(
+    "a clock that jumps by more than 10 ms is another one once two answers agree; by 5 ms it is followed") {
   for (const std::int64_t jump : {15 * ms, -15 * ms, 20 * second, -20 * second}) {
     CAPTURE(jump);
     ClockSync clock;
@@ -177,7 +182,8 @@ TEST_CASE("a single stamp of another time is not believed") {
   Answer a = ask(clock, c, 20 * second);
   a.tc1 += 3 * second;
   CHECK(take(clock, a) == ClockSync::Verdict::ignored);
-  for (int i = 1; i < 20; ++i) CHECK(take(clock, ask(clock, c, 20 * second + i * 100 * ms)) == ClockSync::Verdict::taken);
+  for (int i = 1; i < 20; ++i)
+    CHECK(take(clock, ask(clock, c, 20 * second + i * 100 * ms)) == ClockSync::Verdict::taken);
   CHECK(error_ns(clock, c, 22 * second) < 50 * us);
 }
 
@@ -209,19 +215,23 @@ int fly(Dater& dater, Controller& c, std::int64_t from_ns, std::int64_t until_ns
   return jumps;
 }
 
-TEST_CASE("answers of a controller in simulation that was held up after it had read its clock are no reboot") {
+TEST_CASE(
+    "answers of a controller in simulation that was held up after it had read its clock are no reboot") {
   Dater dater;
   Controller c;
   REQUIRE(fly(dater, c, second, 5 * second) == 0);
   const std::int64_t read_ns = c.clock_ns(5 * second);
   std::vector<std::int64_t> asked;
   for (int i = 0; i < 6; ++i) dater.clock.asked(asked.emplace_back(5 * second + i * 100 * ms));
-  for (const std::int64_t t : asked) CHECK(dater.answered(t, read_ns, 5600 * ms + t / 1000000) != ClockSync::Verdict::jumped);
+  for (const std::int64_t t : asked)
+    CHECK(dater.answered(t, read_ns, 5600 * ms + t / 1000000) != ClockSync::Verdict::jumped);
   CHECK(fly(dater, c, 5700 * ms, 8 * second) == 0);
   CHECK(error_ns(dater.clock, c, 8 * second) < 200 * us);
 }
 
-TEST_CASE("a reboot is seen by the answers when its stamps go on from where the last ones were; a leap forward is none") {
+TEST_CASE(
+    "a reboot is seen by the answers when its stamps go on from where the last ones were; a leap forward is "
+    "none") {
   Dater dater;
   Controller c;
   c.started_ns = 0;
@@ -261,7 +271,8 @@ TEST_CASE("dates of inertial samples keep their distance while the line bends") 
   CHECK(longest < 2'600 * us);
 }
 
-TEST_CASE("before the first answer, and for impossible stamps, the arrival counts; the impossible are counted") {
+TEST_CASE(
+    "before the first answer, and for impossible stamps, the arrival counts; the impossible are counted") {
   Dater dater;
   CHECK(dater.date_us(123'456, 7 * second) == 7 * second);
   CHECK(dater.date_ms32(5, 7 * second) == 7 * second);
@@ -270,7 +281,9 @@ TEST_CASE("before the first answer, and for impossible stamps, the arrival count
   Controller c;
   c.started_ns = -100 * second;
   take(dater.clock, ask(dater.clock, c, 7 * second));
-  const auto stamp_us = [&](std::int64_t host_ns) { return static_cast<std::uint64_t>(c.clock_ns(host_ns) / us); };
+  const auto stamp_us = [&](std::int64_t host_ns) {
+    return static_cast<std::uint64_t>(c.clock_ns(host_ns) / us);
+  };
   const std::int64_t now = 8 * second;
   CHECK(dater.date_us(stamp_us(now - 4 * ms), now) == doctest::Approx(now - 4 * ms).epsilon(1e-7));
   CHECK(dater.date_us(stamp_us(now + ms), now) == now);  // no later than it came: the error of the offset
@@ -288,16 +301,20 @@ TEST_CASE("stamps in ms are the middle of that ms, also where 32 bits of them wr
   const std::int64_t wrap_ns = (std::int64_t{1} << 32) * ms;
   c.started_ns = 100 * second - wrap_ns;  // wraps at 100 s of host time
   take(dater.clock, ask(dater.clock, c, 99 * second));
-  for (const std::int64_t host : {99 * second + 300 * us, 100 * second - 700 * us, 100 * second + 300 * us, 101 * second}) {
+  for (const std::int64_t host :
+       {99 * second + 300 * us, 100 * second - 700 * us, 100 * second + 300 * us, 101 * second}) {
     const std::int64_t clock_ms = c.clock_ns(host) / ms;
     const std::int64_t middle = c.started_ns + clock_ms * ms + ms / 2;
-    CHECK(std::llabs(dater.date_ms32(static_cast<std::uint32_t>(clock_ms), host + 3 * ms) - middle) <= 2 * us);
+    CHECK(std::llabs(dater.date_ms32(static_cast<std::uint32_t>(clock_ms), host + 3 * ms) - middle) <=
+          2 * us);
     CHECK(std::llabs(dater.date_ms(static_cast<std::uint64_t>(clock_ms), host + 3 * ms) - middle) <= 2 * us);
   }
   CHECK(dater.undated() == 0);
 }
 
-TEST_CASE("inertial samples of equal stamps, and at the first answer, still get increasing times no later than they came") {
+TEST_CASE(
+    "inertial samples of equal stamps, and at the first answer, still get increasing times no later than "
+    "they came") {
   Dater dater;
   Controller c;
   std::int64_t last = 0;
@@ -310,7 +327,9 @@ TEST_CASE("inertial samples of equal stamps, and at the first answer, still get 
   }
 }
 
-TEST_CASE("two stamps in a row from before the newest are a new beginning; one, or a step of less than 10 ms, is not") {
+TEST_CASE(
+    "two stamps in a row from before the newest are a new beginning; one, or a step of less than 10 ms, is "
+    "not") {
   Dater dater;
   CHECK_FALSE(dater.started_anew(50'000'000));
   CHECK_FALSE(dater.started_anew(49'993'000));
@@ -326,7 +345,9 @@ TEST_CASE("two stamps in a row from before the newest are a new beginning; one, 
   CHECK_FALSE(dater.started_anew(2'600));
 }
 
-TEST_CASE("whatever stamps and answers come, dates are within the second before the arrival, and inertial ones increase") {
+TEST_CASE(
+    "whatever stamps and answers come, dates are within the second before the arrival, and inertial ones "
+    "increase") {
   Random random(9);
   Dater dater;
   std::int64_t now = second, last = 0;
@@ -337,7 +358,8 @@ TEST_CASE("whatever stamps and answers come, dates are within the second before 
   for (int i = 0; i < 20'000; ++i) {
     now += 1 + static_cast<std::int64_t>(random.bits() % (5 * ms));
     if (i % 5 == 0) dater.clock.asked(now);
-    dater.clock.answered(i % 3 == 0 ? static_cast<std::int64_t>(anything()) : now, static_cast<std::int64_t>(anything()), now + 1);
+    dater.clock.answered(i % 3 == 0 ? static_cast<std::int64_t>(anything()) : now,
+                         static_cast<std::int64_t>(anything()), now + 1);
     if (dater.started_anew(anything())) dater.clock.restart();
     const std::int64_t arrived = now + 2;
     for (const std::int64_t at : {dater.date_us(anything(), arrived), dater.date_ms(anything(), arrived),

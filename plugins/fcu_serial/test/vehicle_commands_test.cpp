@@ -105,7 +105,9 @@ TEST_CASE("auxiliary outputs have their kinds and bounds; those that are off cou
   CHECK_FALSE(to_aux(a));
 }
 
-TEST_CASE("an auxiliary motor that is switched off is stopped; a servo stays, and what never was a motor is left alone") {
+TEST_CASE(
+    "an auxiliary motor that is switched off is stopped; a servo stays, and what never was a motor is left "
+    "alone") {
   std::array<bool, 14> motors{};
   AuxOutputs a;
   a.kinds[10] = AuxKind::motor, a.values_ratio[10] = 0.6;
@@ -145,7 +147,8 @@ int sent_in_ten_seconds(double rate_hz, int every) {
   Pace pace(rate_hz);
   int n = 0;
   for (int i = 0; i < 4000; ++i) {
-    const std::int64_t now = std::int64_t{i} * 2'500'000 + (i % 3) * 50'000;  // arrivals are not quite regular
+    const std::int64_t now =
+        std::int64_t{i} * 2'500'000 + (i % 3) * 50'000;  // arrivals are not quite regular
     if (!pace.due(i % every == 0, now)) continue;
     pace.sent(now);
     ++n;

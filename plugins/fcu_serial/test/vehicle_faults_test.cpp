@@ -179,7 +179,8 @@ TEST_CASE("what cannot be flown is refused by configure, within 5 s") {
     o.version = "v1.3.1";
     World world(o);
     world.fcu.provision();
-    CHECK(refusal(world) == "the flight controller at /dev/ttyACM0 runs ROSflight v1.3.1: flash version 2.0 or later");
+    CHECK(refusal(world) ==
+          "the flight controller at /dev/ttyACM0 runs ROSflight v1.3.1: flash version 2.0 or later");
   }
   SUBCASE("one that does not say its version") {
     peer::Options o;
@@ -194,12 +195,15 @@ TEST_CASE("what cannot be flown is refused by configure, within 5 s") {
   }
   SUBCASE("no port") {
     World world;
-    CHECK(refusal(world, [](auto& bench) { bench.params.port.value = ""; }).find("the parameter 'port' is not set") == 0);
+    CHECK(refusal(world, [](auto& bench) {
+            bench.params.port.value = "";
+          }).find("the parameter 'port' is not set") == 0);
   }
   SUBCASE("an airframe without throws") {
     World world;
-    CHECK(refusal(world, [](auto& bench) { bench.params.airframe.value.aileron.limit_rad = 0; }).find("aileron.limit") !=
-          std::string::npos);
+    CHECK(refusal(world, [](auto& bench) {
+            bench.params.airframe.value.aileron.limit_rad = 0;
+          }).find("aileron.limit") != std::string::npos);
   }
 }
 
@@ -211,7 +215,8 @@ TEST_CASE("its inertial unit dies: the loop goes on, and it is told") {
   f.fly(1);
   CHECK(static_cast<double>(f.ticks_ns.size() - ticks) == Approx(100).epsilon(0.05));
   CHECK_FALSE(f.status.in_control);
-  CHECK(f.heard("no inertial samples") != f.heard("nothing comes from the flight controller"));  // what else it sends then is its affair
+  CHECK(f.heard("no inertial samples") !=
+        f.heard("nothing comes from the flight controller"));  // what else it sends then is its affair
 }
 
 TEST_CASE("another controller in its place is noticed: its firmware, its parameters") {

@@ -13,7 +13,8 @@ using namespace fulmar::fcu;
 using doctest::Approx;
 
 namespace {
-constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN(),
+                inf = std::numeric_limits<float>::infinity();
 
 ParamValue integer_parameter(std::int32_t value) {
   ParamValue p;
@@ -98,8 +99,9 @@ TEST_CASE("a fix keeps place, velocity, accuracies and date") {
 
 TEST_CASE("all kinds of fixes keep their meaning, unknown ones are none") {
   RosflightGnss m;
-  const FixType expected[] = {FixType::none,     FixType::dead_reckoning, FixType::fix_2d,    FixType::fix_3d,
-                              FixType::combined, FixType::time_only,      FixType::rtk_float, FixType::rtk_fixed};
+  const FixType expected[] = {FixType::none,      FixType::dead_reckoning, FixType::fix_2d,
+                              FixType::fix_3d,    FixType::combined,       FixType::time_only,
+                              FixType::rtk_float, FixType::rtk_fixed};
   for (std::uint8_t i = 0; i < 8; ++i) {
     m.fix_type = i;
     CHECK(to_gnss(m)->fix == expected[i]);
@@ -168,7 +170,8 @@ TEST_CASE("sticks follow the controller's map: right roll is positive") {
   CHECK(rc.link);
 
   RcMap other;
-  other.take("RC_X_CHN", 3), other.take("RC_F_CHN", 0), other.take("RC_Z_CHN", 2), other.take("RC_Y_CHN", 7), other.take("RC_TYPE", 1);
+  other.take("RC_X_CHN", 3), other.take("RC_F_CHN", 0), other.take("RC_Z_CHN", 2), other.take("RC_Y_CHN", 7),
+      other.take("RC_TYPE", 1);
   const Rc moved = to_rc(m, other, Throws{}, false);
   CHECK(moved.roll_frac == 0);
   CHECK(moved.throttle_frac == 1);
@@ -181,9 +184,11 @@ TEST_CASE("a stick that moves a surface as a command does has that command's mea
   const auto us = [](float u) { return static_cast<std::uint16_t>(1500 + 500 * u); };
   for (const double sign : {1.0, -1.0}) {
     const Throws throws{sign * 0.5, sign * 0.5, sign * 0.5};
-    const auto right_up_right = to_offboard({0, 0.25, -0.25, -0.25}, throws);  // roll right, nose up, nose right
+    const auto right_up_right =
+        to_offboard({0, 0.25, -0.25, -0.25}, throws);  // roll right, nose up, nose right
     RcChannels m;
-    m.chan1_raw = us(right_up_right->u[3]), m.chan2_raw = us(right_up_right->u[4]), m.chan4_raw = us(right_up_right->u[5]);
+    m.chan1_raw = us(right_up_right->u[3]), m.chan2_raw = us(right_up_right->u[4]),
+    m.chan4_raw = us(right_up_right->u[5]);
     const Rc rc = to_rc(m, RcMap{}, throws, true);
     CHECK(rc.roll_frac == Approx(0.5));
     CHECK(rc.pitch_frac == Approx(0.5));

@@ -108,7 +108,8 @@ TEST_CASE("a controller that is back is not told to have no radio before that co
   h.frame(now + 5000 * ms);
   CHECK((evaluate(h, now + 5010 * ms).errors & own_error_rc_silent) == 0);
   CHECK_FALSE(evaluate(h, now + 5010 * ms).in_control);
-  h.frame(now + 5100 * ms), h.frame(now + 5200 * ms), h.frame(now + 5300 * ms), h.frame(now + 5400 * ms), h.frame(now + 5510 * ms);
+  h.frame(now + 5100 * ms), h.frame(now + 5200 * ms), h.frame(now + 5300 * ms), h.frame(now + 5400 * ms),
+      h.frame(now + 5510 * ms);
   CHECK((evaluate(h, now + 5510 * ms).errors & own_error_rc_silent) != 0);
 }
 
@@ -159,7 +160,8 @@ TEST_CASE("a radio that stops is told: the outputs are frozen") {
   Heard h = flying();
   told(teller, h);
   h.rc_ns = now - 600 * ms;
-  CHECK(told(teller, h).find("no frames of the radio: the outputs are frozen, commands move nothing") != std::string::npos);
+  CHECK(told(teller, h).find("no frames of the radio: the outputs are frozen, commands move nothing") !=
+        std::string::npos);
   CHECK(told(teller, h) == "");
   h.rc_ns = now;
   CHECK(told(teller, h).find("frames of the radio come again") != std::string::npos);
@@ -172,7 +174,8 @@ TEST_CASE("a dead inertial unit is told, though nothing else says so") {
   h.imu_ns = now - 300 * ms;
   CHECK(evaluate(h, now).errors == own_error_imu_silent);
   CHECK(evaluate(h, now).health == Health::failed);
-  CHECK(told(teller, h).find("no inertial samples: the flight controller controls nothing any more") != std::string::npos);
+  CHECK(told(teller, h).find("no inertial samples: the flight controller controls nothing any more") !=
+        std::string::npos);
   h.imu_ns = now;
   CHECK(told(teller, h).find("inertial samples come again") != std::string::npos);
 }

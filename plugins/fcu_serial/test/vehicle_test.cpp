@@ -62,7 +62,8 @@ TEST_CASE("commands go out in the tick of each new one, at 100 Hz here") {
   CHECK(static_cast<double>(f.world.count<OffboardControl>() - before) == Approx(200).epsilon(0.02));
 }
 
-TEST_CASE("nobody renews the command: it is repeated for 100 ms, then the controller goes back to its pilot") {
+TEST_CASE(
+    "nobody renews the command: it is repeated for 100 ms, then the controller goes back to its pilot") {
   Flying f;
   f.arm();
   f.commands = false;

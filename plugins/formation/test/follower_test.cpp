@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The slot by hand, the command into it sign by sign and bound by bound, who keeps clear of whom, and a formation that closes.
+// The slot by hand, the command into it sign by sign and bound by bound, who keeps clear of whom, and a
+// formation that closes.
 #define FULMAR_COUNT_ALLOCATIONS
 #include "plugins/formation/follower.hpp"
 
 #include <doctest/doctest.h>
 
-#include "plugins/formation/test/scene.hpp"
 #include "fulmar/testing.hpp"
+#include "plugins/formation/test/scene.hpp"
 
 namespace follower_test {
 
@@ -18,14 +19,16 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// A leader that flies east at 17 m/s, 70 m up; the slot is 20 m behind and 30 m to the right of it, in the south, 5 m below.
+/// A leader that flies east at 17 m/s, 70 m up; the slot is 20 m behind and 30 m to the right of it, in the
+/// south, 5 m below.
 struct Scene {
   Bench<Follower> bench;
   VehicleState leader;
   Scene() {
     leader = flying({100, 200, -70}, pi / 2);
     bench.params.offset.value = {-20, 30, 5};
-    bench.params.airframe.value.limits = {.airspeed_min_mps = 12, .airspeed_cruise_mps = 17, .airspeed_max_mps = 27};
+    bench.params.airframe.value.limits = {
+        .airspeed_min_mps = 12, .airspeed_cruise_mps = 17, .airspeed_max_mps = 27};
   }
   static Vec3<Ned> slot() { return {70, 180, -65}; }
   GuidanceCommand command(const VehicleState& own, Status expected = Status::ok) {
@@ -69,8 +72,9 @@ TEST_CASE("a leader's state that is half a second old is half a second's way fur
 
 TEST_CASE("a leader that turns is taken to turn on: it is on its circle, as far on as time has passed") {
   VehicleState leader = flying({0, 0, -70}, pi / 2);
-  leader.roll_rad = std::atan(17 * 17 / (100 * 9.80665));  // a circle of 100 m, to the right: its centre is in the south
-  const double angle = 0.8;                                // of the circle, flown in 100 m * angle / 17 m/s
+  leader.roll_rad =
+      std::atan(17 * 17 / (100 * 9.80665));  // a circle of 100 m, to the right: its centre is in the south
+  const double angle = 0.8;                  // of the circle, flown in 100 m * angle / 17 m/s
   const Motion now(leader, 100 * angle / 17);
   CHECK(now.p.x() == doctest::Approx(-100 + 100 * std::cos(angle)));
   CHECK(now.p.y() == doctest::Approx(100 * std::sin(angle)));
@@ -78,7 +82,9 @@ TEST_CASE("a leader that turns is taken to turn on: it is on its circle, as far 
   CHECK(now.v.x() == doctest::Approx(-17 * std::sin(angle)));
 }
 
-TEST_CASE("right of the slot's line the course turns left, by the book's formula, and never by more than the approach angle") {
+TEST_CASE(
+    "right of the slot's line the course turns left, by the book's formula, and never by more than the "
+    "approach angle") {
   Scene s;
   // South is right of a line to the east. 0.9 (2/pi) atan(0.03 * 40)
   CHECK(s.command(at_slot(-40)).course_rad == doctest::Approx(pi / 2 - 0.50195).epsilon(1e-4));
@@ -96,7 +102,8 @@ TEST_CASE("right of the slot's line the course turns left, by the book's formula
 }
 
 TEST_CASE(
-    "behind the slot the airspeed rises with the distance, ahead of it it falls, within the closing speed and the airframe's limits") {
+    "behind the slot the airspeed rises with the distance, ahead of it it falls, within the closing speed "
+    "and the airframe's limits") {
   Scene s;
   CHECK(s.command(at_slot(0, -8)).airspeed_mps == doctest::Approx(19));  // 0.25 1/s * 8 m
   CHECK(s.command(at_slot(0, 8)).airspeed_mps == doctest::Approx(15));
@@ -139,11 +146,14 @@ TEST_CASE("on its way across to the line it flies faster, so that it does not fa
   CHECK(s.command(at_slot(-40)).airspeed_mps == doctest::Approx(17 / std::cos(turn)));
 }
 
-TEST_CASE("in the leader's turn the slot inside is slower, the one outside faster, and both turn as fast as the leader") {
+TEST_CASE(
+    "in the leader's turn the slot inside is slower, the one outside faster, and both turn as fast as the "
+    "leader") {
   Scene s;
-  s.leader.roll_rad = 0.3;                                            // to the right
-  const double chi_dot = 9.80665 / 17 * std::tan(0.3);                // coordinated turn: 0.178 rad/s
-  const double v_east = 17 - chi_dot * 30, v_north = -chi_dot * -20;  // of a point fixed to the turning leader: omega x r, by hand
+  s.leader.roll_rad = 0.3;                              // to the right
+  const double chi_dot = 9.80665 / 17 * std::tan(0.3);  // coordinated turn: 0.178 rad/s
+  const double v_east = 17 - chi_dot * 30,
+               v_north = -chi_dot * -20;  // of a point fixed to the turning leader: omega x r, by hand
   const Slot inside(Motion(s.leader), {-20, 30, 5});
   CHECK(inside.v.y() == doctest::Approx(v_east));
   CHECK(inside.v.x() == doctest::Approx(v_north));
@@ -151,7 +161,8 @@ TEST_CASE("in the leader's turn the slot inside is slower, the one outside faste
   const VehicleState own = flying(Scene::slot(), std::atan2(v_east, v_north), std::hypot(v_east, v_north));
   const GuidanceCommand c = s.command(own);
   CHECK(c.airspeed_mps == doctest::Approx(std::hypot(v_east, v_north)));
-  CHECK(c.roll_feedforward_rad == doctest::Approx(std::atan(std::hypot(v_east, v_north) * chi_dot / 9.80665)));
+  CHECK(c.roll_feedforward_rad ==
+        doctest::Approx(std::atan(std::hypot(v_east, v_north) * chi_dot / 9.80665)));
   CHECK(s.command(at_slot(-200)).roll_feedforward_rad == 0);  // far from the slot there is no such turn
 }
 
@@ -163,7 +174,9 @@ TEST_CASE("a leader that stands is not turned about: its course is what it says"
   CHECK(slot.chi == doctest::Approx(pi / 2));
 }
 
-TEST_CASE("a leader that never spoke is waited for; one that falls silent, is lost or counts from elsewhere fails it") {
+TEST_CASE(
+    "a leader that never spoke is waited for; one that falls silent, is lost or counts from elsewhere fails "
+    "it") {
   Scene s;
   s.bench.set(s.bench.in.state, at_slot());
   CHECK(s.bench.step(0.01) == Status::degraded);
@@ -171,7 +184,8 @@ TEST_CASE("a leader that never spoke is waited for; one that falls silent, is lo
   s.bench.set(s.bench.in.leader, s.leader);
   CHECK(s.bench.step(3.99) == Status::ok);
   CHECK(s.bench.step(0.02) == Status::failed);
-  for (bool VehicleState::*flag : {&VehicleState::position_valid, &VehicleState::height_valid, &VehicleState::velocity_valid}) {
+  for (bool VehicleState::*flag :
+       {&VehicleState::position_valid, &VehicleState::height_valid, &VehicleState::velocity_valid}) {
     VehicleState lost = s.leader;
     lost.*flag = false;
     s.bench.set(s.bench.in.leader, lost);
@@ -219,7 +233,9 @@ TEST_CASE("a slot nearer to the leader than the separation is refused, before an
   CHECK(s.bench.retune() == Status::failed);
 }
 
-TEST_CASE("of two that come too near the higher climbs away and the lower one stays low; who is behind slows down") {
+TEST_CASE(
+    "of two that come too near the higher climbs away and the lower one stays low; who is behind slows "
+    "down") {
   Scene s;
   VehicleState own = at_slot();
   s.bench.set(s.bench.in.neighbour, flying({70, 185, -62}, pi / 2));  // 5 m ahead, 3 m below
@@ -266,7 +282,9 @@ TEST_CASE("a step allocates nothing, neither in the slot nor evading nor failing
   CHECK(allocations([&] { s.bench.step(10); }) == 0);
 }
 
-TEST_CASE("a formation closes from a hundred metres and holds through turns, in wind, on samples at 20 Hz that are 0.1 s late") {
+TEST_CASE(
+    "a formation closes from a hundred metres and holds through turns, in wind, on samples at 20 Hz that are "
+    "0.1 s late") {
   constexpr double dt = 0.01;
   Scene s;
   s.bench.params.offset.value = {-20, 20, 5};

@@ -53,7 +53,8 @@ TEST_CASE("an aircraft that does not know where it is, or counts from another po
   elsewhere.origin_latitude_deg += 1e-4;  // 11 m
   unknown.origin_valid = false;
   for (const auto& [state, expected] :
-       {std::pair{lost, Hearing::lost}, std::pair{elsewhere, Hearing::other_origin}, std::pair{unknown, Hearing::other_origin}}) {
+       {std::pair{lost, Hearing::lost}, std::pair{elsewhere, Hearing::other_origin},
+        std::pair{unknown, Hearing::other_origin}}) {
     bench.set(bench.in.heard, state);
     CHECK(bench.step(0.01) == Status::degraded);
     CHECK(bench.out.sight.hearing == expected);

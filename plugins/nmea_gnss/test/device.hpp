@@ -12,7 +12,9 @@
 
 class Device {
  public:
-  Device() : link_(std::filesystem::temp_directory_path() / ("fulmar_gnss_" + std::to_string(getpid()))) { std::filesystem::remove(link_); }
+  Device() : link_(std::filesystem::temp_directory_path() / ("fulmar_gnss_" + std::to_string(getpid()))) {
+    std::filesystem::remove(link_);
+  }
   ~Device() { pull(); }
   void plug() {
     int slave = -1;

@@ -32,22 +32,23 @@ struct Folder {
 /// An aircraft that waits on the ground at the origin, and a receiver beside it.
 fs::path mission(const fs::path& folder, const std::string& port) {
   const std::string configs = FULMAR_SOURCE_DIR "/configs/";
-  std::ofstream(folder / "receiver.yaml") << "mission: receiver\nextends: " << configs << "missions/common.yaml\nairframe: " << configs
-                                          << "airframes/anaconda.yaml\n"
-                                             "arm: off\n"
-                                             "origin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\n"
-                                             "summary: {difference: compare.difference}\n"
-                                             "roles:\n"
-                                             "  reference: {out: {gnss: Gnss}}\n"
-                                             "components:\n"
-                                             "  plan: {params: {plan: "
-                                          << configs
-                                          << "plans/hourglass.yaml}}\n"
-                                             "  receiver: {fills: reference, use: nmea_gnss/Receiver, run: driver, params: {port: "
-                                          << port
-                                          << "}}\n"
-                                             "  compare: {use: nmea_gnss/Compare, rate: 100 Hz, in: {state: nav.state, reference: "
-                                             "reference.gnss}}\n";
+  std::ofstream(folder / "receiver.yaml")
+      << "mission: receiver\nextends: " << configs << "missions/common.yaml\nairframe: " << configs
+      << "airframes/anaconda.yaml\n"
+         "arm: off\n"
+         "origin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\n"
+         "summary: {difference: compare.difference}\n"
+         "roles:\n"
+         "  reference: {out: {gnss: Gnss}}\n"
+         "components:\n"
+         "  plan: {params: {plan: "
+      << configs
+      << "plans/hourglass.yaml}}\n"
+         "  receiver: {fills: reference, use: nmea_gnss/Receiver, run: driver, params: {port: "
+      << port
+      << "}}\n"
+         "  compare: {use: nmea_gnss/Compare, rate: 100 Hz, in: {state: nav.state, reference: "
+         "reference.gnss}}\n";
   return folder / "receiver.yaml";
 }
 
@@ -65,7 +66,8 @@ json fly(const std::string& arguments) {
 /// The origin, 3 m to the north of it (0.00162 minutes of arc of 1852 m).
 std::string epoch_at_origin(int number) {
   char time[64], gga[192], rmc[192];
-  std::snprintf(time, sizeof time, "%02d%02d%02d.%d0", 12 + number / 18000, number / 300 % 60, number / 5 % 60, number % 5 * 2);
+  std::snprintf(time, sizeof time, "%02d%02d%02d.%d0", 12 + number / 18000, number / 300 % 60,
+                number / 5 % 60, number % 5 * 2);
   std::snprintf(gga, sizeof gga, "GNGGA,%s,4014.78396,N,11138.84483,W,1,09,1.00,1387.0,M,-17.0,M,,", time);
   std::snprintf(rmc, sizeof rmc, "GNRMC,%s,A,4014.78396,N,11138.84483,W,0.1,90.0,091226,,,A", time);
   return framed(rmc) + framed(gga);
@@ -73,7 +75,9 @@ std::string epoch_at_origin(int number) {
 
 }  // namespace
 
-TEST_CASE("samples of the receiver enter a flight as they come, are recorded, and come back from the log to the bit") {
+TEST_CASE(
+    "samples of the receiver enter a flight as they come, are recorded, and come back from the log to the "
+    "bit") {
   const Folder folder;
   Device device;
   device.plug();
@@ -91,7 +95,7 @@ TEST_CASE("samples of the receiver enter a flight as they come, are recorded, an
   device.pull();
   REQUIRE(first.is_object());
   REQUIRE(first["difference"].is_object());
-  CHECK(first["difference"]["samples"].get<int>() >= 10);                                  // 75 when nothing else runs on the machine
+  CHECK(first["difference"]["samples"].get<int>() >= 10);  // 75 when nothing else runs on the machine
   CHECK(first["difference"]["north_m"].get<double>() == doctest::Approx(3).epsilon(0.05));
   CHECK(first["difference"]["east_m"].get<double>() < 0.2);
 
@@ -103,7 +107,8 @@ TEST_CASE("samples of the receiver enter a flight as they come, are recorded, an
 
 TEST_CASE("a flight whose receiver is not there flies without it") {
   const Folder folder;
-  const json result = fly(mission(folder.path, "/dev/fulmar-no-such-port").string() + " --duration 2 --no-log");
+  const json result =
+      fly(mission(folder.path, "/dev/fulmar-no-such-port").string() + " --duration 2 --no-log");
   REQUIRE(result.is_object());
   CHECK(result["result"] == "flown");
   CHECK(result["difference"].is_null());

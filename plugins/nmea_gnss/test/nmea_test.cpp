@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sentences against the worked examples of public descriptions (protocol manuals of u-blox and Trimble; the usual Munich example), and
-// against numbers computed by hand from them.
+// Sentences against the worked examples of public descriptions (protocol manuals of u-blox and Trimble; the
+// usual Munich example), and against numbers computed by hand from them.
 #include "plugins/nmea_gnss/nmea.hpp"
 
 #include <doctest/doctest.h>
@@ -56,13 +56,16 @@ TEST_CASE("a published GGA sentence gives the position that its text says") {
 
 TEST_CASE("published RMC, VTG, GSA and GST sentences give what their text says, in SI units") {
   Lines lines;
-  const auto munich = rmc(*read(lines, "$GPRMC,123519,A,4807.038,N,01131.000,E,022.4,084.4,230394,003.1,W*6A\r\n"));
+  const auto munich =
+      rmc(*read(lines, "$GPRMC,123519,A,4807.038,N,01131.000,E,022.4,084.4,230394,003.1,W*6A\r\n"));
   REQUIRE(munich);
   CHECK(munich->valid);
-  CHECK(*munich->speed_mps == doctest::Approx(11.5235556));                // 22.4 kt
-  CHECK(*munich->course_rad == doctest::Approx(1.47305789));               // 84.4 deg
-  CHECK((*munich->date_ns + *munich->time_ns) / 1000000000 == 764426119);  // date -d '1994-03-23 12:35:19 UTC' +%s
-  const auto ublox = rmc(*read(lines, "$GPRMC,083559.00,A,4717.11437,N,00833.91522,E,0.004,77.52,091202,,,A*57\r\n"));
+  CHECK(*munich->speed_mps == doctest::Approx(11.5235556));   // 22.4 kt
+  CHECK(*munich->course_rad == doctest::Approx(1.47305789));  // 84.4 deg
+  CHECK((*munich->date_ns + *munich->time_ns) / 1000000000 ==
+        764426119);  // date -d '1994-03-23 12:35:19 UTC' +%s
+  const auto ublox =
+      rmc(*read(lines, "$GPRMC,083559.00,A,4717.11437,N,00833.91522,E,0.004,77.52,091202,,,A*57\r\n"));
   CHECK((*ublox->date_ns + *ublox->time_ns) / 1000000000 == 1039422959);  // 2002-12-09 08:35:59
 
   const auto v = vtg(*read(lines, "$GPVTG,054.7,T,034.4,M,005.5,N,010.2,K*48\r\n"));
@@ -88,17 +91,22 @@ TEST_CASE("south and west are negative, and a third digit of longitude counts") 
 }
 
 TEST_CASE("dates follow the calendar, leap years included") {
-  const auto days = [](const char* text) { return date(text).value_or(-1) / 1000000000 / 86400; };  // date -u -d 2024-02-29 +%s, / 86400
+  const auto days = [](const char* text) {
+    return date(text).value_or(-1) / 1000000000 / 86400;
+  };  // date -u -d 2024-02-29 +%s, / 86400
   CHECK(days("060180") == 3657);
   CHECK(days("311299") == 10956);
   CHECK(days("010100") == 10957);
   CHECK(days("290224") == 19782);
   CHECK(days("010324") == 19783);
   CHECK(days("311279") == 40176);
-  for (const char* wrong : {"290223", "310424", "000124", "010024", "011324", "1124", "0101245", "ab0124"}) CHECK_FALSE(date(wrong));
+  for (const char* wrong : {"290223", "310424", "000124", "010024", "011324", "1124", "0101245", "ab0124"})
+    CHECK_FALSE(date(wrong));
 }
 
-TEST_CASE("a wrong checksum, a missing one, a cut line, a foreign byte and a flood without an end give nothing, and are counted") {
+TEST_CASE(
+    "a wrong checksum, a missing one, a cut line, a foreign byte and a flood without an end give nothing, "
+    "and are counted") {
   Lines lines;
   const std::string good = "$GPVTG,054.7,T,034.4,M,005.5,N,010.2,K*48\r\n";
   CHECK_FALSE(read(lines, "$GPVTG,054.7,T,034.4,M,005.5,N,010.2,K*49\r\n"));
@@ -128,8 +136,10 @@ TEST_CASE("receivers of all systems are read; other talkers and other sentences 
 TEST_CASE("an epoch becomes one sample, with position, velocity, time and deviations of its sentences") {
   Epochs epochs(3);
   const std::string gst_text = framed("GNGST,120001.00,1.8,,,,1.7,1.3,2.2");
-  auto all = samples(epochs, epoch_text(0) + framed("GNGST,120000.00,1.8,,,,1.7,1.3,2.2") + epoch_text(1) + gst_text);
-  REQUIRE(all.size() == 2);  // the first when the second began, the second as soon as all that the first had is there
+  auto all = samples(epochs,
+                     epoch_text(0) + framed("GNGST,120000.00,1.8,,,,1.7,1.3,2.2") + epoch_text(1) + gst_text);
+  REQUIRE(all.size() ==
+          2);  // the first when the second began, the second as soon as all that the first had is there
   const Gnss& g = all[1];
   CHECK(g.latitude_deg == doctest::Approx(47.285235).epsilon(1e-12));  // 47 + 17.1141 / 60
   CHECK(g.longitude_deg == doctest::Approx(8.565265).epsilon(1e-12));
@@ -154,7 +164,9 @@ TEST_CASE("without GST the deviations come from the dilution of precision, and a
   CHECK(all.back().vertical_std_m == doctest::Approx(6.3));
 }
 
-TEST_CASE("every sentence of an epoch is waited for, whatever the order, and one that is lost once does not change that") {
+TEST_CASE(
+    "every sentence of an epoch is waited for, whatever the order, and one that is lost once does not change "
+    "that") {
   Epochs epochs;
   std::string text;
   for (int s = 0; s < 3; ++s) text += epoch_text(s);
@@ -195,7 +207,8 @@ TEST_CASE("the quality of a fix becomes its type") {
   const auto type = [](char quality, int mode) {
     Epochs epochs;
     samples(epochs, framed("GPGSA,A," + std::to_string(mode) + ",04,05,,09,12,,,24,,,,,2.5,1.3,2.1"));
-    samples(epochs, framed(std::string("GPGGA,123519,4807.038,N,01131.000,E,") + quality + ",08,0.9,545.4,M,46.9,M,,"));
+    samples(epochs, framed(std::string("GPGGA,123519,4807.038,N,01131.000,E,") + quality +
+                           ",08,0.9,545.4,M,46.9,M,,"));
     FixType fix = FixType::time_only;
     epochs.flush([&](const Gnss& g) { fix = g.fix; });
     return fix;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The receiver on a pseudo-terminal: a thread at the other end writes sentences in odd pieces, goes away and comes back.
+// The receiver on a pseudo-terminal: a thread at the other end writes sentences in odd pieces, goes away and
+// comes back.
 #include "plugins/nmea_gnss/receiver.hpp"
 
 #include <doctest/doctest.h>
@@ -62,13 +63,16 @@ TEST_CASE("epochs that come in odd pieces with noise in between arrive complete 
   sender.join();
   REQUIRE(all.size() == 20);
   for (std::size_t s = 0; s < all.size(); ++s) {
-    CHECK(all[s].latitude_deg == doctest::Approx(47 + (17.114 + 1e-4 * static_cast<double>(s)) / 60).epsilon(1e-12));
+    CHECK(all[s].latitude_deg ==
+          doctest::Approx(47 + (17.114 + 1e-4 * static_cast<double>(s)) / 60).epsilon(1e-12));
     CHECK(all[s].velocity_mps.east == doctest::Approx((10.0 + static_cast<double>(s)) * 1852 / 3600));
   }
   CHECK(bench.out.bad_lines_ratio.value >= 19);
 }
 
-TEST_CASE("a device that is not there yet, and one that is pulled out, are waited for; an epoch cut by it does not live on") {
+TEST_CASE(
+    "a device that is not there yet, and one that is pulled out, are waited for; an epoch cut by it does not "
+    "live on") {
   Device device;
   Bench<Receiver> bench;
   use(bench, device);
@@ -104,7 +108,9 @@ TEST_CASE("a port that is not named, is no port, or a rate that no port has is r
   bench.params.port.value = "/dev/ttyUSB0";
   bench.params.baud.value = 12345;
   CHECK(bench.configure() == Status::failed);
-  CHECK(bench.error() == "the parameter 'baud' is 12345. Valid: 4800, 9600, 19200, 38400, 57600, 115200, 230400, 460800, 921600");
+  CHECK(bench.error() ==
+        "the parameter 'baud' is 12345. Valid: 4800, 9600, 19200, 38400, 57600, 115200, 230400, 460800, "
+        "921600");
 }
 
 }  // namespace receiver_test

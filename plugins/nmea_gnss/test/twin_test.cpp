@@ -33,7 +33,9 @@ VehicleState truth_at(double time_s) {
   return s;
 }
 
-void make_perfect(Twin::Params& p) { p.horizontal_std.value = p.vertical_std.value = p.white_std.value = p.speed_std.value = 0; }
+void make_perfect(Twin::Params& p) {
+  p.horizontal_std.value = p.vertical_std.value = p.white_std.value = p.speed_std.value = 0;
+}
 
 }  // namespace
 
@@ -53,7 +55,8 @@ TEST_CASE("a twin without errors says where the truth was, 100 ms late, five tim
       const Gnss& g = bench.out.gnss.items[k];
       const double d = 20 * (t - 0.1) / std::numbers::sqrt2;
       CHECK(bench.out.gnss.stamps_ns[k] == i * 10000000LL);
-      CHECK((g.latitude_deg - lat0) * 111043.6 == doctest::Approx(d).epsilon(1e-3));  // metres per degree at 40.246 deg, 1387 m up
+      CHECK((g.latitude_deg - lat0) * 111043.6 ==
+            doctest::Approx(d).epsilon(1e-3));  // metres per degree at 40.246 deg, 1387 m up
       CHECK((g.longitude_deg - lon0) * 85108.0 == doctest::Approx(d).epsilon(2e-3));
       CHECK(g.altitude_m == doctest::Approx(alt0 + 70).epsilon(1e-5));
       CHECK(g.velocity_mps.north == doctest::Approx(14.1421356));
@@ -65,10 +68,12 @@ TEST_CASE("a twin without errors says where the truth was, 100 ms late, five tim
   CHECK(count == 20);
 }
 
-TEST_CASE("the errors of the twin have the deviation that the parameters say, differ by seed, and repeat with it") {
+TEST_CASE(
+    "the errors of the twin have the deviation that the parameters say, differ by seed, and repeat with it") {
   const auto fly = [](std::uint64_t seed, double& mean_square) {
     Bench<Twin> bench(seed);
-    bench.params.correlation_time.value = 0.1;  // shorter than the period: every sample is nearly one of its own
+    bench.params.correlation_time.value =
+        0.1;  // shorter than the period: every sample is nearly one of its own
     bench.params.latency.value = 0;
     double sum = 0, last = 0;
     int n = 0;
@@ -116,7 +121,8 @@ TEST_CASE("the comparison finds a constant offset, at the time of the fix and no
     bench.set(bench.in.state, truth_at(0.01 * i), -0.01);
     if (i >= 30 && i % 20 == 0) {
       const Vec3<Ned> then = truth_at(0.01 * i - 0.1).position_m;
-      const auto g = frame.from_ned({then.north - 3, then.east + 4, then.down - 2});  // the reference lies 3 m south, 4 m east, 2 m above
+      const auto g = frame.from_ned({then.north - 3, then.east + 4,
+                                     then.down - 2});  // the reference lies 3 m south, 4 m east, 2 m above
       Gnss fix;
       fix.latitude_deg = g.lat_deg;
       fix.longitude_deg = g.lon_deg;

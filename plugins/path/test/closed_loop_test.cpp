@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whole flights of a kinematic aircraft in wind: how closely plans are flown, and that any plan is flown at all.
+// Whole flights of a kinematic aircraft in wind: how closely plans are flown, and that any plan is flown at
+// all.
 #include <doctest/doctest.h>
 
 #include "flight.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flies a plan in a closed loop: manager, vector field, kinematic aircraft. Checks every output of every step.
+// Flies a plan in a closed loop: manager, vector field, kinematic aircraft. Checks every output of every
+// step.
 #pragma once
 #include <doctest/doctest.h>
 
@@ -30,7 +31,9 @@ inline Plan plan_of(std::initializer_list<Waypoint> waypoints, PlanEnd end = Pla
   return plan;
 }
 
-inline Plan hourglass() { return plan_of({point(400, -250), point(-400, -50), point(-400, -250), point(400, -50)}); }
+inline Plan hourglass() {
+  return plan_of({point(400, -250), point(-400, -50), point(-400, -250), point(400, -50)});
+}
 
 struct Flight {
   Bench<path::Manager> manager;
@@ -50,7 +53,9 @@ struct Flight {
   const Plan& plan() const { return plan_; }
   const Path& path() const { return manager.out.path.value; }
   const Progress& progress() const { return manager.out.progress; }
-  double distance_to(double north, double east) const { return std::hypot(aircraft.north - north, aircraft.east - east); }
+  double distance_to(double north, double east) const {
+    return std::hypot(aircraft.north - north, aircraft.east - east);
+  }
 
   void step(double dt_s = 0.01) {
     const Progress before = manager.out.progress;
@@ -86,9 +91,10 @@ struct Flight {
     const Path& p = path();
     const GuidanceCommand& c = field.out.command;
     for (const double x :
-         {p.origin_m.north, p.origin_m.east, p.origin_m.down, p.direction_ratio.north, p.direction_ratio.east, p.direction_ratio.down,
-          p.radius_m, p.climb_ratio, p.start_rad, p.airspeed_mps, p.remaining_m, p.next_curvature_ratio, c.course_rad, c.height_m,
-          c.climb_rate_mps, c.airspeed_mps, c.roll_feedforward_rad, progress().distance_m, progress().miss_m}) {
+         {p.origin_m.north, p.origin_m.east, p.origin_m.down, p.direction_ratio.north, p.direction_ratio.east,
+          p.direction_ratio.down, p.radius_m, p.climb_ratio, p.start_rad, p.airspeed_mps, p.remaining_m,
+          p.next_curvature_ratio, c.course_rad, c.height_m, c.climb_rate_mps, c.airspeed_mps,
+          c.roll_feedforward_rad, progress().distance_m, progress().miss_m}) {
       finite = finite && std::isfinite(x);
     }
     finite = finite && p.airspeed_mps > 0 && p.radius_m >= 1;

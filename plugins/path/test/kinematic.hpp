@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A kinematic aircraft for closed-loop tests: coordinated turns in wind, first-order roll, airspeed and climb behind simple autopilot
-// loops.
+// A kinematic aircraft for closed-loop tests: coordinated turns in wind, first-order roll, airspeed and climb
+// behind simple autopilot loops.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,8 @@ struct Kinematic {
     s.course_rad = std::atan2(ve, vn);
     s.airspeed_mps = Va;
     s.wind_mps = {wind_north, wind_east, 0};
-    s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = s.wind_valid = true;
+    s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid =
+        s.wind_valid = true;
     return s;
   }
 
@@ -36,7 +37,8 @@ struct Kinematic {
   void step(const GuidanceCommand& command, double dt) {
     constexpr double g = 9.80665;
     const VehicleState s = state();
-    const double wanted = std::clamp(2.0 * wrap_pi(command.course_rad - s.course_rad) + command.roll_feedforward_rad, -0.785, 0.785);
+    const double wanted = std::clamp(
+        2.0 * wrap_pi(command.course_rad - s.course_rad) + command.roll_feedforward_rad, -0.785, 0.785);
     const double smooth = wanted + std::exp(-dt / 0.1) * (roll_c - wanted);
     roll_c += std::clamp(smooth - roll_c, -1.0 * dt, 1.0 * dt);
     roll += dt / 0.25 * (roll_c - roll);

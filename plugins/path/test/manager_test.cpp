@@ -16,7 +16,9 @@ namespace {
 constexpr double pi = std::numbers::pi;
 }
 
-TEST_CASE("with no waypoint the place where the flight began is orbited, not lower than the hold height, from the first step on") {
+TEST_CASE(
+    "with no waypoint the place where the flight began is orbited, not lower than the hold height, from the "
+    "first step on") {
   Flight flight(plan_of({}));
   flight.aircraft.north = 1000;
   flight.aircraft.east = -2000;
@@ -97,7 +99,9 @@ TEST_CASE("the first leg leads to the first waypoint, and no leg is left out") {
   CHECK(flight.progress().miss_m < 3);
 }
 
-TEST_CASE("a flight that begins with a later waypoint joins there, and goes through the list from it; a change in flight is a jump") {
+TEST_CASE(
+    "a flight that begins with a later waypoint joins there, and goes through the list from it; a change in "
+    "flight is a jump") {
   Flight flight(hourglass());
   flight.manager.params.first_item.value = 2;
   flight.step();
@@ -129,7 +133,9 @@ TEST_CASE("collinear and reversing legs are passed") {
   CHECK(twice.finite);
 }
 
-TEST_CASE("a plan that is cleared and loaded anew far away is flown from its beginning, and the old place is left") {
+TEST_CASE(
+    "a plan that is cleared and loaded anew far away is flown from its beginning, and the old place is "
+    "left") {
   Plan plan = hourglass();
   plan.waypoints[1].has_course = true;
   Flight flight(plan);
@@ -165,11 +171,15 @@ TEST_CASE("a plan that is cleared and loaded anew far away is flown from its beg
 
 TEST_CASE("a change elsewhere in the plan leaves the aircraft on its leg") {
   Flight flight(hourglass());
-  flight.fly(200, [&] { return flight.progress().item == 1 && flight.path().kind == PathKind::line && flight.path().remaining_m < 400; });
+  flight.fly(200, [&] {
+    return flight.progress().item == 1 && flight.path().kind == PathKind::line &&
+           flight.path().remaining_m < 400;
+  });
   const double remaining_m = flight.path().remaining_m;
   Plan plan = flight.plan();  // one more before, one more behind
   plan.waypoints.clear();
-  for (const Waypoint& w : {point(800, 800), point(400, -250), point(-400, -50), point(-400, -250), point(400, -50), point(900, 100)})
+  for (const Waypoint& w : {point(800, 800), point(400, -250), point(-400, -50), point(-400, -250),
+                            point(400, -50), point(900, 100)})
     plan.waypoints.push_back(w);
   ++plan.revision;
   flight.change(plan);
@@ -260,8 +270,9 @@ TEST_CASE("a way to the plan that is not followed is drawn anew from where the a
   }
   const Path& path = manager.out.path.value;
   const double n = aircraft.north - path.origin_m.north, e = aircraft.east - path.origin_m.east;
-  const double off =
-      path.kind == PathKind::line ? path.direction_ratio.north * e - path.direction_ratio.east * n : std::hypot(n, e) - path.radius_m;
+  const double off = path.kind == PathKind::line
+                         ? path.direction_ratio.north * e - path.direction_ratio.east * n
+                         : std::hypot(n, e) - path.radius_m;
   CHECK(std::abs(off) < 60);
   CHECK(manager.out.progress.item == 0);
 }
@@ -274,7 +285,8 @@ TEST_CASE("the distance to the next change of curvature falls evenly to nothing"
   Kinematic last = flight.aircraft;
   for (int i = 0; i < 15000; ++i) {
     flight.step();
-    const double now = flight.path().remaining_m, step = std::hypot(flight.aircraft.north - last.north, flight.aircraft.east - last.east);
+    const double now = flight.path().remaining_m,
+                 step = std::hypot(flight.aircraft.north - last.north, flight.aircraft.east - last.east);
     last = flight.aircraft;
     if (now > before + 1) {
       CHECK(before < 0.5);
@@ -289,7 +301,8 @@ TEST_CASE("the distance to the next change of curvature falls evenly to nothing"
 
 TEST_CASE("1024 waypoints are managed as quickly as four: a step neither allocates nor walks the list") {
   Plan plan = plan_of({});
-  for (int i = 0; i < 1024; ++i) plan.waypoints.push_back(point(120.0 * (i % 32), 150.0 * (i / 32), 50 + i % 7));
+  for (int i = 0; i < 1024; ++i)
+    plan.waypoints.push_back(point(120.0 * (i % 32), 150.0 * (i / 32), 50 + i % 7));
   Flight flight(plan);
   flight.fly(300);
   CHECK(flight.finite);

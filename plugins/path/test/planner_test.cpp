@@ -174,7 +174,8 @@ TEST_CASE("a plan holds 1024 waypoints and refuses one more") {
 TEST_CASE("geodetic waypoints wait for the origin") {
   Bench<Planner> bench;
   three_waypoints(bench);
-  bench.params.plan.value.waypoints.push_back(geodetic(40.2499741, -111.6474138, 1457));  // 0.0036017 deg north of the origin: 400 m
+  bench.params.plan.value.waypoints.push_back(
+      geodetic(40.2499741, -111.6474138, 1457));  // 0.0036017 deg north of the origin: 400 m
   CHECK(bench.step(0.01) == Status::degraded);
   CHECK_FALSE(bench.out.plan.written);
   VehicleState state;
@@ -216,8 +217,9 @@ TEST_CASE("a file that is wrong is refused with a sentence that names the waypoi
     return bench.error();
   };
   CHECK(fault([](PlanFile& f) { f.waypoints[1].lat_deg = 40; }).find("waypoint 2") != std::string::npos);
-  CHECK(fault([](PlanFile& f) { f.waypoints[2].up_m = not_given; }).find("waypoint 3 of the plan needs north, east and up") !=
-        std::string::npos);
+  CHECK(fault([](PlanFile& f) {
+          f.waypoints[2].up_m = not_given;
+        }).find("waypoint 3 of the plan needs north, east and up") != std::string::npos);
   CHECK(fault([](PlanFile& f) { f.waypoints[0] = {}; }).find("waypoint 1") != std::string::npos);
   CHECK(fault([](PlanFile& f) { f.airspeed_mps = 0; }).find("airspeed") != std::string::npos);
   CHECK(fault([](PlanFile& f) { f.turn_radius_m = 0; }).find("turn_radius") != std::string::npos);

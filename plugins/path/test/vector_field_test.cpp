@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The vector field: the book's numbers, convergence of a point that follows it, bank in wind, heights, and degenerate paths.
+// The vector field: the book's numbers, convergence of a point that follows it, bank in wind, heights, and
+// degenerate paths.
 #include "plugins/path/vector_field.hpp"
 
 #include <doctest/doctest.h>
@@ -74,7 +75,8 @@ TEST_CASE("a point that flies the commanded course comes to the path from anywhe
   Random rng(31);
   Bench<VectorField> bench;
   for (int trial = 0; trial < 24; ++trial) {
-    const Path path = trial % 2 == 0 ? line(rng.uniform(-pi, pi)) : orbit(trial % 4 == 1 ? Turn::right : Turn::left, rng.uniform(30, 150));
+    const Path path = trial % 2 == 0 ? line(rng.uniform(-pi, pi))
+                                     : orbit(trial % 4 == 1 ? Turn::right : Turn::left, rng.uniform(30, 150));
     double n = rng.uniform(-300, 300), e = rng.uniform(-300, 300), chi = 0;
     double before = 1e9;
     for (int i = 0; i < 5000; ++i) {
@@ -106,7 +108,8 @@ TEST_CASE("a climbing arc gives the height where the aircraft is, through south 
   path.climb_ratio = 0.05;
   path.start_rad = pi - 0.1;
   const double azimuth = -pi + 0.1;  // 0.2 rad on
-  CHECK(command(bench, at(100 * std::cos(azimuth), 100 * std::sin(azimuth), 0), path).height_m == doctest::Approx(50 + 0.05 * 100 * 0.2));
+  CHECK(command(bench, at(100 * std::cos(azimuth), 100 * std::sin(azimuth), 0), path).height_m ==
+        doctest::Approx(50 + 0.05 * 100 * 0.2));
 }
 
 TEST_CASE("the fed-forward bank alone holds a circle over the ground in wind") {
@@ -116,7 +119,8 @@ TEST_CASE("the fed-forward bank alone holds a circle over the ground in wind") {
     const double R = 80, Va = 17, wind_n = 3, wind_e = -4, side = turn == Turn::right ? 1 : -1, dt = 0.002;
     // begin on the circle with the ground track along it
     double n = R, e = 0, psi = side * pi / 2;
-    for (int i = 0; i < 50; ++i) psi -= wrap_pi(std::atan2(Va * std::sin(psi) + wind_e, Va * std::cos(psi) + wind_n) - side * pi / 2);
+    for (int i = 0; i < 50; ++i)
+      psi -= wrap_pi(std::atan2(Va * std::sin(psi) + wind_e, Va * std::cos(psi) + wind_n) - side * pi / 2);
     double worst = 0;
     for (int i = 0; i < 15000; ++i) {
       const double vn = Va * std::cos(psi) + wind_n, ve = Va * std::sin(psi) + wind_e;
@@ -132,7 +136,8 @@ TEST_CASE("the fed-forward bank alone holds a circle over the ground in wind") {
   }
 }
 
-TEST_CASE("the bank of the next piece is commanded shortly before it begins, and not when far from the path") {
+TEST_CASE(
+    "the bank of the next piece is commanded shortly before it begins, and not when far from the path") {
   Bench<VectorField> bench;
   bench.params.lead_time.value = 0.5;
   Path path = line(0);
@@ -140,17 +145,22 @@ TEST_CASE("the bank of the next piece is commanded shortly before it begins, and
   path.remaining_m = 9;  // 17 m/s for 0.5 s is 8.5 m
   CHECK(command(bench, at(0, 0, 0), path).roll_feedforward_rad == 0);
   path.remaining_m = 8;
-  CHECK(command(bench, at(0, 0, 0), path).roll_feedforward_rad == doctest::Approx(-std::atan(17.0 * 17 / (50 * 9.80665))));
+  CHECK(command(bench, at(0, 0, 0), path).roll_feedforward_rad ==
+        doctest::Approx(-std::atan(17.0 * 17 / (50 * 9.80665))));
   CHECK(command(bench, at(0, 40, 0), path).roll_feedforward_rad == 0);
   CHECK(command(bench, at(0, 0, pi), path).roll_feedforward_rad == 0);
 }
 
-TEST_CASE("course commands are wrapped and finite for every path and place, also at the centre of an orbit and on a vertical line") {
+TEST_CASE(
+    "course commands are wrapped and finite for every path and place, also at the centre of an orbit and on "
+    "a vertical line") {
   Random rng(37);
   Bench<VectorField> bench;
   for (int i = 0; i < 5000; ++i) {
-    Path path = i % 2 == 0 ? line(rng.uniform(-7, 7), rng.uniform(-0.5, 0.5)) : orbit(Turn::left, rng.uniform(0, 100));
-    VehicleState s = at(rng.uniform(-100, 100), rng.uniform(-100, 100), rng.uniform(-pi, pi), rng.uniform(0, 30));
+    Path path = i % 2 == 0 ? line(rng.uniform(-7, 7), rng.uniform(-0.5, 0.5))
+                           : orbit(Turn::left, rng.uniform(0, 100));
+    VehicleState s =
+        at(rng.uniform(-100, 100), rng.uniform(-100, 100), rng.uniform(-pi, pi), rng.uniform(0, 30));
     if (i % 5 == 0) s.position_m = {0, 0, -50};
     if (i % 7 == 0) path.direction_ratio = {0, 0, -1};
     if (i % 11 == 0) path.direction_ratio = {0, 0, 0};
@@ -177,7 +187,8 @@ TEST_CASE("without a position it flies straight on at the height last asked for,
   CHECK(bench.out.command.airspeed_mps == before.airspeed_mps);
   CHECK(bench.out.command.roll_feedforward_rad == 0);
   CHECK(bench.out.command.climb_rate_mps == 0);
-  CHECK(command(bench, at(0, 55, 0.3), orbit(Turn::right, 50)).roll_feedforward_rad == before.roll_feedforward_rad);
+  CHECK(command(bench, at(0, 55, 0.3), orbit(Turn::right, 50)).roll_feedforward_rad ==
+        before.roll_feedforward_rad);
 }
 
 }  // namespace vector_field_test

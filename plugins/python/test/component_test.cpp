@@ -156,7 +156,8 @@ class Law:
   CHECK(gain.flags == FULMAR_LIVE);
   CHECK(law.c->params[law.param("fixed")].flags == 0);
   CHECK(law.c->params[law.param("airframe")].type->size == sizeof(Airframe));
-  CHECK(static_cast<const Airframe*>(law.c->params[law.param("airframe")].initial_data)->wing.oswald_ratio == 0.9);
+  CHECK(static_cast<const Airframe*>(law.c->params[law.param("airframe")].initial_data)->wing.oswald_ratio ==
+        0.9);
 
   Airframe airframe;
   airframe.mass_kg = 4.5;
@@ -243,7 +244,8 @@ class Law:
         out.chance_ratio = self.random.random()
         out.order_ratio = hash("albatross") % 1000003
 )";
-  Law one(text, "", "/nowhere/a.py", 7), same(text, "", "/nowhere/a.py", 7), other(text, "", "/nowhere/a.py", 8);
+  Law one(text, "", "/nowhere/a.py", 7), same(text, "", "/nowhere/a.py", 7),
+      other(text, "", "/nowhere/a.py", 8);
   for (Law* law : {&one, &same, &other}) {
     REQUIRE(law->configure() == FULMAR_OK);
     REQUIRE(law->step() == FULMAR_OK);
@@ -271,8 +273,8 @@ class Law:
 }
 
 TEST_CASE("numpy sees the memory of a port") {
-  if (refusal("import numpy\nimport fulmar_plugin as f\nclass L:\n  class Outputs: a_m = f.Probe()\n  def step(self, t, i, p, o): pass") !=
-      "opened") {
+  if (refusal("import numpy\nimport fulmar_plugin as f\nclass L:\n  class Outputs: a_m = f.Probe()\n  def "
+              "step(self, t, i, p, o): pass") != "opened") {
     MESSAGE("numpy is not installed: skipped");
     return;
   }
@@ -322,7 +324,8 @@ class Law:
 )");
   REQUIRE(law.configure() == FULMAR_OK);
   CHECK(law.step() == FULMAR_FAILED);
-  CHECK(std::string(law.error.text) == "law.py:4 in helper: ZeroDivisionError: division by zero [return 1 / x]");
+  CHECK(std::string(law.error.text) ==
+        "law.py:4 in helper: ZeroDivisionError: division by zero [return 1 / x]");
   CHECK(law.out("error_m").count == 0);
   CHECK(law.out("told").count == 0);
   CHECK(law.step() == FULMAR_OK);
@@ -336,7 +339,8 @@ class Law:
 
 TEST_CASE("a misspelt name fails at once, and a whole message may be assigned") {
   const std::string head =
-      "import fulmar_plugin as f\nclass Law:\n  class Outputs: attitude = f.Out('AttitudeCommand'); e_m = f.Probe()\n"
+      "import fulmar_plugin as f\nclass Law:\n  class Outputs: attitude = f.Out('AttitudeCommand'); e_m = "
+      "f.Probe()\n"
       "  class Params: gain = f.Param(1.0)\n  def step(self, tick, inp, p, out):\n    ";
   const auto error = [&](const std::string& line) {
     Law law(head + line + "\n");
@@ -344,7 +348,8 @@ TEST_CASE("a misspelt name fails at once, and a whole message may be assigned") 
     return law.step() == FULMAR_OK ? std::string("ok") : std::string(law.error.text);
   };
   CHECK(error("out.atitude = 1").find("'Outputs' object has no attribute 'atitude'") != std::string::npos);
-  CHECK(error("out.attitude.rol_rad = 1").find("'AttitudeCommand' object has no attribute 'rol_rad'") != std::string::npos);
+  CHECK(error("out.attitude.rol_rad = 1").find("'AttitudeCommand' object has no attribute 'rol_rad'") !=
+        std::string::npos);
   CHECK(error("p.gian").find("'Params' object has no attribute 'gian'") != std::string::npos);
   CHECK(error("out.attitude = 3").find("out.attitude is AttitudeCommand, not int") != std::string::npos);
   CHECK(error("return 'ok'").find("return nothing, f.ok, f.degraded or f.failed") != std::string::npos);
@@ -357,10 +362,12 @@ TEST_CASE("a misspelt name fails at once, and a whole message may be assigned") 
 
 TEST_CASE("an exception in the constructor or in configure is told at set-up") {
   const std::string tail = "  class Outputs: e_m = f.Probe()\n  def step(self, tick, inp, p, out): pass\n";
-  Law unborn("import fulmar_plugin as f\nclass Law:\n  def __init__(self): raise OSError('no polar')\n" + tail);
+  Law unborn("import fulmar_plugin as f\nclass Law:\n  def __init__(self): raise OSError('no polar')\n" +
+             tail);
   CHECK(!unborn.created());
   CHECK(std::string(unborn.error.text).starts_with("law.py:3 in __init__: OSError: no polar"));
-  Law law("import fulmar_plugin as f\nclass Law:\n  def configure(self, p): raise OSError('no polar')\n" + tail);
+  Law law("import fulmar_plugin as f\nclass Law:\n  def configure(self, p): raise OSError('no polar')\n" +
+          tail);
   CHECK(law.configure() == FULMAR_FAILED);
   CHECK(std::string(law.error.text).starts_with("law.py:3 in configure: OSError: no polar"));
 }

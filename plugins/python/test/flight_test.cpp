@@ -58,9 +58,11 @@ std::string mission(const std::string& script, const std::string& more = "") {
   std::ofstream(folder() / "mission.yaml")
       << "mission: trial\nextends: " FULMAR_SOURCE_DIR "/configs/missions/common.yaml\n"
       << "airframe: " FULMAR_SOURCE_DIR "/configs/airframes/anaconda.yaml\n"
-      << "origin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\nseed: 7\ndone: \"manage.progress.circuits >= 1\"\n"
+      << "origin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\nseed: 7\ndone: "
+         "\"manage.progress.circuits >= 1\"\n"
       << "components:\n  plan: {params: {plan: " FULMAR_SOURCE_DIR "/configs/plans/hourglass.yaml}}\n"
-      << "  mine: {fills: outer, use: law.py, rate: 100 Hz" << more << "}\nphases:\n  cruise: {outer: {use: mine, fallback: slc}}\n";
+      << "  mine: {fills: outer, use: law.py, rate: 100 Hz" << more
+      << "}\nphases:\n  cruise: {outer: {use: mine, fallback: slc}}\n";
   return (folder() / "mission.yaml").string();
 }
 
@@ -101,22 +103,28 @@ TEST_CASE("the same flight gives the same bytes, and what a script prints does n
 }
 
 TEST_CASE("a law that raises in flight is replaced by the fallback, and its traceback is told") {
-  const std::string script = law("if tick.now_s > 40: self.no_such_gain"), before = script.substr(0, script.find("if tick.now_s"));
+  const std::string script = law("if tick.now_s > 40: self.no_such_gain"),
+                    before = script.substr(0, script.find("if tick.now_s"));
   const Result r = fulmar("run " + mission(script) + " --json --no-log");
   CHECK(r.code == 0);
   CHECK(r.says("\"result\": \"flown\""));
   CHECK(r.says("AttributeError: 'MyLaw' object has no attribute 'no_such_gain'"));
   CHECK(r.says("\"component\": \"mine\""));
-  CHECK(r.says("law.py:" + std::to_string(1 + std::count(before.begin(), before.end(), '\n')) + " in step: AttributeError: "));
+  CHECK(r.says("law.py:" + std::to_string(1 + std::count(before.begin(), before.end(), '\n')) +
+               " in step: AttributeError: "));
   CHECK(r.err.find("Traceback (most recent call last)") != std::string::npos);
 }
 
-TEST_CASE("in a process of its own a law flies as in the loop, and one that ends the interpreter costs nothing but its role") {
+TEST_CASE(
+    "in a process of its own a law flies as in the loop, and one that ends the interpreter costs nothing but "
+    "its role") {
   const Result good = fulmar("run " + mission(law(), ", run: process") + " --json --no-log");
   CAPTURE(good.err);
   CHECK(good.code == 0);
   CHECK(good.says("\"guards\": []"));
-  const Result bad = fulmar("run " + mission(law("if tick.now_s > 40: __import__('os').abort()"), ", run: process") + " --json --no-log");
+  const Result bad =
+      fulmar("run " + mission(law("if tick.now_s > 40: __import__('os').abort()"), ", run: process") +
+             " --json --no-log");
   CHECK(bad.code == 0);
   CHECK(bad.says("\"result\": \"flown\""));
   CHECK(bad.says("\"component\": \"mine\""));
@@ -125,7 +133,9 @@ TEST_CASE("in a process of its own a law flies as in the loop, and one that ends
 TEST_CASE("a script that cannot be opened is a fault of the mission, with its line and that of the script") {
   const Result missing = fulmar("check " + mission("import nosuchthing\n"));
   CHECK(missing.code == 1);
-  CHECK(missing.err.find("mission.yaml:9: components.mine: law.py:1: there is no Python module 'nosuchthing'") != std::string::npos);
+  CHECK(missing.err.find(
+            "mission.yaml:9: components.mine: law.py:1: there is no Python module 'nosuchthing'") !=
+        std::string::npos);
   const Result syntax = fulmar("check " + mission("class Law\n"));
   CHECK(syntax.err.find("law.py:1: expected ':'") != std::string::npos);
   mission(law());
@@ -135,22 +145,25 @@ TEST_CASE("a script that cannot be opened is a fault of the mission, with its li
   text.replace(text.find("use: law.py"), 11, "use: law.py/MyLow");
   std::ofstream(folder() / "mission.yaml") << text;
   const Result low = fulmar("check " + (folder() / "mission.yaml").string());
-  CHECK(low.err.find("the plugin law.py has no component 'MyLow'. Did you mean 'MyLaw'?") != std::string::npos);
+  CHECK(low.err.find("the plugin law.py has no component 'MyLow'. Did you mean 'MyLaw'?") !=
+        std::string::npos);
   text.replace(text.find("law.py"), 6, "lww.py");
   std::ofstream(folder() / "mission.yaml") << text;
-  CHECK(fulmar("check " + (folder() / "mission.yaml").string()).err.find("there is no plugin 'lww.py'") != std::string::npos);
+  CHECK(fulmar("check " + (folder() / "mission.yaml").string()).err.find("there is no plugin 'lww.py'") !=
+        std::string::npos);
 }
 
-TEST_CASE("a script that never ends, crashes or leaves while it is imported is stopped by the probing child") {
+TEST_CASE(
+    "a script that never ends, crashes or leaves while it is imported is stopped by the probing child") {
   ::setenv("FULMAR_PROBE_SECONDS", "2", 1);
   const Result loop = fulmar("check " + mission("while True: pass\n"));
   ::unsetenv("FULMAR_PROBE_SECONDS");
   CHECK(loop.code == 1);
   CHECK(loop.err.find("law.py did not finish loading within 2 s") != std::string::npos);
-  CHECK(fulmar("check " + mission("import os\nos._exit(3)\n")).err.find("law.py ended the process while being loaded (exit code 3)") !=
-        std::string::npos);
-  CHECK(fulmar("check " + mission("import os\nos.abort()\n")).err.find("law.py crashed while being loaded (signal 6)") !=
-        std::string::npos);
+  CHECK(fulmar("check " + mission("import os\nos._exit(3)\n"))
+            .err.find("law.py ended the process while being loaded (exit code 3)") != std::string::npos);
+  CHECK(fulmar("check " + mission("import os\nos.abort()\n"))
+            .err.find("law.py crashed while being loaded (signal 6)") != std::string::npos);
 }
 
 }  // namespace flight_test

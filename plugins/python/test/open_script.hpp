@@ -34,7 +34,8 @@ inline std::string refusal(const std::string& text, const std::string& file = "/
 /// One component of a script, with one sample of room at each port.
 class Law {
  public:
-  explicit Law(const std::string& text, const std::string& name = "", const std::string& file = "/nowhere/law.py", std::uint64_t seed = 1) {
+  explicit Law(const std::string& text, const std::string& name = "",
+               const std::string& file = "/nowhere/law.py", std::uint64_t seed = 1) {
     plugin_ = host().open_script(file.c_str(), text.data(), text.size(), &error);
     if (plugin_ == nullptr) FAIL(error.text);
     for (std::uint32_t i = 0; i < plugin_->component_count; ++i)
@@ -127,7 +128,8 @@ class Law {
     return &error;
   }
   void prepare() {
-    for (std::size_t i = 0; i < outputs.size(); ++i) outputs[i] = {room_[i].data(), stamps_[i].data(), tick.now_ns, 0, 0};
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+      outputs[i] = {room_[i].data(), stamps_[i].data(), tick.now_ns, 0, 0};
   }
 
   const fulmar_plugin* plugin_ = nullptr;

@@ -93,8 +93,8 @@ void same_tables(const fulmar_type& a, const fulmar_type& b) {
 }
 
 std::string with_ports(const std::string& inputs, const std::string& outputs = "e_m = f.Probe()") {
-  return "import fulmar_plugin as f\nclass Law:\n  class Inputs:\n    " + inputs + "\n  class Outputs:\n    " + outputs +
-         "\n  def step(self, tick, inp, p, out): pass\n";
+  return "import fulmar_plugin as f\nclass Law:\n  class Inputs:\n    " + inputs +
+         "\n  class Outputs:\n    " + outputs + "\n  def step(self, tick, inp, p, out): pass\n";
 }
 
 struct Folder {
@@ -131,26 +131,31 @@ TEST_CASE("what cannot be a component is refused with one sentence that names th
   CHECK(refusal("import nosuchthing\n") == "law.py:1: there is no Python module 'nosuchthing'");
   CHECK(refusal("import sys\n\nx = 1 / 0\n") == "law.py:3: ZeroDivisionError: division by zero [x = 1 / 0]");
   CHECK(refusal("import sys\nsys.exit(3)\n").starts_with("law.py:2: SystemExit: 3"));
-  CHECK(refusal("x = 1\n") == "law.py holds no component: a class with Outputs and a method step(self, tick, inp, p, out)");
+  CHECK(refusal("x = 1\n") ==
+        "law.py holds no component: a class with Outputs and a method step(self, tick, inp, p, out)");
   CHECK(refusal("import fulmar_plugin as f\nclass Law:\n  class Outputs: e_m = f.Probe()\n") ==
         "law.py:2: Law: it has no method step(self, tick, inp, p, out)");
   CHECK(refusal(with_ports("state = f.In('VehicleStat')"))
-            .starts_with("law.py:4: Law.Inputs.state: there is no message 'VehicleStat'. Did you mean 'VehicleState'? Valid: Actuators, "));
-  CHECK(refusal(with_ports("state = 3")) == "law.py:4: Law.Inputs.state: 3 is no input; Inputs holds In, Optional, Queue and Request");
-  CHECK(refusal(with_ports("state = f.In(int)")) == "law.py:4: Law.Inputs.state: <class 'int'> is no message; give its name or class");
+            .starts_with("law.py:4: Law.Inputs.state: there is no message 'VehicleStat'. Did you mean "
+                         "'VehicleState'? Valid: Actuators, "));
+  CHECK(refusal(with_ports("state = 3")) ==
+        "law.py:4: Law.Inputs.state: 3 is no input; Inputs holds In, Optional, Queue and Request");
+  CHECK(refusal(with_ports("state = f.In(int)")) ==
+        "law.py:4: Law.Inputs.state: <class 'int'> is no message; give its name or class");
   CHECK(refusal(with_ports("s = f.In('Imu')", "e = f.Probe()")) ==
         "law.py:6: Law.Outputs.e: the name of a probe ends in its unit: roll_error_rad");
   CHECK(refusal("import fulmar_plugin as f\nclass M(f.Message):\n  height: float\n")
             .starts_with("law.py:3: M.height: the name of a number ends in its unit: _mps2 "));
   CHECK(refusal("import fulmar_plugin as f\nclass M(f.Message):\n  name: str\n")
             .starts_with("law.py:3: M.name: <class 'str'> is no type of a field. Valid: float, "));
-  CHECK(refusal("import enum\nimport fulmar_plugin as f\nclass E(enum.IntEnum):\n  a = 1\nclass M(f.Message):\n  e: E\n") ==
-        "law.py:6: M.e: the words of E count from 0, without gaps");
+  CHECK(refusal("import enum\nimport fulmar_plugin as f\nclass E(enum.IntEnum):\n  a = 1\nclass "
+                "M(f.Message):\n  e: E\n") == "law.py:6: M.e: the words of E count from 0, without gaps");
 }
 
 TEST_CASE("a changed script is a new module; the old one flies on until it is closed") {
   const auto text = [](const std::string& number) {
-    return "import fulmar_plugin as f\nclass Law:\n  class Outputs: n_ratio = f.Probe()\n  def step(self, tick, inp, p, out): out.n_ratio "
+    return "import fulmar_plugin as f\nclass Law:\n  class Outputs: n_ratio = f.Probe()\n  def step(self, "
+           "tick, inp, p, out): out.n_ratio "
            "= " +
            number + "\n";
   };
@@ -169,7 +174,8 @@ TEST_CASE("a changed script is a new module; the old one flies on until it is cl
 TEST_CASE("a module beside the script is found, and imported anew when it has changed") {
   const Folder folder;
   const std::string script =
-      "import fulmar_plugin as f\nimport fulmar_test_gains\nclass Law:\n  class Outputs: n_ratio = f.Probe()\n"
+      "import fulmar_plugin as f\nimport fulmar_test_gains\nclass Law:\n  class Outputs: n_ratio = "
+      "f.Probe()\n"
       "  def step(self, tick, inp, p, out): out.n_ratio = fulmar_test_gains.gain\n";
   const std::string file = folder.write("law.py", script);
   for (const std::string gain : {"1.5", "22.5"}) {
@@ -189,7 +195,8 @@ TEST_CASE("a thousand scripts opened and closed leave nothing open") {
 
 TEST_CASE("several classes of a file are several components, in their order; helpers are none") {
   const std::string text =
-      "import fulmar_plugin as f\nclass _Base:\n  class Outputs: e_m = f.Probe()\n  def step(self, tick, inp, p, out): out.e_m = self.n\n"
+      "import fulmar_plugin as f\nclass _Base:\n  class Outputs: e_m = f.Probe()\n  def step(self, tick, "
+      "inp, p, out): out.e_m = self.n\n"
       "class Two(_Base): n = 2\nclass One(_Base): n = 1\nclass Helper: pass\n";
   Law one(text, "One");
   REQUIRE(one.configure() == FULMAR_OK);

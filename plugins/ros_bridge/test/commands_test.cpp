@@ -42,7 +42,9 @@ TEST_CASE("a goal is the whole plan: the old one is cleared, the new point is no
   CHECK_FALSE(add.waypoint.has_course);
 }
 
-TEST_CASE("a goal on the ground, as rviz sends it, is meant at the present height; its heading counts when asked for") {
+TEST_CASE(
+    "a goal on the ground, as rviz sends it, is meant at the present height; its heading counts when asked "
+    "for") {
   Bench<Goal> bench;
   bench.params.mode.value = GoalMode::append;
   bench.params.use_heading.value = true;

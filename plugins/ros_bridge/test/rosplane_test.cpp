@@ -71,7 +71,8 @@ TEST_CASE("a place that is not known is not published as zero") {
   CHECK(bench.out.attitude.written);
 }
 
-TEST_CASE("command: throttle in u[0], surfaces in u[3] to u[5] by their throws, the elevator as anaconda has it") {
+TEST_CASE(
+    "command: throttle in u[0], surfaces in u[3] to u[5] by their throws, the elevator as anaconda has it") {
   Bench<Rosplane> bench;
   bench.params.airframe.value = anaconda();
   bench.set(bench.in.actuators, Actuators{0.6, 0.2, -0.25, -0.15});
@@ -127,7 +128,8 @@ TEST_CASE("current_path: a right orbit is clockwise, 1; a line has its point and
   CHECK(bench.out.current_path.value.q == std::array<float, 3>{0, 1, 0});
 }
 
-TEST_CASE("a plan goes out once per revision: the list is cleared, then each waypoint, however many there are") {
+TEST_CASE(
+    "a plan goes out once per revision: the list is cleared, then each waypoint, however many there are") {
   Bench<Rosplane> bench;
   Plan plan;
   plan.revision = 1;
@@ -141,7 +143,8 @@ TEST_CASE("a plan goes out once per revision: the list is cleared, then each way
   std::vector<RosplaneWaypoint> told;
   for (int step = 0; step < 5; ++step) {
     bench.step(0.01);
-    for (std::uint32_t i = 0; i < bench.out.waypoint_path.count; ++i) told.push_back(bench.out.waypoint_path.items[i]);
+    for (std::uint32_t i = 0; i < bench.out.waypoint_path.count; ++i)
+      told.push_back(bench.out.waypoint_path.items[i]);
   }
   REQUIRE(told.size() == 101);
   CHECK(told[0].clear_wp_list);
@@ -152,7 +155,9 @@ TEST_CASE("a plan goes out once per revision: the list is cleared, then each way
   }
 }
 
-TEST_CASE("sensors and status are those of rosflight_io: body axes, the pressure altitude of the standard atmosphere, pulses") {
+TEST_CASE(
+    "sensors and status are those of rosflight_io: body axes, the pressure altitude of the standard "
+    "atmosphere, pulses") {
   Bench<Rosplane> bench;
   Imu imu;
   imu.specific_force_mps2 = {0.1, 0.2, -9.81};
@@ -183,7 +188,9 @@ TEST_CASE("sensors and status are those of rosflight_io: body axes, the pressure
   CHECK(bench.out.gnss.value.gnss_unix_nanos == 123'000'000);
 }
 
-TEST_CASE("a follower's commands guide; a follower that falls silent has failed, one that has not spoken is waited for") {
+TEST_CASE(
+    "a follower's commands guide; a follower that falls silent has failed, one that has not spoken is waited "
+    "for") {
   Bench<RosplaneFollower> bench;
   CHECK(bench.step(0.01) == Status::degraded);
   RosplaneControllerCommands c;
@@ -282,7 +289,8 @@ TEST_CASE("the service add_waypoint appends, and refuses what is no number") {
   CHECK(bench.out.edits.items[0].waypoint.position_m.down == -60);
 }
 
-TEST_CASE("an estimator's state comes back as it went out, and its zeros before it is initialised are no state") {
+TEST_CASE(
+    "an estimator's state comes back as it went out, and its zeros before it is initialised are no state") {
   Bench<Rosplane> out;
   out.set(out.in.state, flying());
   out.step(0.01);

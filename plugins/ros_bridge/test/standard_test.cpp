@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The conversions against attitudes and vectors that can be said in words, and against rotation matrices written down by hand.
+// The conversions against attitudes and vectors that can be said in words, and against rotation matrices
+// written down by hand.
 #define FULMAR_COUNT_ALLOCATIONS
 #include "plugins/ros_bridge/standard.hpp"
 
@@ -34,7 +35,8 @@ RosOdometry odometry_of(const VehicleState& s) {
   return bench.out.odometry.value;
 }
 
-/// Where a body axis (forward, left, up) points in the world (east, north, up), by the textbook formula for a rotated vector.
+/// Where a body axis (forward, left, up) points in the world (east, north, up), by the textbook formula for a
+/// rotated vector.
 Eigen::Vector3d turned(const RosQuaternion& q, const Eigen::Vector3d& v) {
   const Eigen::Vector3d u(q.x, q.y, q.z);
   return 2 * u.dot(v) * u + (q.w * q.w - u.dot(u)) * v + 2 * q.w * u.cross(v);
@@ -58,12 +60,14 @@ TEST_CASE("north and level is a yaw of 90 degrees and nothing else; east and lev
   CHECK(east.w == doctest::Approx(1));
 }
 
-TEST_CASE("the aircraft is not upside down: up stays up, a climb points up, a right bank lowers the right wing") {
+TEST_CASE(
+    "the aircraft is not upside down: up stays up, a climb points up, a right bank lowers the right wing") {
   const RosQuaternion level = odometry_of(flying(0, 0, 0.3)).pose.pose.orientation;
   check_vector(turned(level, {0, 0, 1}), 0, 0, 1);
   const RosQuaternion climb = odometry_of(flying(0, 0.2, 0)).pose.pose.orientation;
   check_vector(turned(climb, {1, 0, 0}), 0, std::cos(0.2), std::sin(0.2));
-  const RosQuaternion bank = odometry_of(flying(0.5, 0, 0)).pose.pose.orientation;  // left wing up and to the west
+  const RosQuaternion bank =
+      odometry_of(flying(0.5, 0, 0)).pose.pose.orientation;  // left wing up and to the west
   check_vector(turned(bank, {0, 1, 0}), -std::cos(0.5), 0, std::sin(0.5));
 }
 
@@ -81,7 +85,9 @@ TEST_CASE("positions are east, north, up; speeds are forward, left, up") {
   CHECK(o.child_frame_id.view() == "base_link");
 }
 
-TEST_CASE("covariances stand in the order that ROS reads: x, y, z, then rotations, world for the pose, body for the twist") {
+TEST_CASE(
+    "covariances stand in the order that ROS reads: x, y, z, then rotations, world for the pose, body for "
+    "the twist") {
   VehicleState s = flying(0, 0, pi / 2);
   s.position_std_m = {1, 2, 3};
   s.attitude_std_rad = {0.1, 0.2, 0.3};
@@ -97,7 +103,9 @@ TEST_CASE("covariances stand in the order that ROS reads: x, y, z, then rotation
   CHECK(o.twist.covariance[21] == doctest::Approx(1e18));
 }
 
-TEST_CASE("at rest an accelerometer shows gravity's reaction upwards, and without an attitude the orientation says so") {
+TEST_CASE(
+    "at rest an accelerometer shows gravity's reaction upwards, and without an attitude the orientation says "
+    "so") {
   Bench<Standard> bench;
   bench.params.force_std.value = 0.2;
   Imu imu;
@@ -114,7 +122,9 @@ TEST_CASE("at rest an accelerometer shows gravity's reaction upwards, and withou
   CHECK(m.angular_velocity_covariance[0] == 0);
 }
 
-TEST_CASE("tf tells the body, and the frames that point north and down, so that their axes come out as they are called") {
+TEST_CASE(
+    "tf tells the body, and the frames that point north and down, so that their axes come out as they are "
+    "called") {
   Bench<Standard> bench;
   bench.params.world.value = "uav1/map";
   bench.set(bench.in.state, flying(0.1, 0.2, 0.3));
@@ -135,7 +145,8 @@ TEST_CASE("stamps are UTC: from the epoch until a fix tells better, and then for
   Bench<Standard> bench;
   bench.set(bench.in.state, flying(0, 0, 0));
   bench.step(1.25);
-  CHECK(bench.out.pose.value.header.stamp.sec == 1767225600);  // 2026-01-01T00:00Z: the sample is of flight time 0
+  CHECK(bench.out.pose.value.header.stamp.sec ==
+        1767225600);  // 2026-01-01T00:00Z: the sample is of flight time 0
   Gnss gnss;
   gnss.fix = FixType::fix_3d;
   gnss.utc_ns = 1'800'000'000'250'000'000;
@@ -176,7 +187,9 @@ TEST_CASE("fixes: altitude above the ellipsoid, covariance east north up, no fix
   CHECK(fix.position_covariance_type == 0);
 }
 
-TEST_CASE("the plan is drawn closed, the orbit round its centre, and nothing is said of a place that is not known") {
+TEST_CASE(
+    "the plan is drawn closed, the orbit round its centre, and nothing is said of a place that is not "
+    "known") {
   Bench<Standard> bench;
   Plan plan;
   for (const double north : {0.0, 200.0}) {
@@ -203,8 +216,10 @@ TEST_CASE("the plan is drawn closed, the orbit round its centre, and nothing is 
   CHECK(poses[2].pose.position.y == 0);
   const auto& round = bench.out.piece.value.poses;
   REQUIRE(round.count == 73);
-  for (const RosPoseStamped& p : round) CHECK(std::hypot(p.pose.position.x - 20, p.pose.position.y - 10) == doctest::Approx(50));
-  CHECK(round[18].pose.position.x == doctest::Approx(70));  // to the right from the north: a quarter later in the east
+  for (const RosPoseStamped& p : round)
+    CHECK(std::hypot(p.pose.position.x - 20, p.pose.position.y - 10) == doctest::Approx(50));
+  CHECK(round[18].pose.position.x ==
+        doctest::Approx(70));  // to the right from the north: a quarter later in the east
 }
 
 TEST_CASE("a step allocates nothing") {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The score against errors that were put in: constant offsets, sines of known root mean square, delays that must not count.
+// The score against errors that were put in: constant offsets, sines of known root mean square, delays that
+// must not count.
 #define FULMAR_COUNT_ALLOCATIONS
 #include "plugins/score/score.hpp"
 
@@ -31,14 +32,16 @@ VehicleState north_at(double time_s, double east = 0) {
   s.origin_latitude_deg = lat0;
   s.origin_longitude_deg = lon0;
   s.origin_altitude_m = alt0;
-  s.origin_valid = s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = s.wind_valid = true;
+  s.origin_valid = s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid =
+      s.airspeed_valid = s.wind_valid = true;
   return s;
 }
 
 Plan square() {
   Plan plan;
   plan.revision = 1;
-  for (const auto& [n, e] : {std::pair{-10000.0, 0.0}, {10000.0, 0.0}, {10000.0, 5000.0}, {-10000.0, 5000.0}}) {
+  for (const auto& [n, e] :
+       {std::pair{-10000.0, 0.0}, {10000.0, 0.0}, {10000.0, 5000.0}, {-10000.0, 5000.0}}) {
     Waypoint w;
     w.position_m = {n, e, -72};
     plan.waypoints.push_back(w);
@@ -57,7 +60,8 @@ Progress under_way() {
 
 }  // namespace
 
-TEST_CASE("nothing is published before the first waypoint was reached, nor what there is nothing to compare with") {
+TEST_CASE(
+    "nothing is published before the first waypoint was reached, nor what there is nothing to compare with") {
   Bench<Score> bench;
   Progress progress = under_way();
   progress.reached = 0;
@@ -133,7 +137,8 @@ TEST_CASE("in a corner the error is taken from the fillet, not from the waypoint
     bench.step(0.01);
     if (bench.out.tracking.written) tracking = bench.out.tracking.value;
   }
-  // the last publication is at the change of the waypoint or a second later: half or all of the corner; radial error 2 m throughout
+  // the last publication is at the change of the waypoint or a second later: half or all of the corner;
+  // radial error 2 m throughout
   CHECK(std::hypot(tracking.north_m, tracking.east_m) == doctest::Approx(2).epsilon(1e-3));
   CHECK(tracking.altitude_m < 1e-9);
 }
@@ -176,7 +181,8 @@ TEST_CASE("without a plan the error is that from the piece of path that is follo
 }
 
 TEST_CASE("estimation errors compare one time, whichever of estimate and truth comes first or lags") {
-  // the estimate is 0.03 s old when it comes and otherwise exact; at 20 m/s a careless difference would be 0.6 m
+  // the estimate is 0.03 s old when it comes and otherwise exact; at 20 m/s a careless difference would be
+  // 0.6 m
   for (const double lag_s : {0.0, 0.03, 0.037}) {
     Bench<Score> bench;
     EstimationError error;
@@ -258,7 +264,9 @@ TEST_CASE("the injected GNSS error is that of the fix at its own time, 0.15 s ag
   CHECK(error.east_m == doctest::Approx(0.8).epsilon(1e-5));
 }
 
-TEST_CASE("figures: waypoints, greatest miss after the first, lap time, surface rates, least airspeed; fresh when a waypoint is reached") {
+TEST_CASE(
+    "figures: waypoints, greatest miss after the first, lap time, surface rates, least airspeed; fresh when "
+    "a waypoint is reached") {
   Bench<Score> bench;
   Progress progress = under_way();
   progress.miss_m = 90;  // of the first waypoint: not judged

@@ -5,8 +5,8 @@
 #include <doctest/doctest.h>
 
 #include "fly.hpp"
-#include "plugins/sim_aero/truth_state.hpp"
 #include "fulmar/testing.hpp"
+#include "plugins/sim_aero/truth_state.hpp"
 
 namespace aircraft_test {
 
@@ -19,7 +19,8 @@ namespace {
 const Actuators cruise{0.57, 0.0041, 0.1212, 0};
 
 /// On the ground, or in the air; not armed.
-std::unique_ptr<Bench<Aircraft>> bench(double start_height = 0, SensorSet set = SensorSet::rosflight, std::uint64_t seed = 1) {
+std::unique_ptr<Bench<Aircraft>> bench(double start_height = 0, SensorSet set = SensorSet::rosflight,
+                                       std::uint64_t seed = 1) {
   auto b = std::make_unique<Bench<Aircraft>>(seed);
   b->params.airframe.value = anaconda();
   b->params.start_height.value = start_height;
@@ -151,7 +152,8 @@ TEST_CASE("nobody asks, nobody arms, and the motor does not turn") {
   CHECK(b->component().plant().state().v_n.norm() == 0);
 }
 
-TEST_CASE("silence for a tenth of a second is failsafe: motor off, surfaces neutral, until commands come back") {
+TEST_CASE(
+    "silence for a tenth of a second is failsafe: motor off, surfaces neutral, until commands come back") {
   auto b = bench(100);
   arm(*b);
   while (b->tick.now_ns < 1000000000) pass(*b, &cruise);
@@ -247,8 +249,9 @@ TEST_CASE("a flight allocates nothing and publishes nothing but finite numbers")
     for (int i = 0; i < 8000; ++i) {
       aircraft.read(tick, b->params, out);
       aircraft.write(tick, in, b->params);
-      all_finite = all_finite && finite(out.imu.value) && finite(out.gnss.value) && finite(out.mag.value) && finite(out.baro.value) &&
-                   finite(out.pitot.value) && finite(out.truth.value) && finite(out.status.value);
+      all_finite = all_finite && finite(out.imu.value) && finite(out.gnss.value) && finite(out.mag.value) &&
+                   finite(out.baro.value) && finite(out.pitot.value) && finite(out.truth.value) &&
+                   finite(out.status.value);
     }
   });
   CHECK(count == 0);
@@ -265,7 +268,8 @@ TEST_CASE("the truth is one consistent picture") {
   const VehicleState& s = b->out.truth.value;
   CHECK(s.origin_latitude_deg == Approx(40.2463724));
   CHECK(s.origin_altitude_m == 1387);
-  CHECK((s.position_valid && s.velocity_valid && s.attitude_valid && s.height_valid && s.airspeed_valid && s.wind_valid && s.origin_valid));
+  CHECK((s.position_valid && s.velocity_valid && s.attitude_valid && s.height_valid && s.airspeed_valid &&
+         s.wind_valid && s.origin_valid));
   CHECK(s.height_m == -s.position_m.down);
   CHECK(s.course_rad == Approx(std::atan2(s.velocity_mps.east, s.velocity_mps.north)));
   // attitude and angles are the same rotation
@@ -273,7 +277,8 @@ TEST_CASE("the truth is one consistent picture") {
                                Eigen::AngleAxisd(s.pitch_rad, Eigen::Vector3d::UnitY()) *
                                Eigen::AngleAxisd(s.roll_rad, Eigen::Vector3d::UnitX());
   CHECK(q.angularDistance(eigen(s.attitude)) < 1e-9);
-  // the wind triangle: ground velocity less the velocity of the air, gust included, is the airspeed along alpha and beta
+  // the wind triangle: ground velocity less the velocity of the air, gust included, is the airspeed along
+  // alpha and beta
   const Eigen::Vector3d v_r = q.conjugate() * (eigen(s.velocity_mps) - eigen(s.wind_mps));
   CHECK(v_r.norm() == Approx(s.airspeed_mps));
   CHECK(std::atan2(v_r.z(), v_r.x()) == Approx(s.alpha_rad));
@@ -303,7 +308,8 @@ TEST_CASE("sensors, radio and motor can be made to fail in flight") {
   auto b = bench(200);
   arm(*b);
   while (b->tick.now_ns < 500000000) pass(*b, &cruise);
-  b->params.gnss_works.value = b->params.pitot_works.value = b->params.rc_link.value = b->params.motor.value = false;
+  b->params.gnss_works.value = b->params.pitot_works.value = b->params.rc_link.value = b->params.motor.value =
+      false;
   b->params.aux1.value = 0.8;
   b->retune();
   Seen seen;
@@ -337,8 +343,10 @@ TEST_CASE("the pilot who overrides flies with the sticks, and commands have no e
   }
   CHECK(status.override);
   CHECK_FALSE(status.failsafe);
-  CHECK(b->component().plant().deflections().aileron == Approx(0.5 * anaconda().aileron.limit_rad).epsilon(1e-3));
-  CHECK(b->component().plant().deflections().elevator == Approx(-0.25 * anaconda().elevator.limit_rad).epsilon(1e-3));  // nose up
+  CHECK(b->component().plant().deflections().aileron ==
+        Approx(0.5 * anaconda().aileron.limit_rad).epsilon(1e-3));
+  CHECK(b->component().plant().deflections().elevator ==
+        Approx(-0.25 * anaconda().elevator.limit_rad).epsilon(1e-3));  // nose up
   CHECK(b->component().plant().state().omega_b.x() > 0.5);
 }
 

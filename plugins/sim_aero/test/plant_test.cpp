@@ -23,7 +23,9 @@ const Airframe& anaconda() {
   return airframe;
 }
 
-Plant plant(const Weather& weather = {}, const Airframe& airframe = anaconda()) { return Plant(airframe, weather, 1387, 1); }
+Plant plant(const Weather& weather = {}, const Airframe& airframe = anaconda()) {
+  return Plant(airframe, weather, 1387, 1);
+}
 
 void run(Plant& p, double seconds, const Actuators& a = {}) {
   for (int i = 0; i < std::lround(seconds / dt); ++i) p.advance(a, true, dt);
@@ -75,8 +77,10 @@ TEST_CASE("full throttle accelerates by thrust less rolling friction") {
   run(p, 0.1, {1, 0, 0, 0});
   const double v1 = p.state().v_n.x(), Va = 0.5 * (v0 + v1);
   const Propeller propeller(anaconda().propulsion);
-  const double thrust = propeller.thrust(propeller.steady_speed(1, Va, rho), Va, rho), q = 0.5 * rho * Va * Va * 0.52;
-  const double drag = q * (0.043 + 0.506 * 0.506 / (std::numbers::pi * 0.9 * 2.08 * 2.08 / 0.52)), lift = q * 0.506;
+  const double thrust = propeller.thrust(propeller.steady_speed(1, Va, rho), Va, rho),
+               q = 0.5 * rho * Va * Va * 0.52;
+  const double drag = q * (0.043 + 0.506 * 0.506 / (std::numbers::pi * 0.9 * 2.08 * 2.08 / 0.52)),
+               lift = q * 0.506;
   CHECK((v1 - v0) / 0.1 == Approx((thrust - drag - 0.05 * (4.5 * 9.80665 - lift)) / 4.5).epsilon(0.02));
 }
 
@@ -159,11 +163,13 @@ TEST_CASE("a trimmed aircraft flies on level by itself") {
     const Airframe a = test::airframe_file(name);
     Plant p = plant({}, a);
     REQUIRE(p.fly({0, 0, -70}, 0.5, a.limits.airspeed_cruise_mps));
-    const Actuators trim{a.limits.throttle_cruise_frac, a.aileron.trim_rad, a.elevator.trim_rad, a.rudder.trim_rad};
+    const Actuators trim{a.limits.throttle_cruise_frac, a.aileron.trim_rad, a.elevator.trim_rad,
+                         a.rudder.trim_rad};
     run(p, 10, trim);
     CHECK(-p.state().p_n.z() == Approx(70).epsilon(0.01));
     CHECK(p.air_velocity_b().norm() == Approx(a.limits.airspeed_cruise_mps).epsilon(0.005));
-    CHECK(std::hypot(p.state().p_n.x(), p.state().p_n.y()) == Approx(10 * a.limits.airspeed_cruise_mps).epsilon(0.01));
+    CHECK(std::hypot(p.state().p_n.x(), p.state().p_n.y()) ==
+          Approx(10 * a.limits.airspeed_cruise_mps).epsilon(0.01));
   }
 }
 

@@ -55,9 +55,11 @@ TEST_CASE("perfect sensors say what is") {
   const Plant p = flying();
   Sensors s = sensors(SensorSet::perfect);
   CHECK(eigen(s.imu(p).rate_radps) == p.state().omega_b);
-  CHECK((eigen(s.imu(p).specific_force_mps2) - p.state().q_nb.conjugate() * Vector3d(0, 0, -9.80665)).norm() < 1e-6);  // steady flight
+  CHECK((eigen(s.imu(p).specific_force_mps2) - p.state().q_nb.conjugate() * Vector3d(0, 0, -9.80665)).norm() <
+        1e-6);  // steady flight
   CHECK(eigen(s.mag(p).field_tesla).norm() == Approx(field.norm()));
-  CHECK(s.baro(p).pressure_pa == Approx(101325 * std::pow(1 - 0.0065 * 1457 / 288.15, 5.25588)).epsilon(1e-6));
+  CHECK(s.baro(p).pressure_pa ==
+        Approx(101325 * std::pow(1 - 0.0065 * 1457 / 288.15, 5.25588)).epsilon(1e-6));
   CHECK(s.pitot(p).pressure_pa == Approx(0.5 * p.air().density_kgm3 * 17 * 17));
   CHECK(true_airspeed(s.pitot(p).indicated_airspeed_mps, p.air().density_kgm3) == Approx(17));
   const Gnss g = s.gnss(p, 42);
@@ -65,12 +67,16 @@ TEST_CASE("perfect sensors say what is") {
   CHECK(eigen(g.velocity_mps) == p.state().v_n);
   CHECK(g.utc_ns == 42);
   CHECK(g.fix == FixType::fix_3d);
-  // 120 m north on the meridian's radius of curvature, 40 m west on the parallel's, WGS-84 at 40.246 deg and 1.4 km
-  CHECK((g.latitude_deg - 40.2463724) * std::numbers::pi / 180 * (6362109.0 + 1457) == Approx(120).epsilon(1e-3));
-  CHECK((g.longitude_deg + 111.6474138) * std::numbers::pi / 180 * (6387068.0 + 1457) * std::cos(0.70243) == Approx(-40).epsilon(1e-3));
+  // 120 m north on the meridian's radius of curvature, 40 m west on the parallel's, WGS-84 at 40.246 deg
+  // and 1.4 km
+  CHECK((g.latitude_deg - 40.2463724) * std::numbers::pi / 180 * (6362109.0 + 1457) ==
+        Approx(120).epsilon(1e-3));
+  CHECK((g.longitude_deg + 111.6474138) * std::numbers::pi / 180 * (6387068.0 + 1457) * std::cos(0.70243) ==
+        Approx(-40).epsilon(1e-3));
 }
 
-TEST_CASE("sensors with errors say what fits into single precision, on each axis; perfect ones say all digits") {
+TEST_CASE(
+    "sensors with errors say what fits into single precision, on each axis; perfect ones say all digits") {
   const Plant p = flying();
   const auto fits = [](double x) {
     volatile const float single = static_cast<float>(x);
@@ -117,10 +123,12 @@ TEST_CASE("the rosflight sensors have the deviations of its simulator") {
   CHECK(white([&] { return s.imu(p).specific_force_mps2.z; }) == Approx(0.2).epsilon(0.03));
   CHECK(white([&] { return s.baro(p).pressure_pa; }) == Approx(4).epsilon(0.03));
   CHECK(white([&] { return s.pitot(p).pressure_pa; }) == Approx(1.15).epsilon(0.03));
-  CHECK(of(n, [&] { return s.gnss(p, 0).velocity_mps.east - p.state().v_n.y(); }).deviation == Approx(0.01).epsilon(0.03));
+  CHECK(of(n, [&] { return s.gnss(p, 0).velocity_mps.east - p.state().v_n.y(); }).deviation ==
+        Approx(0.01).epsilon(0.03));
   // x <- exp(-7 T) x + 3e-6 T n at 50 Hz
-  CHECK(of(100000, [&] { return (eigen(s.mag(p).field_tesla) - p.state().q_nb.conjugate() * field).x(); }).deviation ==
-        Approx(3e-6 * 0.02 / std::sqrt(1 - std::exp(-2 * 7 * 0.02))).epsilon(0.06));
+  CHECK(of(100000, [&] {
+          return (eigen(s.mag(p).field_tesla) - p.state().q_nb.conjugate() * field).x();
+        }).deviation == Approx(3e-6 * 0.02 / std::sqrt(1 - std::exp(-2 * 7 * 0.02))).epsilon(0.06));
 }
 
 TEST_CASE("the rosflight biases fill their ranges, another one for each seed") {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What comes out keeps clear of the zones, found by walking along it in steps of a metre; and it is the same for the same seed.
+// What comes out keeps clear of the zones, found by walking along it in steps of a metre; and it is the same
+// for the same seed.
 #define FULMAR_COUNT_ALLOCATIONS
 #include "plugins/slow_planner/detour.hpp"
 
@@ -28,7 +29,8 @@ Plan hourglass() {
   plan.revision = 1;
   plan.jumps = 1;
   plan.airspeed_mps = 17;
-  for (const Waypoint& w : {point(400, -250), point(-400, -50, 110), point(-400, -250), point(400, -50)}) plan.waypoints.push_back(w);
+  for (const Waypoint& w : {point(400, -250), point(-400, -50, 110), point(-400, -250), point(400, -50)})
+    plan.waypoints.push_back(w);
   return plan;
 }
 
@@ -80,7 +82,8 @@ bool same_position(const Waypoint& a, const Waypoint& b) {
 
 }  // namespace
 
-TEST_CASE("the plan that comes out keeps the margin from the zone and still leads over every waypoint, in order") {
+TEST_CASE(
+    "the plan that comes out keeps the margin from the zone and still leads over every waypoint, in order") {
   Planning planning;
   REQUIRE(walked_clearance(hourglass(), crossing()) < 0);  // as it is, it leads through
   CHECK(planning.step(0.5) == Status::degraded);           // one search is one leg; two lead through the zone
@@ -106,7 +109,8 @@ TEST_CASE("a detour climbs evenly over its leg and keeps the leg's airspeed") {
   const Plan& plan = planning.plan();
   std::size_t between = 0;
   double height_m = 70;
-  for (std::size_t i = 1; !same_position(plan.waypoints[i], before.waypoints[1]); ++i, ++between) {  // 70 m to 110 m
+  for (std::size_t i = 1; !same_position(plan.waypoints[i], before.waypoints[1]);
+       ++i, ++between) {  // 70 m to 110 m
     CHECK(-plan.waypoints[i].position_m.down > height_m);
     CHECK(plan.waypoints[i].airspeed_mps == 19);
     height_m = -plan.waypoints[i].position_m.down;
@@ -120,12 +124,14 @@ TEST_CASE("one seed gives one plan, to the bit, and another seed another") {
   for (Planning* planning : {&a, &b, &c}) {
     for (int i = 0; i < 12; ++i) planning->step(0.5);
   }
-  const auto same = [](const Plan& x, const Plan& y) {  // field by field: between them a struct holds whatever was there
+  const auto same = [](const Plan& x,
+                       const Plan& y) {  // field by field: between them a struct holds whatever was there
     const auto as_one = [](const Waypoint& v, const Waypoint& w) {
-      return same_position(v, w) && v.frame == w.frame && v.has_course == w.has_course && v.course_rad == w.course_rad &&
-             v.airspeed_mps == w.airspeed_mps;
+      return same_position(v, w) && v.frame == w.frame && v.has_course == w.has_course &&
+             v.course_rad == w.course_rad && v.airspeed_mps == w.airspeed_mps;
     };
-    return x.revision == y.revision && x.end == y.end && x.turn_radius_m == y.turn_radius_m && x.airspeed_mps == y.airspeed_mps &&
+    return x.revision == y.revision && x.end == y.end && x.turn_radius_m == y.turn_radius_m &&
+           x.airspeed_mps == y.airspeed_mps &&
            std::equal(x.waypoints.begin(), x.waypoints.end(), y.waypoints.begin(), y.waypoints.end(), as_one);
   };
   CHECK(same(a.plan(), b.plan()));
@@ -146,9 +152,11 @@ TEST_CASE("further searches make the plan quicker, never slower") {
     last_s = planning.out.flight_s.value;
   }
   CHECK(last_s <= first_s);
-  // The tangents to a circle of 101 m round the zone and the arc between them are the shortest detour, on each of two legs.
+  // The tangents to a circle of 101 m round the zone and the arc between them are the shortest detour, on
+  // each of two legs.
   const double D = std::hypot(400.0, 100.0), r = 101;
-  const double longer_m = 2 * std::sqrt(D * D - r * r) + r * (std::numbers::pi - 2 * std::acos(r / D)) - 2 * D;
+  const double longer_m =
+      2 * std::sqrt(D * D - r * r) + r * (std::numbers::pi - 2 * std::acos(r / D)) - 2 * D;
   const Plan before = hourglass();
   double before_m = 0;
   for (std::uint32_t i = 0; i < 4; ++i) before_m += Route(before).leg(i).length_m;
@@ -164,7 +172,8 @@ TEST_CASE("the leg that is flown and the next one are left as they are") {
   REQUIRE(planning.plans());
   Progress progress;
   progress.plan_revision = planning.plan().revision;
-  progress.item = 0;  // on the way to the first waypoint; the next leg leads through the zone, as does the last
+  progress.item =
+      0;  // on the way to the first waypoint; the next leg leads through the zone, as does the last
   const Plan first = planning.plan();
   Plan last = first;
   for (int i = 0; i < 40; ++i) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shipped mission, twice, by the program: it keeps out of the zone that its plan leads through, and both logs are equal.
+// The shipped mission, twice, by the program: it keeps out of the zone that its plan leads through, and both
+// logs are equal.
 #include <doctest/doctest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -16,7 +17,8 @@ using nlohmann::json;
 namespace {
 
 json fly(const std::string& arguments) {
-  const std::string command = FULMAR_BIN_DIR "/fulmar run " FULMAR_SOURCE_DIR "/configs/missions/slow_planner.yaml --json ";
+  const std::string command =
+      FULMAR_BIN_DIR "/fulmar run " FULMAR_SOURCE_DIR "/configs/missions/slow_planner.yaml --json ";
   FILE* pipe = popen((command + arguments + " 2>/dev/null").c_str(), "r");
   REQUIRE(pipe != nullptr);
   std::string out;
@@ -32,13 +34,15 @@ TEST_CASE("the mission is flown round the zone to its end, and two flights leave
   const auto folder = std::filesystem::temp_directory_path();
   json flights[2];
   for (int i = 0; i < 2; ++i) {
-    const auto log = folder / ("fulmar-slow-planner-" + std::to_string(getpid()) + "-" + std::to_string(i) + ".mcap");
+    const auto log =
+        folder / ("fulmar-slow-planner-" + std::to_string(getpid()) + "-" + std::to_string(i) + ".mcap");
     flights[i] = fly("--set detour.iterations=1500 --log " + log.string());
     std::filesystem::remove(log);
     REQUIRE(flights[i].is_object());
     CHECK(flights[i]["result"] == "flown");
     CHECK(flights[i]["guards"].empty());
-    CHECK(flights[i]["zone_clearance"]["least_m"].get<double>() > 15);  // of the true position; the plan keeps 20 m
+    CHECK(flights[i]["zone_clearance"]["least_m"].get<double>() >
+          15);  // of the true position; the plan keeps 20 m
     CHECK(flights[i]["zone_clearance"]["least_m"].get<double>() < 60);  // it did fly past the zone
   }
   REQUIRE(flights[0]["log_sha256"].is_string());

@@ -21,7 +21,8 @@ Search search_of(std::initializer_list<Zone> zones, std::int64_t samples) {
 
 double least_clearance(const Search& s, const std::vector<Point>& way) {
   double least = 1e9;
-  for (std::size_t i = 1; i < way.size(); ++i) least = std::min(least, clearance(s.zones, way[i - 1], way[i]));
+  for (std::size_t i = 1; i < way.size(); ++i)
+    least = std::min(least, clearance(s.zones, way[i - 1], way[i]));
   return least;
 }
 
@@ -55,13 +56,15 @@ TEST_CASE("the way round one zone is within two percent of tangent, arc, tangent
   const std::vector<Point> way = RrtStar(s, {-300, 0}, {300, 0}, random).run();
   REQUIRE(way.size() > 2);
   CHECK(least_clearance(s, way) >= 10);
-  const double shortest = 2 * std::sqrt(300.0 * 300 - 100.0 * 100) + 100 * (std::numbers::pi - 2 * std::acos(100.0 / 300));
+  const double shortest =
+      2 * std::sqrt(300.0 * 300 - 100.0 * 100) + 100 * (std::numbers::pi - 2 * std::acos(100.0 / 300));
   CHECK(flight_time(s, way) * 15 > shortest);
   CHECK(flight_time(s, way) * 15 < 1.02 * shortest);
 }
 
 TEST_CASE("of two gaps the nearer one is taken, and a way between many zones keeps clear of all") {
-  const Search s = search_of({{0, -150, 120}, {0, 130, 120}, {200, -20, 40}, {-200, 30, 40}}, 3000);  // a gap of 40 m at east -10
+  const Search s = search_of({{0, -150, 120}, {0, 130, 120}, {200, -20, 40}, {-200, 30, 40}},
+                             3000);  // a gap of 40 m at east -10
   Random random(2);
   const std::vector<Point> way = RrtStar(s, {-500, 0}, {500, 0}, random).run();
   REQUIRE(way.size() > 2);
@@ -85,7 +88,8 @@ TEST_CASE("the same random numbers give the same way") {
   };
   const auto a = run(4), b = run(4), c = run(5);
   REQUIRE(a.size() == b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) CHECK((a[i].north_m == b[i].north_m && a[i].east_m == b[i].east_m));
+  for (std::size_t i = 0; i < a.size(); ++i)
+    CHECK((a[i].north_m == b[i].north_m && a[i].east_m == b[i].east_m));
   CHECK((a.size() != c.size() || a[1].north_m != c[1].north_m));
 }
 

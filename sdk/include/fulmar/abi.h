@@ -1,16 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The contract between host and plugin, whole. C11 and C++20. Nothing C++ crosses it: no exception, allocator, vtable or std type.
+/* The contract between host and plugin, whole. C11 and C++20. Nothing C++ crosses it: no exception,
+ * allocator, vtable or std type.
  *
- * A plugin is a shared object that exports one const symbol, `fulmar_plugin_entry` of type fulmar_plugin, and nothing else.
- * The host copies every string and table of the entry when it loads the file; it keeps only the function pointers.
+ * A plugin is a shared object that exports one const symbol, `fulmar_plugin_entry` of type fulmar_plugin, and
+ * nothing else. The host copies every string and table of the entry when it loads the file; it keeps only the
+ * function pointers.
  *
  * Thread tags say who may call a function and when:
  *   [setup]  the main thread, before flight or between flights; may allocate, may take its time
  *   [tick]   the thread that runs the loop; no allocation, lock, exception or system call
  * A component is never entered by two threads at once.
  *
- * Text is UTF-8, NUL-terminated and never NULL. All arrays carry the stride of their elements, so that an element may grow at its end
- * within one ABI major number. Times are nanoseconds of flight time, 0 at the first armed tick. */
+ * Text is UTF-8, NUL-terminated and never NULL. All arrays carry the stride of their elements, so that an
+ * element may grow at its end within one ABI major number. Times are nanoseconds of flight time, 0 at the
+ * first armed tick. */
 #ifndef FULMAR_ABI_H
 #define FULMAR_ABI_H
 
@@ -25,36 +28,39 @@
 extern "C" {
 #endif
 
-/* ---- what a message looks like ------------------------------------------------------------------------------------------ */
+/* ---- what a message looks like
+ * ------------------------------------------------------------------------------------------ */
 
-enum fulmar_kind { /* kind of one element */
-  FULMAR_BOOL = 1, /* one byte, 0 or 1 */
-  FULMAR_U8 = 2,
-  FULMAR_I32 = 3,
-  FULMAR_U32 = 4,
-  FULMAR_I64 = 5,
-  FULMAR_U64 = 6,
-  FULMAR_F32 = 7,
-  FULMAR_F64 = 8,
-  FULMAR_ENUM = 9,  /* one byte; `labels` names its values 0, 1, ... */
-  FULMAR_TEXT = 10, /* char[stride], NUL-terminated */
-  FULMAR_STRUCT = 11, /* described by `type` */
-  FULMAR_I8 = 12,     /* from ABI 1.2 on, for foreign messages; so the next two */
-  FULMAR_I16 = 13,
-  FULMAR_U16 = 14
+enum fulmar_kind {                  /* kind of one element */
+                   FULMAR_BOOL = 1, /* one byte, 0 or 1 */
+                   FULMAR_U8 = 2,
+                   FULMAR_I32 = 3,
+                   FULMAR_U32 = 4,
+                   FULMAR_I64 = 5,
+                   FULMAR_U64 = 6,
+                   FULMAR_F32 = 7,
+                   FULMAR_F64 = 8,
+                   FULMAR_ENUM = 9,    /* one byte; `labels` names its values 0, 1, ... */
+                   FULMAR_TEXT = 10,   /* char[stride], NUL-terminated */
+                   FULMAR_STRUCT = 11, /* described by `type` */
+                   FULMAR_I8 = 12,     /* from ABI 1.2 on, for foreign messages; so the next two */
+                   FULMAR_I16 = 13,
+                   FULMAR_U16 = 14
 };
 
 enum fulmar_shape {
   FULMAR_SCALAR = 0,
   FULMAR_ARRAY = 1, /* `count` elements, always all of them */
-  FULMAR_LIST = 2   /* a uint32_t at `offset` says how many of at most `count` elements are there; they begin at `offset` + `items` */
+  FULMAR_LIST = 2 /* a uint32_t at `offset` says how many of at most `count` elements are there; they begin at
+                     `offset` + `items` */
 };
 
 typedef struct fulmar_type fulmar_type;
 
 typedef struct fulmar_field {
-  const char* name;          /* ends in its unit: airspeed_mps */
-  const char* unit;          /* as printed: "m/s"; "" for none, and inside a Vec3, whose unit stands at the outer field */
+  const char* name; /* ends in its unit: airspeed_mps */
+  const char*
+      unit; /* as printed: "m/s"; "" for none, and inside a Vec3, whose unit stands at the outer field */
   const fulmar_type* type;   /* of FULMAR_STRUCT, else NULL */
   const char* const* labels; /* of FULMAR_ENUM, else NULL */
   uint32_t label_count;
@@ -78,16 +84,18 @@ struct fulmar_type {
   uint32_t align;
 };
 
-/* ---- ports --------------------------------------------------------------------------------------------------------------- */
+/* ---- ports
+ * ---------------------------------------------------------------------------------------------------------------
+ */
 
 enum fulmar_port_kind {
-  FULMAR_IN_VALUE = 1,    /* the latest sample */
-  FULMAR_IN_QUEUE = 2,    /* every sample since the last step */
-  FULMAR_IN_REQUEST = 3,  /* as a queue; each is answered in the step that sees it */
-  FULMAR_OUT_VALUE = 17,  /* written in each step */
-  FULMAR_OUT_EVENT = 18,  /* a value that may stay silent */
-  FULMAR_OUT_QUEUE = 19,  /* none, one or several samples per step */
-  FULMAR_OUT_PROBE = 20   /* one number to look at: data points to a double */
+  FULMAR_IN_VALUE = 1,   /* the latest sample */
+  FULMAR_IN_QUEUE = 2,   /* every sample since the last step */
+  FULMAR_IN_REQUEST = 3, /* as a queue; each is answered in the step that sees it */
+  FULMAR_OUT_VALUE = 17, /* written in each step */
+  FULMAR_OUT_EVENT = 18, /* a value that may stay silent */
+  FULMAR_OUT_QUEUE = 19, /* none, one or several samples per step */
+  FULMAR_OUT_PROBE = 20  /* one number to look at: data points to a double */
 };
 
 enum { FULMAR_PORT_OPTIONAL = 1 };
@@ -105,7 +113,7 @@ typedef struct fulmar_port {
 
 typedef struct fulmar_tick {
   int64_t now_ns;
-  int64_t dt_ns; /* since this component's previous step; its nominal period in the first one */
+  int64_t dt_ns;  /* since this component's previous step; its nominal period in the first one */
   uint64_t index; /* of the loop's pass, from 0 */
 } fulmar_tick;
 
@@ -142,7 +150,9 @@ typedef struct fulmar_output {
   uint32_t lost;       /* queue: items that found no room */
 } fulmar_output;
 
-/* ---- parameters ---------------------------------------------------------------------------------------------------------- */
+/* ---- parameters
+ * ----------------------------------------------------------------------------------------------------------
+ */
 
 enum fulmar_param_kind {
   FULMAR_NUMBER = 1, /* number[0] */
@@ -176,7 +186,8 @@ typedef struct fulmar_param {
   double min, max;   /* of a number, a count, and each element of a vector */
 } fulmar_param;
 
-typedef struct fulmar_value { /* valid until configure or retune returns; data of records and blobs until the next configure */
+typedef struct fulmar_value { /* valid until configure or retune returns; data of records and blobs until the
+                                 next configure */
   double number[3];
   int64_t integer;
   const char* text;
@@ -184,11 +195,14 @@ typedef struct fulmar_value { /* valid until configure or retune returns; data o
   uint64_t size;
 } fulmar_value;
 
-/* ---- components ---------------------------------------------------------------------------------------------------------- */
+/* ---- components
+ * ----------------------------------------------------------------------------------------------------------
+ */
 
 enum fulmar_status { FULMAR_OK = 0, FULMAR_DEGRADED = 1, FULMAR_FAILED = 2 };
 
-typedef struct fulmar_error { /* filled in on FULMAR_FAILED and when create returns NULL; "" when there is nothing to say */
+typedef struct fulmar_error { /* filled in on FULMAR_FAILED and when create returns NULL; "" when there is
+                                 nothing to say */
   char text[248];
 } fulmar_error;
 
@@ -208,22 +222,29 @@ typedef struct fulmar_component {
   uint32_t port_stride, param_stride;
   uint32_t flags;
 
-  void* (*create)(uint64_t seed, fulmar_error*);                                       /* [setup] NULL on failure */
-  void (*destroy)(void*);                                                              /* [setup] not active */
-  uint32_t (*configure)(void*, const fulmar_value* values, fulmar_error*);             /* [setup] all parameters */
-  uint32_t (*retune)(void*, const fulmar_value* values, fulmar_error*);                /* [tick] all parameters, between steps; may be NULL */
-  uint32_t (*activate)(void*, const fulmar_tick*, const fulmar_input* inputs,          /* [tick] may be NULL; last: one per output, */
-                       const fulmar_input* last, fulmar_error*);                       /*        what was last applied in its role */
-  void (*deactivate)(void*);                                                           /* [tick] may be NULL */
-  uint32_t (*step)(void*, const fulmar_tick*, const fulmar_input*, fulmar_output*, fulmar_error*);  /* [tick] */
-  uint32_t (*read)(void*, fulmar_tick*, fulmar_output*, fulmar_error*);                /* [tick] vehicle: sets now_ns, strictly increasing */
-  uint32_t (*write)(void*, const fulmar_tick*, const fulmar_input*, fulmar_error*);    /* [tick] vehicle: drives the actuators */
-  const void* (*get_extension)(const char* id);                                        /* [setup] may be NULL; NULL: not supported */
+  void* (*create)(uint64_t seed, fulmar_error*);                           /* [setup] NULL on failure */
+  void (*destroy)(void*);                                                  /* [setup] not active */
+  uint32_t (*configure)(void*, const fulmar_value* values, fulmar_error*); /* [setup] all parameters */
+  uint32_t (*retune)(void*, const fulmar_value* values,
+                     fulmar_error*); /* [tick] all parameters, between steps; may be NULL */
+  uint32_t (*activate)(void*, const fulmar_tick*,
+                       const fulmar_input* inputs, /* [tick] may be NULL; last: one per output, */
+                       const fulmar_input* last,
+                       fulmar_error*); /*        what was last applied in its role */
+  void (*deactivate)(void*);           /* [tick] may be NULL */
+  uint32_t (*step)(void*, const fulmar_tick*, const fulmar_input*, fulmar_output*,
+                   fulmar_error*); /* [tick] */
+  uint32_t (*read)(void*, fulmar_tick*, fulmar_output*,
+                   fulmar_error*); /* [tick] vehicle: sets now_ns, strictly increasing */
+  uint32_t (*write)(void*, const fulmar_tick*, const fulmar_input*,
+                    fulmar_error*);             /* [tick] vehicle: drives the actuators */
+  const void* (*get_extension)(const char* id); /* [setup] may be NULL; NULL: not supported */
 } fulmar_component;
 
-/* Extension "fulmar.last_frame" of a vehicle: const fulmar_last_frame* (*)(void* instance, const fulmar_input* inputs, fulmar_error*).  [setup]
- * Encodes what its device is to receive when the host dies, from inputs that hold the mission's failsafe. The host's last act, in a signal
- * handler, is one write of `data` to `fd`. The struct stays where it is as long as the instance; the vehicle keeps `fd` true. */
+/* Extension "fulmar.last_frame" of a vehicle: const fulmar_last_frame* (*)(void* instance, const
+ * fulmar_input* inputs, fulmar_error*).  [setup] Encodes what its device is to receive when the host dies,
+ * from inputs that hold the mission's failsafe. The host's last act, in a signal handler, is one write of
+ * `data` to `fd`. The struct stays where it is as long as the instance; the vehicle keeps `fd` true. */
 #define FULMAR_LAST_FRAME "fulmar.last_frame"
 typedef struct fulmar_last_frame {
   volatile int32_t fd; /* -1: there is no device now */
@@ -240,9 +261,11 @@ typedef struct fulmar_plugin {
   const char* toolchain; /* compiler and its version */
   const char* flags;     /* what matters of the build: "NDEBUG", "sanitized", "" */
   const fulmar_component* components;
-  /* From ABI 1.1 on. A plugin that hosts another language makes the components of a file of that language; NULL for all others.  [setup]
-   * What open_script returns stays until close_script; NULL and a text on failure. Its own components may then be none. */
-  const struct fulmar_plugin* (*open_script)(const char* file, const char* text, uint64_t size, fulmar_error*);
+  /* From ABI 1.1 on. A plugin that hosts another language makes the components of a file of that language;
+   * NULL for all others.  [setup] What open_script returns stays until close_script; NULL and a text on
+   * failure. Its own components may then be none. */
+  const struct fulmar_plugin* (*open_script)(const char* file, const char* text, uint64_t size,
+                                             fulmar_error*);
   void (*close_script)(const struct fulmar_plugin*);
 } fulmar_plugin;
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Frames in the type: a vector knows whether it is north-east-down or body, and the two do not mix.
 //
-// Plain numbers, without Eigen, which takes longer to read than the rest of the SDK together. An algorithm that wants matrices includes
-// fulmar/eigen.hpp: `eigen()` inside it, `from_eigen` at its door.
+// Plain numbers, without Eigen, which takes longer to read than the rest of the SDK together. An algorithm
+// that wants matrices includes fulmar/eigen.hpp: `eigen()` inside it, `from_eigen` at its door.
 #pragma once
 #include <type_traits>
 
@@ -58,14 +58,16 @@ constexpr Vec3<Frame> operator*(double k, const Vec3<Frame>& v) {
 }
 
 namespace detail {
-/// q v q* by two cross products: v + 2 w (u x v) + 2 u x (u x v) with u the vector part; `sign` -1 turns the other way.
+/// q v q* by two cross products: v + 2 w (u x v) + 2 u x (u x v) with u the vector part; `sign` -1 turns the
+/// other way.
 template <class To, class From>
 constexpr Vec3<To> rotated(const Quat& q, double sign, const Vec3<From>& v) {
   const auto& [v0, v1, v2] = v;
   const double u0 = sign * q.x, u1 = sign * q.y, u2 = sign * q.z;
   const double s0 = u1 * v2 - u2 * v1, s1 = u2 * v0 - u0 * v2, s2 = u0 * v1 - u1 * v0;
   const double t0 = s0 + s0, t1 = s1 + s1, t2 = s2 + s2;
-  return {v0 + q.w * t0 + (u1 * t2 - u2 * t1), v1 + q.w * t1 + (u2 * t0 - u0 * t2), v2 + q.w * t2 + (u0 * t1 - u1 * t0)};
+  return {v0 + q.w * t0 + (u1 * t2 - u2 * t1), v1 + q.w * t1 + (u2 * t0 - u0 * t2),
+          v2 + q.w * t2 + (u0 * t1 - u1 * t0)};
 }
 }  // namespace detail
 
@@ -73,7 +75,8 @@ constexpr Vec3<To> rotated(const Quat& q, double sign, const Vec3<From>& v) {
 constexpr Vec3<Ned> to_ned(const Quat& q, const Vec3<Body>& v) { return detail::rotated<Ned>(q, 1, v); }
 constexpr Vec3<Body> to_body(const Quat& q, const Vec3<Ned>& v) { return detail::rotated<Body>(q, -1, v); }
 
-// ---- the door to Eigen ----------------------------------------------------------------------------------------------------------
+// ---- the door to Eigen
+// ----------------------------------------------------------------------------------------------------------
 // Templates, so that Eigen is needed where they are used and nowhere else.
 
 namespace detail {

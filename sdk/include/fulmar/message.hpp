@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a message may be made of, beside numbers, enums, frames and std::array: fixed text and fixed-capacity lists.
+// What a message may be made of, beside numbers, enums, frames and std::array: fixed text and fixed-capacity
+// lists.
 #pragma once
 #include <algorithm>
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a plugin author includes: ports, parameters, tick, status, and FULMAR_PLUGIN, which makes the entry of the binary contract.
+// What a plugin author includes: ports, parameters, tick, status, and FULMAR_PLUGIN, which makes the entry of
+// the binary contract.
 //
 //   struct AttitudeHold {
 //     struct Inputs  { In<VehicleState> state;  In<AttitudeCommand> attitude; };
@@ -14,7 +15,8 @@
 //   Status activate(const Tick&, const Inputs&, const Params&, const Applied<Outputs>& last);
 // where `last` may be a `const Outputs&` too. A vehicle has `read(Tick&, const Params&, Outputs&)` and
 // `write(const Tick&, const Inputs&, const Params&)` in place of `step`, and may have
-// `const fulmar_last_frame* last_frame(const Inputs& failsafe)`: what its device gets when the host dies (abi.h).
+// `const fulmar_last_frame* last_frame(const Inputs& failsafe)`: what its device gets when the host dies
+// (abi.h).
 #pragma once
 #include <cstdint>
 #include <cstring>
@@ -35,7 +37,8 @@ struct Tick {
 
 enum class Status : std::uint32_t { ok = FULMAR_OK, degraded = FULMAR_DEGRADED, failed = FULMAR_FAILED };
 
-// ---- inputs: views of what the host holds; valid during the call --------------------------------------------------------------
+// ---- inputs: views of what the host holds; valid during the call
+// --------------------------------------------------------------
 
 /// The latest sample of a wire. There is one whenever `step` is called.
 template <class T>
@@ -44,8 +47,12 @@ struct In {
 
   const T& operator*() const { return *static_cast<const T*>(input->data); }
   const T* operator->() const { return static_cast<const T*>(input->data); }
-  bool fresh() const { return input && (input->flags & FULMAR_FRESH) != 0; }  ///< not seen by the previous step
-  bool stale() const { return input && (input->flags & FULMAR_STALE) != 0; }  ///< older than the wire's max_age
+  bool fresh() const {
+    return input && (input->flags & FULMAR_FRESH) != 0;
+  }  ///< not seen by the previous step
+  bool stale() const {
+    return input && (input->flags & FULMAR_STALE) != 0;
+  }  ///< older than the wire's max_age
   std::int64_t valid_at_ns() const { return input->valid_at_ns; }
   double age_s() const { return 1e-9 * static_cast<double>(input->age_ns); }
   std::uint64_t sequence() const { return input ? input->sequence : 0; }  ///< counts samples from 1
@@ -82,11 +89,13 @@ struct Queue {
   Iterator end() const { return {input, size()}; }
   std::uint32_t size() const { return input ? input->count : 0; }
   bool empty() const { return size() == 0; }
-  std::uint32_t lost() const { return input ? input->lost : 0; }  ///< samples that found no room since the last step
+  std::uint32_t lost() const {
+    return input ? input->lost : 0;
+  }  ///< samples that found no room since the last step
 };
 
-/// Questions from outside or from another component, each to be answered in the step that sees it: `for (auto request : in.edit)`.
-/// What is not answered counts as refused.
+/// Questions from outside or from another component, each to be answered in the step that sees it: `for (auto
+/// request : in.edit)`. What is not answered counts as refused.
 template <class T>
 struct Request {
   const fulmar_input* input = nullptr;
@@ -119,7 +128,8 @@ struct Request {
   bool empty() const { return size() == 0; }
 };
 
-// ---- outputs. A plain message is published in every step. ---------------------------------------------------------------------
+// ---- outputs. A plain message is published in every step.
+// ---------------------------------------------------------------------
 
 /// A message that may stay silent.
 template <class T>
@@ -140,7 +150,8 @@ struct Out {
   }
 };
 
-/// Time of validity of a sample of a driver: the time at which the loop takes it over. A driver has no flight time of its own.
+/// Time of validity of a sample of a driver: the time at which the loop takes it over. A driver has no flight
+/// time of its own.
 inline constexpr std::int64_t on_arrival = FULMAR_ON_ARRIVAL;
 
 /// None, one or several messages per step; at most N.
@@ -204,7 +215,8 @@ struct Applied {
   }
 };
 
-// ---- parameters ---------------------------------------------------------------------------------------------------------------
+// ---- parameters
+// ---------------------------------------------------------------------------------------------------------------
 
 enum class Access : std::uint8_t { live, setup };
 inline constexpr Access live = Access::live;    ///< may change between ticks
@@ -254,7 +266,8 @@ template <class Frame>
 struct Vector {
   Vec3<Frame> value{};
   const char* unit = "";
-  double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();  ///< of each element
+  double min = -std::numeric_limits<double>::infinity(),
+         max = std::numeric_limits<double>::infinity();  ///< of each element
   const char* doc = "";
   Access access = live;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random numbers that are the same for the same seed: the standard library's normal distribution differs between libraries.
-// Sources: Blackman & Vigna, xoshiro256++ 1.0 and splitmix64 (public domain); Doornik, "An improved ziggurat method" (2005).
+// Random numbers that are the same for the same seed: the standard library's normal distribution differs
+// between libraries. Sources: Blackman & Vigna, xoshiro256++ 1.0 and splitmix64 (public domain); Doornik, "An
+// improved ziggurat method" (2005).
 #pragma once
 #include <array>
 #include <bit>
@@ -19,7 +20,8 @@ constexpr std::uint64_t splitmix64(std::uint64_t& state) {
   return z ^ (z >> 31);
 }
 
-/// A seed for stream `stream` of a component: streams do not disturb each other when one draws more than before.
+/// A seed for stream `stream` of a component: streams do not disturb each other when one draws more than
+/// before.
 constexpr std::uint64_t mix_seed(std::uint64_t seed, std::uint64_t stream) {
   std::uint64_t state = splitmix64(seed) ^ stream;
   return splitmix64(state);
@@ -82,7 +84,8 @@ class Random {
     for (;;) {
       const std::uint64_t word = bits();
       const std::size_t i = word & (detail::Ziggurat::layers - 1);
-      const double u = static_cast<double>(static_cast<std::int64_t>(word) >> 11) * 0x1p-52;  // [-1, 1), from other bits than i
+      const double u = static_cast<double>(static_cast<std::int64_t>(word) >> 11) *
+                       0x1p-52;  // [-1, 1), from other bits than i
       const double x = u * z.edge[i];
       if (std::abs(u) < z.ratio[i]) return x;
       if (i == 0) return normal_tail(u < 0);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A plain struct describes itself: names, kinds, counts, offsets, units and frames of its fields, at compile time, without a macro.
+// A plain struct describes itself: names, kinds, counts, offsets, units and frames of its fields, at compile
+// time, without a macro.
 //
-// How: count the members by brace initialisation and bind them (detail/members.hpp); pointers to the members of an object that is declared
-// and never defined, used as template arguments, appear with the members' names in the signature of a function; offsets follow from the
-// layout rule of standard-layout aggregates and are checked against sizeof. Everything is worked out once per type, not once per field:
-// this is what most of the time to compile a plugin went into.
+// How: count the members by brace initialisation and bind them (detail/members.hpp); pointers to the members
+// of an object that is declared and never defined, used as template arguments, appear with the members' names
+// in the signature of a function; offsets follow from the layout rule of standard-layout aggregates and are
+// checked against sizeof. Everything is worked out once per type, not once per field: this is what most of
+// the time to compile a plugin went into.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -19,12 +21,14 @@
 #include "fulmar/message.hpp"
 
 #ifdef __FAST_MATH__
-#error "Fulmar plugins are not built with -ffast-math: it breaks the finite checks and switches denormals off in the whole host"
+#error \
+    "Fulmar plugins are not built with -ffast-math: it breaks the finite checks and switches denormals off in the whole host"
 #endif
 
 namespace fulmar::detail {
 
-// ---- names ------------------------------------------------------------------------------------------------------------------
+// ---- names
+// ------------------------------------------------------------------------------------------------------------------
 
 template <class T>
 struct Holder {
@@ -47,7 +51,9 @@ consteval const char* type_signature() {
   return __PRETTY_FUNCTION__;
 }
 
-constexpr bool word(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; }
+constexpr bool word(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
 
 /// The last identifier in a signature, before what the compiler closes it with.
 constexpr std::string_view last_word(std::string_view s) {
@@ -92,14 +98,16 @@ struct ToAddresses {
   }
 };
 
-/// Names of the members of T. All of them stand in one signature: "... {At{(... ::position_m)}, At{(... ::speed_mps)}}".
+/// Names of the members of T. All of them stand in one signature: "... {At{(... ::position_m)}, At{(...
+/// ::speed_mps)}}".
 template <class T>
 struct FieldNames {
   static constexpr std::size_t count = member_count<T>();
 
   template <std::size_t... I>
   static constexpr std::string_view signature(std::index_sequence<I...>) {
-    constexpr auto addresses = with_members(fake<T>.value, ToAddresses{});  // no member: nothing may ask the linker for `fake`
+    constexpr auto addresses =
+        with_members(fake<T>.value, ToAddresses{});  // no member: nothing may ask the linker for `fake`
     return value_signature<addresses[I]...>();
   }
   /// From the last to the first: the word before a closing brace; then on to the brace that opens it.
@@ -107,12 +115,15 @@ struct FieldNames {
     Found<count> out;
     if constexpr (count > 0) {
       std::string_view rest = signature(std::make_index_sequence<count>{});
-      rest = rest.substr(0, rest.rfind('}') + (rest.ends_with("}}]") ? 0 : 1));  // gcc closes the list itself with a brace as well
+      rest = rest.substr(
+          0, rest.rfind('}') +
+                 (rest.ends_with("}}]") ? 0 : 1));  // gcc closes the list itself with a brace as well
       for (std::size_t i = count; i-- > 0;) {
         rest = rest.substr(0, rest.rfind('}'));
         out.words[i] = last_word(rest);
         out.room += out.words[i].size() + 1;
-        for (int depth = 1; depth > 0; rest.remove_suffix(1)) depth += rest.back() == '}' ? 1 : rest.back() == '{' ? -1 : 0;
+        for (int depth = 1; depth > 0; rest.remove_suffix(1))
+          depth += rest.back() == '}' ? 1 : rest.back() == '{' ? -1 : 0;
       }
     }
     return out;
@@ -146,7 +157,8 @@ struct TypeName<Vec3<Body>> {
   static constexpr const char* c_str = "Vec3Body";
 };
 
-/// Names of the first `tried` values of an enum, as one signature prints them: "... {Kind::line, Kind::orbit, (Kind)2}" or with <>.
+/// Names of the first `tried` values of an enum, as one signature prints them: "... {Kind::line, Kind::orbit,
+/// (Kind)2}" or with <>.
 template <class E, std::size_t tried>
 struct Enumerators {
   template <std::size_t... I>
@@ -202,7 +214,8 @@ struct Labels {
   static constexpr std::array<const char*, count> names = make();
 };
 
-// ---- kinds ------------------------------------------------------------------------------------------------------------------
+// ---- kinds
+// ------------------------------------------------------------------------------------------------------------------
 
 template <class T>
 inline constexpr bool always_false = false;
@@ -220,7 +233,8 @@ struct Shape<std::array<T, N>> {
 template <class T, std::size_t N>
 struct Shape<List<T, N>> {
   using Element = T;
-  static constexpr std::uint32_t shape = FULMAR_LIST, count = N, items = (sizeof(std::uint32_t) + alignof(T) - 1) / alignof(T) * alignof(T);
+  static constexpr std::uint32_t shape = FULMAR_LIST, count = N,
+                                 items = (sizeof(std::uint32_t) + alignof(T) - 1) / alignof(T) * alignof(T);
 };
 
 template <class T>
@@ -237,8 +251,11 @@ concept EigenType = requires {
 
 template <class T>
 consteval std::uint32_t kind_of() {
-  static_assert(!std::is_pointer_v<T> && !std::is_reference_v<T>, "a message holds no pointer and no reference");
-  static_assert(!EigenType<T>, "a message holds no Eigen type: its layout changes with compiler flags; use Vec3<Ned>, Vec3<Body> or Quat");
+  static_assert(!std::is_pointer_v<T> && !std::is_reference_v<T>,
+                "a message holds no pointer and no reference");
+  static_assert(!EigenType<T>,
+                "a message holds no Eigen type: its layout changes with compiler flags; use Vec3<Ned>, "
+                "Vec3<Body> or Quat");
   if constexpr (std::is_same_v<T, bool>)
     return FULMAR_BOOL;
   else if constexpr (std::is_same_v<T, std::uint8_t>)
@@ -269,7 +286,9 @@ consteval std::uint32_t kind_of() {
   else if constexpr (std::is_class_v<T> && std::is_aggregate_v<T>)
     return FULMAR_STRUCT;
   else
-    static_assert(always_false<T>, "a message holds numbers, bool, enum, Text, List, std::array, Vec3, Quat and structs of these");
+    static_assert(
+        always_false<T>,
+        "a message holds numbers, bool, enum, Text, List, std::array, Vec3, Quat and structs of these");
 }
 
 template <class T>
@@ -277,13 +296,15 @@ inline constexpr bool is_frame_vector = std::is_same_v<T, Vec3<Ned>> || std::is_
 template <class T>
 inline constexpr bool has_own_names = is_frame_vector<T> || std::is_same_v<T, Quat>;
 
-/// A foreign message states its ROS type and is exempt from the unit rule: `static constexpr const char* ros_type = "sensor_msgs/msg/Imu";`
+/// A foreign message states its ROS type and is exempt from the unit rule: `static constexpr const char*
+/// ros_type = "sensor_msgs/msg/Imu";`
 template <class T>
 concept Foreign = requires {
   T::ros_type;
 };
 
-// ---- tables -----------------------------------------------------------------------------------------------------------------
+// ---- tables
+// -----------------------------------------------------------------------------------------------------------------
 
 template <class T>
 constexpr const fulmar_type* type_table();
@@ -381,31 +402,30 @@ consteval Rows<T, sizeof...(M)> rows_of(Types<M...>) {
 template <class T, std::size_t field, std::size_t count>
 struct EveryNumberHasAUnit {
   static_assert(field == count,
-                "every floating-point field name ends in its unit: _m, _mps, _rad, _s, _ratio, ... (fulmar/detail/units.hpp)");
+                "every floating-point field name ends in its unit: _m, _mps, _rad, _s, _ratio, ... "
+                "(fulmar/detail/units.hpp)");
 };
 
 template <class T>
 struct Table {
-  static_assert(std::is_aggregate_v<T>, "a message is a plain struct: no constructor, no base class, no private member");
-  static_assert(std::is_trivially_copyable_v<T>, "a message is trivially copyable: no std::string, no std::vector, no Eigen type");
+  static_assert(std::is_aggregate_v<T>,
+                "a message is a plain struct: no constructor, no base class, no private member");
+  static_assert(std::is_trivially_copyable_v<T>,
+                "a message is trivially copyable: no std::string, no std::vector, no Eigen type");
   static_assert(std::is_standard_layout_v<T>, "a message is a plain struct");
   static constexpr std::size_t count = member_count<T>();
   template <class... M>
   static constexpr std::size_t end_of(Types<M...>) {
     return count == 0 ? sizeof(T) : offsets_of<M...>(alignof(T))[count];
   }
-  static_assert(end_of(MemberTypes<T>{}) == sizeof(T), "the layout of this struct is unusual: no alignas, no bit fields, no C arrays");
+  static_assert(end_of(MemberTypes<T>{}) == sizeof(T),
+                "the layout of this struct is unusual: no alignas, no bit fields, no C arrays");
 
   static constexpr Rows<T, count> rows = rows_of<T>(MemberTypes<T>{});
   static constexpr EveryNumberHasAUnit<T, rows.nameless, count> rule{};
-  static constexpr fulmar_type type{TypeName<T>::c_str,
-                                    frame_of<T>(),
-                                    ros_of<T>(),
-                                    rows.fields.data(),
-                                    static_cast<std::uint32_t>(count),
-                                    sizeof(fulmar_field),
-                                    sizeof(T),
-                                    alignof(T)};
+  static constexpr fulmar_type type{
+      TypeName<T>::c_str,   frame_of<T>(), ros_of<T>(), rows.fields.data(), static_cast<std::uint32_t>(count),
+      sizeof(fulmar_field), sizeof(T),     alignof(T)};
 };
 
 template <class T>
@@ -417,7 +437,8 @@ constexpr const fulmar_type* type_table() {
 
 namespace fulmar {
 
-/// The field table of a message, as it crosses to the host. Fails to compile, with a sentence, for a struct that cannot be a message.
+/// The field table of a message, as it crosses to the host. Fails to compile, with a sentence, for a struct
+/// that cannot be a message.
 template <class T>
 constexpr const fulmar_type& describe() {
   return *detail::type_table<T>();

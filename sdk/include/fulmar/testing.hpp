@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Drives one component without a host, through the same C functions that the host calls, and counts allocations.
+// Drives one component without a host, through the same C functions that the host calls, and counts
+// allocations.
 //
 //   Bench<AttitudeHold> bench;
 //   bench.params.roll_kp.value = 0.55;
@@ -7,10 +8,10 @@
 //   CHECK(bench.step(0.01) == Status::ok);        // advances time by 10 ms, then steps
 //   CHECK(bench.out.actuators.aileron_rad == doctest::Approx(...));
 //
-// `bench.out` holds what the step published. An Out<T> has `written` set when it spoke; an OutQueue has its `count`.
-// To count allocations, one source file of the test program defines FULMAR_COUNT_ALLOCATIONS before it includes this header (without it the
-// program does not link);
-// `allocations([&] { bench.step(0.01); })` is then the number of calls of operator new and malloc in between.
+// `bench.out` holds what the step published. An Out<T> has `written` set when it spoke; an OutQueue has its
+// `count`. To count allocations, one source file of the test program defines FULMAR_COUNT_ALLOCATIONS before
+// it includes this header (without it the program does not link); `allocations([&] { bench.step(0.01); })` is
+// then the number of calls of operator new and malloc in between.
 #ifndef FULMAR_TESTING_HPP
 #define FULMAR_TESTING_HPP
 #include <cstdlib>
@@ -66,7 +67,8 @@ class Bench {
 
   /// The latest sample of a value input, valid `age_s` ago.
   template <template <class> class P, class T>
-  requires(detail::PortOf<P<T>>::kind == FULMAR_IN_VALUE) void set(const P<T>& port, const T& value, double age_s = 0) {
+  requires(detail::PortOf<P<T>>::kind == FULMAR_IN_VALUE) void set(const P<T>& port, const T& value,
+                                                                   double age_s = 0) {
     fulmar_input& input = at(port.input);
     Room& room = rooms_[index(port.input)];
     room.bytes.resize(sizeof(T));
@@ -80,8 +82,8 @@ class Bench {
   }
   /// One more sample of a queue or request; gone after the next step.
   template <template <class> class P, class T>
-  requires(detail::PortOf<P<T>>::kind == FULMAR_IN_QUEUE || detail::PortOf<P<T>>::kind == FULMAR_IN_REQUEST) void push(const P<T>& port,
-                                                                                                                       const T& value) {
+  requires(detail::PortOf<P<T>>::kind == FULMAR_IN_QUEUE ||
+           detail::PortOf<P<T>>::kind == FULMAR_IN_REQUEST) void push(const P<T>& port, const T& value) {
     fulmar_input& input = at(port.input);
     Room& room = rooms_[index(port.input)];
     room.bytes.resize((input.count + 1) * sizeof(T));
@@ -103,12 +105,14 @@ class Bench {
     return answer.verdict == FULMAR_REFUSED ? answer.reason : "unanswered";
   }
 
-  /// Hands `params` to the component. Called by the first step if not before; call it again after changing `params` with `live` false.
+  /// Hands `params` to the component. Called by the first step if not before; call it again after changing
+  /// `params` with `live` false.
   Status configure() {
     configured_ = true;
     self().params = params;
     return call([&] {
-      if constexpr (requires(C c, const typename C::Params& p) { c.configure(p); }) self().component.configure(self().params);
+      if constexpr (requires(C c, const typename C::Params& p) { c.configure(p); })
+        self().component.configure(self().params);
       return Status::ok;
     });
   }
@@ -116,7 +120,8 @@ class Bench {
   Status retune() {
     self().params = params;
     return call([&] {
-      if constexpr (requires(C c, const typename C::Params& p) { c.retune(p); }) self().component.retune(self().params);
+      if constexpr (requires(C c, const typename C::Params& p) { c.retune(p); })
+        self().component.retune(self().params);
       return Status::ok;
     });
   }
@@ -169,7 +174,9 @@ class Bench {
     std::vector<fulmar_answer> answers;
   };
   detail::Instance<C>& self() { return *static_cast<detail::Instance<C>*>(instance_); }
-  std::size_t index(const fulmar_input* input) const { return static_cast<std::size_t>(input - inputs_.data()); }
+  std::size_t index(const fulmar_input* input) const {
+    return static_cast<std::size_t>(input - inputs_.data());
+  }
   fulmar_input& at(const fulmar_input* input) { return inputs_[index(input)]; }
 
   void advance(double dt_s) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ports in: state VehicleState, path Path
 // ports out: command GuidanceCommand
-// Chases a carrot: flies towards the point of the line that lies `lookahead` before its own foot, or along the orbit's tangent, bent
-// towards the orbit. Source: Micaelli & Samson (1993) for the line; Beard & McLain, Small Unmanned Aircraft (2012), (10.13), for the orbit.
+// Chases a carrot: flies towards the point of the line that lies `lookahead` before its own foot, or along
+// the orbit's tangent, bent towards the orbit. Source: Micaelli & Samson (1993) for the line; Beard & McLain,
+// Small Unmanned Aircraft (2012), (10.13), for the orbit.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -34,7 +35,8 @@ struct MyLaw {  // fills the role `guide`
   Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out) {
     const Path& path = *in.path;
     const double Vg = in.state->ground_speed_mps;
-    const double n = in.state->position_m.north - path.origin_m.north, e = in.state->position_m.east - path.origin_m.east;
+    const double n = in.state->position_m.north - path.origin_m.north,
+                 e = in.state->position_m.east - path.origin_m.east;
     GuidanceCommand& command = out.command;
     command = {};
     command.height_m = -path.origin_m.down;
@@ -50,12 +52,14 @@ struct MyLaw {  // fills the role `guide`
       out.cross_track_m = cross;
       return Status::ok;
     }
-    const double side = path.turn == Turn::right ? 1 : -1, R = std::max(path.radius_m, 1.0), azimuth = std::atan2(e, n);
+    const double side = path.turn == Turn::right ? 1 : -1, R = std::max(path.radius_m, 1.0),
+                 azimuth = std::atan2(e, n);
     const double cross = std::hypot(n, e) - R;  // outside is positive
     command.course_rad = wrap_pi(azimuth + side * (std::numbers::pi / 2 + std::atan(p.k_orbit * cross / R)));
     command.height_m += path.climb_ratio * side * R * wrap_pi(azimuth - path.start_rad);
     command.climb_rate_mps = path.climb_ratio * Vg;
-    if (std::abs(cross) < 0.5 * R) command.roll_feedforward_rad = side * std::min(std::atan(Vg * Vg / (9.80665 * R)), p.roll_max.value);
+    if (std::abs(cross) < 0.5 * R)
+      command.roll_feedforward_rad = side * std::min(std::atan(Vg * Vg / (9.80665 * R)), p.roll_max.value);
     out.cross_track_m = cross;
     return Status::ok;
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ports in: state VehicleState, attitude AttitudeCommand
 // ports out: actuators Actuators
-// Attitude hold in its plainest form: proportional on the angle, damped by the body rate, throttle handed through.
-// Source: Beard & McLain, Small Unmanned Aircraft (2012), section 6.3, without integrators.
+// Attitude hold in its plainest form: proportional on the angle, damped by the body rate, throttle handed
+// through. Source: Beard & McLain, Small Unmanned Aircraft (2012), section 6.3, without integrators.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -38,14 +38,18 @@ struct MyLaw {  // fills the role `inner`
     const VehicleState& x = *in.state;
     const double roll_error = in.attitude->roll_rad - x.roll_rad;
     const double pitch_error = in.attitude->pitch_rad - x.pitch_rad;
-    // In a steady turn the body pitches and yaws by itself; only what is beyond that is damped. B&M (5.1), beta = 0
+    // In a steady turn the body pitches and yaws by itself; only what is beyond that is damped. B&M (5.1),
+    // beta = 0
     const double Va = std::max(x.airspeed_mps, p.airframe->limits.airspeed_min_mps);
     const double chi_dot = 9.80665 / Va * std::tan(std::clamp(x.roll_rad, -1.2, 1.2));
-    const double q = x.rate_radps.y - chi_dot * std::sin(x.roll_rad), r = x.rate_radps.z - chi_dot * std::cos(x.roll_rad);
+    const double q = x.rate_radps.y - chi_dot * std::sin(x.roll_rad),
+                 r = x.rate_radps.z - chi_dot * std::cos(x.roll_rad);
     out.actuators.throttle_frac = std::clamp(in.attitude->throttle_frac, 0.0, 1.0);
-    out.actuators.aileron_rad = deflected(p.airframe->aileron, p.roll_kp * roll_error - p.roll_kd * x.rate_radps.x);
-    out.actuators.elevator_rad = deflected(p.airframe->elevator, -p.pitch_kp * pitch_error + p.pitch_kd * q);  // positive is nose down
-    out.actuators.rudder_rad = deflected(p.airframe->rudder, p.yaw_kd * r);                                    // positive is nose left
+    out.actuators.aileron_rad =
+        deflected(p.airframe->aileron, p.roll_kp * roll_error - p.roll_kd * x.rate_radps.x);
+    out.actuators.elevator_rad =
+        deflected(p.airframe->elevator, -p.pitch_kp * pitch_error + p.pitch_kd * q);  // positive is nose down
+    out.actuators.rudder_rad = deflected(p.airframe->rudder, p.yaw_kd * r);           // positive is nose left
     out.roll_error_rad = roll_error;
     out.pitch_error_rad = pitch_error;
     return Status::ok;

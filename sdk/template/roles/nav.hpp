@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ports in: imu Imu, gnss Gnss, mag Mag, baro Baro, pitot Pitot
 // ports out: state VehicleState
-// Fixed-gain observer: the IMU integrated, pulled towards GNSS velocity, position, barometric height and magnetic heading.
-// Source: Hua, Attitude estimation for accelerated vehicles using GPS/INS measurements, Control Engineering Practice 18 (2010), first
-// observer. Takes over attitude, biases and origin from the estimator that flew before. Begins by itself only when standing still.
+// Fixed-gain observer: the IMU integrated, pulled towards GNSS velocity, position, barometric height and
+// magnetic heading. Source: Hua, Attitude estimation for accelerated vehicles using GPS/INS measurements,
+// Control Engineering Practice 18 (2010), first observer. Takes over attitude, biases and origin from the
+// estimator that flew before. Begins by itself only when standing still.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -64,14 +65,16 @@ struct MyLaw {  // fills the role `nav`
     if (!begun_) begin(in, p);
     if (in.gnss.fresh() && in.gnss->fix >= FixType::fix_3d) hear_gnss(*in.gnss);
     const double dt = std::clamp(tick.dt_s(), 0.0, 0.05);
-    const Eigen::Vector3d f_n = q_ * (eigen(in.imu->specific_force_mps2) - accel_bias_), gravity(0, 0, 9.80665);
+    const Eigen::Vector3d f_n = q_ * (eigen(in.imu->specific_force_mps2) - accel_bias_),
+                          gravity(0, 0, 9.80665);
     const Eigen::Vector3d v_error = v_gnss_ - v_;
     // A velocity error across the specific force means a tilt error; the heading comes from the compass.
     Eigen::Vector3d correction_n = p.k_tilt / 9.80665 * f_n.cross(v_error) / 9.80665;
     correction_n.z() = p.k_heading * wrap_pi(compass(in) + heading_offset_ - yaw());
     const Eigen::Vector3d correction_b = q_.conjugate() * correction_n;
     gyro_bias_ -= p.k_bias * dt * correction_b;
-    const Eigen::Vector3d omega_b = eigen(in.imu->rate_radps) - gyro_bias_, turn = (omega_b + correction_b) * dt;
+    const Eigen::Vector3d omega_b = eigen(in.imu->rate_radps) - gyro_bias_,
+                          turn = (omega_b + correction_b) * dt;
     q_ = (q_ * Eigen::Quaterniond(1, turn.x() / 2, turn.y() / 2, turn.z() / 2)).normalized();
     v_ += dt * (f_n + gravity + p.k_velocity * v_error);
     p_gnss_ += dt * v_;  // carried along between two fixes
@@ -84,19 +87,26 @@ struct MyLaw {  // fills the role `nav`
   }
 
  private:
-  static double pressure_height(const Inputs& in) { return 44330.77 * (1 - std::pow(in.baro->pressure_pa / 101325.0, 0.190263)); }  // ISA
-  double yaw() const { return std::atan2(2 * (q_.w() * q_.z() + q_.x() * q_.y()), 1 - 2 * (q_.y() * q_.y() + q_.z() * q_.z())); }
+  static double pressure_height(const Inputs& in) {
+    return 44330.77 * (1 - std::pow(in.baro->pressure_pa / 101325.0, 0.190263));
+  }  // ISA
+  double yaw() const {
+    return std::atan2(2 * (q_.w() * q_.z() + q_.x() * q_.y()), 1 - 2 * (q_.y() * q_.y() + q_.z() * q_.z()));
+  }
   /// Heading of the magnetic field's horizontal part, levelled with the present attitude.
   double compass(const Inputs& in) const {
-    const Eigen::Vector3d level = Eigen::AngleAxisd(-yaw(), Eigen::Vector3d::UnitZ()) * (q_ * eigen(in.mag->field_tesla));
+    const Eigen::Vector3d level =
+        Eigen::AngleAxisd(-yaw(), Eigen::Vector3d::UnitZ()) * (q_ * eigen(in.mag->field_tesla));
     return std::atan2(-level.y(), level.x());
   }
 
   /// Standing: the accelerometer is the plumb line, the gyros show their biases, the first fix is the origin.
   void begin(const Inputs& in, const Params& p) {
     const Eigen::Vector3d up_b = eigen(in.imu->specific_force_mps2);
-    const double roll = std::atan2(-up_b.y(), -up_b.z()), pitch = std::asin(std::clamp(up_b.x() / std::max(up_b.norm(), 1e-3), -1.0, 1.0));
-    q_ = Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) * Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX());
+    const double roll = std::atan2(-up_b.y(), -up_b.z()),
+                 pitch = std::asin(std::clamp(up_b.x() / std::max(up_b.norm(), 1e-3), -1.0, 1.0));
+    q_ = Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
+         Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX());
     q_ = Eigen::AngleAxisd(compass(in) + p.declination, Eigen::Vector3d::UnitZ()) * q_;
     heading_offset_ = p.declination;
     gyro_bias_ = eigen(in.imu->rate_radps);
@@ -106,10 +116,12 @@ struct MyLaw {  // fills the role `nav`
   }
 
   void hear_gnss(const Gnss& gnss) {
-    constexpr double a = 6378137, e2 = 6.69437999014e-3, deg = std::numbers::pi / 180;  // WGS-84, flat around the origin
+    constexpr double a = 6378137, e2 = 6.69437999014e-3,
+                     deg = std::numbers::pi / 180;  // WGS-84, flat around the origin
     const double s = std::sin(lat0_ * deg), root = std::sqrt(1 - e2 * s * s);
     p_gnss_ = {(gnss.latitude_deg - lat0_) * deg * (a * (1 - e2) / (root * root * root) + alt0_),
-               (gnss.longitude_deg - lon0_) * deg * (a / root + alt0_) * std::cos(lat0_ * deg), alt0_ - gnss.altitude_m};
+               (gnss.longitude_deg - lon0_) * deg * (a / root + alt0_) * std::cos(lat0_ * deg),
+               alt0_ - gnss.altitude_m};
     v_gnss_ = eigen(gnss.velocity_mps);
   }
 
@@ -139,7 +151,9 @@ struct MyLaw {  // fills the role `nav`
     s.course_rad = s.ground_speed_mps > 1 ? std::atan2(v_.y(), v_.x()) : s.yaw_rad;
     s.airspeed_mps = Va_;
     const Eigen::Vector3d v_r = q_.conjugate() * (v_ - wind_);
-    if (Va_ > 5) s.alpha_rad = std::atan2(v_r.z(), v_r.x()), s.beta_rad = std::asin(std::clamp(v_r.y() / v_r.norm(), -1.0, 1.0));
+    if (Va_ > 5)
+      s.alpha_rad = std::atan2(v_r.z(), v_r.x()),
+      s.beta_rad = std::asin(std::clamp(v_r.y() / v_r.norm(), -1.0, 1.0));
     s.wind_mps = from_eigen<Ned>(wind_);
     s.gyro_bias_radps = from_eigen<Body>(gyro_bias_);
     s.accel_bias_mps2 = from_eigen<Body>(accel_bias_);
@@ -149,7 +163,8 @@ struct MyLaw {  // fills the role `nav`
     s.wind_std_mps = {1, 1, 1};
     s.airspeed_std_mps = 1;
     s.origin_latitude_deg = lat0_, s.origin_longitude_deg = lon0_, s.origin_altitude_m = alt0_;
-    s.origin_valid = s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = s.wind_valid = true;
+    s.origin_valid = s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid =
+        s.airspeed_valid = s.wind_valid = true;
   }
 
   Eigen::Quaterniond q_{1, 0, 0, 0};

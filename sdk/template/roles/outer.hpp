@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ports in: state VehicleState, command GuidanceCommand
 // ports out: attitude AttitudeCommand
-// Outer loops in their plainest form: course to roll, height to pitch, airspeed to throttle, all proportional.
-// Source: Beard & McLain, Small Unmanned Aircraft (2012), chapter 6.
+// Outer loops in their plainest form: course to roll, height to pitch, airspeed to throttle, all
+// proportional. Source: Beard & McLain, Small Unmanned Aircraft (2012), chapter 6.
 #pragma once
 #include <algorithm>
 #include <fulmar/flight/angles.hpp>
@@ -38,8 +38,10 @@ struct MyLaw {  // fills the role `outer`
     const double chi_error = wrap_pi(in.command->course_rad - in.state->course_rad);
     const double h_error = in.command->height_m - in.state->height_m;
     const double Va_error = in.command->airspeed_mps - in.state->airspeed_mps;
-    out.attitude.roll_rad = std::clamp<double>(in.command->roll_feedforward_rad + p.course_kp * chi_error, -p.roll_max, p.roll_max);
-    out.attitude.pitch_rad = std::clamp<double>(p.pitch_trim + p.height_kp * h_error, -p.pitch_max, p.pitch_max);
+    out.attitude.roll_rad = std::clamp<double>(in.command->roll_feedforward_rad + p.course_kp * chi_error,
+                                               -p.roll_max, p.roll_max);
+    out.attitude.pitch_rad =
+        std::clamp<double>(p.pitch_trim + p.height_kp * h_error, -p.pitch_max, p.pitch_max);
     out.attitude.throttle_frac = std::clamp<double>(p.throttle_trim + p.airspeed_kp * Va_error, 0, 1);
     out.height_error_m = h_error;
     return Status::ok;

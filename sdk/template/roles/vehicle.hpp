@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ports in: actuators Actuators, arm ArmRequest
-// ports out: imu Imu, gnss Gnss, mag Mag, baro Baro, pitot Pitot, rc Rc, status VehicleStatus, truth VehicleState
-// A point mass that turns as it banks: first-order roll and pitch rates from the surfaces, coordinated turn, perfect sensors, no wind.
-// Source: Beard & McLain, Small Unmanned Aircraft (2012), chapter 9, (9.14) with chi = psi; sensors of chapter 7 without noise.
+// ports out: imu Imu, gnss Gnss, mag Mag, baro Baro, pitot Pitot, rc Rc, status VehicleStatus, truth
+// VehicleState A point mass that turns as it banks: first-order roll and pitch rates from the surfaces,
+// coordinated turn, perfect sensors, no wind. Source: Beard & McLain, Small Unmanned Aircraft (2012), chapter
+// 9, (9.14) with chi = psi; sensors of chapter 7 without noise.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -59,7 +60,8 @@ struct MyLaw {  // fills the role `vehicle`
   void configure(const Params& p) {
     *this = {};
     period_ns_ = std::llround(1e9 / p.rate);
-    now_ns_ = -static_cast<std::int64_t>(5 * p.rate) * period_ns_;  // stands still for 5 s: the estimator aligns
+    now_ns_ =
+        -static_cast<std::int64_t>(5 * p.rate) * period_ns_;  // stands still for 5 s: the estimator aligns
     origin_ = p.origin.given() ? *p.origin : Origin{40.2463724, -111.6474138, 1387, true};
     psi_ = p.start_heading;
     const double year = 1970 + p.epoch / (365.25 * 86400);
@@ -92,32 +94,39 @@ struct MyLaw {  // fills the role `vehicle`
   static constexpr double g = 9.80665;
 
   void advance(const Params& p, double dt) {
-    const double cruise = p.airframe->limits.airspeed_cruise_mps, grip = std::min(Va_ * Va_ / (cruise * cruise), 1.5);
+    const double cruise = p.airframe->limits.airspeed_cruise_mps,
+                 grip = std::min(Va_ * Va_ / (cruise * cruise), 1.5);
     const bool rolling = p_n_.z() >= 0 && Va_ < 0.9 * cruise;
     const double lag = std::min(dt / p.lag, 1.0);
     p_rate_ += lag * (grip * p.roll_rate * (command_.aileron_rad - p.airframe->aileron.trim_rad) - p_rate_);
-    q_rate_ += lag * (-grip * p.pitch_rate * (command_.elevator_rad - p.airframe->elevator.trim_rad) - q_rate_);
+    q_rate_ +=
+        lag * (-grip * p.pitch_rate * (command_.elevator_rad - p.airframe->elevator.trim_rad) - q_rate_);
     phi_ = rolling ? 0 : std::clamp(phi_ + p_rate_ * dt, -1.2, 1.2);
     theta_ = rolling ? 0 : std::clamp(theta_ + q_rate_ * dt, -0.6, 0.6);
     gamma_ += dt / p.path_lag * (theta_ - gamma_);
     if (p_n_.z() >= 0) gamma_ = std::max(gamma_, 0.0);
     const double throttle = std::clamp(command_.throttle_frac, 0.0, 1.0),
                  cruise_throttle = std::max(p.airframe->limits.throttle_cruise_frac, 0.1);
-    Va_ = std::max(Va_ + dt * (p.acceleration_max * (throttle - cruise_throttle * Va_ * Va_ / (cruise * cruise)) - g * std::sin(gamma_)),
-                   0.0);
+    Va_ = std::max(
+        Va_ + dt * (p.acceleration_max * (throttle - cruise_throttle * Va_ * Va_ / (cruise * cruise)) -
+                    g * std::sin(gamma_)),
+        0.0);
     psi_dot_ = rolling ? 0 : g / std::max(Va_, 5.0) * std::tan(phi_);  // (9.14), no wind
     psi_ = wrap_pi(psi_ + psi_dot_ * dt);
-    v_n_ = {Va_ * std::cos(gamma_) * std::cos(psi_), Va_ * std::cos(gamma_) * std::sin(psi_), -Va_ * std::sin(gamma_)};
+    v_n_ = {Va_ * std::cos(gamma_) * std::cos(psi_), Va_ * std::cos(gamma_) * std::sin(psi_),
+            -Va_ * std::sin(gamma_)};
     p_n_ += dt * v_n_;
     p_n_.z() = std::min(p_n_.z(), 0.0);
   }
 
   /// Every sample belongs to this tick. Rates: IMU each tick, others each 4th, GNSS each 40th.
   void sense(const Params& p, const Eigen::Vector3d& a_n, Outputs& out) {
-    const Eigen::Quaterniond q = Eigen::AngleAxisd(psi_, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(theta_, Eigen::Vector3d::UnitY()) *
+    const Eigen::Quaterniond q = Eigen::AngleAxisd(psi_, Eigen::Vector3d::UnitZ()) *
+                                 Eigen::AngleAxisd(theta_, Eigen::Vector3d::UnitY()) *
                                  Eigen::AngleAxisd(phi_, Eigen::Vector3d::UnitX());
     const double height = -p_n_.z();
-    const Eigen::Vector3d rate_b = (q_before_.conjugate() * q).vec() * 2 * p.rate.value;  // as the attitude really moved
+    const Eigen::Vector3d rate_b =
+        (q_before_.conjugate() * q).vec() * 2 * p.rate.value;  // as the attitude really moved
     q_before_ = q;
     out.imu.rate_radps = from_eigen<Body>(tick_ > 0 ? rate_b : Eigen::Vector3d(0, 0, 0));
     out.imu.specific_force_mps2 = from_eigen<Body>(q.conjugate() * (a_n - Eigen::Vector3d(0, 0, g)));
@@ -147,7 +156,8 @@ struct MyLaw {  // fills the role `vehicle`
   void publish_gnss(const Params& p, Outputs& out) const {
     constexpr double a = 6378137, e2 = 6.69437999014e-3, deg = std::numbers::pi / 180;
     const double s = std::sin(origin_.lat_deg * deg), root = std::sqrt(1 - e2 * s * s);
-    const double meridian = a * (1 - e2) / (root * root * root) + origin_.alt_msl_m, normal = a / root + origin_.alt_msl_m;
+    const double meridian = a * (1 - e2) / (root * root * root) + origin_.alt_msl_m,
+                 normal = a / root + origin_.alt_msl_m;
     Gnss gnss;
     gnss.latitude_deg = origin_.lat_deg + p_n_.x() / meridian / deg;
     gnss.longitude_deg = origin_.lon_deg + p_n_.y() / (normal * std::cos(origin_.lat_deg * deg)) / deg;
@@ -176,8 +186,10 @@ struct MyLaw {  // fills the role `vehicle`
     s.alpha_rad = theta_ - gamma_;
     s.position_std_m = s.velocity_std_mps = s.attitude_std_rad = s.wind_std_mps = {};
     s.airspeed_std_mps = 0;
-    s.origin_latitude_deg = origin_.lat_deg, s.origin_longitude_deg = origin_.lon_deg, s.origin_altitude_m = origin_.alt_msl_m;
-    s.origin_valid = s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = s.wind_valid = true;
+    s.origin_latitude_deg = origin_.lat_deg, s.origin_longitude_deg = origin_.lon_deg,
+    s.origin_altitude_m = origin_.alt_msl_m;
+    s.origin_valid = s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid =
+        s.airspeed_valid = s.wind_valid = true;
     return s;
   }
 

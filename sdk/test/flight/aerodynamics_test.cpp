@@ -21,11 +21,12 @@ Airframe full() {
   Airframe a = test::airframe_file("anaconda");
   double value = 0.11;
   const auto fill = [&](Derivatives& d) {
-    for (double* c : {&d.zero_ratio, &d.alpha_ratio, &d.beta_ratio, &d.p_ratio, &d.q_ratio, &d.r_ratio, &d.aileron_ratio, &d.elevator_ratio,
-                      &d.rudder_ratio})
+    for (double* c : {&d.zero_ratio, &d.alpha_ratio, &d.beta_ratio, &d.p_ratio, &d.q_ratio, &d.r_ratio,
+                      &d.aileron_ratio, &d.elevator_ratio, &d.rudder_ratio})
       *c = (value += 0.037);
   };
-  for (Derivatives* d : {&a.aero.lift, &a.aero.drag, &a.aero.side, &a.aero.roll, &a.aero.pitch, &a.aero.yaw}) fill(*d);
+  for (Derivatives* d : {&a.aero.lift, &a.aero.drag, &a.aero.side, &a.aero.roll, &a.aero.pitch, &a.aero.yaw})
+    fill(*d);
   return a;
 }
 
@@ -38,19 +39,26 @@ constexpr double Va = 17, rho = 1.1;
 
 /// CL, CD, CY, Cl, Cm, Cn at a point, from the force and moment.
 std::array<double, 6> coefficients(const Airframe& a, const Point& at) {
-  const Vector3d v(Va * std::cos(at.alpha) * std::cos(at.beta), Va * std::sin(at.beta), Va * std::sin(at.alpha) * std::cos(at.beta));
+  const Vector3d v(Va * std::cos(at.alpha) * std::cos(at.beta), Va * std::sin(at.beta),
+                   Va * std::sin(at.alpha) * std::cos(at.beta));
   const Load l = Aerodynamic(a).load(v, {at.p, at.q, at.r}, at.d, rho);
   const double qS = 0.5 * rho * Va * Va * a.wing.area_m2, b = a.wing.span_m, c = a.wing.chord_m;
   const double L = l.force_b.x() * std::sin(at.alpha) - l.force_b.z() * std::cos(at.alpha);
   const double D = -l.force_b.x() * std::cos(at.alpha) - l.force_b.z() * std::sin(at.alpha);
-  return {L / qS, D / qS, l.force_b.y() / qS, l.moment_b.x() / (qS * b), l.moment_b.y() / (qS * c), l.moment_b.z() / (qS * b)};
+  return {L / qS,
+          D / qS,
+          l.force_b.y() / qS,
+          l.moment_b.x() / (qS * b),
+          l.moment_b.y() / (qS * c),
+          l.moment_b.z() / (qS * b)};
 }
 
 }  // namespace
 
 TEST_CASE("finite differences of force and moment give back every derivative of the airframe") {
   const Airframe a = full();
-  const std::array<const Derivatives*, 6> tables{&a.aero.lift, &a.aero.drag, &a.aero.side, &a.aero.roll, &a.aero.pitch, &a.aero.yaw};
+  const std::array<const Derivatives*, 6> tables{&a.aero.lift, &a.aero.drag,  &a.aero.side,
+                                                 &a.aero.roll, &a.aero.pitch, &a.aero.yaw};
   using Access = std::function<double&(Point&)>;
   struct Axis {
     Access of;
@@ -58,14 +66,15 @@ TEST_CASE("finite differences of force and moment give back every derivative of 
     double scale;  // of the variable to the dimensionless one
   };
   const double b = a.wing.span_m / (2 * Va), c = a.wing.chord_m / (2 * Va);
-  const std::array<Axis, 8> axes{{{[](Point& x) -> double& { return x.alpha; }, &Derivatives::alpha_ratio, 1},
-                                  {[](Point& x) -> double& { return x.beta; }, &Derivatives::beta_ratio, 1},
-                                  {[](Point& x) -> double& { return x.p; }, &Derivatives::p_ratio, b},
-                                  {[](Point& x) -> double& { return x.q; }, &Derivatives::q_ratio, c},
-                                  {[](Point& x) -> double& { return x.r; }, &Derivatives::r_ratio, b},
-                                  {[](Point& x) -> double& { return x.d.aileron; }, &Derivatives::aileron_ratio, 1},
-                                  {[](Point& x) -> double& { return x.d.elevator; }, &Derivatives::elevator_ratio, 1},
-                                  {[](Point& x) -> double& { return x.d.rudder; }, &Derivatives::rudder_ratio, 1}}};
+  const std::array<Axis, 8> axes{
+      {{[](Point& x) -> double& { return x.alpha; }, &Derivatives::alpha_ratio, 1},
+       {[](Point& x) -> double& { return x.beta; }, &Derivatives::beta_ratio, 1},
+       {[](Point& x) -> double& { return x.p; }, &Derivatives::p_ratio, b},
+       {[](Point& x) -> double& { return x.q; }, &Derivatives::q_ratio, c},
+       {[](Point& x) -> double& { return x.r; }, &Derivatives::r_ratio, b},
+       {[](Point& x) -> double& { return x.d.aileron; }, &Derivatives::aileron_ratio, 1},
+       {[](Point& x) -> double& { return x.d.elevator; }, &Derivatives::elevator_ratio, 1},
+       {[](Point& x) -> double& { return x.d.rudder; }, &Derivatives::rudder_ratio, 1}}};
   for (const Axis& axis : axes) {
     Point up, down;
     axis.of(up) += 1e-4;
@@ -74,9 +83,11 @@ TEST_CASE("finite differences of force and moment give back every derivative of 
     for (std::size_t i = 0; i < tables.size(); ++i) {
       const bool induced = i == 1 && axis.derivative == &Derivatives::alpha_ratio;
       const double AR = a.wing.span_m * a.wing.span_m / a.wing.area_m2;
-      const double polar =
-          induced ? 2 * a.aero.lift.zero_ratio * a.aero.lift.alpha_ratio / (std::numbers::pi * a.wing.oswald_ratio * AR) : 0;
-      CHECK((high[i] - low[i]) / (2e-4 * axis.scale) == Approx(tables[i]->*axis.derivative + polar).epsilon(1e-3));
+      const double polar = induced ? 2 * a.aero.lift.zero_ratio * a.aero.lift.alpha_ratio /
+                                         (std::numbers::pi * a.wing.oswald_ratio * AR)
+                                   : 0;
+      CHECK((high[i] - low[i]) / (2e-4 * axis.scale) ==
+            Approx(tables[i]->*axis.derivative + polar).epsilon(1e-3));
     }
   }
 }
@@ -160,11 +171,12 @@ TEST_CASE("force and moment do not jump as the air comes round from all sides") 
 TEST_CASE("force and moment do not jump as the air comes round over the wing tip") {
   const Airframe a = test::airframe_file("anaconda");
   const Aerodynamic aero(a);
-  for (double tilt :
-       {0.0, 0.3, 1.2}) {  // the plane in which the wind turns contains the wing; through 90 degrees of sideslip alpha leaps by pi
+  for (double tilt : {0.0, 0.3, 1.2}) {  // the plane in which the wind turns contains the wing; through 90
+                                         // degrees of sideslip alpha leaps by pi
     const Vector3d ahead(std::cos(tilt), 0, std::sin(tilt));
     const auto load = [&](int i) {
-      return aero.load(Va * (std::cos(0.001 * i) * ahead + std::sin(0.001 * i) * Vector3d::UnitY()), Vector3d::Zero(), {}, rho);
+      return aero.load(Va * (std::cos(0.001 * i) * ahead + std::sin(0.001 * i) * Vector3d::UnitY()),
+                       Vector3d::Zero(), {}, rho);
     };
     for (int i = 1400; i < 1740; ++i) {
       CHECK((load(i + 1).force_b - load(i).force_b).norm() < 1);

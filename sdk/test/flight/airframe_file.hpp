@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads an airframe file for the tests, with as much of YAML as those files use: `key: value`, indentation, {a: 1, b: 2}, comments.
-// Throws on a key that the struct does not have.
+// Reads an airframe file for the tests, with as much of YAML as those files use: `key: value`, indentation,
+// {a: 1, b: 2}, comments. Throws on a key that the struct does not have.
 #pragma once
 #include <cstring>
 #include <fstream>
@@ -24,13 +24,15 @@ inline double in_si(const std::string& text) {
 inline const fulmar_field& field_of(const fulmar_type& type, const std::string& key) {
   for (std::uint32_t i = 0; i < type.field_count; ++i) {
     const std::string name = type.fields[i].name;
-    if (name == key || (name.rfind('_') != std::string::npos && name.substr(0, name.rfind('_')) == key)) return type.fields[i];
+    if (name == key || (name.rfind('_') != std::string::npos && name.substr(0, name.rfind('_')) == key))
+      return type.fields[i];
   }
   throw std::runtime_error(std::string(type.name) + " has no field " + key);
 }
 
 /// Sets one value; `path` leads to it from the root.
-inline void set_value(void* root, const fulmar_type* type, const std::vector<std::string>& path, const std::string& text) {
+inline void set_value(void* root, const fulmar_type* type, const std::vector<std::string>& path,
+                      const std::string& text) {
   char* at = static_cast<char*>(root);
   for (std::size_t i = 0; i < path.size(); ++i) {
     const fulmar_field& field = field_of(*type, path[i]);
@@ -78,7 +80,8 @@ inline Airframe airframe_file(const std::string& name) {
         const std::string entry = value.substr(a, b - a);
         auto inner = path;
         inner.push_back(trimmed(entry.substr(0, entry.find(':'))));
-        set_value(&airframe, detail::type_table<Airframe>(), inner, trimmed(entry.substr(entry.find(':') + 1)));
+        set_value(&airframe, detail::type_table<Airframe>(), inner,
+                  trimmed(entry.substr(entry.find(':') + 1)));
         a = b + 1;
       }
     } else if (!value.empty()) {

@@ -14,8 +14,9 @@ TEST_CASE("the standard atmosphere agrees with the table of ISO 2533") {
   struct Row {
     double altitude, temperature, pressure, density;
   };
-  for (const Row& row : {Row{-1000, 294.65, 113929.3, 1.34700}, Row{0, 288.15, 101325.0, 1.22500}, Row{1000, 281.65, 89874.6, 1.11164},
-                         Row{2000, 275.15, 79495.2, 1.00649}, Row{5000, 255.65, 54019.9, 0.736116}, Row{11000, 216.65, 22632.1, 0.363918},
+  for (const Row& row : {Row{-1000, 294.65, 113929.3, 1.34700}, Row{0, 288.15, 101325.0, 1.22500},
+                         Row{1000, 281.65, 89874.6, 1.11164}, Row{2000, 275.15, 79495.2, 1.00649},
+                         Row{5000, 255.65, 54019.9, 0.736116}, Row{11000, 216.65, 22632.1, 0.363918},
                          Row{15000, 216.65, 12044.6, 0.193673}, Row{20000, 216.65, 5474.9, 0.0880349}}) {
     const Air air = standard_air(row.altitude);
     CHECK(air.temperature_kelvin == Approx(row.temperature).epsilon(1e-6));
@@ -42,7 +43,8 @@ TEST_CASE("the standard atmosphere agrees with NASA's check case at geopotential
   for (std::size_t i = 0; i < nasa->size(); i += 500) {
     const double z = nasa->at(i, "altitudeMsl_ft") * foot;
     const Air air = standard_air(earth * z / (earth + z));
-    CHECK(air.density_kgm3 == Approx(nasa->at(i, "airDensity_slug_ft3") * slug / (foot * foot * foot)).epsilon(2e-4));
+    CHECK(air.density_kgm3 ==
+          Approx(nasa->at(i, "airDensity_slug_ft3") * slug / (foot * foot * foot)).epsilon(2e-4));
     CHECK(air.temperature_kelvin == Approx(nasa->at(i, "ambientTemperature_dgR") / 1.8).epsilon(2e-4));
     CHECK(air.speed_of_sound_mps() == Approx(nasa->at(i, "speedOfSound_ft_s") * foot).epsilon(2e-4));
   }

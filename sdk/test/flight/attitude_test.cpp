@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Euler angles against the rotation matrix of the book, rotation vectors against Eigen, attitude from two directions against the truth.
+// Euler angles against the rotation matrix of the book, rotation vectors against Eigen, attitude from two
+// directions against the truth.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -14,10 +15,11 @@ using namespace fulmar;
 namespace {
 
 Eigen::Matrix3d book(double phi, double theta, double psi) {  // Beard & McLain (2.5), transposed: body to NED
-  const double sf = std::sin(phi), cf = std::cos(phi), st = std::sin(theta), ct = std::cos(theta), ss = std::sin(psi), cs = std::cos(psi);
+  const double sf = std::sin(phi), cf = std::cos(phi), st = std::sin(theta), ct = std::cos(theta),
+               ss = std::sin(psi), cs = std::cos(psi);
   Eigen::Matrix3d R;
-  R << ct * cs, sf * st * cs - cf * ss, cf * st * cs + sf * ss, ct * ss, sf * st * ss + cf * cs, cf * st * ss - sf * cs, -st, sf * ct,
-      cf * ct;
+  R << ct * cs, sf * st * cs - cf * ss, cf * st * cs + sf * ss, ct * ss, sf * st * ss + cf * cs,
+      cf * st * ss - sf * cs, -st, sf * ct, cf * ct;
   return R;
 }
 
@@ -46,10 +48,12 @@ TEST_CASE("straight up and straight down the angles stay finite and give the sam
     }
 }
 
-TEST_CASE("the exponential map agrees with an axis and an angle, small or large, and the logarithm undoes it") {
+TEST_CASE(
+    "the exponential map agrees with an axis and an angle, small or large, and the logarithm undoes it") {
   Random random(2);
   for (const double angle : {0.0, 1e-12, 1e-6, 0.0999, 0.1001, 1.0, 3.0}) {
-    const Eigen::Vector3d axis = Eigen::Vector3d(random.normal(), random.normal(), random.normal()).normalized();
+    const Eigen::Vector3d axis =
+        Eigen::Vector3d(random.normal(), random.normal(), random.normal()).normalized();
     const Eigen::Quaterniond q = exp_map(angle * axis), expected(Eigen::AngleAxisd(angle, axis));
     CHECK((q.coeffs() - expected.coeffs()).norm() < 2e-13);
     CHECK((log_map(q) - angle * axis).norm() < 1e-9);
@@ -66,10 +70,12 @@ TEST_CASE("the skew matrix is the cross product") {
 TEST_CASE("two directions give the attitude back; noise in the second leaves the first exact") {
   Random random(3);
   for (int i = 0; i < 50; ++i) {
-    const Eigen::Quaterniond q = quaternion_from({random.uniform(-3, 3), random.uniform(-1.5, 1.5), random.uniform(-3, 3)});
+    const Eigen::Quaterniond q =
+        quaternion_from({random.uniform(-3, 3), random.uniform(-1.5, 1.5), random.uniform(-3, 3)});
     const Eigen::Vector3d f(0.3, -0.2, -9.8), m(2e-5, 3e-6, 4.5e-5);
     CHECK(q.angularDistance(attitude_from_directions(q.conjugate() * f, f, q.conjugate() * m, m)) < 1e-7);
-    const Eigen::Quaterniond tilted = attitude_from_directions(q.conjugate() * f, f, q.conjugate() * m + Eigen::Vector3d(1e-6, 2e-6, 0), m);
+    const Eigen::Quaterniond tilted =
+        attitude_from_directions(q.conjugate() * f, f, q.conjugate() * m + Eigen::Vector3d(1e-6, 2e-6, 0), m);
     CHECK((tilted * (q.conjugate() * f) - f).norm() < 1e-9);
   }
 }

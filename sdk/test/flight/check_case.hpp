@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads a column of one of NASA's six-degree-of-freedom check cases (NASA/TM-2015-218675), where they are there.
+// Reads a column of one of NASA's six-degree-of-freedom check cases (NASA/TM-2015-218675), where they are
+// there.
 #pragma once
 #include <fstream>
 #include <optional>

@@ -31,7 +31,8 @@ double density(const std::vector<Vector3d>& g, int axis, double dt, double f, st
   for (std::size_t begin = 0; begin + segment <= g.size(); begin += segment / 2, ++count) {
     std::complex<double> s = 0;
     for (std::size_t i = 0; i < segment; ++i) {
-      const double t = static_cast<double>(i), w = std::pow(std::sin(std::numbers::pi * t / static_cast<double>(segment)), 2);
+      const double t = static_cast<double>(i),
+                   w = std::pow(std::sin(std::numbers::pi * t / static_cast<double>(segment)), 2);
       s += w * g[begin + i](axis) * std::polar(1.0, -2 * std::numbers::pi * f * dt * t);
     }
     sum += 2 * dt * std::norm(s) / window;
@@ -62,7 +63,8 @@ TEST_CASE("the deviation does not depend on the step and survives a changing air
   std::size_t n = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     Dryden dryden(dryden_scales(Turbulence::light), seed);
-    for (int i = 0; i < 200000; ++i, ++n) sum += dryden.advance(0.0025, 15 + 10 * std::sin(0.001 * i)).cwiseAbs2();
+    for (int i = 0; i < 200000; ++i, ++n)
+      sum += dryden.advance(0.0025, 15 + 10 * std::sin(0.001 * i)).cwiseAbs2();
   }
   const Vector3d sigma = (sum / static_cast<double>(n)).cwiseSqrt();
   CHECK(sigma.x() == Approx(1.06).epsilon(0.08));
@@ -74,12 +76,14 @@ TEST_CASE("the spectra are those of MIL-F-8785C") {
   const double dt = 0.05, Va = 17, two_pi = 2 * std::numbers::pi;
   const auto g = gusts(3, dt, Va, 400000);
   for (double f : {0.05, 0.2, 1.0}) {
-    // one-sided, per Hz, from the spatial densities: sigma^2 2L/(pi V) 1/(1+(L w/V)^2) and sigma^2 L/(pi V) (1+3(L w/V)^2)/(1+(L w/V)^2)^2
-    // per rad/s
+    // one-sided, per Hz, from the spatial densities: sigma^2 2L/(pi V) 1/(1+(L w/V)^2) and sigma^2 L/(pi V)
+    // (1+3(L w/V)^2)/(1+(L w/V)^2)^2 per rad/s
     const double u = 200 * two_pi * f / Va, w = 50 * two_pi * f / Va;
     const double longitudinal = two_pi * 2.12 * 2.12 * 2 * 200 / (std::numbers::pi * Va) / (1 + u * u);
-    const double lateral = two_pi * 2.12 * 2.12 * 200 / (std::numbers::pi * Va) * (1 + 3 * u * u) / std::pow(1 + u * u, 2);
-    const double vertical = two_pi * 1.4 * 1.4 * 50 / (std::numbers::pi * Va) * (1 + 3 * w * w) / std::pow(1 + w * w, 2);
+    const double lateral =
+        two_pi * 2.12 * 2.12 * 200 / (std::numbers::pi * Va) * (1 + 3 * u * u) / std::pow(1 + u * u, 2);
+    const double vertical =
+        two_pi * 1.4 * 1.4 * 50 / (std::numbers::pi * Va) * (1 + 3 * w * w) / std::pow(1 + w * w, 2);
     CHECK(density(g, 0, dt, f, 4000) == Approx(longitudinal).epsilon(0.25));
     CHECK(density(g, 1, dt, f, 4000) == Approx(lateral).epsilon(0.25));
     CHECK(density(g, 2, dt, f, 4000) == Approx(vertical).epsilon(0.25));

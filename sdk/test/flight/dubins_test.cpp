@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Dubins paths against closed forms, against numerical integration, and against an independent implementation's solutions if at hand.
+// Dubins paths against closed forms, against numerical integration, and against an independent
+// implementation's solutions if at hand.
 #include "fulmar/flight/dubins.hpp"
 
 #include <doctest/doctest.h>
@@ -26,7 +27,8 @@ Pose integrate(Pose pose, const DubinsPath& path, double radius_m) {
     const double kappa = dubins_turn(path.word, part) / radius_m;
     for (int i = 0; i < steps; ++i) {
       const double middle = pose.course_rad + kappa * ds / 2;
-      pose = {pose.north_m + ds * std::cos(middle), pose.east_m + ds * std::sin(middle), pose.course_rad + kappa * ds};
+      pose = {pose.north_m + ds * std::cos(middle), pose.east_m + ds * std::sin(middle),
+              pose.course_rad + kappa * ds};
     }
   }
   return pose;
@@ -36,18 +38,12 @@ double angle_between(double a, double b) { return std::abs(std::remainder(a - b,
 
 DubinsWord mirrored(DubinsWord word) {
   switch (word) {
-    case DubinsWord::rsr:
-      return DubinsWord::lsl;
-    case DubinsWord::rsl:
-      return DubinsWord::lsr;
-    case DubinsWord::lsr:
-      return DubinsWord::rsl;
-    case DubinsWord::lsl:
-      return DubinsWord::rsr;
-    case DubinsWord::rlr:
-      return DubinsWord::lrl;
-    default:
-      return DubinsWord::rlr;
+    case DubinsWord::rsr: return DubinsWord::lsl;
+    case DubinsWord::rsl: return DubinsWord::lsr;
+    case DubinsWord::lsr: return DubinsWord::rsl;
+    case DubinsWord::lsl: return DubinsWord::rsr;
+    case DubinsWord::rlr: return DubinsWord::lrl;
+    default: return DubinsWord::rlr;
   }
 }
 
@@ -63,12 +59,15 @@ DubinsWord word_of(const std::string& text) {
 }  // namespace
 
 TEST_CASE("a Dubins path straight ahead is a straight line") {
-  const DubinsPath path = dubins({10, 20, 0.3}, {10 + 500 * std::cos(0.3), 20 + 500 * std::sin(0.3), 0.3}, 50);
+  const DubinsPath path =
+      dubins({10, 20, 0.3}, {10 + 500 * std::cos(0.3), 20 + 500 * std::sin(0.3), 0.3}, 50);
   CHECK(path.length() * 50 == doctest::Approx(500));
   CHECK(path.parts[0] + path.parts[2] < 1e-6);
 }
 
-TEST_CASE("a Dubins path to the same pose has no length") { CHECK(dubins({1, 2, 3}, {1, 2, 3}, 50).length() < 1e-6); }
+TEST_CASE("a Dubins path to the same pose has no length") {
+  CHECK(dubins({1, 2, 3}, {1, 2, 3}, 50).length() < 1e-6);
+}
 
 TEST_CASE("a U-turn onto a parallel course two radii to the right is a half circle") {
   const DubinsPath path = dubins({0, 0, 0}, {0, 100, pi}, 50);
@@ -76,7 +75,8 @@ TEST_CASE("a U-turn onto a parallel course two radii to the right is a half circ
   CHECK(path.word == DubinsWord::rsr);
 }
 
-TEST_CASE("turning back over the same point takes seven sixths of a circle, the middle arc the long way round") {
+TEST_CASE(
+    "turning back over the same point takes seven sixths of a circle, the middle arc the long way round") {
   const DubinsPath path = dubins({0, 0, 0}, {0, 0, pi}, 50);
   CHECK(path.length() == doctest::Approx(7 * pi / 3));
   CHECK(path.parts[0] == doctest::Approx(pi / 3));
@@ -95,7 +95,8 @@ TEST_CASE("every word that exists ends where it should when it is flown, and the
     const DubinsPath best = dubins(from, to, radius_m);
     REQUIRE(best.exists);
     for (const DubinsWord word : dubins_words) {
-      const DubinsPath path = dubins_word(word, from.course_rad - theta, to.course_rad - theta, std::hypot(n, e) / radius_m);
+      const DubinsPath path =
+          dubins_word(word, from.course_rad - theta, to.course_rad - theta, std::hypot(n, e) / radius_m);
       if (!path.exists) continue;
       ++words;
       CHECK(best.length() <= path.length() + 1e-8);
@@ -141,7 +142,8 @@ TEST_CASE("all six words agree with 216 solutions of an independent implementati
     // there a left turn is positive: the same word after a mirror
     for (const bool mirror : {false, true}) {
       const DubinsWord word = mirror ? word_of(name) : mirrored(word_of(name));
-      const DubinsPath path = mirror ? dubins_word(word, -alpha, -beta, d) : dubins_word(word, alpha, beta, d);
+      const DubinsPath path =
+          mirror ? dubins_word(word, -alpha, -beta, d) : dubins_word(word, alpha, beta, d);
       CAPTURE(line);
       CHECK(path.exists == (fault == 0));
       if (fault != 0 || !path.exists) continue;

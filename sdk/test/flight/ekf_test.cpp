@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The error-state filter: every derivative against finite differences, the update against the information form, the memory against the
-// motion.
+// The error-state filter: every derivative against finite differences, the update against the information
+// form, the memory against the motion.
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
@@ -16,7 +16,9 @@ using Eigen::Vector3d;
 
 namespace {
 
-Vector3d any(Random& r, double range) { return {r.uniform(-range, range), r.uniform(-range, range), r.uniform(-range, range)}; }
+Vector3d any(Random& r, double range) {
+  return {r.uniform(-range, range), r.uniform(-range, range), r.uniform(-range, range)};
+}
 
 ekf::Nominal any_state(Random& r) {
   ekf::Nominal x;
@@ -79,8 +81,12 @@ TEST_CASE("the row of every measurement is the derivative of what it expects") {
     const ErrorStateEkf::Past now{x.p_n, x.v_n, 0, true};
     const ErrorStateEkf f = filter_at(x);
     for (int axis = 0; axis < 3; ++axis) {
-      const auto velocity = [&](const ekf::Nominal& n) { return ekf::velocity(f, {n.p_n, n.v_n, 0, true}, axis, 3); };
-      const auto position = [&](const ekf::Nominal& n) { return ekf::position(f, {n.p_n, n.v_n, 0, true}, axis, 3); };
+      const auto velocity = [&](const ekf::Nominal& n) {
+        return ekf::velocity(f, {n.p_n, n.v_n, 0, true}, axis, 3);
+      };
+      const auto position = [&](const ekf::Nominal& n) {
+        return ekf::position(f, {n.p_n, n.v_n, 0, true}, axis, 3);
+      };
       CHECK((ekf::velocity(f, now, axis, 3).H - numeric(x, velocity)).norm() < 1e-6);
       CHECK((ekf::position(f, now, axis, 3).H - numeric(x, position)).norm() < 1e-6);
     }
@@ -114,12 +120,15 @@ TEST_CASE("the covariance follows the motion: Phi P Phi' with Phi by finite diff
   }
 }
 
-TEST_CASE("a late fix is compared with the state of its time, and its row is the derivative through the motion since") {
+TEST_CASE(
+    "a late fix is compared with the state of its time, and its row is the derivative through the motion "
+    "since") {
   Random r(13);
   const auto fly = [](const ekf::Nominal& x, Random noise) {
     ErrorStateEkf f;
     f.reset(x, ekf::Vector::Constant(0.1), 0);
-    for (int k = 0; k < 60; ++k) f.predict(Vector3d(0.4, -0.2, 0.3) + any(noise, 0.1), Vector3d(1, -0.5, -12) + any(noise, 1), 0.0025);
+    for (int k = 0; k < 60; ++k)
+      f.predict(Vector3d(0.4, -0.2, 0.3) + any(noise, 0.1), Vector3d(1, -0.5, -12) + any(noise, 1), 0.0025);
     return f;
   };
   for (int trial = 0; trial < 10; ++trial) {
@@ -176,7 +185,8 @@ TEST_CASE("one scalar update is the information filter's") {
   }
 }
 
-TEST_CASE("an update that only considers attitude leaves it alone, and its covariance is Joseph's for that gain") {
+TEST_CASE(
+    "an update that only considers attitude leaves it alone, and its covariance is Joseph's for that gain") {
   Random r(16);
   for (int trial = 0; trial < 20; ++trial) {
     ErrorStateEkf f = filter_at(any_state(r));
@@ -191,7 +201,8 @@ TEST_CASE("an update that only considers attitude leaves it alone, and its covar
     K.segment<3>(ekf::gyro_bias).setZero();
     K.segment<3>(ekf::accel_bias).setZero();
     const ekf::Covariance IKH = ekf::Covariance::Identity() - K * z.H;
-    CHECK((f.covariance() - (IKH * P * IKH.transpose() + variance * K * K.transpose())).norm() < 1e-10 * P.norm());
+    CHECK((f.covariance() - (IKH * P * IKH.transpose() + variance * K * K.transpose())).norm() <
+          1e-10 * P.norm());
     CHECK(f.state().q_nb.angularDistance(before.q_nb) < 1e-7);
     CHECK(f.state().gyro_bias == before.gyro_bias);
     CHECK((f.state().v_n - before.v_n - K.segment<3>(ekf::vel) * z.innovation).norm() < 1e-9);
@@ -274,7 +285,8 @@ TEST_CASE("a needle that points to the declination gives the true heading in bot
       CHECK(std::abs(ekf::magnetic_heading(x, x.q_nb.conjugate() * field, declination).innovation) < 1e-12);
       ekf::Nominal turned = x;
       turned.q_nb = exp_map({0, 0, -0.1}) * x.q_nb;  // the estimate is 0.1 rad short
-      CHECK(ekf::magnetic_heading(turned, x.q_nb.conjugate() * field, declination).innovation == doctest::Approx(0.1));
+      CHECK(ekf::magnetic_heading(turned, x.q_nb.conjugate() * field, declination).innovation ==
+            doctest::Approx(0.1));
     }
 }
 

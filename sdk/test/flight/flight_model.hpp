@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An aircraft for closed-loop tests of control laws: the nonlinear six degrees of freedom of flight/, servos and motor with a lag, perfect
-// state. The figures are those of the Anaconda (4.5 kg, 2.08 m).
+// An aircraft for closed-loop tests of control laws: the nonlinear six degrees of freedom of flight/, servos
+// and motor with a lag, perfect state. The figures are those of the Anaconda (4.5 kg, 2.08 m).
 #pragma once
 #include <fulmar/flight/aerodynamics.hpp>
 #include <fulmar/flight/atmosphere.hpp>
@@ -17,13 +17,23 @@ inline Airframe anaconda() {
   a.name = "anaconda";
   a.mass_kg = 4.5;
   a.inertia = {0.24855, 0.3784, 0.618, 0.06};
-  a.wing = {.area_m2 = 0.52, .span_m = 2.08, .chord_m = 0.235, .oswald_ratio = 0.9, .stall_alpha_rad = 0.2618, .stall_sharpness_ratio = 50};
+  a.wing = {.area_m2 = 0.52,
+            .span_m = 2.08,
+            .chord_m = 0.235,
+            .oswald_ratio = 0.9,
+            .stall_alpha_rad = 0.2618,
+            .stall_sharpness_ratio = 50};
   a.aero.parasite_drag_ratio = 0.043;
   a.aero.lift = {.zero_ratio = 0.506, .alpha_ratio = 5.61, .q_ratio = 7.95, .elevator_ratio = 0.13};
   a.aero.side = {.beta_ratio = -0.98, .aileron_ratio = 0.075, .rudder_ratio = 0.19};
-  a.aero.roll = {.beta_ratio = -0.13, .p_ratio = -0.51, .r_ratio = 0.25, .aileron_ratio = 0.17, .rudder_ratio = 0.0024};
+  a.aero.roll = {
+      .beta_ratio = -0.13, .p_ratio = -0.51, .r_ratio = 0.25, .aileron_ratio = 0.17, .rudder_ratio = 0.0024};
   a.aero.pitch = {.zero_ratio = 0.135, .alpha_ratio = -2.74, .q_ratio = -38.21, .elevator_ratio = -0.99};
-  a.aero.yaw = {.beta_ratio = 0.1301, .p_ratio = -0.0364, .r_ratio = -0.1541, .aileron_ratio = -0.011, .rudder_ratio = -0.069};
+  a.aero.yaw = {.beta_ratio = 0.1301,
+                .p_ratio = -0.0364,
+                .r_ratio = -0.1541,
+                .aileron_ratio = -0.011,
+                .rudder_ratio = -0.069};
   a.propulsion = {.propeller_diameter_m = 0.381,
                   .ct0_ratio = 0.06288743,
                   .ct1_ratio = -0.02704452,
@@ -63,8 +73,13 @@ struct FlightModel {
   double propeller_speed = 0;
   Dryden gusts;
 
-  explicit FlightModel(const Airframe& a = anaconda(), Turbulence turbulence = Turbulence::none, std::uint64_t seed = 1)
-      : airframe(a), aero(a), propeller(a.propulsion), mass(a.mass_kg, inertia(a)), gusts(dryden_scales(turbulence), seed) {
+  explicit FlightModel(const Airframe& a = anaconda(), Turbulence turbulence = Turbulence::none,
+                       std::uint64_t seed = 1)
+      : airframe(a),
+        aero(a),
+        propeller(a.propulsion),
+        mass(a.mass_kg, inertia(a)),
+        gusts(dryden_scales(turbulence), seed) {
     x.p_n = {0, 0, -70};
     x.v_n = {a.limits.airspeed_cruise_mps, 0, 0};
     propeller_speed = propeller.steady_speed(a.limits.throttle_cruise_frac, x.v_n.x(), density());
@@ -78,11 +93,14 @@ struct FlightModel {
   }
   double density() const { return standard_air(field_m - x.p_n.z()).density_kgm3; }
 
-  Eigen::Vector3d air_velocity(const RigidBody& b) const { return b.q_nb.conjugate() * (b.v_n - wind_n) - gusts.gust(); }
+  Eigen::Vector3d air_velocity(const RigidBody& b) const {
+    return b.q_nb.conjugate() * (b.v_n - wind_n) - gusts.gust();
+  }
 
   void step(const Actuators& u, double dt) {
     const auto servo = [&](double& position, double command, const Surface& s) {
-      const double move = (std::clamp(command, -s.limit_rad, s.limit_rad) - position) * (1 - std::exp(-dt / s.time_constant_s));
+      const double move = (std::clamp(command, -s.limit_rad, s.limit_rad) - position) *
+                          (1 - std::exp(-dt / s.time_constant_s));
       position += std::clamp(move, -s.rate_limit_radps * dt, s.rate_limit_radps * dt);
     };
     servo(surfaces.aileron, u.aileron_rad, airframe.aileron);
@@ -90,8 +108,8 @@ struct FlightModel {
     servo(surfaces.rudder, u.rudder_rad, airframe.rudder);
     const double rho = density(), Va = air_velocity(x).norm();
     gusts.advance(dt, Va);
-    propeller_speed +=
-        (propeller.steady_speed(u.throttle_frac, Va, rho) - propeller_speed) * (1 - std::exp(-dt / airframe.propulsion.time_constant_s));
+    propeller_speed += (propeller.steady_speed(u.throttle_frac, Va, rho) - propeller_speed) *
+                       (1 - std::exp(-dt / airframe.propulsion.time_constant_s));
     const auto load_at = [&](const RigidBody& b, double) {
       const Eigen::Vector3d v_r = air_velocity(b);
       Load load = aero.load(v_r, b.omega_b, surfaces, rho);
@@ -122,7 +140,8 @@ struct FlightModel {
     s.airspeed_mps = air.Va, s.alpha_rad = air.alpha, s.beta_rad = air.beta;
     s.wind_mps = from_eigen<Ned>(wind_n);
     s.origin_altitude_m = field_m;
-    s.origin_valid = s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = s.wind_valid = true;
+    s.origin_valid = s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid =
+        s.airspeed_valid = s.wind_valid = true;
     return s;
   }
 };

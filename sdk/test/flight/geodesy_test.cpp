@@ -17,11 +17,13 @@ constexpr double rad = std::numbers::pi / 180;
 Eigen::Vector3d geocentric(double lat_deg, double lon_deg, double h) {
   constexpr double a = 6378137, f = 1 / 298.257223563, e2 = f * (2 - f);
   const double s = std::sin(lat_deg * rad), c = std::cos(lat_deg * rad), N = a / std::sqrt(1 - e2 * s * s);
-  return {(N + h) * c * std::cos(lon_deg * rad), (N + h) * c * std::sin(lon_deg * rad), (N * (1 - e2) + h) * s};
+  return {(N + h) * c * std::cos(lon_deg * rad), (N + h) * c * std::sin(lon_deg * rad),
+          (N * (1 - e2) + h) * s};
 }
 
 Eigen::Vector3d ned_by_hand(double lat0, double lon0, double h0, double lat, double lon, double h) {
-  const double sp = std::sin(lat0 * rad), cp = std::cos(lat0 * rad), sl = std::sin(lon0 * rad), cl = std::cos(lon0 * rad);
+  const double sp = std::sin(lat0 * rad), cp = std::cos(lat0 * rad), sl = std::sin(lon0 * rad),
+               cl = std::cos(lon0 * rad);
   Eigen::Matrix3d R;
   R << -sp * cl, -sp * sl, cp, -sl, cl, 0, -cp * cl, -cp * sl, -sp;
   return R * (geocentric(lat, lon, h) - geocentric(lat0, lon0, h0));
@@ -35,7 +37,8 @@ TEST_CASE("positions agree with the geocentric rotation done by hand, in all qua
       const LocalFrame frame(lat0, lon0, 1387);
       for (const double d : {-0.03, 0.01, 0.05}) {
         const Eigen::Vector3d p = frame.to_ned(lat0 + d, lon0 - 0.7 * d, 1387 + 1e4 * d);
-        const Eigen::Vector3d expected = ned_by_hand(lat0, lon0, 1387, lat0 + d, lon0 - 0.7 * d, 1387 + 1e4 * d);
+        const Eigen::Vector3d expected =
+            ned_by_hand(lat0, lon0, 1387, lat0 + d, lon0 - 0.7 * d, 1387 + 1e4 * d);
         CHECK((p - expected).norm() < 1e-6);
       }
     }
@@ -47,10 +50,12 @@ TEST_CASE("near the origin a degree is as long as the radii of curvature say") {
   const double M = a * (1 - e2) / std::pow(w, 1.5), N = a / std::sqrt(w);
   const LocalFrame frame(lat, -111.6474138, h);
   CHECK(frame.to_ned(lat + 1e-4, -111.6474138, h).x() == doctest::Approx(1e-4 * rad * (M + h)).epsilon(1e-6));
-  CHECK(frame.to_ned(lat, -111.6474138 + 1e-4, h).y() == doctest::Approx(1e-4 * rad * (N + h) * std::cos(lat * rad)).epsilon(1e-6));
+  CHECK(frame.to_ned(lat, -111.6474138 + 1e-4, h).y() ==
+        doctest::Approx(1e-4 * rad * (N + h) * std::cos(lat * rad)).epsilon(1e-6));
 }
 
-TEST_CASE("the plane does not follow the curvature: five kilometres away the Earth lies two metres below it") {
+TEST_CASE(
+    "the plane does not follow the curvature: five kilometres away the Earth lies two metres below it") {
   const LocalFrame frame(40, -111, 0);
   const Eigen::Vector3d p = frame.to_ned(40 + 5000 / 111000.0, -111, 0);
   CHECK(p.z() == doctest::Approx(p.head<2>().squaredNorm() / (2 * 6.36e6)).epsilon(0.01));

@@ -60,13 +60,15 @@ TEST_CASE("the field agrees with the whole table of official test values") {
 }
 
 TEST_CASE("the field has no source: its flux out of a small box is zero") {
-  // div B = 0 in local Cartesian axes, by central differences over kilometres; the curvature terms are 2 Bz/r and tan(lat) Bx/r.
+  // div B = 0 in local Cartesian axes, by central differences over kilometres; the curvature terms are 2 Bz/r
+  // and tan(lat) Bx/r.
   for (const double lat : {-60.0, 10.0, 55.0}) {
     const double r = 6.371e6, d = 2000, deg = 180 / std::numbers::pi;
     const auto B = [&](double n, double e, double u) {
       return magnetic_field_ned(lat + n / r * deg, 30 + e / (r * std::cos(lat / deg)) * deg, u, 2026);
     };
-    const double divergence = (B(d, 0, 0) - B(-d, 0, 0)).x() + (B(0, d, 0) - B(0, -d, 0)).y() - (B(0, 0, d) - B(0, 0, -d)).z();
+    const double divergence =
+        (B(d, 0, 0) - B(-d, 0, 0)).x() + (B(0, d, 0) - B(0, -d, 0)).y() - (B(0, 0, d) - B(0, 0, -d)).z();
     const double curvature = -2 * d * (2 * B(0, 0, 0).z() + std::tan(lat / deg) * B(0, 0, 0).x()) / r;
     CHECK(std::abs(divergence + curvature) < 0.01 * std::abs(curvature) + 1e-10);
   }
@@ -75,7 +77,8 @@ TEST_CASE("the field has no source: its flux out of a small box is zero") {
 TEST_CASE("south of the magnetic equator the field points up, and at the poles it stays finite") {
   CHECK(magnetic_field_ned(-37.96, 144.76, 25, 2026).z() < -4e-5);
   for (const double lat : {90.0, -90.0}) {
-    const Eigen::Vector3d pole = magnetic_field_ned(lat, 0, 0, 2026), near = magnetic_field_ned(lat * (1 - 1e-9), 0, 0, 2026);
+    const Eigen::Vector3d pole = magnetic_field_ned(lat, 0, 0, 2026),
+                          near = magnetic_field_ned(lat * (1 - 1e-9), 0, 0, 2026);
     CHECK(pole.allFinite());
     CHECK((pole - near).norm() < 1e-11);
   }
@@ -87,7 +90,8 @@ TEST_CASE("a year passes from one to the next, leap or not") {
   CHECK(decimal_year(1767225600 * s) == 2026);
   CHECK(decimal_year(1782993600 * s) == doctest::Approx(2026.5).epsilon(1e-12));  // 2026-07-02T12:00Z
   CHECK(decimal_year(1709164800 * s) == doctest::Approx(2024 + 59.0 / 366));      // 2024-02-29
-  CHECK(decimal_year(951782400 * s) == doctest::Approx(2000 + 59.0 / 366));       // 2000-02-29: a century that is leap
+  CHECK(decimal_year(951782400 * s) ==
+        doctest::Approx(2000 + 59.0 / 366));  // 2000-02-29: a century that is leap
   CHECK(decimal_year(-1 * s) == doctest::Approx(1970).epsilon(1e-9));
   CHECK(decimal_year(-1 * s) < 1970);
 }

@@ -10,7 +10,8 @@ using namespace fulmar;
 namespace {
 VehicleState at(double airspeed, double ground_speed, double height, bool airspeed_valid = true) {
   VehicleState s;
-  s.airspeed_mps = airspeed, s.ground_speed_mps = ground_speed, s.height_m = height, s.airspeed_valid = airspeed_valid;
+  s.airspeed_mps = airspeed, s.ground_speed_mps = ground_speed, s.height_m = height,
+  s.airspeed_valid = airspeed_valid;
   return s;
 }
 }  // namespace
@@ -26,7 +27,9 @@ TEST_CASE("standing needs a slow ground speed and a slow airspeed, or the ground
   CHECK_FALSE(standing(falling));
 }
 
-TEST_CASE("the pitch ceiling comes down from the limit to level between the minimum airspeed and four fifths of it") {
+TEST_CASE(
+    "the pitch ceiling comes down from the limit to level between the minimum airspeed and four fifths of "
+    "it") {
   FlightLimits limits;
   limits.airspeed_min_mps = 10, limits.pitch_max_rad = 0.4;
   CHECK(pitch_ceiling(at(10, 10, 50), limits) == doctest::Approx(0.4));
@@ -37,9 +40,11 @@ TEST_CASE("the pitch ceiling comes down from the limit to level between the mini
 
 TEST_CASE("the shaped roll command approaches its target as a first-order lag with a rate limit") {
   CourseHold hold;
-  const CourseTuning tuning{.kp = 2, .ki = 0, .cruise_mps = 15, .roll_max_rad = 0.8, .roll_rate_max_radps = 1, .smoothing_s = 0.2};
+  const CourseTuning tuning{
+      .kp = 2, .ki = 0, .cruise_mps = 15, .roll_max_rad = 0.8, .roll_rate_max_radps = 1, .smoothing_s = 0.2};
   hold.reset_to(0);
-  // 0.6 rad away: at the limit until the lag asks for less than 1 rad/s, 0.2 rad before the target, then exp(-t / 0.2).
+  // 0.6 rad away: at the limit until the lag asks for less than 1 rad/s, 0.2 rad before the target, then
+  // exp(-t / 0.2).
   for (int i = 0; i < 40; ++i) hold.shape(0.6, tuning, 0.01);
   CHECK(hold.shape(0.6, tuning, 0) == doctest::Approx(0.4).epsilon(0.01));
   for (int i = 0; i < 20; ++i) hold.shape(0.6, tuning, 0.01);
@@ -47,24 +52,34 @@ TEST_CASE("the shaped roll command approaches its target as a first-order lag wi
 }
 
 TEST_CASE("course hold's gain is bounded for odd ground speeds") {
-  const CourseTuning tuning{.kp = 1, .ki = 0, .cruise_mps = 15, .roll_max_rad = 2, .roll_rate_max_radps = 100, .smoothing_s = 0};
+  const CourseTuning tuning{
+      .kp = 1, .ki = 0, .cruise_mps = 15, .roll_max_rad = 2, .roll_rate_max_radps = 100, .smoothing_s = 0};
   for (auto [Vg, gain] : {std::pair{15.0, 1.0}, {22.5, 1.5}, {0.0, 0.5}, {100.0, 2.0}}) {
     CourseHold hold;
     CHECK(hold.step(at(15, Vg, 70), 0.1, 0, tuning, 0.01) == doctest::Approx(0.1 * gain));
   }
 }
 
-TEST_CASE("course hold round the kinematics of a coordinated turn settles as a first-order lag of bandwidth kp g / Vg") {
-  const CourseTuning tuning{.kp = 2, .ki = 0, .cruise_mps = 17, .roll_max_rad = 0.8, .roll_rate_max_radps = 100, .smoothing_s = 0};
+TEST_CASE(
+    "course hold round the kinematics of a coordinated turn settles as a first-order lag of bandwidth kp g / "
+    "Vg") {
+  const CourseTuning tuning{
+      .kp = 2, .ki = 0, .cruise_mps = 17, .roll_max_rad = 0.8, .roll_rate_max_radps = 100, .smoothing_s = 0};
   CourseHold hold;
   VehicleState s = at(17, 17, 70);
   const double dt = 0.001, target = 0.05;
-  for (int i = 0; i < 1000; ++i) s.course_rad += dt * 9.80665 / 17 * std::tan(hold.step(s, target, 0, tuning, dt));
+  for (int i = 0; i < 1000; ++i)
+    s.course_rad += dt * 9.80665 / 17 * std::tan(hold.step(s, target, 0, tuning, dt));
   CHECK(s.course_rad == doctest::Approx(target * (1 - std::exp(-2 * 9.80665 / 17))).epsilon(0.01));
 }
 
 TEST_CASE("a course integral that saturated the bank unwinds when the course is passed") {
-  const CourseTuning tuning{.kp = 0.5, .ki = 0.5, .cruise_mps = 15, .roll_max_rad = 0.5, .roll_rate_max_radps = 100, .smoothing_s = 0};
+  const CourseTuning tuning{.kp = 0.5,
+                            .ki = 0.5,
+                            .cruise_mps = 15,
+                            .roll_max_rad = 0.5,
+                            .roll_rate_max_radps = 100,
+                            .smoothing_s = 0};
   CourseHold hold;
   VehicleState s = at(15, 15, 70);
   for (int i = 0; i < 6000; ++i) hold.step(s, 1, 0, tuning, 0.01);
@@ -75,7 +90,8 @@ TEST_CASE("a course integral that saturated the bank unwinds when the course is 
   CHECK(roll < 0);
 }
 
-TEST_CASE("the take-off run takes the runway from the nose when it stands and from the course when it moves") {
+TEST_CASE(
+    "the take-off run takes the runway from the nose when it stands and from the course when it moves") {
   TakeoffRun run;
   VehicleState s = at(0, 0, 0);
   s.yaw_rad = 0.7, s.course_rad = -2;
@@ -90,7 +106,8 @@ TEST_CASE("without airspeed the take-off run rotates by ground speed") {
   TakeoffRun run;
   VehicleState s = at(0, 0, 0, false);
   run.begin(s);
-  const TakeoffTuning tuning{.throttle_frac = 0.9, .pitch_rad = 0.2, .rotate_mps = 12, .course_kp = 1, .roll_max_rad = 0.1};
+  const TakeoffTuning tuning{
+      .throttle_frac = 0.9, .pitch_rad = 0.2, .rotate_mps = 12, .course_kp = 1, .roll_max_rad = 0.1};
   s.ground_speed_mps = 11;
   CHECK(run.step(s, tuning, {}).pitch_rad == 0);
   s.ground_speed_mps = 12;
@@ -106,12 +123,16 @@ TEST_CASE("what the take-off law asked for is not taken up as trim, what another
   commands.start(OuterLaw::takeoff, s, {0, 0.2, 1});
   commands.start(OuterLaw::hold, s, {0, 0.2, 1});
   CHECK_FALSE(commands.taking_up());
-  CHECK(commands.finish(0, 0, 0, {}, 0.01).throttle_frac == doctest::Approx(0.98));  // but the command goes on from it
+  CHECK(commands.finish(0, 0, 0, {}, 0.01).throttle_frac ==
+        doctest::Approx(0.98));  // but the command goes on from it
 }
 
-TEST_CASE("where nobody's command is in force a law begins at the aircraft's attitude within its limits, and at cruise throttle") {
+TEST_CASE(
+    "where nobody's command is in force a law begins at the aircraft's attitude within its limits, and at "
+    "cruise throttle") {
   FlightLimits limits;
-  limits.airspeed_min_mps = 10, limits.throttle_cruise_frac = 0.5, limits.pitch_min_rad = -0.35, limits.pitch_max_rad = 0.4;
+  limits.airspeed_min_mps = 10, limits.throttle_cruise_frac = 0.5, limits.pitch_min_rad = -0.35,
+  limits.pitch_max_rad = 0.4;
   OuterTuning tuning;
   tuning.course.roll_max_rad = 0.785;
   OuterCommands commands;

@@ -31,12 +31,14 @@ TEST_CASE("a saturated integrator does not wind up and unwinds at once when the 
   for (int i = 0; i < 10000; ++i) pid.step(gains, {.error = 5}, 0.01);
   CHECK(pid.saturated());
   CHECK(pid.integral() <= 1);
-  // A large, opposite proportional term must not freeze the integral either: it saturates the other way, but the integral may come back.
+  // A large, opposite proportional term must not freeze the integral either: it saturates the other way, but
+  // the integral may come back.
   pid.reset_to(0.9);
   pid.step(gains, {.error = -10}, 0.01);
   CHECK(pid.saturated());
   const double before = pid.integral();
-  pid.step(gains, {.error = 10, .rate = 0, .feedforward = -20}, 0.01);  // still pressed against the lower limit, error now positive
+  pid.step(gains, {.error = 10, .rate = 0, .feedforward = -20},
+           0.01);  // still pressed against the lower limit, error now positive
   CHECK(pid.integral() > before);
 }
 
@@ -74,7 +76,8 @@ TEST_CASE("a PI loop round a double integrator with rate feedback settles as its
   double x = 0, v = 0;
   const double dt = 1e-4;
   for (double t = 0; t < 1 - dt / 2; t += dt) {
-    const double u = pid.step({4, 0, 4}, {.error = 1 - x, .rate = v, .feedforward = 0, .min = -100, .max = 100}, dt);
+    const double u =
+        pid.step({4, 0, 4}, {.error = 1 - x, .rate = v, .feedforward = 0, .min = -100, .max = 100}, dt);
     x += v * dt + u * dt * dt / 2;
     v += u * dt;
   }

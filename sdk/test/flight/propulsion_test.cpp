@@ -34,9 +34,12 @@ TEST_CASE("at its steady speed the motor's torque is the propeller's") {
 TEST_CASE("thrust and torque are the polynomials of the advance ratio") {
   const Propulsion p = test::airframe_file("anaconda").propulsion;
   const Propeller propeller(p);
-  const double rho = 1.1, Va = 17, Omega = 780, D = p.propeller_diameter_m, n = Omega / (2 * std::numbers::pi), J = Va / (n * D);
-  CHECK(propeller.thrust(Omega, Va, rho) == Approx(rho * n * n * std::pow(D, 4) * (p.ct0_ratio + p.ct1_ratio * J + p.ct2_ratio * J * J)));
-  CHECK(propeller.torque(Omega, Va, rho) == Approx(rho * n * n * std::pow(D, 5) * (p.cq0_ratio + p.cq1_ratio * J + p.cq2_ratio * J * J)));
+  const double rho = 1.1, Va = 17, Omega = 780, D = p.propeller_diameter_m,
+               n = Omega / (2 * std::numbers::pi), J = Va / (n * D);
+  CHECK(propeller.thrust(Omega, Va, rho) ==
+        Approx(rho * n * n * std::pow(D, 4) * (p.ct0_ratio + p.ct1_ratio * J + p.ct2_ratio * J * J)));
+  CHECK(propeller.torque(Omega, Va, rho) ==
+        Approx(rho * n * n * std::pow(D, 5) * (p.cq0_ratio + p.cq1_ratio * J + p.cq2_ratio * J * J)));
 }
 
 TEST_CASE("the propeller's speed stays finite and never turns backwards, whatever the airspeed") {

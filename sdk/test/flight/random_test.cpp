@@ -68,7 +68,9 @@ TEST_CASE("normal numbers have the moments and tails of the normal distribution"
   CHECK(std::abs(m2 / n - 1) < 4 * std::sqrt(2.0 / n));
   CHECK(std::abs(m3 / n) < 4 * std::sqrt(15.0 / n));
   CHECK(std::abs(m4 / n - 3) < 4 * std::sqrt(96.0 / n));
-  const auto near = [](int count, double p) { return std::abs(count - n * p) < 4 * std::sqrt(n * p * (1 - p)); };
+  const auto near = [](int count, double p) {
+    return std::abs(count - n * p) < 4 * std::sqrt(n * p * (1 - p));
+  };
   CHECK(near(beyond1, std::erfc(1 / std::sqrt(2))));
   CHECK(near(beyond2, std::erfc(2 / std::sqrt(2))));
   CHECK(near(beyond3, std::erfc(3 / std::sqrt(2))));

@@ -51,10 +51,12 @@ RigidBody flown(double dt, double duration) {
 }
 
 double distance(const RigidBody& a, const RigidBody& b) {
-  return (a.p_n - b.p_n).norm() + (a.v_n - b.v_n).norm() + (a.omega_b - b.omega_b).norm() + a.q_nb.angularDistance(b.q_nb);
+  return (a.p_n - b.p_n).norm() + (a.v_n - b.v_n).norm() + (a.omega_b - b.omega_b).norm() +
+         a.q_nb.angularDistance(b.q_nb);
 }
 
-/// Gravity less the centrifugal part at the equator, from WGS-84 with J2: what a body that moves with the Earth falls with.
+/// Gravity less the centrifugal part at the equator, from WGS-84 with J2: what a body that moves with the
+/// Earth falls with.
 double equatorial_gravity(double height_m) {
   const double a = 6378137, r = a + height_m, GM = 3.986004418e14, J2 = 1.0826267e-3;
   return GM / (r * r) * (1 + 1.5 * J2 * a * a / (r * r)) - earth_rate * earth_rate * r;
@@ -132,7 +134,8 @@ TEST_CASE("NASA check case 2: the tumbling brick") {
     return;
   }
   const double slug_foot2 = 1.3558179483;
-  const MassProperties body(0.155404754 * 14.59390294, slug_foot2 * Vector3d(0.00189422, 0.006211019, 0.007194665).asDiagonal());
+  const MassProperties body(0.155404754 * 14.59390294,
+                            slug_foot2 * Vector3d(0.00189422, 0.006211019, 0.007194665).asDiagonal());
   RigidBody x;  // here with respect to inertial space
   x.omega_b = degree * Vector3d(10, 20, 30);
   double worst_rate = 0, worst_angle = 0;
@@ -140,12 +143,14 @@ TEST_CASE("NASA check case 2: the tumbling brick") {
     x = runge_kutta(x, {}, 0.01, body, Vector3d::Zero(), nothing);
     if (i % 100 != 0) continue;
     const std::size_t row = nasa->row_at(0.01 * i);
-    const Vector3d rate(nasa->at(row, "bodyAngularRateWrtEi_deg_s_Roll"), nasa->at(row, "bodyAngularRateWrtEi_deg_s_Pitch"),
+    const Vector3d rate(nasa->at(row, "bodyAngularRateWrtEi_deg_s_Roll"),
+                        nasa->at(row, "bodyAngularRateWrtEi_deg_s_Pitch"),
                         nasa->at(row, "bodyAngularRateWrtEi_deg_s_Yaw"));
     worst_rate = std::max(worst_rate, (x.omega_b / degree - rate).norm());
-    const Eigen::Quaterniond theirs = Eigen::AngleAxisd(nasa->at(row, "eulerAngle_deg_Yaw") * degree, Vector3d::UnitZ()) *
-                                      Eigen::AngleAxisd(nasa->at(row, "eulerAngle_deg_Pitch") * degree, Vector3d::UnitY()) *
-                                      Eigen::AngleAxisd(nasa->at(row, "eulerAngle_deg_Roll") * degree, Vector3d::UnitX());
+    const Eigen::Quaterniond theirs =
+        Eigen::AngleAxisd(nasa->at(row, "eulerAngle_deg_Yaw") * degree, Vector3d::UnitZ()) *
+        Eigen::AngleAxisd(nasa->at(row, "eulerAngle_deg_Pitch") * degree, Vector3d::UnitY()) *
+        Eigen::AngleAxisd(nasa->at(row, "eulerAngle_deg_Roll") * degree, Vector3d::UnitX());
     // at the equator the Earth turns about north
     const Eigen::Quaterniond ours = Eigen::AngleAxisd(-earth_rate * 0.01 * i, Vector3d::UnitX()) * x.q_nb;
     worst_angle = std::max(worst_angle, ours.angularDistance(theirs) / degree);
@@ -161,11 +166,14 @@ TEST_CASE("NASA check case 6: a sphere with drag in the standard atmosphere") {
     return;
   }
   const MassProperties body(14.59390294, Eigen::Matrix3d::Identity());
-  const double CD_S = 0.1 * std::numbers::pi / 4 * 0.5 * 0.5 * foot * foot, earth = 6356766;  // of geopotential altitude
+  const double CD_S = 0.1 * std::numbers::pi / 4 * 0.5 * 0.5 * foot * foot,
+               earth = 6356766;  // of geopotential altitude
   const auto load = [&](const RigidBody& x, double) {
     Load l;
     const double rho = standard_air(earth * -x.p_n.z() / (earth - x.p_n.z())).density_kgm3;
-    l.force_b = {0, 0, body.mass * equatorial_gravity(-x.p_n.z()) - 0.5 * rho * CD_S * x.v_n.z() * std::abs(x.v_n.z())};
+    l.force_b = {
+        0, 0,
+        body.mass * equatorial_gravity(-x.p_n.z()) - 0.5 * rho * CD_S * x.v_n.z() * std::abs(x.v_n.z())};
     return l;
   };
   RigidBody x;

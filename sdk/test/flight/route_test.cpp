@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Routes: fillets by their geometry, joints by continuity, the closest point by brute force, odd plans by surviving them.
+// Routes: fillets by their geometry, joints by continuity, the closest point by brute force, odd plans by
+// surviving them.
 #include "fulmar/flight/route.hpp"
 
 #include <doctest/doctest.h>
@@ -39,15 +40,20 @@ Plan random_plan(Random& rng, std::uint32_t n, double reach) {
     if (i > 0 && rng.uniform() < 0.1) w.position_m = plan.waypoints[i - 1].position_m;  // duplicate
     if (i > 1 && rng.uniform() < 0.1) w.position_m = plan.waypoints[i - 2].position_m;  // back again
     if (i > 1 && rng.uniform() < 0.1)
-      w.position_m = 2.0 * plan.waypoints[i - 1].position_m - plan.waypoints[i - 2].position_m;  // straight on
+      w.position_m =
+          2.0 * plan.waypoints[i - 1].position_m - plan.waypoints[i - 2].position_m;  // straight on
     plan.waypoints.push_back(w);
   }
   plan.end = rng.uniform() < 0.3 ? PlanEnd::orbit : PlanEnd::circuit;
   return plan;
 }
 
-double distance(const Pose& a, const Pose& b) { return std::hypot(a.north_m - b.north_m, a.east_m - b.east_m); }
-double distance(const Pose& a, const Waypoint& w) { return std::hypot(a.north_m - w.position_m.north, a.east_m - w.position_m.east); }
+double distance(const Pose& a, const Pose& b) {
+  return std::hypot(a.north_m - b.north_m, a.east_m - b.east_m);
+}
+double distance(const Pose& a, const Waypoint& w) {
+  return std::hypot(a.north_m - w.position_m.north, a.east_m - w.position_m.east);
+}
 
 bool has_kind(const RouteLeg& leg, PathKind kind) {
   for (std::size_t i = 0; i < leg.count; ++i) {
@@ -101,14 +107,18 @@ TEST_CASE("a lap of the hourglass is as long as its legs less the cut corners") 
 TEST_CASE("a fillet is used exactly while its tangent, R tan(turn / 2), fits on the leg") {
   const double turn = 2.0, tangent = 50 * std::tan(turn / 2);
   for (const double leg : {tangent * 0.99, tangent * 1.01}) {
-    Plan plan = plan_of({point(-1000, 0), point(0, 0), point(leg * std::cos(turn), leg * std::sin(turn)), point(-3000, 3000)});
+    Plan plan = plan_of({point(-1000, 0), point(0, 0), point(leg * std::cos(turn), leg * std::sin(turn)),
+                         point(-3000, 3000)});
     plan.waypoints[2].has_course = true;  // needs no room on the leg
     CHECK((Route(plan).passage(1).turn_rad != 0) == (leg > tangent));
   }
 }
 
-TEST_CASE("fillets that would overlap on their common leg are not used, and both waypoints are passed through") {
-  const auto zigzag = [](double spacing) { return plan_of({point(0, 0), point(600, 0), point(600, spacing), point(0, spacing)}); };
+TEST_CASE(
+    "fillets that would overlap on their common leg are not used, and both waypoints are passed through") {
+  const auto zigzag = [](double spacing) {
+    return plan_of({point(0, 0), point(600, 0), point(600, spacing), point(0, spacing)});
+  };
   const Plan wide = zigzag(101), narrow = zigzag(99);
   CHECK(Route(wide).passage(1).turn_rad == doctest::Approx(pi / 2));
   for (std::uint32_t i = 0; i < 4; ++i) {
@@ -157,7 +167,9 @@ TEST_CASE("two waypoints are flown there and back, through both, by turns that c
   }
 }
 
-TEST_CASE("random plans with duplicates, reversals and courses: finite, joined without kink or step, of the plan's radius") {
+TEST_CASE(
+    "random plans with duplicates, reversals and courses: finite, joined without kink or step, of the plan's "
+    "radius") {
   Random rng(17);
   for (int trial = 0; trial < 400; ++trial) {
     const std::uint32_t n = 2 + static_cast<std::uint32_t>(rng.uniform(0, 10));
@@ -174,11 +186,13 @@ TEST_CASE("random plans with duplicates, reversals and courses: finite, joined w
         CHECK(distance(before.end, begin) < 1e-5);
         CHECK(std::abs(wrap_pi(before.end.course_rad - begin.course_rad)) < 1e-5);
       }
-      for (std::size_t k = 0; k < leg.count; ++k) CHECK((leg[k].kind == PathKind::line || std::abs(leg[k].radius_m - 50) < 1e-9));
+      for (std::size_t k = 0; k < leg.count; ++k)
+        CHECK((leg[k].kind == PathKind::line || std::abs(leg[k].radius_m - 50) < 1e-9));
       const double slope = leg[0].climb_ratio;
       if (std::abs(slope) < 1 && leg.length_m > 0) {
         CHECK(leg[0].height_m == doctest::Approx(route.height_m(route.before(i))));
-        CHECK(leg[leg.count - 1].height_at(leg[leg.count - 1].length_m) == doctest::Approx(route.height_m(i)));
+        CHECK(leg[leg.count - 1].height_at(leg[leg.count - 1].length_m) ==
+              doctest::Approx(route.height_m(i)));
       }
     }
   }
@@ -233,11 +247,13 @@ TEST_CASE("the lesser turn onto a circle is the one whose tangent is closer in c
     const Pose from{rng.uniform(-500, 500), rng.uniform(-500, 500), rng.uniform(-7, 7)};
     const double d = std::hypot(from.north_m, from.east_m);
     if (d < 60) continue;
-    // the tangent points by Thales: at angle acos(R / d) to either side of the line to the aircraft, as seen from the centre
+    // the tangent points by Thales: at angle acos(R / d) to either side of the line to the aircraft, as seen
+    // from the centre
     const double towards = std::atan2(from.east_m, from.north_m), half = std::acos(50 / d);
     double turning[2];
     for (int k = 0; k < 2; ++k) {
-      const double azimuth = towards + (k == 0 ? half : -half), n = 50 * std::cos(azimuth), e = 50 * std::sin(azimuth);
+      const double azimuth = towards + (k == 0 ? half : -half), n = 50 * std::cos(azimuth),
+                   e = 50 * std::sin(azimuth);
       const double course = std::atan2(e - from.east_m, n - from.north_m);
       // moving that way round the centre: right when the azimuth grows
       const bool right = std::cos(course - (azimuth + pi / 2)) > 0;
@@ -248,7 +264,8 @@ TEST_CASE("the lesser turn onto a circle is the one whose tangent is closer in c
   }
 }
 
-TEST_CASE("joining a plan arrives as the route passes the waypoint, and does not descend below it on the way") {
+TEST_CASE(
+    "joining a plan arrives as the route passes the waypoint, and does not descend below it on the way") {
   const Plan plan = plan_of({point(400, -250), point(-400, -50), point(-400, -250), point(400, -50)});
   const Route route(plan);
   const RouteLeg low = route.join({0, 0, 0}, 0, 0), high = route.join({0, 0, 0}, 200, 0);

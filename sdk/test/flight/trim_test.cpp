@@ -35,7 +35,8 @@ TEST_CASE("a trimmed aircraft does not accelerate, in climb and descent, too") {
                               Va * std::sin(t.alpha_rad) * std::cos(t.beta_rad));
       const Load l = Aerodynamic(a).load(v, Eigen::Vector3d::Zero(), t.deflections, rho);
       const double w = a.mass_kg * 9.80665;
-      CHECK(l.force_b.x() + propeller.thrust(t.propeller_radps, Va, rho) - w * std::sin(t.pitch_rad) == Approx(0).epsilon(1e-6));
+      CHECK(l.force_b.x() + propeller.thrust(t.propeller_radps, Va, rho) - w * std::sin(t.pitch_rad) ==
+            Approx(0).epsilon(1e-6));
       CHECK(l.force_b.z() + w * std::cos(t.pitch_rad) == Approx(0).epsilon(1e-6));
       CHECK(l.moment_b.y() == Approx(0).epsilon(1e-6));
       CHECK(l.moment_b.x() - propeller.torque(t.propeller_radps, Va, rho) == Approx(0).epsilon(1e-6));

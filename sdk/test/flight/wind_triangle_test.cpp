@@ -23,7 +23,9 @@ TEST_CASE("air velocity along the heading plus wind is ground velocity along the
   }
 }
 
-TEST_CASE("6 m/s of air moving east at 15 m/s airspeed, bearing north, needs a heading of -0.4115 rad and 7.8 m/s for 5 over ground") {
+TEST_CASE(
+    "6 m/s of air moving east at 15 m/s airspeed, bearing north, needs a heading of -0.4115 rad and 7.8 m/s "
+    "for 5 over ground") {
   const Vec3<Ned> wind{0, 6, 0};
   CHECK(fly_course(0, 15, wind).heading_rad == doctest::Approx(-0.4115).epsilon(1e-4));
   CHECK(fly_course(pi, 15, wind).heading_rad == doctest::Approx(-2.73).epsilon(1e-3));

@@ -31,7 +31,8 @@ class Talker final : public Port {
 
 std::string complaint_about(const std::string& says) {
   std::int64_t now_us = 0;
-  Client client({"/dev/ttyUSB3", [&] { return std::make_unique<Talker>(now_us, says); }, [&] { return now_us * 1000; }});
+  Client client({"/dev/ttyUSB3", [&] { return std::make_unique<Talker>(now_us, says); },
+                 [&] { return now_us * 1000; }});
   std::string complaint;
   try {
     client.connect();
@@ -46,17 +47,20 @@ bool holds(const std::string& text, const std::string& part) { return text.find(
 
 TEST_CASE("a device that is no flight controller is told in one sentence within 5 s") {
   CHECK(holds(complaint_about(""), "is silent"));
-  CHECK(holds(complaint_about("$GNGGA,123519,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,*47\r\n"), "sends text, not MAVLink"));
+  CHECK(holds(complaint_about("$GNGGA,123519,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,*47\r\n"),
+              "sends text, not MAVLink"));
   fulmar::Random random(2);
   std::string noise;
   for (int i = 0; i < 3000; ++i) noise += static_cast<char>(static_cast<int>(random.uniform() * 256));
   CHECK(holds(complaint_about(noise), "wrong --baud"));
   std::string modern;
-  for (int i = 0; i < 40; ++i) modern += '\xfd' + std::string("\x09\x00\x00\x01\x01\x01\x00\x00\x00", 9) + std::string(14, 'x');
+  for (int i = 0; i < 40; ++i)
+    modern += '\xfd' + std::string("\x09\x00\x00\x01\x01\x01\x00\x00\x00", 9) + std::string(14, 'x');
   CHECK(holds(complaint_about(modern), "MAVLink 2"));
   const Frame beat = encode(Heartbeat{}, 1);
-  CHECK(holds(complaint_about({beat.bytes.begin(), beat.bytes.begin() + static_cast<std::ptrdiff_t>(beat.size)}),
-              "no status of ROSflight 2"));
+  CHECK(holds(
+      complaint_about({beat.bytes.begin(), beat.bytes.begin() + static_cast<std::ptrdiff_t>(beat.size)}),
+      "no status of ROSflight 2"));
 }
 
 TEST_CASE("an old firmware is told by its version") {
@@ -64,7 +68,8 @@ TEST_CASE("an old firmware is told by its version") {
   options.version = "v1.4.2-3-gabc";
   Bench bench(options);
   Client client = bench.client();
-  CHECK_THROWS_WITH(client.connect(), doctest::Contains("firmware v1.4.2-3-gabc: Fulmar needs ROSflight 2.0"));
+  CHECK_THROWS_WITH(client.connect(),
+                    doctest::Contains("firmware v1.4.2-3-gabc: Fulmar needs ROSflight 2.0"));
   CHECK(bench.now_us < 5'000'000);
 }
 
@@ -145,7 +150,8 @@ TEST_CASE("the round trip is measured on the line") {
   client.connect();
   const auto ns = client.round_trip_ns();
   REQUIRE(ns);
-  CHECK(static_cast<double>(*ns) * 1e-6 == doctest::Approx(6).epsilon(0.25));  // ms, there and back; steps of half one
+  CHECK(static_cast<double>(*ns) * 1e-6 ==
+        doctest::Approx(6).epsilon(0.25));  // ms, there and back; steps of half one
 }
 
 }  // namespace

@@ -37,7 +37,9 @@ struct Sensor {
   }
 };
 
-Vector3d anywhere(fulmar::Random& random) { return Vector3d(random.normal(), random.normal(), random.normal()); }
+Vector3d anywhere(fulmar::Random& random) {
+  return Vector3d(random.normal(), random.normal(), random.normal());
+}
 
 /// The aircraft is laid on each of six sides and turned once about the vertical; the field dips by so much.
 std::vector<Vector3d> six_sides(double dip_deg) {
@@ -79,7 +81,8 @@ TEST_CASE("six sides with 1 % noise give the heading to a degree") {
   double worst_deg = 0;
   for (const Vector3d& v : six_sides(30)) {
     const Vector3d seen = fit.shape * (sensor.A.inverse() * (field * v) + sensor.b - fit.bias);
-    worst_deg = std::max(worst_deg, std::acos(std::min(1.0, seen.normalized().dot(v.normalized()))) * 180 / std::numbers::pi);
+    worst_deg = std::max(
+        worst_deg, std::acos(std::min(1.0, seen.normalized().dot(v.normalized()))) * 180 / std::numbers::pi);
   }
   CHECK(worst_deg < 1.5);
   CHECK(fit.residual_ratio == doctest::Approx(0.01).epsilon(0.2));
@@ -132,7 +135,9 @@ TEST_CASE("a field that is not the Earth's is refused") {
   CHECK(fulmar::fcu::objection(fit, 1e-6).find("480 uT") != std::string::npos);
 }
 
-TEST_CASE("a calibration that is in force is taken off before the fit, and the new one is what the firmware needs") {
+TEST_CASE(
+    "a calibration that is in force is taken off before the fit, and the new one is what the firmware "
+    "needs") {
   Sensor sensor;
   Matrix3d A0;
   A0 << 1.2, 0.1, 0, 0.02, 0.9, 0, 0, -0.1, 1.05;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every command against a link that refuses, delays, drops, duplicates and corrupts: it succeeds, and what it claims is so; or it says in
-// one sentence that it did not. It never hangs.
+// Every command against a link that refuses, delays, drops, duplicates and corrupts: it succeeds, and what it
+// claims is so; or it says in one sentence that it did not. It never hangs.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -50,7 +50,9 @@ bool three(Bench& bench, std::size_t id, double x, double y, double z) {
   return near(real(bench, id), x) && near(real(bench, id + 1), y) && near(real(bench, id + 2), z);
 }
 
-std::string temporary(const char* name) { return (std::string("/tmp/fulmar_fcu_test_") + std::to_string(::getpid()) + "_") + name; }
+std::string temporary(const char* name) {
+  return (std::string("/tmp/fulmar_fcu_test_") + std::to_string(::getpid()) + "_") + name;
+}
 
 const struct Cleanup {
   ~Cleanup() {
@@ -105,17 +107,22 @@ std::vector<Case> cases() {
        [](Bench& b) { return b.firmware.params().i(param("RC_ARM_CHN")) == -1; }},
       {"params set --write", [=](Client& c) { return params_set(c, o, setting("RC_ARM_CHN", "6", true)); },
        [](Bench& b) { return kept(b, param("RC_ARM_CHN")) == 6; }},
-      {"params write", [=](Client& c) { return params_write(c, o); }, [](Bench& b) { return kept(b, param("RC_NUM_CHN")) == 7; },
+      {"params write", [=](Client& c) { return params_write(c, o); },
+       [](Bench& b) { return kept(b, param("RC_NUM_CHN")) == 7; },
        [](Bench& b) { b.firmware.params().set(param("RC_NUM_CHN"), 7); }},
-      {"params save", [=](Client& c) { return params_save(c, o, file(save)); }, [=](Bench&) { return std::ifstream(save).good(); }},
+      {"params save", [=](Client& c) { return params_save(c, o, file(save)); },
+       [=](Bench&) { return std::ifstream(save).good(); }},
       {"params diff", [=](Client& c) { return params_diff(c, o, file(load)) == 1 ? 0 : 1; }, always},
       {"params load", [=](Client& c) { return params_load(c, sure(), file(load)); },
        [](Bench& b) {
-         return b.firmware.params().i(param("PRIMARY_MIXER")) == 10 && b.firmware.params().i(param("RC_ARM_CHN")) == 6 &&
-                near(real(b, param("RC_OVRD_DEV")), 0.25);
+         return b.firmware.params().i(param("PRIMARY_MIXER")) == 10 &&
+                b.firmware.params().i(param("RC_ARM_CHN")) == 6 && near(real(b, param("RC_OVRD_DEV")), 0.25);
        }},
       {"calibrate imu", [=](Client& c) { return calibrate_command(c, o, calibrating("imu")); },
-       [](Bench& b) { return three(b, param("ACC_X_BIAS"), 0.1, -0.2, 0.10665) && three(b, param("GYRO_X_BIAS"), 0.01, -0.02, 0.03); }},
+       [](Bench& b) {
+         return three(b, param("ACC_X_BIAS"), 0.1, -0.2, 0.10665) &&
+                three(b, param("GYRO_X_BIAS"), 0.01, -0.02, 0.03);
+       }},
       {"calibrate gyro", [=](Client& c) { return calibrate_command(c, o, calibrating("gyro")); },
        [](Bench& b) { return three(b, param("GYRO_X_BIAS"), 0.01, -0.02, 0.03); }},
       {"calibrate rc", [=](Client& c) { return calibrate_command(c, o, calibrating("rc")); },
@@ -124,7 +131,8 @@ std::vector<Case> cases() {
        [](Bench& b) { return near(real(b, param("BARO_BIAS")), 85700); }},
       {"calibrate airspeed", [=](Client& c) { return calibrate_command(c, o, calibrating("airspeed")); },
        [](Bench& b) { return near(real(b, param("DIFF_PRESS_BIAS")), 12); }},
-      {"reboot", [=](Client& c) { return reboot_command(c, o); }, [](Bench& b) { return b.firmware.clock_us() + 10'000'000 < b.now_us; }},
+      {"reboot", [=](Client& c) { return reboot_command(c, o); },
+       [](Bench& b) { return b.firmware.clock_us() + 10'000'000 < b.now_us; }},
       {"mixer", [=](Client& c) { return mixer_command(c, o); }, always},
       {"test-outputs",
        [=](Client& c) {
@@ -201,8 +209,8 @@ TEST_CASE("a device that comes through a fault is met, or its silence is told wi
 TEST_CASE("what moves or changes an armed aircraft is refused before anything is sent") {
   for (const Case& what : cases()) {
     const std::string name = what.name;
-    if (name == "status" || name == "params list" || name == "params get" || name == "params save" || name == "params diff" ||
-        name == "mixer")
+    if (name == "status" || name == "params list" || name == "params get" || name == "params save" ||
+        name == "params diff" || name == "mixer")
       continue;
     CAPTURE(name);
     Bench bench;
@@ -214,7 +222,8 @@ TEST_CASE("what moves or changes an armed aircraft is refused before anything is
     client.connect();
     int sent = 0;
     bench.on_command = [&](Frame& f) {
-      sent += f.bytes[5] == RosflightCmd::id || f.bytes[5] == ParamSet::id || f.bytes[5] == OffboardControl::id;
+      sent +=
+          f.bytes[5] == RosflightCmd::id || f.bytes[5] == ParamSet::id || f.bytes[5] == OffboardControl::id;
     };
     const Captured result([&] { return what.run(client); });
     CHECK(sent == 0);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A flight controller in virtual time behind a port that refuses, delays, drops, duplicates and corrupts what goes through it.
+// A flight controller in virtual time behind a port that refuses, delays, drops, duplicates and corrupts what
+// goes through it.
 #pragma once
 #include <deque>
 #include <memory>
@@ -76,7 +77,8 @@ inline void Bench::carry(const Frame& frame, std::deque<Late>& way) {
   Late late{now_us + faults.delay_us, frame};
   if (random_.uniform() < faults.corrupt) {
     const auto at = static_cast<std::size_t>(random_.uniform() * static_cast<double>(frame.size));
-    late.frame.bytes[std::min(at, frame.size - 1)] ^= static_cast<std::uint8_t>(1 + static_cast<int>(random_.uniform() * 254));
+    late.frame.bytes[std::min(at, frame.size - 1)] ^=
+        static_cast<std::uint8_t>(1 + static_cast<int>(random_.uniform() * 254));
   }
   way.push_back(late);
   if (random_.uniform() < faults.duplicate) way.push_back(late);
@@ -85,8 +87,9 @@ inline void Bench::carry(const Frame& frame, std::deque<Late>& way) {
 inline void Bench::send(Frame frame) {
   if (on_command) on_command(frame);
   const std::uint8_t id = frame.bytes[5];
-  const bool command = id == RosflightCmd::id,
-             question = command || id == ParamSet::id || id == ParamRequestRead::id || id == ParamRequestList::id;
+  const bool command = id == RosflightCmd::id, question = command || id == ParamSet::id ||
+                                                          id == ParamRequestRead::id ||
+                                                          id == ParamRequestList::id;
   if (faults.mute && question) return;
   const std::uint8_t code = frame.bytes[6];
   if (faults.refuse && command && code != static_cast<std::uint8_t>(Command::send_version))
@@ -110,7 +113,8 @@ inline std::size_t LossyPort::read(std::span<std::uint8_t> room, int timeout_ms)
   std::size_t n = 0;
   for (const std::int64_t until = bench_.now_us + timeout_ms * 1000; n == 0 && bench_.now_us < until;) {
     bench_.advance();
-    while (!bench_.in_.empty() && bench_.in_.front().due_us <= bench_.now_us && n + max_frame <= room.size()) {
+    while (!bench_.in_.empty() && bench_.in_.front().due_us <= bench_.now_us &&
+           n + max_frame <= room.size()) {
       const Frame& frame = bench_.in_.front().frame;
       std::copy(frame.view().begin(), frame.view().end(), room.begin() + static_cast<std::ptrdiff_t>(n));
       n += frame.size;

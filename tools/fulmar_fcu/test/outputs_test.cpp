@@ -77,7 +77,8 @@ TEST_CASE("what keeps the outputs from following is told: the switch, the radio,
   CHECK(silent.test_outputs().says("No radio frames come"));
   Standing armed;
   armed.on_command = [&](Frame&) {
-    if (armed.firmware.commands() == 100) armed.firmware.inputs.rc_us = {1500, 1500, 1000, 1500, 2000, 2000, 1000, 1000};
+    if (armed.firmware.commands() == 100)
+      armed.firmware.inputs.rc_us = {1500, 1500, 1000, 1500, 2000, 2000, 1000, 1000};
   };
   const Captured result = armed.test_outputs();
   CHECK((result.says("It got ARMED: the test has stopped") || result.says("The pilot took over")));
@@ -131,19 +132,23 @@ TEST_CASE("samples of a file become the twelve parameters that undo their distor
   sure.yes = true;
   CHECK(Captured([&] { return calibrate_command(client, sure, what); }).code == 0);
   for (std::size_t i = 0; i < 3; ++i) {
-    CHECK(bench.firmware.params().f(param("MAG_X_BIAS") + i) == doctest::Approx(b(static_cast<Eigen::Index>(i))).epsilon(1e-4));
+    CHECK(bench.firmware.params().f(param("MAG_X_BIAS") + i) ==
+          doctest::Approx(b(static_cast<Eigen::Index>(i))).epsilon(1e-4));
     for (std::size_t k = 0; k < 3; ++k)
       CHECK(bench.firmware.params().f(param("MAG_CAL_A00") + 3 * i + k) ==
             doctest::Approx(A(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k))).epsilon(1e-4));
   }
   std::ofstream(path) << "x,y,z\n1e-6,2e-6\n";
-  CHECK(Captured([&] { return calibrate_command(client, sure, what); }).says(path + ":2: expected three numbers"));
+  CHECK(Captured([&] {
+          return calibrate_command(client, sure, what);
+        }).says(path + ":2: expected three numbers"));
   std::remove(path.c_str());
 }
 
 TEST_CASE("the guide is done after six sides, each turned once around") {
   MagGuide guide;
-  const std::array<Eigen::Vector3d, 6> ups{{{0, 0, -1}, {0, 0, 1}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}}};
+  const std::array<Eigen::Vector3d, 6> ups{
+      {{0, 0, -1}, {0, 0, 1}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}}};
   int side = 0;
   for (const Eigen::Vector3d& up : ups) {
     CHECK(guide.done_sides() == side++);

@@ -60,7 +60,8 @@ TEST_CASE("the file names the firmware, and stands in the order of the controlle
 }
 
 TEST_CASE("the list of ROSflight's own tools is read, too") {
-  const File file("- {name: RC_ARM_CHN, type: 6, value: 4}\n- {name: ACC_LPF, type: 9, value: 0.3000000119}\n");
+  const File file(
+      "- {name: RC_ARM_CHN, type: 6, value: 4}\n- {name: ACC_LPF, type: 9, value: 0.3000000119}\n");
   const auto todo = changes(read_param_file(file.path), controller);
   REQUIRE(todo.size() == 2);
   CHECK(todo[0].wanted() == "4");
@@ -72,14 +73,21 @@ TEST_CASE("the list of ROSflight's own tools is read, too") {
 }
 
 TEST_CASE("every fault of a file is told with its line") {
-  const auto holds = [](const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; };
-  CHECK(holds(fault_of("RC_ARM_CHM: 4\n", controller), ".yaml:1: the controller has no parameter 'RC_ARM_CHM'. Did you mean RC_ARM_CHN?"));
-  CHECK(holds(fault_of("ACC_LPF: 0.1\nRC_ARM_CHN: 1.5\n", controller), ".yaml:2: RC_ARM_CHN is a whole number, not '1.5'"));
-  CHECK(holds(fault_of("- {name: ACC_LPF, type: 6, value: 1}\n", controller), ".yaml:1: ACC_LPF is of type 9 (number) in the controller"));
-  CHECK(holds(fault_of("- {name: ACC_LPF, type: 5, value: 1}\n"), "type is 6 (whole number) or 9 (number), found '5'"));
+  const auto holds = [](const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  };
+  CHECK(holds(fault_of("RC_ARM_CHM: 4\n", controller),
+              ".yaml:1: the controller has no parameter 'RC_ARM_CHM'. Did you mean RC_ARM_CHN?"));
+  CHECK(holds(fault_of("ACC_LPF: 0.1\nRC_ARM_CHN: 1.5\n", controller),
+              ".yaml:2: RC_ARM_CHN is a whole number, not '1.5'"));
+  CHECK(holds(fault_of("- {name: ACC_LPF, type: 6, value: 1}\n", controller),
+              ".yaml:1: ACC_LPF is of type 9 (number) in the controller"));
+  CHECK(holds(fault_of("- {name: ACC_LPF, type: 5, value: 1}\n"),
+              "type is 6 (whole number) or 9 (number), found '5'"));
   CHECK(holds(fault_of("- {name: ACC_LPF, value: 1}\n"), "no 'type'"));
   CHECK(holds(fault_of("ACC_LPF: 1\nACC_LPF: 2\n"), ":2"));
-  CHECK(holds(fault_of("- {name: A, type: 6, value: 1}\n- {name: A, type: 6, value: 1}\n"), "stands twice in this file, first in line 1"));
+  CHECK(holds(fault_of("- {name: A, type: 6, value: 1}\n- {name: A, type: 6, value: 1}\n"),
+              "stands twice in this file, first in line 1"));
   CHECK(holds(fault_of("ACC_LPF: [1, 2]\n"), "expected a number, found a list"));
   CHECK(holds(fault_of("A: 1\nACC_LPF: [1, 2\n"), ".yaml:"));
   CHECK(holds(fault_of("just words\n"), "expected 'NAME: value' lines"));
@@ -92,7 +100,8 @@ TEST_CASE("a file that is there is not written over, unless asked for") {
   CHECK_THROWS_WITH(write_param_file(file.path, "B: 2\n", false), doctest::Contains("is there already"));
   write_param_file(file.path, "B: 2\n", true);
   CHECK(read_param_file(file.path)[0].name == "B");
-  CHECK_THROWS_WITH(write_param_file("/nowhere/at/all.yaml", "B: 2\n", false), doctest::Contains("cannot be written"));
+  CHECK_THROWS_WITH(write_param_file("/nowhere/at/all.yaml", "B: 2\n", false),
+                    doctest::Contains("cannot be written"));
 }
 
 TEST_CASE("a loaded mixer of one's own survives that the choice of a mixer fills the matrix") {

@@ -45,8 +45,8 @@ TEST_CASE("333 of 333 parameters come within 3 s at 5 % loss, bit for bit") {
 
 TEST_CASE("a list that overruns the controller's fifo is completed") {
   peer::Options options;
-  options.rates.passes =
-      1e6;  // a parameter each microsecond, and the line takes them each half millisecond: the fifo of 256 packets runs over
+  options.rates.passes = 1e6;  // a parameter each microsecond, and the line takes them each half millisecond:
+                               // the fifo of 256 packets runs over
   Bench bench(options);
   Client client = bench.client();
   client.connect();

@@ -55,8 +55,12 @@ std::string verdicts(const Facts& f, Verdict wanted) {
     if (item.verdict == wanted) out += item.name + ": " + item.text + "\n";
   return out;
 }
-bool fails(const Facts& f, const std::string& part) { return verdicts(f, Verdict::fail).find(part) != std::string::npos; }
-bool warns(const Facts& f, const std::string& part) { return verdicts(f, Verdict::warn).find(part) != std::string::npos; }
+bool fails(const Facts& f, const std::string& part) {
+  return verdicts(f, Verdict::fail).find(part) != std::string::npos;
+}
+bool warns(const Facts& f, const std::string& part) {
+  return verdicts(f, Verdict::warn).find(part) != std::string::npos;
+}
 
 TEST_CASE("a controller that is ready has neither a FAIL nor a WARN") {
   const Facts f = ready();
@@ -74,13 +78,17 @@ TEST_CASE("each thing that is wrong is told, with its parameter") {
     change(f);
     return f;
   };
-  const auto param_is = [&](const char* name, double value) { return with([&](Facts& f) { set(f, name, value); }); };
+  const auto param_is = [&](const char* name, double value) {
+    return with([&](Facts& f) { set(f, name, value); });
+  };
   CHECK(fails(param_is("FIXED_WING", 0), "params set FIXED_WING 1"));
   CHECK(fails(param_is("RC_F_AXIS", 2), "RC_F_AXIS is 2"));
   CHECK(fails(param_is("PRIMARY_MIXER", 255), "PRIMARY_MIXER is 255"));
   CHECK(fails(param_is("PRIMARY_MIXER", 2), "a multirotor's"));
-  CHECK(fails(param_is("PRI_MIXER_OUT_4", 1), "Output 4 follows the throttle but is set up as a servo: set PRI_MIXER_OUT_4 to 2"));
-  CHECK(fails(param_is("PRI_MIXER_OUT_1", 2), "Output 1 follows the elevator but is set up as a motor: set PRI_MIXER_OUT_1 to 1"));
+  CHECK(fails(param_is("PRI_MIXER_OUT_4", 1),
+              "Output 4 follows the throttle but is set up as a servo: set PRI_MIXER_OUT_4 to 2"));
+  CHECK(fails(param_is("PRI_MIXER_OUT_1", 2),
+              "Output 1 follows the elevator but is set up as a motor: set PRI_MIXER_OUT_1 to 1"));
   CHECK(fails(param_is("OFFBOARD_TIMEOUT", 50), "OFFBOARD_TIMEOUT is 50 ms"));
   CHECK(warns(param_is("OFFBOARD_TIMEOUT", 2000), "OFFBOARD_TIMEOUT is 2000 ms"));
   CHECK(fails(param_is("RC_ATT_OVRD_CHN", 2), "no override switch: RC_ATT_OVRD_CHN is 2"));
@@ -104,10 +112,12 @@ TEST_CASE("each thing that is wrong is told, with its parameter") {
   CHECK(warns(with([](Facts& f) { f.rc->chan3_raw = 1500; }), "at 50 %"));
   CHECK(fails(with([](Facts& f) { f.gnss->fix_type = 2; }), "2D fix"));
   CHECK(fails(with([](Facts& f) { f.gnss.reset(); }), "GNSS: silent"));
-  CHECK(fails(with([](Facts& f) { f.battery->battery_voltage = 19; }), "19.0 V, and the airframe's has 24.0 V"));
+  CHECK(fails(with([](Facts& f) { f.battery->battery_voltage = 19; }),
+              "19.0 V, and the airframe's has 24.0 V"));
   CHECK(fails(with([](Facts& f) { f.loss_ratio = 0.1; }), "10.00 % of the frames lost"));
   CHECK(warns(with([](Facts& f) { f.baud = 460800; }), "106 % of 460800 baud"));
-  CHECK(fails(with([](Facts& f) { f.round_trip_s.reset(); }), "round trip: none of 20 questions was answered within 100 ms"));
+  CHECK(fails(with([](Facts& f) { f.round_trip_s.reset(); }),
+              "round trip: none of 20 questions was answered within 100 ms"));
   CHECK(warns(with([](Facts& f) { f.round_trip_s = 0.02; }), "20.00 ms"));
   CHECK(fails(with([](Facts& f) { f.imu_hz = 50; }), "50 Hz"));
 }

@@ -6,9 +6,9 @@
 #include <cstring>
 #include <sstream>
 
-#include "tools/fulmar_inspect/inspect.hpp"
 #include "core/loader/test/tables.hpp"
 #include "core/loader/test/workshop.hpp"
+#include "tools/fulmar_inspect/inspect.hpp"
 
 namespace inspect_markdown_test {
 
@@ -19,7 +19,8 @@ namespace {
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-// Cells of a table's line, by GitHub's rule: a bar that no backslash precedes ends a cell, between back-ticks too.
+// Cells of a table's line, by GitHub's rule: a bar that no backslash precedes ends a cell, between back-ticks
+// too.
 std::size_t cells(const std::string& line) {
   std::size_t bars = 0;
   for (std::size_t i = 0; i < line.size(); ++i)
@@ -68,7 +69,8 @@ TEST_CASE("the page of a plugin holds everything that the plugin says of itself"
   const PluginInfo info = Library::open(plugin("good"))->info();
   std::string page = describe_plugin_markdown(info);
   char hash[20];
-  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(info.components[0].inputs[0].type->hash));
+  std::snprintf(hash, sizeof hash, "%016llx",
+                static_cast<unsigned long long>(info.components[0].inputs[0].type->hash));
   for (std::size_t at; (at = page.find(hash)) != std::string::npos;) page.replace(at, 16, "HASH");
   CHECK(page == R"page(# good
 
@@ -149,7 +151,8 @@ TEST_CASE("what authors write does not tear a table") {
 TEST_CASE("angles are told in degrees too, other units are not") {
   PluginInfo plugin = one_component();
   plugin.components[0].params = {angle(0.785)};
-  CHECK(has(describe_plugin_markdown(plugin), "| 0.785 rad (44.98 deg) | -1 .. 1 |"));  // 0.785 * 180 / pi = 44.977
+  CHECK(has(describe_plugin_markdown(plugin),
+            "| 0.785 rad (44.98 deg) | -1 .. 1 |"));  // 0.785 * 180 / pi = 44.977
   plugin.components[0].params[0].unit = "rad/rad";
   CHECK(has(describe_plugin_markdown(plugin), "| 0.785 rad/rad | -1 .. 1 |"));
 }

@@ -8,11 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "core/types/test/types.hpp"
+#include "core/types/wire.hpp"
 #include "tools/fulmar_live/message_text.hpp"
 #include "tools/fulmar_live/ports.hpp"
 #include "tools/fulmar_live/table.hpp"
-#include "core/types/test/types.hpp"
-#include "core/types/wire.hpp"
 
 namespace canvas_test {
 
@@ -45,8 +45,8 @@ TEST_CASE("a line from corner to corner is drawn from corner to corner, in at mo
   CHECK(picture[0] == "\u2501\u2501 nav.state.height_m  50 m");
   for (const std::string& line : picture) CHECK(width_of(line) <= 80);
   CHECK(picture[1].starts_with("50\u2524"));
-  CHECK(picture[1].ends_with("\u2809"));             // the dots of the upper row: the value reaches 50 at the right
-  CHECK(width_of(picture[1]) == 79);                 // 2 digits, the axis, 76 characters, of which the last ends the line
+  CHECK(picture[1].ends_with("\u2809"));  // the dots of the upper row: the value reaches 50 at the right
+  CHECK(width_of(picture[1]) == 79);  // 2 digits, the axis, 76 characters, of which the last ends the line
   CHECK(picture[16].starts_with(" 0\u2524\u2860"));  // from the lowest dot on the left, upwards
   CHECK(picture[18].find("10") != std::string::npos);
 }
@@ -78,7 +78,8 @@ TEST_CASE("a message is one line per field for people, and one cell per number i
   const TypePtr type = test::mixed_type();
   const json message = shown_json(*type, test::bytes_of(value));
   CHECK(short_text(message["attitude_std_deg"]) == "{north: 28.6479, east: 57.2958, down: 114.592}");
-  CHECK(message_lines(json{{"c", 1.23456789}, {"b", {1, 2}}, {"a", nullptr}}) == "  c: 1.23457\n  b: [1, 2]\n  a: -\n");
+  CHECK(message_lines(json{{"c", 1.23456789}, {"b", {1, 2}}, {"a", nullptr}}) ==
+        "  c: 1.23457\n  b: [1, 2]\n  a: -\n");
   const std::vector<std::string> names = columns(*type, ""), row = cells(*type, message);
   REQUIRE(names.size() == row.size());
   const auto cell = [&](const std::string& name) {

@@ -31,7 +31,8 @@ struct Folder {
   }
 };
 
-SavedParam number(const std::string& name, double value, const std::string& unit = "", const std::string& component = "slc") {
+SavedParam number(const std::string& name, double value, const std::string& unit = "",
+                  const std::string& component = "slc") {
   SavedParam p;
   p.component = component, p.use = "control_slc/Outer";
   p.info.name = name, p.info.unit = unit, p.info.live = true;
@@ -81,49 +82,64 @@ std::string refused(const std::string& mission, const std::vector<SavedParam>& p
 }  // namespace
 
 TEST_CASE("a value is replaced where it stands: unit, comment and layout stay") {
-  CHECK(saved("components:\n  slc:\n    params:\n      roll_limit: 40 deg   # not more\n      roll_kp:   0.5\n",
-              {number("roll_limit", 0.7330382858376184, "rad"), number("roll_kp", 0.625, "rad/rad")}) ==
-        "components:\n  slc:\n    params:\n      roll_limit: 42 deg   # not more\n      roll_kp:   0.625\n");
-  CHECK(saved("components:\r\n  slc: {use: x, params: {speed: 60 km/h, roll_kp: 1}, rate: 100 Hz}\r\n", {number("speed", 25, "m/s")}) ==
+  CHECK(
+      saved("components:\n  slc:\n    params:\n      roll_limit: 40 deg   # not more\n      roll_kp:   0.5\n",
+            {number("roll_limit", 0.7330382858376184, "rad"), number("roll_kp", 0.625, "rad/rad")}) ==
+      "components:\n  slc:\n    params:\n      roll_limit: 42 deg   # not more\n      roll_kp:   0.625\n");
+  CHECK(saved("components:\r\n  slc: {use: x, params: {speed: 60 km/h, roll_kp: 1}, rate: 100 Hz}\r\n",
+              {number("speed", 25, "m/s")}) ==
         "components:\r\n  slc: {use: x, params: {speed: 90 km/h, roll_kp: 1}, rate: 100 Hz}\r\n");
 }
 
 TEST_CASE("what the file says already is left alone, to the last digit of its writer") {
-  const std::string mission = "components: {slc: {params: {roll_limit: 40.0 deg, wind: [3.0, 4, 0], law: 'light'}}}";
-  CHECK(saved(mission, {number("roll_limit", 0.6981317007977318, "rad"), vector("wind", 3, 4, 0, "m/s"), choice("law", 1)}) == mission);
-  CHECK(saved(mission, {number("roll_limit", 0.6981317007977318, "rad"), number("unsaid", 0, "m")}) == mission);
+  const std::string mission =
+      "components: {slc: {params: {roll_limit: 40.0 deg, wind: [3.0, 4, 0], law: 'light'}}}";
+  CHECK(saved(mission, {number("roll_limit", 0.6981317007977318, "rad"), vector("wind", 3, 4, 0, "m/s"),
+                        choice("law", 1)}) == mission);
+  CHECK(saved(mission, {number("roll_limit", 0.6981317007977318, "rad"), number("unsaid", 0, "m")}) ==
+        mission);
 }
 
 TEST_CASE("quotes stay quotes, and text that YAML would misread gets some") {
   CHECK(saved("components: {slc: {params: {a: \"40 deg\", b: 'x', c: plain, d: word}}}",
-              {number("a", 0.7330382858376184, "rad"), text("b", "it's"), text("c", "on"), text("d", "a: b # c")}) ==
+              {number("a", 0.7330382858376184, "rad"), text("b", "it's"), text("c", "on"),
+               text("d", "a: b # c")}) ==
         "components: {slc: {params: {a: \"42 deg\", b: 'it''s', c: \"on\", d: \"a: b # c\"}}}");
-  CHECK(saved("components: {slc: {params: {law: none}}}", {choice("law", 2)}) == "components: {slc: {params: {law: severe}}}");
+  CHECK(saved("components: {slc: {params: {law: none}}}", {choice("law", 2)}) ==
+        "components: {slc: {params: {law: severe}}}");
 }
 
 TEST_CASE("of a vector only the elements that differ are written, each in its unit") {
-  CHECK(saved("components: {slc: {params: {wind: [3.0, -4 m/s, 36 km/h]  # n e d\n}}}", {vector("wind", 3, -5.5, 5, "m/s")}) ==
+  CHECK(saved("components: {slc: {params: {wind: [3.0, -4 m/s, 36 km/h]  # n e d\n}}}",
+              {vector("wind", 3, -5.5, 5, "m/s")}) ==
         "components: {slc: {params: {wind: [3.0, -5.5 m/s, 18 km/h]  # n e d\n}}}");
-  CHECK(saved("components:\n  slc:\n    params:\n      wind: {north: 3, east: 4}  # calm\n", {vector("wind", 3, 2, 1, "m/s")}) ==
+  CHECK(saved("components:\n  slc:\n    params:\n      wind: {north: 3, east: 4}  # calm\n",
+              {vector("wind", 3, 2, 1, "m/s")}) ==
         "components:\n  slc:\n    params:\n      wind: {north: 3, east: 2, down: 1 m/s}  # calm\n");
 }
 
 TEST_CASE("a value that stands nowhere is added to the mission where it belongs") {
   const SavedParam p = number("roll_limit", 0.7330382858376184, "rad");
-  CHECK(
-      saved("mission: m\ncomponents:\n  slc:\n    params:\n      roll_kp: 1    # fine\n      # the end\n  tecs: {}\n", {p}) ==
-      "mission: m\ncomponents:\n  slc:\n    params:\n      roll_kp: 1    # fine\n      roll_limit: 42 deg\n      # the end\n  tecs: {}\n");
+  CHECK(saved("mission: m\ncomponents:\n  slc:\n    params:\n      roll_kp: 1    # fine\n      # the end\n  "
+              "tecs: {}\n",
+              {p}) ==
+        "mission: m\ncomponents:\n  slc:\n    params:\n      roll_kp: 1    # fine\n      roll_limit: 42 "
+        "deg\n      # the end\n  tecs: {}\n");
   CHECK(saved("components:\n  slc: {use: x, params: {a: 1}}  # here\n", {p}) ==
         "components:\n  slc: {use: x, params: {a: 1, roll_limit: 42 deg}}  # here\n");
-  CHECK(saved("components:\n  slc: {use: x}\n", {p}) == "components:\n  slc: {use: x, params: {roll_limit: 42 deg}}\n");
-  CHECK(saved("components:\n  slc: {params: {}}\n", {p}) == "components:\n  slc: {params: {roll_limit: 42 deg}}\n");
+  CHECK(saved("components:\n  slc: {use: x}\n", {p}) ==
+        "components:\n  slc: {use: x, params: {roll_limit: 42 deg}}\n");
+  CHECK(saved("components:\n  slc: {params: {}}\n", {p}) ==
+        "components:\n  slc: {params: {roll_limit: 42 deg}}\n");
   CHECK(saved("components:\n  slc:\n    params:\n    rate: 1 Hz\n", {p}) ==
         "components:\n  slc:\n    params: {roll_limit: 42 deg}\n    rate: 1 Hz\n");
-  CHECK(saved("components:\n  tecs: {}\ndone: a\n", {p}) == "components:\n  tecs: {}\n  slc: {params: {roll_limit: 42 deg}}\ndone: a\n");
+  CHECK(saved("components:\n  tecs: {}\ndone: a\n", {p}) ==
+        "components:\n  tecs: {}\n  slc: {params: {roll_limit: 42 deg}}\ndone: a\n");
   CHECK(saved("mission: m", {p}) == "mission: m\ncomponents: {slc: {params: {roll_limit: 42 deg}}}\n");
   CHECK(saved("components:\n  slc: {\n    params: {a: 1,  # one\n             b: 2  # two, {\n    }}\n",
               {p, number("gain", 0.3, "rad/rad")}) ==
-        "components:\n  slc: {\n    params: {a: 1,  # one\n             b: 2, roll_limit: 42 deg, gain: 0.3  # two, {\n    }}\n");
+        "components:\n  slc: {\n    params: {a: 1,  # one\n             b: 2, roll_limit: 42 deg, gain: 0.3  "
+        "# two, {\n    }}\n");
 }
 
 TEST_CASE("an alias is replaced by the value; an anchor whose aliases others use is left alone") {
@@ -131,7 +147,8 @@ TEST_CASE("an alias is replaced by the value; an anchor whose aliases others use
   CHECK(saved(mission, {number("pitch_kp", 0.75, "rad/rad"), number("roll_kp", 0.5, "rad/rad")}) ==
         "components:\n  slc: {params: {roll_kp: &k 0.5, pitch_kp: 0.75}}\n");
   CHECK(refused(mission, {number("roll_kp", 0.75, "rad/rad")}) ==
-        "m.yaml: slc.roll_kp is 0.75 now; write it by hand: the same text also gives components.slc.params.pitch_kp");
+        "m.yaml: slc.roll_kp is 0.75 now; write it by hand: the same text also gives "
+        "components.slc.params.pitch_kp");
   CHECK(refused("x: &g {roll_kp: 1}\ncomponents: {slc: {params: *g}}\n", {number("yaw_kp", 2)}) ==
         "m.yaml: slc.yaw_kp is 2 now; write it by hand: 'params' is *g, which stands elsewhere");
 }
@@ -139,28 +156,36 @@ TEST_CASE("an alias is replaced by the value; an anchor whose aliases others use
 TEST_CASE("a value is written into the file that it came from: what the mission extends, or the airframe") {
   const Folder folder;
   folder.file("plane.yaml",
-              "mass: 4.5 kg\nparams:\n  control_slc/Outer:\n    course_kp: 2   # 1.15 rad/s\n  control_slc/Inner:\n    course_kp: 7\n");
-  folder.file("common.yaml", "components:\n  slc: {params: {climb_kff: 0.05}}\nroles: {r: {out: {truth?: T}}}\n");
-  const fs::path mission =
-      folder.file("m.yaml", "extends: common.yaml\nairframe: plane.yaml\ncomponents:\n  slc: {params: {thrust: 50 N}}\n");
-  const SavePlan plan =
-      plan_save(mission, {number("course_kp", 2.5, "rad/rad"), number("climb_kff", 0.06, "1/m"), number("thrust", 55.5, "N")});
+              "mass: 4.5 kg\nparams:\n  control_slc/Outer:\n    course_kp: 2   # 1.15 rad/s\n  "
+              "control_slc/Inner:\n    course_kp: 7\n");
+  folder.file("common.yaml",
+              "components:\n  slc: {params: {climb_kff: 0.05}}\nroles: {r: {out: {truth?: T}}}\n");
+  const fs::path mission = folder.file(
+      "m.yaml", "extends: common.yaml\nairframe: plane.yaml\ncomponents:\n  slc: {params: {thrust: 50 N}}\n");
+  const SavePlan plan = plan_save(mission, {number("course_kp", 2.5, "rad/rad"),
+                                            number("climb_kff", 0.06, "1/m"), number("thrust", 55.5, "N")});
   CHECK(plan.refused.empty());
   CHECK(plan.changed == std::vector<std::string>{"slc.course_kp", "slc.climb_kff", "slc.thrust"});
   REQUIRE(plan.files.size() == 3);
-  CHECK(diff_text(plan.files[0]) == "m.yaml:4\n-   slc: {params: {thrust: 50 N}}\n+   slc: {params: {thrust: 55.5 N}}\n");
-  CHECK(diff_text(plan.files[1]) == "common.yaml:2\n-   slc: {params: {climb_kff: 0.05}}\n+   slc: {params: {climb_kff: 0.06}}\n");
-  CHECK(diff_text(plan.files[2]) == "plane.yaml:4\n-     course_kp: 2   # 1.15 rad/s\n+     course_kp: 2.5   # 1.15 rad/s\n");
+  CHECK(diff_text(plan.files[0]) ==
+        "m.yaml:4\n-   slc: {params: {thrust: 50 N}}\n+   slc: {params: {thrust: 55.5 N}}\n");
+  CHECK(diff_text(plan.files[1]) ==
+        "common.yaml:2\n-   slc: {params: {climb_kff: 0.05}}\n+   slc: {params: {climb_kff: 0.06}}\n");
+  CHECK(diff_text(plan.files[2]) ==
+        "plane.yaml:4\n-     course_kp: 2   # 1.15 rad/s\n+     course_kp: 2.5   # 1.15 rad/s\n");
 }
 
 TEST_CASE("an added line is shown as one, and a file that has changed meanwhile is not written") {
   const Folder folder;
-  const fs::path mission = folder.file("m.yaml", "components:\n  slc:\n    params:\n      a: 1\n  tecs: {}\n");
+  const fs::path mission =
+      folder.file("m.yaml", "components:\n  slc:\n    params:\n      a: 1\n  tecs: {}\n");
   const SavePlan plan = plan_save(mission, {number("b", 2)});
   REQUIRE(plan.files.size() == 1);
   CHECK(diff_text(plan.files[0]) == "m.yaml:5\n+       b: 2\n");
   folder.file("m.yaml", "mission: other\n");
-  CHECK_THROWS_WITH_AS(write_edit(plan.files[0]), (mission.string() + " has changed meanwhile; nothing was written to it").c_str(), Error);
+  CHECK_THROWS_WITH_AS(write_edit(plan.files[0]),
+                       (mission.string() + " has changed meanwhile; nothing was written to it").c_str(),
+                       Error);
 }
 
 TEST_CASE("writing leaves other files alone, and keeps the mode of its own and the link to it") {
@@ -217,8 +242,10 @@ TEST_CASE("what cannot be written whole leaves the file as it was, and nothing b
 TEST_CASE("block scalars and broken files are refused") {
   CHECK(refused("components:\n  slc:\n    params:\n      note: |\n        a\n", {text("note", "b")}) ==
         "m.yaml: slc.note is b now; write it by hand: it is written in a form that is not changed here");
-  CHECK(refused("components:\n  slc:\n    params:\n      wind:\n        - 1\n        - 2\n        - 3\n", {vector("wind", 1, 2, 4, "m")}) ==
-        "m.yaml: slc.wind is [1 m, 2 m, 4 m] now; write it by hand: a list is changed only when it is written in brackets, [a, b, c]");
+  CHECK(refused("components:\n  slc:\n    params:\n      wind:\n        - 1\n        - 2\n        - 3\n",
+                {vector("wind", 1, 2, 4, "m")}) ==
+        "m.yaml: slc.wind is [1 m, 2 m, 4 m] now; write it by hand: a list is changed only when it is "
+        "written in brackets, [a, b, c]");
   const Folder folder;
   CHECK_THROWS_AS(plan_save(folder.file("m.yaml", "a: {b\n"), {number("x", 1)}), Error);
 }

@@ -13,11 +13,11 @@
 #include <string>
 #include <thread>
 
+#include "core/live/server.hpp"
+#include "core/live/test/mock.hpp"
 #include "tools/fulmar_live/completion.hpp"
 #include "tools/fulmar_live/ports.hpp"
 #include "tools/fulmar_live/session.hpp"
-#include "core/live/server.hpp"
-#include "core/live/test/mock.hpp"
 
 namespace remote_test {
 
@@ -65,7 +65,8 @@ struct Result {
   std::string out, err;
 };
 struct Folder {
-  fs::path path = fs::temp_directory_path() / ("fulmar-remote-test-" + std::to_string(getpid()) + "-" + std::to_string(next()));
+  fs::path path = fs::temp_directory_path() /
+                  ("fulmar-remote-test-" + std::to_string(getpid()) + "-" + std::to_string(next()));
   Folder() { fs::create_directories(path); }
   static int next() {
     static int number = 0;
@@ -108,11 +109,11 @@ std::vector<std::string> lines(const std::string& text) {
 
 /// What bash offers at the end of a line.
 std::vector<std::string> completed(const MockFlight& flight, const std::string& line) {
-  const std::string script =
-      "source <(" + program + " completion bash); COMP_LINE='" + line +
-      "'; COMP_POINT=${#COMP_LINE}; read -ra COMP_WORDS <<<\"$COMP_LINE\"; [[ $COMP_LINE == *\" \" ]] && COMP_WORDS+=(\"\"); "
-      "COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); COMP_WORDS[0]=" +
-      program + "; _fulmar; printf \"%s\\n\" \"${COMPREPLY[@]}\"";
+  const std::string script = "source <(" + program + " completion bash); COMP_LINE='" + line +
+                             "'; COMP_POINT=${#COMP_LINE}; read -ra COMP_WORDS <<<\"$COMP_LINE\"; [[ "
+                             "$COMP_LINE == *\" \" ]] && COMP_WORDS+=(\"\"); "
+                             "COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); COMP_WORDS[0]=" +
+                             program + "; _fulmar; printf \"%s\\n\" \"${COMPREPLY[@]}\"";
   const fs::path file = fs::temp_directory_path() / ("fulmar-completion-" + std::to_string(getpid()) + ".sh");
   std::ofstream(file) << script;
   const Result r = shell("FULMAR_LIVE=" + flight.at() + " bash " + file.string());
@@ -128,13 +129,16 @@ using Words = std::vector<std::string>;
 }  // namespace
 
 TEST_CASE("without a flight every word says what to do") {
-  for (const char* words :
-       {"list", "echo nav.state", "plot a.b.c", "param list", "param set a.b 1", "call a.b", "phase x", "swap a b", "reset"}) {
+  for (const char* words : {"list", "echo nav.state", "plot a.b.c", "param list", "param set a.b 1",
+                            "call a.b", "phase x", "swap a b", "reset"}) {
     const Result r = shell(program + " " + words + " --at 127.0.0.1:1");
     CHECK(r.code == 1);
-    CHECK(r.err == "no flight listens on 127.0.0.1:1: start one with fulmar run MISSION --speed real --live 8765, or name it with --at\n");
+    CHECK(r.err ==
+          "no flight listens on 127.0.0.1:1: start one with fulmar run MISSION --speed real --live 8765, or "
+          "name it with --at\n");
   }
-  CHECK(shell(program + " list --at 127.0.0.1:0x").err == "'127.0.0.1:0x': '0x' is no port; give HOST:PORT, as in 127.0.0.1:8765\n");
+  CHECK(shell(program + " list --at 127.0.0.1:0x").err ==
+        "'127.0.0.1:0x': '0x' is no port; give HOST:PORT, as in 127.0.0.1:8765\n");
   CHECK(shell(program + " complete port x --at 127.0.0.1:1").out == "");
 }
 
@@ -154,7 +158,8 @@ TEST_CASE("a token is asked for, and taken from the command line or the environm
   CHECK(shell(at + " --token secret").code == 0);
   const Result wrong = shell(at + " --token sesame");
   CHECK(wrong.code == 1);
-  CHECK(wrong.err == "the flight on " + flight.at() + " refuses this token: give it with --token or in FULMAR_TOKEN\n");
+  CHECK(wrong.err ==
+        "the flight on " + flight.at() + " refuses this token: give it with --token or in FULMAR_TOKEN\n");
 }
 
 TEST_CASE("list names components, ports with their rates, requests and phases") {
@@ -164,7 +169,8 @@ TEST_CASE("list names components, ports with their rates, requests and phases") 
   CHECK(r.out ==
         "mock <1> (io: sim), phase cruise, 0.0 s, not armed\nphases: hold, cruise\n"
         "\nslc: control_slc/Outer, fills outer, flies\n  slc.leg  Leg\n"
-        "\nplan: path/Planner, waits\n  plan.mixed    Mixed\n  plan.add_leg  Leg    request\n  plan.edits    Mixed  imported\n");
+        "\nplan: path/Planner, waits\n  plan.mixed    Mixed\n  plan.add_leg  Leg    request\n  plan.edits    "
+        "Mixed  imported\n");
   const json view = json::parse(typed(flight, "list --json --rates").out);
   CHECK(view["components"][0]["params"][0]["name"] == "roll_kp");
   CHECK(view["rates_hz"]["/slc/leg"].get<double>() == doctest::Approx(400).epsilon(0.2));
@@ -194,7 +200,8 @@ TEST_CASE("echo prints fields in degrees, whole messages, JSON lines and CSV, as
   CHECK(second["port"] == "slc.leg.course_deg");
   CHECK(second["value"].get<double>() == doctest::Approx(course_deg(second["time_s"])).epsilon(1e-9));
 
-  CHECK(typed(flight, "echo slc.leg --count 0").err.starts_with("--count: give a whole number from 1, not '0'\n"));
+  CHECK(typed(flight, "echo slc.leg --count 0")
+            .err.starts_with("--count: give a whole number from 1, not '0'\n"));
   CHECK(typed(flight, "echo slc.leg --rate 0").err.starts_with("--rate: give a number above 0, not '0'\n"));
 
   r = typed(flight, "echo slc.leg --csv --count 2 --rate 20");
@@ -207,7 +214,8 @@ TEST_CASE("echo prints fields in degrees, whole messages, JSON lines and CSV, as
 
 TEST_CASE("echo says that it waits when a port stays silent, and of which") {
   const MockFlight flight;
-  const Result r = shell("FULMAR_LIVE=" + flight.at() + " timeout 4 " + program + " echo plan.add_leg slc.leg.course_deg --rate 1");
+  const Result r = shell("FULMAR_LIVE=" + flight.at() + " timeout 4 " + program +
+                         " echo plan.add_leg slc.leg.course_deg --rate 1");
   CHECK(r.code == 124);
   CHECK(r.err == "waiting for the first sample of plan.add_leg\n");
   CHECK(lines(r.out).size() >= 2);
@@ -220,23 +228,30 @@ TEST_CASE("names that are not there are answered with the nearest and the choice
     CHECK(r.code == 1);
     return r.err;
   };
-  CHECK(said("echo slx.leg") == "nothing in this flight is called 'slx'. Did you mean 'slc'? Valid: fulmar, plan, slc.\n");
+  CHECK(said("echo slx.leg") ==
+        "nothing in this flight is called 'slx'. Did you mean 'slc'? Valid: fulmar, plan, slc.\n");
   CHECK(said("echo slc.lag") == "slc has no port 'lag'. Did you mean 'leg'? Valid: leg.\n");
   CHECK(said("echo slc") == "'slc' is no port: give slc.PORT. Valid: leg.\n");
   CHECK(said("echo slc.leg.corse_deg") ==
-        "slc.leg has no field 'corse_deg'. Did you mean 'course_deg'? Valid: kind, has_course, course_deg, position_m.\n");
+        "slc.leg has no field 'corse_deg'. Did you mean 'course_deg'? Valid: kind, has_course, course_deg, "
+        "position_m.\n");
   CHECK(said("plot slc.leg") ==
-        "'slc.leg' is a message: give one of its fields, as in slc.leg.kind. Valid: kind, has_course, course_deg, position_m.\n");
-  CHECK(said("param get slc.rol_kp").starts_with("slc has no parameter 'rol_kp'. Did you mean 'roll_kp'? Valid: roll_kp, law,"));
-  CHECK(said("phase cruse") == "this flight has no phase 'cruse'. Did you mean 'cruise'? Valid: hold, cruise.\n");
+        "'slc.leg' is a message: give one of its fields, as in slc.leg.kind. Valid: kind, has_course, "
+        "course_deg, position_m.\n");
+  CHECK(said("param get slc.rol_kp")
+            .starts_with("slc has no parameter 'rol_kp'. Did you mean 'roll_kp'? Valid: roll_kp, law,"));
+  CHECK(said("phase cruse") ==
+        "this flight has no phase 'cruse'. Did you mean 'cruise'? Valid: hold, cruise.\n");
   CHECK(said("call plan.add_log a=1") ==
         "this flight takes no request 'plan.add_log'. Did you mean 'plan.add_leg'? Valid: plan.add_leg.\n");
-  CHECK(said("swap sls x.so") == "this flight has no component 'sls'. Did you mean 'slc'? Valid: slc, plan.\n");
+  CHECK(said("swap sls x.so") ==
+        "this flight has no component 'sls'. Did you mean 'slc'? Valid: slc, plan.\n");
 }
 
 TEST_CASE("parameters are listed with range and kind, read, and set as in a mission file") {
   const MockFlight flight;
-  CHECK(lines(typed(flight, "param list slc.roll*").out) == Words{"slc.roll_kp  0.55 rad/rad  0 .. 2 rad/rad  live"});
+  CHECK(lines(typed(flight, "param list slc.roll*").out) ==
+        Words{"slc.roll_kp  0.55 rad/rad  0 .. 2 rad/rad  live"});
   CHECK(lines(typed(flight, "param list slc").out).size() == 6);
   CHECK(typed(flight, "param get slc.roll_kp").out == "0.55 rad/rad\n");
   CHECK(json::parse(typed(flight, "param get slc.law --json").out)["choices"] == json{"climb", "takeoff"});
@@ -253,11 +268,14 @@ TEST_CASE("parameters are listed with range and kind, read, and set as in a miss
   r = typed(flight, "param set slc.roll_kp 9");
   CHECK(r.code == 1);
   CHECK(r.err == "slc.roll_kp is not set to 9: 9 is outside 0 .. 2 rad/rad\n");
-  CHECK(typed(flight, "param set slc.roll_kp").err == "'slc.roll_kp' has no value: give NAME VALUE [NAME VALUE ...]\n");
+  CHECK(typed(flight, "param set slc.roll_kp").err ==
+        "'slc.roll_kp' has no value: give NAME VALUE [NAME VALUE ...]\n");
   CHECK(typed(flight, "param set slc.roll_kp").code == 2);
   CHECK(typed(flight, "param set").code == 2);
   r = typed(flight, "param set slc.wind '[1, 1, 1]' slc.roll_kp 9 slc.count 8");
-  CHECK(r.err == "slc.roll_kp is not set to 9: 9 is outside 0 .. 2 rad/rad; already set: slc.wind; not tried: slc.count\n");
+  CHECK(r.err ==
+        "slc.roll_kp is not set to 9: 9 is outside 0 .. 2 rad/rad; already set: slc.wind; not tried: "
+        "slc.count\n");
   CHECK(typed(flight, "param set --help").out.find("NAME VALUE [NAME VALUE ...]") != std::string::npos);
   CHECK(typed(flight, "param set slc.roll_kp -1").code == 0);  // no option
 }
@@ -267,9 +285,11 @@ TEST_CASE("what flies is saved to the mission's file when that is agreed to, and
   const Folder folder;
   const fs::path file = folder.path / "m.yaml";
   const std::string before =
-      "mission: mock <1>\ncomponents:\n  slc:\n    params: {roll_kp: 0.5, note: '40 deg', wind: [3, -4, 0]}  # gains\n";
+      "mission: mock <1>\ncomponents:\n  slc:\n    params: {roll_kp: 0.5, note: '40 deg', wind: [3, -4, 0]}  "
+      "# gains\n";
   const std::string after =
-      "mission: mock <1>\ncomponents:\n  slc:\n    params: {roll_kp: 0.625, note: '40 deg', wind: [3, -4, 0], count: 7, on: true}  # "
+      "mission: mock <1>\ncomponents:\n  slc:\n    params: {roll_kp: 0.625, note: '40 deg', wind: [3, -4, "
+      "0], count: 7, on: true}  # "
       "gains\n";
   std::ofstream(file) << before;
   REQUIRE(typed(flight, "param set slc.roll_kp 0.625").code == 0);
@@ -282,22 +302,26 @@ TEST_CASE("what flies is saved to the mission's file when that is agreed to, and
   CHECK(r.err == "nothing was written: say --yes, or answer at a terminal\n");
   CHECK(typed(flight, "param save --yes --mission " + file.string()).code == 0);
   CHECK(content(file) == after);
-  CHECK(typed(flight, "param save --yes --mission " + file.string()).out == "The files say already what flies.\n");
+  CHECK(typed(flight, "param save --yes --mission " + file.string()).out ==
+        "The files say already what flies.\n");
   const fs::path other = folder.path / "other.yaml";
   std::ofstream(other) << "components:\n  slc:\n    params: {roll_kp: 0.5}\n";
   r = typed(flight, "param save --yes --mission " + other.string());
   CHECK(r.code == 1);
   CHECK(r.err == other.string() + " is the mission 'other', but 'mock <1>' flies: nothing was written\n");
   CHECK(content(other) == "components:\n  slc:\n    params: {roll_kp: 0.5}\n");
-  CHECK(typed(flight, "param save").err == "the flight does not say which file its mission is: give it with --mission\n");
+  CHECK(typed(flight, "param save").err ==
+        "the flight does not say which file its mission is: give it with --mission\n");
 }
 
 TEST_CASE("requests, phases and swaps are asked for; a refusal is told and is exit code 1") {
   const MockFlight flight;
-  Result r = typed(flight, "call plan.add_leg kind=line course_rad='20 deg' has_course=true position_m='[1, 2, 3]'");
+  Result r =
+      typed(flight, "call plan.add_leg kind=line course_rad='20 deg' has_course=true position_m='[1, 2, 3]'");
   CHECK(r.code == 0);
   CHECK(r.out == "plan.add_leg: accepted\n");
-  CHECK(flight.heard(R"(request plan.add_leg {"course_rad":"20 deg","has_course":true,"kind":"line","position_m":[1,2,3]})"));
+  CHECK(flight.heard(
+      R"(request plan.add_leg {"course_rad":"20 deg","has_course":true,"kind":"line","position_m":[1,2,3]})"));
   CHECK(typed(flight, "call plan/add_leg '{kind: line, course_rad: 0.5}'").code == 0);
   CHECK(flight.heard(R"(request plan.add_leg {"course_rad":0.5,"kind":"line"})"));
   r = typed(flight, "call plan.add_leg '{\"kind\": \"orbit\"}'");
@@ -310,7 +334,8 @@ TEST_CASE("requests, phases and swaps are asked for; a refusal is told and is ex
     r = typed(flight, nothing);
     CHECK(r.code == 2);
     CHECK(r.err ==
-          "plan.add_leg needs a field at least, as in fulmar call plan.add_leg kind=VALUE. Valid: kind, has_course, course_rad, "
+          "plan.add_leg needs a field at least, as in fulmar call plan.add_leg kind=VALUE. Valid: kind, "
+          "has_course, course_rad, "
           "position_m.\n");
   }
   CHECK_FALSE(flight.heard("request plan.add_leg {}"));
@@ -325,7 +350,8 @@ TEST_CASE("requests, phases and swaps are asked for; a refusal is told and is ex
   fs::create_directories(folder.path / "control_slc");
   std::ofstream(folder.path / "my.so") << "x";
   const auto swapped = [&](const std::string& word) {
-    shell("cd " + folder.path.string() + " && FULMAR_LIVE=" + flight.at() + " " + program + " swap slc " + word);
+    shell("cd " + folder.path.string() + " && FULMAR_LIVE=" + flight.at() + " " + program + " swap slc " +
+          word);
   };
   for (const char* word : {"control_slc", "control_slc/Outer", "my.so", "./my.so/Law"}) swapped(word);
   CHECK(flight.heard("swap slc control_slc"));

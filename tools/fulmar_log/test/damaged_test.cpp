@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whatever the bytes of a log: info, export, recover and diff give a result or an error, and take no more memory than a log may.
+// Whatever the bytes of a log: info, export, recover and diff give a result or an error, and take no more
+// memory than a log may.
 #include <doctest/doctest.h>
 
 #include <cstdlib>
@@ -7,12 +8,12 @@
 #include <random>
 
 #include "core/error.hpp"
+#include "core/log/reader.hpp"
+#include "core/log/test/log_kit.hpp"
 #include "tools/fulmar_log/diff.hpp"
 #include "tools/fulmar_log/export_log.hpp"
 #include "tools/fulmar_log/info.hpp"
-#include "core/log/reader.hpp"
 #include "tools/fulmar_log/recover.hpp"
-#include "core/log/test/log_kit.hpp"
 
 namespace damaged_test {
 
@@ -23,11 +24,11 @@ namespace {
 
 /// Bytes flipped, cut off, lengths blown up, pieces doubled or missing.
 std::string spoilt(std::string bytes, std::mt19937& random) {
-  const auto place = [&](std::size_t room) { return random() % std::max<std::size_t>(1, bytes.size() - room); };
+  const auto place = [&](std::size_t room) {
+    return random() % std::max<std::size_t>(1, bytes.size() - room);
+  };
   switch (random() % 6) {
-    case 0:
-      bytes.resize(place(0));
-      break;
+    case 0: bytes.resize(place(0)); break;
     case 1:
       for (auto n = 1 + random() % 20; n > 0; --n) bytes[place(1)] ^= static_cast<char>(1 + random() % 255);
       break;
@@ -36,12 +37,8 @@ std::string spoilt(std::string bytes, std::mt19937& random) {
       std::memcpy(bytes.data() + place(8), &huge, random() % 2 == 0 ? 4 : 8);
       break;
     }
-    case 3:
-      bytes.erase(place(0), 1 + random() % 5000);
-      break;
-    case 4:
-      bytes.insert(place(0), bytes.substr(place(0), 1 + random() % 5000));
-      break;
+    case 3: bytes.erase(place(0), 1 + random() % 5000); break;
+    case 4: bytes.insert(place(0), bytes.substr(place(0), 1 + random() % 5000)); break;
     default:  // the length of a record near the front
       bytes[8 + random() % 200] ^= static_cast<char>(1u << random() % 8);
   }
@@ -49,7 +46,9 @@ std::string spoilt(std::string bytes, std::mt19937& random) {
 }
 
 /// Without the checksums of chunks and attachments the content itself is what is read.
-McapWriter::Options plain(const std::filesystem::path& file) { return {.file = file, .zstd_level = 0, .chunk_bytes = 3000}; }
+McapWriter::Options plain(const std::filesystem::path& file) {
+  return {.file = file, .zstd_level = 0, .chunk_bytes = 3000};
+}
 
 int tried = 0, refused = 0;
 
@@ -81,9 +80,12 @@ TEST_CASE("no damage to a log is worse than an error") {
   const Folder folder;
   write_sample({.file = folder.path / "whole.mcap"}, 300);
   write_sample(plain(folder.path / "plain.mcap"), 60);
-  const std::string whole = contents(folder.path / "whole.mcap"), open = without_sums(contents(folder.path / "plain.mcap"));
+  const std::string whole = contents(folder.path / "whole.mcap"),
+                    open = without_sums(contents(folder.path / "plain.mcap"));
   std::mt19937 random(3);
-  const int files = FULMAR_SANITIZED && std::getenv("FULMAR_LONG") == nullptr ? 250 : 1000;  // a sanitizer takes ten times as long
+  const int files = FULMAR_SANITIZED && std::getenv("FULMAR_LONG") == nullptr
+                        ? 250
+                        : 1000;  // a sanitizer takes ten times as long
   const std::filesystem::path bad = folder.path / "bad.mcap", out = folder.path / "out";
   for (int i = 0; i < files; ++i) {
     store(bad, spoilt(i % 2 == 0 ? whole : open, random));
@@ -199,9 +201,10 @@ TEST_CASE("one flipped bit costs the chunk or the attachment in which it is, and
     CAPTURE(n);
     const int chunk = static_cast<int>(n);
     CHECK(p.check(p.flipped(chunk_code, n, head + 100), chunk).left_out_text() == "1 damaged chunk");
-    p.check(p.flipped(chunk_code, n, 0), chunk);                                                     // its code
-    p.check(p.flipped(chunk_code, n, head + 18), chunk);                                             // the size it unpacks to
-    for (const std::size_t byte : {1u, 2u, 6u, 8u}) p.check(p.flipped(chunk_code, n, byte), chunk);  // its length
+    p.check(p.flipped(chunk_code, n, 0), chunk);          // its code
+    p.check(p.flipped(chunk_code, n, head + 18), chunk);  // the size it unpacks to
+    for (const std::size_t byte : {1u, 2u, 6u, 8u})
+      p.check(p.flipped(chunk_code, n, byte), chunk);  // its length
     for (const std::size_t byte : {0u, 1u, 2u, 6u}) p.check(p.flipped(index_code, 2 * n, byte), -1);
   }
   CHECK(p.check(p.flipped(attachment_code, 1, head + 200), -1).left_out_text() == "1 damaged attachment");
@@ -217,7 +220,8 @@ TEST_CASE("without the summary at its end, too, a log is read on behind what is 
     const int chunk = static_cast<int>(n);
     p.check(p.without_end(p.flipped(chunk_code, n, head + 100)), chunk);
     for (const std::size_t byte : {1u, 2u, 6u}) p.check(p.without_end(p.flipped(chunk_code, n, byte)), chunk);
-    for (const std::size_t byte : {1u, 2u, 6u}) p.check(p.without_end(p.flipped(index_code, 2 * n, byte)), -1);
+    for (const std::size_t byte : {1u, 2u, 6u})
+      p.check(p.without_end(p.flipped(index_code, 2 * n, byte)), -1);
   }
   CHECK(p.check(p.without_end(p.flipped(attachment_code, 0, head + 30)), -1).left_out.attachments == 1);
   CHECK(p.check(p.without_end(p.flipped(attachment_code, 0, 2)), -1).left_out.attachments == 1);
@@ -238,11 +242,14 @@ TEST_CASE("where nothing can be saved no file is made, nor of a log that is stil
   CHECK_FALSE(std::filesystem::exists(good));
   CHECK_FALSE(std::filesystem::exists(good.string() + ".part"));
   Sample open({.file = folder.path / "open.mcap"});
-  CHECK_THROWS_WITH_AS(recover_log(folder.path / "open.mcap.part", good), doctest::Contains("is still being written"), Error);
+  CHECK_THROWS_WITH_AS(recover_log(folder.path / "open.mcap.part", good),
+                       doctest::Contains("is still being written"), Error);
   CHECK_FALSE(std::filesystem::exists(good.string() + ".part"));
 }
 
-TEST_CASE("of a log that grows between its two readings the recovery ends at the first message that the first has not foreseen") {
+TEST_CASE(
+    "of a log that grows between its two readings the recovery ends at the first message that the first has "
+    "not foreseen") {
   const Folder folder;
   const auto log = [&](const char* name, bool larger, bool channel) {
     Sample sample({.file = folder.path / name});
@@ -283,11 +290,12 @@ TEST_CASE("a log that would fill the memory is refused as a whole, and read one 
   }();
   CHECK(whole > 100'000);
   CHECK(std::filesystem::file_size(file) < whole);  // it is what they unpack to that counts
-  CHECK_THROWS_WITH_AS(read_mcap(file, whole),
-                       ("'" + file.string() + "' is too large to be read as a whole: its messages take more than " +
-                        std::to_string(whole >> 20) + " MB of memory")
-                           .c_str(),
-                       Error);
+  CHECK_THROWS_WITH_AS(
+      read_mcap(file, whole),
+      ("'" + file.string() + "' is too large to be read as a whole: its messages take more than " +
+       std::to_string(whole >> 20) + " MB of memory")
+          .c_str(),
+      Error);
   CHECK(read_mcap(file, 2 * whole).complete);
   McapStream stream(file);
   while (stream.next() != nullptr) {

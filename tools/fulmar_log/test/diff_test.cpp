@@ -48,7 +48,8 @@ TEST_CASE("an enum is told by its label, a list by the element that one of them 
   const Folder folder;
   write_sample({.file = folder.path / "a.mcap"}, 20);
   write_sample({.file = folder.path / "b.mcap"}, 20, [](int i, Mixed& m) { m.mode = i == 3 ? 0 : m.mode; });
-  write_sample({.file = folder.path / "c.mcap"}, 20, [](int i, Mixed& m) { m.legs.count = i == 5 ? 1 : m.legs.count; });
+  write_sample({.file = folder.path / "c.mcap"}, 20,
+               [](int i, Mixed& m) { m.legs.count = i == 5 ? 1 : m.legs.count; });
   const LogDiff d = diff_logs(folder.path / "a.mcap", folder.path / "b.mcap");
   CHECK(d.first->field == "mode");
   CHECK(d.first->a == "hold");
@@ -108,14 +109,17 @@ TEST_CASE("a message more, a topic more, other metadata, another attachment: eac
   CHECK(e.attachments == std::vector<std::string>{"plan.yaml differs from line 2 on"});
 }
 
-TEST_CASE("what comes later than is asked for is not compared; what differs is counted in messages and bytes") {
+TEST_CASE(
+    "what comes later than is asked for is not compared; what differs is counted in messages and bytes") {
   const Folder folder;
   write_sample({.file = folder.path / "a.mcap"}, 100);
   write_sample({.file = folder.path / "b.mcap"}, 110, [](int i, Mixed& m) {
     if (i == 40) m.count ^= 0x0101;  // two bytes
     if (i >= 50) m.mode = 0;
   });
-  const auto after = [](int i) { return static_cast<std::uint64_t>(epoch_ns - 1'000'000'000 + i * 2'500'000LL); };
+  const auto after = [](int i) {
+    return static_cast<std::uint64_t>(epoch_ns - 1'000'000'000 + i * 2'500'000LL);
+  };
   const LogDiff none = diff_logs(folder.path / "a.mcap", folder.path / "b.mcap", {.last_ns = after(39)});
   CHECK(none.messages_equal());
   CHECK(none.messages == 40 + 10);
@@ -126,7 +130,9 @@ TEST_CASE("what comes later than is asked for is not compared; what differs is c
   CHECK(one.first->field == "count");
 }
 
-TEST_CASE("a topic that only one log has holds the first difference where that is asked for, and the ticks never before others") {
+TEST_CASE(
+    "a topic that only one log has holds the first difference where that is asked for, and the ticks never "
+    "before others") {
   const Folder folder;
   for (const bool other : {false, true}) {
     Sample sample({.file = folder.path / (other ? "b.mcap" : "a.mcap")});

@@ -92,7 +92,8 @@ TEST_CASE("a definition of others: header, constants, small integers, defaults, 
   CHECK(found.at("corners[1].x") == "1");
   CHECK(found.at("names[0]") == "q");
   REQUIRE(root.fields[1].name == "status");
-  CHECK(root.fields[1].labels == std::vector<std::pair<std::int64_t, std::string>>{{-1, "no_fix"}, {0, "fix"}});
+  CHECK(root.fields[1].labels ==
+        std::vector<std::pair<std::int64_t, std::string>>{{-1, "no_fix"}, {0, "fix"}});
   CHECK(root.fields[2].labels.empty());
 }
 
@@ -109,8 +110,10 @@ TEST_CASE("a message that is shorter, longer or of another encapsulation than it
   RosField root = parse_ros2msg("a/msg/B", "uint32 x\n");
   CHECK_NOTHROW(measure(root, bytes({0, 1, 0, 0, 9, 0, 0, 0})));
   CHECK_THROWS_WITH_AS(measure(root, bytes({0, 1, 0, 0, 9, 0, 0})), doctest::Contains("too short"), Error);
-  CHECK_THROWS_WITH_AS(measure(root, bytes({0, 1, 0, 0, 9, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8})), doctest::Contains("longer"), Error);
-  CHECK_THROWS_WITH_AS(measure(root, bytes({0, 0, 0, 0, 9, 0, 0, 0})), doctest::Contains("encapsulation 0"), Error);
+  CHECK_THROWS_WITH_AS(measure(root, bytes({0, 1, 0, 0, 9, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8})),
+                       doctest::Contains("longer"), Error);
+  CHECK_THROWS_WITH_AS(measure(root, bytes({0, 0, 0, 0, 9, 0, 0, 0})), doctest::Contains("encapsulation 0"),
+                       Error);
   RosField list = parse_ros2msg("a/msg/B", "float64[] x\n");
   CHECK_THROWS_AS(measure(list, bytes({0, 1, 0, 0, 255, 255, 255, 255})), Error);
 }

@@ -7,9 +7,9 @@
 #include <map>
 
 #include "core/error.hpp"
+#include "core/log/test/log_kit.hpp"
 #include "tools/fulmar_log/export_log.hpp"
 #include "tools/fulmar_log/info.hpp"
-#include "core/log/test/log_kit.hpp"
 
 namespace export_test {
 
@@ -22,7 +22,8 @@ std::string inflated(const std::string& bytes, std::size_t size, int window) {
   std::string out(size, '\0');
   z_stream z{};
   REQUIRE(::inflateInit2(&z, window) == Z_OK);
-  z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data())), z.avail_in = static_cast<uInt>(bytes.size());
+  z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data())),
+  z.avail_in = static_cast<uInt>(bytes.size());
   z.next_out = reinterpret_cast<Bytef*>(out.data()), z.avail_out = static_cast<uInt>(out.size());
   const int code = ::inflate(&z, Z_FINISH);
   CHECK((code == Z_STREAM_END || code == Z_BUF_ERROR));
@@ -130,17 +131,26 @@ TEST_CASE("CSV: times, every field, labels, lists as wide as the longest; number
   const auto mixed = lines(contents(folder.path / "out" / "mixed.csv"));
   REQUIRE(mixed.size() == 1001);
   CHECK(mixed[0] ==
-        "time_s,valid_s,armed,speed_mps,count,gains_ratio[0],gains_ratio[1],gains_ratio[2],name,samples_volt[0],samples_volt[1],mode,mode."
+        "time_s,valid_s,armed,speed_mps,count,gains_ratio[0],gains_ratio[1],gains_ratio[2],name,samples_volt["
+        "0],samples_volt[1],mode,mode."
         "label,"
-        "stamp_ns,load_ratio,offset,attitude_std_rad.north,attitude_std_rad.east,attitude_std_rad.down,tags[0],tags[1],"
-        "legs[0].kind,legs[0].kind.label,legs[0].has_course,legs[0].course_rad,legs[0].position_m.north,legs[0].position_m.east,legs[0]."
+        "stamp_ns,load_ratio,offset,attitude_std_rad.north,attitude_std_rad.east,attitude_std_rad.down,tags["
+        "0],tags[1],"
+        "legs[0].kind,legs[0].kind.label,legs[0].has_course,legs[0].course_rad,legs[0].position_m.north,legs["
+        "0].position_m.east,legs[0]."
         "position_m.down,"
-        "legs[1].kind,legs[1].kind.label,legs[1].has_course,legs[1].course_rad,legs[1].position_m.north,legs[1].position_m.east,legs[1]."
+        "legs[1].kind,legs[1].kind.label,legs[1].has_course,legs[1].course_rad,legs[1].position_m.north,legs["
+        "1].position_m.east,legs[1]."
         "position_m.down");
-  CHECK(mixed[1] == "-1,-1.000001,1,0,7,1,2,-2,ab,0.5,1,1,hold,0,0.25,-3,0.5,1,2,x,yzw,nan,,nan,nan,nan,nan,nan,nan,,nan,nan,nan,nan,nan");
-  CHECK(mixed[2].starts_with("-0.9975,-0.997501,1,0.1,7,1,2,-2,\"a\"\",b\",0.5,1,1,hold,1,0.25,-3,0.5,1,2,x,yzw,1,orbit,1,0.5,3,4,5,nan"));
+  CHECK(mixed[1] ==
+        "-1,-1.000001,1,0,7,1,2,-2,ab,0.5,1,1,hold,0,0.25,-3,0.5,1,2,x,yzw,nan,,nan,nan,nan,nan,nan,nan,,nan,"
+        "nan,nan,nan,nan");
+  CHECK(
+      mixed[2].starts_with("-0.9975,-0.997501,1,0.1,7,1,2,-2,\"a\"\",b\",0.5,1,1,hold,1,0.25,-3,0.5,1,2,x,"
+                           "yzw,1,orbit,1,0.5,3,4,5,nan"));
   CHECK(mixed[8].substr(0, 40).find(",0.7000000000000001,") != std::string::npos);
-  CHECK_THROWS_WITH_AS(export_log(folder.path / "a.mcap", ExportForm::csv, folder.path / "out", {}), doctest::Contains("exists"), Error);
+  CHECK_THROWS_WITH_AS(export_log(folder.path / "a.mcap", ExportForm::csv, folder.path / "out", {}),
+                       doctest::Contains("exists"), Error);
 }
 
 TEST_CASE("NPZ: one array per field, of its own type; labels and texts beside") {
@@ -148,7 +158,8 @@ TEST_CASE("NPZ: one array per field, of its own type; labels and texts beside") 
   write_sample({.file = folder.path / "a.mcap"}, 1000);
   export_log(folder.path / "a.mcap", ExportForm::npz, folder.path / "a.npz", {});
   const auto files = unzip(contents(folder.path / "a.npz"));
-  const Npy time(files.at("mixed.time_s.npy")), speed(files.at("mixed.speed_mps.npy")), armed(files.at("mixed.armed.npy"));
+  const Npy time(files.at("mixed.time_s.npy")), speed(files.at("mixed.speed_mps.npy")),
+      armed(files.at("mixed.armed.npy"));
   CHECK(time.header.find("'descr': '<f8', 'fortran_order': False, 'shape': (1000,)") != std::string::npos);
   REQUIRE(time.data.size() == 8000);
   CHECK(at<double>(time.data, 8) == -0.9975);
@@ -200,7 +211,8 @@ TEST_CASE("MAT: one struct per topic, columns of numbers, cells of texts") {
   CHECK(at<double>(Element(speed.bytes, speed.body).bytes, 8 * 99) == 0.1 * 99);
   CHECK(fields.at("armed").shape == (0x200 | 9));
   CHECK((fields.at("stamp_ns").shape & 0xff) == 14);
-  CHECK(std::isnan(at<double>(Element(fields.at("legs_1_course_rad").bytes, fields.at("legs_1_course_rad").body).bytes, 0)));
+  CHECK(std::isnan(at<double>(
+      Element(fields.at("legs_1_course_rad").bytes, fields.at("legs_1_course_rad").body).bytes, 0)));
   const Matrix& name = fields.at("name");
   CHECK((name.shape & 0xff) == 1);
   const Matrix first(Element(name.bytes, name.body).bytes);
@@ -209,7 +221,9 @@ TEST_CASE("MAT: one struct per topic, columns of numbers, cells of texts") {
   CHECK(fields.count("mode_labels") == 1);
 }
 
-TEST_CASE("a topic that is not there is refused with the ones that are; one of another encoding is left out, and refused by name") {
+TEST_CASE(
+    "a topic that is not there is refused with the ones that are; one of another encoding is left out, and "
+    "refused by name") {
   const Folder folder;
   Sample sample({.file = folder.path / "a.mcap", .profile = "", .library = "other"});
   const std::uint16_t number = sample.channel("/camera/number", *number_type());
@@ -226,10 +240,10 @@ TEST_CASE("a topic that is not there is refused with the ones that are; one of a
   CHECK(r.left_out[0].find("'protobuf'") != std::string::npos);
   CHECK(contents(folder.path / "out" / "camera.number.csv") ==
         "time_s,valid_s,value_ratio\n5,4.999999,0.5\n");  // from the first message on
-  CHECK_THROWS_WITH_AS(export_log(folder.path / "a.mcap", ExportForm::npz, folder.path / "b.npz", {"/pose"}), doctest::Contains("protobuf"),
-                       Error);
-  CHECK_THROWS_WITH_AS(export_log(folder.path / "a.mcap", ExportForm::npz, folder.path / "b.npz", {"/posee"}), doctest::Contains("'/pose'"),
-                       Error);
+  CHECK_THROWS_WITH_AS(export_log(folder.path / "a.mcap", ExportForm::npz, folder.path / "b.npz", {"/pose"}),
+                       doctest::Contains("protobuf"), Error);
+  CHECK_THROWS_WITH_AS(export_log(folder.path / "a.mcap", ExportForm::npz, folder.path / "b.npz", {"/posee"}),
+                       doctest::Contains("'/pose'"), Error);
   CHECK_FALSE(std::filesystem::exists(folder.path / "b.npz"));
 }
 

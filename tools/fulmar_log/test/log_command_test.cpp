@@ -69,8 +69,8 @@ TEST_CASE("info as JSON: what the log holds, by topic") {
 
 TEST_CASE("diff ends with 0 for equal logs and 1 for others; metadata count unless --messages") {
   const Folder folder;
-  const std::string a = (folder.path / "a.mcap").string(), b = (folder.path / "b.mcap").string(), c = (folder.path / "c.mcap").string(),
-                    d = (folder.path / "d.mcap").string();
+  const std::string a = (folder.path / "a.mcap").string(), b = (folder.path / "b.mcap").string(),
+                    c = (folder.path / "c.mcap").string(), d = (folder.path / "d.mcap").string();
   write_sample({.file = a}, 100);
   write_sample({.file = b}, 100);
   write_sample({.file = c}, 100, [](int i, Mixed& m) { m.count += i == 50; });
@@ -118,7 +118,8 @@ TEST_CASE("what is no log is refused, and why; info tells the epoch as a date an
   const Folder folder;
   const std::string log = (folder.path / "a.mcap").string(), nothing = (folder.path / "empty.mcap").string();
   store(nothing, "");
-  CHECK(call("log info " + folder.path.string()).out == "cannot read '" + folder.path.string() + "': it is a directory");
+  CHECK(call("log info " + folder.path.string()).out ==
+        "cannot read '" + folder.path.string() + "': it is a directory");
   CHECK(call("log export --to csv " + nothing).out == "cannot read '" + nothing + "': it is empty");
   CHECK(call("log recover /dev/null").out == "cannot read '/dev/null': it is no file");
   CHECK(call("log info " + log).out == "cannot read '" + log + "': there is no such file");

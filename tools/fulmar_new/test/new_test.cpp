@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `fulmar new`: what it reads from a mission, what it writes, what it refuses. That the projects build and fly is tried by installed.sh.
+// `fulmar new`: what it reads from a mission, what it writes, what it refuses. That the projects build and
+// fly is tried by installed.sh.
 #include <doctest/doctest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -36,7 +37,8 @@ struct Result {
   std::string words;
 };
 Result call(const std::string& arguments) {
-  const std::string command = "cd " + folder().string() + " && " + program.string() + " " + arguments + " 2>&1";
+  const std::string command =
+      "cd " + folder().string() + " && " + program.string() + " " + arguments + " 2>&1";
   FILE* pipe = popen(command.c_str(), "r");
   REQUIRE(pipe != nullptr);
   std::string words;
@@ -86,15 +88,16 @@ TEST_CASE("the contract of a role is what the mission says of it") {
   CHECK(vehicle.inputs.back().kind == FULMAR_IN_REQUEST);  // arm
   CHECK(vehicle.outputs.back().optional);                  // truth
   CHECK_THROWS_WITH_AS(read_contract(mission, "gude"),
-                       "--role gude: hourglass.yaml has no such role. Did you mean 'guide'? Valid: vehicle, nav, guide, outer, inner.",
+                       "--role gude: hourglass.yaml has no such role. Did you mean 'guide'? Valid: vehicle, "
+                       "nav, guide, outer, inner.",
                        Error);
 }
 
 TEST_CASE("the project of a shipped role is complete, and its mission names the shipped law as fallback") {
   const Result made = call("new my_law --role outer");
   REQUIRE_MESSAGE(made.code == 0, made.words);
-  for (const char* file : {"my_law.hpp", "my_law.cpp", "my_law_test.cpp", "mission.yaml", "README.md", "CMakeLists.txt",
-                           "CMakePresets.json", ".clang-format", ".gitignore"})
+  for (const char* file : {"my_law.hpp", "my_law.cpp", "my_law_test.cpp", "mission.yaml", "README.md",
+                           "CMakeLists.txt", "CMakePresets.json", ".clang-format", ".gitignore"})
     CHECK_MESSAGE(fs::is_regular_file(folder() / "my_law" / file), file);
   CHECK(holds(text_of(folder() / "my_law" / "my_law.hpp"), "In<GuidanceCommand> command;"));
   CHECK_FALSE(holds(text_of(folder() / "my_law" / "my_law.hpp"), "// ports"));
@@ -115,22 +118,28 @@ TEST_CASE("what takes the vehicle's role has it for itself") {
   CHECK(graph.components[static_cast<std::size_t>(graph.vehicle)].name == "glider");
 }
 
-TEST_CASE("a role of somebody's own mission gets a body that passes on what was there, and messages that the SDK lacks") {
+TEST_CASE(
+    "a role of somebody's own mission gets a body that passes on what was there, and messages that the SDK "
+    "lacks") {
   const std::string common = (missions / "common.yaml").string();
-  file_with("own.yaml", "mission: own\nextends: " + common +
-                            "\nairframe: " FULMAR_SOURCE_DIR
-                            "/configs/airframes/anaconda.yaml\n"
-                            "roles:\n  judge: {in: {state: nav.state, command: guide.command}, out: {figures: Figures}}\n"
-                            "components:\n  referee: {fills: judge, use: score/Score, rate: 50 Hz, params: {start_height: 30 m}}\n"
-                            "  plan: {params: {plan: " FULMAR_SOURCE_DIR "/configs/plans/hourglass.yaml}}\n");
+  file_with("own.yaml",
+            "mission: own\nextends: " + common +
+                "\nairframe: " FULMAR_SOURCE_DIR
+                "/configs/airframes/anaconda.yaml\n"
+                "roles:\n  judge: {in: {state: nav.state, command: guide.command}, out: {figures: Figures}}\n"
+                "components:\n  referee: {fills: judge, use: score/Score, rate: 50 Hz, params: "
+                "{start_height: 30 m}}\n"
+                "  plan: {params: {plan: " FULMAR_SOURCE_DIR "/configs/plans/hourglass.yaml}}\n");
   const Result made = call("new my_judge --role judge --mission own.yaml --dir deep/er");
   REQUIRE_MESSAGE(made.code == 0, made.words);
-  const std::string header = text_of(folder() / "deep/er/my_judge.hpp"), written = text_of(folder() / "deep/er/mission.yaml");
+  const std::string header = text_of(folder() / "deep/er/my_judge.hpp"),
+                    written = text_of(folder() / "deep/er/mission.yaml");
   CHECK(holds(header, "fulmar/msg/guidance_command.hpp>\n"));
   CHECK(holds(header, "struct Figures {"));
   CHECK(holds(header, "Out<messages::Figures> figures;"));
   CHECK(holds(written,
-              "reference: {use: score/Score, rate: 50 Hz, in: {state: nav.state, command: guide.command}, params: {start_height: 30 m}}"));
+              "reference: {use: score/Score, rate: 50 Hz, in: {state: nav.state, command: guide.command}, "
+              "params: {start_height: 30 m}}"));
   CHECK(holds(written, "in: {reference_figures: reference.figures}"));
 }
 
@@ -141,7 +150,8 @@ TEST_CASE("file names of the given mission are still found from the new one") {
   fs::copy_file(FULMAR_SOURCE_DIR "/configs/plans/hourglass.yaml", folder() / "beside/plan one.yaml");
   fs::copy_file(FULMAR_PLUGIN_DIR "/control_tecs.so", folder() / "beside/home.so");
   std::ofstream(folder() / "beside/m.yaml")
-      << "extends: common.yaml\nairframe: air.yaml\ncomponents:\n  plan: {params: {plan: \"plan one.yaml\"}}\n"
+      << "extends: common.yaml\nairframe: air.yaml\ncomponents:\n  plan: {params: {plan: \"plan "
+         "one.yaml\"}}\n"
          "  slc: {use: home.so/Outer}\nphases:\n  takeoff: {outer: tecs}\n";
   REQUIRE(call("new far --role inner --mission beside/m.yaml --dir 'a b'").code == 0);
   const Graph graph = loaded(folder() / "a b/mission.yaml", "far", "control_slc/Inner");
@@ -157,13 +167,15 @@ TEST_CASE("the C++ struct of a message says what its field table says") {
   Type type;
   type.name = "Track";
   Field mode{.name = "mode", .unit = "", .type = nullptr, .labels = {"off", "on"}, .kind = FULMAR_ENUM};
-  Field points{.name = "points", .unit = "", .type = inner, .labels = {}, .kind = FULMAR_STRUCT, .shape = FULMAR_LIST};
+  Field points{
+      .name = "points", .unit = "", .type = inner, .labels = {}, .kind = FULMAR_STRUCT, .shape = FULMAR_LIST};
   points.count = 8;
   Field name{.name = "title", .unit = "", .type = nullptr, .labels = {}, .kind = FULMAR_TEXT};
   name.stride = 24;
   type.fields = {mode, points, name};
   CHECK(message_source(type) ==
-        "struct Point {\n  float at_m{};\n};\n\nenum class TrackMode : std::uint8_t { off, on };\nstruct Track {\n  TrackMode mode{};\n"
+        "struct Point {\n  float at_m{};\n};\n\nenum class TrackMode : std::uint8_t { off, on };\nstruct "
+        "Track {\n  TrackMode mode{};\n"
         "  List<Point, 8> points;\n  Text<24> title;\n};\n\n");
 }
 
@@ -173,13 +185,15 @@ TEST_CASE("a struct never takes a name that the SDK has") {
 }
 
 TEST_CASE("what cannot be written is refused with a sentence, and nothing is overwritten") {
-  CHECK(call("new 9lives --role outer").words == "'9lives' is no name for a plugin: letters, digits and _, a letter first, as in my_law\n");
-  CHECK(call("new test --role outer").words == "'test' means something to the build already. Choose another name, as in my_test\n");
+  CHECK(call("new 9lives --role outer").words ==
+        "'9lives' is no name for a plugin: letters, digits and _, a letter first, as in my_law\n");
+  CHECK(call("new test --role outer").words ==
+        "'test' means something to the build already. Choose another name, as in my_test\n");
   CHECK(call("new ekf --role nav").words ==
         "the mission hourglass has a component called 'ekf' already. Choose another name, as in my_ekf\n");
-  CHECK(holds(
-      call("new a_law --role outer --mission hourglas").words,
-      "--mission hourglas: there is no such file, and no shipped mission of that name. Did you mean 'hourglass'? Valid: calm, "));
+  CHECK(holds(call("new a_law --role outer --mission hourglas").words,
+              "--mission hourglas: there is no such file, and no shipped mission of that name. Did you mean "
+              "'hourglass'? Valid: calm, "));
   file_with("taken", "mine");
   CHECK(call("new a_law --role outer --dir taken").words == "taken is a file, not a folder\n");
   fs::create_directories(folder() / "full");

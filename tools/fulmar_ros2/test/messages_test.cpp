@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The foreign messages are those of ROS: the type hashes are the ones that ROS 2 Jazzy publishes, the texts have the fields of the
-// packages.
+// The foreign messages are those of ROS: the type hashes are the ones that ROS 2 Jazzy publishes, the texts
+// have the fields of the packages.
 #include <doctest/doctest.h>
 
 #include <nlohmann/json.hpp>
@@ -33,7 +33,8 @@ TEST_CASE("standard messages have the type hashes of ROS 2") {
   CHECK(hash<RosTwist>() == "RIHS01_9c45bf16fe0983d80e3cfe750d6835843d265a9a6c46bd2e609fcddde6fb8d2a");
   CHECK(hash<RosImu>() == "RIHS01_7d9a00ff131080897a5ec7e26e315954b8eae3353c3f995c55faf71574000b5b");
   CHECK(hash<RosOdometry>() == "RIHS01_3cc97dc7fb7502f8714462c526d369e35b603cfc34d946e3f2eda2766dfec6e0");
-  CHECK(hash<RosFluidPressure>() == "RIHS01_22dfb2b145a0bd5a31a1ac3882a1b32148b51d9b2f3bab250290d66f3595bc32");
+  CHECK(hash<RosFluidPressure>() ==
+        "RIHS01_22dfb2b145a0bd5a31a1ac3882a1b32148b51d9b2f3bab250290d66f3595bc32");
   CHECK(hash<RosNavSatStatus>() == "RIHS01_d1ed3befa628e09571bd273b888ba1c1fd187c9a5e0006b385d7e5e9095a3204");
 }
 
@@ -45,9 +46,11 @@ TEST_CASE("sequences of foreign messages have no bound") {
 
 TEST_CASE("small whole numbers keep their size on the wire") {
   CHECK(text<RosplaneCurrentPath>() ==
-        "std_msgs/Header header\nuint8 path_type\nfloat32 va_d\nfloat32[3] r\nfloat32[3] q\nfloat32[3] c\nfloat32 rho\nint8 lamda\n");
+        "std_msgs/Header header\nuint8 path_type\nfloat32 va_d\nfloat32[3] r\nfloat32[3] q\nfloat32[3] "
+        "c\nfloat32 rho\nint8 lamda\n");
   CHECK(text<RosflightStatus>() ==
-        "std_msgs/Header header\nbool armed\nbool failsafe\nuint16 rc_override\nbool offboard\nuint8 control_mode\nuint8 error_code\n"
+        "std_msgs/Header header\nbool armed\nbool failsafe\nuint16 rc_override\nbool offboard\nuint8 "
+        "control_mode\nuint8 error_code\n"
         "int16 num_errors\nint16 loop_time_us\n");
   const core::CdrEncoder encoder(*core::copy_type(describe<RosNavSatStatus>()));
   std::vector<std::byte> bytes;

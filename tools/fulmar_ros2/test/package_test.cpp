@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The package that ROS 2 would build, read back: texts parsed again have the hashes of the wire, names are those that rosidl takes, and
-// nothing that belongs to somebody else is touched.
+// The package that ROS 2 would build, read back: texts parsed again have the hashes of the wire, names are
+// those that rosidl takes, and nothing that belongs to somebody else is touched.
 #include <doctest/doctest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,8 +14,8 @@
 #include <sstream>
 
 #include "core/loader/library.hpp"
-#include "core/run/flight_control.hpp"
 #include "core/log/reader.hpp"
+#include "core/run/flight_control.hpp"
 #include "core/types/ros_parse.hpp"
 #include "core/types/wire.hpp"
 #include "tools/fulmar_ros2/interface_package.hpp"
@@ -37,7 +37,8 @@ struct Folder {
 
 Package package_of(const std::vector<std::string>& plugins) {
   Collector collector;
-  for (const std::string& name : plugins) collector.add(Library::open(fs::path(FULMAR_PLUGIN_DIR) / (name + ".so"))->info());
+  for (const std::string& name : plugins)
+    collector.add(Library::open(fs::path(FULMAR_PLUGIN_DIR) / (name + ".so"))->info());
   return collector.package();
 }
 
@@ -79,7 +80,8 @@ TEST_CASE("each text, parsed again, has the hash of its message on the wire") {
     const std::string &name = message.first, &hash = message.second;
     CAPTURE(name);
     std::set<std::string> seen;
-    const auto parsed = fulmar::core::parse_ros_definition(name, schema(p, name.substr(name.rfind('/') + 1), seen));
+    const auto parsed =
+        fulmar::core::parse_ros_definition(name, schema(p, name.substr(name.rfind('/') + 1), seen));
     CHECK(fulmar::core::ros_type_hash(*parsed) == hash);
   }
 }
@@ -87,7 +89,8 @@ TEST_CASE("each text, parsed again, has the hash of its message on the wire") {
 TEST_CASE("names and lines are those that rosidl takes, and every message that is used is there") {
   const Package p = package_of({"path", "ros_bridge"});
   const std::regex field(
-      "(bool|u?int(8|16|32|64)|float(32|64)|string|[a-z_]+/[A-Z][A-Za-z0-9]*)(\\[(<=)?[0-9]*\\])? [a-z][a-z0-9_]*( +#.*)?");
+      "(bool|u?int(8|16|32|64)|float(32|64)|string|[a-z_]+/[A-Z][A-Za-z0-9]*)(\\[(<=)?[0-9]*\\])? "
+      "[a-z][a-z0-9_]*( +#.*)?");
   const std::regex constant("uint8 [A-Z][A-Z0-9_]*=[0-9]+");
   for (const auto& entry : p.files) {
     const std::string &file = entry.first, &text = entry.second;
@@ -98,21 +101,25 @@ TEST_CASE("names and lines are those that rosidl takes, and every message that i
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) {
       CAPTURE(line);
-      const bool good =
-          line.empty() || line == "---" || line[0] == '#' || std::regex_match(line, constant) || std::regex_match(line, field);
+      const bool good = line.empty() || line == "---" || line[0] == '#' || std::regex_match(line, constant) ||
+                        std::regex_match(line, field);
       CHECK(good);
       const std::size_t ours = line.rfind("fulmar_msgs/", 0);
-      if (ours == 0) CHECK(p.files.count("msg/" + line.substr(12, line.find_first_of(" [", 12) - 12) + ".msg") == 1);
+      if (ours == 0)
+        CHECK(p.files.count("msg/" + line.substr(12, line.find_first_of(" [", 12) - 12) + ".msg") == 1);
     }
   }
 }
 
-TEST_CASE("a package of a mission has every message that a log of it holds, with the text and the hash of the log") {
+TEST_CASE(
+    "a package of a mission has every message that a log of it holds, with the text and the hash of the "
+    "log") {
   const Folder folder;
   fs::create_directories(folder.path);
   const fs::path log = folder.path / "flight.mcap", package = folder.path / "fulmar_msgs";
   const std::string mission = FULMAR_SOURCE_DIR "/configs/missions/two_schemes.yaml";
-  const std::string fly = FULMAR_BIN_DIR "/fulmar run " + mission + " --duration 5 --live off --log " + log.string() + " >/dev/null 2>&1";
+  const std::string fly = FULMAR_BIN_DIR "/fulmar run " + mission + " --duration 5 --live off --log " +
+                          log.string() + " >/dev/null 2>&1";
   REQUIRE(std::system(fly.c_str()) != -1);
   REQUIRE(run("interface-package " + package.string() + " --mission " + mission) == 0);
   const std::string readme = read(package / "README.md"), cmake = read(package / "CMakeLists.txt");
@@ -123,25 +130,34 @@ TEST_CASE("a package of a mission has every message that a log of it holds, with
     const fulmar::core::McapFile::Schema& schema = file.schemas.at(channel.schema);
     CAPTURE(channel.topic);
     CAPTURE(schema.name);
-    CHECK(texts.emplace(schema.name, schema.text).first->second == schema.text);  // ROS tells messages apart by name alone
+    CHECK(texts.emplace(schema.name, schema.text).first->second ==
+          schema.text);  // ROS tells messages apart by name alone
     REQUIRE(schema.name.starts_with("fulmar_msgs/msg/"));
     const std::string name = schema.name.substr(16);
-    CHECK(read(package / "msg" / (name + ".msg")) == schema.text.substr(0, schema.text.find(std::string(80, '='))));
+    CHECK(read(package / "msg" / (name + ".msg")) ==
+          schema.text.substr(0, schema.text.find(std::string(80, '='))));
     CHECK(cmake.find("\"msg/" + name + ".msg\"") != std::string::npos);
     for (const auto& pair : channel.metadata)
-      if (pair.first == "topic_type_hash") CHECK(readme.find("| " + schema.name + " | `" + pair.second + "` |") != std::string::npos);
+      if (pair.first == "topic_type_hash")
+        CHECK(readme.find("| " + schema.name + " | `" + pair.second + "` |") != std::string::npos);
   }
   for (const char* name : {"Event", "Ticks", "Plan", "ControlSlcOuterProbes"})
     CHECK(texts.count("fulmar_msgs/msg/" + std::string(name)) == 1);
   // what this flight had no occasion for
-  CHECK(readme.find(fulmar::core::ros_type_hash(*fulmar::core::host_type<fulmar::core::CommandNote>())) != std::string::npos);
+  CHECK(readme.find(fulmar::core::ros_type_hash(*fulmar::core::host_type<fulmar::core::CommandNote>())) !=
+        std::string::npos);
   CHECK(read(package / "msg/Command.msg") ==
-        "uint8 PARAMETER=0\nuint8 PHASE=1\nuint8 SWAP=2\nuint8 RESET=3\nuint8 REQUEST=4\nuint8 IMPORT=5\nuint8 kind\n"
-        "string component\nstring name\nfloat64[3] number\nint64 integer\nstring text\nstring version\nstring sha256\n");
-  CHECK(read(package / "msg/ControlTecsOuterProbes.msg").find("float64 underspeed_ratio\n") != std::string::npos);
+        "uint8 PARAMETER=0\nuint8 PHASE=1\nuint8 SWAP=2\nuint8 RESET=3\nuint8 REQUEST=4\nuint8 "
+        "IMPORT=5\nuint8 kind\n"
+        "string component\nstring name\nfloat64[3] number\nint64 integer\nstring text\nstring "
+        "version\nstring sha256\n");
+  CHECK(read(package / "msg/ControlTecsOuterProbes.msg").find("float64 underspeed_ratio\n") !=
+        std::string::npos);
 }
 
-TEST_CASE("messages of ROS are not written again, and a request is a service that answers with a verdict and a reason") {
+TEST_CASE(
+    "messages of ROS are not written again, and a request is a service that answers with a verdict and a "
+    "reason") {
   const Package p = package_of({"path", "ros_bridge"});
   CHECK(p.files.count("msg/PoseStamped.msg") == 0);
   CHECK(p.files.count("msg/RosPoseStamped.msg") == 0);
@@ -174,11 +190,13 @@ TEST_CASE("two different messages of one name are refused") {
   Collector collector;
   collector.add(plugin("a.so", FULMAR_F64));
   collector.add(plugin("a.so", FULMAR_F64));
-  CHECK_THROWS_WITH(collector.add(plugin("b.so", FULMAR_I64)),
-                    "two different messages are called Thing: one of a.so and one of b.so. Write a package for each.");
+  CHECK_THROWS_WITH(
+      collector.add(plugin("b.so", FULMAR_I64)),
+      "two different messages are called Thing: one of a.so and one of b.so. Write a package for each.");
   Collector other;
-  CHECK_THROWS_WITH(other.add(plugin("a.so", FULMAR_F64, "X_m")),
-                    "Thing.X_m is no name of a field in ROS: lower-case letters, digits and single underscores.");
+  CHECK_THROWS_WITH(
+      other.add(plugin("a.so", FULMAR_F64, "X_m")),
+      "Thing.X_m is no name of a field in ROS: lower-case letters, digits and single underscores.");
 }
 
 TEST_CASE("a folder of somebody else is left alone, one of ours is brought up to date") {

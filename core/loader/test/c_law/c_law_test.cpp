@@ -77,7 +77,8 @@ TEST_CASE("the law in C computes what its equations say") {
 TEST_CASE("the mission of the law in C is flown to its end, and no guard fires") {
   const Project project;
   const std::string program = std::string(FULMAR_BIN_DIR "/fulmar ");
-  const auto result = nlohmann::json::parse(output_of(program + "run " + project.mission().string() + " --json --no-log"));
+  const auto result =
+      nlohmann::json::parse(output_of(program + "run " + project.mission().string() + " --json --no-log"));
   CHECK(result["result"] == "flown");
   CHECK(result["guards"].empty());
   double cruised = 0;
@@ -86,13 +87,17 @@ TEST_CASE("the mission of the law in C is flown to its end, and no guard fires")
   CHECK(cruised > 30);  // it was this law that flew
 }
 
-TEST_CASE("a list of allowed plugins holds for a whole mission: what is on it flies, what was exchanged is not opened") {
+TEST_CASE(
+    "a list of allowed plugins holds for a whole mission: what is on it flies, what was exchanged is not "
+    "opened") {
   const Project project;
   const fs::path file = project.path / "examples" / "c_law" / "build" / "c_law.so";
   const std::string sha256 = sha256_file(file);
-  std::ofstream(project.mission(), std::ios::app) << "plugins:\n  allow:\n    - {file: build/c_law.so, sha256: " << sha256
-                                                  << "}\n    - sim_aero\n    - estimator_ekf\n    - path\n    - control_slc\n    - score\n";
-  const std::string check = std::string(FULMAR_BIN_DIR "/fulmar ") + "check " + project.mission().string() + " 2>&1";
+  std::ofstream(project.mission(), std::ios::app)
+      << "plugins:\n  allow:\n    - {file: build/c_law.so, sha256: " << sha256
+      << "}\n    - sim_aero\n    - estimator_ekf\n    - path\n    - control_slc\n    - score\n";
+  const std::string check =
+      std::string(FULMAR_BIN_DIR "/fulmar ") + "check " + project.mission().string() + " 2>&1";
   const auto said = [&] {
     std::FILE* pipe = ::popen(check.c_str(), "r");
     char buffer[16384];
@@ -101,17 +106,19 @@ TEST_CASE("a list of allowed plugins holds for a whole mission: what is on it fl
     return std::string(buffer, n);
   };
   // the shipped mission names control_tecs too
-  CHECK(said().find("control_tecs.so is not among the plugins that this mission allows") != std::string::npos);
+  CHECK(said().find("control_tecs.so is not among the plugins that this mission allows") !=
+        std::string::npos);
   std::ofstream(project.mission(), std::ios::app) << "    - control_tecs\n";
   CHECK(said().find("is not among") == std::string::npos);
-  const auto result = nlohmann::json::parse(
-      output_of(std::string(FULMAR_BIN_DIR "/fulmar ") + "run " + project.mission().string() + " --json --no-log --duration 20"));
+  const auto result =
+      nlohmann::json::parse(output_of(std::string(FULMAR_BIN_DIR "/fulmar ") + "run " +
+                                      project.mission().string() + " --json --no-log --duration 20"));
   CHECK(result["result"] == "flown");
 
   std::fstream bytes(file, std::ios::in | std::ios::out | std::ios::binary);
   bytes.seekp(-1, std::ios::end);
   bytes.put('\x5a');
   bytes.close();
-  CHECK(said().find("c_law.so has the SHA-256 " + sha256_file(file) + ", but " + sha256 + " is listed in mission.yaml:") !=
-        std::string::npos);
+  CHECK(said().find("c_law.so has the SHA-256 " + sha256_file(file) + ", but " + sha256 +
+                    " is listed in mission.yaml:") != std::string::npos);
 }

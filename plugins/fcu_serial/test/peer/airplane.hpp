@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The simulated aircraft behind the software flight controller: the plant and the sensors of sim_aero, moved by the controller's outputs.
+// The simulated aircraft behind the software flight controller: the plant and the sensors of sim_aero, moved
+// by the controller's outputs.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -32,10 +33,12 @@ class Airplane {
         spec_(spec(world.sensors, rates)),
         frame_(world.latitude_deg, world.longitude_deg, world.altitude_m),
         plant_(plant(world)),
-        sensors_(spec_, rates.imu, frame_, magnetic_field_ned(world.latitude_deg, world.longitude_deg, world.altitude_m, 2026.0),
+        sensors_(spec_, rates.imu, frame_,
+                 magnetic_field_ned(world.latitude_deg, world.longitude_deg, world.altitude_m, 2026.0),
                  world.seed),
         dt_(1 / rates.imu) {
-    mag_ = sim::Due(rates.mag, 0), baro_ = sim::Due(rates.baro, 0), pitot_ = sim::Due(rates.pitot, 0), gnss_ = sim::Due(rates.gnss, 0);
+    mag_ = sim::Due(rates.mag, 0), baro_ = sim::Due(rates.baro, 0), pitot_ = sim::Due(rates.pitot, 0),
+    gnss_ = sim::Due(rates.gnss, 0);
   }
 
   /// One period of the inertial unit.
@@ -53,7 +56,8 @@ class Airplane {
     const Deflected d = firmware_.deflected();
     const auto angle = [](double u, const Surface& s) { return (s.reversed ? -u : u) * s.limit_rad; };
     const auto sound = [](double v) { return std::isfinite(v) ? v : 0; };
-    return {sound(d.throttle), sound(angle(d.aileron, world_.airframe.aileron)), sound(angle(d.elevator, world_.airframe.elevator)),
+    return {sound(d.throttle), sound(angle(d.aileron, world_.airframe.aileron)),
+            sound(angle(d.elevator, world_.airframe.elevator)),
             sound(angle(d.rudder, world_.airframe.rudder))};
   }
   const sim::Plant& plant() const { return plant_; }
@@ -72,7 +76,8 @@ class Airplane {
       p.stand(0, 0, w.heading_rad);
     return p;
   }
-  /// On the ground the gusts begin anew, 5 s before: as sim_aero's do, so that both fly through the same ones.
+  /// On the ground the gusts begin anew, 5 s before: as sim_aero's do, so that both fly through the same
+  /// ones.
   void release() {
     released_ = true;
     if (world_.start_height_m > 0) return;
@@ -103,7 +108,8 @@ class Airplane {
       in.pitot_pa = pitot_covered ? pa - wind_pa : pa;
     }
     if (gnss_(time_ns_)) gnss_delay_.push(sensors_.gnss(plant_, epoch_ns + time_ns_), time_ns_);
-    if (const auto* late = gnss_delay_.pop(time_ns_, std::llround(1e9 * spec_.gnss_latency_s))) fix(late->value, late->valid_at_ns);
+    if (const auto* late = gnss_delay_.pop(time_ns_, std::llround(1e9 * spec_.gnss_latency_s)))
+      fix(late->value, late->valid_at_ns);
     in.battery_volt = world_.airframe.propulsion.battery_volt;
     in.battery_amp = plant_.battery_amp();
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the peer is reached: a pseudo-terminal under a name of one's choice, which can be pulled out, or UDP as ROSflight in simulation.
+// Where the peer is reached: a pseudo-terminal under a name of one's choice, which can be pulled out, or UDP
+// as ROSflight in simulation.
 #pragma once
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -38,10 +39,13 @@ class Terminal : public Endpoint {
 
   void plug() override {
     master_ = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
-    if (master_ < 0 || ::grantpt(master_) != 0 || ::unlockpt(master_) != 0) throw std::runtime_error("no pseudo-terminal to be had");
+    if (master_ < 0 || ::grantpt(master_) != 0 || ::unlockpt(master_) != 0)
+      throw std::runtime_error("no pseudo-terminal to be had");
     slave_ = ::ptsname(master_);
     const int slave =
-        ::open(slave_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);  // raw, and from its close on the master sees whether anybody is there
+        ::open(slave_.c_str(),
+               O_RDWR | O_NOCTTY |
+                   O_CLOEXEC);  // raw, and from its close on the master sees whether anybody is there
     termios t{};
     ::tcgetattr(slave, &t);
     ::cfmakeraw(&t);
@@ -101,13 +105,15 @@ class Datagrams : public Endpoint {
   std::size_t read(std::span<std::uint8_t> room) override {
     sockaddr_in from{};
     socklen_t size = sizeof from;
-    const auto n = ::recvfrom(socket_, room.data(), room.size(), 0, reinterpret_cast<sockaddr*>(&from), &size);
+    const auto n =
+        ::recvfrom(socket_, room.data(), room.size(), 0, reinterpret_cast<sockaddr*>(&from), &size);
     if (n <= 0) return 0;
     remote_ = from;
     return static_cast<std::size_t>(n);
   }
   void write(std::span<const std::uint8_t> bytes) override {
-    [[maybe_unused]] const auto n = ::sendto(socket_, bytes.data(), bytes.size(), 0, reinterpret_cast<sockaddr*>(&remote_), sizeof remote_);
+    [[maybe_unused]] const auto n = ::sendto(socket_, bytes.data(), bytes.size(), 0,
+                                             reinterpret_cast<sockaddr*>(&remote_), sizeof remote_);
   }
   std::string name() const override { return "udp:127.0.0.1:" + std::to_string(local_); }
 

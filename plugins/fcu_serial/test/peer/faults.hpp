@@ -27,7 +27,8 @@ class Line {
       if (!happens(rates_.corrupt)) continue;
       auto& bytes = waiting_.back().bytes;
       const auto at = static_cast<std::size_t>(random_.uniform(0, static_cast<double>(bytes.size())));
-      bytes[at % bytes.size()] ^= static_cast<std::uint8_t>(1u << static_cast<unsigned>(random_.uniform(0, 7.99)));
+      bytes[at % bytes.size()] ^=
+          static_cast<std::uint8_t>(1u << static_cast<unsigned>(random_.uniform(0, 7.99)));
     }
   }
   /// What has arrived at the other end. False: nothing yet.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A flight controller with an aircraft around it, in software: fcu_peer --link fcu, then fulmar run MISSION --io fcu --set fcu.port=fcu.
-// Hardware in the loop without hardware.
+// A flight controller with an aircraft around it, in software: fcu_peer --link fcu, then fulmar run MISSION
+// --io fcu --set fcu.port=fcu. Hardware in the loop without hardware.
 #include <poll.h>
 #include <sched.h>
 #include <sys/prctl.h>
@@ -24,14 +24,15 @@ volatile std::sig_atomic_t stop_asked = 0, disarm_asked = 0;
 
 struct Settings {
   std::string link, airframe = "anaconda", truth, sensors = "rosflight", turbulence = "light";
-  bool udp = false, refuse = false, old_firmware = false, nmea = false, cold = false, realtime = false, silent = false, garbage = false,
-       multirotor = false;
+  bool udp = false, refuse = false, old_firmware = false, nmea = false, cold = false, realtime = false,
+       silent = false, garbage = false, multirotor = false;
   double scale = 1, for_s = never_s, heading_deg = 135, start_height_m = 0, delay_ms = 0;
   std::vector<double> wind{3.5355, -3.5355, 0};
   FaultRates faults;
   Script script;
   std::uint64_t seed = 7;
-  double rc_silent_until = never_s, rc_lost_until = never_s, override_until = never_s, unplug_for = 5, mute_for = 0.1;
+  double rc_silent_until = never_s, rc_lost_until = never_s, override_until = never_s, unplug_for = 5,
+         mute_for = 0.1;
 };
 
 /// As the host makes the seed of a component: of the mission's and its name.
@@ -45,17 +46,21 @@ std::uint64_t seed_of_sim(std::uint64_t mission_seed) {
 void read_options(CLI::App& app, Settings& s) {
   app.add_option("--link", s.link, "symbolic link to the pseudo-terminal");
   app.add_flag("--udp", s.udp, "UDP 127.0.0.1:14525 in place of a pseudo-terminal");
-  app.add_option("--scale", s.scale, "so many times faster than the clock on the wall")->check(CLI::Range(0.1, 100.0));
+  app.add_option("--scale", s.scale, "so many times faster than the clock on the wall")
+      ->check(CLI::Range(0.1, 100.0));
   app.add_option("--for", s.for_s, "ends after so many seconds of its time");
   app.add_option("--airframe", s.airframe, "of configs/airframes");
-  app.add_option("--sensors", s.sensors, "their errors")->check(CLI::IsMember({"perfect", "rosflight", "ublox"}));
-  app.add_option("--turbulence", s.turbulence, "of the air")->check(CLI::IsMember({"none", "light", "moderate", "severe"}));
+  app.add_option("--sensors", s.sensors, "their errors")
+      ->check(CLI::IsMember({"perfect", "rosflight", "ublox"}));
+  app.add_option("--turbulence", s.turbulence, "of the air")
+      ->check(CLI::IsMember({"none", "light", "moderate", "severe"}));
   app.add_option("--wind", s.wind, "north, east, down, m/s")->expected(3)->allow_extra_args(false);
   app.add_option("--heading", s.heading_deg, "at the start, deg");
   app.add_option("--start-height", s.start_height_m, "m; 0: on the ground");
   app.add_option("--seed", s.seed, "of noise, air and faults");
   app.add_option(
-      "--mission-seed", [&s](const std::vector<std::string>& v) { return s.seed = seed_of_sim(std::stoull(v[0])), true; },
+      "--mission-seed",
+      [&s](const std::vector<std::string>& v) { return s.seed = seed_of_sim(std::stoull(v[0])), true; },
       "the biases that `io: sim` has with this seed of the mission, in a component called sim");
   app.add_option("--truth", s.truth, "CSV of the true flight, 100 Hz");
   app.add_flag("--realtime", s.realtime, "SCHED_FIFO");
@@ -70,7 +75,8 @@ void read_options(CLI::App& app, Settings& s) {
   app.add_option("--duplicate", s.faults.duplicate, "of frames, both ways, 0..1");
   app.add_option("--corrupt", s.faults.corrupt, "of frames, both ways, 0..1");
   app.add_option("--delay", s.delay_ms, "of frames, each way, ms");
-  app.add_option("--arm-at", s.script.arm_at, "seconds after the host's first command, as all that follow; inf: never");
+  app.add_option("--arm-at", s.script.arm_at,
+                 "seconds after the host's first command, as all that follow; inf: never");
   app.add_option("--disarm-at", s.script.disarm_at, "or at SIGUSR1");
   app.add_option("--rc-silent-at", s.script.rc_silent.at, "the radio's frames stop without a flag");
   app.add_option("--rc-back-at", s.rc_silent_until, "and come again");
@@ -89,7 +95,9 @@ void read_options(CLI::App& app, Settings& s) {
 World world(const Settings& s) {
   World w;
   w.airframe = test::airframe_file(s.airframe);
-  w.sensors = s.sensors == "perfect" ? sim::SensorSet::perfect : s.sensors == "ublox" ? sim::SensorSet::ublox : sim::SensorSet::rosflight;
+  w.sensors = s.sensors == "perfect" ? sim::SensorSet::perfect
+              : s.sensors == "ublox" ? sim::SensorSet::ublox
+                                     : sim::SensorSet::rosflight;
   w.weather.wind_n = {s.wind[0], s.wind[1], s.wind[2]};
   constexpr std::array names{"none", "light", "moderate", "severe"};
   for (std::size_t k = 0; k < names.size(); ++k)
@@ -121,10 +129,12 @@ class Peer {
       end_ = std::make_unique<Datagrams>(std::uint16_t{14525}, std::uint16_t{14520});
     else
       end_ = std::make_unique<Terminal>(s.link);
-    if (!s.truth.empty() && !(truth_ = std::fopen(s.truth.c_str(), "w"))) throw std::runtime_error("cannot write " + s.truth);
+    if (!s.truth.empty() && !(truth_ = std::fopen(s.truth.c_str(), "w")))
+      throw std::runtime_error("cannot write " + s.truth);
     if (truth_)
       std::fputs(
-          "t_s,north_m,east_m,height_m,roll_rad,pitch_rad,yaw_rad,airspeed_mps,throttle_frac,aileron_rad,elevator_rad,rudder_rad,armed,"
+          "t_s,north_m,east_m,height_m,roll_rad,pitch_rad,yaw_rad,airspeed_mps,throttle_frac,aileron_rad,"
+          "elevator_rad,rudder_rad,armed,"
           "offboard,override,"
           "commands,u_throttle,u_aileron,u_elevator,u_rudder\n",
           truth_);
@@ -151,12 +161,18 @@ class Peer {
   void transmit();
   void write_truth();
   std::int64_t wall_us() const {
-    return std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    return std::chrono::duration_cast<std::chrono::microseconds>(
+               std::chrono::steady_clock::now().time_since_epoch())
+        .count();
   }
-  std::int64_t peer_us() const { return start_us_ + static_cast<std::int64_t>(static_cast<double>(wall_us() - wall_start_us_) * s_.scale); }
+  std::int64_t peer_us() const {
+    return start_us_ + static_cast<std::int64_t>(static_cast<double>(wall_us() - wall_start_us_) * s_.scale);
+  }
   void wait_until(std::int64_t at_us) const;
   /// Seconds since the host's first command, negative before it.
-  double flight_s() const { return first_command_us_ < 0 ? -1 : 1e-6 * static_cast<double>(now_us_ - first_command_us_); }
+  double flight_s() const {
+    return first_command_us_ < 0 ? -1 : 1e-6 * static_cast<double>(now_us_ - first_command_us_);
+  }
 
   Settings s_;
   Firmware firmware_;
@@ -165,8 +181,8 @@ class Peer {
   Line out_, in_;
   std::unique_ptr<Endpoint> end_;
   std::FILE* truth_ = nullptr;
-  std::int64_t now_us_ = 0, start_us_ = 0, wall_start_us_ = 0, first_command_us_ = -1, nmea_us_ = 0, worst_late_us_ = 0,
-               worst_late_in_flight_us_ = 0;
+  std::int64_t now_us_ = 0, start_us_ = 0, wall_start_us_ = 0, first_command_us_ = -1, nmea_us_ = 0,
+               worst_late_us_ = 0, worst_late_in_flight_us_ = 0;
   std::uint64_t steps_ = 0;
   bool rebooted_ = false, crashed_ = false, unplugged_ = false;
   double top_height_m_ = 0;
@@ -184,11 +200,15 @@ void Peer::write_truth() {
   const Eigen::Matrix3d R = x.q_nb.toRotationMatrix();
   const auto d = plane_.plant().deflections();
   const Commands& u = firmware_.last_command().u;
-  std::fprintf(truth_, "%.4f,%.3f,%.3f,%.3f,%.5f,%.5f,%.5f,%.3f,%.4f,%.5f,%.5f,%.5f,%d,%d,%d,%llu,%.4f,%.4f,%.4f,%.4f\n", flight_s(),
-               x.p_n.x(), x.p_n.y(), -x.p_n.z(), std::atan2(R(2, 1), R(2, 2)), std::asin(std::clamp(-R(2, 0), -1.0, 1.0)),
-               std::atan2(R(1, 0), R(0, 0)), plane_.plant().air_velocity_b().norm(), plane_.actuators().throttle_frac, d.aileron,
-               d.elevator, d.rudder, int(firmware_.armed()), int(firmware_.offboard()), int(firmware_.override_reasons()),
-               static_cast<unsigned long long>(firmware_.commands()), double(u[0]), double(u[3]), double(u[4]), double(u[5]));
+  std::fprintf(
+      truth_,
+      "%.4f,%.3f,%.3f,%.3f,%.5f,%.5f,%.5f,%.3f,%.4f,%.5f,%.5f,%.5f,%d,%d,%d,%llu,%.4f,%.4f,%.4f,%.4f\n",
+      flight_s(), x.p_n.x(), x.p_n.y(), -x.p_n.z(), std::atan2(R(2, 1), R(2, 2)),
+      std::asin(std::clamp(-R(2, 0), -1.0, 1.0)), std::atan2(R(1, 0), R(0, 0)),
+      plane_.plant().air_velocity_b().norm(), plane_.actuators().throttle_frac, d.aileron, d.elevator,
+      d.rudder, int(firmware_.armed()), int(firmware_.offboard()), int(firmware_.override_reasons()),
+      static_cast<unsigned long long>(firmware_.commands()), double(u[0]), double(u[3]), double(u[4]),
+      double(u[5]));
 }
 
 void Peer::run_script() {
@@ -218,13 +238,15 @@ void Peer::receive() {
 
 void Peer::transmit() {
   Frame f;
-  const bool mute = s_.silent || s_.script.mute.holds(flight_s()) || s_.nmea || s_.garbage || !end_->attended();
+  const bool mute =
+      s_.silent || s_.script.mute.holds(flight_s()) || s_.nmea || s_.garbage || !end_->attended();
   while (firmware_.take(f))
     if (!mute) out_.put(f.view(), now_us_);
   if (s_.nmea && now_us_ - nmea_us_ > 100000) {
     nmea_us_ = now_us_;
     const std::string_view line =
-        "$GPGGA,123519,4014.783,N,11138.845,W,1,08,0.9,1387.0,M,-17.0,M,,*53\r\n$GPRMC,123519,A,4014.783,N,11138.845,W,000.0,084.4,230394,"
+        "$GPGGA,123519,4014.783,N,11138.845,W,1,08,0.9,1387.0,M,-17.0,M,,*53\r\n$GPRMC,123519,A,4014.783,N,"
+        "11138.845,W,000.0,084.4,230394,"
         "003.1,W*6E\r\n";
     out_.put({reinterpret_cast<const std::uint8_t*>(line.data()), line.size()}, now_us_);
   }
@@ -246,7 +268,8 @@ void Peer::wait_until(std::int64_t at_us) const {
   const auto ns = static_cast<std::int64_t>(1e3 * wall);
   const timespec time{ns / 1000000000, ns % 1000000000};
   pollfd p{end_->descriptor(), POLLIN, 0};
-  if (p.fd >= 0 && !end_->attended()) p.events = 0, p.fd = -1;  // nobody there: a hang-up would end every wait at once
+  if (p.fd >= 0 && !end_->attended())
+    p.events = 0, p.fd = -1;  // nobody there: a hang-up would end every wait at once
   ::ppoll(&p, 1, &time, nullptr);
 }
 
@@ -269,12 +292,15 @@ void Peer::run() {
 
 void Peer::print_result() const {
   std::printf(
-      "{\"aircraft_crashed\": %s, \"armed\": %s, \"boots\": %u, \"commands\": %llu, \"dropped_frames\": %llu, \"duration_s\": %.1f, "
-      "\"override_reasons\": %u, \"top_height_m\": %.1f, \"worst_late_ms\": %.1f, \"worst_late_wall_ms\": %.2f}\n",
+      "{\"aircraft_crashed\": %s, \"armed\": %s, \"boots\": %u, \"commands\": %llu, \"dropped_frames\": "
+      "%llu, \"duration_s\": %.1f, "
+      "\"override_reasons\": %u, \"top_height_m\": %.1f, \"worst_late_ms\": %.1f, \"worst_late_wall_ms\": "
+      "%.2f}\n",
       plane_.plant().crashed() ? "true" : "false", firmware_.armed() ? "true" : "false", firmware_.boots(),
-      static_cast<unsigned long long>(firmware_.commands()), static_cast<unsigned long long>(firmware_.dropped()),
-      1e-6 * static_cast<double>(now_us_ - start_us_), unsigned{firmware_.override_reasons()}, top_height_m_,
-      1e-3 * static_cast<double>(worst_late_us_), 1e-3 * static_cast<double>(worst_late_in_flight_us_) / s_.scale);
+      static_cast<unsigned long long>(firmware_.commands()),
+      static_cast<unsigned long long>(firmware_.dropped()), 1e-6 * static_cast<double>(now_us_ - start_us_),
+      unsigned{firmware_.override_reasons()}, top_height_m_, 1e-3 * static_cast<double>(worst_late_us_),
+      1e-3 * static_cast<double>(worst_late_in_flight_us_) / s_.scale);
 }
 
 }  // namespace
@@ -297,7 +323,8 @@ int main(int argc, char** argv) {
   std::signal(SIGUSR1, [](int) { disarm_asked = 1; });
   ::prctl(PR_SET_TIMERSLACK, 1000UL, 0UL, 0UL, 0UL);
   const sched_param priority{70};
-  if (s.realtime && ::sched_setscheduler(0, SCHED_FIFO, &priority) != 0) return std::perror("fcu_peer: --realtime"), 1;
+  if (s.realtime && ::sched_setscheduler(0, SCHED_FIFO, &priority) != 0)
+    return std::perror("fcu_peer: --realtime"), 1;
   try {
     Peer peer(s);
     std::printf("port %s\n", peer.endpoint().name().c_str());

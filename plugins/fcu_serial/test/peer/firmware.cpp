@@ -19,7 +19,8 @@ void Firmware::boot(std::int64_t now_us, bool crashed) {
     t.due(clock_us_);  // a clock that begins late
     return t;
   };
-  imu_ = timer(r.imu), mag_ = timer(r.mag), baro_ = timer(r.baro), pitot_ = timer(r.pitot), gnss_ = timer(r.gnss);
+  imu_ = timer(r.imu), mag_ = timer(r.mag), baro_ = timer(r.baro), pitot_ = timer(r.pitot),
+  gnss_ = timer(r.gnss);
   battery_ = timer(r.battery), rc_ = timer(r.rc), range_ = timer(r.range), pass_ = timer(r.passes);
   heartbeat_ = timer(1), status_ = timer(10);
   reboot_at_us_ = -1;
@@ -45,7 +46,8 @@ void Firmware::boot(std::int64_t now_us, bool crashed) {
   changed(param("PRIMARY_MIXER"));
   changed(param("FAILSAFE_THR"));
   bool calibrated = false;
-  for (std::size_t k = 0; k < 3; ++k) calibrated |= params_.f(param("GYRO_X_BIAS") + k) != 0 || params_.f(param("ACC_X_BIAS") + k) != 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    calibrated |= params_.f(param("GYRO_X_BIAS") + k) != 0 || params_.f(param("ACC_X_BIAS") + k) != 0;
   set_error(error_uncalibrated_imu, !calibrated);
   log(Severity::info, "Booting");
   fifo_.clear();
@@ -59,7 +61,8 @@ void Firmware::boot(std::int64_t now_us, bool crashed) {
 
 std::int64_t Firmware::clock_at(std::int64_t now_us) const {
   const double elapsed = static_cast<double>(now_us - boot_us_);
-  return options_.first_clock_us + now_us - boot_us_ + static_cast<std::int64_t>(elapsed * options_.clock_ppm * 1e-6);
+  return options_.first_clock_us + now_us - boot_us_ +
+         static_cast<std::int64_t>(elapsed * options_.clock_ppm * 1e-6);
 }
 
 std::int64_t Firmware::next_us() const {
@@ -101,7 +104,8 @@ void Firmware::pass() {
   if (!turn) return;
   if (next_param_ < param_count) send_param(next_param_++);
   if (connected_ && !texts_.empty()) {
-    send_text(texts_.front().severity, texts_.front().text, static_cast<std::uint8_t>(clock_us_ & 0xff));  // so it does
+    send_text(texts_.front().severity, texts_.front().text,
+              static_cast<std::uint8_t>(clock_us_ & 0xff));  // so it does
     texts_.pop_front();
   }
 }
@@ -112,16 +116,18 @@ void Firmware::imu_pass() {
   calibrate_imu(inputs.accel, inputs.gyro);
   Vec accel = inputs.accel, gyro = inputs.gyro;
   for (std::size_t k = 0; k < 3; ++k) {
-    accel[k] -= params_.f(param("ACC_X_TEMP_COMP") + k) * inputs.imu_kelvin + params_.f(param("ACC_X_BIAS") + k);
+    accel[k] -=
+        params_.f(param("ACC_X_TEMP_COMP") + k) * inputs.imu_kelvin + params_.f(param("ACC_X_BIAS") + k);
     gyro[k] -= params_.f(param("GYRO_X_BIAS") + k);
   }
   attitude_.advance(params_, accel, gyro, 1 / options_.rates.imu, clock_us_);
   control();
   const auto f = [](double v) { return static_cast<float>(v); };
-  send(SmallImu{static_cast<std::uint64_t>(clock_us_), f(accel[0]), f(accel[1]), f(accel[2]), f(gyro[0]), f(gyro[1]), f(gyro[2]),
-                f(inputs.imu_kelvin)});
-  send(AttitudeQuaternion{static_cast<std::uint32_t>(clock_ms()), f(attitude_.q[0]), f(attitude_.q[1]), f(attitude_.q[2]),
-                          f(attitude_.q[3]), f(attitude_.rate[0]), f(attitude_.rate[1]), f(attitude_.rate[2])});
+  send(SmallImu{static_cast<std::uint64_t>(clock_us_), f(accel[0]), f(accel[1]), f(accel[2]), f(gyro[0]),
+                f(gyro[1]), f(gyro[2]), f(inputs.imu_kelvin)});
+  send(AttitudeQuaternion{static_cast<std::uint32_t>(clock_ms()), f(attitude_.q[0]), f(attitude_.q[1]),
+                          f(attitude_.q[2]), f(attitude_.q[3]), f(attitude_.rate[0]), f(attitude_.rate[1]),
+                          f(attitude_.rate[2])});
   if (imu_.count % 8 == 0) send(RosflightOutputRaw{static_cast<std::uint64_t>(clock_ms()), outputs_});
   sensor_passes();
 }
@@ -133,10 +139,12 @@ void Firmware::sensor_passes() {
     Vec m{};
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j)
-        m[i] += params_.f(param("MAG_CAL_A00") + 3 * i + j) * (inputs.mag[j] - params_.f(param("MAG_X_BIAS") + j));
+        m[i] += params_.f(param("MAG_CAL_A00") + 3 * i + j) *
+                (inputs.mag[j] - params_.f(param("MAG_X_BIAS") + j));
     send(SmallMag{static_cast<float>(m[0]), static_cast<float>(m[1]), static_cast<float>(m[2])});
   }
-  if (range_.due(clock_us_) && inputs.range_m) send(SmallRange{static_cast<float>(*inputs.range_m), 8, 0.25, 0});
+  if (range_.due(clock_us_) && inputs.range_m)
+    send(SmallRange{static_cast<float>(*inputs.range_m), 8, 0.25, 0});
   if (battery_.due(clock_us_)) {
     const double av = params_.f(param("BATT_VOLT_LPF")), ac = params_.f(param("BATT_CURR_LPF"));
     battery_volt_ = av * battery_volt_ + (1 - av) * inputs.battery_volt * params_.f(param("BATT_VOLT_MULT"));
@@ -145,7 +153,8 @@ void Firmware::sensor_passes() {
   }
   if (gnss_.due(clock_us_) && inputs.gnss_works) {
     RosflightGnss m = inputs.gnss;
-    m.rosflight_timestamp = static_cast<std::uint64_t>(std::max<std::int64_t>(0, clock_us_ - inputs.gnss_age_us));
+    m.rosflight_timestamp =
+        static_cast<std::uint64_t>(std::max<std::int64_t>(0, clock_us_ - inputs.gnss_age_us));
     send(m);
   }
 }
@@ -170,10 +179,12 @@ void Firmware::pitot_pass() {
     log(Severity::error, "Too much movement for diff pressure cal");
   }
   const double pascal = inputs.pitot_pa - params_.f(param("DIFF_PRESS_BIAS"));
-  send(DiffPressure{static_cast<float>(indicated(pascal)), static_cast<float>(pascal), static_cast<float>(inputs.pitot_kelvin)});
+  send(DiffPressure{static_cast<float>(indicated(pascal)), static_cast<float>(pascal),
+                    static_cast<float>(inputs.pitot_kelvin)});
 }
 
-/// From the combined command to the outputs. Fixed wing: straight through; the modes of multirotors run their proportional loops even so.
+/// From the combined command to the outputs. Fixed wing: straight through; the modes of multirotors run their
+/// proportional loops even so.
 void Firmware::control() {
   Commands u = mux_.u;
   const std::array<double, 3> angle{attitude_.roll(), attitude_.pitch(), 0};
@@ -182,8 +193,8 @@ void Firmware::control() {
     if (mux_.mode[k] == ControlMode::rate)
       u[3 + k] = params_.f(rate_p) * static_cast<float>(static_cast<double>(u[3 + k]) - attitude_.rate[k]);
     if (mux_.mode[k] == ControlMode::angle)
-      u[3 + k] =
-          static_cast<float>(params_.f(angle_p) * (static_cast<double>(u[3 + k]) - angle[k]) - params_.f(angle_p + 2) * attitude_.rate[k]);
+      u[3 + k] = static_cast<float>(params_.f(angle_p) * (static_cast<double>(u[3 + k]) - angle[k]) -
+                                    params_.f(angle_p + 2) * attitude_.rate[k]);
     u[3 + k] += params_.f(param("X_EQ_TORQUE") + k);
   }
   if (mux_.mode[0] != ControlMode::pass)

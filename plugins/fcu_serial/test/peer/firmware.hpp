@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A ROSflight 2.0 flight controller for tests: its messages, rates, delays, refusals and oddities, without a device and without a clock.
-// Source: ROSflight firmware 2.0.1 and its behaviour on a serial line.
+// A ROSflight 2.0 flight controller for tests: its messages, rates, delays, refusals and oddities, without a
+// device and without a clock. Source: ROSflight firmware 2.0.1 and its behaviour on a serial line.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -19,14 +19,16 @@
 
 namespace fulmar::fcu::peer {
 
-/// What the board's sensors and the radio say now; raw, before the firmware's own corrections. Set it whenever you like.
+/// What the board's sensors and the radio say now; raw, before the firmware's own corrections. Set it
+/// whenever you like.
 struct Inputs {
   Vec accel{0, 0, -9.80665}, gyro{};  ///< m/s2, rad/s
   double imu_kelvin = 300.15;
   Vec mag{2.1e-5, 0, 4.6e-5};  ///< tesla
   double baro_pa = 85700, baro_kelvin = 300.15;
   double pitot_pa = 0, pitot_kelvin = 300.15;
-  RosflightGnss gnss{1767225600, 40.2463724, -111.6474138, 0, 0, 1387, 0, 0, 0, 0.5f, 0.8f, 0.1f, 3, 15};  ///< its timestamp is filled in
+  RosflightGnss gnss{1767225600, 40.2463724, -111.6474138, 0,    0, 1387, 0, 0,
+                     0,          0.5f,       0.8f,         0.1f, 3, 15};  ///< its timestamp is filled in
   std::int64_t gnss_age_us = 22000;
   double battery_volt = 23, battery_amp = 1;
   std::optional<double> range_m;
@@ -38,7 +40,8 @@ struct Inputs {
 };
 
 struct Rates {
-  double imu = 400, mag = 100, baro = 50, pitot = 100, gnss = 10, battery = 10, rc = 111, range = 20, passes = 2000;  ///< Hz
+  double imu = 400, mag = 100, baro = 50, pitot = 100, gnss = 10, battery = 10, rc = 111, range = 20,
+         passes = 2000;  ///< Hz
 };
 
 struct Options {
@@ -57,12 +60,14 @@ enum class FlightState : std::uint8_t { preflight, error, calibrating, armed, fa
 
 class Firmware {
  public:
-  explicit Firmware(const Options& options = {}) : options_(options), flash_(params_.image()) { boot(0, false); }
+  explicit Firmware(const Options& options = {}) : options_(options), flash_(params_.image()) {
+    boot(0, false);
+  }
   Firmware(const Firmware&) = delete;
   Firmware& operator=(const Firmware&) = delete;
 
-  /// A fixed wing that is set up and calibrated: mixer 9, throttle on x, arm switch on channel 5, override switch on channel 6 (1-based),
-  /// as ROSflight's own fixed-wing set-up has it; written to flash and booted.
+  /// A fixed wing that is set up and calibrated: mixer 9, throttle on x, arm switch on channel 5, override
+  /// switch on channel 6 (1-based), as ROSflight's own fixed-wing set-up has it; written to flash and booted.
   void provision(std::int64_t now_us = 0);
 
   Inputs inputs;
@@ -75,7 +80,8 @@ class Firmware {
   /// The owner's time of what happens next.
   std::int64_t next_us() const;
 
-  /// What it has sent, oldest first; one frame, or everything. The board's fifo holds 256; what does not fit is dropped.
+  /// What it has sent, oldest first; one frame, or everything. The board's fifo holds 256; what does not fit
+  /// is dropped.
   bool take(Frame& frame);
   std::vector<std::uint8_t> take();
   std::size_t waiting() const { return fifo_.size(); }
@@ -159,7 +165,8 @@ class Firmware {
     explicit Timer(double hz) : period_us(1e6 / hz), next_us(static_cast<std::int64_t>(period_us)) {}
     bool due(std::int64_t clock_us) {
       if (clock_us < next_us) return false;
-      while (next_us <= clock_us) next_us = static_cast<std::int64_t>(static_cast<double>(++count + 1) * period_us);
+      while (next_us <= clock_us)
+        next_us = static_cast<std::int64_t>(static_cast<double>(++count + 1) * period_us);
       return true;
     }
   };

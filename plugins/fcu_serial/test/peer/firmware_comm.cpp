@@ -19,7 +19,8 @@ bool Firmware::take(Frame& frame) {
 std::vector<std::uint8_t> Firmware::take() {
   std::vector<std::uint8_t> bytes;
   Frame f;
-  while (take(f)) bytes.insert(bytes.end(), f.bytes.begin(), f.bytes.begin() + static_cast<std::ptrdiff_t>(f.size));
+  while (take(f))
+    bytes.insert(bytes.end(), f.bytes.begin(), f.bytes.begin() + static_cast<std::ptrdiff_t>(f.size));
   return bytes;
 }
 
@@ -64,7 +65,8 @@ void Firmware::handle(const Packet& packet) {
 
 void Firmware::handle(const ParamRequestRead& m) {
   if (m.target_system != system()) return;
-  const std::size_t id = m.param_index >= 0 ? static_cast<std::size_t>(m.param_index) : params_.find(text(m.param_id));
+  const std::size_t id =
+      m.param_index >= 0 ? static_cast<std::size_t>(m.param_index) : params_.find(text(m.param_id));
   if (id < param_count) send_param(id);  // else silence
 }
 
@@ -97,12 +99,15 @@ void Firmware::handle(const RosflightAuxCmd& m) {
 }
 
 void Firmware::handle(const RosflightCmd& m, std::uint8_t from) {
-  if (m.command > static_cast<std::uint8_t>(Command::reboot_to_bootloader) && m.command != static_cast<std::uint8_t>(Command::send_version))
-    return put(encode(RosflightCmdAck{m.command, 0}, sequence_++, from, component));  // the requester's own system
+  if (m.command > static_cast<std::uint8_t>(Command::reboot_to_bootloader) &&
+      m.command != static_cast<std::uint8_t>(Command::send_version))
+    return put(
+        encode(RosflightCmdAck{m.command, 0}, sequence_++, from, component));  // the requester's own system
   const auto command = static_cast<Command>(m.command);
   const bool accepted = !armed() && !options_.refuses && run_command(command);
   send(RosflightCmdAck{m.command, accepted ? std::uint8_t{1} : std::uint8_t{0}});
-  if (accepted && options_.reboots && (command == Command::reboot || command == Command::reboot_to_bootloader))
+  if (accepted && options_.reboots &&
+      (command == Command::reboot || command == Command::reboot_to_bootloader))
     reboot_at_us_ = clock_us_ + 20000;
 }
 
@@ -121,9 +126,7 @@ bool Firmware::run_command(Command command) {
       accel_calibration_.start();
       for (std::size_t k = 0; k < 3; ++k) params_.set(param("ACC_X_BIAS") + k, 0.f);
       return true;
-    case Command::gyro_calibration:
-      start_gyro_calibration();
-      return true;
+    case Command::gyro_calibration: start_gyro_calibration(); return true;
     case Command::baro_calibration:
       baro_calibration_.start();
       params_.set(param("BARO_BIAS"), 0.f);
@@ -132,20 +135,13 @@ bool Firmware::run_command(Command command) {
       pitot_calibration_.start();
       params_.set(param("DIFF_PRESS_BIAS"), 0.f);
       return true;
-    case Command::read_params:
-      params_.load(flash_);
-      return !options_.flash_fails;
+    case Command::read_params: params_.load(flash_); return !options_.flash_fails;
     case Command::write_params:
       if (!options_.flash_fails) write_flash();
       return !options_.flash_fails;
-    case Command::set_param_defaults:
-      params_.set_defaults();
-      return true;
-    case Command::send_version:
-      send_version();
-      return true;
-    default:
-      return true;
+    case Command::set_param_defaults: params_.set_defaults(); return true;
+    case Command::send_version: send_version(); return true;
+    default: return true;
   }
 }
 

@@ -68,7 +68,8 @@ void Firmware::look_for_arming() {
       request_arm();
     return;
   }
-  const double threshold = params_.f(param("RC_ARM_THRESHOLD")), side = armed() ? -radio_.stick[2] : radio_.stick[2];
+  const double threshold = params_.f(param("RC_ARM_THRESHOLD")),
+               side = armed() ? -radio_.stick[2] : radio_.stick[2];
   arm_stick_ms_ = radio_.stick[3] < threshold && side > 1 - threshold ? arm_stick_ms_ + dt : 0;
   if (arm_stick_ms_ <= 1000) return;
   arm_stick_ms_ = 0;
@@ -91,7 +92,8 @@ void Firmware::request_arm() {
     return complain("Unable to arm: Invalid failsafe");
   }
   if (state_ != FlightState::preflight) return;
-  if (radio_.stick[3] >= params_.f(param("RC_ARM_THRESHOLD"))) return complain("RC throttle is too high to arm");
+  if (radio_.stick[3] >= params_.f(param("RC_ARM_THRESHOLD")))
+    return complain("RC throttle is too high to arm");
   if (!params_.i(param("TAKE_MIN_THR")) && !radio_.on[Radio::throttle_override])
     return complain("RC throttle override must be active to arm");
   if (params_.i(param("ARM_CAL_GYRO"))) {
@@ -146,7 +148,8 @@ void Firmware::gyro_calibrated() {
 void Firmware::accel_calibrated() {
   Vec bias = accel_calibration_.mean();
   bias[2] += 9.80665;
-  for (std::size_t k = 0; k < 3; ++k) bias[k] -= params_.f(param("ACC_X_TEMP_COMP") + k) * accel_calibration_.temperature();
+  for (std::size_t k = 0; k < 3; ++k)
+    bias[k] -= params_.f(param("ACC_X_TEMP_COMP") + k) * accel_calibration_.temperature();
   if (accel_calibration_.spread() > 1) return log(Severity::error, "Too much movement for IMU cal");
   if (norm(bias) >= 3) {
     char text[50];
@@ -164,11 +167,14 @@ void Firmware::changed(std::size_t id) {
     radio_.map(params_);
     constexpr std::array names{"ARM", "ATTITUDE OVERRIDE", "THROTTLE OVERRIDE", "ATTITUDE TYPE"};
     for (std::size_t s = 0; s < Radio::switches; ++s)
-      log(Severity::info, std::string(names[s]) + (radio_.mapped[s] ? " switch mapped to RC channel " + std::to_string(radio_.channel[s])
+      log(Severity::info, std::string(names[s]) + (radio_.mapped[s] ? " switch mapped to RC channel " +
+                                                                          std::to_string(radio_.channel[s])
                                                                     : std::string(" switch not mapped")));
   }
-  const bool own = params_.i(param("PRIMARY_MIXER")) == mixer_custom || params_.i(param("SECONDARY_MIXER")) == mixer_custom;
-  if (id == param("PRIMARY_MIXER") || id == param("SECONDARY_MIXER") || (own && id >= mixer_out_params && id < last_params_at)) {
+  const bool own = params_.i(param("PRIMARY_MIXER")) == mixer_custom ||
+                   params_.i(param("SECONDARY_MIXER")) == mixer_custom;
+  if (id == param("PRIMARY_MIXER") || id == param("SECONDARY_MIXER") ||
+      (own && id >= mixer_out_params && id < last_params_at)) {
     const bool valid = mixing_.load(params_);
     if (!valid) log(Severity::error, "Invalid Mixer Choice");
     set_error(error_invalid_mixer, !valid);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From ten commands to fourteen outputs, as ROSflight 2.0 does it: two matrices, one for the pilot's commands and one for the computer's.
+// From ten commands to fourteen outputs, as ROSflight 2.0 does it: two matrices, one for the pilot's commands
+// and one for the computer's.
 #pragma once
 #include <array>
 #include <cmath>
@@ -42,7 +43,8 @@ inline CannedMixer canned(std::int32_t choice) {
 
 class Mixing {
  public:
-  /// Takes up PRIMARY_MIXER and SECONDARY_MIXER, and writes what a canned one consists of into the parameters. False: no such mixer.
+  /// Takes up PRIMARY_MIXER and SECONDARY_MIXER, and writes what a canned one consists of into the
+  /// parameters. False: no such mixer.
   bool load(Params& p) {
     const std::int32_t choice = p.i(param("PRIMARY_MIXER")), second = p.i(param("SECONDARY_MIXER"));
     valid_ = choice >= 0 && choice <= mixer_custom;
@@ -74,7 +76,8 @@ class Mixing {
   }
 
  private:
-  /// 255 mirrors the primary. The canned V-tail goes in pseudo-inverted here, which doubles its gains: so does the firmware.
+  /// 255 mirrors the primary. The canned V-tail goes in pseudo-inverted here, which doubles its gains: so
+  /// does the firmware.
   Matrix10 canned_secondary(std::int32_t choice) const {
     if (choice < 0 || choice > mixer_custom) return primary_;
     Matrix10 m = canned(choice).m;
@@ -104,7 +107,8 @@ class Mixing {
   Matrix10 primary_{}, secondary_{};
 };
 
-/// What the servos of mixers 9 and 10 do to the aircraft, -1..1 and throttle 0..1: the mixer the other way round.
+/// What the servos of mixers 9 and 10 do to the aircraft, -1..1 and throttle 0..1: the mixer the other way
+/// round.
 struct Deflected {
   double throttle = 0, aileron = 0, elevator = 0, rudder = 0;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The 333 parameters of ROSflight 2.0: order, names, types and defaults, and how they change: an echo only where the value differs.
+// The 333 parameters of ROSflight 2.0: order, names, types and defaults, and how they change: an echo only
+// where the value differs.
 #pragma once
 #include <array>
 #include <bit>
@@ -22,12 +23,13 @@ struct ParamInfo {
   double value = 0;
 };
 
-inline constexpr ParamInfo first_params[]{{"BAUD_RATE", true, 921600},        {"SERIAL_DEVICE", true, 0},   {"NUM_MOTORS", true, 4},
-                                          {"MOTOR_RESISTANCE", false, 0.042}, {"MOTOR_KV", false, 0.01706}, {"NO_LOAD_CURRENT", false, 1.5},
-                                          {"PROP_DIAMETER", false, 0.381},    {"PROP_CT", false, 0.075},    {"PROP_CQ", false, 0.0045},
-                                          {"BATT_VOLT_MAX", false, 25},       {"USE_MOTOR_PARAM", true, 0}};
-inline constexpr std::size_t mixer_out_params = 11, mixer_pwm_params = 21, primary_params = 31, secondary_params = 131,
-                             last_params_at = 231;
+inline constexpr ParamInfo first_params[]{
+    {"BAUD_RATE", true, 921600},        {"SERIAL_DEVICE", true, 0},   {"NUM_MOTORS", true, 4},
+    {"MOTOR_RESISTANCE", false, 0.042}, {"MOTOR_KV", false, 0.01706}, {"NO_LOAD_CURRENT", false, 1.5},
+    {"PROP_DIAMETER", false, 0.381},    {"PROP_CT", false, 0.075},    {"PROP_CQ", false, 0.0045},
+    {"BATT_VOLT_MAX", false, 25},       {"USE_MOTOR_PARAM", true, 0}};
+inline constexpr std::size_t mixer_out_params = 11, mixer_pwm_params = 21, primary_params = 31,
+                             secondary_params = 131, last_params_at = 231;
 
 inline constexpr ParamInfo last_params[]{{"SYS_ID", true, 1},
                                          {"PID_ROLL_RATE_P", false, 0.07},
@@ -131,7 +133,8 @@ inline constexpr ParamInfo last_params[]{{"SYS_ID", true, 1},
                                          {"BATT_CURR_MULT", false, 1},
                                          {"BATT_VOLT_LPF", false, 0.995},
                                          {"BATT_CURR_LPF", false, 0.995}};
-static_assert(std::size(first_params) == mixer_out_params && last_params_at + std::size(last_params) == param_count);
+static_assert(std::size(first_params) == mixer_out_params &&
+              last_params_at + std::size(last_params) == param_count);
 
 /// The index of a named parameter that is not a mixer's.
 consteval std::size_t param(std::string_view name) {
@@ -190,7 +193,9 @@ class Params {
  private:
   static std::string mixer_name(std::size_t id) {
     char text[24];
-    const auto number = [&](const char* format, std::size_t a, std::size_t b) { std::snprintf(text, sizeof text, format, int(a), int(b)); };
+    const auto number = [&](const char* format, std::size_t a, std::size_t b) {
+      std::snprintf(text, sizeof text, format, int(a), int(b));
+    };
     // Matrices are stored column by column: row i of the inputs, output j.
     if (id < mixer_pwm_params)
       number("PRI_MIXER_OUT_%d", id - mixer_out_params, 0);

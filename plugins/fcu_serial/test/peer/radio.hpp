@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pilot's radio and who of pilot and computer has which command, as ROSflight 2.0 decides it: at frames of the radio only.
+// The pilot's radio and who of pilot and computer has which command, as ROSflight 2.0 decides it: at frames
+// of the radio only.
 #pragma once
 #include <array>
 #include <cmath>
@@ -19,9 +20,12 @@ struct Radio {
   std::array<std::int32_t, switches> channel{};
 
   void map(const Params& p) {
-    channel = {p.i(param("RC_ARM_CHN")), p.i(param("RC_ATT_OVRD_CHN")), p.i(param("RC_THR_OVRD_CHN")), p.i(param("RC_ATT_CTRL_CHN"))};
-    for (std::size_t s = 0; s < switches; ++s) mapped[s] = channel[s] > 3 && channel[s] < p.i(param("RC_NUM_CHN"));
-    sticks_ = {p.i(param("RC_X_CHN")), p.i(param("RC_Y_CHN")), p.i(param("RC_Z_CHN")), p.i(param("RC_F_CHN"))};
+    channel = {p.i(param("RC_ARM_CHN")), p.i(param("RC_ATT_OVRD_CHN")), p.i(param("RC_THR_OVRD_CHN")),
+               p.i(param("RC_ATT_CTRL_CHN"))};
+    for (std::size_t s = 0; s < switches; ++s)
+      mapped[s] = channel[s] > 3 && channel[s] < p.i(param("RC_NUM_CHN"));
+    sticks_ = {p.i(param("RC_X_CHN")), p.i(param("RC_Y_CHN")), p.i(param("RC_Z_CHN")),
+               p.i(param("RC_F_CHN"))};
   }
   /// Any channel far out of range is a lost link.
   static bool sound(const Params& p, const std::array<std::uint16_t, 8>& us) {
@@ -68,9 +72,12 @@ class Mux {
   Commands u{};  ///< combined
   std::array<ControlMode, 3> mode{};
   std::uint16_t reasons = 0;  ///< bits of Override
-  bool pilot_throttle() const { return reasons & (override_throttle_switch | override_min_throttle | override_offboard_throttle_inactive); }
+  bool pilot_throttle() const {
+    return reasons & (override_throttle_switch | override_min_throttle | override_offboard_throttle_inactive);
+  }
   bool pilot_attitude() const {
-    return reasons & ~(override_throttle_switch | override_min_throttle | override_offboard_throttle_inactive);
+    return reasons &
+           ~(override_throttle_switch | override_min_throttle | override_offboard_throttle_inactive);
   }
 
   void run(const Params& p, const Radio& radio, Offboard& offboard, std::int64_t now_ms) {
@@ -79,7 +86,8 @@ class Mux {
     const auto axis = static_cast<std::size_t>(std::clamp(p.i(param("RC_F_AXIS")), 0, 2));
     reasons = 0;
     for (std::size_t k = 0; k < 3; ++k) attitude(p, radio, offboard, rc, k, now_ms);
-    if (radio.mapped[Radio::throttle_override] && radio.on[Radio::throttle_override]) reasons |= override_throttle_switch;
+    if (radio.mapped[Radio::throttle_override] && radio.on[Radio::throttle_override])
+      reasons |= override_throttle_switch;
     if (!offboard.active[axis])
       reasons |= override_offboard_throttle_inactive;
     else if (p.i(param("TAKE_MIN_THR")) && rc[axis] < offboard.u[axis])
@@ -100,24 +108,29 @@ class Mux {
     const std::array<float, 3> most =
         plane ? std::array<float, 3>{1, 1, 1}
               : std::array<float, 3>{p.f(angles ? param("RC_MAX_ROLL") : param("RC_MAX_ROLLRATE")),
-                                     p.f(angles ? param("RC_MAX_PITCH") : param("RC_MAX_PITCHRATE")), p.f(param("RC_MAX_YAWRATE"))};
+                                     p.f(angles ? param("RC_MAX_PITCH") : param("RC_MAX_PITCHRATE")),
+                                     p.f(param("RC_MAX_YAWRATE"))};
     for (std::size_t k = 0; k < 3; ++k) rc[3 + k] = static_cast<float>(radio.stick[k]) * most[k];
     return rc;
   }
-  void attitude(const Params& p, const Radio& radio, const Offboard& offboard, const Commands& rc, std::size_t k, std::int64_t now_ms) {
+  void attitude(const Params& p, const Radio& radio, const Offboard& offboard, const Commands& rc,
+                std::size_t k, std::int64_t now_ms) {
     bool pilots = false;
     const auto because = [&](std::uint16_t bit) {
       reasons |= bit;
       pilots = true;
     };
-    if (radio.mapped[Radio::attitude_override] && radio.on[Radio::attitude_override]) because(override_attitude_switch);
+    if (radio.mapped[Radio::attitude_override] && radio.on[Radio::attitude_override])
+      because(override_attitude_switch);
     if (deviated(p, radio, k, now_ms)) because(static_cast<std::uint16_t>(override_stick_x << k));
     if (!offboard.active[3 + k]) because(static_cast<std::uint16_t>(override_offboard_x_inactive << k));
     u[3 + k] = pilots ? rc[3 + k] : offboard.u[3 + k];
     const ControlMode pilots_mode = p.i(param("FIXED_WING"))               ? ControlMode::pass
                                     : k == 2 || !p.i(param("RC_ATT_MODE")) ? ControlMode::rate
                                                                            : ControlMode::angle;
-    mode[k] = pilots ? pilots_mode : offboard.mode == ControlMode::angle && k == 2 ? ControlMode::rate : offboard.mode;
+    mode[k] = pilots                                          ? pilots_mode
+              : offboard.mode == ControlMode::angle && k == 2 ? ControlMode::rate
+                                                              : offboard.mode;
   }
   /// The lag counts from the first deviation and begins anew only when it is over. At boot it runs from zero.
   bool deviated(const Params& p, const Radio& radio, std::size_t k, std::int64_t now_ms) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What ROSflight 2.0 makes of its sensors: biases, calibrations, scaling, and the complementary filter behind ATTITUDE_QUATERNION.
+// What ROSflight 2.0 makes of its sensors: biases, calibrations, scaling, and the complementary filter behind
+// ATTITUDE_QUATERNION.
 #pragma once
 #include <array>
 #include <cmath>
@@ -42,7 +43,8 @@ class ImuCalibration {
   double temperature_ = 0;
 };
 
-/// Lets 128 samples of a pressure pass and averages 127, each more than 20 ms after the one before; begins again when they scatter.
+/// Lets 128 samples of a pressure pass and averages 127, each more than 20 ms after the one before; begins
+/// again when they scatter.
 class PressureCalibration {
  public:
   explicit PressureCalibration(double most_variance) : most_variance_(most_variance) {}
@@ -91,26 +93,33 @@ class Attitude {
 
   void advance(const Params& p, const Vec& accel, const Vec& gyro, double dt, std::int64_t clock_us) {
     const double lpf = p.f(param("GYRO_XY_LPF")), lpf_z = p.f(param("GYRO_Z_LPF"));
-    for (std::size_t k = 0; k < 3; ++k) low_[k] = (k == 2 ? lpf_z : lpf) * low_[k] + (1 - (k == 2 ? lpf_z : lpf)) * gyro[k];
+    for (std::size_t k = 0; k < 3; ++k)
+      low_[k] = (k == 2 ? lpf_z : lpf) * low_[k] + (1 - (k == 2 ? lpf_z : lpf)) * gyro[k];
     Vec correction{};
     const double a = norm(accel), g = 9.80665;
     const bool early = clock_us < 1000 * p.i(param("FILT_INIT_T"));
     if (external_) {
       correction = axis_to(*external_, p.f(param("FILT_EXT_KP")));
       external_.reset();
-    } else if (p.i(param("FILT_USE_ACC")) && std::abs(a - g) < p.f(param("FILT_ACC_MARGIN")) * g * (early ? 10 : 1)) {
+    } else if (p.i(param("FILT_USE_ACC")) &&
+               std::abs(a - g) < p.f(param("FILT_ACC_MARGIN")) * g * (early ? 10 : 1)) {
       const auto& [w, x, y, z] = q;  // down, as the quaternion has it, against what the accelerometer feels
-      const Vec down{2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}, felt{-accel[0] / a, -accel[1] / a, -accel[2] / a};
+      const Vec down{2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)},
+          felt{-accel[0] / a, -accel[1] / a, -accel[2] / a};
       const double kp = p.f(param("FILT_ACC_KP")) * (early ? 10 : 1);
-      correction = {kp * (felt[1] * down[2] - felt[2] * down[1]), kp * (felt[2] * down[0] - felt[0] * down[2]),
+      correction = {kp * (felt[1] * down[2] - felt[2] * down[1]),
+                    kp * (felt[2] * down[0] - felt[0] * down[2]),
                     kp * (felt[0] * down[1] - felt[1] * down[0])};
-      for (std::size_t k = 0; k < 3; ++k) bias_[k] -= p.f(param("FILT_KI")) * (early ? 10 : 1) * correction[k] / std::max(kp, 1e-9) * dt;
+      for (std::size_t k = 0; k < 3; ++k)
+        bias_[k] -= p.f(param("FILT_KI")) * (early ? 10 : 1) * correction[k] / std::max(kp, 1e-9) * dt;
     }
     for (std::size_t k = 0; k < 3; ++k) rate[k] = low_[k] - bias_[k];
     turn({rate[0] + correction[0], rate[1] + correction[1], rate[2] + correction[2]}, dt);
   }
   void correct(const std::array<double, 4>& external) { external_ = external; }
-  double roll() const { return std::atan2(2 * (q[0] * q[1] + q[2] * q[3]), 1 - 2 * (q[1] * q[1] + q[2] * q[2])); }
+  double roll() const {
+    return std::atan2(2 * (q[0] * q[1] + q[2] * q[3]), 1 - 2 * (q[1] * q[1] + q[2] * q[2]));
+  }
   double pitch() const { return std::asin(std::clamp(2 * (q[0] * q[2] - q[3] * q[1]), -1.0, 1.0)); }
 
  private:
@@ -118,14 +127,17 @@ class Attitude {
   Vec axis_to(const std::array<double, 4>& r, double gain) const {
     const auto& [w, x, y, z] = q;
     const double ew = w * r[0] + x * r[1] + y * r[2] + z * r[3], sign = ew < 0 ? -2 * gain : 2 * gain;
-    return {sign * (w * r[1] - x * r[0] - y * r[3] + z * r[2]), sign * (w * r[2] + x * r[3] - y * r[0] - z * r[1]),
+    return {sign * (w * r[1] - x * r[0] - y * r[3] + z * r[2]),
+            sign * (w * r[2] + x * r[3] - y * r[0] - z * r[1]),
             sign * (w * r[3] - x * r[2] + y * r[1] - z * r[0])};
   }
   void turn(const Vec& omega, double dt) {
     const auto [w, x, y, z] = q;
     const double h = 0.5 * dt;
-    q = {w - h * (x * omega[0] + y * omega[1] + z * omega[2]), x + h * (w * omega[0] + y * omega[2] - z * omega[1]),
-         y + h * (w * omega[1] - x * omega[2] + z * omega[0]), z + h * (w * omega[2] + x * omega[1] - y * omega[0])};
+    q = {w - h * (x * omega[0] + y * omega[1] + z * omega[2]),
+         x + h * (w * omega[0] + y * omega[2] - z * omega[1]),
+         y + h * (w * omega[1] - x * omega[2] + z * omega[0]),
+         z + h * (w * omega[2] + x * omega[1] - y * omega[0])};
     const double n = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     for (double& c : q) c /= n;
   }
@@ -134,7 +146,11 @@ class Attitude {
 };
 
 /// m in the standard atmosphere.
-inline double pressure_altitude(double pascal) { return 44318.1386 * (1 - std::pow(pascal / 101325, 0.190326730)); }
-inline double indicated(double pascal) { return std::copysign(std::sqrt(std::abs(pascal) / (0.5 * 1.225)), pascal); }
+inline double pressure_altitude(double pascal) {
+  return 44318.1386 * (1 - std::pow(pascal / 101325, 0.190326730));
+}
+inline double indicated(double pascal) {
+  return std::copysign(std::sqrt(std::abs(pascal) / (0.5 * 1.225)), pascal);
+}
 
 }  // namespace fulmar::fcu::peer

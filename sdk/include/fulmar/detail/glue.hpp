@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a plain struct to the C tables and functions of abi.h. Every thunk catches everything: no exception crosses.
-// A part of plugin.hpp, which includes it at its end.
+// From a plain struct to the C tables and functions of abi.h. Every thunk catches everything: no exception
+// crosses. A part of plugin.hpp, which includes it at its end.
 #pragma once
 #include <concepts>
 #include <exception>
@@ -11,7 +11,8 @@
 
 namespace fulmar::detail {
 
-// ---- ports --------------------------------------------------------------------------------------------------------------------
+// ---- ports
+// --------------------------------------------------------------------------------------------------------------------
 
 /// How a member of Inputs or Outputs crosses. The primary template is a plain message in Outputs.
 template <class M>
@@ -80,7 +81,9 @@ struct PortOf<Probe> {
     out.count = 1;
     member.written = false;
   }
-  static void read_last(Probe& member, const fulmar_input& last) { std::memcpy(&member.value, last.data, sizeof(double)); }
+  static void read_last(Probe& member, const fulmar_input& last) {
+    std::memcpy(&member.value, last.data, sizeof(double));
+  }
 };
 
 template <class T>
@@ -94,8 +97,10 @@ consteval const fulmar_type* message_table() {
 template <class M, bool inputs>
 consteval fulmar_port port_of() {
   using Port = PortOf<M>;
-  static_assert(!inputs || Port::kind < FULMAR_OUT_VALUE, "Inputs holds In<T>, Optional<T>, Queue<T> and Request<T>");
-  static_assert(inputs || Port::kind >= FULMAR_OUT_VALUE, "Outputs holds messages, Out<T>, OutQueue<T> and Probe");
+  static_assert(!inputs || Port::kind < FULMAR_OUT_VALUE,
+                "Inputs holds In<T>, Optional<T>, Queue<T> and Request<T>");
+  static_assert(inputs || Port::kind >= FULMAR_OUT_VALUE,
+                "Outputs holds messages, Out<T>, OutQueue<T> and Probe");
   return {"", message_table<M>(), Port::kind, Port::flags, Port::capacity};
 }
 
@@ -117,7 +122,8 @@ struct Ports {
   static_assert(probes_have_units(), "a probe's name ends in its unit: roll_error_rad");
 };
 
-// ---- thunks -------------------------------------------------------------------------------------------------------------------
+// ---- thunks
+// -------------------------------------------------------------------------------------------------------------------
 
 template <class C>
 struct Instance {
@@ -229,12 +235,13 @@ struct Thunks {
   static std::uint32_t retune(void* instance, const fulmar_value* values, fulmar_error* error) {
     return guarded(error, [&] {
       take(self(instance).params, values);
-      if constexpr (requires(C c, const typename C::Params& p) { c.retune(p); }) self(instance).component.retune(self(instance).params);
+      if constexpr (requires(C c, const typename C::Params& p) { c.retune(p); })
+        self(instance).component.retune(self(instance).params);
       return Status::ok;
     });
   }
-  static std::uint32_t activate(void* instance, const fulmar_tick* tick, const fulmar_input* inputs, const fulmar_input* last,
-                                fulmar_error* error) {
+  static std::uint32_t activate(void* instance, const fulmar_tick* tick, const fulmar_input* inputs,
+                                const fulmar_input* last, fulmar_error* error) {
     return guarded(error, [&] {
       I& i = self(instance);
       bind(i.in, inputs);
@@ -251,8 +258,8 @@ struct Thunks {
       return Status::ok;
     });
   }
-  static std::uint32_t step(void* instance, const fulmar_tick* tick, const fulmar_input* inputs, fulmar_output* outputs,
-                            fulmar_error* error) {
+  static std::uint32_t step(void* instance, const fulmar_tick* tick, const fulmar_input* inputs,
+                            fulmar_output* outputs, fulmar_error* error) {
     return guarded(error, [&] {
       I& i = self(instance);
       bind(i.in, inputs);
@@ -273,7 +280,8 @@ struct Thunks {
       return status;
     });
   }
-  static const fulmar_last_frame* last_frame(void* instance, const fulmar_input* inputs, fulmar_error* error) {
+  static const fulmar_last_frame* last_frame(void* instance, const fulmar_input* inputs,
+                                             fulmar_error* error) {
     const fulmar_last_frame* frame = nullptr;
     guarded(error, [&] {
       bind(self(instance).in, inputs);
@@ -289,7 +297,8 @@ struct Thunks {
     else
       return nullptr;
   }
-  static std::uint32_t write(void* instance, const fulmar_tick* tick, const fulmar_input* inputs, fulmar_error* error) {
+  static std::uint32_t write(void* instance, const fulmar_tick* tick, const fulmar_input* inputs,
+                             fulmar_error* error) {
     return guarded(error, [&] {
       I& i = self(instance);
       bind(i.in, inputs);
@@ -362,7 +371,8 @@ consteval fulmar_plugin plugin_entry(const char* version) {
 
 }  // namespace fulmar::detail
 
-/// The plugin's one exported symbol: FULMAR_PLUGIN("1.0.0", Component, ...). Once per shared object, at namespace scope.
+/// The plugin's one exported symbol: FULMAR_PLUGIN("1.0.0", Component, ...). Once per shared object, at
+/// namespace scope.
 #define FULMAR_PLUGIN(version, ...)                                                                         \
   extern "C" {                                                                                              \
   __attribute__((visibility("default"))) extern const fulmar_plugin fulmar_plugin_entry;                    \

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a struct of parameters, with its groups, to the table of abi.h, and from the host's values back into it.
-// A part of plugin.hpp, which includes it at its end.
+// From a struct of parameters, with its groups, to the table of abi.h, and from the host's values back into
+// it. A part of plugin.hpp, which includes it at its end.
 #pragma once
 #include <array>
 #include <cstring>
@@ -25,20 +25,24 @@ constexpr fulmar_param param_entry(const Param& p) {
 }
 constexpr fulmar_param param_entry(const Flag& p) {
   fulmar_param e = blank_param();
-  e.doc = p.doc, e.kind = FULMAR_FLAG, e.flags = access_flags(p.access), e.initial[0] = p.value ? 1 : 0, e.max = 1;
+  e.doc = p.doc, e.kind = FULMAR_FLAG, e.flags = access_flags(p.access), e.initial[0] = p.value ? 1 : 0,
+  e.max = 1;
   return e;
 }
 constexpr fulmar_param param_entry(const Count& p) {
   fulmar_param e = blank_param();
-  e.doc = p.doc, e.kind = FULMAR_COUNT, e.flags = access_flags(p.access), e.initial[0] = static_cast<double>(p.value);
+  e.doc = p.doc, e.kind = FULMAR_COUNT, e.flags = access_flags(p.access),
+  e.initial[0] = static_cast<double>(p.value);
   e.min = static_cast<double>(p.min), e.max = static_cast<double>(p.max);
   return e;
 }
 template <class E>
 constexpr fulmar_param param_entry(const Choice<E>& p) {
   fulmar_param e = blank_param();
-  e.doc = p.doc, e.kind = FULMAR_CHOICE, e.flags = access_flags(p.access), e.initial[0] = static_cast<double>(p.value);
-  e.choices = Labels<E>::names.data(), e.choice_count = Labels<E>::count, e.max = static_cast<double>(Labels<E>::count - 1);
+  e.doc = p.doc, e.kind = FULMAR_CHOICE, e.flags = access_flags(p.access),
+  e.initial[0] = static_cast<double>(p.value);
+  e.choices = Labels<E>::names.data(), e.choice_count = Labels<E>::count,
+  e.max = static_cast<double>(Labels<E>::count - 1);
   return e;
 }
 template <std::size_t N>
@@ -50,7 +54,8 @@ constexpr fulmar_param param_entry(const TextParam<N>& p) {
 template <class F>
 constexpr fulmar_param param_entry(const Vector<F>& p) {
   fulmar_param e = blank_param();
-  e.unit = p.unit, e.doc = p.doc, e.kind = FULMAR_VECTOR, e.flags = access_flags(p.access), e.type = type_table<Vec3<F>>();
+  e.unit = p.unit, e.doc = p.doc, e.kind = FULMAR_VECTOR, e.flags = access_flags(p.access),
+  e.type = type_table<Vec3<F>>();
   const auto& [a, b, c] = p.value;
   e.initial[0] = a, e.initial[1] = b, e.initial[2] = c, e.min = p.min, e.max = p.max;
   return e;
@@ -58,7 +63,8 @@ constexpr fulmar_param param_entry(const Vector<F>& p) {
 template <class T>
 constexpr fulmar_param param_entry(const Record<T>& p) {
   fulmar_param e = blank_param();
-  e.doc = p.doc, e.kind = FULMAR_RECORD, e.flags = need_flags(p.need), e.type = type_table<T>(), e.initial_data = &p.value;
+  e.doc = p.doc, e.kind = FULMAR_RECORD, e.flags = need_flags(p.need), e.type = type_table<T>(),
+  e.initial_data = &p.value;
   return e;
 }
 constexpr fulmar_param param_entry(const Blob& p) {
@@ -84,7 +90,8 @@ void assign(Vector<F>& p, const fulmar_value& v) {
 }
 template <class T>
 void assign(Record<T>& p, const fulmar_value& v) {
-  if (v.data && v.size == sizeof(T)) std::memcpy(&p.value, v.data, sizeof(T));  // retune leaves records as they are
+  if (v.data && v.size == sizeof(T))
+    std::memcpy(&p.value, v.data, sizeof(T));  // retune leaves records as they are
   if (v.data) p.is_given = v.integer != 0;
 }
 inline void assign(Blob& p, const fulmar_value& v) {
@@ -95,12 +102,15 @@ inline void assign(Blob& p, const fulmar_value& v) {
 }
 
 template <class M>
-concept Parameter = requires(const M& m) { param_entry(m); };
+concept Parameter = requires(const M& m) {
+  param_entry(m);
+};
 
 template <class M, class F>
 constexpr void visit_param(M& member, F& f);
 
-/// Calls f(parameter) for each parameter of a struct, those of its groups (structs of parameters) in their places.
+/// Calls f(parameter) for each parameter of a struct, those of its groups (structs of parameters) in their
+/// places.
 template <class S, class F>
 constexpr void for_each_param(S& params, F& f) {
   with_members(params, [&f](auto&... member) { (visit_param(member, f), ...); });

@@ -29,7 +29,8 @@ inline constexpr std::array units{
 constexpr int find_unit(std::string_view name) {
   for (std::size_t i = 0; i < units.size(); ++i) {
     const std::string_view suffix = units[i].suffix;
-    if (name.size() > suffix.size() && name.substr(name.size() - suffix.size()) == suffix) return static_cast<int>(i);
+    if (name.size() > suffix.size() && name.substr(name.size() - suffix.size()) == suffix)
+      return static_cast<int>(i);
   }
   return -1;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Aerodynamic force and moment of a fixed-wing aircraft. Source: Beard & McLain, Small Unmanned Aircraft, chapter 4: (4.6)-(4.16), with the
-// stall blending (4.9), (4.10). Smooth down to no airspeed: rates enter as rho Va S c q / 4, never as c q / 2 Va.
+// Aerodynamic force and moment of a fixed-wing aircraft. Source: Beard & McLain, Small Unmanned Aircraft,
+// chapter 4: (4.6)-(4.16), with the stall blending (4.9), (4.10). Smooth down to no airspeed: rates enter as
+// rho Va S c q / 4, never as c q / 2 Va.
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
@@ -19,7 +20,8 @@ struct Deflections {
 
 /// Airspeed, angle of attack and sideslip of an air-relative velocity in body axes. Beard & McLain (2.8).
 struct AirData {
-  explicit AirData(const Eigen::Vector3d& v_r) : Va(v_r.norm()), in_plane(std::sqrt(v_r.x() * v_r.x() + v_r.z() * v_r.z())) {
+  explicit AirData(const Eigen::Vector3d& v_r)
+      : Va(v_r.norm()), in_plane(std::sqrt(v_r.x() * v_r.x() + v_r.z() * v_r.z())) {
     if (in_plane > 0) {
       cos_alpha = v_r.x() / in_plane;
       sin_alpha = v_r.z() / in_plane;
@@ -37,7 +39,8 @@ class Aerodynamic {
   explicit Aerodynamic(const Airframe& a)
       : wing_(a.wing),
         aero_(a.aero),
-        induced_(1 / (std::numbers::pi * a.wing.oswald_ratio * a.wing.span_m * a.wing.span_m / a.wing.area_m2)) {}
+        induced_(1 /
+                 (std::numbers::pi * a.wing.oswald_ratio * a.wing.span_m * a.wing.span_m / a.wing.area_m2)) {}
 
   /// Share of separated flow, 0 to 1. (4.10)
   double stall(double alpha) const {
@@ -56,33 +59,39 @@ class Aerodynamic {
   /// CD(alpha) without the parasite drag: induced (4.11), blended into a flat plate.
   double drag(double alpha, double sin_alpha, double sigma) const {
     const double linear_lift = aero_.lift.zero_ratio + aero_.lift.alpha_ratio * alpha;
-    const double attached = aero_.drag.zero_ratio + aero_.drag.alpha_ratio * alpha + induced_ * linear_lift * linear_lift;
+    const double attached =
+        aero_.drag.zero_ratio + aero_.drag.alpha_ratio * alpha + induced_ * linear_lift * linear_lift;
     return (1 - sigma) * attached + sigma * 2 * std::abs(sin_alpha) * sin_alpha * sin_alpha;
   }
 
   /// At air-relative velocity `v_r` and body rate `omega` in air of density `rho`. (4.18), (4.19), (4.20)
-  /// The wing works with the flow in the plane of symmetry, Va cos(beta): the book's equations at small sideslip, and no jump at 90
-  /// degrees.
-  Load load(const Eigen::Vector3d& v_r, const Eigen::Vector3d& omega, const Deflections& d, double rho) const {
+  /// The wing works with the flow in the plane of symmetry, Va cos(beta): the book's equations at small
+  /// sideslip, and no jump at 90 degrees.
+  Load load(const Eigen::Vector3d& v_r, const Eigen::Vector3d& omega, const Deflections& d,
+            double rho) const {
     const AirData air(v_r);
     const double sigma = stall(air.alpha);
-    const double alpha = (1 - sigma) * air.alpha + sigma * air.sin_alpha;  // of the linear terms: bounded and without a jump at pi
+    const double alpha = (1 - sigma) * air.alpha +
+                         sigma * air.sin_alpha;  // of the linear terms: bounded and without a jump at pi
     const double half_rho_S = 0.5 * rho * wing_.area_m2;
     const double qS = half_rho_S * air.Va * air.Va, plane_qS = half_rho_S * air.in_plane * air.in_plane;
     const double rates = 0.5 * half_rho_S * air.Va;  // (rho Va^2 S / 2) / (2 Va)
-    const Eigen::Vector3d rate(rates * wing_.span_m * omega.x(), rates * wing_.chord_m * omega.y(), rates * wing_.span_m * omega.z());
+    const Eigen::Vector3d rate(rates * wing_.span_m * omega.x(), rates * wing_.chord_m * omega.y(),
+                               rates * wing_.span_m * omega.z());
     const auto sum = [&](const Derivatives& c) {
-      return qS * (c.beta_ratio * air.beta + c.aileron_ratio * d.aileron + c.elevator_ratio * d.elevator + c.rudder_ratio * d.rudder) +
+      return qS * (c.beta_ratio * air.beta + c.aileron_ratio * d.aileron + c.elevator_ratio * d.elevator +
+                   c.rudder_ratio * d.rudder) +
              c.p_ratio * rate.x() + c.q_ratio * rate.y() + c.r_ratio * rate.z();
     };
     const auto sum_all = [&](const Derivatives& c, double qS_static) {
       return qS_static * (c.zero_ratio + c.alpha_ratio * alpha) + sum(c);
     };
     const double L = plane_qS * lift(air.alpha, air.sin_alpha, air.cos_alpha, sigma) + sum(aero_.lift);
-    const double D =
-        plane_qS * drag(air.alpha, air.sin_alpha, sigma) + sum(aero_.drag) + half_rho_S * air.Va * air.in_plane * aero_.parasite_drag_ratio;
+    const double D = plane_qS * drag(air.alpha, air.sin_alpha, sigma) + sum(aero_.drag) +
+                     half_rho_S * air.Va * air.in_plane * aero_.parasite_drag_ratio;
     Load out;
-    out.force_b = {-D * air.cos_alpha + L * air.sin_alpha, sum_all(aero_.side, qS), -D * air.sin_alpha - L * air.cos_alpha};
+    out.force_b = {-D * air.cos_alpha + L * air.sin_alpha, sum_all(aero_.side, qS),
+                   -D * air.sin_alpha - L * air.cos_alpha};
     out.moment_b = {wing_.span_m * sum_all(aero_.roll, qS), wing_.chord_m * sum_all(aero_.pitch, plane_qS),
                     wing_.span_m * sum_all(aero_.yaw, qS)};
     return out;

@@ -23,7 +23,8 @@ inline double wrap_2pi(double angle_rad) {
 /// The short way from `from` to `to`, in [-pi, pi]: what a course error is.
 inline double angle_difference(double to_rad, double from_rad) { return wrap_pi(to_rad - from_rad); }
 
-/// 0 below `from`, 1 above `to`, between them 3 t^2 - 2 t^3: value and slope are continuous. `from` may exceed `to`: then it falls.
+/// 0 below `from`, 1 above `to`, between them 3 t^2 - 2 t^3: value and slope are continuous. `from` may
+/// exceed `to`: then it falls.
 inline double smoothly(double x, double from, double to) {
   if (from == to) return x < from ? 0 : 1;
   const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// International Standard Atmosphere, ISO 2533:1975: troposphere and lower stratosphere, to 20 km. Altitudes are geopotential, above mean
-// sea level. Below 5 km the geometric altitude is higher by less than 0.08 %, which is neglected.
+// International Standard Atmosphere, ISO 2533:1975: troposphere and lower stratosphere, to 20 km. Altitudes
+// are geopotential, above mean sea level. Below 5 km the geometric altitude is higher by less than 0.08 %,
+// which is neglected.
 #pragma once
 #include <cmath>
 
 namespace fulmar {
 
 namespace isa {
-inline constexpr double g0 = 9.80665;                                 ///< m/s2
-inline constexpr double gas_constant = 287.05287;                     ///< J/(kg K), of dry air
-inline constexpr double sea_level_temperature = 288.15;               ///< K
-inline constexpr double sea_level_pressure = 101325;                  ///< Pa
-inline constexpr double sea_level_density = 1.225;                    ///< kg/m3; to the last digit 1.2250000181
-inline constexpr double lapse_rate = 0.0065;                          ///< K/m
-inline constexpr double tropopause = 11000;                           ///< m
+inline constexpr double g0 = 9.80665;                    ///< m/s2
+inline constexpr double gas_constant = 287.05287;        ///< J/(kg K), of dry air
+inline constexpr double sea_level_temperature = 288.15;  ///< K
+inline constexpr double sea_level_pressure = 101325;     ///< Pa
+inline constexpr double sea_level_density = 1.225;       ///< kg/m3; to the last digit 1.2250000181
+inline constexpr double lapse_rate = 0.0065;             ///< K/m
+inline constexpr double tropopause = 11000;              ///< m
 inline constexpr double exponent = g0 / (gas_constant * lapse_rate);  ///< 5.25588
 }  // namespace isa
 
@@ -26,34 +27,40 @@ struct Air {
   double speed_of_sound_mps() const { return std::sqrt(1.4 * isa::gas_constant * temperature_kelvin); }
 };
 
-inline double air_density(double pressure_pa, double temperature_kelvin) { return pressure_pa / (isa::gas_constant * temperature_kelvin); }
+inline double air_density(double pressure_pa, double temperature_kelvin) {
+  return pressure_pa / (isa::gas_constant * temperature_kelvin);
+}
 
 /// The standard air at an altitude above mean sea level.
 inline Air standard_air(double altitude_m) {
   Air air;
   if (altitude_m <= isa::tropopause) {
     air.temperature_kelvin = isa::sea_level_temperature - isa::lapse_rate * altitude_m;
-    air.pressure_pa = isa::sea_level_pressure * std::pow(air.temperature_kelvin / isa::sea_level_temperature, isa::exponent);
+    air.pressure_pa = isa::sea_level_pressure *
+                      std::pow(air.temperature_kelvin / isa::sea_level_temperature, isa::exponent);
   } else {
     const Air below = standard_air(isa::tropopause);
     air.temperature_kelvin = below.temperature_kelvin;
-    air.pressure_pa =
-        below.pressure_pa * std::exp(-isa::g0 * (altitude_m - isa::tropopause) / (isa::gas_constant * air.temperature_kelvin));
+    air.pressure_pa = below.pressure_pa * std::exp(-isa::g0 * (altitude_m - isa::tropopause) /
+                                                   (isa::gas_constant * air.temperature_kelvin));
   }
   air.density_kgm3 = air_density(air.pressure_pa, air.temperature_kelvin);
   return air;
 }
 
-/// Altitude at which the standard air has this pressure: the inverse of `standard_air`. Pressure must be positive.
+/// Altitude at which the standard air has this pressure: the inverse of `standard_air`. Pressure must be
+/// positive.
 inline double pressure_altitude(double pressure_pa) {
-  const double altitude_m =
-      isa::sea_level_temperature / isa::lapse_rate * (1 - std::pow(pressure_pa / isa::sea_level_pressure, 1 / isa::exponent));
+  const double altitude_m = isa::sea_level_temperature / isa::lapse_rate *
+                            (1 - std::pow(pressure_pa / isa::sea_level_pressure, 1 / isa::exponent));
   if (altitude_m <= isa::tropopause) return altitude_m;
   const Air below = standard_air(isa::tropopause);
-  return isa::tropopause + isa::gas_constant * below.temperature_kelvin / isa::g0 * std::log(below.pressure_pa / pressure_pa);
+  return isa::tropopause +
+         isa::gas_constant * below.temperature_kelvin / isa::g0 * std::log(below.pressure_pa / pressure_pa);
 }
 
-/// Indicated airspeed of a differential pressure: incompressible, at sea-level density; negative pressure gives a negative speed.
+/// Indicated airspeed of a differential pressure: incompressible, at sea-level density; negative pressure
+/// gives a negative speed.
 inline double indicated_airspeed(double pressure_pa) {
   return std::copysign(std::sqrt(2 * std::abs(pressure_pa) / isa::sea_level_density), pressure_pa);
 }

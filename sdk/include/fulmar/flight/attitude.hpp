@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Attitude: 3-2-1 Euler angles, rotation vectors, attitude from two directions. Quaternions turn body into NED, scalar first.
-// Sources: Beard & McLain (2012) chapter 2 and appendix B; Sola, Quaternion kinematics for the error-state Kalman filter (2017); TRIAD:
-// Black (1964).
+// Attitude: 3-2-1 Euler angles, rotation vectors, attitude from two directions. Quaternions turn body into
+// NED, scalar first. Sources: Beard & McLain (2012) chapter 2 and appendix B; Sola, Quaternion kinematics for
+// the error-state Kalman filter (2017); TRIAD: Black (1964).
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -28,10 +28,12 @@ inline Eigen::Quaterniond quaternion_from(const Euler& e) {  // B&M (B.6)
                             Eigen::AngleAxisd(e.roll_rad, Eigen::Vector3d::UnitX()));
 }
 
-/// Roll and yaw in +-pi, pitch in +-pi/2. With the nose straight up or down only roll and yaw together are defined: roll is 0 then.
+/// Roll and yaw in +-pi, pitch in +-pi/2. With the nose straight up or down only roll and yaw together are
+/// defined: roll is 0 then.
 inline Euler euler_from(const Eigen::Matrix3d& R_nb) {
   const double s = std::clamp(-R_nb(2, 0), -1.0, 1.0);
-  if (std::abs(s) > 1 - 1e-12) return {0, std::copysign(std::numbers::pi / 2, s), std::atan2(-R_nb(0, 1), R_nb(1, 1))};
+  if (std::abs(s) > 1 - 1e-12)
+    return {0, std::copysign(std::numbers::pi / 2, s), std::atan2(-R_nb(0, 1), R_nb(1, 1))};
   return {std::atan2(R_nb(2, 1), R_nb(2, 2)), std::asin(s), std::atan2(R_nb(1, 0), R_nb(0, 0))};
 }
 inline Euler euler_from(const Eigen::Quaterniond& q_nb) { return euler_from(q_nb.toRotationMatrix()); }
@@ -56,10 +58,12 @@ inline Eigen::Vector3d log_map(const Eigen::Quaterniond& q) {
   return sign * k * q.vec();
 }
 
-/// Attitude that maps the direction `first_b` exactly to `first_n`, and `second_b` as near as that allows to `second_n` (TRIAD).
-/// The two directions must not be parallel.
-inline Eigen::Quaterniond attitude_from_directions(const Eigen::Vector3d& first_b, const Eigen::Vector3d& first_n,
-                                                   const Eigen::Vector3d& second_b, const Eigen::Vector3d& second_n) {
+/// Attitude that maps the direction `first_b` exactly to `first_n`, and `second_b` as near as that allows to
+/// `second_n` (TRIAD). The two directions must not be parallel.
+inline Eigen::Quaterniond attitude_from_directions(const Eigen::Vector3d& first_b,
+                                                   const Eigen::Vector3d& first_n,
+                                                   const Eigen::Vector3d& second_b,
+                                                   const Eigen::Vector3d& second_n) {
   const auto triad = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     Eigen::Matrix3d m;
     m.col(0) = a.normalized();

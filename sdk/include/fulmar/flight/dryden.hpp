@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Dryden turbulence in body axes. Source: MIL-F-8785C / MIL-HDBK-1797; forming filters and figures of Beard & McLain (4.24) and table 4.1.
-// The filters are discretised exactly: what they put out is a sample of the continuous process at any step and any changing airspeed.
+// Dryden turbulence in body axes. Source: MIL-F-8785C / MIL-HDBK-1797; forming filters and figures of Beard &
+// McLain (4.24) and table 4.1. The filters are discretised exactly: what they put out is a sample of the
+// continuous process at any step and any changing airspeed.
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
@@ -20,10 +21,13 @@ struct DrydenScales {
   Eigen::Vector3d sigma{0, 0, 0};
 };
 
-/// At 50 m: Beard & McLain, table 4.1, low altitude. Severe is three times light, as the wind at 20 ft that defines them (15, 30, 45
-/// knots).
+/// At 50 m: Beard & McLain, table 4.1, low altitude. Severe is three times light, as the wind at 20 ft that
+/// defines them (15, 30, 45 knots).
 inline DrydenScales dryden_scales(Turbulence turbulence) {
-  const double k = turbulence == Turbulence::light ? 1 : turbulence == Turbulence::moderate ? 2 : turbulence == Turbulence::severe ? 3 : 0;
+  const double k = turbulence == Turbulence::light      ? 1
+                   : turbulence == Turbulence::moderate ? 2
+                   : turbulence == Turbulence::severe   ? 3
+                                                        : 0;
   return {{200, 200, 50}, k * Eigen::Vector3d(1.06, 1.06, 0.7)};
 }
 
@@ -52,7 +56,8 @@ class Dryden {
   Eigen::Vector3d gust() const {
     // (s + z)/(s + b)^2 = 1/(s + b) + (z - b)/(s + b)^2 with z = b / sqrt(3)
     const double k = 1 / std::numbers::sqrt3 - 1;
-    return {scales_.sigma.x() * std::numbers::sqrt2 * u_, scales_.sigma.y() * std::numbers::sqrt3 * (v_(0) + k * v_(1)),
+    return {scales_.sigma.x() * std::numbers::sqrt2 * u_,
+            scales_.sigma.y() * std::numbers::sqrt3 * (v_(0) + k * v_(1)),
             scales_.sigma.z() * std::numbers::sqrt3 * (w_(0) + k * w_(1))};
   }
 
@@ -71,7 +76,8 @@ class Dryden {
     // The state is stationary with covariance P, so the noise is P - F P F^T.
     const double Q11 = -0.5 * std::expm1(-2 * b_dt);
     const double Q21 = 0.25 - s.decay * (0.5 * s.coupling + 0.25 * s.decay);
-    const double Q22 = 0.25 - (0.5 * s.coupling * s.coupling + 0.5 * s.coupling * s.decay + 0.25 * s.decay * s.decay);
+    const double Q22 =
+        0.25 - (0.5 * s.coupling * s.coupling + 0.5 * s.coupling * s.decay + 0.25 * s.decay * s.decay);
     s.q11 = std::sqrt(Q11);
     s.q21 = Q21 / s.q11;
     s.q22 = std::sqrt(std::max(0.0, Q22 - s.q21 * s.q21));

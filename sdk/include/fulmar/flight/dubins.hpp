@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Dubins paths: the shortest path of bounded curvature between two poses, all six words.
-// Sources: Dubins (1957); Shkel & Lumelsky, "Classification of the Dubins set" (2001); Beard & McLain, section 11.2 for the centres.
+// Sources: Dubins (1957); Shkel & Lumelsky, "Classification of the Dubins set" (2001); Beard & McLain,
+// section 11.2 for the centres.
 #pragma once
 #include <array>
 #include <cmath>
@@ -28,18 +29,21 @@ struct DubinsPath {
 
 /// Curvature sign of a word's part: +1 right, -1 left, 0 straight.
 constexpr int dubins_turn(DubinsWord word, int part) {
-  constexpr std::array<std::array<int, 3>, 6> turns{{{1, 0, 1}, {1, 0, -1}, {-1, 0, 1}, {-1, 0, -1}, {1, -1, 1}, {-1, 1, -1}}};
+  constexpr std::array<std::array<int, 3>, 6> turns{
+      {{1, 0, 1}, {1, 0, -1}, {-1, 0, 1}, {-1, 0, -1}, {1, -1, 1}, {-1, 1, -1}}};
   return turns[static_cast<std::size_t>(word)][static_cast<std::size_t>(part)];
 }
 
-/// Angle in [0, 2 pi). What is short of a full turn by rounding alone is no turn: else a straight path would begin with a loop.
+/// Angle in [0, 2 pi). What is short of a full turn by rounding alone is no turn: else a straight path would
+/// begin with a loop.
 inline double positive_angle(double angle_rad) {
   constexpr double full = 2 * std::numbers::pi;
   const double a = angle_rad - full * std::floor(angle_rad / full);
   return a > full - 1e-9 ? 0 : a;
 }
 
-/// One word of the normalised problem: from (0, 0) with course `alpha` to (d, 0) with course `beta`, turn radius 1.
+/// One word of the normalised problem: from (0, 0) with course `alpha` to (d, 0) with course `beta`, turn
+/// radius 1.
 inline DubinsPath dubins_word(DubinsWord word, double alpha, double beta, double d) {
   const int first = dubins_turn(word, 0), last = dubins_turn(word, 2);
   // centres lie a radius to the right (+) or left (-) of the poses: B&M (11.5), (11.6)
@@ -47,14 +51,17 @@ inline DubinsPath dubins_word(DubinsWord word, double alpha, double beta, double
   const double e = last * std::cos(beta) - first * std::cos(alpha);
   const double l = std::hypot(n, e);
   DubinsPath path{word, true, {}};
-  if (dubins_turn(word, 1) != 0) {  // the middle circle touches both; it exists while they are at most two diameters apart
+  if (dubins_turn(word, 1) !=
+      0) {  // the middle circle touches both; it exists while they are at most two diameters apart
     path.exists = l <= 4;
     if (!path.exists) return path;
     const double theta = l > 1e-9 ? std::atan2(e, n) : alpha;
     const double gamma = std::acos(l / 4);
-    const double course_1 = theta + first * (gamma + std::numbers::pi / 2);  // where the first circle touches the middle one
-    const double middle = std::numbers::pi + 2 * gamma;                      // the long way round: the short one is never optimal
-    path.parts = {positive_angle(first * (course_1 - alpha)), middle, positive_angle(first * (beta - course_1) + middle)};
+    const double course_1 =
+        theta + first * (gamma + std::numbers::pi / 2);  // where the first circle touches the middle one
+    const double middle = std::numbers::pi + 2 * gamma;  // the long way round: the short one is never optimal
+    path.parts = {positive_angle(first * (course_1 - alpha)), middle,
+                  positive_angle(first * (beta - course_1) + middle)};
     return path;
   }
   double straight = l;
@@ -70,7 +77,8 @@ inline DubinsPath dubins_word(DubinsWord word, double alpha, double beta, double
   return path;
 }
 
-/// The shortest of the six words. One always exists. Of words that are equal within rounding the first listed is taken.
+/// The shortest of the six words. One always exists. Of words that are equal within rounding the first listed
+/// is taken.
 inline DubinsPath dubins(const Pose& from, const Pose& to, double radius_m) {
   const double n = to.north_m - from.north_m, e = to.east_m - from.east_m;
   const double theta = std::atan2(e, n);

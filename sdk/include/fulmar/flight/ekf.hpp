@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Error-state (multiplicative) extended Kalman filter of a vehicle with an inertial measurement unit: state, prediction, scalar update.
-// Measurement models are in ekf_models.hpp; a new sensor is one function that returns an innovation and a row of derivatives.
-// Sources: Sola, Quaternion kinematics for the error-state Kalman filter (2017), section 7 (global angular error);
-//          Groves, Principles of GNSS, Inertial and Multisensor Integrated Navigation Systems (2013), chapter 14.
+// Error-state (multiplicative) extended Kalman filter of a vehicle with an inertial measurement unit: state,
+// prediction, scalar update. Measurement models are in ekf_models.hpp; a new sensor is one function that
+// returns an innovation and a row of derivatives. Sources: Sola, Quaternion kinematics for the error-state
+// Kalman filter (2017), section 7 (global angular error);
+//          Groves, Principles of GNSS, Inertial and Multisensor Integrated Navigation Systems (2013),
+//          chapter 14.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -17,8 +19,10 @@ namespace fulmar {
 
 namespace ekf {
 
-/// Where each part of the error state begins. Attitude is a small rotation about the NED axes: R_true = exp(theta) R_estimate.
-inline constexpr int theta = 0, vel = 3, pos = 6, gyro_bias = 9, accel_bias = 12, wind = 15, gust = 17, baro = 18, heading = 19, size = 20;
+/// Where each part of the error state begins. Attitude is a small rotation about the NED axes: R_true =
+/// exp(theta) R_estimate.
+inline constexpr int theta = 0, vel = 3, pos = 6, gyro_bias = 9, accel_bias = 12, wind = 15, gust = 17,
+                     baro = 18, heading = 19, size = 20;
 
 using Vector = Eigen::Matrix<double, size, 1>;
 using Row = Eigen::Matrix<double, 1, size>;
@@ -26,9 +30,10 @@ using Covariance = Eigen::Matrix<double, size, size>;
 
 /// Continuous noise: spectral densities and walks, so that nothing depends on a sensor's rate.
 struct Noise {
-  double gyro = 5e-4;             ///< rad/s/sqrt(Hz), angular random walk
-  double accel = 0.02;            ///< m/s2/sqrt(Hz), velocity random walk
-  double gyro_scale = 0;          ///< share of the turn rate that is error: adds gyro_scale * |omega| to `gyro`, in 1/sqrt(Hz)
+  double gyro = 5e-4;   ///< rad/s/sqrt(Hz), angular random walk
+  double accel = 0.02;  ///< m/s2/sqrt(Hz), velocity random walk
+  double gyro_scale =
+      0;  ///< share of the turn rate that is error: adds gyro_scale * |omega| to `gyro`, in 1/sqrt(Hz)
   double accel_scale = 0;         ///< share of the specific force that is error beyond 1 g, in 1/sqrt(Hz)
   double gyro_bias_walk = 2e-5;   ///< rad/s/sqrt(s)
   double accel_bias_walk = 1e-3;  ///< m/s2/sqrt(s)
@@ -37,12 +42,13 @@ struct Noise {
   double gust_std = 1.0;          ///< m/s, first-order Gauss-Markov along the flight direction
   double gust_time = 3.0;         ///< s
   double baro_walk = 0.05;        ///< m/sqrt(s)
-  double heading_std = 0.035;     ///< rad, first-order Gauss-Markov: what the magnetometer is off after calibration
-  double heading_time = 300;      ///< s
+  double heading_std =
+      0.035;  ///< rad, first-order Gauss-Markov: what the magnetometer is off after calibration
+  double heading_time = 300;  ///< s
 };
 
-/// What the filter believes. Wind is the velocity of the air; `baro_m` is what the barometer reads too high; `heading_rad` is what the
-/// magnetic heading reads too high.
+/// What the filter believes. Wind is the velocity of the air; `baro_m` is what the barometer reads too high;
+/// `heading_rad` is what the magnetic heading reads too high.
 struct Nominal {
   Eigen::Quaterniond q_nb = Eigen::Quaterniond::Identity();
   Eigen::Vector3d v_n = Eigen::Vector3d::Zero(), p_n = Eigen::Vector3d::Zero();
@@ -71,13 +77,15 @@ struct Nominal {
   /// The error that leads from `from` to here: dx with from (+) dx = *this.
   Vector minus(const Nominal& from) const {
     Vector dx;
-    dx << log_map(q_nb * from.q_nb.conjugate()), v_n - from.v_n, p_n - from.p_n, gyro_bias - from.gyro_bias, accel_bias - from.accel_bias,
-        wind - from.wind, gust_mps - from.gust_mps, baro_m - from.baro_m, heading_rad - from.heading_rad;
+    dx << log_map(q_nb * from.q_nb.conjugate()), v_n - from.v_n, p_n - from.p_n, gyro_bias - from.gyro_bias,
+        accel_bias - from.accel_bias, wind - from.wind, gust_mps - from.gust_mps, baro_m - from.baro_m,
+        heading_rad - from.heading_rad;
     return dx;
   }
 };
 
-/// A scalar measurement: measured minus expected, and the derivative of the expected value by the error state.
+/// A scalar measurement: measured minus expected, and the derivative of the expected value by the error
+/// state.
 struct Scalar {
   double innovation = 0;
   Row H = Row::Zero();
@@ -153,8 +161,9 @@ class ErrorStateEkf {
     return {true, ratio};
   }
 
-  /// The same for a measurement that attitude and sensor biases shall not follow, though their uncertainty counts (Schmidt's considered
-  /// states): a pseudo-measurement whose errors are correlated in time. P' = (I - K H) P (I - K H)' + K R K'.
+  /// The same for a measurement that attitude and sensor biases shall not follow, though their uncertainty
+  /// counts (Schmidt's considered states): a pseudo-measurement whose errors are correlated in time. P' = (I
+  /// - K H) P (I - K H)' + K R K'.
   ekf::Fused fuse_considering_attitude(const ekf::Scalar& z, double variance, double gate) {
     const ekf::Vector PHt = project(z);
     const double S = z.H.dot(PHt) + variance, ratio = z.innovation / std::sqrt(S);
@@ -169,7 +178,9 @@ class ErrorStateEkf {
   }
 
   /// Deviation that `fuse` expects of this innovation, without touching the state.
-  double expected_std(const ekf::Scalar& z, double variance) const { return std::sqrt((z.H * P_ * z.H.transpose()).value() + variance); }
+  double expected_std(const ekf::Scalar& z, double variance) const {
+    return std::sqrt((z.H * P_ * z.H.transpose()).value() + variance);
+  }
 
   /// Moves the state and leaves its covariance.
   void correct(const ekf::Vector& dx) {
@@ -203,7 +214,8 @@ class ErrorStateEkf {
     R_nb_ = x_.q_nb.toRotationMatrix();
   }
 
-  /// Where the aircraft was, as it is known now: what a late measurement is compared with. `age_s` is 0 for the present.
+  /// Where the aircraft was, as it is known now: what a late measurement is compared with. `age_s` is 0 for
+  /// the present.
   struct Past {
     Vector3 p_n, v_n;
     double age_s = 0;
@@ -257,9 +269,12 @@ class ErrorStateEkf {
     return PHt;
   }
 
-  /// P <- Phi P Phi' + Q over the accumulated step, with T its length, B = sum R dt, [dv]x the specific force integrated:
-  ///   theta' = theta - B bg,  v' = v - [dv]x theta - B ba + [dv]x B bg / 2,  p' = p + T v + T/2 (-[dv]x theta - B ba).
-  /// Only the first nine rows of Phi differ from the identity, and P is symmetric: W = P Phi' is made column by column, which vectorises.
+  /// P <- Phi P Phi' + Q over the accumulated step, with T its length, B = sum R dt, [dv]x the specific force
+  /// integrated:
+  ///   theta' = theta - B bg,  v' = v - [dv]x theta - B ba + [dv]x B bg / 2,  p' = p + T v + T/2 (-[dv]x
+  ///   theta - B ba).
+  /// Only the first nine rows of Phi differ from the identity, and P is symmetric: W = P Phi' is made column
+  /// by column, which vectorises.
   void propagate_covariance() {
     using namespace ekf;
     const double T = step_.time;
@@ -269,11 +284,13 @@ class ErrorStateEkf {
     const auto shear = [&](const auto& in, auto& out) {  // in * Phi' for the columns theta, vel, pos
       for (int i = 0; i < 3; ++i) {
         const auto bg = [&](const Eigen::Matrix3d& M) {
-          return M(i, 0) * in.col(ekf::gyro_bias) + M(i, 1) * in.col(ekf::gyro_bias + 1) + M(i, 2) * in.col(ekf::gyro_bias + 2);
+          return M(i, 0) * in.col(ekf::gyro_bias) + M(i, 1) * in.col(ekf::gyro_bias + 1) +
+                 M(i, 2) * in.col(ekf::gyro_bias + 2);
         };
         const int j = (i + 1) % 3, k = (i + 2) % 3;
-        out.col(vel + i) = D(i, j) * in.col(theta + j) + D(i, k) * in.col(theta + k) - B(i, 0) * in.col(accel_bias) -
-                           B(i, 1) * in.col(accel_bias + 1) - B(i, 2) * in.col(accel_bias + 2);
+        out.col(vel + i) = D(i, j) * in.col(theta + j) + D(i, k) * in.col(theta + k) -
+                           B(i, 0) * in.col(accel_bias) - B(i, 1) * in.col(accel_bias + 1) -
+                           B(i, 2) * in.col(accel_bias + 2);
         out.col(pos + i) = in.col(pos + i) + T * in.col(vel + i) + 0.5 * T * out.col(vel + i);
         out.col(vel + i) += in.col(vel + i) + bg(E);
         out.col(theta + i) = in.col(theta + i) - bg(B);
@@ -298,7 +315,8 @@ class ErrorStateEkf {
       for (int i = first; i < first + count; ++i) P_(i, i) += variance;
     };
     const double excess = std::abs(step_.dv.norm() / T - gravity_mps2);
-    const double gyro = noise.gyro + noise.gyro_scale * step_.angle / T, accel = noise.accel + noise.accel_scale * excess;
+    const double gyro = noise.gyro + noise.gyro_scale * step_.angle / T,
+                 accel = noise.accel + noise.accel_scale * excess;
     add(theta, 3, gyro * gyro * T);
     add(vel, 3, accel * accel * T);
     add(ekf::gyro_bias, 3, noise.gyro_bias_walk * noise.gyro_bias_walk * T);
@@ -323,10 +341,12 @@ class ErrorStateEkf {
     past_next_ = (past_next_ + 1) % past_.size();
     past_count_ = std::min(past_count_ + 1, past_.size());
   }
-  /// A correction made at time s moved position by dp and velocity by dv: at an earlier time t it means dp - (s - t) dv.
+  /// A correction made at time s moved position by dp and velocity by dv: at an earlier time t it means dp -
+  /// (s - t) dv.
   Past as_known_now(const Memory& m) const {
     const Vector3 dv = corrected_.v - m.corrected.v;
-    return {m.p + (corrected_.p - m.corrected.p) - (corrected_.vt - m.corrected.vt) + m.time * dv, m.v + dv, time_s_ - m.time, true};
+    return {m.p + (corrected_.p - m.corrected.p) - (corrected_.vt - m.corrected.vt) + m.time * dv, m.v + dv,
+            time_s_ - m.time, true};
   }
 
   ekf::Nominal x_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Energy per mass and its rate: what throttle adds to and pitch shares out between speed and height.
-// Lambregts, "Vertical flight path and speed control autopilot design using total energy principles", AIAA 83-2239 (1983).
+// Lambregts, "Vertical flight path and speed control autopilot design using total energy principles", AIAA
+// 83-2239 (1983).
 #pragma once
 #include <cmath>
 
@@ -9,12 +10,14 @@
 
 namespace fulmar {
 
-/// Acceleration along the air velocity, from what the accelerometer and the attitude say: leads a differentiated airspeed and has its
-/// noise not. The change of the wind is not in it.
+/// Acceleration along the air velocity, from what the accelerometer and the attitude say: leads a
+/// differentiated airspeed and has its noise not. The change of the wind is not in it.
 inline double airspeed_rate(const VehicleState& state) {
-  const double ca = std::cos(state.alpha_rad), sa = std::sin(state.alpha_rad), cb = std::cos(state.beta_rad), sb = std::sin(state.beta_rad);
+  const double ca = std::cos(state.alpha_rad), sa = std::sin(state.alpha_rad), cb = std::cos(state.beta_rad),
+               sb = std::sin(state.beta_rad);
   const double cp = std::cos(state.pitch_rad);
-  const Vec3<Body> gravity_b{-std::sin(state.pitch_rad), cp * std::sin(state.roll_rad), cp * std::cos(state.roll_rad)};
+  const Vec3<Body> gravity_b{-std::sin(state.pitch_rad), cp * std::sin(state.roll_rad),
+                             cp * std::cos(state.roll_rad)};
   const Vec3<Body> a_b = state.specific_force_mps2 + isa::g0 * gravity_b;
   return ca * cb * a_b.x + sb * a_b.y + sa * cb * a_b.z;
 }
@@ -25,7 +28,9 @@ struct EnergyRates {
   double kinetic = 0;    ///< V Vdot
   double total() const { return potential + kinetic; }
   /// What height gains minus what speed gains, each with its weight in [0, 1].
-  double balance(double height_weight, double speed_weight) const { return height_weight * potential - speed_weight * kinetic; }
+  double balance(double height_weight, double speed_weight) const {
+    return height_weight * potential - speed_weight * kinetic;
+  }
 };
 
 }  // namespace fulmar

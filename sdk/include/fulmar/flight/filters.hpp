@@ -24,19 +24,23 @@ class LowPass {
   bool started_ = false;
 };
 
-/// Wash-out: y = s / (s + pole) u. Passes changes, forgets what stays. Exact for an input that is linear over the step.
+/// Wash-out: y = s / (s + pole) u. Passes changes, forgets what stays. Exact for an input that is linear over
+/// the step.
 class WashOut {
  public:
   double step(double u, double pole_radps, double dt_s) {
     if (!started_) return reset_to(u);
     const double x = pole_radps * dt_s;
     const double decay = std::exp(-x);
-    const double gain = x > 1e-6 ? (1 - decay) / x : 1 - x / 2;  // integral of the decay over the step, per step
+    const double gain =
+        x > 1e-6 ? (1 - decay) / x : 1 - x / 2;  // integral of the decay over the step, per step
     y_ = decay * y_ + gain * (u - u_);
     u_ = u;
     return y_;
   }
-  double reset_to(double u) { return started_ = true, u_ = u, y_ = 0; }  ///< `u` counts as having stayed for ever
+  double reset_to(double u) {
+    return started_ = true, u_ = u, y_ = 0;
+  }  ///< `u` counts as having stayed for ever
   void reset() { started_ = false, u_ = 0, y_ = 0; }
   double value() const { return y_; }
 
@@ -45,8 +49,8 @@ class WashOut {
   bool started_ = false;
 };
 
-/// y'' = w^2 (u - y) - 2 z w y', for an input that is constant over the step. Gives the filtered derivative as well.
-/// Exact for the damping 1 and below; heavier damping belongs into two first-order filters.
+/// y'' = w^2 (u - y) - 2 z w y', for an input that is constant over the step. Gives the filtered derivative
+/// as well. Exact for the damping 1 and below; heavier damping belongs into two first-order filters.
 class SecondOrder {
  public:
   double step(double u, double natural_frequency_radps, double damping_ratio, double dt_s) {

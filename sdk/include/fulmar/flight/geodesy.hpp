@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Geodetic coordinates to the local north-east-down frame and back. Needs GeographicLib: link with -lGeographicLib (older: -lGeographic).
-// Source: C. F. F. Karney, GeographicLib, LocalCartesian (exact: geodetic -> geocentric -> rotated and shifted Cartesian).
+// Geodetic coordinates to the local north-east-down frame and back. Needs GeographicLib: link with
+// -lGeographicLib (older: -lGeographic). Source: C. F. F. Karney, GeographicLib, LocalCartesian (exact:
+// geodetic -> geocentric -> rotated and shifted Cartesian).
 #pragma once
 #include <Eigen/Core>
 #include <GeographicLib/LocalCartesian.hpp>
 
 namespace fulmar {
 
-/// A plane touching the WGS-84 ellipsoid at the origin. The frame does not follow the Earth's curvature: a point at the origin's altitude,
-/// 5 km away, lies 2 m below the plane (`down` = +2 m). Altitudes above mean sea level are used as if they were heights above the
-/// ellipsoid: the geoid's separation is nearly constant over a flight and cancels in the difference; what remains is the scale error
-/// separation / Earth radius (100 m of separation: 16 mm per kilometre).
+/// A plane touching the WGS-84 ellipsoid at the origin. The frame does not follow the Earth's curvature: a
+/// point at the origin's altitude, 5 km away, lies 2 m below the plane (`down` = +2 m). Altitudes above mean
+/// sea level are used as if they were heights above the ellipsoid: the geoid's separation is nearly constant
+/// over a flight and cancels in the difference; what remains is the scale error separation / Earth radius
+/// (100 m of separation: 16 mm per kilometre).
 class LocalFrame {
  public:
   struct Geodetic {

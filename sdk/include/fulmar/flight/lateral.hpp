@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Course to roll: Beard & McLain, Small Unmanned Aircraft (2012), section 6.3.2, with the bank of the path's curvature fed forward.
-// A bank phi turns the course at g tan(phi) / Vg, so the gain grows with ground speed to keep one bandwidth up wind and down wind.
+// Course to roll: Beard & McLain, Small Unmanned Aircraft (2012), section 6.3.2, with the bank of the path's
+// curvature fed forward. A bank phi turns the course at g tan(phi) / Vg, so the gain grows with ground speed
+// to keep one bandwidth up wind and down wind.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -23,10 +24,16 @@ struct CourseTuning {
 class CourseHold {
  public:
   /// Roll command. `feedforward_rad` is the bank that the path needs.
-  double step(const VehicleState& state, double course_rad, double feedforward_rad, const CourseTuning& tuning, double dt_s) {
+  double step(const VehicleState& state, double course_rad, double feedforward_rad,
+              const CourseTuning& tuning, double dt_s) {
     error_ = angle_difference(course_rad, state.course_rad);
-    const double speed_ratio = std::clamp(state.ground_speed_mps / std::max(tuning.cruise_mps, 1.0), 0.5, 2.0);
-    const PidInput in{.error = error_, .rate = 0, .feedforward = feedforward_rad, .min = -tuning.roll_max_rad, .max = tuning.roll_max_rad};
+    const double speed_ratio =
+        std::clamp(state.ground_speed_mps / std::max(tuning.cruise_mps, 1.0), 0.5, 2.0);
+    const PidInput in{.error = error_,
+                      .rate = 0,
+                      .feedforward = feedforward_rad,
+                      .min = -tuning.roll_max_rad,
+                      .max = tuning.roll_max_rad};
     return shape(pid_.step({tuning.kp * speed_ratio, tuning.ki * speed_ratio, 0}, in, dt_s), tuning, dt_s);
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// World Magnetic Model 2025 (NOAA/NCEI and BGS, public domain): main field of the Earth, spherical harmonics of degree 12, valid 2025.0 to
-// 2030.0. Source: Chulliat et al., The US/UK World Magnetic Model for 2025-2030, technical report (2024), equations (4) to (19).
+// World Magnetic Model 2025 (NOAA/NCEI and BGS, public domain): main field of the Earth, spherical harmonics
+// of degree 12, valid 2025.0 to 2030.0. Source: Chulliat et al., The US/UK World Magnetic Model for
+// 2025-2030, technical report (2024), equations (4) to (19).
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -15,7 +16,8 @@ namespace wmm {
 inline constexpr int degree = 12;
 inline constexpr double epoch_year = 2025.0;
 
-/// g, h in nT and their change in nT/year, Schmidt semi-normalised, in the order (1,0) (1,1) (2,0) (2,1) (2,2) ...
+/// g, h in nT and their change in nT/year, Schmidt semi-normalised, in the order (1,0) (1,1) (2,0) (2,1)
+/// (2,2) ...
 struct Coefficient {
   double g, h, g_dot, h_dot;
 };
@@ -43,7 +45,8 @@ inline constexpr std::array<Coefficient, 90> coefficients{{
 
 inline constexpr std::size_t index(int n, int m) { return static_cast<std::size_t>(n * (n + 1) / 2 + m - 1); }
 
-/// Schmidt semi-normalised associated Legendre functions of sin(phi') and their derivative by phi', n and m up to 12.
+/// Schmidt semi-normalised associated Legendre functions of sin(phi') and their derivative by phi', n and m
+/// up to 12.
 struct Legendre {
   std::array<std::array<double, degree + 1>, degree + 1> p{}, dp{};
 
@@ -106,16 +109,20 @@ inline double decimal_year(std::int64_t unix_ns) {
     ++year;
   }
   const double length = leap(year) ? 366 : 365;
-  return static_cast<double>(year) + (static_cast<double>(days) + static_cast<double>(rest_ns) / static_cast<double>(day_ns)) / length;
+  return static_cast<double>(year) +
+         (static_cast<double>(days) + static_cast<double>(rest_ns) / static_cast<double>(day_ns)) / length;
 }
 
-/// Magnetic field of the Earth's main field, north, east, down, tesla. Height above the WGS-84 ellipsoid; mean sea level will do (30 m are
-/// 1 nT). Any point of the Earth; at a pole `north` is along the meridian `lon_deg`. Outside 2025-2030 the model is extrapolated.
+/// Magnetic field of the Earth's main field, north, east, down, tesla. Height above the WGS-84 ellipsoid;
+/// mean sea level will do (30 m are 1 nT). Any point of the Earth; at a pole `north` is along the meridian
+/// `lon_deg`. Outside 2025-2030 the model is extrapolated.
 inline Eigen::Vector3d magnetic_field_ned(double lat_deg, double lon_deg, double height_m, double year) {
   constexpr double rad = std::numbers::pi / 180, reference_radius_m = 6371200.0;
   const double lat = lat_deg * rad, lon = lon_deg * rad, t = year - wmm::epoch_year;
   const wmm::Geocentric at(lat, height_m);
-  const double cos_or_tiny = at.c > 1e-10 ? at.c : 1e-10;  // P_nm of m > 0 goes to zero with the cosine: the ratio below stays finite
+  const double cos_or_tiny =
+      at.c > 1e-10 ? at.c
+                   : 1e-10;  // P_nm of m > 0 goes to zero with the cosine: the ratio below stays finite
   const wmm::Legendre legendre(at.s, cos_or_tiny);
   const double ratio = reference_radius_m / at.r;
   double power = ratio * ratio, north = 0, east = 0, down = 0;  // geocentric axes

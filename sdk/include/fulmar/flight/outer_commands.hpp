@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of an outer loop that does not depend on how height and speed are held: course hold, take-off law, waiting on the ground, and
-// commands that go on without a step when the law, the phase or the controller changes.
+// The part of an outer loop that does not depend on how height and speed are held: course hold, take-off law,
+// waiting on the ground, and commands that go on without a step when the law, the phase or the controller
+// changes.
 #pragma once
 #include "fulmar/flight/lateral.hpp"
 #include "fulmar/flight/takeoff.hpp"
@@ -25,7 +26,8 @@ enum class OuterAction : std::uint8_t { wait, take_off, hold, level };
 
 class OuterCommands {
  public:
-  /// A new law, phase or controller: go on from `last`. What the take-off law asked for says nothing about trim and is not taken up.
+  /// A new law, phase or controller: go on from `last`. What the take-off law asked for says nothing about
+  /// trim and is not taken up.
   void start(OuterLaw law, const VehicleState& state, const AttitudeCommand& last) {
     taking_up_ = !(started_ && law_ == OuterLaw::takeoff);
     law_ = law, last_ = last, started_ = true;
@@ -72,9 +74,11 @@ class OuterCommands {
     return OuterAction::hold;
   }
 
-  AttitudeCommand take_off(const VehicleState& state, const OuterTuning& tuning, const FlightLimits& limits, double dt_s) {
+  AttitudeCommand take_off(const VehicleState& state, const OuterTuning& tuning, const FlightLimits& limits,
+                           double dt_s) {
     const AttitudeCommand wanted = run_.step(state, tuning.takeoff, limits);
-    return finish(course_.shape(wanted.roll_rad, tuning.course, dt_s), wanted.pitch_rad, wanted.throttle_frac, tuning, dt_s);
+    return finish(course_.shape(wanted.roll_rad, tuning.course, dt_s), wanted.pitch_rad, wanted.throttle_frac,
+                  tuning, dt_s);
   }
 
   /// Not flying: engine off, level.
@@ -91,17 +95,20 @@ class OuterCommands {
   }
 
   /// Roll command of course hold, shaped. Without a velocity there is no course: wings level.
-  double roll(const VehicleState& state, const GuidanceCommand& command, const OuterTuning& tuning, double dt_s) {
+  double roll(const VehicleState& state, const GuidanceCommand& command, const OuterTuning& tuning,
+              double dt_s) {
     if (!state.velocity_valid) return course_.shape(0, tuning.course, dt_s);
     return course_.step(state, command.course_rad, command.roll_feedforward_rad, tuning.course, dt_s);
   }
 
   /// Pitch and throttle through their rate limits; `roll_rad` is shaped already.
-  AttitudeCommand finish(double roll_rad, double pitch_rad, double throttle_frac, const OuterTuning& tuning, double dt_s) {
+  AttitudeCommand finish(double roll_rad, double pitch_rad, double throttle_frac, const OuterTuning& tuning,
+                         double dt_s) {
     taking_up_ = false;
     last_.roll_rad = roll_rad;
     last_.pitch_rad = pitch_.step(pitch_rad, tuning.pitch_rate_max_radps, dt_s);
-    last_.throttle_frac = std::clamp(throttle_.step(throttle_frac, tuning.throttle_rate_max_hz, dt_s), 0.0, 1.0);
+    last_.throttle_frac =
+        std::clamp(throttle_.step(throttle_frac, tuning.throttle_rate_max_hz, dt_s), 0.0, 1.0);
     return last_;
   }
 
@@ -131,7 +138,8 @@ struct PitchLimits {
 
 /// Airspeed for the laws' divisions: measured, but not below half the minimum; cruise when it is not known.
 inline double scheduling_airspeed(const VehicleState& state, const FlightLimits& limits) {
-  return state.airspeed_valid ? std::max(state.airspeed_mps, 0.5 * limits.airspeed_min_mps) : limits.airspeed_cruise_mps;
+  return state.airspeed_valid ? std::max(state.airspeed_mps, 0.5 * limits.airspeed_min_mps)
+                              : limits.airspeed_cruise_mps;
 }
 
 /// What an outer law needs to do what it is asked for. Without one of them it still flies, degraded.

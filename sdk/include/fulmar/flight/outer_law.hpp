@@ -9,8 +9,8 @@
 //   }
 //   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
 //     const auto rest = [&] { integral_.reset(); };
-//     const auto hold = [&](const LevelTurn& turn, double dt_s) { ...; return PitchThrottle{theta, throttle}; };
-//     return loop_.step(tick, *in.state, *in.command, p.common, out, rest, hold);
+//     const auto hold = [&](const LevelTurn& turn, double dt_s) { ...; return PitchThrottle{theta, throttle};
+//     }; return loop_.step(tick, *in.state, *in.command, p.common, out, rest, hold);
 //   }
 #pragma once
 #include "fulmar/flight/atmosphere.hpp"
@@ -109,15 +109,9 @@ struct OuterLoop {
     out.internals = {};
     if (action != OuterAction::hold) rest();
     switch (action) {
-      case OuterAction::wait:
-        out.attitude = commands.wait();
-        break;
-      case OuterAction::take_off:
-        out.attitude = commands.take_off(state, t, p.airframe->limits, dt);
-        break;
-      case OuterAction::level:
-        out.attitude = level(state, p, t, dt);
-        break;
+      case OuterAction::wait: out.attitude = commands.wait(); break;
+      case OuterAction::take_off: out.attitude = commands.take_off(state, t, p.airframe->limits, dt); break;
+      case OuterAction::level: out.attitude = level(state, p, t, dt); break;
       case OuterAction::hold: {
         const double phi = commands.roll(state, command, t, dt);
         const PitchThrottle wanted = hold(level_turn(phi, state, p), dt);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Electric motor and propeller. Source: Beard & McLain, supplement to Small Unmanned Aircraft, "Propeller thrust and torque" (2nd
-// edition 4.3): thrust and torque polynomials over the advance ratio, motor speed from the balance of torques.
+// Electric motor and propeller. Source: Beard & McLain, supplement to Small Unmanned Aircraft, "Propeller
+// thrust and torque" (2nd edition 4.3): thrust and torque polynomials over the advance ratio, motor speed
+// from the balance of torques.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,8 @@ class Propeller {
  public:
   explicit Propeller(const Propulsion& p) : p_(p) {}
 
-  /// Thrust, N, along the body's x axis at propeller speed `Omega` (rad/s). With J = 2 pi Va / (Omega D), multiplied out: no division.
+  /// Thrust, N, along the body's x axis at propeller speed `Omega` (rad/s). With J = 2 pi Va / (Omega D),
+  /// multiplied out: no division.
   double thrust(double Omega, double Va, double rho) const {
     const double D = p_.propeller_diameter_m, n = Omega / (2 * std::numbers::pi);
     return rho * D * D * (p_.ct0_ratio * D * D * n * n + p_.ct1_ratio * D * n * Va + p_.ct2_ratio * Va * Va);
@@ -23,17 +25,20 @@ class Propeller {
   /// Aerodynamic torque on the propeller, N m; the airframe feels it the other way round about x.
   double torque(double Omega, double Va, double rho) const {
     const double D = p_.propeller_diameter_m, n = Omega / (2 * std::numbers::pi);
-    return rho * D * D * D * (p_.cq0_ratio * D * D * n * n + p_.cq1_ratio * D * n * Va + p_.cq2_ratio * Va * Va);
+    return rho * D * D * D *
+           (p_.cq0_ratio * D * D * n * n + p_.cq1_ratio * D * n * Va + p_.cq2_ratio * Va * Va);
   }
 
-  /// Speed, rad/s, at which motor and propeller torque balance. The polynomial leaves its range of validity at high advance ratios, where
-  /// the discriminant may become negative: the double root then stands in. A propeller does not turn backwards.
+  /// Speed, rad/s, at which motor and propeller torque balance. The polynomial leaves its range of validity
+  /// at high advance ratios, where the discriminant may become negative: the double root then stands in. A
+  /// propeller does not turn backwards.
   double steady_speed(double throttle_frac, double Va, double rho) const {
     const double D = p_.propeller_diameter_m, K = p_.torque_constant_ratio, R = p_.resistance_ohm;
     const double D3 = D * D * D, two_pi = 2 * std::numbers::pi;
     const double a = p_.cq0_ratio * rho * D3 * D * D / (two_pi * two_pi);
     const double b = p_.cq1_ratio * rho * D3 * D * Va / two_pi + K * K / R;
-    const double c = p_.cq2_ratio * rho * D3 * Va * Va - K / R * throttle_frac * p_.battery_volt + K * p_.no_load_amp;
+    const double c =
+        p_.cq2_ratio * rho * D3 * Va * Va - K / R * throttle_frac * p_.battery_volt + K * p_.no_load_amp;
     return std::max(0.0, (-b + std::sqrt(std::max(0.0, b * b - 4 * a * c))) / (2 * a));
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Six degrees of freedom over flat ground: a rigid body in NED, advanced by the classical fourth-order Runge-Kutta method with the loads
-// evaluated anew at each of its four stages. Source: Beard & McLain (3.14)-(3.17), with the velocity in NED and the attitude as a
-// quaternion.
+// Six degrees of freedom over flat ground: a rigid body in NED, advanced by the classical fourth-order
+// Runge-Kutta method with the loads evaluated anew at each of its four stages. Source: Beard & McLain
+// (3.14)-(3.17), with the velocity in NED and the attitude as a quaternion.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -24,7 +24,8 @@ struct Load {
 };
 
 struct MassProperties {
-  MassProperties(double mass_kg, const Eigen::Matrix3d& inertia_kgm2) : mass(mass_kg), J(inertia_kgm2), J_inverse(inertia_kgm2.inverse()) {}
+  MassProperties(double mass_kg, const Eigen::Matrix3d& inertia_kgm2)
+      : mass(mass_kg), J(inertia_kgm2), J_inverse(inertia_kgm2.inverse()) {}
   double mass;
   Eigen::Matrix3d J, J_inverse;
 };
@@ -36,14 +37,17 @@ struct RigidBodyRate {
 };
 
 /// Beard & McLain (3.14)-(3.17). `g_n` is the acceleration of gravity, NED.
-inline RigidBodyRate rate_of(const RigidBody& x, const Load& load, const MassProperties& body, const Eigen::Vector3d& g_n) {
+inline RigidBodyRate rate_of(const RigidBody& x, const Load& load, const MassProperties& body,
+                             const Eigen::Vector3d& g_n) {
   const auto& q = x.q_nb;
   const auto& w = x.omega_b;
   RigidBodyRate d;
   d.p_n = x.v_n;
   d.v_n = q.toRotationMatrix() * (load.force_b / body.mass) + g_n;
-  d.q_nb << 0.5 * (q.w() * w.x() + q.y() * w.z() - q.z() * w.y()), 0.5 * (q.w() * w.y() + q.z() * w.x() - q.x() * w.z()),
-      0.5 * (q.w() * w.z() + q.x() * w.y() - q.y() * w.x()), -0.5 * (q.x() * w.x() + q.y() * w.y() + q.z() * w.z());
+  d.q_nb << 0.5 * (q.w() * w.x() + q.y() * w.z() - q.z() * w.y()),
+      0.5 * (q.w() * w.y() + q.z() * w.x() - q.x() * w.z()),
+      0.5 * (q.w() * w.z() + q.x() * w.y() - q.y() * w.x()),
+      -0.5 * (q.x() * w.x() + q.y() * w.y() + q.z() * w.z());
   d.omega_b = body.J_inverse * (load.moment_b - w.cross(body.J * w));
   return d;
 }
@@ -57,11 +61,12 @@ inline RigidBody advanced(const RigidBody& x, const RigidBodyRate& d, double dt)
   return y;
 }
 
-/// One step. `first` is the load at the present state; `load_at(state, part)` gives it at a later stage, `part` of the step on: 0.5 or 1.
-/// Quaternions of the stages are not normalised: the error is of the method's order; the result is.
+/// One step. `first` is the load at the present state; `load_at(state, part)` gives it at a later stage,
+/// `part` of the step on: 0.5 or 1. Quaternions of the stages are not normalised: the error is of the
+/// method's order; the result is.
 template <class LoadAt>
-RigidBody runge_kutta(const RigidBody& x, const Load& first, double dt, const MassProperties& body, const Eigen::Vector3d& g_n,
-                      LoadAt&& load_at) {
+RigidBody runge_kutta(const RigidBody& x, const Load& first, double dt, const MassProperties& body,
+                      const Eigen::Vector3d& g_n, LoadAt&& load_at) {
   const RigidBodyRate k1 = rate_of(x, first, body, g_n);
   const RigidBody x2 = advanced(x, k1, 0.5 * dt);
   const RigidBodyRate k2 = rate_of(x2, load_at(x2, 0.5), body, g_n);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The route that a plan describes: legs of straight lines and arcs, joined without a kink, each leg computed on its own from its
-// neighbourhood. Sources: Beard & McLain, Small Unmanned Aircraft (2012), sections 11.1 (fillets) and 11.2 (Dubins paths).
+// The route that a plan describes: legs of straight lines and arcs, joined without a kink, each leg computed
+// on its own from its neighbourhood. Sources: Beard & McLain, Small Unmanned Aircraft (2012), sections 11.1
+// (fillets) and 11.2 (Dubins paths).
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -23,20 +24,23 @@ struct RouteOrbit {
   Turn turn = Turn::right;
 };
 
-/// The direction of a circle that needs the least turning from a pose: of two tangents when outside, of two headings when inside.
+/// The direction of a circle that needs the least turning from a pose: of two tangents when outside, of two
+/// headings when inside.
 inline Turn least_turning(const Pose& from, double north_m, double east_m, double radius_m) {
   const double n = north_m - from.north_m, e = east_m - from.east_m, d = std::hypot(n, e);
   const double bearing = d > 1e-9 ? std::atan2(e, n) : from.course_rad;
   // outside, a right turn around the centre passes to the left of it; inside, it goes square to the bearing
   const double offset = d > radius_m ? std::asin(radius_m / d) : std::numbers::pi / 2;
-  const double right = std::abs(wrap_pi(bearing - offset - from.course_rad)), left = std::abs(wrap_pi(bearing + offset - from.course_rad));
+  const double right = std::abs(wrap_pi(bearing - offset - from.course_rad)),
+               left = std::abs(wrap_pi(bearing + offset - from.course_rad));
   return right <= left + 1e-9 ? Turn::right : Turn::left;
 }
 
 /// A plan, seen as a route. Nothing is stored: every question is answered from the waypoints nearby.
-/// Rules: a corner is rounded by a fillet of the plan's radius if both its tangents fit on their legs beside those of the neighbouring
-/// corners. A waypoint with a course is passed through in that course. A corner that is too tight is passed through too, in the direction
-/// of its longer leg. Poses are joined by Dubins paths, so that every piece can be flown. Points less than a metre apart are one.
+/// Rules: a corner is rounded by a fillet of the plan's radius if both its tangents fit on their legs beside
+/// those of the neighbouring corners. A waypoint with a course is passed through in that course. A corner
+/// that is too tight is passed through too, in the direction of its longer leg. Poses are joined by Dubins
+/// paths, so that every piece can be flown. Points less than a metre apart are one.
 class Route {
  public:
   explicit Route(const Plan& plan) : plan_(plan), n_(plan.waypoints.count) {}
@@ -58,10 +62,12 @@ class Route {
     return true;
   }
 
-  /// The circle around the last waypoint, for a plan that ends in one. The turn is the lesser one, coming from the waypoint before.
+  /// The circle around the last waypoint, for a plan that ends in one. The turn is the lesser one, coming
+  /// from the waypoint before.
   RouteOrbit final_orbit() const;
   Passage passage(std::uint32_t i) const;
-  /// From the waypoint before (of a circuit: cyclically) to waypoint `i`. Not for waypoint 0 of a plan that ends in an orbit.
+  /// From the waypoint before (of a circuit: cyclically) to waypoint `i`. Not for waypoint 0 of a plan that
+  /// ends in an orbit.
   RouteLeg leg(std::uint32_t i) const;
   /// From anywhere to waypoint `i`, arriving as the route passes it. Climbs at once, descends evenly.
   RouteLeg join(const Pose& from, double height_m, std::uint32_t i) const;
@@ -72,7 +78,8 @@ class Route {
 
  private:
   static constexpr double same_place_m = 1;
-  static constexpr double fillet_max_rad = 2.62;  // 150 deg: beyond, a fillet stays three radii away from its waypoint
+  static constexpr double fillet_max_rad =
+      2.62;  // 150 deg: beyond, a fillet stays three radii away from its waypoint
   struct Corner {
     double in_rad = 0, out_rad = 0;  // courses of the legs
     double in_m = 0, out_m = 0;      // their lengths
@@ -89,7 +96,8 @@ class Route {
   std::uint32_t first_of_place(std::uint32_t i) const;
   std::uint32_t last_of_place(std::uint32_t i) const;
   Pose orbit_entry() const;
-  Pose place(std::uint32_t i) const;  // where the route passes, course not set but for the entry of the final orbit
+  Pose place(
+      std::uint32_t i) const;  // where the route passes, course not set but for the entry of the final orbit
   Corner corner(std::uint32_t i) const;
   bool has_fillet(std::uint32_t i, const Corner& c) const;
 
@@ -121,13 +129,15 @@ inline RouteOrbit Route::final_orbit() const {
   if (last == 0) return orbit;
   const std::uint32_t q = first_of_place(last - 1);
   const std::uint32_t p = before(q);
-  Pose from{point(q).north, point(q).east, std::atan2(orbit.east_m - point(q).east, orbit.north_m - point(q).north)};
+  Pose from{point(q).north, point(q).east,
+            std::atan2(orbit.east_m - point(q).east, orbit.north_m - point(q).north)};
   if (p != q) from.course_rad = std::atan2(point(q).east - point(p).east, point(q).north - point(p).north);
   orbit.turn = least_turning(from, orbit.north_m, orbit.east_m, orbit.radius_m);
   return orbit;
 }
 
-/// Where the last leg touches the final orbit. From within the circle: where it is reached square to the way to the centre.
+/// Where the last leg touches the final orbit. From within the circle: where it is reached square to the way
+/// to the centre.
 inline Pose Route::orbit_entry() const {
   const RouteOrbit orbit = final_orbit();
   const std::uint32_t q = n_ > 1 ? first_of_place(n_ - 2) : 0;
@@ -136,7 +146,8 @@ inline Pose Route::orbit_entry() const {
   const double side = sign_of(orbit.turn);
   const double course = std::atan2(e, n) - side * std::asin(ratio);
   const double azimuth = course - side * std::numbers::pi / 2;
-  return {orbit.north_m + orbit.radius_m * std::cos(azimuth), orbit.east_m + orbit.radius_m * std::sin(azimuth), course};
+  return {orbit.north_m + orbit.radius_m * std::cos(azimuth),
+          orbit.east_m + orbit.radius_m * std::sin(azimuth), course};
 }
 
 inline Pose Route::place(std::uint32_t i) const {
@@ -156,7 +167,8 @@ inline Route::Corner Route::corner(std::uint32_t i) const {
   if (before(first) == first) c.in_rad = c.out_rad;
   if (after(last) == last) c.out_rad = c.in_rad;
   const double turn = std::abs(wrap_pi(c.out_rad - c.in_rad));
-  c.wanted = first == last && before(i) != i && after(i) != i && !plan_.waypoints[i].has_course && turn <= fillet_max_rad;
+  c.wanted = first == last && before(i) != i && after(i) != i && !plan_.waypoints[i].has_course &&
+             turn <= fillet_max_rad;
   if (c.wanted) {
     c.tangent_m = radius_m() * std::tan(turn / 2);
     c.wanted = c.tangent_m <= std::min(c.in_m, c.out_m);
@@ -191,7 +203,8 @@ inline Passage Route::passage(std::uint32_t i) const {
     }
     const Waypoint& w = plan_.waypoints[i];
     const bool alone = first_of_place(i) == last_of_place(i);
-    result.middle.course_rad = w.has_course ? w.course_rad : (alone && c.out_m > c.in_m ? c.out_rad : c.in_rad);
+    result.middle.course_rad =
+        w.has_course ? w.course_rad : (alone && c.out_m > c.in_m ? c.out_rad : c.in_rad);
   }
   result.entry = result.exit = result.middle;
   return result;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a route is made of: lines and arcs with heights, legs of several pieces, and the closest point of a leg.
-// Source: Beard & McLain, Small Unmanned Aircraft (2012), chapter 11.
+// What a route is made of: lines and arcs with heights, legs of several pieces, and the closest point of a
+// leg. Source: Beard & McLain, Small Unmanned Aircraft (2012), chapter 11.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -21,7 +21,8 @@ inline Pose advance(const Pose& from, double curvature, double length_m) {
   const double half = curvature * length_m / 2;
   const double chord = std::abs(half) < 1e-6 ? length_m : length_m * std::sin(half) / half;
   const double course = from.course_rad + half;
-  return {from.north_m + chord * std::cos(course), from.east_m + chord * std::sin(course), from.course_rad + 2 * half};
+  return {from.north_m + chord * std::cos(course), from.east_m + chord * std::sin(course),
+          from.course_rad + 2 * half};
 }
 
 /// A line or an arc, seen from above, with the height along it.
@@ -31,14 +32,15 @@ struct RoutePiece {
   double north_m = 0, east_m = 0;                    ///< line: where it begins; arc: its centre
   double unit_north_ratio = 1, unit_east_ratio = 0;  ///< line: along it; arc: from the centre to its middle
   double radius_m = 0, start_rad = 0;                ///< arc; azimuth, from the centre, where it begins
-  double half_cos_ratio = -1;                        ///< arc: cosine of half its angle, -1 when it is a full circle or more
+  double half_cos_ratio = -1;  ///< arc: cosine of half its angle, -1 when it is a full circle or more
   double length_m = 0;
   double height_m = 0, climb_ratio = 0;  ///< at its beginning; metres up per metre along
 
   double curvature() const { return kind == PathKind::line ? 0 : sign_of(turn) / radius_m; }
   double height_at(double along_m) const { return height_m + climb_ratio * along_m; }
 
-  /// Metres from the beginning to the projection of a point. On an arc in [-pi, pi] radii: who flies a longer one unwraps.
+  /// Metres from the beginning to the projection of a point. On an arc in [-pi, pi] radii: who flies a longer
+  /// one unwraps.
   double along(double north, double east) const {
     const double n = north - north_m, e = east - east_m;
     if (kind == PathKind::line) return n * unit_north_ratio + e * unit_east_ratio;
@@ -46,7 +48,8 @@ struct RoutePiece {
   }
   Pose pose_at(double along_m) const {
     if (kind == PathKind::line) {
-      return {north_m + along_m * unit_north_ratio, east_m + along_m * unit_east_ratio, std::atan2(unit_east_ratio, unit_north_ratio)};
+      return {north_m + along_m * unit_north_ratio, east_m + along_m * unit_east_ratio,
+              std::atan2(unit_east_ratio, unit_north_ratio)};
     }
     const double azimuth = start_rad + sign_of(turn) * along_m / radius_m;
     return {north_m + radius_m * std::cos(azimuth), east_m + radius_m * std::sin(azimuth),
@@ -111,7 +114,8 @@ struct LegBuilder {
     at = to;
   }
 
-  /// One slope over the whole leg. A steeper one than 45 degrees is not drawn: the leg then begins at another height.
+  /// One slope over the whole leg. A steeper one than 45 degrees is not drawn: the leg then begins at another
+  /// height.
   void finish(double from_height_m, double to_height_m) {
     if (leg.count == 0) {  // the leg of a duplicate point
       leg.count = 1;
@@ -121,7 +125,8 @@ struct LegBuilder {
       leg.pieces[0].unit_north_ratio = std::cos(at.course_rad);
       leg.pieces[0].unit_east_ratio = std::sin(at.course_rad);
     }
-    const double climb = leg.length_m > 0 ? std::clamp((to_height_m - from_height_m) / leg.length_m, -1.0, 1.0) : 0;
+    const double climb =
+        leg.length_m > 0 ? std::clamp((to_height_m - from_height_m) / leg.length_m, -1.0, 1.0) : 0;
     double height_m = to_height_m - climb * leg.length_m;
     for (std::size_t i = 0; i < leg.count; ++i) {
       leg.pieces[i].height_m = height_m;
@@ -140,7 +145,8 @@ class NearestSearch {
   NearestSearch(double north_m, double east_m) : north_(north_m), east_(east_m) {}
 
   void consider(const RouteLeg& leg) {
-    for (std::size_t i = 0; i < leg.count; ++i) leg.pieces[i].kind == PathKind::line ? line(leg.pieces[i]) : arc(leg.pieces[i]);
+    for (std::size_t i = 0; i < leg.count; ++i)
+      leg.pieces[i].kind == PathKind::line ? line(leg.pieces[i]) : arc(leg.pieces[i]);
   }
 
   RoutePoint result() const {
@@ -163,11 +169,13 @@ class NearestSearch {
   void arc(const RoutePiece& piece) {
     const double n = north_ - piece.north_m, e = east_ - piece.east_m, square = n * n + e * e;
     const double outer = piece.radius_m + best_, inner = piece.radius_m - best_;
-    if (square > outer * outer || (inner > 0 && square < inner * inner)) return;  // even the full circle is farther than the best
+    if (square > outer * outer || (inner > 0 && square < inner * inner))
+      return;  // even the full circle is farther than the best
     const double d = std::sqrt(square);
     const double dot = n * piece.unit_north_ratio + e * piece.unit_east_ratio;
     double unit_n = d > 0 ? n / d : piece.unit_north_ratio, unit_e = d > 0 ? e / d : piece.unit_east_ratio;
-    if (dot < piece.half_cos_ratio * d) {  // beyond an end: turn the middle's direction by half the arc, to the point's side
+    if (dot < piece.half_cos_ratio *
+                  d) {  // beyond an end: turn the middle's direction by half the arc, to the point's side
       const double side = n * piece.unit_east_ratio - e * piece.unit_north_ratio > 0 ? -1 : 1;
       const double c = piece.half_cos_ratio, s = side * std::sqrt(std::max(0.0, 1 - c * c));
       unit_n = c * piece.unit_north_ratio - s * piece.unit_east_ratio;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every outer loop shares near the ground and near the stall: is the aircraft standing, how far may the nose rise, and the take-off
-// run.
+// What every outer loop shares near the ground and near the stall: is the aircraft standing, how far may the
+// nose rise, and the take-off run.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,8 @@
 
 namespace fulmar {
 
-/// On the ground and not moving. Without airspeed only what is low counts: a slow ground speed may as well be a strong head wind.
+/// On the ground and not moving. Without airspeed only what is low counts: a slow ground speed may as well be
+/// a strong head wind.
 inline bool standing(const VehicleState& state) {
   constexpr double slow_mps = 3, low_m = 3;
   if (state.ground_speed_mps >= slow_mps || std::abs(state.climb_rate_mps) >= slow_mps) return false;
@@ -22,7 +23,8 @@ inline bool standing(const VehicleState& state) {
 /// Highest pitch command that speed permits: the limit above the minimum airspeed, level flight at 4/5 of it.
 inline double pitch_ceiling(const VehicleState& state, const FlightLimits& limits) {
   if (!state.airspeed_valid) return limits.pitch_max_rad;
-  return limits.pitch_max_rad * smoothly(state.airspeed_mps, 0.8 * limits.airspeed_min_mps, limits.airspeed_min_mps);
+  return limits.pitch_max_rad *
+         smoothly(state.airspeed_mps, 0.8 * limits.airspeed_min_mps, limits.airspeed_min_mps);
 }
 
 struct TakeoffTuning {
@@ -33,7 +35,8 @@ struct TakeoffTuning {
   double roll_max_rad = 0.15;
 };
 
-/// Wings level, full throttle; after the rotation speed the nose comes up and a small bank keeps the course captured at the start.
+/// Wings level, full throttle; after the rotation speed the nose comes up and a small bank keeps the course
+/// captured at the start.
 class TakeoffRun {
  public:
   void begin(const VehicleState& state) {

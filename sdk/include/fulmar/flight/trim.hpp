@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steady straight flight: the angles, deflections and propeller speed at which nothing accelerates. Newton's method on the six equations of
-// motion, wings level. Source of the idea: Beard & McLain, chapter 5.3.
+// Steady straight flight: the angles, deflections and propeller speed at which nothing accelerates. Newton's
+// method on the six equations of motion, wings level. Source of the idea: Beard & McLain, chapter 5.3.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -27,18 +27,20 @@ inline Trim trimmed_flight(const Airframe& airframe, double Va, double rho, doub
   const Propeller propeller(airframe.propulsion);
   const double weight = airframe.mass_kg * isa::g0, q = 0.5 * rho * Va * Va;
   const auto velocity = [&](const Vector6& x) {
-    return Eigen::Vector3d(Va * std::cos(x(0)) * std::cos(x(1)), Va * std::sin(x(1)), Va * std::sin(x(0)) * std::cos(x(1)));
+    return Eigen::Vector3d(Va * std::cos(x(0)) * std::cos(x(1)), Va * std::sin(x(1)),
+                           Va * std::sin(x(0)) * std::cos(x(1)));
   };
-  const auto residual = [&](const Vector6& x) {  // alpha, beta, aileron, elevator, rudder, propeller speed / 1000
-    const Load load = aero.load(velocity(x), Eigen::Vector3d::Zero(), {x(2), x(3), x(4)}, rho);
-    const double Omega = 1000 * x(5), theta = x(0) + gamma_rad;
-    Vector6 r;
-    r << load.force_b, load.moment_b;
-    r(0) += propeller.thrust(Omega, Va, rho) - weight * std::sin(theta);
-    r(2) += weight * std::cos(theta);
-    r(3) -= propeller.torque(Omega, Va, rho);
-    return Vector6(r / (q * airframe.wing.area_m2));
-  };
+  const auto residual =
+      [&](const Vector6& x) {  // alpha, beta, aileron, elevator, rudder, propeller speed / 1000
+        const Load load = aero.load(velocity(x), Eigen::Vector3d::Zero(), {x(2), x(3), x(4)}, rho);
+        const double Omega = 1000 * x(5), theta = x(0) + gamma_rad;
+        Vector6 r;
+        r << load.force_b, load.moment_b;
+        r(0) += propeller.thrust(Omega, Va, rho) - weight * std::sin(theta);
+        r(2) += weight * std::cos(theta);
+        r(3) -= propeller.torque(Omega, Va, rho);
+        return Vector6(r / (q * airframe.wing.area_m2));
+      };
   Vector6 x;
   x << 0.05, 0, 0, 0, 0, propeller.steady_speed(0.6, Va, rho) / 1000;
   Vector6 r = residual(x);
@@ -62,8 +64,9 @@ inline Trim trimmed_flight(const Airframe& airframe, double Va, double rho, doub
   trim.propeller_radps = 1000 * x(5);
   trim.throttle_frac = propeller.throttle_for(trim.propeller_radps, Va, rho);
   const auto within = [](double value, double limit) { return std::abs(value) <= limit; };
-  trim.found = r.norm() < 1e-9 && within(x(2), airframe.aileron.limit_rad) && within(x(3), airframe.elevator.limit_rad) &&
-               within(x(4), airframe.rudder.limit_rad) && x(5) >= 0 && trim.throttle_frac >= 0 && trim.throttle_frac <= 1;
+  trim.found = r.norm() < 1e-9 && within(x(2), airframe.aileron.limit_rad) &&
+               within(x(3), airframe.elevator.limit_rad) && within(x(4), airframe.rudder.limit_rad) &&
+               x(5) >= 0 && trim.throttle_frac >= 0 && trim.throttle_frac <= 1;
   return trim;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Trim of a steady coordinated turn, from an airframe's linear lift and pitching moment: what a control law feeds forward so that height
-// does not sag when the wing banks. Beard & McLain, Small Unmanned Aircraft (2012), sections 5.3 and 9.2.
+// Trim of a steady coordinated turn, from an airframe's linear lift and pitching moment: what a control law
+// feeds forward so that height does not sag when the wing banks. Beard & McLain, Small Unmanned Aircraft
+// (2012), sections 5.3 and 9.2.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -14,8 +15,10 @@ struct TurnRates {
   double p_radps = 0, q_radps = 0, r_radps = 0;
 };
 
-inline TurnRates turn_rates(double roll_rad, double pitch_rad, double airspeed_mps, double gravity_mps2 = 9.80665) {
-  const double psi_dot = gravity_mps2 * std::tan(std::clamp(roll_rad, -1.2, 1.2)) / std::max(airspeed_mps, 1.0);
+inline TurnRates turn_rates(double roll_rad, double pitch_rad, double airspeed_mps,
+                            double gravity_mps2 = 9.80665) {
+  const double psi_dot =
+      gravity_mps2 * std::tan(std::clamp(roll_rad, -1.2, 1.2)) / std::max(airspeed_mps, 1.0);
   return {-psi_dot * std::sin(pitch_rad), psi_dot * std::sin(roll_rad) * std::cos(pitch_rad),
           psi_dot * std::cos(roll_rad) * std::cos(pitch_rad)};
 }
@@ -29,9 +32,10 @@ struct TurnTrim {
   double drag_newton = 0;
 };
 
-/// Solves CL = n W / (q S), Cm = 0 with the pitch rate of the turn. All zeros for an airframe whose elevator moves nothing (none given).
-inline TurnTrim turn_trim(const Airframe& airframe, double roll_rad, double airspeed_mps, double density_kgpm3,
-                          double gravity_mps2 = 9.80665) {
+/// Solves CL = n W / (q S), Cm = 0 with the pitch rate of the turn. All zeros for an airframe whose elevator
+/// moves nothing (none given).
+inline TurnTrim turn_trim(const Airframe& airframe, double roll_rad, double airspeed_mps,
+                          double density_kgpm3, double gravity_mps2 = 9.80665) {
   const Derivatives &L = airframe.aero.lift, &M = airframe.aero.pitch, &D = airframe.aero.drag;
   const double Va = std::max(airspeed_mps, 0.5 * airframe.limits.airspeed_min_mps);
   const double qS = 0.5 * density_kgpm3 * Va * Va * airframe.wing.area_m2;
@@ -45,7 +49,8 @@ inline TurnTrim turn_trim(const Airframe& airframe, double roll_rad, double airs
   trim.elevator_rad = (L.alpha_ratio * moment - M.alpha_ratio * lift) / determinant;
   const double aspect = airframe.wing.span_m * airframe.wing.span_m / airframe.wing.area_m2;
   const double induced = CL * CL / (3.14159265358979323846 * airframe.wing.oswald_ratio * aspect);
-  trim.drag_newton = qS * (airframe.aero.parasite_drag_ratio + induced + D.q_ratio * q_hat + D.elevator_ratio * trim.elevator_rad);
+  trim.drag_newton = qS * (airframe.aero.parasite_drag_ratio + induced + D.q_ratio * q_hat +
+                           D.elevator_ratio * trim.elevator_rad);
   return trim;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wind triangle: ground velocity = air velocity + wind. Beard & McLain, Small Unmanned Aircraft (2012), section 2.4, in the horizontal
-// plane.
+// Wind triangle: ground velocity = air velocity + wind. Beard & McLain, Small Unmanned Aircraft (2012),
+// section 2.4, in the horizontal plane.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,8 @@
 
 namespace fulmar {
 
-/// What it takes to fly a course. When the wind leaves no way, `feasible` is false and the nose points as far against the
-/// cross wind as it can without going backwards.
+/// What it takes to fly a course. When the wind leaves no way, `feasible` is false and the nose points as far
+/// against the cross wind as it can without going backwards.
 struct WindTriangle {
   double heading_rad = 0;       ///< direction of the air velocity
   double ground_speed_mps = 0;  ///< along the course; negative: blown backwards
@@ -19,7 +19,8 @@ struct WindTriangle {
 };
 
 /// `airspeed_mps` is the horizontal part of the true airspeed: Va cos(gamma_a).
-inline WindTriangle fly_course(double course_rad, double airspeed_mps, double wind_north_mps, double wind_east_mps) {
+inline WindTriangle fly_course(double course_rad, double airspeed_mps, double wind_north_mps,
+                               double wind_east_mps) {
   const double c = std::cos(course_rad), s = std::sin(course_rad);
   const double along = c * wind_north_mps + s * wind_east_mps;
   const double across = -s * wind_north_mps + c * wind_east_mps;  // from the left
@@ -38,20 +39,25 @@ inline WindTriangle fly_course(double course_rad, double airspeed_mps, const Vec
 }
 
 /// Air velocity from ground velocity and wind.
-inline Vec3<Ned> air_velocity(const Vec3<Ned>& ground_mps, const Vec3<Ned>& wind_mps) { return ground_mps - wind_mps; }
+inline Vec3<Ned> air_velocity(const Vec3<Ned>& ground_mps, const Vec3<Ned>& wind_mps) {
+  return ground_mps - wind_mps;
+}
 
 /// Least airspeed that makes good `ground_speed_mps` on a course.
-inline double airspeed_for_ground_speed(double course_rad, double ground_speed_mps, const Vec3<Ned>& wind_mps) {
+inline double airspeed_for_ground_speed(double course_rad, double ground_speed_mps,
+                                        const Vec3<Ned>& wind_mps) {
   const double north = ground_speed_mps * std::cos(course_rad) - wind_mps.north;
   const double east = ground_speed_mps * std::sin(course_rad) - wind_mps.east;
   return std::hypot(north, east);
 }
 
-/// Bank of a coordinated level turn of signed curvature (1/m, right positive) flown over the ground. Beard & McLain, chapter 10:
-/// the centripetal acceleration is that of the ground path, V_g^2 kappa, and lift tilts about the air velocity: tan(phi) = V_g^2 kappa
-/// cos(chi - psi) / g.
-inline double bank_for_curvature(double curvature_ratio, double ground_speed_mps, double crab_rad, double gravity_mps2 = 9.80665) {
-  return std::atan(ground_speed_mps * ground_speed_mps * curvature_ratio / (gravity_mps2 * std::max(std::cos(crab_rad), 0.1)));
+/// Bank of a coordinated level turn of signed curvature (1/m, right positive) flown over the ground. Beard &
+/// McLain, chapter 10: the centripetal acceleration is that of the ground path, V_g^2 kappa, and lift tilts
+/// about the air velocity: tan(phi) = V_g^2 kappa cos(chi - psi) / g.
+inline double bank_for_curvature(double curvature_ratio, double ground_speed_mps, double crab_rad,
+                                 double gravity_mps2 = 9.80665) {
+  return std::atan(ground_speed_mps * ground_speed_mps * curvature_ratio /
+                   (gravity_mps2 * std::max(std::cos(crab_rad), 0.1)));
 }
 
 }  // namespace fulmar

@@ -4,7 +4,8 @@
 
 namespace fulmar {
 
-/// Deflections and throttle as the aerodynamics know them; the vehicle turns them into what its servos want. Beard & McLain, chapter 4.
+/// Deflections and throttle as the aerodynamics know them; the vehicle turns them into what its servos want.
+/// Beard & McLain, chapter 4.
 struct Actuators {
   double throttle_frac = 0;  ///< 0 to 1
   double aileron_rad = 0;    ///< positive rolls right

@@ -4,55 +4,57 @@
 
 namespace fulmar {
 
-/// Inertia about the centre of gravity, body axes. Products of inertia with y vanish by symmetry. xz is the integral of x z dm: its negative
-/// is the element of the inertia matrix, as in Beard & McLain.
+/// Inertia about the centre of gravity, body axes. Products of inertia with y vanish by symmetry. xz is the
+/// integral of x z dm: its negative is the element of the inertia matrix, as in Beard & McLain.
 struct Inertia {
   double xx_kgm2 = 1, yy_kgm2 = 1, zz_kgm2 = 1, xz_kgm2 = 0;
 };
 
 struct Wing {
-  double area_m2 = 1;   ///< S
-  double span_m = 1;    ///< b
-  double chord_m = 1;   ///< c, mean aerodynamic
-  double oswald_ratio = 0.9;  ///< e
-  double stall_alpha_rad = 0.2618;   ///< alpha0 of the blending function, Beard & McLain (4.9)
-  double stall_sharpness_ratio = 50; ///< M of the blending function
+  double area_m2 = 1;                 ///< S
+  double span_m = 1;                  ///< b
+  double chord_m = 1;                 ///< c, mean aerodynamic
+  double oswald_ratio = 0.9;          ///< e
+  double stall_alpha_rad = 0.2618;    ///< alpha0 of the blending function, Beard & McLain (4.9)
+  double stall_sharpness_ratio = 50;  ///< M of the blending function
 };
 
-/// One coefficient and its derivatives: value = c0 + alpha a + beta b + (p b/2V) p + (q c/2V) q + (r b/2V) r + surfaces. Radians.
+/// One coefficient and its derivatives: value = c0 + alpha a + beta b + (p b/2V) p + (q c/2V) q + (r b/2V) r
+/// + surfaces. Radians.
 struct Derivatives {
   double zero_ratio = 0, alpha_ratio = 0, beta_ratio = 0;
   double p_ratio = 0, q_ratio = 0, r_ratio = 0;
   double aileron_ratio = 0, elevator_ratio = 0, rudder_ratio = 0;
 };
 
-/// Beard & McLain, chapter 4. Drag: parasite + induced CL^2/(pi e AR) + all terms of `drag`; an airframe with a linear polar instead of an
-/// induced one sets drag.zero and drag.alpha, the others leave them 0.
+/// Beard & McLain, chapter 4. Drag: parasite + induced CL^2/(pi e AR) + all terms of `drag`; an airframe with
+/// a linear polar instead of an induced one sets drag.zero and drag.alpha, the others leave them 0.
 struct Aerodynamics {
   double parasite_drag_ratio = 0;  ///< C_D_p
   Derivatives lift, drag, side;    ///< CL, CD, CY
   Derivatives roll, pitch, yaw;    ///< Cl, Cm, Cn
 };
 
-/// Electric motor and propeller, Beard & McLain, supplement to chapter 4: thrust and torque over the advance ratio.
+/// Electric motor and propeller, Beard & McLain, supplement to chapter 4: thrust and torque over the advance
+/// ratio.
 struct Propulsion {
   double propeller_diameter_m = 0.3;
   double ct0_ratio = 0, ct1_ratio = 0, ct2_ratio = 0;  ///< thrust coefficient: CT0 + CT1 J + CT2 J^2
   double cq0_ratio = 0, cq1_ratio = 0, cq2_ratio = 0;  ///< torque coefficient
-  double torque_constant_ratio = 0.01;  ///< K_Q, N m/A; also V s/rad
+  double torque_constant_ratio = 0.01;                 ///< K_Q, N m/A; also V s/rad
   double resistance_ohm = 0.05;
   double no_load_amp = 1;
-  double battery_volt = 12;  ///< at full throttle
+  double battery_volt = 12;       ///< at full throttle
   double time_constant_s = 0.05;  ///< of motor and propeller spinning up
 };
 
 /// One control surface: how far it moves, how its servo follows, and what hardware needs to drive it.
 struct Surface {
-  double limit_rad = 0.5;          ///< throw, either way
+  double limit_rad = 0.5;  ///< throw, either way
   double rate_limit_radps = 10;
   double time_constant_s = 0.02;
-  double trim_rad = 0;             ///< deflection in trimmed cruise: the feed-forward of the inner loop
-  bool reversed = false;           ///< of the servo on the real aircraft
+  double trim_rad = 0;    ///< deflection in trimmed cruise: the feed-forward of the inner loop
+  bool reversed = false;  ///< of the servo on the real aircraft
 };
 
 struct FlightLimits {
@@ -64,9 +66,9 @@ struct FlightLimits {
 
 /// The aircraft stands on its wheels or belly: contact points are at this height below the centre of gravity.
 struct Gear {
-  double height_m = 0.2;       ///< of the centre of gravity above flat ground, at rest
-  double length_m = 0.6;       ///< between the front and the rear contact
-  double track_m = 0.4;        ///< between the left and the right contact
+  double height_m = 0.2;  ///< of the centre of gravity above flat ground, at rest
+  double length_m = 0.6;  ///< between the front and the rear contact
+  double track_m = 0.4;   ///< between the left and the right contact
   double rolling_friction_ratio = 0.05;
   double side_friction_ratio = 0.6;
 };

@@ -6,7 +6,7 @@ namespace fulmar {
 
 /// Static pressure.
 struct Baro {
-  double pressure_pa = 0;  ///< absolute
+  double pressure_pa = 0;              ///< absolute
   double temperature_kelvin = 288.15;  ///< of the sensor, not of the air
 };
 

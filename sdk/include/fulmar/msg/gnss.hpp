@@ -4,9 +4,19 @@
 
 namespace fulmar {
 
-enum class FixType : std::uint8_t { none, dead_reckoning, fix_2d, fix_3d, combined, time_only, rtk_float, rtk_fixed };
+enum class FixType : std::uint8_t {
+  none,
+  dead_reckoning,
+  fix_2d,
+  fix_3d,
+  combined,
+  time_only,
+  rtk_float,
+  rtk_fixed
+};
 
-/// One solution of a satellite navigation receiver. Its time of validity is the sample's stamp; it may be older than its arrival.
+/// One solution of a satellite navigation receiver. Its time of validity is the sample's stamp; it may be
+/// older than its arrival.
 struct Gnss {
   double latitude_deg = 0;   ///< WGS-84
   double longitude_deg = 0;  ///< WGS-84

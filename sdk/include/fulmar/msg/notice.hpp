@@ -6,7 +6,8 @@ namespace fulmar {
 
 enum class Severity : std::uint8_t { info, warning, error, critical };
 
-/// One line for the person at the terminal and for the log. A port of notices is told when the mission lists it under `tell:`.
+/// One line for the person at the terminal and for the log. A port of notices is told when the mission lists
+/// it under `tell:`.
 struct Notice {
   Text<96> text;
   Severity severity = Severity::info;

@@ -4,7 +4,8 @@
 
 namespace fulmar {
 
-/// Differential pressure of a pitot tube, and the indicated airspeed that it means at sea-level density (1.225 kg/m3).
+/// Differential pressure of a pitot tube, and the indicated airspeed that it means at sea-level density
+/// (1.225 kg/m3).
 struct Pitot {
   double pressure_pa = 0;  ///< total minus static; negative values are noise around zero, or a swapped tube
   double indicated_airspeed_mps = 0;

@@ -17,11 +17,12 @@ enum class PlanEnd : std::uint8_t {
 /// A point to fly over or around. In a plan that has left the planner the local position is always there.
 struct Waypoint {
   WaypointFrame frame = WaypointFrame::local;
-  bool has_course = false;  ///< pass in the direction `course_rad`, joined by Dubins paths; else corners are rounded by fillets
+  bool has_course = false;  ///< pass in the direction `course_rad`, joined by Dubins paths; else corners are
+                            ///< rounded by fillets
   Vec3<Ned> position_m;
   double latitude_deg = 0;
   double longitude_deg = 0;
-  double altitude_m = 0;    ///< above mean sea level
+  double altitude_m = 0;  ///< above mean sea level
   double course_rad = 0;
   double airspeed_mps = 0;  ///< of the leg that ends here; 0: the plan's
 };

@@ -6,7 +6,8 @@ namespace fulmar {
 
 enum class PlanEditKind : std::uint8_t { append, insert, replace, remove, clear, set_current };
 
-/// One change of the plan. `index` counts from 0; append and clear ignore it. `set_current`: fly to waypoint `index` at once.
+/// One change of the plan. `index` counts from 0; append and clear ignore it. `set_current`: fly to waypoint
+/// `index` at once.
 struct PlanEdit {
   PlanEditKind kind = PlanEditKind::append;
   std::uint32_t index = 0;

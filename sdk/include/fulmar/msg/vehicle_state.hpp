@@ -4,8 +4,8 @@
 
 namespace fulmar {
 
-/// Where the aircraft is and how it moves: an estimate, or the truth of a simulator. The origin of the local frame is in it.
-/// A quantity whose flag is false holds a finite stand-in and must not be used.
+/// Where the aircraft is and how it moves: an estimate, or the truth of a simulator. The origin of the local
+/// frame is in it. A quantity whose flag is false holds a finite stand-in and must not be used.
 struct VehicleState {
   Vec3<Ned> position_m;    ///< of the centre of gravity, from the origin
   Vec3<Ned> velocity_mps;  ///< relative to the ground

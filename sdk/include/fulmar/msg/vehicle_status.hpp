@@ -17,8 +17,9 @@ struct VehicleStatus {
   std::uint32_t errors = 0;  ///< the vehicle's own error bits
   double battery_volt = 0;
   double battery_amp = 0;
-  double battery_frac = 1;             ///< charge left
-  bool in_control = false;             ///< commands move the aircraft: armed, offboard, no override, no failsafe, link and radio alive
+  double battery_frac = 1;  ///< charge left
+  bool in_control =
+      false;  ///< commands move the aircraft: armed, offboard, no override, no failsafe, link and radio alive
   bool offboard = false;               ///< the vehicle takes commands from the host, as far as it says
   std::uint32_t override_reasons = 0;  ///< the vehicle's own bits: why the pilot flies
   double rc_age_s = 1e9;               ///< since the pilot's radio was last heard; 1e9: never

@@ -22,6 +22,7 @@ threads() {
   rm -r "$reports"
 }
 threads
+cmake/tidy.py build --tools
 build/bin/loader_test
 [ ! -x build-clang/bin/loader_test ] || build-clang/bin/loader_test
 for folder in build build-clang; do

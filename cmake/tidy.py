@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""clang-tidy over the sources of host, tools and plugins, as `.clang-tidy` says, in the batches in which they are compiled.
+"""clang-tidy over the sources of host and plugins, as `.clang-tidy` says, in the batches in which they are compiled.
 
-    tidy.py [BUILD] [--all]      BUILD (build) has been configured and built; --all: also what has not changed since it was found good
+    tidy.py [BUILD] [--tools]      BUILD (build) has been configured and built; --tools: the programs beside the host as well
 
 A batch is looked at again when its command, one of the project's files that it reads, or .clang-tidy has changed.
 """
@@ -15,7 +15,8 @@ import time
 from pathlib import Path
 
 root = Path(__file__).resolve().parent.parent
-arguments = [a for a in sys.argv[1:] if a != "--all"]
+with_tools = "--tools" in sys.argv
+arguments = [a for a in sys.argv[1:] if a != "--tools"]
 build = (root / (arguments[0] if arguments else "build")).resolve()
 stamps = build / "tidy"
 stamps.mkdir(exist_ok=True)
@@ -38,14 +39,14 @@ def output(entry):
 
 
 def wanted(entry):
-    """Host, tools and plugins; tests and benches are held by their compilers alone."""
+    """Host and plugins; tests and benches are held by their compilers alone."""
     out = output(entry)
-    return out.split("/")[0] in ("core", "tools", "plugins") and "/test" not in out and "_test.dir" not in out and "/abi_1" not in out
+    return out.split("/")[0] in (("core", "plugins", "tools") if with_tools else ("core", "plugins")) and "/test" not in out and "_test.dir" not in out and "/abi_1" not in out
 
 
 def look(entry, digest):
     """clang-tidy's words about one batch; "" when there are none."""
-    words = [w for w in entry["command"].split() if not w.startswith("-Wno-subobject")]
+    words = [w for w in entry["command"].split() if w not in ("-Wno-subobject-linkage", "-fno-gnu-unique")]  # gcc's own
     words = words[next(i for i, w in enumerate(words) if w.startswith(("-D", "-I", "-isystem"))):]  # behind launcher and compiler
     words = [w.replace('\\"', '"') for w in words[:words.index("-o")]]
     tidy = subprocess.run(["clang-tidy", "--quiet", entry["file"], "--", "-Wno-unknown-warning-option", "-std=c++20", *words],
@@ -67,7 +68,7 @@ def main():
         for file in made_of.get(output(entry), []):
             digest.update(Path(file).read_bytes() if Path(file).exists() else b"")
         jobs.append((entry, digest.hexdigest()))
-    fresh = [job for job in jobs if "--all" in sys.argv or not (stamps / job[1]).exists()]
+    fresh = [job for job in jobs if not (stamps / job[1]).exists()]
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         found = [text for text in pool.map(lambda job: look(*job), fresh) if text]
     for text in sorted(set("\n".join(found).splitlines()), key="\n".join(found).splitlines().index) if found else []:

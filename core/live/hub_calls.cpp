@@ -97,7 +97,7 @@ void Hub::service_request(Client& client, std::string_view message) {
 
 void Hub::call(Client& client, const Service& service, std::uint32_t service_id, std::uint32_t call_id,
                bool as_json, std::string_view payload) {
-  const auto reply = [this, id = client.id, service_id, call_id, as_json](std::string body) {
+  const auto reply = [this, id = client.id, service_id, call_id, as_json](const std::string& body) {
     Client* caller = find(id);
     if (caller == nullptr) return;
     const std::string_view encoding = as_json ? "json" : "cdr";

@@ -18,9 +18,9 @@ using TypePtr = std::shared_ptr<const Type>;
 struct Field {
   std::string name;
   std::string unit;
-  TypePtr type;                                                 // of a struct
-  std::vector<std::string> labels;                              // of an enum
-  std::vector<std::pair<std::int64_t, std::string>> constants;  // of a ROS definition, which name its values
+  TypePtr type;                                                   // of a struct
+  std::vector<std::string> labels;                                // of an enum
+  std::vector<std::pair<std::int64_t, std::string>> constants{};  // of a ROS field: names of its values
   fulmar_kind kind = FULMAR_F64;
   fulmar_shape shape = FULMAR_SCALAR;
   std::uint32_t offset = 0, count = 1, stride = 0, items = 0;

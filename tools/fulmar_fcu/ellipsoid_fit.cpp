@@ -52,8 +52,9 @@ bool quadric(const Points& points, Shape& out) {
   Eigen::Matrix3d Q;
   Q << 1 - p(0) - p(1), -p(2), -p(3), -p(2), 1 - p(0) + 2 * p(1), -p(4), -p(3), -p(4), 1 + 2 * p(0) - p(1);
   const Eigen3 eigen(Q);
-  const Eigen::Matrix3d V = eigen.eigenvectors();
-  const Eigen::Vector3d g = p.segment<3>(5), lambda = eigen.eigenvalues();
+  const Eigen::Matrix3d& V = eigen.eigenvectors();
+  const Eigen::Vector3d& lambda = eigen.eigenvalues();
+  const Eigen::Vector3d g = p.segment<3>(5);
   out.c = V * (V.transpose() * g).cwiseQuotient(lambda);
   const double size = p(8) + out.c.dot(g);  // (u - c)' Q (u - c) = size
   if (!((lambda / size).minCoeff() > 1e-6)) return false;

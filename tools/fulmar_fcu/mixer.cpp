@@ -27,7 +27,7 @@ double param_value(const std::vector<Param>& params, const std::string& name) {
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 bool used(double gain) { return std::fabs(gain) > 1e-6; }
 
-std::string right_aligned(std::string text, std::size_t width) {
+std::string right_aligned(const std::string& text, std::size_t width) {
   return std::string(text.size() < width ? width - text.size() : 0, ' ') + text;
 }
 

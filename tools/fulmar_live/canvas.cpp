@@ -38,7 +38,8 @@ class Dots {
     static constexpr std::array<std::array<std::uint8_t, 2>, 4> bits{
         {{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}}};
     const int down = height() - 1 - y;
-    const auto at = static_cast<std::size_t>(down / 4 * columns_ + x / 2);
+    const auto at = static_cast<std::size_t>(down / 4) * static_cast<std::size_t>(columns_) +
+                    static_cast<std::size_t>(x / 2);
     cells_[at] |= bits[static_cast<std::size_t>(down % 4)][static_cast<std::size_t>(x % 2)];
     owner_[at] = series;
   }
@@ -53,7 +54,8 @@ class Dots {
   std::string row(int r, bool with_colours) const {
     std::string text;
     for (int c = 0; c < columns_; ++c) {
-      const auto at = static_cast<std::size_t>(r * columns_ + c);
+      const auto at =
+          static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c);
       if (cells_[at] == 0) {
         text += ' ';
         continue;

@@ -109,7 +109,7 @@ std::string deflate_text(const std::string& bytes) {
   return out;
 }
 
-std::string unlike(std::string name, std::set<std::string>& taken) {
+std::string unlike(const std::string& name, std::set<std::string>& taken) {
   std::string unique = name;
   for (int i = 2; !taken.insert(unique).second; ++i) {
     const std::string number = "_" + std::to_string(i);

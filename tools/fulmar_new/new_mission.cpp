@@ -17,7 +17,7 @@ Node scalar(const std::string& text) {
   return node;
 }
 
-Node map_of(std::vector<std::pair<std::string, Node>> entries) {
+Node map_of(const std::vector<std::pair<std::string, Node>>& entries) {
   Node node;
   node.kind = Node::Kind::map;
   for (auto& [key, value] : entries) node.entries.push_back({key, 0, std::move(value)});

@@ -87,8 +87,10 @@ TEST_CASE("a reboot that unplugs the device, as USB does, is seen through to its
     firmware.provision(testing::wall_us());
     boots = firmware.boots();
   });
-  testing::pause_us(300000);
+  testing::pause_us(
+      3000000);  // it has been up for longer than it will be unplugged: by that a restart is told
   const Run reboot("--port " + device.name() + " reboot");
+  CAPTURE(reboot.out);
   CHECK(reboot.code == 0);
   CHECK(reboot.says("Rebooted."));
 }

@@ -43,7 +43,8 @@ struct CommandLine {
     add_hardware();
   }
 
-  CLI::App* command(CLI::App* parent, const std::string& name, const std::string& what, const Deed& what_to_do) {
+  CLI::App* command(CLI::App* parent, const std::string& name, const std::string& what,
+                    const Deed& what_to_do) {
     CLI::App* sub = parent->add_subcommand(name, what);
     sub->fallthrough();
     if (what_to_do) sub->callback([this, what_to_do] { deed = what_to_do; });

@@ -47,15 +47,16 @@ std::string shell_word(const std::string& text) {
 }
 
 std::string program_word() {
-  const fs::path self = this_program();
+  const fs::path host =
+      this_program().parent_path() / "fulmar";  // which people call, and which starts this program
   std::istringstream folders(std::getenv("PATH") ? std::getenv("PATH") : "");
   std::error_code code;
   for (std::string folder; std::getline(folders, folder, ':');) {
-    const fs::path found = fs::path(folder) / self.filename();
+    const fs::path found = fs::path(folder) / host.filename();
     if (folder.empty() || !fs::exists(found, code)) continue;
-    return fs::equivalent(found, self, code) ? self.filename().string() : shell_word(self.string());
+    return fs::equivalent(found, host, code) ? host.filename().string() : shell_word(host.string());
   }
-  return shell_word(self.string());
+  return shell_word(host.string());
 }
 
 }  // namespace fulmar::core

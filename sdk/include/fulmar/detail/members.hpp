@@ -40,8 +40,8 @@ consteval std::size_t member_count() {
 
 /// f(member, member, ...), with references.
 template <class T, class F>
-constexpr decltype(auto) with_members(T& t,
-                                      F&& f) {  // NOLINT(readability-function-size): a branch per number
+// NOLINTNEXTLINE(readability-function-size): a branch for each number of members
+constexpr decltype(auto) with_members(T& t, F&& f) {
   constexpr std::size_t n = member_count<std::remove_const_t<T>>();
   static_assert(n <= max_members, "a struct has at most 64 members: nest some of them");
   // clang-format off

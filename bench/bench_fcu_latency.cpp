@@ -41,7 +41,6 @@ bool real_time(int priority) {
 }
 
 // ---- the two who answer
-// -----------------------------------------------------------------------------------------------------------
 
 /// Answers each read of a frame at once with a frame of a command's size.
 [[noreturn]] void echo(const std::string& port) {
@@ -91,7 +90,6 @@ void end(pid_t child) {
 }
 
 // ---- the controller
-// ---------------------------------------------------------------------------------------------------------------
 
 struct Figures {
   std::vector<double> trip_us, interval_us;
@@ -187,7 +185,6 @@ class Controller {
 };
 
 // ---- figures
-// ----------------------------------------------------------------------------------------------------------------------
 
 double quantile(std::vector<double> v, double q) {
   if (v.empty()) return NAN;

@@ -29,7 +29,6 @@ constexpr int block = 5000,
                   24;  // 120 000 round trips of each kind, taken in turns: what disturbs one disturbs all
 
 // ---- the bare round trip
-// -------------------------------------------------------------------------------------------------------
 
 struct Word {
   alignas(cache_line) std::atomic<std::uint32_t> value;
@@ -87,7 +86,6 @@ class Echo {
 };
 
 // ---- a law
-// --------------------------------------------------------------------------------------------------------------------
 
 Component law_component() {
   Component c;
@@ -141,7 +139,6 @@ struct Law {
 };
 
 // ---- figures
-// ------------------------------------------------------------------------------------------------------------------
 
 struct Row {
   std::string name;

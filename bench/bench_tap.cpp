@@ -42,7 +42,6 @@ std::string topic_of(std::string port) {
 }
 
 // ---- the other side: this program once more, in processes of its own
-// --------------------------------------------------------------
 
 int print(const json& result) {
   std::printf("%s\n", result.dump().c_str());
@@ -117,7 +116,6 @@ class Process {
 };
 
 // ---- flights
-// ------------------------------------------------------------------------------------------------------------------------
 
 /// Who listens: of "log", "live", "dds".
 using Sinks = std::vector<std::string>;
@@ -254,7 +252,6 @@ int bench_loop(double seconds, int rounds, bool each, bool as_json) {
 }
 
 // ---- sizes
-// --------------------------------------------------------------------------------------------------------------------------
 
 double megabytes_per_minute(bool full) {
   const Scratch scratch;

@@ -115,7 +115,6 @@ RclDescriptor descriptor(const std::string& name, const ParameterView* p) {
 }
 
 // ---- answers that only look
-// ------------------------------------------------------------------------------------------------------
 
 Bytes list_parameters(const Control& control, CdrIn in) {
   const std::vector<std::string> prefixes = in.texts();
@@ -168,7 +167,6 @@ Bytes describe_parameters(const Control& control, CdrIn in) {
 }
 
 // ---- answers that change something
-// -------------------------------------------------------------------------------------------------
 
 /// Collects what becomes of each parameter of one call; the last answer sends the reply.
 struct Results {

@@ -77,7 +77,6 @@ void add_request_services(Servers& servers, Participant& participant, const DdsO
 }
 
 // ---- events
-// ----------------------------------------------------------------------------------------------------------------------
 
 ParameterEvents::ParameterEvents(Participant& participant, const DdsOptions& options, Control& control,
                                  std::shared_ptr<Waker> waker)
@@ -131,7 +130,6 @@ void ParameterEvents::pump() {
 }
 
 // ---- node
-// ------------------------------------------------------------------------------------------------------------------------
 
 NodeInfo::NodeInfo(Participant& participant, const DdsOptions& options, const std::vector<Guid>& readers,
                    const std::vector<Guid>& writers) {

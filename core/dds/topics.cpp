@@ -25,7 +25,6 @@ constexpr std::int64_t delivered_ns = 1'000'000'000;
 }  // namespace
 
 // ---- others
-// ----------------------------------------------------------------------------------------------------------------------
 
 void Others::expect(const std::string& topic, const std::string& type, bool we_write, bool best_effort) {
   const std::lock_guard lock(mutex_);
@@ -63,7 +62,6 @@ static std::string name_space_of(const std::string& topic, const DdsOptions& opt
 }
 
 // ---- exports
-// ---------------------------------------------------------------------------------------------------------------------
 
 Exports::Exports(Tap& tap, const DdsOptions& options, Others& others)
     : cursor_(tap), of_channel_(tap.channels().size()) {
@@ -127,7 +125,6 @@ std::vector<Guid> Exports::writers() const {
 }
 
 // ---- imports
-// ---------------------------------------------------------------------------------------------------------------------
 
 Imports::Imports(Control& control, const FlightView& view, const DdsOptions& options, Others& others)
     : control_(control), others_(others) {

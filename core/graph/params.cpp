@@ -13,7 +13,6 @@ namespace fulmar::core {
 namespace fs = std::filesystem;
 
 // ---- files
-// ------------------------------------------------------------------------------------------------------------------
 
 void FileStore::keep(const FilePtr& file) {
   const auto same = [&](const FilePtr& other) {
@@ -63,7 +62,6 @@ std::vector<std::pair<std::string, std::string>> FileStore::attachments() const 
 }
 
 // ---- values
-// -----------------------------------------------------------------------------------------------------------------
 
 ParamValue initial_value(const ParamInfo& param) {
   ParamValue value;

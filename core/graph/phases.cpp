@@ -153,7 +153,6 @@ void assign_roles(Draft& draft) {
 }
 
 // ---- ports that the mission names
-// -------------------------------------------------------------------------------------------
 
 namespace {
 

@@ -200,7 +200,6 @@ void read_values(Draft& draft) {
 }
 
 // ---- failsafe
-// ---------------------------------------------------------------------------------------------------------------
 
 void read_failsafe(Draft& draft) {
   Graph& graph = draft.graph;

@@ -23,7 +23,6 @@ constexpr std::size_t most_faults = 100;  // nobody reads more, and each is comp
 }  // namespace
 
 // ---- report
-// -----------------------------------------------------------------------------------------------------------------
 
 std::size_t Report::rank(const std::string& file) {
   const auto it = std::find(files_.begin(), files_.end(), file);
@@ -61,7 +60,6 @@ void Report::throw_if_any() const {
 }
 
 // ---- tree
-// -------------------------------------------------------------------------------------------------------------------
 
 const Node* Node::find(const std::string& key) const {
   for (const Entry& entry : entries)
@@ -254,7 +252,6 @@ Node merged(const Node& base, const Node& top, int depth) {
 }
 
 // ---- keys
-// -------------------------------------------------------------------------------------------------------------------
 
 Keys::Keys(const Node& map, std::string path, std::vector<std::string> valid, Report& report)
     : map_(map), path_(std::move(path)), report_(report) {

@@ -62,7 +62,6 @@ const char* signal_words(int signal, bool stack_overflow) noexcept {
 }  // namespace
 
 // ---- set-up
-// --------------------------------------------------------------------------------------------------------------------
 
 Isolated::Isolated(const ComponentInfo& info, const IsolatedOptions& options)
     : info_(isolatable(info, options)),
@@ -119,7 +118,6 @@ std::string Isolated::end() {
 }
 
 // ---- copies in and out
-// -----------------------------------------------------------------------------------------------------------
 
 // What the child holds already is not copied again: a plan of a thousand items comes once.
 void Isolated::put_input(const Place& place, SharedInput& to, const fulmar_input& from,
@@ -249,7 +247,6 @@ std::uint32_t Isolated::retune(const fulmar_value* values, fulmar_error* error) 
 }
 
 // ---- the hand-shake
-// --------------------------------------------------------------------------------------------------------------
 
 std::uint32_t Isolated::call(Call what, std::int64_t limit_ns, fulmar_error* error) noexcept {
   if (!alive_) return dead(error);
@@ -320,7 +317,6 @@ std::uint32_t Isolated::dead(fulmar_error* error) noexcept {
 }
 
 // ---- as a component
-// --------------------------------------------------------------------------------------------------------------
 
 struct Isolated::Thunks {
   static Isolated& self(void* instance) { return *static_cast<Isolated*>(instance); }

@@ -18,7 +18,6 @@
 namespace fulmar::core {
 
 // ---- contents
-// ------------------------------------------------------------------------------------------------------------------
 
 inline constexpr int shared_descriptor = 3;  // of the memory, in the child
 inline constexpr std::uint32_t shared_version = 1;
@@ -99,7 +98,6 @@ struct Layout {
 };
 
 // ---- waiting
-// -------------------------------------------------------------------------------------------------------------------
 
 inline std::int64_t monotonic_ns() noexcept {
   timespec t{};

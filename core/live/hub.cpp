@@ -166,7 +166,6 @@ FlightView Hub::view() {
 }
 
 // ---- from clients
-// --------------------------------------------------------------------------------------------------------------
 
 template <class Work>
 void Hub::guarded(ClientId id, const Work& work) {
@@ -218,7 +217,6 @@ void Hub::binary(ClientId id, std::string_view message) {
 }
 
 // ---- to clients
-// ----------------------------------------------------------------------------------------------------------------
 
 void Hub::send_text(Client& client, std::shared_ptr<const std::string> text) {
   Message message;

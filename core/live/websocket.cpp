@@ -42,7 +42,6 @@ std::array<net::const_buffer, 2> parts_of(std::string_view head, std::string_vie
 }  // namespace
 
 // ---- the loop
-// -------------------------------------------------------------------------------------------------------------------
 
 struct Loop::Impl {
   net::io_context io{1};
@@ -75,7 +74,6 @@ void Timer::cancel() {
 }
 
 // ---- the server's end
-// -----------------------------------------------------------------------------------------------------------
 
 struct ServerEnd::Impl {
   Stream stream;
@@ -190,7 +188,6 @@ void ServerEnd::close(std::uint16_t code, const std::string& why, std::function<
 }
 
 // ---- listening
-// ------------------------------------------------------------------------------------------------------------------
 
 struct Listener::Impl {
   tcp::acceptor acceptor;
@@ -231,7 +228,6 @@ void Listener::close() {
 }
 
 // ---- the client's end
-// -----------------------------------------------------------------------------------------------------------
 
 // Blocking calls of Beast's know no time limit, so the asynchronous ones are run here.
 struct ClientEnd::Impl {

@@ -176,7 +176,6 @@ const TypePtr& host_type<CommandNote>() {
 }
 
 // ---- events
-// ----------------------------------------------------------------------------------------------------------------------
 
 const char* kind_words(Code code) noexcept {
   return static_cast<std::size_t>(code) < std::size(code_rows) ? row_of(code).kind : "unknown";
@@ -219,7 +218,6 @@ void make_printable(char* text) noexcept {
 }
 
 // ---- out of a log
-// ----------------------------------------------------------------------------------------------------------------
 
 HostMessages::HostMessages(const McapFile& file, const char* topic, TypePtr type)
     : topic_(topic), type_(std::move(type)) {

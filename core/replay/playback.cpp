@@ -51,7 +51,6 @@ Playback::Playback(const McapFile& file, const Graph& graph)
 Playback::~Playback() = default;
 
 // ---- the host
-// ---------------------------------------------------------------------------------------------------------------
 
 void Playback::index_host() {
   file_.channel(Event::topic);  // throws when there is none
@@ -96,7 +95,6 @@ bool Playback::ran_over(const std::string& component, std::int64_t now_ns) const
 }
 
 // ---- in place of vehicle and drivers
-// -----------------------------------------------------------------------
 
 void Playback::stand_in(const Graph& graph, const Component& component, UnitOptions& options) {
   std::vector<std::pair<std::int64_t, std::string>> faults;
@@ -125,7 +123,6 @@ void Playback::stand_in(const Graph& graph, const Component& component, UnitOpti
 }
 
 // ---- what was asked of the flight
-// -------------------------------------------------------------------------------------------
 
 namespace {
 

@@ -58,7 +58,6 @@ bool names_component(const std::vector<std::pair<std::string, std::string>>& wit
 }  // namespace
 
 // ---- the mission
-// ------------------------------------------------------------------------------------------------------------
 
 Recording::Recording(const fs::path& log) try : path_(log), file_(read_mcap(log)) {
   std::vector<std::pair<std::string, std::string>> files;
@@ -156,7 +155,6 @@ Graph Recording::mission(const Overrides& changes, const Say& say) const {
 }
 
 // ---- the flight
-// -------------------------------------------------------------------------------------------------------------
 
 namespace {
 

@@ -27,7 +27,6 @@ bool Flight::step() { return impl_->step(); }
 FlightResult Flight::finish() { return impl_->finish(); }
 
 // ---- to look at
-// ----------------------------------------------------------------------------------------------
 
 Control* Flight::control() const { return impl_->onlookers.control.get(); }
 std::uint16_t Flight::live_port() const {
@@ -46,7 +45,6 @@ const Tape* Flight::tape(const std::string& component) const {
 }
 
 // ---- to command
-// ----------------------------------------------------------------------------------------------
 
 void Flight::apply(Command command, std::function<void(const std::string&)> answered) {
   impl_->commands->prepare(command);

@@ -110,7 +110,6 @@ FlightControl::FlightControl(Flight::Impl& flight)
 FlightControl::~FlightControl() { end(); }
 
 // ---- the loop
-// ---------------------------------------------------------------------------------------------------------------------
 
 void FlightControl::note(int phase, std::int64_t now_ns, bool armed) noexcept {
   seen_.phase.store(phase, std::memory_order_relaxed);
@@ -181,7 +180,6 @@ bool FlightControl::apply(Waiting& w) {
 }
 
 // ---- any other thread
-// -------------------------------------------------------------------------------------------------------------
 
 std::shared_ptr<const FlightControl::Directory> FlightControl::directory() const {
   const std::lock_guard lock(mutex_);

@@ -43,7 +43,6 @@ void Reader::latch() noexcept {
 }
 
 // ---- inputs
-// ------------------------------------------------------------------------------------------------
 
 Intake::Intake(const Component& component)
     : readers(component.info().inputs.size()), views(component.info().inputs.size()) {
@@ -171,7 +170,6 @@ void Intake::refuse_requests(const char* why) noexcept {
 }
 
 // ---- outputs
-// -----------------------------------------------------------------------------------------------
 
 Outlets::Outlets(const Component& component, Unit& owner)
     : slots(component.info().outputs.size()), views(component.info().outputs.size()) {

@@ -199,7 +199,6 @@ void Recorder::note_swap(const std::string& component, const PluginInfo& plugin)
 }
 
 // ---- texts for people
-// ----------------------------------------------------------------------------------------
 
 void Recorder::listen(const Units& units) {
   told_.clear();

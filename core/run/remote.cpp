@@ -154,7 +154,6 @@ Verdict AsyncRunner::collect(std::int64_t now_ns, Intake& in, Outlets& out, fulm
 }
 
 // ---- drivers
-// -------------------------------------------------------------------------------------------------
 
 Verdict Arrivals::collect(std::int64_t now_ns, Outlets& out, fulmar_error& problem) noexcept {
   if (!std::exchange(started_, true)) source_->start();

@@ -156,7 +156,6 @@ fs::path newest_log(const Graph& graph, double max_age_s) {
 }
 
 // ---- in flight
-// -------------------------------------------------------------------------------------------------
 
 /// Before the first step, or when a vehicle turns out to be armed. The parameters are those of a log: one
 /// that cannot be set any more is told, and the flight goes on without it.

@@ -50,7 +50,6 @@ const std::vector<Overlay>* Roles::overlay_of(int component) const noexcept {
 }
 
 // ---- steps
-// -------------------------------------------------------------------------------------------------
 
 void Roles::step(int component) {
   Unit& unit = wiring_.unit(component);
@@ -132,7 +131,6 @@ void Roles::tell_overdue() {
 }
 
 // ---- guards and hand-over
-// ----------------------------------------------------------------------------------
 
 void Roles::stop(int component, Code code) {
   Unit& unit = wiring_.unit(component);

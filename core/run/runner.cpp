@@ -37,7 +37,6 @@ std::unique_ptr<Isolated> spawn(const Component& c, std::uint64_t seed, bool pac
 }  // namespace
 
 // ---- in the loop's thread
-// ------------------------------------------------------------------------------------
 
 Direct::Direct(const Component& c, std::uint64_t seed)
     : Direct(c, c.library->functions(c.index_in_plugin),
@@ -115,7 +114,6 @@ std::uint32_t Direct::write(const fulmar_tick& tick, const Intake& in, fulmar_er
 }
 
 // ---- in a child
-// ----------------------------------------------------------------------------------------------
 
 Child::Child(const Component& c, std::uint64_t seed, bool paced) : Child(c, spawn(c, seed, paced)) {}
 

@@ -100,7 +100,6 @@ void rehearse(const Component& component, std::int64_t tick_ns, std::uint64_t se
 }
 
 // ---- in a flight that goes on
-// ----------------------------------------------------------------------------------
 
 void Flight::Impl::swap(int at, const std::string& file) {
   const std::string& name = wiring.unit(at).component->name;

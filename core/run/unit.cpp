@@ -6,7 +6,6 @@
 namespace fulmar::core {
 
 // ---- before and between flights
-// ------------------------------------------------------------------------------
 
 Unit::Unit(const Component& c, UnitOptions options)
     : component(&c),
@@ -103,7 +102,6 @@ bool Unit::rehearse(const Tape& from) noexcept {
 }
 
 // ---- in a tick
-// -----------------------------------------------------------------------------------------------
 
 void Unit::fill_values(const std::vector<Overlay>* overlay, bool with_data) noexcept {
   const auto put = [&](std::size_t i, const ParamValue& v) {

@@ -48,7 +48,6 @@ std::unique_ptr<SampleSource> Wiring::recorded_samples(const Component& c) const
 }
 
 // ---- wires
-// -------------------------------------------------------------------------------------------------
 
 void Wiring::connect() {
   delayed_.clear();
@@ -145,7 +144,6 @@ void Wiring::connect_reader(Unit& unit, Reader& reader) {
 }
 
 // ---- samples
-// -----------------------------------------------------------------------------------------------
 
 void Wiring::publish(Unit& unit, Recorder& recorder) {
   unit.out.publish([&](Slot& slot) {

@@ -85,7 +85,6 @@ Tap::Tap(std::vector<TapChannel> channels, std::size_t ring_bytes)
 Tap::~Tap() = default;
 
 // ---- the loop
-// ---------------------------------------------------------------------------------------------------------------------
 
 bool Tap::wanted(std::size_t channel, std::int64_t now_ns) noexcept {
   Channel& c = state_[channel];
@@ -144,7 +143,6 @@ void Tap::wait_for_room(std::size_t bytes) noexcept {
 std::int64_t Tap::take_wait_ns() noexcept { return std::exchange(waited_ns_, 0); }
 
 // ---- sinks
-// ------------------------------------------------------------------------------------------------------------------------
 
 Tap::Cursor::Cursor(Tap& tap, bool holds_back)
     : tap_(tap),

@@ -16,7 +16,6 @@ constexpr std::array<std::byte, cdr_header_bytes> header{std::byte{0}, std::byte
 using Op = CdrEncoder::Op;
 
 // ---- compiling
-// -----------------------------------------------------------------------------------------------------------------
 
 struct Compiler {
   std::vector<Op> ops;
@@ -97,7 +96,6 @@ std::size_t bound(const Op* op, const Op* end) {
 }
 
 // ---- encoding
-// ------------------------------------------------------------------------------------------------------------------
 
 struct Writer {
   std::byte* const start;  // of the body
@@ -156,7 +154,6 @@ struct Writer {
 };
 
 // ---- decoding
-// ------------------------------------------------------------------------------------------------------------------
 
 struct Decoder {
   CdrReader in;
@@ -196,7 +193,6 @@ struct Decoder {
 };
 
 // ---- value by value
-// ------------------------------------------------------------------------------------------------------------
 
 struct Lister {
   CdrReader in;

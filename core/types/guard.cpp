@@ -56,7 +56,6 @@ double high(const Field& field) { return std::min(field.max, std::numeric_limits
 }  // namespace
 
 // ---- from a type to steps
-// ----------------------------------------------------------------------------------------------------
 
 struct Guard::Compiler {
   static constexpr std::uint32_t unrolled = 64;
@@ -133,7 +132,6 @@ Guard::Guard(const Type& type) : type_(std::make_shared<const Type>(type)) {
 }
 
 // ---- in the tick
-// -------------------------------------------------------------------------------------------------------------
 
 bool Guard::run(const Step* step, const Step* end, const std::byte* data) noexcept {
   for (; step != end; ++step) {
@@ -183,7 +181,6 @@ bool Guard::check(const std::byte* data) const noexcept {
 }
 
 // ---- in words
-// ----------------------------------------------------------------------------------------------------------------
 
 namespace {
 

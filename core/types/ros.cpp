@@ -78,7 +78,6 @@ std::string field_line(const Type& type, const Field& f) {
 }
 
 // ---- type hash
-// -------------------------------------------------------------------------------------------------------------------
 
 /// type_description_interfaces/msg/FieldType
 int type_id(const Type& type, const Field& f) {

@@ -97,7 +97,6 @@ class Lines {
 };
 
 // ---- numbers. Nothing when the part is empty or is not exactly what it should be.
-// -------------------------------------------------
 
 inline std::optional<double> number(std::string_view text) {
   if (text.empty() || text.find_first_not_of("0123456789.-") != std::string_view::npos) return {};
@@ -167,7 +166,6 @@ inline std::optional<double> angle(std::string_view text, std::string_view hemis
 }
 
 // ---- the five sentences
-// -----------------------------------------------------------------------------------------------------------
 
 inline constexpr double knot_mps = 1852.0 / 3600;
 inline constexpr double degree = std::numbers::pi / 180;

@@ -66,7 +66,6 @@ void Instance::read_places(const py::handle& instance) {
 }
 
 // ---- arguments
-// -----------------------------------------------------------------------------------------------------------------
 
 void Instance::show(const fulmar_tick& tick) noexcept {
   *tick_view_ = {tick.now_ns, tick.dt_ns, tick.index, 1e-9 * static_cast<double>(tick.now_ns),
@@ -115,7 +114,6 @@ void Instance::answer(const fulmar_input* inputs) noexcept {
 }
 
 // ---- results
-// -------------------------------------------------------------------------------------------------------------------
 
 /// What a step wrote before it failed is not published by the next one.
 void Instance::forget() noexcept {
@@ -170,7 +168,6 @@ bool Instance::give(fulmar_output* outputs) noexcept {
 }
 
 // ---- parameters
-// ----------------------------------------------------------------------------------------------------------------
 
 /// One parameter. False with a Python exception.
 bool Instance::take(Parameter& p, const fulmar_value& v) {
@@ -239,7 +236,6 @@ bool Instance::show_last(const fulmar_input* last) noexcept {
 }
 
 // ---- calls
-// ---------------------------------------------------------------------------------------------------------------------
 
 std::uint32_t Instance::fail(fulmar_error* error, bool print) noexcept {
   explain(file_, print, error);

@@ -13,7 +13,6 @@
 namespace fulmar::ros_bridge {
 
 // ---- time
-// ----------------------------------------------------------------------------------------------------------------------
 
 constexpr std::int64_t second_ns = 1'000'000'000;
 
@@ -45,7 +44,6 @@ class Clock {
 };
 
 // ---- vectors
-// -------------------------------------------------------------------------------------------------------------------
 
 inline RosVector3 enu(const Vec3<Ned>& v) { return {v.east, v.north, -v.down}; }
 inline RosVector3 flu(const Vec3<Body>& v) { return {v.x, -v.y, -v.z}; }
@@ -85,7 +83,6 @@ inline bool course_of(const RosQuaternion& q, double& course_rad) {
 }
 
 // ---- covariances
-// ---------------------------------------------------------------------------------------------------------------
 
 /// Puts a 3 x 3 block at row and column `at` of a matrix of `n` columns.
 template <std::size_t Size>

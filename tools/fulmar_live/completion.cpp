@@ -20,7 +20,6 @@ namespace {
 using nlohmann::json;
 
 // ---- scripts
-// --------------------------------------------------------------------------------------------------------------------
 
 /// What stands where after a command; the last `repeat` of them come again and again.
 struct Places {
@@ -209,7 +208,6 @@ _fulmar "$@"
 )zsh";
 
 // ---- words of a flight
-// ----------------------------------------------------------------------------------------------------------
 
 void fields_of(const Type& type, const std::string& before, std::set<std::string>& words) {
   for (const Field& f : type.fields) {

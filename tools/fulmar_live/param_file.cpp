@@ -25,7 +25,6 @@ namespace fs = std::filesystem;
 namespace {
 
 // ---- values as text
-// -------------------------------------------------------------------------------------------------------------
 
 bool same_number(double a, double b) { return std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b)); }
 
@@ -113,7 +112,6 @@ std::string new_text(const SavedParam& p) {
 }
 
 // ---- places
-// ---------------------------------------------------------------------------------------------------------------------
 
 struct FilePlace {
   std::size_t file = 0;  // into Saver::files_

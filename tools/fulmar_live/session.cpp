@@ -47,7 +47,6 @@ Session::Session(const LiveAddress& target, Milliseconds patience)
 Session::~Session() = default;
 
 // ---- what the flight says
-// -------------------------------------------------------------------------------------------------------
 
 void Session::handle_text(const std::string& text) {
   const json message = json::parse(text, nullptr, false);
@@ -105,7 +104,6 @@ void Session::pump_until(const Ready& ready, const char* what) {
 }
 
 // ---- channels and samples
-// -------------------------------------------------------------------------------------------------------
 
 const std::map<std::string, Session::Channel>& Session::channels() {
   pump_until([this] { return advertised_; }, "list of topics");
@@ -141,7 +139,6 @@ std::optional<Session::Sample> Session::next(Milliseconds limit) {
 }
 
 // ---- services
-// -------------------------------------------------------------------------------------------------------------------
 
 std::uint32_t Session::service_id(const std::string& name) {
   pump_until([this] { return services_known_; }, "list of services");

@@ -26,7 +26,6 @@ RosField table_field(const Field& f, std::size_t& count) {
 }
 
 // ---- the bytes
-// -----------------------------------------------------------------------------------------------------------------
 
 template <class T>
 Cell number_cell(T x) {

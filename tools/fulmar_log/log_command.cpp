@@ -71,7 +71,6 @@ void print_json(const json& object) {
 }
 
 // ---- info
-// ----------------------------------------------------------------------------------------------------------------------
 
 json topics_json(const LogInfo& info) {
   json topics = json::array();
@@ -189,7 +188,6 @@ int info_command(const std::string& file, bool as_json) {
 }
 
 // ---- recover
-// -------------------------------------------------------------------------------------------------------------------
 
 /// "a.mcap.part" -> "a.mcap"; "a.mcap" -> "a-recovered.mcap"
 std::string recovered_name(const fs::path& file) {
@@ -222,7 +220,6 @@ int recover_command(const std::string& file, std::string out) {
 }
 
 // ---- export
-// --------------------------------------------------------------------------------------------------------------------
 
 int export_command(const std::string& file, const std::string& to, const std::string& out,
                    const std::vector<std::string>& topics) {
@@ -240,7 +237,6 @@ int export_command(const std::string& file, const std::string& to, const std::st
 }
 
 // ---- diff
-// ----------------------------------------------------------------------------------------------------------------------
 
 json diff_json(const LogDiff& d) {
   json o{{"equal", d.equal()},          {"messages_equal", d.messages_equal()},

@@ -105,7 +105,6 @@ py::object Sim::result() const {
 }
 
 // ---- ports
-// ---------------------------------------------------------------------------------------------------------------------
 
 std::vector<std::string> Sim::ports() const {
   std::vector<std::string> names;
@@ -147,7 +146,6 @@ py::object Sim::sample(const std::string& name) {
 }
 
 // ---- parameters
-// ----------------------------------------------------------------------------------------------------------------
 
 std::vector<std::string> Sim::parameters() const {
   std::vector<std::string> names;
@@ -196,7 +194,6 @@ void Sim::set_parameter(const std::string& name, const py::handle& value) {
 }
 
 // ---- requests
-// ------------------------------------------------------------------------------------------------------------------
 
 std::shared_ptr<Answer> Sim::request(const std::string& name, const py::handle& message) {
   if (done()) throw Error(name + ": the flight is over");

@@ -346,7 +346,6 @@ TEST_CASE("every live parameter comes again as it was taken: a number, a word, a
 }
 
 // ---- logs from before there were codes
-// -------------------------------------------------------------------------------------------
 
 namespace {
 

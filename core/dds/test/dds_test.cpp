@@ -214,7 +214,6 @@ int multicast_members() {
 }  // namespace
 
 // ---- out
-// -------------------------------------------------------------------------------------------------------------------------
 
 TEST_CASE("another vendor's DDS reads an exported port, each value exact" * doctest::skip(!has_cyclone())) {
   Scene scene;
@@ -320,7 +319,6 @@ TEST_CASE("an export of a port that is not there is refused, with the choices") 
 }
 
 // ---- in
-// --------------------------------------------------------------------------------------------------------------------------
 
 TEST_CASE("another vendor's DDS publishes into an imported port: the loop gets the exact struct" *
           doctest::skip(!has_cyclone())) {
@@ -456,7 +454,6 @@ TEST_CASE("what does not meet by the rules of DDS is told once, in a sentence") 
 }
 
 // ---- services
-// --------------------------------------------------------------------------------------------------------------------
 
 TEST_CASE(
     "a request port is a ROS 2 service: accepted, refused with the component's reason, or refused by its "
@@ -560,7 +557,6 @@ TEST_CASE("the node is described for ROS 2 tools, its ids 16 bytes long, 24 for 
 }
 
 // ---- network
-// ---------------------------------------------------------------------------------------------------------------------
 
 TEST_CASE("every socket of the bridge is bound to the loopback address, and nobody joins a multicast group") {
   const std::set<std::string> before = udp_addresses();

@@ -202,7 +202,6 @@ Bytes call(Peer& peer, const std::string& service, const std::string& type, Byte
 }
 
 // ---- parameters as rclcpp sends them
-// --------------------------------------------------------------------------------------------
 
 struct Out {
   FastBuffer buffer;

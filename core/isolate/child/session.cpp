@@ -17,7 +17,6 @@
 namespace fulmar::core {
 
 // ---- set-up
-// --------------------------------------------------------------------------------------------------------------------
 
 void Session::load(const Order& order) {
   const FloatModeGuard guard;
@@ -82,7 +81,6 @@ void Session::close() noexcept {
 }
 
 // ---- calls
-// ---------------------------------------------------------------------------------------------------------------------
 
 void Session::bind_input(const Place& place, const SharedInput& from, fulmar_input& to) noexcept {
   to = {};
@@ -195,7 +193,6 @@ std::uint32_t Session::run(Call call, fulmar_error& error) {
 }
 
 // ---- the hand-shake
-// --------------------------------------------------------------------------------------------------------------
 
 void Session::answer(std::uint32_t number, std::uint32_t status, const fulmar_error& error) noexcept {
   ControlBlock& c = control();

@@ -104,7 +104,6 @@ struct Link::Impl {
 };
 
 // ---- the link's thread
-// ------------------------------------------------------------------------------------------------------------
 
 void Link::Impl::begin() {
   // Signals are for the host's threads.
@@ -273,7 +272,6 @@ void Link::Impl::stay_with_loop() noexcept {
 }
 
 // ---- the loop's thread
-// ------------------------------------------------------------------------------------------------------------
 
 Link::Link(const LinkOptions& options) : impl_(std::make_unique<Impl>(options)) {
   impl_->port = Port::open(options.port, options.baud);

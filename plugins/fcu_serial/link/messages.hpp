@@ -264,7 +264,6 @@ struct Statustext {  ///< from the controller
 };
 
 // ---- what follows from the structs
-// ----------------------------------------------------------------------------------------------
 
 inline constexpr std::size_t max_payload = 70;
 

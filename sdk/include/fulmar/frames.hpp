@@ -76,7 +76,6 @@ constexpr Vec3<Ned> to_ned(const Quat& q, const Vec3<Body>& v) { return detail::
 constexpr Vec3<Body> to_body(const Quat& q, const Vec3<Ned>& v) { return detail::rotated<Body>(q, -1, v); }
 
 // ---- the door to Eigen
-// ----------------------------------------------------------------------------------------------------------
 // Templates, so that Eigen is needed where they are used and nowhere else.
 
 namespace detail {

@@ -38,7 +38,6 @@ struct Tick {
 enum class Status : std::uint32_t { ok = FULMAR_OK, degraded = FULMAR_DEGRADED, failed = FULMAR_FAILED };
 
 // ---- inputs: views of what the host holds; valid during the call
-// --------------------------------------------------------------
 
 /// The latest sample of a wire. There is one whenever `step` is called.
 template <class T>
@@ -129,7 +128,6 @@ struct Request {
 };
 
 // ---- outputs. A plain message is published in every step.
-// ---------------------------------------------------------------------
 
 /// A message that may stay silent.
 template <class T>
@@ -216,7 +214,6 @@ struct Applied {
 };
 
 // ---- parameters
-// ---------------------------------------------------------------------------------------------------------------
 
 enum class Access : std::uint8_t { live, setup };
 inline constexpr Access live = Access::live;    ///< may change between ticks

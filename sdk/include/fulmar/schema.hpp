@@ -28,7 +28,6 @@
 namespace fulmar::detail {
 
 // ---- names
-// ------------------------------------------------------------------------------------------------------------------
 
 template <class T>
 struct Holder {
@@ -215,7 +214,6 @@ struct Labels {
 };
 
 // ---- kinds
-// ------------------------------------------------------------------------------------------------------------------
 
 template <class T>
 inline constexpr bool always_false = false;
@@ -304,7 +302,6 @@ concept Foreign = requires {
 };
 
 // ---- tables
-// -----------------------------------------------------------------------------------------------------------------
 
 template <class T>
 constexpr const fulmar_type* type_table();

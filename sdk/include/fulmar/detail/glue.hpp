@@ -12,7 +12,6 @@
 namespace fulmar::detail {
 
 // ---- ports
-// --------------------------------------------------------------------------------------------------------------------
 
 /// How a member of Inputs or Outputs crosses. The primary template is a plain message in Outputs.
 template <class M>
@@ -123,7 +122,6 @@ struct Ports {
 };
 
 // ---- thunks
-// -------------------------------------------------------------------------------------------------------------------
 
 template <class C>
 struct Instance {

@@ -207,7 +207,7 @@ class Guarded {
   void step() {
     const std::int64_t begin = monotonic_ns();
     for (Slot& slot : slots_) ++slot.sequence;
-    if (unit_.step(now_ns_ += 2'500'000, 0).kind != Verdict::Kind::stepped) throw Error(unit_.problem.text);
+    if (!has_stepped(unit_.step(now_ns_ += 2'500'000, 0))) throw Error(unit_.problem.text);
     unit_.out.publish([](Slot&) {});
     times_.add(monotonic_ns() - begin);
   }

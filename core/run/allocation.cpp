@@ -13,12 +13,8 @@
 #define FULMAR_COUNTS
 #endif
 
-namespace {
-thread_local fulmar::core::HeapUse use;
-}
-
 namespace fulmar::core {
-HeapUse thread_heap() noexcept { return use; }
+constinit thread_local HeapUse heap_use;
 #ifdef FULMAR_COUNTS
 bool counts_allocations() noexcept { return true; }
 #else
@@ -27,6 +23,8 @@ bool counts_allocations() noexcept { return false; }
 }  // namespace fulmar::core
 
 #ifdef FULMAR_COUNTS
+using fulmar::core::heap_use;
+
 extern "C" {
 void* __libc_malloc(std::size_t);                 // NOLINT(bugprone-reserved-identifier): glibc's names
 void* __libc_calloc(std::size_t, std::size_t);    // NOLINT(bugprone-reserved-identifier)
@@ -37,8 +35,8 @@ void __libc_free(void*);                          // NOLINT(bugprone-reserved-id
 
 namespace {
 void* taken(void* p) {
-  ++use.calls;
-  use.bytes += static_cast<std::int64_t>(malloc_usable_size(p));
+  ++heap_use.calls;
+  heap_use.bytes += static_cast<std::int64_t>(malloc_usable_size(p));
   return p;
 }
 }  // namespace
@@ -49,7 +47,7 @@ void* calloc(std::size_t count, std::size_t size) { return taken(__libc_calloc(c
 void* realloc(void* p, std::size_t size) {
   const auto before = static_cast<std::int64_t>(malloc_usable_size(p));
   void* const moved = __libc_realloc(p, size);
-  if (moved || size == 0) use.bytes -= before;
+  if (moved || size == 0) heap_use.bytes -= before;
   return taken(moved);
 }
 void* memalign(std::size_t align, std::size_t size) { return taken(__libc_memalign(align, size)); }
@@ -61,7 +59,7 @@ int posix_memalign(void** out, std::size_t align, std::size_t size) {
   return 0;
 }
 void free(void* p) {
-  use.bytes -= static_cast<std::int64_t>(malloc_usable_size(p));
+  heap_use.bytes -= static_cast<std::int64_t>(malloc_usable_size(p));
   __libc_free(p);
 }
 }

@@ -11,8 +11,9 @@ struct HeapUse {
   std::int64_t bytes = 0;   // taken less given back by this thread
 };
 
-/// All zero for ever in a sanitized build, where the counter is left out.
-HeapUse thread_heap() noexcept;
+/// Of the calling thread. All zero for ever in a sanitized build, where the counter is left out.
+extern constinit thread_local HeapUse heap_use;
+inline HeapUse thread_heap() noexcept { return heap_use; }
 inline std::uint64_t thread_allocations() noexcept { return thread_heap().calls; }
 
 /// Whether this build counts.

@@ -26,9 +26,9 @@ void Flight::Impl::begin() {
 
 bool Flight::Impl::tick() {
   Unit& vehicle = wiring.vehicle();
-  const Verdict read = vehicle.read(state.now_ns, state.index);
+  const StepResult read = vehicle.read(state.now_ns, state.index);
   if (state.index == 0) state.result.first_ns = state.now_ns;
-  if (read.kind == Verdict::Kind::bad) {
+  if (read == StepResult::bad) {
     vehicle_failed();
     state.result.guards.push_back(
         {state.now_ns, vehicle.component->name, vehicle.problem.text, "flight ended"});
@@ -43,8 +43,8 @@ bool Flight::Impl::tick() {
   for (const int component : state.graph.order) roles.step(component);
   roles.transitions();
 
-  const Verdict written = vehicle.write(state.now_ns, state.index, end.steering(), state.graph.failsafe);
-  if (written.kind == Verdict::Kind::bad) return vehicle_failed();
+  const StepResult written = vehicle.write(state.now_ns, state.index, end.steering(), state.graph.failsafe);
+  if (written == StepResult::bad) return vehicle_failed();
   vehicle.in.refusals.clear();  // not noted: in a replay there is nobody to refuse anything
   roles.charge(vehicle);
   wiring.latch();

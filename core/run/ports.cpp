@@ -100,7 +100,7 @@ void Intake::tell_missing(fulmar_error& problem) const noexcept {
 }
 
 Intake::State Intake::prepare(std::int64_t now_ns, fulmar_error& problem) noexcept {
-  for (std::size_t i = 0; i < readers.size(); ++i) {
+  for (std::size_t i = 0, count = readers.size(); i < count; ++i) {
     Reader& r = readers[i];
     fulmar_input& in = views[i];
     in.flags = 0;
@@ -128,7 +128,7 @@ Intake::State Intake::prepare(std::int64_t now_ns, fulmar_error& problem) noexce
 }
 
 void Intake::consume() noexcept {
-  for (std::size_t i = 0; i < readers.size(); ++i) {
+  for (std::size_t i = 0, count = readers.size(); i < count; ++i) {
     Reader& r = readers[i];
     if (r.port->kind == FULMAR_IN_VALUE) {
       r.seen = views[i].sequence;
@@ -190,7 +190,7 @@ Outlets::Outlets(const Component& component, Unit& owner)
 }
 
 void Outlets::prepare(std::int64_t now_ns) noexcept {
-  for (std::size_t i = 0; i < slots.size(); ++i)
+  for (std::size_t i = 0, count = slots.size(); i < count; ++i)
     views[i] = {slots[i].staging.data(), slots[i].stamps.data(), now_ns, 0, 0};
 }
 
@@ -224,7 +224,7 @@ bool messages_good(Slot& s, const fulmar_output& out, fulmar_error& problem) noe
 }  // namespace
 
 bool Outlets::good(fulmar_error& problem) noexcept {
-  for (std::size_t i = 0; i < slots.size(); ++i) {
+  for (std::size_t i = 0, count = slots.size(); i < count; ++i) {
     const bool probe = slots[i].port->kind == FULMAR_OUT_PROBE;
     if (!(probe ? probe_good(slots[i], views[i], problem) : messages_good(slots[i], views[i], problem)))
       return false;

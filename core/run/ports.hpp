@@ -152,20 +152,20 @@ class Outlets {
 
 template <class F>
 void Outlets::publish(F&& each) {
-  for (std::size_t i = 0; i < slots.size(); ++i) {
+  for (std::size_t i = 0, count = slots.size(); i < count; ++i) {
     Slot& s = slots[i];
     const fulmar_output& out = views[i];
     if (s.port->kind == FULMAR_OUT_PROBE) {
       if (out.count > 0) std::memcpy(s.published.data(), s.staging.data(), sizeof(double)), ++s.sequence;
       continue;
     }
-    const std::uint32_t count = s.port->kind == FULMAR_OUT_VALUE ? 1 : out.count;
+    const std::uint32_t samples = s.port->kind == FULMAR_OUT_VALUE ? 1 : out.count;
     if (out.lost > 0) {
       for (auto& [reader, plan] : s.queues) reader->pending.lost += out.lost;
       if (s.role)
         for (auto& [reader, plans] : s.role->queues) reader->pending.lost += out.lost;
     }
-    for (std::uint32_t k = 0; k < count; ++k) {
+    for (std::uint32_t k = 0; k < samples; ++k) {
       std::memcpy(s.published.data(), s.staging.data() + std::size_t{k} * s.size, s.size);
       s.valid_at_ns = s.port->kind == FULMAR_OUT_QUEUE ? s.stamps[k] : out.valid_at_ns;
       ++s.sequence;

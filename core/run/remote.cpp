@@ -19,7 +19,11 @@ std::size_t depth_of(const Component& c, std::int64_t period_ns) {
 
 AsyncRunner::AsyncRunner(const Component& component, std::uint64_t seed, std::int64_t period_ns, bool wait,
                          LateResults late, ComponentStats& stats)
-    : Direct(component, seed), component_(component), stats_(stats), wait_(wait), late_(std::move(late)) {
+    : Direct(component, seed, Results::later),
+      component_(component),
+      stats_(stats),
+      wait_(wait),
+      late_(std::move(late)) {
   const std::size_t depth = depth_of(component, period_ns);
   async_ = std::make_unique<Async>(component.name, functions_, instance_, component.info(), depth);
   late_due_ns.reserve(depth);
@@ -68,11 +72,11 @@ void AsyncRunner::deactivate() noexcept {
   Direct::deactivate();
 }
 
-Verdict AsyncRunner::step(const fulmar_tick& tick, Intake& in, Outlets&, fulmar_error&) noexcept {
+StepResult AsyncRunner::step(const fulmar_tick& tick, Intake& in, Outlets&, fulmar_error&) noexcept {
   Async::Job* const j = job(Async::Job::Call::step, tick.now_ns + component_.latency_ns);
   if (!j) {  // hardware: the thread is far behind
     ++stats_.misses;
-    return {Verdict::Kind::waiting};
+    return StepResult::waiting;
   }
   if (const auto late = late_.find(j->due_ns); late != late_.end()) j->held_until_ns = late->second;
   j->tick = tick;
@@ -88,7 +92,7 @@ Verdict AsyncRunner::step(const fulmar_tick& tick, Intake& in, Outlets&, fulmar_
     r.pending.count = r.pending.lost = 0;
   }
   async_->submit();
-  return {Verdict::Kind::submitted};
+  return StepResult::submitted;
 }
 
 std::optional<std::int64_t> AsyncRunner::overdue_ns(std::int64_t now_ns) noexcept {
@@ -132,7 +136,8 @@ void take_outputs(const Async::Job& j, Outlets& out) noexcept {
 
 }  // namespace
 
-Verdict AsyncRunner::collect(std::int64_t now_ns, Intake& in, Outlets& out, fulmar_error& problem) noexcept {
+StepResult AsyncRunner::collect(std::int64_t now_ns, Intake& in, Outlets& out,
+                                fulmar_error& problem) noexcept {
   // at the first call of a tick: when the one before was
   if (now_ns != collected_ns_) before_ns_ = std::exchange(collected_ns_, now_ns);
   for (Async::Job* j = async_->oldest(); j && j->held_until_ns <= now_ns; j = async_->oldest()) {
@@ -146,16 +151,16 @@ Verdict AsyncRunner::collect(std::int64_t now_ns, Intake& in, Outlets& out, fulm
     if (wanted && step) take_outputs(*j, out);
     async_->release();
     if (!wanted) continue;
-    if (status < FULMAR_FAILED) return {Verdict::Kind::stepped, status == FULMAR_DEGRADED};
+    if (status < FULMAR_FAILED) return status == FULMAR_DEGRADED ? StepResult::degraded : StepResult::stepped;
     put_if_silent(problem, "says that it failed");
-    return {Verdict::Kind::bad};
+    return StepResult::bad;
   }
-  return {Verdict::Kind::not_due};
+  return StepResult::not_due;
 }
 
 // ---- drivers
 
-Verdict Arrivals::collect(std::int64_t now_ns, Outlets& out, fulmar_error& problem) noexcept {
+StepResult Arrivals::collect(std::int64_t now_ns, Outlets& out, fulmar_error& problem) noexcept {
   if (!std::exchange(started_, true)) source_->start();
   out.prepare(now_ns);
   SampleSource::Sample sample;
@@ -172,15 +177,15 @@ Verdict Arrivals::collect(std::int64_t now_ns, Outlets& out, fulmar_error& probl
   stats_.misses = source_->lost();
   if (any) {
     ++stats_.steps;
-    return {Verdict::Kind::stepped};
+    return StepResult::stepped;
   }
-  if (source_->fault()[0] == '\0') return {Verdict::Kind::not_due};
+  if (source_->fault()[0] == '\0') return StepResult::not_due;
   put_problem(problem, "%s", source_->fault());
-  return {Verdict::Kind::bad};
+  return StepResult::bad;
 }
 
 DriverRunner::DriverRunner(const Component& component, std::uint64_t seed, ComponentStats& stats)
-    : Direct(component, seed),
+    : Direct(component, seed, Results::unasked),
       arrivals_(std::make_unique<Driver>(component.name, functions_, instance_, component.info()), stats) {}
 
 bool DriverRunner::retune(const std::vector<fulmar_value>& values, fulmar_error& problem) noexcept {

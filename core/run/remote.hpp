@@ -30,9 +30,8 @@ class AsyncRunner final : public Direct {
   bool activate(const fulmar_tick& tick, const std::vector<fulmar_input>& inputs,
                 const std::vector<fulmar_input>& last, fulmar_error& problem) noexcept override;
   void deactivate() noexcept override;
-  Verdict step(const fulmar_tick& tick, Intake& in, Outlets& out, fulmar_error& problem) noexcept override;
-  Verdict collect(std::int64_t now_ns, Intake& in, Outlets& out, fulmar_error& problem) noexcept override;
-  bool remote() const noexcept override { return true; }
+  StepResult step(const fulmar_tick& tick, Intake& in, Outlets& out, fulmar_error& problem) noexcept override;
+  StepResult collect(std::int64_t now_ns, Intake& in, Outlets& out, fulmar_error& problem) noexcept override;
   std::optional<std::int64_t> overdue_ns(std::int64_t now_ns) noexcept override;
 
  private:
@@ -54,7 +53,7 @@ class Arrivals {
  public:
   Arrivals(std::unique_ptr<SampleSource> source, ComponentStats& stats)
       : source_(std::move(source)), stats_(stats) {}
-  Verdict collect(std::int64_t now_ns, Outlets& out, fulmar_error& problem) noexcept;
+  StepResult collect(std::int64_t now_ns, Outlets& out, fulmar_error& problem) noexcept;
   bool started() const noexcept { return started_; }
   void end() noexcept { source_.reset(); }
 
@@ -74,11 +73,9 @@ class DriverRunner final : public Direct {
   bool activate(const fulmar_tick& tick, const std::vector<fulmar_input>& inputs,
                 const std::vector<fulmar_input>& last, fulmar_error& problem) noexcept override;
   void deactivate() noexcept override;
-  Verdict collect(std::int64_t now_ns, Intake&, Outlets& out, fulmar_error& problem) noexcept override {
+  StepResult collect(std::int64_t now_ns, Intake&, Outlets& out, fulmar_error& problem) noexcept override {
     return arrivals_.collect(now_ns, out, problem);
   }
-  bool remote() const noexcept override { return true; }
-  bool stepped_by_loop() const noexcept override { return false; }
 
  private:
   Arrivals arrivals_;
@@ -88,12 +85,10 @@ class DriverRunner final : public Direct {
 class RecordedRunner final : public Runner {
  public:
   RecordedRunner(std::unique_ptr<SampleSource> source, ComponentStats& stats)
-      : arrivals_(std::move(source), stats) {}
-  Verdict collect(std::int64_t now_ns, Intake&, Outlets& out, fulmar_error& problem) noexcept override {
+      : Runner(Results::unasked), arrivals_(std::move(source), stats) {}
+  StepResult collect(std::int64_t now_ns, Intake&, Outlets& out, fulmar_error& problem) noexcept override {
     return arrivals_.collect(now_ns, out, problem);
   }
-  bool remote() const noexcept override { return true; }
-  bool stepped_by_loop() const noexcept override { return false; }
 
  private:
   Arrivals arrivals_;

@@ -55,11 +55,11 @@ void Roles::step(int component) {
   Unit& unit = wiring_.unit(component);
   if (unit.runner().remote() && !collect(unit, component)) return;
   if (!unit.active || unit.stopped || !unit.due(state_.now_ns) || !ready_to_step(unit, component)) return;
-  const Verdict verdict = unit.step(state_.now_ns, state_.index);
+  const StepResult result = unit.step(state_.now_ns, state_.index);
   if (!unit.in.refusals.empty()) recorder_.note_refusals(unit);
-  const bool bad = verdict.kind == Verdict::Kind::bad;
-  if (verdict.kind == Verdict::Kind::stepped) wiring_.publish(unit, recorder_);
-  if (verdict.kind == Verdict::Kind::stepped || bad) charge(unit);
+  const bool bad = result == StepResult::bad;
+  if (has_stepped(result)) wiring_.publish(unit, recorder_);
+  if (has_stepped(result) || bad) charge(unit);
   if (bad) stop(component);
 }
 
@@ -95,13 +95,13 @@ void Roles::charge(Unit& unit) {
 
 /// Results and samples that come from other threads. True when the unit can also be stepped.
 bool Roles::collect(Unit& unit, int component) {
-  Verdict verdict = unit.collect(state_.now_ns);
+  StepResult result = unit.collect(state_.now_ns);
   tell_late(unit);
-  for (; verdict.kind == Verdict::Kind::stepped; verdict = unit.collect(state_.now_ns))
+  for (; has_stepped(result); result = unit.collect(state_.now_ns))
     if (unit.active && !unit.stopped) wiring_.publish(unit, recorder_);
   tell_late(unit);
   if (!unit.in.refusals.empty()) recorder_.note_refusals(unit);
-  if (verdict.kind == Verdict::Kind::bad && unit.active) stop(component);
+  if (result == StepResult::bad && unit.active) stop(component);
   stopwatch_.skip();
   return unit.runner().stepped_by_loop();
 }

@@ -38,9 +38,9 @@ std::unique_ptr<Isolated> spawn(const Component& c, std::uint64_t seed, bool pac
 
 // ---- in the loop's thread
 
-Direct::Direct(const Component& c, std::uint64_t seed)
+Direct::Direct(const Component& c, std::uint64_t seed, Results results)
     : Direct(c, c.library->functions(c.index_in_plugin),
-             create_instance(c, c.library->functions(c.index_in_plugin), seed)) {}
+             create_instance(c, c.library->functions(c.index_in_plugin), seed), results) {}
 
 Direct::~Direct() {
   const Inside inside(name_, "destructor");
@@ -80,7 +80,7 @@ void Direct::deactivate() noexcept {
   if (functions_.deactivate) functions_.deactivate(instance_);
 }
 
-Verdict Direct::step(const fulmar_tick& tick, Intake& in, Outlets& out, fulmar_error& problem) noexcept {
+StepResult Direct::step(const fulmar_tick& tick, Intake& in, Outlets& out, fulmar_error& problem) noexcept {
   const HeapUse before = thread_heap();
   std::uint32_t status = FULMAR_OK;
   {
@@ -92,9 +92,9 @@ Verdict Direct::step(const fulmar_tick& tick, Intake& in, Outlets& out, fulmar_e
   heap_.bytes += now.bytes - before.bytes;
   if (status >= FULMAR_FAILED) {
     put_if_silent(problem, "says that it failed");
-    return {Verdict::Kind::bad};
+    return StepResult::bad;
   }
-  return {Verdict::Kind::stepped, status == FULMAR_DEGRADED};
+  return status == FULMAR_DEGRADED ? StepResult::degraded : StepResult::stepped;
 }
 
 std::uint32_t Direct::read(fulmar_tick& tick, Outlets& out, fulmar_error& problem) noexcept {
@@ -120,10 +120,10 @@ Child::Child(const Component& c, std::uint64_t seed, bool paced) : Child(c, spaw
 Child::Child(const Component& c, std::unique_ptr<Isolated> child)
     : Direct(c, Isolated::functions(), child.get()), child_(std::move(child)) {}
 
-Verdict Child::step(const fulmar_tick& tick, Intake& in, Outlets& out, fulmar_error& problem) noexcept {
-  const Verdict verdict = Direct::step(tick, in, out, problem);
+StepResult Child::step(const fulmar_tick& tick, Intake& in, Outlets& out, fulmar_error& problem) noexcept {
+  const StepResult result = Direct::step(tick, in, out, problem);
   heap_ = {child_->allocations(), child_->heap_growth()};
-  return verdict;
+  return result;
 }
 
 }  // namespace fulmar::core

@@ -16,13 +16,19 @@
 namespace fulmar::core {
 
 /// What a call came to.
-struct Verdict {
-  enum class Kind : std::uint8_t { stepped, not_due, waiting, bad, submitted } kind = Kind::stepped;
-  bool degraded = false;
-};
+enum class StepResult : std::uint8_t { stepped, degraded, not_due, waiting, submitted, bad };
+/// Whether there is something to publish.
+constexpr bool has_stepped(StepResult result) noexcept { return result <= StepResult::degraded; }
+
+/// Where the results of a step come from: the step itself, or `collect`, as long as the loop steps it or by
+/// itself.
+enum class Results : std::uint8_t { at_once, later, unasked };
 
 class Runner {
  public:
+  explicit Runner(Results results = Results::at_once) noexcept : results_(results) {}
+  Runner(const Runner&) = delete;
+  Runner& operator=(const Runner&) = delete;
   virtual ~Runner() = default;
 
   /// [setup]
@@ -42,20 +48,20 @@ class Runner {
   virtual void deactivate() noexcept {}
   /// [tick] Steps on the inputs prepared; what it publishes is then in `out`, but when its results come by
   /// `collect`.
-  virtual Verdict step(const fulmar_tick&, Intake&, Outlets&, fulmar_error&) noexcept {
-    return {Verdict::Kind::waiting};
+  virtual StepResult step(const fulmar_tick&, Intake&, Outlets&, fulmar_error&) noexcept {
+    return StepResult::waiting;
   }
   /// [tick] The next of what has arrived from elsewhere. `not_due`: nothing more in this tick.
-  virtual Verdict collect(std::int64_t, Intake&, Outlets&, fulmar_error&) noexcept {
-    return {Verdict::Kind::not_due};
+  virtual StepResult collect(std::int64_t, Intake&, Outlets&, fulmar_error&) noexcept {
+    return StepResult::not_due;
   }
   /// [tick] Of a vehicle.
   virtual std::uint32_t read(fulmar_tick&, Outlets&, fulmar_error&) noexcept { return FULMAR_FAILED; }
   virtual std::uint32_t write(const fulmar_tick&, const Intake&, fulmar_error&) noexcept { return FULMAR_OK; }
 
   /// Whether its results come by `collect`, and whether the loop steps it.
-  virtual bool remote() const noexcept { return false; }
-  virtual bool stepped_by_loop() const noexcept { return true; }
+  bool remote() const noexcept { return results_ != Results::at_once; }
+  bool stepped_by_loop() const noexcept { return results_ != Results::unasked; }
   /// Whether its process has died, and whether it did because it did not answer in time: for the wall clock
   /// alone.
   virtual bool dead() noexcept { return false; }
@@ -69,16 +75,17 @@ class Runner {
 
  protected:
   HeapUse heap_;
+
+ private:
+  const Results results_;  // asked in every step: no virtual function
 };
 
 /// An instance of a component, called in the caller's thread.
 class Direct : public Runner {
  public:
   /// [setup] Throws Error when the component cannot be created.
-  Direct(const Component& component, std::uint64_t seed);
+  Direct(const Component& component, std::uint64_t seed, Results results = Results::at_once);
   ~Direct() override;
-  Direct(const Direct&) = delete;
-  Direct& operator=(const Direct&) = delete;
 
   std::uint32_t configure(const fulmar_value* values, fulmar_error& problem) override;
   const fulmar_last_frame* last_frame(const fulmar_input* failsafe, fulmar_error& problem) override;
@@ -86,13 +93,14 @@ class Direct : public Runner {
   bool activate(const fulmar_tick& tick, const std::vector<fulmar_input>& inputs,
                 const std::vector<fulmar_input>& last, fulmar_error& problem) noexcept override;
   void deactivate() noexcept override;
-  Verdict step(const fulmar_tick& tick, Intake& in, Outlets& out, fulmar_error& problem) noexcept override;
+  StepResult step(const fulmar_tick& tick, Intake& in, Outlets& out, fulmar_error& problem) noexcept override;
   std::uint32_t read(fulmar_tick& tick, Outlets& out, fulmar_error& problem) noexcept override;
   std::uint32_t write(const fulmar_tick& tick, const Intake& in, fulmar_error& problem) noexcept override;
 
  protected:
-  Direct(const Component& component, const fulmar_component& functions, void* instance)
-      : name_(component.name), functions_(functions), instance_(instance) {}
+  Direct(const Component& component, const fulmar_component& functions, void* instance,
+         Results results = Results::at_once)
+      : Runner(results), name_(component.name), functions_(functions), instance_(instance) {}
 
   const std::string name_;
   const fulmar_component& functions_;  // of the library, or of a child's proxy
@@ -105,7 +113,7 @@ class Child final : public Direct {
   /// [setup] Throws Error. `paced`: wall time matters, a child that hangs is given up after
   /// Component::hang_ns.
   Child(const Component& component, std::uint64_t seed, bool paced);
-  Verdict step(const fulmar_tick& tick, Intake& in, Outlets& out, fulmar_error& problem) noexcept override;
+  StepResult step(const fulmar_tick& tick, Intake& in, Outlets& out, fulmar_error& problem) noexcept override;
   bool dead() noexcept override { return !child_->check(); }
   bool hung() const noexcept override { return child_->hung(); }
 

@@ -95,7 +95,7 @@ bool Unit::rehearse(const Tape& from) noexcept {
     problem.text[0] = '\0';
     if (i == 0 && !runner_->activate(step.tick, in.views, arguments_.last, problem)) return false;
     out.prepare(step.tick.now_ns);
-    if (runner_->step(step.tick, in, out, problem).kind != Verdict::Kind::stepped) return false;
+    if (!has_stepped(runner_->step(step.tick, in, out, problem))) return false;
     if (!out.good(problem)) return false;
   }
   return true;
@@ -123,18 +123,18 @@ bool Unit::retune(const std::vector<Overlay>* overlay) noexcept {
   return runner_->retune(arguments_.values, problem);
 }
 
-fulmar_tick Unit::tick(std::int64_t now_ns, std::uint64_t index) const noexcept {
+inline fulmar_tick Unit::tick(std::int64_t now_ns, std::uint64_t index) const noexcept {
   const std::int64_t nominal = component->period_ns > 0 ? component->period_ns : schedule_.tick_ns;
   return {now_ns, schedule_.last_step_ns == Schedule::never ? nominal : now_ns - schedule_.last_step_ns,
           index};
 }
 
-void Unit::stepped(std::int64_t now_ns) noexcept {
+inline void Unit::stepped(std::int64_t now_ns) noexcept {
   schedule_.last_step_ns = now_ns;
   if (component->period_ns > 0) schedule_.due.done(now_ns, component->period_ns);
 }
 
-bool Unit::heap_good() noexcept {
+inline bool Unit::heap_good() noexcept {
   const std::int64_t growth = runner_->heap().bytes;
   if (growth <= static_cast<std::int64_t>(component->memory_bytes)) return true;
   put_problem(problem, "its heap has grown by %.0f MB in flight; %.0f MB are allowed",
@@ -143,37 +143,37 @@ bool Unit::heap_good() noexcept {
 }
 
 /// What a step came to after the guards.
-Verdict Unit::guarded(Verdict verdict) noexcept {
-  if (verdict.kind != Verdict::Kind::stepped) return verdict;
-  if (!out.good(problem) || !heap_good()) return {Verdict::Kind::bad};
-  if (verdict.degraded) ++stats.degraded;
-  return verdict;
+inline StepResult Unit::guarded(StepResult result) noexcept {
+  if (!has_stepped(result)) return result;
+  if (!out.good(problem) || !heap_good()) return StepResult::bad;
+  if (result == StepResult::degraded) ++stats.degraded;
+  return result;
 }
 
-Verdict Unit::step(std::int64_t now_ns, std::uint64_t index) noexcept {
-  if (!due(now_ns)) return {Verdict::Kind::not_due};
+StepResult Unit::step(std::int64_t now_ns, std::uint64_t index) noexcept {
+  if (!due(now_ns)) return StepResult::not_due;
   schedule_.due.begin(now_ns);
   if (const Intake::State inputs = in.prepare(now_ns, problem); inputs != Intake::State::good)
-    return {inputs == Intake::State::stale ? Verdict::Kind::bad : Verdict::Kind::waiting};
+    return inputs == Intake::State::stale ? StepResult::bad : StepResult::waiting;
   const fulmar_tick t = tick(now_ns, index);
   if (tape) tape->record(t, in.views);
   const bool here = !runner_->remote();
   if (here) out.prepare(now_ns);
   problem.text[0] = '\0';
-  const Verdict verdict = runner_->step(t, in, out, problem);
+  const StepResult result = runner_->step(t, in, out, problem);
   stepped(now_ns);
-  if (!here) return verdict;
+  if (!here) return result;
   stats.allocations = runner_->heap().calls;
   ++stats.steps;
   in.consume();
-  return guarded(verdict);
+  return guarded(result);
 }
 
-Verdict Unit::collect(std::int64_t now_ns) noexcept {
+StepResult Unit::collect(std::int64_t now_ns) noexcept {
   return guarded(runner_->collect(now_ns, in, out, problem));
 }
 
-Verdict Unit::read(std::int64_t& now_ns, std::uint64_t index) noexcept {
+StepResult Unit::read(std::int64_t& now_ns, std::uint64_t index) noexcept {
   out.prepare(FULMAR_ON_ARRIVAL);
   fulmar_tick t{now_ns, schedule_.tick_ns, index};
   problem.text[0] = '\0';
@@ -182,21 +182,21 @@ Verdict Unit::read(std::int64_t& now_ns, std::uint64_t index) noexcept {
   ++stats.steps;
   if (status >= FULMAR_FAILED) {
     put_if_silent(problem, "says that it failed");
-    return {Verdict::Kind::bad};
+    return StepResult::bad;
   }
   if (index > 0 && t.now_ns <= now_ns) {
     put_problem(problem, "time went from %lld to %lld ns", static_cast<long long>(now_ns),
                 static_cast<long long>(t.now_ns));
-    return {Verdict::Kind::bad};
+    return StepResult::bad;
   }
   for (fulmar_output& view : out.views)
     if (view.valid_at_ns == FULMAR_ON_ARRIVAL)
       view.valid_at_ns = t.now_ns;  // read has not dated it, and now the time is known
   now_ns = t.now_ns;
   schedule_.last_step_ns = now_ns;
-  if (!out.good(problem)) return {Verdict::Kind::bad};
+  if (!out.good(problem)) return StepResult::bad;
   if (status == FULMAR_DEGRADED) ++stats.degraded;
-  return {Verdict::Kind::stepped};
+  return StepResult::stepped;
 }
 
 void Unit::steer(std::int64_t now_ns, Ending::Steering steering,
@@ -217,18 +217,18 @@ void Unit::steer(std::int64_t now_ns, Ending::Steering steering,
   }
 }
 
-Verdict Unit::write(std::int64_t now_ns, std::uint64_t index, Ending::Steering steering,
-                    const std::vector<std::vector<std::byte>>& failsafe) noexcept {
+StepResult Unit::write(std::int64_t now_ns, std::uint64_t index, Ending::Steering steering,
+                       const std::vector<std::vector<std::byte>>& failsafe) noexcept {
   if (in.prepare(now_ns, problem) != Intake::State::good && steering == Ending::Steering::commands)
-    return {Verdict::Kind::waiting};
+    return StepResult::waiting;
   steer(now_ns, steering, failsafe);
   problem.text[0] = '\0';
   const std::uint32_t status = runner_->write({now_ns, schedule_.tick_ns, index}, in, problem);
   stats.allocations = runner_->heap().calls;
   in.consume();
-  if (status < FULMAR_FAILED) return {Verdict::Kind::stepped};
+  if (status < FULMAR_FAILED) return StepResult::stepped;
   put_if_silent(problem, "says that it failed");
-  return {Verdict::Kind::bad};
+  return StepResult::bad;
 }
 
 void Unit::fill_last(std::int64_t now_ns, const std::vector<const Slot*>& last) noexcept {

@@ -45,15 +45,15 @@ class Unit {
   void call_now(std::int64_t now_ns) noexcept { schedule_.due.call(now_ns); }
 
   /// [tick] Steps once if due and ready. On `bad`, `problem` says what.
-  Verdict step(std::int64_t now_ns, std::uint64_t index) noexcept;
+  StepResult step(std::int64_t now_ns, std::uint64_t index) noexcept;
   /// [tick] What has arrived from elsewhere: a result of an asynchronous step, samples of a driver.
   /// `not_due`: nothing more in this tick.
-  Verdict collect(std::int64_t now_ns) noexcept;
+  StepResult collect(std::int64_t now_ns) noexcept;
   /// [tick] Of the vehicle. It moves the time on.
-  Verdict read(std::int64_t& now_ns, std::uint64_t index) noexcept;
+  StepResult read(std::int64_t& now_ns, std::uint64_t index) noexcept;
   /// [tick] The vehicle gets its inputs, or the failsafe's values in their place, or none.
-  Verdict write(std::int64_t now_ns, std::uint64_t index, Ending::Steering steering,
-                const std::vector<std::vector<std::byte>>& failsafe) noexcept;
+  StepResult write(std::int64_t now_ns, std::uint64_t index, Ending::Steering steering,
+                   const std::vector<std::vector<std::byte>>& failsafe) noexcept;
   /// [tick] `last`: per output, the slot last applied in the role, or nullptr.
   bool activate(std::int64_t now_ns, std::uint64_t index, const std::vector<const Slot*>& last) noexcept;
   void deactivate() noexcept { runner_->deactivate(); }
@@ -99,7 +99,7 @@ class Unit {
   void fill_last(std::int64_t now_ns, const std::vector<const Slot*>& last) noexcept;
   void steer(std::int64_t now_ns, Ending::Steering steering,
              const std::vector<std::vector<std::byte>>& failsafe) noexcept;
-  Verdict guarded(Verdict verdict) noexcept;
+  StepResult guarded(StepResult result) noexcept;
   bool heap_good() noexcept;
   fulmar_tick tick(std::int64_t now_ns, std::uint64_t index) const noexcept;
   void stepped(std::int64_t now_ns) noexcept;

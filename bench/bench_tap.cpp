@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What it costs the loop to be recorded and watched, and how large the log becomes.
-// bench_tap [--json] [--seconds N] [--rounds N] [--each]   flies in real time, alternately: nothing leaves
-// the loop; every port at its full
-//   rate into a log, to two clients that subscribe to everything, and four ports to a DDS reader. Processor
-//   time of the loop's thread alone, per tick, the pause until the next one included. --each: log, clients
-//   and DDS one by one as well. Exits 1 when something was dropped.
-// bench_tap --sizes [--json]   flies as fast as possible: megabytes of log per minute of flight, with every
-// port at full rate and by default
+//
+// bench_tap [--json] [--seconds N] [--rounds N] [--each]
+//   flies in real time, alternately: nothing leaves the loop; every port at its full rate into a log, to two
+//   clients that subscribe to everything, and four ports to a DDS reader. Processor time of the loop's thread
+//   alone, per tick, the pause until the next one included. --each: log, clients and DDS one by one as well.
+//   Exits 1 when something was dropped.
+// bench_tap --sizes [--json]
+//   flies as fast as possible: megabytes of log per minute of flight, with every port at full rate and by
+//   default
 #include <sched.h>
 #include <time.h>
 #include <unistd.h>

@@ -5,8 +5,10 @@
 // The view, answer of the service /fulmar/view:
 //   {mission, file, io, phase, phases: [..], now_ns, epoch_ns, armed, over, components: [
 //     {name, use, role, doc, run, active, stopped,
-//      params:  [{name, kind, unit, doc, value, text, initial, min, max, choices, live, required, overlaid,
-//      file}], inputs:  [{name, type, source, request, imported, topic}], outputs: [{name, type, topic}]}]}
+//      params: [{name, kind, unit, doc, value, text, initial, min, max, choices, live, required, overlaid,
+//                file}],
+//      inputs: [{name, type, source, request, imported, topic}],
+//      outputs: [{name, type, topic}]}]}
 // `value` is in the parameter's unit, `text` as people write it ("0.55 rad/rad"); `type` is a ROS 2 name, ""
 // for a probe; `topic` is that of the channel, of the service for a request, or that an imported input is
 // published on.

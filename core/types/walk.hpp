@@ -7,11 +7,12 @@
 namespace fulmar::core {
 
 /// A compiler has
-///   value(field, at)      a number or text at that offset of the message, or of the element of the innermost
-///   loop at_once(field, at)    whether it has taken the whole array there in one step unrolled how many
-///   elements of an array stand one by one; more become a loop begin(field, at)      a loop over the array or
-///   list there; what follows is of one element. Returns its place end(place)            of that loop empty()
-///   a struct without fields; may be missing
+/// - value(field, at): a number or text at that offset of the message, or of the innermost loop's element
+/// - at_once(field, at): whether it has taken the whole array there in one step
+/// - unrolled: how many elements of an array stand one by one; more become a loop
+/// - begin(field, at): a loop over the array or list there; what follows is of one element. Returns its place
+/// - end(place): of that loop
+/// - empty(): a struct without fields; may be missing
 template <class Compiler>
 void walk(const Type& type, std::uint32_t base, Compiler& to) {
   const auto element = [&](const Field& field, std::uint32_t at) {

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The other side, as rmw_fastrtps is it: plain Fast DDS and Fast CDR, and nothing of the code under test.
-//   dds_peer publish DOMAIN TOPIC TYPE reliable|best_effort RATE HEX...   to the first reader; RATE 0: all at
-//   once; HEX*1000 repeats, @FILE reads them dds_peer read DOMAIN TOPIC TYPE N prints samples as hex, and the
-//   writer's user data dds_peer call DOMAIN SERVICE PKG/SRV HEX                              prints the
-//   reply's body as hex dds_peer param DOMAIN NODE get|set|set_text|set_many|list|describe NAME [VALUE]
+//
+// dds_peer publish DOMAIN TOPIC TYPE reliable|best_effort RATE HEX...
+//   to the first reader; RATE 0: all at once; HEX*1000 repeats, @FILE reads them
+// dds_peer read DOMAIN TOPIC TYPE N
+//   prints samples as hex, and the writer's user data
+// dds_peer call DOMAIN SERVICE PKG/SRV HEX
+//   prints the reply's body as hex
+// dds_peer param DOMAIN NODE get|set|set_text|set_many|list|describe NAME [VALUE]
 #include <fastcdr/Cdr.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Error-state (multiplicative) extended Kalman filter of a vehicle with an inertial measurement unit: state,
 // prediction, scalar update. Measurement models are in ekf_models.hpp; a new sensor is one function that
-// returns an innovation and a row of derivatives. Sources: Sola, Quaternion kinematics for the error-state
-// Kalman filter (2017), section 7 (global angular error);
-//          Groves, Principles of GNSS, Inertial and Multisensor Integrated Navigation Systems (2013),
-//          chapter 14.
+// returns an innovation and a row of derivatives.
+// Sources: Sola, Quaternion kinematics for the error-state Kalman filter (2017), section 7 (global angular
+// error); Groves, Principles of GNSS, Inertial and Multisensor Integrated Navigation Systems (2013), ch. 14.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -271,8 +270,10 @@ class ErrorStateEkf {
 
   /// P <- Phi P Phi' + Q over the accumulated step, with T its length, B = sum R dt, [dv]x the specific force
   /// integrated:
-  ///   theta' = theta - B bg,  v' = v - [dv]x theta - B ba + [dv]x B bg / 2,  p' = p + T v + T/2 (-[dv]x
-  ///   theta - B ba).
+  /// - theta' = theta - B bg
+  /// - v' = v - [dv]x theta - B ba + [dv]x B bg / 2
+  /// - p' = p + T v + T/2 (-[dv]x theta - B ba)
+  ///
   /// Only the first nine rows of Phi differ from the identity, and P is symmetric: W = P Phi' is made column
   /// by column, which vectorises.
   void propagate_covariance() {

@@ -9,8 +9,11 @@
 //   }
 //   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
 //     const auto rest = [&] { integral_.reset(); };
-//     const auto hold = [&](const LevelTurn& turn, double dt_s) { ...; return PitchThrottle{theta, throttle};
-//     }; return loop_.step(tick, *in.state, *in.command, p.common, out, rest, hold);
+//     const auto hold = [&](const LevelTurn& turn, double dt_s) {
+//       ...
+//       return PitchThrottle{theta, throttle};
+//     };
+//     return loop_.step(tick, *in.state, *in.command, p.common, out, rest, hold);
 //   }
 #pragma once
 #include "fulmar/flight/atmosphere.hpp"

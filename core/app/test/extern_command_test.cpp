@@ -10,7 +10,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <sstream>
 #include <string>
+#include <utility>
 
 namespace fs = std::filesystem;
 
@@ -116,6 +119,48 @@ TEST_CASE("a program of ours that was not built is told with how to build it") {
                     " is not there: ./fly leaves it out, `cmake --build build --target tools` makes it."));
   }
   CHECK_FALSE(holds(home.fulmar("fca").text, "is not there"));
+}
+
+TEST_CASE("a word of the host's own whose program is missing beside it is told which one") {
+  const Home home;
+  for (const auto& [word, program] :
+       {std::pair{"graph", "inspect"}, {"log", "log"}, {"param", "live"}, {"new", "new"}}) {
+    CAPTURE(word);
+    const Home::Result r = home.fulmar(word + std::string(" --help"));
+    CHECK(r.code == 1);
+    CHECK(holds(r.text, std::string("fulmar ") + word + ": the program fulmar-" + program +
+                            " is missing beside this one"));
+  }
+}
+
+TEST_CASE("the host's help names every word of the programs beside it, as their own help does") {
+  const auto words_of = [](const std::string& program) {
+    FILE* pipe = popen((FULMAR_BIN_DIR "/" + program + " --help 2>&1").c_str(), "r");
+    REQUIRE(pipe != nullptr);
+    char line[512];
+    std::map<std::string, std::string> words;
+    bool listed = false;
+    while (fgets(line, sizeof line, pipe)) {
+      std::istringstream in(line);
+      std::string word, says;
+      if (in >> word && listed && std::string(line).rfind("  ", 0) == 0 && std::getline(in >> std::ws, says))
+        words[word] = says;
+      listed = listed || word == "Subcommands:";
+    }
+    pclose(pipe);
+    return words;
+  };
+  const auto host = words_of("fulmar");
+  for (const char* own : {"run", "check", "replay"}) CHECK(host.count(own) == 1);
+  std::size_t elsewhere = 0;
+  for (const char* program : {"fulmar-inspect", "fulmar-new", "fulmar-log", "fulmar-live"})
+    for (const auto& [word, says] : words_of(program)) {
+      CAPTURE(word);
+      REQUIRE(host.count(word) == 1);
+      CHECK(host.at(word) == says);
+      ++elsewhere;
+    }
+  CHECK(elsewhere + 3 == host.size());
 }
 
 TEST_CASE("what runs does not depend on the present folder: relative folders of PATH are passed over") {

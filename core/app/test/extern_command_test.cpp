@@ -13,7 +13,6 @@
 #include <map>
 #include <sstream>
 #include <string>
-#include <utility>
 
 namespace fs = std::filesystem;
 
@@ -123,13 +122,13 @@ TEST_CASE("a program of ours that was not built is told with how to build it") {
 
 TEST_CASE("a word of the host's own whose program is missing beside it is told which one") {
   const Home home;
-  for (const auto& [word, program] :
-       {std::pair{"graph", "inspect"}, {"log", "log"}, {"param", "live"}, {"new", "new"}}) {
-    CAPTURE(word);
-    const Home::Result r = home.fulmar(word + std::string(" --help"));
+  const std::map<std::string, std::string> program_of = {
+      {"graph", "fulmar-inspect"}, {"log", "fulmar-log"}, {"param", "fulmar-live"}, {"new", "fulmar-new"}};
+  for (const auto& entry : program_of) {
+    CAPTURE(entry.first);
+    const Home::Result r = home.fulmar(entry.first + " --help");
     CHECK(r.code == 1);
-    CHECK(holds(r.text, std::string("fulmar ") + word + ": the program fulmar-" + program +
-                            " is missing beside this one"));
+    CHECK(holds(r.text, "fulmar " + entry.first + ": the program " + entry.second + " is missing beside"));
   }
 }
 
@@ -143,21 +142,21 @@ TEST_CASE("the host's help names every word of the programs beside it, as their 
     while (fgets(line, sizeof line, pipe)) {
       std::istringstream in(line);
       std::string word, says;
-      if (in >> word && listed && std::string(line).rfind("  ", 0) == 0 && std::getline(in >> std::ws, says))
-        words[word] = says;
+      const bool indented = std::string(line).rfind("  ", 0) == 0;
+      if (in >> word && listed && indented && std::getline(in >> std::ws, says)) words[word] = says;
       listed = listed || word == "Subcommands:";
     }
     pclose(pipe);
     return words;
   };
-  const auto host = words_of("fulmar");
+  const std::map<std::string, std::string> host = words_of("fulmar");
   for (const char* own : {"run", "check", "replay"}) CHECK(host.count(own) == 1);
   std::size_t elsewhere = 0;
   for (const char* program : {"fulmar-inspect", "fulmar-new", "fulmar-log", "fulmar-live"})
-    for (const auto& [word, says] : words_of(program)) {
-      CAPTURE(word);
-      REQUIRE(host.count(word) == 1);
-      CHECK(host.at(word) == says);
+    for (const auto& entry : words_of(program)) {
+      CAPTURE(entry.first);
+      REQUIRE(host.count(entry.first) == 1);
+      CHECK(host.at(entry.first) == entry.second);
       ++elsewhere;
     }
   CHECK(elsewhere + 3 == host.size());

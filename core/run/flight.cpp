@@ -60,38 +60,4 @@ void Flight::apply(Command command, std::function<void(const std::string&)> answ
   }
 }
 
-namespace {
-
-/// With a message whose size is that of the port's type.
-Command with_message(const CommandTable& commands, Command command, const std::byte* message) {
-  const bool imported = command.kind == CommandKind::import;
-  const Type& type = *commands.entrance(commands.component(command.component), command.name, imported).type;
-  command.message.assign(message, message + type.size);
-  return command;
-}
-
-}  // namespace
-
-void Flight::request(const std::string& component, const std::string& port, const std::byte* message,
-                     std::function<void(const std::string&)> answered) {
-  apply(with_message(*impl_->commands, command_of(CommandKind::request, component, port), message),
-        std::move(answered));
-}
-
-void Flight::publish(const std::string& component, const std::string& port, const std::byte* message) {
-  apply(with_message(*impl_->commands, command_of(CommandKind::import, component, port), message));
-}
-
-void Flight::set_parameter(const std::string& component, const std::string& param, const ParamValue& value) {
-  Command command = command_of(CommandKind::parameter, component, param);
-  command.value = value;
-  apply(std::move(command));
-}
-
-void Flight::enter_phase(const std::string& phase) { apply(command_of(CommandKind::phase, "", phase)); }
-void Flight::swap(const std::string& component, const std::string& file) {
-  apply(command_of(CommandKind::swap, component, file));
-}
-void Flight::reset_guards() { apply(command_of(CommandKind::reset)); }
-
 }  // namespace fulmar::core

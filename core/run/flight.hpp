@@ -85,26 +85,8 @@ class Flight {
   /// What is asked of the flight from outside, between ticks. Throws Error with the valid choices; of a
   /// request the component's answer comes through `answered`: "" when accepted, else the reason.
   void apply(struct Command command, std::function<void(const std::string&)> answered = {});
-  // The same by kind:
-  /// A request from outside, to be answered by the component in its next step. Throws Error for a port that
-  /// is no request. The answer comes through `answered`: "" when accepted, else the reason.
-  void request(const std::string& component, const std::string& port, const std::byte* message,
-               std::function<void(const std::string&)> answered = {});
-  /// A live change of a base parameter. Throws Error: unknown, not live, out of range.
-  void set_parameter(const std::string& component, const std::string& param, const ParamValue& value);
-  /// A sample for an input that `dds.import` names. Throws Error when it is none.
-  void publish(const std::string& component, const std::string& port, const std::byte* message);
-  /// Throws Error for a phase that the mission does not have, and in the failsafe.
-  void enter_phase(const std::string& phase);
-  /// Puts another file in a component's place, with its present parameters. Between flights: refused while
-  /// armed or in the air. What is wrong with the file, or with how it behaves in a rehearsal, is thrown as
-  /// Error, and the old one stays as it was.
-  void swap(const std::string& component, const std::string& file);
   /// The inputs that a component saw last, nullptr when they are not kept.
   const class Tape* tape(const std::string& component) const;
-  /// Lets a component fly again that a guard has stopped. A child that has died is started anew, on the
-  /// ground alone.
-  void reset_guards();
   /// What others may ask of a flight that has `live:` or `dds:` and is paced, from any thread; else nullptr.
   class Control* control() const;
   /// Where the flight can be watched: the port that was taken; 0: nowhere.

@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "core/run/flight.hpp"
+#include "core/run/test/commands.hpp"
 
 using namespace fulmar::core;
 namespace fs = std::filesystem;
@@ -49,7 +50,7 @@ class Trial {
   void set(const char* param, double number, std::int64_t integer = 0) {
     ParamValue v;
     v.number[0] = number, v.integer = integer;
-    flight_.set_parameter("sim", param, v);
+    set_parameter(flight_, "sim", param, v);
   }
   double field(const char* component, const char* port, const char* name) const {
     const auto at = std::find_if(graph_.components.begin(), graph_.components.end(),

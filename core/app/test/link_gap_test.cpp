@@ -11,6 +11,7 @@
 #include <fstream>
 
 #include "core/run/flight.hpp"
+#include "core/run/test/commands.hpp"
 
 using namespace fulmar::core;
 namespace fs = std::filesystem;
@@ -88,7 +89,7 @@ Flown fly(const Graph& graph, double silent_from_s = 1e9, double silent_for_s = 
       ParamValue works;
       works.integer = silence ? 0 : 1;
       for (const char* sensor : {"imu_works", "gnss_works", "mag_works", "baro_works", "pitot_works"})
-        flight.set_parameter("sim", sensor, works);
+        set_parameter(flight, "sim", sensor, works);
       silent = silence;
     }
     flown.rows.push_back({t, north.at(flight), east.at(flight), down.at(flight), roll.at(flight),

@@ -13,6 +13,7 @@
 
 #include "core/log/reader.hpp"
 #include "core/run/allocation.hpp"
+#include "core/run/test/commands.hpp"
 #include "core/run/test/lab.hpp"
 #include "tools/fulmar_log/recover.hpp"
 
@@ -155,15 +156,15 @@ TEST_CASE(
   };
   ParamValue v;
   steps(100);
-  flight.swap("one", variant("_better"));
+  swap(flight, "one", variant("_better"));
   steps(100);
   v.number[0] = 0.1234567890123;
-  flight.set_parameter("one", "u", v);
+  set_parameter(flight, "one", "u", v);
   steps(300);
   const double to_m = 7.25;
-  flight.request("watch", "ask", reinterpret_cast<const std::byte*>(&to_m));
+  request(flight, "watch", "ask", to_m);
   steps(7);
-  flight.reset_guards();
+  reset_guards(flight);
   while (flight.step()) {
   }
   const FlightResult r = flight.finish();
@@ -337,7 +338,7 @@ TEST_CASE("samples from outside are stored as their input's, with their tick, an
   Flight flight(g, logged(log, 1));
   for (int n = 0; flight.step(); ++n) {
     const double tick_s = n * 0.25;
-    if (n % 7 == 3) flight.publish("ear", "signal", reinterpret_cast<const std::byte*>(&tick_s));
+    if (n % 7 == 3) publish(flight, "ear", "signal", tick_s);
   }
   flight.finish();
   const McapFile file = read_mcap(log);

@@ -12,6 +12,7 @@
 #include "core/log/mcap.hpp"
 #include "core/replay/replay.hpp"
 #include "core/run/resume.hpp"
+#include "core/run/test/commands.hpp"
 #include "core/run/test/lab.hpp"
 #include "core/types/wire.hpp"
 #include "tools/fulmar_log/diff.hpp"
@@ -174,10 +175,10 @@ TEST_CASE("words mean nothing: a guard, its fallback, a request, its refusal, a 
   v.number[0] = 0.25;
   const double go = 1, back = -1;
   for (int n = 0; flight.step(); ++n) {
-    if (n == 420) flight.set_parameter("two", "u", v);
-    if (n == 500) flight.request("watch", "ask", reinterpret_cast<const std::byte*>(&go));
-    if (n == 510) flight.request("watch", "ask", reinterpret_cast<const std::byte*>(&back));
-    if (n == 560) flight.reset_guards();
+    if (n == 420) set_parameter(flight, "two", "u", v);
+    if (n == 500) request(flight, "watch", "ask", go);
+    if (n == 510) request(flight, "watch", "ask", back);
+    if (n == 560) reset_guards(flight);
   }
   flight.finish();
   CHECK(count(log, Code::guard) == 1);
@@ -323,10 +324,10 @@ TEST_CASE("every live parameter comes again as it was taken: a number, a word, a
   exact.number[0] = 0.1 + 0.2;  // no short decimal
   word.integer = 1;
   for (int n = 0; flight.step(); ++n) {
-    if (n == 50) flight.swap("two", std::string(FULMAR_TEST_PLUGIN_DIR) + "/lab_better.so");
-    if (n == 410) flight.set_parameter("one", "u", exact);
-    if (n == 420) flight.set_parameter("one", "fault", word);
-    if (n == 430) flight.enter_phase("b");
+    if (n == 50) swap(flight, "two", std::string(FULMAR_TEST_PLUGIN_DIR) + "/lab_better.so");
+    if (n == 410) set_parameter(flight, "one", "u", exact);
+    if (n == 420) set_parameter(flight, "one", "fault", word);
+    if (n == 430) enter_phase(flight, "b");
   }
   flight.finish();
   const McapFile file = read_mcap(log);

@@ -12,6 +12,7 @@
 #include <mutex>
 #include <thread>
 
+#include "core/run/test/commands.hpp"
 #include "core/run/test/lab.hpp"
 
 namespace control_test {
@@ -229,8 +230,7 @@ TEST_CASE("a request to a component that does not fly is refused, not kept for t
   CHECK(before.wait(flight) == "was not answered");  // that step threw
   control.request("watch", "ask", "{to_m: 1}", after.take());
   CHECK(after.wait(flight) == "does not fly now");
-  const std::byte message[sizeof(double)]{};
-  CHECK(refusal([&] { flight.request("watch", "ask", message); }) == "watch does not fly now");
+  CHECK(refusal([&] { request(flight, "watch", "ask", 0.0); }) == "watch does not fly now");
 }
 
 TEST_CASE("a request that its component has not come to when the flight ends is answered once") {

@@ -14,6 +14,7 @@
 
 #include "core/log/reader.hpp"
 #include "core/run/allocation.hpp"
+#include "core/run/test/commands.hpp"
 #include "core/run/test/lab.hpp"
 #include "core/types/wire.hpp"
 
@@ -254,15 +255,14 @@ TEST_CASE("a request is answered by the step that sees it") {
   const double go = 1, back = -1;
   std::vector<std::string> answers;
   auto take = [&](const std::string& answer) { answers.push_back(answer); };
-  flight.request("watch", "ask", reinterpret_cast<const std::byte*>(&go), take);
-  flight.request("watch", "ask", reinterpret_cast<const std::byte*>(&back), take);
-  CHECK_THROWS_WITH(flight.request("wach", "ask", nullptr, take),
+  request(flight, "watch", "ask", go, take);
+  request(flight, "watch", "ask", back, take);
+  CHECK_THROWS_WITH(request(flight, "wach", "ask", go, take),
                     "there is no component 'wach'. Did you mean 'watch'? Valid: sim, filter, one, watch.");
-  CHECK_THROWS_WITH(flight.request("watch", "aks", nullptr, take),
+  CHECK_THROWS_WITH(request(flight, "watch", "aks", go, take),
                     "'watch' takes no request 'aks'. Did you mean 'ask'? Valid: ask.");
   const double wrong = std::numeric_limits<double>::quiet_NaN();
-  CHECK_THROWS_WITH(flight.request("watch", "ask", reinterpret_cast<const std::byte*>(&wrong), take),
-                    "watch.ask: to_m is nan");
+  CHECK_THROWS_WITH(request(flight, "watch", "ask", wrong, take), "watch.ask: to_m is nan");
   flight.run();
   REQUIRE(answers.size() == 2);
   CHECK(answers[0].empty());
@@ -276,8 +276,7 @@ TEST_CASE("the log tells what was asked, and what was refused and why") {
   o.log_file = folder().path / "asked.mcap";
   Flight flight(g, o);
   const double go = 1, back = -1;
-  for (const double* to : {&go, &back})
-    flight.request("watch", "ask", reinterpret_cast<const std::byte*>(to));
+  for (const double* to : {&go, &back}) request(flight, "watch", "ask", *to);
   flight.run();
   const McapFile file = read_mcap(o.log_file);
   std::vector<std::string> told;
@@ -298,11 +297,11 @@ TEST_CASE("a live parameter changes the base under an overlay, a set-up paramete
   Flight flight(g, options(0));
   ParamValue v;
   v.number[0] = 0.6;
-  flight.set_parameter("one", "u", v);
-  CHECK_THROWS_WITH(flight.set_parameter("one", "fixed", v),
+  set_parameter(flight, "one", "u", v);
+  CHECK_THROWS_WITH(set_parameter(flight, "one", "fixed", v),
                     "one.fixed is a set-up parameter: it cannot change in flight");
   v.number[0] = 4;
-  CHECK_THROWS(flight.set_parameter("one", "u", v));
+  CHECK_THROWS(set_parameter(flight, "one", "u", v));
   flight.run();
   CHECK(value(g, flight, "sim", "applied", "u_frac") == doctest::Approx(0.6));
 }
@@ -312,7 +311,7 @@ TEST_CASE("a stopped component flies again after a reset") {
   Flight flight(g, options(0.2));
   flight.run();
   CHECK(flight.sample({Source::Kind::role, 2, 0}) != nullptr);
-  CHECK_NOTHROW(flight.reset_guards());
+  CHECK_NOTHROW(reset_guards(flight));
 }
 
 TEST_CASE("equal mission and seed give equal log bytes, another seed gives others") {

@@ -13,6 +13,7 @@
 #include "core/log/events.hpp"
 #include "core/log/reader.hpp"
 #include "core/run/resume.hpp"
+#include "core/run/test/commands.hpp"
 #include "core/run/test/lab.hpp"
 
 namespace hardware_test {
@@ -377,7 +378,7 @@ TEST_CASE("a flag of any name protects the aircraft once the mission names it") 
   CHECK(interrupt == 0);
   CHECK(said.count("the aircraft is armed: Ctrl-C once more within 5 s gives up control") == 1);
   CHECK_THROWS_WITH(
-      flight.swap("law_a", FULMAR_TEST_PLUGIN_DIR "/craft.so"),
+      swap(flight, "law_a", FULMAR_TEST_PLUGIN_DIR "/craft.so"),
       "law_a cannot be swapped: the aircraft is armed. A component is swapped on the ground, disarmed");
   while (flight.step()) {  // it disarms in the air at 3 s
   }
@@ -390,7 +391,7 @@ TEST_CASE("disarmed in the air nothing is swapped, by the flag that the mission 
   Flight flight(g, listening(said));
   CHECK(fly_until(flight, 3.5));
   CHECK_THROWS_WITH(
-      flight.swap("law_a", FULMAR_TEST_PLUGIN_DIR "/craft.so"),
+      swap(flight, "law_a", FULMAR_TEST_PLUGIN_DIR "/craft.so"),
       "law_a cannot be swapped: the aircraft is in the air. A component is swapped on the ground, disarmed");
 }
 

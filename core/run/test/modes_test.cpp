@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "core/log/reader.hpp"
+#include "core/run/test/commands.hpp"
 #include "core/run/test/lab.hpp"
 
 namespace modes_test {
@@ -111,7 +112,7 @@ TEST_CASE("live changes reach an asynchronous component in order") {
   v.number[0] = -1;
   for (int i = 0; i < 400; ++i) flight.step();
   CHECK(value(g, flight, "think", "thought", "x_m") > 0);
-  flight.set_parameter("think", "gain", v);
+  set_parameter(flight, "think", "gain", v);
   for (int i = 0; i < 10; ++i) flight.step();
   CHECK(value(g, flight, "think", "thought", "x_m") < 0);
 }

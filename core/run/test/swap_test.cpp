@@ -2,6 +2,7 @@
 // A component's file is swapped on the ground, in a host that goes on: parameters stay, a bad newcomer leaves
 // the old one flying-ready.
 #include "core/log/reader.hpp"
+#include "core/run/test/commands.hpp"
 #include "core/run/test/lab.hpp"
 
 namespace swap_test {
@@ -30,7 +31,7 @@ struct Ground {
   double u() const { return value(graph, *flight, "one", "command", "u_frac"); }
   std::string refused(const std::string& file) const {
     try {
-      flight->swap("one", file);
+      swap(*flight, "one", file);
     } catch (const Error& fault) {
       return fault.what();
     }
@@ -48,10 +49,10 @@ TEST_CASE("a swapped law flies with the parameters, overlays and live changes of
                 true);
   ParamValue v;
   v.number[0] = 0.4;
-  ground.flight->set_parameter("one", "u", v);
+  set_parameter(*ground.flight, "one", "u", v);
   ground.flight->step();
   CHECK(ground.u() == 0.4);
-  ground.flight->swap("one", variant("_better"));
+  swap(*ground.flight, "one", variant("_better"));
   ground.flight->step();
   CHECK(ground.u() == 0.2);  // the better law halves what it is told
   CHECK(value(ground.graph, *ground.flight, "one", "command", "by") == 7);
@@ -93,7 +94,7 @@ TEST_CASE("nothing is swapped while armed, and never the vehicle") {
   CHECK(has(
       [&] {
         try {
-          ground.flight->swap("sim", variant("_better"));
+          swap(*ground.flight, "sim", variant("_better"));
         } catch (const Error& fault) {
           return std::string(fault.what());
         }
@@ -109,9 +110,9 @@ TEST_CASE("many swaps leave nothing behind") {
   const int swaps = std::getenv("FULMAR_LONG") ? 1000 : 12;
   Ground ground(mission(one_phase));
   for (int i = 0; i < swaps; ++i) {
-    ground.flight->swap("one",
-                        variant(i % 2 == 0 ? "_better" : ""));  // each unload is verified, or it throws
-    if (i % 5 > 0) continue;                                    // 300 ticks are left on the ground
+    swap(*ground.flight, "one",
+         variant(i % 2 == 0 ? "_better" : ""));  // each unload is verified, or it throws
+    if (i % 5 > 0) continue;                     // 300 ticks are left on the ground
     REQUIRE(ground.flight->step());
     REQUIRE(ground.u() == (i % 2 == 0 ? 0.05 : 0.1));
   }
@@ -133,10 +134,10 @@ TEST_CASE("a child that has died is started anew on the ground, and never in the
     CHECK(value(g, flight, "sim", "applied", "u_frac") == 0.2);
     ParamValue u, never;
     u.number[0] = 0.3, never.number[0] = 1e9;
-    flight.set_parameter("one", "u", u);
-    flight.set_parameter("one", "fault_at", never);
+    set_parameter(flight, "one", "u", u);
+    set_parameter(flight, "one", "fault_at", never);
     said.clear();
-    flight.reset_guards();
+    reset_guards(flight);
     return said;
   };
   CHECK(has(said_after_reset("-0.5 s", -400'000'000), "one: guard reset"));

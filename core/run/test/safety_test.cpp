@@ -99,9 +99,9 @@ TEST_CASE("a component whose heap grows is stopped at its limit, in the loop and
 TEST_CASE("a step over its budget five times in a row, paced: the fallback takes over; in a child too") {
   for (const bool isolated : {false, true}) {
     CAPTURE(isolated);
-    const Graph g =
-        mission("  one: {fills: law, use: lab/Law, budget: 500 us, "s + (isolated ? "run: process, " : "") +
-                "params: {fault: slow, fault_at: 0.1 s}}\n" + with_fallback);
+    const Graph g = mission("  one: {fills: law, use: lab/Law, budget: 500 us, "s +
+                            (isolated ? "run: process, hang: 10 s, " : "") +  // a loaded machine is no hang
+                            "params: {fault: slow, fault_at: 0.1 s}}\n" + with_fallback);
     FlightOptions o = options(0.3);
     o.speed = 4;
     Flight flight(g, o);

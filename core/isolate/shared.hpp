@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/clock.hpp"
 #include "core/types/type.hpp"
 
 namespace fulmar::core {
@@ -98,12 +99,6 @@ struct Layout {
 };
 
 // ---- waiting
-
-inline std::int64_t monotonic_ns() noexcept {
-  timespec t{};
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
-}
 
 /// Sleeps while `word` is `seen`, at most `limit_ns`. May wake for nothing.
 inline void futex_wait(std::atomic<std::uint32_t>& word, std::uint32_t seen, std::int64_t limit_ns) noexcept {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/run/async.hpp"
 
-#include <time.h>
-
 #include <cstring>
 
+#include "core/clock.hpp"
 #include "core/quiet_thread.hpp"
 #include "core/run/inside.hpp"
 
@@ -12,12 +11,6 @@ namespace fulmar::core {
 namespace {
 
 constexpr std::size_t other_calls = 4;  // retune and activate, on their way beside the steps
-
-std::int64_t clock_ns() noexcept {
-  timespec t{};
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
-}
 
 void prepare(Async::Job& job, const ComponentInfo& info) {
   const std::size_t in = info.inputs.size(), out = info.outputs.size();
@@ -122,7 +115,7 @@ void Async::copy_inputs(const std::vector<fulmar_input>& from, const ComponentIn
 
 void Async::work(Job& job) noexcept {
   const HeapUse heap = thread_heap();
-  const std::int64_t begin = clock_ns();
+  const std::int64_t begin = monotonic_ns();
   job.error.text[0] = '\0';
   static constexpr const char* calls[] = {"step", "retune", "activate"};
   const Inside inside(name_, calls[static_cast<std::size_t>(job.call)]);
@@ -138,7 +131,7 @@ void Async::work(Job& job) noexcept {
           functions_.activate(instance_, &job.tick, job.in.views.data(), job.last.views.data(), &job.error);
       break;
   }
-  job.took_ns = clock_ns() - begin;
+  job.took_ns = monotonic_ns() - begin;
   job.heap_growth = thread_heap().bytes - heap.bytes;
 }
 

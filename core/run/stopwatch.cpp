@@ -3,29 +3,24 @@
 
 #include <time.h>
 
+#include "core/clock.hpp"
 #include "core/run/circumstances.hpp"
 
 namespace fulmar::core {
 namespace {
-
-std::int64_t wall_clock_ns() noexcept {
-  timespec t{};
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
-}
 
 constexpr int overruns_allowed = 5;  // steps over budget in a row
 constexpr std::int64_t show_every_ns = 200'000'000;
 
 }  // namespace
 
-void Stopwatch::begin() noexcept { wall_ns_ = begin_ns_ = shown_ns_ = wall_clock_ns(); }
+void Stopwatch::begin() noexcept { wall_ns_ = begin_ns_ = shown_ns_ = monotonic_ns(); }
 
-void Stopwatch::skip() noexcept { wall_ns_ = wall_clock_ns(); }
+void Stopwatch::skip() noexcept { wall_ns_ = monotonic_ns(); }
 
 /// What the loop has waited for the log's thread is not the unit's.
 bool Stopwatch::charge(Unit& unit) noexcept {
-  const std::int64_t now = wall_clock_ns();
+  const std::int64_t now = monotonic_ns();
   const std::int64_t took = now - wall_ns_ - recorder_.take_wait_ns();
   unit.stats.time.add(took);
   wall_ns_ = now;
@@ -56,7 +51,7 @@ bool Stopwatch::time_to_show() noexcept {
 }
 
 double Stopwatch::elapsed_s() const noexcept {
-  return 1e-9 * static_cast<double>(wall_clock_ns() - begin_ns_);
+  return 1e-9 * static_cast<double>(monotonic_ns() - begin_ns_);
 }
 
 }  // namespace fulmar::core

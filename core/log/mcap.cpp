@@ -3,7 +3,6 @@
 // summary.
 #include "core/log/mcap.hpp"
 
-#include <zlib.h>
 #include <zstd.h>
 
 #include <algorithm>
@@ -18,10 +17,6 @@ namespace fulmar::core {
 namespace {
 
 using mcap::Bytes;
-
-std::uint32_t block_crc(const std::byte* data, std::size_t size) {
-  return static_cast<std::uint32_t>(::crc32_z(0, reinterpret_cast<const Bytef*>(data), size));
-}
 
 struct Schema {
   std::string name, encoding, text;
@@ -337,7 +332,7 @@ struct McapWriter::Impl {
     block.number(chunk_span.first)
         .number(chunk_span.last)
         .number(std::uint64_t{chunk.size()})
-        .number(block_crc(chunk.data(), chunk.size()))
+        .number(mcap::crc_of(0, {chunk.data(), chunk.size()}))
         .text(compression);
     const std::size_t data = block.number(std::uint64_t{0}).size();
     if (!compress()) return;
@@ -444,7 +439,7 @@ struct McapWriter::Impl {
     block.number(std::uint64_t{out->size() + summary_start})
         .number(std::uint64_t{out->size() + offset_start});
     block.patch(start - 8, std::uint64_t{20});  // the sum covers the footer up to itself, its length too
-    block.number(block_crc(block.data() + summary_start, block.size() - summary_start));
+    block.number(mcap::crc_of(0, {block.data() + summary_start, block.size() - summary_start}));
     block.raw(mcap::magic.data(), mcap::magic.size());
   }
 };
@@ -511,7 +506,7 @@ void McapWriter::attach(const std::string& name, const std::string& media_type, 
       .text(media_type)
       .number(std::uint64_t{content.size()})
       .raw(content.data(), content.size());
-  w.block.number(block_crc(w.block.data() + start, w.block.size() - start));
+  w.block.number(mcap::crc_of(0, {w.block.data() + start, w.block.size() - start}));
   w.block.end(start);
   w.extra(w.block.data(), w.block.size());
 }

@@ -99,16 +99,22 @@ class Keys {
   /// A number with a unit, converted to `unit`. Must be above 0 (`or_zero`: at least 0).
   std::optional<double> positive(const std::string& key, const std::string& unit, bool or_zero = false) const;
   std::optional<std::int64_t> duration_ns(const std::string& key) const;
+  /// What stands in a list or map under the key; nothing, and a fault unless the key is missing, when it is
+  /// something else. `expected` is the fault's word for it: "a list of ports such as [nav.state]".
+  const std::vector<Node>& items(const std::string& key, const std::string& expected) const;
+  const std::vector<Node::Entry>& entries(const std::string& key, const std::string& expected) const;
   /// One of `words`; anything else is a fault.
   std::optional<std::string> word(const std::string& key, const std::vector<std::string>& words) const;
 
  private:
-  void wrong(const std::string& key, const std::string& expected) const;
   const Node& map_;
   std::string path_;
   Report& report_;
 };
 
+/// Whether it is a list or map, or whatever else is expected; a fault when not.
+bool is_a(Node::Kind kind, const Node& node, const std::string& path, const std::string& expected,
+          Report& report);
 /// The text of a scalar, or nothing and a fault.
 std::optional<std::string> scalar_text(const Node& node, const std::string& path, const std::string& expected,
                                        Report& report);

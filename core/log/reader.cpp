@@ -13,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "core/log/mcap_bytes.hpp"
+#include "core/types/named.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -361,10 +362,7 @@ std::uint16_t McapFile::channel(const std::string& topic) const {
 }
 
 const McapFile::Attachment* McapFile::attachment(const std::string& name) const {
-  for (const Attachment& a : attachments) {
-    if (a.name == name) return &a;
-  }
-  return nullptr;
+  return find_named(attachments, name);
 }
 
 McapFile read_mcap(const std::filesystem::path& path, std::uint64_t most_bytes) {

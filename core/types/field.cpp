@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/types/named.hpp"
 #include "core/types/type.hpp"
 
 namespace fulmar::core {
@@ -31,9 +32,8 @@ Part parse_part(std::string_view part, std::string_view dotted) {
 
 const Field& find_field(const Type& type, std::string_view name) {
   if (const Field* field = type.find(name)) return *field;
-  std::vector<std::string> names;
-  for (const Field& field : type.fields) names.push_back(field.name);
-  throw Error(type.name + " has no field '" + std::string(name) + "'." + choices_text(name, names));
+  throw Error(type.name + " has no field '" + std::string(name) + "'." +
+              choices_text(name, names_of(type.fields)));
 }
 
 // The number of items of a list, as a field of its own.

@@ -97,10 +97,10 @@ Node reference(const MissionView& mission, const Contract& contract) {
   std::vector<std::pair<std::string, Node>> keys{{"use", scalar(beside.empty() ? shipped.use : beside)}};
   if (shipped.rate_hz > 0) keys.emplace_back("rate", scalar(rate_text(shipped)));
   Node wires = map_of({});
-  for (const WireText& own : shipped.in) wires.entries.push_back({own.input, 0, wire(own)});
+  for (const WireText& own : shipped.in) wires.entries.push_back({own.name, 0, wire(own)});
   for (const WireText& common : mission.text.role(contract.role)->in)
-    if (contract.shipped.input(common.input) >= 0 && !wires.find(common.input))
-      wires.entries.push_back({common.input, 0, wire(common)});
+    if (contract.shipped.input(common.name) >= 0 && !wires.find(common.name))
+      wires.entries.push_back({common.name, 0, wire(common)});
   if (!wires.entries.empty()) keys.emplace_back("in", std::move(wires));
   Node params = shipped.params;
   if (contract.shipped_set.is(Node::Kind::map))

@@ -130,12 +130,7 @@ class Lexer {
 
 /// A probe carries one double without a name.
 const Field& probe_field() {
-  static const Field field = [] {
-    Field f;
-    f.kind = FULMAR_F64;
-    f.stride = sizeof(double);
-    return f;
-  }();
+  static const Field field{.kind = FULMAR_F64, .stride = sizeof(double)};
   return field;
 }
 

@@ -2,7 +2,6 @@
 // Fields by name.
 #include <charconv>
 #include <cstring>
-#include <limits>
 
 #include "core/error.hpp"
 #include "core/types/named.hpp"
@@ -38,14 +37,7 @@ const Field& find_field(const Type& type, std::string_view name) {
 
 // The number of items of a list, as a field of its own.
 const Field& count_field() {
-  static const Field field{.name = "count",
-                           .unit = "",
-                           .type = nullptr,
-                           .labels = {},
-                           .constants = {},
-                           .kind = FULMAR_U32,
-                           .stride = sizeof(std::uint32_t),
-                           .max = std::numeric_limits<std::uint32_t>::max()};
+  static const Field field{.name = "count", .kind = FULMAR_U32, .stride = sizeof(std::uint32_t)};
   return field;
 }
 

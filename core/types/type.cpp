@@ -6,6 +6,21 @@
 #include "core/types/text.hpp"
 
 namespace fulmar::core {
+Field host_field(const char* name, fulmar_kind kind, std::size_t offset, std::size_t room) {
+  const std::size_t stride = kind == FULMAR_TEXT ? room : primitive_size(kind);
+  return {.name = name,
+          .kind = kind,
+          .offset = static_cast<std::uint32_t>(offset),
+          .stride = static_cast<std::uint32_t>(stride)};
+}
+
+TypePtr host_struct(const std::string& name, std::size_t size, std::size_t align, std::vector<Field> fields) {
+  return std::make_shared<const Type>(Type{.name = name,
+                                           .fields = std::move(fields),
+                                           .size = static_cast<std::uint32_t>(size),
+                                           .align = static_cast<std::uint32_t>(align)});
+}
+
 bool is_identifier(std::string_view name) { return name.size() <= 128 && is_name(name); }
 
 std::uint32_t element_size(const Field& field) {

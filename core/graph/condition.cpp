@@ -27,19 +27,10 @@ constexpr Compare compares[] = {{"<=", ">=", [](double a, double b) noexcept { r
                                 {"==", "==", [](double a, double b) noexcept { return a == b; }},
                                 {"!=", "!=", [](double a, double b) noexcept { return a != b; }}};
 
-const Compare* find_compare(std::string_view symbol) {
-  const auto* const it = std::find_if(std::begin(compares), std::end(compares),
-                                      [&](const Compare& c) { return c.symbol == symbol; });
-  return it == std::end(compares) ? nullptr : it;
-}
-
 struct Condition::Node {
-  struct Side {
-    Source source;  // none: a constant
-    TypePtr type;   // keeps the field alive
-    FieldRef field;
-    double number = 0;  // of a constant
-    double factor = 1;  // into the unit of the left side
+  struct Side : Shown {  // from nowhere: a constant
+    double number = 0;   // of a constant
+    double factor = 1;   // into the unit of the left side
   };
   Op op = Op::compare;
   int left = -1, right = -1;         // of both, either, opposite
@@ -50,6 +41,12 @@ struct Condition::Node {
 namespace {
 
 using CNode = Condition::Node;
+
+const Compare* find_compare(std::string_view symbol) {
+  const auto* const it = std::find_if(std::begin(compares), std::end(compares),
+                                      [&](const Compare& c) { return c.symbol == symbol; });
+  return it == std::end(compares) ? nullptr : it;
+}
 
 struct Token {
   enum class Kind : std::uint8_t { end, name, number, symbol } kind = Kind::end;
@@ -302,10 +299,7 @@ class Compiler {
   }
 
   void field(Operand& operand) {
-    const ShownField found = find_shown(operand.text, find_);
-    operand.side.source = found.from;
-    operand.side.type = found.type;
-    operand.side.field = found.field;
+    const Shown& found = static_cast<Shown&>(operand.side) = find_shown(operand.text, find_);
     const fulmar_kind kind = found.field.field->kind;
     if (kind == FULMAR_STRUCT || kind == FULMAR_TEXT)
       throw Error("'" + operand.text + "' is " +
@@ -324,11 +318,11 @@ class Compiler {
 
 /// False when there is no such number: a list that is shorter than the index.
 bool number_of(const CNode::Side& side, const SampleReader& reader, double& number) noexcept {
-  if (side.source.kind == Source::Kind::none) {
+  if (side.from.kind == Source::Kind::none) {
     number = side.number;
     return true;
   }
-  const std::byte* message = reader.sample(side.source);
+  const std::byte* message = reader.sample(side.from);
   if (!message || !side.field.present(message)) return false;
   number = number_at(*side.field.field, message + side.field.offset) * side.factor;
   return true;
@@ -349,12 +343,12 @@ bool node_holds(const std::vector<CNode>& nodes, int index, const SampleReader& 
 
 }  // namespace
 
-ShownField find_shown(const std::string& text, const FindPort& find) {
+Shown find_shown(const std::string& text, const FindPort& find) {
   const auto dot = text.find('.');
   const auto second = dot == std::string::npos ? dot : text.find('.', dot + 1);
   if (dot == std::string::npos)
     throw Error("'" + text + "' is not a field; a field is written like nav.state.height_m");
-  ShownField shown;
+  Shown shown{text, {}, {}, {}};
   const std::string owner = text.substr(0, dot),
                     port = text.substr(dot + 1, second == std::string::npos ? second : second - dot - 1);
   std::tie(shown.from, shown.type) = find(owner, port);

@@ -63,22 +63,26 @@ struct VehicleFlags {
 /// driver in a thread of its own.
 enum class RunMode : std::uint8_t { tick, process, async, driver };
 
-struct Component {
-  std::string name;                          // "slc"
+/// What a mission says of a component that stands by itself.
+struct ComponentSettings {
+  std::string name;                         // "slc"
+  std::int64_t budget_ns = 0;               // 0: none
+  std::int64_t latency_ns = 0;              // async: from the step's inputs to its visible outputs
+  std::int64_t hang_ns = 50'000'000;        // process: longest wait for one step when paced
+  std::uint64_t memory_bytes = 64'000'000;  // growth of the heap in flight that is allowed
+  Where where;
+};
+
+struct Component : ComponentSettings {
   std::string use;                           // "control_slc/Outer", as resolved
   std::shared_ptr<const PluginInfo> plugin;  // the host's own copy: outlives the library
   std::shared_ptr<Library> library;          // empty when a test describes the component by hand
   std::size_t index_in_plugin = 0;
   int role = -1;               // that it fills in some phase; -1: none, it steps in every phase
   std::int64_t period_ns = 0;  // 0: every tick
-  std::int64_t budget_ns = 0;  // 0: none
   RunMode run = RunMode::tick;
-  std::int64_t latency_ns = 0;              // async: from the step's inputs to its visible outputs
-  std::int64_t hang_ns = 0;                 // process: longest wait for one step when paced
-  std::uint64_t memory_bytes = 64'000'000;  // growth of the heap in flight that is allowed
-  std::vector<Wire> wires;                  // one per input
-  std::vector<ParamValue> params;           // one per parameter, the base values
-  Where where;
+  std::vector<Wire> wires;         // one per input
+  std::vector<ParamValue> params;  // one per parameter, the base values
 
   const ComponentInfo& info() const { return plugin->components[index_in_plugin]; }
 };

@@ -260,7 +260,7 @@ class MissionReader {
     if (keys.has("hang") && c.run && c.run != RunMode::process)
       report_.add(keys.where("hang"), path + ".hang: belongs to 'run: process'");
     c.latency_ns = keys.duration_ns("latency").value_or(0);
-    c.hang_ns = keys.duration_ns("hang").value_or(0);
+    if (const auto hang = keys.duration_ns("hang"); hang && *hang > 0) c.hang_ns = *hang;
     if (c.run == RunMode::async && c.latency_ns == 0)
       report_.add(keys.has("latency") ? keys.where("latency") : keys.where("run"),
                   path +

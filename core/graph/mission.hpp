@@ -47,18 +47,15 @@ struct RoleText {
   Where where;
 };
 
-struct ComponentText {
-  std::string name, fills, use;
+struct ComponentText : ComponentSettings {
+  std::string fills, use;
   std::optional<Io> only;  // nothing: it exists with both
   std::vector<WireText> in;
   Node params;
-  double rate_hz = 0;  // 0: every tick
-  std::int64_t budget_ns = 0;
+  double rate_hz = 0;           // 0: every tick
   std::int64_t max_age_ns = 0;  // of wires that say nothing
   std::optional<RunMode> run;
-  std::int64_t latency_ns = 0, hang_ns = 0;
-  std::uint64_t memory_bytes = 0;  // 0: the default
-  Where where, where_use, where_fills, where_rate;
+  Where where_use, where_fills, where_rate;
 };
 
 struct AssignmentText {

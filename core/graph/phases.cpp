@@ -221,12 +221,12 @@ void read_told(Draft& draft, const FindPort& find) {
 }
 
 Shown shown(const Word& word, const FindPort& find) {
-  const ShownField field = find_shown(word.text, find);
-  const fulmar_kind kind = field.field.field->kind;
-  if (kind == FULMAR_STRUCT || kind == FULMAR_TEXT)
-    throw Error("'" + word.text + "' is " +
-                (kind == FULMAR_TEXT ? "text" : "a " + field.field.field->type->name) + ", not a number");
-  return {word.text, field.from, field.field, field.type};
+  Shown shown = find_shown(word.text, find);
+  const Field& field = *shown.field.field;
+  if (field.kind == FULMAR_STRUCT || field.kind == FULMAR_TEXT)
+    throw Error("'" + word.text + "' is " + (field.kind == FULMAR_TEXT ? "text" : "a " + field.type->name) +
+                ", not a number");
+  return shown;
 }
 
 void read_shown(Draft& draft, const FindPort& find) {

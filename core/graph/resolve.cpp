@@ -12,10 +12,6 @@
 
 namespace fulmar::core {
 namespace fs = std::filesystem;
-namespace {
-constexpr std::int64_t default_hang_ns = 50'000'000;  // how long a paced loop waits for one step in a child
-}
-
 std::string not_there(const Draft& draft, const std::string& name) {
   if (const ComponentText* out = draft.text.component(name); out && draft.is_out(*out))
     return name + " exists only with io: " + io_word(*out->only);
@@ -76,7 +72,7 @@ void collect_candidates(Draft& draft, Catalogue& catalogue) {
     if (draft.is_out(text)) continue;
     Candidate candidate;
     candidate.text = &text;
-    candidate.name = text.name, candidate.where = text.where;
+    static_cast<ComponentSettings&>(candidate) = text;
     load_component(draft, catalogue, candidate);
     if (!text.fills.empty()) {
       candidate.role = draft.role(text.fills);
@@ -227,9 +223,6 @@ void run_mode(Draft& draft, Candidate& candidate) {
   const bool foreign =
       draft.text.io == Io::fcu && !info.vehicle && candidate.library && !installed(*candidate.plugin);
   candidate.run = text.run.value_or(foreign ? RunMode::process : RunMode::tick);
-  candidate.latency_ns = text.latency_ns;
-  candidate.hang_ns = text.hang_ns > 0 ? text.hang_ns : default_hang_ns;
-  if (text.memory_bytes > 0) candidate.memory_bytes = text.memory_bytes;
   const std::string path = "components." + text.name;
   if (info.vehicle && candidate.run != RunMode::tick)
     draft.report.add(text.where, path + ".run: a vehicle runs in the loop; it has 'run: tick' alone");
@@ -264,7 +257,6 @@ void build_components(Draft& draft) {
     candidate.component = static_cast<int>(draft.graph.components.size());
     const double rate = candidate.text->rate_hz;
     candidate.period_ns = rate > 0 && rate < draft.text.rate_hz * (1 - 1e-9) ? std::llround(1e9 / rate) : 0;
-    candidate.budget_ns = candidate.text->budget_ns;
     run_mode(draft, candidate);
     if (candidate.info().vehicle) draft.graph.vehicle = candidate.component;
     Component& component = draft.graph.components.emplace_back(candidate);

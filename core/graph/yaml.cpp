@@ -12,7 +12,6 @@
 #include <map>
 #include <sstream>
 
-#include "core/graph/quantity.hpp"
 #include "core/graph/stored_files.hpp"
 
 namespace fulmar::core {
@@ -305,6 +304,40 @@ std::optional<bool> scalar_flag(const Node& node, const std::string& path, Repor
   return std::nullopt;
 }
 
+std::optional<std::size_t> scalar_word(const Node& node, const std::string& path,
+                                       const std::vector<std::string>& words, Report& report) {
+  const auto text = scalar_text(node, path, "one of " + join(words), report);
+  if (!text) return std::nullopt;
+  const auto it = std::find(words.begin(), words.end(), *text);
+  if (it != words.end()) return static_cast<std::size_t>(it - words.begin());
+  report.add(node.where(), path + ": unknown word '" + *text + "'." + choices_text(*text, words));
+  return std::nullopt;
+}
+
+std::optional<std::string> scalar_text_for(std::size_t room, const Node& node, const std::string& path,
+                                           Report& report) {
+  if (!is_a(Node::Kind::scalar, node, path, "text", report)) return std::nullopt;
+  if (node.text.size() < room) return node.text;
+  report.add(node.where(), path + ": text of " + std::to_string(node.text.size()) +
+                               " bytes; there is room for " + std::to_string(room - 1));
+  return std::nullopt;
+}
+
+std::optional<double> scalar_number(const Node& node, const std::string& path, const NumberWanted& wanted,
+                                    Report& report) {
+  const std::string expected = "a number" + (wanted.unit.empty() ? "" : " in " + wanted.unit);
+  if (!is_a(Node::Kind::scalar, node, path, expected, report)) return std::nullopt;
+  try {
+    const Quantity quantity = parse_quantity(node.text);
+    const double number = convert(quantity, wanted.unit, wanted.rule);
+    check_range(quantity, number, wanted.unit, wanted.min, wanted.max);
+    return number;
+  } catch (const Error& fault) {
+    report.add(node.where(), path + ": " + fault.what());
+    return std::nullopt;
+  }
+}
+
 std::optional<std::string> Keys::text(const std::string& key) const {
   const Node* node = get(key);
   return node ? scalar_text(*node, path(key), "text", report_) : std::nullopt;
@@ -342,12 +375,8 @@ std::optional<std::int64_t> Keys::duration_ns(const std::string& key) const {
 
 std::optional<std::string> Keys::word(const std::string& key, const std::vector<std::string>& words) const {
   const Node* node = get(key);
-  if (!node) return std::nullopt;
-  if (!is_a(Node::Kind::scalar, *node, path(key), "one of " + join(words), report_)) return std::nullopt;
-  if (std::find(words.begin(), words.end(), node->text) != words.end()) return node->text;
-  report_.add(node->where(),
-              path(key) + ": unknown word '" + node->text + "'." + choices_text(node->text, words));
-  return std::nullopt;
+  const auto i = node ? scalar_word(*node, path(key), words, report_) : std::nullopt;
+  return i ? std::optional(words[*i]) : std::nullopt;
 }
 
 }  // namespace fulmar::core

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/graph/quantity.hpp"
 
 namespace fulmar::core {
 
@@ -119,5 +120,19 @@ bool is_a(Node::Kind kind, const Node& node, const std::string& path, const std:
 std::optional<std::string> scalar_text(const Node& node, const std::string& path, const std::string& expected,
                                        Report& report);
 std::optional<bool> scalar_flag(const Node& node, const std::string& path, Report& report);
+/// The place of a word in `words`.
+std::optional<std::size_t> scalar_word(const Node& node, const std::string& path,
+                                       const std::vector<std::string>& words, Report& report);
+/// Text that is shorter than `room` bytes.
+std::optional<std::string> scalar_text_for(std::size_t room, const Node& node, const std::string& path,
+                                           Report& report);
+/// A number in `unit`, of at least `min` and at most `max`.
+struct NumberWanted {
+  std::string unit;
+  UnitRule rule = UnitRule::optional;
+  double min, max;
+};
+std::optional<double> scalar_number(const Node& node, const std::string& path, const NumberWanted& wanted,
+                                    Report& report);
 
 }  // namespace fulmar::core

@@ -62,9 +62,9 @@ struct McapStream::Impl {
   std::size_t given = 0;  // of the pending ones
   bool in_chunk = false;  // they point into chunk_room, else into record
   std::uint64_t messages = 0, defined_bytes = 0;
-  bool damaged = false;  // something was left out, if only an index
-  std::set<std::uint64_t> chunk_places, attachment_places, metadata_places;
-  std::uint64_t summary_start = 0;  // 0: not there yet
+  bool damaged = false;                                    // something was left out, if only an index
+  std::map<std::uint8_t, std::set<std::uint64_t>> places;  // of the chunks, attachments and metadata so far
+  std::uint64_t summary_start = 0;                         // 0: not there yet
   bool ended = false;
 
   Impl(const std::filesystem::path& path, McapSalvage* s) : salvage(s) {
@@ -159,11 +159,13 @@ struct McapStream::Impl {
       crc = 0;
       require(sum == 0 || sum == before || damaged, "the checksum of the data is wrong");
     } else {
-      content(code, record, place_before);
+      content(code, record);
+      if (code == mcap::chunk || code == mcap::attachment || code == mcap::metadata)
+        places[code].insert(place_before);
     }
   }
 
-  void content(std::uint8_t code, Data data, std::uint64_t at) {
+  void content(std::uint8_t code, Data data) {
     Cursor cursor{data};
     switch (code) {
       case mcap::header:
@@ -179,37 +181,31 @@ struct McapStream::Impl {
       case mcap::chunk:
         chunk_content(cursor);
         ++file.chunks;
-        chunk_places.insert(at);
         break;
       case mcap::message_index:
         if (!salvage) check_message_index(cursor);
         break;
-      case mcap::attachment:
-        attachment(cursor);
-        attachment_places.insert(at);
-        break;
-      case mcap::metadata:
-        metadata(cursor);
-        metadata_places.insert(at);
-        break;
+      case mcap::attachment: attachment(cursor); break;
+      case mcap::metadata: metadata(cursor); break;
       case mcap::statistics:
         if (!damaged) check_statistics(cursor);
         break;
       case mcap::chunk_index:
         cursor.take(16);
-        require(damaged || chunk_places.contains(cursor.number<std::uint64_t>()),
-                "a chunk index points at no chunk");
+        check_place(cursor, mcap::chunk, "a chunk index points at no chunk");
         break;
       case mcap::attachment_index:
-        require(damaged || attachment_places.contains(cursor.number<std::uint64_t>()),
-                "an attachment index points at no attachment");
+        check_place(cursor, mcap::attachment, "an attachment index points at no attachment");
         break;
       case mcap::metadata_index:
-        require(damaged || metadata_places.contains(cursor.number<std::uint64_t>()),
-                "a metadata index points at no metadata");
+        check_place(cursor, mcap::metadata, "a metadata index points at no metadata");
         break;
       default: break;  // the format may grow
     }
+  }
+
+  void check_place(Cursor& cursor, mcap::Code code, const char* otherwise) {
+    require(damaged || places[code].contains(cursor.number<std::uint64_t>()), otherwise);
   }
 
   /// Those of a summary, as far as it is as it should be.
@@ -272,11 +268,10 @@ struct McapStream::Impl {
     require(sum == 0 || sum == crc_of(0, chunk), "the checksum of a chunk is wrong");
     Cursor inside{chunk};
     while (inside.more()) {
-      const std::size_t at = inside.at;
       const auto code = inside.number<std::uint8_t>();
       require(code == mcap::schema || code == mcap::channel || code == mcap::message,
               "a chunk holds what does not belong there");
-      content(code, inside.take(inside.number<std::uint64_t>()), at);
+      content(code, inside.take(inside.number<std::uint64_t>()));
     }
     in_chunk = true;
   }

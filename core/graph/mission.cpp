@@ -38,6 +38,21 @@ std::vector<std::string> keys_of(const Node& map) {
   return keys;
 }
 
+/// "64 MB" -> 64e6. Reports a fault and returns 0.
+std::uint64_t parse_bytes(const std::string& text, const Where& where, const std::string& path,
+                          Report& report) {
+  double number = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
+  std::string unit(end, text.data() + text.size());
+  unit.erase(0, unit.find_first_not_of(' '));
+  for (const auto& [name, factor] : {std::pair{"kB", 1e3}, std::pair{"MB", 1e6}, std::pair{"GB", 1e9}})
+    if (code == std::errc{} && unit == name && number > 0 && number <= 1e6)
+      return static_cast<std::uint64_t>(number * factor);
+  report.add(where,
+             path + ": '" + text + "' is no amount of memory; write it with kB, MB or GB, as in 64 MB");
+  return 0;
+}
+
 class MissionReader {
  public:
   MissionReader(MissionText& mission, Report& report) : m_(mission), report_(report) {}
@@ -442,20 +457,6 @@ std::optional<PortName> parse_port_name(const std::string& text, const Where& wh
     return PortName{text.substr(0, dot), text.substr(dot + 1)};
   report.add(where, path + ": expected a port such as nav.state, found '" + text + "'");
   return std::nullopt;
-}
-
-std::uint64_t parse_bytes(const std::string& text, const Where& where, const std::string& path,
-                          Report& report) {
-  double number = 0;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
-  std::string unit(end, text.data() + text.size());
-  unit.erase(0, unit.find_first_not_of(' ') == std::string::npos ? 0 : unit.find_first_not_of(' '));
-  for (const auto& [name, factor] : {std::pair{"kB", 1e3}, std::pair{"MB", 1e6}, std::pair{"GB", 1e9}})
-    if (code == std::errc{} && unit == name && number > 0 && number <= 1e6)
-      return static_cast<std::uint64_t>(number * factor);
-  report.add(where,
-             path + ": '" + text + "' is no amount of memory; write it with kB, MB or GB, as in 64 MB");
-  return 0;
 }
 
 std::int64_t parse_utc_ns(const std::string& text) {

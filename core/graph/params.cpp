@@ -15,21 +15,21 @@ namespace fs = std::filesystem;
 
 // ---- files
 
+FilePtr FileStore::known(const fs::path& path) const {
+  for (const FilePtr& file : files_)
+    if (file->path.lexically_normal() == path.lexically_normal()) return file;
+  return nullptr;
+}
+
 void FileStore::keep(const FilePtr& file) {
-  const auto same = [&](const FilePtr& other) {
-    return other->path.lexically_normal() == file->path.lexically_normal();
-  };
-  if (std::none_of(files_.begin(), files_.end(), same)) files_.push_back(file);
+  if (!known(file->path)) files_.push_back(file);
 }
 
 FilePtr FileStore::read(const Node& node, const std::string& path) {
   const fs::path file = (node.file->path.parent_path() / node.text).lexically_normal();
-  for (const FilePtr& known : files_)
-    if (known->path.lexically_normal() == file) return known;
+  if (const FilePtr there = known(file)) return there;
   try {
-    const FilePtr found = read_source(file, node.text, stored_);
-    files_.push_back(found);
-    return found;
+    return files_.emplace_back(read_source(file, node.text, stored_));
   } catch (const Error& fault) {
     report_.add(node.where(), path + ": " + fault.what());
     return nullptr;

@@ -38,7 +38,7 @@ std::vector<int> chosen_by_command(Draft& draft) {
     const Where where{"--role " + role + "=" + component, 0};
     const int r = draft.role(role);
     if (r < 0)
-      draft.report.add(where, "there is no role '" + role + "'." + choices_text(role, names_of(draft.roles)));
+      draft.report.add(where, no_such("there is no role", role, draft.roles));
     else
       nth(chosen, r) = filler_named(draft, r, component, where, "");
   }
@@ -250,10 +250,9 @@ void read_resume(Draft& draft, const FindPort& find) {
       const Candidate& candidate = nth(draft.candidates, i);
       if (!candidate.loaded) throw Unclear{};
       const auto& params = candidate.info().params;
-      const ParamInfo* const info = find_named(params, of);
-      if (!info) throw Error(name + " has no parameter '" + of + "'." + choices_text(of, names_of(params)));
-      if (info->kind != FULMAR_COUNT && info->kind != FULMAR_NUMBER) throw Error(param + " is no number");
-      if (!info->live)
+      const ParamInfo& info = nth(params, require_named(params, of, name + " has no parameter"));
+      if (info.kind != FULMAR_COUNT && info.kind != FULMAR_NUMBER) throw Error(param + " is no number");
+      if (!info.live)
         throw Error(
             param +
             " is fixed when the flight begins; whether it resumes is known when the vehicle has spoken");
@@ -277,8 +276,7 @@ std::vector<Transition> transitions(Draft& draft, const std::vector<TransitionTe
     Transition transition;
     transition.to = index_named(phases, text.to);
     if (transition.to < 0 && !text.to.empty())
-      draft.report.add(text.where_to, path + ".to: there is no phase '" + text.to + "'." +
-                                          choices_text(text.to, names_of(phases)));
+      draft.report.add(text.where_to, no_such(path + ".to: there is no phase", text.to, phases));
     if (!text.when.empty())
       transition.when = compiled(draft, text.when, text.where_when, path + ".when", find);
     transition.for_ns = text.for_ns;

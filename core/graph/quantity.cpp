@@ -217,6 +217,11 @@ std::string short_number(double value) {
   return text;
 }
 
+std::string dimension_name(const PhysicalUnit& unit) {
+  const Measure* measure = named(unit);
+  return measure ? measure->name : "";
+}
+
 /// Is a bare number clear enough where a unit is required? Plain numbers, and latitude and longitude.
 bool needs_no_unit(const PhysicalUnit& unit, const std::string& text) {
   return unit.dimension == none || text == "deg";
@@ -244,11 +249,6 @@ std::optional<PhysicalUnit> parse_unit(std::string_view text) {
   text = trimmed(text);
   if (text.empty() || text == "-") return PhysicalUnit{};
   return UnitParser(text).parse();
-}
-
-std::string dimension_name(const PhysicalUnit& unit) {
-  const Measure* entry = named(unit);
-  return entry ? entry->name : "";
 }
 
 bool same_dimension(const std::string& unit_a, const std::string& unit_b) {

@@ -21,6 +21,12 @@ void put(std::byte* at, T value) {
   std::memcpy(at, &value, sizeof value);
 }
 
+/// "stall_alpha_rad" -> "stall_alpha"; a name without a unit stays.
+std::string without_suffix(const std::string& field) {
+  const auto split = split_suffix(field);
+  return split ? split->name : field;
+}
+
 /// How one value is written: the unit it inherits, whether the key left the unit out, and its name for
 /// faults.
 struct RecordPlace {
@@ -191,11 +197,6 @@ class Filler {
 };
 
 }  // namespace
-
-std::string without_suffix(const std::string& field) {
-  const auto split = split_suffix(field);
-  return split ? split->name : field;
-}
 
 const Field* field_of_key(const Type& type, const std::string& key) {
   if (const Field* exact = type.find(key)) return exact;

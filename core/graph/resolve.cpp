@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 std::string not_there(const Draft& draft, const std::string& name) {
   if (const ComponentText* out = draft.text.component(name); out && draft.is_out(*out))
     return name + " exists only with io: " + io_word(*out->only);
-  return "there is no component '" + name + "'." + choices_text(name, names_of(draft.candidates));
+  return no_such("there is no component", name, draft.candidates);
 }
 
 bool provided(const Graph& graph, const Source& source) {
@@ -48,11 +48,9 @@ void load_component(Draft& draft, Catalogue& catalogue, Candidate& candidate) {
     candidate.plugin = found.info, candidate.library = found.library;
     const auto& components = found.info->components;
     if (components.empty()) throw Error(plugin + " holds no component");
-    const int index = component.empty() ? 0 : index_named(components, component);
-    if (index < 0)
-      throw Error("the plugin " + plugin + " has no component '" + component + "'." +
-                  choices_text(component, names_of(components)));
-    candidate.index_in_plugin = static_cast<std::size_t>(index);
+    if (!component.empty())
+      candidate.index_in_plugin = static_cast<std::size_t>(
+          require_named(components, component, "the plugin " + plugin + " has no component"));
     const std::string stem = fs::path(found.info->file).stem().string();
     candidate.use = (stem.empty() ? plugin : stem) + "/" + candidate.info().name;
     candidate.loaded = true;
@@ -77,8 +75,8 @@ void collect_candidates(Draft& draft, Catalogue& catalogue) {
     if (!text.fills.empty()) {
       candidate.role = draft.role(text.fills);
       if (candidate.role < 0)
-        draft.report.add(text.where_fills, "components." + text.name + ": there is no role '" + text.fills +
-                                               "'." + choices_text(text.fills, names_of(draft.roles)));
+        draft.report.add(text.where_fills,
+                         no_such("components." + text.name + ": there is no role", text.fills, draft.roles));
     }
     if (text.rate_hz > draft.text.rate_hz * (1 + 1e-9))
       draft.report.add(text.where_rate, "components." + text.name + ".rate: " + number_text(text.rate_hz) +
@@ -343,8 +341,7 @@ void read_control(Draft& draft) {
   for (const Word& word : draft.text.control) {
     const int role = draft.role(word.text);
     if (role < 0)
-      draft.report.add(word.where, "control: there is no role '" + word.text + "'." +
-                                       choices_text(word.text, names_of(draft.roles)));
+      draft.report.add(word.where, no_such("control: there is no role", word.text, draft.roles));
     else if (role == draft.role("vehicle"))
       draft.report.add(word.where,
                        "control: the vehicle obeys or not; name the roles whose outputs lead to it");

@@ -218,6 +218,8 @@ void mark_imports(Draft& draft) {
 
 namespace {
 
+const std::string& ros_or_name(const Type& type) { return type.ros.empty() ? type.name : type.ros; }
+
 /// Of a role's output or a component's; empty for a probe.
 TypePtr type_of_port(const Graph& graph, const std::string& port) {
   const std::size_t dot = port.find('.');
@@ -228,35 +230,6 @@ TypePtr type_of_port(const Graph& graph, const std::string& port) {
     if (const Port* p = find_named(c->info().outputs, output)) return p->type;
   return nullptr;
 }
-
-/// The topics of DDS: each has one type. By their full names.
-class DdsTopics {
- public:
-  DdsTopics(const DdsOptions& dds, Report& report) : dds_(dds), report_(report) {}
-
-  void add(const std::string& topic, const TypePtr& type, const Where& where, const std::string& path) {
-    const std::string name = topic.starts_with('/')
-                                 ? topic
-                                 : (dds_.name_space.empty() ? "/" : "/" + dds_.name_space + "/") + topic;
-    if (!type) return;
-    const auto [at, is_new] = topics_.emplace(name, Topic{type, where});
-    const Type& known = *at->second.type;
-    if (is_new || (known.ros == type->ros && (!known.ros.empty() || known.name == type->name))) return;
-    report_.add(where, path + ": the topic " + name + " has the type " + words(known) + " already (" +
-                           at->second.where.text() + "); it cannot be " + words(*type) + ", too");
-  }
-
- private:
-  struct Topic {
-    TypePtr type;
-    Where where;
-  };
-  static const std::string& words(const Type& type) { return type.ros.empty() ? type.name : type.ros; }
-
-  const DdsOptions& dds_;
-  Report& report_;
-  std::map<std::string, Topic> topics_;
-};
 
 }  // namespace
 
@@ -271,15 +244,27 @@ void resolve_dds(Draft& draft, const std::vector<std::string>& ports) {
       wire.import = static_cast<int>(graph.dds.imports.size());
       graph.dds.imports.push_back({static_cast<int>(c), static_cast<int>(i), import.topic, import.where});
     }
-  DdsTopics types(graph.dds, draft.report);
+  std::map<std::string, std::pair<TypePtr, Where>> known;  // by the topics' full names: each has one type
+  const auto add = [&](const std::string& topic, const TypePtr& type, const Where& where,
+                       const std::string& path) {
+    if (!type) return;
+    const std::string space = graph.dds.name_space.empty() ? "/" : "/" + graph.dds.name_space + "/";
+    const std::string name = topic.starts_with('/') ? topic : space + topic;
+    const auto [at, is_new] = known.try_emplace(name, type, where);
+    const auto& [first, first_where] = at->second;
+    if (is_new || ros_or_name(*first) == ros_or_name(*type)) return;
+    draft.report.add(where, path + ": the topic " + name + " has the type " + ros_or_name(*first) +
+                                " already (" + first_where.text() + "); it cannot be " + ros_or_name(*type) +
+                                ", too");
+  };
   for (const DdsOptions::Import& i : graph.dds.imports) {
     const Component& c = nth(graph.components, i.component);
     const Port& port = nth(c.info().inputs, i.input);
-    types.add(i.topic, port.type, i.where, "dds.import." + c.name + "." + port.name);
+    add(i.topic, port.type, i.where, "dds.import." + c.name + "." + port.name);
   }
   std::vector<std::string> topics;
   for (const DdsOptions::Export& e : graph.dds.exports) {
-    types.add(e.topic, type_of_port(graph, e.port), e.where, "dds.export: " + e.port);
+    add(e.topic, type_of_port(graph, e.port), e.where, "dds.export: " + e.port);
     if (std::find(ports.begin(), ports.end(), e.port) == ports.end())
       draft.report.add(e.where,
                        "dds.export: there is no port '" + e.port + "'." + choices_text(e.port, ports));

@@ -39,8 +39,8 @@ void set_params(Draft& draft, Candidate& candidate, const Node& map, const std::
   for (const Node::Entry& entry : map.entries) {
     const int p = info.param(entry.key);
     if (p < 0) {
-      draft.report.add(entry.where(), path + ": " + candidate.use + " has no parameter '" + entry.key + "'." +
-                                          choices_text(entry.key, names_of(info.params)));
+      draft.report.add(entry.where(),
+                       no_such(path + ": " + candidate.use + " has no parameter", entry.key, info.params));
       continue;
     }
     if (info.vehicle && (entry.key == "rate" || entry.key == "epoch")) {
@@ -68,9 +68,8 @@ void set_from_airframe(Draft& draft, Candidate& candidate, const AirframeSource&
     if (!same_plugin) continue;
     const auto& components = candidate.plugin->components;
     if (!for_component.empty() && !find_named(components, for_component))
-      draft.report.add(entry.where(), prefix + ": the plugin " + plugin + " has no component '" +
-                                          for_component + "'." +
-                                          choices_text(for_component, names_of(components)));
+      draft.report.add(entry.where(), no_such(prefix + ": the plugin " + plugin + " has no component",
+                                              for_component, components));
     if (for_component.empty() ? candidate.index_in_plugin != 0 : for_component != component) continue;
     is_a(Node::Kind::map, entry.value, prefix + "." + entry.key, "a map {parameter: value}", draft.report);
     set_params(draft, candidate, entry.value, prefix + "." + entry.key);

@@ -10,10 +10,7 @@ namespace {
 
 Target role_target(const Draft& draft, int index, const PortName& name) {
   const RoleDraft& role = nth(draft.roles, index);
-  const int output = index_named(role.text->out, name.port);
-  if (output < 0)
-    throw Error("the role " + name.owner + " has no output '" + name.port + "'." +
-                choices_text(name.port, names_of(role.text->out)));
+  const int output = require_named(role.text->out, name.port, "the role " + name.owner + " has no output");
   Target target;
   target.source = {Source::Kind::role, index, output};
   target.type = nth(role.types, output);
@@ -34,10 +31,8 @@ Target component_target(const Draft& draft, int index, const PortName& name) {
   target.source = {Source::Kind::component, index, -1};
   target.unclear = true;
   if (!candidate.loaded) return target;
-  const int output = candidate.info().output(name.port);
-  if (output < 0)
-    throw Error(name.owner + " (" + candidate.use + ") has no output '" + name.port + "'." +
-                choices_text(name.port, names_of(candidate.info().outputs)));
+  const int output = require_named(candidate.info().outputs, name.port,
+                                   name.owner + " (" + candidate.use + ") has no output");
   const Port& port = nth(candidate.info().outputs, output);
   target.source.output = output;
   target.type = port.type;

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/error.hpp"
+
 namespace fulmar::core {
 
 template <class List>
@@ -28,6 +30,20 @@ template <class List>
 auto find_named(const List& list, std::string_view name) -> decltype(list.data()) {
   const int i = index_named(list, name);
   return i < 0 ? nullptr : list.data() + i;
+}
+
+/// "there is no role 'x'. Valid: ...", of a name that is not in the list. `what`: "there is no role".
+template <class List>
+std::string no_such(const std::string& what, std::string_view name, const List& list) {
+  return what + " '" + std::string(name) + "'." + choices_text(name, names_of(list));
+}
+
+/// The place of the one that bears the name. Throws Error: there is no such one.
+template <class List>
+int require_named(const List& list, std::string_view name, const std::string& what) {
+  const int i = index_named(list, name);
+  if (i < 0) throw Error(no_such(what, name, list));
+  return i;
 }
 
 /// By an index that may be -1 for none, and is not.

@@ -23,9 +23,7 @@ struct Schema {
   bool begun = false, stored = false;  // in this or an earlier chunk; in a chunk that is in the file
 
   void write(Bytes& out, std::uint16_t id) const {
-    const std::size_t start = out.begin(mcap::schema);
-    out.number(id).text(name).text(encoding).text(text);
-    out.end(start);
+    out.record(mcap::schema, [&] { out.number(id).text(name).text(encoding).text(text); });
   }
 };
 
@@ -50,9 +48,8 @@ struct Channel {
   Kept last{};                 // of those without a name
 
   void write(Bytes& out, std::uint16_t id) const {
-    const std::size_t start = out.begin(mcap::channel);
-    out.number(id).number(schema).text(topic).text(encoding).pairs(metadata);
-    out.end(start);
+    out.record(mcap::channel,
+               [&] { out.number(id).number(schema).text(topic).text(encoding).pairs(metadata); });
   }
 };
 
@@ -123,9 +120,7 @@ struct McapWriter::Impl {
     auto begun = std::make_unique<OutFile>(name);
     block.clear();
     block.raw(mcap::magic.data(), mcap::magic.size());
-    const std::size_t start = block.begin(mcap::header);
-    block.text(options.profile).text(options.library);
-    block.end(start);
+    block.record(mcap::header, [&] { block.text(options.profile).text(options.library); });
     if (begun->append(block.data(), block.size())) return begun;
     const std::string why = begun->error();
     begun.reset();
@@ -179,10 +174,7 @@ struct McapWriter::Impl {
       all.take(all.number<std::uint64_t>());
       store_extra(extras.data() + start, all.at - start);
     }
-    block.clear();
-    const std::size_t start = block.begin(mcap::metadata);
-    block.text(series_metadata).pairs({{"file", std::to_string(parts.size() + 1)}});
-    block.end(start);
+    write_metadata(series_metadata, {{"file", std::to_string(parts.size() + 1)}});
     store_extra(block.data(), block.size());
   }
 
@@ -215,6 +207,12 @@ struct McapWriter::Impl {
     channels[channel].index.push_back({log_ns, chunk.size()});
     chunk_span.add(log_ns);
     ++chunk_messages;
+  }
+
+  /// As the block.
+  void write_metadata(const std::string& name, const Pairs& pairs) {
+    block.clear();
+    block.record(mcap::metadata, [&] { block.text(name).pairs(pairs); });
   }
 
   /// An attachment or metadata, whole.
@@ -322,11 +320,11 @@ struct McapWriter::Impl {
       const std::vector<Entry>& index = channels[id].index;
       if (index.empty()) continue;
       offsets.number(static_cast<std::uint16_t>(id)).number(out->size() + block.size());
-      const std::size_t record = block.begin(mcap::message_index);
-      block.number(static_cast<std::uint16_t>(id))
-          .number(static_cast<std::uint32_t>(index.size() * sizeof(Entry)));
-      block.raw(index.data(), index.size() * sizeof(Entry));
-      block.end(record);
+      block.record(mcap::message_index, [&] {
+        const std::size_t bytes = index.size() * sizeof(Entry);
+        block.number(static_cast<std::uint16_t>(id)).number(static_cast<std::uint32_t>(bytes));
+        block.raw(index.data(), bytes);
+      });
     }
     const std::uint64_t place = out->size();
     if (!out->append(block.data(), block.size())) return;
@@ -377,18 +375,16 @@ struct McapWriter::Impl {
   /// Data end, summary, its offsets and footer, as one block.
   void summary() {
     block.clear();
-    const std::size_t end = block.begin(mcap::data_end);
-    block.number(out->crc());
-    block.end(end);
+    block.record(mcap::data_end, [&] { block.number(out->crc()); });
     const std::size_t summary_start = block.size();
 
     Bytes offsets;
     std::size_t group = summary_start;
     const auto end_group = [&](mcap::Code code) {
       if (block.size() > group) {
-        const std::size_t start = offsets.begin(mcap::summary_offset);
-        offsets.number(code).number(out->size() + group).number(std::uint64_t{block.size() - group});
-        offsets.end(start);
+        offsets.record(mcap::summary_offset, [&] {
+          offsets.number(code).number(out->size() + group).number(std::uint64_t{block.size() - group});
+        });
       }
       group = block.size();
     };
@@ -485,10 +481,7 @@ void McapWriter::attach(const std::string& name, const std::string& media_type, 
 void McapWriter::metadata(const std::string& name, const Pairs& pairs) {
   Impl& w = *impl_;
   if (w.broken()) return;
-  w.block.clear();
-  const std::size_t start = w.block.begin(mcap::metadata);
-  w.block.text(name).pairs(pairs);
-  w.block.end(start);
+  w.write_metadata(name, pairs);
   w.extra(w.block.data(), w.block.size());
 }
 

@@ -77,6 +77,13 @@ class Bytes {
     return size_;
   }
   void end(std::size_t start) { patch(start - 8, std::uint64_t{size_ - start}); }
+  /// A whole record: `write` appends what is in it.
+  template <class Write>
+  void record(Code code, Write write) {
+    const std::size_t start = begin(code);
+    write();
+    end(start);
+  }
   template <class T>
   void patch(std::size_t at, T value) {
     std::memcpy(data_.get() + at, &value, sizeof value);

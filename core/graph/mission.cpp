@@ -243,15 +243,13 @@ class MissionReader {
     ComponentText c;
     c.name = entry.key;
     c.where = entry.where();
-    c.fills = keys.text("fills").value_or("");
-    c.where_fills = keys.where("fills");
-    c.use = keys.text("use").value_or("");
-    c.where_use = keys.where("use");
+    c.fills = keys.word_at("fills");
+    c.use = keys.word_at("use");
     if (!keys.has("use") && entry.value.is(Node::Kind::map))
       report_.add(entry.where(),
                   path + ": 'use' is missing; it names the plugin, as in use: control_slc/Outer");
     c.only = io_of(keys.word("only", io_words).value_or(""));
-    if (!keys.has("only") && c.fills == "vehicle") c.only = io_of(c.name);
+    if (!keys.has("only") && c.fills.text == "vehicle") c.only = io_of(c.name);
     c.in = wires(keys);
     if (const Node* params = keys.get("params")) {
       c.params = *params;
@@ -312,15 +310,13 @@ class MissionReader {
       if (!item.is(Node::Kind::map)) continue;
       TransitionText t;
       t.where = item.where();
-      t.where_to = keys.where("to");
-      t.where_when = keys.where("when");
       for (const char* key : {"to", "when"})
         if (!keys.has(key))
           report_.add(
               item.where(),
               path + ": '" + key + "' is missing, as in {to: cruise, when: \"nav.state.height_m > 30 m\"}");
-      t.to = keys.text("to").value_or("");
-      t.when = keys.text("when").value_or("");
+      t.to = keys.word_at("to");
+      t.when = keys.word_at("when");
       t.for_ns = keys.duration_ns("for").value_or(0);
       out.push_back(std::move(t));
     }
@@ -329,20 +325,19 @@ class MissionReader {
   void assignment(const Node::Entry& entry, const std::string& path, PhaseText& phase) {
     AssignmentText a;
     a.role = entry.key;
-    a.where = a.where_use = a.where_fallback = entry.where();
+    a.where = entry.where();
     if (entry.value.is(Node::Kind::map)) {
       const Keys keys(entry.value, path, {"use", "set", "fallback"}, report_);
-      a.use = keys.text("use").value_or("");
-      a.fallback = keys.text("fallback").value_or("");
-      if (keys.has("use")) a.where_use = keys.where("use");
-      if (keys.has("fallback")) a.where_fallback = keys.where("fallback");
+      a.use = keys.word_at("use");
+      a.fallback = keys.word_at("fallback");
       if (const Node* set = keys.get("set")) a.set = *set;
       if (keys.has("set") &&
           !is_a(Node::Kind::map, a.set, path + ".set", "a map {parameter: value}", report_))
         a.set = Node{};
     } else {
-      a.use = scalar_text(entry.value, path, "the name of a component, or {use, set, fallback}", report_)
-                  .value_or("");
+      const auto name =
+          scalar_text(entry.value, path, "the name of a component, or {use, set, fallback}", report_);
+      a.use = {name.value_or(""), entry.where()};
     }
     phase.roles.push_back(std::move(a));
   }

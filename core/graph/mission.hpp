@@ -33,12 +33,6 @@ struct RoleOutText {
   Where where;
 };
 
-/// A word of the file with its place: a port, a field, a condition.
-struct Word {
-  std::string text;
-  Where where;
-};
-
 struct RoleText {
   std::string name;
   std::vector<WireText> in;
@@ -48,26 +42,27 @@ struct RoleText {
 };
 
 struct ComponentText : ComponentSettings {
-  std::string fills, use;
+  Word fills, use;
   std::optional<Io> only;  // nothing: it exists with both
   std::vector<WireText> in;
   Node params;
   double rate_hz = 0;           // 0: every tick
   std::int64_t max_age_ns = 0;  // of wires that say nothing
   std::optional<RunMode> run;
-  Where where_use, where_fills, where_rate;
+  Where where_rate;
 };
 
 struct AssignmentText {
-  std::string role, use, fallback;
+  std::string role;
+  Word use, fallback;
   Node set;
-  Where where, where_use, where_fallback;
+  Where where;
 };
 
 struct TransitionText {
-  std::string to, when;
+  Word to, when;
   std::int64_t for_ns = 0;
-  Where where, where_to, where_when;
+  Where where;
 };
 
 struct PhaseText {

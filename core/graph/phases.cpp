@@ -10,8 +10,8 @@ namespace fulmar::core {
 namespace {
 
 /// The candidate that a phase or the command line names for a role; -1 and a fault when it cannot fill it.
-int filler_named(Draft& draft, int role, const std::string& name, const Where& where,
-                 const std::string& path) {
+int filler_named(Draft& draft, int role, const Word& word, const std::string& path) {
+  const std::string& name = word.text;
   const RoleDraft& wanted = nth(draft.roles, role);
   const int i = draft.candidate(name);
   std::vector<std::string> fillers;
@@ -22,12 +22,12 @@ int filler_named(Draft& draft, int role, const std::string& name, const Where& w
   if (known && draft.is_out(*known))
     why = not_there(draft, name);
   else if (known)
-    why = name + (known->fills.empty() ? " does not fill " : " fills " + known->fills + ", not ") +
+    why = name + (known->fills.text.empty() ? " does not fill " : " fills " + known->fills.text + ", not ") +
           wanted.name + "." + choices_text("", fillers);
   else
     why =
         "there is no component '" + name + "' that fills " + wanted.name + "." + choices_text(name, fillers);
-  draft.report.add(where, path.empty() ? why : path + ": " + why);
+  draft.report.add(word.where, path.empty() ? why : path + ": " + why);
   return -1;
 }
 
@@ -40,7 +40,7 @@ std::vector<int> chosen_by_command(Draft& draft) {
     if (r < 0)
       draft.report.add(where, no_such("there is no role", role, draft.roles));
     else
-      nth(chosen, r) = filler_named(draft, r, component, where, "");
+      nth(chosen, r) = filler_named(draft, r, {component, where}, "");
   }
   return chosen;
 }
@@ -86,13 +86,12 @@ void read_assignment(Draft& draft, const AssignmentText& text, const std::string
         text.where,
         path + ": the vehicle does not change in flight; choose it with io or with --role vehicle=NAME");
   int use = first_filler(nth(draft.roles, role));
-  if (!text.use.empty()) use = filler_named(draft, role, text.use, text.where_use, path);
-  const int fallback = text.fallback.empty() ? -1
-                                             : filler_named(draft, role, text.fallback, text.where_fallback,
-                                                            path + ".fallback");
+  if (!text.use.text.empty()) use = filler_named(draft, role, text.use, path);
+  const int fallback =
+      text.fallback.text.empty() ? -1 : filler_named(draft, role, text.fallback, path + ".fallback");
   if (fallback >= 0 && fallback == use)
-    draft.report.add(text.where_fallback,
-                     path + ".fallback: " + text.fallback + " is the component that fills the role already");
+    draft.report.add(text.fallback.where, path + ".fallback: " + text.fallback.text +
+                                              " is the component that fills the role already");
   assignment.component = command >= 0 ? command : use;
   if (fallback != assignment.component) assignment.fallback = fallback;
   const auto overlay = [&](int component) {
@@ -261,10 +260,10 @@ void read_resume(Draft& draft, const FindPort& find) {
   }
 }
 
-std::shared_ptr<const Condition> compiled(Draft& draft, const std::string& text, const Where& where,
-                                          const std::string& path, const FindPort& find) {
+std::shared_ptr<const Condition> compiled(Draft& draft, const Word& word, const std::string& path,
+                                          const FindPort& find) {
   std::shared_ptr<const Condition> condition;
-  guarded(draft, where, path, [&] { condition = Condition::compile(text, find); });
+  guarded(draft, word.where, path, [&] { condition = Condition::compile(word.text, find); });
   return condition;
 }
 
@@ -274,11 +273,10 @@ std::vector<Transition> transitions(Draft& draft, const std::vector<TransitionTe
   const auto& phases = phases_of(draft.text);
   for (const TransitionText& text : texts) {
     Transition transition;
-    transition.to = index_named(phases, text.to);
-    if (transition.to < 0 && !text.to.empty())
-      draft.report.add(text.where_to, no_such(path + ".to: there is no phase", text.to, phases));
-    if (!text.when.empty())
-      transition.when = compiled(draft, text.when, text.where_when, path + ".when", find);
+    transition.to = index_named(phases, text.to.text);
+    if (transition.to < 0 && !text.to.text.empty())
+      draft.report.add(text.to.where, no_such(path + ".to: there is no phase", text.to.text, phases));
+    if (!text.when.text.empty()) transition.when = compiled(draft, text.when, path + ".when", find);
     transition.for_ns = text.for_ns;
     transition.where = text.where;
     list.push_back(std::move(transition));
@@ -290,10 +288,8 @@ std::vector<Transition> transitions(Draft& draft, const std::vector<TransitionTe
 void compile_all(Draft& draft, bool built) {
   const FindPort find = finder(draft, built);
   Graph& graph = draft.graph;
-  if (draft.text.done)
-    graph.done = compiled(draft, draft.text.done->text, draft.text.done->where, "done", find);
-  if (draft.text.failed)
-    graph.failed = compiled(draft, draft.text.failed->text, draft.text.failed->where, "failed", find);
+  if (draft.text.done) graph.done = compiled(draft, *draft.text.done, "done", find);
+  if (draft.text.failed) graph.failed = compiled(draft, *draft.text.failed, "failed", find);
   read_shown(draft, find);
   read_summary(draft, find);
   read_told(draft, find);

@@ -34,10 +34,10 @@ bool is_file(const std::string& word) {
 
 void load_component(Draft& draft, Catalogue& catalogue, Candidate& candidate) {
   const ComponentText& text = *candidate.text;
-  if (text.use.empty()) return;
+  if (text.use.text.empty()) return;
   const std::string path = "components." + text.name;
   try {
-    auto [plugin, component] = split_use(text.use);
+    auto [plugin, component] = split_use(text.use.text);
     for (const auto& [name, word] : draft.overrides.with) {
       if (name != text.name) continue;
       const auto [named, part] = is_file(word) ? std::pair{word, std::string()} : split_use(word);
@@ -55,7 +55,7 @@ void load_component(Draft& draft, Catalogue& catalogue, Candidate& candidate) {
     candidate.use = (stem.empty() ? plugin : stem) + "/" + candidate.info().name;
     candidate.loaded = true;
   } catch (const Error& fault) {
-    draft.report.add(text.where_use, path + ": " + fault.what());
+    draft.report.add(text.use.where, path + ": " + fault.what());
   }
 }
 
@@ -72,11 +72,11 @@ void collect_candidates(Draft& draft, Catalogue& catalogue) {
     candidate.text = &text;
     static_cast<ComponentSettings&>(candidate) = text;
     load_component(draft, catalogue, candidate);
-    if (!text.fills.empty()) {
-      candidate.role = draft.role(text.fills);
+    if (const std::string& fills = text.fills.text; !fills.empty()) {
+      candidate.role = draft.role(fills);
       if (candidate.role < 0)
-        draft.report.add(text.where_fills,
-                         no_such("components." + text.name + ": there is no role", text.fills, draft.roles));
+        draft.report.add(text.fills.where,
+                         no_such("components." + text.name + ": there is no role", fills, draft.roles));
     }
     if (text.rate_hz > draft.text.rate_hz * (1 + 1e-9))
       draft.report.add(text.where_rate, "components." + text.name + ".rate: " + number_text(text.rate_hz) +
@@ -99,11 +99,11 @@ bool keeps_contract(Draft& draft, const RoleDraft& role, const Candidate& filler
   const ComponentInfo& info = filler.info();
   bool keeps = true;
   if (role.name == "vehicle" && !info.vehicle)
-    draft.report.add(filler.text->where_fills,
+    draft.report.add(filler.text->fills.where,
                      path + filler.use + " is not a vehicle: it has 'step' in place of 'read' and 'write'");
   if (role.name != "vehicle" && info.vehicle)
     draft.report.add(
-        filler.text->where_fills,
+        filler.text->fills.where,
         path + filler.use + " is a vehicle and can fill only the role vehicle, not " + role.name);
   for (const RoleOutText& out : role.text->out) {
     const Port* const port = find_named(info.outputs, out.name);
@@ -112,7 +112,7 @@ bool keeps_contract(Draft& draft, const RoleDraft& role, const Candidate& filler
     const std::string has =
         !port ? "; it has " + join(output_words(info))
               : "; its '" + out.name + "' is " + (port->type ? port->type->name : "a probe");
-    draft.report.add(filler.text->where_fills, path + "the role " + role.name + " wants an output '" +
+    draft.report.add(filler.text->fills.where, path + "the role " + role.name + " wants an output '" +
                                                    out.name + "' of type " + out.type + has);
     keeps = false;
   }
@@ -158,7 +158,7 @@ void resolve_roles(Draft& draft) {
     role.unclear = true;
     std::string why = "; write 'fills: " + role.name + "' at one";
     for (const ComponentText& text : draft.text.components)
-      if (text.fills == role.name)
+      if (text.fills.text == role.name)
         why = " with io: " + io_word(draft.text.io) + "; " + not_there(draft, text.name);
     draft.report.add(role.text->where, "roles." + role.name + ": no component fills it" + why);
   }
@@ -183,7 +183,7 @@ void choose_vehicle(Draft& draft) {
 void mark_used(Draft& draft) {
   std::vector<Candidate*> todo;
   for (Candidate& candidate : draft.candidates) {
-    candidate.used = candidate.used || candidate.assigned || candidate.text->fills.empty();
+    candidate.used = candidate.used || candidate.assigned || candidate.text->fills.text.empty();
     if (candidate.used) todo.push_back(&candidate);
   }
   while (!todo.empty()) {

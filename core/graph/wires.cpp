@@ -167,7 +167,7 @@ bool wire_reported(const Draft& draft, const Candidate& candidate, const std::st
 
 void check_fed(Draft& draft) {
   for (const Candidate& candidate : draft.candidates) {
-    if (!candidate.loaded || (candidate.role < 0 && !candidate.text->fills.empty()))
+    if (!candidate.loaded || (candidate.role < 0 && !candidate.text->fills.text.empty()))
       continue;  // wires of an unknown role are unknown
     for (std::size_t i = 0; i < candidate.wires.size(); ++i) {
       const Port& input = candidate.info().inputs[i];

@@ -84,6 +84,12 @@ Node parse_yaml(const FilePtr& file, Report& report);
 /// `base` has comes first.
 Node merged(const Node& base, const Node& top, int depth);
 
+/// A word of the file with its place: a port, a field, a condition.
+struct Word {
+  std::string text;
+  Where where;
+};
+
 /// A map whose keys are known: reports unknown keys and wrong types, each with the valid choices.
 class Keys {
  public:
@@ -96,6 +102,8 @@ class Keys {
   Where where(const std::string& key) const;
 
   std::optional<std::string> text(const std::string& key) const;
+  /// The same with its place; empty when there is none.
+  Word word_at(const std::string& key) const { return {text(key).value_or(""), where(key)}; }
   std::optional<bool> flag(const std::string& key) const;
   /// A number with a unit, converted to `unit`. Must be above 0 (`or_zero`: at least 0).
   std::optional<double> positive(const std::string& key, const std::string& unit, bool or_zero = false) const;

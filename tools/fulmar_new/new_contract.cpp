@@ -87,7 +87,7 @@ Contract read_contract(const MissionView& mission, const std::string& role_name)
   const Component& shipped = graph.components[static_cast<std::size_t>(filler)];
   contract.shipped = shipped.info();
   contract.shipped_text = mission.text.component(shipped.name);
-  contract.shipped_use = contract.shipped_text->use;
+  contract.shipped_use = contract.shipped_text->use.text;
   for (const PhaseText& phase : mission.text.phases)
     for (const AssignmentText& assignment : phase.roles)
       if (phase.name == last.name && assignment.role == role_name) contract.shipped_set = assignment.set;

@@ -160,10 +160,7 @@ class Filler {
         std::from_chars(text.data(), text.data() + text.size(), exact);  // keeps all 64 bits
     if (!scaled && code == std::errc{} && end == text.data() + text.size()) return put(at, exact);
     constexpr double lowest = static_cast<double>(std::numeric_limits<T>::lowest());
-    constexpr double above = std::is_same_v<T, std::int64_t> ? 9223372036854775808.0
-                             : std::is_same_v<T, std::uint64_t>
-                                 ? 18446744073709551616.0
-                                 : static_cast<double>(std::numeric_limits<T>::max()) + 1;
+    const double above = std::ldexp(1.0, std::numeric_limits<T>::digits);
     if (value != std::floor(value)) throw Error(text + " is not a whole number");
     if (value < lowest || value >= above)
       throw Error(text + " is outside " + std::to_string(std::numeric_limits<T>::lowest()) + " .. " +

@@ -37,19 +37,16 @@ AirframeSource airframe_source(Draft& draft) {
 void set_params(Draft& draft, Candidate& candidate, const Node& map, const std::string& path) {
   const ComponentInfo& info = candidate.info();
   for (const Node::Entry& entry : map.entries) {
-    const int p = info.param(entry.key);
-    if (p < 0) {
+    const int i = info.param(entry.key);
+    if (i < 0)
       draft.report.add(entry.where(),
                        no_such(path + ": " + candidate.use + " has no parameter", entry.key, info.params));
-      continue;
-    }
-    if (info.vehicle && (entry.key == "rate" || entry.key == "epoch")) {
-      draft.report.add(entry.where(), path + "." + entry.key + ": comes from the mission's '" +
-                                          (entry.key == "rate" ? "rate" : "epoch") + "'; set it there");
-      continue;
-    }
-    read_param(nth(info.params, p), entry.value, path + "." + entry.key, nth(candidate.params, p),
-               draft.files, draft.report);
+    else if (info.vehicle && (entry.key == "rate" || entry.key == "epoch"))
+      draft.report.add(entry.where(), path + "." + entry.key + ": comes from the mission's '" + entry.key +
+                                          "'; set it there");
+    else
+      read_param(nth(info.params, i), entry.value, path + "." + entry.key, nth(candidate.params, i),
+                 draft.files, draft.report);
   }
 }
 

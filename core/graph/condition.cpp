@@ -7,49 +7,51 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstring>
 
 #include "core/graph/quantity.hpp"
+#include "core/types/named.hpp"
 
 namespace fulmar::core {
 
-enum class Op : std::uint8_t {
-  both,
-  either,
-  opposite,
-  truth,
-  less,
-  less_equal,
-  greater,
-  greater_equal,
-  equal,
-  differs
+enum class Op : std::uint8_t { both, either, opposite, compare };
+
+struct Compare {
+  std::string_view symbol, mirrored;  // "3 < x" is "x > 3"
+  bool (*holds)(double a, double b) noexcept;
 };
+/// A symbol that begins with another one stands before it.
+constexpr Compare compares[] = {{"<=", ">=", [](double a, double b) noexcept { return a <= b; }},
+                                {">=", "<=", [](double a, double b) noexcept { return a >= b; }},
+                                {"<", ">", [](double a, double b) noexcept { return a < b; }},
+                                {">", "<", [](double a, double b) noexcept { return a > b; }},
+                                {"==", "==", [](double a, double b) noexcept { return a == b; }},
+                                {"!=", "!=", [](double a, double b) noexcept { return a != b; }}};
 
 struct Condition::Node {
-  struct Side {
-    Source source;  // none: a constant
-    TypePtr type;   // keeps the field alive
-    FieldRef field;
-    double number = 0;  // of a constant
-    double factor = 1;  // into the unit of the left side
+  struct Side : Shown {  // from nowhere: a constant
+    double number = 0;   // of a constant
+    double factor = 1;   // into the unit of the left side
   };
-  Op op = Op::truth;
-  int left = -1, right = -1;  // of both, either, opposite
-  Side a, b;                  // of comparisons
+  Op op = Op::compare;
+  int left = -1, right = -1;         // of both, either, opposite
+  const Compare* compare = nullptr;  // of a and b; none: whether a is true
+  Side a{}, b{};
 };
 
 namespace {
 
 using CNode = Condition::Node;
 
+const Compare* find_compare(std::string_view symbol) {
+  const auto* const it = std::find_if(std::begin(compares), std::end(compares),
+                                      [&](const Compare& c) { return c.symbol == symbol; });
+  return it == std::end(compares) ? nullptr : it;
+}
+
 struct Token {
   enum class Kind : std::uint8_t { end, name, number, symbol } kind = Kind::end;
   std::string text;
 };
-
-bool letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-bool digit(char c) { return c >= '0' && c <= '9'; }
 
 class Lexer {
  public:
@@ -59,20 +61,20 @@ class Lexer {
     skip_blanks();
     if (at_ >= text_.size()) return {};
     const char c = text_[at_];
-    if (letter(c)) return {Token::Kind::name, take_name()};
-    if (digit(c) || c == '.' ||
+    if (is_letter(c)) return {Token::Kind::name, take_name()};
+    if (is_digit(c) || c == '.' ||
         ((c == '-' || c == '+') && at_ + 1 < text_.size() &&
-         (digit(text_[at_ + 1]) || text_[at_ + 1] == '.')))
+         (is_digit(text_[at_ + 1]) || text_[at_ + 1] == '.')))
       return {Token::Kind::number, take_number()};
-    for (const char* symbol : {"<=", ">=", "==", "!=", "<", ">", "(", ")"})
-      if (text_.compare(at_, std::strlen(symbol), symbol) == 0) {
-        at_ += std::strlen(symbol);
-        return {Token::Kind::symbol, symbol};
+    const std::string_view rest = std::string_view(text_).substr(at_);
+    for (const std::string_view symbol : {"<=", ">=", "==", "!=", "<", ">", "(", ")"})
+      if (rest.starts_with(symbol)) {
+        at_ += symbol.size();
+        return {Token::Kind::symbol, std::string(symbol)};
       }
     for (const auto& [wrong, hint] : {std::pair{"&&", "write and"}, std::pair{"||", "write or"},
                                       std::pair{"!", "write not"}, std::pair{"=", "write == to compare"}})
-      if (text_.compare(at_, std::strlen(wrong), wrong) == 0)
-        throw Error(std::string("'") + wrong + "' is not understood; " + hint);
+      if (rest.starts_with(wrong)) throw Error(std::string("'") + wrong + "' is not understood; " + hint);
     throw Error("'" + text_.substr(at_, 12) + "' is not understood");
   }
 
@@ -84,7 +86,7 @@ class Lexer {
   /// Letters, digits, dots and indices: nav.state.position_m.north, plan.plan.waypoints[3].airspeed_mps
   std::string take_name() {
     const std::size_t begin = at_;
-    while (at_ < text_.size() && (letter(text_[at_]) || digit(text_[at_]) || text_[at_] == '.' ||
+    while (at_ < text_.size() && (is_letter(text_[at_]) || is_digit(text_[at_]) || text_[at_] == '.' ||
                                   text_[at_] == '[' || text_[at_] == ']'))
       ++at_;
     return text_.substr(begin, at_ - begin);
@@ -99,15 +101,15 @@ class Lexer {
     };
     const auto exponent = [&] {
       return (text_[at_] == 'e' || text_[at_] == 'E') && at_ + 1 < text_.size() &&
-             (digit(text_[at_ + 1]) || text_[at_ + 1] == '-' || text_[at_ + 1] == '+');
+             (is_digit(text_[at_ + 1]) || text_[at_ + 1] == '-' || text_[at_ + 1] == '+');
     };
-    while (at_ < text_.size() && (digit(text_[at_]) || text_[at_] == '.' || exponent() || exponent_sign()))
+    while (at_ < text_.size() && (is_digit(text_[at_]) || text_[at_] == '.' || exponent() || exponent_sign()))
       ++at_;
     const std::size_t number_end = at_;
     skip_blanks();
     const std::size_t unit_begin = at_;
     const auto of_unit = [](char c) {
-      return letter(c) || digit(c) || c == '/' || c == '^' || c == '%' ||
+      return is_letter(c) || is_digit(c) || c == '/' || c == '^' || c == '%' ||
              static_cast<unsigned char>(c) >= 0x80;
     };
     while (at_ < text_.size() && of_unit(text_[at_])) ++at_;
@@ -125,12 +127,7 @@ class Lexer {
 
 /// A probe carries one double without a name.
 const Field& probe_field() {
-  static const Field field = [] {
-    Field f;
-    f.kind = FULMAR_F64;
-    f.stride = sizeof(double);
-    return f;
-  }();
+  static const Field field{.kind = FULMAR_F64, .stride = sizeof(double)};
   return field;
 }
 
@@ -173,13 +170,7 @@ class Compiler {
     nodes_.push_back(std::move(node));
     return static_cast<int>(nodes_.size()) - 1;
   }
-  int join_nodes(Op op, int left, int right) {
-    CNode node;
-    node.op = op;
-    node.left = left;
-    node.right = right;
-    return add(std::move(node));
-  }
+  int join_nodes(Op op, int left, int right) { return add({.op = op, .left = left, .right = right}); }
 
   int either() {
     int left = both();
@@ -206,42 +197,33 @@ class Compiler {
 
   int comparison() {
     Operand a = operand();
-    static const std::pair<const char*, Op> compares[] = {{"<=", Op::less_equal}, {">=", Op::greater_equal},
-                                                          {"<", Op::less},        {">", Op::greater},
-                                                          {"==", Op::equal},      {"!=", Op::differs}};
-    for (const auto& [symbol, op] : compares) {
-      if (!take(symbol)) continue;
+    if (const Compare* compare = compare_here()) {
+      advance();
       Operand b = operand();
-      for (const auto& [again, unused] : compares)
-        if (token_.kind == Token::Kind::symbol && token_.text == again)
-          throw Error("a comparison has two sides; join two of them with 'and'");
-      return add(compared(symbol, op, std::move(a), std::move(b)));
+      if (compare_here()) throw Error("a comparison has two sides; join two of them with 'and'");
+      return add(compared(compare, std::move(a), std::move(b)));
     }
     if (a.kind == Operand::Kind::label)
       throw Error("'" + a.text + "' is not a field; a field is written like nav.state.height_m");
     if (!a.is_bool()) throw Error("'" + a.text + "' is not true or false; compare it with something");
     CNode node;
-    node.op = Op::truth;
     node.a = a.side;
     return add(std::move(node));
   }
 
-  CNode compared(const std::string& symbol, Op op, Operand a, Operand b) {
+  const Compare* compare_here() const {
+    return token_.kind == Token::Kind::symbol ? find_compare(token_.text) : nullptr;
+  }
+
+  CNode compared(const Compare* compare, Operand a, Operand b) {
     if (a.kind != Operand::Kind::field) {  // 3 m < height: turn it round
       if (b.kind != Operand::Kind::field)
-        throw Error("'" + a.text + " " + symbol + " " + b.text + "' looks at no field");
-      static const std::pair<Op, Op> mirrored[] = {{Op::less, Op::greater},
-                                                   {Op::greater, Op::less},
-                                                   {Op::less_equal, Op::greater_equal},
-                                                   {Op::greater_equal, Op::less_equal}};
-      for (const auto& [from, to] : mirrored)
-        if (op == from) {
-          op = to;
-          break;
-        }
+        throw Error("'" + a.text + " " + std::string(compare->symbol) + " " + b.text + "' looks at no field");
+      compare = find_compare(compare->mirrored);
       std::swap(a, b);
     }
-    if ((a.is_enum() || a.is_bool() || b.is_enum() || b.is_bool()) && op != Op::equal && op != Op::differs)
+    const bool ordered = compare->symbol != compare->mirrored;
+    if ((a.is_enum() || a.is_bool() || b.is_enum() || b.is_bool()) && ordered)
       throw Error("'" + (a.is_enum() || a.is_bool() ? a : b).text +
                   "' has no order; compare it with == or !=");
     if (b.kind == Operand::Kind::label)
@@ -251,7 +233,7 @@ class Compiler {
     else
       match_fields(a, b);
     CNode node;
-    node.op = op;
+    node.compare = compare;
     node.a = std::move(a.side);
     node.b = std::move(b.side);
     return node;
@@ -317,10 +299,7 @@ class Compiler {
   }
 
   void field(Operand& operand) {
-    const ShownField found = find_shown(operand.text, find_);
-    operand.side.source = found.from;
-    operand.side.type = found.type;
-    operand.side.field = found.field;
+    const Shown& found = static_cast<Shown&>(operand.side) = find_shown(operand.text, find_);
     const fulmar_kind kind = found.field.field->kind;
     if (kind == FULMAR_STRUCT || kind == FULMAR_TEXT)
       throw Error("'" + operand.text + "' is " +
@@ -339,18 +318,18 @@ class Compiler {
 
 /// False when there is no such number: a list that is shorter than the index.
 bool number_of(const CNode::Side& side, const SampleReader& reader, double& number) noexcept {
-  if (side.source.kind == Source::Kind::none) {
+  if (side.from.kind == Source::Kind::none) {
     number = side.number;
     return true;
   }
-  const std::byte* message = reader.sample(side.source);
+  const std::byte* message = reader.sample(side.from);
   if (!message || !side.field.present(message)) return false;
   number = number_at(*side.field.field, message + side.field.offset) * side.factor;
   return true;
 }
 
 bool node_holds(const std::vector<CNode>& nodes, int index, const SampleReader& reader) noexcept {
-  const CNode& node = nodes[static_cast<std::size_t>(index)];
+  const CNode& node = nth(nodes, index);
   if (node.op == Op::both)
     return node_holds(nodes, node.left, reader) && node_holds(nodes, node.right, reader);
   if (node.op == Op::either)
@@ -358,26 +337,18 @@ bool node_holds(const std::vector<CNode>& nodes, int index, const SampleReader& 
   if (node.op == Op::opposite) return !node_holds(nodes, node.left, reader);
   double a = 0, b = 0;
   if (!number_of(node.a, reader, a)) return false;
-  if (node.op == Op::truth) return a != 0;
-  if (!number_of(node.b, reader, b)) return false;
-  switch (node.op) {
-    case Op::less: return a < b;
-    case Op::less_equal: return a <= b;
-    case Op::greater: return a > b;
-    case Op::greater_equal: return a >= b;
-    case Op::equal: return a == b;
-    default: return a != b;
-  }
+  if (!node.compare) return a != 0;
+  return number_of(node.b, reader, b) && node.compare->holds(a, b);
 }
 
 }  // namespace
 
-ShownField find_shown(const std::string& text, const FindPort& find) {
+Shown find_shown(const std::string& text, const FindPort& find) {
   const auto dot = text.find('.');
   const auto second = dot == std::string::npos ? dot : text.find('.', dot + 1);
   if (dot == std::string::npos)
     throw Error("'" + text + "' is not a field; a field is written like nav.state.height_m");
-  ShownField shown;
+  Shown shown{text, {}, {}, {}};
   const std::string owner = text.substr(0, dot),
                     port = text.substr(dot + 1, second == std::string::npos ? second : second - dot - 1);
   std::tie(shown.from, shown.type) = find(owner, port);
@@ -389,11 +360,9 @@ ShownField find_shown(const std::string& text, const FindPort& find) {
     shown.field.unit = suffixed ? suffixed->unit : "";
     return shown;
   }
-  std::vector<std::string> names;
-  for (const Field& field : shown.type->fields) names.push_back(field.name);
   if (second == std::string::npos)
     throw Error("'" + text + "' is a whole " + shown.type->name +
-                "; name a field of it. Valid: " + join(names) + ".");
+                "; name a field of it. Valid: " + join(names_of(shown.type->fields)) + ".");
   shown.field = resolve_field(*shown.type, text.substr(second + 1));
   return shown;
 }

@@ -23,15 +23,9 @@ struct SampleReader {
   ~SampleReader() = default;
 };
 
-/// A field of a port, found by its full name "nav.state.height_m"; a probe is named by its port alone. The
-/// type is empty for a probe.
-struct ShownField {
-  Source from;
-  TypePtr type;
-  FieldRef field;
-};
-/// Throws Error with the valid choices.
-ShownField find_shown(const std::string& text, const FindPort& find);
+/// A field of a port, found by its full name "nav.state.height_m"; a probe is named by its port alone. Throws
+/// Error with the valid choices.
+Shown find_shown(const std::string& text, const FindPort& find);
 
 class Condition {
  public:

@@ -13,27 +13,19 @@
 
 namespace fulmar::core {
 
-/// A component of the file that can exist in this run. Sources in its wires count candidates until the graph
-/// is built.
-struct Candidate {
+/// A component of the file that can exist in this run. Sources in its wires count candidates, and `role` is
+/// what it can fill, until the graph is built.
+struct Candidate : Component {
   const ComponentText* text = nullptr;
-  FoundPlugin plugin;
-  std::size_t index = 0;  // into the plugin's components
   bool loaded = false;    // false: its plugin was refused; what depends on it is not reported again
-  std::string use;        // "control_slc/Outer"
-  int role = -1;          // that it can fill
   bool assigned = false;  // fills its role, or is a fallback, in some phase
   bool used = false;      // is created
   int component = -1;     // into Graph::components
-  std::vector<Wire> wires;
-  std::vector<ParamValue> params;
-
-  const ComponentInfo& info() const { return plugin.info->components[index]; }
-  const std::string& name() const { return text->name; }
 };
 
 struct RoleDraft {
-  const RoleText* text = nullptr;
+  const RoleText* text;
+  std::string name;
   std::vector<int> fillers;    // candidates, in file order
   std::vector<TypePtr> types;  // one per output; empty when nobody provides it
   bool unclear = false;        // a filler was refused: do not report what it may provide
@@ -57,17 +49,19 @@ struct Draft {
   std::vector<std::vector<Assignment>> assignments;  // [phase][role], components count candidates
   Graph graph;
 
-  int candidate(const std::string& name) const;
-  int role(const std::string& name) const;
-  int vehicle_role() const { return role("vehicle"); }
-  bool is_out(const ComponentText& component) const;  // by io
-  std::vector<std::string> candidate_names() const;
-  std::vector<std::string> role_names() const;
+  int candidate(const std::string& name) const { return index_named(candidates, name); }
+  int role(const std::string& name) const { return index_named(roles, name); }
+  bool is_out(const ComponentText& c) const { return c.only && *c.only != text.io; }
+  const Component& vehicle() const { return nth(graph.components, graph.vehicle); }
 };
 
-// resolve.cpp: why a component of the file is not there: "fcu exists only with io: fcu", or that there is
-// none of that name
+// resolve.cpp
+/// Why a component of the file is not there: "fcu exists only with io: fcu", or that there is none of that
+/// name.
 std::string not_there(const Draft& draft, const std::string& name);
+
+/// Whether an output of a role is there: somebody who fills it in this run has it. Of the built graph.
+bool provided(const Graph& graph, const Source& source);
 
 // wires.cpp
 Target find_target(const Draft& draft, const PortName& name);  // throws Error

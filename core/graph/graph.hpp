@@ -63,22 +63,26 @@ struct VehicleFlags {
 /// driver in a thread of its own.
 enum class RunMode : std::uint8_t { tick, process, async, driver };
 
-struct Component {
-  std::string name;                          // "slc"
+/// What a mission says of a component that stands by itself.
+struct ComponentSettings {
+  std::string name;                         // "slc"
+  std::int64_t budget_ns = 0;               // 0: none
+  std::int64_t latency_ns = 0;              // async: from the step's inputs to its visible outputs
+  std::int64_t hang_ns = 50'000'000;        // process: longest wait for one step when paced
+  std::uint64_t memory_bytes = 64'000'000;  // growth of the heap in flight that is allowed
+  Where where;
+};
+
+struct Component : ComponentSettings {
   std::string use;                           // "control_slc/Outer", as resolved
   std::shared_ptr<const PluginInfo> plugin;  // the host's own copy: outlives the library
   std::shared_ptr<Library> library;          // empty when a test describes the component by hand
   std::size_t index_in_plugin = 0;
   int role = -1;               // that it fills in some phase; -1: none, it steps in every phase
   std::int64_t period_ns = 0;  // 0: every tick
-  std::int64_t budget_ns = 0;  // 0: none
   RunMode run = RunMode::tick;
-  std::int64_t latency_ns = 0;              // async: from the step's inputs to its visible outputs
-  std::int64_t hang_ns = 0;                 // process: longest wait for one step when paced
-  std::uint64_t memory_bytes = 64'000'000;  // growth of the heap in flight that is allowed
-  std::vector<Wire> wires;                  // one per input
-  std::vector<ParamValue> params;           // one per parameter, the base values
-  Where where;
+  std::vector<Wire> wires;         // one per input
+  std::vector<ParamValue> params;  // one per parameter, the base values
 
   const ComponentInfo& info() const { return plugin->components[index_in_plugin]; }
 };
@@ -193,30 +197,15 @@ struct Overrides {
   std::vector<std::string> flown;            // SHA-256 of the plugins that have flown in it
 };
 
-struct Graph {
+/// What a mission says that stands by itself, as it is written.
+struct Settings {
   std::string mission;
   Io io = Io::sim;
-  std::string airframe;  // file name, "" when there is none
-  std::int64_t tick_ns = 2'500'000;
   std::int64_t epoch_ns = 0;  // UTC of flight time 0
   std::uint64_t seed = 1;
-  bool arm = false;
-  std::vector<Component> components;  // only those that exist in this run
-  std::vector<Role> roles;
-  std::vector<Phase> phases;  // the first is where the flight begins
-  std::vector<Transition> any;
-  std::vector<int> order;  // steps, the vehicle left out
-  int vehicle = -1;
-  VehicleFlags flags;                                   // of the vehicle; with Io::fcu it has all of them
-  std::shared_ptr<const Condition> done, failed;        // may be empty
-  std::int64_t done_for_ns = 0, failed_for_ns = 0;      // how long they have to hold
-  std::int64_t timeout_ns = 0;                          // of flight time; 0: none
-  std::vector<std::pair<std::string, Source>> summary;  // key of the result -> port
-  std::vector<Shown> progress;
-  std::vector<int> control;  // roles that begin anew as long as the vehicle says that it does not obey
-  std::vector<Source> tell;  // ports whose texts are for people
-  std::vector<ResumeRule> resume;
-  std::vector<std::vector<std::byte>> failsafe;  // one per vehicle input: the struct to send; empty: not sent
+  bool arm = false;                                 // with Io::sim alone
+  std::int64_t timeout_ns = 0;                      // of flight time; 0: none
+  std::int64_t done_for_ns = 0, failed_for_ns = 0;  // how long `done` and `failed` have to hold
   std::int64_t failsafe_ns = 0;
   std::string record_file;  // "" : logs/<mission>-<UTC>.mcap
   bool record = true;
@@ -225,6 +214,25 @@ struct Graph {
   std::int64_t rotate_ns = 0;
   LiveOptions live;
   DdsOptions dds;
+};
+
+struct Graph : Settings {
+  std::string airframe;  // file name, "" when there is none
+  std::int64_t tick_ns = 2'500'000;
+  std::vector<Component> components;  // only those that exist in this run
+  std::vector<Role> roles;
+  std::vector<Phase> phases;  // the first is where the flight begins
+  std::vector<Transition> any;
+  std::vector<int> order;  // steps, the vehicle left out
+  int vehicle = -1;
+  VehicleFlags flags;                                   // of the vehicle; with Io::fcu it has all of them
+  std::shared_ptr<const Condition> done, failed;        // may be empty
+  std::vector<std::pair<std::string, Source>> summary;  // key of the result -> port
+  std::vector<Shown> progress;
+  std::vector<int> control;  // roles that begin anew as long as the vehicle says that it does not obey
+  std::vector<Source> tell;  // ports whose texts are for people
+  std::vector<ResumeRule> resume;
+  std::vector<std::vector<std::byte>> failsafe;  // one per vehicle input: the struct to send; empty: not sent
   /// Files whose contents cross into the flight, as read: mission, what it extends, airframe, plans. Name
   /// without folders -> text.
   std::vector<std::pair<std::string, std::string>> attachments;

@@ -10,6 +10,7 @@
 
 #include "core/graph/quantity.hpp"
 #include "core/types/names.hpp"
+#include "core/types/text.hpp"
 
 namespace fulmar::core {
 namespace fs = std::filesystem;
@@ -31,6 +32,27 @@ std::optional<Io> io_of(const std::string& word) {
   return static_cast<Io>(at - io_words.begin());
 }
 
+std::vector<std::string> keys_of(const Node& map) {
+  std::vector<std::string> keys;
+  for (const Node::Entry& entry : map.entries) keys.push_back(entry.key);
+  return keys;
+}
+
+/// "64 MB" -> 64e6. Reports a fault and returns 0.
+std::uint64_t parse_bytes(const std::string& text, const Where& where, const std::string& path,
+                          Report& report) {
+  double number = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
+  std::string unit(end, text.data() + text.size());
+  unit.erase(0, unit.find_first_not_of(' '));
+  for (const auto& [name, factor] : {std::pair{"kB", 1e3}, std::pair{"MB", 1e6}, std::pair{"GB", 1e9}})
+    if (code == std::errc{} && unit == name && number > 0 && number <= 1e6)
+      return static_cast<std::uint64_t>(number * factor);
+  report.add(where,
+             path + ": '" + text + "' is no amount of memory; write it with kB, MB or GB, as in 64 MB");
+  return 0;
+}
+
 class MissionReader {
  public:
   MissionReader(MissionText& mission, Report& report) : m_(mission), report_(report) {}
@@ -44,28 +66,23 @@ class MissionReader {
     if (const Node* node = keys.get("plugins")) m_.plugins = *node;
     shown(keys);
     failsafe(keys);
-    each(keys, "roles", [&](const Node::Entry& entry) { role(entry); });
-    each(keys, "components", [&](const Node::Entry& entry) { component(entry); });
-    each(keys, "phases", [&](const Node::Entry& entry) { phase(entry); });
+    each(keys, "roles", component_room, &MissionReader::role);
+    each(keys, "components", component_room, &MissionReader::component);
+    each(keys, "phases", name_room, &MissionReader::phase);
     record(keys);
     read_live(keys, m_, report_);
     read_dds(keys, m_, report_);
   }
 
  private:
-  template <class F>
-  void each(const Keys& keys, const std::string& key, F read_entry) {
-    const Node* node = keys.get(key);
-    if (!node) return;
-    if (!node->is(Node::Kind::map))
-      return report_.add(node->where(), key + ": expected a map of names, found " + found_words(*node));
-    const std::size_t most = (key == "phases" ? name_room : component_room) - 1;
-    for (const Node::Entry& entry : node->entries) {
-      if (entry.key.size() > most)
+  void each(const Keys& keys, const std::string& key, std::size_t room,
+            void (MissionReader::*read_entry)(const Node::Entry&)) {
+    for (const Node::Entry& entry : keys.entries(key, "a map of names")) {
+      if (entry.key.size() >= room)
         report_.add(entry.where(), key + ": '" + entry.key + "' has " + std::to_string(entry.key.size()) +
-                                       " characters; a name has " + std::to_string(most) + " at most");
+                                       " characters; a name has " + std::to_string(room - 1) + " at most");
       if (is_name(entry.key))
-        read_entry(entry);
+        (this->*read_entry)(entry);
       else
         report_.add(entry.where(),
                     key + ": '" + entry.key + "' is not a name; names are letters, digits and _");
@@ -73,9 +90,9 @@ class MissionReader {
   }
 
   void scalars(const Keys& keys) {
-    m_.name = keys.text("mission").value_or(m_.file->path.stem().string());
-    if (m_.name.find('/') != std::string::npos || m_.name.find_first_of("\n\r\t") != std::string::npos)
-      report_.add(keys.where("mission"), "mission: a name without '/' is wanted, found '" + m_.name + "'");
+    m_.mission = keys.text("mission").value_or(m_.file->path.stem().string());
+    if (m_.mission.find_first_of("/\n\r\t") != std::string::npos)
+      report_.add(keys.where("mission"), "mission: a name without '/' is wanted, found '" + m_.mission + "'");
     m_.io = io_of(keys.word("io", io_words).value_or("sim")).value_or(Io::sim);
     m_.rate_hz = keys.positive("rate", "Hz").value_or(400);
     if (m_.rate_hz > 100'000 || m_.rate_hz < 0.1)
@@ -128,22 +145,14 @@ class MissionReader {
 
   void list(const Keys& keys, const std::string& key, const std::string& wanted,
             const std::string& item_wanted, std::vector<Word>& out) {
-    const Node* node = keys.get(key);
-    if (!node) return;
-    if (!node->is(Node::Kind::sequence))
-      report_.add(node->where(), key + ": expected " + wanted + ", found " + found_words(*node));
-    for (const Node& item : node->items)
+    for (const Node& item : keys.items(key, wanted))
       if (const auto text = scalar_text(item, key, item_wanted, report_))
         out.push_back({*text, item.where()});
   }
 
   void map(const Keys& keys, const std::string& key, const std::string& wanted,
            const std::string& item_wanted, std::vector<std::pair<std::string, Word>>& out) {
-    const Node* node = keys.get(key);
-    if (!node) return;
-    if (!node->is(Node::Kind::map))
-      report_.add(node->where(), key + ": expected " + wanted + ", found " + found_words(*node));
-    for (const Node::Entry& entry : node->entries)
+    for (const Node::Entry& entry : keys.entries(key, wanted))
       if (const auto text = scalar_text(entry.value, key + "." + entry.key, item_wanted, report_))
         out.push_back({entry.key, {*text, entry.where()}});
   }
@@ -153,11 +162,10 @@ class MissionReader {
     if (!node) return;
     m_.failsafe = *node;
     m_.failsafe_ns = 2'000'000'000;
-    if (!node->is(Node::Kind::map)) return;
     if (!node->find("for")) return;
-    std::vector<std::string> any_key;  // the fields are checked against the vehicle's inputs later
-    for (const Node::Entry& entry : node->entries) any_key.push_back(entry.key);
-    m_.failsafe_ns = Keys(*node, "failsafe", any_key, report_).duration_ns("for").value_or(m_.failsafe_ns);
+    // the fields are checked against the vehicle's inputs later
+    m_.failsafe_ns =
+        Keys(*node, "failsafe", keys_of(*node), report_).duration_ns("for").value_or(m_.failsafe_ns);
   }
 
   /// "nav.state"; nothing and a fault when it is not that.
@@ -167,22 +175,17 @@ class MissionReader {
     return parse_port_name(*text, node.where(), path, report_);
   }
 
-  std::vector<WireText> wires(const Node* map, const std::string& path) {
+  std::vector<WireText> wires(const Keys& keys) {
     std::vector<WireText> list;
-    if (!map) return list;
-    if (!map->is(Node::Kind::map)) {
-      report_.add(map->where(),
-                  path + ": expected a map {input: component.output}, found " + found_words(*map));
-      return list;
-    }
-    for (const Node::Entry& entry : map->entries) list.push_back(read_wire(entry, path + "." + entry.key));
+    for (const Node::Entry& entry : keys.entries("in", "a map {input: component.output}"))
+      list.push_back(read_wire(entry, keys.path("in") + "." + entry.key));
     return list;
   }
 
   /// `from` is empty when it cannot be read: the input is wired all the same, and not reported again.
   WireText read_wire(const Node::Entry& entry, const std::string& path) {
     WireText wire;
-    wire.input = entry.key;
+    wire.name = entry.key;
     wire.where = entry.where();
     if (entry.value.is(Node::Kind::map)) {
       const Keys keys(entry.value, path, {"from", "max_age", "delayed"}, report_);
@@ -202,30 +205,26 @@ class MissionReader {
   void role(const Node::Entry& entry) {
     const std::string path = "roles." + entry.key;
     const bool vehicle = entry.key == "vehicle";
-    const std::vector<std::string> valid =
-        vehicle ? std::vector<std::string>{"in", "out", "flags"} : std::vector<std::string>{"in", "out"};
+    std::vector<std::string> valid = {"in", "out"};
+    if (vehicle) valid.push_back("flags");
     const Keys keys(entry.value, path, valid, report_);
     RoleText role;
     role.name = entry.key;
     role.where = entry.where();
-    role.in = wires(keys.get("in"), path + ".in");
-    const Node* out = keys.get("out");
-    if (out && !out->is(Node::Kind::map))
-      report_.add(out->where(), path + ".out: expected a map {output: Type}, found " + found_words(*out));
-    if (out)
-      for (const Node::Entry& port : out->entries) {
-        RoleOutText text;
-        text.optional = port.key.ends_with('?');
-        text.name = text.optional ? port.key.substr(0, port.key.size() - 1) : port.key;
-        text.where = port.where();
-        const auto type = scalar_text(port.value, path + ".out." + port.key,
-                                      "the name of a message type such as VehicleState", report_);
-        if (!is_name(text.name))
-          report_.add(port.where(),
-                      path + ".out: '" + port.key + "' is not a name; an optional port ends in '?'");
-        else if (type)
-          text.type = *type, role.out.push_back(text);
-      }
+    role.in = wires(keys);
+    for (const Node::Entry& port : keys.entries("out", "a map {output: Type}")) {
+      RoleOutText text;
+      text.optional = port.key.ends_with('?');
+      text.name = text.optional ? port.key.substr(0, port.key.size() - 1) : port.key;
+      text.where = port.where();
+      const auto type = scalar_text(port.value, path + ".out." + port.key,
+                                    "the name of a message type such as VehicleState", report_);
+      if (!is_name(text.name))
+        report_.add(port.where(),
+                    path + ".out: '" + port.key + "' is not a name; an optional port ends in '?'");
+      else if (type)
+        text.type = *type, role.out.push_back(text);
+    }
     if (const Node* flags = keys.get("flags"); flags && vehicle) vehicle_flags(*flags, path + ".flags", role);
     m_.roles.push_back(std::move(role));
   }
@@ -244,21 +243,17 @@ class MissionReader {
     ComponentText c;
     c.name = entry.key;
     c.where = entry.where();
-    c.fills = keys.text("fills").value_or("");
-    c.where_fills = keys.where("fills");
-    c.use = keys.text("use").value_or("");
-    c.where_use = keys.where("use");
+    c.fills = keys.word_at("fills");
+    c.use = keys.word_at("use");
     if (!keys.has("use") && entry.value.is(Node::Kind::map))
       report_.add(entry.where(),
                   path + ": 'use' is missing; it names the plugin, as in use: control_slc/Outer");
     c.only = io_of(keys.word("only", io_words).value_or(""));
-    if (!keys.has("only") && c.fills == "vehicle") c.only = io_of(c.name);
-    c.in = wires(keys.get("in"), path + ".in");
+    if (!keys.has("only") && c.fills.text == "vehicle") c.only = io_of(c.name);
+    c.in = wires(keys);
     if (const Node* params = keys.get("params")) {
       c.params = *params;
-      if (!params->is(Node::Kind::map))
-        report_.add(params->where(),
-                    path + ".params: expected a map {parameter: value}, found " + found_words(*params));
+      is_a(Node::Kind::map, *params, path + ".params", "a map {parameter: value}", report_);
     }
     c.rate_hz = keys.positive("rate", "Hz").value_or(0);
     c.where_rate = keys.where("rate");
@@ -278,7 +273,7 @@ class MissionReader {
     if (keys.has("hang") && c.run && c.run != RunMode::process)
       report_.add(keys.where("hang"), path + ".hang: belongs to 'run: process'");
     c.latency_ns = keys.duration_ns("latency").value_or(0);
-    c.hang_ns = keys.duration_ns("hang").value_or(0);
+    if (const auto hang = keys.duration_ns("hang"); hang && *hang > 0) c.hang_ns = *hang;
     if (c.run == RunMode::async && c.latency_ns == 0)
       report_.add(keys.has("latency") ? keys.where("latency") : keys.where("run"),
                   path +
@@ -293,12 +288,13 @@ class MissionReader {
     std::vector<std::string> valid = {"next"};
     if (entry.key != "any")
       for (const RoleText& role : m_.roles) valid.push_back(role.name);
-    const Keys keys(entry.value.is(Node::Kind::null) ? Node{} : entry.value, path, valid, report_);
+    const Node nothing, &node = entry.value.is(Node::Kind::null) ? nothing : entry.value;
+    const Keys keys(node, path, valid, report_);
     PhaseText phase;
     phase.name = entry.key;
     phase.where = entry.where();
-    if (const Node* next = entry.value.find("next")) transitions(*next, path + ".next", phase.next);
-    for (const Node::Entry& item : entry.value.entries)
+    transitions(keys, phase.next);
+    for (const Node::Entry& item : node.entries)
       if (item.key != "next" && std::find(valid.begin(), valid.end(), item.key) != valid.end())
         assignment(item, path + "." + item.key, phase);
     if (entry.key == "any")
@@ -307,25 +303,20 @@ class MissionReader {
       m_.phases.push_back(std::move(phase));
   }
 
-  void transitions(const Node& list, const std::string& path, std::vector<TransitionText>& out) {
-    if (!list.is(Node::Kind::sequence))
-      return report_.add(
-          list.where(),
-          path + ": expected a list such as [{to: cruise, when: \"...\"}], found " + found_words(list));
-    for (const Node& item : list.items) {
+  void transitions(const Keys& phase, std::vector<TransitionText>& out) {
+    const std::string path = phase.path("next");
+    for (const Node& item : phase.items("next", "a list such as [{to: cruise, when: \"...\"}]")) {
       const Keys keys(item, path, {"to", "when", "for"}, report_);
       if (!item.is(Node::Kind::map)) continue;
       TransitionText t;
       t.where = item.where();
-      t.where_to = keys.where("to");
-      t.where_when = keys.where("when");
       for (const char* key : {"to", "when"})
         if (!keys.has(key))
           report_.add(
               item.where(),
               path + ": '" + key + "' is missing, as in {to: cruise, when: \"nav.state.height_m > 30 m\"}");
-      t.to = keys.text("to").value_or("");
-      t.when = keys.text("when").value_or("");
+      t.to = keys.word_at("to");
+      t.when = keys.word_at("when");
       t.for_ns = keys.duration_ns("for").value_or(0);
       out.push_back(std::move(t));
     }
@@ -334,21 +325,19 @@ class MissionReader {
   void assignment(const Node::Entry& entry, const std::string& path, PhaseText& phase) {
     AssignmentText a;
     a.role = entry.key;
-    a.where = a.where_use = a.where_fallback = entry.where();
+    a.where = entry.where();
     if (entry.value.is(Node::Kind::map)) {
       const Keys keys(entry.value, path, {"use", "set", "fallback"}, report_);
-      a.use = keys.text("use").value_or("");
-      a.fallback = keys.text("fallback").value_or("");
-      if (keys.has("use")) a.where_use = keys.where("use");
-      if (keys.has("fallback")) a.where_fallback = keys.where("fallback");
+      a.use = keys.word_at("use");
+      a.fallback = keys.word_at("fallback");
       if (const Node* set = keys.get("set")) a.set = *set;
-      if (!a.set.is(Node::Kind::missing) && !a.set.is(Node::Kind::map))
-        report_.add(a.set.where(),
-                    path + ".set: expected a map {parameter: value}, found " + found_words(a.set)),
-            a.set = Node{};
+      if (keys.has("set") &&
+          !is_a(Node::Kind::map, a.set, path + ".set", "a map {parameter: value}", report_))
+        a.set = Node{};
     } else {
-      a.use = scalar_text(entry.value, path, "the name of a component, or {use, set, fallback}", report_)
-                  .value_or("");
+      const auto name =
+          scalar_text(entry.value, path, "the name of a component, or {use, set, fallback}", report_);
+      a.use = {name.value_or(""), entry.where()};
     }
     phase.roles.push_back(std::move(a));
   }
@@ -379,8 +368,7 @@ class MissionReader {
                 scalar_text(item, "record.ports", "a port or a pattern such as \"nav.*\"", report_))
           add_rule(*text, period, item.where());
     } else if (ports->is(Node::Kind::map)) {
-      std::vector<std::string> names;
-      for (const Node::Entry& entry : ports->entries) names.push_back(entry.key);
+      const std::vector<std::string> names = keys_of(*ports);
       const Keys rates(*ports, "record.ports", names, report_);
       for (const std::string& name : names) {
         const bool all = ports->find(name)->text == "all";
@@ -388,8 +376,7 @@ class MissionReader {
         add_rule(name, hz ? std::llround(1e9 / *hz) : 0, rates.where(name));
       }
     } else {
-      report_.add(ports->where(), "record.ports: expected a list of ports or a map {port: rate}, found " +
-                                      found_words(*ports));
+      is_a(Node::Kind::map, *ports, "record.ports", "a list of ports or a map {port: rate}", report_);
     }
   }
 
@@ -458,13 +445,6 @@ Node load_tree(MissionText& mission, const StoredFiles* stored, Report& report) 
 
 }  // namespace
 
-bool is_name(const std::string& text) {
-  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
-  return !text.empty() && letter(text[0]) &&
-         std::all_of(text.begin(), text.end(), [&](char c) { return letter(c) || digit(c); });
-}
-
 std::optional<PortName> parse_port_name(const std::string& text, const Where& where, const std::string& path,
                                         Report& report) {
   const auto dot = text.find('.');
@@ -472,32 +452,6 @@ std::optional<PortName> parse_port_name(const std::string& text, const Where& wh
     return PortName{text.substr(0, dot), text.substr(dot + 1)};
   report.add(where, path + ": expected a port such as nav.state, found '" + text + "'");
   return std::nullopt;
-}
-
-std::uint64_t parse_bytes(const std::string& text, const Where& where, const std::string& path,
-                          Report& report) {
-  double number = 0;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
-  std::string unit(end, text.data() + text.size());
-  unit.erase(0, unit.find_first_not_of(' ') == std::string::npos ? 0 : unit.find_first_not_of(' '));
-  for (const auto& [name, factor] : {std::pair{"kB", 1e3}, std::pair{"MB", 1e6}, std::pair{"GB", 1e9}})
-    if (code == std::errc{} && unit == name && number > 0 && number <= 1e6)
-      return static_cast<std::uint64_t>(number * factor);
-  report.add(where,
-             path + ": '" + text + "' is no amount of memory; write it with kB, MB or GB, as in 64 MB");
-  return 0;
-}
-
-const RoleText* MissionText::role(const std::string& wanted) const {
-  for (const RoleText& role : roles)
-    if (role.name == wanted) return &role;
-  return nullptr;
-}
-
-const ComponentText* MissionText::component(const std::string& wanted) const {
-  for (const ComponentText& c : components)
-    if (c.name == wanted) return &c;
-  return nullptr;
 }
 
 std::int64_t parse_utc_ns(const std::string& text) {
@@ -541,6 +495,7 @@ MissionText parse_mission(const std::string& file, const Overrides& overrides, R
                  "unknown word '" + *overrides.io + "'." + choices_text(*overrides.io, io_words));
   }
   if (overrides.seed) mission.seed = *overrides.seed;
+  mission.arm = mission.arm && mission.io == Io::sim;
   return mission;
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/graph/graph.hpp"
 #include "core/graph/yaml.hpp"
+#include "core/types/named.hpp"
 
 namespace fulmar::core {
 
@@ -19,7 +20,7 @@ struct PortName {
 };
 
 struct WireText {
-  std::string input;
+  std::string name;  // of the input
   PortName from;
   std::optional<std::int64_t> max_age_ns;
   bool delayed = false;
@@ -32,12 +33,6 @@ struct RoleOutText {
   Where where;
 };
 
-/// A word of the file with its place: a port, a field, a condition.
-struct Word {
-  std::string text;
-  Where where;
-};
-
 struct RoleText {
   std::string name;
   std::vector<WireText> in;
@@ -46,30 +41,28 @@ struct RoleText {
   Where where;
 };
 
-struct ComponentText {
-  std::string name, fills, use;
+struct ComponentText : ComponentSettings {
+  Word fills, use;
   std::optional<Io> only;  // nothing: it exists with both
   std::vector<WireText> in;
   Node params;
-  double rate_hz = 0;  // 0: every tick
-  std::int64_t budget_ns = 0;
+  double rate_hz = 0;           // 0: every tick
   std::int64_t max_age_ns = 0;  // of wires that say nothing
   std::optional<RunMode> run;
-  std::int64_t latency_ns = 0, hang_ns = 0;
-  std::uint64_t memory_bytes = 0;  // 0: the default
-  Where where, where_use, where_fills, where_rate;
+  Where where_rate;
 };
 
 struct AssignmentText {
-  std::string role, use, fallback;
+  std::string role;
+  Word use, fallback;
   Node set;
-  Where where, where_use, where_fallback;
+  Where where;
 };
 
 struct TransitionText {
-  std::string to, when;
+  Word to, when;
   std::int64_t for_ns = 0;
-  Where where, where_to, where_when;
+  Where where;
 };
 
 struct PhaseText {
@@ -86,43 +79,28 @@ struct ImportText {
   Where where;
 };
 
-struct MissionText {
+struct MissionText : Settings {
   FilePtr file;
-  std::string name;
-  Io io = Io::sim;
   double rate_hz = 400;
-  std::int64_t epoch_ns = 0;
-  std::uint64_t seed = 1;
-  bool arm = false;
-  std::int64_t timeout_ns = 0;
   Node airframe;  // text, a map, or missing
   Node origin;
   std::optional<Word> done, failed;
-  std::int64_t done_for_ns = 0, failed_for_ns = 0;
   std::vector<Word> progress;
   std::vector<std::pair<std::string, Word>> summary;
   std::vector<Word> control, tell;
   std::vector<std::pair<std::string, Word>> resume;  // parameter -> field
   Node plugins;                                      // what may be loaded
   Node failsafe;
-  std::int64_t failsafe_ns = 0;
   std::vector<RoleText> roles;
   std::vector<ComponentText> components;
   std::vector<PhaseText> phases;  // without `any`
   std::vector<TransitionText> any;
-  std::vector<RecordRule> record_rules;
-  std::vector<Where> record_where;  // one per rule
-  std::string record_file;
-  bool record = true;
-  std::uint64_t rotate_bytes = 0;
-  std::int64_t rotate_ns = 0;
-  LiveOptions live;
-  DdsOptions dds;                       // but for its imports
+  std::vector<Where> record_where;      // one per rule
   std::vector<ImportText> dds_imports;  // into components that may not exist
   std::vector<FilePtr> files;           // the mission and what it extends
 
-  const RoleText* role(const std::string& name) const;
-  const ComponentText* component(const std::string& name) const;
+  const RoleText* role(const std::string& name) const { return find_named(roles, name); }
+  const ComponentText* component(const std::string& name) const { return find_named(components, name); }
 };
 
 /// Reads a mission and the file that it extends. Faults go to the report; throws Error when there is no such
@@ -133,11 +111,6 @@ MissionText parse_mission(const std::string& file, const Overrides& overrides, R
 void read_live(const Keys& mission, MissionText& text, Report& report);
 void read_dds(const Keys& mission, MissionText& text, Report& report);
 
-/// "64 MB" -> 64e6. Reports a fault and returns 0.
-std::uint64_t parse_bytes(const std::string& text, const Where& where, const std::string& path,
-                          Report& report);
-/// Letters, digits and _.
-bool is_name(const std::string& text);
 /// "nav.state"; nothing and a fault when it is not that.
 std::optional<PortName> parse_port_name(const std::string& text, const Where& where, const std::string& path,
                                         Report& report);

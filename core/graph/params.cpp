@@ -8,27 +8,28 @@
 
 #include "core/graph/quantity.hpp"
 #include "core/graph/record.hpp"
+#include "core/types/named.hpp"
 
 namespace fulmar::core {
 namespace fs = std::filesystem;
 
 // ---- files
 
+FilePtr FileStore::known(const fs::path& path) const {
+  for (const FilePtr& file : files_)
+    if (file->path.lexically_normal() == path.lexically_normal()) return file;
+  return nullptr;
+}
+
 void FileStore::keep(const FilePtr& file) {
-  const auto same = [&](const FilePtr& other) {
-    return other->path.lexically_normal() == file->path.lexically_normal();
-  };
-  if (std::none_of(files_.begin(), files_.end(), same)) files_.push_back(file);
+  if (!known(file->path)) files_.push_back(file);
 }
 
 FilePtr FileStore::read(const Node& node, const std::string& path) {
   const fs::path file = (node.file->path.parent_path() / node.text).lexically_normal();
-  for (const FilePtr& known : files_)
-    if (known->path.lexically_normal() == file) return known;
+  if (const FilePtr there = known(file)) return there;
   try {
-    const FilePtr found = read_source(file, node.text, stored_);
-    files_.push_back(found);
-    return found;
+    return files_.emplace_back(read_source(file, node.text, stored_));
   } catch (const Error& fault) {
     report_.add(node.where(), path + ": " + fault.what());
     return nullptr;
@@ -85,74 +86,45 @@ struct ParamReader {
   void fault(const Node& node, const std::string& sentence) const {
     report.add(node.where(), path + ": " + sentence);
   }
-  std::string unit_words() const { return param.unit.empty() ? "" : " in " + param.unit; }
-
-  bool number_into(const Node& node, double& target) const {
-    if (!node.is(Node::Kind::scalar))
-      return fault(node, "expected a number" + unit_words() + ", found " + found_words(node)), false;
-    try {
-      const Quantity quantity = parse_quantity(node.text);
-      const double number = convert(quantity, param.unit, UnitRule::optional);
-      check_range(quantity, number, param.unit, param.min, param.max);
-      target = number;
-      return true;
-    } catch (const Error& error) {
-      fault(node, error.what());
-      return false;
-    }
+  bool number_into(const Node& node, const std::string& name, double& target) const {
+    const auto number =
+        scalar_number(node, name, {param.unit, UnitRule::optional, param.min, param.max}, report);
+    if (number) target = *number;
+    return number.has_value();
   }
 
   void count(const Node& node) const {
     double number = 0;
-    if (!number_into(node, number)) return;
+    if (!number_into(node, path, number)) return;
     if (number != std::floor(number)) return fault(node, node.text + " is not a whole number");
     if (std::abs(number) > 9e15) return fault(node, node.text + " is too large");
-    value.integer = static_cast<std::int64_t>(number);
-    value.number[0] = number;
+    whole(static_cast<std::int64_t>(number));
   }
 
-  void choice(const Node& node) const {
-    const auto word = scalar_text(node, path, "one of " + join(param.choices), report);
-    if (!word) return;
-    const auto it = std::find(param.choices.begin(), param.choices.end(), *word);
-    if (it == param.choices.end())
-      return fault(node, "unknown word '" + *word + "'." + choices_text(*word, param.choices));
-    value.integer = it - param.choices.begin();
-    value.number[0] = static_cast<double>(value.integer);
-  }
-
-  void text(const Node& node) const {
-    if (!node.is(Node::Kind::scalar)) return fault(node, "expected text, found " + found_words(node));
-    if (node.text.size() >= param.capacity)
-      return fault(node, "text of " + std::to_string(node.text.size()) + " bytes; there is room for " +
-                             std::to_string(param.capacity - 1));
-    value.text = node.text;
+  void whole(std::int64_t number) const {
+    value.integer = number;
+    value.number[0] = static_cast<double>(number);
   }
 
   void vector(const Node& node) const {
-    std::vector<std::string> names;
-    if (param.type)
-      for (const Field& field : param.type->fields) names.push_back(field.name);
-    if (names.size() != 3) names = {"x", "y", "z"};
+    std::vector<std::string> names = {"x", "y", "z"};
+    if (param.type && param.type->fields.size() == 3) names = names_of(param.type->fields);
     double numbers[3] = {value.number[0], value.number[1], value.number[2]};
     bool good = true;
     if (node.is(Node::Kind::map)) {
       const Keys keys(node, path, names, report);
       for (std::size_t i = 0; i < 3; ++i)
-        if (const Node* item = keys.get(names[i])) good = element(*item, names[i], numbers[i]) && good;
+        if (const Node* item = keys.get(names[i]))
+          good = number_into(*item, path + "." + names[i], numbers[i]) && good;
     } else if (node.is(Node::Kind::sequence) && node.items.size() == 3) {
-      for (std::size_t i = 0; i < 3; ++i) good = element(node.items[i], names[i], numbers[i]) && good;
+      for (std::size_t i = 0; i < 3; ++i)
+        good = number_into(node.items[i], path + "." + names[i], numbers[i]) && good;
     } else {
       const bool list = node.is(Node::Kind::sequence);
       return fault(node, "expected three numbers [" + join(names) + "], found " +
                              (list ? std::to_string(node.items.size()) : found_words(node)));
     }
     if (good) std::copy(numbers, numbers + 3, value.number);
-  }
-
-  bool element(const Node& node, const std::string& name, double& target) const {
-    const std::string longer = path + "." + name;
-    return ParamReader{param, longer, value, files, report}.number_into(node, target);
   }
 
   void record(const Node& node) const {
@@ -192,14 +164,18 @@ void read_param(const ParamInfo& param, const Node& node, const std::string& pat
                 FileStore& files, Report& report) {
   const ParamReader reader{param, path, value, files, report};
   switch (param.kind) {
-    case FULMAR_NUMBER: reader.number_into(node, value.number[0]); return;
+    case FULMAR_NUMBER: reader.number_into(node, path, value.number[0]); return;
     case FULMAR_FLAG:
-      if (const auto flag = scalar_flag(node, path, report))
-        value.integer = *flag ? 1 : 0, value.number[0] = *flag ? 1 : 0;
+      if (const auto flag = scalar_flag(node, path, report)) reader.whole(*flag);
       return;
     case FULMAR_COUNT: return reader.count(node);
-    case FULMAR_CHOICE: return reader.choice(node);
-    case FULMAR_STRING: return reader.text(node);
+    case FULMAR_CHOICE:
+      if (const auto i = scalar_word(node, path, param.choices, report))
+        reader.whole(static_cast<std::int64_t>(*i));
+      return;
+    case FULMAR_STRING:
+      if (auto text = scalar_text_for(param.capacity, node, path, report)) value.text = std::move(*text);
+      return;
     case FULMAR_VECTOR: return reader.vector(node);
     case FULMAR_RECORD: return reader.record(node);
     case FULMAR_BLOB: return reader.blob(node);

@@ -27,6 +27,7 @@ class FileStore {
   std::vector<std::filesystem::path> paths() const;
 
  private:
+  FilePtr known(const std::filesystem::path& path) const;
   Report& report_;
   const StoredFiles* stored_;  // in place of the disk
   std::vector<FilePtr> files_;

@@ -10,24 +10,24 @@ namespace fulmar::core {
 namespace {
 
 /// The candidate that a phase or the command line names for a role; -1 and a fault when it cannot fill it.
-int filler_named(Draft& draft, std::size_t role, const std::string& name, const Where& where,
-                 const std::string& path) {
-  const RoleDraft& wanted = draft.roles[role];
+int filler_named(Draft& draft, int role, const Word& word, const std::string& path) {
+  const std::string& name = word.text;
+  const RoleDraft& wanted = nth(draft.roles, role);
   const int i = draft.candidate(name);
   std::vector<std::string> fillers;
-  for (const int f : wanted.fillers) fillers.push_back(draft.candidates[static_cast<std::size_t>(f)].name());
+  for (const int f : wanted.fillers) fillers.push_back(nth(draft.candidates, f).name);
   if (i >= 0 && std::find(wanted.fillers.begin(), wanted.fillers.end(), i) != wanted.fillers.end()) return i;
   const ComponentText* known = draft.text.component(name);
   std::string why;
   if (known && draft.is_out(*known))
     why = not_there(draft, name);
   else if (known)
-    why = name + (known->fills.empty() ? " does not fill " : " fills " + known->fills + ", not ") +
-          wanted.text->name + "." + choices_text("", fillers);
+    why = name + (known->fills.text.empty() ? " does not fill " : " fills " + known->fills.text + ", not ") +
+          wanted.name + "." + choices_text("", fillers);
   else
-    why = "there is no component '" + name + "' that fills " + wanted.text->name + "." +
-          choices_text(name, fillers);
-  draft.report.add(where, path.empty() ? why : path + ": " + why);
+    why =
+        "there is no component '" + name + "' that fills " + wanted.name + "." + choices_text(name, fillers);
+  draft.report.add(word.where, path.empty() ? why : path + ": " + why);
   return -1;
 }
 
@@ -38,116 +38,94 @@ std::vector<int> chosen_by_command(Draft& draft) {
     const Where where{"--role " + role + "=" + component, 0};
     const int r = draft.role(role);
     if (r < 0)
-      draft.report.add(where, "there is no role '" + role + "'." + choices_text(role, draft.role_names()));
+      draft.report.add(where, no_such("there is no role", role, draft.roles));
     else
-      chosen[static_cast<std::size_t>(r)] =
-          filler_named(draft, static_cast<std::size_t>(r), component, where, "");
+      nth(chosen, r) = filler_named(draft, r, {component, where}, "");
   }
   return chosen;
 }
 
-void read_overlay(Draft& draft, const Candidate& candidate, const Node& set, const std::string& path,
-                  std::vector<Overlay>& overlay) {
-  if (!set.is(Node::Kind::map) || !candidate.loaded) return;
+/// `replaced`: --role has put the component in another one's place: it takes what it has a live parameter
+/// for.
+std::vector<Overlay> read_overlay(Draft& draft, const Candidate& candidate, const Node& set,
+                                  const std::string& path, bool replaced) {
+  std::vector<Overlay> overlay;
+  if (!candidate.loaded) return overlay;
   std::vector<std::string> live;
   for (const ParamInfo& param : candidate.info().params)
     if (param.live) live.push_back(param.name);
   for (const Node::Entry& entry : set.entries) {
     const int p = candidate.info().param(entry.key);
-    if (p < 0) {
-      draft.report.add(entry.where(), path + ": " + candidate.name() + " has no parameter '" + entry.key +
+    const ParamInfo* const param = p < 0 ? nullptr : &nth(candidate.info().params, p);
+    if (param && param->live) {
+      Overlay item{p, initial_value(*param)};
+      read_param(*param, entry.value, path + "." + entry.key, item.value, draft.files, draft.report);
+      overlay.push_back(std::move(item));
+    } else if (!replaced && !param) {
+      draft.report.add(entry.where(), path + ": " + candidate.name + " has no parameter '" + entry.key +
                                           "'." + choices_text(entry.key, live));
-      continue;
-    }
-    const ParamInfo& param = candidate.info().params[static_cast<std::size_t>(p)];
-    if (!param.live) {
+    } else if (!replaced) {
       draft.report.add(
           entry.where(),
           path + "." + entry.key +
               ": is fixed when the flight begins; a phase can set live parameters alone. Live: " +
               join(live) + ".");
-      continue;
     }
-    Overlay item{p, initial_value(param)};
-    read_param(param, entry.value, path + "." + entry.key, item.value, draft.files, draft.report);
-    overlay.push_back(std::move(item));
   }
-}
-
-/// A phase's overlay on the component that --role puts in another one's place: the entries that it has a live
-/// parameter for.
-std::vector<Overlay> overlay_for(Draft& draft, const Candidate& candidate, const Node& set,
-                                 const std::string& path) {
-  std::vector<Overlay> overlay;
-  if (!set.is(Node::Kind::map) || !candidate.loaded) return overlay;
-  Node known = set;
-  std::erase_if(known.entries, [&](const Node::Entry& entry) {
-    const int p = candidate.info().param(entry.key);
-    return p < 0 || !candidate.info().params[static_cast<std::size_t>(p)].live;
-  });
-  read_overlay(draft, candidate, known, path, overlay);
   return overlay;
 }
+
+int first_filler(const RoleDraft& role) { return role.fillers.empty() ? -1 : role.fillers.front(); }
 
 /// What a phase says of a role, checked also where --role then changes it.
 void read_assignment(Draft& draft, const AssignmentText& text, const std::string& path, int command,
                      Assignment& assignment) {
-  const auto role = static_cast<std::size_t>(draft.role(text.role));
+  const int role = draft.role(text.role);
   if (text.role == "vehicle")
     return draft.report.add(
         text.where,
         path + ": the vehicle does not change in flight; choose it with io or with --role vehicle=NAME");
-  int use = draft.roles[role].fillers.empty() ? -1 : draft.roles[role].fillers.front();
-  if (!text.use.empty()) use = filler_named(draft, role, text.use, text.where_use, path);
-  const int fallback = text.fallback.empty() ? -1
-                                             : filler_named(draft, role, text.fallback, text.where_fallback,
-                                                            path + ".fallback");
+  int use = first_filler(nth(draft.roles, role));
+  if (!text.use.text.empty()) use = filler_named(draft, role, text.use, path);
+  const int fallback =
+      text.fallback.text.empty() ? -1 : filler_named(draft, role, text.fallback, path + ".fallback");
   if (fallback >= 0 && fallback == use)
-    draft.report.add(text.where_fallback,
-                     path + ".fallback: " + text.fallback + " is the component that fills the role already");
-  std::vector<Overlay> overlay;
-  if (use >= 0)
-    read_overlay(draft, draft.candidates[static_cast<std::size_t>(use)], text.set, path + ".set", overlay);
+    draft.report.add(text.fallback.where, path + ".fallback: " + text.fallback.text +
+                                              " is the component that fills the role already");
   assignment.component = command >= 0 ? command : use;
   if (fallback != assignment.component) assignment.fallback = fallback;
-  if (assignment.component == use)
-    assignment.set = std::move(overlay);
-  else if (command >= 0)
-    assignment.set =
-        overlay_for(draft, draft.candidates[static_cast<std::size_t>(command)], text.set, path + ".set");
+  const auto overlay = [&](int component) {
+    return component < 0 ? std::vector<Overlay>()
+                         : read_overlay(draft, nth(draft.candidates, component), text.set, path + ".set",
+                                        component != use);
+  };
+  assignment.set = overlay(use);
+  if (assignment.component != use) assignment.set = overlay(command);
 }
 
 std::string phase_path(const PhaseText& phase) { return "phases." + phase.name; }
 
-const PhaseText& only_phase() {
-  static const PhaseText phase{"flight", {}, {}, {}};
-  return phase;
-}
-
-std::vector<const PhaseText*> phases_of(const MissionText& text) {
-  std::vector<const PhaseText*> phases;
-  for (const PhaseText& phase : text.phases) phases.push_back(&phase);
-  if (phases.empty()) phases.push_back(&only_phase());
-  return phases;
+/// Those of the mission, or the only one of a mission that has none.
+const std::vector<PhaseText>& phases_of(const MissionText& text) {
+  static const std::vector<PhaseText> only = {{"flight", {}, {}, {}}};
+  return text.phases.empty() ? only : text.phases;
 }
 
 }  // namespace
 
 void assign_roles(Draft& draft) {
   const std::vector<int> command = chosen_by_command(draft);
-  for (const PhaseText* phase : phases_of(draft.text)) {
+  for (const PhaseText& phase : phases_of(draft.text)) {
     std::vector<Assignment> roles(draft.roles.size());
-    for (std::size_t r = 0; r < roles.size(); ++r) {
-      const auto& fillers = draft.roles[r].fillers;
-      roles[r].component = command[r] >= 0 ? command[r] : fillers.empty() ? -1 : fillers.front();
-    }
-    for (const AssignmentText& text : phase->roles) {
-      const auto r = static_cast<std::size_t>(draft.role(text.role));
-      read_assignment(draft, text, phase_path(*phase) + "." + text.role, command[r], roles[r]);
+    for (std::size_t r = 0; r < roles.size(); ++r)
+      roles[r].component = command[r] >= 0 ? command[r] : first_filler(draft.roles[r]);
+    for (const AssignmentText& text : phase.roles) {
+      const int r = draft.role(text.role);
+      read_assignment(draft, text, phase_path(phase) + "." + text.role, nth(command, r), nth(roles, r));
     }
     for (const Assignment& assignment : roles)
       for (const int i : {assignment.component, assignment.fallback})
-        if (i >= 0) draft.candidates[static_cast<std::size_t>(i)].assigned = true;
+        if (i >= 0) nth(draft.candidates, i).assigned = true;
     draft.assignments.push_back(std::move(roles));
   }
 }
@@ -170,21 +148,17 @@ FindPort finder(Draft& draft, bool built) {
     Target target = find_target(draft, {owner, port});
     if (target.unclear) {
       const int role = draft.role(owner);
-      if (role < 0 || draft.roles[static_cast<std::size_t>(role)].unclear) throw Unclear{};
+      if (role < 0 || nth(draft.roles, role).unclear) throw Unclear{};
       throw NobodyProvides(owner + "." + port + " is provided by nobody in this run");
     }
     if (target.source.kind == Source::Kind::component) {
-      Candidate& candidate = draft.candidates[static_cast<std::size_t>(target.source.index)];
+      Candidate& candidate = nth(draft.candidates, target.source.index);
       if (!built)
         candidate.used = true;
       else
         target.source.index = candidate.component;
-    } else if (built) {
-      const Role& role = draft.graph.roles[static_cast<std::size_t>(target.source.index)];
-      const auto o = static_cast<std::size_t>(target.source.output);
-      const bool provided = std::any_of(role.provides.begin(), role.provides.end(),
-                                        [&](const auto& outputs) { return outputs[o] >= 0; });
-      if (!provided) throw NobodyProvides(owner + "." + port + " is provided by nobody in this run");
+    } else if (built && !provided(draft.graph, target.source)) {
+      throw NobodyProvides(owner + "." + port + " is provided by nobody in this run");
     }
     return std::pair{target.source, target.type};
   };
@@ -246,12 +220,12 @@ void read_told(Draft& draft, const FindPort& find) {
 }
 
 Shown shown(const Word& word, const FindPort& find) {
-  const ShownField field = find_shown(word.text, find);
-  const fulmar_kind kind = field.field.field->kind;
-  if (kind == FULMAR_STRUCT || kind == FULMAR_TEXT)
-    throw Error("'" + word.text + "' is " +
-                (kind == FULMAR_TEXT ? "text" : "a " + field.field.field->type->name) + ", not a number");
-  return {word.text, field.from, field.field, field.type};
+  Shown shown = find_shown(word.text, find);
+  const Field& field = *shown.field.field;
+  if (field.kind == FULMAR_STRUCT || field.kind == FULMAR_TEXT)
+    throw Error("'" + word.text + "' is " + (field.kind == FULMAR_TEXT ? "text" : "a " + field.type->name) +
+                ", not a number");
+  return shown;
 }
 
 void read_shown(Draft& draft, const FindPort& find) {
@@ -272,13 +246,10 @@ void read_resume(Draft& draft, const FindPort& find) {
       const std::string name = param.substr(0, dot), of = param.substr(dot + 1);
       const int i = draft.candidate(name);
       if (i < 0) throw Error(not_there(draft, name));
-      const Candidate& candidate = draft.candidates[static_cast<std::size_t>(i)];
+      const Candidate& candidate = nth(draft.candidates, i);
       if (!candidate.loaded) throw Unclear{};
-      const int p = candidate.info().param(of);
-      std::vector<std::string> names;
-      for (const ParamInfo& each : candidate.info().params) names.push_back(each.name);
-      if (p < 0) throw Error(name + " has no parameter '" + of + "'." + choices_text(of, names));
-      const ParamInfo& info = candidate.info().params[static_cast<std::size_t>(p)];
+      const auto& params = candidate.info().params;
+      const ParamInfo& info = nth(params, require_named(params, of, name + " has no parameter"));
       if (info.kind != FULMAR_COUNT && info.kind != FULMAR_NUMBER) throw Error(param + " is no number");
       if (!info.live)
         throw Error(
@@ -289,28 +260,23 @@ void read_resume(Draft& draft, const FindPort& find) {
   }
 }
 
-std::shared_ptr<const Condition> compiled(Draft& draft, const std::string& text, const Where& where,
-                                          const std::string& path, const FindPort& find) {
+std::shared_ptr<const Condition> compiled(Draft& draft, const Word& word, const std::string& path,
+                                          const FindPort& find) {
   std::shared_ptr<const Condition> condition;
-  guarded(draft, where, path, [&] { condition = Condition::compile(text, find); });
+  guarded(draft, word.where, path, [&] { condition = Condition::compile(word.text, find); });
   return condition;
 }
 
 std::vector<Transition> transitions(Draft& draft, const std::vector<TransitionText>& texts,
                                     const std::string& path, const FindPort& find) {
   std::vector<Transition> list;
-  const auto phases = phases_of(draft.text);
-  std::vector<std::string> names;
-  for (const PhaseText* phase : phases) names.push_back(phase->name);
+  const auto& phases = phases_of(draft.text);
   for (const TransitionText& text : texts) {
     Transition transition;
-    const auto it = std::find(names.begin(), names.end(), text.to);
-    if (it == names.end() && !text.to.empty())
-      draft.report.add(text.where_to,
-                       path + ".to: there is no phase '" + text.to + "'." + choices_text(text.to, names));
-    if (it != names.end()) transition.to = static_cast<int>(it - names.begin());
-    if (!text.when.empty())
-      transition.when = compiled(draft, text.when, text.where_when, path + ".when", find);
+    transition.to = index_named(phases, text.to.text);
+    if (transition.to < 0 && !text.to.text.empty())
+      draft.report.add(text.to.where, no_such(path + ".to: there is no phase", text.to.text, phases));
+    if (!text.when.text.empty()) transition.when = compiled(draft, text.when, path + ".when", find);
     transition.for_ns = text.for_ns;
     transition.where = text.where;
     list.push_back(std::move(transition));
@@ -322,44 +288,34 @@ std::vector<Transition> transitions(Draft& draft, const std::vector<TransitionTe
 void compile_all(Draft& draft, bool built) {
   const FindPort find = finder(draft, built);
   Graph& graph = draft.graph;
-  graph.done_for_ns = draft.text.done_for_ns;
-  graph.failed_for_ns = draft.text.failed_for_ns;
-  if (draft.text.done)
-    graph.done = compiled(draft, draft.text.done->text, draft.text.done->where, "done", find);
-  if (draft.text.failed)
-    graph.failed = compiled(draft, draft.text.failed->text, draft.text.failed->where, "failed", find);
+  if (draft.text.done) graph.done = compiled(draft, *draft.text.done, "done", find);
+  if (draft.text.failed) graph.failed = compiled(draft, *draft.text.failed, "failed", find);
   read_shown(draft, find);
   read_summary(draft, find);
   read_told(draft, find);
   read_resume(draft, find);
   graph.phases.clear();
-  for (const PhaseText* text : phases_of(draft.text)) {
-    Phase phase;
-    phase.name = text->name;
-    phase.where = text->where;
-    phase.next = transitions(draft, text->next, phase_path(*text) + ".next", find);
-    graph.phases.push_back(std::move(phase));
-  }
+  for (const PhaseText& text : phases_of(draft.text))
+    graph.phases.push_back(
+        {text.name, {}, transitions(draft, text.next, phase_path(text) + ".next", find), text.where});
   graph.any = transitions(draft, draft.text.any, "phases.any.next", find);
 }
 
 void check_reachable(Draft& draft) {
   const Graph& graph = draft.graph;
   std::vector<bool> reached(graph.phases.size(), false);
-  std::vector<std::size_t> todo{0};
-  reached[0] = true;
-  const auto follow = [&](const std::vector<Transition>& next) {
-    for (const Transition& transition : next) {
-      if (transition.to < 0 || reached[static_cast<std::size_t>(transition.to)]) continue;
-      reached[static_cast<std::size_t>(transition.to)] = true;
-      todo.push_back(static_cast<std::size_t>(transition.to));
-    }
+  std::vector<int> todo;
+  const auto reach = [&](int phase) {
+    if (phase < 0 || nth(reached, phase)) return;
+    nth(reached, phase) = true;
+    todo.push_back(phase);
   };
-  follow(graph.any);
+  reach(0);
+  for (const Transition& transition : graph.any) reach(transition.to);
   while (!todo.empty()) {
-    const std::size_t at = todo.back();
+    const int at = todo.back();
     todo.pop_back();
-    follow(graph.phases[at].next);
+    for (const Transition& transition : nth(graph.phases, at).next) reach(transition.to);
   }
   for (std::size_t i = 0; i < reached.size(); ++i)
     if (!reached[i])
@@ -375,7 +331,7 @@ void name_ports(Draft& draft) { compile_all(draft, false); }
 void compile_phases(Draft& draft) {
   compile_all(draft, true);
   const auto component = [&](int candidate) {
-    return candidate < 0 ? -1 : draft.candidates[static_cast<std::size_t>(candidate)].component;
+    return candidate < 0 ? -1 : nth(draft.candidates, candidate).component;
   };
   for (std::size_t i = 0; i < draft.graph.phases.size(); ++i) {
     draft.graph.phases[i].roles = draft.assignments[i];

@@ -12,135 +12,90 @@
 namespace fulmar::core {
 namespace {
 
-using Dimension = std::array<std::int8_t, 6>;
-constexpr Dimension none{};
-constexpr Dimension length{1, 0, 0, 0, 0, 0}, mass{0, 1, 0, 0, 0, 0}, time{0, 0, 1, 0, 0, 0},
-    current{0, 0, 0, 1, 0, 0};
-constexpr Dimension kelvin{0, 0, 0, 0, 1, 0}, angle{0, 0, 0, 0, 0, 1}, per_time{0, 0, -1, 0, 0, 0};
-constexpr Dimension speed{1, 0, -1, 0, 0, 0}, acceleration{1, 0, -2, 0, 0, 0}, turn_rate{0, 0, -1, 0, 0, 1},
-    turn_acceleration{0, 0, -2, 0, 0, 1};
-constexpr Dimension force{1, 1, -2, 0, 0, 0}, pressure{-1, 1, -2, 0, 0, 0}, energy{2, 1, -2, 0, 0, 0},
-    power{2, 1, -3, 0, 0, 0};
-constexpr Dimension voltage{2, 1, -3, -1, 0, 0}, resistance{2, 1, -3, -2, 0, 0},
-    magnetic_field{0, 1, -2, -1, 0, 0}, area{2, 0, 0, 0, 0, 0};
-constexpr Dimension inertia{2, 1, 0, 0, 0, 0}, density{-3, 1, 0, 0, 0, 0}, charge{0, 0, 1, 1, 0, 0};
+using Dimension = decltype(PhysicalUnit::dimension);  // powers of m, kg, s, A, K, rad
+constexpr Dimension none{}, mass{0, 1, 0, 0, 0, 0};
 constexpr double pi = std::numbers::pi;
 
 struct Symbol {
   std::string_view name;
-  Dimension dimension;
   double factor;
   double offset = 0;
 };
-constexpr Symbol symbols[] = {
-    {"1", none, 1},
-    {"ratio", none, 1},
-    {"frac", none, 1},
-    {"%", none, 0.01},
-    {"m", length, 1},
-    {"cm", length, 0.01},
-    {"mm", length, 1e-3},
-    {"km", length, 1000},
-    {"ft", length, 0.3048},
-    {"in", length, 0.0254},
-    {"nmi", length, 1852},
-    {"mi", length, 1609.344},
-    {"s", time, 1},
-    {"ms", time, 1e-3},
-    {"us", time, 1e-6},
-    {"\u00b5s", time, 1e-6},
-    {"ns", time, 1e-9},
-    {"min", time, 60},
-    {"h", time, 3600},
-    {"Hz", per_time, 1},
-    {"kHz", per_time, 1000},
-    {"mps", speed, 1},
-    {"kt", speed, 1852.0 / 3600},
-    {"kn", speed, 1852.0 / 3600},
-    {"mph", speed, 0.44704},
-    {"kmh", speed, 1 / 3.6},
-    {"fpm", speed, 0.3048 / 60},
-    {"mps2", acceleration, 1},
-    {"g", acceleration, 9.80665},
-    {"rad", angle, 1},
-    {"deg", angle, pi / 180},
-    {"\u00b0", angle, pi / 180},
-    {"mrad", angle, 1e-3},
-    {"rev", angle, 2 * pi},
-    {"radps", turn_rate, 1},
-    {"degps", turn_rate, pi / 180},
-    {"rpm", turn_rate, 2 * pi / 60},
-    {"radps2", turn_acceleration, 1},
-    {"kg", mass, 1},
-    {"gram", mass, 1e-3},
-    {"lb", mass, 0.45359237},
-    {"kgm2", inertia, 1},
-    {"N", force, 1},
-    {"newton", force, 1},
-    {"J", energy, 1},
-    {"W", power, 1},
-    {"Pa", pressure, 1},
-    {"pa", pressure, 1},
-    {"hPa", pressure, 100},
-    {"kPa", pressure, 1000},
-    {"mbar", pressure, 100},
-    {"bar", pressure, 1e5},
-    {"K", kelvin, 1},
-    {"kelvin", kelvin, 1},
-    {"degC", kelvin, 1, 273.15},
-    {"\u00b0C", kelvin, 1, 273.15},
-    {"V", voltage, 1},
-    {"volt", voltage, 1},
-    {"mV", voltage, 1e-3},
-    {"A", current, 1},
-    {"amp", current, 1},
-    {"mA", current, 1e-3},
-    {"Ah", charge, 3600},
-    {"mAh", charge, 3.6},
-    {"ohm", resistance, 1},
-    {"mohm", resistance, 1e-3},
-    {"T", magnetic_field, 1},
-    {"tesla", magnetic_field, 1},
-    {"uT", magnetic_field, 1e-6},
-    {"nT", magnetic_field, 1e-9},
-    {"gauss", magnetic_field, 1e-4},
-};
-
-struct Named {
+struct Measure {
   Dimension dimension;
-  const char* name;
-  const char* examples;
-};
-constexpr Named unit_names[] = {
-    {none, "a plain number", "no unit, or %"},
-    {length, "a length", "m, cm, mm, km, ft, in, nmi"},
-    {area, "an area", "m^2"},
-    {time, "a time", "s, ms, us, ns, min, h"},
-    {per_time, "a frequency", "Hz, kHz, 1/s"},
-    {speed, "a speed", "m/s, km/h, kt, ft/s"},
-    {acceleration, "an acceleration", "m/s^2, g"},
-    {angle, "an angle", "deg, rad"},
-    {turn_rate, "an angular rate", "deg/s, rad/s, rpm"},
-    {turn_acceleration, "an angular acceleration", "deg/s^2, rad/s^2"},
-    {mass, "a mass", "kg, gram, lb"},
-    {inertia, "a moment of inertia", "kg m^2"},
-    {force, "a force", "N"},
-    {energy, "a torque or an energy", "N m"},
-    {power, "a power", "W"},
-    {pressure, "a pressure", "Pa, hPa, kPa, mbar"},
-    {density, "a density", "kg/m^3"},
-    {kelvin, "a temperature", "K, degC"},
-    {voltage, "a voltage", "V, mV"},
-    {current, "a current", "A, mA"},
-    {charge, "an electric charge", "Ah, mAh"},
-    {resistance, "a resistance", "ohm, mohm"},
-    {magnetic_field, "a magnetic field", "T, uT, nT, gauss"},
+  const char *name, *examples;
+  std::vector<Symbol> symbols{};
 };
 
-const Symbol* find_symbol(std::string_view name) {
-  for (const Symbol& symbol : symbols)
-    if (symbol.name == name) return &symbol;
-  return nullptr;
+const std::vector<Measure>& measures() {
+  static const std::vector<Measure> all = {
+      {none, "a plain number", "no unit, or %", {{"1", 1}, {"ratio", 1}, {"frac", 1}, {"%", 0.01}}},
+      {{1, 0, 0, 0, 0, 0},
+       "a length",
+       "m, cm, mm, km, ft, in, nmi",
+       {{"m", 1},
+        {"cm", 0.01},
+        {"mm", 1e-3},
+        {"km", 1000},
+        {"ft", 0.3048},
+        {"in", 0.0254},
+        {"nmi", 1852},
+        {"mi", 1609.344}}},
+      {{2, 0, 0, 0, 0, 0}, "an area", "m^2"},
+      {{0, 0, 1, 0, 0, 0},
+       "a time",
+       "s, ms, us, ns, min, h",
+       {{"s", 1}, {"ms", 1e-3}, {"us", 1e-6}, {"\u00b5s", 1e-6}, {"ns", 1e-9}, {"min", 60}, {"h", 3600}}},
+      {{0, 0, -1, 0, 0, 0}, "a frequency", "Hz, kHz, 1/s", {{"Hz", 1}, {"kHz", 1000}}},
+      {{1, 0, -1, 0, 0, 0},
+       "a speed",
+       "m/s, km/h, kt, ft/s",
+       {{"mps", 1},
+        {"kt", 1852.0 / 3600},
+        {"kn", 1852.0 / 3600},
+        {"mph", 0.44704},
+        {"kmh", 1 / 3.6},
+        {"fpm", 0.3048 / 60}}},
+      {{1, 0, -2, 0, 0, 0}, "an acceleration", "m/s^2, g", {{"mps2", 1}, {"g", 9.80665}}},
+      {{0, 0, 0, 0, 0, 1},
+       "an angle",
+       "deg, rad",
+       {{"rad", 1}, {"deg", pi / 180}, {"\u00b0", pi / 180}, {"mrad", 1e-3}, {"rev", 2 * pi}}},
+      {{0, 0, -1, 0, 0, 1},
+       "an angular rate",
+       "deg/s, rad/s, rpm",
+       {{"radps", 1}, {"degps", pi / 180}, {"rpm", 2 * pi / 60}}},
+      {{0, 0, -2, 0, 0, 1}, "an angular acceleration", "deg/s^2, rad/s^2", {{"radps2", 1}}},
+      {mass, "a mass", "kg, gram, lb", {{"kg", 1}, {"gram", 1e-3}, {"lb", 0.45359237}}},
+      {{2, 1, 0, 0, 0, 0}, "a moment of inertia", "kg m^2", {{"kgm2", 1}}},
+      {{1, 1, -2, 0, 0, 0}, "a force", "N", {{"N", 1}, {"newton", 1}}},
+      {{2, 1, -2, 0, 0, 0}, "a torque or an energy", "N m", {{"J", 1}}},
+      {{2, 1, -3, 0, 0, 0}, "a power", "W", {{"W", 1}}},
+      {{-1, 1, -2, 0, 0, 0},
+       "a pressure",
+       "Pa, hPa, kPa, mbar",
+       {{"Pa", 1}, {"pa", 1}, {"hPa", 100}, {"kPa", 1000}, {"mbar", 100}, {"bar", 1e5}}},
+      {{-3, 1, 0, 0, 0, 0}, "a density", "kg/m^3"},
+      {{0, 0, 0, 0, 1, 0},
+       "a temperature",
+       "K, degC",
+       {{"K", 1}, {"kelvin", 1}, {"degC", 1, 273.15}, {"\u00b0C", 1, 273.15}}},
+      {{2, 1, -3, -1, 0, 0}, "a voltage", "V, mV", {{"V", 1}, {"volt", 1}, {"mV", 1e-3}}},
+      {{0, 0, 0, 1, 0, 0}, "a current", "A, mA", {{"A", 1}, {"amp", 1}, {"mA", 1e-3}}},
+      {{0, 0, 1, 1, 0, 0}, "an electric charge", "Ah, mAh", {{"Ah", 3600}, {"mAh", 3.6}}},
+      {{2, 1, -3, -2, 0, 0}, "a resistance", "ohm, mohm", {{"ohm", 1}, {"mohm", 1e-3}}},
+      {{0, 1, -2, -1, 0, 0},
+       "a magnetic field",
+       "T, uT, nT, gauss",
+       {{"T", 1}, {"tesla", 1}, {"uT", 1e-6}, {"nT", 1e-9}, {"gauss", 1e-4}}}};
+  return all;
+}
+
+std::optional<PhysicalUnit> find_symbol(std::string_view name) {
+  for (const Measure& measure : measures())
+    for (const Symbol& symbol : measure.symbols)
+      if (symbol.name == name) return PhysicalUnit{measure.dimension, symbol.factor, symbol.offset};
+  return std::nullopt;
 }
 
 /// expression = term {("/" | "*" | "." | " ") term}; term = symbol [["^"] digit] | "(" expression ")"
@@ -197,7 +152,7 @@ class UnitParser {
     std::string_view word = text_.substr(at_, end - at_);
     at_ = end;
     int exponent = 1;
-    const Symbol* symbol = find_symbol(word);
+    auto symbol = find_symbol(word);
     if (!symbol) {  // s2, s²
       if (word.ends_with("\u00b2"))
         word = word.substr(0, word.size() - 2), exponent = 2;
@@ -212,8 +167,8 @@ class UnitParser {
       if (at_ >= text_.size() || text_[at_] < '1' || text_[at_] > '9') return std::nullopt;
       exponent = text_[at_++] - '0';
     }
-    PhysicalUnit unit{symbol->dimension, symbol->factor, symbol->offset};
-    for (int i = 1; i < exponent; ++i) unit = combine(unit, {symbol->dimension, symbol->factor, 0}, 1);
+    PhysicalUnit unit = *symbol;
+    for (int i = 1; i < exponent; ++i) unit = combine(unit, *symbol, 1);
     return unit;
   }
 
@@ -239,9 +194,9 @@ class UnitParser {
   std::size_t at_ = 0;
 };
 
-const Named* named(const PhysicalUnit& unit) {
-  for (const Named& entry : unit_names)
-    if (entry.dimension == unit.dimension) return &entry;
+const Measure* named(const PhysicalUnit& unit) {
+  for (const Measure& measure : measures())
+    if (measure.dimension == unit.dimension) return &measure;
   return nullptr;
 }
 
@@ -262,13 +217,18 @@ std::string short_number(double value) {
   return text;
 }
 
+std::string dimension_name(const PhysicalUnit& unit) {
+  const Measure* measure = named(unit);
+  return measure ? measure->name : "";
+}
+
 /// Is a bare number clear enough where a unit is required? Plain numbers, and latitude and longitude.
 bool needs_no_unit(const PhysicalUnit& unit, const std::string& text) {
   return unit.dimension == none || text == "deg";
 }
 
 std::string how_to_write(const PhysicalUnit& unit) {
-  const Named* entry = named(unit);
+  const Measure* entry = named(unit);
   return entry ? std::string(entry->name) + " is written with " + entry->examples : "";
 }
 
@@ -289,11 +249,6 @@ std::optional<PhysicalUnit> parse_unit(std::string_view text) {
   text = trimmed(text);
   if (text.empty() || text == "-") return PhysicalUnit{};
   return UnitParser(text).parse();
-}
-
-std::string dimension_name(const PhysicalUnit& unit) {
-  const Named* entry = named(unit);
-  return entry ? entry->name : "";
 }
 
 bool same_dimension(const std::string& unit_a, const std::string& unit_b) {

@@ -24,8 +24,6 @@ struct PhysicalUnit {
 /// unknown.
 std::optional<PhysicalUnit> parse_unit(std::string_view text);
 
-/// "a length", "an angle", "a plain number"; "" for a dimension without a name.
-std::string dimension_name(const PhysicalUnit& unit);
 bool same_dimension(const std::string& unit_a, const std::string& unit_b);
 
 /// What multiplies a value in `from` to get one in `to`. 1 when either is unknown. Both must have the same

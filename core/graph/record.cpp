@@ -8,8 +8,10 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <map>
 
 #include "core/graph/quantity.hpp"
+#include "core/types/named.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -17,6 +19,12 @@ namespace {
 template <class T>
 void put(std::byte* at, T value) {
   std::memcpy(at, &value, sizeof value);
+}
+
+/// "stall_alpha_rad" -> "stall_alpha"; a name without a unit stays.
+std::string without_suffix(const std::string& field) {
+  const auto split = split_suffix(field);
+  return split ? split->name : field;
 }
 
 /// How one value is written: the unit it inherits, whether the key left the unit out, and its name for
@@ -37,18 +45,15 @@ class Filler {
     if (!node.is(Node::Kind::map))
       return fault(node, place.path,
                    "expected a map with the fields of " + type.name + ", found " + found_words(node));
-    std::vector<std::pair<const Field*, std::string>> seen;
+    std::map<const Field*, std::string> seen;
     for (const Node::Entry& entry : node.entries) {
       if (std::find(also.begin(), also.end(), entry.key) != also.end()) continue;
       const std::string path = place.path.empty() ? entry.key : place.path + "." + entry.key;
       const Field* field = field_for(type, entry, place, also);
       if (!field) continue;
-      const auto twice =
-          std::find_if(seen.begin(), seen.end(), [&](const auto& s) { return s.first == field; });
-      if (twice != seen.end())
+      if (const auto [first, is_new] = seen.try_emplace(field, entry.key); !is_new)
         report_.add(entry.where(),
-                    path + ": the same field as '" + twice->second + "', which is given above");
-      seen.emplace_back(field, entry.key);
+                    path + ": the same field as '" + first->second + "', which is given above");
       const bool own_unit = !field->unit.empty(), exact = entry.key == field->name;
       const UnitRule rule = own_unit ? (exact ? UnitRule::optional : UnitRule::required) : place.rule;
       fill_field(*field, entry.value, data + field->offset,
@@ -59,9 +64,7 @@ class Filler {
   void fill_field(const Field& field, const Node& node, std::byte* at, const RecordPlace& place) {
     if (field.shape == FULMAR_SCALAR) return fill_element(field, node, at, place);
     const bool list = field.shape == FULMAR_LIST;
-    if (!node.is(Node::Kind::sequence))
-      return fault(node, place.path,
-                   "expected a list of " + size_words(field) + ", found " + found_words(node));
+    if (!is_a(Node::Kind::sequence, node, place.path, "a list of " + size_words(field), report_)) return;
     const std::size_t n = node.items.size();
     if (list ? n > field.count : n != field.count)
       return fault(
@@ -87,8 +90,7 @@ class Filler {
   }
 
   void fill_tuple(const Type& type, const Node& node, std::byte* data, const RecordPlace& place) {
-    std::vector<std::string> names;
-    for (const Field& field : type.fields) names.push_back(field.name);
+    const std::vector<std::string> names = names_of(type.fields);
     if (node.items.size() != names.size())
       return fault(node, place.path,
                    "expected " + std::to_string(names.size()) + " numbers [" + join(names) + "], found " +
@@ -101,9 +103,8 @@ class Filler {
   const Field* field_for(const Type& type, const Node::Entry& entry, const RecordPlace& place,
                          const std::vector<std::string>& also) {
     if (const Field* field = field_of_key(type, entry.key)) return field;
-    std::vector<std::string> names, shorter, same;
+    std::vector<std::string> names = names_of(type.fields), shorter, same;
     for (const Field& field : type.fields) {
-      names.push_back(field.name);
       shorter.push_back(without_suffix(field.name));
       if (without_suffix(field.name) == entry.key) same.push_back(field.name);
     }
@@ -123,51 +124,34 @@ class Filler {
 
   void fill_element(const Field& field, const Node& node, std::byte* at, const RecordPlace& place) {
     if (field.kind == FULMAR_STRUCT) return fill_struct(*field.type, node, at, place, {});
-    if (field.kind == FULMAR_ENUM) return fill_enum(field, node, at, place);
     if (field.kind == FULMAR_TEXT) return fill_text(field, node, at, place);
     if (is_real(field.kind)) return fill_float(field, node, at, place);
-    if (field.kind != FULMAR_BOOL) return fill_integer(field, node, at, place);
-    if (const auto flag = scalar_flag(node, place.path, report_)) put(at, static_cast<std::uint8_t>(*flag));
-  }
-
-  void fill_enum(const Field& field, const Node& node, std::byte* at, const RecordPlace& place) {
-    const auto text = scalar_text(node, place.path, "one of " + join(field.labels), report_);
-    if (!text) return;
-    const auto it = std::find(field.labels.begin(), field.labels.end(), *text);
-    if (it == field.labels.end())
-      return fault(node, place.path, "unknown word '" + *text + "'." + choices_text(*text, field.labels));
-    put(at, static_cast<std::uint8_t>(it - field.labels.begin()));
-  }
-
-  void fill_text(const Field& field, const Node& node, std::byte* at, const RecordPlace& place) {
-    if (!node.is(Node::Kind::scalar))
-      return fault(node, place.path, "expected text, found " + found_words(node));
-    if (node.text.size() >= field.stride)
-      return fault(node, place.path,
-                   "text of " + std::to_string(node.text.size()) + " bytes; there is room for " +
-                       std::to_string(field.stride - 1));
-    std::memset(at, 0, field.stride);
-    std::memcpy(at, node.text.data(), node.text.size());
-  }
-
-  void fill_float(const Field& field, const Node& node, std::byte* at, const RecordPlace& place) {
-    if (!node.is(Node::Kind::scalar))
-      return fault(node, place.path,
-                   "expected a number" + unit_words(place.unit) + ", found " + found_words(node));
-    try {
-      const Quantity quantity = parse_quantity(node.text);
-      const double value = convert(quantity, place.unit, place.rule);
-      check_range(quantity, value, place.unit, field.min, field.max);
-      if (field.kind == FULMAR_F64) return put(at, value);
-      if (std::abs(value) > std::numeric_limits<float>::max())
-        throw Error(quantity.text + " is too large for this field");
-      put(at, static_cast<float>(value));
-    } catch (const Error& error) {
-      fault(node, place.path, error.what());
+    if (is_integer(field.kind)) return fill_integer(field, node, at, place);
+    if (field.kind == FULMAR_ENUM) {
+      const auto word = scalar_word(node, place.path, field.labels, report_);
+      if (word) put(at, static_cast<std::uint8_t>(*word));
+    } else {
+      const auto flag = scalar_flag(node, place.path, report_);
+      if (flag) put(at, static_cast<std::uint8_t>(*flag));
     }
   }
 
-  static std::string unit_words(const std::string& unit) { return unit.empty() ? "" : " in " + unit; }
+  void fill_text(const Field& field, const Node& node, std::byte* at, const RecordPlace& place) {
+    const auto text = scalar_text_for(field.stride, node, place.path, report_);
+    if (!text) return;
+    std::memset(at, 0, field.stride);
+    std::memcpy(at, text->data(), text->size());
+  }
+
+  void fill_float(const Field& field, const Node& node, std::byte* at, const RecordPlace& place) {
+    const auto value =
+        scalar_number(node, place.path, {place.unit, place.rule, field.min, field.max}, report_);
+    if (!value) return;
+    if (field.kind == FULMAR_F64) return put(at, *value);
+    if (std::abs(*value) > std::numeric_limits<float>::max())
+      return fault(node, place.path, std::string(trimmed(node.text)) + " is too large for this field");
+    put(at, static_cast<float>(*value));
+  }
 
   template <class T>
   static void put_integer(std::byte* at, const std::string& text, double value, bool scaled) {
@@ -176,10 +160,7 @@ class Filler {
         std::from_chars(text.data(), text.data() + text.size(), exact);  // keeps all 64 bits
     if (!scaled && code == std::errc{} && end == text.data() + text.size()) return put(at, exact);
     constexpr double lowest = static_cast<double>(std::numeric_limits<T>::lowest());
-    constexpr double above = std::is_same_v<T, std::int64_t> ? 9223372036854775808.0
-                             : std::is_same_v<T, std::uint64_t>
-                                 ? 18446744073709551616.0
-                                 : static_cast<double>(std::numeric_limits<T>::max()) + 1;
+    const double above = std::ldexp(1.0, std::numeric_limits<T>::digits);
     if (value != std::floor(value)) throw Error(text + " is not a whole number");
     if (value < lowest || value >= above)
       throw Error(text + " is outside " + std::to_string(std::numeric_limits<T>::lowest()) + " .. " +
@@ -188,8 +169,7 @@ class Filler {
   }
 
   void fill_integer(const Field& field, const Node& node, std::byte* at, const RecordPlace& place) {
-    if (!node.is(Node::Kind::scalar))
-      return fault(node, place.path, "expected a whole number, found " + found_words(node));
+    if (!is_a(Node::Kind::scalar, node, place.path, "a whole number", report_)) return;
     try {
       const Quantity quantity = parse_quantity(node.text);
       double value = convert(quantity, place.unit, place.rule);
@@ -214,11 +194,6 @@ class Filler {
 };
 
 }  // namespace
-
-std::string without_suffix(const std::string& field) {
-  const auto split = split_suffix(field);
-  return split ? split->name : field;
-}
 
 const Field* field_of_key(const Type& type, const std::string& key) {
   if (const Field* exact = type.find(key)) return exact;

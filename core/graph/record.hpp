@@ -21,9 +21,6 @@ void fill_record(const Type& type, const Node& node, std::byte* data, const std:
 /// The field that a key names, exactly or without its unit suffix; nullptr when there is none or several.
 const Field* field_of_key(const Type& type, const std::string& key);
 
-/// "stall_alpha_rad" -> "stall_alpha"; a name without a unit stays.
-std::string without_suffix(const std::string& field);
-
 /// The bare flag of a parameter record that tells whether it was supplied ("given"), set when the type has
 /// one.
 void mark_given(const Type& type, std::byte* data);

@@ -12,40 +12,16 @@
 
 namespace fulmar::core {
 namespace fs = std::filesystem;
-namespace {
-constexpr std::int64_t default_hang_ns = 50'000'000;  // how long a paced loop waits for one step in a child
-}
-
-int Draft::candidate(const std::string& name) const {
-  for (std::size_t i = 0; i < candidates.size(); ++i)
-    if (candidates[i].name() == name) return static_cast<int>(i);
-  return -1;
-}
-
-int Draft::role(const std::string& name) const {
-  for (std::size_t i = 0; i < roles.size(); ++i)
-    if (roles[i].text->name == name) return static_cast<int>(i);
-  return -1;
-}
-
-bool Draft::is_out(const ComponentText& c) const { return c.only && *c.only != text.io; }
-
-std::vector<std::string> Draft::candidate_names() const {
-  std::vector<std::string> names;
-  for (const Candidate& candidate : candidates) names.push_back(candidate.name());
-  return names;
-}
-
-std::vector<std::string> Draft::role_names() const {
-  std::vector<std::string> names;
-  for (const RoleDraft& role : roles) names.push_back(role.text->name);
-  return names;
-}
-
 std::string not_there(const Draft& draft, const std::string& name) {
   if (const ComponentText* out = draft.text.component(name); out && draft.is_out(*out))
     return name + " exists only with io: " + io_word(*out->only);
-  return "there is no component '" + name + "'." + choices_text(name, draft.candidate_names());
+  return no_such("there is no component", name, draft.candidates);
+}
+
+bool provided(const Graph& graph, const Source& source) {
+  const auto& provides = nth(graph.roles, source.index).provides;
+  return std::any_of(provides.begin(), provides.end(),
+                     [&](const auto& outputs) { return nth(outputs, source.output) >= 0; });
 }
 
 namespace {
@@ -58,38 +34,34 @@ bool is_file(const std::string& word) {
 
 void load_component(Draft& draft, Catalogue& catalogue, Candidate& candidate) {
   const ComponentText& text = *candidate.text;
-  if (text.use.empty()) return;
+  if (text.use.text.empty()) return;
   const std::string path = "components." + text.name;
   try {
-    auto [plugin, component] = split_use(text.use);
+    auto [plugin, component] = split_use(text.use.text);
     for (const auto& [name, word] : draft.overrides.with) {
       if (name != text.name) continue;
       const auto [named, part] = is_file(word) ? std::pair{word, std::string()} : split_use(word);
       plugin = is_file(named) ? fs::absolute(named).string() : named;
       if (!part.empty()) component = part;
     }
-    candidate.plugin = catalogue.open(plugin);
-    const auto& components = candidate.plugin.info->components;
+    const FoundPlugin found = catalogue.open(plugin);
+    candidate.plugin = found.info, candidate.library = found.library;
+    const auto& components = found.info->components;
     if (components.empty()) throw Error(plugin + " holds no component");
-    std::vector<std::string> names;
-    for (const ComponentInfo& info : components) names.push_back(info.name);
-    const auto it = component.empty() ? names.begin() : std::find(names.begin(), names.end(), component);
-    if (it == names.end())
-      throw Error("the plugin " + plugin + " has no component '" + component + "'." +
-                  choices_text(component, names));
-    candidate.index = static_cast<std::size_t>(it - names.begin());
-    std::string stem = std::filesystem::path(candidate.plugin.info->file).stem().string();
-    candidate.use = (stem.empty() ? plugin : stem) + "/" + *it;
+    if (!component.empty())
+      candidate.index_in_plugin = static_cast<std::size_t>(
+          require_named(components, component, "the plugin " + plugin + " has no component"));
+    const std::string stem = fs::path(found.info->file).stem().string();
+    candidate.use = (stem.empty() ? plugin : stem) + "/" + candidate.info().name;
     candidate.loaded = true;
   } catch (const Error& fault) {
-    draft.report.add(text.where_use, path + ": " + fault.what());
+    draft.report.add(text.use.where, path + ": " + fault.what());
   }
 }
 
 void collect_candidates(Draft& draft, Catalogue& catalogue) {
   for (const RoleText& text : draft.text.roles) {
-    draft.roles.emplace_back();
-    draft.roles.back().text = &text;
+    draft.roles.push_back({&text, text.name, {}, {}});
     if (draft.text.component(text.name))
       draft.report.add(text.where,
                        "roles." + text.name + ": there is a component of that name too; rename one of them");
@@ -98,12 +70,13 @@ void collect_candidates(Draft& draft, Catalogue& catalogue) {
     if (draft.is_out(text)) continue;
     Candidate candidate;
     candidate.text = &text;
+    static_cast<ComponentSettings&>(candidate) = text;
     load_component(draft, catalogue, candidate);
-    if (!text.fills.empty()) {
-      candidate.role = draft.role(text.fills);
+    if (const std::string& fills = text.fills.text; !fills.empty()) {
+      candidate.role = draft.role(fills);
       if (candidate.role < 0)
-        draft.report.add(text.where_fills, "components." + text.name + ": there is no role '" + text.fills +
-                                               "'." + choices_text(text.fills, draft.role_names()));
+        draft.report.add(text.fills.where,
+                         no_such("components." + text.name + ": there is no role", fills, draft.roles));
     }
     if (text.rate_hz > draft.text.rate_hz * (1 + 1e-9))
       draft.report.add(text.where_rate, "components." + text.name + ".rate: " + number_text(text.rate_hz) +
@@ -122,24 +95,24 @@ std::vector<std::string> output_words(const ComponentInfo& info) {
 
 /// Does a filler keep the contract of its role?
 bool keeps_contract(Draft& draft, const RoleDraft& role, const Candidate& filler) {
-  const std::string path = "components." + filler.name() + ": ";
+  const std::string path = "components." + filler.name + ": ";
   const ComponentInfo& info = filler.info();
   bool keeps = true;
-  if (role.text->name == "vehicle" && !info.vehicle)
-    draft.report.add(filler.text->where_fills,
+  if (role.name == "vehicle" && !info.vehicle)
+    draft.report.add(filler.text->fills.where,
                      path + filler.use + " is not a vehicle: it has 'step' in place of 'read' and 'write'");
-  if (role.text->name != "vehicle" && info.vehicle)
+  if (role.name != "vehicle" && info.vehicle)
     draft.report.add(
-        filler.text->where_fills,
-        path + filler.use + " is a vehicle and can fill only the role vehicle, not " + role.text->name);
+        filler.text->fills.where,
+        path + filler.use + " is a vehicle and can fill only the role vehicle, not " + role.name);
   for (const RoleOutText& out : role.text->out) {
-    const int i = info.output(out.name);
-    const TypePtr type = i < 0 ? nullptr : info.outputs[static_cast<std::size_t>(i)].type;
-    if (i < 0 && out.optional) continue;
-    if (type && type->name == out.type) continue;
-    const std::string has = i < 0 ? "; it has " + join(output_words(info))
-                                  : "; its '" + out.name + "' is " + (type ? type->name : "a probe");
-    draft.report.add(filler.text->where_fills, path + "the role " + role.text->name + " wants an output '" +
+    const Port* const port = find_named(info.outputs, out.name);
+    if (!port && out.optional) continue;
+    if (port && port->type && port->type->name == out.type) continue;
+    const std::string has =
+        !port ? "; it has " + join(output_words(info))
+              : "; its '" + out.name + "' is " + (port->type ? port->type->name : "a probe");
+    draft.report.add(filler.text->fills.where, path + "the role " + role.name + " wants an output '" +
                                                    out.name + "' of type " + out.type + has);
     keeps = false;
   }
@@ -150,11 +123,9 @@ bool keeps_contract(Draft& draft, const RoleDraft& role, const Candidate& filler
 TypePtr common_type(Draft& draft, const RoleDraft& role, const RoleOutText& out) {
   std::vector<std::pair<const Candidate*, TypePtr>> given;
   for (const int f : role.fillers) {
-    const Candidate& filler = draft.candidates[static_cast<std::size_t>(f)];
-    const int i = filler.loaded ? filler.info().output(out.name) : -1;
-    if (i < 0) continue;
-    const TypePtr& type = filler.info().outputs[static_cast<std::size_t>(i)].type;
-    if (type && type->name == out.type) given.emplace_back(&filler, type);
+    const Candidate& filler = nth(draft.candidates, f);
+    const Port* const port = filler.loaded ? find_named(filler.info().outputs, out.name) : nullptr;
+    if (port && port->type && port->type->name == out.type) given.emplace_back(&filler, port->type);
   }
   for (const auto& [reader, table] : given) {
     const TypePtr wanted = table;
@@ -165,9 +136,9 @@ TypePtr common_type(Draft& draft, const RoleDraft& role, const RoleOutText& out)
   for (std::size_t i = 1; i < given.size(); ++i) {
     const std::string fault = incompatibility(*given[i].second, *given[0].second);
     if (fault.empty()) continue;
-    draft.report.add(given[i].first->text->where, "components." + given[i].first->name() + ": its '" +
+    draft.report.add(given[i].first->text->where, "components." + given[i].first->name + ": its '" +
                                                       out.name + "' differs from that of " +
-                                                      given[0].first->name() + ": " + fault);
+                                                      given[0].first->name + ": " + fault);
     break;
   }
   return given.empty() ? nullptr : given[0].second;
@@ -185,11 +156,11 @@ void resolve_roles(Draft& draft) {
     for (const RoleOutText& out : role.text->out) role.types.push_back(common_type(draft, role, out));
     if (!role.fillers.empty()) continue;
     role.unclear = true;
-    std::string why = "; write 'fills: " + role.text->name + "' at one";
+    std::string why = "; write 'fills: " + role.name + "' at one";
     for (const ComponentText& text : draft.text.components)
-      if (text.fills == role.text->name)
+      if (text.fills.text == role.name)
         why = " with io: " + io_word(draft.text.io) + "; " + not_there(draft, text.name);
-    draft.report.add(role.text->where, "roles." + role.text->name + ": no component fills it" + why);
+    draft.report.add(role.text->where, "roles." + role.name + ": no component fills it" + why);
   }
 }
 
@@ -199,48 +170,38 @@ void choose_vehicle(Draft& draft) {
   bool unclear = false;
   for (const Candidate& candidate : draft.candidates) {
     unclear = unclear || !candidate.loaded;
-    if (candidate.loaded && candidate.info().vehicle && candidate.used) vehicles.push_back(candidate.name());
+    if (candidate.loaded && candidate.info().vehicle && candidate.used) vehicles.push_back(candidate.name);
   }
   const Where where{draft.text.file->name, 0};
-  if (vehicles.empty() && !unclear && draft.vehicle_role() < 0)
+  if (vehicles.empty() && !unclear && draft.role("vehicle") < 0)
     draft.report.add(where, "no component is a vehicle; a mission needs one, such as use: sim_aero");
   if (vehicles.size() > 1) draft.report.add(where, "a mission has one vehicle; here are " + join(vehicles));
 }
 
-/// Created are: components without a role, those that some phase assigns, and whatever these are wired to by
-/// name.
+/// Created are: components without a role, those that a condition names or some phase assigns, and whatever
+/// these are wired to by name.
 void mark_used(Draft& draft) {
-  std::vector<std::size_t> todo;
-  const auto use = [&](std::size_t i) {
-    if (!draft.candidates[i].used) todo.push_back(i);
-    draft.candidates[i].used = true;
-  };
-  for (std::size_t i = 0; i < draft.candidates.size(); ++i) {
-    const bool named = draft.candidates[i].used;  // by a condition
-    draft.candidates[i].used = false;
-    if (named || draft.candidates[i].assigned || draft.candidates[i].text->fills.empty()) use(i);
+  std::vector<Candidate*> todo;
+  for (Candidate& candidate : draft.candidates) {
+    candidate.used = candidate.used || candidate.assigned || candidate.text->fills.text.empty();
+    if (candidate.used) todo.push_back(&candidate);
   }
   while (!todo.empty()) {
-    const std::size_t i = todo.back();
+    const Candidate& reader = *todo.back();
     todo.pop_back();
-    for (const Wire& wire : draft.candidates[i].wires)
-      if (wire.from.kind == Source::Kind::component) use(static_cast<std::size_t>(wire.from.index));
+    for (const Wire& wire : reader.wires) {
+      if (wire.from.kind != Source::Kind::component) continue;
+      Candidate& writer = nth(draft.candidates, wire.from.index);
+      if (!writer.used) todo.push_back(&writer);
+      writer.used = true;
+    }
   }
 }
 
 Source in_graph(const Draft& draft, Source source) {
   if (source.kind != Source::Kind::component) return source;
-  source.index = draft.candidates[static_cast<std::size_t>(source.index)].component;
+  source.index = nth(draft.candidates, source.index).component;
   return source.index < 0 ? Source{} : source;  // its component was refused
-}
-
-/// An output of a role that none of its fillers in this run has feeds nobody.
-bool dangling(const Graph& graph, const Source& source) {
-  if (source.kind != Source::Kind::role) return false;
-  const Role& role = graph.roles[static_cast<std::size_t>(source.index)];
-  return std::all_of(role.provides.begin(), role.provides.end(), [&](const auto& outputs) {
-    return outputs[static_cast<std::size_t>(source.output)] < 0;
-  });
 }
 
 /// Plugins that come with the host lie in its own folder.
@@ -254,19 +215,16 @@ bool installed(const PluginInfo& plugin) {
 
 /// How a component is run, and what each way of running cannot do. On hardware, what did not come with the
 /// host flies in a child.
-void run_mode(Draft& draft, const Candidate& candidate, Component& component) {
+void run_mode(Draft& draft, Candidate& candidate) {
   const ComponentText& text = *candidate.text;
   const ComponentInfo& info = candidate.info();
   const bool foreign =
-      draft.text.io == Io::fcu && !info.vehicle && component.library && !installed(*component.plugin);
-  component.run = text.run.value_or(foreign ? RunMode::process : RunMode::tick);
-  component.latency_ns = text.latency_ns;
-  component.hang_ns = text.hang_ns > 0 ? text.hang_ns : default_hang_ns;
-  if (text.memory_bytes > 0) component.memory_bytes = text.memory_bytes;
+      draft.text.io == Io::fcu && !info.vehicle && candidate.library && !installed(*candidate.plugin);
+  candidate.run = text.run.value_or(foreign ? RunMode::process : RunMode::tick);
   const std::string path = "components." + text.name;
-  if (info.vehicle && component.run != RunMode::tick)
+  if (info.vehicle && candidate.run != RunMode::tick)
     draft.report.add(text.where, path + ".run: a vehicle runs in the loop; it has 'run: tick' alone");
-  if (component.run == RunMode::driver) {
+  if (candidate.run == RunMode::driver) {
     for (const Port& port : info.outputs)
       if (port.kind != FULMAR_OUT_QUEUE && port.kind != FULMAR_OUT_PROBE)
         draft.report.add(text.where, path + ".run: a driver's outputs are queues; '" + port.name + "' of " +
@@ -281,10 +239,10 @@ void run_mode(Draft& draft, const Candidate& candidate, Component& component) {
 void check_names(Draft& draft, const Candidate& candidate) {
   const auto check = [&](const char* what, const std::string& name) {
     if (name.size() < name_room) return;
-    draft.report.add(candidate.text->where, "components." + candidate.name() + ": the " + what + " '" + name +
-                                                "' of " + candidate.use + " has " +
-                                                std::to_string(name.size()) + " characters; a name has " +
-                                                std::to_string(name_room - 1) + " at most");
+    draft.report.add(candidate.where, "components." + candidate.name + ": the " + what + " '" + name +
+                                          "' of " + candidate.use + " has " + std::to_string(name.size()) +
+                                          " characters; a name has " + std::to_string(name_room - 1) +
+                                          " at most");
   };
   for (const Port& port : candidate.info().inputs) check("input", port.name);
   for (const ParamInfo& param : candidate.info().params) check("parameter", param.name);
@@ -295,36 +253,26 @@ void build_components(Draft& draft) {
     if (!candidate.used || !candidate.loaded) continue;
     check_names(draft, candidate);
     candidate.component = static_cast<int>(draft.graph.components.size());
-    Component component;
-    component.name = candidate.name();
-    component.use = candidate.use;
-    component.plugin = candidate.plugin.info;
-    component.library = candidate.plugin.library;
-    component.index_in_plugin = candidate.index;
-    component.role = candidate.assigned ? candidate.role : -1;
     const double rate = candidate.text->rate_hz;
-    component.period_ns = rate > 0 && rate < draft.text.rate_hz * (1 - 1e-9) ? std::llround(1e9 / rate) : 0;
-    component.budget_ns = candidate.text->budget_ns;
-    run_mode(draft, candidate, component);
+    candidate.period_ns = rate > 0 && rate < draft.text.rate_hz * (1 - 1e-9) ? std::llround(1e9 / rate) : 0;
+    run_mode(draft, candidate);
+    if (candidate.info().vehicle) draft.graph.vehicle = candidate.component;
+    Component& component = draft.graph.components.emplace_back(candidate);
+    if (!candidate.assigned) component.role = -1;
     if (component.run == RunMode::process)
       component.library.reset();  // its code is the child's business alone
-    component.params = candidate.params;
-    component.where = candidate.text->where;
-    if (candidate.info().vehicle) draft.graph.vehicle = candidate.component;
-    draft.graph.components.push_back(std::move(component));
   }
 }
 
 void build_roles(Draft& draft) {
-  for (std::size_t r = 0; r < draft.roles.size(); ++r) {
-    const RoleDraft& from = draft.roles[r];
+  for (const RoleDraft& from : draft.roles) {
     Role role;
-    role.name = from.text->name;
+    role.name = from.name;
     role.where = from.text->where;
     for (std::size_t o = 0; o < from.text->out.size(); ++o)
       role.outputs.push_back({from.text->out[o].name, from.types[o], from.text->out[o].optional});
     for (const int f : from.fillers) {
-      const Candidate& filler = draft.candidates[static_cast<std::size_t>(f)];
+      const Candidate& filler = nth(draft.candidates, f);
       if (filler.component < 0 || !filler.assigned) continue;
       role.fillers.push_back(filler.component);
       role.provides.emplace_back();
@@ -338,11 +286,12 @@ void build_roles(Draft& draft) {
 void build_wires(Draft& draft) {
   for (const Candidate& candidate : draft.candidates) {
     if (candidate.component < 0) continue;
-    Component& component = draft.graph.components[static_cast<std::size_t>(candidate.component)];
+    Component& component = nth(draft.graph.components, candidate.component);
     component.wires = candidate.wires;
     for (Wire& wire : component.wires) {
       wire.from = in_graph(draft, wire.from);
-      if (dangling(draft.graph, wire.from)) wire.from = {};
+      // an output of a role that none of its fillers in this run has feeds nobody
+      if (wire.from.kind == Source::Kind::role && !provided(draft.graph, wire.from)) wire.from = {};
     }
   }
 }
@@ -350,9 +299,9 @@ void build_wires(Draft& draft) {
 /// Whether the output is a role's: it is then recorded under the role's name.
 bool provides(const Graph& graph, const Component& component, int output) {
   if (component.role < 0) return false;
-  const Role& role = graph.roles[static_cast<std::size_t>(component.role)];
+  const Role& role = nth(graph.roles, component.role);
   for (std::size_t f = 0; f < role.fillers.size(); ++f)
-    if (&graph.components[static_cast<std::size_t>(role.fillers[f])] == &component)
+    if (&nth(graph.components, role.fillers[f]) == &component)
       return std::find(role.provides[f].begin(), role.provides[f].end(), output) != role.provides[f].end();
   return false;
 }
@@ -375,14 +324,9 @@ std::vector<std::string> tap_ports(const Graph& graph) {
   return ports;
 }
 
-void read_record_rules(Draft& draft, const std::vector<std::string>& ports) {
-  Graph& graph = draft.graph;
-  graph.record = draft.text.record;
-  graph.record_file = draft.text.record_file;
-  graph.record_rules = draft.text.record_rules;
-  graph.rotate_bytes = draft.text.rotate_bytes, graph.rotate_ns = draft.text.rotate_ns;
-  for (std::size_t i = 0; i < graph.record_rules.size(); ++i) {
-    const std::string& pattern = graph.record_rules[i].ports[0];
+void check_record_rules(Draft& draft, const std::vector<std::string>& ports) {
+  for (std::size_t i = 0; i < draft.text.record_rules.size(); ++i) {
+    const std::string& pattern = draft.text.record_rules[i].ports[0];
     if (pattern.size() < 200 && std::count(pattern.begin(), pattern.end(), '*') < 5 &&
         std::any_of(ports.begin(), ports.end(),
                     [&](const std::string& port) { return port_matches(port, pattern); }))
@@ -397,9 +341,8 @@ void read_control(Draft& draft) {
   for (const Word& word : draft.text.control) {
     const int role = draft.role(word.text);
     if (role < 0)
-      draft.report.add(word.where, "control: there is no role '" + word.text + "'." +
-                                       choices_text(word.text, draft.role_names()));
-    else if (role == draft.vehicle_role())
+      draft.report.add(word.where, no_such("control: there is no role", word.text, draft.roles));
+    else if (role == draft.role("vehicle"))
       draft.report.add(word.where,
                        "control: the vehicle obeys or not; name the roles whose outputs lead to it");
     else
@@ -408,16 +351,10 @@ void read_control(Draft& draft) {
 }
 
 void read_head(Draft& draft) {
-  const MissionText& text = draft.text;
   Graph& graph = draft.graph;
-  graph.mission = text.name;
-  graph.io = text.io;
-  graph.tick_ns = std::llround(1e9 / text.rate_hz);
-  graph.epoch_ns = text.epoch_ns;
-  graph.seed = text.seed;
-  graph.arm = text.arm && text.io == Io::sim;
-  graph.timeout_ns = text.timeout_ns;
-  if (text.airframe.is(Node::Kind::scalar)) graph.airframe = text.airframe.text;
+  static_cast<Settings&>(graph) = draft.text;
+  graph.tick_ns = std::llround(1e9 / draft.text.rate_hz);
+  if (draft.text.airframe.is(Node::Kind::scalar)) graph.airframe = draft.text.airframe.text;
 }
 
 void resolve(Draft& draft, Catalogue& catalogue) {
@@ -440,13 +377,9 @@ void resolve(Draft& draft, Catalogue& catalogue) {
   read_vehicle_flags(draft);
   read_control(draft);
   const std::vector<std::string> ports = tap_ports(draft.graph);
-  read_record_rules(draft, ports);
+  check_record_rules(draft, ports);
   resolve_dds(draft, ports);
 }
-
-}  // namespace
-
-namespace {
 
 /// The mission's list was kept when it flew. A log is data: what lies beside it runs only when it is what
 /// flew, or is asked for by name.

@@ -80,19 +80,14 @@ class DdsReader {
     dds.services = keys.flag("services").value_or(true);
     dds.parameters = keys.flag("parameters").value_or(true);
     dds.humble = keys.flag("humble").value_or(false);
-    if (const Node* list = keys.get("export")) exports(*list);
-    if (const Node* map = keys.get("import")) imports(*map);
+    for (const Node& item : keys.items("export", "a list of ports such as [nav.state]")) read_export(item);
+    for (const Node::Entry& entry : keys.entries("import", "a map {component.input: /topic}"))
+      read_import(entry);
   }
 
  private:
   void addresses(const Keys& keys, const std::string& key, std::vector<std::string>& out) {
-    const Node* node = keys.get(key);
-    if (!node) return;
-    if (!node->is(Node::Kind::sequence))
-      return report_.add(
-          node->where(),
-          "dds." + key + ": expected a list of addresses such as [192.168.1.7], found " + found_words(*node));
-    for (const Node& item : node->items) {
+    for (const Node& item : keys.items(key, "a list of addresses such as [192.168.1.7]")) {
       const auto text = scalar_text(item, "dds." + key, "an address such as 192.168.1.7", report_);
       if (text && !is_ipv4(*text))
         report_.add(item.where(),
@@ -102,49 +97,39 @@ class DdsReader {
     }
   }
 
-  void exports(const Node& list) {
-    if (!list.is(Node::Kind::sequence))
-      return report_.add(list.where(), "dds.export: expected a list of ports such as [nav.state], found " +
-                                           found_words(list));
-    for (const Node& item : list.items) {
-      DdsOptions::Export e;
-      e.where = item.where();
-      if (item.is(Node::Kind::map)) {
-        const Keys keys(item, "dds.export", {"port", "topic", "rate", "best_effort"}, report_);
-        e.port = keys.text("port").value_or("");
-        e.topic = keys.text("topic").value_or("");
-        if (const auto hz = keys.positive("rate", "Hz")) {
-          if (*hz < slowest_hz)
-            report_.add(keys.where("rate"), "dds.export.rate: expected at least one in 285 years");
-          else
-            e.period_ns = std::llround(1e9 / *hz);
-        }
-        e.best_effort = keys.flag("best_effort").value_or(false);
-        if (!keys.has("port"))
-          report_.add(item.where(),
-                      "dds.export: 'port' is missing, as in {port: nav.state, topic: /state, rate: 50 Hz}");
-      } else {
-        e.port = scalar_text(item, "dds.export",
-                             "a port such as nav.state, or {port, topic, rate, best_effort}", report_)
-                     .value_or("");
+  void read_export(const Node& item) {
+    DdsOptions::Export e;
+    e.where = item.where();
+    if (item.is(Node::Kind::map)) {
+      const Keys keys(item, "dds.export", {"port", "topic", "rate", "best_effort"}, report_);
+      e.port = keys.text("port").value_or("");
+      e.topic = keys.text("topic").value_or("");
+      if (const auto hz = keys.positive("rate", "Hz")) {
+        if (*hz < slowest_hz)
+          report_.add(keys.where("rate"), "dds.export.rate: expected at least one in 285 years");
+        else
+          e.period_ns = std::llround(1e9 / *hz);
       }
-      if (e.port.empty() || !parse_port_name(e.port, e.where, "dds.export", report_)) continue;
-      if (e.topic.empty()) e.topic = slashed(e.port);  // relative: behind the namespace
-      if (topic(e.topic, e.where, "dds.export")) m_.dds.exports.push_back(std::move(e));
+      e.best_effort = keys.flag("best_effort").value_or(false);
+      if (!keys.has("port"))
+        report_.add(item.where(),
+                    "dds.export: 'port' is missing, as in {port: nav.state, topic: /state, rate: 50 Hz}");
+    } else {
+      e.port = scalar_text(item, "dds.export",
+                           "a port such as nav.state, or {port, topic, rate, best_effort}", report_)
+                   .value_or("");
     }
+    if (e.port.empty() || !parse_port_name(e.port, e.where, "dds.export", report_)) return;
+    if (e.topic.empty()) e.topic = slashed(e.port);  // relative: behind the namespace
+    if (topic(e.topic, e.where, "dds.export")) m_.dds.exports.push_back(std::move(e));
   }
 
-  void imports(const Node& map) {
-    if (!map.is(Node::Kind::map))
-      return report_.add(map.where(),
-                         "dds.import: expected a map {component.input: /topic}, found " + found_words(map));
-    for (const Node::Entry& entry : map.entries) {
-      const std::string path = "dds.import." + entry.key;
-      const auto to = parse_port_name(entry.key, entry.where(), "dds.import", report_);
-      const auto name = scalar_text(entry.value, path, "a topic such as /fulmar/plan_edits", report_);
-      if (to && name && topic(*name, entry.where(), path))
-        m_.dds_imports.push_back({*to, *name, entry.where()});
-    }
+  void read_import(const Node::Entry& entry) {
+    const std::string path = "dds.import." + entry.key;
+    const auto to = parse_port_name(entry.key, entry.where(), "dds.import", report_);
+    const auto name = scalar_text(entry.value, path, "a topic such as /fulmar/plan_edits", report_);
+    if (to && name && topic(*name, entry.where(), path))
+      m_.dds_imports.push_back({*to, *name, entry.where()});
   }
 
   bool topic(const std::string& text, const Where& where, const std::string& path) {
@@ -158,15 +143,19 @@ class DdsReader {
   Report& report_;
 };
 
+/// nullptr when it is not there, or off.
+const Node* section(const Keys& mission, const std::string& key, const std::string& expected,
+                    Report& report) {
+  const Node* node = mission.get(key);
+  if (!node || (node->is(Node::Kind::scalar) && node->text == "off")) return nullptr;
+  return is_a(Node::Kind::map, *node, key, expected, report) ? node : nullptr;
+}
+
 }  // namespace
 
 void read_live(const Keys& mission, MissionText& text, Report& report) {
-  const Node* node = mission.get("live");
-  if (!node || (node->is(Node::Kind::scalar) && node->text == "off")) return;
-  if (!node->is(Node::Kind::map)) {
-    report.add(node->where(), "live: expected 'off' or a map {listen, token}, found " + found_words(*node));
-    return;
-  }
+  const Node* node = section(mission, "live", "'off' or a map {listen, token}", report);
+  if (!node) return;
   const Keys keys(*node, "live", {"listen", "token"}, report);
   text.live.on = true;
   text.live.where = node->where();
@@ -186,12 +175,8 @@ LiveOptions parse_live(const std::string& listen) {
 }
 
 void read_dds(const Keys& mission, MissionText& text, Report& report) {
-  const Node* node = mission.get("dds");
-  if (!node || (node->is(Node::Kind::scalar) && node->text == "off")) return;
-  if (!node->is(Node::Kind::map))
-    return report.add(node->where(),
-                      "dds: expected 'off' or a map {export, import}, found " + found_words(*node));
-  DdsReader(text, report).read(*node);
+  if (const Node* node = section(mission, "dds", "'off' or a map {export, import}", report))
+    DdsReader(text, report).read(*node);
 }
 
 /// Inputs that are fed from outside. Before it is checked who feeds the others.
@@ -205,18 +190,16 @@ void mark_imports(Draft& draft) {
         draft.report.add(import.where, path + ": " + not_there(draft, import.to.owner));
       continue;  // it exists with another io
     }
-    Candidate& candidate = draft.candidates[static_cast<std::size_t>(index)];
+    Candidate& candidate = nth(draft.candidates, index);
     if (!candidate.loaded) continue;
     const int input = candidate.info().input(import.to.port);
     if (input < 0) {
-      std::vector<std::string> names;
-      for (const Port& port : candidate.info().inputs) names.push_back(port.name);
       draft.report.add(import.where, path + ": " + candidate.use + " has no such input." +
-                                         choices_text(import.to.port, names));
+                                         choices_text(import.to.port, names_of(candidate.info().inputs)));
       continue;
     }
-    Wire& wire = candidate.wires[static_cast<std::size_t>(input)];
-    if (candidate.info().inputs[static_cast<std::size_t>(input)].kind == FULMAR_IN_REQUEST)
+    Wire& wire = nth(candidate.wires, input);
+    if (nth(candidate.info().inputs, input).kind == FULMAR_IN_REQUEST)
       draft.report.add(
           import.where,
           path +
@@ -235,72 +218,53 @@ void mark_imports(Draft& draft) {
 
 namespace {
 
+const std::string& ros_or_name(const Type& type) { return type.ros.empty() ? type.name : type.ros; }
+
 /// Of a role's output or a component's; empty for a probe.
 TypePtr type_of_port(const Graph& graph, const std::string& port) {
   const std::size_t dot = port.find('.');
   const std::string owner = port.substr(0, dot), output = port.substr(dot + 1);
-  for (const Role& role : graph.roles)
-    for (const RolePort& p : role.outputs)
-      if (role.name == owner && p.name == output) return p.type;
-  for (const Component& c : graph.components)
-    if (const int o = c.name == owner ? c.info().output(output) : -1; o >= 0)
-      return c.info().outputs[static_cast<std::size_t>(o)].type;
+  if (const Role* role = find_named(graph.roles, owner))
+    if (const RolePort* p = find_named(role->outputs, output)) return p->type;
+  if (const Component* c = find_named(graph.components, owner))
+    if (const Port* p = find_named(c->info().outputs, output)) return p->type;
   return nullptr;
 }
-
-/// The topics of DDS: each has one type. By their full names.
-class DdsTopics {
- public:
-  DdsTopics(const DdsOptions& dds, Report& report) : dds_(dds), report_(report) {}
-
-  void add(const std::string& topic, const TypePtr& type, const Where& where, const std::string& path) {
-    const std::string name = topic.starts_with('/')
-                                 ? topic
-                                 : (dds_.name_space.empty() ? "/" : "/" + dds_.name_space + "/") + topic;
-    if (!type) return;
-    const auto [at, is_new] = topics_.emplace(name, Topic{type, where});
-    const Type& known = *at->second.type;
-    if (is_new || (known.ros == type->ros && (!known.ros.empty() || known.name == type->name))) return;
-    report_.add(where, path + ": the topic " + name + " has the type " + words(known) + " already (" +
-                           at->second.where.text() + "); it cannot be " + words(*type) + ", too");
-  }
-
- private:
-  struct Topic {
-    TypePtr type;
-    Where where;
-  };
-  static const std::string& words(const Type& type) { return type.ros.empty() ? type.name : type.ros; }
-
-  const DdsOptions& dds_;
-  Report& report_;
-  std::map<std::string, Topic> topics_;
-};
 
 }  // namespace
 
 /// After the wires of the graph are built.
 void resolve_dds(Draft& draft, const std::vector<std::string>& ports) {
   Graph& graph = draft.graph;
-  graph.live = draft.text.live;
-  graph.dds = draft.text.dds;
   for (std::size_t c = 0; c < graph.components.size(); ++c)
     for (std::size_t i = 0; i < graph.components[c].wires.size(); ++i) {
       Wire& wire = graph.components[c].wires[i];
       if (wire.import < 0) continue;
-      const ImportText& import = draft.text.dds_imports[static_cast<std::size_t>(wire.import)];
+      const ImportText& import = nth(draft.text.dds_imports, wire.import);
       wire.import = static_cast<int>(graph.dds.imports.size());
       graph.dds.imports.push_back({static_cast<int>(c), static_cast<int>(i), import.topic, import.where});
     }
-  DdsTopics types(graph.dds, draft.report);
+  std::map<std::string, std::pair<TypePtr, Where>> known;  // by the topics' full names: each has one type
+  const auto add = [&](const std::string& topic, const TypePtr& type, const Where& where,
+                       const std::string& path) {
+    if (!type) return;
+    const std::string space = graph.dds.name_space.empty() ? "/" : "/" + graph.dds.name_space + "/";
+    const std::string name = topic.starts_with('/') ? topic : space + topic;
+    const auto [at, is_new] = known.try_emplace(name, type, where);
+    const auto& [first, first_where] = at->second;
+    if (is_new || ros_or_name(*first) == ros_or_name(*type)) return;
+    draft.report.add(where, path + ": the topic " + name + " has the type " + ros_or_name(*first) +
+                                " already (" + first_where.text() + "); it cannot be " + ros_or_name(*type) +
+                                ", too");
+  };
   for (const DdsOptions::Import& i : graph.dds.imports) {
-    const Component& c = graph.components[static_cast<std::size_t>(i.component)];
-    const Port& port = c.info().inputs[static_cast<std::size_t>(i.input)];
-    types.add(i.topic, port.type, i.where, "dds.import." + c.name + "." + port.name);
+    const Component& c = nth(graph.components, i.component);
+    const Port& port = nth(c.info().inputs, i.input);
+    add(i.topic, port.type, i.where, "dds.import." + c.name + "." + port.name);
   }
   std::vector<std::string> topics;
   for (const DdsOptions::Export& e : graph.dds.exports) {
-    types.add(e.topic, type_of_port(graph, e.port), e.where, "dds.export: " + e.port);
+    add(e.topic, type_of_port(graph, e.port), e.where, "dds.export: " + e.port);
     if (std::find(ports.begin(), ports.end(), e.port) == ports.end())
       draft.report.add(e.where,
                        "dds.export: there is no port '" + e.port + "'." + choices_text(e.port, ports));

@@ -80,11 +80,8 @@ void Trust::read(const Node& node, Report& report) {
   if (!node.is(Node::Kind::map)) return;
   if (allow == nullptr)
     return report.add(node.where(), "plugins: 'allow' is missing, as in {allow: [control_slc, my_law.so]}");
-  if (!allow->is(Node::Kind::sequence))
-    return report.add(
-        allow->where(),
-        "plugins.allow: expected a list such as [control_slc, my_law.so], found " + found_words(*allow));
-  for (const Node& item : allow->items) read_entry(item, report);
+  for (const Node& item : keys.items("allow", "a list such as [control_slc, my_law.so]"))
+    read_entry(item, report);
 }
 
 void Trust::read_entry(const Node& node, Report& report) {

@@ -34,29 +34,19 @@ AirframeSource airframe_source(Draft& draft) {
   return {};
 }
 
-std::vector<std::string> param_names(const ComponentInfo& info) {
-  std::vector<std::string> names;
-  for (const ParamInfo& param : info.params) names.push_back(param.name);
-  return names;
-}
-
 void set_params(Draft& draft, Candidate& candidate, const Node& map, const std::string& path) {
   const ComponentInfo& info = candidate.info();
   for (const Node::Entry& entry : map.entries) {
-    const int p = info.param(entry.key);
-    if (p < 0) {
-      draft.report.add(entry.where(), path + ": " + candidate.use + " has no parameter '" + entry.key + "'." +
-                                          choices_text(entry.key, param_names(info)));
-      continue;
-    }
-    const auto i = static_cast<std::size_t>(p);
-    if (info.vehicle && (entry.key == "rate" || entry.key == "epoch")) {
-      draft.report.add(entry.where(), path + "." + entry.key + ": comes from the mission's '" +
-                                          (entry.key == "rate" ? "rate" : "epoch") + "'; set it there");
-      continue;
-    }
-    read_param(info.params[i], entry.value, path + "." + entry.key, candidate.params[i], draft.files,
-               draft.report);
+    const int i = info.param(entry.key);
+    if (i < 0)
+      draft.report.add(entry.where(),
+                       no_such(path + ": " + candidate.use + " has no parameter", entry.key, info.params));
+    else if (info.vehicle && (entry.key == "rate" || entry.key == "epoch"))
+      draft.report.add(entry.where(), path + "." + entry.key + ": comes from the mission's '" + entry.key +
+                                          "'; set it there");
+    else
+      read_param(nth(info.params, i), entry.value, path + "." + entry.key, nth(candidate.params, i),
+                 draft.files, draft.report);
   }
 }
 
@@ -64,27 +54,21 @@ void set_params(Draft& draft, Candidate& candidate, const Node& map, const std::
 /// use are passed over.
 void set_from_airframe(Draft& draft, Candidate& candidate, const AirframeSource& airframe) {
   const Node* sections = airframe.tree ? airframe.tree->find("params") : nullptr;
-  if (!sections) return;
   const std::string prefix = airframe.path.empty() ? "params" : airframe.path + ".params";
-  if (!sections->is(Node::Kind::map))
-    return draft.report.add(
-        sections->where(),
-        prefix + ": expected a map {plugin/Component: {parameter: value}}, found " + found_words(*sections));
+  if (!sections ||
+      !is_a(Node::Kind::map, *sections, prefix, "a map {plugin/Component: {parameter: value}}", draft.report))
+    return;
   const auto [plugin, component] = split_use(candidate.use);
   for (const Node::Entry& entry : sections->entries) {
     const auto [for_plugin, for_component] = split_use(entry.key);
     const bool same_plugin = for_plugin == plugin || for_plugin == plugin + ".so";
     if (!same_plugin) continue;
-    std::vector<std::string> names;
-    for (const ComponentInfo& info : candidate.plugin.info->components) names.push_back(info.name);
-    if (!for_component.empty() && std::find(names.begin(), names.end(), for_component) == names.end())
-      draft.report.add(entry.where(), prefix + ": the plugin " + plugin + " has no component '" +
-                                          for_component + "'." + choices_text(for_component, names));
-    if (for_component.empty() ? candidate.index != 0 : for_component != component) continue;
-    if (!entry.value.is(Node::Kind::map))
-      draft.report.add(entry.value.where(), prefix + "." + entry.key +
-                                                ": expected a map {parameter: value}, found " +
-                                                found_words(entry.value));
+    const auto& components = candidate.plugin->components;
+    if (!for_component.empty() && !find_named(components, for_component))
+      draft.report.add(entry.where(), no_such(prefix + ": the plugin " + plugin + " has no component",
+                                              for_component, components));
+    if (for_component.empty() ? candidate.index_in_plugin != 0 : for_component != component) continue;
+    is_a(Node::Kind::map, entry.value, prefix + "." + entry.key, "a map {parameter: value}", draft.report);
     set_params(draft, candidate, entry.value, prefix + "." + entry.key);
   }
 }
@@ -103,10 +87,10 @@ void set_from_mission(Draft& draft, Candidate& candidate, const AirframeSource& 
     if (param.name == "rate") {
       value.number[0] = draft.text.rate_hz;
       if (value.number[0] < param.min || value.number[0] > param.max)
-        draft.report.add(candidate.text->where,
-                         "components." + candidate.name() + ": the mission's rate of " +
-                             number_text(draft.text.rate_hz) + " Hz is outside " + number_text(param.min) +
-                             " .. " + number_text(param.max) + " Hz of " + candidate.use);
+        draft.report.add(candidate.where, "components." + candidate.name + ": the mission's rate of " +
+                                              number_text(draft.text.rate_hz) + " Hz is outside " +
+                                              number_text(param.min) + " .. " + number_text(param.max) +
+                                              " Hz of " + candidate.use);
     }
     if (param.name == "epoch") value.number[0] = static_cast<double>(draft.text.epoch_ns) * 1e-9;
   }
@@ -121,12 +105,12 @@ void set_from_command(Draft& draft) {
       draft.report.add(where, "expected component.parameter=value");
     } else if (i < 0) {
       draft.report.add(where, not_there(draft, name.substr(0, dot)));
-    } else if (Candidate& candidate = draft.candidates[static_cast<std::size_t>(i)]; candidate.loaded) {
+    } else if (Candidate& candidate = nth(draft.candidates, i); candidate.loaded) {
       Node map;
       map.kind = Node::Kind::map;
       map.file = make_source(text, where.file);
       map.entries.push_back({name.substr(dot + 1), 0, parse_yaml(map.file, draft.report)});
-      if (!map.entries[0].value.is(Node::Kind::missing)) set_params(draft, candidate, map, candidate.name());
+      if (!map.entries[0].value.is(Node::Kind::missing)) set_params(draft, candidate, map, candidate.name);
     }
   }
 }
@@ -137,12 +121,12 @@ void check_required(Draft& draft, const Candidate& candidate) {
     const ParamInfo& param = info.params[i];
     if (!param.required || candidate.params[i].integer != 0 || candidate.text->params.find(param.name))
       continue;
-    if (param.name == "airframe" && !draft.text.airframe.is(Node::Kind::missing))
-      continue;  // it was refused: that is told already
-    if (param.name == "origin" && !draft.text.origin.is(Node::Kind::missing)) continue;
-    const bool whole = param.name == "airframe" || param.name == "origin";
-    draft.report.add(candidate.text->where,
-                     "components." + candidate.name() + ": the parameter '" + param.name + "' is missing" +
+    const Node* const whole = param.name == "airframe" ? &draft.text.airframe
+                              : param.name == "origin" ? &draft.text.origin
+                                                       : nullptr;
+    if (whole && !whole->is(Node::Kind::missing)) continue;  // it was refused: that is told already
+    draft.report.add(candidate.where,
+                     "components." + candidate.name + ": the parameter '" + param.name + "' is missing" +
                          (param.doc.empty() ? "" : " (" + param.doc + ")") +
                          (whole ? "; give the mission's '" + param.name + "'" : "; give it under params"));
   }
@@ -153,20 +137,18 @@ void check_origin(Draft& draft) {
   if (!draft.text.origin.is(Node::Kind::map)) return;
   for (const Candidate& candidate : draft.candidates) {
     const int i = candidate.loaded ? candidate.info().param("origin") : -1;
-    if (i < 0 || candidate.info().params[static_cast<std::size_t>(i)].kind != FULMAR_RECORD) continue;
-    const Type& type = *candidate.info().params[static_cast<std::size_t>(i)].type;
+    if (i < 0 || nth(candidate.info().params, i).kind != FULMAR_RECORD) continue;
     for (const char* needed : {"lat", "lon", "alt_msl"})
       if (std::none_of(draft.text.origin.entries.begin(), draft.text.origin.entries.end(),
                        [&](const Node::Entry& entry) {
-                         return entry.key == needed || entry.key.rfind(std::string(needed) + "_", 0) == 0;
+                         return entry.key == needed || entry.key.starts_with(std::string(needed) + "_");
                        }))
         draft.report.add(draft.text.origin.where(),
                          std::string("origin: ") + needed + " is missing; give lat, lon and alt_msl");
     for (const auto& [name, limit] : {std::pair{"lat_deg", 90.0}, std::pair{"lon_deg", 180.0}}) {
-      const Field* field = type.find(name);
+      const Field* field = nth(candidate.info().params, i).type->find(name);
       if (!field) continue;
-      const double value =
-          number_at(*field, candidate.params[static_cast<std::size_t>(i)].data.data() + field->offset);
+      const double value = number_at(*field, nth(candidate.params, i).data.data() + field->offset);
       if (std::abs(value) > limit)
         draft.report.add(draft.text.origin.where(),
                          std::string("origin: ") + name + ": " + number_text(value) + " is outside " +
@@ -181,17 +163,16 @@ void check_origin(Draft& draft) {
 void read_values(Draft& draft) {
   const AirframeSource airframe = airframe_source(draft);
   const Node& origin = draft.text.origin;
-  if (!origin.is(Node::Kind::missing) && !origin.is(Node::Kind::map))
-    draft.report.add(origin.where(),
-                     "origin: expected a map such as {lat: 40.25, lon: -111.65, alt_msl: 1387 m}, found " +
-                         found_words(origin));
+  if (!origin.is(Node::Kind::missing))
+    is_a(Node::Kind::map, origin, "origin", "a map such as {lat: 40.25, lon: -111.65, alt_msl: 1387 m}",
+         draft.report);
   for (Candidate& candidate : draft.candidates) {
     if (!candidate.loaded) continue;
     for (const ParamInfo& param : candidate.info().params) candidate.params.push_back(initial_value(param));
     set_from_airframe(draft, candidate, airframe);
     set_from_mission(draft, candidate, airframe);
     if (candidate.text->params.is(Node::Kind::map))
-      set_params(draft, candidate, candidate.text->params, "components." + candidate.name() + ".params");
+      set_params(draft, candidate, candidate.text->params, "components." + candidate.name + ".params");
   }
   check_origin(draft);
   set_from_command(draft);
@@ -203,15 +184,12 @@ void read_values(Draft& draft) {
 
 void read_failsafe(Draft& draft) {
   Graph& graph = draft.graph;
-  graph.failsafe_ns = draft.text.failsafe_ns;
   if (graph.vehicle < 0) return;
-  const ComponentInfo& info = graph.components[static_cast<std::size_t>(graph.vehicle)].info();
+  const ComponentInfo& info = draft.vehicle().info();
   const Node& node = draft.text.failsafe;
-  if (node.is(Node::Kind::missing)) return;
-  if (!node.is(Node::Kind::map))
-    return draft.report.add(
-        node.where(),
-        "failsafe: expected a map such as {throttle_frac: 0, for: 2 s}, found " + found_words(node));
+  if (node.is(Node::Kind::missing) ||
+      !is_a(Node::Kind::map, node, "failsafe", "a map such as {throttle_frac: 0, for: 2 s}", draft.report))
+    return;
   graph.failsafe.resize(info.inputs.size());
   std::vector<Node> parts(info.inputs.size());
   std::vector<std::string> names{"for"};

@@ -38,7 +38,7 @@ std::string flags_text(const ComponentInfo& vehicle) {
 
 /// "status.armed", found in the vehicle's outputs. Throws Error with the valid choices.
 VehicleFlag named_flag(const Graph& graph, const std::string& text) {
-  const Component& vehicle = graph.components[static_cast<std::size_t>(graph.vehicle)];
+  const Component& vehicle = nth(graph.components, graph.vehicle);
   const ComponentInfo& info = vehicle.info();
   const auto dot = text.find('.');
   if (dot == std::string::npos)
@@ -49,11 +49,11 @@ VehicleFlag named_flag(const Graph& graph, const std::string& text) {
   std::vector<std::string> ports;
   for (const Port& each : info.outputs)
     if (each.type) ports.push_back(each.name);
-  if (output < 0 || !info.outputs[static_cast<std::size_t>(output)].type)
+  if (output < 0 || !nth(info.outputs, output).type)
     throw Error(vehicle.name + " (" + vehicle.use + ") has no output '" + port + "'." +
                 choices_text(port, ports));
-  const FieldRef field = resolve_field(*info.outputs[static_cast<std::size_t>(output)].type,
-                                       std::string_view(text).substr(dot + 1));
+  const FieldRef field =
+      resolve_field(*nth(info.outputs, output).type, std::string_view(text).substr(dot + 1));
   if (field.field->kind != FULMAR_BOOL)
     throw Error("'" + text + "' of " + vehicle.use + " is no flag, which is true or false." +
                 flags_text(info));
@@ -62,9 +62,9 @@ VehicleFlag named_flag(const Graph& graph, const std::string& text) {
 
 /// The flag of that name in the output 'status'; none when there is none.
 VehicleFlag usual_flag(const Graph& graph, const char* name) {
-  const ComponentInfo& info = graph.components[static_cast<std::size_t>(graph.vehicle)].info();
+  const ComponentInfo& info = nth(graph.components, graph.vehicle).info();
   const int output = info.output(usual_port);
-  const TypePtr type = output < 0 ? nullptr : info.outputs[static_cast<std::size_t>(output)].type;
+  const TypePtr type = output < 0 ? nullptr : nth(info.outputs, output).type;
   const Field* const field = type ? type->find(name) : nullptr;
   if (!field || field->kind != FULMAR_BOOL || field->shape != FULMAR_SCALAR) return {};
   return {{Source::Kind::component, graph.vehicle, output}, field->offset};
@@ -72,16 +72,14 @@ VehicleFlag usual_flag(const Graph& graph, const char* name) {
 
 /// Of an optional output that this vehicle does not have, nothing can be said: it is there with the other io.
 bool not_in_this_run(const Draft& draft, const RoleText& role, const std::string& text) {
-  const ComponentInfo& info = draft.graph.components[static_cast<std::size_t>(draft.graph.vehicle)].info();
   const std::string port = text.substr(0, text.find('.'));
-  return info.output(port) < 0 && std::any_of(role.out.begin(), role.out.end(), [&](const auto& out) {
-           return out.optional && out.name == port;
-         });
+  const RoleOutText* const out = find_named(role.out, port);
+  return draft.vehicle().info().output(port) < 0 && out && out->optional;
 }
 
 /// An aircraft of which the host does not know whether it is armed would be left in the air by a Ctrl-C.
 void check_complete(Draft& draft, const std::vector<std::string>& missing) {
-  const Component& vehicle = draft.graph.components[static_cast<std::size_t>(draft.graph.vehicle)];
+  const Component& vehicle = draft.vehicle();
   const RoleText* const role = draft.text.role("vehicle");
   std::string example;
   for (const std::string& name : missing) example += (example.empty() ? "" : ", ") + name + ": PORT.FIELD";

@@ -8,47 +8,32 @@
 namespace fulmar::core {
 namespace {
 
-std::vector<std::string> port_names(const std::vector<Port>& ports) {
-  std::vector<std::string> names;
-  for (const Port& port : ports) names.push_back(port.name);
-  return names;
-}
-
 Target role_target(const Draft& draft, int index, const PortName& name) {
-  const RoleDraft& role = draft.roles[static_cast<std::size_t>(index)];
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < role.text->out.size(); ++i) {
-    names.push_back(role.text->out[i].name);
-    if (names.back() != name.port) continue;
-    Target target;
-    target.source = {Source::Kind::role, index, static_cast<int>(i)};
-    target.type = role.types[i];
-    target.unclear = !target.type;
-    // a filler may keep silent or send several: the strictest of them all is asked by a request
-    target.kind = FULMAR_OUT_QUEUE;
-    for (const int f : role.fillers) {
-      const Candidate& filler = draft.candidates[static_cast<std::size_t>(f)];
-      const int o = filler.loaded ? filler.info().output(name.port) : -1;
-      if (o >= 0 && filler.info().outputs[static_cast<std::size_t>(o)].kind == FULMAR_OUT_VALUE)
-        target.kind = FULMAR_OUT_VALUE;
-    }
-    return target;
+  const RoleDraft& role = nth(draft.roles, index);
+  const int output = require_named(role.text->out, name.port, "the role " + name.owner + " has no output");
+  Target target;
+  target.source = {Source::Kind::role, index, output};
+  target.type = nth(role.types, output);
+  target.unclear = !target.type;
+  // a filler may keep silent or send several: the strictest of them all is asked by a request
+  target.kind = FULMAR_OUT_QUEUE;
+  for (const int f : role.fillers) {
+    const Candidate& filler = nth(draft.candidates, f);
+    const Port* const port = filler.loaded ? find_named(filler.info().outputs, name.port) : nullptr;
+    if (port && port->kind == FULMAR_OUT_VALUE) target.kind = FULMAR_OUT_VALUE;
   }
-  throw Error("the role " + name.owner + " has no output '" + name.port + "'." +
-              choices_text(name.port, names));
+  return target;
 }
 
 Target component_target(const Draft& draft, int index, const PortName& name) {
-  const Candidate& candidate = draft.candidates[static_cast<std::size_t>(index)];
+  const Candidate& candidate = nth(draft.candidates, index);
   Target target;
   target.source = {Source::Kind::component, index, -1};
   target.unclear = true;
   if (!candidate.loaded) return target;
-  const int output = candidate.info().output(name.port);
-  if (output < 0)
-    throw Error(name.owner + " (" + candidate.use + ") has no output '" + name.port + "'." +
-                choices_text(name.port, port_names(candidate.info().outputs)));
-  const Port& port = candidate.info().outputs[static_cast<std::size_t>(output)];
+  const int output = require_named(candidate.info().outputs, name.port,
+                                   name.owner + " (" + candidate.use + ") has no output");
+  const Port& port = nth(candidate.info().outputs, output);
   target.source.output = output;
   target.type = port.type;
   target.kind = port.kind;
@@ -78,18 +63,17 @@ void connect(Draft& draft, std::size_t index, const WireText& text, const std::s
   if (text.from.owner.empty()) return;  // reported when it was read
   Candidate& candidate = draft.candidates[index];
   const ComponentInfo& info = candidate.info();
-  const int input = info.input(text.input);
+  const int input = info.input(text.name);
   if (input < 0)
     return draft.report.add(text.where, path + ": " + candidate.use + " has no such input." +
-                                            choices_text(text.input, port_names(info.inputs)));
+                                            choices_text(text.name, names_of(info.inputs)));
   try {
     const Target target = find_target(draft, text.from);
-    const auto i = static_cast<std::size_t>(input);
     const std::string fault =
-        target.unclear ? "" : misfit(candidate.name(), info.inputs[i], text.from, target);
+        target.unclear ? "" : misfit(candidate.name, nth(info.inputs, input), text.from, target);
     if (!fault.empty()) throw Error(fault);
-    candidate.wires[i] = {target.source, text.max_age_ns.value_or(candidate.text->max_age_ns), text.delayed,
-                          text.where};
+    nth(candidate.wires, input) = {target.source, text.max_age_ns.value_or(candidate.text->max_age_ns),
+                                   text.delayed, text.where};
   } catch (const Error& fault) {
     draft.report.add(text.where, path + ": " + fault.what());
   }
@@ -98,7 +82,7 @@ void connect(Draft& draft, std::size_t index, const WireText& text, const std::s
 /// The wires of a role are checked even where no filler uses them: a slip there is a slip.
 void check_role_wires(Draft& draft, const RoleDraft& role) {
   for (const WireText& wire : role.text->in) {
-    const std::string path = "roles." + role.text->name + ".in." + wire.input;
+    const std::string path = "roles." + role.name + ".in." + wire.name;
     if (wire.from.owner.empty()) continue;
     try {
       find_target(draft, wire.from);
@@ -107,13 +91,12 @@ void check_role_wires(Draft& draft, const RoleDraft& role) {
     }
     std::vector<std::string> inputs;
     for (const int f : role.fillers)
-      if (draft.candidates[static_cast<std::size_t>(f)].loaded)
-        for (const Port& port : draft.candidates[static_cast<std::size_t>(f)].info().inputs)
-          inputs.push_back(port.name);
-    const bool known = std::find(inputs.begin(), inputs.end(), wire.input) != inputs.end();
-    const std::string near = nearest(wire.input, inputs);
+      if (const Candidate& filler = nth(draft.candidates, f); filler.loaded)
+        for (const Port& port : filler.info().inputs) inputs.push_back(port.name);
+    const bool known = std::find(inputs.begin(), inputs.end(), wire.name) != inputs.end();
+    const std::string near = nearest(wire.name, inputs);
     if (!known && !near.empty() && !role.unclear)
-      draft.report.add(wire.where, path + ": no component that fills " + role.text->name +
+      draft.report.add(wire.where, path + ": no component that fills " + role.name +
                                        " has such an input. Did you mean '" + near + "'?");
   }
 }
@@ -126,8 +109,8 @@ Target find_target(const Draft& draft, const PortName& name) {
   const int candidate = draft.candidate(name.owner);
   if (candidate >= 0) return component_target(draft, candidate, name);
   if (draft.text.component(name.owner)) throw Error(not_there(draft, name.owner));
-  std::vector<std::string> names = draft.role_names();
-  for (const std::string& other : draft.candidate_names()) names.push_back(other);
+  std::vector<std::string> names = names_of(draft.roles);
+  for (const Candidate& other : draft.candidates) names.push_back(other.name);
   throw Error("there is no role or component '" + name.owner + "'." + choices_text(name.owner, names));
 }
 
@@ -137,18 +120,14 @@ void resolve_wires(Draft& draft) {
     Candidate& candidate = draft.candidates[i];
     if (!candidate.loaded) continue;
     candidate.wires.resize(candidate.info().inputs.size());
-    const auto own = [&](const std::string& input) {
-      return std::any_of(candidate.text->in.begin(), candidate.text->in.end(),
-                         [&](const WireText& wire) { return wire.input == input; });
-    };
     if (candidate.role >= 0) {
-      const RoleText& role = *draft.roles[static_cast<std::size_t>(candidate.role)].text;
+      const RoleText& role = *nth(draft.roles, candidate.role).text;
       for (const WireText& wire : role.in)
-        if (candidate.info().input(wire.input) >= 0 && !own(wire.input))
-          connect(draft, i, wire, "roles." + role.name + ".in." + wire.input);
+        if (candidate.info().input(wire.name) >= 0 && !find_named(candidate.text->in, wire.name))
+          connect(draft, i, wire, "roles." + role.name + ".in." + wire.name);
     }
     for (const WireText& wire : candidate.text->in)
-      connect(draft, i, wire, "components." + candidate.name() + ".in." + wire.input);
+      connect(draft, i, wire, "components." + candidate.name + ".in." + wire.name);
   }
   mark_imports(draft);
 }
@@ -160,7 +139,7 @@ std::vector<std::string> proposals(const Draft& draft, const Candidate& reader, 
   std::vector<std::string> names;
   const auto offer = [&](const PortName& from, const Target& target) {
     if (!target.type || target.type->name != input.type->name) return;
-    if (misfit(reader.name(), input, from, target).empty()) names.push_back(from.text());
+    if (misfit(reader.name, input, from, target).empty()) names.push_back(from.text());
   };
   for (std::size_t r = 0; r < draft.roles.size(); ++r) {
     if (static_cast<int>(r) == reader.role) continue;
@@ -173,47 +152,41 @@ std::vector<std::string> proposals(const Draft& draft, const Candidate& reader, 
     const Candidate& writer = draft.candidates[i];
     if (&writer == &reader || !writer.loaded || writer.role >= 0) continue;
     for (const Port& port : writer.info().outputs)
-      offer({writer.name(), port.name},
-            component_target(draft, static_cast<int>(i), {writer.name(), port.name}));
+      offer({writer.name, port.name}, component_target(draft, static_cast<int>(i), {writer.name, port.name}));
   }
   return names;
 }
 
 bool wire_reported(const Draft& draft, const Candidate& candidate, const std::string& input) {
-  const auto names_it = [&](const WireText& wire) { return wire.input == input; };
-  const bool own = std::any_of(candidate.text->in.begin(), candidate.text->in.end(), names_it);
+  const bool own = find_named(candidate.text->in, input) != nullptr;
   if (own || candidate.role < 0) return own;
-  const auto& in = draft.roles[static_cast<std::size_t>(candidate.role)].text->in;
-  return std::any_of(in.begin(), in.end(), names_it);
+  return find_named(nth(draft.roles, candidate.role).text->in, input) != nullptr;
 }
 
 }  // namespace
 
 void check_fed(Draft& draft) {
   for (const Candidate& candidate : draft.candidates) {
-    if (!candidate.loaded || (candidate.role < 0 && !candidate.text->fills.empty()))
+    if (!candidate.loaded || (candidate.role < 0 && !candidate.text->fills.text.empty()))
       continue;  // wires of an unknown role are unknown
     for (std::size_t i = 0; i < candidate.wires.size(); ++i) {
       const Port& input = candidate.info().inputs[i];
       if (input.kind != FULMAR_IN_VALUE || input.optional) continue;
       const Wire& wire = candidate.wires[i];
-      const std::string path = "components." + candidate.name() + ": the input '" + input.name + "' ";
+      const std::string path = "components." + candidate.name + ": the input '" + input.name + "' ";
       if (wire.from.kind == Source::Kind::none) {
         if (wire.import >= 0 || wire_reported(draft, candidate, input.name)) continue;
         const std::vector<std::string> fitting = proposals(draft, candidate, input);
         draft.report.add(
-            candidate.text->where,
+            candidate.where,
             path + "is not wired; " +
                 (fitting.empty() ? "there is no output of type " + input.type->name
                                  : "outputs of type " + input.type->name + ": " + join(fitting)));
       } else if (wire.from.kind == Source::Kind::role && candidate.used) {
-        const auto r = static_cast<std::size_t>(wire.from.index);
-        const auto o = static_cast<std::size_t>(wire.from.output);
-        const Role& role = draft.graph.roles[r];
-        const bool provided = std::any_of(role.provides.begin(), role.provides.end(),
-                                          [&](const auto& outputs) { return outputs[o] >= 0; });
-        if (provided || draft.roles[r].unclear) continue;
-        draft.report.add(wire.where, path + "needs " + role.name + "." + role.outputs[o].name +
+        const Role& role = nth(draft.graph.roles, wire.from.index);
+        if (provided(draft.graph, wire.from) || nth(draft.roles, wire.from.index).unclear) continue;
+        draft.report.add(wire.where, path + "needs " + role.name + "." +
+                                         nth(role.outputs, wire.from.output).name +
                                          ", which nobody provides in this run");
       }
     }
@@ -238,8 +211,7 @@ std::vector<std::vector<Edge>> edges_of(const Graph& graph) {
     for (const Wire& wire : graph.components[i].wires) {
       if (wire.delayed || wire.from.kind == Source::Kind::none) continue;
       std::vector<int> writers{wire.from.index};
-      if (wire.from.kind == Source::Kind::role)
-        writers = graph.roles[static_cast<std::size_t>(wire.from.index)].fillers;
+      if (wire.from.kind == Source::Kind::role) writers = nth(graph.roles, wire.from.index).fillers;
       for (const int writer : writers)
         if (writer != graph.vehicle) before[i].push_back({writer, wire.where});
     }
@@ -249,13 +221,13 @@ std::vector<std::vector<Edge>> edges_of(const Graph& graph) {
 
 /// Among steps that wait for each other there is a cycle: walk back until a step comes twice.
 void report_cycle(Draft& draft, const std::vector<std::vector<Edge>>& before, const std::vector<bool>& done) {
-  const auto open = [&](int i) { return !done[static_cast<std::size_t>(i)]; };
+  const auto open = [&](int i) { return !nth(done, i); };
   int at = 0;
   while (!open(at) || at == draft.graph.vehicle) ++at;
   std::vector<int> walked;
   while (std::find(walked.begin(), walked.end(), at) == walked.end()) {
     walked.push_back(at);
-    for (const Edge& edge : before[static_cast<std::size_t>(at)])
+    for (const Edge& edge : nth(before, at))
       if (open(edge.from)) {
         at = edge.from;
         break;
@@ -265,12 +237,12 @@ void report_cycle(Draft& draft, const std::vector<std::vector<Edge>>& before, co
   std::reverse(walked.begin(), walked.end());
   std::rotate(walked.begin(), std::min_element(walked.begin(), walked.end()), walked.end());
   std::string path;
-  for (const int i : walked) path += draft.graph.components[static_cast<std::size_t>(i)].name + " -> ";
+  for (const int i : walked) path += nth(draft.graph.components, i).name + " -> ";
   Where where;
-  for (const Edge& edge : before[static_cast<std::size_t>(walked.front())])
+  for (const Edge& edge : nth(before, walked.front()))
     if (edge.from == walked.back()) where = edge.where;
   draft.report.add(where, "the wires form a cycle: " + path +
-                              draft.graph.components[static_cast<std::size_t>(walked.front())].name +
+                              nth(draft.graph.components, walked.front()).name +
                               ". Mark one of them, as in {from: nav.state, delayed: true}: it then carries "
                               "the value of the tick before");
 }
@@ -288,7 +260,7 @@ void order_steps(Draft& draft) {
     for (std::size_t i = 0; i < n && next == n; ++i) {
       if (done[i] || static_cast<int>(i) == graph.vehicle) continue;
       if (std::all_of(before[i].begin(), before[i].end(),
-                      [&](const Edge& edge) { return done[static_cast<std::size_t>(edge.from)]; }))
+                      [&](const Edge& edge) { return nth(done, edge.from); }))
         next = i;
     }
     if (next == n) return report_cycle(draft, before, done);

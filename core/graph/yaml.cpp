@@ -12,7 +12,6 @@
 #include <map>
 #include <sstream>
 
-#include "core/graph/quantity.hpp"
 #include "core/graph/stored_files.hpp"
 
 namespace fulmar::core {
@@ -167,10 +166,6 @@ std::string plain_words(const std::string& said) {
   return said;
 }
 
-bool part_of_name(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
-
 bool begins_with_tab(const std::string& text, int line) {
   std::size_t at = 0;
   for (int i = 0; i < line && at != std::string::npos; ++i) {
@@ -199,7 +194,7 @@ std::string quoted_optional_keys(const std::string& text) {
     if (quote == 0 && begins && c == '#')
       while (i + 1 < text.size() && text[i + 1] != '\n') out += text[i++];
     std::size_t end = i;
-    while (quote == 0 && begins && end < text.size() && part_of_name(text[end])) ++end;
+    while (quote == 0 && begins && end < text.size() && (is_letter(text[end]) || is_digit(text[end]))) ++end;
     if (end > i && end + 1 < text.size() && text[end] == '?' && text[end + 1] == ':') {
       out += '"' + text.substr(i, end + 1 - i) + '"';
       i = end;
@@ -274,9 +269,23 @@ Where Keys::where(const std::string& key) const {
   return map_.where();
 }
 
-void Keys::wrong(const std::string& key, const std::string& expected) const {
+const std::vector<Node>& Keys::items(const std::string& key, const std::string& expected) const {
+  static const std::vector<Node> none;
   const Node* node = get(key);
-  report_.add(node->where(), path(key) + ": expected " + expected + ", found " + found_words(*node));
+  return node && is_a(Node::Kind::sequence, *node, path(key), expected, report_) ? node->items : none;
+}
+
+const std::vector<Node::Entry>& Keys::entries(const std::string& key, const std::string& expected) const {
+  static const std::vector<Node::Entry> none;
+  const Node* node = get(key);
+  return node && is_a(Node::Kind::map, *node, path(key), expected, report_) ? node->entries : none;
+}
+
+bool is_a(Node::Kind kind, const Node& node, const std::string& path, const std::string& expected,
+          Report& report) {
+  if (!node.is(kind))
+    report.add(node.where(), path + ": expected " + expected + ", found " + found_words(node));
+  return node.is(kind);
 }
 
 std::optional<std::string> scalar_text(const Node& node, const std::string& path, const std::string& expected,
@@ -295,6 +304,40 @@ std::optional<bool> scalar_flag(const Node& node, const std::string& path, Repor
   return std::nullopt;
 }
 
+std::optional<std::size_t> scalar_word(const Node& node, const std::string& path,
+                                       const std::vector<std::string>& words, Report& report) {
+  const auto text = scalar_text(node, path, "one of " + join(words), report);
+  if (!text) return std::nullopt;
+  const auto it = std::find(words.begin(), words.end(), *text);
+  if (it != words.end()) return static_cast<std::size_t>(it - words.begin());
+  report.add(node.where(), path + ": unknown word '" + *text + "'." + choices_text(*text, words));
+  return std::nullopt;
+}
+
+std::optional<std::string> scalar_text_for(std::size_t room, const Node& node, const std::string& path,
+                                           Report& report) {
+  if (!is_a(Node::Kind::scalar, node, path, "text", report)) return std::nullopt;
+  if (node.text.size() < room) return node.text;
+  report.add(node.where(), path + ": text of " + std::to_string(node.text.size()) +
+                               " bytes; there is room for " + std::to_string(room - 1));
+  return std::nullopt;
+}
+
+std::optional<double> scalar_number(const Node& node, const std::string& path, const NumberWanted& wanted,
+                                    Report& report) {
+  const std::string expected = "a number" + (wanted.unit.empty() ? "" : " in " + wanted.unit);
+  if (!is_a(Node::Kind::scalar, node, path, expected, report)) return std::nullopt;
+  try {
+    const Quantity quantity = parse_quantity(node.text);
+    const double number = convert(quantity, wanted.unit, wanted.rule);
+    check_range(quantity, number, wanted.unit, wanted.min, wanted.max);
+    return number;
+  } catch (const Error& fault) {
+    report.add(node.where(), path + ": " + fault.what());
+    return std::nullopt;
+  }
+}
+
 std::optional<std::string> Keys::text(const std::string& key) const {
   const Node* node = get(key);
   return node ? scalar_text(*node, path(key), "text", report_) : std::nullopt;
@@ -308,8 +351,8 @@ std::optional<bool> Keys::flag(const std::string& key) const {
 std::optional<double> Keys::positive(const std::string& key, const std::string& unit, bool or_zero) const {
   const Node* node = get(key);
   if (!node) return std::nullopt;
-  if (!node->is(Node::Kind::scalar))
-    return wrong(key, "a number with a unit, such as 10 " + unit), std::nullopt;
+  if (!is_a(Node::Kind::scalar, *node, path(key), "a number with a unit, such as 10 " + unit, report_))
+    return std::nullopt;
   try {
     const double value = quantity_in(node->text, unit, UnitRule::required);
     if (value < 0 || (value == 0 && !or_zero))
@@ -324,21 +367,16 @@ std::optional<double> Keys::positive(const std::string& key, const std::string& 
 std::optional<std::int64_t> Keys::duration_ns(const std::string& key) const {
   const auto seconds = positive(key, "s", true);
   if (!seconds) return std::nullopt;
-  if (*seconds > 9e9) {
-    wrong(key, "less than 285 years");
-    return std::nullopt;
-  }
-  return std::llround(*seconds * 1e9);
+  if (*seconds <= 9e9) return std::llround(*seconds * 1e9);
+  report_.add(get(key)->where(),
+              path(key) + ": expected less than 285 years, found " + found_words(*get(key)));
+  return std::nullopt;
 }
 
 std::optional<std::string> Keys::word(const std::string& key, const std::vector<std::string>& words) const {
   const Node* node = get(key);
-  if (!node) return std::nullopt;
-  if (!node->is(Node::Kind::scalar)) return wrong(key, "one of " + join(words)), std::nullopt;
-  if (std::find(words.begin(), words.end(), node->text) != words.end()) return node->text;
-  report_.add(node->where(),
-              path(key) + ": unknown word '" + node->text + "'." + choices_text(node->text, words));
-  return std::nullopt;
+  const auto i = node ? scalar_word(*node, path(key), words, report_) : std::nullopt;
+  return i ? std::optional(words[*i]) : std::nullopt;
 }
 
 }  // namespace fulmar::core

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/graph/quantity.hpp"
 
 namespace fulmar::core {
 
@@ -83,6 +84,12 @@ Node parse_yaml(const FilePtr& file, Report& report);
 /// `base` has comes first.
 Node merged(const Node& base, const Node& top, int depth);
 
+/// A word of the file with its place: a port, a field, a condition.
+struct Word {
+  std::string text;
+  Where where;
+};
+
 /// A map whose keys are known: reports unknown keys and wrong types, each with the valid choices.
 class Keys {
  public:
@@ -95,23 +102,45 @@ class Keys {
   Where where(const std::string& key) const;
 
   std::optional<std::string> text(const std::string& key) const;
+  /// The same with its place; empty when there is none.
+  Word word_at(const std::string& key) const { return {text(key).value_or(""), where(key)}; }
   std::optional<bool> flag(const std::string& key) const;
   /// A number with a unit, converted to `unit`. Must be above 0 (`or_zero`: at least 0).
   std::optional<double> positive(const std::string& key, const std::string& unit, bool or_zero = false) const;
   std::optional<std::int64_t> duration_ns(const std::string& key) const;
+  /// What stands in a list or map under the key; nothing, and a fault unless the key is missing, when it is
+  /// something else. `expected` is the fault's word for it: "a list of ports such as [nav.state]".
+  const std::vector<Node>& items(const std::string& key, const std::string& expected) const;
+  const std::vector<Node::Entry>& entries(const std::string& key, const std::string& expected) const;
   /// One of `words`; anything else is a fault.
   std::optional<std::string> word(const std::string& key, const std::vector<std::string>& words) const;
 
  private:
-  void wrong(const std::string& key, const std::string& expected) const;
   const Node& map_;
   std::string path_;
   Report& report_;
 };
 
+/// Whether it is a list or map, or whatever else is expected; a fault when not.
+bool is_a(Node::Kind kind, const Node& node, const std::string& path, const std::string& expected,
+          Report& report);
 /// The text of a scalar, or nothing and a fault.
 std::optional<std::string> scalar_text(const Node& node, const std::string& path, const std::string& expected,
                                        Report& report);
 std::optional<bool> scalar_flag(const Node& node, const std::string& path, Report& report);
+/// The place of a word in `words`.
+std::optional<std::size_t> scalar_word(const Node& node, const std::string& path,
+                                       const std::vector<std::string>& words, Report& report);
+/// Text that is shorter than `room` bytes.
+std::optional<std::string> scalar_text_for(std::size_t room, const Node& node, const std::string& path,
+                                           Report& report);
+/// A number in `unit`, of at least `min` and at most `max`.
+struct NumberWanted {
+  std::string unit;
+  UnitRule rule = UnitRule::optional;
+  double min, max;
+};
+std::optional<double> scalar_number(const Node& node, const std::string& path, const NumberWanted& wanted,
+                                    Report& report);
 
 }  // namespace fulmar::core

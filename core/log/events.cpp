@@ -6,7 +6,6 @@
 #include <cstdarg>
 #include <cstdio>
 #include <iterator>
-#include <limits>
 #include <utility>
 
 #include "core/error.hpp"
@@ -64,114 +63,69 @@ std::vector<std::string> code_labels() {
   return labels;
 }
 
-/// Lists the members of a struct; kind and place of each are those that the compiler knows.
-template <class Message>
-class HostTable {
- public:
-  explicit HostTable(const char* name) {
-    type_.name = name;
-    type_.size = sizeof(Message), type_.align = alignof(Message);
-  }
-  template <std::size_t N>
-  HostTable& add(const char* name, std::array<char, N> Message::*member) {
-    return field(name, FULMAR_TEXT, member, N);
-  }
-  HostTable& add(const char* name, std::uint64_t Message::*member) {
-    return field(name, FULMAR_U64, member, 8);
-  }
-  HostTable& add(const char* name, std::int64_t Message::*member) {
-    return field(name, FULMAR_I64, member, 8);
-  }
-  HostTable& add(const char* name, double Message::*member) {
-    return number(field(name, FULMAR_F64, member, 8));
-  }
-  template <std::size_t N>
-  HostTable& add(const char* name, std::array<double, N> Message::*member) {
-    number(field(name, FULMAR_F64, member, 8));
-    type_.fields.back().shape = FULMAR_ARRAY, type_.fields.back().count = N;
-    return *this;
-  }
-  template <class Enum>
-  HostTable& add(const char* name, Enum Message::*member, std::vector<std::string> labels) {
-    static_assert(sizeof(Enum) == 1);
-    field(name, FULMAR_ENUM, member, 1);
-    type_.fields.back().labels = std::move(labels);
-    return *this;
-  }
-  template <std::size_t N>
-  HostTable& add(const char* name, std::uint32_t Message::*count,
-                 std::array<std::uint32_t, N> Message::*items) {
-    field(name, FULMAR_U32, count, 4);
-    Field& f = type_.fields.back();
-    f.shape = FULMAR_LIST, f.count = N, f.items = offset(items) - f.offset;
-    return *this;
-  }
-  TypePtr type() const { return std::make_shared<const Type>(type_); }
+Field enum_field(const char* name, std::size_t offset, std::vector<std::string> labels) {
+  Field field = host_field(name, FULMAR_ENUM, offset);
+  field.labels = std::move(labels);
+  return field;
+}
 
- private:
-  template <class Member>
-  static std::uint32_t offset(Member Message::*member) {
-    static const Message one{};
-    return static_cast<std::uint32_t>(reinterpret_cast<const std::byte*>(&(one.*member)) -
-                                      reinterpret_cast<const std::byte*>(&one));
-  }
-  template <class Member>
-  HostTable& field(const char* name, fulmar_kind kind, Member Message::*member, std::size_t stride) {
-    Field f;
-    f.name = name, f.kind = kind, f.offset = offset(member), f.stride = static_cast<std::uint32_t>(stride);
-    type_.fields.push_back(std::move(f));
-    return *this;
-  }
-  HostTable& number(HostTable& table) {
-    type_.fields.back().max = std::numeric_limits<double>::infinity();
-    type_.fields.back().min = -type_.fields.back().max;
-    return table;
-  }
+Field array_field(const char* name, fulmar_kind kind, std::size_t offset, std::size_t count) {
+  Field field = host_field(name, kind, offset);
+  field.shape = FULMAR_ARRAY, field.count = static_cast<std::uint32_t>(count);
+  return field;
+}
 
-  Type type_;
-};
+/// `offset` is that of its count.
+Field list_field(const char* name, fulmar_kind kind, std::size_t offset, std::size_t items,
+                 std::size_t count) {
+  Field field = array_field(name, kind, offset, count);
+  field.shape = FULMAR_LIST, field.items = static_cast<std::uint32_t>(items - offset);
+  return field;
+}
 
 }  // namespace
 
 template <>
 const TypePtr& host_type<Event>() {
-  static const TypePtr type = HostTable<Event>("Event")
-                                  .add("code", &Event::code, code_labels())
-                                  .add("severity", &Event::severity, {"info", "warning", "error", "critical"})
-                                  .add("component", &Event::component)
-                                  .add("name", &Event::name)
-                                  .add("value_ns", &Event::value_ns)
-                                  .add("value", &Event::value)
-                                  .add("cause", &Event::cause)
-                                  .add("words", &Event::words)
-                                  .type();
+  using E = Event;
+  static const TypePtr type =
+      host_struct("Event", sizeof(E), alignof(E),
+                  {enum_field("code", offsetof(E, code), code_labels()),
+                   enum_field("severity", offsetof(E, severity), {"info", "warning", "error", "critical"}),
+                   host_field("component", FULMAR_TEXT, offsetof(E, component), sizeof(E::component)),
+                   host_field("name", FULMAR_TEXT, offsetof(E, name), sizeof(E::name)),
+                   host_field("value_ns", FULMAR_I64, offsetof(E, value_ns)),
+                   host_field("value", FULMAR_F64, offsetof(E, value)),
+                   host_field("cause", FULMAR_TEXT, offsetof(E, cause), sizeof(E::cause)),
+                   host_field("words", FULMAR_TEXT, offsetof(E, words), sizeof(E::words))});
   return type;
 }
 
 template <>
 const TypePtr& host_type<Ticks>() {
-  static const TypePtr type = HostTable<Ticks>("Ticks")
-                                  .add("first", &Ticks::first)
-                                  .add("time_ns", &Ticks::time_ns)
-                                  .add("period_ns", &Ticks::periods, &Ticks::period_ns)
-                                  .add("hash", &Ticks::hashes, &Ticks::hash)
-                                  .type();
+  using T = Ticks;
+  static const TypePtr type =
+      host_struct("Ticks", sizeof(T), alignof(T),
+                  {host_field("first", FULMAR_U64, offsetof(T, first)),
+                   host_field("time_ns", FULMAR_I64, offsetof(T, time_ns)),
+                   list_field("period_ns", FULMAR_U32, offsetof(T, periods), offsetof(T, period_ns), T::most),
+                   list_field("hash", FULMAR_U32, offsetof(T, hashes), offsetof(T, hash), T::most)});
   return type;
 }
 
 template <>
 const TypePtr& host_type<CommandNote>() {
-  static const TypePtr type =
-      HostTable<CommandNote>("Command")
-          .add("kind", &CommandNote::kind, {"parameter", "phase", "swap", "reset", "request", "import"})
-          .add("component", &CommandNote::component)
-          .add("name", &CommandNote::name)
-          .add("number", &CommandNote::number)
-          .add("integer", &CommandNote::integer)
-          .add("text", &CommandNote::text)
-          .add("version", &CommandNote::version)
-          .add("sha256", &CommandNote::sha256)
-          .type();
+  using C = CommandNote;
+  static const TypePtr type = host_struct(
+      "Command", sizeof(C), alignof(C),
+      {enum_field("kind", offsetof(C, kind), {"parameter", "phase", "swap", "reset", "request", "import"}),
+       host_field("component", FULMAR_TEXT, offsetof(C, component), sizeof(C::component)),
+       host_field("name", FULMAR_TEXT, offsetof(C, name), sizeof(C::name)),
+       array_field("number", FULMAR_F64, offsetof(C, number), 3),
+       host_field("integer", FULMAR_I64, offsetof(C, integer)),
+       host_field("text", FULMAR_TEXT, offsetof(C, text), sizeof(C::text)),
+       host_field("version", FULMAR_TEXT, offsetof(C, version), sizeof(C::version)),
+       host_field("sha256", FULMAR_TEXT, offsetof(C, sha256), sizeof(C::sha256))});
   return type;
 }
 

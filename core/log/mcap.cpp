@@ -3,7 +3,6 @@
 // summary.
 #include "core/log/mcap.hpp"
 
-#include <zlib.h>
 #include <zstd.h>
 
 #include <algorithm>
@@ -19,18 +18,12 @@ namespace {
 
 using mcap::Bytes;
 
-std::uint32_t block_crc(const std::byte* data, std::size_t size) {
-  return static_cast<std::uint32_t>(::crc32_z(0, reinterpret_cast<const Bytef*>(data), size));
-}
-
 struct Schema {
   std::string name, encoding, text;
   bool begun = false, stored = false;  // in this or an earlier chunk; in a chunk that is in the file
 
   void write(Bytes& out, std::uint16_t id) const {
-    const std::size_t start = out.begin(mcap::schema);
-    out.number(id).text(name).text(encoding).text(text);
-    out.end(start);
+    out.record(mcap::schema, [&] { out.number(id).text(name).text(encoding).text(text); });
   }
 };
 
@@ -40,16 +33,9 @@ struct Entry {
 
 /// A message's record, for the files to come.
 struct Kept {
-  std::vector<std::byte> record;
-
-  template <class T>
-  T at(std::size_t place) const {
-    T value;
-    std::memcpy(&value, record.data() + mcap::record_head + place, sizeof value);
-    return value;
-  }
-  std::uint16_t channel() const { return at<std::uint16_t>(0); }
-  std::uint64_t log_ns() const { return at<std::uint64_t>(6); }
+  std::uint16_t channel = 0;
+  std::uint64_t log_ns = 0;
+  std::vector<std::byte> record{};
 };
 
 struct Channel {
@@ -62,9 +48,8 @@ struct Channel {
   Kept last{};                 // of those without a name
 
   void write(Bytes& out, std::uint16_t id) const {
-    const std::size_t start = out.begin(mcap::channel);
-    out.number(id).number(schema).text(topic).text(encoding).pairs(metadata);
-    out.end(start);
+    out.record(mcap::channel,
+               [&] { out.number(id).number(schema).text(topic).text(encoding).pairs(metadata); });
   }
 };
 
@@ -92,7 +77,11 @@ struct McapWriter::Impl {
   std::unique_ptr<ZSTD_CCtx, ZstdFree> zstd{ZSTD_createCCtx()};
 
   Bytes chunk;  // the open one
-  std::size_t message_start = 0;
+  struct {
+    std::uint16_t channel = 0;
+    std::uint64_t log_ns = 0;
+    std::size_t start = 0;  // in the chunk
+  } message;                // that was begun last
   std::uint64_t chunk_messages = 0;
   Span chunk_span;
 
@@ -131,9 +120,7 @@ struct McapWriter::Impl {
     auto begun = std::make_unique<OutFile>(name);
     block.clear();
     block.raw(mcap::magic.data(), mcap::magic.size());
-    const std::size_t start = block.begin(mcap::header);
-    block.text(options.profile).text(options.library);
-    block.end(start);
+    block.record(mcap::header, [&] { block.text(options.profile).text(options.library); });
     if (begun->append(block.data(), block.size())) return begun;
     const std::string why = begun->error();
     begun.reset();
@@ -181,16 +168,13 @@ struct McapWriter::Impl {
 
   /// The records that began the first file begin the next one, too, and then which one of them it is.
   void store_extras() {
-    for (std::size_t at = 0; at < extras.size();) {
-      std::uint64_t length = 0;
-      std::memcpy(&length, extras.data() + at + 1, sizeof length);
-      store_extra(extras.data() + at, mcap::record_head + length);
-      at += mcap::record_head + length;
+    for (mcap::Cursor all{{extras.data(), extras.size()}}; all.more();) {
+      const std::size_t start = all.at;
+      all.take(1);
+      all.take(all.number<std::uint64_t>());
+      store_extra(extras.data() + start, all.at - start);
     }
-    block.clear();
-    const std::size_t start = block.begin(mcap::metadata);
-    block.text(series_metadata).pairs({{"file", std::to_string(parts.size() + 1)}});
-    block.end(start);
+    write_metadata(series_metadata, {{"file", std::to_string(parts.size() + 1)}});
     store_extra(block.data(), block.size());
   }
 
@@ -201,9 +185,9 @@ struct McapWriter::Impl {
     for (const Channel& c : channels)
       if (!c.last.record.empty()) list.push_back(&c.last);
     std::stable_sort(list.begin(), list.end(),
-                     [](const Kept* a, const Kept* b) { return a->log_ns() < b->log_ns(); });
+                     [](const Kept* a, const Kept* b) { return a->log_ns < b->log_ns; });
     for (const Kept* kept : list) {
-      note_message(kept->channel(), kept->log_ns());
+      note_message(kept->channel, kept->log_ns);
       chunk.raw(kept->record.data(), kept->record.size());
     }
     flush();
@@ -212,11 +196,9 @@ struct McapWriter::Impl {
 
   /// The message that was just ended.
   void keep(const std::string& name) {
-    const std::byte* const record = chunk.data() + message_start;
-    std::uint16_t channel = 0;
-    std::memcpy(&channel, record + mcap::record_head, sizeof channel);
-    (name.empty() ? channels[channel].last : lasting[name])
-        .record.assign(record, static_cast<const std::byte*>(chunk.data()) + chunk.size());
+    Kept& kept = name.empty() ? channels[message.channel].last : lasting[name];
+    kept.channel = message.channel, kept.log_ns = message.log_ns;
+    kept.record.assign(chunk.data() + message.start, chunk.data() + chunk.size());
   }
 
   /// A message that comes next in the chunk.
@@ -225,6 +207,12 @@ struct McapWriter::Impl {
     channels[channel].index.push_back({log_ns, chunk.size()});
     chunk_span.add(log_ns);
     ++chunk_messages;
+  }
+
+  /// As the block.
+  void write_metadata(const std::string& name, const Pairs& pairs) {
+    block.clear();
+    block.record(mcap::metadata, [&] { block.text(name).pairs(pairs); });
   }
 
   /// An attachment or metadata, whole.
@@ -236,39 +224,20 @@ struct McapWriter::Impl {
   void store_extra(const std::byte* record, std::size_t size) {
     const std::uint64_t place = out->size();
     if (!out->append(record, size)) return;
-    if (static_cast<mcap::Code>(*record) == mcap::attachment) {
-      index_attachment(record, size, place);
+    const bool attachment = static_cast<mcap::Code>(*record) == mcap::attachment;
+    Bytes& index = attachment ? file.attachment_indexes : file.metadata_indexes;
+    ++(attachment ? file.attachments : file.metadata_records);
+    const std::size_t start = index.begin(attachment ? mcap::attachment_index : mcap::metadata_index);
+    index.number(place).number(std::uint64_t{size});
+    mcap::Cursor in{{record, size}, mcap::record_head};
+    if (attachment) {
+      const mcap::Data times = in.take(16);
+      const std::string name = in.text(), type = in.text();
+      const auto content = in.number<std::uint64_t>();
+      index.raw(times.data(), times.size()).number(content).text(name).text(type);
     } else {
-      index_metadata(record, size, place);
+      index.text(in.text());
     }
-  }
-
-  static std::uint32_t length_at(const std::byte* at) {
-    std::uint32_t length = 0;
-    std::memcpy(&length, at, sizeof length);
-    return length;
-  }
-
-  /// Times, name and media type as they stand in the record: code, length, 2 times, name, media type,
-  /// content.
-  void index_attachment(const std::byte* record, std::size_t size, std::uint64_t place) {
-    const std::byte *times = record + mcap::record_head, *name = times + 16,
-                    *type = name + 4 + length_at(name);
-    const std::byte* content = type + 4 + length_at(type);
-    ++file.attachments;
-    Bytes& index = file.attachment_indexes;
-    const std::size_t start = index.begin(mcap::attachment_index);
-    index.number(place).number(std::uint64_t{size}).raw(times, 16).raw(content, 8);
-    index.raw(name, static_cast<std::size_t>(content - name));
-    index.end(start);
-  }
-
-  void index_metadata(const std::byte* record, std::size_t size, std::uint64_t place) {
-    const std::byte* name = record + mcap::record_head;
-    ++file.metadata_records;
-    Bytes& index = file.metadata_indexes;
-    const std::size_t start = index.begin(mcap::metadata_index);
-    index.number(place).number(std::uint64_t{size}).raw(name, 4 + length_at(name));
     index.end(start);
   }
 
@@ -337,7 +306,7 @@ struct McapWriter::Impl {
     block.number(chunk_span.first)
         .number(chunk_span.last)
         .number(std::uint64_t{chunk.size()})
-        .number(block_crc(chunk.data(), chunk.size()))
+        .number(mcap::crc_of(0, {chunk.data(), chunk.size()}))
         .text(compression);
     const std::size_t data = block.number(std::uint64_t{0}).size();
     if (!compress()) return;
@@ -351,11 +320,11 @@ struct McapWriter::Impl {
       const std::vector<Entry>& index = channels[id].index;
       if (index.empty()) continue;
       offsets.number(static_cast<std::uint16_t>(id)).number(out->size() + block.size());
-      const std::size_t record = block.begin(mcap::message_index);
-      block.number(static_cast<std::uint16_t>(id))
-          .number(static_cast<std::uint32_t>(index.size() * sizeof(Entry)));
-      block.raw(index.data(), index.size() * sizeof(Entry));
-      block.end(record);
+      block.record(mcap::message_index, [&] {
+        const std::size_t bytes = index.size() * sizeof(Entry);
+        block.number(static_cast<std::uint16_t>(id)).number(static_cast<std::uint32_t>(bytes));
+        block.raw(index.data(), bytes);
+      });
     }
     const std::uint64_t place = out->size();
     if (!out->append(block.data(), block.size())) return;
@@ -406,18 +375,16 @@ struct McapWriter::Impl {
   /// Data end, summary, its offsets and footer, as one block.
   void summary() {
     block.clear();
-    const std::size_t end = block.begin(mcap::data_end);
-    block.number(out->crc());
-    block.end(end);
+    block.record(mcap::data_end, [&] { block.number(out->crc()); });
     const std::size_t summary_start = block.size();
 
     Bytes offsets;
     std::size_t group = summary_start;
     const auto end_group = [&](mcap::Code code) {
       if (block.size() > group) {
-        const std::size_t start = offsets.begin(mcap::summary_offset);
-        offsets.number(code).number(out->size() + group).number(std::uint64_t{block.size() - group});
-        offsets.end(start);
+        offsets.record(mcap::summary_offset, [&] {
+          offsets.number(code).number(out->size() + group).number(std::uint64_t{block.size() - group});
+        });
       }
       group = block.size();
     };
@@ -444,7 +411,7 @@ struct McapWriter::Impl {
     block.number(std::uint64_t{out->size() + summary_start})
         .number(std::uint64_t{out->size() + offset_start});
     block.patch(start - 8, std::uint64_t{20});  // the sum covers the footer up to itself, its length too
-    block.number(block_crc(block.data() + summary_start, block.size() - summary_start));
+    block.number(mcap::crc_of(0, {block.data() + summary_start, block.size() - summary_start}));
     block.raw(mcap::magic.data(), mcap::magic.size());
   }
 };
@@ -480,22 +447,17 @@ std::byte* McapWriter::begin_message(std::uint16_t channel, std::uint32_t sequen
   w.make_place(log_ns);
   w.note_message(channel, log_ns);
   w.chunk.reserve(mcap::record_head + mcap::message_head + w.options.max_message_bytes);
-  w.message_start = w.chunk.size();
+  w.message = {channel, log_ns, w.chunk.size()};
   ++w.offered;
-  std::byte* at = w.chunk.grow(mcap::record_head + mcap::message_head);
-  *at = static_cast<std::byte>(mcap::message);
-  at += mcap::record_head;  // the length follows in end_message
-  std::memcpy(at, &channel, 2);
-  std::memcpy(at + 2, &sequence, 4);
-  std::memcpy(at + 6, &log_ns, 8);
-  std::memcpy(at + 14, &publish_ns, 8);
-  return at + mcap::message_head;
+  w.chunk.begin(mcap::message);  // the length follows in end_message
+  w.chunk.number(channel).number(sequence).number(log_ns).number(publish_ns);
+  return w.chunk.data() + w.chunk.size();
 }
 
 void McapWriter::end_message(std::size_t size, const std::string& lasting) {
   Impl& w = *impl_;
   w.chunk.grow(size);
-  w.chunk.end(w.message_start + mcap::record_head);
+  w.chunk.end(w.message.start + mcap::record_head);
   if (w.rotates()) w.keep(lasting);
 }
 
@@ -511,7 +473,7 @@ void McapWriter::attach(const std::string& name, const std::string& media_type, 
       .text(media_type)
       .number(std::uint64_t{content.size()})
       .raw(content.data(), content.size());
-  w.block.number(block_crc(w.block.data() + start, w.block.size() - start));
+  w.block.number(mcap::crc_of(0, {w.block.data() + start, w.block.size() - start}));
   w.block.end(start);
   w.extra(w.block.data(), w.block.size());
 }
@@ -519,10 +481,7 @@ void McapWriter::attach(const std::string& name, const std::string& media_type, 
 void McapWriter::metadata(const std::string& name, const Pairs& pairs) {
   Impl& w = *impl_;
   if (w.broken()) return;
-  w.block.clear();
-  const std::size_t start = w.block.begin(mcap::metadata);
-  w.block.text(name).pairs(pairs);
-  w.block.end(start);
+  w.write_metadata(name, pairs);
   w.extra(w.block.data(), w.block.size());
 }
 

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The byte layer of MCAP: record codes, little-endian numbers, length-prefixed text.
 #pragma once
+#include <zlib.h>
+
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "core/error.hpp"
 
 namespace fulmar::core::mcap {
 
@@ -38,6 +43,10 @@ enum Code : std::uint8_t {
 inline constexpr std::size_t record_head = 1 + 8;           // code, length
 inline constexpr std::size_t message_head = 2 + 4 + 8 + 8;  // channel, sequence, log time, publish time
 inline constexpr std::size_t footer_record = record_head + 20;
+inline constexpr std::uint64_t largest_record = 1u
+                                                << 28;  // read into memory; a larger one is not of a flight
+
+using Data = std::span<const std::byte>;
 
 /// Bytes that grow; what is new is not cleared before it is written.
 class Bytes {
@@ -68,6 +77,13 @@ class Bytes {
     return size_;
   }
   void end(std::size_t start) { patch(start - 8, std::uint64_t{size_ - start}); }
+  /// A whole record: `write` appends what is in it.
+  template <class Write>
+  void record(Code code, Write write) {
+    const std::size_t start = begin(code);
+    write();
+    end(start);
+  }
   template <class T>
   void patch(std::size_t at, T value) {
     std::memcpy(data_.get() + at, &value, sizeof value);
@@ -98,5 +114,46 @@ class Bytes {
   std::unique_ptr<std::byte[]> data_;
   std::size_t size_ = 0, room_ = 0;
 };
+
+inline std::uint32_t crc_of(std::uint32_t before, Data data) {
+  return static_cast<std::uint32_t>(
+      ::crc32_z(before, reinterpret_cast<const Bytef*>(data.data()), data.size()));
+}
+
+/// Reads values one after the other; throws Error at the end of the data.
+struct Cursor {
+  Data data;
+  std::size_t at = 0;
+
+  Data take(std::uint64_t size) {
+    if (size > data.size() - at) throw Error("a record ends too early");
+    at += size;
+    return data.subspan(at - size, size);
+  }
+  template <class T>
+  T number() {
+    T value;
+    std::memcpy(&value, take(sizeof value).data(), sizeof value);
+    return value;
+  }
+  std::string text() {
+    const Data bytes = take(number<std::uint32_t>());
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+  }
+  std::vector<std::pair<std::string, std::string>> pairs() {
+    Cursor inside{take(number<std::uint32_t>())};
+    std::vector<std::pair<std::string, std::string>> map;
+    while (inside.at < inside.data.size()) {
+      std::string key = inside.text();
+      map.emplace_back(std::move(key), inside.text());
+    }
+    return map;
+  }
+  bool more() const { return at < data.size(); }
+};
+
+inline void require(bool truth, const char* otherwise) {
+  if (!truth) throw Error(otherwise);
+}
 
 }  // namespace fulmar::core::mcap

@@ -59,21 +59,31 @@ struct McapFile {
   const Attachment* attachment(const std::string& name) const;
 };
 
+/// What lets a reading go on behind damage, where a stream by itself ends: `fulmar log recover` has one.
+struct McapSalvage {
+  /// Throws Error where no record of this kind and length can begin.
+  virtual void check_head(std::uint64_t place, std::uint8_t code, std::uint64_t length) = 0;
+  /// The same of a record that is there as a whole, and does not hold what its length claims.
+  virtual void check_whole(std::uint64_t place, std::uint8_t code, std::uint64_t length) = 0;
+  /// Where the reading goes on after the damaged record at `place`; 0: nowhere. `behind`: the end that it
+  /// claims, 0 when that is not in the file.
+  virtual std::uint64_t go_on(std::uint64_t place, std::uint8_t code, std::uint64_t behind) = 0;
+  /// A message is left out whose channel stood in what is damaged.
+  virtual void lost_message() = 0;
+  /// Of a file that was closed: it repeats the schemas and channels, for when those in the chunks are
+  /// damaged.
+  std::vector<std::byte> summary;
+
+ protected:
+  ~McapSalvage() = default;
+};
+
 /// The messages of a file one after the other; no more than one chunk of them is in memory.
 class McapStream {
  public:
-  enum class BadChunks {
-    end,  // the reading ends at the first byte that is not as the format says
-    skip  // what is damaged is left out, and the reading goes on at the next chunk, attachment or metadata:
-          // by the summary, else by sight
-  };
-  struct LeftOut {
-    std::uint32_t chunks = 0, attachments = 0, metadata = 0;  // that are damaged
-    std::uint32_t others = 0;                                 // of which nobody can tell what they were
-    std::uint64_t messages = 0;                               // whose channel only a damaged chunk told
-  };
-  /// Throws Error when the file cannot be read at all or is no MCAP file.
-  explicit McapStream(const std::filesystem::path& file, BadChunks bad_chunks = BadChunks::end);
+  /// Throws Error when the file cannot be read at all or is no MCAP file. Without `salvage` the reading ends
+  /// at the first byte that is not as the format says.
+  explicit McapStream(const std::filesystem::path& file, McapSalvage* salvage = nullptr);
   ~McapStream();
   McapStream(const McapStream&) = delete;
   McapStream& operator=(const McapStream&) = delete;
@@ -84,7 +94,6 @@ class McapStream {
   const McapFile& log() const;
   /// The same, at the end, to keep.
   McapFile take_log();
-  const LeftOut& left_out() const;
 
  private:
   friend McapFile read_mcap(const std::filesystem::path& file, std::uint64_t most_bytes);

@@ -2,9 +2,9 @@
 // Fields by name.
 #include <charconv>
 #include <cstring>
-#include <limits>
 
 #include "core/error.hpp"
+#include "core/types/named.hpp"
 #include "core/types/type.hpp"
 
 namespace fulmar::core {
@@ -30,22 +30,12 @@ Part parse_part(std::string_view part, std::string_view dotted) {
 }
 
 const Field& find_field(const Type& type, std::string_view name) {
-  if (const Field* field = type.find(name)) return *field;
-  std::vector<std::string> names;
-  for (const Field& field : type.fields) names.push_back(field.name);
-  throw Error(type.name + " has no field '" + std::string(name) + "'." + choices_text(name, names));
+  return nth(type.fields, require_named(type.fields, name, type.name + " has no field"));
 }
 
 // The number of items of a list, as a field of its own.
 const Field& count_field() {
-  static const Field field{.name = "count",
-                           .unit = "",
-                           .type = nullptr,
-                           .labels = {},
-                           .constants = {},
-                           .kind = FULMAR_U32,
-                           .stride = sizeof(std::uint32_t),
-                           .max = std::numeric_limits<std::uint32_t>::max()};
+  static const Field field{.name = "count", .kind = FULMAR_U32, .stride = sizeof(std::uint32_t)};
   return field;
 }
 
@@ -58,13 +48,12 @@ void enter(FieldRef& ref, const Field& field, const Part& part) {
     if (part.index >= 0) throw Error("'" + name + "' is a single value and takes no index.");
     return;
   }
-  const std::string kind = field.shape == FULMAR_LIST ? "list of at most " : "array of ";
-  if (part.index < 0)
-    throw Error("'" + name + "' is a" + (field.shape == FULMAR_LIST ? " " : "n ") + kind +
-                std::to_string(field.count) + ": say " + name + "[0].");
+  const std::string is = "' is a" +
+                         std::string(field.shape == FULMAR_LIST ? " list of at most " : "n array of ") +
+                         std::to_string(field.count);
+  if (part.index < 0) throw Error("'" + name + is + ": say " + name + "[0].");
   if (part.index >= field.count)
-    throw Error("'" + name + "[" + std::to_string(part.index) + "]' does not exist: '" + name + "' is a" +
-                (field.shape == FULMAR_LIST ? " " : "n ") + kind + std::to_string(field.count) +
+    throw Error("'" + name + "[" + std::to_string(part.index) + "]' does not exist: '" + name + is +
                 ", counted from 0.");
   const auto index = static_cast<std::uint32_t>(part.index);
   if (field.shape == FULMAR_LIST) {

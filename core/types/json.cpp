@@ -21,50 +21,45 @@ std::string key_of(const std::string& field, Turned turned) {
   return shown_name(field);
 }
 
-template <class Json>
-Json number(double value, double scale) {
-  return std::isfinite(value) ? Json(value * scale) : Json(nullptr);
+ordered_json number(double value, double scale) {
+  return std::isfinite(value) ? ordered_json(value * scale) : ordered_json(nullptr);
 }
 
-template <class Json>
-Json text(std::string_view bytes) {
+ordered_json text(std::string_view bytes) {
   // A plugin may write any bytes; JSON holds UTF-8 alone.
-  return Json::parse(Json(std::string(bytes)).dump(-1, ' ', false, Json::error_handler_t::replace));
+  return ordered_json::parse(
+      ordered_json(std::string(bytes)).dump(-1, ' ', false, ordered_json::error_handler_t::replace));
 }
 
-template <class Json>
-Json label(const Field& field, std::uint8_t value) {
-  return value < field.labels.size() ? Json(field.labels[value]) : Json(value);
+ordered_json label(const Field& field, std::uint8_t value) {
+  return value < field.labels.size() ? ordered_json(field.labels[value]) : ordered_json(value);
 }
 
-template <class Json>
-Json object(const Type& type, const std::byte* data, Turned degrees, double scale);
+ordered_json object(const Type& type, const std::byte* data, Turned degrees, double scale);
 
-template <class Json>
-Json element(const Field& f, const std::byte* at, Turned degrees, double scale) {
-  if (f.kind == FULMAR_STRUCT) return object<Json>(*f.type, at, degrees, scale);
-  if (f.kind == FULMAR_TEXT) return text<Json>(text_at(at, f.stride));
-  if (f.kind == FULMAR_ENUM) return label<Json>(f, load<std::uint8_t>(at));
+ordered_json element(const Field& f, const std::byte* at, Turned degrees, double scale) {
+  if (f.kind == FULMAR_STRUCT) return object(*f.type, at, degrees, scale);
+  if (f.kind == FULMAR_TEXT) return text(text_at(at, f.stride));
+  if (f.kind == FULMAR_ENUM) return label(f, load<std::uint8_t>(at));
   if (f.kind == FULMAR_BOOL) return load<std::uint8_t>(at) != 0;
-  if (is_real(f.kind)) return number<Json>(number_at(f, at), scale);
-  return with_number(f.kind, at, [](auto x) { return Json(x); });
+  if (is_real(f.kind)) return number(number_at(f, at), scale);
+  return with_number(f.kind, at, [](auto x) { return ordered_json(x); });
 }
 
 /// `scale`: of all numbers, when an outer field has turned radians into degrees.
-template <class Json>
-Json object(const Type& type, const std::byte* data, Turned degrees, double scale) {
-  Json result = Json::object();
+ordered_json object(const Type& type, const std::byte* data, Turned degrees, double scale) {
+  ordered_json result = ordered_json::object();
   for (const Field& f : type.fields) {
     const std::string key = key_of(f.name, degrees);
     const double factor = key != f.name ? 180.0 / std::numbers::pi : scale;
     const auto [first, count] = elements(f, data);
     if (f.shape == FULMAR_SCALAR) {
-      result[key] = element<Json>(f, first, degrees, factor);
+      result[key] = element(f, first, degrees, factor);
       continue;
     }
-    Json& list = result[key] = Json::array();
+    ordered_json& list = result[key] = ordered_json::array();
     for (std::uint32_t i = 0; i < count; ++i)
-      list.push_back(element<Json>(f, first + std::size_t{i} * f.stride, degrees, factor));
+      list.push_back(element(f, first + std::size_t{i} * f.stride, degrees, factor));
   }
   return result;
 }
@@ -79,11 +74,11 @@ std::string shown_name(const std::string& field) {
 }
 
 json to_json(const Type& type, const std::byte* data, bool degrees) {
-  return object<json>(type, data, degrees ? Turned::angles : Turned::none, 1.0);
+  return object(type, data, degrees ? Turned::angles : Turned::none, 1.0);
 }
 
 ordered_json shown_json(const Type& type, const std::byte* data) {
-  return object<ordered_json>(type, data, Turned::all, 1.0);
+  return object(type, data, Turned::all, 1.0);
 }
 
 }  // namespace fulmar::core

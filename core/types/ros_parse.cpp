@@ -8,7 +8,6 @@
 #include <charconv>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -224,8 +223,6 @@ class Parser {
     const std::uint32_t align = list ? std::max(own, 4u) : own;
     field.offset = align_up(end, align);
     field.items = list ? align_up(4, own) : 0;
-    field.min = -std::numeric_limits<double>::infinity();
-    field.max = std::numeric_limits<double>::infinity();
     end = std::uint64_t{field.offset} + field.items + std::uint64_t{field.count} * field.stride;
     if (end > largest_struct)
       throw Error(name + " is too large: '" + field.name + "' ends at " + std::to_string(end) + " bytes");

@@ -2,26 +2,26 @@
 // Looking up in descriptions, and the sizes of what they describe.
 #include "core/types/type.hpp"
 
-#include <algorithm>
+#include "core/types/named.hpp"
+#include "core/types/text.hpp"
 
 namespace fulmar::core {
-namespace {
-
-template <class List>
-int index_of(const List& list, std::string_view name) {
-  for (std::size_t i = 0; i < list.size(); ++i)
-    if (list[i].name == name) return static_cast<int>(i);
-  return -1;
+Field host_field(const char* name, fulmar_kind kind, std::size_t offset, std::size_t room) {
+  const std::size_t stride = kind == FULMAR_TEXT ? room : primitive_size(kind);
+  return {.name = name,
+          .kind = kind,
+          .offset = static_cast<std::uint32_t>(offset),
+          .stride = static_cast<std::uint32_t>(stride)};
 }
 
-}  // namespace
-
-bool is_identifier(std::string_view name) {
-  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
-  return !name.empty() && name.size() <= 128 && letter(name[0]) &&
-         std::all_of(name.begin(), name.end(), [&](char c) { return letter(c) || digit(c); });
+TypePtr host_struct(const std::string& name, std::size_t size, std::size_t align, std::vector<Field> fields) {
+  return std::make_shared<const Type>(Type{.name = name,
+                                           .fields = std::move(fields),
+                                           .size = static_cast<std::uint32_t>(size),
+                                           .align = static_cast<std::uint32_t>(align)});
 }
+
+bool is_identifier(std::string_view name) { return name.size() <= 128 && is_name(name); }
 
 std::uint32_t element_size(const Field& field) {
   if (field.kind == FULMAR_TEXT) return field.stride;
@@ -33,13 +33,10 @@ std::uint64_t field_span(const Field& field) {
   return head + std::uint64_t{field.count - 1} * field.stride + element_size(field);
 }
 
-const Field* Type::find(std::string_view field) const {
-  const int i = index_of(fields, field);
-  return i < 0 ? nullptr : &fields[static_cast<std::size_t>(i)];
-}
+const Field* Type::find(std::string_view field) const { return find_named(fields, field); }
 
-int ComponentInfo::input(std::string_view port) const { return index_of(inputs, port); }
-int ComponentInfo::output(std::string_view port) const { return index_of(outputs, port); }
-int ComponentInfo::param(std::string_view name_) const { return index_of(params, name_); }
+int ComponentInfo::input(std::string_view port) const { return index_named(inputs, port); }
+int ComponentInfo::output(std::string_view port) const { return index_named(outputs, port); }
+int ComponentInfo::param(std::string_view name_) const { return index_named(params, name_); }
 
 }  // namespace fulmar::core

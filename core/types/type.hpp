@@ -2,7 +2,9 @@
 // The host's own copy of what a plugin says of its messages, ports and parameters. Outlives the plugin's
 // file.
 #pragma once
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -16,25 +18,30 @@ struct Type;
 using TypePtr = std::shared_ptr<const Type>;
 
 struct Field {
-  std::string name;
-  std::string unit;
-  TypePtr type;                                                   // of a struct
-  std::vector<std::string> labels;                                // of an enum
+  std::string name{};
+  std::string unit{};
+  TypePtr type{};                                                 // of a struct
+  std::vector<std::string> labels{};                              // of an enum
   std::vector<std::pair<std::int64_t, std::string>> constants{};  // of a ROS field: names of its values
   fulmar_kind kind = FULMAR_F64;
   fulmar_shape shape = FULMAR_SCALAR;
   std::uint32_t offset = 0, count = 1, stride = 0, items = 0;
-  double min = 0, max = 0;
+  double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
 };
 
+/// Of a struct of the host's own. `room`: of a text.
+Field host_field(const char* name, fulmar_kind kind, std::size_t offset, std::size_t room = 0);
+
 struct Type {
-  std::string name, frame, ros;
-  std::vector<Field> fields;
+  std::string name{}, frame{}, ros{};
+  std::vector<Field> fields{};
   std::uint32_t size = 0, align = 1;
   std::uint64_t hash = 0;  // of all of the above, nested types included; offsets too
 
   const Field* find(std::string_view field) const;
 };
+
+TypePtr host_struct(const std::string& name, std::size_t size, std::size_t align, std::vector<Field> fields);
 
 struct Port {
   std::string name;

@@ -123,7 +123,7 @@ std::filesystem::path mission_file(const json& view, const std::string& given) {
   if (!std::filesystem::exists(file))
     throw Error("there is no file " + file + " here: give the mission's with --mission");
   Report report;  // faults are told when it is written
-  const std::string name = parse_mission(file, {}, report).name, flies = view.value("mission", "");
+  const std::string name = parse_mission(file, {}, report).mission, flies = view.value("mission", "");
   if (name != flies)
     throw Error(file + " is the mission '" + name + "', but '" + flies + "' flies: nothing was written");
   return file;

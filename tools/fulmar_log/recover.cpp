@@ -30,8 +30,11 @@ Recovery recover_log(const std::filesystem::path& from, const std::filesystem::p
   if (OutFile::grows(from))
     throw Error("'" + from.string() +
                 "' is still being written: its flight gives it its name; recover it when that has ended");
-  McapStream first(from, McapStream::BadChunks::skip), second(from, McapStream::BadChunks::skip);
-  return recover_log(first, second, to);
+  Salvage salvage(from), again(from);
+  McapStream first(from, &salvage), second(from, &again);
+  Recovery recovery = recover_log(first, second, to);
+  recovery.left_out = salvage.left_out();
+  return recovery;
 }
 
 Recovery recover_log(McapStream& first, McapStream& second, const std::filesystem::path& to) {
@@ -70,8 +73,8 @@ Recovery recover_log(McapStream& first, McapStream& second, const std::filesyste
     if (!m->data.empty()) std::memcpy(room, m->data.data(), m->data.size());
     out.end_message(m->data.size());
   }
-  Recovery r{out.close(), first.left_out(), grows ? "the file has grown while it was read" : log.fault,
-             log.complete && !grows};
+  Recovery r{
+      out.close(), {}, grows ? "the file has grown while it was read" : log.fault, log.complete && !grows};
   std::error_code ignored;
   if (!r.written.error.empty()) std::filesystem::remove(r.written.file, ignored);
   return r;

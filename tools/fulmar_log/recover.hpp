@@ -7,12 +7,13 @@
 
 #include "core/log/mcap.hpp"
 #include "core/log/reader.hpp"
+#include "tools/fulmar_log/salvage.hpp"
 
 namespace fulmar::core {
 
 struct Recovery {
   McapWriter::Result written;
-  McapStream::LeftOut left_out;
+  LeftOut left_out;
   std::string fault;       // "" or why the reading ended
   bool was_whole = false;  // there was nothing to recover
 

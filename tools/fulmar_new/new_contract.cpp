@@ -23,15 +23,15 @@ TypePtr sent_type(const Graph& graph, const PortName& from) {
 
 void read_inputs(const MissionView& mission, const RoleText& role, Contract& contract) {
   for (const WireText& wire : role.in) {
-    ContractInput input{wire.input, wire.from, sent_type(mission.graph, wire.from), FULMAR_IN_VALUE, false};
-    if (const int i = contract.shipped.input(wire.input); i >= 0) {
+    ContractInput input{wire.name, wire.from, sent_type(mission.graph, wire.from), FULMAR_IN_VALUE, false};
+    if (const int i = contract.shipped.input(wire.name); i >= 0) {
       const Port& port = contract.shipped.inputs[static_cast<std::size_t>(i)];
       input.kind = port.kind;
       input.optional = port.optional;
       if (!input.type) input.type = port.type;
     }
     if (!input.type)
-      throw Error(wire.where.text() + ": roles." + role.name + ".in." + wire.input +
+      throw Error(wire.where.text() + ": roles." + role.name + ".in." + wire.name +
                   ": no component says what " + wire.from.text() + " carries");
     contract.inputs.push_back(std::move(input));
   }
@@ -87,7 +87,7 @@ Contract read_contract(const MissionView& mission, const std::string& role_name)
   const Component& shipped = graph.components[static_cast<std::size_t>(filler)];
   contract.shipped = shipped.info();
   contract.shipped_text = mission.text.component(shipped.name);
-  contract.shipped_use = contract.shipped_text->use;
+  contract.shipped_use = contract.shipped_text->use.text;
   for (const PhaseText& phase : mission.text.phases)
     for (const AssignmentText& assignment : phase.roles)
       if (phase.name == last.name && assignment.role == role_name) contract.shipped_set = assignment.set;

@@ -93,14 +93,14 @@ std::string plugin_beside(const MissionView& mission, const std::string& use) {
 /// The shipped component once more, without a role: its wires are those of the role and its own.
 Node reference(const MissionView& mission, const Contract& contract) {
   const ComponentText& shipped = *contract.shipped_text;
-  const std::string beside = plugin_beside(mission, shipped.use);
-  std::vector<std::pair<std::string, Node>> keys{{"use", scalar(beside.empty() ? shipped.use : beside)}};
+  const std::string beside = plugin_beside(mission, shipped.use.text);
+  std::vector<std::pair<std::string, Node>> keys{{"use", scalar(beside.empty() ? shipped.use.text : beside)}};
   if (shipped.rate_hz > 0) keys.emplace_back("rate", scalar(rate_text(shipped)));
   Node wires = map_of({});
-  for (const WireText& own : shipped.in) wires.entries.push_back({own.input, 0, wire(own)});
+  for (const WireText& own : shipped.in) wires.entries.push_back({own.name, 0, wire(own)});
   for (const WireText& common : mission.text.role(contract.role)->in)
-    if (contract.shipped.input(common.input) >= 0 && !wires.find(common.input))
-      wires.entries.push_back({common.input, 0, wire(common)});
+    if (contract.shipped.input(common.name) >= 0 && !wires.find(common.name))
+      wires.entries.push_back({common.name, 0, wire(common)});
   if (!wires.entries.empty()) keys.emplace_back("in", std::move(wires));
   Node params = shipped.params;
   if (contract.shipped_set.is(Node::Kind::map))
@@ -126,11 +126,11 @@ Node new_component(const MissionView& mission, const Contract& contract, const N
 Node additions(const MissionView& mission, const Contract& contract, const NewComponent& component) {
   Node components = map_of({});
   for (const ComponentText& text : mission.text.components) {
-    const std::string beside = plugin_beside(mission, text.use);
+    const std::string beside = plugin_beside(mission, text.use.text);
     std::vector<std::pair<std::string, Node>> keys;
     if (!beside.empty()) keys.emplace_back("use", scalar(beside));
     const bool named_so = text.only && text.name == io_word(*text.only);
-    const bool sits_there = contract.vehicle() && text.fills == contract.role &&
+    const bool sits_there = contract.vehicle() && text.fills.text == contract.role &&
                             (!text.only || (named_so && *text.only == mission.text.io));
     if (sits_there)  // makes room: there is one vehicle
       keys.emplace_back("only", scalar(io_word(mission.text.io == Io::sim ? Io::fcu : Io::sim)));

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lets the reading of a damaged log go on: what is damaged is left out, and the next chunk, attachment or
+// metadata is found by the summary, else by sight.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include "core/log/mcap_bytes.hpp"
+#include "core/log/reader.hpp"
+
+namespace fulmar::core {
+
+/// What a salvage has left out.
+struct LeftOut {
+  std::uint32_t chunks = 0, attachments = 0, metadata = 0;  // that are damaged
+  std::uint32_t others = 0;                                 // of which nobody can tell what they were
+  std::uint64_t messages = 0;                               // whose channel only a damaged chunk told
+};
+
+/// Of one reading of one file.
+class Salvage : public McapSalvage {
+ public:
+  explicit Salvage(const std::filesystem::path& file);
+  void check_head(std::uint64_t place, std::uint8_t code, std::uint64_t length) override;
+  void check_whole(std::uint64_t place, std::uint8_t code, std::uint64_t length) override;
+  std::uint64_t go_on(std::uint64_t place, std::uint8_t code, std::uint64_t behind) override;
+  void lost_message() override { ++left_out_.messages; }
+  const LeftOut& left_out() const { return left_out_; }
+
+ private:
+  void read_summary();
+  void name_place(std::uint8_t code, mcap::Cursor of);
+  std::uint64_t next_place(std::uint64_t place);
+  bool begins_record(mcap::Data head, std::uint64_t at);
+  std::uint64_t length_within(std::uint8_t code);
+  std::uint64_t pass_text();
+  template <class T>
+  T number_here();
+  void seek(std::uint64_t to);
+  void read(std::byte* to, std::uint64_t bytes);
+
+  std::ifstream in_;
+  std::uint64_t size_ = 0, place_ = 0;
+  std::map<std::uint64_t, std::uint8_t> named_;  // places that the summary names, and what is there
+  LeftOut left_out_;
+};
+
+}  // namespace fulmar::core

@@ -53,7 +53,8 @@ std::vector<fs::path> home_folders() {
   return folders;
 }
 
-fs::path own_program(const std::string& name) {
+fs::path own_program(const std::string& name, const char* variable) {
+  if (const char* chosen = std::getenv(variable); chosen != nullptr && *chosen != '\0') return chosen;
   if (const fs::path beside = running_program().parent_path() / name; executable(beside)) return beside;
   for (const fs::path& home : home_folders())
     if (executable(home / "bin" / name)) return home / "bin" / name;

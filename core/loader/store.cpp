@@ -3,7 +3,6 @@
 #include "core/loader/store.hpp"
 
 #include <fcntl.h>
-#include <openssl/evp.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -17,6 +16,7 @@
 
 #include "core/error.hpp"
 #include "core/loader/library.hpp"
+#include "core/types/sha256.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -148,15 +148,8 @@ void prune(const fs::path& folder) {
 }  // namespace
 
 std::string sha256_hex(const void* data, std::size_t size) {
-  unsigned char digest[EVP_MAX_MD_SIZE];
-  unsigned length = 0;
-  if (EVP_Digest(data, size, digest, &length, EVP_sha256(), nullptr) != 1)
-    throw Error("SHA-256 is not available.");
-  std::string hex;
-  for (unsigned i = 0; i < length; ++i) {
-    hex += "0123456789abcdef"[digest[i] >> 4];
-    hex += "0123456789abcdef"[digest[i] & 15];
-  }
+  std::string hex = Sha256::of({static_cast<const char*>(data), size});
+  if (hex.empty()) throw Error("SHA-256 is not available.");
   return hex;
 }
 

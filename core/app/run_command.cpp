@@ -15,6 +15,7 @@
 #include <cstring>
 #include <ctime>
 #include <filesystem>
+#include <initializer_list>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -40,13 +41,16 @@ namespace {
 std::atomic<int> signal_seen{0};  // a signal that the flight has not refused
 char last_words[512];             // where the log lies, prepared beforehand
 
-void write_to_terminal(const char* text) { write_last_words(text); }
+/// Async-signal-safe, as all that is said by a program that ends.
+void tell(std::initializer_list<const char*> words) {
+  for (const char* word : words) write_last_words(word);
+}
 
 /// What the vehicle's device is to hear when the host goes. Async-signal-safe.
 void send_last_frame() {
   const fulmar_last_frame* frame = last_frame.exchange(nullptr, std::memory_order_acq_rel);
   if (frame && frame->fd >= 0 && write(frame->fd, frame->data, frame->size) < 0)
-    write_to_terminal("\nfulmar: the last frame could not be sent");
+    tell({"\nfulmar: the last frame could not be sent"});
 }
 
 unsigned patience_s = 10;  // between a signal and the end of the flight
@@ -70,12 +74,10 @@ void note_signal(int signal) {
   }
   send_last_frame();
   const char* component = in_step.load(std::memory_order_relaxed);
-  write_to_terminal(patience_over ? "\nfulmar: ended, since the flight did not"
-                                  : "\nfulmar: ended by the second signal");
-  if (component)
-    write_to_terminal(" in the "), write_to_terminal(in_call.load(std::memory_order_relaxed)),
-        write_to_terminal(" of "), write_to_terminal(component);
-  write_to_terminal(last_words);
+  tell(
+      {patience_over ? "\nfulmar: ended, since the flight did not" : "\nfulmar: ended by the second signal"});
+  if (component) tell({" in the ", in_call.load(std::memory_order_relaxed), " of ", component});
+  tell({last_words});
   _exit(130);
 }
 
@@ -87,12 +89,9 @@ void on_crash(int signal) {
                      : signal == SIGABRT ? " (abort)"
                      : signal == SIGFPE  ? " (arithmetic fault)"
                                          : "";
-  write_to_terminal("\nfulmar: ");
-  write_to_terminal(component ? component : "the host");
-  write_to_terminal(" crashed");
-  if (component) write_to_terminal(" in its "), write_to_terminal(in_call.load(std::memory_order_relaxed));
-  write_to_terminal(what);
-  write_to_terminal(last_words);
+  tell({"\nfulmar: ", component ? component : "the host", " crashed"});
+  if (component) tell({" in its ", in_call.load(std::memory_order_relaxed)});
+  tell({what, last_words});
   raise(signal);  // the default action, restored by SA_RESETHAND
 }
 
@@ -101,17 +100,14 @@ void on_exit() {
   const char* component = in_step.load(std::memory_order_relaxed);
   if (!component) return;
   send_last_frame();
-  write_to_terminal("\nfulmar: ");
-  write_to_terminal(component);
-  write_to_terminal(" ended the program in its ");
-  write_to_terminal(in_call.load(std::memory_order_relaxed));
-  write_to_terminal(last_words);
+  const char* call = in_call.load(std::memory_order_relaxed);
+  tell({"\nfulmar: ", component, " ended the program in its ", call, last_words});
   _exit(1);  // whatever code it asked for, nothing has been flown to its end
 }
 
 void install_handlers(bool hardware) {
   static const int registered = std::atexit(on_exit);
-  if (registered != 0) write_to_terminal("fulmar: no room for an exit handler\n");
+  if (registered != 0) tell({"fulmar: no room for an exit handler\n"});
   struct sigaction action {};
   action.sa_handler = note_signal;
   sigaction(SIGINT, &action, nullptr);
@@ -455,10 +451,6 @@ bool Session::wait_for_change() {
   }
   return false;
 }
-
-}  // namespace
-
-namespace {
 
 /// With --json standard output belongs to the result alone: what components print goes to standard error.
 class ResultFile {

@@ -12,36 +12,30 @@
 
 namespace fulmar::core::dds {
 
-RclType rcl_type(const ParamInfo& info) {
-  switch (info.kind) {
-    case FULMAR_NUMBER: return RclType::number;
-    case FULMAR_FLAG: return RclType::boolean;
-    case FULMAR_COUNT: return RclType::integer;
-    case FULMAR_VECTOR: return RclType::numbers;
-    default: return RclType::text;
-  }
-}
-
 RclValue rcl_value(const ParameterView& parameter) {
   const ParamInfo& info = parameter.info;
   const ParamValue& base = parameter.base;
   RclValue value;
-  value.type = rcl_type(info);
   switch (info.kind) {
-    case FULMAR_NUMBER: value.number = base.number[0]; break;
-    case FULMAR_FLAG: value.boolean = base.integer != 0; break;
-    case FULMAR_COUNT: value.integer = base.integer; break;
+    case FULMAR_NUMBER: value.type = RclType::number, value.number = base.number[0]; break;
+    case FULMAR_FLAG: value.type = RclType::boolean, value.boolean = base.integer != 0; break;
+    case FULMAR_COUNT: value.type = RclType::integer, value.integer = base.integer; break;
+    case FULMAR_VECTOR:
+      value.type = RclType::numbers, value.numbers.assign(base.number, base.number + 3);
+      break;
     case FULMAR_CHOICE: {
       const auto i = static_cast<std::size_t>(base.integer);
-      value.text = i < info.choices.size() ? info.choices[i] : "";
+      value.type = RclType::text, value.text = i < info.choices.size() ? info.choices[i] : "";
       break;
     }
-    case FULMAR_VECTOR: value.numbers.assign(base.number, base.number + 3); break;
-    default: value.text = base.text;
+    default: value.type = RclType::text, value.text = base.text;
   }
   return value;
 }
 
+namespace {
+
+/// The text that a mission file would have for it. Throws Error when the parameter has no such values.
 std::string parameter_text(const ParamInfo& info, const RclValue& value) {
   const bool text_kind = info.kind == FULMAR_CHOICE || info.kind == FULMAR_STRING ||
                          info.kind == FULMAR_RECORD || info.kind == FULMAR_BLOB;
@@ -70,8 +64,6 @@ std::string parameter_text(const ParamInfo& info, const RclValue& value) {
   }
 }
 
-namespace {
-
 constexpr std::size_t most_at_once = 256;  // parameters in one call
 
 /// All parameters by their ROS names, and a reader of them.
@@ -99,7 +91,7 @@ RclDescriptor descriptor(const std::string& name, const ParameterView* p) {
   d.name = name;
   if (p == nullptr) return d;
   const ParamInfo& info = p->info;
-  d.type = rcl_type(info);
+  d.type = rcl_value(*p).type;
   d.description =
       info.doc + (info.unit.empty() ? "" : (info.doc.empty() ? "" : " ") + ("[" + info.unit + "]"));
   if (info.kind == FULMAR_CHOICE) d.constraints = "one of " + join(info.choices);
@@ -156,7 +148,7 @@ Bytes get_parameters(const Control& control, CdrIn in) {
 
 Bytes get_parameter_types(const Control& control, CdrIn in) {
   return each_name(control, in, [](CdrOut& out, const std::string&, const ParameterView* p) {
-    out.number(static_cast<std::uint8_t>(p ? rcl_type(p->info) : RclType::not_set));
+    out.number(static_cast<std::uint8_t>((p ? rcl_value(*p) : RclValue{}).type));
   });
 }
 
@@ -245,14 +237,13 @@ void add_parameter_services(Servers& servers, Participant& participant, const Dd
   add("get_parameters", "GetParameters", look(get_parameters));
   add("get_parameter_types", "GetParameterTypes", look(get_parameter_types));
   add("describe_parameters", "DescribeParameters", look(describe_parameters));
-  add("set_parameters", "SetParameters",
-      [&control](std::span<const std::byte> request, const Server::Reply& reply) {
-        set_parameters(control, CdrIn(request), reply, false);
-      });
-  add("set_parameters_atomically", "SetParametersAtomically",
-      [&control](std::span<const std::byte> request, const Server::Reply& reply) {
-        set_parameters(control, CdrIn(request), reply, true);
-      });
+  auto set = [&control](bool at_once) {
+    return [&control, at_once](std::span<const std::byte> request, const Server::Reply& reply) {
+      set_parameters(control, CdrIn(request), reply, at_once);
+    };
+  };
+  add("set_parameters", "SetParameters", set(false));
+  add("set_parameters_atomically", "SetParametersAtomically", set(true));
 }
 
 }  // namespace fulmar::core::dds

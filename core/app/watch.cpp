@@ -7,7 +7,6 @@
 #include <chrono>
 #include <csignal>
 #include <thread>
-#include <utility>
 
 #include "core/error.hpp"
 #include "core/loader/process.hpp"
@@ -19,11 +18,9 @@ std::map<fs::path, FileStamps::Stamp> FileStamps::read() const {
   std::map<fs::path, Stamp> stamps;
   for (const fs::path& file : files_) {
     std::error_code fault;
-    Stamp stamp;
-    stamp.time = fs::last_write_time(file, fault);
-    if (fault) continue;  // being replaced: it will be there again
-    stamp.size = fs::file_size(file, fault);
-    if (!fault) stamps[file] = stamp;
+    const fs::file_time_type time = fs::last_write_time(file, fault);
+    const std::uintmax_t size = fault ? 0 : fs::file_size(file, fault);
+    if (!fault) stamps[file] = {time, size};  // else it is being replaced: it will be there again
   }
   return stamps;
 }

@@ -2,8 +2,6 @@
 // Source of the scheme: rmw_fastrtps_shared_cpp, rmw_request.cpp and rmw_response.cpp.
 #include "core/dds/server.hpp"
 
-#include <algorithm>
-
 #include "core/error.hpp"
 
 namespace fulmar::core::dds {

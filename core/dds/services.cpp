@@ -98,14 +98,9 @@ void ParameterEvents::pump() {
   const std::vector<std::string> changed = changed_->take();
   if (changed.empty() || writer_->readers() == 0) return;
   const FlightView view = control_.view();
-  std::vector<RclParameter> list;
-  for (const ComponentView& component : view.components) {
-    for (const ParameterView& p : component.params) {
-      const std::string name = component.name + "." + p.info.name;
-      if (std::find(changed.begin(), changed.end(), name) != changed.end())
-        list.push_back({name, rcl_value(p)});
-    }
-  }
+  std::vector<std::string> list;
+  for (const std::string& name : parameter_names(view))
+    if (std::find(changed.begin(), changed.end(), name) != changed.end()) list.push_back(name);
   constexpr std::int64_t second = 1'000'000'000;
   const std::int64_t now = std::max<std::int64_t>(0, view.epoch_ns + view.now_ns);
   CdrOut out;
@@ -114,7 +109,10 @@ void ParameterEvents::pump() {
   out.text(node_);
   out.count(0);  // new
   out.count(list.size());
-  for (const RclParameter& p : list) p.write(out);
+  for (const std::string& name : list) {
+    out.text(name);
+    rcl_value(*find_parameter(view, name)).write(out);
+  }
   out.count(0);  // deleted
   writer_->write(out.take());
 }

@@ -4,7 +4,6 @@
 #pragma once
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/dds/participant.hpp"

@@ -7,6 +7,7 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <boost/asio/write.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/parser.hpp>
@@ -169,22 +170,23 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
     const bool good = status == 200;
     if (!good) ++context_.counters.refused;
     const std::string body = good ? text : text + "\n";
-    std::string all = "HTTP/1.1 " + std::to_string(status) + " " +
-                      text_of(http::obsolete_reason(http::status(status))) +
-                      "\r\nContent-Type: " + (good ? "text/html" : "text/plain") +
-                      "; charset=utf-8\r\n"
-                      "Content-Security-Policy: default-src 'none'; style-src 'unsafe-inline'; "
-                      "frame-ancestors 'none'\r\n"
-                      "X-Content-Type-Options: nosniff\r\n"
-                      "Referrer-Policy: no-referrer\r\n"
-                      "Cache-Control: no-store\r\n";
-    if (status == 401) all += "WWW-Authenticate: Bearer\r\n";
-    all += "Connection: close\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n";
-    if (parser_.get().method() != http::verb::head) all += body;
-    corked().write(all, Resume::of([self = shared_from_this()](error_code, std::size_t) {
-                     error_code ignored;
-                     self->corked().socket().shutdown(tcp::socket::shutdown_both, ignored);
-                   }));
+    answer_ = "HTTP/1.1 " + std::to_string(status) + " " +
+              text_of(http::obsolete_reason(http::status(status))) +
+              "\r\nContent-Type: " + (good ? "text/html" : "text/plain") +
+              "; charset=utf-8\r\n"
+              "Content-Security-Policy: default-src 'none'; style-src 'unsafe-inline'; "
+              "frame-ancestors 'none'\r\n"
+              "X-Content-Type-Options: nosniff\r\n"
+              "Referrer-Policy: no-referrer\r\n"
+              "Cache-Control: no-store\r\n";
+    if (status == 401) answer_ += "WWW-Authenticate: Bearer\r\n";
+    answer_ += "Connection: close\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n";
+    if (parser_.get().method() != http::verb::head) answer_ += body;
+    net::async_write(corked().socket(), net::buffer(answer_),
+                     OnBytes([self = shared_from_this()](error_code, std::size_t) {
+                       error_code ignored;
+                       self->corked().socket().shutdown(tcp::socket::shutdown_both, ignored);
+                     }));
   }
 
   // ---- the live protocol
@@ -309,7 +311,8 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
   websocket::stream<Corked, false> stream_;  // without compression
   beast::flat_buffer buffer_;
   http::request_parser<http::empty_body> parser_;
-  Timer timer_;  // the handshake; pauses; the farewell
+  std::string answer_;  // to a plain request
+  Timer timer_;         // the handshake; pauses; the farewell
   Bucket bucket_;
   std::optional<Hub::ClientId> client_;
   std::deque<Message> queue_;

@@ -5,7 +5,6 @@
 #include <thread>
 
 #include "core/live/connection.hpp"
-#include "core/live/page.hpp"
 #include "core/quiet_thread.hpp"
 
 namespace fulmar::core {

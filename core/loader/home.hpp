@@ -11,6 +11,9 @@ namespace fulmar::core {
 /// library.
 std::vector<std::filesystem::path> home_folders();
 
+/// Whether it is a file that may be executed.
+bool can_run(const std::filesystem::path& file);
+
 /// A program that belongs to the host, "fulmar-probe": what the environment's `variable` says, else beside
 /// the running program, or in bin/ of a home folder. Empty when it is missing.
 std::filesystem::path own_program(const std::string& name, const char* variable = "");

@@ -4,7 +4,6 @@
 #include "core/loader/table.hpp"
 
 #include <bit>
-#include <cmath>
 
 #include "core/loader/fnv.hpp"
 

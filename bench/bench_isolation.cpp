@@ -5,6 +5,7 @@
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -67,9 +68,9 @@ int echo() {
 class Echo {
  public:
   Echo() : memory_(65536), words_(*new (memory_.data()) Words{}) {
-    ::setenv("FULMAR_CHILD", std::filesystem::read_symlink("/proc/self/exe").c_str(), 1);
-    process_ = std::make_unique<Process>(std::vector<std::string>{"--echo"}, memory_);
-    ::unsetenv("FULMAR_CHILD");
+    process_ = std::make_unique<Process>(std::filesystem::read_symlink("/proc/self/exe").string(),
+                                         std::vector<std::string>{"--echo"},
+                                         ChildFiles{-1, STDERR_FILENO, STDERR_FILENO, memory_.descriptor()});
   }
   void spin(bool on) { words_.spins.store(on), trip(); }
   void trip() {

@@ -34,10 +34,9 @@ struct Commands {
   MissionOptions mission;
   RunOptions run;
   std::string speed = "max", resume_log;
-  double duration = 0;
   ReplayWords replay;
   std::vector<std::string> replay_set, replay_with;
-  std::vector<std::pair<CLI::App*, std::function<int()>>> actions;
+  std::function<int()> action;  // of the command that was given
 
   Commands() {
     app.set_version_flag("--version", "fulmar " FULMAR_VERSION);
@@ -62,17 +61,11 @@ struct Commands {
     if (*command.says == '\0') named->group("");
   }
 
-  CLI::App* add(const char* word, const char* says, std::function<int()> action) {
-    CLI::App* command = app.add_subcommand(word, says);
-    actions.emplace_back(command, std::move(action));
-    return command;
-  }
-
   void add_run() {
-    CLI::App* command = add("run", "fly a mission and tell how it went", {});
+    CLI::App* command = app.add_subcommand("run", "fly a mission and tell how it went");
     mission.add(command);
     command->add_option("--speed", speed, "real, max, or a multiple of real time");
-    command->add_option("--duration", duration, "end after so many seconds of flight")
+    command->add_option("--duration", run.duration_s, "end after so many seconds of flight")
         ->check(CLI::Validator(
             [](const std::string& text) {
               double x = 0;
@@ -110,30 +103,31 @@ struct Commands {
         ->add_flag("--no-resume", run.no_resume,
                    "with --io fcu: begin at the beginning, also when the newest log ended in the air")
         ->excludes(resume);
-    actions.back().second = [this, command, resume] {
+    command->callback([this, command, resume] {
       run.mission = mission.mission;
       run.overrides = mission.overrides(command);
       run.speed = parse_speed(speed);
       if (resume->count() > 0) run.resume = resume_log;
-      if (duration > 0) run.duration_s = duration;
-      return run_command(run);
-    };
+      action = [this] { return run_command(run); };
+    });
   }
 
   void add_check() {
-    CLI::App* command = add("check", "check a mission file: every fault in one go", {});
+    CLI::App* command = app.add_subcommand("check", "check a mission file: every fault in one go");
     mission.add(command);
-    actions.back().second = [this, command] { return check(mission.mission, mission.overrides(command)); };
+    command->callback([this, command] {
+      action = [this, changes = mission.overrides(command)] { return check(mission.mission, changes); };
+    });
   }
 
   void add_replay() {
-    CLI::App* command =
-        add("replay",
-            "fly a log again: what entered the flight is fed to its mission, and what comes out is compared",
-            [this] {
-              replay.changes.set = pairs(replay_set), replay.changes.with = pairs(replay_with);
-              return replay_command(replay);
-            });
+    CLI::App* command = app.add_subcommand(
+        "replay",
+        "fly a log again: what entered the flight is fed to its mission, and what comes out is compared");
+    command->callback([this] {
+      replay.changes.set = pairs(replay_set), replay.changes.with = pairs(replay_with);
+      action = [this] { return replay_command(replay); };
+    });
     command->add_option("LOG", replay.log, "log of a flight (MCAP)")->required();
     command
         ->add_option("--with", replay_with,
@@ -179,9 +173,7 @@ struct Commands {
     if (argc > 1 && argv[1][0] != '-' && std::find(known.begin(), known.end(), argv[1]) == known.end())
       return other_program(argv + 1);
     app.parse(argc, argv);
-    for (const auto& [command, action] : actions)
-      if (command->parsed()) return action();
-    return 2;
+    return action ? action() : 2;
   }
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/app/replay_command.hpp"
 
+#include <spdlog/fmt/fmt.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -81,37 +82,37 @@ json result_of(const Recording& recording, const Replayed& again) {
   return j;
 }
 
-void print_difference(const ReplayResult& r) {
+void add_difference(std::string& out, const ReplayResult& r) {
   if (r.ticks != r.recorded_ticks)
-    std::printf("the replay has %llu ticks, the log %llu\n", static_cast<unsigned long long>(r.ticks),
-                static_cast<unsigned long long>(r.recorded_ticks));
+    out += fmt::format("the replay has {} ticks, the log {}\n", r.ticks, r.recorded_ticks);
   if (r.first_tick)
-    std::printf("the first tick with other outputs is %llu, at %.4f s\n",
-                static_cast<unsigned long long>(*r.first_tick), flight_seconds(r.first_tick_ns));
+    out += fmt::format("the first tick with other outputs is {}, at {:.4f} s\n", *r.first_tick,
+                       flight_seconds(r.first_tick_ns));
   if (r.first)
-    std::printf("the first difference in the log: %s at %.4f s%s%s: %s, now %s\n", r.first->topic.c_str(),
-                flight_seconds(r.first->at_ns), r.first->field.empty() ? "" : ", ", r.first->field.c_str(),
-                r.first->was.c_str(), r.first->is.c_str());
-  std::printf(
-      "%llu of %llu messages differ, %llu bytes\n", static_cast<unsigned long long>(r.differing_messages),
-      static_cast<unsigned long long>(r.messages), static_cast<unsigned long long>(r.differing_bytes));
+    out += fmt::format("the first difference in the log: {} at {:.4f} s{}{}: {}, now {}\n", r.first->topic,
+                       flight_seconds(r.first->at_ns), r.first->field.empty() ? "" : ", ", r.first->field,
+                       r.first->was, r.first->is);
+  out += fmt::format("{} of {} messages differ, {} bytes\n", r.differing_messages, r.messages,
+                     r.differing_bytes);
 }
 
 void print(const Replayed& again) {
+  std::string out;
   const ReplayResult& r = again.result;
   const double flown_s = flight_seconds(r.last_ns - r.first_ns);
-  std::printf("%s: %llu ticks, %.1f s of flight in %.2f s: %.0f times real time\n",
-              again.graph.mission.c_str(), static_cast<unsigned long long>(r.ticks), flown_s, r.flight.wall_s,
-              r.flight.wall_s > 0 ? flown_s / r.flight.wall_s : 0);
+  out += fmt::format("{}: {} ticks, {:.1f} s of flight in {:.2f} s: {:.0f} times real time\n",
+                     again.graph.mission, r.ticks, flown_s, r.flight.wall_s,
+                     r.flight.wall_s > 0 ? flown_s / r.flight.wall_s : 0);
   if (r.cut_off)
-    std::printf("the log was cut off: compared up to its last whole tick, at %.4f s\n",
-                flight_seconds(r.last_ns));
-  for (const std::string& note : r.notes) std::printf("%s\n", note.c_str());
+    out += fmt::format("the log was cut off: compared up to its last whole tick, at {:.4f} s\n",
+                       flight_seconds(r.last_ns));
+  for (const std::string& note : r.notes) out += note + "\n";
   if (r.equal())
-    std::printf("equal: %llu messages, 0 differing bytes%s\n", static_cast<unsigned long long>(r.messages),
-                r.same_file ? "; both logs are the same file" : "");
+    out += fmt::format("equal: {} messages, 0 differing bytes{}\n", r.messages,
+                       r.same_file ? "; both logs are the same file" : "");
   else
-    print_difference(r);
+    add_difference(out, r);
+  std::fputs(out.c_str(), stdout);
 }
 
 /// What a change cannot reach is refused: the samples of the vehicle and of drivers come out of the log.

@@ -2,6 +2,7 @@
 #include "core/app/run_command.hpp"
 
 #include <fcntl.h>
+#include <spdlog/fmt/chrono.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -15,9 +16,9 @@
 #include <cstring>
 #include <ctime>
 #include <filesystem>
+#include <initializer_list>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -40,13 +41,16 @@ namespace {
 std::atomic<int> signal_seen{0};  // a signal that the flight has not refused
 char last_words[512];             // where the log lies, prepared beforehand
 
-void write_to_terminal(const char* text) { write_last_words(text); }
+/// Async-signal-safe, as all that is said by a program that ends.
+void tell(std::initializer_list<const char*> words) {
+  for (const char* word : words) write_last_words(word);
+}
 
 /// What the vehicle's device is to hear when the host goes. Async-signal-safe.
 void send_last_frame() {
   const fulmar_last_frame* frame = last_frame.exchange(nullptr, std::memory_order_acq_rel);
   if (frame && frame->fd >= 0 && write(frame->fd, frame->data, frame->size) < 0)
-    write_to_terminal("\nfulmar: the last frame could not be sent");
+    tell({"\nfulmar: the last frame could not be sent"});
 }
 
 unsigned patience_s = 10;  // between a signal and the end of the flight
@@ -70,12 +74,10 @@ void note_signal(int signal) {
   }
   send_last_frame();
   const char* component = in_step.load(std::memory_order_relaxed);
-  write_to_terminal(patience_over ? "\nfulmar: ended, since the flight did not"
-                                  : "\nfulmar: ended by the second signal");
-  if (component)
-    write_to_terminal(" in the "), write_to_terminal(in_call.load(std::memory_order_relaxed)),
-        write_to_terminal(" of "), write_to_terminal(component);
-  write_to_terminal(last_words);
+  tell(
+      {patience_over ? "\nfulmar: ended, since the flight did not" : "\nfulmar: ended by the second signal"});
+  if (component) tell({" in the ", in_call.load(std::memory_order_relaxed), " of ", component});
+  tell({last_words});
   _exit(130);
 }
 
@@ -87,12 +89,9 @@ void on_crash(int signal) {
                      : signal == SIGABRT ? " (abort)"
                      : signal == SIGFPE  ? " (arithmetic fault)"
                                          : "";
-  write_to_terminal("\nfulmar: ");
-  write_to_terminal(component ? component : "the host");
-  write_to_terminal(" crashed");
-  if (component) write_to_terminal(" in its "), write_to_terminal(in_call.load(std::memory_order_relaxed));
-  write_to_terminal(what);
-  write_to_terminal(last_words);
+  tell({"\nfulmar: ", component ? component : "the host", " crashed"});
+  if (component) tell({" in its ", in_call.load(std::memory_order_relaxed)});
+  tell({what, last_words});
   raise(signal);  // the default action, restored by SA_RESETHAND
 }
 
@@ -101,17 +100,14 @@ void on_exit() {
   const char* component = in_step.load(std::memory_order_relaxed);
   if (!component) return;
   send_last_frame();
-  write_to_terminal("\nfulmar: ");
-  write_to_terminal(component);
-  write_to_terminal(" ended the program in its ");
-  write_to_terminal(in_call.load(std::memory_order_relaxed));
-  write_to_terminal(last_words);
+  const char* call = in_call.load(std::memory_order_relaxed);
+  tell({"\nfulmar: ", component, " ended the program in its ", call, last_words});
   _exit(1);  // whatever code it asked for, nothing has been flown to its end
 }
 
 void install_handlers(bool hardware) {
   static const int registered = std::atexit(on_exit);
-  if (registered != 0) write_to_terminal("fulmar: no room for an exit handler\n");
+  if (registered != 0) tell({"fulmar: no room for an exit handler\n"});
   struct sigaction action {};
   action.sa_handler = note_signal;
   sigaction(SIGINT, &action, nullptr);
@@ -145,12 +141,8 @@ std::filesystem::path free_name(const std::filesystem::path& wanted) {
 std::filesystem::path default_log(const Graph& graph) {
   if (!graph.record_file.empty())
     return graph.io == Io::fcu ? free_name(graph.record_file) : std::filesystem::path(graph.record_file);
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  char stamp[32];
-  std::strftime(stamp, sizeof stamp, "%Y%m%dT%H%M%SZ", &utc);
-  return free_name("logs/" + graph.mission + "-" + stamp + ".mcap");
+  return free_name(
+      fmt::format("logs/{}-{:%Y%m%dT%H%M%SZ}.mcap", graph.mission, fmt::gmtime(std::time(nullptr))));
 }
 
 /// One line that is rewritten on a terminal; whole lines, now and then, when piped.
@@ -204,29 +196,234 @@ class Session {
       throw Error("--log " + options.log_file + ": the mission says record: off; there is no log to write");
   }
 
-  int fly();
-  std::optional<int> try_fly();
+  /// A flight with what has changed; when that cannot even begin, the mission of before stays.
+  std::optional<int> try_fly() {
+    if (!before_) return fly();
+    try {
+      return fly();
+    } catch (const Error& fault) {
+      last_.reset();
+      if (!before_) throw;
+      graph_ = std::move(*std::exchange(before_, nullptr));
+      warn(fault.what());
+      warn("what flew before stays as it is");
+      return std::nullopt;
+    }
+  }
+
   /// Waits until a file has changed that the mission uses and the mission can be flown with it. False:
   /// interrupted.
-  bool wait_for_change();
+  bool wait_for_change() {
+    say_aloud("\nwaiting for a change; Ctrl-C ends");
+    std::string gone;
+    while (signal_seen.load() == 0) {
+      if (sources_)
+        if (const auto changed = sources_->changed(); !changed.empty()) {
+          say_aloud("changed: " + changed[0].filename().string() + "; building");
+          if (!run_build(options_.build, signal_seen) && signal_seen.load() == 0)
+            warn("the build failed; what flew before stays as it is");
+        }
+      if (const auto changed = stamps_->changed(); !changed.empty() && reload(changed)) return true;
+      const std::string missing = stamps_->missing().string();
+      if (!missing.empty() && missing != gone) warn(missing + " is gone; waiting for it");
+      gone = missing;
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return false;
+  }
+
   /// Uses whatever has changed since the last flight, if anything has.
-  void take_changes();
+  void take_changes() {
+    if (const auto changed = stamps_->changed(); !changed.empty()) reload(changed);
+  }
+
   nlohmann::json results() const {
     return results_.size() == 1 ? results_[0] : nlohmann::json{{"flights", results_}};
   }
   bool has_flown() const { return !results_.empty(); }
 
  private:
-  Graph load() const;
-  std::filesystem::path log_file() const;
-  std::optional<Resume> resume() const;
-  void forget_before();
-  bool reload(const std::vector<std::filesystem::path>& changed);
-  void rehearse_changes(const Graph& next) const;
-  std::vector<std::filesystem::path> files() const;
-  void prepare_last_words(const std::string& log) const;
-  void take_priority() const;
-  void tell_onlookers() const;
+  Graph load() const {
+    Graph graph = load_mission(options_.mission, options_.overrides);
+    if (!options_.live.empty()) {
+      const std::string token = graph.live.token;
+      graph.live = parse_live(options_.live);
+      graph.live.token = token;
+    }
+    if (const char* token = std::getenv("FULMAR_TOKEN"); token && *token) graph.live.token = token;
+    return graph;
+  }
+
+  std::filesystem::path log_file() const {
+    if (options_.no_log || !graph_.record) return {};
+    if (options_.log_file.empty()) return default_log(graph_);
+    const std::filesystem::path file = options_.log_file;
+    if (results_.empty()) return graph_.io == Io::fcu ? free_name(file) : file;
+    return file.parent_path() /
+           (file.stem().string() + "-" + std::to_string(results_.size() + 1) + file.extension().string());
+  }
+
+  /// Where to go on: as asked; on hardware also after a host that ended in the air a short time ago, when the
+  /// vehicle confirms it.
+  std::optional<Resume> resume() const {
+    constexpr double short_time_s = 600;
+    const bool asked = options_.resume.has_value();
+    if (!results_.empty() || options_.no_resume || (!asked && graph_.io != Io::fcu)) return std::nullopt;
+    const std::filesystem::path log = asked && !options_.resume->empty()
+                                          ? std::filesystem::path(*options_.resume)
+                                          : newest_log(graph_, asked ? 0 : short_time_s);
+    if (log.empty() && !asked) return std::nullopt;
+    if (log.empty())
+      throw Error("--resume: there is no log of the mission " + graph_.mission +
+                  "; name one, as in --resume FILE.mcap");
+    try {
+      Resume resume = read_resume(graph_, log);
+      if (asked && !resume.missing.empty()) throw Error(log.string() + ": " + resume.missing[0]);
+      if (!asked && !resume.armed) return std::nullopt;
+      resume.if_armed = !asked;
+      for (const std::string& missing : resume.missing) warn(log.string() + ": " + missing);
+      if (!options_.json)
+        say_aloud((resume.if_armed ? "if the aircraft is armed, resumes from " : "resumes from ") +
+                  log.string() + ": " + resume.text());
+      return resume;
+    } catch (const Error& fault) {
+      if (asked) throw;
+      warn(std::string("not resumed: ") + fault.what());
+      return std::nullopt;
+    }
+  }
+
+  void prepare_last_words(const std::string& log) const {
+    std::snprintf(last_words, sizeof last_words, "%s%s%s\n",
+                  log.empty() ? "." : ". What was logged until then is in ", log.c_str(),
+                  log.empty() ? "" : ".part");
+  }
+
+  void take_priority() const {
+    if (options_.realtime > 0 && graph_.io == Io::sim && options_.speed == 0)
+      throw CLI::ValidationError(
+          "--realtime would give a CPU to this flight alone: it belongs to --io fcu, or to a simulation with "
+          "--speed real");
+    if (options_.realtime > 0) return take_real_time(options_.realtime);
+    if (graph_.io == Io::fcu) warn("the loop runs without real-time priority; --realtime gives it one");
+  }
+
+  void tell_onlookers() const {
+    if (graph_.dds.on && graph_.io == Io::sim && options_.speed == 0)
+      warn("dds: nothing is exported or imported as fast as the machine allows; fly with --speed real");
+    if (!options_.live.empty() && graph_.live.on && graph_.io == Io::sim && options_.speed == 0)
+      warn("--live: nobody can follow as fast as the machine allows; fly with --speed real");
+    if (last_->live_port() == 0 || options_.json) return;
+    const bool v6 = graph_.live.host.find(':') != std::string::npos;
+    say_aloud("live view: ws://" + (v6 ? "[" + graph_.live.host + "]" : graph_.live.host) + ":" +
+              std::to_string(last_->live_port()));
+  }
+
+  int fly() {
+    if (!stamps_) stamps_ = std::make_unique<FileStamps>(files());
+    if (!options_.build.empty() && !sources_)
+      sources_ = std::make_unique<FileStamps>(
+          source_files(std::filesystem::absolute(options_.mission).parent_path()));
+    last_.reset();
+    Progress progress(graph_);
+    FlightOptions o;
+    o.speed = options_.speed;
+    o.duration_s = options_.duration_s;
+    o.drivers_from = options_.drivers_from;
+    o.resume = resume();
+    o.keep_inputs = options_.watch || graph_.io == Io::fcu;
+    o.log_file = log_file();
+    o.log = !o.log_file.empty();
+    if (o.log_file.has_parent_path()) std::filesystem::create_directories(o.log_file.parent_path());
+    o.interrupt = &signal_seen;
+    o.progress = [&](const Flight& flight) { progress.show(flight); };
+    o.say = [&](const std::string& text, bool warning) { progress.say(text, warning); };
+    prepare_last_words(o.log_file.string());
+    patience_s =
+        10 + static_cast<unsigned>(graph_.failsafe_ns /
+                                   1'000'000'000);  // a flight that gives up control sends its failsafe first
+    if (graph_.io == Io::fcu || options_.speed > 0) print_without_waiting();
+    if (options_.json) dup2(STDERR_FILENO, STDOUT_FILENO);  // what components print
+    install_handlers(graph_.io != Io::sim);
+    if (!options_.json)
+      say_aloud(graph_.mission + (graph_.io == Io::sim ? ": simulation" : ": flight controller") + ", seed " +
+                std::to_string(graph_.seed));
+    take_priority();
+    last_ = std::make_unique<Flight>(graph_, o);
+    forget_before();
+    tell_onlookers();
+    const FlightResult result = last_->run();
+    alarm(0);
+    progress.clear();
+    pass_on_words();
+    results_.push_back(result_json(graph_, *last_, result));
+    if (!options_.json) {
+      std::printf("%s", result_table(graph_, *last_, result).c_str());
+      if (results_.size() > 1)
+        std::printf("%s", comparison(results_[results_.size() - 2], results_.back()).c_str());
+      std::fflush(stdout);
+    }
+    const bool whole = result.log.error.empty();
+    if (!whole)
+      warn("the log is not whole: " + result.log.error + "; " + std::to_string(result.log.dropped) +
+           " messages were lost, and what there is is in " + result.log.file.string());
+    else if (result.log.dropped > 0)
+      warn("the log has gaps: the disk was too slow for " + std::to_string(result.log.dropped) + " messages");
+    if (result.outcome == Outcome::interrupted) return 130;
+    return result.outcome == Outcome::flown && whole ? 0 : 1;
+  }
+
+  std::vector<std::filesystem::path> files() const {
+    std::vector<std::filesystem::path> all = graph_.files;
+    for (const Component& c : graph_.components)
+      if (std::find(all.begin(), all.end(), c.plugin->path) == all.end()) all.emplace_back(c.plugin->path);
+    return all;
+  }
+
+  /// The newcomers among the components are tried in a child on what their predecessors saw last.
+  void rehearse_changes(const Graph& next) const {
+    for (const Component& c : next.components) {
+      const auto was = std::find_if(graph_.components.begin(), graph_.components.end(),
+                                    [&](const Component& o) { return o.name == c.name; });
+      if (was == graph_.components.end() || was->plugin->sha256 == c.plugin->sha256 || c.info().vehicle ||
+          c.run == RunMode::driver)
+        continue;
+      check_unloads(*was->plugin, was->info());
+      const Tape* tape = last_ && same_inputs(was->info(), c.info()) ? last_->tape(c.name) : nullptr;
+      try {
+        rehearse(c, next.tick_ns, component_seed(next.seed, c.name), tape);
+      } catch (const Error& fault) {
+        throw Error(c.name + ": " + version_words(*c.plugin) + " fails its rehearsal: " + fault.what());
+      }
+      say_aloud(c.name + ": " + version_words(*was->plugin) + " -> " + version_words(*c.plugin) +
+                (tape ? ", rehearsed on " + std::to_string(tape->size()) + " steps" : ""));
+    }
+  }
+
+  bool reload(const std::vector<std::filesystem::path>& changed) {
+    for (const auto& file : changed) say_aloud("changed: " + file.filename().string());
+    try {
+      Graph next = load();
+      rehearse_changes(next);
+      before_ = std::make_unique<Graph>(std::exchange(graph_, std::move(next)));
+      stamps_ = std::make_unique<FileStamps>(files());
+      return true;
+    } catch (const Error& fault) {
+      warn(fault.what());
+      warn("what flew before stays as it is");
+      return false;
+    }
+  }
+
+  /// The newcomers fly: what they replace is unloaded, for certain.
+  void forget_before() {
+    if (!before_) return;
+    std::vector<std::shared_ptr<Library>> libraries;
+    for (Component& c : before_->components) libraries.push_back(std::move(c.library));
+    before_.reset();
+    for (auto& library : libraries)
+      if (library && library.use_count() == 1) Library::unload(std::move(library));
+  }
 
   const RunOptions& options_;
   Graph graph_;
@@ -235,230 +432,6 @@ class Session {
   std::vector<nlohmann::json> results_;
   std::unique_ptr<FileStamps> stamps_, sources_;
 };
-
-Graph Session::load() const {
-  Graph graph = load_mission(options_.mission, options_.overrides);
-  if (!options_.live.empty()) {
-    const std::string token = graph.live.token;
-    graph.live = parse_live(options_.live);
-    graph.live.token = token;
-  }
-  if (const char* token = std::getenv("FULMAR_TOKEN"); token && *token) graph.live.token = token;
-  return graph;
-}
-
-std::filesystem::path Session::log_file() const {
-  if (options_.no_log || !graph_.record) return {};
-  if (options_.log_file.empty()) return default_log(graph_);
-  const std::filesystem::path file = options_.log_file;
-  if (results_.empty()) return graph_.io == Io::fcu ? free_name(file) : file;
-  return file.parent_path() /
-         (file.stem().string() + "-" + std::to_string(results_.size() + 1) + file.extension().string());
-}
-
-/// Where to go on: as asked; on hardware also after a host that ended in the air a short time ago, when the
-/// vehicle confirms it.
-std::optional<Resume> Session::resume() const {
-  constexpr double short_time_s = 600;
-  const bool asked = options_.resume.has_value();
-  if (!results_.empty() || options_.no_resume || (!asked && graph_.io != Io::fcu)) return std::nullopt;
-  const std::filesystem::path log = asked && !options_.resume->empty()
-                                        ? std::filesystem::path(*options_.resume)
-                                        : newest_log(graph_, asked ? 0 : short_time_s);
-  if (log.empty() && !asked) return std::nullopt;
-  if (log.empty())
-    throw Error("--resume: there is no log of the mission " + graph_.mission +
-                "; name one, as in --resume FILE.mcap");
-  try {
-    Resume resume = read_resume(graph_, log);
-    if (asked && !resume.missing.empty()) throw Error(log.string() + ": " + resume.missing[0]);
-    if (!asked && !resume.armed) return std::nullopt;
-    resume.if_armed = !asked;
-    for (const std::string& missing : resume.missing) warn(log.string() + ": " + missing);
-    if (!options_.json)
-      say_aloud((resume.if_armed ? "if the aircraft is armed, resumes from " : "resumes from ") +
-                log.string() + ": " + resume.text());
-    return resume;
-  } catch (const Error& fault) {
-    if (asked) throw;
-    warn(std::string("not resumed: ") + fault.what());
-    return std::nullopt;
-  }
-}
-
-void Session::prepare_last_words(const std::string& log) const {
-  std::snprintf(last_words, sizeof last_words, "%s%s%s\n",
-                log.empty() ? "." : ". What was logged until then is in ", log.c_str(),
-                log.empty() ? "" : ".part");
-}
-
-void Session::take_priority() const {
-  if (options_.realtime > 0 && graph_.io == Io::sim && options_.speed == 0)
-    throw CLI::ValidationError(
-        "--realtime would give a CPU to this flight alone: it belongs to --io fcu, or to a simulation with "
-        "--speed real");
-  if (options_.realtime > 0) return take_real_time(options_.realtime);
-  if (graph_.io == Io::fcu) warn("the loop runs without real-time priority; --realtime gives it one");
-}
-
-void Session::tell_onlookers() const {
-  if (graph_.dds.on && graph_.io == Io::sim && options_.speed == 0)
-    warn("dds: nothing is exported or imported as fast as the machine allows; fly with --speed real");
-  if (!options_.live.empty() && graph_.live.on && graph_.io == Io::sim && options_.speed == 0)
-    warn("--live: nobody can follow as fast as the machine allows; fly with --speed real");
-  if (last_->live_port() == 0 || options_.json) return;
-  const bool v6 = graph_.live.host.find(':') != std::string::npos;
-  say_aloud("live view: ws://" + (v6 ? "[" + graph_.live.host + "]" : graph_.live.host) + ":" +
-            std::to_string(last_->live_port()));
-}
-
-int Session::fly() {
-  if (!stamps_) stamps_ = std::make_unique<FileStamps>(files());
-  if (!options_.build.empty() && !sources_)
-    sources_ =
-        std::make_unique<FileStamps>(source_files(std::filesystem::absolute(options_.mission).parent_path()));
-  last_.reset();
-  Progress progress(graph_);
-  FlightOptions o;
-  o.speed = options_.speed;
-  o.duration_s = options_.duration_s;
-  o.drivers_from = options_.drivers_from;
-  o.resume = resume();
-  o.keep_inputs = options_.watch || graph_.io == Io::fcu;
-  o.log_file = log_file();
-  o.log = !o.log_file.empty();
-  if (o.log_file.has_parent_path()) std::filesystem::create_directories(o.log_file.parent_path());
-  o.interrupt = &signal_seen;
-  o.progress = [&](const Flight& flight) { progress.show(flight); };
-  o.say = [&](const std::string& text, bool warning) { progress.say(text, warning); };
-  prepare_last_words(o.log_file.string());
-  patience_s =
-      10 + static_cast<unsigned>(graph_.failsafe_ns /
-                                 1'000'000'000);  // a flight that gives up control sends its failsafe first
-  if (graph_.io == Io::fcu || options_.speed > 0) print_without_waiting();
-  if (options_.json) dup2(STDERR_FILENO, STDOUT_FILENO);  // what components print
-  install_handlers(graph_.io != Io::sim);
-  if (!options_.json)
-    say_aloud(graph_.mission + (graph_.io == Io::sim ? ": simulation" : ": flight controller") + ", seed " +
-              std::to_string(graph_.seed));
-  take_priority();
-  last_ = std::make_unique<Flight>(graph_, o);
-  forget_before();
-  tell_onlookers();
-  const FlightResult result = last_->run();
-  alarm(0);
-  progress.clear();
-  pass_on_words();
-  results_.push_back(result_json(graph_, *last_, result));
-  if (!options_.json) {
-    std::printf("%s", result_table(graph_, *last_, result).c_str());
-    if (results_.size() > 1)
-      std::printf("%s", comparison(results_[results_.size() - 2], results_.back()).c_str());
-    std::fflush(stdout);
-  }
-  const bool whole = result.log.error.empty();
-  if (!whole)
-    warn("the log is not whole: " + result.log.error + "; " + std::to_string(result.log.dropped) +
-         " messages were lost, and what there is is in " + result.log.file.string());
-  else if (result.log.dropped > 0)
-    warn("the log has gaps: the disk was too slow for " + std::to_string(result.log.dropped) + " messages");
-  if (result.outcome == Outcome::interrupted) return 130;
-  return result.outcome == Outcome::flown && whole ? 0 : 1;
-}
-
-std::vector<std::filesystem::path> Session::files() const {
-  std::vector<std::filesystem::path> all = graph_.files;
-  for (const Component& c : graph_.components)
-    if (std::find(all.begin(), all.end(), c.plugin->path) == all.end()) all.emplace_back(c.plugin->path);
-  return all;
-}
-
-/// The newcomers among the components are tried in a child on what their predecessors saw last.
-void Session::rehearse_changes(const Graph& next) const {
-  for (const Component& c : next.components) {
-    const auto was = std::find_if(graph_.components.begin(), graph_.components.end(),
-                                  [&](const Component& o) { return o.name == c.name; });
-    if (was == graph_.components.end() || was->plugin->sha256 == c.plugin->sha256 || c.info().vehicle ||
-        c.run == RunMode::driver)
-      continue;
-    check_unloads(*was->plugin, was->info());
-    const Tape* tape = last_ && same_inputs(was->info(), c.info()) ? last_->tape(c.name) : nullptr;
-    try {
-      rehearse(c, next.tick_ns, component_seed(next.seed, c.name), tape);
-    } catch (const Error& fault) {
-      throw Error(c.name + ": " + version_words(*c.plugin) + " fails its rehearsal: " + fault.what());
-    }
-    say_aloud(c.name + ": " + version_words(*was->plugin) + " -> " + version_words(*c.plugin) +
-              (tape ? ", rehearsed on " + std::to_string(tape->size()) + " steps" : ""));
-  }
-}
-
-bool Session::reload(const std::vector<std::filesystem::path>& changed) {
-  for (const auto& file : changed) say_aloud("changed: " + file.filename().string());
-  try {
-    Graph next = load();
-    rehearse_changes(next);
-    before_ = std::make_unique<Graph>(std::exchange(graph_, std::move(next)));
-    stamps_ = std::make_unique<FileStamps>(files());
-    return true;
-  } catch (const Error& fault) {
-    warn(fault.what());
-    warn("what flew before stays as it is");
-    return false;
-  }
-}
-
-/// The newcomers fly: what they replace is unloaded, for certain.
-void Session::forget_before() {
-  if (!before_) return;
-  std::vector<std::shared_ptr<Library>> libraries;
-  for (Component& c : before_->components) libraries.push_back(std::move(c.library));
-  before_.reset();
-  for (auto& library : libraries)
-    if (library && library.use_count() == 1) Library::unload(std::move(library));
-}
-
-/// A flight with what has changed; when that cannot even begin, the mission of before stays.
-std::optional<int> Session::try_fly() {
-  if (!before_) return fly();
-  try {
-    return fly();
-  } catch (const Error& fault) {
-    last_.reset();
-    if (!before_) throw;
-    graph_ = std::move(*std::exchange(before_, nullptr));
-    warn(fault.what());
-    warn("what flew before stays as it is");
-    return std::nullopt;
-  }
-}
-
-void Session::take_changes() {
-  if (const auto changed = stamps_->changed(); !changed.empty()) reload(changed);
-}
-
-bool Session::wait_for_change() {
-  say_aloud("\nwaiting for a change; Ctrl-C ends");
-  std::string gone;
-  while (signal_seen.load() == 0) {
-    if (sources_)
-      if (const auto changed = sources_->changed(); !changed.empty()) {
-        say_aloud("changed: " + changed[0].filename().string() + "; building");
-        if (!run_build(options_.build, signal_seen) && signal_seen.load() == 0)
-          warn("the build failed; what flew before stays as it is");
-      }
-    if (const auto changed = stamps_->changed(); !changed.empty() && reload(changed)) return true;
-    const std::string missing = stamps_->missing().string();
-    if (!missing.empty() && missing != gone) warn(missing + " is gone; waiting for it");
-    gone = missing;
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  }
-  return false;
-}
-
-}  // namespace
-
-namespace {
 
 /// With --json standard output belongs to the result alone: what components print goes to standard error.
 class ResultFile {

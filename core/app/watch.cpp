@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/app/watch.hpp"
 
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <csignal>
 #include <thread>
-#include <utility>
+
+#include "core/error.hpp"
+#include "core/loader/process.hpp"
 
 namespace fulmar::core {
 namespace fs = std::filesystem;
@@ -17,11 +18,9 @@ std::map<fs::path, FileStamps::Stamp> FileStamps::read() const {
   std::map<fs::path, Stamp> stamps;
   for (const fs::path& file : files_) {
     std::error_code fault;
-    Stamp stamp;
-    stamp.time = fs::last_write_time(file, fault);
-    if (fault) continue;  // being replaced: it will be there again
-    stamp.size = fs::file_size(file, fault);
-    if (!fault) stamps[file] = stamp;
+    const fs::file_time_type time = fs::last_write_time(file, fault);
+    const std::uintmax_t size = fault ? 0 : fs::file_size(file, fault);
+    if (!fault) stamps[file] = {time, size};  // else it is being replaced: it will be there again
   }
   return stamps;
 }
@@ -71,23 +70,12 @@ std::vector<fs::path> source_files(const fs::path& folder) {
 
 /// In a group of its own: the terminal's interrupt is the host's, which then ends the whole build.
 bool run_build(const std::string& command, const std::atomic<int>& interrupted) {
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_adddup2(&files, STDERR_FILENO, STDOUT_FILENO);
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  sigset_t all;
-  sigfillset(&all);
-  posix_spawnattr_setsigdefault(&attributes, &all);
-  posix_spawnattr_setpgroup(&attributes, 0);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
-  std::string words[] = {"sh", "-c", command};
-  char* arguments[] = {words[0].data(), words[1].data(), words[2].data(), nullptr};
   pid_t child = -1;
-  const int fault = posix_spawn(&child, "/bin/sh", &files, &attributes, arguments, environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&files);
-  if (fault != 0) return false;
+  try {
+    child = spawn("/bin/sh", {"-c", command}, {STDIN_FILENO, STDERR_FILENO, STDERR_FILENO, -1, true});
+  } catch (const Error&) {
+    return false;
+  }
   int status = 0;
   while (waitpid(child, &status, WNOHANG) == 0) {
     if (interrupted.load() != 0) {

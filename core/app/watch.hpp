@@ -3,9 +3,9 @@
 #pragma once
 #include <atomic>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace fulmar::core {
@@ -21,11 +21,7 @@ class FileStamps {
   std::filesystem::path missing() const;
 
  private:
-  struct Stamp {
-    std::filesystem::file_time_type time;
-    std::uintmax_t size = 0;
-    friend bool operator==(const Stamp&, const Stamp&) = default;
-  };
+  using Stamp = std::pair<std::filesystem::file_time_type, std::uintmax_t>;  // its time and its bytes
   std::map<std::filesystem::path, Stamp> read() const;
   std::vector<std::filesystem::path> files_;
   std::map<std::filesystem::path, Stamp> stamps_;

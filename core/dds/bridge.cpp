@@ -3,9 +3,6 @@
 // comes in.
 #include "core/dds/bridge.hpp"
 
-#include <pthread.h>
-#include <signal.h>
-
 #include <atomic>
 #include <chrono>
 #include <thread>
@@ -36,14 +33,16 @@ struct DdsBridge::Impl {
   dds::Imports imports;
   dds::Servers servers;
   std::unique_ptr<dds::ParameterEvents> events;
-  std::unique_ptr<dds::NodeInfo> node;
-  std::atomic<std::uint64_t> requests{0}, requests_refused{0};
+  std::unique_ptr<dds::Writer> node;
   std::atomic<bool> stop{false};
   std::thread sender, taker;
 
   Impl(Tap& tap, Control& control, const FlightView& view, const DdsOptions& o)
       : options(o), exports(tap, options, others), imports(control, view, options, others) {
-    owner = std::make_unique<dds::Participant>(options, found());
+    owner = std::make_unique<dds::Participant>(
+        options, [this](const std::string& topic, const std::string& type, bool writer, bool best_effort) {
+          others.found(topic, type, writer, best_effort);
+        });
     dds::Participant& participant = *owner;
     exports.open(participant);
     imports.open(participant, *waker);
@@ -58,11 +57,9 @@ struct DdsBridge::Impl {
       writers.push_back(server->writer().guid());
     }
     if (events) writers.push_back(events->writer().guid());
-    node = std::make_unique<dds::NodeInfo>(participant, options, readers, writers);
-    sender = std::thread([this] { guarded([this] { send(); }); });
-    taker = std::thread([this] { guarded([this] { take(); }); });
-    pthread_setname_np(sender.native_handle(), "fulmar-dds-out");
-    pthread_setname_np(taker.native_handle(), "fulmar-dds-in");
+    node = node_info(participant, options, readers, writers);
+    sender = quiet_thread("fulmar-dds-out", [this] { guarded([this] { send(); }); });
+    taker = quiet_thread("fulmar-dds-in", [this] { guarded([this] { take(); }); });
   }
 
   ~Impl() {
@@ -70,12 +67,6 @@ struct DdsBridge::Impl {
     waker->wake();
     if (sender.joinable()) sender.join();
     if (taker.joinable()) taker.join();
-  }
-
-  dds::Participant::Found found() {
-    return [this](const std::string& topic, const std::string& type, bool writer, bool best_effort) {
-      others.found(topic, type, writer, best_effort);
-    };
   }
 
   /// Whatever happens here, the flight goes on.
@@ -101,14 +92,7 @@ struct DdsBridge::Impl {
     while (!stop.load(std::memory_order_relaxed)) {
       if (all) waker->wait(longest);
       all = imports.pump(*owner, *waker);
-      std::uint64_t taken = 0, refused = 0;
-      for (const auto& server : servers) {
-        all = server->serve() && !server->waiting() && all;
-        taken += server->taken();
-        refused += server->refused();
-      }
-      requests.store(taken, std::memory_order_relaxed);
-      requests_refused.store(refused, std::memory_order_relaxed);
+      for (const auto& server : servers) all = server->serve() && !server->waiting() && all;
       if (events) events->pump();
       std::this_thread::sleep_for(breath);
     }
@@ -126,8 +110,10 @@ DdsStats DdsBridge::stats() const {
   DdsStats stats;
   stats.sent = impl_->exports.sent();
   stats.lost = impl_->exports.lost();
-  stats.requests = impl_->requests.load(std::memory_order_relaxed);
-  stats.refused = impl_->requests_refused.load(std::memory_order_relaxed);
+  for (const auto& server : impl_->servers) {
+    stats.requests += server->taken();
+    stats.refused += server->refused();
+  }
   stats.imports = impl_->imports.stats();
   for (const DdsStats::Import& i : stats.imports) {
     stats.received += i.received;

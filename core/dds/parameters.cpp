@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The parameter services of one ROS 2 node. Semantics as rclcpp and rclpy have them where ROS 2 says nothing.
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -12,36 +10,30 @@
 
 namespace fulmar::core::dds {
 
-RclType rcl_type(const ParamInfo& info) {
-  switch (info.kind) {
-    case FULMAR_NUMBER: return RclType::number;
-    case FULMAR_FLAG: return RclType::boolean;
-    case FULMAR_COUNT: return RclType::integer;
-    case FULMAR_VECTOR: return RclType::numbers;
-    default: return RclType::text;
-  }
-}
-
 RclValue rcl_value(const ParameterView& parameter) {
   const ParamInfo& info = parameter.info;
   const ParamValue& base = parameter.base;
   RclValue value;
-  value.type = rcl_type(info);
   switch (info.kind) {
-    case FULMAR_NUMBER: value.number = base.number[0]; break;
-    case FULMAR_FLAG: value.boolean = base.integer != 0; break;
-    case FULMAR_COUNT: value.integer = base.integer; break;
+    case FULMAR_NUMBER: value.type = RclType::number, value.number = base.number[0]; break;
+    case FULMAR_FLAG: value.type = RclType::boolean, value.boolean = base.integer != 0; break;
+    case FULMAR_COUNT: value.type = RclType::integer, value.integer = base.integer; break;
+    case FULMAR_VECTOR:
+      value.type = RclType::numbers, value.numbers.assign(base.number, base.number + 3);
+      break;
     case FULMAR_CHOICE: {
       const auto i = static_cast<std::size_t>(base.integer);
-      value.text = i < info.choices.size() ? info.choices[i] : "";
+      value.type = RclType::text, value.text = i < info.choices.size() ? info.choices[i] : "";
       break;
     }
-    case FULMAR_VECTOR: value.numbers.assign(base.number, base.number + 3); break;
-    default: value.text = base.text;
+    default: value.type = RclType::text, value.text = base.text;
   }
   return value;
 }
 
+namespace {
+
+/// The text that a mission file would have for it. Throws Error when the parameter has no such values.
 std::string parameter_text(const ParamInfo& info, const RclValue& value) {
   const bool text_kind = info.kind == FULMAR_CHOICE || info.kind == FULMAR_STRING ||
                          info.kind == FULMAR_RECORD || info.kind == FULMAR_BLOB;
@@ -70,48 +62,46 @@ std::string parameter_text(const ParamInfo& info, const RclValue& value) {
   }
 }
 
-namespace {
-
 constexpr std::size_t most_at_once = 256;  // parameters in one call
 
-/// All parameters by their ROS names, and a reader of them.
-struct Known {
-  FlightView view;
-  std::map<std::string, std::pair<const ComponentView*, const ParameterView*>> by_name;
+RclType type_of(const ParameterView* p) { return p ? rcl_value(*p).type : RclType::not_set; }
 
-  explicit Known(const Control& control) : view(control.view()) {
-    for (const ComponentView& c : view.components)
-      for (const ParameterView& p : c.params) by_name.try_emplace(c.name + "." + p.info.name, &c, &p);
-  }
-  const ParameterView* find(const std::string& name) const {
-    const auto at = by_name.find(name);
-    return at == by_name.end() ? nullptr : at->second.second;
-  }
-  std::vector<std::string> names() const {
-    std::vector<std::string> list;
-    for (const auto& [name, where] : by_name) list.push_back(name);
-    return list;
-  }
-};
+std::vector<std::string> sorted_names(const FlightView& view) {
+  std::vector<std::string> names = parameter_names(view);
+  std::sort(names.begin(), names.end());
+  return names;
+}
 
-RclDescriptor descriptor(const std::string& name, const ParameterView* p) {
-  RclDescriptor d;
-  d.name = name;
-  if (p == nullptr) return d;
-  const ParamInfo& info = p->info;
-  d.type = rcl_type(info);
-  d.description =
-      info.doc + (info.unit.empty() ? "" : (info.doc.empty() ? "" : " ") + ("[" + info.unit + "]"));
-  if (info.kind == FULMAR_CHOICE) d.constraints = "one of " + join(info.choices);
-  if (p->overlaid)
-    d.constraints += d.constraints.empty() ? "the present phase sets it" : "; the present phase sets it";
-  d.read_only = !info.live;
-  d.min = info.min;
-  d.max = info.max;
-  const bool ranged = std::isfinite(info.min) && std::isfinite(info.max);
-  d.number_range = ranged && (info.kind == FULMAR_NUMBER || info.kind == FULMAR_VECTOR);
-  d.integer_range = ranged && info.kind == FULMAR_COUNT;
-  return d;
+/// rcl_interfaces/msg/ParameterDescriptor
+void write_descriptor(CdrOut& out, const std::string& name, const ParameterView* p) {
+  const ParamInfo& info = p ? p->info : ParamInfo{};
+  std::string description = info.doc, constraints;
+  if (!info.unit.empty()) description += (info.doc.empty() ? "[" : " [") + info.unit + "]";
+  if (info.kind == FULMAR_CHOICE) constraints = "one of " + join(info.choices);
+  if (p && p->overlaid)
+    constraints += constraints.empty() ? "the present phase sets it" : "; the present phase sets it";
+  const bool ranged = p && std::isfinite(info.min) && std::isfinite(info.max);
+  const bool number_range = ranged && (info.kind == FULMAR_NUMBER || info.kind == FULMAR_VECTOR);
+  const bool integer_range = ranged && info.kind == FULMAR_COUNT;
+  out.text(name);
+  out.number(static_cast<std::uint8_t>(type_of(p)));
+  out.text(description);
+  out.text(constraints);
+  out.flag(p && !info.live);  // read only
+  out.flag(false);            // dynamic typing
+  out.count(number_range ? 1 : 0);
+  if (number_range) {
+    out.number(info.min);
+    out.number(info.max);
+    out.number(0.0);  // step: any value
+  }
+  out.count(integer_range ? 1 : 0);
+  if (integer_range) {
+    constexpr double largest = 9.2e18;  // fits an int64
+    out.number(static_cast<std::int64_t>(std::clamp(info.min, -largest, largest)));
+    out.number(static_cast<std::int64_t>(std::clamp(info.max, -largest, largest)));
+    out.number(std::uint64_t{1});
+  }
 }
 
 // ---- answers that only look
@@ -121,7 +111,7 @@ Bytes list_parameters(const Control& control, CdrIn in) {
   const auto depth = in.number<std::uint64_t>();  // 0: any
   std::vector<std::string> names;
   std::set<std::string> components;
-  for (const std::string& name : Known(control).names()) {
+  for (const std::string& name : sorted_names(control.view())) {
     const std::string component = name.substr(0, name.find('.'));
     const bool asked =
         prefixes.empty() || std::any_of(prefixes.begin(), prefixes.end(), [&](const std::string& p) {
@@ -141,10 +131,10 @@ Bytes list_parameters(const Control& control, CdrIn in) {
 template <class Answer>
 Bytes each_name(const Control& control, CdrIn& in, Answer answer) {
   const std::vector<std::string> names = in.texts();
-  const Known known(control);
+  const FlightView view = control.view();
   CdrOut out;
   out.count(names.size());
-  for (const std::string& name : names) answer(out, name, known.find(name));
+  for (const std::string& name : names) answer(out, name, find_parameter(view, name));
   return out.take();
 }
 
@@ -156,14 +146,12 @@ Bytes get_parameters(const Control& control, CdrIn in) {
 
 Bytes get_parameter_types(const Control& control, CdrIn in) {
   return each_name(control, in, [](CdrOut& out, const std::string&, const ParameterView* p) {
-    out.number(static_cast<std::uint8_t>(p ? rcl_type(p->info) : RclType::not_set));
+    out.number(static_cast<std::uint8_t>(type_of(p)));
   });
 }
 
 Bytes describe_parameters(const Control& control, CdrIn in) {
-  return each_name(control, in, [](CdrOut& out, const std::string& name, const ParameterView* p) {
-    descriptor(name, p).write(out);
-  });
+  return each_name(control, in, write_descriptor);
 }
 
 // ---- answers that change something
@@ -192,22 +180,22 @@ struct Results {
   }
 };
 
-void set_one(Control& control, const Known& known, const RclParameter& parameter,
+void set_one(Control& control, const FlightView& view, const RclParameter& parameter,
              const std::function<void(const std::string&)>& answer) {
+  const auto& [name, value] = parameter;
   try {
-    const auto at = known.by_name.find(parameter.name);
-    if (at == known.by_name.end())
-      throw Error("there is no parameter '" + parameter.name + "'." +
-                  choices_text(parameter.name, known.names()));
-    const auto& [component, p] = at->second;
-    control.set_parameter(component->name, p->info.name, parameter_text(p->info, parameter.value), answer);
+    const ParameterView* p = find_parameter(view, name);
+    if (p == nullptr)
+      throw Error("there is no parameter '" + name + "'." + choices_text(name, sorted_names(view)));
+    control.set_parameter(name.substr(0, name.find('.')), p->info.name, parameter_text(p->info, value),
+                          answer);
   } catch (const Error& fault) {
     answer(fault.what());
   }
 }
 
 void set_parameters(Control& control, CdrIn in, const Server::Reply& reply, bool at_once) {
-  const std::vector<RclParameter> list = RclParameter::read_list(in);
+  const std::vector<RclParameter> list = read_parameters(in);
   auto results = std::make_shared<Results>();
   results->reply = reply;
   results->one = at_once;
@@ -221,9 +209,9 @@ void set_parameters(Control& control, CdrIn in, const Server::Reply& reply, bool
         0, "several parameters cannot be set in one instant; set_parameters sets them one after the other");
   if (list.size() > most_at_once)
     throw Error("more than " + std::to_string(most_at_once) + " parameters in one call");
-  const Known known(control);
+  const FlightView view = control.view();
   for (std::size_t i = 0; i < list.size(); ++i)
-    set_one(control, known, list[i], [results, i](const std::string& refusal) { results->set(i, refusal); });
+    set_one(control, view, list[i], [results, i](const std::string& refusal) { results->set(i, refusal); });
 }
 
 }  // namespace
@@ -245,14 +233,13 @@ void add_parameter_services(Servers& servers, Participant& participant, const Dd
   add("get_parameters", "GetParameters", look(get_parameters));
   add("get_parameter_types", "GetParameterTypes", look(get_parameter_types));
   add("describe_parameters", "DescribeParameters", look(describe_parameters));
-  add("set_parameters", "SetParameters",
-      [&control](std::span<const std::byte> request, const Server::Reply& reply) {
-        set_parameters(control, CdrIn(request), reply, false);
-      });
-  add("set_parameters_atomically", "SetParametersAtomically",
-      [&control](std::span<const std::byte> request, const Server::Reply& reply) {
-        set_parameters(control, CdrIn(request), reply, true);
-      });
+  auto set = [&control](bool at_once) {
+    return [&control, at_once](std::span<const std::byte> request, const Server::Reply& reply) {
+      set_parameters(control, CdrIn(request), reply, at_once);
+    };
+  };
+  add("set_parameters", "SetParameters", set(false));
+  add("set_parameters_atomically", "SetParametersAtomically", set(true));
 }
 
 }  // namespace fulmar::core::dds

@@ -84,35 +84,33 @@ struct RawType : fd::TopicDataType {
   bool getKey(void*, rtps::InstanceHandle_t*, bool) override { return false; }
 };
 
-/// The readers that a writer has found.
-struct WriterListener : fd::DataWriterListener {
-  mutable std::mutex mutex;
-  std::set<Guid> readers;
-  void on_publication_matched(fd::DataWriter*, const fd::PublicationMatchedStatus& status) override {
-    const std::lock_guard lock(mutex);
-    const Guid guid = guid_of(rtps::iHandle2GUID(status.last_subscription_handle));
-    if (status.current_count_change > 0) readers.insert(guid);
-    if (status.current_count_change < 0) readers.erase(guid);
+/// The endpoints of others that one of ours has found.
+class Matched {
+ public:
+  template <class Status>
+  void note(const Status& status, const rtps::InstanceHandle_t& other) {
+    const std::lock_guard lock(mutex_);
+    const Guid guid = guid_of(rtps::iHandle2GUID(other));
+    if (status.current_count_change > 0) guids_.insert(guid);
+    if (status.current_count_change < 0) guids_.erase(guid);
   }
-};
-/// The writers that a reader has found; and a wake for whoever takes its samples.
-struct ReaderListener : fd::DataReaderListener {
-  Waker& waker;
-  mutable std::mutex mutex;
-  std::set<Guid> writers;
-  explicit ReaderListener(Waker& w) : waker(w) {}
-  void on_data_available(fd::DataReader*) override { waker.wake(); }
-  void on_subscription_matched(fd::DataReader*, const fd::SubscriptionMatchedStatus& status) override {
-    const std::lock_guard lock(mutex);
-    const Guid guid = guid_of(rtps::iHandle2GUID(status.last_publication_handle));
-    if (status.current_count_change > 0) writers.insert(guid);
-    if (status.current_count_change < 0) writers.erase(guid);
+  bool contains(const Guid& guid) const {
+    const std::lock_guard lock(mutex_);
+    return guids_.contains(guid);
   }
+  std::size_t size() const {
+    const std::lock_guard lock(mutex_);
+    return guids_.size();
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::set<Guid> guids_;
 };
 
-struct RawWriter : Writer {
+struct RawWriter : Writer, fd::DataWriterListener {
   fd::Publisher& publisher;
-  WriterListener listener;
+  Matched matched;
   fd::DataWriter* writer = nullptr;
 
   explicit RawWriter(fd::Publisher& p) : publisher(p) {}
@@ -127,13 +125,10 @@ struct RawWriter : Writer {
     params.related_sample_identity().sequence_number(rtps::SequenceNumber_t(request.sequence));
     return writer->write(&bytes, params);
   }
-  bool reaches(const Guid& reader) const override {
-    const std::lock_guard lock(listener.mutex);
-    return listener.readers.contains(reader);
-  }
-  std::size_t readers() const override {
-    const std::lock_guard lock(listener.mutex);
-    return listener.readers.size();
+  bool reaches(const Guid& reader) const override { return matched.contains(reader); }
+  std::size_t readers() const override { return matched.size(); }
+  void on_publication_matched(fd::DataWriter*, const fd::PublicationMatchedStatus& status) override {
+    matched.note(status, status.last_subscription_handle);
   }
   void forget() override {
     std::size_t removed = 0;
@@ -141,23 +136,25 @@ struct RawWriter : Writer {
   }
 };
 
-struct RawReader : Reader {
+struct RawReader : Reader, fd::DataReaderListener {
   fd::Subscriber& subscriber;
-  ReaderListener listener;
+  Waker& waker;
+  Matched matched;
   fd::DataReader* reader = nullptr;
   Bytes bytes;
   std::map<Guid, std::uint64_t> last;  // sequence number per writer
   std::uint64_t missing = 0;
 
-  RawReader(fd::Subscriber& s, Waker& waker) : subscriber(s), listener(waker) {}
+  RawReader(fd::Subscriber& s, Waker& w) : subscriber(s), waker(w) {}
   ~RawReader() override {
     if (reader != nullptr) subscriber.delete_datareader(reader);
   }
   Guid guid() const override { return guid_of(reader->guid()); }
   std::uint64_t lost() const override { return missing; }
-  bool hears(const Guid& writer) const override {
-    const std::lock_guard lock(listener.mutex);
-    return listener.writers.contains(writer);
+  bool hears(const Guid& writer) const override { return matched.contains(writer); }
+  void on_data_available(fd::DataReader*) override { waker.wake(); }
+  void on_subscription_matched(fd::DataReader*, const fd::SubscriptionMatchedStatus& status) override {
+    matched.note(status, status.last_publication_handle);
   }
 
   std::size_t take(std::size_t most, const std::function<void(const Sample&)>& use) override {
@@ -243,7 +240,7 @@ fd::DomainParticipantQos participant_qos(const DdsOptions& options) {
     const auto here = locator(address);
     check_own(address, options.interfaces_where);
     qos.wire_protocol().builtin.metatrafficUnicastLocatorList.push_back(here);
-    qos.wire_protocol().default_unicast_locator_list.push_back(locator(address));
+    qos.wire_protocol().default_unicast_locator_list.push_back(here);
   }
   for (const std::string& address : options.peers.empty() ? own : options.peers)
     qos.wire_protocol().builtin.initialPeersList.push_back(locator(address));
@@ -263,14 +260,14 @@ struct Participant::Impl : fd::DomainParticipantListener {
   std::map<std::string, fd::Topic*> topics;
 
   void on_publisher_discovery(fd::DomainParticipant*, rtps::WriterDiscoveryInfo&& info) override {
-    if (info.status != rtps::WriterDiscoveryInfo::DISCOVERED_WRITER || !found) return;
-    found(info.info.topicName().to_string(), info.info.typeName().to_string(), true,
-          info.info.m_qos.m_reliability.kind == fd::BEST_EFFORT_RELIABILITY_QOS);
+    if (info.status == rtps::WriterDiscoveryInfo::DISCOVERED_WRITER) tell(info.info, true);
   }
   void on_subscriber_discovery(fd::DomainParticipant*, rtps::ReaderDiscoveryInfo&& info) override {
-    if (info.status != rtps::ReaderDiscoveryInfo::DISCOVERED_READER || !found) return;
-    found(info.info.topicName().to_string(), info.info.typeName().to_string(), false,
-          info.info.m_qos.m_reliability.kind == fd::BEST_EFFORT_RELIABILITY_QOS);
+    if (info.status == rtps::ReaderDiscoveryInfo::DISCOVERED_READER) tell(info.info, false);
+  }
+  void tell(const auto& other, bool writer) const {
+    found(other.topicName().to_string(), other.typeName().to_string(), writer,
+          other.m_qos.m_reliability.kind == fd::BEST_EFFORT_RELIABILITY_QOS);
   }
 
   fd::Topic* topic(const Endpoint& e) {
@@ -322,8 +319,8 @@ std::unique_ptr<Writer> Participant::writer(const Endpoint& endpoint) {
   qos.publish_mode().kind = fd::ASYNCHRONOUS_PUBLISH_MODE;
   qos.representation().m_value.push_back(fd::XCDR_DATA_REPRESENTATION);
   fd::Topic* topic = impl_->topic(endpoint);
-  writer->writer = impl_->publisher->create_datawriter(topic, qos, &writer->listener,
-                                                       fd::StatusMask::publication_matched());
+  writer->writer =
+      impl_->publisher->create_datawriter(topic, qos, writer.get(), fd::StatusMask::publication_matched());
   if (writer->writer == nullptr)
     throw Error("dds: the topic " + endpoint.topic + " could not be opened for writing");
   return writer;
@@ -334,9 +331,8 @@ std::unique_ptr<Reader> Participant::reader(const Endpoint& endpoint, Waker& wak
   fd::DataReaderQos qos = fd::DATAREADER_QOS_DEFAULT;
   set_qos(qos, endpoint);
   fd::Topic* topic = impl_->topic(endpoint);
-  reader->reader = impl_->subscriber->create_datareader(topic, qos, &reader->listener,
-                                                        fd::StatusMask::data_available()
-                                                            << fd::StatusMask::subscription_matched());
+  reader->reader = impl_->subscriber->create_datareader(
+      topic, qos, reader.get(), fd::StatusMask::data_available() << fd::StatusMask::subscription_matched());
   if (reader->reader == nullptr)
     throw Error("dds: the topic " + endpoint.topic + " could not be opened for reading");
   return reader;

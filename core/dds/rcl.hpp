@@ -3,9 +3,9 @@
 // They hold strings and lists of any length, so they have no type table; they are written and read by hand,
 // XCDR1 little endian.
 #pragma once
-#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/types/cdr_bytes.hpp"
@@ -61,24 +61,8 @@ struct RclValue {
   static RclValue read(CdrIn& in);
 };
 
-/// rcl_interfaces/msg/Parameter
-struct RclParameter {
-  std::string name;
-  RclValue value;
-
-  void write(CdrOut& out) const;
-  static std::vector<RclParameter> read_list(CdrIn& in);
-};
-
-/// rcl_interfaces/msg/ParameterDescriptor
-struct RclDescriptor {
-  std::string name, description, constraints;
-  RclType type = RclType::not_set;
-  bool read_only = false;
-  bool number_range = false, integer_range = false;  // from min to max
-  double min = 0, max = 0;
-
-  void write(CdrOut& out) const;
-};
+/// rcl_interfaces/msg/Parameter: its name and value.
+using RclParameter = std::pair<std::string, RclValue>;
+std::vector<RclParameter> read_parameters(CdrIn& in);
 
 }  // namespace fulmar::core::dds

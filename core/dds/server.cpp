@@ -2,8 +2,6 @@
 // Source of the scheme: rmw_fastrtps_shared_cpp, rmw_request.cpp and rmw_response.cpp.
 #include "core/dds/server.hpp"
 
-#include <algorithm>
-
 #include "core/error.hpp"
 
 namespace fulmar::core::dds {
@@ -20,9 +18,8 @@ bool is_reader(const Guid& guid) { return guid[15] == 0x04 || guid[15] == 0x07; 
 }  // namespace
 
 Server::Server(Participant& participant, const std::string& name_space, const Names& names,
-               std::shared_ptr<Waker> waker, Handle handle)
-    : handle_(std::move(handle)), inbox_(std::make_shared<Inbox>()) {
-  inbox_->waker = std::move(waker);
+               const std::shared_ptr<Waker>& waker, Handle handle)
+    : handle_(std::move(handle)), inbox_(std::make_shared<Inbox<Answer>>([waker] { waker->wake(); })) {
   Endpoint reply, request;
   reply.topic = dds_topic("rr", name_space, names.service + "Reply");
   reply.type = dds_type(names.response);
@@ -30,17 +27,13 @@ Server::Server(Participant& participant, const std::string& name_space, const Na
   request.topic = dds_topic("rq", name_space, names.service + "Request");
   request.type = dds_type(names.request);
   request.depth = request_depth;
-  reader_ = participant.reader(request, *inbox_->waker);
+  reader_ = participant.reader(request, *waker);
 }
 
 bool Server::serve() {
   const bool all = reader_->take(requests_per_wake, [this](const Reader::Sample& sample) { take(sample); }) <
                    requests_per_wake;
-  {
-    const std::lock_guard lock(inbox_->mutex);
-    std::move(inbox_->answers.begin(), inbox_->answers.end(), std::back_inserter(due_));
-    inbox_->answers.clear();
-  }
+  for (Answer& answer : inbox_->take()) due_.push_back(std::move(answer));
   const Clock::time_point now = Clock::now();
   std::erase_if(due_, [&](Answer& answer) {
     if (answer.latest == Clock::time_point{}) answer.latest = now + patience;
@@ -59,11 +52,7 @@ void Server::take(const Reader::Sample& sample) {
                          sample.from.sequence};
   try {
     handle_(sample.bytes, [inbox = inbox_, request](Bytes bytes) {
-      {
-        const std::lock_guard lock(inbox->mutex);
-        inbox->answers.push_back({request, std::move(bytes)});
-      }
-      inbox->waker->wake();
+      inbox->put({request, std::move(bytes)});
     });
   } catch (const Error&) {
     ++refused_;

@@ -2,17 +2,17 @@
 // One ROS 2 service as rmw_fastrtps carries it: a topic for requests, one for replies, and the request's
 // identity beside each reply.
 #pragma once
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/dds/participant.hpp"
+#include "core/inbox.hpp"
 
 namespace fulmar::core::dds {
 
@@ -29,7 +29,7 @@ class Server {
     std::string request, response;  // ROS names: "fulmar_msgs/srv/PlanEdit_Request"
   };
   Server(Participant& participant, const std::string& name_space, const Names& names,
-         std::shared_ptr<Waker> waker, Handle handle);
+         const std::shared_ptr<Waker>& waker, Handle handle);
 
   /// Takes some requests and sends the replies that are due. Returns false when requests are left.
   bool serve();
@@ -47,20 +47,14 @@ class Server {
     Bytes bytes;
     Clock::time_point latest{};  // then it is sent, or given up
   };
-  /// Where replies come in from other threads; lives as long as anybody may still answer.
-  struct Inbox {
-    std::mutex mutex;
-    std::vector<Answer> answers;
-    std::shared_ptr<Waker> waker;
-  };
   void take(const Reader::Sample& sample);
 
   Handle handle_;
-  std::shared_ptr<Inbox> inbox_;
+  std::shared_ptr<Inbox<Answer>> inbox_;  // lives as long as anybody may still answer
   std::unique_ptr<Writer> writer_;
   std::unique_ptr<Reader> reader_;
   std::vector<Answer> due_;
-  std::uint64_t refused_ = 0, taken_ = 0;
+  std::atomic<std::uint64_t> refused_{0}, taken_{0};
 };
 
 }  // namespace fulmar::core::dds

@@ -79,43 +79,28 @@ void add_request_services(Servers& servers, Participant& participant, const DdsO
 // ---- events
 
 ParameterEvents::ParameterEvents(Participant& participant, const DdsOptions& options, Control& control,
-                                 std::shared_ptr<Waker> waker)
+                                 const std::shared_ptr<Waker>& waker)
     : control_(control),
       node_(dds_topic("", options.name_space, node_name)),
-      inbox_(std::make_shared<Inbox>()) {
-  inbox_->waker = std::move(waker);
+      changed_(std::make_shared<Inbox<std::string>>([waker] { waker->wake(); })) {
   Endpoint e;
   e.topic = "rt/parameter_events";  // one for all nodes
   e.type = "rcl_interfaces::msg::dds_::ParameterEvent_";
   e.depth = 1000;  // as rclcpp has it
   writer_ = participant.writer(e);
   control.on_parameter(
-      [inbox = std::weak_ptr(inbox_)](const std::string& component, const std::string& parameter) {
-        const auto box = inbox.lock();
-        if (!box) return;
-        {
-          const std::lock_guard lock(box->mutex);
-          const std::pair change{component, parameter};
-          if (std::find(box->changed.begin(), box->changed.end(), change) == box->changed.end())
-            box->changed.push_back(change);
-        }
-        box->waker->wake();
+      [inbox = std::weak_ptr(changed_)](const std::string& component, const std::string& parameter) {
+        if (const auto changed = inbox.lock()) changed->put(component + "." + parameter);
       });
 }
 
 void ParameterEvents::pump() {
-  std::vector<std::pair<std::string, std::string>> changed;
-  {
-    const std::lock_guard lock(inbox_->mutex);
-    changed.swap(inbox_->changed);
-  }
+  const std::vector<std::string> changed = changed_->take();
   if (changed.empty() || writer_->readers() == 0) return;
   const FlightView view = control_.view();
-  std::vector<RclParameter> list;
-  for (const ComponentView& component : view.components)
-    for (const ParameterView& p : component.params)
-      if (std::find(changed.begin(), changed.end(), std::pair{component.name, p.info.name}) != changed.end())
-        list.push_back({component.name + "." + p.info.name, rcl_value(p)});
+  std::vector<std::string> list;
+  for (const std::string& name : parameter_names(view))
+    if (std::find(changed.begin(), changed.end(), name) != changed.end()) list.push_back(name);
   constexpr std::int64_t second = 1'000'000'000;
   const std::int64_t now = std::max<std::int64_t>(0, view.epoch_ns + view.now_ns);
   CdrOut out;
@@ -124,22 +109,25 @@ void ParameterEvents::pump() {
   out.text(node_);
   out.count(0);  // new
   out.count(list.size());
-  for (const RclParameter& p : list) p.write(out);
+  for (const std::string& name : list) {
+    out.text(name);
+    rcl_value(*find_parameter(view, name)).write(out);
+  }
   out.count(0);  // deleted
   writer_->write(out.take());
 }
 
 // ---- node
 
-NodeInfo::NodeInfo(Participant& participant, const DdsOptions& options, const std::vector<Guid>& readers,
-                   const std::vector<Guid>& writers) {
+std::unique_ptr<Writer> node_info(Participant& participant, const DdsOptions& options,
+                                  const std::vector<Guid>& readers, const std::vector<Guid>& writers) {
   Endpoint e;
   e.topic = "ros_discovery_info";
   e.type = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_";
   e.depth = 1;
   e.transient_local = true;
   e.max_bytes = 256 + 24 * (readers.size() + writers.size());
-  writer_ = participant.writer(e);
+  std::unique_ptr<Writer> writer = participant.writer(e);
   CdrOut out;
   const std::size_t padding = options.humble ? 8 : 0;  // a gid has 24 bytes in Humble, 16 since Iron
   auto gid = [&](const Guid& guid) {
@@ -154,7 +142,8 @@ NodeInfo::NodeInfo(Participant& participant, const DdsOptions& options, const st
     out.count(list->size());
     for (const Guid& guid : *list) gid(guid);
   }
-  writer_->write(out.take());
+  writer->write(out.take());
+  return writer;
 }
 
 }  // namespace fulmar::core::dds

@@ -3,9 +3,7 @@
 // service`, `ros2 param` and rqt reach a flight.
 #pragma once
 #include <memory>
-#include <mutex>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/dds/participant.hpp"
@@ -32,37 +30,23 @@ void add_parameter_services(Servers& servers, Participant& participant, const Dd
 class ParameterEvents {
  public:
   ParameterEvents(Participant& participant, const DdsOptions& options, Control& control,
-                  std::shared_ptr<Waker> waker);
+                  const std::shared_ptr<Waker>& waker);
   void pump();
   const Writer& writer() const { return *writer_; }
 
  private:
-  struct Inbox {
-    std::mutex mutex;
-    std::vector<std::pair<std::string, std::string>> changed;
-    std::shared_ptr<Waker> waker;
-  };
   Control& control_;
   std::string node_;
   std::unique_ptr<Writer> writer_;
-  std::shared_ptr<Inbox> inbox_;
+  std::shared_ptr<Inbox<std::string>> changed_;
 };
 
 /// Topic ros_discovery_info: says which endpoints belong to the node, without which ROS 2 tools do not see
-/// one.
-class NodeInfo {
- public:
-  NodeInfo(Participant& participant, const DdsOptions& options, const std::vector<Guid>& readers,
-           const std::vector<Guid>& writers);
+/// one. It has said so as long as the writer lives.
+std::unique_ptr<Writer> node_info(Participant& participant, const DdsOptions& options,
+                                  const std::vector<Guid>& readers, const std::vector<Guid>& writers);
 
- private:
-  std::unique_ptr<Writer> writer_;
-};
-
-/// A parameter as ROS 2 sees it. For tests.
-RclType rcl_type(const ParamInfo& info);
+/// A parameter as ROS 2 sees it.
 RclValue rcl_value(const ParameterView& parameter);
-/// The text that a mission file would have for it. Throws Error when the parameter has no such values.
-std::string parameter_text(const ParamInfo& info, const RclValue& value);
 
 }  // namespace fulmar::core::dds

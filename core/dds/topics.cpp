@@ -56,9 +56,14 @@ bool Others::has_best_effort_writer(const std::string& topic) const {
   return at != topics_.end() && at->second.best_effort_writer;
 }
 
-/// As in ROS 2: a name that begins with '/' stands as it is.
-static std::string name_space_of(const std::string& topic, const DdsOptions& options) {
-  return topic.starts_with('/') ? "" : options.name_space;
+/// As in ROS 2, a name that begins with '/' is somebody else's and stands as it is.
+static Endpoint endpoint_of(const std::string& topic, const Type& type, const DdsOptions& options) {
+  Endpoint endpoint;
+  endpoint.topic = dds_topic("rt", topic.starts_with('/') ? "" : options.name_space, topic);
+  endpoint.type = dds_type(ros_name(type));
+  endpoint.max_bytes = CdrEncoder(type).max_size();
+  endpoint.type_hash = ros_type_hash(type);
+  return endpoint;
 }
 
 // ---- exports
@@ -78,12 +83,9 @@ Exports::Exports(Tap& tap, const DdsOptions& options, Others& others)
     Topic topic;
     topic.encoder = std::make_unique<CdrEncoder>(type);
     topic.period_ns = e.period_ns;
-    topic.endpoint.topic = dds_topic("rt", name_space_of(e.topic, options), e.topic);
-    topic.endpoint.type = dds_type(ros_name(type));
-    topic.endpoint.max_bytes = topic.encoder->max_size();
+    topic.endpoint = endpoint_of(e.topic, type, options);
     topic.endpoint.best_effort = e.best_effort;
     topic.endpoint.transient_local = tap.channels()[channel].may_stay_silent && !e.best_effort;
-    topic.endpoint.type_hash = ros_type_hash(type);
     others.expect(topic.endpoint.topic, topic.endpoint.type, true, e.best_effort);
     wanted[channel] = wanted[channel] < 0 ? e.period_ns : std::min(wanted[channel], e.period_ns);
     of_channel_[channel].push_back(topics_.size());
@@ -136,12 +138,8 @@ Imports::Imports(Control& control, const FlightView& view, const DdsOptions& opt
     topic.port = port.name;
     topic.type = port.type;
     topic.guard = std::make_unique<Guard>(*port.type);
-    // A name that begins with a slash is somebody else's and stands as it is, as in ROS.
-    topic.endpoint.topic = dds_topic("rt", name_space_of(i.topic, options), i.topic);
-    topic.endpoint.type = dds_type(ros_name(*port.type));
-    topic.endpoint.max_bytes = CdrEncoder(*port.type).max_size();
+    topic.endpoint = endpoint_of(i.topic, *port.type, options);
     topic.endpoint.depth = import_depth;
-    topic.endpoint.type_hash = ros_type_hash(*port.type);
     topic.stats.port = component.name + "." + port.name;
     topic.stats.topic = topic.endpoint.topic.substr(2);
     others.expect(topic.endpoint.topic, topic.endpoint.type, false, false);

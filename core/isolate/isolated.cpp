@@ -3,7 +3,9 @@
 // out.
 #include "core/isolate/isolated.hpp"
 
+#include <fcntl.h>
 #include <sched.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -14,6 +16,7 @@
 #include <new>
 
 #include "core/error.hpp"
+#include "core/loader/home.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -44,8 +47,32 @@ std::vector<std::string> words(const IsolatedOptions& options) {
           std::to_string(options.seed)};
 }
 
+// The host's own; when that is a test or a tool elsewhere, FULMAR_CHILD says where.
+std::string child_program() {
+  const std::string program = own_program("fulmar-child", "FULMAR_CHILD").string();
+  if (program.empty())
+    throw Error("the program fulmar-child is missing: no component can run in a process of its own.");
+  return program;
+}
+
+// What a component prints goes to the host's standard error, so that the host's output stays its own.
+ChildFiles child_files(const SharedMemory& memory) {
+  const int error = ::fcntl(STDERR_FILENO, F_GETFD) < 0 ? -1 : STDERR_FILENO;
+  return {-1, error, error, memory.descriptor(), false};
+}
+
 void tell(fulmar_error* error, const char* text) noexcept {
   if (error) std::snprintf(error->text, sizeof error->text, "%s", text);
+}
+
+SharedInput head_of(const fulmar_input& from) noexcept {
+  return {from.valid_at_ns,
+          from.age_ns,
+          from.sequence,
+          from.count,
+          from.lost,
+          from.flags,
+          from.data ? has_data : has_nothing};
 }
 
 const char* signal_words(int signal, bool stack_overflow) noexcept {
@@ -69,7 +96,7 @@ Isolated::Isolated(const ComponentInfo& info, const IsolatedOptions& options)
       layout_(info_),
       memory_(layout_.size),
       copied_(info_.inputs.size()),
-      process_((prepare(), words(options)), memory_) {
+      process_((prepare(), child_program()), words(options), child_files(memory_)) {
   if (wait(options_.setup_ns) && control().status < FULMAR_FAILED) return;
   refuse_setup();
 }
@@ -104,9 +131,9 @@ Isolated::~Isolated() { end(); }
 std::string Isolated::end() {
   if (finished_) return "";
   finished_ = true;
-  constexpr std::int64_t second = 1'000'000'000;
+  constexpr std::chrono::seconds second{1};
   const bool died_before = !alive_;
-  if (alive_) call(Call::quit, std::min(options_.setup_ns, 2 * second), nullptr);
+  if (alive_) call(Call::quit, std::min(options_.setup_ns, std::int64_t{2'000'000'000}), nullptr);
   std::string problem;
   if (!alive_ && !died_before)
     problem = options_.name + ": " + options_.file + " " + death_ + " while being destroyed";
@@ -122,13 +149,7 @@ std::string Isolated::end() {
 // What the child holds already is not copied again: a plan of a thousand items comes once.
 void Isolated::put_input(const Place& place, SharedInput& to, const fulmar_input& from,
                          Sample& copied) noexcept {
-  to = {from.valid_at_ns,
-        from.age_ns,
-        from.sequence,
-        from.count,
-        from.lost,
-        from.flags,
-        from.data ? has_data : has_nothing};
+  to = head_of(from);
   if (!from.data) return;
   std::byte* data = at<std::byte>(place.data);
   if (place.kind == FULMAR_IN_VALUE) {
@@ -193,15 +214,8 @@ void Isolated::take_outputs(fulmar_output* outputs) noexcept {
 void Isolated::put_last(const fulmar_input* last) noexcept {
   SharedInput* heads = at<SharedInput>(layout_.last_at);
   for (std::size_t i = 0; i < layout_.last.size(); ++i) {
-    const fulmar_input& from = last[i];
-    heads[i] = {from.valid_at_ns,
-                from.age_ns,
-                from.sequence,
-                from.count,
-                from.lost,
-                from.flags,
-                from.data ? has_data : has_nothing};
-    if (from.data) std::memcpy(at<std::byte>(layout_.last[i].data), from.data, layout_.last[i].message);
+    heads[i] = head_of(last[i]);
+    if (last[i].data) std::memcpy(at<std::byte>(layout_.last[i].data), last[i].data, layout_.last[i].message);
   }
 }
 
@@ -230,6 +244,7 @@ std::uint32_t Isolated::configure(const fulmar_value* values, fulmar_error* erro
 }
 
 std::uint32_t Isolated::retune(const fulmar_value* values, fulmar_error* error) noexcept {
+  if (!info_.retunes) return FULMAR_OK;
   SharedValue* heads = at<SharedValue>(layout_.values_at);
   for (std::size_t i = 0; i < layout_.texts.size(); ++i) {
     const fulmar_value& v = values[i];
@@ -244,6 +259,29 @@ std::uint32_t Isolated::retune(const fulmar_value* values, fulmar_error* error) 
     std::memcpy(at<std::byte>(place.at), v.text ? v.text : "", length + 1);
   }
   return call(Call::retune, options_.hang_ns, error);
+}
+
+std::uint32_t Isolated::activate(const fulmar_tick* tick, const fulmar_input* inputs,
+                                 const fulmar_input* last, fulmar_error* error) noexcept {
+  if (!info_.activates) return FULMAR_OK;
+  if (!alive_) return dead(error);
+  put_tick_inputs(tick, inputs);
+  put_last(last);
+  const std::uint32_t status = call(Call::activate, options_.hang_ns, error);
+  if (alive_) take_answers(inputs);
+  return status;
+}
+
+std::uint32_t Isolated::step(const fulmar_tick* tick, const fulmar_input* inputs, fulmar_output* outputs,
+                             fulmar_error* error) noexcept {
+  if (!alive_) return dead(error);
+  put_tick_inputs(tick, inputs);
+  put_outputs(outputs);
+  const std::uint32_t status = call(Call::step, options_.hang_ns, error);
+  if (!alive_) return status;
+  take_answers(inputs);
+  take_outputs(outputs);
+  return status;
 }
 
 // ---- the hand-shake
@@ -318,66 +356,30 @@ std::uint32_t Isolated::dead(fulmar_error* error) noexcept {
 
 // ---- as a component
 
-struct Isolated::Thunks {
-  static Isolated& self(void* instance) { return *static_cast<Isolated*>(instance); }
-
-  static void destroy(void*) {}
-
-  static std::uint32_t configure(void* instance, const fulmar_value* values, fulmar_error* error) {
-    try {
-      return self(instance).configure(values, error);
-    } catch (const std::exception& fault) {
-      tell(error, fault.what());
-      return FULMAR_FAILED;
-    }
-  }
-
-  static std::uint32_t retune(void* instance, const fulmar_value* values, fulmar_error* error) {
-    if (!self(instance).info_.retunes) return FULMAR_OK;
-    return self(instance).retune(values, error);
-  }
-
-  static std::uint32_t activate(void* instance, const fulmar_tick* tick, const fulmar_input* inputs,
-                                const fulmar_input* last, fulmar_error* error) {
-    Isolated& i = self(instance);
-    if (!i.info_.activates) return FULMAR_OK;
-    if (!i.alive_) return i.dead(error);
-    i.put_tick_inputs(tick, inputs);
-    i.put_last(last);
-    const std::uint32_t status = i.call(Call::activate, i.options_.hang_ns, error);
-    if (i.alive_) i.take_answers(inputs);
-    return status;
-  }
-
-  static void deactivate(void* instance) {
-    Isolated& i = self(instance);
-    i.call(Call::deactivate, i.options_.hang_ns, nullptr);
-  }
-
-  static std::uint32_t step(void* instance, const fulmar_tick* tick, const fulmar_input* inputs,
-                            fulmar_output* outputs, fulmar_error* error) {
-    Isolated& i = self(instance);
-    if (!i.alive_) return i.dead(error);
-    i.put_tick_inputs(tick, inputs);
-    i.put_outputs(outputs);
-    const std::uint32_t status = i.call(Call::step, i.options_.hang_ns, error);
-    if (!i.alive_) return status;
-    i.take_answers(inputs);
-    i.take_outputs(outputs);
-    return status;
-  }
-};
-
 const fulmar_component& Isolated::functions() {
   static const fulmar_component table = [] {
     fulmar_component t{};
     t.name = t.doc = "";
-    t.destroy = &Thunks::destroy;
-    t.configure = &Thunks::configure;
-    t.retune = &Thunks::retune;
-    t.activate = &Thunks::activate;
-    t.deactivate = &Thunks::deactivate;
-    t.step = &Thunks::step;
+    t.destroy = [](void*) {};
+    t.configure = [](void* instance, const fulmar_value* values, fulmar_error* error) -> std::uint32_t {
+      try {
+        return self(instance).configure(values, error);
+      } catch (const std::exception& fault) {
+        tell(error, fault.what());
+        return FULMAR_FAILED;
+      }
+    };
+    t.retune = [](void* instance, const fulmar_value* values, fulmar_error* error) -> std::uint32_t {
+      return self(instance).retune(values, error);
+    };
+    t.activate = [](void* instance, const fulmar_tick* tick, const fulmar_input* inputs,
+                    const fulmar_input* last,
+                    fulmar_error* error) { return self(instance).activate(tick, inputs, last, error); };
+    t.deactivate = [](void* instance) {
+      self(instance).call(Call::deactivate, self(instance).options_.hang_ns, nullptr);
+    };
+    t.step = [](void* instance, const fulmar_tick* tick, const fulmar_input* inputs, fulmar_output* outputs,
+                fulmar_error* error) { return self(instance).step(tick, inputs, outputs, error); };
     return t;
   }();
   return table;

@@ -10,8 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "core/isolate/process.hpp"
 #include "core/isolate/shared.hpp"
+#include "core/isolate/shared_memory.hpp"
+#include "core/loader/process.hpp"
 
 namespace fulmar::core {
 
@@ -62,7 +63,6 @@ class Isolated {
   std::string end();
 
  private:
-  struct Thunks;
   struct Sample {  // what a value input held when it was copied last
     const void* data = nullptr;
     std::uint64_t sequence = 0;
@@ -78,6 +78,11 @@ class Isolated {
 
   std::uint32_t configure(const fulmar_value* values, fulmar_error* error);
   std::uint32_t retune(const fulmar_value* values, fulmar_error* error) noexcept;
+  std::uint32_t activate(const fulmar_tick* tick, const fulmar_input* inputs, const fulmar_input* last,
+                         fulmar_error* error) noexcept;
+  std::uint32_t step(const fulmar_tick* tick, const fulmar_input* inputs, fulmar_output* outputs,
+                     fulmar_error* error) noexcept;
+  static Isolated& self(void* instance) { return *static_cast<Isolated*>(instance); }
   void put_tick_inputs(const fulmar_tick* tick, const fulmar_input* inputs) noexcept;
   void put_input(const Place& place, SharedInput& to, const fulmar_input& from, Sample& copied) noexcept;
   void take_answers(const fulmar_input* inputs) noexcept;

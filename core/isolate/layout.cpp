@@ -1,29 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where the ports and parameters of an isolated component lie in the memory that host and child share.
-#include <algorithm>
-#include <string_view>
-
 #include "core/isolate/shared.hpp"
+#include "core/loader/fnv.hpp"
 
 namespace fulmar::core {
 namespace {
 
 constexpr std::size_t page = 65536;  // the largest page of arm64
-
-// FNV-1a, 64 bits.
-struct Signature {
-  std::uint64_t value = 0xcbf29ce484222325u;
-  void add(const void* data, std::size_t size) {
-    for (std::size_t i = 0; i < size; ++i)
-      value = (value ^ static_cast<const unsigned char*>(data)[i]) * 0x100000001b3u;
-  }
-  void add(std::uint64_t x) { add(&x, sizeof x); }
-  void add(std::string_view text) {
-    add(text.size());
-    add(text.data(), text.size());
-  }
-  void add(const TypePtr& type) { add(type ? type->hash : 0); }
-};
 
 struct Room {
   std::size_t end = sizeof(ControlBlock);
@@ -47,13 +30,15 @@ Place place(Room& room, const Port& port, bool single) {
   return p;
 }
 
-void sign(Signature& signature, const std::vector<Port>& ports) {
-  signature.add(ports.size());
-  for (const Port& port : ports) {
-    signature.add(port.name);
-    signature.add(port.kind);
-    signature.add(port.capacity);
-    signature.add(port.type);
+// What host and child have to agree on, of ports and of parameters.
+template <class Item>
+void sign(Fnv& signature, const std::vector<Item>& items) {
+  signature.number(items.size());
+  for (const Item& item : items) {
+    signature.text(item.name);
+    signature.number(item.kind);
+    signature.number(item.capacity);
+    signature.number(item.type ? item.type->hash : 0);
   }
 }
 
@@ -74,19 +59,13 @@ Layout::Layout(const ComponentInfo& info) {
   }
   size = (room.end + page - 1) / page * page;
 
-  Signature all;
-  all.add(sizeof(ControlBlock));
-  all.add(size);
+  Fnv all;
+  all.number(sizeof(ControlBlock));
+  all.number(size);
   sign(all, info.inputs);
   sign(all, info.outputs);
-  all.add(info.params.size());
-  for (const ParamInfo& param : info.params) {
-    all.add(param.name);
-    all.add(param.kind);
-    all.add(param.capacity);
-    all.add(param.type);
-  }
-  signature = all.value;
+  sign(all, info.params);
+  signature = all.value();
 }
 
 }  // namespace fulmar::core

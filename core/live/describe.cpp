@@ -39,16 +39,10 @@ Form form_of(const Service& service) {
     const std::string name = ros_name(*service.type);
     return {service_type(name), name, ros_definition(*service.type), answer_text};
   }
-  static const std::map<Service::What, const char*> words = {{Service::What::set_parameter, "SetParameter"},
-                                                             {Service::What::phase, "EnterPhase"},
-                                                             {Service::What::swap, "Swap"},
-                                                             {Service::What::reset_guards, "ResetGuards"},
-                                                             {Service::What::view, "View"}};
-  Form form;
-  form.type = std::string("fulmar_msgs/srv/") + words.at(service.what);
+  Form form{std::string("fulmar_msgs/srv/") + service.word, "", "", answer_text};
   form.request_name = form.type + "_Request";
   for (const std::string& argument : service.arguments) form.request += "string " + argument + "\n";
-  form.response = service.what == Service::What::view ? "string json\n" : answer_text;
+  if (service.what == Service::What::view) form.response = "string json\n";
   return form;
 }
 
@@ -141,15 +135,15 @@ json lists(const std::map<std::string, std::vector<std::string>>& map, const cha
 std::vector<Service> services_of(const FlightView& view) {
   using What = Service::What;
   std::vector<Service> list = {
-      {What::set_parameter, "/fulmar/set_parameter", "", "", {}, {"component", "name", "text"}},
-      {What::phase, "/fulmar/phase", "", "", {}, {"phase"}},
-      {What::swap, "/fulmar/swap", "", "", {}, {"component", "file"}},
-      {What::reset_guards, "/fulmar/reset_guards", "", "", {}, {}},
-      {What::view, "/fulmar/view", "", "", {}, {}}};
+      {What::set_parameter, "/fulmar/set_parameter", "SetParameter", {"component", "name", "text"}},
+      {What::phase, "/fulmar/phase", "EnterPhase", {"phase"}},
+      {What::swap, "/fulmar/swap", "Swap", {"component", "file"}},
+      {What::reset_guards, "/fulmar/reset_guards", "ResetGuards"},
+      {What::view, "/fulmar/view", "View"}};
   for (const ComponentView& c : view.components)
     for (const PortView& p : c.inputs)
       if (p.request && p.type)
-        list.push_back({What::request, "/" + c.name + "/" + p.name, c.name, p.name, p.type, {}});
+        list.push_back({What::request, "/" + c.name + "/" + p.name, "", {}, c.name, p.name, p.type});
   return list;
 }
 
@@ -225,24 +219,6 @@ json parameter_json(const std::string& name, const ParameterView& parameter) {
   if (whole && number) result["type"] = "float64";
   if (whole && vector) result["type"] = "float64_array";
   return result;
-}
-
-const ParameterView* find_parameter(const FlightView& view, std::string_view name) {
-  const std::size_t dot = name.find('.');
-  if (dot == std::string_view::npos) return nullptr;
-  for (const ComponentView& c : view.components) {
-    if (c.name != name.substr(0, dot)) continue;
-    for (const ParameterView& p : c.params)
-      if (p.info.name == name.substr(dot + 1)) return &p;
-  }
-  return nullptr;
-}
-
-std::vector<std::string> parameter_names(const FlightView& view) {
-  std::vector<std::string> names;
-  for (const ComponentView& c : view.components)
-    for (const ParameterView& p : c.params) names.push_back(c.name + "." + p.info.name);
-  return names;
 }
 
 std::string mission_text(const json& value, bool text_parameter) {

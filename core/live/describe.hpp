@@ -15,11 +15,9 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "core/tap/control.hpp"
@@ -32,10 +30,11 @@ namespace fulmar::core::live {
 struct Service {
   enum class What : std::uint8_t { request, set_parameter, phase, swap, reset_guards, view };
   What what = What::request;
-  std::string name;                    // "/plan/add_waypoints"
-  std::string component, port;         // of a request
-  TypePtr type;                        // of a request
-  std::vector<std::string> arguments;  // of the host's own: texts
+  std::string name;                      // "/plan/add_waypoints"
+  const char* word = "";                 // of one of the host's own, in the name of its type
+  std::vector<std::string> arguments{};  // of one of the host's own: texts
+  std::string component{}, port{};       // of a request
+  TypePtr type{};                        // of a request
 };
 std::vector<Service> services_of(const FlightView& view);
 
@@ -47,9 +46,6 @@ nlohmann::json view_json(const FlightView& view, const Tap& tap);
 
 /// {name, value, type} as the protocol has it; no value when the parameter's is no finite number.
 nlohmann::json parameter_json(const std::string& name, const ParameterView& parameter);
-/// The parameter "slc.roll_kp", or nullptr.
-const ParameterView* find_parameter(const FlightView& view, std::string_view name);
-std::vector<std::string> parameter_names(const FlightView& view);
 /// A value as a mission file would have it. Texts stay as they are ("20 deg"), unless the parameter is one.
 std::string mission_text(const nlohmann::json& value, bool text_parameter);
 
@@ -58,6 +54,9 @@ std::string cdr_answer(bool accepted, std::string_view reason);
 std::string cdr_text(std::string_view text);
 /// XCDR1 of so many strings. Throws Error.
 std::vector<std::string> cdr_texts(std::string_view bytes, std::size_t count);
+
+/// For a browser: one HTML file that asks for nothing else.
+std::string page(const std::string& mission, const Tap& tap);
 
 /// JSON as text; bytes that are not UTF-8 are replaced.
 std::string dumped(const nlohmann::json& value);

@@ -55,24 +55,6 @@ bool too_deep(std::string_view text) {
   return false;
 }
 
-void Mailbox::post(std::function<void()> task) {
-  const std::lock_guard lock(mutex_);
-  if (!open_) return;
-  tasks_.push_back(std::move(task));
-  if (tasks_.size() == 1) wake_();
-}
-
-std::vector<std::function<void()>> Mailbox::take() {
-  const std::lock_guard lock(mutex_);
-  return std::exchange(tasks_, {});
-}
-
-void Mailbox::close() {
-  const std::lock_guard lock(mutex_);
-  open_ = false;
-  tasks_.clear();
-}
-
 Hub::Hub(Tap& tap, Control& control, Counters& counters) : tap_(tap), control_(control), counters_(counters) {
   const FlightView now = view();
   mission_ = now.mission;
@@ -101,12 +83,12 @@ Hub::Hub(Tap& tap, Control& control, Counters& counters) : tap_(tap), control_(c
 Hub::~Hub() { close(); }
 
 void Hub::begin(std::function<void()> wake) {
-  mailbox_ = std::make_shared<Mailbox>(std::move(wake));
+  mailbox_ = std::make_shared<Inbox<std::function<void()>>>(std::move(wake));
   cursor_ = std::make_unique<Tap::Cursor>(tap_);
   for (std::size_t i = 0; i < channels_.size(); ++i)
     if (channels_[i].keeps) cursor_->want(i, 0);
   control_.on_parameter([this, mailbox = mailbox_](const std::string& component, const std::string& param) {
-    mailbox->post([this, name = component + "." + param] { changed_.insert(name); });
+    mailbox->put([this, name = component + "." + param] { changed_.insert(name); });
   });
 }
 

@@ -11,15 +11,14 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/inbox.hpp"
 #include "core/live/describe.hpp"
 #include "core/live/server.hpp"
 #include "core/tap/control.hpp"
@@ -50,22 +49,6 @@ class Peer {
 
 struct Counters {
   std::atomic<std::uint64_t> clients{0}, sent{0}, dropped{0}, lost{0}, refused{0};
-};
-
-/// From other threads into the hub's.
-class Mailbox {
- public:
-  /// `wake` is called from the thread that posts, for the first task of a batch.
-  explicit Mailbox(std::function<void()> wake) : wake_(std::move(wake)) {}
-  void post(std::function<void()> task);
-  std::vector<std::function<void()>> take();
-  void close();
-
- private:
-  std::mutex mutex_;
-  std::function<void()> wake_;
-  std::vector<std::function<void()>> tasks_;
-  bool open_ = true;
 };
 
 class Hub {
@@ -155,7 +138,7 @@ class Hub {
   Tap& tap_;
   Control& control_;
   Counters& counters_;
-  std::shared_ptr<Mailbox> mailbox_;
+  std::shared_ptr<Inbox<std::function<void()>>> mailbox_;  // from other threads into the hub's
   std::string mission_;
   std::int64_t epoch_ns_ = 0, newest_ns_ = 0;
   bool time_known_ = false;

@@ -119,7 +119,7 @@ void Hub::call(Client& client, const Service& service, std::uint32_t service_id,
                   : cdr_answer(refusal.empty(), refusal));
   };
   const Control::Answer answer = [mailbox = mailbox_, done](const std::string& refusal) {
-    mailbox->post([done, refusal] { done(refusal); });
+    mailbox->put([done, refusal] { done(refusal); });
   };
   ++client.unanswered;
   try {

@@ -178,7 +178,7 @@ void Hub::set_one(const std::shared_ptr<Pending>& pending, const json& parameter
     const std::string text = mission_text(*value, text_parameters_.contains(name));
     control_.set_parameter(name.substr(0, dot), name.substr(dot + 1), text,
                            [mailbox = mailbox_, done](const std::string& refusal) {
-                             mailbox->post([done, refusal] { done(refusal); });
+                             mailbox->put([done, refusal] { done(refusal); });
                            });
   } catch (const Error& e) {
     done(e.what());

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See page.hpp.
-#include "core/live/page.hpp"
-
+// The page that a browser gets on the port of the live view.
+#include "core/live/describe.hpp"
 #include "core/types/wire.hpp"
 
 namespace fulmar::core::live {

@@ -2,31 +2,27 @@
 // See server.hpp. One thread listens, speaks to all clients and empties the tap; nobody waits for it.
 #include "core/live/server.hpp"
 
-#include <pthread.h>
-#include <signal.h>
-
-#include <chrono>
 #include <thread>
 
-#include "core/live/gate.hpp"
-#include "core/live/page.hpp"
-#include "core/live/session.hpp"
-#include "core/live/websocket.hpp"
+#include "core/live/connection.hpp"
 #include "core/quiet_thread.hpp"
 
 namespace fulmar::core {
 namespace {
 
+using live::error_code;
 using std::chrono::milliseconds;
+namespace net = boost::asio;
 
 constexpr milliseconds turn{5}, idle_turn{50}, accept_pause{100}, farewell_limit{1500};
 constexpr std::size_t most_connections = 64;
 
-std::string address_of(const std::string& host) {
+net::ip::address address_of(const std::string& host) {
   const std::string bare =
       host.starts_with('[') && host.ends_with(']') ? host.substr(1, host.size() - 2) : host;
-  const std::string address = bare == "localhost" ? "127.0.0.1" : bare;
-  if (!live::Listener::is_address(address))
+  error_code fault;
+  const auto address = net::ip::make_address(bare == "localhost" ? "127.0.0.1" : bare, fault);
+  if (fault)
     throw Error(
         "live.listen: '" + host +
         "' is no address. Valid: 127.0.0.1 (this computer alone), 0.0.0.0 (all), or one of this computer's.");
@@ -36,70 +32,65 @@ std::string address_of(const std::string& host) {
 }  // namespace
 
 struct LiveServer::Impl {
-  // Connections die with `loop`, and speak to `hub` and `context` when they do.
+  // Connections die with `io`, and speak to `hub` and `context` when they do.
   LiveOptions options;
   live::Counters counters;
   live::Hub hub;
   live::Context context;
-  live::Loop loop;
-  live::Listener listener{loop};
-  live::Timer timer{loop}, accept_timer{loop}, farewell{loop};
+  net::io_context io{1};
+  live::tcp::acceptor acceptor{io};
+  live::Timer timer{io}, accept_timer{io}, farewell{io};
   bool stopping = false;
   std::uint16_t port = 0;
   std::thread thread;
 
   Impl(Tap& tap, Control& control, const LiveOptions& o)
-      : options(checked(o)),
+      : options((live::check_options(o), o)),
         hub(tap, control, counters),
         context{options, hub, counters, live::page(hub.mission(), tap), [this] { pump(); }, {}} {
-    hub.begin([this] { loop.post([this] { hub.answers(); }); });
+    hub.begin([this] { net::post(io, [this] { hub.answers(); }); });
     listen();
     accept();
     pump();
-    start();
+    thread = quiet_thread("fulmar-live", [this] { run(); });
   }
 
   ~Impl() {
-    loop.post([this] { stop(); });
+    net::post(io, [this] { stop(); });
     thread.join();
     hub.close();
   }
 
-  static const LiveOptions& checked(const LiveOptions& options) {
-    live::check_options(options);
-    return options;
-  }
-
   void listen() {
-    if (const auto refusal = listener.listen(address_of(options.host), options.port)) {
-      const std::string where = options.host + ":" + std::to_string(options.port);
-      throw Error("live: cannot listen on " + where + ": " + refusal->why +
-                  (refusal->taken ? ". Another flight may have the port: stop it, or give this one another "
-                                    "with live.listen (port 0: any that is "
-                                    "free)."
-                                  : ". Give an address of this computer with live.listen."));
-    }
-    port = listener.port();
+    const live::tcp::endpoint at(address_of(options.host), options.port);
+    error_code fault;
+    acceptor.open(at.protocol(), fault);
+    if (!fault) acceptor.set_option(net::socket_base::reuse_address(true), fault);
+    if (!fault) acceptor.bind(at, fault);
+    if (!fault) acceptor.listen(net::socket_base::max_listen_connections, fault);
+    if (fault)
+      throw Error("live: cannot listen on " + options.host + ":" + std::to_string(options.port) + ": " +
+                  fault.message() +
+                  (fault == net::error::address_in_use
+                       ? ". Another flight may have the port: stop it, or give this one another with "
+                         "live.listen (port 0: any that is free)."
+                       : ". Give an address of this computer with live.listen."));
+    port = acceptor.local_endpoint().port();
   }
 
   void accept() {
-    listener.accept([this](std::optional<live::ServerEnd> end) {
+    acceptor.async_accept([this](error_code fault, live::tcp::socket socket) {
       if (stopping) return;
-      const bool given = end.has_value();
-      if (given && context.sessions.size() < most_connections) {
-        live::begin_session(*std::move(end), loop, context);
+      if (!fault && context.connections.size() < most_connections) {
+        std::make_shared<live::Connection>(std::move(socket), io, context)->begin();
       } else {
         ++counters.refused;
       }
-      if (given) return accept();
+      if (!fault) return accept();
       accept_timer.start(accept_pause, [this](bool due) {  // out of file descriptors, most likely
         if (due) accept();
       });
     });
-  }
-
-  void start() {
-    thread = quiet_thread("fulmar-live", [this] { run(); });
   }
 
   /// What goes wrong with one connection (no memory, an option that the system refuses) ends that connection
@@ -107,7 +98,7 @@ struct LiveServer::Impl {
   void run() {
     for (;;) {
       try {
-        loop.run();
+        io.run();
         return;
       } catch (const std::exception&) {
         ++counters.refused;
@@ -131,22 +122,23 @@ struct LiveServer::Impl {
 
   void stop() {
     stopping = true;
-    listener.close();
+    error_code ignored;
+    acceptor.close(ignored);
     timer.cancel();
     accept_timer.cancel();
     while (hub.tick()) {
     }
-    const std::set<live::Session*> all = context.sessions;
-    for (live::Session* session : all) session->finish();
+    const std::set<live::Connection*> all = context.connections;
+    for (live::Connection* connection : all) connection->finish();
     farewell.start(farewell_limit, [this](bool due) {
-      if (due) loop.stop();
+      if (due) io.stop();
     });
-    wait_for_sessions();
+    wait_for_connections();
   }
 
-  void wait_for_sessions() {
-    if (context.sessions.empty()) return void(farewell.cancel());
-    timer.start(turn, [this](bool) { wait_for_sessions(); });
+  void wait_for_connections() {
+    if (context.connections.empty()) return farewell.cancel();
+    timer.start(turn, [this](bool) { wait_for_connections(); });
   }
 };
 

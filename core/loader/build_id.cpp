@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "core/loader/elf.hpp"
+#include "core/types/text.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -19,15 +20,6 @@ constexpr std::string_view note_owner("GNU\0", 4);
 
 // Notes are padded to 4 bytes, whatever the word size: so do gcc and clang write the build id.
 std::uint64_t padded(std::uint32_t size) { return (std::uint64_t{size} + 3) & ~std::uint64_t{3}; }
-
-std::string hex(std::span<const std::byte> bytes) {
-  std::string text;
-  for (const std::byte b : bytes) {
-    text += "0123456789abcdef"[std::to_integer<unsigned>(b) >> 4];
-    text += "0123456789abcdef"[std::to_integer<unsigned>(b) & 15];
-  }
-  return text;
-}
 
 }  // namespace
 
@@ -39,7 +31,7 @@ std::string build_id_in_notes(std::span<const std::byte> notes) {
     if (content + note.n_descsz > notes.size()) return "";
     if (note.n_type == NT_GNU_BUILD_ID && note.n_namesz == note_owner.size() &&
         std::memcmp(notes.data() + name, note_owner.data(), 4) == 0)
-      return hex(notes.subspan(static_cast<std::size_t>(content), note.n_descsz));
+      return hex_text(notes.subspan(static_cast<std::size_t>(content), note.n_descsz));
     if (end > notes.size()) return "";
     notes = notes.subspan(static_cast<std::size_t>(end));
   }

@@ -2,13 +2,14 @@
 // ELF header checks. Source: System V Application Binary Interface, chapter 4 "Object Files"; elf(5).
 #include "core/loader/elf.hpp"
 
-#include <elf.h>
+#include <link.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstdio>
-#include <cstring>
+
+// What this program is itself built for: its own header in memory, where the linker says.
+extern "C" const ElfW(Ehdr) __ehdr_start __attribute__((visibility("hidden")));  // NOLINT
 
 namespace fulmar::core {
 namespace {
@@ -16,29 +17,16 @@ namespace {
 constexpr unsigned char host_class = sizeof(void*) == 8 ? ELFCLASS64 : ELFCLASS32;
 constexpr unsigned char host_order = std::endian::native == std::endian::little ? ELFDATA2LSB : ELFDATA2MSB;
 
-// What this program is itself built for.
-unsigned host_machine() {
-  static const unsigned machine = [] {
-    Elf64_Ehdr header{};
-    std::FILE* self = std::fopen("/proc/self/exe", "re");
-    const bool read = self != nullptr && std::fread(&header, 1, EI_NIDENT + 4, self) == EI_NIDENT + 4;
-    if (self != nullptr) std::fclose(self);
-    return read ? unsigned{header.e_machine} : unsigned{EM_NONE};
-  }();
-  return machine;
-}
-
 // Bytes that the headers promise, or 0 when the program headers do not fit into the file themselves.
-template <class Header, class Segment>
 std::uint64_t promised_bytes(std::span<const std::byte> bytes) {
-  Header header{};
-  if (!read_header(bytes, 0, header) || header.e_phentsize != sizeof(Segment) || header.e_phnum == 0)
+  ElfW(Ehdr) header{};
+  if (!read_header(bytes, 0, header) || header.e_phentsize != sizeof(ElfW(Phdr)) || header.e_phnum == 0)
     return 0;
   if (header.e_shoff > UINT64_MAX / 2) return 0;
   // the section headers usually come last: a copy that is still being written lacks them
   std::uint64_t end = header.e_shoff + std::uint64_t{header.e_shnum} * header.e_shentsize;
   for (std::uint64_t i = 0; i < header.e_phnum; ++i) {
-    Segment segment{};
+    ElfW(Phdr) segment{};
     if (!read_header(bytes, header.e_phoff + i * sizeof segment, segment)) return 0;
     if (segment.p_type != PT_LOAD) continue;
     if (segment.p_offset > UINT64_MAX / 2 || segment.p_filesz > UINT64_MAX / 2) return 0;
@@ -74,13 +62,13 @@ std::string elf_fault(std::span<const std::byte> bytes) {
   if (start.ident[EI_DATA] != host_order)
     start.machine =
         static_cast<std::uint16_t>(static_cast<unsigned>(start.machine) << 8 | start.machine >> 8);
-  if (start.machine != host_machine())
-    return "is built for " + machine_name(start.machine) + ", this host is " + machine_name(host_machine());
+  if (start.machine != __ehdr_start.e_machine)
+    return "is built for " + machine_name(start.machine) + ", this host is " +
+           machine_name(__ehdr_start.e_machine);
   if (start.ident[EI_DATA] != host_order || start.ident[EI_CLASS] != host_class)
     return "is built for another word size or byte order";
   if (start.type != ET_DYN) return "is not a plugin: an ELF file, but not a shared object";
-  const std::uint64_t needed = host_class == ELFCLASS64 ? promised_bytes<Elf64_Ehdr, Elf64_Phdr>(bytes)
-                                                        : promised_bytes<Elf32_Ehdr, Elf32_Phdr>(bytes);
+  const std::uint64_t needed = promised_bytes(bytes);
   if (needed == 0) return "is not a plugin: its ELF program headers are damaged or cut off";
   if (needed > bytes.size())
     return "is cut off: its header promises " + std::to_string(needed) + " bytes, the file has " +

@@ -34,9 +34,12 @@ fs::path own_file() {
   return fault ? fs::path() : file;
 }
 
-bool executable(const fs::path& file) { return ::access(file.c_str(), X_OK) == 0; }
-
 }  // namespace
+
+bool can_run(const fs::path& file) {
+  std::error_code fault;
+  return fs::is_regular_file(file, fault) && ::access(file.c_str(), X_OK) == 0;
+}
 
 std::vector<fs::path> home_folders() {
   std::vector<fs::path> folders;
@@ -48,15 +51,16 @@ std::vector<fs::path> home_folders() {
   fs::path folder = file.parent_path();
   for (int up = 0; up < 4 && folder.has_relative_path(); ++up) {
     folder = folder.parent_path();
-    if (executable(folder / "bin" / "fulmar-probe")) add(folders, folder);
+    if (can_run(folder / "bin" / "fulmar-probe")) add(folders, folder);
   }
   return folders;
 }
 
-fs::path own_program(const std::string& name) {
-  if (const fs::path beside = running_program().parent_path() / name; executable(beside)) return beside;
+fs::path own_program(const std::string& name, const char* variable) {
+  if (const char* chosen = std::getenv(variable); chosen != nullptr && *chosen != '\0') return chosen;
+  if (const fs::path beside = running_program().parent_path() / name; can_run(beside)) return beside;
   for (const fs::path& home : home_folders())
-    if (executable(home / "bin" / name)) return home / "bin" / name;
+    if (can_run(home / "bin" / name)) return home / "bin" / name;
   return {};
 }
 

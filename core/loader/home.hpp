@@ -11,9 +11,12 @@ namespace fulmar::core {
 /// library.
 std::vector<std::filesystem::path> home_folders();
 
-/// A program that belongs to the host, "fulmar-probe": beside the running program, or in bin/ of a home
-/// folder. Empty when it is missing.
-std::filesystem::path own_program(const std::string& name);
+/// Whether it is a file that may be executed.
+bool can_run(const std::filesystem::path& file);
+
+/// A program that belongs to the host, "fulmar-probe": what the environment's `variable` says, else beside
+/// the running program, or in bin/ of a home folder. Empty when it is missing.
+std::filesystem::path own_program(const std::string& name, const char* variable = "");
 
 /// The folders of FULMAR_PLUGIN_PATH (separated by ':'), then lib/fulmar of each home folder.
 std::vector<std::filesystem::path> plugin_folders();

@@ -56,10 +56,10 @@ std::vector<std::byte> read_file(const fs::path& file, const std::string& name) 
   return bytes;
 }
 
-// Throws unless a child has loaded it. `host`: of a script, the copy of the plugin that opens it; `file`:
-// where the author keeps it.
-void try_in_child(const fs::path& copy, const std::string& key, const std::string& name,
-                  const fs::path& host = {}, const fs::path& file = {}) {
+// Throws unless a child has loaded it. `host`: of a script, the copy of the plugin that opens it, else empty;
+// `file`: where the author keeps it.
+void try_in_child(const fs::path& copy, const std::string& key, const std::string& name, const fs::path& host,
+                  const fs::path& file) {
   if (registry().probed.count(key) > 0) return;
   const std::string fault = host.empty() ? probe(copy, name) : probe(host, name, {copy, file});
   if (!fault.empty()) {
@@ -105,27 +105,41 @@ struct Library::Handle {
 };
 
 std::shared_ptr<Library> Library::open(const fs::path& file, const Expected& expected) {
-  if (!script_host(file).empty()) return open_script(file, expected);
   const std::string name = file.filename().string();
   const std::vector<std::byte> bytes = read_file(file, name);
   const std::string sha256 = sha256_hex(bytes.data(), bytes.size());
   check_content(expected, name, sha256);
-  if (const std::string fault = elf_fault(bytes); !fault.empty()) throw Error(name + " " + fault);
+  const bool script = !script_host(file).empty();
+  const std::shared_ptr<Library> host = script ? open(host_of(file)) : nullptr;
+  if (const std::string fault = script ? "" : elf_fault(bytes); !fault.empty())
+    throw Error(name + " " + fault);
+  std::error_code ignored;
+  const fs::path place = fs::absolute(file, ignored);
+  // of a script the place too: it may load what lies beside it
+  const std::string key = script ? sha256 + " " + place.string() : sha256;
   const std::lock_guard lock(registry().mutex);
-  if (auto known = registry().loaded[sha256].lock()) return known;
+  if (auto known = registry().loaded[key].lock()) return known;
   const std::shared_ptr<Library> library(new Library);
-  library->key_ = sha256;
-  library->copy_ = keep_copy(bytes, sha256);
-  try_in_child(library->copy_, sha256, name);
+  library->key_ = key;
+  library->copy_ = keep_copy(bytes, sha256, script ? file.extension().string() : ".so");
+  try_in_child(library->copy_, key, name, script ? host->copy_ : "", place);
   library->handle_ = std::make_unique<Handle>();
-  library->handle_->load(library->copy_, name);
-  library->info_ = read_entry(library->handle_->entry(), name);
-  library->info_.sha256 = sha256;
-  library->info_.build_id = build_id(bytes);
-  library->info_.path = file.string();
-  library->info_.copy = library->copy_.string();
+  PluginInfo& info = library->info_;
+  if (script) {
+    library->handle_->host = host;
+    const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    library->handle_->script = std::make_unique<Script>(host->handle_->entry(), place.string(), text);
+  } else {
+    library->handle_->load(library->copy_, name);
+  }
+  info = read_entry(library->handle_->entry(), name);
+  info.sha256 = sha256;
+  info.build_id = build_id(bytes);
+  info.path = file.string();
+  info.copy = (script ? host : library)->copy_.string();
+  if (script) info.script = library->copy_.string();
   library->handle_->copy_functions();
-  registry().loaded[sha256] = library;
+  registry().loaded[key] = library;
   return library;
 }
 
@@ -140,36 +154,6 @@ fs::path Library::host_of(const fs::path& script) {
   throw Error(script.filename().string() + " needs the plugin " + language +
               ", which is not there. Searched in " + join(searched) +
               ". It is built where the development packages of the language are installed.");
-}
-
-std::shared_ptr<Library> Library::open_script(const fs::path& file, const Expected& expected) {
-  const std::string name = file.filename().string();
-  const std::vector<std::byte> bytes = read_file(file, name);
-  const std::string sha256 = sha256_hex(bytes.data(), bytes.size());
-  check_content(expected, name, sha256);
-  const std::shared_ptr<Library> host = open(host_of(file));
-  std::error_code fault;
-  const fs::path place = fs::absolute(file, fault);
-  const std::string key =
-      sha256 + " " + place.string();  // the place too: a script may load what lies beside it
-  const std::lock_guard lock(registry().mutex);
-  if (auto known = registry().loaded[key].lock()) return known;
-  const std::shared_ptr<Library> library(new Library);
-  library->key_ = key;
-  library->copy_ = keep_copy(bytes, sha256, file.extension().string());
-  try_in_child(library->copy_, key, name, host->copy_, place);
-  library->handle_ = std::make_unique<Handle>();
-  library->handle_->host = host;
-  const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  library->handle_->script = std::make_unique<Script>(host->handle_->entry(), place.string(), text);
-  library->info_ = read_entry(library->handle_->entry(), name);
-  library->info_.sha256 = sha256;
-  library->info_.path = file.string();
-  library->info_.copy = host->copy_.string();
-  library->info_.script = library->copy_.string();
-  library->handle_->copy_functions();
-  registry().loaded[key] = library;
-  return library;
 }
 
 Library::~Library() {

@@ -47,7 +47,6 @@ class Library {
 
  private:
   Library() = default;
-  static std::shared_ptr<Library> open_script(const std::filesystem::path& file, const Expected& expected);
   struct Handle;
   std::unique_ptr<Handle> handle_;
   PluginInfo info_;

@@ -7,35 +7,29 @@
 #include <cinttypes>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 
 #include "core/error.hpp"
 
 namespace fulmar::core {
 
 Memory::Memory() {
-  std::FILE* maps = std::fopen("/proc/self/maps", "re");
-  if (maps == nullptr) return;
-  char line[512];
-  bool at_start = true;
-  while (std::fgets(line, sizeof line, maps) != nullptr) {
-    const bool begins_line = at_start;
-    at_start = std::strchr(line, '\n') != nullptr;  // a long path comes in several pieces
-    std::uintptr_t begin = 0, end = 0;
+  const auto append = [](std::vector<Range>& ranges, Range range) {
+    if (!ranges.empty() && ranges.back().end == range.begin) {
+      ranges.back().end = range.end;
+    } else {
+      ranges.push_back(range);
+    }
+  };
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);) {
+    Range range{};
     char perms[5] = "";
-    if (!begins_line || std::sscanf(line, "%" SCNxPTR "-%" SCNxPTR " %4s", &begin, &end, perms) != 3)
+    if (std::sscanf(line.c_str(), "%" SCNxPTR "-%" SCNxPTR " %4s", &range.begin, &range.end, perms) != 3)
       continue;
-    if (perms[0] == 'r') append(readable_, {begin, end});
-    if (perms[2] == 'x') append(executable_, {begin, end});
+    if (perms[0] == 'r') append(readable_, range);
+    if (perms[2] == 'x') append(executable_, range);
     known_ = true;
-  }
-  std::fclose(maps);
-}
-
-void Memory::append(std::vector<Range>& ranges, Range range) {
-  if (!ranges.empty() && ranges.back().end == range.begin) {
-    ranges.back().end = range.end;
-  } else {
-    ranges.push_back(range);
   }
 }
 

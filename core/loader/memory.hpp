@@ -24,7 +24,6 @@ class Memory {
   struct Range {
     std::uintptr_t begin, end;
   };
-  static void append(std::vector<Range>& ranges, Range range);
   bool covered(const std::vector<Range>& ranges, const void* at, std::size_t size) const;
   std::size_t readable_bytes(const void* at) const;
 

@@ -28,6 +28,10 @@ class SharedObject {
   std::unique_ptr<Impl> impl_;
 };
 
+/// A sentence made of what the system's loader says (glibc's wording, dlerror(3)): "my_law.so needs
+/// libfoo.so.1, which is not there".
+std::string load_fault(const std::string& name, const char* dlerror_text);
+
 /// Whether the file is still mapped into this process, by whomever: what it holds would not be loaded anew.
 bool is_mapped(const std::filesystem::path& file);
 

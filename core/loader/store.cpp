@@ -3,12 +3,12 @@
 #include "core/loader/store.hpp"
 
 #include <fcntl.h>
-#include <openssl/evp.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -17,6 +17,7 @@
 
 #include "core/error.hpp"
 #include "core/loader/library.hpp"
+#include "core/types/sha256.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -24,6 +25,9 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::size_t most_copies = 128;            // the least recently used go
 constexpr const char* suffixes[] = {".so", ".py"};  // of what is kept
+
+// Throws with what the system says.
+[[noreturn]] void fail(const std::string& what) { throw Error(what + ": " + std::strerror(errno) + "."); }
 
 // Throws when the folder belongs to somebody else or others may put files there: they could swap the code
 // between check and load.
@@ -54,8 +58,7 @@ struct TemporaryFolder {
   fs::path path;
   TemporaryFolder() {
     std::string name = (fs::temp_directory_path() / "fulmar-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
-      throw Error("no folder for private copies of plugins: " + std::string(std::strerror(errno)) + ".");
+    if (::mkdtemp(name.data()) == nullptr) fail("no folder for private copies of plugins");
     path = name;
   }
   ~TemporaryFolder() {
@@ -73,9 +76,7 @@ std::string environment(const char* name) {
 
 fs::path store_folder() {
   if (const std::string chosen = environment("FULMAR_STORE"); !chosen.empty()) {
-    if (!make_private(chosen))
-      throw Error("the plugin store " + chosen + " (FULMAR_STORE) cannot be made: " + std::strerror(errno) +
-                  ".");
+    if (!make_private(chosen)) fail("the plugin store " + chosen + " (FULMAR_STORE) cannot be made");
     return chosen;
   }
   const std::string cache = environment("XDG_CACHE_HOME"), home = environment("HOME");
@@ -90,32 +91,21 @@ fs::path store_folder() {
   return temporary.path;
 }
 
-void write_all(int file, std::span<const std::byte> bytes, const fs::path& path) {
-  while (!bytes.empty()) {
-    const ssize_t n = ::write(file, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) throw Error("cannot write " + path.string() + ": " + std::strerror(errno) + ".");
-    bytes = bytes.subspan(static_cast<std::size_t>(n));
-  }
-}
-
 // Under a temporary name first: nobody ever sees half a file.
 void write_copy(const fs::path& path, std::span<const std::byte> bytes) {
   std::string name = path.string() + ".XXXXXX";
   const int file = ::mkostemp(name.data(), O_CLOEXEC);
-  if (file < 0)
-    throw Error("cannot write into the plugin store " + path.parent_path().string() + ": " +
-                std::strerror(errno) + ".");
-  try {
-    write_all(file, bytes, path);
-    if (::fchmod(file, 0400) != 0 || ::rename(name.c_str(), path.c_str()) != 0)
-      throw Error("cannot write " + path.string() + ": " + std::strerror(errno) + ".");
-  } catch (...) {
-    ::close(file);
-    ::unlink(name.c_str());
-    throw;
-  }
-  ::close(file);
+  if (file < 0) fail("cannot write into the plugin store " + path.parent_path().string());
+  std::FILE* out = ::fdopen(file, "wb");
+  const bool written = out != nullptr && std::fwrite(bytes.data(), 1, bytes.size(), out) == bytes.size() &&
+                       std::fflush(out) == 0 && ::fchmod(file, 0400) == 0 &&
+                       ::rename(name.c_str(), path.c_str()) == 0;
+  const int fault = errno;
+  out != nullptr ? std::fclose(out) : ::close(file);
+  if (written) return;
+  ::unlink(name.c_str());
+  errno = fault;
+  fail("cannot write " + path.string());
 }
 
 bool is_suffix(const std::string& text) {
@@ -148,15 +138,8 @@ void prune(const fs::path& folder) {
 }  // namespace
 
 std::string sha256_hex(const void* data, std::size_t size) {
-  unsigned char digest[EVP_MAX_MD_SIZE];
-  unsigned length = 0;
-  if (EVP_Digest(data, size, digest, &length, EVP_sha256(), nullptr) != 1)
-    throw Error("SHA-256 is not available.");
-  std::string hex;
-  for (unsigned i = 0; i < length; ++i) {
-    hex += "0123456789abcdef"[digest[i] >> 4];
-    hex += "0123456789abcdef"[digest[i] & 15];
-  }
+  std::string hex = Sha256::of({static_cast<const char*>(data), size});
+  if (hex.empty()) throw Error("SHA-256 is not available.");
   return hex;
 }
 

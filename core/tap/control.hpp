@@ -41,6 +41,20 @@ struct FlightView {
   std::string file;  // of the mission
 };
 
+/// The parameter "slc.roll_kp", or nullptr.
+inline const ParameterView* find_parameter(const FlightView& view, const std::string& name) {
+  for (const ComponentView& c : view.components)
+    for (const ParameterView& p : c.params)
+      if (name == c.name + "." + p.info.name) return &p;
+  return nullptr;
+}
+inline std::vector<std::string> parameter_names(const FlightView& view) {
+  std::vector<std::string> names;
+  for (const ComponentView& c : view.components)
+    for (const ParameterView& p : c.params) names.push_back(c.name + "." + p.info.name);
+  return names;
+}
+
 /// Any thread may call any of these. What can be checked without the loop is checked in the caller's thread:
 /// those throw Error with the valid choices. What the loop then says comes through `answer`, once, from a
 /// thread of the control's: "" accepted, else the reason; a flight that ends before answers "the flight has

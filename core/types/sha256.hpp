@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/types/text.hpp"
+
 namespace fulmar::core {
 
 class Sha256 {
@@ -19,10 +21,7 @@ class Sha256 {
     unsigned char digest[EVP_MAX_MD_SIZE];
     unsigned int size = 0;
     EVP_DigestFinal_ex(context_.get(), digest, &size);
-    constexpr char digits[] = "0123456789abcdef";
-    std::string text;
-    for (unsigned int i = 0; i < size; ++i) text += {digits[digest[i] >> 4], digits[digest[i] & 15]};
-    return text;
+    return hex_text(std::as_bytes(std::span(digest, size)));
   }
   static std::string of(std::string_view text) {
     Sha256 sum;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -38,6 +40,15 @@ template <class Number>
 std::string number_text(Number x) {
   std::array<char, 40> text;
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), x).ptr};
+}
+
+/// "00ff1c"
+inline std::string hex_text(std::span<const std::byte> bytes) {
+  constexpr char digits[] = "0123456789abcdef";
+  std::string text;
+  for (const std::byte b : bytes)
+    text += {digits[std::to_integer<unsigned>(b) >> 4], digits[std::to_integer<unsigned>(b) & 15]};
+  return text;
 }
 
 /// "nav.state" -> "nav/state": ports have dots, topics have slashes.

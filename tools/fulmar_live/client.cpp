@@ -2,13 +2,28 @@
 // See client.hpp.
 #include "tools/fulmar_live/client.hpp"
 
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/core/buffers_to_string.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/websocket/stream.hpp>
 #include <charconv>
+#include <functional>
 
 #include "core/error.hpp"
-#include "core/live/websocket.hpp"
 
 namespace fulmar::core {
 namespace {
+
+namespace net = boost::asio;
+namespace beast = boost::beast;
+namespace websocket = beast::websocket;
+using boost::system::error_code;
+using net::ip::tcp;
+using Clock = std::chrono::steady_clock;
+// What is called back has always the same type, so that each of Beast's operations is compiled once.
+using OnFault = std::function<void(error_code)>;
+using OnBytes = std::function<void(error_code, std::size_t)>;
 
 constexpr std::size_t most_message_bytes = 64u << 20;
 
@@ -42,47 +57,129 @@ LiveAddress parse_target(const std::string& at, const std::string& token) {
   return target;
 }
 
+// Blocking calls of Beast's know no time limit, so the asynchronous ones are run here.
 struct Client::Impl {
   LiveAddress target;
-  live::ClientEnd end;
+  std::chrono::milliseconds patience;
+  net::io_context context{1};
+  websocket::stream<tcp::socket, false> stream{context};  // without compression
+  beast::flat_buffer buffer;
+  bool reading = false, read_done = false;
+  error_code read_fault;
 
-  Impl(const LiveAddress& t, std::chrono::milliseconds patience) : target(t), end(patience) {}
+  Impl(const LiveAddress& t, std::chrono::milliseconds p) : target(t), patience(p) {}
+
+  ~Impl() {
+    error_code fault;
+    stream.next_layer().shutdown(tcp::socket::shutdown_both, fault);
+    close();
+    context.restart();
+    context.run_for(std::chrono::milliseconds(100));  // the handlers that are left refer to this
+  }
+
+  void close() {
+    error_code ignored;
+    stream.next_layer().close(ignored);
+  }
+
+  /// Runs what has begun; it says through `done` that it is over. False when the time was up.
+  bool run_until(const bool& done, Clock::time_point end) {
+    while (!done) {
+      const auto left = end - Clock::now();
+      context.restart();
+      if (left <= left.zero()) return context.poll(), done;
+      if (context.run_one_for(left) == 0 && context.stopped() && !done) return false;
+    }
+    return true;
+  }
+
+  /// The fault of the operation that `start` begins; timed_out when it took too long.
+  template <class Start>
+  error_code wait(Clock::time_point end, Start start) {
+    bool done = false;
+    error_code fault;
+    start([&](error_code code, auto&&...) { done = true, fault = code; });
+    if (run_until(done, end)) return fault;
+    close();  // its handler still refers to what lies here
+    while (!done && context.run_one_for(std::chrono::seconds(1)) > 0) {
+    }
+    return net::error::timed_out;
+  }
+
+  error_code connect_to(const tcp::resolver::results_type& places) {
+    const auto end = Clock::now() + patience;
+    error_code fault = net::error::not_found;
+    for (const auto& place : places) {
+      close();
+      fault = wait(end, [&](OnFault done) { stream.next_layer().async_connect(place, std::move(done)); });
+      if (!fault || Clock::now() >= end) return fault;
+    }
+    return fault;
+  }
 
   void connect() {
-    using Reached = live::ClientEnd::Reached;
-    const Reached reached = end.connect(target.host, target.port);
-    if (reached == Reached::no_host)
+    tcp::resolver resolver(context);
+    error_code fault;
+    const auto places = resolver.resolve(target.host, std::to_string(target.port), fault);
+    if (fault)
       throw Error("there is no host '" + target.host + "': give --at HOST:PORT, as in --at 127.0.0.1:8765");
-    if (reached == Reached::nobody)
+    if (connect_to(places))
       throw Error("no flight listens on " + target.text() +
                   ": start one with fulmar run MISSION --speed real --live 8765, or name it with --at");
+    stream.next_layer().set_option(tcp::no_delay(true), fault);
   }
 
   void shake_hands() {
-    live::Fields fields{{"Sec-WebSocket-Protocol", "foxglove.sdk.v1, foxglove.websocket.v1"},
-                        {"User-Agent", "fulmar"}};
-    if (!target.token.empty()) fields.emplace_back("Authorization", "Bearer " + target.token);
-    const live::ClientEnd::Answer answer = end.shake_hands(target.text(), fields, most_message_bytes);
-    if (answer.accepted) return;
-    if (!answer.declined)
-      throw Error("what listens on " + target.text() + " is no flight (" + answer.fault +
+    stream.read_message_max(most_message_bytes);
+    stream.set_option(websocket::stream_base::decorator([&](websocket::request_type& request) {
+      request.set("Sec-WebSocket-Protocol", "foxglove.sdk.v1, foxglove.websocket.v1");
+      request.set("User-Agent", "fulmar");
+      if (!target.token.empty()) request.set("Authorization", "Bearer " + target.token);
+    }));
+    websocket::response_type response;
+    const error_code fault = wait(Clock::now() + patience, [&](OnFault done) {
+      stream.async_handshake(response, target.text(), "/", std::move(done));
+    });
+    if (!fault) return;
+    if (fault != websocket::error::upgrade_declined)
+      throw Error("what listens on " + target.text() + " is no flight (" + fault.message() +
                   "): name one with --at");
     constexpr unsigned unauthorized = 401, forbidden = 403;
-    if (answer.status == unauthorized || answer.status == forbidden)
+    const unsigned status = response.result_int();
+    if (status == unauthorized || status == forbidden)
       throw Error("the flight on " + target.text() +
                   (target.token.empty() ? " wants a token" : " refuses this token") +
                   ": give it with --token or in FULMAR_TOKEN");
-    throw Error("the flight on " + target.text() +
-                " refuses the connection: " + std::to_string(answer.status) + " " + answer.reason);
+    throw Error("the flight on " + target.text() + " refuses the connection: " + std::to_string(status) +
+                " " + std::string(response.reason().data(), response.reason().size()));
+  }
+
+  std::optional<Message> receive(std::chrono::milliseconds limit) {
+    if (!reading) {
+      reading = true, read_done = false;
+      stream.async_read(
+          buffer, OnBytes([this](error_code code, std::size_t) { read_done = true, read_fault = code; }));
+    }
+    if (!run_until(read_done, Clock::now() + limit)) return std::nullopt;
+    reading = false;
+    if (read_fault) gone(read_fault);
+    Message message{stream.got_binary(), beast::buffers_to_string(buffer.data())};
+    buffer.consume(buffer.size());
+    return message;
   }
 
   void write(const std::string& data, bool binary) {
-    if (!end.write(data, binary)) gone();
+    stream.binary(binary);
+    const error_code fault = wait(Clock::now() + patience, [&](OnBytes done) {
+      stream.async_write(net::buffer(data), std::move(done));
+    });
+    if (fault) gone(fault);
   }
 
-  [[noreturn]] void gone() const {
-    if (!end.farewell().empty())
-      throw FlightEnded("the flight on " + target.text() + " has closed the connection: " + end.farewell());
+  [[noreturn]] void gone(error_code fault) const {
+    const std::string farewell = fault == websocket::error::closed ? stream.reason().reason.c_str() : "";
+    if (!farewell.empty())
+      throw FlightEnded("the flight on " + target.text() + " has closed the connection: " + farewell);
     throw FlightEnded("the flight on " + target.text() + " has ended");
   }
 };
@@ -96,12 +193,7 @@ Client::Client(const LiveAddress& target, std::chrono::milliseconds patience)
 Client::~Client() = default;
 
 std::optional<Client::Message> Client::receive(std::chrono::milliseconds limit) {
-  using Got = live::ClientEnd::Got;
-  Message message;
-  const Got got = impl_->end.receive(limit, message.data, message.binary);
-  if (got == Got::nothing) return std::nullopt;
-  if (got == Got::end) impl_->gone();
-  return message;
+  return impl_->receive(limit);
 }
 
 void Client::send(const std::string& text) { impl_->write(text, false); }

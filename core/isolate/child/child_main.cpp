@@ -12,10 +12,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 
-#include "core/error.hpp"
-#include "core/isolate/child/crash.hpp"
 #include "core/isolate/child/heap.hpp"
 #include "core/isolate/child/session.hpp"
 #include "core/loader/crash_signal.hpp"
@@ -23,6 +20,50 @@
 using namespace fulmar::core;
 
 namespace {
+
+// ---- its last act when it crashes: it tells the host which signal ends it, and wakes it
+
+ControlBlock* shared = nullptr;
+std::uintptr_t stack_top = 0;
+
+// A fault where the main stack would have grown to, had its limit allowed it. A large frame may step over its
+// end by far.
+bool below_stack(std::uintptr_t address) {
+  constexpr std::uintptr_t step = 1u << 20;
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= stack_top - step) return false;
+  return address < stack_top && address >= stack_top - limit.rlim_cur - step;
+}
+
+// Async-signal-safe: atomics and system calls alone. The signal, default again, strikes a second time and
+// ends the process.
+void last_act(int signal, siginfo_t* about, void*) {
+  if (signal == SIGSEGV && about->si_code > 0 &&
+      below_stack(reinterpret_cast<std::uintptr_t>(about->si_addr)))
+    shared->stack_overflow.store(1);
+  shared->signal.store(static_cast<std::uint32_t>(signal));
+  futex_wake(shared->answer);
+  ::raise(signal);
+}
+
+// Handles the signals of a crash on a stack of their own, for the calling thread.
+void tell_crashes(ControlBlock& control) {
+  shared = &control;
+  stack_top = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
+  constexpr std::size_t size = 64 * 1024;
+  void* room = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (room == MAP_FAILED) return;
+  stack_t stack{};
+  stack.ss_sp = room;
+  stack.ss_size = size;
+  ::sigaltstack(&stack, nullptr);
+  struct sigaction action {};
+  action.sa_sigaction = &last_act;
+  action.sa_flags = static_cast<int>(SA_SIGINFO | SA_ONSTACK | SA_RESETHAND);
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) ::sigaction(signal, &action, nullptr);
+}
+
+// ---- its beginning
 
 void close_others() {
 #ifdef SYS_close_range
@@ -51,20 +92,6 @@ void prepare() {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
 }
 
-int work(Session& session, const Order& order) {
-  try {
-    session.open(order);
-  } catch (const std::exception& fault) {
-    fulmar_error error{};
-    std::snprintf(error.text, sizeof error.text, "%s", fault.what());
-    session.answer(1, FULMAR_FAILED, error);
-    return 1;
-  }
-  session.answer(1, FULMAR_OK, {});
-  session.serve();
-  return 0;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -79,10 +106,9 @@ int main(int argc, char** argv) {
   void* memory =
       ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, shared_descriptor, 0);
   if (memory == MAP_FAILED) return 2;
-  Session session(static_cast<std::byte*>(memory), size);
-  if (::getppid() != session.control().host_pid)
-    return 1;  // it died before this process asked to die with it
-  tell_crashes(session.control());
+  auto& control = *static_cast<ControlBlock*>(memory);
+  if (::getppid() != control.host_pid) return 1;  // it died before this process asked to die with it
+  tell_crashes(control);
   count_heap();
   const Order order{argv[2],
                     argv[3],
@@ -90,6 +116,6 @@ int main(int argc, char** argv) {
                     argv[5],
                     std::strtoull(argv[6], nullptr, 10),
                     std::strtoull(argv[7], nullptr, 10)};
-  const int code = work(session, order);
+  const int code = serve(static_cast<std::byte*>(memory), size, order);
   ::_exit(code);  // the plugin's exit handlers are not run: nobody waits for them
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The child's side of an isolated component: its own instance, its own arrays of inputs and outputs over the
+// shared memory.
 #include "core/isolate/child/session.hpp"
 
 #include <sys/mman.h>
@@ -6,228 +8,280 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/isolate/child/heap.hpp"
 #include "core/loader/float_mode.hpp"
 #include "core/loader/library.hpp"
+#include "core/loader/script.hpp"
 #include "core/loader/shared_object.hpp"
 #include "core/loader/table.hpp"
 
 namespace fulmar::core {
+namespace {
 
-// ---- set-up
+class Session {
+ public:
+  Session(std::byte* memory, std::size_t size) : memory_(memory), size_(size) {}
 
-void Session::load(const Order& order) {
-  const FloatModeGuard guard;
-  static SharedObject library;  // open as long as the child lives
-  library.load(order.copy, order.file);
-  plugin_ = &library.entry(order.file);
-  if (!*order.script) return;
-  if (plugin_->abi_major != FULMAR_ABI_MAJOR)
-    throw Error(std::string(order.file) + ": its host is of another ABI");
-  script_ = std::make_unique<Script>(*plugin_, order.path, read_script(order.script));
-  plugin_ = &script_->entry();
-}
-
-// The tables once more: the copy may have changed since the host read it.
-void Session::check(const std::vector<ComponentInfo>& components, const Order& order) {
-  const std::string wanted = control().component;
-  if (order.index >= components.size() || components[order.index].name != wanted)
-    throw Error(std::string(order.file) + " has no component '" + wanted + "' in place " +
-                std::to_string(order.index) + " any more: its copy has changed");
-  info_ = components[order.index];
-  layout_.emplace_back(info_);
-  if (layout_[0].signature != control().signature || layout_[0].size != control().layout_size ||
-      layout_[0].size > size_)
-    throw Error(std::string(order.file) + ": the ports or parameters of '" + wanted +
-                "' are not those that the host knows");
-}
-
-void Session::build() {
-  const Layout& layout = layout_[0];
-  inputs_.resize(layout.inputs.size());
-  last_.resize(layout.last.size());
-  values_.resize(info_.params.size());
-  texts_.resize(values_.size());
-  for (std::size_t i = 0; i < values_.size(); ++i) values_[i].text = "";
-  for (const Place& place : layout.outputs) {
-    fulmar_output output{};
-    output.data = at<void>(place.data);
-    output.stamps_ns = at<std::int64_t>(place.stamps ? place.stamps : place.data);
-    outputs_.push_back(output);
+  /// Loads the plugin and creates the component. Throws Error.
+  void open(const Order& order) {
+    if (control().version != shared_version) throw Error("fulmar-child is of another version than the host");
+    load(order);
+    check(read_entry(*plugin_, order.file).components, order);
+    const TableReader tables;
+    functions_ = tables.element(plugin_->components, plugin_->component_stride,
+                                static_cast<std::uint32_t>(order.index), "the components");
+    build();
+    control().stage = Stage::created;
+    fulmar_error error{};
+    instance_ = functions_.create(order.seed, &error);
+    error.text[sizeof error.text - 1] = '\0';
+    if (!instance_) throw Error(error.text[0] ? error.text : "the constructor failed");
+    control().stage = Stage::running;
   }
-}
 
-void Session::open(const Order& order) {
-  if (control().version != shared_version) throw Error("fulmar-child is of another version than the host");
-  load(order);
-  check(read_entry(*plugin_, order.file).components, order);
-  const TableReader tables;
-  functions_ = tables.element(plugin_->components, plugin_->component_stride,
-                              static_cast<std::uint32_t>(order.index), "the components");
-  build();
-  control().stage = Stage::created;
-  fulmar_error error{};
-  instance_ = functions_.create(order.seed, &error);
-  error.text[sizeof error.text - 1] = '\0';
-  if (!instance_) throw Error(error.text[0] ? error.text : "the constructor failed");
-  control().stage = Stage::running;
-}
+  // ---- the hand-shake
 
-void Session::close() noexcept {
-  functions_.destroy(instance_);
-  script_.reset();
-}
-
-// ---- calls
-
-void Session::bind_input(const Place& place, const SharedInput& from, fulmar_input& to) noexcept {
-  to = {};
-  if (from.has & has_data) to.data = at<void>(place.data);
-  if (from.has & has_stamps) to.stamps_ns = at<std::int64_t>(place.stamps);
-  if (from.has & has_answers) to.answers = at<fulmar_answer>(place.answers);
-  to.valid_at_ns = from.valid_at_ns;
-  to.age_ns = from.age_ns;
-  to.sequence = from.sequence;
-  to.count = from.count;
-  to.lost = from.lost;
-  to.flags = from.flags;
-}
-
-void Session::take_inputs() noexcept {
-  const Layout& layout = layout_[0];
-  const SharedInput* heads = at<SharedInput>(layout.inputs_at);
-  for (std::size_t i = 0; i < inputs_.size(); ++i) bind_input(layout.inputs[i], heads[i], inputs_[i]);
-}
-
-std::uint32_t Session::step(fulmar_error& error) noexcept {
-  take_inputs();
-  SharedOutput* heads = at<SharedOutput>(layout_[0].outputs_at);
-  for (std::size_t i = 0; i < outputs_.size(); ++i) {
-    outputs_[i].valid_at_ns = heads[i].valid_at_ns;
-    outputs_[i].count = heads[i].count;
-    outputs_[i].lost = heads[i].lost;
+  void answer(std::uint32_t number, std::uint32_t status, const fulmar_error& error) noexcept {
+    ControlBlock& c = control();
+    c.status = status;
+    c.has_error = error.text[0] != '\0' ? 1 : 0;
+    if (c.has_error) std::memcpy(c.error.text, error.text, sizeof error.text);
+    c.answer.store(number);  // ordered before the look at host_sleeps, as the host's two are
+    if (c.host_sleeps.load() != 0) futex_wake(c.answer);
   }
-  const fulmar_tick tick = control().tick;
-  const std::uint64_t calls = heap_calls();
-  const std::uint32_t status = functions_.step(instance_, &tick, inputs_.data(), outputs_.data(), &error);
-  control().allocations += heap_calls() - calls;
-  control().heap_growth = heap_bytes() - heap_at_configure_;
-  for (std::size_t i = 0; i < outputs_.size(); ++i)
-    heads[i] = {outputs_[i].valid_at_ns, outputs_[i].count, outputs_[i].lost};
-  return status;
-}
 
-std::uint32_t Session::activate(fulmar_error& error) noexcept {
-  if (!functions_.activate) return FULMAR_OK;
-  take_inputs();
-  const SharedInput* heads = at<SharedInput>(layout_[0].last_at);
-  for (std::size_t i = 0; i < last_.size(); ++i) bind_input(layout_[0].last[i], heads[i], last_[i]);
-  const fulmar_tick tick = control().tick;
-  return functions_.activate(instance_, &tick, inputs_.data(), last_.data(), &error);
-}
-
-std::uint32_t Session::retune(fulmar_error& error) noexcept {
-  if (!functions_.retune) return FULMAR_OK;
-  const SharedValue* heads = at<SharedValue>(layout_[0].values_at);
-  for (std::size_t i = 0; i < values_.size(); ++i) {
-    std::memcpy(values_[i].number, heads[i].number, sizeof values_[i].number);
-    values_[i].integer = heads[i].integer;
-    values_[i].data = nullptr;
-    values_[i].size = heads[i].size;
-    if (layout_[0].texts[i].capacity > 0) values_[i].text = at<char>(layout_[0].texts[i].at);
-  }
-  return functions_.retune(instance_, values_.data(), &error);
-}
-
-// What was given before stays until the component has taken the new.
-std::uint32_t Session::configure(fulmar_error& error) {
-  const SharedValue* heads = at<SharedValue>(layout_[0].values_at);
-  const std::size_t size = control().values_size;
-  void* window = nullptr;
-  if (size > 0)
-    window =
-        ::mmap(nullptr, size, PROT_READ, MAP_SHARED, shared_descriptor, static_cast<off_t>(layout_[0].size));
-  if (window == MAP_FAILED) throw Error(std::string("cannot read the parameters: ") + std::strerror(errno));
-  const std::byte* from = static_cast<const std::byte*>(window);
-  std::vector<std::string> texts(values_.size());
-  std::vector<std::vector<std::byte>> data(values_.size());
-  for (std::size_t i = 0; i < values_.size(); ++i) {
-    const SharedValue& v = heads[i];
-    texts[i] = reinterpret_cast<const char*>(from + v.text_at);
-    if (v.has & has_data) data[i].assign(from + v.data_at, from + v.data_at + v.size);
-    if ((v.has & has_data) && v.size == 0) data[i].reserve(1);  // empty, and given
-    values_[i] = {{v.number[0], v.number[1], v.number[2]},
-                  v.integer,
-                  texts[i].c_str(),
-                  v.has & has_data ? data[i].data() : nullptr,
-                  v.size};
-  }
-  if (window) ::munmap(window, size);
-  const std::uint32_t status = functions_.configure(instance_, values_.data(), &error);
-  texts_.swap(texts);
-  data_.swap(data);
-  for (std::size_t i = 0; i < values_.size(); ++i) values_[i].text = texts_[i].c_str();
-  return status;
-}
-
-std::uint32_t Session::run(Call call, fulmar_error& error) {
-  switch (call) {
-    case Call::step: return step(error);
-    case Call::activate: return activate(error);
-    case Call::retune: return retune(error);
-    case Call::deactivate:
-      if (functions_.deactivate) functions_.deactivate(instance_);
-      return FULMAR_OK;
-    case Call::configure: {
-      const std::uint32_t status = configure(error);
-      heap_at_configure_ = heap_bytes();
-      control().heap_growth = 0;
-      return status;
+  /// Does what the host asks until it asks for the end.
+  void serve() {
+    fulmar_error error{};
+    for (std::uint32_t number = 1;;) {
+      number = wait(number);
+      const Call call = control().call;
+      error.text[0] = '\0';
+      const std::uint32_t status = run(call, error);
+      answer(number, status, error);
+      if (call == Call::quit) return;
     }
-    case Call::quit: close(); return FULMAR_OK;
-    case Call::create: break;
   }
-  return FULMAR_FAILED;
-}
 
-// ---- the hand-shake
+  ControlBlock& control() const noexcept { return *reinterpret_cast<ControlBlock*>(memory_); }
 
-void Session::answer(std::uint32_t number, std::uint32_t status, const fulmar_error& error) noexcept {
-  ControlBlock& c = control();
-  c.status = status;
-  c.has_error = error.text[0] != '\0' ? 1 : 0;
-  if (c.has_error) std::memcpy(c.error.text, error.text, sizeof error.text);
-  c.answer.store(number);  // ordered before the look at host_sleeps, as the host's two are
-  if (c.host_sleeps.load() != 0) futex_wake(c.answer);
-}
-
-// Wakes once a second to see that the host is still there: the kernel's word on its death is bound to one of
-// its threads.
-std::uint32_t Session::wait(std::uint32_t done) noexcept {
-  ControlBlock& c = control();
-  const auto asked = [&] { return c.request.load(std::memory_order_acquire) != done; };
-  if (spin_until(c.spin_ns, asked)) return c.request.load(std::memory_order_acquire);
-  while (!asked()) {
-    c.child_sleeps.store(1);
-    if (c.request.load() == done) futex_wait(c.request, done, 1'000'000'000);
-    c.child_sleeps.store(0, std::memory_order_relaxed);
-    if (!asked() && ::getppid() != c.host_pid) ::_exit(1);
+ private:
+  template <class T>
+  T* at(std::size_t offset) const noexcept {
+    return reinterpret_cast<T*>(memory_ + offset);
   }
-  return c.request.load(std::memory_order_acquire);
-}
 
-void Session::serve() {
-  fulmar_error error{};
-  for (std::uint32_t number = 1;;) {
-    number = wait(number);
-    const Call call = control().call;
-    error.text[0] = '\0';
-    const std::uint32_t status = run(call, error);
-    answer(number, status, error);
-    if (call == Call::quit) return;
+  // Wakes once a second to see that the host is still there: the kernel's word on its death is bound to one
+  // of its threads.
+  std::uint32_t wait(std::uint32_t done) noexcept {
+    ControlBlock& c = control();
+    const auto asked = [&] { return c.request.load(std::memory_order_acquire) != done; };
+    if (spin_until(c.spin_ns, asked)) return c.request.load(std::memory_order_acquire);
+    while (!asked()) {
+      c.child_sleeps.store(1);
+      if (c.request.load() == done) futex_wait(c.request, done, 1'000'000'000);
+      c.child_sleeps.store(0, std::memory_order_relaxed);
+      if (!asked() && ::getppid() != c.host_pid) ::_exit(1);
+    }
+    return c.request.load(std::memory_order_acquire);
   }
+
+  // ---- set-up
+
+  void load(const Order& order) {
+    const FloatModeGuard guard;
+    static SharedObject library;  // open as long as the child lives
+    library.load(order.copy, order.file);
+    plugin_ = &library.entry(order.file);
+    if (!*order.script) return;
+    if (plugin_->abi_major != FULMAR_ABI_MAJOR)
+      throw Error(std::string(order.file) + ": its host is of another ABI");
+    script_ = std::make_unique<Script>(*plugin_, order.path, read_script(order.script));
+    plugin_ = &script_->entry();
+  }
+
+  // The tables once more: the copy may have changed since the host read it.
+  void check(const std::vector<ComponentInfo>& components, const Order& order) {
+    const std::string wanted = control().component;
+    if (order.index >= components.size() || components[order.index].name != wanted)
+      throw Error(std::string(order.file) + " has no component '" + wanted + "' in place " +
+                  std::to_string(order.index) + " any more: its copy has changed");
+    info_ = components[order.index];
+    layout_.emplace_back(info_);
+    if (layout_[0].signature != control().signature || layout_[0].size != control().layout_size ||
+        layout_[0].size > size_)
+      throw Error(std::string(order.file) + ": the ports or parameters of '" + wanted +
+                  "' are not those that the host knows");
+  }
+
+  void build() {
+    const Layout& layout = layout_[0];
+    inputs_.resize(layout.inputs.size());
+    last_.resize(layout.last.size());
+    values_.resize(info_.params.size());
+    texts_.resize(values_.size());
+    for (std::size_t i = 0; i < values_.size(); ++i) values_[i].text = "";
+    for (const Place& place : layout.outputs) {
+      fulmar_output output{};
+      output.data = at<void>(place.data);
+      output.stamps_ns = at<std::int64_t>(place.stamps ? place.stamps : place.data);
+      outputs_.push_back(output);
+    }
+  }
+
+  // ---- calls
+
+  void bind_input(const Place& place, const SharedInput& from, fulmar_input& to) noexcept {
+    to = {};
+    if (from.has & has_data) to.data = at<void>(place.data);
+    if (from.has & has_stamps) to.stamps_ns = at<std::int64_t>(place.stamps);
+    if (from.has & has_answers) to.answers = at<fulmar_answer>(place.answers);
+    to.valid_at_ns = from.valid_at_ns;
+    to.age_ns = from.age_ns;
+    to.sequence = from.sequence;
+    to.count = from.count;
+    to.lost = from.lost;
+    to.flags = from.flags;
+  }
+
+  void take_inputs() noexcept {
+    const Layout& layout = layout_[0];
+    const SharedInput* heads = at<SharedInput>(layout.inputs_at);
+    for (std::size_t i = 0; i < inputs_.size(); ++i) bind_input(layout.inputs[i], heads[i], inputs_[i]);
+  }
+
+  std::uint32_t step(fulmar_error& error) noexcept {
+    take_inputs();
+    SharedOutput* heads = at<SharedOutput>(layout_[0].outputs_at);
+    for (std::size_t i = 0; i < outputs_.size(); ++i) {
+      outputs_[i].valid_at_ns = heads[i].valid_at_ns;
+      outputs_[i].count = heads[i].count;
+      outputs_[i].lost = heads[i].lost;
+    }
+    const fulmar_tick tick = control().tick;
+    const std::uint64_t calls = heap_calls();
+    const std::uint32_t status = functions_.step(instance_, &tick, inputs_.data(), outputs_.data(), &error);
+    control().allocations += heap_calls() - calls;
+    control().heap_growth = heap_bytes() - heap_at_configure_;
+    for (std::size_t i = 0; i < outputs_.size(); ++i)
+      heads[i] = {outputs_[i].valid_at_ns, outputs_[i].count, outputs_[i].lost};
+    return status;
+  }
+
+  std::uint32_t activate(fulmar_error& error) noexcept {
+    if (!functions_.activate) return FULMAR_OK;
+    take_inputs();
+    const SharedInput* heads = at<SharedInput>(layout_[0].last_at);
+    for (std::size_t i = 0; i < last_.size(); ++i) bind_input(layout_[0].last[i], heads[i], last_[i]);
+    const fulmar_tick tick = control().tick;
+    return functions_.activate(instance_, &tick, inputs_.data(), last_.data(), &error);
+  }
+
+  std::uint32_t retune(fulmar_error& error) noexcept {
+    if (!functions_.retune) return FULMAR_OK;
+    const SharedValue* heads = at<SharedValue>(layout_[0].values_at);
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      std::memcpy(values_[i].number, heads[i].number, sizeof values_[i].number);
+      values_[i].integer = heads[i].integer;
+      values_[i].data = nullptr;
+      values_[i].size = heads[i].size;
+      if (layout_[0].texts[i].capacity > 0) values_[i].text = at<char>(layout_[0].texts[i].at);
+    }
+    return functions_.retune(instance_, values_.data(), &error);
+  }
+
+  // What was given before stays until the component has taken the new.
+  std::uint32_t configure(fulmar_error& error) {
+    const SharedValue* heads = at<SharedValue>(layout_[0].values_at);
+    const std::size_t size = control().values_size;
+    void* window = nullptr;
+    if (size > 0)
+      window = ::mmap(nullptr, size, PROT_READ, MAP_SHARED, shared_descriptor,
+                      static_cast<off_t>(layout_[0].size));
+    if (window == MAP_FAILED) throw Error(std::string("cannot read the parameters: ") + std::strerror(errno));
+    const std::byte* from = static_cast<const std::byte*>(window);
+    std::vector<std::string> texts(values_.size());
+    std::vector<std::vector<std::byte>> data(values_.size());
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      const SharedValue& v = heads[i];
+      texts[i] = reinterpret_cast<const char*>(from + v.text_at);
+      if (v.has & has_data) data[i].assign(from + v.data_at, from + v.data_at + v.size);
+      if ((v.has & has_data) && v.size == 0) data[i].reserve(1);  // empty, and given
+      values_[i] = {{v.number[0], v.number[1], v.number[2]},
+                    v.integer,
+                    texts[i].c_str(),
+                    v.has & has_data ? data[i].data() : nullptr,
+                    v.size};
+    }
+    if (window) ::munmap(window, size);
+    const std::uint32_t status = functions_.configure(instance_, values_.data(), &error);
+    texts_.swap(texts);
+    data_.swap(data);
+    for (std::size_t i = 0; i < values_.size(); ++i) values_[i].text = texts_[i].c_str();
+    return status;
+  }
+
+  void close() noexcept {
+    functions_.destroy(instance_);
+    script_.reset();
+  }
+
+  std::uint32_t run(Call call, fulmar_error& error) {
+    switch (call) {
+      case Call::step: return step(error);
+      case Call::activate: return activate(error);
+      case Call::retune: return retune(error);
+      case Call::deactivate:
+        if (functions_.deactivate) functions_.deactivate(instance_);
+        return FULMAR_OK;
+      case Call::configure: {
+        const std::uint32_t status = configure(error);
+        heap_at_configure_ = heap_bytes();
+        control().heap_growth = 0;
+        return status;
+      }
+      case Call::quit: close(); return FULMAR_OK;
+      case Call::create: break;
+    }
+    return FULMAR_FAILED;
+  }
+
+  std::byte* memory_;
+  std::size_t size_;
+  const fulmar_plugin* plugin_ = nullptr;  // of the file, or of the script
+  std::unique_ptr<Script> script_;
+  fulmar_component functions_{};
+  void* instance_ = nullptr;
+  ComponentInfo info_;
+  std::vector<Layout> layout_;  // one, once the tables are known
+  std::vector<fulmar_input> inputs_, last_;
+  std::vector<fulmar_output> outputs_;
+  std::vector<fulmar_value> values_;
+  std::vector<std::string> texts_;
+  std::vector<std::vector<std::byte>> data_;  // of records and blobs, until the next configure
+  std::int64_t heap_at_configure_ = 0;
+};
+
+}  // namespace
+
+int serve(std::byte* memory, std::size_t size, const Order& order) {
+  Session session(memory, size);
+  try {
+    session.open(order);
+  } catch (const std::exception& fault) {
+    fulmar_error error{};
+    std::snprintf(error.text, sizeof error.text, "%s", fault.what());
+    session.answer(1, FULMAR_FAILED, error);
+    return 1;
+  }
+  session.answer(1, FULMAR_OK, {});
+  session.serve();
+  return 0;
 }
 
 }  // namespace fulmar::core

@@ -17,7 +17,6 @@
 #include "core/loader/probe_report.hpp"
 #include "core/loader/script.hpp"
 #include "core/loader/shared_object.hpp"
-#include "core/sanitized.hpp"
 
 using namespace fulmar::core;
 
@@ -56,18 +55,14 @@ void prepare() {
 // The host has tried the plugin at `host` by itself; here it runs a script.
 int try_script(const char* host, const char* copy, const char* file, const std::string& name) {
   static SharedObject library;  // an interpreter is not closed again
-  try {
-    library.load(host, script_host(file));
-    const FloatMode before = FloatMode::now();
-    const Script script(library.entry(script_host(file)), file, read_script(copy));
-    say(report_loaded);
-    read_entry(script.entry(), name);
-    if (!(FloatMode::now() == before))
-      return refuse(name + " changes the floating-point mode when it is loaded");
-    say(report_read);
-  } catch (const Error& fault) {
-    return refuse(fault.what());
-  }
+  library.load(host, script_host(file));
+  const FloatMode before = FloatMode::now();
+  const Script script(library.entry(script_host(file)), file, read_script(copy));
+  say(report_loaded);
+  read_entry(script.entry(), name);
+  if (!(FloatMode::now() == before))
+    return refuse(name + " changes the floating-point mode when it is loaded");
+  say(report_read);
   say(report_good);
   return 0;
 }
@@ -75,21 +70,23 @@ int try_script(const char* host, const char* copy, const char* file, const std::
 int try_plugin(const char* copy, const std::string& name) {
   const FloatMode before = FloatMode::now();
   static SharedObject library;  // a plugin that is refused is not closed
-  try {
-    library.load(copy, name);
-    const bool same_mode = FloatMode::now() == before;
-    say(report_loaded);
-    read_entry(library.entry(name), name);
-    if (!same_mode)
-      return refuse(name + " changes the floating-point mode when it is loaded (built with -ffast-math?)");
-  } catch (const Error& fault) {
-    return refuse(fault.what());
-  }
+  library.load(copy, name);
+  const bool same_mode = FloatMode::now() == before;
+  say(report_loaded);
+  read_entry(library.entry(name), name);
+  if (!same_mode)
+    return refuse(name + " changes the floating-point mode when it is loaded (built with -ffast-math?)");
   say(report_read);
   library.unload();
   if (is_mapped(copy)) say(report_stays);
   say(report_good);
   return 0;
+}
+
+int try_it(int argc, char** argv) try {
+  return argc == 5 ? try_script(argv[1], argv[3], argv[4], argv[2]) : try_plugin(argv[1], argv[2]);
+} catch (const Error& fault) {
+  return refuse(fault.what());
 }
 
 }  // namespace
@@ -100,7 +97,6 @@ int main(int argc, char** argv) {
     return 2;
   }
   prepare();
-  const int code = argc == 5 ? try_script(argv[1], argv[3], argv[4], argv[2]) : try_plugin(argv[1], argv[2]);
-  ::_exit(
-      code);  // without the plugin's exit handlers: a plugin that stays resident has shown nothing wrong yet
+  const int code = try_it(argc, argv);
+  ::_exit(code);  // without the plugin's exit handlers: one that stays resident has shown nothing wrong yet
 }

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <vector>
 
-#include "core/loader/load_fault.hpp"
+#include "core/loader/shared_object.hpp"
 #include "core/loader/store.hpp"
 #include "workshop.hpp"
 

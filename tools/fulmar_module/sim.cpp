@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "core/app/report.hpp"
 #include "core/graph/params.hpp"
 #include "core/graph/record.hpp"
+#include "core/run/command.hpp"
 #include "core/types/wire.hpp"
 #include "values.hpp"
 
@@ -186,10 +188,13 @@ void Sim::set_parameter(const std::string& name, const py::handle& value) {
   FileStore files(report);
   read_param(info, as_yaml(value, name, report), name, changed, files, report);
   report.throw_if_any();
-  if (begun_ && !done())
-    flight().set_parameter(graph_.components[i].name, info.name, changed);
-  else if (!begun_)
+  if (begun_ && !done()) {
+    Command command = command_of(CommandKind::parameter, graph_.components[i].name, info.name);
+    command.value = changed;
+    flight().apply(std::move(command));
+  } else if (!begun_) {
     flight_.reset();  // made anew with it
+  }
   graph_.components[i].params[k] = changed;
 }
 
@@ -209,11 +214,12 @@ std::shared_ptr<Answer> Sim::request(const std::string& name, const py::handle& 
   if (asked == nullptr)
     throw py::key_error("there is no request '" + name + "'." + choices_text(name, names));
   Report report;
-  std::vector<std::byte> bytes(asked->type->size);
-  fill_record(*asked->type, as_yaml(message, name, report), bytes.data(), "", report);
+  Command command = command_of(CommandKind::request, owner, port);
+  command.message.resize(asked->type->size);
+  fill_record(*asked->type, as_yaml(message, name, report), command.message.data(), "", report);
   report.throw_if_any();
   const auto answer = std::make_shared<Answer>();
-  flight().request(owner, port, bytes.data(), [answer](const std::string& refusal) {
+  flight().apply(std::move(command), [answer](const std::string& refusal) {
     answer->answered = true;
     answer->accepted = refusal.empty();
     answer->reason = refusal;

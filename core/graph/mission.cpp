@@ -251,16 +251,21 @@ class MissionReader {
     c.only = io_of(keys.word("only", io_words).value_or(""));
     if (!keys.has("only") && c.fills.text == "vehicle") c.only = io_of(c.name);
     c.in = wires(keys);
-    if (const Node* params = keys.get("params")) {
-      c.params = *params;
-      is_a(Node::Kind::map, *params, path + ".params", "a map {parameter: value}", report_);
-    }
+    c.params = params(keys, "params");
     c.rate_hz = keys.positive("rate", "Hz").value_or(0);
     c.where_rate = keys.where("rate");
     c.budget_ns = keys.duration_ns("budget").value_or(0);
     c.max_age_ns = keys.duration_ns("max_age").value_or(0);
     run_mode(keys, path, c);
     m_.components.push_back(std::move(c));
+  }
+
+  /// Values of parameters, as a map; missing when there is none.
+  Node params(const Keys& keys, const std::string& key) {
+    const Node* node = keys.get(key);
+    const bool good =
+        node && is_a(Node::Kind::map, *node, keys.path(key), "a map {parameter: value}", report_);
+    return good ? *node : Node{};
   }
 
   void run_mode(const Keys& keys, const std::string& path, ComponentText& c) {
@@ -330,10 +335,7 @@ class MissionReader {
       const Keys keys(entry.value, path, {"use", "set", "fallback"}, report_);
       a.use = keys.word_at("use");
       a.fallback = keys.word_at("fallback");
-      if (const Node* set = keys.get("set")) a.set = *set;
-      if (keys.has("set") &&
-          !is_a(Node::Kind::map, a.set, path + ".set", "a map {parameter: value}", report_))
-        a.set = Node{};
+      a.set = params(keys, "set");
     } else {
       const auto name =
           scalar_text(entry.value, path, "the name of a component, or {use, set, fallback}", report_);
@@ -348,8 +350,7 @@ class MissionReader {
     if (node->is(Node::Kind::scalar)) {
       m_.record = node->text != "off";
       if (m_.record)
-        report_.add(node->where(), "record: expected 'off' or a map {file, ports, rate, rotate}, found " +
-                                       found_words(*node));
+        is_a(Node::Kind::map, *node, "record", "'off' or a map {file, ports, rate, rotate}", report_);
       return;
     }
     const Keys keys(*node, "record", {"file", "ports", "rate", "rotate"}, report_);
@@ -367,7 +368,8 @@ class MissionReader {
         if (const auto text =
                 scalar_text(item, "record.ports", "a port or a pattern such as \"nav.*\"", report_))
           add_rule(*text, period, item.where());
-    } else if (ports->is(Node::Kind::map)) {
+    } else if (is_a(Node::Kind::map, *ports, "record.ports", "a list of ports or a map {port: rate}",
+                    report_)) {
       const std::vector<std::string> names = keys_of(*ports);
       const Keys rates(*ports, "record.ports", names, report_);
       for (const std::string& name : names) {
@@ -375,8 +377,6 @@ class MissionReader {
         const auto hz = all ? std::nullopt : rates.positive(name, "Hz");
         add_rule(name, hz ? std::llround(1e9 / *hz) : 0, rates.where(name));
       }
-    } else {
-      is_a(Node::Kind::map, *ports, "record.ports", "a list of ports or a map {port: rate}", report_);
     }
   }
 

@@ -12,6 +12,7 @@
 
 #include "core/graph/graph.hpp"
 #include "core/loader/home.hpp"
+#include "core/types/text.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -91,11 +92,9 @@ void Trust::read_entry(const Node& node, Report& report) {
   if (node.is(Node::Kind::map)) {
     const Keys keys(node, path, {"file", "sha256"}, report);
     entry.text = keys.text("file").value_or("");
-    entry.sha256 = keys.text("sha256").value_or("");
+    entry.sha256 = lower(keys.text("sha256").value_or(""));
     if (!keys.has("file"))
       report.add(node.where(), path + ": 'file' is missing, as in {file: my_law.so, sha256: ...}");
-    std::transform(entry.sha256.begin(), entry.sha256.end(), entry.sha256.begin(),
-                   [](char c) { return c >= 'A' && c <= 'F' ? static_cast<char>(c + 32) : c; });
     if (keys.has("sha256") && !is_hash(entry.sha256))
       return report.add(keys.where("sha256"), path + ".sha256: expected 64 hexadecimal digits, found " +
                                                   found_words(*keys.get("sha256")));

@@ -171,8 +171,7 @@ void read_values(Draft& draft) {
     for (const ParamInfo& param : candidate.info().params) candidate.params.push_back(initial_value(param));
     set_from_airframe(draft, candidate, airframe);
     set_from_mission(draft, candidate, airframe);
-    if (candidate.text->params.is(Node::Kind::map))
-      set_params(draft, candidate, candidate.text->params, "components." + candidate.name + ".params");
+    set_params(draft, candidate, candidate.text->params, "components." + candidate.name + ".params");
   }
   check_origin(draft);
   set_from_command(draft);

@@ -7,6 +7,7 @@
 
 #include "core/replay/logged.hpp"
 #include "core/replay/recorded_vehicle.hpp"
+#include "core/types/named.hpp"
 #include "core/types/wire.hpp"
 
 namespace fulmar::core {
@@ -156,7 +157,7 @@ Command logged_command(const CommandNote& note, const Graph& graph) {
   if (note.kind != CommandKind::parameter) return command;
   for (const Component& c : graph.components)
     if (const int i = c.name == command.component ? c.info().param(command.name) : -1; i >= 0)
-      command.value = value_of(note, c.info().params[static_cast<std::size_t>(i)]);
+      command.value = value_of(note, nth(c.info().params, i));
   return command;
 }
 

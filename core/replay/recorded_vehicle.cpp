@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/replay/logged.hpp"
+#include "core/types/named.hpp"
 #include "core/types/wire.hpp"
 
 namespace fulmar::core {
@@ -14,9 +15,9 @@ RecordedVehicle::RecordedVehicle(const McapFile& file, const Graph& graph,
                                  const std::vector<std::int64_t>& time_ns)
     : time_ns_(time_ns),
       epoch_ns_(graph.epoch_ns),
-      info_(graph.components[static_cast<std::size_t>(graph.vehicle)].info()),
+      info_(nth(graph.components, graph.vehicle).info()),
       samples_(time_ns.size()) {
-  const Component& vehicle = graph.components[static_cast<std::size_t>(graph.vehicle)];
+  const Component& vehicle = nth(graph.components, graph.vehicle);
   std::map<std::uint16_t, std::uint32_t> outputs;  // channel -> output
   for (std::uint32_t i = 0; i < info_.outputs.size(); ++i) {
     const Port& port = info_.outputs[i];

@@ -14,17 +14,12 @@
 #include "core/log/mcap.hpp"
 #include "core/replay/playback.hpp"
 #include "core/run/command.hpp"
+#include "core/types/named.hpp"
 
 namespace fulmar::core {
 namespace {
 
 namespace fs = std::filesystem;
-
-const McapFile::Metadata* find_metadata(const McapFile& file, const std::string& name) {
-  for (const McapFile::Metadata& m : file.metadata)
-    if (m.name == name) return &m;
-  return nullptr;
-}
 
 fs::path private_folder() {
   std::string name = (fs::temp_directory_path() / "fulmar-replay-XXXXXX").string();
@@ -64,7 +59,7 @@ Recording::Recording(const fs::path& log) try : path_(log), file_(read_mcap(log)
   for (const McapFile::Attachment& a : file_.attachments)
     if (a.media_type == "application/yaml") files.emplace_back(a.name, a.content);
   if (files.empty()) throw Error("no mission is attached to it: it is not the log of a flight");
-  if (const McapFile::Metadata* series = find_metadata(file_, series_metadata))
+  if (const McapFile::Metadata* series = find_named(file_.metadata, series_metadata))
     throw Error("it is file " + series->pairs.at(0).second +
                 " of a log that rotated, and a replay begins with the first tick: give " +
                 first_of_series(log, series->pairs.at(0).second).string() +
@@ -85,7 +80,7 @@ Recording::~Recording() {
 }
 
 void Recording::read_overrides() {
-  const McapFile::Metadata* const metadata = find_metadata(file_, "overrides");
+  const McapFile::Metadata* const metadata = find_named(file_.metadata, "overrides");
   if (!metadata)
     throw Error("it does not say how its mission was changed on the command line: it is older than replays");
   for (const auto& [key, value] : metadata->pairs) {

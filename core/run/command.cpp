@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/graph/params.hpp"
+#include "core/types/named.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -18,14 +19,6 @@ void put_whole(std::array<char, N>& to, const std::string& text, const char* wha
     throw Error(std::string(what) + " '" + text + "' is longer than " + std::to_string(N - 1) +
                 " characters");
   put(to, text);
-}
-
-/// Names of what stands in `list`.
-template <class List, class Name>
-std::vector<std::string> names_of(const List& list, Name name) {
-  std::vector<std::string> names;
-  for (const auto& item : list) names.push_back(name(item));
-  return names;
 }
 
 }  // namespace
@@ -79,7 +72,7 @@ void check_live(const std::string& component, const ParamInfo& info) {
 }
 
 CommandTable::CommandTable(const Graph& graph) {
-  phases_ = names_of(graph.phases, [](const Phase& p) { return p.name; });
+  phases_ = names_of(graph.phases);
   for (const Component& c : graph.components) {
     Party party{c.name, c.plugin, &c.info(), {}};
     for (std::size_t i = 0; i < c.wires.size(); ++i) {
@@ -93,21 +86,13 @@ CommandTable::CommandTable(const Graph& graph) {
 }
 
 std::size_t CommandTable::component(const std::string& name) const {
-  const auto at =
-      std::find_if(parties_.begin(), parties_.end(), [&](const Party& p) { return p.name == name; });
-  if (at == parties_.end())
-    throw Error("there is no component '" + name + "'." +
-                choices_text(name, names_of(parties_, [](const Party& p) { return p.name; })));
-  return static_cast<std::size_t>(at - parties_.begin());
+  return static_cast<std::size_t>(require_named(parties_, name, "there is no component"));
 }
 
 std::size_t CommandTable::param(std::size_t component, const std::string& name) const {
   const Party& party = parties_[component];
-  const int at = party.info->param(name);
-  if (at < 0)
-    throw Error("'" + party.name + "' has no parameter '" + name + "'." +
-                choices_text(name, names_of(party.info->params, [](const ParamInfo& p) { return p.name; })));
-  return static_cast<std::size_t>(at);
+  return static_cast<std::size_t>(
+      require_named(party.info->params, name, "'" + party.name + "' has no parameter"));
 }
 
 const CommandTable::Entrance& CommandTable::entrance(std::size_t component, const std::string& port,

@@ -6,6 +6,7 @@
 
 #include "core/run/flight_impl.hpp"
 #include "core/run/last_words.hpp"
+#include "core/types/named.hpp"
 
 namespace fulmar::core {
 
@@ -33,9 +34,7 @@ std::uint16_t Flight::live_port() const {
   return impl_->onlookers.live ? impl_->onlookers.live->port() : std::uint16_t{0};
 }
 std::int64_t Flight::now_ns() const { return impl_->state.now_ns; }
-const std::string& Flight::phase() const {
-  return impl_->state.graph.phases[static_cast<std::size_t>(impl_->roles.phase())].name;
-}
+const std::string& Flight::phase() const { return nth(impl_->state.graph.phases, impl_->roles.phase()).name; }
 const std::byte* Flight::sample(const Source& source) const {
   const Slot* const slot = impl_->wiring.slot_of(source);
   return slot && slot->sequence > 0 ? impl_->wiring.message_of(source) : nullptr;

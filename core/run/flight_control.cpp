@@ -13,6 +13,7 @@
 #include "core/graph/record.hpp"
 #include "core/quiet_thread.hpp"
 #include "core/run/flight_impl.hpp"
+#include "core/types/named.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -61,7 +62,7 @@ ComponentView view_of(const Flight::Impl& flight, const Unit& unit) {
   const Component& c = *unit.component;
   ComponentView v;
   v.name = c.name, v.use = c.use, v.doc = c.info().doc, v.run = modes[static_cast<std::size_t>(c.run)];
-  if (c.role >= 0) v.role = flight.state.graph.roles[static_cast<std::size_t>(c.role)].name;
+  if (c.role >= 0) v.role = nth(flight.state.graph.roles, c.role).name;
   for (std::size_t i = 0; i < c.info().params.size(); ++i)
     v.params.push_back({c.info().params[i], unit.base[i], false});
   for (std::size_t i = 0; i < unit.in.readers.size(); ++i) {

@@ -4,6 +4,7 @@
 
 #include "core/live/gate.hpp"
 #include "core/run/flight_impl.hpp"
+#include "core/types/named.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -49,7 +50,7 @@ void Flight::Impl::connect() {
 void Flight::Impl::request_arming() {
   Unit& vehicle = wiring.vehicle();
   const int port = vehicle.info->input("arm");
-  Reader* const reader = port < 0 ? nullptr : &vehicle.in.readers[static_cast<std::size_t>(port)];
+  Reader* const reader = port < 0 ? nullptr : &nth(vehicle.in.readers, port);
   const Field* const armed = reader ? reader->port->type->find("armed") : nullptr;
   if (!armed || armed->kind != FULMAR_BOOL || reader->port->kind != FULMAR_IN_REQUEST)
     throw Error(vehicle.component->where.text() +

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/error.hpp"
+#include "core/types/named.hpp"
 
 namespace fulmar::core {
 
@@ -16,9 +16,8 @@ std::vector<std::pair<std::string, std::string>> flown_pairs(const PluginInfo& p
 }
 
 std::vector<FlownPlugin> flown_plugins(const McapFile& log) {
-  const auto metadata = std::find_if(log.metadata.begin(), log.metadata.end(),
-                                     [](const McapFile::Metadata& m) { return m.name == "plugins"; });
-  if (metadata == log.metadata.end()) throw Error("it does not say which plugins flew");
+  const McapFile::Metadata* const metadata = find_named(log.metadata, "plugins");
+  if (!metadata) throw Error("it does not say which plugins flew");
   std::vector<FlownPlugin> list;
   for (const auto& [key, value] : metadata->pairs) {
     const std::size_t dot = key.rfind('.');

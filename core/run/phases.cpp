@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Phases: who fills which role when.
 #include "core/run/roles.hpp"
+#include "core/types/named.hpp"
 
 namespace fulmar::core {
 
@@ -68,7 +69,7 @@ void Roles::fill(int role, const Assignment& assignment, bool overlaid) {
   }
   if (active(role) < 0) return;
   const std::string& stays = wiring_.unit(active(role)).component->name;
-  Event e = event_of(Code::nobody_else, state_.graph.roles[static_cast<std::size_t>(role)].name, stays);
+  Event e = event_of(Code::nobody_else, nth(state_.graph.roles, role).name, stays);
   say(e, "nobody that this phase names can fly: %s goes on", stays.c_str());
   recorder_.note(e);
 }

@@ -14,6 +14,7 @@
 #include "core/graph/graph.hpp"
 #include "core/run/async.hpp"
 #include "core/types/hash.hpp"
+#include "core/types/named.hpp"
 
 namespace fulmar::core {
 
@@ -54,7 +55,7 @@ struct RoleSlot {
   std::vector<CopyPlan> plans;  // one per filler
   mutable std::vector<std::byte> copy;
   const std::byte* message() const noexcept {
-    const CopyPlan& plan = plans[static_cast<std::size_t>(current->filler)];
+    const CopyPlan& plan = nth(plans, current->filler);
     if (plan.whole) return current->published.data();
     plan.run(current->published.data(), copy.data());
     return copy.data();

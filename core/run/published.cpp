@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/log/events.hpp"
+#include "core/types/named.hpp"
 
 namespace fulmar::core {
 
@@ -56,11 +57,10 @@ const std::vector<TypePtr>& host_types() {
 
 std::string topic_name(const Graph& graph, const Component& c, std::size_t output) {
   if (c.role >= 0) {
-    const Role& role = graph.roles[static_cast<std::size_t>(c.role)];
+    const Role& role = nth(graph.roles, c.role);
     for (std::size_t f = 0; f < role.fillers.size(); ++f)
       for (std::size_t k = 0; k < role.outputs.size(); ++k)
-        if (&graph.components[static_cast<std::size_t>(role.fillers[f])] == &c &&
-            role.provides[f][k] == static_cast<int>(output))
+        if (&nth(graph.components, role.fillers[f]) == &c && role.provides[f][k] == static_cast<int>(output))
           return role.name + "." + role.outputs[k].name;
   }
   return c.name + "." + c.info().outputs[output].name;

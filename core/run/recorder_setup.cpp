@@ -8,6 +8,7 @@
 #include "core/run/flown_plugin.hpp"
 #include "core/run/published.hpp"
 #include "core/run/recorder.hpp"
+#include "core/types/named.hpp"
 #include "core/types/text.hpp"
 #include "core/types/wire.hpp"
 
@@ -169,7 +170,7 @@ void Recorder::attach_texts(const Units& units) {
   for (const auto& [name, text] : graph.attachments) log_->attach(name, "application/yaml", text);
   log_->attach("parameters.json", "application/json", parameters_text(units));
   std::string order;
-  for (const int i : graph.order) order += graph.components[static_cast<std::size_t>(i)].name + "\n";
+  for (const int i : graph.order) order += nth(graph.components, i).name + "\n";
   log_->attach("order.txt", "text/plain", order);
   Pairs plugins;
   std::vector<const PluginInfo*> loaded;
@@ -202,19 +203,19 @@ void Recorder::note_swap(const std::string& component, const PluginInfo& plugin)
 
 void Recorder::listen(const Units& units) {
   told_.clear();
-  const auto unit = [&](int index) -> const Unit& { return *units[static_cast<std::size_t>(index)]; };
+  const auto unit = [&](int index) -> const Unit& { return *nth(units, index); };
   for (const Source& source : state_.graph.tell) {
     if (source.kind == Source::Kind::component) listen_to(unit(source.index), source.output);
     if (source.kind != Source::Kind::role) continue;
-    const Role& role = state_.graph.roles[static_cast<std::size_t>(source.index)];
+    const Role& role = nth(state_.graph.roles, source.index);
     for (std::size_t f = 0; f < role.fillers.size(); ++f)
-      listen_to(unit(role.fillers[f]), role.provides[f][static_cast<std::size_t>(source.output)]);
+      listen_to(unit(role.fillers[f]), nth(role.provides[f], source.output));
   }
 }
 
 void Recorder::listen_to(const Unit& unit, int output) {
   if (output < 0) return;
-  const Slot& slot = unit.out.slots[static_cast<std::size_t>(output)];
+  const Slot& slot = nth(unit.out.slots, output);
   Told told{&slot, slot.port->type->find("text"), slot.port->type->find("severity"), {}};
   if (!told.text || told.text->kind != FULMAR_TEXT) return;
   if (!told.severity) told.severity = slot.port->type->find("level");

@@ -11,6 +11,7 @@
 #include "core/log/reader.hpp"
 #include "core/run/flight_impl.hpp"
 #include "core/run/published.hpp"
+#include "core/types/named.hpp"
 #include "core/types/text.hpp"
 #include "core/types/wire.hpp"
 
@@ -20,10 +21,10 @@ namespace fs = std::filesystem;
 
 std::string topic_of(const Graph& graph, const Source& source) {
   if (source.kind == Source::Kind::component)
-    return "/" + slashed(topic_name(graph, graph.components[static_cast<std::size_t>(source.index)],
+    return "/" + slashed(topic_name(graph, nth(graph.components, source.index),
                                     static_cast<std::size_t>(source.output)));
-  const Role& role = graph.roles[static_cast<std::size_t>(source.index)];
-  return "/" + slashed(role.name + "." + role.outputs[static_cast<std::size_t>(source.output)].name);
+  const Role& role = nth(graph.roles, source.index);
+  return "/" + slashed(role.name + "." + nth(role.outputs, source.output).name);
 }
 
 /// The last message of a topic, decoded. Throws Error when there is none or it has other fields.
@@ -55,8 +56,8 @@ std::string last_phase(const McapFile& file) {
 bool armed_at_end(const Graph& graph, const McapFile& file) {
   const VehicleFlag& armed = graph.flags.armed;
   if (armed.from.kind == Source::Kind::none) return false;
-  const Component& vehicle = graph.components[static_cast<std::size_t>(armed.from.index)];
-  const Type& type = *vehicle.info().outputs[static_cast<std::size_t>(armed.from.output)].type;
+  const Component& vehicle = nth(graph.components, armed.from.index);
+  const Type& type = *nth(vehicle.info().outputs, armed.from.output).type;
   try {
     return last_message(file, topic_of(graph, armed.from), type)[armed.offset] != std::byte{0};
   } catch (const Error&) {
@@ -67,16 +68,13 @@ bool armed_at_end(const Graph& graph, const McapFile& file) {
 Resume::Param read_rule(const Graph& graph, const McapFile& file, const ResumeRule& rule) {
   const auto dot = rule.param.find('.');
   Resume::Param p{rule.param.substr(0, dot), rule.param.substr(dot + 1), {}};
-  const auto component = std::find_if(graph.components.begin(), graph.components.end(),
-                                      [&](const Component& c) { return c.name == p.component; });
-  if (component == graph.components.end())
-    throw Error("there is no component '" + p.component + "' in this run");
+  const Component* const component = find_named(graph.components, p.component);
+  if (!component) throw Error("there is no component '" + p.component + "' in this run");
   if (!rule.field.type) throw Error(rule.field.text + " is a probe, and a flight resumes from messages");
   const std::vector<std::byte> message =
       last_message(file, topic_of(graph, rule.field.from), *rule.field.type);
   const double x = number_at(*rule.field.field.field, message.data() + rule.field.field.offset);
-  const ParamInfo& info =
-      component->info().params[static_cast<std::size_t>(component->info().param(p.param))];
+  const ParamInfo& info = nth(component->info().params, component->info().param(p.param));
   if (!(x >= info.min && x <= info.max))
     throw Error(rule.field.text + " was " + std::to_string(x) + ", which " + rule.param + " does not allow");
   p.value.number[0] = x;
@@ -104,11 +102,9 @@ Resume read_resume(const Graph& graph, const fs::path& log) try {
         throw Error("is a log of the mission " + value + ", not of " + graph.mission);
   Resume resume;
   resume.phase = last_phase(file);
-  std::vector<std::string> phases;
-  for (const Phase& phase : graph.phases) phases.push_back(phase.name);
-  if (std::find(phases.begin(), phases.end(), resume.phase) == phases.end())
+  if (!find_named(graph.phases, resume.phase))
     throw Error("it ends in the phase '" + resume.phase + "', which this mission does not have." +
-                choices_text(resume.phase, phases));
+                choices_text(resume.phase, names_of(graph.phases)));
   resume.armed = armed_at_end(graph, file);
   for (const ResumeRule& rule : graph.resume) try {
       resume.params.push_back(read_rule(graph, file, rule));
@@ -162,10 +158,7 @@ fs::path newest_log(const Graph& graph, double max_age_s) {
 void Flight::Impl::resume_now(bool begun) {
   const Resume resume = std::move(*state.options.resume);
   state.options.resume.reset();
-  const auto& phases = state.graph.phases;
-  const auto at =
-      std::find_if(phases.begin(), phases.end(), [&](const Phase& p) { return p.name == resume.phase; });
-  const int to = at == phases.end() ? 0 : static_cast<int>(at - phases.begin());
+  const int to = std::max(0, index_named(state.graph.phases, resume.phase));
   if (!begun) roles.begin_in(to);
   Event e = event_of(Code::resumed, "", resume.phase);
   say(e, "resumed: %s", resume.text().c_str());

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/types/named.hpp"
+
 namespace fulmar::core {
 namespace {
 
@@ -37,10 +39,10 @@ void Roles::connect() {
   const Graph& graph = state_.graph;
   drives_vehicle_.assign(graph.roles.size(), false);
   control_roles_.assign(graph.roles.size(), false);
-  for (const int role : graph.control) control_roles_[static_cast<std::size_t>(role)] = true;
+  for (const int role : graph.control) nth(control_roles_, role) = true;
   if (graph.vehicle < 0) return;
-  for (const Wire& w : graph.components[static_cast<std::size_t>(graph.vehicle)].wires)
-    if (w.from.kind == Source::Kind::role) drives_vehicle_[static_cast<std::size_t>(w.from.index)] = true;
+  for (const Wire& w : nth(graph.components, graph.vehicle).wires)
+    if (w.from.kind == Source::Kind::role) nth(drives_vehicle_, w.from.index) = true;
 }
 
 const std::vector<Overlay>* Roles::overlay_of(int component) const noexcept {
@@ -79,7 +81,7 @@ bool Roles::ready_to_step(Unit& unit, int component) {
 
 bool Roles::is_held(const Unit& unit) const noexcept {
   const int role = unit.component->role;
-  return role >= 0 && control_roles_[static_cast<std::size_t>(role)];
+  return role >= 0 && nth(control_roles_, role);
 }
 
 void Roles::begin_anew() noexcept {
@@ -146,7 +148,7 @@ void Roles::stop(int component, Code code) {
   guards.push_back({state_.now_ns, name, what, "held"});
   const std::size_t guard = guards.size() - 1;
   if (role < 0 || active(role) != component || fall_back(role, component, guard)) return;
-  if (!drives_vehicle_[static_cast<std::size_t>(role)]) return;
+  if (!nth(drives_vehicle_, role)) return;
   guards[guard].action = "failsafe";
   Event why = event_of(Code::failsafe, "", name);
   put(why.cause, what);
@@ -156,7 +158,7 @@ void Roles::stop(int component, Code code) {
 
 /// The present phase's fallback, if it can fly, flies in this same tick.
 bool Roles::fall_back(int role, int stopped, std::size_t guard) {
-  const Assignment& a = present().roles[static_cast<std::size_t>(role)];
+  const Assignment& a = nth(present().roles, role);
   if (a.fallback < 0 || a.fallback == stopped || wiring_.unit(a.fallback).stopped) return false;
   if (!take_over(role, a.fallback, a)) return false;
   const std::string& other = wiring_.unit(a.fallback).component->name;

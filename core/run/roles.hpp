@@ -11,6 +11,7 @@
 #include "core/run/recorder.hpp"
 #include "core/run/stopwatch.hpp"
 #include "core/run/wiring.hpp"
+#include "core/types/named.hpp"
 
 namespace fulmar::core {
 
@@ -61,8 +62,8 @@ class Roles {
   bool is_held(const Unit& unit) const noexcept;
   void note_late(const Unit& unit, std::int64_t due_ns);
   void tell_late(Unit& unit);
-  const Phase& present() const noexcept { return state_.graph.phases[static_cast<std::size_t>(phase_)]; }
-  int& active(int role) noexcept { return active_[static_cast<std::size_t>(role)]; }
+  const Phase& present() const noexcept { return nth(state_.graph.phases, phase_); }
+  int& active(int role) noexcept { return nth(active_, role); }
 
   FlightState& state_;
   Wiring& wiring_;

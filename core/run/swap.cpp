@@ -8,6 +8,7 @@
 #include "core/loader/probe.hpp"
 #include "core/run/flight_impl.hpp"
 #include "core/run/published.hpp"
+#include "core/types/named.hpp"
 
 namespace fulmar::core {
 
@@ -21,7 +22,7 @@ void carry_parameters(const ComponentInfo& from, const std::vector<ParamValue>& 
     const ParamInfo& old = from.params[i];
     const int k = to.param(old.name);
     if (k < 0) continue;
-    const ParamInfo& now = to.params[static_cast<std::size_t>(k)];
+    const ParamInfo& now = nth(to.params, k);
     if (now.kind != old.kind || now.choices != old.choices) continue;
     if ((now.kind == FULMAR_RECORD || now.kind == FULMAR_VECTOR) && now.type->hash != old.type->hash)
       continue;
@@ -31,7 +32,7 @@ void carry_parameters(const ComponentInfo& from, const std::vector<ParamValue>& 
     if (ranged && !(number >= now.min && number <= now.max))
       throw Error("its parameter '" + now.name + "' does not allow the present value " +
                   value_text(old, values[i]));
-    into[static_cast<std::size_t>(k)] = values[i];
+    nth(into, k) = values[i];
   }
 }
 
@@ -119,7 +120,7 @@ void check_ports(const Component& was, const Component& is) {
   for (const Port& port : was.info().outputs) {
     const int k = is.info().output(port.name);
     if (k >= 0 && was.info().outputs.size() == is.info().outputs.size() &&
-        (!port.type || is.info().outputs[static_cast<std::size_t>(k)].type->hash == port.type->hash))
+        (!port.type || nth(is.info().outputs, k).type->hash == port.type->hash))
       continue;
     throw Error(was.name + ": its outputs are not those of " + was.plugin->file +
                 ", and the log of this flight has room for those alone");
@@ -145,7 +146,7 @@ void Flight::Impl::replace(int at, const std::string& file) {
   if (const std::string difference = structural_difference(graph, next); !difference.empty())
     throw Error(graph.file + " has changed since this flight began (" + difference +
                 "): end it, and fly again");
-  Component& newcomer = next.components[static_cast<std::size_t>(at)];
+  Component& newcomer = nth(next.components, at);
   check_ports(*old.component, newcomer);
   carry_parameters(*old.info, old.base, newcomer.info(), newcomer.params);
   if (newcomer.run != RunMode::driver) rehearse_newcomer(old, newcomer);
@@ -166,7 +167,7 @@ void Flight::Impl::rehearse_newcomer(const Unit& old, const Component& newcomer)
 
 /// A configured unit takes the place of another: what asked the old one is told `why`.
 void Flight::Impl::put_in_place(int at, std::unique_ptr<Unit> fresh, const char* why) {
-  std::unique_ptr<Unit>& place = wiring.units[static_cast<std::size_t>(at)];
+  std::unique_ptr<Unit>& place = nth(wiring.units, at);
   fresh->active = place->active;
   fresh->keep_log_settings(*place);
   place->in.refuse_requests(why);

@@ -2,6 +2,7 @@
 #include "core/run/unit.hpp"
 
 #include "core/run/last_words.hpp"
+#include "core/types/named.hpp"
 
 namespace fulmar::core {
 
@@ -62,13 +63,13 @@ void Unit::keep_log_settings(const Unit& from) {
   for (Slot& slot : out.slots) {
     const int k = from.info->output(slot.port->name);
     if (k < 0) continue;
-    const Slot& was = from.out.slots[static_cast<std::size_t>(k)];
+    const Slot& was = nth(from.out.slots, k);
     slot.log = was.log;
     if (was.hash) slot.hash = std::make_unique<MessageHash>(*slot.port->type);
   }
   for (Reader& reader : in.readers)
     if (const int k = from.info->input(reader.port->name); k >= 0)
-      reader.channel = from.in.readers[static_cast<std::size_t>(k)].channel;
+      reader.channel = nth(from.in.readers, k).channel;
   out.probes.log = from.out.probes.log;
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/run/circumstances.hpp"
 #include "core/run/published.hpp"
+#include "core/types/named.hpp"
 #include "core/types/text.hpp"
 
 namespace fulmar::core {
@@ -73,7 +74,7 @@ void Wiring::connect_role(std::size_t r) {
     for (std::size_t f = 0; f < role.fillers.size(); ++f) {
       const int output = role.provides[f][k];
       if (output < 0) continue;
-      Slot& slot = unit(role.fillers[f]).out.slots[static_cast<std::size_t>(output)];
+      Slot& slot = nth(unit(role.fillers[f]).out.slots, output);
       slot.role = &role_slot;
       slot.filler = static_cast<int>(f);
       role_slot.plans[f] = copy_plan(*slot.port->type, *role_slot.type);
@@ -83,7 +84,7 @@ void Wiring::connect_role(std::size_t r) {
 }
 
 void Wiring::connect_import(const Unit& unit, Reader& reader) {
-  Import& import = imports[static_cast<std::size_t>(reader.wire->import)];
+  Import& import = nth(imports, reader.wire->import);
   import.reader = &reader;
   import.slot.port = reader.port;
   import.slot.size = reader.port->type->size;
@@ -99,8 +100,8 @@ void Wiring::connect_import(const Unit& unit, Reader& reader) {
 void Wiring::connect_to_role(Unit& unit, Reader& reader) {
   const Source& from = reader.wire->from;
   const auto output = static_cast<std::size_t>(from.output);
-  const Role& role = state_.graph.roles[static_cast<std::size_t>(from.index)];
-  RoleSlot& slot = roles_[static_cast<std::size_t>(from.index)][output];
+  const Role& role = nth(state_.graph.roles, from.index);
+  RoleSlot& slot = nth(roles_, from.index)[output];
   reader.role = &slot;
   for (std::size_t f = 0; f < role.fillers.size(); ++f) {
     const int provided = role.provides[f][output];
@@ -108,7 +109,7 @@ void Wiring::connect_to_role(Unit& unit, Reader& reader) {
       reader.plans.emplace_back();
       continue;
     }
-    const Slot& filler = this->unit(role.fillers[f]).out.slots[static_cast<std::size_t>(provided)];
+    const Slot& filler = nth(this->unit(role.fillers[f]).out.slots, provided);
     reader.plans.push_back(copy_plan(*filler.port->type, *reader.port->type));
   }
   if (reader.port->kind != FULMAR_IN_VALUE) return void(slot.queues.emplace_back(&reader, reader.plans));
@@ -129,7 +130,7 @@ void Wiring::connect_reader(Unit& unit, Reader& reader) {
   if (reader.wire->import >= 0) return connect_import(unit, reader);
   if (from.kind == Source::Kind::none) return;
   if (from.kind == Source::Kind::component) {
-    Slot& slot = this->unit(from.index).out.slots[static_cast<std::size_t>(from.output)];
+    Slot& slot = nth(this->unit(from.index).out.slots, from.output);
     reader.slot = &slot;
     reader.plans.push_back(copy_plan(*slot.port->type, *reader.port->type));
     if (!value) slot.queues.emplace_back(&reader, &reader.plans.front());
@@ -153,7 +154,7 @@ void Wiring::publish(Unit& unit, Recorder& recorder) {
       slot.role->current = &slot;
       ++slot.role->sequence;
       for (auto& [reader, plans] : slot.role->queues)
-        reader->push(message, slot.valid_at_ns, plans[static_cast<std::size_t>(slot.filler)]);
+        reader->push(message, slot.valid_at_ns, nth(plans, slot.filler));
     }
     recorder.put(slot);
   });
@@ -191,7 +192,7 @@ const Slot* Wiring::slot_of(const Source& source) const noexcept {
 
 const std::byte* Wiring::message_of(const Source& source) const noexcept {
   if (source.kind != Source::Kind::role) return slot_of(source)->published.data();
-  return roles_[static_cast<std::size_t>(source.index)][static_cast<std::size_t>(source.output)].message();
+  return nth(nth(roles_, source.index), source.output).message();
 }
 
 const std::byte* Wiring::sample(const Source& source) const noexcept {

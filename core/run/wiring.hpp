@@ -10,6 +10,7 @@
 #include "core/run/flight_state.hpp"
 #include "core/run/recorder.hpp"
 #include "core/run/unit.hpp"
+#include "core/types/named.hpp"
 
 namespace fulmar::core {
 
@@ -28,7 +29,7 @@ class Wiring final : public SampleReader {
   /// [setup] As the graph says; whatever was connected before is not any more.
   void connect();
 
-  Unit& unit(int index) const noexcept { return *units[static_cast<std::size_t>(index)]; }
+  Unit& unit(int index) const noexcept { return *nth(units, index); }
   Unit& vehicle() const noexcept { return unit(state_.graph.vehicle); }
   int index_of(const Unit& unit) const noexcept;
 

@@ -36,8 +36,6 @@ class DdsBridge {
   /// Throws Error.
   DdsBridge(Tap& tap, Control& control, const DdsOptions& options);
   ~DdsBridge();
-  DdsBridge(const DdsBridge&) = delete;
-  DdsBridge& operator=(const DdsBridge&) = delete;
   DdsStats stats() const;
 
  private:

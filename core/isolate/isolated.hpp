@@ -36,8 +36,6 @@ class Isolated {
   /// The child ends with the thread that called this, at the latest.
   Isolated(const ComponentInfo& info, const IsolatedOptions& options);
   ~Isolated();
-  Isolated(const Isolated&) = delete;
-  Isolated& operator=(const Isolated&) = delete;
 
   /// Calls of a component whose instance is an Isolated*. `create` is NULL; `destroy` does nothing: the
   /// owner's destructor ends the child.

@@ -127,7 +127,7 @@ class Hub {
   void flush_parameters();
   void warn_of_drops();
 
-  Client* find(ClientId id);
+  Client* find(ClientId id) const;
   void send_text(Client& client, std::shared_ptr<const std::string> text);
   void send_json(Client& client, const json& message);
   void status(Client& client, int level, const std::string& message);

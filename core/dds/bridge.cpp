@@ -16,10 +16,10 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::chrono::milliseconds nap{
-    2};  // of the thread that sends when the ring is empty; the loop never pays for waking it
-constexpr std::chrono::milliseconds breath{
-    2};  // between two looks at what comes in: a flood does not take a processor
+// of the thread that sends when the ring is empty; the loop never pays for waking it
+constexpr std::chrono::milliseconds nap{2};
+// between two looks at what comes in: a flood does not take a processor
+constexpr std::chrono::milliseconds breath{2};
 constexpr std::chrono::milliseconds longest{50};  // sleep of the thread that takes
 
 }  // namespace

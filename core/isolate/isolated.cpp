@@ -311,8 +311,8 @@ bool Isolated::wait(std::int64_t limit_ns) noexcept {
     const std::uint32_t seen = c.answer.load();
     if (seen != number_) futex_wait(c.answer, seen, nap_ns);
     c.host_sleeps.store(0, std::memory_order_relaxed);
-    const bool ended =
-        has_ended();  // before the look at the answer: the last act of a child may be to answer
+    // before the look at the answer: the last act of a child may be to answer
+    const bool ended = has_ended();
     if (answered()) return true;
     if (ended) {
       note_death();

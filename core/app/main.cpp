@@ -51,14 +51,10 @@ struct Commands {
     add_check();
     for (const OwnCommand& command : own_commands()) {
       if (command.word == std::string_view("log")) add_replay();
-      name_other(command);
+      // what another program carries out stands here for the help alone
+      CLI::App* named = app.add_subcommand(command.word, command.says)->prefix_command();
+      if (*command.says == '\0') named->group("");
     }
-  }
-
-  /// What another program carries out stands here for the help alone.
-  void name_other(const OwnCommand& command) {
-    CLI::App* named = app.add_subcommand(command.word, command.says)->prefix_command();
-    if (*command.says == '\0') named->group("");
   }
 
   void add_run() {
@@ -129,15 +125,10 @@ struct Commands {
       action = [this] { return replay_command(replay); };
     });
     command->add_option("LOG", replay.log, "log of a flight (MCAP)")->required();
-    command
-        ->add_option("--with", replay_with,
-                     "COMPONENT=PLUGIN.so: an experiment with another file for a component")
-        ->type_name("COMPONENT=FILE")
-        ->allow_extra_args(false);
-    command
-        ->add_option("--set", replay_set, "COMPONENT.PARAMETER=VALUE: an experiment with another parameter")
-        ->type_name("COMP.PARAM=VALUE")
-        ->allow_extra_args(false);
+    add_pairs(command, "--with", replay_with, "COMPONENT=FILE",
+              "COMPONENT=PLUGIN.so: an experiment with another file for a component");
+    add_pairs(command, "--set", replay_set, "COMP.PARAM=VALUE",
+              "COMPONENT.PARAMETER=VALUE: an experiment with another parameter");
     command->add_option("--log", replay.out, "where to write the log of the replay; default nowhere");
     command->add_flag("--json", replay.json, "print one JSON object");
   }

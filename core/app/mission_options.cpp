@@ -25,20 +25,19 @@ std::vector<std::pair<std::string, std::string>> pairs(const std::vector<std::st
   return out;
 }
 
+void add_pairs(CLI::App* command, const char* option, std::vector<std::string>& words, const char* type,
+               const char* says) {
+  command->add_option(option, words, says)->type_name(type)->allow_extra_args(false);
+}
+
 void MissionOptions::add(CLI::App* command) {
   command->add_option("MISSION", mission, "mission file (YAML)")->required();
   command->add_option("--io", io, "sim or fcu: simulated aircraft or flight controller")
       ->check(CLI::IsMember({"sim", "fcu"}));
-  command->add_option("--role", roles, "ROLE=COMPONENT: who fills a role in every phase")
-      ->type_name("ROLE=COMPONENT")
-      ->allow_extra_args(false);
-  command->add_option("--with", with, "COMPONENT=PLUGIN.so: another file for a component")
-      ->type_name("COMPONENT=FILE")
-      ->allow_extra_args(false);
+  add_pairs(command, "--role", roles, "ROLE=COMPONENT", "ROLE=COMPONENT: who fills a role in every phase");
+  add_pairs(command, "--with", with, "COMPONENT=FILE", "COMPONENT=PLUGIN.so: another file for a component");
   command->add_option("--seed", seed, "seed of all noise")->check(whole_number);
-  command->add_option("--set", set, "COMPONENT.PARAMETER=VALUE")
-      ->type_name("COMP.PARAM=VALUE")
-      ->allow_extra_args(false);
+  add_pairs(command, "--set", set, "COMP.PARAM=VALUE", "COMPONENT.PARAMETER=VALUE");
 }
 
 Overrides MissionOptions::overrides(const CLI::App* command) const {

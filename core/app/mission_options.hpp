@@ -13,6 +13,10 @@ namespace fulmar::core {
 /// "a=b" -> {a, b}. Throws CLI::ValidationError.
 std::vector<std::pair<std::string, std::string>> pairs(const std::vector<std::string>& words);
 
+/// An option that may be given several times, with one word each time.
+void add_pairs(CLI::App* command, const char* option, std::vector<std::string>& words, const char* type,
+               const char* says);
+
 struct MissionOptions {
   std::string mission, io;
   std::uint64_t seed = 0;

@@ -38,6 +38,8 @@
 namespace fulmar::core {
 namespace {
 
+namespace fs = std::filesystem;
+
 std::atomic<int> signal_seen{0};  // a signal that the flight has not refused
 char last_words[512];             // where the log lies, prepared beforehand
 
@@ -127,20 +129,24 @@ void install_handlers(bool hardware) {
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) sigaction(signal, &action, nullptr);
 }
 
+/// "flight.mcap", 2 -> "flight-2.mcap".
+fs::path numbered(const fs::path& file, std::size_t n) {
+  return file.parent_path() / (file.stem().string() + "-" + std::to_string(n) + file.extension().string());
+}
+
 /// With a number when that is taken.
-std::filesystem::path free_name(const std::filesystem::path& wanted) {
-  std::filesystem::path file = wanted;
-  for (int n = 2; std::filesystem::exists(file) || std::filesystem::exists(file.string() + ".part"); ++n)
-    file = wanted.parent_path() /
-           (wanted.stem().string() + "-" + std::to_string(n) + wanted.extension().string());
+fs::path free_name(const fs::path& wanted) {
+  fs::path file = wanted;
+  for (std::size_t n = 2; fs::exists(file) || fs::exists(file.string() + ".part"); ++n)
+    file = numbered(wanted, n);
   return file;
 }
 
 /// logs/<mission>-<UTC>.mcap. A host that is started again in the air must not stand still before the log of
 /// its predecessor.
-std::filesystem::path default_log(const Graph& graph) {
+fs::path default_log(const Graph& graph) {
   if (!graph.record_file.empty())
-    return graph.io == Io::fcu ? free_name(graph.record_file) : std::filesystem::path(graph.record_file);
+    return graph.io == Io::fcu ? free_name(graph.record_file) : fs::path(graph.record_file);
   return free_name(
       fmt::format("logs/{}-{:%Y%m%dT%H%M%SZ}.mcap", graph.mission, fmt::gmtime(std::time(nullptr))));
 }
@@ -149,14 +155,10 @@ std::filesystem::path default_log(const Graph& graph) {
 class Progress {
  public:
   explicit Progress(const Graph& graph) : graph_(graph), terminal_(words_on_terminal()) {}
-  void show(const Flight& flight, bool last = false) {
-    if (!terminal_ && !last && ++calls_ % 10 != 1) return;
-    const std::string line = progress_line(graph_, flight);
-    if (terminal_)
-      std::fprintf(stderr, "\r\033[K%s%s", line.c_str(), last ? "\n" : "");
-    else
-      std::fprintf(stderr, "%s\n", line.c_str());
-    drawn_ = terminal_ && !last;
+  void show(const Flight& flight) {
+    if (!terminal_ && ++calls_ % 10 != 1) return;
+    std::fprintf(stderr, terminal_ ? "\r\033[K%s" : "%s\n", progress_line(graph_, flight).c_str());
+    drawn_ = terminal_;
   }
   void say(const std::string& text, bool warning) {
     clear();
@@ -172,21 +174,6 @@ class Progress {
   bool terminal_, drawn_ = false;
   int calls_ = 0;
 };
-
-}  // namespace
-
-double parse_speed(const std::string& text) {
-  if (text == "real") return 1;
-  if (text == "max") return 0;
-  double speed = 0;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), speed);
-  if (code != std::errc{} || end != text.data() + text.size() || !(speed > 0) || !(speed <= 1e6))
-    throw CLI::ValidationError("--speed '" + text +
-                               "': give real, max, or a multiple of real time, for example 10");
-  return speed;
-}
-
-namespace {
 
 /// Flights of one mission in one host: the graph that flies now, and how the last flight went.
 class Session {
@@ -254,13 +241,12 @@ class Session {
     return graph;
   }
 
-  std::filesystem::path log_file() const {
+  fs::path log_file() const {
     if (options_.no_log || !graph_.record) return {};
     if (options_.log_file.empty()) return default_log(graph_);
-    const std::filesystem::path file = options_.log_file;
+    const fs::path file = options_.log_file;
     if (results_.empty()) return graph_.io == Io::fcu ? free_name(file) : file;
-    return file.parent_path() /
-           (file.stem().string() + "-" + std::to_string(results_.size() + 1) + file.extension().string());
+    return numbered(file, results_.size() + 1);
   }
 
   /// Where to go on: as asked; on hardware also after a host that ended in the air a short time ago, when the
@@ -269,9 +255,8 @@ class Session {
     constexpr double short_time_s = 600;
     const bool asked = options_.resume.has_value();
     if (!results_.empty() || options_.no_resume || (!asked && graph_.io != Io::fcu)) return std::nullopt;
-    const std::filesystem::path log = asked && !options_.resume->empty()
-                                          ? std::filesystem::path(*options_.resume)
-                                          : newest_log(graph_, asked ? 0 : short_time_s);
+    const fs::path log = asked && !options_.resume->empty() ? fs::path(*options_.resume)
+                                                            : newest_log(graph_, asked ? 0 : short_time_s);
     if (log.empty() && !asked) return std::nullopt;
     if (log.empty())
       throw Error("--resume: there is no log of the mission " + graph_.mission +
@@ -299,8 +284,10 @@ class Session {
                   log.empty() ? "" : ".part");
   }
 
+  bool unpaced() const { return graph_.io == Io::sim && options_.speed == 0; }
+
   void take_priority() const {
-    if (options_.realtime > 0 && graph_.io == Io::sim && options_.speed == 0)
+    if (options_.realtime > 0 && unpaced())
       throw CLI::ValidationError(
           "--realtime would give a CPU to this flight alone: it belongs to --io fcu, or to a simulation with "
           "--speed real");
@@ -309,9 +296,9 @@ class Session {
   }
 
   void tell_onlookers() const {
-    if (graph_.dds.on && graph_.io == Io::sim && options_.speed == 0)
+    if (graph_.dds.on && unpaced())
       warn("dds: nothing is exported or imported as fast as the machine allows; fly with --speed real");
-    if (!options_.live.empty() && graph_.live.on && graph_.io == Io::sim && options_.speed == 0)
+    if (!options_.live.empty() && graph_.live.on && unpaced())
       warn("--live: nobody can follow as fast as the machine allows; fly with --speed real");
     if (last_->live_port() == 0 || options_.json) return;
     const bool v6 = graph_.live.host.find(':') != std::string::npos;
@@ -322,8 +309,7 @@ class Session {
   int fly() {
     if (!stamps_) stamps_ = std::make_unique<FileStamps>(files());
     if (!options_.build.empty() && !sources_)
-      sources_ = std::make_unique<FileStamps>(
-          source_files(std::filesystem::absolute(options_.mission).parent_path()));
+      sources_ = std::make_unique<FileStamps>(source_files(fs::absolute(options_.mission).parent_path()));
     last_.reset();
     Progress progress(graph_);
     FlightOptions o;
@@ -334,14 +320,13 @@ class Session {
     o.keep_inputs = options_.watch || graph_.io == Io::fcu;
     o.log_file = log_file();
     o.log = !o.log_file.empty();
-    if (o.log_file.has_parent_path()) std::filesystem::create_directories(o.log_file.parent_path());
+    if (o.log_file.has_parent_path()) fs::create_directories(o.log_file.parent_path());
     o.interrupt = &signal_seen;
     o.progress = [&](const Flight& flight) { progress.show(flight); };
     o.say = [&](const std::string& text, bool warning) { progress.say(text, warning); };
     prepare_last_words(o.log_file.string());
-    patience_s =
-        10 + static_cast<unsigned>(graph_.failsafe_ns /
-                                   1'000'000'000);  // a flight that gives up control sends its failsafe first
+    // a flight that gives up control sends its failsafe first
+    patience_s = 10 + static_cast<unsigned>(graph_.failsafe_ns / 1'000'000'000);
     if (graph_.io == Io::fcu || options_.speed > 0) print_without_waiting();
     if (options_.json) dup2(STDERR_FILENO, STDOUT_FILENO);  // what components print
     install_handlers(graph_.io != Io::sim);
@@ -373,8 +358,8 @@ class Session {
     return result.outcome == Outcome::flown && whole ? 0 : 1;
   }
 
-  std::vector<std::filesystem::path> files() const {
-    std::vector<std::filesystem::path> all = graph_.files;
+  std::vector<fs::path> files() const {
+    std::vector<fs::path> all = graph_.files;
     for (const Component& c : graph_.components)
       if (std::find(all.begin(), all.end(), c.plugin->path) == all.end()) all.emplace_back(c.plugin->path);
     return all;
@@ -400,7 +385,7 @@ class Session {
     }
   }
 
-  bool reload(const std::vector<std::filesystem::path>& changed) {
+  bool reload(const std::vector<fs::path>& changed) {
     for (const auto& file : changed) say_aloud("changed: " + file.filename().string());
     try {
       Graph next = load();
@@ -440,26 +425,33 @@ class ResultFile {
     if (!as_json) return;
     const int own = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
     if (own < 0) return;  // there is no standard output
-    file_ = fdopen(own, "w");
+    file_.reset(fdopen(own, "w"));
     dup2(STDERR_FILENO, STDOUT_FILENO);
   }
-  ~ResultFile() {
-    if (file_) std::fclose(file_);
-  }
-  ResultFile(const ResultFile&) = delete;
-  ResultFile& operator=(const ResultFile&) = delete;
   void write(const nlohmann::json& result) {
     if (!file_) return;
-    std::fprintf(file_, "%s\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
-    const bool written = std::fflush(file_) == 0 && std::ferror(file_) == 0;
+    std::fprintf(file_.get(), "%s\n",
+                 result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    const bool written = std::fflush(file_.get()) == 0 && std::ferror(file_.get()) == 0;
     if (!written) throw Error(std::string("the result cannot be written: ") + std::strerror(errno));
   }
 
  private:
-  std::FILE* file_ = nullptr;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_{nullptr, &std::fclose};
 };
 
 }  // namespace
+
+double parse_speed(const std::string& text) {
+  if (text == "real") return 1;
+  if (text == "max") return 0;
+  double speed = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), speed);
+  if (code != std::errc{} || end != text.data() + text.size() || !(speed > 0) || !(speed <= 1e6))
+    throw CLI::ValidationError("--speed '" + text +
+                               "': give real, max, or a multiple of real time, for example 10");
+  return speed;
+}
 
 int run_command(const RunOptions& options) {
   speak_on_standard_error();

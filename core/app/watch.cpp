@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <set>
 #include <thread>
 
 #include "core/error.hpp"
@@ -49,6 +50,7 @@ fs::path FileStamps::missing() const {
 }
 
 std::vector<fs::path> source_files(const fs::path& folder) {
+  static const std::set<std::string> kinds{".cpp", ".cc", ".c", ".hpp", ".h", ".py"};
   std::vector<fs::path> files;
   std::error_code fault;
   for (fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, fault), end;
@@ -60,9 +62,7 @@ std::vector<fs::path> source_files(const fs::path& folder) {
         it.disable_recursion_pending();
       continue;
     }
-    for (const char* wanted : {".cpp", ".cc", ".c", ".hpp", ".h", ".py"})
-      if (kind == wanted) files.push_back(path);
-    if (name == "CMakeLists.txt") files.push_back(path);
+    if (kinds.contains(kind) || name == "CMakeLists.txt") files.push_back(path);
     if (files.size() > 10000) break;
   }
   return files;

@@ -16,10 +16,10 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::chrono::milliseconds nap{
-    2};  // of the thread that sends when the ring is empty; the loop never pays for waking it
-constexpr std::chrono::milliseconds breath{
-    2};  // between two looks at what comes in: a flood does not take a processor
+// of the thread that sends when the ring is empty; the loop never pays for waking it
+constexpr std::chrono::milliseconds nap{2};
+// between two looks at what comes in: a flood does not take a processor
+constexpr std::chrono::milliseconds breath{2};
 constexpr std::chrono::milliseconds longest{50};  // sleep of the thread that takes
 
 }  // namespace
@@ -58,8 +58,8 @@ struct DdsBridge::Impl {
     }
     if (events) writers.push_back(events->writer().guid());
     node = node_info(participant, options, readers, writers);
-    sender = quiet_thread("fulmar-dds-out", [this] { guarded([this] { send(); }); });
-    taker = quiet_thread("fulmar-dds-in", [this] { guarded([this] { take(); }); });
+    sender = start("fulmar-dds-out", &Impl::send);
+    taker = start("fulmar-dds-in", &Impl::take);
   }
 
   ~Impl() {
@@ -69,14 +69,15 @@ struct DdsBridge::Impl {
     if (taker.joinable()) taker.join();
   }
 
-  /// Whatever happens here, the flight goes on.
-  template <class F>
-  static void guarded(F&& f) noexcept {
-    try {
-      f();
-    } catch (const std::exception& e) {
-      say_aloud(std::string("dds ends early: ") + e.what(), Tone::error);
-    }
+  /// Whatever happens there, the flight goes on.
+  std::thread start(const char* name, void (Impl::*work)()) {
+    return quiet_thread(name, [this, work] {
+      try {
+        (this->*work)();
+      } catch (const std::exception& e) {
+        say_aloud(std::string("dds ends early: ") + e.what(), Tone::error);
+      }
+    });
   }
 
   void send() {

@@ -17,8 +17,8 @@ class Tap;
 struct DdsStats {
   std::uint64_t sent = 0;      // samples of exports that have a reader
   std::uint64_t received = 0;  // samples for inputs that were handed to the loop
-  std::uint64_t refused =
-      0;  // samples and requests whose layout is another one, or that the input's ranges do not allow
+  // samples and requests whose layout is another one, or that the input's ranges do not allow
+  std::uint64_t refused = 0;
   std::uint64_t lost = 0;      // samples that this sink was too slow for, out of the flight and into it
   std::uint64_t requests = 0;  // of services
   /// What an imported topic adds to a sample's age before the loop sees it, which takes one tick more. From
@@ -36,8 +36,6 @@ class DdsBridge {
   /// Throws Error.
   DdsBridge(Tap& tap, Control& control, const DdsOptions& options);
   ~DdsBridge();
-  DdsBridge(const DdsBridge&) = delete;
-  DdsBridge& operator=(const DdsBridge&) = delete;
   DdsStats stats() const;
 
  private:

@@ -106,7 +106,7 @@ void write_descriptor(CdrOut& out, const std::string& name, const ParameterView*
 
 // ---- answers that only look
 
-Bytes list_parameters(const Control& control, CdrIn in) {
+Bytes list_parameters(const Control& control, CdrReader in) {
   const std::vector<std::string> prefixes = in.texts();
   const auto depth = in.number<std::uint64_t>();  // 0: any
   std::vector<std::string> names;
@@ -129,7 +129,7 @@ Bytes list_parameters(const Control& control, CdrIn in) {
 
 /// Writes an answer for each name that was asked for.
 template <class Answer>
-Bytes each_name(const Control& control, CdrIn& in, Answer answer) {
+Bytes each_name(const Control& control, CdrReader& in, Answer answer) {
   const std::vector<std::string> names = in.texts();
   const FlightView view = control.view();
   CdrOut out;
@@ -138,19 +138,19 @@ Bytes each_name(const Control& control, CdrIn& in, Answer answer) {
   return out.take();
 }
 
-Bytes get_parameters(const Control& control, CdrIn in) {
+Bytes get_parameters(const Control& control, CdrReader in) {
   return each_name(control, in, [](CdrOut& out, const std::string&, const ParameterView* p) {
     (p ? rcl_value(*p) : RclValue{}).write(out);
   });
 }
 
-Bytes get_parameter_types(const Control& control, CdrIn in) {
+Bytes get_parameter_types(const Control& control, CdrReader in) {
   return each_name(control, in, [](CdrOut& out, const std::string&, const ParameterView* p) {
     out.number(static_cast<std::uint8_t>(type_of(p)));
   });
 }
 
-Bytes describe_parameters(const Control& control, CdrIn in) {
+Bytes describe_parameters(const Control& control, CdrReader in) {
   return each_name(control, in, write_descriptor);
 }
 
@@ -194,7 +194,7 @@ void set_one(Control& control, const FlightView& view, const RclParameter& param
   }
 }
 
-void set_parameters(Control& control, CdrIn in, const Server::Reply& reply, bool at_once) {
+void set_parameters(Control& control, CdrReader in, const Server::Reply& reply, bool at_once) {
   const std::vector<RclParameter> list = read_parameters(in);
   auto results = std::make_shared<Results>();
   results->reply = reply;
@@ -224,9 +224,9 @@ void add_parameter_services(Servers& servers, Participant& participant, const Dd
     servers.push_back(
         std::make_unique<Server>(participant, options.name_space, names, waker, std::move(handle)));
   };
-  auto look = [&control](Bytes (*answer)(const Control&, CdrIn)) {
+  auto look = [&control](Bytes (*answer)(const Control&, CdrReader)) {
     return [&control, answer](std::span<const std::byte> request, const Server::Reply& reply) {
-      reply(answer(control, CdrIn(request)));
+      reply(answer(control, CdrReader(request)));
     };
   };
   add("list_parameters", "ListParameters", look(list_parameters));
@@ -235,7 +235,7 @@ void add_parameter_services(Servers& servers, Participant& participant, const Dd
   add("describe_parameters", "DescribeParameters", look(describe_parameters));
   auto set = [&control](bool at_once) {
     return [&control, at_once](std::span<const std::byte> request, const Server::Reply& reply) {
-      set_parameters(control, CdrIn(request), reply, at_once);
+      set_parameters(control, CdrReader(request), reply, at_once);
     };
   };
   add("set_parameters", "SetParameters", set(false));

@@ -101,8 +101,6 @@ class Participant {
   /// Throws Error.
   Participant(const DdsOptions& options, Found found);
   ~Participant();
-  Participant(const Participant&) = delete;
-  Participant& operator=(const Participant&) = delete;
 
   /// Writers and readers end before the participant does. Throw Error.
   std::unique_ptr<Writer> writer(const Endpoint& endpoint);

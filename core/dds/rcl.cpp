@@ -10,14 +10,14 @@ void RclValue::write(CdrOut& out) const {
   out.number(integer);
   out.number(number);
   out.text(text);
-  out.numbers(bytes);
-  out.numbers(booleans);
+  out.count(0);  // bytes
+  out.count(0);  // booleans
   out.numbers(integers);
   out.numbers(numbers);
-  out.texts(texts);
+  out.count(0);  // texts
 }
 
-RclValue RclValue::read(CdrIn& in) {
+RclValue RclValue::read(CdrReader& in) {
   RclValue value;
   const auto type = in.number<std::uint8_t>();
   if (type > static_cast<std::uint8_t>(RclType::texts))
@@ -26,20 +26,20 @@ RclValue RclValue::read(CdrIn& in) {
   value.boolean = in.flag();
   value.integer = in.number<std::int64_t>();
   value.number = in.number<double>();
-  value.text = in.text();
-  value.bytes = in.numbers<std::uint8_t>();
-  value.booleans = in.numbers<std::uint8_t>();
+  value.text = in.ended_text();
+  in.numbers<std::uint8_t>();  // bytes
+  in.numbers<std::uint8_t>();  // booleans
   value.integers = in.numbers<std::int64_t>();
   value.numbers = in.numbers<double>();
-  value.texts = in.texts();
+  in.texts();
   return value;
 }
 
-std::vector<RclParameter> read_parameters(CdrIn& in) {
+std::vector<RclParameter> read_parameters(CdrReader& in) {
   constexpr std::size_t smallest = 40;  // bytes of a parameter
   std::vector<RclParameter> list(in.count(smallest));
   for (auto& [name, value] : list) {
-    name = in.text();
+    name = in.ended_text();
     value = RclValue::read(in);
   }
   return list;

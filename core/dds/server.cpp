@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::size_t requests_per_wake = 16;
 constexpr int request_depth = 64;
-constexpr std::chrono::milliseconds patience{
-    500};  // for the client's reader to be found: discovery of two endpoints is not simultaneous
+// for the client's reader to be found: discovery of two endpoints is not simultaneous
+constexpr std::chrono::milliseconds patience{500};
 
 /// Kinds of entity as RTPS 2.3, table 9.1, numbers them.
 bool is_reader(const Guid& guid) { return guid[15] == 0x04 || guid[15] == 0x07; }

@@ -172,21 +172,19 @@ bool Imports::pump(Participant& participant, Waker& waker) {
   return all;
 }
 
-std::string Imports::refusal(const Topic& topic, const Reader::Sample& sample, bool& taken) const {
+void Imports::use(Topic& topic, const Reader::Sample& sample) {
   std::vector<std::byte> message(topic.type->size);
+  std::string why;
+  bool taken = false;
   try {
     cdr_decode(*topic.type, sample.bytes.data(), sample.bytes.size(), message.data());
-    if (!topic.guard->check(message.data())) return topic.guard->explain(message.data());
-    taken = control_.publish(topic.component, topic.port, std::move(message));
-    return "";
+    if (topic.guard->check(message.data()))
+      taken = control_.publish(topic.component, topic.port, std::move(message));
+    else
+      why = topic.guard->explain(message.data());
   } catch (const Error& fault) {
-    return fault.what();
+    why = fault.what();
   }
-}
-
-void Imports::use(Topic& topic, const Reader::Sample& sample) {
-  bool taken = false;
-  const std::string why = refusal(topic, sample, taken);
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   const double latency_s =
       static_cast<double>(std::chrono::nanoseconds(now).count() - sample.written_ns) * 1e-9;
@@ -195,12 +193,8 @@ void Imports::use(Topic& topic, const Reader::Sample& sample) {
          "; more of them are counted, not told");
   const std::lock_guard lock(mutex_);
   DdsStats::Import& stats = topic.stats;
-  if (!why.empty()) {
-    ++stats.refused;
-    return;
-  }
-  if (!taken) {
-    ++topic.crowded;
+  if (!why.empty() || !taken) {
+    ++(why.empty() ? topic.crowded : stats.refused);
     return;
   }
   ++stats.received;

@@ -93,7 +93,6 @@ class Imports {
     bool told = false;
   };
   void use(Topic& topic, const Reader::Sample& sample);
-  std::string refusal(const Topic& topic, const Reader::Sample& sample, bool& taken) const;
 
   Control& control_;
   Others& others_;

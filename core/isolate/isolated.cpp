@@ -232,12 +232,12 @@ std::uint32_t Isolated::configure(const fulmar_value* values, fulmar_error* erro
     heads[i].data_at = size;
     if (v.data) size += aligned(v.size);
   }
-  const SharedMemory::Window window(memory_, layout_.size, size);
+  const Mapping window = memory_.window(layout_.size, size);
   for (std::size_t i = 0; i < count; ++i) {
     const char* text = values[i].text ? values[i].text : "";
-    std::memcpy(window.data() + heads[i].text_at, text, std::strlen(text) + 1);
+    std::memcpy(window.get() + heads[i].text_at, text, std::strlen(text) + 1);
     if (values[i].data && values[i].size > 0)
-      std::memcpy(window.data() + heads[i].data_at, values[i].data, values[i].size);
+      std::memcpy(window.get() + heads[i].data_at, values[i].data, values[i].size);
   }
   control().values_size = size;
   return call(Call::configure, options_.setup_ns, error);
@@ -311,8 +311,8 @@ bool Isolated::wait(std::int64_t limit_ns) noexcept {
     const std::uint32_t seen = c.answer.load();
     if (seen != number_) futex_wait(c.answer, seen, nap_ns);
     c.host_sleeps.store(0, std::memory_order_relaxed);
-    const bool ended =
-        has_ended();  // before the look at the answer: the last act of a child may be to answer
+    // before the look at the answer: the last act of a child may be to answer
+    const bool ended = has_ended();
     if (answered()) return true;
     if (ended) {
       note_death();

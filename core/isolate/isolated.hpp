@@ -20,14 +20,14 @@ struct IsolatedOptions {
   std::string name;          // of the component in the mission, for messages
   std::string copy, script;  // PluginInfo::copy, PluginInfo::script
   std::string file;          // PluginInfo::file, for messages
-  std::string
-      path;  // PluginInfo::path, for a script that loads what lies beside it; a shared object needs none
+  // PluginInfo::path, for a script that loads what lies beside it; a shared object needs none
+  std::string path;
   std::size_t index = 0;  // of the component in the plugin
   std::uint64_t seed = 0;
   std::int64_t hang_ns = 2'000'000'000;    // longest wait for a step, activate, deactivate or retune
   std::int64_t setup_ns = 10'000'000'000;  // longest wait for loading and creating, and for configure
-  std::int64_t spin_ns =
-      20'000;  // both sides look so long before they sleep; 0, or a single CPU: they sleep at once
+  // both sides look so long before they sleep; 0, or a single CPU: they sleep at once
+  std::int64_t spin_ns = 20'000;
 };
 
 class Isolated {
@@ -36,8 +36,6 @@ class Isolated {
   /// The child ends with the thread that called this, at the latest.
   Isolated(const ComponentInfo& info, const IsolatedOptions& options);
   ~Isolated();
-  Isolated(const Isolated&) = delete;
-  Isolated& operator=(const Isolated&) = delete;
 
   /// Calls of a component whose instance is an Isolated*. `create` is NULL; `destroy` does nothing: the
   /// owner's destructor ends the child.

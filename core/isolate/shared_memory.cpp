@@ -14,49 +14,42 @@
 namespace fulmar::core {
 namespace {
 
-// All pages at once, so that none is missing in flight.
-std::byte* map(int descriptor, std::size_t at, std::size_t size) {
-  void* data = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, descriptor,
-                      static_cast<off_t>(at));
-  return data == MAP_FAILED ? nullptr : static_cast<std::byte*>(data);
-}
-
 [[noreturn]] void no_memory(std::size_t size) {
   throw Error("cannot share " + std::to_string(size) + " bytes with a child: " + std::strerror(errno) + ".");
 }
 
+// All pages at once, so that none is missing in flight.
+Mapping map(int descriptor, std::size_t at, std::size_t size) {
+  void* data = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, descriptor,
+                      static_cast<off_t>(at));
+  if (data == MAP_FAILED) no_memory(size);
+  return Mapping(static_cast<std::byte*>(data), {size});
+}
+
 }  // namespace
 
-SharedMemory::SharedMemory(std::size_t size) : size_(size), whole_(size) {
+void Unmap::operator()(std::byte* data) const noexcept { ::munmap(data, size); }
+
+// Through the other constructor, so that a fault here closes what is open.
+SharedMemory::SharedMemory(std::size_t size) : SharedMemory() {
   descriptor_ = ::memfd_create("fulmar-child", MFD_CLOEXEC | MFD_ALLOW_SEALING);
-  if (descriptor_ < 0) no_memory(size);
-  const bool sized = ::ftruncate(descriptor_, static_cast<off_t>(size)) == 0;
-  if (sized) ::fcntl(descriptor_, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_SEAL);
-  data_ = sized ? map(descriptor_, 0, size) : nullptr;
-  if (data_) return;
-  const int fault = errno;
-  ::close(descriptor_);
-  errno = fault;
-  no_memory(size);
+  if (descriptor_ < 0 || ::ftruncate(descriptor_, static_cast<off_t>(size)) != 0) no_memory(size);
+  ::fcntl(descriptor_, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_SEAL);
+  data_ = map(descriptor_, 0, size);
+  whole_ = size;
 }
 
 SharedMemory::~SharedMemory() {
-  ::munmap(data_, size_);
-  ::close(descriptor_);
+  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-SharedMemory::Window::Window(SharedMemory& memory, std::size_t at, std::size_t size) : size_(size) {
-  if (size == 0) return;
-  if (at + size > memory.whole_) {
-    if (::ftruncate(memory.descriptor_, static_cast<off_t>(at + size)) != 0) no_memory(size);
-    memory.whole_ = at + size;
+Mapping SharedMemory::window(std::size_t at, std::size_t size) {
+  if (size == 0) return {};
+  if (at + size > whole_) {
+    if (::ftruncate(descriptor_, static_cast<off_t>(at + size)) != 0) no_memory(size);
+    whole_ = at + size;
   }
-  data_ = map(memory.descriptor_, at, size);
-  if (!data_) no_memory(size);
-}
-
-SharedMemory::Window::~Window() {
-  if (data_) ::munmap(data_, size_);
+  return map(descriptor_, at, size);
 }
 
 }  // namespace fulmar::core

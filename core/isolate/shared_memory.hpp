@@ -2,8 +2,15 @@
 // The memory that the child of an isolated component shares with the host.
 #pragma once
 #include <cstddef>
+#include <memory>
 
 namespace fulmar::core {
+
+struct Unmap {
+  std::size_t size = 0;
+  void operator()(std::byte* data) const noexcept;
+};
+using Mapping = std::unique_ptr<std::byte, Unmap>;
 
 /// Anonymous memory with a descriptor that a child inherits. It grows and never shrinks: a child cannot take
 /// pages from under the host.
@@ -11,30 +18,17 @@ class SharedMemory {
  public:
   explicit SharedMemory(std::size_t size);  // throws Error
   ~SharedMemory();
-  SharedMemory(const SharedMemory&) = delete;
-  SharedMemory& operator=(const SharedMemory&) = delete;
 
-  std::byte* data() const noexcept { return data_; }
+  std::byte* data() const noexcept { return data_.get(); }
   int descriptor() const noexcept { return descriptor_; }
-
-  /// More of it, from `at` on (whole pages), for as long as this lives.
-  class Window {
-   public:
-    Window(SharedMemory& memory, std::size_t at, std::size_t size);  // throws Error
-    ~Window();
-    Window(const Window&) = delete;
-    Window& operator=(const Window&) = delete;
-    std::byte* data() const noexcept { return data_; }
-
-   private:
-    std::byte* data_ = nullptr;
-    std::size_t size_ = 0;
-  };
+  /// More of it, from `at` on (whole pages). Throws Error.
+  Mapping window(std::size_t at, std::size_t size);
 
  private:
+  SharedMemory() = default;
   int descriptor_ = -1;
-  std::byte* data_ = nullptr;
-  std::size_t size_ = 0, whole_ = 0;
+  Mapping data_;
+  std::size_t whole_ = 0;
 };
 
 }  // namespace fulmar::core

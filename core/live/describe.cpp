@@ -130,6 +130,37 @@ json lists(const std::map<std::string, std::vector<std::string>>& map, const cha
   return list;
 }
 
+// ---- the page that a browser gets
+
+constexpr const char* page_head =
+    "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+    "content=\"width=device-width\">\n"
+    "<style>body{font:16px/1.5 system-ui,sans-serif;max-width:52rem;margin:2rem auto;padding:0 "
+    "1rem;color:#222}"
+    "code{background:#f2f2f2;padding:0 "
+    ".2em}table{border-collapse:collapse}td,th{text-align:left;padding:.1rem 1rem .1rem 0}</style>\n";
+
+constexpr const char* page_how =
+    "<p>This port speaks the Foxglove WebSocket protocol. To see the flight, open a connection of the kind "
+    "<em>Foxglove WebSocket</em> in "
+    "Foxglove, Lichtblick or PlotJuggler, and give it this page's address with <code>ws://</code> in front. "
+    "In a terminal: <code>fulmar "
+    "list</code>, <code>fulmar echo PORT</code>, <code>fulmar param list</code>.</p>\n";
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&': out += "&amp;"; break;
+      case '<': out += "&lt;"; break;
+      case '>': out += "&gt;"; break;
+      case '"': out += "&quot;"; break;
+      default: out += c;
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<Service> services_of(const FlightView& view) {
@@ -211,14 +242,22 @@ json view_json(const FlightView& view, const Tap& tap) {
 json parameter_json(const std::string& name, const ParameterView& parameter) {
   json result{{"name", name}};
   json value = value_json(parameter.info, parameter.base);
-  const bool number = parameter.info.kind == FULMAR_NUMBER, vector = parameter.info.kind == FULMAR_VECTOR;
-  const bool whole = !value.is_null() &&
-                     !(value.is_array() &&
-                       std::any_of(value.begin(), value.end(), [](const json& v) { return v.is_null(); }));
-  if (whole) result["value"] = std::move(value);
-  if (whole && number) result["type"] = "float64";
-  if (whole && vector) result["type"] = "float64_array";
+  const bool whole =
+      value.is_array() ? std::count(value.begin(), value.end(), nullptr) == 0 : !value.is_null();
+  if (!whole) return result;
+  if (parameter.info.kind == FULMAR_NUMBER) result["type"] = "float64";
+  if (parameter.info.kind == FULMAR_VECTOR) result["type"] = "float64_array";
+  result["value"] = std::move(value);
   return result;
+}
+
+std::string page(const std::string& mission, const Tap& tap) {
+  std::string html = page_head;
+  html += "<title>" + escaped(mission) + " - Fulmar</title>\n<h1>" + escaped(mission) + "</h1>\n" + page_how;
+  html += "<table>\n<tr><th>topic<th>type\n";
+  for (const TapChannel& c : tap.channels())
+    html += "<tr><td>" + escaped(c.topic) + "<td>" + escaped(ros_name(*c.type)) + "\n";
+  return html + "</table>\n";
 }
 
 std::string mission_text(const json& value, bool text_parameter) {

@@ -49,12 +49,6 @@ nlohmann::json parameter_json(const std::string& name, const ParameterView& para
 /// A value as a mission file would have it. Texts stay as they are ("20 deg"), unless the parameter is one.
 std::string mission_text(const nlohmann::json& value, bool text_parameter);
 
-/// XCDR1 of {bool accepted, string reason}, and of {string text}.
-std::string cdr_answer(bool accepted, std::string_view reason);
-std::string cdr_text(std::string_view text);
-/// XCDR1 of so many strings. Throws Error.
-std::vector<std::string> cdr_texts(std::string_view bytes, std::size_t count);
-
 /// For a browser: one HTML file that asks for nothing else.
 std::string page(const std::string& mission, const Tap& tap);
 

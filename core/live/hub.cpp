@@ -132,11 +132,11 @@ void Hub::stop_listening(Client& client, std::uint32_t subscription) {
 }
 
 bool Hub::busy(ClientId id) const {
-  const auto at = clients_.find(id);
-  return at != clients_.end() && at->second->unanswered >= most_unanswered;
+  const Client* client = find(id);
+  return client != nullptr && client->unanswered >= most_unanswered;
 }
 
-Hub::Client* Hub::find(ClientId id) {
+Hub::Client* Hub::find(ClientId id) const {
   const auto at = clients_.find(id);
   return at == clients_.end() ? nullptr : at->second.get();
 }

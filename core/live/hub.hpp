@@ -127,7 +127,7 @@ class Hub {
   void flush_parameters();
   void warn_of_drops();
 
-  Client* find(ClientId id);
+  Client* find(ClientId id) const;
   void send_text(Client& client, std::shared_ptr<const std::string> text);
   void send_json(Client& client, const json& message);
   void status(Client& client, int level, const std::string& message);
@@ -148,8 +148,8 @@ class Hub {
   std::vector<Channel> channels_;
   std::shared_ptr<const std::string> info_, advertisement_, service_list_;
   std::vector<std::byte> scratch_;
-  std::unique_ptr<Tap::Cursor>
-      cursor_;  // from `begin` on: what is published seldom is kept before there is a client
+  // from `begin` on: what is published seldom is kept before there is a client
+  std::unique_ptr<Tap::Cursor> cursor_;
   std::uint64_t lost_before_ = 0;  // of the cursor, in the counters already
   std::map<ClientId, std::unique_ptr<Client>> clients_;
   ClientId next_id_ = 1;

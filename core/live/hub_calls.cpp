@@ -3,6 +3,7 @@
 #include "core/graph/record.hpp"
 #include "core/graph/yaml.hpp"
 #include "core/live/hub_impl.hpp"
+#include "core/types/cdr_bytes.hpp"
 
 namespace fulmar::core::live {
 namespace {
@@ -11,6 +12,25 @@ using nlohmann::json;
 
 constexpr std::size_t data_head = 1 + 4, call_head = 1 + 4 + 4 + 4;
 constexpr char op_answer = 3;
+
+/// XCDR1 of {bool accepted, string reason}, or of {string text}.
+std::string cdr_answer(std::optional<bool> accepted, std::string_view text) {
+  CdrOut out;
+  if (accepted) out.flag(*accepted);
+  out.text(text);
+  const std::vector<std::byte> bytes = out.take();
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+/// XCDR1 of so many strings.
+std::vector<std::string> cdr_texts(std::string_view bytes, std::size_t count) try {
+  CdrReader in(std::as_bytes(std::span(bytes)));
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < count; ++i) texts.emplace_back(in.ended_text());
+  return texts;
+} catch (const Error& e) {
+  throw Error(std::string("the request: ") + e.what());
+}
 
 std::vector<std::byte> from_cdr(const Type& type, const Guard& guard, std::string_view payload) {
   std::vector<std::byte> message(type.size);
@@ -111,7 +131,7 @@ void Hub::call(Client& client, const Service& service, std::uint32_t service_id,
   };
   if (service.what == Service::What::view) {
     const std::string text = dumped(view_json(view(), tap_));
-    return reply(as_json ? text : cdr_text(text));
+    return reply(as_json ? text : cdr_answer(std::nullopt, text));
   }
   const auto done = [this, reply, as_json, id = client.id](const std::string& refusal) {
     if (Client* caller = find(id)) --caller->unanswered;

@@ -153,8 +153,8 @@ void Hub::set_parameters(Client& client, const json& message) {
   pending->id = request_id(message);
   for (const json& parameter : list)
     pending->names.push_back(parameter.at("name").get<std::string>());  // all or none has a name
-  pending->open =
-      list.size() + 1;  // one for this function, so that no answer is the last before all are asked for
+  // one for this function, so that no answer is the last before all are asked for
+  pending->open = list.size() + 1;
   client.unanswered += list.size();
   for (const json& parameter : list) set_one(pending, parameter);
   if (--pending->open == 0) replies_.push_back(pending);

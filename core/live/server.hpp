@@ -24,8 +24,6 @@ class LiveServer {
   /// Throws Error when it cannot listen there: says who to ask and what to do.
   LiveServer(Tap& tap, Control& control, const LiveOptions& options);
   ~LiveServer();
-  LiveServer(const LiveServer&) = delete;
-  LiveServer& operator=(const LiveServer&) = delete;
   std::uint16_t port() const;
   LiveStats stats() const;
 

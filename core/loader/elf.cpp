@@ -6,16 +6,12 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 
 // What this program is itself built for: its own header in memory, where the linker says.
 extern "C" const ElfW(Ehdr) __ehdr_start __attribute__((visibility("hidden")));  // NOLINT
 
 namespace fulmar::core {
 namespace {
-
-constexpr unsigned char host_class = sizeof(void*) == 8 ? ELFCLASS64 : ELFCLASS32;
-constexpr unsigned char host_order = std::endian::native == std::endian::little ? ELFDATA2LSB : ELFDATA2MSB;
 
 // Bytes that the headers promise, or 0 when the program headers do not fit into the file themselves.
 std::uint64_t promised_bytes(std::span<const std::byte> bytes) {
@@ -59,13 +55,14 @@ std::string elf_fault(std::span<const std::byte> bytes) {
   if (bytes.size() < SELFMAG || std::memcmp(bytes.data(), ELFMAG, SELFMAG) != 0)
     return "is not a plugin: not an ELF shared object";
   if (!read_header(bytes, 0, start)) return "is not a plugin: its ELF header is cut off";
-  if (start.ident[EI_DATA] != host_order)
+  if (start.ident[EI_DATA] != __ehdr_start.e_ident[EI_DATA])
     start.machine =
         static_cast<std::uint16_t>(static_cast<unsigned>(start.machine) << 8 | start.machine >> 8);
   if (start.machine != __ehdr_start.e_machine)
     return "is built for " + machine_name(start.machine) + ", this host is " +
            machine_name(__ehdr_start.e_machine);
-  if (start.ident[EI_DATA] != host_order || start.ident[EI_CLASS] != host_class)
+  if (start.ident[EI_DATA] != __ehdr_start.e_ident[EI_DATA] ||
+      start.ident[EI_CLASS] != __ehdr_start.e_ident[EI_CLASS])
     return "is built for another word size or byte order";
   if (start.type != ET_DYN) return "is not a plugin: an ELF file, but not a shared object";
   const std::uint64_t needed = promised_bytes(bytes);

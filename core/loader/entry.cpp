@@ -64,14 +64,6 @@ std::vector<Port> read_ports(TableReader& tables, const fulmar_port* from, std::
   return ports;
 }
 
-void read_record(TableReader& tables, const fulmar_param& from, ParamInfo& param, const std::string& what) {
-  param.initial_data.resize(param.type->size);
-  if (from.initial_data == nullptr) return;
-  if (!tables.memory().readable(from.initial_data, param.type->size))
-    throw Error(what + ": the default lies outside the plugin's memory");
-  std::memcpy(param.initial_data.data(), from.initial_data, param.type->size);
-}
-
 // Numbers have a range; their default lies in it.
 void check_numbers(const ParamInfo& param, const std::string& what) {
   const int count = param.kind == FULMAR_VECTOR ? 3 : 1;
@@ -105,7 +97,12 @@ void read_kind(TableReader& tables, const fulmar_param& from, ParamInfo& param, 
       return;
     case FULMAR_RECORD:
       param.type = tables.type(from.type, what);
-      return read_record(tables, from, param, what);
+      param.initial_data.resize(param.type->size);
+      if (from.initial_data == nullptr) return;
+      if (!tables.memory().readable(from.initial_data, param.type->size))
+        throw Error(what + ": the default lies outside the plugin's memory");
+      std::memcpy(param.initial_data.data(), from.initial_data, param.type->size);
+      return;
     case FULMAR_BLOB: return;
   }
 }
@@ -178,11 +175,6 @@ ComponentInfo read_component(TableReader& tables, const fulmar_component& from) 
   return info;
 }
 
-void check_script_functions(const TableReader& tables, const fulmar_plugin& entry) {
-  check_function(tables, entry.open_script, false, "open_script", "the plugin");
-  check_function(tables, entry.close_script, entry.open_script != nullptr, "close_script", "the plugin");
-}
-
 void read_plugin(TableReader& tables, const fulmar_plugin& entry, PluginInfo& info) {
   info.version = tables.text(entry.version, "the version");
   info.toolchain = tables.text(entry.toolchain, "the toolchain");
@@ -190,7 +182,8 @@ void read_plugin(TableReader& tables, const fulmar_plugin& entry, PluginInfo& in
   const bool hosts_scripts = entry.open_script != nullptr;
   if ((entry.component_count == 0 && !hosts_scripts) || entry.component_count > most_components)
     throw Error("it has " + std::to_string(entry.component_count) + " components");
-  check_script_functions(tables, entry);
+  check_function(tables, entry.open_script, false, "open_script", "the plugin");
+  check_function(tables, entry.close_script, hosts_scripts, "close_script", "the plugin");
   for (std::uint32_t i = 0; i < entry.component_count; ++i) {
     ComponentInfo component =
         read_component(tables, tables.element(entry.components, entry.component_stride, i, "the components"));

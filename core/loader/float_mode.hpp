@@ -23,16 +23,8 @@ class FloatModeGuard {
 /// What arithmetic does, found by doing it: portable where control words are not.
 struct FloatMode {
   bool denormal_operands, denormal_results, extended;
-  int rounding, traps;
+  int rounding, traps;  // traps: which exceptions raise a signal
   friend bool operator==(const FloatMode&, const FloatMode&) = default;
-
-  static int traps_now() {  // which exceptions raise a signal
-#ifdef __GLIBC__
-    return fegetexcept();
-#else
-    return 0;
-#endif
-  }
 
   static FloatMode now() {
     volatile double smallest = std::numeric_limits<double>::denorm_min(),
@@ -40,7 +32,7 @@ struct FloatMode {
     volatile long double one = 1, little = std::numeric_limits<long double>::epsilon();
     const volatile double doubled = smallest * (4 * half), halved = normal * half;
     const volatile long double sum = one + little;
-    return {doubled > 0, halved > 0, sum > one, std::fegetround(), traps_now()};
+    return {doubled > 0, halved > 0, sum > one, std::fegetround(), fegetexcept()};
   }
 };
 

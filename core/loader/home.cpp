@@ -20,8 +20,7 @@ void add(std::vector<fs::path>& folders, const fs::path& folder) {
 
 fs::path running_program() {
   std::error_code fault;
-  const fs::path self = fs::read_symlink("/proc/self/exe", fault);
-  return fault ? fs::path() : self;
+  return fs::read_symlink("/proc/self/exe", fault);
 }
 
 // The file that holds this function: the program, or a module of another program.
@@ -30,8 +29,7 @@ fs::path own_file() {
   if (::dladdr(reinterpret_cast<const void*>(&home_folders), &info) == 0 || info.dli_fname == nullptr)
     return {};
   std::error_code fault;
-  const fs::path file = fs::canonical(info.dli_fname, fault);
-  return fault ? fs::path() : file;
+  return fs::canonical(info.dli_fname, fault);
 }
 
 }  // namespace

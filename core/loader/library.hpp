@@ -32,8 +32,6 @@ class Library {
   /// The plugin file that hosts the language of a script. Throws Error when there is none.
   static std::filesystem::path host_of(const std::filesystem::path& script);
   ~Library();
-  Library(const Library&) = delete;
-  Library& operator=(const Library&) = delete;
 
   const PluginInfo& info() const { return info_; }
   /// The functions of info().components[i].

@@ -23,7 +23,7 @@ pid_t spawn(const std::string& program, std::vector<std::string> words, const Ch
     if (from < 0)
       posix_spawn_file_actions_addopen(&actions, to, "/dev/null", to == STDIN_FILENO ? O_RDONLY : O_WRONLY,
                                        0);
-    else if (from != to)
+    else if (from != to || ::fcntl(from, F_GETFD) >= 0)  // of the same number: keeps it over the exec
       posix_spawn_file_actions_adddup2(&actions, from, to);
   };
   if (files.third >= 0) place(files.third, 3);  // first: it may be one of the standard three

@@ -53,8 +53,6 @@ std::string load_fault(const std::string& name, const char* dlerror_text) {
   return name + " cannot be loaded: " + reason;
 }
 
-using boost::dll::load_mode::type;
-
 struct SharedObject::Impl {
   boost::dll::shared_library file;
 };
@@ -79,7 +77,7 @@ void SharedObject::unload() { impl_->file.unload(); }
 bool is_mapped(const std::filesystem::path& file) {
   boost::dll::shared_library open;
   boost::dll::fs::error_code fault;
-  open.load(file, static_cast<type>(RTLD_LAZY | RTLD_NOLOAD),
+  open.load(file, static_cast<boost::dll::load_mode::type>(RTLD_LAZY | RTLD_NOLOAD),
             fault);  // Boost.DLL passes on a mode that it does not name
   return !fault;
 }

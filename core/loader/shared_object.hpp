@@ -14,8 +14,6 @@ class SharedObject {
  public:
   SharedObject();
   ~SharedObject();
-  SharedObject(const SharedObject&) = delete;
-  SharedObject& operator=(const SharedObject&) = delete;
 
   /// Throws Error with a sentence about `name`: what the file needs and does not find.
   void load(const std::filesystem::path& file, const std::string& name);

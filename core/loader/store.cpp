@@ -65,8 +65,6 @@ struct TemporaryFolder {
     std::error_code fault;
     fs::remove_all(path, fault);
   }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 };
 
 std::string environment(const char* name) {

@@ -5,7 +5,7 @@
 
 constinit thread_local fulmar::core::HeapUse fulmar::core::heap_use;
 
-#if defined(__GLIBC__) && !defined(FULMAR_SANITIZED)
+#ifndef FULMAR_SANITIZED
 bool fulmar::core::counts_allocations() noexcept { return true; }
 static void note_heap(std::uint64_t calls, std::int64_t bytes) {
   fulmar::core::heap_use.calls += calls;

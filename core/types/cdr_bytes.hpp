@@ -59,6 +59,18 @@ class CdrReader {
     if (all.empty() || all.back() != '\0') throw Error("a text does not end in NUL");
     return all.substr(0, all.size() - 1);
   }
+  bool flag() { return number<std::uint8_t>() != 0; }
+  std::vector<std::string> texts() {
+    std::vector<std::string> list(count(4));
+    for (std::string& s : list) s = ended_text();
+    return list;
+  }
+  template <class T>
+  std::vector<T> numbers() {
+    std::vector<T> list(count(sizeof(T)));
+    for (T& x : list) x = number<T>();
+    return list;
+  }
   /// Nothing but padding of the whole may be left: 3 bytes of our own messages, up to 7 of others.
   void finish(std::size_t padding = 7) const {
     if (data_.size() - at_ > padding) throw Error("a message is longer than its definition");

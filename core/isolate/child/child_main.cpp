@@ -83,8 +83,8 @@ void prepare() {
     ::setrlimit(RLIMIT_CORE, &no_core);
   }
   rlimit stack{};
-  constexpr rlim_t enough =
-      64u << 20;  // without a limit a runaway recursion would take all memory before it is found out
+  // without a limit a runaway recursion would take all memory before it is found out
+  constexpr rlim_t enough = 64u << 20;
   if (::getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur == RLIM_INFINITY) {
     stack.rlim_cur = enough;
     ::setrlimit(RLIMIT_STACK, &stack);

@@ -32,12 +32,10 @@ static std::atomic<std::int64_t> bytes{0};
 void fulmar::core::count_heap() noexcept {}
 std::int64_t fulmar::core::heap_bytes() noexcept { return bytes.load(std::memory_order_relaxed); }
 
-#ifdef __GLIBC__
 static void note_heap(std::uint64_t more_calls, std::int64_t more_bytes) {
   calls += more_calls;
   bytes.fetch_add(more_bytes, std::memory_order_relaxed);
 }
 #include "core/heap_hooks.hpp"
-#endif
 
 #endif

@@ -33,6 +33,19 @@ std::size_t shared_mappings() {
 
 }  // namespace
 
+TEST_CASE("the memory may have the number in the host that it has in the child") {
+  const IsolatedOptions options = options_for("Faulty");
+  const ComponentInfo info = lab()->info().components[options.index];
+  const int kept = ::fcntl(shared_descriptor, F_DUPFD_CLOEXEC, 100);
+  ::close(shared_descriptor);  // the next descriptor that is opened gets its number
+  {
+    Isolated isolated(info, options);
+    CHECK(fs::read_symlink("/proc/self/fd/3").string().starts_with("/memfd:fulmar-child"));
+    CHECK(isolated.alive());
+  }
+  if (kept >= 0) ::dup2(kept, shared_descriptor), ::close(kept);
+}
+
 TEST_CASE("a child that finds another component than its host knows is refused") {
   IsolatedOptions options = options_for("Faulty");
   ComponentInfo info = lab()->info().components[options.index];

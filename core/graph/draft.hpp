@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A mission on its way from text to graph: what the steps of the resolution share. Internal to core/graph.
 #pragma once
-#include <optional>
 #include <string>
 #include <vector>
 

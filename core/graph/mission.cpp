@@ -6,7 +6,6 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 
 #include "core/graph/quantity.hpp"
 #include "core/types/names.hpp"

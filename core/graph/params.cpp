@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "core/graph/quantity.hpp"
 #include "core/graph/record.hpp"

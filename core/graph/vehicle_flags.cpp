@@ -2,7 +2,6 @@
 // What protects an aircraft: which fields of its vehicle say that it is armed, on the ground, and under the
 // host's control. The host knows no message, so the mission names them; unless it does, they are looked for
 // in the output 'status'.
-#include <algorithm>
 #include <array>
 
 #include "core/graph/draft.hpp"

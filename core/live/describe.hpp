@@ -13,11 +13,9 @@
 // for a probe; `topic` is that of the channel, of the service for a request, or that an imported input is
 // published on.
 #pragma once
-#include <cstddef>
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/tap/control.hpp"

@@ -2,7 +2,6 @@
 // See events.hpp.
 #include "core/log/events.hpp"
 
-#include <algorithm>
 #include <cstdarg>
 #include <cstdio>
 #include <iterator>

@@ -4,9 +4,7 @@
 
 #include <zstd.h>
 
-#include <algorithm>
 #include <array>
-#include <cstring>
 #include <fstream>
 #include <new>
 #include <set>

@@ -9,7 +9,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <span>
 
 #include "core/loader/build_id.hpp"
 #include "core/loader/library.hpp"

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
 
 #include "core/replay/logged.hpp"
 #include "core/replay/recorded_vehicle.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What enters a flight from outside, between ticks. There is one door for them, Flight::Impl::take: commands
 // have been checked and prepared by then, and each is in the log in the tick in which it takes effect.
-#include <cstring>
 #include <utility>
 
 #include "core/run/flight_impl.hpp"

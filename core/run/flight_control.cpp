@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/run/flight_control.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdio>

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstring>
-#include <optional>
 
 #include "core/graph/condition.hpp"
 #include "core/log/reader.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A flight that goes on where a log ended: for a host that was restarted in the air.
 #pragma once
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>

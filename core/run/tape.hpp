@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The inputs of a component's last steps, kept so that a newcomer can be rehearsed on them. Fixed memory.
 #pragma once
-#include <cstring>
 #include <vector>
 
 #include "core/types/type.hpp"

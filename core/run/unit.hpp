@@ -4,8 +4,6 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "core/graph/graph.hpp"

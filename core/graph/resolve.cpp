@@ -70,7 +70,7 @@ void collect_candidates(Draft& draft, Catalogue& catalogue) {
     if (draft.is_out(text)) continue;
     Candidate candidate;
     candidate.text = &text;
-    static_cast<ComponentSettings&>(candidate) = text;
+    static_cast<ComponentSettings&>(candidate) = static_cast<const ComponentSettings&>(text);
     load_component(draft, catalogue, candidate);
     if (const std::string& fills = text.fills.text; !fills.empty()) {
       candidate.role = draft.role(fills);
@@ -352,7 +352,7 @@ void read_control(Draft& draft) {
 
 void read_head(Draft& draft) {
   Graph& graph = draft.graph;
-  static_cast<Settings&>(graph) = draft.text;
+  static_cast<Settings&>(graph) = static_cast<const Settings&>(draft.text);
   graph.tick_ns = std::llround(1e9 / draft.text.rate_hz);
   if (draft.text.airframe.is(Node::Kind::scalar)) graph.airframe = draft.text.airframe.text;
 }

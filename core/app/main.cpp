@@ -22,6 +22,7 @@ using namespace fulmar::core;
 
 int check(const std::string& mission, const Overrides& overrides) {
   const Graph graph = load_mission(mission, overrides);
+  for (const std::string& warning : graph.warnings) warn(warning);
   std::printf("%s is in order: %zu components, %zu roles, %zu phases.\n", mission.c_str(),
               graph.components.size(), graph.roles.size(), graph.phases.size());
   return 0;

@@ -69,6 +69,9 @@ void resolve_wires(Draft& draft);
 void check_fed(Draft& draft);
 void order_steps(Draft& draft);
 
+// ages.cpp: of the built graph
+void guard_wires(Draft& draft);
+
 // tap_sections.cpp
 void mark_imports(Draft& draft);
 /// `ports`: the names under which outputs leave the flight.

@@ -37,9 +37,13 @@ struct Source {
 struct Wire {
   Source from;                  // none: an optional input that nobody feeds
   std::int64_t max_age_ns = 0;  // 0: any age
+  bool guarded = false;         // an older sample, or one of a writer that was stopped, stops the reader
+  bool by_steps = false;        // the age of an output that may stay silent is that of its writer's last step
   bool delayed = false;         // carries the value of the previous tick: breaks a cycle
   Where where;
   int import = -1;  // into DdsOptions::imports: fed from outside; `from` is none
+
+  static constexpr std::int64_t unsaid = -1;  // of max_age_ns, until the graph is built
 };
 
 /// Which aircraft: a simulated one, or one behind a flight controller.
@@ -237,6 +241,7 @@ struct Graph : Settings {
   std::vector<std::pair<std::string, std::string>> attachments;
   /// Where all of this came from, so that it can be read again.
   std::string file;
+  std::vector<std::string> warnings;  // what can be flown, but should be known
   Overrides overrides;
   std::vector<std::filesystem::path> files;  // mission, what it extends, airframe, plans
 };

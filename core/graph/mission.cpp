@@ -193,12 +193,19 @@ class MissionReader {
         return wire;
       }
       wire.from = port_name(*keys.get("from"), path + ".from").value_or(PortName{});
-      wire.max_age_ns = keys.duration_ns("max_age");
+      wire.max_age_ns = max_age_ns(keys);
       wire.delayed = keys.flag("delayed").value_or(false);
     } else {
       wire.from = port_name(entry.value, path).value_or(PortName{});
     }
     return wire;
+  }
+
+  /// 0: `off`, a sample of any age is flown on.
+  static std::optional<std::int64_t> max_age_ns(const Keys& keys) {
+    const Node* const node = keys.get("max_age");
+    if (node && node->is(Node::Kind::scalar) && node->text == "off") return 0;
+    return keys.duration_ns("max_age");
   }
 
   void role(const Node::Entry& entry) {
@@ -254,7 +261,7 @@ class MissionReader {
     c.rate_hz = keys.positive("rate", "Hz").value_or(0);
     c.where_rate = keys.where("rate");
     c.budget_ns = keys.duration_ns("budget").value_or(0);
-    c.max_age_ns = keys.duration_ns("max_age").value_or(0);
+    c.max_age_ns = max_age_ns(keys);
     run_mode(keys, path, c);
     m_.components.push_back(std::move(c));
   }

@@ -22,7 +22,7 @@ struct PortName {
 struct WireText {
   std::string name;  // of the input
   PortName from;
-  std::optional<std::int64_t> max_age_ns;
+  std::optional<std::int64_t> max_age_ns;  // 0: off
   bool delayed = false;
   Where where;
 };
@@ -47,7 +47,7 @@ struct ComponentText : ComponentSettings {
   std::vector<WireText> in;
   Node params;
   double rate_hz = 0;           // 0: every tick
-  std::int64_t max_age_ns = 0;  // of wires that say nothing
+  std::optional<std::int64_t> max_age_ns;  // of wires that say nothing
   std::optional<RunMode> run;
   Where where_rate;
 };

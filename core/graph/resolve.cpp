@@ -373,6 +373,7 @@ void resolve(Draft& draft, Catalogue& catalogue) {
   build_wires(draft);
   compile_phases(draft);
   order_steps(draft);
+  guard_wires(draft);
   read_failsafe(draft);
   read_vehicle_flags(draft);
   read_control(draft);

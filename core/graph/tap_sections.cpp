@@ -211,7 +211,7 @@ void mark_imports(Draft& draft) {
                                          "); remove one of the two");
     wire.from = {};
     wire.import = static_cast<int>(n);
-    if (wire.max_age_ns == 0) wire.max_age_ns = candidate.text->max_age_ns;
+    if (wire.max_age_ns <= 0) wire.max_age_ns = candidate.text->max_age_ns.value_or(Wire::unsaid);
     wire.where = import.where;
   }
 }

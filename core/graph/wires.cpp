@@ -72,8 +72,12 @@ void connect(Draft& draft, std::size_t index, const WireText& text, const std::s
     const std::string fault =
         target.unclear ? "" : misfit(candidate.name, nth(info.inputs, input), text.from, target);
     if (!fault.empty()) throw Error(fault);
-    nth(candidate.wires, input) = {target.source, text.max_age_ns.value_or(candidate.text->max_age_ns),
-                                   text.delayed, text.where};
+    Wire& wire = nth(candidate.wires, input);
+    wire = {};
+    wire.from = target.source;
+    wire.max_age_ns = text.max_age_ns.value_or(candidate.text->max_age_ns.value_or(Wire::unsaid));
+    wire.delayed = text.delayed;
+    wire.where = text.where;
   } catch (const Error& fault) {
     draft.report.add(text.where, path + ": " + fault.what());
   }

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <limits>
+
+#include "core/run/unit.hpp"
 
 namespace fulmar::core {
 
@@ -50,7 +53,6 @@ Intake::Intake(const Component& component)
     Reader& r = readers[i];
     r.port = &component.info().inputs[i];
     r.wire = &component.wires[i];
-    r.max_age_ns = r.wire->max_age_ns;
     if (r.port->kind == FULMAR_IN_VALUE) continue;
     r.pending.items.resize(std::size_t{r.port->capacity} * r.port->type->size);
     r.pending.stamps.resize(r.port->capacity);
@@ -64,6 +66,18 @@ namespace {
 
 bool lacks_sample(const Reader& r) noexcept {
   return !r.port->optional && r.port->kind == FULMAR_IN_VALUE && r.sequence() == 0;
+}
+
+/// Of a writer that was stopped nothing is ever young enough.
+constexpr std::int64_t lost_ns = std::numeric_limits<std::int64_t>::max();
+
+bool writer_lost(const Slot& s) noexcept { return s.owner && s.owner->stopped; }
+
+/// What a limit looks at. An output that may stay silent is as old as the last step of its writer.
+std::int64_t judged_age_ns(const Reader& r, std::int64_t now_ns, std::int64_t age_ns) noexcept {
+  const Slot& s = *r.source();
+  if (!r.wire->by_steps || s.port->kind != FULMAR_OUT_EVENT || !s.owner || writer_lost(s)) return age_ns;
+  return now_ns - s.owner->out.completed_ns;
 }
 
 /// The view of a value that has a sample.
@@ -80,10 +94,21 @@ void view_sample(Reader& r, std::int64_t now_ns, fulmar_input& in) noexcept {
     r.copied = in.sequence;
     in.data = r.copy.data();
   }
-  in.age_ns = now_ns - in.valid_at_ns;
+  in.age_ns = writer_lost(*s) ? lost_ns : now_ns - in.valid_at_ns;
   in.count = 1;
   if (in.sequence != r.seen) in.flags |= FULMAR_FRESH;
-  if (r.max_age_ns > 0 && in.age_ns > r.max_age_ns) in.flags |= FULMAR_STALE;
+  const std::int64_t limit_ns = r.wire->max_age_ns > 0 ? r.wire->max_age_ns : lost_ns - 1;
+  if (judged_age_ns(r, now_ns, in.age_ns) > limit_ns) in.flags |= FULMAR_STALE;
+}
+
+void tell_stale(const Reader& r, std::int64_t now_ns, const fulmar_input& in, fulmar_error& problem) noexcept {
+  const char* const input = r.port->name.c_str();
+  if (writer_lost(*r.source()))
+    return put_problem(problem, "input '%s' comes from %s, which was stopped", input,
+                       r.source()->owner->component->name.c_str());
+  put_problem(problem, "input '%s' is %.3f s old, the limit is %.3f s", input,
+              1e-9 * static_cast<double>(judged_age_ns(r, now_ns, in.age_ns)),
+              1e-9 * static_cast<double>(r.wire->max_age_ns));
 }
 
 }  // namespace
@@ -119,9 +144,8 @@ Intake::State Intake::prepare(std::int64_t now_ns, fulmar_error& problem) noexce
       continue;
     }
     view_sample(r, now_ns, in);
-    if (!r.guarded || (in.flags & FULMAR_STALE) == 0) continue;
-    put_problem(problem, "input '%s' is %.3f s old, the limit is %.3f s", r.port->name.c_str(),
-                1e-9 * static_cast<double>(in.age_ns), 1e-9 * static_cast<double>(r.max_age_ns));
+    if (!r.wire->guarded || (in.flags & FULMAR_STALE) == 0) continue;
+    tell_stale(r, now_ns, in, problem);
     return State::stale;
   }
   return State::good;

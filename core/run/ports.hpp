@@ -75,8 +75,6 @@ struct Pending {
 struct Reader {
   const Port* port = nullptr;
   const Wire* wire = nullptr;
-  std::int64_t max_age_ns = 0;  // 0: any
-  bool guarded = false;         // a sample that is too old stops the component
   bool delayed = false;         // it sees what was there at the end of the previous tick
   const Slot* slot = nullptr;
   const RoleSlot* role = nullptr;
@@ -149,6 +147,7 @@ class Outlets {
   std::vector<Slot> slots;
   std::vector<fulmar_output> views;
   Probes probes;
+  std::int64_t completed_ns = 0;  // when its owner last came to the end of a step
 };
 
 template <class F>

@@ -14,7 +14,6 @@ namespace fulmar::core {
 namespace {
 
 constexpr std::size_t tape_steps = 256;  // of inputs kept per component, for the rehearsal of a swap
-constexpr std::int64_t default_max_age_ns = 1'000'000'000;  // of what a role publishes, or comes from outside
 
 }  // namespace
 
@@ -57,7 +56,7 @@ void Wiring::connect() {
     for (Slot& slot : unit->out.slots) slot.queues.clear(), slot.role = nullptr, slot.filler = -1;
   for (std::size_t r = 0; r < roles_.size(); ++r) connect_role(r);
   for (const auto& unit : units)
-    for (Reader& reader : unit->in.readers) connect_reader(*unit, reader);
+    for (Reader& reader : unit->in.readers) connect_reader(reader);
 }
 
 /// What a role has published last stays its sample, if whoever published it is still there.
@@ -83,7 +82,7 @@ void Wiring::connect_role(std::size_t r) {
   }
 }
 
-void Wiring::connect_import(const Unit& unit, Reader& reader) {
+void Wiring::connect_import(Reader& reader) {
   Import& import = nth(imports, reader.wire->import);
   import.reader = &reader;
   import.slot.port = reader.port;
@@ -92,12 +91,9 @@ void Wiring::connect_import(const Unit& unit, Reader& reader) {
   if (reader.port->kind != FULMAR_IN_VALUE) return;
   reader.slot = &import.slot;
   reader.plans.push_back(copy_plan(*reader.port->type, *reader.port->type));
-  // Nobody here can tell whether it still comes: a law must not fly on what has fallen silent.
-  reader.guarded = !reader.port->optional && unit.component->role >= 0;
-  if (reader.guarded && reader.max_age_ns == 0) reader.max_age_ns = default_max_age_ns;
 }
 
-void Wiring::connect_to_role(Unit& unit, Reader& reader) {
+void Wiring::connect_to_role(Reader& reader) {
   const Source& from = reader.wire->from;
   const auto output = static_cast<std::size_t>(from.output);
   const Role& role = nth(state_.graph.roles, from.index);
@@ -112,22 +108,16 @@ void Wiring::connect_to_role(Unit& unit, Reader& reader) {
     const Slot& filler = nth(this->unit(role.fillers[f]).out.slots, provided);
     reader.plans.push_back(copy_plan(*filler.port->type, *reader.port->type));
   }
-  if (reader.port->kind != FULMAR_IN_VALUE) return void(slot.queues.emplace_back(&reader, reader.plans));
-  // What a role publishes is watched: a law that is fed by nobody must not fly on. Sensors come and go,
-  // estimators know.
-  const bool of_vehicle = std::count(role.fillers.begin(), role.fillers.end(), state_.graph.vehicle) > 0;
-  const bool watched =
-      !reader.port->optional && unit.component->role >= 0 && !unit.info->vehicle && !of_vehicle;
-  if (watched && reader.max_age_ns == 0) reader.max_age_ns = default_max_age_ns;
+  if (reader.port->kind != FULMAR_IN_VALUE) slot.queues.emplace_back(&reader, reader.plans);
 }
 
-void Wiring::connect_reader(Unit& unit, Reader& reader) {
+void Wiring::connect_reader(Reader& reader) {
   const Source& from = reader.wire->from;
   const bool value = reader.port->kind == FULMAR_IN_VALUE;
   reader.plans.clear();
   reader.slot = nullptr, reader.role = nullptr;
   reader.copied = 0;
-  if (reader.wire->import >= 0) return connect_import(unit, reader);
+  if (reader.wire->import >= 0) return connect_import(reader);
   if (from.kind == Source::Kind::none) return;
   if (from.kind == Source::Kind::component) {
     Slot& slot = nth(this->unit(from.index).out.slots, from.output);
@@ -135,9 +125,8 @@ void Wiring::connect_reader(Unit& unit, Reader& reader) {
     reader.plans.push_back(copy_plan(*slot.port->type, *reader.port->type));
     if (!value) slot.queues.emplace_back(&reader, &reader.plans.front());
   } else {
-    connect_to_role(unit, reader);
+    connect_to_role(reader);
   }
-  reader.guarded = reader.max_age_ns > 0 && !reader.port->optional && unit.component->role >= 0;
   reader.delayed = value && reader.wire->delayed;
   if (reader.delayed) delayed_.push_back(&reader);
   for (const CopyPlan& plan : reader.plans)
@@ -147,6 +136,7 @@ void Wiring::connect_reader(Unit& unit, Reader& reader) {
 // ---- samples
 
 void Wiring::publish(Unit& unit, Recorder& recorder) {
+  unit.out.completed_ns = state_.now_ns;
   unit.out.publish([&](Slot& slot) {
     const std::byte* const message = slot.published.data();
     for (auto& [reader, plan] : slot.queues) reader->push(message, slot.valid_at_ns, *plan);

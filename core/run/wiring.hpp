@@ -54,9 +54,9 @@ class Wiring final : public SampleReader {
 
  private:
   void connect_role(std::size_t role);
-  void connect_reader(Unit& unit, Reader& reader);
-  void connect_to_role(Unit& unit, Reader& reader);
-  void connect_import(const Unit& unit, Reader& reader);
+  void connect_reader(Reader& reader);
+  void connect_to_role(Reader& reader);
+  void connect_import(Reader& reader);
   std::unique_ptr<SampleSource> recorded_samples(const Component& component) const;
 
   FlightState& state_;

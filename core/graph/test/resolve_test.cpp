@@ -415,7 +415,7 @@ TEST_CASE("the graph is printed for people and for tools") {
   CHECK(
       text.starts_with("mission hourglass, io sim, 400 Hz, seed 7\n\norder of a tick\n  in  sim       "
                        "sim_aero/Aircraft   vehicle   400 Hz\n"));
-  CHECK(text.find("  slc.command              <- guide.command         GuidanceCommand\n") !=
+  CHECK(text.find("  slc.command              <- guide.command         GuidanceCommand, at most 1 s old\n") !=
         std::string::npos);
   CHECK(text.find("  takeoff: vehicle sim, nav ekf, guide follow, outer slc (law set), inner attitude\n    "
                   "-> cruise when "

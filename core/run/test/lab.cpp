@@ -212,10 +212,11 @@ struct Filter {  ///< fills a role between cart and law
   };
   struct Params {
     Param stop_at{1e9, "s", -1e9, 1e9, "throws from here on"};
+    Param mute_at{1e9, "s", -1e9, 1e9, "says nothing from here on"};
   };
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     if (tick.now_s() >= p.stop_at) throw std::runtime_error("the filter is broken");
-    out.signal.publish(*in.signal);
+    if (tick.now_s() < p.mute_at) out.signal.publish(*in.signal);
     return Status::ok;
   }
 };

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How old a sample may be on each wire, and which wires stop their reader when it is older: all that lead, by
+// whatever way, to the vehicle's inputs.
+#include <algorithm>
+
+#include "core/graph/draft.hpp"
+
+namespace fulmar::core {
+namespace {
+
+constexpr std::int64_t least_age_ns = 1'000'000'000;  // of what a mission says nothing about
+
+std::vector<int> writers_of(const Graph& graph, const Wire& wire) {
+  if (wire.from.kind == Source::Kind::component) return {wire.from.index};
+  if (wire.from.kind == Source::Kind::role) return nth(graph.roles, wire.from.index).fillers;
+  return {};
+}
+
+/// Per component: whether what it publishes can move the aircraft.
+std::vector<bool> chain_to_vehicle(const Graph& graph) {
+  std::vector<bool> in_chain(graph.components.size(), false);
+  std::vector<int> todo;
+  if (graph.vehicle >= 0) todo.push_back(graph.vehicle);
+  while (!todo.empty()) {
+    const int reader = todo.back();
+    todo.pop_back();
+    for (const Wire& wire : nth(graph.components, reader).wires)
+      for (const int writer : writers_of(graph, wire)) {
+        if (writer == graph.vehicle || nth(in_chain, writer)) continue;
+        nth(in_chain, writer) = true;
+        todo.push_back(writer);
+      }
+  }
+  return in_chain;
+}
+
+/// Sensors come and go, and estimators know; what else feeds the chain must keep coming: three steps of its
+/// writer may pass, and a second at least.
+std::int64_t usual_age_ns(const Graph& graph, const Wire& wire) {
+  std::int64_t age_ns = least_age_ns;
+  for (const int i : writers_of(graph, wire)) {
+    const Component& writer = nth(graph.components, i);
+    if (i == graph.vehicle) return 0;
+    age_ns = std::max(age_ns, 3 * writer.period_ns + writer.latency_ns);
+  }
+  return age_ns;
+}
+
+}  // namespace
+
+void guard_wires(Draft& draft) {
+  Graph& graph = draft.graph;
+  const std::vector<bool> in_chain = chain_to_vehicle(graph);
+  for (std::size_t i = 0; i < graph.components.size(); ++i) {
+    Component& reader = graph.components[i];
+    for (std::size_t k = 0; k < reader.wires.size(); ++k) {
+      Wire& wire = reader.wires[k];
+      const Port& input = reader.info().inputs[k];
+      const bool fed = wire.from.kind != Source::Kind::none || wire.import >= 0;
+      const bool watched = fed && input.kind == FULMAR_IN_VALUE && !input.optional && !reader.info().vehicle &&
+                           (reader.role >= 0 || in_chain[i]);
+      if (wire.max_age_ns == Wire::unsaid) {
+        wire.max_age_ns = watched ? usual_age_ns(graph, wire) : 0;
+        wire.by_steps = true;
+      }
+      wire.guarded = watched && wire.max_age_ns > 0;
+      if (watched && wire.max_age_ns == 0 && !wire.by_steps)
+        graph.warnings.push_back(wire.where.text() + ": " + reader.name + "." + input.name +
+                                 " leads to the vehicle and is flown on however old it is, even when its "
+                                 "writer was stopped: max_age is off");
+    }
+  }
+}
+
+}  // namespace fulmar::core

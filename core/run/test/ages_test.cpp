@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Nobody flies on what a stopped writer left behind, whatever wire leads from it; who may stay silent may.
+#include <doctest/doctest.h>
+
+#include "core/run/test/lab.hpp"
+
+namespace ages_test {
+
+/// cart -> plan (fills no role) -> law: what has no role stands between the sensors and the aircraft.
+const char* const through_plan =
+    "  plan: {use: lab/Filter, in: {signal: vehicle.signal}}\n"
+    "  one:  {fills: law, use: lab/Law, params: {id: 1, u: 0.1}, in: {signal: plan.signal}}\n";
+
+TEST_CASE("a law is stopped in the tick in which the component that feeds it is, role or not") {
+  const Graph g = mission(std::string(through_plan) + with_fallback, {{"plan.stop_at", "0.1"}});
+  Flight flight(g, options(0.1));
+  const FlightResult r = flight.run();
+  REQUIRE(r.guards.size() == 2);
+  CHECK(r.guards[0].component == "plan");
+  CHECK(r.guards[1].component == "one");
+  CHECK(r.guards[1].what == "input 'signal' comes from plan, which was stopped");
+  CHECK(r.guards[1].action == "two takes over");  // it has its signal from elsewhere
+  CHECK(r.guards[1].at_ns == 100'000'000);
+  CHECK(value(g, flight, "two", "command", "seen_m") == value(g, flight, "sim", "signal", "x_m"));
+}
+
+TEST_CASE("the chain to the vehicle may be of components without a role alone") {
+  const Graph g = mission(
+      "  plan:   {use: lab/Filter, in: {signal: vehicle.signal}}\n"
+      "  manage: {use: lab/Filter, in: {signal: plan.signal}}\n"
+      "  one:    {fills: law, use: lab/Law, params: {id: 1, u: 0.1}, in: {signal: manage.signal}}\n" +
+          std::string(one_phase),
+      {{"plan.stop_at", "0.1"}});
+  Flight flight(g, options(0.3));
+  const FlightResult r = flight.run();
+  REQUIRE(r.guards.size() == 3);
+  CHECK(r.guards[1].what == "input 'signal' comes from plan, which was stopped");
+  CHECK(r.guards[2].what == "input 'signal' comes from manage, which was stopped");
+  CHECK(r.guards[2].action == "failsafe");
+  CHECK(r.guards[2].at_ns == 100'000'000);
+  CHECK(r.outcome == Outcome::failed);
+}
+
+TEST_CASE("a wire from an output that is no role's is watched like one that is") {
+  // the law's signal comes by the filter's own name; the filter is replaced, and steps no more
+  const Graph g = mission(
+      "  other: {fills: sense, use: lab/Filter}\n"
+      "  one:   {fills: law, use: lab/Law, params: {id: 1, u: 0.1}, in: {signal: filter.signal}}\n"
+      "phases:\n"
+      "  first:  {sense: filter, law: {use: one, fallback: two}, next: [{to: second, when: "
+      "\"vehicle.signal.tick_s >= 0.2 s\"}]}\n"
+      "  second: {sense: other, law: {use: one, fallback: two}}\n");
+  Flight flight(g, options(2));
+  const FlightResult r = flight.run();
+  REQUIRE(r.guards.size() == 1);
+  CHECK(r.guards[0].component == "one");
+  CHECK(r.guards[0].action == "two takes over");
+  CHECK(r.guards[0].at_ns == 1'202'500'000);  // a second after the filter's last step, at 0.2 s
+}
+
+TEST_CASE("an output that may stay silent is as old as the last step of its writer") {
+  const Graph silent = mission(std::string(through_plan) + one_phase, {{"plan.mute_at", "0.1"}});
+  Flight flight(silent, options(5));
+  CHECK(flight.run().guards.empty());
+  // where the mission names an age it is the sample's
+  const Graph strict = mission(
+      "  plan: {use: lab/Filter, in: {signal: vehicle.signal}}\n"
+      "  one:  {fills: law, use: lab/Law, in: {signal: {from: plan.signal, max_age: 300 ms}}}\n" +
+          std::string(one_phase),
+      {{"plan.mute_at", "0.1"}});
+  const FlightResult r = Flight(strict, options(5)).run();
+  REQUIRE(r.guards.size() == 1);
+  CHECK(r.guards[0].what == "input 'signal' is 0.302 s old, the limit is 0.300 s");
+}
+
+TEST_CASE("a slow writer has three of its steps before its reader is stopped") {
+  const Graph g = mission("  plan: {use: lab/Filter, rate: 0.5 Hz, in: {signal: vehicle.signal}}\n"
+                          "  one:  {fills: law, use: lab/Law, in: {signal: plan.signal}}\n" +
+                          std::string(one_phase));
+  CHECK(Flight(g, options(9)).run().guards.empty());
+}
+
+TEST_CASE("a sample of the tick before is lost with its writer, too") {
+  const Graph g = mission(
+      "  plan: {use: lab/Filter, in: {signal: vehicle.signal}}\n"
+      "  one:  {fills: law, use: lab/Law, in: {signal: {from: plan.signal, delayed: true}}}\n" +
+          std::string(with_fallback),
+      {{"plan.stop_at", "0.1"}});
+  const FlightResult r = Flight(g, options(0.2)).run();
+  REQUIRE(r.guards.size() == 2);
+  CHECK(r.guards[1].component == "one");
+  CHECK(r.guards[1].at_ns <= 102'500'000);
+}
+
+TEST_CASE("who says 'max_age: off' flies on, and is warned before") {
+  const Graph g = mission(
+      "  plan: {use: lab/Filter, in: {signal: vehicle.signal}}\n"
+      "  one:  {fills: law, use: lab/Law, in: {signal: {from: plan.signal, max_age: off}}}\n" +
+          std::string(one_phase),
+      {{"plan.stop_at", "0.1"}});
+  REQUIRE(g.warnings.size() == 1);
+  CHECK(g.warnings[0].find("one.signal leads to the vehicle and is flown on however old it is") !=
+        std::string::npos);
+  const FlightResult r = Flight(g, options(2)).run();
+  REQUIRE(r.guards.size() == 1);
+  CHECK(r.guards[0].component == "plan");
+  CHECK(mission(std::string(through_plan) + one_phase).warnings.empty());
+}
+
+TEST_CASE("what does not lead to the vehicle looks on, whoever was stopped") {
+  const Graph g = mission(
+      "  plan: {use: lab/Filter, in: {signal: vehicle.signal}}\n"
+      "  seen: {use: lab/Filter, in: {signal: plan.signal}}\n" +
+          std::string(one_phase),
+      {{"plan.stop_at", "0.1"}});
+  const FlightResult r = Flight(g, options(2)).run();
+  CHECK(r.outcome == Outcome::flown);
+  CHECK(r.guards.size() == 1);
+}
+
+}  // namespace ages_test

@@ -15,6 +15,7 @@
 #include "core/error.hpp"
 #include "core/graph/graph.hpp"
 #include "core/run/realtime.hpp"
+#include "core/say.hpp"
 
 namespace {
 

@@ -101,7 +101,8 @@ void view_sample(Reader& r, std::int64_t now_ns, fulmar_input& in) noexcept {
   if (judged_age_ns(r, now_ns, in.age_ns) > limit_ns) in.flags |= FULMAR_STALE;
 }
 
-void tell_stale(const Reader& r, std::int64_t now_ns, const fulmar_input& in, fulmar_error& problem) noexcept {
+void tell_stale(const Reader& r, std::int64_t now_ns, const fulmar_input& in,
+                fulmar_error& problem) noexcept {
   const char* const input = r.port->name.c_str();
   if (writer_lost(*r.source()))
     return put_problem(problem, "input '%s' comes from %s, which was stopped", input,

@@ -75,7 +75,7 @@ struct Pending {
 struct Reader {
   const Port* port = nullptr;
   const Wire* wire = nullptr;
-  bool delayed = false;         // it sees what was there at the end of the previous tick
+  bool delayed = false;  // it sees what was there at the end of the previous tick
   const Slot* slot = nullptr;
   const RoleSlot* role = nullptr;
   std::vector<CopyPlan> plans;  // value inputs: of the slot, or one per filler of the role

@@ -58,7 +58,7 @@ void guard_wires(Draft& draft) {
       const Port& input = reader.info().inputs[k];
       const bool fed = wire.from.kind != Source::Kind::none || wire.import >= 0;
       const bool watched = fed && input.kind == FULMAR_IN_VALUE && !input.optional &&
-                           !reader.info().vehicle && (reader.role >= 0 || in_chain[i]);
+                           !reader.info().vehicle && (!reader.roles.empty() || in_chain[i]);
       if (wire.max_age_ns == Wire::unsaid) {
         wire.max_age_ns = watched ? usual_age_ns(graph, wire) : 0;
         wire.by_steps = true;

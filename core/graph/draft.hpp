@@ -12,7 +12,7 @@
 
 namespace fulmar::core {
 
-/// A component of the file that can exist in this run. Sources in its wires count candidates, and `role` is
+/// A component of the file that can exist in this run. Sources in its wires count candidates, and `roles` are
 /// what it can fill, until the graph is built.
 struct Candidate : Component {
   const ComponentText* text = nullptr;

@@ -3,6 +3,7 @@
 // in which phase. Everything that can be wrong has been refused before one of these exists. The loop reads it
 // and never changes it.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -81,13 +82,14 @@ struct Component : ComponentSettings {
   std::shared_ptr<const PluginInfo> plugin;  // the host's own copy: outlives the library
   std::shared_ptr<Library> library;          // empty when a test describes the component by hand
   std::size_t index_in_plugin = 0;
-  int role = -1;               // that it fills in some phase; -1: none, it steps in every phase
+  std::vector<int> roles;      // that it fills, all at once, in some phase; none: it steps in every phase
   std::int64_t period_ns = 0;  // 0: every tick
   RunMode run = RunMode::tick;
   std::vector<Wire> wires;         // one per input
   std::vector<ParamValue> params;  // one per parameter, the base values
 
   const ComponentInfo& info() const { return plugin->components[index_in_plugin]; }
+  bool fills(int role) const { return std::find(roles.begin(), roles.end(), role) != roles.end(); }
 };
 
 struct RolePort {

@@ -249,13 +249,13 @@ class MissionReader {
     ComponentText c;
     c.name = entry.key;
     c.where = entry.where();
-    c.fills = keys.word_at("fills");
+    c.fills = fills(keys);
     c.use = keys.word_at("use");
     if (!keys.has("use") && entry.value.is(Node::Kind::map))
       report_.add(entry.where(),
                   path + ": 'use' is missing; it names the plugin, as in use: control_slc/Outer");
     c.only = io_of(keys.word("only", io_words).value_or(""));
-    if (!keys.has("only") && c.fills.text == "vehicle") c.only = io_of(c.name);
+    if (!keys.has("only") && c.fills_role("vehicle")) c.only = io_of(c.name);
     c.in = wires(keys);
     c.params = params(keys, "params");
     c.rate_hz = keys.positive("rate", "Hz").value_or(0);
@@ -264,6 +264,26 @@ class MissionReader {
     c.max_age_ns = max_age_ns(keys);
     run_mode(keys, path, c);
     m_.components.push_back(std::move(c));
+  }
+
+  /// A role, or a list of them.
+  std::vector<Word> fills(const Keys& keys) {
+    const Node* const node = keys.get("fills");
+    if (!node) return {};
+    if (!node->is(Node::Kind::sequence)) return {keys.word_at("fills")};
+    std::vector<Word> list;
+    const std::string path = keys.path("fills");
+    for (const Node& item : node->items) {
+      const auto text = scalar_text(item, path, "a role such as outer", report_);
+      if (!text) continue;
+      const Word word{*text, item.where()};
+      const auto same = [&](const Word& other) { return other.text == word.text; };
+      if (std::any_of(list.begin(), list.end(), same))
+        report_.add(word.where, path + ": '" + word.text + "' is there twice");
+      else
+        list.push_back(word);
+    }
+    return list;
   }
 
   /// Values of parameters, as a map; missing when there is none.

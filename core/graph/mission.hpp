@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A mission file as written: every key checked, every value in its type, nothing looked up in plugins yet.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -42,14 +43,19 @@ struct RoleText {
 };
 
 struct ComponentText : ComponentSettings {
-  Word fills, use;
+  std::vector<Word> fills;  // roles: all of them at once
+  Word use;
   std::optional<Io> only;  // nothing: it exists with both
   std::vector<WireText> in;
   Node params;
-  double rate_hz = 0;           // 0: every tick
+  double rate_hz = 0;                      // 0: every tick
   std::optional<std::int64_t> max_age_ns;  // of wires that say nothing
   std::optional<RunMode> run;
   Where where_rate;
+
+  bool fills_role(const std::string& role) const {
+    return std::any_of(fills.begin(), fills.end(), [&](const Word& word) { return word.text == role; });
+  }
 };
 
 struct AssignmentText {

@@ -9,6 +9,12 @@
 namespace fulmar::core {
 namespace {
 
+std::vector<std::string> texts_of(const std::vector<Word>& words) {
+  std::vector<std::string> texts;
+  for (const Word& word : words) texts.push_back(word.text);
+  return texts;
+}
+
 /// The candidate that a phase or the command line names for a role; -1 and a fault when it cannot fill it.
 int filler_named(Draft& draft, int role, const Word& word, const std::string& path) {
   const std::string& name = word.text;
@@ -22,7 +28,8 @@ int filler_named(Draft& draft, int role, const Word& word, const std::string& pa
   if (known && draft.is_out(*known))
     why = not_there(draft, name);
   else if (known)
-    why = name + (known->fills.text.empty() ? " does not fill " : " fills " + known->fills.text + ", not ") +
+    why = name +
+          (known->fills.empty() ? " does not fill " : " fills " + join(texts_of(known->fills)) + ", not ") +
           wanted.name + "." + choices_text("", fillers);
   else
     why =
@@ -75,24 +82,23 @@ std::vector<Overlay> read_overlay(Draft& draft, const Candidate& candidate, cons
   return overlay;
 }
 
-int first_filler(const RoleDraft& role) { return role.fillers.empty() ? -1 : role.fillers.front(); }
-
-/// What a phase says of a role, checked also where --role then changes it.
-void read_assignment(Draft& draft, const AssignmentText& text, const std::string& path, int command,
+/// What a phase says of a role, checked also where --role then changes it. `usual`: who would fill it without
+/// --role, `seated`: who does.
+void read_assignment(Draft& draft, const AssignmentText& text, const std::string& path, int usual, int seated,
                      Assignment& assignment) {
   const int role = draft.role(text.role);
   if (text.role == "vehicle")
     return draft.report.add(
         text.where,
         path + ": the vehicle does not change in flight; choose it with io or with --role vehicle=NAME");
-  int use = first_filler(nth(draft.roles, role));
+  int use = usual;
   if (!text.use.text.empty()) use = filler_named(draft, role, text.use, path);
   const int fallback =
       text.fallback.text.empty() ? -1 : filler_named(draft, role, text.fallback, path + ".fallback");
   if (fallback >= 0 && fallback == use)
     draft.report.add(text.fallback.where, path + ".fallback: " + text.fallback.text +
                                               " is the component that fills the role already");
-  assignment.component = command >= 0 ? command : use;
+  assignment.component = seated >= 0 ? seated : use;
   if (fallback != assignment.component) assignment.fallback = fallback;
   const auto overlay = [&](int component) {
     return component < 0 ? std::vector<Overlay>()
@@ -100,7 +106,7 @@ void read_assignment(Draft& draft, const AssignmentText& text, const std::string
                                         component != use);
   };
   assignment.set = overlay(use);
-  if (assignment.component != use) assignment.set = overlay(command);
+  if (assignment.component != use) assignment.set = overlay(assignment.component);
 }
 
 std::string phase_path(const PhaseText& phase) { return "phases." + phase.name; }
@@ -111,18 +117,124 @@ const std::vector<PhaseText>& phases_of(const MissionText& text) {
   return text.phases.empty() ? only : text.phases;
 }
 
+/// Who fills which role in a phase: whom the command line or the phase names, with all roles that he fills;
+/// then, for each role that is left, the first in file order whose roles are all free.
+class Seating {
+ public:
+  Seating(Draft& draft, const PhaseText& phase, const std::vector<int>& command)
+      : draft_(draft), phase_(phase), command_(command), seats_(draft.roles.size(), -1) {}
+
+  std::vector<int> seats() {
+    for (std::size_t r = 0; r < seats_.size(); ++r) seat_by_command(static_cast<int>(r));
+    const std::vector<int> commanded = seats_;
+    for (const AssignmentText& text : phase_.roles) seat_by_phase(text, commanded);
+    for (std::size_t r = 0; r < seats_.size(); ++r) seat_by_order(static_cast<int>(r));
+    return seats_;
+  }
+
+ private:
+  std::vector<int> roles_of(int candidate) const { return nth(draft_.candidates, candidate).roles; }
+
+  void seat(int candidate) {
+    for (const int r : roles_of(candidate)) nth(seats_, r) = candidate;
+  }
+
+  /// Who sits in one of its roles already, or -1.
+  int in_its_way(int candidate, const std::vector<int>& seats) const {
+    for (const int r : roles_of(candidate))
+      if (nth(seats, r) >= 0 && nth(seats, r) != candidate) return nth(seats, r);
+    return -1;
+  }
+
+  void seat_by_command(int role) {
+    const int wanted = nth(command_, role);
+    if (wanted < 0) return;
+    const int other = in_its_way(wanted, seats_);
+    if (other < 0) return seat(wanted);
+    if (&phase_ == &phases_of(draft_.text).front())
+      draft_.report.add({"--role", 0}, not_together(wanted, other));
+  }
+
+  void seat_by_phase(const AssignmentText& text, const std::vector<int>& commanded) {
+    const int role = draft_.role(text.role), wanted = draft_.candidate(text.use.text);
+    if (wanted < 0 || !nth(draft_.candidates, wanted).fills(role) || in_its_way(wanted, commanded) >= 0)
+      return;
+    const int other = in_its_way(wanted, seats_);
+    if (other < 0) return seat(wanted);
+    draft_.report.add(text.where, phase_path(phase_) + "." + text.role + ": " + not_together(wanted, other));
+  }
+
+  void seat_by_order(int role) {
+    if (nth(seats_, role) >= 0) return;
+    for (const int f : nth(draft_.roles, role).fillers)
+      if (in_its_way(f, seats_) < 0) return seat(f);
+  }
+
+  std::string not_together(int one, int other) const {
+    const auto words = [&](int candidate) {
+      std::string text;
+      for (const int r : roles_of(candidate))
+        text += (text.empty() ? "" : " and ") + nth(draft_.roles, r).name;
+      return nth(draft_.candidates, candidate).name + " fills " + text;
+    };
+    return words(one) + ", " + words(other) + "; they cannot fly together";
+  }
+
+  Draft& draft_;
+  const PhaseText& phase_;
+  const std::vector<int>& command_;
+  std::vector<int> seats_;  // per role: a candidate, or -1
+};
+
+/// Of a component that fills several roles: what the phase sets holds in all of them, and when it has a
+/// fallback in one, the others have the one that the phase names, or the first that can fill them.
+void complete_group(Draft& draft, const PhaseText& phase, int group, std::vector<Assignment>& roles) {
+  const std::vector<int>& seats = nth(draft.candidates, group).roles;
+  const std::vector<Overlay>* set = nullptr;
+  bool falls_back = false;
+  for (const int r : seats) {
+    const Assignment& a = nth(roles, r);
+    falls_back = falls_back || a.fallback >= 0;
+    if (a.set.empty()) continue;
+    if (set)
+      draft.report.add(phase.where, phase_path(phase) + ": 'set' of " + nth(draft.candidates, group).name +
+                                        " is there twice; one of its roles is enough");
+    set = &a.set;
+  }
+  const std::vector<Overlay> shared = set ? *set : std::vector<Overlay>();
+  for (const int r : seats) {
+    Assignment& a = nth(roles, r);
+    a.set = shared;
+    if (!falls_back || a.fallback >= 0) continue;
+    for (const int f : nth(draft.roles, r).fillers)
+      if (a.fallback < 0 && nth(draft.candidates, f).roles.size() == 1) a.fallback = f;
+  }
+}
+
+void complete_groups(Draft& draft, const PhaseText& phase, std::vector<Assignment>& roles) {
+  for (std::size_t r = 0; r < roles.size(); ++r) {
+    const int c = roles[r].component;
+    if (c < 0 || nth(draft.candidates, c).roles.size() < 2) continue;
+    if (nth(draft.candidates, c).roles.front() == static_cast<int>(r)) complete_group(draft, phase, c, roles);
+  }
+}
+
 }  // namespace
 
 void assign_roles(Draft& draft) {
   const std::vector<int> command = chosen_by_command(draft);
+  const std::vector<int> nobody(draft.roles.size(), -1);
   for (const PhaseText& phase : phases_of(draft.text)) {
     std::vector<Assignment> roles(draft.roles.size());
-    for (std::size_t r = 0; r < roles.size(); ++r)
-      roles[r].component = command[r] >= 0 ? command[r] : first_filler(draft.roles[r]);
+    const std::vector<int> usual = Seating(draft, phase, nobody).seats(),
+                           seated = Seating(draft, phase, command).seats();
+    for (std::size_t r = 0; r < roles.size(); ++r) roles[r].component = seated[r];
     for (const AssignmentText& text : phase.roles) {
       const int r = draft.role(text.role);
-      read_assignment(draft, text, phase_path(phase) + "." + text.role, nth(command, r), nth(roles, r));
+      read_assignment(draft, text, phase_path(phase) + "." + text.role, nth(usual, r), nth(seated, r),
+                      nth(roles, r));
     }
+    complete_groups(draft, phase, roles);
     for (const Assignment& assignment : roles)
       for (const int i : {assignment.component, assignment.fallback})
         if (i >= 0) nth(draft.candidates, i).assigned = true;

@@ -72,12 +72,15 @@ void collect_candidates(Draft& draft, Catalogue& catalogue) {
     candidate.text = &text;
     static_cast<ComponentSettings&>(candidate) = static_cast<const ComponentSettings&>(text);
     load_component(draft, catalogue, candidate);
-    if (const std::string& fills = text.fills.text; !fills.empty()) {
-      candidate.role = draft.role(fills);
-      if (candidate.role < 0)
-        draft.report.add(text.fills.where,
-                         no_such("components." + text.name + ": there is no role", fills, draft.roles));
+    for (const Word& fills : text.fills) {
+      const int role = draft.role(fills.text);
+      if (role < 0)
+        draft.report.add(fills.where,
+                         no_such("components." + text.name + ": there is no role", fills.text, draft.roles));
+      else
+        candidate.roles.push_back(role);
     }
+    std::sort(candidate.roles.begin(), candidate.roles.end());
     if (text.rate_hz > draft.text.rate_hz * (1 + 1e-9))
       draft.report.add(text.where_rate, "components." + text.name + ".rate: " + number_text(text.rate_hz) +
                                             " Hz is above the mission's rate of " +
@@ -97,14 +100,14 @@ std::vector<std::string> output_words(const ComponentInfo& info) {
 bool keeps_contract(Draft& draft, const RoleDraft& role, const Candidate& filler) {
   const std::string path = "components." + filler.name + ": ";
   const ComponentInfo& info = filler.info();
+  const Where& where = filler.text->fills.front().where;
   bool keeps = true;
   if (role.name == "vehicle" && !info.vehicle)
-    draft.report.add(filler.text->fills.where,
+    draft.report.add(where,
                      path + filler.use + " is not a vehicle: it has 'step' in place of 'read' and 'write'");
   if (role.name != "vehicle" && info.vehicle)
     draft.report.add(
-        filler.text->fills.where,
-        path + filler.use + " is a vehicle and can fill only the role vehicle, not " + role.name);
+        where, path + filler.use + " is a vehicle and can fill only the role vehicle, not " + role.name);
   for (const RoleOutText& out : role.text->out) {
     const Port* const port = find_named(info.outputs, out.name);
     if (!port && out.optional) continue;
@@ -112,8 +115,8 @@ bool keeps_contract(Draft& draft, const RoleDraft& role, const Candidate& filler
     const std::string has =
         !port ? "; it has " + join(output_words(info))
               : "; its '" + out.name + "' is " + (port->type ? port->type->name : "a probe");
-    draft.report.add(filler.text->fills.where, path + "the role " + role.name + " wants an output '" +
-                                                   out.name + "' of type " + out.type + has);
+    draft.report.add(where, path + "the role " + role.name + " wants an output '" + out.name + "' of type " +
+                                out.type + has);
     keeps = false;
   }
   return keeps;
@@ -149,7 +152,7 @@ void resolve_roles(Draft& draft) {
     RoleDraft& role = draft.roles[r];
     for (std::size_t i = 0; i < draft.candidates.size(); ++i) {
       const Candidate& candidate = draft.candidates[i];
-      if (candidate.role != static_cast<int>(r)) continue;
+      if (!candidate.fills(static_cast<int>(r))) continue;
       role.fillers.push_back(static_cast<int>(i));
       if (!candidate.loaded || !keeps_contract(draft, role, candidate)) role.unclear = true;
     }
@@ -158,9 +161,44 @@ void resolve_roles(Draft& draft) {
     role.unclear = true;
     std::string why = "; write 'fills: " + role.name + "' at one";
     for (const ComponentText& text : draft.text.components)
-      if (text.fills.text == role.name)
+      if (text.fills_role(role.name))
         why = " with io: " + io_word(draft.text.io) + "; " + not_there(draft, text.name);
     draft.report.add(role.text->where, "roles." + role.name + ": no component fills it" + why);
+  }
+}
+
+std::vector<std::string> role_names(const Draft& draft, const Candidate& candidate) {
+  std::vector<std::string> names;
+  for (const int r : candidate.roles) names.push_back(nth(draft.roles, r).name);
+  return names;
+}
+
+/// Components that fill several roles: who fills which must stay clear.
+void check_groups(Draft& draft) {
+  for (std::size_t i = 0; i < draft.candidates.size(); ++i) {
+    const Candidate& group = draft.candidates[i];
+    if (group.roles.size() < 2) continue;
+    const std::string path = "components." + group.name + ".fills: ";
+    const Where& where = group.text->fills.front().where;
+    if (group.fills(draft.role("vehicle")))
+      draft.report.add(where, path + "the vehicle fills the role vehicle alone");
+    std::vector<std::string> outputs;
+    for (const int r : group.roles)
+      for (const RoleOutText& out : nth(draft.roles, r).text->out) {
+        if (std::find(outputs.begin(), outputs.end(), out.name) != outputs.end())
+          draft.report.add(where, path + "two of these roles have an output '" + out.name +
+                                      "'; one component cannot fill both");
+        outputs.push_back(out.name);
+      }
+    for (std::size_t k = 0; k < i; ++k) {
+      const Candidate& other = draft.candidates[k];
+      const bool shares =
+          std::any_of(other.roles.begin(), other.roles.end(), [&](int r) { return group.fills(r); });
+      if (other.roles.size() > 1 && shares && other.roles != group.roles)
+        draft.report.add(where, path + join(role_names(draft, group)) + " overlap with those of " +
+                                    other.name + ", " + join(role_names(draft, other)) +
+                                    ": components that share roles fill the same ones, or one alone");
+    }
   }
 }
 
@@ -183,7 +221,7 @@ void choose_vehicle(Draft& draft) {
 void mark_used(Draft& draft) {
   std::vector<Candidate*> todo;
   for (Candidate& candidate : draft.candidates) {
-    candidate.used = candidate.used || candidate.assigned || candidate.text->fills.text.empty();
+    candidate.used = candidate.used || candidate.assigned || candidate.text->fills.empty();
     if (candidate.used) todo.push_back(&candidate);
   }
   while (!todo.empty()) {
@@ -258,7 +296,7 @@ void build_components(Draft& draft) {
     run_mode(draft, candidate);
     if (candidate.info().vehicle) draft.graph.vehicle = candidate.component;
     Component& component = draft.graph.components.emplace_back(candidate);
-    if (!candidate.assigned) component.role = -1;
+    if (!candidate.assigned) component.roles.clear();
     if (component.run == RunMode::process)
       component.library.reset();  // its code is the child's business alone
   }
@@ -298,11 +336,13 @@ void build_wires(Draft& draft) {
 
 /// Whether the output is a role's: it is then recorded under the role's name.
 bool provides(const Graph& graph, const Component& component, int output) {
-  if (component.role < 0) return false;
-  const Role& role = nth(graph.roles, component.role);
-  for (std::size_t f = 0; f < role.fillers.size(); ++f)
-    if (&nth(graph.components, role.fillers[f]) == &component)
-      return std::find(role.provides[f].begin(), role.provides[f].end(), output) != role.provides[f].end();
+  for (const int r : component.roles) {
+    const Role& role = nth(graph.roles, r);
+    for (std::size_t f = 0; f < role.fillers.size(); ++f)
+      if (&nth(graph.components, role.fillers[f]) == &component &&
+          std::find(role.provides[f].begin(), role.provides[f].end(), output) != role.provides[f].end())
+        return true;
+  }
   return false;
 }
 
@@ -361,6 +401,7 @@ void resolve(Draft& draft, Catalogue& catalogue) {
   read_head(draft);
   collect_candidates(draft, catalogue);
   resolve_roles(draft);
+  check_groups(draft);
   resolve_wires(draft);
   assign_roles(draft);
   name_ports(draft);

@@ -83,6 +83,22 @@ void connect(Draft& draft, std::size_t index, const WireText& text, const std::s
   }
 }
 
+/// The wires that a role brings, but where the component has one of its own.
+void connect_by_role(Draft& draft, std::size_t index, const RoleText& role) {
+  const Candidate& candidate = draft.candidates[index];
+  for (const WireText& wire : role.in) {
+    const int input = candidate.info().input(wire.name);
+    if (input < 0 || find_named(candidate.text->in, wire.name)) continue;
+    const Source before = nth(candidate.wires, input).from;
+    connect(draft, index, wire, "roles." + role.name + ".in." + wire.name);
+    if (before.kind != Source::Kind::none && before != nth(candidate.wires, input).from)
+      draft.report.add(candidate.where, "components." + candidate.name + ": the roles that it fills feed '" +
+                                            wire.name +
+                                            "' from different outputs; write the one that it is to have "
+                                            "under its own 'in'");
+  }
+}
+
 /// The wires of a role are checked even where no filler uses them: a slip there is a slip.
 void check_role_wires(Draft& draft, const RoleDraft& role) {
   for (const WireText& wire : role.text->in) {
@@ -124,12 +140,7 @@ void resolve_wires(Draft& draft) {
     Candidate& candidate = draft.candidates[i];
     if (!candidate.loaded) continue;
     candidate.wires.resize(candidate.info().inputs.size());
-    if (candidate.role >= 0) {
-      const RoleText& role = *nth(draft.roles, candidate.role).text;
-      for (const WireText& wire : role.in)
-        if (candidate.info().input(wire.name) >= 0 && !find_named(candidate.text->in, wire.name))
-          connect(draft, i, wire, "roles." + role.name + ".in." + wire.name);
-    }
+    for (const int r : candidate.roles) connect_by_role(draft, i, *nth(draft.roles, r).text);
     for (const WireText& wire : candidate.text->in)
       connect(draft, i, wire, "components." + candidate.name + ".in." + wire.name);
   }
@@ -146,7 +157,7 @@ std::vector<std::string> proposals(const Draft& draft, const Candidate& reader, 
     if (misfit(reader.name, input, from, target).empty()) names.push_back(from.text());
   };
   for (std::size_t r = 0; r < draft.roles.size(); ++r) {
-    if (static_cast<int>(r) == reader.role) continue;
+    if (reader.fills(static_cast<int>(r))) continue;
     for (const RoleOutText& out : draft.roles[r].text->out) {
       const PortName from{draft.roles[r].text->name, out.name};
       offer(from, role_target(draft, static_cast<int>(r), from));
@@ -154,7 +165,7 @@ std::vector<std::string> proposals(const Draft& draft, const Candidate& reader, 
   }
   for (std::size_t i = 0; i < draft.candidates.size(); ++i) {
     const Candidate& writer = draft.candidates[i];
-    if (&writer == &reader || !writer.loaded || writer.role >= 0) continue;
+    if (&writer == &reader || !writer.loaded || !writer.roles.empty()) continue;
     for (const Port& port : writer.info().outputs)
       offer({writer.name, port.name}, component_target(draft, static_cast<int>(i), {writer.name, port.name}));
   }
@@ -163,15 +174,16 @@ std::vector<std::string> proposals(const Draft& draft, const Candidate& reader, 
 
 bool wire_reported(const Draft& draft, const Candidate& candidate, const std::string& input) {
   const bool own = find_named(candidate.text->in, input) != nullptr;
-  if (own || candidate.role < 0) return own;
-  return find_named(nth(draft.roles, candidate.role).text->in, input) != nullptr;
+  return own || std::any_of(candidate.roles.begin(), candidate.roles.end(), [&](int role) {
+           return find_named(nth(draft.roles, role).text->in, input) != nullptr;
+         });
 }
 
 }  // namespace
 
 void check_fed(Draft& draft) {
   for (const Candidate& candidate : draft.candidates) {
-    if (!candidate.loaded || (candidate.role < 0 && !candidate.text->fills.text.empty()))
+    if (!candidate.loaded || candidate.roles.size() < candidate.text->fills.size())
       continue;  // wires of an unknown role are unknown
     for (std::size_t i = 0; i < candidate.wires.size(); ++i) {
       const Port& input = candidate.info().inputs[i];

@@ -117,7 +117,8 @@ std::vector<std::string> topics_of_source(const FlightView& view, const Tap& tap
   if (dot == std::string::npos) return topics;
   const std::string owner = source.substr(0, dot), port = source.substr(dot + 1);
   for (const ComponentView& c : view.components) {
-    if (c.name != owner && c.role != owner) continue;
+    const bool fills = (", " + c.role + ", ").find(", " + owner + ", ") != std::string::npos;
+    if (c.name != owner && !fills) continue;
     for (const PortView& p : c.outputs)
       if (p.name == port) topics.push_back(topic_of(tap, c, p));
   }

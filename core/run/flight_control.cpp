@@ -61,7 +61,8 @@ ComponentView view_of(const Flight::Impl& flight, const Unit& unit) {
   const Component& c = *unit.component;
   ComponentView v;
   v.name = c.name, v.use = c.use, v.doc = c.info().doc, v.run = modes[static_cast<std::size_t>(c.run)];
-  if (c.role >= 0) v.role = nth(flight.state.graph.roles, c.role).name;
+  for (const int role : c.roles)
+    v.role += (v.role.empty() ? "" : ", ") + nth(flight.state.graph.roles, role).name;
   for (std::size_t i = 0; i < c.info().params.size(); ++i)
     v.params.push_back({c.info().params[i], unit.base[i], false});
   for (std::size_t i = 0; i < unit.in.readers.size(); ++i) {

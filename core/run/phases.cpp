@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Phases: who fills which role when.
+#include <utility>
+
 #include "core/run/roles.hpp"
 #include "core/types/named.hpp"
 
@@ -21,8 +23,8 @@ void Roles::begin() {
     if (a.component < 0) continue;
     active_[r] = a.component;
     Unit& unit = wiring_.unit(a.component);
-    unit.active = true;
-    if (!a.set.empty() && !unit.retune(&a.set)) stop(a.component);
+    const bool again = std::exchange(unit.active, true);  // it fills several
+    if (!again && !a.set.empty() && !unit.retune(&a.set)) stop(a.component);
   }
   next_since_.assign(first.next.size(), never_ns);
   note_phase(first);
@@ -49,18 +51,34 @@ void Roles::enter(int phase) {
   const Phase& entered = present();
   next_since_.assign(entered.next.size(), never_ns);
   note_phase(entered);
-  for (std::size_t r = 0; r < active_.size(); ++r)
-    fill(static_cast<int>(r), entered.roles[r], !before.roles[r].set.empty());
+  for (std::size_t r = 0; r < active_.size(); ++r) fill(static_cast<int>(r), !before.roles[r].set.empty());
+  keep_groups_whole();
+}
+
+/// A component that the phase wants in another role and that brings this one with it, or -1.
+int Roles::group_wanted_in(int role) const {
+  for (const Assignment& a : present().roles)
+    for (const int wanted : {a.component, a.fallback}) {
+      if (wanted < 0 || wiring_.unit(wanted).stopped) continue;
+      const Component& component = *wiring_.unit(wanted).component;
+      if (component.roles.size() > 1 && component.fills(role)) return wanted;
+      break;
+    }
+  return -1;
 }
 
 /// Who flies in a role from now on: the component that the phase names, else its fallback, else who flies
 /// already.
-void Roles::fill(int role, const Assignment& assignment, bool overlaid) {
+void Roles::fill(int role, bool overlaid) {
+  const Assignment& assignment = nth(present().roles, role);
   if (assignment.component < 0) return;
-  for (const int wanted : {assignment.component, assignment.fallback}) {
+  const int group = group_wanted_in(role);
+  const auto unless_group = [&](int component) { return component == group ? -1 : component; };
+  for (const int wanted : {group, unless_group(assignment.component), unless_group(assignment.fallback)}) {
     if (wanted < 0 || wiring_.unit(wanted).stopped) continue;
     if (wanted != active(role)) {
-      if (take_over(role, wanted, assignment)) return;
+      const bool tried = wiring_.unit(wanted).component->roles.front() != role;  // in the first of its roles
+      if (!tried && take_over(wanted, assignment)) return;
       continue;
     }
     const bool own = wanted == assignment.component && !assignment.set.empty();

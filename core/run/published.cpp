@@ -56,8 +56,8 @@ const std::vector<TypePtr>& host_types() {
 }
 
 std::string topic_name(const Graph& graph, const Component& c, std::size_t output) {
-  if (c.role >= 0) {
-    const Role& role = nth(graph.roles, c.role);
+  for (const int r : c.roles) {
+    const Role& role = nth(graph.roles, r);
     for (std::size_t f = 0; f < role.fillers.size(); ++f)
       for (std::size_t k = 0; k < role.outputs.size(); ++k)
         if (&nth(graph.components, role.fillers[f]) == &c && role.provides[f][k] == static_cast<int>(output))

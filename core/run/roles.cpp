@@ -80,8 +80,9 @@ bool Roles::ready_to_step(Unit& unit, int component) {
 }
 
 bool Roles::is_held(const Unit& unit) const noexcept {
-  const int role = unit.component->role;
-  return role >= 0 && nth(control_roles_, role);
+  for (const int role : unit.component->roles)
+    if (nth(control_roles_, role)) return true;
+  return false;
 }
 
 void Roles::begin_anew() noexcept {
@@ -142,13 +143,12 @@ void Roles::stop(int component, Code code) {
   make_printable(unit.problem.text);
   const std::string what = unit.problem.text;
   const std::string& name = unit.component->name;
-  const int role = unit.component->role;
   recorder_.note(guard_event(unit.runner().hung() ? Code::hung : code, name, what.c_str()));
   std::vector<GuardEvent>& guards = state_.result.guards;
   guards.push_back({state_.now_ns, name, what, "held"});
   const std::size_t guard = guards.size() - 1;
-  if (role < 0 || active(role) != component || fall_back(role, component, guard)) return;
-  if (!nth(drives_vehicle_, role)) return;
+  fall_back(component, guard);
+  if (!nobody_drives(component)) return;
   guards[guard].action = "failsafe";
   Event why = event_of(Code::failsafe, "", name);
   put(why.cause, what);
@@ -156,17 +156,31 @@ void Roles::stop(int component, Code code) {
   end_.failsafe(why);
 }
 
-/// The present phase's fallback, if it can fly, flies in this same tick.
-bool Roles::fall_back(int role, int stopped, std::size_t guard) {
-  const Assignment& a = nth(present().roles, role);
-  if (a.fallback < 0 || a.fallback == stopped || wiring_.unit(a.fallback).stopped) return false;
-  if (!take_over(role, a.fallback, a)) return false;
-  const std::string& other = wiring_.unit(a.fallback).component->name;
-  state_.result.guards[guard].action = other + " takes over";
-  Event e = event_of(Code::took_over, wiring_.unit(stopped).component->name, other);
-  say(e, "%s takes over", other.c_str());
-  recorder_.note(e);
-  return true;
+/// In each role that it has left: the present phase's fallback, if it can fly, in this same tick. Who feeds
+/// others comes first.
+void Roles::fall_back(int stopped, std::size_t guard) {
+  std::string names;
+  const std::string& name = wiring_.unit(stopped).component->name;
+  for (const int next : state_.graph.order)
+    for (std::size_t r = 0; r < active_.size(); ++r) {
+      const Assignment& a = present().roles[r];
+      if (active_[r] != stopped || a.fallback != next || next == stopped || wiring_.unit(next).stopped)
+        continue;
+      if (!take_over(next, a)) continue;
+      const std::string& other = wiring_.unit(next).component->name;
+      names += (names.empty() ? "" : ", ") + other;
+      state_.result.guards[guard].action = names + (names == other ? " takes over" : " take over");
+      Event e = event_of(Code::took_over, name, other);
+      say(e, "%s takes over", other.c_str());
+      recorder_.note(e);
+    }
+}
+
+/// Whether it was what moved the aircraft, and still has that role.
+bool Roles::nobody_drives(int stopped) const noexcept {
+  for (std::size_t r = 0; r < active_.size(); ++r)
+    if (active_[r] == stopped && drives_vehicle_[r]) return true;
+  return false;
 }
 
 /// The outputs last applied in the role, as far as the newcomer's messages are of the same make.
@@ -179,33 +193,64 @@ void Roles::fill_hand_over(const Unit& unit) {
   }
 }
 
-bool Roles::take_over(int role, int component, const Assignment& assignment) {
+bool Roles::fills_any(int component) const noexcept {
+  return std::find(active_.begin(), active_.end(), component) != active_.end();
+}
+
+bool Roles::nobody_has_flown(const Component& component) const noexcept {
+  return std::all_of(component.roles.begin(), component.roles.end(),
+                     [&](int role) { return active(role) < 0 || wiring_.unit(active(role)).fresh_start; });
+}
+
+void Roles::rest(Unit& unit) noexcept {
+  unit.active = false;
+  unit.in.refuse_requests("does not fly any more");
+  if (!unit.fresh_start) unit.deactivate();
+}
+
+/// It fills all its roles from now on; who fills none any more rests.
+void Roles::occupy(int component) {
+  for (const int role : wiring_.unit(component).component->roles) {
+    const int old = std::exchange(active(role), component);
+    if (old >= 0 && old != component && !fills_any(old)) rest(wiring_.unit(old));
+  }
+  wiring_.unit(component).active = true;
+}
+
+bool Roles::take_over(int component, const Assignment& assignment) {
   Unit& unit = wiring_.unit(component);
-  Unit* const old = active(role) >= 0 ? &wiring_.unit(active(role)) : nullptr;
   const bool tuned = unit.retune(component == assignment.component ? &assignment.set : nullptr);
   if (tuned && !unit.in.ready() &&
-      (!old || old->fresh_start)) {  // nobody has flown yet: it begins when its inputs are there
-    if (old) old->active = false;
-    active(role) = component;
-    unit.active = unit.fresh_start = true;
+      nobody_has_flown(*unit.component)) {  // it begins when its inputs are there
+    unit.fresh_start = true;
+    occupy(component);
     return true;
   }
   fill_hand_over(unit);
   unit.in.forget_queues();
   if (!tuned || !unit.activate(state_.now_ns, state_.index, hand_over_)) {
-    cannot_take_over(unit, active(role) >= 0);
+    cannot_take_over(unit, active(unit.component->roles.front()) >= 0);
     return false;
   }
-  if (old) {
-    old->active = false;
-    old->in.refuse_requests("does not fly any more");
-    if (!old->fresh_start) old->deactivate();
-  }
-  active(role) = component;
-  unit.active = true;
+  occupy(component);
   unit.call_now(state_.now_ns);
   step(component);
   return true;
+}
+
+/// A component that fills several roles gives up all of them or none: where one of those who were to follow
+/// it could not take over, it goes on.
+void Roles::keep_groups_whole() {
+  for (const int component : state_.graph.order) {
+    Unit& unit = wiring_.unit(component);
+    if (unit.component->roles.size() < 2 || unit.stopped || !fills_any(component)) continue;
+    const auto has = [&](int role) { return active(role) == component; };
+    const std::vector<int>& roles = unit.component->roles;
+    if (std::all_of(roles.begin(), roles.end(), has)) continue;
+    occupy(component);
+    for (Slot& slot : unit.out.slots)
+      if (slot.role && slot.sequence > 0) slot.role->current = &slot;
+  }
 }
 
 void Roles::cannot_take_over(Unit& unit, bool somebody_stays) {

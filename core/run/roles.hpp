@@ -52,11 +52,18 @@ class Roles {
  private:
   bool try_transitions(const std::vector<Transition>& list, std::vector<std::int64_t>& since);
   void note_phase(const Phase& entered);
-  void fill(int role, const Assignment& assignment, bool overlaid);
-  bool take_over(int role, int component, const Assignment& assignment);
+  void fill(int role, bool overlaid);
+  int group_wanted_in(int role) const;
+  bool take_over(int component, const Assignment& assignment);
+  void occupy(int component);
+  void rest(Unit& unit) noexcept;
+  void keep_groups_whole();
+  bool fills_any(int component) const noexcept;
+  bool nobody_has_flown(const Component& component) const noexcept;
   void fill_hand_over(const Unit& unit);
   void cannot_take_over(Unit& unit, bool somebody_stays);
-  bool fall_back(int role, int stopped, std::size_t guard);
+  void fall_back(int stopped, std::size_t guard);
+  bool nobody_drives(int stopped) const noexcept;
   bool collect(Unit& unit, int component);
   bool ready_to_step(Unit& unit, int component);
   bool is_held(const Unit& unit) const noexcept;
@@ -64,6 +71,7 @@ class Roles {
   void tell_late(Unit& unit);
   const Phase& present() const noexcept { return nth(state_.graph.phases, phase_); }
   int& active(int role) noexcept { return nth(active_, role); }
+  int active(int role) const noexcept { return nth(active_, role); }
 
   FlightState& state_;
   Wiring& wiring_;

@@ -44,7 +44,7 @@ std::string structural_difference(const Graph& now, const Graph& next) {
     return false;
   };
   const auto same_component = [](const Component& a, const Component& b) {
-    return a.name == b.name && a.role == b.role && a.period_ns == b.period_ns && a.run == b.run;
+    return a.name == b.name && a.roles == b.roles && a.period_ns == b.period_ns && a.run == b.run;
   };
   if (differs(now.components, next.components, same_component)) return "other components";
   if (differs(now.roles, next.roles,

@@ -14,7 +14,7 @@ Unit::Unit(const Component& c, UnitOptions options)
       in(c),
       out(c, *this),
       base(c.params),
-      active(c.role < 0),
+      active(c.roles.empty()),
       arguments_{std::vector<fulmar_input>(info->outputs.size()),
                  std::vector<fulmar_value>(info->params.size())},
       schedule_{options.tick_ns, Schedule::never, {}} {

@@ -27,7 +27,8 @@ struct PortView {
   bool request = false, imported = false;
 };
 struct ComponentView {
-  std::string name, use, role, doc, run;
+  std::string name, use, doc, run;
+  std::string role;                      // "outer, inner": all that it fills
   bool active = false, stopped = false;  // flies now; stopped by a guard
   std::vector<ParameterView> params;
   std::vector<PortView> inputs, outputs;

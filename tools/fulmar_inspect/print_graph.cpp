@@ -40,7 +40,9 @@ std::string rate_text(const Graph& graph, const Component& component) {
 }
 
 std::string role_text(const Graph& graph, const Component& component) {
-  return component.role < 0 ? "-" : graph.roles[at(component.role)].name;
+  std::string text;
+  for (const int role : component.roles) text += (text.empty() ? "" : ", ") + graph.roles[at(role)].name;
+  return text.empty() ? "-" : text;
 }
 
 std::string seconds_text(std::int64_t ns) { return number_text(static_cast<double>(ns) / 1e9) + " s"; }

@@ -130,7 +130,7 @@ Node additions(const MissionView& mission, const Contract& contract, const NewCo
     std::vector<std::pair<std::string, Node>> keys;
     if (!beside.empty()) keys.emplace_back("use", scalar(beside));
     const bool named_so = text.only && text.name == io_word(*text.only);
-    const bool sits_there = contract.vehicle() && text.fills.text == contract.role &&
+    const bool sits_there = contract.vehicle() && text.fills_role(contract.role) &&
                             (!text.only || (named_so && *text.only == mission.text.io));
     if (sits_there)  // makes room: there is one vehicle
       keys.emplace_back("only", scalar(io_word(mission.text.io == Io::sim ? Io::fcu : Io::sim)));

@@ -77,7 +77,7 @@ TEST_CASE("the hourglass mission resolves into components, order, roles and phas
   CHECK(component(graph, "mine").use == "my_law/Outer");
   CHECK(component(graph, "slc").period_ns == 10'000'000);
   CHECK(component(graph, "ekf").period_ns == 0);
-  CHECK(component(graph, "plan").role == -1);
+  CHECK(component(graph, "plan").roles.empty());
   CHECK(wire(graph, "slc", "command").from.kind == Source::Kind::role);
   CHECK(wire(graph, "manage", "plan").from == Source{Source::Kind::component, index_of(graph, "plan"), 0});
   CHECK(wire(graph, "plan", "state").from.kind == Source::Kind::none);
@@ -197,7 +197,7 @@ TEST_CASE("a component that fills nothing now but is wired by name exists and st
                   "score, in: {state: nav.state, truth: truth.state");
   const Graph graph = mission.load();
   REQUIRE(index_of(graph, "truth") >= 0);
-  CHECK(component(graph, "truth").role == -1);
+  CHECK(component(graph, "truth").roles.empty());
   CHECK(wire(graph, "score", "truth").from.kind == Source::Kind::component);
   CHECK(wire(graph, "truth", "truth").from.kind == Source::Kind::role);
 }

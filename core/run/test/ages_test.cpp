@@ -74,9 +74,10 @@ TEST_CASE("an output that may stay silent is as old as the last step of its writ
 }
 
 TEST_CASE("a slow writer has three of its steps before its reader is stopped") {
-  const Graph g = mission("  plan: {use: lab/Filter, rate: 0.5 Hz, in: {signal: vehicle.signal}}\n"
-                          "  one:  {fills: law, use: lab/Law, in: {signal: plan.signal}}\n" +
-                          std::string(one_phase));
+  const Graph g = mission(
+      "  plan: {use: lab/Filter, rate: 0.5 Hz, in: {signal: vehicle.signal}}\n"
+      "  one:  {fills: law, use: lab/Law, in: {signal: plan.signal}}\n" +
+      std::string(one_phase));
   CHECK(Flight(g, options(9)).run().guards.empty());
 }
 

@@ -394,6 +394,43 @@ struct Hungry {  ///< a law with an input that never comes, and no activate
   }
 };
 
+/// Filter and law in one: fills both roles.
+struct Both {
+  struct Inputs {
+    In<Signal> signal;
+  };
+  struct Outputs {
+    Out<Signal> signal;
+    Command command;
+    Probe steps_ratio;      ///< since it took over
+    Probe taken_over_frac;  ///< what was applied then
+    Probe taken_over_m;
+  };
+  struct Params {
+    Param u{0.5, "", -1, 1, "what it commands"};
+    Param fails_at{1e9, "s", -1e9, 1e9, "throws from here on"};
+    Flag refuse{false, "refuses to take over"};
+  };
+  Status activate(const Tick&, const Inputs&, const Params& p, const Outputs& last) {
+    steps_ = 0;
+    taken_frac_ = last.command.u_frac;
+    taken_m_ = last.signal.value.x_m;
+    return p.refuse ? Status::failed : Status::ok;
+  }
+  Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
+    if (tick.now_s() >= p.fails_at) throw std::runtime_error("both are broken");
+    out.signal.publish(*in.signal);
+    out.command = {p.u, in.signal->x_m, 7};
+    out.steps_ratio = ++steps_;
+    out.taken_over_frac = taken_frac_;
+    out.taken_over_m = taken_m_;
+    return Status::ok;
+  }
+
+ private:
+  double steps_ = 0, taken_frac_ = -9, taken_m_ = -9;
+};
+
 #ifdef LAB_RENAMED
 struct Statute {
   using Inputs = Law::Inputs;
@@ -407,5 +444,5 @@ struct Statute {
 FULMAR_PLUGIN("2.0.0", Statute)
 #else
 }  // namespace
-FULMAR_PLUGIN("1.0.0", Cart, Law, Filter, Watch, OldReader, Late, Hungry, Ticker, Thinker, NewLaw)
+FULMAR_PLUGIN("1.0.0", Cart, Law, Filter, Watch, OldReader, Late, Hungry, Ticker, Thinker, NewLaw, Both)
 #endif

@@ -75,6 +75,8 @@ struct Commands {
     command->add_option("--log", run.log_file, "where to write the log; default logs/<mission>-<UTC>.mcap");
     command->add_flag("--no-log", run.no_log, "write no log");
     command->add_flag("--json", run.json, "print one JSON object instead of a table");
+    command->add_flag("--strict", run.strict,
+                      "exit code 3 when a guard has fired in a flight that was flown");
     command->add_option("--repeat", run.repeat, "so many flights in one host")->check(CLI::Range(1, 1000000));
     command->add_flag(
         "--watch", run.watch,
@@ -174,5 +176,6 @@ struct Commands {
 
 int main(int argc, char** argv) {
   Commands commands;
-  return run_program(commands.app, [&] { return commands.parse(argc, argv); });
+  return run_program(
+      commands.app, [&] { return commands.parse(argc, argv); }, ExitCode::refused);
 }

@@ -32,7 +32,7 @@ int ended_by(CLI::App& app, const std::function<int()>& words) {
   try {
     return words();
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;
+    return app.exit(e) == 0 ? ExitCode::done : ExitCode::usage;
   }
 }
 
@@ -46,17 +46,18 @@ std::string command_rows(const CLI::App& app) {
 
 bool asked_for_rows(int argc, char** argv) { return argc == 2 && std::strcmp(argv[1], "--rows") == 0; }
 
-int run_program(CLI::App& app, const std::function<int()>& words) {
+int run_program(CLI::App& app, const std::function<int()>& words, int fault) {
   try {
     const int code = ended_by(app, words);
     if (code != 0 || (std::fflush(stdout) == 0 && std::ferror(stdout) == 0)) return code;
     std::fprintf(stderr, "fulmar: the output cannot be written; is the disk full?\n");
   } catch (const Error& e) {
     std::fprintf(stderr, "%s\n", e.what());
+    return fault;
   } catch (const std::exception& e) {
     std::fprintf(stderr, "fulmar: %s\n", e.what());
   }
-  return 1;
+  return ExitCode::failed;
 }
 
 }  // namespace fulmar::core

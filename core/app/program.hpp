@@ -10,9 +10,21 @@ class App;
 
 namespace fulmar::core {
 
-/// Runs `words`, which parses the command line and returns the exit code. Faults become a sentence and exit
-/// code 1; a command line that cannot be parsed becomes 2; so does output that cannot be written become 1.
-int run_program(CLI::App& app, const std::function<int()>& words);
+/// How a program ends.
+struct ExitCode {
+  enum : int {
+    done = 0,
+    failed = 1,   // a flight that failed or has not begun; logs that differ
+    usage = 2,    // a command line that cannot be parsed
+    guarded = 3,  // with --strict: flown, but a guard has fired
+    refused = 4,  // a mission, a plugin or a file, before anything was flown
+    interrupted = 130,
+  };
+};
+
+/// Runs `words`, which parses the command line and returns the exit code. An Error becomes a sentence and the
+/// exit code `fault`; output that cannot be written becomes 1.
+int run_program(CLI::App& app, const std::function<int()>& words, int fault = ExitCode::failed);
 
 /// One line per command, its fields between tabs: the words that lead to it, its options, those of them that
 /// take a value, its subcommands. With `--rows` alone as its command line every program prints them

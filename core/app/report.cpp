@@ -3,6 +3,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -17,12 +18,30 @@ using nlohmann::json;
 double seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
 json or_null(const std::string& text) { return text.empty() ? json(nullptr) : json(text); }
 
-const char* word(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::flown: return "flown";
-    case Outcome::interrupted: return "interrupted";
-    default: return "failed";
-  }
+std::string reason_of(const FlightResult& result) {
+  return has_begun(result) ? result.reason
+                           : "nothing came from the role " + result.idle + "; " + result.reason;
+}
+
+/// Roles that more than one component has filled: the figures are of all of them.
+std::vector<std::string> shared_roles(const FlightResult& result) {
+  std::vector<std::string> roles;
+  for (std::size_t i = 0; i < result.tenures.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (result.tenures[i].role == result.tenures[k].role &&
+          std::find(roles.begin(), roles.end(), result.tenures[i].role) == roles.end())
+        roles.push_back(result.tenures[i].role);
+  return roles;
+}
+
+void add_tenures(std::string& out, const FlightResult& result) {
+  const std::vector<std::string> roles = shared_roles(result);
+  if (!roles.empty()) out += "\nwho flew\n";
+  for (const std::string& role : roles)
+    for (const Tenure& t : result.tenures)
+      if (t.role == role)
+        out += fmt::format("  {:<22} {:10.1f} s to {:.1f} s\n", role + ": " + t.component, seconds(t.from_ns),
+                           seconds(t.to_ns));
 }
 
 TypePtr type_of(const Graph& graph, const Source& source) {
@@ -106,7 +125,23 @@ json dds_json(const DdsStats& dds) {
           {"imports", imports}};
 }
 
+json tenures_json(const FlightResult& result) {
+  json all = json::object();
+  for (const Tenure& t : result.tenures)
+    all[t.role].push_back(
+        {{"component", t.component}, {"from_s", seconds(t.from_ns)}, {"to_s", seconds(t.to_ns)}});
+  return all;
+}
+
 }  // namespace
+
+bool has_begun(const FlightResult& result) { return result.outcome != Outcome::flown || result.idle.empty(); }
+
+const char* result_word(const FlightResult& result) {
+  if (result.outcome == Outcome::interrupted) return "interrupted";
+  if (result.outcome == Outcome::failed) return "failed";
+  return !has_begun(result) ? "not begun" : result.guards.empty() ? "flown" : "flown with guards";
+}
 
 std::string progress_line(const Graph& graph, const Flight& flight) {
   std::string line = fmt::format("{:8.1f} s  {:<10}", seconds(flight.now_ns()), flight.phase());
@@ -131,14 +166,15 @@ json result_json(const Graph& graph, const Flight& flight, const FlightResult& r
   j["mission"] = graph.mission;
   j["io"] = io_word(graph.io);
   j["seed"] = graph.seed;
-  j["result"] = word(result.outcome);
-  j["reason"] = result.reason;
+  j["result"] = result_word(result);
+  j["reason"] = reason_of(result);
   j["flight_time_s"] = flight_time_s(result);
   j["wall_time_s"] = result.wall_s;
   j["speedup"] = speedup(result);
   j["phases"] = json::array();
   for (const PhaseVisit& p : result.phases)
     j["phases"].push_back({{"name", p.name}, {"from_s", seconds(p.from_ns)}, {"to_s", seconds(p.to_ns)}});
+  j["who_flew"] = tenures_json(result);
   j["guards"] = json::array();
   for (const GuardEvent& g : result.guards)
     j["guards"].push_back(
@@ -166,13 +202,14 @@ json result_json(const Graph& graph, const Flight& flight, const FlightResult& r
 }
 
 std::string result_table(const Graph& graph, const Flight& flight, const FlightResult& result) {
-  std::string out = fmt::format("\n{}: {} ({})\n", graph.mission, word(result.outcome), result.reason);
+  std::string out = fmt::format("\n{}: {} ({})\n", graph.mission, result_word(result), reason_of(result));
   out += fmt::format("  {:.1f} s of flight in {:.2f} s: {:.0f} times real time\n", flight_time_s(result),
                      result.wall_s, speedup(result));
   for (const auto& [key, source] : graph.summary) add_figures(out, key, summary_of(graph, flight, source));
   out += "\nphases\n";
   for (const PhaseVisit& p : result.phases)
     out += fmt::format("  {:<22} {:10.1f} s to {:.1f} s\n", p.name, seconds(p.from_ns), seconds(p.to_ns));
+  add_tenures(out, result);
   if (!result.guards.empty()) out += "\nguards\n";
   for (const GuardEvent& g : result.guards)
     out += fmt::format("  {:10.2f} s  {}: {}: {}\n", seconds(g.at_ns), g.component, g.what, g.action);

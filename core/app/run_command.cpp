@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "core/app/compare.hpp"
+#include "core/app/program.hpp"
 #include "core/app/report.hpp"
 #include "core/app/watch.hpp"
 #include "core/app/words.hpp"
@@ -354,8 +355,9 @@ class Session {
            " messages were lost, and what there is is in " + result.log.file.string());
     else if (result.log.dropped > 0)
       warn("the log has gaps: the disk was too slow for " + std::to_string(result.log.dropped) + " messages");
-    if (result.outcome == Outcome::interrupted) return 130;
-    return result.outcome == Outcome::flown && whole ? 0 : 1;
+    if (result.outcome == Outcome::interrupted) return ExitCode::interrupted;
+    if (result.outcome == Outcome::failed || !has_begun(result) || !whole) return ExitCode::failed;
+    return options_.strict && !result.guards.empty() ? ExitCode::guarded : ExitCode::done;
   }
 
   std::vector<fs::path> files() const {
@@ -453,6 +455,12 @@ double parse_speed(const std::string& text) {
   return speed;
 }
 
+/// Of several flights in one host: one that failed says more than one whose guards fired.
+int worse(int a, int b) {
+  if (std::max(a, b) == ExitCode::guarded && std::min(a, b) == ExitCode::failed) return ExitCode::failed;
+  return std::max(a, b);
+}
+
 int run_command(const RunOptions& options) {
   speak_on_standard_error();
   if (!options.build.empty() && !options.watch) throw CLI::ValidationError("--build belongs to --watch");
@@ -461,15 +469,21 @@ int run_command(const RunOptions& options) {
   int worst = 0;
   for (int flight = 1;; ++flight) {
     const std::optional<int> code = session.try_fly();
-    worst = std::max(worst, code.value_or(1));
-    if (code == 130 || (options.repeat > 0 ? flight >= options.repeat : !options.watch)) break;
+    worst = worse(worst, code.value_or(ExitCode::failed));
+    if (code == ExitCode::interrupted || (options.repeat > 0 ? flight >= options.repeat : !options.watch))
+      break;
     if (options.repeat > 0)
       options.watch ? session.take_changes() : void();
     else if (!session.wait_for_change())
       break;
     alarm(0);
   }
-  if (session.has_flown()) output.write(session.results());
+  try {
+    if (session.has_flown()) output.write(session.results());
+  } catch (const Error& fault) {
+    warn(fault.what());
+    return ExitCode::failed;
+  }
   return worst;
 }
 

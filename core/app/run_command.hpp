@@ -15,6 +15,7 @@ struct RunOptions {
   std::optional<double> duration_s;
   std::string log_file;
   bool no_log = false, json = false;
+  bool strict = false;       // a flight in which a guard fired ends with an exit code of its own
   int repeat = 0;            // flights in one host; 0: one, or with `watch` until interrupted
   bool watch = false;        // a plugin or file that changes is used by the next flight
   std::string build;         // command that watch runs when a source file beside the mission has changed

@@ -46,14 +46,23 @@ struct GuardEvent {
   std::string component, what, action;
 };
 
+/// Who filled a role, from when to when.
+struct Tenure {
+  std::string role, component;
+  std::int64_t from_ns = 0, to_ns = 0;
+};
+
 struct FlightResult {
   Outcome outcome = Outcome::failed;
   std::string reason;
+  std::string
+      idle;  // the role that nobody flew in, of an aircraft that never left the ground; "": it has begun
   std::int64_t first_ns = 0, last_ns = 0;  // flight time of the first and last tick
   std::uint64_t ticks = 0;
   double wall_s = 0;  // first to last tick
   std::vector<PhaseVisit> phases;
   std::vector<GuardEvent> guards;
+  std::vector<Tenure> tenures;
   std::vector<ComponentStats> components;
   LogResult log;
   std::optional<LiveStats> live;  // of a flight that could be watched

@@ -95,6 +95,8 @@ FlightResult Flight::Impl::finish() {
   if (onlookers.live) result.live = onlookers.live->stats();
   if (onlookers.dds) result.dds = onlookers.dds->stats();
   roles.tell_overdue();
+  roles.conclude();
+  if (!protection.has_flown()) result.idle = roles.idle_role();
   result.log = recorder.close();
   return std::move(result);
 }

@@ -22,6 +22,7 @@ void Roles::begin() {
     const Assignment& a = first.roles[r];
     if (a.component < 0) continue;
     active_[r] = a.component;
+    note_tenure(static_cast<int>(r));
     Unit& unit = wiring_.unit(a.component);
     const bool again = std::exchange(unit.active, true);  // it fills several
     if (!again && !a.set.empty() && !unit.retune(&a.set)) stop(a.component);

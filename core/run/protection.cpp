@@ -20,6 +20,7 @@ std::string Protection::in_use() const {
 /// A simulated aircraft is armed at a known time: until then its controllers may do as they like.
 bool Protection::watch() noexcept {
   was_armed_ = was_armed_ || state_.on_hardware() || armed_.says(true) || in_control_.says(false);
+  has_flown_ = has_flown_ || !on_ground_.says(true);
   const bool was = std::exchange(out_of_control_, was_armed_ && !in_control_.says(true));
   return was && !out_of_control_;
 }

@@ -22,6 +22,7 @@ class Protection {
   bool on_ground() const noexcept { return on_ground_.says(true); }
   /// In the air for certain: it says so.
   bool flies() const noexcept { return armed() && !on_ground_.says(false); }
+  bool has_flown() const noexcept { return has_flown_; }
   bool has_spoken() const noexcept { return armed_.spoken(); }
   /// An aircraft that the host does not leave.
   bool armed_hardware() const noexcept { return state_.on_hardware() && armed(); }
@@ -44,7 +45,7 @@ class Protection {
   };
   const FlightState& state_;
   Flag armed_, on_ground_, in_control_;
-  bool was_armed_ = false, out_of_control_ = false;
+  bool was_armed_ = false, out_of_control_ = false, has_flown_ = false;
 };
 
 }  // namespace fulmar::core

@@ -208,10 +208,36 @@ void Roles::rest(Unit& unit) noexcept {
   if (!unit.fresh_start) unit.deactivate();
 }
 
+/// From now on another one fills the role.
+void Roles::note_tenure(int role) {
+  const std::string& name = nth(state_.graph.roles, role).name;
+  std::vector<Tenure>& tenures = state_.result.tenures;
+  for (Tenure& tenure : tenures)
+    if (tenure.role == name && tenure.to_ns == never_ns) tenure.to_ns = state_.now_ns;
+  tenures.push_back({name, wiring_.unit(active(role)).component->name, state_.now_ns, never_ns});
+}
+
+void Roles::conclude() {
+  for (Tenure& tenure : state_.result.tenures)
+    if (tenure.to_ns == never_ns) tenure.to_ns = state_.now_ns;
+}
+
+std::string Roles::idle_role() const {
+  std::string first;
+  bool commanded = true;
+  for (std::size_t r = 0; r < active_.size(); ++r) {
+    if (active_[r] < 0 || wiring_.has_published(r)) continue;
+    if (first.empty()) first = state_.graph.roles[r].name;
+    commanded = commanded && !drives_vehicle_[r];
+  }
+  return commanded ? "" : first;
+}
+
 /// It fills all its roles from now on; who fills none any more rests.
 void Roles::occupy(int component) {
   for (const int role : wiring_.unit(component).component->roles) {
     const int old = std::exchange(active(role), component);
+    if (old != component) note_tenure(role);
     if (old >= 0 && old != component && !fills_any(old)) rest(wiring_.unit(old));
   }
   wiring_.unit(component).active = true;

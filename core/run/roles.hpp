@@ -48,6 +48,10 @@ class Roles {
   void stop(int component, Code code = Code::guard);
   /// At the end of a flight: a result that has not come is not there in a replay either.
   void tell_overdue();
+  /// Who flew when, up to now; and when nobody has ever commanded the vehicle, the first role that nothing has
+  /// come from.
+  void conclude();
+  std::string idle_role() const;
 
  private:
   bool try_transitions(const std::vector<Transition>& list, std::vector<std::int64_t>& since);
@@ -56,6 +60,7 @@ class Roles {
   int group_wanted_in(int role) const;
   bool take_over(int component, const Assignment& assignment);
   void occupy(int component);
+  void note_tenure(int role);
   void rest(Unit& unit) noexcept;
   void keep_groups_whole();
   bool fills_any(int component) const noexcept;

@@ -180,6 +180,11 @@ const Slot* Wiring::slot_of(const Source& source) const noexcept {
   return nullptr;
 }
 
+bool Wiring::has_published(std::size_t role) const noexcept {
+  return std::any_of(roles_[role].begin(), roles_[role].end(),
+                     [](const RoleSlot& slot) { return slot.sequence > 0; });
+}
+
 const std::byte* Wiring::message_of(const Source& source) const noexcept {
   if (source.kind != Source::Kind::role) return slot_of(source)->published.data();
   return nth(nth(roles_, source.index), source.output).message();

@@ -28,14 +28,17 @@ int main(int argc, char** argv) {
   inspect->add_flag("--markdown", markdown,
                     "as a page of reference: Markdown with every parameter, port and field");
   inspect->footer("Example: fulmar inspect build/lib/fulmar/control_slc.so");
-  return run_program(app, [&] {
-    if (asked_for_rows(argc, argv)) return std::fputs(command_rows(app).c_str(), stdout), 0;
-    app.parse(argc, argv);
-    const auto print = [](const std::string& text) { return std::fputs(text.c_str(), stdout), 0; };
-    if (graph->parsed())
-      return print(print_graph(load_mission(mission.mission, mission.overrides(graph)), format));
-    const std::shared_ptr<Library> library = Library::open(plugin);
-    return print(markdown ? describe_plugin_markdown(library->info())
-                          : describe_plugin(library->info(), fields));
-  });
+  return run_program(
+      app,
+      [&] {
+        if (asked_for_rows(argc, argv)) return std::fputs(command_rows(app).c_str(), stdout), 0;
+        app.parse(argc, argv);
+        const auto print = [](const std::string& text) { return std::fputs(text.c_str(), stdout), 0; };
+        if (graph->parsed())
+          return print(print_graph(load_mission(mission.mission, mission.overrides(graph)), format));
+        const std::shared_ptr<Library> library = Library::open(plugin);
+        return print(markdown ? describe_plugin_markdown(library->info())
+                              : describe_plugin(library->info(), fields));
+      },
+      ExitCode::refused);
 }

@@ -113,7 +113,7 @@ TEST_CASE("the table names the log, and never overwrites one") {
   CHECK(r.out.find("hourglass: flown (duration reached)") != std::string::npos);
   CHECK(r.out.find("log " + log) != std::string::npos);
   const Result again = fulmar("run " + hourglass + " --duration 5 --log " + log);
-  CHECK(again.code == 1);
+  CHECK(again.code == 4);
   CHECK(again.err.find("one.mcap") != std::string::npos);
   CHECK(again.err.find("exists") != std::string::npos);
 }
@@ -134,25 +134,25 @@ TEST_CASE("wrong usage exits 2") {
   CHECK(fulmar("run --help").code == 0);
 }
 
-TEST_CASE("bad input is refused with its place, and exits 1") {
+TEST_CASE("bad input is refused with its place, and exits 4") {
   const Result missing = fulmar("run nowhere.yaml");
-  CHECK(missing.code == 1);
+  CHECK(missing.code == 4);
   CHECK(missing.err.find("nowhere.yaml") != std::string::npos);
   const fs::path broken = folder() / "broken.yaml";
   std::ofstream(broken) << "mission: x\nroles: {a: [}\n";
   const Result yaml = fulmar("run " + broken.string());
-  CHECK(yaml.code == 1);
+  CHECK(yaml.code == 4);
   CHECK(yaml.err.find("broken.yaml:2") != std::string::npos);
   const Result airframe = fulmar("run " + mission(plan, "glider.yaml").string());
-  CHECK(airframe.code == 1);
+  CHECK(airframe.code == 4);
   CHECK(airframe.err.find("mission.yaml:4") != std::string::npos);
   CHECK(airframe.err.find("glider.yaml") != std::string::npos);
   const Result nan = fulmar("run " + mission(plan + "  slc: {params: {course_kp: .nan}}\n").string());
-  CHECK(nan.code == 1);
+  CHECK(nan.code == 4);
   CHECK(nan.err.find("mission.yaml:8") != std::string::npos);
   CHECK(nan.err.find("course_kp") != std::string::npos);
   const Result set = fulmar("run " + hourglass + " --set slc.course_kq=1");
-  CHECK(set.code == 1);
+  CHECK(set.code == 4);
   CHECK(set.err.find("course_kp") != std::string::npos);
 }
 
@@ -339,7 +339,7 @@ TEST_CASE("what cannot be is refused before anything flies") {
           "fulmar: there is no command 'runn'. Did you mean 'run'? Valid: run, check, graph, inspect, new") ==
       0);
   const Result driver = fulmar("run " + hourglass + " --no-log --drivers-from nowhere.mcap");
-  CHECK(driver.code == 1);
+  CHECK(driver.code == 4);
   CHECK(driver.err.find("has no component with 'run: driver'") != std::string::npos);
   CHECK(fulmar("run " + hourglass + " --with slc=").code == 2);
   CHECK(fulmar("check " + hourglass + " --with slc=control_slc").code == 0);
@@ -358,7 +358,7 @@ TEST_CASE("what cannot be is refused before anything flies") {
 TEST_CASE("a list of allowed plugins is understood in a mission that is named without a folder") {
   mission(plan + "plugins: {allow: [control_slc]}\n");
   const Result r = shell("cd " + folder().string() + " && " + program + "check mission.yaml");
-  CHECK(r.code == 1);
+  CHECK(r.code == 4);
   CHECK(r.err.find("filesystem error") == std::string::npos);
   CHECK(r.err.find("sim_aero") != std::string::npos);
 }

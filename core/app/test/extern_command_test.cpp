@@ -127,7 +127,7 @@ TEST_CASE("a word of the host's own whose program is missing beside it is told w
   for (const auto& entry : program_of) {
     CAPTURE(entry.first);
     const Home::Result r = home.fulmar(entry.first + " --help");
-    CHECK(r.code == 1);
+    CHECK(r.code == 4);
     CHECK(holds(r.text, "fulmar " + entry.first + ": the program " + entry.second + " is missing beside"));
   }
 }
@@ -175,7 +175,7 @@ TEST_CASE("a program that cannot be started is named") {
   const Home home;
   home.program("bin/fulmar-broken", "#!/no/such/interpreter\n");
   const Home::Result r = home.fulmar("broken");
-  CHECK(r.code == 1);
+  CHECK(r.code == 4);
   CHECK(holds(r.text, "fulmar broken: " + (home.folder / "bin" / "fulmar-broken").string() +
                           " cannot be started: No such file or directory"));
 }

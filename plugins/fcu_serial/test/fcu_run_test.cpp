@@ -41,7 +41,7 @@ Result fly(const std::string& port, const std::string& more = "") {
 
 void refused(const Result& r, const char* words) {
   CAPTURE(r.said);
-  CHECK(r.code == 1);
+  CHECK(r.code == 4);
   CHECK(r.says(words));
   CHECK(r.seconds < 50);  // ten times the bar
 }

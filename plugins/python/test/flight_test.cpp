@@ -107,7 +107,7 @@ TEST_CASE("a law that raises in flight is replaced by the fallback, and its trac
                     before = script.substr(0, script.find("if tick.now_s"));
   const Result r = fulmar("run " + mission(script) + " --json --no-log");
   CHECK(r.code == 0);
-  CHECK(r.says("\"result\": \"flown\""));
+  CHECK(r.says("\"result\": \"flown with guards\""));
   CHECK(r.says("AttributeError: 'MyLaw' object has no attribute 'no_such_gain'"));
   CHECK(r.says("\"component\": \"mine\""));
   CHECK(r.says("law.py:" + std::to_string(1 + std::count(before.begin(), before.end(), '\n')) +
@@ -126,13 +126,13 @@ TEST_CASE(
       fulmar("run " + mission(law("if tick.now_s > 40: __import__('os').abort()"), ", run: process") +
              " --json --no-log");
   CHECK(bad.code == 0);
-  CHECK(bad.says("\"result\": \"flown\""));
+  CHECK(bad.says("\"result\": \"flown with guards\""));
   CHECK(bad.says("\"component\": \"mine\""));
 }
 
 TEST_CASE("a script that cannot be opened is a fault of the mission, with its line and that of the script") {
   const Result missing = fulmar("check " + mission("import nosuchthing\n"));
-  CHECK(missing.code == 1);
+  CHECK(missing.code == 4);
   CHECK(missing.err.find(
             "mission.yaml:9: components.mine: law.py:1: there is no Python module 'nosuchthing'") !=
         std::string::npos);
@@ -158,7 +158,7 @@ TEST_CASE(
   ::setenv("FULMAR_PROBE_SECONDS", "2", 1);
   const Result loop = fulmar("check " + mission("while True: pass\n"));
   ::unsetenv("FULMAR_PROBE_SECONDS");
-  CHECK(loop.code == 1);
+  CHECK(loop.code == 4);
   CHECK(loop.err.find("law.py did not finish loading within 2 s") != std::string::npos);
   CHECK(fulmar("check " + mission("import os\nos._exit(3)\n"))
             .err.find("law.py ended the process while being loaded (exit code 3)") != std::string::npos);

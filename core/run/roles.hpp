@@ -48,8 +48,8 @@ class Roles {
   void stop(int component, Code code = Code::guard);
   /// At the end of a flight: a result that has not come is not there in a replay either.
   void tell_overdue();
-  /// Who flew when, up to now; and when nobody has ever commanded the vehicle, the first role that nothing has
-  /// come from.
+  /// Who flew when, up to now; and when nobody has ever commanded the vehicle, the first role that nothing
+  /// has come from.
   void conclude();
   std::string idle_role() const;
 

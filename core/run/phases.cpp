@@ -23,6 +23,7 @@ void Roles::begin() {
     if (a.component < 0) continue;
     active_[r] = a.component;
     note_tenure(static_cast<int>(r));
+    wiring_.expect_from(wiring_.unit(a.component));
     Unit& unit = wiring_.unit(a.component);
     const bool again = std::exchange(unit.active, true);  // it fills several
     if (!again && !a.set.empty() && !unit.retune(&a.set)) stop(a.component);

@@ -71,12 +71,15 @@ bool lacks_sample(const Reader& r) noexcept {
 /// Of a writer that was stopped nothing is ever young enough.
 constexpr std::int64_t lost_ns = std::numeric_limits<std::int64_t>::max();
 
-bool writer_lost(const Slot& s) noexcept { return s.owner && s.owner->stopped; }
+bool writer_lost(const Reader& r) noexcept {
+  const Unit* const writer = r.writer();
+  return writer && writer->stopped;
+}
 
 /// What a limit looks at. An output that may stay silent is as old as the last step of its writer.
 std::int64_t judged_age_ns(const Reader& r, std::int64_t now_ns, std::int64_t age_ns) noexcept {
   const Slot& s = *r.source();
-  if (!r.wire->by_steps || s.port->kind != FULMAR_OUT_EVENT || !s.owner || writer_lost(s)) return age_ns;
+  if (!r.wire->by_steps || s.port->kind != FULMAR_OUT_EVENT || !s.owner || writer_lost(r)) return age_ns;
   return now_ns - s.owner->out.completed_ns;
 }
 
@@ -94,7 +97,7 @@ void view_sample(Reader& r, std::int64_t now_ns, fulmar_input& in) noexcept {
     r.copied = in.sequence;
     in.data = r.copy.data();
   }
-  in.age_ns = writer_lost(*s) ? lost_ns : now_ns - in.valid_at_ns;
+  in.age_ns = writer_lost(r) ? lost_ns : now_ns - in.valid_at_ns;
   in.count = 1;
   if (in.sequence != r.seen) in.flags |= FULMAR_FRESH;
   const std::int64_t limit_ns = r.wire->max_age_ns > 0 ? r.wire->max_age_ns : lost_ns - 1;
@@ -104,15 +107,31 @@ void view_sample(Reader& r, std::int64_t now_ns, fulmar_input& in) noexcept {
 void tell_stale(const Reader& r, std::int64_t now_ns, const fulmar_input& in,
                 fulmar_error& problem) noexcept {
   const char* const input = r.port->name.c_str();
-  if (writer_lost(*r.source()))
+  if (writer_lost(r))
     return put_problem(problem, "input '%s' comes from %s, which was stopped", input,
-                       r.source()->owner->component->name.c_str());
+                       r.writer()->component->name.c_str());
   put_problem(problem, "input '%s' is %.3f s old, the limit is %.3f s", input,
               1e-9 * static_cast<double>(judged_age_ns(r, now_ns, in.age_ns)),
               1e-9 * static_cast<double>(r.wire->max_age_ns));
 }
 
 }  // namespace
+
+namespace {
+
+/// It has never had a sample, and will have none.
+bool waits_in_vain(const Reader& r) noexcept { return lacks_sample(r) && r.wire->guarded && writer_lost(r); }
+
+}  // namespace
+
+bool Intake::in_vain(fulmar_error& problem) const noexcept {
+  for (const Reader& r : readers)
+    if (waits_in_vain(r)) {
+      tell_stale(r, 0, {}, problem);
+      return true;
+    }
+  return false;
+}
 
 bool Intake::ready() const noexcept {
   for (const Reader& r : readers)
@@ -141,8 +160,10 @@ Intake::State Intake::prepare(std::int64_t now_ns, fulmar_error& problem) noexce
     in.sequence = r.sequence();
     if (!r.source() || in.sequence == 0) {
       in = {};
-      if (!r.port->optional) return State::missing;
-      continue;
+      if (r.port->optional) continue;
+      if (!waits_in_vain(r)) return State::missing;
+      tell_stale(r, now_ns, in, problem);
+      return State::stale;
     }
     view_sample(r, now_ns, in);
     if (!r.wire->guarded || (in.flags & FULMAR_STALE) == 0) continue;

@@ -48,6 +48,7 @@ struct Slot {
 /// One output of a role: the slot of whoever published last while active.
 struct RoleSlot {
   TypePtr type;
+  const Unit* filler = nullptr;  // who is to publish now; nullptr: nobody has begun
   const Slot* current = nullptr;
   std::uint64_t sequence = 0;
   std::vector<std::pair<Reader*, std::vector<CopyPlan>>> queues;  // plans: one per filler
@@ -85,6 +86,8 @@ struct Reader {
   Pending pending;
   int channel = -1;  // of the tap: what comes from outside is stored
 
+  /// Who is to publish on the wire; nullptr: nobody that could be stopped.
+  const Unit* writer() const { return role ? role->filler : slot ? slot->owner : nullptr; }
   const Slot* source() const { return slot ? slot : role ? role->current : nullptr; }
   /// Samples published on the wire so far, and of those the ones that a step may see.
   std::uint64_t published() const { return slot ? slot->sequence : role ? role->sequence : 0; }
@@ -108,6 +111,8 @@ class Intake {
   explicit Intake(const Component& component);
   /// [tick] Whether every required input has a sample.
   bool ready() const noexcept;
+  /// [tick] Whether one of them will never have one, since its writer was stopped; `problem` says which.
+  bool in_vain(fulmar_error& problem) const noexcept;
   /// [tick] Fills `views`. When an input is too old, `problem` says which.
   State prepare(std::int64_t now_ns, fulmar_error& problem) noexcept;
   /// [tick] Says in `problem` which required input has no sample.

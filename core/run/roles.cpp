@@ -70,7 +70,10 @@ void Roles::step(int component) {
 bool Roles::ready_to_step(Unit& unit, int component) {
   const bool held = protection_.out_of_control() && is_held(unit);
   if (!unit.fresh_start && (!held || unit.runner().remote())) return true;
-  if (!unit.in.ready()) return false;
+  if (!unit.in.ready()) {
+    if (unit.in.in_vain(unit.problem)) stop(component);
+    return false;
+  }
   if (unit.activate(state_.now_ns, state_.index, {})) return true;
   if (!held || unit.runner().dead())
     stop(component);
@@ -241,6 +244,7 @@ void Roles::occupy(int component) {
     if (old >= 0 && old != component && !fills_any(old)) rest(wiring_.unit(old));
   }
   wiring_.unit(component).active = true;
+  wiring_.expect_from(wiring_.unit(component));
 }
 
 bool Roles::take_over(int component, const Assignment& assignment) {

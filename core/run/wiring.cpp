@@ -70,6 +70,7 @@ void Wiring::connect_role(std::size_t r) {
     role_slot.plans.assign(role.fillers.size(), CopyPlan{});
     role_slot.copy.resize(role_slot.type ? role_slot.type->size : 0);
     const Slot* const current = std::exchange(role_slot.current, nullptr);
+    role_slot.filler = nullptr;
     for (std::size_t f = 0; f < role.fillers.size(); ++f) {
       const int output = role.provides[f][k];
       if (output < 0) continue;
@@ -78,6 +79,7 @@ void Wiring::connect_role(std::size_t r) {
       slot.filler = static_cast<int>(f);
       role_slot.plans[f] = copy_plan(*slot.port->type, *role_slot.type);
       if (&slot == current) role_slot.current = current;
+      if (slot.owner->active) role_slot.filler = slot.owner;
     }
   }
 }
@@ -180,6 +182,11 @@ const Slot* Wiring::slot_of(const Source& source) const noexcept {
   return nullptr;
 }
 
+void Wiring::expect_from(Unit& unit) noexcept {
+  for (Slot& slot : unit.out.slots)
+    if (slot.role) slot.role->filler = &unit;
+}
+
 bool Wiring::has_published(std::size_t role) const noexcept {
   return std::any_of(roles_[role].begin(), roles_[role].end(),
                      [](const RoleSlot& slot) { return slot.sequence > 0; });
@@ -193,6 +200,10 @@ const std::byte* Wiring::message_of(const Source& source) const noexcept {
 const std::byte* Wiring::sample(const Source& source) const noexcept {
   const Slot* const slot = slot_of(source);
   if (!slot || slot->sequence == 0 || slot->owner->stopped) return nullptr;
+  if (source.kind == Source::Kind::role) {
+    const Unit* const filler = nth(nth(roles_, source.index), source.output).filler;
+    if (filler && filler->stopped) return nullptr;
+  }
   return message_of(source);
 }
 

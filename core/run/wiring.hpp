@@ -46,6 +46,8 @@ class Wiring final : public SampleReader {
   bool held_for(const Condition& condition, std::int64_t for_ns, std::int64_t& since_ns) const noexcept;
   /// [tick] Whoever publishes there now, or nullptr; and the message, in the role's own table, once there is
   /// one.
+  /// [tick] It fills its roles now: what comes from them is to come from there.
+  void expect_from(Unit& unit) noexcept;
   /// Whether anything has come from a role.
   bool has_published(std::size_t role) const noexcept;
   const Slot* slot_of(const Source& source) const noexcept;

@@ -108,6 +108,35 @@ TEST_CASE("who says 'max_age: off' flies on, and is warned before") {
   CHECK(mission(std::string(through_plan) + one_phase).warnings.empty());
 }
 
+TEST_CASE("who waits for the first sample of a writer that was stopped does not wait for ever") {
+  const Graph by_role = mission(with_fallback, {{"filter.stop_at", "-10"}});
+  const FlightResult r = Flight(by_role, options(1)).run();
+  CHECK(r.outcome == Outcome::failed);
+  REQUIRE(r.guards.size() >= 2);
+  CHECK(r.guards[1].what == "input 'signal' comes from filter, which was stopped");
+  CHECK(r.guards.back().action == "failsafe");
+  CHECK(r.guards.back().at_ns <= -997'500'000);  // the second tick
+  const Graph by_name = mission(std::string(through_plan) + with_fallback, {{"plan.stop_at", "-10"}});
+  Flight flight(by_name, options(0.1));
+  const FlightResult other = flight.run();
+  REQUIRE(other.guards.size() == 2);
+  CHECK(other.guards[1].action == "two takes over");
+  CHECK(value(by_name, flight, "sim", "applied", "by") == 2);
+}
+
+TEST_CASE("a newcomer that fails in its first step leaves nothing of its predecessor behind") {
+  const Graph g = mission(
+      "  other: {fills: sense, use: lab/Filter, params: {stop_at: 0.1}}\n"
+      "phases:\n"
+      "  first:  {sense: filter, law: one, next: [{to: second, when: \"vehicle.signal.tick_s >= 0.1 s\"}]}\n"
+      "  second: {sense: other, law: one}\n");
+  const FlightResult r = Flight(g, options(0.3)).run();
+  REQUIRE(r.guards.size() == 2);
+  CHECK(r.guards[0].component == "other");
+  CHECK(r.guards[1].what == "input 'signal' comes from other, which was stopped");
+  CHECK(r.guards[1].at_ns <= 102'500'000);
+}
+
 TEST_CASE("what does not lead to the vehicle looks on, whoever was stopped") {
   const Graph g = mission(
       "  plan: {use: lab/Filter, in: {signal: vehicle.signal}}\n"

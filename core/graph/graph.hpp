@@ -72,7 +72,7 @@ struct ComponentSettings {
   std::string name;                         // "slc"
   std::int64_t budget_ns = 0;               // 0: none
   std::int64_t latency_ns = 0;              // async: from the step's inputs to its visible outputs
-  std::int64_t hang_ns = 50'000'000;        // process: longest wait for one step when paced
+  std::int64_t hang_ns = 0;                 // process: longest wait for one call; 0: unsaid
   std::uint64_t memory_bytes = 64'000'000;  // growth of the heap in flight that is allowed
   Where where;
 };

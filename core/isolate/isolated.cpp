@@ -333,6 +333,13 @@ bool Isolated::check() noexcept {
   return alive_;
 }
 
+void Isolated::die(const char* death, bool hung) noexcept {
+  process_.kill();
+  alive_ = false;
+  hung_ = hung;
+  std::snprintf(death_, sizeof death_, "%s", death);
+}
+
 bool Isolated::has_ended() noexcept { return control().signal.load() != 0 || process_.ended(); }
 
 // Read only after the end is certain: a crashing child writes its signal last.

@@ -45,6 +45,8 @@ class Isolated {
   bool alive() const noexcept { return alive_; }
   /// [setup] Whether it lives now: between flights no call would tell.
   bool check() noexcept;
+  /// It ends here and now, and `death` says what is given: of a child that died when this was flown before.
+  void die(const char* death, bool hung) noexcept;
   /// How the child died: "crashed (segmentation fault)", "ended itself (exit code 3)", "hung: no answer
   /// within 20 ms". "" while it lives.
   const char* death() const noexcept { return death_; }

@@ -45,12 +45,13 @@ constexpr CodeRow code_rows[] = {
     {Code::silent, "silent", "end", Severity::warning},
     {Code::resumed, "resumed", "resume", Severity::warning},
     {Code::not_resumed, "not_resumed", "resume"},
+    {Code::died, "died", "guard", Severity::warning},
 };
 
 constexpr bool in_order() {
   for (std::size_t i = 0; i < std::size(code_rows); ++i)
     if (static_cast<std::size_t>(code_rows[i].code) != i) return false;
-  return code_rows[std::size(code_rows) - 1].code == Code::not_resumed;
+  return code_rows[std::size(code_rows) - 1].code == Code::died;
 }
 static_assert(in_order());
 

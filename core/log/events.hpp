@@ -20,7 +20,7 @@ namespace fulmar::core {
 enum class Code : std::uint8_t {
   phase_entered,     // name: the phase
   guard,             // component: it was stopped; cause
-  hung,              // the same, of one whose process did not answer in time
+  hung,              // the same, of one whose process did not answer in time; name: the call
   over_budget,       // the same, by the wall clock
   cannot_take_over,  // component: it was to fly; cause
   took_over,         // component: it was stopped; name: its fallback
@@ -43,6 +43,7 @@ enum class Code : std::uint8_t {
   silent,            // the failsafe is over: the pilot's
   resumed,           // name: the phase; one more for each parameter, with component, name, value
   not_resumed,       // the vehicle is not in the air, armed
+  died,              // component: it was stopped, since its process has ended; name: the call; cause
 };
 
 enum class Severity : std::uint8_t { info, warning, error, critical };

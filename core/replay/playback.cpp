@@ -39,8 +39,12 @@ TickList read_ticks(const McapFile& file) {
   return list;
 }
 
-Playback::Playback(const McapFile& file, const Graph& graph)
-    : file_(file), epoch_ns_(graph.epoch_ns), ticks_(read_ticks(file)), events_(file) {
+Playback::Playback(const McapFile& file, const Graph& graph, std::vector<std::string> changed)
+    : file_(file),
+      changed_(std::move(changed)),
+      epoch_ns_(graph.epoch_ns),
+      ticks_(read_ticks(file)),
+      events_(file) {
   index_host();
   vehicle_ = std::make_unique<RecordedVehicle>(file_, graph, ticks_.time_ns);
   gaps_ = vehicle_->gaps();
@@ -70,11 +74,12 @@ void Playback::take_event(const Event& e, std::int64_t now_ns) {
     case Code::duration_reached: duration_s_ = 1e-9 * static_cast<double>(now_ns); break;
     case Code::guard:
     case Code::hung:
+    case Code::died:
     case Code::over_budget:
     case Code::late_result:
     case Code::signal_refused:
     case Code::gave_up:
-      told_.push_back({now_ns, e.value_ns, e.code, e.component.data(), e.cause.data()});
+      told_.push_back({now_ns, e.value_ns, e.code, e.component.data(), e.name.data(), e.cause.data()});
       break;
     default: break;
   }
@@ -98,13 +103,16 @@ bool Playback::ran_over(const std::string& component, std::int64_t now_ns) const
 
 void Playback::stand_in(const Graph& graph, const Component& component, UnitOptions& options) {
   std::vector<std::pair<std::int64_t, std::string>> faults;
-  options.paced = false;
+  constexpr std::int64_t patience_ns = 10'000'000'000;
+  options.hang_ns =
+      std::max(options.hang_ns, patience_ns);  // what died by the clock dies as it is told below
   options.wait_for_async = true;
   for (const Told& t : told_) {
     if (t.component != component.name) continue;
     if (t.code == Code::guard) faults.emplace_back(t.at_ns, t.cause);
-    // A child that hung will hang again: only then the wall clock ends it.
-    if (t.code == Code::hung) options.paced = true;
+    const bool other = std::find(changed_.begin(), changed_.end(), component.name) != changed_.end();
+    if ((t.code == Code::hung || t.code == Code::died) && !other)
+      options.deaths.push_back({t.at_ns, t.name, t.cause, t.code == Code::hung});
     if (t.code == Code::late_result && component.run == RunMode::async) options.late[t.value_ns] = t.at_ns;
   }
   if (component.info().vehicle) options.runner = std::move(vehicle_);

@@ -36,8 +36,9 @@ struct Entry {
 
 class Playback final : public Circumstances {
  public:
-  /// `file` must outlive it. Throws Error when a topic is missing or has other fields than the graph's.
-  Playback(const McapFile& file, const Graph& graph);
+  /// `file` must outlive it. `changed`: components of an experiment, which do not die as they did. Throws
+  /// Error when a topic is missing or has other fields than the graph's.
+  Playback(const McapFile& file, const Graph& graph, std::vector<std::string> changed = {});
   ~Playback() override;
 
   const TickList& ticks() const { return ticks_; }
@@ -62,7 +63,7 @@ class Playback final : public Circumstances {
   struct Told {
     std::int64_t at_ns = 0, value_ns = 0;
     Code code = Code::guard;
-    std::string component, cause;
+    std::string component, name, cause;
   };
   void index_host();
   void take_event(const Event& event, std::int64_t now_ns);
@@ -72,6 +73,7 @@ class Playback final : public Circumstances {
   bool told(Code code, const std::string& component, std::int64_t now_ns) const;
 
   const McapFile& file_;
+  std::vector<std::string> changed_;
   std::int64_t epoch_ns_;
   TickList ticks_;
   std::vector<Entry> entries_;

@@ -153,12 +153,21 @@ Graph Recording::mission(const Overrides& changes, const Say& say) const {
 
 namespace {
 
+/// Components that an experiment changes.
+std::vector<std::string> changed_components(const Overrides& changes) {
+  std::vector<std::string> names;
+  for (const auto& [name, file] : changes.with) names.push_back(name);
+  for (const auto& [param, value] : changes.set) names.push_back(param.substr(0, param.find('.')));
+  return names;
+}
+
 class Player {
  public:
-  Player(const Recording& recording, const Graph& graph, FlightOptions options, ReplayResult& result)
+  Player(const Recording& recording, const Graph& graph, const Overrides& changes, FlightOptions options,
+         ReplayResult& result)
       : recording_(recording),
         result_(result),
-        playback_(std::make_shared<Playback>(recording.file(), graph)) {
+        playback_(std::make_shared<Playback>(recording.file(), graph, changed_components(changes))) {
     options.circumstances = playback_;
     options.duration_s = playback_->duration_s();
     options.resume = playback_->resume();
@@ -232,7 +241,7 @@ std::pair<std::unique_ptr<Flight>, ReplayResult> replay(const Recording& recordi
   FlightOptions o;
   o.log_file = options.out.empty() ? folder.path / "replay.mcap" : options.out;
   o.progress = options.progress;
-  Player player(recording, graph, o, result);
+  Player player(recording, graph, options.changes, o, result);
   const TickList& ticks = player.playback().ticks();
   result.notes = player.playback().gaps();
   result.cut_off = !recording.file().complete;

@@ -10,9 +10,13 @@
 namespace fulmar::core {
 namespace {
 
-/// What a component said of itself when a guard stopped it.
-Event guard_event(Code code, const std::string& component, const char* problem) noexcept {
-  Event e = event_of(code, component);
+/// What a component said of itself when a guard stopped it, or `code`.
+Event guard_event(Code code, Unit& unit, const char* problem) noexcept {
+  const bool dead = unit.runner().dead();
+  Event e = event_of(!dead                  ? code
+                     : unit.runner().hung() ? Code::hung
+                                            : Code::died,
+                     unit.component->name, dead ? unit.runner().died_in() : "");
   put(e.cause, problem);
   say(e, "%s", problem);
   return e;
@@ -146,7 +150,7 @@ void Roles::stop(int component, Code code) {
   make_printable(unit.problem.text);
   const std::string what = unit.problem.text;
   const std::string& name = unit.component->name;
-  recorder_.note(guard_event(unit.runner().hung() ? Code::hung : code, name, what.c_str()));
+  recorder_.note(guard_event(code, unit, what.c_str()));
   std::vector<GuardEvent>& guards = state_.result.guards;
   guards.push_back({state_.now_ns, name, what, "held"});
   const std::size_t guard = guards.size() - 1;
@@ -286,7 +290,7 @@ void Roles::keep_groups_whole() {
 void Roles::cannot_take_over(Unit& unit, bool somebody_stays) {
   make_printable(unit.problem.text);
   const std::string& name = unit.component->name;
-  Event e = guard_event(unit.runner().hung() ? Code::hung : Code::cannot_take_over, name, unit.problem.text);
+  Event e = guard_event(Code::cannot_take_over, unit, unit.problem.text);
   say(e, "cannot take over: %s", unit.problem.text);
   recorder_.note(e);
   state_.result.guards.push_back(

@@ -23,12 +23,12 @@ void* create_instance(const Component& c, const fulmar_component& functions, std
   return instance;
 }
 
-std::unique_ptr<Isolated> spawn(const Component& c, std::uint64_t seed, bool paced) {
+std::unique_ptr<Isolated> spawn(const Component& c, std::uint64_t seed, std::int64_t hang_ns) {
   IsolatedOptions o;
   o.name = c.name, o.copy = c.plugin->copy, o.script = c.plugin->script, o.file = c.plugin->file,
   o.path = c.plugin->path;
   o.index = c.index_in_plugin, o.seed = seed;
-  if (paced) o.hang_ns = c.hang_ns;
+  o.hang_ns = hang_ns;
   auto child = std::make_unique<Isolated>(c.info(), o);
   wait_for_child(child->pid());
   return child;
@@ -115,14 +115,42 @@ std::uint32_t Direct::write(const fulmar_tick& tick, const Intake& in, fulmar_er
 
 // ---- in a child
 
-Child::Child(const Component& c, std::uint64_t seed, bool paced) : Child(c, spawn(c, seed, paced)) {}
+Child::Child(const Component& c, std::uint64_t seed, std::int64_t hang_ns, std::vector<Death> deaths)
+    : Child(c, spawn(c, seed, hang_ns), std::move(deaths)) {}
 
-Child::Child(const Component& c, std::unique_ptr<Isolated> child)
-    : Direct(c, Isolated::functions(), child.get()), child_(std::move(child)) {}
+Child::Child(const Component& c, std::unique_ptr<Isolated> child, std::vector<Death> deaths)
+    : Direct(c, Isolated::functions(), child.get()), child_(std::move(child)), deaths_(std::move(deaths)) {}
+
+/// The call then says what it said when this was flown before.
+void Child::die_again(const char* call, std::int64_t now_ns) noexcept {
+  for (const Death& death : deaths_)
+    if (death.at_ns == now_ns && death.call == call && child_->alive())
+      child_->die(death.cause.c_str(), death.hung);
+}
+
+void Child::note(const char* call) noexcept {
+  if (*died_in_ == '\0' && !child_->alive()) died_in_ = call;
+}
+
+bool Child::retune(const std::vector<fulmar_value>& values, fulmar_error& problem) noexcept {
+  const bool good = Direct::retune(values, problem);
+  note("retune");
+  return good;
+}
+
+bool Child::activate(const fulmar_tick& tick, const std::vector<fulmar_input>& inputs,
+                     const std::vector<fulmar_input>& last, fulmar_error& problem) noexcept {
+  die_again("activate", tick.now_ns);
+  const bool good = Direct::activate(tick, inputs, last, problem);
+  note("activate");
+  return good;
+}
 
 StepResult Child::step(const fulmar_tick& tick, Intake& in, Outlets& out, fulmar_error& problem) noexcept {
+  die_again("step", tick.now_ns);
   const StepResult result = Direct::step(tick, in, out, problem);
   heap_ = {child_->allocations(), child_->heap_growth()};
+  note("step");
   return result;
 }
 

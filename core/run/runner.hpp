@@ -66,6 +66,8 @@ class Runner {
   /// alone.
   virtual bool dead() noexcept { return false; }
   virtual bool hung() const noexcept { return false; }
+  /// The call that did not return, "step"; "": none.
+  virtual const char* died_in() const noexcept { return ""; }
   /// What its calls have taken from the heap.
   HeapUse heap() const noexcept { return heap_; }
   /// When a result was due that has not come; nothing when none is late.
@@ -107,19 +109,34 @@ class Direct : public Runner {
   void* instance_;
 };
 
+/// How a child died in a flight that is flown again: whatever killed it then, the clock on the wall or
+/// somebody outside, is not there now.
+struct Death {
+  std::int64_t at_ns = 0;
+  std::string call, cause;
+  bool hung = false;
+};
+
 /// The same in a child: a crash or a hang costs the component, not the flight.
 class Child final : public Direct {
  public:
-  /// [setup] Throws Error. `paced`: wall time matters, a child that hangs is given up after
-  /// Component::hang_ns.
-  Child(const Component& component, std::uint64_t seed, bool paced);
+  /// [setup] Throws Error. A child that does not answer a call for `hang_ns` is given up.
+  Child(const Component& component, std::uint64_t seed, std::int64_t hang_ns, std::vector<Death> deaths = {});
+  bool retune(const std::vector<fulmar_value>& values, fulmar_error& problem) noexcept override;
+  bool activate(const fulmar_tick& tick, const std::vector<fulmar_input>& inputs,
+                const std::vector<fulmar_input>& last, fulmar_error& problem) noexcept override;
   StepResult step(const fulmar_tick& tick, Intake& in, Outlets& out, fulmar_error& problem) noexcept override;
   bool dead() noexcept override { return !child_->check(); }
   bool hung() const noexcept override { return child_->hung(); }
+  const char* died_in() const noexcept override { return died_in_; }
 
  private:
-  Child(const Component& component, std::unique_ptr<Isolated> child);
+  Child(const Component& component, std::unique_ptr<Isolated> child, std::vector<Death> deaths);
+  void die_again(const char* call, std::int64_t now_ns) noexcept;
+  void note(const char* call) noexcept;
   std::unique_ptr<Isolated> child_;
+  std::vector<Death> deaths_;
+  const char* died_in_ = "";
 };
 
 /// What a component that failed says when it says nothing.

@@ -29,7 +29,8 @@ std::unique_ptr<Runner> Unit::make_runner(UnitOptions& options) {
   if (options.samples) return std::make_unique<RecordedRunner>(std::move(options.samples), stats);
   const std::int64_t period_ns = c.period_ns > 0 ? c.period_ns : schedule_.tick_ns;
   switch (c.run) {
-    case RunMode::process: return std::make_unique<Child>(c, options.seed, options.paced);
+    case RunMode::process:
+      return std::make_unique<Child>(c, options.seed, options.hang_ns, std::move(options.deaths));
     case RunMode::async:
       return std::make_unique<AsyncRunner>(c, options.seed, period_ns, options.wait_for_async,
                                            std::move(options.late), stats);

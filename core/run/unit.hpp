@@ -19,9 +19,10 @@ namespace fulmar::core {
 struct UnitOptions {
   std::int64_t tick_ns = 2'500'000;
   std::uint64_t seed = 0;
-  bool paced = false;          // wall time matters: a child that hangs is given up after Component::hang_ns
-  bool wait_for_async = true;  // simulation: a result that is late is waited for; else counted
-  std::size_t tape_steps = 0;  // inputs to keep; 0: none
+  std::int64_t hang_ns = 2'000'000'000;   // a child that does not answer a call for so long is given up
+  std::vector<Death> deaths;              // of the child, when this was flown before
+  bool wait_for_async = true;             // simulation: a result that is late is waited for; else counted
+  std::size_t tape_steps = 0;             // inputs to keep; 0: none
   std::unique_ptr<Runner> runner;         // in place of what its `run:` says
   std::unique_ptr<SampleSource> samples;  // in place of a driver
   LateResults late;                       // of an asynchronous component

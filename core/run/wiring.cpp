@@ -13,6 +13,7 @@
 namespace fulmar::core {
 namespace {
 
+constexpr std::int64_t paced_hang_ns = 50'000'000;  // where wall time matters and the mission says nothing
 constexpr std::size_t tape_steps = 256;  // of inputs kept per component, for the rehearsal of a swap
 
 }  // namespace
@@ -31,7 +32,7 @@ std::unique_ptr<Unit> Wiring::make_unit(const Component& c) const {
   UnitOptions o;
   o.tick_ns = state_.graph.tick_ns;
   o.seed = component_seed(state_.graph.seed, c.name);
-  o.paced = !state_.unpaced();
+  if (c.hang_ns > 0 || !state_.unpaced()) o.hang_ns = c.hang_ns > 0 ? c.hang_ns : paced_hang_ns;
   o.wait_for_async = !state_.on_hardware();
   o.tape_steps = options.keep_inputs && !c.info().vehicle && !driver ? tape_steps : 0;
   if (driver && !options.drivers_from.empty()) o.samples = recorded_samples(c);

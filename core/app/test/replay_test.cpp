@@ -291,6 +291,62 @@ TEST_CASE(
   check_equal(replay_of(log, {}, again), log, again);
 }
 
+namespace {
+
+const char* const in_a_child =
+    "  one: {fills: law, use: lab/Law, run: process, hang: 200 ms, params: {id: 1, u: 0.1}}\n";
+
+/// Sends a signal to the flight's child when its time has come.
+FlightResult fly_and_signal(const Graph& graph, const fs::path& log, int signal) {
+  Flight flight(graph, logged(log, 0.5));
+  bool sent = false;
+  while (flight.step())
+    if (!sent && flight.now_ns() >= 100'000'000) {
+      const std::string words =
+          "pkill -" + std::to_string(signal) + " -P " + std::to_string(getpid()) + " fulmar-child";
+      REQUIRE(std::system(words.c_str()) == 0);
+      sent = true;
+    }
+  return flight.finish();
+}
+
+}  // namespace
+
+TEST_CASE("a child that hung, was stopped or was killed dies in the same tick again, in the same words") {
+  struct Row {
+    const char* what;
+    int signal;
+    std::vector<std::pair<std::string, std::string>> set;
+    const char* told;
+  };
+  for (const Row& row :
+       {Row{"hung", 0, {{"one.fault", "hangs"}, {"one.fault_at", "0.1"}}, "hung: no answer within 200 ms"},
+        Row{"stopped", SIGSTOP, {}, "hung: no answer within 200 ms"},
+        Row{"killed", SIGKILL, {}, "was killed (signal 9)"}}) {
+    CAPTURE(row.what);
+    const Graph graph = mission(in_a_child + std::string(with_fallback), row.set);
+    const fs::path log = fresh("child.mcap"), again = fresh("again.mcap");
+    const FlightResult r =
+        row.signal == 0 ? Flight(graph, logged(log, 0.5)).run() : fly_and_signal(graph, log, row.signal);
+    REQUIRE(r.guards.size() == 1);
+    CHECK(r.guards[0].what == std::string(row.told));
+    CHECK(r.guards[0].action == "two takes over");
+    const ReplayResult replayed = replay_of(log, {}, again);
+    REQUIRE(replayed.flight.guards.size() == 1);
+    CHECK(replayed.flight.guards[0].at_ns == r.guards[0].at_ns);
+    check_equal(replayed, log, again);
+  }
+}
+
+TEST_CASE("in an experiment with another plugin nothing dies that did not do anything wrong") {
+  const Graph graph = mission(in_a_child + std::string(with_fallback));
+  const fs::path log = fresh("child.mcap");
+  REQUIRE(fly_and_signal(graph, log, SIGKILL).guards.size() == 1);
+  Overrides other;
+  other.with = {{"one", variant("_better")}};
+  CHECK(replay_of(log, other).flight.guards.empty());
+}
+
 TEST_CASE("what is no log of a flight is refused in a sentence") {
   const auto refused = [](const fs::path& file) {
     try {

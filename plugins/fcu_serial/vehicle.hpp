@@ -119,6 +119,7 @@ class Vehicle {
   static constexpr std::int64_t status_period_ns = 100'000'000, aux_period_ns = 1'000'000'000,
                                 attitude_period_ns = 19'500'000;
   static constexpr std::int64_t reboot_memory_ns = 1'000'000'000;
+  static constexpr std::int64_t attitude_boots_ns = 3'000'000'000;  ///< FILT_INIT_T: its estimate begins anew
 
   enum Kind : std::uint32_t {
     kind_imu = 1,
@@ -151,7 +152,7 @@ class Vehicle {
     std::int64_t zero_ns = never_ns,
                  arrived_ns = never_ns;  ///< host: of flight time 0; arrival of this tick's inertial sample
     std::int64_t now_ns = -least_step_ns, imu_valid_ns = never_ns, status_ns = never_ns, aux_ns = never_ns;
-    std::int64_t attitude_ns = never_ns, disarmed_ns = never_ns;
+    std::int64_t attitude_ns = never_ns, disarmed_ns = never_ns, attitude_from_ns = never_ns;
     std::uint64_t gnss_stamp_us = 0;
     std::uint32_t told_kinds = 0;
     std::array<bool, 14> aux_motors{};
@@ -247,6 +248,7 @@ class Vehicle {
   void rebooted() {
     const bool flying = run_.heard.status.armed != 0 || run_.now_ns - run_.disarmed_ns < reboot_memory_ns;
     run_.imu_valid_ns = never_ns;
+    run_.attitude_from_ns = run_.now_ns + attitude_boots_ns;
     if (!flying) return run_.notices.say(fulmar::Severity::warning, "the flight controller has rebooted");
     run_.pitot_zeroed = true;
     run_.notices.say(

@@ -106,6 +106,16 @@ json dds_json(const DdsStats& dds) {
           {"imports", imports}};
 }
 
+/// A figure that its message calls not valid now, as `height_valid` does `height_m`, is none.
+bool present(const Shown& shown, const std::byte* message) {
+  if (!shown.field.present(message)) return false;
+  if (!shown.type) return true;
+  const std::string path = shown.text.substr(shown.text.find('.', shown.text.find('.') + 1) + 1);
+  const std::string flag = split_unit(path.substr(0, path.find('.'))).first + "_valid";
+  const Field* valid = shown.type->find(flag);
+  return !valid || number_at(*valid, message + valid->offset) != 0;
+}
+
 }  // namespace
 
 std::string progress_line(const Graph& graph, const Flight& flight) {
@@ -114,7 +124,7 @@ std::string progress_line(const Graph& graph, const Flight& flight) {
     const std::byte* message = flight.sample(shown.from);
     std::string name = shown.text.substr(shown.text.rfind('.') + 1);
     std::string unit = shown.field.unit;
-    if (!message) {
+    if (!message || !present(shown, message)) {
       line += "  " + split_unit(name).first + " -";
       continue;
     }

@@ -133,6 +133,16 @@ json tenures_json(const FlightResult& result) {
   return all;
 }
 
+/// A figure that its message calls not valid now, as `height_valid` does `height_m`, is none.
+bool present(const Shown& shown, const std::byte* message) {
+  if (!shown.field.present(message)) return false;
+  if (!shown.type) return true;
+  const std::string path = shown.text.substr(shown.text.find('.', shown.text.find('.') + 1) + 1);
+  const std::string flag = split_unit(path.substr(0, path.find('.'))).first + "_valid";
+  const Field* valid = shown.type->find(flag);
+  return !valid || number_at(*valid, message + valid->offset) != 0;
+}
+
 }  // namespace
 
 bool has_begun(const FlightResult& result) { return result.outcome != Outcome::flown || result.idle.empty(); }
@@ -149,7 +159,7 @@ std::string progress_line(const Graph& graph, const Flight& flight) {
     const std::byte* message = flight.sample(shown.from);
     std::string name = shown.text.substr(shown.text.rfind('.') + 1);
     std::string unit = shown.field.unit;
-    if (!message) {
+    if (!message || !present(shown, message)) {
       line += "  " + split_unit(name).first + " -";
       continue;
     }

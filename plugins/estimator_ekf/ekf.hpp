@@ -2,6 +2,7 @@
 // The component: sensors in, VehicleState out. Silent until it is aligned.
 #pragma once
 #include <fulmar/eigen.hpp>
+#include <fulmar/msg/controller_attitude.hpp>
 #include <fulmar/msg/imu.hpp>
 
 #include "navigator_updates.hpp"
@@ -18,6 +19,7 @@ struct Ekf {
     Optional<Baro> baro;
     Optional<Pitot> pitot;
     Optional<VehicleStatus> status;
+    Optional<ControllerAttitude> attitude;
   };
   struct Outputs {
     Out<VehicleState> state;
@@ -47,6 +49,7 @@ struct Ekf {
     if (in.status && in.status.fresh()) navigator_.status(*in.status);
     if (!newer(in.imu, imu_ns_, tick) || !inertial(in, p)) return coast(tick, in.imu.fresh(), p, out);
     sensors(in, tick, p);
+    turned(in, tick, p);
     if (!navigator_.aligned())
       return navigator_.regaining() ? blind(in.imu.valid_at_ns(), p, out) : Status::degraded;
     fill(navigator_.filter().state(), navigator_.filter().R_nb(), navigator_.filter().rate_b(), p);
@@ -96,6 +99,23 @@ struct Ekf {
       navigator_.gnss(*in.gnss, 1e-9 * static_cast<double>(in.gnss.valid_at_ns()), p);
     if (take(in.pitot, pitot_ns_, tick)) navigator_.pitot(in.pitot->pressure_pa, p);
   }
+  /// What the controller's own attitude has turned by since the last inertial sample before the gap. Its
+  /// heading may be any: the same before and after.
+  void turned(const Inputs& in, const Tick& tick, const Params& p) {
+    if (!take(in.attitude, attitude_ns_, tick)) return;
+    const Quaterniond q = eigen(in.attitude->attitude);
+    const double before_s = turn_s_;
+    const Quaterniond before = turn_q_;
+    const bool beside = std::abs(1e-9 * static_cast<double>(attitude_ns_ - imu_ns_)) < coasted_s;
+    if (navigator_.regaining() && beside && shown_ != Shown::nothing) {
+      const double gap_s = 1e-9 * static_cast<double>(imu_ns_) - navigator_.filter().time_s();
+      if (gap_s <= p.max_bridge && std::abs(before_s - navigator_.filter().time_s()) < coasted_s)
+        navigator_.bridge(before.conjugate() * q, p);
+    }
+    if (!navigator_.aligned() || !beside) return;
+    turn_s_ = 1e-9 * static_cast<double>(attitude_ns_);
+    turn_q_ = q;
+  }
   void publish(std::int64_t valid_at_ns, Shown what, Outputs& out) {
     out.state.publish(state_, valid_at_ns);
     published_ns_ = valid_at_ns;
@@ -120,7 +140,9 @@ struct Ekf {
   double dt_s_ = 0, deviations_s_ = never;
   static constexpr std::int64_t ahead_ns = 10'000'000, long_ago = -(std::int64_t{1} << 62);
   std::int64_t imu_ns_ = long_ago, mag_ns_ = long_ago, baro_ns_ = long_ago, gnss_ns_ = long_ago,
-               pitot_ns_ = long_ago;
+               pitot_ns_ = long_ago, attitude_ns_ = long_ago;
+  Quaterniond turn_q_ = Quaterniond::Identity();  ///< the controller's attitude at `turn_s_`
+  double turn_s_ = never;
   std::int64_t stepped_ns_ = 0, published_ns_ = 0;
   Shown shown_ = Shown::nothing;
   bool rate_started_ = false;  ///< the smoothed rate has begun

@@ -21,6 +21,8 @@
 namespace fulmar::estimator {
 
 inline constexpr double never = -1e9;
+inline constexpr double bridge_tilt_std = 0.01, bridge_tilt_rate = 0.01;  ///< rad, rad/s: of another's turn
+inline constexpr double bridge_accel_std = 1;  ///< m/s2: changes of the speed that nobody saw
 inline constexpr double coasted_s =
     0.02;  ///< so long without an inertial sample is a gap: slower units do not fly
 
@@ -35,7 +37,8 @@ struct Health {
 
 /// What the navigator knows of its attitude, and how it came to it.
 ///   waiting -> aligning -> running -> lost -> regained -> lost ...; lost -> running when it stands again;
-///   any -> running when it takes over from an estimate that flies.
+///   lost -> running when somebody else has felt the turn; any -> running when it takes over from an estimate
+///   that flies.
 enum class Mode : std::uint8_t {
   waiting,   ///< for the first inertial sample
   aligning,  ///< for the first attitude: at rest or in flight
@@ -149,6 +152,27 @@ class Navigator {
     update_airborne(p);
     if (airborne_ && seen_.yaw && time_s_ - sideslip_s_ > 0.1 - 1e-4) sideslip(p);
     return true;
+  }
+
+  /// Over a gap that is too long to be coasted: somebody else has felt the turn of the body, `turn_b`. The
+  /// air meets the aircraft as before.
+  void bridge(const Quaterniond& turn_b, const Params& p) {
+    const double T = time_s_ - filter_.time_s();
+    ekf::Nominal x = filter_.state();
+    const Vector3d v_before = x.v_n, wind_n(x.wind.x(), x.wind.y(), 0);
+    const Vector3d u_b = x.q_nb.conjugate() * (x.v_n - wind_n);
+    x.q_nb = (x.q_nb * turn_b).normalized();
+    x.v_n = x.q_nb * u_b + wind_n;
+    x.p_n += 0.5 * T * (v_before + x.v_n);
+    filter_.inflate(ekf::theta, 3, bridge_tilt_std + bridge_tilt_rate * T);
+    filter_.inflate(ekf::vel, 3, bridge_accel_std * T);
+    filter_.inflate(ekf::pos, 3, bridge_accel_std * T * T);
+    filter_.inflate(ekf::gust, 1, p.gust_std);
+    const ekf::Covariance P = filter_.covariance();
+    filter_.reset(x, ekf::Vector::Zero(), time_s_);
+    filter_.set_covariance(P);
+    mode_ = Mode::running;
+    aligned_s_ = time_s_;
   }
 
   void gnss(const Gnss& g, double valid_s, const Params& p);

@@ -27,6 +27,9 @@ struct Params {
   Param max_coast{
       0.3, "s", 0.03, 2,
       "a gap of the inertial unit is bridged up to this; after a longer one the attitude is found anew"};
+  Param max_bridge{
+      2.1, "s", 0, 10,
+      "a gap up to this is bridged by the turn that the flight controller's own attitude has made"};
   Param gap_rate_std{0.5, "rad/s", 0.01, 5, "turn rate that nobody saw in a gap"};
   Param gap_accel_std{5, "m/s2", 0.1, 50, "acceleration that nobody saw in a gap"};
 

@@ -2,6 +2,7 @@
 // What this vehicle alone has to say: messages that no simulated aircraft publishes.
 #pragma once
 #include "fulmar/message.hpp"
+#include "fulmar/msg/controller_attitude.hpp"
 
 namespace fulmar::fcu {
 
@@ -10,13 +11,6 @@ struct Range {
   double distance_m = 0;
   double min_m = 0, max_m = 0;  ///< as the controller says; firmware 2.0 always says 0.25 and 8
   bool valid = false;           ///< within them
-};
-
-/// The controller's own estimate. Its heading drifts: nothing corrects it there.
-struct ControllerAttitude {
-  Quat attitude;          ///< body to NED
-  Vec3<Body> rate_radps;  ///< filtered
-  double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;
 };
 
 /// What the controller's outputs get: after mixer, override and failsafe.

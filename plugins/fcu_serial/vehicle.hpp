@@ -6,6 +6,8 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
+#include <utility>
 
 #include "commands.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
@@ -13,6 +15,7 @@
 #include "greeting.hpp"
 #include "link_report.hpp"
 #include "pace.hpp"
+#include "readiness.hpp"
 #include "sensors.hpp"
 
 namespace fulmar::fcu {
@@ -49,6 +52,7 @@ class Vehicle {
     Param command_rate{400,  "Hz", 50, 1000, "commands per second at most: each new one goes out, 51 bytes",
                        setup};
     Flag send_attitude{false, "sends the input `state` to correct the controller's own estimate, 50 Hz"};
+    Flag needs_state{false, "flies by the input `state`: no command before there is one", setup};
     Param time_scale{
         1,
         "ratio",
@@ -90,7 +94,7 @@ class Vehicle {
   }
 
   Status write(const Tick& tick, const Inputs& in, const Params& p) {
-    send_command(tick.now_ns, in.actuators);
+    if (may_command(tick.now_ns, in.state, p)) send_command(tick.now_ns, in.actuators);
     send_aux(tick.now_ns, in.aux);
     if (p.send_attitude) send_attitude(tick.now_ns, in.state);
     return Status::ok;
@@ -115,6 +119,7 @@ class Vehicle {
   static constexpr std::int64_t status_period_ns = 100'000'000, aux_period_ns = 1'000'000'000,
                                 attitude_period_ns = 19'500'000;
   static constexpr std::int64_t reboot_memory_ns = 1'000'000'000;
+  static constexpr std::int64_t attitude_boots_ns = 3'000'000'000;  ///< FILT_INIT_T: its estimate begins anew
 
   enum Kind : std::uint32_t {
     kind_imu = 1,
@@ -139,16 +144,20 @@ class Vehicle {
     Notices notices;
     Forwarder texts;
     LinkReport report;
+    Readiness readiness;
+    FixWatch fixes;
+    Spoken spoken;
     VehicleStatus status;  ///< last published
     Rc rc;
     std::int64_t zero_ns = never_ns,
                  arrived_ns = never_ns;  ///< host: of flight time 0; arrival of this tick's inertial sample
     std::int64_t now_ns = -least_step_ns, imu_valid_ns = never_ns, status_ns = never_ns, aux_ns = never_ns;
-    std::int64_t attitude_ns = never_ns, disarmed_ns = never_ns;
+    std::int64_t attitude_ns = never_ns, disarmed_ns = never_ns, attitude_from_ns = never_ns;
     std::uint64_t gnss_stamp_us = 0;
     std::uint32_t told_kinds = 0;
     std::array<bool, 14> aux_motors{};
     bool pitot_zeroed = false;  ///< by a reboot in flight
+    bool told_unwired = false;  ///< send_attitude without a state to send
   };
 
   std::int64_t flight_ns(std::int64_t host_ns) const { return host_ns - run_.zero_ns; }
@@ -213,8 +222,15 @@ class Vehicle {
 
   template <class T>
   void publish(Out<T>& port, const std::optional<T>& value, const Received& r, Kind kind, const char* name) {
-    if (usable(value.has_value(), kind, name))
-      port.publish(*value, flight_ns(std::min(r.valid_at_ns, r.arrived_ns)));
+    if (!usable(value.has_value(), kind, name)) return;
+    port.publish(*value, flight_ns(std::min(r.valid_at_ns, r.arrived_ns)));
+    const std::int64_t arrived_ns = flight_ns(r.arrived_ns);
+    if constexpr (std::is_same_v<T, Gnss>) {
+      if (solved(value->fix)) run_.spoken.fix_ns = arrived_ns;
+    }
+    if (kind == kind_mag) run_.spoken.mag_ns = arrived_ns;
+    if (kind == kind_baro) run_.spoken.baro_ns = arrived_ns;
+    if (kind == kind_pitot) run_.spoken.pitot_ns = arrived_ns;
   }
   bool usable(bool good, Kind kind, const char* name) {
     if (good) return true;
@@ -232,6 +248,7 @@ class Vehicle {
   void rebooted() {
     const bool flying = run_.heard.status.armed != 0 || run_.now_ns - run_.disarmed_ns < reboot_memory_ns;
     run_.imu_valid_ns = never_ns;
+    run_.attitude_from_ns = run_.now_ns + attitude_boots_ns;
     if (!flying) return run_.notices.say(fulmar::Severity::warning, "the flight controller has rebooted");
     run_.pitot_zeroed = true;
     run_.notices.say(
@@ -245,6 +262,8 @@ class Vehicle {
     run_.heard.open = last_frame_.fd >= 0;
     const VehicleStatus s = evaluate(run_.heard, run_.now_ns);
     run_.teller.tell(s, run_.heard, run_.now_ns, run_.notices);
+    run_.fixes.tell(run_.spoken.fix_ns, (s.errors & own_error_link_down) == 0, s.armed, run_.now_ns,
+                    run_.notices);
     const bool known = run_.heard.status_ns != never_ns;
     if (known && (changed(s, run_.status) || run_.now_ns - run_.status_ns >= status_period_ns)) {
       run_.status = s;
@@ -259,6 +278,19 @@ class Vehicle {
     if (run_.report.due(run_.now_ns))
       out.link.publish(run_.report.take(link_->state(), host_ns, run_.now_ns));
     return (s.errors & own_error_link_down) != 0 ? Status::degraded : Status::ok;
+  }
+
+  /// Without an estimate, given or demanded, whoever commands has to know.
+  bool may_command(std::int64_t now_ns, const Optional<VehicleState>& state, const Params& p) {
+    if (p.send_attitude && !state && now_ns > estimate_patience_ns * 20 &&
+        !std::exchange(run_.told_unwired, true))
+      run_.notices.say(fulmar::Severity::warning,
+                       "send_attitude: nothing comes to the input 'state'; is it wired?");
+    if ((!state && !p.needs_state) || run_.heard.status_ns == never_ns) return true;
+    const bool current = state && now_ns - state.valid_at_ns() < estimate_patience_ns;
+    return run_.readiness.update({current ? &*state : nullptr, run_.status, run_.spoken,
+                                  now_ns - run_.heard.imu_ns < command_patience_ns},
+                                 now_ns, run_.notices);
   }
 
   /// Nothing without a command, or with one that nobody has renewed: the controller then hands over to its

@@ -81,6 +81,7 @@ void Vehicle<AnyLink>::take(const Received& r, Outputs& out) {
     case SmallRange::id:
       return publish(out.range, to_range(r.packet.template as<SmallRange>()), r, kind_other, "range finder");
     case AttitudeQuaternion::id:
+      if (run_.now_ns < run_.attitude_from_ns) return;
       return publish(out.attitude, to_attitude(r.packet.template as<AttitudeQuaternion>()), r, kind_other,
                      "controller's estimator");
     case RosflightOutputRaw::id:

@@ -13,6 +13,7 @@
 #include "fulmar/msg/progress.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/plugin.hpp"
+#include "reckoning.hpp"
 
 namespace fulmar::path {
 
@@ -32,6 +33,9 @@ struct Manager {
     Count first_item{0, 0, 65535, "index of the waypoint to begin with; changed in flight: go there at once"};
     Param rejoin_distance{25, "m", 5, 1000,
                           "off the way to the plan by more than this: draw a new one from here"};
+    Param reckon_std{50, "m", 0, 1000, "without a fix the plan goes on up to this deviation of the position"};
+    Param reckon_time{115, "s", 0, 3600,
+                      "and for so long after the position stopped being valid, 5 s after the fix"};
   };
 
   void configure(const Params& p) { retune(p); }
@@ -76,6 +80,7 @@ struct Manager {
   Pose joined_from_;
   Path path_;
   Progress progress_;
+  Reckoning reckoning_;
   std::uint32_t item_ = 0, legs_ = 0, jumps_ = 0, revision_ = 0;
   std::int64_t first_item_ = 0;              // as the parameter was seen last
   std::optional<std::uint32_t> begin_with_;  // of the next adoption of a plan
@@ -90,12 +95,12 @@ inline bool same_spot(const Vec3<Ned>& a, const Vec3<Ned>& b) {
   return a.north == b.north && a.east == b.east;
 }
 
-inline Status Manager::step(const Tick&, const Inputs& in, const Params& p, Outputs& out) {
+inline Status Manager::step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
   const VehicleState& state = *in.state;
   const Plan& plan = *in.plan;
   const Route route(plan);
-  if (!state
-           .position_valid) {  // nothing is known of the progress; the path that was published stays in force
+  // Nothing is known of the progress: the path that was published stays in force.
+  if (!reckoning_.located(state, tick.now_ns, p.reckon_std, p.reckon_time)) {
     out.progress = progress_;
     return Status::degraded;
   }
@@ -108,7 +113,7 @@ inline Status Manager::step(const Tick&, const Inputs& in, const Params& p, Outp
   fill(route, plan, state);
   out.path.publish(path_);
   out.progress = progress_;
-  return Status::ok;
+  return state.position_valid ? Status::ok : Status::degraded;
 }
 
 /// Takes up a plan that is new or changed. The waypoint that is flown to stays the same one if it is still

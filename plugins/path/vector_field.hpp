@@ -12,6 +12,7 @@
 #include "fulmar/msg/path.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/plugin.hpp"
+#include "reckoning.hpp"
 
 namespace fulmar::path {
 
@@ -35,12 +36,33 @@ struct VectorField {
     Param lead_time{0.5, "s", 0, 5,
                     "how long before a change of curvature its bank is commanded: what rolling takes"};
     Param roll_max{0.785, "rad", 0, 1.4, "limit of the bank that is fed forward"};
+    Param reckon_std{50, "m", 0, 1000, "without a fix the plan goes on up to this deviation of the position"};
+    Param reckon_time{115, "s", 0, 3600,
+                      "and for so long after the position stopped being valid, 5 s after the fix"};
+    Param lost_radius{100, "m", 20, 5000, "of the circle that is flown after that"};
   };
 
   Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out);
 
  private:
+  /// Nobody knows where the path is: a circle through the air to the right, at the height and speed that were
+  /// last asked for. Straight on as long as nobody knows the attitude either.
+  Status wait(const VehicleState& state, const Params& p, Outputs& out) {
+    constexpr double g = 9.80665;
+    const bool circles = state.attitude_valid && state.velocity_valid;
+    const double Va = std::max(state.airspeed_mps, 1.0);
+    last_.climb_rate_mps = 0;
+    if (circles) last_.course_rad = state.course_rad;
+    last_.roll_feedforward_rad =
+        circles ? std::clamp(std::atan(Va * Va / (g * p.lost_radius)), 0.0, p.roll_max.value) : 0;
+    out.command = last_;
+    out.cross_track_m = 0.0;
+    out.height_error_m = 0.0;
+    return Status::degraded;
+  }
+
   GuidanceCommand last_;
+  Reckoning reckoning_;
   bool commanded_ = false;
 };
 
@@ -53,18 +75,12 @@ inline double bank_for(double kappa, double Vg, double chi_minus_psi, double rol
   return std::clamp(std::atan(Vg * Vg * kappa / (g * crab)), -roll_max, roll_max);
 }
 
-inline Status VectorField::step(const Tick&, const Inputs& in, const Params& p, Outputs& out) {
+inline Status VectorField::step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
   constexpr double pi = std::numbers::pi;
   const VehicleState& state = *in.state;
   const Path& path = *in.path;
-  if (!state.position_valid &&
-      commanded_) {  // nobody knows where the path is: straight on, at the height that was last asked for
-    last_.climb_rate_mps = last_.roll_feedforward_rad = 0;
-    out.command = last_;
-    out.cross_track_m = 0.0;
-    out.height_error_m = 0.0;
-    return Status::degraded;
-  }
+  if (!reckoning_.located(state, tick.now_ns, p.reckon_std, p.reckon_time) && commanded_)
+    return wait(state, p, out);
   const double Vg = state.ground_speed_mps, chi = state.course_rad;
   const double n = state.position_m.north - path.origin_m.north,
                e = state.position_m.east - path.origin_m.east;

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/app/report.hpp"
 #include "core/run/flight.hpp"
 #include "core/run/test/commands.hpp"
 
@@ -193,4 +194,34 @@ TEST_CASE(
         CHECK(e.throttle_back_frac < 0.05);
       }
   }
+}
+
+TEST_CASE("the progress line shows no figure that is not known now") {
+  const Graph graph = mission("slc", "rosflight");
+  FlightOptions o;
+  o.log = false;
+  Flight flight(graph, o);
+  const auto fly_until = [&](double t_s) {
+    while (1e-9 * static_cast<double>(flight.now_ns()) < t_s) REQUIRE(flight.step());
+  };
+  const auto sensors = [&](bool work) {
+    ParamValue value;
+    value.integer = work ? 1 : 0;
+    for (const char* sensor : {"imu_works", "gnss_works", "mag_works", "baro_works", "pitot_works"})
+      set_parameter(flight, "sim", sensor, value);
+  };
+  const auto says = [&](const char* words) {
+    return progress_line(graph, flight).find(words) != std::string::npos;
+  };
+  fly_until(40);
+  CHECK_FALSE(says("height -"));
+  CHECK_FALSE(says("airspeed -"));
+  sensors(false);
+  fly_until(41);
+  CAPTURE(progress_line(graph, flight));
+  CHECK(says("height -"));
+  CHECK(says("airspeed -"));
+  sensors(true);
+  fly_until(45);
+  CHECK_FALSE(says("height -"));
 }

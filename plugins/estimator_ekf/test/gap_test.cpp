@@ -190,6 +190,56 @@ TEST_CASE(
         }
 }
 
+TEST_CASE(
+    "with the controller's own attitude a gap of up to 2 s ends at once, without a fix as well, in turns") {
+  for (const bool receiver : {true, false})
+    for (const double from : places)
+      for (const double length : {0.5, 1.0, 2.0}) {
+        CAPTURE(receiver);
+        CAPTURE(from);
+        CAPTURE(length);
+        Gap g{.from_s = from, .length_s = length, .after_s = 20};
+        g.feed = [&](Bench<Ekf>& bench, const Truth& x, const Samples& s, double dt) {
+          Samples some = s;
+          if (!receiver && x.t > from - 3) some.gnss.reset();
+          Gap::feed_all(bench, x, some, dt);
+          // Its frame is any: here turned by 70 deg and tilted by 3.
+          const Eigen::Quaterniond frame = quaternion_from({3 * deg, 0, 70 * deg}) * x.q_nb;
+          ControllerAttitude a;
+          a.attitude = {frame.w(), frame.x(), frame.y(), frame.z()};
+          bench.set(bench.in.attitude, a, -dt);
+        };
+        double worst = 0, known_s = -1;  // the position is that of a fix, and follows it
+        g.watch = [&](const Truth& x, const VehicleState& s, Status, double since) {
+          CHECK(all_finite(s));
+          if (since > length) worst = std::max(worst, attitude_error(s, x));
+          if (since > length && known_s < 0 && s.attitude_valid && s.velocity_valid && s.height_valid)
+            known_s = since - length;
+        };
+        g.run();
+        CHECK(known_s >= 0);
+        CHECK(known_s < 0.02);
+        CHECK(g.first_attitude < 3 * deg);
+        CHECK(worst < 4 * deg);
+        if (receiver) CHECK(g.position_jump.norm() < 1 + 4 * length);
+        CHECK(g.allocated == 0);
+      }
+}
+
+TEST_CASE("a gap of more than 2 s is not bridged: without a fix the attitude stays unknown") {
+  Gap g{.length_s = 2.5};
+  g.feed = [&](Bench<Ekf>& bench, const Truth& x, const Samples& s, double dt) {
+    Samples some = s;
+    if (x.t > 65) some.gnss.reset();
+    Gap::feed_all(bench, x, some, dt);
+    ControllerAttitude a;
+    a.attitude = {x.q_nb.w(), x.q_nb.x(), x.q_nb.y(), x.q_nb.z()};
+    bench.set(bench.in.attitude, a, -dt);
+  };
+  g.run();
+  CHECK(g.valid_after_s == -1);
+}
+
 TEST_CASE("a second gap before the attitude is found again starts the search anew") {
   Gap g{.length_s = 2};
   g.feed = [](Bench<Ekf>& bench, const Truth& x, const Samples& s, double dt) {

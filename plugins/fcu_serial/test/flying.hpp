@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct Flying {
   Bench<TestVehicle> bench;
   Actuators command{0.4, 0.1, -0.05, 0.07};
   bool commands = true;
+  std::optional<VehicleState> state;  ///< the estimate that the vehicle is given, valid now
   std::string told;
   std::map<std::string, int> published;
   VehicleStatus status;
@@ -49,6 +51,7 @@ struct Flying {
     for (std::uint32_t i = 0; i < out.notices.count; ++i)
       told += std::string(out.notices.items[i].text.view()) + "\n";
     if (commands && ticks_ns.size() % 4 == 1) bench.set(bench.in.actuators, command);
+    if (state) bench.set(bench.in.state, *state);
     bench.write();
     return result;
   }

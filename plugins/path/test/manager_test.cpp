@@ -256,6 +256,25 @@ TEST_CASE("without a position nothing is published at first, and later the old p
   CHECK(manager.out.progress.items == 4);
 }
 
+TEST_CASE(
+    "without a fix the plan goes on as long as the reckoned position is good enough, and is told degraded") {
+  Bench<Manager> manager;
+  manager.set(manager.in.plan, hourglass());
+  VehicleState state = Kinematic{}.state();
+  state.attitude_valid = true;
+  manager.set(manager.in.state, state);
+  REQUIRE(manager.step(0.01) == Status::ok);
+  state.position_valid = false;
+  state.position_std_m = {40, 40, 5};
+  manager.set(manager.in.state, state);
+  CHECK(manager.step(0.01) == Status::degraded);
+  CHECK(manager.out.path.written);
+  state.position_std_m = {60, 40, 5};
+  manager.set(manager.in.state, state);
+  CHECK(manager.step(0.01) == Status::degraded);
+  CHECK_FALSE(manager.out.path.written);
+}
+
 TEST_CASE("a way to the plan that is not followed is drawn anew from where the aircraft is") {
   // an aircraft that flies straight on after take-off, whatever guidance says
   Bench<Manager> manager;

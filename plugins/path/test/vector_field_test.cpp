@@ -191,4 +191,36 @@ TEST_CASE("without a position it flies straight on at the height last asked for,
         before.roll_feedforward_rad);
 }
 
+TEST_CASE(
+    "without a fix the path is flown by the reckoned position, up to a deviation or a time; then a circle") {
+  for (const bool by_time : {false, true}) {
+    CAPTURE(by_time);
+    Bench<VectorField> bench;
+    VehicleState s = at(10, 4, 0);
+    s.attitude_valid = true;
+    const GuidanceCommand known = command(bench, s, line(0));
+    s.position_valid = false;
+    s.position_std_m = {30, 20, 5};
+    for (int i = 0; i < 1140; ++i) {  // 114 s
+      bench.set(bench.in.state, s);
+      bench.step(0.1);
+    }
+    CHECK(bench.out.command.course_rad == known.course_rad);
+    CHECK(bench.out.command.roll_feedforward_rad == known.roll_feedforward_rad);
+    if (!by_time) s.position_std_m = {51, 20, 5};
+    s.course_rad = 1.3;
+    for (int i = 0; i < (by_time ? 20 : 1); ++i) {
+      bench.set(bench.in.state, s);
+      CHECK(bench.step(0.1) == Status::degraded);
+    }
+    // 17 m/s on 100 m: atan(17^2 / (9.80665 * 100)) = 16.42 deg
+    CHECK(bench.out.command.roll_feedforward_rad == doctest::Approx(0.28660).epsilon(1e-3));
+    CHECK(bench.out.command.course_rad == 1.3);
+    CHECK(bench.out.command.height_m == known.height_m);
+    CHECK(bench.out.command.climb_rate_mps == 0);
+    s.position_valid = true;  // and back, with the whole time again
+    CHECK(command(bench, s, line(0)).roll_feedforward_rad == 0);
+  }
+}
+
 }  // namespace vector_field_test

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whether commands may go out: what is known of the aircraft, what is missing, and when its pilot is told.
+#pragma once
+#include <algorithm>
+#include <cstdint>
+
+#include "fulmar/msg/gnss.hpp"
+#include "fulmar/msg/vehicle_state.hpp"
+#include "state.hpp"
+
+namespace fulmar::fcu {
+
+inline constexpr std::int64_t repeat_ns = 10'000'000'000;          ///< what is missing is told again
+inline constexpr std::int64_t estimate_patience_ns = 500'000'000;  ///< an older estimate is none
+
+/// When a sensor spoke last, in flight time; of the receiver: a three-dimensional fix.
+struct Spoken {
+  std::int64_t fix_ns = never_ns, mag_ns = never_ns, baro_ns = never_ns, pitot_ns = never_ns;
+};
+
+inline bool solved(FixType fix) {
+  return fix == FixType::fix_3d || fix == FixType::combined || fix == FixType::rtk_float ||
+         fix == FixType::rtk_fixed;
+}
+
+/// Tells the loss of the fix, and its return. A slow receiver gets the time of two and a half fixes.
+class FixWatch {
+ public:
+  void tell(std::int64_t fix_ns, bool link, bool armed, std::int64_t now_ns, Notices& out) {
+    if (fix_ns == never_ns) return;
+    if (fix_ns != last_ns_) {
+      if (last_ns_ != never_ns && !lost_)
+        period_ns_ = std::min(fix_ns - last_ns_, std::int64_t{2'000'000'000});
+      if (lost_) out.say(Severity::warning, (Line() << "GNSS is back after ").seconds(fix_ns - last_ns_));
+      last_ns_ = fix_ns;
+      lost_ = false;
+    }
+    if (lost_ || !link || now_ns - fix_ns < std::max(least_ns, period_ns_ * 5 / 2)) return;
+    lost_ = true;
+    out.say(armed ? Severity::critical : Severity::warning,
+            "GNSS lost: no fix; the position is reckoned on from air data");
+  }
+
+ private:
+  using Severity = fulmar::Severity;
+  static constexpr std::int64_t least_ns = 700'000'000;
+  std::int64_t last_ns_ = never_ns, period_ns_ = 0;
+  bool lost_ = false;
+};
+
+/// The gate before the commands. It closes
+/// - while the attitude is not known and the commands did not move the aircraft anyway: after a gap of the
+/// link
+///   the controller has given it to its pilot, and he keeps it until the attitude is known again;
+/// - when the pilot hands over an aircraft that does not know where it is and has not flown: it opens when he
+///   hands over again, and not by a fix that comes while somebody stands beside the propeller.
+class Readiness {
+ public:
+  struct Facts {
+    const VehicleState* state;  ///< null: none, or an old one
+    VehicleStatus status;
+    Spoken spoken;
+    bool inertial;  ///< samples come
+  };
+
+  /// Whether a command may go out now.
+  bool update(const Facts& f, std::int64_t now_ns, Notices& out) {
+    const bool attitude = f.state && f.state->attitude_valid;
+    const std::uint32_t missing = missing_of(f, now_ns);
+    look_for_flight(f, (missing & needed) == 0);
+    take_hand_over(f, (missing & needed) == 0);
+    tell_attitude(attitude, f, out);
+    tell_missing(missing, f, now_ns, out);
+    return !blind_ && !refused_;
+  }
+
+ private:
+  using Level = fulmar::Severity;
+  enum Missing : std::uint32_t {
+    no_inertial = 1,
+    no_attitude = 2,
+    no_fix = 4,
+    no_position = 8,
+    no_height = 16,
+    no_velocity = 32,
+    needed = 63,
+    no_mag = 64,
+    no_baro = 128,
+    no_pitot = 256
+  };
+  static constexpr std::array<std::pair<std::uint32_t, std::string_view>, 6> needed_words{
+      {{no_inertial, "no inertial samples"},
+       {no_attitude, "no attitude with heading"},
+       {no_fix, "no GNSS fix"},
+       {no_position, "no position"},
+       {no_height, "no height"},
+       {no_velocity, "no velocity"}}};
+  static constexpr std::array<std::pair<std::uint32_t, std::string_view>, 3> other_words{
+      {{no_mag, "no magnetometer"}, {no_baro, "no barometer"}, {no_pitot, "no pitot tube"}}};
+  static constexpr std::int64_t first_told_ns = 3'000'000'000;  ///< until then it aligns
+  static constexpr std::int64_t sensor_patience_ns = 2'000'000'000;
+  static constexpr double flies_mps = 7;
+
+  static std::uint32_t missing_of(const Facts& f, std::int64_t now_ns) {
+    const auto silent = [now_ns](std::int64_t at_ns) { return now_ns - at_ns > sensor_patience_ns; };
+    const auto unless = [](bool there, Missing bit) { return there ? 0u : std::uint32_t{bit}; };
+    const VehicleState none, &s = f.state ? *f.state : none;
+    std::uint32_t m = unless(f.inertial, no_inertial);
+    // The cause says it: without an attitude there is nothing else, without a fix no position.
+    if (s.attitude_valid)
+      m |= unless(s.height_valid, no_height) | unless(s.velocity_valid, no_velocity);
+    else
+      m |= no_attitude;
+    if (!s.position_valid && silent(f.spoken.fix_ns))
+      m |= no_fix;
+    else if (s.attitude_valid && !s.position_valid)
+      m |= no_position;
+    return m | unless(!silent(f.spoken.mag_ns), no_mag) | unless(!silent(f.spoken.baro_ns), no_baro) |
+           unless(!silent(f.spoken.pitot_ns), no_pitot);
+  }
+
+  static bool handed(const VehicleStatus& s) { return s.armed && !s.override && !s.failsafe; }
+
+  void look_for_flight(const Facts& f, bool complete) {
+    if (!f.status.armed) met_disarmed_ = true, flown_ = false;
+    if (f.status.in_control && complete && f.state->ground_speed_mps > flies_mps) flown_ = true;
+  }
+
+  /// An aircraft that was armed before anything was heard may be in the air: it is taken as soon as it can
+  /// be.
+  void take_hand_over(const Facts& f, bool complete) {
+    const bool now = handed(f.status);
+    if (now && !handed_ && met_disarmed_ && !flown_ && !complete) {
+      refused_ = true;
+      told_ns_ = never_ns;
+    }
+    if (!now) refused_ = false;
+    handed_ = now;
+  }
+
+  void tell_attitude(bool attitude, const Facts& f, Notices& out) {
+    const bool before = blind_;
+    if (attitude)
+      blind_ = false;
+    else if (!f.status.in_control || !f.inertial)
+      blind_ = true;
+    if (attitude) met_attitude_ = true;
+    if (before == blind_ || !met_attitude_ || !f.status.armed) return;
+    if (blind_)
+      out.say(Level::critical, "the attitude is not known: no command is sent, the pilot has the aircraft");
+    else if (!first_)
+      out.say(Level::warning, "the attitude is known again: commands are sent");
+    first_ = false;
+  }
+
+  void tell_missing(std::uint32_t missing, const Facts& f, std::int64_t now_ns, Notices& out) {
+    if (now_ns < first_told_ns && !f.status.armed) return;
+    const bool waits = !f.status.armed || refused_ || (handed_ && blind_);
+    const bool due = now_ns - told_ns_ >= repeat_ns;
+    if (!waits) return;
+    if ((missing & needed) == 0) {
+      if (refused_ ? !due && told_ready_ : told_ready_ && missing == told_) return;
+      return say(ready_line(missing), missing, true, now_ns, out);
+    }
+    if (due || told_ready_) say(missing_line(missing), missing, false, now_ns, out);
+  }
+  void say(const Line& line, std::uint32_t missing, bool ready, std::int64_t now_ns, Notices& out) {
+    out.say(ready && (missing == 0) ? Level::info : Level::warning, line);
+    told_ns_ = now_ns;
+    told_ready_ = ready;
+    told_ = missing;
+  }
+  Line ready_line(std::uint32_t missing) const {
+    Line line;
+    line << (refused_ ? "ready: switch to the pilot and back to hand over" : "ready");
+    if ((missing & ~std::uint32_t{needed}) != 0) list_bits(line << ", but ", missing, other_words);
+    return line;
+  }
+  Line missing_line(std::uint32_t missing) const {
+    Line line;
+    list_bits(line << "not ready: ", missing, needed_words);
+    if (!met_disarmed_ && !met_attitude_) return line << "; armed before it was found: disarm";
+    if ((missing & ~std::uint32_t{needed}) != 0) list_bits(line << ", ", missing, other_words);
+    return line;
+  }
+
+  bool blind_ = true, refused_ = false, handed_ = false, flown_ = false;
+  bool met_disarmed_ = false, met_attitude_ = false, first_ = true;
+  bool told_ready_ = false;
+  std::uint32_t told_ = 0;
+  std::int64_t told_ns_ = never_ns;
+};
+
+}  // namespace fulmar::fcu

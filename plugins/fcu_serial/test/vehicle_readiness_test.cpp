@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whether commands go out: after gaps of the link, without a fix, without an attitude; and what the pilot is
+// told.
+#include "flying.hpp"
+
+namespace vehicle_readiness_test {
+
+using namespace fulmar;
+using namespace fulmar::fcu;
+using namespace fulmar::fcu::testing;
+
+namespace {
+
+VehicleState known(double speed_mps = 0) {
+  VehicleState s;
+  s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = true;
+  s.ground_speed_mps = speed_mps;
+  return s;
+}
+VehicleState placeless() {
+  VehicleState s = known();
+  s.position_valid = false;
+  return s;
+}
+VehicleState blind() { return {}; }
+
+/// Armed, the pilot's switch on himself.
+void armed_by_pilot(Flying& f) {
+  f.fly(4);
+  f.world.fcu.inputs.rc_us[4] = f.world.fcu.inputs.rc_us[5] = 2000;
+  f.fly(1);
+  REQUIRE(f.status.armed);
+  REQUIRE(f.status.override);
+  f.told.clear();
+}
+void hand_over(Flying& f) { f.world.fcu.inputs.rc_us[5] = 1000; }
+void take_back(Flying& f) { f.world.fcu.inputs.rc_us[5] = 2000; }
+std::size_t sent_in(Flying& f, double seconds) {
+  const std::size_t before = f.world.count<OffboardControl>();
+  f.fly(seconds);
+  return f.world.count<OffboardControl>() - before;
+}
+int times(const Flying& f, const std::string& words) {
+  int n = 0;
+  for (auto at = f.told.find(words); at != std::string::npos; at = f.told.find(words, at + 1)) ++n;
+  return n;
+}
+/// In the air and flown by the host.
+void cruising(Flying& f) {
+  f.state = known();
+  armed_by_pilot(f);
+  hand_over(f);
+  f.fly(1);
+  REQUIRE(f.status.in_control);
+  f.state = known(17);
+  f.fly(1);
+  f.told.clear();
+}
+
+}  // namespace
+
+TEST_CASE("after a gap of the link no command goes out before the attitude is known, and both are told") {
+  for (const double gap_s : {0.4, 1.0, 5.0}) {
+    CAPTURE(gap_s);
+    Flying f;
+    cruising(f);
+    f.world.cut = true;
+    f.state = blind();
+    f.fly(gap_s);
+    f.world.cut = false;
+    CHECK(sent_in(f, 20) == 0);  // the pilot has it for as long as it takes
+    CHECK_FALSE(f.status.in_control);
+    CHECK(times(f, "the attitude is not known: no command is sent, the pilot has the aircraft") == 1);
+    f.state = known(17);
+    CHECK(sent_in(f, 1) > 50);
+    CHECK(f.status.in_control);
+    CHECK(times(f, "the attitude is known again: commands are sent") == 1);
+  }
+}
+
+TEST_CASE("a gap over which the attitude is carried takes the commands from nobody") {
+  Flying f;
+  cruising(f);
+  f.world.cut = true;
+  f.fly(0.25);
+  f.world.cut = false;
+  CHECK(sent_in(f, 1) > 50);
+  CHECK(f.status.in_control);
+  CHECK(times(f, "the attitude") == 0);
+}
+
+TEST_CASE("an attitude that gets lost while the host flies is flown on: nobody else has the sticks") {
+  Flying f;
+  cruising(f);
+  f.state = blind();
+  CHECK(sent_in(f, 2) > 150);
+  CHECK(f.status.in_control);
+  SUBCASE("until the pilot takes over; then it is his") {
+    take_back(f);
+    f.fly(0.5);
+    hand_over(f);
+    CHECK(sent_in(f, 2) == 0);
+  }
+}
+
+TEST_CASE("handed over without a fix: told at once and every 10 s; the fix alone does not start the motor") {
+  Flying f;
+  f.world.fcu.inputs.gnss.fix_type = 0;
+  f.state = placeless();
+  armed_by_pilot(f);
+  hand_over(f);
+  f.fly(0.5);
+  CHECK(times(f, "not ready: no GNSS fix") == 1);
+  CHECK(sent_in(f, 25) == 0);
+  CHECK(times(f, "not ready: no GNSS fix") == 3);
+  f.world.fcu.inputs.gnss.fix_type = 3;
+  f.state = known();
+  CHECK(sent_in(f, 15) == 0);
+  CHECK(f.heard("ready: switch to the pilot and back to hand over"));
+  take_back(f);
+  f.fly(0.5);
+  hand_over(f);
+  CHECK(sent_in(f, 1) > 50);
+  CHECK(f.status.in_control);
+}
+
+TEST_CASE("without any estimate, as an estimator is silent until it is aligned, the hand-over waits too") {
+  Flying f;
+  f.bench.params.needs_state.value = true;
+  armed_by_pilot(f);
+  hand_over(f);
+  CHECK(sent_in(f, 5) == 0);
+  CHECK(f.heard("not ready: no attitude with heading"));
+  f.state = known();
+  CHECK(sent_in(f, 5) == 0);
+}
+
+TEST_CASE("armed before the host was started and no attitude: it says why it does not begin") {
+  Flying f;
+  f.bench.params.needs_state.value = true;
+  f.world.run(2'000'000'000, false);
+  f.world.fcu.inputs.rc_us[4] = f.world.fcu.inputs.rc_us[5] = 2000;
+  f.world.run(3'000'000'000, false);
+  REQUIRE(f.world.fcu.armed());
+  f.fly(0.5);
+  hand_over(f);
+  f.fly(4);
+  REQUIRE(f.status.armed);
+  CHECK(f.heard("not ready: no attitude with heading"));
+  CHECK(f.heard("armed before it was found: disarm"));
+  SUBCASE("in the air the estimate comes from two fixes, and the flight goes on") {
+    f.state = known(17);
+    CHECK(sent_in(f, 1) > 50);
+  }
+}
+
+TEST_CASE("in the air it is taken back without a position: the estimate is reckoned on") {
+  Flying f;
+  cruising(f);
+  take_back(f);
+  f.fly(1);
+  f.state = placeless();
+  hand_over(f);
+  CHECK(sent_in(f, 1) > 50);
+}
+
+TEST_CASE("before arming one line says what is missing, every 10 s, and once that nothing is") {
+  Flying f;
+  f.world.fcu.inputs.gnss.fix_type = 0;
+  f.world.fcu.inputs.mag_works = false;
+  f.state = placeless();
+  f.fly(15);
+  CHECK(times(f, "not ready: no GNSS fix, no magnetometer") == 2);
+  f.world.fcu.inputs.gnss.fix_type = 3;
+  f.world.fcu.inputs.mag_works = true;
+  f.state = known();
+  f.fly(30);
+  CHECK(times(f, "not ready") == 2);
+  CHECK(times(f, "ready\n") == 1);
+}
+
+TEST_CASE("no magnetometer is said before arming, ready or not") {
+  Flying f;
+  f.world.fcu.inputs.mag_works = false;
+  f.state = known();
+  f.fly(15);
+  CHECK(times(f, "ready, but no magnetometer") == 1);
+}
+
+TEST_CASE("the loss of GNSS is told within 1 s, and its return") {
+  for (const double hz : {10.0, 5.0}) {
+    CAPTURE(hz);
+    peer::Options options;
+    options.rates.gnss = hz;
+    Flying f(options);
+    cruising(f);
+    f.world.fcu.inputs.gnss_works = false;
+    f.fly(1);
+    CHECK(times(f, "GNSS lost") == 1);
+    f.fly(9.5);
+    f.world.fcu.inputs.gnss_works = true;
+    f.fly(1);
+    CHECK(times(f, "GNSS is back after 10.") == 1);
+    CHECK(times(f, "GNSS") == 2);
+  }
+}
+
+TEST_CASE("send_attitude without an estimate is told once") {
+  Flying f;
+  f.bench.params.send_attitude.value = true;
+  f.fly(25);
+  CHECK(times(f, "nothing comes to the input 'state'") == 1);
+}
+
+}  // namespace vehicle_readiness_test

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is fed forward, with the integrals off or before they answer: away from cruise speed and from sea
+// level, with an airframe that has aerodynamics. And what a law forgets when it is activated or rests.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <fulmar/testing.hpp>
+
+#include "plugins/control_slc/inner.hpp"
+#include "plugins/control_slc/outer.hpp"
+#include "sdk/test/flight/flight_model.hpp"
+
+namespace feed_forward_test {
+
+using namespace fulmar;
+using doctest::Approx;
+
+namespace {
+VehicleState flying(double airspeed = 15) {
+  VehicleState s;
+  s.height_m = 70;
+  s.airspeed_mps = s.ground_speed_mps = airspeed;
+  s.airspeed_valid = s.attitude_valid = s.velocity_valid = s.height_valid = s.position_valid = true;
+  s.specific_force_mps2 = {0, 0, -isa::g0};
+  return s;
+}
+GuidanceCommand level(double airspeed, double roll = 0, double course = 0) {
+  return {.course_rad = course,
+          .height_m = 70,
+          .climb_rate_mps = 0,
+          .airspeed_mps = airspeed,
+          .roll_feedforward_rad = roll};
+}
+template <class Law>
+void fly(Bench<Law>& bench, const GuidanceCommand& command, const VehicleState& state, int steps) {
+  bench.set(bench.in.state, state);
+  bench.set(bench.in.command, command);
+  for (int i = 0; i < steps; ++i) bench.step(0.01);
+}
+}  // namespace
+
+TEST_CASE("an inner loop that is activated again takes the yaw rate of then as steady") {
+  Bench<slc::Inner> bench;
+  bench.set(bench.in.state, flying());
+  bench.set(bench.in.attitude, AttitudeCommand{});
+  for (int i = 0; i < 300; ++i) bench.step(0.01);
+  VehicleState turning = flying();
+  turning.rate_radps.z = 0.5;
+  bench.set(bench.in.state, turning);
+  slc::Inner::Outputs last;
+  last.actuators = {0.5, 0.01, 0.01, 0};
+  bench.activate(last);
+  bench.step(0.01);
+  CHECK(std::abs(bench.out.actuators.rudder_rad) < 0.01);
+}
+
+TEST_CASE("the aileron fed forward for a roll rate grows as the speed falls, not as its square") {
+  Bench<slc::Inner> bench;
+  auto& p = bench.params;
+  p.roll_ki.value = p.pitch_ki.value = p.roll_kp.value = p.roll_kd.value = 0;
+  bench.set(bench.in.state, flying(10));  // two thirds of the cruise speed
+  for (int i = 0; i <= 60; ++i) {
+    bench.set(bench.in.attitude, AttitudeCommand{0.008 * i, 0, 0});
+    bench.step(0.01);
+  }
+  CHECK(bench.out.actuators.aileron_rad / (0.15 * 1.5 * 0.8) == Approx(1).epsilon(1e-3));
+}
+
+TEST_CASE("the elevator of a turn is that of the air at the field's altitude") {
+  Bench<slc::Inner> bench;
+  const Airframe a = test::anaconda();
+  bench.params.airframe.value = a;
+  bench.params.airframe.is_given = true;
+  bench.params.roll_ki.value = bench.params.pitch_ki.value = 0;
+  VehicleState s = flying(17);
+  s.origin_altitude_m = 2000;
+  s.roll_rad = 0.7;
+  const TurnRates turn = turn_rates(0.7, 0, 17);
+  s.rate_radps = {turn.p_radps, turn.q_radps, turn.r_radps};
+  bench.set(bench.in.state, s);
+  bench.set(bench.in.attitude, AttitudeCommand{0.7, 0, 0.5});
+  bench.step(0.01);
+  const double rho = standard_air(2070).density_kgm3;
+  const double want = a.elevator.trim_rad + turn_trim(a, 0.7, 17, rho).elevator_rad -
+                      turn_trim(a, 0, a.limits.airspeed_cruise_mps, rho).elevator_rad;
+  CHECK(bench.out.actuators.elevator_rad / want == Approx(1).epsilon(1e-3));
+}
+
+TEST_CASE("the pitch of a level turn is the angle of attack times the cosine of the bank") {
+  Bench<slc::Outer> bench;
+  const Airframe a = test::anaconda();
+  bench.params.common.airframe.value = a;
+  bench.params.common.airframe.is_given = true;
+  bench.params.altitude_ki.value = bench.params.airspeed_ki.value = 0;
+  fly(bench, level(17, 0.7), flying(17), 500);
+  const double want = turn_trim(a, 0.7, 17, standard_air(70).density_kgm3).alpha_rad * std::cos(0.7);
+  CHECK(bench.out.attitude.pitch_rad / want == Approx(1).epsilon(1e-3));
+}
+
+TEST_CASE("the airframe's own roll limit holds where it is below the parameter's") {
+  for (const double course : {2.0, -2.0}) {
+    Bench<slc::Outer> bench;
+    bench.params.common.airframe.value.limits.roll_max_rad = 0.3;
+    fly(bench, level(15, 0, course), flying(), 500);
+    CHECK(bench.out.attitude.roll_rad / std::copysign(0.3, course) == Approx(1));
+  }
+}
+
+TEST_CASE("a take-off run forgets what the throttle has learnt") {
+  Bench<slc::Outer> bench;
+  fly(bench, level(16), flying(), 300);
+  CHECK(bench.out.throttle_integral_frac.value > 0.1);
+  bench.params.common.law.value = OuterLaw::takeoff;
+  bench.retune();
+  bench.step(0.01);
+  CHECK(bench.out.throttle_integral_frac.value == 0);
+}
+
+}  // namespace feed_forward_test

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Gates that open again, a height that is as sure as it says, and an alignment in a turn with a late
+// receiver.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "flight_bench.hpp"
+#include "plugins/estimator_ekf/alignment.hpp"
+
+namespace gates_test {
+
+using namespace fulmar;
+using namespace synthetic;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+TEST_CASE("an alignment in a turn takes in that the fix is late") {
+  constexpr double V = 17, w = 0.5, late = 0.15, dt = 0.005, g = isa::g0;
+  const double bank = std::atan(V * w / g);
+  const auto velocity = [&](double t) { return Vector3d(V * std::cos(w * t), V * std::sin(w * t), 0); };
+  const auto attitude = [&](double t) {
+    return Quaterniond(Eigen::AngleAxisd(w * t, Vector3d::UnitZ()) *
+                       Eigen::AngleAxisd(bank, Vector3d::UnitX()));
+  };
+  const Vector3d wind = Vector3d::Zero();
+  estimator::FlightAlignment alignment;
+  (void)alignment.fix(velocity(-late), {g, nullptr, &wind, late});
+  for (int i = 0; i < 100; ++i) {
+    const double t = (i + 0.5) * dt;
+    const Vector3d a(-V * w * std::sin(w * t), V * w * std::cos(w * t), 0);
+    const Quaterniond to_body = attitude(t).conjugate();
+    alignment.imu(to_body * Vector3d(0, 0, w), to_body * (a - Vector3d(0, 0, g)), dt);
+  }
+  const auto found = alignment.fix(velocity(0.5 - late), {g, nullptr, &wind, late});
+  REQUIRE(found);
+  CHECK(found->q_nb.angularDistance(attitude(0.5)) * 180 / std::numbers::pi < 1);
+}
+
+TEST_CASE("velocities refused for long are believed in the end") {
+  Flown f{};
+  f.plan.seed = 1;
+  double most = 0;
+  f.alter = [](const Truth& x, Samples& s) {
+    if (s.gnss && x.t > 60) s.gnss->velocity_mps.north += 20;
+  };
+  f.watch = [&](const Truth& x, const VehicleState& s, Status) {
+    if (x.t > 70 && x.t < 80) most = std::max(most, s.velocity_mps.north - x.v_n.x());
+  };
+  f.run();
+  CHECK(most > 10);
+}
+
+TEST_CASE("the height is as sure as it says, with a receiver whose height error lasts a minute") {
+  double normalised = 0;
+  int n = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    Flown f{.quality = ublox};
+    f.plan.seed = seed;
+    f.watch = [&](const Truth& x, const VehicleState& s, Status) {
+      if (x.t < 60) return;
+      const double error = (s.position_m.down - x.p_n.z()) / s.position_std_m.down;
+      normalised += error * error;
+      ++n;
+    };
+    f.run();
+  }
+  REQUIRE(n > 0);
+  CHECK(normalised / n < 2);
+}
+
+}  // namespace gates_test

@@ -23,6 +23,7 @@ threads() {
 }
 threads
 cmake/tidy.py build --tools
+cmake/mutate.py  # do the tests notice a fault?
 build/bin/loader_test
 [ ! -x build-clang/bin/loader_test ] || build-clang/bin/loader_test
 for folder in build build-clang; do

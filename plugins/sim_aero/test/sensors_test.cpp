@@ -119,12 +119,12 @@ TEST_CASE("the rosflight sensors have the deviations of its simulator") {
                .deviation /
            std::sqrt(2.0);
   };
-  CHECK(white([&] { return s.imu(p).rate_radps.x; }) == Approx(0.00226).epsilon(0.04));
-  CHECK(white([&] { return s.imu(p).specific_force_mps2.z; }) == Approx(0.2).epsilon(0.03));
+  CHECK(white([&] { return s.imu(p).rate_radps.x; }) == Approx(0.00226).epsilon(0.04).scale(0));
+  CHECK(white([&] { return s.imu(p).specific_force_mps2.z; }) == Approx(0.2).epsilon(0.03).scale(0));
   CHECK(white([&] { return s.baro(p).pressure_pa; }) == Approx(4).epsilon(0.03));
   CHECK(white([&] { return s.pitot(p).pressure_pa; }) == Approx(1.15).epsilon(0.03));
   CHECK(of(n, [&] { return s.gnss(p, 0).velocity_mps.east - p.state().v_n.y(); }).deviation ==
-        Approx(0.01).epsilon(0.03));
+        Approx(0.01).epsilon(0.03).scale(0));
   // x <- exp(-7 T) x + 3e-6 T n at 50 Hz
   CHECK(of(100000, [&] {
           return (eigen(s.mag(p).field_tesla) - p.state().q_nb.conjugate() * field).x();
@@ -164,7 +164,7 @@ TEST_CASE("the rosflight position walks as its recursion does") {
     sum += x * x;
   }
   CHECK(std::sqrt(sum / runs) == Approx(expected).epsilon(0.08));
-  CHECK(expected == Approx(0.64).epsilon(0.02));
+  CHECK(expected == Approx(0.64).epsilon(0.02).scale(0));
 }
 
 TEST_CASE("a Gauss-Markov error has its deviation and its time constant at any rate") {
@@ -209,7 +209,7 @@ TEST_CASE("a random walk grows with the root of time, whatever the rate") {
       for (int i = 0; i < std::lround(4 / T); ++i) noise.next(random);
       sum += noise.bias() * noise.bias();
     }
-    CHECK(std::sqrt(sum / runs) == Approx(0.6).epsilon(0.06));
+    CHECK(std::sqrt(sum / runs) == Approx(0.6).epsilon(0.06).scale(0));
   }
 }
 

@@ -34,16 +34,31 @@ std::vector<bool> chain_to_vehicle(const Graph& graph) {
   return in_chain;
 }
 
+bool from_vehicle(const Graph& graph, const Wire& wire) {
+  const std::vector<int> writers = writers_of(graph, wire);
+  return std::find(writers.begin(), writers.end(), graph.vehicle) != writers.end();
+}
+
 /// Sensors come and go, and estimators know; what else feeds the chain must keep coming: three steps of its
 /// writer may pass, and a second at least.
-std::int64_t usual_age_ns(const Graph& graph, const Wire& wire) {
+std::int64_t usual_age_ns(const Graph& graph, const Component& reader, const Wire& wire) {
+  if (from_vehicle(graph, wire)) return 0;
+  if (wire.import >= 0 && reader.roles.empty())
+    return 0;  // a plan from another host, say: it comes when it changes
   std::int64_t age_ns = least_age_ns;
   for (const int i : writers_of(graph, wire)) {
     const Component& writer = nth(graph.components, i);
-    if (i == graph.vehicle) return 0;
     age_ns = std::max(age_ns, 3 * writer.period_ns + writer.latency_ns);
   }
   return age_ns;
+}
+
+std::string warning(const Component& reader, const Port& input, const Wire& wire) {
+  return wire.where.text() + ": " + reader.name + "." + input.name +
+         " leads to the vehicle and is flown on however old it is" +
+         (wire.import >= 0
+              ? ": it comes from outside, and nobody here knows whether it still does; a max_age would tell"
+              : ", even when its writer was stopped: max_age is off");
 }
 
 }  // namespace
@@ -59,15 +74,12 @@ void guard_wires(Draft& draft) {
       const bool fed = wire.from.kind != Source::Kind::none || wire.import >= 0;
       const bool watched = fed && input.kind == FULMAR_IN_VALUE && !input.optional &&
                            !reader.info().vehicle && (!reader.roles.empty() || in_chain[i]);
-      if (wire.max_age_ns == Wire::unsaid) {
-        wire.max_age_ns = watched ? usual_age_ns(graph, wire) : 0;
-        wire.by_steps = true;
-      }
+      const bool said = wire.max_age_ns != Wire::unsaid;
+      if (!said) wire.max_age_ns = watched ? usual_age_ns(graph, reader, wire) : 0;
+      wire.by_steps = !said;
       wire.guarded = watched && wire.max_age_ns > 0;
-      if (watched && wire.max_age_ns == 0 && !wire.by_steps)
-        graph.warnings.push_back(wire.where.text() + ": " + reader.name + "." + input.name +
-                                 " leads to the vehicle and is flown on however old it is, even when its "
-                                 "writer was stopped: max_age is off");
+      if (watched && !wire.guarded && !from_vehicle(graph, wire))
+        graph.warnings.push_back(warning(reader, input, wire));
     }
   }
 }

@@ -348,7 +348,7 @@ class Page:
                 file.write_text(original.replace(old, "\n".join(change)))
             else:
                 options = " " + " ".join(change)
-            self.command(line, f"fulmar check {block.file}{options}", told, 1)
+            self.command(line, f"fulmar check {block.file}{options}", told, 4)
             file.write_text(original)
 
 

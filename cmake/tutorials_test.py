@@ -20,7 +20,7 @@ class Pages(unittest.TestCase):
         stand_in.parent.mkdir(parents=True)
         # `fulmar check FILE [options]`: one fault per line that has the word bad, and one per option
         stand_in.write_text('#!/bin/sh\nshift; grep -n bad "$1" | sed "s/:.*/: is bad/; s/^/$1:/"; f=$?; shift\n'
-                            '[ $# -gt 0 ] && echo "$1 is not understood"; exit 1\n')
+                            '[ $# -gt 0 ] && echo "$1 is not understood"; exit 4\n')
         stand_in.chmod(0o755)
 
     def run_page(self, text, limit="20"):

@@ -228,6 +228,8 @@ class MissionReader {
       if (!is_name(text.name))
         report_.add(port.where(),
                     path + ".out: '" + port.key + "' is not a name; an optional port ends in '?'");
+      else if (find_named(role.out, text.name))
+        report_.add(port.where(), path + ".out: '" + text.name + "' is there twice, with '?' and without");
       else if (type)
         text.type = *type, role.out.push_back(text);
     }

@@ -367,6 +367,11 @@ std::optional<double> Keys::positive(const std::string& key, const std::string& 
 std::optional<std::int64_t> Keys::duration_ns(const std::string& key) const {
   const auto seconds = positive(key, "s", true);
   if (!seconds) return std::nullopt;
+  if (*seconds > 0 && *seconds < 0.5e-9) {
+    report_.add(get(key)->where(),
+                path(key) + ": expected at least 1 ns, or 0, found " + found_words(*get(key)));
+    return std::nullopt;
+  }
   if (*seconds <= 9e9) return std::llround(*seconds * 1e9);
   report_.add(get(key)->where(),
               path(key) + ": expected less than 285 years, found " + found_words(*get(key)));

@@ -52,7 +52,7 @@ class Draw {
       std::vector<std::string> faults = {"throws", "fails", "nan"};
       if (child && counts_allocations()) faults = {"throws", "nan", "crashes", "aborts", "exits"};
       all += (all.empty() ? "" : ", ") + ("fault: " + one_of(faults)) +
-             ", fault_at: " + std::to_string(between(-4, 40)) + " s";
+             ", fault_at: " + std::to_string(between(-4, 32)) + " s";
     }
     text_ += "  " + name + ": {" + keys + (child ? ", run: process" : "") +
              (all.empty() ? "" : ", params: {" + all + "}") + "}\n";
@@ -169,7 +169,7 @@ Flown fly(const Graph& graph, const fs::path& log) {
   Flown flown;
   FlightOptions o;
   o.log_file = log;
-  o.duration_s = 50;
+  o.duration_s = 40;
   std::int64_t now_ns = 0;
   o.say = [&](const std::string& line, bool) {
     if (line.find("failsafe") != std::string::npos) flown.failsafe.emplace_back(now_ns, line);

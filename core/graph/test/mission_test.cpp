@@ -53,6 +53,9 @@ TEST_CASE("keys of the file are known, given once and of the right type") {
   CHECK(changed("seed: 7", "epoch: 2026-13-01T00:00Z") ==
         "6: epoch: '2026-13-01T00:00Z' is not a time such as 2026-01-01T00:00Z");
   CHECK(changed("seed: 7", "timeout: -3 s") == "6: timeout: -3 s is negative");
+  // rounded to 0 it would mean never
+  CHECK(changed("seed: 7", "timeout: 1e-300 s") ==
+        "6: timeout: expected at least 1 ns, or 0, found '1e-300 s'");
   CHECK(changed("io: sim", "io: simulator") == "2: io: unknown word 'simulator'. Valid: sim, fcu.");
   CHECK(changed("arm: auto", "arm: atuo") ==
         "7: arm: unknown word 'atuo'. Did you mean 'auto'? Valid: auto, off.");
@@ -137,6 +140,12 @@ TEST_CASE("a plugin or component that is not there is told with its neighbours")
         "Outer, Inner.");
   CHECK(changed("use: control_slc/Outer,", "") ==
         "28: components.slc: 'use' is missing; it names the plugin, as in use: control_slc/Outer");
+}
+
+TEST_CASE("an output of a role is there once, with '?' or without") {
+  CHECK(changed("out: {command: GuidanceCommand}",
+                "out: {command: GuidanceCommand, command?: GuidanceCommand}") ==
+        "16: roles.guide.out: 'command' is there twice, with '?' and without");
 }
 
 TEST_CASE("roles are filled by components that keep the contract") {

@@ -49,9 +49,10 @@ TEST_CASE("heartbeats and questions come at 1 and 10 Hz of host time, which may 
     const std::vector<Packet>& questions = c.heard[Timesync::id];
     CHECK(questions.size() <= 22);
     CHECK(questions.size() >= 10);
-    for (std::size_t i = 1; i < questions.size(); ++i) {
-      CHECK(questions[i].as<Timesync>().ts1 - questions[i - 1].as<Timesync>().ts1 >= 90 * ms);
-    }
+    // On a loaded machine one may be late, and the next one in time; none is ahead of its time since the
+    // start.
+    for (std::size_t i = 1; i < questions.size(); ++i)
+      CHECK(questions[i].as<Timesync>().ts1 >= static_cast<std::int64_t>(i) * 100 * ms - 10 * ms);
     CHECK(questions.back().as<Timesync>().ts1 >= 18 * second / 10);
   }
 }

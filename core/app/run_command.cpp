@@ -7,30 +7,27 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <charconv>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
-#include <initializer_list>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "core/app/compare.hpp"
+#include "core/app/ends.hpp"
 #include "core/app/program.hpp"
 #include "core/app/report.hpp"
 #include "core/app/watch.hpp"
 #include "core/app/words.hpp"
-#include "core/run/allocation.hpp"
 #include "core/run/flight.hpp"
-#include "core/run/last_words.hpp"
 #include "core/run/published.hpp"
 #include "core/run/realtime.hpp"
 #include "core/run/swap.hpp"
@@ -40,95 +37,6 @@ namespace fulmar::core {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::atomic<int> signal_seen{0};  // a signal that the flight has not refused
-char last_words[512];             // where the log lies, prepared beforehand
-
-/// Async-signal-safe, as all that is said by a program that ends.
-void tell(std::initializer_list<const char*> words) {
-  for (const char* word : words) write_last_words(word);
-}
-
-/// What the vehicle's device is to hear when the host goes. Async-signal-safe.
-void send_last_frame() {
-  const fulmar_last_frame* frame = last_frame.exchange(nullptr, std::memory_order_acq_rel);
-  if (frame && frame->fd >= 0 && write(frame->fd, frame->data, frame->size) < 0)
-    tell({"\nfulmar: the last frame could not be sent"});
-}
-
-unsigned patience_s = 10;  // between a signal and the end of the flight
-
-/// The first signal ends the flight between two ticks; when the flight refuses it, the next one is the first
-/// again. One that follows an unanswered one, half a second later or more (timeout(1) sends two at once), or
-/// ten seconds without an end, ends the program: a component may be hanging.
-void note_signal(int signal) {
-  static timespec latest{};
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  const bool patience_over = signal == SIGALRM;
-  if (patience_over && signal_seen.load() == 0) return;
-  const double since_s = static_cast<double>(now.tv_sec - latest.tv_sec) +
-                         1e-9 * static_cast<double>(now.tv_nsec - latest.tv_nsec);
-  if (!patience_over && since_s < 0.5 && latest.tv_sec > 0) return;
-  latest = now;
-  if (!patience_over && signal_seen.exchange(signal) == 0) {
-    alarm(patience_s);
-    return;
-  }
-  send_last_frame();
-  const char* component = in_step.load(std::memory_order_relaxed);
-  tell(
-      {patience_over ? "\nfulmar: ended, since the flight did not" : "\nfulmar: ended by the second signal"});
-  if (component) tell({" in the ", in_call.load(std::memory_order_relaxed), " of ", component});
-  tell({last_words});
-  _exit(130);
-}
-
-/// A component that crashes takes the host with it; at least it is named.
-void on_crash(int signal) {
-  send_last_frame();
-  const char* component = in_step.load(std::memory_order_relaxed);
-  const char* what = signal == SIGSEGV   ? " (segmentation fault)"
-                     : signal == SIGABRT ? " (abort)"
-                     : signal == SIGFPE  ? " (arithmetic fault)"
-                                         : "";
-  tell({"\nfulmar: ", component ? component : "the host", " crashed"});
-  if (component) tell({" in its ", in_call.load(std::memory_order_relaxed)});
-  tell({what, last_words});
-  raise(signal);  // the default action, restored by SA_RESETHAND
-}
-
-/// A component that calls exit ends the host as a crash does.
-void on_exit() {
-  const char* component = in_step.load(std::memory_order_relaxed);
-  if (!component) return;
-  send_last_frame();
-  const char* call = in_call.load(std::memory_order_relaxed);
-  tell({"\nfulmar: ", component, " ended the program in its ", call, last_words});
-  _exit(1);  // whatever code it asked for, nothing has been flown to its end
-}
-
-void install_handlers(bool hardware) {
-  static const int registered = std::atexit(on_exit);
-  if (registered != 0) tell({"fulmar: no room for an exit handler\n"});
-  struct sigaction action {};
-  action.sa_handler = note_signal;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-  sigaction(SIGALRM, &action, nullptr);
-  if (!hardware) sigaction(SIGHUP, &action, nullptr);
-  action.sa_handler = SIG_IGN;
-  if (hardware) sigaction(SIGHUP, &action, nullptr);  // the terminal is gone, the aircraft is not
-  sigaction(SIGPIPE, &action, nullptr);               // nobody reads what is printed
-  sigaction(SIGXFSZ, &action, nullptr);               // comes back as an error of write
-  if (!counts_allocations()) return;                  // a sanitized build reports crashes by itself
-  static char stack[64 * 1024];
-  const stack_t alternate{stack, 0, sizeof stack};
-  sigaltstack(&alternate, nullptr);
-  action.sa_handler = on_crash;
-  action.sa_flags = static_cast<int>(SA_ONSTACK | SA_RESETHAND | SA_NODEFER);
-  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) sigaction(signal, &action, nullptr);
-}
 
 /// "flight.mcap", 2 -> "flight-2.mcap".
 fs::path numbered(const fs::path& file, std::size_t n) {
@@ -279,12 +187,6 @@ class Session {
     }
   }
 
-  void prepare_last_words(const std::string& log) const {
-    std::snprintf(last_words, sizeof last_words, "%s%s%s\n",
-                  log.empty() ? "." : ". What was logged until then is in ", log.c_str(),
-                  log.empty() ? "" : ".part");
-  }
-
   bool unpaced() const { return graph_.io == Io::sim && options_.speed == 0; }
 
   void take_priority() const {
@@ -325,20 +227,20 @@ class Session {
     o.interrupt = &signal_seen;
     o.progress = [&](const Flight& flight) { progress.show(flight); };
     o.say = [&](const std::string& text, bool warning) { progress.say(text, warning); };
-    prepare_last_words(o.log_file.string());
-    // a flight that gives up control sends its failsafe first
-    patience_s = 10 + static_cast<unsigned>(graph_.failsafe_ns / 1'000'000'000);
     if (graph_.io == Io::fcu || options_.speed > 0) print_without_waiting();
     if (options_.json) dup2(STDERR_FILENO, STDOUT_FILENO);  // what components print
-    install_handlers(graph_.io != Io::sim);
+    // a flight that gives up control sends its failsafe first
+    handle_signals(graph_.io != Io::sim, 10 + static_cast<unsigned>(graph_.failsafe_ns / 1'000'000'000));
     if (!options_.json)
       say_aloud(graph_.mission + (graph_.io == Io::sim ? ": simulation" : ": flight controller") + ", seed " +
                 std::to_string(graph_.seed));
     take_priority();
+    std::optional<UnderWay> under_way(std::in_place, graph_, o.log_file.string());
     last_ = std::make_unique<Flight>(graph_, o);
     forget_before();
     tell_onlookers();
     const FlightResult result = last_->run();
+    under_way.reset();
     alarm(0);
     progress.clear();
     pass_on_words();

@@ -4,6 +4,7 @@
 // library.
 #pragma once
 #include <cfenv>
+#include <cstdint>
 #include <limits>
 
 namespace fulmar::core {
@@ -19,6 +20,33 @@ class FloatModeGuard {
  private:
   std::fenv_t saved_{};
 };
+
+/// Whether the calling thread computes as every thread begins: rounds to nearest, keeps denormals, traps
+/// nothing. In a step or two of the processor, for use in flight.
+#if defined(__x86_64__)
+inline bool plain_arithmetic() noexcept {
+  constexpr unsigned control = 0xffc0, initial = 0x1f80;  // MXCSR; System V ABI for AMD64, 3.2.3
+  return (__builtin_ia32_stmxcsr() & control) == initial;
+}
+#elif defined(__aarch64__)
+inline bool plain_arithmetic() noexcept {
+  std::uint64_t mode = 0;
+  asm volatile("mrs %0, fpcr" : "=r"(mode));
+  return mode == 0;
+}
+#else
+inline bool plain_arithmetic() noexcept { return true; }
+#endif
+inline void make_arithmetic_plain() noexcept {
+  std::fesetenv(FE_DFL_ENV);
+#if defined(__x86_64__)
+  __builtin_ia32_ldmxcsr(0x1f80);  // of denormals that knows nothing
+#elif defined(__aarch64__)
+  asm volatile("msr fpcr, %0" ::"r"(std::uint64_t{0}));
+#endif
+}
+
+inline constexpr const char* changed_arithmetic = "has changed the floating-point mode, which is everybody's";
 
 /// What arithmetic does, found by doing it: portable where control words are not.
 struct FloatMode {

@@ -5,7 +5,7 @@
 
 #include "core/clock.hpp"
 #include "core/quiet_thread.hpp"
-#include "core/run/inside.hpp"
+#include "core/run/in_flight.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -52,8 +52,7 @@ Async::Async(const std::string& name, const fulmar_component& functions, void* i
       jobs_(depth + other_calls),
       most_steps_(depth) {
   for (Job& job : jobs_) prepare(job, info);
-  thread_ = quiet_thread(
-      "fulmar-async", [this] { run(); }, Faults::taken);
+  thread_ = quiet_thread("fulmar-async", [this] { run(); });
 }
 
 Async::~Async() {
@@ -118,7 +117,7 @@ void Async::work(Job& job) noexcept {
   const std::int64_t begin = monotonic_ns();
   job.error.text[0] = '\0';
   static constexpr const char* calls[] = {"step", "retune", "activate"};
-  const Inside inside(name_, calls[static_cast<std::size_t>(job.call)]);
+  const InFlight inside(name_, calls[static_cast<std::size_t>(job.call)]);
   switch (job.call) {
     case Job::Call::step:
       job.out.prepare(job.tick.now_ns);
@@ -131,6 +130,7 @@ void Async::work(Job& job) noexcept {
           functions_.activate(instance_, &job.tick, job.in.views.data(), job.last.views.data(), &job.error);
       break;
   }
+  job.status = judge(job.status, job.error);
   job.took_ns = monotonic_ns() - begin;
   job.heap_growth = thread_heap().bytes - heap.bytes;
 }

@@ -11,7 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/quiet_thread.hpp"
-#include "core/run/inside.hpp"
+#include "core/run/in_flight.hpp"
 #include "core/run/realtime.hpp"
 #include "core/types/wire.hpp"
 
@@ -53,8 +53,7 @@ Driver::~Driver() {
 }
 
 void Driver::start() {
-  thread_ = quiet_thread(
-      "fulmar-driver", [this] { run(); }, Faults::taken);
+  thread_ = quiet_thread("fulmar-driver", [this] { run(); });
 }
 
 bool Driver::step() noexcept {
@@ -62,8 +61,9 @@ bool Driver::step() noexcept {
   out_.prepare(tick.now_ns);
   error_.text[0] = '\0';
   {
-    const Inside inside(name_, "step");
-    if (functions_.step(instance_, &tick, nullptr, out_.views.data(), &error_) >= FULMAR_FAILED) return false;
+    const InFlight inside(name_, "step");
+    const std::uint32_t status = functions_.step(instance_, &tick, nullptr, out_.views.data(), &error_);
+    if (judge(status, error_) >= FULMAR_FAILED) return false;
   }
   for (std::size_t i = 0; i < out_.views.size(); ++i) {
     const Port& port = info_.outputs[i];

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/run/inside.hpp"
+#include "core/run/in_flight.hpp"
 #include "core/run/realtime.hpp"
 
 namespace fulmar::core {
@@ -19,6 +19,10 @@ void* create_instance(const Component& c, const fulmar_component& functions, std
   fulmar_error problem{};
   const Inside inside(c.name, "constructor");
   void* const instance = functions.create(seed, &problem);
+  if (judge(FULMAR_OK, problem) != FULMAR_OK && instance) {
+    functions.destroy(instance);
+    throw Error(c.where.text() + ": " + c.name + ": its constructor " + problem.text);
+  }
   if (!instance) throw Error(c.where.text() + ": " + c.name + ": cannot be created: " + problem.text);
   return instance;
 }
@@ -49,7 +53,7 @@ Direct::~Direct() {
 
 std::uint32_t Direct::configure(const fulmar_value* values, fulmar_error& problem) {
   const Inside inside(name_, "configure");
-  return functions_.configure(instance_, values, &problem);
+  return judge(functions_.configure(instance_, values, &problem), problem);
 }
 
 const fulmar_last_frame* Direct::last_frame(const fulmar_input* failsafe, fulmar_error& problem) {
@@ -61,31 +65,33 @@ const fulmar_last_frame* Direct::last_frame(const fulmar_input* failsafe, fulmar
 
 bool Direct::retune(const std::vector<fulmar_value>& values, fulmar_error& problem) noexcept {
   if (!functions_.retune) return true;
-  const Inside inside(name_, "retune");
-  return functions_.retune(instance_, values.data(), &problem) != FULMAR_FAILED;
+  const InFlight inside(name_, "retune");
+  return judge(functions_.retune(instance_, values.data(), &problem), problem) != FULMAR_FAILED;
 }
 
 bool Direct::activate(const fulmar_tick& tick, const std::vector<fulmar_input>& inputs,
                       const std::vector<fulmar_input>& last, fulmar_error& problem) noexcept {
   if (!functions_.activate) return true;
-  const Inside inside(name_, "activate");
-  if (functions_.activate(instance_, &tick, inputs.data(), last.data(), &problem) < FULMAR_FAILED)
-    return true;
+  const InFlight inside(name_, "activate");
+  const std::uint32_t status = functions_.activate(instance_, &tick, inputs.data(), last.data(), &problem);
+  if (judge(status, problem) < FULMAR_FAILED) return true;
   put_if_silent(problem, "refuses to take over");
   return false;
 }
 
 void Direct::deactivate() noexcept {
-  const Inside inside(name_, "deactivate");
+  const InFlight inside(name_, "deactivate");
   if (functions_.deactivate) functions_.deactivate(instance_);
+  fulmar_error nobody_asks{};
+  judge(FULMAR_OK, nobody_asks);
 }
 
 StepResult Direct::step(const fulmar_tick& tick, Intake& in, Outlets& out, fulmar_error& problem) noexcept {
   const HeapUse before = thread_heap();
   std::uint32_t status = FULMAR_OK;
   {
-    const Inside inside(name_, "step");
-    status = functions_.step(instance_, &tick, in.views.data(), out.views.data(), &problem);
+    const InFlight inside(name_, "step");
+    status = judge(functions_.step(instance_, &tick, in.views.data(), out.views.data(), &problem), problem);
   }
   const HeapUse now = thread_heap();
   heap_.calls += now.calls - before.calls;
@@ -99,16 +105,16 @@ StepResult Direct::step(const fulmar_tick& tick, Intake& in, Outlets& out, fulma
 
 std::uint32_t Direct::read(fulmar_tick& tick, Outlets& out, fulmar_error& problem) noexcept {
   const std::uint64_t before = thread_allocations();
-  const Inside inside(name_, "read");
-  const std::uint32_t status = functions_.read(instance_, &tick, out.views.data(), &problem);
+  const InFlight inside(name_, "read");
+  const std::uint32_t status = judge(functions_.read(instance_, &tick, out.views.data(), &problem), problem);
   heap_.calls += thread_allocations() - before;
   return status;
 }
 
 std::uint32_t Direct::write(const fulmar_tick& tick, const Intake& in, fulmar_error& problem) noexcept {
   const std::uint64_t before = thread_allocations();
-  const Inside inside(name_, "write");
-  const std::uint32_t status = functions_.write(instance_, &tick, in.views.data(), &problem);
+  const InFlight inside(name_, "write");
+  const std::uint32_t status = judge(functions_.write(instance_, &tick, in.views.data(), &problem), problem);
   heap_.calls += thread_allocations() - before;
   return status;
 }

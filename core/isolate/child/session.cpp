@@ -62,7 +62,12 @@ class Session {
       number = wait(number);
       const Call call = control().call;
       error.text[0] = '\0';
-      const std::uint32_t status = run(call, error);
+      std::uint32_t status = run(call, error);
+      if (!plain_arithmetic()) {
+        make_arithmetic_plain();
+        std::snprintf(error.text, sizeof error.text, "%s", changed_arithmetic);
+        status = FULMAR_FAILED;
+      }
       answer(number, status, error);
       if (call == Call::quit) return;
     }

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A laboratory for the loop: a cart that counts its ticks, and a law that misbehaves on demand.
 #include <fcntl.h>
+#include <unistd.h>
 
+#include <cfenv>
 #include <chrono>
+#include <clocale>
 #include <csignal>
 #include <cstdlib>
 #include <limits>
 #include <stdexcept>
 #include <thread>
+#include <tuple>
 #include <vector>
 
 #include "fulmar/plugin.hpp"
@@ -117,7 +121,17 @@ enum class Fault : std::uint8_t {
   aborts,
   exits,
   overflows,
-  leaks
+  leaks,
+  divides,
+  quits,
+  rounds,
+  moves,
+  speaks,
+  masks,
+  thread_crashes,
+  thread_quits,
+  forks,
+  parts
 };
 
 // Recursion without an end that no compiler can turn into a loop.
@@ -126,6 +140,15 @@ double overflow(double x) {
   room[static_cast<std::size_t>(x) % sizeof room] = 1;
   return x < 0 ? room[0] : overflow(x + 1) + room[1];
 }
+
+void* volatile nowhere = nullptr;
+
+struct Parting {  // crashes when its library goes
+  bool crashes = false;
+  ~Parting() {
+    if (crashes) *static_cast<volatile int*>(nowhere) = 1;
+  }
+} parting;
 
 struct Law {
 #ifdef LAB_THROWING
@@ -192,6 +215,23 @@ struct Law {
       case Fault::exits: std::exit(3);
       case Fault::overflows: out.error_m = overflow(1); break;
       case Fault::leaks: kept_.push_back(new char[1'000'000]); break;
+      case Fault::divides: raise(SIGFPE); break;
+      case Fault::quits: _exit(0);
+      case Fault::rounds: std::fesetround(FE_UPWARD); break;
+      case Fault::moves: std::ignore = chdir("/"); break;
+      case Fault::speaks: std::setlocale(LC_ALL, "C"); break;
+      case Fault::masks: {
+        sigset_t all;
+        sigfillset(&all);
+        pthread_sigmask(SIG_BLOCK, &all, nullptr);
+        break;
+      }
+      case Fault::thread_crashes: std::thread([] { *static_cast<volatile int*>(nowhere) = 1; }).join(); break;
+      case Fault::thread_quits: std::thread([] { std::exit(0); }).join(); break;
+      case Fault::forks:
+        if (fork() == 0) std::exit(0);
+        break;
+      case Fault::parts: parting.crashes = true; break;
       default: break;
     }
     return Status::ok;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The rows of docs/safety.md, made to happen in flight: what a component does wrong, in the loop and in a
 // child, and what the host does.
-#include <sys/wait.h>
+#include <unistd.h>
 
+#include <cfenv>
+#include <clocale>
 #include <csignal>
 
 #include "core/run/allocation.hpp"
@@ -17,6 +19,7 @@ struct Row {
   const char* told;  // in the guard's words
   bool in_loop;      // the loop survives it without a child
   bool paced = false;
+  bool own_affair = false;  // of a child
 };
 
 const Row rows[] = {
@@ -30,6 +33,10 @@ const Row rows[] = {
     {"exits", "exit code 3", false},
     {"overflows", "crashed", false},
     {"hangs", "hung", false},
+    {"rounds", "has changed the floating-point mode", true},
+    {"moves", "calls chdir in flight", true, false, true},
+    {"speaks", "calls setlocale in flight", true, false, true},
+    {"masks", "calls pthread_sigmask in flight", true, false, true},
 };
 
 std::string law(const Row& row, bool isolated) {
@@ -73,7 +80,39 @@ TEST_CASE(
     "in a child: a crash, an exit, a hang costs nothing but the component; the fallback flies in the same "
     "tick") {
   for (const Row& row : rows)
-    if (FULMAR_CRASH_TESTS || row.in_loop) check_fallback(row, true);
+    if ((FULMAR_CRASH_TESTS || row.in_loop) && !row.own_affair) check_fallback(row, true);
+}
+
+TEST_CASE("what a component tries to change for everybody stays as it was") {
+  const fs::path here = fs::current_path();
+  const std::string locale = std::setlocale(LC_ALL, nullptr);
+  sigset_t before, after;
+  pthread_sigmask(SIG_SETMASK, nullptr, &before);
+  for (const char* const fault : {"rounds", "moves", "speaks", "masks"}) {
+    CAPTURE(fault);
+    const Graph g = mission(law({fault, "", true}, false));
+    Flight flight(g, options(0.3));
+    CHECK(flight.run().guards.size() == 1);
+    CHECK(std::fegetround() == FE_TONEAREST);
+    CHECK(fs::current_path() == here);
+    CHECK(std::setlocale(LC_ALL, nullptr) == locale);
+    pthread_sigmask(SIG_SETMASK, nullptr, &after);
+    CHECK(sigismember(&before, SIGUSR1) == sigismember(&after, SIGUSR1));
+  }
+  CHECK(chdir("/") == 0);  // nobody flies: it is the program's own
+  fs::current_path(here);
+}
+
+TEST_CASE("a thread of its own in which a component changes the floating-point mode is judged alike") {
+  const Graph g = mission(
+      "  one: {fills: law, use: lab/Law, run: async, latency: 10 ms, params: {id: 1, u: 0.1, fault: rounds, "
+      "fault_at: 0.1 s}}\n"s +
+      with_fallback);
+  Flight flight(g, options(0.3));
+  const FlightResult r = flight.run();
+  REQUIRE(r.guards.size() == 1);
+  CHECK(r.guards[0].component == "one");
+  CHECK(r.guards[0].what.find("floating-point mode") != std::string::npos);
 }
 
 TEST_CASE("a component whose heap grows is stopped at its limit, in the loop and in a child") {
@@ -110,67 +149,6 @@ TEST_CASE("a step over its budget five times in a row, paced: the fallback takes
     REQUIRE(r.guards.size() >= 1);
     CHECK(r.guards[0].what.find("time budget") != std::string::npos);
     CHECK(r.guards[0].action == "two takes over");
-  }
-}
-
-TEST_CASE("a component that crashes in a thread of its own is named, whatever the loop is in") {
-  if (!FULMAR_CRASH_TESTS) return;
-  const fs::path log = folder().path / "crash-async.mcap", said = folder().path / "said-async";
-  struct End {
-    const char *fault, *told;
-  };
-  for (const End& end : {End{"crashes", "one crashed in its step (segmentation fault)"},
-                         End{"aborts", "one crashed in its step (abort)"}}) {
-    CAPTURE(end.fault);
-    fs::remove(log.string() + ".part");
-    mission("  one: {fills: law, use: lab/Law, run: async, latency: 10 ms, params: {fault: "s + end.fault +
-            ", fault_at: 0.1 s}}\n" + one_phase);
-    std::ignore =
-        std::system((std::string(FULMAR_BIN_DIR) + "/fulmar run " + (folder().path / "lab.yaml").string() +
-                     " --log " + log.string() + " >/dev/null 2>" + said.string())
-                        .c_str());
-    std::ifstream in(said);
-    const std::string words((std::istreambuf_iterator<char>(in)), {});
-    CHECK_MESSAGE(words.find(end.told) != std::string::npos, words);
-  }
-}
-
-TEST_CASE(
-    "when a component takes the host with it, the device gets the last frame that the vehicle encoded") {
-  if (!FULMAR_CRASH_TESTS) {
-    MESSAGE("skipped: a sanitized build handles crashes by itself");
-    return;
-  }
-  struct End {
-    const char *fault, *told;
-    int code;
-  };
-  for (const End& end : {End{"crashes", "one crashed in its step (segmentation fault)", 128 + SIGSEGV},
-                         End{"aborts", "one crashed in its step (abort)", 128 + SIGABRT},
-                         End{"overflows", "one crashed in its step", 128 + SIGSEGV},
-                         End{"exits", "one ended the program in its step", 1}}) {
-    CAPTURE(end.fault);
-    // the program itself, since its handlers are what is tested
-    const fs::path device = folder().path / "device", log = folder().path / "crash.mcap",
-                   said = folder().path / "said";
-    fs::remove(device);
-    fs::remove(log.string() + ".part");
-    mission("  sim: {fills: vehicle, use: lab/Cart, params: {device: " + device.string() +
-            "}}\n  one: {fills: law, use: lab/Law, params: {fault: " + end.fault + ", fault_at: 0.1 s}}\n" +
-            with_fallback);
-    const int status =
-        std::system((std::string(FULMAR_BIN_DIR) + "/fulmar run " + (folder().path / "lab.yaml").string() +
-                     " --log " + log.string() + " >/dev/null 2>" + said.string())
-                        .c_str());
-    REQUIRE(WIFEXITED(status));
-    CHECK(WEXITSTATUS(status) == end.code);
-    double u = 0;
-    std::ifstream(device, std::ios::binary).read(reinterpret_cast<char*>(&u), sizeof u);
-    CHECK(u == -0.25);  // the mission's failsafe
-    std::stringstream words;
-    words << std::ifstream(said).rdbuf();
-    CHECK(words.str().find(end.told) != std::string::npos);
-    CHECK(fs::exists(log.string() + ".part"));
   }
 }
 

@@ -106,9 +106,10 @@ struct Link::Impl {
 // ---- the link's thread
 
 void Link::Impl::begin() {
-  // Signals are for the host's threads.
+  // Signals are for the host's threads, but those of a crash: blocked, they would end it without a word.
   sigset_t all, before;
   sigfillset(&all);
+  for (const int crash : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS}) sigdelset(&all, crash);
   pthread_sigmask(SIG_SETMASK, &all, &before);
   thread = std::thread([this] { run(); });
   pthread_sigmask(SIG_SETMASK, &before, nullptr);

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The program `fulmar` when a flight does not end by itself: who is named, where the log is said to lie, and
+// that the vehicle's device gets the last frame, whichever thread it is that crashes and whatever ends it.
+#include <fcntl.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+
+#include <chrono>
+#include <csignal>
+#include <set>
+#include <thread>
+
+#include "core/run/test/lab.hpp"
+
+namespace ends_test {
+
+using namespace lab;
+
+namespace {
+
+fs::path device() { return folder().path / "device"; }
+fs::path log_file() { return folder().path / "end.mcap"; }
+
+/// The program flying the laboratory's mission, and what it said.
+class Program {
+ public:
+  explicit Program(const std::string& tail, std::vector<std::string> words = {}) {
+    for (const fs::path& old : {device(), log_file(), fs::path(log_file().string() + ".part")})
+      fs::remove(old);
+    mission("  sim: {fills: vehicle, use: lab/Cart, params: {device: " + device().string() + "}}\n" + tail);
+    const std::string program = std::string(FULMAR_BIN_DIR) + "/fulmar", said = said_.string();
+    words.insert(words.begin(),
+                 {program, "run", (folder().path / "lab.yaml").string(), "--log", log_file().string()});
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    pid_ = fork();
+    REQUIRE(pid_ >= 0);
+    if (pid_ > 0) return;
+    const int to = open(said.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+    dup2(to, STDOUT_FILENO);
+    dup2(to, STDERR_FILENO);
+    execv(program.c_str(), arguments.data());
+    _exit(127);
+  }
+  ~Program() {
+    if (pid_ <= 0) return;
+    kill(pid_, SIGKILL);
+    wait();
+  }
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  /// As a shell has it: the exit code, or 128 and the signal.
+  int wait() {
+    int status = 0;
+    waitpid(pid_, &status, 0);
+    pid_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+  std::string said() const { return text(said_); }
+  pid_t pid() const { return pid_; }
+
+  /// Thread by name; waits until it is there.
+  pid_t thread(const std::string& name) const {
+    for (int i = 0; i < 2000; ++i) {
+      for (const auto& [id, found] : threads())
+        if (found == name) return id;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return -1;
+  }
+  std::vector<std::pair<pid_t, std::string>> threads() const {
+    std::vector<std::pair<pid_t, std::string>> all;
+    std::error_code gone;
+    for (const auto& task : fs::directory_iterator("/proc/" + std::to_string(pid_) + "/task", gone)) {
+      std::string name = text(task.path() / "comm");
+      name.erase(name.find_last_not_of('\n') + 1);
+      all.emplace_back(std::stoi(task.path().filename().string()), name);
+    }
+    return all;
+  }
+  /// Signals that a thread does not take.
+  std::uint64_t blocked(pid_t thread) const {
+    std::istringstream lines(
+        text("/proc/" + std::to_string(pid_) + "/task/" + std::to_string(thread) + "/status"));
+    for (std::string line; std::getline(lines, line);)
+      if (line.starts_with("SigBlk:")) return std::stoull(line.substr(7), nullptr, 16);
+    return 0;
+  }
+
+ private:
+  static std::string text(const fs::path& file) {
+    std::ifstream in(file);
+    return {(std::istreambuf_iterator<char>(in)), {}};
+  }
+  pid_t pid_ = -1;
+  fs::path said_ = folder().path / "said";
+};
+
+double last_frame() {
+  double u = 0;
+  std::ifstream(device(), std::ios::binary).read(reinterpret_cast<char*>(&u), sizeof u);
+  return u;
+}
+
+constexpr double failsafe = -0.25;  // of the mission
+
+std::string law(const std::string& fault, const std::string& mode = "") {
+  return "  one: {fills: law, use: lab/Law, " + mode + "params: {fault: " + fault + ", fault_at: 0.1 s}}\n" +
+         with_fallback;
+}
+
+/// Much of what a host can have beside the loop.
+const char* const everything =
+    "  think: {use: lab/Thinker, run: async, latency: 20 ms, in: {signal: vehicle.signal}}\n"
+    "  ticker: {use: lab/Ticker, run: driver}\n"
+    "live: {listen: 127.0.0.1:0}\ndds: {domain: 77, export: [vehicle.signal]}\nrecord: {ports: [\"*\"]}\n";
+
+}  // namespace
+
+TEST_CASE("a component that takes the host with it is named, and the device gets the last frame") {
+  struct End {
+    const char *fault, *mode, *told;
+    int code;
+  };
+  const std::string async = "run: async, latency: 10 ms, ";
+  for (const End& end :
+       {End{"crashes", "", "one crashed in its step (segmentation fault)", 128 + SIGSEGV},
+        End{"aborts", "", "one crashed in its step (abort)", 128 + SIGABRT},
+        End{"divides", "", "one crashed in its step (arithmetic fault)", 128 + SIGFPE},
+        End{"overflows", "", "one crashed in its step", 128 + SIGSEGV},
+        End{"exits", "", "one ended the program in its step", 1},
+        End{"quits", "", "one ended the program in its step", 1},
+        End{"thread_crashes", "", "the host crashed in code of lab.so (segmentation fault)", 128 + SIGSEGV},
+        End{"thread_quits", "", "a thread of a component ended the program", 1},
+        End{"crashes", async.c_str(), "one crashed in its step (segmentation fault)", 128 + SIGSEGV},
+        End{"aborts", async.c_str(), "one crashed in its step (abort)", 128 + SIGABRT},
+        End{"divides", async.c_str(), "one crashed in its step (arithmetic fault)", 128 + SIGFPE},
+        End{"overflows", async.c_str(), "one crashed in its step", 128 + SIGSEGV},
+        End{"quits", async.c_str(), "one ended the program in its step", 1}}) {
+    if (!FULMAR_CRASH_TESTS && end.code != 1) continue;  // a sanitized build handles crashes by itself
+    CAPTURE(end.fault);
+    CAPTURE(end.mode);
+    Program program(law(end.fault, end.mode));
+    CHECK(program.wait() == end.code);
+    const std::string said = program.said();
+    CHECK_MESSAGE(said.find(end.told) != std::string::npos, said);
+    CHECK(said.find("What was logged until then is in " + log_file().string() + ".part") !=
+          std::string::npos);
+    CHECK(fs::exists(log_file().string() + ".part"));
+    CHECK(last_frame() == failsafe);
+  }
+}
+
+TEST_CASE("a fork of the host that exits is not the host") {
+  Program program(law("forks"), {"--duration", "0.3"});
+  CHECK(program.wait() == 0);
+  CHECK_MESSAGE(program.said().find("ended the program") == std::string::npos, program.said());
+  CHECK(last_frame() == 0);
+}
+
+TEST_CASE("no thread of the host but the main one takes a signal, and all take those of a crash") {
+  Program program(everything + std::string(one_phase), {"--speed", "real"});
+  for (const char* const name : {"fulmar-log", "fulmar-live", "fulmar-async", "fulmar-driver", "fulmar-words",
+                                 "fulmar-dds-out", "fulmar-dds-in"}) {
+    CAPTURE(name);
+    CHECK(program.thread(name) > 0);
+  }
+  const auto bit = [](int signal) { return std::uint64_t{1} << (signal - 1); };
+  for (const auto& thread : program.threads()) {
+    CAPTURE(thread.second);
+    const std::uint64_t blocked = program.blocked(thread.first);
+    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) CHECK((blocked & bit(signal)) == 0);
+    if (thread.first != program.pid()) CHECK((blocked & bit(SIGINT)) != 0);
+  }
+}
+
+TEST_CASE("a crash of any thread of the host is told, and its device gets the last frame") {
+  if (!FULMAR_CRASH_TESTS) return;
+  for (const char* const name : {"fulmar-log", "fulmar-live", "fulmar-dds-out", "fulmar-words"}) {
+    CAPTURE(name);
+    Program program(everything + std::string(one_phase), {"--speed", "real"});
+    const pid_t thread = program.thread(name);
+    REQUIRE(thread > 0);
+    REQUIRE(syscall(SYS_tgkill, program.pid(), thread, SIGSEGV) == 0);
+    CHECK(program.wait() == 128 + SIGSEGV);
+    CHECK(program.said().find("the host crashed (segmentation fault). What was logged") != std::string::npos);
+    CHECK(last_frame() == failsafe);
+  }
+}
+
+TEST_CASE(
+    "whichever signal ends the host, the device gets the last frame, and it is told where the log lies") {
+  struct End {
+    int signal;
+    const char* name;
+  };
+  for (const End& end : {End{SIGQUIT, "SIGQUIT"}, End{SIGUSR1, "SIGUSR1"}, End{SIGUSR2, "SIGUSR2"},
+                         End{SIGXCPU, "SIGXCPU"}, End{SIGVTALRM, "SIGVTALRM"}, End{SIGIO, "SIGIO"}}) {
+    CAPTURE(end.name);
+    Program program(one_phase, {"--speed", "real"});
+    REQUIRE(program.thread("fulmar-log") > 0);
+    for (int i = 0; i < 1000 && !fs::exists(log_file().string() + ".part"); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    kill(program.pid(), end.signal);
+    CHECK(program.wait() == 128 + end.signal);
+    CHECK_MESSAGE(program.said().find("ended by "s + end.name + ". What was logged until then is in ") !=
+                      std::string::npos,
+                  program.said());
+    CHECK(last_frame() == failsafe);
+  }
+}
+
+TEST_CASE("a crash after the flight names the plugin and does not point to a log that is not there") {
+  if (!FULMAR_CRASH_TESTS) return;
+  Program program(law("parts"), {"--duration", "0.3"});
+  CHECK(program.wait() == 128 + SIGSEGV);
+  const std::string said = program.said();
+  CHECK_MESSAGE(
+      said.find("crashed in code of lab.so (segmentation fault) after the flight, whose log is closed") !=
+          std::string::npos,
+      said);
+  CHECK(said.find(".part") == std::string::npos);
+  CHECK(fs::exists(log_file()));
+}
+
+}  // namespace ends_test

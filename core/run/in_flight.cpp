@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Stands in front of the C library's functions that change what is everybody's, for plugins and whatever they
+// link: the dynamic linker finds those of the program first. What does not come through them is not seen.
+#include "core/run/in_flight.hpp"
+
+#include <dlfcn.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <clocale>
+#include <csignal>
+
+#include "core/run/ports.hpp"
+
+namespace fulmar::core {
+
+constinit thread_local const char* refused_call = nullptr;
+constinit thread_local bool refuses_calls = false;
+
+std::uint32_t put_right(fulmar_error& problem) noexcept {
+  if (!plain_arithmetic()) {
+    make_arithmetic_plain();
+    put_problem(problem, "%s", changed_arithmetic);
+  } else {
+    put_problem(problem, "calls %s in flight; what that changes is everybody's", refused_call);
+  }
+  refused_call = nullptr;
+  return FULMAR_FAILED;
+}
+
+namespace {
+
+/// Whether the call is refused. `changes`: it asks for more than what is set.
+bool refuse(const char* call, bool changes = true) noexcept {
+  if (!changes || !refuses_calls) return false;
+  refused_call = call;
+  return true;
+}
+
+template <class Function>
+Function behind(const char* name) noexcept {
+  return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
+}
+
+}  // namespace
+}  // namespace fulmar::core
+
+using fulmar::core::behind;
+using fulmar::core::refuse;
+
+extern "C" {
+
+int chdir(const char* path) noexcept {
+  if (refuse("chdir")) return errno = EPERM, -1;
+  static const auto next = behind<int (*)(const char*)>("chdir");
+  return next(path);
+}
+
+int fchdir(int folder) noexcept {
+  if (refuse("fchdir")) return errno = EPERM, -1;
+  static const auto next = behind<int (*)(int)>("fchdir");
+  return next(folder);
+}
+
+char* setlocale(int category, const char* locale) noexcept {
+  if (refuse("setlocale", locale != nullptr)) return nullptr;
+  static const auto next = behind<char* (*)(int, const char*)>("setlocale");
+  return next(category, locale);
+}
+
+locale_t uselocale(locale_t locale) noexcept {
+  if (refuse("uselocale", locale != nullptr)) return errno = EPERM, nullptr;
+  static const auto next = behind<locale_t (*)(locale_t)>("uselocale");
+  return next(locale);
+}
+
+int sigprocmask(int how, const sigset_t* set, sigset_t* old) noexcept {
+  if (refuse("sigprocmask", set != nullptr)) return errno = EPERM, -1;
+  static const auto next = behind<int (*)(int, const sigset_t*, sigset_t*)>("sigprocmask");
+  return next(how, set, old);
+}
+
+int pthread_sigmask(int how, const sigset_t* set, sigset_t* old) noexcept {
+  if (refuse("pthread_sigmask", set != nullptr)) return EPERM;
+  static const auto next = behind<int (*)(int, const sigset_t*, sigset_t*)>("pthread_sigmask");
+  return next(how, set, old);
+}
+}

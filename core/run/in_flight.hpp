@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a component must leave as it is while it flies: the floating-point mode of the thread, and of the
+// process the working directory, the locale and the signal mask. All of that is everybody's.
+#pragma once
+#include <cstdint>
+
+#include "core/loader/float_mode.hpp"
+#include "core/run/inside.hpp"
+#include "fulmar/abi.h"
+
+namespace fulmar::core {
+
+/// The call that was refused to the component whose code runs in this thread, as in "chdir"; nullptr: none.
+extern constinit thread_local const char* refused_call;
+/// Such calls are refused now: a component flies in this thread.
+extern constinit thread_local bool refuses_calls;
+
+/// The status of a call after a look at what it has left behind, which is put right; `problem` says what.
+std::uint32_t put_right(fulmar_error& problem) noexcept;
+inline std::uint32_t judge(std::uint32_t status, fulmar_error& problem) noexcept {
+  if (refused_call == nullptr && plain_arithmetic()) [[likely]]
+    return status;
+  return put_right(problem);
+}
+
+/// As long as it lives, the component's code runs in this thread, in flight.
+class InFlight {
+ public:
+  InFlight(const std::string& component, const char* call) noexcept : inside_(component, call) {
+    refuses_calls = true;
+  }
+  ~InFlight() { refuses_calls = false; }
+  InFlight(const InFlight&) = delete;
+  InFlight& operator=(const InFlight&) = delete;
+
+ private:
+  Inside inside_;
+};
+
+}  // namespace fulmar::core

@@ -235,6 +235,20 @@ TEST_CASE("a log that was cut off is flown again as far as it is whole, as is wh
   }
 }
 
+TEST_CASE("whatever a vehicle never publishes, its flight is flown again from its log, to the same file") {
+  for (int silent = 0; silent < 8; ++silent) {
+    CAPTURE(silent);
+    const fs::path log = fresh("silent.mcap"), again = fresh("silent-again.mcap");
+    const Graph g = mission(
+        "  sim: {fills: vehicle, use: lab/Cart, params: {mute_at: "s +
+        ((silent & 1) != 0 ? "-10 s" : "0.5 s") + ", burst_size: " + ((silent & 2) != 0 ? "0" : "2") +
+        ", probes: " + ((silent & 4) != 0 ? "false" : "true") + "}}\nrecord: {ports: [\"*\"]}\n" + one_phase);
+    Flight flight(g, logged(log, 1));
+    flight.run();
+    check_equal(replay_of(log, {}, again), log, again);
+  }
+}
+
 TEST_CASE("late work in other threads is as late again: drivers, asynchronous steps, on hardware") {
   const fs::path log = fresh("threads.mcap"), again = fresh("threads-again.mcap");
   const Graph g = mission(

@@ -60,12 +60,14 @@ struct Cart {
     OutQueue<Signal, 4> burst;
     Out<Arm> status;
     Out<Stance> stance;  ///< flags that only a mission can name
+    Probe distance_m;    ///< when it is asked for
   };
   struct Params {
     Param rate{400, "Hz", 1, 10000, "tick rate", setup};
     Param fail_at{1e9, "s", -1e9, 1e9, "read fails from here on"};
     Count burst_size{3, 0, 100, "samples per tick"};
     Param mute_at{1e9, "s", -1e9, 1e9, "the signal falls silent here"};
+    Flag probes{false, "publishes its probe"};
     TextParam<200> device{"", "file that stands for the device: it gets the last frame"};
   };
   void configure(const Params& p) {
@@ -82,6 +84,7 @@ struct Cart {
     if (tick.now_s() >= p.fail_at) return Status::failed;
     Signal s{static_cast<double>(n_), tick.now_s()};
     if (tick.now_s() < p.mute_at) out.signal.publish(s);
+    if (p.probes) out.distance_m = s.x_m;
     if (n_ > 0) out.applied.publish(applied_);
     for (int i = 0; i < p.burst_size; ++i) out.burst.push({s.x_m + 0.1 * i, 0}, tick.now_ns + i);
     out.status.publish({armed_ && tick.now_ns >= 0});

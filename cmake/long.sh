@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # The long campaigns: every file compiled by itself, more seeds, more byte flips, 10 000 loads and unloads of a plugin and 1000 swaps, 1e8 bytes of noise from a flight
-# controller, under the address sanitizer too; what has several threads under the thread sanitizer; the hourglass through a flight controller's port in real time.
+# controller, under the address sanitizer too; 500 random missions with a random fault; what has several threads under the thread sanitizer; the hourglass through a flight controller's port in real time.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export FULMAR_LONG=1
@@ -33,4 +33,5 @@ for folder in build build-clang; do
   [ ! -x $folder/bin/fcu_link_test ] || $folder/bin/fcu_link_test --test-case="whatever bytes come*"
 done
 build/bin/fcu_hil_test
+build/bin/random_missions_test  # 500 flights
 build/bin/bench_missions --seeds 50

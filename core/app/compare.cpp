@@ -16,7 +16,8 @@ bool passed_over(const std::string& key) {
   static const std::set<std::string> keys{"wall_time_s", "speedup",      "step_time_us", "not_reproducible",
                                           "log_bytes",   "log_messages", "log_sha256",   "log",
                                           "seed",        "live",         "dds",          "allocations",
-                                          "misses",      "log_error",    "phases",       "guards"};
+                                          "misses",      "log_error",    "phases",       "guards",
+                                          "behind_max_s"};
   return keys.contains(key);
 }
 

@@ -76,7 +76,7 @@ json result_of(const Recording& recording, const Replayed& again) {
   j["ticks"] = r.ticks;
   j["recorded_ticks"] = r.recorded_ticks;
   j["flight_time_s"] = flight_seconds(r.last_ns - r.first_ns);
-  j["wall_time_s"] = r.flight.wall_s;
+  j["wall_time_s"] = r.flight.wall.took_s;
   j["notes"] = r.notes;
   j["not_reproducible"] = {"wall_time_s"};
   return j;
@@ -101,8 +101,8 @@ void print(const Replayed& again) {
   const ReplayResult& r = again.result;
   const double flown_s = flight_seconds(r.last_ns - r.first_ns);
   out += fmt::format("{}: {} ticks, {:.1f} s of flight in {:.2f} s: {:.0f} times real time\n",
-                     again.graph.mission, r.ticks, flown_s, r.flight.wall_s,
-                     r.flight.wall_s > 0 ? flown_s / r.flight.wall_s : 0);
+                     again.graph.mission, r.ticks, flown_s, r.flight.wall.took_s,
+                     r.flight.wall.took_s > 0 ? flown_s / r.flight.wall.took_s : 0);
   if (r.cut_off)
     out += fmt::format("the log was cut off: compared up to its last whole tick, at {:.4f} s\n",
                        flight_seconds(r.last_ns));

@@ -65,7 +65,7 @@ double flight_time_s(const FlightResult& result) {
   return result.ticks > 0 ? seconds(result.last_ns - result.first_ns) : 0;
 }
 double speedup(const FlightResult& result) {
-  return result.ticks > 1 && result.wall_s > 0 ? flight_time_s(result) / result.wall_s : 0;
+  return result.ticks > 1 && result.wall.took_s > 0 ? flight_time_s(result) / result.wall.took_s : 0;
 }
 
 json steps_json(const FlightResult& result) {
@@ -179,7 +179,7 @@ json result_json(const Graph& graph, const Flight& flight, const FlightResult& r
   j["result"] = result_word(result);
   j["reason"] = reason_of(result);
   j["flight_time_s"] = flight_time_s(result);
-  j["wall_time_s"] = result.wall_s;
+  j["wall_time_s"] = result.wall.took_s;
   j["speedup"] = speedup(result);
   j["phases"] = json::array();
   for (const PhaseVisit& p : result.phases)
@@ -207,14 +207,17 @@ json result_json(const Graph& graph, const Flight& flight, const FlightResult& r
                  {"lost", result.live->lost},
                  {"refused", result.live->refused}};
   j["dds"] = result.dds ? dds_json(*result.dds) : json(nullptr);
-  j["not_reproducible"] = {"dds", "live", "log", "speedup", "step_time_us", "wall_time_s"};
+  j["behind_max_s"] = result.wall.behind_max_s;
+  j["not_reproducible"] = {"behind_max_s", "dds", "live", "log", "speedup", "step_time_us", "wall_time_s"};
   return j;
 }
 
 std::string result_table(const Graph& graph, const Flight& flight, const FlightResult& result) {
   std::string out = fmt::format("\n{}: {} ({})\n", graph.mission, result_word(result), reason_of(result));
   out += fmt::format("  {:.1f} s of flight in {:.2f} s: {:.0f} times real time\n", flight_time_s(result),
-                     result.wall_s, speedup(result));
+                     result.wall.took_s, speedup(result));
+  if (result.wall.behind_max_s > 0.5)
+    out += fmt::format("  up to {:.1f} s behind the clock on the wall\n", result.wall.behind_max_s);
   for (const auto& [key, source] : graph.summary) add_figures(out, key, summary_of(graph, flight, source));
   out += "\nphases\n";
   for (const PhaseVisit& p : result.phases)

@@ -46,7 +46,8 @@ fs::path numbered(const fs::path& file, std::size_t n) {
 /// With a number when that is taken.
 fs::path free_name(const fs::path& wanted) {
   fs::path file = wanted;
-  for (std::size_t n = 2; fs::exists(file) || fs::exists(file.string() + ".part"); ++n)
+  std::error_code none;  // a name that cannot be is nobody's; whoever makes the file says so
+  for (std::size_t n = 2; fs::exists(file, none) || fs::exists(file.string() + ".part", none); ++n)
     file = numbered(wanted, n);
   return file;
 }

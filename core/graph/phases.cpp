@@ -288,9 +288,9 @@ void guarded(Draft& draft, const Where& where, const std::string& path, F run) {
 
 /// What every result has: a summary must not write over it.
 const std::vector<std::string> result_keys = {
-    "allocations", "dds",        "flight_time_s", "guards",           "io",      "live",   "log",
-    "log_dropped", "log_sha256", "mission",       "not_reproducible", "phases",  "reason", "result",
-    "seed",        "speedup",    "step_time_us",  "wall_time_s",      "who_flew"};
+    "allocations", "behind_max_s", "dds",        "flight_time_s", "guards",           "io",      "live",
+    "log",         "log_dropped",  "log_sha256", "mission",       "not_reproducible", "phases",  "reason",
+    "result",      "seed",         "speedup",    "step_time_us",  "wall_time_s",      "who_flew"};
 
 std::pair<Source, TypePtr> find_port(const Word& word, const std::string& example, const FindPort& find) {
   const auto dot = word.text.find('.');

@@ -132,7 +132,7 @@ void check_required(Draft& draft, const Candidate& candidate) {
   }
 }
 
-/// Latitude and longitude of the mission's origin, checked in the first record that took them.
+/// Whether the mission's origin is whole, where some component takes it.
 void check_origin(Draft& draft) {
   if (!draft.text.origin.is(Node::Kind::map)) return;
   for (const Candidate& candidate : draft.candidates) {
@@ -145,15 +145,6 @@ void check_origin(Draft& draft) {
                        }))
         draft.report.add(draft.text.origin.where(),
                          std::string("origin: ") + needed + " is missing; give lat, lon and alt_msl");
-    for (const auto& [name, limit] : {std::pair{"lat_deg", 90.0}, std::pair{"lon_deg", 180.0}}) {
-      const Field* field = nth(candidate.info().params, i).type->find(name);
-      if (!field) continue;
-      const double value = number_at(*field, nth(candidate.params, i).data.data() + field->offset);
-      if (std::abs(value) > limit)
-        draft.report.add(draft.text.origin.where(),
-                         std::string("origin: ") + name + ": " + number_text(value) + " is outside " +
-                             number_text(-limit) + " .. " + number_text(limit) + " deg");
-    }
     return;
   }
 }

@@ -121,6 +121,7 @@ struct Builder {
     if (from.IsScalar()) {
       node.kind = Node::Kind::scalar;
       node.text = from.Scalar();
+      refuse_control(node.text, node.line);
       node.quoted = from.Tag() == "!";
     } else if (from.IsSequence()) {
       node.kind = Node::Kind::sequence;
@@ -133,12 +134,21 @@ struct Builder {
     return node;
   }
 
+  /// It would end the name of a file, or speak to the terminal of whoever reads it.
+  void refuse_control(const std::string& text, int line) {
+    for (const char c : text)
+      if ((c >= 0 && c < ' ' && c != '\n' && c != '\t' && c != '\r') || c == 0x7f)
+        return report.add({file->name, line}, "a text holds the control character " + std::to_string(int{c}) +
+                                                  ", which no name can");
+  }
+
   void add_entry(Node& node, std::map<std::string, int>& lines, const YAML::Node& key,
                  const YAML::Node& value, int depth) {
     const int line = line_of(key, node.line);
     if (!key.IsScalar())
       return report.add({file->name, line}, "a key must be a word, not a list, a map or nothing");
     const std::string& name = key.Scalar();
+    refuse_control(name, line);
     if (const auto [first, is_new] = lines.try_emplace(name, line); !is_new)
       return report.add({file->name, line}, "'" + name + "' is given twice; the first is in line " +
                                                 std::to_string(first->second));

@@ -29,8 +29,6 @@ std::uint64_t hash_of(const Type& type) {
          {static_cast<std::uint32_t>(field.kind), static_cast<std::uint32_t>(field.shape), field.offset,
           field.count, field.stride, field.items})
       hash.number(x);
-    hash.number(std::bit_cast<std::uint64_t>(field.min));
-    hash.number(std::bit_cast<std::uint64_t>(field.max));
     hash.number(field.labels.size());
     for (const std::string& label : field.labels) hash.text(label);
     hash.number(field.type ? field.type->hash : 0);

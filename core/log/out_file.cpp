@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
 
@@ -32,9 +33,10 @@ bool OutFile::grows(const std::filesystem::path& file) {
 
 void OutFile::refuse(const std::filesystem::path& file) {
   const std::string part = file.string() + ".part";
-  if (std::filesystem::exists(file))
+  std::error_code none;
+  if (std::filesystem::exists(std::filesystem::symlink_status(file, none)))  // a link to nowhere, too
     throw Error("'" + file.string() + "' exists; a log never overwrites a file");
-  if (std::filesystem::exists(part))
+  if (std::filesystem::exists(std::filesystem::symlink_status(part, none)))
     throw Error("'" + part + "' exists: " +
                 (grows(part) ? "another run is writing it"
                              : "a run was interrupted; move it away first, or fulmar log recover it"));
@@ -53,7 +55,21 @@ void OutFile::fail(const std::string& why) {
   if (error_.empty()) error_ = why;
 }
 
+bool OutFile::still_there() {
+  struct stat about {};
+  if (::fstat(fd_, &about) != 0) return failed("look at");
+  if (about.st_nlink == 0) {
+    fail("somebody has removed '" + name_.string() + "'");
+    return false;
+  }
+  if (static_cast<std::uint64_t>(about.st_size) == size_) return true;
+  fail("somebody has changed '" + name_.string() + "': it has " + std::to_string(about.st_size) +
+       " bytes in place of " + std::to_string(size_));
+  return false;
+}
+
 bool OutFile::append(const void* block, std::size_t size) {
+  if (!still_there()) return false;
   const char* at = static_cast<const char*>(block);
   for (std::size_t left = size; left > 0;) {
     const ssize_t n = ::write(fd_, at, left);

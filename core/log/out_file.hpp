@@ -38,6 +38,7 @@ class OutFile {
 
  private:
   bool failed(const char* what);  // notes errno
+  bool still_there();
   std::filesystem::path file_, name_;
   int fd_ = -1;
   std::uint64_t size_ = 0;

@@ -52,6 +52,12 @@ struct Tenure {
   std::int64_t from_ns = 0, to_ns = 0;
 };
 
+/// Of the clock on the wall.
+struct WallClock {
+  double took_s = 0;        // first to last tick
+  double behind_max_s = 0;  // how far a paced flight was behind it
+};
+
 struct FlightResult {
   Outcome outcome = Outcome::failed;
   std::string reason;
@@ -59,7 +65,7 @@ struct FlightResult {
       idle;  // the role that nobody flew in, of an aircraft that never left the ground; "": it has begun
   std::int64_t first_ns = 0, last_ns = 0;  // flight time of the first and last tick
   std::uint64_t ticks = 0;
-  double wall_s = 0;  // first to last tick
+  WallClock wall;
   std::vector<PhaseVisit> phases;
   std::vector<GuardEvent> guards;
   std::vector<Tenure> tenures;

@@ -44,6 +44,7 @@ struct Flight::Impl {
   void begin();
   bool vehicle_failed();
   void tell_control() noexcept;
+  void note_behind(double seconds);
 
   // commands.cpp: what enters between two ticks, checked before; these throw
   enum class Taken : std::uint8_t { yes, full, idle };
@@ -78,6 +79,7 @@ struct Flight::Impl {
   std::shared_ptr<const CommandTable> commands;  // what the graph has to command
   Onlookers onlookers;
   std::int64_t heard_ns = never_ns;  // the vehicle's first word, while it is open whether to resume
+  bool catching_up = false;          // with the clock on the wall, and that was said
   const Flight& owner;
 };
 

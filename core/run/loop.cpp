@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The tick: vehicle read, steps in order, phase conditions, vehicle write. What is published goes to the tap
 // at once.
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
 #include "core/run/allocation.hpp"
 #include "core/run/flight_impl.hpp"
 #include "core/run/realtime.hpp"
@@ -64,6 +68,23 @@ void Flight::Impl::tell_control() noexcept {
     onlookers.control->note_stopped(i, wiring.units[i]->active, wiring.units[i]->stopped);
 }
 
+/// A program that stood still, as one that was stopped or a machine that slept, catches up: nobody shall take
+/// that for real time.
+void Flight::Impl::note_behind(double seconds) {
+  constexpr double worth_saying_s = 0.5, caught_up_s = 0.05;
+  state.result.wall.behind_max_s = std::max(state.result.wall.behind_max_s, seconds);
+  if (seconds < caught_up_s) catching_up = false;
+  if (seconds < worth_saying_s || catching_up) return;
+  catching_up = true;
+  if (!state.options.say) return;
+  std::array<char, 160> words;
+  std::snprintf(words.data(), words.size(),
+                "%8.2f s  the flight is %.1f s behind the clock on the wall: the program stood still, or the "
+                "machine is too slow; it catches up as fast as it can",
+                1e-9 * static_cast<double>(state.now_ns), seconds);
+  state.options.say(words.data(), true);
+}
+
 bool Flight::Impl::step() {
   if (end.over()) return false;
   const bool first = state.index == 0;
@@ -78,7 +99,7 @@ bool Flight::Impl::step() {
   recorder.check_log();
   if (!goes_on) return false;
   if (state.index > 1) state.result.loop_allocations += thread_allocations() - before + entered;
-  if (state.options.speed > 0 && !state.on_hardware()) stopwatch.pace();
+  if (state.options.speed > 0 && !state.on_hardware()) note_behind(stopwatch.pace());
   if (state.options.progress && stopwatch.time_to_show()) state.options.progress(owner);
   return true;
 }
@@ -87,7 +108,7 @@ FlightResult Flight::Impl::finish() {
   FlightResult& result = state.result;
   if (!end.over()) end.end_by(Ending::Cue::abandoned);
   leave_cpu_of_loop();
-  result.wall_s = stopwatch.elapsed_s();
+  result.wall.took_s = stopwatch.elapsed_s();
   result.ticks = state.index;
   if (!result.phases.empty()) result.phases.back().to_ns = state.now_ns;
   for (const auto& unit : wiring.units) result.components.push_back(unit->stats);

@@ -36,12 +36,13 @@ bool Stopwatch::charge(Unit& unit) noexcept {
   return ++unit.overruns_in_a_row >= overruns_allowed && !unit.stopped && !unit.info->vehicle;
 }
 
-void Stopwatch::pace() noexcept {
+double Stopwatch::pace() noexcept {
   const double flown_ns = static_cast<double>(state_.now_ns - state_.result.first_ns);
   const std::int64_t due = begin_ns_ + static_cast<std::int64_t>(flown_ns / state_.options.speed);
   const timespec t{due / 1'000'000'000, due % 1'000'000'000};
   clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr);
   skip();
+  return 1e-9 * static_cast<double>(wall_ns_ - due);
 }
 
 bool Stopwatch::time_to_show() noexcept {

@@ -19,8 +19,8 @@ class Stopwatch {
   bool charge(Unit& unit) noexcept;
   /// [tick] The time since the last reading is nobody's.
   void skip() noexcept;
-  /// [tick] Sleeps until the wall clock has caught up with flight time.
-  void pace() noexcept;
+  /// [tick] Sleeps until the wall clock has caught up with flight time. Seconds that flight time is behind.
+  double pace() noexcept;
   /// [tick] Every 200 ms.
   bool time_to_show() noexcept;
   double elapsed_s() const noexcept;

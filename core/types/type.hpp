@@ -36,7 +36,7 @@ struct Type {
   std::string name{}, frame{}, ros{};
   std::vector<Field> fields{};
   std::uint32_t size = 0, align = 1;
-  std::uint64_t hash = 0;  // of all of the above, nested types included; offsets too
+  std::uint64_t hash = 0;  // of all of the above but ranges, nested types included; offsets too
 
   const Field* find(std::string_view field) const;
 };

@@ -24,3 +24,21 @@ struct PlanFile {
 };
 
 }  // namespace fulmar::path
+
+namespace fulmar {
+
+/// What no aircraft of this size flies is a unit mistaken.
+template <>
+inline constexpr std::array<FieldRange, 8> field_ranges<path::PlanFileWaypoint>{{{"north_m", -1e5, 1e5},
+                                                                                 {"east_m", -1e5, 1e5},
+                                                                                 {"up_m", -1e5, 1e5},
+                                                                                 {"lat_deg", -90, 90},
+                                                                                 {"lon_deg", -360, 360},
+                                                                                 {"alt_msl_m", -1e5, 1e5},
+                                                                                 {"course_rad", -7, 7},
+                                                                                 {"airspeed_mps", 3, 300}}};
+template <>
+inline constexpr std::array<FieldRange, 2> field_ranges<path::PlanFile>{
+    {{"airspeed_mps", 3, 300}, {"turn_radius_m", 1, 1e5}}};
+
+}  // namespace fulmar

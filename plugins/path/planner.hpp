@@ -100,10 +100,13 @@ inline void Planner::configure(const Params& p) {
   for (std::size_t i = 0; i < p.plan->waypoints.size(); ++i) {
     Waypoint w = detail::waypoint_of(p.plan->waypoints[i], i + 1);
     resolve(w);
-    if (const char* fault = fault_of(w))
-      throw std::runtime_error("waypoint " + std::to_string(i + 1) + " of the plan: " + fault);
+    const char* fault = fault_of(w);
+    if (!fault) fault = fault_of_neighbours(w, i > 0 ? &plan->waypoints[i - 1] : nullptr, nullptr);
+    if (fault) throw std::runtime_error("waypoint " + std::to_string(i + 1) + " of the plan: " + fault);
     plan->waypoints.push_back(w);
   }
+  if (plan->waypoints.size() == 1 && plan->end == PlanEnd::circuit)
+    throw std::runtime_error("the plan has one waypoint, which makes no circuit: give more, or end: orbit");
   plan_ = *plan;
   changed_ = true;
 }

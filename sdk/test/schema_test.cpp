@@ -11,7 +11,9 @@
 #include <string>
 
 #include "fulmar/eigen.hpp"
+#include "fulmar/msg/actuators.hpp"
 #include "fulmar/msg/airframe.hpp"
+#include "fulmar/msg/attitude_command.hpp"
 #include "fulmar/msg/gnss.hpp"
 #include "fulmar/msg/path.hpp"
 #include "fulmar/msg/plan.hpp"
@@ -205,3 +207,21 @@ TEST_CASE("a list refuses what it has no room for") {
 }
 
 }  // namespace schema_test
+
+TEST_CASE("angles that an aircraft is to take or its surfaces to have are no degrees") {
+  const auto check = [](const fulmar_type& type, std::string_view name, double most) {
+    CAPTURE(name);
+    for (std::uint32_t i = 0; i < type.field_count; ++i)
+      if (name == type.fields[i].name) {
+        CHECK(type.fields[i].max == doctest::Approx(most).epsilon(1e-12));
+        CHECK(type.fields[i].min == doctest::Approx(-most).epsilon(1e-12));
+        return;
+      }
+    FAIL("there is no such field");
+  };
+  for (const char* const surface : {"aileron_rad", "elevator_rad", "rudder_rad"})
+    check(fulmar::describe<fulmar::Actuators>(), surface, 1.5707963267948966);
+  check(fulmar::describe<fulmar::AttitudeCommand>(), "roll_rad", 3.141592653589793);
+  check(fulmar::describe<fulmar::AttitudeCommand>(), "pitch_rad", 1.5707963267948966);
+  check(fulmar::describe<fulmar::Actuators>(), "throttle_frac", 1);
+}

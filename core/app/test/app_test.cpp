@@ -355,6 +355,63 @@ TEST_CASE("what cannot be is refused before anything flies") {
   CHECK(page.err == "fulmar: the output cannot be written; is the disk full?\n");
 }
 
+TEST_CASE("a value that no aircraft has is refused, with its range") {
+  const std::string with_plan = "components:\n  plan: {params: {plan: ";
+  const auto refused = [](const std::string& text, const std::string& told) {
+    CAPTURE(text);
+    const Result r = fulmar("run --no-log --duration 1 " + mission(text).string());
+    CHECK(r.code == 4);
+    CHECK_MESSAGE(r.err.find(told) != std::string::npos, r.err);
+  };
+  refused(plan + "failsafe: {elevator_rad: 100}\n", "elevator_rad: 100 is outside -1.5708 .. 1.5708 rad");
+  refused(plan + "failsafe: {rudder_rad: -2}\n", "rudder_rad: -2 is outside -1.5708 .. 1.5708 rad");
+  refused(plan + "timeout: 1e-300 s\n", "timeout: expected at least 1 ns, or 0");
+  const std::string way =
+      ", waypoints: [{north: 300 m, east: 0 m, up: 70 m}, {north: 0 m, east: 300 m, up: 70 m}]}}}\n";
+  refused(with_plan + "{airspeed: 1e-6 m/s" + way, "airspeed: 1e-6 m/s is outside 3 .. 300 m/s");
+  refused(with_plan + "{airspeed: 1e6 m/s" + way, "airspeed: 1e6 m/s is outside 3 .. 300 m/s");
+  refused(with_plan + "{turn_radius: 1e9 m" + way, "turn_radius: 1e9 m is outside 1 .. 100000 m");
+  refused(with_plan + "{waypoints: [{north: 1e9 m, east: 0 m, up: 70 m}]}}}\n",
+          "north: 1e9 m is outside -100000 .. 100000 m");
+  const std::string same = "{north: 1 m, east: 2 m, up: 70 m}";
+  refused(with_plan + "{waypoints: [" + same + ", " + same + "]}}}\n",
+          "waypoint 2 of the plan: less than 1 m from the waypoint before it");
+  refused(with_plan + "{waypoints: [" + same + "]}}}\n", "the plan has one waypoint, which makes no circuit");
+  CHECK(fulmar("run --no-log --duration 1 " +
+               mission(with_plan + "{end: orbit, waypoints: [" + same + "]}}}\n").string())
+            .code == 0);
+  for (const char* const altitude : {"1e30 m", "100 km", "-20 km"}) {
+    const fs::path file = mission(plan);
+    std::ifstream in(file);
+    std::string text((std::istreambuf_iterator<char>(in)), {});
+    text.replace(text.find("1387 m"), 6, altitude);
+    std::ofstream(file) << text;
+    const Result r = fulmar("check " + file.string());
+    CHECK(r.code == 4);
+    CHECK_MESSAGE(r.err.find("origin.alt_msl: " + std::string(altitude) + " is outside") != std::string::npos,
+                  r.err);
+  }
+}
+
+TEST_CASE("a name that no file can have, or that speaks to a terminal, is refused") {
+  const fs::path file = folder() / "names.yaml";
+  for (const char* const text :
+       {"mission: \"a\\0b\"\n", "mission: \"\\e[2J\"\n", "record: {file: \"x\\0y.mcap\"}\n"}) {
+    std::ofstream(file) << text;
+    const Result r = fulmar("check " + file.string());
+    CHECK(r.code == 4);
+    CHECK_MESSAGE(r.err.find("names.yaml:1: a text holds the control character") != std::string::npos, r.err);
+  }
+  const Result r = fulmar("run " + hourglass + " --duration 1 --log " + std::string(300, 'x') + ".mcap");
+  CHECK(r.code == 4);
+  CHECK_MESSAGE(r.err.find("File name too long") != std::string::npos, r.err);
+  CHECK(r.err.find("filesystem error") == std::string::npos);
+  fs::create_symlink(folder() / "nowhere" / "there", folder() / "link.mcap");
+  const Result link = fulmar("run " + hourglass + " --duration 1 --log " + (folder() / "link.mcap").string());
+  CHECK(link.code == 4);
+  CHECK_MESSAGE(link.err.find("link.mcap' exists") != std::string::npos, link.err);
+}
+
 TEST_CASE("a list of allowed plugins is understood in a mission that is named without a folder") {
   mission(plan + "plugins: {allow: [control_slc]}\n");
   const Result r = shell("cd " + folder().string() + " && " + program + "check mission.yaml");

@@ -435,9 +435,27 @@ TEST_CASE("a log whose file is removed in flight says so and counts its messages
   fs::remove(folder.path / "a.mcap.part");
   fly(log, 1000);
   const LogResult result = log.close();
-  CHECK(result.error != "");
+  CHECK(result.error.find("somebody has removed '" + (folder.path / "a.mcap.part").string()) == 0);
   CHECK(result.messages == 0);
   CHECK(result.dropped == 2500);
+}
+
+TEST_CASE("a log that somebody has cut or lengthened in flight is not called whole") {
+  for (const bool longer : {false, true}) {
+    const Folder folder;
+    const fs::path part = folder.path / "a.mcap.part";
+    TapedLog log({.file = folder.path / "a.mcap", .epoch_ns = epoch_ns}, two_channels());
+    fly(log, 1000);
+    if (longer)
+      std::ofstream(part, std::ios::app) << "what is not ours";
+    else
+      fs::resize_file(part, 0);
+    fly(log, 1000);
+    const LogResult result = log.close();
+    CHECK_MESSAGE(result.error.find("somebody has changed '" + part.string()) == 0, result.error);
+    CHECK(fs::exists(part));
+    CHECK_FALSE(fs::exists(folder.path / "a.mcap"));
+  }
 }
 
 TEST_CASE("a file that is no log is refused") {

@@ -201,6 +201,7 @@ TEST_CASE("geodetic waypoints wait for the origin") {
 TEST_CASE("the mission's origin serves at once") {
   Bench<Planner> bench;
   bench.params.origin.value = {40.2463724, -111.6474138, 1387, true};
+  bench.params.plan.value.end = PlanEnd::orbit;
   bench.params.plan.value.waypoints.push_back(geodetic(40.2463724, -111.6474138, 1457));
   CHECK(bench.step(0.01) == Status::ok);
   REQUIRE(bench.out.plan.written);
@@ -220,6 +221,11 @@ TEST_CASE("a file that is wrong is refused with a sentence that names the waypoi
   CHECK(fault([](PlanFile& f) {
           f.waypoints[2].up_m = not_given;
         }).find("waypoint 3 of the plan needs north, east and up") != std::string::npos);
+  CHECK(fault([](PlanFile& f) {
+          f.waypoints[2] = f.waypoints[1];
+        }).find("waypoint 3 of the plan: less than 1 m from the waypoint before it") != std::string::npos);
+  CHECK(fault([](PlanFile& f) { f.waypoints.count = 1; }).find("one waypoint, which makes no circuit") !=
+        std::string::npos);
   CHECK(fault([](PlanFile& f) { f.waypoints[0] = {}; }).find("waypoint 1") != std::string::npos);
   CHECK(fault([](PlanFile& f) { f.airspeed_mps = 0; }).find("airspeed") != std::string::npos);
   CHECK(fault([](PlanFile& f) { f.turn_radius_m = 0; }).find("turn_radius") != std::string::npos);

@@ -56,6 +56,17 @@ struct List {
   constexpr void clear() { count = 0; }
 };
 
+/// What a field may be, where its unit alone says less: the host refuses what a component publishes beyond
+/// it, and what a mission says.
+struct FieldRange {
+  std::string_view field;
+  double min = 0, max = 0;
+};
+
+/// Of the fields of a message: a specialization beside it, as of Actuators, lists them.
+template <class T>
+inline constexpr std::array<FieldRange, 0> field_ranges{};
+
 /// Deviation of a quantity that nobody knows: large, finite, and so honest to every weighted sum.
 inline constexpr double unknown_std = 1e9;
 

@@ -390,6 +390,8 @@ consteval Rows<T, sizeof...(M)> rows_of(Types<M...>) {
       if (!measured[i]) continue;
       f.min = units[static_cast<std::size_t>(unit)].min;
       f.max = units[static_cast<std::size_t>(unit)].max;
+      for (const FieldRange& range : field_ranges<T>)
+        if (range.field == name) f.min = range.min, f.max = range.max;
     }
   }
   return out;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <numbers>
+
 #include "fulmar/message.hpp"
 
 namespace fulmar {
@@ -12,5 +14,12 @@ struct Actuators {
   double elevator_rad = 0;   ///< positive is trailing edge down: nose down
   double rudder_rad = 0;     ///< positive is trailing edge left: nose left
 };
+
+/// No surface turns by more than a quarter: degrees that were meant as radians do.
+template <>
+inline constexpr std::array<FieldRange, 3> field_ranges<Actuators>{
+    {{"aileron_rad", -std::numbers::pi / 2, std::numbers::pi / 2},
+     {"elevator_rad", -std::numbers::pi / 2, std::numbers::pi / 2},
+     {"rudder_rad", -std::numbers::pi / 2, std::numbers::pi / 2}}};
 
 }  // namespace fulmar

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <numbers>
+
 #include "fulmar/message.hpp"
 
 namespace fulmar {
@@ -10,5 +12,11 @@ struct AttitudeCommand {
   double pitch_rad = 0;
   double throttle_frac = 0;  ///< 0 to 1
 };
+
+/// Beyond these no attitude differs from one within: degrees that were meant as radians do.
+template <>
+inline constexpr std::array<FieldRange, 2> field_ranges<AttitudeCommand>{
+    {{"roll_rad", -std::numbers::pi, std::numbers::pi},
+     {"pitch_rad", -std::numbers::pi / 2, std::numbers::pi / 2}}};
 
 }  // namespace fulmar

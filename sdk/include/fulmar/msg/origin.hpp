@@ -12,4 +12,9 @@ struct Origin {
   bool given = false;  ///< false: the first good fixes decide
 };
 
+/// Where ground is, and where the models of air hold.
+template <>
+inline constexpr std::array<FieldRange, 3> field_ranges<Origin>{
+    {{"lat_deg", -90, 90}, {"lon_deg", -180, 180}, {"alt_msl_m", -1000, 20000}}};
+
 }  // namespace fulmar

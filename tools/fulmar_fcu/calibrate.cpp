@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 namespace fulmar::fcu {
 
@@ -116,6 +117,28 @@ class Run {
   bool complete() const { return after.size() == what_.params.size(); }
   bool said_good() { return said(what_.good) != nullptr; }
   double elapsed_s() const { return static_cast<double>(client_.now_ns() - started_ns_) * 1e-9; }
+  /// Puts the former values back after a failure, and says so; "" when they stand anyway. Not of one that
+  /// begins again by itself. Throws BiasesLost.
+  std::string put_back(const std::string& why) {
+    if (!what_.zeroes || what_.repeats) return "";
+    bool changed = false;
+    try {
+      after = read_some(client_, what_.params);
+      if (complete() && !(changed = differs())) return "";
+      client_.pump(std::max<std::int64_t>(0, started_ns_ + what_.usual_s * second + 500 * ms -
+                                                 client_.now_ns()));  // until nothing more comes of it
+      after = read_some(client_, what_.params);
+      if (complete()) {
+        changed = differs();
+        for (std::size_t i = 0; i < after.size(); ++i) set_param(client_, after[i], before[i].bits);
+        return " The former values are back.";
+      }
+    } catch (const std::exception&) {  // no answer, no device: told here
+    }
+    throw BiasesLost(why + (changed ? " The former values could not be put back."
+                                    : " Whether the former values stand could not be read."),
+                     before);
+  }
   [[noreturn]] void give_up() const {
     const std::string limit = std::to_string(what_.limit_s) + " s";
     if (!last_failure_.empty())
@@ -158,6 +181,22 @@ class Run {
   std::string last_failure_;
 };
 
+/// Returns when it has succeeded; a failure is an Error.
+void wait_for_end(Client& client, const Calibration& what, Run& run,
+                  const std::function<void(double)>& progress) {
+  const std::int64_t began = client.now_ns(), until = began + what.limit_s * second;
+  while (client.now_ns() < until) {
+    client.pump(100 * ms);
+    if (progress) progress(run.elapsed_s());
+    // a lost text or a lost echo does not matter for long: the result is read when it is due
+    const bool due = client.now_ns() - began > what.usual_s * second &&
+                     static_cast<std::int64_t>(run.elapsed_s() * 10) % 10 == 0;
+    if (!run.over() && !due) continue;
+    if (run.read_back() || (run.said_good() && run.complete())) return;
+  }
+  run.give_up();
+}
+
 }  // namespace
 
 const Calibration* find_calibration(const std::string& name) {
@@ -172,18 +211,16 @@ Calibrated calibrate(Client& client, const Calibration& what, const std::functio
   run.before = read_some(client, what.params);
   if (run.before.size() != what.params.size())
     throw Error(client.name() + " does not tell its parameters: the calibration was not begun.");
-  run.start();
-  const std::int64_t began = client.now_ns(), until = began + what.limit_s * second;
-  while (client.now_ns() < until) {
-    client.pump(100 * ms);
-    if (progress) progress(run.elapsed_s());
-    // a lost text or a lost echo does not matter for long: the result is read when it is due
-    const bool due = client.now_ns() - began > what.usual_s * second &&
-                     static_cast<std::int64_t>(run.elapsed_s() * 10) % 10 == 0;
-    if (!run.over() && !due) continue;
-    if (run.read_back() || (run.said_good() && run.complete())) return {run.before, run.after};
+  try {
+    run.start();
+    wait_for_end(client, what, run, progress);
+  } catch (const Interrupted& e) {
+    const auto cancelled = std::exchange(client.cancelled, nullptr);  // it ends after this
+    throw Interrupted(run.put_back(e.what()));
+  } catch (const std::exception& e) {
+    throw Error(e.what() + run.put_back(e.what()));
   }
-  run.give_up();
+  return {run.before, run.after};
 }
 
 }  // namespace fulmar::fcu

@@ -29,8 +29,14 @@ const Calibration* find_calibration(const std::string& name);
 struct Calibrated {
   std::vector<Param> before, after;
 };
+/// It failed, and what was set before could not be put back.
+struct BiasesLost : Error {
+  BiasesLost(const std::string& text, std::vector<Param> what) : Error(text), former(std::move(what)) {}
+  std::vector<Param> former;
+};
 /// Runs it to its end. Throws Error: armed, refused, failed (with the firmware's words), or no sign of its
-/// end within the limit.
+/// end within the limit. A failed calibration of gyroscope or accelerometer leaves biases of zero, and the
+/// mean of whatever was done to the aircraft: the former ones are put back, or thrown as BiasesLost.
 Calibrated calibrate(Client& client, const Calibration& what,
                      const std::function<void(double elapsed_s)>& progress = {});
 

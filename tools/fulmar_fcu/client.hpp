@@ -51,7 +51,8 @@ struct Said {  ///< a STATUSTEXT
 
 /// Somebody pressed Ctrl-C.
 struct Interrupted : Error {
-  Interrupted() : Error("Interrupted.") {}
+  /// `more`: what was done about it, such as " The former values are back."
+  explicit Interrupted(const std::string& more = "") : Error("Interrupted." + more) {}
 };
 
 class Client {

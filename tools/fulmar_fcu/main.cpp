@@ -177,8 +177,8 @@ int main(int argc, char** argv) {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // in order with what goes to stderr
   try {
     return run(argc, argv);
-  } catch (const Interrupted&) {
-    std::fprintf(stderr, "\n");
+  } catch (const Interrupted& e) {
+    std::fprintf(stderr, "\n%s\n", e.what());
     return 130;
   } catch (const std::exception& e) {
     show_progress("");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include "core/graph/record.hpp"
 #include "core/loader/table.hpp"
@@ -58,13 +59,40 @@ void firmware(Judge& j) {
                           " did not start: 'fulmar fcu status' shows which are silent; power-cycle it");
 }
 
+/// At rest the means are gravity and no rotation: the biases belong to this unit, and to no other moment.
+void rest(Judge& j, const Rest& r) {
+  constexpr double deg = 180 / std::numbers::pi, gravity = 9.80665;
+  const std::string gravity_text = fixed(r.gravity_mps2, 2) + " m/s2",
+                    turn_text = fixed(r.turn_rps * deg, 2) + " deg/s",
+                    redo = " at rest: 'fulmar fcu calibrate imu'";
+  const double off = std::fabs(r.gravity_mps2 - gravity);
+  if (r.accel_rms_mps2 > 1 || r.gyro_rms_rps * deg > 5)
+    return j.warn("IMU", "it is being moved (" + fixed(r.accel_rms_mps2, 1) + " m/s2, " +
+                             fixed(r.gyro_rms_rps * deg, 0) + " deg/s rms): put it down, and check again");
+  if (off > 0.15)
+    j.add(off > 0.5 ? Verdict::fail : Verdict::warn, "IMU",
+          "gravity is " + gravity_text + redo.substr(0, 8) + ", not 9.81" + redo.substr(8));
+  if (r.turn_rps * deg > 0.5)
+    j.add(r.turn_rps * deg > 3 ? Verdict::fail : Verdict::warn, "IMU", "it turns at " + turn_text + redo);
+  if (off <= 0.15 && r.turn_rps * deg <= 0.5) j.ok("IMU", "calibrated; " + gravity_text + ", " + turn_text);
+}
+
+void inertial(Judge& j) {
+  const bool no_accel = j.all_zero({"ACC_X_BIAS", "ACC_Y_BIAS", "ACC_Z_BIAS"}),
+             no_gyro = j.all_zero({"GYRO_X_BIAS", "GYRO_Y_BIAS", "GYRO_Z_BIAS"});
+  const std::string redo = "not calibrated: lay it level, 'fulmar fcu calibrate imu', then 'params write'";
+  if ((no_accel && no_gyro) || (j.f.status.error_code & error_uncalibrated_imu) != 0)
+    j.fail("IMU", redo);
+  else if (no_accel)  // as a calibration that failed leaves it
+    j.fail("IMU", "ACC_X_BIAS, ACC_Y_BIAS and ACC_Z_BIAS are 0: " + redo);
+  else if (no_gyro && j.whole("ARM_CAL_GYRO") == 0)
+    j.fail("IMU", "GYRO_X_BIAS, GYRO_Y_BIAS and GYRO_Z_BIAS are 0: " + redo);
+  else if (j.f.rest)
+    rest(j, *j.f.rest);
+}
+
 void calibration(Judge& j) {
-  const bool bare =
-      j.all_zero({"ACC_X_BIAS", "ACC_Y_BIAS", "ACC_Z_BIAS", "GYRO_X_BIAS", "GYRO_Y_BIAS", "GYRO_Z_BIAS"});
-  if (bare || (j.f.status.error_code & error_uncalibrated_imu) != 0)
-    j.fail("IMU", "not calibrated: lay it level, 'fulmar fcu calibrate imu', then 'params write'");
-  else
-    j.ok("IMU", "calibrated");
+  inertial(j);
   bool plain = j.all_zero({"MAG_X_BIAS", "MAG_Y_BIAS", "MAG_Z_BIAS"});
   for (const char* d : {"MAG_CAL_A00", "MAG_CAL_A11", "MAG_CAL_A22"}) plain = plain && j.value(d) == 1;
   if (j.f.mag_hz == 0)
@@ -251,6 +279,37 @@ void judge_line(Judge& j) {
     j.ok("round trip", trip);
 }
 
+/// Means and scatter of inertial samples.
+class RestMeter {
+ public:
+  void take(const SmallImu& m) {
+    const std::array<double, 6> now{m.xacc, m.yacc, m.zacc, m.xgyro, m.ygyro, m.zgyro};
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      sum_[i] += now[i];
+      squares_[i] += now[i] * now[i];
+    }
+    ++count_;
+  }
+  std::optional<Rest> result() const {
+    if (count_ == 0) return {};
+    const auto length = [&](std::size_t from) {
+      double square = 0;
+      for (std::size_t i = from; i < from + 3; ++i) square += (sum_[i] / count_) * (sum_[i] / count_);
+      return std::sqrt(square);
+    };
+    const auto scatter = [&](std::size_t from) {
+      double all = 0;
+      for (std::size_t i = from; i < from + 3; ++i) all += squares_[i] / count_;
+      return std::sqrt(std::max(0.0, all - length(from) * length(from)));
+    };
+    return Rest{length(0), length(3), scatter(0), scatter(3)};
+  }
+
+ private:
+  std::array<double, 6> sum_{}, squares_{};
+  double count_ = 0;
+};
+
 }  // namespace
 
 Facts gather(Client& client, std::int64_t baud, std::int64_t listen_ns) {
@@ -258,7 +317,13 @@ Facts gather(Client& client, std::int64_t baud, std::int64_t listen_ns) {
   f.version = client.version();
   f.params = read_params(client);
   const Meter meter(client);
+  RestMeter still;
+  client.on_packet = [&](const Packet& packet) {
+    if (packet.is<SmallImu>()) still.take(packet.as<SmallImu>());
+  };
   client.pump(listen_ns);
+  client.on_packet = nullptr;
+  f.rest = still.result();
   f.imu_hz = meter.rate(client, SmallImu::id);
   f.mag_hz = meter.rate(client, SmallMag::id);
   f.baro_hz = meter.rate(client, SmallBaro::id);

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "captured.hpp"
 #include "lossy_port.hpp"
 #include "tools/fulmar_fcu/app.hpp"
@@ -120,6 +122,46 @@ TEST_CASE("each thing that is wrong is told, with its parameter") {
               "round trip: none of 20 questions was answered within 100 ms"));
   CHECK(warns(with([](Facts& f) { f.round_trip_s = 0.02; }), "20.00 ms"));
   CHECK(fails(with([](Facts& f) { f.imu_hz = 50; }), "50 Hz"));
+}
+
+TEST_CASE("gravity and rest are measured for 2 s, and what a failed calibration leaves is seen") {
+  Ready bench;
+  CHECK(verdicts(bench.facts(), Verdict::ok).find("IMU: calibrated; 9.81 m/s2, 0.00 deg/s") !=
+        std::string::npos);
+  bench.firmware.inputs.gyro = {0.0161, 0, 0};  // the mean of shaken seconds was taken for its bias
+  CHECK(warns(bench.facts(), "IMU: it turns at 0.92 deg/s at rest: 'fulmar fcu calibrate imu'"));
+  bench.firmware.inputs.gyro = {0, 0.1, 0};
+  CHECK(fails(bench.facts(), "IMU: it turns at 5.73 deg/s at rest"));
+  bench.firmware.inputs.gyro = {};
+  bench.firmware.inputs.accel = {0, 0, -10.05};
+  CHECK(warns(bench.facts(), "IMU: gravity is 10.05 m/s2 at rest, not 9.81: 'fulmar fcu calibrate imu'"));
+  bench.firmware.inputs.accel = {3, 0, -11};
+  CHECK(fails(bench.facts(), "IMU: gravity is 11.40 m/s2"));
+  bench.firmware.inputs.accel = {4.9033, 0, -8.4928};  // at rest, though not level
+  CHECK(verdicts(bench.facts(), Verdict::ok).find("IMU: calibrated; 9.81 m/s2") != std::string::npos);
+}
+
+TEST_CASE("an aircraft that is moved is told so, and not that it is uncalibrated") {
+  Ready bench;
+  bench.firmware.before_imu = [&] {
+    const double phase = 2e-5 * static_cast<double>(bench.now_us);
+    bench.firmware.inputs.accel = {4 * std::sin(phase), 0, -9.80665};
+    bench.firmware.inputs.gyro = {0.5 * std::sin(phase), 0, 0};
+  };
+  const Facts f = bench.facts();
+  CHECK(warns(f, "IMU: it is being moved (2.8 m/s2, 20 deg/s rms): put it down, and check again"));
+  CHECK(verdicts(f, Verdict::fail) == "");
+}
+
+TEST_CASE("three biases of exactly zero are a failed calibration, though the other three stand") {
+  Facts f = ready();
+  set(f, "ACC_X_BIAS", 0);
+  CHECK(fails(f, "IMU: ACC_X_BIAS, ACC_Y_BIAS and ACC_Z_BIAS are 0: not calibrated"));
+  f = ready();
+  set(f, "GYRO_X_BIAS", 0);
+  CHECK(fails(f, "IMU: GYRO_X_BIAS, GYRO_Y_BIAS and GYRO_Z_BIAS are 0: not calibrated"));
+  set(f, "ARM_CAL_GYRO", 1);  // it does that by itself, whenever it is armed
+  CHECK_FALSE(fails(f, "IMU"));
 }
 
 TEST_CASE("a reversal counts once: in the firmware or in the airframe file") {

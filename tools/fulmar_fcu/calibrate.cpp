@@ -15,6 +15,7 @@ const std::vector<Calibration>& calibrations() {
        Command::accel_calibration,
        "Lay the aircraft level and do not touch it.",
        {"ACC_X_BIAS", "ACC_Y_BIAS", "ACC_Z_BIAS", "GYRO_X_BIAS", "GYRO_Y_BIAS", "GYRO_Z_BIAS"},
+       {"imu", "accel", "gyro"},
        {"offsets captured"},
        {"movement", "accel bias"},
        3,
@@ -25,6 +26,7 @@ const std::vector<Calibration>& calibrations() {
        Command::gyro_calibration,
        "Do not touch the aircraft.",
        {"GYRO_X_BIAS", "GYRO_Y_BIAS", "GYRO_Z_BIAS"},
+       {"gyro"},
        {},
        {"movement", "gyro bias"},
        3,
@@ -35,6 +37,7 @@ const std::vector<Calibration>& calibrations() {
        Command::rc_calibration,
        "Trim the aircraft by the transmitter and leave the sticks alone.",
        {"X_EQ_TORQUE", "Y_EQ_TORQUE", "Z_EQ_TORQUE"},
+       {},
        {"torques found", "applied"},
        {"cannot"},
        1,
@@ -45,6 +48,7 @@ const std::vector<Calibration>& calibrations() {
        Command::baro_calibration,
        "Keep wind and doors away.",
        {"BARO_BIAS", "GROUND_LEVEL"},
+       {"baro"},
        {"success", "complete"},
        {"movement", "failed", "variance"},
        8,
@@ -55,6 +59,7 @@ const std::vector<Calibration>& calibrations() {
        Command::airspeed_calibration,
        "Cover the pitot tube.",
        {"DIFF_PRESS_BIAS"},
+       {"airspeed", "diff press"},
        {"success", "complete"},
        {"movement", "failed", "variance"},
        8,
@@ -87,7 +92,8 @@ class Run {
     for (int i = 0; i < 3; ++i) {
       const std::optional<bool> answer = client_.command(what_.command, 1, 700 * ms);
       if (answer && !*answer)
-        throw Error("The controller refused " + deed() + (client_.armed() ? ": it is armed." : "."));
+        throw Error("The controller refused " + deed() +
+                    (client_.armed() ? ": it is armed." : " and gave no reason."));
       if (answer || said(what_.good) || read_back()) return;
     }
     throw Error(client_.name() + " does not answer: " + deed() + " was not acknowledged.");
@@ -155,10 +161,12 @@ class Run {
   const Said* said(const std::vector<std::string>& parts) const {
     // what is told sooner than it can be done is about another one, such as that of the boot
     const std::int64_t soonest_ns = started_ns_ + (what_.zeroes ? what_.usual_s * second * 3 / 10 : 0);
-    for (std::size_t i = texts_; i < client_.said().size(); ++i)
-      if (client_.said()[i].at_ns >= soonest_ns && says_one(client_.said()[i].text, parts))
-        return &client_.said()[i];
-    return nullptr;
+    const auto found = std::find_if(client_.said().begin() + static_cast<std::ptrdiff_t>(texts_),
+                                    client_.said().end(), [&](const Said& text) {
+                                      return text.at_ns >= soonest_ns && says_one(text.text, parts) &&
+                                             (what_.about.empty() || says_one(text.text, what_.about));
+                                    });
+    return found == client_.said().end() ? nullptr : &*found;
   }
   bool differs() const {
     for (const Param& p : after)

@@ -16,6 +16,7 @@ struct Calibration {
   Command command;
   const char* prepare;              ///< what the pilot sees to first
   std::vector<std::string> params;  ///< what it sets
+  std::vector<std::string> about;   ///< a text about this one has one of these; none: any text
   std::vector<std::string> good;    ///< parts of the texts that say it is done
   std::vector<std::string> bad;     ///< ... that it failed
   int usual_s, limit_s;

@@ -212,15 +212,14 @@ std::optional<bool> Client::command(Command c, int tries, std::int64_t each_ns) 
   return {};
 }
 
-void Client::demand(Command c, const std::string& deed) {
+void Client::demand(Command c, const std::string& deed, const std::string& refusal) {
   const std::optional<bool> answer = command(c, 6);
   if (!answer)
     throw Error(name() + " does not answer: " + deed +
                 " was not acknowledged within 3 s; whether it was done is not known.");
   if (*answer) return;
-  pump(100 * ms);  // a reason may follow
   if (armed()) throw Error("The controller refused " + deed + ": it is armed.");
-  throw Error("The controller refused " + deed + (said_.empty() ? "." : ": '" + said_.back().text + "'."));
+  throw Error("The controller refused " + deed + refusal);
 }
 
 std::optional<std::int64_t> Client::round_trip_ns(int questions) {

@@ -110,8 +110,10 @@ class Client {
   /// Sends a command until it is acknowledged, or once only. True: accepted; false: refused; nothing: no
   /// answer in time.
   std::optional<bool> command(Command c, int tries = 4, std::int64_t each_ns = 500 * ms);
-  /// The same, and throws Error, one sentence, unless accepted. `deed`: "writing the parameters".
-  void demand(Command c, const std::string& deed);
+  /// The same, and throws Error, one sentence, unless accepted. `deed`: "writing the parameters";
+  /// `refusal` ends the sentence when it is refused: a refusal has no reason in the protocol, and a text that
+  /// comes meanwhile is about something else.
+  void demand(Command c, const std::string& deed, const std::string& refusal = " and gave no reason.");
   /// The least of some round trips, in ns; nothing when none came back.
   std::optional<std::int64_t> round_trip_ns(int questions = 20);
   /// Called for each packet, after it was kept.

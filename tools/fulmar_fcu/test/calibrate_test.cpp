@@ -110,6 +110,34 @@ TEST_CASE("a refused calibration changes nothing and promises nothing") {
   CHECK(bench.as_before());
 }
 
+/// A controller that zeroes barometer and airspeed by itself while something else is calibrated.
+Captured just_booted(Bench& bench, std::int64_t up_us, const char* what) {
+  bench.firmware.provision();
+  bench.idle(up_us);
+  Client client = bench.client();
+  client.connect();
+  HardwareOptions options;
+  options.what = what;
+  return Captured([&] { return calibrate_command(client, {}, options); });
+}
+
+TEST_CASE("the end of another calibration, good or bad, is not taken for the end of this one") {
+  Bench booting;
+  booting.firmware.inputs.pitot_pa = 3;
+  const Captured baro = just_booted(booting, 4'000'000, "baro");  // airspeed is zeroed 7.7 s after the boot
+  CHECK(baro.code == 0);
+  CHECK(baro.says("-> 85700"));
+  CHECK(booting.firmware.params().f(param("BARO_BIAS")) == doctest::Approx(85700).epsilon(1e-6));
+  Bench windy;
+  windy.firmware.inputs.accel = {0.1, 0, -9.8};
+  windy.firmware.before_imu = [&] {
+    windy.firmware.inputs.baro_pa = 85700 + 20 * std::sin(3e-6 * static_cast<double>(windy.now_us));
+  };
+  const Captured imu = just_booted(windy, 8'000'000, "imu");  // the barometer's failure is told after 10.2 s
+  CHECK(imu.code == 0);
+  CHECK(imu.complaint == "");
+}
+
 }  // namespace
 
 }  // namespace calibrate_test

@@ -86,6 +86,10 @@ inline std::string objection(const Greeting& g, const LinkState& link, const std
     return port +
            " sends text, not MAVLink: it is no flight controller, a satellite receiver perhaps; name another "
            "port";
+  if (link.frames == 0 && talks_mavlink_2(link.modern, link.bytes))
+    return port +
+           " talks MAVLink 2, as PX4 and ArduPilot do: Fulmar needs a flight controller with ROSflight "
+           "firmware 2";
   if (link.frames == 0)
     return "of " + std::to_string(link.bytes) + " bytes from " + port +
            (serial ? " at " + std::to_string(baud) + " baud" : "") + " none is a MAVLink 1 frame: " +

@@ -86,9 +86,6 @@ void Client::step(std::int64_t until_ns) {
   std::array<std::uint8_t, 4096> room;
   const std::size_t n = port_->read(room, timeout_ms);
   bytes_ += n;
-  // MAVLink 2 begins its frames with 0xfd: none of ours, but worth a word
-  modern_ += static_cast<std::uint64_t>(
-      std::count(room.begin(), room.begin() + static_cast<std::ptrdiff_t>(n), std::uint8_t{0xfd}));
   const auto readable = [](std::uint8_t b) { return (b >= ' ' && b <= '~') || b == '\r' || b == '\n'; };
   readable_ += static_cast<std::uint64_t>(
       std::count_if(room.begin(), room.begin() + static_cast<std::ptrdiff_t>(n), readable));
@@ -143,7 +140,7 @@ void Client::explain_silence() const {
     throw Error(name() +
                 " is silent: is the flight controller powered and this its port? On a UART both ends need "
                 "the same --baud.");
-  if (seen.frames == 0 && modern_ > 4 && modern_ * 100 > bytes_)
+  if (seen.frames == 0 && talks_mavlink_2(seen.modern, bytes_))
     throw Error(name() +
                 " talks MAVLink 2, as PX4 and ArduPilot do: Fulmar needs a flight controller with ROSflight "
                 "firmware 2.");

@@ -143,7 +143,7 @@ class Client {
   std::map<std::string, Param> params_;
   std::vector<Said> said_;
   std::string version_;
-  std::uint64_t bytes_ = 0, modern_ = 0, readable_ = 0;
+  std::uint64_t bytes_ = 0, readable_ = 0;
   std::int64_t beat_ns_ = 0;
   std::uint16_t param_count_ = 0;
   std::uint8_t sequence_ = 0, system_ = 1;

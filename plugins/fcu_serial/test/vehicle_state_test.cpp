@@ -257,6 +257,13 @@ TEST_CASE("what is wrong with a device is one sentence that says what to do") {
   CHECK(why().find("/dev/ttyACM0 sends text, not MAVLink") == 0);
   link.text_bytes = 400;
   CHECK(why().find("of 1000 bytes from /dev/ttyACM0 at 115200 baud none is a MAVLink 1 frame") == 0);
+  link.modern = 5;
+  CHECK(why().find("none is a MAVLink 1 frame") != std::string::npos);  // so many are there by chance
+  link.modern = 20;
+  CHECK(why() ==
+        "/dev/ttyACM0 talks MAVLink 2, as PX4 and ArduPilot do: Fulmar needs a flight controller with "
+        "ROSflight "
+        "firmware 2");
   link.frames = 10;
   CHECK(why().find("sends no inertial samples") != std::string::npos);
   g.autopilot = 3;

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "firmware_version.hpp"
 #include "link/link.hpp"
 #include "radio.hpp"
 
@@ -19,24 +20,11 @@ inline constexpr std::uint64_t noise_bytes = 200;  ///< so many of them: more th
 inline constexpr std::int64_t answer_patience_ns =
     2'000'000'000;  ///< for all answers, from the first frame on
 inline constexpr std::int64_t greeting_patience_ns = 4'500'000'000;  ///< for everything
-inline constexpr std::int32_t oldest_firmware = 2;
 
 /// Parameters of the controller that this plugin must know.
 inline constexpr std::array<std::string_view, 8> watched_parameters{
     "FIXED_WING", "RC_X_CHN",    "RC_Y_CHN",     "RC_Z_CHN",
     "RC_F_CHN",   "REV_AILERON", "REV_ELEVATOR", "REV_RUDDER"};
-
-/// The first number of "v2.0.1-3-gabc" or "2.0"; nothing when the text is no version, such as the bare hash
-/// of a build without tags.
-inline std::optional<std::int32_t> major_version(std::string_view text) {
-  if (!text.empty() && (text[0] == 'v' || text[0] == 'V')) text.remove_prefix(1);
-  std::int32_t major = 0;
-  std::size_t n = 0;
-  for (; n < text.size() && n < 4 && text[n] >= '0' && text[n] <= '9'; ++n)
-    major = 10 * major + (text[n] - '0');
-  if (n == 0 || n >= text.size() || text[n] != '.') return {};
-  return major;
-}
 
 /// What is known of the device so far.
 struct Greeting {

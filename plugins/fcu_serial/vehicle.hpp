@@ -164,6 +164,7 @@ class Vehicle {
 
   void greet(const std::string& port, std::int64_t baud, const Airframe& airframe);
   void listen(Greeting& greeting);
+  void tell_untried(std::string_view version);
   void tell_reversals(const Greeting& greeting, const Airframe& airframe);
 
   /// The first tick: what has waited since the greeting is old.

@@ -23,6 +23,7 @@ void Vehicle<AnyLink>::greet(const std::string& port, std::int64_t baud, const A
        << (g.versioned ? "ROSflight " + g.version
                        : "an armed flight controller, which does not tell its version");
   run_.notices.say(fulmar::Severity::info, line);
+  if (g.versioned) tell_untried(g.version);
   tell_reversals(g, airframe);
 }
 
@@ -51,6 +52,13 @@ void Vehicle<AnyLink>::listen(Greeting& g) {
         run_.texts.forward(r.packet.template as<Statustext>(), r.arrived_ns, run_.notices);
     }
   }
+}
+
+template <class AnyLink>
+void Vehicle<AnyLink>::tell_untried(std::string_view version) {
+  if (!tried(version))
+    run_.notices.say(fulmar::Severity::warning,
+                     Line() << "firmware not tried with Fulmar (" << tried_firmware << " was): " << version);
 }
 
 /// REV_* turns a surface round for pilot and host, the airframe file for the host alone. Both at once is
@@ -167,9 +175,10 @@ void Vehicle<AnyLink>::take_version(const RosflightVersion& m) {
   if (version == run_.version) return;
   const bool known = !run_.version.view().empty();
   run_.version = version;
-  if (known)
-    run_.notices.say(fulmar::Severity::warning,
-                     Line() << "this is another firmware: ROSflight " << version.view());
+  if (!known) return;
+  run_.notices.say(fulmar::Severity::warning,
+                   Line() << "this is another firmware: ROSflight " << version.view());
+  tell_untried(version.view());
 }
 
 }  // namespace fulmar::fcu

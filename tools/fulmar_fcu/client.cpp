@@ -7,6 +7,8 @@
 #include <cmath>
 #include <thread>
 
+#include "plugins/fcu_serial/firmware_version.hpp"
+
 namespace fulmar::fcu {
 
 namespace {
@@ -175,13 +177,7 @@ void Client::ask_version() {
     throw Error(
         name() +
         " sends, but does not answer: a flight controller older than ROSflight 2, or the line to it is cut.");
-  const std::size_t digit = version_.find_first_of("0123456789");
-  int major = -1;
-  if (digit != std::string::npos)
-    std::from_chars(version_.data() + digit, version_.data() + version_.size(), major);
-  // "a1b2c3d" is a build without a tag; what it is cannot be told
-  const bool numbered = digit == 0 || (digit == 1 && version_[0] == 'v');
-  if (numbered && version_.find('.') != std::string::npos && major >= 0 && major < 2)
+  if (major_version(version_).value_or(oldest_firmware) < oldest_firmware)
     throw Error(name() + " runs firmware " + version_ + ": Fulmar needs ROSflight 2.0 or later; flash it.");
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/graph/record.hpp"
 #include "core/loader/table.hpp"
+#include "plugins/fcu_serial/firmware_version.hpp"
 #include "tools/fulmar_fcu/mixer.hpp"
 #include "tools/fulmar_fcu/radio.hpp"
 #include "tools/fulmar_fcu/words.hpp"
@@ -44,8 +45,11 @@ void firmware(Judge& j) {
     j.warn("firmware", "it refuses to tell its version, though disarmed: power-cycle it");
   else if (j.f.version.empty())
     j.add(Verdict::note, "firmware", "it refuses to tell its version, as it does while armed");
+  else if (tried(j.f.version))
+    j.ok("firmware", j.f.version + ", as tried");
   else
-    j.ok("firmware", j.f.version);
+    j.warn("firmware", j.f.version + " was not tried with Fulmar, " + std::string(tried_firmware) +
+                           " was: messages, mixers and signs may differ; go through every step anew");
   if (j.f.status.armed != 0)
     j.fail("disarmed", "it is ARMED: disarm it, and stay away from the propeller");
   else

@@ -207,6 +207,31 @@ TEST_CASE("what cannot be flown is refused by configure, within 5 s") {
   }
 }
 
+TEST_CASE("a firmware that was not tried is told once at the start, and when it takes another's place") {
+  for (const char* version : {"v3.1.0-4-g1234567", "1234567"}) {
+    CAPTURE(version);
+    peer::Options options;
+    options.version = version;
+    Flying f(options);
+    REQUIRE(f.bench.configure() == Status::ok);
+    f.fly(3);
+    const std::string words = std::string("firmware not tried with Fulmar (2.0.1 was): ") + version;
+    CHECK(f.heard(words.c_str()));
+    f.told.clear();
+    f.fly(20);
+    CHECK_FALSE(f.heard("not tried"));
+  }
+  Flying tried;
+  REQUIRE(tried.bench.configure() == Status::ok);
+  tried.fly(3);
+  CHECK_FALSE(tried.heard("not tried"));
+  RosflightVersion other;
+  std::copy_n("v2.1.0", 6, other.version.begin());
+  tried.world.inject(other);
+  tried.fly(0.1);
+  CHECK(tried.heard("not tried with Fulmar (2.0.1 was): v2.1.0"));
+}
+
 TEST_CASE("its inertial unit dies: the loop goes on, and it is told") {
   Flying f;
   f.arm();

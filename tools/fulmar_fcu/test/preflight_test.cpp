@@ -4,9 +4,11 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "captured.hpp"
 #include "lossy_port.hpp"
+#include "plugins/fcu_serial/firmware_version.hpp"
 #include "tools/fulmar_fcu/app.hpp"
 #include "tools/fulmar_fcu/mixer.hpp"
 #include "tools/fulmar_fcu/radio.hpp"
@@ -162,6 +164,26 @@ TEST_CASE("three biases of exactly zero are a failed calibration, though the oth
   CHECK(fails(f, "IMU: GYRO_X_BIAS, GYRO_Y_BIAS and GYRO_Z_BIAS are 0: not calibrated"));
   set(f, "ARM_CAL_GYRO", 1);  // it does that by itself, whenever it is armed
   CHECK_FALSE(fails(f, "IMU"));
+}
+
+TEST_CASE("a firmware that was not tried is a WARN that names the one that was") {
+  Facts f = ready();
+  CHECK(verdicts(f, Verdict::ok).find("firmware: v2.0.1-0-ge8cf6a0f, as tried") != std::string::npos);
+  for (const char* version : {"v2.0.1", "2.0.1-12-gabcdef0", "v2.0.1-dirty"}) {
+    f.version = version;
+    CHECK_MESSAGE(verdicts(f, Verdict::warn) == "", version);
+  }
+  for (const char* version :
+       {"v3.1", "v2.0.0", "v2.0.10", "v2.1.1", "2.0", "e8cf6a0", "undefined", "without a version"}) {
+    f.version = version;
+    CHECK_MESSAGE(warns(f, "firmware: " + f.version + " was not tried with Fulmar, 2.0.1 was"), version);
+  }
+}
+
+TEST_CASE("the manual names the firmware that was tried") {
+  std::ifstream file("docs/hardware.md");
+  const std::string manual{std::istreambuf_iterator<char>(file), {}};
+  CHECK(manual.find("ROSflight firmware " + std::string(tried_firmware)) != std::string::npos);
 }
 
 TEST_CASE("a reversal counts once: in the firmware or in the airframe file") {

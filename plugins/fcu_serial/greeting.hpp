@@ -92,14 +92,14 @@ inline std::string objection(const Greeting& g, const LinkState& link, const std
   if (!g.imu)
     return port +
            " speaks MAVLink, but sends no inertial samples: no ROSflight 2, or its inertial unit is dead; "
-           "reboot it, or flash it";
+           "power-cycle it, or flash it";
   if (!g.versioned && !g.armed)
     return "the flight controller at " + port +
            " does not say its version: it is older than ROSflight 2.0; flash version 2.0 or later";
   if (g.parameter("FIXED_WING") == 0)
     return "the flight controller at " + port +
            " is set up for a multirotor: set FIXED_WING to 1, PRIMARY_MIXER to the aircraft's, write, and "
-           "reboot it";
+           "power-cycle it";
   return "";
 }
 

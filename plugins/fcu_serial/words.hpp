@@ -71,7 +71,7 @@ inline constexpr std::array<std::pair<std::uint32_t, std::string_view>, 8> error
      {error_imu_not_responding, "its inertial unit does not answer"},
      {error_rc_lost, "no radio: switch the transmitter on"},
      {error_unhealthy_estimator, "its attitude estimate is unhealthy"},
-     {error_time_backwards, "its time went backwards: reboot it"},
+     {error_time_backwards, "its time went backwards: power-cycle it"},
      {error_uncalibrated_imu, "uncalibrated: fulmar fcu calibrate imu"},
      {error_buffer_overrun, "a buffer ran over"},
      {error_invalid_failsafe, "FAILSAFE_THR is not within 0 to 1"}}};
@@ -112,10 +112,14 @@ class Forwarder {
                                       : m.severity == 3 ? fulmar::Severity::error
                                       : m.severity == 4 ? fulmar::Severity::warning
                                                         : fulmar::Severity::info;
+    if (text.view() == no_secondary)  // SECONDARY_MIXER 255, as is recommended: nothing is invalid about it
+      return notices.say(fulmar::Severity::info,
+                         "flight controller: no secondary mixer, the primary one serves for both");
     notices.say(severity, Line() << "flight controller: " << text.view());
   }
 
  private:
+  static constexpr std::string_view no_secondary = "Invalid mixer selected for secondary mixer!";
   Text<51> last_;
   std::int64_t told_ns_ = 0;
 };

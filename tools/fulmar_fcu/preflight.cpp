@@ -97,6 +97,8 @@ void inertial(Judge& j) {
 
 void calibration(Judge& j) {
   inertial(j);
+  if (j.f.attitude && !finite(*j.f.attitude))
+    j.fail("attitude", "the controller's own is not a number any more: power-cycle it");
   bool plain = j.all_zero({"MAG_X_BIAS", "MAG_Y_BIAS", "MAG_Z_BIAS"});
   for (const char* d : {"MAG_CAL_A00", "MAG_CAL_A11", "MAG_CAL_A22"}) plain = plain && j.value(d) == 1;
   if (j.f.mag_hz == 0)
@@ -124,7 +126,8 @@ void calibration(Judge& j) {
 
 void mixing(Judge& j) {
   if (j.whole("FIXED_WING") != 1)
-    j.fail("aircraft", "FIXED_WING is 0, a multirotor: 'fulmar fcu params set FIXED_WING 1', write, reboot");
+    j.fail("aircraft",
+           "FIXED_WING is 0, a multirotor: 'fulmar fcu params set FIXED_WING 1', write, power-cycle");
   else
     j.ok("aircraft", "fixed wing");
   const Mixer mixer = mixer_of(j.f.params);
@@ -343,6 +346,7 @@ Facts gather(Client& client, std::int64_t baud, std::int64_t listen_ns) {
   if (client.age_s<RosflightGnss>() < 2) f.gnss = client.last<RosflightGnss>();
   f.battery = client.last<RosflightBatteryStatus>();
   f.pitot = client.last<DiffPressure>();
+  f.attitude = client.last<AttitudeQuaternion>();
   if (const auto imu = client.last<SmallImu>()) f.uptime_s = static_cast<double>(imu->time_boot_us) * 1e-6;
   f.baud = client.name().rfind("udp:", 0) == 0 ? 0 : baud;
   return f;

@@ -35,6 +35,7 @@ struct Facts {
   std::optional<RosflightGnss> gnss;
   std::optional<RosflightBatteryStatus> battery;
   std::optional<DiffPressure> pitot;
+  std::optional<AttitudeQuaternion> attitude;
   std::optional<Rest> rest;
   double imu_hz = 0, mag_hz = 0, baro_hz = 0, pitot_hz = 0, rc_hz = 0, status_hz = 0;
   double bytes_per_s = 0, loss_ratio = 0;

@@ -86,8 +86,19 @@ TEST_CASE("each thing that is wrong is told, with its parameter") {
     return with([&](Facts& f) { set(f, name, value); });
   };
   CHECK(fails(param_is("FIXED_WING", 0), "params set FIXED_WING 1"));
+  CHECK(fails(param_is("FIXED_WING", 0), "write, power-cycle"));
+  CHECK(fails(with([](Facts& f) { f.attitude->q1 = std::nanf(""); }),
+              "attitude: the controller's own is not a number any more: power-cycle it"));
+  CHECK(fails(with([](Facts& f) { f.attitude->rollspeed = std::nanf(""); }), "attitude"));
   CHECK(fails(param_is("RC_F_AXIS", 2), "RC_F_AXIS is 2"));
   CHECK(fails(param_is("PRIMARY_MIXER", 255), "PRIMARY_MIXER is 255"));
+  CHECK_FALSE(warns(with([](Facts& f) {  // one word is enough: there is no mixer, so no surface follows
+                      for (Param& p : f.params)
+                        if (p.name.rfind("PRI_MIXER_", 0) == 0 || p.name.rfind("SEC_MIXER_", 0) == 0)
+                          p.bits = 0;
+                      set(f, "PRIMARY_MIXER", 255);
+                    }),
+                    "mixer"));
   CHECK(fails(param_is("PRIMARY_MIXER", 2), "a multirotor's"));
   CHECK(fails(param_is("PRI_MIXER_OUT_4", 1),
               "Output 4 follows the throttle but is set up as a servo: set PRI_MIXER_OUT_4 to 2"));

@@ -10,6 +10,7 @@
 
 #include "firmware_version.hpp"
 #include "link/link.hpp"
+#include "pitot_zero.hpp"
 #include "radio.hpp"
 
 namespace fulmar::fcu {
@@ -22,9 +23,14 @@ inline constexpr std::int64_t answer_patience_ns =
 inline constexpr std::int64_t greeting_patience_ns = 4'500'000'000;  ///< for everything
 
 /// Parameters of the controller that this plugin must know.
-inline constexpr std::array<std::string_view, 8> watched_parameters{
-    "FIXED_WING", "RC_X_CHN",    "RC_Y_CHN",     "RC_Z_CHN",
-    "RC_F_CHN",   "REV_AILERON", "REV_ELEVATOR", "REV_RUDDER"};
+inline constexpr std::array<std::string_view, 9> watched_parameters{
+    "FIXED_WING",  "RC_X_CHN",     "RC_Y_CHN",   "RC_Z_CHN", "RC_F_CHN",
+    "REV_AILERON", "REV_ELEVATOR", "REV_RUDDER", pitot_zero};
+
+/// A watched parameter as 32 bits: whole numbers, and of the pitot's zero the float.
+inline std::int32_t watched_bits(std::string_view name, const ParamValue& p) {
+  return name == pitot_zero ? std::bit_cast<std::int32_t>(p.param_value) : integer_of(p);
+}
 
 /// What is known of the device so far.
 struct Greeting {
@@ -49,7 +55,8 @@ struct Greeting {
     if (packet.is<ParamValue>()) {
       const ParamValue p = packet.as<ParamValue>();
       for (std::size_t i = 0; i < parameters.size(); ++i)
-        if (id_of(p.param_id) == watched_parameters[i]) parameters[i] = integer_of(p);
+        if (id_of(p.param_id) == watched_parameters[i])
+          parameters[i] = watched_bits(watched_parameters[i], p);
     }
   }
   bool complete() const {
@@ -57,10 +64,10 @@ struct Greeting {
         std::all_of(parameters.begin(), parameters.end(), [](const auto& p) { return p.has_value(); });
     return imu && all && (versioned || (refused && armed));  // an armed controller refuses to say its version
   }
-  std::int32_t parameter(std::string_view name) const {
+  std::int32_t parameter(std::string_view name, std::int32_t unknown = -1) const {
     const auto at =
         std::find(watched_parameters.begin(), watched_parameters.end(), name) - watched_parameters.begin();
-    return parameters[static_cast<std::size_t>(at)].value_or(-1);
+    return parameters[static_cast<std::size_t>(at)].value_or(unknown);
   }
 };
 

@@ -35,6 +35,7 @@ struct LinkStatus {
   double worst_gap_s = 0;
   double imu_rate_hz = 0;      ///< of the last second
   double round_trip_s = 0;     ///< least of the last seconds
+  bool pitot_zeroed = false;   ///< by a reboot in flight: the pitot tube is not used any more
   std::int64_t offset_ns = 0;  ///< host's clock minus the controller's
   double drift_ratio = 0;      ///< how much faster the host's clock runs
   double turnaround_s =

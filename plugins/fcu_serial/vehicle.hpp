@@ -2,6 +2,8 @@
 // The vehicle that is a ROSflight flight controller: its sensors come in, commands go out, and what it says
 // of itself is told.
 #pragma once
+#include <bit>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <stdexcept>
@@ -53,6 +55,15 @@ class Vehicle {
                        setup};
     Flag send_attitude{false, "sends the input `state` to correct the controller's own estimate, 50 Hz"};
     Flag needs_state{false, "flies by the input `state`: no command before there is one", setup};
+    Param pitot_zero_limit{
+        pitot_zero_limit_pa,
+        "Pa",
+        0,
+        1000,
+        "a zero of the pitot tube beyond it was taken in wind or in the air, and is not used",
+        setup};
+    Count pitot_zeroed{
+        0, 0, 1, "1: a reboot in flight has zeroed the airspeed, the pitot tube is not used; for `resume`"};
     Param time_scale{
         1,
         "ratio",
@@ -70,6 +81,7 @@ class Vehicle {
     run_ = Run();
     run_.throws = Throws::of(*p.airframe);
     run_.pace = Pace(p.command_rate);
+    run_.pitot_limit_pa = p.pitot_zero_limit;
     link_.reset();  // a second flight: the port is held until then
     LinkOptions options;
     options.port = port;
@@ -81,8 +93,9 @@ class Vehicle {
   }
 
   /// Wakes with each inertial sample, and after 10 ms without one.
-  Status read(Tick& tick, const Params&, Outputs& out) {
+  Status read(Tick& tick, const Params& p, Outputs& out) {
     if (run_.zero_ns == never_ns) begin();
+    if (p.pitot_zeroed != 0) zeroed_in_the_air();
     run_.arrived_ns = wait(out);
     // Time goes by arrivals, so that the age of a sample is what its way here took.
     const std::int64_t host_ns = link_->now_ns();
@@ -157,6 +170,8 @@ class Vehicle {
     std::uint32_t told_kinds = 0;
     std::array<bool, 14> aux_motors{};
     bool pitot_zeroed = false;  ///< by a reboot in flight
+    bool pitot_off = false;     ///< its zero is beyond the limit
+    double pitot_limit_pa = 0;
     bool told_unwired = false;  ///< send_attitude without a state to send
   };
 
@@ -219,6 +234,7 @@ class Vehicle {
   void take_state(const Received& r, Outputs& out);
   void take_gnss(const Received& r, Outputs& out);
   void take_parameter(const ParamValue& p);
+  void take_pitot_zero(std::int32_t bits);
   void take_version(const RosflightVersion& m);
 
   template <class T>
@@ -251,10 +267,15 @@ class Vehicle {
     run_.imu_valid_ns = never_ns;
     run_.attitude_from_ns = run_.now_ns + attitude_boots_ns;
     if (!flying) return run_.notices.say(fulmar::Severity::warning, "the flight controller has rebooted");
-    run_.pitot_zeroed = true;
     run_.notices.say(
         fulmar::Severity::critical,
         "the flight controller has rebooted while armed: its motor is off until it is armed again");
+    zeroed_in_the_air();
+  }
+
+  /// By a boot of the controller, now or before this host began.
+  void zeroed_in_the_air() {
+    if (std::exchange(run_.pitot_zeroed, true)) return;
     run_.notices.say(fulmar::Severity::critical,
                      "it has zeroed its airspeed in the air: pitot not used any more, restart on the ground");
   }
@@ -276,8 +297,11 @@ class Vehicle {
       }
     }
     run_.notices.flush(out.notices, run_.now_ns);
-    if (run_.report.due(run_.now_ns))
-      out.link.publish(run_.report.take(link_->state(), host_ns, run_.now_ns));
+    if (run_.report.due(run_.now_ns)) {
+      LinkStatus link = run_.report.take(link_->state(), host_ns, run_.now_ns);
+      link.pitot_zeroed = run_.pitot_zeroed;
+      out.link.publish(link);
+    }
     return (s.errors & own_error_link_down) != 0 ? Status::degraded : Status::ok;
   }
 

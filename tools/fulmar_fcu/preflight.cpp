@@ -9,6 +9,7 @@
 #include "core/graph/record.hpp"
 #include "core/loader/table.hpp"
 #include "plugins/fcu_serial/firmware_version.hpp"
+#include "plugins/fcu_serial/pitot_zero.hpp"
 #include "tools/fulmar_fcu/mixer.hpp"
 #include "tools/fulmar_fcu/radio.hpp"
 #include "tools/fulmar_fcu/words.hpp"
@@ -110,6 +111,12 @@ void calibration(Judge& j) {
   if (j.f.uptime_s < 12)
     j.warn("zeroing", "booted " + fixed(j.f.uptime_s, 0) +
                           " s ago: barometer and airspeed are zeroed in the first 12 s; keep it still");
+  const double zero = j.value(std::string(pitot_zero));
+  if (!(std::fabs(zero) <= pitot_zero_limit_pa))
+    j.warn("airspeed",
+           "its zero, DIFF_PRESS_BIAS, is " + fixed(zero, 0) +
+               " Pa, as in wind or in the air: 'run' does not use it; cover the tube, 'fulmar fcu "
+               "calibrate airspeed'");
   if (j.f.pitot_hz == 0)
     j.warn("airspeed", "no sensor is heard: the pitot tube is unplugged, or there is none");
   else if (j.f.pitot && std::fabs(j.f.pitot->velocity) > 5)

@@ -113,6 +113,11 @@ TEST_CASE("each thing that is wrong is told, with its parameter") {
   CHECK(fails(param_is("RC_Y_CHN", 0), "two sticks are on channel 1"));
   CHECK(warns(param_is("TAKE_MIN_THR", 1), "TAKE_MIN_THR is 1"));
   CHECK(warns(param_is("X_EQ_TORQUE", 0.5), "X_EQ_TORQUE is 0.50"));
+  for (const double pascal : {177.0, -31.0})
+    CHECK(warns(param_is("DIFF_PRESS_BIAS", pascal),
+                "airspeed: its zero, DIFF_PRESS_BIAS, is " + std::to_string(static_cast<int>(pascal)) +
+                    " Pa, as in wind or in the air: 'run' does not use it"));
+  CHECK_FALSE(warns(param_is("DIFF_PRESS_BIAS", 29), "airspeed"));
   CHECK(fails(with([](Facts& f) { f.status.armed = 1; }), "ARMED"));
   CHECK(warns(with([](Facts& f) { f.version = ""; }), "refuses to tell its version, though disarmed"));
   CHECK(fails(with([](Facts& f) { f.status.error_code = error_rc_lost; }), "radio lost"));

@@ -36,6 +36,7 @@ inline std::int32_t watched_bits(std::string_view name, const ParamValue& p) {
 struct Greeting {
   std::string version;
   bool imu = false, versioned = false, refused = false, armed = false;
+  std::uint16_t parameter_count = 0;
   std::int32_t autopilot = -1;  ///< as heartbeats say; ROSflight: 0
   std::array<std::optional<std::int32_t>, watched_parameters.size()> parameters;
 
@@ -54,6 +55,7 @@ struct Greeting {
     }
     if (packet.is<ParamValue>()) {
       const ParamValue p = packet.as<ParamValue>();
+      parameter_count = p.param_count;
       for (std::size_t i = 0; i < parameters.size(); ++i)
         if (id_of(p.param_id) == watched_parameters[i])
           parameters[i] = watched_bits(watched_parameters[i], p);

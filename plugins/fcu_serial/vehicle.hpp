@@ -17,6 +17,7 @@
 #include "greeting.hpp"
 #include "link_report.hpp"
 #include "pace.hpp"
+#include "parameter_book.hpp"
 #include "readiness.hpp"
 #include "sensors.hpp"
 
@@ -46,6 +47,7 @@ class Vehicle {
     Out<ControllerAttitude> attitude;
     Out<ControllerOutputs> outputs;
     Out<LinkStatus> link;
+    OutQueue<ControllerParameter, 16> parameters;
   };
   struct Params {
     TextParam<128> port{"/dev/ttyACM0", "a serial port, or udp:REMOTE:PORT of firmware in simulation"};
@@ -151,6 +153,7 @@ class Vehicle {
     Pace pace;
     RcMap map;
     std::array<std::optional<std::int32_t>, watched_parameters.size()> parameters;
+    ParameterBook book;
     Text<50> version;
     Heard heard;
     Teller teller;
@@ -168,6 +171,7 @@ class Vehicle {
     std::int64_t attitude_ns = never_ns, disarmed_ns = never_ns, attitude_from_ns = never_ns;
     std::uint64_t gnss_stamp_us = 0;
     std::uint32_t told_kinds = 0;
+    std::uint8_t system = 1;  ///< the controller's SYS_ID: it answers to no other
     std::array<bool, 14> aux_motors{};
     bool pitot_zeroed = false;  ///< by a reboot in flight
     bool pitot_off = false;     ///< its zero is beyond the limit
@@ -207,7 +211,7 @@ class Vehicle {
     Received r;
     while (link_->pop(r)) {
       if (r.event == LinkEvent::rebooted) rebooted();
-      if (r.event == LinkEvent::rebooted || r.event == LinkEvent::connected) ask_version();
+      if (r.event == LinkEvent::rebooted || r.event == LinkEvent::connected) ask_anew();
       if (r.event != LinkEvent::packet) continue;
       run_.heard.frame(flight_ns(r.arrived_ns));
       if (!r.packet.template is<SmallImu>())
@@ -224,6 +228,7 @@ class Vehicle {
     const auto imu = to_imu(r.packet.template as<SmallImu>());
     if (!usable(imu.has_value(), kind_imu, "inertial unit")) return false;
     run_.imu_valid_ns = valid_ns;
+    run_.system = r.packet.system;
     run_.report.imu(valid_ns);
     run_.heard.imu_ns = flight_ns(r.arrived_ns);
     out.imu.publish(*imu, flight_ns(valid_ns));
@@ -233,7 +238,7 @@ class Vehicle {
   void take(const Received& r, Outputs& out);
   void take_state(const Received& r, Outputs& out);
   void take_gnss(const Received& r, Outputs& out);
-  void take_parameter(const ParamValue& p);
+  void take_parameter(const ParamValue& p, Outputs& out);
   void take_pitot_zero(std::int32_t bits);
   void take_version(const RosflightVersion& m);
 
@@ -260,7 +265,15 @@ class Vehicle {
   }
 
   /// It may be another one. An armed controller refuses to say; then it is the same.
-  void ask_version() { link_->send(RosflightCmd{static_cast<std::uint8_t>(Command::send_version)}); }
+  void ask_anew() {
+    link_->send(RosflightCmd{static_cast<std::uint8_t>(Command::send_version)});
+    run_.book.restart();
+  }
+  void ask_parameter() {
+    const auto index = run_.book.next(run_.now_ns);
+    if (index) link_->send(ParamRequestRead{*index, run_.system});
+    run_.book.tell(run_.notices);
+  }
 
   void rebooted() {
     const bool flying = run_.heard.status.armed != 0 || run_.now_ns - run_.disarmed_ns < reboot_memory_ns;
@@ -296,6 +309,7 @@ class Vehicle {
         out.rc.publish(run_.rc);
       }
     }
+    if ((s.errors & own_error_link_down) == 0) ask_parameter();
     run_.notices.flush(out.notices, run_.now_ns);
     if (run_.report.due(run_.now_ns)) {
       LinkStatus link = run_.report.take(link_->state(), host_ns, run_.now_ns);

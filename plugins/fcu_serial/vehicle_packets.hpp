@@ -16,6 +16,7 @@ void Vehicle<AnyLink>::greet(const std::string& port, std::int64_t baud, const A
   }
   run_.parameters = g.parameters;
   run_.version = Text<50>(g.version);
+  run_.book.expect(g.parameter_count);
   for (std::size_t i = 0; i < watched_parameters.size(); ++i)
     if (g.parameters[i]) run_.map.take(watched_parameters[i], *g.parameters[i]);
   const std::int32_t pitot = g.parameter(pitot_zero, 0);
@@ -137,7 +138,7 @@ void Vehicle<AnyLink>::take_state(const Received& r, Outputs& out) {
       heard.amp = battery.battery_current;
       return;
     }
-    case ParamValue::id: return take_parameter(r.packet.template as<ParamValue>());
+    case ParamValue::id: return take_parameter(r.packet.template as<ParamValue>(), out);
     case RosflightVersion::id: return take_version(r.packet.template as<RosflightVersion>());
     case Statustext::id:
       return run_.texts.forward(r.packet.template as<Statustext>(), r.arrived_ns, run_.notices);
@@ -154,7 +155,12 @@ void Vehicle<AnyLink>::take_state(const Received& r, Outputs& out) {
 
 /// They come again after each reboot and connection, and whenever somebody sets one.
 template <class AnyLink>
-void Vehicle<AnyLink>::take_parameter(const ParamValue& p) {
+void Vehicle<AnyLink>::take_parameter(const ParamValue& p, Outputs& out) {
+  const auto& full = out.parameters;
+  if (full.count == full.items.size())
+    run_.book.forget(p.param_index);
+  else if (const auto news = run_.book.take(p))
+    out.parameters.push(*news, run_.now_ns);
   const std::string_view name = id_of(p.param_id);
   const auto at = static_cast<std::size_t>(
       std::find(watched_parameters.begin(), watched_parameters.end(), name) - watched_parameters.begin());

@@ -4,6 +4,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstdint>
 #include <string_view>
 
@@ -36,6 +37,15 @@ class Line {
   }
   /// Tenths of a second.
   Line& seconds(std::int64_t ns) { return *this << ns / 1000000000 << "." << ns / 100000000 % 10 << " s"; }
+  /// So many digits behind the point.
+  Line& fixed(double value, int digits) {
+    std::array<char, 24> room{};  // cut: a value that long is no figure
+    const auto end =
+        std::to_chars(room.data(), room.data() + room.size(), value, std::chars_format::fixed, digits);
+    return end.ec == std::errc()
+               ? *this << std::string_view(room.data(), static_cast<std::size_t>(end.ptr - room.data()))
+               : *this << "?";
+  }
   std::string_view view() const { return text_.view(); }
   const Text<96>& text() const { return text_; }
 

@@ -229,8 +229,7 @@ class Session {
     o.say = [&](const std::string& text, bool warning) { progress.say(text, warning); };
     if (graph_.io == Io::fcu || options_.speed > 0) print_without_waiting();
     if (options_.json) dup2(STDERR_FILENO, STDOUT_FILENO);  // what components print
-    // a flight that gives up control sends its failsafe first
-    handle_signals(graph_.io != Io::sim, 10 + static_cast<unsigned>(graph_.failsafe_ns / 1'000'000'000));
+    handle_signals(graph_.io != Io::sim, 10);
     if (!options_.json)
       say_aloud(graph_.mission + (graph_.io == Io::sim ? ": simulation" : ": flight controller") + ", seed " +
                 std::to_string(graph_.seed));

@@ -96,7 +96,8 @@ TEST_CASE(
   CHECK(program.runs());
   program.send(SIGINT);
   CHECK(program.code() == 130);
-  CHECK(program.text().find("failsafe: control given up by a signal") != std::string::npos);
+  CHECK(program.text().find("control given up by a signal: the aircraft is its pilot's") !=
+        std::string::npos);
   CHECK(program.text().find("ended by") == std::string::npos);
 }
 
@@ -107,7 +108,7 @@ TEST_CASE("a third signal ends an armed flight at once") {
   REQUIRE(program.says("the aircraft is armed"));
   pause_s(0.6);
   program.send(SIGINT);
-  REQUIRE(program.says("failsafe: control given up"));
+  REQUIRE(program.says("control given up by a signal"));
   pause_s(0.6);
   program.send(SIGINT);
   CHECK(program.code() == 130);

@@ -169,7 +169,7 @@ class Vehicle {
                  arrived_ns = never_ns;  ///< host: of flight time 0; arrival of this tick's inertial sample
     std::int64_t now_ns = -least_step_ns, imu_valid_ns = never_ns, status_ns = never_ns, aux_ns = never_ns;
     std::int64_t attitude_ns = never_ns, disarmed_ns = never_ns, attitude_from_ns = never_ns;
-    std::uint64_t gnss_stamp_us = 0;
+    std::uint64_t gnss_stamp_us = 0, clock_us = 0;  ///< the controller's; 0 at its boot
     std::uint32_t told_kinds = 0;
     std::uint8_t system = 1;  ///< the controller's SYS_ID: it answers to no other
     std::array<bool, 14> aux_motors{};
@@ -229,6 +229,7 @@ class Vehicle {
     if (!usable(imu.has_value(), kind_imu, "inertial unit")) return false;
     run_.imu_valid_ns = valid_ns;
     run_.system = r.packet.system;
+    run_.clock_us = r.packet.template as<SmallImu>().time_boot_us;
     run_.report.imu(valid_ns);
     run_.heard.imu_ns = flight_ns(r.arrived_ns);
     out.imu.publish(*imu, flight_ns(valid_ns));
@@ -319,6 +320,11 @@ class Vehicle {
     return (s.errors & own_error_link_down) != 0 ? Status::degraded : Status::ok;
   }
 
+  PitotZero zero_of_pitot() const {
+    if (run_.pitot_zeroed || run_.pitot_off) return PitotZero::wrong;
+    return run_.clock_us < zeroing_us ? PitotZero::pending : PitotZero::good;
+  }
+
   /// Without an estimate, given or demanded, whoever commands has to know.
   bool may_command(std::int64_t now_ns, const Optional<VehicleState>& state, const Params& p) {
     if (p.send_attitude && !state && now_ns > estimate_patience_ns * 20 &&
@@ -328,7 +334,7 @@ class Vehicle {
     if ((!state && !p.needs_state) || run_.heard.status_ns == never_ns) return true;
     const bool current = state && now_ns - state.valid_at_ns() < estimate_patience_ns;
     return run_.readiness.update({current ? &*state : nullptr, run_.status, run_.spoken,
-                                  now_ns - run_.heard.imu_ns < command_patience_ns},
+                                  now_ns - run_.heard.imu_ns < command_patience_ns, zero_of_pitot()},
                                  now_ns, run_.notices);
   }
 

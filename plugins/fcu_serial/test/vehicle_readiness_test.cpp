@@ -187,6 +187,35 @@ TEST_CASE("no magnetometer is said before arming, ready or not") {
   CHECK(times(f, "ready, but no magnetometer") == 1);
 }
 
+TEST_CASE("the airspeed's zero belongs to the line: not done yet, wrong, and good") {
+  Flying booted{peer::Options{}};  // it zeroes in the first 12 s
+  booted.state = known();
+  booted.fly(9);
+  CHECK(times(booted, "ready, but airspeed not zeroed yet") == 1);
+  CHECK(times(booted, "ready\n") == 0);
+  booted.fly(21);
+  CHECK(times(booted, "ready, but airspeed not zeroed yet") == 1);
+  CHECK(times(booted, "ready\n") == 1);
+
+  Flying wrong;
+  wrong.world.fcu.inputs.pitot_pa = 177;
+  wrong.state = known();
+  wrong.fly(7);
+  CHECK(times(wrong, "ready\n") == 1);
+  wrong.fly(8);
+  CHECK(times(wrong, "ready, but airspeed zeroed wrong\n") == 1);
+  CHECK(times(wrong, "no pitot tube") == 0);  // it is there
+  wrong.world.fcu.params().set(peer::param("DIFF_PRESS_BIAS"), 0.f);
+  wrong.fly(5);
+  CHECK(times(wrong, "ready\n") == 2);
+
+  Flying none;
+  none.world.fcu.inputs.pitot_works = false;
+  none.state = known();
+  none.fly(5);
+  CHECK(times(none, "ready, but no pitot tube\n") == 1);
+}
+
 TEST_CASE("the loss of GNSS is told within 1 s, and its return") {
   for (const double hz : {10.0, 5.0}) {
     CAPTURE(hz);

@@ -198,6 +198,13 @@ class Session {
     if (graph_.io == Io::fcu) warn("the loop runs without real-time priority; --realtime gives it one");
   }
 
+  /// Beside what the vehicle says of itself before it is armed.
+  void tell_log(const fs::path& log) const {
+    if (graph_.io != Io::fcu) return;
+    if (log.empty()) return warn("no log is written");
+    if (!options_.json) say_aloud("log: " + log.string());
+  }
+
   void tell_onlookers() const {
     if (graph_.dds.on && unpaced())
       warn("dds: nothing is exported or imported as fast as the machine allows; fly with --speed real");
@@ -237,6 +244,7 @@ class Session {
     std::optional<UnderWay> under_way(std::in_place, graph_, o.log_file.string());
     last_ = std::make_unique<Flight>(graph_, o);
     forget_before();
+    tell_log(o.log_file);
     tell_onlookers();
     const FlightResult result = last_->run();
     under_way.reset();

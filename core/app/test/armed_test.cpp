@@ -80,6 +80,26 @@ struct Program {
   }
 };
 
+TEST_CASE("on hardware it is said before arming whether, and where, the flight is written down") {
+  {
+    Program program("craft.arm_at=100");
+    REQUIRE(program.says("phase second"));
+    CHECK(program.says("no log is written"));
+    program.send(SIGINT);
+    CHECK(program.code() == 130);
+  }
+  const std::string log = (folder / "written.mcap").string();
+  fs::remove(log);
+  Program program("craft.arm_at=100", "{file: " + log + "}");
+  REQUIRE(program.says("phase second"));
+  CHECK(program.says("log: " + log + "\n"));
+  CHECK_FALSE(program.text().find("no log") != std::string::npos);
+  program.send(SIGINT);
+  CHECK(program.code() == 130);
+  CHECK(fs::exists(log));
+  fs::remove_all(folder);
+}
+
 }  // namespace
 
 TEST_CASE(

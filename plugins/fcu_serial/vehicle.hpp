@@ -109,6 +109,9 @@ class Vehicle {
   }
 
   Status write(const Tick& tick, const Inputs& in, const Params& p) {
+    run_.met_state = run_.met_state || in.state;
+    if (run_.met_state && !in.state && !in.actuators)
+      return Status::ok;  // the host is silent, and has said why
     if (may_command(tick.now_ns, in.state, p)) send_command(tick.now_ns, in.actuators);
     send_aux(tick.now_ns, in.aux);
     if (p.send_attitude) send_attitude(tick.now_ns, in.state);
@@ -176,6 +179,7 @@ class Vehicle {
     bool pitot_zeroed = false;  ///< by a reboot in flight
     bool pitot_off = false;     ///< its zero is beyond the limit
     double pitot_limit_pa = 0;
+    bool met_state = false;
     bool told_unwired = false;  ///< send_attitude without a state to send
   };
 

@@ -135,6 +135,21 @@ TEST_CASE("without any estimate, as an estimator is silent until it is aligned, 
   CHECK(sent_in(f, 5) == 0);
 }
 
+TEST_CASE(
+    "a host that has fallen silent, as after two signals, is not called blind: it has said what it does") {
+  Flying f;
+  f.bench.params.needs_state.value = true;
+  cruising(f);
+  f.state.reset();
+  f.commands = false;
+  for (const fulmar_input* input : {f.bench.in.state.input, f.bench.in.actuators.input})
+    const_cast<fulmar_input*>(input)->data = nullptr;  // what a silent host gives
+  CHECK(sent_in(f, 15) == 0);
+  CHECK(f.heard("not in control"));
+  CHECK_FALSE(f.heard("attitude"));
+  CHECK_FALSE(f.heard("not ready"));
+}
+
 TEST_CASE("armed before the host was started and no attitude: it says why it does not begin") {
   Flying f;
   f.bench.params.needs_state.value = true;

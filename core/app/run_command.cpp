@@ -199,6 +199,13 @@ class Session {
     if (graph_.io == Io::fcu) warn("the loop runs without real-time priority; --realtime gives it one");
   }
 
+  /// Beside what the vehicle says of itself before it is armed.
+  void tell_log(const fs::path& log) const {
+    if (graph_.io != Io::fcu) return;
+    if (log.empty()) return warn("no log is written");
+    if (!options_.json) say_aloud("log: " + log.string());
+  }
+
   void tell_onlookers() const {
     if (graph_.dds.on && unpaced())
       warn("dds: nothing is exported or imported as fast as the machine allows; fly with --speed real");
@@ -230,8 +237,7 @@ class Session {
     o.say = [&](const std::string& text, bool warning) { progress.say(text, warning); };
     if (graph_.io == Io::fcu || options_.speed > 0) print_without_waiting();
     if (options_.json) dup2(STDERR_FILENO, STDOUT_FILENO);  // what components print
-    // a flight that gives up control sends its failsafe first
-    handle_signals(graph_.io != Io::sim, 10 + static_cast<unsigned>(graph_.failsafe_ns / 1'000'000'000));
+    handle_signals(graph_.io != Io::sim, 10);
     if (!options_.json)
       say_aloud(graph_.mission + (graph_.io == Io::sim ? ": simulation" : ": flight controller") + ", seed " +
                 std::to_string(graph_.seed));
@@ -239,6 +245,7 @@ class Session {
     std::optional<UnderWay> under_way(std::in_place, graph_, o.log_file.string());
     last_ = std::make_unique<Flight>(graph_, o);
     forget_before();
+    tell_log(o.log_file);
     tell_onlookers();
     const FlightResult result = last_->run();
     under_way.reset();

@@ -357,6 +357,8 @@ void read_resume(Draft& draft, const FindPort& find) {
         throw Error("expected a parameter such as manage.first_item, found '" + param + "'");
       const std::string name = param.substr(0, dot), of = param.substr(dot + 1);
       const int i = draft.candidate(name);
+      const ComponentText* const text = draft.text.component(name);
+      if (text && draft.is_out(*text)) return;  // nothing of it goes on in this run
       if (i < 0) throw Error(not_there(draft, name));
       const Candidate& candidate = nth(draft.candidates, i);
       if (!candidate.loaded) throw Unclear{};

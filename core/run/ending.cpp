@@ -56,7 +56,7 @@ constexpr Table transition_table = {{
       {State::giving_up, Act::none, Reason::none},
       ends(Reason::vehicle_failed),
       ends(Reason::abandoned)}},
-    // giving_up: the failsafe is flown to its end, then the host goes
+    // giving_up: silent from its first tick, then the host goes
     {{stays(State::giving_up),
       {State::giving_up, Act::tell_failed, Reason::failed},
       {State::giving_up, Act::tell_duration, Reason::failsafe},
@@ -112,7 +112,7 @@ Outcome Ending::outcome(Reason reason) noexcept {
 
 Ending::Act Ending::take(Cue cue, std::int64_t now_ns) noexcept {
   const Step step = Ending::step(state_, cue);
-  const bool was_flown = !in_failsafe();
+  const bool was_flown = !in_failsafe(), gives_up = step.next == State::giving_up && state_ != step.next;
   state_ = step.next;
   if (step.reason != Reason::none) reason_ = step.reason;
   if (step.act == Act::refuse_signal) refused_ns_ = now_ns;
@@ -121,6 +121,7 @@ Ending::Act Ending::take(Cue cue, std::int64_t now_ns) noexcept {
     // what was flown up to here is lost now
     if (reason_ != Reason::none && outcome(reason_) == Outcome::flown) reason_ = Reason::failsafe;
   }
+  if (gives_up) failsafe_since_ns_ = now_ns - failsafe_ns_;  // its values would keep the pilot waiting
   return step.act;
 }
 

@@ -17,7 +17,7 @@ class Ending {
     flying,     // nothing has been decided
     concluded,  // how the flight will have ended is decided; an armed aircraft flies on under command
     failsafe,   // nobody can fly: the vehicle gets the failsafe's values for their time, then nothing
-    giving_up,  // the same, and a signal has asked for the end
+    giving_up,  // a signal has asked for the end: the vehicle gets nothing from now on, its pilot has it
     silent,  // the vehicle has heard nothing for a while: the aircraft is its pilot's, if it is still armed
     over,
   };

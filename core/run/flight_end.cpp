@@ -68,7 +68,7 @@ void FlightEnd::refuse_signal() {
 
 void FlightEnd::give_up() {
   Event why = event_of(Code::gave_up);
-  say(why, "failsafe: control given up by a signal");
+  say(why, "control given up by a signal: the aircraft is its pilot's");
   failsafe_words_ = why.words;
   recorder_.note(why);
 }

@@ -8,7 +8,9 @@
 #include <string>
 #include <string_view>
 
+#include "firmware_version.hpp"
 #include "link/link.hpp"
+#include "pitot_zero.hpp"
 #include "radio.hpp"
 
 namespace fulmar::fcu {
@@ -19,29 +21,22 @@ inline constexpr std::uint64_t noise_bytes = 200;  ///< so many of them: more th
 inline constexpr std::int64_t answer_patience_ns =
     2'000'000'000;  ///< for all answers, from the first frame on
 inline constexpr std::int64_t greeting_patience_ns = 4'500'000'000;  ///< for everything
-inline constexpr std::int32_t oldest_firmware = 2;
 
 /// Parameters of the controller that this plugin must know.
-inline constexpr std::array<std::string_view, 8> watched_parameters{
-    "FIXED_WING", "RC_X_CHN",    "RC_Y_CHN",     "RC_Z_CHN",
-    "RC_F_CHN",   "REV_AILERON", "REV_ELEVATOR", "REV_RUDDER"};
+inline constexpr std::array<std::string_view, 9> watched_parameters{
+    "FIXED_WING",  "RC_X_CHN",     "RC_Y_CHN",   "RC_Z_CHN", "RC_F_CHN",
+    "REV_AILERON", "REV_ELEVATOR", "REV_RUDDER", pitot_zero};
 
-/// The first number of "v2.0.1-3-gabc" or "2.0"; nothing when the text is no version, such as the bare hash
-/// of a build without tags.
-inline std::optional<std::int32_t> major_version(std::string_view text) {
-  if (!text.empty() && (text[0] == 'v' || text[0] == 'V')) text.remove_prefix(1);
-  std::int32_t major = 0;
-  std::size_t n = 0;
-  for (; n < text.size() && n < 4 && text[n] >= '0' && text[n] <= '9'; ++n)
-    major = 10 * major + (text[n] - '0');
-  if (n == 0 || n >= text.size() || text[n] != '.') return {};
-  return major;
+/// A watched parameter as 32 bits: whole numbers, and of the pitot's zero the float.
+inline std::int32_t watched_bits(std::string_view name, const ParamValue& p) {
+  return name == pitot_zero ? std::bit_cast<std::int32_t>(p.param_value) : integer_of(p);
 }
 
 /// What is known of the device so far.
 struct Greeting {
   std::string version;
   bool imu = false, versioned = false, refused = false, armed = false;
+  std::uint16_t parameter_count = 0;
   std::int32_t autopilot = -1;  ///< as heartbeats say; ROSflight: 0
   std::array<std::optional<std::int32_t>, watched_parameters.size()> parameters;
 
@@ -60,8 +55,10 @@ struct Greeting {
     }
     if (packet.is<ParamValue>()) {
       const ParamValue p = packet.as<ParamValue>();
+      parameter_count = p.param_count;
       for (std::size_t i = 0; i < parameters.size(); ++i)
-        if (id_of(p.param_id) == watched_parameters[i]) parameters[i] = integer_of(p);
+        if (id_of(p.param_id) == watched_parameters[i])
+          parameters[i] = watched_bits(watched_parameters[i], p);
     }
   }
   bool complete() const {
@@ -69,10 +66,10 @@ struct Greeting {
         std::all_of(parameters.begin(), parameters.end(), [](const auto& p) { return p.has_value(); });
     return imu && all && (versioned || (refused && armed));  // an armed controller refuses to say its version
   }
-  std::int32_t parameter(std::string_view name) const {
+  std::int32_t parameter(std::string_view name, std::int32_t unknown = -1) const {
     const auto at =
         std::find(watched_parameters.begin(), watched_parameters.end(), name) - watched_parameters.begin();
-    return parameters[static_cast<std::size_t>(at)].value_or(-1);
+    return parameters[static_cast<std::size_t>(at)].value_or(unknown);
   }
 };
 
@@ -86,6 +83,10 @@ inline std::string objection(const Greeting& g, const LinkState& link, const std
     return port +
            " sends text, not MAVLink: it is no flight controller, a satellite receiver perhaps; name another "
            "port";
+  if (link.frames == 0 && talks_mavlink_2(link.modern, link.bytes))
+    return port +
+           " talks MAVLink 2, as PX4 and ArduPilot do: Fulmar needs a flight controller with ROSflight "
+           "firmware 2";
   if (link.frames == 0)
     return "of " + std::to_string(link.bytes) + " bytes from " + port +
            (serial ? " at " + std::to_string(baud) + " baud" : "") + " none is a MAVLink 1 frame: " +
@@ -100,14 +101,14 @@ inline std::string objection(const Greeting& g, const LinkState& link, const std
   if (!g.imu)
     return port +
            " speaks MAVLink, but sends no inertial samples: no ROSflight 2, or its inertial unit is dead; "
-           "reboot it, or flash it";
+           "power-cycle it, or flash it";
   if (!g.versioned && !g.armed)
     return "the flight controller at " + port +
            " does not say its version: it is older than ROSflight 2.0; flash version 2.0 or later";
   if (g.parameter("FIXED_WING") == 0)
     return "the flight controller at " + port +
            " is set up for a multirotor: set FIXED_WING to 1, PRIMARY_MIXER to the aircraft's, write, and "
-           "reboot it";
+           "power-cycle it";
   return "";
 }
 

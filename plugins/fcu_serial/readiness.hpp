@@ -13,6 +13,10 @@ namespace fulmar::fcu {
 inline constexpr std::int64_t repeat_ns = 10'000'000'000;          ///< what is missing is told again
 inline constexpr std::int64_t estimate_patience_ns = 500'000'000;  ///< an older estimate is none
 
+/// The controller zeroes its airspeed by itself in the first seconds after a boot.
+enum class PitotZero : std::uint8_t { good, pending, wrong };
+inline constexpr std::uint64_t zeroing_us = 12'000'000;
+
 /// When a sensor spoke last, in flight time; of the receiver: a three-dimensional fix.
 struct Spoken {
   std::int64_t fix_ns = never_ns, mag_ns = never_ns, baro_ns = never_ns, pitot_ns = never_ns;
@@ -61,6 +65,7 @@ class Readiness {
     VehicleStatus status;
     Spoken spoken;
     bool inertial;  ///< samples come
+    PitotZero pitot_zero;
   };
 
   /// Whether a command may go out now.
@@ -86,7 +91,9 @@ class Readiness {
     needed = 63,
     no_mag = 64,
     no_baro = 128,
-    no_pitot = 256
+    no_pitot = 256,
+    zero_pending = 512,
+    zero_wrong = 1024
   };
   static constexpr std::array<std::pair<std::uint32_t, std::string_view>, 6> needed_words{
       {{no_inertial, "no inertial samples"},
@@ -95,8 +102,12 @@ class Readiness {
        {no_position, "no position"},
        {no_height, "no height"},
        {no_velocity, "no velocity"}}};
-  static constexpr std::array<std::pair<std::uint32_t, std::string_view>, 3> other_words{
-      {{no_mag, "no magnetometer"}, {no_baro, "no barometer"}, {no_pitot, "no pitot tube"}}};
+  static constexpr std::array<std::pair<std::uint32_t, std::string_view>, 5> other_words{
+      {{no_mag, "no magnetometer"},
+       {no_baro, "no barometer"},
+       {no_pitot, "no pitot tube"},
+       {zero_pending, "airspeed not zeroed yet"},
+       {zero_wrong, "airspeed zeroed wrong"}}};
   static constexpr std::int64_t first_told_ns = 3'000'000'000;  ///< until then it aligns
   static constexpr std::int64_t sensor_patience_ns = 2'000'000'000;
   static constexpr double flies_mps = 7;
@@ -115,8 +126,10 @@ class Readiness {
       m |= no_fix;
     else if (s.attitude_valid && !s.position_valid)
       m |= no_position;
-    return m | unless(!silent(f.spoken.mag_ns), no_mag) | unless(!silent(f.spoken.baro_ns), no_baro) |
-           unless(!silent(f.spoken.pitot_ns), no_pitot);
+    m |= unless(!silent(f.spoken.mag_ns), no_mag) | unless(!silent(f.spoken.baro_ns), no_baro);
+    if (f.pitot_zero == PitotZero::wrong) return m | zero_wrong;  // its samples are withheld
+    if (silent(f.spoken.pitot_ns)) return m | no_pitot;
+    return m | unless(f.pitot_zero == PitotZero::good, zero_pending);
   }
 
   static bool handed(const VehicleStatus& s) { return s.armed && !s.override && !s.failsafe; }

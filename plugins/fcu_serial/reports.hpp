@@ -18,6 +18,15 @@ struct ControllerOutputs {
   std::array<double, 14> values_ratio{};  ///< servos and motors 0 to 1
 };
 
+/// A parameter of the controller, when it is heard for the first time and whenever it changes: with which
+/// set-up and calibration it was flown.
+struct ControllerParameter {
+  Text<17> name;
+  Text<24> value;  ///< in the fewest digits that read back as the same 32 bits; its unit is the firmware's
+  bool whole = false;                  ///< a whole number, else a float
+  std::uint16_t index = 0, count = 0;  ///< which of how many
+};
+
 /// How well the two hear each other.
 struct LinkStatus {
   bool open = false;           ///< the device is there
@@ -35,6 +44,7 @@ struct LinkStatus {
   double worst_gap_s = 0;
   double imu_rate_hz = 0;      ///< of the last second
   double round_trip_s = 0;     ///< least of the last seconds
+  bool pitot_zeroed = false;   ///< by a reboot in flight: the pitot tube is not used any more
   std::int64_t offset_ns = 0;  ///< host's clock minus the controller's
   double drift_ratio = 0;      ///< how much faster the host's clock runs
   double turnaround_s =

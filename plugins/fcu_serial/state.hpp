@@ -2,6 +2,8 @@
 // Who flies: what the controller says of itself, how old that is, and whether the host's commands move the
 // aircraft. Each change is told once.
 #pragma once
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 
@@ -89,6 +91,7 @@ class Teller {
     if (h.status_ns == never_ns || (s.errors & own_error_link_down) != 0) return;  // it says nothing new
     tell_arming(s, out);
     tell_pilot(s, out);
+    tell_control(s, now_ns, out);
     tell_errors(s, h, out);
     told_ = s;
     begun_ = true;
@@ -127,12 +130,26 @@ class Teller {
       out.say(Level::info, line);
     }
     if (s.armed && !flies && flew) out.say(Level::info, "the pilot hands over");
-    if (s.in_control != told_.in_control) {
-      if (s.in_control)
-        out.say(Level::info, "in control");
-      else
-        out.say(s.armed && !s.override ? Level::warning : Level::info, "not in control");
+  }
+
+  /// Each change, but for a line so bad that it comes and goes: then once that, and how it ends.
+  void tell_control(const VehicleStatus& s, std::int64_t now_ns, Notices& out) {
+    const bool changes = s.in_control != told_.in_control;
+    if (changes) {
+      flickers_ = flickers_ || now_ns - changes_ns_[2] < steady_ns;
+      std::rotate(changes_ns_.begin(), changes_ns_.end() - 1, changes_ns_.end());
+      changes_ns_[0] = now_ns;
+      if (flickers_ && !told_flicker_)
+        out.say(Level::warning, "control comes and goes: the line loses too much");
+      told_flicker_ = flickers_;
     }
+    const bool steady = flickers_ && now_ns - changes_ns_[0] >= steady_ns;
+    if (steady) flickers_ = told_flicker_ = false;
+    if (flickers_ || (!changes && !steady)) return;
+    if (s.in_control)
+      out.say(Level::info, "in control");
+    else
+      out.say(s.armed && !s.override ? Level::warning : Level::info, "not in control");
   }
 
   void tell_errors(const VehicleStatus& s, const Heard& h, Notices& out) {
@@ -155,7 +172,10 @@ class Teller {
     if ((gone & own_error_rc_silent) != 0 && begun_) out.say(Level::info, "frames of the radio come again");
   }
 
+  static constexpr std::int64_t steady_ns = 2'000'000'000;
   VehicleStatus told_;
+  std::array<std::int64_t, 3> changes_ns_{never_ns, never_ns, never_ns};  ///< of in_control, the latest first
+  bool flickers_ = false, told_flicker_ = false;
   std::int64_t down_since_ns_ = never_ns;
   bool down_ = false, begun_ = false;
 };

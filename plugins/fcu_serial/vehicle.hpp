@@ -2,6 +2,8 @@
 // The vehicle that is a ROSflight flight controller: its sensors come in, commands go out, and what it says
 // of itself is told.
 #pragma once
+#include <bit>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <stdexcept>
@@ -15,6 +17,7 @@
 #include "greeting.hpp"
 #include "link_report.hpp"
 #include "pace.hpp"
+#include "parameter_book.hpp"
 #include "readiness.hpp"
 #include "sensors.hpp"
 
@@ -44,6 +47,7 @@ class Vehicle {
     Out<ControllerAttitude> attitude;
     Out<ControllerOutputs> outputs;
     Out<LinkStatus> link;
+    OutQueue<ControllerParameter, 16> parameters;
   };
   struct Params {
     TextParam<128> port{"/dev/ttyACM0", "a serial port, or udp:REMOTE:PORT of firmware in simulation"};
@@ -53,6 +57,15 @@ class Vehicle {
                        setup};
     Flag send_attitude{false, "sends the input `state` to correct the controller's own estimate, 50 Hz"};
     Flag needs_state{false, "flies by the input `state`: no command before there is one", setup};
+    Param pitot_zero_limit{
+        pitot_zero_limit_pa,
+        "Pa",
+        0,
+        1000,
+        "a zero of the pitot tube beyond it was taken in wind or in the air, and is not used",
+        setup};
+    Count pitot_zeroed{
+        0, 0, 1, "1: a reboot in flight has zeroed the airspeed, the pitot tube is not used; for `resume`"};
     Param time_scale{
         1,
         "ratio",
@@ -70,6 +83,7 @@ class Vehicle {
     run_ = Run();
     run_.throws = Throws::of(*p.airframe);
     run_.pace = Pace(p.command_rate);
+    run_.pitot_limit_pa = p.pitot_zero_limit;
     link_.reset();  // a second flight: the port is held until then
     LinkOptions options;
     options.port = port;
@@ -81,8 +95,9 @@ class Vehicle {
   }
 
   /// Wakes with each inertial sample, and after 10 ms without one.
-  Status read(Tick& tick, const Params&, Outputs& out) {
+  Status read(Tick& tick, const Params& p, Outputs& out) {
     if (run_.zero_ns == never_ns) begin();
+    if (p.pitot_zeroed != 0) zeroed_in_the_air();
     run_.arrived_ns = wait(out);
     // Time goes by arrivals, so that the age of a sample is what its way here took.
     const std::int64_t host_ns = link_->now_ns();
@@ -94,6 +109,9 @@ class Vehicle {
   }
 
   Status write(const Tick& tick, const Inputs& in, const Params& p) {
+    run_.met_state = run_.met_state || in.state;
+    if (run_.met_state && !in.state && !in.actuators)
+      return Status::ok;  // the host is silent, and has said why
     if (may_command(tick.now_ns, in.state, p)) send_command(tick.now_ns, in.actuators);
     send_aux(tick.now_ns, in.aux);
     if (p.send_attitude) send_attitude(tick.now_ns, in.state);
@@ -138,6 +156,7 @@ class Vehicle {
     Pace pace;
     RcMap map;
     std::array<std::optional<std::int32_t>, watched_parameters.size()> parameters;
+    ParameterBook book;
     Text<50> version;
     Heard heard;
     Teller teller;
@@ -153,10 +172,14 @@ class Vehicle {
                  arrived_ns = never_ns;  ///< host: of flight time 0; arrival of this tick's inertial sample
     std::int64_t now_ns = -least_step_ns, imu_valid_ns = never_ns, status_ns = never_ns, aux_ns = never_ns;
     std::int64_t attitude_ns = never_ns, disarmed_ns = never_ns, attitude_from_ns = never_ns;
-    std::uint64_t gnss_stamp_us = 0;
+    std::uint64_t gnss_stamp_us = 0, clock_us = 0;  ///< the controller's; 0 at its boot
     std::uint32_t told_kinds = 0;
+    std::uint8_t system = 1;  ///< the controller's SYS_ID: it answers to no other
     std::array<bool, 14> aux_motors{};
     bool pitot_zeroed = false;  ///< by a reboot in flight
+    bool pitot_off = false;     ///< its zero is beyond the limit
+    double pitot_limit_pa = 0;
+    bool met_state = false;
     bool told_unwired = false;  ///< send_attitude without a state to send
   };
 
@@ -164,6 +187,7 @@ class Vehicle {
 
   void greet(const std::string& port, std::int64_t baud, const Airframe& airframe);
   void listen(Greeting& greeting);
+  void tell_untried(std::string_view version);
   void tell_reversals(const Greeting& greeting, const Airframe& airframe);
 
   /// The first tick: what has waited since the greeting is old.
@@ -191,7 +215,7 @@ class Vehicle {
     Received r;
     while (link_->pop(r)) {
       if (r.event == LinkEvent::rebooted) rebooted();
-      if (r.event == LinkEvent::rebooted || r.event == LinkEvent::connected) ask_version();
+      if (r.event == LinkEvent::rebooted || r.event == LinkEvent::connected) ask_anew();
       if (r.event != LinkEvent::packet) continue;
       run_.heard.frame(flight_ns(r.arrived_ns));
       if (!r.packet.template is<SmallImu>())
@@ -208,6 +232,8 @@ class Vehicle {
     const auto imu = to_imu(r.packet.template as<SmallImu>());
     if (!usable(imu.has_value(), kind_imu, "inertial unit")) return false;
     run_.imu_valid_ns = valid_ns;
+    run_.system = r.packet.system;
+    run_.clock_us = r.packet.template as<SmallImu>().time_boot_us;
     run_.report.imu(valid_ns);
     run_.heard.imu_ns = flight_ns(r.arrived_ns);
     out.imu.publish(*imu, flight_ns(valid_ns));
@@ -217,7 +243,8 @@ class Vehicle {
   void take(const Received& r, Outputs& out);
   void take_state(const Received& r, Outputs& out);
   void take_gnss(const Received& r, Outputs& out);
-  void take_parameter(const ParamValue& p);
+  void take_parameter(const ParamValue& p, Outputs& out);
+  void take_pitot_zero(std::int32_t bits);
   void take_version(const RosflightVersion& m);
 
   template <class T>
@@ -243,17 +270,30 @@ class Vehicle {
   }
 
   /// It may be another one. An armed controller refuses to say; then it is the same.
-  void ask_version() { link_->send(RosflightCmd{static_cast<std::uint8_t>(Command::send_version)}); }
+  void ask_anew() {
+    link_->send(RosflightCmd{static_cast<std::uint8_t>(Command::send_version)});
+    run_.book.restart();
+  }
+  void ask_parameter() {
+    const auto index = run_.book.next(run_.now_ns);
+    if (index) link_->send(ParamRequestRead{*index, run_.system});
+    run_.book.tell(run_.notices);
+  }
 
   void rebooted() {
     const bool flying = run_.heard.status.armed != 0 || run_.now_ns - run_.disarmed_ns < reboot_memory_ns;
     run_.imu_valid_ns = never_ns;
     run_.attitude_from_ns = run_.now_ns + attitude_boots_ns;
     if (!flying) return run_.notices.say(fulmar::Severity::warning, "the flight controller has rebooted");
-    run_.pitot_zeroed = true;
     run_.notices.say(
         fulmar::Severity::critical,
         "the flight controller has rebooted while armed: its motor is off until it is armed again");
+    zeroed_in_the_air();
+  }
+
+  /// By a boot of the controller, now or before this host began.
+  void zeroed_in_the_air() {
+    if (std::exchange(run_.pitot_zeroed, true)) return;
     run_.notices.say(fulmar::Severity::critical,
                      "it has zeroed its airspeed in the air: pitot not used any more, restart on the ground");
   }
@@ -274,10 +314,19 @@ class Vehicle {
         out.rc.publish(run_.rc);
       }
     }
+    if ((s.errors & own_error_link_down) == 0) ask_parameter();
     run_.notices.flush(out.notices, run_.now_ns);
-    if (run_.report.due(run_.now_ns))
-      out.link.publish(run_.report.take(link_->state(), host_ns, run_.now_ns));
+    if (run_.report.due(run_.now_ns)) {
+      LinkStatus link = run_.report.take(link_->state(), host_ns, run_.now_ns);
+      link.pitot_zeroed = run_.pitot_zeroed;
+      out.link.publish(link);
+    }
     return (s.errors & own_error_link_down) != 0 ? Status::degraded : Status::ok;
+  }
+
+  PitotZero zero_of_pitot() const {
+    if (run_.pitot_zeroed || run_.pitot_off) return PitotZero::wrong;
+    return run_.clock_us < zeroing_us ? PitotZero::pending : PitotZero::good;
   }
 
   /// Without an estimate, given or demanded, whoever commands has to know.
@@ -289,7 +338,7 @@ class Vehicle {
     if ((!state && !p.needs_state) || run_.heard.status_ns == never_ns) return true;
     const bool current = state && now_ns - state.valid_at_ns() < estimate_patience_ns;
     return run_.readiness.update({current ? &*state : nullptr, run_.status, run_.spoken,
-                                  now_ns - run_.heard.imu_ns < command_patience_ns},
+                                  now_ns - run_.heard.imu_ns < command_patience_ns, zero_of_pitot()},
                                  now_ns, run_.notices);
   }
 

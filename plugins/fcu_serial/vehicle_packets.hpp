@@ -16,13 +16,17 @@ void Vehicle<AnyLink>::greet(const std::string& port, std::int64_t baud, const A
   }
   run_.parameters = g.parameters;
   run_.version = Text<50>(g.version);
+  run_.book.expect(g.parameter_count);
   for (std::size_t i = 0; i < watched_parameters.size(); ++i)
     if (g.parameters[i]) run_.map.take(watched_parameters[i], *g.parameters[i]);
+  const std::int32_t pitot = g.parameter(pitot_zero, 0);
   Line line;
   line << "connected: "
        << (g.versioned ? "ROSflight " + g.version
                        : "an armed flight controller, which does not tell its version");
   run_.notices.say(fulmar::Severity::info, line);
+  if (g.versioned) tell_untried(g.version);
+  take_pitot_zero(pitot);
   tell_reversals(g, airframe);
 }
 
@@ -53,6 +57,13 @@ void Vehicle<AnyLink>::listen(Greeting& g) {
   }
 }
 
+template <class AnyLink>
+void Vehicle<AnyLink>::tell_untried(std::string_view version) {
+  if (!tried(version))
+    run_.notices.say(fulmar::Severity::warning,
+                     Line() << "firmware not tried with Fulmar (" << tried_firmware << " was): " << version);
+}
+
 /// REV_* turns a surface round for pilot and host, the airframe file for the host alone. Both at once is
 /// hardly meant.
 template <class AnyLink>
@@ -75,7 +86,7 @@ void Vehicle<AnyLink>::take(const Received& r, Outputs& out) {
     case SmallBaro::id:
       return publish(out.baro, to_baro(r.packet.template as<SmallBaro>()), r, kind_baro, "barometer");
     case DiffPressure::id:
-      if (!run_.pitot_zeroed)
+      if (!run_.pitot_zeroed && !run_.pitot_off)
         publish(out.pitot, to_pitot(r.packet.template as<DiffPressure>()), r, kind_pitot, "pitot tube");
       return;
     case SmallRange::id:
@@ -127,7 +138,7 @@ void Vehicle<AnyLink>::take_state(const Received& r, Outputs& out) {
       heard.amp = battery.battery_current;
       return;
     }
-    case ParamValue::id: return take_parameter(r.packet.template as<ParamValue>());
+    case ParamValue::id: return take_parameter(r.packet.template as<ParamValue>(), out);
     case RosflightVersion::id: return take_version(r.packet.template as<RosflightVersion>());
     case Statustext::id:
       return run_.texts.forward(r.packet.template as<Statustext>(), r.arrived_ns, run_.notices);
@@ -144,19 +155,43 @@ void Vehicle<AnyLink>::take_state(const Received& r, Outputs& out) {
 
 /// They come again after each reboot and connection, and whenever somebody sets one.
 template <class AnyLink>
-void Vehicle<AnyLink>::take_parameter(const ParamValue& p) {
+void Vehicle<AnyLink>::take_parameter(const ParamValue& p, Outputs& out) {
+  const auto& full = out.parameters;
+  if (full.count == full.items.size())
+    run_.book.forget(p.param_index);
+  else if (const auto news = run_.book.take(p))
+    out.parameters.push(*news, run_.now_ns);
   const std::string_view name = id_of(p.param_id);
   const auto at = static_cast<std::size_t>(
       std::find(watched_parameters.begin(), watched_parameters.end(), name) - watched_parameters.begin());
   if (at == watched_parameters.size()) return;
-  const std::int32_t value = integer_of(p);
+  const std::int32_t value = watched_bits(name, p);
   const bool known = run_.parameters[at].has_value();
   if (known && *run_.parameters[at] == value) return;
   run_.parameters[at] = value;
   run_.map.take(name, value);
+  if (name == pitot_zero) return take_pitot_zero(value);
   if (known)
     run_.notices.say(fulmar::Severity::warning,
                      Line() << "the flight controller's " << name << " is now " << std::int64_t{value});
+}
+
+/// In still air it is the offset of the sensor; beyond the limit it is the pressure of an airspeed, and the
+/// tube would say 0 at that.
+template <class AnyLink>
+void Vehicle<AnyLink>::take_pitot_zero(std::int32_t bits) {
+  const double pascal = static_cast<double>(std::bit_cast<float>(bits));
+  const bool off = !(std::fabs(pascal) <= run_.pitot_limit_pa);
+  if (off == std::exchange(run_.pitot_off, off)) return;
+  if (!off)
+    return run_.notices.say(fulmar::Severity::info, "the pitot tube is zeroed anew: it is used again");
+  Line line;
+  if (std::isfinite(pascal) && std::fabs(pascal) < 1e6)
+    line << "pitot zeroed at " << std::llround(pascal) << " Pa";
+  else
+    line << "pitot zeroed wrong";
+  run_.notices.say(run_.heard.status.armed != 0 ? fulmar::Severity::critical : fulmar::Severity::warning,
+                   line << ", in wind or in the air: it is not used; zero it on the ground");
 }
 
 template <class AnyLink>
@@ -167,9 +202,10 @@ void Vehicle<AnyLink>::take_version(const RosflightVersion& m) {
   if (version == run_.version) return;
   const bool known = !run_.version.view().empty();
   run_.version = version;
-  if (known)
-    run_.notices.say(fulmar::Severity::warning,
-                     Line() << "this is another firmware: ROSflight " << version.view());
+  if (!known) return;
+  run_.notices.say(fulmar::Severity::warning,
+                   Line() << "this is another firmware: ROSflight " << version.view());
+  tell_untried(version.view());
 }
 
 }  // namespace fulmar::fcu

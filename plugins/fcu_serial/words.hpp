@@ -4,6 +4,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstdint>
 #include <string_view>
 
@@ -36,6 +37,15 @@ class Line {
   }
   /// Tenths of a second.
   Line& seconds(std::int64_t ns) { return *this << ns / 1000000000 << "." << ns / 100000000 % 10 << " s"; }
+  /// So many digits behind the point.
+  Line& fixed(double value, int digits) {
+    std::array<char, 24> room{};  // cut: a value that long is no figure
+    const auto end =
+        std::to_chars(room.data(), room.data() + room.size(), value, std::chars_format::fixed, digits);
+    return end.ec == std::errc()
+               ? *this << std::string_view(room.data(), static_cast<std::size_t>(end.ptr - room.data()))
+               : *this << "?";
+  }
   std::string_view view() const { return text_.view(); }
   const Text<96>& text() const { return text_; }
 
@@ -71,7 +81,7 @@ inline constexpr std::array<std::pair<std::uint32_t, std::string_view>, 8> error
      {error_imu_not_responding, "its inertial unit does not answer"},
      {error_rc_lost, "no radio: switch the transmitter on"},
      {error_unhealthy_estimator, "its attitude estimate is unhealthy"},
-     {error_time_backwards, "its time went backwards: reboot it"},
+     {error_time_backwards, "its time went backwards: power-cycle it"},
      {error_uncalibrated_imu, "uncalibrated: fulmar fcu calibrate imu"},
      {error_buffer_overrun, "a buffer ran over"},
      {error_invalid_failsafe, "FAILSAFE_THR is not within 0 to 1"}}};
@@ -112,10 +122,14 @@ class Forwarder {
                                       : m.severity == 3 ? fulmar::Severity::error
                                       : m.severity == 4 ? fulmar::Severity::warning
                                                         : fulmar::Severity::info;
+    if (text.view() == no_secondary)  // SECONDARY_MIXER 255, as is recommended: nothing is invalid about it
+      return notices.say(fulmar::Severity::info,
+                         "flight controller: no secondary mixer, the primary one serves for both");
     notices.say(severity, Line() << "flight controller: " << text.view());
   }
 
  private:
+  static constexpr std::string_view no_secondary = "Invalid mixer selected for secondary mixer!";
   Text<51> last_;
   std::int64_t told_ns_ = 0;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 namespace fulmar::fcu {
 
@@ -14,6 +15,7 @@ const std::vector<Calibration>& calibrations() {
        Command::accel_calibration,
        "Lay the aircraft level and do not touch it.",
        {"ACC_X_BIAS", "ACC_Y_BIAS", "ACC_Z_BIAS", "GYRO_X_BIAS", "GYRO_Y_BIAS", "GYRO_Z_BIAS"},
+       {"imu", "accel", "gyro"},
        {"offsets captured"},
        {"movement", "accel bias"},
        3,
@@ -24,6 +26,7 @@ const std::vector<Calibration>& calibrations() {
        Command::gyro_calibration,
        "Do not touch the aircraft.",
        {"GYRO_X_BIAS", "GYRO_Y_BIAS", "GYRO_Z_BIAS"},
+       {"gyro"},
        {},
        {"movement", "gyro bias"},
        3,
@@ -34,6 +37,7 @@ const std::vector<Calibration>& calibrations() {
        Command::rc_calibration,
        "Trim the aircraft by the transmitter and leave the sticks alone.",
        {"X_EQ_TORQUE", "Y_EQ_TORQUE", "Z_EQ_TORQUE"},
+       {},
        {"torques found", "applied"},
        {"cannot"},
        1,
@@ -44,6 +48,7 @@ const std::vector<Calibration>& calibrations() {
        Command::baro_calibration,
        "Keep wind and doors away.",
        {"BARO_BIAS", "GROUND_LEVEL"},
+       {"baro"},
        {"success", "complete"},
        {"movement", "failed", "variance"},
        8,
@@ -54,6 +59,7 @@ const std::vector<Calibration>& calibrations() {
        Command::airspeed_calibration,
        "Cover the pitot tube.",
        {"DIFF_PRESS_BIAS"},
+       {"airspeed", "diff press"},
        {"success", "complete"},
        {"movement", "failed", "variance"},
        8,
@@ -86,7 +92,8 @@ class Run {
     for (int i = 0; i < 3; ++i) {
       const std::optional<bool> answer = client_.command(what_.command, 1, 700 * ms);
       if (answer && !*answer)
-        throw Error("The controller refused " + deed() + (client_.armed() ? ": it is armed." : "."));
+        throw Error("The controller refused " + deed() +
+                    (client_.armed() ? ": it is armed." : " and gave no reason."));
       if (answer || said(what_.good) || read_back()) return;
     }
     throw Error(client_.name() + " does not answer: " + deed() + " was not acknowledged.");
@@ -116,6 +123,28 @@ class Run {
   bool complete() const { return after.size() == what_.params.size(); }
   bool said_good() { return said(what_.good) != nullptr; }
   double elapsed_s() const { return static_cast<double>(client_.now_ns() - started_ns_) * 1e-9; }
+  /// Puts the former values back after a failure, and says so; "" when they stand anyway. Not of one that
+  /// begins again by itself. Throws BiasesLost.
+  std::string put_back(const std::string& why) {
+    if (!what_.zeroes || what_.repeats) return "";
+    bool changed = false;
+    try {
+      after = read_some(client_, what_.params);
+      if (complete() && !(changed = differs())) return "";
+      client_.pump(std::max<std::int64_t>(0, started_ns_ + what_.usual_s * second + 500 * ms -
+                                                 client_.now_ns()));  // until nothing more comes of it
+      after = read_some(client_, what_.params);
+      if (complete()) {
+        changed = differs();
+        for (std::size_t i = 0; i < after.size(); ++i) set_param(client_, after[i], before[i].bits);
+        return " The former values are back.";
+      }
+    } catch (const std::exception&) {  // no answer, no device: told here
+    }
+    throw BiasesLost(why + (changed ? " The former values could not be put back."
+                                    : " Whether the former values stand could not be read."),
+                     before);
+  }
   [[noreturn]] void give_up() const {
     const std::string limit = std::to_string(what_.limit_s) + " s";
     if (!last_failure_.empty())
@@ -132,10 +161,12 @@ class Run {
   const Said* said(const std::vector<std::string>& parts) const {
     // what is told sooner than it can be done is about another one, such as that of the boot
     const std::int64_t soonest_ns = started_ns_ + (what_.zeroes ? what_.usual_s * second * 3 / 10 : 0);
-    for (std::size_t i = texts_; i < client_.said().size(); ++i)
-      if (client_.said()[i].at_ns >= soonest_ns && says_one(client_.said()[i].text, parts))
-        return &client_.said()[i];
-    return nullptr;
+    const auto found = std::find_if(client_.said().begin() + static_cast<std::ptrdiff_t>(texts_),
+                                    client_.said().end(), [&](const Said& text) {
+                                      return text.at_ns >= soonest_ns && says_one(text.text, parts) &&
+                                             (what_.about.empty() || says_one(text.text, what_.about));
+                                    });
+    return found == client_.said().end() ? nullptr : &*found;
   }
   bool differs() const {
     for (const Param& p : after)
@@ -158,6 +189,22 @@ class Run {
   std::string last_failure_;
 };
 
+/// Returns when it has succeeded; a failure is an Error.
+void wait_for_end(Client& client, const Calibration& what, Run& run,
+                  const std::function<void(double)>& progress) {
+  const std::int64_t began = client.now_ns(), until = began + what.limit_s * second;
+  while (client.now_ns() < until) {
+    client.pump(100 * ms);
+    if (progress) progress(run.elapsed_s());
+    // a lost text or a lost echo does not matter for long: the result is read when it is due
+    const bool due = client.now_ns() - began > what.usual_s * second &&
+                     static_cast<std::int64_t>(run.elapsed_s() * 10) % 10 == 0;
+    if (!run.over() && !due) continue;
+    if (run.read_back() || (run.said_good() && run.complete())) return;
+  }
+  run.give_up();
+}
+
 }  // namespace
 
 const Calibration* find_calibration(const std::string& name) {
@@ -172,18 +219,16 @@ Calibrated calibrate(Client& client, const Calibration& what, const std::functio
   run.before = read_some(client, what.params);
   if (run.before.size() != what.params.size())
     throw Error(client.name() + " does not tell its parameters: the calibration was not begun.");
-  run.start();
-  const std::int64_t began = client.now_ns(), until = began + what.limit_s * second;
-  while (client.now_ns() < until) {
-    client.pump(100 * ms);
-    if (progress) progress(run.elapsed_s());
-    // a lost text or a lost echo does not matter for long: the result is read when it is due
-    const bool due = client.now_ns() - began > what.usual_s * second &&
-                     static_cast<std::int64_t>(run.elapsed_s() * 10) % 10 == 0;
-    if (!run.over() && !due) continue;
-    if (run.read_back() || (run.said_good() && run.complete())) return {run.before, run.after};
+  try {
+    run.start();
+    wait_for_end(client, what, run, progress);
+  } catch (const Interrupted& e) {
+    const auto cancelled = std::exchange(client.cancelled, nullptr);  // it ends after this
+    throw Interrupted(run.put_back(e.what()));
+  } catch (const std::exception& e) {
+    throw Error(e.what() + run.put_back(e.what()));
   }
-  run.give_up();
+  return {run.before, run.after};
 }
 
 }  // namespace fulmar::fcu

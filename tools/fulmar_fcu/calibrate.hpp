@@ -16,6 +16,7 @@ struct Calibration {
   Command command;
   const char* prepare;              ///< what the pilot sees to first
   std::vector<std::string> params;  ///< what it sets
+  std::vector<std::string> about;   ///< a text about this one has one of these; none: any text
   std::vector<std::string> good;    ///< parts of the texts that say it is done
   std::vector<std::string> bad;     ///< ... that it failed
   int usual_s, limit_s;
@@ -29,8 +30,14 @@ const Calibration* find_calibration(const std::string& name);
 struct Calibrated {
   std::vector<Param> before, after;
 };
+/// It failed, and what was set before could not be put back.
+struct BiasesLost : Error {
+  BiasesLost(const std::string& text, std::vector<Param> what) : Error(text), former(std::move(what)) {}
+  std::vector<Param> former;
+};
 /// Runs it to its end. Throws Error: armed, refused, failed (with the firmware's words), or no sign of its
-/// end within the limit.
+/// end within the limit. A failed calibration of gyroscope or accelerometer leaves biases of zero, and the
+/// mean of whatever was done to the aircraft: the former ones are put back, or thrown as BiasesLost.
 Calibrated calibrate(Client& client, const Calibration& what,
                      const std::function<void(double elapsed_s)>& progress = {});
 

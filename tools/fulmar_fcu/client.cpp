@@ -7,6 +7,8 @@
 #include <cmath>
 #include <thread>
 
+#include "plugins/fcu_serial/firmware_version.hpp"
+
 namespace fulmar::fcu {
 
 namespace {
@@ -86,9 +88,6 @@ void Client::step(std::int64_t until_ns) {
   std::array<std::uint8_t, 4096> room;
   const std::size_t n = port_->read(room, timeout_ms);
   bytes_ += n;
-  // MAVLink 2 begins its frames with 0xfd: none of ours, but worth a word
-  modern_ += static_cast<std::uint64_t>(
-      std::count(room.begin(), room.begin() + static_cast<std::ptrdiff_t>(n), std::uint8_t{0xfd}));
   const auto readable = [](std::uint8_t b) { return (b >= ' ' && b <= '~') || b == '\r' || b == '\n'; };
   readable_ += static_cast<std::uint64_t>(
       std::count_if(room.begin(), room.begin() + static_cast<std::ptrdiff_t>(n), readable));
@@ -143,7 +142,7 @@ void Client::explain_silence() const {
     throw Error(name() +
                 " is silent: is the flight controller powered and this its port? On a UART both ends need "
                 "the same --baud.");
-  if (seen.frames == 0 && modern_ > 4 && modern_ * 100 > bytes_)
+  if (seen.frames == 0 && talks_mavlink_2(seen.modern, bytes_))
     throw Error(name() +
                 " talks MAVLink 2, as PX4 and ArduPilot do: Fulmar needs a flight controller with ROSflight "
                 "firmware 2.");
@@ -178,13 +177,7 @@ void Client::ask_version() {
     throw Error(
         name() +
         " sends, but does not answer: a flight controller older than ROSflight 2, or the line to it is cut.");
-  const std::size_t digit = version_.find_first_of("0123456789");
-  int major = -1;
-  if (digit != std::string::npos)
-    std::from_chars(version_.data() + digit, version_.data() + version_.size(), major);
-  // "a1b2c3d" is a build without a tag; what it is cannot be told
-  const bool numbered = digit == 0 || (digit == 1 && version_[0] == 'v');
-  if (numbered && version_.find('.') != std::string::npos && major >= 0 && major < 2)
+  if (major_version(version_).value_or(oldest_firmware) < oldest_firmware)
     throw Error(name() + " runs firmware " + version_ + ": Fulmar needs ROSflight 2.0 or later; flash it.");
 }
 
@@ -212,15 +205,14 @@ std::optional<bool> Client::command(Command c, int tries, std::int64_t each_ns) 
   return {};
 }
 
-void Client::demand(Command c, const std::string& deed) {
+void Client::demand(Command c, const std::string& deed, const std::string& refusal) {
   const std::optional<bool> answer = command(c, 6);
   if (!answer)
     throw Error(name() + " does not answer: " + deed +
                 " was not acknowledged within 3 s; whether it was done is not known.");
   if (*answer) return;
-  pump(100 * ms);  // a reason may follow
   if (armed()) throw Error("The controller refused " + deed + ": it is armed.");
-  throw Error("The controller refused " + deed + (said_.empty() ? "." : ": '" + said_.back().text + "'."));
+  throw Error("The controller refused " + deed + refusal);
 }
 
 std::optional<std::int64_t> Client::round_trip_ns(int questions) {

@@ -51,7 +51,8 @@ struct Said {  ///< a STATUSTEXT
 
 /// Somebody pressed Ctrl-C.
 struct Interrupted : Error {
-  Interrupted() : Error("Interrupted.") {}
+  /// `more`: what was done about it, such as " The former values are back."
+  explicit Interrupted(const std::string& more = "") : Error("Interrupted." + more) {}
 };
 
 class Client {
@@ -109,8 +110,10 @@ class Client {
   /// Sends a command until it is acknowledged, or once only. True: accepted; false: refused; nothing: no
   /// answer in time.
   std::optional<bool> command(Command c, int tries = 4, std::int64_t each_ns = 500 * ms);
-  /// The same, and throws Error, one sentence, unless accepted. `deed`: "writing the parameters".
-  void demand(Command c, const std::string& deed);
+  /// The same, and throws Error, one sentence, unless accepted. `deed`: "writing the parameters";
+  /// `refusal` ends the sentence when it is refused: a refusal has no reason in the protocol, and a text that
+  /// comes meanwhile is about something else.
+  void demand(Command c, const std::string& deed, const std::string& refusal = " and gave no reason.");
   /// The least of some round trips, in ns; nothing when none came back.
   std::optional<std::int64_t> round_trip_ns(int questions = 20);
   /// Called for each packet, after it was kept.
@@ -140,7 +143,7 @@ class Client {
   std::map<std::string, Param> params_;
   std::vector<Said> said_;
   std::string version_;
-  std::uint64_t bytes_ = 0, modern_ = 0, readable_ = 0;
+  std::uint64_t bytes_ = 0, readable_ = 0;
   std::int64_t beat_ns_ = 0;
   std::uint16_t param_count_ = 0;
   std::uint8_t sequence_ = 0, system_ = 1;

@@ -29,6 +29,24 @@ bool came_back(Client& client, std::uint64_t before_us, std::int64_t limit_ns) {
   }
 }
 
+/// Shows how far it is; what is lost by a failure is listed in the form of `params set`.
+Calibrated calibrated(Client& client, const Calibration& calibration) {
+  const std::string name = calibration.name;
+  try {
+    return calibrate(client, calibration, [&](double elapsed_s) {
+      show_progress("calibrating " + name + ": " + fixed(elapsed_s, 0) + " s, usually " +
+                    std::to_string(calibration.usual_s) + " s");
+    });
+  } catch (const BiasesLost& lost) {
+    show_progress("");
+    std::printf("Before this calibration:\n");
+    for (const Param& p : lost.former) std::printf("%-16s %s\n", p.name.c_str(), p.text().c_str());
+    std::printf(
+        "Set them by 'fulmar fcu params set', or power-cycle the controller: what was written is kept.\n");
+    throw;
+  }
+}
+
 nlohmann::json json_of(const Mixer& m) {
   static constexpr std::array<const char*, 4> kinds{"none", "servo", "motor", "gpio"};
   nlohmann::json out{{"primary", m.choice},
@@ -55,10 +73,7 @@ int calibrate_command(Client& client, const Options& options, const HardwareOpti
   client.refuse_armed("the " + what.what + " calibration");
   std::printf("%s\n", calibration.prepare);
   std::fflush(stdout);
-  const Calibrated result = calibrate(client, calibration, [&](double elapsed_s) {
-    show_progress("calibrating " + what.what + ": " + fixed(elapsed_s, 0) + " s, usually " +
-                  std::to_string(calibration.usual_s) + " s");
-  });
+  const Calibrated result = calibrated(client, calibration);
   show_progress("");
   for (std::size_t i = 0; i < result.after.size(); ++i)
     std::printf("%-16s %s -> %s\n", result.after[i].name.c_str(), result.before[i].text().c_str(),
@@ -150,8 +165,8 @@ int outputs_command(Client& client, const Options&, const HardwareOptions& what)
     std::printf("%-9s first %s\n", surface.name, surface.positive);
     std::fflush(stdout);
     for (const Moved& m : move_surface(client, mixer, surface.command, 0.5, 4 * second))
-      std::printf("          output %d went from %s to %s\n", m.output, fixed(m.low, 2).c_str(),
-                  fixed(m.high, 2).c_str());
+      std::printf("          output %d went to %s, then to %s\n", m.output, fixed(m.first, 2).c_str(),
+                  fixed(m.then, 2).c_str());
   }
   std::printf(
       "The pilot has the surfaces again. One that went the other way first: set its REV_ parameter, or "

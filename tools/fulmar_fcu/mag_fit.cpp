@@ -138,6 +138,7 @@ std::string MagGuide::text() const {
   if (side_ >= 0 && parts_of(side_) < parts - 1)
     return out + "Now " + side_words[static_cast<std::size_t>(side_)] +
            ": turn it once around, slowly: " + std::to_string(parts_of(side_)) + " of 12.";
+  if (done()) return out.substr(0, out.size() - 1);
   out += "Next, lay it: ";
   bool first = true;
   for (int side = 0; side < sides; ++side) {

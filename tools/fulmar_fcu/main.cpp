@@ -4,6 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <functional>
+#include <map>
+#include <string>
 
 #include "tools/fulmar_fcu/app.hpp"
 
@@ -47,8 +49,33 @@ struct CommandLine {
                     const Deed& what_to_do) {
     CLI::App* sub = parent->add_subcommand(name, what);
     sub->fallthrough();
+    sub->footer("");  // the parent's
+    sub->footer([=] { return "Example: fulmar fcu" + example(*sub); });
     if (what_to_do) sub->callback([this, what_to_do] { deed = what_to_do; });
     return sub;
+  }
+
+  /// " params set RC_ARM_CHN 6"
+  static std::string example(const CLI::App& sub) {
+    static const std::map<std::string, std::string> arguments{
+        {"list", " 'RC_*_CHN'"},
+        {"get", " RC_ARM_CHN"},
+        {"set", " RC_ARM_CHN 6 --write"},
+        {"save", " before.yaml"},
+        {"load", " aircraft.yaml"},
+        {"diff", " aircraft.yaml"},
+        {"imu", " --write"},
+        {"mag", " --record samples.csv"},
+        {"status", " --once"},
+        {"check", " --airframe configs/airframes/anaconda.yaml"},
+        {"params", " list"},
+        {"calibrate", " imu"}};
+    const std::string name = sub.get_name();
+    const auto at = arguments.find(name);
+    const std::string before = sub.get_parent() && sub.get_parent()->get_parent()
+                                   ? " " + sub.get_parent()->get_name()
+                                   : std::string();
+    return before + " " + name + (at == arguments.end() ? "" : at->second);
   }
 
   void add_status() {
@@ -71,11 +98,12 @@ struct CommandLine {
     list->add_option("PATTERN", params.pattern, "part of a name, or with * and ?, as in 'RC_*_CHN'");
     CLI::App* get =
         command(all, "get", "one of them", [this](Client& c) { return params_get(c, options, params); });
-    get->add_option("NAME", params.name)->required();
+    get->add_option("NAME", params.name, "of the parameter; case does not matter")->required();
     CLI::App* set = command(all, "set", "sets one and reads it back",
                             [this](Client& c) { return params_set(c, options, params); });
-    set->add_option("NAME", params.name)->required();
-    set->add_option("VALUE", params.value)->required();
+    set->add_option("NAME", params.name, "of the parameter; case does not matter")->required();
+    set->add_option("VALUE", params.value, "whole or not, as the parameter is: 'params get' shows it")
+        ->required();
     command(all, "write", "keeps them over a power cycle",
             [this](Client& c) { return params_write(c, options); });
     CLI::App* save = command(all, "save", "writes them to a YAML file",
@@ -85,7 +113,8 @@ struct CommandLine {
                 [this](Client& c) { return params_load(c, options, params); });
     CLI::App* diff = command(all, "diff", "shows how they differ from a YAML file; exit code 1 when they do",
                              [this](Client& c) { return params_diff(c, options, params); });
-    for (CLI::App* sub : {save, load, diff}) sub->add_option("FILE", params.file)->required();
+    for (CLI::App* sub : {save, load, diff})
+      sub->add_option("FILE", params.file, "YAML: lines NAME: value")->required();
     for (CLI::App* sub : {set, load})
       sub->add_flag("--write", params.write, "then keep them over a power cycle");
     save->add_flag("--replace", params.replace, "overwrite a file that is there");
@@ -177,8 +206,8 @@ int main(int argc, char** argv) {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // in order with what goes to stderr
   try {
     return run(argc, argv);
-  } catch (const Interrupted&) {
-    std::fprintf(stderr, "\n");
+  } catch (const Interrupted& e) {
+    std::fprintf(stderr, "\n%s\n", e.what());
     return 130;
   } catch (const std::exception& e) {
     show_progress("");

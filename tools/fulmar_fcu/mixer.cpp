@@ -98,6 +98,7 @@ std::vector<std::string> mixer_faults(const Mixer& m) {
 
 std::vector<std::string> mixer_remarks(const Mixer& m) {
   std::vector<std::string> out;
+  if (m.choice < 0 || m.choice > 11) return out;  // a fault: there is none
   for (const Row& row : rows) {
     if (m.outputs_of(row.command).empty() && (row.command == row_rudder || row.command == row_aileron))
       out.push_back(std::string("No output follows the ") + row.name +

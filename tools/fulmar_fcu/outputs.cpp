@@ -32,12 +32,15 @@ void watch(Client& client) {
         "at 'fulmar fcu status'.");
 }
 
-void note(const Client& client, std::vector<Moved>& moved) {
+/// Of the first half of the movement, to the positive side, or of the second one.
+void note(const Client& client, bool positive, std::vector<Moved>& moved) {
   const auto raw = client.last<RosflightOutputRaw>();
   if (!raw || client.age_s<RosflightOutputRaw>() > 0.1) return;
   for (Moved& m : moved) {
-    m.low = std::min(m.low, static_cast<double>(raw->values[static_cast<std::size_t>(m.output)]));
-    m.high = std::max(m.high, static_cast<double>(raw->values[static_cast<std::size_t>(m.output)]));
+    const double now = static_cast<double>(raw->values[static_cast<std::size_t>(m.output)]);
+    if (m.rest < 0) m.rest = m.first = m.then = now;
+    double& farthest = positive ? m.first : m.then;
+    if (std::fabs(now - m.rest) > std::fabs(farthest - m.rest)) farthest = now;
   }
 }
 
@@ -77,7 +80,7 @@ void take_outputs(Client& client) {
 std::vector<Moved> move_surface(Client& client, const Mixer& mixer, int row, double size,
                                 std::int64_t period_ns) {
   std::vector<Moved> moved;
-  for (const int output : mixer.outputs_of(row)) moved.push_back({output, 1, 0});
+  for (const int output : mixer.outputs_of(row)) moved.push_back({output});
   const std::int64_t began = client.now_ns();
   while (client.now_ns() - began < period_ns) {
     const double part = static_cast<double>(client.now_ns() - began) / static_cast<double>(period_ns);
@@ -89,14 +92,14 @@ std::vector<Moved> move_surface(Client& client, const Mixer& mixer, int row, dou
           "The pilot took over (" +
           core::join(override_words(static_cast<std::uint16_t>(status->rc_override & pilot_has_surfaces))) +
           "): the test has stopped.");
-    note(client, moved);
+    note(client, part < 0.5, moved);
   }
   command(client, row, 0);
   client.pump(100 * ms);
   for (const Moved& m : moved)
-    if (m.high - m.low < 0.05)
+    if (std::fabs(m.first - m.then) < 0.05)
       throw Error("Output " + std::to_string(m.output) +
-                  " did not follow: the controller says it stayed at " + fixed(m.high, 2) + ".");
+                  " did not follow: the controller says it stayed at " + fixed(m.rest, 2) + ".");
   return moved;
 }
 

@@ -20,7 +20,8 @@ const std::vector<Surface>& surfaces();
 
 struct Moved {
   int output = 0;
-  double low = 1, high = 0;  ///< as the controller reports them, 0 to 1
+  double rest = -1, first = -1, then = -1;  ///< as the controller reports them, 0 to 1; of each half the
+                                            ///< farthest from rest
 };
 
 /// Takes the outputs with neutral commands. Throws Error when the pilot's side keeps them, or no radio frames

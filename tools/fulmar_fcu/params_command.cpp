@@ -45,7 +45,8 @@ std::string counted(std::size_t n, const std::string& what) {
 
 void write_flash(Client& client) {
   client.refuse_armed("writing the parameters");
-  client.demand(Command::write_params, "writing the parameters");
+  client.demand(Command::write_params, "writing the parameters",
+                " and gave no reason: its flash does not take them, and they are gone after a power cycle.");
   std::printf("Written: the controller keeps its parameters over a power cycle.\n");
 }
 

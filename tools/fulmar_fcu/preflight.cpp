@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include "core/graph/record.hpp"
 #include "core/loader/table.hpp"
+#include "plugins/fcu_serial/firmware_version.hpp"
+#include "plugins/fcu_serial/pitot_zero.hpp"
 #include "tools/fulmar_fcu/mixer.hpp"
 #include "tools/fulmar_fcu/radio.hpp"
 #include "tools/fulmar_fcu/words.hpp"
@@ -43,8 +46,11 @@ void firmware(Judge& j) {
     j.warn("firmware", "it refuses to tell its version, though disarmed: power-cycle it");
   else if (j.f.version.empty())
     j.add(Verdict::note, "firmware", "it refuses to tell its version, as it does while armed");
+  else if (tried(j.f.version))
+    j.ok("firmware", j.f.version + ", as tried");
   else
-    j.ok("firmware", j.f.version);
+    j.warn("firmware", j.f.version + " was not tried with Fulmar, " + std::string(tried_firmware) +
+                           " was: messages, mixers and signs may differ; go through every step anew");
   if (j.f.status.armed != 0)
     j.fail("disarmed", "it is ARMED: disarm it, and stay away from the propeller");
   else
@@ -58,13 +64,42 @@ void firmware(Judge& j) {
                           " did not start: 'fulmar fcu status' shows which are silent; power-cycle it");
 }
 
+/// At rest the means are gravity and no rotation: the biases belong to this unit, and to no other moment.
+void rest(Judge& j, const Rest& r) {
+  constexpr double deg = 180 / std::numbers::pi, gravity = 9.80665;
+  const std::string gravity_text = fixed(r.gravity_mps2, 2) + " m/s2",
+                    turn_text = fixed(r.turn_rps * deg, 2) + " deg/s",
+                    redo = " at rest: 'fulmar fcu calibrate imu'";
+  const double off = std::fabs(r.gravity_mps2 - gravity);
+  if (r.accel_rms_mps2 > 1 || r.gyro_rms_rps * deg > 5)
+    return j.warn("IMU", "it is being moved (" + fixed(r.accel_rms_mps2, 1) + " m/s2, " +
+                             fixed(r.gyro_rms_rps * deg, 0) + " deg/s rms): put it down, and check again");
+  if (off > 0.15)
+    j.add(off > 0.5 ? Verdict::fail : Verdict::warn, "IMU",
+          "gravity is " + gravity_text + redo.substr(0, 8) + ", not 9.81" + redo.substr(8));
+  if (r.turn_rps * deg > 0.5)
+    j.add(r.turn_rps * deg > 3 ? Verdict::fail : Verdict::warn, "IMU", "it turns at " + turn_text + redo);
+  if (off <= 0.15 && r.turn_rps * deg <= 0.5) j.ok("IMU", "calibrated; " + gravity_text + ", " + turn_text);
+}
+
+void inertial(Judge& j) {
+  const bool no_accel = j.all_zero({"ACC_X_BIAS", "ACC_Y_BIAS", "ACC_Z_BIAS"}),
+             no_gyro = j.all_zero({"GYRO_X_BIAS", "GYRO_Y_BIAS", "GYRO_Z_BIAS"});
+  const std::string redo = "not calibrated: lay it level, 'fulmar fcu calibrate imu', then 'params write'";
+  if ((no_accel && no_gyro) || (j.f.status.error_code & error_uncalibrated_imu) != 0)
+    j.fail("IMU", redo);
+  else if (no_accel)  // as a calibration that failed leaves it
+    j.fail("IMU", "ACC_X_BIAS, ACC_Y_BIAS and ACC_Z_BIAS are 0: " + redo);
+  else if (no_gyro && j.whole("ARM_CAL_GYRO") == 0)
+    j.fail("IMU", "GYRO_X_BIAS, GYRO_Y_BIAS and GYRO_Z_BIAS are 0: " + redo);
+  else if (j.f.rest)
+    rest(j, *j.f.rest);
+}
+
 void calibration(Judge& j) {
-  const bool bare =
-      j.all_zero({"ACC_X_BIAS", "ACC_Y_BIAS", "ACC_Z_BIAS", "GYRO_X_BIAS", "GYRO_Y_BIAS", "GYRO_Z_BIAS"});
-  if (bare || (j.f.status.error_code & error_uncalibrated_imu) != 0)
-    j.fail("IMU", "not calibrated: lay it level, 'fulmar fcu calibrate imu', then 'params write'");
-  else
-    j.ok("IMU", "calibrated");
+  inertial(j);
+  if (j.f.attitude && !finite(*j.f.attitude))
+    j.fail("attitude", "the controller's own is not a number any more: power-cycle it");
   bool plain = j.all_zero({"MAG_X_BIAS", "MAG_Y_BIAS", "MAG_Z_BIAS"});
   for (const char* d : {"MAG_CAL_A00", "MAG_CAL_A11", "MAG_CAL_A22"}) plain = plain && j.value(d) == 1;
   if (j.f.mag_hz == 0)
@@ -76,6 +111,12 @@ void calibration(Judge& j) {
   if (j.f.uptime_s < 12)
     j.warn("zeroing", "booted " + fixed(j.f.uptime_s, 0) +
                           " s ago: barometer and airspeed are zeroed in the first 12 s; keep it still");
+  const double zero = j.value(std::string(pitot_zero));
+  if (!(std::fabs(zero) <= pitot_zero_limit_pa))
+    j.warn("airspeed",
+           "its zero, DIFF_PRESS_BIAS, is " + fixed(zero, 0) +
+               " Pa, as in wind or in the air: 'run' does not use it; cover the tube, 'fulmar fcu "
+               "calibrate airspeed'");
   if (j.f.pitot_hz == 0)
     j.warn("airspeed", "no sensor is heard: the pitot tube is unplugged, or there is none");
   else if (j.f.pitot && std::fabs(j.f.pitot->velocity) > 5)
@@ -92,7 +133,8 @@ void calibration(Judge& j) {
 
 void mixing(Judge& j) {
   if (j.whole("FIXED_WING") != 1)
-    j.fail("aircraft", "FIXED_WING is 0, a multirotor: 'fulmar fcu params set FIXED_WING 1', write, reboot");
+    j.fail("aircraft",
+           "FIXED_WING is 0, a multirotor: 'fulmar fcu params set FIXED_WING 1', write, power-cycle");
   else
     j.ok("aircraft", "fixed wing");
   const Mixer mixer = mixer_of(j.f.params);
@@ -251,6 +293,37 @@ void judge_line(Judge& j) {
     j.ok("round trip", trip);
 }
 
+/// Means and scatter of inertial samples.
+class RestMeter {
+ public:
+  void take(const SmallImu& m) {
+    const std::array<double, 6> now{m.xacc, m.yacc, m.zacc, m.xgyro, m.ygyro, m.zgyro};
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      sum_[i] += now[i];
+      squares_[i] += now[i] * now[i];
+    }
+    ++count_;
+  }
+  std::optional<Rest> result() const {
+    if (count_ == 0) return {};
+    const auto length = [&](std::size_t from) {
+      double square = 0;
+      for (std::size_t i = from; i < from + 3; ++i) square += (sum_[i] / count_) * (sum_[i] / count_);
+      return std::sqrt(square);
+    };
+    const auto scatter = [&](std::size_t from) {
+      double all = 0;
+      for (std::size_t i = from; i < from + 3; ++i) all += squares_[i] / count_;
+      return std::sqrt(std::max(0.0, all - length(from) * length(from)));
+    };
+    return Rest{length(0), length(3), scatter(0), scatter(3)};
+  }
+
+ private:
+  std::array<double, 6> sum_{}, squares_{};
+  double count_ = 0;
+};
+
 }  // namespace
 
 Facts gather(Client& client, std::int64_t baud, std::int64_t listen_ns) {
@@ -258,7 +331,13 @@ Facts gather(Client& client, std::int64_t baud, std::int64_t listen_ns) {
   f.version = client.version();
   f.params = read_params(client);
   const Meter meter(client);
+  RestMeter still;
+  client.on_packet = [&](const Packet& packet) {
+    if (packet.is<SmallImu>()) still.take(packet.as<SmallImu>());
+  };
   client.pump(listen_ns);
+  client.on_packet = nullptr;
+  f.rest = still.result();
   f.imu_hz = meter.rate(client, SmallImu::id);
   f.mag_hz = meter.rate(client, SmallMag::id);
   f.baro_hz = meter.rate(client, SmallBaro::id);
@@ -274,6 +353,7 @@ Facts gather(Client& client, std::int64_t baud, std::int64_t listen_ns) {
   if (client.age_s<RosflightGnss>() < 2) f.gnss = client.last<RosflightGnss>();
   f.battery = client.last<RosflightBatteryStatus>();
   f.pitot = client.last<DiffPressure>();
+  f.attitude = client.last<AttitudeQuaternion>();
   if (const auto imu = client.last<SmallImu>()) f.uptime_s = static_cast<double>(imu->time_boot_us) * 1e-6;
   f.baud = client.name().rfind("udp:", 0) == 0 ? 0 : baud;
   return f;

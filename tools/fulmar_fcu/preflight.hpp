@@ -20,6 +20,12 @@ struct Item {
   std::string name, text;
 };
 
+/// What the inertial unit measured while it was listened to.
+struct Rest {
+  double gravity_mps2 = 0, turn_rps = 0;        ///< lengths of the means
+  double accel_rms_mps2 = 0, gyro_rms_rps = 0;  ///< around them: sensor noise, or somebody moves it
+};
+
 /// All that is judged.
 struct Facts {
   std::string version;
@@ -29,6 +35,8 @@ struct Facts {
   std::optional<RosflightGnss> gnss;
   std::optional<RosflightBatteryStatus> battery;
   std::optional<DiffPressure> pitot;
+  std::optional<AttitudeQuaternion> attitude;
+  std::optional<Rest> rest;
   double imu_hz = 0, mag_hz = 0, baro_hz = 0, pitot_hz = 0, rc_hz = 0, status_hz = 0;
   double bytes_per_s = 0, loss_ratio = 0;
   double uptime_s = 0;

@@ -80,7 +80,9 @@ std::string air_text(const Client& client) {
 std::string sensors_text(const Client& client) {
   std::string out;
   const auto q = client.last<AttitudeQuaternion>();
-  if (q) {
+  if (q && !finite(*q)) {
+    out += line("attitude", "not a number any more: power-cycle the controller");
+  } else if (q) {
     const Euler e = euler(*q);
     out +=
         line("attitude", with_age("roll " + fixed(e.roll_deg, 1) + "  pitch " + fixed(e.pitch_deg, 1) +
@@ -146,6 +148,10 @@ double Meter::loss_ratio(const Client& client) const {
   return missing + frames > 0 ? missing / (missing + frames) : 0;
 }
 
+bool finite(const AttitudeQuaternion& q) {
+  return std::isfinite(q.q1 + q.q2 + q.q3 + q.q4 + q.rollspeed + q.pitchspeed + q.yawspeed);
+}
+
 std::string control_words(const RosflightStatus& status, double rc_age_s) {
   if (status.failsafe != 0) return "nobody: failsafe, motor off and surfaces centred";
   if (rc_age_s > 0.5) return "nobody: without radio frames the outputs are frozen";
@@ -200,7 +206,7 @@ std::string status_json(const Client& client, const Meter& meter) {
     out["gnss"] = {
         {"fix", fix_words(g->fix_type)}, {"satellites", g->num_sat}, {"lat_deg", g->lat}, {"lon_deg", g->lon},
         {"height_m", g->height},         {"h_acc_m", g->h_acc}};
-  if (const auto q = client.last<AttitudeQuaternion>()) {
+  if (const auto q = client.last<AttitudeQuaternion>(); q && finite(*q)) {
     const Euler e = euler(*q);
     out["attitude"] = {{"roll_deg", e.roll_deg}, {"pitch_deg", e.pitch_deg}, {"yaw_deg", e.yaw_deg}};
   }

@@ -27,6 +27,9 @@ class Meter {
   std::int64_t since_ns_ = 0;
 };
 
+/// The firmware's estimate can become no number, and then stays so until it boots.
+bool finite(const AttitudeQuaternion& q);
+
 /// What keeps the computer's commands from the outputs; "nothing" when it is in control.
 std::string control_words(const RosflightStatus& status, double rc_age_s);
 

@@ -80,6 +80,26 @@ struct Program {
   }
 };
 
+TEST_CASE("on hardware it is said before arming whether, and where, the flight is written down") {
+  {
+    Program program("craft.arm_at=100");
+    REQUIRE(program.says("phase second"));
+    CHECK(program.says("no log is written"));
+    program.send(SIGINT);
+    CHECK(program.code() == 130);
+  }
+  const std::string log = (folder / "written.mcap").string();
+  fs::remove(log);
+  Program program("craft.arm_at=100", "{file: " + log + "}");
+  REQUIRE(program.says("phase second"));
+  CHECK(program.says("log: " + log + "\n"));
+  CHECK_FALSE(program.text().find("no log") != std::string::npos);
+  program.send(SIGINT);
+  CHECK(program.code() == 130);
+  CHECK(fs::exists(log));
+  fs::remove_all(folder);
+}
+
 }  // namespace
 
 TEST_CASE(
@@ -96,7 +116,8 @@ TEST_CASE(
   CHECK(program.runs());
   program.send(SIGINT);
   CHECK(program.code() == 130);
-  CHECK(program.text().find("failsafe: control given up by a signal") != std::string::npos);
+  CHECK(program.text().find("control given up by a signal: the aircraft is its pilot's") !=
+        std::string::npos);
   CHECK(program.text().find("ended by") == std::string::npos);
 }
 
@@ -107,7 +128,7 @@ TEST_CASE("a third signal ends an armed flight at once") {
   REQUIRE(program.says("the aircraft is armed"));
   pause_s(0.6);
   program.send(SIGINT);
-  REQUIRE(program.says("failsafe: control given up"));
+  REQUIRE(program.says("control given up by a signal"));
   pause_s(0.6);
   program.send(SIGINT);
   CHECK(program.code() == 130);

@@ -109,6 +109,19 @@ TEST_CASE("a host that starts again in the air goes on in the same phase with th
   }
 }
 
+TEST_CASE("what only a vehicle of another io has is resumed with that io alone") {
+  Overrides hardware;
+  hardware.io = "fcu";
+  const auto rules = [](const Graph& graph) {
+    std::string all;
+    for (const ResumeRule& rule : graph.resume) all += rule.param + " <- " + rule.field.text + "\n";
+    return all;
+  };
+  CHECK(rules(load_mission(hourglass)) == "manage.first_item <- manage.progress.item\n");
+  CHECK(rules(load_mission(hourglass, hardware)) ==
+        "manage.first_item <- manage.progress.item\nfcu.pitot_zeroed <- fcu.link.pitot_zeroed\n");
+}
+
 TEST_CASE(
     "a flight resumes from any file of a log that rotates, whole or cut off, and with the phase and waypoint "
     "of that time") {

@@ -193,16 +193,17 @@ TEST_CASE("a failsafe does not begin anew, and a later verdict is told once") {
 }
 
 TEST_CASE(
-    "a signal is refused while armed; a second one within five seconds gives up, and ends after the "
+    "a signal is refused while armed; a second one within five seconds is silent at once, and ends after the "
     "silence") {
   Ending e(2 * second);
   CHECK(armed(e, 1, with_signal) == std::vector{Act::refuse_signal});
   CHECK(armed(e, 6.1, with_signal) == std::vector{Act::refuse_signal});  // too late: a first one again
   CHECK(armed(e, 11, with_signal) == std::vector{Act::give_up});
+  CHECK(e.steering(11 * second) == Ending::Steering::nothing);  // no throttle 0: the sticks
   CHECK(armed(e, 11.1, with_signal).empty());
-  CHECK(e.steering(12 * second) == Ending::Steering::failsafe);
-  CHECK(e.steering(13 * second) == Ending::Steering::nothing);
-  CHECK(armed(e, 14, with_signal) == std::vector{Act::end});
+  CHECK(e.steering(11'100'000'000) == Ending::Steering::nothing);
+  CHECK(armed(e, 11.9, with_signal).empty());
+  CHECK(armed(e, 12, with_signal) == std::vector{Act::end});
   CHECK(e.reason() == Reason::gave_up);
 }
 
@@ -225,14 +226,15 @@ TEST_CASE("in silence a repeated signal ends the host at once") {
   CHECK(e.reason() == Reason::failsafe);
 }
 
-TEST_CASE("who gives up in a failsafe goes when it is over") {
+TEST_CASE("who gives up in a failsafe ends it: silent at once, over after the silence") {
   Ending e(2 * second);
   e.take(Cue::nobody, 0);
   CHECK(armed(e, 1, with_signal) == std::vector{Act::refuse_signal});
   CHECK(armed(e, 1.5, with_signal).empty());
   CHECK(e.state() == State::giving_up);
-  CHECK(armed(e, 2.9).empty());
-  CHECK(armed(e, 3) == std::vector{Act::end});
+  CHECK(e.steering(1'500'000'000) == Ending::Steering::nothing);
+  CHECK(armed(e, 2.4).empty());
+  CHECK(armed(e, 2.5) == std::vector{Act::end});
   CHECK(e.reason() == Reason::gave_up);
 }
 

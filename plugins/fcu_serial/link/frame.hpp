@@ -11,7 +11,7 @@
 
 namespace fulmar::fcu {
 
-inline constexpr std::uint8_t frame_magic = 0xfe;
+inline constexpr std::uint8_t frame_magic = 0xfe, modern_magic = 0xfd;  ///< of MAVLink 1; of MAVLink 2
 inline constexpr std::size_t frame_header = 6, frame_overhead = 8, max_frame = max_payload + frame_overhead;
 inline constexpr std::uint8_t companion_system = 1, companion_component = 50;
 
@@ -67,6 +67,12 @@ Frame encode(const M& message, std::uint8_t sequence, std::uint8_t system = comp
   return f;
 }
 
+/// Whether a device of which no frame was understood talks MAVLink 2: of noise one byte in 256 looks like a
+/// start.
+inline bool talks_mavlink_2(std::uint64_t modern, std::uint64_t bytes) {
+  return modern > 4 && modern * 100 > bytes;
+}
+
 /// Finds frames in a stream of bytes. After bytes that are no frame it goes on with the very next one, so
 /// that a false start costs no frame behind it.
 class Parser {
@@ -77,6 +83,7 @@ class Parser {
     std::uint64_t unknown =
         0;  ///< whole and well framed as far as can be told, of a message that we do not know
     std::uint64_t skipped = 0;  ///< bytes outside of frames
+    std::uint64_t modern = 0;   ///< of them: such as begin a frame of MAVLink 2
     std::uint64_t missing = 0;  ///< frames that their sequence numbers say were lost
   };
 
@@ -116,6 +123,7 @@ class Parser {
   std::size_t frame_at(std::size_t at, Take& take) {
     const std::uint8_t* p = buffer_.data() + at;
     const std::size_t have = size_ - at;
+    if (p[0] == modern_magic) ++counts_.modern;
     if (p[0] != frame_magic) return skip();
     if (have < 2) return 0;
     const std::size_t n = p[1];

@@ -54,7 +54,7 @@ struct Link::Impl {
   std::atomic<bool> synchronised{false};
   std::atomic<std::int64_t> heard_ns{0}, round_trip_ns{0}, offset_ns{0};
   std::atomic<std::uint64_t> frames{0}, bad{0}, missing{0}, lost_in_queue{0}, bytes{0}, text_bytes{0},
-      undated{0};
+      modern{0}, undated{0};
   std::atomic<std::uint32_t> connections{0}, reboots{0};
   std::atomic<double> drift_ppm{0};
 
@@ -175,6 +175,7 @@ void Link::Impl::take_bytes(std::span<const std::uint8_t> came) {
   frames.store(parser.counts().frames, std::memory_order_relaxed);
   bad.store(parser.counts().bad, std::memory_order_relaxed);
   missing.store(parser.counts().missing, std::memory_order_relaxed);
+  modern.store(parser.counts().modern, std::memory_order_relaxed);
   undated.store(dater.undated(), std::memory_order_relaxed);
   if (imu_put > 0) imu.raise(imu_put);  // once per read: the loop then finds all that came together
   imu_put = 0;
@@ -315,6 +316,7 @@ LinkState Link::state() const noexcept {
   s.lost_in_queue = i.lost_in_queue.load(std::memory_order_relaxed);
   s.bytes = i.bytes.load(std::memory_order_relaxed);
   s.text_bytes = i.text_bytes.load(std::memory_order_relaxed);
+  s.modern = i.modern.load(std::memory_order_relaxed);
   s.undated = i.undated.load(std::memory_order_relaxed);
   s.connections = i.connections.load(std::memory_order_relaxed);
   s.reboots = i.reboots.load(std::memory_order_relaxed);

@@ -3,7 +3,9 @@
 #include <doctest/doctest.h>
 #include <sys/wait.h>
 
+#include <atomic>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "device.hpp"
@@ -130,6 +132,50 @@ TEST_CASE("a controller: it is flown for as long as was asked, armed by its pilo
     CAPTURE(words);
     CHECK(r.says(words));
   }
+}
+
+TEST_CASE(
+    "a host that is killed in the air after a reboot of its controller: the next one uses no pitot either") {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("fulmar-fcu-run-" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  peer::Firmware fcu;
+  fcu.provision(wall_us());
+  std::int64_t begun = 0;  // of the commands
+  bool crashed = false;
+  std::atomic<bool> landed{false};
+  Device device([&](Pty& pty) {
+    if (begun == 0 && fcu.commands() > 0) begun = wall_us();
+    const std::int64_t t = begun == 0 ? 0 : wall_us() - begun;
+    fcu.inputs.rc_us[4] = t > 500'000 && !landed ? 2000 : 1000;
+    fcu.inputs.rc_us[5] = t > 500'000 && t < 1'000'000 ? 2000 : 1000;
+    if (!crashed && t > 2'000'000) fcu.crash(wall_us()), crashed = true;  // it arms itself again
+    serve(fcu, pty);
+  });
+  const std::string run = FULMAR_BIN_DIR "/fulmar run " FULMAR_SOURCE_DIR
+                                         "/configs/missions/hourglass.yaml --io fcu --set fcu.port=" +
+                          device.name();
+  const std::string script = "cd " + folder.string() + " && timeout -s KILL 12 " + run +
+                             " 2>&1; echo killed; timeout -s TERM -k 9 6 " + run + " 2>&1";
+  Result r;
+  FILE* pipe = popen(script.c_str(), "r");
+  REQUIRE(pipe);
+  std::array<char, 512> line{};
+  while (std::fgets(line.data(), line.size(), pipe)) {
+    r.said += line.data();
+    if (r.says("killed") && r.said.find("resumed: ") != std::string::npos) landed = true;
+  }
+  pclose(pipe);
+  std::filesystem::remove_all(folder);
+  CAPTURE(r.said);
+  CHECK(crashed);
+  const std::size_t killed = r.said.find("killed");
+  REQUIRE(killed != std::string::npos);
+  const std::string first = r.said.substr(0, killed), second = r.said.substr(killed);
+  CHECK(first.find("it has zeroed its airspeed in the air") != std::string::npos);
+  CHECK(second.find("manage.first_item = 0, fcu.pitot_zeroed = 1") != std::string::npos);
+  CHECK(second.find("it has zeroed its airspeed in the air: pitot not used any more") != std::string::npos);
+  CHECK(second.find("ready, but airspeed zeroed wrong") != std::string::npos);  // once it is disarmed
 }
 
 }  // namespace fcu_run_test

@@ -16,9 +16,16 @@ namespace fulmar::fcu::testing {
 
 struct TestVehicle : Vehicle<VirtualLink> {};
 
+/// Its airspeed has been zeroed since.
+inline peer::Options up_for_20_s() {
+  peer::Options options;
+  options.first_clock_us = 20'000'000;
+  return options;
+}
+
 /// A controller that is set up for a fixed wing, and the vehicle on it.
 struct Flying {
-  explicit Flying(const peer::Options& options = {}) : world(options) {
+  explicit Flying(const peer::Options& options = up_for_20_s()) : world(options) {
     world.fcu.provision();
     bench.params.airframe.value.aileron.limit_rad = 0.7;
     bench.params.airframe.value.elevator.limit_rad = 0.5;

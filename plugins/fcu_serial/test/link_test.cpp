@@ -57,6 +57,16 @@ TEST_CASE("heartbeats and questions come at 1 and 10 Hz of host time, which may 
   }
 }
 
+TEST_CASE("MAVLink 2 at the other end is counted by the starts of its frames") {
+  Controller c;
+  const Link link(options_of(c));
+  std::array<std::uint8_t, 21> beat{0xfd, 9, 0, 0, 1, 1, 1};  // HEARTBEAT with an empty payload
+  for (int i = 0; i < 12; ++i) c.pty.write(beat);
+  REQUIRE(c.listen_until([&] { return link.state().bytes == 12 * beat.size(); }));
+  CHECK(link.state().modern == 12);
+  CHECK(link.state().frames == 0);
+}
+
 TEST_CASE("the loop sleeps until an inertial sample or its deadline") {
   Controller c;
   Link link(options_of(c));

@@ -109,6 +109,82 @@ TEST_CASE("a reboot in flight is told, and the airspeed that it has zeroed is no
   CHECK(f.published["baro"] > baro);
 }
 
+TEST_CASE("a pitot tube that was zeroed in the wind or in the air is not used by a host that begins later") {
+  for (const float pascal : {177.f, -31.f, std::numeric_limits<float>::quiet_NaN()}) {
+    CAPTURE(pascal);
+    Flying f;
+    f.world.fcu.params().set(peer::param("DIFF_PRESS_BIAS"), pascal);
+    f.world.fcu.write_flash();
+    f.world.fcu.reboot(0);
+    f.fly(4);
+    CHECK(f.published["pitot"] == 0);
+    CHECK(f.heard("in wind or in the air: it is not used"));
+  }
+  for (const float pascal : {29.f, -29.f, 0.f}) {
+    CAPTURE(pascal);
+    Flying f;
+    f.world.fcu.params().set(peer::param("DIFF_PRESS_BIAS"), pascal);
+    f.world.fcu.write_flash();
+    f.world.fcu.reboot(0);
+    f.fly(4);
+    CHECK(f.published["pitot"] > 300);
+    CHECK_FALSE(f.heard("not used"));
+  }
+}
+
+TEST_CASE(
+    "a pitot tube that is zeroed wrong while the host runs is used no more, and again when it is right") {
+  Flying f;
+  f.world.fcu.inputs.pitot_pa = 177;  // 17 m/s: the controller has rebooted and nobody has seen it
+  f.fly(6);
+  CHECK(f.published["pitot"] > 500);
+  f.fly(6);  // zeroed 10 s after its boot
+  CHECK(f.heard("pitot zeroed at 177 Pa, in wind or in the air: it is not used; zero it on the ground"));
+  int before = f.published["pitot"];
+  f.fly(1);
+  CHECK(f.published["pitot"] == before);
+  CHECK(f.bench.out.link.value.pitot_zeroed ==
+        false);  // it stands in the controller: nobody need remember it
+  f.world.fcu.params().set(peer::param("DIFF_PRESS_BIAS"), 3.f);
+  f.fly(1);
+  CHECK(f.heard("the pitot tube is zeroed anew: it is used again"));
+  before = f.published["pitot"];
+  f.fly(1);
+  CHECK(f.published["pitot"] - before > 90);
+}
+
+TEST_CASE("another limit suits a sensor with a large offset of its own") {
+  Flying f;
+  f.bench.params.pitot_zero_limit.value = 100;
+  f.world.fcu.params().set(peer::param("DIFF_PRESS_BIAS"), 70.f);
+  f.world.fcu.write_flash();
+  f.world.fcu.reboot(0);
+  f.fly(4);
+  CHECK(f.published["pitot"] > 300);
+}
+
+TEST_CASE("that the pitot was zeroed by a reboot in flight is told to who resumes, and is not used by it") {
+  {
+    Flying f;
+    f.arm();
+    CHECK_FALSE(f.bench.out.link.value.pitot_zeroed);
+    f.world.fcu.reboot(f.world.now_ns / 1000);
+    f.world.happen(LinkEvent::rebooted);
+    f.fly(0.3);
+    CHECK(f.bench.out.link.value.pitot_zeroed);
+  }
+  Flying later;
+  later.fly(1);
+  const int before = later.published["pitot"];
+  CHECK(before > 90);
+  later.bench.params.pitot_zeroed.value = 1;
+  later.bench.retune();  // as the mission's `resume` sets it
+  later.fly(1);
+  CHECK(later.published["pitot"] == before);
+  CHECK(later.heard("zeroed its airspeed in the air: pitot not used any more, restart on the ground"));
+  CHECK(later.bench.out.link.value.pitot_zeroed);
+}
+
 TEST_CASE("a reboot on the ground is told, and that is all") {
   Flying f;
   f.fly(2);
@@ -205,6 +281,31 @@ TEST_CASE("what cannot be flown is refused by configure, within 5 s") {
             bench.params.airframe.value.aileron.limit_rad = 0;
           }).find("aileron.limit") != std::string::npos);
   }
+}
+
+TEST_CASE("a firmware that was not tried is told once at the start, and when it takes another's place") {
+  for (const char* version : {"v3.1.0-4-g1234567", "1234567"}) {
+    CAPTURE(version);
+    peer::Options options;
+    options.version = version;
+    Flying f(options);
+    REQUIRE(f.bench.configure() == Status::ok);
+    f.fly(3);
+    const std::string words = std::string("firmware not tried with Fulmar (2.0.1 was): ") + version;
+    CHECK(f.heard(words.c_str()));
+    f.told.clear();
+    f.fly(20);
+    CHECK_FALSE(f.heard("not tried"));
+  }
+  Flying tried;
+  REQUIRE(tried.bench.configure() == Status::ok);
+  tried.fly(3);
+  CHECK_FALSE(tried.heard("not tried"));
+  RosflightVersion other;
+  std::copy_n("v2.1.0", 6, other.version.begin());
+  tried.world.inject(other);
+  tried.fly(0.1);
+  CHECK(tried.heard("not tried with Fulmar (2.0.1 was): v2.1.0"));
 }
 
 TEST_CASE("its inertial unit dies: the loop goes on, and it is told") {

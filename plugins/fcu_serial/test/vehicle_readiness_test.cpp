@@ -135,6 +135,21 @@ TEST_CASE("without any estimate, as an estimator is silent until it is aligned, 
   CHECK(sent_in(f, 5) == 0);
 }
 
+TEST_CASE(
+    "a host that has fallen silent, as after two signals, is not called blind: it has said what it does") {
+  Flying f;
+  f.bench.params.needs_state.value = true;
+  cruising(f);
+  f.state.reset();
+  f.commands = false;
+  for (const fulmar_input* input : {f.bench.in.state.input, f.bench.in.actuators.input})
+    const_cast<fulmar_input*>(input)->data = nullptr;  // what a silent host gives
+  CHECK(sent_in(f, 15) == 0);
+  CHECK(f.heard("not in control"));
+  CHECK_FALSE(f.heard("attitude"));
+  CHECK_FALSE(f.heard("not ready"));
+}
+
 TEST_CASE("armed before the host was started and no attitude: it says why it does not begin") {
   Flying f;
   f.bench.params.needs_state.value = true;
@@ -185,6 +200,35 @@ TEST_CASE("no magnetometer is said before arming, ready or not") {
   f.state = known();
   f.fly(15);
   CHECK(times(f, "ready, but no magnetometer") == 1);
+}
+
+TEST_CASE("the airspeed's zero belongs to the line: not done yet, wrong, and good") {
+  Flying booted{peer::Options{}};  // it zeroes in the first 12 s
+  booted.state = known();
+  booted.fly(9);
+  CHECK(times(booted, "ready, but airspeed not zeroed yet") == 1);
+  CHECK(times(booted, "ready\n") == 0);
+  booted.fly(21);
+  CHECK(times(booted, "ready, but airspeed not zeroed yet") == 1);
+  CHECK(times(booted, "ready\n") == 1);
+
+  Flying wrong;
+  wrong.world.fcu.inputs.pitot_pa = 177;
+  wrong.state = known();
+  wrong.fly(7);
+  CHECK(times(wrong, "ready\n") == 1);
+  wrong.fly(8);
+  CHECK(times(wrong, "ready, but airspeed zeroed wrong\n") == 1);
+  CHECK(times(wrong, "no pitot tube") == 0);  // it is there
+  wrong.world.fcu.params().set(peer::param("DIFF_PRESS_BIAS"), 0.f);
+  wrong.fly(5);
+  CHECK(times(wrong, "ready\n") == 2);
+
+  Flying none;
+  none.world.fcu.inputs.pitot_works = false;
+  none.state = known();
+  none.fly(5);
+  CHECK(times(none, "ready, but no pitot tube\n") == 1);
 }
 
 TEST_CASE("the loss of GNSS is told within 1 s, and its return") {

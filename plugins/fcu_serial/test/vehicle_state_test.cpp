@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "plugins/fcu_serial/greeting.hpp"
@@ -144,6 +145,35 @@ TEST_CASE("each change is told once, in words") {
   CHECK(told(teller, h).find("disarmed") == 0);
 }
 
+TEST_CASE("control that comes and goes on a bad line is told as that, not change by change") {
+  Teller teller;
+  Heard h = flying();
+  std::string all;
+  std::int64_t at = now;
+  const auto pass = [&](int n, int period_ms) {
+    for (int i = 0; i < n; ++i) {
+      at += period_ms * ms;
+      h.frame_ns = h.imu_ns = h.status_ns = h.rc_ns = at;
+      h.command_ns = i % 2 == 0 ? at - 150 * ms : at;
+      all += told(teller, h, at);
+    }
+  };
+  CHECK(told(teller, h, at) == "armed\nin control\n");
+  pass(100, 60);  // 6 s of it, and it ends in control
+  CHECK(std::count(all.begin(), all.end(), '\n') <= 4);
+  CHECK(all.find("control comes and goes: the line loses too much") != std::string::npos);
+  all.clear();
+  for (int i = 0; i < 50; ++i) {
+    at += 60 * ms;
+    h.frame_ns = h.imu_ns = h.status_ns = h.rc_ns = h.command_ns = at;
+    all += told(teller, h, at);
+  }
+  CHECK(all == "in control\n");  // as it has stayed for 2 s
+  all.clear();
+  h.command_ns = at - 150 * ms;
+  CHECK(told(teller, h, at) == "not in control\n");
+}
+
 TEST_CASE("error bits are told in words that say what to do, and when they go") {
   Teller teller;
   Heard h = flying();
@@ -218,6 +248,18 @@ TEST_CASE("texts of the controller are forwarded up to their end, with their sev
   CHECK(notices[1].severity == fulmar::Severity::info);
 }
 
+TEST_CASE("that there is no secondary mixer, as is recommended, is told without a fright") {
+  Notices notices;
+  Forwarder texts;
+  Statustext m;
+  m.severity = 3;
+  std::copy_n("Invalid mixer selected for secondary mixer!", 44, m.text.begin());
+  texts.forward(m, now, notices);
+  REQUIRE(notices.size() == 1);
+  CHECK(notices[0].text.view() == "flight controller: no secondary mixer, the primary one serves for both");
+  CHECK(notices[0].severity == fulmar::Severity::info);
+}
+
 TEST_CASE("what the controller repeats every second is told every ten") {
   Notices notices;
   Forwarder texts;
@@ -257,6 +299,13 @@ TEST_CASE("what is wrong with a device is one sentence that says what to do") {
   CHECK(why().find("/dev/ttyACM0 sends text, not MAVLink") == 0);
   link.text_bytes = 400;
   CHECK(why().find("of 1000 bytes from /dev/ttyACM0 at 115200 baud none is a MAVLink 1 frame") == 0);
+  link.modern = 5;
+  CHECK(why().find("none is a MAVLink 1 frame") != std::string::npos);  // so many are there by chance
+  link.modern = 20;
+  CHECK(why() ==
+        "/dev/ttyACM0 talks MAVLink 2, as PX4 and ArduPilot do: Fulmar needs a flight controller with "
+        "ROSflight "
+        "firmware 2");
   link.frames = 10;
   CHECK(why().find("sends no inertial samples") != std::string::npos);
   g.autopilot = 3;
@@ -270,6 +319,7 @@ TEST_CASE("what is wrong with a device is one sentence that says what to do") {
   CHECK(why() == "");
   g.parameters[0] = 0;
   CHECK(why().find("set FIXED_WING to 1") != std::string::npos);
+  CHECK(why().find("write, and power-cycle it") != std::string::npos);  // an H7 board cannot reboot itself
   g.parameters[0] = 1;
   CHECK(why() == "");
   g.versioned = false, g.armed = true;

@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "plugins/fcu_serial/test/device.hpp"
 
@@ -65,6 +66,17 @@ TEST_CASE("wrong usage ends with 2, and a device that is not there with 1") {
   CHECK(Run("statsu").code == 2);
   CHECK(Run("--baud 17 status").code == 2);
   CHECK(Run("--help").code == 0);
+  for (const char* command : {"status", "version", "params list", "params get", "params set", "params write",
+                              "params save", "params load", "params diff", "calibrate imu", "calibrate mag",
+                              "check", "mixer", "test-outputs", "reboot"}) {
+    const Run help(std::string(command) + " --help");
+    CAPTURE(help.out);
+    CHECK(help.code == 0);
+    CHECK(help.says("Example: fulmar fcu " + std::string(command)));
+    CHECK(help.out.find("Example", help.out.find("Example") + 1) == std::string::npos);
+    CHECK_FALSE(
+        std::regex_search(help.out, std::regex("REQUIRED *\n")));  // each positional has a word of help
+  }
   const Run missing("--port /dev/ttyNOWHERE status");
   CHECK(missing.code == 1);
   CHECK(missing.says("/dev/ttyNOWHERE"));

@@ -2,7 +2,10 @@
 // The first seconds with a device: what it is, and what it is not.
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "lossy_port.hpp"
+#include "tools/fulmar_fcu/status.hpp"
 
 namespace connect_test {
 
@@ -105,6 +108,23 @@ TEST_CASE("an answer without a version is an answer") {
   Client client = bench.client();
   client.connect();
   CHECK(client.version() == "without a version");
+}
+
+TEST_CASE("an attitude that is not a number is told in words") {
+  std::string says;
+  AttitudeQuaternion q;
+  q.q1 = std::nanf("");
+  for (const Frame& f : {encode(RosflightStatus{}, 1), encode(q, 2)})
+    says.append(f.bytes.begin(), f.bytes.begin() + static_cast<std::ptrdiff_t>(f.size));
+  std::int64_t now_us = 0;
+  Client client({"/dev/ttyUSB3", [&] { return std::make_unique<Talker>(now_us, says); },
+                 [&] { return now_us * 1000; }});
+  const Meter meter(client);
+  client.pump(200 * ms);
+  const std::string text = status_text(client, meter);
+  CHECK(holds(text, "attitude     not a number any more: power-cycle the controller"));
+  CHECK_FALSE(holds(text, "nan"));
+  CHECK_FALSE(holds(status_json(client, meter), "\"attitude\""));
 }
 
 TEST_CASE("frames that come twice are not taken for lost ones") {

@@ -58,7 +58,11 @@ TEST_CASE("aileron, elevator and rudder move one after the other to both sides, 
     CHECK(high[i] == doctest::Approx(0.75).epsilon(0.01));
     CHECK(low[i] == doctest::Approx(0.25).epsilon(0.02));
   }
-  CHECK(result.says("output 1 went from 0.25 to 0.75"));
+  CHECK(result.says("output 1 went to 0.75, then to 0.25"));
+  bench.firmware.params().set(param("REV_ELEVATOR"), 1);
+  const Captured reversed = bench.test_outputs();
+  CHECK(reversed.says("output 0 went to 0.75, then to 0.25"));
+  CHECK(reversed.says("output 1 went to 0.25, then to 0.75"));
 }
 
 TEST_CASE("without a yes nothing moves") {
@@ -104,7 +108,7 @@ TEST_CASE("a calibration that fails is told in the firmware's words") {
   const Captured result([&] { return calibrate_command(client, {}, what); });
   CHECK(result.code == 1);
   CHECK(result.says("the controller says: 'large accel bias"));
-  CHECK(bench.firmware.params().f(param("ACC_X_BIAS")) == 0);
+  CHECK(bench.firmware.params().f(param("ACC_X_BIAS")) == 1e-6f);  // as before: put back
 }
 
 TEST_CASE("samples of a file become the twelve parameters that undo their distortion") {
@@ -159,6 +163,7 @@ TEST_CASE("the guide is done after six sides, each turned once around") {
     }
   }
   CHECK(guide.done());
+  CHECK(guide.text() == "6 of 6 sides done.");
   CHECK(guide.samples().size() <= 6 * 12 * 12);
   MagGuide still;
   for (int k = 0; k < 2000; ++k) {

@@ -6,7 +6,9 @@
 #include <cstdio>
 #include <limits>
 
+#include "captured.hpp"
 #include "lossy_port.hpp"
+#include "tools/fulmar_fcu/app.hpp"
 
 namespace params_test {
 
@@ -14,6 +16,12 @@ namespace {
 
 using namespace fulmar::fcu;
 using fulmar::fcu::test::Bench;
+using fulmar::fcu::test::Captured;
+
+bool says_baro(const Client& client) {
+  return std::any_of(client.said().begin(), client.said().end(),
+                     [](const Said& said) { return said.text == "Baro Cal successful!"; });
+}
 
 double seconds_of(Bench& bench, const std::function<void()>& deed) {
   const std::int64_t before = bench.now_us;
@@ -107,6 +115,32 @@ TEST_CASE("a name that does not exist is answered with the nearest one") {
   Client client = bench.client();
   client.connect();
   CHECK_THROWS_WITH(read_param(client, "RC_ARM_CHAN"), doctest::Contains("Did you mean RC_ARM_CHN?"));
+}
+
+TEST_CASE("a text that comes by chance is not taken for the reason of a refusal or of silence") {
+  for (const bool silent : {false, true}) {
+    CAPTURE(silent);
+    peer::Options options;
+    options.flash_fails = true;
+    Bench bench(options);
+    bench.firmware.provision();
+    bench.idle(6'000'000);
+    Client client = bench.client();
+    client.connect();
+    client.wait(5 * second,
+                [&] { return !client.said().empty() && says_baro(client); });  // zeroed after its boot
+    REQUIRE(says_baro(client));
+    bench.faults.mute = silent;
+    const Captured result([&] { return params_write(client, {}); });
+    CHECK(result.code == 1);
+    CHECK_FALSE(result.says("Cal"));
+    if (silent)
+      CHECK(result.says("was not acknowledged within 3 s"));
+    else
+      CHECK(result.complaint ==
+            "The controller refused writing the parameters and gave no reason: its flash does not "
+            "take them, and they are gone after a power cycle.");
+  }
 }
 
 TEST_CASE("a float is printed so that it reads back as the same bits") {

@@ -3,8 +3,12 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <fstream>
+
 #include "captured.hpp"
 #include "lossy_port.hpp"
+#include "plugins/fcu_serial/firmware_version.hpp"
 #include "tools/fulmar_fcu/app.hpp"
 #include "tools/fulmar_fcu/mixer.hpp"
 #include "tools/fulmar_fcu/radio.hpp"
@@ -82,8 +86,19 @@ TEST_CASE("each thing that is wrong is told, with its parameter") {
     return with([&](Facts& f) { set(f, name, value); });
   };
   CHECK(fails(param_is("FIXED_WING", 0), "params set FIXED_WING 1"));
+  CHECK(fails(param_is("FIXED_WING", 0), "write, power-cycle"));
+  CHECK(fails(with([](Facts& f) { f.attitude->q1 = std::nanf(""); }),
+              "attitude: the controller's own is not a number any more: power-cycle it"));
+  CHECK(fails(with([](Facts& f) { f.attitude->rollspeed = std::nanf(""); }), "attitude"));
   CHECK(fails(param_is("RC_F_AXIS", 2), "RC_F_AXIS is 2"));
   CHECK(fails(param_is("PRIMARY_MIXER", 255), "PRIMARY_MIXER is 255"));
+  CHECK_FALSE(warns(with([](Facts& f) {  // one word is enough: there is no mixer, so no surface follows
+                      for (Param& p : f.params)
+                        if (p.name.rfind("PRI_MIXER_", 0) == 0 || p.name.rfind("SEC_MIXER_", 0) == 0)
+                          p.bits = 0;
+                      set(f, "PRIMARY_MIXER", 255);
+                    }),
+                    "mixer"));
   CHECK(fails(param_is("PRIMARY_MIXER", 2), "a multirotor's"));
   CHECK(fails(param_is("PRI_MIXER_OUT_4", 1),
               "Output 4 follows the throttle but is set up as a servo: set PRI_MIXER_OUT_4 to 2"));
@@ -98,6 +113,11 @@ TEST_CASE("each thing that is wrong is told, with its parameter") {
   CHECK(fails(param_is("RC_Y_CHN", 0), "two sticks are on channel 1"));
   CHECK(warns(param_is("TAKE_MIN_THR", 1), "TAKE_MIN_THR is 1"));
   CHECK(warns(param_is("X_EQ_TORQUE", 0.5), "X_EQ_TORQUE is 0.50"));
+  for (const double pascal : {177.0, -31.0})
+    CHECK(warns(param_is("DIFF_PRESS_BIAS", pascal),
+                "airspeed: its zero, DIFF_PRESS_BIAS, is " + std::to_string(static_cast<int>(pascal)) +
+                    " Pa, as in wind or in the air: 'run' does not use it"));
+  CHECK_FALSE(warns(param_is("DIFF_PRESS_BIAS", 29), "airspeed"));
   CHECK(fails(with([](Facts& f) { f.status.armed = 1; }), "ARMED"));
   CHECK(warns(with([](Facts& f) { f.version = ""; }), "refuses to tell its version, though disarmed"));
   CHECK(fails(with([](Facts& f) { f.status.error_code = error_rc_lost; }), "radio lost"));
@@ -120,6 +140,66 @@ TEST_CASE("each thing that is wrong is told, with its parameter") {
               "round trip: none of 20 questions was answered within 100 ms"));
   CHECK(warns(with([](Facts& f) { f.round_trip_s = 0.02; }), "20.00 ms"));
   CHECK(fails(with([](Facts& f) { f.imu_hz = 50; }), "50 Hz"));
+}
+
+TEST_CASE("gravity and rest are measured for 2 s, and what a failed calibration leaves is seen") {
+  Ready bench;
+  CHECK(verdicts(bench.facts(), Verdict::ok).find("IMU: calibrated; 9.81 m/s2, 0.00 deg/s") !=
+        std::string::npos);
+  bench.firmware.inputs.gyro = {0.0161, 0, 0};  // the mean of shaken seconds was taken for its bias
+  CHECK(warns(bench.facts(), "IMU: it turns at 0.92 deg/s at rest: 'fulmar fcu calibrate imu'"));
+  bench.firmware.inputs.gyro = {0, 0.1, 0};
+  CHECK(fails(bench.facts(), "IMU: it turns at 5.73 deg/s at rest"));
+  bench.firmware.inputs.gyro = {};
+  bench.firmware.inputs.accel = {0, 0, -10.05};
+  CHECK(warns(bench.facts(), "IMU: gravity is 10.05 m/s2 at rest, not 9.81: 'fulmar fcu calibrate imu'"));
+  bench.firmware.inputs.accel = {3, 0, -11};
+  CHECK(fails(bench.facts(), "IMU: gravity is 11.40 m/s2"));
+  bench.firmware.inputs.accel = {4.9033, 0, -8.4928};  // at rest, though not level
+  CHECK(verdicts(bench.facts(), Verdict::ok).find("IMU: calibrated; 9.81 m/s2") != std::string::npos);
+}
+
+TEST_CASE("an aircraft that is moved is told so, and not that it is uncalibrated") {
+  Ready bench;
+  bench.firmware.before_imu = [&] {
+    const double phase = 2e-5 * static_cast<double>(bench.now_us);
+    bench.firmware.inputs.accel = {4 * std::sin(phase), 0, -9.80665};
+    bench.firmware.inputs.gyro = {0.5 * std::sin(phase), 0, 0};
+  };
+  const Facts f = bench.facts();
+  CHECK(warns(f, "IMU: it is being moved (2.8 m/s2, 20 deg/s rms): put it down, and check again"));
+  CHECK(verdicts(f, Verdict::fail) == "");
+}
+
+TEST_CASE("three biases of exactly zero are a failed calibration, though the other three stand") {
+  Facts f = ready();
+  set(f, "ACC_X_BIAS", 0);
+  CHECK(fails(f, "IMU: ACC_X_BIAS, ACC_Y_BIAS and ACC_Z_BIAS are 0: not calibrated"));
+  f = ready();
+  set(f, "GYRO_X_BIAS", 0);
+  CHECK(fails(f, "IMU: GYRO_X_BIAS, GYRO_Y_BIAS and GYRO_Z_BIAS are 0: not calibrated"));
+  set(f, "ARM_CAL_GYRO", 1);  // it does that by itself, whenever it is armed
+  CHECK_FALSE(fails(f, "IMU"));
+}
+
+TEST_CASE("a firmware that was not tried is a WARN that names the one that was") {
+  Facts f = ready();
+  CHECK(verdicts(f, Verdict::ok).find("firmware: v2.0.1-0-ge8cf6a0f, as tried") != std::string::npos);
+  for (const char* version : {"v2.0.1", "2.0.1-12-gabcdef0", "v2.0.1-dirty"}) {
+    f.version = version;
+    CHECK_MESSAGE(verdicts(f, Verdict::warn) == "", version);
+  }
+  for (const char* version :
+       {"v3.1", "v2.0.0", "v2.0.10", "v2.1.1", "2.0", "e8cf6a0", "undefined", "without a version"}) {
+    f.version = version;
+    CHECK_MESSAGE(warns(f, "firmware: " + f.version + " was not tried with Fulmar, 2.0.1 was"), version);
+  }
+}
+
+TEST_CASE("the manual names the firmware that was tried") {
+  std::ifstream file("docs/hardware.md");
+  const std::string manual{std::istreambuf_iterator<char>(file), {}};
+  CHECK(manual.find("ROSflight firmware " + std::string(tried_firmware)) != std::string::npos);
 }
 
 TEST_CASE("a reversal counts once: in the firmware or in the airframe file") {

@@ -25,7 +25,7 @@ volatile std::sig_atomic_t stop_asked = 0, disarm_asked = 0;
 struct Settings {
   std::string link, airframe = "anaconda", truth, sensors = "rosflight", turbulence = "light";
   bool udp = false, refuse = false, old_firmware = false, nmea = false, cold = false, realtime = false,
-       silent = false, garbage = false, multirotor = false;
+       silent = false, garbage = false, multirotor = false, shaken = false;
   double scale = 1, for_s = never_s, heading_deg = 135, start_height_m = 0, delay_ms = 0;
   std::vector<double> wind{3.5355, -3.5355, 0};
   FaultRates faults;
@@ -68,6 +68,7 @@ void read_options(CLI::App& app, Settings& s) {
   app.add_flag("--refuse", s.refuse, "refuses every command");
   app.add_flag("--old-firmware", s.old_firmware, "says that it is version 1.3");
   app.add_flag("--multirotor", s.multirotor, "factory settings");
+  app.add_flag("--shaken", s.shaken, "somebody shakes it until it is armed: it cannot be calibrated");
   app.add_flag("--nmea", s.nmea, "no flight controller: a GNSS receiver's text");
   app.add_flag("--garbage", s.garbage, "as at a wrong baud rate");
   app.add_flag("--silent", s.silent, "sends nothing");
@@ -156,6 +157,7 @@ class Peer {
   static constexpr std::int64_t warm_us = 12000000;  ///< baro and airspeed are zeroed by then
 
   void before_imu();
+  void shake();
   void run_script();
   void receive();
   void transmit();
@@ -191,8 +193,16 @@ class Peer {
 void Peer::before_imu() {
   plane_.pitot_covered = !plane_.released() && firmware_.clock_us() < 11000000;
   plane_.step();
+  if (s_.shaken && !plane_.released()) shake();
   top_height_m_ = std::max(top_height_m_, plane_.height_m());
   if (truth_ && ++steps_ % 4 == 0) write_truth();
+}
+
+/// By hand, 3 Hz: more than the firmware takes for rest, in rotations that leave a mean.
+void Peer::shake() {
+  const double swing = std::sin(2 * std::numbers::pi * 3 * 1e-6 * static_cast<double>(firmware_.clock_us()));
+  firmware_.inputs.accel[0] += 2 * swing;
+  firmware_.inputs.gyro[1] += 0.3 + 0.2 * swing;
 }
 
 void Peer::write_truth() {

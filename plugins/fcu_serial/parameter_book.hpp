@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The controller's parameters, for the log: asked for one by one, so that the line stays free for samples,
+// and passed on when they are news. Nothing here allocates.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <bitset>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "pitot_zero.hpp"
+#include "radio.hpp"
+#include "reports.hpp"
+#include "state.hpp"
+
+namespace fulmar::fcu {
+
+class ParameterBook {
+ public:
+  /// So many there are, as each answer says.
+  void expect(std::size_t count) { count_ = std::min(count, most); }
+  /// The controller, or another one, may have other values.
+  void restart() {
+    heard_.reset();
+    at_ = 0, rounds_ = 0, changes_ = 0;
+    told_ = false;
+  }
+  /// It did not get through to the reader: asked for again.
+  void forget(std::size_t index) { heard_.reset(std::min(index, most - 1)); }
+
+  /// What to publish of an answer; nothing when it is known.
+  std::optional<ControllerParameter> take(const ParamValue& p) {
+    const std::size_t i = p.param_index;
+    if (i >= p.param_count || i >= most) return {};
+    expect(p.param_count);
+    const bool news = !known_[i] || bits_[i] != p.param_value;
+    if (known_[i] && news) ++changes_;
+    heard_[i] = known_[i] = true;
+    bits_[i] = p.param_value;
+    if (!news) return {};
+    const bool whole = p.param_type == param_int32;
+    if (!whole) note_calibration(id_of(p.param_id), static_cast<double>(std::bit_cast<float>(p.param_value)));
+    return ControllerParameter{Text<17>(id_of(p.param_id)), text_of(p.param_value, whole), whole,
+                               p.param_index, p.param_count};
+  }
+
+  /// The one to ask for now.
+  std::optional<std::int16_t> next(std::int64_t now_ns) {
+    if (now_ns < next_ns_ || rounds_ >= most_rounds || heard_.count() >= count_) return {};
+    while (at_ < count_ && heard_[at_]) ++at_;
+    if (at_ >= count_) {
+      at_ = 0;
+      ++rounds_;
+      next_ns_ = now_ns + pause_ns;
+      return {};
+    }
+    next_ns_ = now_ns + period_ns;
+    return static_cast<std::int16_t>(at_++);
+  }
+
+  /// Once all are known, or given up.
+  void tell(Notices& out) {
+    const bool complete = heard_.count() >= count_;
+    if (told_ || count_ == 0 || (!complete && rounds_ < most_rounds)) return;
+    told_ = true;
+    const auto all = static_cast<std::int64_t>(count_),
+               lacking = all - static_cast<std::int64_t>(heard_.count());
+    if (!complete)
+      out.say(fulmar::Severity::warning,
+              Line() << lacking << " of its " << all << " parameters do not come: the log lacks them");
+    if (begun_ && changes_ > 0)
+      out.say(fulmar::Severity::warning, Line() << changes_ << " of its parameters "
+                                                << (changes_ == 1 ? "is" : "are")
+                                                << " other than before: see the log");
+    if (begun_) return;
+    begun_ = true;
+    if (complete) out.say(fulmar::Severity::info, Line() << "its " << all << " parameters are in the log");
+    out.say(fulmar::Severity::info, calibration());
+  }
+
+ private:
+  static constexpr std::size_t most = 512;
+  static constexpr int most_rounds = 5;
+  static constexpr std::int64_t period_ns = 10'000'000, pause_ns = 500'000'000;
+  static constexpr std::array<std::string_view, 7> biases{
+      "ACC_X_BIAS", "ACC_Y_BIAS", "ACC_Z_BIAS", "GYRO_X_BIAS", "GYRO_Y_BIAS", "GYRO_Z_BIAS", pitot_zero};
+
+  static Text<24> text_of(std::uint32_t bits, bool whole) {
+    std::array<char, 24> room{};
+    char* const end = room.data() + room.size();
+    const auto done = whole ? std::to_chars(room.data(), end, std::bit_cast<std::int32_t>(bits))
+                            : std::to_chars(room.data(), end, std::bit_cast<float>(bits));
+    return Text<24>(std::string_view(room.data(), static_cast<std::size_t>(done.ptr - room.data())));
+  }
+  void note_calibration(std::string_view name, double value) {
+    for (std::size_t i = 0; i < biases.size(); ++i)
+      if (name == biases[i]) bias_[i] = value;
+  }
+  Line calibration() const {
+    Line line;
+    line << "calibration: accel";
+    for (std::size_t i = 0; i < 3; ++i) (line << " ").fixed(bias_[i], 3);
+    line << ", gyro";
+    for (std::size_t i = 3; i < 6; ++i) (line << " ").fixed(bias_[i], 4);
+    return (line << ", pitot ").fixed(bias_[6], 1) << " Pa";
+  }
+
+  std::bitset<most> heard_, known_;  ///< since the last restart; ever
+  std::array<std::uint32_t, most> bits_{};
+  std::array<double, biases.size()> bias_{};
+  std::size_t count_ = 0, at_ = 0;
+  std::int64_t next_ns_ = never_ns, changes_ = 0;
+  int rounds_ = 0;
+  bool told_ = false, begun_ = false;
+};
+
+}  // namespace fulmar::fcu

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The controller's zero of its pitot tube, which it takes anew at each boot, whatever the air does.
+#pragma once
+#include <string_view>
+
+namespace fulmar::fcu {
+
+inline constexpr std::string_view pitot_zero = "DIFF_PRESS_BIAS";  ///< a parameter of the firmware, Pa
+inline constexpr double pitot_zero_limit_pa = 30;  ///< beyond it, 7 m/s, it was taken in wind or in the air
+
+}  // namespace fulmar::fcu

@@ -54,4 +54,39 @@ TEST_CASE("the throttle learns nothing while the airspeed is below the minimum")
   CHECK(std::abs(bench.out.throttle_integral_frac.value) < 1e-9);
 }
 
+TEST_CASE("pitch that holds the airspeed alone does not ask for the climb that the engine cannot give") {
+  Bench<tecs::Outer> bench;
+  bench.params.speed_weight.value = 2;
+  bench.set(bench.in.state, flying(15));
+  bench.set(bench.in.command, GuidanceCommand{.course_rad = 0,
+                                              .height_m = 170,
+                                              .climb_rate_mps = 0,
+                                              .airspeed_mps = 15,
+                                              .roll_feedforward_rad = 0});
+  for (int i = 0; i < 200; ++i) bench.step(0.01);
+  CHECK(bench.out.attitude.pitch_rad > 0.2);        // 4 m/s of climb at 15 m/s
+  for (int i = 0; i < 3000; ++i) bench.step(0.01);  // full throttle, and it does not climb
+  REQUIRE(bench.out.attitude.throttle_frac > 0.99);
+  CHECK(std::abs(bench.out.attitude.pitch_rad) < 1e-6);
+}
+
+TEST_CASE("the climb asked for has no step where the linear range of the height error ends") {
+  const auto climb = [](double above_m) {
+    Bench<tecs::Outer> bench;
+    bench.set(bench.in.state, flying(15));
+    bench.set(bench.in.command, GuidanceCommand{.course_rad = 0,
+                                                .height_m = 70 + above_m,
+                                                .climb_rate_mps = 0,
+                                                .airspeed_mps = 15,
+                                                .roll_feedforward_rad = 0});
+    for (int i = 0; i < 300; ++i) bench.step(0.01);
+    return bench.out.climb_rate_demand_mps.value;
+  };
+  const tecs::Outer::Params p;
+  const double edge = 0.5 * p.climb_acceleration_limit / (p.altitude_gain * p.altitude_gain);
+  CHECK(climb(0.999 * edge) == doctest::Approx(0.999 * edge * p.altitude_gain).epsilon(1e-6));
+  CHECK(climb(1.001 * edge) / climb(0.999 * edge) == doctest::Approx(1).epsilon(0.005));
+  CHECK(climb(-1.001 * edge) / climb(1.001 * edge) == doctest::Approx(-1));
+}
+
 }  // namespace feed_forward_test

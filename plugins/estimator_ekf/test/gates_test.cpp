@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gates that open again, a height that is as sure as it says, and an alignment in a turn with a late
-// receiver.
+// Gates that open again, deviations that are as large as they say, and fixes that are late.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -69,6 +68,58 @@ TEST_CASE("the height is as sure as it says, with a receiver whose height error 
   }
   REQUIRE(n > 0);
   CHECK(normalised / n < 2);
+}
+
+TEST_CASE("heights refused for long are believed in the end") {
+  Flown f{};
+  double most = 0;
+  f.alter = [](const Truth& x, Samples& s) {
+    if (s.gnss && x.t > 60) s.gnss->altitude_m += 100;
+  };
+  f.watch = [&](const Truth& x, const VehicleState& s, Status) {
+    if (x.t > 72 && x.t < 80) most = std::max(most, s.height_m + x.p_n.z());
+  };
+  f.run();
+  CHECK(most > 50);
+}
+
+TEST_CASE("a barometer refused for long is believed in the end, and then holds the height without GNSS") {
+  Flown f{};
+  double worst = 0;
+  f.alter = [](const Truth& x, Samples& s) {
+    if (s.baro && x.t > 60) s.baro->pressure_pa += 500;  // 45 m
+    if (x.t > 80) s.gnss.reset();
+  };
+  f.watch = [&](const Truth& x, const VehicleState& s, Status) {
+    if (x.t > 80) worst = std::max(worst, std::abs(s.height_m + x.p_n.z()));
+  };
+  f.run();
+  CHECK(worst < 8);
+}
+
+TEST_CASE("more samples of a magnetometer are not more information: its errors last") {
+  const auto yaw_std = [](double hz) {
+    Flown f{};
+    f.plan.duration_s = f.plan.rest_s;
+    f.quality.mag_hz = hz;
+    f.set = [](Ekf::Params& p) { p.mag_deviation.value = 0; };
+    f.run();
+    return f.last.attitude_std_rad.down;
+  };
+  CHECK(yaw_std(50) / yaw_std(10) == doctest::Approx(1).epsilon(0.1));
+}
+
+TEST_CASE("the first fix in the air is of the past, too") {
+  Flown f{.quality = ublox, .from_s = 47};  // on a straight leg
+  f.plan.duration_s = 50;
+  f.quality.position_walk_m = f.quality.height_walk_m = f.quality.position_white = 0;
+  std::optional<double> behind;
+  f.watch = [&](const Truth& x, const VehicleState& s, Status) {
+    if (!behind) behind = (x.p_n - eigen(s.position_m)).dot(x.v_n.normalized());
+  };
+  f.run();
+  REQUIRE(behind);
+  CHECK(std::abs(*behind) < 0.7);  // 0.15 s at 17 m/s are 2.5 m
 }
 
 }  // namespace gates_test

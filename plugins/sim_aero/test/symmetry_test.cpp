@@ -50,6 +50,20 @@ TEST_CASE("the motor reaches 63 % of its speed after its time constant") {
   CHECK(plant.propeller_radps() / steady == Approx(1 - std::exp(-1)).epsilon(0.03));
 }
 
+TEST_CASE("a roll that the servos make does not depend on the step: each stage sees them at its time") {
+  const auto roll_rate = [](double step_s) {
+    Plant plant(anaconda(), {}, 1387, 1);
+    REQUIRE(plant.fly({0, 0, -300}, 0, 17));
+    Actuators sweep{0.5, 0.3, plant.deflections().elevator, plant.deflections().rudder};
+    for (int i = 0; i < std::lround(0.2 / step_s); ++i) {
+      if (i == std::lround(0.1 / step_s)) sweep.aileron_rad = -0.3;
+      plant.advance(sweep, true, step_s);
+    }
+    return plant.state().omega_b.x();
+  };
+  CHECK(roll_rate(0.01) / roll_rate(0.0005) == Approx(1).epsilon(1e-3));
+}
+
 TEST_CASE("a roll pitches the nose by the product of inertia") {
   Airframe a = anaconda();
   a.aero = {};

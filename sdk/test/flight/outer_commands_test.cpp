@@ -90,6 +90,20 @@ TEST_CASE("a course integral that saturated the bank unwinds when the course is 
   CHECK(roll < 0);
 }
 
+TEST_CASE("a course hold that begins again has forgotten its integral") {
+  const CourseTuning tuning{.kp = 2,
+                            .ki = 0.5,
+                            .cruise_mps = 15,
+                            .roll_max_rad = 0.8,
+                            .roll_rate_max_radps = 100,
+                            .smoothing_s = 0};
+  CourseHold hold;
+  const VehicleState s = at(15, 15, 70);
+  for (int i = 0; i < 500; ++i) hold.step(s, 0.1, 0, tuning, 0.01);
+  hold.reset_to(0);
+  CHECK(hold.step(s, 0.1, 0, tuning, 0.01) / 0.2 == doctest::Approx(1).epsilon(0.01));
+}
+
 TEST_CASE(
     "the take-off run takes the runway from the nose when it stands and from the course when it moves") {
   TakeoffRun run;

@@ -55,7 +55,8 @@ TEST_CASE("a transition from anywhere that was made has to hold for its time aga
 TEST_CASE("how long a condition has held is counted from the beginning of its phase") {
   const Graph g = mission(
       "phases:\n"
-      "  any: {next: [{to: b, when: \"vehicle.signal.tick_s >= 0.2 s and vehicle.signal.tick_s < 0.205 s\"}]}\n"
+      "  any: {next: [{to: b, when: \"vehicle.signal.tick_s >= 0.2 s and vehicle.signal.tick_s < 0.205 "
+      "s\"}]}\n"
       "  a: {law: one, next: [{to: c, when: \"vehicle.status.armed\", for: 0.3 s}]}\n"
       "  b: {law: two, next: [{to: c, when: \"vehicle.status.armed\", for: 0.3 s}]}\n"
       "  c: {law: one}\n");

@@ -173,6 +173,7 @@ TEST_CASE(
   f.alter = [](const Truth&, Samples& s) { s.mag.reset(); };
   f.watch = [](const Truth& x, const VehicleState& s, Status) {
     if (x.t < 5) CHECK_FALSE(s.attitude_valid);
+    if (s.attitude_valid) CHECK(attitude_error(s, x) < 25 * deg);
     if (x.t > 50) CHECK(attitude_error(s, x) < 2 * deg);
   };
   f.run();
@@ -384,6 +385,18 @@ TEST_CASE("a step allocates nothing, from the first sample through the whole fli
   static int* volatile sink = nullptr;
   CHECK(allocations([] { sink = new int; }) == 1);  // the counter counts
   delete sink;
+}
+
+TEST_CASE("the origin is known with the fix that completes the mean") {
+  Flown f{.plan = shorter(4), .origin_given = false};
+  f.set = [](Ekf::Params& p) { p.origin_fixes.value = 25; };
+  std::optional<double> known_s;
+  f.watch = [&](const Truth& x, const VehicleState& s, Status) {
+    if (s.origin_valid && !known_s) known_s = x.t;
+  };
+  f.run();
+  REQUIRE(known_s);
+  CHECK(*known_s == doctest::Approx(2.4).epsilon(0.01));  // ten in a second, the first at 0
 }
 
 }  // namespace scenario_test

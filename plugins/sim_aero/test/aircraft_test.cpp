@@ -170,6 +170,7 @@ TEST_CASE(
   CHECK(b->component().plant().propeller_radps() > 500);
   silent(200);
   CHECK(status.failsafe);
+  CHECK_FALSE(status.in_control);
   CHECK(b->component().plant().propeller_radps() < 200);
   CHECK(b->component().plant().deflections().elevator == Approx(0));
   pass(*b, &cruise);

@@ -128,7 +128,27 @@ TEST_CASE("the rosflight sensors have the deviations of its simulator") {
   // x <- exp(-7 T) x + 3e-6 T n at 50 Hz
   CHECK(of(100000, [&] {
           return (eigen(s.mag(p).field_tesla) - p.state().q_nb.conjugate() * field).x();
-        }).deviation == Approx(3e-6 * 0.02 / std::sqrt(1 - std::exp(-2 * 7 * 0.02))).epsilon(0.06));
+        }).deviation == Approx(3e-6 * 0.02 / std::sqrt(1 - std::exp(-2 * 7 * 0.02))).epsilon(0.06).scale(0));
+}
+
+TEST_CASE("the ublox sensors have the white noise of their data sheets") {
+  const Plant p = flying();
+  Sensors s = sensors(SensorSet::ublox);
+  const auto white = [](const std::function<double()>& draw) {  // half of what successive samples differ by
+    double squares = 0, before = draw();
+    for (int i = 0; i < 20000; ++i) {
+      const double now = draw();
+      squares += (now - before) * (now - before);
+      before = now;
+    }
+    return std::sqrt(squares / 20000 / 2);
+  };
+  const double degree = std::numbers::pi / 180, bandwidth = std::sqrt(200.0);  // per root Hz, over 200 Hz
+  CHECK(white([&] { return s.imu(p).rate_radps.y; }) / (0.004 * degree * bandwidth) ==
+        Approx(1).epsilon(0.03));
+  CHECK(white([&] { return s.imu(p).specific_force_mps2.y; }) / (100e-6 * 9.80665 * bandwidth) ==
+        Approx(1).epsilon(0.03));
+  CHECK(white([&] { return s.mag(p).field_tesla.y; }) / 0.3e-6 == Approx(1).epsilon(0.03));
 }
 
 TEST_CASE("the rosflight biases fill their ranges, another one for each seed") {

@@ -116,4 +116,43 @@ TEST_CASE("the ground acts alike on every heading") {
   }
 }
 
+TEST_CASE("a pilot who flies needs no commands: that they stop is no failsafe") {
+  auto bench = std::make_unique<Bench<Aircraft>>(1);
+  bench->params.airframe.value = anaconda();
+  arm(*bench);
+  const Actuators idle{0.2, 0, 0, 0};
+  while (bench->tick.now_ns < 100000000) pass(*bench, &idle);
+  bench->params.pilot_flies.value = true;
+  bench->retune();
+  for (int i = 0; i < 200; ++i) {
+    pass(*bench);
+    if (bench->out.status.written) CHECK_FALSE(bench->out.status.value.failsafe);
+  }
+}
+
+TEST_CASE("the course of an aircraft that stands is where its nose points") {
+  auto bench = std::make_unique<Bench<Aircraft>>(1);
+  bench->params.airframe.value = anaconda();
+  bench->params.start_heading.value = 1.2;
+  int told = 0;
+  for (int i = 0; i < 100; ++i) {
+    pass(*bench);
+    if (!bench->out.truth.written) continue;
+    CHECK(bench->out.truth.value.course_rad == Approx(1.2).epsilon(0.01));
+    ++told;
+  }
+  CHECK(told > 5);
+}
+
+TEST_CASE("the battery gives the motor's current in the share of the time that the throttle is on") {
+  const Airframe& a = anaconda();
+  Plant plant(a, {}, 1387, 1);
+  for (int i = 0; i < 200; ++i) plant.advance({0.6, 0, 0, 0}, true, dt);
+  const double current =
+      (0.6 * a.propulsion.battery_volt - a.propulsion.torque_constant_ratio * plant.propeller_radps()) /
+      a.propulsion.resistance_ohm;
+  REQUIRE(current > 1);
+  CHECK(plant.battery_amp() / (0.6 * current) == Approx(1));
+}
+
 }  // namespace symmetry_test

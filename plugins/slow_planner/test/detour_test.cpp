@@ -267,4 +267,18 @@ TEST_CASE("the watch keeps the least distance from the rim") {
   CHECK(bench.out.clearance.value.now_m == doctest::Approx(120));
 }
 
+TEST_CASE("a zone within the last orbit is clear of it, one on its rim is not") {
+  Plan plan = hourglass();
+  plan.end = PlanEnd::orbit;
+  plan.turn_radius_m = 200;
+  for (const bool on_rim : {false, true}) {
+    Zones zones;
+    zones.zones.push_back({400, -50 + (on_rim ? 200.0 : 100.0), 10});
+    Planning planning(plan);
+    planning.params.zones.value = zones;
+    CHECK(planning.plans(3) == !on_rim);
+    if (!on_rim) CHECK(planning.out.clearance_m.value > 20);
+  }
+}
+
 }  // namespace detour_test

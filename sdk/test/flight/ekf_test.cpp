@@ -319,4 +319,12 @@ TEST_CASE(
   CHECK(after(0, 0.5).second > 5 * after(0, 1).second);
 }
 
+TEST_CASE("a pascal is as many metres as the standard atmosphere has there") {
+  for (const double altitude : {0.0, 1500.0, 4000.0}) {
+    const Air air = standard_air(altitude);
+    const double metres = pressure_altitude(air.pressure_pa - 1) - pressure_altitude(air.pressure_pa);
+    CHECK(ekf::metres_per_pascal(air) / metres == doctest::Approx(1).epsilon(1e-3));
+  }
+}
+
 }  // namespace ekf_test

@@ -182,4 +182,34 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("of two lowest pitches the higher one holds, and near the stall the ceiling") {
+  FlightLimits limits;
+  limits.airspeed_min_mps = 10, limits.pitch_max_rad = 0.4, limits.pitch_min_rad = -0.2;
+  CHECK(PitchLimits(at(15, 15, 70), limits, 0.35).min == -0.2);
+  CHECK(PitchLimits(at(15, 15, 70), limits, 0.1).min == -0.1);
+  CHECK(PitchLimits(at(15, 15, 70), limits, 0.35).max == 0.35);
+  CHECK(PitchLimits(at(9, 15, 70), limits, 0.35).max == doctest::Approx(0.2));
+}
+
+TEST_CASE(
+    "the airspeed that a law divides by is never below half the minimum, and cruise when it is not known") {
+  FlightLimits limits;
+  limits.airspeed_min_mps = 10, limits.airspeed_cruise_mps = 16;
+  CHECK(scheduling_airspeed(at(12, 12, 70), limits) == 12);
+  CHECK(scheduling_airspeed(at(1, 12, 70), limits) == 5);
+  CHECK(scheduling_airspeed(at(1, 12, 70, false), limits) == 16);
+}
+
+TEST_CASE("a take-off run that loses its airspeed after rotation lowers the nose") {
+  TakeoffRun run;
+  FlightLimits limits;
+  limits.airspeed_min_mps = 10, limits.pitch_max_rad = 0.4;
+  const TakeoffTuning tuning{
+      .throttle_frac = 1, .pitch_rad = 0.25, .rotate_mps = 12, .course_kp = 1, .roll_max_rad = 0.1};
+  run.begin(at(0, 0, 0));
+  CHECK(run.step(at(13, 13, 1), tuning, limits).pitch_rad == 0.25);
+  CHECK(run.step(at(9, 9, 3), tuning, limits).pitch_rad == doctest::Approx(0.2));
+  CHECK(run.step(at(7, 7, 3), tuning, limits).pitch_rad == 0);
+}
+
 }  // namespace outer_commands_test

@@ -35,7 +35,7 @@ struct Command {
 struct Received {
   double u_frac = 0, seen_m = 0;
   std::uint32_t by = 0;
-  bool present = false, fresh = false;
+  bool present = false, fresh = false, stale = false;
 };
 
 struct Arm {
@@ -102,7 +102,8 @@ struct Cart {
     }
     applied_ = {};
     if (in.command)
-      applied_ = {in.command->u_frac, in.command->seen_m, in.command->by, true, in.command.fresh()};
+      applied_ = {in.command->u_frac, in.command->seen_m, in.command->by, true,
+                  in.command.fresh(), in.command.stale()};
     return Status::ok;
   }
 

@@ -187,10 +187,10 @@ TEST_CASE("one odd sample of the tube is no airspeed") {
   f.plan.duration_s = f.plan.rest_s;
   double most = 0;
   f.alter = [](const Truth& x, Samples& s) {
-    if (s.pitot && x.t > 4 && x.t < 4.005) s.pitot->pressure_pa = 500;  // 30 m/s
+    if (s.pitot && x.t > 3.995 && x.t < 4.005) s.pitot->pressure_pa = 500;  // 30 m/s
   };
   f.watch = [&](const Truth& x, const VehicleState& s, Status) {
-    if (x.t >= 4) most = std::max(most, s.airspeed_mps);
+    if (x.t > 3.995) most = std::max(most, s.airspeed_mps);
   };
   f.run();
   CHECK(most > 0.5);
@@ -225,6 +225,24 @@ TEST_CASE("once the air carries it, it does so until the airspeed is well below 
   f.run();
   CHECK(carried > 1000);
   CHECK(dropped == 0);
+}
+
+TEST_CASE("a magnetometer that wakes up after the alignment turns the yaw at once") {
+  Flown f{};
+  f.plan.duration_s = f.plan.rest_s;
+  f.plan.initial_course_rad = 1.4;
+  f.quality.mag_ratio = f.quality.accel_bias = 0;
+  f.alter = [](const Truth& x, Samples& s) {
+    if (x.t < 3.999) s.mag.reset();
+  };
+  double before = 0, worst = 0;
+  f.watch = [&](const Truth& x, const VehicleState& s, Status) {
+    double& most = x.t < 3.999 ? before : worst;
+    if (x.t < 3.999 || x.t < 4.05) most = std::max(most, std::abs(s.yaw_rad - euler_from(x.q_nb).yaw_rad));
+  };
+  f.run();
+  CHECK(before > 1);  // it took its nose to point north
+  CHECK(worst < 0.01);
 }
 
 }  // namespace gates_test

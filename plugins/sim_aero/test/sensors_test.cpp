@@ -166,7 +166,7 @@ TEST_CASE("the rosflight biases fill their ranges, another one for each seed") {
   CHECK(largest_gyro <= 0.253);  // the range and the warm-up
   CHECK(largest_accel > 0.59);
   CHECK(largest_accel <= 0.6);
-  CHECK(std::sqrt(sum / n) == Approx(0.25 / std::sqrt(3)).epsilon(0.06));
+  CHECK(std::sqrt(sum / n) == Approx(0.25 / std::sqrt(3)).epsilon(0.06).scale(0));
   CHECK(all.size() == static_cast<std::size_t>(n));
 }
 
@@ -183,7 +183,7 @@ TEST_CASE("the rosflight position walks as its recursion does") {
     for (int i = 0; i < 1000; ++i) x = noise.next(random);
     sum += x * x;
   }
-  CHECK(std::sqrt(sum / runs) == Approx(expected).epsilon(0.08));
+  CHECK(std::sqrt(sum / runs) == Approx(expected).epsilon(0.08).scale(0));
   CHECK(expected == Approx(0.64).epsilon(0.02).scale(0));
 }
 
@@ -203,7 +203,7 @@ TEST_CASE("a Gauss-Markov error has its deviation and its time constant at any r
       product += x[static_cast<std::size_t>(i)] * x[static_cast<std::size_t>(i - lag)];
     }
     CHECK(std::sqrt(square / (n - lag)) == Approx(2).epsilon(0.08));
-    CHECK(product / square == Approx(std::exp(-1)).epsilon(0.15));
+    CHECK(product / square == Approx(std::exp(-1)).epsilon(0.15).scale(0));
   }
 }
 
@@ -248,7 +248,7 @@ TEST_CASE("the ublox receiver's errors have the size of a real one's") {
   }
   CHECK(std::sqrt(north / runs) == Approx(std::hypot(1.5, 0.3)).epsilon(0.12));
   CHECK(std::sqrt(down / runs) == Approx(std::hypot(3.0, 0.3)).epsilon(0.12));
-  CHECK(std::sqrt(speed / runs) == Approx(std::hypot(0.1, 0.03)).epsilon(0.12));
+  CHECK(std::sqrt(speed / runs) == Approx(std::hypot(0.1, 0.03)).epsilon(0.12).scale(0));
 }
 
 TEST_CASE("air from behind or from the side does not reach the pitot tube") {

@@ -3,13 +3,12 @@
 """Do the tests notice a fault? Builds the test programs once with every fault of cmake/mutants.txt in them, each
 switched on by FULMAR_MUTANT, and runs the programs that cover a fault. Ends with 1 when too few are noticed.
 
-    cmake/mutate.py [--folder FOLDER] [ID...]
+    cmake/mutate.py [--folder FOLDER] [--jobs N] [ID...]
 """
 import argparse
 import collections
 import os
 import pathlib
-import shutil
 import subprocess
 import sys
 
@@ -29,19 +28,20 @@ inline bool fulmar_mutant(int id) {
 #endif
 """
 
-Mutant = collections.namedtuple("Mutant", "id path type programs original mutated")
+Mutant = collections.namedtuple("Mutant", "id path type programs original mutated equivalent")
 
 
 def mutants():
     found = []
     lines = [(n, l) for n, l in enumerate(LIST.read_text().splitlines(), 1) if l and not l.startswith("#")]
-    if len(lines) % 3:
-        sys.exit(f"{LIST}: each fault has three lines; there are {len(lines)}")
-    for (n, head), (_, old), (_, new) in zip(lines[::3], lines[1::3], lines[2::3]):
+    while lines:
+        (n, head), (_, old), (_, new) = (lines + [(0, "")] * 2)[:3]
         words = head.split()
         if len(words) < 4 or not words[0].isdigit() or old[:2] != "- " or new[:2] != "+ ":
             sys.exit(f"{LIST}:{n}: a fault is 'id file type program...', '- original', '+ mutated'")
-        found.append(Mutant(words[0], words[1], words[2], words[3:], old[2:], new[2:]))
+        why = lines[3][1][2:] if len(lines) > 3 and lines[3][1][:2] == "= " else ""
+        found.append(Mutant(words[0], words[1], words[2], words[3:], old[2:], new[2:], why))
+        lines = lines[4 if why else 3:]
     doubled = [i for i, n in collections.Counter(m.id for m in found).items() if n > 1]
     if doubled:
         sys.exit(f"{LIST}: given twice: {' '.join(doubled)}")
@@ -54,10 +54,12 @@ def choice(m):
     return f"(::fulmar_mutant({m.id}) ? {m.type}({m.mutated}) : {m.type}({m.original}))"
 
 
-def mutate(tree, chosen):
+def mutated(chosen):
+    """The files with the faults in them: path -> text."""
     by_path = collections.defaultdict(list)
     for m in chosen:
         by_path[m.path].append(m)
+    texts = {}
     for path, group in by_path.items():
         text = (ROOT / path).read_text()
         spans = []
@@ -72,35 +74,46 @@ def mutate(tree, chosen):
                 sys.exit(f"{LIST}: {before.id} and {m.id} overlap in {path}")
         for begin, end, m in spans:
             text = text[:begin] + choice(m) + text[end:]
-        (tree / path).write_text(text)
+        texts[path] = text
+    return texts
 
 
-def build(folder, chosen):
+def write(path, content, mode=0o644):
+    """Only what has changed, so that little is built again."""
+    if path.exists() and path.read_bytes() == content:
+        return
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(content)
+    path.chmod(mode)
+
+
+def build(folder, jobs, chosen, known):
     tree, out = folder / "tree", folder / "build"
-    tree.mkdir(parents=True, exist_ok=True)
+    texts = mutated(known)
     files = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
     for name in filter(None, files.split("\0")):
-        copy = tree / name
-        copy.parent.mkdir(parents=True, exist_ok=True)
-        if not copy.exists() or (ROOT / name).read_bytes() != copy.read_bytes():
-            shutil.copy2(ROOT / name, copy)
-    mutate(tree, chosen)
+        source = ROOT / name
+        content = texts[name].encode() if name in texts else source.read_bytes()
+        write(tree / name, content, source.stat().st_mode & 0o777)
     switch = folder / "mutant.hpp"
-    switch.write_text(SWITCH)
-    programs = sorted({p for m in chosen for p in m.programs})
+    write(switch, SWITCH.encode())
+    programs = sorted({p.split("@")[0] for m in chosen for p in m.programs})
     log = folder / "build.log"
     with log.open("w") as to:
         for command in (["cmake", "-S", tree, "-B", out, "-G", "Ninja", "-DFULMAR_TESTS=ON", "-DCMAKE_BUILD_TYPE=Release",
                          "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG", f"-DCMAKE_CXX_FLAGS=-w -include {switch}"],
-                        ["ninja", "-C", out, *programs]):
+                        ["ninja", "-C", out, "-j", str(jobs), "fulmar", *programs]):
             if subprocess.run(command, stdout=to, stderr=to).returncode:
                 sys.exit(f"the build with the faults in it failed: {log}")
-    return out / "bin", programs
+    return out / "bin"
 
 
-def passes(program, folder, mutant="0"):
+def passes(bin_folder, program, folder, mutant="0"):
+    """`program` or `program@part`: the tests of the source files whose name contains `part`."""
+    name, _, part = program.partition("@")
+    command = [bin_folder / name, "--abort-after=1"] + ([f"--source-file=*{part}*"] if part else [])
     try:
-        return subprocess.run([program, "--abort-after=1"], cwd=folder, stdout=subprocess.DEVNULL,
+        return subprocess.run(command, cwd=folder, stdout=subprocess.DEVNULL,
                               stderr=subprocess.DEVNULL, timeout=LIMIT_S,
                               env=dict(os.environ, FULMAR_MUTANT=mutant)).returncode == 0
     except subprocess.TimeoutExpired:
@@ -110,6 +123,7 @@ def passes(program, folder, mutant="0"):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--folder", type=pathlib.Path, default=ROOT / "build-mutants")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="of the build")
     parser.add_argument("id", nargs="*", help="faults of the list; all when none is named")
     given = parser.parse_args()
     known = mutants()
@@ -118,21 +132,25 @@ def main():
         sys.exit(f"no such fault in {LIST}: {' '.join(sorted(unknown))}")
     chosen = [m for m in known if not given.id or m.id in given.id]
     folder = given.folder.resolve()
-    bin_folder, programs = build(folder, chosen)
-    for program in programs:
-        if not passes(bin_folder / program, folder / "build"):
+    bin_folder = build(folder, given.jobs, chosen, known)
+    for program in sorted({p for m in chosen for p in m.programs}):
+        if not passes(bin_folder, program, folder / "build"):
             sys.exit(f"{program} fails without a fault")
-    survivors = []
+    survivors, equivalents = [], []
     for m in chosen:
-        by = next((p for p in m.programs if not passes(bin_folder / p, folder / "build", m.id)), None)
+        by = next((p for p in m.programs if not passes(bin_folder, p, folder / "build", m.id)), None)
         if not by:
-            survivors.append(m)
-        print(f"{m.id:>5} {m.path:45} {by or 'SURVIVED'}", flush=True)
-    noticed = len(chosen) - len(survivors)
-    print(f"{noticed} of {len(chosen)} noticed ({100 * noticed // len(chosen)} %), wanted: {ENOUGH_PERCENT} %")
+            (equivalents if m.equivalent else survivors).append(m)
+        print(f"{m.id:>5} {m.path:50} {by or ('equivalent' if m.equivalent else 'SURVIVED')}", flush=True)
+    counted = len(chosen) - len(equivalents)
+    noticed = counted - len(survivors)
+    for m in equivalents:
+        print(f"equivalent: {m.id} {m.path}: {m.original} -> {m.mutated}: {m.equivalent}")
     for m in survivors:
         print(f"not noticed: {m.id} {m.path}: {m.original} -> {m.mutated}")
-    return 0 if 100 * noticed >= ENOUGH_PERCENT * len(chosen) else 1
+    percent = 100 * noticed // counted if counted else 100
+    print(f"{noticed} of {counted} noticed ({percent} %), wanted: {ENOUGH_PERCENT} %")
+    return 0 if 100 * noticed >= ENOUGH_PERCENT * counted else 1
 
 
 if __name__ == "__main__":

@@ -48,7 +48,8 @@ class FixWatch {
  private:
   using Severity = fulmar::Severity;
   static constexpr std::int64_t least_ns = 700'000'000;
-  std::int64_t last_ns_ = never_ns, period_ns_ = 0;
+  std::int64_t last_ns_ = never_ns,
+               period_ns_ = 2'000'000'000;  ///< until two fixes have told it: the slowest receiver's
   bool lost_ = false;
 };
 

@@ -203,4 +203,15 @@ TEST_CASE("a wrong condition is refused with a sentence") {
   CHECK(refused(std::string(200, '(') + "vehicle.status.armed") == "the condition is nested too deep");
 }
 
+TEST_CASE("fields of two units are compared as what they are") {
+  World world;
+  world.state.roll_rad = 0.8;
+  world.state.origin_latitude_deg = 40;  // 0.698 rad
+  CHECK(world("nav.state.roll_rad > nav.state.origin_latitude_deg"));
+  CHECK_FALSE(world("nav.state.origin_latitude_deg > nav.state.roll_rad"));
+  world.state.roll_rad = 0.6;
+  CHECK_FALSE(world("nav.state.roll_rad > nav.state.origin_latitude_deg"));
+  CHECK(world("nav.state.origin_latitude_deg > nav.state.roll_rad"));
+}
+
 }  // namespace condition_test

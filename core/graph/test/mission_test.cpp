@@ -457,4 +457,12 @@ TEST_CASE("the epoch is a time in UTC") {
     CHECK_THROWS_AS(parse_utc_ns(text), Error);
 }
 
+TEST_CASE("a phase may be reached from any other alone") {
+  Mission mission;
+  mission.replace("to: research, when", "to: cruise, when");
+  mission.replace("{to: hold, when: \"vehicle.status.override\"}",
+                  "{to: research, when: \"vehicle.status.override\"}");
+  CHECK(mission.faults() == "");
+}
+
 }  // namespace mission_test

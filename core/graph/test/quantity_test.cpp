@@ -110,6 +110,8 @@ TEST_CASE("a range is told in the unit that was written") {
   CHECK(outside("-1 cm", "m", 0, inf) == "-1 cm is below 0 cm");
   CHECK(outside("31 degC", "K", -inf, 303.15) == "31 degC is above 30 degC");
   CHECK(outside("180 deg", "rad", -3.1416, 3.1416) == "");
+  CHECK(outside("2", "", 0, 2) == "");  // the ends belong to it
+  CHECK(outside("0", "", 0, 2) == "");
 }
 
 TEST_CASE("the unit suffix of a field is split off") {

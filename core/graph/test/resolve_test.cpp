@@ -272,10 +272,10 @@ TEST_CASE("wires carry their age limit, their own or their component's") {
   Mission mission;
   mission.replace(
       "use: path/Manager, in: {state: nav.state, plan: plan.plan}",
-      "use: path/Manager, max_age: 1 s, in: {state: {from: nav.state, max_age: 200 ms}, plan: plan.plan}");
+      "use: path/Manager, max_age: 3 s, in: {state: {from: nav.state, max_age: 200 ms}, plan: plan.plan}");
   const Graph graph = mission.load();
   CHECK(wire(graph, "manage", "state").max_age_ns == 200'000'000);
-  CHECK(wire(graph, "manage", "plan").max_age_ns == 1'000'000'000);
+  CHECK(wire(graph, "manage", "plan").max_age_ns == 3'000'000'000);
   CHECK(wire(graph, "score", "state").max_age_ns == 0);
 }
 

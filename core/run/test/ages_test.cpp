@@ -79,6 +79,8 @@ TEST_CASE("a slow writer has three of its steps before its reader is stopped") {
       "  one:  {fills: law, use: lab/Law, in: {signal: plan.signal}}\n" +
       std::string(one_phase));
   CHECK(Flight(g, options(9)).run().guards.empty());
+  for (const Component& c : g.components)
+    if (c.name == "one") CHECK(c.wires[0].max_age_ns == 6'000'000'000);
 }
 
 TEST_CASE("a sample of the tick before is lost with its writer, too") {
@@ -146,6 +148,25 @@ TEST_CASE("what does not lead to the vehicle looks on, whoever was stopped") {
   const FlightResult r = Flight(g, options(2)).run();
   CHECK(r.outcome == Outcome::flown);
   CHECK(r.guards.size() == 1);
+}
+
+TEST_CASE("a sample of the tick before is as old as it was then, and a tick") {
+  const Graph g = mission(
+      "  plan: {use: lab/Filter, in: {signal: vehicle.signal}}\n"
+      "  one:  {fills: law, use: lab/Law, in: {signal: {from: plan.signal, delayed: true, max_age: 300 "
+      "ms}}}\n" +
+      std::string(one_phase));
+  CHECK(Flight(g, options(2)).run().guards.empty());
+}
+
+TEST_CASE("what a stopped component said last decides nothing") {
+  const Graph g = mission(
+      "  plan: {use: lab/Filter, in: {signal: vehicle.signal}}\n"
+      "phases:\n"
+      "  first:  {law: one, next: [{to: second, when: \"plan.signal.tick_s > 0 s\", for: 0.2 s}]}\n"
+      "  second: {law: two}\n",
+      {{"plan.stop_at", "0.1"}});
+  CHECK(Flight(g, options(0.5)).run().phases.size() == 1);
 }
 
 }  // namespace ages_test

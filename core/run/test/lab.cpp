@@ -6,6 +6,7 @@
 #include <cfenv>
 #include <chrono>
 #include <clocale>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <limits>
@@ -34,7 +35,7 @@ struct Command {
 struct Received {
   double u_frac = 0, seen_m = 0;
   std::uint32_t by = 0;
-  bool present = false, fresh = false;
+  bool present = false, fresh = false, stale = false;
 };
 
 struct Arm {
@@ -68,6 +69,7 @@ struct Cart {
     Count burst_size{3, 0, 100, "samples per tick"};
     Param mute_at{1e9, "s", -1e9, 1e9, "the signal falls silent here"};
     Flag probes{false, "publishes its probe"};
+    Param stuck_at{1e9, "s", -1e9, 1e9, "time stands still here"};
     TextParam<200> device{"", "file that stands for the device: it gets the last frame"};
   };
   void configure(const Params& p) {
@@ -81,6 +83,7 @@ struct Cart {
   }
   Status read(Tick& tick, const Params& p, Outputs& out) {
     tick.now_ns = n_ * static_cast<std::int64_t>(1e9 / p.rate) - 1'000'000'000;
+    if (tick.now_s() > p.stuck_at) tick.now_ns = std::llround(1e9 * p.stuck_at);
     if (tick.now_s() >= p.fail_at) return Status::failed;
     Signal s{static_cast<double>(n_), tick.now_s()};
     if (tick.now_s() < p.mute_at) out.signal.publish(s);
@@ -99,7 +102,8 @@ struct Cart {
     }
     applied_ = {};
     if (in.command)
-      applied_ = {in.command->u_frac, in.command->seen_m, in.command->by, true, in.command.fresh()};
+      applied_ = {in.command->u_frac, in.command->seen_m, in.command->by, true,
+                  in.command.fresh(), in.command.stale()};
     return Status::ok;
   }
 
@@ -173,7 +177,11 @@ struct Law {
     Probe taken_over_frac;
   };
   struct Params {
+#ifdef LAB_BETTER
+    Param u{0.5, "", -0.5, 1, "what it commands"};
+#else
     Param u{0.5, "", -1, 1, "what it commands"};
+#endif
     Count id{1, 0, 100, "who it is"};
     Choice<Fault> fault{Fault::none, "what it does wrong"};
     Param fault_at{1e9, "s", -1e9, 1e9, "from when on"};

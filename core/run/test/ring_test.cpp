@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <thread>
 
+#include "core/run/stats.hpp"
+
 namespace ring_test {
 
 using fulmar::core::Ring;
@@ -81,6 +83,16 @@ TEST_CASE("a full ring refuses, and takes again when the consumer has made room;
 TEST_CASE("a ring asked to be too small for its messages grows until it holds four") {
   const Ring ring(64, 100'000);
   CHECK(ring.capacity() >= 400'000);
+}
+
+TEST_CASE("of equal step times every quantile is that time, and the least of several is the least") {
+  fulmar::core::Histogram same, several;
+  for (int i = 0; i < 4; ++i) same.add(20);
+  for (const double q : {0.0, 0.5, 0.99}) CHECK(same.quantile_us(q) == doctest::Approx(0.020));
+  for (const int ns : {20, 100, 1000}) several.add(ns);
+  CHECK(several.quantile_us(0) == doctest::Approx(0.0205));
+  CHECK(several.quantile_us(0.5) == doctest::Approx(0.1).epsilon(0.05).scale(0));
+  CHECK(several.quantile_us(1) == doctest::Approx(1));
 }
 
 }  // namespace ring_test

@@ -80,6 +80,13 @@ TEST_CASE("a swap that cannot be is refused in a sentence, and the old law flies
   CHECK(has(ground.refused(std::string(FULMAR_TEST_PLUGIN_DIR) + "/wrong_abi.so"), "is built for ABI 2.0"));
   CHECK(has(ground.refused(std::string(FULMAR_TEST_PLUGIN_DIR) + "/crash.so"), "crashed while being loaded"));
   if (FULMAR_CRASH_TESTS) CHECK(has(ground.refused(variant("_crashing")), "crashed"));
+  for (const double u : {-0.75, 0.1}) {
+    ParamValue v;
+    v.number[0] = u;
+    set_parameter(*ground.flight, "one", "u", v);
+    CHECK(ground.flight->step());
+    if (u < 0) CHECK(has(ground.refused(variant("_better")), "'u' does not allow the present value"));
+  }
   for (int i = 0; i < 10; ++i) CHECK(ground.flight->step());
   CHECK(ground.u() == 0.1);
   while (ground.flight->step()) {

@@ -116,4 +116,118 @@ TEST_CASE("a take-off run forgets what the throttle has learnt") {
   CHECK(bench.out.throttle_integral_frac.value == 0);
 }
 
+TEST_CASE(
+    "what the surfaces have learnt is forgotten on the ground, and when nobody's commands are taken up") {
+  for (const bool lands : {true, false}) {
+    CAPTURE(lands);
+    Bench<slc::Inner> bench;
+    bench.set(bench.in.state, flying());
+    bench.set(bench.in.attitude, AttitudeCommand{0.05, 0.03, 0.5});
+    for (int i = 0; i < 300; ++i) bench.step(0.01);
+    if (!lands) REQUIRE(bench.activate() == Status::ok);
+    bench.set(bench.in.attitude, AttitudeCommand{});
+    VehicleState s = flying();
+    if (lands) s.airspeed_mps = s.ground_speed_mps = s.height_m = 0;
+    bench.set(bench.in.state, s);
+    for (int i = 0; i < 100; ++i) bench.step(0.01);  // the command's rate fades
+    CHECK(std::abs(bench.out.actuators.aileron_rad) < 1e-9);
+    CHECK(std::abs(bench.out.actuators.elevator_rad) < 1e-9);
+  }
+}
+
+TEST_CASE("the yaw damper's gain grows as the dynamic pressure falls") {
+  const auto rudder = [](double airspeed) {
+    Bench<slc::Inner> bench;
+    VehicleState s = flying(airspeed);
+    bench.set(bench.in.state, s);
+    bench.set(bench.in.attitude, AttitudeCommand{});
+    bench.step(0.01);
+    s.rate_radps.z = 0.2;
+    bench.set(bench.in.state, s);
+    bench.step(0.01);
+    return bench.out.actuators.rudder_rad;
+  };
+  CHECK(rudder(15) > 0.05);
+  CHECK(rudder(10) / rudder(15) == Approx(1.5 * 1.5));
+  CHECK(rudder(20) / rudder(15) == Approx(0.75 * 0.75));
+}
+
+TEST_CASE("an attitude that is lost in a steady turn moves no rudder") {
+  Bench<slc::Inner> bench;
+  VehicleState s = flying();
+  s.roll_rad = 0.6;
+  const TurnRates turn = turn_rates(0.6, 0, 15);
+  s.rate_radps = {turn.p_radps, turn.q_radps, turn.r_radps};
+  bench.set(bench.in.state, s);
+  bench.set(bench.in.attitude, AttitudeCommand{0.6, 0, 0.5});
+  for (int i = 0; i < 300; ++i) bench.step(0.01);
+  s.attitude_valid = false;
+  bench.set(bench.in.state, s);
+  CHECK(bench.step(0.01) == Status::degraded);
+  CHECK(std::abs(bench.out.actuators.rudder_rad) < 1e-3);
+}
+
+TEST_CASE("below the minimum airspeed the elevator's trim is that of the minimum") {
+  Bench<slc::Inner> bench;
+  const Airframe a = test::anaconda();
+  bench.params.airframe.value = a;
+  bench.params.airframe.is_given = true;
+  bench.params.pitch_ki.value = 0;
+  bench.set(bench.in.state, flying(0.75 * a.limits.airspeed_min_mps));
+  bench.set(bench.in.attitude, AttitudeCommand{});
+  bench.step(0.01);
+  const double rho = standard_air(70).density_kgm3;
+  const double want = a.elevator.trim_rad + turn_trim(a, 0, a.limits.airspeed_min_mps, rho).elevator_rad -
+                      turn_trim(a, 0, a.limits.airspeed_cruise_mps, rho).elevator_rad;
+  CHECK(bench.out.actuators.elevator_rad / want == Approx(1).epsilon(1e-3));
+}
+
+TEST_CASE("the pitch fed forward for a climb is that of the present speed") {
+  Bench<slc::Outer> bench;
+  bench.params.altitude_ki.value = bench.params.altitude_kd.value = 0;
+  GuidanceCommand climb = level(17);
+  climb.climb_rate_mps = 2;
+  fly(bench, climb, flying(17), 300);
+  CHECK(bench.out.attitude.pitch_rad / (2.0 / 17) == Approx(1));
+}
+
+TEST_CASE("an airspeed is asked for within the airframe's limits") {
+  const auto throttle = [](double wanted, double airspeed) {
+    Bench<slc::Outer> bench;
+    bench.params.airspeed_ki.value = 0;
+    fly(bench, level(wanted), flying(airspeed), 300);
+    return bench.out.attitude.throttle_frac;
+  };
+  CHECK(throttle(40, 24) == Approx(0.5 + 0.03 * (25 - 15) + 0.15 * (25 - 24)));  // 10 to 25 m/s, cruise 15
+  CHECK(throttle(5, 11) == Approx(0.5 + 0.03 * (10 - 15) + 0.15 * (10 - 11)));
+}
+
+TEST_CASE("the throttle fed forward for a turn is its drag over the thrust") {
+  const Airframe a = test::anaconda();
+  const auto throttle = [&](double roll) {
+    Bench<slc::Outer> bench;
+    bench.params.common.airframe.value = a;
+    bench.params.common.airframe.is_given = true;
+    bench.params.altitude_ki.value = bench.params.airspeed_ki.value = 0;
+    fly(bench, level(17, roll), flying(17), 500);
+    return bench.out.attitude.throttle_frac;
+  };
+  const double rho = standard_air(70).density_kgm3, thrust = slc::Outer::Params{}.thrust;
+  const double drag = turn_trim(a, 0.7, 17, rho).drag_newton - turn_trim(a, 0, 17, rho).drag_newton;
+  CHECK((throttle(0.7) - throttle(0)) / (drag / thrust) == Approx(1).epsilon(1e-3));
+}
+
+TEST_CASE("a climb that is limited is told as saturated though the pitch is not at its limit") {
+  Bench<slc::Outer> bench;
+  bench.params.altitude_kd.value = 0;
+  GuidanceCommand above = level(15);
+  above.height_m = 170;
+  fly(bench, above, flying(), 300);
+  CHECK(bench.out.attitude.pitch_rad < 0.34);
+  CHECK(bench.out.internals.pitch_saturated);
+  above.height_m = 71;
+  fly(bench, above, flying(), 1);
+  CHECK_FALSE(bench.out.internals.pitch_saturated);
+}
+
 }  // namespace feed_forward_test

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gates that open again, a height that is as sure as it says, and an alignment in a turn with a late
-// receiver.
+// Gates that open again, deviations that are as large as they say, and fixes that are late.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -42,15 +41,17 @@ TEST_CASE("an alignment in a turn takes in that the fix is late") {
 TEST_CASE("velocities refused for long are believed in the end") {
   Flown f{};
   f.plan.seed = 1;
-  double most = 0;
+  double most = 0, tilt_std = 0;
   f.alter = [](const Truth& x, Samples& s) {
     if (s.gnss && x.t > 60) s.gnss->velocity_mps.north += 20;
   };
   f.watch = [&](const Truth& x, const VehicleState& s, Status) {
     if (x.t > 70 && x.t < 80) most = std::max(most, s.velocity_mps.north - x.v_n.x());
+    if (x.t > 69 && x.t < 72) tilt_std = std::max(tilt_std, s.attitude_std_rad.north);
   };
   f.run();
   CHECK(most > 10);
+  CHECK(tilt_std > 0.05);  // whatever made the velocity wrong may have made the attitude wrong
 }
 
 TEST_CASE("the height is as sure as it says, with a receiver whose height error lasts a minute") {
@@ -69,6 +70,179 @@ TEST_CASE("the height is as sure as it says, with a receiver whose height error 
   }
   REQUIRE(n > 0);
   CHECK(normalised / n < 2);
+}
+
+TEST_CASE("heights refused for long are believed in the end") {
+  Flown f{};
+  double most = 0;
+  f.alter = [](const Truth& x, Samples& s) {
+    if (s.gnss && x.t > 60) s.gnss->altitude_m += 100;
+  };
+  f.watch = [&](const Truth& x, const VehicleState& s, Status) {
+    if (x.t > 72 && x.t < 80) most = std::max(most, s.height_m + x.p_n.z());
+  };
+  f.run();
+  CHECK(most > 50);
+}
+
+TEST_CASE("a barometer refused for long is believed in the end, and then holds the height without GNSS") {
+  Flown f{};
+  double worst = 0;
+  f.alter = [](const Truth& x, Samples& s) {
+    if (s.baro && x.t > 60) s.baro->pressure_pa += 500;  // 45 m
+    if (x.t > 80) s.gnss.reset();
+  };
+  f.watch = [&](const Truth& x, const VehicleState& s, Status) {
+    if (x.t > 80) worst = std::max(worst, std::abs(s.height_m + x.p_n.z()));
+  };
+  f.run();
+  CHECK(worst < 8);
+}
+
+TEST_CASE("more samples of a magnetometer are not more information: its errors last") {
+  const auto yaw_std = [](double hz) {
+    Flown f{};
+    f.plan.duration_s = f.plan.rest_s;
+    f.quality.mag_hz = hz;
+    f.quality.accel_bias = 0;
+    f.set = [](Ekf::Params& p) {  // nothing else that makes the yaw unsure
+      p.mag_deviation.value = 0;
+      p.accel_bias_std.value = 1e-3;
+    };
+    f.run();
+    return f.last.attitude_std_rad.down;
+  };
+  CHECK(yaw_std(50) / yaw_std(10) == doctest::Approx(1).epsilon(0.1));
+}
+
+TEST_CASE("the first fix in the air is of the past, too") {
+  Flown f{.quality = ublox, .from_s = 47};  // on a straight leg
+  f.plan.duration_s = 50;
+  f.quality.position_walk_m = f.quality.height_walk_m = f.quality.position_white = 0;
+  std::optional<double> behind;
+  f.watch = [&](const Truth& x, const VehicleState& s, Status) {
+    if (!behind) behind = (x.p_n - eigen(s.position_m)).dot(x.v_n.normalized());
+  };
+  f.run();
+  REQUIRE(behind);
+  CHECK(std::abs(*behind) < 0.7);  // 0.15 s at 17 m/s are 2.5 m
+}
+
+TEST_CASE("the error of a receiver's climb rate lasts: the vertical velocity is less sure for it") {
+  const auto climb_std = [](double time_s) {
+    Flown f{.quality = ublox};
+    f.plan.duration_s = 60;
+    f.alter = [](const Truth&, Samples& s) { s.baro.reset(); };
+    f.set = [&](Ekf::Params& p) { p.gnss_climb_time.value = time_s; };
+    f.run();
+    return f.last.velocity_std_mps.down;
+  };
+  CHECK(climb_std(5) > 1.5 * climb_std(0));
+}
+
+TEST_CASE("where the field is steep the needle knows less of the yaw") {
+  const auto yaw_std = [](double lat, double lon) {
+    Flown f{};
+    f.plan.duration_s = f.plan.rest_s;
+    f.plan.lat_deg = lat, f.plan.lon_deg = lon;
+    f.quality.accel_bias = 0;
+    f.set = [](Ekf::Params& p) {
+      p.mag_deviation.value = 0;
+      p.accel_bias_std.value = 1e-3;
+    };
+    f.run();
+    return f.last.attitude_std_rad.down;
+  };
+  CHECK(yaw_std(64.1, -21.9) > 2 * yaw_std(0.1, 36.8));  // Iceland, Kenya: dips of 75 and -22 degrees
+}
+
+TEST_CASE("a static port that sees the dynamic pressure makes the height less sure, in the air alone") {
+  const auto height_std = [](double share, double duration_s) {
+    Flown f{};
+    f.plan.duration_s = duration_s;
+    f.alter = [](const Truth& x, Samples& s) {
+      if (x.t > 3) s.gnss.reset();
+    };
+    f.set = [&](Ekf::Params& p) { p.baro_position_error.value = share; };
+    f.run();
+    return f.last.position_std_m.down;
+  };
+  CHECK(height_std(1, 40) > 1.05 * height_std(0, 40));
+  CHECK(height_std(1, 5) / height_std(0, 5) == doctest::Approx(1));
+}
+
+TEST_CASE("how far the tube's speed is believed is the pilot's to say") {
+  const auto airspeed_std = [](double std_mps) {
+    Flown f{};
+    f.plan.duration_s = 60;
+    f.set = [&](Ekf::Params& p) { p.pitot_speed_std.value = std_mps; };
+    f.run();
+    return f.last.airspeed_std_mps;
+  };
+  CHECK(airspeed_std(3) > 2 * airspeed_std(0.1));
+}
+
+TEST_CASE("one odd sample of the tube is no airspeed") {
+  Flown f{};
+  f.plan.duration_s = f.plan.rest_s;
+  double most = 0;
+  f.alter = [](const Truth& x, Samples& s) {
+    if (s.pitot && x.t > 3.995 && x.t < 4.005) s.pitot->pressure_pa = 500;  // 30 m/s
+  };
+  f.watch = [&](const Truth& x, const VehicleState& s, Status) {
+    if (x.t > 3.995) most = std::max(most, s.airspeed_mps);
+  };
+  f.run();
+  CHECK(most > 0.5);
+  CHECK(most < 4);
+}
+
+TEST_CASE("without a barometer the tube's speed is that of the air at the estimated height") {
+  const estimator::Params p;
+  VehicleState s;
+  s.position_m = {0, 0, -3000};
+  s.velocity_mps = {17, 0, 0};
+  s.origin_valid = s.position_valid = true;
+  s.origin_altitude_m = 500;
+  estimator::Navigator navigator;
+  navigator.resume(s, p, 0);
+  navigator.pitot(100, p);
+  CHECK(navigator.pitot_mps() / std::sqrt(2 * 100 / standard_air(3500).density_kgm3) == doctest::Approx(1));
+}
+
+TEST_CASE("once the air carries it, it does so until the airspeed is well below the least one") {
+  Flown f{};
+  f.plan.gust_mps = 0;
+  f.plan.wind = {3.5, 0, 0};  // 13.5 to 20.5 m/s of airspeed on the way round
+  f.plan.duration_s = 110;
+  f.set = [](Ekf::Params& p) { p.min_airspeed.value = 18; };
+  int carried = 0, dropped = 0;
+  f.watch = [&](const Truth&, const VehicleState& s, Status) {
+    const bool angles = s.alpha_rad != 0 || s.beta_rad != 0;
+    dropped += carried > 0 && !angles ? 1 : 0;
+    carried += angles ? 1 : 0;
+  };
+  f.run();
+  CHECK(carried > 1000);
+  CHECK(dropped == 0);
+}
+
+TEST_CASE("a magnetometer that wakes up after the alignment turns the yaw at once") {
+  Flown f{};
+  f.plan.duration_s = f.plan.rest_s;
+  f.plan.initial_course_rad = 1.4;
+  f.quality.mag_ratio = f.quality.accel_bias = 0;
+  f.alter = [](const Truth& x, Samples& s) {
+    if (x.t < 3.999) s.mag.reset();
+  };
+  double before = 0, worst = 0;
+  f.watch = [&](const Truth& x, const VehicleState& s, Status) {
+    double& most = x.t < 3.999 ? before : worst;
+    if (x.t < 3.999 || x.t < 4.05) most = std::max(most, std::abs(s.yaw_rad - euler_from(x.q_nb).yaw_rad));
+  };
+  f.run();
+  CHECK(before > 1);  // it took its nose to point north
+  CHECK(worst < 0.01);
 }
 
 }  // namespace gates_test

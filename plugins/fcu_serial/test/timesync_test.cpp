@@ -375,4 +375,16 @@ TEST_CASE(
   CHECK(dater.undated() > 1000);
 }
 
+TEST_CASE("what samples said of the clock before a pause is forgotten: the controller may have stood still") {
+  constexpr std::int64_t ms = 1'000'000, pause_ms = 2000;
+  Dater dater;
+  const auto sample = [&](std::int64_t host_ms, std::int64_t stood_ms) {
+    dater.date_imu(static_cast<std::uint64_t>((5000 + host_ms - stood_ms) * 1000), host_ms * ms);
+  };
+  for (std::int64_t t = 0; t < 1000; t += 5) sample(t, 0);
+  for (std::int64_t t = 4000; t < 4010; t += 5) sample(t, pause_ms);
+  dater.clock.asked(4010 * ms);
+  CHECK(dater.answered(4010 * ms, (5000 + 4011 - pause_ms) * ms, 4012 * ms) == ClockSync::Verdict::taken);
+}
+
 }  // namespace timesync_test

@@ -179,4 +179,14 @@ TEST_CASE("a new command that came too early goes out when it may") {
   CHECK(pace.due(false, 10'000'000));
 }
 
+TEST_CASE("a tick that was late does not put off the command after it") {
+  Pace pace(100);
+  REQUIRE(pace.due(true, 0));
+  pace.sent(0);
+  REQUIRE(pace.due(true, 12'400'000));
+  pace.sent(12'400'000);
+  CHECK_FALSE(pace.due(true, 17'500'000));
+  CHECK(pace.due(true, 20'000'000));
+}
+
 }  // namespace vehicle_commands_test

@@ -256,4 +256,62 @@ TEST_CASE("send_attitude without an estimate is told once") {
   CHECK(times(f, "nothing comes to the input 'state'") == 1);
 }
 
+TEST_CASE("after a landing it has not flown: handed over without a position it waits again") {
+  Flying f;
+  cruising(f);
+  take_back(f);
+  f.fly(0.5);
+  f.world.fcu.inputs.rc_us[4] = 1000;
+  f.fly(1);
+  REQUIRE_FALSE(f.status.armed);
+  f.state = placeless();
+  armed_by_pilot(f);
+  hand_over(f);
+  CHECK(sent_in(f, 2) == 0);
+}
+
+TEST_CASE("inertial samples that stop, and no attitude after them: the pilot has it, though the link is up") {
+  Flying f;
+  cruising(f);
+  f.world.lost = [](const Packet& p) { return p.is<SmallImu>(); };
+  f.state = blind();
+  f.fly(0.15);
+  f.world.lost = [](const Packet&) { return false; };
+  CHECK(sent_in(f, 2) == 0);
+}
+
+TEST_CASE("an estimate that nobody renews is none") {
+  Flying f;
+  cruising(f);
+  f.state.reset();
+  f.fly(0.6);
+  take_back(f);
+  f.fly(0.5);
+  hand_over(f);
+  CHECK(sent_in(f, 2) == 0);
+}
+
+TEST_CASE("a receiver with one fix in a second is not lost between two of them") {
+  peer::Options options;
+  options.rates.gnss = 1;
+  Flying f(options);
+  cruising(f);
+  f.fly(10);
+  CHECK(times(f, "GNSS") == 0);
+  f.world.fcu.inputs.gnss_works = false;
+  f.fly(3);
+  CHECK(times(f, "GNSS lost") == 1);
+}
+
+TEST_CASE("the attitude goes to the controller at 50 Hz, however often it comes") {
+  Flying f;
+  f.bench.params.send_attitude.value = true;
+  f.state = known();
+  f.fly(2);
+  const std::size_t before = f.world.count<ExternalAttitude>();
+  f.fly(2);
+  CHECK(f.world.count<ExternalAttitude>() - before > 90);
+  CHECK(f.world.count<ExternalAttitude>() - before < 110);
+}
+
 }  // namespace vehicle_readiness_test

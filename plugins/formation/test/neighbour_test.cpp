@@ -68,6 +68,9 @@ TEST_CASE("the distance is that of now, and the least one counts in the air alon
   bench.set(bench.in.heard, flying({3, 4, 0}, 0));
   bench.step(0.1);
   CHECK(bench.out.sight.least_distance_m == 1e9);
+  bench.set(bench.in.heard, flying({3, 4, -70}, 0));  // one of the two still stands
+  bench.step(0.1);
+  CHECK(bench.out.sight.least_distance_m == 1e9);
   VehicleState here = flying({0, 0, -70}, 0);
   bench.set(bench.in.state, here);
   bench.set(bench.in.heard, flying({0, 30, -70}, 0, 20));  // northwards with 20 m/s

@@ -222,4 +222,14 @@ TEST_CASE("the quality of a fix becomes its type") {
   CHECK(type('6', 3) == FixType::dead_reckoning);
 }
 
+TEST_CASE("a receiver that warns of its own speed is not believed it") {
+  Epochs epochs;
+  samples(epochs, epoch_text(0) + epoch_text(1));
+  std::string warned = "GNRMC,120002.00,V,4717.1142,N,00833.9159,E,20.000,90.0,091202,,,N";
+  const std::string both = epoch_text(2);
+  const auto all = samples(epochs, framed(warned) + both.substr(both.find("$GNGGA")));
+  REQUIRE(all.size() == 1);
+  CHECK(all[0].velocity_mps.east == 0);
+}
+
 }  // namespace nmea_test

@@ -366,4 +366,34 @@ TEST_CASE("planner and manager together: edits in flight by request") {
   CHECK_FALSE(planner.out.plan.written);
 }
 
+TEST_CASE("the miss of a waypoint is that of this one, not the least of all so far") {
+  Bench<Manager> manager;
+  manager.set(manager.in.plan, plan_of({point(300, 0), point(600, 0), point(900, 0)}, PlanEnd::orbit));
+  Kinematic aircraft;
+  std::vector<double> misses;
+  for (int i = 0; i < 400; ++i) {
+    aircraft.north = 2 * i;
+    aircraft.east = aircraft.north < 400 ? 0 : 10;
+    manager.set(manager.in.state, aircraft.state());
+    manager.step(0.1);
+    if (manager.out.progress.reached > misses.size()) misses.push_back(manager.out.progress.miss_m);
+  }
+  REQUIRE(misses.size() >= 2);
+  CHECK(misses[0] < 2.1);
+  CHECK(misses[1] == doctest::Approx(10).epsilon(0.05));
+}
+
+TEST_CASE("nothing to fly: it circles at its height, and not below the least one") {
+  for (const double height : {20.0, 120.0}) {
+    Bench<Manager> manager;
+    manager.set(manager.in.plan, Plan{});
+    Kinematic aircraft;
+    aircraft.height = height;
+    manager.set(manager.in.state, aircraft.state());
+    manager.step(0.01);
+    REQUIRE(manager.out.path.written);
+    CHECK(manager.out.path.value.origin_m.down == -std::max(height, 50.0));
+  }
+}
+
 }  // namespace manager_test

@@ -243,4 +243,25 @@ TEST_CASE("edits of the queue are applied in order, and what is refused is count
   CHECK(bench.out.refused_ratio.value == 1);
 }
 
+TEST_CASE("a waypoint that is put in just before the one to jump to is not jumped to") {
+  Bench<Planner> bench;
+  three_waypoints(bench);
+  bench.step(0.01);
+  bench.push(bench.in.edits, edit(PlanEditKind::set_current, 1));
+  bench.push(bench.in.edits, edit(PlanEditKind::insert, 1, 150, 100));
+  bench.step(0.01);
+  const Plan& plan = bench.out.plan.value;
+  REQUIRE(plan.waypoints.count == 4);
+  CHECK(plan.waypoints[plan.jump_item].position_m.north == 300);
+}
+
+TEST_CASE("too high is as far away as too deep") {
+  Bench<Planner> bench;
+  for (const double down : {-1.1e5, 1.1e5}) {
+    PlanEdit far = edit(PlanEditKind::append, 0, 900, 100);
+    far.waypoint.position_m.down = down;
+    CHECK(ask(bench, far) == "more than 100 km from the origin");
+  }
+}
+
 }  // namespace planner_test

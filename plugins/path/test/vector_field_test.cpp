@@ -64,6 +64,24 @@ TEST_CASE("on a line its course is commanded, far to the side the approach angle
   CHECK(bench.out.cross_track_m.value == doctest::Approx(1 / 0.04));
 }
 
+TEST_CASE(
+    "it turns onto a line more gently the faster it is, and no more sharply below three tenths of the "
+    "reference") {
+  for (const auto& [speed, off] : {std::pair{34.0, 50.0}, {8.5, 12.5}, {1.0, 7.5}}) {
+    Bench<VectorField> bench;
+    CHECK(command(bench, at(100, off, 0, speed), line(0)).course_rad == doctest::Approx(-1.05 / 2));
+  }
+}
+
+TEST_CASE("well inside an orbit a share of its bank is fed forward, as well outside") {
+  const double full = 17.0 * 17 / (100 * 9.80665);
+  for (const double d : {20.0, 180.0}) {  // 0.8 radii off it
+    Bench<VectorField> bench;
+    CHECK(command(bench, at(d, 0, pi / 2), orbit(Turn::right, 100)).roll_feedforward_rad ==
+          doctest::Approx(std::atan(0.7 * full)));
+  }
+}
+
 TEST_CASE("on an orbit the tangent is commanded, far outside the way to the centre") {
   Bench<VectorField> bench;
   CHECK(command(bench, at(50, 0, pi / 2), orbit(Turn::right, 50)).course_rad == doctest::Approx(pi / 2));
@@ -176,8 +194,11 @@ TEST_CASE(
 
 TEST_CASE("without a position it flies straight on at the height last asked for, and says so") {
   Bench<VectorField> bench;
-  const GuidanceCommand before = command(bench, at(0, 55, 0.3), orbit(Turn::right, 50));
+  Path climbing = orbit(Turn::right, 50);
+  climbing.climb_ratio = 0.1;
+  const GuidanceCommand before = command(bench, at(0, 55, pi - 0.3), climbing);
   CHECK(before.roll_feedforward_rad > 0.1);
+  CHECK(before.climb_rate_mps > 1);
   VehicleState lost = at(700, -300, 2);
   lost.position_valid = false;
   bench.set(bench.in.state, lost);
@@ -187,8 +208,7 @@ TEST_CASE("without a position it flies straight on at the height last asked for,
   CHECK(bench.out.command.airspeed_mps == before.airspeed_mps);
   CHECK(bench.out.command.roll_feedforward_rad == 0);
   CHECK(bench.out.command.climb_rate_mps == 0);
-  CHECK(command(bench, at(0, 55, 0.3), orbit(Turn::right, 50)).roll_feedforward_rad ==
-        before.roll_feedforward_rad);
+  CHECK(command(bench, at(0, 55, pi - 0.3), climbing).roll_feedforward_rad == before.roll_feedforward_rad);
 }
 
 TEST_CASE(
@@ -221,6 +241,28 @@ TEST_CASE(
     s.position_valid = true;  // and back, with the whole time again
     CHECK(command(bench, s, line(0)).roll_feedforward_rad == 0);
   }
+}
+
+TEST_CASE("each outage has the whole time, and the larger of the two deviations counts") {
+  Reckoning reckoning;
+  VehicleState s = at(0, 0, 0);
+  s.attitude_valid = true;
+  constexpr std::int64_t second = 1'000'000'000;
+  const auto located = [&](double now_s, bool valid, double north_std, double east_std) {
+    s.position_valid = valid;
+    s.position_std_m = {north_std, east_std, 5};
+    return reckoning.located(s, static_cast<std::int64_t>(now_s) * second, 50, 115);
+  };
+  CHECK_FALSE(located(0, false, 1, 1));  // never known
+  CHECK(located(10, true, 1, 1));
+  CHECK(located(20, false, 1, 1));
+  CHECK(located(134, false, 1, 1));
+  CHECK_FALSE(located(136, false, 1, 1));
+  CHECK(located(140, true, 1, 1));
+  CHECK(located(150, false, 1, 1));
+  CHECK(located(264, false, 50, 50));
+  CHECK_FALSE(located(264, false, 51, 1));
+  CHECK_FALSE(located(264, false, 1, 51));
 }
 
 }  // namespace vector_field_test

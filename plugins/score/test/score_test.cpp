@@ -330,4 +330,61 @@ TEST_CASE("a step of the score does not allocate") {
   CHECK(count == 0);
 }
 
+TEST_CASE("beside a piece of path that climbs to the left the height wanted is that of the place") {
+  for (const Turn turn : {Turn::left, Turn::right}) {
+    const double side = turn == Turn::right ? 1 : -1;
+    Bench<Score> bench;
+    Path arc;
+    arc.kind = PathKind::orbit;
+    arc.turn = turn;
+    arc.radius_m = 100;
+    arc.origin_m = {0, 0, -70};
+    arc.climb_ratio = 0.1;
+    VehicleState s = north_at(0);  // 70 m up, 0.3 rad along the arc: 3 m too low
+    s.position_m = {100 * std::cos(side * 0.3), 100 * std::sin(side * 0.3), -70};
+    TrackingError tracking;
+    double below = 0;
+    for (int i = 0; i < 200; ++i) {
+      bench.set(bench.in.path, arc);
+      bench.set(bench.in.state, s);
+      bench.step(0.01);
+      if (bench.out.tracking.written) below = bench.out.tracking.value.altitude_m;
+    }
+    CHECK(below == doctest::Approx(3));
+    s.height_m = 73;
+    s.position_m.down = -73;
+    Bench<Score> right;
+    for (int i = 0; i < 200; ++i) {
+      right.set(right.in.path, arc);
+      right.set(right.in.state, s);
+      right.step(0.01);
+      if (right.out.tracking.written) tracking = right.out.tracking.value;
+    }
+    CHECK(std::abs(tracking.altitude_m) < 1e-9);
+  }
+}
+
+TEST_CASE("between two truths angles go the short way, through south too") {
+  Compared a, b;
+  a.heading = a.course = a.roll = pi - 0.1;
+  b.heading = b.course = b.roll = -pi + 0.3;
+  const Compared middle = between(a, b, 0.25), late = between(a, b, 0.75);
+  CHECK(std::abs(middle.heading) == doctest::Approx(pi));
+  for (const double angle : {late.heading, late.course, late.roll})
+    CHECK(angle == doctest::Approx(-pi + 0.2));
+}
+
+TEST_CASE("the surfaces' rate begins with the second command") {
+  Bench<Score> bench;
+  bench.set(bench.in.state, north_at(0));
+  double rate = 1;
+  for (int i = 0; i < 300; ++i) {
+    bench.set(bench.in.state, north_at(0.01 * i));
+    if (i > 50) bench.set(bench.in.actuators, Actuators{0.5, 0.2, -0.1, 0.05});
+    bench.step(0.01);
+    if (bench.out.figures.written) rate = bench.out.figures.value.surface_rate_rms_radps;
+  }
+  CHECK(rate == 0);
+}
+
 }  // namespace score_test

@@ -46,7 +46,7 @@ TEST_CASE("an aircraft that stands on the ground stands still") {
   CHECK((p.state().p_n - there).norm() < 1e-4);
   CHECK(p.on_ground());
   CHECK_FALSE(p.crashed());
-  CHECK(-p.state().p_n.z() == Approx(anaconda().gear.height_m).epsilon(0.01));
+  CHECK(-p.state().p_n.z() == Approx(anaconda().gear.height_m).epsilon(0.01).scale(0));
   CHECK((p.specific_force() - Vector3d(0, 0, -9.80665)).norm() < 0.01);
   CHECK(p.state().q_nb.angularDistance(Eigen::Quaterniond::Identity()) < 1e-3);
 }
@@ -119,7 +119,7 @@ TEST_CASE("it slides sideways no further than friction lets it") {
   p.set_state(x);
   run(p, 3);
   // v^2 / (2 mu g), and a little rolling on the springs
-  CHECK(p.state().p_n.y() == Approx(1 / (2 * 0.6 * 9.80665)).epsilon(0.15));
+  CHECK(p.state().p_n.y() == Approx(1 / (2 * 0.6 * 9.80665)).epsilon(0.2).scale(0));
   CHECK(p.state().v_n.norm() < 1e-3);
   CHECK_FALSE(p.crashed());
 }

@@ -128,7 +128,27 @@ TEST_CASE("the rosflight sensors have the deviations of its simulator") {
   // x <- exp(-7 T) x + 3e-6 T n at 50 Hz
   CHECK(of(100000, [&] {
           return (eigen(s.mag(p).field_tesla) - p.state().q_nb.conjugate() * field).x();
-        }).deviation == Approx(3e-6 * 0.02 / std::sqrt(1 - std::exp(-2 * 7 * 0.02))).epsilon(0.06));
+        }).deviation == Approx(3e-6 * 0.02 / std::sqrt(1 - std::exp(-2 * 7 * 0.02))).epsilon(0.06).scale(0));
+}
+
+TEST_CASE("the ublox sensors have the white noise of their data sheets") {
+  const Plant p = flying();
+  Sensors s = sensors(SensorSet::ublox);
+  const auto white = [](const std::function<double()>& draw) {  // half of what successive samples differ by
+    double squares = 0, before = draw();
+    for (int i = 0; i < 20000; ++i) {
+      const double now = draw();
+      squares += (now - before) * (now - before);
+      before = now;
+    }
+    return std::sqrt(squares / 20000 / 2);
+  };
+  const double degree = std::numbers::pi / 180, bandwidth = std::sqrt(200.0);  // per root Hz, over 200 Hz
+  CHECK(white([&] { return s.imu(p).rate_radps.y; }) / (0.004 * degree * bandwidth) ==
+        Approx(1).epsilon(0.03));
+  CHECK(white([&] { return s.imu(p).specific_force_mps2.y; }) / (100e-6 * 9.80665 * bandwidth) ==
+        Approx(1).epsilon(0.03));
+  CHECK(white([&] { return s.mag(p).field_tesla.y; }) / 0.3e-6 == Approx(1).epsilon(0.03));
 }
 
 TEST_CASE("the rosflight biases fill their ranges, another one for each seed") {
@@ -146,7 +166,7 @@ TEST_CASE("the rosflight biases fill their ranges, another one for each seed") {
   CHECK(largest_gyro <= 0.253);  // the range and the warm-up
   CHECK(largest_accel > 0.59);
   CHECK(largest_accel <= 0.6);
-  CHECK(std::sqrt(sum / n) == Approx(0.25 / std::sqrt(3)).epsilon(0.06));
+  CHECK(std::sqrt(sum / n) == Approx(0.25 / std::sqrt(3)).epsilon(0.06).scale(0));
   CHECK(all.size() == static_cast<std::size_t>(n));
 }
 
@@ -163,7 +183,7 @@ TEST_CASE("the rosflight position walks as its recursion does") {
     for (int i = 0; i < 1000; ++i) x = noise.next(random);
     sum += x * x;
   }
-  CHECK(std::sqrt(sum / runs) == Approx(expected).epsilon(0.08));
+  CHECK(std::sqrt(sum / runs) == Approx(expected).epsilon(0.08).scale(0));
   CHECK(expected == Approx(0.64).epsilon(0.02).scale(0));
 }
 
@@ -183,7 +203,7 @@ TEST_CASE("a Gauss-Markov error has its deviation and its time constant at any r
       product += x[static_cast<std::size_t>(i)] * x[static_cast<std::size_t>(i - lag)];
     }
     CHECK(std::sqrt(square / (n - lag)) == Approx(2).epsilon(0.08));
-    CHECK(product / square == Approx(std::exp(-1)).epsilon(0.15));
+    CHECK(product / square == Approx(std::exp(-1)).epsilon(0.15).scale(0));
   }
 }
 
@@ -228,7 +248,7 @@ TEST_CASE("the ublox receiver's errors have the size of a real one's") {
   }
   CHECK(std::sqrt(north / runs) == Approx(std::hypot(1.5, 0.3)).epsilon(0.12));
   CHECK(std::sqrt(down / runs) == Approx(std::hypot(3.0, 0.3)).epsilon(0.12));
-  CHECK(std::sqrt(speed / runs) == Approx(std::hypot(0.1, 0.03)).epsilon(0.12));
+  CHECK(std::sqrt(speed / runs) == Approx(std::hypot(0.1, 0.03)).epsilon(0.12).scale(0));
 }
 
 TEST_CASE("air from behind or from the side does not reach the pitot tube") {

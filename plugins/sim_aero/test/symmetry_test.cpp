@@ -50,6 +50,20 @@ TEST_CASE("the motor reaches 63 % of its speed after its time constant") {
   CHECK(plant.propeller_radps() / steady == Approx(1 - std::exp(-1)).epsilon(0.03));
 }
 
+TEST_CASE("a roll that the servos make does not depend on the step: each stage sees them at its time") {
+  const auto roll_rate = [](double step_s) {
+    Plant plant(anaconda(), {}, 1387, 1);
+    REQUIRE(plant.fly({0, 0, -300}, 0, 17));
+    Actuators sweep{0.5, 0.3, plant.deflections().elevator, plant.deflections().rudder};
+    for (int i = 0; i < std::lround(0.2 / step_s); ++i) {
+      if (i == std::lround(0.1 / step_s)) sweep.aileron_rad = -0.3;
+      plant.advance(sweep, true, step_s);
+    }
+    return plant.state().omega_b.x();
+  };
+  CHECK(roll_rate(0.01) / roll_rate(0.0005) == Approx(1).epsilon(1e-3));
+}
+
 TEST_CASE("a roll pitches the nose by the product of inertia") {
   Airframe a = anaconda();
   a.aero = {};
@@ -100,6 +114,45 @@ TEST_CASE("the ground acts alike on every heading") {
     CHECK(other.yaw_rad == Approx(north.yaw_rad).epsilon(1e-3));
     CHECK((other.moved - north.moved).norm() < 1e-3);
   }
+}
+
+TEST_CASE("a pilot who flies needs no commands: that they stop is no failsafe") {
+  auto bench = std::make_unique<Bench<Aircraft>>(1);
+  bench->params.airframe.value = anaconda();
+  arm(*bench);
+  const Actuators idle{0.2, 0, 0, 0};
+  while (bench->tick.now_ns < 100000000) pass(*bench, &idle);
+  bench->params.pilot_flies.value = true;
+  bench->retune();
+  for (int i = 0; i < 200; ++i) {
+    pass(*bench);
+    if (bench->out.status.written) CHECK_FALSE(bench->out.status.value.failsafe);
+  }
+}
+
+TEST_CASE("the course of an aircraft that stands is where its nose points") {
+  auto bench = std::make_unique<Bench<Aircraft>>(1);
+  bench->params.airframe.value = anaconda();
+  bench->params.start_heading.value = 1.2;
+  int told = 0;
+  for (int i = 0; i < 100; ++i) {
+    pass(*bench);
+    if (!bench->out.truth.written) continue;
+    CHECK(bench->out.truth.value.course_rad == Approx(1.2).epsilon(0.01));
+    ++told;
+  }
+  CHECK(told > 5);
+}
+
+TEST_CASE("the battery gives the motor's current in the share of the time that the throttle is on") {
+  const Airframe& a = anaconda();
+  Plant plant(a, {}, 1387, 1);
+  for (int i = 0; i < 200; ++i) plant.advance({0.6, 0, 0, 0}, true, dt);
+  const double current =
+      (0.6 * a.propulsion.battery_volt - a.propulsion.torque_constant_ratio * plant.propeller_radps()) /
+      a.propulsion.resistance_ohm;
+  REQUIRE(current > 1);
+  CHECK(plant.battery_amp() / (0.6 * current) == Approx(1));
 }
 
 }  // namespace symmetry_test

@@ -187,6 +187,25 @@ TEST_CASE("the leg that is flown and the next one are left as they are") {
     CHECK(same_position(first.waypoints[i], last.waypoints[i]));
 }
 
+TEST_CASE(
+    "a detour that bends the corner before it into another zone's margin is none: the next way is taken") {
+  Plan square;
+  square.revision = square.jumps = 1;
+  square.airspeed_mps = 17;
+  for (const Waypoint& w : {point(-400, 0), point(0, 0), point(0, 400), point(-400, 400)})
+    square.waypoints.push_back(w);
+  Zones zones;
+  zones.zones.push_back({20, 200, 40});       // on the second leg; the way south of it is the shorter one
+  zones.zones.push_back({-52.2, 26.6, 5.5});  // inside the corner before: clear of a turn of 90 degrees alone
+  zones.zones.push_back({-122, 200, 40});     // leaves no more room in the south than one search keeps off
+  REQUIRE(clearance(zones, Route(square).leg(1)) > 20);
+  Planning planning(square);
+  planning.params.zones.value = zones;
+  REQUIRE(planning.plans());
+  CHECK(walked_clearance(planning.plan(), zones) >= 19.9);
+  CHECK(planning.plan().waypoints[2].position_m.north > 50);
+}
+
 TEST_CASE("a jump to a waypoint becomes a jump to the same waypoint") {
   Plan plan = hourglass();
   plan.jump_item = 2;
@@ -246,6 +265,20 @@ TEST_CASE("the watch keeps the least distance from the rim") {
   }
   CHECK(bench.out.clearance.value.least_m == doctest::Approx(40));
   CHECK(bench.out.clearance.value.now_m == doctest::Approx(120));
+}
+
+TEST_CASE("a zone within the last orbit is clear of it, one on its rim is not") {
+  Plan plan = hourglass();
+  plan.end = PlanEnd::orbit;
+  plan.turn_radius_m = 200;
+  for (const bool on_rim : {false, true}) {
+    Zones zones;
+    zones.zones.push_back({400, -50 + (on_rim ? 200.0 : 100.0), 10});
+    Planning planning(plan);
+    planning.params.zones.value = zones;
+    CHECK(planning.plans(3) == !on_rim);
+    if (!on_rim) CHECK(planning.out.clearance_m.value > 20);
+  }
 }
 
 }  // namespace detour_test

@@ -84,9 +84,9 @@ TEST_CASE("the spectra are those of MIL-F-8785C") {
         two_pi * 2.12 * 2.12 * 200 / (std::numbers::pi * Va) * (1 + 3 * u * u) / std::pow(1 + u * u, 2);
     const double vertical =
         two_pi * 1.4 * 1.4 * 50 / (std::numbers::pi * Va) * (1 + 3 * w * w) / std::pow(1 + w * w, 2);
-    CHECK(density(g, 0, dt, f, 4000) == Approx(longitudinal).epsilon(0.25));
-    CHECK(density(g, 1, dt, f, 4000) == Approx(lateral).epsilon(0.25));
-    CHECK(density(g, 2, dt, f, 4000) == Approx(vertical).epsilon(0.25));
+    CHECK(density(g, 0, dt, f, 4000) == Approx(longitudinal).epsilon(0.25).scale(0));
+    CHECK(density(g, 1, dt, f, 4000) == Approx(lateral).epsilon(0.25).scale(0));
+    CHECK(density(g, 2, dt, f, 4000) == Approx(vertical).epsilon(0.25).scale(0));
   }
 }
 

@@ -46,9 +46,9 @@ TEST_CASE("the shaped roll command approaches its target as a first-order lag wi
   // 0.6 rad away: at the limit until the lag asks for less than 1 rad/s, 0.2 rad before the target, then
   // exp(-t / 0.2).
   for (int i = 0; i < 40; ++i) hold.shape(0.6, tuning, 0.01);
-  CHECK(hold.shape(0.6, tuning, 0) == doctest::Approx(0.4).epsilon(0.01));
+  CHECK(hold.shape(0.6, tuning, 0) == doctest::Approx(0.4).epsilon(0.01).scale(0));
   for (int i = 0; i < 20; ++i) hold.shape(0.6, tuning, 0.01);
-  CHECK(hold.shape(0.6, tuning, 0) == doctest::Approx(0.6 - 0.2 * std::exp(-1.0)).epsilon(0.01));
+  CHECK(hold.shape(0.6, tuning, 0) == doctest::Approx(0.6 - 0.2 * std::exp(-1.0)).epsilon(0.01).scale(0));
 }
 
 TEST_CASE("course hold's gain is bounded for odd ground speeds") {
@@ -70,7 +70,7 @@ TEST_CASE(
   const double dt = 0.001, target = 0.05;
   for (int i = 0; i < 1000; ++i)
     s.course_rad += dt * 9.80665 / 17 * std::tan(hold.step(s, target, 0, tuning, dt));
-  CHECK(s.course_rad == doctest::Approx(target * (1 - std::exp(-2 * 9.80665 / 17))).epsilon(0.01));
+  CHECK(s.course_rad == doctest::Approx(target * (1 - std::exp(-2 * 9.80665 / 17))).epsilon(0.01).scale(0));
 }
 
 TEST_CASE("a course integral that saturated the bank unwinds when the course is passed") {
@@ -88,6 +88,20 @@ TEST_CASE("a course integral that saturated the bank unwinds when the course is 
   double roll = 0;
   for (int i = 0; i < 1100; ++i) roll = hold.step(s, 1, 0, tuning, 0.01);
   CHECK(roll < 0);
+}
+
+TEST_CASE("a course hold that begins again has forgotten its integral") {
+  const CourseTuning tuning{.kp = 2,
+                            .ki = 0.5,
+                            .cruise_mps = 15,
+                            .roll_max_rad = 0.8,
+                            .roll_rate_max_radps = 100,
+                            .smoothing_s = 0};
+  CourseHold hold;
+  const VehicleState s = at(15, 15, 70);
+  for (int i = 0; i < 500; ++i) hold.step(s, 0.1, 0, tuning, 0.01);
+  hold.reset_to(0);
+  CHECK(hold.step(s, 0.1, 0, tuning, 0.01) / 0.2 == doctest::Approx(1).epsilon(0.01));
 }
 
 TEST_CASE(
@@ -166,6 +180,36 @@ TEST_CASE(
     CHECK(begins(ground, nullptr).throttle_frac == 0);
     CHECK(commands.last().pitch_rad == 0);
   }
+}
+
+TEST_CASE("of two lowest pitches the higher one holds, and near the stall the ceiling") {
+  FlightLimits limits;
+  limits.airspeed_min_mps = 10, limits.pitch_max_rad = 0.4, limits.pitch_min_rad = -0.2;
+  CHECK(PitchLimits(at(15, 15, 70), limits, 0.35).min == -0.2);
+  CHECK(PitchLimits(at(15, 15, 70), limits, 0.1).min == -0.1);
+  CHECK(PitchLimits(at(15, 15, 70), limits, 0.35).max == 0.35);
+  CHECK(PitchLimits(at(9, 15, 70), limits, 0.35).max == doctest::Approx(0.2));
+}
+
+TEST_CASE(
+    "the airspeed that a law divides by is never below half the minimum, and cruise when it is not known") {
+  FlightLimits limits;
+  limits.airspeed_min_mps = 10, limits.airspeed_cruise_mps = 16;
+  CHECK(scheduling_airspeed(at(12, 12, 70), limits) == 12);
+  CHECK(scheduling_airspeed(at(1, 12, 70), limits) == 5);
+  CHECK(scheduling_airspeed(at(1, 12, 70, false), limits) == 16);
+}
+
+TEST_CASE("a take-off run that loses its airspeed after rotation lowers the nose") {
+  TakeoffRun run;
+  FlightLimits limits;
+  limits.airspeed_min_mps = 10, limits.pitch_max_rad = 0.4;
+  const TakeoffTuning tuning{
+      .throttle_frac = 1, .pitch_rad = 0.25, .rotate_mps = 12, .course_kp = 1, .roll_max_rad = 0.1};
+  run.begin(at(0, 0, 0));
+  CHECK(run.step(at(13, 13, 1), tuning, limits).pitch_rad == 0.25);
+  CHECK(run.step(at(9, 9, 3), tuning, limits).pitch_rad == doctest::Approx(0.2));
+  CHECK(run.step(at(7, 7, 3), tuning, limits).pitch_rad == 0);
 }
 
 }  // namespace outer_commands_test

@@ -168,4 +168,15 @@ TEST_CASE("a law goes on from what was applied in its role, and begins anew afte
   CHECK_FALSE(loop.commands.taking_up());
 }
 
+TEST_CASE("what is not known matters in flight alone: on the ground nothing is degraded by it") {
+  Counting law;
+  VehicleState standing = flying();
+  standing.airspeed_mps = standing.ground_speed_mps = 0;
+  standing.position_valid = standing.velocity_valid = false;
+  CHECK(law.step(standing, {}) == Status::ok);
+  VehicleState blind = flying();
+  blind.velocity_valid = false;
+  CHECK(law.step(blind, {}) == Status::degraded);
+}
+
 }  // namespace outer_law_test

@@ -283,4 +283,16 @@ TEST_CASE("waypoints within a metre are one place, and a plan in one place is a 
   CHECK(Route(plan).leg(2).length_m < 1e-6);  // no loop to fly half a metre sideways
 }
 
+TEST_CASE("a hairpin has no fillet however long its legs are: it would stay far from the waypoint") {
+  const auto turn_at = [](double degrees) {
+    const double back = pi - degrees * pi / 180;
+    const Plan plan =
+        plan_of({point(0, 0), point(1000, 0), point(1000 - 1000 * std::cos(back), 1000 * std::sin(back))},
+                PlanEnd::orbit);
+    return Route(plan).passage(1).turn_rad;
+  };
+  CHECK(turn_at(145) / (145 * pi / 180) == doctest::Approx(1).epsilon(0.05));  // the next one is an orbit
+  CHECK(turn_at(165) == 0);
+}
+
 }  // namespace route_test

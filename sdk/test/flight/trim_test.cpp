@@ -66,4 +66,15 @@ TEST_CASE("below the stall there is no trim, and the limits of the airframe file
   }
 }
 
+TEST_CASE("an engine that cannot hold the speed has no trim there") {
+  Airframe a = test::airframe_file("anaconda");
+  const double rho = standard_air(1457).density_kgm3, Va = a.limits.airspeed_cruise_mps;
+  const Trim with = trimmed_flight(a, Va, rho);
+  REQUIRE(with.found);
+  a.propulsion.battery_volt *= 0.9 * with.throttle_frac;
+  CHECK_FALSE(trimmed_flight(a, Va, rho).found);
+  a.propulsion.battery_volt *= 1.2 / 0.9;
+  CHECK(trimmed_flight(a, Va, rho).found);
+}
+
 }  // namespace trim_test

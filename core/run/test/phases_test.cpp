@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// When phases change, and what whoever begins in one of them begins with.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "core/run/test/lab.hpp"
+
+namespace phases_test {
+
+namespace {
+
+/// The laboratory's mission with a role more, which two watches can fill.
+Graph with_watches(const std::string& phases) {
+  std::string text = base;
+  const std::string vehicle = "  vehicle:";
+  text.insert(text.find(vehicle), "  look:    {in: {burst: vehicle.burst}, out: {tally: Tally}}\n");
+  text += "  w1: {fills: look, use: lab/Watch}\n  w2: {fills: look, use: lab/Watch}\n" + phases;
+  const fs::path file = folder().path / "watches.yaml";
+  std::ofstream(file) << text;
+  return load_mission(file.string(), {});
+}
+const char* const back_and_forth =
+    "phases:\n"
+    "  first:  {law: one, look: w1, next: [{to: second, when: \"vehicle.signal.tick_s >= 0.1 s\"}]}\n"
+    "  second: {law: one, look: w2, next: [{to: third, when: \"vehicle.signal.tick_s >= 0.3 s\"}]}\n"
+    "  third:  {law: one, look: w1}\n";
+
+}  // namespace
+
+TEST_CASE("a condition holds for its time without a break") {
+  const Graph g = mission(
+      "phases:\n"
+      "  first:  {law: one, next: [{to: second, for: 0.15 s, when: \"vehicle.status.armed and "
+      "(vehicle.signal.tick_s < 0.1 s or vehicle.signal.tick_s >= 0.3 s)\"}]}\n"
+      "  second: {law: two}\n");
+  const FlightResult r = Flight(g, options(0.6)).run();
+  REQUIRE(r.phases.size() == 2);
+  CHECK(r.phases[1].from_ns == 450'000'000);
+}
+
+TEST_CASE("a transition from anywhere that was made has to hold for its time again") {
+  const Graph g = mission(
+      "phases:\n"
+      "  any: {next: [{to: b, when: \"vehicle.status.armed\", for: 0.1 s}]}\n"
+      "  a: {law: one}\n"
+      "  b: {law: two, next: [{to: a, when: \"vehicle.signal.tick_s >= 0.2 s\"}]}\n");
+  const FlightResult r = Flight(g, options(0.35)).run();
+  REQUIRE(r.phases.size() >= 4);
+  CHECK(r.phases[1].from_ns == 100'000'000);
+  CHECK(r.phases[2].from_ns == 200'000'000);
+  CHECK(r.phases[3].from_ns >= 300'000'000);
+}
+
+TEST_CASE("how long a condition has held is counted from the beginning of its phase") {
+  const Graph g = mission(
+      "phases:\n"
+      "  any: {next: [{to: b, when: \"vehicle.signal.tick_s >= 0.2 s and vehicle.signal.tick_s < 0.205 "
+      "s\"}]}\n"
+      "  a: {law: one, next: [{to: c, when: \"vehicle.status.armed\", for: 0.3 s}]}\n"
+      "  b: {law: two, next: [{to: c, when: \"vehicle.status.armed\", for: 0.3 s}]}\n"
+      "  c: {law: one}\n");
+  const FlightResult r = Flight(g, options(0.6)).run();
+  REQUIRE(r.phases.size() == 3);
+  CHECK(r.phases[1].from_ns == 200'000'000);
+  CHECK(r.phases[2].from_ns >= 500'000'000);
+}
+
+TEST_CASE("who begins has not lost what came to its queue while another one flew") {
+  const Graph g = with_watches(back_and_forth);
+  Flight flight(g, options(0.2));
+  flight.run();
+  CHECK(value(g, flight, "w2", "tally", "steps_ratio") == 41);
+  CHECK(value(g, flight, "w2", "tally", "lost_ratio") == 0);
+  CHECK(value(g, flight, "w2", "tally", "samples_ratio") == 3 * 40);
+}
+
+TEST_CASE("the first step after an absence is a tick long, not the absence") {
+  const Graph g = with_watches(back_and_forth);
+  Flight flight(g, options(0.4));
+  double longest_s = 0;
+  while (flight.step()) longest_s = std::max(longest_s, value(g, flight, "w1", "tally", "dt_s"));
+  CHECK(flight.phase() == "third");
+  CHECK(longest_s == doctest::Approx(0.0025));
+}
+
+}  // namespace phases_test

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shipped autopilot through a flight controller's port whose link falls silent in a turn, in virtual
-// time. bench_link_gaps flies the whole of it.
+// The shipped autopilot through a flight controller's port whose link falls silent in a turn, or whose
+// receiver loses its fix, in virtual time: some of what bench_link_gaps flies.
 #include <doctest/doctest.h>
 
 #include "core/app/test/virtual_controller.hpp"
+#include "core/replay/replay.hpp"
+#include "core/run/allocation.hpp"
 
 using namespace fulmar::core;
 using namespace fulmar::core::through_controller;
@@ -13,7 +15,10 @@ namespace fcu_gaps_test {
 
 struct Folder {
   fs::path path = fs::temp_directory_path() / ("fulmar-fcu-gaps-" + std::to_string(getpid()));
-  Folder() { fs::create_directories(path); }
+  Folder() {
+    fs::create_directories(path);
+    setenv("FULMAR_STORE", (path / "store").c_str(), 1);
+  }
   ~Folder() { fs::remove_all(path); }
 };
 
@@ -23,17 +28,94 @@ FlightOptions unlogged() {
   return o;
 }
 
-TEST_CASE("a link gap in a turn: no command without a valid attitude, and hardly any height lost") {
+/// Under the sanitizers a flight takes twenty times as long.
+bool quick() { return counts_allocations(); }
+
+void check(const Gap& gap, const fs::path& folder) {
+  CAPTURE(gap.length_s);
+  CAPTURE(gap.gnss);
+  CAPTURE(gap.height_m);
+  const AfterGap a = fly(gap, folder, unlogged());
+  CHECK(missed(gap, a) == "");
+  CHECK(a.told_blind == (gap.length_s > 0.3));  // the estimator carries on for so long
+}
+
+TEST_CASE(
+    "the link is silent in a turn: no command without a valid attitude, the pilot has it, then Fulmar") {
   const Folder folder;
-  const AfterGap a = fly({1, true, 70, 1}, folder.path, unlogged());
-  CHECK_FALSE(a.crashed);
-  CHECK(a.blind == 0);
-  CHECK(a.sticks < 0.01);
-  CHECK(a.lost_m < 15);
-  CHECK(a.back_s >= 0);
-  CHECK(a.back_s < 1);
-  CHECK(a.told_blind);
-  CHECK(a.told_known);
+  check({1, false, 30, 1}, folder.path);
+  if (!quick()) return;
+  check({0.2, true, 30, 2}, folder.path);
+  check({0.5, true, 70, 3}, folder.path);
+  check({2, false, 70, 4}, folder.path);
+  check({3, true, 30, 5}, folder.path);
+}
+
+TEST_CASE(
+    "the link was silent for more than 2 s, and there is no fix: the pilot keeps the aircraft, and is told") {
+  const Folder folder;
+  check({5, false, 70, 1}, folder.path);
+  if (quick()) check({3, false, 30, 2}, folder.path);
+}
+
+TEST_CASE("no fix in cruise: told, the plan goes on by dead reckoning, and after 120 s a circle is flown") {
+  const Folder folder;
+  for (const Outage outage : {Outage{100, 1, 50}, Outage{150, 2, 50}}) {
+    if (!quick() && outage.length_s > 100) return;
+    CAPTURE(outage.length_s);
+    const AfterOutage a = fly(outage, folder.path, unlogged());
+    CHECK(missed(outage, a) == "");
+    CHECK(a.plan_m < 150);
+    CHECK((a.circle_s >= 0) == (outage.length_s > 120));
+  }
+}
+
+TEST_CASE("no fix in cruise: a circle is flown before 120 s when the stated deviation is reached") {
+  if (!quick()) return;
+  const Folder folder;
+  const Outage outage{90, 1, 15};
+  const AfterOutage a = fly(outage, folder.path, unlogged());
+  CHECK(missed(outage, a) == "");
+  CHECK(a.circle_s > 20);
+  CHECK(a.circle_s < 80);
+}
+
+/// A flight with everything on the way, up to `until_s`.
+FlightResult trouble(const fs::path& folder, const fs::path& log, double until_s) {
+  const Graph graph = mission(folder, 70, 1);
+  FlightOptions o;
+  o.log_file = log;
+  Flown f(graph, o);
+  const auto at = [&](double t_s, const char* param, double value) {
+    REQUIRE(f.fly_while([t_s](const Row& r) { return r.script_s < t_s; }));
+    f.set(param, value);
+  };
+  at(28, "gap_from", 30), at(28, "gap_until", 31);
+  at(33, "no_fix_from", 34), at(33, "no_fix_until", 41);
+  at(43, "gnss_silent_from", 44), at(43, "gnss_silent_until", 50);
+  at(44, "pilot_from", 45), at(44, "pilot_until", 46);
+  REQUIRE(f.fly_while([until_s](const Row& r) { return r.script_s < until_s; }));
+  return f.finish();
+}
+
+TEST_CASE("a flight with a gap, without a fix and with a pilot is the same again, and its log replays") {
+  const Folder folder;
+  const fs::path first = folder.path / "1.mcap", second = folder.path / "2.mcap";
+  const FlightResult result = trouble(folder.path, first, 55);
+  CHECK(result.guards.empty());
+  const Recording recording(first);
+  const Graph graph = recording.mission({}, [](const std::string&, bool) {});
+  const auto [again, replayed] = replay(recording, graph, {});
+  CHECK(replayed.equal());
+  CHECK(replayed.notes.empty());
+  CHECK(replayed.messages > 10000);
+  if (!quick()) return;
+  trouble(folder.path, second, 55);
+  const auto bytes = [](const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  CHECK(bytes(first) == bytes(second));
 }
 
 }  // namespace fcu_gaps_test

@@ -81,7 +81,8 @@ class Hourglass {
 };
 
 /// The hourglass at `height_m` with fcu_serial on its software controller. `folder` holds what it reads.
-inline Graph mission(const std::filesystem::path& folder, double height_m, unsigned seed) {
+inline Graph mission(const std::filesystem::path& folder, double height_m, unsigned seed,
+                     const std::vector<std::pair<std::string, std::string>>& set = {}) {
   const std::string configs = FULMAR_SOURCE_DIR "/configs/";
   const std::filesystem::path file = folder / "virtual.yaml", plan = folder / "plan.yaml";
   std::ofstream(plan) << Hourglass::text(height_m);
@@ -93,7 +94,9 @@ inline Graph mission(const std::filesystem::path& folder, double height_m, unsig
       << FULMAR_TEST_PLUGIN_DIR "/fcu_virtual.so, in: {state: nav.state}}\n"
       << "  plan: {params: {plan: " << plan.string() << "}}\nphases:\n"
       << "  takeoff: {next: [{to: cruise, when: \"nav.state.height_m > 25 m\", for: 0.5 s}]}\n";
-  return load_mission(file.string());
+  Overrides overrides;
+  overrides.set = set;
+  return load_mission(file.string(), overrides);
 }
 
 struct Row {
@@ -244,6 +247,91 @@ inline AfterGap fly(const Gap& gap, const std::filesystem::path& folder, const F
   a.told_known = f.told_s("the attitude is known again: commands are sent", begin_s) >= 0;
   f.finish();
   return a;
+}
+
+/// What a gap must not do; "": it has done none of it.
+inline std::string missed(const Gap& gap, const AfterGap& a) {
+  const bool his = !gap.gnss && gap.length_s > 2;
+  if (a.crashed) return "crashed";
+  if (a.blind > 0) return std::to_string(a.blind) + " commands without a valid attitude";
+  if (a.sticks > 0.01) return "the pilot's sticks did not work";
+  if (a.lost_m > 15) return std::to_string(a.lost_m) + " m lost";
+  if (his && a.back_s >= 0) return "commands without a fix";
+  if (!his && (a.back_s < 0 || a.back_s > 1)) return "no command within 1 s";
+  if (!gap.gnss && (a.returned_s < 0 || a.returned_s > 2)) return "no command within 2 s of the fix";
+  if (his && !(a.told_blind && a.told_known)) return "not told who has it";
+  return "";
+}
+
+/// The receiver has no fix for a while, in cruise; with an even seed it says nothing at all.
+struct Outage {
+  double length_s = 100;
+  unsigned seed = 1;
+  double most_std_m = 50;  ///< up to which the plan goes on
+};
+
+struct AfterOutage {
+  bool crashed = false;
+  double plan_m = 0;        ///< from the plan at the end of the outage, or 100 s after its begin
+  double reckoned_m = 0;    ///< the estimate's error there
+  double std_m = 0;         ///< and what it says of itself
+  double circle_s = -1;     ///< after the loss: the circle begins
+  double turned_deg = 0;    ///< to the right, in the circle
+  double told_lost_s = -1;  ///< after the loss
+  double told_back_s = -1;  ///< after the return
+  double resumed_s = -1;    ///< after the return: back on the plan, within 10 m
+};
+
+inline AfterOutage fly(const Outage& outage, const std::filesystem::path& folder,
+                       const FlightOptions& options) {
+  constexpr double before_s = 100, after_s = 60, reckons_s = 100, near_m = 10;
+  const Hourglass plan;
+  const Graph graph =
+      mission(folder, 70, outage.seed, {{"follow.reckon_std", std::to_string(outage.most_std_m) + " m"}});
+  Flown f(graph, options);
+  AfterOutage a;
+  a.crashed = !f.fly_while([&](const Row& r) { return f.phase() != "cruise" && r.t_s < 60; });
+  const auto until = [&](double t_s) {
+    a.crashed = a.crashed || !f.fly_while([t_s](const Row& r) { return r.t_s < t_s; });
+  };
+  until(f.row().t_s + before_s);
+  const double begin_s = f.row().t_s, end_s = begin_s + outage.length_s, at_s = f.row().script_s;
+  const bool silent = outage.seed % 2 == 0;
+  f.set(silent ? "gnss_silent_from" : "no_fix_from", at_s);
+  f.set(silent ? "gnss_silent_until" : "no_fix_until", at_s + outage.length_s);
+  f.rows.clear();
+  until(begin_s + std::min(outage.length_s, reckons_s));
+  const Row r = f.row();
+  a.plan_m = plan.distance_m(r.north_m, r.east_m);
+  a.reckoned_m = r.off_estimate_m, a.std_m = r.std_m;
+  until(end_s);
+  const auto circle = std::find_if(f.rows.begin(), f.rows.end(), [](const Row& x) { return x.circles; });
+  if (circle != f.rows.end()) a.circle_s = circle->t_s - begin_s;
+  for (auto x = circle; x < f.rows.end() - 1; ++x)
+    a.turned_deg += 180 / pi * std::remainder((x + 1)->course_rad - x->course_rad, 2 * pi);
+  until(end_s + after_s);
+  for (std::size_t i = 0; i < f.rows.size() && a.resumed_s < 0; i += 40)
+    if (f.rows[i].t_s > end_s && plan.distance_m(f.rows[i].north_m, f.rows[i].east_m) < near_m)
+      a.resumed_s = f.rows[i].t_s - end_s;
+  const auto since = [](double told_s, double from_s) { return told_s < 0 ? -1 : told_s - from_s; };
+  a.told_lost_s = since(f.told_s("GNSS lost", begin_s), begin_s);
+  a.told_back_s = since(f.told_s("GNSS is back", end_s), end_s);
+  f.finish();
+  return a;
+}
+
+/// What no outage must do. How far it leads off the plan is a matter of chance.
+inline std::string missed(const Outage& outage, const AfterOutage& a) {
+  constexpr double circle_s = 120, slack_s = 1;
+  if (a.crashed) return "crashed";
+  if (a.told_lost_s < 0 || a.told_lost_s > 1) return "the loss was not told within 1 s";
+  if (a.told_back_s < 0 || a.told_back_s > 1) return "the return was not told within 1 s";
+  if (a.circle_s > circle_s + slack_s || (a.circle_s < 0 && outage.length_s > circle_s + slack_s))
+    return "no circle after " + std::to_string(circle_s) + " s";
+  if (a.circle_s >= 0 && a.turned_deg < 5 * (outage.length_s - a.circle_s) - 10)
+    return "a circle of " + std::to_string(a.turned_deg) + " deg";
+  if (a.resumed_s < 0) return "not back on the plan";
+  return "";
 }
 
 }  // namespace fulmar::core::through_controller

@@ -80,6 +80,46 @@ TEST_CASE("no fix in cruise: a circle is flown before 120 s when the stated devi
   CHECK(a.circle_s < 80);
 }
 
+double gyro_bias(const Flown& f) { return f.state() ? f.state()->gyro_bias_radps.x : 0; }
+
+TEST_CASE(
+    "the inertial unit's calibration moves in cruise: the estimator learns it, and the flight goes on") {
+  if (!quick()) return;
+  const Folder folder;
+  constexpr double moved = 0.01;
+  const Graph graph = mission(folder.path, 70, 1, {{"sim.moved_gyro", "[0.01, 0, 0]"}});
+  Flown f(graph, unlogged());
+  const auto until = [&f](double t_s) {
+    return f.fly_while([t_s](const Row& r) { return r.script_s < t_s; });
+  };
+  REQUIRE(until(30));
+  const double before = gyro_bias(f);
+  f.set("moved_at", 30);
+  REQUIRE(until(90));
+  CHECK(gyro_bias(f) - before > 0.5 * moved);
+  CHECK(gyro_bias(f) - before < 1.5 * moved);
+  CHECK(f.row().host);
+  CHECK(f.row().height_m > 60);
+}
+
+TEST_CASE("a sensor that is not there is told before arming; without a heading no command goes out") {
+  const Folder folder;
+  struct Missing {
+    const char *param, *told;
+    bool commands;
+  };
+  for (const Missing& m :
+       {Missing{"sim.mag", "no magnetometer", false}, Missing{"sim.baro", "no barometer", true},
+        Missing{"sim.pitot", "no pitot tube", true}}) {
+    CAPTURE(std::string(m.param));
+    const Graph graph = mission(folder.path, 70, 1, {{m.param, "no"}, {"sim.arm_at", "1000 s"}});
+    Flown f(graph, unlogged());
+    REQUIRE(f.fly_while([](const Row& r) { return r.t_s < 8; }));
+    CHECK(f.told_s(m.told, 0) >= 0);
+    CHECK((f.row().script_s >= 0) == m.commands);  // the script begins with the first command
+  }
+}
+
 /// A flight with everything on the way, up to `until_s`.
 FlightResult trouble(const fs::path& folder, const fs::path& log, double until_s) {
   const Graph graph = mission(folder, 70, 1);

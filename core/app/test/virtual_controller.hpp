@@ -151,6 +151,7 @@ class Flown {
     r.circles = probe(cross_) == 0 && flight_.phase() == "cruise";
     return r;
   }
+  const fulmar::VehicleState* state() const { return at<fulmar::VehicleState>(state_); }
   double blind() const { return probe(blind_); }    ///< commands without a valid attitude
   double sticks() const { return probe(sticks_); }  ///< how far the outputs were off them
   const std::string& phase() const { return flight_.phase(); }

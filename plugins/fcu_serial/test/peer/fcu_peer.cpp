@@ -33,6 +33,8 @@ struct Settings {
   std::uint64_t seed = 7;
   double rc_silent_until = never_s, rc_lost_until = never_s, override_until = never_s, unplug_for = 5,
          mute_for = 0.1;
+  bool no_mag = false, no_baro = false, no_pitot = false;
+  std::vector<double> moved_accel{0, 0, 0}, moved_gyro{0, 0, 0};
 };
 
 /// As the host makes the seed of a component: of the mission's and its name.
@@ -89,6 +91,24 @@ void read_options(CLI::App& app, Settings& s) {
   app.add_option("--unplug-for", s.unplug_for, "seconds");
   app.add_option("--mute-at", s.script.mute.at, "nothing gets through, either way");
   app.add_option("--mute-for", s.mute_for, "seconds");
+  app.add_option("--no-fix-at", s.script.no_fix.at, "the receiver has no fix; below 0: from the start");
+  app.add_option("--fix-back-at", s.script.no_fix.until, "and has it again");
+  app.add_option("--gnss-silent-at", s.script.gnss_silent.at,
+                 "the receiver says nothing; below 0: from the start");
+  app.add_option("--gnss-back-at", s.script.gnss_silent.until, "and speaks again");
+  app.add_flag("--no-mag", s.no_mag, "there is no magnetometer");
+  app.add_flag("--no-baro", s.no_baro, "there is no barometer");
+  app.add_flag("--no-pitot", s.no_pitot, "there is no pitot tube");
+  app.add_option("--moved-at", s.script.moved_at,
+                 "the inertial unit's calibration is another one; below 0: from the start");
+  app.add_option("--moved-accel", s.moved_accel, "by so much, forward, right, down, m/s2")
+      ->expected(3)
+      ->allow_extra_args(false);
+  app.add_option("--moved-gyro", s.moved_gyro, "by so much, roll, pitch, yaw, rad/s")
+      ->expected(3)
+      ->allow_extra_args(false);
+  app.add_flag("--level", s.script.levels,
+               "in the air the pilot holds the wings level with 60 % throttle whenever he has the aircraft");
   app.add_option("--reboot-at", s.script.reboot_at, "the controller reboots");
   app.add_option("--crash-at", s.script.crash_at, "the controller crashes and recovers");
 }
@@ -194,6 +214,7 @@ void Peer::before_imu() {
   plane_.pitot_covered = !plane_.released() && firmware_.clock_us() < 11000000;
   plane_.step();
   if (s_.shaken && !plane_.released()) shake();
+  fail(s_.script, flight_s(), firmware_.inputs);
   top_height_m_ = std::max(top_height_m_, plane_.height_m());
   if (truth_ && ++steps_ % 4 == 0) write_truth();
 }
@@ -224,6 +245,8 @@ void Peer::write_truth() {
 void Peer::run_script() {
   const double t = flight_s();
   pilot_.act(firmware_.inputs, t, disarm_asked != 0);
+  if (s_.script.levels && disarm_asked == 0 && plane_.height_m() > 3 && firmware_.override_reasons() != 0)
+    pilot_.hold_level(firmware_.inputs, plane_.plant().state());
   if (t >= s_.script.reboot_at && !std::exchange(rebooted_, true)) firmware_.reboot(now_us_);
   if (t >= s_.script.crash_at && !std::exchange(crashed_, true)) firmware_.crash(now_us_);
   const bool pulled = s_.script.unplugged.holds(t);
@@ -326,6 +349,9 @@ int main(int argc, char** argv) {
   s.script.rc_silent.until = s.rc_silent_until;
   s.script.rc_lost.until = s.rc_lost_until;
   s.script.override.until = s.override_until;
+  s.script.mag = !s.no_mag, s.script.baro = !s.no_baro, s.script.pitot = !s.no_pitot;
+  std::copy_n(s.moved_accel.begin(), 3, s.script.moved_accel.begin());
+  std::copy_n(s.moved_gyro.begin(), 3, s.script.moved_gyro.begin());
   s.script.mute.until = s.script.mute.at + s.mute_for;
   s.script.unplugged.until = s.script.unplugged.at + s.unplug_for;
   std::signal(SIGTERM, [](int) { stop_asked = 1; });

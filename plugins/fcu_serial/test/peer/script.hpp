@@ -8,6 +8,8 @@
 
 #include "airplane.hpp"
 #include "firmware.hpp"
+#include "fulmar/eigen.hpp"
+#include "fulmar/flight/attitude.hpp"
 #include "fulmar/flight/trim.hpp"
 
 namespace fulmar::fcu::peer {
@@ -24,14 +26,35 @@ struct Script {
   double arm_at = 2;  ///< with the override switch on, half a second before it goes off
   double disarm_at = never_s;
   Span rc_silent, rc_lost, override, unplugged, mute;
+  Span no_fix;       ///< the receiver speaks, and says that it has none
+  Span gnss_silent;  ///< the receiver says nothing
   double reboot_at = never_s, crash_at = never_s;
+  bool mag = true, baro = true, pitot = true;  ///< false: there is none
+  double moved_at = never_s;                   ///< from then on the inertial unit is calibrated otherwise
+  Vec moved_accel{}, moved_gyro{};             ///< by so much, m/s2 and rad/s
+  bool levels = false;  ///< the pilot, when he has the aircraft in the air, holds its wings level
 };
+
+/// What fails of the sensors, after they have been felt.
+inline void fail(const Script& s, double t, Inputs& in) {
+  in.mag_works = s.mag, in.baro_works = s.baro, in.pitot_works = s.pitot;
+  in.gnss_works = !s.gnss_silent.holds(t);
+  if (s.no_fix.holds(t)) {
+    in.gnss.fix_type = 0;
+    in.gnss.num_sat = 0;
+  }
+  for (std::size_t k = 0; k < 3 && t >= s.moved_at; ++k) {
+    in.accel[k] += s.moved_accel[k];
+    in.gyro[k] += s.moved_gyro[k];
+  }
+}
 
 /// The transmitter: arm switch on channel 5, override switch on channel 6. In flight the sticks stand where
 /// the aircraft flies level, in case that it is handed over.
 class Pilot {
  public:
-  Pilot(const Script& script, const Airframe& a, double density) : script_(script) {
+  Pilot(const Script& script, const Airframe& a, double density)
+      : script_(script), aileron_(a.aileron.reversed ? -1 : 1), elevator_(a.elevator.reversed ? -1 : 1) {
     const Trim trim = trimmed_flight(a, a.limits.airspeed_cruise_mps, density);
     if (!trim.found) return;
     const auto stick = [](double angle, const Surface& s) {
@@ -59,8 +82,20 @@ class Pilot {
     in.rc_lost = script_.rc_lost.holds(t);
   }
 
+  /// Wings level, the nose a little up, 60 % throttle: by looking at the aircraft.
+  void hold_level(Inputs& in, const RigidBody& x) const {
+    const Euler e = euler_from(x.q_nb);
+    const auto stick = [](double v) {
+      return static_cast<std::uint16_t>(std::lround(1500 + 500 * std::clamp(v, -1.0, 1.0)));
+    };
+    in.rc_us[0] = stick(trim_[0] - aileron_ * (0.8 * e.roll_rad + 0.1 * x.omega_b.x()));
+    in.rc_us[1] = stick(trim_[1] + elevator_ * (0.8 * (e.pitch_rad - 0.05) + 0.1 * x.omega_b.y()));
+    in.rc_us[2] = 1600;
+  }
+
  private:
   Script script_;
+  double aileron_, elevator_;  ///< which way the stick moves the surface
   std::array<double, 4> trim_{};
 };
 

@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Flights of the shipped autopilot through the software flight controller in virtual time (fcu_virtual), in
+// which the link falls silent or the receiver loses its fix; and what is measured of them.
+#pragma once
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/run/flight.hpp"
+#include "core/run/test/commands.hpp"
+#include "fulmar/msg/vehicle_state.hpp"
+
+namespace fulmar::core::through_controller {
+
+inline constexpr double pi = 3.14159265358979323846;
+
+/// The hourglass at another height; its fillets as the planner flies them.
+class Hourglass {
+ public:
+  Hourglass() {
+    constexpr std::array<std::array<double, 2>, 4> corner{
+        {{400, -250}, {-400, -50}, {-400, -250}, {400, -50}}};
+    for (std::size_t i = 0; i < 4; ++i)
+      leg(corner[(i + 3) % 4], corner[i], corner[(i + 1) % 4], corner[(i + 2) % 4]);
+  }
+  double distance_m(double north, double east) const {
+    double least = 1e9;
+    for (const auto& p : points_) least = std::min(least, std::hypot(north - p[0], east - p[1]));
+    return least;
+  }
+  static std::string text(double height_m) {
+    std::string plan = "name: hourglass\nend: circuit\nairspeed: 17 m/s\nturn_radius: 50 m\nwaypoints:\n";
+    for (const char* at : {"north: 400 m, east: -250 m", "north: -400 m, east: -50 m",
+                           "north: -400 m, east: -250 m", "north: 400 m, east: -50 m"})
+      plan += std::string("  - {") + at + ", up: " + std::to_string(height_m) + " m}\n";
+    return plan;
+  }
+
+ private:
+  using Point = std::array<double, 2>;
+  static constexpr double radius_m = 50;
+  struct Corner {
+    Point in, out, centre;  ///< where the arc begins and ends
+  };
+  static Corner fillet(const Point& a, const Point& b, const Point& c) {
+    const auto towards = [&b](const Point& p) {
+      const double n = p[0] - b[0], e = p[1] - b[1], l = std::hypot(n, e);
+      return Point{n / l, e / l};
+    };
+    const Point u = towards(a), v = towards(c);
+    const double half = 0.5 * std::acos(u[0] * v[0] + u[1] * v[1]), along = radius_m / std::tan(half);
+    const double m = std::hypot(u[0] + v[0], u[1] + v[1]), d = radius_m / std::sin(half);
+    return {{b[0] + along * u[0], b[1] + along * u[1]},
+            {b[0] + along * v[0], b[1] + along * v[1]},
+            {b[0] + d * (u[0] + v[0]) / m, b[1] + d * (u[1] + v[1]) / m}};
+  }
+  /// The straight from b to c, and the arc at c.
+  void leg(const Point& a, const Point& b, const Point& c, const Point& d) {
+    const Corner from = fillet(a, b, c), to = fillet(b, c, d);
+    const double length = std::hypot(to.in[0] - from.out[0], to.in[1] - from.out[1]);
+    for (double s = 0; s < length; s += 1)
+      points_.push_back({from.out[0] + s / length * (to.in[0] - from.out[0]),
+                         from.out[1] + s / length * (to.in[1] - from.out[1])});
+    const double begin = std::atan2(to.in[1] - to.centre[1], to.in[0] - to.centre[0]),
+                 end = std::atan2(to.out[1] - to.centre[1], to.out[0] - to.centre[0]);
+    const double turn = std::remainder(end - begin, 2 * pi);
+    for (double s = 0; s < 1; s += 0.01)
+      points_.push_back({to.centre[0] + radius_m * std::cos(begin + s * turn),
+                         to.centre[1] + radius_m * std::sin(begin + s * turn)});
+  }
+  std::vector<Point> points_;
+};
+
+/// The hourglass at `height_m` with fcu_serial on its software controller. `folder` holds what it reads.
+inline Graph mission(const std::filesystem::path& folder, double height_m, unsigned seed,
+                     const std::vector<std::pair<std::string, std::string>>& set = {}) {
+  const std::string configs = FULMAR_SOURCE_DIR "/configs/";
+  const std::filesystem::path file = folder / "virtual.yaml", plan = folder / "plan.yaml";
+  std::ofstream(plan) << Hourglass::text(height_m);
+  std::ofstream(file)
+      << "mission: virtual\nextends: " << configs << "missions/common.yaml\nairframe: " << configs
+      << "airframes/anaconda.yaml\n"
+      << "origin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\nseed: " << seed
+      << "\narm: off\nlive: off\ncomponents:\n  sim:  {fills: vehicle, use: "
+      << FULMAR_TEST_PLUGIN_DIR "/fcu_virtual.so, in: {state: nav.state}}\n"
+      << "  plan: {params: {plan: " << plan.string() << "}}\nphases:\n"
+      << "  takeoff: {next: [{to: cruise, when: \"nav.state.height_m > 25 m\", for: 0.5 s}]}\n";
+  Overrides overrides;
+  overrides.set = set;
+  return load_mission(file.string(), overrides);
+}
+
+struct Row {
+  double t_s = 0, script_s = 0;
+  double north_m = 0, east_m = 0, height_m = 0, roll_rad = 0, course_rad = 0;  ///< truth
+  double off_estimate_m = 0, std_m = 0;  ///< the estimate, and how sure it is
+  bool attitude_valid = false, host = false, circles = false;
+};
+
+/// A flight that is looked at tick by tick.
+class Flown {
+ public:
+  Flown(const Graph& graph, const FlightOptions& options) : flight_(graph, watched(options)) {
+    truth_ = look(graph, "sim", "truth"), state_ = look(graph, "ekf", "state");
+    script_ = look(graph, "sim", "script_s"), host_ = look(graph, "sim", "host_ratio");
+    blind_ = look(graph, "sim", "blind_ratio"), sticks_ = look(graph, "sim", "sticks_ratio");
+    cross_ = look(graph, "follow", "cross_track_m");
+  }
+  bool step() {
+    const bool goes_on = flight_.step();
+    now_s_ = 1e-9 * static_cast<double>(flight_.now_ns());
+    return goes_on;
+  }
+  /// As long as `wanted` holds of the present row; false: the flight ended before.
+  template <class Wanted>
+  bool fly_while(Wanted wanted) {
+    while (wanted(row())) {
+      rows.push_back(row());
+      if (!step()) return false;
+    }
+    return true;
+  }
+  void set(const char* param, double number) {
+    ParamValue value;
+    value.number[0] = number;
+    set_parameter(flight_, "sim", param, value);
+  }
+  Row row() const {
+    Row r;
+    r.t_s = now_s_;
+    r.script_s = probe(script_);
+    r.host = probe(host_) > 0.5;
+    if (const auto* x = at<fulmar::VehicleState>(truth_)) {
+      r.north_m = x->position_m.north, r.east_m = x->position_m.east, r.height_m = x->height_m;
+      r.roll_rad = x->roll_rad, r.course_rad = x->course_rad;
+      if (const auto* s = at<fulmar::VehicleState>(state_)) {
+        r.off_estimate_m = std::hypot(s->position_m.north - r.north_m, s->position_m.east - r.east_m);
+        r.std_m = std::max(s->position_std_m.north, s->position_std_m.east);
+        r.attitude_valid = s->attitude_valid;
+      }
+    }
+    r.circles = probe(cross_) == 0 && flight_.phase() == "cruise";
+    return r;
+  }
+  const fulmar::VehicleState* state() const { return at<fulmar::VehicleState>(state_); }
+  double blind() const { return probe(blind_); }    ///< commands without a valid attitude
+  double sticks() const { return probe(sticks_); }  ///< how far the outputs were off them
+  const std::string& phase() const { return flight_.phase(); }
+  FlightResult finish() { return flight_.finish(); }
+  /// When these words were said for the first time since `from_s`; -1: never.
+  double told_s(const std::string& words, double from_s) const {
+    for (const auto& [t_s, line] : said)
+      if (t_s >= from_s && line.find(words) != std::string::npos) return t_s;
+    return -1;
+  }
+
+  std::vector<Row> rows;
+  std::vector<std::pair<double, std::string>> said;
+
+ private:
+  FlightOptions watched(FlightOptions o) {
+    o.say = [this](const std::string& line, bool) { said.emplace_back(now_s_, line); };
+    return o;
+  }
+  static Source look(const Graph& graph, const std::string& component, const std::string& output) {
+    for (std::size_t i = 0; i < graph.components.size(); ++i)
+      if (graph.components[i].name == component)
+        return {Source::Kind::component, static_cast<int>(i), graph.components[i].info().output(output)};
+    throw std::runtime_error("no component " + component);
+  }
+  template <class T>
+  const T* at(const Source& source) const {
+    return reinterpret_cast<const T*>(flight_.sample(source));
+  }
+  double probe(const Source& source) const {
+    const auto* value = at<double>(source);
+    return value ? *value : -1;
+  }
+
+  double now_s_ = 0;
+  Flight flight_;
+  Source truth_, state_, script_, host_, blind_, sticks_, cross_;
+};
+
+/// One gap of the link, in a turn of the cruise; without GNSS: no fix for 60 s from its begin.
+struct Gap {
+  double length_s = 1;
+  bool gnss = true;
+  double height_m = 70;
+  unsigned seed = 1;
+};
+inline constexpr double gap_without_fix_s = 60;
+
+struct AfterGap {
+  bool crashed = false;  ///< or the flight ended
+  double blind = 0, sticks = 0;
+  double lost_m = 0;       ///< below plan and take-over, while the host commands
+  double lowest_m = 1e9;   ///< whoever flies
+  double back_s = -1;      ///< after the gap: the host commands again, before the fix returns
+  double returned_s = -1;  ///< after the fix: the host commands
+  bool told_blind = false, told_known = false;
+};
+
+inline AfterGap fly(const Gap& gap, const std::filesystem::path& folder, const FlightOptions& options) {
+  const Graph graph = mission(folder, gap.height_m, gap.seed);
+  Flown f(graph, options);
+  AfterGap a;
+  double cruise_s = -1;
+  const auto before_turn = [&](const Row& r) {
+    if (cruise_s < 0 && f.phase() == "cruise") cruise_s = r.t_s;
+    return r.t_s < 300 && !(cruise_s > 0 && r.t_s > cruise_s + 15 && std::abs(r.roll_rad) > 0.4);
+  };
+  const auto for_s = [&](double s) {
+    const double until = f.row().t_s + s;
+    return f.fly_while([until](const Row& r) { return r.t_s < until; });
+  };
+  a.crashed = !f.fly_while(before_turn) || !for_s(0.5) || f.row().t_s > 299;
+  const double at_s = f.row().script_s, begin_s = f.row().t_s, end_s = begin_s + gap.length_s,
+               fix_s = begin_s + gap_without_fix_s;
+  f.rows.clear();
+  f.set("gap_from", at_s), f.set("gap_until", at_s + gap.length_s);
+  if (!gap.gnss) f.set("no_fix_from", at_s), f.set("no_fix_until", at_s + gap_without_fix_s);
+  a.crashed = a.crashed || !for_s(gap.gnss ? gap.length_s + 30 : gap_without_fix_s + 20);
+  double from_m = gap.height_m;
+  bool host = true;
+  for (const Row& r : f.rows) {
+    a.lowest_m = std::min(a.lowest_m, r.height_m);
+    if (r.host && !host) from_m = std::min(gap.height_m, r.height_m);
+    host = r.host;
+    if (!host) continue;
+    a.lost_m = std::max(a.lost_m, from_m - r.height_m);
+    if (r.t_s > end_s && a.back_s < 0 && (gap.gnss || r.t_s < fix_s)) a.back_s = r.t_s - end_s;
+    if (!gap.gnss && r.t_s >= fix_s && a.returned_s < 0) a.returned_s = r.t_s - fix_s;
+  }
+  a.crashed = a.crashed || a.lowest_m < 1;
+  a.blind = f.blind(), a.sticks = f.sticks();
+  a.told_blind =
+      f.told_s("the attitude is not known: no command is sent, the pilot has the aircraft", begin_s) >= 0;
+  a.told_known = f.told_s("the attitude is known again: commands are sent", begin_s) >= 0;
+  f.finish();
+  return a;
+}
+
+/// What a gap must not do; "": it has done none of it.
+inline std::string missed(const Gap& gap, const AfterGap& a) {
+  const bool his = !gap.gnss && gap.length_s > 2;
+  if (a.crashed) return "crashed";
+  if (a.blind > 0) return std::to_string(a.blind) + " commands without a valid attitude";
+  if (a.sticks > 0.01) return "the pilot's sticks did not work";
+  if (a.lost_m > 15) return std::to_string(a.lost_m) + " m lost";
+  if (his && a.back_s >= 0) return "commands without a fix";
+  if (!his && (a.back_s < 0 || a.back_s > 1)) return "no command within 1 s";
+  if (!gap.gnss && (a.returned_s < 0 || a.returned_s > 2)) return "no command within 2 s of the fix";
+  if (his && !(a.told_blind && a.told_known)) return "not told who has it";
+  return "";
+}
+
+/// The receiver has no fix for a while, in cruise; with an even seed it says nothing at all.
+struct Outage {
+  double length_s = 100;
+  unsigned seed = 1;
+  double most_std_m = 50;  ///< up to which the plan goes on
+};
+
+struct AfterOutage {
+  bool crashed = false;
+  double plan_m = 0;        ///< from the plan at the end of the outage, or 100 s after its begin
+  double reckoned_m = 0;    ///< the estimate's error there
+  double std_m = 0;         ///< and what it says of itself
+  double circle_s = -1;     ///< after the loss: the circle begins
+  double turned_deg = 0;    ///< to the right, in the circle
+  double told_lost_s = -1;  ///< after the loss
+  double told_back_s = -1;  ///< after the return
+  double resumed_s = -1;    ///< after the return: back on the plan, within 10 m
+};
+
+inline AfterOutage fly(const Outage& outage, const std::filesystem::path& folder,
+                       const FlightOptions& options) {
+  constexpr double before_s = 100, after_s = 60, reckons_s = 100, near_m = 10;
+  const Hourglass plan;
+  const Graph graph =
+      mission(folder, 70, outage.seed, {{"follow.reckon_std", std::to_string(outage.most_std_m) + " m"}});
+  Flown f(graph, options);
+  AfterOutage a;
+  a.crashed = !f.fly_while([&](const Row& r) { return f.phase() != "cruise" && r.t_s < 60; });
+  const auto until = [&](double t_s) {
+    a.crashed = a.crashed || !f.fly_while([t_s](const Row& r) { return r.t_s < t_s; });
+  };
+  until(f.row().t_s + before_s);
+  const double begin_s = f.row().t_s, end_s = begin_s + outage.length_s, at_s = f.row().script_s;
+  const bool silent = outage.seed % 2 == 0;
+  f.set(silent ? "gnss_silent_from" : "no_fix_from", at_s);
+  f.set(silent ? "gnss_silent_until" : "no_fix_until", at_s + outage.length_s);
+  f.rows.clear();
+  until(begin_s + std::min(outage.length_s, reckons_s));
+  const Row r = f.row();
+  a.plan_m = plan.distance_m(r.north_m, r.east_m);
+  a.reckoned_m = r.off_estimate_m, a.std_m = r.std_m;
+  until(end_s);
+  const auto circle = std::find_if(f.rows.begin(), f.rows.end(), [](const Row& x) { return x.circles; });
+  if (circle != f.rows.end()) a.circle_s = circle->t_s - begin_s;
+  for (auto x = circle; x < f.rows.end() - 1; ++x)
+    a.turned_deg += 180 / pi * std::remainder((x + 1)->course_rad - x->course_rad, 2 * pi);
+  until(end_s + after_s);
+  for (std::size_t i = 0; i < f.rows.size() && a.resumed_s < 0; i += 40)
+    if (f.rows[i].t_s > end_s && plan.distance_m(f.rows[i].north_m, f.rows[i].east_m) < near_m)
+      a.resumed_s = f.rows[i].t_s - end_s;
+  const auto since = [](double told_s, double from_s) { return told_s < 0 ? -1 : told_s - from_s; };
+  a.told_lost_s = since(f.told_s("GNSS lost", begin_s), begin_s);
+  a.told_back_s = since(f.told_s("GNSS is back", end_s), end_s);
+  f.finish();
+  return a;
+}
+
+/// What no outage must do. How far it leads off the plan is a matter of chance.
+inline std::string missed(const Outage& outage, const AfterOutage& a) {
+  constexpr double circle_s = 120, slack_s = 1;
+  if (a.crashed) return "crashed";
+  if (a.told_lost_s < 0 || a.told_lost_s > 1) return "the loss was not told within 1 s";
+  if (a.told_back_s < 0 || a.told_back_s > 1) return "the return was not told within 1 s";
+  if (a.circle_s > circle_s + slack_s || (a.circle_s < 0 && outage.length_s > circle_s + slack_s))
+    return "no circle after " + std::to_string(circle_s) + " s";
+  if (a.circle_s >= 0 && a.turned_deg < 5 * (outage.length_s - a.circle_s) - 10)
+    return "a circle of " + std::to_string(a.turned_deg) + " deg";
+  if (a.resumed_s < 0) return "not back on the plan";
+  return "";
+}
+
+}  // namespace fulmar::core::through_controller

@@ -34,4 +34,5 @@ for folder in build build-clang; do
 done
 build/bin/fcu_hil_test
 build/bin/random_missions_test  # 500 flights
+build/bin/bench_link_gaps >build/check/link_gaps.md
 build/bin/bench_missions --seeds 50

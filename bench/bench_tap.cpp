@@ -196,7 +196,7 @@ int fly(double seconds, const Sinks& sinks) {
   json told = {{"p50_us", quantile(ticks_us, 0.5)},
                {"p99_us", quantile(ticks_us, 0.99)},
                {"ticks", r.ticks},
-               {"wall_s", r.wall_s}};
+               {"wall_s", r.wall.took_s}};
   std::uint64_t lost = r.log.dropped;
   if (o.log) told["log_dropped"] = r.log.dropped;
   if (r.live)

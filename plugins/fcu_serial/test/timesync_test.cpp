@@ -376,7 +376,7 @@ TEST_CASE(
 }
 
 TEST_CASE("what samples said of the clock before a pause is forgotten: the controller may have stood still") {
-  constexpr std::int64_t ms = 1'000'000, pause_ms = 2000;
+  constexpr std::int64_t pause_ms = 2000;
   Dater dater;
   const auto sample = [&](std::int64_t host_ms, std::int64_t stood_ms) {
     dater.date_imu(static_cast<std::uint64_t>((5000 + host_ms - stood_ms) * 1000), host_ms * ms);

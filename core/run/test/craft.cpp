@@ -121,6 +121,32 @@ struct Strange {
   std::int64_t n_ = 0;
 };
 
+/// A vehicle that does not go without a command.
+struct Demanding {
+  struct Inputs {
+    In<Command> command;
+  };
+  struct Outputs {
+    Out<State> status;
+    Received applied;  ///< what write received in the tick before
+  };
+  struct Params {};
+  Status read(Tick& tick, const Params&, Outputs& out) {
+    tick.now_ns = 2'500'000 * n_++;
+    out.status.publish({true, false, true, tick.now_s()});
+    out.applied = applied_;
+    return Status::ok;
+  }
+  Status write(const Tick&, const Inputs& in, const Params&) {
+    applied_ = {in.command->u_frac, true};
+    return Status::ok;
+  }
+
+ private:
+  std::int64_t n_ = 0;
+  Received applied_;
+};
+
 /// Integrates 1 per second from whatever it was activated with: 0.
 struct Hoarder {
   struct Inputs {
@@ -159,4 +185,4 @@ struct Hoarder {
 
 }  // namespace
 
-FULMAR_PLUGIN("1.0.0", Craft, Hoarder, Strange)
+FULMAR_PLUGIN("1.0.0", Craft, Hoarder, Strange, Demanding)

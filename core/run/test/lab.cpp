@@ -121,6 +121,7 @@ enum class Fault : std::uint8_t {
   throws,
   fails,
   slow,
+  stutters,
   probe_nan,
   allocates,
   crashes,
@@ -211,6 +212,9 @@ struct Law {
       case Fault::throws: throw std::runtime_error("the law is broken\n\x01\xff\xc3\xa9");
       case Fault::fails: return Status::failed;
       case Fault::probe_nan: out.error_m = std::numeric_limits<double>::infinity(); break;
+      case Fault::stutters:
+        if (++late_ % 2 == 0) break;
+        [[fallthrough]];
       case Fault::slow:
         for (int i = 0; i < 3'000'000; ++i) asm volatile("");
         break;
@@ -251,6 +255,7 @@ struct Law {
  private:
   double taken_ = -9;
   [[maybe_unused]] int steps_ = 0;
+  int late_ = 0;
   std::vector<const char*> kept_;
 };
 

@@ -152,4 +152,18 @@ TEST_CASE("a step over its budget five times in a row, paced: the fallback takes
   }
 }
 
+TEST_CASE("a step over its budget now and then is counted, and stops nobody") {
+  const Graph g = mission(
+      "  one: {fills: law, use: lab/Law, budget: 500 us, params: {fault: stutters}}\n"s + with_fallback,
+      {{"one.fault_at", "0"}});
+  FlightOptions o = options(0.3);
+  o.speed = 4;
+  Flight flight(g, o);
+  const FlightResult r = flight.run();
+  CHECK(r.outcome == Outcome::flown);
+  CHECK(r.guards.empty());
+  for (const ComponentStats& c : r.components)
+    if (c.name == "one") CHECK(c.overruns > 10);
+}
+
 }  // namespace safety_test

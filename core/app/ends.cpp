@@ -15,9 +15,9 @@
 #include <initializer_list>
 
 #include "core/app/words.hpp"
-#include "core/quiet_thread.hpp"
 #include "core/run/allocation.hpp"
 #include "core/run/last_words.hpp"
+#include "fulmar/quiet_thread.hpp"
 
 namespace fulmar::core {
 

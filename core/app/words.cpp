@@ -11,7 +11,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "core/quiet_thread.hpp"
+#include "fulmar/quiet_thread.hpp"
 
 namespace fulmar::core {
 namespace {

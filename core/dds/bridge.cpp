@@ -10,8 +10,8 @@
 #include "core/dds/services.hpp"
 #include "core/dds/topics.hpp"
 #include "core/error.hpp"
-#include "core/quiet_thread.hpp"
 #include "core/say.hpp"
+#include "fulmar/quiet_thread.hpp"
 
 namespace fulmar::core {
 namespace {

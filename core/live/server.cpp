@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "core/live/connection.hpp"
-#include "core/quiet_thread.hpp"
+#include "fulmar/quiet_thread.hpp"
 
 namespace fulmar::core {
 namespace {

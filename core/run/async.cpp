@@ -4,8 +4,8 @@
 #include <cstring>
 
 #include "core/clock.hpp"
-#include "core/quiet_thread.hpp"
 #include "core/run/in_flight.hpp"
+#include "fulmar/quiet_thread.hpp"
 
 namespace fulmar::core {
 namespace {

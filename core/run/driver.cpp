@@ -10,10 +10,10 @@
 #include <span>
 
 #include "core/error.hpp"
-#include "core/quiet_thread.hpp"
 #include "core/run/in_flight.hpp"
 #include "core/run/realtime.hpp"
 #include "core/types/wire.hpp"
+#include "fulmar/quiet_thread.hpp"
 
 namespace fulmar::core {
 namespace {

@@ -10,9 +10,9 @@
 #include "core/error.hpp"
 #include "core/graph/params.hpp"
 #include "core/graph/record.hpp"
-#include "core/quiet_thread.hpp"
 #include "core/run/flight_impl.hpp"
 #include "core/types/named.hpp"
+#include "fulmar/quiet_thread.hpp"
 
 namespace fulmar::core {
 namespace {

@@ -16,9 +16,9 @@
 
 #include "core/error.hpp"
 #include "core/log/mcap.hpp"
-#include "core/quiet_thread.hpp"
 #include "core/tap/tap.hpp"
 #include "core/types/wire.hpp"
+#include "fulmar/quiet_thread.hpp"
 
 namespace fulmar::core {
 namespace {

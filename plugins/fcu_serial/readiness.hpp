@@ -67,6 +67,7 @@ class Readiness {
     Spoken spoken;
     bool inertial;  ///< samples come
     PitotZero pitot_zero;
+    bool path;  ///< there is one to fly, or none is asked for
   };
 
   /// Whether a command may go out now.
@@ -89,20 +90,22 @@ class Readiness {
     no_position = 8,
     no_height = 16,
     no_velocity = 32,
-    needed = 63,
-    no_mag = 64,
-    no_baro = 128,
-    no_pitot = 256,
-    zero_pending = 512,
-    zero_wrong = 1024
+    no_path = 64,
+    needed = 127,
+    no_mag = 128,
+    no_baro = 256,
+    no_pitot = 512,
+    zero_pending = 1024,
+    zero_wrong = 2048
   };
-  static constexpr std::array<std::pair<std::uint32_t, std::string_view>, 6> needed_words{
+  static constexpr std::array<std::pair<std::uint32_t, std::string_view>, 7> needed_words{
       {{no_inertial, "no inertial samples"},
        {no_attitude, "no attitude with heading"},
        {no_fix, "no GNSS fix"},
        {no_position, "no position"},
        {no_height, "no height"},
-       {no_velocity, "no velocity"}}};
+       {no_velocity, "no velocity"},
+       {no_path, "no path to fly"}}};
   static constexpr std::array<std::pair<std::uint32_t, std::string_view>, 5> other_words{
       {{no_mag, "no magnetometer"},
        {no_baro, "no barometer"},
@@ -118,7 +121,9 @@ class Readiness {
     const auto unless = [](bool there, Missing bit) { return there ? 0u : std::uint32_t{bit}; };
     const VehicleState none, &s = f.state ? *f.state : none;
     std::uint32_t m = unless(f.inertial, no_inertial);
-    // The cause says it: without an attitude there is nothing else, without a fix no position.
+    // The cause says it: without an attitude there is nothing else, without a fix no position, without an
+    // estimate no path.
+    if (f.state) m |= unless(f.path, no_path);
     if (s.attitude_valid)
       m |= unless(s.height_valid, no_height) | unless(s.velocity_valid, no_velocity);
     else

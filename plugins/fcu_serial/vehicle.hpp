@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "commands.hpp"
+#include "fulmar/msg/path.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/plugin.hpp"
 #include "greeting.hpp"
@@ -33,6 +34,7 @@ class Vehicle {
     Optional<Actuators> actuators;
     Optional<AuxOutputs> aux;
     Optional<VehicleState> state;
+    Optional<Path> path;
   };
   struct Outputs {
     Out<Imu> imu;
@@ -57,6 +59,7 @@ class Vehicle {
                        setup};
     Flag send_attitude{false, "sends the input `state` to correct the controller's own estimate, 50 Hz"};
     Flag needs_state{false, "flies by the input `state`: no command before there is one", setup};
+    Flag needs_path{false, "flies along the input `path`: not ready before there is one", setup};
     Param pitot_zero_limit{
         pitot_zero_limit_pa,
         "Pa",
@@ -112,7 +115,7 @@ class Vehicle {
     run_.met_state = run_.met_state || in.state;
     if (run_.met_state && !in.state && !in.actuators)
       return Status::ok;  // the host is silent, and has said why
-    if (may_command(tick.now_ns, in.state, p)) send_command(tick.now_ns, in.actuators);
+    if (may_command(tick.now_ns, in, p)) send_command(tick.now_ns, in.actuators);
     send_aux(tick.now_ns, in.aux);
     if (p.send_attitude) send_attitude(tick.now_ns, in.state);
     return Status::ok;
@@ -330,16 +333,18 @@ class Vehicle {
   }
 
   /// Without an estimate, given or demanded, whoever commands has to know.
-  bool may_command(std::int64_t now_ns, const Optional<VehicleState>& state, const Params& p) {
+  bool may_command(std::int64_t now_ns, const Inputs& in, const Params& p) {
+    const Optional<VehicleState>& state = in.state;
     if (p.send_attitude && !state && now_ns > estimate_patience_ns * 20 &&
         !std::exchange(run_.told_unwired, true))
       run_.notices.say(fulmar::Severity::warning,
                        "send_attitude: nothing comes to the input 'state'; is it wired?");
     if ((!state && !p.needs_state) || run_.heard.status_ns == never_ns) return true;
     const bool current = state && now_ns - state.valid_at_ns() < estimate_patience_ns;
-    return run_.readiness.update({current ? &*state : nullptr, run_.status, run_.spoken,
-                                  now_ns - run_.heard.imu_ns < command_patience_ns, zero_of_pitot()},
-                                 now_ns, run_.notices);
+    return run_.readiness.update(
+        {current ? &*state : nullptr, run_.status, run_.spoken,
+         now_ns - run_.heard.imu_ns < command_patience_ns, zero_of_pitot(), in.path || !p.needs_path},
+        now_ns, run_.notices);
   }
 
   /// Nothing without a command, or with one that nobody has renewed: the controller then hands over to its

@@ -46,16 +46,23 @@ class Draw {
   }
 
   void component(const std::string& name, const std::string& keys, const std::string& params = "") {
-    const bool child = chance(0.15);
+    const bool child = chance(0.15), async = !child && chance(0.1);
     std::string all = params;
     if (name == victim_) {
       std::vector<std::string> faults = {"throws", "fails", "nan"};
-      if (child && counts_allocations()) faults = {"throws", "nan", "crashes", "aborts", "exits"};
+      if (child && counts_allocations())
+        faults = {"throws", "nan", "crashes", "aborts", "exits", "hangs", "hangs"};
       all += (all.empty() ? "" : ", ") + ("fault: " + one_of(faults)) +
              ", fault_at: " + std::to_string(between(-4, 32)) + " s";
     }
-    text_ += "  " + name + ": {" + keys + (child ? ", run: process" : "") +
+    text_ += "  " + name + ": {" + keys + (child ? ", run: process, hang: 300 ms" : "") +
+             (async ? ", run: async, latency: " + one_of<std::string>({"10 ms", "20 ms", "50 ms"}) : "") +
              (all.empty() ? "" : ", params: {" + all + "}") + "}\n";
+  }
+
+  /// A wire; now and then that of the tick before.
+  std::string from(const std::string& port) {
+    return chance(0.2) ? "{from: " + port + ", delayed: true}" : port;
   }
 
   void components() {
@@ -69,18 +76,20 @@ class Draw {
         "components:\n  sim: {params: {sensors: " + one_of<std::string>({"perfect", "rosflight", "ublox"}) +
         ", turbulence: light, wind_ned: [" + std::to_string(speed * std::cos(to)) + ", " +
         std::to_string(speed * std::sin(to)) + ", 0]}}\n";
-    component("truth", "use: frail/Truth, in: {truth: vehicle.truth}");
+    component("truth", "use: frail/Truth, in: {truth: " + from("vehicle.truth") + "}");
     component("plan", "use: frail/Planner", file);
-    component("manage", "use: frail/Manager");
+    component("manage",
+              "use: frail/Manager, in: {state: " + from("nav.state") + ", plan: " + from("plan.plan") + "}");
     component("follow", "use: frail/Guide, rate: " + one_of<std::string>({"50 Hz", "100 Hz", "400 Hz"}));
     component("slc", "use: frail/Slc");
     component("tecs", "use: frail/Tecs");
     component("attitude", "use: frail/Inner");
     if (second_chain_) {
       component("plan_two", "use: frail/Planner, rate: 50 Hz, in: {state: nav.state}", file);
-      component("manage_two",
-                "use: frail/Manager, rate: 100 Hz, in: {state: nav.state, plan: plan_two.plan}");
-      component("follow_two", "fills: guide, use: frail/Guide, rate: 100 Hz, in: {path: manage_two.path}");
+      component("manage_two", "use: frail/Manager, rate: 100 Hz, in: {state: nav.state, plan: " +
+                                  from("plan_two.plan") + "}");
+      component("follow_two",
+                "fills: guide, use: frail/Guide, rate: 100 Hz, in: {path: " + from("manage_two.path") + "}");
     }
     if (whole_) component("whole", "fills: [outer, inner], use: frail/Both, rate: 100 Hz");
     if (second_inner_) component("inner_two", "fills: inner, use: frail/Inner, rate: 100 Hz");

@@ -2,7 +2,6 @@
 #include "link.hpp"
 
 #include <poll.h>
-#include <pthread.h>
 #include <sched.h>
 #include <time.h>
 #include <unistd.h>
@@ -10,9 +9,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <csignal>
 #include <thread>
 
+#include "fulmar/quiet_thread.hpp"
 #include "imu_signal.hpp"
 #include "outbox.hpp"
 #include "port.hpp"
@@ -106,14 +105,7 @@ struct Link::Impl {
 // ---- the link's thread
 
 void Link::Impl::begin() {
-  // Signals are for the host's threads, but those of a crash: blocked, they would end it without a word.
-  sigset_t all, before;
-  sigfillset(&all);
-  for (const int crash : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS}) sigdelset(&all, crash);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  thread = std::thread([this] { run(); });
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  pthread_setname_np(thread.native_handle(), "fulmar-fcu");
+  thread = quiet_thread("fulmar-fcu", [this] { run(); });
 }
 
 void Link::Impl::run() {

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `fulmar run --io fcu` and what may be at the other end.
 #include <doctest/doctest.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <atomic>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 
 #include "device.hpp"
@@ -176,6 +180,68 @@ TEST_CASE(
   CHECK(second.find("manage.first_item = 0, fcu.pitot_zeroed = 1") != std::string::npos);
   CHECK(second.find("it has zeroed its airspeed in the air: pitot not used any more") != std::string::npos);
   CHECK(second.find("ready, but airspeed zeroed wrong") != std::string::npos);  // once it is disarmed
+}
+
+namespace {
+
+/// The thread of this name in a process; -1: there is none.
+pid_t thread_of(pid_t process, const std::string& name) {
+  for (const auto& task : std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/task")) {
+    std::string found;
+    std::getline(std::ifstream(task.path() / "comm") >> std::ws, found);
+    if (found == name) return std::stoi(task.path().filename().string());
+  }
+  return -1;
+}
+
+}  // namespace
+
+TEST_CASE("a crash of the thread that reads the port is told, and the controller gets the last frame") {
+  if (!FULMAR_CRASH_TESTS) return;  // a sanitized build handles crashes by itself
+  const std::filesystem::path mission =
+      std::filesystem::temp_directory_path() / ("fulmar-fcu-run-" + std::to_string(getpid()) + ".yaml");
+  const std::string configs = FULMAR_SOURCE_DIR "/configs/";
+  std::ofstream(mission) << "mission: last_frame\nextends: " << configs
+                         << "missions/common.yaml\nairframe: " << configs
+                         << "airframes/anaconda.yaml\nfailsafe: {throttle_frac: 0.25, for: 2 s}\n"
+                         << "origin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\n"
+                         << "components:\n  plan: {params: {plan: " << configs << "plans/hourglass.yaml}}\n";
+  peer::Firmware fcu;
+  fcu.provision(wall_us());
+  std::string said;
+  bool told = false;
+  {
+    std::atomic<std::uint64_t> commands{0};
+    Device device([&](Pty& pty) {
+      serve(fcu, pty);
+      commands = fcu.commands();
+      told = told || fcu.last_command().u[0] == 0.25f;
+    });
+    const std::string command = "echo $$; exec " FULMAR_BIN_DIR "/fulmar run " + mission.string() +
+                                " --io fcu --no-log --set fcu.port=" + device.name() + " 2>&1";
+    FILE* pipe = popen(command.c_str(), "r");
+    REQUIRE(pipe);
+    std::array<char, 512> line{};
+    REQUIRE(std::fgets(line.data(), line.size(), pipe));
+    const pid_t host = std::atoi(line.data());
+    bool hit = false;
+    while (std::fgets(line.data(), line.size(), pipe)) {
+      said += line.data();
+      if (hit || said.find("phase hold") == std::string::npos) continue;
+      while (commands < 20) pause_us(10'000);
+      const pid_t thread = thread_of(host, "fulmar-fcu");
+      hit = thread > 0 && syscall(SYS_tgkill, host, thread, SIGSEGV) == 0;
+    }
+    const int status = pclose(pipe);
+    CAPTURE(said);
+    CHECK(hit);
+    CHECK(WIFSIGNALED(status));
+    CHECK(WTERMSIG(status) == SIGSEGV);
+    CHECK(said.find("the host crashed (segmentation fault)") != std::string::npos);
+    pause_us(300'000);  // the frame is on its way
+  }
+  CHECK(told);
+  std::filesystem::remove(mission);
 }
 
 }  // namespace fcu_run_test

@@ -38,6 +38,7 @@ struct Flying {
   Actuators command{0.4, 0.1, -0.05, 0.07};
   bool commands = true;
   std::optional<VehicleState> state;  ///< the estimate that the vehicle is given, valid now
+  std::optional<Path> path;
   std::string told;
   std::map<std::string, int> published;
   VehicleStatus status;
@@ -59,6 +60,7 @@ struct Flying {
       told += std::string(out.notices.items[i].text.view()) + "\n";
     if (commands && ticks_ns.size() % 4 == 1) bench.set(bench.in.actuators, command);
     if (state) bench.set(bench.in.state, *state);
+    if (path) bench.set(bench.in.path, *path);
     bench.write();
     return result;
   }

@@ -202,6 +202,25 @@ TEST_CASE("no magnetometer is said before arming, ready or not") {
   CHECK(times(f, "ready, but no magnetometer") == 1);
 }
 
+TEST_CASE("a mission that flies along a path is not ready without one, and does not begin") {
+  Flying f;
+  f.bench.params.needs_path.value = true;
+  f.state = known();
+  f.fly(12);
+  CHECK(times(f, "not ready: no path to fly\n") == 1);
+  armed_by_pilot(f);
+  hand_over(f);
+  f.fly(0.1);
+  CHECK(sent_in(f, 2) == 0);
+  f.path = Path();
+  f.fly(1);
+  CHECK(f.heard("ready: switch to the pilot and back to hand over"));
+  take_back(f);
+  f.fly(0.5);
+  hand_over(f);
+  CHECK(sent_in(f, 1) > 50);
+}
+
 TEST_CASE("the airspeed's zero belongs to the line: not done yet, wrong, and good") {
   Flying booted{peer::Options{}};  // it zeroes in the first 12 s
   booted.state = known();

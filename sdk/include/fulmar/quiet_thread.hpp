@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Threads beside the loop's. Signals are for the main thread, and one for a file at its size limit comes back
-// as an error of write; but what crashes a thread is its own, and is told from it.
+// Threads beside the loop's, of the host or of a component. Signals are for the main thread, and one for a
+// file at its size limit comes back as an error of write; but what crashes a thread is its own, and is told
+// from it.
 #pragma once
 #include <pthread.h>
 #include <sys/mman.h>
@@ -9,7 +10,7 @@
 #include <thread>
 #include <utility>
 
-namespace fulmar::core {
+namespace fulmar {
 
 /// Those with which code crashes its own thread: blocked, they would end the process without a word.
 inline constexpr int crash_signals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS};
@@ -68,4 +69,4 @@ std::thread quiet_thread(const char* name, Work work) {
   return thread;
 }
 
-}  // namespace fulmar::core
+}  // namespace fulmar

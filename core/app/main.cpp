@@ -15,6 +15,7 @@
 #include "core/error.hpp"
 #include "core/graph/graph.hpp"
 #include "core/run/realtime.hpp"
+#include "core/run/set_up.hpp"
 #include "core/say.hpp"
 
 namespace {
@@ -24,6 +25,9 @@ using namespace fulmar::core;
 int check(const std::string& mission, const Overrides& overrides) {
   const Graph graph = load_mission(mission, overrides);
   for (const std::string& warning : graph.warnings) warn(warning);
+  std::string refused;
+  for (const std::string& fault : refused_set_ups(graph)) refused += (refused.empty() ? "" : "\n") + fault;
+  if (!refused.empty()) throw Error(refused);
   std::printf("%s is in order: %zu components, %zu roles, %zu phases.\n", mission.c_str(),
               graph.components.size(), graph.roles.size(), graph.phases.size());
   return 0;

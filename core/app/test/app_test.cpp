@@ -359,9 +359,11 @@ TEST_CASE("a value that no aircraft has is refused, with its range") {
   const std::string with_plan = "components:\n  plan: {params: {plan: ";
   const auto refused = [](const std::string& text, const std::string& told) {
     CAPTURE(text);
-    const Result r = fulmar("run --no-log --duration 1 " + mission(text).string());
-    CHECK(r.code == 4);
-    CHECK_MESSAGE(r.err.find(told) != std::string::npos, r.err);
+    for (const std::string command : {"check ", "run --no-log --duration 1 "}) {
+      const Result r = fulmar(command + mission(text).string());
+      CHECK(r.code == 4);
+      CHECK_MESSAGE(r.err.find(told) != std::string::npos, r.err);
+    }
   };
   refused(plan + "failsafe: {elevator_rad: 100}\n", "elevator_rad: 100 is outside -1.5708 .. 1.5708 rad");
   refused(plan + "failsafe: {rudder_rad: -2}\n", "rudder_rad: -2 is outside -1.5708 .. 1.5708 rad");

@@ -121,9 +121,9 @@ class Readiness {
     const auto unless = [](bool there, Missing bit) { return there ? 0u : std::uint32_t{bit}; };
     const VehicleState none, &s = f.state ? *f.state : none;
     std::uint32_t m = unless(f.inertial, no_inertial);
-    // The cause says it: without an attitude there is nothing else, without a fix no position, without an
-    // estimate no path.
-    if (f.state) m |= unless(f.path, no_path);
+    // The cause says it: without an attitude there is nothing else, without a fix no position, without a
+    // position no path.
+    if (s.attitude_valid && s.position_valid) m |= unless(f.path, no_path);
     if (s.attitude_valid)
       m |= unless(s.height_valid, no_height) | unless(s.velocity_valid, no_velocity);
     else

@@ -94,6 +94,24 @@ const Flights& flights() {
 const Flown& undisturbed() { return flights().plain; }
 const Disturbed& disturbed() { return flights().disturbed; }
 
+TEST_CASE("sensors that are not there are said before arming, by name") {
+  struct Lack {
+    std::vector<std::string> words;
+    const char* told;
+  };
+  const Lack lacks[] = {{{"--no-fix-at", "-1", "--no-mag"},
+                         "not ready: no attitude with heading, no GNSS fix, no magnetometer\n"},
+                        {{"--gnss-silent-at", "-1", "--no-baro", "--no-pitot"},
+                         "not ready: no GNSS fix, no height, no barometer, no pitot tube\n"}};
+  for (const Lack& lack : lacks) {
+    const Scratch s("lack");
+    std::vector<std::string> words = lack.words;
+    words.insert(words.end(), {"--arm-at", "inf"});
+    const Flown f = fly_peer(s, {"manage.progress.circuits >= 1", 6, 1, 60}, words, false);
+    CHECK_MESSAGE(f.said.find(lack.told) != std::string::npos, f.said);
+  }
+}
+
 }  // namespace
 
 TEST_CASE("the hourglass through the serial protocol tracks as the simulator with the same delays does") {

@@ -205,6 +205,9 @@ TEST_CASE("no magnetometer is said before arming, ready or not") {
 TEST_CASE("a mission that flies along a path is not ready without one, and does not begin") {
   Flying f;
   f.bench.params.needs_path.value = true;
+  f.state = placeless();
+  f.fly(5);
+  CHECK(times(f, "no path") == 0);  // which the manager gives once there is a position
   f.state = known();
   f.fly(12);
   CHECK(times(f, "not ready: no path to fly\n") == 1);

@@ -84,22 +84,24 @@ class Readiness {
  private:
   using Level = fulmar::Severity;
   enum Missing : std::uint32_t {
-    no_inertial = 1,
-    no_attitude = 2,
-    no_fix = 4,
-    no_position = 8,
-    no_height = 16,
-    no_velocity = 32,
-    no_path = 64,
-    needed = 127,
-    no_mag = 128,
-    no_baro = 256,
-    no_pitot = 512,
-    zero_pending = 1024,
-    zero_wrong = 2048
+    no_link = 1,
+    no_inertial = 2,
+    no_attitude = 4,
+    no_fix = 8,
+    no_position = 16,
+    no_height = 32,
+    no_velocity = 64,
+    no_path = 128,
+    needed = 255,
+    no_mag = 256,
+    no_baro = 512,
+    no_pitot = 1024,
+    zero_pending = 2048,
+    zero_wrong = 4096
   };
-  static constexpr std::array<std::pair<std::uint32_t, std::string_view>, 7> needed_words{
-      {{no_inertial, "no inertial samples"},
+  static constexpr std::array<std::pair<std::uint32_t, std::string_view>, 8> needed_words{
+      {{no_link, "nothing is heard of the flight controller"},
+       {no_inertial, "no inertial samples"},
        {no_attitude, "no attitude with heading"},
        {no_fix, "no GNSS fix"},
        {no_position, "no position"},
@@ -119,6 +121,7 @@ class Readiness {
   static std::uint32_t missing_of(const Facts& f, std::int64_t now_ns) {
     const auto silent = [now_ns](std::int64_t at_ns) { return now_ns - at_ns > sensor_patience_ns; };
     const auto unless = [](bool there, Missing bit) { return there ? 0u : std::uint32_t{bit}; };
+    if ((f.status.errors & own_error_link_down) != 0) return no_link;
     const VehicleState none, &s = f.state ? *f.state : none;
     std::uint32_t m = unless(f.inertial, no_inertial);
     // The cause says it: without an attitude there is nothing else, without a fix no position, without a

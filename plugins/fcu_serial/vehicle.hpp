@@ -104,6 +104,11 @@ class Vehicle {
     run_.arrived_ns = wait(out);
     // Time goes by arrivals, so that the age of a sample is what its way here took.
     const std::int64_t host_ns = link_->now_ns();
+    if (run_.read_ns != never_ns && host_ns - run_.read_ns > stood_still_ns)
+      run_.notices.say(fulmar::Severity::critical,
+                       (Line() << "this computer stood still for ").seconds(host_ns - run_.read_ns)
+                           << ": no command went out meanwhile");
+    run_.read_ns = host_ns;
     run_.now_ns = std::max(flight_ns(run_.arrived_ns != never_ns ? run_.arrived_ns : host_ns),
                            run_.now_ns + least_step_ns);
     tick.now_ns = run_.now_ns;
@@ -139,6 +144,8 @@ class Vehicle {
       50'000'000;  ///< older samples than this are not flown by any more
   static constexpr std::int64_t status_period_ns = 100'000'000, aux_period_ns = 1'000'000'000,
                                 attitude_period_ns = 19'500'000;
+  static constexpr std::int64_t stood_still_ns =
+      300'000'000;  ///< between two ticks, which wait for 10 ms at most
   static constexpr std::int64_t reboot_memory_ns = 1'000'000'000;
   static constexpr std::int64_t attitude_boots_ns = 3'000'000'000;  ///< FILT_INIT_T: its estimate begins anew
 
@@ -173,6 +180,7 @@ class Vehicle {
     Rc rc;
     std::int64_t zero_ns = never_ns,
                  arrived_ns = never_ns;  ///< host: of flight time 0; arrival of this tick's inertial sample
+    std::int64_t read_ns = never_ns;     ///< host: of the tick before
     std::int64_t now_ns = -least_step_ns, imu_valid_ns = never_ns, status_ns = never_ns, aux_ns = never_ns;
     std::int64_t attitude_ns = never_ns, disarmed_ns = never_ns, attitude_from_ns = never_ns;
     std::uint64_t gnss_stamp_us = 0, clock_us = 0;  ///< the controller's; 0 at its boot

@@ -17,9 +17,13 @@ namespace fulmar::fcu {
 /// A line that grows at its end, cut when it is full.
 class Line {
  public:
+  /// What does not fit is left out, and dots tell so.
   Line& operator<<(std::string_view text) {
     for (const char c : text) {
-      if (size_ + 1 >= text_.bytes.size()) break;
+      if (size_ + 1 >= text_.bytes.size()) {
+        std::fill_n(text_.bytes.begin() + static_cast<std::ptrdiff_t>(size_) - 3, 3, '.');
+        break;
+      }
       text_.bytes[size_++] = c >= ' ' && c < 0x7f ? c : '?';
     }
     return *this;

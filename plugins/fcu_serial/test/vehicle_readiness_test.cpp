@@ -336,4 +336,33 @@ TEST_CASE("the attitude goes to the controller at 50 Hz, however often it comes"
   CHECK(f.world.count<ExternalAttitude>() - before < 110);
 }
 
+TEST_CASE("without a link the line says that alone; with one, each sensor, and dots when it is too long") {
+  Flying f;
+  f.state = blind();
+  f.fly(4);
+  f.world.fcu.inputs.gnss_works = f.world.fcu.inputs.mag_works = f.world.fcu.inputs.baro_works =
+      f.world.fcu.inputs.pitot_works = false;
+  f.world.lost = [](const Packet& p) { return p.is<SmallImu>(); };
+  f.told.clear();
+  f.fly(12);
+  CHECK(f.heard(
+      "not ready: no inertial samples, no attitude with heading, no GNSS fix, no magnetometer, no b...\n"));
+  f.world.cut = true;
+  f.fly(1);
+  f.told.clear();
+  f.fly(20);
+  CHECK(times(f, "not ready: nothing is heard of the flight controller\n") == 2);
+  CHECK(times(f, "not ready") == 2);
+}
+
+TEST_CASE("a computer that stood still says so, and for how long") {
+  Flying f;
+  cruising(f);
+  f.world.run(f.world.now_ns + 1'200'000'000, false);
+  f.fly(1);
+  CHECK(times(f, "this computer stood still for 1.2 s: no command went out meanwhile") == 1);
+  f.fly(5);
+  CHECK(times(f, "stood still") == 1);
+}
+
 }  // namespace vehicle_readiness_test

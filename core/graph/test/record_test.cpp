@@ -104,6 +104,9 @@ TEST_CASE("numbers of every kind arrive exactly") {
   CHECK(sample.value.colour == Colour::green);
   CHECK(read<Sample>("time_ns: 9007199254740993\n").value.time_ns ==
         9007199254740993);  // 2^53 + 1 is no double
+  CHECK(read<Sample>("narrow_m: 1e39\n").faults.find("1e39 is too large for this field") !=
+        std::string::npos);
+  CHECK(read<Sample>("narrow_m: -3e38\n").faults == "");
 }
 
 TEST_CASE("every fault of a record is told at once, with the line of its own file") {

@@ -289,6 +289,18 @@ std::string refusal(const std::string& flags, const std::string& io = "fcu",
 
 }  // namespace
 
+TEST_CASE("in the air 'failed' is a warning, and 'done' is none") {
+  for (const std::string end : {"failed", "done"}) {
+    Said said;
+    const Graph g = craft(end + ": \"vehicle.status.tick_s > 0.1 s\"\n");
+    Flight flight(g, listening(said));
+    CHECK(fly_until(flight, 0.2));
+    REQUIRE(said.count(end + ": vehicle.status.tick_s > 0.1 s; flies on until disarmed") == 1);
+    for (std::size_t i = 0; i < said.lines.size(); ++i)
+      if (said.lines[i].find("flies on") != std::string::npos) CHECK(said.warnings[i] == (end == "failed"));
+  }
+}
+
 TEST_CASE("a vehicle that does not go without a command gets the failsafe's, even if none was ever given") {
   const fs::path file = folder().path / "demanding.yaml";
   std::ofstream(file) << "mission: demanding\nfailsafe: {u_frac: -0.25, for: 0.5 s}\nroles:\n"

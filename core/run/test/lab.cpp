@@ -67,6 +67,7 @@ struct Cart {
     Param rate{400, "Hz", 1, 10000, "tick rate", setup};
     Param fail_at{1e9, "s", -1e9, 1e9, "read fails from here on"};
     Count burst_size{3, 0, 100, "samples per tick"};
+    Count bad_item{100, 0, 100, "this sample of a burst is not finite"};
     Param mute_at{1e9, "s", -1e9, 1e9, "the signal falls silent here"};
     Flag probes{false, "publishes its probe"};
     Param stuck_at{1e9, "s", -1e9, 1e9, "time stands still here"};
@@ -89,7 +90,9 @@ struct Cart {
     if (tick.now_s() < p.mute_at) out.signal.publish(s);
     if (p.probes) out.distance_m = s.x_m;
     if (n_ > 0) out.applied.publish(applied_);
-    for (int i = 0; i < p.burst_size; ++i) out.burst.push({s.x_m + 0.1 * i, 0}, tick.now_ns + i);
+    for (int i = 0; i < p.burst_size; ++i)
+      out.burst.push({i == p.bad_item ? std::numeric_limits<double>::quiet_NaN() : s.x_m + 0.1 * i, 0},
+                     tick.now_ns + i);
     out.status.publish({armed_ && tick.now_ns >= 0});
     out.stance.publish({!armed_, armed_});
     ++n_;
@@ -178,6 +181,9 @@ struct Law {
     Probe taken_over_frac;
   };
   struct Params {
+#ifdef LAB_WIDER
+    Param reserve{0, "", -1, 1, "of no matter"};
+#endif
 #ifdef LAB_BETTER
     Param u{0.5, "", -0.5, 1, "what it commands"};
 #else
@@ -195,7 +201,9 @@ struct Law {
   }
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     const bool bad = tick.now_s() >= p.fault_at;
-    out.command = {p.u, in.signal->x_m, static_cast<std::uint32_t>(p.id)};
+    out.command.u_frac = p.u;
+    out.command.seen_m = in.signal->x_m;
+    out.command.by = static_cast<std::uint32_t>(p.id);
 #if defined(LAB_BETTER)
     out.command.u_frac = p.u / 2;
 #elif defined(LAB_WILD)
@@ -306,6 +314,7 @@ struct Watch {  ///< fills no role
     }
     if (in.applied) tally_.applied_seen_m = in.applied->seen_m;
     for (auto request : in.ask) {
+      if (request.value().to_m > 100) continue;  // passes it over
       if (request.value().to_m < 0)
         request.refuse("cannot go back");
       else
@@ -376,11 +385,13 @@ struct Ticker {
   struct Params {
     Count samples{10, 0, 1000, "before it ends"};
     Flag fails{false, "fails at the end"};
+    Flag dated{false, "knows when each sample was taken: at its number, in ms"};
   };
   Status step(const Tick&, const Inputs&, const Params& p, Outputs& out) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     if (n_ == p.samples) return p.fails ? Status::failed : Status::ok;
-    out.reading.push({static_cast<double>(++n_), 0}, FULMAR_ON_ARRIVAL);
+    ++n_;
+    out.reading.push({static_cast<double>(n_), 0}, p.dated ? n_ * 1'000'000 : FULMAR_ON_ARRIVAL);
     out.count_ratio = static_cast<double>(n_);
     return Status::ok;
   }
@@ -473,10 +484,13 @@ struct Both {
     taken_m_ = last.signal.value.x_m;
     return p.refuse ? Status::failed : Status::ok;
   }
+  void deactivate() { steps_ = -1e6; }
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     if (tick.now_s() >= p.fails_at) throw std::runtime_error("both are broken");
     out.signal.publish(*in.signal);
-    out.command = {p.u, in.signal->x_m, 7};
+    out.command.u_frac = p.u;
+    out.command.seen_m = in.signal->x_m;
+    out.command.by = 7;
     out.steps_ratio = ++steps_;
     out.taken_over_frac = taken_frac_;
     out.taken_over_m = taken_m_;

@@ -168,6 +168,32 @@ TEST_CASE("a driver that fails is stopped, and told of") {
   CHECK(r.guards[0].what == "says that it failed");
 }
 
+TEST_CASE("a driver's sample is valid when the driver says, else when it arrives") {
+  for (const bool dated : {true, false}) {
+    CAPTURE(dated);
+    const Graph g =
+        mission("  gauge: {use: lab/Ticker, run: driver, params: {samples: 5, dated: "s +
+                (dated ? "true" : "false") + "}}\nrecord: {ports: {gauge.reading: all}}\n" + one_phase);
+    FlightOptions o = options(0.5);
+    o.speed = 4;
+    o.log = true;
+    o.log_file = folder().path / "dated.mcap";
+    fs::remove(o.log_file);
+    Flight(g, o).run();
+    const McapFile file = read_mcap(o.log_file);
+    const std::uint64_t epoch_ns = static_cast<std::uint64_t>(g.epoch_ns);
+    int seen = 0;
+    for (const McapFile::Message& m : file.messages) {
+      if (m.channel != file.channel("/gauge/reading")) continue;
+      ++seen;
+      const bool as_said = m.publish_ns == epoch_ns + static_cast<std::uint64_t>(seen) * 1'000'000;
+      CHECK(as_said == dated);
+      if (!dated) CHECK(m.publish_ns == m.log_ns);
+    }
+    CHECK(seen == 5);
+  }
+}
+
 TEST_CASE("run modes that do not fit are refused") {
   const auto refused = [](const std::string& tail) {
     try {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A component's file is swapped on the ground, in a host that goes on: parameters stay, a bad newcomer leaves
 // the old one flying-ready.
+#include "core/run/swap.hpp"
+
 #include "core/log/reader.hpp"
 #include "core/run/test/commands.hpp"
 #include "core/run/test/lab.hpp"
@@ -113,6 +115,45 @@ TEST_CASE("nothing is swapped while armed, and never the vehicle") {
   CHECK(ground.u() == 0.1);
 }
 
+TEST_CASE("what the mission says of a swapped component is found in the newcomer, wherever it has it") {
+  Ground ground(mission(
+      "phases:\n"
+      "  wait: {law: {use: one, set: {u: 0.9}}, next: [{to: fly, when: \"law.command.u_frac < 0\"}, "
+      "{to: fly, when: \"vehicle.status.armed\"}]}\n"
+      "  fly:  {law: {use: one, set: {u: 0.6}}, next: [{to: wait, when: \"law.command.by == 8\"}]}\n"));
+  swap(*ground.flight, "one", variant("_wider"));  // a parameter more, in front
+  REQUIRE(ground.flight->step());
+  CHECK(ground.u() == 0.9);
+  CHECK(ground.flight->phase() == "wait");
+  while (ground.flight->now_ns() < 100'000'000) REQUIRE(ground.flight->step());
+  CHECK(ground.flight->phase() == "fly");
+  CHECK(ground.u() == 0.6);
+}
+
+TEST_CASE("a choice is carried over while its words are the same, a number while it is in range") {
+  ComponentInfo old;
+  ParamInfo choice{}, number{};
+  choice.name = "law", choice.kind = FULMAR_CHOICE, choice.choices = {"takeoff", "cruise"};
+  number.name = "gain", number.kind = FULMAR_NUMBER, number.min = 0, number.max = 2;
+  old.params = {choice, number};
+  ComponentInfo fresh = old;
+  std::vector<ParamValue> values(2), into(2);
+  values[0].integer = 1;
+  values[1].number[0] = 1.5;
+  carry_parameters(old, values, fresh, into);
+  CHECK(into[0].integer == 1);
+  CHECK(into[1].number[0] == 1.5);
+  fresh.params[0].choices = {"cruise", "takeoff"};  // 1 would be another one
+  into.assign(2, ParamValue{});
+  carry_parameters(old, values, fresh, into);
+  CHECK(into[0].integer == 0);
+  for (const auto& [min, max] : {std::pair{1.6, 2.0}, std::pair{0.0, 1.4}}) {
+    fresh.params[1].min = min, fresh.params[1].max = max;
+    CHECK_THROWS_WITH(carry_parameters(old, values, fresh, into),
+                      "its parameter 'gain' does not allow the present value 1.5");
+  }
+}
+
 TEST_CASE("many swaps leave nothing behind") {
   const int swaps = std::getenv("FULMAR_LONG") ? 1000 : 12;
   Ground ground(mission(one_phase));
@@ -145,7 +186,12 @@ TEST_CASE("a child that has died is started anew on the ground, and never in the
     set_parameter(flight, "one", "fault_at", never);
     said.clear();
     reset_guards(flight);
-    return said;
+    const std::string told = said;
+    const bool on_ground = until_ns < 0;
+    enter_phase(flight, "fly");
+    for (int i = 0; i < 2; ++i) REQUIRE(flight.step());
+    if (on_ground) CHECK(value(g, flight, "one", "command", "u_frac") == 0.3);  // as set since
+    return told;
   };
   CHECK(has(said_after_reset("-0.5 s", -400'000'000), "one: guard reset"));
   CHECK(has(said_after_reset("0.1 s", 150'000'000), "started anew on the ground; the aircraft is armed"));

@@ -90,6 +90,21 @@ TEST_CASE("the spectra are those of MIL-F-8785C") {
   }
 }
 
+TEST_CASE("the first gust is as strong as all others, and air that an aircraft stands in moves, too") {
+  Vector3d sum = Vector3d::Zero();
+  constexpr int seeds = 20000;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed)
+    sum += Dryden(dryden_scales(Turbulence::light), seed).gust().cwiseAbs2();
+  const Vector3d sigma = (sum / seeds).cwiseSqrt();
+  CHECK(sigma.x() == Approx(1.06).epsilon(0.02));
+  CHECK(sigma.y() == Approx(1.06).epsilon(0.02));
+  CHECK(sigma.z() / 0.7 == Approx(1).epsilon(0.02));
+  Dryden standing(dryden_scales(Turbulence::light), 4), taxiing(dryden_scales(Turbulence::light), 4);
+  for (int i = 0; i < 100; ++i) CHECK(standing.advance(0.01, 0) == taxiing.advance(0.01, 5));
+  Dryden faster(dryden_scales(Turbulence::light), 4);
+  CHECK(standing.gust() != faster.advance(0.01, 6));
+}
+
 TEST_CASE("calm air has no gusts, and one seed always the same") {
   Dryden calm(dryden_scales(Turbulence::none), 1);
   CHECK(calm.advance(0.0025, 17) == Vector3d::Zero());

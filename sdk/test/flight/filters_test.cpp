@@ -76,6 +76,16 @@ TEST_CASE("the second-order filter's step response is the closed form, damped an
   }
 }
 
+TEST_CASE("a damping above 1 counts as 1; a reset stands still") {
+  SecondOrder heavy, critical;
+  for (SecondOrder* f : {&heavy, &critical}) f->reset_to(0);
+  for (int i = 0; i < 50; ++i) CHECK(heavy.step(2, 3, 4, 0.01) == critical.step(2, 3, 1, 0.01));
+  CHECK(heavy.rate() > 0.1);
+  heavy.reset_to(5);
+  CHECK(heavy.rate() == 0);
+  CHECK(heavy.step(5, 3, 0.7, 0.01) == doctest::Approx(5).epsilon(1e-14));
+}
+
 TEST_CASE("the differentiator gives a ramp's slope and the response of s / (tau s + 1)") {
   Differentiator ramp;
   double y = 0;

@@ -50,7 +50,7 @@ class WashOut {
 };
 
 /// y'' = w^2 (u - y) - 2 z w y', for an input that is constant over the step. Gives the filtered derivative
-/// as well. Exact for the damping 1 and below; heavier damping belongs into two first-order filters.
+/// as well. Exact for the damping 1 and below; more counts as 1: it belongs into two first-order filters.
 class SecondOrder {
  public:
   double step(double u, double natural_frequency_radps, double damping_ratio, double dt_s) {

@@ -31,10 +31,13 @@ TEST_CASE("what was applied is passed on only to who has a message of the same m
 }
 
 TEST_CASE("a newcomer of a low rate flies in the tick of the change, not in that of its period") {
-  const Graph g =
-      mission("  two: {fills: law, use: lab/Law, rate: 50 Hz, params: {id: 2, u: 0.2}}\n"s + with_fallback,
-              {{"one.fault", "nan"}, {"one.fault_at", "0.105"}});
-  Flight flight(g, options(0.105));
+  const Graph g = mission(
+      "  two: {fills: law, use: lab/Law, rate: 50 Hz, params: {id: 2, u: 0.2}}\n"
+      "phases:\n"
+      "  a: {law: two, next: [{to: b, when: \"vehicle.signal.tick_s >= 0.1 s\"}]}\n"
+      "  b: {law: {use: one, fallback: two}}\n",
+      {{"one.fault", "nan"}, {"one.fault_at", "0.1075"}});  // in its period it would fly at 0.12 s
+  Flight flight(g, options(0.1075));
   CHECK(flight.run().guards.size() == 1);
   CHECK(value(g, flight, "two", "command", "seen_m") == value(g, flight, "sim", "signal", "x_m"));
 }

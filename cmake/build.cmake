@@ -114,7 +114,7 @@ function(fulmar_test name)
   target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR})
   # A test's own code need not be quick, and what it tests is optimised in its library: -O0 compiles in half the time. Only where it holds
   # the plugin itself and integrates flights with it, that is worth -O1.
-  target_compile_options(${name} PRIVATE -g1 $<IF:$<AND:$<BOOL:${arg_FLIES}>,$<NOT:$<BOOL:${FULMAR_SANITIZE}>>>,-O1,-O0>)
+  target_compile_options(${name} PRIVATE -g1 $<IF:$<AND:$<BOOL:${arg_FLIES}>,$<OR:$<NOT:$<BOOL:${FULMAR_SANITIZE}>>,$<BOOL:${FULMAR_ALL_TESTS}>>>,-O1,-O0>)
   fulmar_unite(${name} 6)
   if((arg_REAL_TIME AND FULMAR_SANITIZE) OR (FULMAR_SANITIZE_THREADS AND NOT arg_THREADS))
     set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)

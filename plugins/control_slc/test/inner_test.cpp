@@ -252,4 +252,15 @@ TEST_CASE("when a pilot hands back the surfaces begin at their trim: what nobody
   CHECK(bench.out.actuators.aileron_rad == doctest::Approx(0.03).epsilon(0.02).scale(0));
 }
 
+TEST_CASE("a step of the roll command is fed forward as 3 rad/s at most, either way") {
+  for (const double side : {1.0, -1.0}) {
+    Bench<Inner> bench;
+    no_integrals(bench);
+    bench.params.roll_kp.value = bench.params.roll_kd.value = 0;
+    step(bench, flying(), {}, 1);
+    const Actuators& u = step(bench, flying(), {side * 0.7, 0, 0.5}, 1);  // 0.7 rad in 10 ms
+    CHECK(u.aileron_rad == doctest::Approx(side * 3 * bench.params.roll_kff));
+  }
+}
+
 }  // namespace inner_test

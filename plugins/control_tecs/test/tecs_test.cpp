@@ -412,4 +412,19 @@ TEST_CASE("without a velocity there is no course to hold: wings level") {
   CHECK(bench.step(0.01) == Status::degraded);
 }
 
+TEST_CASE("speed may take half of what the engine gives and half of what the drag takes, no more") {
+  for (const double off : {-9.0, 9.0}) {
+    Bench<Outer> bench;
+    configure(bench);
+    VehicleState s = flying();
+    s.airspeed_mps = 15 - off;  // too fast, too slow
+    GuidanceCommand c = level();
+    c.airspeed_mps = 15;
+    settle(bench, s, c);
+    const FlightLimits& limits = bench.params.common.airframe.value.limits;
+    const double power = g * (off < 0 ? -limits.sink_rate_max_mps : limits.climb_rate_max_mps);
+    CHECK(bench.out.acceleration_demand_mps2.value / (0.5 * power / s.airspeed_mps) == doctest::Approx(1));
+  }
+}
+
 }  // namespace tecs_test

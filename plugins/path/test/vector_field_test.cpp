@@ -265,4 +265,11 @@ TEST_CASE("each outage has the whole time, and the larger of the two deviations 
   CHECK_FALSE(located(264, false, 1, 51));
 }
 
+TEST_CASE("beyond 60 degrees of crab the bank grows no further: the formula means nothing there") {
+  constexpr double g = 9.80665;
+  CHECK(bank_for(0.01, 10, pi / 3, 1.4) == doctest::Approx(std::atan(100 * 0.01 / (g * 0.5))));
+  CHECK(bank_for(0.01, 10, 1.4, 1.4) == doctest::Approx(std::atan(100 * 0.01 / (g * 0.5))));
+  CHECK(bank_for(-0.01, 10, -2.5, 1.4) == doctest::Approx(-std::atan(100 * 0.01 / (g * 0.5))));
+}
+
 }  // namespace vector_field_test

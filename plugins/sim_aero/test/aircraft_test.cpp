@@ -395,4 +395,18 @@ TEST_CASE("truth as navigation state keeps the stamp and claims small deviations
   CHECK_FALSE(nav.out.state.written);  // nothing new
 }
 
+TEST_CASE("it is disarmed as it is armed: by a request") {
+  auto b = bench();
+  arm(*b);
+  for (int i = 0; i < 2200; ++i) pass(*b, &cruise);
+  REQUIRE(b->out.status.value.armed);
+  b->push(b->in.arm, ArmRequest{false});
+  for (int i = 0; i < 40; ++i) pass(*b, &cruise);
+  CHECK_FALSE(b->out.status.value.armed);
+  CHECK_FALSE(b->out.status.value.in_control);
+  arm(*b);
+  for (int i = 0; i < 40; ++i) pass(*b, &cruise);
+  CHECK(b->out.status.value.armed);
+}
+
 }  // namespace aircraft_test

@@ -243,4 +243,42 @@ TEST_CASE("the ground holds at a tick of 100 Hz, too") {
   CHECK_FALSE(p.crashed());
 }
 
+TEST_CASE("a touch-down breaks what a wheel that is down already bears") {
+  const Airframe& a = anaconda();
+  RigidBody x;
+  x.p_n.z() = -a.gear.height_m;
+  x.v_n.z() = 3.5;
+  Ground coming(a), standing(a);
+  standing.stand();
+  for (Ground* g : {&coming, &standing}) g->advance(x, 0.0025);
+  CHECK(coming.crashed());
+  CHECK_FALSE(standing.crashed());
+}
+
+TEST_CASE("a wheel that has left the ground has forgotten what pulled at it") {
+  const Airframe& a = anaconda();
+  Ground ground(a);
+  ground.stand();
+  RigidBody x;
+  x.p_n.z() = -a.gear.height_m;
+  x.v_n = {0, 1, 0};  // sideways
+  for (int i = 0; i < 40; ++i) ground.advance(x, 0.0025);
+  const auto side = [&] {
+    RigidBody still = x;
+    still.v_n.setZero();
+    Load load;
+    ground.add_load(still, load);
+    return load.force_b.y();
+  };
+  CHECK(side() < -1);
+  for (const double up : {0.05, 5.0}) {  // a hop, and out of reach
+    x.p_n.z() = -a.gear.height_m - up;
+    ground.advance(x, 0.0025);
+    x.p_n.z() = -a.gear.height_m;
+    CHECK(side() == 0);
+    for (int i = 0; i < 40; ++i) ground.advance(x, 0.0025);
+    CHECK(side() < -1);
+  }
+}
+
 }  // namespace plant_test

@@ -281,4 +281,22 @@ TEST_CASE("a delayed sample comes late, in order, with the time that it was vali
   CHECK(delay.pop(250, 150)->value == 2);
 }
 
+TEST_CASE("the scale of a pitot tube is off either way, by chance") {
+  SensorSpec spec = sensor_spec(SensorSet::perfect);
+  spec.pitot_scale = 0.04;
+  Plant plant = flying();
+  const double right = 0.5 * plant.air().density_kgm3 * plant.air_velocity_b().squaredNorm();
+  double sum = 0, least = 2, most = 0;
+  constexpr int seeds = 400;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    Sensors s(spec, 400, LocalFrame(40.2463724, -111.6474138, 1387), field, seed);
+    const double scale = s.pitot(plant).pressure_pa / right;
+    sum += scale;
+    least = std::min(least, scale), most = std::max(most, scale);
+  }
+  CHECK(std::abs(sum / seeds - 1) < 0.004);  // 0.04 / sqrt(3 seeds): three deviations
+  CHECK(least / 0.96 == Approx(1).epsilon(0.002));
+  CHECK(most / 1.04 == Approx(1).epsilon(0.002));
+}
+
 }  // namespace sensors_test

@@ -74,12 +74,15 @@ void guard_wires(Draft& draft) {
       const bool fed = wire.from.kind != Source::Kind::none || wire.import >= 0;
       const bool watched = fed && input.kind == FULMAR_IN_VALUE && !input.optional &&
                            !reader.info().vehicle && (!reader.roles.empty() || in_chain[i]);
+      // A role's filler has a fallback, or failsafe, by itself; whoever else commands the vehicle is watched
+      // by the loop.
+      const bool obeyed = fed && reader.info().vehicle && wire.from.kind == Source::Kind::component;
       const bool said = wire.max_age_ns != Wire::unsaid;
-      if (!said) wire.max_age_ns = watched ? usual_age_ns(graph, reader, wire) : 0;
+      if (!said) wire.max_age_ns = watched || obeyed ? usual_age_ns(graph, reader, wire) : 0;
       wire.by_steps = !said;
       wire.guarded = watched && wire.max_age_ns > 0;
-      if (watched && !wire.guarded && !from_vehicle(graph, wire))
-        graph.warnings.push_back(warning(reader, input, wire));
+      const bool blind = watched ? !wire.guarded : obeyed && wire.max_age_ns == 0;
+      if (blind && !from_vehicle(graph, wire)) graph.warnings.push_back(warning(reader, input, wire));
     }
   }
 }

@@ -46,6 +46,7 @@ bool Flight::Impl::tick() {
 
   for (const int component : state.graph.order) roles.step(component);
   roles.transitions();
+  roles.watch_commands();
 
   const StepResult written = vehicle.write(state.now_ns, state.index, end.steering(), state.graph.failsafe);
   if (written == StepResult::bad) return vehicle_failed();

@@ -133,6 +133,17 @@ bool Intake::in_vain(fulmar_error& problem) const noexcept {
   return false;
 }
 
+bool Intake::too_old(std::size_t input, std::int64_t now_ns, fulmar_error& problem) const noexcept {
+  const Reader& r = readers[input];
+  if (r.port->kind != FULMAR_IN_VALUE || r.wire->max_age_ns <= 0 || !r.source() || r.sequence() == 0)
+    return false;
+  fulmar_input seen{};
+  seen.age_ns = writer_lost(r) ? lost_ns : now_ns - (r.delayed ? r.copied_valid_ns : r.source()->valid_at_ns);
+  if (judged_age_ns(r, now_ns, seen.age_ns) <= r.wire->max_age_ns) return false;
+  tell_stale(r, now_ns, seen, problem);
+  return true;
+}
+
 bool Intake::ready() const noexcept {
   for (const Reader& r : readers)
     if (lacks_sample(r)) return false;

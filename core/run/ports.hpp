@@ -113,6 +113,9 @@ class Intake {
   bool ready() const noexcept;
   /// [tick] Whether one of them will never have one, since its writer was stopped; `problem` says which.
   bool in_vain(fulmar_error& problem) const noexcept;
+  /// [tick] Whether a value has come and is older than its wire allows, if it says how old; `problem` says
+  /// so.
+  bool too_old(std::size_t input, std::int64_t now_ns, fulmar_error& problem) const noexcept;
   /// [tick] Fills `views`. When an input is too old, `problem` says which.
   State prepare(std::int64_t now_ns, fulmar_error& problem) noexcept;
   /// [tick] Says in `problem` which required input has no sample.

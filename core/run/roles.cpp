@@ -157,10 +157,28 @@ void Roles::stop(int component, Code code) {
   fall_back(component, guard);
   if (!nobody_drives(component)) return;
   guards[guard].action = "failsafe";
+  nobody_flies(name, what);
+}
+
+void Roles::nobody_flies(const std::string& name, const std::string& what) {
   Event why = event_of(Code::failsafe, "", name);
   put(why.cause, what);
   say(why, "failsafe: %s: %s", name.c_str(), what.c_str());
   end_.failsafe(why);
+}
+
+/// What the vehicle obeys has stopped coming, though nobody in a role was stopped: a component without one
+/// gives it, or the mission says how old it may be.
+void Roles::watch_commands() {
+  const std::vector<std::vector<std::byte>>& commands = state_.graph.failsafe;
+  if (end_.in_failsafe()) return;
+  Unit& vehicle = wiring_.vehicle();
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    if (commands[i].empty() || !vehicle.in.too_old(i, state_.now_ns, vehicle.problem)) continue;
+    const std::string what = vehicle.problem.text, &name = vehicle.component->name;
+    state_.result.guards.push_back({state_.now_ns, name, what, "failsafe"});
+    return nobody_flies(name, what);
+  }
 }
 
 /// In each role that it has left: the present phase's fallback, if it can fly, in this same tick. Who feeds

@@ -34,6 +34,8 @@ class Roles {
   /// arrived.
   void begin();
   void transitions();
+  /// [tick] Before the vehicle writes.
+  void watch_commands();
   void enter(int phase);
 
   // roles.cpp
@@ -69,6 +71,7 @@ class Roles {
   void cannot_take_over(Unit& unit, bool somebody_stays);
   void fall_back(int stopped, std::size_t guard);
   bool nobody_drives(int stopped) const noexcept;
+  void nobody_flies(const std::string& name, const std::string& what);
   bool collect(Unit& unit, int component);
   bool ready_to_step(Unit& unit, int component);
   bool is_held(const Unit& unit) const noexcept;

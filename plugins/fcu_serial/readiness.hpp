@@ -201,7 +201,7 @@ class Readiness {
   Line missing_line(std::uint32_t missing) const {
     Line line;
     list_bits(line << "not ready: ", missing, needed_words);
-    if (!met_disarmed_ && !met_attitude_) return line << "; armed before it was found: disarm";
+    if (!met_disarmed_ && !met_attitude_) return line << "; armed before: on the ground disarm";
     if ((missing & ~std::uint32_t{needed}) != 0) list_bits(line << ", ", missing, other_words);
     return line;
   }

@@ -169,4 +169,28 @@ TEST_CASE("what a stopped component said last decides nothing") {
   CHECK(Flight(g, options(0.5)).run().phases.size() == 1);
 }
 
+TEST_CASE("what stands between the laws and the vehicle without a role is watched, too") {
+  const auto relayed = [](const std::string& params, const std::string& wire, double until_s) {
+    const Graph g = mission("  sim: {fills: vehicle, use: lab/Cart, in: {command: " + wire +
+                            "}}\n  relay: {use: lab/Late, in: {never: law.command}, params: {" + params +
+                            "}}\n" + one_phase);
+    Flight flight(g, options(until_s));
+    FlightResult r = flight.run();
+    return std::pair(r, value(g, flight, "sim", "applied", "u_frac"));
+  };
+  CHECK(relayed("", "relay.echo", 3).first.guards.empty());
+  const auto [stopped, given] = relayed("stop_at: 0.1 s", "relay.echo", 0.2);
+  CHECK(stopped.outcome == Outcome::failed);
+  CHECK(stopped.reason == "failsafe: sim: input 'command' comes from relay, which was stopped");
+  REQUIRE(stopped.guards.size() == 2);
+  CHECK(stopped.guards[0].component == "relay");
+  CHECK(stopped.guards[1].action == "failsafe");
+  CHECK(stopped.guards[1].at_ns == 100'000'000);
+  CHECK(given == -0.25);
+  const FlightResult silent = relayed("mute_at: 0.1 s", "{from: relay.echo, max_age: 100 ms}", 0.3).first;
+  CHECK(silent.reason.starts_with("failsafe: sim: input 'command' is 0.10"));
+  CHECK(silent.guards.at(0).at_ns == 200'000'000);
+  CHECK(relayed("stop_at: 0.1 s", "{from: relay.echo, max_age: off}", 0.3).first.outcome == Outcome::flown);
+}
+
 }  // namespace ages_test

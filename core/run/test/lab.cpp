@@ -430,7 +430,7 @@ struct Thinker {
   double began_m_ = -1;
 };
 
-struct Late {  ///< never has its input
+struct Late {  ///< hands on what comes; mostly that is never
   struct Inputs {
     In<Command> never;
   };
@@ -438,10 +438,14 @@ struct Late {  ///< never has its input
     Out<Command> echo;
     Tally tally;
   };
-  struct Params {};
-  Status step(const Tick&, const Inputs& in, const Params&, Outputs& out) {
+  struct Params {
+    Param stop_at{1e9, "s", -1e9, 1e9, "throws from here on"};
+    Param mute_at{1e9, "s", -1e9, 1e9, "says nothing from here on"};
+  };
+  Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     out.tally.steps_ratio += 1;
-    out.echo.publish(*in.never);
+    if (tick.now_s() >= p.stop_at) throw std::runtime_error("the relay is broken");
+    if (tick.now_s() < p.mute_at) out.echo.publish(*in.never);
     return Status::ok;
   }
 };

@@ -162,7 +162,7 @@ TEST_CASE("armed before the host was started and no attitude: it says why it doe
   f.fly(4);
   REQUIRE(f.status.armed);
   CHECK(f.heard("not ready: no attitude with heading"));
-  CHECK(f.heard("armed before it was found: disarm"));
+  CHECK(f.heard("armed before: on the ground disarm"));
   SUBCASE("in the air the estimate comes from two fixes, and the flight goes on") {
     f.state = known(17);
     CHECK(sent_in(f, 1) > 50);

@@ -41,6 +41,7 @@ Roles::Roles(FlightState& state, Wiring& wiring, Recorder& recorder, Protection&
 
 void Roles::connect() {
   const Graph& graph = state_.graph;
+  streams_.connect(wiring_, state_);
   drives_vehicle_.assign(graph.roles.size(), false);
   control_roles_.assign(graph.roles.size(), false);
   for (const int role : graph.control) nth(control_roles_, role) = true;
@@ -172,6 +173,7 @@ void Roles::nobody_flies(const std::string& name, const std::string& what) {
 void Roles::watch_commands() {
   const std::vector<std::vector<std::byte>>& commands = state_.graph.failsafe;
   if (end_.in_failsafe()) return;
+  streams_.watch(state_.now_ns, recorder_);
   Unit& vehicle = wiring_.vehicle();
   for (std::size_t i = 0; i < commands.size(); ++i) {
     if (commands[i].empty() || !vehicle.in.too_old(i, state_.now_ns, vehicle.problem)) continue;

@@ -10,6 +10,7 @@
 #include "core/run/protection.hpp"
 #include "core/run/recorder.hpp"
 #include "core/run/stopwatch.hpp"
+#include "core/run/streams.hpp"
 #include "core/run/wiring.hpp"
 #include "core/types/named.hpp"
 
@@ -92,6 +93,7 @@ class Roles {
   std::vector<bool> drives_vehicle_, control_roles_;  // per role
   std::vector<std::int64_t> any_since_, next_since_;  // since when a transition's condition holds
   std::vector<const Slot*> hand_over_;                // room for what was last applied
+  Streams streams_;
 };
 
 }  // namespace fulmar::core

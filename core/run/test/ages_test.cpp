@@ -193,4 +193,36 @@ TEST_CASE("what stands between the laws and the vehicle without a role is watche
   CHECK(relayed("stop_at: 0.1 s", "{from: relay.echo, max_age: off}", 0.3).first.outcome == Outcome::flown);
 }
 
+TEST_CASE("an output that has spoken in every step and falls silent is told of, and that it speaks again") {
+  const auto told = [](const std::string& tail, const std::vector<std::pair<std::string, std::string>>& set) {
+    const Graph g = mission(tail, set);
+    FlightOptions o = options(4);
+    std::vector<std::string> lines;
+    o.say = [&](const std::string& line, bool warning) {
+      if (warning) lines.push_back(line);
+    };
+    Flight flight(g, o);
+    CHECK(flight.run().guards.empty());
+    return lines;
+  };
+  // a filter in a role, as the lab has it
+  CHECK(told(one_phase, {}).empty());
+  const std::vector<std::string> filter =
+      told(one_phase, {{"filter.mute_at", "0.1"}, {"filter.until", "2.5"}});
+  REQUIRE(filter.size() == 2);
+  CHECK(filter[0] ==
+        "    1.10 s  filter: nothing on 'signal' for 1.0 s, though it steps: who reads it goes on with the "
+        "last of it");
+  CHECK(filter[1] == "    2.50 s  filter: speaks on 'signal' again");
+  // without a role, on the way to the vehicle
+  const std::string relay =
+      "  sim: {fills: vehicle, use: lab/Cart, in: {command: relay.echo}}\n"
+      "  relay: {use: lab/Late, in: {never: law.command}, params: {mute_at: 0.5 s}}\n";
+  const std::vector<std::string> relayed = told(relay + one_phase, {});
+  REQUIRE(relayed.size() == 1);
+  CHECK(relayed[0].find("1.50 s  relay: nothing on 'echo' for 1.0 s") != std::string::npos);
+  // who speaks now and then has nothing to explain
+  CHECK(told(one_phase, {{"filter.every", "3"}, {"filter.mute_at", "0.1"}}).empty());
+}
+
 }  // namespace ages_test

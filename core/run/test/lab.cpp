@@ -277,12 +277,18 @@ struct Filter {  ///< fills a role between cart and law
   struct Params {
     Param stop_at{1e9, "s", -1e9, 1e9, "throws from here on"};
     Param mute_at{1e9, "s", -1e9, 1e9, "says nothing from here on"};
+    Param until{1e9, "s", -1e9, 1e9, "and speaks again"};
+    Count every{1, 1, 100, "speaks in every so manieth step"};
   };
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     if (tick.now_s() >= p.stop_at) throw std::runtime_error("the filter is broken");
-    if (tick.now_s() < p.mute_at) out.signal.publish(*in.signal);
+    const bool mute = tick.now_s() >= p.mute_at && tick.now_s() < p.until;
+    if (!mute && steps_++ % p.every == 0) out.signal.publish(*in.signal);
     return Status::ok;
   }
+
+ private:
+  std::int64_t steps_ = 0;
 };
 
 struct Tally {

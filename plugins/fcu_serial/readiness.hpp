@@ -44,6 +44,7 @@ class FixWatch {
     out.say(armed ? Severity::critical : Severity::warning,
             "GNSS lost: no fix; the position is reckoned on from air data");
   }
+  bool lost() const { return lost_; }
 
  private:
   using Severity = fulmar::Severity;
@@ -67,7 +68,8 @@ class Readiness {
     Spoken spoken;
     bool inertial;  ///< samples come
     PitotZero pitot_zero;
-    bool path;  ///< there is one to fly, or none is asked for
+    bool path;      ///< there is one to fly, or none is asked for
+    bool fix_lost;  ///< there was one
   };
 
   /// Whether a command may go out now.
@@ -118,7 +120,7 @@ class Readiness {
   static constexpr std::int64_t sensor_patience_ns = 2'000'000'000;
   static constexpr double flies_mps = 7;
 
-  static std::uint32_t missing_of(const Facts& f, std::int64_t now_ns) {
+  std::uint32_t missing_of(const Facts& f, std::int64_t now_ns) const {
     const auto silent = [now_ns](std::int64_t at_ns) { return now_ns - at_ns > sensor_patience_ns; };
     const auto unless = [](bool there, Missing bit) { return there ? 0u : std::uint32_t{bit}; };
     if ((f.status.errors & own_error_link_down) != 0) return no_link;
@@ -131,7 +133,8 @@ class Readiness {
       m |= unless(s.height_valid, no_height) | unless(s.velocity_valid, no_velocity);
     else
       m |= no_attitude;
-    if (!s.position_valid && silent(f.spoken.fix_ns))
+    // On the ground a fix that has just been lost is none, though the position is still known for seconds.
+    if ((f.fix_lost && !flown_) || (!s.position_valid && silent(f.spoken.fix_ns)))
       m |= no_fix;
     else if (s.attitude_valid && !s.position_valid)
       m |= no_position;

@@ -349,10 +349,10 @@ class Vehicle {
                        "send_attitude: nothing comes to the input 'state'; is it wired?");
     if ((!state && !p.needs_state) || run_.heard.status_ns == never_ns) return true;
     const bool current = state && now_ns - state.valid_at_ns() < estimate_patience_ns;
-    return run_.readiness.update(
-        {current ? &*state : nullptr, run_.status, run_.spoken,
-         now_ns - run_.heard.imu_ns < command_patience_ns, zero_of_pitot(), in.path || !p.needs_path},
-        now_ns, run_.notices);
+    return run_.readiness.update({current ? &*state : nullptr, run_.status, run_.spoken,
+                                  now_ns - run_.heard.imu_ns < command_patience_ns, zero_of_pitot(),
+                                  in.path || !p.needs_path, run_.fixes.lost()},
+                                 now_ns, run_.notices);
   }
 
   /// Nothing without a command, or with one that nobody has renewed: the controller then hands over to its

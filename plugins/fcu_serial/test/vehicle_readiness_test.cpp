@@ -365,4 +365,30 @@ TEST_CASE("a computer that stood still says so, and for how long") {
   CHECK(times(f, "stood still") == 1);
 }
 
+TEST_CASE(
+    "a fix that is lost on the ground is none, though the position is still known; in the air it goes on") {
+  Flying f;
+  f.state = known();
+  f.fly(4);
+  CHECK(times(f, "ready\n") == 1);
+  f.world.fcu.inputs.gnss_works = false;
+  f.fly(1.5);
+  CHECK(times(f, "not ready: no GNSS fix\n") == 1);  // it is withdrawn
+  armed_by_pilot(f);
+  hand_over(f);
+  f.fly(0.1);
+  CHECK(sent_in(f, 2) == 0);
+  CHECK(f.heard("not ready: no GNSS fix"));
+
+  Flying air;
+  cruising(air);
+  air.world.fcu.inputs.gnss_works = false;
+  air.fly(2);
+  CHECK(sent_in(air, 2) > 100);
+  take_back(air);
+  air.fly(1);
+  hand_over(air);
+  CHECK(sent_in(air, 1) > 50);
+}
+
 }  // namespace vehicle_readiness_test

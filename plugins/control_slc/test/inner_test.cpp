@@ -263,4 +263,33 @@ TEST_CASE("a step of the roll command is fed forward as 3 rad/s at most, either 
   }
 }
 
+TEST_CASE("after a time without attitude a command is young enough that answers to the first known state") {
+  Bench<Inner> bench;
+  VehicleState s = flying();
+  s.attitude_valid = false;
+  step(bench, s, {0, 0.05, 0.5});
+  bench.tick.now_ns += 1'000'000;
+  bench.set(bench.in.state, flying());
+  CHECK(bench.step(0.01) == Status::degraded);
+  bench.set(bench.in.attitude, {0, 0.05, 0.5});  // to that state; states come more often than commands
+  bench.tick.now_ns += 1'000'000;
+  bench.set(bench.in.state, flying());
+  CHECK(bench.step(0.01) == Status::ok);
+}
+
+TEST_CASE("the rudder rests at its trim") {
+  Bench<Inner> bench;
+  bench.params.airframe.value.rudder.trim_rad = 0.07;
+  CHECK(step(bench, flying(), {}).rudder_rad == doctest::Approx(0.07));
+}
+
+TEST_CASE("on the ground a surface is its gain times the error to the last digit: no integral of one step") {
+  Bench<Inner> bench;
+  VehicleState s = flying(0);
+  s.height_m = 0, s.roll_rad = -0.05;
+  CHECK(step(bench, s, {}, 10).aileron_rad == doctest::Approx(2.5 * 1.2 * 0.05));
+  s.roll_rad = 0, s.pitch_rad = 0.02;
+  CHECK(step(bench, s, {}, 10).elevator_rad == doctest::Approx(2.5 * 4 * 0.02));
+}
+
 }  // namespace inner_test

@@ -392,4 +392,15 @@ TEST_CASE("without a velocity there is no course to hold: wings level, height go
   CHECK(bench.step(0.01) == Status::degraded);
 }
 
+TEST_CASE(
+    "without airspeed a throttle that was asked for beyond full comes back from full, not from beyond") {
+  Bench<Outer> bench;
+  bench.params.climb_kff.value = 0.5;
+  VehicleState s = flying();
+  s.airspeed_valid = false, s.height_m = 20;
+  CHECK(settle(bench, s, level()).throttle_frac == 1);  // of 0.5 + 0.5 * 4 m/s
+  s.height_m = 70;
+  CHECK(settle(bench, s, level(), 0.25).throttle_frac == doctest::Approx(0.5));  // at 2 per second
+}
+
 }  // namespace outer_test

@@ -427,4 +427,40 @@ TEST_CASE("speed may take half of what the engine gives and half of what the dra
   }
 }
 
+TEST_CASE("that the throttle is at its limit is told, and that it is not") {
+  Bench<Outer> bench;
+  configure(bench);
+  VehicleState s = flying();
+  settle(bench, s, level());
+  CHECK_FALSE(bench.out.internals.throttle_saturated);
+  s.airspeed_mps = 11;
+  settle(bench, s, level());
+  CHECK(bench.out.internals.throttle_saturated);
+}
+
+TEST_CASE("too slow by the whole band the nose goes down for speed, however much climb is wanted") {
+  Bench<Outer> bench;
+  configure(bench);
+  bench.params.pitch_damping.value = bench.params.pitch_integral.value = 0;
+  bench.params.throttle_damping.value = 0;  // the engine gives what is asked for: nothing is missing
+  VehicleState s = flying();
+  s.airspeed_mps = 8.5, s.height_m = 20;
+  const double V_dot = 0.5 * g * 4 / 8.5;  // half of what the engine can give
+  CHECK(settle(bench, s, level()).pitch_rad / (-V_dot / g) == doctest::Approx(1));
+}
+
+TEST_CASE("far from its height it climbs as fast as half the limit of acceleration can stop in time") {
+  Bench<Outer> bench;
+  configure(bench);
+  for (const double off : {3.0, -3.0}) {
+    VehicleState s = flying();
+    s.height_m = 70 - off;
+    settle(bench, s, level());
+    // 2 m/s2 and gain 1.2: linear within 2 / 1.2^2 m, then v^2 / (2 a) with half of that taken off
+    const double rate = std::sqrt(2 * 2 * (3 - 0.5 * 2 / (1.2 * 1.2)));
+    CHECK(bench.out.climb_rate_demand_mps.value / std::copysign(std::min(rate, off > 0 ? 4.0 : 3.0), off) ==
+          doctest::Approx(1));
+  }
+}
+
 }  // namespace tecs_test

@@ -396,4 +396,27 @@ TEST_CASE("nothing to fly: it circles at its height, and not below the least one
   }
 }
 
+TEST_CASE("a single waypoint that is moved has not been reached yet, though the old one had been") {
+  Plan plan = plan_of({point(300, 0)}, PlanEnd::orbit);
+  Flight flight(plan);
+  REQUIRE(flight.fly(100, [&] { return flight.progress().finished; }));
+  plan.waypoints[0] = point(900, 0);
+  plan.revision = 2;
+  flight.change(plan);
+  flight.step();
+  CHECK_FALSE(flight.progress().finished);
+  CHECK(flight.fly(100, [&] { return flight.progress().finished; }));
+  CHECK(std::abs(flight.distance_to(900, 0) / 50 - 1) < 0.12);
+}
+
+TEST_CASE("a parameter that is changed in flight leaves the aircraft on its leg") {
+  Flight flight(hourglass());
+  REQUIRE(flight.fly(200, [&] { return flight.progress().item == 2 && !flight.progress().joining; }));
+  flight.manager.params.rejoin_distance.value = 40;
+  flight.manager.retune();
+  flight.step();
+  CHECK(flight.progress().item == 2);
+  CHECK_FALSE(flight.progress().joining);
+}
+
 }  // namespace manager_test

@@ -264,4 +264,23 @@ TEST_CASE("too high is as far away as too deep") {
   }
 }
 
+TEST_CASE("of a geodetic waypoint the local position means nothing, as long as nobody knows the origin") {
+  Bench<Planner> bench;
+  three_waypoints(bench);
+  bench.step(0.01);
+  PlanEdit e = edit(PlanEditKind::append, 0, 2e5, 0);  // 200 km away
+  e.waypoint.frame = WaypointFrame::geodetic;
+  e.waypoint.latitude_deg = 40.25, e.waypoint.longitude_deg = -111.65, e.waypoint.altitude_m = 1450;
+  CHECK(ask(bench, e) == "accepted");
+}
+
+TEST_CASE("edits that were lost on the way are counted with those refused") {
+  Bench<Planner> bench;
+  bench.step(0.01);
+  const_cast<fulmar_input*>(bench.in.edits.input)->lost = 3;
+  bench.push(bench.in.edits, edit(PlanEditKind::remove, 9));
+  bench.step(0.01);
+  CHECK(bench.out.refused_ratio.value == 4);
+}
+
 }  // namespace planner_test

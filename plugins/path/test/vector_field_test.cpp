@@ -265,6 +265,21 @@ TEST_CASE("each outage has the whole time, and the larger of the two deviations 
   CHECK_FALSE(located(264, false, 1, 51));
 }
 
+TEST_CASE("a position is reckoned on by attitude and velocity: without either it is lost") {
+  for (const bool attitude : {true, false}) {
+    CAPTURE(attitude);
+    Reckoning reckoning;
+    VehicleState s = at(0, 0, 0);
+    s.attitude_valid = true;
+    s.position_std_m = {1, 1, 1};
+    CHECK(reckoning.located(s, 0, 50, 115));
+    s.position_valid = false;
+    CHECK(reckoning.located(s, 1, 50, 115));
+    (attitude ? s.attitude_valid : s.velocity_valid) = false;
+    CHECK_FALSE(reckoning.located(s, 2, 50, 115));
+  }
+}
+
 TEST_CASE("beyond 60 degrees of crab the bank grows no further: the formula means nothing there") {
   constexpr double g = 9.80665;
   CHECK(bank_for(0.01, 10, pi / 3, 1.4) == doctest::Approx(std::atan(100 * 0.01 / (g * 0.5))));

@@ -281,4 +281,14 @@ TEST_CASE("a wheel that has left the ground has forgotten what pulled at it") {
   }
 }
 
+TEST_CASE("carried before arming the accelerometer feels the weight alone, in gusts, too") {
+  Plant p = plant({{3, -2, 0}, Turbulence::moderate});
+  REQUIRE(p.fly({0, 0, -200}, 0.7, 17));
+  for (int i = 0; i < 400; ++i) {
+    p.carry(dt);
+    const Vector3d weight = p.state().q_nb.conjugate() * Vector3d(0, 0, -9.80665);
+    REQUIRE((p.specific_force() - weight).norm() / weight.norm() < 1e-10);
+  }
+}
+
 }  // namespace plant_test

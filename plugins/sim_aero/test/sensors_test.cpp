@@ -299,4 +299,22 @@ TEST_CASE("the scale of a pitot tube is off either way, by chance") {
   CHECK(most / 1.04 == Approx(1).epsilon(0.002));
 }
 
+TEST_CASE("a bias walks by the time that passes, in a loop that is slower than the sensor, too") {
+  SensorSpec spec = sensor_spec(SensorSet::perfect);
+  spec.imu_hz = 400;
+  spec.gyro[0].walk = 0.01;
+  const Plant plant = flying();
+  for (const double tick_hz : {400.0, 100.0}) {
+    double squares = 0;
+    constexpr int seeds = 400;
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+      Sensors s(spec, tick_hz, LocalFrame(40.2463724, -111.6474138, 1387), field, seed);
+      for (int i = 0; i < static_cast<int>(tick_hz); ++i) s.imu(plant);
+      squares += s.gyro_bias().x() * s.gyro_bias().x();
+    }
+    CAPTURE(tick_hz);
+    CHECK(std::abs(std::sqrt(squares / seeds) / 0.01 - 1) < 0.15);  // a deviation: 1 / sqrt(2 seeds)
+  }
+}
+
 }  // namespace sensors_test

@@ -212,4 +212,15 @@ TEST_CASE("a take-off run that loses its airspeed after rotation lowers the nose
   CHECK(run.step(at(7, 7, 3), tuning, limits).pitch_rad == 0);
 }
 
+TEST_CASE("course hold's integral grows with ground speed as its gain does") {
+  const CourseTuning tuning{
+      .kp = 0, .ki = 0.1, .cruise_mps = 15, .roll_max_rad = 2, .roll_rate_max_radps = 100, .smoothing_s = 0};
+  for (const double ratio : {1.0, 1.5}) {
+    CourseHold hold;
+    double roll = 0;
+    for (int i = 0; i < 200; ++i) roll = hold.step(at(15, 15 * ratio, 70), 0.1, 0, tuning, 0.01);
+    CHECK(roll / (0.1 * ratio * 0.1 * 2) == doctest::Approx(1));  // 2 s
+  }
+}
+
 }  // namespace outer_commands_test

@@ -241,6 +241,14 @@ TEST_CASE("a plan that ends in an orbit reaches it along a tangent, in the direc
   check_joints(route.leg(2));
 }
 
+TEST_CASE("the turn of the final orbit is that of the way to it, also when its last corner is there twice") {
+  // eastwards, and the centre is a little to the left of that
+  const Plan once = plan_of({point(0, -300), point(0, 0), point(20, 300)}, PlanEnd::orbit),
+             twice = plan_of({point(0, -300), point(0, 0), point(0, 0), point(20, 300)}, PlanEnd::orbit);
+  CHECK(Route(once).final_orbit().turn == Turn::left);
+  CHECK(Route(twice).final_orbit().turn == Turn::left);
+}
+
 TEST_CASE("the lesser turn onto a circle is the one whose tangent is closer in course") {
   Random rng(29);
   for (int i = 0; i < 1000; ++i) {

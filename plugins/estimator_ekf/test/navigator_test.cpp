@@ -7,9 +7,10 @@
 
 #include <cmath>
 #include <fulmar/flight/atmosphere.hpp>
+#include <fulmar/testing.hpp>
 #include <numbers>
 
-#include "plugins/estimator_ekf/navigator_updates.hpp"
+#include "plugins/estimator_ekf/ekf.hpp"
 
 namespace navigator_test {
 
@@ -202,6 +203,177 @@ TEST_CASE("a pressure that no air has is no pressure") {
     CHECK_FALSE(n.seen().altitude);
     n.baro(9e4, p);
     CHECK(n.seen().altitude);
+  }
+}
+
+TEST_CASE("a fix that was slow long ago is no witness that the aircraft rests") {
+  const Params p;
+  for (const bool goes_on : {true, false}) {
+    CAPTURE(goes_on);
+    Navigator n;
+    n.start(p);
+    for (int i = 1; i <= 1200; ++i) {  // 6 s, and nobody but the receiver could say that it stands
+      n.imu(still_omega, level_f, 0.005 * i, p);
+      if (i == 20 || (goes_on && i % 200 == 0)) n.gnss(fix(0), n.time_s(), p);
+    }
+    CHECK(n.aligned() == goes_on);
+  }
+}
+
+TEST_CASE("an alignment in the air begins after the gap, not with a fix of before take-off") {
+  Params p;
+  p.max_coast.value = 0.05;
+  Navigator n;
+  n.start(p);
+  double t = 0;
+  const auto run = [&](double until_s) {
+    while (t < until_s - 1e-9) n.imu(still_omega, level_f, t += 0.005, p);
+  };
+  run(0.1);
+  n.gnss(fix(0), t, p);  // not known to rest yet
+  n.status(on_the_ground());
+  for (const double until_s : {0.5, 0.8, 1.1, 1.4}) {
+    run(until_s);
+    n.mag(magnetic_field_ned(lat, lon, alt, 2026), p);
+  }
+  REQUIRE(n.aligned());
+  run(5);
+  VehicleStatus armed;
+  armed.armed = true;
+  n.status(armed);
+  n.imu(still_omega, level_f, t += 0.06, p);
+  REQUIRE_FALSE(n.aligned());
+  run(t + 0.2);
+  n.gnss(fix(), t, p);  // the first since
+  CHECK_FALSE(n.aligned());
+  run(t + 0.6);
+  n.gnss(fix(), t, p);
+  CHECK(n.aligned());
+}
+
+TEST_CASE("what is kept over a gap becomes unsure as a walk does: with the root of the time") {
+  Params p;
+  p.accel_bias_std.value = 0.01, p.accel_bias_walk.value = 0.1;
+  VehicleState s = flying();
+  Navigator n = resumed(s, p);
+  n.imu(still_omega, level_f, 10.0025, p);
+  const double before = std_of(n, ekf::accel_bias), since_s = n.filter().time_s();
+  double t = 18;
+  n.imu(still_omega, level_f, t, p);
+  REQUIRE(n.regaining());
+  n.gnss(fix(), t, p);
+  while (t < 18.6) n.imu(still_omega, level_f, t += 0.005, p);
+  n.gnss(fix(), t, p);
+  REQUIRE(n.aligned());
+  const double after = std_of(n, ekf::accel_bias);
+  CHECK((after * after - before * before) / (0.1 * 0.1 * (t - since_s)) == doctest::Approx(1));
+}
+
+TEST_CASE("the magnetic field is that of the year which the receiver tells, also where the origin is given") {
+  const Params p;
+  constexpr double there_lat = 55,
+                   there_lon = -125;  // the declination goes west by a fifth of a degree a year
+  VehicleState s = flying();
+  s.origin_latitude_deg = there_lat, s.origin_longitude_deg = there_lon;
+  Navigator n = resumed(s, p);
+  n.imu(still_omega, level_f, 10.0025, p);
+  Gnss g = fix();
+  g.latitude_deg = there_lat, g.longitude_deg = there_lon;
+  g.utc_ns = 1893456000'000'000'000 - 86400'000'000'000;  // a day before 2030
+  n.gnss(g, n.time_s(), p);
+  const Vector3d now = magnetic_field_ned(there_lat, there_lon, alt, decimal_year(g.utc_ns)),
+                 then = magnetic_field_ned(there_lat, there_lon, alt, 2026);
+  REQUIRE(std::abs(std::atan2(now.y(), now.x()) - std::atan2(then.y(), then.x())) > 0.003);
+  n.mag(now, p);
+  CHECK(std::abs(n.health().heading_ratio) < 1e-3);
+}
+
+TEST_CASE("a fix that is older than what is remembered says nothing of now") {
+  const Params p;
+  for (const double late_s : {0.3, 1.5}) {
+    CAPTURE(late_s);
+    Navigator n = resumed(flying());
+    while (n.time_s() < 12) n.imu(still_omega, level_f, n.time_s() + 0.0025, p);
+    n.gnss(fix(), n.time_s() - late_s, p);
+    CHECK((n.health().velocity_s == n.time_s()) == (late_s < 1));
+  }
+}
+
+namespace {
+
+using EkfBench = Bench<Ekf>;
+void imu(EkfBench& bench) {
+  Imu sample;
+  sample.specific_force_mps2 = {0, 0, -isa::g0};
+  bench.set(bench.in.imu, sample, -0.0025);  // valid in the step to come
+}
+void take_over(EkfBench& bench, VehicleState s) {
+  s.attitude_valid = s.velocity_valid = true;
+  s.wind_std_mps = {1, 1, unknown_std};
+  imu(bench);
+  Ekf::Outputs last;
+  last.state.value = s;
+  REQUIRE(bench.activate(last) == Status::ok);
+  bench.tick.now_ns += 2'500'000;  // the first sample after that of the hand-over
+}
+void fly(EkfBench& bench, int steps) {
+  for (int i = 0; i < steps; ++i) {
+    imu(bench);
+    bench.step(0.0025);
+  }
+  REQUIRE(bench.out.state.written);
+}
+
+}  // namespace
+
+TEST_CASE("who has not stepped for a while takes over from who flew meanwhile; who has goes on by itself") {
+  for (const bool rested : {true, false}) {
+    CAPTURE(rested);
+    EkfBench bench;
+    bench.tick.now_ns = 10'000'000'000;
+    take_over(bench, flying());
+    fly(bench, 40);
+    VehicleState other = flying();
+    other.position_m.north = 500;
+    if (rested) bench.tick.now_ns += 1'000'000'000;
+    take_over(bench, other);
+    fly(bench, 4);
+    CHECK((bench.out.state.value.position_m.north > 499) == rested);
+  }
+}
+
+TEST_CASE("after a gap of t the position may be off by what an acceleration unseen makes of it: a t^2 / 2") {
+  EkfBench bench;
+  bench.tick.now_ns = 10'000'000'000;
+  take_over(bench, flying());
+  fly(bench, 40);
+  const VehicleState before = bench.out.state.value;
+  bench.step(2);
+  REQUIRE(bench.out.state.written);
+  const VehicleState& after = bench.out.state.value;
+  REQUIRE_FALSE(after.velocity_valid);
+  const auto grown = [](double then, double now) { return std::sqrt(now * now - then * then); };
+  CHECK(grown(before.velocity_std_mps.north, after.velocity_std_mps.north) / (5 * 2) ==
+        doctest::Approx(1).epsilon(0.01));
+  CHECK(grown(before.position_std_m.north, after.position_std_m.north) / (0.5 * 5 * 4) ==
+        doctest::Approx(1).epsilon(0.01));
+}
+
+TEST_CASE("a height that may be off by more than 20 m is not called valid, though there is one") {
+  for (const double std_m : {10.0, 30.0}) {
+    CAPTURE(std_m);
+    EkfBench bench;
+    bench.tick.now_ns = 10'000'000'000;
+    VehicleState s = flying();
+    s.position_valid = false;
+    take_over(bench, s);
+    fly(bench, 4);
+    Gnss g = fix();
+    g.vertical_std_m = std_m;
+    bench.set(bench.in.gnss, g);
+    fly(bench, 8);
+    CHECK(bench.out.state.value.position_std_m.down / std_m == doctest::Approx(1).epsilon(0.1));
+    CHECK(bench.out.state.value.height_valid == (std_m < 20));
   }
 }
 

@@ -431,4 +431,56 @@ TEST_CASE("the graph is printed for people and for tools") {
   CHECK_THROWS_WITH_AS(print_graph(graph, "svg"), "unknown format 'svg'. Valid: text, dot, mermaid.", Error);
 }
 
+TEST_CASE("a flag that the mission names in an output of the other io is none, not that of the status") {
+  Mission mission;
+  mission.replace("truth?: VehicleState}}", "truth?: VehicleState}, flags: {armed: truth.origin_valid}}");
+  CHECK(mission.faults() == "");
+  Overrides overrides;
+  overrides.io = "fcu";
+  CHECK(mission.faults(overrides).find("has no flag armed in an output 'status'") != std::string::npos);
+}
+
+TEST_CASE("a component at the mission's own rate steps in every tick, and has no period of its own") {
+  Mission mission;
+  mission.replace("control_slc/Outer, rate: 100 Hz", "control_slc/Outer, rate: 400 Hz");
+  CHECK(component(mission.load(), "slc").period_ns == 0);
+}
+
+TEST_CASE("what is wired by name to a component that is there by name alone exists, too") {
+  Mission mission;
+  mission.replace("score, in: {state: nav.state, truth: vehicle.truth",
+                  "score, in: {state: nav.state, truth: truth.state");
+  mission.replace("in: {truth: vehicle.truth}, only: sim}",
+                  "in: {truth: second.state}, only: sim}\n  second: {fills: nav, use: estimator_ekf}");
+  const Graph graph = mission.load();
+  REQUIRE(index_of(graph, "second") >= 0);
+  CHECK(wire(graph, "truth", "truth").from.index == index_of(graph, "second"));
+}
+
+TEST_CASE("an airframe's parameters of a plugin without a component are those of its first component alone") {
+  Mission mission;
+  mission.folder.write("anaconda.yaml",
+                       "name: Anaconda\nmass: 4.5 kg\nparams:\n  control_slc: {course_kp: 1.3}\n");
+  REQUIRE(mission.faults() == "");  // the second has no such parameter
+  const Graph graph = mission.load();
+  CHECK(param(graph, "slc", "course_kp").number[0] == 1.3);
+  CHECK(param(graph, "tecs", "course_kp").number[0] == 0.9);
+}
+
+TEST_CASE("a rate that the vehicle cannot go at is refused, too slow as well as too fast") {
+  Mission mission;
+  mission.replace("rate: 400 Hz", "rate: 40 Hz");
+  CHECK(mission.faults().find("components.sim: the mission's rate of 40 Hz is outside 50 .. 2000 Hz") !=
+        std::string::npos);
+}
+
+TEST_CASE("a count beyond what a double counts exactly is refused, where no range refuses it") {
+  Mission mission;
+  mission.shelf.plugins["estimator_ekf"]->components[0].params[1].max = 1e300;
+  mission.replace("use: estimator_ekf, ", "use: estimator_ekf, params: {skip: 9e15}, ");
+  CHECK(param(mission.load(), "ekf", "skip").integer == 9'000'000'000'000'000);
+  mission.replace("skip: 9e15", "skip: 1e16");
+  CHECK(mission.faults().find("components.ekf.params.skip: 1e16 is too large") != std::string::npos);
+}
+
 }  // namespace resolve_test

@@ -42,9 +42,10 @@ void Flight::Impl::apply_parameter(Command& command, Code told) {
   const std::vector<Overlay>* const overlay = roles.overlay_of(static_cast<int>(command.at));
   std::swap(unit.base[command.part], command.value);
   if (!unit.runner().dead() && !unit.retune(overlay)) {
+    const std::string why = unit.problem.text;
     std::swap(unit.base[command.part], command.value);
     unit.retune(overlay);
-    throw Error(unit.component->name + ": " + unit.problem.text);
+    throw Error(unit.component->name + ": " + why);
   }
   recorder.put_command(taken);
   Event e = event_of(told, taken.component.data(), taken.name.data());

@@ -282,6 +282,23 @@ TEST_CASE("late work in other threads is as late again: drivers, asynchronous st
 }
 
 TEST_CASE(
+    "samples of a driver that came in one tick are published one by one again, though its probe stood "
+    "still") {
+  const fs::path log = fresh("still.mcap"), again = fresh("still-again.mcap");
+  const Graph g = mission(
+      "  gauge: {use: lab/Ticker, run: driver, params: {samples: 30, counts: false}}\n"
+      "  watch: {use: lab/Watch, in: {burst: gauge.reading}}\nrecord: {ports: [\"*\"]}\n"s +
+      one_phase);
+  Flight flight(g, logged(log, 1e6));
+  for (int i = 0; i < 20; ++i) {
+    flight.step();
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  flight.finish();
+  check_equal(replay_of(log, {}, again), log, again);
+}
+
+TEST_CASE(
     "who takes long to take over in another thread, and misses steps meanwhile, misses the same ones again") {
   const fs::path log = fresh("takes-over.mcap"), again = fresh("takes-over-again.mcap");
   const Graph g = mission(

@@ -221,6 +221,10 @@ TEST_CASE("an output that has spoken in every step and falls silent is told of, 
   const std::vector<std::string> relayed = told(relay + one_phase, {});
   REQUIRE(relayed.size() == 1);
   CHECK(relayed[0].find("1.50 s  relay: nothing on 'echo' for 1.0 s") != std::string::npos);
+  // at a rate of its own, in whose ticks without a step nothing can be said
+  const std::string slow =
+      "  filter: {fills: sense, use: lab/Filter, rate: 100 Hz, params: {mute_at: 0.1 s}}\n";
+  CHECK(told(slow + one_phase, {}).size() == 1);
   // who speaks now and then has nothing to explain
   CHECK(told(one_phase, {{"filter.every", "3"}, {"filter.mute_at", "0.1"}}).empty());
 }

@@ -296,6 +296,10 @@ TEST_CASE("a flood of one import takes no room of another's, and what it loses i
   CHECK(commanded(g, flight) == 0.9);  // no sample keeps a parameter waiting
   for (int n = 0; n < 3; ++n) REQUIRE(flight.step());
   CHECK(value(g, flight, "other", "tally", "steps_ratio") >= 1);
+  Reply later;  // answered behind the samples
+  control.set_parameter("one", "u", "0.8", later.take());
+  CHECK(later.wait(flight) == "");
+  CHECK(control.publish("ear", "signal", message));  // the flood has passed
 }
 
 TEST_CASE("a phase is entered between two ticks, and onlookers see it") {

@@ -105,6 +105,7 @@ struct Strange {
   };
   struct Params {
     Param speak_at{0, "s", 0, 1e9, "says nothing before"};
+    Param lift_at{1, "s", 0, 1e9, "takes off"};
   };
   Status read(Tick& tick, const Params& p, Outputs& out) {
     tick.now_ns = 2'500'000 * n_++;
@@ -112,7 +113,7 @@ struct Strange {
     out.state.publish({false, false, false, t});
     if (t < p.speak_at) return Status::ok;
     const bool armed = t < 3;
-    out.gear.publish({{t < 1}, armed, armed});
+    out.gear.publish({{t < p.lift_at}, armed, armed});
     return Status::ok;
   }
   Status write(const Tick&, const Inputs&, const Params&) { return Status::ok; }

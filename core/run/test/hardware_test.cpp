@@ -408,4 +408,15 @@ TEST_CASE(
   CHECK(r.reason == "by a signal");
 }
 
+TEST_CASE("in simulation control that was there and is lost is lost, though nothing said 'armed'") {
+  const Graph g = strange(",\n    flags: {armed: state.armed, in_control: gear.obeys}", "sim", its_ports,
+                          "control: [law]\n");
+  Said said;
+  Flight flight(g, listening(said));
+  CHECK(fly_until(flight, 2.9));
+  CHECK(hoard(g, flight) == doctest::Approx(2.9025));
+  CHECK(fly_until(flight, 3.5));  // it obeys up to 3 s
+  CHECK(hoard(g, flight) == doctest::Approx(0.0025));
+}
+
 }  // namespace hardware_test

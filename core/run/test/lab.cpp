@@ -309,6 +309,9 @@ struct Watch {  ///< fills no role
     Param stop_at{1e9, "s", -1e9, 1e9, "throws from here on"};
   };
   explicit Watch(std::uint64_t seed) : seed_(seed) {}
+  void retune(const Params& p) {
+    if (p.noise == 1) throw std::runtime_error("too loud");
+  }
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     if (tick.now_s() >= p.stop_at) throw std::runtime_error("nothing to be seen");
     tally_.steps_ratio += 1;
@@ -392,13 +395,14 @@ struct Ticker {
     Count samples{10, 0, 1000, "before it ends"};
     Flag fails{false, "fails at the end"};
     Flag dated{false, "knows when each sample was taken: at its number, in ms"};
+    Flag counts{true, "counts them in its probe"};
   };
   Status step(const Tick&, const Inputs&, const Params& p, Outputs& out) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     if (n_ == p.samples) return p.fails ? Status::failed : Status::ok;
     ++n_;
     out.reading.push({static_cast<double>(n_), 0}, p.dated ? n_ * 1'000'000 : FULMAR_ON_ARRIVAL);
-    out.count_ratio = static_cast<double>(n_);
+    out.count_ratio = p.counts ? static_cast<double>(n_) : 0;
     return Status::ok;
   }
 

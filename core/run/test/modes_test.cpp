@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "core/log/reader.hpp"
+#include "core/run/async.hpp"
 #include "core/run/test/commands.hpp"
 #include "core/run/test/lab.hpp"
 
@@ -233,6 +234,88 @@ TEST_CASE(
   CHECK(mode("one") == RunMode::process);
   CHECK(mode("two") == RunMode::tick);
   for (const Component& c : mission(with_fallback).components) CHECK(c.run == RunMode::tick);
+}
+
+TEST_CASE("results that were on their way when a component was put down are nobody's when it flies again") {
+  mission("");
+  const fs::path file = folder().path / "muse.yaml";
+  std::ofstream(file)
+      << "extends: lab.yaml\n"
+         "roles:\n  muse: {in: {signal: vehicle.signal}, out: {thought: Signal}}\n"
+         "components:\n"
+         "  think: {fills: muse, use: lab/Thinker, run: async, latency: 100 ms, rate: 100 Hz, "
+         "params: {takes: 0 ms}}\n"
+         "  other: {fills: muse, use: lab/Thinker, params: {takes: 0 ms}}\n"
+         "phases:\n"
+         "  a: {law: one, muse: think, next: [{to: b, when: \"vehicle.signal.tick_s >= 0.1 "
+         "s\"}]}\n"
+         "  b: {law: one, muse: other, next: [{to: c, when: \"vehicle.signal.tick_s >= 0.12 "
+         "s\"}]}\n"
+         "  c: {law: one, muse: think}\n";
+  const Graph g = load_mission(file.string());
+  Flight flight(g, options(1));
+  const auto thought = [&](double t_s, const char* field) {
+    while (flight.now_ns() < std::llround(1e9 * t_s)) REQUIRE(flight.step());
+    return value(g, flight, "think", "thought", field);
+  };
+  const double last = thought(0.1, "x_m");
+  CHECK(thought(0.2, "x_m") == last);  // up to there old ones would have come
+  CHECK(thought(0.25, "x_m") > last);
+  CHECK(thought(0.25, "tick_s") == 448);  // it took over at 0.12 s, in tick 448
+}
+
+namespace {
+
+/// Fails always, and says why the first time.
+std::uint32_t fail(void* times, const fulmar_tick*, const fulmar_input*, fulmar_output*,
+                   fulmar_error* error) {
+  if ((*static_cast<int*>(times))++ == 0) std::strcpy(error->text, "out of paper");
+  return FULMAR_FAILED;
+}
+std::uint32_t accept(void*, const fulmar_value*, fulmar_error*) { return FULMAR_OK; }
+
+struct Worker {
+  fulmar_component functions{};
+  int times = 0;
+  ComponentInfo info;
+  std::unique_ptr<Async> async;
+  explicit Worker(std::size_t depth) {
+    functions.step = fail, functions.retune = accept;
+    async = std::make_unique<Async>("worker", functions, &times, info, depth);
+  }
+  bool submit(Async::Job::Call call) const {
+    Async::Job* const job = async->room(call);
+    if (!job) return false;
+    job->call = call;
+    async->submit();
+    return true;
+  }
+};
+
+}  // namespace
+
+TEST_CASE(
+    "so many steps are on their way in another thread and no more, and other calls find room beside them") {
+  using Call = Async::Job::Call;
+  const Worker worker(3);
+  for (int i = 0; i < 3; ++i) CHECK(worker.submit(Call::step));
+  CHECK_FALSE(worker.submit(Call::step));
+  for (int i = 0; i < 4; ++i) CHECK(worker.submit(Call::retune));
+  CHECK_FALSE(worker.submit(Call::retune));
+  worker.async->wait();
+  worker.async->release();  // the oldest: a step
+  CHECK(worker.submit(Call::step));
+  CHECK_FALSE(worker.submit(Call::step));
+}
+
+TEST_CASE("what a step in another thread said when it failed is not said by a later one that says nothing") {
+  const Worker worker(1);
+  for (int i = 0; i < 12; ++i) {  // in each place for a call more than once
+    REQUIRE(worker.submit(Async::Job::Call::step));
+    worker.async->wait();
+    CHECK(std::string(worker.async->oldest()->error.text) == (i == 0 ? "out of paper" : ""));
+    worker.async->release();
+  }
 }
 
 }  // namespace modes_test

@@ -164,4 +164,28 @@ TEST_CASE("the newest log of a mission is found, cut off or whole, unless it is 
   CHECK(newest_log(g, 600).filename() == "run-3.mcap");
 }
 
+TEST_CASE("the second in which an aircraft may turn out to fly begins when its vehicle speaks") {
+  for (const std::string lift_at : {"1.3", "1.9"}) {  // it speaks from 0.8 s on
+    CAPTURE(lift_at);
+    const fs::path file = folder().path / "late.yaml";
+    std::ofstream(file)
+        << "mission: late\nroles:\n"
+           "  vehicle: {in: {command: law.command}, out: {gear: Gear, state: State}, flags: "
+           "{armed: gear.motors_live, on_ground: gear.wheels.down, in_control: gear.obeys}}\n"
+           "  law:     {in: {state: vehicle.state}, out: {command: Command}}\n"
+           "components:\n  craft: {fills: vehicle, use: craft/Strange, params: {speak_at: 0.8 "
+           "s, lift_at: "
+        << lift_at << " s}}\n  law_a: {fills: law, use: craft/Hoarder}\n"
+        << "phases:\n  first: {next: [{to: second, when: \"vehicle.state.tick_s > 1000 s\"}]}\n  second: "
+           "{}\n";
+    Said said;
+    FlightOptions o = listening(said);
+    o.resume = into_second(0.4);
+    o.resume->if_armed = true;
+    Flight flight(load_mission(file.string()), o);
+    CHECK(fly_until(flight, 2.5));
+    CHECK(flight.phase() == (lift_at == "1.3" ? "second" : "first"));
+  }
+}
+
 }  // namespace restart_test

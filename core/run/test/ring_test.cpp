@@ -95,4 +95,15 @@ TEST_CASE("of equal step times every quantile is that time, and the least of sev
   CHECK(several.quantile_us(1) == doctest::Approx(1));
 }
 
+TEST_CASE("a ring that has been read empty has all its room again") {
+  Ring ring(4096, 64);
+  const std::vector<std::byte> bytes(64 - sizeof(Ring::Record));
+  REQUIRE(ring.push({}, bytes.data(), bytes.size()));
+  REQUIRE(ring.next() != nullptr);
+  ring.release();
+  std::size_t fitting = 0;
+  while (ring.push({}, bytes.data(), bytes.size())) ++fitting;
+  CHECK(fitting == ring.capacity() / 64);
+}
+
 }  // namespace ring_test

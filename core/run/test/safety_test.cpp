@@ -8,6 +8,7 @@
 #include <csignal>
 
 #include "core/run/allocation.hpp"
+#include "core/run/test/commands.hpp"
 #include "core/run/test/lab.hpp"
 
 namespace safety_test {
@@ -164,6 +165,19 @@ TEST_CASE("a step over its budget now and then is counted, and stops nobody") {
   CHECK(r.guards.empty());
   for (const ComponentStats& c : r.components)
     if (c.name == "one") CHECK(c.overruns > 10);
+}
+
+TEST_CASE("a parameter that its component refuses leaves it with that of before") {
+  const Graph g = mission(one_phase);
+  Flight flight(g, options(0.2));
+  for (int i = 0; i < 10; ++i) REQUIRE(flight.step());
+  ParamValue loud;
+  loud.number[0] = 1;
+  CHECK_THROWS_WITH(set_parameter(flight, "watch", "noise", loud), "watch: too loud");
+  const double before = value(g, flight, "watch", "tally", "sum_m");
+  REQUIRE(flight.step());
+  const double burst = 3 * value(g, flight, "sim", "signal", "x_m") + 0.1 + 0.2;
+  CHECK(value(g, flight, "watch", "tally", "sum_m") - before == doctest::Approx(burst));  // and no noise
 }
 
 }  // namespace safety_test

@@ -6,6 +6,7 @@
 #include "core/log/reader.hpp"
 #include "core/run/test/commands.hpp"
 #include "core/run/test/lab.hpp"
+#include "core/types/named.hpp"
 
 namespace swap_test {
 
@@ -195,6 +196,76 @@ TEST_CASE("a child that has died is started anew on the ground, and never in the
   };
   CHECK(has(said_after_reset("-0.5 s", -400'000'000), "one: guard reset"));
   CHECK(has(said_after_reset("0.1 s", 150'000'000), "started anew on the ground; the aircraft is armed"));
+}
+
+TEST_CASE("after a swap elsewhere a role's filler that is stopped is lost in the same tick, as before") {
+  Ground ground(mission(with_fallback, {{"filter.stop_at", "0.1"}}));
+  swap(*ground.flight, "two", variant("_better"));
+  while (ground.flight->step()) {
+  }
+  const FlightResult r = ground.flight->finish();
+  REQUIRE(r.guards.size() >= 2);
+  CHECK(r.guards[1].what == "input 'signal' comes from filter, which was stopped");
+  CHECK(r.guards[1].at_ns == r.guards[0].at_ns);
+}
+
+TEST_CASE("after a swap nobody reads zeros where a wire carries the tick before") {
+  Ground ground(
+      mission("  ear: {use: lab/Filter, in: {signal: {from: sense.signal, delayed: true}}}\n"s + one_phase));
+  const auto heard = [&] { return value(ground.graph, *ground.flight, "ear", "signal", "x_m"); };
+  const double before = heard();
+  REQUIRE(before > 0);
+  swap(*ground.flight, "one", variant("_better"));
+  for (int i = 0; i < 3; ++i) {
+    REQUIRE(ground.flight->step());
+    CHECK(heard() >= before);
+  }
+  CHECK(heard() > before);
+}
+
+TEST_CASE("a second swap does not undo what the first one changed in the mission") {
+  Ground ground(
+      mission("phases:\n  wait: {law: {use: one, set: {u: 0.9}}, next: [{to: fly, when: "
+              "\"vehicle.status.armed\"}]}\n  fly:  {law: {use: one, fallback: two, set: {u: 0.6}}}\n"));
+  swap(*ground.flight, "one", variant("_wider"));  // a parameter more, in front
+  swap(*ground.flight, "two", variant("_better"));
+  REQUIRE(ground.flight->step());
+  CHECK(ground.u() == 0.9);
+  while (ground.flight->now_ns() < 100'000'000) REQUIRE(ground.flight->step());
+  CHECK(ground.u() == 0.6);
+}
+
+TEST_CASE("what a swapped component is asked is in the log, as what the one before was asked") {
+  Ground ground(mission(one_phase), true);
+  request(*ground.flight, "watch", "ask", 1.0);
+  REQUIRE(ground.flight->step());
+  swap(*ground.flight, "watch", variant("_better"));
+  request(*ground.flight, "watch", "ask", 2.0);
+  while (ground.flight->step()) {
+  }
+  ground.flight->finish();
+  const McapFile file = read_mcap(ground.o.log_file);
+  const std::uint16_t asked = file.channel("/watch/ask");
+  CHECK(std::count_if(file.messages.begin(), file.messages.end(),
+                      [&](const McapFile::Message& m) { return m.channel == asked; }) == 2);
+}
+
+TEST_CASE("a tape keeps the stamps of a queue with its items, whatever comes into their place in the port") {
+  const Graph g = mission(one_phase);
+  const Component* const watch = find_named(g.components, "watch");
+  REQUIRE(watch != nullptr);
+  const auto burst = static_cast<std::size_t>(watch->info().input("burst"));
+  std::vector<fulmar_input> inputs(watch->info().inputs.size());
+  std::vector<std::byte> item(watch->info().inputs[burst].type->size);
+  std::int64_t stamp_ns = 0;
+  inputs[burst].data = item.data(), inputs[burst].stamps_ns = &stamp_ns, inputs[burst].count = 1;
+  Tape tape(watch->info(), 4);
+  for (std::uint64_t n = 1; n <= 3; ++n) {
+    stamp_ns = static_cast<std::int64_t>(10 * n);
+    tape.record({stamp_ns, 0, n}, inputs);
+  }
+  for (std::size_t i = 0; i < 3; ++i)
+    CHECK(tape.step(i).inputs[burst].stamps_ns[0] == tape.step(i).tick.now_ns);
 }
 
 }  // namespace swap_test

@@ -9,7 +9,6 @@ namespace fulmar::estimator {
 inline void Navigator::collect_origin(const Gnss& g, const Params& p) {
   if (gnss_speed_ < 2 && !airborne_) {
     const Vector3d fix(g.latitude_deg, g.longitude_deg, g.altitude_m);
-    if (origin_count_ == 0) origin_sum_.setZero();
     origin_sum_ += fix;
     ++origin_count_;
     if (origin_count_ < p.origin_fixes) return;

@@ -265,8 +265,9 @@ class Session {
            " messages were lost, and what there is is in " + result.log.file.string());
     else if (result.log.dropped > 0)
       warn("the log has gaps: the disk was too slow for " + std::to_string(result.log.dropped) + " messages");
+    if (!whole) return ExitCode::failed;  // however the flight ended
     if (result.outcome == Outcome::interrupted) return ExitCode::interrupted;
-    if (result.outcome == Outcome::failed || !has_begun(result) || !whole) return ExitCode::failed;
+    if (result.outcome == Outcome::failed || !has_begun(result)) return ExitCode::failed;
     return options_.strict && !result.guards.empty() ? ExitCode::guarded : ExitCode::done;
   }
 

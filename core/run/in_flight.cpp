@@ -30,9 +30,12 @@ std::uint32_t put_right(fulmar_error& problem) noexcept {
 
 namespace {
 
-/// Whether the call is refused. `changes`: it asks for more than what is set.
+const pid_t program = getpid();
+
+/// Whether the call is refused. `changes`: it asks for more than what is set. A process that the component
+/// has forked is not the host.
 bool refuse(const char* call, bool changes = true) noexcept {
-  if (!changes || !refuses_calls) return false;
+  if (!changes || !refuses_calls || getpid() != program) return false;
   refused_call = call;
   return true;
 }
@@ -84,5 +87,35 @@ int pthread_sigmask(int how, const sigset_t* set, sigset_t* old) noexcept {
   if (refuse("pthread_sigmask", set != nullptr)) return EPERM;
   static const auto next = behind<int (*)(int, const sigset_t*, sigset_t*)>("pthread_sigmask");
   return next(how, set, old);
+}
+
+int sigaction(int number, const struct sigaction* action, struct sigaction* old) noexcept {
+  if (refuse("sigaction", action != nullptr)) return errno = EPERM, -1;
+  static const auto next = behind<int (*)(int, const struct sigaction*, struct sigaction*)>("sigaction");
+  return next(number, action, old);
+}
+
+sighandler_t signal(int number, sighandler_t handler) noexcept {
+  if (refuse("signal")) return errno = EPERM, SIG_ERR;
+  static const auto next = behind<sighandler_t (*)(int, sighandler_t)>("signal");
+  return next(number, handler);
+}
+
+int execve(const char* file, char* const words[], char* const environment[]) noexcept {
+  if (refuse("execve")) return errno = EPERM, -1;
+  static const auto next = behind<int (*)(const char*, char* const[], char* const[])>("execve");
+  return next(file, words, environment);
+}
+
+int execv(const char* file, char* const words[]) noexcept {
+  if (refuse("execv")) return errno = EPERM, -1;
+  static const auto next = behind<int (*)(const char*, char* const[])>("execv");
+  return next(file, words);
+}
+
+int execvp(const char* file, char* const words[]) noexcept {
+  if (refuse("execvp")) return errno = EPERM, -1;
+  static const auto next = behind<int (*)(const char*, char* const[])>("execvp");
+  return next(file, words);
 }
 }

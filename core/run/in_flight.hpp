@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a component must leave as it is while it flies: the floating-point mode of the thread, and of the
-// process the working directory, the locale and the signal mask. All of that is everybody's.
+// process the working directory, the locale, the signal mask, what signals do, and the program itself. All of
+// that is everybody's.
 #pragma once
 #include <cstdint>
 

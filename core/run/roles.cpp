@@ -156,6 +156,7 @@ void Roles::stop(int component, Code code) {
   guards.push_back({state_.now_ns, name, what, "held"});
   const std::size_t guard = guards.size() - 1;
   fall_back(component, guard);
+  tell_blind(component);
   if (!nobody_drives(component)) return;
   guards[guard].action = "failsafe";
   nobody_flies(name, what);
@@ -173,7 +174,9 @@ void Roles::nobody_flies(const std::string& name, const std::string& what) {
 void Roles::watch_commands() {
   const std::vector<std::vector<std::byte>>& commands = state_.graph.failsafe;
   if (end_.in_failsafe()) return;
-  streams_.watch(state_.now_ns, recorder_);
+  for (const Slot* slot : streams_.watch(protection_.out_of_control(), state_, recorder_))
+    stop_if_mute(*slot);
+  if (end_.in_failsafe()) return;
   Unit& vehicle = wiring_.vehicle();
   for (std::size_t i = 0; i < commands.size(); ++i) {
     if (commands[i].empty() || !vehicle.in.too_old(i, state_.now_ns, vehicle.problem)) continue;
@@ -181,6 +184,41 @@ void Roles::watch_commands() {
     state_.result.guards.push_back({state_.now_ns, name, what, "failsafe"});
     return nobody_flies(name, what);
   }
+}
+
+/// A law that says nothing to the vehicle, though all that it needs keeps coming, is as lost as one that says
+/// nonsense. Others may have a reason: an estimator without samples, a law without a path.
+void Roles::stop_if_mute(const Slot& slot) {
+  Unit& unit = *slot.owner;
+  bool drives = false;
+  for (const int role : unit.component->roles) drives = drives || nth(drives_vehicle_, role);
+  if (!drives || !slot.role || !unit.in.all_younger_than(Streams::least_silence_ns, state_.now_ns)) return;
+  put_problem(unit.problem, "nothing on '%s', though it steps and all its inputs come",
+              slot.port->name.c_str());
+  stop(wiring_.index_of(unit));
+}
+
+/// A condition on what was stopped does not hold any more, whatever happens: a geofence without its watchman.
+void Roles::tell_blind(int stopped) {
+  const auto looks_at = [&](const Condition& condition) {
+    for (const Source& port : condition.ports())
+      if (port.kind == Source::Kind::role ? active(port.index) == stopped
+                                          : port.kind == Source::Kind::component && port.index == stopped)
+        return true;
+    return false;
+  };
+  const auto tell = [&](const char* what, const Condition* condition) {
+    if (!condition || !looks_at(*condition)) return;
+    const std::string& name = wiring_.unit(stopped).component->name;
+    Event e = event_of(Code::notice, name);
+    e.severity = Severity::warning;
+    say(e, "was stopped: '%s: %s' cannot come true any more", what, condition->text().c_str());
+    recorder_.note(e);
+  };
+  tell("done", state_.graph.done.get());
+  tell("failed", state_.graph.failed.get());
+  for (const std::vector<Transition>* list : {&std::as_const(state_.graph.any), &present().next})
+    for (const Transition& t : *list) tell(nth(state_.graph.phases, t.to).name.c_str(), t.when.get());
 }
 
 /// In each role that it has left: the present phase's fallback, if it can fly, in this same tick. Who feeds

@@ -8,7 +8,8 @@
 namespace fulmar::core {
 namespace {
 
-constexpr int habit = 50;  // steps in a row with a sample make a stream
+constexpr int habit = 20;            // samples make a stream
+constexpr std::int64_t pauses = 10;  // as long as its longest one make a silence
 
 }  // namespace
 
@@ -22,50 +23,90 @@ void Streams::add(const Slot& slot, std::int64_t limit_ns) {
   streams_.push_back({.slot = &slot, .limit_ns = limit_ns});
 }
 
+void Streams::add_source(const Source& from, std::int64_t limit_ns, const Wiring& wiring,
+                         const Graph& graph) {
+  const auto add_of = [&](int component, int output) {
+    const Component& c = nth(graph.components, component);
+    const std::int64_t usual_ns = std::max(least_silence_ns, 3 * c.period_ns + c.latency_ns);
+    add(nth(wiring.unit(component).out.slots, output), limit_ns > 0 ? limit_ns : usual_ns);
+  };
+  if (from.kind == Source::Kind::component) add_of(from.index, from.output);
+  if (from.kind != Source::Kind::role) return;
+  const Role& role = nth(graph.roles, from.index);
+  for (std::size_t f = 0; f < role.fillers.size(); ++f)
+    if (const int output = nth(role.provides[f], from.output); output >= 0) add_of(role.fillers[f], output);
+}
+
+void Streams::add_condition(const Condition* condition, const Wiring& wiring, const Graph& graph) {
+  if (!condition) return;
+  for (const Source& port : condition->ports()) add_source(port, 0, wiring, graph);
+}
+
 void Streams::connect(const Wiring& wiring, const FlightState& state) {
+  const Graph& graph = state.graph;
   streams_.clear();
   for (const auto& unit : wiring.units)
     for (const Reader& reader : unit->in.readers) {
       const Wire& wire = *reader.wire;
-      if (!wire.by_steps || wire.max_age_ns <= 0) continue;
-      if (wire.from.kind == Source::Kind::component)
-        add(nth(wiring.unit(wire.from.index).out.slots, wire.from.output), wire.max_age_ns);
-      if (wire.from.kind != Source::Kind::role) continue;
-      const Role& role = nth(state.graph.roles, wire.from.index);
-      for (std::size_t f = 0; f < role.fillers.size(); ++f)
-        if (const int output = nth(role.provides[f], wire.from.output); output >= 0)
-          add(nth(wiring.unit(role.fillers[f]).out.slots, output), wire.max_age_ns);
+      if (wire.by_steps && (wire.max_age_ns > 0 || unit->info->vehicle))
+        add_source(wire.from, wire.max_age_ns, wiring, graph);
     }
+  add_condition(graph.done.get(), wiring, graph);
+  add_condition(graph.failed.get(), wiring, graph);
+  for (const Transition& t : graph.any) add_condition(t.when.get(), wiring, graph);
+  for (const Phase& phase : graph.phases)
+    for (const Transition& t : phase.next) add_condition(t.when.get(), wiring, graph);
+  lapsed_.reserve(streams_.size());
 }
 
-void Streams::watch(std::int64_t now_ns, Recorder& recorder) noexcept {
+void Streams::tell(Stream& s, bool lapses, FlightState& state, Recorder& recorder) noexcept {
+  const std::string &name = s.slot->owner->component->name, &port = s.slot->port->name;
+  Event e = event_of(Code::notice, name);
+  e.severity = Severity::warning;
+  if (!lapses) {
+    say(e, "speaks on '%s' again", port.c_str());
+    return recorder.note(e);
+  }
+  fulmar_error what{};
+  put_problem(what, "nothing on '%s' for %.1f s, though it steps", port.c_str(),
+              1e-9 * static_cast<double>(s.silent_ns));
+  say(e, "%s: who reads it goes on with the last of it", what.text);
+  recorder.note(e);
+  if (!s.ever_told) state.result.guards.push_back({state.now_ns, name, what.text, "its last sample stays"});
+  s.ever_told = true;
+}
+
+const std::vector<const Slot*>& Streams::watch(bool held, FlightState& state, Recorder& recorder) noexcept {
+  lapsed_.clear();
   for (Stream& s : streams_) {
     const Unit& unit = *s.slot->owner;
     if (!unit.active || unit.stopped) {
-      s.streak = 0;
+      s.samples = 0;
+      s.silent_ns = 0;
       s.told = false;
       continue;
     }
     if (unit.out.completed_ns == s.completed_ns) continue;
+    // who stood still, with the whole host, has not been silent meanwhile
+    const std::int64_t step_ns = std::min(unit.out.completed_ns - s.completed_ns, s.limit_ns / 3);
     s.completed_ns = unit.out.completed_ns;
     const bool published = s.slot->sequence != s.sequence;
     s.sequence = s.slot->sequence;
-    const bool returns = published && s.told,
-               lapses = !published && !s.told && s.streak >= habit && now_ns - s.published_ns > s.limit_ns;
-    if (published) s.published_ns = now_ns;
-    if (published) s.streak = std::min(s.streak + 1, habit);
-    if (!published && s.streak < habit) s.streak = 0;
-    if (!returns && !lapses) continue;
-    s.told = lapses;
-    Event e = event_of(Code::notice, unit.component->name);
-    e.severity = Severity::warning;
-    if (lapses)
-      say(e, "nothing on '%s' for %.1f s, though it steps: who reads it goes on with the last of it",
-          s.slot->port->name.c_str(), 1e-9 * static_cast<double>(now_ns - s.published_ns));
-    else
-      say(e, "speaks on '%s' again", s.slot->port->name.c_str());
-    recorder.note(e);
+    s.silent_ns = held ? 0 : s.silent_ns + step_ns;
+    if (!published) {
+      if (s.told || s.samples < habit || s.silent_ns <= std::max(s.limit_ns, pauses * s.longest_ns)) continue;
+      s.told = true;
+      tell(s, true, state, recorder);
+      lapsed_.push_back(s.slot);
+      continue;
+    }
+    if (!s.told && s.samples > 0) s.longest_ns = std::max(s.longest_ns, s.silent_ns);
+    if (s.told) tell(s, false, state, recorder);
+    s.told = false;
+    s.silent_ns = 0;
+    s.samples = std::min(s.samples + 1, habit);
   }
+  return lapsed_;
 }
 
 }  // namespace fulmar::core

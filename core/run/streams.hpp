@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Outputs that may stay silent, and have spoken in every step so far: when one of them falls silent while its
-// component steps on, somebody is told. It is not stopped: it may be a planner that has nothing to add.
+// Outputs that may stay silent, and have a habit of speaking: when one of them says nothing for much longer
+// than ever before while its component steps on, somebody is told. A planner that speaks when something
+// changes has longer pauses, and is left alone.
 #pragma once
 #include <cstdint>
 #include <vector>
 
+#include "core/graph/condition.hpp"
+#include "core/run/flight.hpp"
 #include "core/run/recorder.hpp"
 #include "core/run/wiring.hpp"
 
@@ -12,22 +15,31 @@ namespace fulmar::core {
 
 class Streams {
  public:
-  /// [setup] Those that lead to the vehicle and whose age counts from their writer's steps.
+  static constexpr std::int64_t least_silence_ns = 1'000'000'000;  // where no wire says more
+
+  /// [setup] Those that lead to the vehicle and whose age counts from their writer's steps, and those that
+  /// the mission's conditions look at.
   void connect(const Wiring& wiring, const FlightState& state);
-  /// [tick] After the steps.
-  void watch(std::int64_t now_ns, Recorder& recorder) noexcept;
+  /// [tick] After the steps. `held`: the vehicle does not obey, and nobody has to speak. Those that have just
+  /// fallen silent; what is told of each for the first time is a guard of the flight.
+  const std::vector<const Slot*>& watch(bool held, FlightState& state, Recorder& recorder) noexcept;
 
  private:
   struct Stream {
     const Slot* slot = nullptr;
     std::int64_t limit_ns = 0;
     std::uint64_t sequence = 0;
-    std::int64_t completed_ns = 0, published_ns = 0;
-    int streak = 0;
-    bool told = false;
+    std::int64_t completed_ns = 0;
+    std::int64_t silent_ns = 0, longest_ns = 0;  // of its steps without a sample: now, and ever
+    int samples = 0;
+    bool told = false, ever_told = false;
   };
+  void add_source(const Source& from, std::int64_t limit_ns, const Wiring& wiring, const Graph& graph);
+  void add_condition(const Condition* condition, const Wiring& wiring, const Graph& graph);
   void add(const Slot& slot, std::int64_t limit_ns);
+  void tell(Stream& s, bool lapses, FlightState& state, Recorder& recorder) noexcept;
   std::vector<Stream> streams_;
+  std::vector<const Slot*> lapsed_;
 };
 
 }  // namespace fulmar::core

@@ -61,7 +61,9 @@ TEST_CASE("a wire from an output that is no role's is watched like one that is")
 TEST_CASE("an output that may stay silent is as old as the last step of its writer") {
   const Graph silent = mission(std::string(through_plan) + one_phase, {{"plan.mute_at", "0.1"}});
   Flight flight(silent, options(5));
-  CHECK(flight.run().guards.empty());
+  const FlightResult told = flight.run();
+  REQUIRE(told.guards.size() == 1);  // told, and not stopped
+  CHECK(told.guards[0].action == "its last sample stays");
   // where the mission names an age it is the sample's
   const Graph strict = mission(
       "  plan: {use: lab/Filter, in: {signal: vehicle.signal}}\n"
@@ -193,40 +195,112 @@ TEST_CASE("what stands between the laws and the vehicle without a role is watche
   CHECK(relayed("stop_at: 0.1 s", "{from: relay.echo, max_age: off}", 0.3).first.outcome == Outcome::flown);
 }
 
-TEST_CASE("an output that has spoken in every step and falls silent is told of, and that it speaks again") {
-  const auto told = [](const std::string& tail, const std::vector<std::pair<std::string, std::string>>& set) {
-    const Graph g = mission(tail, set);
-    FlightOptions o = options(4);
-    std::vector<std::string> lines;
-    o.say = [&](const std::string& line, bool warning) {
-      if (warning) lines.push_back(line);
-    };
-    Flight flight(g, o);
-    CHECK(flight.run().guards.empty());
-    return lines;
+/// What a flight of four seconds says as warnings, and its guards.
+struct Said {
+  std::vector<std::string> lines;
+  std::vector<GuardEvent> guards;
+  FlightResult result;
+};
+Said said_of(const std::string& tail, const std::vector<std::pair<std::string, std::string>>& set = {},
+             double until_s = 4) {
+  const Graph g = mission(tail, set);
+  FlightOptions o = options(until_s);
+  Said said;
+  o.say = [&](const std::string& line, bool warning) {
+    if (warning) said.lines.push_back(line);
   };
+  Flight flight(g, o);
+  said.result = flight.run();
+  said.guards = said.result.guards;
+  return said;
+}
+
+TEST_CASE("an output that has a habit of speaking and falls silent is told of, and that it speaks again") {
   // a filter in a role, as the lab has it
-  CHECK(told(one_phase, {}).empty());
-  const std::vector<std::string> filter =
-      told(one_phase, {{"filter.mute_at", "0.1"}, {"filter.until", "2.5"}});
-  REQUIRE(filter.size() == 2);
-  CHECK(filter[0] ==
+  CHECK(said_of(one_phase).lines.empty());
+  const Said filter = said_of(one_phase, {{"filter.mute_at", "0.1"}, {"filter.until", "2.5"}});
+  REQUIRE(filter.lines.size() == 2);
+  CHECK(filter.lines[0] ==
         "    1.10 s  filter: nothing on 'signal' for 1.0 s, though it steps: who reads it goes on with the "
         "last of it");
-  CHECK(filter[1] == "    2.50 s  filter: speaks on 'signal' again");
+  CHECK(filter.lines[1] == "    2.50 s  filter: speaks on 'signal' again");
+  // the result has it, once
+  REQUIRE(filter.guards.size() == 1);
+  CHECK(filter.guards[0].component == "filter");
+  CHECK(filter.guards[0].what == "nothing on 'signal' for 1.0 s, though it steps");
+  CHECK(filter.guards[0].action == "its last sample stays");
+  CHECK(filter.result.outcome == Outcome::flown);
   // without a role, on the way to the vehicle
   const std::string relay =
       "  sim: {fills: vehicle, use: lab/Cart, in: {command: relay.echo}}\n"
       "  relay: {use: lab/Late, in: {never: law.command}, params: {mute_at: 0.5 s}}\n";
-  const std::vector<std::string> relayed = told(relay + one_phase, {});
-  REQUIRE(relayed.size() == 1);
-  CHECK(relayed[0].find("1.50 s  relay: nothing on 'echo' for 1.0 s") != std::string::npos);
+  const Said relayed = said_of(relay + one_phase);
+  REQUIRE(relayed.lines.size() == 1);
+  CHECK(relayed.lines[0].find("1.50 s  relay: nothing on 'echo' for 1.0 s") != std::string::npos);
   // at a rate of its own, in whose ticks without a step nothing can be said
   const std::string slow =
       "  filter: {fills: sense, use: lab/Filter, rate: 100 Hz, params: {mute_at: 0.1 s}}\n";
-  CHECK(told(slow + one_phase, {}).size() == 1);
-  // who speaks now and then has nothing to explain
-  CHECK(told(one_phase, {{"filter.every", "3"}, {"filter.mute_at", "0.1"}}).empty());
+  CHECK(said_of(slow + one_phase).lines.size() == 1);
+}
+
+TEST_CASE("who speaks in every third step has a habit; who pauses has longer silences") {
+  CHECK(said_of(one_phase, {{"filter.every", "3"}}).lines.empty());
+  CHECK(said_of(one_phase, {{"filter.every", "3"}, {"filter.mute_at", "0.1"}}).lines.size() == 1);
+  // 25 samples are enough, 15 are not
+  CHECK(said_of(one_phase, {{"filter.mute_at", "-0.9375"}}).lines.size() == 1);
+  CHECK(said_of(one_phase, {{"filter.mute_at", "-0.9625"}}).lines.empty());
+  // pauses of 0.2 s: two seconds of silence are one
+  const auto pausing = [](double until_s) {
+    return said_of(one_phase, {{"filter.every", "80"}, {"filter.mute_at", "5"}}, until_s).lines.size();
+  };
+  CHECK(pausing(6.7) == 0);
+  CHECK(pausing(7.2) == 1);
+}
+
+TEST_CASE("a watch that only a condition reads is told of when it falls silent, and when it is stopped") {
+  const std::string fence = "  fence: {use: lab/Filter, in: {signal: vehicle.signal}}\n";
+  for (const std::string key : {"failed: ", "done: "}) {
+    const std::string watched = fence + one_phase + key + "{when: \"fence.signal.x_m > 1e6 m\", for: 2 s}\n";
+    CHECK(said_of(watched).lines.empty());
+    const Said silent = said_of(watched, {{"fence.mute_at", "0.1"}});
+    REQUIRE(silent.lines.size() == 1);
+    CHECK(silent.lines[0].find("1.10 s  fence: nothing on 'signal' for 1.0 s") != std::string::npos);
+    CHECK(silent.guards.size() == 1);
+    const Said stopped = said_of(watched, {{"fence.stop_at", "0.1"}});
+    REQUIRE(stopped.lines.size() == 2);
+    CHECK(stopped.lines[0].find("fence: the filter is broken") != std::string::npos);
+    CHECK(stopped.lines[1] ==
+          "    0.10 s  fence: was stopped: '" + key + "fence.signal.x_m > 1e6 m' cannot come true any more");
+  }
+  const std::string phases =
+      fence +
+      "phases:\n"
+      "  first:  {law: one, next: [{to: second, when: \"fence.signal.x_m > 1e6 m\"}]}\n"
+      "  second: {law: two, next: [{to: first, when: \"sense.signal.x_m > 1e6 m\"}]}\n";
+  CHECK(said_of(phases, {{"fence.mute_at", "0.1"}}).lines.size() == 1);
+  const Said stopped = said_of(phases, {{"fence.stop_at", "0.1"}});
+  REQUIRE(stopped.lines.size() == 2);
+  CHECK(stopped.lines[1].find("'second: fence.signal.x_m > 1e6 m' cannot come true any more") !=
+        std::string::npos);
+}
+
+TEST_CASE("a law that says nothing to the vehicle, though its inputs come, loses its role") {
+  const std::string law = "  one: {fills: law, use: lab/Mute}\n";
+  CHECK(said_of(law + with_fallback).lines.empty());
+  const Said fallen = said_of(law + with_fallback, {{"one.mute_at", "0.1"}});
+  REQUIRE(fallen.guards.size() == 2);
+  CHECK(fallen.guards[1].what == "nothing on 'command', though it steps and all its inputs come");
+  CHECK(fallen.guards[1].action == "two takes over");
+  CHECK(fallen.guards[1].at_ns == 1'100'000'000);
+  CHECK(fallen.result.outcome == Outcome::flown);
+  const Said lost = said_of(law + one_phase, {{"one.mute_at", "0.1"}});
+  CHECK(lost.result.outcome == Outcome::failed);
+  CHECK(lost.guards.at(1).action == "failsafe");
+  // what it needs does not come: it has a reason, and speaks when that has passed
+  const Said waits = said_of(law + with_fallback, {{"one.mute_at", "0.1"}, {"filter.mute_at", "0.05"}});
+  REQUIRE(waits.guards.size() == 2);
+  CHECK(waits.guards[0].component == "filter");
+  CHECK(waits.guards[1].action == "its last sample stays");
 }
 
 }  // namespace ages_test

@@ -51,10 +51,12 @@ struct Craft {
     Param pilot_from{1e9, "s", -1, 1e9, "the pilot takes over"};
     Param pilot_until{1e9, "s", -1, 1e9, "the pilot gives back"};
     Param note_at{1e9, "s", -1, 1e9, "two notices are sent, and the remark changes"};
+    Param jump_at{1e9, "s", -1, 1e9, "the computer stands still here, for ten seconds"};
     Flag real_time{false, "ticks follow the wall clock"};
   };
   Status read(Tick& tick, const Params& p, Outputs& out) {
     tick.now_ns = 2'500'000 * n_++;
+    if (tick.now_s() >= p.jump_at) tick.now_ns += 10'000'000'000;
     const double t = tick.now_s();
     if (p.real_time) {
       const timespec pause{0, 2'500'000};
@@ -184,6 +186,24 @@ struct Hoarder {
   double hoard_ = 0, activations_ = 0;
 };
 
+/// Says again what the vehicle says, and pauses once.
+struct Echo {
+  struct Inputs {
+    In<State> state;
+  };
+  struct Outputs {
+    Out<State> echo;
+  };
+  struct Params {
+    Param mute_from{1e9, "s", -1, 1e9, "says nothing from here on"};
+    Param mute_until{1e9, "s", -1, 1e9, "and speaks again"};
+  };
+  Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
+    if (tick.now_s() < p.mute_from || tick.now_s() >= p.mute_until) out.echo.publish(*in.state);
+    return Status::ok;
+  }
+};
+
 }  // namespace
 
-FULMAR_PLUGIN("1.0.0", Craft, Hoarder, Strange, Demanding)
+FULMAR_PLUGIN("1.0.0", Craft, Echo, Hoarder, Strange, Demanding)

@@ -46,6 +46,24 @@ TEST_CASE(
   CHECK(other.run().outcome == Outcome::flown);
 }
 
+TEST_CASE("while the vehicle does not obey, or the computer stands still, nobody has to speak") {
+  const auto told = [](const std::vector<std::pair<std::string, std::string>>& set, double until_s) {
+    const Graph g = craft(
+        "  echo: {use: craft/Echo, in: {state: vehicle.status}}\nphases:\n  fly: {law: law_a}\n"
+        "failed: \"echo.echo.tick_s < -1 s\"\n",
+        set);
+    Said said;
+    Flight flight(g, listening(said));
+    CHECK(fly_until(flight, until_s));
+    return said.count("nothing on 'echo' for 1.0 s");
+  };
+  CHECK(told({{"echo.mute_from", "1.2"}}, 2.15) == 0);
+  CHECK(told({{"echo.mute_from", "1.2"}}, 2.25) == 1);
+  CHECK(told({{"craft.pilot_from", "1"}, {"craft.pilot_until", "5"}, {"echo.mute_from", "1.2"}}, 5.9) == 0);
+  CHECK(told({{"craft.pilot_from", "1"}, {"craft.pilot_until", "5"}, {"echo.mute_from", "1.2"}}, 6.1) == 1);
+  CHECK(told({{"craft.jump_at", "2"}, {"echo.mute_from", "1.9"}, {"echo.mute_until", "12.3"}}, 13) == 0);
+}
+
 TEST_CASE("a controller that works in another thread begins anew once, when control returns") {
   const Graph g = craft(
       "  law_b: {fills: law, use: craft/Hoarder, run: async, latency: 10 ms}\nphases:\n  fly: {law: "

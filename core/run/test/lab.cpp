@@ -139,6 +139,9 @@ enum class Fault : std::uint8_t {
   moves,
   speaks,
   masks,
+  deafens,
+  listens,
+  replaces,
   thread_crashes,
   thread_quits,
   forks,
@@ -247,6 +250,19 @@ struct Law {
         sigset_t all;
         sigfillset(&all);
         pthread_sigmask(SIG_BLOCK, &all, nullptr);
+        break;
+      }
+      case Fault::deafens: std::signal(SIGINT, SIG_IGN); break;
+      case Fault::listens: {
+        struct sigaction action {};
+        action.sa_handler = SIG_IGN;
+        sigaction(SIGSEGV, &action, nullptr);
+        break;
+      }
+      case Fault::replaces: {
+        char name[] = "true";
+        char* const words[] = {name, nullptr};
+        execv("/bin/true", words);
         break;
       }
       case Fault::thread_crashes: std::thread([] { *static_cast<volatile int*>(nowhere) = 1; }).join(); break;
@@ -460,6 +476,30 @@ struct Late {  ///< hands on what comes; mostly that is never
   }
 };
 
+struct Mute {  ///< a law that may say nothing
+  struct Inputs {
+    In<Signal> signal;
+  };
+  struct Outputs {
+    Out<Command> command;
+  };
+  struct Params {
+    Param mute_at{1e9, "s", -1e9, 1e9, "says nothing from here on"};
+    Count every{1, 1, 1000, "speaks in every so manieth step"};
+  };
+  Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
+    if (tick.now_s() >= p.mute_at || steps_++ % p.every != 0) return Status::ok;
+    Command c;
+    c.u_frac = 0.3;
+    c.seen_m = in.signal->x_m;
+    out.command.publish(c);
+    return Status::ok;
+  }
+
+ private:
+  std::int64_t steps_ = 0;
+};
+
 struct Hungry {  ///< a law with an input that never comes, and no activate
   struct Inputs {
     In<Signal> signal;
@@ -528,5 +568,5 @@ struct Statute {
 FULMAR_PLUGIN("2.0.0", Statute)
 #else
 }  // namespace
-FULMAR_PLUGIN("1.0.0", Cart, Law, Filter, Watch, OldReader, Late, Hungry, Ticker, Thinker, NewLaw, Both)
+FULMAR_PLUGIN("1.0.0", Cart, Law, Filter, Watch, OldReader, Late, Mute, Hungry, Ticker, Thinker, NewLaw, Both)
 #endif

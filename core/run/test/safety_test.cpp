@@ -38,6 +38,9 @@ const Row rows[] = {
     {"moves", "calls chdir in flight", true, false, true},
     {"speaks", "calls setlocale in flight", true, false, true},
     {"masks", "calls pthread_sigmask in flight", true, false, true},
+    {"deafens", "calls signal in flight", true, false, true},
+    {"listens", "calls sigaction in flight", true, false, true},
+    {"replaces", "calls execv in flight", true, false, true},
 };
 
 std::string law(const Row& row, bool isolated) {
@@ -89,8 +92,12 @@ TEST_CASE("what a component tries to change for everybody stays as it was") {
   const std::string locale = std::setlocale(LC_ALL, nullptr);
   sigset_t before, after;
   pthread_sigmask(SIG_SETMASK, nullptr, &before);
-  for (const char* const fault : {"rounds", "moves", "speaks", "masks"}) {
+  for (const char* const fault : {"rounds", "moves", "speaks", "masks", "deafens", "listens"}) {
     CAPTURE(fault);
+    struct sigaction interrupt {
+    }, crash{};
+    sigaction(SIGINT, nullptr, &interrupt);
+    sigaction(SIGSEGV, nullptr, &crash);
     const Graph g = mission(law({fault, "", true}, false));
     Flight flight(g, options(0.3));
     CHECK(flight.run().guards.size() == 1);
@@ -99,6 +106,12 @@ TEST_CASE("what a component tries to change for everybody stays as it was") {
     CHECK(std::setlocale(LC_ALL, nullptr) == locale);
     pthread_sigmask(SIG_SETMASK, nullptr, &after);
     CHECK(sigismember(&before, SIGUSR1) == sigismember(&after, SIGUSR1));
+    struct sigaction interrupt_after {
+    }, crash_after{};
+    sigaction(SIGINT, nullptr, &interrupt_after);
+    sigaction(SIGSEGV, nullptr, &crash_after);
+    CHECK((interrupt_after.sa_handler == interrupt.sa_handler));
+    CHECK((crash_after.sa_handler == crash.sa_handler));
   }
   CHECK(chdir("/") == 0);  // nobody flies: it is the program's own
   fs::current_path(here);

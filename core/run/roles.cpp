@@ -174,8 +174,8 @@ void Roles::nobody_flies(const std::string& name, const std::string& what) {
 void Roles::watch_commands() {
   const std::vector<std::vector<std::byte>>& commands = state_.graph.failsafe;
   if (end_.in_failsafe()) return;
-  for (const Slot* slot : streams_.watch(protection_.out_of_control(), state_, recorder_))
-    stop_if_mute(*slot);
+  const Slot* const mute = streams_.watch(protection_.out_of_control(), state_, recorder_);
+  if (mute) stop_if_mute(*mute);
   if (end_.in_failsafe()) return;
   Unit& vehicle = wiring_.vehicle();
   for (std::size_t i = 0; i < commands.size(); ++i) {

@@ -2,13 +2,14 @@
 #include "core/run/streams.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/run/unit.hpp"
 
 namespace fulmar::core {
 namespace {
 
-constexpr int habit = 20;            // samples make a stream
+constexpr std::uint64_t habit = 20;  // samples make a stream
 constexpr std::int64_t pauses = 10;  // as long as its longest one make a silence
 
 }  // namespace
@@ -56,7 +57,6 @@ void Streams::connect(const Wiring& wiring, const FlightState& state) {
   for (const Transition& t : graph.any) add_condition(t.when.get(), wiring, graph);
   for (const Phase& phase : graph.phases)
     for (const Transition& t : phase.next) add_condition(t.when.get(), wiring, graph);
-  lapsed_.reserve(streams_.size());
 }
 
 void Streams::tell(Stream& s, bool lapses, FlightState& state, Recorder& recorder) noexcept {
@@ -76,37 +76,38 @@ void Streams::tell(Stream& s, bool lapses, FlightState& state, Recorder& recorde
   s.ever_told = true;
 }
 
-const std::vector<const Slot*>& Streams::watch(bool held, FlightState& state, Recorder& recorder) noexcept {
-  lapsed_.clear();
-  for (Stream& s : streams_) {
-    const Unit& unit = *s.slot->owner;
-    if (!unit.active || unit.stopped) {
-      s.samples = 0;
-      s.silent_ns = 0;
-      s.told = false;
-      continue;
-    }
-    if (unit.out.completed_ns == s.completed_ns) continue;
-    // who stood still, with the whole host, has not been silent meanwhile
-    const std::int64_t step_ns = std::min(unit.out.completed_ns - s.completed_ns, s.limit_ns / 3);
-    s.completed_ns = unit.out.completed_ns;
-    const bool published = s.slot->sequence != s.sequence;
-    s.sequence = s.slot->sequence;
-    s.silent_ns = held ? 0 : s.silent_ns + step_ns;
-    if (!published) {
-      if (s.told || s.samples < habit || s.silent_ns <= std::max(s.limit_ns, pauses * s.longest_ns)) continue;
-      s.told = true;
-      tell(s, true, state, recorder);
-      lapsed_.push_back(s.slot);
-      continue;
-    }
-    if (!s.told && s.samples > 0) s.longest_ns = std::max(s.longest_ns, s.silent_ns);
-    if (s.told) tell(s, false, state, recorder);
-    s.told = false;
+const Slot* Streams::watch(bool held, FlightState& state, Recorder& recorder) noexcept {
+  if (streams_.empty()) return nullptr;
+  if (++looked_at_ >= streams_.size()) looked_at_ = 0;
+  Stream& s = streams_[looked_at_];
+  const Unit& unit = *s.slot->owner;
+  if (!unit.active || unit.stopped) {
+    s.samples = 0;
     s.silent_ns = 0;
-    s.samples = std::min(s.samples + 1, habit);
+    s.told = false;
+    return nullptr;
   }
-  return lapsed_;
+  if (unit.out.completed_ns == s.completed_ns) return nullptr;
+  // who stood still, with the whole host, has not been silent meanwhile
+  const std::int64_t stepped_ns = std::min(unit.out.completed_ns - s.completed_ns, s.limit_ns / 3);
+  s.completed_ns = unit.out.completed_ns;
+  const std::uint64_t news = s.slot->sequence - s.sequence;
+  s.sequence = s.slot->sequence;
+  const bool explained = std::exchange(s.degraded, unit.stats.degraded) != unit.stats.degraded;
+  s.silent_ns = held || explained ? 0 : s.silent_ns + stepped_ns;
+  if (news == 0) {
+    if (s.told || s.samples < habit || s.silent_ns <= std::max(s.limit_ns, pauses * s.longest_ns))
+      return nullptr;
+    s.told = true;
+    tell(s, true, state, recorder);
+    return s.slot;
+  }
+  if (!s.told && s.samples > 0) s.longest_ns = std::max(s.longest_ns, s.silent_ns);
+  if (s.told) tell(s, false, state, recorder);
+  s.told = false;
+  s.silent_ns = 0;
+  s.samples += news;
+  return nullptr;
 }
 
 }  // namespace fulmar::core

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A laboratory for the loop: a cart that counts its ticks, and a law that misbehaves on demand.
 #include <fcntl.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cfenv>
@@ -142,6 +143,7 @@ enum class Fault : std::uint8_t {
   deafens,
   listens,
   replaces,
+  fosters,
   thread_crashes,
   thread_quits,
   forks,
@@ -265,6 +267,19 @@ struct Law {
         execv("/bin/true", words);
         break;
       }
+      case Fault::fosters: {  // a process of its own, in which it may do as it likes
+        const pid_t child = fork();
+        if (child == 0) {
+          char name[] = "true";
+          char* const words[] = {name, nullptr};
+          if (std::signal(SIGINT, SIG_DFL) == SIG_ERR) _exit(1);
+          execv("/bin/true", words);
+          _exit(2);
+        }
+        int status = 1;
+        if (waitpid(child, &status, 0) != child || status != 0) return Status::failed;
+        break;
+      }
       case Fault::thread_crashes: std::thread([] { *static_cast<volatile int*>(nowhere) = 1; }).join(); break;
       case Fault::thread_quits: std::thread([] { std::exit(0); }).join(); break;
       case Fault::forks:
@@ -294,11 +309,12 @@ struct Filter {  ///< fills a role between cart and law
     Param stop_at{1e9, "s", -1e9, 1e9, "throws from here on"};
     Param mute_at{1e9, "s", -1e9, 1e9, "says nothing from here on"};
     Param until{1e9, "s", -1e9, 1e9, "and speaks again"};
+    Param mute_again{1e9, "s", -1e9, 1e9, "until here"};
     Count every{1, 1, 100, "speaks in every so manieth step"};
   };
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     if (tick.now_s() >= p.stop_at) throw std::runtime_error("the filter is broken");
-    const bool mute = tick.now_s() >= p.mute_at && tick.now_s() < p.until;
+    const bool mute = (tick.now_s() >= p.mute_at && tick.now_s() < p.until) || tick.now_s() >= p.mute_again;
     if (!mute && steps_++ % p.every == 0) out.signal.publish(*in.signal);
     return Status::ok;
   }
@@ -486,9 +502,11 @@ struct Mute {  ///< a law that may say nothing
   struct Params {
     Param mute_at{1e9, "s", -1e9, 1e9, "says nothing from here on"};
     Count every{1, 1, 1000, "speaks in every so manieth step"};
+    Flag explains{false, "says that it is degraded when it says nothing"};
   };
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
-    if (tick.now_s() >= p.mute_at || steps_++ % p.every != 0) return Status::ok;
+    if (tick.now_s() >= p.mute_at || steps_++ % p.every != 0)
+      return p.explains ? Status::degraded : Status::ok;
     Command c;
     c.u_frac = 0.3;
     c.seen_m = in.signal->x_m;

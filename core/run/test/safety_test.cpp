@@ -117,6 +117,11 @@ TEST_CASE("what a component tries to change for everybody stays as it was") {
   fs::current_path(here);
 }
 
+TEST_CASE("what a component has forked is not the host, and may do as it likes") {
+  const Graph g = mission(law({"fosters", "", true}, false));
+  CHECK(Flight(g, options(0.11)).run().guards.empty());
+}
+
 TEST_CASE("a thread of its own in which a component changes the floating-point mode is judged alike") {
   const Graph g = mission(
       "  one: {fills: law, use: lab/Law, run: async, latency: 10 ms, params: {id: 1, u: 0.1, fault: rounds, "

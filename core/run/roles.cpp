@@ -156,7 +156,10 @@ void Roles::stop(int component, Code code) {
   guards.push_back({state_.now_ns, name, what, "held"});
   const std::size_t guard = guards.size() - 1;
   fall_back(component, guard);
-  tell_blind(component);
+  tell_blind("done", state_.graph.done.get(), component);
+  tell_blind("failed", state_.graph.failed.get(), component);
+  tell_blind(state_.graph.any, component);
+  tell_blind(present().next, component);
   if (!nobody_drives(component)) return;
   guards[guard].action = "failsafe";
   nobody_flies(name, what);
@@ -176,7 +179,7 @@ void Roles::watch_commands() {
   if (end_.in_failsafe()) return;
   const Slot* const mute = streams_.watch(protection_.out_of_control(), state_, recorder_);
   if (mute) stop_if_mute(*mute);
-  if (end_.in_failsafe()) return;
+  if (mute && end_.in_failsafe()) return;
   Unit& vehicle = wiring_.vehicle();
   for (std::size_t i = 0; i < commands.size(); ++i) {
     if (commands[i].empty() || !vehicle.in.too_old(i, state_.now_ns, vehicle.problem)) continue;
@@ -199,26 +202,23 @@ void Roles::stop_if_mute(const Slot& slot) {
 }
 
 /// A condition on what was stopped does not hold any more, whatever happens: a geofence without its watchman.
-void Roles::tell_blind(int stopped) {
-  const auto looks_at = [&](const Condition& condition) {
-    for (const Source& port : condition.ports())
-      if (port.kind == Source::Kind::role ? active(port.index) == stopped
-                                          : port.kind == Source::Kind::component && port.index == stopped)
-        return true;
-    return false;
-  };
-  const auto tell = [&](const char* what, const Condition* condition) {
-    if (!condition || !looks_at(*condition)) return;
-    const std::string& name = wiring_.unit(stopped).component->name;
-    Event e = event_of(Code::notice, name);
-    e.severity = Severity::warning;
-    say(e, "was stopped: '%s: %s' cannot come true any more", what, condition->text().c_str());
-    recorder_.note(e);
-  };
-  tell("done", state_.graph.done.get());
-  tell("failed", state_.graph.failed.get());
-  for (const std::vector<Transition>* list : {&std::as_const(state_.graph.any), &present().next})
-    for (const Transition& t : *list) tell(nth(state_.graph.phases, t.to).name.c_str(), t.when.get());
+void Roles::tell_blind(const char* what, const Condition* condition, int stopped) {
+  if (!condition) return;
+  const std::vector<Source>& ports = condition->ports();
+  const bool looks_at = std::any_of(ports.begin(), ports.end(), [&](const Source& port) {
+    if (port.kind == Source::Kind::role) return active(port.index) == stopped;
+    return port.kind == Source::Kind::component && port.index == stopped;
+  });
+  if (!looks_at) return;
+  Event e = event_of(Code::notice, wiring_.unit(stopped).component->name);
+  e.severity = Severity::warning;
+  say(e, "was stopped: '%s: %s' cannot come true any more", what, condition->text().c_str());
+  recorder_.note(e);
+}
+
+void Roles::tell_blind(const std::vector<Transition>& list, int stopped) {
+  for (const Transition& t : list)
+    tell_blind(nth(state_.graph.phases, t.to).name.c_str(), t.when.get(), stopped);
 }
 
 /// In each role that it has left: the present phase's fallback, if it can fly, in this same tick. Who feeds

@@ -287,6 +287,19 @@ TEST_CASE("a watch that only a condition reads is told of when it falls silent, 
         std::string::npos);
 }
 
+TEST_CASE("a phase that waits for what was stopped before says so when it begins") {
+  const std::string phases =
+      "  fence: {use: lab/Filter, in: {signal: vehicle.signal}}\n"
+      "phases:\n"
+      "  first:  {law: one, next: [{to: second, when: \"sense.signal.tick_s > 1 s\"}]}\n"
+      "  second: {law: two, next: [{to: first, when: \"fence.signal.tick_s > 2 s\"}]}\n";
+  const Said stopped = said_of(phases, {{"fence.stop_at", "0.1"}});
+  REQUIRE(stopped.lines.size() == 2);
+  CHECK(stopped.lines[1].find("1.00 s  fence: was stopped: 'first: fence.signal.tick_s > 2 s' cannot") !=
+        std::string::npos);
+  CHECK(stopped.result.phases.size() == 2);
+}
+
 TEST_CASE("a law that says nothing to the vehicle, though its inputs come, loses its role") {
   const std::string law = "  one: {fills: law, use: lab/Mute}\n";
   CHECK(said_of(law + with_fallback).lines.empty());

@@ -145,12 +145,14 @@ bool Intake::too_old(std::size_t input, std::int64_t now_ns, fulmar_error& probl
 }
 
 bool Intake::all_younger_than(std::int64_t limit_ns, std::int64_t now_ns) const noexcept {
+  bool any = false;  // who reads queues alone may be waiting for them
   for (const Reader& r : readers) {
     if (r.port->optional || r.port->kind != FULMAR_IN_VALUE) continue;
     if (lacks_sample(r) || writer_lost(r) || !r.source() || now_ns - r.source()->valid_at_ns > limit_ns)
       return false;
+    any = true;
   }
-  return true;
+  return any;
 }
 
 bool Intake::ready() const noexcept {

@@ -116,7 +116,7 @@ class Intake {
   /// [tick] Whether a value has come and is older than its wire allows, if it says how old; `problem` says
   /// so.
   bool too_old(std::size_t input, std::int64_t now_ns, fulmar_error& problem) const noexcept;
-  /// [tick] Whether every required value has come within this time.
+  /// [tick] Whether there are required values, and each has come within this time.
   bool all_younger_than(std::int64_t limit_ns, std::int64_t now_ns) const noexcept;
   /// [tick] Fills `views`. When an input is too old, `problem` says which.
   State prepare(std::int64_t now_ns, fulmar_error& problem) noexcept;

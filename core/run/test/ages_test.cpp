@@ -2,7 +2,9 @@
 // Nobody flies on what a stopped writer left behind, whatever wire leads from it; who may stay silent may.
 #include <doctest/doctest.h>
 
+#include "core/run/ports.hpp"
 #include "core/run/test/lab.hpp"
+#include "core/types/named.hpp"
 
 namespace ages_test {
 
@@ -198,7 +200,6 @@ TEST_CASE("what stands between the laws and the vehicle without a role is watche
 /// What a flight of four seconds says as warnings, and its guards.
 struct Said {
   std::vector<std::string> lines;
-  std::vector<GuardEvent> guards;
   FlightResult result;
 };
 Said said_of(const std::string& tail, const std::vector<std::pair<std::string, std::string>>& set = {},
@@ -211,7 +212,6 @@ Said said_of(const std::string& tail, const std::vector<std::pair<std::string, s
   };
   Flight flight(g, o);
   said.result = flight.run();
-  said.guards = said.result.guards;
   return said;
 }
 
@@ -227,10 +227,10 @@ TEST_CASE("an output that has a habit of speaking and falls silent is told of, a
   CHECK(filter.lines[1] == "    2.50 s  filter: speaks on 'signal' again");
   CHECK(filter.lines[2].find("3.80 s  filter: nothing on 'signal'") != std::string::npos);
   // the result has it, once
-  REQUIRE(filter.guards.size() == 1);
-  CHECK(filter.guards[0].component == "filter");
-  CHECK(filter.guards[0].what == "nothing on 'signal' for 1.0 s, though it steps");
-  CHECK(filter.guards[0].action == "its last sample stays");
+  REQUIRE(filter.result.guards.size() == 1);
+  CHECK(filter.result.guards[0].component == "filter");
+  CHECK(filter.result.guards[0].what == "nothing on 'signal' for 1.0 s, though it steps");
+  CHECK(filter.result.guards[0].action == "its last sample stays");
   CHECK(filter.result.outcome == Outcome::flown);
   // without a role, on the way to the vehicle
   const std::string relay =
@@ -268,7 +268,7 @@ TEST_CASE("a watch that only a condition reads is told of when it falls silent, 
     const Said silent = said_of(watched, {{"fence.mute_at", "0.1"}});
     REQUIRE(silent.lines.size() == 1);
     CHECK(silent.lines[0].find("1.10 s  fence: nothing on 'signal' for 1.0 s") != std::string::npos);
-    CHECK(silent.guards.size() == 1);
+    CHECK(silent.result.guards.size() == 1);
     const Said stopped = said_of(watched, {{"fence.stop_at", "0.1"}});
     REQUIRE(stopped.lines.size() == 2);
     CHECK(stopped.lines[0].find("fence: the filter is broken") != std::string::npos);
@@ -304,21 +304,24 @@ TEST_CASE("a law that says nothing to the vehicle, though its inputs come, loses
   const std::string law = "  one: {fills: law, use: lab/Mute}\n";
   CHECK(said_of(law + with_fallback).lines.empty());
   const Said fallen = said_of(law + with_fallback, {{"one.mute_at", "0.1"}});
-  REQUIRE(fallen.guards.size() == 2);
-  CHECK(fallen.guards[1].what == "nothing on 'command', though it steps and all its inputs come");
-  CHECK(fallen.guards[1].action == "two takes over");
-  CHECK(std::abs(fallen.guards[1].at_ns - 1'100'000'000) < 10'000'000);
+  REQUIRE(fallen.result.guards.size() == 2);
+  CHECK(fallen.result.guards[1].what == "nothing on 'command', though it steps and all its inputs come");
+  CHECK(fallen.result.guards[1].action == "two takes over");
+  CHECK(std::abs(fallen.result.guards[1].at_ns - 1'100'000'000) < 10'000'000);
   CHECK(fallen.result.outcome == Outcome::flown);
   // one that says that it is not well has told so itself
-  CHECK(said_of(law + with_fallback, {{"one.mute_at", "0.1"}, {"one.explains", "true"}}).guards.empty());
+  CHECK(
+      said_of(law + with_fallback, {{"one.mute_at", "0.1"}, {"one.explains", "true"}}).result.guards.empty());
   const Said lost = said_of(law + one_phase, {{"one.mute_at", "0.1"}});
   CHECK(lost.result.outcome == Outcome::failed);
-  CHECK(lost.guards.at(1).action == "failsafe");
+  CHECK(lost.result.guards.at(1).action == "failsafe");
+  const Graph g = mission("  device: {use: lab/Ticker, run: driver}\n"s + one_phase);
+  CHECK_FALSE(Intake(*find_named(g.components, "device")).all_younger_than(1'000'000'000, 0));  // has none
   // what it needs does not come: it has a reason, and speaks when that has passed
   const Said waits = said_of(law + with_fallback, {{"one.mute_at", "0.1"}, {"filter.mute_at", "0.05"}});
-  REQUIRE(waits.guards.size() == 2);
-  CHECK(waits.guards[0].component == "filter");
-  CHECK(waits.guards[1].action == "its last sample stays");
+  REQUIRE(waits.result.guards.size() == 2);
+  CHECK(waits.result.guards[0].component == "filter");
+  CHECK(waits.result.guards[1].action == "its last sample stays");
 }
 
 }  // namespace ages_test

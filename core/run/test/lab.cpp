@@ -262,9 +262,11 @@ struct Law {
         break;
       }
       case Fault::replaces: {
-        char name[] = "true";
+        char name[] = "false";
         char* const words[] = {name, nullptr};
-        execv("/bin/true", words);
+        execve("/bin/false", words, environ);
+        execvp("false", words);
+        execv("/bin/false", words);
         break;
       }
       case Fault::fosters: {  // a process of its own, in which it may do as it likes
@@ -501,21 +503,16 @@ struct Mute {  ///< a law that may say nothing
   };
   struct Params {
     Param mute_at{1e9, "s", -1e9, 1e9, "says nothing from here on"};
-    Count every{1, 1, 1000, "speaks in every so manieth step"};
     Flag explains{false, "says that it is degraded when it says nothing"};
   };
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
-    if (tick.now_s() >= p.mute_at || steps_++ % p.every != 0)
-      return p.explains ? Status::degraded : Status::ok;
+    if (tick.now_s() >= p.mute_at) return p.explains ? Status::degraded : Status::ok;
     Command c;
     c.u_frac = 0.3;
     c.seen_m = in.signal->x_m;
     out.command.publish(c);
     return Status::ok;
   }
-
- private:
-  std::int64_t steps_ = 0;
 };
 
 struct Hungry {  ///< a law with an input that never comes, and no activate

@@ -73,6 +73,12 @@ void check_fallback(const Row& row, bool isolated) {
   CHECK(r.guards[0].at_ns == 100'000'000);
 }
 
+auto handler_of(int signal) {
+  struct sigaction action {};
+  sigaction(signal, nullptr, &action);
+  return action.sa_handler;
+}
+
 }  // namespace
 
 TEST_CASE("in the loop: whatever a step says or throws, the fallback flies in the same tick") {
@@ -94,10 +100,7 @@ TEST_CASE("what a component tries to change for everybody stays as it was") {
   pthread_sigmask(SIG_SETMASK, nullptr, &before);
   for (const char* const fault : {"rounds", "moves", "speaks", "masks", "deafens", "listens"}) {
     CAPTURE(fault);
-    struct sigaction interrupt {
-    }, crash{};
-    sigaction(SIGINT, nullptr, &interrupt);
-    sigaction(SIGSEGV, nullptr, &crash);
+    const auto interrupt = handler_of(SIGINT), crash = handler_of(SIGSEGV);
     const Graph g = mission(law({fault, "", true}, false));
     Flight flight(g, options(0.3));
     CHECK(flight.run().guards.size() == 1);
@@ -106,12 +109,8 @@ TEST_CASE("what a component tries to change for everybody stays as it was") {
     CHECK(std::setlocale(LC_ALL, nullptr) == locale);
     pthread_sigmask(SIG_SETMASK, nullptr, &after);
     CHECK(sigismember(&before, SIGUSR1) == sigismember(&after, SIGUSR1));
-    struct sigaction interrupt_after {
-    }, crash_after{};
-    sigaction(SIGINT, nullptr, &interrupt_after);
-    sigaction(SIGSEGV, nullptr, &crash_after);
-    CHECK((interrupt_after.sa_handler == interrupt.sa_handler));
-    CHECK((crash_after.sa_handler == crash.sa_handler));
+    CHECK((handler_of(SIGINT) == interrupt));
+    CHECK((handler_of(SIGSEGV) == crash));
   }
   CHECK(chdir("/") == 0);  // nobody flies: it is the program's own
   fs::current_path(here);

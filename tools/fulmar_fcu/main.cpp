@@ -70,7 +70,7 @@ struct CommandLine {
         {"check", " --airframe configs/airframes/anaconda.yaml"},
         {"params", " list"},
         {"calibrate", " imu"}};
-    const std::string name = sub.get_name();
+    const std::string& name = sub.get_name();
     const auto at = arguments.find(name);
     const std::string before = sub.get_parent() && sub.get_parent()->get_parent()
                                    ? " " + sub.get_parent()->get_name()

@@ -20,7 +20,7 @@ Node scalar(const std::string& text) {
 Node map_of(const std::vector<std::pair<std::string, Node>>& entries) {
   Node node;
   node.kind = Node::Kind::map;
-  for (auto& [key, value] : entries) node.entries.push_back({key, 0, std::move(value)});
+  for (const auto& [key, value] : entries) node.entries.push_back({key, 0, value});
   return node;
 }
 
@@ -75,7 +75,7 @@ Node wire(const WireText& from) {
   std::vector<std::pair<std::string, Node>> keys{{"from", scalar(from.from.text())}};
   if (from.max_age_ns) keys.emplace_back("max_age", scalar(std::to_string(*from.max_age_ns) + " ns"));
   if (from.delayed) keys.emplace_back("delayed", scalar("true"));
-  return map_of(std::move(keys));
+  return map_of(keys);
 }
 
 std::string rate_text(const ComponentText& component) { return number_text(component.rate_hz) + " Hz"; }
@@ -106,7 +106,7 @@ Node reference(const MissionView& mission, const Contract& contract) {
   if (contract.shipped_set.is(Node::Kind::map))
     params = params.is(Node::Kind::map) ? merged(params, contract.shipped_set, 1) : contract.shipped_set;
   if (params.is(Node::Kind::map)) keys.emplace_back("params", params);
-  return map_of(std::move(keys));
+  return map_of(keys);
 }
 
 Node new_component(const MissionView& mission, const Contract& contract, const NewComponent& component) {
@@ -119,7 +119,7 @@ Node new_component(const MissionView& mission, const Contract& contract, const N
     wires.entries.push_back(
         {"reference_" + output, 0, scalar(reference_name(mission, component.name) + "." + output)});
   if (!wires.entries.empty()) keys.emplace_back("in", std::move(wires));
-  return map_of(std::move(keys));
+  return map_of(keys);
 }
 
 /// What the new mission says of components and phases, to be laid over the given one.
@@ -134,7 +134,7 @@ Node additions(const MissionView& mission, const Contract& contract, const NewCo
                             (!text.only || (named_so && *text.only == mission.text.io));
     if (sits_there)  // makes room: there is one vehicle
       keys.emplace_back("only", scalar(io_word(mission.text.io == Io::sim ? Io::fcu : Io::sim)));
-    if (!keys.empty()) components.entries.push_back({text.name, 0, map_of(std::move(keys))});
+    if (!keys.empty()) components.entries.push_back({text.name, 0, map_of(keys)});
   }
   if (!component.references.empty())
     components.entries.push_back({reference_name(mission, component.name), 0, reference(mission, contract)});

@@ -37,7 +37,12 @@ void MissionOptions::add(CLI::App* command) {
   add_pairs(command, "--role", roles, "ROLE=COMPONENT", "ROLE=COMPONENT: who fills a role in every phase");
   add_pairs(command, "--with", with, "COMPONENT=FILE", "COMPONENT=PLUGIN.so: another file for a component");
   command->add_option("--seed", seed, "seed of all noise")->check(whole_number);
-  add_pairs(command, "--set", set, "COMP.PARAM=VALUE", "COMPONENT.PARAMETER=VALUE");
+  add_pairs(command, "--set", set, "COMP.PARAM=VALUE",
+            "COMPONENT.PARAMETER=VALUE, or a field of a record: sim.airframe.mass=\"5 kg\"");
+  command->add_option("--arm", arm, "simulation: auto, or off until somebody arms")
+      ->check(CLI::IsMember({"auto", "off"}));
+  add_pairs(command, "--record", record, "PORTS[@RATE]",
+            "log more: nav.state, nav.*@100Hz, or all; without a rate every sample");
 }
 
 Overrides MissionOptions::overrides(const CLI::App* command) const {
@@ -47,6 +52,8 @@ Overrides MissionOptions::overrides(const CLI::App* command) const {
   o.roles = pairs(roles);
   o.set = pairs(set);
   o.with = pairs(with);
+  o.record = record;
+  if (!arm.empty()) o.arm = arm;
   for (const auto& [component, file] : o.with)
     if (file.empty())
       throw CLI::ValidationError("--with " + component + "=: a file is missing, as in --with " + component +

@@ -18,9 +18,9 @@ void add_pairs(CLI::App* command, const char* option, std::vector<std::string>& 
                const char* says);
 
 struct MissionOptions {
-  std::string mission, io;
+  std::string mission, io, arm;
   std::uint64_t seed = 0;
-  std::vector<std::string> roles, set, with;
+  std::vector<std::string> roles, set, with, record;
 
   void add(CLI::App* command);
   /// Throws CLI::ValidationError.

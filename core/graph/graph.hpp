@@ -149,8 +149,10 @@ struct ResumeRule {
 };
 
 struct RecordRule {
-  std::vector<std::string> ports;  // patterns "nav.*", "*"; empty: the default
+  std::vector<std::string> ports;  // patterns "nav.*", "*"; empty: whatever is left
   std::int64_t period_ns = 0;      // 0: every sample
+
+  static constexpr std::int64_t usual = -2;  // as without rules
 };
 
 /// `live:` of the mission.
@@ -200,6 +202,8 @@ struct Overrides {
       with;  // component=plugin file, in place of the file that its `use` names
   std::shared_ptr<const StoredFiles> files;  // in place of the disk: of a mission that has flown
   std::vector<std::string> flown;            // SHA-256 of the plugins that have flown in it
+  std::optional<std::string> arm;            // auto, off
+  std::vector<std::string> record;           // "nav.*@100Hz", before the mission's own rules
 };
 
 /// What a mission says that stands by itself, as it is written.

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "core/graph/extends.hpp"
 #include "core/graph/quantity.hpp"
 #include "core/types/names.hpp"
 #include "core/types/text.hpp"
@@ -436,41 +437,6 @@ class MissionReader {
   Report& report_;
 };
 
-/// Named things merge by name: a component's keys, its parameters and wires one by one, what a phase says of
-/// a role as a whole. Everything else is replaced as a whole.
-Node laid_over(const Node& base, const Node& top) {
-  static const std::pair<const char*, int> depths[] = {
-      {"components", 3}, {"roles", 3}, {"phases", 2}, {"summary", 1}};
-  Node node = merged(base, top, 1);
-  for (const auto& [key, depth] : depths)
-    for (Node::Entry& entry : node.entries)
-      if (entry.key == key && base.find(key) && top.find(key))
-        entry.value = merged(*base.find(key), *top.find(key), depth);
-  return node;
-}
-
-/// The mission's tree, laid over that of the file it extends.
-Node load_tree(MissionText& mission, const StoredFiles* stored, Report& report) {
-  Node root = parse_yaml(mission.file, report);
-  const Node* extends = root.find("extends");
-  if (!extends) return root;
-  const auto name = scalar_text(*extends, "extends", "the name of a file", report);
-  if (!name) return root;
-  try {
-    const FilePtr base_file = read_source(mission.file->path.parent_path() / *name, *name, stored);
-    mission.files.push_back(base_file);
-    const Node base = parse_yaml(base_file, report);
-    if (const Node* again = base.find("extends"))
-      report.add(again->where(), "extends: a file that is extended cannot extend another one");
-    if (!base.is(Node::Kind::map) && !base.is(Node::Kind::missing))
-      report.add(base.where(), "expected a map with the keys of a mission; found " + found_words(base));
-    if (base.is(Node::Kind::map) && root.is(Node::Kind::map)) return laid_over(base, root);
-  } catch (const Error& fault) {
-    report.add(extends->where(), std::string("extends: ") + fault.what());
-  }
-  return root;
-}
-
 }  // namespace
 
 std::optional<PortName> parse_port_name(const std::string& text, const Where& where, const std::string& path,
@@ -506,15 +472,48 @@ std::int64_t parse_utc_ns(const std::string& text) {
   return (days * 86400 + hour * 3600 + minute * 60) * 1'000'000'000 + std::llround(second * 1e9);
 }
 
+namespace {
+
+/// "nav.*", "nav.*@100Hz", "all": in front of the mission's own rules; the first that fits a port counts.
+/// What the mission records without being told stays recorded.
+void record_more(MissionText& mission, const std::vector<std::string>& wanted, Report& report) {
+  std::vector<RecordRule> rules;
+  std::vector<Where> places;
+  for (const std::string& word : wanted) {
+    const Where where{"--record " + word, 0};
+    const std::size_t at = word.find('@');
+    const std::string ports = word.substr(0, at);
+    std::int64_t period = 0;
+    if (at != std::string::npos) {
+      Node rate;
+      rate.kind = Node::Kind::scalar;
+      rate.text = word.substr(at + 1);
+      rate.file = make_source(rate.text, where.file);
+      const auto hz = scalar_number(rate, "rate", {"Hz", UnitRule::optional, 1e-3, 1e5}, report);
+      if (hz) period = std::llround(1e9 / *hz);
+    }
+    if (ports.empty()) report.add(where, "expected ports such as nav.state, nav.* or all");
+    rules.push_back({{ports == "all" ? "*" : ports}, period});
+    places.push_back(where);
+  }
+  if (wanted.empty()) return;
+  if (mission.record_rules.empty()) rules.push_back({{}, RecordRule::usual}), places.emplace_back();
+  mission.record = true;
+  mission.record_rules.insert(mission.record_rules.begin(), rules.begin(), rules.end());
+  mission.record_where.insert(mission.record_where.begin(), places.begin(), places.end());
+}
+
+}  // namespace
+
 MissionText parse_mission(const std::string& file, const Overrides& overrides, Report& report) {
   MissionText mission;
   const fs::path path = file;
   mission.file = std::make_shared<SourceFile>(
       SourceFile{path, path.filename().string(), read_source(path, file, overrides.files.get())->text});
   mission.files.push_back(mission.file);
-  const Node root = load_tree(mission, overrides.files.get(), report);
+  const Node root = layered_tree(mission.file, overrides.files.get(), mission.files, report);
   MissionReader(mission, report).read(root);
-  if (!root.is(Node::Kind::map)) report.throw_if_any();  // there is nothing to say of the rest
+  if (!root.is(Node::Kind::map)) report.throw_if_any();  // what follows from it is not worth telling
   if (overrides.io) {
     if (const auto io = io_of(*overrides.io))
       mission.io = *io;
@@ -523,6 +522,8 @@ MissionText parse_mission(const std::string& file, const Overrides& overrides, R
                  "unknown word '" + *overrides.io + "'." + choices_text(*overrides.io, io_words));
   }
   if (overrides.seed) mission.seed = *overrides.seed;
+  if (overrides.arm) mission.arm = *overrides.arm == "auto";
+  record_more(mission, overrides.record, report);
   mission.arm = mission.arm && mission.io == Io::sim;
   return mission;
 }

@@ -133,7 +133,9 @@ struct ParamReader {
                      report))
       return;
     const FilePtr file = files.read(node, path);
-    if (file) read_record(param, files.tree(file), "", file->path.filename().string(), value, report);
+    if (file)
+      read_record(param, files.tree(file), "", file->path.filename().string(), value, report,
+                  keys_beside_fields(param));
   }
 
   void blob(const Node& node) const {
@@ -148,6 +150,30 @@ struct ParamReader {
 };
 
 }  // namespace
+
+ParamPath param_path(const ComponentInfo& info, const std::string& name) {
+  if (const int whole = info.param(name); whole >= 0) return {whole, ""};
+  for (std::size_t dot = name.find('.'); dot != std::string::npos; dot = name.find('.', dot + 1)) {
+    const int param = info.param(name.substr(0, dot));
+    if (param >= 0 && nth(info.params, param).kind == FULMAR_RECORD) return {param, name.substr(dot + 1)};
+  }
+  return {};
+}
+
+void read_param_field(const ParamInfo& param, const std::string& field, const Node& node,
+                      const std::string& path, ParamValue& value, Report& report) {
+  value.data.resize(param.type->size);
+  fill_record_field(*param.type, field, node, value.data.data(), path, report);
+  if (value.integer == 0 && param.required) return;  // the rest of it is missing, and will be told
+  mark_given(*param.type, value.data.data());
+  if (value.integer == 0) value.text = node.file ? node.file->name : "";
+  value.integer = 1;
+}
+
+const std::vector<std::string>& keys_beside_fields(const ParamInfo& param) {
+  static const std::vector<std::string> none, airframe = {"params"};
+  return param.name == "airframe" ? airframe : none;
+}
 
 void read_record(const ParamInfo& param, const Node& map, const std::string& path, const std::string& name,
                  ParamValue& value, Report& report, const std::vector<std::string>& also) {

@@ -42,10 +42,24 @@ ParamValue initial_value(const ParamInfo& param);
 void read_param(const ParamInfo& param, const Node& node, const std::string& path, ParamValue& value,
                 FileStore& files, Report& report);
 
+/// A parameter, or a field of one that is a record: "airframe.mass" is the field "mass" of "airframe".
+struct ParamPath {
+  int param = -1;     // into the component's parameters; -1: there is none such
+  std::string field;  // "": the parameter as a whole
+};
+ParamPath param_path(const ComponentInfo& info, const std::string& name);
+
+/// Sets one field of a record parameter; the others stay.
+void read_param_field(const ParamInfo& param, const std::string& field, const Node& node,
+                      const std::string& path, ParamValue& value, Report& report);
+
 /// Sets a record parameter from a map that stands somewhere else: an airframe file, the mission's origin.
 /// `also`: keys that are not fields.
 void read_record(const ParamInfo& param, const Node& map, const std::string& path, const std::string& name,
                  ParamValue& value, Report& report, const std::vector<std::string>& also = {});
+
+/// Keys of a record's file that are not its fields: the parameters of an airframe.
+const std::vector<std::string>& keys_beside_fields(const ParamInfo& param);
 
 /// The value as people write it: "0.55 rad/rad", "takeoff", "[3, -4, 0] m/s", the name of a file.
 std::string value_text(const ParamInfo& param, const ParamValue& value);

@@ -54,11 +54,31 @@ class Filler {
       if (const auto [first, is_new] = seen.try_emplace(field, entry.key); !is_new)
         report_.add(entry.where(),
                     path + ": the same field as '" + first->second + "', which is given above");
-      const bool own_unit = !field->unit.empty(), exact = entry.key == field->name;
-      const UnitRule rule = own_unit ? (exact ? UnitRule::optional : UnitRule::required) : place.rule;
-      fill_field(*field, entry.value, data + field->offset,
-                 {path, own_unit ? field->unit : place.unit, rule});
+      fill_field(*field, entry.value, data + field->offset, place_of(*field, entry.key, path, place));
     }
+  }
+
+  /// `rest`: what is left of a path such as "waypoints[2].up"; its first step is a field of `type`.
+  void fill_path(const Type& type, const std::string& rest, const Node& node, std::byte* data,
+                 const RecordPlace& place) {
+    const std::size_t dot = rest.find('.');
+    const std::string step = rest.substr(0, dot), name = step.substr(0, step.find('['));
+    Node::Entry entry{name, node.line, {}};
+    entry.value.file = node.file;
+    const Field* const field = field_for(type, entry, place, {});
+    if (!field) return;
+    const std::string path = place.path.empty() ? step : place.path + "." + step;
+    const RecordPlace inside = place_of(*field, name, path, place);
+    std::byte* at = data + field->offset;
+    const bool indexed = step.size() > name.size();
+    if (indexed && !(at = item_at(*field, step.substr(name.size()), node, at, path))) return;
+    if (dot == std::string::npos)
+      return indexed ? fill_element(*field, node, at, inside) : fill_field(*field, node, at, inside);
+    if (field->kind != FULMAR_STRUCT || (field->shape != FULMAR_SCALAR && !indexed))
+      return fault(node, path,
+                   field->shape != FULMAR_SCALAR ? "is a list; name one of its items, as in " + path + "[0]"
+                                                 : std::string("has no parts"));
+    fill_path(*field->type, rest.substr(dot + 1), node, at, inside);
   }
 
   void fill_field(const Field& field, const Node& node, std::byte* at, const RecordPlace& place) {
@@ -78,6 +98,34 @@ class Filler {
   }
 
  private:
+  /// How a field is written under `key`: without its unit in the key, the value has one.
+  static RecordPlace place_of(const Field& field, const std::string& key, const std::string& path,
+                              const RecordPlace& outside) {
+    const bool own_unit = !field.unit.empty(), exact = key == field.name;
+    const UnitRule rule = own_unit ? (exact ? UnitRule::optional : UnitRule::required) : outside.rule;
+    return {path, own_unit ? field.unit : outside.unit, rule};
+  }
+
+  /// The item that "[2]" names of a list; null and a fault when it has none such.
+  std::byte* item_at(const Field& field, const std::string& index, const Node& node, std::byte* at,
+                     const std::string& path) {
+    std::uint32_t i = 0, n = field.shape == FULMAR_SCALAR ? 0 : field.count;
+    if (field.shape == FULMAR_LIST) std::memcpy(&n, at, sizeof n);
+    const auto [end, code] = std::from_chars(index.data() + 1, index.data() + index.size(), i);
+    if (code != std::errc{} || std::string_view(end, index.data() + index.size()) != "]")
+      fault(node, path, "'" + index + "' is no place in a list, as in [0]");
+    else if (field.shape == FULMAR_SCALAR)
+      fault(node, path, "'" + field.name + "' is no list");
+    else if (i >= n)
+      fault(node, path,
+            n == 0 ? "the list is empty"
+                   : "the list has " + std::to_string(n) + (n == 1 ? " item" : " items") +
+                         ", counted from [0] to [" + std::to_string(n - 1) + "]");
+    else
+      return (field.shape == FULMAR_LIST ? at + field.items : at) + i * field.stride;
+    return nullptr;
+  }
+
   static std::string size_words(const Field& field) {
     return (field.shape == FULMAR_LIST ? "at most " : "exactly ") + std::to_string(field.count);
   }
@@ -210,6 +258,11 @@ void fill_record(const Type& type, const Node& node, std::byte* data, const std:
                  const std::vector<std::string>& also) {
   if (node.is(Node::Kind::missing)) return;
   Filler(report).fill_struct(type, node, data, {path, "", UnitRule::optional}, also);
+}
+
+void fill_record_field(const Type& type, const std::string& field, const Node& node, std::byte* data,
+                       const std::string& path, Report& report) {
+  Filler(report).fill_path(type, field, node, data, {path, "", UnitRule::optional});
 }
 
 void mark_given(const Type& type, std::byte* data) {

@@ -18,6 +18,10 @@ namespace fulmar::core {
 void fill_record(const Type& type, const Node& node, std::byte* data, const std::string& path, Report& report,
                  const std::vector<std::string>& also = {});
 
+/// One field of the struct, at `field` = "aero.lift.alpha" or "waypoints[2].up"; lists keep their length.
+void fill_record_field(const Type& type, const std::string& field, const Node& node, std::byte* data,
+                       const std::string& path, Report& report);
+
 /// The field that a key names, exactly or without its unit suffix; nullptr when there is none or several.
 const Field* field_of_key(const Type& type, const std::string& key);
 

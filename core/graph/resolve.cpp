@@ -366,6 +366,7 @@ std::vector<std::string> tap_ports(const Graph& graph) {
 
 void check_record_rules(Draft& draft, const std::vector<std::string>& ports) {
   for (std::size_t i = 0; i < draft.text.record_rules.size(); ++i) {
+    if (draft.text.record_rules[i].ports.empty()) continue;
     const std::string& pattern = draft.text.record_rules[i].ports[0];
     if (pattern.size() < 200 && std::count(pattern.begin(), pattern.end(), '*') < 5 &&
         std::any_of(ports.begin(), ports.end(),
@@ -448,6 +449,7 @@ Graph load_mission(const std::string& file, const Overrides& overrides, Catalogu
   for (const auto& [role, component] : overrides.roles) report.opened("--role " + role + "=" + component);
   for (const auto& [name, with] : overrides.with) report.opened("--with " + name + "=" + with);
   for (const auto& [name, value] : overrides.set) report.opened("--set " + name + "=" + value);
+  for (const std::string& ports : overrides.record) report.opened("--record " + ports);
   const MissionText text = parse_mission(file, overrides, report);
   catalogue.admit = [trust = Trust(text, report), &overrides](const fs::path& plugin) {
     return overrides.files ? admit_again(plugin, overrides) : trust.check(plugin);

@@ -11,8 +11,6 @@
 namespace fulmar::core {
 namespace {
 
-const std::vector<std::string> airframe_extras = {"params"};
-
 /// The mission's airframe as a tree: a file, or a map in the mission itself.
 struct AirframeSource {
   const Node* tree = nullptr;
@@ -34,19 +32,28 @@ AirframeSource airframe_source(Draft& draft) {
   return {};
 }
 
+/// A field of a record is set after the records, wherever it stands: a whole one would take it away again.
 void set_params(Draft& draft, Candidate& candidate, const Node& map, const std::string& path) {
   const ComponentInfo& info = candidate.info();
+  std::vector<std::pair<const Node::Entry*, ParamPath>> fields;
   for (const Node::Entry& entry : map.entries) {
-    const int i = info.param(entry.key);
-    if (i < 0)
+    const ParamPath at = param_path(info, entry.key);
+    if (at.param < 0)
       draft.report.add(entry.where(),
                        no_such(path + ": " + candidate.use + " has no parameter", entry.key, info.params));
     else if (info.vehicle && (entry.key == "rate" || entry.key == "epoch"))
       draft.report.add(entry.where(), path + "." + entry.key + ": comes from the mission's '" + entry.key +
                                           "'; set it there");
+    else if (!at.field.empty())
+      fields.emplace_back(&entry, at);
     else
-      read_param(nth(info.params, i), entry.value, path + "." + entry.key, nth(candidate.params, i),
-                 draft.files, draft.report);
+      read_param(nth(info.params, at.param), entry.value, path + "." + entry.key,
+                 nth(candidate.params, at.param), draft.files, draft.report);
+  }
+  for (const auto& [entry, at] : fields) {
+    const ParamInfo& param = nth(info.params, at.param);
+    read_param_field(param, at.field, entry->value, path + "." + param.name, nth(candidate.params, at.param),
+                     draft.report);
   }
 }
 
@@ -80,7 +87,8 @@ void set_from_mission(Draft& draft, Candidate& candidate, const AirframeSource& 
     const ParamInfo& param = info.params[i];
     ParamValue& value = candidate.params[i];
     if (param.kind == FULMAR_RECORD && param.name == "airframe" && airframe.tree)
-      read_record(param, *airframe.tree, airframe.path, airframe.name, value, draft.report, airframe_extras);
+      read_record(param, *airframe.tree, airframe.path, airframe.name, value, draft.report,
+                  keys_beside_fields(param));
     if (param.kind == FULMAR_RECORD && param.name == "origin" && draft.text.origin.is(Node::Kind::map))
       read_record(param, draft.text.origin, "origin", draft.text.origin.file->name, value, draft.report);
     if (param.kind != FULMAR_NUMBER || !info.vehicle) continue;

@@ -246,6 +246,8 @@ Node merged(const Node& base, const Node& top, int depth) {
                                  [&](const Node::Entry& e) { return e.key == entry.key; });
     if (it == node.entries.end()) {
       node.entries.push_back(entry);
+    } else if (entry.value.is(Node::Kind::null)) {
+      node.entries.erase(it);
     } else {
       Node both = merged(it->value, entry.value, depth - 1);
       *it = Node::Entry{entry.key, entry.line, std::move(both)};

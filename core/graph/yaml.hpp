@@ -80,8 +80,8 @@ FilePtr make_source(const std::string& text, const std::string& name);
 /// Parses a file. Broken YAML and duplicate keys go to the report; broken YAML gives a missing node.
 Node parse_yaml(const FilePtr& file, Report& report);
 
-/// `top` laid over `base`: maps merge key by key down to `depth` levels, anything else is replaced. What
-/// `base` has comes first.
+/// `top` laid over `base`: maps merge key by key down to `depth` levels, anything else is replaced; a null
+/// takes away what `base` has. What `base` has comes first.
 Node merged(const Node& base, const Node& top, int depth);
 
 /// A word of the file with its place: a port, a field, a condition.

@@ -86,6 +86,8 @@ void Recording::read_overrides() {
   for (const auto& [key, value] : metadata->pairs) {
     std::uint64_t seed = 0;
     if (key == "io") overrides_.io = value;
+    if (key == "arm") overrides_.arm = value;
+    if (key == "record") overrides_.record.push_back(value);
     if (key == "seed" && std::from_chars(value.data(), value.data() + value.size(), seed).ec == std::errc{})
       overrides_.seed = seed;
     if (key.starts_with("role ")) overrides_.roles.emplace_back(key.substr(5), value);

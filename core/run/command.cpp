@@ -91,6 +91,8 @@ std::size_t CommandTable::component(const std::string& name) const {
 
 std::size_t CommandTable::param(std::size_t component, const std::string& name) const {
   const Party& party = parties_[component];
+  if (const ParamPath at = param_path(*party.info, name); !at.field.empty())
+    check_live(party.name, nth(party.info->params, at.param));
   return static_cast<std::size_t>(
       require_named(party.info->params, name, "'" + party.name + "' has no parameter"));
 }

@@ -76,13 +76,14 @@ void Recorder::add_channels(ChannelList& list, Unit& unit) {
 std::int64_t Recorder::record_period(const std::string& port, const Slot& slot) const {
   const Component& component = *slot.owner->component;
   if (component.info().vehicle || component.run == RunMode::driver) return 0;  // a replay needs all of it
+  const std::int64_t usual = slot.port->kind == FULMAR_OUT_QUEUE ? 0 : default_period_ns;
   for (const RecordRule& rule : state_.graph.record_rules) {
-    if (rule.ports.empty()) return rule.period_ns;
+    if (rule.ports.empty()) return rule.period_ns == RecordRule::usual ? usual : rule.period_ns;
     for (const std::string& pattern : rule.ports)
       if (port_matches(port, pattern)) return rule.period_ns;
   }
   if (!state_.graph.record_rules.empty()) return -1;
-  return slot.port->kind == FULMAR_OUT_QUEUE ? 0 : default_period_ns;
+  return usual;
 }
 
 void Recorder::open_log(const Units& units) {
@@ -157,9 +158,11 @@ using Pairs = std::vector<std::pair<std::string, std::string>>;
 Pairs overrides_text(const Overrides& o) {
   Pairs pairs;
   if (o.io) pairs.emplace_back("io", *o.io);
+  if (o.arm) pairs.emplace_back("arm", *o.arm);
   if (o.seed) pairs.emplace_back("seed", std::to_string(*o.seed));
   for (const auto& [role, component] : o.roles) pairs.emplace_back("role " + role, component);
   for (const auto& [param, value] : o.set) pairs.emplace_back("set " + param, value);
+  for (const std::string& ports : o.record) pairs.emplace_back("record", ports);
   return pairs;
 }
 

@@ -21,6 +21,7 @@ struct PlanFile {
   double airspeed_mps = 15;
   double turn_radius_m = 50;
   List<PlanFileWaypoint, 1024> waypoints;
+  bool given = false;  // false: no plan at all
 };
 
 }  // namespace fulmar::path

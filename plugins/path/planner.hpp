@@ -86,6 +86,9 @@ inline Waypoint waypoint_of(const PlanFileWaypoint& f, std::size_t number) {
 }  // namespace detail
 
 inline void Planner::configure(const Params& p) {
+  if (p.plan->given && p.plan->waypoints.size() == 0)
+    throw std::runtime_error(
+        "the plan has no waypoints; to change one thing in a plan, name it, as in plan.turn_radius");
   auto plan = std::make_unique<Plan>();
   plan->revision = plan_.revision;
   plan->jumps = plan_.jumps + 1;

@@ -44,6 +44,8 @@ class Aircraft {
     Param settle{5, "s", 0, 3600, "standing still before the first armed tick", setup};
     Param epoch{1767225600, "s", 0, 4102444800, "UTC of flight time 0, since 1970; 2026-01-01", setup};
     Vector<Ned> wind_ned{{0, 0, 0}, "m/s", -50, 50, "steady velocity of the air"};
+    Param wind_speed{-1, "m/s", -1, 50, "steady and level, in place of wind_ned; below 0: wind_ned counts"};
+    Param wind_from{0, "rad", -6.3, 6.3, "where wind_speed comes from: from north, clockwise"};
     Choice<Turbulence> turbulence{Turbulence::none, "Dryden model at 50 m", setup};
     Choice<SensorSet> sensors{SensorSet::rosflight, "errors of the sensors", setup};
     Param truth_rate{50, "Hz", 1, 2000, "of the truth", setup};
@@ -81,9 +83,26 @@ class Aircraft {
 
   explicit Aircraft(std::uint64_t seed) : seed_(seed) {}
 
+  /// Why this is no aircraft that flies: a map of some fields leaves the rest at nothing. Null when it is
+  /// one.
+  static const char* missing_part(const Airframe& a) {
+    const Propulsion& p = a.propulsion;
+    if (!(a.aero.lift.alpha_ratio > 0)) return "the airframe has no lift: aero.lift.alpha is missing";
+    if (p.ct0_ratio == 0 && p.ct1_ratio == 0 && p.ct2_ratio == 0)
+      return "the airframe has no thrust: propulsion.ct0 is missing";
+    return nullptr;
+  }
+
+  /// Velocity of the air, NED, m/s: a wind from the west blows to the east.
+  static Eigen::Vector3d steady_wind(const Params& p) {
+    if (p.wind_speed < 0) return eigen(p.wind_ned.value);
+    return -p.wind_speed * Eigen::Vector3d(std::cos(p.wind_from), std::sin(p.wind_from), 0);
+  }
+
   void configure(const Params& p) {
     origin_ = p.origin.given() ? *p.origin : Origin{40.2463724, -111.6474138, 1387, true};
     airframe_ = *p.airframe;
+    if (const char* missing = missing_part(airframe_)) throw std::runtime_error(missing);
     period_ns_ = std::llround(1e9 / p.rate);
     now_ns_ = -std::llround(p.settle * 1e9 / static_cast<double>(period_ns_)) * period_ns_;
     epoch_ns_ = std::llround(p.epoch) * 1000000000;
@@ -91,8 +110,7 @@ class Aircraft {
     command_ = {};
     actuation_ = Actuation({p.mux_rate, p.pwm_resolution, p.link_latency}, airframe_, now_ns_);
     status_ = {};
-    plant_.emplace(airframe_, Weather{eigen(p.wind_ned.value), p.turbulence}, origin_.alt_msl_m,
-                   mix_seed(seed_, 10));
+    plant_.emplace(airframe_, Weather{steady_wind(p), p.turbulence}, origin_.alt_msl_m, mix_seed(seed_, 10));
     place(p);
     const LocalFrame frame(origin_.lat_deg, origin_.lon_deg, origin_.alt_msl_m);
     const Eigen::Vector3d field_n =
@@ -112,7 +130,7 @@ class Aircraft {
     truth_due_ = Due(p.truth_rate, first_ns);
   }
 
-  void retune(const Params& p) { plant_->set_wind(eigen(p.wind_ned.value)); }
+  void retune(const Params& p) { plant_->set_wind(steady_wind(p)); }
 
   Status read(Tick& tick, const Params& p, Outputs& out) {
     now_ns_ += period_ns_;

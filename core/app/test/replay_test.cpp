@@ -88,7 +88,9 @@ TEST_CASE("a flight is flown again from its log alone, to the same file") {
       << "components: {sim: {params: {sensors: rosflight, turbulence: light}}, plan: {params: {plan: "
       << FULMAR_SOURCE_DIR "/configs/plans/hourglass.yaml}}}\n";
   CHECK(run_fulmar("run " + mission.string() +
-                   " --duration 10 --seed 3 --set \"slc.roll_limit=30 deg\" --log " + log.string())
+                   " --duration 10 --seed 3 --set \"slc.roll_limit=30 deg\" --set \"sim.airframe.mass=5 kg\""
+                   " --record nav.state@200Hz --record outer.* --log " +
+                   log.string())
             .first == 0);
   fs::remove(mission);
   const auto [code, out] = run_fulmar("replay " + log.string() + " --json --log " + again.string());
@@ -101,6 +103,12 @@ TEST_CASE("a flight is flown again from its log alone, to the same file") {
   CHECK(j.at("notes").empty());
   CHECK(contents(log) == contents(again));
   CHECK(contents(log).size() > 100'000);
+}
+
+TEST_CASE("a flight that nobody armed is flown again so") {
+  const fs::path log = fresh("unarmed.mcap");
+  CHECK(run_fulmar("run " + hourglass + " --arm off --duration 2 --log " + log.string()).first == 0);
+  CHECK(replay_of(log).equal());
 }
 
 TEST_CASE("another parameter is an experiment: the figures of both are told, and where they part") {

@@ -339,13 +339,6 @@ TEST_CASE(
         "hourglass.yaml:6: components.sim.params.turbulence: unknown word 'nne'. Did you mean 'none'? Valid: "
         "none, light, moderate.\n"
         "base/common.yaml:21: components.sim.params.wind_ned.down: 'm' is not a number");
-  mission.folder.write("base/common.yaml", "extends: x.yaml\n");
-  CHECK(mission.faults().find(
-            "base/common.yaml:1: extends: a file that is extended cannot extend another one") !=
-        std::string::npos);
-  mission.replace("base/common.yaml", "base/comon.yaml");
-  CHECK(mission.faults().find("hourglass.yaml:2: extends: there is no file base/comon.yaml") !=
-        std::string::npos);
 }
 
 TEST_CASE("two files of one name are both kept, and equal files once") {

@@ -229,6 +229,8 @@ TEST_CASE("a file that is wrong is refused with a sentence that names the waypoi
   CHECK(fault([](PlanFile& f) { f.waypoints[0] = {}; }).find("waypoint 1") != std::string::npos);
   CHECK(fault([](PlanFile& f) { f.airspeed_mps = 0; }).find("airspeed") != std::string::npos);
   CHECK(fault([](PlanFile& f) { f.turn_radius_m = 0; }).find("turn_radius") != std::string::npos);
+  CHECK(fault([](PlanFile& f) { f.waypoints.count = 0, f.given = true; }).find("the plan has no waypoints") !=
+        std::string::npos);  // {turn_radius: 80 m} alone
   CHECK(fault([](PlanFile& f) { f.waypoints[0].airspeed_mps = -3; }).find("airspeed") != std::string::npos);
 }
 

@@ -4,6 +4,8 @@
 
 #include <doctest/doctest.h>
 
+#include <numbers>
+
 #include "fly.hpp"
 #include "fulmar/testing.hpp"
 #include "plugins/sim_aero/truth_state.hpp"
@@ -206,6 +208,42 @@ TEST_CASE("a start in the air is carried along its steady flight and passes the 
   CHECK(b->component().plant().air_velocity_b().norm() == Approx(17));
   while (b->tick.now_ns < 3000000000) pass(*b, &cruise);
   CHECK(-b->component().plant().state().p_n.z() == Approx(70).epsilon(0.01));
+}
+
+TEST_CASE("a wind is a velocity, or a speed and where it comes from") {
+  const auto wind = [](double speed, double from, double north = 0, double east = 0) {
+    Aircraft::Params p;
+    p.wind_speed.value = speed, p.wind_from.value = from;
+    p.wind_ned.value = {north, east, 0};
+    return Aircraft::steady_wind(p);
+  };
+  CHECK(wind(-1, 2, 3, -4) == Eigen::Vector3d(3, -4, 0));  // no speed: the velocity counts
+  CHECK((wind(8, 270 * std::numbers::pi / 180) - Eigen::Vector3d(0, 8, 0)).norm() < 1e-9);  // a west wind
+  CHECK((wind(8, 0, 3, -4) - Eigen::Vector3d(-8, 0, 0)).norm() < 1e-9);                     // in its place
+  CHECK(wind(0, 1, 3, -4).norm() == 0);                                                     // a calm
+}
+
+TEST_CASE("what a wind of a given speed does in flight can be changed there") {
+  auto b = bench(70, SensorSet::perfect);
+  b->params.wind_speed.value = 5;
+  b->params.wind_from.value = std::numbers::pi / 2;
+  arm(*b);
+  pass(*b, &cruise);
+  CHECK((b->component().plant().wind_n() - Eigen::Vector3d(0, -5, 0)).norm() < 1e-9);
+  b->params.wind_speed.value = 7;
+  b->component().retune(b->params);
+  CHECK((b->component().plant().wind_n() - Eigen::Vector3d(0, -7, 0)).norm() < 1e-9);
+}
+
+TEST_CASE("an airframe without lift or thrust is refused: some of its fields are no aircraft") {
+  const auto fault = [](auto&& change) {
+    auto b = bench(0);
+    change(b->params.airframe.value);
+    CHECK(b->configure() == Status::failed);
+    return std::string(b->error());
+  };
+  CHECK(fault([](Airframe& a) { a = Airframe{}, a.mass_kg = 5; }).find("has no lift") != std::string::npos);
+  CHECK(fault([](Airframe& a) { a.propulsion = {}; }).find("has no thrust") != std::string::npos);
 }
 
 TEST_CASE("an airspeed that the aircraft cannot fly is refused with a sentence") {

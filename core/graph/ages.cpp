@@ -16,7 +16,8 @@ std::vector<int> writers_of(const Graph& graph, const Wire& wire) {
   return {};
 }
 
-/// Per component: whether what it publishes can move the aircraft.
+}  // namespace
+
 std::vector<bool> chain_to_vehicle(const Graph& graph) {
   std::vector<bool> in_chain(graph.components.size(), false);
   std::vector<int> todo;
@@ -33,6 +34,8 @@ std::vector<bool> chain_to_vehicle(const Graph& graph) {
   }
   return in_chain;
 }
+
+namespace {
 
 bool from_vehicle(const Graph& graph, const Wire& wire) {
   const std::vector<int> writers = writers_of(graph, wire);

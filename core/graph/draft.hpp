@@ -71,6 +71,11 @@ void order_steps(Draft& draft);
 
 // ages.cpp: of the built graph
 void guard_wires(Draft& draft);
+/// Per component: whether what it publishes can move the aircraft.
+std::vector<bool> chain_to_vehicle(const Graph& graph);
+
+// bypassed.cpp: of the built graph
+void tell_bypassed(Draft& draft);
 
 // tap_sections.cpp
 void mark_imports(Draft& draft);

@@ -416,6 +416,7 @@ void resolve(Draft& draft, Catalogue& catalogue) {
   compile_phases(draft);
   order_steps(draft);
   guard_wires(draft);
+  tell_bypassed(draft);
   read_failsafe(draft);
   read_vehicle_flags(draft);
   read_control(draft);

@@ -161,8 +161,24 @@ TEST_CASE("a path into a list counts its items from 0") {
         std::string::npos);
   CHECK(mission.faults(set("plan.plan.waypoints[x].airspeed", "9 m/s")).find("'[x]' is no place in a list") !=
         std::string::npos);
-  CHECK(mission.faults(set("plan.plan.waypoints.airspeed", "9 m/s")).find("is a list; name one of its items") !=
-        std::string::npos);
+  CHECK(
+      mission.faults(set("plan.plan.waypoints.airspeed", "9 m/s")).find("is a list; name one of its items") !=
+      std::string::npos);
+}
+
+TEST_CASE("who goes on listening to a manager that was replaced is warned of") {
+  Layered mission(
+      "extends: ground.yaml\nroles: {guide: {in: {path: mine_too.path}}}\ncomponents:\n"
+      "  mine_too: {use: path/Manager, in: {state: nav.state, plan: plan.plan}}\n");
+  const std::string why = "manage, which does not steer: follow.path comes from mine_too.path";
+  CHECK(mission.load().warnings == std::vector<std::string>{"ground.yaml:32: score.path comes from " + why,
+                                                            "ground.yaml:8: done looks at " + why,
+                                                            "ground.yaml:9: progress shows " + why});
+  mission.text +=
+      "  score: {in: {path: mine_too.path}}\ndone: \"mine_too.progress.circuits >= 2\"\nprogress: null\n";
+  CHECK(mission.load().warnings.empty());  // the former one flies along, and nobody listens
+  Mission usual;
+  CHECK(usual.load().warnings.empty());
 }
 
 TEST_CASE("a field alone is no record: what was never given stays missing") {

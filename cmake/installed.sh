@@ -18,11 +18,11 @@ exports_entry_alone() {
   [ "$symbols" = fulmar_plugin_entry ] || fail "$1 exports: $symbols"
 }
 
-# project PREFIX NAME ROLE FLIGHT [option...]: new, build, test, fly (FLIGHT: options of run); no guard may fire
+# project PREFIX NAME FLIGHT WORDS...: new NAME WORDS, build, test, fly (FLIGHT: options of run); no guard may fire
 project() {
-  local prefix=$1 name=$2 role=$3 flight=$4
-  shift 4
-  quietly "$prefix/bin/fulmar" new "$name" --role "$role" "$@"
+  local prefix=$1 name=$2 flight=$3
+  shift 3
+  quietly "$prefix/bin/fulmar" new "$name" "$@"
   (
     cd "$name"
     quietly cmake --preset default -DCMAKE_CXX_FLAGS=-Werror
@@ -34,7 +34,7 @@ project() {
     grep -q '"result": "flown"' result.json || fail "$name: $(grep '"result"' result.json)"
     grep -q '"guards": \[\]' result.json || { cat result.json; fail "$name: a guard fired"; }
   )
-  echo "  $role: written, built, tested, flown"
+  echo "  $*: written, built, tested, flown"
 }
 
 # A mission with roles and messages that no template knows.
@@ -100,9 +100,13 @@ systemd_unit() {
 usable() {
   local prefix=$1
   own_roles "$prefix"
-  project "$prefix" my_outer outer ""
-  for role in vehicle nav guide inner; do project "$prefix" "my_$role" "$role" "--duration 60"; done
-  project "$prefix" my_judge judge "--duration 60" --mission own.yaml
+  project "$prefix" my_outer "" --role outer
+  for role in vehicle nav guide inner; do project "$prefix" "my_$role" "--duration 60" --role "$role"; done
+  project "$prefix" my_judge "--duration 60" --role judge --mission own.yaml
+  project "$prefix" my_cascade "--duration 120" --role outer --role inner
+  project "$prefix" my_part "--duration 60" --in state=nav.state --in "notices=vehicle.notices[]" --out range=Range --out "edits=PlanEdit[]"
+  project "$prefix" my_sensor "--duration 60" --template sensor
+  project "$prefix" my_planner "" --template planner
   by_pkg_config "$prefix"
   in_debugger "$prefix" my_outer
   systemd_unit "$prefix"

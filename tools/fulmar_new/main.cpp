@@ -11,10 +11,15 @@ int main(int argc, char** argv) {
   CLI::App app{"The words of new projects.", "fulmar"};
   app.require_subcommand(1);
   NewOptions options;
-  CLI::App* command =
-      app.add_subcommand("new", "write the project of a plugin that fills a role of a mission");
+  CLI::App* command = app.add_subcommand("new", "write the project of a plugin for a mission");
   command->add_option("NAME", options.name, "of the plugin: letters, digits and _")->required();
-  command->add_option("--role", options.role, "that it fills, as in outer")->required();
+  const auto each = [&](const char* name, std::vector<std::string>& to, const char* words) {
+    command->add_option(name, to, words)->allow_extra_args(false);
+  };
+  each("--role", options.roles, "that it fills, as in outer; several: it fills all of them at once");
+  command->add_option("--template", options.from_template, "without a role: sensor or planner");
+  each("--in", options.in, "without a role: an input, as in state=nav.state; gnss=vehicle.gnss[] is a queue");
+  each("--out", options.out, "without a role: an output, as in range=Range; edits=PlanEdit[] is a queue");
   command->add_option("--mission", options.mission, "whose role it fills; default the shipped hourglass");
   command->add_option("--dir", options.folder, "folder to write; default ./NAME");
   command->footer("Example: fulmar new my_law --role outer");

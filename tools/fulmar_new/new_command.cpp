@@ -5,9 +5,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 #include "core/error.hpp"
+#include "tools/fulmar_new/new_beside.hpp"
 #include "tools/fulmar_new/new_contract.hpp"
 #include "tools/fulmar_new/new_mission.hpp"
 #include "tools/fulmar_new/new_places.hpp"
@@ -119,12 +121,6 @@ bool fits(const std::string& source, const Contract& contract) {
          });
 }
 
-std::string without_ports_lines(std::string source) {
-  for (std::size_t at = 0; (at = source.find("// ports ")) != std::string::npos;)
-    source.erase(at, source.find('\n', at) + 1 - at);
-  return source;
-}
-
 std::string contract_table(const Contract& contract) {
   std::string text = "| port | message | wired |\n|---|---|---|\n";
   for (const ContractInput& input : contract.inputs)
@@ -141,48 +137,72 @@ struct Project {
   std::vector<std::pair<std::string, std::string>> files;  // name -> text
 };
 
+using Words = std::vector<std::pair<std::string, std::string>>;
+
+/// The SDK's template for what is asked, if it has one: header and test.
+std::optional<NewSource> template_source(const NewOptions& options, const Places& places,
+                                         const Contract& contract, const Words& names) {
+  fs::path file;
+  if (!options.from_template.empty())
+    file = places.templates / "beside" / options.from_template;
+  else if (contract.roles.size() == 1)
+    file = places.templates / "roles" / contract.roles[0].name;
+  std::error_code code;
+  const std::string header = file.string() + ".hpp";
+  if (file.empty() || !fs::is_regular_file(header, code)) return {};
+  if (options.from_template.empty() && !fits(read_text(header), contract)) return {};
+  return NewSource{replaced(without_template_lines(read_text(header)), names),
+                   replaced(read_text(file.string() + "_test.cpp"), names)};
+}
+
+/// One sentence each: what it is in the mission, and when it flies.
+std::string what_text(const Contract& contract) {
+  if (contract.roles.empty()) return "stands beside the roles of";
+  return std::string("fills the role") + (contract.roles.size() > 1 ? "s " : " ") + "`" +
+         contract.role_words() + "` of";
+}
+std::string flies_text(const Contract& contract, const char* quote) {
+  const auto quoted = [&](const std::string& word) { return quote + word + quote; };
+  if (contract.roles.empty()) return "It is stepped from the start, and what it says is logged.";
+  if (contract.vehicle())
+    return "It flies from the start, in place of " + quoted(contract.shipped_words()) + ".";
+  return "It flies in the phase " + quoted(contract.phase) + "; " + quoted(contract.shipped_words()) +
+         (*quote ? ", which flew there before," : "") +
+         (contract.roles.size() > 1 ? " take over if it fails." : " takes over if it fails.");
+}
+
 Project make_project(const NewOptions& options, const Places& places, const MissionView& mission,
                      const Contract& contract) {
   const std::string type = type_name(options.name, places.include);
-  const std::vector<std::pair<std::string, std::string>> names{{"my_law", options.name}, {"MyLaw", type}};
-  const fs::path role_template = places.templates / "roles" / (contract.role + ".hpp");
+  const Words names{{"my_law", options.name}, {"MyLaw", type}};
   NewComponent component{options.name, {}};
-  NewSource source;
-  std::error_code code;
-  if (fs::is_regular_file(role_template, code) && fits(read_text(role_template), contract)) {
-    source.header = replaced(without_ports_lines(read_text(role_template)), names);
-    source.test = replaced(read_text(places.templates / "roles" / (contract.role + "_test.cpp")), names);
-  } else {
+  std::optional<NewSource> source = template_source(options, places, contract, names);
+  if (!source) {
     source = write_source(contract, options.name, type, places.include);
     for (const ContractOutput& output : contract.outputs)
-      if (!contract.vehicle() && !output.optional) component.references.push_back(output.name);
+      if (!contract.vehicle() && !contract.roles.empty() && !output.optional)
+        component.references.push_back(output.name);
   }
   const bool system = places.prefix == "/usr" || places.prefix == "/usr/local";
-  const std::string flies =
-      contract.vehicle() ? "It flies from the start, in place of `" + contract.shipped_text->name + "`."
-                         : "It flies in the phase `" + contract.phase + "`; `" + contract.shipped_text->name +
-                               "`, which flew there before, takes over if it fails.";
-  std::vector<std::pair<std::string, std::string>> words = names;
-  for (const auto& [from, to] :
-       std::vector<std::pair<std::string, std::string>>{{"@role@", contract.role},
-                                                        {"@mission@", contract.mission},
-                                                        {"@prefix@", system ? "" : places.prefix.string()},
-                                                        {"@program@", program_word()},
-                                                        {"@flies@", flies},
-                                                        {"@contract@", contract_table(contract)}})
+  Words words = names;
+  for (const auto& [from, to] : Words{{"@what@", what_text(contract)},
+                                      {"@mission@", contract.mission},
+                                      {"@prefix@", system ? "" : places.prefix.string()},
+                                      {"@program@", program_word()},
+                                      {"@flies@", flies_text(contract, "`")},
+                                      {"@contract@", contract_table(contract)}})
     words.emplace_back(from, to);
 
   Project project{options.folder.empty() ? fs::path(options.name) : fs::path(options.folder), {}};
-  project.files = {{options.name + ".hpp", source.header},
-                   {options.name + "_test.cpp", source.test},
+  project.files = {{options.name + ".hpp", source->header},
+                   {options.name + "_test.cpp", source->test},
                    {"mission.yaml", write_mission(mission, contract, component)}};
-  for (const auto& [from, to] :
-       std::vector<std::pair<std::string, std::string>>{{"my_law.cpp", options.name + ".cpp"},
-                                                        {"CMakeLists.txt", "CMakeLists.txt"},
-                                                        {"CMakePresets.json", "CMakePresets.json"},
-                                                        {"README.md", "README.md"},
-                                                        {"clang-format", ".clang-format"},
-                                                        {"gitignore", ".gitignore"}})
+  for (const auto& [from, to] : Words{{"my_law.cpp", options.name + ".cpp"},
+                                      {"CMakeLists.txt", "CMakeLists.txt"},
+                                      {"CMakePresets.json", "CMakePresets.json"},
+                                      {"README.md", "README.md"},
+                                      {"clang-format", ".clang-format"},
+                                      {"gitignore", ".gitignore"}})
     project.files.emplace_back(to, replaced(read_text(places.templates / from), words));
   return project;
 }
@@ -200,24 +220,54 @@ void write_project(const Project& project) {
 }
 
 void tell(const Project& project, const Contract& contract, const std::string& name) {
-  std::printf("%s: a component for the role %s of the mission %s, written to %s\n", name.c_str(),
-              contract.role.c_str(), contract.mission.c_str(), project.folder.string().c_str());
+  std::string what = "beside the roles";
+  if (!contract.roles.empty())
+    what = std::string("for the role") + (contract.roles.size() > 1 ? "s " : " ") + contract.role_words();
+  std::printf("%s: a component %s of the mission %s, written to %s\n", name.c_str(), what.c_str(),
+              contract.mission.c_str(), project.folder.string().c_str());
   for (const ContractInput& input : contract.inputs)
     std::printf("  in   %-12s %-18s %s\n", input.name.c_str(), input.type->name.c_str(),
                 input.from.owner.empty() ? "from the host" : ("from " + input.from.text()).c_str());
-  for (const ContractOutput& output : contract.outputs)
+  for (const ContractOutput& output : contract.outputs) {
+    const ContractFeed* feed = nullptr;
+    for (const ContractFeed& known : contract.feeds)
+      if (known.output == output.name) feed = &known;
     std::printf("  out  %-12s %-18s%s\n", output.name.c_str(), output.type_name.c_str(),
-                output.optional ? " optional" : "");
-  if (contract.vehicle())
-    std::printf("It flies from the start, in place of %s.\n", contract.shipped_text->name.c_str());
-  else
-    std::printf("It flies in the phase %s; %s takes over if it fails.\n", contract.phase.c_str(),
-                contract.shipped_text->name.c_str());
+                output.optional ? " optional"
+                : feed          ? (" to " + feed->to.text()).c_str()
+                                : "");
+  }
+  std::printf("%s\n", flies_text(contract, "").c_str());
   std::printf(
       "Next:\n  cd %s && cmake --preset default && cmake --build build\n  ctest --test-dir build "
       "--output-on-failure\n  %s run "
       "mission.yaml\n",
       shell_word(project.folder.string()).c_str(), program_word().c_str());
+}
+
+/// The contract of what is asked for: of roles, of a template, or of ports.
+Contract asked_contract(const NewOptions& options, const Places& places, const MissionView& mission) {
+  if (!options.roles.empty()) {
+    if (!options.from_template.empty() || !options.in.empty() || !options.out.empty())
+      throw Error("--role says all ports: --in, --out and --template are of a component without a role");
+    return read_contract(mission, options.roles);
+  }
+  if (options.from_template.empty()) {
+    if (options.in.empty() && options.out.empty())
+      throw Error(
+          "say what it is: --role ROLE, --template sensor, --template planner, or its ports, as in --in "
+          "state=nav.state --out range=Range");
+    return ports_contract(mission, options.in, options.out);
+  }
+  if (!options.out.empty()) throw Error("--out: a template has its own outputs; change them in the source");
+  const fs::path file = places.templates / "beside" / (options.from_template + ".hpp");
+  std::error_code code;
+  if (!fs::is_regular_file(file, code))
+    throw Error("--template " + options.from_template + ": there is none of that name." +
+                choices_text(options.from_template, {"planner", "sensor"}));
+  const std::string type = type_name(options.name, places.include);
+  return template_contract(mission, options.from_template, replaced(read_text(file), {{"MyLaw", type}}),
+                           options.in);
 }
 
 }  // namespace
@@ -226,7 +276,7 @@ int new_command(const NewOptions& options) {
   check_name(options.name);
   const Places places = find_places(this_program());
   const MissionView mission = view_mission(mission_file(options, places));
-  const Contract contract = read_contract(mission, options.role);
+  const Contract contract = asked_contract(options, places, mission);
   check_free(mission, options.name);
   const Project project = make_project(options, places, mission, contract);
   write_project(project);

@@ -3,29 +3,26 @@
 
 #include <algorithm>
 
+#include "core/types/named.hpp"
+
 namespace fulmar::core {
 namespace fs = std::filesystem;
 namespace {
 
-/// What a port carries, as its writer has it.
-TypePtr sent_type(const Graph& graph, const PortName& from) {
-  for (const Role& role : graph.roles)
-    if (role.name == from.owner)
-      for (const RolePort& port : role.outputs)
-        if (port.name == from.port) return port.type;
-  for (const Component& component : graph.components)
-    if (component.name == from.owner) {
-      const int output = component.info().output(from.port);
-      if (output >= 0) return component.info().outputs[static_cast<std::size_t>(output)].type;
-    }
-  return nullptr;
-}
-
-void read_inputs(const MissionView& mission, const RoleText& role, Contract& contract) {
+void read_inputs(const MissionView& mission, const RoleText& role, const ContractRole& filled,
+                 Contract& contract) {
+  const ComponentInfo& shipped = filled.shipped;
   for (const WireText& wire : role.in) {
-    ContractInput input{wire.name, wire.from, sent_type(mission.graph, wire.from), FULMAR_IN_VALUE, false};
-    if (const int i = contract.shipped.input(wire.name); i >= 0) {
-      const Port& port = contract.shipped.inputs[static_cast<std::size_t>(i)];
+    if (find_named(contract.roles, wire.from.owner)) continue;  // its own output
+    if (const ContractInput* same = find_named(contract.inputs, wire.name)) {
+      if (same->from.text() == wire.from.text()) continue;
+      throw Error(wire.where.text() + ": roles." + role.name + ".in." + wire.name + " is " +
+                  wire.from.text() + ", and another of its roles has it from " + same->from.text() +
+                  ": these roles cannot be filled by one new component");
+    }
+    ContractInput input{wire.name, wire.from, sent_by(mission.graph, wire.from).type, FULMAR_IN_VALUE, false};
+    if (const int i = shipped.input(wire.name); i >= 0) {
+      const Port& port = shipped.inputs[static_cast<std::size_t>(i)];
       input.kind = port.kind;
       input.optional = port.optional;
       if (!input.type) input.type = port.type;
@@ -36,20 +33,25 @@ void read_inputs(const MissionView& mission, const RoleText& role, Contract& con
     contract.inputs.push_back(std::move(input));
   }
   if (!contract.vehicle()) return;
-  for (const Port& port : contract.shipped.inputs)  // requests of a vehicle, such as arm, come from the host
+  for (const Port& port : shipped.inputs)  // requests of a vehicle, such as arm, come from the host
     if (port.kind == FULMAR_IN_REQUEST)
       contract.inputs.push_back({port.name, {}, port.type, port.kind, true});
 }
 
-void read_outputs(const Role& role, const RoleText& text, Contract& contract) {
+void read_outputs(const Role& role, const RoleText& text, std::size_t index, Contract& contract) {
+  const ComponentInfo& shipped = contract.roles[index].shipped;
   for (std::size_t i = 0; i < role.outputs.size(); ++i) {
     ContractOutput output;
     output.name = role.outputs[i].name;
     output.type = role.outputs[i].type;
     output.type_name = text.out[i].type;
     output.optional = role.outputs[i].optional;
-    if (const int o = contract.shipped.output(output.name); o >= 0) {
-      const Port& port = contract.shipped.outputs[static_cast<std::size_t>(o)];
+    output.role = index;
+    if (const ContractOutput* same = find_named(contract.outputs, output.name))
+      throw Error("the roles " + contract.roles[same->role].name + " and " + role.name +
+                  " both have an output '" + output.name + "': one component cannot fill both");
+    if (const int o = shipped.output(output.name); o >= 0) {
+      const Port& port = shipped.outputs[static_cast<std::size_t>(o)];
       output.kind = port.kind;
       output.capacity = port.capacity;
     }
@@ -68,32 +70,89 @@ MissionView view_mission(const fs::path& file) {
   return view;
 }
 
-Contract read_contract(const MissionView& mission, const std::string& role_name) {
-  const Graph& graph = mission.graph;
-  std::vector<std::string> names;
-  for (const Role& role : graph.roles) names.push_back(role.name);
-  const auto at = std::find(names.begin(), names.end(), role_name);
-  if (at == names.end())
-    throw Error("--role " + role_name + ": " + mission.file.filename().string() + " has no such role." +
-                choices_text(role_name, names));
-  const auto r = static_cast<std::size_t>(at - names.begin());
+Sent sent_by(const Graph& graph, const PortName& from) {
+  Sent sent;
+  const int role = index_named(graph.roles, from.owner);
+  if (role >= 0)
+    if (const RolePort* port = find_named(graph.roles[static_cast<std::size_t>(role)].outputs, from.port))
+      sent = {port->type, FULMAR_OUT_VALUE, true};
+  for (const Component& component : graph.components) {
+    const bool fills = sent.known && role >= 0 && component.fills(role);  // how it comes, fillers know
+    if (component.name != from.owner && !fills) continue;
+    const int output = component.info().output(from.port);
+    if (output < 0) continue;
+    const Port& port = component.info().outputs[static_cast<std::size_t>(output)];
+    sent = {port.type, port.kind, true};
+  }
+  return sent;
+}
 
-  Contract contract;
-  contract.role = role_name;
-  contract.mission = graph.mission;
+namespace {
+
+std::size_t role_index(const MissionView& mission, const std::string& role) {
+  std::vector<std::string> names;
+  for (const Role& known : mission.graph.roles) names.push_back(known.name);
+  const auto at = std::find(names.begin(), names.end(), role);
+  if (at == names.end())
+    throw Error("--role " + role + ": " + mission.file.filename().string() + " has no such role." +
+                choices_text(role, names) +
+                " What has no role is asked for by --template sensor, --template planner, --in and --out");
+  return static_cast<std::size_t>(at - names.begin());
+}
+
+void add_role(const MissionView& mission, std::size_t r, Contract& contract) {
+  const Graph& graph = mission.graph;
+  const std::string& name = graph.roles[r].name;
   const Phase& last = graph.phases.back();
-  if (!contract.vehicle()) contract.phase = last.name;
   const int filler = contract.vehicle() ? graph.vehicle : last.roles[r].component;
   const Component& shipped = graph.components[static_cast<std::size_t>(filler)];
-  contract.shipped = shipped.info();
-  contract.shipped_text = mission.text.component(shipped.name);
-  contract.shipped_use = contract.shipped_text->use.text;
+  ContractRole& role = *std::find_if(contract.roles.begin(), contract.roles.end(),
+                                     [&](const ContractRole& known) { return known.name == name; });
+  role.shipped = shipped.info();
+  role.shipped_text = mission.text.component(shipped.name);
+  role.shipped_use = role.shipped_text->use.text;
+  contract.rate_hz = std::max(contract.rate_hz, role.shipped_text->rate_hz);
   for (const PhaseText& phase : mission.text.phases)
     for (const AssignmentText& assignment : phase.roles)
-      if (phase.name == last.name && assignment.role == role_name) contract.shipped_set = assignment.set;
-  const RoleText& text = *mission.text.role(role_name);
-  read_inputs(mission, text, contract);
-  read_outputs(graph.roles[r], text, contract);
+      if (phase.name == last.name && assignment.role == name) role.shipped_set = assignment.set;
+  const RoleText& text = *mission.text.role(name);
+  read_inputs(mission, text, role, contract);
+  read_outputs(graph.roles[r], text, static_cast<std::size_t>(&role - contract.roles.data()), contract);
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
+  return text;
+}
+
+}  // namespace
+
+std::string Contract::role_words() const {
+  std::vector<std::string> words;
+  for (const ContractRole& role : roles) words.push_back(role.name);
+  return joined(words);
+}
+
+std::string Contract::shipped_words() const {
+  std::vector<std::string> words;
+  for (const ContractRole& role : roles) words.push_back(role.shipped_text->name);
+  return joined(words);
+}
+
+Contract read_contract(const MissionView& mission, const std::vector<std::string>& roles) {
+  Contract contract;
+  contract.mission = mission.graph.mission;
+  std::vector<std::size_t> indices;
+  for (const std::string& role : roles) {
+    indices.push_back(role_index(mission, role));
+    if (find_named(contract.roles, role)) throw Error("--role " + role + " is there twice");
+    if (role == "vehicle" && roles.size() > 1) throw Error("the vehicle fills its role alone");
+    contract.roles.push_back({role, nullptr, {}, {}, {}});
+  }
+  if (!contract.vehicle()) contract.phase = mission.graph.phases.back().name;
+  for (const std::size_t r : indices) add_role(mission, r, contract);
   return contract;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a component must be to fill a role of a mission: wires in, messages out. Read from the mission and
-// from who fills the role there.
+// What a component must be: wires in, messages out. Of one that fills roles of a mission they are read from
+// the mission and from who fills the roles there; of one without a role they are what its author asks for.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -26,18 +26,36 @@ struct ContractOutput {
   fulmar_port_kind kind = FULMAR_OUT_VALUE;
   std::uint32_t capacity = 1;
   bool optional = false;
+  std::size_t role = 0;  // index into Contract::roles
+};
+
+struct ContractRole {
+  std::string name;
+  const ComponentText* shipped_text = nullptr;  // who fills it there today; part of MissionView::text
+  std::string shipped_use;                      // "control_slc/Outer", or a file
+  ComponentInfo shipped;
+  Node shipped_set;  // what that phase sets
+};
+
+/// An output that the mission is to hand on: "edits" -> "plan.edits".
+struct ContractFeed {
+  std::string output;
+  PortName to;
 };
 
 struct Contract {
-  std::string role, mission;  // names
+  std::string mission;
+  std::vector<ContractRole> roles;  // none: the component stands beside them
   std::vector<ContractInput> inputs;
   std::vector<ContractOutput> outputs;
-  std::string phase;  // where the new component flies; "" for a vehicle, which flies in all of them
-  const ComponentText* shipped_text;  // who fills the role there today; part of MissionView::text
-  std::string shipped_use;            // "control_slc/Outer", or a file
-  ComponentInfo shipped;
-  Node shipped_set;  // what that phase sets
-  bool vehicle() const { return role == "vehicle"; }
+  std::vector<ContractFeed> feeds;
+  std::string phase;   // where the new component flies; "" for a vehicle, which flies in all of them
+  double rate_hz = 0;  // 0: every tick
+  bool vehicle() const { return roles.size() == 1 && roles[0].name == "vehicle"; }
+  /// "outer", "outer and inner"
+  std::string role_words() const;
+  /// Who flew there: "slc", "slc and attitude"
+  std::string shipped_words() const;
 };
 
 /// A mission three ways: its own keys, what they mean with the file that it extends, and the graph that
@@ -53,6 +71,14 @@ struct MissionView {
 MissionView view_mission(const std::filesystem::path& file);
 
 /// Throws Error naming the valid roles.
-Contract read_contract(const MissionView& mission, const std::string& role);
+Contract read_contract(const MissionView& mission, const std::vector<std::string>& roles);
+
+/// What a port carries, as its writer has it, and how it writes it. `type` is empty when nobody says.
+struct Sent {
+  TypePtr type;
+  fulmar_port_kind kind = FULMAR_OUT_VALUE;
+  bool known = false;  // there is such a port
+};
+Sent sent_by(const Graph& graph, const PortName& from);
 
 }  // namespace fulmar::core

@@ -78,7 +78,7 @@ Node wire(const WireText& from) {
   return map_of(keys);
 }
 
-std::string rate_text(const ComponentText& component) { return number_text(component.rate_hz) + " Hz"; }
+std::string rate_text(double rate_hz) { return number_text(rate_hz) + " Hz"; }
 
 /// A plugin that lies beside the given mission is not beside the new one: its absolute name, or "" when it is
 /// found without.
@@ -90,35 +90,74 @@ std::string plugin_beside(const MissionView& mission, const std::string& use) {
   return file.lexically_normal().string() + (component.empty() ? "" : "/" + component);
 }
 
-/// The shipped component once more, without a role: its wires are those of the role and its own.
-Node reference(const MissionView& mission, const Contract& contract) {
-  const ComponentText& shipped = *contract.shipped_text;
+/// The shipped component once more, without a role: its wires are those of the role and its own. What another
+/// new role would feed comes from the second instance there.
+Node reference(const MissionView& mission, const Contract& contract, const NewComponent& component,
+               const ContractRole& role) {
+  const ComponentText& shipped = *role.shipped_text;
   const std::string beside = plugin_beside(mission, shipped.use.text);
   std::vector<std::pair<std::string, Node>> keys{{"use", scalar(beside.empty() ? shipped.use.text : beside)}};
-  if (shipped.rate_hz > 0) keys.emplace_back("rate", scalar(rate_text(shipped)));
+  if (shipped.rate_hz > 0) keys.emplace_back("rate", scalar(rate_text(shipped.rate_hz)));
   Node wires = map_of({});
   for (const WireText& own : shipped.in) wires.entries.push_back({own.name, 0, wire(own)});
-  for (const WireText& common : mission.text.role(contract.role)->in)
-    if (contract.shipped.input(common.name) >= 0 && !wires.find(common.name))
-      wires.entries.push_back({common.name, 0, wire(common)});
+  for (const WireText& common : mission.text.role(role.name)->in) {
+    if (role.shipped.input(common.name) < 0 || wires.find(common.name)) continue;
+    WireText from = common;
+    for (std::size_t r = 0; r < contract.roles.size(); ++r)
+      if (contract.roles[r].name == from.from.owner)
+        from.from.owner = reference_name(mission, contract, component.name, r);
+    wires.entries.push_back({common.name, 0, wire(from)});
+  }
   if (!wires.entries.empty()) keys.emplace_back("in", std::move(wires));
   Node params = shipped.params;
-  if (contract.shipped_set.is(Node::Kind::map))
-    params = params.is(Node::Kind::map) ? merged(params, contract.shipped_set, 1) : contract.shipped_set;
+  if (role.shipped_set.is(Node::Kind::map))
+    params = params.is(Node::Kind::map) ? merged(params, role.shipped_set, 1) : role.shipped_set;
   if (params.is(Node::Kind::map)) keys.emplace_back("params", params);
   return map_of(keys);
 }
 
+Node fills(const Contract& contract) {
+  if (contract.roles.size() == 1) return scalar(contract.roles[0].name);
+  Node list;
+  list.kind = Node::Kind::sequence;
+  for (const ContractRole& role : contract.roles) list.items.push_back(scalar(role.name));
+  return list;
+}
+
 Node new_component(const MissionView& mission, const Contract& contract, const NewComponent& component) {
-  std::vector<std::pair<std::string, Node>> keys{
-      {"fills", scalar(contract.role)}, {"use", scalar("build/lib/fulmar/" + component.name + ".so")}};
-  if (contract.shipped_text->rate_hz > 0)
-    keys.emplace_back("rate", scalar(rate_text(*contract.shipped_text)));
+  std::vector<std::pair<std::string, Node>> keys;
+  if (!contract.roles.empty()) keys.emplace_back("fills", fills(contract));
+  keys.emplace_back("use", scalar("build/lib/fulmar/" + component.name + ".so"));
+  if (contract.rate_hz > 0) keys.emplace_back("rate", scalar(rate_text(contract.rate_hz)));
   Node wires = map_of({});
-  for (const std::string& output : component.references)
-    wires.entries.push_back(
-        {"reference_" + output, 0, scalar(reference_name(mission, component.name) + "." + output)});
+  if (contract.roles.empty())
+    for (const ContractInput& input : contract.inputs)
+      wires.entries.push_back({input.name, 0, scalar(input.from.text())});
+  for (const ContractOutput& output : contract.outputs)
+    if (std::count(component.references.begin(), component.references.end(), output.name) > 0)
+      wires.entries.push_back(
+          {"reference_" + output.name, 0,
+           scalar(reference_name(mission, contract, component.name, output.role) + "." + output.name)});
   if (!wires.entries.empty()) keys.emplace_back("in", std::move(wires));
+  return map_of(keys);
+}
+
+/// What becomes of the given mission's component: it is found from the new folder, makes room, or is fed.
+Node changed(const MissionView& mission, const Contract& contract, const NewComponent& component,
+             const ComponentText& text) {
+  const std::string beside = plugin_beside(mission, text.use.text);
+  std::vector<std::pair<std::string, Node>> keys;
+  if (!beside.empty()) keys.emplace_back("use", scalar(beside));
+  const bool named_so = text.only && text.name == io_word(*text.only);
+  const bool sits_there = contract.vehicle() && text.fills_role("vehicle") &&
+                          (!text.only || (named_so && *text.only == mission.text.io));
+  if (sits_there)  // makes room: there is one vehicle
+    keys.emplace_back("only", scalar(io_word(mission.text.io == Io::sim ? Io::fcu : Io::sim)));
+  for (const ContractFeed& feed : contract.feeds)
+    if (feed.to.owner == text.name)  // delayed: what is fed most often leads back to the new component
+      keys.emplace_back("in",
+                        map_of({{feed.to.port, map_of({{"from", scalar(component.name + "." + feed.output)},
+                                                       {"delayed", scalar("true")}})}}));
   return map_of(keys);
 }
 
@@ -126,33 +165,49 @@ Node new_component(const MissionView& mission, const Contract& contract, const N
 Node additions(const MissionView& mission, const Contract& contract, const NewComponent& component) {
   Node components = map_of({});
   for (const ComponentText& text : mission.text.components) {
-    const std::string beside = plugin_beside(mission, text.use.text);
-    std::vector<std::pair<std::string, Node>> keys;
-    if (!beside.empty()) keys.emplace_back("use", scalar(beside));
-    const bool named_so = text.only && text.name == io_word(*text.only);
-    const bool sits_there = contract.vehicle() && text.fills_role(contract.role) &&
-                            (!text.only || (named_so && *text.only == mission.text.io));
-    if (sits_there)  // makes room: there is one vehicle
-      keys.emplace_back("only", scalar(io_word(mission.text.io == Io::sim ? Io::fcu : Io::sim)));
-    if (!keys.empty()) components.entries.push_back({text.name, 0, map_of(keys)});
+    Node keys = changed(mission, contract, component, text);
+    if (!keys.entries.empty()) components.entries.push_back({text.name, 0, std::move(keys)});
   }
   if (!component.references.empty())
-    components.entries.push_back({reference_name(mission, component.name), 0, reference(mission, contract)});
+    for (std::size_t r = 0; r < contract.roles.size(); ++r)
+      components.entries.push_back({reference_name(mission, contract, component.name, r), 0,
+                                    reference(mission, contract, component, contract.roles[r])});
   components.entries.push_back({component.name, 0, new_component(mission, contract, component)});
   Node root = map_of({{"components", std::move(components)}});
-  if (contract.vehicle()) return root;
-  Node use = map_of({{"use", scalar(component.name)}, {"fallback", scalar(contract.shipped_text->name)}});
-  root.entries.push_back(
-      {"phases", 0, map_of({{contract.phase, map_of({{contract.role, std::move(use)}})}})});
+  if (contract.vehicle() || contract.roles.empty()) return root;
+  Node assigned = map_of({});
+  for (const ContractRole& role : contract.roles)
+    assigned.entries.push_back(
+        {role.name, 0,
+         map_of({{"use", scalar(component.name)}, {"fallback", scalar(role.shipped_text->name)}})});
+  root.entries.push_back({"phases", 0, map_of({{contract.phase, std::move(assigned)}})});
   return root;
+}
+
+std::string head_of(const MissionView& mission, const Contract& contract, const NewComponent& component) {
+  const std::string& name = component.name;
+  std::string head = "# The mission " + contract.mission + " with " + name;
+  if (contract.roles.empty()) return head + " beside it.\n";
+  head +=
+      std::string(" in the role") + (contract.roles.size() > 1 ? "s " : " ") + contract.role_words() + ". ";
+  if (contract.vehicle()) return head + "The vehicle that was there steps aside.\n";
+  head += "It flies in the phase " + contract.phase + "; " + contract.shipped_words() +
+          ", which flew there, " + (contract.roles.size() > 1 ? "take" : "takes") + " over if it fails.\n";
+  if (component.references.empty()) return head;
+  for (std::size_t r = 0; r < contract.roles.size(); ++r)
+    head += "# " + reference_name(mission, contract, name, r) + " is " + contract.roles[r].shipped_use +
+            " once more: what " + name + " passes on until it has a law of its own.\n";
+  return head;
 }
 
 }  // namespace
 
-std::string reference_name(const MissionView& mission, const std::string& name) {
-  const std::string plain = "reference";
+std::string reference_name(const MissionView& mission, const Contract& contract, const std::string& name,
+                           std::size_t role) {
+  const std::string plain =
+      contract.roles.size() > 1 ? "reference_" + contract.roles[role].name : "reference";
   const bool taken = name == plain || mission.text.component(plain) || mission.text.role(plain);
-  return taken ? name + "_reference" : plain;
+  return taken ? name + "_" + plain : plain;
 }
 
 std::string write_mission(const MissionView& mission, const Contract& contract,
@@ -176,17 +231,7 @@ std::string write_mission(const MissionView& mission, const Contract& contract,
     else
       same->value = merged(same->value, entry.value, entry.key == "components" ? 3 : 2);
   }
-  std::string head = "# The mission " + contract.mission + " with " + component.name + " in the role " +
-                     contract.role + ". ";
-  if (contract.vehicle())
-    head += "The vehicle that was there steps aside.\n";
-  else
-    head += "It flies in the phase " + contract.phase + "; " + contract.shipped_text->name +
-            ", which flew there, takes over if it fails.\n";
-  if (!component.references.empty())
-    head += "# " + reference_name(mission, component.name) + " is " + contract.shipped_use +
-            " once more: what " + component.name + " passes on until it has a law of its own.\n";
-  return head + block(root);
+  return head_of(mission, contract, component) + block(root);
 }
 
 }  // namespace fulmar::core

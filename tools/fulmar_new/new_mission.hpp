@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The mission of a new plugin: the given one, with the new component in its role. Stays short by extending
-// what the given one extends.
+// The mission of a new plugin: the given one, with the new component in its roles or beside them. Stays short
+// by extending what the given one extends.
 #pragma once
 #include <string>
 #include <vector>
@@ -16,8 +16,9 @@ struct NewComponent {
       references;  // outputs that it passes on from a second instance of the shipped component; usually none
 };
 
-/// Name of the second instance: one that the mission does not use yet.
-std::string reference_name(const MissionView& mission, const std::string& name);
+/// Name of the second instance of who fills `role`: one that the mission does not use yet.
+std::string reference_name(const MissionView& mission, const Contract& contract, const std::string& name,
+                           std::size_t role);
 
 /// The text of mission.yaml. File names in it are absolute, but that of the new plugin.
 std::string write_mission(const MissionView& mission, const Contract& contract,

@@ -33,19 +33,21 @@ class SourceWriter {
 
   std::string header() const {
     std::string text = "// SPDX-License-Identifier: BSD-3-Clause\n";
-    text += c_.vehicle() ? "// A vehicle that keeps the time and says nothing true yet.\n"
-                         : "// Fills the role " + c_.role + ". As generated it passes on what " +
-                               c_.shipped_use + " computes.\n";
+    text += intent();
     text += "#pragma once\n";
     for (const std::string& header : headers_) text += include_line("msg/" + header);
     text +=
         include_line("plugin") + (c_.vehicle() ? "#include <cmath>\n" : "") + "\nusing namespace fulmar;\n\n";
     if (!own_.empty())
-      text += "namespace messages {  // as the mission's own plugins have them\n\n" + own_ +
-              "}  // namespace messages\n\n";
-    text += "struct " + type_ + " {  // fills the role `" + c_.role + "`\n";
+      text += std::string("namespace messages {") +
+              (c_.roles.empty() ? "  // a number's name ends in its unit; absence is a flag\n\n"
+                                : "  // as the mission's own plugins have them\n\n") +
+              own_ + "}  // namespace messages\n\n";
+    text += "struct " + type_ + " {" + fills() + "\n";
     text += "  static constexpr const char* doc = \"" + pascal_case(name_) + ".\";\n" + ports() +
-            (c_.vehicle() ? vehicle_body() : body());
+            (c_.vehicle()       ? vehicle_body()
+             : c_.roles.empty() ? body_beside()
+                                : body());
     return text + "};\n";
   }
 
@@ -54,7 +56,7 @@ class SourceWriter {
         "// SPDX-License-Identifier: BSD-3-Clause\n#include <doctest/doctest.h>\n\n"
         "#define FULMAR_COUNT_ALLOCATIONS\n" +
         include_line("testing") + "\n#include \"" + name_ + ".hpp\"\n\n";
-    return text + (c_.vehicle() ? vehicle_test() : passing_test());
+    return text + (c_.vehicle() ? vehicle_test() : c_.roles.empty() ? test_beside() : passing_test());
   }
 
  private:
@@ -83,8 +85,26 @@ class SourceWriter {
     if (input.kind == FULMAR_IN_REQUEST) return "Request";
     return input.optional ? "Optional" : "In";
   }
+  std::string intent() const {
+    if (c_.vehicle()) return "// A vehicle that keeps the time and says nothing true yet.\n";
+    if (c_.roles.empty()) return "// Stands beside the roles. As generated it says nothing.\n";
+    std::string use;
+    for (const ContractRole& role : c_.roles) use += (use.empty() ? "" : " and ") + role.shipped_use;
+    return std::string("// Fills the role") + (c_.roles.size() > 1 ? "s " : " ") + c_.role_words() +
+           ". As generated it passes on what\n// " + use +
+           (c_.roles.size() > 1 ? " compute.\n" : " computes.\n");
+  }
+  std::string fills() const {
+    std::string text;
+    for (const ContractRole& role : c_.roles)
+      text += (text.empty() ? c_.roles.size() > 1 ? "  // fills the roles `" : "  // fills the role `"
+                            : "` and `") +
+              role.name;
+    return text.empty() ? "" : text + "`";
+  }
+
   bool passes_on(const ContractOutput& output) const {
-    return !c_.vehicle() && output.type && !output.optional;
+    return !c_.vehicle() && !c_.roles.empty() && output.type && !output.optional;
   }
   static bool queue(const ContractOutput& output) { return output.kind == FULMAR_OUT_QUEUE; }
 
@@ -136,6 +156,27 @@ class SourceWriter {
         text += "    out." + output.name + " = *" + from + ";\n";
     }
     return text + "    return Status::ok;\n  }\n";
+  }
+
+  /// A component that knows nothing yet stays silent.
+  std::string body_beside() const {
+    std::string text =
+        "  Status step(const Tick& tick, const Inputs& in, const Params&, Outputs& out) {\n    // Your law "
+        "goes "
+        "here.\n";
+    for (const ContractInput& input : c_.inputs)
+      if (input.kind == FULMAR_IN_QUEUE)
+        text += "    //   for (const auto& sample : in." + input.name +
+                ") ...  // sample.value, sample.valid_at_ns, sample.valid_at_s()\n";
+      else
+        text += "    //   " + std::string(input.optional ? "if (in." + input.name + ") " : "") + "in." +
+                input.name + "->..." + "  // in." + input.name + ".fresh(), in." + input.name +
+                ".valid_at_s()\n";
+    for (const ContractOutput& output : c_.outputs)
+      text +=
+          "    //   " + word(*output.type) + " " + output.name + ";  out." + output.name +
+          (queue(output) ? ".push(" + output.name + ", tick.now_ns);\n" : ".publish(" + output.name + ");\n");
+    return text + "    (void)tick, (void)in, (void)out;\n    return Status::ok;\n  }\n";
   }
 
   std::string vehicle_body() const {
@@ -191,6 +232,17 @@ class SourceWriter {
     return "TEST_CASE(\"what the reference says is passed on\") {\n  Bench<" + type_ + "> bench;\n" + set +
            "  REQUIRE(bench.step(0.01) == Status::ok);\n" + check +
            "  CHECK(allocations([&] { bench.step(0.01); }) == 0);\n}\n";
+  }
+
+  std::string test_beside() const {
+    std::string set;
+    for (const ContractInput& input : c_.inputs)
+      set += std::string("    bench.") + (input.kind == FULMAR_IN_QUEUE ? "push" : "set") + "(bench.in." +
+             input.name + ", " + word(*input.type) + "{});\n";
+    return "TEST_CASE(\"it says only what is finite and in range, and takes no memory\") {\n  Bench<" +
+           type_ + "> bench;\n  for (int i = 0; i < 100; ++i) {\n" + set +
+           "    REQUIRE(allocations([&] { REQUIRE(bench.step(0.01) == Status::ok); }) == 0);\n"
+           "    REQUIRE(bench.fault() == \"\");\n  }\n}\n";
   }
 
   std::string vehicle_test() const {

@@ -53,6 +53,7 @@ struct In {
     return input && (input->flags & FULMAR_STALE) != 0;
   }  ///< older than the wire's max_age
   std::int64_t valid_at_ns() const { return input->valid_at_ns; }
+  double valid_at_s() const { return 1e-9 * static_cast<double>(input->valid_at_ns); }
   double age_s() const { return 1e-9 * static_cast<double>(input->age_ns); }
   std::uint64_t sequence() const { return input ? input->sequence : 0; }  ///< counts samples from 1
 };
@@ -66,7 +67,8 @@ struct Optional : In<T> {
 template <class T>
 struct Sample {
   const T& value;
-  std::int64_t valid_at_ns;
+  std::int64_t valid_at_ns;  ///< flight time at which it was true, as its writer says
+  double valid_at_s() const { return 1e-9 * static_cast<double>(valid_at_ns); }
 };
 
 /// Every sample since the last step, oldest first: `for (const auto& sample : in.edits)`.

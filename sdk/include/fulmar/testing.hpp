@@ -8,12 +8,16 @@
 //   CHECK(bench.step(0.01) == Status::ok);        // advances time by 10 ms, then steps
 //   CHECK(bench.out.actuators.aileron_rad == doctest::Approx(...));
 //
-// `bench.out` holds what the step published. An Out<T> has `written` set when it spoke; an OutQueue has its
-// `count`. To count allocations, one source file of the test program defines FULMAR_COUNT_ALLOCATIONS before
-// it includes this header (without it the program does not link); `allocations([&] { bench.step(0.01); })` is
-// then the number of calls of operator new and malloc in between.
+// `bench.out` holds what the step published, and `bench.fault()` what is not finite or not in range in it. An
+// Out<T> has `written` set when it spoke; an OutQueue has its `count`. To count allocations, one source file
+// of the test program defines FULMAR_COUNT_ALLOCATIONS before it includes this header (without it the program
+// does not link); `allocations([&] { bench.step(0.01); })` is then the number of calls of operator new and
+// malloc in between.
 #ifndef FULMAR_TESTING_HPP
 #define FULMAR_TESTING_HPP
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <new>
@@ -37,6 +41,50 @@ std::uint64_t allocations(F&& work) {
   asm volatile("" ::: "memory");
   return allocation_count - before;
 }
+
+namespace detail {
+
+inline std::string number_words(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", x);
+  return text;
+}
+
+inline std::string fault_in(const fulmar_type& type, const void* message, const std::string& name);
+
+/// Of the items of one field.
+inline std::string fault_in(const fulmar_field& field, const std::byte* at, const std::string& name) {
+  std::uint32_t count = field.count;
+  if (field.shape == FULMAR_LIST) std::memcpy(&count, at, sizeof count);
+  for (std::uint32_t i = 0; i < std::min(count, field.count); ++i) {
+    const std::byte* item = at + field.items + i * field.stride;
+    const std::string place = field.shape == FULMAR_SCALAR ? name : name + "[" + std::to_string(i) + "]";
+    if (field.kind == FULMAR_STRUCT) {
+      if (std::string words = fault_in(*field.type, item, place); !words.empty()) return words;
+    } else if (field.kind == FULMAR_F64 || field.kind == FULMAR_F32) {
+      double x = 0;
+      float f = 0;
+      if (field.kind == FULMAR_F64) std::memcpy(&x, item, sizeof x);
+      if (field.kind == FULMAR_F32) std::memcpy(&f, item, sizeof f), x = static_cast<double>(f);
+      if (!std::isfinite(x)) return place + " is " + number_words(x);
+      if (x < field.min || x > field.max)
+        return place + " is " + number_words(x) + ", beyond [" + number_words(field.min) + ", " +
+               number_words(field.max) + "]";
+    }
+  }
+  return "";
+}
+inline std::string fault_in(const fulmar_type& type, const void* message, const std::string& name) {
+  for (std::uint32_t i = 0; i < type.field_count; ++i) {
+    const fulmar_field& field = type.fields[i];
+    std::string words =
+        fault_in(field, static_cast<const std::byte*>(message) + field.offset, name + "." + field.name);
+    if (!words.empty()) return words;
+  }
+  return "";
+}
+
+}  // namespace detail
 
 template <class C>
 class Bench {
@@ -103,6 +151,30 @@ class Bench {
     const fulmar_answer& answer = rooms_[static_cast<std::size_t>(port.input - inputs_.data())].answers[i];
     if (answer.verdict == FULMAR_ACCEPTED) return "accepted";
     return answer.verdict == FULMAR_REFUSED ? answer.reason : "unanswered";
+  }
+
+  /// What the last step said that no flight may have: "attitude.roll_rad is nan", "actuators.throttle_frac is
+  /// 1.2, beyond [0, 1]"; "" when all of it is finite and in range.
+  std::string fault() const {
+    std::string words;
+    detail::for_each(out, [&]<class M>(const M& member, std::size_t i) {
+      const std::string name = detail::FieldNames<typename C::Outputs>::c_str(i);
+      const auto look = [&](const auto& message) {
+        if (words.empty())
+          words = detail::fault_in(describe<std::remove_cvref_t<decltype(message)>>(), &message, name);
+      };
+      if constexpr (std::is_same_v<M, Probe>) {
+        if (member.written && !std::isfinite(member.value))
+          words = name + " is " + detail::number_words(member.value);
+      } else if constexpr (requires { member.stamps_ns; }) {
+        for (std::uint32_t k = 0; k < member.count; ++k) look(member.items[k]);
+      } else if constexpr (requires { member.written; }) {
+        if (member.written) look(member.value);
+      } else {
+        look(member);
+      }
+    });
+    return words;
   }
 
   /// Hands `params` to the component. Called by the first step if not before; call it again after changing

@@ -75,7 +75,7 @@ Graph loaded(const fs::path& mission, const std::string& plugin, const std::stri
 
 TEST_CASE("the contract of a role is what the mission says of it") {
   const MissionView mission = view_mission(missions / "hourglass.yaml");
-  const Contract outer = read_contract(mission, "outer");
+  const Contract outer = read_contract(mission, {"outer"});
   REQUIRE(outer.inputs.size() == 2);
   CHECK(outer.inputs[1].name == "command");
   CHECK(outer.inputs[1].type->name == "GuidanceCommand");
@@ -83,13 +83,14 @@ TEST_CASE("the contract of a role is what the mission says of it") {
   REQUIRE(outer.outputs.size() == 1);
   CHECK(outer.outputs[0].type_name == "AttitudeCommand");
   CHECK(outer.phase == "cruise");
-  CHECK(outer.shipped_text->name == "slc");
-  const Contract vehicle = read_contract(mission, "vehicle");
+  CHECK(outer.shipped_words() == "slc");
+  const Contract vehicle = read_contract(mission, {"vehicle"});
   CHECK(vehicle.inputs.back().kind == FULMAR_IN_REQUEST);  // arm
   CHECK(vehicle.outputs.back().optional);                  // truth
-  CHECK_THROWS_WITH_AS(read_contract(mission, "gude"),
+  CHECK_THROWS_WITH_AS(read_contract(mission, {"gude"}),
                        "--role gude: hourglass.yaml has no such role. Did you mean 'guide'? Valid: vehicle, "
-                       "nav, guide, outer, inner.",
+                       "nav, guide, outer, inner. What has no role is asked for by --template sensor, "
+                       "--template planner, --in and --out",
                        Error);
 }
 
@@ -177,6 +178,80 @@ TEST_CASE("the C++ struct of a message says what its field table says") {
         "struct Point {\n  float at_m{};\n};\n\nenum class TrackMode : std::uint8_t { off, on };\nstruct "
         "Track {\n  TrackMode mode{};\n"
         "  List<Point, 8> points;\n  Text<24> title;\n};\n\n");
+}
+
+TEST_CASE("a component without a role has the ports that are asked for, wired, and its own message") {
+  const Result made = call(
+      "new ranger --in state=nav.state --in truth?=vehicle.truth --in \"notices=vehicle.notices[]\" --out "
+      "range=Distance --out edits=PlanEdit[] --out score=Figures");
+  REQUIRE_MESSAGE(made.code == 0, made.words);
+  CHECK(holds(made.words, "a component beside the roles of the mission hourglass"));
+  const std::string header = text_of(folder() / "ranger/ranger.hpp"),
+                    written = text_of(folder() / "ranger/mission.yaml");
+  for (const char* line :
+       {"In<VehicleState> state;", "Optional<VehicleState> truth;", "Queue<Notice> notices;",
+        "Out<messages::Distance> range;", "OutQueue<PlanEdit, 16> edits;", "Out<messages::Figures> score;",
+        "fulmar/msg/plan_edit.hpp>", "struct Distance {"})
+    CHECK_MESSAGE(holds(header, line), line);
+  CHECK(holds(written,
+              "ranger: {use: build/lib/fulmar/ranger.so, rate: 100 Hz, in: {state: nav.state, truth: "
+              "vehicle.truth, notices: vehicle.notices}}"));
+  CHECK_FALSE(holds(written, "fills"));
+  CHECK_FALSE(holds(text_of(folder() / "ranger/README.md"), "@"));
+}
+
+TEST_CASE("templates for a sensor and a planner are wired to what the mission has") {
+  REQUIRE(call("new altimeter --template sensor").code == 0);
+  CHECK(holds(text_of(folder() / "altimeter/mission.yaml"),
+              "altimeter: {use: build/lib/fulmar/altimeter.so, rate: 20 Hz, in: {state: vehicle.truth}}"));
+  CHECK(holds(text_of(folder() / "altimeter/altimeter.hpp"), "OutQueue<AltimeterRange, 4> range;"));
+  CHECK_FALSE(holds(text_of(folder() / "altimeter/altimeter.hpp"), "// wired"));
+  REQUIRE(call("new blind --template sensor --in state=nav.state").code == 0);
+  CHECK(holds(text_of(folder() / "blind/mission.yaml"), "in: {state: nav.state}"));
+  const Result made = call("new search --template planner");
+  REQUIRE_MESSAGE(made.code == 0, made.words);
+  CHECK(holds(made.words, "to plan.edits"));
+  const std::string written = text_of(folder() / "search/mission.yaml");
+  CHECK(holds(written, "edits: {from: search.edits, delayed: true}"));
+  CHECK(holds(written, "rate: 10 Hz, in: {progress: manage.progress, state: nav.state}"));
+}
+
+TEST_CASE(
+    "several roles are filled at once, each with its own fallback, and passed on until there is a law") {
+  const Result made = call("new lqr --role outer --role inner");
+  REQUIRE_MESSAGE(made.code == 0, made.words);
+  const std::string header = text_of(folder() / "lqr/lqr.hpp"),
+                    written = text_of(folder() / "lqr/mission.yaml");
+  CHECK(holds(written, "lqr: {fills: [outer, inner], use: build/lib/fulmar/lqr.so, rate: 100 Hz"));
+  CHECK(holds(written, "cruise: {outer: {use: lqr, fallback: slc}, inner: {use: lqr, fallback: attitude}}"));
+  CHECK(holds(written, "attitude: reference_outer.attitude"));
+  CHECK(holds(header, "In<GuidanceCommand> command;"));
+  CHECK(holds(header, "// fills the roles `outer` and `inner`"));
+  CHECK_FALSE(holds(header, "AttitudeCommand> attitude;"));  // its own output is no input
+  CHECK(holds(header, "    AttitudeCommand attitude;\n    Actuators actuators;\n"));
+}
+
+TEST_CASE("ports and templates that cannot be are refused with a sentence") {
+  const auto refused = [](const std::string& arguments, const std::string& words) {
+    const Result result = call("new a_part " + arguments);
+    CHECK(result.code == 1);
+    CHECK_MESSAGE(holds(result.words, words), result.words);
+  };
+  refused("",
+          "say what it is: --role ROLE, --template sensor, --template planner, or its ports, as in --in ");
+  refused("--in state=nav.stat",
+          "--in state=nav.stat: hourglass.yaml has no such output. Did you mean 'nav.state'?");
+  refused("--in nav.state", "--in nav.state: write NAME=OWNER.PORT, as in state=nav.state");
+  refused("--out range=range",
+          "--out range=range: write NAME=Message, as in range=Range, or edits=PlanEdit[] for a queue");
+  refused("--out a=A --out a=B", "the port 'a' is asked for twice");
+  refused("--template planer",
+          "--template planer: there is none of that name. Did you mean 'planner'? Valid: planner, sensor.");
+  refused("--template planner --in edits=nav.state", "--in edits: the template planner has no such input.");
+  refused("--template planner --out a=A", "--out: a template has its own outputs; change them in the source");
+  refused("--role outer --in state=nav.state", "--role says all ports");
+  refused("--role outer --role outer", "--role outer is there twice");
+  refused("--role outer --role vehicle", "the vehicle fills its role alone");
 }
 
 TEST_CASE("a struct never takes a name that the SDK has") {

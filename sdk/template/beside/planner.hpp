@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// wired: progress manage.progress, state nav.state
+// says: edits PlanEdit[]
+// rate: 10 Hz
+// feeds: edits plan.edits
+// A planner: it watches how far the plan was flown, and changes the plan.
+#pragma once
+#include <fulmar/msg/plan_edit.hpp>
+#include <fulmar/msg/progress.hpp>
+#include <fulmar/msg/vehicle_state.hpp>
+#include <fulmar/plugin.hpp>
+
+using namespace fulmar;
+
+struct MyLaw {
+  static constexpr const char* doc = "Flies one detour after some waypoints, then goes on with the plan.";
+  struct Inputs {
+    In<Progress> progress;
+    In<VehicleState> state;
+  };
+  struct Outputs {
+    OutQueue<PlanEdit, 16> edits;  // all that one step pushes arrive together, in their order
+  };
+  struct Params {
+    Count after{2, 1, 1000, "waypoints before the detour"};
+    Vector<Ned> detour{{0, 0, -80}, "m", -10000, 10000, "where it leads, from the origin"};
+  };
+
+  Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
+    // Your plan goes here.
+    if (sent_ || in.progress->items == 0 || in.progress->reached < p.after) return Status::ok;
+    PlanEdit edit;
+    edit.kind = PlanEditKind::insert;
+    edit.index = in.progress->item;  // before what is flown to now
+    edit.waypoint.position_m = p.detour.value;
+    sent_ = out.edits.push(edit, tick.now_ns);
+    edit.kind = PlanEditKind::set_current;  // and fly there at once
+    out.edits.push(edit, tick.now_ns);
+    return Status::ok;
+  }
+
+ private:
+  bool sent_ = false;
+};

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <doctest/doctest.h>
+
+#define FULMAR_COUNT_ALLOCATIONS
+#include <fulmar/testing.hpp>
+
+#include "my_law.hpp"
+
+namespace {
+
+VehicleState flying(int i) {
+  VehicleState state;
+  state.height_m = 50 + 0.1 * i;
+  state.roll_rad = 0.6 * std::sin(0.1 * i);
+  state.attitude_valid = state.height_valid = true;
+  return state;
+}
+
+}  // namespace
+
+TEST_CASE("it says what is finite and in range, at the time that it was measured, and takes no memory") {
+  Bench<MyLaw> bench;
+  for (int i = 0; i < 200; ++i) {
+    bench.set(bench.in.state, flying(i), 0.01);
+    REQUIRE(bench.step(0.05) == Status::ok);
+    REQUIRE(bench.fault() == "");
+    REQUIRE(bench.out.range.count == 1);
+    REQUIRE(bench.out.range.stamps_ns[0] == bench.in.state.valid_at_ns());
+  }
+  CHECK(allocations([&] { bench.step(0.05); }) == 0);
+}
+
+TEST_CASE("one seed gives one series of measurements, another seed another one") {
+  Bench<MyLaw> a(1), same(1), other(2);
+  bool differs = false;
+  for (int i = 0; i < 100; ++i) {
+    for (auto* bench : {&a, &same, &other}) {
+      bench->set(bench->in.state, flying(i));
+      REQUIRE(bench->step(0.05) == Status::ok);
+    }
+    REQUIRE(a.out.range.items[0].range_m == same.out.range.items[0].range_m);
+    differs = differs || a.out.range.items[0].range_m != other.out.range.items[0].range_m;
+  }
+  CHECK(differs);
+}
+
+TEST_CASE("a state that is not new is not measured again") {
+  Bench<MyLaw> bench;
+  bench.set(bench.in.state, flying(0));
+  bench.step(0.05);
+  bench.step(0.05);
+  CHECK(bench.out.range.count == 0);
+}

@@ -5,6 +5,7 @@
 #   installed.sh [BUILD]
 set -euo pipefail
 cd "$(dirname "$0")/.."
+root=$PWD
 build=$PWD/${1:-build}
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
@@ -35,6 +36,14 @@ project() {
     grep -q '"guards": \[\]' result.json || { cat result.json; fail "$name: a guard fired"; }
   )
   echo "  $*: written, built, tested, flown"
+}
+
+# other_law NAME ROLE: an author writes a law of his own in place of the generated one: its test still passes, since it states the contract.
+other_law() {
+  sed "s/MyLaw/$(sed -n 's/^struct \([A-Za-z]*\) {.*/\1/p' "$1/$1.hpp" | tail -n 1)/" "$root/sdk/test/other_laws/$2/my_law.hpp" >"$1/$1.hpp"
+  quietly cmake --build "$1/build"
+  quietly ctest --test-dir "$1/build" --output-on-failure
+  echo "  $1: another law in its place, and its test passes"
 }
 
 # A mission with roles and messages that no template knows.
@@ -109,6 +118,7 @@ usable() {
   project "$prefix" my_planner "" --template planner
   by_pkg_config "$prefix"
   in_debugger "$prefix" my_outer
+  other_law my_outer outer
   systemd_unit "$prefix"
   "$prefix/bin/fulmar" run "$prefix/share/fulmar/missions/hourglass.yaml" --duration 60 --no-log >/dev/null 2>&1 || fail "the installed hourglass does not fly"
 }

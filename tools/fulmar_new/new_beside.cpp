@@ -79,7 +79,8 @@ ContractInput input_of(const MissionView& mission, const Asked& asked) {
                 " has no such output." + choices_text(asked.what, sources(mission.graph)));
   input.type = sent.type ? sent.type : promised_type(mission, input.from);
   if (!input.type)
-    throw Error("--in " + asked.name + "=" + asked.what + ": no component says what " + asked.what + " carries");
+    throw Error("--in " + asked.name + "=" + asked.what + ": no component says what " + asked.what +
+                " carries");
   // A value input would see only the last of what a queue brings.
   if (asked.queue || sent.kind == FULMAR_OUT_QUEUE) input.kind = FULMAR_IN_QUEUE;
   return input;
@@ -157,17 +158,20 @@ Contract template_contract(const MissionView& mission, const std::string& name, 
   std::vector<std::string> inputs;
   for (const auto& words : lists_of(line_of(source, "wired"))) {
     inputs.push_back(words.at(0));
-    if (std::any_of(in.begin(), in.end(), [&](const std::string& wire) { return wire.starts_with(words[0] + "="); }))
+    if (std::any_of(in.begin(), in.end(),
+                    [&](const std::string& wire) { return wire.starts_with(words[0] + "="); }))
       continue;
     const auto there = std::find_if(words.begin() + 1, words.end(), [&](const std::string& from) {
       return sent_by(mission.graph, port_name(from)).type != nullptr;
     });
     if (there == words.end())
-      throw Error("--template " + name + " reads " + words.at(1) + ", which " + mission.file.filename().string() +
-                  " does not have: say where it comes from, --in " + words[0] + "=OWNER.PORT");
+      throw Error("--template " + name + " reads " + words.at(1) + ", which " +
+                  mission.file.filename().string() + " does not have: say where it comes from, --in " +
+                  words[0] + "=OWNER.PORT");
     wires.push_back(words[0] + "=" + *there);
   }
-  for (const auto& words : lists_of(line_of(source, "says"))) outputs.push_back(words.at(0) + "=" + words.at(1));
+  for (const auto& words : lists_of(line_of(source, "says")))
+    outputs.push_back(words.at(0) + "=" + words.at(1));
   Contract contract = ports_contract(mission, wires, outputs);
   for (const ContractInput& input : contract.inputs)
     if (std::find(inputs.begin(), inputs.end(), input.name) == inputs.end())
@@ -181,7 +185,8 @@ Contract template_contract(const MissionView& mission, const std::string& name, 
 }
 
 std::string without_template_lines(std::string source) {
-  for (const char* key : {"// ports in: ", "// ports out: ", "// wired: ", "// says: ", "// rate: ", "// feeds: "})
+  for (const char* key :
+       {"// ports in: ", "// ports out: ", "// wired: ", "// says: ", "// rate: ", "// feeds: "})
     for (std::size_t at = 0; (at = source.find(key)) != std::string::npos;)
       source.erase(at, source.find('\n', at) + 1 - at);
   return source;

@@ -13,8 +13,8 @@ namespace fulmar::core {
 Contract ports_contract(const MissionView& mission, const std::vector<std::string>& in,
                         const std::vector<std::string>& out);
 
-/// Of a template's source, whose first lines say "// wired: state vehicle.truth nav.state" (the first that the
-/// mission has), "// rate: 20 Hz" and "// feeds: edits plan.edits"; `in` names other wires. Throws Error.
+/// Of a template's source, whose first lines say "// wired: state vehicle.truth nav.state" (the first that
+/// the mission has), "// rate: 20 Hz" and "// feeds: edits plan.edits"; `in` names other wires. Throws Error.
 Contract template_contract(const MissionView& mission, const std::string& name, const std::string& source,
                            const std::vector<std::string>& in);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The contract of the role, whatever the law: add the figures of yours.
 #include <doctest/doctest.h>
 
 #define FULMAR_COUNT_ALLOCATIONS
-#include <fulmar/eigen.hpp>
 #include <fulmar/testing.hpp>
 
 #include "my_law.hpp"
@@ -10,10 +10,9 @@
 namespace {
 
 /// What the sensors say on the ground at the equator, level, nose to magnetic north.
-void stand(Bench<MyLaw>& bench, const Vec3<Body>& rate_radps) {
+void stand(Bench<MyLaw>& bench) {
   Imu imu;
   imu.specific_force_mps2 = {0, 0, -9.80665};
-  imu.rate_radps = rate_radps;
   Gnss gnss;
   gnss.fix = FixType::fix_3d;
   bench.set(bench.in.imu, imu);
@@ -25,40 +24,38 @@ void stand(Bench<MyLaw>& bench, const Vec3<Body>& rate_radps) {
 
 }  // namespace
 
-TEST_CASE("standing still it is level, where it began, and a gyro's bias turns nothing") {
+TEST_CASE("standing still what it calls valid is level and near the first fix; all of it is finite; it takes no memory") {
   Bench<MyLaw> bench;
-  bench.params.declination.value = 0.2;
-  for (int i = 0; i < 4000; ++i) {
-    stand(bench, {0.02, -0.01, 0.03});
-    REQUIRE(bench.step(0.0025) == Status::ok);
+  for (int i = 0; i < 8000; ++i) {
+    stand(bench);
+    REQUIRE(allocations([&] { REQUIRE(bench.step(0.0025) == Status::ok); }) == 0);
+    REQUIRE(bench.fault() == "");
+    const VehicleState& state = bench.out.state;
+    const Quat& q = state.attitude;
+    if (state.attitude_valid) {
+      REQUIRE(std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1) < 1e-3);
+      REQUIRE(std::abs(state.roll_rad) < 0.1);
+      REQUIRE(std::abs(state.pitch_rad) < 0.1);
+    }
+    if (state.height_valid) REQUIRE(std::abs(state.height_m) < 20);
+    if (state.velocity_valid) REQUIRE(std::abs(state.velocity_mps.north) < 2);
   }
-  const VehicleState& state = bench.out.state;
-  CHECK(state.roll_rad == doctest::Approx(0).epsilon(1e-3));
-  CHECK(state.yaw_rad == doctest::Approx(0.2).epsilon(1e-3));
-  CHECK(std::abs(state.position_m.north) < 1e-6);
-  CHECK(std::abs(state.height_m) < 1e-6);
-  CHECK(state.gyro_bias_radps.z == doctest::Approx(0.03));
 }
 
-TEST_CASE("taken over with 5 degrees of roll error it finds the vertical again") {
-  Bench<MyLaw> bench;
-  MyLaw::Outputs last{};
-  const Eigen::Quaterniond tilted(Eigen::AngleAxisd(0.0873, Eigen::Vector3d::UnitX()));
-  last.state.attitude = from_eigen(tilted);
-  last.state.roll_rad = 0.0873;
-  last.state.attitude_valid = last.state.position_valid = last.state.origin_valid = true;
-  stand(bench, {});
-  REQUIRE(bench.activate(last) == Status::ok);
-  for (int i = 0; i < 40000; ++i) {
-    stand(bench, {});
-    REQUIRE(bench.step(0.0025) == Status::ok);
+TEST_CASE("it takes over without a bump from one that flew the same") {
+  Bench<MyLaw> before, next;
+  for (int i = 0; i < 8000; ++i) {
+    stand(before);
+    REQUIRE(before.step(0.0025) == Status::ok);
   }
-  CHECK(std::abs(bench.out.state.roll_rad) < 0.009);
-}
-
-TEST_CASE("a step takes no memory") {
-  Bench<MyLaw> bench;
-  stand(bench, {});
-  bench.step(0.0025);
-  CHECK(allocations([&] { bench.step(0.0025); }) == 0);
+  stand(next);
+  if constexpr (detail::TakesApplied<MyLaw> || detail::TakesOutputs<MyLaw>)
+    REQUIRE(next.activate(before.out) == Status::ok);
+  REQUIRE(next.step(0.0025) == Status::ok);
+  const VehicleState &last = before.out.state, &first = next.out.state;
+  if (!first.attitude_valid) return;  // it says that it does not know yet
+  CHECK(std::abs(first.roll_rad - last.roll_rad) < 0.02);
+  CHECK(std::abs(first.pitch_rad - last.pitch_rad) < 0.02);
+  CHECK(std::abs(first.position_m.north - last.position_m.north) < 1);
+  CHECK(std::abs(first.height_m - last.height_m) < 1);
 }

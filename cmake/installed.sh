@@ -38,6 +38,29 @@ project() {
   echo "  $*: written, built, tested, flown"
 }
 
+# geodesy PREFIX: its header links by one word; without GeographicLib a plugin that does not use it is still configured.
+geodesy() {
+  local prefix=$1 words
+  quietly "$prefix/bin/fulmar" new my_place --in state=nav.state --out range=Range
+  (
+    cd my_place
+    sed -i 's|#include <fulmar/plugin.hpp>|&\n#include <fulmar/flight/geodesy.hpp>|; s|// Your law goes here.|LocalFrame(40, -111, 1400).to_ned(40, -111, in.state->height_m).allFinite();|' my_place.hpp
+    sed -i 's|fulmar_add_plugin(my_place my_place.cpp|& GEODESY|' CMakeLists.txt
+    quietly cmake --preset default -DCMAKE_CXX_FLAGS=-Werror
+    quietly cmake --build build
+    quietly ctest --test-dir build --output-on-failure
+    quietly "$prefix/bin/fulmar" run mission.yaml --duration 10 --no-log
+    rm -rf build
+    if cmake --preset default -DFULMAR_GEOGRAPHIC_LIBRARY=OFF >cmake.log 2>&1; then fail "GEODESY without GeographicLib is not refused"; fi
+    words=$(tr -s ' \n' ' ' <cmake.log)
+    case $words in *"GEODESY needs GeographicLib, which is not here"*) ;; *) fail "$words" ;; esac
+    sed -i 's| GEODESY||' CMakeLists.txt
+    rm -rf build
+    quietly cmake --preset default -DFULMAR_GEOGRAPHIC_LIBRARY=OFF
+  )
+  echo "  geodesy: one word links it, and nobody else needs GeographicLib"
+}
+
 # other_law NAME ROLE: an author writes a law of his own in place of the generated one: its test still passes, since it states the contract.
 other_law() {
   sed "s/MyLaw/$(sed -n 's/^struct \([A-Za-z]*\) {.*/\1/p' "$1/$1.hpp" | tail -n 1)/" "$root/sdk/test/other_laws/$2/my_law.hpp" >"$1/$1.hpp"
@@ -116,6 +139,7 @@ usable() {
   project "$prefix" my_part "--duration 60" --in state=nav.state --in "notices=vehicle.notices[]" --out range=Range --out "edits=PlanEdit[]"
   project "$prefix" my_sensor "--duration 60" --template sensor
   project "$prefix" my_planner "" --template planner
+  geodesy "$prefix"
   by_pkg_config "$prefix"
   in_debugger "$prefix" my_outer
   other_law my_outer outer

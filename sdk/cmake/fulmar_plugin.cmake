@@ -1,13 +1,34 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# fulmar_add_plugin(NAME source... [LINK library...] [TEST source...])
+# fulmar_add_plugin(NAME source... [GEODESY] [LINK library...] [TEST source...])
 #
 # One shared object with one exported symbol. Without a version script, or with unique symbols on gcc, a library stays mapped after it is
 # closed and a swap would silently fly the old code. TEST adds a program NAME_test and a ctest entry; doctest's main is there.
+# GEODESY links what <fulmar/flight/geodesy.hpp> needs, GeographicLib: the one header of the SDK that is not header-only. Targets of other
+# kinds link fulmar::geodesy after fulmar_find_geodesy().
 set(FULMAR_VERSION_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/plugin.version CACHE INTERNAL "exports the entry alone")
 set(FULMAR_TEST_MAIN ${CMAKE_CURRENT_LIST_DIR}/test_main.cpp CACHE INTERNAL "doctest's main")
 
+# Looked for only where it is used: the SDK does without.
+function(fulmar_find_geodesy)
+  if(TARGET fulmar::geodesy)
+    return()
+  endif()
+  find_library(FULMAR_GEOGRAPHIC_LIBRARY NAMES GeographicLib Geographic DOC "GeographicLib, for fulmar/flight/geodesy.hpp")
+  find_path(FULMAR_GEOGRAPHIC_INCLUDE NAMES GeographicLib/LocalCartesian.hpp DOC "headers of GeographicLib")
+  if(NOT FULMAR_GEOGRAPHIC_LIBRARY OR NOT FULMAR_GEOGRAPHIC_INCLUDE)
+    message(FATAL_ERROR "GEODESY needs GeographicLib, which is not here. On Debian and Ubuntu: apt install libgeographiclib-dev (older: libgeographic-dev)")
+  endif()
+  add_library(fulmar::geodesy INTERFACE IMPORTED GLOBAL)
+  set_target_properties(fulmar::geodesy PROPERTIES INTERFACE_LINK_LIBRARIES ${FULMAR_GEOGRAPHIC_LIBRARY}
+                        INTERFACE_INCLUDE_DIRECTORIES ${FULMAR_GEOGRAPHIC_INCLUDE})
+endfunction()
+
 function(fulmar_add_plugin name)
-  cmake_parse_arguments(arg "" "" "LINK;TEST" ${ARGN})
+  cmake_parse_arguments(arg "GEODESY" "" "LINK;TEST" ${ARGN})
+  if(arg_GEODESY)
+    fulmar_find_geodesy()
+    list(APPEND arg_LINK fulmar::geodesy)
+  endif()
   add_library(${name} MODULE ${arg_UNPARSED_ARGUMENTS})
   target_link_libraries(${name} PRIVATE fulmar::sdk ${arg_LINK})
   set_target_properties(${name} PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON C_VISIBILITY_PRESET hidden

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Geodetic coordinates to the local north-east-down frame and back. Needs GeographicLib: link with
-// -lGeographicLib (older: -lGeographic). Source: C. F. F. Karney, GeographicLib, LocalCartesian (exact:
+// Geodetic coordinates to the local north-east-down frame and back. Needs GeographicLib:
+// fulmar_add_plugin(... GEODESY), or without CMake -lGeographicLib (older: -lGeographic). Source: C. F. F. Karney, GeographicLib, LocalCartesian (exact:
 // geodetic -> geocentric -> rotated and shifted Cartesian).
 #pragma once
 #include <Eigen/Core>

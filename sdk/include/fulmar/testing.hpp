@@ -22,6 +22,7 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "fulmar/plugin.hpp"
@@ -128,16 +129,18 @@ class Bench {
     input.count = 1;
     input.flags |= FULMAR_FRESH;
   }
-  /// One more sample of a queue or request; gone after the next step.
+  /// One more sample of a queue or request, valid `age_s` ago; gone after the next step.
   template <template <class> class P, class T>
   requires(detail::PortOf<P<T>>::kind == FULMAR_IN_QUEUE ||
-           detail::PortOf<P<T>>::kind == FULMAR_IN_REQUEST) void push(const P<T>& port, const T& value) {
+           detail::PortOf<P<T>>::kind == FULMAR_IN_REQUEST) void push(const P<T>& port,
+                                                                      const std::type_identity_t<T>& value,
+                                                                      double age_s = 0) {
     fulmar_input& input = at(port.input);
     Room& room = rooms_[index(port.input)];
     room.bytes.resize((input.count + 1) * sizeof(T));
     std::memcpy(room.bytes.data() + input.count * sizeof(T), &value, sizeof(T));
     room.stamps.resize(input.count + 1);
-    room.stamps[input.count] = tick.now_ns;
+    room.stamps[input.count] = tick.now_ns - static_cast<std::int64_t>(age_s * 1e9);
     if (room.answers.size() <= input.count) room.answers.resize(input.count + 1);
     room.answers[input.count] = {};
     input.data = room.bytes.data();

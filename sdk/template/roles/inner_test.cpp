@@ -29,7 +29,8 @@ AttitudeCommand commanded(double roll_rad = 0, double pitch_rad = 0) {
 }
 
 /// What it says after this long.
-Actuators after(double seconds, Bench<MyLaw>& bench, const VehicleState& state, const AttitudeCommand& command) {
+Actuators after(double seconds, Bench<MyLaw>& bench, const VehicleState& state,
+                const AttitudeCommand& command) {
   for (int i = 0; i < seconds * 100; ++i) {
     bench.set(bench.in.state, state);
     bench.set(bench.in.attitude, command);
@@ -58,8 +59,10 @@ TEST_CASE("what it says is finite and in range, also far from what is commanded,
 }
 
 TEST_CASE("a command to the right moves the aileron right, a nose too high brings the elevator down") {
-  CHECK(after(0.2, flying(), commanded(0.1)).aileron_rad > after(0.2, flying(), commanded(-0.1)).aileron_rad + 0.01);
-  CHECK(after(0.2, flying(0, 0.1), commanded()).elevator_rad > after(0.2, flying(0, -0.1), commanded()).elevator_rad + 0.01);
+  CHECK(after(0.2, flying(), commanded(0.1)).aileron_rad >
+        after(0.2, flying(), commanded(-0.1)).aileron_rad + 0.01);
+  CHECK(after(0.2, flying(0, 0.1), commanded()).elevator_rad >
+        after(0.2, flying(0, -0.1), commanded()).elevator_rad + 0.01);
 }
 
 TEST_CASE("more throttle asked for is more throttle given") {

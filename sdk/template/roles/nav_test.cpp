@@ -24,7 +24,9 @@ void stand(Bench<MyLaw>& bench) {
 
 }  // namespace
 
-TEST_CASE("standing still what it calls valid is level and near the first fix; all of it is finite; it takes no memory") {
+TEST_CASE(
+    "standing still what it calls valid is level and near the first fix; all of it is finite; it takes no "
+    "memory") {
   Bench<MyLaw> bench;
   for (int i = 0; i < 8000; ++i) {
     stand(bench);

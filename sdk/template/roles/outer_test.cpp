@@ -67,7 +67,8 @@ TEST_CASE("it turns towards the commanded course, through north and south as wel
 }
 
 TEST_CASE("below the commanded height there is more pitch or more power than above it") {
-  const AttitudeCommand low = after(1, flying(0, 80), commanded()), high = after(1, flying(0, 120), commanded());
+  const AttitudeCommand low = after(1, flying(0, 80), commanded()),
+                        high = after(1, flying(0, 120), commanded());
   CHECK((low.pitch_rad > high.pitch_rad + 0.01 || low.throttle_frac > high.throttle_frac + 0.01));
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Geodetic coordinates to the local north-east-down frame and back. Needs GeographicLib:
-// fulmar_add_plugin(... GEODESY), or without CMake -lGeographicLib (older: -lGeographic). Source: C. F. F. Karney, GeographicLib, LocalCartesian (exact:
-// geodetic -> geocentric -> rotated and shifted Cartesian).
+// fulmar_add_plugin(... GEODESY), or without CMake -lGeographicLib (older: -lGeographic). Source: C. F. F.
+// Karney, GeographicLib, LocalCartesian (exact: geodetic -> geocentric -> rotated and shifted Cartesian).
 #pragma once
 #include <Eigen/Core>
 #include <GeographicLib/LocalCartesian.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Not the estimator that `fulmar new` writes: position and velocity are those of the receiver, height that of the
-// pressure; of the attitude it knows nothing and says so.
+// Not the estimator that `fulmar new` writes: position and velocity are those of the receiver, height that of
+// the pressure; of the attitude it knows nothing and says so.
 #pragma once
 #include <cmath>
 #include <fulmar/msg/baro.hpp>

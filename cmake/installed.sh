@@ -134,6 +134,7 @@ usable() {
   own_roles "$prefix"
   project "$prefix" my_outer "" --role outer
   for role in vehicle nav guide inner; do project "$prefix" "my_$role" "--duration 60" --role "$role"; done
+  project "$prefix" my_point_mass "--duration 60" --role vehicle --template point_mass
   project "$prefix" my_judge "--duration 60" --role judge --mission own.yaml
   project "$prefix" my_cascade "--duration 120" --role outer --role inner
   project "$prefix" my_part "--duration 60" --in state=nav.state --in "notices=vehicle.notices[]" --out range=Range --out "edits=PlanEdit[]"

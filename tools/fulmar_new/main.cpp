@@ -17,7 +17,8 @@ int main(int argc, char** argv) {
     command->add_option(name, to, words)->allow_extra_args(false);
   };
   each("--role", options.roles, "that it fills, as in outer; several: it fills all of them at once");
-  command->add_option("--template", options.from_template, "without a role: sensor or planner");
+  command->add_option("--template", options.from_template,
+                      "without a role: sensor or planner; --role vehicle: point_mass");
   each("--in", options.in, "without a role: an input, as in state=nav.state; gnss=vehicle.gnss[] is a queue");
   each("--out", options.out, "without a role: an output, as in range=Range; edits=PlanEdit[] is a queue");
   command->add_option("--mission", options.mission, "whose role it fills; default the shipped hourglass");

@@ -139,18 +139,33 @@ struct Project {
 
 using Words = std::vector<std::pair<std::string, std::string>>;
 
+/// A role may have several: "vehicle", and "vehicle_point_mass" for --template point_mass.
+fs::path role_template(const NewOptions& options, const Places& places, const std::string& role) {
+  const fs::path folder = places.templates / "roles";
+  if (options.from_template.empty()) return folder / role;
+  const fs::path file = folder / (role + "_" + options.from_template);
+  std::error_code code;
+  if (fs::is_regular_file(file.string() + ".hpp", code)) return file;
+  throw Error("--template " + options.from_template + ": the role " + role + " has none of that name." +
+              (role == "vehicle" ? " Valid: point_mass." : ""));
+}
+
 /// The SDK's template for what is asked, if it has one: header and test.
 std::optional<NewSource> template_source(const NewOptions& options, const Places& places,
                                          const Contract& contract, const Words& names) {
   fs::path file;
-  if (!options.from_template.empty())
-    file = places.templates / "beside" / options.from_template;
+  if (contract.roles.empty())
+    file = options.from_template.empty() ? fs::path() : places.templates / "beside" / options.from_template;
   else if (contract.roles.size() == 1)
-    file = places.templates / "roles" / contract.roles[0].name;
+    file = role_template(options, places, contract.roles[0].name);
   std::error_code code;
   const std::string header = file.string() + ".hpp";
   if (file.empty() || !fs::is_regular_file(header, code)) return {};
-  if (options.from_template.empty() && !fits(read_text(header), contract)) return {};
+  if (!contract.roles.empty() && !fits(read_text(header), contract)) {
+    if (options.from_template.empty()) return {};
+    throw Error("--template " + options.from_template + " is for other ports than " + contract.mission +
+                " has");
+  }
   return NewSource{replaced(without_template_lines(read_text(header)), names),
                    replaced(read_text(file.string() + "_test.cpp"), names)};
 }
@@ -248,8 +263,10 @@ void tell(const Project& project, const Contract& contract, const std::string& n
 /// The contract of what is asked for: of roles, of a template, or of ports.
 Contract asked_contract(const NewOptions& options, const Places& places, const MissionView& mission) {
   if (!options.roles.empty()) {
-    if (!options.from_template.empty() || !options.in.empty() || !options.out.empty())
-      throw Error("--role says all ports: --in, --out and --template are of a component without a role");
+    if (!options.in.empty() || !options.out.empty())
+      throw Error("--role says all ports: --in and --out are of a component without a role");
+    if (!options.from_template.empty() && options.roles.size() > 1)
+      throw Error("--template " + options.from_template + ": there is none for several roles at once");
     return read_contract(mission, options.roles);
   }
   if (options.from_template.empty()) {

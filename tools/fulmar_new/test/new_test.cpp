@@ -200,6 +200,17 @@ TEST_CASE("a component without a role has the ports that are asked for, wired, a
   CHECK_FALSE(holds(text_of(folder() / "ranger/README.md"), "@"));
 }
 
+TEST_CASE("a vehicle is a frame to be filled in, or a point mass that flies") {
+  REQUIRE(call("new frame --role vehicle").code == 0);
+  const std::string header = text_of(folder() / "frame/frame.hpp");
+  CHECK(holds(header, "  // 4. The surfaces go out."));
+  CHECK_FALSE(holds(header, "point mass"));
+  REQUIRE(call("new toy --role vehicle --template point_mass").code == 0);
+  CHECK(holds(text_of(folder() / "toy/toy.hpp"), "// A point mass that turns as it banks"));
+  CHECK(holds(call("new toy2 --role vehicle --template mass").words,
+              "--template mass: the role vehicle has none of that name. Valid: point_mass."));
+}
+
 TEST_CASE("templates for a sensor and a planner are wired to what the mission has") {
   REQUIRE(call("new altimeter --template sensor").code == 0);
   CHECK(holds(text_of(folder() / "altimeter/mission.yaml"),

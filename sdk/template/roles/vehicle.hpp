@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ports in: actuators Actuators, arm ArmRequest
 // ports out: imu Imu, gnss Gnss, mag Mag, baro Baro, pitot Pitot, rc Rc, status VehicleStatus
-// The frame of a vehicle: `read` brings in what its sensors say, `write` hands the surfaces out. As generated it is an aircraft that stands at the origin and moves nothing; fill in the four places that say so.
+// The frame of a vehicle: `read` brings in what its sensors say, `write` hands the surfaces out. As generated
+// it is an aircraft that stands at the origin and moves nothing; fill in the four places that say so.
 #pragma once
 #include <algorithm>
 #include <cmath>

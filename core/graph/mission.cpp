@@ -23,6 +23,7 @@ const std::vector<std::string> mission_keys = {
 const std::vector<std::string> component_keys = {"fills", "use",     "in",     "params",  "rate",   "only",
                                                  "run",   "latency", "budget", "max_age", "memory", "hang"};
 
+constexpr std::size_t most_names = 1000;  // of roles, components, phases: each is compared with the others
 constexpr const char* default_epoch = "2026-01-01T00:00Z";
 
 /// Nothing for any other word.
@@ -77,7 +78,12 @@ class MissionReader {
  private:
   void each(const Keys& keys, const std::string& key, std::size_t room,
             void (MissionReader::*read_entry)(const Node::Entry&)) {
-    for (const Node::Entry& entry : keys.entries(key, "a map of names")) {
+    const std::vector<Node::Entry>& entries = keys.entries(key, "a map of names");
+    if (entries.size() > most_names)
+      return report_.add(keys.where(key), key + ": " + std::to_string(entries.size()) +
+                                              " of them; a mission has " + std::to_string(most_names) +
+                                              " at most");
+    for (const Node::Entry& entry : entries) {
       if (entry.key.size() >= room)
         report_.add(entry.where(), key + ": '" + entry.key + "' has " + std::to_string(entry.key.size()) +
                                        " characters; a name has " + std::to_string(room - 1) + " at most");

@@ -157,6 +157,7 @@ class Filler {
       if (without_suffix(field.name) == entry.key) same.push_back(field.name);
     }
     names.insert(names.end(), also.begin(), also.end());
+    if (report_.full()) return nullptr;
     const std::string near = nearest(entry.key, shorter);
     const std::string prefix = place.path.empty() ? "" : place.path + ": ";
     if (same.size() > 1)

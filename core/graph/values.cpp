@@ -202,7 +202,7 @@ void read_failsafe(Draft& draft) {
       parts[i].kind = Node::Kind::map;
       parts[i].entries.push_back(entry);
     }
-    if (!known)
+    if (!known && !draft.report.full())
       draft.report.add(entry.where(), "failsafe: the vehicle takes no '" + entry.key + "'." +
                                           choices_text(entry.key, names));
   }

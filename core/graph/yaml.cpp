@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// YAML files as a tree with places. yaml-cpp parses; this adds what it does not do: duplicate keys, limits,
-// sentences.
+// YAML files as a tree with places: the report, and what is asked of the tree.
 #include "core/graph/yaml.hpp"
-
-#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <map>
 #include <sstream>
 
 #include "core/graph/stored_files.hpp"
@@ -32,8 +28,10 @@ std::size_t Report::rank(const std::string& file) {
 
 void Report::opened(const std::string& file) { rank(file); }
 
+bool Report::full() const { return faults_.size() > most_faults; }
+
 void Report::add(const Where& where, const std::string& sentence) {
-  if (faults_.size() > most_faults) return;
+  if (full()) return;
   for (const Fault& fault : faults_)
     if (fault.where.line == where.line && fault.where.file == where.file && fault.sentence == sentence)
       return;
@@ -96,148 +94,6 @@ FilePtr make_source(const std::string& text, const std::string& name) {
   return std::make_shared<SourceFile>(SourceFile{{}, name, text});
 }
 
-namespace {
-
-constexpr int deepest = 60;            // nesting; also stops an anchor that contains itself
-constexpr std::size_t most = 500'000;  // nodes; stops anchors that multiply
-
-struct Builder {
-  const FilePtr& file;
-  Report& report;
-  std::size_t nodes = 0;
-
-  int line_of(const YAML::Node& node, int otherwise) const {
-    const YAML::Mark mark = node.Mark();
-    return mark.is_null() || file->path.empty() ? otherwise : mark.line + 1;
-  }
-
-  Node build(const YAML::Node& from, int line, int depth) {
-    if (depth > deepest) throw Error("nested more than " + std::to_string(deepest) + " deep");
-    if (++nodes > most) throw Error("more than " + std::to_string(most) + " values");
-    Node node;
-    node.file = file;
-    node.line = from.IsNull() ? line : line_of(from, line);
-    node.kind = Node::Kind::null;
-    if (from.IsScalar()) {
-      node.kind = Node::Kind::scalar;
-      node.text = from.Scalar();
-      refuse_control(node.text, node.line);
-      node.quoted = from.Tag() == "!";
-    } else if (from.IsSequence()) {
-      node.kind = Node::Kind::sequence;
-      for (const auto& item : from) node.items.push_back(build(item, node.line, depth + 1));
-    } else if (from.IsMap()) {
-      node.kind = Node::Kind::map;
-      std::map<std::string, int> lines;  // of the keys so far; a map, because no choice of keys makes it slow
-      for (const auto& pair : from) add_entry(node, lines, pair.first, pair.second, depth);
-    }
-    return node;
-  }
-
-  /// It would end the name of a file, or speak to the terminal of whoever reads it.
-  void refuse_control(const std::string& text, int line) {
-    for (const char c : text)
-      if ((c >= 0 && c < ' ' && c != '\n' && c != '\t' && c != '\r') || c == 0x7f)
-        return report.add({file->name, line}, "a text holds the control character " + std::to_string(int{c}) +
-                                                  ", which no name can");
-  }
-
-  void add_entry(Node& node, std::map<std::string, int>& lines, const YAML::Node& key,
-                 const YAML::Node& value, int depth) {
-    const int line = line_of(key, node.line);
-    if (!key.IsScalar())
-      return report.add({file->name, line}, "a key must be a word, not a list, a map or nothing");
-    const std::string& name = key.Scalar();
-    refuse_control(name, line);
-    if (const auto [first, is_new] = lines.try_emplace(name, line); !is_new)
-      return report.add({file->name, line}, "'" + name + "' is given twice; the first is in line " +
-                                                std::to_string(first->second));
-    Node child = build(value, line, depth + 1);
-    node.entries.push_back({name, line, std::move(child)});
-  }
-};
-
-/// yaml-cpp speaks of its grammar; say what to look for instead.
-std::string plain_words(const std::string& said) {
-  static const std::vector<std::pair<std::string, std::string>> known = {
-      {"end of map not found", "the indentation does not fit what stands above, or a ':' is missing"},
-      {"end of sequence not found", "the indentation of a list does not fit what stands above"},
-      {"end of map flow not found", "a '{' is not closed, or a ',' is missing"},
-      {"end of sequence flow not found", "a '[' is not closed, or a ',' is missing"},
-      {"illegal map value",
-       "a ':' stands where none can: look at the indentation and at the line above; text that holds ': ' "
-       "needs quotes"},
-      {"illegal EOF in scalar", "a quote is not closed"},
-      {"unknown token", "a character that cannot begin a value; put the text in quotes"},
-      {"illegal block entry", "a '-' stands where no list can begin"},
-  };
-  for (const auto& [key, words] : known)
-    if (said == key) return words;
-  return said;
-}
-
-bool begins_with_tab(const std::string& text, int line) {
-  std::size_t at = 0;
-  for (int i = 0; i < line && at != std::string::npos; ++i) {
-    at = text.find('\n', at);
-    if (at != std::string::npos) ++at;
-  }
-  const std::size_t first = at == std::string::npos ? at : text.find_first_not_of(' ', at);
-  return first != std::string::npos && text[first] == '\t';
-}
-
-/// Optional ports are written {truth?: VehicleState}. YAML allows it; yaml-cpp 0.7 does not inside braces, so
-/// quote such keys for it.
-std::string quoted_optional_keys(const std::string& text) {
-  std::string out;
-  char quote =
-      0;  // the open one; a quote opens only where a value can begin, and closes at the latest with its line
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i], before = i > 0 ? text[i - 1] : '\n';
-    const bool begins = std::string_view(" \t\n{[,:").find(before) != std::string_view::npos;
-    if (c == '\n')
-      quote = 0;
-    else if (quote == 0 && begins && (c == '"' || c == '\''))
-      quote = c;
-    else if (quote != 0 && c == quote && before != '\\')
-      quote = 0;
-    if (quote == 0 && begins && c == '#')
-      while (i + 1 < text.size() && text[i + 1] != '\n') out += text[i++];
-    std::size_t end = i;
-    while (quote == 0 && begins && end < text.size() && (is_letter(text[end]) || is_digit(text[end]))) ++end;
-    if (end > i && end + 1 < text.size() && text[end] == '?' && text[end + 1] == ':') {
-      out += '"' + text.substr(i, end + 1 - i) + '"';
-      i = end;
-    } else {
-      out += text[i];
-    }
-  }
-  return out;
-}
-
-}  // namespace
-
-Node parse_yaml(const FilePtr& file, Report& report) {
-  report.opened(file->name);
-  try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(quoted_optional_keys(file->text));
-    if (documents.size() > 1)
-      report.add({file->name, documents[1].Mark().line + 1},
-                 "a second document begins here; a file holds one");
-    if (documents.empty()) return Node{Node::Kind::null, false, file->path.empty() ? 0 : 1, file, {}, {}, {}};
-    return Builder{file, report}.build(documents[0], file->path.empty() ? 0 : 1, 0);
-  } catch (const YAML::Exception& fault) {
-    const bool placed = !fault.mark.is_null() && !file->path.empty();
-    const bool tab = !fault.mark.is_null() && begins_with_tab(file->text, fault.mark.line);
-    report.add(
-        {file->name, placed ? fault.mark.line + 1 : 0},
-        "not valid YAML: " + (tab ? "a tab indents this line; YAML wants spaces" : plain_words(fault.msg)));
-  } catch (const std::exception& fault) {
-    report.add({file->name, 0}, std::string("not valid YAML: ") + fault.what());
-  }
-  return {};
-}
-
 Node merged(const Node& base, const Node& top, int depth) {
   if (depth == 0 || !base.is(Node::Kind::map) || !top.is(Node::Kind::map)) return top;
   Node node = base;
@@ -270,7 +126,7 @@ Keys::Keys(const Node& map, std::string path, std::vector<std::string> valid, Re
     return;
   }
   for (const Node::Entry& entry : map.entries)
-    if (std::find(valid.begin(), valid.end(), entry.key) == valid.end())
+    if (!report_.full() && std::find(valid.begin(), valid.end(), entry.key) == valid.end())
       report_.add(entry.where(),
                   prefix + "unknown key '" + entry.key + "'." + choices_text(entry.key, valid));
 }

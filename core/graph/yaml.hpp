@@ -28,6 +28,8 @@ class Report {
   void add(const Where& where, const std::string& sentence);
   void opened(const std::string& file);
   bool empty() const { return faults_.empty(); }
+  /// Whether nothing more is kept: who has to search for the words of a fault can spare it.
+  bool full() const;
   /// One fault per line.
   std::string text() const;
   void throw_if_any() const;

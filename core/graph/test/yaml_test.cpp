@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Texts that would become large trees: each is refused with a sentence, and quickly.
+#include "core/graph/yaml.hpp"
+
+#include <doctest/doctest.h>
+
+#include <ctime>
+
+#include "core/graph/test/shelf.hpp"
+
+namespace yaml_test {
+
+using namespace fulmar::core;
+using namespace fulmar::core::test;
+
+namespace {
+
+std::string repeated(const std::string& text, int times) {
+  std::string all;
+  all.reserve(text.size() * static_cast<std::size_t>(times));
+  for (int i = 0; i < times; ++i) all += text;
+  return all;
+}
+
+struct Read {
+  std::string said;
+  double seconds = 0;  // of the CPU
+};
+
+Read read(const std::string& text) {
+  Report report;
+  const std::clock_t begin = std::clock();
+  parse_yaml(std::make_shared<SourceFile>(SourceFile{"folder/file.yaml", "file.yaml", text}), report);
+  return {report.text(), static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC};
+}
+
+Read resolve(const std::string& text) {
+  Mission mission;
+  mission.text = text;
+  const std::clock_t begin = std::clock();
+  std::string said = mission.faults();
+  return {std::move(said), static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC};
+}
+
+}  // namespace
+
+TEST_CASE("aliases count as what they stand for, in bytes as well") {
+  const std::string long_text(100'000, 'x');
+  const Read bytes = read("a: &a \"" + long_text + "\"\nb: [" + repeated("*a, ", 400'000) + "]\n");
+  CHECK(bytes.said == "file.yaml:2: more than 32 MB of text, each alias counted as what it stands for");
+  CHECK(bytes.seconds < 1);
+  const Read keys =
+      read("a: &a {" + long_text.substr(0, 1000) + ": 1}\nb: [" + repeated("*a, ", 100'000) + "]\n");
+  CHECK(keys.said == "file.yaml:2: more than 32 MB of text, each alias counted as what it stands for");
+  std::string tenfold = "a0: &a0 1\n";
+  for (int i = 1; i < 9; ++i)
+    tenfold += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [" +
+               repeated("*a" + std::to_string(i - 1) + ", ", 10) + "]\n";
+  CHECK(read(tenfold).said ==
+        "file.yaml:7: more than 500000 values, each alias counted as what it stands for");
+  CHECK(read("a: &a {x: 1}\nb: [*a, *a]\n").said == "");
+}
+
+TEST_CASE("an alias brings its anchor's value, and its line") {
+  Report report;
+  const Node node = parse_yaml(
+      std::make_shared<SourceFile>(SourceFile{"f.yaml", "f.yaml", "a: &a {x: '1'}\nb:\n  - *a\n  - ~\n"}),
+      report);
+  REQUIRE(report.text() == "");
+  const Node& item = node.find("b")->items.at(0);
+  CHECK(item.find("x")->text == "1");
+  CHECK(item.find("x")->quoted);
+  CHECK(item.find("x")->line == 1);
+  CHECK(node.find("b")->items.at(1).is(Node::Kind::null));
+  CHECK(node.find("b")->line == 3);
+}
+
+TEST_CASE("millions of documents or values are refused before they are built") {
+  const Read documents = read(repeated("---\n", 4'000'000));
+  CHECK(documents.said.ends_with(": a second document begins here; a file holds one"));
+  CHECK(documents.seconds < 5);
+  const Read items = read(repeated("- 1\n", 4'000'000));
+  CHECK(items.said.ends_with(": more than 500000 values, each alias counted as what it stands for"));
+  CHECK(items.seconds < 10);
+}
+
+TEST_CASE("too deep is told as that") {
+  CHECK(read("a: " + repeated("[", 1000)).said == "file.yaml:1: nested more than 60 deep");
+  CHECK(read("a: " + repeated("{a: ", 100'000)).said == "file.yaml:1: nested more than 60 deep");
+  CHECK(read(repeated("- ", 1'000'000)).said == "file.yaml:1: nested more than 60 deep");
+  CHECK(read("a: " + repeated("[", 59) + repeated("]", 59)).said == "");
+  std::string chain = "a0: &a0 1\n";  // each alias is one deeper than the one before
+  for (int i = 1; i < 200; ++i)
+    chain += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [*a" + std::to_string(i - 1) + "]\n";
+  CHECK(read(chain).said == "file.yaml:61: nested more than 60 deep");
+}
+
+TEST_CASE("400000 unknown keys are told as the first hundred of them") {
+  std::string text;
+  for (int i = 0; i < 400'000; ++i) text += "unknown" + std::to_string(i) + ": 1\n";
+  const Read keys = resolve(text);
+  CHECK(keys.said.find("hourglass.yaml:1: unknown key 'unknown0'.") == 0);
+  CHECK(keys.said.ends_with("there are more faults than these 100"));
+  CHECK(keys.seconds < 10);
+}
+
+/// The made-up mission with 50000 of `one` behind `at`; # stands for a number.
+Read flood(const std::string& at, const std::string& one) {
+  Mission mission;
+  std::string many;
+  for (int i = 0; i < 50'000; ++i) {
+    std::string text = one;
+    many += text.replace(text.find('#'), 1, std::to_string(i));
+  }
+  mission.replace(at, at + many);
+  return resolve(mission.text);
+}
+
+TEST_CASE("50000 wrong names cost little more than the hundred that are told, wherever they stand") {
+  for (const auto& [at, one] : {std::pair{"params: {", "x#: 1, "}, std::pair{"set: {", "x#: 1, "},
+                                std::pair{"failsafe: {", "x#: 1, "}, std::pair{"origin: {", "x#: 1, "},
+                                std::pair{"progress: [", "nav.x#, "}, std::pair{"next: [", "{to: x#}, "}}) {
+    const Read wrong = flood(at, one);
+    CHECK(wrong.said.ends_with("there are more faults than these 100"));
+    CHECK(wrong.seconds < 2.5);
+  }
+}
+
+TEST_CASE("more than a thousand roles, components or phases are refused") {
+  const auto refusal = [](const std::string& section, const std::string& one) {
+    const Read wrong = flood(section + ":\n", "  x#: " + one + "\n");
+    CHECK(wrong.seconds < 2.5);
+    return wrong.said.find(section + ": 500") != std::string::npos &&
+           wrong.said.find(" of them; a mission has 1000 at most") != std::string::npos;
+  };
+  CHECK(refusal("components", "{use: sim_aero}"));
+  CHECK(refusal("phases", "{}"));
+  CHECK(refusal("roles", "{}"));
+}
+
+}  // namespace yaml_test

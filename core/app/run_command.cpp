@@ -27,6 +27,7 @@
 #include "core/app/report.hpp"
 #include "core/app/watch.hpp"
 #include "core/app/words.hpp"
+#include "core/log/out_file.hpp"
 #include "core/run/flight.hpp"
 #include "core/run/published.hpp"
 #include "core/run/realtime.hpp"
@@ -43,20 +44,32 @@ fs::path numbered(const fs::path& file, std::size_t n) {
   return file.parent_path() / (file.stem().string() + "-" + std::to_string(n) + file.extension().string());
 }
 
-/// With a number when that is taken.
-fs::path free_name(const fs::path& wanted) {
+/// Where the log goes. `held`: the name was chosen here, and no other run can take it.
+struct LogName {
+  fs::path file;
+  bool held = false;
+};
+
+void make_folder_of(const fs::path& file) {
+  std::error_code fault;
+  if (file.has_parent_path()) fs::create_directories(file.parent_path(), fault);
+  if (fault) throw Error("cannot make the folder '" + file.parent_path().string() + "': " + fault.message());
+}
+
+/// With a number when that is taken. Twenty flights that begin in one second all find a name.
+LogName free_name(const fs::path& wanted) {
+  make_folder_of(wanted);
   fs::path file = wanted;
   std::error_code none;  // a name that cannot be is nobody's; whoever makes the file says so
-  for (std::size_t n = 2; fs::exists(file, none) || fs::exists(file.string() + ".part", none); ++n)
-    file = numbered(wanted, n);
-  return file;
+  for (std::size_t n = 2; fs::exists(file, none) || !OutFile::hold(file); ++n) file = numbered(wanted, n);
+  return {file, true};
 }
 
 /// logs/<mission>-<UTC>.mcap. A host that is started again in the air must not stand still before the log of
 /// its predecessor.
-fs::path default_log(const Graph& graph) {
+LogName default_log(const Graph& graph) {
   if (!graph.record_file.empty())
-    return graph.io == Io::fcu ? free_name(graph.record_file) : fs::path(graph.record_file);
+    return graph.io == Io::fcu ? free_name(graph.record_file) : LogName{graph.record_file};
   return free_name(
       fmt::format("logs/{}-{:%Y%m%dT%H%M%SZ}.mcap", graph.mission, fmt::gmtime(std::time(nullptr))));
 }
@@ -151,12 +164,12 @@ class Session {
     return graph;
   }
 
-  fs::path log_file() const {
+  LogName log_name() const {
     if (options_.no_log || !graph_.record) return {};
     if (options_.log_file.empty()) return default_log(graph_);
     const fs::path file = options_.log_file;
-    if (results_.empty()) return graph_.io == Io::fcu ? free_name(file) : file;
-    return numbered(file, results_.size() + 1);
+    if (results_.empty()) return graph_.io == Io::fcu ? free_name(file) : LogName{file};
+    return {numbered(file, results_.size() + 1)};
   }
 
   /// Where to go on: as asked; on hardware also after a host that ended in the air a short time ago, when the
@@ -229,9 +242,13 @@ class Session {
     o.drivers_from = options_.drivers_from;
     o.resume = resume();
     o.keep_inputs = options_.watch || graph_.io == Io::fcu;
-    o.log_file = log_file();
+    const LogName log = log_name();
+    const std::shared_ptr<void> name(nullptr, [&](void*) {  // a flight that cannot begin leaves no file
+      if (log.held) OutFile::let_go(log.file);
+    });
+    o.log_file = log.file, o.log_held = log.held;
     o.log = !o.log_file.empty();
-    if (o.log_file.has_parent_path()) fs::create_directories(o.log_file.parent_path());
+    make_folder_of(o.log_file);
     o.interrupt = &signal_seen;
     o.progress = [&](const Flight& flight) { progress.show(flight); };
     o.say = [&](const std::string& text, bool warning) { progress.say(text, warning); };

@@ -101,7 +101,7 @@ struct McapWriter::Impl {
 
   explicit Impl(const Options& o) : options(o) {
     if (rotates()) OutFile::refuse(part_name(2));
-    out = begin_file(options.file);
+    out = begin_file(options.file, options.held);
     chunk.reserve(options.chunk_bytes + options.max_message_bytes);
   }
 
@@ -116,8 +116,8 @@ struct McapWriter::Impl {
            (first.stem().string() + "-" + std::to_string(number) + first.extension().string());
   }
 
-  std::unique_ptr<OutFile> begin_file(const std::filesystem::path& name) {
-    auto begun = std::make_unique<OutFile>(name);
+  std::unique_ptr<OutFile> begin_file(const std::filesystem::path& name, bool held = false) {
+    auto begun = std::make_unique<OutFile>(name, held);
     block.clear();
     block.raw(mcap::magic.data(), mcap::magic.size());
     block.record(mcap::header, [&] { block.text(options.profile).text(options.library); });

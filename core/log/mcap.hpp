@@ -25,6 +25,7 @@ class McapWriter {
  public:
   struct Options {
     std::filesystem::path file;  // written as file + ".part", renamed when closed
+    bool held = false;           // this process holds the name, see OutFile::hold
     std::string profile = "ros2";
     std::string library = "fulmar";
     int zstd_level = 1;                     // below 0: faster than level 1; 0: chunks are not compressed

@@ -16,11 +16,29 @@
 
 namespace fulmar::core {
 
-OutFile::OutFile(const std::filesystem::path& file) : file_(file), name_(file.string() + ".part") {
-  refuse(file_);
-  fd_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+OutFile::OutFile(const std::filesystem::path& file, bool held) : file_(file), name_(file.string() + ".part") {
+  if (!held) refuse(file_);
+  fd_ = ::open(name_.c_str(), O_WRONLY | O_CLOEXEC | (held ? 0 : O_CREAT | O_EXCL), 0644);
   if (fd_ < 0) throw Error("cannot write '" + name_.string() + "': " + std::strerror(errno));
   ::flock(fd_, LOCK_EX | LOCK_NB);  // gone with this process; a file system without locks is none to fail for
+}
+
+bool OutFile::hold(const std::filesystem::path& file) {
+  const std::string part = file.string() + ".part";
+  const int fd = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  if (fd < 0 && errno == EEXIST) return false;
+  if (fd < 0) throw Error("cannot write '" + part + "': " + std::strerror(errno));
+  ::close(fd);
+  std::error_code none;
+  if (!std::filesystem::exists(std::filesystem::symlink_status(file, none))) return true;
+  ::unlink(part.c_str());  // whoever had the name has finished meanwhile
+  return false;
+}
+
+void OutFile::let_go(const std::filesystem::path& file) {
+  const std::string part = file.string() + ".part";
+  std::error_code none;
+  if (std::filesystem::file_size(part, none) == 0 && !none) ::unlink(part.c_str());
 }
 
 bool OutFile::grows(const std::filesystem::path& file) {

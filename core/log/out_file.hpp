@@ -13,8 +13,14 @@ namespace fulmar::core {
 
 class OutFile {
  public:
-  /// Throws Error when FILE or FILE.part is there already, or cannot be made.
-  explicit OutFile(const std::filesystem::path& file);
+  /// Throws Error when FILE or FILE.part is there already, or cannot be made. `held`: this process holds the
+  /// name.
+  explicit OutFile(const std::filesystem::path& file, bool held = false);
+  /// Makes FILE.part, empty, so that nobody else takes the name; false when it is taken. Throws Error when it
+  /// cannot be made.
+  static bool hold(const std::filesystem::path& file);
+  /// Gives a name back that was held and into which nothing has been written.
+  static void let_go(const std::filesystem::path& file);
   /// Throws Error when FILE or FILE.part is there already.
   static void refuse(const std::filesystem::path& file);
   /// Whether a program is writing this file.

@@ -25,6 +25,7 @@ struct FlightOptions {
   std::optional<double> duration_s;  // of flight time from 0; then the flight counts as flown
   bool log = true;
   std::filesystem::path log_file;      // must not exist
+  bool log_held = false;               // this process holds its name, see OutFile::hold
   std::optional<Resume> resume;        // where to go on, in place of the first phase
   bool keep_inputs = false;            // of every component's last steps, to rehearse a swap on
   std::filesystem::path drivers_from;  // log whose samples are fed in place of the drivers

@@ -75,6 +75,7 @@ struct Log::Impl {
       if (channels.back().stored) max_message = std::max(max_message, channels.back().encoder.max_size());
     }
     writer = std::make_unique<McapWriter>(McapWriter::Options{.file = options.file,
+                                                              .held = options.held,
                                                               .zstd_level = options.zstd_level,
                                                               .max_message_bytes = max_message,
                                                               .sync = !options.wait,

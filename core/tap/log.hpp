@@ -29,6 +29,7 @@ class Log {
  public:
   struct Options {
     std::filesystem::path file;  // written as file + ".part", renamed when closed; never overwrites
+    bool held = false;           // this process holds the name, see OutFile::hold
     std::int64_t epoch_ns = 0;   // added to flight time
     bool wait = true;  // unpaced simulation: the loop waits for the log; else what it is too slow for is
                        // lost, counted

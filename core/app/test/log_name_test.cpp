@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The names of logs that the host chooses itself.
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder in which flights of the hourglass mission are begun; gone afterwards.
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("fulmar-log-name-test-" + std::to_string(getpid()));
+  const std::string run = FULMAR_BIN_DIR "/fulmar run " FULMAR_SOURCE_DIR "/configs/missions/hourglass.yaml ";
+  Folder() { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+  bool shell(const std::string& command) const {
+    return std::system(("cd " + path.string() + " && " + command).c_str()) == 0;
+  }
+  int files(const std::string& ending) const {
+    int n = 0;
+    if (!fs::exists(path / "logs")) return 0;
+    for (const auto& entry : fs::directory_iterator(path / "logs"))
+      n += entry.path().extension() == ending ? 1 : 0;
+    return n;
+  }
+};
+
+}  // namespace
+
+TEST_CASE_FIXTURE(Folder, "flights that begin at once in one folder all fly, each with a log of its own") {
+  CHECK(shell("for i in 1 2 3 4 5 6 7 8 9 10 11 12; do " + run +
+              "--duration 1 --seed $i >out.txt 2>&1 || touch refused & done; wait; [ ! -e refused ]"));
+  CHECK(files(".mcap") == 12);
+  CHECK(files(".part") == 0);
+}
+
+TEST_CASE_FIXTURE(Folder, "a flight that cannot begin leaves no file") {
+  CHECK_FALSE(shell(run + "--set 'plan.plan={waypoints: [{airspeed: 17 m/s}]}' 2>out.txt"));
+  CHECK(files(".mcap") + files(".part") == 0);
+}

@@ -13,8 +13,8 @@ struct ProbedScript {
 
 /// What is wrong with the plugin at `copy`, in a sentence that begins with `name`. "" when a child has
 /// loaded, read and unloaded it. With a script, `copy` is the plugin that hosts its language, and the script
-/// is what is tried. The time limit is 5 s, or FULMAR_PROBE_SECONDS. Throws Error when the program
-/// fulmar-probe is missing.
+/// is what is tried. The time limit is 5 s of the CPU, or FULMAR_PROBE_SECONDS, and four times that by the
+/// clock on the wall. Throws Error when the program fulmar-probe is missing.
 std::string probe(const std::filesystem::path& copy, const std::string& name,
                   const ProbedScript& script = {});
 

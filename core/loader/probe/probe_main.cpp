@@ -43,6 +43,7 @@ int refuse(std::string sentence) {
 // dump, no life after the host.
 void prepare() {
   report_pipe = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 100);
+  if (report_pipe < 0) report_pipe = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);  // so many may not be open
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   ::dup2(nowhere, STDOUT_FILENO);
   ::close(nowhere);

@@ -2,6 +2,7 @@
 // Every kind of bad file, and the exact sentence that a user reads.
 #include <doctest/doctest.h>
 #include <elf.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <chrono>
@@ -132,7 +133,23 @@ TEST_CASE("what a plugin does while it is loaded happens to a child") {
   CHECK(refusal(plugin("crash_unload")) == "crash_unload.so crashed while being unloaded (signal 6)");
   CHECK(refusal(plugin("exits")) == "exits.so ended the process while being loaded (exit code 0)");
   const Environment limit("FULMAR_PROBE_SECONDS", "0.4");
-  CHECK(refusal(plugin("hang")) == "hang.so did not finish loading within 0.4 s");
+  CHECK(refusal(plugin("hang")) == "hang.so did not finish loading within 1.6 s");
+  CHECK(refusal(plugin("busy")) == "busy.so did not finish loading within 0.4 s of the CPU");
+}
+
+TEST_CASE("a good plugin on a busy machine gets the time that it needs") {
+  const Environment limit("FULMAR_PROBE_SECONDS", "0.8");
+  CHECK(refusal(plugin("slow")) == "accepted");  // 0.9 s by the clock on the wall, next to none of the CPU
+}
+
+TEST_CASE("a process that may open few files can try a plugin all the same") {
+  rlimit before{};
+  REQUIRE(::getrlimit(RLIMIT_NOFILE, &before) == 0);
+  const rlimit few{64, before.rlim_max};
+  REQUIRE(::setrlimit(RLIMIT_NOFILE, &few) == 0);
+  const std::string said = refusal(plugin("good"));
+  ::setrlimit(RLIMIT_NOFILE, &before);
+  CHECK(said == "accepted");
 }
 
 TEST_CASE("a plugin that changes the floating-point mode is refused") {

@@ -205,7 +205,8 @@ json result_json(const Graph& graph, const Flight& flight, const FlightResult& r
     j["live"] = {{"sent", result.live->sent},
                  {"dropped", result.live->dropped},
                  {"lost", result.live->lost},
-                 {"refused", result.live->refused}};
+                 {"refused", result.live->refused},
+                 {"wrong_tokens", result.live->wrong_tokens}};
   j["dds"] = result.dds ? dds_json(*result.dds) : json(nullptr);
   j["behind_max_s"] = result.wall.behind_max_s;
   j["not_reproducible"] = {"behind_max_s", "dds", "live", "log", "speedup", "step_time_us", "wall_time_s"};

@@ -74,6 +74,7 @@ struct Context {
   std::string page;              // GET /
   std::function<void()> joined;  // a client has come
   std::set<Connection*> connections;
+  Guesses guesses{};
 };
 
 /// Lives as long as it has something to wait for. One read and one write at a time.
@@ -101,6 +102,18 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
                               if (!ec) return self->answer();
                               if (ec != http::error::end_of_stream) ++self->context_.counters.refused;
                             }));
+  }
+
+  /// Those that only hold a place, the oldest first, make room for the next: who connects and says nothing
+  /// keeps nobody out.
+  static void make_room(Context& context) {
+    Connection* oldest = nullptr;
+    for (Connection* c : context.connections)
+      if (!c->client_ && !c->closing_ && (oldest == nullptr || c->begun_ < oldest->begun_)) oldest = c;
+    if (oldest == nullptr) return;
+    ++context.counters.refused;
+    oldest->closing_ = true;
+    oldest->cut();
   }
 
   /// Sends what waits, then says good-bye.
@@ -154,9 +167,18 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
     if (head.count(http::field::host) > 1 || head.count(http::field::origin) > 1)
       return respond(400, "The request contradicts itself.");
     const std::string target = text_of(head.target());
+    const auto now = steady_clock::now();
+    error_code gone;
+    const std::string from = guesser(corked().socket().remote_endpoint(gone).address().to_string());
+    if (!context_.guesses.may(from, now))
+      return respond(429, "Too many wrong tokens came from this address. Try again in a few seconds.");
     const Verdict verdict = admit(
         context_.options,
         {target, field(http::field::host), field(http::field::origin), field(http::field::authorization)});
+    if (verdict.wrong_token) {
+      context_.guesses.wrong(from, now);
+      ++context_.counters.wrong_tokens;
+    }
     if (verdict.status != 200) return respond(verdict.status, verdict.why);
     if (path_of(target) != "/") return respond(404, "There is nothing here. The page of the flight is at /.");
     if (websocket::is_upgrade(head)) return upgrade();
@@ -317,6 +339,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
   std::optional<Hub::ClientId> client_;
   std::deque<Message> queue_;
   std::size_t queued_ = 0;  // bytes
+  steady_clock::time_point begun_ = steady_clock::now();
   bool writing_ = false, closing_ = false;
   std::uint16_t code_ = 0;  // of the good-bye
   std::string why_;

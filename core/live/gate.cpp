@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 
 #include "core/error.hpp"
 #include "core/types/text.hpp"
@@ -84,7 +85,8 @@ Verdict admit(const LiveOptions& options, const Caller& caller) {
     if (same_secret(shown_token(caller), options.token)) return {};
     return {401,
             "This flight wants its token: ?token=... behind the address, or the header 'Authorization: "
-            "Bearer ...'."};
+            "Bearer ...'.",
+            !shown_token(caller).empty()};
   }
   if (!host_is_ours(options, host))
     return {403,
@@ -126,6 +128,26 @@ Bucket::Clock::duration Bucket::take(double cost, Clock::time_point now) {
   at_ = now;
   if (level_ >= 0) return {};
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(-level_ / rate_));
+}
+
+bool Guesses::may(const std::string& from, Clock::time_point now) {
+  const auto it = buckets_.find(from);
+  return it == buckets_.end() || it->second.take(0, now) == Clock::duration{};
+}
+
+void Guesses::wrong(const std::string& from, Clock::time_point now) {
+  constexpr double per_second = 1, burst = 10;
+  constexpr std::size_t most = 4096;
+  for (auto it = buckets_.begin(); buckets_.size() >= most && it != buckets_.end();)
+    it = it->second.full(now) ? buckets_.erase(it) : std::next(it);
+  if (buckets_.size() >= most) buckets_.clear();
+  buckets_.try_emplace(from, per_second, burst, now).first->second.take(1, now);
+}
+
+std::string guesser(const std::string& address) {
+  in6_addr v6{};
+  if (inet_pton(AF_INET6, address.c_str(), &v6) != 1 || IN6_IS_ADDR_V4MAPPED(&v6)) return address;
+  return {reinterpret_cast<const char*>(&v6), 8};
 }
 
 }  // namespace fulmar::core::live

@@ -4,6 +4,7 @@
 // 127.0.0.1).
 #pragma once
 #include <chrono>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -22,6 +23,7 @@ struct Caller {
 struct Verdict {
   unsigned status = 200;  // HTTP
   std::string why;
+  bool wrong_token = false;  // one was shown
 };
 
 /// Throws Error when others can reach the address and there is no token.
@@ -44,10 +46,26 @@ class Bucket {
       : rate_(per_second), burst_(burst), level_(burst), at_(now) {}
   /// Takes `cost`; returns how long to wait before anything else is taken.
   Clock::duration take(double cost, Clock::time_point now);
+  bool full(Clock::time_point now) { return take(0, now) == Clock::duration{} && level_ >= burst_; }
 
  private:
   double rate_, burst_, level_;
   Clock::time_point at_;
 };
+
+/// Who guesses tokens, by address: ten wrong ones at once, one per second after them. Of who has used them up
+/// no token is looked at, the right one neither: else the answers could be left unread.
+class Guesses {
+ public:
+  using Clock = Bucket::Clock;
+  bool may(const std::string& from, Clock::time_point now);
+  void wrong(const std::string& from, Clock::time_point now);
+
+ private:
+  std::map<std::string, Bucket> buckets_;  // of those who guessed lately
+};
+
+/// What counts as one guesser: an IPv4 address, or the /64 network of an IPv6 address.
+std::string guesser(const std::string& address);
 
 }  // namespace fulmar::core::live

@@ -14,6 +14,7 @@ using nlohmann::json;
 using std::chrono::steady_clock;
 
 constexpr std::size_t most_unanswered = 4096;
+constexpr std::size_t most_refusals = 10;       // of one message that are told
 constexpr std::size_t samples_per_turn = 8192;  // then clients are heard again
 constexpr std::chrono::milliseconds time_period{50};
 constexpr std::chrono::seconds drops_period{1};
@@ -153,8 +154,11 @@ template <class Work>
 void Hub::guarded(ClientId id, const Work& work) {
   Client* client = find(id);
   if (client == nullptr) return;
+  client->refusals = 0;
   try {
     work(*client);
+    if (client->refusals > most_refusals)
+      status(*client, 2, "more of this message is refused; these are the first reasons");
   } catch (const Malformed& e) {
     refuse(*client, e.what());
     client->peer->close(1007, e.what());
@@ -212,10 +216,16 @@ void Hub::status(Client& client, int level, const std::string& message) {
   send_json(client, {{"op", "status"}, {"level", level}, {"message", message}});
 }
 
-void Hub::refuse(Client& client, const std::string& why) {
+void Hub::refuse(Client& client, const std::string& why, const std::function<std::string()>& hint) {
   ++counters_.refused;
-  status(client, 2, why);
+  complain(client, why, hint);
 }
+
+void Hub::complain(Client& client, const std::string& why, const std::function<std::string()>& hint) {
+  if (++client.refusals <= most_refusals) status(client, 2, why + (hint ? hint() : ""));
+}
+
+bool Hub::told_enough(const Client& client) { return client.refusals >= most_refusals; }
 
 void Hub::answers() {
   for (const auto& task : mailbox_->take()) task();

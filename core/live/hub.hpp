@@ -47,7 +47,7 @@ class Peer {
 };
 
 struct Counters {
-  std::atomic<std::uint64_t> clients{0}, sent{0}, dropped{0}, lost{0}, refused{0};
+  std::atomic<std::uint64_t> clients{0}, sent{0}, dropped{0}, lost{0}, refused{0}, wrong_tokens{0};
 };
 
 class Hub {
@@ -114,7 +114,7 @@ class Hub {
             bool as_json, std::string_view payload);
   void call_request(const Service& service, bool as_json, std::string_view payload, Control::Answer answer);
   void call_host(const Service& service, const std::vector<std::string>& texts, Control::Answer answer);
-  void set_one(const std::shared_ptr<Pending>& pending, const json& parameter);
+  void set_one(Client& asker, const std::shared_ptr<Pending>& pending, const json& parameter);
 
   FlightView view();
   void stop_listening(Client& client, std::uint32_t subscription);
@@ -130,7 +130,13 @@ class Hub {
   void send_text(Client& client, std::shared_ptr<const std::string> text);
   void send_json(Client& client, const json& message);
   void status(Client& client, int level, const std::string& message);
-  void refuse(Client& client, const std::string& why);
+  /// Tells why, with `hint()` behind it. Of one message the first ten refusals: more help nobody, and hints
+  /// take their time, of which the other clients have a part.
+  void complain(Client& client, const std::string& why, const std::function<std::string()>& hint = {});
+  /// The same, counted as against the rules.
+  void refuse(Client& client, const std::string& why, const std::function<std::string()>& hint = {});
+  void refuse_parameter(Client& client, const std::string& name, const std::vector<std::string>& known);
+  static bool told_enough(const Client& client);
   template <class Work>
   void guarded(ClientId id, const Work& work);
 

@@ -30,6 +30,7 @@ struct Hub::Client {
   std::set<std::string> watched;                       // parameters
   bool graph = false;
   std::size_t unanswered = 0;           // calls and sets
+  std::size_t refusals = 0;             // of the message that is looked at
   std::uint64_t dropped = 0, told = 0;  // data messages that it did not get
 };
 

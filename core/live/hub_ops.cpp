@@ -90,7 +90,10 @@ void Hub::unsubscribe(Client& client, const json& message) {
 }
 
 void Hub::client_advertise(Client& client, const json& message) {
-  for (const json& channel : array_at(message, "channels")) import_channel(client, channel);
+  for (const json& channel : array_at(message, "channels")) {
+    if (told_enough(client)) return refuse(client, "");
+    import_channel(client, channel);
+  }
 }
 
 void Hub::import_channel(Client& client, const json& channel) {
@@ -116,8 +119,8 @@ void Hub::import_channel(Client& client, const json& channel) {
       return;
     }
   }
-  refuse(client, "nothing can be published on '" + topic + "': the mission's dds.import does not name it." +
-                     choices_text(topic, topics));
+  refuse(client, "nothing can be published on '" + topic + "': the mission's dds.import does not name it.",
+         [&] { return choices_text(topic, topics); });
 }
 
 void Hub::client_unadvertise(Client& client, const json& message) {
@@ -127,19 +130,24 @@ void Hub::client_unadvertise(Client& client, const json& message) {
   }
 }
 
+void Hub::refuse_parameter(Client& client, const std::string& name, const std::vector<std::string>& known) {
+  refuse(client, "there is no parameter '" + name + "'.", [&] { return choices_text(name, known); });
+}
+
 void Hub::get_parameters(Client& client, const json& message) {
   const std::optional<std::string> id = request_id(message);
   std::vector<std::string> names = names_at(message);
   const FlightView now = view();
-  if (names.empty()) names = parameter_names(now);
+  const std::vector<std::string> known = parameter_names(now);
+  if (names.empty()) names = known;
+  std::set<std::string> done;  // a name that is asked for again is answered once
   json values = json::array();
   for (const std::string& name : names) {
-    const ParameterView* p = find_parameter(now, name);
-    if (p == nullptr) {
-      refuse(client, "there is no parameter '" + name + "'." + choices_text(name, parameter_names(now)));
-    } else {
+    if (!done.insert(name).second) continue;
+    if (const ParameterView* p = find_parameter(now, name))
       values.push_back(parameter_json(name, *p));
-    }
+    else
+      refuse_parameter(client, name, known);
   }
   json reply = {{"op", "parameterValues"}, {"parameters", values}};
   if (id) reply["id"] = *id;
@@ -151,16 +159,19 @@ void Hub::set_parameters(Client& client, const json& message) {
   auto pending = std::make_shared<Pending>();
   pending->client = client.id;
   pending->id = request_id(message);
-  for (const json& parameter : list)
-    pending->names.push_back(parameter.at("name").get<std::string>());  // all or none has a name
+  std::set<std::string> names;
+  for (const json& parameter : list) {
+    const auto name = parameter.at("name").get<std::string>();  // all or none has a name
+    if (names.insert(name).second) pending->names.push_back(name);
+  }
   // one for this function, so that no answer is the last before all are asked for
   pending->open = list.size() + 1;
   client.unanswered += list.size();
-  for (const json& parameter : list) set_one(pending, parameter);
+  for (const json& parameter : list) set_one(client, pending, parameter);
   if (--pending->open == 0) replies_.push_back(pending);
 }
 
-void Hub::set_one(const std::shared_ptr<Pending>& pending, const json& parameter) {
+void Hub::set_one(Client& asker, const std::shared_ptr<Pending>& pending, const json& parameter) {
   const auto name = parameter.at("name").get<std::string>();
   const auto done = [this, pending, name](const std::string& refusal) {
     Client* client = find(pending->client);
@@ -171,6 +182,7 @@ void Hub::set_one(const std::shared_ptr<Pending>& pending, const json& parameter
     if (--pending->open == 0) replies_.push_back(pending);
   };
   try {
+    if (told_enough(asker)) throw Error("");
     const auto value = parameter.find("value");
     const std::size_t dot = name.find('.');
     if (dot == std::string::npos) throw Error("a parameter is named COMPONENT.PARAMETER");
@@ -181,7 +193,8 @@ void Hub::set_one(const std::shared_ptr<Pending>& pending, const json& parameter
                              mailbox->put([done, refusal] { done(refusal); });
                            });
   } catch (const Error& e) {
-    done(e.what());
+    complain(asker, name + ": " + e.what());
+    done("");
   }
 }
 
@@ -189,11 +202,10 @@ void Hub::subscribe_parameters(Client& client, const json& message) {
   const std::vector<std::string> names = names_at(message), known = parameter_names(view());
   if (names.empty()) return client.watched.insert(known.begin(), known.end()), void();
   for (const std::string& name : names) {
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
-      refuse(client, "there is no parameter '" + name + "'." + choices_text(name, known));
-    } else {
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      refuse_parameter(client, name, known);
+    else
       client.watched.insert(name);
-    }
   }
 }
 

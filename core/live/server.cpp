@@ -81,7 +81,9 @@ struct LiveServer::Impl {
   void accept() {
     acceptor.async_accept([this](error_code fault, live::tcp::socket socket) {
       if (stopping) return;
-      if (!fault && context.connections.size() < most_connections) {
+      if (!fault && context.connections.size() >= most_connections) live::Connection::make_room(context);
+      if (!fault &&
+          context.connections.size() < 2 * most_connections) {  // one that is cut goes a little later
         std::make_shared<live::Connection>(std::move(socket), io, context)->begin();
       } else {
         ++counters.refused;
@@ -148,7 +150,7 @@ LiveServer::~LiveServer() = default;
 std::uint16_t LiveServer::port() const { return impl_->port; }
 LiveStats LiveServer::stats() const {
   const live::Counters& c = impl_->counters;
-  return {c.clients, c.sent, c.dropped, c.lost, c.refused};
+  return {c.clients, c.sent, c.dropped, c.lost, c.refused, c.wrong_tokens};
 }
 
 }  // namespace fulmar::core

@@ -44,9 +44,12 @@ struct FlightView {
 
 /// The parameter "slc.roll_kp", or nullptr.
 inline const ParameterView* find_parameter(const FlightView& view, const std::string& name) {
-  for (const ComponentView& c : view.components)
+  for (const ComponentView& c : view.components) {
+    const std::size_t dot = c.name.size();
+    if (name.size() <= dot || name[dot] != '.' || !name.starts_with(c.name)) continue;
     for (const ParameterView& p : c.params)
-      if (name == c.name + "." + p.info.name) return &p;
+      if (std::string_view(name).substr(dot + 1) == p.info.name) return &p;
+  }
   return nullptr;
 }
 inline std::vector<std::string> parameter_names(const FlightView& view) {

@@ -66,6 +66,28 @@ TEST_CASE("with a token only who shows it gets in, under whatever name") {
   CHECK(status(options, {"/?token=%", "localhost", "", "bearer "}) == 401);
 }
 
+TEST_CASE("who guesses tokens has ten at once and one per second, and keeps nobody else from his") {
+  Guesses guesses;
+  auto now = Guesses::Clock::time_point{} + std::chrono::hours(1);
+  int looked_at = 0;
+  for (int i = 0; i < 1000; ++i, now += std::chrono::milliseconds(10)) {  // ten seconds
+    if (!guesses.may("a", now)) continue;
+    guesses.wrong("a", now);
+    ++looked_at;
+  }
+  CHECK(looked_at >= 19);
+  CHECK(looked_at <= 22);
+  CHECK(guesses.may("b", now));
+  CHECK(guesses.may("a", now + std::chrono::seconds(2)));
+  for (int i = 0; i < 20; ++i) guesses.wrong("b", now);
+  for (int i = 0; i < 10'000; ++i) guesses.wrong(std::to_string(i), now + std::chrono::hours(1));
+  CHECK(guesses.may("b", now + std::chrono::hours(1)));
+  CHECK(guesser("2001:db8::1") == guesser("2001:db8::ffff:2"));
+  CHECK(guesser("2001:db8::1") != guesser("2001:db8:0:1::1"));
+  CHECK(guesser("192.0.2.1") != guesser("192.0.2.2"));
+  CHECK(guesser("::ffff:192.0.2.1") != guesser("::ffff:192.0.2.2"));
+}
+
 TEST_CASE("secrets are the same only when every character is") {
   CHECK(same_secret("abc", "abc"));
   CHECK_FALSE(same_secret("abcabc", "abc"));

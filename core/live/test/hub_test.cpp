@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <doctest/doctest.h>
 
+#include <ctime>
 #include <random>
 
 #include "core/live/test/hub_fixture.hpp"
@@ -270,6 +271,34 @@ TEST_CASE_FIXTURE(Fixture,
   CHECK_FALSE(hub.busy(id));
   CHECK(control.sets == 10'000);
   CHECK(peer.last("parameterValues")->at("parameters").back()["value"] == 0.9999);
+}
+
+TEST_CASE_FIXTURE(Fixture, "of a message with many faults ten are told, and it takes no longer for that") {
+  json names = json::array(), sets = json::array(), channels = json::array();
+  for (int i = 0; i < 40'000; ++i) {
+    const std::string name = "a_name_of_a_parameter_" + std::to_string(i);
+    names.push_back(name);
+    sets.push_back({{"name", "slc." + name}, {"value", 1}});
+    channels.push_back({{"id", i}, {"topic", name}, {"encoding", "cdr"}, {"schemaName", ""}});
+  }
+  const auto statuses = [this](const json& message) {
+    peer.texts.clear();
+    say(message);
+    return peer.count("status");
+  };
+  const std::clock_t begin = std::clock();
+  CHECK(statuses({{"op", "getParameters"}, {"parameterNames", names}, {"id", "x"}}) == 11);
+  CHECK(peer.texts[0]["message"] ==
+        "there is no parameter 'a_name_of_a_parameter_0'. Valid: slc.roll_kp, slc.law, slc.note, slc.wind, "
+        "slc.count, slc.on.");
+  CHECK(peer.last("parameterValues")->at("id") == "x");
+  CHECK(peer.last_status() == "more of this message is refused; these are the first reasons");
+  CHECK(statuses({{"op", "subscribeParameterUpdates"}, {"parameterNames", names}}) == 11);
+  CHECK(statuses({{"op", "advertise"}, {"channels", channels}}) == 11);
+  CHECK(statuses({{"op", "setParameters"}, {"parameters", sets}}) <= 11);
+  CHECK(statuses({{"op", "unsubscribe"}, {"subscriptionIds", std::vector<int>(40'000, 7)}}) == 11);
+  CHECK(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC < 5);
+  CHECK(statuses({{"op", "getParameters"}, {"parameterNames", {"slc.roll_kb"}}}) == 1);
 }
 
 TEST_CASE_FIXTURE(Fixture, "the connection graph says who publishes, who reads and who serves") {

@@ -212,6 +212,24 @@ TEST_CASE_FIXTURE(Fixture, "with a token the page and the protocol are for who s
             .size() == 4);
 }
 
+TEST_CASE_FIXTURE(Fixture, "who guesses tokens is held up, and counted") {
+  serve("abc", "0.0.0.0");
+  for (int i = 0; i < 30; ++i) get("/?token=" + std::to_string(i));
+  CHECK(get("/?token=abc").status == 429);
+  CHECK(server->stats().wrong_tokens >= 11);
+  CHECK(server->stats().wrong_tokens < 30);
+  CHECK(until([&] { return get("/?token=abc").status == 200; }));
+}
+
+TEST_CASE_FIXTURE(Fixture, "connections that say nothing keep nobody out") {
+  serve();
+  net::io_context io;
+  std::vector<net::ip::tcp::socket> idle;
+  for (int i = 0; i < 200; ++i) idle.push_back(connect(io));
+  CHECK(get("/").status == 200);  // within the five seconds that each of those has
+  CHECK(Client(*this).next("serverInfo")["name"] == "Fulmar: mock <1>");
+}
+
 TEST_CASE_FIXTURE(Fixture, "both names of the protocol are spoken, others are refused") {
   serve();
   CHECK(Client(*this, "foxglove.sdk.v1").protocol == "foxglove.sdk.v1");

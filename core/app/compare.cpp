@@ -4,7 +4,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <vector>
 
@@ -26,43 +25,51 @@ std::string words(const nlohmann::json& value) {
 }
 
 void walk(const nlohmann::json& before, const nlohmann::json& after, const std::string& path,
-          std::vector<std::string>& lines, int& equal) {
+          FigureChanges& found) {
   for (const auto& [key, now] : after.items()) {
     if ((path.empty() && passed_over(key)) || !before.contains(key)) continue;
     const nlohmann::json& was = before.at(key);
     const std::string name = path.empty() ? key : path + "." + key;
     if (now.is_object() && was.is_object()) {
-      walk(was, now, name, lines, equal);
-      continue;
-    }
-    if (!now.is_primitive() || !was.is_primitive()) continue;
-    if (now == was) {
-      ++equal;
-      continue;
-    }
-    if (now.is_number() && was.is_number()) {
-      const double a = was.get<double>(), b = now.get<double>();
-      lines.push_back(fmt::format("  {:<44} {:12.4g} {:12.4g} {:+9.1f} %\n", name, a, b,
-                                  a != 0 ? 100 * (b - a) / std::abs(a) : 0));
-    } else {
-      lines.push_back(fmt::format("  {:<44} {:>12} {:>12}\n", name, words(was), words(now)));
+      walk(was, now, name, found);
+    } else if (now.is_primitive() && was.is_primitive()) {
+      if (now == was)
+        ++found.equal;
+      else
+        found.changed.push_back({name, was, now});
     }
   }
 }
 
+std::string line_of(const FigureChanges::Change& c) {
+  if (!c.before.is_number() || !c.after.is_number())
+    return fmt::format("  {:<44} {:>12} {:>12}\n", c.name, words(c.before), words(c.after));
+  const double a = c.before.get<double>(), b = c.after.get<double>();
+  return fmt::format("  {:<44} {:12.4g} {:12.4g} {:+9.1f} %\n", c.name, a, b,
+                     a != 0 ? 100 * (b - a) / std::abs(a) : 0);
+}
+
 }  // namespace
 
-std::string comparison(const nlohmann::json& before, const nlohmann::json& after) {
-  std::vector<std::string> lines;
-  int equal = 0;
-  walk(before, after, "", lines, equal);
-  if (lines.empty()) return "\ncompared with the flight before: no figure has changed\n";
-  std::string out = fmt::format("\n{:<46} {:>12} {:>12} {:>11}\n", "compared with the flight before",
-                                "before", "now", "change");
-  for (const std::string& line : lines) out += line;
-  if (equal > 0)
-    out += "  " + std::to_string(equal) + (equal == 1 ? " figure has" : " figures have") + " not changed\n";
+FigureChanges figure_changes(const nlohmann::json& before, const nlohmann::json& after) {
+  FigureChanges found;
+  if (before.is_object() && after.is_object()) walk(before, after, "", found);
+  return found;
+}
+
+std::string comparison(const FigureChanges& changes, const Sides& sides) {
+  if (changes.changed.empty()) return fmt::format("\n{}: no figure has changed\n", sides.heading);
+  std::string out =
+      fmt::format("\n{:<46} {:>12} {:>12} {:>11}\n", sides.heading, sides.before, sides.after, "change");
+  for (const FigureChanges::Change& c : changes.changed) out += line_of(c);
+  if (changes.equal > 0)
+    out += fmt::format("  {} not changed\n",
+                       changes.equal == 1 ? "1 figure has" : fmt::format("{} figures have", changes.equal));
   return out;
+}
+
+std::string comparison(const nlohmann::json& before, const nlohmann::json& after) {
+  return comparison(figure_changes(before, after));
 }
 
 }  // namespace fulmar::core

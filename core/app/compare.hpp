@@ -1,13 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Two flights side by side.
 #pragma once
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace fulmar::core {
 
-/// A table of the figures that both results have and that differ: before, after, change. Results as
-/// result_json makes them.
+/// The figures that two results both have. Results as result_json makes them.
+struct FigureChanges {
+  struct Change {
+    std::string name;  // "tracking_rmse.north_m"
+    nlohmann::json before, after;
+  };
+  std::vector<Change> changed;
+  int equal = 0;
+};
+FigureChanges figure_changes(const nlohmann::json& before, const nlohmann::json& after);
+
+/// How the two are called.
+struct Sides {
+  const char* heading = "compared with the flight before";
+  const char* before = "before";
+  const char* after = "now";
+};
+
+/// A table of the figures that both results have and that differ: before, after, change.
+std::string comparison(const FigureChanges& changes, const Sides& sides = {});
 std::string comparison(const nlohmann::json& before, const nlohmann::json& after);
 
 }  // namespace fulmar::core

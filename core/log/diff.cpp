@@ -150,16 +150,12 @@ struct Comparison {
     diff.first = first_pair;
     for (const auto& [topic, first] : first_absent) {
       if (!whole_topics && !diff.topics.contains(topic)) continue;  // it is told by being in one alone
-      if (precedes(topic, first.time_ns, diff.first)) diff.first = first;
+      if (precedes(first.time_ns, diff.first)) diff.first = first;
     }
   }
 
-  /// The ticks tell that something differs, and not what: anything else is told before them.
-  static bool precedes(const std::string& topic, std::int64_t time_ns,
-                       const std::optional<MessageDiff::First>& other) {
-    if (!other) return true;
-    const bool of_ticks = topic == Ticks::topic, other_of_ticks = other->topic == Ticks::topic;
-    return of_ticks == other_of_ticks ? time_ns < other->time_ns : other_of_ticks;
+  static bool precedes(std::int64_t time_ns, const std::optional<MessageDiff::First>& other) {
+    return !other || time_ns < other->time_ns;
   }
 
   void compare(const std::string& topic, std::uint64_t ns) {
@@ -177,14 +173,13 @@ struct Comparison {
         continue;
       }
       ++(!x ? counts.only_b : !y ? counts.only_a : counts.different);
-      if (!of_ticks) {
-        ++diff.differing_messages;
-        diff.differing_bytes += count_differing(x ? x->data : none, y ? y->data : none);
-      }
+      if (of_ticks) continue;  // they tell that something differs, and not what
+      ++diff.differing_messages;
+      diff.differing_bytes += count_differing(x ? x->data : none, y ? y->data : none);
       const auto word = [](const Stored* there) { return there ? "a message" : "absent"; };
       if (!x || !y)
         first_absent.try_emplace(topic, MessageDiff::First{topic, "", time_ns, word(x), word(y)});
-      else if (precedes(topic, time_ns, first_pair))
+      else if (precedes(time_ns, first_pair))
         first_pair = first_field(a, b, topic, *x, *y, time_ns);
     }
   }

@@ -29,7 +29,7 @@ struct MessageDiff {
     std::uint64_t equal = 0, different = 0;  // pairs of messages at equal times
     std::uint64_t only_a = 0, only_b = 0;
   };
-  std::optional<First> first;  // in a topic of the ticks alone when nothing else differs
+  std::optional<First> first;  // never in /fulmar/ticks, whose hashes tell nobody anything
   /// The first tick of which /fulmar/ticks says that the components published something else, whether or not
   /// that was recorded.
   std::optional<Tick> first_tick;

@@ -226,7 +226,7 @@ void find_differences(const fs::path& was, const fs::path& is, std::int64_t epoc
   result.differing_messages = diff.differing_messages, result.differing_bytes = diff.differing_bytes;
   if (diff.first_tick)
     result.first_tick = diff.first_tick->index, result.first_tick_ns = diff.first_tick->time_ns;
-  if (!diff.first || diff.first->topic == Ticks::topic) return;
+  if (!diff.first) return;
   const MessageDiff::First& first = *diff.first;
   const auto word = [&](const std::string& text) {
     return text == "absent" ? "none" : first.field.empty() ? "a sample" : text;

@@ -15,10 +15,11 @@
 
 #include "core/error.hpp"
 #include "core/log/log_file.hpp"
-#include "tools/fulmar_log/diff.hpp"
+#include "tools/fulmar_log/diff_command.hpp"
 #include "tools/fulmar_log/export_log.hpp"
 #include "tools/fulmar_log/info.hpp"
 #include "tools/fulmar_log/recover.hpp"
+#include "tools/fulmar_log/terminal.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -28,7 +29,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t shown = 20;  // lines of a list, unless all is asked for
 
-double seconds(std::int64_t ns) { return static_cast<double>(ns) / 1e9; }
 double rate_hz(const LogInfo::Topic& t) {
   return t.messages > 1 && t.last_ns > t.first_ns
              ? static_cast<double>(t.messages - 1) / seconds(t.last_ns - t.first_ns)
@@ -40,13 +40,6 @@ double per_minute(const LogInfo& info, double bytes) {
 }
 
 std::string ending(const McapFile& file) { return file.complete ? "complete" : "cut off: " + file.fault; }
-
-// A log may hold any bytes; a terminal must not get them as they are.
-std::string printable(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  return text;
-}
 
 std::string counted(std::uint64_t n, const std::string& what) {
   return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
@@ -64,10 +57,6 @@ std::string utc_text(const std::string& words) {
     return words;
   const std::string fraction = ns % 1'000'000'000 == 0 ? "" : seconds_text(ns % 1'000'000'000).substr(1);
   return text + fraction + "Z";
-}
-
-void print_json(const json& object) {
-  std::cout << object.dump(2, ' ', false, json::error_handler_t::replace) << "\n";
 }
 
 // ---- info
@@ -236,80 +225,6 @@ int export_command(const std::string& file, const std::string& to, const std::st
   return 0;
 }
 
-// ---- diff
-
-json diff_json(const LogDiff& d) {
-  json o{{"equal", d.equal()},          {"messages_equal", d.messages_equal()},
-         {"only_first", d.only_a},      {"only_second", d.only_b},
-         {"metadata", d.metadata},      {"attachments", d.attachments},
-         {"first_difference", nullptr}, {"first_tick", nullptr}};
-  if (d.first)
-    o["first_difference"] = {{"topic", d.first->topic},
-                             {"field", d.first->field},
-                             {"time_s", seconds(d.first->time_ns)},
-                             {"first", d.first->a},
-                             {"second", d.first->b}};
-  if (d.first_tick)
-    o["first_tick"] = {{"tick", d.first_tick->index}, {"time_s", seconds(d.first_tick->time_ns)}};
-  o["topics"] = json::object();
-  for (const auto& [topic, t] : d.topics)
-    o["topics"][topic] = {
-        {"equal", t.equal}, {"different", t.different}, {"only_first", t.only_a}, {"only_second", t.only_b}};
-  o["fault_first"] = d.fault_a.empty() ? json(nullptr) : json(d.fault_a);
-  o["fault_second"] = d.fault_b.empty() ? json(nullptr) : json(d.fault_b);
-  return o;
-}
-
-void print_first(const LogDiff& d) {
-  if (d.first && d.first->field.empty()) {
-    std::printf("First difference at %s s: %s has %s in the first log, %s in the second.\n",
-                seconds_text(d.first->time_ns).c_str(), d.first->topic.c_str(), d.first->a.c_str(),
-                d.first->b.c_str());
-  } else if (d.first) {
-    std::printf("First difference at %s s: %s %s is %s in the first log, %s in the second.\n",
-                seconds_text(d.first->time_ns).c_str(), d.first->topic.c_str(), d.first->field.c_str(),
-                printable(d.first->a).c_str(), printable(d.first->b).c_str());
-  }
-  if (d.first_tick)
-    std::printf("The components' outputs differ from tick %llu on, at %s s.\n",
-                static_cast<unsigned long long>(d.first_tick->index),
-                seconds_text(d.first_tick->time_ns).c_str());
-}
-
-void print_diff(const LogDiff& d) {
-  std::uint64_t messages = 0;
-  for (const auto& [topic, t] : d.topics) messages += t.equal;
-  if (d.messages_equal())
-    std::printf("All %llu messages are equal.\n", static_cast<unsigned long long>(messages));
-  print_first(d);
-  for (const auto& [topic, t] : d.topics) {
-    if (t.different + t.only_a + t.only_b == 0) continue;
-    std::printf("  %-28s %llu equal, %llu different", printable(topic).c_str(),
-                static_cast<unsigned long long>(t.equal), static_cast<unsigned long long>(t.different));
-    if (t.only_a > 0) std::printf(", %llu only in the first", static_cast<unsigned long long>(t.only_a));
-    if (t.only_b > 0) std::printf(", %llu only in the second", static_cast<unsigned long long>(t.only_b));
-    std::printf("\n");
-  }
-  for (const std::string& topic : d.only_a)
-    std::printf("  %s is only in the first log\n", printable(topic).c_str());
-  for (const std::string& topic : d.only_b)
-    std::printf("  %s is only in the second log\n", printable(topic).c_str());
-  for (const std::string& m : d.metadata) std::printf("  metadata: %s\n", printable(m).c_str());
-  for (const std::string& a : d.attachments) std::printf("  attachment: %s\n", printable(a).c_str());
-  if (!d.fault_a.empty()) std::printf("  the first log is cut off: %s\n", printable(d.fault_a).c_str());
-  if (!d.fault_b.empty()) std::printf("  the second log is cut off: %s\n", printable(d.fault_b).c_str());
-}
-
-int diff_command(const std::string& a, const std::string& b, bool as_json, bool messages_only) {
-  const LogDiff d = diff_logs(a, b);
-  if (as_json) {
-    print_json(diff_json(d));
-  } else {
-    print_diff(d);
-  }
-  return (messages_only ? d.messages_equal() : d.equal()) ? 0 : 1;
-}
-
 }  // namespace
 
 struct LogCommand::Impl {
@@ -340,11 +255,11 @@ struct LogCommand::Impl {
         "new file, or folder of the CSV files; default the log's name in the current directory");
     to_files->add_option("--topic", topics, "only this one, as in /nav/state; may be given again")
         ->allow_extra_args(false);
-    diff = log->add_subcommand(
-        "diff",
-        "whether two logs are equal, and if not, the first tick and field that differ; exit code 0 or 1");
-    diff->add_option("A", file, "log")->required();
-    diff->add_option("B", other, "log")->required();
+    diff = log->add_subcommand("diff",
+                               "how two flights differ: their figures, and the first tick and field; exit "
+                               "code 0 if they are equal, else 1");
+    diff->add_option("A", file, "log, or result of fulmar run --json")->required();
+    diff->add_option("B", other, "the same of another flight")->required();
     diff->add_flag("--json", as_json, "print one JSON object");
     diff->add_flag("--messages", messages_only,
                    "metadata and attachments are told, but do not decide the exit code");

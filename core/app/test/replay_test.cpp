@@ -406,6 +406,55 @@ TEST_CASE("what is no log of a flight is refused in a sentence") {
   CHECK(refused(cut).find("no mission is attached to it") != std::string::npos);
 }
 
+TEST_CASE("diff of two flights tells their figures first, and then who gave the first other field") {
+  const fs::path a = fresh("kp.mcap"), b = fresh("other-kp.mcap"), json_a = folder().path / "kp.json",
+                 json_b = folder().path / "other-kp.json";
+  const auto fly = [&](const fs::path& log, const fs::path& result, const std::string& words) {
+    const auto [code, out] =
+        run_fulmar("run " + hourglass + " --duration 60 --json --log " + log.string() + words);
+    CHECK(code == 0);
+    std::ofstream(result) << out;
+    return nlohmann::json::parse(out);
+  };
+  const nlohmann::json was = fly(a, json_a, ""), is = fly(b, json_b, " --set slc.course_kp=1.9");
+  const auto [code, out] = run_fulmar("log diff " + a.string() + " " + b.string());
+  CHECK(code == 1);
+  CHECK(out.starts_with("figures "));
+  CHECK(out.find("tracking_rmse.course_deg") < out.find("First difference at "));
+  CHECK(out.find(" s, of slc: /outer/attitude roll_rad is ") != std::string::npos);
+  CHECK(out.find("ticks hash") == std::string::npos);
+  const nlohmann::json o =
+      nlohmann::json::parse(run_fulmar("log diff --json " + a.string() + " " + b.string()).second);
+  CHECK(o.at("first_difference").at("component") == "slc");
+  const nlohmann::json& course = o.at("figures").at("tracking_rmse.course_deg");
+  const double recorded = course.at("first"), flown = was.at("tracking_rmse").at("course_deg");
+  CHECK(recorded / flown == doctest::Approx(1).epsilon(0.05));  // of the score's last message
+  CHECK(course.at("second") != course.at("first"));
+
+  const auto [code_json, table] = run_fulmar("log diff " + json_a.string() + " " + json_b.string());
+  CHECK(code_json == 1);
+  CHECK(table.starts_with("figures "));
+  CHECK(table.find("First difference") == std::string::npos);
+  const nlohmann::json results =
+      nlohmann::json::parse(run_fulmar("log diff --json " + json_a.string() + " " + json_b.string()).second);
+  const nlohmann::json& exact = results.at("figures").at("tracking_rmse.course_deg");
+  CHECK(exact.at("first") == was.at("tracking_rmse").at("course_deg"));
+  CHECK(exact.at("second") == is.at("tracking_rmse").at("course_deg"));
+  CHECK(run_fulmar("log diff " + json_a.string() + " " + json_a.string()).first == 0);
+  CHECK(run_fulmar("log diff " + json_a.string() + " " + b.string()).first == 1);
+  std::ofstream(json_b) << "{ damaged";
+  CHECK(run_fulmar("log diff " + json_a.string() + " " + json_b.string()).first == 1);
+}
+
+TEST_CASE("the first difference is told of who flew then: the law of the phase, of --role, or the fallback") {
+  const fs::path a = fresh("by-slc.mcap"), b = fresh("by-tecs.mcap");
+  const std::string run = "run " + hourglass + " --duration 10 --json --log ";
+  CHECK(run_fulmar(run + a.string()).first == 0);
+  CHECK(run_fulmar(run + b.string() + " --role outer=tecs").first == 0);
+  CHECK(run_fulmar("log diff " + a.string() + " " + b.string())
+            .second.find(", of slc, in the second log of tecs: /outer/attitude ") != std::string::npos);
+}
+
 TEST_CASE("ten minutes of flight are replayed with 0 differing bytes") {
   const fs::path log = fresh("long.mcap"), again = fresh("long-again.mcap"),
                  mission = folder().path / "long.yaml";

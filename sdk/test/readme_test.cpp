@@ -27,6 +27,17 @@ TEST_CASE("the example of a queue: samples come oldest first, with their time of
   CHECK_FALSE(bench.out.height_m.written);  // each comes once
 }
 
+TEST_CASE("the example of a matrix") {
+  Bench<StateFeedback> bench;
+  VehicleState state;
+  state.roll_rad = 0.5;
+  state.rate_radps.x = -1;
+  bench.params.K.value[0][1] = 0.2;
+  bench.set(bench.in.state, state);
+  REQUIRE(bench.step(0.01) == Status::ok);
+  CHECK(bench.out.aileron_rad.value == doctest::Approx(-0.8 * 0.5 + 0.2));
+}
+
 TEST_CASE("an input says its time of validity in seconds") {
   Bench<GroundHeight> bench;
   bench.tick.now_ns = 2'500'000'000;

@@ -271,6 +271,19 @@ struct Vector {
   Access access = live;
 };
 
+/// A matrix of numbers: R times C parameters, "K_0_0", "K_0_1", ..., counted from 0, row by row.
+///   Matrix<2, 3> K{{{1, 0, 0}, {0, 1, 0}}, "rad/rad", -10, 10, "state feedback"};  // p.K(1, 2)
+template <std::size_t R, std::size_t C>
+struct Matrix {
+  double value[R][C]{};
+  const char* unit = "";
+  double min = -std::numeric_limits<double>::infinity(),
+         max = std::numeric_limits<double>::infinity();  ///< of each element
+  const char* doc = "";
+  Access access = live;
+  constexpr double operator()(std::size_t row, std::size_t column) const { return value[row][column]; }
+};
+
 enum class Need : std::uint8_t { optional, required };
 inline constexpr Need required = Need::required;
 

@@ -29,8 +29,8 @@ struct MyLaw {  // fills the role `vehicle`
     Request<ArmRequest> arm;
   };
   struct Outputs {
-    Imu imu;          // in each tick
-    Out<Gnss> gnss;   // when there is one: an Out<T> stays silent otherwise
+    Imu imu;         // in each tick
+    Out<Gnss> gnss;  // when there is one: an Out<T> stays silent otherwise
     Out<Mag> mag;
     Out<Baro> baro;
     Out<Pitot> pitot;
@@ -53,16 +53,19 @@ struct MyLaw {  // fills the role `vehicle`
   }
 
   Status read(Tick& tick, const Params&, Outputs& out) {
-    // 1. Time, in ns, strictly increasing; 0 is the first armed tick. A device waits here for its next sample, 10 ms
+    // 1. Time, in ns, strictly increasing; 0 is the first armed tick. A device waits here for its next
+    // sample, 10 ms
     //    at most, and takes its time; a simulation goes on by one period and moves its aircraft.
     tick.now_ns = now_ns_ += period_ns_;
     if (wanted_ && now_ns_ >= 0) armed_ = true;
-    // 2. What was measured since the last tick. What is late says when it was true: publish(gnss, valid_at_ns).
+    // 2. What was measured since the last tick. What is late says when it was true: publish(gnss,
+    // valid_at_ns).
     out.imu.specific_force_mps2 = {0, 0, -9.80665};  // at rest and level
     out.imu.rate_radps = {0, 0, 0};
     if (tick_ % 4 == 0) publish_air(out);
     if (tick_ % 40 == 0) publish_gnss(out);
-    // 3. What the mission's phases look at. `in_control`: commands move the aircraft, no pilot has the sticks.
+    // 3. What the mission's phases look at. `in_control`: commands move the aircraft, no pilot has the
+    // sticks.
     if (tick_ % 8 == 0) {
       VehicleStatus status;
       status.armed = status.in_control = status.offboard = armed_;

@@ -73,6 +73,18 @@ constexpr fulmar_param param_entry(const Blob& p) {
   return e;
 }
 
+/// An element of a Matrix, which is a parameter of its own. M: may be const.
+template <class M>
+struct MatrixItem {
+  M* matrix;
+  std::size_t row, column;
+};
+template <class M>
+constexpr fulmar_param param_entry(const MatrixItem<M>& item) {
+  const M& m = *item.matrix;
+  return param_entry(Param{m.value[item.row][item.column], m.unit, m.min, m.max, m.doc, m.access});
+}
+
 inline void assign(Param& p, const fulmar_value& v) { p.value = v.number[0]; }
 inline void assign(Flag& p, const fulmar_value& v) { p.value = v.integer != 0; }
 inline void assign(Count& p, const fulmar_value& v) { p.value = v.integer; }
@@ -102,8 +114,33 @@ inline void assign(Blob& p, const fulmar_value& v) {
 }
 
 template <class M>
+void assign(MatrixItem<M>& item, const fulmar_value& v) {
+  item.matrix->value[item.row][item.column] = v.number[0];
+}
+
+template <class M>
 concept Parameter = requires(const M& m) {
   param_entry(m);
+};
+
+/// Rows and columns of what stands for several parameters; nothing else has them.
+template <class M>
+struct Several {
+  static constexpr bool matrix = false, array = false;
+  static constexpr std::size_t count = 1;
+};
+template <std::size_t R, std::size_t C>
+struct Several<Matrix<R, C>> {
+  static constexpr bool matrix = true, array = false;
+  static constexpr std::size_t count = R * C, rows = R, columns = C;
+  static constexpr std::size_t inner = C;  ///< parameters that differ in the last index alone
+};
+template <class T, std::size_t N>
+struct Several<std::array<T, N>> {
+  static constexpr bool matrix = false, array = true;
+  static constexpr std::size_t count = N * Several<T>::count;
+  static constexpr std::size_t inner = Several<T>::count;
+  static constexpr bool right = Parameter<T> || Several<T>::array;
 };
 
 template <class M, class F>
@@ -115,17 +152,71 @@ template <class S, class F>
 constexpr void for_each_param(S& params, F& f) {
   with_members(params, [&f](auto&... member) { (visit_param(member, f), ...); });
 }
+/// The sentence for a member that is no parameter; alone, so that nothing else is told before it.
+template <class M>
+consteval bool is_group() {
+  constexpr bool group = std::is_class_v<M> && std::is_aggregate_v<M>;
+  static_assert(
+      group,
+      "Params holds Param, Flag, Count, Choice, TextParam, Vector, Matrix, Record, Blob, std::array of Param "
+      "and structs of these");
+  return group;
+}
+
 template <class M, class F>
 constexpr void visit_param(M& member, F& f) {
-  if constexpr (Parameter<M>) {
+  using P = std::remove_const_t<M>;
+  if constexpr (Parameter<P>) {
     f(member);
-  } else {
-    static_assert(
-        std::is_class_v<M> && std::is_aggregate_v<M>,
-        "Params holds Param, Flag, Count, Choice, TextParam, Vector, Record, Blob and structs of these");
+  } else if constexpr (Several<P>::matrix) {
+    for (std::size_t k = 0; k < Several<P>::count; ++k) {
+      MatrixItem<M> item{&member, k / Several<P>::columns, k % Several<P>::columns};
+      f(item);
+    }
+  } else if constexpr (Several<P>::array) {
+    static_assert(Several<P>::right,
+                  "an array of parameters holds Param, Flag, Count, Choice or arrays of these");
+    if constexpr (Several<P>::right)
+      for (auto& item : member) visit_param(item, f);
+  } else if constexpr (is_group<P>()) {
     for_each_param(member, f);
   }
 }
+
+/// Names of the parameters that one member stands for: its own with the indices, "gains_0", "K_1_2".
+template <class G, std::size_t i, class P>
+struct ItemNames {
+  static constexpr std::size_t room = FieldNames<G>::view(i).size() + 24;
+  using Name = std::array<char, room>;
+  static constexpr void number(Name& to, std::size_t& at, std::size_t n) {
+    if (n >= 10) number(to, at, n / 10);
+    to[at++] = static_cast<char>('0' + n % 10);
+  }
+  template <class M>
+  static constexpr void indices(Name& to, std::size_t& at, std::size_t k) {
+    if constexpr (Several<M>::matrix || Several<M>::array) {
+      to[at++] = '_';
+      number(to, at, k / Several<M>::inner);
+      k %= Several<M>::inner;
+      if constexpr (Several<M>::matrix) {
+        to[at++] = '_';
+        number(to, at, k);
+      } else {
+        indices<typename M::value_type>(to, at, k);
+      }
+    }
+  }
+  static constexpr std::array<Name, Several<P>::count> make() {
+    std::array<Name, Several<P>::count> out{};
+    for (std::size_t k = 0; k < out.size(); ++k) {
+      std::size_t at = 0;
+      for (const char c : FieldNames<G>::view(i)) out[k][at++] = c;
+      indices<P>(out[k], at, k);
+    }
+    return out;
+  }
+  static constexpr std::array<Name, Several<P>::count> names = make();
+};
 
 template <class S>
 struct ParamTable {
@@ -138,17 +229,19 @@ struct ParamTable {
   }
   static constexpr std::size_t count = count_all();
   /// The name of a parameter is that of its member, in a group as well.
+  template <class G, std::size_t i, class P>
+  static constexpr void name_one(std::array<fulmar_param, count>& out, std::size_t& at) {
+    if constexpr (Parameter<P>)
+      out[at++].name = FieldNames<G>::c_str(i);
+    else if constexpr (Several<P>::matrix || Several<P>::array)
+      for (const auto& text : ItemNames<G, i, P>::names) out[at++].name = text.data();
+    else
+      name<P>(out, at, MemberTypes<P>{});
+  }
   template <class G, class... M>
   static constexpr void name(std::array<fulmar_param, count>& out, std::size_t& at, Types<M...>) {
-    std::size_t i = 0;
-    [[maybe_unused]] const auto one = [&]<class P>(const P*) {
-      if constexpr (Parameter<P>)
-        out[at++].name = FieldNames<G>::c_str(i);
-      else
-        name<P>(out, at, MemberTypes<P>{});
-      ++i;
-    };
-    (one(static_cast<const M*>(nullptr)), ...);
+    [&]<std::size_t... i>(std::index_sequence<i...>) { (name_one<G, i, M>(out, at), ...); }
+    (std::make_index_sequence<sizeof...(M)>{});
   }
   static constexpr std::array<fulmar_param, count> make() {
     std::array<fulmar_param, count> out{};

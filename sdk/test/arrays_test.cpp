@@ -46,7 +46,8 @@ TEST_CASE("each element is a parameter, named by its indices, in the order of th
   REQUIRE(entry.param_count == 1 + 6 + 2 + 22 + 1);
   std::vector<std::string> names;
   for (std::uint32_t i = 0; i < 9; ++i) names.emplace_back(entry.params[i].name);
-  CHECK(names == std::vector<std::string>{"on", "K_0_0", "K_0_1", "K_0_2", "K_1_0", "K_1_1", "K_1_2", "gains_0", "gains_1"});
+  CHECK(names == std::vector<std::string>{"on", "K_0_0", "K_0_1", "K_0_2", "K_1_0", "K_1_1", "K_1_2",
+                                          "gains_0", "gains_1"});
   CHECK(std::string(entry.params[30].name) == "deep_10_1");
   CHECK(std::string(entry.params[31].name) == "last");
 }

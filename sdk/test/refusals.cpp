@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What must not compile, one case per number. CASE 0 is the control: all of it without the fault compiles.
+#include <string>
 #include <vector>
 
 #if CASE == 3
@@ -50,6 +51,15 @@ struct Bad {
 #elif CASE == 9
 struct Bad {
   int* counter_ns;
+};
+#elif CASE == 22
+struct Bad {
+  double length_m = 0;
+  std::string name;
+};
+#elif CASE == 23
+struct Bad {
+  std::array<std::array<double, 3>, 2> gains_ratio{};
 };
 #else
 struct Bad {
@@ -126,14 +136,49 @@ struct Component {
   struct Params {
     Lateral lateral;
   };
+#elif CASE == 24
+  struct Params {
+    Param gain{1, "", 0, 1, "of roll"};
+    std::string name = "roll";
+  };
+#elif CASE == 25
+  struct Params {
+    std::array<double, 4> gains{};
+  };
 #else
   struct Params {};
+#endif
+#if CASE == 26
+  void configure() {}
+#elif CASE == 27
+  void configure(Params&) {}
+#elif CASE == 28
+  void retune(const Tick&, const Params&) {}
+#elif CASE == 29
+  Status activate(const Tick&, const Inputs&, const Params&) { return Status::ok; }
 #endif
 #if CASE == 19
   Status activate(const Tick&, const Inputs&, const Params&, const Applied<Outputs>& last) {
     return last.has(last->roll_error_rad.value) ? Status::ok : Status::failed;
   }
 #endif
+#if CASE == 30
+  Status stp(const Tick&, const Inputs&, const Params&, Outputs&) { return Status::ok; }
+#elif CASE == 31
+  Status step(const Tick&, const Inputs&, Outputs&) { return Status::ok; }
+#elif CASE == 32
+  void step(const Tick&, const Inputs&, const Params&, Outputs&) {}
+#elif CASE == 33
+  Status read(Tick&, const Params&, Outputs&) { return Status::ok; }
+#else
   Status step(const Tick&, const Inputs&, const Params&, Outputs&) { return Status::ok; }
+#endif
 };
+#if CASE == 34
+namespace other {
+struct Component : ::Component {};
+}  // namespace other
+FULMAR_PLUGIN("1.0.0", Component, other::Component)
+#else
 FULMAR_PLUGIN("1.0.0", Component)
+#endif

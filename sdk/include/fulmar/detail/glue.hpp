@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fulmar/detail/params.hpp"
+#include "fulmar/detail/rules.hpp"
 
 namespace fulmar::detail {
 
@@ -160,23 +161,6 @@ std::uint32_t guarded(fulmar_error* error, F&& f) noexcept {
 }
 
 template <class C>
-concept Vehicle = requires(C c, Tick& tick, const typename C::Params& p, typename C::Outputs& out) {
-  c.read(tick, p, out);
-};
-
-/// `activate` as it was written before there was Applied: `last` is the outputs alone.
-template <class C>
-concept TakesOutputs = requires(C c, const Tick& t, const typename C::Inputs& in, const typename C::Params& p,
-                                const typename C::Outputs& last) {
-  { c.activate(t, in, p, last) } -> std::same_as<Status>;
-};
-template <class C>
-concept TakesApplied = requires(C c, const Tick& t, const typename C::Inputs& in, const typename C::Params& p,
-                                const Applied<typename C::Outputs>& last) {
-  { c.activate(t, in, p, last) } -> std::same_as<Status>;
-};
-
-template <class C>
 struct Thunks {
   using I = Instance<C>;
   static I& self(void* instance) { return *static_cast<I*>(instance); }
@@ -314,7 +298,7 @@ consteval const char* doc_of() {
 }
 
 template <class C>
-consteval fulmar_component component_entry() {
+consteval fulmar_component described() {
   using T = Thunks<C>;
   using In_ = Ports<typename C::Inputs, true>;
   using Out_ = Ports<typename C::Outputs, false>;
@@ -341,6 +325,14 @@ consteval fulmar_component component_entry() {
   return e;
 }
 
+template <class C>
+consteval fulmar_component component_entry() {
+  if constexpr (is_component<C>())
+    return described<C>();
+  else
+    return {};  // nothing else is told of it
+}
+
 template <class... C>
 inline constexpr std::array<fulmar_component, sizeof...(C)> component_table{component_entry<C>()...};
 
@@ -362,6 +354,10 @@ inline constexpr std::array<fulmar_component, sizeof...(C)> component_table{comp
 
 template <class... C>
 consteval fulmar_plugin plugin_entry(const char* version) {
+  static_assert(sizeof...(C) > 0,
+                "FULMAR_PLUGIN names its components: FULMAR_PLUGIN(version, Component, ...)");
+  static_assert(names_differ<C...>(),
+                "two components of a plugin have one name: a mission could not tell them apart");
   return {FULMAR_ABI_MAJOR, FULMAR_ABI_MINOR, sizeof...(C),       sizeof(fulmar_component),
           version,          FULMAR_TOOLCHAIN, FULMAR_BUILD_FLAGS, component_table<C...>.data(),
           nullptr,          nullptr};

@@ -152,15 +152,43 @@ template <class S, class F>
 constexpr void for_each_param(S& params, F& f) {
   with_members(params, [&f](auto&... member) { (visit_param(member, f), ...); });
 }
-/// The sentence for a member that is no parameter; alone, so that nothing else is told before it.
 template <class M>
-consteval bool is_group() {
-  constexpr bool group = std::is_class_v<M> && std::is_aggregate_v<M>;
-  static_assert(
-      group,
-      "Params holds Param, Flag, Count, Choice, TextParam, Vector, Matrix, Record, Blob, std::array of Param "
-      "and structs of these");
-  return group;
+concept Group = std::is_class_v<M> && std::is_aggregate_v<M> && !Parameter<M> && !Several<M>::matrix &&
+                !Several<M>::array;
+
+/// The sentence for what is no parameter, before anything else is compiled of it.
+template <class M>
+consteval bool is_parameter() {
+  if constexpr (Several<M>::array) {
+    static_assert(Several<M>::right,
+                  "an array of parameters holds Param, Flag, Count, Choice or arrays of these");
+    return Several<M>::right;
+  } else {
+    constexpr bool one = Parameter<M> || Several<M>::matrix || Group<M>;
+    static_assert(one,
+                  "Params holds Param, Flag, Count, Choice, TextParam, Vector, Matrix, Record, Blob, "
+                  "std::array of Param "
+                  "and structs of these");
+    return one;
+  }
+}
+template <class S>
+consteval bool are_parameters();
+template <class M>
+consteval bool is_right() {
+  if constexpr (!is_parameter<M>())
+    return false;
+  else if constexpr (Group<M>)
+    return are_parameters<M>();
+  return true;
+}
+template <class... M>
+consteval bool all_right(Types<M...>) {
+  return (is_right<M>() && ...);
+}
+template <class S>
+consteval bool are_parameters() {
+  return all_right(MemberTypes<S>{});
 }
 
 template <class M, class F>
@@ -174,11 +202,8 @@ constexpr void visit_param(M& member, F& f) {
       f(item);
     }
   } else if constexpr (Several<P>::array) {
-    static_assert(Several<P>::right,
-                  "an array of parameters holds Param, Flag, Count, Choice or arrays of these");
-    if constexpr (Several<P>::right)
-      for (auto& item : member) visit_param(item, f);
-  } else if constexpr (is_group<P>()) {
+    for (auto& item : member) visit_param(item, f);
+  } else {
     for_each_param(member, f);
   }
 }

@@ -425,22 +425,29 @@ void resolve(Draft& draft, Catalogue& catalogue) {
   resolve_dds(draft, ports);
 }
 
-/// The mission's list was kept when it flew. A log is data: what lies beside it runs only when it is what
-/// flew, or is asked for by name.
+/// Whether `--with` names this very file: as it is searched, in a folder and perhaps without its ending.
+bool asked_for(const fs::path& file, const fs::path& plugin) {
+  const std::string found = "/" + plugin.lexically_normal().string();
+  const std::string asked = "/" + file.lexically_normal().string();
+  if (file.is_absolute()) return found == asked || found == asked + ".so";
+  return found.ends_with(asked) || found.ends_with(asked + ".so");
+}
+
+/// A log is data, whoever wrote it: what runs comes from the installation, from the store of copies, or is
+/// asked for by name, and never from where the log says that it lay.
 Expected admit_again(const fs::path& plugin, const Overrides& overrides) {
   check_private_file(plugin);
-  if (overrides.flown.empty()) return {};
   const std::vector<fs::path> ours = plugin_folders();
   if (std::find(ours.begin(), ours.end(), plugin.parent_path()) != ours.end()) return {};
-  for (const auto& [component, use] : overrides.with) {
-    const fs::path file = split_use(use).first;
-    if (file == plugin || file.filename() == plugin.filename() || file.filename() == plugin.stem()) return {};
-  }
+  for (const auto& [component, use] : overrides.with)
+    if (asked_for(split_use(use).first, plugin)) return {};
   const std::string sha256 = sha256_file(plugin);
-  if (std::find(overrides.flown.begin(), overrides.flown.end(), sha256) == overrides.flown.end())
-    throw Error(plugin.string() + " is not what flew: its SHA-256 is " + sha256 +
-                "; --with flies it all the same");
-  return {overrides.flown, "the log"};
+  const bool flew =
+      std::find(overrides.flown.begin(), overrides.flown.end(), sha256) != overrides.flown.end();
+  throw Error(plugin.string() +
+              (flew ? " is what flew, says the log, but is not of the installation"
+                    : " is not what flew: its SHA-256 is " + sha256) +
+              "; --with flies it all the same");
 }
 
 }  // namespace

@@ -198,7 +198,7 @@ TEST_CASE("a law that does something else is found at its first tick and field")
   CHECK(r.first->at_ns == -1'000'000'000);
 }
 
-TEST_CASE("a log is data: a plugin that lies where one flew runs only when it is that one, or is asked for") {
+TEST_CASE("a log is data: a plugin that lies where one flew runs only when it is asked for") {
   const fs::path log = fresh("own.mcap"), own = folder().path / "own.so",
                  empty = folder().path / "empty-store";
   const auto put = [&](const std::string& name) {
@@ -218,7 +218,13 @@ TEST_CASE("a log is data: a plugin that lies where one flew runs only when it is
   const std::string store = before ? before : "";
   setenv("FULMAR_STORE", empty.c_str(), 1);
   CHECK_THROWS_WITH_AS(replay_of(log), doctest::Contains("own.so is not what flew"), Error);
+  put("_better");  // what the log says that flew, and who wrote the log?
+  CHECK_THROWS_WITH_AS(replay_of(log), doctest::Contains("own.so is what flew, says the log, but is not of"),
+                       Error);
   Overrides changes;
+  changes.with = {{"one", own.string() + "/Law"}};
+  CHECK_NOTHROW(replay_of(log, changes));
+  put("_throwing");
   changes.with = {{"one", own.string()}};
   CHECK_THROWS_AS(replay_of(log, changes), Error);  // it is loaded, and has no law today
   before ? setenv("FULMAR_STORE", store.c_str(), 1) : unsetenv("FULMAR_STORE");

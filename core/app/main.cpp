@@ -137,6 +137,11 @@ struct Commands {
               "COMPONENT=PLUGIN.so: an experiment with another file for a component");
     add_pairs(command, "--set", replay_set, "COMP.PARAM=VALUE",
               "COMPONENT.PARAMETER=VALUE: an experiment with another parameter");
+    command
+        ->add_option("--record", replay.changes.record,
+                     "all, or PORTS[@RATE] as in nav.*@100Hz: with --log, its log holds this, too")
+        ->type_name("PORTS[@RATE]")
+        ->allow_extra_args(false);
     command->add_option("--log", replay.out, "where to write the log of the replay; default nowhere");
     command->add_flag("--json", replay.json, "print one JSON object");
   }

@@ -42,7 +42,7 @@ void MissionOptions::add(CLI::App* command) {
   command->add_option("--arm", arm, "simulation: auto, or off until somebody arms")
       ->check(CLI::IsMember({"auto", "off"}));
   add_pairs(command, "--record", record, "PORTS[@RATE]",
-            "log more: nav.state, nav.*@100Hz, or all; without a rate every sample");
+            "log more: all, nav.*, or nav.*,outer.attitude@100Hz; without a rate every sample");
 }
 
 Overrides MissionOptions::overrides(const CLI::App* command) const {

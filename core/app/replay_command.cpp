@@ -32,7 +32,9 @@ struct Replayed {
   json figures;
 };
 
-Replayed fly(const Recording& recording, const Overrides& changes, const std::string& out) {
+/// `compare` false: for its log alone, which holds more than the one that it is flown from.
+Replayed fly(const Recording& recording, const Overrides& changes, const std::string& out,
+             bool compare = true) {
   const auto say = [](const std::string& text, bool warning) {
     say_aloud(text, warning ? Tone::warning : Tone::info);
   };
@@ -40,6 +42,7 @@ Replayed fly(const Recording& recording, const Overrides& changes, const std::st
   r.graph = recording.mission(changes, say);
   ReplayOptions options;
   options.out = out;
+  options.compare = compare;
   options.stop = &stop;
   auto [flight, result] = replay(recording, r.graph, options);
   r.figures = result_json(r.graph, *flight, result.flight);
@@ -131,11 +134,28 @@ void refuse_idle(const Graph& graph, const Overrides& changes) {
   for (const auto& [component, file] : changes.with) check("--with " + component, component);
 }
 
+/// What is recorded more is in the replay's own log alone: there is nothing to compare it with.
+void fly_for_log(const Recording& recording, const ReplayWords& words) {
+  if (words.changes.record.empty()) return;
+  const Replayed more = fly(recording, words.changes, words.out, false);
+  const LogResult& log = more.result.flight.log;
+  if (!words.json)
+    std::printf("log %s (%.1f MB, %llu messages)\n", words.out.c_str(), 1e-6 * static_cast<double>(log.bytes),
+                static_cast<unsigned long long>(log.messages));
+}
+
+Overrides without_record(Overrides changes) {
+  changes.record.clear();
+  return changes;
+}
+
 /// The log as it was and as it would have been, side by side.
 int experiment(const Recording& recording, const ReplayWords& words, json& out) {
   refuse_idle(recording.mission(words.changes, {}), words.changes);
   const Replayed was = fly(recording, {}, "");
-  const Replayed is = fly(recording, words.changes, words.out);
+  const bool more = !words.changes.record.empty();
+  const Replayed is = fly(recording, without_record(words.changes), more ? "" : words.out);
+  fly_for_log(recording, words);
   out = result_of(recording, is);
   out["before"] = was.figures, out["after"] = is.figures, out["before_equals_log"] = was.result.equal();
   if (!was.result.equal()) warn("without the change, too, the replay differs from the log");
@@ -148,8 +168,13 @@ int experiment(const Recording& recording, const ReplayWords& words, json& out) 
 int run(const ReplayWords& words, json& out) {
   check_log_file(words.log);
   const Recording recording(words.log);
+  if (!words.changes.record.empty()) {
+    if (words.out.empty()) throw Error("--record needs --log FILE: the replay's own log holds more");
+    recording.mission(words.changes, {});  // whether there are such ports, before anything flies
+  }
   if (!words.changes.with.empty() || !words.changes.set.empty()) return experiment(recording, words, out);
-  const Replayed again = fly(recording, {}, words.out);
+  const Replayed again = fly(recording, {}, words.changes.record.empty() ? words.out : "");
+  fly_for_log(recording, words);
   out = result_of(recording, again);
   if (!words.json) print(again);
   return again.result.equal() ? 0 : 1;

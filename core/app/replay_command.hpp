@@ -9,7 +9,7 @@ namespace fulmar::core {
 
 struct ReplayWords {
   std::string log;
-  Overrides changes;  // --with and --set: an experiment
+  Overrides changes;  // --with and --set: an experiment; --record
   std::string out;    // where the replay's own log goes; "": nowhere
   bool json = false;
 };

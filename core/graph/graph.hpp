@@ -149,10 +149,9 @@ struct ResumeRule {
 };
 
 struct RecordRule {
-  std::vector<std::string> ports;  // patterns "nav.*", "*"; empty: whatever is left
-  std::int64_t period_ns = 0;      // 0: every sample
-
-  static constexpr std::int64_t usual = -2;  // as without rules
+  std::vector<std::string> ports;            // patterns "nav.*", "*"
+  std::int64_t period_ns = 0;                // 0: every sample
+  static constexpr std::int64_t usual = -2;  // as in a mission that says nothing
 };
 
 /// `live:` of the mission.
@@ -203,7 +202,7 @@ struct Overrides {
   std::shared_ptr<const StoredFiles> files;  // in place of the disk: of a mission that has flown
   std::vector<std::string> flown;            // SHA-256 of the plugins that have flown in it
   std::optional<std::string> arm;            // auto, off
-  std::vector<std::string> record;           // "nav.*@100Hz", before the mission's own rules
+  std::vector<std::string> record;           // "all", "nav.*@100Hz"
 };
 
 /// What a mission says that stands by itself, as it is written.

@@ -478,39 +478,6 @@ std::int64_t parse_utc_ns(const std::string& text) {
   return (days * 86400 + hour * 3600 + minute * 60) * 1'000'000'000 + std::llround(second * 1e9);
 }
 
-namespace {
-
-/// "nav.*", "nav.*@100Hz", "all": in front of the mission's own rules; the first that fits a port counts.
-/// What the mission records without being told stays recorded.
-void record_more(MissionText& mission, const std::vector<std::string>& wanted, Report& report) {
-  std::vector<RecordRule> rules;
-  std::vector<Where> places;
-  for (const std::string& word : wanted) {
-    const Where where{"--record " + word, 0};
-    const std::size_t at = word.find('@');
-    const std::string ports = word.substr(0, at);
-    std::int64_t period = 0;
-    if (at != std::string::npos) {
-      Node rate;
-      rate.kind = Node::Kind::scalar;
-      rate.text = word.substr(at + 1);
-      rate.file = make_source(rate.text, where.file);
-      const auto hz = scalar_number(rate, "rate", {"Hz", UnitRule::optional, 1e-3, 1e5}, report);
-      if (hz) period = std::llround(1e9 / *hz);
-    }
-    if (ports.empty()) report.add(where, "expected ports such as nav.state, nav.* or all");
-    rules.push_back({{ports == "all" ? "*" : ports}, period});
-    places.push_back(where);
-  }
-  if (wanted.empty()) return;
-  if (mission.record_rules.empty()) rules.push_back({{}, RecordRule::usual}), places.emplace_back();
-  mission.record = true;
-  mission.record_rules.insert(mission.record_rules.begin(), rules.begin(), rules.end());
-  mission.record_where.insert(mission.record_where.begin(), places.begin(), places.end());
-}
-
-}  // namespace
-
 MissionText parse_mission(const std::string& file, const Overrides& overrides, Report& report) {
   MissionText mission;
   const fs::path path = file;
@@ -529,8 +496,8 @@ MissionText parse_mission(const std::string& file, const Overrides& overrides, R
   }
   if (overrides.seed) mission.seed = *overrides.seed;
   if (overrides.arm) mission.arm = *overrides.arm == "auto";
-  record_more(mission, overrides.record, report);
   mission.arm = mission.arm && mission.io == Io::sim;
+  add_record_options(mission, overrides.record, report);
   return mission;
 }
 

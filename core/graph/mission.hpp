@@ -117,6 +117,9 @@ MissionText parse_mission(const std::string& file, const Overrides& overrides, R
 void read_live(const Keys& mission, MissionText& text, Report& report);
 void read_dds(const Keys& mission, MissionText& text, Report& report);
 
+// record_option.cpp: before the mission's own rules, so that they hold
+void add_record_options(MissionText& mission, const std::vector<std::string>& options, Report& report);
+
 /// "nav.state"; nothing and a fault when it is not that.
 std::optional<PortName> parse_port_name(const std::string& text, const Where& where, const std::string& path,
                                         Report& report);

@@ -366,7 +366,6 @@ std::vector<std::string> tap_ports(const Graph& graph) {
 
 void check_record_rules(Draft& draft, const std::vector<std::string>& ports) {
   for (std::size_t i = 0; i < draft.text.record_rules.size(); ++i) {
-    if (draft.text.record_rules[i].ports.empty()) continue;
     const std::string& pattern = draft.text.record_rules[i].ports[0];
     if (pattern.size() < 200 && std::count(pattern.begin(), pattern.end(), '*') < 5 &&
         std::any_of(ports.begin(), ports.end(),

@@ -87,11 +87,11 @@ void Recording::read_overrides() {
     std::uint64_t seed = 0;
     if (key == "io") overrides_.io = value;
     if (key == "arm") overrides_.arm = value;
-    if (key == "record") overrides_.record.push_back(value);
     if (key == "seed" && std::from_chars(value.data(), value.data() + value.size(), seed).ec == std::errc{})
       overrides_.seed = seed;
     if (key.starts_with("role ")) overrides_.roles.emplace_back(key.substr(5), value);
     if (key.starts_with("set ")) overrides_.set.emplace_back(key.substr(4), value);
+    if (key.starts_with("record ")) overrides_.record.push_back(value);
   }
 }
 
@@ -123,6 +123,7 @@ void Recording::use_copies(Overrides& overrides, const std::vector<const FlownPl
 Graph Recording::mission(const Overrides& changes, const Say& say) const {
   Overrides overrides = overrides_;
   overrides.set.insert(overrides.set.end(), changes.set.begin(), changes.set.end());
+  overrides.record.insert(overrides.record.begin(), changes.record.begin(), changes.record.end());
   overrides.with = changes.with;
   for (const FlownPlugin& flown : flown_) overrides.flown.push_back(flown.sha256);
   std::vector<const FlownPlugin*> wanted;
@@ -252,6 +253,7 @@ std::pair<std::unique_ptr<Flight>, ReplayResult> replay(const Recording& recordi
   std::unique_ptr<Flight> flight = player.fly(options.stop);
   result.ticks = result.flight.ticks;
   if (!result.flight.log.error.empty()) throw Error("the replay's log: " + result.flight.log.error);
+  if (!options.compare) return {std::move(flight), std::move(result)};
   result.same_file = result.flight.log.sha256 == sha256_file(recording.path());
   if (result.same_file) {
     result.messages = recording.file().messages.size();

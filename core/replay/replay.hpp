@@ -36,7 +36,7 @@ class Recording {
 
   /// The mission as the log holds it, with the plugin files that flew: those of the installation when they
   /// have the same content, else the copies of the store. What is to be had no more is replaced by what there
-  /// is, with a warning. `changes`: --with and --set of an experiment. Throws Error.
+  /// is, with a warning. `changes`: --with and --set of an experiment, and --record. Throws Error.
   Graph mission(const Overrides& changes, const Say& say) const;
   /// A file of that content, under its own name. Throws Error when there is none.
   std::filesystem::path plugin(const FlownPlugin& flown) const;
@@ -57,6 +57,7 @@ class Recording {
 struct ReplayOptions {
   Overrides changes;          // --with, --set
   std::filesystem::path out;  // the replay's own log
+  bool compare = true;        // false: it is flown for its log alone
   std::function<void(const Flight&)> progress;
   const std::atomic<bool>* stop = nullptr;  // asks for the end: Error "interrupted"
 };

@@ -77,13 +77,10 @@ std::int64_t Recorder::record_period(const std::string& port, const Slot& slot) 
   const Component& component = *slot.owner->component;
   if (component.info().vehicle || component.run == RunMode::driver) return 0;  // a replay needs all of it
   const std::int64_t usual = slot.port->kind == FULMAR_OUT_QUEUE ? 0 : default_period_ns;
-  for (const RecordRule& rule : state_.graph.record_rules) {
-    if (rule.ports.empty()) return rule.period_ns == RecordRule::usual ? usual : rule.period_ns;
+  for (const RecordRule& rule : state_.graph.record_rules)
     for (const std::string& pattern : rule.ports)
-      if (port_matches(port, pattern)) return rule.period_ns;
-  }
-  if (!state_.graph.record_rules.empty()) return -1;
-  return usual;
+      if (port_matches(port, pattern)) return rule.period_ns == RecordRule::usual ? usual : rule.period_ns;
+  return state_.graph.record_rules.empty() ? usual : -1;
 }
 
 void Recorder::open_log(const Units& units) {
@@ -162,7 +159,8 @@ Pairs overrides_text(const Overrides& o) {
   if (o.seed) pairs.emplace_back("seed", std::to_string(*o.seed));
   for (const auto& [role, component] : o.roles) pairs.emplace_back("role " + role, component);
   for (const auto& [param, value] : o.set) pairs.emplace_back("set " + param, value);
-  for (const std::string& ports : o.record) pairs.emplace_back("record", ports);
+  for (std::size_t i = 0; i < o.record.size(); ++i)
+    pairs.emplace_back("record " + std::to_string(i + 1), o.record[i]);
   return pairs;
 }
 

@@ -373,7 +373,7 @@ TEST_CASE("a child that hung, was stopped or was killed dies in the same tick ag
     const fs::path log = fresh("child.mcap"), again = fresh("again.mcap");
     const FlightResult r =
         row.signal == 0 ? Flight(graph, logged(log, 0.5)).run() : fly_and_signal(graph, log, row.signal);
-    REQUIRE(r.guards.size() == 0);
+    REQUIRE(r.guards.size() == 1);
     CHECK(r.guards[0].what == std::string(row.told));
     CHECK(r.guards[0].action == "two takes over");
     const ReplayResult replayed = replay_of(log, {}, again);
@@ -450,6 +450,42 @@ TEST_CASE("diff of two flights tells their figures first, and then who gave the 
   CHECK(run_fulmar("log diff " + json_a.string() + " " + b.string()).first == 1);
   std::ofstream(json_b) << "{ damaged";
   CHECK(run_fulmar("log diff " + json_a.string() + " " + json_b.string()).first == 1);
+}
+
+TEST_CASE("a replay records more than the flight did: all of it, or some ports at a rate") {
+  const fs::path log = fresh("few.mcap"), all = fresh("all.mcap"), some = fresh("some.mcap"),
+                 again = fresh("some-again.mcap");
+  CHECK(run_fulmar("run " + hourglass + " --duration 10 --log " + log.string()).first == 0);
+  const auto messages = [](const fs::path& file, const std::string& topic) {
+    const McapFile f = read_mcap(file);
+    const std::uint16_t channel = f.channel(topic);
+    return std::count_if(f.messages.begin(), f.messages.end(),
+                         [&](const McapFile::Message& m) { return m.channel == channel; });
+  };
+  CHECK(messages(log, "/nav/state") == 10 * 14);  // from -5 s to 10 s, and aligned after the first of them
+  const auto [code, out] = run_fulmar("replay " + log.string() + " --record all --log " + all.string());
+  CHECK(code == 0);
+  CHECK(out.find("\nequal: ") != std::string::npos);
+  CHECK(messages(all, "/nav/state") == 400 * 14);
+  CHECK(messages(all, "/outer/attitude") == 100 * 14);
+  const std::string few = " --record nav.state,outer.*@50Hz --log ";
+  CHECK(run_fulmar("replay " + log.string() + few + some.string()).first == 0);
+  CHECK(messages(some, "/nav/state") == 50 * 14);
+  CHECK(messages(some, "/outer/attitude") == 50 * 14);
+  CHECK(messages(some, "/inner/actuators") == messages(log, "/inner/actuators"));
+  CHECK(run_fulmar("replay " + some.string() + " --log " + again.string()).first == 0);
+  CHECK(contents(some) == contents(again));
+  CHECK(run_fulmar("replay " + log.string() + " --record nowhere.* --log " + again.string() + "x").first ==
+        4);
+  CHECK(run_fulmar("replay " + log.string() + " --record all").first == 4);
+  CHECK(run_fulmar("replay " + log.string() + " --record nav.*@fast --log " + again.string() + "x").first ==
+        4);
+  const nlohmann::json j = nlohmann::json::parse(
+      run_fulmar("replay " + log.string() + " --json --set slc.course_kp=1.9 --record all --log " +
+                 fresh("experiment-all.mcap").string())
+          .second);
+  CHECK(j.at("before_equals_log") == true);
+  CHECK(messages(folder().path / "experiment-all.mcap", "/nav/state") == 400 * 14);
 }
 
 TEST_CASE("the first difference is told of who flew then: the law of the phase, of --role, or the fallback") {

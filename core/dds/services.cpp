@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstring>
 
+#include "core/log/events.hpp"
 #include "core/types/ros_service.hpp"
 #include "core/types/wire.hpp"
 
@@ -18,6 +19,7 @@ Bytes response(const CdrEncoder& encoder, const std::string& refusal) {
   ServiceResponse r;
   r.accepted = refusal.empty();
   std::strncpy(r.reason, refusal.c_str(), sizeof r.reason - 1);
+  if (refusal.size() >= sizeof r.reason) end_in_dots(r.reason, sizeof r.reason);
   Bytes bytes;
   encoder.encode(reinterpret_cast<const std::byte*>(&r), bytes);
   return bytes;

@@ -3,6 +3,7 @@
 #include "core/graph/catalogue.hpp"
 
 #include <algorithm>
+#include <fstream>
 
 #include "core/error.hpp"
 #include "core/loader/home.hpp"
@@ -21,6 +22,18 @@ std::pair<std::string, std::string> split_use(const std::string& use) {
   if (slash == std::string::npos) return {use, ""};
   return {use.substr(0, slash), use.substr(slash + 1)};
 }
+
+namespace {
+
+/// A script that is no plugin lies beside many a mission.
+bool uses_sdk(const fs::path& script) {
+  std::ifstream in(script);
+  for (std::string line; std::getline(in, line);)
+    if (line.find("fulmar_plugin") != std::string::npos) return true;
+  return false;
+}
+
+}  // namespace
 
 std::vector<fs::path> PluginCatalogue::folders_for(const fs::path& mission_file) {
   std::vector<fs::path> folders;
@@ -48,7 +61,7 @@ std::vector<std::string> PluginCatalogue::names() const {
     for (fs::directory_iterator it(folder, code), end; !code && it != end; it.increment(code))
       if (it->path().extension() == ".so")
         names.push_back(it->path().stem().string());
-      else if (!script_host(it->path()).empty())
+      else if (!script_host(it->path()).empty() && uses_sdk(it->path()))
         names.push_back(it->path().filename().string());
   }
   std::sort(names.begin(), names.end());
@@ -59,6 +72,12 @@ std::vector<std::string> PluginCatalogue::names() const {
 FoundPlugin PluginCatalogue::open(const std::string& name) {
   const fs::path file = find(name);
   if (file.empty()) {
+    std::error_code none;
+    if (fs::path(name).is_absolute() && !name.ends_with(".so") && script_host(name).empty())
+      throw Error("'" + name + (fs::is_directory(name, none) ? "' is a folder" : "' is not there") +
+                  ": a plugin's file ends in .so or .py, and a component in it stands behind it, as in "
+                  "my_law.so/Law");
+    if (fs::path(name).is_absolute()) throw Error("there is no plugin '" + name + "'");
     std::vector<std::string> searched;
     for (const fs::path& folder : folders_) searched.push_back(folder.string());
     throw Error("there is no plugin '" + name + "'. Searched in " + join(searched) + "." +

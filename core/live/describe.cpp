@@ -98,15 +98,11 @@ json component_json(const ComponentView& component, const Tap& tap) {
   for (const ParameterView& p : component.params) params.push_back(param_json(p));
   for (const PortView& p : component.inputs) inputs.push_back(port_json(tap, component, p, true));
   for (const PortView& p : component.outputs) outputs.push_back(port_json(tap, component, p, false));
-  return {{"name", component.name},
-          {"use", component.use},
-          {"role", component.role},
-          {"doc", component.doc},
-          {"run", component.run},
-          {"active", component.active},
-          {"stopped", component.stopped},
-          {"params", params},
-          {"inputs", inputs},
+  return {{"name", component.name},     {"use", component.use},
+          {"role", component.role},     {"doc", component.doc},
+          {"run", component.run},       {"swapped", component.swapped},
+          {"active", component.active}, {"stopped", component.stopped},
+          {"params", params},           {"inputs", inputs},
           {"outputs", outputs}};
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdarg>
 #include <cstdio>
+#include <cstring>
 #include <iterator>
 #include <utility>
 
@@ -142,11 +143,20 @@ Event event_of(Code code, std::string_view component, std::string_view name) noe
   return e;
 }
 
+void end_in_dots(char* text, std::size_t room) noexcept {
+  std::size_t end = room - 4;  // three dots and the zero
+  while (end > room / 2 && text[end] != ' ') --end;
+  if (text[end] != ' ') end = room - 4;  // one long word
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
+  std::memcpy(text + end, "...", 4);
+}
+
 void say(Event& e, const char* format, ...) noexcept {
   std::va_list arguments;
   va_start(arguments, format);
-  std::vsnprintf(e.words.data(), e.words.size(), format, arguments);
+  const int length = std::vsnprintf(e.words.data(), e.words.size(), format, arguments);
   va_end(arguments);
+  if (length >= static_cast<int>(e.words.size())) end_in_dots(e.words.data(), e.words.size());
   make_printable(e.words.data());
 }
 

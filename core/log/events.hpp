@@ -108,7 +108,9 @@ const char* kind_words(Code code) noexcept;
 
 /// An event of this code, with the code's severity. [tick]
 Event event_of(Code code, std::string_view component = {}, std::string_view name = {}) noexcept;
-/// The event's words, as printf makes them. Cut at the end of their room. [tick]
+/// [tick] A sentence that was cut at the end of its room ends in dots instead, behind a whole word.
+void end_in_dots(char* text, std::size_t room) noexcept;
+/// The event's words, as printf makes them. What is too long ends in dots. [tick]
 [[gnu::format(printf, 2, 3)]] void say(Event& event, const char* format, ...) noexcept;
 /// What a component says of itself goes to terminals, logs and JSON: one line of UTF-8. [tick]
 void make_printable(char* text) noexcept;

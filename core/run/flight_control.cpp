@@ -30,7 +30,8 @@ Node parsed(const std::string& text, const std::string& name, Report& report) {
 struct FlightControl::Waiting {
   Command command;
   Answer answer;
-  std::array<char, 256> refusal{};
+  std::array<char, 256> refusal{};             // of a component, in its step
+  std::string fault;                           // of the host: all of it
   std::shared_ptr<const Directory> directory;  // after a swap
 };
 
@@ -97,6 +98,7 @@ FlightControl::Directory::Directory(const Flight::Impl& flight) : commands(fligh
                                      static_cast<std::size_t>(o.param));
   }
   for (const auto& unit : flight.wiring.units) view.components.push_back(view_of(flight, *unit));
+  for (const auto& [component, words] : flight.swapped) nth(view.components, component).swapped = words;
 }
 
 FlightControl::FlightControl(Flight::Impl& flight)
@@ -153,12 +155,17 @@ bool FlightControl::take(Waiting& w) noexcept {
   try {
     return apply(w);
   } catch (const std::exception& fault) {
+    try {
+      w.fault = fault.what();
+    } catch (...) {  // no memory for it
+    }
     return refuse(w, fault.what());
   }
 }
 
 bool FlightControl::refuse(Waiting& w, const char* why) noexcept {
-  std::snprintf(w.refusal.data(), w.refusal.size(), "%s", why);
+  const int length = std::snprintf(w.refusal.data(), w.refusal.size(), "%s", why);
+  if (length >= static_cast<int>(w.refusal.size())) end_in_dots(w.refusal.data(), w.refusal.size());
   done(w);
   return true;
 }
@@ -252,7 +259,7 @@ void FlightControl::answer_done() {
         }
       }
     }
-    if (w->answer) w->answer(w->refusal.data());
+    if (w->answer) w->answer(w->fault.empty() ? std::string(w->refusal.data()) : w->fault);
     for (const auto& tell : changed) tell(c.component, c.name);
   }
 }

@@ -3,6 +3,7 @@
 // alone.
 #pragma once
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -60,7 +61,7 @@ struct Flight::Impl {
   void swap(int component, const std::string& file);
   void replace(int component, const std::string& file);
   void rehearse_newcomer(const Unit& old, const Component& newcomer);
-  void install(int component, Graph&& next);
+  void install(int component, Graph&& next, const std::string& words);
   void put_in_place(int component, std::unique_ptr<Unit> fresh, const char* why);
   void restart(int component);
 
@@ -78,8 +79,9 @@ struct Flight::Impl {
   Roles roles;
   std::shared_ptr<const CommandTable> commands;  // what the graph has to command
   Onlookers onlookers;
-  std::int64_t heard_ns = never_ns;  // the vehicle's first word, while it is open whether to resume
-  bool catching_up = false;          // with the clock on the wall, and that was said
+  std::int64_t heard_ns = never_ns;    // the vehicle's first word, while it is open whether to resume
+  bool catching_up = false;            // with the clock on the wall, and that was said
+  std::map<int, std::string> swapped;  // by component: what its last swap did to its parameters
   const Flight& owner;
 };
 

@@ -16,6 +16,40 @@ std::string version_words(const PluginInfo& plugin) {
   return plugin.file + " " + plugin.version + " (" + plugin.sha256.substr(0, 12) + ")";
 }
 
+namespace {
+
+bool can_carry(const ParamInfo& old, const ParamInfo& now) {
+  if (now.kind != old.kind || now.choices != old.choices) return false;
+  return (now.kind != FULMAR_RECORD && now.kind != FULMAR_VECTOR) || now.type->hash == old.type->hash;
+}
+
+std::string listed(const char* what, const std::vector<std::string>& items) {
+  return items.empty() ? "" : std::string("; ") + what + join(items);
+}
+
+}  // namespace
+
+std::string parameter_words(const ComponentInfo& from, const std::vector<ParamValue>& values,
+                            const ComponentInfo& to, const std::vector<ParamValue>& into) {
+  std::vector<std::string> kept, fresh, gone;
+  for (std::size_t k = 0; k < to.params.size(); ++k) {
+    const ParamInfo& now = to.params[k];
+    const int i = from.param(now.name);
+    if (i < 0 || !can_carry(nth(from.params, i), now)) {
+      fresh.push_back(now.name + " = " + value_text(now, into[k]));
+      continue;
+    }
+    const ParamInfo& old = nth(from.params, i);
+    const std::string is = value_text(old, nth(values, i)), usual = value_text(now, initial_value(now));
+    if (usual != value_text(old, initial_value(old)) && is != usual && is != value_text(now, into[k]))
+      kept.push_back(now.name + " = " + is + " (new default " + usual + ")");
+  }
+  for (const ParamInfo& old : from.params)
+    if (const int k = to.param(old.name); k < 0) gone.push_back(old.name);
+  const std::string all = listed("keeps ", kept) + listed("new: ", fresh) + listed("gone: ", gone);
+  return all.empty() ? all : all.substr(2);
+}
+
 void carry_parameters(const ComponentInfo& from, const std::vector<ParamValue>& values,
                       const ComponentInfo& to, std::vector<ParamValue>& into) {
   for (std::size_t i = 0; i < from.params.size(); ++i) {
@@ -23,9 +57,7 @@ void carry_parameters(const ComponentInfo& from, const std::vector<ParamValue>& 
     const int k = to.param(old.name);
     if (k < 0) continue;
     const ParamInfo& now = nth(to.params, k);
-    if (now.kind != old.kind || now.choices != old.choices) continue;
-    if ((now.kind == FULMAR_RECORD || now.kind == FULMAR_VECTOR) && now.type->hash != old.type->hash)
-      continue;
+    if (!can_carry(old, now)) continue;
     const double number =
         now.kind == FULMAR_NUMBER ? values[i].number[0] : static_cast<double>(values[i].integer);
     const bool ranged = now.kind == FULMAR_NUMBER || now.kind == FULMAR_COUNT;
@@ -148,9 +180,10 @@ void Flight::Impl::replace(int at, const std::string& file) {
                 "): end it, and fly again");
   Component& newcomer = nth(next.components, at);
   check_ports(*old.component, newcomer);
+  const std::string words = parameter_words(*old.info, old.base, newcomer.info(), newcomer.params);
   carry_parameters(*old.info, old.base, newcomer.info(), newcomer.params);
   if (newcomer.run != RunMode::driver) rehearse_newcomer(old, newcomer);
-  install(at, std::move(next));
+  install(at, std::move(next), words);
 }
 
 /// On what its predecessor saw last, or, when nobody has stepped yet, on what it would see now.
@@ -187,7 +220,7 @@ void Flight::Impl::restart(int at) {
 
 /// From here on nothing can fail but what ends the host: the newcomer has been created before the old one
 /// goes.
-void Flight::Impl::install(int at, Graph&& next) {
+void Flight::Impl::install(int at, Graph&& next, const std::string& words) {
   Graph& graph = state.graph;
   const auto i = static_cast<std::size_t>(at);
   Component before = graph.components[i];
@@ -207,9 +240,11 @@ void Flight::Impl::install(int at, Graph&& next) {
   graph.done = std::move(next.done), graph.failed = std::move(next.failed);
   graph.overrides = std::move(next.overrides);
   put_in_place(at, std::move(fresh), "was swapped");
+  swapped[at] = words;
   const PluginInfo& plugin = *graph.components[i].plugin;
   Event e = event_of(Code::swapped, before.name);
-  say(e, "swapped: %s -> %s", version_words(*before.plugin).c_str(), version_words(plugin).c_str());
+  say(e, "swapped: %s -> %s%s%s", version_words(*before.plugin).c_str(), version_words(plugin).c_str(),
+      words.empty() ? "" : "; ", words.c_str());
   recorder.note(e);
   recorder.put_command(command);
   recorder.note_swap(before.name, plugin);

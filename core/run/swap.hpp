@@ -20,6 +20,10 @@ bool same_inputs(const ComponentInfo& a, const ComponentInfo& b);
 void check_unloads(const PluginInfo& was, const ComponentInfo& component);
 
 /// Base parameters of the same name and kind, from the predecessor.
+/// What a swap did to the parameters that its user may not expect: "keeps law_gain = 7 (new default 5); new:
+/// lag = 1 s; gone: lead". `into`: the newcomer's values before they are carried over.
+std::string parameter_words(const ComponentInfo& from, const std::vector<ParamValue>& values,
+                            const ComponentInfo& to, const std::vector<ParamValue>& into);
 void carry_parameters(const ComponentInfo& from, const std::vector<ParamValue>& values,
                       const ComponentInfo& to, std::vector<ParamValue>& into);
 

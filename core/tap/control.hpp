@@ -28,7 +28,8 @@ struct PortView {
 };
 struct ComponentView {
   std::string name, use, doc, run;
-  std::string role;                      // "outer, inner": all that it fills
+  std::string role;     // "outer, inner": all that it fills
+  std::string swapped;  // what its last swap did to its parameters; "": nothing that a user would not expect
   bool active = false, stopped = false;  // flies now; stopped by a guard
   std::vector<ParameterView> params;
   std::vector<PortView> inputs, outputs;

@@ -95,6 +95,10 @@ void require_no_fields(Session& session, const std::string& service, const std::
 std::string swap_file(const std::string& word) {
   const auto [file, part] = split_use(word);
   std::error_code fault;
+  const bool plugin = word.ends_with(".so") || word.ends_with(".py");
+  if (!plugin && word.find_first_of("./") != std::string::npos &&
+      std::filesystem::is_regular_file(word, fault))
+    throw Error("'" + word + "' is no plugin: a plugin's file ends in .so or .py");  // not PLUGIN/COMPONENT
   if (!(file.ends_with(".so") || file.ends_with(".py")) || !std::filesystem::is_regular_file(file, fault))
     return word;
   return std::filesystem::absolute(file, fault).string() + (part.empty() ? "" : "/" + part);
@@ -133,8 +137,15 @@ int swap_command(const LiveAddress& target, const std::string& component, const 
   for (const std::string& name : names) known = known || name == component;
   if (!known)
     throw Error("this flight has no component '" + component + "'." + choices_text(component, names));
-  return tell(session.order("/fulmar/swap", {{"component", component}, {"file", swap_file(file)}}),
-              "swap " + component);
+  const Session::Verdict verdict =
+      session.order("/fulmar/swap", {{"component", component}, {"file", swap_file(file)}});
+  const int code = tell(verdict, "swap " + component);
+  if (!verdict.accepted) return code;
+  const json after = session.view();
+  for (const json& c : after.value("components", json::array()))
+    if (const std::string words = c.value("swapped", ""); c.value("name", "") == component && !words.empty())
+      std::printf("%s\n", words.c_str());
+  return code;
 }
 
 int reset_command(const LiveAddress& target) {

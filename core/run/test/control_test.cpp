@@ -191,6 +191,38 @@ TEST_CASE("what was asked of a component before it was swapped is not done to th
   CHECK(asked.wait(flight) == "");
 }
 
+TEST_CASE("a swap is refused in whole sentences, and tells what it did to the parameters") {
+  const Graph g = mission(watched + one_phase);
+  Flight flight(g, quick());
+  Control& control = *flight.control();
+  REQUIRE(flight.step());
+  Reply nowhere, folder, done;
+  const std::string file = "/tmp/" + std::string(400, 'x') + ".so";
+  control.swap("one", file, nowhere.take());
+  CHECK(holds(nowhere.wait(flight), "there is no plugin '" + file + "'"));
+  control.swap("one", "/etc/hostname", folder.take());
+  CHECK(holds(folder.wait(flight), "'/etc' is a folder: a plugin's file ends in .so or .py"));
+  control.swap("one", variant("_wider"), done.take());
+  CHECK(done.wait(flight) == "");
+  for (const ComponentView& c : control.view().components)
+    CHECK(c.swapped == (c.name == "one" ? "keeps fixed = 1 (new default 1.5); new: reserve = 0" : ""));
+}
+
+TEST_CASE("a sentence without room ends in dots, behind a whole word and a whole letter") {
+  std::array<char, 24> text{};
+  const auto cut = [&](const std::string& words) {
+    std::snprintf(text.data(), text.size(), "%s", words.c_str());
+    end_in_dots(text.data(), text.size());
+    return std::string(text.data());
+  };
+  CHECK(cut("there is no output of type GuidanceCommand") == "there is no output...");
+  CHECK(cut("supercalifragilisticexpialidocious") == "supercalifragilistic...");
+  CHECK(cut("supercalifragilisti\u00e4\u00e4\u00e4\u00e4") == "supercalifragilisti...");
+  Event e = event_of(Code::notice);
+  say(e, "%s", std::string(600, 'y').c_str());
+  CHECK(std::string(e.words.data()).ends_with("yyy..."));
+}
+
 TEST_CASE("requests wait for room in their order, hold up no parameter, and cost the loop no allocation") {
   const Graph g = mission(watched + one_phase);
   Flight flight(g, quick());

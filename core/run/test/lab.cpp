@@ -198,7 +198,11 @@ struct Law {
     Choice<Fault> fault{Fault::none, "what it does wrong"};
     Param fault_at{1e9, "s", -1e9, 1e9, "from when on"};
     Flag refuse{false, "refuses to take over"};
+#ifdef LAB_WIDER
+    Param fixed{1.5, "", 0, 2, "set-up parameter", setup};
+#else
     Param fixed{1, "", 0, 2, "set-up parameter", setup};
+#endif
   };
   Status activate(const Tick&, const Inputs&, const Params& p, const Outputs& last) {
     taken_ = last.command.u_frac;

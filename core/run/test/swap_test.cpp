@@ -99,6 +99,41 @@ TEST_CASE("a swap that cannot be is refused in a sentence, and the old law flies
   CHECK(r.outcome == Outcome::flown);
 }
 
+TEST_CASE("a swap tells which values it keeps, which parameters are new, and which are gone") {
+  Ground ground(mission(one_phase), true);
+  swap(*ground.flight, "one", variant("_wider"));
+  ground.flight->step();
+  const std::string words = "keeps fixed = 1 (new default 1.5); new: reserve = 0";
+  ground.flight->finish();
+  const McapFile file = read_mcap(ground.o.log_file);
+  const HostTopic<Event> events(file);
+  std::string told;
+  for (const McapFile::Message& m : file.messages)
+    if (events.holds(m))
+      if (const Event e = events.read(m.data); e.code == Code::swapped) told = e.words.data();
+  CHECK(told.ends_with("; " + words));
+}
+
+TEST_CASE("what a swap did to the parameters: values that both have by default are not worth a word") {
+  const auto number = [](const char* name, double initial) {
+    ParamInfo p;
+    p.name = name, p.unit = "s", p.initial[0] = initial, p.min = 0, p.max = 100;
+    return p;
+  };
+  ComponentInfo old, fresh;
+  old.params = {number("law_gain", 7), number("lead", 1), number("lag", 2), number("set_by_user", 3)};
+  fresh.params = {number("law_gain", 5), number("lag", 2), number("set_by_user", 3), number("bank", 4)};
+  std::vector<ParamValue> values(4), into(4);
+  for (std::size_t i = 0; i < 4; ++i) values[i].number[0] = old.params[i].initial[0];
+  for (std::size_t i = 0; i < 4; ++i) into[i].number[0] = fresh.params[i].initial[0];
+  values[3].number[0] = 9;  // live: its default has not changed
+  CHECK(parameter_words(old, values, fresh, into) ==
+        "keeps law_gain = 7 s (new default 5 s); new: bank = 4 s; gone: lead");
+  into[0].number[0] = 7;  // the mission says 7: nothing is kept that it would not have
+  CHECK(parameter_words(old, values, fresh, into) == "new: bank = 4 s; gone: lead");
+  CHECK(parameter_words(old, values, old, values) == "");
+}
+
 TEST_CASE("nothing is swapped while armed, and never the vehicle") {
   Ground ground(mission(one_phase));
   CHECK(has(

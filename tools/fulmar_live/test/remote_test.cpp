@@ -354,6 +354,12 @@ TEST_CASE("requests, phases and swaps are asked for; a refusal is told and is ex
           word);
   };
   for (const char* word : {"control_slc", "control_slc/Outer", "my.so", "./my.so/Law"}) swapped(word);
+  std::ofstream(folder.path / "table.txt") << "x";
+  r = typed(flight, "swap slc " + (folder.path / "table.txt").string());
+  CHECK(r.code == 1);
+  CHECK(r.err ==
+        "'" + (folder.path / "table.txt").string() + "' is no plugin: a plugin's file ends in .so or .py\n");
+  CHECK_FALSE(flight.heard("swap slc " + (folder.path / "table.txt").string()));
   CHECK(flight.heard("swap slc control_slc"));
   CHECK(flight.heard("swap slc control_slc/Outer"));
   CHECK(flight.heard("swap slc " + (folder.path / "my.so").string()));

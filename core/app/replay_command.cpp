@@ -155,13 +155,14 @@ int experiment(const Recording& recording, const ReplayWords& words, json& out) 
   const Replayed was = fly(recording, {}, "");
   const bool more = !words.changes.record.empty();
   const Replayed is = fly(recording, without_record(words.changes), more ? "" : words.out);
-  fly_for_log(recording, words);
   out = result_of(recording, is);
   out["before"] = was.figures, out["after"] = is.figures, out["before_equals_log"] = was.result.equal();
   if (!was.result.equal()) warn("without the change, too, the replay differs from the log");
-  if (words.json) return 0;
-  print(is);
-  std::printf("%s", comparison(was.figures, is.figures).c_str());
+  if (!words.json) {
+    print(is);
+    std::printf("%s", comparison(was.figures, is.figures).c_str());
+  }
+  fly_for_log(recording, words);
   return 0;
 }
 
@@ -174,9 +175,9 @@ int run(const ReplayWords& words, json& out) {
   }
   if (!words.changes.with.empty() || !words.changes.set.empty()) return experiment(recording, words, out);
   const Replayed again = fly(recording, {}, words.changes.record.empty() ? words.out : "");
-  fly_for_log(recording, words);
   out = result_of(recording, again);
   if (!words.json) print(again);
+  fly_for_log(recording, words);
   return again.result.equal() ? 0 : 1;
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/app/extern_command.hpp"
+#include "core/app/many.hpp"
 #include "core/app/mission_options.hpp"
 #include "core/app/program.hpp"
 #include "core/app/replay_command.hpp"
@@ -34,12 +35,18 @@ int check(const std::string& mission, const Overrides& overrides) {
 }
 
 /// The commands of this program, in the order of the help, which names those of other programs too.
+std::vector<std::uint64_t> valid_seeds(const std::string& text) try {
+  return parse_seeds(text);
+} catch (const Error& fault) {
+  throw CLI::ValidationError(fault.what());
+}
+
 struct Commands {
   CLI::App app{
       "Fulmar: a fixed-wing autopilot for research. A mission is a YAML file; its components are plugins."};
   MissionOptions mission;
   RunOptions run;
-  std::string speed = "max", resume_log;
+  std::string speed = "max", resume_log, seeds;
   ReplayWords replay;
   std::vector<std::string> replay_set, replay_with;
   std::function<int()> action;  // of the command that was given
@@ -81,10 +88,20 @@ struct Commands {
     command->add_flag("--json", run.json, "print one JSON object instead of a table");
     command->add_flag("--strict", run.strict,
                       "exit code 3 when a guard has fired in a flight that was flown");
-    command->add_option("--repeat", run.repeat, "so many flights in one host")->check(CLI::Range(1, 1000000));
-    command->add_flag(
+    CLI::Option* repeat =
+        command->add_option("--repeat", run.repeat, "so many flights in one host, all with the same seed")
+            ->check(CLI::Range(1, 1000000));
+    CLI::Option* watch = command->add_flag(
         "--watch", run.watch,
         "after a flight wait until a plugin or file of the mission changes, fly again, and compare");
+    command
+        ->add_option("--seeds", seeds,
+                     "a flight with each seed, as in 1..20 or 3,5,8..10; ends with their figures' mean and "
+                     "deviation")
+        ->type_name("SEEDS")
+        ->excludes(repeat)
+        ->excludes(watch)
+        ->excludes(command->get_option("--seed"));
     command->add_option("--build", run.build,
                         "with --watch: command to run when a source file beside the mission has changed");
     command
@@ -111,6 +128,7 @@ struct Commands {
       run.mission = mission.mission;
       run.overrides = mission.overrides(command);
       run.speed = parse_speed(speed);
+      if (!seeds.empty()) run.seeds = valid_seeds(seeds);
       if (resume->count() > 0) run.resume = resume_log;
       action = [this] { return run_command(run); };
     });

@@ -72,8 +72,10 @@ json steps_json(const FlightResult& result) {
   json all = json::object();
   for (const ComponentStats& c : result.components) {
     if (c.time.count() == 0) continue;
-    all[c.name] = {
-        {"p50", c.time.quantile_us(0.5)}, {"p99", c.time.quantile_us(0.99)}, {"max", c.time.max_us()}};
+    all[c.name] = {{"mean", c.time.mean_us()},
+                   {"p50", c.time.quantile_us(0.5)},
+                   {"p99", c.time.quantile_us(0.99)},
+                   {"max", c.time.max_us()}};
   }
   return all;
 }

@@ -23,6 +23,7 @@
 
 #include "core/app/compare.hpp"
 #include "core/app/ends.hpp"
+#include "core/app/many.hpp"
 #include "core/app/program.hpp"
 #include "core/app/report.hpp"
 #include "core/app/watch.hpp"
@@ -147,9 +148,23 @@ class Session {
     if (const auto changed = stamps_->changed(); !changed.empty()) reload(changed);
   }
 
+  /// The next flight's.
+  void set_seed(std::uint64_t seed) {
+    graph_.seed = seed;
+    graph_.overrides.seed = seed;
+  }
+
+  void print_spread() const { std::printf("%s", spread_table(results_).c_str()); }
+
   nlohmann::json results() const {
+    if (!options_.seeds.empty()) {
+      nlohmann::json all = spread(results_);
+      all["flights"] = results_;
+      return all;
+    }
     return results_.size() == 1 ? results_[0] : nlohmann::json{{"flights", results_}};
   }
+  bool on_hardware() const { return graph_.io == Io::fcu; }
   bool has_flown() const { return !results_.empty(); }
 
  private:
@@ -250,12 +265,16 @@ class Session {
     o.log = !o.log_file.empty();
     make_folder_of(o.log_file);
     o.interrupt = &signal_seen;
-    o.progress = [&](const Flight& flight) { progress.show(flight); };
-    o.say = [&](const std::string& text, bool warning) { progress.say(text, warning); };
+    const bool many = !options_.seeds.empty();  // of those only what is worth a warning
+    if (!many) o.progress = [&](const Flight& flight) { progress.show(flight); };
+    o.say = [&, many](const std::string& text, bool warning) {
+      if (!many) return progress.say(text, warning);
+      if (warning) progress.say("seed " + std::to_string(graph_.seed) + ": " + text, true);
+    };
     if (graph_.io == Io::fcu || options_.speed > 0) print_without_waiting();
     if (options_.json) dup2(STDERR_FILENO, STDOUT_FILENO);  // what components print
     handle_signals(graph_.io != Io::sim, 10);
-    if (!options_.json)
+    if (!options_.json && options_.seeds.empty())
       say_aloud(graph_.mission + (graph_.io == Io::sim ? ": simulation" : ": flight controller") + ", seed " +
                 std::to_string(graph_.seed));
     take_priority();
@@ -270,7 +289,10 @@ class Session {
     progress.clear();
     pass_on_words();
     results_.push_back(result_json(graph_, *last_, result));
-    if (!options_.json) {
+    if (!options_.seeds.empty() && !options_.json) {
+      std::printf("%s\n", short_result(results_.back()).c_str());
+      std::fflush(stdout);
+    } else if (!options_.json) {
       std::printf("%s", result_table(graph_, *last_, result).c_str());
       if (results_.size() > 1)
         std::printf("%s", comparison(results_[results_.size() - 2], results_.back()).c_str());
@@ -394,19 +416,23 @@ int run_command(const RunOptions& options) {
   if (!options.build.empty() && !options.watch) throw CLI::ValidationError("--build belongs to --watch");
   ResultFile output(options.json);
   Session session(options);
+  if (!options.seeds.empty() && session.on_hardware())
+    throw CLI::ValidationError("--seeds belongs to a simulation: on hardware nothing is drawn by chance");
   int worst = 0;
+  const int flights = options.seeds.empty() ? options.repeat : static_cast<int>(options.seeds.size());
   for (int flight = 1;; ++flight) {
+    if (!options.seeds.empty()) session.set_seed(options.seeds[static_cast<std::size_t>(flight - 1)]);
     const std::optional<int> code = session.try_fly();
     worst = worse(worst, code.value_or(ExitCode::failed));
-    if (code == ExitCode::interrupted || (options.repeat > 0 ? flight >= options.repeat : !options.watch))
-      break;
-    if (options.repeat > 0)
+    if (code == ExitCode::interrupted || (flights > 0 ? flight >= flights : !options.watch)) break;
+    if (flights > 0)
       options.watch ? session.take_changes() : void();
     else if (!session.wait_for_change())
       break;
     alarm(0);
   }
   try {
+    if (!options.seeds.empty() && !options.json) session.print_spread();
     if (session.has_flown()) output.write(session.results());
   } catch (const Error& fault) {
     warn(fault.what());

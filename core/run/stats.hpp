@@ -16,8 +16,12 @@ class Histogram {
     ++buckets_[index(v)];
     ++count_;
     max_ = std::max(max_, v);
+    sum_ += v;
   }
   std::uint64_t count() const { return count_; }
+  double mean_us() const {
+    return count_ > 0 ? 1e-3 * static_cast<double>(sum_) / static_cast<double>(count_) : 0;
+  }
   double max_us() const { return 1e-3 * static_cast<double>(max_); }
   /// The time that a fraction `q` of the steps did not exceed, in microseconds; the middle of its bucket.
   double quantile_us(double q) const {
@@ -43,7 +47,7 @@ class Histogram {
     return static_cast<double>((i % per_octave + per_octave) << octave);
   }
   std::array<std::uint32_t, 45 * per_octave> buckets_{};
-  std::uint64_t count_ = 0, max_ = 0;
+  std::uint64_t count_ = 0, max_ = 0, sum_ = 0;
 };
 
 struct ComponentStats {

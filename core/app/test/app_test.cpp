@@ -81,7 +81,9 @@ TEST_CASE("the JSON of a flight has the keys that scripts rely on, and null for 
   CHECK(j["log_dropped"] == 0);
   CHECK(j["guards"].empty());
   CHECK(j["phases"][0]["name"] == "hold");
-  for (const char* key : {"p50", "p99", "max"}) CHECK(j["step_time_us"]["ekf"][key].get<double>() > 0);
+  for (const char* key : {"mean", "p50", "p99", "max"})
+    CHECK(j["step_time_us"]["ekf"][key].get<double>() > 0);
+  CHECK(j["step_time_us"]["ekf"]["mean"] < j["step_time_us"]["ekf"]["max"]);
   for (const char* key :
        {"north_m", "east_m", "altitude_m", "roll_deg", "pitch_deg", "course_deg", "airspeed_mps"}) {
     CHECK(j["tracking_rmse"][key].is_number());

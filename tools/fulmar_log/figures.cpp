@@ -37,10 +37,10 @@ std::optional<MissionText> mission_of(const McapFile& log) try {
   overrides.files = std::make_shared<const StoredFiles>(std::move(files));
   Report faults;  // of a mission of another version: what can be read of it is enough
   MissionText mission = parse_mission(name, overrides, faults);
-  for (const auto& [role, component] : overrides.roles)
+  for (const auto& given : overrides.roles)
     for (PhaseText& phase : mission.phases) {
-      std::erase_if(phase.roles, [&](const AssignmentText& a) { return a.role == role; });
-      phase.roles.push_back({role, {component, {}}, {}, {}, {}});
+      std::erase_if(phase.roles, [&](const AssignmentText& a) { return a.role == given.first; });
+      phase.roles.push_back({given.first, {given.second, {}}, {}, {}, {}});
     }
   return mission;
 } catch (const Error&) {

@@ -48,6 +48,7 @@ std::string field_differs(const Field& from, const Field& to, const std::string&
 std::string fields_differ(const Type& from, const Type& to, const std::string& path) {
   for (const Field& field : to.fields) {
     const Field* source = from.find(field.name);
+    if (source == nullptr && field.appended) continue;
     if (source == nullptr) return "reader knows a field '" + path + field.name + "' that the writer lacks";
     const std::string fault = field_differs(*source, field, path + field.name);
     if (!fault.empty()) return fault;
@@ -58,8 +59,16 @@ std::string fields_differ(const Type& from, const Type& to, const std::string& p
 class Mover {
  public:
   void fields(const Type& from, const Type& to, std::uint32_t from_base, std::uint32_t to_base) {
-    for (const Field& field : to.fields) one(*from.find(field.name), field, from_base, to_base);
+    for (const Field& field : to.fields) {
+      if (const Field* const source = from.find(field.name)) {
+        one(*source, field, from_base, to_base);
+      } else {
+        gaps.push_back({to_base + field.offset, static_cast<std::uint32_t>(field_span(field))});
+      }
+    }
   }
+
+  std::vector<CopyPlan::Gap> gaps;
 
   std::vector<CopyPlan::Move> merged() {
     std::sort(moves_.begin(), moves_.end(), [](const auto& a, const auto& b) { return a.to < b.to; });
@@ -131,6 +140,7 @@ CopyPlan copy_plan(const Type& from, const Type& to) {
   Mover mover;
   mover.fields(from, to, 0, 0);
   plan.moves = mover.merged();
+  plan.gaps = std::move(mover.gaps);
   return plan;
 }
 
@@ -140,6 +150,7 @@ void CopyPlan::run(const std::byte* from, std::byte* to) const {
     return;
   }
   for (const Move& move : moves) std::memcpy(to + move.to, from + move.from, move.bytes);
+  for (const Gap& gap : gaps) std::memset(to + gap.to, 0, gap.bytes);
 }
 
 }  // namespace fulmar::core

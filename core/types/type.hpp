@@ -27,6 +27,7 @@ struct Field {
   fulmar_shape shape = FULMAR_SCALAR;
   std::uint32_t offset = 0, count = 1, stride = 0, items = 0;
   double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
+  bool appended = false;  // a writer may lack it: its reader then sees zeros
 };
 
 /// Of a struct of the host's own. `room`: of a text.
@@ -126,13 +127,18 @@ inline double number_at(const Field& field, const std::byte* at) noexcept {
 /// when it can.
 std::string incompatibility(const Type& from, const Type& to);
 
-/// Moves the fields that a reader knows. Equal tables are one copy of everything.
+/// Moves the fields that a reader knows, and empties those that the writer lacks. Equal tables are one copy
+/// of everything.
 struct CopyPlan {
   struct Move {
     std::uint32_t from = 0, to = 0, bytes = 0;
   };
+  struct Gap {
+    std::uint32_t to = 0, bytes = 0;
+  };
   bool whole = true;  // equal tables
   std::vector<Move> moves;
+  std::vector<Gap> gaps;   // after the moves, which may carry padding along
   std::uint32_t size = 0;  // of the reader's struct
   void run(const std::byte* from, std::byte* to) const;
 };

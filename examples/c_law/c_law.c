@@ -22,7 +22,7 @@ struct attitude { /* an output is written whole: every field that its readers kn
 #define NUMBER_IN(message, member, unit, min, max)                                                \
   {                                                                                               \
 #member, unit, NULL, NULL, 0, FULMAR_F64, FULMAR_SCALAR, offsetof(struct message, member), 1, \
-        sizeof(double), 0, min, max                                                               \
+        sizeof(double), 0, min, max, 0                                                            \
   }
 #define NUMBER(message, member, unit) NUMBER_IN(message, member, unit, -INFINITY, INFINITY)
 #define LENGTH(array) (sizeof(array) / sizeof *(array))

@@ -111,6 +111,64 @@ TEST_CASE("a field appended by the writer leaves one move for the rest") {
   CHECK(plan.moves[0].bytes == 32);
 }
 
+TEST_CASE("a field that the reader knows as appended may be missing, and is then zero whoever wrote before") {
+  // 4 bytes of padding in the writer lie where the reader has its new field: they are not taken for it
+  std::vector<fulmar_field> older{real("a_m", "m", 0), field("flag", "", FULMAR_U32, 8, 4),
+                                  real("b_m", "m", 16)};
+  std::vector<fulmar_field> newer = older;
+  newer.insert(newer.begin() + 2, field("id", "", FULMAR_U32, 12, 4));
+  newer.push_back(array(real("c_m", "m", 24), 2));
+  for (const std::size_t i : {2u, 4u}) newer[i].flags = FULMAR_FIELD_APPENDED;
+  const CopyPlan plan = copy_plan(*copy_type(type("W", older, 24)), *copy_type(type("R", newer, 40)));
+  CHECK_FALSE(plan.whole);
+  struct {
+    double a = 1;
+    std::uint32_t flag = 2, padding = 77;
+    double b = 3;
+  } from;
+  struct {
+    double a = 0;
+    std::uint32_t flag = 0, id = 9;
+    double b = 0, c[2] = {5, 6};
+  } to;
+  plan.run(bytes(from), reinterpret_cast<std::byte*>(&to));
+  CHECK(to.a == 1);
+  CHECK(to.flag == 2);
+  CHECK(to.b == 3);
+  CHECK(to.id == 0);
+  CHECK(to.c[0] == 0);
+  CHECK(to.c[1] == 0);
+  newer[2].flags = 0;
+  CHECK(verdict(newer, older) == "reader knows a field 'id' that the writer lacks");
+}
+
+TEST_CASE("items of a list that have grown are filled one by one") {
+  struct Item {
+    double x = 0;
+    std::uint32_t id = 0;
+  };
+  const std::vector<fulmar_field> old_item{real("x_m", "m", 0)};
+  std::vector<fulmar_field> new_item{real("x_m", "m", 0), field("id", "", FULMAR_U32, 8, 4)};
+  new_item[1].flags = FULMAR_FIELD_APPENDED;
+  const fulmar_type before = type("Item", old_item, 8), after = type("Item", new_item, 16);
+  const std::vector<fulmar_field> writer{list(nested("items", "", before, 0), 2, 8)},
+      reader{list(nested("items", "", after, 0), 2, 8)};
+  const CopyPlan plan = copy_plan(*copy_type(type("W", writer, 24)), *copy_type(type("R", reader, 40)));
+  const struct {
+    std::uint32_t count = 2, padding = 0;
+    double items[2] = {1.5, 2.5};
+  } from;
+  struct {
+    std::uint32_t count = 0, padding = 0;
+    Item items[2] = {{0, 8}, {0, 9}};
+  } to;
+  plan.run(bytes(from), reinterpret_cast<std::byte*>(&to));
+  CHECK(to.items[0].x == 1.5);
+  CHECK(to.items[1].x == 2.5);
+  CHECK(to.items[0].id == 0);
+  CHECK(to.items[1].id == 0);
+}
+
 TEST_CASE("a wider range or one more label changes no byte") {
   static const char* const fewer[] = {"idle", "glide"};
   const std::vector<fulmar_field> reader{in_range(real("a_m", "m", 0), 0, 5), labelled("mode", modes, 8)};

@@ -25,7 +25,8 @@ inline fulmar_field field(const char* name, const char* unit, std::uint32_t kind
           static_cast<std::uint32_t>(stride),
           0,
           -INFINITY,
-          INFINITY};
+          INFINITY,
+          0};
 }
 inline fulmar_field real(const char* name, const char* unit, std::size_t offset) {
   return field(name, unit, FULMAR_F64, offset, 8);

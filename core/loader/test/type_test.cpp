@@ -104,7 +104,7 @@ TEST_CASE("pointers into nowhere are refused, not followed") {
   wild = type("T", vec_fields, 24);
   wild.field_stride = 8;
   CHECK(fault_of(wild) == "type 'T': the fields lie 8 bytes apart, where " +
-                              std::to_string(sizeof(fulmar_field)) + " are needed");
+                              std::to_string(size_in_1_0<fulmar_field>) + " are needed");
 }
 
 TEST_CASE("a type that contains itself is refused") {

@@ -19,20 +19,20 @@ struct sample {
 
 static const char* const modes[] = {"idle", "glide"};
 static const fulmar_field axes[] = {
-    {"north", "", NULL, NULL, 0, FULMAR_F64, FULMAR_SCALAR, 0, 1, 8, 0, -INFINITY, INFINITY},
-    {"east", "", NULL, NULL, 0, FULMAR_F64, FULMAR_SCALAR, 8, 1, 8, 0, -INFINITY, INFINITY},
-    {"down", "", NULL, NULL, 0, FULMAR_F64, FULMAR_SCALAR, 16, 1, 8, 0, -INFINITY, INFINITY},
+    {"north", "", NULL, NULL, 0, FULMAR_F64, FULMAR_SCALAR, 0, 1, 8, 0, -INFINITY, INFINITY, 0},
+    {"east", "", NULL, NULL, 0, FULMAR_F64, FULMAR_SCALAR, 8, 1, 8, 0, -INFINITY, INFINITY, 0},
+    {"down", "", NULL, NULL, 0, FULMAR_F64, FULMAR_SCALAR, 16, 1, 8, 0, -INFINITY, INFINITY, 0},
 };
 static const fulmar_type vector = {"Vec3", "ned", "", axes, 3, sizeof(fulmar_field), 24, 8};
 static const fulmar_field fields[] = {
     {"airspeed_mps", "m/s", NULL, NULL, 0, FULMAR_F64, FULMAR_SCALAR, offsetof(struct sample, airspeed_mps),
-     1, 8, 0, -INFINITY, INFINITY},
+     1, 8, 0, -INFINITY, INFINITY, 0},
     {"position_m", "m", &vector, NULL, 0, FULMAR_STRUCT, FULMAR_SCALAR, offsetof(struct sample, position_m),
-     1, 24, 0, -INFINITY, INFINITY},
+     1, 24, 0, -INFINITY, INFINITY, 0},
     {"mode", "", NULL, modes, 2, FULMAR_ENUM, FULMAR_SCALAR, offsetof(struct sample, mode), 1, 1, 0,
-     -INFINITY, INFINITY},
+     -INFINITY, INFINITY, 0},
     {"valid", "", NULL, NULL, 0, FULMAR_BOOL, FULMAR_SCALAR, offsetof(struct sample, valid), 1, 1, 0,
-     -INFINITY, INFINITY},
+     -INFINITY, INFINITY, 0},
 };
 static const fulmar_type sample_type = {
     "Sample", "", "", fields, 4, sizeof(fulmar_field), sizeof(struct sample), 8};

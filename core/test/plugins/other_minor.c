@@ -34,8 +34,8 @@ typedef struct {
 } component;
 
 static const field fields[] = {
-    {{"x_m", "m", NULL, NULL, 0, FULMAR_F64, FULMAR_SCALAR, 0, 1, 8, 0, -INFINITY, INFINITY} TAIL_VALUE},
-    {{"y_m", "m", NULL, NULL, 0, FULMAR_F64, FULMAR_SCALAR, 8, 1, 8, 0, -INFINITY, INFINITY} TAIL_VALUE},
+    {{"x_m", "m", NULL, NULL, 0, FULMAR_F64, FULMAR_SCALAR, 0, 1, 8, 0, -INFINITY, INFINITY, 0} TAIL_VALUE},
+    {{"y_m", "m", NULL, NULL, 0, FULMAR_F64, FULMAR_SCALAR, 8, 1, 8, 0, -INFINITY, INFINITY, 0} TAIL_VALUE},
 };
 static const fulmar_type point = {"Point", "", "", &fields[0].base, 2, sizeof(field), 16, 8};
 static const port outputs[] = {

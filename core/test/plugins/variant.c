@@ -48,9 +48,9 @@
 #endif
 
 static const fulmar_field fields[] = {
-    {"x_m", "m", NULL, NULL, 0, FIELD_KIND, FULMAR_SCALAR, 0, 1, 8, 0, -INFINITY, INFINITY},
+    {"x_m", "m", NULL, NULL, 0, FIELD_KIND, FULMAR_SCALAR, 0, 1, 8, 0, -INFINITY, INFINITY, 0},
     {SECOND_NAME, "m", NULL, NULL, 0, FULMAR_F64, FULMAR_SCALAR, SECOND_OFFSET, SECOND_COUNT, 8, 0, -INFINITY,
-     INFINITY},
+     INFINITY, 0},
 };
 static const fulmar_type point = {"Point", "", "", fields, 2, sizeof(fulmar_field), 16, 8};
 static const fulmar_port outputs[] = {{"place", &point, PORT_KIND, 0, 1}};

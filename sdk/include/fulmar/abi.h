@@ -71,7 +71,12 @@ typedef struct fulmar_field {
   uint32_t stride; /* bytes from one element to the next */
   uint32_t items;  /* FULMAR_LIST: bytes from the field to its first element */
   double min, max; /* range that the host enforces in flight; -inf and inf when there is none */
+  uint32_t flags;  /* fulmar_field_flags; 0 in tables from before it was here */
 } fulmar_field;
+
+enum fulmar_field_flags {
+  FULMAR_FIELD_APPENDED = 1 /* a writer from before this field may feed its reader, who then sees zeros */
+};
 
 struct fulmar_type {
   const char* name;  /* "VehicleState" */

@@ -67,6 +67,12 @@ struct FieldRange {
 template <class T>
 inline constexpr std::array<FieldRange, 0> field_ranges{};
 
+/// The first field that was appended to a message after plugins were built with it, in a specialization
+/// beside the message. A reader is fed by such an older plugin as well, and then sees zeros from there on: so
+/// zero means "not said" in every field that is appended.
+template <class T>
+inline constexpr std::string_view appended_from{};
+
 /// Deviation of a quantity that nobody knows: large, finite, and so honest to every weighted sum.
 inline constexpr double unknown_std = 1e9;
 

@@ -377,6 +377,14 @@ struct Rows {
   std::array<fulmar_field, count> fields{};
   std::size_t nameless = count;  ///< the first number whose name does not end in a unit
 };
+template <class T>
+consteval std::size_t appended_index() {
+  constexpr std::size_t count = member_count<T>();
+  if (appended_from<T>.empty()) return count;
+  for (std::size_t i = 0; i < count; ++i)
+    if (FieldNames<T>::view(i) == appended_from<T>) return i;
+  throw "appended_from names no field of this message";
+}
 template <class T, class... M>
 consteval Rows<T, sizeof...(M)> rows_of(Types<M...>) {
   constexpr std::size_t count = sizeof...(M);
@@ -390,6 +398,7 @@ consteval Rows<T, sizeof...(M)> rows_of(Types<M...>) {
       f.name = FieldNames<T>::c_str(i);
       f.offset = static_cast<std::uint32_t>(offsets[i]);
       const std::string_view name = FieldNames<T>::view(i);
+      f.flags = i >= appended_index<T>() ? FULMAR_FIELD_APPENDED : 0;
       const bool stamp = (f.kind == FULMAR_I64 || f.kind == FULMAR_U64) && name.ends_with("_ns");
       if (exempt || !(measured[i] || stamp)) continue;
       const int unit = find_unit(name);

@@ -58,7 +58,11 @@ TypePtr type_of(const Graph& graph, const Source& source) {
 json summary_of(const Graph& graph, const Flight& flight, const Source& source) {
   const std::byte* message = flight.sample(source);
   if (!message) return nullptr;
-  return to_json(*type_of(graph, source), message, true);
+  json figures = to_json(*type_of(graph, source), message, true);
+  // 1e9 is the deviation of what nobody knows: no figure
+  for (json& value : figures)
+    if (value == 1e9 || value == 1e9 * (180.0 / std::numbers::pi)) value = nullptr;
+  return figures;
 }
 
 double flight_time_s(const FlightResult& result) {

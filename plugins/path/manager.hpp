@@ -62,6 +62,7 @@ struct Manager {
   void begin_leg(const Route& route, const RouteLeg& leg, Mode mode, std::uint32_t item, std::size_t piece);
   void begin_piece(const Route& route, std::size_t index);
   void look_ahead(const Route& route);
+  void foresee(const RouteLeg& leg, std::size_t index, bool next_leg_follows);
   void fly(const Route& route, const VehicleState& state, const Params& p);
   void measure(const VehicleState& state);
   void reach(const Route& route, const VehicleState& state);
@@ -93,6 +94,26 @@ inline Pose pose_of(const VehicleState& state) {
 
 inline bool same_spot(const Vec3<Ned>& a, const Vec3<Ned>& b) {
   return a.north == b.north && a.east == b.east;
+}
+
+/// A piece of a route as a message tells it.
+inline PathPiece piece_of(const RoutePiece& from, double airspeed_mps) {
+  PathPiece piece;
+  piece.kind = from.kind;
+  piece.turn = from.turn;
+  piece.climb_ratio = from.climb_ratio;
+  piece.origin_m = {from.north_m, from.east_m, -from.height_m};
+  piece.airspeed_mps = airspeed_mps;
+  piece.length_m = from.length_m;
+  if (from.kind == PathKind::line) {
+    const double norm = 1 / std::sqrt(1 + from.climb_ratio * from.climb_ratio);
+    piece.direction_ratio = {from.unit_north_ratio * norm, from.unit_east_ratio * norm,
+                             -from.climb_ratio * norm};
+  } else {
+    piece.radius_m = from.radius_m;
+    piece.start_rad = from.start_rad;
+  }
+  return piece;
 }
 
 inline Status Manager::step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
@@ -128,7 +149,10 @@ inline void Manager::adopt(const Route& route, const Plan& plan, const VehicleSt
   progress_.items = route.size();
   progress_.plan_revision = plan.revision;
   if (route.size() == 0) {
-    if (was_empty && !was_idle) return;  // go on with the orbit
+    if (was_empty && !was_idle) {  // go on with the orbit
+      orbit_.radius_m = route.radius_m();
+      return;
+    }
     item_ = legs_ = 0;
     progress_.finished = false;
     const double height_m = std::max(state.height_m, p.hold_height.value);
@@ -175,6 +199,8 @@ inline void Manager::keep_or_join(const Route& route, const Plan& plan, const Ve
                       end.course_rad == leg_.end.course_rad;
     if (!same) return begin_join(route, state, k);
     item_ = k;
+    leg_.airspeed_mps = route.airspeed_mps(k);
+    if (route.closed() || k + 1 < route.size()) next_leg_ = route.leg(route.after(k));
     return begin_piece(route, piece_);
   }
   if (!same_spot(plan.waypoints[route.before(k)].position_m, from_)) return begin_join(route, state, k);
@@ -232,42 +258,65 @@ inline void Manager::begin_leg(const Route& route, const RouteLeg& leg, Mode mod
 
 inline void Manager::begin_piece(const Route& route, std::size_t index) {
   piece_ = index;
-  const RoutePiece& piece = leg_[index];
+  const PathPiece piece = piece_of(leg_[index], leg_.airspeed_mps);
   path_ = {};
-  path_.airspeed_mps = leg_.airspeed_mps;
+  path_.airspeed_mps = piece.airspeed_mps;
   path_.kind = piece.kind;
   path_.turn = piece.turn;
   path_.climb_ratio = piece.climb_ratio;
-  path_.origin_m = {piece.north_m, piece.east_m, -piece.height_m};
-  if (piece.kind == PathKind::line) {
-    const double norm = 1 / std::sqrt(1 + piece.climb_ratio * piece.climb_ratio);
-    path_.direction_ratio = {piece.unit_north_ratio * norm, piece.unit_east_ratio * norm,
-                             -piece.climb_ratio * norm};
-  } else {
-    path_.radius_m = piece.radius_m;
-  }
+  path_.origin_m = piece.origin_m;
+  path_.direction_ratio = piece.direction_ratio;
+  path_.radius_m = piece.radius_m;
   look_ahead(route);
 }
 
-/// What comes behind this piece: how far it is to the next change of curvature, and to which.
+/// What comes behind this piece: how far it is to the next change of curvature, and to which piece. A fillet
+/// is of two legs, and one arc to who looks ahead.
 inline void Manager::look_ahead(const Route& route) {
   const double kappa = leg_[piece_].curvature();
+  const bool goes_on = route.closed() || item_ + 1 < route.size();
   after_m_ = 0;
   path_.next_curvature_ratio = kappa;
   const auto passes = [&](const RouteLeg& leg, std::size_t from) {
     for (std::size_t i = from; i < leg.count; ++i) {
       path_.next_curvature_ratio = leg[i].curvature();
-      if (std::abs(path_.next_curvature_ratio - kappa) > 1e-9) return false;
+      if (std::abs(path_.next_curvature_ratio - kappa) > 1e-9) {
+        foresee(leg, i, goes_on && &leg == &leg_);
+        return false;
+      }
       after_m_ += leg[i].length_m;
     }
     return true;
   };
   if (!passes(leg_, piece_ + 1)) return;
-  if (route.closed() || item_ + 1 < route.size()) {
+  if (goes_on) {
     passes(next_leg_, 0);
   } else {
-    path_.next_curvature_ratio = sign_of(route.final_orbit().turn) / route.radius_m();
+    const RouteOrbit orbit = route.final_orbit();
+    path_.next_curvature_ratio = sign_of(orbit.turn) / route.radius_m();
+    path_.has_next = true;
+    path_.next.kind = PathKind::orbit;
+    path_.next.turn = orbit.turn;
+    path_.next.origin_m = {orbit.north_m, orbit.east_m, -orbit.height_m};
+    path_.next.radius_m = orbit.radius_m;
+    path_.next.start_rad = std::atan2(leg_.end.east_m - orbit.east_m, leg_.end.north_m - orbit.north_m);
+    path_.next.airspeed_mps = leg_.airspeed_mps;
   }
+}
+
+/// The piece that comes next, with those behind it that go on with its curvature.
+inline void Manager::foresee(const RouteLeg& leg, std::size_t index, bool next_leg_follows) {
+  path_.has_next = true;
+  path_.next = piece_of(leg[index], leg.airspeed_mps);
+  const double kappa = leg[index].curvature();
+  const auto goes_on = [&](const RouteLeg& of, std::size_t from) {
+    for (std::size_t i = from; i < of.count; ++i) {
+      if (std::abs(of[i].curvature() - kappa) > 1e-9) return false;
+      path_.next.length_m += of[i].length_m;
+    }
+    return true;
+  };
+  if (goes_on(leg, index + 1) && next_leg_follows) goes_on(next_leg_, 0);
 }
 
 inline void Manager::fly(const Route& route, const VehicleState& state, const Params& p) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Course, height and bank that lead onto a line or an orbit and along it.
+// Course, height and bank that lead onto a line, an orbit or a curve and along it.
 // Source: Beard & McLain, Small Unmanned Aircraft (2012), chapter 10: (10.8) lines, (10.13) orbits; (9.14)
 // coordinated turn in wind.
 #pragma once
@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "fulmar/flight/angles.hpp"
+#include "fulmar/flight/curve.hpp"
 #include "fulmar/msg/guidance_command.hpp"
 #include "fulmar/msg/path.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
@@ -17,7 +18,7 @@
 namespace fulmar::path {
 
 struct VectorField {
-  static constexpr const char* doc = "Follows a line or an orbit by a vector field of courses.";
+  static constexpr const char* doc = "Follows a line, an orbit or a curve by a vector field of courses.";
   struct Inputs {
     In<VehicleState> state;
     In<Path> path;
@@ -45,6 +46,20 @@ struct VectorField {
   Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out);
 
  private:
+  /// The path where the aircraft is, and the course that leads onto it.
+  struct Aim {
+    double path_course = 0, cross = 0, chi_c = 0, height = 0, kappa = 0, climb = 0;
+  };
+  // `k`: what the gains are multiplied by at this ground speed
+  static Aim at_line(const Path& path, const VehicleState& s, const Params& p, double k);
+  static Aim at_orbit(const Path& path, const VehicleState& s, const Params& p, double k);
+  static Aim at_curve(const Path& path, const VehicleState& s, const Params& p, double k);
+  static double curvature_ahead(const Path& path, const VehicleState& s, const Params& p, const Aim& aim);
+  static double onto_line(const Aim& aim, const Params& p, double k) {
+    return aim.path_course -
+           p.chi_infinity * (2 / std::numbers::pi) * std::atan(p.k_path * k * aim.cross);  // (10.8)
+  }
+
   /// Nobody knows where the path is: a circle through the air to the right, at the height and speed that were
   /// last asked for. Straight on as long as nobody knows the attitude either.
   Status wait(const VehicleState& state, const Params& p, Outputs& out) {
@@ -75,53 +90,88 @@ inline double bank_for(double kappa, double Vg, double chi_minus_psi, double rol
   return std::clamp(std::atan(Vg * Vg * kappa / (g * crab)), -roll_max, roll_max);
 }
 
-inline Status VectorField::step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
+inline VectorField::Aim VectorField::at_line(const Path& path, const VehicleState& s, const Params& p,
+                                             double k) {
+  const double n = s.position_m.north - path.origin_m.north, e = s.position_m.east - path.origin_m.east;
+  const Vec3<Ned>& q = path.direction_ratio;
+  const double level = std::hypot(q.north, q.east);
+  const double q_n = level > 1e-6 ? q.north / level : std::cos(s.course_rad),
+               q_e = level > 1e-6 ? q.east / level : std::sin(s.course_rad);
+  Aim aim;
+  aim.climb = level > 1e-6 ? -q.down / level : 0;
+  aim.path_course = std::atan2(q_e, q_n);
+  aim.cross = q_n * e - q_e * n;
+  aim.chi_c = onto_line(aim, p, k);
+  aim.height = -path.origin_m.down + aim.climb * (n * q_n + e * q_e);  // (10.5), at the projection
+  return aim;
+}
+
+inline VectorField::Aim VectorField::at_orbit(const Path& path, const VehicleState& s, const Params& p,
+                                              double k) {
   constexpr double pi = std::numbers::pi;
+  const double n = s.position_m.north - path.origin_m.north, e = s.position_m.east - path.origin_m.east;
+  const double side = path.turn == Turn::right ? 1 : -1, R = std::max(path.radius_m, 1.0);
+  const double d = std::hypot(n, e),
+               azimuth = d > 1e-6 ? std::atan2(e, n) : wrap_pi(s.course_rad - side * pi / 2);
+  Aim aim;
+  aim.cross = d - R;
+  aim.kappa = side / R;
+  aim.path_course = azimuth + side * pi / 2;
+  aim.chi_c = aim.path_course + side * std::atan(p.k_orbit * k * aim.cross / R);  // (10.13)
+  aim.climb = path.climb_ratio;
+  aim.height = -path.origin_m.down + aim.climb * side * R * wrap_pi(azimuth - path.start_rad);
+  return aim;
+}
+
+/// As its tangent where it is closest. The bank is that of the place where the aircraft will be when it has
+/// rolled.
+inline VectorField::Aim VectorField::at_curve(const Path& path, const VehicleState& s, const Params& p,
+                                              double k) {
+  const Curve curve = curve_of(path);
+  const double u = curve.closest(s.position_m.north, s.position_m.east);
+  const Vec3<Ned> at = curve.point(u);
+  const double n = s.position_m.north - at.north, e = s.position_m.east - at.east;
+  Aim aim;
+  aim.path_course = curve.course_rad(u);
+  aim.cross = std::cos(aim.path_course) * e - std::sin(aim.path_course) * n;
+  aim.chi_c = onto_line(aim, p, k);
+  aim.climb = curve.climb_ratio(u);
+  aim.height = -at.down;
+  const double ahead = s.ground_speed_mps * p.lead_time / std::max(curve.speed(u), 1.0);
+  aim.kappa = curve.curvature(std::min(u + ahead, 1.0));
+  return aim;
+}
+
+/// Bank that is fed forward. That of the next piece is commanded early by the time it takes to roll into it.
+/// Far from the path there is no such point.
+inline double VectorField::curvature_ahead(const Path& path, const VehicleState& s, const Params& p,
+                                           const Aim& aim) {
+  const bool on_path = std::abs(aim.cross) < 0.5 * std::max(path.radius_m, 20.0) &&
+                       std::abs(angle_difference(aim.path_course, s.course_rad)) < std::numbers::pi / 2;
+  if (on_path)
+    return path.remaining_m < s.ground_speed_mps * p.lead_time ? path.next_curvature_ratio : aim.kappa;
+  if (path.is_curve || path.kind == PathKind::line) return 0;
+  return aim.kappa * std::clamp(1.5 - std::abs(aim.cross) / path.radius_m, 0.0, 1.0);
+}
+
+inline Status VectorField::step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
   const VehicleState& state = *in.state;
   const Path& path = *in.path;
   if (!reckoning_.located(state, tick.now_ns, p.reckon_std, p.reckon_time) && commanded_)
     return wait(state, p, out);
   const double Vg = state.ground_speed_mps, chi = state.course_rad;
-  const double n = state.position_m.north - path.origin_m.north,
-               e = state.position_m.east - path.origin_m.east;
-  const double scale =
-      p.reference_speed / std::max(Vg, 0.3 * p.reference_speed);  // one time constant at every speed
-  double chi_c = 0, height = -path.origin_m.down, kappa = 0, climb = 0, cross = 0, path_course = 0;
-  if (path.kind == PathKind::line) {
-    const Vec3<Ned>& q = path.direction_ratio;
-    const double level = std::hypot(q.north, q.east);
-    const double q_n = level > 1e-6 ? q.north / level : std::cos(chi),
-                 q_e = level > 1e-6 ? q.east / level : std::sin(chi);
-    climb = level > 1e-6 ? -q.down / level : 0;
-    path_course = std::atan2(q_e, q_n);
-    cross = q_n * e - q_e * n;
-    chi_c = path_course - p.chi_infinity * (2 / pi) * std::atan(p.k_path * scale * cross);  // (10.8)
-    height += climb * (n * q_n + e * q_e);  // (10.5), at the projection
-  } else {
-    const double side = path.turn == Turn::right ? 1 : -1, R = std::max(path.radius_m, 1.0);
-    const double d = std::hypot(n, e), azimuth = d > 1e-6 ? std::atan2(e, n) : wrap_pi(chi - side * pi / 2);
-    cross = d - R;
-    kappa = side / R;
-    path_course = azimuth + side * pi / 2;
-    chi_c = path_course + side * std::atan(p.k_orbit * scale * cross / R);  // (10.13)
-    climb = path.climb_ratio;
-    height += climb * side * R * wrap_pi(azimuth - path.start_rad);
-  }
-  // The bank of the next piece is commanded early by the time it takes to roll into it. Far from the path
-  // there is no such point.
-  const bool on_path = std::abs(cross) < 0.5 * std::max(path.radius_m, 20.0) &&
-                       std::abs(angle_difference(path_course, chi)) < pi / 2;
-  if (on_path && path.remaining_m < Vg * p.lead_time) kappa = path.next_curvature_ratio;
-  if (!on_path)
-    kappa =
-        path.kind == PathKind::line ? 0 : kappa * std::clamp(1.5 - std::abs(cross) / path.radius_m, 0.0, 1.0);
-  out.command.course_rad = wrap_pi(chi_c);
-  out.command.height_m = height;
-  out.command.climb_rate_mps = climb * Vg * std::cos(chi - path_course);
+  const double k = p.reference_speed / std::max(Vg, 0.3 * p.reference_speed);  // one time constant always
+  const Aim aim = path.is_curve                 ? at_curve(path, state, p, k)
+                  : path.kind == PathKind::line ? at_line(path, state, p, k)
+                                                : at_orbit(path, state, p, k);
+  const double kappa = curvature_ahead(path, state, p, aim);
+  out.command.course_rad = wrap_pi(aim.chi_c);
+  out.command.height_m = aim.height;
+  out.command.climb_rate_mps = aim.climb * Vg * std::cos(chi - aim.path_course);
   out.command.airspeed_mps = path.airspeed_mps;
   out.command.roll_feedforward_rad = bank_for(kappa, Vg, angle_difference(chi, state.yaw_rad), p.roll_max);
-  out.cross_track_m = cross;
-  out.height_error_m = state.height_m - height;
+  out.cross_track_m = aim.cross;
+  out.height_error_m = state.height_m - aim.height;
   last_ = out.command;
   commanded_ = true;
   return state.position_valid ? Status::ok : Status::degraded;

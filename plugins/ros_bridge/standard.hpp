@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "convert.hpp"
+#include "fulmar/flight/curve.hpp"
 #include "fulmar/msg/baro.hpp"
 #include "fulmar/msg/imu.hpp"
 #include "fulmar/msg/mag.hpp"
@@ -35,7 +36,7 @@ struct Standard {
     Out<RosFluidPressure> pressure;
     Out<RosNavSatFix> fix;
     Out<RosPath> plan;   // the waypoints
-    Out<RosPath> piece;  // the line or orbit that is followed now
+    Out<RosPath> piece;  // the line, orbit or curve that is followed now
   };
   struct Params {
     TextParam<48> world{"map", "frame of positions, ENU"};
@@ -207,13 +208,17 @@ inline void Standard::publish_plan(const Inputs& in, Outputs& out) const {
 }
 
 /// A line: a kilometre of it. An orbit: once round, every 5 degrees, at the heights of the climb, if there is
-/// one.
+/// one. A curve: from end to end.
 inline void Standard::publish_piece(const Inputs& in, Outputs& out) const {
   const Path& path = *in.path;
   RosPath& m = out.piece.value;
   m.header = clock_.header(in.path.valid_at_ns(), world_);
   m.poses.clear();
-  if (path.kind == PathKind::line) {
+  if (path.is_curve) {
+    const Curve curve = curve_of(path);
+    for (int i = 0; i <= 72; ++i)
+      m.poses.push_back(pose_of(m.header, curve.point(i / 72.0), curve.course_rad(i / 72.0)));
+  } else if (path.kind == PathKind::line) {
     const Vec3<Ned>& q = path.direction_ratio;
     const double length = path.remaining_m < 1000 ? std::max(path.remaining_m, 1.0) : 1000,
                  course = std::atan2(q.east, q.north);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fulmar/flight/curve.hpp"
 #include "fulmar/flight/geodesy.hpp"
 #include "fulmar/flight/route.hpp"
 #include "fulmar/msg/actuators.hpp"
@@ -28,6 +29,7 @@ struct MeanSquare {
   double count = 0;
   void add(double error) { mean += (error * error - mean) / ++count; }
   double rms() const { return std::sqrt(mean); }
+  double rms_if_any() const { return count > 0 ? rms() : unknown_std; }
 };
 
 /// The legs around the waypoint that is flown to, kept until it changes; the whole plan is never searched.
@@ -78,9 +80,10 @@ struct Score {
   struct Tracking {
     MeanSquare north, east, altitude, roll, pitch, course, airspeed;
     TrackingError rms() const {
-      return {north.rms(), east.rms(), altitude.rms(), roll.rms(), pitch.rms(), course.rms(), airspeed.rms()};
+      return {north.rms(), east.rms(),          altitude.rms(), roll.rms(),
+              pitch.rms(), course.rms_if_any(), airspeed.rms()};
     }
-    bool any() const { return north.count + roll.count + course.count > 0; }
+    bool any() const { return north.count + roll.count + airspeed.count > 0; }
   };
   struct Estimation {
     MeanSquare north, east, altitude, vel_x, vel_y, vel_z, roll, pitch, heading, course, airspeed, wind_n,

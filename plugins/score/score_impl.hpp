@@ -74,7 +74,8 @@ inline void Score::track(const Inputs& in, const VehicleState& state, Tracking& 
     sums.altitude.add(point.height_m - state.height_m);
   }
   if (in.command) {
-    sums.course.add(angle_difference(in.command->course_rad, state.course_rad));
+    if (in.command->lateral == LateralMode::course)
+      sums.course.add(angle_difference(in.command->course_rad, state.course_rad));
     sums.airspeed.add(in.command->airspeed_mps - state.airspeed_mps);
   }
   if (in.attitude) {
@@ -89,6 +90,12 @@ inline bool Score::nearest_point(const Inputs& in, const VehicleState& state, Ro
   if (in.plan && in.progress) return route_.nearest_to(*in.plan, *in.progress, north, east, point);
   if (!in.path) return false;
   const Path& path = *in.path;
+  if (path.is_curve) {
+    const Curve curve = curve_of(path);
+    const Vec3<Ned> at = curve.point(curve.closest(north, east));
+    point = {at.north, at.east, -at.down, std::hypot(north - at.north, east - at.east)};
+    return true;
+  }
   const double n = north - path.origin_m.north, e = east - path.origin_m.east;
   point.north_m = path.origin_m.north;
   point.east_m = path.origin_m.east;

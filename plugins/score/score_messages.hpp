@@ -6,7 +6,7 @@
 namespace fulmar::score {
 
 /// Set-points, raw, minus where the aircraft is; north, east and altitude from the closest point of the
-/// plan's route.
+/// plan's route. The course of a flight that was never asked for one is unknown_std.
 struct TrackingError {
   double north_m = 0, east_m = 0, altitude_m = 0;
   double roll_rad = 0, pitch_rad = 0, course_rad = 0;

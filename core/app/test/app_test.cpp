@@ -108,6 +108,19 @@ TEST_CASE("the JSON of a flight has the keys that scripts rely on, and null for 
   CHECK(early["tracking_rmse"].is_null());
 }
 
+TEST_CASE("the figure of a course that nobody asked for is null, and the others are numbers") {
+  const Result r = fulmar(
+      "run " +
+      mission(plan + "  judge: {use: score/Score, in: {state: nav.state, attitude: outer.attitude}}\n" +
+              "summary: {judged: judge.tracking}\n")
+          .string() +
+      " --json --no-log --duration 60");
+  REQUIRE(r.code == 0);
+  const json figures = json::parse(r.out)["judged"];
+  CHECK(figures["course_deg"].is_null());
+  CHECK(figures["roll_deg"].get<double>() > 0);
+}
+
 TEST_CASE("the table names the log, and never overwrites one") {
   const std::string log = (folder() / "one.mcap").string();
   const Result r = fulmar("run " + hourglass + " --duration 5 --log " + log);

@@ -230,4 +230,29 @@ TEST_CASE("a climb that is limited is told as saturated though the pitch is not 
   CHECK_FALSE(bench.out.internals.pitch_saturated);
 }
 
+TEST_CASE(
+    "a lateral acceleration is flown as the bank that has it, to both sides, whatever course and speed") {
+  for (const double airspeed : {11.0, 22.0}) {  // cruise is 15 m/s
+    for (const double a : {3.0, -5.0}) {
+      Bench<slc::Outer> bench;
+      bench.params.common.course_ki.value = 0;
+      GuidanceCommand command{.course_rad = 2, .height_m = 70, .airspeed_mps = airspeed};
+      command.roll_feedforward_rad = -0.3;
+      command.lateral = LateralMode::acceleration;
+      command.lateral_acceleration_mps2 = a;
+      bench.set(bench.in.state, flying(airspeed));
+      bench.set(bench.in.command, command);
+      for (int i = 0; i < 300; ++i) bench.step(0.01);
+      CHECK(9.80665 * std::tan(bench.out.attitude.roll_rad) / a == Approx(1));
+      CHECK(bench.out.internals.course_error_rad == 0);
+      CHECK_FALSE(bench.out.internals.roll_saturated);
+      command.lateral_acceleration_mps2 = 5 * a;
+      bench.set(bench.in.command, command);
+      for (int i = 0; i < 300; ++i) bench.step(0.01);
+      CHECK(bench.out.attitude.roll_rad == Approx(std::copysign(0.785, a)));
+      CHECK(bench.out.internals.roll_saturated);
+    }
+  }
+}
+
 }  // namespace feed_forward_test

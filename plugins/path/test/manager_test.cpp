@@ -419,4 +419,76 @@ TEST_CASE("a parameter that is changed in flight leaves the aircraft on its leg"
   CHECK_FALSE(flight.progress().joining);
 }
 
+TEST_CASE("the next piece that is told is the one that is published when the curvature changes") {
+  for (const Plan& plan :
+       {hourglass(), plan_of({point(300, 0, 60), point(300, 200, 90), point(0, 200, 70)}, PlanEnd::orbit)}) {
+    Flight flight(plan);
+    Path before = {};
+    int changes = 0;
+    const auto kappa_of = [](const auto& piece) {
+      return piece.kind == PathKind::line ? 0 : sign_of(piece.turn) / piece.radius_m;
+    };
+    flight.fly(600, [&] {
+      const Path& now = flight.path();
+      if (before.has_next) {
+        CHECK(kappa_of(before.next) == doctest::Approx(before.next_curvature_ratio));
+        CHECK(std::abs(kappa_of(before.next) - kappa_of(before)) > 1e-9);
+      }
+      const bool changed = std::abs(kappa_of(now) - kappa_of(before)) > 1e-9;
+      if (changed && before.has_next && before.remaining_m < 1) {
+        ++changes;
+        const PathPiece& told = before.next;
+        CHECK(told.kind == now.kind);
+        CHECK(told.airspeed_mps == now.airspeed_mps);
+        CHECK(told.origin_m.north == doctest::Approx(now.origin_m.north));
+        CHECK(told.origin_m.east == doctest::Approx(now.origin_m.east));
+        if (told.kind == PathKind::line) {
+          CHECK(told.direction_ratio == now.direction_ratio);
+          CHECK(told.origin_m.down == now.origin_m.down);
+        } else {
+          CHECK(told.turn == now.turn);
+          CHECK(told.radius_m == now.radius_m);
+          CHECK(std::abs(told.origin_m.down - now.origin_m.down) < 0.2);
+          const Vec3<Ned> begin{told.origin_m.north + told.radius_m * std::cos(told.start_rad),
+                                told.origin_m.east + told.radius_m * std::sin(told.start_rad), 0};
+          CHECK(flight.distance_to(begin.north, begin.east) < 3);
+        }
+        if (told.length_m < 1e6) {
+          CHECK(now.remaining_m <= told.length_m);
+          CHECK(now.remaining_m > told.length_m - 1);
+        }
+      }
+      before = now;
+      return flight.progress().circuits >= 1 &&
+             (flight.progress().finished || flight.progress().circuits >= 2);
+    });
+    CHECK(changes >= (plan.end == PlanEnd::circuit ? 15 : 4));
+    if (plan.end == PlanEnd::orbit) CHECK_FALSE(flight.path().has_next);
+  }
+}
+
+TEST_CASE("a piece ends where the next one begins, and in its direction") {
+  Flight flight(hourglass());
+  int lines = 0;
+  flight.fly(120, [&] {
+    const Path& path = flight.path();
+    if (path.kind != PathKind::line || !path.has_next || flight.progress().joining) return false;
+    REQUIRE(path.next.kind == PathKind::orbit);
+    const Vec3<Ned>& q = path.direction_ratio;
+    const double level = std::hypot(q.north, q.east), q_n = q.north / level, q_e = q.east / level;
+    const double n = flight.aircraft.north - path.origin_m.north,
+                 e = flight.aircraft.east - path.origin_m.east;
+    // the manager has measured before the aircraft moved on: 0.2 m
+    const double s = n * q_n + e * q_e + path.remaining_m, side = sign_of(path.next.turn);
+    const double end_n = path.origin_m.north + s * q_n, end_e = path.origin_m.east + s * q_e;
+    const double azimuth = path.next.start_rad;
+    CHECK(std::abs(path.next.origin_m.north + path.next.radius_m * std::cos(azimuth) - end_n) < 0.25);
+    CHECK(std::abs(path.next.origin_m.east + path.next.radius_m * std::sin(azimuth) - end_e) < 0.25);
+    CHECK(std::abs(angle_difference(azimuth + side * std::numbers::pi / 2, std::atan2(q_e, q_n))) < 1e-9);
+    ++lines;
+    return false;
+  });
+  CHECK(lines > 100);
+}
+
 }  // namespace manager_test

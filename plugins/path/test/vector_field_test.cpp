@@ -287,4 +287,40 @@ TEST_CASE("beyond 60 degrees of crab the bank grows no further: the formula mean
   CHECK(bank_for(-0.01, 10, -2.5, 1.4) == doctest::Approx(-std::atan(100 * 0.01 / (g * 0.5))));
 }
 
+TEST_CASE("on a curve its own course, height, climb and bank are commanded, beside it the way back") {
+  const Curve curve{{Vec3<Ned>{0, 0, -50}, {120, 0, -50}, {240, 60, -60}, {240, 240, -70}}};
+  for (const double u : {0.2, 0.5, 0.7}) {
+    Path path;
+    path.next_curvature_ratio = -0.5;
+    set_curve(path, curve, u);
+    constexpr double h = 1e-5, Vg = 23;
+    const Vec3<Ned> here = curve.point(u), a = curve.point(u - h), b = curve.point(u + h);
+    const double course = std::atan2(b.east - a.east, b.north - a.north);
+    const double metres = std::hypot(b.north - a.north, b.east - a.east);
+    const double kappa = (curve.course_rad(u + h) - curve.course_rad(u - h)) / metres;
+    Bench<VectorField> bench;
+    bench.params.lead_time.value = 0;
+    const GuidanceCommand on = command(bench, at(here.north, here.east, course, Vg), path);
+    CHECK(std::abs(angle_difference(on.course_rad, course)) < 1e-4);
+    CHECK(on.height_m == doctest::Approx(-here.down));
+    CHECK(on.climb_rate_mps / (Vg * (a.down - b.down) / metres) == doctest::Approx(1).epsilon(1e-4));
+    CHECK(std::tan(on.roll_feedforward_rad) / (Vg * Vg * kappa / 9.80665) ==
+          doctest::Approx(1).epsilon(1e-4));
+    const double north = -std::sin(course), east = std::cos(course);  // to its right
+    const GuidanceCommand right =
+        command(bench, at(here.north + 3 * north, here.east + 3 * east, course, Vg), path);
+    CHECK(bench.out.cross_track_m.value == doctest::Approx(3).epsilon(1e-4));
+    CHECK(angle_difference(right.course_rad, course) / (-1.05 * (2 / pi) * std::atan(0.04 * 17 / Vg * 3)) ==
+          doctest::Approx(1).epsilon(1e-3));
+    CHECK(command(bench, at(here.north - 3 * north, here.east - 3 * east, course, Vg), path).course_rad >
+          course);
+  }
+  Path end;  // the bank of what comes next is commanded before the end
+  end.next_curvature_ratio = -0.01;
+  set_curve(end, curve, 0.999);
+  const Vec3<Ned> here = curve.point(0.999);
+  Bench<VectorField> bench;
+  CHECK(command(bench, at(here.north, here.east, curve.course_rad(1)), end).roll_feedforward_rad < 0);
+}
+
 }  // namespace vector_field_test

@@ -234,4 +234,21 @@ TEST_CASE("a step allocates nothing") {
   CHECK(bench.out.odometry.written);
 }
 
+TEST_CASE("a curve is drawn from end to end, each pose along it") {
+  Bench<Standard> bench;
+  Path path;
+  set_curve(path, {{Vec3<Ned>{0, 0, -70}, {50, 0, -70}, {100, 50, -80}, {100, 100, -80}}}, 0.3);
+  bench.set(bench.in.path, path);
+  bench.step(0.01);
+  const auto& poses = bench.out.piece.value.poses;
+  REQUIRE(poses.count == 73);
+  CHECK(poses[0].pose.position.z == doctest::Approx(70));
+  CHECK(poses[0].pose.orientation.z == doctest::Approx(std::sqrt(0.5)));  // north
+  CHECK(poses[36].pose.position.y == doctest::Approx((3 * 50 + 3 * 100 + 100) / 8.0));
+  CHECK(poses[36].pose.position.x == doctest::Approx((3 * 50 + 100) / 8.0));
+  CHECK(poses[72].pose.position.x == doctest::Approx(100));
+  CHECK(poses[72].pose.position.z == doctest::Approx(80));
+  CHECK(poses[72].pose.orientation.w == doctest::Approx(1));  // east
+}
+
 }  // namespace standard_test

@@ -387,4 +387,53 @@ TEST_CASE("the surfaces' rate begins with the second command") {
   CHECK(rate == 0);
 }
 
+TEST_CASE(
+    "a flight that was asked for accelerations has no course figure, one that was asked for both has it") {
+  Bench<Score> bench;
+  GuidanceCommand command;
+  command.course_rad = 0.2;
+  command.airspeed_mps = 19;
+  command.lateral = LateralMode::acceleration;
+  TrackingError tracking;
+  const auto fly = [&](int steps) {
+    for (int i = 0; i < steps; ++i) {
+      bench.set(bench.in.command, command);
+      bench.set(bench.in.state, north_at(1));
+      bench.step(0.01);
+      if (bench.out.tracking.written) tracking = bench.out.tracking.value;
+    }
+  };
+  fly(300);
+  CHECK(tracking.airspeed_mps == doctest::Approx(1));
+  CHECK(tracking.course_rad == unknown_std);
+  command.lateral = LateralMode::course;
+  fly(200);
+  CHECK(tracking.course_rad == doctest::Approx(0.2));
+}
+
+TEST_CASE("the distance from a curve is that of its closest point, its height that of there") {
+  Path path;  // half an arch to the east, climbing 8 m
+  set_curve(path, {{Vec3<Ned>{0, 0, -60}, {60, 0, -60}, {120, 60, -68}, {120, 120, -68}}}, 0.1);
+  const VehicleState off = north_at(3.5, 30);
+  double least = 1e9, height = 0;
+  for (int i = 0; i <= 1000000; ++i) {
+    const double u = i / 1e6, v = 1 - u;
+    const double north = 3 * v * v * u * 60 + 3 * v * u * u * 120 + u * u * u * 120,
+                 east = 3 * v * u * u * 60 + u * u * u * 120;
+    const double d = std::hypot(north - off.position_m.north, east - off.position_m.east);
+    if (d < least) least = d, height = (v * v * v + 3 * v * v * u) * 60 + (3 * v * u * u + u * u * u) * 68;
+  }
+  REQUIRE(least > 1);
+  Bench<Score> bench;
+  TrackingError tracking;
+  for (int i = 0; i < 200; ++i) {
+    bench.set(bench.in.path, path);
+    bench.set(bench.in.state, off);
+    bench.step(0.01);
+    if (bench.out.tracking.written) tracking = bench.out.tracking.value;
+  }
+  CHECK(std::hypot(tracking.north_m, tracking.east_m) / least == doctest::Approx(1).epsilon(1e-4));
+  CHECK(tracking.altitude_m / (70 - height) == doctest::Approx(1).epsilon(1e-3));
+}
+
 }  // namespace score_test

@@ -223,4 +223,22 @@ TEST_CASE("course hold's integral grows with ground speed as its gain does") {
   }
 }
 
+TEST_CASE("an acceleration empties the course's integral and ends at the roll limit") {
+  const CourseTuning tuning{.kp = 2,
+                            .ki = 0.5,
+                            .cruise_mps = 15,
+                            .roll_max_rad = 0.7,
+                            .roll_rate_max_radps = 1000,
+                            .smoothing_s = 0};
+  CourseHold hold;
+  for (int i = 0; i < 300; ++i) hold.step(at(15, 15, 70), 0.05, 0, tuning, 0.01);
+  CHECK(std::tan(hold.accelerate(4, tuning, 0.01)) * 9.80665 / 4 == doctest::Approx(1));
+  CHECK(hold.error_rad() == 0);
+  CHECK_FALSE(hold.saturated());
+  CHECK(hold.accelerate(-12, tuning, 0.01) == -0.7);
+  CHECK(hold.saturated());
+  CHECK(hold.step(at(15, 15, 70), 0, 0, tuning, 0.01) == 0);
+  CHECK_FALSE(hold.saturated());
+}
+
 }  // namespace outer_commands_test

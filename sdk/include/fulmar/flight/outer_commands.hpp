@@ -94,9 +94,12 @@ class OuterCommands {
     return finish(course_.shape(0, tuning.course, dt_s), pitch_rad, throttle_frac, tuning, dt_s);
   }
 
-  /// Roll command of course hold, shaped. Without a velocity there is no course: wings level.
+  /// Roll command of course hold, or of a lateral acceleration, shaped. Without a velocity there is no
+  /// course: wings level.
   double roll(const VehicleState& state, const GuidanceCommand& command, const OuterTuning& tuning,
               double dt_s) {
+    if (command.lateral == LateralMode::acceleration)
+      return course_.accelerate(command.lateral_acceleration_mps2, tuning.course, dt_s);
     if (!state.velocity_valid) return course_.shape(0, tuning.course, dt_s);
     return course_.step(state, command.course_rad, command.roll_feedforward_rad, tuning.course, dt_s);
   }

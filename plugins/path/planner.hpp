@@ -9,6 +9,7 @@
 
 #include "fulmar/eigen.hpp"
 #include "fulmar/flight/geodesy.hpp"
+#include "fulmar/msg/notice.hpp"
 #include "fulmar/msg/origin.hpp"
 #include "fulmar/msg/plan_edit.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
@@ -21,12 +22,14 @@ struct Planner {
   static constexpr const char* doc = "The list of waypoints, from a file and from edits in flight.";
   struct Inputs {
     Optional<VehicleState> state;  // for its origin
-    Queue<PlanEdit> edits;         // applied without an answer
-    Request<PlanEdit> edit;        // answered
+    Queue<PlanEdit> edits;         // answered by `results` alone
+    Request<PlanEdit> edit;        // answered at once as well
   };
   struct Outputs {
     Out<Plan> plan;
     Probe refused_ratio;  // edits refused or lost since the start
+    OutQueue<PlanEditResult, 64> results;
+    OutQueue<Notice, 4> notices;  // edits refused, for people
   };
   struct Params {
     Record<PlanFile> plan{"waypoints; without it the plan begins empty"};
@@ -40,18 +43,42 @@ struct Planner {
   static constexpr double closest_m = 1;     // closer waypoints are one place to the route
   static constexpr double farthest_m = 1e5;  // a local tangent plane ends somewhere
 
-  const char* apply(const PlanEdit& edit);
+  /// Edits that take effect together: they are made in a copy.
+  struct Group {
+    std::uint32_t number = 0, size = 0, taken = 0;  // number 0: none is open
+    std::uint32_t last_id = 0;                      // of the edit that came last
+    std::uint64_t changes = 0;                      // of the plan, when the group began
+    bool refused = false, by_request = false;
+    Plan plan;
+  };
+
+  const char* take(const Tick& tick, const PlanEdit& edit, bool by_request, Outputs& out);
+  const char* take_into_group(const PlanEdit& edit, PlanEditResult& result);
+  const char* commit();
+  void begin_group(const Tick& tick, const PlanEdit& edit, bool by_request, Outputs& out);
+  void drop_group(const Tick& tick, const char* reason, Outputs& out);
+  void tell(const Tick& tick, const PlanEditResult& result, Outputs& out);
+  const char* apply(Plan& plan, PlanEdit edit, bool alone, std::uint32_t& waypoint_id);
+  const char* set(Plan& plan, const PlanEdit& edit) const;
+  void put(Plan& plan, const PlanEdit& edit, const Waypoint& w) const;
   const char* fault_of(const Waypoint& w) const;
   const char* fault_of_neighbours(const Waypoint& w, const Waypoint* before, const Waypoint* after) const;
+  bool close(const Waypoint& a, const Waypoint& b) const;
+  const char* fault_of_spacing(const Plan& plan) const;
   void resolve(Waypoint& w) const;
   bool resolved() const;
   void know_origin(double lat_deg, double lon_deg, double alt_m);
 
   Plan plan_;
+  Group group_;
   LocalFrame frame_;
   bool origin_known_ = false;
-  bool changed_ = true;  // the plan has not been published as it is now
-  std::uint32_t refused_ = 0;
+  bool changed_ = true;        // the plan has not been published as it is now
+  std::uint64_t changes_ = 0;  // edits in force
+  std::uint32_t next_id_ = 1;
+  std::uint32_t refused_ = 0, untold_ = 0;
+  std::int64_t told_ns_ = 0;
+  bool told_ = false;
 };
 
 namespace detail {
@@ -106,6 +133,7 @@ inline void Planner::configure(const Params& p) {
     const char* fault = fault_of(w);
     if (!fault) fault = fault_of_neighbours(w, i > 0 ? &plan->waypoints[i - 1] : nullptr, nullptr);
     if (fault) throw std::runtime_error("waypoint " + std::to_string(i + 1) + " of the plan: " + fault);
+    w.id = next_id_++;
     plan->waypoints.push_back(w);
   }
   if (plan->waypoints.size() == 1 && plan->end == PlanEnd::circuit)
@@ -114,17 +142,15 @@ inline void Planner::configure(const Params& p) {
   changed_ = true;
 }
 
-inline Status Planner::step(const Tick&, const Inputs& in, const Params&, Outputs& out) {
+inline Status Planner::step(const Tick& tick, const Inputs& in, const Params&, Outputs& out) {
   if (!origin_known_ && in.state && in.state->origin_valid) {
     know_origin(in.state->origin_latitude_deg, in.state->origin_longitude_deg, in.state->origin_altitude_m);
   }
   refused_ += in.edits.lost();
-  for (const auto& sample : in.edits) {
-    if (apply(sample.value)) ++refused_;
-  }
+  if (in.edits.lost() > 0 && !group_.by_request) drop_group(tick, "edits were lost on the way", out);
+  for (const auto& sample : in.edits) take(tick, sample.value, false, out);
   for (const auto request : in.edit) {
-    if (const char* reason = apply(request.value())) {
-      ++refused_;
+    if (const char* reason = take(tick, request.value(), true, out)) {
       request.refuse(reason);
     } else {
       request.accept();
@@ -139,109 +165,6 @@ inline Status Planner::step(const Tick&, const Inputs& in, const Params&, Output
   return Status::ok;
 }
 
-/// Nullptr when done, else why not; then nothing has changed.
-inline const char* Planner::apply(const PlanEdit& edit) {
-  auto& list = plan_.waypoints;
-  const std::uint32_t i = edit.index, n = list.count;
-  const bool adds = edit.kind == PlanEditKind::append || edit.kind == PlanEditKind::insert;
-  const bool at_existing = edit.kind == PlanEditKind::replace || edit.kind == PlanEditKind::remove ||
-                           edit.kind == PlanEditKind::set_current;
-  if (edit.kind > PlanEditKind::set_current) return "no such kind of edit";
-  if (adds && list.full()) return "the plan is full: 1024 waypoints";
-  if (at_existing && i >= n)
-    return n == 0 ? "the plan has no waypoints" : "there is no waypoint of this index; the first is 0";
-  if (edit.kind == PlanEditKind::insert && i > n) return "the index is beyond the end of the plan";
-
-  Waypoint w = edit.waypoint;
-  const std::uint32_t at = edit.kind == PlanEditKind::append ? n : i;
-  if (adds || edit.kind == PlanEditKind::replace) {
-    if (w.frame == WaypointFrame::geodetic) w.position_m = {};
-    resolve(w);
-    if (const char* fault = fault_of(w)) return fault;
-    const std::uint32_t next = adds ? at : at + 1;
-    if (const char* fault =
-            fault_of_neighbours(w, at > 0 ? &list[at - 1] : nullptr, next < n ? &list[next] : nullptr))
-      return fault;
-  }
-  switch (edit.kind) {
-    case PlanEditKind::append:
-    case PlanEditKind::insert:
-      for (std::uint32_t k = n; k > at; --k) list[k] = list[k - 1];
-      list[at] = w;
-      ++list.count;
-      if (at <= plan_.jump_item && at < n) ++plan_.jump_item;
-      break;
-    case PlanEditKind::replace: list[i] = w; break;
-    case PlanEditKind::remove:
-      for (std::uint32_t k = i; k + 1 < n; ++k) list[k] = list[k + 1];
-      --list.count;
-      if (i < plan_.jump_item) --plan_.jump_item;
-      break;
-    case PlanEditKind::clear:
-      list.clear();
-      ++plan_.jumps;
-      plan_.jump_item = 0;
-      break;
-    case PlanEditKind::set_current:
-      ++plan_.jumps;
-      plan_.jump_item = i;
-      break;
-  }
-  changed_ = true;
-  return nullptr;
-}
-
-inline const char* Planner::fault_of(const Waypoint& w) const {
-  if (w.frame > WaypointFrame::geodetic) return "no such kind of waypoint";
-  const bool geodetic = w.frame == WaypointFrame::geodetic;
-  if (geodetic) {
-    if (!std::isfinite(w.latitude_deg) || !std::isfinite(w.longitude_deg) || !std::isfinite(w.altitude_m))
-      return "a coordinate is not finite";
-    if (std::abs(w.latitude_deg) > 90) return "the latitude is beyond 90 degrees";
-    if (std::abs(w.longitude_deg) > 360) return "the longitude is beyond 360 degrees";
-  }
-  const Vec3<Ned>& p = w.position_m;
-  if (!std::isfinite(p.north) || !std::isfinite(p.east) || !std::isfinite(p.down))
-    return "a coordinate is not finite";
-  if (std::hypot(p.north, p.east) > farthest_m || std::abs(p.down) > farthest_m)
-    return "more than 100 km from the origin";
-  if (!std::isfinite(w.course_rad)) return "the course is not finite";
-  if (!(w.airspeed_mps >= 0 && w.airspeed_mps < 1000)) return "the airspeed is negative or not finite";
-  return nullptr;
-}
-
-inline const char* Planner::fault_of_neighbours(const Waypoint& w, const Waypoint* before,
-                                                const Waypoint* after) const {
-  const auto close = [&](const Waypoint* other) {
-    if (!other ||
-        (!origin_known_ && (w.frame != WaypointFrame::local || other->frame != WaypointFrame::local)))
-      return false;
-    return std::hypot(w.position_m.north - other->position_m.north,
-                      w.position_m.east - other->position_m.east) < closest_m;
-  };
-  if (close(before)) return "less than 1 m from the waypoint before it";
-  if (close(after)) return "less than 1 m from the waypoint after it";
-  return nullptr;
-}
-
-inline void Planner::resolve(Waypoint& w) const {
-  if (w.frame == WaypointFrame::geodetic && origin_known_ && std::abs(w.latitude_deg) <= 90 &&
-      std::isfinite(w.longitude_deg)) {
-    w.position_m = from_eigen<Ned>(frame_.to_ned(w.latitude_deg, w.longitude_deg, w.altitude_m));
-  }
-}
-
-inline bool Planner::resolved() const {
-  for (const Waypoint& w : plan_.waypoints) {
-    if (w.frame == WaypointFrame::geodetic && (!origin_known_ || fault_of(w))) return false;
-  }
-  return true;
-}
-
-inline void Planner::know_origin(double lat_deg, double lon_deg, double alt_m) {
-  frame_ = LocalFrame(lat_deg, lon_deg, alt_m);
-  origin_known_ = true;
-  for (Waypoint& w : plan_.waypoints) resolve(w);
-}
-
 }  // namespace fulmar::path
+
+#include "plan_editing.hpp"

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A curve against de Casteljau's construction, dense samples and finite differences.
+#include "fulmar/flight/curve.hpp"
+
 #include <doctest/doctest.h>
 
 #include <numbers>
 
 #include "fulmar/flight/angles.hpp"
-#include "fulmar/flight/curve.hpp"
 #include "fulmar/random.hpp"
 
 namespace curve_test {
@@ -53,7 +54,8 @@ TEST_CASE("curvature is the change of course per metre, right positive, and leng
   double length = 0, part = 0;
   constexpr int chords = 20000;
   for (int i = 0; i < chords; ++i) {
-    const auto a = de_casteljau(bend, static_cast<double>(i) / chords), b = de_casteljau(bend, (i + 1.0) / chords);
+    const auto a = de_casteljau(bend, static_cast<double>(i) / chords),
+               b = de_casteljau(bend, (i + 1.0) / chords);
     length += std::hypot(b.north - a.north, b.east - a.east);
     if (i >= chords / 4) part += std::hypot(b.north - a.north, b.east - a.east);
   }

@@ -25,7 +25,11 @@ struct Waypoint {
   double altitude_m = 0;  ///< above mean sea level
   double course_rad = 0;
   double airspeed_mps = 0;  ///< of the leg that ends here; 0: the plan's
+  std::uint32_t id = 0;     ///< given by the planner, from 1; stays with it whatever is edited around it
 };
+
+template <>
+inline constexpr std::string_view appended_from<Waypoint> = "id";
 
 /// The list of waypoints in force. `revision` grows with every change.
 struct Plan {

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How the planner takes edits: one by one, or in groups that are made in a copy of the plan and take its
+// place as a whole.
+#pragma once
+#include <cstdio>
+
+#include "planner.hpp"
+
+namespace fulmar::path {
+
+/// Nullptr when taken, else why not; then nothing has changed.
+inline const char* Planner::take(const Tick& tick, const PlanEdit& edit, bool by_request, Outputs& out) {
+  PlanEditResult result;
+  result.id = edit.id;
+  result.group = edit.group;
+  result.by_request = by_request;
+  const char* reason = nullptr;
+  if (edit.group == 0) {
+    reason = apply(plan_, edit, true, result.waypoint_id);
+    result.in_force = !reason;
+  } else {
+    if (edit.group != group_.number || by_request != group_.by_request)
+      begin_group(tick, edit, by_request, out);
+    reason = take_into_group(edit, result);
+  }
+  if (result.in_force) {
+    changed_ = true;
+    ++changes_;
+    result.revision = plan_.revision + 1;
+  }
+  result.accepted = !reason;
+  if (reason) result.reason = reason;
+  tell(tick, result, out);
+  return reason;
+}
+
+inline void Planner::begin_group(const Tick& tick, const PlanEdit& edit, bool by_request, Outputs& out) {
+  drop_group(tick, "its group was not complete when another began", out);
+  group_.number = edit.group;
+  group_.size = edit.group_size;
+  group_.taken = 0;
+  group_.changes = changes_;
+  group_.refused = false;
+  group_.by_request = by_request;
+  group_.plan = plan_;
+}
+
+/// An open group that can no longer take effect: told once, by its last edit.
+inline void Planner::drop_group(const Tick& tick, const char* reason, Outputs& out) {
+  if (group_.number == 0 || group_.refused) return;
+  group_.refused = true;
+  PlanEditResult result;
+  result.id = group_.last_id;
+  result.group = group_.number;
+  result.by_request = group_.by_request;
+  result.reason = reason;
+  tell(tick, result, out);
+}
+
+inline const char* Planner::take_into_group(const PlanEdit& edit, PlanEditResult& result) {
+  const char* reason = nullptr;
+  group_.last_id = edit.id;
+  ++group_.taken;
+  if (group_.refused) {
+    reason = "another edit of its group was refused";
+  } else if (edit.group_size == 0) {
+    reason = "an edit of a group says of how many: group_size";
+  } else if (edit.group_size != group_.size) {
+    reason = "the edits of its group differ in group_size";
+  } else {
+    reason = apply(group_.plan, edit, false, result.waypoint_id);
+  }
+  const bool last = group_.taken >= group_.size;
+  if (!reason && last) reason = commit();
+  result.in_force = !reason && last;
+  group_.refused = reason != nullptr;
+  if (last) group_.number = 0;
+  return reason;
+}
+
+inline const char* Planner::commit() {
+  if (group_.changes != changes_) return "the plan was changed while its group came";
+  if (const char* fault = fault_of_spacing(group_.plan)) return fault;
+  const std::uint32_t revision = plan_.revision;
+  plan_ = group_.plan;
+  plan_.revision = revision;
+  return nullptr;
+}
+
+/// To the asker, and, when refused, to people: once a second at most, with the number of those between.
+inline void Planner::tell(const Tick& tick, const PlanEditResult& result, Outputs& out) {
+  out.results.push(result, tick.now_ns);
+  if (result.accepted) return;
+  ++refused_;
+  if (told_ && tick.now_ns - told_ns_ < 1'000'000'000) {
+    ++untold_;
+    return;
+  }
+  Notice notice;
+  notice.severity = Severity::warning;
+  char* const text = notice.text.bytes.data();
+  const std::size_t room = notice.text.bytes.size();
+  const std::string_view why = result.reason.view();
+  const int length = static_cast<int>(why.size());
+  if (untold_ > 0) {
+    std::snprintf(text, room, "plan edit %u refused: %.*s (and %u before)", result.id, length, why.data(),
+                  untold_);
+  } else {
+    std::snprintf(text, room, "plan edit %u refused: %.*s", result.id, length, why.data());
+  }
+  out.notices.push(notice, tick.now_ns);
+  told_ = true;
+  told_ns_ = tick.now_ns;
+  untold_ = 0;
+}
+
+/// Nullptr when done, else why not; then nothing has changed. `alone`: the plan that it makes is in force at
+/// once, else its group is looked at as a whole.
+inline const char* Planner::apply(Plan& plan, PlanEdit edit, bool alone, std::uint32_t& waypoint_id) {
+  if (edit.setting != PlanSetting::none) return set(plan, edit);
+  auto& list = plan.waypoints;
+  const std::uint32_t n = list.count;
+  const bool adds = edit.kind == PlanEditKind::append || edit.kind == PlanEditKind::insert;
+  const bool at_existing = edit.kind == PlanEditKind::replace || edit.kind == PlanEditKind::remove ||
+                           edit.kind == PlanEditKind::set_current;
+  if (edit.kind > PlanEditKind::set_current) return "no such kind of edit";
+  if (edit.waypoint_id != 0 && (at_existing || edit.kind == PlanEditKind::insert)) {
+    for (edit.index = 0; edit.index < n && list[edit.index].id != edit.waypoint_id;) ++edit.index;
+    if (edit.index == n) return "there is no waypoint of this id";
+  }
+  const std::uint32_t i = edit.index;
+  if (adds && list.full()) return "the plan is full: 1024 waypoints";
+  if (at_existing && i >= n)
+    return n == 0 ? "the plan has no waypoints" : "there is no waypoint of this index; the first is 0";
+  if (edit.kind == PlanEditKind::insert && i > n) return "the index is beyond the end of the plan";
+
+  Waypoint w = edit.waypoint;
+  if (edit.kind == PlanEditKind::append) edit.index = n;
+  if (adds || edit.kind == PlanEditKind::replace) {
+    if (w.frame == WaypointFrame::geodetic) w.position_m = {};
+    resolve(w);
+    if (const char* fault = fault_of(w)) return fault;
+    const std::uint32_t at = edit.index, next = adds ? at : at + 1;
+    const char* const fault =
+        fault_of_neighbours(w, at > 0 ? &list[at - 1] : nullptr, next < n ? &list[next] : nullptr);
+    if (alone && fault) return fault;
+  }
+  w.id = adds ? next_id_++ : at_existing ? list[i].id : 0;
+  waypoint_id = w.id;
+  put(plan, edit, w);
+  return nullptr;
+}
+
+/// Of the plan as a whole.
+inline const char* Planner::set(Plan& plan, const PlanEdit& edit) const {
+  switch (edit.setting) {
+    case PlanSetting::end:
+      if (edit.end > PlanEnd::orbit) return "no such end of a plan";
+      plan.end = edit.end;
+      return nullptr;
+    case PlanSetting::turn_radius:
+      if (!(edit.turn_radius_m >= 1 && edit.turn_radius_m <= 1e5)) return "turn_radius is 1 m to 100 km";
+      plan.turn_radius_m = edit.turn_radius_m;
+      return nullptr;
+    case PlanSetting::airspeed:
+      if (!(edit.airspeed_mps >= 3 && edit.airspeed_mps <= 300)) return "airspeed is 3 to 300 m/s";
+      plan.airspeed_mps = edit.airspeed_mps;
+      return nullptr;
+    default: return "no such setting of a plan";
+  }
+}
+
+/// An edit that is in order, at its index.
+inline void Planner::put(Plan& plan, const PlanEdit& edit, const Waypoint& w) const {
+  auto& list = plan.waypoints;
+  const std::uint32_t at = edit.index, n = list.count;
+  switch (edit.kind) {
+    case PlanEditKind::append:
+    case PlanEditKind::insert:
+      for (std::uint32_t k = n; k > at; --k) list[k] = list[k - 1];
+      list[at] = w;
+      ++list.count;
+      if (at <= plan.jump_item && at < n) ++plan.jump_item;
+      break;
+    case PlanEditKind::replace: list[at] = w; break;
+    case PlanEditKind::remove:
+      for (std::uint32_t k = at; k + 1 < n; ++k) list[k] = list[k + 1];
+      --list.count;
+      if (at < plan.jump_item) --plan.jump_item;
+      break;
+    case PlanEditKind::clear:
+      list.clear();
+      ++plan.jumps;
+      plan.jump_item = 0;
+      break;
+    case PlanEditKind::set_current:
+      ++plan.jumps;
+      plan.jump_item = at;
+      break;
+  }
+}
+
+inline const char* Planner::fault_of(const Waypoint& w) const {
+  if (w.frame > WaypointFrame::geodetic) return "no such kind of waypoint";
+  const bool geodetic = w.frame == WaypointFrame::geodetic;
+  if (geodetic) {
+    if (!std::isfinite(w.latitude_deg) || !std::isfinite(w.longitude_deg) || !std::isfinite(w.altitude_m))
+      return "a coordinate is not finite";
+    if (std::abs(w.latitude_deg) > 90) return "the latitude is beyond 90 degrees";
+    if (std::abs(w.longitude_deg) > 360) return "the longitude is beyond 360 degrees";
+  }
+  const Vec3<Ned>& p = w.position_m;
+  if (!std::isfinite(p.north) || !std::isfinite(p.east) || !std::isfinite(p.down))
+    return "a coordinate is not finite";
+  if (std::hypot(p.north, p.east) > farthest_m || std::abs(p.down) > farthest_m)
+    return "more than 100 km from the origin";
+  if (!std::isfinite(w.course_rad)) return "the course is not finite";
+  if (!(w.airspeed_mps >= 0 && w.airspeed_mps < 1000)) return "the airspeed is negative or not finite";
+  return nullptr;
+}
+
+inline bool Planner::close(const Waypoint& a, const Waypoint& b) const {
+  if (!origin_known_ && (a.frame != WaypointFrame::local || b.frame != WaypointFrame::local)) return false;
+  return std::hypot(a.position_m.north - b.position_m.north, a.position_m.east - b.position_m.east) <
+         closest_m;
+}
+
+inline const char* Planner::fault_of_neighbours(const Waypoint& w, const Waypoint* before,
+                                                const Waypoint* after) const {
+  if (before && close(w, *before)) return "less than 1 m from the waypoint before it";
+  if (after && close(w, *after)) return "less than 1 m from the waypoint after it";
+  return nullptr;
+}
+
+/// Of the plan that a group makes: on the way there waypoints may have been anywhere.
+inline const char* Planner::fault_of_spacing(const Plan& plan) const {
+  for (std::uint32_t i = 1; i < plan.waypoints.count; ++i)
+    if (close(plan.waypoints[i - 1], plan.waypoints[i]))
+      return "two waypoints would be less than 1 m apart";
+  return nullptr;
+}
+
+inline void Planner::resolve(Waypoint& w) const {
+  if (w.frame == WaypointFrame::geodetic && origin_known_ && std::abs(w.latitude_deg) <= 90 &&
+      std::isfinite(w.longitude_deg)) {
+    w.position_m = from_eigen<Ned>(frame_.to_ned(w.latitude_deg, w.longitude_deg, w.altitude_m));
+  }
+}
+
+inline bool Planner::resolved() const {
+  for (const Waypoint& w : plan_.waypoints) {
+    if (w.frame == WaypointFrame::geodetic && (!origin_known_ || fault_of(w))) return false;
+  }
+  return true;
+}
+
+inline void Planner::know_origin(double lat_deg, double lon_deg, double alt_m) {
+  frame_ = LocalFrame(lat_deg, lon_deg, alt_m);
+  origin_known_ = true;
+  for (Waypoint& w : plan_.waypoints) resolve(w);
+  for (Waypoint& w : group_.plan.waypoints) resolve(w);
+}
+
+}  // namespace fulmar::path

@@ -2,7 +2,8 @@
 // How the planner takes edits: one by one, or in groups that are made in a copy of the plan and take its
 // place as a whole.
 #pragma once
-#include <cstdio>
+#include <algorithm>
+#include <charconv>
 
 #include "planner.hpp"
 
@@ -87,29 +88,36 @@ inline const char* Planner::commit() {
   return nullptr;
 }
 
-/// To the asker, and, when refused, to people: once a second at most, with the number of those between.
+/// To the asker, and, when refused, to people: each reason, but one that comes again and again once a second,
+/// with the number of those between.
 inline void Planner::tell(const Tick& tick, const PlanEditResult& result, Outputs& out) {
   out.results.push(result, tick.now_ns);
   if (result.accepted) return;
   ++refused_;
-  if (told_ && tick.now_ns - told_ns_ < 1'000'000'000) {
+  if (result.reason == told_reason_ && tick.now_ns - told_ns_ < 1'000'000'000) {
     ++untold_;
     return;
   }
   Notice notice;
   notice.severity = Severity::warning;
-  char* const text = notice.text.bytes.data();
-  const std::size_t room = notice.text.bytes.size();
-  const std::string_view why = result.reason.view();
-  const int length = static_cast<int>(why.size());
-  if (untold_ > 0) {
-    std::snprintf(text, room, "plan edit %u refused: %.*s (and %u before)", result.id, length, why.data(),
-                  untold_);
-  } else {
-    std::snprintf(text, room, "plan edit %u refused: %.*s", result.id, length, why.data());
-  }
+  std::size_t used = 0;
+  const auto say = [&](std::string_view words) {
+    const std::size_t n = std::min(words.size(), notice.text.bytes.size() - 1 - used);
+    std::copy_n(words.begin(), n, notice.text.bytes.begin() + static_cast<std::ptrdiff_t>(used));
+    used += n;
+  };
+  const auto count = [&](std::uint32_t number) {
+    std::array<char, 10> digits{};
+    const char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+    say({digits.data(), static_cast<std::size_t>(end - digits.data())});
+  };
+  say("plan edit ");
+  if (result.id != 0) count(result.id), say(" ");
+  say("refused: ");
+  say(result.reason.view());
+  if (untold_ > 0) say(" (and "), count(untold_), say(" before)");
   out.notices.push(notice, tick.now_ns);
-  told_ = true;
+  told_reason_ = result.reason;
   told_ns_ = tick.now_ns;
   untold_ = 0;
 }
@@ -235,8 +243,7 @@ inline const char* Planner::fault_of_neighbours(const Waypoint& w, const Waypoin
 /// Of the plan that a group makes: on the way there waypoints may have been anywhere.
 inline const char* Planner::fault_of_spacing(const Plan& plan) const {
   for (std::uint32_t i = 1; i < plan.waypoints.count; ++i)
-    if (close(plan.waypoints[i - 1], plan.waypoints[i]))
-      return "two waypoints would be less than 1 m apart";
+    if (close(plan.waypoints[i - 1], plan.waypoints[i])) return "two waypoints would be less than 1 m apart";
   return nullptr;
 }
 

@@ -78,7 +78,7 @@ struct Planner {
   std::uint32_t next_id_ = 1;
   std::uint32_t refused_ = 0, untold_ = 0;
   std::int64_t told_ns_ = 0;
-  bool told_ = false;
+  Text<80> told_reason_;  // the last one
 };
 
 namespace detail {

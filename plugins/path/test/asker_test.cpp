@@ -36,18 +36,18 @@ TEST_CASE("who edits the plan learns in its next step what became of it, whereve
   for (const std::string how : {"tick", "process"}) {
     CAPTURE(how);
     const fs::path mission = folder / (how + ".yaml");
-    std::ofstream(mission) << "mission: asker\nextends: " FULMAR_SOURCE_DIR
-                              "/configs/missions/common.yaml\nio: sim\nairframe: " FULMAR_SOURCE_DIR
-                              "/configs/airframes/anaconda.yaml\norigin: {lat: 40.2463724, lon: "
-                              "-111.6474138, alt_msl: 1387 m}\nseed: 7\n"
-                              "summary: {tally: asker.tally}\n"
-                              "done: \"asker.tally.taken_away > 0\"\n"
-                              "components:\n"
-                              "  plan: {params: {plan: " FULMAR_SOURCE_DIR
-                              "/configs/plans/hourglass.yaml}, in: {edits: {from: asker.edits, delayed: true}}}\n"
-                              "  asker: {use: " FULMAR_TEST_PLUGINS "/asker.so, rate: 10 Hz, run: " +
-                                  how +
-                                  ", in: {progress: manage.progress, results: plan.results}}\n";
+    std::ofstream(mission)
+        << "mission: asker\nextends: " FULMAR_SOURCE_DIR
+           "/configs/missions/common.yaml\nio: sim\nairframe: " FULMAR_SOURCE_DIR
+           "/configs/airframes/anaconda.yaml\norigin: {lat: 40.2463724, lon: "
+           "-111.6474138, alt_msl: 1387 m}\nseed: 7\n"
+           "summary: {tally: asker.tally}\n"
+           "done: \"asker.tally.taken_away > 0\"\n"
+           "components:\n"
+           "  plan: {params: {plan: " FULMAR_SOURCE_DIR
+           "/configs/plans/hourglass.yaml}, in: {edits: {from: asker.edits, delayed: true}}}\n"
+           "  asker: {use: " FULMAR_TEST_PLUGINS "/asker.so, rate: 10 Hz, run: " +
+               how + ", in: {progress: manage.progress, results: plan.results}}\n";
     const std::string said = shell(program + " run " + mission.string() + " --json --log " + log);
     const auto result = nlohmann::json::parse(said.substr(said.find("\n{") + 1), nullptr, false);
     REQUIRE_MESSAGE(result.is_object(), said);

@@ -91,7 +91,9 @@ TEST_CASE("who sends an edit learns by its number whether it was taken, and why 
   CHECK(desk.plan.waypoints.count == 0);
 }
 
-TEST_CASE("a refused edit is told to people too, once a second, and how many there were between") {
+TEST_CASE(
+    "a refused edit is told to people too, one and the same once a second, with how many there were "
+    "between") {
   Desk desk;
   PlanEdit bad = edit(PlanEditKind::remove, 7);
   bad.index = 9;
@@ -111,6 +113,10 @@ TEST_CASE("a refused edit is told to people too, once a second, and how many the
   CHECK(desk.bench.out.notices.items[0].text ==
         "plan edit 7 refused: there is no waypoint of this index; the first is 0 (and 49 before)");
   CHECK(desk.bench.out.refused_ratio.value == 51);
+  desk.push(of_group(edit(PlanEditKind::append, 0, 900), 3, 0));
+  REQUIRE(desk.bench.out.notices.count == 1);  // another reason is told at once
+  CHECK(desk.bench.out.notices.items[0].text ==
+        "plan edit refused: an edit of a group says of how many: group_size");
 }
 
 TEST_CASE("a waypoint keeps its id whatever is edited around it, and an id is given once") {
@@ -164,9 +170,8 @@ TEST_CASE("of a group with one fault nothing takes effect, and each of its edits
   const Norths as_it_was = desk.norths();
   PlanEdit bad = edit(PlanEditKind::remove, 2);
   bad.waypoint_id = 77;
-  for (const PlanEdit& e :
-       {of_group(edit(PlanEditKind::clear, 1), 5, 3), of_group(bad, 5, 3),
-        of_group(edit(PlanEditKind::append, 3, 900), 5, 3)})
+  for (const PlanEdit& e : {of_group(edit(PlanEditKind::clear, 1), 5, 3), of_group(bad, 5, 3),
+                            of_group(edit(PlanEditKind::append, 3, 900), 5, 3)})
     desk.bench.push(desk.bench.in.edits, e);
   desk.step();
   REQUIRE(desk.bench.out.results.count == 3);

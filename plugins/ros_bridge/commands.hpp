@@ -44,8 +44,7 @@ struct Goal {
   }
 
  private:
-  static bool take(const Tick& tick, const RosPoseStamped& goal, const Inputs& in, const Params& p,
-                   Outputs& out) {
+  bool take(const Tick& tick, const RosPoseStamped& goal, const Inputs& in, const Params& p, Outputs& out) {
     PlanEdit edit;
     edit.waypoint.position_m = ned(goal.pose.position);
     const Vec3<Ned>& at = edit.waypoint.position_m;
@@ -57,6 +56,8 @@ struct Goal {
     if (p.mode.value == GoalMode::replace) {
       PlanEdit clear;
       clear.kind = PlanEditKind::clear;
+      clear.group = edit.group = ++group_;  // a goal that the planner refuses leaves the plan as it was
+      clear.group_size = edit.group_size = 2;
       out.edits.push(clear, tick.now_ns);
     }
     return out.edits.push(edit, tick.now_ns);
@@ -68,7 +69,7 @@ struct Goal {
     return true;
   }
 
-  std::uint32_t refused_ = 0;
+  std::uint32_t refused_ = 0, group_ = 0;
 };
 
 /// Flies by twists: linear.x true airspeed, linear.z climb, angular.z turn to the left, in FLU. Fills the

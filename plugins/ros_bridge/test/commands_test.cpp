@@ -42,6 +42,22 @@ TEST_CASE("a goal is the whole plan: the old one is cleared, the new point is no
   CHECK_FALSE(add.waypoint.has_course);
 }
 
+TEST_CASE("a goal that the planner refuses leaves the plan as it was: clear and append are one group") {
+  Bench<Goal> bench;
+  std::uint32_t group = 0;
+  for (int i = 0; i < 2; ++i) {
+    bench.push(bench.in.goal, goal(30, 400 + i, 90));
+    bench.step(0.02);
+    REQUIRE(bench.out.edits.count == 2);
+    const PlanEdit &clear = bench.out.edits.items[0], &add = bench.out.edits.items[1];
+    CHECK(clear.group > group);
+    CHECK(add.group == clear.group);
+    CHECK(clear.group_size == 2);
+    CHECK(add.group_size == 2);
+    group = add.group;
+  }
+}
+
 TEST_CASE(
     "a goal on the ground, as rviz sends it, is meant at the present height; its heading counts when asked "
     "for") {

@@ -19,6 +19,16 @@ using nlohmann::json;
 
 constexpr Sides sides{"figures", "first", "second"};
 
+/// For a terminal: names and texts come out of files that may hold any bytes.
+std::string table(FigureChanges changes) {
+  for (FigureChanges::Change& c : changes.changed) {
+    c.name = printable(c.name);
+    for (json* const value : {&c.before, &c.after})
+      if (value->is_string()) *value = printable(value->get<std::string>());
+  }
+  return comparison(changes, sides).substr(1);
+}
+
 struct Compared {
   LogDiff logs;
   LogFigures a, b;
@@ -87,7 +97,7 @@ void print_diff(const Compared& c) {
   if (d.messages_equal())
     std::printf("All %llu messages are equal.\n", static_cast<unsigned long long>(messages));
   else if (!c.figures.changed.empty())
-    std::printf("%s\n", comparison(c.figures, sides).c_str() + 1);
+    std::printf("%s\n", table(c.figures).c_str());
   print_first(c);
   for (const auto& [topic, t] : d.topics) {
     if (t.different + t.only_a + t.only_b == 0) continue;
@@ -115,7 +125,7 @@ int diff_results(const json& a, const json& b, bool as_json) {
   if (as_json)
     print_json({{"equal", equal}, {"figures", figures_json(changes)}});
   else
-    std::printf("%s", comparison(changes, sides).c_str() + 1);
+    std::printf("%s", table(changes).c_str());
   return equal ? 0 : 1;
 }
 

@@ -21,6 +21,8 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
+constexpr std::size_t most_bytes = 1 << 20;  // of a message: a log may claim anything
+
 /// The mission as it was flown; nothing when the log has none that can be read.
 std::optional<MissionText> mission_of(const McapFile& log) try {
   std::vector<std::pair<std::string, std::string>> files;
@@ -99,6 +101,7 @@ struct FlightReading {
       const auto schema = stream.log().schemas.find(channel.schema);
       if (channel.topic != topic || schema == stream.log().schemas.end()) continue;
       const TypePtr type = parse_ros_definition(schema->second.name, schema->second.text);
+      if (type->size > most_bytes) return nullptr;
       Bytes message(type->size);
       cdr_decode(*type, bytes.data(), bytes.size(), message.data());
       return to_json(*type, message.data(), true);
@@ -112,6 +115,7 @@ struct FlightReading {
 }  // namespace
 
 std::string LogFigures::owner(const std::string& topic, std::int64_t at_ns) const {
+  if (!topic.starts_with('/')) return "";
   const std::string name = topic.substr(1, topic.find('/', 1) - 1);
   if (std::find(components.begin(), components.end(), name) != components.end()) return name;
   const auto by_default = first.find(name);

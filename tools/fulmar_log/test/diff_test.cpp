@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/log/events.hpp"
 #include "core/log/test/log_kit.hpp"
+#include "tools/fulmar_log/figures.hpp"
 
 namespace diff_test {
 
@@ -172,6 +173,28 @@ TEST_CASE("where the components differed without a message of it, the hash of th
   REQUIRE(d.first_tick.has_value());
   CHECK(d.first_tick->index == 6);
   CHECK(d.first_tick->time_ns == 60);
+}
+
+TEST_CASE("a role's topic is the output of whoever flew then: by habit, by phase, or the fallback") {
+  LogFigures f;
+  f.components = {"slc", "tecs", "mine"};
+  f.first = {{"outer", "slc"}};
+  f.assigned["research"]["outer"] = "mine";
+  f.changes = {{0, true, "cruise", ""},
+               {10, true, "research", ""},
+               {20, false, "mine", "tecs"},  // its guard fired
+               {30, false, "mine", ""},      // and was reset
+               {40, true, "cruise", ""}};
+  const auto who = [&](std::int64_t at_ns) { return f.owner("/outer/attitude", at_ns); };
+  CHECK(who(-1) == "slc");
+  CHECK(who(5) == "slc");
+  CHECK(who(10) == "mine");
+  CHECK(who(25) == "tecs");
+  CHECK(who(35) == "mine");
+  CHECK(who(45) == "slc");
+  CHECK(f.owner("/tecs/probes", 5) == "tecs");
+  CHECK(f.owner("/fulmar/event", 5) == "");
+  CHECK(f.owner("", 5) == "");
 }
 
 }  // namespace diff_test

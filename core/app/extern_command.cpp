@@ -53,7 +53,7 @@ const std::vector<OwnCommand>& own_commands() {
   static const std::vector<OwnCommand> list = {
       {"graph", "fulmar-inspect", "print components, wires, order and phases of a mission"},
       {"inspect", "fulmar-inspect", "print what a plugin file offers"},
-      {"new", "fulmar-new", "write the project of a plugin that fills a role of a mission"},
+      {"new", "fulmar-new", "write the project of a plugin for a mission"},
       {"log", "fulmar-log", "look at a log, repair it, export it, compare it"},
       {"list", "fulmar-live", "components of a running flight, their ports, requests and phases"},
       {"echo", "fulmar-live", "print messages of a running flight; angles in degrees"},

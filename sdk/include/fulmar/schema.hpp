@@ -240,13 +240,6 @@ struct IsText : std::false_type {};
 template <std::size_t N>
 struct IsText<Text<N>> : std::true_type {};
 
-template <class T>
-inline constexpr bool is_row = false;  ///< of several: no element of an array or list
-template <class T, std::size_t N>
-inline constexpr bool is_row<std::array<T, N>> = true;
-template <class T, std::size_t N>
-inline constexpr bool is_row<List<T, N>> = true;
-
 /// Eigen types have this nested enum.
 template <class T>
 concept EigenType = requires {
@@ -261,8 +254,8 @@ consteval std::uint32_t kind_of() {
   static_assert(!EigenType<T>,
                 "a message holds no Eigen type: its layout changes with compiler flags; use Vec3<Ned>, "
                 "Vec3<Body> or Quat");
-  if constexpr (is_row<T>) {
-    static_assert(!is_row<T>,
+  if constexpr (Shape<T>::shape != FULMAR_SCALAR) {
+    static_assert(always_false<T>,
                   "a message holds no array of arrays: write one array, row by row, or an array of structs");
     return FULMAR_U8;
   } else if constexpr (std::is_same_v<T, bool>)

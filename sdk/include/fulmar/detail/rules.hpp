@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a component must have, said in one sentence each before anything else is compiled of it: a member function
-// of a wrong signature would else not be found, and never be called. A part of plugin.hpp.
+// What a component must have, said in one sentence each before anything else is compiled of it: a member
+// function of a wrong signature would else not be found, and never be called. A part of plugin.hpp.
 #pragma once
 #include <array>
 #include <concepts>
@@ -50,20 +50,40 @@ concept Writes = requires(C c, const Tick& t, const typename C::Inputs& in, cons
 
 /// A member of that name which cannot be called as the host would.
 template <class C>
-concept WrongStep = requires { &C::step; } && !Steps<C>;
+concept WrongStep = requires {
+  &C::step;
+}
+&&!Steps<C>;
 template <class C>
-concept WrongRead = requires { &C::read; } && !Reads<C>;
+concept WrongRead = requires {
+  &C::read;
+}
+&&!Reads<C>;
 template <class C>
-concept WrongWrite = requires { &C::write; } && !Writes<C>;
+concept WrongWrite = requires {
+  &C::write;
+}
+&&!Writes<C>;
 template <class C>
-concept WrongConfigure =
-    requires { &C::configure; } && !requires(C c, const typename C::Params& p) { c.configure(p); };
+concept WrongConfigure = requires {
+  &C::configure;
+}
+&&!requires(C c, const typename C::Params& p) { c.configure(p); };
 template <class C>
-concept WrongRetune = requires { &C::retune; } && !requires(C c, const typename C::Params& p) { c.retune(p); };
+concept WrongRetune = requires {
+  &C::retune;
+}
+&&!requires(C c, const typename C::Params& p) { c.retune(p); };
 template <class C>
-concept WrongActivate = requires { &C::activate; } && !TakesOutputs<C> && !TakesApplied<C>;
+concept WrongActivate = requires {
+  &C::activate;
+}
+&&!TakesOutputs<C> && !TakesApplied<C>;
 template <class C>
-concept WrongDeactivate = requires { &C::deactivate; } && !requires(C c) { c.deactivate(); };
+concept WrongDeactivate = requires {
+  &C::deactivate;
+}
+&&!requires(C c) { c.deactivate(); };
 
 /// True when the component can be compiled further.
 template <class C>
@@ -75,12 +95,14 @@ consteval bool is_component() {
     static_assert(!WrongWrite<C>, "write is Status write(const Tick&, const Inputs&, const Params&)");
     constexpr bool wrong = WrongStep<C> || WrongRead<C> || WrongWrite<C>;
     static_assert(wrong || Steps<C> || (Reads<C> && Writes<C>),
-                  "a component has Status step(const Tick&, const Inputs&, const Params&, Outputs&), a vehicle has read "
+                  "a component has Status step(const Tick&, const Inputs&, const Params&, Outputs&), a "
+                  "vehicle has read "
                   "and write in its place");
     static_assert(!WrongConfigure<C>, "configure is void configure(const Params&)");
     static_assert(!WrongRetune<C>, "retune is void retune(const Params&)");
     static_assert(!WrongActivate<C>,
-                  "activate is Status activate(const Tick&, const Inputs&, const Params&, const Applied<Outputs>& last)");
+                  "activate is Status activate(const Tick&, const Inputs&, const Params&, const "
+                  "Applied<Outputs>& last)");
     static_assert(!WrongDeactivate<C>, "deactivate is void deactivate()");
     return !wrong && (Steps<C> || (Reads<C> && Writes<C>)) && !WrongConfigure<C> && !WrongRetune<C> &&
            !WrongActivate<C> && !WrongDeactivate<C> && are_parameters<typename C::Params>();

@@ -4,8 +4,12 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
+#include <new>
+#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/types/text.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -38,6 +42,14 @@ int ended_by(CLI::App& app, const std::function<int()>& words) {
 
 }  // namespace
 
+std::string sentence_of(const std::exception& fault) {
+  if (dynamic_cast<const std::bad_alloc*>(&fault)) return "there is not enough memory for that";
+  if (dynamic_cast<const nlohmann::json::exception*>(&fault))
+    return "what the other side has said has not the form that it should have";
+  const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&fault);
+  return file ? "'" + file->path1().string() + "': " + file->code().message() : fault.what();
+}
+
 std::string command_rows(const CLI::App& app) {
   std::string rows;
   add_rows(app, "", rows);
@@ -52,10 +64,10 @@ int run_program(CLI::App& app, const std::function<int()>& words, int fault) {
     if (code != 0 || (std::fflush(stdout) == 0 && std::ferror(stdout) == 0)) return code;
     std::fprintf(stderr, "fulmar: the output cannot be written; is the disk full?\n");
   } catch (const Error& e) {
-    std::fprintf(stderr, "%s\n", e.what());
+    std::fprintf(stderr, "%s\n", for_terminal(e.what()).c_str());
     return fault;
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "fulmar: %s\n", e.what());
+    std::fprintf(stderr, "fulmar: %s\n", for_terminal(sentence_of(e)).c_str());
   }
   return ExitCode::failed;
 }

@@ -26,6 +26,9 @@ struct ExitCode {
 /// exit code `fault`; output that cannot be written becomes 1.
 int run_program(CLI::App& app, const std::function<int()>& words, int fault = ExitCode::failed);
 
+/// What was thrown, in words for people: those of the libraries are for programmers.
+std::string sentence_of(const std::exception& fault);
+
 /// One line per command, its fields between tabs: the words that lead to it, its options, those of them that
 /// take a value, its subcommands. With `--rows` alone as its command line every program prints them
 /// (asked_for_rows), so that the completion in shells knows all of them.

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "core/graph/yaml.hpp"
+#include "core/types/text.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -181,10 +182,12 @@ class Builder : public YAML::EventHandler {
 
   /// It would end the name of a file, or speak to the terminal of whoever reads it.
   void refuse_control(const std::string& text, int line) {
-    for (const char c : text)
-      if ((c >= 0 && c < ' ' && c != '\n' && c != '\t' && c != '\r') || c == 0x7f)
-        return report_.add({file_->name, line}, "a text holds the control character " +
-                                                    std::to_string(int{c}) + ", which no name can");
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      if (!is_control(text, i) || text[i] == '\r') continue;
+      const int code = static_cast<unsigned char>(text[i]) == 0xc2 ? text[i + 1] & 0xff : text[i];
+      return report_.add({file_->name, line}, "a text holds the control character " + std::to_string(code) +
+                                                  ", which no name can");
+    }
   }
 
   const FilePtr& file_;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/types/text.hpp"
 #include "core/types/wire.hpp"
 #include "tools/fulmar_live/commands.hpp"
 #include "tools/fulmar_live/message_text.hpp"
@@ -132,7 +133,7 @@ int echo_command(const LiveAddress& target, const EchoOptions& options) {
     return 0;
   } catch (const FlightEnded& end) {
     std::fflush(stdout);
-    std::fprintf(stderr, "%s\n", end.what());
+    std::fprintf(stderr, "%s\n", for_terminal(end.what()).c_str());
     return options.count > 0 ? 1 : 0;
   }
 }

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "core/types/text.hpp"
 #include "core/types/wire.hpp"
 
 namespace fulmar::core {
@@ -23,7 +24,7 @@ std::string short_text(const ordered_json& value) {
     std::snprintf(buffer, sizeof buffer, "%.6g", value.get<double>());
     return buffer;
   }
-  if (value.is_string()) return value.get<std::string>();
+  if (value.is_string()) return for_terminal(value.get<std::string>());
   if (value.is_null()) return "-";
   if (!value.is_structured()) return value.dump();
   std::string text;
@@ -73,7 +74,7 @@ std::vector<std::string> cells(const Type& type, const ordered_json& message) {
 
 std::string csv_cell(const ordered_json& value) {
   if (value.is_null()) return "";
-  std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+  std::string text = value.is_string() ? for_terminal(value.get<std::string>()) : value.dump();
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   for (std::size_t at = text.find('"'); at != std::string::npos; at = text.find('"', at + 2))
     text.insert(at, 1, '"');

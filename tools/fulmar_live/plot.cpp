@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "core/types/text.hpp"
 #include "core/types/wire.hpp"
 #include "tools/fulmar_live/canvas.hpp"
 #include "tools/fulmar_live/commands.hpp"
@@ -158,7 +159,7 @@ int plot_command(const LiveAddress& target, const PlotOptions& options) {
   try {
     plot.run();
   } catch (const FlightEnded& end) {
-    why = end.what();
+    why = for_terminal(end.what());
   }
   plot.finish();
   if (!why.empty()) std::fprintf(stderr, "%s\n", why.c_str());

@@ -9,6 +9,7 @@
 #include <functional>
 #include <utility>
 
+#include "core/types/text.hpp"
 #include "tools/fulmar_live/client.hpp"
 #include "tools/fulmar_live/commands.hpp"
 #include "tools/fulmar_live/completion.hpp"
@@ -209,7 +210,7 @@ int RemoteCommands::run() const {
       if (command->parsed()) return action();
     return 2;
   } catch (const WrongUsage& wrong) {
-    std::fprintf(stderr, "%s\n", wrong.what());
+    std::fprintf(stderr, "%s\n", for_terminal(wrong.what()).c_str());
     return 2;
   }
 }

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/live/hub_impl.hpp"
 #include "core/types/ros_parse.hpp"
+#include "core/types/text.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -24,6 +27,23 @@ T read_le(const std::string& bytes, std::size_t at) {
 }
 void append_u32(std::string& bytes, std::uint32_t value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+/// What the other side says is shown on a terminal, word by word: none of it may command the terminal.
+json tamed(const std::string& text) {
+  json value = live::too_deep(text) ? json(json::value_t::discarded) : json::parse(text, nullptr, false);
+  const std::function<void(json&)> tame = [&](json& part) {
+    if (part.is_string()) part = for_terminal(part.get<std::string>());
+    if (part.is_object()) {
+      json object = json::object();
+      for (auto& [key, inner] : part.items()) tame(object[for_terminal(key)] = std::move(inner));
+      part = std::move(object);
+    }
+    if (part.is_array())
+      for (json& inner : part) tame(inner);
+  };
+  if (!value.is_discarded()) tame(value);
+  return value;
 }
 
 std::string text_of(const json& object, const char* key) {
@@ -49,7 +69,7 @@ Session::~Session() = default;
 // ---- what the flight says
 
 void Session::handle_text(const std::string& text) {
-  const json message = json::parse(text, nullptr, false);
+  const json message = tamed(text);
   if (!message.is_object()) return;
   const std::string op = text_of(message, "op");
   if (op == "advertise") {
@@ -81,7 +101,7 @@ void Session::handle_binary(const std::string& bytes) {
              read_le<std::uint32_t>(bytes, 5) == calls_) {
     const std::size_t encoding = read_le<std::uint32_t>(bytes, 9);
     if (encoding > bytes.size() - answer_header) return;
-    answer_ = std::make_unique<json>(json::parse(bytes.substr(answer_header + encoding), nullptr, false));
+    answer_ = std::make_unique<json>(tamed(bytes.substr(answer_header + encoding)));
     if (answer_->is_discarded()) *answer_ = json(nullptr), failure_ = "the answer is no JSON";
   }
 }

@@ -95,6 +95,16 @@ TEST_CASE("too deep is told as that") {
   CHECK(read(chain).said == "file.yaml:61: nested more than 60 deep");
 }
 
+TEST_CASE("control characters are refused, those of eight bits as well") {
+  CHECK(read("mission: \"a\\e[2J\"\n").said ==
+        "file.yaml:1: a text holds the control character 27, which no name can");
+  CHECK(read("mission: \"a\\u009b2J\"\n").said ==
+        "file.yaml:1: a text holds the control character 155, which no name can");
+  CHECK(read("mission: \"a\\0b\"\n").said ==
+        "file.yaml:1: a text holds the control character 0, which no name can");
+  CHECK(read("mission: \"caf\\u00e9\"\n").said == "");
+}
+
 TEST_CASE("400000 unknown keys are told as the first hundred of them") {
   std::string text;
   for (int i = 0; i < 400'000; ++i) text += "unknown" + std::to_string(i) + ": 1\n";

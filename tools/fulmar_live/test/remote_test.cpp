@@ -13,6 +13,7 @@
 #include <string>
 #include <thread>
 
+#include "core/app/program.hpp"
 #include "core/live/server.hpp"
 #include "core/live/test/mock.hpp"
 #include "tools/fulmar_live/completion.hpp"
@@ -126,7 +127,63 @@ std::vector<std::string> completed(const MockFlight& flight, const std::string& 
 
 using Words = std::vector<std::string>;
 
+/// A flight whose every name commands the terminal of who asks.
+struct HostileControl : test::MockControl {
+  FlightView view() const override {
+    FlightView v = MockControl::view();
+    const std::string clear = "\x1b[2J", title = "\x1b]0;mine\x07",
+                      eight_bits =
+                          "\xc2\x9b"
+                          "2J";
+    v.mission += clear, v.phase += title, v.io += eight_bits;
+    for (std::string& phase : v.phases) phase += clear;
+    for (ComponentView& c : v.components) {
+      c.name += clear, c.use += title, c.role += eight_bits;
+      for (ParameterView& p : c.params) p.info.name += clear, p.info.doc += title, p.info.unit += eight_bits;
+      for (PortView& p : c.outputs) p.name += title;
+      for (PortView& p : c.inputs) p.name += title;
+    }
+    return v;
+  }
+  void enter_phase(const std::string&, Answer answer) override { answer("no\x1b[2J, \x07no"); }
+};
+
 }  // namespace
+
+TEST_CASE("what another computer says does not command the terminal") {
+  std::vector<TapChannel> channels = test::mock_channels();
+  for (TapChannel& channel : channels) channel.topic += "\x1b[2J";
+  Tap tap{channels};
+  HostileControl control;
+  LiveOptions options;
+  options.port = 0;
+  LiveServer server(tap, control, options);
+  for (const char* words : {"list", "param list", "echo nothing", "phase cruise", "call nothing",
+                            "param get nothing.x", "swap nothing x.so"}) {
+    CAPTURE(words);
+    const Result r =
+        shell("FULMAR_LIVE=127.0.0.1:" + std::to_string(server.port()) + " " + program + " " + words);
+    CHECK(r.out.size() + r.err.size() > 20);
+    for (const char* bad : {"\x1b", "\x07", "\xc2\x9b"}) {
+      CHECK(r.out.find(bad) == std::string::npos);
+      CHECK(r.err.find(bad) == std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("what libraries throw is told in words for people") {
+  CHECK(sentence_of(std::bad_alloc()) == "there is not enough memory for that");
+  CHECK(sentence_of(
+            fs::filesystem_error("status", "a/b", std::make_error_code(std::errc::filename_too_long))) ==
+        "'a/b': File name too long");
+  std::string said;
+  try {
+    json(3).at("x");
+  } catch (const std::exception& fault) {
+    said = sentence_of(fault);
+  }
+  CHECK(said == "what the other side has said has not the form that it should have");
+}
 
 TEST_CASE("without a flight every word says what to do") {
   for (const char* words : {"list", "echo nav.state", "plot a.b.c", "param list", "param set a.b 1",

@@ -16,7 +16,8 @@ namespace fulmar::core {
 namespace {
 
 constexpr std::size_t most_compared_values = 100'000;
-constexpr std::size_t most_waiting = 100'000;  // ticks, where the other log has none
+constexpr std::size_t most_at_once = 32u << 20;  // bytes of one log time
+constexpr std::size_t most_waiting = 100'000;    // ticks, where the other log has none
 using MessageBytes = std::vector<std::byte>;
 
 struct Stored {
@@ -58,9 +59,13 @@ struct Side {
   void take(std::uint64_t ns) {
     for (auto& [topic, list] : now) list.clear();
     order.clear();
+    std::size_t bytes = 0;
     for (; ahead != nullptr && ahead->log_ns == ns; ahead = next()) {
       const std::string& topic = stream.log().channels.at(ahead->channel).topic;
       channels.try_emplace(topic, ahead->channel);
+      if ((bytes += ahead->data.size() + sizeof(Stored)) > most_at_once)
+        throw Error("the log has more than " + std::to_string(most_at_once >> 20) +
+                    " MB of messages at one time");
       if (now[topic].empty()) order.push_back(topic);
       now[topic].push_back({MessageBytes(ahead->data.begin(), ahead->data.end()), ahead->publish_ns});
       if (topic == Ticks::topic) take_ticks(ahead->data);

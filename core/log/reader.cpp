@@ -4,6 +4,7 @@
 
 #include <zstd.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <new>
@@ -19,9 +20,11 @@ namespace {
 using mcap::crc_of, mcap::Cursor, mcap::Data, mcap::largest_record, mcap::require;
 
 constexpr std::uint64_t largest_chunk =
-    1u << 28;  // decompressed; a file that claims more is not one of a flight
+    1u << 25;  // decompressed; one of a flight has 768 kB and a message, others' a few MB
 constexpr std::uint64_t largest_schemas =
-    1u << 28;  // the same of all schemas and channels, which chunks can hold by the thousand
+    1u << 25;  // the same of all schemas and channels, which chunks can hold by the thousand
+
+constexpr std::uint64_t smallest_limit = 1u << 27;  // of the memory for a file as a whole
 
 /// The content of a chunk, decompressed into `room`.
 Data open_chunk(const std::string& compression, Data stored, std::uint64_t size,
@@ -33,7 +36,7 @@ Data open_chunk(const std::string& compression, Data stored, std::uint64_t size,
   }
   if (compression != "zstd")
     throw Error("a chunk is compressed as '" + compression.substr(0, 32) + "'. Valid: zstd, or not at all");
-  require(size <= largest_chunk, "a chunk claims to hold more than 256 MB");
+  require(size <= largest_chunk, "a chunk claims to hold more than 32 MB");
   // A wrong size is found before memory is taken for it.
   const unsigned long long says = ZSTD_getFrameContentSize(stored.data(), stored.size());
   require(says == ZSTD_CONTENTSIZE_UNKNOWN || says == size, "a chunk does not decompress");
@@ -220,7 +223,7 @@ struct McapStream::Impl {
     const auto id = cursor.number<std::uint16_t>();
     const bool known = code == mcap::schema ? file.schemas.contains(id) : file.channels.contains(id);
     if (!known) defined_bytes += cursor.data.size();
-    require(defined_bytes <= largest_schemas, "the schemas and channels take more than 256 MB");
+    require(defined_bytes <= largest_schemas, "the schemas and channels take more than 32 MB");
     if (code == mcap::schema) {
       McapFile::Schema schema{cursor.text(), cursor.text(), cursor.text()};
       file.schemas.try_emplace(id, std::move(schema));
@@ -363,6 +366,8 @@ McapFile read_mcap(const std::filesystem::path& path, std::uint64_t most_bytes) 
   McapStream::Impl& s = *stream.impl_;
   std::vector<McapFile::Message> messages;
   std::uint64_t bytes = 0;
+  // A flight is compressed to a third; what becomes a hundred times as large is no log.
+  most_bytes = std::min(most_bytes, smallest_limit + 100 * s.size);
   while (s.fill()) {
     bytes += (s.in_chunk ? s.chunk_room : s.record).capacity() + s.pending.size() * sizeof(McapFile::Message);
     if (bytes > most_bytes)

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// For tests of what comes from outside: work in a process of its own that has a gigabyte and five seconds.
+#pragma once
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <exception>
+
+#include "core/sanitized.hpp"
+
+namespace fulmar::core::test {
+
+/// Of each kind; more with FULMAR_LONG.
+inline int mutants() { return std::getenv("FULMAR_LONG") != nullptr ? 500 : 50; }
+
+/// Whether `work` returns within the limits, without a crash and without an exception.
+template <class Work>
+bool within_limits(const Work& work) {
+  const pid_t child = ::fork();
+  if (child < 0) return false;
+  if (child == 0) {
+#ifndef FULMAR_SANITIZED  // a sanitizer reserves terabytes, and is slow
+    constexpr rlim_t gigabyte = 1u << 30, seconds = 5;
+    const rlimit memory{gigabyte, gigabyte}, cpu{seconds, seconds};
+    ::setrlimit(RLIMIT_AS, &memory);
+    ::setrlimit(RLIMIT_CPU, &cpu);
+#endif
+    const rlimit no_core{0, 0};
+    ::setrlimit(RLIMIT_CORE, &no_core);
+    try {
+      work();
+    } catch (const std::exception&) {
+      ::_exit(1);
+    }
+    ::_exit(0);
+  }
+  int status = 0;
+  return ::waitpid(child, &status, 0) == child && status == 0;
+}
+
+}  // namespace fulmar::core::test

@@ -3,8 +3,10 @@
 #include <doctest/doctest.h>
 
 #include <cstdint>
+#include <cstdlib>
 
 #include "core/graph/test/shelf.hpp"
+#include "core/test/limits.hpp"
 
 namespace fuzz_test {
 
@@ -76,6 +78,38 @@ TEST_CASE("200 altered airframe and plan files are taken or refused with a sente
     refused += mission.faults().empty() ? 0 : 1;
   }
   CHECK(refused > 50);
+}
+
+/// A piece of the text a great many times, or an anchor of a long text with a great many aliases.
+void swell(std::string& text, Dice& dice) {
+  const std::size_t at = dice.below(text.size()), size = 1 + dice.below(40);
+  std::string many;
+  if (dice.below(3) == 0) {
+    many = "\nanchored: &x \"" + std::string(1 + dice.below(200'000), 'x') + "\"\naliases: [";
+    for (std::size_t i = dice.below(200'000); i > 0; --i) many += "*x, ";
+    text += many + "]\n";
+    return;
+  }
+  for (std::size_t i = dice.below(50'000); i > 0; --i) many += text.substr(at, size);
+  text.insert(at, many);
+}
+
+TEST_CASE("each altered or swollen mission, airframe and plan takes less than a gigabyte and five seconds") {
+  Dice dice;
+  for (int i = 0; i < mutants(); ++i) {
+    std::string texts[] = {hourglass, anaconda, hourglass_plan};
+    std::string& altered = texts[i % 3];
+    for (std::size_t n = dice.below(3); n > 0; --n) mutate(altered, dice);
+    if (i % 2 == 0) swell(altered, dice);
+    CAPTURE(i);
+    CHECK(within_limits([&] {
+      Mission mission;
+      mission.text = texts[0];
+      mission.folder.write("anaconda.yaml", texts[1]);
+      mission.folder.write("plans/hourglass.yaml", texts[2]);
+      mission.faults();
+    }));
+  }
 }
 
 }  // namespace fuzz_test

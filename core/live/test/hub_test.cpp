@@ -5,6 +5,7 @@
 #include <random>
 
 #include "core/live/test/hub_fixture.hpp"
+#include "core/test/limits.hpp"
 
 namespace hub_test {
 
@@ -400,6 +401,38 @@ TEST_CASE_FIXTURE(Fixture, "answers for a client that has gone reach nobody") {
   CHECK(other.last("parameterValues") == nullptr);
   CHECK(other.binaries.empty());
   CHECK(peer.binaries.empty());
+}
+
+TEST_CASE("each altered message of a megabyte takes less than a gigabyte and five seconds") {
+  std::mt19937 dice(7);
+  const std::string ops[] = {"subscribe",     "unsubscribe",   "advertise",
+                             "getParameters", "setParameters", "subscribeParameterUpdates"};
+  const std::string lists[] = {"subscriptions", "subscriptionIds", "channels", "parameterNames",
+                               "parameters"};
+  const std::string items[] = {"1",
+                               "\"slc.roll_kp\"",
+                               "\"slc.rol_kp\"",
+                               R"({"id":1,"channelId":2})",
+                               R"({"name":"slc.roll_kp","value":1})",
+                               R"({"name":"slc.x","value":[1]})",
+                               R"({"id":1,"topic":"/plan/edits","encoding":"json","schemaName":""})",
+                               "[[[",
+                               "null"};
+  for (int i = 0; i < mutants(); ++i) {
+    std::string text =
+        "{\"op\":\"" + ops[dice() % std::size(ops)] + "\",\"" + lists[dice() % std::size(lists)] + "\":[";
+    const std::string& item = items[dice() % std::size(items)];
+    while (text.size() < 1'000'000) text += item + ",";
+    text += item + "]}";
+    for (auto n = dice() % 3; n > 0; --n) text[dice() % text.size()] = static_cast<char>(dice());
+    CAPTURE(i);
+    CHECK(within_limits([&] {
+      Fixture flight;
+      flight.hub.text(flight.id, text);
+      flight.hub.tick();
+      ::_exit(0);  // without the end of the flight
+    }));
+  }
 }
 
 }  // namespace hub_test

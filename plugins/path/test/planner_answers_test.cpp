@@ -222,6 +222,18 @@ TEST_CASE("a group that is not completed, or comes while the plan is changed, is
   CHECK(desk.result().reason == "the edits of its group differ in group_size");
 }
 
+TEST_CASE("revisions grow by one, also when a group began in the step that published another edit") {
+  Desk desk;
+  const std::uint32_t revision = desk.plan.revision;
+  desk.bench.push(desk.bench.in.edits, edit(PlanEditKind::append, 1, 900));
+  desk.bench.push(desk.bench.in.edits, of_group(edit(PlanEditKind::append, 2, 1200), 4, 2));
+  desk.step();
+  CHECK(desk.plan.revision == revision + 1);
+  desk.push(of_group(edit(PlanEditKind::append, 3, 1500), 4, 2));
+  CHECK(desk.result().in_force);
+  CHECK(desk.plan.revision == revision + 2);
+}
+
 TEST_CASE("end, radius and airspeed of the plan are edited, within their ranges") {
   Desk desk;
   PlanEdit end = edit_of(PlanSetting::end), radius = edit_of(PlanSetting::turn_radius),

@@ -391,6 +391,26 @@ TEST_CASE("found again in a turn it has the velocity of now, not that of the lat
   CHECK(sum / 10 < 0.55);  // 0.15 s of the turn's acceleration are 0.85 m/s
 }
 
+TEST_CASE("found again after a gap the gust of before it is over") {
+  double before_mps = 0;
+  std::optional<double> after_mps;
+  Gap gap{.length_s = 5};
+  gap.alter = [&](const Truth& x, Samples& s) {
+    if (x.t > 64 && s.pitot) s.pitot->pressure_pa *= 1.2;  // a gust from ahead
+    if (x.t > gap.from_s) s.pitot.reset();                 // nobody says what became of it
+  };
+  gap.feed = [&](Bench<Ekf>& bench, const Truth& x, const Samples& s, double dt) {
+    const bool known = bench.out.state.written && bench.out.state.value.attitude_valid;
+    if (x.t < gap.from_s) before_mps = bench.out.gust_mps.value;
+    if (x.t > gap.from_s + gap.length_s && known && !after_mps) after_mps = bench.out.gust_mps.value;
+    Gap::feed_all(bench, x, s, dt);
+  };
+  gap.run();
+  REQUIRE(before_mps > 0.3);
+  REQUIRE(after_mps);
+  CHECK(std::abs(*after_mps) < 0.02);
+}
+
 TEST_CASE("after a gap that was coasted the velocity is less sure") {
   double before = 0, after = 0;
   Gap gap{.length_s = 0.25};

@@ -146,25 +146,6 @@ TEST_CASE("without a magnetometer an alignment waits 2 s for one, after a gap ag
   CHECK(n.aligned());
 }
 
-TEST_CASE("found again after a gap the gust of before it is over") {
-  Params p;
-  VehicleState s = flying();
-  s.wind_std_mps = {0.05, 0.05, 0.05}, s.velocity_std_mps = {0.05, 0.05, 0.05};
-  Navigator n = resumed(s, p);
-  double at_s = 10;
-  for (int i = 0; i < 400; ++i) {  // the tube reads more than the ground speed and the wind explain
-    n.imu(still_omega, level_f, at_s += 0.0025, p);
-    if (i % 20 == 0) n.pitot(0.5 * 1.05 * 18 * 18, p);
-  }
-  REQUIRE(std::abs(n.filter().state().gust_mps) > 0.05);
-  n.imu(still_omega, level_f, at_s + p.max_coast + 1, p);
-  REQUIRE_FALSE(n.aligned());
-  stand(n, p, n.time_s() + 4);
-  REQUIRE(n.aligned());
-  CHECK(n.filter().state().gust_mps == 0);
-  CHECK(std_of(n, ekf::gust) == doctest::Approx(p.gust_std.value).epsilon(0.01));
-}
-
 TEST_CASE("the origin is the mean of the fixes, not the last of them") {
   Params p;
   p.origin_fixes.value = 4;

@@ -114,6 +114,18 @@ struct Commands {
         ->check(CLI::Range(1, 99));
     command->add_option("--drivers-from", run.drivers_from,
                         "take the samples of drivers from this log, in place of their devices");
+    CLI::Option* const resume = add_resume(command);
+    command->callback([this, command, resume] {
+      run.mission = mission.mission;
+      run.overrides = mission.overrides(command);
+      run.speed = parse_speed(speed);
+      if (!seeds.empty()) run.seeds = valid_seeds(seeds);
+      if (resume->count() > 0) run.resume = resume_log;
+      action = [this] { return run_command(run); };
+    });
+  }
+
+  CLI::Option* add_resume(CLI::App* command) {
     CLI::Option* resume =
         command
             ->add_option("--resume", resume_log,
@@ -124,14 +136,7 @@ struct Commands {
         ->add_flag("--no-resume", run.no_resume,
                    "with --io fcu: begin at the beginning, also when the newest log ended in the air")
         ->excludes(resume);
-    command->callback([this, command, resume] {
-      run.mission = mission.mission;
-      run.overrides = mission.overrides(command);
-      run.speed = parse_speed(speed);
-      if (!seeds.empty()) run.seeds = valid_seeds(seeds);
-      if (resume->count() > 0) run.resume = resume_log;
-      action = [this] { return run_command(run); };
-    });
+    return resume;
   }
 
   void add_check() {

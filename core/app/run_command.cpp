@@ -289,15 +289,21 @@ class Session {
     progress.clear();
     pass_on_words();
     results_.push_back(result_json(graph_, *last_, result));
-    if (!options_.seeds.empty() && !options_.json) {
-      std::printf("%s\n", short_result(results_.back()).c_str());
-      std::fflush(stdout);
-    } else if (!options_.json) {
-      std::printf("%s", result_table(graph_, *last_, result).c_str());
-      if (results_.size() > 1)
-        std::printf("%s", comparison(results_[results_.size() - 2], results_.back()).c_str());
-      std::fflush(stdout);
-    }
+    if (!options_.json) print(result);
+    return code_of(result);
+  }
+
+  /// The last flight, in a line when there are many.
+  void print(const FlightResult& result) const {
+    std::string text =
+        options_.seeds.empty() ? result_table(graph_, *last_, result) : short_result(results_.back()) + "\n";
+    if (options_.seeds.empty() && results_.size() > 1)
+      text += comparison(results_[results_.size() - 2], results_.back());
+    std::printf("%s", text.c_str());
+    std::fflush(stdout);
+  }
+
+  int code_of(const FlightResult& result) const {
     const bool whole = result.log.error.empty();
     if (!whole)
       warn("the log is not whole: " + result.log.error + "; " + std::to_string(result.log.dropped) +

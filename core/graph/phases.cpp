@@ -62,6 +62,7 @@ std::vector<Overlay> read_overlay(Draft& draft, const Candidate& candidate, cons
   for (const ParamInfo& param : candidate.info().params)
     if (param.live) live.push_back(param.name);
   for (const Node::Entry& entry : set.entries) {
+    if (draft.report.full()) break;  // each of the others costs its hint
     const int p = param_path(candidate.info(), entry.key).param;
     const ParamInfo* const param = p < 0 ? nullptr : &nth(candidate.info().params, p);
     if (param && param->live) {

@@ -37,6 +37,7 @@ void set_params(Draft& draft, Candidate& candidate, const Node& map, const std::
   const ComponentInfo& info = candidate.info();
   std::vector<std::pair<const Node::Entry*, ParamPath>> fields;
   for (const Node::Entry& entry : map.entries) {
+    if (draft.report.full()) break;  // each of the others costs its hint
     const ParamPath at = param_path(info, entry.key);
     if (at.param < 0)
       draft.report.add(entry.where(),

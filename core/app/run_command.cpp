@@ -248,7 +248,7 @@ class Session {
   int fly() {
     if (!stamps_) stamps_ = std::make_unique<FileStamps>(files());
     if (!options_.build.empty() && !sources_)
-      sources_ = std::make_unique<FileStamps>(source_files(fs::absolute(options_.mission).parent_path()));
+      sources_ = std::make_unique<FileStamps>(source_files(fs::absolute(graph_.file).parent_path()));
     last_.reset();
     Progress progress(graph_);
     FlightOptions o;

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <optional>
 
+#include "core/graph/shipped.hpp"
+
 namespace fulmar::core {
 namespace {
 
@@ -47,7 +49,7 @@ class Layers {
   FilePtr read(const Node& extends, const SourceFile& file) {
     const auto name = scalar_text(extends, "extends", "the name of a file", report_);
     if (!name) return nullptr;
-    const auto path = (file.path.parent_path() / *name).lexically_normal();
+    const auto path = named_file(file.path.parent_path(), *name);
     const auto same = [&](const FilePtr& layer) { return layer->path.lexically_normal() == path; };
     if (std::any_of(above_.begin(), above_.end(), same)) {
       std::string chain;
@@ -57,7 +59,9 @@ class Layers {
     }
     try {
       // as a reader of the mission would open it
-      const auto shown = std::filesystem::path(file.name).parent_path() / *name;
+      const bool shipped = is_shipped_name(*name);
+      const auto shown =
+          shipped ? std::filesystem::path(*name) : std::filesystem::path(file.name).parent_path() / *name;
       return files_.emplace_back(read_source(path, shown.string(), stored_));
     } catch (const Error& fault) {
       report_.add(extends.where(), std::string("extends: ") + fault.what());

@@ -251,8 +251,8 @@ struct Graph : Settings {
   std::vector<std::filesystem::path> files;  // mission, what it extends, airframe, plans
 };
 
-/// Loads a mission file and everything that it names. On faults throws Error whose text holds all of them,
-/// one per line.
+/// Loads a mission file - fulmar:missions/orbit.yaml is one of the installation - and everything that it
+/// names. On faults throws Error whose text holds all of them, one per line.
 Graph load_mission(const std::string& file, const Overrides& overrides = {});
 
 /// The same with components from elsewhere than plugin files.

@@ -9,6 +9,7 @@
 
 #include "core/graph/extends.hpp"
 #include "core/graph/quantity.hpp"
+#include "core/graph/shipped.hpp"
 #include "core/types/names.hpp"
 #include "core/types/text.hpp"
 
@@ -168,10 +169,9 @@ class MissionReader {
     if (!node) return;
     m_.failsafe = *node;
     m_.failsafe_ns = 2'000'000'000;
-    if (!node->find("for")) return;
-    // the fields are checked against the vehicle's inputs later
-    m_.failsafe_ns =
-        Keys(*node, "failsafe", keys_of(*node), report_).duration_ns("for").value_or(m_.failsafe_ns);
+    Node own = *node;  // the other keys are fields: they are checked against the vehicle's inputs later
+    std::erase_if(own.entries, [](const Node::Entry& entry) { return entry.key != "for"; });
+    m_.failsafe_ns = Keys(own, "failsafe", {"for"}, report_).duration_ns("for").value_or(m_.failsafe_ns);
   }
 
   /// "nav.state"; nothing and a fault when it is not that.
@@ -480,7 +480,7 @@ std::int64_t parse_utc_ns(const std::string& text) {
 
 MissionText parse_mission(const std::string& file, const Overrides& overrides, Report& report) {
   MissionText mission;
-  const fs::path path = file;
+  const fs::path path = is_shipped_name(file) ? named_file({}, file) : fs::path(file);
   mission.file = std::make_shared<SourceFile>(
       SourceFile{path, path.filename().string(), read_source(path, file, overrides.files.get())->text});
   mission.files.push_back(mission.file);

@@ -7,6 +7,7 @@
 
 #include "core/graph/quantity.hpp"
 #include "core/graph/record.hpp"
+#include "core/graph/shipped.hpp"
 #include "core/types/named.hpp"
 
 namespace fulmar::core {
@@ -25,7 +26,7 @@ void FileStore::keep(const FilePtr& file) {
 }
 
 FilePtr FileStore::read(const Node& node, const std::string& path) {
-  const fs::path file = (node.file->path.parent_path() / node.text).lexically_normal();
+  const fs::path file = named_file(node.file->path.parent_path(), node.text);
   if (const FilePtr there = known(file)) return there;
   try {
     return files_.emplace_back(read_source(file, node.text, stored_));

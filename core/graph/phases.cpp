@@ -343,8 +343,10 @@ Shown shown(const Word& word, const FindPort& find) {
 
 void read_shown(Draft& draft, const FindPort& find) {
   draft.graph.progress.clear();
-  for (const Word& word : draft.text.progress)
+  for (const Word& word : draft.text.progress) {
+    if (draft.report.full()) break;
     guarded(draft, word.where, "progress", [&] { draft.graph.progress.push_back(shown(word, find)); });
+  }
 }
 
 void read_resume(Draft& draft, const FindPort& find) {

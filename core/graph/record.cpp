@@ -151,13 +151,13 @@ class Filler {
   const Field* field_for(const Type& type, const Node::Entry& entry, const RecordPlace& place,
                          const std::vector<std::string>& also) {
     if (const Field* field = field_of_key(type, entry.key)) return field;
+    if (report_.full()) return nullptr;
     std::vector<std::string> names = names_of(type.fields), shorter, same;
     for (const Field& field : type.fields) {
       shorter.push_back(without_suffix(field.name));
       if (without_suffix(field.name) == entry.key) same.push_back(field.name);
     }
     names.insert(names.end(), also.begin(), also.end());
-    if (report_.full()) return nullptr;
     const std::string near = nearest(entry.key, shorter);
     const std::string prefix = place.path.empty() ? "" : place.path + ": ";
     if (same.size() > 1)

@@ -5,6 +5,7 @@
 
 #include "core/graph/draft.hpp"
 #include "core/graph/quantity.hpp"
+#include "core/graph/shipped.hpp"
 #include "core/graph/trust.hpp"
 #include "core/loader/home.hpp"
 #include "core/loader/script.hpp"
@@ -469,14 +470,14 @@ Graph load_mission(const std::string& file, const Overrides& overrides, Catalogu
     if (!text.component(name)) report.add({"--with " + name + "=" + with, 0}, not_there(draft, name));
   report.throw_if_any();
   draft.graph.attachments = files.attachments();
-  draft.graph.file = file;
+  draft.graph.file = text.file->path.string();
   draft.graph.overrides = overrides;
   draft.graph.files = files.paths();
   return std::move(draft.graph);
 }
 
 Graph load_mission(const std::string& file, const Overrides& overrides) {
-  PluginCatalogue catalogue(PluginCatalogue::folders_for(file));
+  PluginCatalogue catalogue(PluginCatalogue::folders_for(named_file({}, file)));
   return load_mission(file, overrides, catalogue);
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <sstream>
 
+#include "core/graph/shipped.hpp"
 #include "core/graph/stored_files.hpp"
 
 namespace fulmar::core {
@@ -83,7 +84,9 @@ FilePtr read_source(const std::filesystem::path& path, const std::string& name, 
   if (std::filesystem::file_size(path, code) > limit && !code)
     throw Error(name + " is larger than 16 MB: too large for a mission, an airframe or a plan");
   std::ifstream in(path, std::ios::binary);
-  if (!in) throw Error((std::filesystem::exists(path, code) ? "cannot read " : "there is no file ") + name);
+  if (!in)
+    throw Error(std::filesystem::exists(path, code) ? "cannot read " + name
+                                                    : "there is no file " + name + shipped_choices(name));
   std::ostringstream text;
   text << in.rdbuf();
   if (in.bad()) throw Error("cannot read " + name);

@@ -5,6 +5,7 @@
 
 #include "core/graph/catalogue.hpp"
 #include "core/graph/quantity.hpp"
+#include "core/graph/shipped.hpp"
 
 namespace fulmar::core {
 namespace fs = std::filesystem;
@@ -24,12 +25,18 @@ Node map_of(const std::vector<std::pair<std::string, Node>>& entries) {
   return node;
 }
 
-/// A file name in `node`, said relative to the folder of the file in which it stands, made absolute.
+/// A file of this name from anywhere.
+std::string file_name(const fs::path& file) {
+  const std::string shipped = shipped_name(file);
+  return shipped.empty() ? file.string() : shipped;
+}
+
+/// A file name in `node`, said relative to the folder of the file in which it stands, made one from anywhere.
 std::string file_word(const Node& node) {
   if (!node.file || node.file->path.empty() || node.text.empty()) return node.text;
   std::error_code code;
   const fs::path file = fs::absolute(node.file->path.parent_path() / node.text, code).lexically_normal();
-  return fs::is_regular_file(file, code) ? file.string() : node.text;
+  return fs::is_regular_file(file, code) ? file_name(file) : node.text;
 }
 
 std::string flow(const Node& node) {
@@ -220,7 +227,7 @@ std::string write_mission(const MissionView& mission, const Contract& contract,
     for (const Node::Entry& entry : mission.root.entries)
       if (entry.key != "mission" && entry.key != "extends") root.entries.push_back(entry);
   } else {
-    root.entries.push_back({"extends", 0, scalar(mission.file.string())});
+    root.entries.push_back({"extends", 0, scalar(file_name(mission.file))});
   }
   const Node top = additions(mission, contract, component);
   for (const Node::Entry& entry : top.entries) {

@@ -20,7 +20,8 @@ struct NewComponent {
 std::string reference_name(const MissionView& mission, const Contract& contract, const std::string& name,
                            std::size_t role);
 
-/// The text of mission.yaml. File names in it are absolute, but that of the new plugin.
+/// The text of mission.yaml. File names in it begin with fulmar: where they are of the installation, and are
+/// absolute elsewhere, but for that of the new plugin.
 std::string write_mission(const MissionView& mission, const Contract& contract,
                           const NewComponent& component);
 

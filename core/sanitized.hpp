@@ -10,3 +10,14 @@
 #define FULMAR_SANITIZED
 #endif
 #endif
+
+namespace fulmar::core {
+
+/// How much more time of the CPU a test is given where every access is looked at.
+#ifdef FULMAR_SANITIZED
+inline constexpr double sanitizer_slowdown = 10;
+#else
+inline constexpr double sanitizer_slowdown = 1;
+#endif
+
+}  // namespace fulmar::core

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files that come with the installation, named from anywhere as in fulmar:missions/common.yaml: so a mission can
-// be copied to another folder or machine.
+// Files that come with the installation, named from anywhere as in fulmar:missions/common.yaml: so a mission
+// can be copied to another folder or machine.
 #pragma once
 #include <filesystem>
 #include <string>

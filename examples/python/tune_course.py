@@ -5,11 +5,10 @@
 """
 import argparse
 import math
-from pathlib import Path
 
 import fulmar
 
-mission = Path(__file__).resolve().parent.parent.parent / "configs/missions/hourglass.yaml"
+mission = "fulmar:missions/hourglass.yaml"
 
 
 def wrap(angle_rad):
@@ -18,7 +17,7 @@ def wrap(angle_rad):
 
 def first_turn(gain, seed):
     """Flies to the first corner and through it. -> (largest course error, settling time, largest bank)"""
-    sim = fulmar.Sim(str(mission), seed=seed, set={"slc.course_kp": gain, "sim.turbulence": "none"})
+    sim = fulmar.Sim(mission, seed=seed, set={"slc.course_kp": gain, "sim.turbulence": "none"})
     while sim["manage.progress.reached"] is None or sim["manage.progress.reached"] < 1:
         if not sim.step(4):
             raise SystemExit(f"the flight ended before the corner: {sim.result['reason']}")

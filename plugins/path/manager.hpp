@@ -53,10 +53,20 @@ struct Manager {
 
  private:
   enum class Mode : std::uint8_t { idle, join, leg, orbit };
+  struct Lap {
+    bool begun = false;
+    std::uint32_t id = 0, item = 0;  // of the waypoint at which it began
+    std::uint32_t legs = 0;          // waypoints reached since
+  };
 
   void adopt(const Route& route, const Plan& plan, const VehicleState& state, const Params& p);
   void keep_or_join(const Route& route, const Plan& plan, const VehicleState& state);
   std::uint32_t find(const Plan& plan, const Vec3<Ned>& point, std::uint32_t near) const;
+  static std::uint32_t find_id(const Plan& plan, std::uint32_t id) {
+    std::uint32_t i = 0;
+    while (i < plan.waypoints.count && plan.waypoints[i].id != id) ++i;
+    return i;
+  }
   void begin_orbit(const RouteOrbit& orbit);
   void begin_join(const Route& route, const VehicleState& state, std::uint32_t item);
   void begin_leg(const Route& route, const RouteLeg& leg, Mode mode, std::uint32_t item, std::size_t piece);
@@ -65,6 +75,7 @@ struct Manager {
   void foresee(const RouteLeg& leg, std::size_t index, bool next_leg_follows);
   void fly(const Route& route, const VehicleState& state, const Params& p);
   void measure(const VehicleState& state);
+  void count_lap(const Route& route);
   void reach(const Route& route, const VehicleState& state);
   void circle(const Route& route, const VehicleState& state);
   void fill(const Route& route, const Plan& plan, const VehicleState& state);
@@ -82,7 +93,8 @@ struct Manager {
   Path path_;
   Progress progress_;
   Reckoning reckoning_;
-  std::uint32_t item_ = 0, legs_ = 0, jumps_ = 0, revision_ = 0;
+  std::uint32_t item_ = 0, jumps_ = 0, revision_ = 0;
+  Lap lap_;
   std::int64_t first_item_ = 0;              // as the parameter was seen last
   std::optional<std::uint32_t> begin_with_;  // of the next adoption of a plan
   Vec3<Ned> target_, from_;                  // of the leg: to recognise them after a change of the plan
@@ -144,6 +156,8 @@ inline void Manager::adopt(const Route& route, const Plan& plan, const VehicleSt
   const bool was_empty = progress_.items == 0,
              jump = first || plan.jumps != jumps_ || was_empty || revision_ == 0;
   const bool was_idle = mode_ == Mode::idle;
+  // The waypoint at which the circuit began was taken out: it begins with the next one that is reached.
+  if (lap_.id != 0 && find_id(plan, lap_.id) == plan.waypoints.count) lap_ = {};
   revision_ = plan.revision;
   jumps_ = plan.jumps;
   progress_.items = route.size();
@@ -153,7 +167,8 @@ inline void Manager::adopt(const Route& route, const Plan& plan, const VehicleSt
       orbit_.radius_m = route.radius_m();
       return;
     }
-    item_ = legs_ = 0;
+    item_ = 0;
+    lap_ = {};
     progress_.finished = false;
     const double height_m = std::max(state.height_m, p.hold_height.value);
     begin_orbit({state.position_m.north, state.position_m.east, height_m, route.radius_m(), Turn::right});
@@ -171,7 +186,7 @@ inline void Manager::adopt(const Route& route, const Plan& plan, const VehicleSt
     return;
   }
   if (jump) {
-    legs_ = 0;
+    lap_ = {};
     progress_.finished = false;
     begin_join(route, state, std::min(first.value_or(plan.jump_item), route.size() - 1));
   } else if (was_idle) {
@@ -224,7 +239,7 @@ inline void Manager::keep_or_join(const Route& route, const Plan& plan, const Ve
 /// none.
 inline std::uint32_t Manager::find(const Plan& plan, const Vec3<Ned>& point, std::uint32_t near) const {
   const std::uint32_t n = plan.waypoints.count;
-  for (std::uint32_t d = 0; d < n; ++d) {
+  for (std::uint32_t d = 0; d < n || d <= near; ++d) {  // the list may have become shorter than `near`
     if (near + d < n && same_spot(plan.waypoints[near + d].position_m, point)) return near + d;
     if (near >= d && near - d < n && same_spot(plan.waypoints[near - d].position_m, point)) return near - d;
   }
@@ -354,17 +369,28 @@ inline void Manager::measure(const VehicleState& state) {
   if (piece_ + 1 == leg_.count) end_square_m2_ = std::min(end_square_m2_, n * n + e * e);
 }
 
+/// A circuit is complete when the waypoint at which it began is reached again, whatever was put in and taken
+/// out meanwhile.
+inline void Manager::count_lap(const Route& route) {
+  const std::uint32_t id = route.id(item_);
+  if (lap_.begun && (id != 0 ? id == lap_.id : item_ == lap_.item)) {
+    if (lap_.legs > 0) ++progress_.circuits;
+    lap_.legs = 0;
+  } else if (lap_.begun) {
+    ++lap_.legs;
+  } else {
+    lap_ = {true, id, item_, 0};
+  }
+}
+
 inline void Manager::reach(const Route& route, const VehicleState& state) {
   ++progress_.reached;
   progress_.miss_m = std::sqrt(end_square_m2_);
-  if (mode_ == Mode::leg && ++legs_ == route.size()) {
-    legs_ = 0;
-    ++progress_.circuits;
-  }
+  count_lap(route);
   if (!route.closed() && item_ + 1 == route.size()) {
     if (!progress_.finished) ++progress_.circuits;
     progress_.finished = true;
-    legs_ = 0;
+    lap_ = {};
     begin_orbit(route.final_orbit());
     on_orbit_ = true;
     azimuth_rad_ = std::atan2(state.position_m.east - orbit_.east_m, state.position_m.north - orbit_.north_m);

@@ -21,7 +21,8 @@ TEST_CASE("a name is one of the folder, or of the installation wherever one stan
   CHECK(fs::is_regular_file(common));
   CHECK(common.filename() == "common.yaml");
   CHECK(shipped_name(common) == "fulmar:missions/common.yaml");
-  CHECK(shipped_name(common.parent_path() / ".." / "missions" / "common.yaml") == "fulmar:missions/common.yaml");
+  CHECK(shipped_name(common.parent_path() / ".." / "missions" / "common.yaml") ==
+        "fulmar:missions/common.yaml");
   CHECK(shipped_name("/bin/sh") == "");
   CHECK(shipped_name("not/there.yaml") == "");
 }

@@ -16,12 +16,6 @@ using namespace fulmar::core::test;
 
 namespace {
 
-#ifdef FULMAR_SANITIZED
-constexpr double slower = 10;  // a sanitizer looks at every byte
-#else
-constexpr double slower = 1;
-#endif
-
 std::string repeated(const std::string& text, int times) {
   std::string all;
   all.reserve(text.size() * static_cast<std::size_t>(times));
@@ -55,7 +49,7 @@ TEST_CASE("aliases count as what they stand for, in bytes as well") {
   const std::string long_text(100'000, 'x');
   const Read bytes = read("a: &a \"" + long_text + "\"\nb: [" + repeated("*a, ", 400'000) + "]\n");
   CHECK(bytes.said == "file.yaml:2: more than 32 MB of text, each alias counted as what it stands for");
-  CHECK(bytes.seconds < 1 * slower);
+  CHECK(bytes.seconds < 1 * sanitizer_slowdown);
   const Read keys =
       read("a: &a {" + long_text.substr(0, 1000) + ": 1}\nb: [" + repeated("*a, ", 100'000) + "]\n");
   CHECK(keys.said == "file.yaml:2: more than 32 MB of text, each alias counted as what it stands for");
@@ -85,10 +79,10 @@ TEST_CASE("an alias brings its anchor's value, and its line") {
 TEST_CASE("millions of documents or values are refused before they are built") {
   const Read documents = read(repeated("---\n", 4'000'000));
   CHECK(documents.said.ends_with(": a second document begins here; a file holds one"));
-  CHECK(documents.seconds < 5 * slower);
+  CHECK(documents.seconds < 5 * sanitizer_slowdown);
   const Read items = read(repeated("- 1\n", 4'000'000));
   CHECK(items.said.ends_with(": more than 500000 values, each alias counted as what it stands for"));
-  CHECK(items.seconds < 10 * slower);
+  CHECK(items.seconds < 10 * sanitizer_slowdown);
 }
 
 TEST_CASE("too deep is told as that") {
@@ -118,7 +112,7 @@ TEST_CASE("400000 unknown keys are told as the first hundred of them") {
   const Read keys = resolve(text);
   CHECK(keys.said.find("hourglass.yaml:1: unknown key 'unknown0'.") == 0);
   CHECK(keys.said.ends_with("there are more faults than these 100"));
-  CHECK(keys.seconds < 10 * slower);
+  CHECK(keys.seconds < 10 * sanitizer_slowdown);
 }
 
 struct Flood : Read {

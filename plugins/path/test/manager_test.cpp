@@ -121,6 +121,53 @@ TEST_CASE(
   CHECK(flight.fly(100, [&] { return flight.progress().item == 0; }));
 }
 
+TEST_CASE("a detour that is put in and taken out again does not keep the circuit from being complete") {
+  Plan plan = hourglass();
+  for (std::uint32_t i = 0; i < 4; ++i) plan.waypoints[i].id = i + 1;
+  Flight flight(plan);
+  CHECK(flight.fly(100, [&] { return flight.progress().reached == 2; }));
+  Plan longer =
+      plan_of({plan.waypoints[0], plan.waypoints[1], point(-600, 200), point(-700, 100), point(-700, -100),
+               point(-600, -200), point(-500, -400), plan.waypoints[2], plan.waypoints[3]});
+  for (std::uint32_t i = 0; i < 5; ++i) longer.waypoints[2 + i].id = 11 + i;
+  longer.revision = 2;
+  longer.jumps = 2;
+  longer.jump_item = 2;
+  flight.change(longer);
+  CHECK(flight.fly(300, [&] { return flight.progress().item == 7; }));
+  CHECK(flight.progress().circuits == 0);
+  Plan shorter = plan;
+  shorter.revision = 3;
+  shorter.jumps = longer.jumps;
+  flight.change(shorter);
+  flight.step();
+  CHECK(flight.progress().item == 2);
+  flight.passed.clear();
+  CHECK(flight.fly(400, [&] { return flight.progress().circuits == 1; }));
+  // The order to fly to the detour began the circuit anew, and the waypoint where it did is gone.
+  CHECK(flight.passed == std::vector<std::uint32_t>{2, 3, 0, 1, 2});
+  CHECK(flight.fly(400, [&] { return flight.progress().circuits == 2; }));
+  CHECK(flight.passed.size() == 9);
+}
+
+TEST_CASE("waypoints that are put in and taken out before the next do not count in the circuit") {
+  Plan plan = hourglass();
+  for (std::uint32_t i = 0; i < 4; ++i) plan.waypoints[i].id = i + 1;
+  Flight flight(plan);
+  CHECK(flight.fly(100, [&] { return flight.progress().item == 1; }));
+  Plan longer = plan_of(
+      {plan.waypoints[0], plan.waypoints[1], point(-600, -100), plan.waypoints[2], plan.waypoints[3]});
+  longer.waypoints[2].id = 11;
+  longer.revision = 2;
+  flight.change(longer);
+  CHECK(flight.fly(200, [&] { return flight.progress().item == 3; }));
+  plan.revision = 3;
+  flight.change(plan);
+  flight.passed.clear();
+  CHECK(flight.fly(400, [&] { return flight.progress().circuits == 1; }));
+  CHECK(flight.passed == std::vector<std::uint32_t>{2, 3, 0});
+}
+
 TEST_CASE("collinear and reversing legs are passed") {
   Flight collinear(plan_of({point(0, 0), point(230, -55), point(690, -165), point(690, 400)}));
   CHECK(collinear.fly(300, [&] { return collinear.progress().circuits == 1; }));

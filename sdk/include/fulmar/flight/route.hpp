@@ -48,6 +48,7 @@ class Route {
   std::uint32_t size() const { return n_; }
   bool closed() const { return plan_.end == PlanEnd::circuit; }
   double radius_m() const { return std::max(plan_.turn_radius_m, 1.0); }
+  std::uint32_t id(std::uint32_t i) const { return plan_.waypoints[i].id; }
   double height_m(std::uint32_t i) const { return -plan_.waypoints[i].position_m.down; }
   double airspeed_mps(std::uint32_t i) const {
     const double Va = plan_.waypoints[i].airspeed_mps;

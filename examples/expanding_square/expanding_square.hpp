@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Searches round a place in a square that grows, then gives the plan back as it was. The pattern SS of the
+// International Aeronautical and Maritime Search and Rescue Manual, volume II, 5.3: legs of 1, 1, 2, 2, 3, 3
+// ... track spacings, each turned by 90 deg from the one before.
+#pragma once
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <fulmar/msg/notice.hpp>
+#include <fulmar/msg/plan_edit.hpp>
+#include <fulmar/msg/progress.hpp>
+#include <fulmar/msg/vehicle_state.hpp>
+#include <fulmar/plugin.hpp>
+#include <numbers>
+
+using namespace fulmar;
+
+struct ExpandingSquare {
+  static constexpr const char* doc =
+      "An expanding-square search that is put into the plan and taken out again.";
+  static constexpr std::size_t most_corners = 24;
+  struct Inputs {
+    In<VehicleState> state;
+    In<Progress> progress;
+    In<Plan> plan;
+    Queue<PlanEditResult> results;  // what the planner says of our edits, and of others'
+  };
+  struct Outputs {
+    OutQueue<PlanEdit, most_corners + 1> edits;
+    OutQueue<Notice, 2> notices;
+    Probe corners_ratio;  // of the search that were reached
+  };
+  struct Params {
+    Count after{2, 1, 1000, "waypoints before the search"};
+    Param spacing{120, "m", 5, 5000, "between tracks"};
+    Param first_leg{0, "rad", -3.15, 3.15, "course of the first leg"};
+    Count corners{9, 1, most_corners, "of the square"};
+    Flag left{false, "turn left at the corners, in place of right"};
+  };
+
+  /// Corner `k`, from 0, as seen from where the search begins.
+  static Vec3<Ned> corner(std::int64_t k, const Params& p) {
+    Vec3<Ned> at;
+    for (std::int64_t leg = 0; leg <= k; ++leg) {
+      const double length_m = p.spacing * static_cast<double>(1 + leg / 2);
+      const double chi =
+          p.first_leg + (p.left ? -1 : 1) * std::numbers::pi / 2 * static_cast<double>(leg % 4);
+      at = at + length_m * Vec3<Ned>{std::cos(chi), std::sin(chi), 0};
+    }
+    return at;
+  }
+
+  Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
+    for (const auto& sample : in.results) hear(tick, sample.value, out);
+    if (phase_ == Phase::waiting && in.progress->reached >= p.after && in.plan->waypoints.count > 0 &&
+        in.progress->item < in.plan->waypoints.count && in.state->position_valid)
+      begin(tick, in, p, out);
+    if (phase_ == Phase::searching && in.progress->plan_revision >= revision_) search(tick, in, out);
+    out.corners_ratio = static_cast<double>(corners_);
+    return phase_ == Phase::refused ? Status::degraded : Status::ok;
+  }
+
+ private:
+  enum class Phase : std::uint8_t { waiting, asked, searching, tidying, done, refused };
+  static constexpr std::uint32_t begin_group = 1, end_group = 2;
+  static constexpr std::uint32_t first_id = 1000;  // of our edits; others count from 1
+
+  /// All corners before the waypoint that is flown to, and the order to go there: together or not at all.
+  void begin(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
+    count_ = static_cast<std::uint32_t>(p.corners.value);
+    const Waypoint& next = in.plan->waypoints[in.progress->item];
+    PlanEdit edit;
+    edit.group = begin_group;
+    edit.group_size = count_ + 1;
+    edit.kind = PlanEditKind::insert;
+    edit.waypoint_id = next.id;  // an index may have moved until this arrives
+    edit.waypoint.position_m = in.state->position_m;
+    edit.waypoint.position_m.down = next.position_m.down;
+    const Vec3<Ned> datum = edit.waypoint.position_m;
+    for (std::uint32_t k = 0; k < count_; ++k) {
+      edit.id = first_id + k;
+      edit.waypoint.position_m = datum + corner(k, p);
+      out.edits.push(edit, tick.now_ns);
+    }
+    edit.id = first_id + count_;
+    edit.kind = PlanEditKind::set_current;
+    edit.waypoint_id = 0;
+    edit.index = in.progress->item;  // where the first corner is by then
+    out.edits.push(edit, tick.now_ns);
+    phase_ = Phase::asked;
+  }
+
+  void hear(const Tick& tick, const PlanEditResult& result, Outputs& out) {
+    if (result.id < first_id || result.id > first_id + most_corners) return;  // somebody else's
+    if (!result.accepted && (phase_ == Phase::asked || phase_ == Phase::tidying)) {
+      tell(tick, phase_ == Phase::asked ? "search refused" : "the search stays in the plan", result.reason,
+           out);
+      phase_ = Phase::refused;
+      return;
+    }
+    if (phase_ == Phase::asked && result.id < first_id + count_)
+      ids_[result.id - first_id] = result.waypoint_id;
+    if (!result.in_force) return;
+    revision_ = result.revision;
+    if (phase_ == Phase::asked) phase_ = Phase::searching;
+    if (phase_ == Phase::tidying) phase_ = Phase::done;
+  }
+
+  /// How many corners lie behind: all before the one that is flown to. At the end they are taken out.
+  void search(const Tick& tick, const Inputs& in, Outputs& out) {
+    const Plan& plan = *in.plan;
+    if (in.progress->item >= plan.waypoints.count) return;
+    const std::uint32_t to = plan.waypoints[in.progress->item].id;
+    corners_ = count_;
+    for (std::uint32_t k = 0; k < count_; ++k)
+      if (ids_[k] == to) corners_ = k;
+    if (corners_ < count_) return;
+    PlanEdit edit;
+    edit.group = end_group;
+    edit.group_size = count_;
+    edit.kind = PlanEditKind::remove;
+    for (std::uint32_t k = 0; k < count_; ++k) {
+      edit.id = first_id + k;
+      edit.waypoint_id = ids_[k];
+      out.edits.push(edit, tick.now_ns);
+    }
+    phase_ = Phase::tidying;
+  }
+
+  static void tell(const Tick& tick, const char* what, const Text<80>& why, Outputs& out) {
+    std::array<char, 96> words{};
+    std::snprintf(words.data(), words.size(), "%s: %s", what, why.bytes.data());
+    Notice notice;
+    notice.severity = Severity::warning;
+    notice.text = words.data();
+    out.notices.push(notice, tick.now_ns);
+  }
+
+  Phase phase_ = Phase::waiting;
+  std::uint32_t count_ = 0, corners_ = 0, revision_ = 0;
+  std::array<std::uint32_t, most_corners> ids_{};  // of the corners in the plan
+};

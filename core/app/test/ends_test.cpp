@@ -10,6 +10,7 @@
 #include <set>
 #include <thread>
 
+#include "core/dds/test/domain.hpp"
 #include "core/run/test/lab.hpp"
 
 namespace ends_test {
@@ -112,10 +113,12 @@ std::string law(const std::string& fault, const std::string& mode = "") {
 }
 
 /// Much of what a host can have beside the loop.
-const char* const everything =
+const std::string everything =
     "  think: {use: lab/Thinker, run: async, latency: 20 ms, in: {signal: vehicle.signal}}\n"
     "  ticker: {use: lab/Ticker, run: driver}\n"
-    "live: {listen: 127.0.0.1:0}\ndds: {domain: 77, export: [vehicle.signal]}\nrecord: {ports: [\"*\"]}\n";
+    "live: {listen: 127.0.0.1:0}\ndds: {domain: " +
+    std::to_string(fulmar::core::test::own_domain()) +
+    ", export: [vehicle.signal]}\nrecord: {ports: [\"*\"]}\n";
 
 }  // namespace
 

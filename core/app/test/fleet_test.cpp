@@ -11,6 +11,7 @@
 
 #include "core/app/test/hil.hpp"
 #include "core/app/test/hil_log.hpp"
+#include "core/dds/test/domain.hpp"
 #include "fulmar/eigen.hpp"
 #include "fulmar/msg/plan.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
@@ -36,7 +37,6 @@ struct Hosts {
   }
   ~Hosts() { fs::remove_all(folder); }
 
-  static std::string domain() { return std::to_string(1 + getpid() % 200); }
   fs::path log(const std::string& name) const { return folder / (name + ".mcap"); }
   fs::path mission(const std::string& name) const {
     return folder / "configs" / "missions" / (name + ".yaml");
@@ -46,7 +46,7 @@ struct Hosts {
     std::string text = Process::text(mission(name));
     const auto dds = text.find("\ndds:\n");
     REQUIRE(dds != std::string::npos);
-    text.insert(dds + 6, "  domain: " + domain() + "\n");
+    text.insert(dds + 6, "  domain: " + std::to_string(core::test::own_domain()) + "\n");
     std::ofstream(mission(name)) << text << "record: {ports: [" << ports << "]}\n";
   }
   std::unique_ptr<Process> fly(const std::string& name, double seconds,

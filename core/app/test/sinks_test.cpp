@@ -26,6 +26,7 @@
 #include <vector>
 
 #include "core/app/test/standstill.hpp"
+#include "core/dds/test/domain.hpp"
 #include "core/loader/table.hpp"
 #include "core/log/reader.hpp"
 #include "core/types/wire.hpp"
@@ -46,8 +47,6 @@ constexpr std::int64_t tick_ns = 2'500'000;
 constexpr double settled_s = 5, flown_s = 8;  // on the ground before flight time 0, and after it
 constexpr double stall_s =
     2.5;  // a busy machine keeps a thread waiting for a while; each trouble lasts longer than this
-
-int domain() { return 1 + static_cast<int>(getpid() % 200); }
 
 std::uint16_t free_port() {
   const int fd = socket(AF_INET, SOCK_STREAM, 0);
@@ -72,7 +71,7 @@ class Running {
            "/configs/missions/common.yaml\nairframe: " FULMAR_SOURCE_DIR
            "/configs/airframes/anaconda.yaml\norigin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\n"
            "record: {ports: [\"*\"]}\ndds: {domain: "
-        << domain()
+        << test::own_domain()
         << ", export: [nav.state, vehicle.imu, inner.actuators], import: {plan.edits: /plan_edits}}\n"
         << "components:\n  sim: {params: {sensors: rosflight, turbulence: light, truth_rate: 400 Hz}}\n"
            "  plan: {params: {plan: " FULMAR_SOURCE_DIR "/configs/plans/hourglass.yaml}}\n";
@@ -227,8 +226,8 @@ void check_others_whole(const json& result, bool live, bool dds) {
 class Peer {
  public:
   Peer(const std::string& what, const std::string& words)
-      : pipe_(popen((FULMAR_BIN_DIR "/dds_peer " + what + " " + std::to_string(domain()) + " " + words +
-                     " 2>/dev/null")
+      : pipe_(popen((FULMAR_BIN_DIR "/dds_peer " + what + " " + std::to_string(test::own_domain()) + " " +
+                     words + " 2>/dev/null")
                         .c_str(),
                     "r")) {
     REQUIRE(pipe_ != nullptr);

@@ -9,9 +9,9 @@
 
 namespace fulmar::core::test {
 
-/// Two tests in one domain answer each other's services and fill each other's queues. The lock is a TCP port among
-/// those of the domain (RTPS 2.5, 9.6.2.3: 7400 + 250 domain) that no participant takes; domains above 100 have theirs
-/// among those that the kernel hands out to anybody.
+/// Two tests in one domain answer each other's services and fill each other's queues. The lock is a TCP port
+/// among those of the domain (RTPS 2.5, 9.6.2.3: 7400 + 250 domain) that no participant takes; domains above
+/// 100 have theirs among those that the kernel hands out to anybody.
 inline int own_domain() {
   static const int domain = [] {
     constexpr int domains = 100;
@@ -22,7 +22,8 @@ inline int own_domain() {
       at.sin_family = AF_INET;
       at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
       at.sin_port = htons(static_cast<std::uint16_t>(7400 + 250 * candidate + 249));
-      if (lock >= 0 && bind(lock, reinterpret_cast<sockaddr*>(&at), sizeof at) == 0) return candidate;  // kept open
+      if (lock >= 0 && bind(lock, reinterpret_cast<sockaddr*>(&at), sizeof at) == 0)
+        return candidate;  // kept open
       if (lock >= 0) close(lock);
     }
     throw std::runtime_error("every DDS domain is in use");

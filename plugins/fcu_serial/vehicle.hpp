@@ -17,6 +17,7 @@
 #include "fulmar/plugin.hpp"
 #include "greeting.hpp"
 #include "link_report.hpp"
+#include "overload.hpp"
 #include "pace.hpp"
 #include "parameter_book.hpp"
 #include "readiness.hpp"
@@ -175,6 +176,7 @@ class Vehicle {
     LinkReport report;
     Readiness readiness;
     FixWatch fixes;
+    Overload overload;
     Spoken spoken;
     VehicleStatus status;  ///< last published
     Rc rc;
@@ -239,7 +241,9 @@ class Vehicle {
 
   bool take_imu(const Received& r, Outputs& out) {
     const std::int64_t valid_ns = std::min(r.valid_at_ns, r.arrived_ns);
-    if (valid_ns <= run_.imu_valid_ns || link_->now_ns() - r.arrived_ns > backlog_ns) return false;
+    const bool too_old = link_->now_ns() - r.arrived_ns > backlog_ns;
+    run_.overload.sample(too_old);
+    if (valid_ns <= run_.imu_valid_ns || too_old) return false;
     const auto imu = to_imu(r.packet.template as<SmallImu>());
     if (!usable(imu.has_value(), kind_imu, "inertial unit")) return false;
     run_.imu_valid_ns = valid_ns;
@@ -313,6 +317,7 @@ class Vehicle {
     run_.heard.open = last_frame_.fd >= 0;
     const VehicleStatus s = evaluate(run_.heard, run_.now_ns);
     run_.teller.tell(s, run_.heard, run_.now_ns, run_.notices);
+    run_.overload.tell(run_.now_ns, run_.notices);
     run_.fixes.tell(run_.spoken.fix_ns, (s.errors & own_error_link_down) == 0, s.armed, run_.now_ns,
                     run_.notices);
     const bool known = run_.heard.status_ns != never_ns;

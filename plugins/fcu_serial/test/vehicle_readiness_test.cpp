@@ -365,6 +365,34 @@ TEST_CASE("a computer that stood still says so, and for how long") {
   CHECK(times(f, "stood still") == 1);
 }
 
+TEST_CASE("a computer that is too slow for its laws says so, again, and when it keeps up") {
+  Flying f;
+  cruising(f);
+  const auto slow_for = [&f](double seconds, std::int64_t step_ns) {
+    const std::int64_t end = f.world.now_ns + static_cast<std::int64_t>(seconds * 1e9);
+    while (f.world.now_ns < end) {
+      f.tick();
+      f.world.run(f.world.now_ns + step_ns, false);  // what the laws take: samples come each 2.5 ms
+    }
+  };
+  slow_for(5, 2'000'000);
+  CHECK(f.told.find("too slow") == std::string::npos);
+  slow_for(3.5, 5'000'000);
+  CHECK(
+      times(f, "this computer is too slow: 50 % of the inertial samples are too old when it comes to them") +
+          times(
+              f,
+              "this computer is too slow: 49 % of the inertial samples are too old when it comes to them") ==
+      1);
+  slow_for(20, 30'000'000);
+  CHECK(times(f, "too slow") == 3);
+  f.fly(3);
+  CHECK(times(f, "this computer keeps up again") == 1);
+  CHECK(times(f, "stood still") == 0);
+  f.fly(10);
+  CHECK(times(f, "too slow") == 3);
+}
+
 TEST_CASE(
     "a fix that is lost on the ground is none, though the position is still known; in the air it goes on") {
   Flying f;

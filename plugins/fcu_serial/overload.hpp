@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A computer that is too slow for its laws: inertial samples that were too old to fly by when the loop came to
+// them. One that stands still once is told of by how long; this is one that never catches up.
+#pragma once
+#include <cstdint>
+
+#include "words.hpp"
+
+namespace fulmar::fcu {
+
+class Overload {
+ public:
+  void sample(bool too_old) {
+    ++samples_;
+    if (too_old) ++too_old_;
+  }
+  /// Told in the second such second, again every ten, and when it is over.
+  void tell(std::int64_t now_ns, Notices& out) {
+    if (now_ns - since_ns_ < second_ns) return;
+    const std::int64_t percent = samples_ > 0 ? 100 * too_old_ / samples_ : 0;
+    since_ns_ = now_ns;
+    samples_ = too_old_ = 0;
+    const bool slow = percent >= worth_saying_percent;
+    seconds_ = slow ? seconds_ + 1 : 0;
+    if (told_ && !slow) {
+      out.say(fulmar::Severity::warning, "this computer keeps up again");
+      told_ = false;
+    }
+    if (seconds_ % 10 != 2) return;
+    told_ = true;
+    out.say(fulmar::Severity::critical, Line() << "this computer is too slow: " << percent
+                                               << " % of the inertial samples are too old when it comes to them");
+  }
+
+ private:
+  static constexpr std::int64_t second_ns = 1'000'000'000;
+  static constexpr std::int64_t worth_saying_percent = 10;
+  std::int64_t since_ns_ = 0, samples_ = 0, too_old_ = 0;
+  std::int64_t seconds_ = 0;  ///< in a row
+  bool told_ = false;
+};
+
+}  // namespace fulmar::fcu

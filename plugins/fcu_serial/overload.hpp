@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A computer that is too slow for its laws: inertial samples that were too old to fly by when the loop came to
-// them. One that stands still once is told of by how long; this is one that never catches up.
+// A computer that is too slow for its laws: inertial samples that were too old to fly by when the loop came
+// to them. One that stands still once is told of by how long; this is one that never catches up.
 #pragma once
 #include <cstdint>
 
@@ -28,8 +28,9 @@ class Overload {
     }
     if (seconds_ % 10 != 2) return;
     told_ = true;
-    out.say(fulmar::Severity::critical, Line() << "this computer is too slow: " << percent
-                                               << " % of the inertial samples are too old when it comes to them");
+    out.say(fulmar::Severity::critical,
+            Line() << "this computer is too slow: " << percent
+                   << " % of the inertial samples are too old when it comes to them");
   }
 
  private:

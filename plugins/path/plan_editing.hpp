@@ -4,6 +4,7 @@
 #pragma once
 #include <algorithm>
 #include <charconv>
+#include <cstdio>
 
 #include "planner.hpp"
 
@@ -222,6 +223,8 @@ inline const char* Planner::fault_of(const Waypoint& w) const {
     return "a coordinate is not finite";
   if (std::hypot(p.north, p.east) > farthest_m || std::abs(p.down) > farthest_m)
     return "more than 100 km from the origin";
+  const bool placed = !geodetic || origin_known_;
+  if (placed && -p.down < lowest_m_) return "lower than the planner allows: its parameter 'lowest'";
   if (!std::isfinite(w.course_rad)) return "the course is not finite";
   if (!(w.airspeed_mps >= 0 && w.airspeed_mps < 1000)) return "the airspeed is negative or not finite";
   return nullptr;
@@ -251,6 +254,21 @@ inline void Planner::resolve(Waypoint& w) const {
   if (w.frame == WaypointFrame::geodetic && origin_known_ && std::abs(w.latitude_deg) <= 90 &&
       std::isfinite(w.longitude_deg)) {
     w.position_m = from_eigen<Ned>(frame_.to_ned(w.latitude_deg, w.longitude_deg, w.altitude_m));
+  }
+}
+
+/// Geodetic waypoints had no height above the origin until now. A plan with one too low is not published.
+inline void Planner::tell_unflyable(const Tick& tick, Outputs& out) {
+  for (std::uint32_t i = 0; i < plan_.waypoints.count; ++i) {
+    const char* const fault = fault_of(plan_.waypoints[i]);
+    if (!fault) continue;
+    Notice notice;
+    notice.severity = Severity::error;
+    std::array<char, 96> words{};
+    std::snprintf(words.data(), words.size(), "waypoint %u of the plan: %s", i + 1, fault);
+    fit_words(words.data(), notice.text.bytes.data(), notice.text.bytes.size());
+    out.notices.push(notice, tick.now_ns);
+    return;
   }
 }
 

@@ -34,6 +34,12 @@ struct Planner {
   struct Params {
     Record<PlanFile> plan{"waypoints; without it the plan begins empty"};
     Record<Origin> origin{"of the local frame"};
+    Param lowest{1,
+                 "m",
+                 -1e4,
+                 1e4,
+                 "above the origin: lower waypoints are refused; less where the ground falls away",
+                 setup};
   };
 
   void configure(const Params& p);
@@ -69,8 +75,11 @@ struct Planner {
   bool resolved() const;
   void know_origin(double lat_deg, double lon_deg, double alt_m);
 
+  void tell_unflyable(const Tick& tick, Outputs& out);
+
   Plan plan_;
   Group group_;
+  double lowest_m_ = 0;
   LocalFrame frame_;
   bool origin_known_ = false;
   bool changed_ = true;        // the plan has not been published as it is now
@@ -116,6 +125,7 @@ inline void Planner::configure(const Params& p) {
   if (p.plan->given && p.plan->waypoints.size() == 0)
     throw std::runtime_error(
         "the plan has no waypoints; to change one thing in a plan, name it, as in plan.turn_radius");
+  lowest_m_ = p.lowest;
   auto plan = std::make_unique<Plan>();
   plan->revision = plan_.revision;
   plan->jumps = plan_.jumps + 1;
@@ -145,6 +155,7 @@ inline void Planner::configure(const Params& p) {
 inline Status Planner::step(const Tick& tick, const Inputs& in, const Params&, Outputs& out) {
   if (!origin_known_ && in.state && in.state->origin_valid) {
     know_origin(in.state->origin_latitude_deg, in.state->origin_longitude_deg, in.state->origin_altitude_m);
+    tell_unflyable(tick, out);
   }
   refused_ += in.edits.lost();
   if (in.edits.lost() > 0 && !group_.by_request) drop_group(tick, "edits were lost on the way", out);

@@ -54,9 +54,18 @@ def _accept(self):
     self._verdict = 1
 
 
+def _fitting(words, room):
+    """As fit_words() of the SDK: what does not fit ends in dots behind a whole word or character."""
+    if len(words) < room:
+        return words
+    cut = words[: room - 4].decode(errors="ignore")
+    head, _, _ = (cut + words[room - 4 : room - 3].decode(errors="ignore")).rpartition(" ")
+    return (head if len(head.encode()) > room // 2 else cut).encode() + b"..."
+
+
 def _refuse(self, reason):
     self._verdict = 2
-    self._reason = reason.encode()[:123]
+    self._reason = _fitting(reason.encode(), 124)
 
 
 def _publish(self, message=None, valid_at_ns=None):

@@ -25,6 +25,17 @@ struct Gains {
   double roll_ratio = 1;
 };
 
+const std::string long_reason = [] {
+  std::string text = "because";
+  while (text.size() < 300) text += " of words";
+  return text;
+}();
+const std::string long_word = [] {
+  std::string text;
+  while (text.size() < 300) text += "\xc3\xbc";  // a letter of two bytes
+  return text;
+}();
+
 struct Everything {
   static constexpr const char* doc = "Uses every kind of port and parameter.";
   struct Inputs {
@@ -68,7 +79,11 @@ struct Everything {
     if (in.attitude.fresh()) out.wish.publish(*in.attitude, tick.now_ns - 5);
     for (const auto& sample : in.edits) out.made.push(sample.value, sample.valid_at_ns);
     for (auto request : in.edit) {
-      if (request.value().index > 3)
+      if (request.value().index == 100)
+        request.refuse(long_reason);
+      else if (request.value().index == 101)
+        request.refuse(long_word);
+      else if (request.value().index > 3)
         request.refuse("there is no waypoint " + std::to_string(request.value().index));
       else
         request.accept();
@@ -209,6 +224,24 @@ TEST_CASE("a step reads inputs, answers requests and publishes") {
   CHECK_FALSE(bench.out.wish.written);
   CHECK(bench.out.made.count == 0);
   CHECK(bench.component().last_dt == doctest::Approx(0.02));
+}
+
+TEST_CASE("a reason that is too long ends in dots, behind a whole word or a whole character") {
+  Bench<Everything> bench;
+  bench.set(bench.in.state, VehicleState{});
+  PlanEdit edit;
+  edit.index = 100;
+  bench.push(bench.in.edit, edit);
+  edit.index = 101;
+  bench.push(bench.in.edit, edit);
+  REQUIRE(bench.step(0.01) == Status::ok);
+  const std::string cut = bench.answer(bench.in.edit, 0), word = bench.answer(bench.in.edit, 1);
+  CHECK(cut.size() > 110);
+  CHECK(cut.size() < 124);
+  CHECK(cut.ends_with("..."));
+  CHECK(long_reason[cut.size() - 3] == ' ');
+  CHECK(long_reason.starts_with(cut.substr(0, cut.size() - 3)));
+  CHECK(word == long_word.substr(0, 120) + "...");  // 60 letters of two bytes
 }
 
 TEST_CASE("what a component throws arrives as text, and nothing crosses") {

@@ -43,20 +43,21 @@ std::vector<std::pair<std::string, std::string>> large_messages() {
     return R"({"id":)" + std::to_string(i) + R"(,"topic":"x","encoding":"cdr","schemaName":""})";
   };
   const auto id = [](int i) { return std::to_string(i); };
-  return {{"wrong names", filled(R"({"op":"getParameters","parameterNames":[)", wrong, "]}")},
-          {"one name again and again", filled(R"({"op":"getParameters","parameterNames":[)", right, "]}")},
-          {"wrong watches", filled(R"({"op":"subscribeParameterUpdates","parameterNames":[)", wrong, "]}")},
-          {"one watch", filled(R"({"op":"subscribeParameterUpdates","parameterNames":[)", right, "]}")},
-          {"watches ended", filled(R"({"op":"unsubscribeParameterUpdates","parameterNames":[)", wrong, "]}")},
-          {"sets", filled(R"({"op":"setParameters","parameters":[)", set("slc.roll_kp"), "]}")},
-          {"wrong sets", filled(R"({"op":"setParameters","parameters":[)", set("slc.roll_kb"), "]}")},
-          {"subscriptions", filled(R"({"op":"subscribe","subscriptions":[)", subscription, "]}")},
-          {"ends of them", filled(R"({"op":"unsubscribe","subscriptionIds":[)", id, "]}")},
-          {"channels", filled(R"({"op":"advertise","channels":[)", channel, "]}")},
-          {"ends of channels", filled(R"({"op":"unadvertise","channelIds":[)", id, "]}")},
-          {"depth", R"({"op":"getParameters","parameterNames":)" + std::string(400'000, '[') +
-                        std::string(400'000, ']') + "}"},
-          {"one long name", R"({"op":"getParameters","parameterNames":[")" + std::string(900'000, 'x') + "\"]}"}};
+  return {
+      {"wrong names", filled(R"({"op":"getParameters","parameterNames":[)", wrong, "]}")},
+      {"one name again and again", filled(R"({"op":"getParameters","parameterNames":[)", right, "]}")},
+      {"wrong watches", filled(R"({"op":"subscribeParameterUpdates","parameterNames":[)", wrong, "]}")},
+      {"one watch", filled(R"({"op":"subscribeParameterUpdates","parameterNames":[)", right, "]}")},
+      {"watches ended", filled(R"({"op":"unsubscribeParameterUpdates","parameterNames":[)", wrong, "]}")},
+      {"sets", filled(R"({"op":"setParameters","parameters":[)", set("slc.roll_kp"), "]}")},
+      {"wrong sets", filled(R"({"op":"setParameters","parameters":[)", set("slc.roll_kb"), "]}")},
+      {"subscriptions", filled(R"({"op":"subscribe","subscriptions":[)", subscription, "]}")},
+      {"ends of them", filled(R"({"op":"unsubscribe","subscriptionIds":[)", id, "]}")},
+      {"channels", filled(R"({"op":"advertise","channels":[)", channel, "]}")},
+      {"ends of channels", filled(R"({"op":"unadvertise","channelIds":[)", id, "]}")},
+      {"depth", R"({"op":"getParameters","parameterNames":)" + std::string(400'000, '[') +
+                    std::string(400'000, ']') + "}"},
+      {"one long name", R"({"op":"getParameters","parameterNames":[")" + std::string(900'000, 'x') + "\"]}"}};
 }
 
 /// Sends a message, and reads what is answered, until told to stop.
@@ -101,8 +102,7 @@ TEST_CASE_FIXTURE(Fixture, "while one client sends messages of a megabyte, anoth
                                     other.say(R"({"op":"getParameters","parameterNames":["slc.on"]})");
                                     other.next("parameterValues");
                                   }));
-      longest_entry_s =
-          std::max(longest_entry_s, seconds_of([&] { Client(*this).next("serverInfo"); }));
+      longest_entry_s = std::max(longest_entry_s, seconds_of([&] { Client(*this).next("serverInfo"); }));
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     CHECK(talker.sent() > 0);

@@ -257,6 +257,42 @@ TEST_CASE("a waypoint that is put in just before the one to jump to is not jumpe
   CHECK(plan.waypoints[plan.jump_item].position_m.north == 300);
 }
 
+TEST_CASE("a waypoint in the ground is refused, in a file, in an edit, and when the origin becomes known") {
+  Bench<Planner> bench;
+  three_waypoints(bench);
+  bench.params.plan.value.waypoints[1].up_m = -70;
+  CHECK(bench.configure() == Status::failed);
+  CHECK(bench.error() == "waypoint 2 of the plan: lower than the planner allows: its parameter 'lowest'");
+  bench.params.lowest.value = -100;  // beside a cliff
+  CHECK(bench.configure() == Status::ok);
+
+  Bench<Planner> air;
+  three_waypoints(air);
+  REQUIRE(air.configure() == Status::ok);
+  air.push(air.in.edit, PlanEdit{});  // an append that says no place
+  air.step(0.01);
+  CHECK(air.answer(air.in.edit, 0) == "lower than the planner allows: its parameter 'lowest'");
+  CHECK(air.out.plan.value.waypoints.count == 3);
+
+  Bench<Planner> map;
+  map.params.plan.value.waypoints.push_back(geodetic(40.25, -111.65, 1457));
+  map.params.plan.value.waypoints.push_back(geodetic(40.26, -111.65, 1357));
+  REQUIRE(map.configure() == Status::ok);  // above what is not known yet
+  VehicleState state;
+  state.origin_latitude_deg = 40.2463724;
+  state.origin_longitude_deg = -111.6474138;
+  state.origin_altitude_m = 1387;
+  state.origin_valid = true;
+  map.set(map.in.state, state);
+  CHECK(map.step(0.01) == Status::degraded);
+  CHECK_FALSE(map.out.plan.written);
+  REQUIRE(map.out.notices.count == 1);
+  CHECK(map.out.notices.items[0].text.view() ==
+        "waypoint 2 of the plan: lower than the planner allows: its parameter 'lowest'");
+  map.step(0.01);
+  CHECK(map.out.notices.count == 0);
+}
+
 TEST_CASE("too high is as far away as too deep") {
   Bench<Planner> bench;
   for (const double down : {-1.1e5, 1.1e5}) {

@@ -87,8 +87,10 @@ class Law:
         if len(inp.edits) == 1:
             out.copies.push(f.PlanEdit(index=77))
         for ask in inp.edit:
-            if ask.kind == f.PlanEdit.Kind.remove:
+            if ask.kind == f.PlanEdit.Kind.remove and ask.index == 11:
                 ask.refuse("nothing is removed here")
+            elif ask.kind == f.PlanEdit.Kind.remove:
+                ask.refuse("\u00fc" * 100 + " of" * 100)
             else:
                 ask.accept()
                 out.told.publish(ask, 5)
@@ -124,6 +126,12 @@ class Law:
   CHECK(answers[0].verdict == FULMAR_ACCEPTED);
   CHECK(answers[1].verdict == FULMAR_REFUSED);
   CHECK(std::string(answers[1].reason) == "nothing is removed here");
+
+  edits[0].kind = PlanEditKind::remove;
+  REQUIRE(law.step() == FULMAR_OK);
+  const std::string cut = answers[0].reason;
+  CHECK(cut.size() == 123);
+  CHECK(cut.ends_with("\xc3\xbc..."));
 }
 
 TEST_CASE("parameters of every kind arrive, and change with a retune") {

@@ -31,6 +31,22 @@ struct Text {
   friend constexpr bool operator==(const Text& a, const Text& b) { return a.view() == b.view(); }
 };
 
+/// Copies words that people read into `room` bytes, with a zero at the end. What does not fit ends in dots
+/// behind a whole word, or a whole character of UTF-8.
+inline void fit_words(std::string_view words, char* text, std::size_t room) {
+  const bool fits = words.size() < room;
+  std::size_t end = fits ? words.size() : room - 4;  // three dots and the zero
+  if (!fits) {
+    std::size_t word = end;
+    while (word > room / 2 && words[word] != ' ') --word;
+    if (words[word] == ' ') end = word;  // else one long word
+    while (end > 0 && (static_cast<unsigned char>(words[end]) & 0xc0) == 0x80) --end;
+  }
+  std::copy_n(words.begin(), end, text);
+  for (std::size_t i = 0; !fits && i < 3; ++i) text[end++] = '.';
+  text[end] = '\0';
+}
+
 /// At most N items; only the first `count` are there, logged and sent.
 template <class T, std::size_t N>
 struct List {

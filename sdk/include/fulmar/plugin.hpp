@@ -95,8 +95,9 @@ struct Queue {
   }  ///< samples that found no room since the last step
 };
 
-/// Questions from outside or from another component, each to be answered in the step that sees it: `for (auto
-/// request : in.edit)`. What is not answered counts as refused.
+/// Questions, each to be answered in the step that sees it: `for (auto request : in.edit)`. What is not
+/// answered counts as refused. Who asks from outside hears the answer; a component that feeds a request hears
+/// none: what it has to know, a port of the answering component says, as `plan.results` does.
 template <class T>
 struct Request {
   const fulmar_input* input = nullptr;
@@ -106,11 +107,10 @@ struct Request {
     fulmar_answer& answer;
     const T& value() const { return asked; }
     void accept() const { answer.verdict = FULMAR_ACCEPTED; }
+    /// The reason is told in some 120 bytes; a longer one ends in dots.
     void refuse(std::string_view reason) const {
       answer.verdict = FULMAR_REFUSED;
-      const std::size_t n = std::min(reason.size(), sizeof answer.reason - 1);
-      std::memcpy(answer.reason, reason.data(), n);
-      answer.reason[n] = '\0';
+      fit_words(reason, answer.reason, sizeof answer.reason);
     }
   };
   struct Iterator {

@@ -12,7 +12,8 @@ enum class PlanSetting : std::uint8_t { none, end, turn_radius, airspeed };
 inline constexpr std::uint32_t no_waypoint = 0xffffffff;  ///< an index that no plan has
 
 /// One change of the plan. `index` counts from 0; append and clear ignore it. `set_current`: fly to waypoint
-/// `index` at once. A waypoint is named by its index, or, where `waypoint_id` is not 0, by its id: then
+/// `index` at once; what is inserted before the waypoint that is flown to is flown in the next circuit unless
+/// that follows. A waypoint is named by its index, or, where `waypoint_id` is not 0, by its id: then
 /// `index` is not looked at.
 struct PlanEdit {
   PlanEditKind kind = PlanEditKind::append;

@@ -24,6 +24,16 @@ std::string words(const nlohmann::json& value) {
   return (value.is_string() ? value.get<std::string>() : value.dump()).substr(0, 40);
 }
 
+/// A figure that one of the two does not have: there it is none.
+void add_missing(const nlohmann::json& has, const nlohmann::json& lacks, const std::string& path, bool before,
+                 FigureChanges& found) {
+  for (const auto& [key, value] : has.items()) {
+    if (lacks.contains(key) || !value.is_primitive() || value.is_null()) continue;
+    const nlohmann::json none;
+    found.changed.push_back({path + "." + key, before ? value : none, before ? none : value});
+  }
+}
+
 void walk(const nlohmann::json& before, const nlohmann::json& after, const std::string& path,
           FigureChanges& found) {
   for (const auto& [key, now] : after.items()) {
@@ -39,6 +49,9 @@ void walk(const nlohmann::json& before, const nlohmann::json& after, const std::
         found.changed.push_back({name, was, now});
     }
   }
+  if (path.empty()) return;  // what a log and a result say of themselves
+  add_missing(before, after, path, true, found);
+  add_missing(after, before, path, false, found);
 }
 
 std::string line_of(const FigureChanges::Change& c) {

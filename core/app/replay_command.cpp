@@ -12,6 +12,7 @@
 #include "core/app/compare.hpp"
 #include "core/app/report.hpp"
 #include "core/log/log_file.hpp"
+#include "core/log/out_file.hpp"
 #include "core/replay/replay.hpp"
 #include "core/say.hpp"
 
@@ -168,6 +169,7 @@ int experiment(const Recording& recording, const ReplayWords& words, json& out) 
 
 int run(const ReplayWords& words, json& out) {
   check_log_file(words.log);
+  if (!words.out.empty()) OutFile::refuse(words.out);  // before anything flies
   const Recording recording(words.log);
   if (!words.changes.record.empty()) {
     if (words.out.empty()) throw Error("--record needs --log FILE: the replay's own log holds more");

@@ -89,6 +89,7 @@ bool Flight::Impl::reset_guard(int component) {
   unit.stopped = false;
   unit.overruns_in_a_row = 0;
   unit.fresh_start = true;
+  roles.fly_again(component);
   return true;
 }
 

@@ -156,6 +156,7 @@ void Roles::stop(int component, Code code) {
   guards.push_back({state_.now_ns, name, what, "held"});
   const std::size_t guard = guards.size() - 1;
   fall_back(component, guard);
+  end_tenures([component](int who, int) { return who == component; });
   tell_blind("done", state_.graph.done.get(), component);
   tell_blind("failed", state_.graph.failed.get(), component);
   tell_blind(state_.graph.any, component);
@@ -170,6 +171,7 @@ void Roles::nobody_flies(const std::string& name, const std::string& what) {
   put(why.cause, what);
   say(why, "failsafe: %s: %s", name.c_str(), what.c_str());
   end_.failsafe(why);
+  end_tenures([this](int, int role) { return nth(drives_vehicle_, role); });
 }
 
 /// What the vehicle obeys has stopped coming, though nobody in a role was stopped: a component without one
@@ -275,16 +277,29 @@ void Roles::rest(Unit& unit) noexcept {
 
 /// From now on another one fills the role.
 void Roles::note_tenure(int role) {
-  const std::string& name = nth(state_.graph.roles, role).name;
-  std::vector<Tenure>& tenures = state_.result.tenures;
-  for (Tenure& tenure : tenures)
-    if (tenure.role == name && tenure.to_ns == never_ns) tenure.to_ns = state_.now_ns;
-  tenures.push_back({name, wiring_.unit(active(role)).component->name, state_.now_ns, never_ns});
+  end_tenures([role](int, int of) { return of == role; });
+  state_.result.tenures.push_back({nth(state_.graph.roles, role).name,
+                                   wiring_.unit(active(role)).component->name, state_.now_ns, never_ns});
+}
+
+/// Of those for whom `ends(component, role)`: who fills a role and was stopped does not fly any more.
+template <class Ends>
+void Roles::end_tenures(const Ends& ends) {
+  for (std::size_t r = 0; r < active_.size(); ++r) {
+    const int role = static_cast<int>(r);
+    if (!ends(active_[r], role)) continue;
+    for (Tenure& tenure : state_.result.tenures)
+      if (tenure.role == state_.graph.roles[r].name && tenure.to_ns == never_ns) tenure.to_ns = state_.now_ns;
+  }
+}
+
+void Roles::fly_again(int component) {
+  for (std::size_t r = 0; r < active_.size(); ++r)
+    if (active_[r] == component) note_tenure(static_cast<int>(r));
 }
 
 void Roles::conclude() {
-  for (Tenure& tenure : state_.result.tenures)
-    if (tenure.to_ns == never_ns) tenure.to_ns = state_.now_ns;
+  end_tenures([](int, int) { return true; });
 }
 
 std::string Roles::idle_role() const {

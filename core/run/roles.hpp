@@ -54,6 +54,8 @@ class Roles {
   /// Who flew when, up to now; and when nobody has ever commanded the vehicle, the first role that nothing
   /// has come from.
   void conclude();
+  /// A guard was reset: it fills its roles again.
+  void fly_again(int component);
   std::string idle_role() const;
 
  private:
@@ -64,6 +66,8 @@ class Roles {
   bool take_over(int component, const Assignment& assignment);
   void occupy(int component);
   void note_tenure(int role);
+  template <class Ends>
+  void end_tenures(const Ends& ends);
   void rest(Unit& unit) noexcept;
   void keep_groups_whole();
   bool fills_any(int component) const noexcept;

@@ -147,6 +147,18 @@ void Flight::Impl::swap(int at, const std::string& file) {
 
 namespace {
 
+/// The first output that one of the two has and the other has not, or not so.
+std::string what_differs(const Component& was, const Component& is) {
+  for (const Port& port : is.info().outputs)
+    if (was.info().output(port.name) < 0) return "the new file has an output '" + port.name + "' more";
+  for (const Port& port : was.info().outputs)
+    if (is.info().output(port.name) < 0) return "the new file has no output '" + port.name + "'";
+  for (const Port& port : was.info().outputs)
+    if (port.type && nth(is.info().outputs, is.info().output(port.name)).type->hash != port.type->hash)
+      return "the message of its output '" + port.name + "' has changed";
+  return "its outputs are not those that it had";
+}
+
 /// The log of a flight has room for the ports that it began with.
 void check_ports(const Component& was, const Component& is) {
   for (const Port& port : was.info().outputs) {
@@ -154,8 +166,8 @@ void check_ports(const Component& was, const Component& is) {
     if (k >= 0 && was.info().outputs.size() == is.info().outputs.size() &&
         (!port.type || nth(is.info().outputs, k).type->hash == port.type->hash))
       continue;
-    throw Error(was.name + ": its outputs are not those of " + was.plugin->file +
-                ", and the log of this flight has room for those alone");
+    throw Error(was.name + ": " + what_differs(was, is) +
+                "; what leaves a flight is settled when it begins. Start it anew, or fly with --watch");
   }
   if (!same_entrances(was, is))
     throw Error(was.name + ": its requests and imported inputs are not those of " + was.plugin->file +

@@ -115,7 +115,8 @@ bool fits(const std::string& source, const Contract& contract) {
   const auto given =
       std::count_if(contract.inputs.begin(), contract.inputs.end(),
                     [&](const ContractInput& input) { return there(in, input.name, input.type->name); });
-  return wanted == given &&
+  // one that the mission's role brings beside them would be left out without a word
+  return wanted == given && given == std::ssize(contract.inputs) &&
          std::all_of(contract.outputs.begin(), contract.outputs.end(), [&](const ContractOutput& output) {
            return output.optional || there(out, output.name, output.type_name);
          });

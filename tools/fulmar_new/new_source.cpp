@@ -126,8 +126,8 @@ class SourceWriter {
     }
     if (!passed.empty())
       text +=
-          "    // What the shipped component says. When it has served, remove it here and in "
-          "mission.yaml.\n" +
+          "    // What the shipped component says. When it has served, remove it here, in the test and in\n"
+          "    // mission.yaml.\n" +
           passed;
     text += "  };\n  struct Outputs {\n";
     for (const ContractOutput& output : c_.outputs)

@@ -105,6 +105,16 @@ TEST_CASE("a flight is flown again from its log alone, to the same file") {
   CHECK(contents(log).size() > 100'000);
 }
 
+TEST_CASE("a replay's log that is in the way is refused before anything flies") {
+  const fs::path log = fresh("way.mcap"), other = fresh("in-the-way.mcap");
+  CHECK(run_fulmar("run " + hourglass + " --duration 2 --log " + log.string()).first == 0);
+  std::ofstream(other) << "mine";
+  const auto [code, out] = run_fulmar("replay " + log.string() + " --log " + other.string());
+  CHECK(code == 4);
+  CHECK(out.find("equal") == std::string::npos);
+  CHECK(contents(other) == "mine");
+}
+
 TEST_CASE("a flight that nobody armed is flown again so") {
   const fs::path log = fresh("unarmed.mcap");
   CHECK(run_fulmar("run " + hourglass + " --arm off --duration 2 --log " + log.string()).first == 0);

@@ -133,6 +133,14 @@ TEST_CASE("a flight in which a guard fired says so, and who flew when; strict sc
                    "  law: two                      1.0 s to 2.0 s\n") != std::string::npos);
 }
 
+TEST_CASE("who was stopped does not fly until the failsafe is over") {
+  const Ended r = fly("--json", broken, "{}", "{law: one}");
+  const json flew = json::parse(r.out)["who_flew"];
+  REQUIRE(flew["law"].size() == 1);
+  CHECK(flew["law"][0] == json{{"component", "one"}, {"from_s", -1.0}, {"to_s", 1.0}});
+  CHECK(flew["sense"][0]["to_s"].get<double>() > 1);  // it goes on
+}
+
 TEST_CASE("a flight that failed is failed, strict or not") {
   const Ended r = fly("--json --strict", broken, "{}", "{law: one}");
   CHECK(r.code == 1);

@@ -51,6 +51,23 @@ constexpr Vec3<Frame> operator-(const Vec3<Frame>& a, const Vec3<Frame>& b) {
   const auto& [b0, b1, b2] = b;
   return {a0 - b0, a1 - b1, a2 - b2};
 }
+namespace detail {
+template <class A, class B>
+constexpr Vec3<A> mixed_frames() {
+  static_assert(std::is_same_v<A, B>,
+                "a vector in NED and one in body axes do not add: turn one of them first, to_ned(q, v) or "
+                "to_body(q, v)");
+  return {};
+}
+}  // namespace detail
+template <class A, class B>
+constexpr Vec3<A> operator+(const Vec3<A>&, const Vec3<B>&) {
+  return detail::mixed_frames<A, B>();
+}
+template <class A, class B>
+constexpr Vec3<A> operator-(const Vec3<A>&, const Vec3<B>&) {
+  return detail::mixed_frames<A, B>();
+}
 template <class Frame>
 constexpr Vec3<Frame> operator*(double k, const Vec3<Frame>& v) {
   const auto& [v0, v1, v2] = v;

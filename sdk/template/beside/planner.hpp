@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// wired: progress manage.progress, state nav.state
+// wired: progress manage.progress, state nav.state, results plan.results
 // says: edits PlanEdit[]
 // rate: 10 Hz
 // feeds: edits plan.edits
@@ -17,6 +17,7 @@ struct MyLaw {
   struct Inputs {
     In<Progress> progress;
     In<VehicleState> state;
+    Queue<PlanEditResult> results;  // what the plan's owner says of each edit, ours and others'
   };
   struct Outputs {
     OutQueue<PlanEdit, 16> edits;  // all that one step pushes arrive together, in their order
@@ -27,9 +28,15 @@ struct MyLaw {
   };
 
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
+    for (const auto& sample : in.results)
+      if (sample.value.id == our_id && !sample.value.accepted) refused_ = true;  // why: sample.value.reason
+    if (refused_) return Status::degraded;
     // Your plan goes here.
     if (sent_ || in.progress->items == 0 || in.progress->reached < p.after) return Status::ok;
     PlanEdit edit;
+    edit.id = our_id;
+    edit.group = 1;  // together or not at all
+    edit.group_size = 2;
     edit.kind = PlanEditKind::insert;
     edit.index = in.progress->item;  // before what is flown to now
     edit.waypoint.position_m = p.detour.value;
@@ -40,5 +47,6 @@ struct MyLaw {
   }
 
  private:
-  bool sent_ = false;
+  static constexpr std::uint32_t our_id = 1;
+  bool sent_ = false, refused_ = false;
 };

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
+#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -180,4 +181,19 @@ TEST_CASE("export writes what is asked for, and refuses what it cannot") {
   CHECK(no_topic.code == 1);
   CHECK(no_topic.out.find("Did you mean '/number'?") != std::string::npos);
   CHECK(call("log info " + (folder.path / "none.mcap").string()).code == 1);
+}
+
+TEST_CASE("two results are compared by their figures, one that only one of them has among these") {
+  const Folder folder;
+  const std::string a = (folder.path / "a.json").string(), b = (folder.path / "b.json").string();
+  std::ofstream(a)
+      << R"({"seed": 1, "flight_time_s": 10, "rmse": {"north_m": 2.0, "course_rad": 0.1, "mode": null}})";
+  std::ofstream(b) << R"({"seed": 2, "flight_time_s": 10, "rmse": {"north_m": 3.0, "east_m": 4.0}})";
+  const Answer answer = call("log diff --json " + a + " " + b);
+  CHECK(answer.code == 1);
+  const json figures = json::parse(answer.out).at("figures");
+  CHECK(figures.size() == 3);
+  CHECK(figures.at("rmse.north_m") == json{{"first", 2.0}, {"second", 3.0}});
+  CHECK(figures.at("rmse.course_rad") == json{{"first", 0.1}, {"second", nullptr}});
+  CHECK(figures.at("rmse.east_m") == json{{"first", nullptr}, {"second", 4.0}});
 }

@@ -144,6 +144,16 @@ TEST_CASE(
   CHECK(holds(written, "in: {reference_figures: reference.figures}"));
 }
 
+TEST_CASE("an input that the mission's role brings beside those of the template is in what is written") {
+  const fs::path mission = folder() / "winds.yaml";
+  std::ofstream(mission)
+      << "extends: " << (missions / "hourglass.yaml").string()
+      << "\nroles: {guide: {in: {state: nav.state, path: manage.path, gauge: vehicle.baro}}}\n";
+  const Result made = call("new windy --role guide --mission winds.yaml");
+  REQUIRE_MESSAGE(made.code == 0, made.words);
+  CHECK(holds(text_of(folder() / "windy/windy.hpp"), "<Baro> gauge;"));
+}
+
 TEST_CASE("file names of the given mission are still found from the new one") {
   fs::create_directories(folder() / "beside");
   fs::copy_file(missions / "common.yaml", folder() / "beside/common.yaml");

@@ -226,6 +226,15 @@ TEST_CASE("a step reads inputs, answers requests and publishes") {
   CHECK(bench.component().last_dt == doctest::Approx(0.02));
 }
 
+TEST_CASE("a text takes a text of another length") {
+  const Text<8> name = "aileron";
+  const Text<96> words = name;
+  CHECK(words.view() == "aileron");
+  Text<4> cut;
+  cut = words;
+  CHECK(cut.view() == "ail");
+}
+
 TEST_CASE("a reason that is too long ends in dots, behind a whole word or a whole character") {
   Bench<Everything> bench;
   bench.set(bench.in.state, VehicleState{});

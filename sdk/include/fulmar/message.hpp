@@ -22,6 +22,8 @@ struct Text {
     const std::size_t n = std::min(text.size(), N - 1);
     for (std::size_t i = 0; i < n; ++i) bytes[i] = text[i];
   }
+  template <std::size_t M>
+  constexpr Text(const Text<M>& text) : Text(text.view()) {}  // NOLINT(google-explicit-constructor): as above
   constexpr Text(const char* text) : Text(std::string_view(text)) {}  // NOLINT(google-explicit-constructor)
 
   constexpr std::string_view view() const {

@@ -234,7 +234,8 @@ TEST_CASE("templates for a sensor and a planner are wired to what the mission ha
   CHECK(holds(made.words, "to plan.edits"));
   const std::string written = text_of(folder() / "search/mission.yaml");
   CHECK(holds(written, "edits: {from: search.edits, delayed: true}"));
-  CHECK(holds(written, "rate: 10 Hz, in: {progress: manage.progress, state: nav.state}"));
+  CHECK(holds(written,
+              "rate: 10 Hz, in: {progress: manage.progress, state: nav.state, results: plan.results}"));
 }
 
 TEST_CASE(

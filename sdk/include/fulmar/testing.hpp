@@ -114,7 +114,8 @@ class Bench {
   C& component() { return self().component; }
   std::string error() const { return error_.text; }  ///< what the last failed call said
 
-  /// The latest sample of a value input, valid `age_s` ago.
+  /// The latest sample of a value input, valid `age_s` before now: the time of the step before. `-dt` is
+  /// valid in the step that follows.
   template <template <class> class P, class T>
   requires(detail::PortOf<P<T>>::kind == FULMAR_IN_VALUE) void set(const P<T>& port, const T& value,
                                                                    double age_s = 0) {

@@ -147,7 +147,9 @@ class ErrorStateEkf {
     if (step_.time >= covariance_period_s - 1e-9) propagate_covariance();
   }
 
-  /// One scalar update. The measurement is refused if its innovation exceeds `gate` deviations.
+  /// One scalar update. The measurement is refused if its innovation exceeds `gate` deviations, by
+  /// `variance`: who gives a larger one, so that correlated samples weigh less, gates by `expected_std`
+  /// first.
   ekf::Fused fuse(const ekf::Scalar& z, double variance, double gate) {
     const ekf::Vector PHt = project(z);
     const double S = z.H.dot(PHt) + variance;

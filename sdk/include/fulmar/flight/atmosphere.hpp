@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // International Standard Atmosphere, ISO 2533:1975: troposphere and lower stratosphere, to 20 km. Altitudes
 // are geopotential, above mean sea level. Below 5 km the geometric altitude is higher by less than 0.08 %,
-// which is neglected.
+// which may be neglected or taken out with `geopotential_altitude`.
 #pragma once
 #include <cmath>
 
@@ -16,6 +16,7 @@ inline constexpr double sea_level_density = 1.225;       ///< kg/m3; to the last
 inline constexpr double lapse_rate = 0.0065;             ///< K/m
 inline constexpr double tropopause = 11000;              ///< m
 inline constexpr double exponent = g0 / (gas_constant * lapse_rate);  ///< 5.25588
+inline constexpr double earth_radius = 6356766;  ///< m, nominal: of geopotential altitudes
 }  // namespace isa
 
 /// The state of the air.
@@ -31,15 +32,28 @@ inline double air_density(double pressure_pa, double temperature_kelvin) {
   return pressure_pa / (isa::gas_constant * temperature_kelvin);
 }
 
-/// The standard air at an altitude above mean sea level.
-inline Air standard_air(double altitude_m) {
+/// How a day differs from the standard one: temperature at every altitude, pressure at mean sea level.
+struct AirOffset {
+  double temperature_kelvin = 0, pressure_pa = 0;
+};
+
+/// Altitude in a gravity that does not decrease, at which the air of a geometric altitude is found. U.S.
+/// Standard Atmosphere 1976 (18).
+inline double geopotential_altitude(double geometric_m) {
+  return isa::earth_radius * geometric_m / (isa::earth_radius + geometric_m);
+}
+
+/// The standard air at an altitude above mean sea level; with an offset the air that is in hydrostatic
+/// equilibrium with it, so that warm air also has higher layers of one pressure.
+inline Air standard_air(double altitude_m, const AirOffset& offset = {}) {
   Air air;
   if (altitude_m <= isa::tropopause) {
-    air.temperature_kelvin = isa::sea_level_temperature - isa::lapse_rate * altitude_m;
-    air.pressure_pa = isa::sea_level_pressure *
-                      std::pow(air.temperature_kelvin / isa::sea_level_temperature, isa::exponent);
+    const double T0 = isa::sea_level_temperature + offset.temperature_kelvin;
+    air.temperature_kelvin = T0 - isa::lapse_rate * altitude_m;
+    air.pressure_pa =
+        (isa::sea_level_pressure + offset.pressure_pa) * std::pow(air.temperature_kelvin / T0, isa::exponent);
   } else {
-    const Air below = standard_air(isa::tropopause);
+    const Air below = standard_air(isa::tropopause, offset);
     air.temperature_kelvin = below.temperature_kelvin;
     air.pressure_pa = below.pressure_pa * std::exp(-isa::g0 * (altitude_m - isa::tropopause) /
                                                    (isa::gas_constant * air.temperature_kelvin));

@@ -63,10 +63,11 @@ inline RigidBody advanced(const RigidBody& x, const RigidBodyRate& d, double dt)
 
 /// One step. `first` is the load at the present state; `load_at(state, part)` gives it at a later stage,
 /// `part` of the step on: 0.5 or 1. Quaternions of the stages are not normalised: the error is of the
-/// method's order; the result is.
-template <class LoadAt>
+/// method's order; the result is. `g_n` is the acceleration of gravity, or what else `rate_of` knows, such as
+/// the turning Earth of earth.hpp.
+template <class Gravity = Eigen::Vector3d, class LoadAt>
 RigidBody runge_kutta(const RigidBody& x, const Load& first, double dt, const MassProperties& body,
-                      const Eigen::Vector3d& g_n, LoadAt&& load_at) {
+                      const Gravity& g_n, LoadAt&& load_at) {
   const RigidBodyRate k1 = rate_of(x, first, body, g_n);
   const RigidBody x2 = advanced(x, k1, 0.5 * dt);
   const RigidBodyRate k2 = rate_of(x2, load_at(x2, 0.5), body, g_n);

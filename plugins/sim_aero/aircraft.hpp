@@ -3,6 +3,7 @@
 #pragma once
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
 
@@ -46,7 +47,17 @@ class Aircraft {
     Vector<Ned> wind_ned{{0, 0, 0}, "m/s", -50, 50, "steady velocity of the air"};
     Param wind_speed{-1, "m/s", -1, 50, "steady and level, in place of wind_ned; below 0: wind_ned counts"};
     Param wind_from{0, "rad", -6.3, 6.3, "where wind_speed comes from: from north, clockwise"};
+    Choice<WindProfile> wind_profile{WindProfile::constant, "how the steady wind grows with height", setup};
+    Param wind_reference{10,   "m", 0.1, 300, "height at which wind_ned and wind_speed hold, with a profile",
+                         setup};
+    Param wind_exponent{1.0 / 7, "", 0, 1, "of the power profile", setup};
+    Param wind_roughness{0.03, "m", 1e-4, 5, "of the log profile: 0.03 grass, 0.6 trees and houses", setup};
     Choice<Turbulence> turbulence{Turbulence::none, "Dryden model at 50 m", setup};
+    Param temperature_offset{0, "K", -60, 60, "of the air, at every altitude; 0: standard", setup};
+    Param pressure_offset{0, "Pa", -10000, 10000, "of the air at mean sea level; 0: standard", setup};
+    Choice<EarthModel> earth{EarthModel::flat,
+                             "flat: 9.80665 m/s2; gravity: by latitude and height; wgs84: turning ellipsoid",
+                             setup};
     Choice<SensorSet> sensors{SensorSet::rosflight, "errors of the sensors", setup};
     Param truth_rate{50, "Hz", 1, 2000, "of the truth", setup};
     Param start_north{0, "m", -1e5, 1e5, "position at flight time 0", setup};
@@ -99,6 +110,20 @@ class Aircraft {
     return -p.wind_speed * Eigen::Vector3d(std::cos(p.wind_from), std::sin(p.wind_from), 0);
   }
 
+  static Weather weather(const Params& p) {
+    if (p.wind_profile == WindProfile::log && p.wind_reference <= p.wind_roughness)
+      throw std::runtime_error("wind_reference: the log profile has no wind as low as wind_roughness");
+    return {steady_wind(p),
+            p.turbulence,
+            {p.wind_profile, p.wind_reference, p.wind_exponent, p.wind_roughness},
+            {p.temperature_offset, p.pressure_offset}};
+  }
+
+  Earth earth(const Params& p) const {
+    constexpr double degree = std::numbers::pi / 180;
+    return {p.earth, degree * origin_.lat_deg, degree * origin_.lon_deg};
+  }
+
   void configure(const Params& p) {
     origin_ = p.origin.given() ? *p.origin : Origin{40.2463724, -111.6474138, 1387, true};
     airframe_ = *p.airframe;
@@ -110,7 +135,7 @@ class Aircraft {
     command_ = {};
     actuation_ = Actuation({p.mux_rate, p.pwm_resolution, p.link_latency}, airframe_, now_ns_);
     status_ = {};
-    plant_.emplace(airframe_, Weather{steady_wind(p), p.turbulence}, origin_.alt_msl_m, mix_seed(seed_, 10));
+    plant_.emplace(airframe_, weather(p), origin_.alt_msl_m, mix_seed(seed_, 10), earth(p));
     place(p);
     const LocalFrame frame(origin_.lat_deg, origin_.lon_deg, origin_.alt_msl_m);
     const Eigen::Vector3d field_n =
@@ -253,11 +278,11 @@ class Aircraft {
 };
 
 inline VehicleState Aircraft::truth() const {
-  const RigidBody& x = plant_->state();
+  const RigidBody& x = plant_->seen();
   const AirData air(plant_->air_velocity_b());
   const Eigen::Matrix3d R = x.q_nb.toRotationMatrix();
   VehicleState s;
-  s.position_m = from_eigen<Ned>(x.p_n);
+  s.position_m = from_eigen<Ned>(plant_->state().p_n);
   s.velocity_mps = from_eigen<Ned>(x.v_n);
   s.attitude = from_eigen(x.q_nb);
   s.roll_rad = std::atan2(R(2, 1), R(2, 2));

@@ -76,7 +76,7 @@ class Sensors {
   }
 
   Mag mag(const Plant& plant) {
-    return {sent<Body>(plant.state().q_nb.conjugate() * field_n_ + mag_.next(mag_random_))};
+    return {sent<Body>(plant.seen().q_nb.conjugate() * field_n_ + mag_.next(mag_random_))};
   }
 
   Baro baro(const Plant& plant) {
@@ -103,7 +103,7 @@ class Sensors {
     out.latitude_deg = g.lat_deg;
     out.longitude_deg = g.lon_deg;
     out.altitude_m = g.alt_m;
-    out.velocity_mps = from_eigen<Ned>(plant.state().v_n + gnss_velocity_.next(gnss_random_));
+    out.velocity_mps = from_eigen<Ned>(plant.seen().v_n + gnss_velocity_.next(gnss_random_));
     out.horizontal_std_m = spec_.horizontal_std_m;
     out.vertical_std_m = spec_.vertical_std_m;
     out.speed_std_mps = spec_.speed_std_mps;

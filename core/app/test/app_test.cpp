@@ -461,3 +461,16 @@ TEST_CASE("an interrupt during a build ends the build and the program") {
   CHECK(gone);
   CHECK(shell("pgrep -f '^sleep 4321$'").code == 1);
 }
+
+TEST_CASE("the hourglass is flown over each Earth, as well as over the flat one") {
+  for (const char* earth : {"gravity", "wgs84"}) {
+    const Result r = fulmar("run " + hourglass + " --json --no-log --strict --set sim.earth=" + earth);
+    REQUIRE_MESSAGE(r.code == 0, r.err);
+    const json j = json::parse(r.out);
+    CHECK(j["result"] == "flown");
+    CHECK(j["guards"].empty());
+    CHECK(j["tracking_true_rmse"]["altitude_m"].get<double>() < 1.19);  // the bar of bench_missions
+    CHECK(j["tracking_true_rmse"]["north_m"].get<double>() < 3.05);
+    CHECK(j["tracking_true_rmse"]["east_m"].get<double>() < 3.29);
+  }
+}

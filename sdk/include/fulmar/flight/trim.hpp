@@ -21,11 +21,12 @@ struct Trim {
 };
 
 /// `gamma_rad` is the climb angle.
-inline Trim trimmed_flight(const Airframe& airframe, double Va, double rho, double gamma_rad = 0) {
+inline Trim trimmed_flight(const Airframe& airframe, double Va, double rho, double gamma_rad = 0,
+                           double gravity_mps2 = isa::g0) {
   using Vector6 = Eigen::Matrix<double, 6, 1>;
   const Aerodynamic aero(airframe);
   const Propeller propeller(airframe.propulsion);
-  const double weight = airframe.mass_kg * isa::g0, q = 0.5 * rho * Va * Va;
+  const double weight = airframe.mass_kg * gravity_mps2, q = 0.5 * rho * Va * Va;
   const auto velocity = [&](const Vector6& x) {
     return Eigen::Vector3d(Va * std::cos(x(0)) * std::cos(x(1)), Va * std::sin(x(1)),
                            Va * std::sin(x(0)) * std::cos(x(1)));

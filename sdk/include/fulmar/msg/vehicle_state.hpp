@@ -15,7 +15,7 @@ struct VehicleState {
   double yaw_rad = 0;
   Vec3<Body> rate_radps;           ///< body rate relative to NED, bias removed
   Vec3<Body> specific_force_mps2;  ///< bias removed
-  double height_m = 0;             ///< above the origin: -position.down
+  double height_m = 0;             ///< above the origin: -position.down over flat ground
   double climb_rate_mps = 0;       ///< -velocity.down
   double ground_speed_mps = 0;     ///< horizontal
   double course_rad = 0;           ///< of the horizontal velocity; yaw while there is none to speak of

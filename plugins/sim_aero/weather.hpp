@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The weather: how the day differs from the standard one, the steady wind and how it grows with height.
+#pragma once
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "fulmar/flight/atmosphere.hpp"
+#include "fulmar/flight/dryden.hpp"
+
+namespace fulmar::sim {
+
+enum class WindProfile : std::uint8_t { constant, power, log };
+
+/// Part of the steady wind that blows at a height above the ground: 1 at the reference height, no more than
+/// at 1000 ft, where MIL-F-8785C 3.7.3 ends its shear. Power law: E. W. Peterson, J. P. Hennessey, Journal of
+/// Applied Meteorology 17 (1978) 390-394. Logarithmic law: MIL-F-8785C 3.7.3, which has 0.15 ft and 2 ft of
+/// roughness.
+struct WindShear {
+  static constexpr double top_m = 304.8;
+  WindProfile profile = WindProfile::constant;
+  double reference_m = 10;
+  double exponent = 1.0 / 7;
+  double roughness_m = 0.03;
+
+  double at(double height_m) const {
+    if (profile == WindProfile::constant) return 1;
+    const double z = std::clamp(height_m, 0.0, top_m);
+    if (profile == WindProfile::power) return std::pow(z / reference_m, exponent);
+    return z > roughness_m ? std::log(z / roughness_m) / std::log(reference_m / roughness_m) : 0;
+  }
+};
+
+struct Weather {
+  Eigen::Vector3d wind_n = Eigen::Vector3d::Zero();  ///< steady velocity of the air, at the reference height
+  Turbulence turbulence = Turbulence::none;
+  WindShear shear{};
+  AirOffset offset{};
+};
+
+}  // namespace fulmar::sim

@@ -149,6 +149,23 @@ TEST_CASE("a flight that starts far away starts level, on its heading and at its
             .norm() < 0.01);
 }
 
+TEST_CASE("far away receiver and truth say the velocity by north, east and down of that place") {
+  auto b = bench(EarthModel::wgs84);
+  b->params.start_north.value = far_m;
+  b->params.start_height.value = 120;
+  b->params.start_heading.value = 0.3;
+  b->params.settle.value = 1;
+  const Said s = said(*b, 1);
+  const double tilt = far_m / 6.37e6;  // of that place, 0.18 degrees
+  CHECK(eigen(s.gnss.velocity_mps) == eigen(s.truth.velocity_mps));
+  CHECK(s.truth.ground_speed_mps == Approx(17).epsilon(1e-6));
+  CHECK(std::abs(s.truth.velocity_mps.down) < 1e-3 * 17 * tilt);
+  CHECK(s.truth.climb_rate_mps == -s.truth.velocity_mps.down);
+  CHECK(s.truth.yaw_rad == Approx(0.3).epsilon(1e-6));
+  CHECK(s.truth.height_m == Approx(120).epsilon(1e-5));
+  CHECK(b->component().plant().state().v_n.z() == Approx(17 * std::cos(0.3) * tilt).epsilon(0.02));
+}
+
 TEST_CASE("a warm day is thinner and a cold one denser, and the pressure at sea level counts") {
   const auto air = [](double temperature, double pressure, double alt_m) {
     auto b = bench(EarthModel::flat, 40, alt_m);

@@ -50,6 +50,28 @@ TEST_CASE("the standard atmosphere agrees with NASA's check case at geopotential
   }
 }
 
+TEST_CASE(
+    "on another day the air is in hydrostatic equilibrium with the temperature and pressure of that day") {
+  CHECK(standard_air(0, {20, 0}).density_kgm3 == Approx(1.1455).epsilon(1e-4));   // 35 degrees Celsius
+  CHECK(standard_air(0, {-35, 0}).density_kgm3 == Approx(1.3944).epsilon(1e-4));  // -20 degrees
+  for (const AirOffset& day : {AirOffset{25, -1500}, AirOffset{-30, 2500}, AirOffset{}})
+    for (const double h : {0.0, 3000.0, 10900.0, 11100.0, 16000.0}) {
+      const Air low = standard_air(h - 5, day), here = standard_air(h, day), high = standard_air(h + 5, day);
+      CHECK((high.pressure_pa - low.pressure_pa) / 10 == Approx(-9.80665 * here.density_kgm3).epsilon(1e-6));
+      CHECK(here.temperature_kelvin == Approx(standard_air(h).temperature_kelvin + day.temperature_kelvin));
+    }
+  for (const double pressure : {-3000.0, 3000.0})
+    CHECK(standard_air(0, {0, pressure}).pressure_pa == Approx(101325 + pressure));
+  for (const double h : {0.0, 1457.0, 12000.0})  // no offset: the standard day, to the bit
+    CHECK(standard_air(h, {0, 0}).density_kgm3 == standard_air(h).density_kgm3);
+}
+
+TEST_CASE("geopotential altitudes are those of the table of the U.S. Standard Atmosphere 1976") {
+  for (const auto& [geometric, geopotential] :
+       {std::pair{-5000.0, -5004.0}, {0.0, 0.0}, {5000.0, 4996.0}, {11019.0, 11000.0}, {20063.0, 20000.0}})
+    CHECK(std::abs(geopotential_altitude(geometric) - geopotential) < 0.6);
+}
+
 TEST_CASE("indicated airspeed is what the pressure means at sea level, true airspeed what it means here") {
   const double rho = standard_air(1387).density_kgm3, Va = 17;
   const double indicated = indicated_airspeed(0.5 * rho * Va * Va);

@@ -77,4 +77,19 @@ TEST_CASE("an engine that cannot hold the speed has no trim there") {
   CHECK(trimmed_flight(a, Va, rho).found);
 }
 
+TEST_CASE("in stronger gravity an aircraft is trimmed like a heavier one") {
+  Airframe a = test::airframe_file("anaconda");
+  const double rho = standard_air(1457).density_kgm3, Va = a.limits.airspeed_cruise_mps;
+  for (const double ratio : {0.98, 1.03}) {
+    const Trim strong = trimmed_flight(a, Va, rho, 0.05, ratio * 9.80665);
+    Airframe heavy = a;
+    heavy.mass_kg *= ratio;
+    const Trim same = trimmed_flight(heavy, Va, rho, 0.05);
+    REQUIRE(strong.found);
+    CHECK(strong.alpha_rad == doctest::Approx(same.alpha_rad).epsilon(1e-9));
+    CHECK(strong.throttle_frac == doctest::Approx(same.throttle_frac).epsilon(1e-9));
+    CHECK((strong.alpha_rad > trimmed_flight(a, Va, rho, 0.05).alpha_rad) == (ratio > 1));
+  }
+}
+
 }  // namespace trim_test

@@ -8,14 +8,17 @@
 #include <stdexcept>
 
 #include "actuation.hpp"
+#include "faults.hpp"
 #include "fulmar/eigen.hpp"
 #include "fulmar/flight/magnetic_model.hpp"
 #include "fulmar/msg/arm_request.hpp"
+#include "fulmar/msg/fault_request.hpp"
 #include "fulmar/msg/origin.hpp"
 #include "fulmar/msg/rc.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/msg/vehicle_status.hpp"
 #include "fulmar/plugin.hpp"
+#include "icing.hpp"
 #include "plant.hpp"
 #include "sensors.hpp"
 
@@ -27,6 +30,7 @@ class Aircraft {
   struct Inputs {
     Optional<Actuators> actuators;
     Request<ArmRequest> arm;
+    Request<FaultRequest> fault;
   };
   struct Outputs {
     Out<Imu> imu;
@@ -90,6 +94,7 @@ class Aircraft {
     Param aux2{0, "", -1, 1, "switch of the pilot"};
     Param aux3{0, "", -1, 1, "switch of the pilot"};
     Param aux4{0, "", -1, 1, "switch of the pilot"};
+    FaultParams faults;
   };
 
   explicit Aircraft(std::uint64_t seed) : seed_(seed) {}
@@ -153,17 +158,24 @@ class Aircraft {
     rc_due_ = Due(50, first_ns);
     status_rate_ = Due(10, first_ns);
     truth_due_ = Due(p.truth_rate, first_ns);
+    faults_ = {};
+    faults_.set(p.faults, now_ns_);
+    icing_ = {};
   }
 
-  void retune(const Params& p) { plant_->set_wind(steady_wind(p)); }
+  void retune(const Params& p) {
+    plant_->set_wind(steady_wind(p));
+    faults_.set(p.faults, now_ns_);
+  }
 
   Status read(Tick& tick, const Params& p, Outputs& out) {
     now_ns_ += period_ns_;
     tick.now_ns = now_ns_;
     const double dt = 1e-9 * static_cast<double>(period_ns_);
+    suffer(p, dt);
     const Actuators& applied = actuation_.at(now_ns_ - period_ns_);
     if (released_)
-      plant_->advance(applied, armed_ && p.motor, dt);
+      plant_->advance(applied, armed_ && p.motor ? faults_.power(now_ns_) : 0, dt);
     else
       plant_->carry(dt);
     if (wants_armed_ && !armed_ && now_ns_ >= 0) armed_ = released_ = true;
@@ -175,6 +187,7 @@ class Aircraft {
 
   Status write(const Tick& tick, const Inputs& in, const Params& p) {
     for (auto request : in.arm) answer(request);
+    for (auto request : in.fault) faults_.answer(request, tick.now_ns);
     const bool heard =
         in.actuators && tick.now_ns - in.actuators.valid_at_ns() <= patience_ns && sound(*in.actuators);
     failsafe_ = armed_ && !heard && !p.pilot_flies;
@@ -215,22 +228,33 @@ class Aircraft {
     request.accept();
   }
 
+  /// The faults that are in force now reach what they concern. Nothing to do as long as there is none.
+  void suffer(const Params& p, double dt) {
+    const bool other = faults_.advance(now_ns_);
+    if (other) {
+      sensors_->suffer(faults_);
+      plant_->suffer(faults_);
+    }
+    if (icing_.advance(faults_[FaultTarget::icing].rate, dt) || (other && icing_.ice() > 0))
+      plant_->set_aerodynamics(iced(airframe_, icing_.ice(), p.faults.body_that_fails));
+  }
+
   void publish_sensors(const Params& p, Outputs& out) {
     if (imu_due_(now_ns_)) {
       const Imu imu = sensors_->imu(*plant_);
-      if (p.imu_works) out.imu.publish(imu);
+      if (p.imu_works && !sensors_->faults().imu_off()) out.imu.publish(imu);
     }
     if (mag_due_(now_ns_)) {
       const Mag mag = sensors_->mag(*plant_);
-      if (p.mag_works) out.mag.publish(mag);
+      if (p.mag_works && !sensors_->faults().mag.off()) out.mag.publish(mag);
     }
     if (baro_due_(now_ns_)) {
       const Baro baro = sensors_->baro(*plant_);
-      if (p.baro_works) out.baro.publish(baro);
+      if (p.baro_works && !sensors_->faults().baro.off()) out.baro.publish(baro);
     }
     if (pitot_due_(now_ns_)) {
       const Pitot pitot = sensors_->pitot(*plant_);
-      if (p.pitot_works) out.pitot.publish(pitot);
+      if (p.pitot_works && !sensors_->faults().pitot.off()) out.pitot.publish(pitot);
     }
     if (gnss_due_(now_ns_)) gnss_delay_.push(sensors_->gnss(*plant_, epoch_ns_ + now_ns_), now_ns_);
     if (const auto* late = gnss_delay_.pop(now_ns_, gnss_delay_ns_); late && p.gnss_works)
@@ -238,7 +262,7 @@ class Aircraft {
   }
 
   void publish_rc_and_status(const Params& p, Outputs& out) {
-    if (rc_due_(now_ns_) && p.rc_link)
+    if (rc_due_(now_ns_) && p.rc_link && faults_[FaultTarget::radio].kind != FaultKind::off)
       out.rc.publish(
           {p.stick_roll, p.stick_pitch, p.stick_yaw, p.stick_throttle, p.aux1, p.aux2, p.aux3, p.aux4, true});
     VehicleStatus s;
@@ -253,7 +277,7 @@ class Aircraft {
                          s.failsafe != status_.failsafe || s.on_ground != status_.on_ground ||
                          s.crashed != status_.crashed;
     if (!status_rate_(now_ns_) && !changed) return;
-    s.battery_volt = airframe_.propulsion.battery_volt;
+    s.battery_volt = faults_.voltage(now_ns_) * airframe_.propulsion.battery_volt;
     s.battery_amp = plant_->battery_amp();
     status_ = s;
     out.status.publish(s);
@@ -272,6 +296,8 @@ class Aircraft {
   Actuators command_;
   Actuation actuation_;
   VehicleStatus status_;
+  Faults faults_;
+  Icing icing_;
   bool armed_ = false, wants_armed_ = false;
   bool released_ = false;  ///< has been armed once: from then on it is free to move
   bool failsafe_ = false;

@@ -17,43 +17,10 @@
 #include "fulmar/flight/trim.hpp"
 #include "fulmar/msg/actuators.hpp"
 #include "ground.hpp"
+#include "surface_faults.hpp"
 #include "weather.hpp"
 
 namespace fulmar::sim {
-
-/// A servo: first-order lag, limited in rate and throw. Solved exactly for a command that is constant over a
-/// step.
-class Servo {
- public:
-  explicit Servo(const Surface& s)
-      : limit_(s.limit_rad), rate_(s.rate_limit_radps), tau_(s.time_constant_s) {}
-
-  void advance(double command, double dt) {
-    command = std::clamp(command, -limit_, limit_);
-    const double error = command - angle_, lag = rate_ * tau_;  // beyond `lag` the rate limit rules
-    if (std::abs(error) > lag) {
-      const double time_to_lag = (std::abs(error) - lag) / rate_;
-      angle_ += std::copysign(rate_ * std::min(dt, time_to_lag), error);
-      if (dt <= time_to_lag) return;
-      dt -= time_to_lag;
-    }
-    angle_ = tau_ > 0 ? command + (angle_ - command) * decay(dt) : command;
-  }
-  double angle() const { return angle_; }
-  void set(double angle) { angle_ = std::clamp(angle, -limit_, limit_); }
-
- private:
-  double decay(double dt) {
-    if (dt != decay_dt_) {
-      decay_dt_ = dt;
-      decay_ = std::exp(-dt / tau_);
-    }
-    return decay_;
-  }
-  double limit_, rate_, tau_;
-  double angle_ = 0;
-  double decay_dt_ = -1, decay_ = 0;
-};
 
 /// What lies below: flat ground and constant gravity, flat ground and gravity by latitude and height, or the
 /// turning ellipsoid.
@@ -119,13 +86,15 @@ class Plant {
     return true;
   }
 
-  /// One step. `powered` false: the motor gets no voltage whatever the throttle says.
-  void advance(const Actuators& command, bool powered, double dt) {
-    throttle_ = powered ? std::clamp(command.throttle_frac, 0.0, 1.0) : 0;
+  /// One step. `power` is the share of the battery's full voltage that the throttle deals out: 0 stops the
+  /// motor whatever it says.
+  void advance(const Actuators& command, double power, double dt) {
+    throttle_ = power * std::clamp(command.throttle_frac, 0.0, 1.0);
     if (ground_.crashed()) {
       throttle_ = Omega_ = 0;
       return;
     }
+    if (aileron_.free() || elevator_.free() || rudder_.free()) let_trail();
     const double Omega_steady = propeller_.steady_speed(throttle_, Va_, air_.density_kgm3);
     for (Stage& stage : stage_) {
       aileron_.advance(command.aileron_rad, 0.5 * dt);
@@ -162,6 +131,13 @@ class Plant {
     refresh();
   }
   void set_wind(const Eigen::Vector3d& wind_n) { weather_.wind_n = wind_n; }
+  void suffer(const Faults& faults) {
+    aileron_.suffer(faults[FaultTarget::aileron]);
+    elevator_.suffer(faults[FaultTarget::elevator]);
+    rudder_.suffer(faults[FaultTarget::rudder]);
+  }
+  /// With ice on it; mass and trim stay.
+  void set_aerodynamics(const Airframe& a) { aero_ = Aerodynamic(a); }
 
   /// In the frame of the origin; the body rate is that of a gyro, relative to inertial space where the Earth
   /// turns.
@@ -195,6 +171,13 @@ class Plant {
     J.diagonal() << a.inertia.xx_kgm2, a.inertia.yy_kgm2, a.inertia.zz_kgm2;
     J(0, 2) = J(2, 0) = -a.inertia.xz_kgm2;
     return J;
+  }
+
+  void let_trail() {
+    const Deflections d = trailing(relative(x_), x_.omega_b, airframe_.wing.span_m);
+    aileron_.trail_at(d.aileron);
+    elevator_.trail_at(d.elevator);
+    rudder_.trail_at(d.rudder);
   }
 
   double motor_decay(double dt) {
@@ -276,7 +259,7 @@ class Plant {
   Propeller propeller_;
   Ground ground_;
   Dryden dryden_;
-  Servo aileron_, elevator_, rudder_;
+  Drive aileron_, elevator_, rudder_;
   Weather weather_;
   double origin_altitude_m_;
   Earth earth_;

@@ -18,6 +18,7 @@
 #include "fulmar/msg/pitot.hpp"
 #include "plant.hpp"
 #include "presets.hpp"
+#include "sensor_faults.hpp"
 
 namespace fulmar::sim {
 
@@ -55,7 +56,8 @@ class Sensors {
         gnss_random_(mix_seed(seed, 2)),
         mag_random_(mix_seed(seed, 3)),
         baro_random_(mix_seed(seed, 4)),
-        pitot_random_(mix_seed(seed, 5)) {
+        pitot_random_(mix_seed(seed, 5)),
+        faults_(spec, tick_hz, seed) {
     const auto dt = [&](double hz) { return 1 / std::min(hz, tick_hz); };
     gyro_ = Noise3(spec.gyro, dt(spec.imu_hz), imu_random_);
     accel_ = Noise3(spec.accel, dt(spec.imu_hz), imu_random_);
@@ -69,18 +71,18 @@ class Sensors {
 
   Imu imu(const Plant& plant) {
     Imu out;
-    out.rate_radps = sent<Body>(plant.state().omega_b + gyro_.next(imu_random_));
-    out.specific_force_mps2 = sent<Body>(plant.specific_force() + accel_.next(imu_random_));
+    out.rate_radps = sent<Body>(faults_.gyro(plant.state().omega_b + gyro_.next(imu_random_)));
+    out.specific_force_mps2 = sent<Body>(faults_.accel(plant.specific_force() + accel_.next(imu_random_)));
     out.temperature_kelvin = spec_.temperature_kelvin;
     return out;
   }
 
   Mag mag(const Plant& plant) {
-    return {sent<Body>(plant.seen().q_nb.conjugate() * field_n_ + mag_.next(mag_random_))};
+    return {sent<Body>(faults_.mag(plant.seen().q_nb.conjugate() * field_n_ + mag_.next(mag_random_)))};
   }
 
   Baro baro(const Plant& plant) {
-    return {sent(plant.air().pressure_pa + baro_.next(baro_random_)), spec_.temperature_kelvin};
+    return {sent(faults_.baro(plant.air().pressure_pa + baro_.next(baro_random_))), spec_.temperature_kelvin};
   }
 
   /// (7.10); the tube takes all of the flow up to 20 degrees off its axis, less beyond, and nothing from 60
@@ -90,28 +92,39 @@ class Sensors {
     const double Va = v_r.norm(), cosine = Va > 0 ? v_r.x() / Va : 1;
     const double taken = std::clamp((cosine - 0.5) / (0.9397 - 0.5), 0.0, 1.0);
     Pitot out;
-    out.pressure_pa =
-        sent(pitot_scale_ * taken * 0.5 * plant.air().density_kgm3 * Va * Va + pitot_.next(pitot_random_));
+    out.pressure_pa = sent(faults_.pitot(pitot_scale_ * taken * 0.5 * plant.air().density_kgm3 * Va * Va +
+                                         pitot_.next(pitot_random_)));
     out.indicated_airspeed_mps = sent(indicated_airspeed(out.pressure_pa));
     out.temperature_kelvin = spec_.temperature_kelvin;
     return out;
   }
 
   Gnss gnss(const Plant& plant, std::int64_t utc_ns) {
-    const LocalFrame::Geodetic g = frame_.from_ned(plant.state().p_n + gnss_position_.next(gnss_random_));
+    const LocalFrame::Geodetic g =
+        frame_.from_ned(faults_.position(plant.state().p_n + gnss_position_.next(gnss_random_)));
     Gnss out;
     out.latitude_deg = g.lat_deg;
     out.longitude_deg = g.lon_deg;
     out.altitude_m = g.alt_m;
-    out.velocity_mps = from_eigen<Ned>(plant.seen().v_n + gnss_velocity_.next(gnss_random_));
+    out.velocity_mps =
+        from_eigen<Ned>(faults_.velocity(plant.seen().v_n + gnss_velocity_.next(gnss_random_)));
     out.horizontal_std_m = spec_.horizontal_std_m;
     out.vertical_std_m = spec_.vertical_std_m;
     out.speed_std_mps = spec_.speed_std_mps;
     out.utc_ns = utc_ns;
     out.fix = FixType::fix_3d;
     out.satellites = 15;
+    if (faults_.velocity.off()) out.speed_std_mps = unknown_std;
+    if (faults_.position.off()) {  // no solution, as a receiver without sky says it
+      out.fix = FixType::none;
+      out.satellites = 0;
+      out.horizontal_std_m = out.vertical_std_m = unknown_std;
+    }
     return out;
   }
+
+  void suffer(const Faults& faults) { faults_.suffer(faults); }
+  const SensorFaults& faults() const { return faults_; }
 
   Eigen::Vector3d gyro_bias() const { return gyro_.bias(); }
   Eigen::Vector3d accel_bias() const { return accel_.bias(); }
@@ -132,6 +145,7 @@ class Sensors {
   Noise3 gyro_, accel_, mag_, gnss_position_, gnss_velocity_;
   Noise baro_, pitot_;
   double pitot_scale_ = 1;
+  SensorFaults faults_;
 };
 
 /// Samples that were taken and are not yet delivered.

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A control surface with its servo, and what becomes of it when one of the two fails.
+#pragma once
+#include <Eigen/Core>
+#include <cmath>
+
+#include "faults.hpp"
+#include "fulmar/flight/aerodynamics.hpp"
+#include "servo.hpp"
+
+namespace fulmar::sim {
+
+class Drive {
+ public:
+  explicit Drive(const Surface& s) : servo_(s), limit_(s.limit_rad) {}
+
+  void advance(double command, double dt) {
+    switch (kind_) {
+      case FaultKind::stuck: return;
+      case FaultKind::hardover_positive: return servo_.advance(limit_, dt);
+      case FaultKind::hardover_negative: return servo_.advance(-limit_, dt);
+      case FaultKind::slow: return servo_.advance(command, speed_ * dt);  // it lives in slower time
+      case FaultKind::free: return servo_.advance(trailing_, dt);
+      default: servo_.advance(command, dt);
+    }
+  }
+  double angle() const { return kind_ == FaultKind::lost ? 0 : servo_.angle(); }
+  void set(double angle) { servo_.set(angle); }
+
+  void suffer(const Fault& fault) {
+    kind_ = fault.kind;
+    speed_ = 1 + fault.growth * (fault.share - 1);
+  }
+  bool free() const { return kind_ == FaultKind::free; }
+  void trail_at(double angle) { trailing_ = angle; }
+
+ private:
+  Servo servo_;
+  double limit_;
+  FaultKind kind_ = FaultKind::none;
+  double speed_ = 1, trailing_ = 0;
+};
+
+/// Where surfaces float that nothing holds: no hinge moment, Ch_alpha alpha + Ch_delta delta = 0, so each
+/// trails its local flow by Ch_alpha / Ch_delta of its angle. 0.5 is that of a plain flap without balance
+/// (Etkin & Reid, Dynamics of Flight, 3rd edition, 2.5, 2.6: "stick-free"). Tail and fin are taken to be in
+/// the flow of the centre of gravity; what the ailerons see of each other's sense comes from rolling alone.
+inline Deflections trailing(const Eigen::Vector3d& v_r, const Eigen::Vector3d& omega_b, double span_m) {
+  constexpr double Ch_ratio = 0.5;
+  constexpr double aileron_place = 0.35;  ///< of the span from the middle
+  const AirData air(v_r);
+  if (air.Va < 1) return {};
+  return {Ch_ratio * aileron_place * span_m * omega_b.x() / air.Va, -Ch_ratio * air.alpha,
+          Ch_ratio * air.beta};
+}
+
+}  // namespace fulmar::sim

@@ -64,6 +64,7 @@ class Recorder {
 
   std::vector<TapChannel> channels(const Units& units);
   void add_channels(ChannelList& list, Unit& unit);
+  void add_further_requests(ChannelList& list, Unit& unit);
   void open_log(const Units& units);
   std::int64_t record_period(const std::string& port, const Slot& slot) const;  // -1: not recorded
   std::function<std::string(std::size_t, const std::byte*)> lasting() const;

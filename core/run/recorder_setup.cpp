@@ -49,6 +49,7 @@ std::vector<TapChannel> Recorder::channels(const Units& units) {
   channels_.parameter = list.add("fulmar.parameter", host_type<CommandNote>());
   channels_.command = list.add("fulmar.command", host_type<CommandNote>());
   for (const auto& unit : units) add_channels(list, *unit);
+  for (const auto& unit : units) add_further_requests(list, *unit);
   return std::move(list.list);
 }
 
@@ -64,13 +65,26 @@ void Recorder::add_channels(ChannelList& list, Unit& unit) {
     slot.log.period_ns = record_period(name, slot);
     if (!stored_whole) slot.hash = std::make_unique<MessageHash>(*slot.port->type);
   }
-  for (Reader& reader : unit.in.readers)
-    if (reader.port->kind == FULMAR_IN_REQUEST || reader.wire->import >= 0)
+  bool asked = false;
+  for (Reader& reader : unit.in.readers) {
+    const bool request = reader.port->kind == FULMAR_IN_REQUEST;
+    if (!(request && asked) && (request || reader.wire->import >= 0))
       reader.channel = static_cast<int>(list.add(c.name + "." + reader.port->name, reader.port->type));
+    asked = asked || request;
+  }
   Probes& probes = unit.out.probes;
   if (probes.outputs.empty()) return;
   probes.log.period_ns = record_period(c.name + ".probes", unit.out.slots[probes.outputs.front()]);
   probes.log.channel = list.add(c.name + ".probes", probes_type(*c.plugin, c.info()));
+}
+
+/// Behind all others: the hashes of the ticks are made with the numbers of the channels, and a component that
+/// has got another request leaves those of the logs there are, and so their replays, as they were.
+void Recorder::add_further_requests(ChannelList& list, Unit& unit) {
+  for (Reader& reader : unit.in.readers)
+    if (reader.port->kind == FULMAR_IN_REQUEST && reader.channel < 0)
+      reader.channel =
+          static_cast<int>(list.add(unit.component->name + "." + reader.port->name, reader.port->type));
 }
 
 std::int64_t Recorder::record_period(const std::string& port, const Slot& slot) const {

@@ -203,6 +203,7 @@ class Aircraft {
   }
 
   const Plant& plant() const { return *plant_; }
+  double ice() const { return icing_.ice(); }  ///< share of all the ice that the parameters describe
 
  private:
   static constexpr std::int64_t patience_ns =

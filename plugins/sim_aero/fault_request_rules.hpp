@@ -48,7 +48,7 @@ inline SizeRange size_range(FaultTarget target, FaultKind kind) {
 /// Why a request is none; empty when it is one.
 inline std::string Faults::refusal(const FaultRequest& r) {
   const auto name = [](auto value) {
-    return std::string(detail::Labels<decltype(value)>::names[static_cast<std::size_t>(value)]);
+    return std::string(detail::Labels<decltype(value)>::found.words[static_cast<std::size_t>(value)]);
   };
   const auto kinds = kinds_of(r.what);
   if (std::find(kinds.begin(), kinds.end(), r.kind) == kinds.end()) {
@@ -58,11 +58,12 @@ inline std::string Faults::refusal(const FaultRequest& r) {
   }
   const SizeRange range = size_range(r.what, r.kind);
   char limits[64];
-  std::snprintf(limits, sizeof limits, "%g to %g %s", range.min, range.max, range.unit);
+  std::snprintf(limits, sizeof limits, "%g to %g%s%s", range.min, range.max, range.unit[0] ? " " : "",
+                range.unit);
   if (r.size_ratio != 0 && !range.any()) return "size: the fault '" + name(r.kind) + "' has none";
   if (r.size_ratio != 0 && !range.holds(r.size_ratio)) return std::string("size: valid is ") + limits;
   if (r.what == FaultTarget::icing && r.kind != FaultKind::none && r.size_ratio == 0)
-    return std::string("size: icing needs its rate, up to ") + limits;
+    return "size: icing needs its rate, share per second";
   if (!(r.ramp_s >= 0 && r.ramp_s <= 3600)) return "ramp: valid is 0 to 3600 s";
   if (!(r.for_s >= 0 && r.for_s <= 1e6)) return "for: valid is 0 to 1000000 s";
   return "";

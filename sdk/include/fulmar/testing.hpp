@@ -162,7 +162,7 @@ class Bench {
   std::string fault() const {
     std::string words;
     detail::for_each(out, [&]<class M>(const M& member, std::size_t i) {
-      const std::string name = detail::FieldNames<typename C::Outputs>::c_str(i);
+      const std::string name(detail::FieldNames<typename C::Outputs>::view(i));
       const auto look = [&](const auto& message) {
         if (words.empty())
           words = detail::fault_in(describe<std::remove_cvref_t<decltype(message)>>(), &message, name);

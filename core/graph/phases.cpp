@@ -88,7 +88,8 @@ std::vector<Overlay> read_overlay(Draft& draft, const Candidate& candidate, cons
 void read_assignment(Draft& draft, const AssignmentText& text, const std::string& path, int usual, int seated,
                      Assignment& assignment) {
   const int role = draft.role(text.role);
-  if (text.role == "vehicle")
+  const bool other = !text.use.text.empty() && draft.candidate(text.use.text) != seated;
+  if (text.role == "vehicle" && (other || !text.fallback.text.empty() || text.set.entries.empty()))
     return draft.report.add(
         text.where,
         path + ": the vehicle does not change in flight; choose it with io or with --role vehicle=NAME");

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Something of the simulated aircraft fails while the shipped autopilot flies: a handful of what bench_faults
+// flies, a failure that a phase brings and another one takes away, and their replays.
+#include <doctest/doctest.h>
+
+#include "core/app/test/fault_campaign.hpp"
+#include "core/replay/replay.hpp"
+#include "core/run/allocation.hpp"
+
+using namespace fulmar::core;
+using namespace fulmar::core::failures;
+
+namespace faults_test {
+
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("fulmar-faults-test-" + std::to_string(getpid()));
+  Folder() {
+    fs::create_directories(path);
+    setenv("FULMAR_STORE", (path / "store").c_str(), 1);
+  }
+  ~Folder() { fs::remove_all(path); }
+};
+
+FlightOptions unlogged() {
+  FlightOptions o;
+  o.log = false;
+  return o;
+}
+
+TEST_CASE("the circuit is flown with a barometer, a magnetometer or a rudder that fails") {
+  const Folder folder;
+  for (const auto& [what, how] : std::vector<std::pair<const char*, const char*>>{
+           {"nothing", ""}, {"baro", "stuck"}, {"mag", "jumping"}, {"rudder", "lost"}}) {
+    CAPTURE(what);
+    const After a = fly(failure(what, how), 1, folder.path, unlogged());
+    CHECK(a.flown);
+    CHECK(a.plan_m < 15);
+    CHECK(a.lowest_m > 60);
+    CHECK(a.guards == 0);
+    if (!counts_allocations()) break;  // under the sanitizers a flight takes twenty times as long
+  }
+}
+
+TEST_CASE(
+    "without motor it glides down, with an elevator hard over it falls: no guard, and no flown circuit") {
+  const Folder folder;
+  const After glide = fly(failure("engine", "off"), 1, folder.path, unlogged());
+  CHECK(glide.down);
+  CHECK_FALSE(glide.flown);
+  CHECK(glide.down_s > 10);
+  const After fall = fly(failure("elevator", "hardover_positive"), 1, folder.path, unlogged());
+  CHECK(fall.down);
+  CHECK(fall.down_s < 8);
+  CHECK(fall.down_s < glide.down_s);
+}
+
+/// The receiver's position is 50 m wrong for 30 s.
+std::string recovers() {
+  return "mission: recovers\nextends: " FULMAR_SOURCE_DIR
+         "/configs/missions/hourglass.yaml\nlive: off\n"
+         "done: {when: \"vehicle.status.armed\", for: 90 s}\nphases:\n"
+         "  cruise:  {next: [{to: failing, when: \"vehicle.status.armed\", for: 20 s}]}\n"
+         "  failing: {vehicle: {set: {gnss_position_fault: wrong}}, next: [{to: again, when: "
+         "\"vehicle.status.armed\", for: 30 s}]}\n"
+         "  again:   {}\n";
+}
+
+TEST_CASE("a sensor that fails and recovers is believed again: the estimate is back where it was") {
+  const Folder folder;
+  const fs::path file = folder.path / "recovers.yaml";
+  std::ofstream(file) << recovers();
+  const Graph graph = load_mission(file.string(), {});
+  Flight flight(graph, unlogged());
+  const Source truth = output_of(graph, "sim", "truth"), state = output_of(graph, "ekf", "state");
+  double off_m = 0, after_m = 0;
+  bool admitted = false, valid = false;
+  while (flight.step()) {
+    const auto* const x = reinterpret_cast<const fulmar::VehicleState*>(flight.sample(truth));
+    const auto* const s = reinterpret_cast<const fulmar::VehicleState*>(flight.sample(state));
+    if (!x || !s) continue;
+    const double error_m =
+        std::hypot(s->position_m.north - x->position_m.north, s->position_m.east - x->position_m.east);
+    if (flight.phase() == "failing")
+      off_m = std::max(off_m, error_m), admitted = admitted || !s->position_valid;
+    if (flight.phase() == "again") after_m = error_m, valid = s->position_valid;
+  }
+  flight.finish();
+  CHECK(off_m > 10);
+  CHECK(admitted);
+  CHECK(valid);
+  CHECK(after_m < 3);
+}
+
+/// The barometer is stuck in one phase, the pitot tube noisy in the next one.
+std::string scheduled() {
+  return "mission: scheduled\nextends: " FULMAR_SOURCE_DIR
+         "/configs/missions/hourglass.yaml\nlive: off\n"
+         "done: {when: \"vehicle.status.armed\", for: 40 s}\nphases:\n"
+         "  cruise: {next: [{to: stuck, when: \"vehicle.status.armed\", for: 3 s}]}\n"
+         "  stuck:  {vehicle: {set: {baro_fault: stuck}}, next: [{to: noisy, when: \"vehicle.status.armed\", "
+         "for: 5 s}]}\n"
+         "  noisy:  {vehicle: {set: {pitot_fault: noisy, gyro_fault: jumping, fault_time: 0.5 s}}}\n";
+}
+
+TEST_CASE("a failure comes and goes with the phases, and each log flies again, byte for byte") {
+  const Folder folder;
+  const fs::path file = folder.path / "scheduled.yaml";
+  std::ofstream(file) << scheduled();
+  std::vector<std::string> sha;
+  for (const char* name : {"one.mcap", "two.mcap"}) {
+    FlightOptions o;
+    o.log_file = folder.path / name;
+    const Graph graph = load_mission(file.string(), {});
+    Flight flight(graph, o);
+    const Source baro = output_of(graph, "sim", "baro");
+    double last = 0;
+    int equal = 0, different = 0, in_order = 0;
+    while (flight.step()) {
+      const auto* const pressure = reinterpret_cast<const double*>(flight.sample(baro));
+      if (!pressure) continue;
+      const bool same = *pressure == last;
+      last = *pressure;
+      if (flight.phase() == "stuck") (same ? equal : different) += 1;
+      if (flight.phase() == "noisy") in_order += !same;
+    }
+    CHECK(equal > 1990);  // of 2000 ticks
+    CHECK(different <= 2);
+    CHECK(in_order > 1000);
+    sha.push_back(flight.finish().log.sha256);
+    const Recording recording(o.log_file);
+    const auto [again, replayed] =
+        replay(recording, recording.mission({}, [](const std::string&, bool) {}), {});
+    CHECK(replayed.equal());
+  }
+  CHECK(sha[0] == sha[1]);
+}
+
+}  // namespace faults_test

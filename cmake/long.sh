@@ -35,4 +35,5 @@ done
 build/bin/fcu_hil_test
 build/bin/random_missions_test  # 500 flights
 build/bin/bench_link_gaps >build/check/link_gaps.md
+build/bin/bench_faults >build/check/faults.md
 build/bin/bench_missions --seeds 50

@@ -42,9 +42,10 @@ class Drive {
 };
 
 /// Where surfaces float that nothing holds: no hinge moment, Ch_alpha alpha + Ch_delta delta = 0, so each
-/// trails its local flow by Ch_alpha / Ch_delta of its angle. 0.5 is that of a plain flap without balance
-/// (Etkin & Reid, Dynamics of Flight, 3rd edition, 2.5, 2.6: "stick-free"). Tail and fin are taken to be in
-/// the flow of the centre of gravity; what the ailerons see of each other's sense comes from rolling alone.
+/// trails its local flow by Ch_alpha / Ch_delta of its angle (Etkin & Reid, Dynamics of Flight, 3rd edition,
+/// 2.5, 2.6: the free elevator). 0.5, a plain flap without balance, is an assumption. Tail and fin are taken
+/// to be in the flow of the centre of gravity; what the ailerons see of each other's sense comes from rolling
+/// alone.
 inline Deflections trailing(const Eigen::Vector3d& v_r, const Eigen::Vector3d& omega_b, double span_m) {
   constexpr double Ch_ratio = 0.5;
   constexpr double aileron_place = 0.35;  ///< of the span from the middle

@@ -4,8 +4,11 @@
 #include <doctest/doctest.h>
 
 #include "core/app/test/fault_campaign.hpp"
+#include "core/log/reader.hpp"
 #include "core/replay/replay.hpp"
 #include "core/run/allocation.hpp"
+#include "core/run/test/commands.hpp"
+#include "fulmar/msg/fault_request.hpp"
 
 using namespace fulmar::core;
 using namespace fulmar::core::failures;
@@ -133,6 +136,37 @@ TEST_CASE("a failure comes and goes with the phases, and each log flies again, b
     CHECK(replayed.equal());
   }
   CHECK(sha[0] == sha[1]);
+}
+
+TEST_CASE("a failure that is requested in flight is answered, logged behind all other topics, and replayed") {
+  const Folder folder;
+  Overrides overrides;
+  overrides.set = {{"sim.start_height", "70 m"}};
+  const Graph graph = load_mission(FULMAR_SOURCE_DIR "/configs/missions/hourglass.yaml", overrides);
+  FlightOptions o;
+  o.log_file = folder.path / "asked.mcap";
+  o.duration_s = 8;
+  Flight flight(graph, o);
+  std::vector<std::string> answers;
+  const auto ask = [&](fulmar::FaultTarget what, fulmar::FaultKind kind) {
+    request(flight, "sim", "fault", fulmar::FaultRequest{what, kind},
+            [&](const std::string& a) { answers.push_back(a); });
+  };
+  for (int tick = 0; flight.step(); ++tick)
+    if (tick == 2400) {
+      ask(fulmar::FaultTarget::pitot, fulmar::FaultKind::stuck);
+      ask(fulmar::FaultTarget::pitot, fulmar::FaultKind::lost);
+    }
+  flight.finish();
+  REQUIRE(answers.size() == 2);
+  CHECK(answers[0] == "");
+  CHECK(answers[1] == "pitot has no fault 'lost'; valid: none, off, stuck, wrong, slow, noisy, jumping");
+  // The hashes of the ticks are made with the numbers of the topics: those that there have always been keep
+  // theirs.
+  const McapFile file = read_mcap(o.log_file);
+  for (const auto& [id, channel] : file.channels) CHECK(id <= file.channel("/sim/fault"));
+  const Recording recording(o.log_file);
+  CHECK(replay(recording, recording.mission({}, [](const std::string&, bool) {}), {}).second.equal());
 }
 
 }  // namespace faults_test

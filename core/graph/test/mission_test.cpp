@@ -328,6 +328,16 @@ TEST_CASE("phases name phases, roles and fillers that exist, and all can be reac
   CHECK(changed("outer: slc, next", "vehicle: sim, outer: slc, next") ==
         "36: phases.hold.vehicle: the vehicle does not change in flight; choose it with io or with --role "
         "vehicle=NAME");
+  for (const char* other : {"vehicle: {use: fcu, set: {wind_ned: [1, 0, 0]}}",
+                            "vehicle: {use: sim, set: {wind_ned: [1, 0, 0]}, fallback: sim}"})
+    CHECK(changed("outer: slc, next", std::string(other) + ", outer: slc, next")
+              .find("the vehicle does not change in flight") != std::string::npos);
+  CHECK(changed("outer: slc, next", "vehicle: {set: {wind_ned: [1, 0, 0]}}, outer: slc, next") == "");
+  CHECK(changed("outer: slc, next", "vehicle: {use: sim, set: {wind_ned: [1, 0, 0]}}, outer: slc, next") ==
+        "");
+  CHECK(changed("outer: slc, next", "vehicle: {set: {rate: 50 Hz}}, outer: slc, next") ==
+        "36: phases.hold.vehicle.set.rate: is fixed when the flight begins; a phase can set live parameters "
+        "alone. Live: wind_ned.");
   CHECK(changed("law: takeoff", "law: takeof") ==
         "37: phases.takeoff.outer.set.law: unknown word 'takeof'. Did you mean 'takeoff'? Valid: normal, "
         "takeoff.");

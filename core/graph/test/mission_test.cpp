@@ -337,7 +337,7 @@ TEST_CASE("phases name phases, roles and fillers that exist, and all can be reac
         "");
   CHECK(changed("outer: slc, next", "vehicle: {set: {rate: 50 Hz}}, outer: slc, next") ==
         "36: phases.hold.vehicle.set.rate: is fixed when the flight begins; a phase can set live parameters "
-        "alone. Live: wind_ned.");
+        "alone. Live: wind_ned, turbulence.");
   CHECK(changed("law: takeoff", "law: takeof") ==
         "37: phases.takeoff.outer.set.law: unknown word 'takeof'. Did you mean 'takeoff'? Valid: normal, "
         "takeoff.");

@@ -30,6 +30,7 @@ class Icing {
  public:
   /// True when there is another amount of ice than before.
   bool advance(double rate, double dt) {
+    if (rate == 0) return false;
     const double before = ice_;
     ice_ = std::clamp(ice_ + rate * dt, 0.0, 1.0);
     return ice_ != before;

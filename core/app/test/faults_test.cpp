@@ -32,10 +32,11 @@ FlightOptions unlogged() {
 
 TEST_CASE("the circuit is flown with a barometer, a magnetometer or a rudder that fails") {
   const Folder folder;
-  for (const auto& [what, how] : std::vector<std::pair<const char*, const char*>>{
-           {"nothing", ""}, {"baro", "stuck"}, {"mag", "jumping"}, {"rudder", "lost"}}) {
-    CAPTURE(what);
-    const After a = fly(failure(what, how), 1, folder.path, unlogged());
+  using Named = std::pair<const char*, const char*>;
+  for (const Named& n :
+       {Named{"nothing", ""}, Named{"baro", "stuck"}, Named{"mag", "jumping"}, Named{"rudder", "lost"}}) {
+    CAPTURE(n.first);
+    const After a = fly(failure(n.first, n.second), 1, folder.path, unlogged());
     CHECK(a.flown);
     CHECK(a.plan_m < 15);
     CHECK(a.lowest_m > 60);

@@ -8,6 +8,7 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "core/app/last_act.hpp"
 #include "core/error.hpp"
 #include "core/types/text.hpp"
 
@@ -59,6 +60,7 @@ std::string command_rows(const CLI::App& app) {
 bool asked_for_rows(int argc, char** argv) { return argc == 2 && std::strcmp(argv[1], "--rows") == 0; }
 
 int run_program(CLI::App& app, const std::function<int()>& words, int fault) {
+  const AtWork at_work;
   try {
     const int code = ended_by(app, words);
     if (code != 0 || (std::fflush(stdout) == 0 && std::ferror(stdout) == 0)) return code;

@@ -15,6 +15,7 @@
 #include "core/loader/elf.hpp"
 #include "core/loader/float_mode.hpp"
 #include "core/loader/home.hpp"
+#include "core/loader/in_hand.hpp"
 #include "core/loader/probe.hpp"
 #include "core/loader/script.hpp"
 #include "core/loader/shared_object.hpp"
@@ -85,6 +86,13 @@ struct Library::Handle {
     plugin = &file.entry(name);
   }
 
+  void load_script(const std::shared_ptr<Library>& by, const fs::path& place,
+                   const std::vector<std::byte>& bytes) {
+    host = by;
+    const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    script = std::make_unique<Script>(host->handle_->entry(), place.string(), text);
+  }
+
   const fulmar_plugin& entry() const { return script ? script->entry() : *plugin; }
 
   bool hosts_scripts() const { return entry().abi_minor >= 1 && entry().open_script != nullptr; }
@@ -95,8 +103,9 @@ struct Library::Handle {
       functions.push_back(tables.element(entry().components, entry().component_stride, i, "the components"));
   }
 
-  void close() {
+  void close(const std::string& name) {
     const FloatModeGuard guard;
+    const InHand in_hand(name, "unloaded");
     functions.clear();
     script.reset();
     host.reset();
@@ -125,13 +134,12 @@ std::shared_ptr<Library> Library::open(const fs::path& file, const Expected& exp
   try_in_child(library->copy_, key, name, script ? host->copy_ : "", place);
   library->handle_ = std::make_unique<Handle>();
   PluginInfo& info = library->info_;
-  if (script) {
-    library->handle_->host = host;
-    const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    library->handle_->script = std::make_unique<Script>(host->handle_->entry(), place.string(), text);
-  } else {
+  info.file = name;
+  const InHand in_hand(name, "loaded");
+  if (script)
+    library->handle_->load_script(host, place, bytes);
+  else
     library->handle_->load(library->copy_, name);
-  }
   info = read_entry(library->handle_->entry(), name);
   info.sha256 = sha256;
   info.build_id = build_id(bytes);
@@ -157,7 +165,7 @@ fs::path Library::host_of(const fs::path& script) {
 }
 
 Library::~Library() {
-  if (handle_) handle_->close();
+  if (handle_) handle_->close(info_.file);
 }
 
 const fulmar_component& Library::functions(std::size_t i) const { return handle_->functions.at(i); }
@@ -169,7 +177,7 @@ void Library::unload(std::shared_ptr<Library>&& library) {
   const std::lock_guard lock(registry().mutex);
   registry().loaded.erase(last->key_);
   const bool script = last->handle_->script != nullptr, hosts = !script && last->handle_->hosts_scripts();
-  last->handle_->close();
+  last->handle_->close(name);
   if (script || hosts)
     return;  // an interpreter cannot be unloaded; what a script has given back, it frees itself
   for (const ComponentInfo& component : last->info_.components)

@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
@@ -40,11 +41,11 @@ double time_limit_s() {
   return chosen > 0 && chosen <= 600 ? chosen : 5;
 }
 
-/// That a process has used, with all its threads; 0 when it has ended.
+/// That a process has used, with all its threads; 0 when it has ended, or has not begun.
 double cpu_s(pid_t pid) {
   clockid_t clock{};
   timespec used{};
-  if (::clock_getcpuclockid(pid, &clock) != 0 || ::clock_gettime(clock, &used) != 0) return 0;
+  if (pid <= 0 || ::clock_getcpuclockid(pid, &clock) != 0 || ::clock_gettime(clock, &used) != 0) return 0;
   return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
 }
 
@@ -82,6 +83,19 @@ bool read_some(int pipe, std::string& report) {
   return n > 0 || (n < 0 && (errno == EAGAIN || errno == EINTR));
 }
 
+/// The one that loads the plugin, a child of the probe; 0: it has not said so yet.
+pid_t loading_process(const std::string& report) {
+  const std::size_t at = report.find(report_process);
+  return at == std::string::npos ? 0 : std::atoi(report.c_str() + at + report_process.size());
+}
+
+/// The probe ends what the plugin has started, if it is given the time.
+void end_probe(Process& child) {
+  ::kill(child.pid(), SIGTERM);
+  child.wait(std::chrono::seconds(1));
+  child.kill();
+}
+
 Outcome run_probe(const std::vector<std::string>& words, double limit_s) {
   Pipe pipe;
   ChildFiles files;
@@ -95,13 +109,14 @@ Outcome run_probe(const std::vector<std::string>& words, double limit_s) {
   ::fcntl(reading, F_SETFL, O_NONBLOCK);
   bool open = true;
   while (!(outcome.in_time = child.ended()) && outcome.limit.empty()) {
-    if (cpu_s(child.pid()) > limit_s) outcome.limit = number_text(limit_s) + " s of the CPU";
+    if (cpu_s(loading_process(outcome.report)) > limit_s)
+      outcome.limit = number_text(limit_s) + " s of the CPU";
     if (Clock::now() > deadline) outcome.limit = number_text(wall_per_cpu * limit_s) + " s";
     // the pipe closes when the child ends: no need to wait long after that, and none to sleep before
     pollfd waiting{reading, POLLIN, 0};
     if (::poll(&waiting, open ? 1u : 0u, open ? 10 : 1) > 0) open = read_some(reading, outcome.report);
   }
-  child.kill();
+  if (!outcome.in_time) end_probe(child);
   std::size_t before = 0;
   do {
     before = outcome.report.size();

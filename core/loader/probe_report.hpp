@@ -6,6 +6,7 @@
 
 namespace fulmar::core {
 
+inline constexpr std::string_view report_process = "process: ";  // that loads the plugin: its number follows
 inline constexpr std::string_view report_loaded = "stage: loaded\n";
 inline constexpr std::string_view report_read = "stage: read\n";
 inline constexpr std::string_view report_stays = "stays mapped\n";  // after it was closed

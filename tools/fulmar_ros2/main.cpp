@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "core/error.hpp"
+#include "core/app/program.hpp"
 #include "core/graph/catalogue.hpp"
 #include "core/graph/graph.hpp"
 #include "core/loader/home.hpp"
@@ -67,15 +67,9 @@ int main(int argc, char** argv) {
   package->add_option("DIR", options.folder, "new, empty, or written by this command before")->required();
   package->add_option("PLUGIN", options.plugins, "names or files of plugins; none: all that are installed");
   package->add_option("--mission", options.mission, "the plugins of this mission")->check(CLI::ExistingFile);
-  try {
+  return core::run_program(app, [&] {
+    if (core::asked_for_rows(argc, argv)) return std::fputs(core::command_rows(app).c_str(), stdout), 0;
     app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;
-  }
-  try {
     return write_interfaces(options);
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "%s\n", e.what());
-    return 1;
-  }
+  });
 }

@@ -243,7 +243,8 @@ TEST_CASE("a crash after the flight names the plugin and does not point to a log
   CHECK(program.wait() == 128 + SIGSEGV);
   const std::string said = program.said();
   CHECK_MESSAGE(
-      said.find("crashed in code of lab.so (segmentation fault) after the flight, whose log is closed") !=
+      said.find(
+          "lab.so crashed while being unloaded (segmentation fault) after the flight, whose log is closed") !=
           std::string::npos,
       said);
   CHECK(said.find(".part") == std::string::npos);

@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // fulmar-probe COPY NAME [SCRIPT FILE]: loads, reads and unloads one plugin, or one script by the plugin at
-// COPY, and reports on standard output. Run by the host with a time limit.
+// COPY, and reports on standard output. Run by the host with a time limit. A child loads the file; this
+// process stays behind, and ends whatever the file has started, wherever that went.
+#include <dirent.h>
 #include <fcntl.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <string>
 
 #include "core/error.hpp"
@@ -40,15 +47,13 @@ int refuse(std::string sentence) {
 }
 
 // The report goes through a descriptor that the plugin does not know; what it prints goes nowhere. No core
-// dump, no life after the host.
+// dump.
 void prepare() {
   report_pipe = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 100);
   if (report_pipe < 0) report_pipe = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);  // so many may not be open
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   ::dup2(nowhere, STDOUT_FILENO);
   ::close(nowhere);
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  ::prctl(PR_SET_DUMPABLE, 0);
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
 }
@@ -90,6 +95,76 @@ int try_it(int argc, char** argv) try {
   return refuse(fault.what());
 }
 
+// The child that loads the file.
+int try_it_here(int argc, char** argv, pid_t guard) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  ::prctl(PR_SET_DUMPABLE, 0);
+  if (::getppid() != guard) return 1;  // which ended before this process asked to end with it
+  say(std::string(report_process) + std::to_string(::getpid()) + "\n");
+  return try_it(argc, argv);
+}
+
+// ---- the process that stays behind: it runs nothing of the file's
+
+std::atomic<pid_t> trying{0};
+std::atomic<bool> over{false};
+
+// The host's patience is over, or the host itself.
+void end_it(int) {
+  over = true;
+  if (const pid_t child = trying; child > 0) ::kill(child, SIGKILL);
+}
+
+pid_t parent_of(const char* process) {
+  std::FILE* about = std::fopen(("/proc/" + std::string(process) + "/stat").c_str(), "re");
+  if (about == nullptr) return 0;
+  char text[512];
+  const std::size_t n = std::fread(text, 1, sizeof text - 1, about);
+  std::fclose(about);
+  text[n] = 0;
+  const char* after_name = std::strrchr(text, ')');  // a name may hold anything, ") " too
+  int parent = 0;
+  return after_name && std::sscanf(after_name + 1, " %*c %d", &parent) == 1 ? parent : 0;
+}
+
+void kill_children() {
+  DIR* all = ::opendir("/proc");
+  if (all == nullptr) return;
+  while (const dirent* entry = ::readdir(all))
+    if (const int process = std::atoi(entry->d_name); process > 0 && parent_of(entry->d_name) == ::getpid())
+      ::kill(process, SIGKILL);
+  ::closedir(all);
+}
+
+// Whoever has lost its parent has become a child of this process: with each round all of them are.
+void end_the_others() {
+  int status = 0;
+  for (pid_t ended = 0; (ended = ::waitpid(-1, &status, WNOHANG)) >= 0 || errno == EINTR;) {
+    if (ended != 0) continue;
+    kill_children();
+    ::waitpid(-1, &status, 0);
+  }
+}
+
+// Ends as the child has ended.
+int end_as(int status) {
+  if (!WIFSIGNALED(status)) return WEXITSTATUS(status);
+  ::prctl(PR_SET_DUMPABLE, 0);
+  std::signal(WTERMSIG(status), SIG_DFL);
+  ::raise(WTERMSIG(status));
+  return 1;
+}
+
+int watch_over(pid_t child) {
+  trying = child;
+  if (over) end_it(SIGTERM);
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+  trying = 0;
+  end_the_others();
+  return end_as(status);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -98,6 +173,13 @@ int main(int argc, char** argv) {
     return 2;
   }
   prepare();
-  const int code = try_it(argc, argv);
+  ::prctl(PR_SET_CHILD_SUBREAPER, 1);
+  std::signal(SIGTERM, end_it);
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  const pid_t guard = ::getpid(), child = ::fork();
+  if (child < 0) return refuse(std::string(argv[2]) + " cannot be tried: " + std::strerror(errno));
+  if (child > 0) return watch_over(child);
+  std::signal(SIGTERM, SIG_DFL);
+  const int code = try_it_here(argc, argv, guard);
   ::_exit(code);  // without the plugin's exit handlers: one that stays resident has shown nothing wrong yet
 }

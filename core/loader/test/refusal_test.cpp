@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstddef>
 #include <cstring>
 #include <vector>
@@ -135,6 +136,27 @@ TEST_CASE("what a plugin does while it is loaded happens to a child") {
   const Environment limit("FULMAR_PROBE_SECONDS", "0.4");
   CHECK(refusal(plugin("hang")) == "hang.so did not finish loading within 1.6 s");
   CHECK(refusal(plugin("busy")) == "busy.so did not finish loading within 0.4 s of the CPU");
+}
+
+TEST_CASE("what a plugin has started where it is tried ends with the trial, wherever it went") {
+  const fs::path file = folder() / "started";
+  const Environment named("SLY_FILE", file.string()), limit("FULMAR_PROBE_SECONDS", "1");
+  struct Deed {
+    const char *then, *told;
+  };
+  for (const Deed& deed : {Deed{"hang", "sly_setsid.so did not finish loading within 4 s"},
+                           Deed{"crash", "sly_setsid.so crashed while being loaded (signal 11)"},
+                           Deed{"exit", "sly_setsid.so ended the process while being loaded (exit code 0)"},
+                           Deed{"", "accepted"}}) {
+    CAPTURE(deed.then);
+    fs::remove(file);
+    const Environment what("SLY_THEN", deed.then);
+    CHECK(refusal(plugin("sly_setsid")) == deed.told);
+    pid_t started = 0;
+    std::ifstream(file, std::ios::binary).read(reinterpret_cast<char*>(&started), sizeof started);
+    REQUIRE(started > 0);
+    CHECK(::kill(started, 0) != 0);
+  }
 }
 
 TEST_CASE("a good plugin on a busy machine gets the time that it needs") {

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/app/last_act.hpp"
+
+#include <link.h>
+#include <sys/syscall.h>
+#include <ucontext.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+
+#include "core/app/program.hpp"
+#include "core/app/words.hpp"
+#include "core/loader/in_hand.hpp"
+#include "core/run/last_words.hpp"
+#include "core/sanitized.hpp"
+#include "fulmar/quiet_thread.hpp"
+
+namespace fulmar::core {
+
+std::atomic<bool> in_flight{false};
+
+namespace {
+
+std::atomic<pid_t> at_work{0};  // the process: a fork of it is none
+const char* no_log = ".\n";
+char log_name[4200], log_part[4200];  // of a flight's log, when it will be whole and until then
+
+struct Code {
+  std::uintptr_t begin = 0, end = 0;
+  std::array<char, 64> file{};
+};
+std::array<Code, 64> codes;
+std::atomic<std::size_t> code_count{0};
+
+}  // namespace
+
+void note_code(const std::string& file, const void* function) {
+  const std::size_t n = code_count;
+  if (n == codes.size()) return;
+  Code code;
+  code.begin = reinterpret_cast<std::uintptr_t>(function);
+  std::snprintf(code.file.data(), code.file.size(), "%s", file.c_str());
+  const auto look = [](dl_phdr_info* object, std::size_t, void* to) {
+    Code& c = *static_cast<Code*>(to);
+    std::uintptr_t begin = ~std::uintptr_t{0}, end = 0;
+    for (int i = 0; i < object->dlpi_phnum; ++i) {
+      const auto& part = object->dlpi_phdr[i];
+      if (part.p_type != PT_LOAD) continue;
+      begin = std::min<std::uintptr_t>(begin, object->dlpi_addr + part.p_vaddr);
+      end = std::max<std::uintptr_t>(end, object->dlpi_addr + part.p_vaddr + part.p_memsz);
+    }
+    if (c.begin < begin || c.begin >= end) return 0;
+    c.begin = begin, c.end = end;
+    return 1;
+  };
+  if (dl_iterate_phdr(look, &code) == 0) return;
+  codes[n] = code;
+  code_count = n + 1;
+}
+
+void forget_code() { code_count = 0; }
+
+void prepare_end(const std::string& log, const char* text) {
+  log_name[0] = log_part[0] = 0;
+  no_log = text;
+  if (log.empty()) return;
+  std::snprintf(log_part, sizeof log_part, "%s.part", log.c_str());
+  std::snprintf(log_name, sizeof log_name, "%s", log.c_str());
+}
+
+// ---- async-signal-safe from here on, as all that is done by a program that ends
+
+void tell(std::initializer_list<const char*> words) {
+  for (const char* word : words) write_last_words(word);
+}
+
+/// Somebody may have moved the log, or removed it, or it is not begun; of one that rotates the first file is
+/// whole.
+void tell_end() {
+  if (log_name[0] == 0) return tell({no_log});
+  if (access(log_part, F_OK) == 0) return tell({". What was logged until then is in ", log_part, "\n"});
+  if (access(log_name, F_OK) == 0) return tell({". What was logged until then begins in ", log_name, "\n"});
+  tell({". There is no log in ", log_part, "\n"});
+}
+
+void leave(int code) {
+  for (;;) syscall(SYS_exit_group, code);
+}
+
+void send_last_frame() {
+  const fulmar_last_frame* frame = last_frame.exchange(nullptr, std::memory_order_acq_rel);
+  if (frame && frame->fd >= 0 && write(frame->fd, frame->data, frame->size) < 0)
+    tell({"\nfulmar: the last frame could not be sent"});
+}
+
+namespace {
+
+const char* whose_code(std::uintptr_t address) {
+  for (std::size_t i = 0; i < code_count; ++i)
+    if (address >= codes[i].begin && address < codes[i].end) return codes[i].file.data();
+  return nullptr;
+}
+
+const char* crash_name(int signal) {
+  switch (signal) {
+    case SIGSEGV: return " (segmentation fault)";
+    case SIGABRT: return " (abort)";
+    case SIGFPE: return " (arithmetic fault)";
+    case SIGBUS: return " (bus error)";
+    case SIGILL: return " (illegal instruction)";
+    case SIGTRAP: return " (trap)";
+    case SIGSYS: return " (bad system call)";
+    default: return "";
+  }
+}
+
+std::uintptr_t program_counter([[maybe_unused]] const void* context) {
+#if defined(__x86_64__)
+  return static_cast<std::uintptr_t>(static_cast<const ucontext_t*>(context)->uc_mcontext.gregs[REG_RIP]);
+#elif defined(__aarch64__)
+  return static_cast<const ucontext_t*>(context)->uc_mcontext.pc;
+#else
+  return 0;
+#endif
+}
+
+/// A flight may have left half a line on the terminal.
+const char* beginning() { return in_flight ? "\nfulmar: " : "fulmar: "; }
+
+/// A component that crashes takes the host with it; at least it is named.
+void on_crash(int signal, siginfo_t*, void* context) {
+  send_last_frame();
+  const char* component = in_step.load(std::memory_order_relaxed);
+  const char* loading = file_in_hand.load(std::memory_order_relaxed);
+  const char* code = whose_code(program_counter(context));
+  tell({beginning(), component ? component : loading ? loading : "the host", " crashed"});
+  if (component)
+    tell({" in its ", in_call.load(std::memory_order_relaxed)});
+  else if (loading)
+    tell({" while being ", file_is_being.load(std::memory_order_relaxed)});
+  else if (code)
+    tell({" in code of ", code});
+  tell({crash_name(signal)});
+  tell_end();
+  raise(signal);  // the default action, restored by SA_RESETHAND
+}
+
+/// Code of a plugin, or a thread that it has started, ends the program as a crash does.
+void on_exit() {
+  if (at_work != getpid()) return;
+  at_work = 0;
+  send_last_frame();
+  const char* component = in_step.load(std::memory_order_relaxed);
+  const char* loading = file_in_hand.load(std::memory_order_relaxed);
+  const char* thread = in_flight ? "a thread of a component" : "code of a plugin";
+  tell({beginning(), component ? component : loading ? loading : thread, " ended the program"});
+  if (component)
+    tell({" in its ", in_call.load(std::memory_order_relaxed)});
+  else if (loading)
+    tell({" while being ", file_is_being.load(std::memory_order_relaxed)});
+  tell_end();
+  leave(in_flight ? ExitCode::failed : ExitCode::refused);  // whatever code it asked for
+}
+
+}  // namespace
+
+void handle_crashes() {
+#ifndef FULMAR_SANITIZED                            // such a build reports crashes by itself
+  static const auto* const stack = new CrashStack;  // a plugin's last destructor may crash, too
+  struct sigaction action {};
+  action.sa_sigaction = on_crash;
+  action.sa_flags = static_cast<int>(SA_SIGINFO | SA_ONSTACK | SA_RESETHAND | SA_NODEFER);
+  for (const int signal : crash_signals) sigaction(signal, &action, nullptr);
+  static_cast<void>(stack);
+#else
+  static_cast<void>(on_crash);
+#endif
+}
+
+AtWork::AtWork() {
+  static const int registered = std::atexit(on_exit) | std::at_quick_exit(on_exit);
+  if (registered != 0) tell({"fulmar: no room for an exit handler\n"});
+  handle_crashes();
+  at_work = getpid();
+}
+
+AtWork::~AtWork() { at_work = 0; }
+
+}  // namespace fulmar::core
+
+// Stand in front of the C library's, for plugins: they run no exit handler. A fork of the host ends as it
+// likes.
+extern "C" {
+void _exit(int code) {  // NOLINT(bugprone-reserved-identifier): POSIX's name
+  fulmar::core::on_exit();
+  fulmar::core::leave(code);
+}
+void _Exit(int code) noexcept {  // NOLINT(bugprone-reserved-identifier): C's name
+  fulmar::core::on_exit();
+  fulmar::core::leave(code);
+}
+}

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Plugins that behave where they are tried, and end the program where it uses them: whichever word loads
+// them, somebody is told which file it was, and nobody takes the end for a success.
+#include <sys/wait.h>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "core/run/test/lab.hpp"
+
+namespace sly_test {
+
+using namespace lab;
+
+namespace {
+
+struct Result {
+  int code = -1;
+  std::string out, err;
+};
+
+std::string text(const fs::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// As a shell has it: the exit code, or 128 and the signal.
+Result fulmar(const std::string& words) {
+  const fs::path out = folder().path / "out", err = folder().path / "err";
+  const int status = std::system(
+      ("ulimit -c 0; exec " FULMAR_BIN_DIR "/fulmar " + words + " >" + out.string() + " 2>" + err.string())
+          .c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), text(out), text(err)};
+}
+
+std::string plugin(const std::string& name) { return FULMAR_TEST_PLUGIN_DIR "/" + name + ".so"; }
+
+/// The laboratory's mission with such a component in it, which this process does not load itself.
+std::string sly_mission(const std::string& name) {
+  mission("  sly: {use: " + plugin("sly_setsid") + "}\n" + one_phase);
+  std::string with = text(folder().path / "lab.yaml");
+  with.replace(with.find("sly_setsid"), 10, name);
+  const fs::path file = folder().path / "sly.yaml";
+  std::ofstream(file) << with;
+  return file.string();
+}
+
+struct Sly {
+  const char *name, *told;
+  int code;
+};
+const Sly all[] = {
+    {"sly_exit", "sly_exit.so ended the program while being loaded.", 4},
+    {"sly_quit", "sly_quit.so ended the program while being loaded.", 4},
+    {"sly_last", "sly_last.so ended the program while being unloaded", 4},
+    {"sly_crash", "sly_crash.so crashed while being loaded (segmentation fault).", 128 + SIGSEGV}};
+
+bool tried(const Sly& sly) {  // a sanitized build handles crashes by itself
+  return FULMAR_CRASH_TESTS || sly.code == 4;
+}
+
+}  // namespace
+
+TEST_CASE("a plugin that ends the program where it is used is named by every word that loads it") {
+  for (const Sly& sly : all) {
+    if (!tried(sly)) continue;
+    CAPTURE(sly.name);
+    const std::string flown = sly_mission(sly.name);
+    for (const std::string& words :
+         {"inspect " + plugin(sly.name), "check " + flown, "graph " + flown, "run " + flown + " --no-log"}) {
+      if (words.starts_with("run") && sly.name == "sly_last"s) continue;  // flies first
+      CAPTURE(words);
+      const Result r = fulmar(words);
+      CHECK(r.code == sly.code);
+      CHECK_MESSAGE(r.err.find("fulmar: "s + sly.told) != std::string::npos, r.err);
+    }
+  }
+}
+
+TEST_CASE("a plugin that ends a running host in a swap is named, with the place of the log") {
+  const std::string log = (folder().path / "swap.mcap").string();
+  for (const Sly& sly : all) {
+    if (!tried(sly) || sly.name == "sly_last"s) continue;
+    CAPTURE(sly.name);
+    const fs::path said = folder().path / "said";
+    for (const std::string& old : {log + ".part", said.string()}) fs::remove(old);
+    const std::string flown = sly_mission("sly_setsid");
+    const std::string host = FULMAR_BIN_DIR "/fulmar run " + flown +
+                             " --speed real --arm off --live 127.0.0.1:0 --log " + log + " 2>" +
+                             said.string() + " & echo $!; wait $!; echo $?";
+    FILE* const pipe = popen(("ulimit -c 0; " + host).c_str(), "r");
+    REQUIRE(pipe != nullptr);
+    int process = 0, code = 0;
+    REQUIRE(std::fscanf(pipe, "%d", &process) == 1);
+    const std::string at = "live view: ws://";
+    std::size_t begin = std::string::npos;
+    for (int i = 0; i < 6000 && (begin = text(said).find(at)) == std::string::npos; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    std::string port = begin == std::string::npos ? "" : text(said).substr(begin + at.size());
+    port.resize(std::min(port.size(), port.find('\n')));
+    setenv("FULMAR_LIVE", port.c_str(), 1);
+    fulmar("swap sly " + plugin(sly.name));
+    unsetenv("FULMAR_LIVE");
+    if (text(said).find(sly.name) == std::string::npos) kill(process, SIGKILL);
+    CHECK(std::fscanf(pipe, "%d", &code) == 1);
+    pclose(pipe);
+    // in a flight: it was begun, and failed
+    CHECK(code == (sly.code == 4 ? 1 : sly.code));
+    std::string told = sly.told;
+    told.pop_back();
+    CHECK_MESSAGE(
+        text(said).find(told + ". What was logged until then is in " + log + ".part") != std::string::npos,
+        text(said));
+  }
+}
+
+}  // namespace sly_test

@@ -68,11 +68,16 @@ LogName free_name(const fs::path& wanted) {
 
 /// logs/<mission>-<UTC>.mcap. A host that is started again in the air must not stand still before the log of
 /// its predecessor.
-LogName default_log(const Graph& graph) {
+LogName default_log(const Graph& graph, const fs::path& folder) {
   if (!graph.record_file.empty())
-    return graph.io == Io::fcu ? free_name(graph.record_file) : LogName{graph.record_file};
+    return graph.io == Io::fcu ? free_name(folder / graph.record_file) : LogName{folder / graph.record_file};
   return free_name(
-      fmt::format("logs/{}-{:%Y%m%dT%H%M%SZ}.mcap", graph.mission, fmt::gmtime(std::time(nullptr))));
+      folder / fmt::format("logs/{}-{:%Y%m%dT%H%M%SZ}.mcap", graph.mission, fmt::gmtime(std::time(nullptr))));
+}
+
+fs::path working_directory() {
+  std::error_code gone;
+  return fs::current_path(gone);
 }
 
 /// One line that is rewritten on a terminal; whole lines, now and then, when piped.
@@ -102,7 +107,8 @@ class Progress {
 /// Flights of one mission in one host: the graph that flies now, and how the last flight went.
 class Session {
  public:
-  explicit Session(const RunOptions& options) : options_(options), graph_(load()) {
+  explicit Session(const RunOptions& options)
+      : options_(options), start_(working_directory()), graph_(load()) {
     if (!graph_.record && !options.log_file.empty())
       throw Error("--log " + options.log_file + ": the mission says record: off; there is no log to write");
   }
@@ -179,10 +185,11 @@ class Session {
     return graph;
   }
 
+  /// A name that stays what it is, whatever folder a plugin goes to.
   LogName log_name() const {
     if (options_.no_log || !graph_.record) return {};
-    if (options_.log_file.empty()) return default_log(graph_);
-    const fs::path file = options_.log_file;
+    if (options_.log_file.empty()) return default_log(graph_, start_);
+    const fs::path file = (start_ / options_.log_file).lexically_normal();
     if (results_.empty()) return graph_.io == Io::fcu ? free_name(file) : LogName{file};
     return {numbered(file, results_.size() + 1)};
   }
@@ -307,7 +314,8 @@ class Session {
     const bool whole = result.log.error.empty();
     if (!whole)
       warn("the log is not whole: " + result.log.error + "; " + std::to_string(result.log.dropped) +
-           " messages were lost, and what there is is in " + result.log.file.string());
+           " messages were lost" +
+           (result.log.file.empty() ? "" : ", and what there is is in " + result.log.file.string()));
     else if (result.log.dropped > 0)
       warn("the log has gaps: the disk was too slow for " + std::to_string(result.log.dropped) + " messages");
     if (!whole) return ExitCode::failed;  // however the flight ended
@@ -369,6 +377,7 @@ class Session {
   }
 
   const RunOptions& options_;
+  const fs::path start_;  // the working directory in which the program was started
   Graph graph_;
   std::unique_ptr<Graph> before_;  // until a flight with the newcomers has begun
   std::unique_ptr<Flight> last_;   // what its components saw is what a newcomer is rehearsed on

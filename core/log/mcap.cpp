@@ -157,13 +157,16 @@ struct McapWriter::Impl {
       summary();
       if (out->append(block.data(), block.size())) out->finish();
     }
+    std::filesystem::path place = out->name();
     if (broken()) {
       trouble = out->error();
-      if (!std::filesystem::exists(out->name()))
-        file.messages = file.repeated = 0;  // somebody has removed the file
+      if (std::error_code none; !std::filesystem::exists(place, none)) {  // somebody has removed the file
+        file.messages = file.repeated = 0;
+        place.clear();
+      }
     }
     delivered += file.messages - file.repeated;
-    parts.push_back({out->name(), out->sha256(), file.messages, out->size()});
+    parts.push_back({place, out->sha256(), file.messages, out->size()});
   }
 
   /// The records that began the first file begin the next one, too, and then which one of them it is.

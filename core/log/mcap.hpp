@@ -41,7 +41,7 @@ class McapWriter {
     std::int64_t rotate_ns = 0;
   };
   struct Part {
-    std::filesystem::path file;  // as it is named now
+    std::filesystem::path file;  // as it is named now; empty: it is not there any more
     std::string sha256;
     std::uint64_t messages = 0, bytes = 0;
   };

@@ -74,16 +74,33 @@ void OutFile::fail(const std::string& why) {
 }
 
 bool OutFile::still_there() {
-  struct stat about {};
+  struct stat about {
+  }, named{};
   if (::fstat(fd_, &about) != 0) return failed("look at");
   if (about.st_nlink == 0) {
     fail("somebody has removed '" + name_.string() + "'");
+    name_.clear();
+    return false;
+  }
+  const bool there = ::stat(name_.c_str(), &named) == 0;
+  if (!there && errno != ENOENT && errno != ENOTDIR) return failed("look at");
+  if (!there || named.st_dev != about.st_dev || named.st_ino != about.st_ino) {
+    note_move();
     return false;
   }
   if (static_cast<std::uint64_t>(about.st_size) == size_) return true;
   fail("somebody has changed '" + name_.string() + "': it has " + std::to_string(about.st_size) +
        " bytes in place of " + std::to_string(size_));
   return false;
+}
+
+/// Where it is now, the kernel knows.
+void OutFile::note_move() {
+  std::error_code none;
+  const std::filesystem::path now =
+      std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(fd_), none);
+  fail("somebody has moved '" + name_.string() + (none ? "'" : "' to '" + now.string() + "'"));
+  name_ = now;
 }
 
 bool OutFile::append(const void* block, std::size_t size) {

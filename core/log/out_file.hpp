@@ -39,12 +39,15 @@ class OutFile {
   std::uint32_t crc() const { return crc_; }
   std::string sha256() { return sha_.hex(); }
   const std::string& error() const { return error_; }
+  /// As it is called now: FILE.part, FILE, or what somebody was seen to have made of it; empty: it is
+  /// removed.
   const std::filesystem::path& name() const { return name_; }
   void fail(const std::string& why);
 
  private:
   bool failed(const char* what);  // notes errno
   bool still_there();
+  void note_move();
   std::filesystem::path file_, name_;
   int fd_ = -1;
   std::uint64_t size_ = 0;

@@ -16,7 +16,7 @@ namespace fulmar::core {
 class Tap;
 
 struct LogResult {
-  std::filesystem::path file;  // ends in ".part" when it could not be written whole
+  std::filesystem::path file;  // ends in ".part" when it could not be written whole; empty: it is gone
   std::string sha256;
   std::uint64_t messages = 0;
   std::uint64_t bytes = 0;

@@ -474,3 +474,24 @@ TEST_CASE("the hourglass is flown over each Earth, as well as over the flat one"
     CHECK(j["tracking_true_rmse"]["east_m"].get<double>() < 3.29);
   }
 }
+
+TEST_CASE(
+    "a log that is moved or removed is told while it flies, and the last sentence points to what is there") {
+  const fs::path logs = folder() / "gone", kept = folder() / "kept";
+  for (const bool removed : {false, true}) {
+    CAPTURE(removed);
+    const Background flight("run " + hourglass + " --speed real --log " + (logs / "a.mcap").string());
+    const fs::path part = logs / "a.mcap.part";
+    for (int i = 0; i < 1200 && !fs::exists(part); ++i) usleep(50'000);
+    REQUIRE(flight.says(" m  airspeed"));  // it flies
+    removed ? void(fs::remove_all(logs)) : fs::rename(logs, kept);
+    const std::string what = removed ? "somebody has removed '" : "somebody has moved '";
+    REQUIRE(flight.says("the flight goes on without its log: " + what));
+    shell("kill -INT " + flight.pid);
+    REQUIRE(flight.says("the log is not whole: " + what));
+    const std::string said = flight.said();
+    CHECK((said.find(" messages were lost, and what there is is in " + (kept / "a.mcap.part").string()) !=
+           std::string::npos) == !removed);
+    CHECK((said.find(" messages were lost\n") != std::string::npos) == removed);
+  }
+}

@@ -25,13 +25,13 @@ fs::path log_file() { return folder().path / "end.mcap"; }
 /// The program flying the laboratory's mission, and what it said.
 class Program {
  public:
-  explicit Program(const std::string& tail, std::vector<std::string> words = {}) {
+  explicit Program(const std::string& tail, std::vector<std::string> words = {},
+                   const std::string& log = log_file()) {
     for (const fs::path& old : {device(), log_file(), fs::path(log_file().string() + ".part")})
       fs::remove(old);
     mission("  sim: {fills: vehicle, use: lab/Cart, params: {device: " + device().string() + "}}\n" + tail);
     const std::string program = std::string(FULMAR_BIN_DIR) + "/fulmar", said = said_.string();
-    words.insert(words.begin(),
-                 {program, "run", (folder().path / "lab.yaml").string(), "--log", log_file().string()});
+    words.insert(words.begin(), {program, "run", (folder().path / "lab.yaml").string(), "--log", log});
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
@@ -41,6 +41,7 @@ class Program {
     const int to = open(said.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
     dup2(to, STDOUT_FILENO);
     dup2(to, STDERR_FILENO);
+    if (chdir(folder().path.c_str()) != 0) _exit(126);
     execv(program.c_str(), arguments.data());
     _exit(127);
   }
@@ -62,6 +63,12 @@ class Program {
   std::string said() const { return text(said_); }
   pid_t pid() const { return pid_; }
 
+  /// Waits until the log is begun.
+  bool logs() const {
+    for (int i = 0; i < 2000 && !fs::exists(log_file().string() + ".part"); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return thread("fulmar-log") > 0;
+  }
   /// Thread by name; waits until it is there.
   pid_t thread(const std::string& name) const {
     for (int i = 0; i < 2000; ++i) {
@@ -156,6 +163,26 @@ TEST_CASE("a component that takes the host with it is named, and the device gets
   }
 }
 
+TEST_CASE("a log is said to lie where it lies: by its whole name, and not where it was moved from") {
+  if (FULMAR_CRASH_TESTS) {
+    Program program(law("crashes"), {}, "end.mcap");
+    CHECK(program.wait() == 128 + SIGSEGV);
+    CHECK_MESSAGE(
+        program.said().find("until then is in " + log_file().string() + ".part") != std::string::npos,
+        program.said());
+  }
+  Program program(one_phase, {"--speed", "real"}, "end.mcap");
+  const fs::path part = log_file().string() + ".part";
+  REQUIRE(program.logs());
+  fs::rename(part, folder().path / "elsewhere");
+  kill(program.pid(), SIGQUIT);
+  CHECK(program.wait() == 128 + SIGQUIT);
+  const std::string said = program.said();
+  CHECK_MESSAGE(said.find("ended by SIGQUIT. There is no log in " + part.string()) != std::string::npos,
+                said);
+  CHECK(said.find("What was logged") == std::string::npos);
+}
+
 TEST_CASE("a fork of the host that exits is not the host") {
   Program program(law("forks"), {"--duration", "0.3"});
   CHECK(program.wait() == 0);
@@ -194,6 +221,7 @@ TEST_CASE("a crash of any thread of the host is told, and its device gets the la
     Program program(everything + std::string(one_phase), {"--speed", "real"});
     const pid_t thread = program.thread(name);
     REQUIRE(thread > 0);
+    REQUIRE(program.logs());
     REQUIRE(syscall(SYS_tgkill, program.pid(), thread, SIGSEGV) == 0);
     CHECK(program.wait() == 128 + SIGSEGV);
     CHECK(program.said().find("the host crashed (segmentation fault). What was logged") != std::string::npos);
@@ -211,9 +239,7 @@ TEST_CASE(
                          End{SIGXCPU, "SIGXCPU"}, End{SIGVTALRM, "SIGVTALRM"}, End{SIGIO, "SIGIO"}}) {
     CAPTURE(end.name);
     Program program(one_phase, {"--speed", "real"});
-    REQUIRE(program.thread("fulmar-log") > 0);
-    for (int i = 0; i < 1000 && !fs::exists(log_file().string() + ".part"); ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    REQUIRE(program.logs());
     kill(program.pid(), end.signal);
     CHECK(program.wait() == 128 + end.signal);
     CHECK_MESSAGE(program.said().find("ended by "s + end.name + ". What was logged until then is in ") !=

@@ -438,6 +438,54 @@ TEST_CASE("a log whose file is removed in flight says so and counts its messages
   CHECK(result.error.find("somebody has removed '" + (folder.path / "a.mcap.part").string()) == 0);
   CHECK(result.messages == 0);
   CHECK(result.dropped == 2500);
+  CHECK(result.file.empty());
+}
+
+TEST_CASE(
+    "a log whose file or folder is moved says so within 2 s of flight, and what was written is not lost") {
+  for (const bool whole_folder : {false, true}) {
+    const Folder folder;
+    const fs::path from = folder.path / "logs", to = folder.path / "kept";
+    for (const fs::path& path : {from, to}) fs::create_directory(path);
+    const fs::path part = from / "a.mcap.part", moved = to / "a.mcap.part";
+    TapedLog log({.file = from / "a.mcap", .epoch_ns = epoch_ns}, two_channels());
+    const auto head = fs::file_size(part);
+    fly(log, 2000);
+    for (int i = 0; i < 10'000 && fs::file_size(part) == head; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    whole_folder ? fs::rename(from, to) : fs::rename(part, moved);
+    if (!whole_folder) std::ofstream(part) << "what is not ours";
+    fly(log, 800);
+    for (int i = 0; i < 10'000 && !log.log.failed(); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    CHECK(log.log.failed());
+    const LogResult result = log.close();
+    CHECK(result.error == "somebody has moved '" + part.string() + "' to '" + moved.string() + "'");
+    CHECK(result.file == moved);
+    CHECK(result.messages > 0);
+    CHECK(result.messages + result.dropped == 3500);
+    CHECK(read_mcap(moved).messages.size() == result.messages);
+  }
+}
+
+TEST_CASE("a log whose folder is removed, or in whose place another file lies, is not pointed to") {
+  for (const bool another : {false, true}) {
+    const Folder folder;
+    const fs::path logs = folder.path / "logs";
+    fs::create_directory(logs);
+    TapedLog log({.file = logs / "a.mcap", .epoch_ns = epoch_ns}, two_channels());
+    fly(log, 1000);
+    fs::remove_all(logs);
+    if (another) {
+      fs::create_directory(logs);
+      std::ofstream(logs / "a.mcap.part") << "what is not ours";
+    }
+    fly(log, 1000);
+    const LogResult result = log.close();
+    CHECK_MESSAGE(result.error.find("somebody has removed '") == 0, result.error);
+    CHECK(result.messages == 0);
+    CHECK(result.file.empty());
+  }
 }
 
 TEST_CASE("a log that somebody has cut or lengthened in flight is not called whole") {

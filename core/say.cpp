@@ -4,13 +4,15 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "core/terminal.hpp"
+
 namespace fulmar::core {
 
 void say_aloud(const std::string& text, Tone tone) {
   const auto level = tone == Tone::error     ? spdlog::level::err
                      : tone == Tone::warning ? spdlog::level::warn
                                              : spdlog::level::info;
-  spdlog::log(level, "{}", text);
+  spdlog::log(level, "{}", for_terminal(text));
 }
 
 void speak_on_standard_error() {

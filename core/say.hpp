@@ -7,7 +7,7 @@ namespace fulmar::core {
 
 enum class Tone : unsigned char { info, warning, error };
 
-/// A line for people. From any thread.
+/// A line for people, without what a terminal obeys. From any thread.
 void say_aloud(const std::string& text, Tone tone = Tone::info);
 inline void warn(const std::string& text) { say_aloud(text, Tone::warning); }
 

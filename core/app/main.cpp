@@ -18,6 +18,7 @@
 #include "core/run/realtime.hpp"
 #include "core/run/set_up.hpp"
 #include "core/say.hpp"
+#include "core/types/text.hpp"
 
 namespace {
 
@@ -29,7 +30,7 @@ int check(const std::string& mission, const Overrides& overrides) {
   std::string refused;
   for (const std::string& fault : refused_set_ups(graph)) refused += (refused.empty() ? "" : "\n") + fault;
   if (!refused.empty()) throw Error(refused);
-  std::printf("%s is in order: %zu components, %zu roles, %zu phases.\n", mission.c_str(),
+  std::printf("%s is in order: %zu components, %zu roles, %zu phases.\n", for_terminal(mission).c_str(),
               graph.components.size(), graph.roles.size(), graph.phases.size());
   return 0;
 }
@@ -183,7 +184,7 @@ struct Commands {
     for (const std::string& word : extern_commands()) valid.push_back(word);
     std::erase(valid, "complete");  // for shells
     const std::string word = words[0];
-    std::fprintf(stderr, "fulmar: there is no command '%s'.%s\n", words[0],
+    std::fprintf(stderr, "fulmar: there is no command '%s'.%s\n", for_terminal(word).c_str(),
                  choices_text(word, valid).c_str());
     if (word == "fcu" || word == "ros2")
       std::fprintf(stderr,

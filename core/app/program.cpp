@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "core/app/last_act.hpp"
 #include "core/error.hpp"
@@ -37,7 +38,7 @@ int ended_by(CLI::App& app, const std::function<int()>& words) {
   try {
     return words();
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? ExitCode::done : ExitCode::usage;
+    return tell_usage(app, e);
   }
 }
 
@@ -49,6 +50,14 @@ std::string sentence_of(const std::exception& fault) {
     return "what the other side has said has not the form that it should have";
   const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&fault);
   return file ? "'" + file->path1().string() + "': " + file->code().message() : fault.what();
+}
+
+int tell_usage(const CLI::App& app, const CLI::ParseError& fault) {
+  std::ostringstream out, err;
+  const int code = app.exit(fault, out, err);
+  std::fputs(out.str().c_str(), stdout);
+  std::fputs(for_terminal(err.str()).c_str(), stderr);
+  return code == 0 ? ExitCode::done : ExitCode::usage;
 }
 
 std::string command_rows(const CLI::App& app) {

@@ -6,7 +6,8 @@
 
 namespace CLI {
 class App;
-}
+class ParseError;
+}  // namespace CLI
 
 namespace fulmar::core {
 
@@ -25,6 +26,10 @@ struct ExitCode {
 /// Runs `words`, which parses the command line and returns the exit code. An Error becomes a sentence and the
 /// exit code `fault`; output that cannot be written becomes 1.
 int run_program(CLI::App& app, const std::function<int()>& words, int fault = ExitCode::failed);
+
+/// Prints the help that was asked for, or what is wrong with the command line, without what a terminal obeys;
+/// the exit code.
+int tell_usage(const CLI::App& app, const CLI::ParseError& fault);
 
 /// What was thrown, in words for people: those of the libraries are for programmers.
 std::string sentence_of(const std::exception& fault);

@@ -34,6 +34,7 @@
 #include "core/run/realtime.hpp"
 #include "core/run/swap.hpp"
 #include "core/say.hpp"
+#include "core/types/text.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -86,7 +87,8 @@ class Progress {
   explicit Progress(const Graph& graph) : graph_(graph), terminal_(words_on_terminal()) {}
   void show(const Flight& flight) {
     if (!terminal_ && ++calls_ % 10 != 1) return;
-    std::fprintf(stderr, terminal_ ? "\r\033[K%s" : "%s\n", progress_line(graph_, flight).c_str());
+    std::fprintf(stderr, terminal_ ? "\r\033[K%s" : "%s\n",
+                 for_terminal(progress_line(graph_, flight)).c_str());
     drawn_ = terminal_;
   }
   void say(const std::string& text, bool warning) {

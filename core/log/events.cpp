@@ -177,6 +177,7 @@ void make_printable(char* text) noexcept {
       continue;
     }
     if (*p < 0x20 || *p == 0x7f) *p = ' ';
+    if (*p == 0xc2 && p[1] < 0xa0) p[0] = p[1] = ' ';  // U+0080 to U+009F: a terminal obeys them, too
     p += more + 1;
   }
 }

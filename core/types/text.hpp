@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/terminal.hpp"
+
 namespace fulmar::core {
 
 /// Without the white space at both ends.
@@ -26,24 +28,6 @@ constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 constexpr bool is_name(std::string_view text) {
   return !text.empty() && !is_digit(text[0]) &&
          std::all_of(text.begin(), text.end(), [](char c) { return is_letter(c) || is_digit(c); });
-}
-
-/// Whether a control character begins there: one of ASCII, or of those of 8 bits in UTF-8. A line break and a
-/// tab are none.
-constexpr bool is_control(std::string_view text, std::size_t at) {
-  const auto c = static_cast<unsigned char>(text[at]);
-  if (c == 0xc2 && at + 1 < text.size()) return static_cast<unsigned char>(text[at + 1]) < 0xa0;
-  return (c < ' ' && c != '\n' && c != '\t') || c == 0x7f;
-}
-
-/// What somebody else has said, for a terminal: it obeys no control characters of theirs.
-inline std::string for_terminal(std::string text) {
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (!is_control(text, i)) continue;
-    if (static_cast<unsigned char>(text[i]) == 0xc2) text.erase(i, 1);
-    text[i] = '?';
-  }
-  return text;
 }
 
 /// In small letters, of ASCII alone.

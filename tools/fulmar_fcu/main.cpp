@@ -7,6 +7,8 @@
 #include <map>
 #include <string>
 
+#include "core/app/program.hpp"
+#include "core/types/text.hpp"
 #include "tools/fulmar_fcu/app.hpp"
 
 namespace {
@@ -180,8 +182,8 @@ std::string unknown_command(const CLI::App& all) {
 int usage(const CommandLine& line, const CLI::ParseError& e) {
   const bool words = dynamic_cast<const CLI::RequiredError*>(&e) || dynamic_cast<const CLI::ExtrasError*>(&e);
   const std::string unknown = words ? unknown_command(line.app) : "";
-  if (unknown.empty()) return line.app.exit(e) == 0 ? 0 : 2;
-  std::fprintf(stderr, "%s\n", unknown.c_str());
+  if (unknown.empty()) return core::tell_usage(line.app, e);
+  std::fprintf(stderr, "%s\n", core::for_terminal(unknown).c_str());
   return 2;
 }
 

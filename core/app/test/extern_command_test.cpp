@@ -108,6 +108,19 @@ TEST_CASE("a command that exists nowhere is told with what there is, and a built
   }
 }
 
+TEST_CASE("what is wrong with the command line is told without what a terminal obeys") {
+  const Home home;
+  for (const char* const word : {"a\\033[2J", "a\\302\\2332J"})
+    for (const char* const before : {"", "run --", "check x ", "check x --set ", "completion "}) {
+      const std::string words = before + ("\"$(printf 'WORD')\"" + std::string());
+      const Home::Result r = home.fulmar(std::string(words).replace(words.find("WORD"), 4, word));
+      CAPTURE(r.text);
+      CHECK(r.code != 0);
+      CHECK(r.text.find('\x1b') == std::string::npos);
+      CHECK(r.text.find("\xc2\x9b") == std::string::npos);
+    }
+}
+
 TEST_CASE("a program of ours that was not built is told with how to build it") {
   const Home home;
   for (const std::string word : {"fcu", "ros2"}) {

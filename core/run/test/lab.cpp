@@ -226,7 +226,10 @@ struct Law {
     switch (p.fault) {
       case Fault::nan: out.command.u_frac = std::numeric_limits<double>::quiet_NaN(); break;
       case Fault::range: out.command.u_frac = 1.5; break;
-      case Fault::throws: throw std::runtime_error("the law is broken\n\x01\xff\xc3\xa9");
+      case Fault::throws:
+        throw std::runtime_error(
+            "the law is broken\n\x01\xff\xc3\xa9\xc2\x9b"
+            "2J");
       case Fault::fails: return Status::failed;
       case Fault::probe_nan: out.error_m = std::numeric_limits<double>::infinity(); break;
       case Fault::stutters:

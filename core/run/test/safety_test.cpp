@@ -27,7 +27,7 @@ const Row rows[] = {
     {"nan", "u_frac is nan", true},
     {"range", "u_frac is 1.5", true},
     {"probe_nan", "probe 'error_m' is not finite", true},
-    {"throws", "the law is broken  ?\xc3\xa9", true},
+    {"throws", "the law is broken  ?\xc3\xa9  2J", true},
     {"fails", "says that it failed", true},
     {"crashes", "crashed (segmentation fault)", false},
     {"aborts", "abort", false},

@@ -1,13 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/app/program.hpp"
 
+#include <cxxabi.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
+#include <stdexcept>
+#include <system_error>
+#include <typeinfo>
+#include <variant>
 
 #include "core/app/last_act.hpp"
 #include "core/error.hpp"
@@ -42,14 +52,43 @@ int ended_by(CLI::App& app, const std::function<int()>& words) {
   }
 }
 
+template <class Fault>
+bool is(const std::exception& fault) {
+  return dynamic_cast<const Fault*>(&fault) != nullptr;
+}
+
+/// What an exception of the language means, for people; "": another library's, which has words of its own.
+std::string meaning_of(const std::exception& fault) {
+  if (is<std::length_error>(fault)) return "something would have become longer than anything can be";
+  if (is<std::out_of_range>(fault)) return "something was looked for where there is nothing";
+  if (is<std::invalid_argument>(fault)) return "something was given that makes no sense there";
+  if (is<std::bad_variant_access>(fault) || is<std::bad_optional_access>(fault) || is<std::bad_cast>(fault))
+    return "something is not what it was taken for";
+  if (is<std::bad_function_call>(fault)) return "there is nothing to call";
+  if (is<std::logic_error>(fault)) return "something is not as it has to be";
+  return "";
+}
+
+/// "std::length_error"
+std::string type_name(const std::exception& fault) {
+  int failed = 0;
+  const std::unique_ptr<char, void (*)(void*)> name(
+      abi::__cxa_demangle(typeid(fault).name(), nullptr, nullptr, &failed), &std::free);
+  return failed == 0 ? name.get() : typeid(fault).name();
+}
+
 }  // namespace
 
 std::string sentence_of(const std::exception& fault) {
-  if (dynamic_cast<const std::bad_alloc*>(&fault)) return "there is not enough memory for that";
-  if (dynamic_cast<const nlohmann::json::exception*>(&fault))
+  if (is<Error>(fault)) return fault.what();
+  if (is<std::bad_alloc>(fault)) return "there is not enough memory for that";
+  if (is<nlohmann::json::exception>(fault))
     return "what the other side has said has not the form that it should have";
-  const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&fault);
-  return file ? "'" + file->path1().string() + "': " + file->code().message() : fault.what();
+  if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&fault))
+    return "'" + file->path1().string() + "': " + file->code().message();
+  if (const auto* system = dynamic_cast<const std::system_error*>(&fault)) return system->code().message();
+  const std::string meaning = meaning_of(fault);
+  return "an error inside Fulmar (" + type_name(fault) + "): " + (meaning.empty() ? fault.what() : meaning);
 }
 
 int tell_usage(const CLI::App& app, const CLI::ParseError& fault) {

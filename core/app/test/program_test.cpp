@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What programs of the command line say of what was thrown, and how they say it.
+#include "core/app/program.hpp"
+
+#include <doctest/doctest.h>
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <any>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <tuple>
+#include <variant>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/say.hpp"
+
+namespace program_test {
+
+using namespace fulmar::core;
+
+namespace {
+
+std::string told(const std::function<void()>& fault) {
+  try {
+    fault();
+  } catch (const std::exception& e) {
+    return sentence_of(e);
+  }
+  return "nothing was thrown";
+}
+
+/// What comes out at standard error meanwhile.
+std::string heard(const std::function<void()>& words) {
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("fulmar-program-test-" + std::to_string(getpid()));
+  const int own = dup(STDERR_FILENO);
+  const int to = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+  dup2(to, STDERR_FILENO);
+  words();
+  dup2(own, STDERR_FILENO);
+  close(own), close(to);
+  std::ifstream in(file);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::filesystem::remove(file);
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("what the language's library throws becomes a sentence for people") {
+  const std::string inside = "an error inside Fulmar (";
+  CHECK(told([] { std::vector<int>().reserve(std::vector<int>().max_size() + 1); }) ==
+        inside + "std::length_error): something would have become longer than anything can be");
+  CHECK(told([] { std::ignore = std::string().substr(1); }) ==
+        inside + "std::out_of_range): something was looked for where there is nothing");
+  const std::string taken = "something is not what it was taken for";
+  CHECK(told([] { std::ignore = std::get<int>(std::variant<double, int>(1.0)); }) ==
+        inside + "std::bad_variant_access): " + taken);
+  CHECK(told([] { std::ignore = std::optional<int>().value(); }) ==
+        inside + "std::bad_optional_access): " + taken);
+  CHECK(told([] { std::ignore = std::any_cast<int>(std::any(1.0)); }) ==
+        inside + "std::bad_any_cast): " + taken);
+  CHECK(told([] { std::ignore = std::stoi("x"); }) ==
+        inside + "std::invalid_argument): something was given that makes no sense there");
+  CHECK(told([] { std::function<void()>()(); }) ==
+        inside + "std::bad_function_call): there is nothing to call");
+}
+
+TEST_CASE("what has words for people keeps them") {
+  CHECK(told([] { throw Error("mission.yaml:3: no"); }) == "mission.yaml:3: no");
+  CHECK(told([] {
+          throw std::system_error(std::make_error_code(std::errc::no_space_on_device), "basic_filebuf");
+        }) == "No space left on device");
+  CHECK(told([] { std::ignore = std::filesystem::file_size("/nowhere"); }) ==
+        "'/nowhere': No such file or directory");
+  CHECK(told([] { throw std::bad_alloc(); }) == "there is not enough memory for that");
+  CHECK(told([] { throw std::runtime_error("the ellipsoid is flat"); }) ==
+        "an error inside Fulmar (std::runtime_error): the ellipsoid is flat");
+}
+
+TEST_CASE("what the host says aloud holds nothing that a terminal obeys, and no time stamp") {
+  const std::string text = heard([] {
+    speak_on_standard_error();
+    say_aloud(
+        "a\x1b[2J\xc2\x9b"
+        "2J b\xc3\xa9");
+    warn("c\x7f");
+  });
+  CHECK(text == "a?[2J?2J b\xc3\xa9\nc?\n");
+}
+
+}  // namespace program_test

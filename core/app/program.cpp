@@ -21,6 +21,7 @@
 
 #include "core/app/last_act.hpp"
 #include "core/error.hpp"
+#include "core/say.hpp"
 #include "core/types/text.hpp"
 
 namespace fulmar::core {
@@ -109,6 +110,7 @@ bool asked_for_rows(int argc, char** argv) { return argc == 2 && std::strcmp(arg
 
 int run_program(CLI::App& app, const std::function<int()>& words, int fault) {
   const AtWork at_work;
+  speak_on_standard_error();
   try {
     const int code = ended_by(app, words);
     if (code != 0 || (std::fflush(stdout) == 0 && std::ferror(stdout) == 0)) return code;

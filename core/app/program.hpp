@@ -24,7 +24,7 @@ struct ExitCode {
 };
 
 /// Runs `words`, which parses the command line and returns the exit code. An Error becomes a sentence and the
-/// exit code `fault`; output that cannot be written becomes 1.
+/// exit code `fault`; output that cannot be written becomes 1. What the host says goes to standard error.
 int run_program(CLI::App& app, const std::function<int()>& words, int fault = ExitCode::failed);
 
 /// Prints the help that was asked for, or what is wrong with the command line, without what a terminal obeys;

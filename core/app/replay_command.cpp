@@ -186,7 +186,6 @@ int run(const ReplayWords& words, json& out) {
 }  // namespace
 
 int replay_command(const ReplayWords& words) {
-  speak_on_standard_error();
   struct sigaction action {};
   action.sa_handler = stop_replay;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);

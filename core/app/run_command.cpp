@@ -429,7 +429,6 @@ int worse(int a, int b) {
 }
 
 int run_command(const RunOptions& options) {
-  speak_on_standard_error();
   if (!options.build.empty() && !options.watch) throw CLI::ValidationError("--build belongs to --watch");
   ResultFile output(options.json);
   Session session(options);

@@ -495,3 +495,13 @@ TEST_CASE(
     CHECK((said.find(" messages were lost\n") != std::string::npos) == removed);
   }
 }
+
+TEST_CASE("check speaks on standard error without stamps; standard output is the one line") {
+  const fs::path file = mission(plan + "  follow: {in: {path: {from: manage.path, max_age: off}}}\n");
+  const Result r = fulmar("check " + file.string());
+  CHECK(r.code == 0);
+  CHECK(r.out.starts_with(file.string() + " is in order: "));
+  CHECK(r.out.find('\n') == r.out.size() - 1);
+  CHECK_MESSAGE(r.err.starts_with("mission.yaml:8: "), r.err);
+  CHECK(r.err.find("[warning]") == std::string::npos);
+}

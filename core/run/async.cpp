@@ -117,7 +117,7 @@ void Async::work(Job& job) noexcept {
   const std::int64_t begin = monotonic_ns();
   job.error.text[0] = '\0';
   static constexpr const char* calls[] = {"step", "retune", "activate"};
-  const InFlight inside(name_, calls[static_cast<std::size_t>(job.call)]);
+  const InFlight inside(name_, calls[static_cast<std::size_t>(job.call)], Thread::own);
   switch (job.call) {
     case Job::Call::step:
       job.out.prepare(job.tick.now_ns);

@@ -64,7 +64,7 @@ bool Driver::step() noexcept {
   out_.prepare(tick.now_ns);
   error_.text[0] = '\0';
   {
-    const InFlight inside(name_, "step");
+    const InFlight inside(name_, "step", Thread::own);
     const std::uint32_t status = functions_.step(instance_, &tick, nullptr, out_.views.data(), &error_);
     if (judge(status, error_) >= FULMAR_FAILED) return false;
   }

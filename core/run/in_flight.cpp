@@ -28,6 +28,18 @@ std::uint32_t put_right(fulmar_error& problem) noexcept {
   return FULMAR_FAILED;
 }
 
+void pass_on_signals() noexcept {
+  sigset_t pending, one;
+  if (sigpending(&pending) != 0 || sigisemptyset(&pending)) return;
+  const timespec at_once{};
+  for (int signal = 1; signal < NSIG; ++signal) {
+    if (sigismember(&pending, signal) != 1) continue;
+    sigemptyset(&one);
+    sigaddset(&one, signal);
+    if (sigtimedwait(&one, nullptr, &at_once) == signal) kill(getpid(), signal);
+  }
+}
+
 namespace {
 
 const pid_t program = getpid();

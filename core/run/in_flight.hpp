@@ -15,6 +15,8 @@ namespace fulmar::core {
 extern constinit thread_local const char* refused_call;
 /// Such calls are refused now: a component flies in this thread.
 extern constinit thread_local bool refuses_calls;
+/// Signals that this thread has sent to itself and does not take are passed on to the whole process.
+void pass_on_signals() noexcept;
 
 /// The status of a call after a look at what it has left behind, which is put right; `problem` says what.
 std::uint32_t put_right(fulmar_error& problem) noexcept;
@@ -24,18 +26,26 @@ inline std::uint32_t judge(std::uint32_t status, fulmar_error& problem) noexcept
   return put_right(problem);
 }
 
-/// As long as it lives, the component's code runs in this thread, in flight.
+enum class Thread : unsigned char { loop, own };
+
+/// As long as it lives, the component's code runs in this thread, in flight. In a thread of its own a
+/// component may take its time, and a signal that it raises there is heard when the call has returned.
 class InFlight {
  public:
-  InFlight(const std::string& component, const char* call) noexcept : inside_(component, call) {
+  InFlight(const std::string& component, const char* call, Thread thread = Thread::loop) noexcept
+      : inside_(component, call), thread_(thread) {
     refuses_calls = true;
   }
-  ~InFlight() { refuses_calls = false; }
+  ~InFlight() {
+    refuses_calls = false;
+    if (thread_ == Thread::own) pass_on_signals();
+  }
   InFlight(const InFlight&) = delete;
   InFlight& operator=(const InFlight&) = delete;
 
  private:
   Inside inside_;
+  const Thread thread_;
 };
 
 }  // namespace fulmar::core

@@ -163,6 +163,21 @@ TEST_CASE("a component that takes the host with it is named, and the device gets
   }
 }
 
+TEST_CASE("a signal that a component raises is heard, beside the loop as in it") {
+  const std::string async = "run: async, latency: 10 ms, ";
+  for (const std::string& mode : {std::string(), async}) {
+    CAPTURE(mode);
+    Program usr1(law("raises_usr1", mode));
+    CHECK(usr1.wait() == 128 + SIGUSR1);
+    CHECK_MESSAGE(usr1.said().find("ended by SIGUSR1") != std::string::npos, usr1.said());
+    CHECK(last_frame() == failsafe);
+    Program term(law("raises_term", mode));
+    CHECK(term.wait() == 130);
+    CHECK_MESSAGE(term.said().find("interrupted") != std::string::npos, term.said());
+    CHECK(fs::exists(log_file()));
+  }
+}
+
 TEST_CASE("a log is said to lie where it lies: by its whole name, and not where it was moved from") {
   if (FULMAR_CRASH_TESTS) {
     Program program(law("crashes"), {}, "end.mcap");

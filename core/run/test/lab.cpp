@@ -144,6 +144,8 @@ enum class Fault : std::uint8_t {
   listens,
   replaces,
   fosters,
+  raises_usr1,
+  raises_term,
   thread_crashes,
   thread_quits,
   forks,
@@ -289,6 +291,8 @@ struct Law {
         if (waitpid(child, &status, 0) != child || status != 0) return Status::failed;
         break;
       }
+      case Fault::raises_usr1: raise(SIGUSR1); break;
+      case Fault::raises_term: raise(SIGTERM); break;
       case Fault::thread_crashes: std::thread([] { *static_cast<volatile int*>(nowhere) = 1; }).join(); break;
       case Fault::thread_quits: std::thread([] { std::exit(0); }).join(); break;
       case Fault::forks:

@@ -4,11 +4,15 @@
 #include "core/run/in_flight.hpp"
 
 #include <dlfcn.h>
+#include <spawn.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <clocale>
 #include <csignal>
+#include <cstdarg>
+#include <cstring>
 
 #include "core/run/ports.hpp"
 
@@ -16,11 +20,14 @@ namespace fulmar::core {
 
 constinit thread_local const char* refused_call = nullptr;
 constinit thread_local bool refuses_calls = false;
+constinit thread_local bool refuses_processes = false;
 
 std::uint32_t put_right(fulmar_error& problem) noexcept {
   if (!plain_arithmetic()) {
     make_arithmetic_plain();
     put_problem(problem, "%s", changed_arithmetic);
+  } else if (std::strncmp(refused_call, "posix_spawn", 11) == 0) {
+    put_problem(problem, "calls %s in flight; the loop would wait for it", refused_call);
   } else {
     put_problem(problem, "calls %s in flight; what that changes is everybody's", refused_call);
   }
@@ -52,6 +59,27 @@ bool refuse(const char* call, bool changes = true) noexcept {
   return true;
 }
 
+bool refuse_process(const char* call) noexcept { return refuses_processes && refuse(call); }
+
+using Words = char* const*;
+
+/// The words of a function with dots, as those without take them. On the stack: between a fork and an exec
+/// nothing allocates.
+struct WordList {
+  std::array<char*, 1000> at;
+
+  /// False when there are too many. What `more` holds behind them comes next in it.
+  bool gather(const char* first, std::va_list* more) noexcept {
+    std::size_t n = 0;
+    for (const char* word = first; n < at.size(); word = va_arg(*more, const char*)) {
+      at[n++] = const_cast<char*>(word);
+      if (word == nullptr) return true;
+    }
+    errno = E2BIG;
+    return false;
+  }
+};
+
 template <class Function>
 Function behind(const char* name) noexcept {
   return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
@@ -62,6 +90,9 @@ Function behind(const char* name) noexcept {
 
 using fulmar::core::behind;
 using fulmar::core::refuse;
+using fulmar::core::refuse_process;
+using fulmar::core::WordList;
+using fulmar::core::Words;
 
 extern "C" {
 
@@ -129,5 +160,62 @@ int execvp(const char* file, char* const words[]) noexcept {
   if (refuse("execvp")) return errno = EPERM, -1;
   static const auto next = behind<int (*)(const char*, char* const[])>("execvp");
   return next(file, words);
+}
+
+int execvpe(const char* file, char* const words[], char* const environment[]) noexcept {
+  if (refuse("execvpe")) return errno = EPERM, -1;
+  static const auto next = behind<int (*)(const char*, Words, Words)>("execvpe");
+  return next(file, words, environment);
+}
+
+int fexecve(int file, char* const words[], char* const environment[]) noexcept {
+  if (refuse("fexecve")) return errno = EPERM, -1;
+  static const auto next = behind<int (*)(int, Words, Words)>("fexecve");
+  return next(file, words, environment);
+}
+
+int execl(const char* file, const char* first, ...) noexcept {
+  if (refuse("execl")) return errno = EPERM, -1;
+  WordList words;
+  std::va_list more;
+  va_start(more, first);
+  const bool all = words.gather(first, &more);
+  va_end(more);
+  return all ? execv(file, words.at.data()) : -1;
+}
+
+int execlp(const char* file, const char* first, ...) noexcept {
+  if (refuse("execlp")) return errno = EPERM, -1;
+  WordList words;
+  std::va_list more;
+  va_start(more, first);
+  const bool all = words.gather(first, &more);
+  va_end(more);
+  return all ? execvp(file, words.at.data()) : -1;
+}
+
+int execle(const char* file, const char* first, ...) noexcept {
+  if (refuse("execle")) return errno = EPERM, -1;
+  WordList words;
+  std::va_list more;
+  va_start(more, first);
+  const bool all = words.gather(first, &more);
+  const Words environment = all ? va_arg(more, Words) : nullptr;
+  va_end(more);
+  return all ? execve(file, words.at.data(), environment) : -1;
+}
+
+int posix_spawn(pid_t* process, const char* file, const posix_spawn_file_actions_t* actions,
+                const posix_spawnattr_t* attributes, char* const words[], char* const environment[]) {
+  if (refuse_process("posix_spawn")) return EPERM;
+  static const auto next = behind<decltype(&posix_spawn)>("posix_spawn");
+  return next(process, file, actions, attributes, words, environment);
+}
+
+int posix_spawnp(pid_t* process, const char* file, const posix_spawn_file_actions_t* actions,
+                 const posix_spawnattr_t* attributes, char* const words[], char* const environment[]) {
+  if (refuse_process("posix_spawnp")) return EPERM;
+  static const auto next = behind<decltype(&posix_spawnp)>("posix_spawnp");
+  return next(process, file, actions, attributes, words, environment);
 }
 }

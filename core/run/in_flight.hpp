@@ -15,6 +15,9 @@ namespace fulmar::core {
 extern constinit thread_local const char* refused_call;
 /// Such calls are refused now: a component flies in this thread.
 extern constinit thread_local bool refuses_calls;
+/// And those that start a process: the loop would wait until it runs.
+extern constinit thread_local bool refuses_processes;
+
 /// Signals that this thread has sent to itself and does not take are passed on to the whole process.
 void pass_on_signals() noexcept;
 
@@ -35,9 +38,11 @@ class InFlight {
   InFlight(const std::string& component, const char* call, Thread thread = Thread::loop) noexcept
       : inside_(component, call), thread_(thread) {
     refuses_calls = true;
+    refuses_processes = thread == Thread::loop;
   }
   ~InFlight() {
     refuses_calls = false;
+    refuses_processes = false;
     if (thread_ == Thread::own) pass_on_signals();
   }
   InFlight(const InFlight&) = delete;

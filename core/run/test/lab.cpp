@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A laboratory for the loop: a cart that counts its ticks, and a law that misbehaves on demand.
 #include <fcntl.h>
+#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -144,6 +145,7 @@ enum class Fault : std::uint8_t {
   listens,
   replaces,
   fosters,
+  spawns,
   raises_usr1,
   raises_term,
   thread_crashes,
@@ -275,6 +277,11 @@ struct Law {
         char* const words[] = {name, nullptr};
         execve("/bin/false", words, environ);
         execvp("false", words);
+        execvpe("false", words, environ);
+        execl("/bin/false", "false", nullptr);
+        execlp("false", "false", nullptr);
+        execle("/bin/false", "false", nullptr, environ);
+        fexecve(open("/bin/false", O_RDONLY | O_CLOEXEC), words, environ);
         execv("/bin/false", words);
         break;
       }
@@ -289,6 +296,17 @@ struct Law {
         }
         int status = 1;
         if (waitpid(child, &status, 0) != child || status != 0) return Status::failed;
+        break;
+      }
+      case Fault::spawns: {
+        char name[] = "true";
+        char* const words[] = {name, nullptr};
+        pid_t child = 0;
+        int status = 1;
+        for (const auto& start : {posix_spawn, posix_spawnp})
+          if (start(&child, "/bin/true", nullptr, nullptr, words, environ) == 0 &&
+              (waitpid(child, &status, 0) != child || status != 0))
+            return Status::failed;
         break;
       }
       case Fault::raises_usr1: raise(SIGUSR1); break;

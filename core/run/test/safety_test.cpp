@@ -41,6 +41,7 @@ const Row rows[] = {
     {"deafens", "calls signal in flight", true, false, true},
     {"listens", "calls sigaction in flight", true, false, true},
     {"replaces", "calls execv in flight", true, false, true},
+    {"spawns", "calls posix_spawnp in flight; the loop would wait for it", true, false, true},
 };
 
 std::string law(const Row& row, bool isolated) {
@@ -119,6 +120,15 @@ TEST_CASE("what a component tries to change for everybody stays as it was") {
 TEST_CASE("what a component has forked is not the host, and may do as it likes") {
   const Graph g = mission(law({"fosters", "", true}, false));
   CHECK(Flight(g, options(0.11)).run().guards.empty());
+}
+
+TEST_CASE("a component beside the loop may start a process, as it may take its time") {
+  const Graph g = mission(
+      "  one: {fills: law, use: lab/Law, run: async, latency: 10 ms, params: {id: 1, u: 0.1, fault: spawns, "
+      "fault_at: 0.1 s}}\n"s +
+      with_fallback);
+  Flight flight(g, options(0.15));
+  CHECK(flight.run().guards.empty());
 }
 
 TEST_CASE("a thread of its own in which a component changes the floating-point mode is judged alike") {

@@ -2,7 +2,7 @@
 // Conditions: a recursive-descent compiler into a flat array of nodes, and its evaluation on the bytes of
 // messages.
 //   or = and {"or" and};  and = not {"and" not};  not = "not" not | "(" or ")" | side [compare side]
-//   side = field | number [unit] | label;  compare = "<" | "<=" | ">" | ">=" | "==" | "!="
+//   side = field | "time" | number [unit] | label;  compare = "<" | "<=" | ">" | ">=" | "==" | "!="
 #include "core/graph/condition.hpp"
 
 #include <algorithm>
@@ -28,9 +28,10 @@ constexpr Compare compares[] = {{"<=", ">=", [](double a, double b) noexcept { r
                                 {"!=", "!=", [](double a, double b) noexcept { return a != b; }}};
 
 struct Condition::Node {
-  struct Side : Shown {  // from nowhere: a constant
-    double number = 0;   // of a constant
-    double factor = 1;   // into the unit of the left side
+  struct Side : Shown {  // from nowhere: a constant, or the flight time
+    bool is_time = false;
+    double number = 0;  // of a constant
+    double factor = 1;  // into the unit of the left side
   };
   Op op = Op::compare;
   int left = -1, right = -1;         // of both, either, opposite
@@ -131,6 +132,14 @@ const Field& probe_field() {
   return field;
 }
 
+/// The flight time, in conditions.
+constexpr const char* time_word = "time";
+
+const Field& time_field() {
+  static const Field field{.name = time_word, .unit = "s", .kind = FULMAR_F64, .stride = sizeof(double)};
+  return field;
+}
+
 class Compiler {
  public:
   Compiler(const std::string& text, const FindPort& find, std::vector<CNode>& nodes,
@@ -226,8 +235,8 @@ class Compiler {
     if ((a.is_enum() || a.is_bool() || b.is_enum() || b.is_bool()) && ordered)
       throw Error("'" + (a.is_enum() || a.is_bool() ? a : b).text +
                   "' has no order; compare it with == or !=");
-    if (b.kind == Operand::Kind::label)
-      b.side.number = label_number(a, b.text);
+    if (b.kind == Operand::Kind::label || (b.side.is_time && a.is_enum()))  // a word that is one of a field's
+      b = label(a, b.text);
     else if (b.kind == Operand::Kind::number)
       b.side.number = plain_number(a, b);
     else
@@ -237,6 +246,12 @@ class Compiler {
     node.a = std::move(a.side);
     node.b = std::move(b.side);
     return node;
+  }
+
+  static Operand label(const Operand& field, const std::string& text) {
+    Operand label;
+    label.side.number = label_number(field, text);
+    return label;
   }
 
   static double label_number(const Operand& field, const std::string& label) {
@@ -285,7 +300,9 @@ class Compiler {
       operand.quantity = parse_quantity(token_.text);
     } else if (token_.kind == Token::Kind::name && token_.text != "and" && token_.text != "or" &&
                token_.text != "not") {
-      if (token_.text.find('.') == std::string::npos)
+      if (token_.text == time_word)
+        time(operand);
+      else if (token_.text.find('.') == std::string::npos)
         operand.kind = Operand::Kind::label;
       else
         field(operand);
@@ -296,6 +313,12 @@ class Compiler {
     }
     advance();
     return operand;
+  }
+
+  static void time(Operand& operand) {
+    operand.side.is_time = true;
+    operand.side.field.field = &time_field();
+    operand.side.field.unit = time_field().unit;
   }
 
   void field(Operand& operand) {
@@ -318,6 +341,10 @@ class Compiler {
 
 /// False when there is no such number: a list that is shorter than the index.
 bool number_of(const CNode::Side& side, const SampleReader& reader, double& number) noexcept {
+  if (side.is_time) {
+    number = static_cast<double>(reader.now_ns()) / 1e9 * side.factor;
+    return true;
+  }
   if (side.from.kind == Source::Kind::none) {
     number = side.number;
     return true;

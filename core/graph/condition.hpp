@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Conditions of phases: comparisons of fields with numbers, units, enum labels or other fields; and, or, not,
-// parentheses. Compiled when the mission is read; evaluated in the tick without allocation. False while a
-// port it looks at has no sample or is stale.
+// Conditions of phases: comparisons of fields, or of the flight time, with numbers, units, enum labels or
+// other fields; and, or, not, parentheses. Compiled when the mission is read; evaluated in the tick without
+// allocation. False while a port it looks at has no sample or is stale.
 #pragma once
 #include <functional>
 #include <memory>
@@ -15,9 +15,11 @@ namespace fulmar::core {
 /// Finds the port "nav.state" and its type; throws Error with the valid choices.
 using FindPort = std::function<std::pair<Source, TypePtr>(const std::string& owner, const std::string& port)>;
 
-/// Gives the present sample of a port, or nullptr when there is none or it is stale. Must not allocate.
+/// What a condition looks at. Must not allocate.
 struct SampleReader {
+  /// The present sample of a port, or nullptr when there is none or it is stale.
   virtual const std::byte* sample(const Source& source) const noexcept = 0;
+  virtual std::int64_t now_ns() const noexcept = 0;
 
  protected:
   ~SampleReader() = default;

@@ -66,7 +66,7 @@ std::vector<Overlay> read_overlay(Draft& draft, const Candidate& candidate, cons
     const int p = param_path(candidate.info(), entry.key).param;
     const ParamInfo* const param = p < 0 ? nullptr : &nth(candidate.info().params, p);
     if (param && param->live) {
-      Overlay item{p, initial_value(*param)};
+      Overlay item{p, nth(candidate.params, p)};
       read_param(*param, entry.value, path + "." + entry.key, item.value, draft.files, draft.report);
       overlay.push_back(std::move(item));
     } else if (!replaced && !param) {
@@ -84,15 +84,26 @@ std::vector<Overlay> read_overlay(Draft& draft, const Candidate& candidate, cons
 }
 
 /// What a phase says of a role, checked also where --role then changes it. `usual`: who would fill it without
+/// What a phase says of the vehicle: parameters of the one that flies, and of no other.
+void read_vehicle_overlay(Draft& draft, const AssignmentText& text, const std::string& path, int usual,
+                          int seated, Assignment& assignment) {
+  const int named = text.use.text.empty() ? usual : draft.candidate(text.use.text);
+  const bool flies = named >= 0 && (named == usual || named == seated);
+  if (!flies || !text.fallback.text.empty() || text.set.is(Node::Kind::missing))
+    return draft.report.add(text.where,
+                            path +
+                                ": the vehicle does not change in flight; choose it with io or with --role "
+                                "vehicle=NAME. A phase can 'set' live parameters of the one that flies");
+  for (const int component : {named, seated})
+    assignment.set =
+        read_overlay(draft, nth(draft.candidates, component), text.set, path + ".set", component != named);
+}
+
 /// --role, `seated`: who does.
 void read_assignment(Draft& draft, const AssignmentText& text, const std::string& path, int usual, int seated,
                      Assignment& assignment) {
   const int role = draft.role(text.role);
-  const bool other = !text.use.text.empty() && draft.candidate(text.use.text) != seated;
-  if (text.role == "vehicle" && (other || !text.fallback.text.empty() || text.set.entries.empty()))
-    return draft.report.add(
-        text.where,
-        path + ": the vehicle does not change in flight; choose it with io or with --role vehicle=NAME");
+  if (text.role == "vehicle") return read_vehicle_overlay(draft, text, path, usual, seated, assignment);
   int use = usual;
   if (!text.use.text.empty()) use = filler_named(draft, role, text.use, path);
   const int fallback =
@@ -161,6 +172,7 @@ class Seating {
     const int role = draft_.role(text.role), wanted = draft_.candidate(text.use.text);
     if (wanted < 0 || !nth(draft_.candidates, wanted).fills(role) || in_its_way(wanted, commanded) >= 0)
       return;
+    if (text.role == "vehicle") return;  // the same one in all phases
     const int other = in_its_way(wanted, seats_);
     if (other < 0) return seat(wanted);
     draft_.report.add(text.where, phase_path(phase_) + "." + text.role + ": " + not_together(wanted, other));

@@ -408,7 +408,6 @@ void resolve(Draft& draft, Catalogue& catalogue) {
   name_ports(draft);
   mark_used(draft);
   choose_vehicle(draft);
-  read_values(draft);
   build_components(draft);
   build_roles(draft);
   check_fed(draft);
@@ -417,6 +416,7 @@ void resolve(Draft& draft, Catalogue& catalogue) {
   order_steps(draft);
   guard_wires(draft);
   tell_bypassed(draft);
+  read_values(draft);
   read_failsafe(draft);
   read_vehicle_flags(draft);
   read_control(draft);

@@ -30,6 +30,7 @@ void Flight::Impl::begin() {
 
 bool Flight::Impl::tick() {
   Unit& vehicle = wiring.vehicle();
+  if (state.index == 0 && !state.options.resume) roles.prepare_vehicle();
   const StepResult read = vehicle.read(state.now_ns, state.index);
   if (state.index == 0) state.result.first_ns = state.now_ns;
   if (read == StepResult::bad) {

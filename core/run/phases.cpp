@@ -16,6 +16,24 @@ void Roles::note_phase(const Phase& entered) {
   recorder_.note(e);
 }
 
+void Roles::prepare_vehicle() {
+  const int vehicle = state_.graph.vehicle;
+  if (const std::vector<Overlay>* set = overlay_of(vehicle)) lay_over(vehicle, set);
+}
+
+/// A vehicle that refuses what a phase says goes on as it is: to stop it would help nobody.
+void Roles::lay_over(int component, const std::vector<Overlay>* set) {
+  Unit& unit = wiring_.unit(component);
+  if (unit.retune(set)) return;
+  if (component != state_.graph.vehicle) return stop(component);
+  make_printable(unit.problem.text);
+  Event e = event_of(Code::notice, unit.component->name);
+  e.severity = Severity::warning;
+  say(e, "does not take what the phase %s sets: %s", present().name.c_str(), unit.problem.text);
+  recorder_.note(e);
+  unit.retune(nullptr);
+}
+
 void Roles::begin() {
   const Phase& first = present();
   for (std::size_t r = 0; r < active_.size(); ++r) {
@@ -26,7 +44,7 @@ void Roles::begin() {
     wiring_.expect_from(wiring_.unit(a.component));
     Unit& unit = wiring_.unit(a.component);
     const bool again = std::exchange(unit.active, true);  // it fills several
-    if (!again && !a.set.empty() && !unit.retune(&a.set)) stop(a.component);
+    if (!again && !a.set.empty()) lay_over(a.component, &a.set);
   }
   next_since_.assign(first.next.size(), never_ns);
   note_phase(first);
@@ -86,7 +104,7 @@ void Roles::fill(int role, bool overlaid) {
       continue;
     }
     const bool own = wanted == assignment.component && !assignment.set.empty();
-    if ((own || overlaid) && !wiring_.unit(wanted).retune(own ? &assignment.set : nullptr)) stop(wanted);
+    if (own || overlaid) lay_over(wanted, own ? &assignment.set : nullptr);
     return;
   }
   if (active(role) < 0) return;

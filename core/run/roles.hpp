@@ -31,6 +31,8 @@ class Roles {
   // phases.cpp
   /// [tick] In another phase than the first one. Before `begin`.
   void begin_in(int phase) noexcept { phase_ = phase; }
+  /// [tick] Before the vehicle is read for the first time: what the first phase says of it.
+  void prepare_vehicle();
   /// [tick] In the first tick: nobody has flown before, so each component is activated when its inputs have
   /// arrived.
   void begin();
@@ -61,6 +63,7 @@ class Roles {
  private:
   bool try_transitions(const std::vector<Transition>& list, std::vector<std::int64_t>& since);
   void note_phase(const Phase& entered);
+  void lay_over(int component, const std::vector<Overlay>* set);
   void fill(int role, bool overlaid);
   int group_wanted_in(int role) const;
   bool take_over(int component, const Assignment& assignment);

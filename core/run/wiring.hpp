@@ -42,6 +42,7 @@ class Wiring final : public SampleReader {
 
   /// [tick] A sample is stale for a condition, and nullptr, when whoever wrote it has been stopped.
   const std::byte* sample(const Source& source) const noexcept override;
+  std::int64_t now_ns() const noexcept override { return state_.now_ns; }
   /// [tick] Whether a condition has held for that long; `since_ns` remembers since when, between ticks.
   bool held_for(const Condition& condition, std::int64_t for_ns, std::int64_t& since_ns) const noexcept;
   /// [tick] Whoever publishes there now, or nullptr; and the message, in the role's own table, once there is

@@ -78,6 +78,25 @@ void check_equal(const ReplayResult& r, const fs::path& log, const fs::path& aga
 
 }  // namespace
 
+TEST_CASE("what phases do to the vehicle at given times is flown again, byte for byte") {
+  const fs::path log = fresh("gap.mcap"), again = fresh("gap-again.mcap"), file = folder().path / "gap.yaml";
+  std::ofstream(file) << "mission: gap\nextends: fulmar:missions/hourglass.yaml\nphases:\n"
+                         "  cruise: {next: [{to: lost, when: \"time > 15 s\"}]}\n"
+                         "  lost: {vehicle: {use: sim, set: {gnss_works: false}}, next: [{to: found, when: "
+                         "\"time > 18 s\"}]}\n  found: {}\n";
+  Flight(load_mission(file.string(), {}), logged(log, 20)).run();
+  std::vector<double> fixes_s;
+  const McapFile flown = read_mcap(log);
+  for (const McapFile::Message& m : flown.messages)
+    if (flown.channels.at(m.channel).topic == "/vehicle/gnss")
+      fixes_s.push_back(1e-9 * static_cast<double>(m.log_ns - flown.messages.front().log_ns));
+  double longest_s = 0;
+  for (std::size_t i = 1; i < fixes_s.size(); ++i)
+    longest_s = std::max(longest_s, fixes_s[i] - fixes_s[i - 1]);
+  CHECK(longest_s == doctest::Approx(3).epsilon(0.1));
+  check_equal(replay_of(log, {}, again), log, again);
+}
+
 TEST_CASE("a flight is flown again from its log alone, to the same file") {
   const fs::path log = fresh("hourglass.mcap"), again = fresh("hourglass-again.mcap"),
                  mission = folder().path / "mine.yaml";

@@ -27,6 +27,7 @@ struct World : SampleReader {
   Path path;
   Plan plan;
   double probe = 0;
+  std::int64_t time_ns = 0;
   bool has_state = true, has_status = true, has_path = true, has_plan = true;
 
   const std::byte* sample(const Source& source) const noexcept override {
@@ -41,6 +42,7 @@ struct World : SampleReader {
       default: return bytes(probe, true);
     }
   }
+  std::int64_t now_ns() const noexcept override { return time_ns; }
   static std::pair<Source, TypePtr> find(const std::string& owner, const std::string& port) {
     const std::string name = owner + "." + port;
     if (name == "nav.state") return {{Source::Kind::role, 0, 0}, type_of<VehicleState>()};
@@ -63,6 +65,28 @@ std::string refused(const std::string& text) {
 }
 
 }  // namespace
+
+TEST_CASE("the flight time is a number in seconds that a condition can look at") {
+  World world;
+  world.time_ns = 60'000'000'000;
+  CHECK(world("time >= 60 s"));
+  CHECK(world("time >= 60"));
+  CHECK_FALSE(world("time > 60 s"));
+  CHECK(world("1 min <= time"));
+  CHECK(world("time == 60000 ms"));
+  world.state.height_m = 20;
+  CHECK(world("time > 59.9975 s and nav.state.height_m > 10 m"));
+  world.has_state = false;
+  CHECK_FALSE(world("time > 59.9975 s or nav.state.height_m > 10 m"));
+  world.time_ns = -2'500'000;  // before a simulated aircraft is armed
+  CHECK(world("time < 0 s"));
+  CHECK(Condition::compile("time > 1 s", World::find)->ports().empty());
+  CHECK(refused("time").find("'time' is not true or false") == 0);
+  CHECK(refused("time > 3 m") == "'time': 3 m is a length, not a time");
+  CHECK(refused("time == cruise") == "'time' is a number and cannot be compared with 'cruise'");
+  CHECK(refused("time > nav.state.height_m").find("'time' is in s and ") == 0);
+  CHECK(refused("manage.path.kind == time").find("'manage.path.kind' is never 'time'.") == 0);
+}
 
 TEST_CASE("and, or and not follow their truth tables and their precedence") {
   World world;

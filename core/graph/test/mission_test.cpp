@@ -327,7 +327,7 @@ TEST_CASE("phases name phases, roles and fillers that exist, and all can be reac
         "inner.");
   CHECK(changed("outer: slc, next", "vehicle: sim, outer: slc, next") ==
         "36: phases.hold.vehicle: the vehicle does not change in flight; choose it with io or with --role "
-        "vehicle=NAME");
+        "vehicle=NAME. A phase can 'set' live parameters of the one that flies");
   for (const char* other : {"vehicle: {use: fcu, set: {wind_ned: [1, 0, 0]}}",
                             "vehicle: {use: sim, set: {wind_ned: [1, 0, 0]}, fallback: sim}"})
     CHECK(changed("outer: slc, next", std::string(other) + ", outer: slc, next")

@@ -8,6 +8,7 @@
 #include "core/graph/condition.hpp"
 #include "core/graph/params.hpp"
 #include "core/graph/test/shelf.hpp"
+#include "core/types/named.hpp"
 #include "fulmar/msg/actuators.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/origin.hpp"
@@ -59,6 +60,42 @@ T value(const ParamValue& param) {
 }
 
 }  // namespace
+
+TEST_CASE("a phase lays live parameters over the vehicle that flies, and changes no vehicle") {
+  const auto with = [](const std::string& what, const Overrides& overrides = {}) {
+    Mission mission;
+    mission.replace("  cruise:   {outer: tecs", "  cruise:   {vehicle: " + what + ", outer: tecs");
+    mission.replace("  fcu: ", "  spare: {fills: vehicle, use: sim_aero, only: sim}\n  fcu: ");
+    return std::pair(mission.faults(overrides),
+                     mission.faults(overrides).empty() ? mission.load(overrides) : Graph());
+  };
+  for (const char* use : {"use: sim, ", ""}) {
+    const auto [faults, graph] = with("{" + std::string(use) + "set: {wind_ned: {east: 7}}}");
+    REQUIRE(faults == "");
+    CHECK(graph.phases[0].roles[0].set.empty());
+    const Assignment& lost = graph.phases[2].roles[0];
+    CHECK(nth(graph.components, lost.component).name == "sim");
+    REQUIRE(lost.set.size() == 1);
+    CHECK(lost.set[0].value.number[0] == 3);  // the mission's base: what an overlay leaves out stays
+    CHECK(lost.set[0].value.number[1] == 7);
+  }
+  CHECK(
+      with("{use: spare, set: {wind_ned: [0, 0, 0]}}").first.find("the vehicle does not change in flight") !=
+      std::string::npos);
+  CHECK(with("{set: {turbulence: light}, fallback: spare}").first.find("the vehicle does not change") !=
+        std::string::npos);
+  CHECK(with("{set: {rate: 200 Hz}}").first.find("is fixed when the flight begins") != std::string::npos);
+  CHECK(with("{set: {wind: 3}}").first.find("sim has no parameter 'wind'") != std::string::npos);
+  Overrides hardware;
+  hardware.io = "fcu";
+  CHECK(with("{use: sim, set: {wind_ned: [0, 0, 0]}}", hardware).first.find("the vehicle does not change") !=
+        std::string::npos);
+  CHECK(with("{set: {wind_ned: [0, 0, 0]}}", hardware).first.find("fcu has no parameter 'wind_ned'") !=
+        std::string::npos);
+  Overrides spare;  // as with any role: it takes what it has
+  spare.roles = {{"vehicle", "spare"}};
+  CHECK(with("{use: sim, set: {wind_ned: [0, 0, 0]}}", spare).second.phases[2].roles[0].set.size() == 1);
+}
 
 TEST_CASE("the hourglass mission resolves into components, order, roles and phases") {
   Mission mission;

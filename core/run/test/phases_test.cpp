@@ -84,4 +84,24 @@ TEST_CASE("the first step after an absence is a tick long, not the absence") {
   CHECK(longest_s == doctest::Approx(0.0025));
 }
 
+TEST_CASE("a phase lays its parameters over the vehicle's, from its first tick to its last") {
+  const Graph g = mission(
+      "phases:\n"
+      "  first:  {law: one, vehicle: {set: {burst_size: 1}}, next: [{to: second, when: \"time >= 0.1 s\"}]}\n"
+      "  second: {law: one, next: [{to: third, when: \"time >= 0.2 s\"}]}\n"
+      "  third:  {law: one, vehicle: {use: sim, set: {burst_size: 0}}}\n");
+  Flight flight(g, options(0.3));
+  double before = 0;
+  const auto samples_until = [&](double t_s) {
+    while (flight.step() && static_cast<double>(flight.now_ns()) < t_s * 1e9 - 1) {
+    }
+    const double all = value(g, flight, "watch", "tally", "samples_ratio");
+    return all - std::exchange(before, all);
+  };
+  CHECK(samples_until(0.1) == 441);  // one a tick, from -1 s
+  CHECK(flight.phase() == "second");
+  CHECK(samples_until(0.2) == 3 * 40);
+  CHECK(samples_until(0.3) == 0);
+}
+
 }  // namespace phases_test

@@ -181,6 +181,15 @@ void read_record(const ParamInfo& param, const Node& map, const std::string& pat
   value.data = param.initial_data;
   value.data.resize(param.type->size);
   fill_record(*param.type, map, value.data.data(), path, report, also);
+  const std::vector<std::string> missing = missing_in_record(*param.type, map);
+  if (!missing.empty() && map.is(Node::Kind::map)) {
+    const bool of_component = path.find('.') != std::string::npos;  // else nobody else's record is meant
+    report.add(map.where(), (path.empty() ? "" : path + ": ") + "this is no whole " + param.type->name +
+                                ", missing: " + join(missing) +
+                                (of_component ? "; to change one thing in a record, name it, as in " +
+                                                    param.name + "." + missing[0]
+                                              : ""));
+  }
   mark_given(*param.type, value.data.data());
   value.text = name;
   value.integer = 1;

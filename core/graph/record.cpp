@@ -273,3 +273,22 @@ void mark_given(const Type& type, std::byte* data) {
 }
 
 }  // namespace fulmar::core
+std::vector<std::string> missing_in_record(const Type& type, const Node& map) {
+  std::vector<std::string> missing;
+  for (const Field& field : type.fields) {
+    if (!field.required) continue;
+    const auto said = std::find_if(map.entries.begin(), map.entries.end(), [&](const Node::Entry& entry) {
+      return field_of_key(type, entry.key) == &field;
+    });
+    const bool there = said != map.entries.end();
+    if (there && !said->value.is(Node::Kind::map)) continue;  // whatever is wrong with it is told already
+    const std::string name = without_suffix(field.name);
+    const std::vector<std::string> inside = field.type
+                                                ? missing_in_record(*field.type, there ? said->value : Node{})
+                                                : std::vector<std::string>();
+    for (const std::string& part : inside) missing.push_back(name + "." + part);
+    if (!there && inside.empty()) missing.push_back(name);
+  }
+  return missing;
+}
+

@@ -11,6 +11,9 @@
 
 namespace fulmar::core {
 
+/// What a map of a whole record does not say though its type asks for it: "mass", "wing.span".
+std::vector<std::string> missing_in_record(const Type& type, const Node& map);
+
 /// Writes the fields that `node` names into `data`, a struct of `type` that holds what is to stay where the
 /// file says nothing. Keys are field names, exact ("mass_kg: 4.5") or without the suffix and then with a unit
 /// ("stall_alpha: 15 deg"). `path` is how faults name the struct, "" for a file of its own. Keys in `also`

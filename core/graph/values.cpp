@@ -141,23 +141,6 @@ void check_required(Draft& draft, const Candidate& candidate) {
   }
 }
 
-/// Whether the mission's origin is whole, where some component takes it.
-void check_origin(Draft& draft) {
-  if (!draft.text.origin.is(Node::Kind::map)) return;
-  for (const Candidate& candidate : draft.candidates) {
-    const int i = candidate.loaded ? candidate.info().param("origin") : -1;
-    if (i < 0 || nth(candidate.info().params, i).kind != FULMAR_RECORD) continue;
-    for (const char* needed : {"lat", "lon", "alt_msl"})
-      if (std::none_of(draft.text.origin.entries.begin(), draft.text.origin.entries.end(),
-                       [&](const Node::Entry& entry) {
-                         return entry.key == needed || entry.key.starts_with(std::string(needed) + "_");
-                       }))
-        draft.report.add(draft.text.origin.where(),
-                         std::string("origin: ") + needed + " is missing; give lat, lon and alt_msl");
-    return;
-  }
-}
-
 }  // namespace
 
 void read_values(Draft& draft) {
@@ -173,7 +156,6 @@ void read_values(Draft& draft) {
     set_from_mission(draft, candidate, airframe);
     set_params(draft, candidate, candidate.text->params, "components." + candidate.name + ".params");
   }
-  check_origin(draft);
   set_from_command(draft);
   for (const Candidate& candidate : draft.candidates)
     if (candidate.loaded) check_required(draft, candidate);

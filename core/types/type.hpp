@@ -28,6 +28,7 @@ struct Field {
   std::uint32_t offset = 0, count = 1, stride = 0, items = 0;
   double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
   bool appended = false;  // a writer may lack it: its reader then sees zeros
+  bool required = false;  // of a record: who writes one has to name it
 };
 
 /// Of a struct of the host's own. `room`: of a text.

@@ -54,6 +54,19 @@ struct ForeignPose {
 
 }  // namespace
 
+TEST_CASE("what a record has to say is marked in its table") {
+  const fulmar_type& airframe = describe<Airframe>();
+  const auto required = [](const fulmar_type& type, const char* name) {
+    return (field(type, name).flags & FULMAR_FIELD_REQUIRED) != 0;
+  };
+  CHECK(required(airframe, "mass_kg"));
+  CHECK(required(airframe, "wing"));
+  CHECK(required(*field(airframe, "wing").type, "span_m"));
+  CHECK_FALSE(required(*field(airframe, "wing").type, "oswald_ratio"));
+  CHECK_FALSE(required(airframe, "gear"));
+  CHECK(field(airframe, "mass_kg").min > 0);
+}
+
 TEST_CASE("offsets follow the compiler") {
   const fulmar_type& t = describe<Sample>();
   CHECK(t.size == sizeof(Sample));

@@ -9,6 +9,7 @@
 namespace mission_test {
 
 using namespace fulmar::core;
+using namespace std::string_literals;
 using namespace fulmar::core::test;
 
 namespace {
@@ -282,7 +283,8 @@ TEST_CASE("faults of a named file tell that file and its line") {
   mission.folder.write("plans/hourglass.yaml", "airspeed: 17 m/s\nwaypoints:\n  - {position_m: [1, 2]}\n");
   mission.folder.write(
       "anaconda.yaml",
-      "mass: 4.5\nparams:\n  control_slc/Inner: {roll_kp: 7, roll_ki: 3}\n  control_slc/Iner: {}\n");
+      "mass: 4.5\nparams:\n  control_slc/Inner: {roll_kp: 7, roll_ki: 3}\n  control_slc/Iner: {}\n"s +
+          all_but_mass);
   CHECK(mission.faults() ==
         "anaconda.yaml:1: mass: 4.5 has no unit; a mass is written with kg, gram, lb\n"
         "anaconda.yaml:3: params.control_slc/Inner.roll_kp: 7 is outside 0 .. 2 rad/rad\n"

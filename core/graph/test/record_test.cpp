@@ -76,6 +76,25 @@ TEST_CASE("an airframe file fills nested structs, and what it does not say stays
   CHECK(airframe.aero.lift.alpha_ratio == 5.6);
 }
 
+TEST_CASE("a record that lacks what its type asks for is told with all that is missing") {
+  const auto missing = [](const std::string& yaml) {
+    Report report;
+    return join(missing_in_record(*type_of<Airframe>(), parse_yaml(make_source(yaml, "file"), report)));
+  };
+  CHECK(missing(anaconda) == "none");
+  CHECK(missing("mass: 5 kg\nwing: {span: 2 m}\naero: {lift: {alpha: 5}, drag: {beta: 1}}\n") ==
+        "inertia.xx, inertia.yy, inertia.zz, wing.area, wing.chord, aero.pitch.alpha, propulsion.ct0, "
+        "aileron.limit, elevator.limit, rudder.limit");
+  CHECK(missing("mass_kg: 5\ninertia: 3\nwing: []\naero:\npropulsion: {ct0_ratio: 1}\naileron: {limit_rad: 1}"
+                "\nelevator: {limit: 1}\nrudder: {limit: 1}\n") ==
+        "none");  // what is wrong is told elsewhere
+  const auto refused = [](const std::string& yaml) { return read<Airframe>(yaml).faults; };
+  CHECK(refused("mass: -5 kg") == "file.yaml:1: mass: -5 kg is outside 0.0001 .. 1e+06 kg");
+  for (const char* yaml : {"wing: {area_m2: -1}", "wing: {span: 0 m}", "wing: {chord: -1 cm}",
+                           "inertia: {yy_kgm2: -1}", "rudder: {limit: -1 deg}"})
+    CHECK(refused(yaml).find(" is outside ") != std::string::npos);
+}
+
 TEST_CASE("a plan's list is counted and vectors are lists or maps") {
   const auto plan = read<Plan>(hourglass_plan);
   CHECK(plan.faults == "");

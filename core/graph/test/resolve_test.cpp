@@ -489,8 +489,8 @@ TEST_CASE("what is wired by name to a component that is there by name alone exis
 
 TEST_CASE("an airframe's parameters of a plugin without a component are those of its first component alone") {
   Mission mission;
-  mission.folder.write("anaconda.yaml",
-                       "name: Anaconda\nmass: 4.5 kg\nparams:\n  control_slc: {course_kp: 1.3}\n");
+  mission.folder.write("anaconda.yaml", std::string("name: Anaconda\nmass: 4.5 kg\n") + all_but_mass +
+                                            "params:\n  control_slc: {course_kp: 1.3}\n");
   REQUIRE(mission.faults() == "");  // the second has no such parameter
   const Graph graph = mission.load();
   CHECK(param(graph, "slc", "course_kp").number[0] == 1.3);

@@ -150,11 +150,25 @@ std::string Folder::write(const std::string& name, const std::string& text) cons
 const char* const anaconda = R"(name: Anaconda
 mass: 4.5 kg
 wing: {area_m2: 0.55, span: 2.9 m, chord: 19 cm, stall_alpha: 15 deg, oswald: 0.9}
+inertia: {xx_kgm2: 0.8, yy_kgm2: 1.1, zz_kgm2: 1.8}
+aero: {lift: {alpha: 5.6}, pitch: {alpha: -2.7}}
+propulsion: {ct0: 0.09}
 aileron: {limit: 20 deg, reversed: true}
+elevator: {limit: 20 deg}
+rudder: {limit: 20 deg}
 params:
   control_slc/Inner: {roll_kp: 0.7}
   control_tecs: {course_kp: 1.1}
   control_lqr/Outer: {q: 3}
+)";
+
+const char* const all_but_mass = R"(wing: {area_m2: 0.55, span: 2.9 m, chord: 19 cm}
+inertia: {xx_kgm2: 0.8, yy_kgm2: 1.1, zz_kgm2: 1.8}
+aero: {lift: {alpha: 5.6}, pitch: {alpha: -2.7}}
+propulsion: {ct0: 0.09}
+aileron: {limit: 20 deg}
+elevator: {limit: 20 deg}
+rudder: {limit: 20 deg}
 )";
 
 const char* const hourglass_plan = R"(end: circuit

@@ -33,6 +33,7 @@ struct Folder {
 };
 
 extern const char* const anaconda;
+extern const char* const all_but_mass;  // of what an airframe has to say
 extern const char* const hourglass_plan;
 extern const char* const hourglass;
 

@@ -75,7 +75,9 @@ typedef struct fulmar_field {
 } fulmar_field;
 
 enum fulmar_field_flags {
-  FULMAR_FIELD_APPENDED = 1 /* a writer from before this field may feed its reader, who then sees zeros */
+  FULMAR_FIELD_APPENDED = 1, /* a writer from before this field may feed its reader, who then sees zeros */
+  FULMAR_FIELD_REQUIRED = 2  /* of a record: whoever writes one as a whole has to name it; of a field that is
+                                a struct, its own required fields, too */
 };
 
 struct fulmar_type {

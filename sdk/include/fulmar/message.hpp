@@ -91,6 +91,12 @@ inline constexpr std::array<FieldRange, 0> field_ranges{};
 template <class T>
 inline constexpr std::string_view appended_from{};
 
+/// What a file or map of a record `Record<T>` has to say, as a specialization beside the struct lists it, the
+/// fields of Airframe for one: without it the host refuses the record, for every reader, where it would else
+/// fly on a default that is of no aircraft. A field that is a struct brings its own ones with it.
+template <class T>
+inline constexpr std::array<std::string_view, 0> required_fields{};
+
 /// Deviation of a quantity that nobody knows: large, finite, and so honest to every weighted sum.
 inline constexpr double unknown_std = 1e9;
 

@@ -378,6 +378,21 @@ consteval std::size_t appended_index() {
     if (FieldNames<T>::view(i) == appended_from<T>) return i;
   throw "appended_from names no field of this message";
 }
+template <class T>
+consteval bool is_required(std::string_view name) {
+  for (const std::string_view required : required_fields<T>)
+    if (required == name) return true;
+  return false;
+}
+template <class T>
+consteval bool required_exist() {
+  for (const std::string_view required : required_fields<T>) {
+    bool found = false;
+    for (std::size_t i = 0; i < member_count<T>(); ++i) found = found || FieldNames<T>::view(i) == required;
+    if (!found) return false;
+  }
+  return true;
+}
 template <class T, class... M>
 consteval Rows<T, sizeof...(M)> rows_of(Types<M...>) {
   constexpr std::size_t count = sizeof...(M);
@@ -391,7 +406,8 @@ consteval Rows<T, sizeof...(M)> rows_of(Types<M...>) {
       f.name = FieldNames<T>::c_str(i);
       f.offset = static_cast<std::uint32_t>(offsets[i]);
       const std::string_view name = FieldNames<T>::view(i);
-      f.flags = i >= appended_index<T>() ? FULMAR_FIELD_APPENDED : 0;
+      if (i >= appended_index<T>()) f.flags |= FULMAR_FIELD_APPENDED;
+      if (is_required<T>(name)) f.flags |= FULMAR_FIELD_REQUIRED;
       const bool stamp = (f.kind == FULMAR_I64 || f.kind == FULMAR_U64) && name.ends_with("_ns");
       if (exempt || !(measured[i] || stamp)) continue;
       const int unit = find_unit(name);
@@ -432,6 +448,8 @@ struct Table {
   }
   static_assert(end_of(MemberTypes<T>{}) == sizeof(T),
                 "the layout of this struct is unusual: no alignas, no bit fields, no C arrays");
+
+  static_assert(required_exist<T>(), "required_fields names what is no field of this struct");
 
   static constexpr Rows<T, count> rows = rows_of<T>(MemberTypes<T>{});
   static constexpr EveryNumberHasAUnit<T, rows.nameless, count> rule{};

@@ -86,4 +86,33 @@ struct Airframe {
   Gear gear;
 };
 
+/// What no aircraft is without: its defaults would fly as some other one.
+template <>
+inline constexpr std::array<std::string_view, 8> required_fields<Airframe>{
+    "mass_kg", "inertia", "wing", "aero", "propulsion", "aileron", "elevator", "rudder"};
+template <>
+inline constexpr std::array<std::string_view, 3> required_fields<Inertia>{"xx_kgm2", "yy_kgm2", "zz_kgm2"};
+template <>
+inline constexpr std::array<std::string_view, 3> required_fields<Wing>{"area_m2", "span_m", "chord_m"};
+template <>
+inline constexpr std::array<std::string_view, 2> required_fields<Aerodynamics>{"lift", "pitch"};
+template <>
+inline constexpr std::array<std::string_view, 1> required_fields<Derivatives>{"alpha_ratio"};
+template <>
+inline constexpr std::array<std::string_view, 1> required_fields<Propulsion>{"ct0_ratio"};
+template <>
+inline constexpr std::array<std::string_view, 1> required_fields<Surface>{"limit_rad"};
+
+/// From an insect to an airliner: what lies outside is a slip of sign or unit.
+template <>
+inline constexpr std::array<FieldRange, 1> field_ranges<Airframe>{{{"mass_kg", 1e-4, 1e6}}};
+template <>
+inline constexpr std::array<FieldRange, 3> field_ranges<Inertia>{
+    {{"xx_kgm2", 1e-9, 1e9}, {"yy_kgm2", 1e-9, 1e9}, {"zz_kgm2", 1e-9, 1e9}}};
+template <>
+inline constexpr std::array<FieldRange, 3> field_ranges<Wing>{
+    {{"area_m2", 1e-4, 1e4}, {"span_m", 1e-2, 1e3}, {"chord_m", 1e-3, 1e2}}};
+template <>
+inline constexpr std::array<FieldRange, 1> field_ranges<Surface>{{{"limit_rad", 0, 1.6}}};
+
 }  // namespace fulmar

@@ -17,4 +17,7 @@ template <>
 inline constexpr std::array<FieldRange, 3> field_ranges<Origin>{
     {{"lat_deg", -90, 90}, {"lon_deg", -180, 180}, {"alt_msl_m", -1000, 20000}}};
 
+template <>
+inline constexpr std::array<std::string_view, 3> required_fields<Origin>{"lat_deg", "lon_deg", "alt_msl_m"};
+
 }  // namespace fulmar

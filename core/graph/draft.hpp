@@ -62,8 +62,18 @@ std::string not_there(const Draft& draft, const std::string& name);
 /// Whether an output of a role is there: somebody who fills it in this run has it. Of the built graph.
 bool provided(const Graph& graph, const Source& source);
 
+/// A role or component that is not there: taken away by a layer, perhaps.
+struct NoOwner : Error {
+  NoOwner(const std::string& name, const std::string& sentence) : Error(sentence), owner(name) {}
+  std::string owner;
+};
+/// Whether a layer has taken that role or component away: it is told there, with all that still names it.
+bool taken_away(Draft& draft, const std::string& name, const Where& where, const std::string& path);
+/// A fault of its own, or one of those.
+void tell(Draft& draft, const Where& where, const std::string& path, const Error& fault);
+
 // wires.cpp
-Target find_target(const Draft& draft, const PortName& name);  // throws Error
+Target find_target(const Draft& draft, const PortName& name);  // throws Error, NoOwner
 void resolve_wires(Draft& draft);
 /// After it is known who is used: inputs that nobody feeds.
 void check_fed(Draft& draft);
@@ -76,6 +86,9 @@ std::vector<bool> chain_to_vehicle(const Graph& graph);
 
 // bypassed.cpp: of the built graph
 void tell_bypassed(Draft& draft);
+
+// unread.cpp: of the built graph, with what DDS exports
+void tell_unread(Draft& draft);
 
 // tap_sections.cpp
 void mark_imports(Draft& draft);

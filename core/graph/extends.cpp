@@ -7,29 +7,83 @@
 #include <optional>
 
 #include "core/graph/shipped.hpp"
+#include "core/types/named.hpp"
 
 namespace fulmar::core {
 namespace {
 
 /// Named things merge by name: a component's keys, its parameters and wires one by one, what a phase says of
-/// a role as a whole. Everything else is replaced as a whole.
-Node laid_over(const Node& base, const Node& top) {
-  static const std::pair<const char*, int> depths[] = {
-      {"components", 3}, {"roles", 3}, {"phases", 2}, {"summary", 1}};
+/// a role as a whole. What is not here is replaced as a whole.
+constexpr std::pair<std::string_view, int> depths[] = {{"components", 3}, {"roles", 3},  {"phases", 2},
+                                                       {"summary", 1},    {"resume", 1}, {"failsafe", 1},
+                                                       {"live", 1},       {"record", 1}, {"dds", 2}};
+
+int depth_of(const std::string& key) {
+  for (const auto& [name, depth] : depths)
+    if (name == key) return depth;
+  return 0;
+}
+
+/// What a layer takes away from the one below it.
+class Takings {
+ public:
+  Takings(const std::string& below, Report& report) : below_(below), report_(report) {}
+
+  /// Tells of what is not there to be taken, and leaves it out. `levels` of maps merge.
+  void check(const Node& base, Node& top, const std::string& path, int levels) {
+    if (!base.is(Node::Kind::map) || !top.is(Node::Kind::map)) return;
+    std::erase_if(top.entries, [&](const Node::Entry& entry) {
+      return entry.value.is(Node::Kind::null) && !takes(base, entry, path);
+    });
+    for (Node::Entry& entry : top.entries) {
+      const Node* const below = base.find(entry.key);
+      const int deeper = path.empty() ? depth_of(entry.key) : levels - 1;
+      if (below && deeper > 0)
+        check(*below, entry.value, path.empty() ? entry.key : path + "." + entry.key, deeper);
+    }
+  }
+
+ private:
+  bool takes(const Node& base, const Node::Entry& entry, const std::string& path) {
+    const std::string name = path.empty() ? entry.key : path + "." + entry.key;
+    if (base.find(entry.key)) {
+      if (path == "components" || path == "roles" || path == "phases")
+        report_.taken_away(name, entry.where());
+      return true;
+    }
+    if (is_wire(path)) return true;  // that of a role, perhaps: the mission's reader knows
+    if (path == "phases" && entry.value.text.empty()) return true;  // a new one, in which nobody changes
+    if (report_.full()) return false;
+    std::vector<std::string> there;
+    for (const Node::Entry& other : base.entries) there.push_back(other.key);
+    const std::string near = nearest(entry.key, there);
+    report_.add(entry.where(), (path.empty() ? "" : path + ": ") + below_ + " has no '" + entry.key +
+                                   "' to take away" + (near.empty() ? "" : ". Did you mean '" + near + "'?"));
+    return false;
+  }
+
+  static bool is_wire(const std::string& path) {
+    return path.starts_with("components.") && path.ends_with(".in");
+  }
+
+  const std::string& below_;
+  Report& report_;
+};
+
+Node laid_over(const Node& base, Node top, Report& report) {
+  Takings(base.file->name, report).check(base, top, "", 1);
   Node node = merged(base, top, 1);
-  for (const auto& [key, depth] : depths) {
-    const Node *const below = base.find(key), *const above = top.find(key);
-    if (!below || !above || above->is(Node::Kind::null)) continue;
-    for (Node::Entry& entry : node.entries)
-      if (entry.key == key) entry.value = merged(*below, *above, depth);
+  for (Node::Entry& entry : node.entries) {
+    const Node *const below = base.find(entry.key), *const above = top.find(entry.key);
+    if (below && above && depth_of(entry.key) > 0) entry.value = merged(*below, *above, depth_of(entry.key));
   }
   return node;
 }
 
 class Layers {
  public:
-  Layers(const StoredFiles* stored, std::vector<FilePtr>& files, Report& report)
-      : stored_(stored), files_(files), report_(report) {}
+  Layers(const StoredFiles* stored, std::vector<FilePtr>& files, std::vector<Node>& below, Report& report)
+      : stored_(stored), files_(files), below_(below), report_(report) {}
 
   Node tree(const FilePtr& file) {
     Node top = parse_yaml(file, report_);
@@ -41,7 +95,9 @@ class Layers {
     const FilePtr below = read(*extends, *file);
     const Node base = below ? tree(below) : Node{};
     above_.pop_back();
-    return base.is(Node::Kind::map) ? laid_over(base, top) : Node{};
+    if (!base.is(Node::Kind::map)) return {};
+    below_.push_back(base);
+    return laid_over(base, std::move(top), report_);
   }
 
  private:
@@ -71,6 +127,7 @@ class Layers {
 
   const StoredFiles* stored_;
   std::vector<FilePtr>& files_;
+  std::vector<Node>& below_;
   Report& report_;
   std::vector<FilePtr> above_;  // the layers that lead to the one being read
 };
@@ -78,8 +135,8 @@ class Layers {
 }  // namespace
 
 Node layered_tree(const FilePtr& file, const StoredFiles* stored, std::vector<FilePtr>& files,
-                  Report& report) {
-  return Layers(stored, files, report).tree(file);
+                  std::vector<Node>& below, Report& report) {
+  return Layers(stored, files, below, report).tree(file);
 }
 
 }  // namespace fulmar::core

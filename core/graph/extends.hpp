@@ -9,8 +9,9 @@ namespace fulmar::core {
 
 /// The tree of `file` over that of the file it extends, to any depth. Every file that was read is added to
 /// `files`, the top one excepted. A layer that cannot be read is the only fault that is worth telling: the
-/// report then holds it, and the tree is missing.
+/// report then holds it, and the tree is missing. `below`: what each lower layer says with those under it,
+/// the lowest first.
 Node layered_tree(const FilePtr& file, const StoredFiles* stored, std::vector<FilePtr>& files,
-                  Report& report);
+                  std::vector<Node>& below, Report& report);
 
 }  // namespace fulmar::core

@@ -193,7 +193,9 @@ class MissionReader {
     WireText wire;
     wire.name = entry.key;
     wire.where = entry.where();
-    if (entry.value.is(Node::Kind::map)) {
+    if (entry.value.text == "null" && entry.value.is(Node::Kind::null)) {
+      wire.cut = true;
+    } else if (entry.value.is(Node::Kind::map)) {
       const Keys keys(entry.value, path, {"from", "max_age", "delayed"}, report_);
       if (!keys.has("from")) {
         report_.add(entry.where(), path + ": 'from' is missing, as in {from: nav.state, max_age: 0.5 s}");
@@ -266,6 +268,7 @@ class MissionReader {
     c.only = io_of(keys.word("only", io_words).value_or(""));
     if (!keys.has("only") && c.fills_role("vehicle")) c.only = io_of(c.name);
     c.in = wires(keys);
+    check_cuts(path, c);
     c.params = params(keys, "params");
     c.rate_hz = keys.positive("rate", "Hz").value_or(0);
     c.where_rate = keys.where("rate");
@@ -273,6 +276,22 @@ class MissionReader {
     c.max_age_ns = max_age_ns(keys);
     run_mode(keys, path, c);
     m_.components.push_back(std::move(c));
+  }
+
+  /// A null takes a wire away that one of the roles brings. That of a lower layer is gone already.
+  void check_cuts(const std::string& path, const ComponentText& c) {
+    std::vector<std::string> there;
+    for (const WireText& wire : c.in)
+      if (!wire.cut) there.push_back(wire.name);
+    for (const Word& fills : c.fills)
+      if (const RoleText* role = m_.role(fills.text))
+        for (const WireText& wire : role->in) there.push_back(wire.name);
+    for (const WireText& wire : c.in) {
+      if (!wire.cut || std::find(there.begin(), there.end(), wire.name) != there.end()) continue;
+      const std::string near = nearest(wire.name, there);
+      report_.add(wire.where, path + ".in: there is no wire '" + wire.name + "' to take away" +
+                                  (near.empty() ? "" : ". Did you mean '" + near + "'?"));
+    }
   }
 
   /// A role, or a list of them.
@@ -329,13 +348,17 @@ class MissionReader {
     if (entry.key != "any")
       for (const RoleText& role : m_.roles) valid.push_back(role.name);
     const Node nothing, &node = entry.value.is(Node::Kind::null) ? nothing : entry.value;
+    for (const Node::Entry& item : node.entries)
+      if (!m_.role(item.key) &&
+          report_.still_named({"roles." + item.key}, item.where(), path + "." + item.key))
+        valid.push_back(item.key);
     const Keys keys(node, path, valid, report_);
     PhaseText phase;
     phase.name = entry.key;
     phase.where = entry.where();
     transitions(keys, phase.next);
     for (const Node::Entry& item : node.entries)
-      if (item.key != "next" && std::find(valid.begin(), valid.end(), item.key) != valid.end())
+      if (item.key != "next" && entry.key != "any" && m_.role(item.key))
         assignment(item, path + "." + item.key, phase);
     if (entry.key == "any")
       m_.any = std::move(phase.next);
@@ -484,8 +507,15 @@ MissionText parse_mission(const std::string& file, const Overrides& overrides, R
   mission.file = std::make_shared<SourceFile>(
       SourceFile{path, path.filename().string(), read_source(path, file, overrides.files.get())->text});
   mission.files.push_back(mission.file);
-  const Node root = layered_tree(mission.file, overrides.files.get(), mission.files, report);
+  std::vector<Node> below;
+  const Node root = layered_tree(mission.file, overrides.files.get(), mission.files, below, report);
   MissionReader(mission, report).read(root);
+  for (const Node& layer : below) {
+    Report unsaid;  // its faults are those of the whole
+    MissionText& text = mission.below.emplace_back();
+    text.file = layer.file;
+    MissionReader(text, unsaid).read(layer);
+  }
   if (!root.is(Node::Kind::map)) report.throw_if_any();  // what follows from it is not worth telling
   if (overrides.io) {
     if (const auto io = io_of(*overrides.io))

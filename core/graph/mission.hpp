@@ -25,6 +25,7 @@ struct WireText {
   PortName from;
   std::optional<std::int64_t> max_age_ns;  // 0: off
   bool delayed = false;
+  bool cut = false;  // null: the wire that a role brings is not wanted
   Where where;
 };
 
@@ -104,6 +105,7 @@ struct MissionText : Settings {
   std::vector<Where> record_where;      // one per rule
   std::vector<ImportText> dds_imports;  // into components that may not exist
   std::vector<FilePtr> files;           // the mission and what it extends
+  std::vector<MissionText> below;       // each layer under it with those that it extends, the lowest first
 
   const RoleText* role(const std::string& name) const { return find_named(roles, name); }
   const ComponentText* component(const std::string& name) const { return find_named(components, name); }

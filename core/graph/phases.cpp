@@ -23,6 +23,7 @@ int filler_named(Draft& draft, int role, const Word& word, const std::string& pa
   std::vector<std::string> fillers;
   for (const int f : wanted.fillers) fillers.push_back(nth(draft.candidates, f).name);
   if (i >= 0 && std::find(wanted.fillers.begin(), wanted.fillers.end(), i) != wanted.fillers.end()) return i;
+  if (taken_away(draft, name, word.where, path.empty() ? "--role" : path)) return -1;
   const ComponentText* known = draft.text.component(name);
   std::string why;
   if (known && draft.is_out(*known))
@@ -83,10 +84,10 @@ std::vector<Overlay> read_overlay(Draft& draft, const Candidate& candidate, cons
   return overlay;
 }
 
-/// What a phase says of a role, checked also where --role then changes it. `usual`: who would fill it without
 /// What a phase says of the vehicle: parameters of the one that flies, and of no other.
 void read_vehicle_overlay(Draft& draft, const AssignmentText& text, const std::string& path, int usual,
                           int seated, Assignment& assignment) {
+  if (!text.use.text.empty() && taken_away(draft, text.use.text, text.use.where, path)) return;
   const int named = text.use.text.empty() ? usual : draft.candidate(text.use.text);
   const bool flies = named >= 0 && (named == usual || named == seated);
   if (!flies || !text.fallback.text.empty() || text.set.is(Node::Kind::missing))
@@ -99,6 +100,7 @@ void read_vehicle_overlay(Draft& draft, const AssignmentText& text, const std::s
         read_overlay(draft, nth(draft.candidates, component), text.set, path + ".set", component != named);
 }
 
+/// What a phase says of a role, checked also where --role then changes it. `usual`: who would fill it without
 /// --role, `seated`: who does.
 void read_assignment(Draft& draft, const AssignmentText& text, const std::string& path, int usual, int seated,
                      Assignment& assignment) {
@@ -170,9 +172,9 @@ class Seating {
 
   void seat_by_phase(const AssignmentText& text, const std::vector<int>& commanded) {
     const int role = draft_.role(text.role), wanted = draft_.candidate(text.use.text);
+    if (text.role == "vehicle") return;  // the same one in all phases
     if (wanted < 0 || !nth(draft_.candidates, wanted).fills(role) || in_its_way(wanted, commanded) >= 0)
       return;
-    if (text.role == "vehicle") return;  // the same one in all phases
     const int other = in_its_way(wanted, seats_);
     if (other < 0) return seat(wanted);
     draft_.report.add(text.where, phase_path(phase_) + "." + text.role + ": " + not_together(wanted, other));
@@ -296,7 +298,7 @@ void guarded(Draft& draft, const Where& where, const std::string& path, F run) {
     run();
   } catch (const Unclear&) {
   } catch (const Error& fault) {
-    draft.report.add(where, path + ": " + fault.what());
+    tell(draft, where, path, fault);
   }
 }
 
@@ -375,7 +377,7 @@ void read_resume(Draft& draft, const FindPort& find) {
       const int i = draft.candidate(name);
       const ComponentText* const text = draft.text.component(name);
       if (text && draft.is_out(*text)) return;  // nothing of it goes on in this run
-      if (i < 0) throw Error(not_there(draft, name));
+      if (i < 0) throw NoOwner(name, not_there(draft, name));
       const Candidate& candidate = nth(draft.candidates, i);
       if (!candidate.loaded) throw Unclear{};
       const auto& params = candidate.info().params;
@@ -404,7 +406,8 @@ std::vector<Transition> transitions(Draft& draft, const std::vector<TransitionTe
   for (const TransitionText& text : texts) {
     Transition transition;
     transition.to = index_named(phases, text.to.text);
-    if (transition.to < 0 && !text.to.text.empty())
+    if (transition.to < 0 && !text.to.text.empty() &&
+        !draft.report.still_named({"phases." + text.to.text}, text.to.where, path + ".to"))
       draft.report.add(text.to.where, no_such(path + ".to: there is no phase", text.to.text, phases));
     if (!text.when.text.empty()) transition.when = compiled(draft, text.when, path + ".when", find);
     transition.for_ns = text.for_ns;
@@ -431,8 +434,10 @@ void compile_all(Draft& draft, bool built) {
   graph.any = transitions(draft, draft.text.any, "phases.any.next", find);
 }
 
+/// Not where the way led through a phase that was taken away: that is told already.
 void check_reachable(Draft& draft) {
   const Graph& graph = draft.graph;
+  if (draft.report.misses("phases.")) return;
   std::vector<bool> reached(graph.phases.size(), false);
   std::vector<int> todo;
   const auto reach = [&](int phase) {

@@ -19,6 +19,16 @@ std::string not_there(const Draft& draft, const std::string& name) {
   return no_such("there is no component", name, draft.candidates);
 }
 
+bool taken_away(Draft& draft, const std::string& name, const Where& where, const std::string& path) {
+  return draft.report.still_named({"components." + name, "roles." + name}, where, path);
+}
+
+void tell(Draft& draft, const Where& where, const std::string& path, const Error& fault) {
+  const auto* const gone = dynamic_cast<const NoOwner*>(&fault);
+  if (!gone || !taken_away(draft, gone->owner, where, path))
+    draft.report.add(where, path + ": " + fault.what());
+}
+
 bool provided(const Graph& graph, const Source& source) {
   const auto& provides = nth(graph.roles, source.index).provides;
   return std::any_of(provides.begin(), provides.end(),
@@ -75,10 +85,10 @@ void collect_candidates(Draft& draft, Catalogue& catalogue) {
     load_component(draft, catalogue, candidate);
     for (const Word& fills : text.fills) {
       const int role = draft.role(fills.text);
-      if (role < 0)
+      if (role < 0 && !taken_away(draft, fills.text, fills.where, "components." + text.name + ".fills"))
         draft.report.add(fills.where,
                          no_such("components." + text.name + ": there is no role", fills.text, draft.roles));
-      else
+      else if (role >= 0)
         candidate.roles.push_back(role);
     }
     std::sort(candidate.roles.begin(), candidate.roles.end());
@@ -372,6 +382,8 @@ void check_record_rules(Draft& draft, const std::vector<std::string>& ports) {
         std::any_of(ports.begin(), ports.end(),
                     [&](const std::string& port) { return port_matches(port, pattern); }))
       continue;
+    if (taken_away(draft, pattern.substr(0, pattern.find('.')), draft.text.record_where[i], "record.ports"))
+      continue;
     const std::string near = nearest(pattern, ports);
     draft.report.add(draft.text.record_where[i], "record.ports: '" + pattern + "' matches no port." +
                                                      (near.empty() ? "" : " Did you mean '" + near + "'?"));
@@ -381,6 +393,7 @@ void check_record_rules(Draft& draft, const std::vector<std::string>& ports) {
 void read_control(Draft& draft) {
   for (const Word& word : draft.text.control) {
     const int role = draft.role(word.text);
+    if (role < 0 && taken_away(draft, word.text, word.where, "control")) continue;
     if (role < 0)
       draft.report.add(word.where, no_such("control: there is no role", word.text, draft.roles));
     else if (role == draft.role("vehicle"))

@@ -186,7 +186,7 @@ void mark_imports(Draft& draft) {
     const std::string path = "dds.import." + import.to.text();
     const int index = draft.candidate(import.to.owner);
     if (index < 0) {
-      if (!draft.text.component(import.to.owner))
+      if (!draft.text.component(import.to.owner) && !taken_away(draft, import.to.owner, import.where, path))
         draft.report.add(import.where, path + ": " + not_there(draft, import.to.owner));
       continue;  // it exists with another io
     }
@@ -265,7 +265,8 @@ void resolve_dds(Draft& draft, const std::vector<std::string>& ports) {
   std::vector<std::string> topics;
   for (const DdsOptions::Export& e : graph.dds.exports) {
     add(e.topic, type_of_port(graph, e.port), e.where, "dds.export: " + e.port);
-    if (std::find(ports.begin(), ports.end(), e.port) == ports.end())
+    if (std::find(ports.begin(), ports.end(), e.port) == ports.end() &&
+        !taken_away(draft, e.port.substr(0, e.port.find('.')), e.where, "dds.export"))
       draft.report.add(e.where,
                        "dds.export: there is no port '" + e.port + "'." + choices_text(e.port, ports));
     if (std::find(topics.begin(), topics.end(), e.topic) != topics.end())

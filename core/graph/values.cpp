@@ -113,7 +113,8 @@ void set_from_command(Draft& draft) {
     if (dot == std::string::npos) {
       draft.report.add(where, "expected component.parameter=value");
     } else if (i < 0) {
-      draft.report.add(where, not_there(draft, name.substr(0, dot)));
+      if (!taken_away(draft, name.substr(0, dot), where, "--set"))
+        draft.report.add(where, not_there(draft, name.substr(0, dot)));
     } else if (Candidate& candidate = nth(draft.candidates, i); candidate.loaded) {
       Node map;
       map.kind = Node::Kind::map;

@@ -79,7 +79,7 @@ void connect(Draft& draft, std::size_t index, const WireText& text, const std::s
     wire.delayed = text.delayed;
     wire.where = text.where;
   } catch (const Error& fault) {
-    draft.report.add(text.where, path + ": " + fault.what());
+    tell(draft, text.where, path, fault);
   }
 }
 
@@ -107,7 +107,7 @@ void check_role_wires(Draft& draft, const RoleDraft& role) {
     try {
       find_target(draft, wire.from);
     } catch (const Error& fault) {
-      draft.report.add(wire.where, path + ": " + fault.what());
+      tell(draft, wire.where, path, fault);
     }
     std::vector<std::string> inputs;
     for (const int f : role.fillers)
@@ -131,7 +131,8 @@ Target find_target(const Draft& draft, const PortName& name) {
   if (draft.text.component(name.owner)) throw Error(not_there(draft, name.owner));
   std::vector<std::string> names = names_of(draft.roles);
   for (const Candidate& other : draft.candidates) names.push_back(other.name);
-  throw Error("there is no role or component '" + name.owner + "'." + choices_text(name.owner, names));
+  throw NoOwner(name.owner,
+                "there is no role or component '" + name.owner + "'." + choices_text(name.owner, names));
 }
 
 void resolve_wires(Draft& draft) {
@@ -191,6 +192,9 @@ void check_fed(Draft& draft) {
       const Wire& wire = candidate.wires[i];
       const std::string path = "components." + candidate.name + ": the input '" + input.name + "' ";
       if (wire.from.kind == Source::Kind::none) {
+        const WireText* const own = find_named(candidate.text->in, input.name);
+        if (own && own->cut)
+          draft.report.add(own->where, path + "cannot do without a wire; write another one in its place");
         if (wire.import >= 0 || wire_reported(draft, candidate, input.name)) continue;
         const std::vector<std::string> fitting = proposals(draft, candidate, input);
         draft.report.add(

@@ -45,8 +45,38 @@ void Report::add(const Where& where, const std::string& sentence) {
 std::string Report::text() const {
   std::vector<Fault> sorted = faults_;
   std::stable_sort(sorted.begin(), sorted.end(), [](const Fault& a, const Fault& b) {
+void Report::taken_away(const std::string& name, const Where& where) {
+  rank(where.file);
+  taken_.push_back({name, where, {}});
+}
+
+bool Report::still_named(const std::vector<std::string>& names, const Where& where, const std::string& path) {
+  for (Taken& taken : taken_) {
+    if (std::find(names.begin(), names.end(), taken.name) == names.end()) continue;
+    const std::string words = path + " (" + where.text() + ")";
+    if (std::find(taken.named_by.begin(), taken.named_by.end(), words) == taken.named_by.end())
+      taken.named_by.push_back(words);
+    return true;
+  }
+  return false;
+}
+
+bool Report::misses(const std::string& prefix) const {
+  return std::any_of(taken_.begin(), taken_.end(), [&](const Taken& taken) {
+    return !taken.named_by.empty() && taken.name.starts_with(prefix);
+  });
+}
+
+bool Report::empty() const { return faults_.empty() && !misses(""); }
+
     return a.rank != b.rank ? a.rank < b.rank : a.where.line < b.where.line;
   });
+  for (const Taken& taken : taken_) {
+    if (taken.named_by.empty()) continue;
+    const auto file = std::find(files_.begin(), files_.end(), taken.where.file);
+    sorted.push_back({static_cast<std::size_t>(file - files_.begin()), taken.where,
+                      taken.name + " is taken away here and still named by " + join(taken.named_by)});
+  }
   std::string all;
   for (const Fault& fault : sorted)
     all += (all.empty() ? "" : "\n") + fault.where.text() + ": " + fault.sentence;

@@ -27,9 +27,16 @@ class Report {
  public:
   void add(const Where& where, const std::string& sentence);
   void opened(const std::string& file);
-  bool empty() const { return faults_.empty(); }
+  bool empty() const;
   /// Whether nothing more is kept: who has to search for the words of a fault can spare it.
   bool full() const;
+  /// A layer takes a name away: "components.manage". Whoever still names it is told in one fault, with that
+  /// place.
+  void taken_away(const std::string& name, const Where& where);
+  /// Whether one of `names` was taken away; `path` is then what still names it.
+  bool still_named(const std::vector<std::string>& names, const Where& where, const std::string& path);
+  /// Whether one whose name begins so is still named.
+  bool misses(const std::string& prefix) const;
   /// One fault per line.
   std::string text() const;
   void throw_if_any() const;
@@ -40,9 +47,15 @@ class Report {
     Where where;
     std::string sentence;
   };
+  struct Taken {
+    std::string name;
+    Where where;
+    std::vector<std::string> named_by;
+  };
   std::size_t rank(const std::string& file);
   std::vector<std::string> files_;
   std::vector<Fault> faults_;
+  std::vector<Taken> taken_;
 };
 
 struct Node {
@@ -52,7 +65,7 @@ struct Node {
   bool quoted = false;  // a scalar in quotes is text, whatever it looks like
   int line = 0;
   FilePtr file;
-  std::string text;            // of a scalar
+  std::string text;            // of a scalar; of a null that is written, and not a mere gap, "null"
   std::vector<Node> items;     // of a sequence
   std::vector<Entry> entries;  // of a map, in file order, each key once
 

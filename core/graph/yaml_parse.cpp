@@ -57,6 +57,9 @@ class Builder : public YAML::EventHandler {
   void OnDocumentEnd() override { ended_ = true; }
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     Node node = begin(mark, Node::Kind::null);
+    const auto at = static_cast<std::size_t>(mark.pos);
+    if (at < file_->text.size() && std::string_view("nN~").find(file_->text[at]) != std::string_view::npos)
+      node.text = "null";  // else nothing stands there
     node.line = open_.empty() ? first_line() : open_.back().line();
     place(std::move(node), mark, anchor);
   }

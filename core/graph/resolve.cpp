@@ -417,6 +417,7 @@ void resolve(Draft& draft, Catalogue& catalogue) {
   resolve_roles(draft);
   check_groups(draft);
   resolve_wires(draft);
+  read_values(draft);
   assign_roles(draft);
   name_ports(draft);
   mark_used(draft);
@@ -429,13 +430,13 @@ void resolve(Draft& draft, Catalogue& catalogue) {
   order_steps(draft);
   guard_wires(draft);
   tell_bypassed(draft);
-  read_values(draft);
   read_failsafe(draft);
   read_vehicle_flags(draft);
   read_control(draft);
   const std::vector<std::string> ports = tap_ports(draft.graph);
   check_record_rules(draft, ports);
   resolve_dds(draft, ports);
+  tell_unread(draft);
 }
 
 /// Whether `--with` names this very file: as it is searched, in a folder and perhaps without its ending.

@@ -1,50 +1,69 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Who was replaced and is still listened to. A mission that brings a path of its own, say, wires it to the
 // follower; what goes on looking at the former manager, a scorer or `done`, then speaks of a flight that is
-// not flown.
+// not flown. Who steered is what the layers below say.
+#include <algorithm>
 #include <cctype>
-#include <optional>
+#include <set>
 
 #include "core/graph/draft.hpp"
 
 namespace fulmar::core {
 namespace {
 
-/// An output that leads to the vehicle, and one input that it feeds there.
-struct Steering {
-  std::string port;  // of the output
-  TypePtr type;
-  int writer = -1;
-  std::string words;  // "follow.path comes from search.path"
-};
+using Names = std::set<std::string>;
 
-std::vector<Steering> what_steers(const Graph& graph, const std::vector<bool>& in_chain) {
-  std::vector<Steering> list;
-  for (std::size_t i = 0; i < graph.components.size(); ++i) {
-    const Component& reader = graph.components[i];
-    for (std::size_t k = 0; in_chain[i] && k < reader.wires.size(); ++k) {
-      const Source& from = reader.wires[k].from;
-      if (from.kind != Source::Kind::component) continue;
-      const Component& writer = nth(graph.components, from.index);
-      const Port& out = nth(writer.info().outputs, from.output);
-      if (out.type && from.index != graph.vehicle)
-        list.push_back({out.name, out.type, from.index,
-                        reader.name + "." + reader.info().inputs[k].name + " comes from " + writer.name +
-                            "." + out.name});
+/// Whoever exists in `io`.
+bool exists(const ComponentText& c, Io io) { return !c.only || *c.only == io; }
+
+/// Components of a layer whose outputs lead to what the role `vehicle` takes. What a vehicle has under wires
+/// of its own it looks at, and does not obey.
+Names who_steers(const MissionText& text, Io io) {
+  std::vector<std::string> todo;
+  Names steer, seen;
+  const auto follow = [&](const std::vector<WireText>& wires, const ComponentText* own) {
+    for (const WireText& wire : wires)
+      if (!own || !find_named(own->in, wire.name)) todo.push_back(wire.from.owner);
+  };
+  if (const RoleText* vehicle = text.role("vehicle")) follow(vehicle->in, nullptr);
+  while (!todo.empty()) {
+    const std::string owner = todo.back();
+    todo.pop_back();
+    if (!seen.insert(owner).second) continue;
+    for (const ComponentText& c : text.components) {
+      if (!exists(c, io) || c.fills_role("vehicle") || (c.name != owner && !c.fills_role(owner))) continue;
+      steer.insert(c.name);
+      follow(c.in, nullptr);
+      for (const Word& role : c.fills)
+        if (const RoleText* r = text.role(role.text)) follow(r->in, &c);
     }
   }
-  return list;
+  return steer;
 }
 
-/// Why a component does not steer although it could: another one's output of the same name and type does.
-std::optional<std::string> bypassed_by(const Graph& graph, const std::vector<Steering>& steering, int index) {
-  const Component& c = nth(graph.components, index);
-  if (!c.roles.empty() || index == graph.vehicle) return std::nullopt;
-  for (const Port& out : c.info().outputs)
-    for (const Steering& s : steering)
-      if (out.type && s.writer != index && out.name == s.port && out.type->hash == s.type->hash)
-        return c.name + ", which does not steer: " + s.words;
-  return std::nullopt;
+/// The same of the built graph, which knows who has which input.
+Names who_steers(const Graph& graph, const MissionText& text) {
+  const RoleText* const role = text.role("vehicle");
+  if (graph.vehicle < 0 || !role) return {};
+  Names steer;
+  std::vector<int> todo;
+  const auto follow = [&](const Wire& wire) {
+    std::vector<int> writers;
+    if (wire.from.kind == Source::Kind::component) writers = {wire.from.index};
+    if (wire.from.kind == Source::Kind::role) writers = nth(graph.roles, wire.from.index).fillers;
+    for (const int writer : writers)
+      if (writer != graph.vehicle && steer.insert(nth(graph.components, writer).name).second)
+        todo.push_back(writer);
+  };
+  const Component& vehicle = nth(graph.components, graph.vehicle);
+  for (const WireText& wire : role->in)
+    if (const int input = vehicle.info().input(wire.name); input >= 0) follow(nth(vehicle.wires, input));
+  while (!todo.empty()) {
+    const int reader = todo.back();
+    todo.pop_back();
+    for (const Wire& wire : nth(graph.components, reader).wires) follow(wire);
+  }
+  return steer;
 }
 
 bool names(const std::string& text, const std::string& component) {
@@ -56,34 +75,88 @@ bool names(const std::string& text, const std::string& component) {
   return false;
 }
 
+/// Component -> why it does not steer any more, though it did in a layer.
+using Bypassed = std::vector<std::pair<std::string, std::string>>;
+
+bool is_listed(const Bypassed& list, const std::string& name) {
+  return std::any_of(list.begin(), list.end(), [&](const auto& entry) { return entry.first == name; });
+}
+
+Bypassed bypassed(const Draft& draft, const Names& steer) {
+  Bypassed list;
+  for (const MissionText& layer : draft.text.below) {
+    const Names before = who_steers(layer, draft.text.io);
+    std::vector<std::string> newcomers;
+    for (const std::string& name : steer)
+      if (!layer.component(name)) newcomers.push_back(name);
+    if (newcomers.empty()) continue;  // who steers is chosen, not replaced
+    for (const std::string& name : before) {
+      const Component* const c = find_named(draft.graph.components, name);
+      if (!c || !c->roles.empty() || steer.count(name) > 0 || is_listed(list, name)) continue;
+      list.emplace_back(name, name + ", which steers in " + layer.file->name + " and not here: " +
+                                  join(newcomers) + (newcomers.size() == 1 ? " does" : " do"));
+    }
+  }
+  return list;
+}
+
+/// What a mission says that looks at `component`.
+std::vector<std::pair<Where, std::string>> onlookers(const MissionText& text, const std::string& component) {
+  std::vector<std::pair<Where, std::string>> list;
+  const auto look = [&](const Word& word, const std::string& sentence) {
+    if (names(word.text, component)) list.emplace_back(word.where, sentence);
+  };
+  const auto transitions = [&](const std::vector<TransitionText>& next, const std::string& phase) {
+    for (const TransitionText& t : next) look(t.when, "phases." + phase + ".next looks at ");
+  };
+  if (text.done) look(*text.done, "done looks at ");
+  if (text.failed) look(*text.failed, "failed looks at ");
+  for (const Word& word : text.progress) look(word, "progress shows ");
+  for (const auto& [key, word] : text.summary) look(word, "summary." + key + " shows ");
+  for (const auto& [param, word] : text.resume) look(word, "resume." + param + " takes up what was of ");
+  for (const Word& word : text.tell) look(word, "tell listens to ");
+  transitions(text.any, "any");
+  for (const PhaseText& phase : text.phases) transitions(phase.next, phase.name);
+  return list;
+}
+
+void tell_untold(Draft& draft) {
+  const std::vector<Word>& told = draft.text.tell;
+  if (told.empty()) return;
+  for (const MissionText& layer : draft.text.below)
+    for (const Word& word : layer.tell) {
+      const bool still =
+          std::any_of(told.begin(), told.end(), [&](const Word& w) { return w.text == word.text; });
+      const std::string owner = word.text.substr(0, word.text.find('.'));
+      const bool there = draft.role(owner) >= 0 || draft.candidate(owner) >= 0;
+      if (!still && there)
+        draft.graph.warnings.push_back(told[0].where.text() + ": tell: leaves out " + word.text + ", which " +
+                                       word.where.text() + " lists; a list takes the place of the other");
+    }
+}
+
 }  // namespace
 
 void tell_bypassed(Draft& draft) {
   Graph& graph = draft.graph;
-  const std::vector<bool> in_chain = chain_to_vehicle(graph);
-  const std::vector<Steering> steering = what_steers(graph, in_chain);
-  for (std::size_t i = 0; i < graph.components.size(); ++i) {
-    const int index = static_cast<int>(i);
-    const auto why = in_chain[i] ? std::nullopt : bypassed_by(graph, steering, index);
-    if (!why) continue;
-    const auto warn = [&](const Where& where, const std::string& who, const char* does) {
-      graph.warnings.push_back(where.text() + ": " + who + does + *why);
-    };
+  const Bypassed list = bypassed(draft, who_steers(graph, draft.text));
+  const auto warn = [&](const std::string& sentence) {
+    if (std::find(graph.warnings.begin(), graph.warnings.end(), sentence) == graph.warnings.end())
+      graph.warnings.push_back(sentence);
+  };
+  for (const auto& [name, why] : list) {
+    const int index = index_named(graph.components, name);
     for (const Component& reader : graph.components)
-      for (std::size_t k = 0; k < reader.wires.size(); ++k) {
+      for (std::size_t k = 0; k < reader.wires.size() && !is_listed(list, reader.name); ++k) {
         const Wire& wire = reader.wires[k];
         if (wire.from.kind == Source::Kind::component && wire.from.index == index)
-          warn(wire.where, reader.name + "." + reader.info().inputs[k].name, " comes from ");
+          warn(wire.where.text() + ": " + reader.name + "." + reader.info().inputs[k].name + " comes from " +
+               why);
       }
-    const std::string& name = graph.components[i].name;
-    const auto condition = [&](const char* key, const std::optional<Word>& word) {
-      if (word && names(word->text, name)) warn(word->where, key, " looks at ");
-    };
-    condition("done", draft.text.done);
-    condition("failed", draft.text.failed);
-    for (const Word& word : draft.text.progress)
-      if (names(word.text, name)) warn(word.where, "progress", " shows ");
+    for (const auto& [where, sentence] : onlookers(draft.text, name))
+      warn(where.text() + ": " + sentence + why);
   }
+  tell_untold(draft);
 }
 
 }  // namespace fulmar::core

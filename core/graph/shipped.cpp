@@ -25,6 +25,29 @@ fs::path shipped_folder() {
   return {};
 }
 
+template <class Iterator>
+std::vector<fs::path> yaml_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code code;
+  for (Iterator it(folder, code), end; !code && it != end; it.increment(code))
+    if (it->path().extension() == ".yaml") files.push_back(it->path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// ". Did you mean 'a.yaml'?": those that are called as the nearest one is, in whatever folder.
+template <class Called>
+std::string near_files(const std::string& stem, const std::vector<fs::path>& files, Called called) {
+  std::vector<std::string> stems;
+  for (const fs::path& file : files) stems.push_back(file.stem().string());
+  const std::string near = nearest(stem, stems);
+  std::string hint;
+  for (std::size_t i = 0; i < files.size(); ++i)
+    if (near.empty() ? stem.size() >= 3 && stems[i].starts_with(stem) : stems[i] == near)
+      hint += (hint.empty() ? ". Did you mean '" : " or '") + called(files[i]) + "'";
+  return hint.empty() ? hint : hint + "?";
+}
+
 }  // namespace
 
 bool is_shipped_name(const std::string& name) { return name.starts_with(prefix); }
@@ -43,17 +66,19 @@ std::string shipped_name(const fs::path& file) {
   return rest.empty() || *rest.begin() == ".." ? std::string() : std::string(prefix) + rest.string();
 }
 
-std::string shipped_choices(const std::string& name) {
-  if (!is_shipped_name(name)) return {};
-  const fs::path shipped = shipped_folder();
-  if (shipped.empty()) return ": this program is not installed";
-  std::vector<std::string> names;
-  std::error_code code;
-  for (fs::recursive_directory_iterator it(shipped, code), end; !code && it != end; it.increment(code))
-    if (it->path().extension() == ".yaml")
-      names.push_back(std::string(prefix) + fs::relative(it->path(), shipped, code).string());
-  std::sort(names.begin(), names.end());
-  return "." + choices_text(name, names);
+std::string file_hint(const fs::path& path, const std::string& name) {
+  const fs::path said(name), shipped = shipped_folder();
+  if (is_shipped_name(name) && shipped.empty()) return ": this program is not installed";
+  const std::string stem = said.stem().string();
+  if (!is_shipped_name(name)) {
+    const std::vector<fs::path> beside =
+        yaml_files<fs::directory_iterator>(path.has_parent_path() ? path.parent_path() : fs::path("."));
+    const auto called = [&](const fs::path& file) { return (said.parent_path() / file.filename()).string(); };
+    if (const std::string hint = near_files(stem, beside, called); !hint.empty()) return hint;
+  }
+  return near_files(stem, yaml_files<fs::recursive_directory_iterator>(shipped), [&](const fs::path& file) {
+    return std::string(prefix) + file.lexically_relative(shipped).string();
+  });
 }
 
 }  // namespace fulmar::core

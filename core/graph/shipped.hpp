@@ -15,7 +15,8 @@ std::filesystem::path named_file(const std::filesystem::path& folder, const std:
 /// Its name from anywhere, fulmar:missions/common.yaml; empty when it is no file of the installation.
 std::string shipped_name(const std::filesystem::path& file);
 
-/// What there is in place of a shipped file that is not there; empty when `name` is no name of one.
-std::string shipped_choices(const std::string& name);
+/// What may be meant by the name of a file that is not there: one beside it, or one of the installation; ""
+/// when none is near.
+std::string file_hint(const std::filesystem::path& path, const std::string& name);
 
 }  // namespace fulmar::core

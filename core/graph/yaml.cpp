@@ -2,11 +2,14 @@
 // YAML files as a tree with places: the report, and what is asked of the tree.
 #include "core/graph/yaml.hpp"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <sstream>
 
 #include "core/graph/shipped.hpp"
 #include "core/graph/stored_files.hpp"
@@ -42,9 +45,6 @@ void Report::add(const Where& where, const std::string& sentence) {
       {last, {where.file, 0}, "there are more faults than these " + std::to_string(most_faults)});
 }
 
-std::string Report::text() const {
-  std::vector<Fault> sorted = faults_;
-  std::stable_sort(sorted.begin(), sorted.end(), [](const Fault& a, const Fault& b) {
 void Report::taken_away(const std::string& name, const Where& where) {
   rank(where.file);
   taken_.push_back({name, where, {}});
@@ -69,14 +69,17 @@ bool Report::misses(const std::string& prefix) const {
 
 bool Report::empty() const { return faults_.empty() && !misses(""); }
 
-    return a.rank != b.rank ? a.rank < b.rank : a.where.line < b.where.line;
-  });
+std::string Report::text() const {
+  std::vector<Fault> sorted = faults_;
   for (const Taken& taken : taken_) {
     if (taken.named_by.empty()) continue;
     const auto file = std::find(files_.begin(), files_.end(), taken.where.file);
     sorted.push_back({static_cast<std::size_t>(file - files_.begin()), taken.where,
                       taken.name + " is taken away here and still named by " + join(taken.named_by)});
   }
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Fault& a, const Fault& b) {
+    return a.rank != b.rank ? a.rank < b.rank : a.where.line < b.where.line;
+  });
   std::string all;
   for (const Fault& fault : sorted)
     all += (all.empty() ? "" : "\n") + fault.where.text() + ": " + fault.sentence;
@@ -104,23 +107,49 @@ std::string found_words(const Node& node) {
   }
 }
 
+namespace {
+
+constexpr std::size_t largest_source = 16u << 20;  // bytes
+
+/// A file that is open to be read, and closes.
+struct OpenFile {
+  int fd;
+  explicit OpenFile(const std::filesystem::path& path)
+      : fd(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {}
+  ~OpenFile() {
+    if (fd >= 0) ::close(fd);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+};
+
+/// To its end, whatever size it claims: a file of the kernel's claims none. What has no end, or nothing to
+/// give yet, is no file.
+std::string contents_of(int fd, const std::string& name) {
+  std::string text;
+  for (std::string block(1u << 16, '\0'); text.size() <= largest_source;) {
+    const ssize_t n = ::read(fd, block.data(), block.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) throw Error(errno == EAGAIN ? name + " is not a file" : "cannot read " + name);
+    if (n == 0) return text;
+    text.append(block.data(), static_cast<std::size_t>(n));
+  }
+  throw Error(name + " is larger than 16 MB: too large for a mission, an airframe or a plan");
+}
+
+}  // namespace
+
 FilePtr read_source(const std::filesystem::path& path, const std::string& name, const StoredFiles* stored) {
   if (stored) return stored->read(path, name);
-  std::error_code code;
-  if (std::filesystem::is_directory(path, code)) throw Error(name + " is a folder, not a file");
-  constexpr std::uintmax_t limit = 16u << 20;
-  if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code))
-    throw Error(name + " is not a file");
-  if (std::filesystem::file_size(path, code) > limit && !code)
-    throw Error(name + " is larger than 16 MB: too large for a mission, an airframe or a plan");
-  std::ifstream in(path, std::ios::binary);
-  if (!in)
-    throw Error(std::filesystem::exists(path, code) ? "cannot read " + name
-                                                    : "there is no file " + name + shipped_choices(name));
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (in.bad()) throw Error("cannot read " + name);
-  return std::make_shared<SourceFile>(SourceFile{path, name, text.str()});
+  const OpenFile file(path);
+  if (file.fd < 0 && (errno == ENOENT || errno == ENOTDIR))
+    throw Error("there is no file " + name + file_hint(path, name));
+  struct stat status {};
+  if (file.fd < 0 || ::fstat(file.fd, &status) != 0)
+    throw Error(errno == ENXIO ? name + " is not a file" : "cannot read " + name);
+  if (S_ISDIR(status.st_mode)) throw Error(name + " is a folder, not a file");
+  if (!S_ISREG(status.st_mode)) throw Error(name + " is not a file");
+  return std::make_shared<SourceFile>(SourceFile{path, name, contents_of(file.fd, name)});
 }
 
 FilePtr make_source(const std::string& text, const std::string& name) {

@@ -3,13 +3,14 @@
 #include "core/graph/mission.hpp"
 
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
 #include "core/graph/test/shelf.hpp"
 
 namespace mission_test {
 
-using namespace fulmar::core;
 using namespace std::string_literals;
+using namespace fulmar::core;
 using namespace fulmar::core::test;
 
 namespace {
@@ -128,6 +129,27 @@ TEST_CASE("broken YAML is told in one sentence with its line") {
                        Error);
   CHECK_THROWS_WITH_AS(load_mission(mission.folder.path.string(), {}, mission.shelf),
                        (mission.folder.path.string() + " is a folder, not a file").c_str(), Error);
+}
+
+TEST_CASE("what never ends, or has nothing to give yet, is no file and is not waited for") {
+  Mission mission;
+  const auto told = [&](const std::string& file) {
+    try {
+      load_mission(file, {}, mission.shelf);
+    } catch (const Error& fault) {
+      return std::string(fault.what());
+    }
+    return std::string();
+  };
+  const std::string pipe = mission.folder.path / "pipe.yaml";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK(told(pipe) == pipe + " is not a file");
+  CHECK(told("/dev/zero") == "/dev/zero is not a file");
+  // a regular file of no size, with 8 bytes for each page of memory that there could be
+  CHECK(told("/proc/self/pagemap").find("/proc/self/pagemap is larger than 16 MB") == 0);
+  CHECK(told("/proc/kmsg") != "");
+  mission.replace("airframe: anaconda.yaml", "airframe: pipe.yaml");
+  CHECK(mission.faults() == "hourglass.yaml:3: airframe: pipe.yaml is not a file");
 }
 
 TEST_CASE("a plugin or component that is not there is told with its neighbours") {

@@ -307,9 +307,14 @@ void check_range(const Quantity& quantity, double value, const std::string& unit
     return short_number((bound * wanted->factor + wanted->offset - written->offset) / written->factor);
   };
   const std::string tail = shown.empty() ? "" : " " + shown;
-  if (!std::isfinite(max)) throw Error(quantity.text + " is below " + in_shown(min) + tail);
-  if (!std::isfinite(min)) throw Error(quantity.text + " is above " + in_shown(max) + tail);
-  throw Error(quantity.text + " is outside " + in_shown(min) + " .. " + in_shown(max) + tail);
+  const std::string in_degrees = unit == "rad" ? "deg" : unit == "rad/s" ? "deg/s" : "";
+  const double radians = value * std::numbers::pi / 180;
+  const bool degrees =
+      quantity.unit.empty() && !in_degrees.empty() && radians >= min && radians <= max && value != 0;
+  const std::string hint = degrees ? ". Did you mean " + quantity.text + " " + in_degrees + "?" : "";
+  if (!std::isfinite(max)) throw Error(quantity.text + " is below " + in_shown(min) + tail + hint);
+  if (!std::isfinite(min)) throw Error(quantity.text + " is above " + in_shown(max) + tail + hint);
+  throw Error(quantity.text + " is outside " + in_shown(min) + " .. " + in_shown(max) + tail + hint);
 }
 
 std::optional<Suffixed> split_suffix(const std::string& name) {

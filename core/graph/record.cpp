@@ -27,6 +27,11 @@ std::string without_suffix(const std::string& field) {
   return split ? split->name : field;
 }
 
+/// Set by the host when a record is supplied: nobody writes it.
+bool is_given(const Field& field) {
+  return field.name == "given" && field.kind == FULMAR_BOOL && field.shape == FULMAR_SCALAR;
+}
+
 /// How one value is written: the unit it inherits, whether the key left the unit out, and its name for
 /// faults.
 struct RecordPlace {
@@ -150,15 +155,17 @@ class Filler {
 
   const Field* field_for(const Type& type, const Node::Entry& entry, const RecordPlace& place,
                          const std::vector<std::string>& also) {
-    if (const Field* field = field_of_key(type, entry.key)) return field;
+    if (const Field* field = field_of_key(type, entry.key); field && !is_given(*field)) return field;
     if (report_.full()) return nullptr;
-    std::vector<std::string> names = names_of(type.fields), shorter, same;
+    std::vector<std::string> names, shorter, same;
     for (const Field& field : type.fields) {
+      if (is_given(field)) continue;
+      names.push_back(field.name);
       shorter.push_back(without_suffix(field.name));
       if (without_suffix(field.name) == entry.key) same.push_back(field.name);
     }
     names.insert(names.end(), also.begin(), also.end());
-    const std::string near = nearest(entry.key, shorter);
+    const std::string near = near_words(entry.key, shorter);
     const std::string prefix = place.path.empty() ? "" : place.path + ": ";
     if (same.size() > 1)
       report_.add(entry.where(),
@@ -167,8 +174,20 @@ class Filler {
       report_.add(entry.where(),
                   prefix + "unknown field '" + entry.key + "' of " + type.name + "." +
                       (near.empty() ? choices_text(entry.key, names)
-                                    : " Did you mean '" + near + "'?" + choices_text("", names)));
+                                    : " Did you mean " + near + "?" + choices_text("", names)));
     return nullptr;
+  }
+
+  /// A height has many names: all of them that there are.
+  static std::string near_words(const std::string& key, const std::vector<std::string>& fields) {
+    static const std::vector<std::string> heights = {"alt", "altitude", "alt_msl", "height", "up"};
+    const bool height = std::find(heights.begin(), heights.end(), key) != heights.end();
+    std::string words;
+    for (const std::string& field : fields)
+      if (height && std::find(heights.begin(), heights.end(), field) != heights.end())
+        words += (words.empty() ? "'" : " or '") + field + "'";
+    const std::string near = words.empty() ? nearest(key, fields) : "";
+    return near.empty() ? words : "'" + near + "'";
   }
 
   void fill_element(const Field& field, const Node& node, std::byte* at, const RecordPlace& place) {
@@ -255,24 +274,6 @@ const Field* field_of_key(const Type& type, const std::string& key) {
   return found;
 }
 
-void fill_record(const Type& type, const Node& node, std::byte* data, const std::string& path, Report& report,
-                 const std::vector<std::string>& also) {
-  if (node.is(Node::Kind::missing)) return;
-  Filler(report).fill_struct(type, node, data, {path, "", UnitRule::optional}, also);
-}
-
-void fill_record_field(const Type& type, const std::string& field, const Node& node, std::byte* data,
-                       const std::string& path, Report& report) {
-  Filler(report).fill_path(type, field, node, data, {path, "", UnitRule::optional});
-}
-
-void mark_given(const Type& type, std::byte* data) {
-  const Field* field = type.find("given");
-  if (field && field->kind == FULMAR_BOOL && field->shape == FULMAR_SCALAR)
-    put(data + field->offset, std::uint8_t{1});
-}
-
-}  // namespace fulmar::core
 std::vector<std::string> missing_in_record(const Type& type, const Node& map) {
   std::vector<std::string> missing;
   for (const Field& field : type.fields) {
@@ -292,3 +293,20 @@ std::vector<std::string> missing_in_record(const Type& type, const Node& map) {
   return missing;
 }
 
+void fill_record(const Type& type, const Node& node, std::byte* data, const std::string& path, Report& report,
+                 const std::vector<std::string>& also) {
+  if (node.is(Node::Kind::missing)) return;
+  Filler(report).fill_struct(type, node, data, {path, "", UnitRule::optional}, also);
+}
+
+void fill_record_field(const Type& type, const std::string& field, const Node& node, std::byte* data,
+                       const std::string& path, Report& report) {
+  Filler(report).fill_path(type, field, node, data, {path, "", UnitRule::optional});
+}
+
+void mark_given(const Type& type, std::byte* data) {
+  const Field* field = type.find("given");
+  if (field && is_given(*field)) put(data + field->offset, std::uint8_t{1});
+}
+
+}  // namespace fulmar::core

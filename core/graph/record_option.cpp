@@ -9,10 +9,10 @@
 namespace fulmar::core {
 namespace {
 
-/// "100 Hz", "100" or "all"; throws Error.
+/// "100 Hz" or "all"; throws Error.
 std::int64_t period_of(const std::string& rate, const std::string& option) try {
   if (rate == "all") return 0;
-  const double hz = quantity_in(rate, "Hz", UnitRule::optional);
+  const double hz = quantity_in(rate, "Hz", UnitRule::required);
   if (!(hz >= 1e-3 && hz <= 1e6)) throw Error("a rate is from 0.001 to 1e6 Hz");
   return std::llround(1e9 / hz);
 } catch (const Error& fault) {

@@ -32,6 +32,19 @@ AirframeSource airframe_source(Draft& draft) {
   return {};
 }
 
+/// With the path that is meant when the key is a field of one of the records.
+std::string no_parameter(const Candidate& candidate, const std::string& key, const std::string& path) {
+  const ComponentInfo& info = candidate.info();
+  const std::string first = key.substr(0, key.find_first_of(".["));
+  for (const ParamInfo& param : info.params)
+    if (param.kind == FULMAR_RECORD && field_of_key(*param.type, first)) {
+      const std::string owner = path == candidate.name ? candidate.name + "." : "";  // --set names it, too
+      return path + ": " + candidate.use + " has no parameter '" + key + "'. Did you mean " + owner +
+             param.name + "." + key + ", a field of the record '" + param.name + "'?";
+    }
+  return no_such(path + ": " + candidate.use + " has no parameter", key, info.params);
+}
+
 /// A field of a record is set after the records, wherever it stands: a whole one would take it away again.
 void set_params(Draft& draft, Candidate& candidate, const Node& map, const std::string& path) {
   const ComponentInfo& info = candidate.info();
@@ -40,8 +53,7 @@ void set_params(Draft& draft, Candidate& candidate, const Node& map, const std::
     if (draft.report.full()) break;  // each of the others costs its hint
     const ParamPath at = param_path(info, entry.key);
     if (at.param < 0)
-      draft.report.add(entry.where(),
-                       no_such(path + ": " + candidate.use + " has no parameter", entry.key, info.params));
+      draft.report.add(entry.where(), no_parameter(candidate, entry.key, path));
     else if (info.vehicle && (entry.key == "rate" || entry.key == "epoch"))
       draft.report.add(entry.where(), path + "." + entry.key + ": comes from the mission's '" + entry.key +
                                           "'; set it there");

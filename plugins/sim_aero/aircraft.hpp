@@ -27,6 +27,7 @@ namespace fulmar::sim {
 class Aircraft {
  public:
   static constexpr const char* doc = "A fixed-wing aircraft, its sensors, the air and the ground.";
+  static constexpr double turn = 2 * std::numbers::pi;  ///< rad
   struct Inputs {
     Optional<Actuators> actuators;
     Request<ArmRequest> arm;
@@ -50,7 +51,7 @@ class Aircraft {
     Param epoch{1767225600, "s", 0, 4102444800, "UTC of flight time 0, since 1970; 2026-01-01", setup};
     Vector<Ned> wind_ned{{0, 0, 0}, "m/s", -50, 50, "steady velocity of the air"};
     Param wind_speed{-1, "m/s", -1, 50, "steady and level, in place of wind_ned; below 0: wind_ned counts"};
-    Param wind_from{0, "rad", -6.3, 6.3, "where wind_speed comes from: from north, clockwise"};
+    Param wind_from{0, "rad", -turn, turn, "where wind_speed comes from: from north, clockwise"};
     Choice<WindProfile> wind_profile{WindProfile::constant, "how the steady wind grows with height", setup};
     Param wind_reference{10,   "m", 0.1, 300, "height at which wind_ned and wind_speed hold, with a profile",
                          setup};
@@ -67,7 +68,7 @@ class Aircraft {
     Param start_north{0, "m", -1e5, 1e5, "position at flight time 0", setup};
     Param start_east{0, "m", -1e5, 1e5, "position at flight time 0", setup};
     Param start_height{0, "m", 0, 5000, "0: on the ground; more: in trimmed level flight", setup};
-    Param start_heading{0, "rad", -6.3, 6.3, "from north, clockwise", setup};
+    Param start_heading{0, "rad", -turn, turn, "from north, clockwise", setup};
     Param start_airspeed{0, "m/s", 0, 100, "of a start in the air; 0: the airframe's cruise", setup};
     Param mux_rate{
         0,

@@ -283,7 +283,8 @@ TEST_CASE("parameters exist, fit and lie in their range") {
         "components.ekf.params.skip: 1.5 is not a whole number\n"
         "23: components.ekf.params.gate: expected a number in rad, found a map");
   CHECK(changed("plans/hourglass.yaml", "plans/hourglas.yaml") ==
-        "25: components.plan.params.plan: there is no file plans/hourglas.yaml");
+        "25: components.plan.params.plan: there is no file plans/hourglas.yaml. Did you mean "
+        "'plans/hourglass.yaml'?");
   CHECK(changed("turbulence: light", "rate: 100 Hz") ==
         "21: components.sim.params.rate: comes from the mission's 'rate'; set it there");
   CHECK(changed("airframe: anaconda.yaml\n", "") ==

@@ -97,6 +97,15 @@ TEST_CASE("what phases do to the vehicle at given times is flown again, byte for
   check_equal(replay_of(log, {}, again), log, again);
 }
 
+TEST_CASE("a record is fixed when the flight begins: nobody changes it or a field of it in flight") {
+  const CommandTable commands(load_mission(hourglass, {}));
+  const std::size_t sim = commands.component("sim");
+  CHECK_THROWS_WITH_AS(commands.param(sim, "airframe.mass"),
+                       "sim.airframe is a set-up parameter: it cannot change in flight", Error);
+  Command whole = command_of(CommandKind::parameter, "sim", "airframe");
+  CHECK_THROWS_WITH_AS(commands.prepare(whole), doctest::Contains("it cannot change in flight"), Error);
+}
+
 TEST_CASE("a flight is flown again from its log alone, to the same file") {
   const fs::path log = fresh("hourglass.mcap"), again = fresh("hourglass-again.mcap"),
                  mission = folder().path / "mine.yaml";

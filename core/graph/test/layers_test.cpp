@@ -6,11 +6,18 @@
 #include <cstring>
 
 #include "core/graph/test/shelf.hpp"
+#include "core/graph/test/shelf_types.hpp"
 #include "core/types/named.hpp"
 #include "core/types/names.hpp"
 #include "fulmar/msg/airframe.hpp"
+#include "fulmar/msg/guidance_command.hpp"
+#include "fulmar/msg/notice.hpp"
 #include "fulmar/msg/origin.hpp"
 #include "fulmar/msg/plan.hpp"
+#include "fulmar/msg/plan_edit.hpp"
+#include "fulmar/msg/progress.hpp"
+#include "fulmar/msg/rc.hpp"
+#include "fulmar/msg/vehicle_state.hpp"
 
 namespace layers_test {
 
@@ -110,8 +117,95 @@ TEST_CASE("what is taken away below can be there again above") {
 }
 
 TEST_CASE("null for what is not there below is a fault of its own place") {
-  Layered mission("extends: ground.yaml\ncomponents: {score: {in: {trth: null}}}\n");
-  CHECK(mission.faults().find("hourglass.yaml:2: components.score.in.trth: expected a port") == 0);
+  const auto told = [](const std::string& text) {
+    Layered mission("extends: ground.yaml\n" + text);
+    return mission.faults();
+  };
+  CHECK(told("components: {score: {in: {trth: null}}}\n") ==
+        "hourglass.yaml:2: components.score.in: there is no wire 'trth' to take away. Did you mean 'truth'?");
+  CHECK(told("components:\n  scor: null\n") ==
+        "hourglass.yaml:3: components: ground.yaml has no 'scor' to take away. Did you mean 'score'?");
+  CHECK(told("phases: {cruse: null}\n") ==
+        "hourglass.yaml:2: phases: ground.yaml has no 'cruse' to take away. Did you mean 'cruise'?");
+  CHECK(told("components: {sim: {params: {wind: ~}}}\n") ==
+        "hourglass.yaml:2: components.sim.params: ground.yaml has no 'wind' to take away");
+  CHECK(told("resume: null\n") == "hourglass.yaml:2: ground.yaml has no 'resume' to take away");
+  CHECK(told("failsafe: {elevator: null}\n") ==
+        "hourglass.yaml:2: failsafe: ground.yaml has no 'elevator' to take away");
+  CHECK(told("phases:\n  cruise: {next: [{to: calm, when: \"time > 9 s\"}]}\n  calm:\n"
+             "  research: null\n") == "");  // a phase in which nobody changes
+}
+
+TEST_CASE("null takes entries away of what else is a map") {
+  Layered mission(
+      "extends: middle.yaml\nresume: {manage.first: null}\nfailsafe: {aileron: null}\nlive: {token: null}\n"
+      "record: {rate: null}\ndds: {import: {plan.edits: null}, humble: null}\n");
+  mission.folder.write("middle.yaml",
+                       "extends: ground.yaml\nresume: {manage.first: manage.progress.item}\n"
+                       "failsafe: {aileron: 3 deg}\nlive: {listen: \"8000\", token: x}\nrecord: {rate: 5 Hz, "
+                       "file: a.mcap}\ndds: {import: {plan.edits: /edits}, humble: true, domain: 3}\n");
+  const Graph graph = mission.load();
+  CHECK(graph.resume.empty());
+  CHECK(graph.failsafe_ns == 2'000'000'000);
+  CHECK(graph.live.token.empty());
+  CHECK(graph.live.port == 8000);
+  CHECK(graph.record_rules.empty());
+  CHECK(graph.record_file == "a.mcap");
+  CHECK(graph.dds.imports.empty());
+  CHECK(graph.dds.domain == 3);
+  CHECK_FALSE(graph.dds.humble);
+}
+
+TEST_CASE("null takes away the wire that a role brings, unless the input is required") {
+  Layered mission(
+      "extends: ground.yaml\nroles: {outer: {in: {rc: vehicle.rc}}}\ncomponents:\n"
+      "  slc: {in: {rc: null}}\n");
+  mission.shelf.plugins["control_slc"]->components[0].inputs.push_back(optional<Rc>("rc"));
+  CHECK(wire(mission.load(), "slc", "rc").from.kind == Source::Kind::none);
+  mission.text += "  ekf: {in: {gnss: null}}\n";
+  CHECK(
+      mission.faults() ==
+      "hourglass.yaml:5: components.ekf: the input 'gnss' cannot do without a wire; write another one in its "
+      "place");
+}
+
+TEST_CASE("of what was taken away and is still named there is one fault, with all places") {
+  Layered mission("extends: ground.yaml\ncomponents:\n  manage: null\n");
+  CHECK(mission.faults() ==
+        "hourglass.yaml:3: components.manage is taken away here and still named by roles.guide.in.path "
+        "(ground.yaml:16), components.score.in.path (ground.yaml:32), done (ground.yaml:8), progress "
+        "(ground.yaml:9)");
+  mission.text = "extends: ground.yaml\nroles: {outer: null}\n";
+  const std::string role = mission.faults();
+  CHECK(role.find("hourglass.yaml:2: roles.outer is taken away here and still named by ") == 0);
+  CHECK(role.find('\n') == std::string::npos);
+  for (const char* by : {"phases.hold.outer (ground.yaml:36)", "components.slc.fills (ground.yaml:28)",
+                         "roles.inner.in.attitude (ground.yaml:18)"})
+    CHECK_MESSAGE(role.find(by) != std::string::npos, role);
+  mission.text = "extends: ground.yaml\nphases: {takeoff: null}\n";
+  CHECK(mission.faults() ==
+        "hourglass.yaml:2: phases.takeoff is taken away here and still named by phases.hold.next.to "
+        "(ground.yaml:36)");
+}
+
+TEST_CASE("a map of a few fields is no record, for whoever reads it") {
+  Mission mission;
+  for (const char* reader : {"sim.airframe", "attitude.airframe", "slc.airframe"}) {
+    const std::string told = mission.faults(set(reader, "{mass: 5 kg, aero: {lift: {alpha: 5}}}"));
+    CHECK(told.find(std::string("--set ") + reader + "={mass: 5 kg, aero: {lift: {alpha: 5}}}: " + reader +
+                    ": this is no whole Airframe, missing: inertia.xx, inertia.yy, inertia.zz, wing.area, "
+                    "wing.span, wing.chord, aero.pitch.alpha, propulsion.ct0, aileron.limit, elevator.limit, "
+                    "rudder.limit; to change one thing in a record, name it, as in airframe.inertia.xx") ==
+          0);
+  }
+  CHECK(mission.faults(set("sim.airframe.mass", "-5 kg")).find("-5 kg is outside") != std::string::npos);
+  CHECK(mission.faults(set("sim.airframe.wing.area_m2", "-1")).find("-1 is outside") != std::string::npos);
+  mission.folder.write("anaconda.yaml", "mass: 4 kg\n");
+  CHECK(mission.faults().find("anaconda.yaml:1: this is no whole Airframe, missing: ") == 0);
+  CHECK(mission.faults().find('\n') == std::string::npos);  // once, though several read it
+  Mission nowhere;
+  nowhere.replace("lon: -111.6474138, ", "");
+  CHECK(nowhere.faults() == "hourglass.yaml:4: origin: this is no whole Origin, missing: lon");
 }
 
 TEST_CASE("a path leads into a record: the rest of the record stays") {
@@ -136,6 +230,23 @@ TEST_CASE("a path in the mission counts over the record, whichever stands first"
   CHECK(record_of<Airframe>(mission.load(set("sim.airframe.mass", "7 kg")), "sim", "airframe").mass_kg == 7);
 }
 
+TEST_CASE("a path of a layer counts over the record of the one below, and over a whole one of its own") {
+  Layered mission("extends: middle.yaml\ncomponents: {sim: {params: {airframe.mass: 6 kg}}}\n");
+  mission.folder.write("middle.yaml",
+                       "extends: ground.yaml\ncomponents: {sim: {params: {airframe: other.yaml, "
+                       "airframe.wing.span: 2 m}}}\n");
+  std::string other = anaconda;
+  mission.folder.write("other.yaml", other.replace(other.find("4.5 kg"), 6, "9.0 kg"));
+  const auto flown = record_of<Airframe>(mission.load(), "sim", "airframe");
+  CHECK(flown.mass_kg == 6);
+  CHECK(flown.wing.span_m == 2);
+  CHECK(flown.wing.area_m2 == 0.55);
+  mission.text = "extends: middle.yaml\ncomponents: {sim: {params: {airframe: anaconda.yaml}}}\n";
+  const auto replaced = record_of<Airframe>(mission.load(), "sim", "airframe");
+  CHECK(replaced.mass_kg == 4.5);
+  CHECK(replaced.wing.span_m == 2);
+}
+
 TEST_CASE("a path that leads nowhere is told with the valid fields") {
   Mission mission;
   const auto told = [&](const std::string& name, const std::string& value) {
@@ -148,6 +259,15 @@ TEST_CASE("a path that leads nowhere is told with the valid fields") {
   CHECK(told("sim.airframe.mass", "5 m").find("sim.airframe.mass: ") != std::string::npos);
   CHECK(told("sim.airframe.mass.x", "5").find("sim.airframe.mass: has no parts") != std::string::npos);
   CHECK(told("sim.airframe.mass[0]", "5").find("'mass_kg' is no list") != std::string::npos);
+  CHECK(told("sim.wing.span", "3 m")
+            .find("has no parameter 'wing.span'. Did you mean sim.airframe.wing.span, a "
+                  "field of the record 'airframe'?") != std::string::npos);
+  CHECK(told("plan.turn_radius", "80 m") ==
+        "--set plan.turn_radius=80 m: plan: path/Planner has no parameter 'turn_radius'. Did you mean "
+        "plan.plan.turn_radius, a field of the record 'plan'?");
+  CHECK(told("attitude.roll_limit", "30").find("30 is outside 0 .. 1.0472 rad. Did you mean 30 deg?") !=
+        std::string::npos);
+  CHECK(told("attitude.roll_limit", "70").find("Did you mean") == std::string::npos);
   CHECK(told("sim.wind_ned.north", "5").find("has no parameter 'wind_ned.north'") != std::string::npos);
 }
 
@@ -170,7 +290,7 @@ TEST_CASE("who goes on listening to a manager that was replaced is warned of") {
   Layered mission(
       "extends: ground.yaml\nroles: {guide: {in: {path: mine_too.path}}}\ncomponents:\n"
       "  mine_too: {use: path/Manager, in: {state: nav.state, plan: plan.plan}}\n");
-  const std::string why = "manage, which does not steer: follow.path comes from mine_too.path";
+  const std::string why = "manage, which steers in ground.yaml and not here: mine_too does";
   CHECK(mission.load().warnings == std::vector<std::string>{"ground.yaml:32: score.path comes from " + why,
                                                             "ground.yaml:8: done looks at " + why,
                                                             "ground.yaml:9: progress shows " + why});
@@ -179,6 +299,59 @@ TEST_CASE("who goes on listening to a manager that was replaced is warned of") {
   CHECK(mission.load().warnings.empty());  // the former one flies along, and nobody listens
   Mission usual;
   CHECK(usual.load().warnings.empty());
+}
+
+TEST_CASE("also of a manager with messages of its own, by whatever looks at the former one, each once") {
+  Layered mission(
+      "extends: ground.yaml\ncomponents:\n  knots: {use: spline/Manager, in: {state: nav.state, plan: "
+      "plan.plan}}\n  follow: {use: spline/Follower, in: {way: knots.way}}\n"
+      "resume: {attitude.roll_kp: manage.progress.item}\nsummary: {progress: manage.progress}\n"
+      "progress: [manage.progress.item, manage.progress.circuits]\n"
+      "phases: {any: {next: [{to: hold, when: \"manage.progress.circuits > 9\"}]}}\n");
+  mission.shelf.add("spline", "Manager", {in<VehicleState>("state"), in<Plan>("plan")},
+                    {out<Progress>("way")});
+  mission.shelf.add("spline", "Follower", {in<VehicleState>("state"), in<Progress>("way")},
+                    {out<GuidanceCommand>("command")});
+  const std::string why = "manage, which steers in ground.yaml and not here: knots does";
+  CHECK(mission.load().warnings ==
+        std::vector<std::string>{
+            "ground.yaml:32: score.path comes from " + why, "ground.yaml:8: done looks at " + why,
+            "hourglass.yaml:7: progress shows " + why, "hourglass.yaml:6: summary.progress shows " + why,
+            "hourglass.yaml:5: resume.attitude.roll_kp takes up what was of " + why,
+            "hourglass.yaml:8: phases.any.next looks at " + why});
+}
+
+TEST_CASE("a list of what is told that takes the place of another one says what it leaves out") {
+  Layered mission("extends: middle.yaml\ntell: [plan.notices]\n");
+  mission.folder.write("middle.yaml", "extends: ground.yaml\ntell: [manage.notices, plan.notices]\n");
+  for (ComponentInfo& c : mission.shelf.plugins["path"]->components)
+    c.outputs.push_back(out<Notice>("notices", FULMAR_OUT_QUEUE));
+  CHECK(mission.load().warnings ==
+        std::vector<std::string>{
+            "hourglass.yaml:2: tell: leaves out manage.notices, which middle.yaml:2 lists; a "
+            "list takes the place of the other"});
+  mission.text = "extends: middle.yaml\ntell: null\n";
+  CHECK(mission.load().warnings.empty());
+}
+
+TEST_CASE("an output that nobody reads and an input of its type that nobody feeds are proposed to be wired") {
+  Layered mission("extends: ground.yaml\ncomponents: {detour: {use: detour}}\n");
+  mission.shelf.add("detour", "Detour", {port<Notice>("results", FULMAR_IN_QUEUE)},
+                    {out<PlanEdit>("edits", FULMAR_OUT_QUEUE)});
+  CHECK(
+      mission.load().warnings ==
+      std::vector<std::string>{"hourglass.yaml:2: detour.edits is read by nobody; plan.edits takes PlanEdit; "
+                               "wire it, as in plan: {in: {edits: detour.edits}}"});
+  mission.text =
+      "extends: ground.yaml\ncomponents: {detour: {use: detour}, plan: {in: {edits: detour.edits}}, "
+      "log: {use: log, in: {notes: plan.results}}}\n";
+  for (ComponentInfo& c : mission.shelf.plugins["path"]->components)
+    if (c.name == "Planner") c.outputs.push_back(out<Notice>("results", FULMAR_OUT_QUEUE));
+  mission.shelf.add("log", "Log", {port<Notice>("notes", FULMAR_IN_QUEUE)}, {});
+  CHECK(mission.load().warnings ==
+        std::vector<std::string>{
+            "hourglass.yaml:2: detour.results is fed by nobody; plan.results gives Notice; "
+            "wire it, as in detour: {in: {results: plan.results}}"});
 }
 
 TEST_CASE("a field alone is no record: what was never given stays missing") {
@@ -221,10 +394,12 @@ TEST_CASE("the command line records more, in front of what the mission records")
         "--record nav.stat: record.ports: 'nav.stat' matches no port. Did you mean 'nav.state'?");
   o.record = {"nav.state@often"};
   CHECK(mission.faults(o).find("--record nav.state@often: ") == 0);
+  o.record = {"nav.state@100"};
+  CHECK(mission.faults(o).find("100 has no unit") != std::string::npos);
   o.record = {"nav.state@0 Hz"};
   CHECK(mission.faults(o).find("a rate is from 0.001 to 1e6 Hz") != std::string::npos);
-  o.record = {"@5"};
-  CHECK(mission.faults(o) == "--record @5: record.ports: '' matches no port.");
+  o.record = {"@5 Hz"};
+  CHECK(mission.faults(o) == "--record @5 Hz: record.ports: '' matches no port.");
 }
 
 TEST_CASE("the command line arms, or leaves that to somebody") {

@@ -292,11 +292,15 @@ TEST_CASE("parameters exist, fit and lie in their range") {
         "components.attitude: the parameter "
         "'airframe' is missing; give the mission's 'airframe'");
   CHECK(changed("airframe: anaconda.yaml", "airframe: annaconda.yaml") ==
-        "3: airframe: there is no file annaconda.yaml");
+        "3: airframe: there is no file annaconda.yaml. Did you mean 'anaconda.yaml'?");
   CHECK(changed("alt_msl: 1387 m", "alt_msl: 1387, latt: 3") ==
         "4: origin.alt_msl: 1387 has no unit; a length is written with m, cm, mm, km, ft, in, nmi\n"
-        "4: origin: unknown field 'latt' of Origin. Did you mean 'lat'? Valid: lat_deg, lon_deg, alt_msl_m, "
-        "given.");
+        "4: origin: unknown field 'latt' of Origin. Did you mean 'lat'? Valid: lat_deg, lon_deg, "
+        "alt_msl_m.");
+  CHECK(changed("alt_msl: 1387 m", "alt: 1387 m").find("'alt' of Origin. Did you mean 'alt_msl'? Valid") !=
+        std::string::npos);
+  CHECK(changed("alt_msl: 1387 m", "alt_msl: 1387 m, given: true").find("unknown field 'given'") !=
+        std::string::npos);
   CHECK(changed("rate: 400 Hz", "rate: 4000 Hz") ==
         "21: components.sim: the mission's rate of 4000 Hz is outside 50 .. 2000 Hz of sim_aero/Aircraft");
 }
@@ -369,6 +373,9 @@ TEST_CASE("phases name phases, roles and fillers that exist, and all can be reac
   CHECK(changed("law: takeoff", "span: 3") ==
         "37: phases.takeoff.outer.set.span: is fixed when the flight begins; a phase can set live parameters "
         "alone. Live: course_kp, law.");
+  for (const char* record : {"airframe.mass: 5 kg", "airframe: anaconda.yaml"})
+    CHECK(changed("law: takeoff", record).find(": is fixed when the flight begins; a phase can set live") !=
+          std::string::npos);
   CHECK(changed("law: takeoff", "laww: takeoff") ==
         "37: phases.takeoff.outer.set: slc has no parameter 'laww'. Did you mean 'law'? Valid: course_kp, "
         "law.");

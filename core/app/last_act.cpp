@@ -29,11 +29,11 @@ std::atomic<pid_t> at_work{0};  // the process: a fork of it is none
 const char* no_log = ".\n";
 char log_name[4200], log_part[4200];  // of a flight's log, when it will be whole and until then
 
-struct Code {
+struct PluginCode {
   std::uintptr_t begin = 0, end = 0;
   std::array<char, 64> file{};
 };
-std::array<Code, 64> codes;
+std::array<PluginCode, 64> codes;
 std::atomic<std::size_t> code_count{0};
 
 }  // namespace
@@ -41,11 +41,11 @@ std::atomic<std::size_t> code_count{0};
 void note_code(const std::string& file, const void* function) {
   const std::size_t n = code_count;
   if (n == codes.size()) return;
-  Code code;
+  PluginCode code;
   code.begin = reinterpret_cast<std::uintptr_t>(function);
   std::snprintf(code.file.data(), code.file.size(), "%s", file.c_str());
   const auto look = [](dl_phdr_info* object, std::size_t, void* to) {
-    Code& c = *static_cast<Code*>(to);
+    PluginCode& c = *static_cast<PluginCode*>(to);
     std::uintptr_t begin = ~std::uintptr_t{0}, end = 0;
     for (int i = 0; i < object->dlpi_phnum; ++i) {
       const auto& part = object->dlpi_phdr[i];

@@ -18,12 +18,19 @@ namespace {
 constexpr std::size_t most_compared_values = 100'000;
 constexpr std::size_t most_at_once = 32u << 20;  // bytes of one log time
 constexpr std::size_t most_waiting = 100'000;    // ticks, where the other log has none
-using MessageBytes = std::vector<std::byte>;
+using MessageBytes = std::span<const std::byte>;
 
 struct Stored {
+  std::size_t begin, size;  // in the bytes of its log time
+  std::uint64_t valid_ns;   // as the log has it: its publish time
+};
+
+struct LoggedSample {
   MessageBytes data;
-  std::uint64_t valid_ns;  // as the log has it: its publish time
-  bool operator==(const Stored&) const = default;
+  std::uint64_t valid_ns;
+  bool operator==(const LoggedSample& other) const {
+    return valid_ns == other.valid_ns && std::ranges::equal(data, other.data);
+  }
 };
 
 struct HashedTick {
@@ -37,7 +44,8 @@ struct Side {
   McapStream stream;
   std::uint64_t last_ns;
   const McapFile::Message* ahead;
-  std::map<std::string, std::vector<Stored>> now;  // by topic, of the present log time
+  std::vector<std::byte> bytes;                    // of the messages of the present log time
+  std::map<std::string, std::vector<Stored>> now;  // these, by topic
   std::vector<std::string> order;                  // of the topics there, as they stand in the file
   std::map<std::string, std::uint16_t> channels;
   std::uint64_t first_ns = std::numeric_limits<std::uint64_t>::max();
@@ -59,15 +67,17 @@ struct Side {
   void take(std::uint64_t ns) {
     for (auto& [topic, list] : now) list.clear();
     order.clear();
-    std::size_t bytes = 0;
+    bytes.clear();
+    std::size_t taken = 0;
     for (; ahead != nullptr && ahead->log_ns == ns; ahead = next()) {
       const std::string& topic = stream.log().channels.at(ahead->channel).topic;
       channels.try_emplace(topic, ahead->channel);
-      if ((bytes += ahead->data.size() + sizeof(Stored)) > most_at_once)
+      if ((taken += ahead->data.size() + sizeof(Stored)) > most_at_once)
         throw Error("the log has more than " + std::to_string(most_at_once >> 20) +
                     " MB of messages at one time");
       if (now[topic].empty()) order.push_back(topic);
-      now[topic].push_back({MessageBytes(ahead->data.begin(), ahead->data.end()), ahead->publish_ns});
+      now[topic].push_back({bytes.size(), ahead->data.size(), ahead->publish_ns});
+      bytes.insert(bytes.end(), ahead->data.begin(), ahead->data.end());
       if (topic == Ticks::topic) take_ticks(ahead->data);
     }
   }
@@ -75,12 +85,16 @@ struct Side {
     if (!tick_topic) tick_topic.emplace(stream.log());
     if (!tick_topic->same() || ticks.size() > most_waiting) return;
     const Ticks t = tick_topic->read(data);
-    std::int64_t time_ns = t.time_ns;
-    for (std::uint32_t i = 0; i < std::min(t.hashes, t.periods); ++i) {
-      if (i > 0) time_ns += t.period_ns[i];
+    each_tick(t, [&](std::uint32_t i, std::int64_t time_ns) {
       ticks.push_back({t.first + i, time_ns, t.hash[i]});
-    }
+    });
   } catch (const Error&) {  // no message of the host's: the bytes differ, and that is all
+  }
+  /// The i-th message of a topic, if there are so many.
+  std::optional<LoggedSample> sample(const std::vector<Stored>& of_topic, std::size_t i) const {
+    if (i >= of_topic.size()) return std::nullopt;
+    return LoggedSample{MessageBytes(bytes).subspan(of_topic[i].begin, of_topic[i].size),
+                        of_topic[i].valid_ns};
   }
   std::int64_t flight_ns(std::uint64_t ns) const {
     return static_cast<std::int64_t>(ns - log_epoch_ns(stream.log(), first_ns));
@@ -88,7 +102,7 @@ struct Side {
 };
 
 /// The message field by field; empty when it cannot be decoded.
-std::vector<CdrValue> values(const Side& side, const std::string& topic, const MessageBytes& message) try {
+std::vector<CdrValue> values(const Side& side, const std::string& topic, MessageBytes message) try {
   const McapFile& log = side.stream.log();
   const McapFile::Channel& channel = log.channels.at(side.channels.at(topic));
   const auto schema = log.schemas.find(channel.schema);
@@ -102,10 +116,10 @@ std::vector<CdrValue> values(const Side& side, const std::string& topic, const M
 }
 
 /// The first field that is not the same, or else a byte; of samples that hold the same, when they are valid.
-MessageDiff::First first_field(const Side& a, const Side& b, const std::string& topic, const Stored& in_a,
-                               const Stored& in_b, std::int64_t time_ns) {
-  const MessageBytes &left = in_a.data, &right = in_b.data;
-  if (left == right)
+MessageDiff::First first_field(const Side& a, const Side& b, const std::string& topic,
+                               const LoggedSample& in_a, const LoggedSample& in_b, std::int64_t time_ns) {
+  const MessageBytes left = in_a.data, right = in_b.data;
+  if (std::ranges::equal(left, right))
     return {topic, "valid at", time_ns, std::to_string(in_a.valid_ns), std::to_string(in_b.valid_ns)};
   const std::vector<CdrValue> x = values(a, topic, left), y = values(b, topic, right);
   for (std::size_t i = 0; i < std::max(x.size(), y.size()); ++i) {
@@ -115,14 +129,14 @@ MessageDiff::First first_field(const Side& a, const Side& b, const std::string& 
     return {topic, in_x ? x[i].name : y[i].name, time_ns, in_x ? x[i].text : "absent", text};
   }
   const auto [p, q] = std::mismatch(left.begin(), left.end(), right.begin(), right.end());
-  const auto text = [](MessageBytes::const_iterator byte, MessageBytes::const_iterator end) {
+  const auto text = [](MessageBytes::iterator byte, MessageBytes::iterator end) {
     return byte == end ? std::string("absent") : std::to_string(static_cast<int>(*byte));
   };
   return {topic, "byte " + std::to_string(p - left.begin()), time_ns, text(p, left.end()),
           text(q, right.end())};
 }
 
-std::uint64_t count_differing(const MessageBytes& a, const MessageBytes& b) {
+std::uint64_t count_differing(MessageBytes a, MessageBytes b) {
   const std::size_t both = std::min(a.size(), b.size());
   std::uint64_t n = std::max(a.size(), b.size()) - both;
   for (std::size_t i = 0; i < both; ++i) n += a[i] != b[i];
@@ -164,15 +178,13 @@ struct Comparison {
   }
 
   void compare(const std::string& topic, std::uint64_t ns) {
-    static const MessageBytes none;
     const std::vector<Stored>&left = a.now[topic], &right = b.now[topic];
     MessageDiff::Topic& counts = diff.topics[topic];
     const bool of_ticks = topic == Ticks::topic;
     const std::int64_t time_ns = a.flight_ns(ns);
     if (!of_ticks) diff.messages += left.size();
     for (std::size_t i = 0; i < std::max(left.size(), right.size()); ++i) {
-      const Stored* const x = i < left.size() ? &left[i] : nullptr;
-      const Stored* const y = i < right.size() ? &right[i] : nullptr;
+      const std::optional<LoggedSample> x = a.sample(left, i), y = b.sample(right, i);
       if (x && y && *x == *y) {
         ++counts.equal;
         continue;
@@ -180,8 +192,10 @@ struct Comparison {
       ++(!x ? counts.only_b : !y ? counts.only_a : counts.different);
       if (of_ticks) continue;  // they tell that something differs, and not what
       ++diff.differing_messages;
-      diff.differing_bytes += count_differing(x ? x->data : none, y ? y->data : none);
-      const auto word = [](const Stored* there) { return there ? "a message" : "absent"; };
+      diff.differing_bytes += count_differing(x ? x->data : MessageBytes{}, y ? y->data : MessageBytes{});
+      const auto word = [](const std::optional<LoggedSample>& there) {
+        return there ? "a message" : "absent";
+      };
       if (!x || !y)
         first_absent.try_emplace(topic, MessageDiff::First{topic, "", time_ns, word(x), word(y)});
       else if (precedes(time_ns, first_pair))

@@ -76,6 +76,16 @@ struct Ticks {
                                            // drivers, whose samples are stored
 };
 
+/// `take` gets the place of each tick in the message, and its flight time.
+template <class Take>
+void each_tick(const Ticks& ticks, const Take& take) {
+  std::int64_t time_ns = ticks.time_ns;
+  for (std::uint32_t i = 0; i < ticks.hashes && i < ticks.periods; ++i) {
+    if (i > 0) time_ns += ticks.period_ns[i];
+    take(i, time_ns);
+  }
+}
+
 enum class CommandKind : std::uint8_t { parameter, phase, swap, reset, request, import };
 
 /// What was asked of a flight from outside, and taken: topic /fulmar/parameter, and /fulmar/command for all

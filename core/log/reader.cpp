@@ -57,11 +57,12 @@ struct McapStream::Impl {
   std::uint8_t code_before = 0;               // its code
   bool framed = false;                        // it was there up to the end that it claims
   std::uint32_t crc = 0;                      // of the section up to there: the data, then the summary
-  std::vector<std::byte> record, chunk_room;  // that the pending messages point into
+  std::vector<std::byte> record, chunk_room;  // that the pending messages lie in
   Data chunk;                                 // the last one, decompressed
-  std::vector<McapFile::Message> pending;
-  std::size_t given = 0;  // of the pending ones
-  bool in_chunk = false;  // they point into chunk_room, else into record
+  std::vector<std::uint32_t> pending;         // where the content of each begins: a chunk can hold a million
+  std::size_t given = 0;                      // of the pending ones
+  bool in_chunk = false;                      // they lie in chunk_room, else in record
+  McapFile::Message present;                  // the one given last
   std::uint64_t messages = 0, defined_bytes = 0;
   bool damaged = false;                                    // something was left out, if only an index
   std::map<std::uint8_t, std::set<std::uint64_t>> places;  // of the chunks, attachments and metadata so far
@@ -147,6 +148,7 @@ struct McapStream::Impl {
     record.resize(length);
     read(record.data(), length);
     framed = true;
+    in_chunk = false;
     if (salvage) salvage->check_whole(place_before, code, length);
     if (code == mcap::footer) {
       footer(head);
@@ -175,10 +177,7 @@ struct McapStream::Impl {
         break;
       case mcap::schema:
       case mcap::channel: definition(code, cursor); break;
-      case mcap::message:
-        in_chunk = false;
-        message(cursor);
-        break;
+      case mcap::message: note_message(cursor); break;
       case mcap::chunk:
         chunk_content(cursor);
         ++file.chunks;
@@ -237,20 +236,34 @@ struct McapStream::Impl {
     file.channels.try_emplace(id, std::move(channel));
   }
 
-  void message(Cursor& cursor) {
+  void note_message(Cursor& cursor) {
+    const auto channel = cursor.number<std::uint16_t>();
+    cursor.take(mcap::message_head - sizeof channel);
+    if (salvage && !file.channels.contains(channel)) {  // it stood in a damaged chunk
+      damaged = true;
+      salvage->lost_message();
+      return;
+    }
+    require(file.channels.contains(channel), "a message belongs to no channel");
+    const std::byte* const room = in_chunk ? chunk_room.data() : record.data();
+    pending.push_back(static_cast<std::uint32_t>(cursor.data.data() - room));
+  }
+
+  /// Its length stands in front of it, but of a record's own.
+  McapFile::Message message(std::uint32_t at) const {
+    Data content = record;
+    if (in_chunk) {
+      Cursor length{chunk_room, at - sizeof(std::uint64_t)};
+      content = Data(chunk_room).subspan(at, length.number<std::uint64_t>());
+    }
+    Cursor cursor{content};
     McapFile::Message m;
     m.channel = cursor.number<std::uint16_t>();
     m.sequence = cursor.number<std::uint32_t>();
     m.log_ns = cursor.number<std::uint64_t>();
     m.publish_ns = cursor.number<std::uint64_t>();
-    m.data = cursor.data.subspan(cursor.at);
-    if (salvage && !file.channels.contains(m.channel)) {  // it stood in a damaged chunk
-      damaged = true;
-      salvage->lost_message();
-      return;
-    }
-    require(file.channels.contains(m.channel), "a message belongs to no channel");
-    pending.push_back(m);
+    m.data = content.subspan(cursor.at);
+    return m;
   }
 
   void metadata(Cursor& cursor) {
@@ -267,6 +280,7 @@ struct McapStream::Impl {
     const Data stored = cursor.take(cursor.number<std::uint64_t>());
     chunk = open_chunk(compression, stored, length, chunk_room);
     require(sum == 0 || sum == crc_of(0, chunk), "the checksum of a chunk is wrong");
+    in_chunk = true;
     Cursor inside{chunk};
     while (inside.more()) {
       const auto code = inside.number<std::uint8_t>();
@@ -274,7 +288,6 @@ struct McapStream::Impl {
               "a chunk holds what does not belong there");
       content(code, inside.take(inside.number<std::uint64_t>()));
     }
-    in_chunk = true;
   }
 
   void check_message_index(Cursor& cursor) {
@@ -341,7 +354,8 @@ McapStream::~McapStream() = default;
 
 const McapFile::Message* McapStream::next() {
   if (impl_->given == impl_->pending.size() && !impl_->fill()) return nullptr;
-  return &impl_->pending[impl_->given++];
+  impl_->present = impl_->message(impl_->pending[impl_->given++]);
+  return &impl_->present;
 }
 
 const McapFile& McapStream::log() const { return impl_->file; }
@@ -369,12 +383,12 @@ McapFile read_mcap(const std::filesystem::path& path, std::uint64_t most_bytes) 
   // A flight is compressed to a third; what becomes a hundred times as large is no log.
   most_bytes = std::min(most_bytes, smallest_limit + 100 * s.size);
   while (s.fill()) {
-    bytes += (s.in_chunk ? s.chunk_room : s.record).capacity() + s.pending.size() * sizeof(McapFile::Message);
+    std::vector<std::byte>& room = s.in_chunk ? s.chunk_room : s.record;
+    bytes += room.capacity() + s.pending.size() * sizeof(McapFile::Message);
     if (bytes > most_bytes)
       throw Error("'" + path.string() + "' is too large to be read as a whole: its messages take more than " +
                   std::to_string(most_bytes >> 20) + " MB of memory");
-    messages.insert(messages.end(), s.pending.begin(), s.pending.end());
-    std::vector<std::byte>& room = s.in_chunk ? s.chunk_room : s.record;
+    for (const std::uint32_t at : s.pending) messages.push_back(s.message(at));
     s.file.memory.push_back(
         std::move(room));  // the bytes stay where they are: message indexes are still checked against them
     room = {};

@@ -33,15 +33,16 @@ std::string topic_in(const McapFile& file, const Graph& graph, const Component& 
   return schema != file.schemas.end() && schema->second.text == ros_definition(*port.type) ? role : own;
 }
 
-std::string gap_in(const McapFile& file, std::uint16_t channel) {
-  std::uint64_t expected = 0, lost = 0;
-  for (const McapFile::Message& m : file.messages) {
-    if (m.channel != channel) continue;
-    lost += static_cast<std::uint32_t>(m.sequence - static_cast<std::uint32_t>(expected));
-    expected = std::uint64_t{m.sequence} + 1;
-  }
-  if (lost == 0) return "";
-  return "the log has lost " + std::to_string(lost) + " samples of " + file.channels.at(channel).topic;
+std::string gap_in(const Survey& survey, std::uint16_t channel) {
+  const auto lost = survey.lost.find(channel);
+  if (lost == survey.lost.end()) return "";
+  return "the log has lost " + std::to_string(lost->second) + " samples of " +
+         survey.log.channels.at(channel).topic;
+}
+
+void check_order(const Survey& survey, std::uint16_t channel) {
+  if (survey.late.contains(channel))
+    throw Error("the log's " + survey.log.channels.at(channel).topic + " is not in the order of time");
 }
 
 }  // namespace fulmar::core

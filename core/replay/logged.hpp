@@ -6,6 +6,7 @@
 
 #include "core/graph/graph.hpp"
 #include "core/log/reader.hpp"
+#include "core/replay/survey.hpp"
 
 namespace fulmar::core {
 
@@ -17,7 +18,9 @@ std::uint16_t channel_of(const McapFile& file, const std::string& topic, const T
 std::string topic_in(const McapFile& file, const Graph& graph, const Component& component,
                      std::size_t output);
 /// How many samples of a channel the log has lost, as a sentence; "": none.
-std::string gap_in(const McapFile& file, std::uint16_t channel);
+std::string gap_in(const Survey& survey, std::uint16_t channel);
+/// Throws Error when messages of a channel stand behind later ones: they could not enter at their ticks.
+void check_order(const Survey& survey, std::uint16_t channel);
 
 inline std::int64_t flight_ns(std::uint64_t log_ns, std::int64_t epoch_ns) {
   return static_cast<std::int64_t>(log_ns) - epoch_ns;

@@ -2,132 +2,173 @@
 #include "core/replay/playback.hpp"
 
 #include <algorithm>
-#include <map>
+#include <limits>
 
 #include "core/replay/logged.hpp"
 #include "core/replay/recorded_vehicle.hpp"
+#include "core/run/recorded_samples.hpp"
 #include "core/types/named.hpp"
 #include "core/types/wire.hpp"
 
 namespace fulmar::core {
+namespace {
 
-TickList read_ticks(const McapFile& file) {
-  const HostTopic<Ticks> topic(file);
-  if (!topic.there())
-    throw Error("the log has no /fulmar/ticks: it is not a flight's, or older than replays");
-  topic.check();
-  TickList list;
-  for (const McapFile::Message& m : file.messages) {
-    if (!topic.holds(m)) continue;
-    const Ticks ticks = topic.read(m.data);
-    if (ticks.first != list.hash.size() || ticks.periods != ticks.hashes)
-      throw Error(list.hash.empty()
-                      ? "the log begins with tick " + std::to_string(ticks.first) +
-                            " of its flight; a replay begins with the first: give the file before it"
-                      : "the log has lost its ticks " + std::to_string(list.hash.size()) + " to " +
-                            std::to_string(ticks.first) + ": it can be replayed no further than that");
-    std::int64_t now = ticks.time_ns;
-    for (std::uint32_t i = 0; i < ticks.hashes; ++i) {
-      if (i > 0) now += ticks.period_ns[i];
-      list.time_ns.push_back(now);
-      list.hash.push_back(ticks.hash[i]);
-    }
-  }
-  if (list.hash.empty()) throw Error("the log holds no tick");
-  if (!std::is_sorted(list.time_ns.begin(), list.time_ns.end(), std::less_equal<>()))
-    throw Error("the log's ticks are not in order");
-  return list;
-}
+constexpr std::size_t most_ahead_bytes = 64u << 20;  // a flight has less than one by the tick, for 40 ticks
 
-Playback::Playback(const McapFile& file, const Graph& graph, std::vector<std::string> changed)
-    : file_(file),
+}  // namespace
+
+Playback::Playback(const std::filesystem::path& log, const Survey& survey, const Graph& graph,
+                   std::vector<std::string> changed)
+    : survey_(survey),
       changed_(std::move(changed)),
       epoch_ns_(graph.epoch_ns),
-      ticks_(read_ticks(file)),
-      events_(file) {
-  index_host();
-  vehicle_ = std::make_unique<RecordedVehicle>(file_, graph, ticks_.time_ns);
-  gaps_ = vehicle_->gaps();
-  if (vehicle_failed_) vehicle_->set_last_words(last_words_);
-  index_entries(graph);
+      stream_(log),
+      read_ns_(std::numeric_limits<std::int64_t>::min()),
+      now_ns_(read_ns_) {
+  if (!survey.tick_fault.empty()) throw Error(survey.tick_fault);
+  check_order(survey, survey.log.channel(Event::topic));
+  if (!survey.event_fault.empty()) throw Error(survey.event_fault);
+  const HostTopic<Ticks> ticks(survey.log);
+  route(ticks.channel(), [this, ticks](const McapFile::Message& m) {
+    each_tick(ticks.read(m.data), [this](std::uint32_t, std::int64_t ns) { ticks_.push_back(ns); });
+    ahead_bytes_ = 0;
+  });
+  prepare_vehicle(graph);
+  prepare_entries(graph);
+  prepare_resume(graph);
 }
 
 Playback::~Playback() = default;
 
+std::int64_t Playback::flight_ns(std::uint64_t log_ns) const { return core::flight_ns(log_ns, epoch_ns_); }
+std::uint64_t Playback::log_ns(std::int64_t flight_ns) const {
+  return static_cast<std::uint64_t>(flight_ns + epoch_ns_);
+}
+
+std::optional<double> Playback::duration_s() const {
+  if (!survey_.ended_ns) return std::nullopt;
+  return 1e-9 * static_cast<double>(flight_ns(*survey_.ended_ns));
+}
+
+// ---- the log, as the flight goes on
+
+void Playback::route(std::uint16_t channel, Take take) {
+  check_order(survey_, channel);
+  if (takes_.size() <= channel) takes_.resize(channel + std::size_t{1});
+  takes_[channel].push_back(std::move(take));
+}
+
+/// One message; false at the end.
+bool Playback::read() {
+  const McapFile::Message* const m = stream_.next();
+  if (!m) return false;
+  read_ns_ = flight_ns(m->log_ns);
+  if (m->channel < takes_.size() && !takes_[m->channel].empty()) {
+    ahead_bytes_ += m->data.size() + sizeof *m;
+    for (const Take& take : takes_[m->channel]) take(*m);
+    if (ahead_bytes_ > most_ahead_bytes)
+      throw Error("the log holds more than " + std::to_string(most_ahead_bytes >> 20) +
+                  " MB between two messages about its ticks");
+  }
+  ++place_;
+  return true;
+}
+
+void Playback::begin_tick() {
+  while (ticks_.empty())
+    if (!read()) throw Error("the log has changed since its flight began to be replayed");
+  now_ns_ = ticks_.front();
+  ticks_.pop_front();
+  while (read_ns_ <= now_ns_ && read()) {
+  }
+  vehicle_->begin_tick(now_ns_);
+}
+
+/// What entered between two ticks bears the time of the first of them.
+std::optional<Command> Playback::entry() {
+  if (entries_.empty()) return std::nullopt;
+  Entry& next = entries_.front();
+  if (!next.at_begin && next.log_ns >= now_ns_ && !(over_ && next.log_ns == now_ns_)) return std::nullopt;
+  Command command = std::move(next.command);
+  entries_.pop_front();
+  return command;
+}
+
 // ---- the host
 
-void Playback::index_host() {
-  file_.channel(Event::topic);  // throws when there is none
-  events_.check();
-  for (const McapFile::Message& m : file_.messages)
-    if (events_.holds(m)) take_event(events_.read(m.data), flight_ns(m.log_ns, epoch_ns_));
+namespace {
+
+template <class Times>
+bool holds_time(const Times& times, std::uint64_t log_ns) {
+  return std::binary_search(times.begin(), times.end(), log_ns);
 }
 
-/// What only the host's events tell: the wall clock, signals, devices that failed, and an end that the
-/// flight's owner had set.
-void Playback::take_event(const Event& e, std::int64_t now_ns) {
-  switch (e.code) {
-    case Code::vehicle_failed:
-      vehicle_failed_ = now_ns == ticks_.time_ns.back();
-      last_words_ = e.cause.data();
-      break;
-    case Code::duration_reached: duration_s_ = 1e-9 * static_cast<double>(now_ns); break;
-    case Code::guard:
-    case Code::hung:
-    case Code::died:
-    case Code::over_budget:
-    case Code::late_result:
-    case Code::signal_refused:
-    case Code::gave_up:
-      told_.push_back({now_ns, e.value_ns, e.code, e.component.data(), e.name.data(), e.cause.data()});
-      break;
-    default: break;
-  }
-}
+}  // namespace
 
-bool Playback::told(Code code, const std::string& component, std::int64_t now_ns) const {
-  return std::any_of(told_.begin(), told_.end(), [&](const Told& t) {
-    return t.code == code && t.at_ns == now_ns && t.component == component;
-  });
-}
-
-bool Playback::signalled(std::int64_t now_ns) const {
-  return told(Code::signal_refused, "", now_ns) || told(Code::gave_up, "", now_ns);
-}
+bool Playback::signalled() const { return holds_time(survey_.signals, log_ns(now_ns_)); }
 
 bool Playback::ran_over(const std::string& component, std::int64_t now_ns) const {
-  return told(Code::over_budget, component, now_ns);
+  const auto told = survey_.told.find(component);
+  return told != survey_.told.end() && holds_time(told->second.over_budget, log_ns(now_ns));
 }
 
 // ---- in place of vehicle and drivers
 
+void Playback::prepare_vehicle(const Graph& graph) {
+  vehicle_ = std::make_shared<VehicleTrack>(survey_, graph);
+  for (const auto& [channel, output] : vehicle_->outputs()) {
+    if (std::string gap = gap_in(survey_, channel); !gap.empty()) gaps_.push_back(std::move(gap));
+    route(channel, [this, to = output](const McapFile::Message& m) { vehicle_->take(to, m); });
+  }
+  vehicle_failed_ = survey_.vehicle_failed_ns && flight_ns(*survey_.vehicle_failed_ns) == survey_.last_ns;
+  if (vehicle_failed_) vehicle_->set_last_words(survey_.last_words);
+}
+
+bool Playback::changed(const std::string& component) const {
+  return std::find(changed_.begin(), changed_.end(), component) != changed_.end();
+}
+
 void Playback::stand_in(const Graph& graph, const Component& component, UnitOptions& options) {
-  std::vector<std::pair<std::int64_t, std::string>> faults;
   constexpr std::int64_t patience_ns = 10'000'000'000;
   options.hang_ns =
       std::max(options.hang_ns, patience_ns);  // what died by the clock dies as it is told below
   options.wait_for_async = true;
-  for (const Told& t : told_) {
-    if (t.component != component.name) continue;
-    if (t.code == Code::guard) faults.emplace_back(t.at_ns, t.cause);
-    const bool other = std::find(changed_.begin(), changed_.end(), component.name) != changed_.end();
-    if ((t.code == Code::hung || t.code == Code::died) && !other)
-      options.deaths.push_back({t.at_ns, t.name, t.cause, t.code == Code::hung});
-    if (t.code == Code::late_result && component.run == RunMode::async) options.late[t.value_ns] = t.at_ns;
+  if (component.info().vehicle) options.runner = std::make_unique<RecordedVehicle>(vehicle_);
+  static const Told nothing;
+  const auto at = survey_.told.find(component.name);
+  const Told& told = at == survey_.told.end() ? nothing : at->second;
+  if (!changed(component.name))
+    for (const Told::Death& d : told.deaths)
+      options.deaths.push_back({flight_ns(d.log_ns), d.call, d.cause, d.hung});
+  if (component.run == RunMode::async) {
+    for (const auto& [due_ns, at_ns] : told.late) options.late.emplace_back(due_ns, flight_ns(at_ns));
+    std::sort(options.late.begin(), options.late.end());
   }
-  if (component.info().vehicle) options.runner = std::move(vehicle_);
   if (component.run != RunMode::driver) return;
+  std::vector<std::pair<std::int64_t, std::string>> faults;
+  for (const auto& [at_ns, cause] : told.guards) faults.emplace_back(flight_ns(at_ns), cause);
+  options.samples = std::make_unique<RecordedSamples>(driver(graph, component), std::move(faults));
+}
+
+/// One track for each, whoever takes its samples: a driver that is put in the place of another goes on there.
+std::shared_ptr<SampleTrack> Playback::driver(const Graph& graph, const Component& component) {
+  std::shared_ptr<SampleTrack>& track = drivers_[component.name];
+  if (track) return track;
   std::vector<std::string> topics;
   bool probes = false;
   for (std::size_t i = 0; i < component.info().outputs.size(); ++i) {
-    const std::string topic = component.info().outputs[i].type ? topic_in(file_, graph, component, i) : "";
+    const std::string topic =
+        component.info().outputs[i].type ? topic_in(survey_.log, graph, component, i) : "";
     probes = probes || topic.empty();
-    topics.push_back(has_topic(file_, topic) ? topic
-                                             : "");  // one that was silent in the whole flight has none
+    const bool there = has_topic(survey_.log, topic);  // one that was silent in the whole flight has none
+    topics.push_back(there ? topic : "");
   }
-  options.samples = std::make_unique<RecordedSamples>(file_, component.info(), topics,
-                                                      probes ? "/" + component.name + "/probes" : "",
-                                                      epoch_ns_, std::move(faults));
+  track = std::make_shared<SampleTrack>(survey_.log, component.info(), topics,
+                                        probes ? "/" + component.name + "/probes" : "", epoch_ns_);
+  for (const auto& [channel, output] : track->outputs()) {
+    route(channel, [to = track](const McapFile::Message& m) { to->take(m); });
+  }
+  return track;
 }
 
 // ---- what was asked of the flight
@@ -170,58 +211,43 @@ Command logged_command(const CommandNote& note, const Graph& graph) {
 
 }  // namespace
 
-/// Where the flight went on, and the parameters with which it did: each was set just before its event.
-void Playback::take_resume(const Event& e, bool begun) {
-  if (e.code != Code::resumed && e.code != Code::not_resumed) return;
-  if (e.component[0] == '\0') {
-    resume_.emplace();
-    resume_->phase = e.name.data(), resume_->if_armed = begun;
-    return;
-  }
-  if (e.code == Code::not_resumed || !resume_ || entries_.empty()) return;  // of a parameter: it was not set
-  Command& set = entries_.back().command;
-  if (set.kind != CommandKind::parameter || set.component != e.component.data() || set.name != e.name.data())
-    return;
-  resume_->params.push_back({set.component, set.name, std::move(set.value)});
-  entries_.pop_back();
+void Playback::store(const McapFile::Message& m, Command command) {
+  const std::int64_t now_ns = flight_ns(m.log_ns);
+  if (now_ns > survey_.last_ns) return;
+  entries_.push_back({place_ < survey_.begun_at, now_ns, std::move(command)});
 }
 
-void Playback::check_gap(std::uint16_t channel) {
-  if (std::string gap = gap_in(file_, channel); !gap.empty()) gaps_.push_back(std::move(gap));
-}
-
-void Playback::index_entries(const Graph& graph) {
-  const HostTopic<CommandNote> parameters(file_, CommandNote::parameter_topic), commands(file_);
-  const std::map<std::uint16_t, InputPort> inputs = input_channels(file_, graph);
-  for (const auto& [channel, port] : inputs) check_gap(channel);
+void Playback::prepare_entries(const Graph& graph) {
+  const auto add = [this](std::uint16_t channel, Take take) {
+    if (std::string gap = gap_in(survey_, channel); !gap.empty()) gaps_.push_back(std::move(gap));
+    route(channel, std::move(take));
+  };
+  for (const auto& [channel, port] : input_channels(survey_.log, graph))
+    add(channel, [this, port = port](const McapFile::Message& m) {
+      Command command = command_of(port.kind, port.component, port.port);
+      command.message.resize(port.type->size);
+      cdr_decode(*port.type, m.data.data(), m.data.size(), command.message.data());
+      store(m, std::move(command));
+    });
+  const HostTopic<CommandNote> parameters(survey_.log, CommandNote::parameter_topic), commands(survey_.log);
   for (const auto& topic : {parameters, commands}) {
     topic.check();
-    if (topic.there()) check_gap(topic.channel());
+    if (!topic.there()) continue;
+    add(topic.channel(), [this, topic, &graph](const McapFile::Message& m) {
+      if (survey_.resumed && survey_.resumed->places.contains(place_)) return;  // see prepare_resume
+      store(m, logged_command(topic.read(m.data), graph));
+    });
   }
-  bool begun = false;  // the first thing that a flight says is its phase
-  for (const McapFile::Message& m : file_.messages) {
-    if (events_.holds(m)) {
-      const Event event = events_.read(m.data);
-      begun = begun || event.code == Code::phase_entered;
-      take_resume(event, begun);
-      continue;
-    }
-    Entry entry;
-    if (const auto at = inputs.find(m.channel); at != inputs.end()) {
-      const InputPort& port = at->second;
-      entry.command = command_of(port.kind, port.component, port.port);
-      entry.command.message.resize(port.type->size);
-      cdr_decode(*port.type, m.data.data(), m.data.size(), entry.command.message.data());
-    } else if (parameters.holds(m) || commands.holds(m)) {
-      entry.command = logged_command(commands.read(m.data), graph);
-    } else {
-      continue;
-    }
-    const std::int64_t now = flight_ns(m.log_ns, epoch_ns_);
-    if (begun)
-      entry.before = static_cast<std::size_t>(
-          std::upper_bound(ticks_.time_ns.begin(), ticks_.time_ns.end(), now) - ticks_.time_ns.begin());
-    if (now <= ticks_.time_ns.back()) entries_.push_back(std::move(entry));
+}
+
+/// Where the flight went on, and the parameters with which it did.
+void Playback::prepare_resume(const Graph& graph) {
+  if (!survey_.resumed) return;
+  resume_.emplace();
+  resume_->phase = survey_.resumed->phase, resume_->if_armed = survey_.resumed->begun;
+  for (const CommandNote& note : survey_.resumed->params) {
+    Command set = logged_command(note, graph);
+    resume_->params.push_back({set.component, set.name, std::move(set.value)});
   }
 }
 

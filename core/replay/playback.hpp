@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What entered a flight from outside, out of its log: the outputs of the vehicle and of drivers, tick by
-// tick, in place of the devices; and what was asked of the flight between ticks.
+// tick, in place of the devices; and what was asked of the flight between ticks. The log is read as the
+// flight goes on, some ticks ahead of it.
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,79 +17,80 @@
 #include "core/graph/graph.hpp"
 #include "core/log/events.hpp"
 #include "core/log/reader.hpp"
+#include "core/replay/survey.hpp"
 #include "core/run/circumstances.hpp"
 #include "core/run/command.hpp"
 #include "core/run/resume.hpp"
 
 namespace fulmar::core {
 
-class RecordedVehicle;
-
-/// The ticks of a flight, of the log's topic /fulmar/ticks.
-struct TickList {
-  std::vector<std::int64_t> time_ns;
-  std::vector<std::uint32_t> hash;  // of what the components have published in that tick
-};
-/// Throws Error when the log has none, or does not begin with the flight.
-TickList read_ticks(const McapFile& file);
-
-/// Something that entered between two ticks. Of a swap `command.note` tells which plugin.
-struct Entry {
-  std::size_t before = 0;  // the index of the tick that saw it first
-  Command command;
-};
+class SampleTrack;
+class VehicleTrack;
 
 class Playback final : public Circumstances {
  public:
-  /// `file` must outlive it. `changed`: components of an experiment, which do not die as they did. Throws
-  /// Error when a topic is missing or has other fields than the graph's.
-  Playback(const McapFile& file, const Graph& graph, std::vector<std::string> changed = {});
+  /// `log` is what `survey` tells of; both and `graph` must outlive it. `changed`: components of an
+  /// experiment, which do not die as they did. Throws Error when a topic is missing or has other fields than
+  /// the graph's.
+  Playback(const std::filesystem::path& log, const Survey& survey, const Graph& graph,
+           std::vector<std::string> changed = {});
   ~Playback() override;
 
-  const TickList& ticks() const { return ticks_; }
-  const std::vector<Entry>& entries() const { return entries_; }
-  /// What the log lacks of the vehicle's samples, one sentence per topic: a replay cannot be equal then.
+  /// What the log lacks of what entered, one sentence per topic: a replay cannot be equal then.
   const std::vector<std::string>& gaps() const { return gaps_; }
-
+  /// When the owner of a hardware flight had it end while the aircraft was armed, seconds of flight.
+  std::optional<double> duration_s() const;
+  /// Where the flight went on, when it was the second of one.
+  const std::optional<Resume>& resume() const { return resume_; }
   /// The flight ended with a fault of its vehicle, after the last tick.
   bool vehicle_failed() const { return vehicle_failed_; }
 
-  /// When the owner of a hardware flight had it end while the aircraft was armed, seconds of flight.
-  std::optional<double> duration_s() const { return duration_s_; }
-  /// Where the flight went on, when it was the second of one.
-  const std::optional<Resume>& resume() const { return resume_; }
+  /// Reads on until all is there that entered up to the end of the next tick. Throws Error.
+  void begin_tick();
+  /// Behind the last tick.
+  void end() { over_ = true; }
+  /// What enters now, one after the other. Of a swap `note` tells which plugin.
+  std::optional<Command> entry();
   /// Whether a signal to the host took effect at the end of this tick.
-  bool signalled(std::int64_t now_ns) const;
+  bool signalled() const;
   bool ran_over(const std::string& component, std::int64_t now_ns) const override;
   void stand_in(const Graph& graph, const Component& component, UnitOptions& options) override;
 
  private:
-  /// What the host told of a component that a replay cannot find out by itself.
-  struct Told {
-    std::int64_t at_ns = 0, value_ns = 0;
-    Code code = Code::guard;
-    std::string component, name, cause;
+  using Take = std::function<void(const McapFile::Message&)>;
+  struct Entry {
+    bool at_begin = false;  // before the first tick
+    std::int64_t log_ns = 0;
+    Command command;
   };
-  void index_host();
-  void take_event(const Event& event, std::int64_t now_ns);
-  void index_entries(const Graph& graph);
-  void take_resume(const Event& event, bool begun);
-  void check_gap(std::uint16_t channel);
-  bool told(Code code, const std::string& component, std::int64_t now_ns) const;
+  void prepare_vehicle(const Graph& graph);
+  void prepare_entries(const Graph& graph);
+  void prepare_resume(const Graph& graph);
+  std::shared_ptr<SampleTrack> driver(const Graph& graph, const Component& component);
+  void route(std::uint16_t channel, Take take);
+  void store(const McapFile::Message& message, Command command);
+  bool read();
+  bool changed(const std::string& component) const;
+  std::int64_t flight_ns(std::uint64_t log_ns) const;
+  std::uint64_t log_ns(std::int64_t flight_ns) const;
 
-  const McapFile& file_;
+  const Survey& survey_;
   std::vector<std::string> changed_;
   std::int64_t epoch_ns_;
-  TickList ticks_;
-  std::vector<Entry> entries_;
   std::vector<std::string> gaps_;
-  std::unique_ptr<RecordedVehicle> vehicle_;  // until it takes its place
-  std::string last_words_;                    // of a vehicle that failed
-  bool vehicle_failed_ = false;
-  HostTopic<Event> events_;
-  std::vector<Told> told_;
-  std::optional<double> duration_s_;
   std::optional<Resume> resume_;
+  bool vehicle_failed_ = false;
+  std::shared_ptr<VehicleTrack> vehicle_;
+  std::map<std::string, std::shared_ptr<SampleTrack>> drivers_;
+
+  McapStream stream_;
+  std::uint64_t place_ = 0;               // of the next message
+  std::vector<std::vector<Take>> takes_;  // by channel
+  std::size_t ahead_bytes_ = 0;           // read since the log has told of ticks
+  std::deque<std::int64_t> ticks_;        // told, and not flown yet
+  std::deque<Entry> entries_;
+  std::int64_t read_ns_, now_ns_;
+  bool over_ = false;
 };
 
 }  // namespace fulmar::core

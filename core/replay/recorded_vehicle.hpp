@@ -2,45 +2,66 @@
 // In the place of a vehicle: what one published in another flight, tick by tick. Commands go nowhere.
 #pragma once
 #include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/graph/graph.hpp"
 #include "core/log/reader.hpp"
+#include "core/replay/survey.hpp"
 #include "core/run/runner.hpp"
 
 namespace fulmar::core {
 
-class RecordedVehicle final : public Runner {
+/// What a vehicle published, between its reading out of the log and its tick.
+class VehicleTrack {
  public:
-  /// `file` and `time_ns`, the times of the ticks, must outlive it. Throws Error when a topic is missing or
-  /// has other fields than the graph's.
-  RecordedVehicle(const McapFile& file, const Graph& graph, const std::vector<std::int64_t>& time_ns);
+  /// Throws Error when a topic is missing or has other fields than the graph's.
+  VehicleTrack(const Survey& survey, const Graph& graph);
 
-  /// What the log lacks of its samples, one sentence per topic.
-  const std::vector<std::string>& gaps() const { return gaps_; }
+  /// Channel -> output, or `all_probes`.
+  const std::map<std::uint16_t, std::uint32_t>& outputs() const { return outputs_; }
   /// What a vehicle that failed said, after the last tick.
   void set_last_words(const std::string& words) { last_words_ = words; }
 
-  std::uint32_t read(fulmar_tick& tick, Outlets& out, fulmar_error& problem) noexcept override;
+  /// The next message of one of these channels. Throws Error.
+  void take(std::uint32_t output, const McapFile::Message& message);
+  /// The tick that is read next. Throws Error when samples lie before it that no tick has read.
+  void begin_tick(std::int64_t now_ns);
+  /// [tick] Throws Error, its last words when there is no further tick.
+  void read(fulmar_tick& tick, std::vector<fulmar_output>& out);
 
  private:
   static constexpr std::uint32_t all_probes = ~0u;
   struct Sample {
+    std::int64_t log_ns = 0, valid_at_ns = 0;
+    std::uint16_t channel = 0;
     std::uint32_t output = 0;
-    const McapFile::Message* message = nullptr;
+    std::vector<std::byte> data;
   };
-  void index(const McapFile::Message& message, std::uint32_t output, std::size_t tick);
-  void put(const Sample& sample, fulmar_output& out) const;  // throws Error
+  void put(const Sample& sample, std::vector<fulmar_output>& out) const;
 
-  const std::vector<std::int64_t>& time_ns_;
+  const McapFile& log_;
   std::int64_t epoch_ns_;
-  const ComponentInfo& info_;
-  std::vector<std::vector<Sample>> samples_;  // per tick
-  std::vector<std::uint32_t> probes_;         // outputs that are probes
-  std::vector<std::string> gaps_;
+  const Component& vehicle_;
+  std::map<std::uint16_t, std::uint32_t> outputs_;
+  std::vector<std::uint32_t> probes_;  // outputs that are probes
+  std::deque<Sample> waiting_;
+  std::optional<std::int64_t> now_ns_;
   std::string last_words_ = "the log ends here";
-  std::size_t at_ = 0;
+};
+
+class RecordedVehicle final : public Runner {
+ public:
+  explicit RecordedVehicle(std::shared_ptr<VehicleTrack> track) : track_(std::move(track)) {}
+  std::uint32_t read(fulmar_tick& tick, Outlets& out, fulmar_error& problem) noexcept override;
+
+ private:
+  std::shared_ptr<VehicleTrack> track_;
 };
 
 }  // namespace fulmar::core

@@ -54,20 +54,20 @@ bool names_component(const std::vector<std::pair<std::string, std::string>>& wit
 
 // ---- the mission
 
-Recording::Recording(const fs::path& log) try : path_(log), file_(read_mcap(log)) {
+Recording::Recording(const fs::path& log) try : path_(log), survey_(log) {
   std::vector<std::pair<std::string, std::string>> files;
-  for (const McapFile::Attachment& a : file_.attachments)
+  for (const McapFile::Attachment& a : survey_.log.attachments)
     if (a.media_type == "application/yaml") files.emplace_back(a.name, a.content);
   if (files.empty()) throw Error("no mission is attached to it: it is not the log of a flight");
-  if (const McapFile::Metadata* series = find_named(file_.metadata, series_metadata))
+  if (const McapFile::Metadata* series = find_named(survey_.log.metadata, series_metadata))
     throw Error("it is file " + series->pairs.at(0).second +
                 " of a log that rotated, and a replay begins with the first tick: give " +
                 first_of_series(log, series->pairs.at(0).second).string() +
                 ", which is replayed as far as that file goes");
-  HostTopic<Event>(file_).check();
+  HostTopic<Event>(survey_.log).check();
   mission_file_ = files.front().first;
   read_overrides();
-  flown_ = flown_plugins(file_);
+  flown_ = flown_plugins(survey_.log);
   overrides_.files = std::make_shared<const StoredFiles>(std::move(files));
 } catch (const Error& fault) {
   const std::string text = fault.what();
@@ -80,7 +80,7 @@ Recording::~Recording() {
 }
 
 void Recording::read_overrides() {
-  const McapFile::Metadata* const metadata = find_named(file_.metadata, "overrides");
+  const McapFile::Metadata* const metadata = find_named(survey_.log.metadata, "overrides");
   if (!metadata)
     throw Error("it does not say how its mission was changed on the command line: it is older than replays");
   for (const auto& [key, value] : metadata->pairs) {
@@ -170,7 +170,8 @@ class Player {
          ReplayResult& result)
       : recording_(recording),
         result_(result),
-        playback_(std::make_shared<Playback>(recording.file(), graph, changed_components(changes))) {
+        playback_(std::make_shared<Playback>(recording.path(), recording.survey(), graph,
+                                             changed_components(changes))) {
     options.circumstances = playback_;
     options.duration_s = playback_->duration_s();
     options.resume = playback_->resume();
@@ -181,7 +182,7 @@ class Player {
   std::unique_ptr<Flight> fly(const std::atomic<bool>* stop);
 
  private:
-  void apply(const Entry& entry);
+  void apply(Command command, std::uint64_t tick);
 
   const Recording& recording_;
   ReplayResult& result_;
@@ -190,8 +191,7 @@ class Player {
   std::unique_ptr<Flight> flight_;
 };
 
-void Player::apply(const Entry& entry) try {
-  Command command = entry.command;
+void Player::apply(Command command, std::uint64_t tick) try {
   const CommandNote& note = command.note;
   if (command.kind == CommandKind::swap)
     command.name =
@@ -199,20 +199,21 @@ void Player::apply(const Entry& entry) try {
             .string();
   flight_->apply(std::move(command));
 } catch (const Error& fault) {
-  result_.notes.push_back("what entered before tick " + std::to_string(entry.before) +
+  result_.notes.push_back("what entered before tick " + std::to_string(tick) +
                           " cannot be repeated: " + fault.what());
 }
 
 std::unique_ptr<Flight> Player::fly(const std::atomic<bool>* stop) {
-  const std::vector<Entry>& entries = playback_->entries();
-  const std::vector<std::int64_t>& times = playback_->ticks().time_ns;
-  const std::size_t ticks = times.size();
-  std::size_t next = 0;
+  const std::uint64_t ticks = recording_.survey().ticks;
   bool goes_on = true;
-  for (std::size_t tick = 0; goes_on && tick <= ticks; ++tick) {
-    for (; next < entries.size() && entries[next].before <= tick; ++next) apply(entries[next]);
+  for (std::uint64_t tick = 0; goes_on && tick <= ticks; ++tick) {
+    if (tick < ticks)
+      playback_->begin_tick();
+    else
+      playback_->end();
+    while (std::optional<Command> entry = playback_->entry()) apply(std::move(*entry), tick);
     if (stop && stop->load(std::memory_order_relaxed)) throw Error("interrupted");
-    if (tick < ticks && playback_->signalled(times[tick])) signal_ = SIGINT;
+    if (tick < ticks && playback_->signalled()) signal_ = SIGINT;
     if (tick < ticks || playback_->vehicle_failed()) goes_on = flight_->step();
   }
   result_.flight = flight_->finish();
@@ -245,18 +246,18 @@ std::pair<std::unique_ptr<Flight>, ReplayResult> replay(const Recording& recordi
   o.log_file = options.out.empty() ? folder.path / "replay.mcap" : options.out;
   o.progress = options.progress;
   Player player(recording, graph, options.changes, o, result);
-  const TickList& ticks = player.playback().ticks();
+  const Survey& log = recording.survey();
   result.notes = player.playback().gaps();
-  result.cut_off = !recording.file().complete;
-  result.recorded_ticks = ticks.hash.size();
-  result.first_ns = ticks.time_ns.front(), result.last_ns = ticks.time_ns.back();
+  result.cut_off = !log.log.complete;
+  result.recorded_ticks = log.ticks;
+  result.first_ns = log.first_ns, result.last_ns = log.last_ns;
   std::unique_ptr<Flight> flight = player.fly(options.stop);
   result.ticks = result.flight.ticks;
   if (!result.flight.log.error.empty()) throw Error("the replay's log: " + result.flight.log.error);
   if (!options.compare) return {std::move(flight), std::move(result)};
   result.same_file = result.flight.log.sha256 == sha256_file(recording.path());
   if (result.same_file) {
-    result.messages = recording.file().messages.size();
+    result.messages = log.messages;
   } else {
     find_differences(recording.path(), result.flight.log.file, graph.epoch_ns, result);
   }

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/graph/graph.hpp"
-#include "core/log/reader.hpp"
+#include "core/replay/survey.hpp"
 #include "core/run/flight.hpp"
 #include "core/run/flown_plugin.hpp"
 
@@ -30,7 +30,7 @@ class Recording {
   Recording& operator=(const Recording&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  const McapFile& file() const { return file_; }
+  const Survey& survey() const { return survey_; }
   /// What the command line of the flight said, so far as it changed the mission.
   const Overrides& overrides() const { return overrides_; }
 
@@ -47,7 +47,7 @@ class Recording {
                   const Overrides& changes, const Say& say) const;
 
   std::filesystem::path path_;
-  McapFile file_;
+  Survey survey_;
   Overrides overrides_;
   std::string mission_file_;
   std::vector<FlownPlugin> flown_;

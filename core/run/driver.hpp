@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `run: driver`: a component that does input and output is stepped again and again in a thread of its own;
-// its samples wait in a ring until the next tick takes them. Or, in its place, the samples that a log holds.
+// its samples wait in a ring until the next tick takes them.
 #pragma once
 #include <atomic>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <thread>
-#include <utility>
-#include <vector>
 
-#include "core/log/reader.hpp"
 #include "core/run/async.hpp"
 #include "core/run/ring.hpp"
 #include "core/types/type.hpp"
@@ -69,40 +65,6 @@ class Driver final : public SampleSource {
   std::atomic<std::uint64_t> lost_{0};
   std::atomic<bool> failed_{false}, stop_{false}, ended_{false};
   std::thread thread_;
-};
-
-/// Samples of a component's queues from the log of another flight, at the ticks at which they entered then.
-class RecordedSamples final : public SampleSource {
- public:
-  /// `topics`: one per output, "" for a probe. Throws Error when the log has none of them, or with other
-  /// fields.
-  RecordedSamples(const std::filesystem::path& log, const ComponentInfo& info,
-                  const std::vector<std::string>& topics, std::int64_t epoch_ns);
-  /// The same, and the topic of its probes, "" for none; and when a guard stopped it, with what words.
-  RecordedSamples(const McapFile& log, const ComponentInfo& info, const std::vector<std::string>& topics,
-                  const std::string& probes, std::int64_t epoch_ns,
-                  std::vector<std::pair<std::int64_t, std::string>> faults);
-  bool next(std::int64_t now_ns, Sample& sample) noexcept override;
-  void release() noexcept override {}
-  const char* fault() const noexcept override;
-  std::uint64_t lost() const noexcept override { return 0; }
-
- private:
-  struct Stored {
-    std::int64_t log_ns = 0, valid_at_ns = 0;
-    std::uint32_t output = 0;
-    std::vector<std::byte> data;
-    bool ends = false;
-  };
-  void add(const ComponentInfo& info, std::uint32_t output, const McapFile::Message& message,
-           std::int64_t epoch_ns);
-  void add_probes(const ComponentInfo& info, const McapFile::Message& message, std::int64_t epoch_ns);
-
-  std::vector<Stored> samples_;
-  std::vector<std::byte> probes_;  // the values of before
-  std::vector<std::pair<std::int64_t, std::string>> faults_;
-  std::int64_t now_ns_ = 0;
-  std::size_t at_ = 0;
 };
 
 }  // namespace fulmar::core

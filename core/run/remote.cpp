@@ -78,7 +78,9 @@ StepResult AsyncRunner::step(const fulmar_tick& tick, Intake& in, Outlets&, fulm
     ++stats_.misses;
     return StepResult::waiting;
   }
-  if (const auto late = late_.find(j->due_ns); late != late_.end()) j->held_until_ns = late->second;
+  const auto late = std::lower_bound(late_.begin(), late_.end(), j->due_ns,
+                                     [](const auto& l, std::int64_t due_ns) { return l.first < due_ns; });
+  if (late != late_.end() && late->first == j->due_ns) j->held_until_ns = late->second;
   j->tick = tick;
   Async::copy_inputs(in.views, component_.info(), *j);
   for (std::size_t i = 0; i < in.readers.size(); ++i) {

@@ -4,8 +4,8 @@
 #pragma once
 #include <cstdint>
 #include <limits>
-#include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/run/driver.hpp"
@@ -13,8 +13,8 @@
 
 namespace fulmar::core {
 
-/// Due time of an asynchronous result -> when it was taken, for those that a flight took late.
-using LateResults = std::map<std::int64_t, std::int64_t>;
+/// Due times of asynchronous results that a flight took late, in order, and when it took each.
+using LateResults = std::vector<std::pair<std::int64_t, std::int64_t>>;
 
 /// `run: async`: a step sees the inputs of its tick, and its result is seen when its latency is over.
 class AsyncRunner final : public Direct {

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
+#include <optional>
+#include <set>
 
 #include "core/graph/condition.hpp"
 #include "core/log/reader.hpp"
@@ -25,52 +28,74 @@ std::string topic_of(const Graph& graph, const Source& source) {
   return "/" + slashed(role.name + "." + nth(role.outputs, source.output).name);
 }
 
+/// What a resumed flight asks a log for, out of one reading.
+struct EndOfLog {
+  McapFile log;                                          // what stands beside the messages
+  std::map<std::uint16_t, std::vector<std::byte>> last;  // message of each channel of the wanted topics
+  std::string phase;
+};
+
+EndOfLog read_end(const fs::path& log, const std::set<std::string>& topics) {
+  McapStream stream(log);
+  EndOfLog end;
+  std::optional<HostTopic<Event>> events;
+  while (const McapFile::Message* const m = stream.next()) {
+    const std::string& topic = stream.log().channels.at(m->channel).topic;
+    if (!events && topic == Event::topic) events.emplace(stream.log());
+    if (events && events->holds(*m)) {
+      const Event event = events->read(m->data);
+      if (event.code == Code::phase_entered) end.phase = event.name.data();
+    } else if (topics.contains(topic)) {
+      end.last[m->channel].assign(m->data.begin(), m->data.end());
+    }
+  }
+  end.log = stream.take_log();
+  return end;
+}
+
 /// The last message of a topic, decoded. Throws Error when there is none or it has other fields.
-std::vector<std::byte> last_message(const McapFile& file, const std::string& topic, const Type& type) {
-  const std::uint16_t channel = file.channel(topic);
-  if (file.schemas.at(file.channels.at(channel).schema).text != ros_definition(type))
+std::vector<std::byte> last_message(const EndOfLog& end, const std::string& topic, const Type& type) {
+  const McapFile& log = end.log;
+  const std::uint16_t channel = log.channel(topic);
+  if (log.schemas.at(log.channels.at(channel).schema).text != ros_definition(type))
     throw Error("the log's " + topic + " has other fields than " + type.name + " of this mission");
-  const auto last = std::find_if(file.messages.rbegin(), file.messages.rend(),
-                                 [&](const McapFile::Message& m) { return m.channel == channel; });
-  if (last == file.messages.rend()) throw Error("the log holds no sample of " + topic);
+  const auto last = end.last.find(channel);
+  if (last == end.last.end()) throw Error("the log holds no sample of " + topic);
   std::vector<std::byte> message(type.size);
-  cdr_decode(type, last->data.data(), last->data.size(), message.data());
+  cdr_decode(type, last->second.data(), last->second.size(), message.data());
   return message;
 }
 
-std::string last_phase(const McapFile& file) {
-  const HostTopic<Event> events(file);
-  events.check();
-  std::string phase;
-  for (const McapFile::Message& m : file.messages) {
-    if (!events.holds(m)) continue;
-    const Event event = events.read(m.data);
-    if (event.code == Code::phase_entered) phase = event.name.data();
-  }
-  if (phase.empty()) throw Error("the log holds no phase");
-  return phase;
+/// All that is asked for below.
+std::set<std::string> topics_of_interest(const Graph& graph) {
+  std::set<std::string> topics;
+  if (graph.flags.armed.from.kind != Source::Kind::none)
+    topics.insert(topic_of(graph, graph.flags.armed.from));
+  for (const ResumeRule& rule : graph.resume)
+    if (rule.field.type) topics.insert(topic_of(graph, rule.field.from));
+  return topics;
 }
 
-bool armed_at_end(const Graph& graph, const McapFile& file) {
+bool armed_at_end(const Graph& graph, const EndOfLog& end) {
   const VehicleFlag& armed = graph.flags.armed;
   if (armed.from.kind == Source::Kind::none) return false;
   const Component& vehicle = nth(graph.components, armed.from.index);
   const Type& type = *nth(vehicle.info().outputs, armed.from.output).type;
   try {
-    return last_message(file, topic_of(graph, armed.from), type)[armed.offset] != std::byte{0};
+    return last_message(end, topic_of(graph, armed.from), type)[armed.offset] != std::byte{0};
   } catch (const Error&) {
     return false;
   }
 }
 
-Resume::Param read_rule(const Graph& graph, const McapFile& file, const ResumeRule& rule) {
+Resume::Param read_rule(const Graph& graph, const EndOfLog& end, const ResumeRule& rule) {
   const auto dot = rule.param.find('.');
   Resume::Param p{rule.param.substr(0, dot), rule.param.substr(dot + 1), {}};
   const Component* const component = find_named(graph.components, p.component);
   if (!component) throw Error("there is no component '" + p.component + "' in this run");
   if (!rule.field.type) throw Error(rule.field.text + " is a probe, and a flight resumes from messages");
   const std::vector<std::byte> message =
-      last_message(file, topic_of(graph, rule.field.from), *rule.field.type);
+      last_message(end, topic_of(graph, rule.field.from), *rule.field.type);
   const double x = number_at(*rule.field.field.field, message.data() + rule.field.field.offset);
   const ParamInfo& info = nth(component->info().params, component->info().param(p.param));
   if (!(x >= info.min && x <= info.max))
@@ -93,19 +118,21 @@ std::string Resume::text() const {
 }
 
 Resume read_resume(const Graph& graph, const fs::path& log) try {
-  const McapFile file = read_mcap(log);
-  for (const McapFile::Metadata& metadata : file.metadata)
+  const EndOfLog end = read_end(log, topics_of_interest(graph));
+  for (const McapFile::Metadata& metadata : end.log.metadata)
     for (const auto& [key, value] : metadata.pairs)
       if (metadata.name == "fulmar" && key == "mission" && value != graph.mission)
         throw Error("is a log of the mission " + value + ", not of " + graph.mission);
   Resume resume;
-  resume.phase = last_phase(file);
+  HostTopic<Event>(end.log).check();
+  if (end.phase.empty()) throw Error("the log holds no phase");
+  resume.phase = end.phase;
   if (!find_named(graph.phases, resume.phase))
     throw Error("it ends in the phase '" + resume.phase + "', which this mission does not have." +
                 choices_text(resume.phase, names_of(graph.phases)));
-  resume.armed = armed_at_end(graph, file);
+  resume.armed = armed_at_end(graph, end);
   for (const ResumeRule& rule : graph.resume) try {
-      resume.params.push_back(read_rule(graph, file, rule));
+      resume.params.push_back(read_rule(graph, end, rule));
     } catch (const Error& fault) {
       resume.missing.push_back("resume." + rule.param + ": " + fault.what());
     }

@@ -7,6 +7,7 @@
 
 #include "core/run/circumstances.hpp"
 #include "core/run/published.hpp"
+#include "core/run/recorded_samples.hpp"
 #include "core/types/named.hpp"
 #include "core/types/text.hpp"
 

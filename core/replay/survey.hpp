@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What has to be known of a whole log before it is flown again: out of one reading, which keeps no sample.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/log/events.hpp"
+#include "core/log/reader.hpp"
+
+namespace fulmar::core {
+
+/// What the host told of a component that a replay cannot find out by itself. Log times.
+struct Told {
+  struct Death {
+    std::uint64_t log_ns = 0;
+    std::string call, cause;
+    bool hung = false;
+  };
+  std::vector<std::uint64_t> over_budget;
+  std::vector<std::pair<std::uint64_t, std::string>> guards;  // with their causes
+  std::vector<Death> deaths;
+  std::vector<std::pair<std::int64_t, std::uint64_t>> late;  // flight time at which a result was due
+};
+
+struct Survey {
+  /// Throws Error when it cannot be read at all or is no MCAP file.
+  explicit Survey(const std::filesystem::path& log);
+
+  McapFile log;  // what stands beside the messages
+  std::uint64_t messages = 0;
+  std::map<std::uint16_t, std::uint64_t> lost;  // samples, by channel
+  std::set<std::uint16_t> late;                 // channels with a message that is older than one before it
+
+  std::uint64_t ticks = 0;
+  std::int64_t first_ns = 0, last_ns = 0;  // flight time of the first and the last one
+  std::string tick_fault;                  // "" or why the ticks cannot be flown again
+
+  std::string event_fault;               // "" or why the host's events cannot be read
+  std::map<std::string, Told> told;      // by component
+  std::vector<std::uint64_t> signals;    // that took effect
+  std::optional<std::uint64_t> vehicle_failed_ns;  // log time
+  std::string last_words;                          // of the vehicle then
+  std::optional<std::uint64_t> ended_ns;  // log time at which the flight's owner had it end while armed
+  std::uint64_t begun_at = ~std::uint64_t{0};  // place of the first message that a begun flight has logged
+
+  // When the flight was the second of one: where it went on, and the parameters with which it did.
+  struct Resumed {
+    std::string phase;
+    bool begun = false;  // before that
+    std::vector<CommandNote> params;
+    std::set<std::uint64_t> places;  // of the messages that tell of these
+  };
+  std::optional<Resumed> resumed;
+
+ private:
+  struct Reading;
+};
+
+}  // namespace fulmar::core

@@ -143,11 +143,15 @@ std::string sha256_hex(const void* data, std::size_t size) {
 
 std::string sha256_file(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
-  std::error_code fault;
-  std::string bytes(in ? static_cast<std::size_t>(fs::file_size(file, fault)) : 0, '\0');
-  if (!in || fault || !in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
+  Sha256 sum;
+  std::vector<char> bytes(1u << 20);  // a log can be longer than memory
+  while (in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())) || in.gcount() > 0)
+    sum.add(bytes.data(), static_cast<std::size_t>(in.gcount()));
+  if (!in.eof())
     throw Error("cannot read " + file.string() + ": " + std::strerror(errno != 0 ? errno : EIO) + ".");
-  return sha256_hex(bytes.data(), bytes.size());
+  std::string hex = sum.hex();
+  if (hex.empty()) throw Error("SHA-256 is not available.");
+  return hex;
 }
 
 void check_content(const Expected& expected, const std::string& name, const std::string& sha256) {

@@ -118,18 +118,18 @@ struct Survey::Reading {
   void note_told(const Event& e, std::uint64_t log_ns) {
     const std::string name = e.component.data(), call = e.name.data(), cause = e.cause.data();
     if (!to.told.contains(name)) count(sizeof(Told) + name.size());
-    Told& told = to.told[name];
+    Told& of_it = to.told[name];
     count(2 * sizeof log_ns);
     if (e.code == Code::over_budget) {
-      told.over_budget.push_back(log_ns);
+      of_it.over_budget.push_back(log_ns);
     } else if (e.code == Code::late_result) {
-      told.late.emplace_back(e.value_ns, log_ns);
+      of_it.late.emplace_back(e.value_ns, log_ns);
     } else if (e.code == Code::guard) {
       count(sizeof cause + cause.size());
-      told.guards.emplace_back(log_ns, cause);
+      of_it.guards.emplace_back(log_ns, cause);
     } else {
       count(sizeof(Told::Death) + call.size() + cause.size());
-      told.deaths.push_back({log_ns, call, cause, e.code == Code::hung});
+      of_it.deaths.push_back({log_ns, call, cause, e.code == Code::hung});
     }
   }
 

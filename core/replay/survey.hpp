@@ -28,6 +28,14 @@ struct Told {
   std::vector<std::pair<std::int64_t, std::uint64_t>> late;  // flight time at which a result was due
 };
 
+/// Where a flight went on that was the second of one, and the parameters with which it did.
+struct Resumed {
+  std::string phase;
+  bool begun = false;  // before that
+  std::vector<CommandNote> params;
+  std::set<std::uint64_t> places;  // of the messages that tell of these
+};
+
 struct Survey {
   /// Throws Error when it cannot be read at all or is no MCAP file.
   explicit Survey(const std::filesystem::path& log);
@@ -41,21 +49,14 @@ struct Survey {
   std::int64_t first_ns = 0, last_ns = 0;  // flight time of the first and the last one
   std::string tick_fault;                  // "" or why the ticks cannot be flown again
 
-  std::string event_fault;               // "" or why the host's events cannot be read
-  std::map<std::string, Told> told;      // by component
-  std::vector<std::uint64_t> signals;    // that took effect
+  std::string event_fault;                         // "" or why the host's events cannot be read
+  std::map<std::string, Told> told;                // by component
+  std::vector<std::uint64_t> signals;              // that took effect
   std::optional<std::uint64_t> vehicle_failed_ns;  // log time
   std::string last_words;                          // of the vehicle then
-  std::optional<std::uint64_t> ended_ns;  // log time at which the flight's owner had it end while armed
+  std::optional<std::uint64_t> ended_ns;       // log time at which the flight's owner had it end while armed
   std::uint64_t begun_at = ~std::uint64_t{0};  // place of the first message that a begun flight has logged
 
-  // When the flight was the second of one: where it went on, and the parameters with which it did.
-  struct Resumed {
-    std::string phase;
-    bool begun = false;  // before that
-    std::vector<CommandNote> params;
-    std::set<std::uint64_t> places;  // of the messages that tell of these
-  };
   std::optional<Resumed> resumed;
 
  private:

@@ -2,6 +2,7 @@
 // Flights are flown again from their logs: equal bytes, or the first tick and field that differ.
 #include "core/replay/replay.hpp"
 
+#include <sys/resource.h>
 #include <sys/wait.h>
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include "core/run/allocation.hpp"
 #include "core/run/test/commands.hpp"
 #include "core/run/test/lab.hpp"
+#include "core/sanitized.hpp"
 #include "tools/fulmar_log/recover.hpp"
 
 namespace {
@@ -553,6 +555,11 @@ TEST_CASE("ten minutes of flight are replayed with 0 differing bytes") {
   CHECK(j.at("differing_bytes") == 0);
   CHECK(j.at("ticks") == 400 * (5 + seconds));
   CHECK(contents(log) == contents(again));
+#ifndef FULMAR_SANITIZED
+  rusage of_children{};
+  getrusage(RUSAGE_CHILDREN, &of_children);
+  CHECK(of_children.ru_maxrss / 1024 < 100);  // the messages alone would be more
+#endif
 }
 
 TEST_CASE("samples from outside are stored as their input's, with their tick, and come again") {

@@ -74,10 +74,33 @@ TEST_CASE("two logs of a gigabyte are compared in little memory") {
     return std::to_string(d.topics.at("/zeros").equal) + " " + (d.messages_equal() ? "equal" : "different");
   });
   CHECK(diff.said == "60 equal");
-  CHECK(diff.most_mb < 250);
+  CHECK(diff.most_mb < 200);
   const Outcome whole = apart(folder, [&] { return std::to_string(read_mcap(a).messages.size()); });
   CHECK(whole.said.find("is too large to be read as a whole") != std::string::npos);
   CHECK(whole.most_mb < 300);
+}
+
+TEST_CASE("two logs of millions of small messages are compared in little memory") {
+  const Folder folder;
+  const auto log = folder.path / "a.mcap";
+  constexpr int messages = 2'100'000;  // of 32 bytes with their heads: in chunks that are as large as may be
+  // written apart as well: a process begins with the memory of the one that it comes from
+  const Outcome written = apart(folder, [&] {
+    McapWriter writer({.file = log, .chunk_bytes = 31u << 20, .chunk_ns = 3600'000'000'000});
+    const std::uint16_t channel = writer.add_channel(writer.add_schema("tiny", "", ""), "/tiny", "raw", {});
+    for (std::uint32_t i = 0; i < messages; ++i) {
+      *writer.begin_message(channel, i, 1'000'000'000 + i, 0) = std::byte{7};
+      writer.end_message(1);
+    }
+    return writer.close().error;
+  });
+  REQUIRE(written.said == "");
+  const Outcome diff = apart(folder, [&] {
+    const MessageDiff d = diff_messages(log, log);
+    return d.fault_a + std::to_string(d.topics.at("/tiny").equal);
+  });
+  CHECK(diff.said == std::to_string(messages));
+  CHECK(diff.most_mb < 200);
 }
 
 TEST_CASE("a log that holds a gigabyte at one time, or in one chunk, is refused") {
@@ -86,7 +109,7 @@ TEST_CASE("a log that holds a gigabyte at one time, or in one chunk, is refused"
   write_zeros(at_once, 60, 16u << 20, 0);
   const Outcome diff = apart(folder, [&] { return diff_messages(at_once, at_once).fault_a; });
   CHECK(diff.said == "the log has more than 32 MB of messages at one time");
-  CHECK(diff.most_mb < 250);
+  CHECK(diff.most_mb < 200);
   write_zeros(chunk, 1, 40u << 20, 0);
   McapStream stream(chunk);
   CHECK(stream.next() == nullptr);
@@ -99,7 +122,7 @@ TEST_CASE("each damaged log takes less than a gigabyte and five seconds to read 
   write_sample({.file = whole}, 2000);
   const std::string good = contents(whole);
   std::mt19937 dice(7);
-  for (int i = 0; i < mutants(); ++i) {
+  for (int i = 0; i < mutants; ++i) {
     std::string bytes = good;
     for (auto n = 1 + dice() % 8; n > 0; --n) bytes[dice() % bytes.size()] = static_cast<char>(dice());
     if (i % 4 == 0) bytes.resize(dice() % bytes.size());

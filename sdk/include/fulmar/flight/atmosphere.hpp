@@ -19,14 +19,19 @@ inline constexpr double exponent = g0 / (gas_constant * lapse_rate);  ///< 5.255
 inline constexpr double earth_radius = 6356766;  ///< m, nominal: of geopotential altitudes
 }  // namespace isa
 
-/// The state of the air.
-struct Air {
-  double pressure_pa = isa::sea_level_pressure;
-  double temperature_kelvin = isa::sea_level_temperature;
-  double density_kgm3 = isa::sea_level_density;
+/// The state of the air. `S` is double, or Dual where it is differentiated by the altitude.
+template <class S>
+struct AirOf {
+  S pressure_pa = isa::sea_level_pressure;
+  S temperature_kelvin = isa::sea_level_temperature;
+  S density_kgm3 = isa::sea_level_density;
 
-  double speed_of_sound_mps() const { return std::sqrt(1.4 * isa::gas_constant * temperature_kelvin); }
+  S speed_of_sound_mps() const {
+    using std::sqrt;
+    return sqrt(1.4 * isa::gas_constant * temperature_kelvin);
+  }
 };
+using Air = AirOf<double>;
 
 inline double air_density(double pressure_pa, double temperature_kelvin) {
   return pressure_pa / (isa::gas_constant * temperature_kelvin);
@@ -43,23 +48,29 @@ inline double geopotential_altitude(double geometric_m) {
   return isa::earth_radius * geometric_m / (isa::earth_radius + geometric_m);
 }
 
-/// The standard air at an altitude above mean sea level; with an offset the air that is in hydrostatic
-/// equilibrium with it, so that warm air also has higher layers of one pressure.
-inline Air standard_air(double altitude_m, const AirOffset& offset = {}) {
-  Air air;
+template <class S>
+AirOf<S> standard_air_of(const S& altitude_m, const AirOffset& offset = {}) {
+  using std::exp, std::pow;
+  AirOf<S> air;
   if (altitude_m <= isa::tropopause) {
     const double T0 = isa::sea_level_temperature + offset.temperature_kelvin;
     air.temperature_kelvin = T0 - isa::lapse_rate * altitude_m;
     air.pressure_pa =
-        (isa::sea_level_pressure + offset.pressure_pa) * std::pow(air.temperature_kelvin / T0, isa::exponent);
+        (isa::sea_level_pressure + offset.pressure_pa) * pow(air.temperature_kelvin / T0, isa::exponent);
   } else {
-    const Air below = standard_air(isa::tropopause, offset);
+    const AirOf<S> below = standard_air_of(S(isa::tropopause), offset);
     air.temperature_kelvin = below.temperature_kelvin;
-    air.pressure_pa = below.pressure_pa * std::exp(-isa::g0 * (altitude_m - isa::tropopause) /
-                                                   (isa::gas_constant * air.temperature_kelvin));
+    air.pressure_pa = below.pressure_pa * exp(-isa::g0 * (altitude_m - isa::tropopause) /
+                                              (isa::gas_constant * air.temperature_kelvin));
   }
-  air.density_kgm3 = air_density(air.pressure_pa, air.temperature_kelvin);
+  air.density_kgm3 = air.pressure_pa / (isa::gas_constant * air.temperature_kelvin);
   return air;
+}
+
+/// The standard air at an altitude above mean sea level; with an offset the air that is in hydrostatic
+/// equilibrium with it, so that warm air also has higher layers of one pressure.
+inline Air standard_air(double altitude_m, const AirOffset& offset = {}) {
+  return standard_air_of(altitude_m, offset);
 }
 
 /// Altitude at which the standard air has this pressure: the inverse of `standard_air`. Pressure must be

@@ -17,14 +17,20 @@ class Propeller {
 
   /// Thrust, N, along the body's x axis at propeller speed `Omega` (rad/s). With J = 2 pi Va / (Omega D),
   /// multiplied out: no division.
-  double thrust(double Omega, double Va, double rho) const {
-    const double D = p_.propeller_diameter_m, n = Omega / (2 * std::numbers::pi);
+  double thrust(double Omega, double Va, double rho) const { return thrust_of<double>(Omega, Va, rho); }
+  template <class S>
+  S thrust_of(const S& Omega, const S& Va, const S& rho) const {
+    const double D = p_.propeller_diameter_m;
+    const S n = Omega / (2 * std::numbers::pi);
     return rho * D * D * (p_.ct0_ratio * D * D * n * n + p_.ct1_ratio * D * n * Va + p_.ct2_ratio * Va * Va);
   }
 
   /// Aerodynamic torque on the propeller, N m; the airframe feels it the other way round about x.
-  double torque(double Omega, double Va, double rho) const {
-    const double D = p_.propeller_diameter_m, n = Omega / (2 * std::numbers::pi);
+  double torque(double Omega, double Va, double rho) const { return torque_of<double>(Omega, Va, rho); }
+  template <class S>
+  S torque_of(const S& Omega, const S& Va, const S& rho) const {
+    const double D = p_.propeller_diameter_m;
+    const S n = Omega / (2 * std::numbers::pi);
     return rho * D * D * D *
            (p_.cq0_ratio * D * D * n * n + p_.cq1_ratio * D * n * Va + p_.cq2_ratio * Va * Va);
   }
@@ -33,18 +39,27 @@ class Propeller {
   /// at high advance ratios, where the discriminant may become negative: the double root then stands in. A
   /// propeller does not turn backwards.
   double steady_speed(double throttle_frac, double Va, double rho) const {
+    return steady_speed_of<double>(throttle_frac, Va, rho);
+  }
+  template <class S>
+  S steady_speed_of(const S& throttle_frac, const S& Va, const S& rho) const {
+    using std::sqrt, std::max;
     const double D = p_.propeller_diameter_m, K = p_.torque_constant_ratio, R = p_.resistance_ohm;
     const double D3 = D * D * D, two_pi = 2 * std::numbers::pi;
-    const double a = p_.cq0_ratio * rho * D3 * D * D / (two_pi * two_pi);
-    const double b = p_.cq1_ratio * rho * D3 * D * Va / two_pi + K * K / R;
-    const double c =
+    const S a = p_.cq0_ratio * rho * D3 * D * D / (two_pi * two_pi);
+    const S b = p_.cq1_ratio * rho * D3 * D * Va / two_pi + K * K / R;
+    const S c =
         p_.cq2_ratio * rho * D3 * Va * Va - K / R * throttle_frac * p_.battery_volt + K * p_.no_load_amp;
-    return std::max(0.0, (-b + std::sqrt(std::max(0.0, b * b - 4 * a * c))) / (2 * a));
+    return max(S(0.0), (-b + sqrt(max(S(0.0), b * b - 4 * a * c))) / (2 * a));
   }
 
   /// Throttle that holds a speed in steady flight: the balance of torques solved for the voltage.
   double throttle_for(double Omega, double Va, double rho) const {
-    const double amp = torque(Omega, Va, rho) / p_.torque_constant_ratio + p_.no_load_amp;
+    return throttle_for_of<double>(Omega, Va, rho);
+  }
+  template <class S>
+  S throttle_for_of(const S& Omega, const S& Va, const S& rho) const {
+    const S amp = torque_of(Omega, Va, rho) / p_.torque_constant_ratio + p_.no_load_amp;
     return (amp * p_.resistance_ohm + p_.torque_constant_ratio * Omega) / p_.battery_volt;
   }
 

@@ -9,19 +9,24 @@
 
 namespace fulmar {
 
-/// Position and velocity of the centre of gravity in NED, attitude (body to NED), body rate.
-struct RigidBody {
-  Eigen::Vector3d p_n = Eigen::Vector3d::Zero();
-  Eigen::Vector3d v_n = Eigen::Vector3d::Zero();
-  Eigen::Quaterniond q_nb = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d omega_b = Eigen::Vector3d::Zero();
+/// Position and velocity of the centre of gravity in NED, attitude (body to NED), body rate. `S` is double, or
+/// Dual where the model is differentiated.
+template <class S>
+struct RigidBodyOf {
+  Eigen::Vector3<S> p_n = Eigen::Vector3<S>::Zero();
+  Eigen::Vector3<S> v_n = Eigen::Vector3<S>::Zero();
+  Eigen::Quaternion<S> q_nb = Eigen::Quaternion<S>::Identity();
+  Eigen::Vector3<S> omega_b = Eigen::Vector3<S>::Zero();
 };
+using RigidBody = RigidBodyOf<double>;
 
 /// Force without gravity, and moment about the centre of gravity, body axes.
-struct Load {
-  Eigen::Vector3d force_b = Eigen::Vector3d::Zero();   ///< N
-  Eigen::Vector3d moment_b = Eigen::Vector3d::Zero();  ///< N m
+template <class S>
+struct LoadOf {
+  Eigen::Vector3<S> force_b = Eigen::Vector3<S>::Zero();   ///< N
+  Eigen::Vector3<S> moment_b = Eigen::Vector3<S>::Zero();  ///< N m
 };
+using Load = LoadOf<double>;
 
 struct MassProperties {
   MassProperties(double mass_kg, const Eigen::Matrix3d& inertia_kgm2)
@@ -30,18 +35,21 @@ struct MassProperties {
   Eigen::Matrix3d J, J_inverse;
 };
 
-struct RigidBodyRate {
-  Eigen::Vector3d p_n, v_n;
-  Eigen::Vector4d q_nb;  ///< x y z w, Eigen's order
-  Eigen::Vector3d omega_b;
+template <class S>
+struct RigidBodyRateOf {
+  Eigen::Vector3<S> p_n, v_n;
+  Eigen::Vector4<S> q_nb;  ///< x y z w, Eigen's order
+  Eigen::Vector3<S> omega_b;
 };
+using RigidBodyRate = RigidBodyRateOf<double>;
 
 /// Beard & McLain (3.14)-(3.17). `g_n` is the acceleration of gravity, NED.
-inline RigidBodyRate rate_of(const RigidBody& x, const Load& load, const MassProperties& body,
-                             const Eigen::Vector3d& g_n) {
+template <class S>
+RigidBodyRateOf<S> rate_of(const RigidBodyOf<S>& x, const LoadOf<S>& load, const MassProperties& body,
+                           const Eigen::Vector3d& g_n) {
   const auto& q = x.q_nb;
   const auto& w = x.omega_b;
-  RigidBodyRate d;
+  RigidBodyRateOf<S> d;
   d.p_n = x.v_n;
   d.v_n = q.toRotationMatrix() * (load.force_b / body.mass) + g_n;
   d.q_nb << 0.5 * (q.w() * w.x() + q.y() * w.z() - q.z() * w.y()),

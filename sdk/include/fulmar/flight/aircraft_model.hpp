@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The simulated aircraft as one function, rate = f(state, inputs), of what flies in the simulator: the same
+// aerodynamics, propeller, air and rigid body. Twelve states as in Beard & McLain, Small Unmanned Aircraft
+// (2012), table 3.1; still air; propeller and servos have reached what they are commanded.
+#pragma once
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "fulmar/flight/aerodynamics.hpp"
+#include "fulmar/flight/atmosphere.hpp"
+#include "fulmar/flight/propulsion.hpp"
+#include "fulmar/flight/rigid_body.hpp"
+
+namespace fulmar {
+
+/// Where a state and an input stand in the vectors. m, m/s, rad, rad/s; rad and a part of full throttle.
+namespace model {
+enum State : int { north, east, down, u, v, w, roll, pitch, yaw, p, q, r };
+enum Input : int { aileron, elevator, rudder, throttle };
+inline constexpr int states = 12, inputs = 4;
+template <class S>
+using StateVector = Eigen::Matrix<S, states, 1>;
+template <class S>
+using InputVector = Eigen::Matrix<S, inputs, 1>;
+}  // namespace model
+
+/// Its element xz is the negative of the product of inertia, as in Beard & McLain, section 3.3.
+inline Eigen::Matrix3d inertia_matrix(const Inertia& i) {
+  Eigen::Matrix3d J;
+  J << i.xx_kgm2, 0, -i.xz_kgm2, 0, i.yy_kgm2, 0, -i.xz_kgm2, 0, i.zz_kgm2;
+  return J;
+}
+
+/// Velocity in body axes. Beard & McLain (2.7).
+template <class S>
+Eigen::Vector3<S> air_velocity(double Va, const S& alpha, const S& beta) {
+  using std::cos, std::sin;
+  return {Va * cos(alpha) * cos(beta), Va * sin(beta), Va * sin(alpha) * cos(beta)};
+}
+
+class AircraftModel {
+ public:
+  /// `altitude_m`: above mean sea level, where the state `down` is 0.
+  AircraftModel(const Airframe& a, double altitude_m)
+      : airframe_(a),
+        aero_(a),
+        propeller_(a.propulsion),
+        mass_(a.mass_kg, inertia_matrix(a.inertia)),
+        altitude_m_(altitude_m) {}
+
+  const Airframe& airframe() const { return airframe_; }
+  const Aerodynamic& aerodynamic() const { return aero_; }
+  const Propeller& propeller() const { return propeller_; }
+  double altitude_m() const { return altitude_m_; }
+
+  /// Force without gravity and moment, at propeller speed `Omega`.
+  template <class S>
+  LoadOf<S> load(const Eigen::Vector3<S>& v_b, const Eigen::Vector3<S>& omega_b, const DeflectionsOf<S>& d,
+                 const S& Omega, const S& rho) const {
+    LoadOf<S> load = aero_.load_of<S>(v_b, omega_b, d, rho);
+    const S Va = v_b.norm();
+    load.force_b.x() += propeller_.thrust_of<S>(Omega, Va, rho);
+    load.moment_b.x() -= propeller_.torque_of<S>(Omega, Va, rho);
+    return load;
+  }
+
+  /// dx/dt at propeller speed `Omega`. Beard & McLain (3.14)-(3.17), velocity in body axes.
+  template <class S>
+  model::StateVector<S> rate_at(const model::StateVector<S>& x, const DeflectionsOf<S>& d,
+                                const S& Omega) const {
+    using std::cos, std::sin;
+    const S &phi = x(model::roll), &theta = x(model::pitch);
+    const Eigen::Vector3<S> v_b = x.template segment<3>(model::u), w = x.template segment<3>(model::p);
+    RigidBodyOf<S> body;
+    body.p_n = x.template segment<3>(model::north);
+    body.q_nb = Eigen::AngleAxis<S>(x(model::yaw), Eigen::Vector3<S>::UnitZ()) *
+                Eigen::AngleAxis<S>(theta, Eigen::Vector3<S>::UnitY()) *
+                Eigen::AngleAxis<S>(phi, Eigen::Vector3<S>::UnitX());
+    body.v_n = body.q_nb * v_b;
+    body.omega_b = w;
+    const RigidBodyRateOf<S> d_n = rate_of(body, load(v_b, w, d, Omega, density(x)), mass_, gravity());
+    const S along = w.y() * sin(phi) + w.z() * cos(phi);
+    model::StateVector<S> rate;
+    rate.template segment<3>(model::north) = d_n.p_n;
+    rate.template segment<3>(model::u) = body.q_nb.conjugate() * d_n.v_n - w.cross(v_b);
+    rate(model::roll) = w.x() + along * sin(theta) / cos(theta);  // (3.16)
+    rate(model::pitch) = w.y() * cos(phi) - w.z() * sin(phi);
+    rate(model::yaw) = along / cos(theta);
+    rate.template segment<3>(model::p) = d_n.omega_b;
+    return rate;
+  }
+
+  /// dx/dt with motor and propeller in balance.
+  template <class S>
+  model::StateVector<S> rate(const model::StateVector<S>& x, const model::InputVector<S>& input) const {
+    const S Va = x.template segment<3>(model::u).norm();
+    const S Omega = propeller_.steady_speed_of<S>(input(model::throttle), Va, density(x));
+    return rate_at<S>(x, {input(model::aileron), input(model::elevator), input(model::rudder)}, Omega);
+  }
+
+  template <class S>
+  S density(const model::StateVector<S>& x) const {
+    return standard_air_of<S>(altitude_m_ - x(model::down)).density_kgm3;
+  }
+  static Eigen::Vector3d gravity() { return {0, 0, isa::g0}; }
+
+ private:
+  Airframe airframe_;
+  Aerodynamic aero_;
+  Propeller propeller_;
+  MassProperties mass_;
+  double altitude_m_;
+};
+
+}  // namespace fulmar

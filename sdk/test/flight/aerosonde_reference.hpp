@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Aerosonde of Beard & McLain's second edition at 25 m/s, trimmed and linearised by another program, where
-// that is there.
+// The Aerosonde of Beard & McLain's second edition at 25 m/s, trimmed and linearised by another program,
+// where that is there.
 #pragma once
 #include <fstream>
 #include <optional>

@@ -16,7 +16,9 @@ namespace {
 const D x = D::variable(0.7, 0), y = D::variable(-1.3, 1);
 
 void is(const D& f, double value, double by_x, double by_y) {
-  const auto near = [](double is, double should) { return std::abs(is - should) <= 1e-14 * std::abs(should); };
+  const auto near = [](double is, double should) {
+    return std::abs(is - should) <= 1e-14 * std::abs(should);
+  };
   CHECK(near(f.v, value));
   CHECK(near(f.d(0), by_x));
   CHECK(near(f.d(1), by_y));

@@ -138,7 +138,8 @@ TEST_CASE("steady flight leaves no acceleration, level, climbing, turning") {
       for (const SteadyCondition& c :
            {SteadyCondition{Va, climb}, SteadyCondition{Va, climb, Turn::bank, 40 * degree},
             SteadyCondition{Va, climb, Turn::bank, -20 * degree},
-            SteadyCondition{Va, climb, Turn::radius, 150}, SteadyCondition{Va, climb, Turn::radius, -90, true},
+            SteadyCondition{Va, climb, Turn::radius, 150},
+            SteadyCondition{Va, climb, Turn::radius, -90, true},
             SteadyCondition{Va, climb, Turn::none, 0, true}}) {
         const SteadyFlight f = steady_flight(m, c);
         REQUIRE(f.found());
@@ -162,7 +163,8 @@ TEST_CASE("straight steady flight is the trim in which the simulator starts") {
   for (const char* name : {"anaconda", "aerosonde"}) {
     const Airframe a = test::airframe_file(name);
     const double rho = standard_air(1457).density_kgm3;
-    for (const double Va : {a.limits.airspeed_min_mps, a.limits.airspeed_cruise_mps, a.limits.airspeed_max_mps}) {
+    for (const double Va :
+         {a.limits.airspeed_min_mps, a.limits.airspeed_cruise_mps, a.limits.airspeed_max_mps}) {
       const SteadyFlight f = steady_flight(AircraftModel(a, 1457), {Va});
       const Trim t = trimmed_flight(a, Va, rho);
       REQUIRE(f.found());
@@ -206,8 +208,9 @@ TEST_CASE("what stands against a steady flight is told") {
   CHECK(with([](Airframe& o) { o.aero.yaw.zero_ratio = 0.05; }) == TrimLimit::rudder);
   CHECK(with([](Airframe& o) { o.aero.roll.aileron_ratio = 0; }) == TrimLimit::no_aileron);
   CHECK(with([](Airframe& o) { o.aero.pitch.elevator_ratio = 0; }) == TrimLimit::no_elevator);
-  CHECK(with([](Airframe& o) { o.propulsion.ct0_ratio = o.propulsion.ct1_ratio = o.propulsion.ct2_ratio = 0; }) ==
-        TrimLimit::no_thrust);
+  CHECK(with([](Airframe& o) {
+          o.propulsion.ct0_ratio = o.propulsion.ct1_ratio = o.propulsion.ct2_ratio = 0;
+        }) == TrimLimit::no_thrust);
 }
 
 TEST_CASE("an aircraft without a rudder banks a little against its propeller, and flies turns") {
@@ -271,7 +274,8 @@ TEST_CASE("the Aerosonde's trim, A, B and eigenvalues are those of another progr
 TEST_CASE("the eigenvalues are roots of the blocks' characteristic polynomials") {
   for (const char* name : {"anaconda", "aerosonde"}) {
     const Airframe a = test::airframe_file(name);
-    for (const double Va : {a.limits.airspeed_min_mps, a.limits.airspeed_cruise_mps, a.limits.airspeed_max_mps}) {
+    for (const double Va :
+         {a.limits.airspeed_min_mps, a.limits.airspeed_cruise_mps, a.limits.airspeed_max_mps}) {
       SteadyCondition c{Va};
       c.no_sideslip = true;
       Linearised l = linearised(a, c, 1457);

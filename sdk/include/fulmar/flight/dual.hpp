@@ -20,9 +20,7 @@ struct Dual {
   Dual(double value) : v(value) {}  // implicit: a constant, as models have them
   Dual(double value, const Gradient& gradient) : v(value), d(gradient) {}
   /// The variable `i` at its value.
-  static Dual variable(double value, int i) {
-    return {value, Gradient::Unit(i)};
-  }
+  static Dual variable(double value, int i) { return {value, Gradient::Unit(i)}; }
 
   friend Dual operator-(const Dual& a) { return {-a.v, -a.d}; }
   friend Dual operator+(const Dual& a, const Dual& b) { return {a.v + b.v, a.d + b.d}; }

@@ -25,7 +25,7 @@ enum class ModeKind : std::uint8_t { short_period, phugoid, dutch_roll, roll, sp
 
 struct Mode {
   ModeKind kind = ModeKind::short_period;
-  std::complex<double> eigenvalue;       ///< of a pair the one above the real axis, 1/s
+  std::complex<double> eigenvalue;        ///< of a pair the one above the real axis, 1/s
   std::array<double, 8> participation{};  ///< of model::motion_states; sum 1
 
   bool oscillates() const { return eigenvalue.imag() > 0; }

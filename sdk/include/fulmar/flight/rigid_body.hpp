@@ -9,8 +9,8 @@
 
 namespace fulmar {
 
-/// Position and velocity of the centre of gravity in NED, attitude (body to NED), body rate. `S` is double, or
-/// Dual where the model is differentiated.
+/// Position and velocity of the centre of gravity in NED, attitude (body to NED), body rate. `S` is double,
+/// or Dual where the model is differentiated.
 template <class S>
 struct RigidBodyOf {
   Eigen::Vector3<S> p_n = Eigen::Vector3<S>::Zero();

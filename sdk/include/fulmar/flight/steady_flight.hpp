@@ -72,8 +72,8 @@ inline MostLift most_lift(const Airframe& a) {
                                 ? std::clamp(-(M.zero_ratio + M.alpha_ratio * alpha) / M.elevator_ratio,
                                              -a.elevator.limit_rad, a.elevator.limit_rad)
                                 : 0;
-    const double CL = load.force_b.x() * std::sin(alpha) - load.force_b.z() * std::cos(alpha) +
-                      L.elevator_ratio * elevator;
+    const double CL =
+        load.force_b.x() * std::sin(alpha) - load.force_b.z() * std::cos(alpha) + L.elevator_ratio * elevator;
     if (CL > most.coefficient) most = {CL, alpha};
   }
   return most;
@@ -100,7 +100,8 @@ class SteadyEquations {
   template <class S>
   model::StateVector<S> state(const Vector<S>& z) const {
     using std::atan2, std::cos, std::sin, std::sqrt;
-    // the pitch angle that gives the flight path its angle: Stevens, Lewis & Johnson, rate-of-climb constraint
+    // the pitch angle that gives the flight path its angle: Stevens, Lewis & Johnson, rate-of-climb
+    // constraint
     const S a = cos(z(alpha)) * cos(z(beta));
     const S b = sin(z(bank)) * sin(z(beta)) + cos(z(bank)) * sin(z(alpha)) * cos(z(beta));
     const double s = std::sin(condition_.climb_rad);
@@ -142,9 +143,8 @@ class SteadyEquations {
     if (!has_rudder_) return z(rudder);
     if (condition_.no_sideslip) return z(beta);
     if (condition_.turn == Turn::none) return z(bank);
-    const LoadOf<S> load = model_.aerodynamic().load_of<S>(x.template segment<3>(model::u),
-                                                           x.template segment<3>(model::p), d,
-                                                           model_.density(x));
+    const LoadOf<S> load = model_.aerodynamic().load_of<S>(
+        x.template segment<3>(model::u), x.template segment<3>(model::p), d, model_.density(x));
     return load.force_b.y() / model_.airframe().mass_kg;
   }
 
@@ -203,8 +203,8 @@ inline double thrust_needed(const AircraftModel& m, const SteadyCondition& c, do
   const Airframe& a = m.airframe();
   const double Va = c.airspeed_mps;
   const double alpha = (CL - a.aero.lift.zero_ratio) / std::max(a.aero.lift.alpha_ratio, 0.1);
-  const Load load = m.aerodynamic().load({Va * std::cos(alpha), 0, Va * std::sin(alpha)},
-                                         Eigen::Vector3d::Zero(), {}, rho);
+  const Load load =
+      m.aerodynamic().load({Va * std::cos(alpha), 0, Va * std::sin(alpha)}, Eigen::Vector3d::Zero(), {}, rho);
   const double drag = -load.force_b.x() * std::cos(alpha) - load.force_b.z() * std::sin(alpha);
   return (drag + a.mass_kg * isa::g0 * std::sin(c.climb_rad)) / std::cos(alpha);
 }

@@ -26,7 +26,8 @@ RigidBody body_of(const SteadyFlight& f) {
 }
 
 Actuators command_of(const SteadyFlight& f) {
-  return {f.input(model::throttle), f.input(model::aileron), f.input(model::elevator), f.input(model::rudder)};
+  return {f.input(model::throttle), f.input(model::aileron), f.input(model::elevator),
+          f.input(model::rudder)};
 }
 
 /// In that flight, with servos and motor where they are commanded: the body is held there until they are.
@@ -48,8 +49,9 @@ TEST_CASE("the simulated aircraft stays in a steady flight that was computed for
     const Airframe a = test::airframe_file(name);
     const double Va = a.limits.airspeed_cruise_mps;
     for (const SteadyCondition& c :
-         {SteadyCondition{Va}, SteadyCondition{a.limits.airspeed_min_mps}, SteadyCondition{a.limits.airspeed_max_mps},
-          SteadyCondition{Va, 0, Turn::bank, 0.6}, SteadyCondition{Va, 0, Turn::radius, -100}}) {
+         {SteadyCondition{Va}, SteadyCondition{a.limits.airspeed_min_mps},
+          SteadyCondition{a.limits.airspeed_max_mps}, SteadyCondition{Va, 0, Turn::bank, 0.6},
+          SteadyCondition{Va, 0, Turn::radius, -100}}) {
       const SteadyFlight f = steady_flight(AircraftModel(a, origin_m + height_m), c);
       REQUIRE(f.found());
       sim::Plant plant = plant_in(a, f);

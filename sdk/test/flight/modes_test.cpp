@@ -18,8 +18,7 @@ namespace {
 
 LinearModel linear(const Airframe& a, double Va, double bank_rad = 0) {
   const AircraftModel aircraft(a, 1457);
-  const SteadyFlight f =
-      steady_flight(aircraft, {Va, 0, bank_rad != 0 ? Turn::bank : Turn::none, bank_rad});
+  const SteadyFlight f = steady_flight(aircraft, {Va, 0, bank_rad != 0 ? Turn::bank : Turn::none, bank_rad});
   REQUIRE(f.found());
   return linear_model(aircraft, f.x, f.input);
 }
@@ -63,9 +62,9 @@ LinearModel made(const Made& of) {
 
 TEST_CASE("modes are known by what moves, whatever their order and size") {
   const std::array<Made, 4> cases{{{{-5, 9}, {-0.1, 0.5}, {-1, 5}, -20, 0.05},
-                                   {{-0.1, 0.4}, {-3, 8}, {-0.01, 0.2}, -0.3, -9},   // the slow one is fast
-                                   {{2, 3}, {0.5, 0.1}, {-30, 2}, 4, -0.001},        // unstable
-                                   {{-1, 5}, {-1, 4.9}, {-1, 5.1}, -1.1, -1.2}}};    // all alike
+                                   {{-0.1, 0.4}, {-3, 8}, {-0.01, 0.2}, -0.3, -9},  // the slow one is fast
+                                   {{2, 3}, {0.5, 0.1}, {-30, 2}, 4, -0.001},       // unstable
+                                   {{-1, 5}, {-1, 4.9}, {-1, 5.1}, -1.1, -1.2}}};   // all alike
   for (const Made& c : cases) {
     const std::vector<Mode> modes = modes_of(made(c));
     REQUIRE(modes.size() == 5);
@@ -114,7 +113,8 @@ TEST_CASE("participations sum to one and do not depend on the units") {
   REQUIRE(after.size() == before.size());
   for (std::size_t i = 0; i < after.size(); ++i) {
     CHECK(after[i].kind == before[i].kind);
-    for (std::size_t k = 0; k < 8; ++k) CHECK(std::abs(after[i].participation[k] - before[i].participation[k]) < 1e-6);
+    for (std::size_t k = 0; k < 8; ++k)
+      CHECK(std::abs(after[i].participation[k] - before[i].participation[k]) < 1e-6);
   }
 }
 
@@ -137,7 +137,9 @@ TEST_CASE("the modes are about those of the handbook's approximations") {
     CHECK(of_kind(modes, ModeKind::roll).at(0).eigenvalue.real() == Approx(A(m::p, m::p)).epsilon(0.05));
     // omega^2 = Yv Nr - Nv Yr, which leaves out all rolling
     CHECK(of_kind(modes, ModeKind::dutch_roll).at(0).natural_radps() ==
-          Approx(std::sqrt(A(m::v, m::v) * A(m::r, m::r) - A(m::r, m::v) * A(m::v, m::r))).epsilon(0.25).scale(0));
+          Approx(std::sqrt(A(m::v, m::v) * A(m::r, m::r) - A(m::r, m::v) * A(m::v, m::r)))
+              .epsilon(0.25)
+              .scale(0));
   }
 }
 

@@ -4,32 +4,47 @@
 // 3.
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace fulmar {
 
-/// v + sum of d(i) epsilon(i), where the product of two epsilons is 0: f(v + d epsilon) = f(v) + f'(v) d
+/// v + sum of d[i] epsilon[i], where the product of two epsilons is 0: f(v + d epsilon) = f(v) + f'(v) d
 /// epsilon. Compares by its value, so that a branch is the one which the value takes.
 template <int N>
 struct Dual {
-  using Gradient = Eigen::Matrix<double, N, 1>;
+  using Gradient = std::array<double, std::size_t(N)>;
   double v = 0;
-  Gradient d = Gradient::Zero();
+  Gradient d{};
 
   Dual() = default;
-  Dual(double value) : v(value) {}  // implicit: a constant, as models have them
-  Dual(double value, const Gradient& gradient) : v(value), d(gradient) {}
+  Dual(double value) : v(value) {}  // NOLINT(google-explicit-constructor): a constant, as models have them
   /// The variable `i` at its value.
-  static Dual variable(double value, int i) { return {value, Gradient::Unit(i)}; }
+  static Dual variable(double value, int i) {
+    Dual x(value);
+    x.d[std::size_t(i)] = 1;
+    return x;
+  }
+  /// A function of a and b, from its value and its derivatives by them: the chain rule.
+  static Dual chain(double value, double by_a, const Dual& a, double by_b, const Dual& b) {
+    Dual f(value);
+    for (std::size_t i = 0; i < f.d.size(); ++i) f.d[i] = by_a * a.d[i] + by_b * b.d[i];
+    return f;
+  }
+  static Dual chain(double value, double by_a, const Dual& a) {
+    Dual f(value);
+    for (std::size_t i = 0; i < f.d.size(); ++i) f.d[i] = by_a * a.d[i];
+    return f;
+  }
 
-  friend Dual operator-(const Dual& a) { return {-a.v, -a.d}; }
-  friend Dual operator+(const Dual& a, const Dual& b) { return {a.v + b.v, a.d + b.d}; }
-  friend Dual operator-(const Dual& a, const Dual& b) { return {a.v - b.v, a.d - b.d}; }
-  friend Dual operator*(const Dual& a, const Dual& b) { return {a.v * b.v, a.v * b.d + b.v * a.d}; }
-  /// (a' - q b') / b, which overflows later than (a' b - a b') / b^2.
+  friend Dual operator-(const Dual& a) { return chain(-a.v, -1, a); }
+  friend Dual operator+(const Dual& a, const Dual& b) { return chain(a.v + b.v, 1, a, 1, b); }
+  friend Dual operator-(const Dual& a, const Dual& b) { return chain(a.v - b.v, 1, a, -1, b); }
+  friend Dual operator*(const Dual& a, const Dual& b) { return chain(a.v * b.v, b.v, a, a.v, b); }
   friend Dual operator/(const Dual& a, const Dual& b) {
     const double q = a.v / b.v;
-    return {q, (a.d - q * b.d) / b.v};
+    return chain(q, 1 / b.v, a, -q / b.v, b);
   }
   Dual& operator+=(const Dual& b) { return *this = *this + b; }
   Dual& operator-=(const Dual& b) { return *this = *this - b; }
@@ -44,20 +59,21 @@ struct Dual {
 
   friend Dual sqrt(const Dual& a) {
     const double root = std::sqrt(a.v);
-    return {root, root > 0 ? Gradient(a.d / (2 * root)) : Gradient(Gradient::Zero())};  // at 0 it has none
+    return root > 0 ? chain(root, 0.5 / root, a) : Dual(root);  // at 0 it has no derivative
   }
   friend Dual exp(const Dual& a) {
     const double e = std::exp(a.v);
-    return {e, e * a.d};
+    return chain(e, e, a);
   }
   friend Dual pow(const Dual& a, double power) {
-    return {std::pow(a.v, power), power * std::pow(a.v, power - 1) * a.d};
+    return chain(std::pow(a.v, power), power * std::pow(a.v, power - 1), a);
   }
-  friend Dual sin(const Dual& a) { return {std::sin(a.v), std::cos(a.v) * a.d}; }
-  friend Dual cos(const Dual& a) { return {std::cos(a.v), -std::sin(a.v) * a.d}; }
-  friend Dual asin(const Dual& a) { return {std::asin(a.v), a.d / std::sqrt(1 - a.v * a.v)}; }
+  friend Dual sin(const Dual& a) { return chain(std::sin(a.v), std::cos(a.v), a); }
+  friend Dual cos(const Dual& a) { return chain(std::cos(a.v), -std::sin(a.v), a); }
+  friend Dual asin(const Dual& a) { return chain(std::asin(a.v), 1 / std::sqrt(1 - a.v * a.v), a); }
   friend Dual atan2(const Dual& y, const Dual& x) {
-    return {std::atan2(y.v, x.v), (x.v * y.d - y.v * x.d) / (x.v * x.v + y.v * y.v)};
+    const double square = x.v * x.v + y.v * y.v;
+    return chain(std::atan2(y.v, x.v), x.v / square, y, -y.v / square, x);
   }
   friend Dual abs(const Dual& a) { return a.v < 0 ? -a : a; }
   friend Dual copysign(const Dual& size, const Dual& sign) {

@@ -41,8 +41,8 @@ inline LinearModel linear_model(const AircraftModel& m, const model::StateVector
   const model::StateVector<D> rate = m.rate<D>(x_dual, u_dual);
   LinearModel out;
   for (int i = 0; i < model::states; ++i) {
-    out.A.row(i) = rate(i).d.template head<model::states>();
-    out.B.row(i) = rate(i).d.template tail<model::inputs>();
+    for (int k = 0; k < model::states; ++k) out.A(i, k) = rate(i).d[std::size_t(k)];
+    for (int k = 0; k < model::inputs; ++k) out.B(i, k) = rate(i).d[std::size_t(model::states + k)];
   }
   return out;
 }

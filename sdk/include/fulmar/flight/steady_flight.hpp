@@ -157,7 +157,7 @@ class SteadyEquations {
 inline double solve_steady(const SteadyEquations& equations, SteadyEquations::Vector<double>& z) {
   constexpr int n = SteadyEquations::unknowns;
   double left = 1e9;
-  for (int i = 0; i < 60; ++i) {
+  for (int steps = 0; steps < 60; ++steps) {
     SteadyEquations::Vector<Dual<n>> dual;
     for (int k = 0; k < n; ++k) dual(k) = Dual<n>::variable(z(k), k);
     const SteadyEquations::Vector<Dual<n>> f = equations.residual(dual);
@@ -165,7 +165,7 @@ inline double solve_steady(const SteadyEquations& equations, SteadyEquations::Ve
     Eigen::Matrix<double, n, n> J;
     for (int k = 0; k < n; ++k) {
       r(k) = f(k).v;
-      J.row(k) = f(k).d;
+      for (int i = 0; i < n; ++i) J(k, i) = f(k).d[std::size_t(i)];
     }
     left = r.norm();
     if (!std::isfinite(left)) return 1e9;

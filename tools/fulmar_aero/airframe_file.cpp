@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/fulmar_aero/airframe_file.hpp"
+
+#include <filesystem>
+#include <vector>
+
+#include "core/graph/record.hpp"
+#include "core/graph/shipped.hpp"
+#include "core/loader/table.hpp"
+#include "fulmar/schema.hpp"
+
+namespace fulmar::aero {
+namespace {
+
+/// The entry of a field's name, with or without its unit; nullptr when the file does not have it.
+const core::Node::Entry* entry_of(const core::Node& map, const std::string& field) {
+  const auto split = core::split_suffix(field);
+  for (const core::Node::Entry& entry : map.entries)
+    if (entry.key == field || (split && entry.key == split->name)) return &entry;
+  return nullptr;
+}
+
+struct Positive {
+  const char* field;
+  double value;
+  const char* unit;
+};
+
+void refuse_what_is_not_positive(const AirframeFile& file, core::Report& report) {
+  const Airframe& a = file.airframe;
+  const std::vector<Positive> all{{"mass_kg", a.mass_kg, "kg"},
+                                  {"inertia.xx_kgm2", a.inertia.xx_kgm2, "kg m^2"},
+                                  {"inertia.yy_kgm2", a.inertia.yy_kgm2, "kg m^2"},
+                                  {"inertia.zz_kgm2", a.inertia.zz_kgm2, "kg m^2"},
+                                  {"wing.area_m2", a.wing.area_m2, "m^2"},
+                                  {"wing.span_m", a.wing.span_m, "m"},
+                                  {"wing.chord_m", a.wing.chord_m, "m"},
+                                  {"wing.oswald_ratio", a.wing.oswald_ratio, ""},
+                                  {"wing.stall_alpha_rad", a.wing.stall_alpha_rad, "rad"},
+                                  {"wing.stall_sharpness_ratio", a.wing.stall_sharpness_ratio, ""},
+                                  {"propulsion.propeller_diameter_m", a.propulsion.propeller_diameter_m, "m"},
+                                  {"propulsion.cq0_ratio", a.propulsion.cq0_ratio, ""},
+                                  {"propulsion.torque_constant_ratio", a.propulsion.torque_constant_ratio, ""},
+                                  {"propulsion.resistance_ohm", a.propulsion.resistance_ohm, "ohm"},
+                                  {"propulsion.battery_volt", a.propulsion.battery_volt, "V"},
+                                  {"aileron.limit_rad", a.aileron.limit_rad, "rad"},
+                                  {"elevator.limit_rad", a.elevator.limit_rad, "rad"},
+                                  {"rudder.limit_rad", a.rudder.limit_rad, "rad"},
+                                  {"limits.airspeed_cruise_mps", a.limits.airspeed_cruise_mps, "m/s"}};
+  for (const Positive& one : all) {
+    if (one.value > 0) continue;
+    const std::string unit = *one.unit ? std::string(" ") + one.unit : "";
+    report.add(file.where(one.field), std::string(one.field) + ": it is " + core::number_text(one.value) + unit +
+                                          " and must be more than 0; no model of the aircraft can be made");
+  }
+}
+
+void refuse_inertia(const AirframeFile& file, core::Report& report) {
+  const Inertia& i = file.airframe.inertia;
+  if (i.xx_kgm2 <= 0 || i.zz_kgm2 <= 0 || i.xz_kgm2 * i.xz_kgm2 < i.xx_kgm2 * i.zz_kgm2) return;
+  report.add(file.where("inertia.xz_kgm2"),
+             "inertia: it is not positive definite: xz^2 = " + core::number_text(i.xz_kgm2 * i.xz_kgm2) +
+                 " must be less than xx zz = " + core::number_text(i.xx_kgm2 * i.zz_kgm2) +
+                 "; no body has such an inertia");
+}
+
+}  // namespace
+
+core::Where AirframeFile::where(const std::string& field) const {
+  core::Where at{name, 0};
+  const core::Node* map = &root;
+  for (std::size_t begin = 0; begin <= field.size();) {
+    const std::size_t dot = std::min(field.find('.', begin), field.size());
+    const core::Node::Entry* const entry = entry_of(*map, field.substr(begin, dot - begin));
+    if (!entry) break;
+    at = entry->where();
+    map = &entry->value;
+    begin = dot + 1;
+  }
+  return at;
+}
+
+std::string AirframeFile::title() const {
+  const std::string own(airframe.name.view());
+  return own.empty() ? std::filesystem::path(name).filename().string() : own;
+}
+
+AirframeFile read_airframe_file(const std::string& name) {
+  const std::filesystem::path path = core::named_file(std::filesystem::path(), name);
+  std::error_code code;
+  if (!std::filesystem::exists(path, code))
+    throw core::Error("there is no file " + name + core::shipped_choices(name));
+  AirframeFile file;
+  file.name = name;
+  core::Report report;
+  file.root = core::parse_yaml(core::read_source(path, name), report);
+  if (report.empty() && !file.root.is(core::Node::Kind::map))
+    report.add({name, 0}, "expected a map with the fields of an airframe; found " + core::found_words(file.root));
+  if (report.empty())
+    core::fill_record(*core::copy_type(describe<Airframe>()), file.root,
+                      reinterpret_cast<std::byte*>(&file.airframe), "", report, {"params"});
+  if (report.empty()) {
+    refuse_what_is_not_positive(file, report);
+    refuse_inertia(file, report);
+  }
+  report.throw_if_any();
+  return file;
+}
+
+}  // namespace fulmar::aero

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An airframe file with the place of each of its values.
+#pragma once
+#include <string>
+
+#include "core/graph/yaml.hpp"
+#include "fulmar/msg/airframe.hpp"
+
+namespace fulmar::aero {
+
+struct AirframeFile {
+  std::string name;  ///< as it was given
+  Airframe airframe;
+  core::Node root;
+
+  /// Where a field stands, "aero.pitch.alpha_ratio"; where it is missing, the place of what it would be in.
+  core::Where where(const std::string& field) const;
+  /// The aircraft's name, or the file's when it has none.
+  std::string title() const;
+};
+
+/// `name`: a file, or one that is shipped, as in fulmar:airframes/anaconda.yaml. Throws core::Error with
+/// file:line for every fault; one of them is a value of which no model can be made, such as a negative mass.
+AirframeFile read_airframe_file(const std::string& name);
+
+}  // namespace fulmar::aero

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Mass, inertia and wing: whether they are those of one aircraft, in SI units.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "tools/fulmar_aero/findings.hpp"
+#include "tools/fulmar_aero/words.hpp"
+
+namespace fulmar::aero {
+namespace {
+
+struct UnitOfInertia {
+  const char* name;
+  double factor;
+};
+constexpr std::array<UnitOfInertia, 5> inertia_units{
+    {{"kg cm^2", 1e-4}, {"g cm^2", 1e-7}, {"kg mm^2", 1e-6}, {"lb in^2", 2.9264e-4}, {"slug ft^2", 1.35582}}};
+
+/// What the radius of gyration is of the span in aircraft that fly: 0.08 to 0.2; a rod's is 0.289.
+constexpr double least_gyration = 0.04, most_gyration = 0.26;
+
+bool plausible(double inertia, const Airframe& a) {
+  const double part = std::sqrt(inertia / a.mass_kg) / a.wing.span_m;
+  return part >= least_gyration && part <= most_gyration;
+}
+
+void check_gyration(Findings& f, const char* field, double inertia) {
+  f.looked_at();
+  const Airframe& a = f.file().airframe;
+  if (plausible(inertia, a)) return;
+  const double radius = std::sqrt(inertia / a.mass_kg);
+  std::string sentence = "its radius of gyration is " + figures(radius) + " m, " + figures(radius / a.wing.span_m) +
+                         " of the span; aircraft have 0.08 to 0.2, a bare rod 0.29";
+  for (const UnitOfInertia& unit : inertia_units)
+    if (plausible(inertia * unit.factor, a)) {
+      sentence += ": is it in " + std::string(unit.name) + "? That would be " + figures(inertia * unit.factor) + " kg m^2";
+      break;
+    }
+  const double part = radius / a.wing.span_m;
+  if (part < least_gyration / 4 || part > 4 * most_gyration)
+    f.fault(field, inertia, sentence);
+  else
+    f.warn(field, inertia, sentence);
+}
+
+/// Each principal moment is at most the sum of the two others: Goldstein, Classical Mechanics, section 5.3.
+void check_triangle(Findings& f) {
+  f.looked_at();
+  const Inertia& i = f.file().airframe.inertia;
+  const double middle = 0.5 * (i.xx_kgm2 + i.zz_kgm2), half = 0.5 * (i.xx_kgm2 - i.zz_kgm2);
+  const double spread = std::hypot(half, i.xz_kgm2);
+  std::array<double, 3> principal{middle - spread, i.yy_kgm2, middle + spread};
+  std::sort(principal.begin(), principal.end());
+  if (principal[2] <= principal[0] + principal[1]) return;
+  f.warn("inertia", principal[2],
+         "no body has these moments: the principal ones are " + figures(principal[0]) + ", " + figures(principal[1]) +
+             " and " + figures(principal[2]) + " kg m^2, and the largest is more than the sum of the others; is xz (" +
+             figures(i.xz_kgm2) + ") wrong, or xx (" + figures(i.xx_kgm2) + ") exchanged with yy (" + figures(i.yy_kgm2) + ")?");
+}
+
+void check_wing(Findings& f) {
+  f.looked_at(3);
+  const Airframe& a = f.file().airframe;
+  const double S = a.wing.area_m2, b = a.wing.span_m, c = a.wing.chord_m;
+  if (const double part = c * b / S; part < 0.7 || part > 1.5)
+    f.fault("wing.chord_m", c,
+            "chord times span is " + figures(part) + " of the area, which is 0.7 to 1.5 in one and the same wing; one "
+            "of the three is wrong or in another unit");
+  if (const double AR = b * b / S; AR < 2 || AR > 40)
+    f.warn("wing.span_m", b, "the aspect ratio b^2/S is " + figures(AR) + "; wings have 2 to 40");
+  if (a.wing.oswald_ratio > 1.1 || a.wing.oswald_ratio < 0.4)
+    f.warn("wing.oswald_ratio", a.wing.oswald_ratio, "Oswald's factor is " + figures(a.wing.oswald_ratio) + "; wings have 0.6 to 1");
+}
+
+void check_loading(Findings& f) {
+  f.looked_at();
+  const Airframe& a = f.file().airframe;
+  const double loading = a.mass_kg / a.wing.area_m2;
+  f.figure("wing_loading_kgpm2", loading, "wing loading", figures(loading) + " kg/m2");
+  if (loading >= 0.5 && loading <= 150) return;
+  f.fault("mass_kg", a.mass_kg, "the wing loading is " + figures(loading) + " kg/m2; small aircraft have 1 to 60. " +
+                                    (loading > 150 ? "Is the mass in grams, or the area in ft^2?" : "Is the area in another unit?"));
+}
+
+}  // namespace
+
+std::string shown_field(const std::string& field) {
+  std::string out;
+  for (std::size_t begin = 0; begin <= field.size();) {
+    const std::size_t dot = std::min(field.find('.', begin), field.size());
+    const std::string step = field.substr(begin, dot - begin);
+    const auto split = core::split_suffix(step);
+    out += (out.empty() ? "" : ".") + (split ? split->name : step);
+    begin = dot + 1;
+  }
+  return out;
+}
+
+void check_body(Findings& f) {
+  const Inertia& i = f.file().airframe.inertia;
+  check_loading(f);
+  check_wing(f);
+  check_gyration(f, "inertia.xx_kgm2", i.xx_kgm2);
+  check_gyration(f, "inertia.yy_kgm2", i.yy_kgm2);
+  check_gyration(f, "inertia.zz_kgm2", i.zz_kgm2);
+  check_triangle(f);
+}
+
+}  // namespace fulmar::aero

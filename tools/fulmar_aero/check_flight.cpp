@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whether the aircraft flies: trim from the stall to the top speed, its limits, and its modes in cruise.
+#include <algorithm>
+#include <cmath>
+
+#include "tools/fulmar_aero/findings.hpp"
+#include "tools/fulmar_aero/flight_model.hpp"
+#include "tools/fulmar_aero/flight_words.hpp"
+#include "tools/fulmar_aero/mode_words.hpp"
+#include "tools/fulmar_aero/words.hpp"
+
+namespace fulmar::aero {
+namespace {
+
+double stall_speed(const Airframe& a, double rho) {
+  const double CL = most_lift(a).coefficient;
+  return CL > 0 ? std::sqrt(2 * a.mass_kg * isa::g0 / (rho * a.wing.area_m2 * CL)) : 0;
+}
+
+bool flies(const AircraftModel& m, double airspeed) { return fly(m, {airspeed}).found(); }
+
+/// The airspeed at which level flight ends, on the way from `inside` to `outside`.
+double end_of_flight(const AircraftModel& m, double inside, double outside) {
+  for (int i = 0; i < 30; ++i) {
+    const double middle = 0.5 * (inside + outside);
+    (flies(m, middle) ? inside : outside) = middle;
+  }
+  return inside;
+}
+
+void check_speeds(Findings& f, const AircraftModel& m, double rho) {
+  const Airframe& a = f.file().airframe;
+  const FlightLimits& l = a.limits;
+  const double stall = stall_speed(a, rho);
+  f.looked_at(4);
+  if (stall > 0) f.figure("stall_airspeed_mps", stall, "stall", fixed(stall, 1) + " m/s");
+  if (stall > 0 && l.airspeed_min_mps < 1.05 * stall)
+    f.warn("limits.airspeed_min_mps", l.airspeed_min_mps,
+           "it is " + figures(l.airspeed_min_mps) + " m/s, and the wing stalls at " + fixed(stall, 1) + " m/s; 1.2 times that is usual");
+  if (!flies(m, l.airspeed_cruise_mps)) return;
+  const double slowest = end_of_flight(m, l.airspeed_cruise_mps, 0.3 * l.airspeed_cruise_mps);
+  const double fastest = end_of_flight(m, l.airspeed_cruise_mps, 4 * l.airspeed_cruise_mps);
+  f.figure("slowest_airspeed_mps", slowest, "slowest level flight", fixed(slowest, 1) + " m/s");
+  f.figure("fastest_airspeed_mps", fastest, "fastest level flight", fixed(fastest, 1) + " m/s");
+}
+
+void check_trim(Findings& f, const AircraftModel& m) {
+  const FlightLimits& l = f.file().airframe.limits;
+  const auto one = [&](const char* field, double airspeed) {
+    f.looked_at();
+    if (airspeed < 1) return;
+    const SteadyFlight flight = fly(m, {airspeed});
+    if (!flight.found())
+      f.fault(field, airspeed, "no level flight at " + figures(airspeed) + " m/s: " + limit_words(f.file(), m, flight));
+  };
+  one("limits.airspeed_min_mps", l.airspeed_min_mps);
+  one("limits.airspeed_cruise_mps", l.airspeed_cruise_mps);
+  one("limits.airspeed_max_mps", l.airspeed_max_mps);
+}
+
+void check_cruise(Findings& f, const AircraftModel& m, const SteadyFlight& cruise) {
+  const Airframe& a = f.file().airframe;
+  const FlightForces forces = forces_of(m, cruise);
+  f.looked_at(3);
+  f.figure("cruise_lift_coefficient_ratio", forces.lift_ratio, "CL in cruise", figures(forces.lift_ratio));
+  f.figure("cruise_lift_to_drag_ratio", forces.lift_newton / forces.drag_newton, "L/D in cruise",
+           figures(forces.lift_newton / forces.drag_newton));
+  if (forces.lift_ratio < 0.1 || forces.lift_ratio > 1.4)
+    f.fault("limits.airspeed_cruise_mps", a.limits.airspeed_cruise_mps,
+            "in cruise CL is " + figures(forces.lift_ratio) + ", usual is 0.2 to 0.9: mass, area or airspeed is in another unit");
+  const double elevator = cruise.input(model::elevator), throttle = cruise.input(model::throttle);
+  if (std::abs(elevator - a.elevator.trim_rad) > 0.1)
+    f.warn("elevator.trim_rad", a.elevator.trim_rad,
+           "it is " + degrees(a.elevator.trim_rad, 1) + ", and level cruise takes " + degrees(elevator, 1));
+  if (std::abs(throttle - a.limits.throttle_cruise_frac) > 0.15)
+    f.warn("limits.throttle_cruise_frac", a.limits.throttle_cruise_frac,
+           "it is " + figures(a.limits.throttle_cruise_frac) + ", and level cruise takes " + fixed(throttle, 2));
+}
+
+void check_envelope(Findings& f, const AircraftModel& m) {
+  const FlightLimits& l = f.file().airframe.limits;
+  const double Va = l.airspeed_cruise_mps;
+  const auto one = [&](const char* field, double value, const SteadyCondition& c) {
+    f.looked_at();
+    const SteadyFlight flight = fly(m, c);
+    if (!flight.found())
+      f.warn(field, value, "no " + condition_words(c, m.altitude_m()) + ": " + limit_words(f.file(), m, flight));
+  };
+  one("limits.climb_rate_max_mps", l.climb_rate_max_mps, {Va, std::asin(std::clamp(l.climb_rate_max_mps / Va, -0.99, 0.99))});
+  one("limits.sink_rate_max_mps", l.sink_rate_max_mps, {Va, -std::asin(std::clamp(l.sink_rate_max_mps / Va, -0.99, 0.99))});
+  if (std::abs(l.roll_max_rad) < 1.4) one("limits.roll_max_rad", l.roll_max_rad, {Va, 0, Turn::bank, l.roll_max_rad});
+}
+
+/// What is asked of a mode: the least damping of a pair, and how soon it may double.
+struct ModeWanted {
+  ModeKind kind;
+  const char* field;
+  double damping_ratio, double_s;
+  const char* else_what;
+};
+constexpr std::array<ModeWanted, 6> wanted{
+    {{ModeKind::short_period, "aero.pitch", 0.3, 1e9, "the nose swings after every gust"},
+     {ModeKind::phugoid, "aero.drag", 0, 15, "height and airspeed swing more and more without a control law"},
+     {ModeKind::dutch_roll, "aero.yaw", 0.05, 1e9, "the tail wags"},
+     {ModeKind::roll, "aero.roll", 0, 1e9, "rolling does not end by itself"},
+     {ModeKind::spiral, "aero.roll", 0, 4, "it rolls into a turn by itself faster than a pilot likes"},
+     {ModeKind::roll_spiral, "aero.roll", 0.05, 1e9, "roll and spiral swing together"}}};
+
+void check_mode(Findings& f, const Mode& mode) {
+  f.looked_at();
+  const ModeWanted& want = wanted[std::size_t(mode.kind)];
+  const std::string name = mode_name(mode.kind);
+  if (!mode.stable() && mode.half_or_double_s() < want.double_s) {
+    const std::string sentence = "the " + name + " doubles in " + fixed(mode.half_or_double_s(), 2) + " s: " + want.else_what;
+    const bool slow = mode.kind == ModeKind::phugoid || mode.kind == ModeKind::spiral;
+    return slow ? f.warn(want.field, mode.eigenvalue.real(), sentence) : f.fault(want.field, mode.eigenvalue.real(), sentence);
+  }
+  if (mode.stable() && mode.oscillates() && mode.damping_ratio() < want.damping_ratio)
+    f.warn(want.field, mode.damping_ratio(),
+           "the " + name + " is damped by " + fixed(mode.damping_ratio(), 3) + ", less than " + figures(want.damping_ratio) + ": " + want.else_what);
+}
+
+}  // namespace
+
+void check_flight(Findings& f, double altitude_m) {
+  const AircraftModel m(f.file().airframe, altitude_m);
+  check_speeds(f, m, standard_air(altitude_m).density_kgm3);
+  check_trim(f, m);
+  const SteadyFlight cruise = fly(m, {f.file().airframe.limits.airspeed_cruise_mps});
+  if (!cruise.found()) return;
+  check_cruise(f, m, cruise);
+  check_envelope(f, m);
+  for (const Mode& mode : modes_in(m, cruise)) {
+    const std::string number = mode.oscillates() ? fixed(mode.natural_radps(), 2) + " rad/s, damping " + fixed(mode.damping_ratio(), 3)
+                                                 : (mode.stable() ? "half in " : "doubles in ") + fixed(mode.half_or_double_s(), 2) + " s";
+    f.figure("", 0, mode_name(mode.kind), number);
+    check_mode(f, mode);
+  }
+}
+
+}  // namespace fulmar::aero

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The commands of `fulmar aero`. Each returns an exit code: 0 done, 1 no such flight or faults found.
+#pragma once
+#include <string>
+
+#include "tools/fulmar_aero/options.hpp"
+
+namespace fulmar::aero {
+
+int trim_command(const FlightOptions& options);
+int linearize_command(const FlightOptions& options, bool csv);
+/// `step` between speeds; `svg`: a file for the picture, or "".
+int modes_command(const FlightOptions& options, const std::string& step, const std::string& svg);
+int check_command(const FlightOptions& options);
+
+}  // namespace fulmar::aero

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a check of an airframe has found.
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tools/fulmar_aero/airframe_file.hpp"
+
+namespace fulmar::aero {
+
+enum class Verdict : std::uint8_t { fault, warning };
+
+struct Finding {
+  Verdict verdict = Verdict::fault;
+  std::string field;  ///< "aero.pitch.alpha_ratio"
+  core::Where where;
+  double value = 0;
+  std::string sentence;
+};
+
+/// A figure of the aircraft that is worth to be read: "static margin", "0.49 of the chord".
+struct Figure {
+  std::string key;  ///< of JSON, with its unit
+  double value = 0;
+  std::string name, text;
+};
+
+class Findings {
+ public:
+  explicit Findings(const AirframeFile& file) : file_(file) {}
+
+  const AirframeFile& file() const { return file_; }
+  void fault(const std::string& field, double value, const std::string& sentence) {
+    list_.push_back({Verdict::fault, field, file_.where(field), value, sentence});
+  }
+  void warn(const std::string& field, double value, const std::string& sentence) {
+    list_.push_back({Verdict::warning, field, file_.where(field), value, sentence});
+  }
+  void figure(const std::string& key, double value, const std::string& name, const std::string& text) {
+    figures_.push_back({key, value, name, text});
+  }
+  /// How many values were looked at.
+  void looked_at(int values = 1) { looked_at_ += values; }
+
+  const std::vector<Finding>& list() const { return list_; }
+  const std::vector<Figure>& figures() const { return figures_; }
+  int values() const { return looked_at_; }
+  int count(Verdict verdict) const {
+    int n = 0;
+    for (const Finding& finding : list_) n += finding.verdict == verdict;
+    return n;
+  }
+  bool has(const std::string& field) const {
+    for (const Finding& finding : list_)
+      if (finding.field == field) return true;
+    return false;
+  }
+
+ private:
+  const AirframeFile& file_;
+  std::vector<Finding> list_;
+  std::vector<Figure> figures_;
+  int looked_at_ = 0;
+};
+
+// Each looks at one side of the airframe.
+void check_body(Findings& findings);         ///< mass, inertia, wing
+void check_derivatives(Findings& findings);  ///< signs and sizes
+void check_symmetry(Findings& findings);     ///< what a symmetric aircraft does not have; drag
+void check_angles(Findings& findings);       ///< throws, limits: degrees for radians
+void check_stability(Findings& findings);    ///< static margin, control power
+void check_flight(Findings& findings, double altitude_m);  ///< trim from the stall to the top speed, modes
+
+/// "aero.pitch.alpha_ratio" -> "aero.pitch.alpha"
+std::string shown_field(const std::string& field);
+
+}  // namespace fulmar::aero

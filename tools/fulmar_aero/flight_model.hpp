@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The SDK's flight mechanics, compiled once: its derivatives and eigenvectors take long.
+#pragma once
+#include <vector>
+
+#include "fulmar/flight/linear_model.hpp"
+#include "fulmar/flight/modes.hpp"
+#include "fulmar/flight/steady_flight.hpp"
+
+namespace fulmar::aero {
+
+SteadyFlight fly(const AircraftModel& model, const SteadyCondition& condition);
+LinearModel linearised(const AircraftModel& model, const SteadyFlight& flight);
+std::vector<Mode> modes_in(const AircraftModel& model, const SteadyFlight& flight);
+
+}  // namespace fulmar::aero

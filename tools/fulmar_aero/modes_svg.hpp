@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A picture of modes in the complex plane, as SVG: the same modes give the same bytes.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "fulmar/flight/modes.hpp"
+
+namespace fulmar::aero {
+
+struct ModesAtSpeed {
+  double airspeed_mps = 0;
+  std::vector<Mode> modes;
+};
+
+/// All modes on the left, those near the origin on the right; the upper half of the plane, which the lower one
+/// mirrors.
+std::string modes_svg(const std::string& title, const std::vector<ModesAtSpeed>& sweep);
+
+}  // namespace fulmar::aero

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/fulmar_aero/options.hpp"
+
+#include <cmath>
+
+#include "core/graph/quantity.hpp"
+
+namespace fulmar::aero {
+namespace {
+
+constexpr std::size_t most_speeds = 500;
+
+/// A number in `unit`; a bare one is in that unit.
+double in_unit(const char* option, const std::string& text, const std::string& unit) {
+  try {
+    return core::quantity_in(text, unit, core::UnitRule::optional);
+  } catch (const core::Error& fault) {
+    throw CLI::ValidationError(option, fault.what());
+  }
+}
+
+/// Whether the text has a unit of that dimension. A bare number is none.
+bool is_in(const char* option, const std::string& text, const std::string& unit) {
+  try {
+    const core::Quantity quantity = core::parse_quantity(text);
+    return !quantity.unit.empty() && core::same_dimension(quantity.unit, unit);
+  } catch (const core::Error& fault) {
+    throw CLI::ValidationError(option, fault.what());
+  }
+}
+
+double positive_speed(const std::string& text) {
+  const double speed = in_unit("--airspeed", text, "m/s");
+  if (!(speed >= 1 && speed <= 200))
+    throw CLI::ValidationError("--airspeed", "'" + text + "' is outside 1 .. 200 m/s");
+  return speed;
+}
+
+}  // namespace
+
+void FlightOptions::add(CLI::App* command, bool range_of_speeds) {
+  command->add_option("AIRFRAME", airframe, "airframe file, or fulmar:airframes/anaconda.yaml")->required();
+  command->add_option("--airspeed", airspeed,
+                      range_of_speeds ? "true airspeed, or a range of it as in \"12..27 m/s\"; else the airframe's cruise"
+                                      : "true airspeed, as in \"17 m/s\"; else the airframe's cruise");
+  command->add_option("--climb", climb, "angle or rate, as in \"5 deg\" or \"2 m/s\"; else level");
+  command->add_option("--turn", turn, "bank or radius, as in \"30 deg\" or \"80 m\", to the right; else straight");
+  command->add_option("--altitude", altitude, "above mean sea level, of the standard air; else 0 m");
+  command->add_flag("--json", json, "print one JSON object");
+}
+
+double FlightOptions::altitude_m() const {
+  const double metres = altitude.empty() ? 0 : in_unit("--altitude", altitude, "m");
+  if (!(metres >= -1000 && metres <= 20000))
+    throw CLI::ValidationError("--altitude", "'" + altitude + "' is outside -1000 .. 20000 m");
+  return metres;
+}
+
+SteadyCondition FlightOptions::condition(const Airframe& a) const {
+  SteadyCondition c;
+  c.airspeed_mps = airspeed.empty() ? a.limits.airspeed_cruise_mps : positive_speed(airspeed);
+  set_climb_and_turn(c);
+  return c;
+}
+
+void FlightOptions::set_climb_and_turn(SteadyCondition& c) const {
+  if (!climb.empty()) {
+    const bool angle = is_in("--climb", climb, "rad");
+    if (!angle && !is_in("--climb", climb, "m/s"))
+      throw CLI::ValidationError("--climb", "'" + climb + "' is neither an angle, as in \"5 deg\", nor a rate, as in \"2 m/s\"");
+    const double value = in_unit("--climb", climb, angle ? "rad" : "m/s");
+    c.climb_rad = angle ? value : std::asin(std::clamp(value / c.airspeed_mps, -1.0, 1.0));
+    if (std::abs(c.climb_rad) > 1.4)
+      throw CLI::ValidationError("--climb", "'" + climb + "' is steeper than 80 deg at that airspeed");
+  }
+  if (turn.empty()) return;
+  const bool bank = is_in("--turn", turn, "rad");
+  if (!bank && !is_in("--turn", turn, "m"))
+    throw CLI::ValidationError("--turn", "'" + turn + "' is neither a bank, as in \"30 deg\", nor a radius, as in \"80 m\"");
+  c.turn_by = in_unit("--turn", turn, bank ? "rad" : "m");
+  c.turn = bank ? Turn::bank : Turn::radius;
+  if (bank ? std::abs(c.turn_by) > 1.4 : std::abs(c.turn_by) < 1)
+    throw CLI::ValidationError("--turn", "'" + turn + "' is no turn that is flown; give a bank up to 80 deg or a radius from 1 m");
+  if (bank && c.turn_by == 0) c.turn = Turn::none;
+}
+
+std::vector<double> FlightOptions::airspeeds(const Airframe& a, const std::string& step) const {
+  const std::size_t dots = airspeed.find("..");
+  if (dots == std::string::npos) return {condition(a).airspeed_mps};
+  const std::string last = airspeed.substr(dots + 2), first = airspeed.substr(0, dots);
+  // "12..27 m/s": the unit stands once, behind both
+  std::string unit;
+  try {
+    unit = core::parse_quantity(last).unit;
+  } catch (const core::Error& fault) {
+    throw CLI::ValidationError("--airspeed", fault.what());
+  }
+  const bool bare = first.find_first_not_of("0123456789.+- ") == std::string::npos;
+  const double from = positive_speed(bare && !unit.empty() ? first + " " + unit : first);
+  const double to = positive_speed(last), by = step.empty() ? 1 : in_unit("--step", step, "m/s");
+  if (from > to) throw CLI::ValidationError("--airspeed", "'" + airspeed + "': the first speed is above the last one");
+  if (!(by > 0) || (to - from) / by > double(most_speeds))
+    throw CLI::ValidationError("--step", "at most " + std::to_string(most_speeds) + " speeds, in steps of more than 0");
+  std::vector<double> speeds;
+  for (int i = 0; from + i * by <= to + 1e-9 * by; ++i) speeds.push_back(from + i * by);
+  return speeds;
+}
+
+}  // namespace fulmar::aero

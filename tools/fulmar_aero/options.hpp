@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How a flight is said on the command line.
+#pragma once
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "fulmar/flight/steady_flight.hpp"
+
+namespace fulmar::aero {
+
+/// --airspeed, --climb, --turn, --altitude, --json and the airframe. Values have units; what cannot be read is
+/// a fault of the command line (CLI::ValidationError).
+struct FlightOptions {
+  std::string airframe, airspeed, climb, turn, altitude;
+  bool json = false;
+
+  void add(CLI::App* command, bool range_of_speeds = false);
+  double altitude_m() const;
+  SteadyCondition condition(const Airframe& a) const;
+  /// "12..27 m/s" in steps of `step`, or one speed; the airframe's cruise when nothing is said.
+  std::vector<double> airspeeds(const Airframe& a, const std::string& step) const;
+
+ private:
+  void set_climb_and_turn(SteadyCondition& c) const;
+};
+
+}  // namespace fulmar::aero

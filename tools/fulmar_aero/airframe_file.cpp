@@ -28,29 +28,31 @@ struct Positive {
 
 void refuse_what_is_not_positive(const AirframeFile& file, core::Report& report) {
   const Airframe& a = file.airframe;
-  const std::vector<Positive> all{{"mass_kg", a.mass_kg, "kg"},
-                                  {"inertia.xx_kgm2", a.inertia.xx_kgm2, "kg m^2"},
-                                  {"inertia.yy_kgm2", a.inertia.yy_kgm2, "kg m^2"},
-                                  {"inertia.zz_kgm2", a.inertia.zz_kgm2, "kg m^2"},
-                                  {"wing.area_m2", a.wing.area_m2, "m^2"},
-                                  {"wing.span_m", a.wing.span_m, "m"},
-                                  {"wing.chord_m", a.wing.chord_m, "m"},
-                                  {"wing.oswald_ratio", a.wing.oswald_ratio, ""},
-                                  {"wing.stall_alpha_rad", a.wing.stall_alpha_rad, "rad"},
-                                  {"wing.stall_sharpness_ratio", a.wing.stall_sharpness_ratio, ""},
-                                  {"propulsion.propeller_diameter_m", a.propulsion.propeller_diameter_m, "m"},
-                                  {"propulsion.cq0_ratio", a.propulsion.cq0_ratio, ""},
-                                  {"propulsion.torque_constant_ratio", a.propulsion.torque_constant_ratio, ""},
-                                  {"propulsion.resistance_ohm", a.propulsion.resistance_ohm, "ohm"},
-                                  {"propulsion.battery_volt", a.propulsion.battery_volt, "V"},
-                                  {"aileron.limit_rad", a.aileron.limit_rad, "rad"},
-                                  {"elevator.limit_rad", a.elevator.limit_rad, "rad"},
-                                  {"rudder.limit_rad", a.rudder.limit_rad, "rad"},
-                                  {"limits.airspeed_cruise_mps", a.limits.airspeed_cruise_mps, "m/s"}};
+  const std::vector<Positive> all{
+      {"mass_kg", a.mass_kg, "kg"},
+      {"inertia.xx_kgm2", a.inertia.xx_kgm2, "kg m^2"},
+      {"inertia.yy_kgm2", a.inertia.yy_kgm2, "kg m^2"},
+      {"inertia.zz_kgm2", a.inertia.zz_kgm2, "kg m^2"},
+      {"wing.area_m2", a.wing.area_m2, "m^2"},
+      {"wing.span_m", a.wing.span_m, "m"},
+      {"wing.chord_m", a.wing.chord_m, "m"},
+      {"wing.oswald_ratio", a.wing.oswald_ratio, ""},
+      {"wing.stall_alpha_rad", a.wing.stall_alpha_rad, "rad"},
+      {"wing.stall_sharpness_ratio", a.wing.stall_sharpness_ratio, ""},
+      {"propulsion.propeller_diameter_m", a.propulsion.propeller_diameter_m, "m"},
+      {"propulsion.cq0_ratio", a.propulsion.cq0_ratio, ""},
+      {"propulsion.torque_constant_ratio", a.propulsion.torque_constant_ratio, ""},
+      {"propulsion.resistance_ohm", a.propulsion.resistance_ohm, "ohm"},
+      {"propulsion.battery_volt", a.propulsion.battery_volt, "V"},
+      {"aileron.limit_rad", a.aileron.limit_rad, "rad"},
+      {"elevator.limit_rad", a.elevator.limit_rad, "rad"},
+      {"rudder.limit_rad", a.rudder.limit_rad, "rad"},
+      {"limits.airspeed_cruise_mps", a.limits.airspeed_cruise_mps, "m/s"}};
   for (const Positive& one : all) {
     if (one.value > 0) continue;
     const std::string unit = *one.unit ? std::string(" ") + one.unit : "";
-    report.add(file.where(one.field), std::string(one.field) + ": it is " + core::number_text(one.value) + unit +
+    report.add(file.where(one.field), std::string(one.field) + ": it is " + core::number_text(one.value) +
+                                          unit +
                                           " and must be more than 0; no model of the aircraft can be made");
   }
 }
@@ -95,7 +97,8 @@ AirframeFile read_airframe_file(const std::string& name) {
   core::Report report;
   file.root = core::parse_yaml(core::read_source(path, name), report);
   if (report.empty() && !file.root.is(core::Node::Kind::map))
-    report.add({name, 0}, "expected a map with the fields of an airframe; found " + core::found_words(file.root));
+    report.add({name, 0},
+               "expected a map with the fields of an airframe; found " + core::found_words(file.root));
   if (report.empty())
     core::fill_record(*core::copy_type(describe<Airframe>()), file.root,
                       reinterpret_cast<std::byte*>(&file.airframe), "", report, {"params"});

@@ -22,9 +22,11 @@ void check_surface(Findings& f, const std::string& name, const Surface& s) {
   check_angle(f, name + ".trim_rad", s.trim_rad, 1.4);
   f.looked_at(4);
   if (s.limit_rad < 0.05)
-    f.warn(name + ".limit_rad", s.limit_rad, "the throw is " + degrees(s.limit_rad) + " only; surfaces move 15 to 45 deg");
+    f.warn(name + ".limit_rad", s.limit_rad,
+           "the throw is " + degrees(s.limit_rad) + " only; surfaces move 15 to 45 deg");
   if (std::abs(s.trim_rad) > s.limit_rad && std::abs(s.trim_rad) <= 1.4)
-    f.fault(name + ".trim_rad", s.trim_rad, "the trim is " + degrees(s.trim_rad, 1) + ", beyond the throw of " + degrees(s.limit_rad, 1));
+    f.fault(name + ".trim_rad", s.trim_rad,
+            "the trim is " + degrees(s.trim_rad, 1) + ", beyond the throw of " + degrees(s.limit_rad, 1));
   if (s.rate_limit_radps > 40)
     f.warn(name + ".rate_limit_radps", s.rate_limit_radps,
            "it is " + figures(s.rate_limit_radps) + " rad/s; servos have 3 to 15: is it in deg/s?");
@@ -40,7 +42,8 @@ void check_limits(Findings& f, const FlightLimits& l) {
   check_angle(f, "limits.pitch_max_rad", l.pitch_max_rad, 1.5);
   check_angle(f, "limits.pitch_min_rad", l.pitch_min_rad, 1.5);
   f.looked_at(3);
-  if (!(l.airspeed_min_mps > 0 && l.airspeed_min_mps < l.airspeed_cruise_mps && l.airspeed_cruise_mps < l.airspeed_max_mps))
+  if (!(l.airspeed_min_mps > 0 && l.airspeed_min_mps < l.airspeed_cruise_mps &&
+        l.airspeed_cruise_mps < l.airspeed_max_mps))
     f.fault("limits.airspeed_cruise_mps", l.airspeed_cruise_mps,
             "the airspeeds " + figures(l.airspeed_min_mps) + ", " + figures(l.airspeed_cruise_mps) + " and " +
                 figures(l.airspeed_max_mps) + " m/s do not rise from least to most");
@@ -48,7 +51,7 @@ void check_limits(Findings& f, const FlightLimits& l) {
     f.fault("limits.pitch_min_rad", l.pitch_min_rad, "the least pitch is not below the most");
   if (l.throttle_cruise_frac < 0 || l.throttle_cruise_frac > 1)
     f.fault("limits.throttle_cruise_frac", l.throttle_cruise_frac,
-            "it is " + figures(l.throttle_cruise_frac) + " and a part of full throttle, 0 to 1: is it in percent?");
+            "it is " + figures(l.throttle_cruise_frac) + " and a part of full throttle, 0 to 1");
 }
 
 }  // namespace
@@ -59,7 +62,8 @@ void check_angles(Findings& f) {
   f.looked_at();
   if (a.wing.stall_alpha_rad < 0.1)
     f.warn("wing.stall_alpha_rad", a.wing.stall_alpha_rad,
-           "it is " + degrees(a.wing.stall_alpha_rad, 1) + "; wings stall at 10 to 18 deg: with this it stalls in cruise");
+           "it is " + degrees(a.wing.stall_alpha_rad, 1) +
+               "; wings stall at 10 to 18 deg: with this it stalls in cruise");
   check_surface(f, "aileron", a.aileron);
   check_surface(f, "elevator", a.elevator);
   check_surface(f, "rudder", a.rudder);

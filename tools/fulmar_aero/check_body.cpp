@@ -30,11 +30,13 @@ void check_gyration(Findings& f, const char* field, double inertia) {
   const Airframe& a = f.file().airframe;
   if (plausible(inertia, a)) return;
   const double radius = std::sqrt(inertia / a.mass_kg);
-  std::string sentence = "its radius of gyration is " + figures(radius) + " m, " + figures(radius / a.wing.span_m) +
+  std::string sentence = "its radius of gyration is " + figures(radius) + " m, " +
+                         figures(radius / a.wing.span_m) +
                          " of the span; aircraft have 0.08 to 0.2, a bare rod 0.29";
   for (const UnitOfInertia& unit : inertia_units)
     if (plausible(inertia * unit.factor, a)) {
-      sentence += ": is it in " + std::string(unit.name) + "? That would be " + figures(inertia * unit.factor) + " kg m^2";
+      sentence += ": is it in " + std::string(unit.name) + "? That would be " +
+                  figures(inertia * unit.factor) + " kg m^2";
       break;
     }
   const double part = radius / a.wing.span_m;
@@ -54,9 +56,10 @@ void check_triangle(Findings& f) {
   std::sort(principal.begin(), principal.end());
   if (principal[2] <= principal[0] + principal[1]) return;
   f.warn("inertia", principal[2],
-         "no body has these moments: the principal ones are " + figures(principal[0]) + ", " + figures(principal[1]) +
-             " and " + figures(principal[2]) + " kg m^2, and the largest is more than the sum of the others; is xz (" +
-             figures(i.xz_kgm2) + ") wrong, or xx (" + figures(i.xx_kgm2) + ") exchanged with yy (" + figures(i.yy_kgm2) + ")?");
+         "no body has these moments: the principal ones are " + figures(principal[0]) + ", " +
+             figures(principal[1]) + " and " + figures(principal[2]) +
+             " kg m^2, and the largest is more than the sum of the others; is xz (" + figures(i.xz_kgm2) +
+             ") wrong, or xx (" + figures(i.xx_kgm2) + ") exchanged with yy (" + figures(i.yy_kgm2) + ")?");
 }
 
 void check_wing(Findings& f) {
@@ -65,12 +68,14 @@ void check_wing(Findings& f) {
   const double S = a.wing.area_m2, b = a.wing.span_m, c = a.wing.chord_m;
   if (const double part = c * b / S; part < 0.7 || part > 1.5)
     f.fault("wing.chord_m", c,
-            "chord times span is " + figures(part) + " of the area, which is 0.7 to 1.5 in one and the same wing; one "
-            "of the three is wrong or in another unit");
+            "chord times span is " + figures(part) +
+                " of the area, which is 0.7 to 1.5 in one and the same wing; one "
+                "of the three is wrong or in another unit");
   if (const double AR = b * b / S; AR < 2 || AR > 40)
     f.warn("wing.span_m", b, "the aspect ratio b^2/S is " + figures(AR) + "; wings have 2 to 40");
   if (a.wing.oswald_ratio > 1.1 || a.wing.oswald_ratio < 0.4)
-    f.warn("wing.oswald_ratio", a.wing.oswald_ratio, "Oswald's factor is " + figures(a.wing.oswald_ratio) + "; wings have 0.6 to 1");
+    f.warn("wing.oswald_ratio", a.wing.oswald_ratio,
+           "Oswald's factor is " + figures(a.wing.oswald_ratio) + "; wings have 0.6 to 1");
 }
 
 void check_loading(Findings& f) {
@@ -79,8 +84,10 @@ void check_loading(Findings& f) {
   const double loading = a.mass_kg / a.wing.area_m2;
   f.figure("wing_loading_kgpm2", loading, "wing loading", figures(loading) + " kg/m2");
   if (loading >= 0.5 && loading <= 150) return;
-  f.fault("mass_kg", a.mass_kg, "the wing loading is " + figures(loading) + " kg/m2; small aircraft have 1 to 60. " +
-                                    (loading > 150 ? "Is the mass in grams, or the area in ft^2?" : "Is the area in another unit?"));
+  f.fault(
+      "mass_kg", a.mass_kg,
+      "the wing loading is " + figures(loading) + " kg/m2; small aircraft have 1 to 60. " +
+          (loading > 150 ? "Is the mass in grams, or the area in ft^2?" : "Is the area in another unit?"));
 }
 
 }  // namespace

@@ -12,7 +12,8 @@ namespace {
 /// In the order of the file's lines.
 std::vector<Finding> ordered(const Findings& findings) {
   std::vector<Finding> list = findings.list();
-  std::stable_sort(list.begin(), list.end(), [](const Finding& a, const Finding& b) { return a.where.line < b.where.line; });
+  std::stable_sort(list.begin(), list.end(),
+                   [](const Finding& a, const Finding& b) { return a.where.line < b.where.line; });
   return list;
 }
 
@@ -27,8 +28,12 @@ nlohmann::json findings_json(const Findings& findings, double altitude_m) {
                     {"line", one.where.line},
                     {"value", one.value},
                     {"sentence", one.sentence}});
-  return {{"airframe", findings.file().title()}, {"altitude_m", altitude_m}, {"figures", figures_map},
-          {"faults", faults},                    {"warnings", warnings},     {"values_checked", findings.values()}};
+  return {{"airframe", findings.file().title()},
+          {"altitude_m", altitude_m},
+          {"figures", figures_map},
+          {"faults", faults},
+          {"warnings", warnings},
+          {"values_checked", findings.values()}};
 }
 
 std::string counted(int n, const std::string& what) {
@@ -36,13 +41,15 @@ std::string counted(int n, const std::string& what) {
 }
 
 std::string findings_text(const Findings& findings, double altitude_m) {
-  std::string text = findings.file().title() + ": " + findings.file().name + ", " + fixed(altitude_m, 0) + " m above the sea\n";
+  std::string text = findings.file().title() + ": " + findings.file().name + ", " + fixed(altitude_m, 0) +
+                     " m above the sea\n";
   for (const Figure& figure : findings.figures()) text += "  " + padded(figure.name, 22) + figure.text + "\n";
   for (const Finding& one : ordered(findings))
     text += std::string(one.verdict == Verdict::fault ? "FAULT    " : "warning  ") + one.where.text() + ": " +
             shown_field(one.field) + ": " + one.sentence + "\n";
-  return text + std::to_string(findings.values()) + " values checked: " + counted(findings.count(Verdict::fault), "fault") +
-         ", " + counted(findings.count(Verdict::warning), "warning") + "\n";
+  return text + std::to_string(findings.values()) +
+         " values checked: " + counted(findings.count(Verdict::fault), "fault") + ", " +
+         counted(findings.count(Verdict::warning), "warning") + "\n";
 }
 
 }  // namespace

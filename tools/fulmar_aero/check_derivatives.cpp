@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Signs and sizes of the derivatives. The usual range of each is what was found in sets of small aircraft that
-// were computed (AVL, XFLR5, VSPAERO) or identified in flight, a little widened.
+// Signs and sizes of the derivatives. The usual range of each is what was found in sets of small aircraft
+// that were computed (AVL, XFLR5, VSPAERO) or identified in flight, a little widened.
 #include <array>
 #include <cmath>
 
@@ -17,9 +17,9 @@ struct Rule {
   const char* symbol;
   double Derivatives::*of;
   Derivatives Aerodynamics::*table;
-  double low, high;      ///< usual, signed
-  Verdict wrong_sign;    ///< what a value of the other sign is
-  const char* otherwise; ///< what the aircraft does with the other sign, and the likely mistake
+  double low, high;       ///< usual, signed
+  Verdict wrong_sign;     ///< what a value of the other sign is
+  const char* otherwise;  ///< what the aircraft does with the other sign, and the likely mistake
 };
 
 using D = Derivatives;
@@ -27,31 +27,43 @@ using A = Aerodynamics;
 constexpr Verdict fault = Verdict::fault, warning = Verdict::warning;
 
 const std::array<Rule, 17> rules{{
-    {"aero.lift.alpha_ratio", "CL_alpha", &D::alpha_ratio, &A::lift, 3, 7, fault, "more angle of attack would lift less"},
-    {"aero.lift.q_ratio", "CL_q", &D::q_ratio, &A::lift, 2, 18, warning, "a tail behind the wing adds lift when the nose goes up"},
+    {"aero.lift.alpha_ratio", "CL_alpha", &D::alpha_ratio, &A::lift, 3, 7, fault,
+     "more angle of attack would lift less"},
+    {"aero.lift.q_ratio", "CL_q", &D::q_ratio, &A::lift, 2, 18, warning,
+     "a tail behind the wing adds lift when the nose goes up"},
     {"aero.lift.elevator_ratio", "CL_de", &D::elevator_ratio, &A::lift, 0.05, 1.2, warning,
-     "trailing edge down would lift less: XFLR5's CZde points down, so its sign turns (a canard may have it so)"},
-    {"aero.side.beta_ratio", "CY_beta", &D::beta_ratio, &A::side, -1.2, -0.05, fault, "air from the right would push it to the right"},
+     "trailing edge down would lift less: XFLR5's CZde points down, so its sign turns (a canard may have it "
+     "so)"},
+    {"aero.side.beta_ratio", "CY_beta", &D::beta_ratio, &A::side, -1.2, -0.05, fault,
+     "air from the right would push it to the right"},
     {"aero.side.rudder_ratio", "CY_dr", &D::rudder_ratio, &A::side, 0.03, 0.6, warning,
-     "trailing edge left pushes the tail to the right: is the sign that of another hinge convention (AVL, VSPAERO)?"},
+     "trailing edge left pushes the tail to the right: is the sign that of another hinge convention (AVL, "
+     "VSPAERO)?"},
     {"aero.roll.beta_ratio", "Cl_beta", &D::beta_ratio, &A::roll, -0.28, -0.005, warning,
      "it rolls into the sideslip, as with negative dihedral"},
     {"aero.roll.p_ratio", "Cl_p", &D::p_ratio, &A::roll, -0.8, -0.15, fault, "rolling would speed itself up"},
-    {"aero.roll.r_ratio", "Cl_r", &D::r_ratio, &A::roll, 0.01, 0.5, warning, "the outer wing of a yaw has more lift, not less"},
+    {"aero.roll.r_ratio", "Cl_r", &D::r_ratio, &A::roll, 0.01, 0.5, warning,
+     "the outer wing of a yaw has more lift, not less"},
     {"aero.roll.aileron_ratio", "Cl_da", &D::aileron_ratio, &A::roll, 0.05, 1.3, fault,
-     "positive aileron rolls right, and this one rolls left: turn the sign of the whole column, and `reversed` of the servo if need be"},
+     "positive aileron rolls right, and this one rolls left: turn the sign of the whole column, and "
+     "`reversed` of the servo if need be"},
     {"aero.pitch.alpha_ratio", "Cm_alpha", &D::alpha_ratio, &A::pitch, -3, -0.1, fault,
-     "the aircraft is statically unstable in pitch: is the sign wrong, or the centre of gravity behind the neutral point?"},
+     "the aircraft is statically unstable in pitch: is the sign wrong, or the centre of gravity behind the "
+     "neutral point?"},
     {"aero.pitch.q_ratio", "Cm_q", &D::q_ratio, &A::pitch, -45, -3, fault, "pitching would speed itself up"},
     {"aero.pitch.elevator_ratio", "Cm_de", &D::elevator_ratio, &A::pitch, -2.8, -0.15, fault,
-     "positive elevator is trailing edge down and takes the nose down, and this one takes it up: turn the sign of the whole column"},
+     "positive elevator is trailing edge down and takes the nose down, and this one takes it up: turn the "
+     "sign of the whole column"},
     {"aero.yaw.beta_ratio", "Cn_beta", &D::beta_ratio, &A::yaw, 0.02, 0.3, fault,
-     "the nose turns away from the wind: is the sign that of another axis (VSPAERO's CMz for CMn), or the fin too small?"},
+     "the nose turns away from the wind: is the sign that of another axis (VSPAERO's CMz for CMn), or the "
+     "fin too small?"},
     {"aero.yaw.r_ratio", "Cn_r", &D::r_ratio, &A::yaw, -0.4, -0.004, fault, "yawing would speed itself up"},
     {"aero.yaw.rudder_ratio", "Cn_dr", &D::rudder_ratio, &A::yaw, -0.25, -0.015, fault,
-     "positive rudder is trailing edge left and takes the nose left, and this one takes it right: turn the sign of the whole column"},
+     "positive rudder is trailing edge left and takes the nose left, and this one takes it right: turn the "
+     "sign of the whole column"},
     {"aero.yaw.p_ratio", "Cn_p", &D::p_ratio, &A::yaw, -0.2, 0.15, warning, ""},
-    {"aero.parasite_drag_ratio", "CD_p", nullptr, nullptr, 0.008, 0.12, fault, "the aircraft would be driven by its drag"},
+    {"aero.parasite_drag_ratio", "CD_p", nullptr, nullptr, 0.008, 0.12, fault,
+     "the aircraft would be driven by its drag"},
 }};
 
 double value_of(const Rule& rule, const Airframe& a) {
@@ -72,13 +84,17 @@ std::string likely_mistake(const Rule& rule, const Airframe& a, double value) {
   };
   const auto with = [](std::string text, const char* what) { return text.replace(text.find('%'), 1, what); };
   if (by_angle(rule) && usual(rule, value * per_degree)) return with(would(per_degree), "per degree");
-  if (by_angle(rule) && usual(rule, value / per_degree)) return with(would(1 / per_degree), "turned from degrees once too often");
+  if (by_angle(rule) && usual(rule, value / per_degree))
+    return with(would(1 / per_degree), "turned from degrees once too often");
   const double b = a.wing.span_m, c = a.wing.chord_m;
   if (rule.of == &D::q_ratio && usual(rule, value * b / c))
-    return ": does it belong with the span b/2V instead of the chord c/2V? Then it would be " + figures(value * b / c);
-  if (rule.of == &D::q_ratio && usual(rule, value * 2)) return ": is its rate q c/V instead of q c/2V? Then it would be " + figures(2 * value);
+    return ": does it belong with the span b/2V instead of the chord c/2V? Then it would be " +
+           figures(value * b / c);
+  if (rule.of == &D::q_ratio && usual(rule, value * 2))
+    return ": is its rate q c/V instead of q c/2V? Then it would be " + figures(2 * value);
   const bool across = rule.of == &D::p_ratio || rule.of == &D::r_ratio;
-  if (across && usual(rule, value * 2)) return ": is its rate p b/V instead of p b/2V? Then it would be " + figures(2 * value);
+  if (across && usual(rule, value * 2))
+    return ": is its rate p b/V instead of p b/2V? Then it would be " + figures(2 * value);
   return "";
 }
 
@@ -109,13 +125,17 @@ void check_one(Findings& f, const Rule& rule) {
   if (value == 0 && sided) return missing(f, rule);
   const std::string what = std::string(rule.symbol) + " is " + figures(value);
   if (sided && value * rule.low < 0) {
-    const std::string sentence = what + ", and " + (rule.low > 0 ? "positive" : "negative") + " is right: " + rule.otherwise;
-    return rule.wrong_sign == fault ? f.fault(rule.field, value, sentence) : f.warn(rule.field, value, sentence);
+    const std::string sentence =
+        what + ", and " + (rule.low > 0 ? "positive" : "negative") + " is right: " + rule.otherwise;
+    return rule.wrong_sign == fault ? f.fault(rule.field, value, sentence)
+                                    : f.warn(rule.field, value, sentence);
   }
   const std::string mistake = likely_mistake(rule, a, value);
-  const std::string sentence = what + "; aircraft have " + figures(rule.low) + " to " + figures(rule.high) + mistake;
+  const std::string sentence =
+      what + "; aircraft have " + figures(rule.low) + " to " + figures(rule.high) + mistake;
   const bool degrees = by_angle(rule) && !mistake.empty();
-  return absurd(rule, value, degrees) ? f.fault(rule.field, value, sentence) : f.warn(rule.field, value, sentence);
+  return absurd(rule, value, degrees) ? f.fault(rule.field, value, sentence)
+                                      : f.warn(rule.field, value, sentence);
 }
 
 }  // namespace

@@ -36,7 +36,8 @@ void check_speeds(Findings& f, const AircraftModel& m, double rho) {
   if (stall > 0) f.figure("stall_airspeed_mps", stall, "stall", fixed(stall, 1) + " m/s");
   if (stall > 0 && l.airspeed_min_mps < 1.05 * stall)
     f.warn("limits.airspeed_min_mps", l.airspeed_min_mps,
-           "it is " + figures(l.airspeed_min_mps) + " m/s, and the wing stalls at " + fixed(stall, 1) + " m/s; 1.2 times that is usual");
+           "it is " + figures(l.airspeed_min_mps) + " m/s, and the wing stalls at " + fixed(stall, 1) +
+               " m/s; 1.2 times that is usual");
   if (!flies(m, l.airspeed_cruise_mps)) return;
   const double slowest = end_of_flight(m, l.airspeed_cruise_mps, 0.3 * l.airspeed_cruise_mps);
   const double fastest = end_of_flight(m, l.airspeed_cruise_mps, 4 * l.airspeed_cruise_mps);
@@ -51,7 +52,8 @@ void check_trim(Findings& f, const AircraftModel& m) {
     if (airspeed < 1) return;
     const SteadyFlight flight = fly(m, {airspeed});
     if (!flight.found())
-      f.fault(field, airspeed, "no level flight at " + figures(airspeed) + " m/s: " + limit_words(f.file(), m, flight));
+      f.fault(field, airspeed,
+              "no level flight at " + figures(airspeed) + " m/s: " + limit_words(f.file(), m, flight));
   };
   one("limits.airspeed_min_mps", l.airspeed_min_mps);
   one("limits.airspeed_cruise_mps", l.airspeed_cruise_mps);
@@ -67,14 +69,16 @@ void check_cruise(Findings& f, const AircraftModel& m, const SteadyFlight& cruis
            figures(forces.lift_newton / forces.drag_newton));
   if (forces.lift_ratio < 0.1 || forces.lift_ratio > 1.4)
     f.fault("limits.airspeed_cruise_mps", a.limits.airspeed_cruise_mps,
-            "in cruise CL is " + figures(forces.lift_ratio) + ", usual is 0.2 to 0.9: mass, area or airspeed is in another unit");
+            "in cruise CL is " + figures(forces.lift_ratio) +
+                ", usual is 0.2 to 0.9: mass, area or airspeed is in another unit");
   const double elevator = cruise.input(model::elevator), throttle = cruise.input(model::throttle);
   if (std::abs(elevator - a.elevator.trim_rad) > 0.1)
     f.warn("elevator.trim_rad", a.elevator.trim_rad,
            "it is " + degrees(a.elevator.trim_rad, 1) + ", and level cruise takes " + degrees(elevator, 1));
   if (std::abs(throttle - a.limits.throttle_cruise_frac) > 0.15)
-    f.warn("limits.throttle_cruise_frac", a.limits.throttle_cruise_frac,
-           "it is " + figures(a.limits.throttle_cruise_frac) + ", and level cruise takes " + fixed(throttle, 2));
+    f.warn(
+        "limits.throttle_cruise_frac", a.limits.throttle_cruise_frac,
+        "it is " + figures(a.limits.throttle_cruise_frac) + ", and level cruise takes " + fixed(throttle, 2));
 }
 
 void check_envelope(Findings& f, const AircraftModel& m) {
@@ -84,11 +88,15 @@ void check_envelope(Findings& f, const AircraftModel& m) {
     f.looked_at();
     const SteadyFlight flight = fly(m, c);
     if (!flight.found())
-      f.warn(field, value, "no " + condition_words(c, m.altitude_m()) + ": " + limit_words(f.file(), m, flight));
+      f.warn(field, value,
+             "no " + condition_words(c, m.altitude_m()) + ": " + limit_words(f.file(), m, flight));
   };
-  one("limits.climb_rate_max_mps", l.climb_rate_max_mps, {Va, std::asin(std::clamp(l.climb_rate_max_mps / Va, -0.99, 0.99))});
-  one("limits.sink_rate_max_mps", l.sink_rate_max_mps, {Va, -std::asin(std::clamp(l.sink_rate_max_mps / Va, -0.99, 0.99))});
-  if (std::abs(l.roll_max_rad) < 1.4) one("limits.roll_max_rad", l.roll_max_rad, {Va, 0, Turn::bank, l.roll_max_rad});
+  one("limits.climb_rate_max_mps", l.climb_rate_max_mps,
+      {Va, std::asin(std::clamp(l.climb_rate_max_mps / Va, -0.99, 0.99))});
+  one("limits.sink_rate_max_mps", l.sink_rate_max_mps,
+      {Va, -std::asin(std::clamp(l.sink_rate_max_mps / Va, -0.99, 0.99))});
+  if (std::abs(l.roll_max_rad) < 1.4)
+    one("limits.roll_max_rad", l.roll_max_rad, {Va, 0, Turn::bank, l.roll_max_rad});
 }
 
 /// What is asked of a mode: the least damping of a pair, and how soon it may double.
@@ -111,13 +119,16 @@ void check_mode(Findings& f, const Mode& mode) {
   const ModeWanted& want = wanted[std::size_t(mode.kind)];
   const std::string name = mode_name(mode.kind);
   if (!mode.stable() && mode.half_or_double_s() < want.double_s) {
-    const std::string sentence = "the " + name + " doubles in " + fixed(mode.half_or_double_s(), 2) + " s: " + want.else_what;
+    const std::string sentence =
+        "the " + name + " doubles in " + fixed(mode.half_or_double_s(), 2) + " s: " + want.else_what;
     const bool slow = mode.kind == ModeKind::phugoid || mode.kind == ModeKind::spiral;
-    return slow ? f.warn(want.field, mode.eigenvalue.real(), sentence) : f.fault(want.field, mode.eigenvalue.real(), sentence);
+    return slow ? f.warn(want.field, mode.eigenvalue.real(), sentence)
+                : f.fault(want.field, mode.eigenvalue.real(), sentence);
   }
   if (mode.stable() && mode.oscillates() && mode.damping_ratio() < want.damping_ratio)
     f.warn(want.field, mode.damping_ratio(),
-           "the " + name + " is damped by " + fixed(mode.damping_ratio(), 3) + ", less than " + figures(want.damping_ratio) + ": " + want.else_what);
+           "the " + name + " is damped by " + fixed(mode.damping_ratio(), 3) + ", less than " +
+               figures(want.damping_ratio) + ": " + want.else_what);
 }
 
 }  // namespace
@@ -131,8 +142,10 @@ void check_flight(Findings& f, double altitude_m) {
   check_cruise(f, m, cruise);
   check_envelope(f, m);
   for (const Mode& mode : modes_in(m, cruise)) {
-    const std::string number = mode.oscillates() ? fixed(mode.natural_radps(), 2) + " rad/s, damping " + fixed(mode.damping_ratio(), 3)
-                                                 : (mode.stable() ? "half in " : "doubles in ") + fixed(mode.half_or_double_s(), 2) + " s";
+    const std::string number =
+        mode.oscillates()
+            ? fixed(mode.natural_radps(), 2) + " rad/s, damping " + fixed(mode.damping_ratio(), 3)
+            : (mode.stable() ? "half in " : "doubles in ") + fixed(mode.half_or_double_s(), 2) + " s";
     f.figure("", 0, mode_name(mode.kind), number);
     check_mode(f, mode);
   }

@@ -15,9 +15,11 @@ void check_margin(Findings& f) {
   if (aero.lift.alpha_ratio <= 0) return;
   const double margin = -aero.pitch.alpha_ratio / aero.lift.alpha_ratio;
   f.figure("static_margin_ratio", margin, "static margin", figures(margin) + " of the chord");
-  const std::string what = "the static margin -Cm_alpha/CL_alpha is " + figures(margin) + " of the chord, usual is 0.05 to 0.3: ";
+  const std::string what =
+      "the static margin -Cm_alpha/CL_alpha is " + figures(margin) + " of the chord, usual is 0.05 to 0.3: ";
   if (margin > 0.3)
-    f.warn("aero.pitch.alpha_ratio", aero.pitch.alpha_ratio, what + "very stable in pitch, or the chord is not the mean one");
+    f.warn("aero.pitch.alpha_ratio", aero.pitch.alpha_ratio,
+           what + "very stable in pitch, or the chord is not the mean one");
   else if (margin > 0 && margin < 0.05)
     f.warn("aero.pitch.alpha_ratio", aero.pitch.alpha_ratio, what + "hardly stable in pitch");
 }
@@ -30,10 +32,12 @@ void check_roll_power(Findings& f) {
   if (l.p_ratio >= 0 || l.aileron_ratio <= 0) return;
   const double helix = -l.aileron_ratio * a.aileron.limit_rad / l.p_ratio;
   const double rate = helix * 2 * a.limits.airspeed_cruise_mps / a.wing.span_m;
-  f.figure("roll_helix_ratio", helix, "full aileron", "p b/2V " + figures(helix) + ", " + fixed(rate / degree, 0) + " deg/s at cruise");
+  f.figure("roll_helix_ratio", helix, "full aileron",
+           "p b/2V " + figures(helix) + ", " + fixed(rate / degree, 0) + " deg/s at cruise");
   if (helix < 0.05)
     f.warn("aero.roll.aileron_ratio", l.aileron_ratio,
-           "full aileron holds p b/2V = " + figures(helix) + " only, " + fixed(rate / degree, 0) + " deg/s; 0.07 is wanted");
+           "full aileron holds p b/2V = " + figures(helix) + " only, " + fixed(rate / degree, 0) +
+               " deg/s; 0.07 is wanted");
 }
 
 /// Whether the elevator reaches the angle of attack of the most lift.
@@ -43,12 +47,15 @@ void check_pitch_power(Findings& f) {
   const Derivatives& m = a.aero.pitch;
   if (m.elevator_ratio == 0 || m.alpha_ratio == 0) return;
   const double reach = std::abs(m.elevator_ratio * a.elevator.limit_rad / m.alpha_ratio);
-  f.figure("elevator_reach_deg", reach / degree, "full elevator", degrees(reach, 1) + " of angle of attack either way");
-  const double alpha = most_lift(a).alpha_rad, elevator = -(m.zero_ratio + m.alpha_ratio * alpha) / m.elevator_ratio;
+  f.figure("elevator_reach_deg", reach / degree, "full elevator",
+           degrees(reach, 1) + " of angle of attack either way");
+  const double alpha = most_lift(a).alpha_rad,
+               elevator = -(m.zero_ratio + m.alpha_ratio * alpha) / m.elevator_ratio;
   if (std::abs(elevator) > a.elevator.limit_rad)
     f.warn("aero.pitch.elevator_ratio", m.elevator_ratio,
-           "the most lift, at " + degrees(alpha, 1) + ", takes " + degrees(elevator, 1) + " of elevator, which moves " +
-               degrees(a.elevator.limit_rad, 1) + ": it cannot be slowed to the stall");
+           "the most lift, at " + degrees(alpha, 1) + ", takes " + degrees(elevator, 1) +
+               " of elevator, which moves " + degrees(a.elevator.limit_rad, 1) +
+               ": it cannot be slowed to the stall");
 }
 
 void check_yaw_power(Findings& f) {

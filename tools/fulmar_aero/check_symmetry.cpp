@@ -47,16 +47,19 @@ void check_drag(Findings& f) {
                ": C_D_0 and C_D_p are of two different polars; keep one");
   if (aero.drag.alpha_ratio != 0)
     f.warn("aero.drag.alpha_ratio", aero.drag.alpha_ratio,
-           "it adds to the induced drag CL^2/(pi e AR), which is always counted: C_D_alpha is of a linear polar; "
+           "it adds to the induced drag CL^2/(pi e AR), which is always counted: C_D_alpha is of a linear "
+           "polar; "
            "leave it 0");
   const double change = std::abs(aero.drag.elevator_ratio) * a.elevator.limit_rad;
   const double left = aero.parasite_drag_ratio + std::max(aero.drag.zero_ratio, 0.0);
   if (change > left && left > 0)
-    f.fault("aero.drag.elevator_ratio", aero.drag.elevator_ratio,
-            "full elevator takes away CD " + figures(change) + ", more than the parasite drag " + figures(left) +
-                ": the aircraft would be driven by it. The term is linear; is it that of a square, CD_de de^2?");
+    f.fault(
+        "aero.drag.elevator_ratio", aero.drag.elevator_ratio,
+        "full elevator takes away CD " + figures(change) + ", more than the parasite drag " + figures(left) +
+            ": the aircraft would be driven by it. The term is linear; is it that of a square, CD_de de^2?");
   if (aero.drag.q_ratio != 0 && std::abs(aero.drag.q_ratio) > 1)
-    f.warn("aero.drag.q_ratio", aero.drag.q_ratio, "it is " + figures(aero.drag.q_ratio) + "; usual is about 0");
+    f.warn("aero.drag.q_ratio", aero.drag.q_ratio,
+           "it is " + figures(aero.drag.q_ratio) + "; usual is about 0");
 }
 
 void check_adverse_yaw(Findings& f) {
@@ -67,10 +70,13 @@ void check_adverse_yaw(Findings& f) {
   f.figure("adverse_yaw_ratio", part, "aileron yaw to roll", figures(part));
   const std::string what = "Cn_da is " + figures(aero.yaw.aileron_ratio) + ", " + figures(part) + " of Cl_da";
   if (part < -0.15)
-    f.warn("aero.yaw.aileron_ratio", aero.yaw.aileron_ratio, what + ": very much adverse yaw; aircraft have up to 0.15 of it");
+    f.warn("aero.yaw.aileron_ratio", aero.yaw.aileron_ratio,
+           what + ": very much adverse yaw; aircraft have up to 0.15 of it");
   else if (part > 0.02)
     f.warn("aero.yaw.aileron_ratio", aero.yaw.aileron_ratio,
-           what + ": the aileron would yaw into the turn, and adverse yaw (negative) is usual: is it in stability axes, or XFLR5's?");
+           what +
+               ": the aileron would yaw into the turn, and adverse yaw (negative) is usual: is it in "
+               "stability axes, or XFLR5's?");
 }
 
 void check_rudder_pair(Findings& f) {
@@ -79,21 +85,25 @@ void check_rudder_pair(Findings& f) {
   if (aero.side.rudder_ratio * aero.yaw.rudder_ratio <= 0) return;
   f.warn("aero.side.rudder_ratio", aero.side.rudder_ratio,
          "CY_dr is " + figures(aero.side.rudder_ratio) + " and Cn_dr " + figures(aero.yaw.rudder_ratio) +
-             ": of one sign, as if the rudder were in front of the centre of gravity; one of them has the wrong sign");
+             ": of one sign, as if the rudder were in front of the centre of gravity; one of them has the "
+             "wrong sign");
 }
 
 }  // namespace
 
 void check_symmetry(Findings& f) {
   const Aerodynamics& aero = f.file().airframe.aero;
-  const char* const cross = ", and a symmetric aircraft has 0: is the analysis not converged, or the column another one?";
+  const char* const cross =
+      ", and a symmetric aircraft has 0: is the analysis not converged, or the column another one?";
   check_cross(f, "lift", aero.lift, lateral_terms, 0.02 * std::max(1.0, aero.lift.alpha_ratio), cross);
   check_cross(f, "pitch", aero.pitch, lateral_terms, 0.02, cross);
   check_cross(f, "drag", aero.drag, lateral_terms, 1e-3,
-              ": the drag of a symmetric aircraft cannot grow to one side and fall to the other; a term of the square "
+              ": the drag of a symmetric aircraft cannot grow to one side and fall to the other; a term of "
+              "the square "
               "is no term of this model");
   for (const auto& [table, of] : {std::pair{"side", &aero.side}, {"roll", &aero.roll}, {"yaw", &aero.yaw}})
-    check_cross(f, table, *of, longitudinal_terms, 0.01, ", and a symmetric aircraft has 0: it would turn by itself");
+    check_cross(f, table, *of, longitudinal_terms, 0.01,
+                ", and a symmetric aircraft has 0: it would turn by itself");
   check_drag(f);
   check_adverse_yaw(f);
   check_rudder_pair(f);

@@ -20,24 +20,28 @@ std::string stall_words(const AirframeFile& file, const AircraftModel& model, co
   std::string text = "the wing stalls: it would have to carry CL " + fixed(needed, 2) + ", and the most is " +
                      fixed(most.coefficient, 2) + " at " + degrees(most.alpha_rad, 1);
   if (needed > most.coefficient && most.coefficient > 0)
-    text += "; that takes " + fixed(f.condition.airspeed_mps * std::sqrt(needed / most.coefficient), 1) + " m/s";
+    text +=
+        "; that takes " + fixed(f.condition.airspeed_mps * std::sqrt(needed / most.coefficient), 1) + " m/s";
   return text + " (" + file.where("wing.stall_alpha_rad").text() + ")";
 }
 
 std::string surface_words(const AirframeFile& file, const char* name, double value, double limit) {
-  return "it takes " + degrees(value, 1) + " of " + name + ", which moves " + degrees(limit, 1) + " either way (" +
-         file.where(std::string(name) + ".limit_rad").text() + ")";
+  return "it takes " + degrees(value, 1) + " of " + name + ", which moves " + degrees(limit, 1) +
+         " either way (" + file.where(std::string(name) + ".limit_rad").text() + ")";
 }
 
-std::string thrust_words(const AirframeFile& file, const AircraftModel& model, const SteadyFlight& f, bool high) {
+std::string thrust_words(const AirframeFile& file, const AircraftModel& model, const SteadyFlight& f,
+                         bool high) {
   const double Va = f.condition.airspeed_mps, rho = f.density_kgm3;
   const Propeller& propeller = model.propeller();
-  const double needed = f.residual < 1e-9 ? propeller.thrust(f.propeller_radps, Va, rho)
-                                          : detail::thrust_needed(model, f.condition, lift_needed(model, f), rho);
+  const double needed = f.residual < 1e-9
+                            ? propeller.thrust(f.propeller_radps, Va, rho)
+                            : detail::thrust_needed(model, f.condition, lift_needed(model, f), rho);
   const double there = propeller.thrust(propeller.steady_speed(high ? 1 : 0, Va, rho), Va, rho);
   const std::string place = " (propulsion: " + file.where("propulsion").text() + ")";
   if (high)
-    return "it takes " + fixed(needed, 1) + " N of thrust, and full throttle gives " + fixed(there, 1) + " N" + place;
+    return "it takes " + fixed(needed, 1) + " N of thrust, and full throttle gives " + fixed(there, 1) +
+           " N" + place;
   return "it takes a braking force of " + fixed(-needed, 1) + " N, and the propeller brakes with " +
          fixed(-there, 1) + " N at no throttle" + place;
 }
@@ -63,12 +67,14 @@ std::string limit_words(const AirframeFile& file, const AircraftModel& model, co
   switch (f.limit) {
     case TrimLimit::none: break;
     case TrimLimit::no_aileron: return missing("the aileron does not roll it", "aero.roll.aileron_ratio");
-    case TrimLimit::no_elevator: return missing("the elevator does not pitch it", "aero.pitch.elevator_ratio");
+    case TrimLimit::no_elevator:
+      return missing("the elevator does not pitch it", "aero.pitch.elevator_ratio");
     case TrimLimit::no_thrust: return missing("the propeller has no thrust", "propulsion.ct0_ratio");
     case TrimLimit::stall: return stall_words(file, model, f);
     case TrimLimit::elevator:
       return surface_words(file, "elevator", f.input(model::elevator), a.elevator.limit_rad);
-    case TrimLimit::aileron: return surface_words(file, "aileron", f.input(model::aileron), a.aileron.limit_rad);
+    case TrimLimit::aileron:
+      return surface_words(file, "aileron", f.input(model::aileron), a.aileron.limit_rad);
     case TrimLimit::rudder: return surface_words(file, "rudder", f.input(model::rudder), a.rudder.limit_rad);
     case TrimLimit::throttle_high: return thrust_words(file, model, f, true);
     case TrimLimit::throttle_low: return thrust_words(file, model, f, false);
@@ -107,7 +113,7 @@ nlohmann::json flight_json(const AircraftModel& model, const SteadyFlight& f) {
   const SteadyCondition& c = f.condition;
   const double across = c.airspeed_mps * std::cos(c.climb_rad);
   nlohmann::json radius;
-  if (f.turn_radps != 0) radius = across / f.turn_radps;
+  if (c.turn != Turn::none) radius = across / f.turn_radps;
   return {{"airspeed_mps", c.airspeed_mps},
           {"altitude_m", model.altitude_m()},
           {"density_kgm3", f.density_kgm3},

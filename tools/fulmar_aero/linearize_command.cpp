@@ -9,9 +9,9 @@
 namespace fulmar::aero {
 namespace {
 
-constexpr std::array<const char*, model::states> state_names{
-    "north_m",  "east_m",    "down_m",  "u_mps",   "v_mps",   "w_mps",
-    "roll_rad", "pitch_rad", "yaw_rad", "p_radps", "q_radps", "r_radps"};
+constexpr std::array<const char*, model::states> state_names{"north_m", "east_m",  "down_m",   "u_mps",
+                                                             "v_mps",   "w_mps",   "roll_rad", "pitch_rad",
+                                                             "yaw_rad", "p_radps", "q_radps",  "r_radps"};
 constexpr std::array<const char*, model::inputs> input_names{"aileron_rad", "elevator_rad", "rudder_rad",
                                                              "throttle_frac"};
 
@@ -27,25 +27,28 @@ nlohmann::json matrix_json(const Matrix& m) {
 }
 
 template <std::size_t N, std::size_t M>
-nlohmann::json block_json(const LinearModel& all, const std::array<int, N>& states, const std::array<int, M>& inputs) {
+nlohmann::json block_json(const LinearModel& all, const std::array<int, N>& states,
+                          const std::array<int, M>& inputs) {
   const LinearBlock<N, M> block = block_of(all, states, inputs);
   nlohmann::json state_list, input_list;
   for (const int i : states) state_list.push_back(state_names[std::size_t(i)]);
   for (const int i : inputs) input_list.push_back(input_names[std::size_t(i)]);
-  return {{"A", matrix_json(block.A)}, {"B", matrix_json(block.B)}, {"states", state_list}, {"inputs", input_list}};
+  return {{"A", matrix_json(block.A)},
+          {"B", matrix_json(block.B)},
+          {"states", state_list},
+          {"inputs", input_list}};
 }
 
 template <std::size_t N, std::size_t M>
 std::string block_text(const char* title, const LinearModel& all, const std::array<int, N>& states,
                        const std::array<int, M>& inputs) {
-  std::string text = std::string("\n") + title + "\n" + padded("", 10);
+  std::string text = std::string("\n") + title + "\n" + padded("", 11);
   for (const int i : states) text += right(state_names[std::size_t(i)], 14);
   text += "  |";
   for (const int i : inputs) text += right(input_names[std::size_t(i)], 14);
   text += "\n";
   for (const int i : states) {
-    text += "  " + padded(state_names[std::size_t(i)], 10);
-    text.erase(text.size() - 2);
+    text += "  " + padded(state_names[std::size_t(i)], 9);
     for (const int k : states) text += right(fixed(all.A(i, k), 5), 14);
     text += "  |";
     for (const int k : inputs) text += right(fixed(all.B(i, k), 5), 14);
@@ -69,7 +72,8 @@ std::string csv_text(const LinearModel& all) {
   return text;
 }
 
-nlohmann::json linear_json(const AirframeFile& file, const AircraftModel& m, const SteadyFlight& f, const LinearModel& all) {
+nlohmann::json linear_json(const AirframeFile& file, const AircraftModel& m, const SteadyFlight& f,
+                           const LinearModel& all) {
   return {{"airframe", file.title()},
           {"trim", flight_json(m, f)},
           {"states", state_names},
@@ -96,7 +100,8 @@ int linearize_command(const FlightOptions& options, bool csv) {
   } else if (csv) {
     print_text(csv_text(all));
   } else {
-    print_text(file.title() + ": about " + condition_words(flight.condition, m.altitude_m()) + "; SI units, radians\n" +
+    print_text(file.title() + ": about " + condition_words(flight.condition, m.altitude_m()) +
+               "; SI units, radians\n" +
                block_text("longitudinal", all, model::longitudinal_states, model::longitudinal_inputs) +
                block_text("lateral", all, model::lateral_states, model::lateral_inputs));
   }

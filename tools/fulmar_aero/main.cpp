@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `fulmar aero ...`, as the program fulmar-aero. Exit codes: 0 done; 1 there is no such flight, or a check has
-// found a fault; 2 wrong usage; 4 the airframe file was refused.
+// `fulmar aero ...`, as the program fulmar-aero. Exit codes: 0 done; 1 there is no such flight, or a check
+// has found a fault; 2 wrong usage; 4 the airframe file was refused.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
@@ -26,7 +26,8 @@ struct CommandLine {
     app.footer("Example: fulmar aero check configs/airframes/anaconda.yaml");
     trim = app.add_subcommand("trim", "angles, deflections, throttle and forces of a steady flight");
     flight.add(trim);
-    trim->footer("Example: fulmar aero trim fulmar:airframes/anaconda.yaml --airspeed \"17 m/s\" --turn \"30 deg\"");
+    trim->footer(
+        "Example: fulmar aero trim fulmar:airframes/anaconda.yaml --airspeed \"17 m/s\" --turn \"30 deg\"");
     linearize = app.add_subcommand("linearize", "the linear model about a steady flight: A and B");
     flight.add(linearize);
     linearize->add_flag("--csv", csv, "A and B of all twelve states as CSV");
@@ -35,9 +36,12 @@ struct CommandLine {
     flight.add(modes, true);
     modes->add_option("--step", step, "between the speeds of a range; else 1 m/s");
     modes->add_option("--svg", svg, "write a picture of them in the complex plane; replaces the file");
-    modes->footer("Example: fulmar aero modes fulmar:airframes/anaconda.yaml --airspeed \"12..27 m/s\" --svg modes.svg");
+    modes->footer(
+        "Example: fulmar aero modes fulmar:airframes/anaconda.yaml --airspeed \"12..27 m/s\" --svg "
+        "modes.svg");
     check = app.add_subcommand("check", "signs, sizes, units, trim and modes; exit code 1 on a fault");
-    check->add_option("AIRFRAME", flight.airframe, "airframe file, or fulmar:airframes/anaconda.yaml")->required();
+    check->add_option("AIRFRAME", flight.airframe, "airframe file, or fulmar:airframes/anaconda.yaml")
+        ->required();
     check->add_option("--altitude", flight.altitude, "above mean sea level, of the standard air; else 0 m");
     check->add_flag("--json", flight.json, "print one JSON object");
     check->footer("Example: fulmar aero check fulmar:airframes/anaconda.yaml");
@@ -57,7 +61,8 @@ int main(int argc, char** argv) {
   return core::run_program(
       line.app,
       [&] {
-        if (core::asked_for_rows(argc, argv)) return std::fputs(core::command_rows(line.app).c_str(), stdout), 0;
+        if (core::asked_for_rows(argc, argv))
+          return std::fputs(core::command_rows(line.app).c_str(), stdout), 0;
         line.app.parse(argc, argv);
         return line.run();
       },

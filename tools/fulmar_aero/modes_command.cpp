@@ -62,7 +62,10 @@ nlohmann::json sweep_json(const AirframeFile& file, const FlightOptions& options
   }
   for (const auto& [airspeed, why] : sweep.missing)
     missing.push_back({{"airspeed_mps", airspeed}, {"reason", why}});
-  return {{"airframe", file.title()}, {"altitude_m", options.altitude_m()}, {"speeds", speeds}, {"not_flown", missing}};
+  return {{"airframe", file.title()},
+          {"altitude_m", options.altitude_m()},
+          {"speeds", speeds},
+          {"not_flown", missing}};
 }
 
 std::string sweep_text(const AirframeFile& file, const FlightOptions& options, const Sweep& sweep) {
@@ -74,7 +77,8 @@ std::string sweep_text(const AirframeFile& file, const FlightOptions& options, c
   return text;
 }
 
-void write_picture(const AirframeFile& file, const FlightOptions& options, const Sweep& sweep, const std::string& name) {
+void write_picture(const AirframeFile& file, const FlightOptions& options, const Sweep& sweep,
+                   const std::string& name) {
   std::ofstream out(name, std::ios::binary);
   out << modes_svg(file.title() + ", modes at " + figures(sweep.found.front().airspeed_mps, 4) + " to " +
                        figures(sweep.found.back().airspeed_mps, 4) + " m/s (large), " +
@@ -98,13 +102,14 @@ const char* mode_name(ModeKind kind) {
 }
 
 std::string mode_heading() {
-  return "  " + padded("mode", 16) + right("eigenvalue, 1/s", 20) + right("frequency", 14) + right("damping", 10) +
-         right("period", 10) + right("half or double", 18) + "\n";
+  return "  " + padded("mode", 16) + right("eigenvalue, 1/s", 20) + right("frequency", 14) +
+         right("damping", 10) + right("period", 10) + right("half or double", 18) + "\n";
 }
 
 std::string mode_line(const Mode& m) {
   const double real = m.eigenvalue.real(), imag = m.eigenvalue.imag();
-  const std::string eigenvalue = m.oscillates() ? fixed(real, 4) + " +- " + fixed(imag, 4) + "i" : fixed(real, 4);
+  const std::string eigenvalue =
+      m.oscillates() ? fixed(real, 4) + " +- " + fixed(imag, 4) + "i" : fixed(real, 4);
   return "  " + padded(mode_name(m.kind), 16) + right(eigenvalue, 20) +
          right(m.oscillates() ? fixed(m.natural_radps(), 3) + " rad/s" : "-", 14) +
          right(m.oscillates() ? fixed(m.damping_ratio(), 3) : "-", 10) +

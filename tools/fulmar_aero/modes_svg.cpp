@@ -11,9 +11,11 @@ namespace fulmar::aero {
 namespace {
 
 // The palette of Okabe and Ito, which people with any colour vision can tell apart.
-constexpr std::array<const char*, 6> colours{"#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9"};
+constexpr std::array<const char*, 6> colours{"#0072b2", "#e69f00", "#009e73",
+                                             "#d55e00", "#cc79a7", "#56b4e9"};
 
 struct Box {
+  int number = 0;  ///< 0: all modes; 1: the slow ones
   double left = 0, top = 0, width = 0, height = 0;
   double real_min = 0, real_max = 0, imag_max = 0;  ///< what it shows, 1/s; from the real axis up
   double x(double real) const { return left + (real - real_min) / (real_max - real_min) * width; }
@@ -32,14 +34,15 @@ std::string number(double x) { return fixed(x, 1); }
 
 std::string text_at(double x, double y, const std::string& text, const char* anchor, const char* more = "") {
   std::string safe;
-  for (const char c : text) safe += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
-  return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" text-anchor=\"" + anchor + "\"" + more + ">" + safe +
-         "</text>\n";
+  for (const char c : text)
+    safe += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+  return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" text-anchor=\"" + anchor + "\"" + more + ">" +
+         safe + "</text>\n";
 }
 
 std::string stroke(double x1, double y1, double x2, double y2, const char* style) {
-  return "<line x1=\"" + number(x1) + "\" y1=\"" + number(y1) + "\" x2=\"" + number(x2) + "\" y2=\"" + number(y2) +
-         "\" " + style + "/>\n";
+  return "<line x1=\"" + number(x1) + "\" y1=\"" + number(y1) + "\" x2=\"" + number(x2) + "\" y2=\"" +
+         number(y2) + "\" " + style + "/>\n";
 }
 
 std::string axes(const Box& box) {
@@ -68,6 +71,16 @@ bool inside(const Box& box, const std::complex<double>& e) {
   return e.real() >= box.real_min && e.real() <= box.real_max && e.imag() <= box.imag_max;
 }
 
+/// At the first and the last airspeed; beside points that lead upwards, above those on the real axis.
+std::string speed_label(const Mode& mode, std::size_t i, const std::vector<ModesAtSpeed>& sweep, double x,
+                        double y) {
+  if (i != 0 && i + 1 != sweep.size()) return "";
+  const std::string speed = figures(sweep[i].airspeed_mps, 4);
+  constexpr const char* small = " font-size=\"10\" fill=\"#606060\"";
+  return mode.oscillates() ? text_at(x + 9, y + 4, speed, "start", small)
+                           : text_at(x, y - 9, speed, "middle", small);
+}
+
 /// The points of one kind, small at the lowest airspeed and large at the highest.
 std::string points(const Box& box, const std::vector<ModesAtSpeed>& sweep, ModeKind kind) {
   std::string out;
@@ -79,8 +92,8 @@ std::string points(const Box& box, const std::vector<ModesAtSpeed>& sweep, ModeK
       const double x = box.x(mode.eigenvalue.real()), y = box.y(mode.eigenvalue.imag());
       out += "<circle cx=\"" + number(x) + "\" cy=\"" + number(y) + "\" r=\"" + number(2 + 3 * part) +
              "\" fill=\"" + colour + "\" fill-opacity=\"0.75\" stroke=\"#ffffff\" stroke-width=\"0.5\"/>\n";
-      if (i == 0 || i + 1 == sweep.size())
-        out += text_at(x, y - 9, figures(sweep[i].airspeed_mps, 4), "middle", " font-size=\"10\" fill=\"#606060\"");
+      const bool slow = kind == ModeKind::phugoid || kind == ModeKind::spiral;
+      if (slow == (box.number == 1)) out += speed_label(mode, i, sweep, x, y);
     }
   return out;
 }
@@ -101,14 +114,14 @@ Box around(const std::vector<ModesAtSpeed>& sweep, Box box, double nearest) {
   return box;
 }
 
-/// The largest of what is slow: phugoid and spiral.
-double slow(const std::vector<ModesAtSpeed>& sweep) {
-  double largest = 0.1;
+/// The largest of all, or of what is slow: phugoid and spiral.
+double largest(const std::vector<ModesAtSpeed>& sweep, bool slow) {
+  double found = 0.1;
   for (const ModesAtSpeed& at : sweep)
     for (const Mode& mode : at.modes)
-      if (mode.kind == ModeKind::phugoid || mode.kind == ModeKind::spiral)
-        largest = std::max(largest, std::abs(mode.eigenvalue));
-  return 1.01 * largest;
+      if (!slow || mode.kind == ModeKind::phugoid || mode.kind == ModeKind::spiral)
+        found = std::max(found, std::abs(mode.eigenvalue));
+  return 1.01 * found;
 }
 
 std::string legend(const std::vector<ModesAtSpeed>& sweep) {
@@ -129,8 +142,10 @@ std::string legend(const std::vector<ModesAtSpeed>& sweep) {
 }  // namespace
 
 std::string modes_svg(const std::string& title, const std::vector<ModesAtSpeed>& sweep) {
-  const Box all = around(sweep, {.left = 60, .top = 70, .width = 420, .height = 320}, 1e9);
-  const Box near = around(sweep, {.left = 560, .top = 70, .width = 320, .height = 320}, slow(sweep));
+  const Box all =
+      around(sweep, {.number = 0, .left = 60, .top = 70, .width = 420, .height = 320}, largest(sweep, false));
+  const Box near =
+      around(sweep, {.number = 1, .left = 560, .top = 70, .width = 320, .height = 320}, largest(sweep, true));
   std::string out =
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"900\" height=\"475\" viewBox=\"0 0 900 475\" "
       "font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"900\" height=\"475\" fill=\"#ffffff\"/>\n";

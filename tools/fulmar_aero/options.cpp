@@ -41,10 +41,12 @@ double positive_speed(const std::string& text) {
 void FlightOptions::add(CLI::App* command, bool range_of_speeds) {
   command->add_option("AIRFRAME", airframe, "airframe file, or fulmar:airframes/anaconda.yaml")->required();
   command->add_option("--airspeed", airspeed,
-                      range_of_speeds ? "true airspeed, or a range of it as in \"12..27 m/s\"; else the airframe's cruise"
-                                      : "true airspeed, as in \"17 m/s\"; else the airframe's cruise");
+                      range_of_speeds
+                          ? "true airspeed, or a range of it as in \"12..27 m/s\"; else the airframe's cruise"
+                          : "true airspeed, as in \"17 m/s\"; else the airframe's cruise");
   command->add_option("--climb", climb, "angle or rate, as in \"5 deg\" or \"2 m/s\"; else level");
-  command->add_option("--turn", turn, "bank or radius, as in \"30 deg\" or \"80 m\", to the right; else straight");
+  command->add_option("--turn", turn,
+                      "bank or radius, as in \"30 deg\" or \"80 m\", to the right; else straight");
   command->add_option("--altitude", altitude, "above mean sea level, of the standard air; else 0 m");
   command->add_flag("--json", json, "print one JSON object");
 }
@@ -67,7 +69,8 @@ void FlightOptions::set_climb_and_turn(SteadyCondition& c) const {
   if (!climb.empty()) {
     const bool angle = is_in("--climb", climb, "rad");
     if (!angle && !is_in("--climb", climb, "m/s"))
-      throw CLI::ValidationError("--climb", "'" + climb + "' is neither an angle, as in \"5 deg\", nor a rate, as in \"2 m/s\"");
+      throw CLI::ValidationError(
+          "--climb", "'" + climb + "' is neither an angle, as in \"5 deg\", nor a rate, as in \"2 m/s\"");
     const double value = in_unit("--climb", climb, angle ? "rad" : "m/s");
     c.climb_rad = angle ? value : std::asin(std::clamp(value / c.airspeed_mps, -1.0, 1.0));
     if (std::abs(c.climb_rad) > 1.4)
@@ -76,11 +79,13 @@ void FlightOptions::set_climb_and_turn(SteadyCondition& c) const {
   if (turn.empty()) return;
   const bool bank = is_in("--turn", turn, "rad");
   if (!bank && !is_in("--turn", turn, "m"))
-    throw CLI::ValidationError("--turn", "'" + turn + "' is neither a bank, as in \"30 deg\", nor a radius, as in \"80 m\"");
+    throw CLI::ValidationError(
+        "--turn", "'" + turn + "' is neither a bank, as in \"30 deg\", nor a radius, as in \"80 m\"");
   c.turn_by = in_unit("--turn", turn, bank ? "rad" : "m");
   c.turn = bank ? Turn::bank : Turn::radius;
   if (bank ? std::abs(c.turn_by) > 1.4 : std::abs(c.turn_by) < 1)
-    throw CLI::ValidationError("--turn", "'" + turn + "' is no turn that is flown; give a bank up to 80 deg or a radius from 1 m");
+    throw CLI::ValidationError(
+        "--turn", "'" + turn + "' is no turn that is flown; give a bank up to 80 deg or a radius from 1 m");
   if (bank && c.turn_by == 0) c.turn = Turn::none;
 }
 
@@ -98,9 +103,11 @@ std::vector<double> FlightOptions::airspeeds(const Airframe& a, const std::strin
   const bool bare = first.find_first_not_of("0123456789.+- ") == std::string::npos;
   const double from = positive_speed(bare && !unit.empty() ? first + " " + unit : first);
   const double to = positive_speed(last), by = step.empty() ? 1 : in_unit("--step", step, "m/s");
-  if (from > to) throw CLI::ValidationError("--airspeed", "'" + airspeed + "': the first speed is above the last one");
+  if (from > to)
+    throw CLI::ValidationError("--airspeed", "'" + airspeed + "': the first speed is above the last one");
   if (!(by > 0) || (to - from) / by > double(most_speeds))
-    throw CLI::ValidationError("--step", "at most " + std::to_string(most_speeds) + " speeds, in steps of more than 0");
+    throw CLI::ValidationError("--step",
+                               "at most " + std::to_string(most_speeds) + " speeds, in steps of more than 0");
   std::vector<double> speeds;
   for (int i = 0; from + i * by <= to + 1e-9 * by; ++i) speeds.push_back(from + i * by);
   return speeds;

@@ -9,8 +9,8 @@
 
 namespace fulmar::aero {
 
-/// --airspeed, --climb, --turn, --altitude, --json and the airframe. Values have units; what cannot be read is
-/// a fault of the command line (CLI::ValidationError).
+/// --airspeed, --climb, --turn, --altitude, --json and the airframe. Values have units; what cannot be read
+/// is a fault of the command line (CLI::ValidationError).
 struct FlightOptions {
   std::string airframe, airspeed, climb, turn, altitude;
   bool json = false;

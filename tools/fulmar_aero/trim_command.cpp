@@ -27,19 +27,22 @@ std::string trim_text(const AirframeFile& file, const AircraftModel& model, cons
   text += line("roll, pitch", degrees(f.x(model::roll)), degrees(f.x(model::pitch)));
   if (c.climb_rad != 0)
     text += line("climb", degrees(c.climb_rad), fixed(c.airspeed_mps * std::sin(c.climb_rad), 2) + " m/s");
-  if (f.turn_radps != 0)
+  if (c.turn != Turn::none)
     text += line("turn", fixed(f.turn_radps / degree, 2) + " deg/s",
-                 "radius " + fixed(c.airspeed_mps * std::cos(c.climb_rad) / f.turn_radps, 1) + " m, load factor " +
-                     fixed(forces.load_factor, 2));
+                 "radius " + fixed(c.airspeed_mps * std::cos(c.climb_rad) / f.turn_radps, 1) +
+                     " m, load factor " + fixed(forces.load_factor, 2));
   text += surface_line("aileron", f.input(model::aileron), a.aileron.limit_rad);
   text += surface_line("elevator", f.input(model::elevator), a.elevator.limit_rad);
   text += surface_line("rudder", f.input(model::rudder), a.rudder.limit_rad);
-  text += line("throttle", fixed(f.input(model::throttle), 3),
-               "propeller " + fixed(f.propeller_radps, 0) + " rad/s, torque " + fixed(forces.torque_nm, 3) + " N m");
-  text += line("lift, drag", fixed(forces.lift_newton, 2) + " N",
-               fixed(forces.drag_newton, 2) + " N, ratio " + fixed(forces.lift_newton / forces.drag_newton, 1));
+  text += line(
+      "throttle", fixed(f.input(model::throttle), 3),
+      "propeller " + fixed(f.propeller_radps, 0) + " rad/s, torque " + fixed(forces.torque_nm, 3) + " N m");
+  text +=
+      line("lift, drag", fixed(forces.lift_newton, 2) + " N",
+           fixed(forces.drag_newton, 2) + " N, ratio " + fixed(forces.lift_newton / forces.drag_newton, 1));
   text += line("CL, CD", fixed(forces.lift_ratio, 3), fixed(forces.drag_ratio, 4));
-  return text + line("side, thrust", fixed(forces.side_newton, 2) + " N", fixed(forces.thrust_newton, 2) + " N");
+  return text +
+         line("side, thrust", fixed(forces.side_newton, 2) + " N", fixed(forces.thrust_newton, 2) + " N");
 }
 
 }  // namespace

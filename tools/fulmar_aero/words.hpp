@@ -3,10 +3,9 @@
 #pragma once
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
-
-#include <nlohmann/json.hpp>
 
 namespace fulmar::aero {
 

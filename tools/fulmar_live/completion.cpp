@@ -26,18 +26,31 @@ struct Places {
   const char* kinds;
   int repeat;
 };
-const std::map<std::string, Places> places{
-    {"run", {"mission", 0}},          {"check", {"mission", 0}},
-    {"graph", {"mission", 0}},        {"inspect", {"plugin", 0}},
-    {"replay", {"log", 0}},           {"report", {"log", 1}},
-    {"compare", {"mission", 0}},      {"log info", {"log", 0}},
-    {"log recover", {"log", 0}},      {"log export", {"log", 0}},
-    {"log diff", {"log log", 0}},     {"echo", {"port", 1}},
-    {"plot", {"field", 1}},           {"param list", {"param", 0}},
-    {"param get", {"param", 1}},      {"param set", {"param none", 2}},
-    {"param save", {"component", 0}}, {"call", {"request none", 1}},
-    {"phase", {"phase", 0}},          {"swap", {"component plugin", 0}},
-    {"completion", {"shell", 0}}};
+const std::map<std::string, Places> places{{"run", {"mission", 0}},
+                                           {"check", {"mission", 0}},
+                                           {"graph", {"mission", 0}},
+                                           {"inspect", {"plugin", 0}},
+                                           {"replay", {"log", 0}},
+                                           {"report", {"log", 1}},
+                                           {"compare", {"mission", 0}},
+                                           {"log info", {"log", 0}},
+                                           {"log recover", {"log", 0}},
+                                           {"log export", {"log", 0}},
+                                           {"log diff", {"log log", 0}},
+                                           {"echo", {"port", 1}},
+                                           {"plot", {"field", 1}},
+                                           {"param list", {"param", 0}},
+                                           {"param get", {"param", 1}},
+                                           {"param set", {"param none", 2}},
+                                           {"param save", {"component", 0}},
+                                           {"call", {"request none", 1}},
+                                           {"phase", {"phase", 0}},
+                                           {"swap", {"component plugin", 0}},
+                                           {"completion", {"shell", 0}},
+                                           {"aero trim", {"mission", 0}},
+                                           {"aero linearize", {"mission", 0}},
+                                           {"aero modes", {"mission", 0}},
+                                           {"aero check", {"mission", 0}}};
 
 /// Of options that take a value: a kind as above.
 const std::map<std::string, std::string> option_kinds{
@@ -60,16 +73,30 @@ std::string rows_of(const char* name) {
   return text;
 }
 
+/// A program beside the host that a build may leave out, and whose words are completed when it is there.
+struct OptionalProgram {
+  const char *name, *word;
+};
+constexpr OptionalProgram aero{"fulmar-aero", "aero"};
+
 /// The same in both shells: the lines of a `case` by command.
 std::string table() {
   std::string text;
-  for (const char* program : {"fulmar", "fulmar-inspect", "fulmar-log", "fulmar-new", "fulmar-live"}) {
+  const bool with_aero = !own_program(aero.name).empty();
+  for (const char* program :
+       {"fulmar", "fulmar-inspect", "fulmar-log", "fulmar-new", "fulmar-live", aero.name}) {
+    const bool is_aero = program == std::string_view(aero.name),
+               is_host = program == std::string_view("fulmar");
+    if (is_aero && !with_aero) continue;
     std::istringstream rows(rows_of(program));
     std::string command, options, valued, subcommands;
     while (std::getline(rows, command, '\t') && std::getline(rows, options, '\t') &&
            std::getline(rows, valued, '\t') && std::getline(rows, subcommands)) {
-      if (command.empty() && std::string_view(program) != "fulmar")
+      if (is_aero)  // it does not know the word that starts it
+        command = aero.word + (command.empty() ? "" : " " + command);
+      else if (command.empty() && !is_host)
         continue;  // only the host knows all commands
+      if (is_host && command.empty() && with_aero) subcommands += std::string(" ") + aero.word;
       const auto place = places.find(command);
       const bool placed = place != places.end();
       text += "    '" + command + "') options='" + options + "' valued='" + valued + " ' subcommands='" +

@@ -54,13 +54,14 @@ void tell_unread(Draft& draft) {
       const Port& input = reader.info().inputs[i];
       const bool open = input.optional || input.kind == FULMAR_IN_QUEUE;
       const Wire& wire = reader.wires[i];
-      if (!open || input.kind == FULMAR_IN_REQUEST || wire.from.kind != Source::Kind::none || wire.import >= 0)
+      if (!open || input.kind == FULMAR_IN_REQUEST || wire.from.kind != Source::Kind::none ||
+          wire.import >= 0)
         continue;
       const Open writer = only_writer(graph, input, reader);
       if (!writer.port || !incompatibility(*writer.port->type, *input.type).empty()) continue;
       const Open to{&reader, &input};
-      const std::string wired = "; wire it, as in " + reader.name + ": {in: {" + input.name + ": " +
-                                writer.text() + "}}";
+      const std::string wired =
+          "; wire it, as in " + reader.name + ": {in: {" + input.name + ": " + writer.text() + "}}";
       const bool read = is_read(graph, *writer.owner, writer.owner->info().output(writer.port->name));
       if (!read && writer.port->kind != FULMAR_OUT_VALUE)
         graph.warnings.push_back(writer.owner->where.text() + ": " + writer.text() + " is read by nobody; " +

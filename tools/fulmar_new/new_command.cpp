@@ -115,8 +115,12 @@ bool fits(const std::string& source, const Contract& contract) {
   const auto given =
       std::count_if(contract.inputs.begin(), contract.inputs.end(),
                     [&](const ContractInput& input) { return there(in, input.name, input.type->name); });
-  // one that the mission's role brings beside them would be left out without a word
-  return wanted == given && given == std::ssize(contract.inputs) &&
+  // a wire that the mission's role brings beside them would be left out without a word
+  const bool all =
+      std::all_of(contract.inputs.begin(), contract.inputs.end(), [&](const ContractInput& input) {
+        return input.kind == FULMAR_IN_REQUEST || there(in, input.name, input.type->name);
+      });
+  return wanted == given && all &&
          std::all_of(contract.outputs.begin(), contract.outputs.end(), [&](const ContractOutput& output) {
            return output.optional || there(out, output.name, output.type_name);
          });

@@ -42,8 +42,8 @@ void damage(const fs::path& log, const fs::path& to, Dice& dice) {
   store(to, bytes);
 }
 
-/// What the file holds, under right checksums: messages altered, lost and moved in time, attached texts, other
-/// tables of fields.
+/// What the file holds, under right checksums: messages altered, lost and moved in time, attached texts,
+/// other tables of fields.
 void forge(const fs::path& log, const fs::path& to, Dice& dice) {
   const McapFile file = read_mcap(log);
   fs::remove(to);

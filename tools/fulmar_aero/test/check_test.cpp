@@ -42,7 +42,8 @@ void is_found(const Mistake& mistake) {
 
 TEST_CASE("the shipped airframes have no fault") {
   for (const char* name : {"anaconda", "aerosonde"}) {
-    const Answer answer = call(std::string("check --json --altitude '1457 m' configs/airframes/") + name + ".yaml");
+    const Answer answer =
+        call(std::string("check --json --altitude '1457 m' configs/airframes/") + name + ".yaml");
     CHECK_MESSAGE(answer.code == 0, answer.out);
     CHECK(answer.json()["values_checked"].get<int>() > 90);
     CHECK(answer.json()["figures"]["static_margin_ratio"].get<double>() == Approx(2.74 / 5.61));
@@ -53,62 +54,77 @@ TEST_CASE("the shipped airframes have no fault") {
 }
 
 TEST_CASE("a derivative of the wrong sign is found, with what it would do") {
-  for (const Mistake& mistake : {
-           Mistake{"p: -0.51", "p: 0.51", "faults", "aero.roll.p", "rolling would speed itself up"},
-           {"alpha: -2.74", "alpha: 2.74", "faults", "aero.pitch.alpha", "statically unstable"},
-           {"q: -38.21", "q: 38.21", "faults", "aero.pitch.q", "pitching would speed itself up"},
-           {"r: -0.1541", "r: 0.1541", "faults", "aero.yaw.r", "yawing would speed itself up"},
-           {"beta: 0.1301", "beta: -0.1301", "faults", "aero.yaw.beta", "turns away from the wind"},
-           {"beta: -0.98", "beta: 0.98", "faults", "aero.side.beta", "push it to the right"},
-           {"beta: -0.13,", "beta: 0.13,", "warnings", "aero.roll.beta", "negative dihedral"},
-           {"aileron: 0.17", "aileron: -0.17", "faults", "aero.roll.aileron", "this one rolls left"},
-           {"elevator: -0.99", "elevator: 0.99", "faults", "aero.pitch.elevator", "takes it up"},
-           {"rudder: -0.069", "rudder: 0.069", "faults", "aero.yaw.rudder", "takes it right"},
-           {"rudder: 0.19", "rudder: -0.19", "warnings", "aero.side.rudder", "hinge convention"},
-           {"elevator: 0.13}", "elevator: -0.47351}", "warnings", "aero.lift.elevator", "XFLR5"},
-           {"aileron: -0.011", "aileron: 0.011", "warnings", "aero.yaw.aileron", "adverse yaw (negative) is usual"},
-           {"aileron: -0.011", "aileron: -0.06", "warnings", "aero.yaw.aileron", "very much adverse yaw"}})
+  for (const Mistake& mistake :
+       {Mistake{"p: -0.51", "p: 0.51", "faults", "aero.roll.p", "rolling would speed itself up"},
+        {"alpha: -2.74", "alpha: 2.74", "faults", "aero.pitch.alpha", "statically unstable"},
+        {"q: -38.21", "q: 38.21", "faults", "aero.pitch.q", "pitching would speed itself up"},
+        {"r: -0.1541", "r: 0.1541", "faults", "aero.yaw.r", "yawing would speed itself up"},
+        {"beta: 0.1301", "beta: -0.1301", "faults", "aero.yaw.beta", "turns away from the wind"},
+        {"beta: -0.98", "beta: 0.98", "faults", "aero.side.beta", "push it to the right"},
+        {"beta: -0.13,", "beta: 0.13,", "warnings", "aero.roll.beta", "negative dihedral"},
+        {"aileron: 0.17", "aileron: -0.17", "faults", "aero.roll.aileron", "this one rolls left"},
+        {"elevator: -0.99", "elevator: 0.99", "faults", "aero.pitch.elevator", "takes it up"},
+        {"rudder: -0.069", "rudder: 0.069", "faults", "aero.yaw.rudder", "takes it right"},
+        {"rudder: 0.19", "rudder: -0.19", "warnings", "aero.side.rudder", "hinge convention"},
+        {"elevator: 0.13}", "elevator: -0.47351}", "warnings", "aero.lift.elevator", "XFLR5"},
+        {"aileron: -0.011", "aileron: 0.011", "warnings", "aero.yaw.aileron",
+         "adverse yaw (negative) is usual"},
+        {"aileron: -0.011", "aileron: -0.06", "warnings", "aero.yaw.aileron", "very much adverse yaw"}})
     is_found(mistake);
 }
 
 TEST_CASE("degrees for radians and other units are found, with what was likely meant") {
-  for (const Mistake& mistake : {
-           Mistake{"elevator: -0.99", "elevator: -0.0173", "faults", "aero.pitch.elevator", "per degree? Then it would be -0.991 per rad"},
-           {"lift:  {zero: 0.506, alpha: 5.61", "lift:  {zero: 0.506, alpha: 0.0979", "faults", "aero.lift.alpha", "per degree? Then it would be 5.61"},
-           {"aileron: 0.17", "aileron: 9.74", "faults", "aero.roll.aileron", "once too often? Then it would be 0.17"},
-           {"stall_alpha: 15 deg", "stall_alpha_rad: 15", "faults", "wing.stall_alpha", "is it in degrees? Write '15 deg'"},
-           {"elevator: {limit: 40 deg", "elevator: {limit_rad: 40", "faults", "elevator.limit", "is it in degrees?"},
-           {"rudder:   {limit: 40 deg, rate_limit: 500 deg/s", "rudder:   {limit: 40 deg, rate_limit_radps: 500", "warnings", "rudder.rate_limit", "is it in deg/s?"},
-           {"roll_max: 45 deg", "roll_max_rad: 45", "faults", "limits.roll_max", "is it in degrees?"},
-           {"xx_kgm2: 0.24855, yy_kgm2: 0.3784, zz_kgm2: 0.618", "xx_kgm2: 2485.5, yy_kgm2: 3784, zz_kgm2: 6180", "faults", "inertia.xx", "is it in kg cm^2? That would be 0.249 kg m^2"},
-           {"mass: 4.5 kg", "mass: 4500 kg", "faults", "mass", "in grams"},
-           {"area_m2: 0.52", "area_m2: 5.6", "faults", "wing.chord", "one of the three is wrong"},
-           {"q: -38.21", "q: -1.3", "warnings", "aero.pitch.q", "belong with the span"}})
+  for (const Mistake& mistake :
+       {Mistake{"elevator: -0.99", "elevator: -0.0173", "faults", "aero.pitch.elevator",
+                "per degree? Then it would be -0.991 per rad"},
+        {"lift:  {zero: 0.506, alpha: 5.61", "lift:  {zero: 0.506, alpha: 0.0979", "faults",
+         "aero.lift.alpha", "per degree? Then it would be 5.61"},
+        {"aileron: 0.17", "aileron: 9.74", "faults", "aero.roll.aileron",
+         "once too often? Then it would be 0.17"},
+        {"stall_alpha: 15 deg", "stall_alpha_rad: 15", "faults", "wing.stall_alpha",
+         "is it in degrees? Write '15 deg'"},
+        {"elevator: {limit: 40 deg", "elevator: {limit_rad: 40", "faults", "elevator.limit",
+         "is it in degrees?"},
+        {"rudder:   {limit: 40 deg, rate_limit: 500 deg/s", "rudder:   {limit: 40 deg, rate_limit_radps: 500",
+         "warnings", "rudder.rate_limit", "is it in deg/s?"},
+        {"roll_max: 45 deg", "roll_max_rad: 45", "faults", "limits.roll_max", "is it in degrees?"},
+        {"xx_kgm2: 0.24855, yy_kgm2: 0.3784, zz_kgm2: 0.618", "xx_kgm2: 2485.5, yy_kgm2: 3784, zz_kgm2: 6180",
+         "faults", "inertia.xx", "is it in kg cm^2? That would be 0.249 kg m^2"},
+        {"mass: 4.5 kg", "mass: 4500 kg", "faults", "mass", "in grams"},
+        {"area_m2: 0.52", "area_m2: 5.6", "faults", "wing.chord", "one of the three is wrong"},
+        {"q: -38.21", "q: -1.3", "warnings", "aero.pitch.q", "belong with the span"}})
     is_found(mistake);
 }
 
 TEST_CASE("drag that is counted twice, left out, or drives is found") {
-  for (const Mistake& mistake : {
-           Mistake{"drag:  {elevator", "drag:  {zero: 0.043, elevator", "warnings", "aero.drag.zero", "counted twice"},
-           {"drag:  {elevator", "drag:  {alpha: 0.132, elevator", "warnings", "aero.drag.alpha", "linear polar"},
-           {"parasite_drag: 0.043", "parasite_drag: 0", "faults", "aero.parasite_drag", "CD_p is 0"},
-           {"drag:  {elevator: 0.0135}", "drag:  {elevator: 0.2}", "faults", "aero.drag.elevator", "is it that of a square"},
-           {"drag:  {elevator: 0.0135}", "drag:  {elevator: 0.0135, beta: -0.0058}", "warnings", "aero.drag.beta", "cannot grow to one side"},
-           {"pitch: {zero", "pitch: {beta: 0.16, zero", "warnings", "aero.pitch.beta", "not converged"}})
+  for (const Mistake& mistake :
+       {Mistake{"drag:  {elevator", "drag:  {zero: 0.043, elevator", "warnings", "aero.drag.zero",
+                "counted twice"},
+        {"drag:  {elevator", "drag:  {alpha: 0.132, elevator", "warnings", "aero.drag.alpha", "linear polar"},
+        {"parasite_drag: 0.043", "parasite_drag: 0", "faults", "aero.parasite_drag", "CD_p is 0"},
+        {"drag:  {elevator: 0.0135}", "drag:  {elevator: 0.2}", "faults", "aero.drag.elevator",
+         "is it that of a square"},
+        {"drag:  {elevator: 0.0135}", "drag:  {elevator: 0.0135, beta: -0.0058}", "warnings",
+         "aero.drag.beta", "cannot grow to one side"},
+        {"pitch: {zero", "pitch: {beta: 0.16, zero", "warnings", "aero.pitch.beta", "not converged"}})
     is_found(mistake);
 }
 
 TEST_CASE("what cannot be flown is found") {
-  for (const Mistake& mistake : {
-           Mistake{"battery: 24 V", "battery: 8 V", "faults", "limits.airspeed_cruise", "full throttle gives"},
-           {"airspeed_min: 12 m/s", "airspeed_min: 8 m/s", "faults", "limits.airspeed_min", "the wing stalls"},
-           {"airspeed_max: 27 m/s", "airspeed_max: 37 m/s", "faults", "limits.airspeed_max", "full throttle gives"},
-           {"pitch: {zero: 0.135", "pitch: {zero: 1.35", "faults", "limits.airspeed_cruise", "of elevator, which moves"},
-           {"climb_rate_max: 5 m/s", "climb_rate_max: 14 m/s", "warnings", "limits.climb_rate_max", "N of thrust"},
-           {"roll_max: 45 deg", "roll_max: 75 deg", "warnings", "limits.roll_max", "the wing stalls"},
-           {"trim: 0.1212 rad", "trim: -0.1212 rad", "warnings", "elevator.trim", "level cruise takes"},
-           {"aileron:  {limit: 40 deg", "aileron:  {limit: 5 deg", "warnings", "aero.roll.aileron", "p b/2V = 0.0291"},
-           {"xz_kgm2: 0.06", "xz_kgm2: 0.2", "warnings", "inertia", "more than the sum of the others"}})
+  for (const Mistake& mistake :
+       {Mistake{"battery: 24 V", "battery: 8 V", "faults", "limits.airspeed_cruise", "full throttle gives"},
+        {"airspeed_min: 12 m/s", "airspeed_min: 8 m/s", "faults", "limits.airspeed_min", "the wing stalls"},
+        {"airspeed_max: 27 m/s", "airspeed_max: 37 m/s", "faults", "limits.airspeed_max",
+         "full throttle gives"},
+        {"pitch: {zero: 0.135", "pitch: {zero: 1.35", "faults", "limits.airspeed_cruise",
+         "of elevator, which moves"},
+        {"climb_rate_max: 5 m/s", "climb_rate_max: 14 m/s", "warnings", "limits.climb_rate_max",
+         "N of thrust"},
+        {"roll_max: 45 deg", "roll_max: 75 deg", "warnings", "limits.roll_max", "the wing stalls"},
+        {"trim: 0.1212 rad", "trim: -0.1212 rad", "warnings", "elevator.trim", "level cruise takes"},
+        {"aileron:  {limit: 40 deg", "aileron:  {limit: 5 deg", "warnings", "aero.roll.aileron",
+         "p b/2V = 0.0291"},
+        {"xz_kgm2: 0.06", "xz_kgm2: 0.2", "warnings", "inertia", "more than the sum of the others"}})
     is_found(mistake);
 }
 
@@ -121,11 +137,13 @@ TEST_CASE("the traps of the Skywalker X8's published model are found") {
   const json x = json::parse(in);
   std::ostringstream out;
   const auto v = [&](const char* key) { return x[key].dump(); };
-  // As a hand that copies everything would write it. The motor, which has another model there, is the Anaconda's.
+  // As a hand that copies everything would write it. The motor, which has another model there, is the
+  // Anaconda's.
   out << "name: x8\nmass: " << v("mass") << " kg\ninertia: {xx_kgm2: " << v("Jx") << ", yy_kgm2: " << v("Jy")
       << ", zz_kgm2: " << v("Jz") << ", xz_kgm2: " << v("Jxz") << "}\nwing: {area_m2: " << v("S_wing")
-      << ", span_m: " << v("b") << ", chord_m: " << v("c") << ", oswald: " << v("e") << ", stall_alpha_rad: " << v("a_0")
-      << ", stall_sharpness: " << v("M") << "}\naero:\n  parasite_drag: " << v("C_D_p") << "\n  lift: {zero: " << v("C_L_0")
+      << ", span_m: " << v("b") << ", chord_m: " << v("c") << ", oswald: " << v("e")
+      << ", stall_alpha_rad: " << v("a_0") << ", stall_sharpness: " << v("M")
+      << "}\naero:\n  parasite_drag: " << v("C_D_p") << "\n  lift: {zero: " << v("C_L_0")
       << ", alpha: " << v("C_L_alpha") << ", q: " << v("C_L_q") << ", elevator: " << v("C_L_delta_e")
       << "}\n  drag: {zero: " << v("C_D_0") << ", alpha: " << v("C_D_alpha1") << ", beta: " << v("C_D_beta1")
       << ", elevator: " << v("C_D_delta_e") << "}\n  side: {beta: " << v("C_Y_beta") << ", p: " << v("C_Y_p")
@@ -149,15 +167,17 @@ TEST_CASE("the traps of the Skywalker X8's published model are found") {
     REQUIRE_MESSAGE(!found.is_null(), key);
     CHECK_MESSAGE(found["sentence"].get<std::string>().find(sentence) != std::string::npos, found.dump());
   };
-  says("warnings", "inertia", "more than the sum of the others");       // Jxz as published
-  says("warnings", "inertia.xx", "of the span");                        // longer than a rod's, nearly
-  says("warnings", "aero.pitch.q", "belong with the span b/2V instead of the chord c/2V? Then it would be -7.65");
-  says("warnings", "aero.drag.beta", "cannot grow to one side");        // C_D_beta1
-  says("warnings", "aero.drag.zero", "counted twice");                  // C_D_0 beside C_D_p
-  says("warnings", "aero.drag.alpha", "linear polar");                  // C_D_alpha1
-  says("faults", "aero.drag.elevator", "is it that of a square");       // C_D_delta_e de^2
-  says("warnings", "aero.yaw.rudder", "turns are flown without it");    // elevons alone
-  CHECK(result["figures"]["static_margin_ratio"].get<double>() == Approx(0.2524 / 4.02033).epsilon(1e-4).scale(0));
+  says("warnings", "inertia", "more than the sum of the others");  // Jxz as published
+  says("warnings", "inertia.xx", "of the span");                   // longer than a rod's, nearly
+  says("warnings", "aero.pitch.q",
+       "belong with the span b/2V instead of the chord c/2V? Then it would be -7.65");
+  says("warnings", "aero.drag.beta", "cannot grow to one side");      // C_D_beta1
+  says("warnings", "aero.drag.zero", "counted twice");                // C_D_0 beside C_D_p
+  says("warnings", "aero.drag.alpha", "linear polar");                // C_D_alpha1
+  says("faults", "aero.drag.elevator", "is it that of a square");     // C_D_delta_e de^2
+  says("warnings", "aero.yaw.rudder", "turns are flown without it");  // elevons alone
+  CHECK(result["figures"]["static_margin_ratio"].get<double>() ==
+        Approx(0.2524 / 4.02033).epsilon(1e-4).scale(0));
   CHECK(finding(result, "faults", "limits.airspeed_cruise").is_null());  // and it flies, without a rudder
 }
 

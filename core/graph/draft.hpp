@@ -96,7 +96,12 @@ void mark_imports(Draft& draft);
 void resolve_dds(Draft& draft, const std::vector<std::string>& ports);
 
 // phases.cpp
+std::string phase_path(const PhaseText& phase);
+/// Those of the mission, or the only one of a mission that has none.
+const std::vector<PhaseText>& phases_of(const MissionText& text);
 void assign_roles(Draft& draft);
+
+// named_ports.cpp
 /// Conditions, figures and transitions. Before the graph is built: checks them and marks the components that
 /// they name. Afterwards: compiles them for the graph.
 void name_ports(Draft& draft);

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The ports that a mission names to show or to decide: conditions, figures, texts, and the transitions
+// between phases.
+#include <algorithm>
+
+#include "core/graph/draft.hpp"
+
+namespace fulmar::core {
+namespace {
+
+/// Thrown when a port belongs to a component that was refused: nothing more to say.
+struct Unclear {};
+
+/// Thrown when nobody who fills a role in this run has one of its optional outputs.
+struct NobodyProvides : Error {
+  using Error::Error;
+};
+
+/// `built`: sources count the components of the graph, else candidates, which are then marked as used.
+FindPort finder(Draft& draft, bool built) {
+  return [&draft, built](const std::string& owner, const std::string& port) {
+    Target target = find_target(draft, {owner, port});
+    if (target.unclear) {
+      const int role = draft.role(owner);
+      if (role < 0 || nth(draft.roles, role).unclear) throw Unclear{};
+      throw NobodyProvides(owner + "." + port + " is provided by nobody in this run");
+    }
+    if (target.source.kind == Source::Kind::component) {
+      Candidate& candidate = nth(draft.candidates, target.source.index);
+      if (!built)
+        candidate.used = true;
+      else
+        target.source.index = candidate.component;
+    } else if (built && !provided(draft.graph, target.source)) {
+      throw NobodyProvides(owner + "." + port + " is provided by nobody in this run");
+    }
+    return std::pair{target.source, target.type};
+  };
+}
+
+template <class F>
+void guarded(Draft& draft, const Where& where, const std::string& path, F run) {
+  try {
+    run();
+  } catch (const Unclear&) {
+  } catch (const Error& fault) {
+    tell(draft, where, path, fault);
+  }
+}
+
+/// What every result has: a summary must not write over it.
+const std::vector<std::string> result_keys = {
+    "allocations", "behind_max_s", "dds",        "flight_time_s", "guards",           "io",      "live",
+    "log",         "log_dropped",  "log_sha256", "mission",       "not_reproducible", "phases",  "reason",
+    "result",      "seed",         "speedup",    "step_time_us",  "wall_time_s",      "who_flew"};
+
+std::pair<Source, TypePtr> find_port(const Word& word, const std::string& example, const FindPort& find) {
+  const auto dot = word.text.find('.');
+  if (dot == std::string::npos || word.text.find('.', dot + 1) != std::string::npos)
+    throw Error("expected a port such as " + example + ", found '" + word.text + "'");
+  return find(word.text.substr(0, dot), word.text.substr(dot + 1));
+}
+
+void read_summary(Draft& draft, const FindPort& find) {
+  draft.graph.summary.clear();
+  for (const auto& entry : draft.text.summary) {
+    const std::string& key = entry.first;
+    const Word& word = entry.second;
+    guarded(draft, word.where, "summary." + key, [&] {
+      if (std::find(result_keys.begin(), result_keys.end(), key) != result_keys.end())
+        throw Error("'" + key + "' is a key of every result; choose another name");
+      const auto [source, type] = find_port(word, "score.tracking", find);
+      if (!type) throw Error("'" + word.text + "' is a probe; a summary shows messages");
+      draft.graph.summary.emplace_back(key, source);
+    });
+  }
+}
+
+/// Ports of texts for people. That a vehicle has nothing to tell is no fault.
+void read_told(Draft& draft, const FindPort& find) {
+  draft.graph.tell.clear();
+  for (const Word& word : draft.text.tell)
+    guarded(draft, word.where, "tell", [&] {
+      try {
+        const auto [source, type] = find_port(word, "vehicle.notices", find);
+        const Field* const text = type ? type->find("text") : nullptr;
+        if (!text || text->kind != FULMAR_TEXT)
+          throw Error("'" + word.text + "' is " + (type ? type->name : "a probe") +
+                      ", which has no text 'text' to tell");
+        draft.graph.tell.push_back(source);
+      } catch (const NobodyProvides&) {
+      }
+    });
+}
+
+Shown shown(const Word& word, const FindPort& find) {
+  Shown shown = find_shown(word.text, find);
+  const Field& field = *shown.field.field;
+  if (field.kind == FULMAR_STRUCT || field.kind == FULMAR_TEXT)
+    throw Error("'" + word.text + "' is " + (field.kind == FULMAR_TEXT ? "text" : "a " + field.type->name) +
+                ", not a number");
+  return shown;
+}
+
+void read_shown(Draft& draft, const FindPort& find) {
+  draft.graph.progress.clear();
+  for (const Word& word : draft.text.progress) {
+    if (draft.report.full()) break;
+    guarded(draft, word.where, "progress", [&] { draft.graph.progress.push_back(shown(word, find)); });
+  }
+}
+
+void read_resume(Draft& draft, const FindPort& find) {
+  draft.graph.resume.clear();
+  for (const auto& entry : draft.text.resume) {
+    const std::string& param = entry.first;
+    const Word& word = entry.second;
+    guarded(draft, word.where, "resume." + param, [&] {
+      const auto dot = param.find('.');
+      if (dot == std::string::npos)
+        throw Error("expected a parameter such as manage.first_item, found '" + param + "'");
+      const std::string name = param.substr(0, dot), of = param.substr(dot + 1);
+      const int i = draft.candidate(name);
+      const ComponentText* const text = draft.text.component(name);
+      if (text && draft.is_out(*text)) return;  // nothing of it goes on in this run
+      if (i < 0) throw NoOwner(name, not_there(draft, name));
+      const Candidate& candidate = nth(draft.candidates, i);
+      if (!candidate.loaded) throw Unclear{};
+      const auto& params = candidate.info().params;
+      const ParamInfo& info = nth(params, require_named(params, of, name + " has no parameter"));
+      if (info.kind != FULMAR_COUNT && info.kind != FULMAR_NUMBER) throw Error(param + " is no number");
+      if (!info.live)
+        throw Error(
+            param +
+            " is fixed when the flight begins; whether it resumes is known when the vehicle has spoken");
+      draft.graph.resume.push_back({param, shown(word, find)});
+    });
+  }
+}
+
+std::shared_ptr<const Condition> compiled(Draft& draft, const Word& word, const std::string& path,
+                                          const FindPort& find) {
+  std::shared_ptr<const Condition> condition;
+  guarded(draft, word.where, path, [&] { condition = Condition::compile(word.text, find); });
+  return condition;
+}
+
+std::vector<Transition> transitions(Draft& draft, const std::vector<TransitionText>& texts,
+                                    const std::string& path, const FindPort& find) {
+  std::vector<Transition> list;
+  const auto& phases = phases_of(draft.text);
+  for (const TransitionText& text : texts) {
+    Transition transition;
+    transition.to = index_named(phases, text.to.text);
+    if (transition.to < 0 && !text.to.text.empty() &&
+        !draft.report.still_named({"phases." + text.to.text}, text.to.where, path + ".to"))
+      draft.report.add(text.to.where, no_such(path + ".to: there is no phase", text.to.text, phases));
+    if (!text.when.text.empty()) transition.when = compiled(draft, text.when, path + ".when", find);
+    transition.for_ns = text.for_ns;
+    transition.where = text.where;
+    list.push_back(std::move(transition));
+  }
+  return list;
+}
+
+/// Everything that names ports, compiled into the graph.
+void compile_all(Draft& draft, bool built) {
+  const FindPort find = finder(draft, built);
+  Graph& graph = draft.graph;
+  if (draft.text.done) graph.done = compiled(draft, *draft.text.done, "done", find);
+  if (draft.text.failed) graph.failed = compiled(draft, *draft.text.failed, "failed", find);
+  read_shown(draft, find);
+  read_summary(draft, find);
+  read_told(draft, find);
+  read_resume(draft, find);
+  graph.phases.clear();
+  for (const PhaseText& text : phases_of(draft.text))
+    graph.phases.push_back(
+        {text.name, {}, transitions(draft, text.next, phase_path(text) + ".next", find), text.where});
+  graph.any = transitions(draft, draft.text.any, "phases.any.next", find);
+}
+
+/// Not where the way led through a phase that was taken away: that is told already.
+void check_reachable(Draft& draft) {
+  const Graph& graph = draft.graph;
+  if (draft.report.misses("phases.")) return;
+  std::vector<bool> reached(graph.phases.size(), false);
+  std::vector<int> todo;
+  const auto reach = [&](int phase) {
+    if (phase < 0 || nth(reached, phase)) return;
+    nth(reached, phase) = true;
+    todo.push_back(phase);
+  };
+  reach(0);
+  for (const Transition& transition : graph.any) reach(transition.to);
+  while (!todo.empty()) {
+    const int at = todo.back();
+    todo.pop_back();
+    for (const Transition& transition : nth(graph.phases, at).next) reach(transition.to);
+  }
+  for (std::size_t i = 0; i < reached.size(); ++i)
+    if (!reached[i])
+      draft.report.add(graph.phases[i].where, "phases." + graph.phases[i].name +
+                                                  ": no transition leads here from " + graph.phases[0].name +
+                                                  ", where the flight begins");
+}
+
+}  // namespace
+
+void name_ports(Draft& draft) { compile_all(draft, false); }
+
+void compile_phases(Draft& draft) {
+  compile_all(draft, true);
+  const auto component = [&](int candidate) {
+    return candidate < 0 ? -1 : nth(draft.candidates, candidate).component;
+  };
+  for (std::size_t i = 0; i < draft.graph.phases.size(); ++i) {
+    draft.graph.phases[i].roles = draft.assignments[i];
+    for (Assignment& assignment : draft.graph.phases[i].roles) {
+      assignment.component = component(assignment.component);
+      assignment.fallback = component(assignment.fallback);
+    }
+  }
+  check_reachable(draft);
+}
+
+}  // namespace fulmar::core

@@ -89,9 +89,6 @@ std::string AirframeFile::title() const {
 
 AirframeFile read_airframe_file(const std::string& name) {
   const std::filesystem::path path = core::named_file(std::filesystem::path(), name);
-  std::error_code code;
-  if (!std::filesystem::exists(path, code))
-    throw core::Error("there is no file " + name + core::shipped_choices(name));
   AirframeFile file;
   file.name = name;
   core::Report report;

@@ -83,8 +83,6 @@ TEST_CASE("degrees for radians and other units are found, with what was likely m
          "once too often? Then it would be 0.17"},
         {"stall_alpha: 15 deg", "stall_alpha_rad: 15", "faults", "wing.stall_alpha",
          "is it in degrees? Write '15 deg'"},
-        {"elevator: {limit: 40 deg", "elevator: {limit_rad: 40", "faults", "elevator.limit",
-         "is it in degrees?"},
         {"rudder:   {limit: 40 deg, rate_limit: 500 deg/s", "rudder:   {limit: 40 deg, rate_limit_radps: 500",
          "warnings", "rudder.rate_limit", "is it in deg/s?"},
         {"roll_max: 45 deg", "roll_max_rad: 45", "faults", "limits.roll_max", "is it in degrees?"},

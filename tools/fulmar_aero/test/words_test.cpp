@@ -81,9 +81,11 @@ TEST_CASE("what cannot be an aircraft is refused with its line") {
       CHECK_MESSAGE(answer.says(file + ":" + sentence), answer.out);
     }
   };
-  refused("mass: 4.5 kg", "mass: -4.5 kg", "6: mass_kg: it is -4.5 kg and must be more than 0");
+  refused("mass: 4.5 kg", "mass: -4.5 kg", "6: mass: -4.5 kg is outside 0.0001 .. 1e+06 kg");
   refused("xz_kgm2: 0.06", "xz_kgm2: 0.6", "7: inertia: it is not positive definite");
-  refused("xx_kgm2: 0.24855", "xx_kgm2: 0", "7: inertia.xx_kgm2: it is 0 kg m^2");
+  refused("xx_kgm2: 0.24855", "xx_kgm2: 0", "7: inertia.xx_kgm2: 0 is outside 1e-09 .. 1e+09 kg m2");
+  refused("elevator: {limit: 40 deg", "elevator: {limit_rad: 40",
+          "39: elevator.limit_rad: 40 is outside 0 .. 1.6 rad. Did you mean 40 deg?");
   refused("span: 2.08 m", "span: 2.08 kg", "10: wing.span: ");
   refused("chord: 0.235 m", "cord: 0.235 m", "11: wing: unknown field 'cord'");
 }

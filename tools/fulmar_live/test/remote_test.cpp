@@ -466,8 +466,8 @@ TEST_CASE("bash completes commands, options, and names of the running flight") {
   CHECK(completed(flight, "fulmar run --io ") == Words{"sim", "fcu"});
   CHECK(completed(flight, "fulmar aero m") == Words{"modes"});
   CHECK(completed(flight, "fulmar aero modes --s") == Words{"--step", "--svg"});
-  CHECK(completed(flight, "fulmar aero trim configs/airframes/a") ==
-        Words{"configs/airframes/anaconda.yaml", "configs/airframes/aerosonde.yaml"});
+  CHECK(completed(flight, "fulmar aero trim configs/airframes/an") ==
+        Words{"configs/airframes/anaconda.yaml"});
   CHECK(completed(flight, "fulmar run configs/missions/hourg") == Words{"configs/missions/hourglass.yaml"});
   CHECK(completed(flight, "fulmar echo s --at 127.0.0.1:1 sl") == Words{});
   CHECK(completed(flight, "fulmar fcu ") == Words{});

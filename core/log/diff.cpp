@@ -3,6 +3,7 @@
 #include "core/log/diff.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <deque>
 
 #include "core/error.hpp"
@@ -25,11 +26,15 @@ struct Stored {
   std::uint64_t valid_ns;   // as the log has it: its publish time
 };
 
+bool same_bytes(MessageBytes a, MessageBytes b) {
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size()) == 0);
+}
+
 struct LoggedSample {
   MessageBytes data;
   std::uint64_t valid_ns;
   bool operator==(const LoggedSample& other) const {
-    return valid_ns == other.valid_ns && std::ranges::equal(data, other.data);
+    return valid_ns == other.valid_ns && same_bytes(data, other.data);
   }
 };
 
@@ -119,7 +124,7 @@ std::vector<CdrValue> values(const Side& side, const std::string& topic, Message
 MessageDiff::First first_field(const Side& a, const Side& b, const std::string& topic,
                                const LoggedSample& in_a, const LoggedSample& in_b, std::int64_t time_ns) {
   const MessageBytes left = in_a.data, right = in_b.data;
-  if (std::ranges::equal(left, right))
+  if (same_bytes(left, right))
     return {topic, "valid at", time_ns, std::to_string(in_a.valid_ns), std::to_string(in_b.valid_ns)};
   const std::vector<CdrValue> x = values(a, topic, left), y = values(b, topic, right);
   for (std::size_t i = 0; i < std::max(x.size(), y.size()); ++i) {

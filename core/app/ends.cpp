@@ -7,6 +7,7 @@
 #include <ctime>
 
 #include "core/app/last_act.hpp"
+#include "core/run/in_flight.hpp"
 #include "core/run/inside.hpp"
 
 namespace fulmar::core {
@@ -57,11 +58,18 @@ const char* ending_name(int signal) {
   return "";
 }
 
-/// Somebody wants an end at once.
+/// Somebody wants an end at once. Another one, which comes before the words are said, does not cut them
+/// short.
 void on_end(int signal) {
+  static std::atomic<bool> ending{false};
+  if (ending.exchange(true)) return;
   send_last_frame();
   tell({"\nfulmar: ended by ", ending_name(signal)});
   tell_end();
+  refuses_calls = false;  // it may have come in a component's step
+  struct sigaction usual {};
+  usual.sa_handler = SIG_DFL;
+  sigaction(signal, &usual, nullptr);
   raise(signal);
 }
 
@@ -78,7 +86,7 @@ void handle_signals(bool hardware, unsigned patience) {
   sigaction(SIGPIPE, &action, nullptr);               // nobody reads what is printed
   sigaction(SIGXFSZ, &action, nullptr);               // comes back as an error of write
   action.sa_handler = on_end;
-  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER);
+  action.sa_flags = SA_NODEFER;
   for (const Name& end : endings) sigaction(end.signal, &action, nullptr);
   handle_crashes();
 }

@@ -135,7 +135,9 @@ TEST_CASE("what a plugin does while it is loaded happens to a child") {
   CHECK(refusal(plugin("exits")) == "exits.so ended the process while being loaded (exit code 0)");
   const Environment limit("FULMAR_PROBE_SECONDS", "0.4");
   CHECK(refusal(plugin("hang")) == "hang.so did not finish loading within 1.6 s");
-  CHECK(refusal(plugin("busy")) == "busy.so did not finish loading within 0.4 s of the CPU");
+  const std::string busy = refusal(plugin("busy"));  // on a busy machine the clock on the wall may be first
+  CHECK((busy == "busy.so did not finish loading within 0.4 s of the CPU" ||
+         busy == "busy.so did not finish loading within 1.6 s"));
 }
 
 TEST_CASE("what a plugin has started where it is tried ends with the trial, wherever it went") {

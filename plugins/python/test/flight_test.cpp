@@ -159,7 +159,8 @@ TEST_CASE(
   const Result loop = fulmar("check " + mission("while True: pass\n"));
   ::unsetenv("FULMAR_PROBE_SECONDS");
   CHECK(loop.code == 4);
-  CHECK(loop.err.find("law.py did not finish loading within 2 s") != std::string::npos);
+  // 2 s of the CPU, or on a busy machine 8 s by the clock on the wall
+  CHECK(loop.err.find("law.py did not finish loading within ") != std::string::npos);
   CHECK(fulmar("check " + mission("import os\nos._exit(3)\n"))
             .err.find("law.py ended the process while being loaded (exit code 3)") != std::string::npos);
   CHECK(fulmar("check " + mission("import os\nos.abort()\n"))

@@ -11,7 +11,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t most_imports = 64;  // of one client
+constexpr std::size_t most_imports = 64;   // of one client
+constexpr std::size_t most_sets = 10'000;  // of one message: others wait for its answer
 
 std::uint32_t id_of(const json& value) {
   if (!value.is_number_unsigned() || value.get<std::uint64_t>() > 0xffffffffu)
@@ -156,6 +157,8 @@ void Hub::get_parameters(Client& client, const json& message) {
 
 void Hub::set_parameters(Client& client, const json& message) {
   const json& list = array_at(message, "parameters");
+  if (list.size() > most_sets)
+    return refuse(client, "a message sets at most " + std::to_string(most_sets) + " parameters");
   auto pending = std::make_shared<Pending>();
   pending->client = client.id;
   pending->id = request_id(message);

@@ -13,9 +13,13 @@
 namespace fulmar::core::test {
 
 /// Of each kind.
+#ifdef FULMAR_SANITIZED  // ten times as slow
+constexpr int mutants = 50;
+#else
 constexpr int mutants = 500;
+#endif
 /// Where 500 take more than ten seconds of a processor: fewer, without FULMAR_LONG.
-inline int costly_mutants() { return std::getenv("FULMAR_LONG") != nullptr ? mutants : 50; }
+inline int costly_mutants() { return std::getenv("FULMAR_LONG") != nullptr ? 500 : 50; }
 
 /// Whether `work` returns within the limits, without a crash and without an exception.
 template <class Work>

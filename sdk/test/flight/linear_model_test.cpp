@@ -121,6 +121,9 @@ TEST_CASE("what is there of A and B is what the equations of motion have") {
   CHECK(l.model.A(model::pitch, model::q) == 1);
   CHECK(l.model.A.col(model::north).norm() == 0);
   CHECK(l.model.A.col(model::east).norm() == 0);
+  // lift follows the density, which goes with the power 4.2559 of the temperature
+  CHECK(l.model.A(model::w, model::down) ==
+        Approx(-g * std::cos(theta) * 4.2559 * 0.0065 / (288.15 - 0.0065 * 1457)).epsilon(1e-4).scale(0));
   CHECK(l.model.B.topRows(3).norm() == 0);
   CHECK(l.model.B(model::q, model::elevator) < 0);  // trailing edge down: nose down
   CHECK(l.model.B(model::p, model::aileron) > 0);

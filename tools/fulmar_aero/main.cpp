@@ -2,9 +2,12 @@
 // `fulmar aero ...`, as the program fulmar-aero. Exit codes: 0 done; 1 there is no such flight, or a check
 // has found a fault; 2 wrong usage; 4 the airframe file was refused.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 
 #include "core/app/program.hpp"
+#include "core/error.hpp"
+#include "core/types/text.hpp"
 #include "fulmar/abi.h"
 #include "tools/fulmar_aero/commands.hpp"
 
@@ -47,6 +50,16 @@ struct CommandLine {
     check->footer("Example: fulmar aero check fulmar:airframes/anaconda.yaml");
   }
 
+  /// Of the first word, when it is no command: the sentence, else "".
+  std::string unknown(int argc, char** argv) const {
+    std::vector<std::string> names;
+    for (const CLI::App* one : {trim, linearize, modes, check}) names.push_back(one->get_name());
+    if (argc < 2 || argv[1][0] == '-' || std::find(names.begin(), names.end(), argv[1]) != names.end())
+      return "";
+    return "fulmar aero: there is no command '" + std::string(argv[1]) + "'." +
+           core::choices_text(argv[1], names);
+  }
+
   int run() const {
     if (trim->parsed()) return trim_command(flight);
     if (linearize->parsed()) return linearize_command(flight, csv);
@@ -63,6 +76,9 @@ int main(int argc, char** argv) {
       [&] {
         if (core::asked_for_rows(argc, argv))
           return std::fputs(core::command_rows(line.app).c_str(), stdout), 0;
+        if (const std::string sentence = line.unknown(argc, argv); !sentence.empty())
+          return std::fprintf(stderr, "%s\n", core::for_terminal(sentence).c_str()),
+                 int(core::ExitCode::usage);
         line.app.parse(argc, argv);
         return line.run();
       },

@@ -102,7 +102,8 @@ TEST_CASE("faults of the command line are sentences, and the exit code is 2") {
       {"trim configs/airframes/anaconda.yaml --altitude '90 km'", "outside -1000 .. 20000 m"},
       {"modes configs/airframes/anaconda.yaml --airspeed 20..10", "the first speed is above the last one"},
       {"modes configs/airframes/anaconda.yaml --airspeed 10..20 --step 0", "in steps of more than 0"},
-      {"", "subcommand"}};
+      {"", "subcommand"},
+      {"trm configs/airframes/anaconda.yaml", "there is no command 'trm'. Did you mean 'trim'?"}};
   for (const auto& [words, sentence] : told) {
     const Answer answer = call(words);
     CHECK(answer.code == 2);

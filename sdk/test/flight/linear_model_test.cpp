@@ -209,6 +209,11 @@ TEST_CASE("what stands against a steady flight is told") {
   CHECK(with([](Airframe& o) { o.aero.pitch.zero_ratio = 1.2; }) == TrimLimit::elevator);
   CHECK(with([](Airframe& o) { o.aero.roll.zero_ratio = 0.2; }) == TrimLimit::aileron);
   CHECK(with([](Airframe& o) { o.aero.yaw.zero_ratio = 0.05; }) == TrimLimit::rudder);
+  const auto soft_stall = [](Airframe& o) {  // there is a balance, beyond the stall
+    o.wing.stall_alpha_rad = 0.02;
+    o.wing.stall_sharpness_ratio = 5;
+  };
+  CHECK(with(soft_stall) == TrimLimit::stall);
   CHECK(with([](Airframe& o) { o.aero.roll.aileron_ratio = 0; }) == TrimLimit::no_aileron);
   CHECK(with([](Airframe& o) { o.aero.pitch.elevator_ratio = 0; }) == TrimLimit::no_elevator);
   CHECK(with([](Airframe& o) {

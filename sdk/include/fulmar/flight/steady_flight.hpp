@@ -234,8 +234,7 @@ inline TrimLimit trim_limit(const AircraftModel& m, const SteadyFlight& f) {
   if (f.propeller_radps < 0 || f.input(model::throttle) < 0) return TrimLimit::throttle_low;
   const double Omega = m.propeller().steady_speed(std::min(f.input(model::throttle), 1.0),
                                                   f.condition.airspeed_mps, f.density_kgm3);
-  if (f.input(model::throttle) > 1 || Omega < f.propeller_radps - 1e-6 * (1 + f.propeller_radps))
-    return TrimLimit::throttle_high;
+  if (Omega < f.propeller_radps - 1e-6 * (1 + f.propeller_radps)) return TrimLimit::throttle_high;
   return TrimLimit::none;
 }
 

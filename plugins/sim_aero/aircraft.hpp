@@ -18,8 +18,8 @@
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/msg/vehicle_status.hpp"
 #include "fulmar/plugin.hpp"
+#include "fulmar/sim/plant.hpp"
 #include "icing.hpp"
-#include "plant.hpp"
 #include "sensors.hpp"
 
 namespace fulmar::sim {
@@ -235,7 +235,8 @@ class Aircraft {
     const bool other = faults_.advance(now_ns_);
     if (other) {
       sensors_->suffer(faults_);
-      plant_->suffer(faults_);
+      plant_->suffer(faults_[FaultTarget::aileron], faults_[FaultTarget::elevator],
+                     faults_[FaultTarget::rudder]);
     }
     if (icing_.advance(faults_[FaultTarget::icing].rate, dt) || (other && icing_.ice() > 0))
       plant_->set_aerodynamics(iced(airframe_, icing_.ice(), p.faults.body_that_fails));

@@ -14,22 +14,9 @@
 #include "fault_params.hpp"
 #include "fulmar/eigen.hpp"
 #include "fulmar/msg/fault_request.hpp"
+#include "fulmar/sim/fault.hpp"
 
 namespace fulmar::sim {
-
-/// One fault. Which of its sizes count depends on its kind.
-struct Fault {
-  FaultKind kind = FaultKind::none;
-  Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< of the sensor; scalars are in x
-  double scale = 1;                                ///< wrong
-  double noise = 1;                                ///< noisy
-  double time_s = 1;                               ///< slow, jumping, empty
-  double share = 1;                                ///< slow surfaces, weak
-  double rate = 0;                                 ///< growing, melting; 1/s
-  double ramp_s = 0;
-  std::int64_t since_ns = 0;
-  double growth = 1;  ///< how much of its size there is by now: 0 to 1
-};
 
 constexpr std::size_t fault_targets = 14;
 constexpr std::size_t at(FaultTarget target) { return static_cast<std::size_t>(target); }

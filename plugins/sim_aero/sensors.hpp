@@ -16,7 +16,7 @@
 #include "fulmar/msg/imu.hpp"
 #include "fulmar/msg/mag.hpp"
 #include "fulmar/msg/pitot.hpp"
-#include "plant.hpp"
+#include "fulmar/sim/plant.hpp"
 #include "presets.hpp"
 #include "sensor_faults.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugins/sim_aero/plant.hpp"
+#include "fulmar/sim/plant.hpp"
 
 #include <doctest/doctest.h>
 

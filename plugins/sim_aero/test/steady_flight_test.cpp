@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "fulmar/flight/attitude.hpp"
-#include "plugins/sim_aero/plant.hpp"
+#include "fulmar/sim/plant.hpp"
 #include "sdk/test/flight/airframe_file.hpp"
 
 namespace steady_flight_test {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What failing surfaces, motor, battery and ice do to the aircraft, against the equations by hand.
-#include "plugins/sim_aero/surface_faults.hpp"
-
 #include <doctest/doctest.h>
 
 #include <cmath>
 
 #include "faulty.hpp"
+#include "fulmar/sim/drive.hpp"
 
 namespace surface_faults_test {
 
@@ -29,7 +28,8 @@ struct Tunnel {  ///< an aircraft that is held in its trimmed flight: only surfa
     p.body_that_fails.aileron_fault.value = aileron;
     p.body_that_fails.elevator_fault.value = elevator;
     p.body_that_fails.rudder_fault.value = rudder;
-    plant.suffer(in_force(p));
+    const Faults faults = in_force(p);
+    plant.suffer(faults[FaultTarget::aileron], faults[FaultTarget::elevator], faults[FaultTarget::rudder]);
   }
   void blow(double seconds, const Actuators& command) {
     for (int i = 0; i < std::lround(seconds / dt); ++i) {

@@ -10,7 +10,7 @@
 #include "firmware.hpp"
 #include "fulmar/flight/magnetic_model.hpp"
 #include "fulmar/msg/airframe.hpp"
-#include "plugins/sim_aero/plant.hpp"
+#include "fulmar/sim/plant.hpp"
 #include "plugins/sim_aero/sensors.hpp"
 
 namespace fulmar::fcu::peer {

@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "faults.hpp"
 #include "fulmar/flight/aerodynamics.hpp"
-#include "servo.hpp"
+#include "fulmar/sim/fault.hpp"
+#include "fulmar/sim/servo.hpp"
 
 namespace fulmar::sim {
 

@@ -16,9 +16,9 @@
 #include "fulmar/flight/rigid_body.hpp"
 #include "fulmar/flight/trim.hpp"
 #include "fulmar/msg/actuators.hpp"
-#include "ground.hpp"
-#include "surface_faults.hpp"
-#include "weather.hpp"
+#include "fulmar/sim/drive.hpp"
+#include "fulmar/sim/ground.hpp"
+#include "fulmar/sim/weather.hpp"
 
 namespace fulmar::sim {
 
@@ -131,10 +131,10 @@ class Plant {
     refresh();
   }
   void set_wind(const Eigen::Vector3d& wind_n) { weather_.wind_n = wind_n; }
-  void suffer(const Faults& faults) {
-    aileron_.suffer(faults[FaultTarget::aileron]);
-    elevator_.suffer(faults[FaultTarget::elevator]);
-    rudder_.suffer(faults[FaultTarget::rudder]);
+  void suffer(const Fault& aileron, const Fault& elevator, const Fault& rudder) {
+    aileron_.suffer(aileron);
+    elevator_.suffer(elevator);
+    rudder_.suffer(rudder);
   }
   /// With ice on it; mass and trim stay.
   void set_aerodynamics(const Airframe& a) { aero_ = Aerodynamic(a); }

@@ -23,7 +23,7 @@ using Deflections = DeflectionsOf<double>;
 /// Airspeed, angle of attack and sideslip of an air-relative velocity in body axes. Beard & McLain (2.8).
 template <class S>
 struct AirDataOf {
-  explicit AirDataOf(const Eigen::Vector3<S>& v_r) : Va(v_r.norm()) {
+  explicit AirDataOf(const Eigen::Vector3<S>& v_r) : Va(plain::norm<S>(v_r)) {
     using std::sqrt, std::atan2, std::asin;
     in_plane = sqrt(v_r.x() * v_r.x() + v_r.z() * v_r.z());
     if (in_plane > 0) {

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <cmath>
 
 namespace fulmar {
 
@@ -35,6 +36,52 @@ struct MassProperties {
   Eigen::Matrix3d J, J_inverse;
 };
 
+/// The algebra of a step, coefficient by coefficient: Eigen's own takes two doubles at a time through memory,
+/// where each pair waits for the single ones before it, which took half of a step. The order of the sums is
+/// the one that Eigen has with two doubles a register, so that flights of before are the same to the bit.
+namespace plain {
+
+template <class S>
+Eigen::Vector3<S> cross(const Eigen::Vector3<S>& a, const Eigen::Vector3<S>& b) {
+  return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(), a.x() * b.y() - a.y() * b.x()};
+}
+
+template <class S, class T>
+Eigen::Vector3<S> product(const Eigen::Matrix3<T>& A, const Eigen::Vector3<S>& v) {
+  return {A(0, 0) * v.x() + A(0, 1) * v.y() + A(0, 2) * v.z(),
+          A(1, 0) * v.x() + A(1, 1) * v.y() + A(1, 2) * v.z(),
+          A(2, 0) * v.x() + (A(2, 1) * v.y() + A(2, 2) * v.z())};
+}
+
+/// Body to NED.
+template <class S>
+Eigen::Vector3<S> rotated(const Eigen::Quaternion<S>& q, const Eigen::Vector3<S>& v) {
+  const S tx = 2 * q.x(), ty = 2 * q.y(), tz = 2 * q.z();
+  const S wx = tx * q.w(), wy = ty * q.w(), wz = tz * q.w();
+  const S xx = tx * q.x(), xy = ty * q.x(), xz = tz * q.x();
+  const S yy = ty * q.y(), yz = tz * q.y(), zz = tz * q.z();
+  return {(1 - (yy + zz)) * v.x() + (xy - wz) * v.y() + (xz + wy) * v.z(),
+          (xy + wz) * v.x() + (1 - (xx + zz)) * v.y() + (yz - wx) * v.z(),
+          (xz - wy) * v.x() + ((yz + wx) * v.y() + (1 - (xx + yy)) * v.z())};
+}
+
+/// NED to body.
+template <class S>
+Eigen::Vector3<S> rotated_back(const Eigen::Quaternion<S>& q, const Eigen::Vector3<S>& v) {
+  const Eigen::Vector3<S> axis(-q.x(), -q.y(), -q.z()), c = cross<S>(axis, v);
+  const Eigen::Vector3<S> twice(c.x() + c.x(), c.y() + c.y(), c.z() + c.z()), d = cross<S>(axis, twice);
+  return {v.x() + q.w() * twice.x() + d.x(), v.y() + q.w() * twice.y() + d.y(),
+          v.z() + q.w() * twice.z() + d.z()};
+}
+
+template <class S>
+S norm(const Eigen::Vector3<S>& v) {
+  using std::sqrt;
+  return sqrt(v.x() * v.x() + v.y() * v.y() + v.z() * v.z());
+}
+
+}  // namespace plain
+
 template <class S>
 struct RigidBodyRateOf {
   Eigen::Vector3<S> p_n, v_n;
@@ -51,12 +98,16 @@ RigidBodyRateOf<S> rate_of(const RigidBodyOf<S>& x, const LoadOf<S>& load, const
   const auto& w = x.omega_b;
   RigidBodyRateOf<S> d;
   d.p_n = x.v_n;
-  d.v_n = q.toRotationMatrix() * (load.force_b / body.mass) + g_n;
-  d.q_nb << 0.5 * (q.w() * w.x() + q.y() * w.z() - q.z() * w.y()),
-      0.5 * (q.w() * w.y() + q.z() * w.x() - q.x() * w.z()),
-      0.5 * (q.w() * w.z() + q.x() * w.y() - q.y() * w.x()),
-      -0.5 * (q.x() * w.x() + q.y() * w.y() + q.z() * w.z());
-  d.omega_b = body.J_inverse * (load.moment_b - w.cross(body.J * w));
+  const Eigen::Vector3<S> a = plain::rotated<S>(
+      q, {load.force_b.x() / body.mass, load.force_b.y() / body.mass, load.force_b.z() / body.mass});
+  d.v_n = {a.x() + g_n.x(), a.y() + g_n.y(), a.z() + g_n.z()};
+  d.q_nb = {0.5 * (q.w() * w.x() + q.y() * w.z() - q.z() * w.y()),
+            0.5 * (q.w() * w.y() + q.z() * w.x() - q.x() * w.z()),
+            0.5 * (q.w() * w.z() + q.x() * w.y() - q.y() * w.x()),
+            -0.5 * (q.x() * w.x() + q.y() * w.y() + q.z() * w.z())};
+  const Eigen::Vector3<S> turned = plain::cross<S>(w, plain::product<S>(body.J, w));
+  d.omega_b = plain::product<S>(
+      body.J_inverse, {load.moment_b.x() - turned.x(), load.moment_b.y() - turned.y(), load.moment_b.z() - turned.z()});
   return d;
 }
 

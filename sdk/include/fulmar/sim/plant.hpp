@@ -88,7 +88,7 @@ class Plant {
 
   /// One step. `power` is the share of the battery's full voltage that the throttle deals out: 0 stops the
   /// motor whatever it says.
-  void advance(const Actuators& command, double power, double dt) {
+  [[gnu::flatten]] void advance(const Actuators& command, double power, double dt) {
     throttle_ = power * std::clamp(command.throttle_frac, 0.0, 1.0);
     if (ground_.crashed()) {
       throttle_ = Omega_ = 0;
@@ -220,7 +220,10 @@ class Plant {
   }
 
   Eigen::Vector3d relative(const RigidBody& x) const {
-    return x.q_nb.conjugate() * (x.v_n - steady_wind(x)) - gust_b_;
+    const Eigen::Vector3d wind_n = steady_wind(x);
+    const Eigen::Vector3d v_r = plain::rotated_back<double>(
+        x.q_nb, {x.v_n.x() - wind_n.x(), x.v_n.y() - wind_n.y(), x.v_n.z() - wind_n.z()});
+    return {v_r.x() - gust_b_.x(), v_r.y() - gust_b_.y(), v_r.z() - gust_b_.z()};
   }
 
   Load load(const RigidBody& x, const Stage& s) const {
@@ -231,7 +234,7 @@ class Plant {
     const Eigen::Vector3d v_r = relative(x);
     const double rho = air_.density_kgm3;
     Load load = aero_.load(v_r, x.omega_b, s.deflections, rho);
-    const double Va = v_r.norm();
+    const double Va = plain::norm<double>(v_r);
     load.force_b.x() += propeller_.thrust(s.Omega, Va, rho);
     load.moment_b.x() -= propeller_.torque(s.Omega, Va, rho);
     ground_.add_load(x, load);
@@ -249,7 +252,7 @@ class Plant {
     g_n_ =
         turns() ? turning_.free_acceleration(x_.p_n, x_.v_n) : Eigen::Vector3d(0, 0, gravity_at(altitude_m));
     air_ = air_at(altitude_m);
-    Va_ = relative(seen()).norm();
+    Va_ = plain::norm<double>(relative(seen()));
     load_ = load_seen(seen(), {deflections(), Omega_});
   }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/graph/places.hpp"
 #include "core/loader/library.hpp"
 #include "core/types/type.hpp"
 
@@ -24,6 +25,7 @@ struct ParamValue {
   std::int64_t integer = 0;
   std::string text;
   std::vector<std::byte> data;
+  PlacesPtr places{};  // where it is said; null: nowhere
 };
 
 /// Where a wire begins: an output of one component, or of whoever fills a role.

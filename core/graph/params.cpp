@@ -164,6 +164,7 @@ ParamPath param_path(const ComponentInfo& info, const std::string& name) {
 void read_param_field(const ParamInfo& param, const std::string& field, const Node& node,
                       const std::string& path, ParamValue& value, Report& report) {
   value.data.resize(param.type->size);
+  value.places = with_place(value.places, field, node);
   fill_record_field(*param.type, field, node, value.data.data(), path, report);
   if (value.integer == 0 && param.required) return;  // the rest of it is missing, and will be told
   mark_given(*param.type, value.data.data());
@@ -180,6 +181,7 @@ void read_record(const ParamInfo& param, const Node& map, const std::string& pat
                  ParamValue& value, Report& report, const std::vector<std::string>& also) {
   value.data = param.initial_data;
   value.data.resize(param.type->size);
+  value.places = places_of(map);
   fill_record(*param.type, map, value.data.data(), path, report, also);
   const std::vector<std::string> missing = missing_in_record(*param.type, map);
   if (!missing.empty() && map.is(Node::Kind::map)) {
@@ -197,6 +199,7 @@ void read_record(const ParamInfo& param, const Node& map, const std::string& pat
 
 void read_param(const ParamInfo& param, const Node& node, const std::string& path, ParamValue& value,
                 FileStore& files, Report& report) {
+  value.places = with_place(nullptr, "", node);
   const ParamReader reader{param, path, value, files, report};
   switch (param.kind) {
     case FULMAR_NUMBER: reader.number_into(node, path, value.number[0]); return;

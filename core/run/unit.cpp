@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/run/unit.hpp"
 
+#include "core/graph/places.hpp"
 #include "core/run/last_words.hpp"
 #include "core/types/named.hpp"
 
@@ -49,8 +50,9 @@ void Unit::configure() {
   fill_values(nullptr, true);
   problem.text[0] = '\0';
   if (runner_->configure(arguments_.values.data(), problem) != FULMAR_FAILED) return;
-  throw Error(component->where.text() + ": " + component->name + ": " +
-              (problem.text[0] ? problem.text : "refuses its parameters"));
+  const std::string why = problem.text[0] ? problem.text : "refuses its parameters";
+  throw Error(place_in(*component, why).value_or(component->where).text() + ": " + component->name + ": " +
+              why);
 }
 
 std::unique_ptr<Tape> Unit::present_inputs(std::int64_t now_ns, std::uint64_t index) {

@@ -20,7 +20,9 @@
 #include "fulmar/plugin.hpp"
 #include "fulmar/sim/plant.hpp"
 #include "icing.hpp"
+#include "refusals.hpp"
 #include "sensors.hpp"
+#include "surroundings.hpp"
 
 namespace fulmar::sim {
 
@@ -96,19 +98,10 @@ class Aircraft {
     Param aux3{0, "", -1, 1, "switch of the pilot"};
     Param aux4{0, "", -1, 1, "switch of the pilot"};
     FaultParams faults;
+    Surroundings around;
   };
 
   explicit Aircraft(std::uint64_t seed) : seed_(seed) {}
-
-  /// Why this is no aircraft that flies: a map of some fields leaves the rest at nothing. Null when it is
-  /// one.
-  static const char* missing_part(const Airframe& a) {
-    const Propulsion& p = a.propulsion;
-    if (!(a.aero.lift.alpha_ratio > 0)) return "the airframe has no lift: aero.lift.alpha is missing";
-    if (p.ct0_ratio == 0 && p.ct1_ratio == 0 && p.ct2_ratio == 0)
-      return "the airframe has no thrust: propulsion.ct0 is missing";
-    return nullptr;
-  }
 
   /// Velocity of the air, NED, m/s: a wind from the west blows to the east.
   static Eigen::Vector3d steady_wind(const Params& p) {
@@ -122,18 +115,27 @@ class Aircraft {
     return {steady_wind(p),
             p.turbulence,
             {p.wind_profile, p.wind_reference, p.wind_exponent, p.wind_roughness},
-            {p.temperature_offset, p.pressure_offset}};
+            {p.temperature_offset, p.pressure_offset},
+            p.around.air.turbulence_height,
+            p.around.air.turbulence_wind,
+            *p.around.air.thermals};
   }
 
   Earth earth(const Params& p) const {
     constexpr double degree = std::numbers::pi / 180;
-    return {p.earth, degree * origin_.lat_deg, degree * origin_.lon_deg};
+    const GroundParams& g = p.around.ground;
+    if (p.earth == EarthModel::wgs84 && g.ground_slope > 0)
+      throw std::runtime_error("ground_slope: the ground of earth: wgs84 follows the ellipsoid; use flat or "
+                               "gravity");
+    return {p.earth, degree * origin_.lat_deg, degree * origin_.lon_deg,
+            {g.ground_slope, g.ground_slope_towards, g.ground_friction, g.ground_effect}};
   }
 
   void configure(const Params& p) {
     origin_ = p.origin.given() ? *p.origin : Origin{40.2463724, -111.6474138, 1387, true};
     airframe_ = *p.airframe;
-    if (const char* missing = missing_part(airframe_)) throw std::runtime_error(missing);
+    if (const std::string missing = missing_part(airframe_); !missing.empty())
+      throw std::runtime_error(missing);
     period_ns_ = std::llround(1e9 / p.rate);
     now_ns_ = -std::llround(p.settle * 1e9 / static_cast<double>(period_ns_)) * period_ns_;
     epoch_ns_ = std::llround(p.epoch) * 1000000000;
@@ -162,11 +164,14 @@ class Aircraft {
     faults_ = {};
     faults_.set(p.faults, now_ns_);
     icing_ = {};
+    gusts_ = {};
+    gusts_.set(p.around.air, now_ns_);
   }
 
   void retune(const Params& p) {
     plant_->set_wind(steady_wind(p));
     faults_.set(p.faults, now_ns_);
+    gusts_.set(p.around.air, now_ns_);
   }
 
   Status read(Tick& tick, const Params& p, Outputs& out) {
@@ -174,11 +179,14 @@ class Aircraft {
     tick.now_ns = now_ns_;
     const double dt = 1e-9 * static_cast<double>(period_ns_);
     suffer(p, dt);
+    if (gusts_.due(now_ns_ - period_ns_)) plant_->fire(gust_spec(p.around.air));
     const Actuators& applied = actuation_.at(now_ns_ - period_ns_);
     if (released_)
       plant_->advance(applied, armed_ && p.motor ? faults_.power(now_ns_) : 0, dt);
     else
       plant_->carry(dt);
+    if (plant_->departure() != Departure::none) [[unlikely]]
+      throw std::runtime_error(departure_words(*plant_));
     if (wants_armed_ && !armed_ && now_ns_ >= 0) armed_ = released_ = true;
     publish_sensors(p, out);
     publish_rc_and_status(p, out);
@@ -216,10 +224,16 @@ class Aircraft {
   }
 
   void place(const Params& p) {
-    if (p.start_height <= 0) return plant_->stand(p.start_north, p.start_east, p.start_heading);
-    const double Va = p.start_airspeed > 0 ? p.start_airspeed : airframe_.limits.airspeed_cruise_mps;
-    if (!plant_->fly({p.start_north, p.start_east, -p.start_height}, p.start_heading, Va))
-      throw std::runtime_error("start_airspeed: the aircraft has no level flight at this airspeed");
+    const bool in_air = p.start_height > 0, own = in_air && p.start_airspeed > 0;
+    const double Va = own ? p.start_airspeed : airframe_.limits.airspeed_cruise_mps;
+    const SteadyFlight flight =
+        steady_flight(AircraftModel(airframe_, origin_.alt_msl_m + p.start_height), {Va});
+    if (!in_air && flight.found()) return plant_->stand(p.start_north, p.start_east, p.start_heading);
+    if (!in_air || !plant_->fly({p.start_north, p.start_east, -p.start_height}, p.start_heading, Va))
+      throw std::runtime_error(
+          trim_words(airframe_, flight, own ? "start_airspeed" : "airframe.limits.airspeed_cruise"));
+    if (plant_->height_above_ground() < airframe_.gear.height_m)
+      throw std::runtime_error("start_height: the ground is higher at this place; ground_slope says how high");
     plant_->shift(1e-9 * static_cast<double>(now_ns_));
   }
 
@@ -301,6 +315,7 @@ class Aircraft {
   VehicleStatus status_;
   Faults faults_;
   Icing icing_;
+  GustClock gusts_;
   bool armed_ = false, wants_armed_ = false;
   bool released_ = false;  ///< has been armed once: from then on it is free to move
   bool failsafe_ = false;

@@ -44,8 +44,12 @@ class Aerodynamic {
   explicit Aerodynamic(const Airframe& a)
       : wing_(a.wing),
         aero_(a.aero),
-        induced_(1 /
-                 (std::numbers::pi * a.wing.oswald_ratio * a.wing.span_m * a.wing.span_m / a.wing.area_m2)) {}
+        induced_free_(1 / (std::numbers::pi * a.wing.oswald_ratio * a.wing.span_m * a.wing.span_m /
+                           a.wing.area_m2)),
+        induced_(induced_free_) {}
+
+  /// From here on the induced drag is `part` of that in free air.
+  void near_ground(double part) { induced_ = part * induced_free_; }
 
   /// Share of separated flow, 0 to 1. (4.10)
   double stall(double alpha) const { return separated(alpha); }
@@ -119,7 +123,15 @@ class Aerodynamic {
 
   Wing wing_;
   Aerodynamics aero_;
-  double induced_;  ///< 1 / (pi e AR)
+  double induced_free_;  ///< 1 / (pi e AR)
+  double induced_;
 };
+
+/// Part of the induced drag that is left `height_m` above the ground. McCormick, Aerodynamics, Aeronautics
+/// and Flight Mechanics (1979), (7.6): phi = (16 h/b)^2 / (1 + (16 h/b)^2).
+inline double induced_drag_near_ground(double height_m, double span_m) {
+  const double x = 16 * std::max(height_m, 0.0) / span_m;
+  return x * x / (1 + x * x);
+}
 
 }  // namespace fulmar

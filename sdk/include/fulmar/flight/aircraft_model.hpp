@@ -62,6 +62,10 @@ class AircraftModel {
     const S Va = v_b.norm();
     load.force_b.x() += propeller_.thrust_of<S>(Omega, Va, rho);
     load.moment_b.x() -= propeller_.torque_of<S>(Omega, Va, rho);
+    if (const double I = propeller_.inertia_kgm2(); I > 0) {  // -omega x (I Omega e_x)
+      load.moment_b.y() -= I * Omega * omega_b.z();
+      load.moment_b.z() += I * Omega * omega_b.y();
+    }
     return load;
   }
 

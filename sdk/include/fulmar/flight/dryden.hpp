@@ -42,6 +42,13 @@ class Dryden {
     }
   }
 
+  /// Other lengths and deviations from here on. The state has no unit: gusts grow or shrink with the
+  /// deviations and do not jump.
+  void set_scales(const DrydenScales& scales) {
+    scales_ = scales;
+    dt_ = 0;
+  }
+
   /// Gust velocity, body axes, after a further `dt` at airspeed `Va`.
   Eigen::Vector3d advance(double dt, double Va) {
     if (scales_.sigma.isZero(0)) return Eigen::Vector3d::Zero();

@@ -69,6 +69,7 @@ class Propeller {
   }
 
   double time_constant_s() const { return p_.time_constant_s; }
+  double inertia_kgm2() const { return p_.propeller_inertia_kgm2; }
 
  private:
   Propulsion p_;

@@ -46,6 +46,9 @@ struct Propulsion {
   double no_load_amp = 1;
   double battery_volt = 12;       ///< at full throttle
   double time_constant_s = 0.05;  ///< of motor and propeller spinning up
+  /// Of all that turns with the propeller, about its axis; it turns right, seen from behind. 0: the airframe
+  /// feels neither gyroscopic moment nor spinning up.
+  double propeller_inertia_kgm2 = 0;
 };
 
 /// One control surface: how far it moves, how its servo follows, and what hardware needs to drive it.

@@ -17,8 +17,10 @@ namespace fulmar::sim {
 
 class Ground {
  public:
-  explicit Ground(const Airframe& a)
-      : rolling_(a.gear.rolling_friction_ratio), sliding_(a.gear.side_friction_ratio) {
+  /// `friction`: factor on what the airframe says, for wet grass or ice.
+  explicit Ground(const Airframe& a, double friction = 1)
+      : rolling_(friction * a.gear.rolling_friction_ratio),
+        sliding_(friction * a.gear.side_friction_ratio) {
     const double weight = a.mass_kg * isa::g0, L = a.gear.length_m, h = a.gear.height_m + sag,
                  y = a.gear.track_m / 2;
     const double tail_z = h - (1 - nose_share) * L * std::tan(tail_strike_pitch);

@@ -10,14 +10,15 @@
 
 #include "fulmar/flight/aerodynamics.hpp"
 #include "fulmar/flight/atmosphere.hpp"
-#include "fulmar/flight/dryden.hpp"
 #include "fulmar/flight/earth.hpp"
 #include "fulmar/flight/propulsion.hpp"
 #include "fulmar/flight/rigid_body.hpp"
 #include "fulmar/flight/trim.hpp"
 #include "fulmar/msg/actuators.hpp"
+#include "fulmar/sim/disturbances.hpp"
 #include "fulmar/sim/drive.hpp"
 #include "fulmar/sim/ground.hpp"
+#include "fulmar/sim/slope.hpp"
 #include "fulmar/sim/weather.hpp"
 
 namespace fulmar::sim {
@@ -25,9 +26,22 @@ namespace fulmar::sim {
 /// What lies below: flat ground and constant gravity, flat ground and gravity by latitude and height, or the
 /// turning ellipsoid.
 enum class EarthModel : std::uint8_t { flat, gravity, wgs84 };
+/// The ground at the aircraft's feet, not with the turning ellipsoid.
+struct Terrain {
+  double slope_rad = 0, rises_towards_rad = 0;  ///< of the plane through the origin
+  double friction_ratio = 1;                    ///< of gear and ground, times the airframe's
+  bool ground_effect = false;                   ///< less induced drag close to it
+};
 struct Earth {
   EarthModel model = EarthModel::flat;
   double lat_rad = 0, lon_rad = 0;  ///< of the origin
+  Terrain terrain{};
+};
+
+/// Why the plant's state is no flight of this aircraft any more.
+enum class Departure : std::uint8_t {
+  none,
+  diverged,  ///< not finite, or faster than anything that flies
 };
 
 class Plant {
@@ -38,8 +52,9 @@ class Plant {
         mass_(a.mass_kg, inertia(a)),
         aero_(a),
         propeller_(a.propulsion),
-        ground_(a),
-        dryden_(dryden_scales(weather.turbulence), seed),
+        slope_(earth.terrain.slope_rad, earth.terrain.rises_towards_rad),
+        ground_(a, earth.terrain.friction_ratio),
+        disturbances_(weather, seed),
         aileron_(a.aileron),
         elevator_(a.elevator),
         rudder_(a.rudder),
@@ -56,6 +71,7 @@ class Plant {
     x_ = RigidBody{};
     x_.p_n = {north_m, east_m, -airframe_.gear.height_m};
     x_.q_nb = Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ());
+    if (slope_.some()) x_ = slope_.standing(north_m, east_m, heading_rad, airframe_.gear.height_m);
     ground_.stand();
     put_in_frame();
     refresh();
@@ -68,7 +84,7 @@ class Plant {
     const Trim trim =
         trimmed_flight(airframe_, Va, air_at(altitude_m).density_kgm3, 0, gravity_at(altitude_m));
     if (!trim.found) return false;
-    ground_ = Ground(airframe_);
+    ground_ = Ground(airframe_, earth_.terrain.friction_ratio);
     x_ = RigidBody{};
     x_.p_n = p_n;
     x_.q_nb = Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()) *
@@ -96,6 +112,7 @@ class Plant {
     }
     if (aileron_.free() || elevator_.free() || rudder_.free()) let_trail();
     const double Omega_steady = propeller_.steady_speed(throttle_, Va_, air_.density_kgm3);
+    const double Omega_before = Omega_;
     for (Stage& stage : stage_) {
       aileron_.advance(command.aileron_rad, 0.5 * dt);
       elevator_.advance(command.elevator_rad, 0.5 * dt);
@@ -103,22 +120,29 @@ class Plant {
       Omega_ = Omega_steady + (Omega_ - Omega_steady) * motor_decay(0.5 * dt);
       stage = {{aileron_.angle(), elevator_.angle(), rudder_.angle()}, Omega_};
     }
+    if (propeller_.inertia_kgm2() > 0) spin_up(Omega_before, Omega_steady, dt);
     const auto load_at = [&](const RigidBody& x, double part) {
       return load(x, stage_[part > 0.75 ? 1 : 0]);
     };
     x_ = turns() ? runge_kutta(x_, load_, dt, mass_, turning_, load_at)
                  : runge_kutta(x_, load_, dt, mass_, g_n_, load_at);
-    ground_.advance(turns() ? level_.seen(x_) : x_, dt);
+    if (slope_.some())
+      ground_.advance(slope_.seen(x_), dt);
+    else
+      ground_.advance(turns() ? level_.seen(x_) : x_, dt);
     if (ground_.crashed()) rest();  // it stays where it hit
-    gust_b_ = dryden_.advance(dt, Va_);
+    disturb(dt);
     refresh();
+    // written so that what is not a number has diverged, too
+    if (!(x_.v_n.squaredNorm() + x_.omega_b.squaredNorm() + x_.p_n.squaredNorm() * 1e-6 < fastest * fastest))
+      departure_ = Departure::diverged;
   }
 
   /// Carried along without forces: before arming, an aircraft that starts in the air keeps its steady flight,
   /// one on the ground is held.
   void carry(double dt) {
     x_.p_n += dt * x_.v_n;
-    gust_b_ = dryden_.advance(dt, Va_);
+    disturb(dt);
     refresh();
     load_.force_b = -mass_.mass * (x_.q_nb.conjugate() * g_n_);
     load_.moment_b.setZero();
@@ -137,7 +161,12 @@ class Plant {
     rudder_.suffer(rudder);
   }
   /// With ice on it; mass and trim stay.
-  void set_aerodynamics(const Airframe& a) { aero_ = Aerodynamic(a); }
+  void set_aerodynamics(const Airframe& a) {
+    aero_ = Aerodynamic(a);
+    feel_ground();
+  }
+  /// A discrete gust begins here.
+  void fire(const GustSpec& gust) { disturbances_.fire(gust); }
 
   /// In the frame of the origin; the body rate is that of a gyro, relative to inertial space where the Earth
   /// turns.
@@ -159,11 +188,16 @@ class Plant {
   double battery_amp() const { return std::max(0.0, throttle_ * propeller_.current(throttle_, Omega_)); }
   bool on_ground() const { return ground_.touching(); }
   bool crashed() const { return ground_.crashed(); }
+  Departure departure() const { return departure_; }
+  double height_above_ground() const { return slope_.height(seen().p_n); }
 
  private:
+  static constexpr double fastest = 1e5;  ///< m/s, rad/s
+
   struct Stage {
     Deflections deflections;
     double Omega = 0;
+    double spin_up_nm = 0;  ///< what the propeller's gain of angular momentum takes from the airframe
   };
 
   static Eigen::Matrix3d inertia(const Airframe& a) {
@@ -189,7 +223,32 @@ class Plant {
     return motor_decay_;
   }
 
+  /// The lag's own rate at the beginning, the middle and the end of the step. A propeller without lag gains
+  /// its speed evenly over the step.
+  void spin_up(double Omega_before, double Omega_steady, double dt) {
+    const double I = propeller_.inertia_kgm2(), tau = propeller_.time_constant_s();
+    const auto moment = [&](double Omega) {
+      return tau > 0 ? I * (Omega_steady - Omega) / tau : I * (Omega_ - Omega_before) / dt;
+    };
+    for (Stage& s : stage_) s.spin_up_nm = moment(s.Omega);
+    load_.moment_b.x() -= moment(Omega_before);
+  }
+
   bool turns() const { return earth_.model == EarthModel::wgs84; }
+
+  void disturb(double dt) {
+    if (!disturbances_.of_place()) {
+      gust_b_ = disturbances_.advance(dt, Va_);
+      return;
+    }
+    const RigidBody x = turns() ? level_.seen(x_) : x_;
+    gust_b_ = disturbances_.advance_at(dt, Va_, x, slope_.height(x.p_n), steady_wind(x));
+  }
+
+  void feel_ground() {
+    if (earth_.terrain.ground_effect)
+      aero_.near_ground(induced_drag_near_ground(height_above_ground(), airframe_.wing.span_m));
+  }
 
   /// The state, so far as seen from the ground at its place, becomes one in the frame of the origin.
   void put_in_frame() {
@@ -237,7 +296,15 @@ class Plant {
     const double Va = plain::norm<double>(v_r);
     load.force_b.x() += propeller_.thrust(s.Omega, Va, rho);
     load.moment_b.x() -= propeller_.torque(s.Omega, Va, rho);
-    ground_.add_load(x, load);
+    if (const double I = propeller_.inertia_kgm2(); I > 0) {  // -omega x (I Omega e_x) - I Omega' e_x
+      load.moment_b.x() -= s.spin_up_nm;
+      load.moment_b.y() -= I * s.Omega * x.omega_b.z();
+      load.moment_b.z() += I * s.Omega * x.omega_b.y();
+    }
+    if (slope_.some())
+      ground_.add_load(slope_.seen(x), load);
+    else
+      ground_.add_load(x, load);
     return load;
   }
 
@@ -253,6 +320,7 @@ class Plant {
         turns() ? turning_.free_acceleration(x_.p_n, x_.v_n) : Eigen::Vector3d(0, 0, gravity_at(altitude_m));
     air_ = air_at(altitude_m);
     Va_ = plain::norm<double>(relative(seen()));
+    feel_ground();
     load_ = load_seen(seen(), {deflections(), Omega_});
   }
 
@@ -260,8 +328,9 @@ class Plant {
   MassProperties mass_;
   Aerodynamic aero_;
   Propeller propeller_;
+  Slope slope_;
   Ground ground_;
-  Dryden dryden_;
+  Disturbances disturbances_;
   Drive aileron_, elevator_, rudder_;
   Weather weather_;
   double origin_altitude_m_;
@@ -277,6 +346,7 @@ class Plant {
   Eigen::Vector3d gust_b_ = Eigen::Vector3d::Zero();
   double Omega_ = 0, Va_ = 0, throttle_ = 0;
   double motor_dt_ = -1, motor_decay_ = 0;
+  Departure departure_ = Departure::none;
 };
 
 }  // namespace fulmar::sim

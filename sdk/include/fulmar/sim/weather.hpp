@@ -8,6 +8,7 @@
 
 #include "fulmar/flight/atmosphere.hpp"
 #include "fulmar/flight/dryden.hpp"
+#include "fulmar/msg/thermals.hpp"
 
 namespace fulmar::sim {
 
@@ -32,11 +33,17 @@ struct WindShear {
   }
 };
 
+/// The turbulence of 50 m at every height, or that of the aircraft's own height.
+enum class TurbulenceHeight : std::uint8_t { fixed, actual };
+
 struct Weather {
   Eigen::Vector3d wind_n = Eigen::Vector3d::Zero();  ///< steady velocity of the air, at the reference height
   Turbulence turbulence = Turbulence::none;
   WindShear shear{};
   AirOffset offset{};
+  TurbulenceHeight turbulence_height = TurbulenceHeight::fixed;
+  double wind_20ft_mps = 0;  ///< above 0: rules `actual` turbulence below 1000 ft
+  Thermals thermals{};
 };
 
 }  // namespace fulmar::sim

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where parameters are said: so that what a component refuses in its set-up gets a file and a line.
+#pragma once
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/error.hpp"
+
+namespace fulmar::core {
+
+struct Component;
+struct Node;
+
+/// "" is the whole parameter, "inertia.xz" or "contacts[2].at" a part of a record, without suffixes of units.
+using Places = std::map<std::string, Where>;
+using PlacesPtr = std::shared_ptr<const Places>;
+
+/// Those of a whole record, in place of all before.
+PlacesPtr places_of(const Node& node);
+
+/// With those of `node`, a part of it.
+PlacesPtr with_place(const PlacesPtr& places, const std::string& field, const Node& node);
+
+/// Of a sentence that begins with a parameter or a part of one, "airframe.inertia.xz: ...": the place of it,
+/// or of the nearest thing around it that a file says. Nothing when no file says it.
+std::optional<Where> place_in(const Component& component, const std::string& sentence);
+
+}  // namespace fulmar::core

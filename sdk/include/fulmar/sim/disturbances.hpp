@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What moves the air beside the steady wind: Dryden turbulence, a discrete gust, thermals.
+#pragma once
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdint>
+
+#include "fulmar/flight/dryden.hpp"
+#include "fulmar/flight/dryden_height.hpp"
+#include "fulmar/flight/rigid_body.hpp"
+#include "fulmar/sim/gust.hpp"
+#include "fulmar/sim/updraft.hpp"
+#include "fulmar/sim/weather.hpp"
+
+namespace fulmar::sim {
+
+class Disturbances {
+ public:
+  Disturbances(const Weather& w, std::uint64_t seed)
+      : dryden_(dryden_scales(w.turbulence), seed),
+        updrafts_(w.thermals),
+        turbulence_(w.turbulence),
+        wind_20ft_mps_(w.wind_20ft_mps),
+        by_height_(w.turbulence != Turbulence::none && w.turbulence_height == TurbulenceHeight::actual) {}
+
+  /// What it is depends on where the aircraft is.
+  bool of_place() const { return by_height_ || gust_.active() || updrafts_.any(); }
+  void fire(const GustSpec& gust) { gust_.fire(gust); }
+
+  /// Velocity of the air in body axes, after `dt` more at airspeed `Va`, where the place does not count.
+  Eigen::Vector3d advance(double dt, double Va) { return dryden_.advance(dt, Va); }
+
+  /// Where it does: at `x` as seen from the ground below, `height_m` above it.
+  [[gnu::noinline]] Eigen::Vector3d advance_at(double dt, double Va, const RigidBody& x, double height_m,
+                                               const Eigen::Vector3d& steady_wind_n) {
+    if (by_height_) follow(height_m);
+    Eigen::Vector3d v_b = dryden_.advance(dt, Va) + gust_.advance(dt, Va);
+    if (!updrafts_.any()) return v_b;
+    updrafts_.drift(dt, steady_wind_n);
+    return v_b - updrafts_.at(x.p_n) * (x.q_nb.conjugate() * Eigen::Vector3d::UnitZ());
+  }
+
+ private:
+  /// Lengths and deviations go with the height in steps of 1 %: to discretise the filters costs more than to
+  /// advance them.
+  void follow(double height_m) {
+    constexpr double lowest_m = mil8785c::lowest_ft * mil8785c::foot;
+    const double h = std::max(height_m, lowest_m);
+    if (std::abs(h - height_m_) <= 0.01 * height_m_) return;
+    height_m_ = h;
+    dryden_.set_scales(dryden_scales_at(turbulence_, h, wind_20ft_mps_));
+  }
+
+  Dryden dryden_;
+  Gust gust_;
+  Updrafts updrafts_;
+  Turbulence turbulence_;
+  double wind_20ft_mps_, height_m_ = 0;
+  bool by_height_;
+};
+
+}  // namespace fulmar::sim

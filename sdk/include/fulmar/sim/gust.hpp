@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A discrete gust in the shape 1 - cos. Sources: MIL-F-8785C 3.7.1.3 (it rises and stays), CS-23.333 (c) and
+// CS-25.341 (a) (it rises and falls).
+#pragma once
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+
+namespace fulmar::sim {
+
+enum class GustShape : std::uint8_t { pulse, rise };
+
+struct GustSpec {
+  Eigen::Vector3d velocity_b = Eigen::Vector3d::Zero();  ///< of the air at its peak, body axes, m/s
+  double length_m = 30;                                  ///< flown through the air from its edge to its peak
+  GustShape shape = GustShape::pulse;
+};
+
+/// Part of the peak, `s` metres behind the edge.
+inline double gust_part(GustShape shape, double length_m, double s) {
+  if (s <= 0) return 0;
+  if (s >= (shape == GustShape::pulse ? 2 : 1) * length_m) return shape == GustShape::pulse ? 0 : 1;
+  return 0.5 * (1 - std::cos(std::numbers::pi * s / length_m));
+}
+
+/// One gust, from when it is fired until it is flown through. A further one takes its place.
+class Gust {
+ public:
+  void fire(const GustSpec& spec) {
+    spec_ = spec;
+    flown_m_ = 0;
+    active_ = spec.velocity_b != Eigen::Vector3d::Zero();
+  }
+  bool active() const { return active_; }
+
+  /// Velocity of the air after `dt` more at airspeed `Va`: the air stands still and is flown through.
+  Eigen::Vector3d advance(double dt, double Va) {
+    if (!active_) return Eigen::Vector3d::Zero();
+    flown_m_ += Va * dt;
+    active_ = spec_.shape == GustShape::rise || flown_m_ < 2 * spec_.length_m;
+    return gust_part(spec_.shape, spec_.length_m, flown_m_) * spec_.velocity_b;
+  }
+
+ private:
+  GustSpec spec_;
+  double flown_m_ = 0;
+  bool active_ = false;
+};
+
+}  // namespace fulmar::sim

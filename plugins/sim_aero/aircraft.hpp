@@ -125,9 +125,12 @@ class Aircraft {
     constexpr double degree = std::numbers::pi / 180;
     const GroundParams& g = p.around.ground;
     if (p.earth == EarthModel::wgs84 && g.ground_slope > 0)
-      throw std::runtime_error("ground_slope: the ground of earth: wgs84 follows the ellipsoid; use flat or "
-                               "gravity");
-    return {p.earth, degree * origin_.lat_deg, degree * origin_.lon_deg,
+      throw std::runtime_error(
+          "ground_slope: the ground of earth: wgs84 follows the ellipsoid; use flat or "
+          "gravity");
+    return {p.earth,
+            degree * origin_.lat_deg,
+            degree * origin_.lon_deg,
             {g.ground_slope, g.ground_slope_towards, g.ground_friction, g.ground_effect}};
   }
 
@@ -233,7 +236,8 @@ class Aircraft {
       throw std::runtime_error(
           trim_words(airframe_, flight, own ? "start_airspeed" : "airframe.limits.airspeed_cruise"));
     if (plant_->height_above_ground() < airframe_.gear.height_m)
-      throw std::runtime_error("start_height: the ground is higher at this place; ground_slope says how high");
+      throw std::runtime_error(
+          "start_height: the ground is higher at this place; ground_slope says how high");
     plant_->shift(1e-9 * static_cast<double>(now_ns_));
   }
 

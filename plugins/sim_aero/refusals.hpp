@@ -69,7 +69,8 @@ inline std::string trim_words(const Airframe& a, const SteadyFlight& f, const st
 inline std::string departure_words(const Plant& p) {
   const RigidBody& x = p.state();
   return "the motion has left the model: speed " + figures(x.v_n.norm()) + " m/s, body rate " +
-         figures(x.omega_b.norm()) + " rad/s; a coefficient or inertia of the airframe is wrong, or the rate of "
+         figures(x.omega_b.norm()) +
+         " rad/s; a coefficient or inertia of the airframe is wrong, or the rate of "
          "the loop too low for it";
 }
 

@@ -17,8 +17,8 @@ namespace fulmar::sim {
 struct AirParams {
   Choice<TurbulenceHeight> turbulence_height{
       TurbulenceHeight::fixed, "fixed: as at 50 m; actual: by the aircraft's height, MIL-F-8785C", setup};
-  Param turbulence_wind{0, "m/s", 0, 50, "at 20 ft, of actual turbulence below 1000 ft; 0: by its strength",
-                        setup};
+  Param turbulence_wind{
+      0, "m/s", 0, 50, "at 20 ft, of actual turbulence below 1000 ft; 0: by its strength", setup};
   Record<Thermals> thermals{"columns of rising air"};
   Vector<Body> gust{{0, 0, 0}, "m/s", -50, 50, "discrete gust, 1 - cos: velocity of the air at its peak"};
   Param gust_length{30, "m", 0.1, 1000, "of the way through the air from the gust's edge to its peak"};
@@ -78,8 +78,6 @@ class GustClock {
   bool asked_ = false, now_ = false;
 };
 
-inline GustSpec gust_spec(const AirParams& p) {
-  return {eigen(p.gust.value), p.gust_length, p.gust_shape};
-}
+inline GustSpec gust_spec(const AirParams& p) { return {eigen(p.gust.value), p.gust_length, p.gust_shape}; }
 
 }  // namespace fulmar::sim

@@ -44,8 +44,8 @@ class Aerodynamic {
   explicit Aerodynamic(const Airframe& a)
       : wing_(a.wing),
         aero_(a.aero),
-        induced_free_(1 / (std::numbers::pi * a.wing.oswald_ratio * a.wing.span_m * a.wing.span_m /
-                           a.wing.area_m2)),
+        induced_free_(
+            1 / (std::numbers::pi * a.wing.oswald_ratio * a.wing.span_m * a.wing.span_m / a.wing.area_m2)),
         induced_(induced_free_) {}
 
   /// From here on the induced drag is `part` of that in free air.

@@ -13,7 +13,7 @@
 namespace fulmar {
 
 namespace mil8785c {
-inline constexpr double foot = 0.3048;        ///< m
+inline constexpr double foot = 0.3048;         ///< m
 inline constexpr double knot = 1852.0 / 3600;  ///< m/s
 inline constexpr double lowest_ft = 10, low_top_ft = 1000, medium_base_ft = 2000;
 inline constexpr double high_length_ft = 1750;  ///< 3.7.2.1, Dryden form
@@ -24,9 +24,8 @@ constexpr double wind_20ft(Turbulence strength) { return 15 * knot * static_cast
 /// Root mean square over altitude, figure 7, ft/s: exceeded with a probability of 1e-2 (light), 1e-3
 /// (moderate) and 1e-5 (severe).
 inline constexpr std::array<double, 6> altitude_ft{500, 1750, 3750, 7500, 15000, 25000};
-inline constexpr std::array<std::array<double, 6>, 3> sigma_fps{{{6.6, 6.9, 7.4, 6.7, 4.6, 2.7},
-                                                                 {8.6, 9.6, 10.6, 10.1, 8.0, 6.6},
-                                                                 {15.6, 17.6, 23.0, 23.6, 22.1, 20.0}}};
+inline constexpr std::array<std::array<double, 6>, 3> sigma_fps{
+    {{6.6, 6.9, 7.4, 6.7, 4.6, 2.7}, {8.6, 9.6, 10.6, 10.1, 8.0, 6.6}, {15.6, 17.6, 23.0, 23.6, 22.1, 20.0}}};
 
 /// m/s; linear between the points of the figure, held beyond them.
 inline double high_sigma(Turbulence strength, double h_ft) {

@@ -19,8 +19,7 @@ class Ground {
  public:
   /// `friction`: factor on what the airframe says, for wet grass or ice.
   explicit Ground(const Airframe& a, double friction = 1)
-      : rolling_(friction * a.gear.rolling_friction_ratio),
-        sliding_(friction * a.gear.side_friction_ratio) {
+      : rolling_(friction * a.gear.rolling_friction_ratio), sliding_(friction * a.gear.side_friction_ratio) {
     const double weight = a.mass_kg * isa::g0, L = a.gear.length_m, h = a.gear.height_m + sag,
                  y = a.gear.track_m / 2;
     const double tail_z = h - (1 - nose_share) * L * std::tan(tail_strike_pitch);

@@ -16,8 +16,7 @@ class Slope {
   /// Rises by `angle_rad` towards `towards_rad`, from north, clockwise.
   Slope(double angle_rad, double towards_rad)
       : some_(angle_rad != 0),
-        q_(Eigen::AngleAxisd(angle_rad,
-                             Eigen::Vector3d(-std::sin(towards_rad), std::cos(towards_rad), 0))) {}
+        q_(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d(-std::sin(towards_rad), std::cos(towards_rad), 0))) {}
 
   bool some() const { return some_; }
   /// Away from the ground, NED.

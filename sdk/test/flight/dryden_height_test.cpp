@@ -27,7 +27,8 @@ void fourier(std::vector<std::complex<double>>& x) {
   fourier(even);
   fourier(odd);
   for (std::size_t k = 0; k < n / 2; ++k) {
-    const auto t = std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(n)) * odd[k];
+    const auto t =
+        std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(n)) * odd[k];
     x[k] = even[k] + t;
     x[k + n / 2] = even[k] - t;
   }
@@ -76,10 +77,11 @@ struct Height {
   double m;
   double L_u, L_w, sigma_u, sigma_w;  ///< by hand, moderate
 };
-/// 20 m = 65.62 ft: k = 0.177 + 0.000823 h = 0.23100; 150 m = 492.1 ft: k = 0.58202; 700 m = 2297 ft: figure 7
-/// between 9.6 ft/s at 1750 ft and 10.6 at 3750.
-constexpr Height heights[] = {
-    {20, 116.062, 20, 2.77340, 1.54333}, {150, 287.188, 150, 1.91639, 1.54333}, {700, 533.4, 533.4, 3.00938, 3.00938}};
+/// 20 m = 65.62 ft: k = 0.177 + 0.000823 h = 0.23100; 150 m = 492.1 ft: k = 0.58202; 700 m = 2297 ft: figure
+/// 7 between 9.6 ft/s at 1750 ft and 10.6 at 3750.
+constexpr Height heights[] = {{20, 116.062, 20, 2.77340, 1.54333},
+                              {150, 287.188, 150, 1.91639, 1.54333},
+                              {700, 533.4, 533.4, 3.00938, 3.00938}};
 
 }  // namespace
 

@@ -67,6 +67,13 @@ inline std::string trim_words(const Airframe& a, const SteadyFlight& f, const st
 
 /// Why the flight cannot go on. [ends the flight]
 inline std::string departure_words(const Plant& p) {
+  const Departure d = p.departure();
+  if (d == Departure::beyond_alpha || d == Departure::beyond_beta) {
+    const AirData air(p.air_velocity_b());
+    const bool alpha = d == Departure::beyond_alpha;
+    return (alpha ? "angle of attack " : "sideslip ") + degrees(alpha ? air.alpha : air.beta) +
+           " is beyond the tables of the airframe" + table_ends(p.aerodynamic(), d);
+  }
   const RigidBody& x = p.state();
   return "the motion has left the model: speed " + figures(x.v_n.norm()) + " m/s, body rate " +
          figures(x.omega_b.norm()) +

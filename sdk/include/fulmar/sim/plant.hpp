@@ -15,6 +15,7 @@
 #include "fulmar/flight/rigid_body.hpp"
 #include "fulmar/flight/trim.hpp"
 #include "fulmar/msg/actuators.hpp"
+#include "fulmar/sim/departure.hpp"
 #include "fulmar/sim/disturbances.hpp"
 #include "fulmar/sim/drive.hpp"
 #include "fulmar/sim/ground.hpp"
@@ -36,12 +37,6 @@ struct Earth {
   EarthModel model = EarthModel::flat;
   double lat_rad = 0, lon_rad = 0;  ///< of the origin
   Terrain terrain{};
-};
-
-/// Why the plant's state is no flight of this aircraft any more.
-enum class Departure : std::uint8_t {
-  none,
-  diverged,  ///< not finite, or faster than anything that flies
 };
 
 class Plant {
@@ -133,9 +128,7 @@ class Plant {
     if (ground_.crashed()) rest();  // it stays where it hit
     disturb(dt);
     refresh();
-    // written so that what is not a number has diverged, too
-    if (!(x_.v_n.squaredNorm() + x_.omega_b.squaredNorm() + x_.p_n.squaredNorm() * 1e-6 < fastest * fastest))
-      departure_ = Departure::diverged;
+    if (departure_ == Departure::none) departure_ = judged();
   }
 
   /// Carried along without forces: before arming, an aircraft that starts in the air keeps its steady flight,
@@ -189,11 +182,10 @@ class Plant {
   bool on_ground() const { return ground_.touching(); }
   bool crashed() const { return ground_.crashed(); }
   Departure departure() const { return departure_; }
+  const Aerodynamic& aerodynamic() const { return aero_; }
   double height_above_ground() const { return slope_.height(seen().p_n); }
 
  private:
-  static constexpr double fastest = 1e5;  ///< m/s, rad/s
-
   struct Stage {
     Deflections deflections;
     double Omega = 0;
@@ -221,6 +213,13 @@ class Plant {
       motor_decay_ = tau > 0 ? std::exp(-dt / tau) : 0;
     }
     return motor_decay_;
+  }
+
+  /// What stands on the ground has flow from anywhere.
+  Departure judged() const {
+    if (diverged(x_)) return Departure::diverged;
+    return ground_.touching() || ground_.crashed() ? Departure::none
+                                                   : beyond_tables(aero_, relative(seen()));
   }
 
   /// The lag's own rate at the beginning, the middle and the end of the step. A propeller without lag gains

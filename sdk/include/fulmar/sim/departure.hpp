@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Motions that are no flight of the model any more.
+#pragma once
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+
+#include "fulmar/flight/aerodynamics.hpp"
+#include "fulmar/flight/rigid_body.hpp"
+
+namespace fulmar::sim {
+
+/// Why the plant's state is no flight of this aircraft any more.
+enum class Departure : std::uint8_t {
+  none,
+  diverged,      ///< not finite, or faster than anything that flies
+  beyond_alpha,  ///< angle of attack beyond the airframe's tables
+  beyond_beta,   ///< sideslip beyond the airframe's tables
+};
+
+/// Written so that what is not a number has diverged, too.
+inline bool diverged(const RigidBody& x) {
+  constexpr double fastest = 1e5, farthest = 1e8;  // m/s and rad/s; m
+  return !(x.v_n.squaredNorm() + x.omega_b.squaredNorm() < fastest * fastest &&
+           x.p_n.squaredNorm() < farthest * farthest);
+}
+
+/// Below this airspeed, m/s, the flow has no angles worth a table.
+inline constexpr double least_table_speed = 3;
+
+/// Whether the flow `v_r` is beyond the tables of an aerodynamic model, if it has some.
+template <class Model>
+Departure beyond_tables(const Model& model, const Eigen::Vector3d& v_r) {
+  if constexpr (requires { model.alpha_range().holds(0.0) && model.beta_range().holds(0.0); }) {
+    if (!std::isfinite(model.alpha_range().max) && !std::isfinite(model.beta_range().max))
+      return Departure::none;
+    const AirData air(v_r);
+    if (air.Va < least_table_speed) return Departure::none;
+    if (!model.alpha_range().holds(air.alpha)) return Departure::beyond_alpha;
+    if (!model.beta_range().holds(air.beta)) return Departure::beyond_beta;
+  }
+  return Departure::none;
+}
+
+/// "which end at -10 and 20 deg", of the tables that a flow is beyond.
+template <class Model>
+std::string table_ends(const Model& model, Departure d) {
+  std::string text;
+  if constexpr (requires { model.alpha_range().holds(0.0) && model.beta_range().holds(0.0); }) {
+    const auto& range = d == Departure::beyond_alpha ? model.alpha_range() : model.beta_range();
+    constexpr double degree = 57.29577951308232;
+    char words[64];
+    std::snprintf(words, sizeof words, ", which end at %.3g and %.3g deg", range.min * degree,
+                  range.max * degree);
+    text = words;
+  }
+  return text;
+}
+
+}  // namespace fulmar::sim

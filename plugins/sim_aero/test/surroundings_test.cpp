@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gusts, thermals, sloping ground, ground effect, the propeller's angular momentum, and motions that have left
-// the model.
+// Gusts, thermals, sloping ground, ground effect, the propeller's angular momentum, and motions that have
+// left the model.
 #include <doctest/doctest.h>
 
 #include <limits>
@@ -59,10 +59,10 @@ TEST_CASE("a gust is 1 - cos of the way through the air, in every shape") {
     for (int i = 1; i <= 100; ++i) {
       const double s = 0.9 * i, Va = i % 2 ? 18.0 : 12.0;  // m
       const Vector3d v = gust.advance(0.9 / Va, Va);
-      const double part = s < 30                            ? std::pow(std::sin(pi * s / 60), 2)
+      const double part = s < 30                          ? std::pow(std::sin(pi * s / 60), 2)
                           : spec.shape == GustShape::rise ? 1
-                          : s < 60                          ? std::pow(std::sin(pi * s / 60), 2)
-                                                            : 0;
+                          : s < 60                        ? std::pow(std::sin(pi * s / 60), 2)
+                                                          : 0;
       CHECK((v - part * Vector3d(2, -3, -6)).norm() < 1e-9);
     }
     CHECK(gust.active() == (spec.shape == GustShape::rise));
@@ -124,7 +124,8 @@ TEST_CASE("a thermal's air is the wind of the truth and carries the aircraft up"
     run(*each, 8, {0.5667, 0.0041, 0.1212, 0});
   }
   const double n = p.state().p_n.x() - 32, e = p.state().p_n.y();  // drifted by 8 s of 4 m/s
-  const double expected = 2.5 * updraft_over_height(-p.state().p_n.z() / 880) * std::exp(-(n * n + e * e) / 25e6);
+  const double expected =
+      2.5 * updraft_over_height(-p.state().p_n.z() / 880) * std::exp(-(n * n + e * e) / 25e6);
   CHECK(p.wind_n().z() == Approx(-expected).epsilon(1e-3));
   CHECK(p.wind_n().x() == Approx(4).epsilon(1e-6));
   CHECK(still.state().p_n.z() - p.state().p_n.z() > 10);  // of 20 m that the air rose
@@ -147,7 +148,8 @@ TEST_CASE("on a slope it stands without creeping where friction holds, whatever 
     const double up = std::tan(0.15) * (30 * std::cos(towards) - 20 * std::sin(towards));
     CHECK(-there.z() - up == Approx(anaconda().gear.height_m / std::cos(0.15)).epsilon(0.1));
     const Vector3d nose = p.state().q_nb * Vector3d::UnitX();
-    CHECK(std::remainder(std::atan2(nose.y(), nose.x()) - heading, 2 * pi) == Approx(0).scale(1).epsilon(1e-3));
+    CHECK(std::remainder(std::atan2(nose.y(), nose.x()) - heading, 2 * pi) ==
+          Approx(0).scale(1).epsilon(1e-3));
     const Vector3d felt = p.specific_force();  // the weight, in axes that lean
     CHECK(felt.norm() == Approx(g).epsilon(1e-3));
     CHECK(felt.y() / g == Approx(-std::sin(0.15)).epsilon(0.02));  // uphill is to its left
@@ -258,7 +260,8 @@ TEST_CASE("aircraft and propeller keep their angular momentum but for the torque
     const Propeller propeller(a.propulsion);
     const Eigen::Matrix3d J = inertia_matrix(a.inertia);
     const auto momentum = [&] {
-      return Vector3d(p.state().q_nb * (J * p.state().omega_b + 3e-4 * p.propeller_radps() * Vector3d::UnitX()));
+      return Vector3d(p.state().q_nb *
+                      (J * p.state().omega_b + 3e-4 * p.propeller_radps() * Vector3d::UnitX()));
     };
     const auto torque = [&] {  // on the propeller, so on the whole
       return Vector3d(p.state().q_nb * (-propeller.torque(p.propeller_radps(), p.air_velocity_b().norm(),

@@ -218,8 +218,7 @@ class Plant {
   /// What stands on the ground has flow from anywhere.
   Departure judged() const {
     if (diverged(x_)) return Departure::diverged;
-    return ground_.touching() || ground_.crashed() ? Departure::none
-                                                   : beyond_tables(aero_, relative(seen()));
+    return ground_.touching() || ground_.crashed() ? Departure::none : beyond_tables(aero_, relative(seen()));
   }
 
   /// The lag's own rate at the beginning, the middle and the end of the step. A propeller without lag gains

@@ -77,13 +77,18 @@ TEST_CASE("an aircraft that cannot trim is refused with the parameter and the re
   const std::string elevator = refused_airframe([](Airframe& a) { a.elevator.limit_rad = 0.02; });
   CHECK(elevator.find("airframe.elevator.limit: ") == 0);
   CHECK(elevator.find("of elevator, which moves 1.15 deg") != std::string::npos);
-  CHECK(refused_airframe([](Airframe& a) { a.propulsion.battery_volt = 4; }).find("airframe.propulsion: ") == 0);
+  CHECK(refused_airframe([](Airframe& a) { a.propulsion.battery_volt = 4; }).find("airframe.propulsion: ") ==
+        0);
   CHECK(refused_airframe([](Airframe& a) {
           a.limits.airspeed_cruise_mps = 40;
         }).find("it takes more thrust than full throttle gives") != std::string::npos);
-  CHECK(refused_airframe([](Airframe& a) { a.aero.pitch.elevator_ratio = 0; }).find("airframe.aero.pitch: ") == 0);
+  CHECK(refused_airframe([](Airframe& a) {
+          a.aero.pitch.elevator_ratio = 0;
+        }).find("airframe.aero.pitch: ") == 0);
   CHECK(refused_airframe([](Airframe& a) { a.aero.roll = {}; }).find("airframe.aero.roll: ") == 0);
-  CHECK(refusal(70, [](Aircraft::Params& p) { p.start_airspeed.value = 6; }).find("start_airspeed: no level") == 0);
+  CHECK(refusal(70, [](Aircraft::Params& p) {
+          p.start_airspeed.value = 6;
+        }).find("start_airspeed: no level") == 0);
   CHECK(refusal(0, [](Aircraft::Params& p) { p.start_airspeed.value = 6; }) == "flies");  // of no start there
 }
 
@@ -143,7 +148,9 @@ TEST_CASE("a flow beyond the tables of an airframe has left the model, one insid
     const Range& alpha_range() const { return alpha; }
     const Range& beta_range() const { return beta; }
   } tables;
-  const auto flow = [](double Va, double alpha, double beta) { return air_velocity<double>(Va, alpha, beta); };
+  const auto flow = [](double Va, double alpha, double beta) {
+    return air_velocity<double>(Va, alpha, beta);
+  };
   CHECK(beyond_tables(tables, flow(17, 0.1, 0.1)) == Departure::none);
   CHECK(beyond_tables(tables, flow(17, 0.31, 0)) == Departure::beyond_alpha);
   CHECK(beyond_tables(tables, flow(17, -0.21, 0)) == Departure::beyond_alpha);

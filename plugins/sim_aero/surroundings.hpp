@@ -31,7 +31,7 @@ struct AirParams {
 struct GroundParams {
   Param ground_slope{0, "rad", 0, 0.8, "of the ground, a plane through the origin", setup};
   Param ground_slope_towards{0, "rad", -6.2832, 6.2832, "where it rises: from north, clockwise", setup};
-  Param ground_friction{1, "", 0, 5, "of gear and ground, times the airframe's; wet grass 0.5", setup};
+  Param ground_friction{1, "", 0, 5, "of gear and ground, times the airframe's; wet ground below 1", setup};
   Flag ground_effect{false, "less induced drag close to the ground", setup};
 };
 

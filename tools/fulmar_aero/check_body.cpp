@@ -54,6 +54,11 @@ void check_triangle(Findings& f) {
   const double spread = std::hypot(half, i.xz_kgm2);
   std::array<double, 3> principal{middle - spread, i.yy_kgm2, middle + spread};
   std::sort(principal.begin(), principal.end());
+  if (principal[0] <= 0)
+    return f.fault("inertia.xz_kgm2", i.xz_kgm2,
+                   "the inertia is not positive definite, one of its principal moments is " +
+                       figures(principal[0]) + " kg m^2: xz has to be less than " +
+                       figures(std::sqrt(i.xx_kgm2 * i.zz_kgm2)) + " either way");
   if (principal[2] <= principal[0] + principal[1]) return;
   f.warn("inertia", principal[2],
          "no body has these moments: the principal ones are " + figures(principal[0]) + ", " +

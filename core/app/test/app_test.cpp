@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -416,6 +417,69 @@ TEST_CASE("a value that no aircraft has is refused, with its range") {
     CHECK_MESSAGE(r.err.find("origin.alt_msl: " + std::string(altitude) + " is outside") != std::string::npos,
                   r.err);
   }
+}
+
+namespace {
+
+/// A shipped airframe with `from` replaced, in a file of its own; and the line that the replacement is in.
+std::pair<std::string, int> changed_airframe(const std::string& from, const std::string& to) {
+  std::ifstream in(FULMAR_SOURCE_DIR "/configs/airframes/anaconda.yaml");
+  std::string text((std::istreambuf_iterator<char>(in)), {});
+  const std::size_t at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n') + 1;
+  text.replace(at, from.size(), to);
+  const fs::path file = folder() / "changed.yaml";
+  std::ofstream(file) << text;
+  return {file.string(), static_cast<int>(line)};
+}
+
+}  // namespace
+
+TEST_CASE("an aircraft that cannot fly is refused with the line that says so, before anything moves") {
+  const auto refused = [](const std::string& from, const std::string& to, const std::string& field,
+                          const std::string& why) {
+    const auto [file, line] = changed_airframe(from, to);
+    const fs::path m = folder() / "aircraft.yaml";
+    std::ofstream(m) << "mission: trial\nextends: " << hourglass << "\nairframe: " << file << "\n";
+    for (const std::string command : {"check ", "run --no-log "}) {
+      const Result r = fulmar(command + m.string());
+      CHECK(r.code == 4);
+      CHECK_MESSAGE(r.err.find(file + ":" + std::to_string(line) + ": sim: " + field + ": ") !=
+                        std::string::npos,
+                    r.err);
+      CHECK_MESSAGE(r.err.find(why) != std::string::npos, r.err);
+    }
+  };
+  refused("xz_kgm2: 0.06", "xz_kgm2: 0.5", "airframe.inertia.xz", "not positive definite");
+  refused("airspeed_cruise: 17 m/s", "airspeed_cruise: 8 m/s", "airframe.limits.airspeed_cruise",
+          "the wing stalls");
+  const fs::path m = folder() / "aircraft.yaml";
+  std::ofstream(m) << "mission: trial\nextends: " << hourglass
+                   << "\ncomponents:\n  sim:\n    params:\n      start_height: 70 m\n"
+                      "      start_airspeed: 6 m/s\n";
+  CHECK(fulmar("check " + m.string()).err.find("aircraft.yaml:6: sim: start_airspeed: no level flight at 6") !=
+        std::string::npos);
+  const Result set = fulmar("check " + hourglass + " --set \"sim.airframe.mass=45 kg\"");
+  CHECK(set.code == 4);
+  CHECK_MESSAGE(set.err.find(": sim: airframe.limits.airspeed_cruise: ") != std::string::npos, set.err);
+  const Result inertia = fulmar("check " + hourglass + " --set \"sim.airframe.inertia.xz=1 kg m^2\"");
+  CHECK_MESSAGE(inertia.err.find("--set sim.airframe.inertia.xz=1 kg m^2: sim: airframe.inertia.xz: ") !=
+                    std::string::npos,
+                inertia.err);
+}
+
+TEST_CASE("a motion that leaves the model ends the flight with its cause and a whole log") {
+  const std::string log = (folder() / "away.mcap").string();
+  const Result r = fulmar("run " + hourglass + " --log " + log +
+                          " --set sim.airframe.aero.pitch.q=1e4 --set \"sim.start_height=100 m\"");
+  CHECK(r.code == 1);
+  CHECK_MESSAGE((r.out + r.err).find("failed (the vehicle failed: the motion has left the model: speed ") !=
+                    std::string::npos,
+                r.out + r.err);
+  const Result info = shell(FULMAR_BIN_DIR "/fulmar-log info " + log);
+  CHECK(info.code == 0);
+  CHECK_MESSAGE(info.out.find("complete") != std::string::npos, info.out);
 }
 
 TEST_CASE("a name that no file can have, or that speaks to a terminal, is refused") {

@@ -128,7 +128,7 @@ class Aerodynamic {
 };
 
 /// Part of the induced drag that is left `height_m` above the ground. McCormick, Aerodynamics, Aeronautics
-/// and Flight Mechanics (1979), (7.6): phi = (16 h/b)^2 / (1 + (16 h/b)^2).
+/// and Flight Mechanics (1979), chapter 7: phi = (16 h/b)^2 / (1 + (16 h/b)^2).
 inline double induced_drag_near_ground(double height_m, double span_m) {
   const double x = 16 * std::max(height_m, 0.0) / span_m;
   return x * x / (1 + x * x);

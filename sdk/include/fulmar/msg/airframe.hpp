@@ -116,6 +116,8 @@ template <>
 inline constexpr std::array<FieldRange, 3> field_ranges<Wing>{
     {{"area_m2", 1e-4, 1e4}, {"span_m", 1e-2, 1e3}, {"chord_m", 1e-3, 1e2}}};
 template <>
+inline constexpr std::array<FieldRange, 1> field_ranges<Propulsion>{{{"propeller_inertia_kgm2", 0, 1e4}}};
+template <>
 inline constexpr std::array<FieldRange, 1> field_ranges<Surface>{{{"limit_rad", 0, 1.6}}};
 
 }  // namespace fulmar

@@ -156,6 +156,34 @@ TEST_CASE("on a slope it stands without creeping where friction holds, whatever 
   }
 }
 
+TEST_CASE("set down on a slope the nose points where the heading says, wheels on the plane") {
+  for (const double heading : {0.0, 0.7, 2.0, -2.5}) {
+    Plant p = plant(anaconda(), {}, sloping(0.5, 1.0));
+    p.stand(10, 5, heading);
+    const Vector3d nose = p.state().q_nb * Vector3d::UnitX(), top = p.state().q_nb * -Vector3d::UnitZ();
+    CHECK(std::remainder(std::atan2(nose.y(), nose.x()) - heading, 2 * pi) ==
+          Approx(0).scale(1).epsilon(1e-9));
+    CHECK(top.z() == Approx(-std::cos(0.5)));  // leans back from the rise, towards 1 rad
+    CHECK(top.x() == Approx(-std::sin(0.5) * std::cos(1.0)));
+    CHECK(p.height_above_ground() == Approx(anaconda().gear.height_m));
+  }
+}
+
+TEST_CASE("turbulence goes with the height of the flight, up and down") {
+  Weather w{{0, 0, 0}, Turbulence::moderate};
+  w.turbulence_height = TurbulenceHeight::actual;
+  Disturbances d(w, 5);
+  CHECK(d.of_place());
+  CHECK_FALSE(Disturbances({{0, 0, 0}, Turbulence::moderate}, 5).of_place());
+  for (const double height : {700.0, 20.0, 150.0, 700.0}) {
+    Vector3d sum = Vector3d::Zero();
+    for (int i = 0; i < 30000; ++i)
+      sum += d.advance_at(20, 17, RigidBody{}, height, Vector3d::Zero()).cwiseAbs2() / 30000;
+    const Vector3d expected = dryden_scales_at(Turbulence::moderate, height).sigma;
+    for (int k = 0; k < 3; ++k) CHECK(std::sqrt(sum(k)) / expected(k) == Approx(1).epsilon(0.03));
+  }
+}
+
 TEST_CASE("it rolls down as friction says, nose uphill and downhill") {
   Airframe a = bare(0);
   for (const double heading : {0.0, pi}) {
@@ -315,6 +343,13 @@ TEST_CASE("a motion that is no number, or faster than anything that flies, has l
     q.advance({}, 1, dt);
     CHECK(q.departure() == Departure::diverged);
   }
+  for (int part = 0; part < 3; ++part)
+    for (const double wrong : {nan, inf, 2e8}) {
+      RigidBody x;
+      CHECK_FALSE(diverged(x));
+      (part == 0 ? x.p_n : part == 1 ? x.v_n : x.omega_b).z() = wrong;
+      CHECK(diverged(x));
+    }
 }
 
 }  // namespace surroundings_test

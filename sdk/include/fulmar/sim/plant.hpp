@@ -121,7 +121,7 @@ class Plant {
     };
     x_ = turns() ? runge_kutta(x_, load_, dt, mass_, turning_, load_at)
                  : runge_kutta(x_, load_, dt, mass_, g_n_, load_at);
-    if (slope_.some())
+    if (slope_.some()) [[unlikely]]
       ground_.advance(slope_.seen(x_), dt);
     else
       ground_.advance(turns() ? level_.seen(x_) : x_, dt);
@@ -223,7 +223,7 @@ class Plant {
 
   /// The lag's own rate at the beginning, the middle and the end of the step. A propeller without lag gains
   /// its speed evenly over the step.
-  void spin_up(double Omega_before, double Omega_steady, double dt) {
+  [[gnu::noinline]] void spin_up(double Omega_before, double Omega_steady, double dt) {
     const double I = propeller_.inertia_kgm2(), tau = propeller_.time_constant_s();
     const auto moment = [&](double Omega) {
       return tau > 0 ? I * (Omega_steady - Omega) / tau : I * (Omega_ - Omega_before) / dt;
@@ -299,11 +299,15 @@ class Plant {
       load.moment_b.y() -= I * s.Omega * x.omega_b.z();
       load.moment_b.z() += I * s.Omega * x.omega_b.y();
     }
-    if (slope_.some())
-      ground_.add_load(slope_.seen(x), load);
+    if (slope_.some()) [[unlikely]]
+      add_load_on_slope(x, load);
     else
       ground_.add_load(x, load);
     return load;
+  }
+
+  [[gnu::noinline]] void add_load_on_slope(const RigidBody& x, Load& load) const {
+    ground_.add_load(slope_.seen(x), load);
   }
 
   /// The load at the present state: the first stage of the next step, and what the accelerometer feels now.

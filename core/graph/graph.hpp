@@ -25,7 +25,7 @@ struct ParamValue {
   std::int64_t integer = 0;
   std::string text;
   std::vector<std::byte> data;
-  PlacesPtr places{};  // where it is said; null: nowhere
+  SaidPlacesPtr places{};  // where it is said; null: nowhere
 };
 
 /// Where a wire begins: an output of one component, or of whoever fills a role.

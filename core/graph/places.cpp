@@ -23,7 +23,7 @@ std::string without_units(const std::string& path) {
   return out;
 }
 
-void note(Places& places, const std::string& path, const Where& where, const Node& node) {
+void note(SaidPlaces& places, const std::string& path, const Where& where, const Node& node) {
   places[without_units(path)] = where;
   for (const Node::Entry& entry : node.entries)
     note(places, path.empty() ? entry.key : path + "." + entry.key, entry.where(), entry.value);
@@ -33,14 +33,14 @@ void note(Places& places, const std::string& path, const Where& where, const Nod
 
 }  // namespace
 
-PlacesPtr places_of(const Node& node) {
-  auto places = std::make_shared<Places>();
+SaidPlacesPtr places_of(const Node& node) {
+  auto places = std::make_shared<SaidPlaces>();
   note(*places, "", node.where(), node);
   return places;
 }
 
-PlacesPtr with_place(const PlacesPtr& places, const std::string& field, const Node& node) {
-  auto more = places ? std::make_shared<Places>(*places) : std::make_shared<Places>();
+SaidPlacesPtr with_place(const SaidPlacesPtr& places, const std::string& field, const Node& node) {
+  auto more = places ? std::make_shared<SaidPlaces>(*places) : std::make_shared<SaidPlaces>();
   note(*more, field, node.where(), node);
   return more;
 }
@@ -50,7 +50,7 @@ std::optional<Where> place_in(const Component& component, const std::string& sen
   if (colon == std::string::npos) return {};
   const ParamPath at = param_path(component.info(), sentence.substr(0, colon));
   if (at.param < 0 || static_cast<std::size_t>(at.param) >= component.params.size()) return {};
-  const PlacesPtr& places = nth(component.params, at.param).places;
+  const SaidPlacesPtr& places = nth(component.params, at.param).places;
   if (!places) return {};
   for (std::string path = without_units(at.field);;) {
     if (const auto it = places->find(path); it != places->end()) return it->second;

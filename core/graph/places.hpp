@@ -14,14 +14,14 @@ struct Component;
 struct Node;
 
 /// "" is the whole parameter, "inertia.xz" or "contacts[2].at" a part of a record, without suffixes of units.
-using Places = std::map<std::string, Where>;
-using PlacesPtr = std::shared_ptr<const Places>;
+using SaidPlaces = std::map<std::string, Where>;
+using SaidPlacesPtr = std::shared_ptr<const SaidPlaces>;
 
 /// Those of a whole record, in place of all before.
-PlacesPtr places_of(const Node& node);
+SaidPlacesPtr places_of(const Node& node);
 
 /// With those of `node`, a part of it.
-PlacesPtr with_place(const PlacesPtr& places, const std::string& field, const Node& node);
+SaidPlacesPtr with_place(const SaidPlacesPtr& places, const std::string& field, const Node& node);
 
 /// Of a sentence that begins with a parameter or a part of one, "airframe.inertia.xz: ...": the place of it,
 /// or of the nearest thing around it that a file says. Nothing when no file says it.

@@ -73,9 +73,10 @@ class SensorLine {
         period_s_(1 / std::min(t.rate_hz, tick_hz)),
         random_(seed) {
     if (t.jitter_s > 0.45 / t.rate_hz)
-      throw std::runtime_error(std::string("sensor_file: ") + name +
-                               ".timing.jitter is more than 0.45 of the time between two samples, which would "
-                               "change places");
+      throw std::runtime_error(
+          std::string("sensor_file: ") + name +
+          ".timing.jitter is more than 0.45 of the time between two samples, which would "
+          "change places");
     if (t.latency_s > (Delay<T>::capacity - 1) * period_s_)
       throw std::runtime_error(std::string("sensor_file: ") + name +
                                ".timing.latency is more than 63 samples are under way for");
@@ -85,7 +86,8 @@ class SensorLine {
   /// Is a sample to be taken now?
   bool due(std::int64_t now_ns) {
     if (jitter_ns_ <= 0) return due_(now_ns);
-    // Each nominal time is early by the jitter, and the sample waits from 0 to twice of it: less than a period.
+    // Each nominal time is early by the jitter, and the sample waits from 0 to twice of it: less than a
+    // period.
     if (!waiting_ && due_(now_ns)) {
       waiting_ = true;
       shift_to_ns_ = now_ns + std::llround(jitter_ns_ * random_.uniform(0, 2));
@@ -100,7 +102,7 @@ class SensorLine {
   template <class Port>
   void take(const T& sample, std::int64_t now_ns, bool spoken, Port& port) {
     if (!spoken || lost()) return;
-    if (delay_ns_ == 0) return port.publish(sample);
+    if (delay_ns_ == 0) return port.publish(sample, now_ns);
     under_way_.push(sample, now_ns);
   }
   template <class Port>

@@ -80,7 +80,8 @@ class Sensors {
   Baro baro(const Plant& plant) {
     double pressure = plant.air().pressure_pa;
     if (spec_.baro_static_port != 0)
-      pressure += spec_.baro_static_port * 0.5 * plant.air().density_kgm3 * plant.air_velocity_b().squaredNorm();
+      pressure +=
+          spec_.baro_static_port * 0.5 * plant.air().density_kgm3 * plant.air_velocity_b().squaredNorm();
     const double said = faults_.baro(pressure + baro_.next(baro_random_));
     return {sent(baro_sheet_.used() ? baro_sheet_.digits(said) : said), spec_.temperature_kelvin};
   }
@@ -153,8 +154,8 @@ class Sensors {
     accel_.calibrate();
     baro_.calibrate();
     pitot_.calibrate();
-    gyro_sheet_.calibrate(Eigen::Vector3d::Zero());
-    accel_sheet_.calibrate(rest);
+    gyro_sheet_.calibrate(surroundings_.rate_by(rest), Eigen::Vector3d::Zero());
+    accel_sheet_.calibrate(rest, rest);
   }
 
   double sent(double value) const { return spec_.single_precision ? to_single(value) : value; }

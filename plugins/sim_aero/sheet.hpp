@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include "fulmar/random.hpp"
@@ -16,11 +17,11 @@
 namespace fulmar::sim {
 
 struct SheetSpec {
-  double bias_std = 0;            ///< at turn-on, normal
-  double instability = 0;         ///< lowest point of the Allan deviation
+  double bias_std = 0;             ///< at turn-on, normal
+  double instability = 0;          ///< lowest point of the Allan deviation
   double instability_time_s = 30;  ///< averaging time of that point
-  double noise_after_1s = 0;      ///< what white noise leaves in a mean over one second: in the Allan deviation
-  double walk = 0;                ///< deviation of the rate random walk after one second: also in it
+  double noise_after_1s = 0;  ///< what white noise leaves in a mean over one second: in the Allan deviation
+  double walk = 0;            ///< deviation of the rate random walk after one second: also in it
   double scale = 0, cross_axis = 0;                         ///< each drawn evenly from +-this
   Eigen::Matrix3d mount = Eigen::Matrix3d::Identity();      ///< body to sensor
   Eigen::Matrix3d soft_iron = Eigen::Matrix3d::Identity();  ///< of the sensor's axes
@@ -79,15 +80,17 @@ struct Wander {
 class Sheet {
  public:
   Sheet() : random_(0) {}
-  Sheet(const SheetSpec& spec, double dt, std::uint64_t seed) : spec_(spec), used_(spec.used()), random_(seed) {
+  Sheet(const SheetSpec& spec, double dt, std::uint64_t seed)
+      : spec_(spec), used_(spec.used()), random_(seed) {
     if (!used_) return;
     bias_ = spec.offset;
     for (int i = 0; i < 3; ++i) {
       bias_[i] += spec.bias_std * random_.normal();
-      for (int k = 0; k < 3; ++k) matrix_(i, k) += random_.uniform(-1, 1) * (i == k ? spec.scale : spec.cross_axis);
+      for (int k = 0; k < 3; ++k)
+        matrix_(i, k) += random_.uniform(-1, 1) * (i == k ? spec.scale : spec.cross_axis);
     }
     matrix_ = spec.soft_iron * matrix_ * spec.mount;
-    smoothing_ = spec.bandwidth_hz > 0 ? -std::expm1(-2 * 3.14159265358979323846 * spec.bandwidth_hz * dt) : 1;
+    smoothing_ = spec.bandwidth_hz > 0 ? -std::expm1(-2 * std::numbers::pi * spec.bandwidth_hz * dt) : 1;
     if (spec.instability > 0) begin_to_wander(dt);
   }
   bool used() const { return used_; }
@@ -113,9 +116,9 @@ class Sheet {
     if (spec_.step > 0) x = spec_.step * std::round(x / spec_.step);
     return spec_.range > 0 ? std::clamp(x, -spec_.range, spec_.range) : x;
   }
-  /// A calibration at rest, where `rest` should be measured: the bias is what makes it so.
-  void calibrate(const Eigen::Vector3d& rest) {
-    if (used_) bias_ = rest - matrix_ * rest - wander_.rowwise().sum();
+  /// A calibration at rest: the bias is what makes it say `wanted` where there is `there`.
+  void calibrate(const Eigen::Vector3d& there, const Eigen::Vector3d& wanted) {
+    if (used_) bias_ = wanted - matrix_ * there - wander_.rowwise().sum();
   }
   Eigen::Vector3d bias() const { return wanders_ ? Eigen::Vector3d(bias_ + wander_.rowwise().sum()) : bias_; }
 

@@ -29,8 +29,14 @@ inline void set_gyro(const ImuErrors& imu, double hz, SensorSpec& s) {
   const double white = sampled(g.noise_per_root_hz_radps, g.noise_radps, hz);
   const Eigen::Vector3d warm_up = eigen(g.warm_up_radps);
   for (std::size_t i = 0; i < 3; ++i)
-    s.gyro[i] = {white,           g.bias_range_radps, g.walk_radps,       g.drift_radps,
-                 g.drift_time_s,  !g.drift_from_zero, warm_up[static_cast<Eigen::Index>(i)], g.warm_up_time_s};
+    s.gyro[i] = {white,
+                 g.bias_range_radps,
+                 g.walk_radps,
+                 g.drift_radps,
+                 g.drift_time_s,
+                 !g.drift_from_zero,
+                 warm_up[static_cast<Eigen::Index>(i)],
+                 g.warm_up_time_s};
   SheetSpec& sheet = s.gyro_sheet;
   sheet.bias_std = g.bias_std_radps;
   sheet.instability = g.instability_radps;

@@ -40,16 +40,18 @@ class Surroundings {
     const Eigen::Vector3d& r = spec_.imu_at;
     if (lever_) f_b += plant.angular_acceleration().cross(r) + omega_b.cross(omega_b.cross(r));
     if (shaken_) shake(plant.propeller_radps(), omega_b, f_b);
-    omega_b += per_g_.cwiseProduct(f_b) / isa::g0;
+    omega_b += rate_by(f_b);
   }
+  /// What gyroscopes make of a specific force.
+  Eigen::Vector3d rate_by(const Eigen::Vector3d& f_b) const { return per_g_.cwiseProduct(f_b) / isa::g0; }
 
   /// An unbalance turns with the propeller, in its plane, and grows with the square of its speed; the second
   /// harmonic is that of two blades and pulls along the shaft. Sampled as it is, so with aliases.
   void shake(double Omega, Eigen::Vector3d& omega_b, Eigen::Vector3d& f_b) {
     phase_ = std::fmod(phase_ + Omega * imu_dt_, 2 * std::numbers::pi);
     const double share = Omega / spec_.vibration_speed * (Omega / spec_.vibration_speed);
-    const Eigen::Vector3d wave =
-        share * Eigen::Vector3d(spec_.vibration_second * std::sin(2 * phase_), std::cos(phase_), std::sin(phase_));
+    const Eigen::Vector3d wave = share * Eigen::Vector3d(spec_.vibration_second * std::sin(2 * phase_),
+                                                         std::cos(phase_), std::sin(phase_));
     f_b += spec_.accel_vibration * wave;
     omega_b += spec_.gyro_vibration * wave;
   }

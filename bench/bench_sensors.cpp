@@ -52,8 +52,9 @@ bool tell(const char* sensor, double unit, const Curve& c, const SheetSpec& shee
   const auto near = [](double is, double stated) { return stated <= 0 || std::abs(is / stated - 1) <= 0.1; };
   const double density = sheet.instability > 0 ? sheet.noise_after_1s : 0;
   const bool within = near(c.at_1s(), density) && near(c.lowest(), sheet.instability);
-  into[sensor] = {{"at_1s", c.at_1s()},        {"at_1s_stated", sheet.noise_after_1s}, {"lowest", c.lowest()},
-                  {"lowest_stated", sheet.instability}, {"within", within},          {"tau_s", c.tau_s},
+  into[sensor] = {{"at_1s", c.at_1s()},      {"at_1s_stated", sheet.noise_after_1s},
+                  {"lowest", c.lowest()},    {"lowest_stated", sheet.instability},
+                  {"within", within},        {"tau_s", c.tau_s},
                   {"deviation", c.deviation}};
   if (!o.json)
     std::printf("  %-6s at 1 s %10.4g (%10.4g)   lowest %10.4g (%10.4g)%s\n", sensor, c.at_1s() / unit,

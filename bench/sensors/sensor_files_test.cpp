@@ -79,7 +79,8 @@ TEST_CASE("the files of the built-in sets say the built-in sets, to the bit") {
 }
 
 TEST_CASE("the Allan deviation of a shipped set is that of its data sheet") {
-  // ADIS16470: 0.34 deg and 0.037 m/s per root hour, 8 deg/h, 13 ug. MPU-6000: 5 mdeg/s and 400 ug per root Hz
+  // ADIS16470: 0.34 deg and 0.037 m/s per root hour, 8 deg/h, 13 ug. MPU-6000: 5 mdeg/s and 400 ug per root
+  // Hz
   const double deg = 0.017453292519943295, ug = 9.80665e-6;
   const bool whole = std::getenv("FULMAR_LONG") != nullptr;
   const double seconds = whole ? 36000 : 1200;
@@ -105,11 +106,14 @@ TEST_CASE("the Allan deviation of a shipped set is that of its data sheet") {
 TEST_CASE("what is wrong in a file of sensors is told with its line") {
   CHECK(told_of("imu:\n  gyro: {nois_per_root_hz: 5 mdeg/s}\n").find("sensor_files_test.yaml:2: ") == 0);
   CHECK(told_of("imu:\n  gyro: {nois_per_root_hz: 5 mdeg/s}\n").find("Did you mean") != std::string::npos);
-  CHECK(told_of("mag:\n  timing: {rate: -5 Hz}\n").find(":2: mag.timing.rate: -5 Hz is outside") != std::string::npos);
+  CHECK(told_of("mag:\n  timing: {rate: -5 Hz}\n").find(":2: mag.timing.rate: -5 Hz is outside") !=
+        std::string::npos);
   CHECK(told_of("gnss: {timing: {dropouts: 1.5}}\n").find("outside 0 .. 0.99") != std::string::npos);
-  CHECK(told_of("imu: {accel: {noise_per_root_hz: -100 ug}}\n").find("is outside 0 ug .. ") == std::string::npos);
+  CHECK(told_of("imu: {accel: {noise_per_root_hz: -100 ug}}\n").find("is outside 0 ug .. ") ==
+        std::string::npos);
   CHECK(told_of("imu: {accel: {noise_per_root_hz: -100 ug}}\n").find("is below 0") != std::string::npos);
-  CHECK(told_of("imu: {accel: {noise_per_root_hz: 100 deg/s}}\n").find("not an acceleration") != std::string::npos);
+  CHECK(told_of("imu: {accel: {noise_per_root_hz: 100 deg/s}}\n").find("not an acceleration") !=
+        std::string::npos);
   CHECK(told_of("imu: {accel: {noise_per_root_hz: 100 ug}}\n").empty());
 }
 
@@ -117,7 +121,8 @@ TEST_CASE("the hourglass is flown with each shipped set") {
   for (const std::string name : {"mems_budget", "tactical"}) {
     const std::string command = FULMAR_BIN_DIR "/fulmar run " FULMAR_SOURCE_DIR
                                                "/configs/missions/hourglass.yaml --log sensor_files_test.mcap"
-                                               " --set sim.sensor_file=" FULMAR_SOURCE_DIR "/configs/sensors/" +
+                                               " --set sim.sensor_file=" FULMAR_SOURCE_DIR
+                                               "/configs/sensors/" +
                                 name + ".yaml >sensor_files_test.txt 2>&1";
     CAPTURE(name);
     CHECK(std::system(command.c_str()) == 0);

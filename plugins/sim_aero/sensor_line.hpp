@@ -87,14 +87,15 @@ class SensorLine {
   bool due(std::int64_t now_ns) {
     if (jitter_ns_ <= 0) return due_(now_ns);
     // Each nominal time is early by the jitter, and the sample waits from 0 to twice of it: less than a
-    // period.
+    // period, but perhaps until the tick at which the next one begins to wait.
+    bool taken = false;
+    if (waiting_ && now_ns >= shift_to_ns_) taken = true, waiting_ = false;
     if (!waiting_ && due_(now_ns)) {
-      waiting_ = true;
       shift_to_ns_ = now_ns + std::llround(jitter_ns_ * random_.uniform(0, 2));
+      waiting_ = taken || shift_to_ns_ > now_ns;
+      taken = taken || !waiting_;
     }
-    if (!waiting_ || now_ns < shift_to_ns_) return false;
-    waiting_ = false;
-    return true;
+    return taken;
   }
 
   /// The sample that was taken now gets lost, or is delivered now or later: what the port is to say now, if

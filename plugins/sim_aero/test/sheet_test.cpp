@@ -96,7 +96,8 @@ TEST_CASE("a bias instability is the lowest Allan deviation, noise and walk incl
   CHECK(curve.at_1s() / (1e-4 / std::sqrt(2)) == Approx(1).epsilon(0.1));
   CHECK(curve.lowest() / 3e-5 == Approx(1).epsilon(0.1));
   suite.imu.gyro.instability_radps = 1e-6;  // what the noise hides
-  CHECK_THROWS_WITH(sensors(suite), doctest::Contains("bias instability is below what noise and random walk"));
+  CHECK_THROWS_WITH(sensors(suite),
+                    doctest::Contains("bias instability is below what noise and random walk"));
 }
 
 TEST_CASE("a noise density gives the same Allan deviation at every rate") {
@@ -122,7 +123,7 @@ TEST_CASE("an accelerometer off the centre of gravity feels what its own motion 
   const double h = 1e-4;
   std::vector<Vector3d> at;
   Vector3d said = Vector3d::Zero();
-  Eigen::Quaterniond q;
+  Eigen::Quaterniond q = p.state().q_nb;
   for (int i = 0; i < 3; ++i) {
     at.push_back(p.state().p_n + p.state().q_nb * r);
     if (i == 1) said = eigen(s.imu(p).specific_force_mps2), q = p.state().q_nb;
@@ -189,8 +190,7 @@ TEST_CASE("digits and range are those of the part, either way") {
   Plant p = turning();
   const Vector3d w = p.state().omega_b, said = eigen(sensors(suite).imu(p).rate_radps);
   REQUIRE(w.cwiseAbs().maxCoeff() > 0.2);
-  for (int i = 0; i < 3; ++i)
-    CHECK(said[i] == Approx(std::clamp(0.03 * std::round(w[i] / 0.03), -0.1, 0.1)));
+  for (int i = 0; i < 3; ++i) CHECK(said[i] == Approx(std::clamp(0.03 * std::round(w[i] / 0.03), -0.1, 0.1)));
 }
 
 TEST_CASE("scale and cross-axis errors fill their ranges and nothing else") {
@@ -312,10 +312,10 @@ TEST_CASE("the parameter calibrates a built-in set, too") {
 
 TEST_CASE("samples come late, jittering, lost in gaps, with stamps that only grow") {
   SensorSuite suite = none();
-  suite.imu.timing = {400, 0.02, 0.001, 0.2, 0};       // eight periods late
-  suite.gnss.timing = {10, 0.25, 0.03, 0, 0};          // later than a period
-  suite.mag.timing = {1000, 0, 0, 0, 0};               // faster than the loop
-  suite.baro.timing = {100, 0, 0, 0.3, 0.5};           // gaps of half a second
+  suite.imu.timing = {400, 0.02, 0.001, 0.2, 0};  // eight periods late
+  suite.gnss.timing = {10, 0.25, 0.03, 0, 0};     // later than a period
+  suite.mag.timing = {1000, 0, 0, 0, 0};          // faster than the loop
+  suite.baro.timing = {100, 0, 0, 0.3, 0.5};      // gaps of half a second
   auto b = with(suite);
   std::int64_t last_imu = -1, last_gnss = -1;
   int imu = 0, gnss = 0, mag = 0, baro = 0, gap = 0, longest = 0;

@@ -23,8 +23,14 @@
 #include "refusals.hpp"
 #include "sensors.hpp"
 #include "surroundings.hpp"
+#include "suite_spec.hpp"
 
 namespace fulmar::sim {
+
+struct SensorParams {
+  Record<SensorSuite> sensor_file{"a set of sensors in a file, in place of `sensors`"};
+  Flag calibrated{false, "biases that a calibration on the ground takes off are off", setup};
+};
 
 class Aircraft {
  public:
@@ -66,6 +72,7 @@ class Aircraft {
                              "flat: 9.80665 m/s2; gravity: by latitude and height; wgs84: turning ellipsoid",
                              setup};
     Choice<SensorSet> sensors{SensorSet::rosflight, "errors of the sensors", setup};
+    SensorParams own_sensors;
     Param truth_rate{50, "Hz", 1, 2000, "of the truth", setup};
     Param start_north{0, "m", -1e5, 1e5, "position at flight time 0", setup};
     Param start_east{0, "m", -1e5, 1e5, "position at flight time 0", setup};
@@ -151,16 +158,15 @@ class Aircraft {
     const LocalFrame frame(origin_.lat_deg, origin_.lon_deg, origin_.alt_msl_m);
     const Eigen::Vector3d field_n =
         magnetic_field_ned(origin_.lat_deg, origin_.lon_deg, origin_.alt_msl_m, decimal_year(epoch_ns_));
-    const SensorSpec spec = sensor_spec(p.sensors);
+    const SensorSpec spec = sensors_of(p);
     sensors_.emplace(spec, p.rate, frame, field_n, seed_);
-    gnss_delay_ = {};
-    gnss_delay_ns_ = std::llround(spec.gnss_latency_s * 1e9);
+    power_on_ns_ = now_ns_;
     const std::int64_t first_ns = now_ns_ + period_ns_;
-    imu_due_ = Due(spec.imu_hz, first_ns);
-    gnss_due_ = Due(spec.gnss_hz, first_ns);
-    mag_due_ = Due(spec.mag_hz, first_ns);
-    baro_due_ = Due(spec.baro_hz, first_ns);
-    pitot_due_ = Due(spec.pitot_hz, first_ns);
+    imu_line_ = {spec.imu_timing, p.rate, first_ns, "imu", mix_seed(seed_, 40)};
+    gnss_line_ = {spec.gnss_timing, p.rate, first_ns, "gnss", mix_seed(seed_, 41)};
+    mag_line_ = {spec.mag_timing, p.rate, first_ns, "mag", mix_seed(seed_, 42)};
+    baro_line_ = {spec.baro_timing, p.rate, first_ns, "baro", mix_seed(seed_, 43)};
+    pitot_line_ = {spec.pitot_timing, p.rate, first_ns, "pitot", mix_seed(seed_, 44)};
     rc_due_ = Due(50, first_ns);
     status_rate_ = Due(10, first_ns);
     truth_due_ = Due(p.truth_rate, first_ns);
@@ -260,26 +266,39 @@ class Aircraft {
       plant_->set_aerodynamics(iced(airframe_, icing_.ice(), p.faults.body_that_fails));
   }
 
+  static SensorSpec sensors_of(const Params& p) {
+    const Record<SensorSuite>& file = p.own_sensors.sensor_file;
+    SensorSpec spec = file.given() ? spec_of(*file, p.rate) : with_timing(sensor_spec(p.sensors));
+    spec.calibrated = spec.calibrated || p.own_sensors.calibrated;
+    return spec;
+  }
+
+  /// `works` is asked when a sample is taken.
+  template <class T, class Measure>
+  void publish_sensor(SensorLine<T>& line, bool works, const Channel& fault, Out<T>& port, Measure measure) {
+    if (line.due(now_ns_)) {
+      const T sample = measure();
+      line.take(sample, now_ns_, works && !fault.off(), port);
+    }
+    line.deliver(now_ns_, true, port);
+  }
+
   void publish_sensors(const Params& p, Outputs& out) {
-    if (imu_due_(now_ns_)) {
-      const Imu imu = sensors_->imu(*plant_);
-      if (p.imu_works && !sensors_->faults().imu_off()) out.imu.publish(imu);
+    Sensors& s = *sensors_;
+    const SensorFaults& faults = s.faults();
+    if (imu_line_.due(now_ns_)) {
+      const Imu imu = s.imu(*plant_);
+      imu_line_.take(imu, now_ns_, p.imu_works && !faults.imu_off(), out.imu);
     }
-    if (mag_due_(now_ns_)) {
-      const Mag mag = sensors_->mag(*plant_);
-      if (p.mag_works && !sensors_->faults().mag.off()) out.mag.publish(mag);
+    imu_line_.deliver(now_ns_, true, out.imu);
+    publish_sensor(mag_line_, p.mag_works, faults.mag, out.mag, [&] { return s.mag(*plant_); });
+    publish_sensor(baro_line_, p.baro_works, faults.baro, out.baro, [&] { return s.baro(*plant_); });
+    publish_sensor(pitot_line_, p.pitot_works, faults.pitot, out.pitot, [&] { return s.pitot(*plant_); });
+    if (gnss_line_.due(now_ns_)) {  // what is under way when the receiver is switched off is lost
+      const Gnss gnss = s.gnss(*plant_, epoch_ns_ + now_ns_, now_ns_ - power_on_ns_);
+      gnss_line_.take(gnss, now_ns_, p.gnss_works || gnss_line_.delayed(), out.gnss);
     }
-    if (baro_due_(now_ns_)) {
-      const Baro baro = sensors_->baro(*plant_);
-      if (p.baro_works && !sensors_->faults().baro.off()) out.baro.publish(baro);
-    }
-    if (pitot_due_(now_ns_)) {
-      const Pitot pitot = sensors_->pitot(*plant_);
-      if (p.pitot_works && !sensors_->faults().pitot.off()) out.pitot.publish(pitot);
-    }
-    if (gnss_due_(now_ns_)) gnss_delay_.push(sensors_->gnss(*plant_, epoch_ns_ + now_ns_), now_ns_);
-    if (const auto* late = gnss_delay_.pop(now_ns_, gnss_delay_ns_); late && p.gnss_works)
-      out.gnss.publish(late->value, late->valid_at_ns);
+    gnss_line_.deliver(now_ns_, p.gnss_works, out.gnss);
   }
 
   void publish_rc_and_status(const Params& p, Outputs& out) {
@@ -311,9 +330,13 @@ class Aircraft {
   Airframe airframe_;
   std::optional<Plant> plant_;
   std::optional<Sensors> sensors_;
-  std::int64_t now_ns_ = 0, period_ns_ = 2500000, epoch_ns_ = 0, gnss_delay_ns_ = 0;
-  Due imu_due_, gnss_due_, mag_due_, baro_due_, pitot_due_, rc_due_, status_rate_, truth_due_;
-  Delay<Gnss> gnss_delay_;
+  std::int64_t now_ns_ = 0, period_ns_ = 2500000, epoch_ns_ = 0, power_on_ns_ = 0;
+  SensorLine<Imu> imu_line_;
+  SensorLine<Gnss> gnss_line_;
+  SensorLine<Mag> mag_line_;
+  SensorLine<Baro> baro_line_;
+  SensorLine<Pitot> pitot_line_;
+  Due rc_due_, status_rate_, truth_due_;
   Actuators command_;
   Actuation actuation_;
   VehicleStatus status_;

@@ -44,6 +44,8 @@ class Noise {
   }
   /// What of it is not white.
   double bias() const { return bias_ + drift_ + offset_; }
+  /// A calibration now takes off all that is not white.
+  void calibrate() { bias_ = -(drift_ + offset_); }
 
  private:
   NoiseSpec spec_;
@@ -61,6 +63,9 @@ struct Noise3 {
     return {x, y, z};
   }
   Eigen::Vector3d bias() const { return {axis[0].bias(), axis[1].bias(), axis[2].bias()}; }
+  void calibrate() {
+    for (Noise& one : axis) one.calibrate();
+  }
   std::array<Noise, 3> axis;
 };
 

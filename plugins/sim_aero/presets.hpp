@@ -7,6 +7,8 @@
 #include <cstdint>
 
 #include "noise.hpp"
+#include "sensor_suite.hpp"
+#include "sheet.hpp"
 
 namespace fulmar::sim {
 
@@ -23,6 +25,18 @@ struct SensorSpec {
   double horizontal_std_m = 0.01, vertical_std_m = 0.01, speed_std_mps = 0.01;  ///< what the receiver claims
   double temperature_kelvin = 300.15;                                           ///< of the sensors
   bool single_precision = false;  ///< of all but the receiver, as a flight controller sends
+  // Of no use to the built-in sets, all of it off:
+  SheetSpec gyro_sheet{}, accel_sheet{}, mag_sheet{}, baro_sheet{}, pitot_sheet{};
+  bool calibrated = false;
+  Eigen::Vector3d imu_at = Eigen::Vector3d::Zero(), pitot_at = Eigen::Vector3d::Zero(),
+                  antenna_at = Eigen::Vector3d::Zero();  ///< m from the centre of gravity
+  double gyro_per_g = 0;                                 ///< rad/s
+  double gyro_vibration = 0, accel_vibration = 0, vibration_speed = 0, vibration_second = 0;
+  Eigen::Vector3d mag_per_amp = Eigen::Vector3d::Zero();
+  double baro_static_port = 0, pitot_static_port = 0, pitot_alpha = 0, pitot_beta = 0;
+  double gnss_start_up_s = 0;
+  FixType fix = FixType::fix_3d;
+  Timing imu_timing{400}, gnss_timing{10}, mag_timing{50}, baro_timing{50}, pitot_timing{100};
 };
 
 /// rosflight_sim's `standalone_sensors` with the defaults of its code. Its walks are per sample; here they

@@ -3,7 +3,6 @@
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -19,24 +18,10 @@
 #include "fulmar/sim/plant.hpp"
 #include "presets.hpp"
 #include "sensor_faults.hpp"
+#include "sensor_line.hpp"
+#include "sensor_place.hpp"
 
 namespace fulmar::sim {
-
-/// True once per period: integer nanoseconds, so no remainder builds up.
-class Due {
- public:
-  Due() = default;
-  Due(double rate_hz, std::int64_t first_ns) : period_ns_(std::llround(1e9 / rate_hz)), next_ns_(first_ns) {}
-  bool operator()(std::int64_t now_ns) {
-    if (now_ns < next_ns_) return false;
-    do next_ns_ += period_ns_;
-    while (next_ns_ <= now_ns);
-    return true;
-  }
-
- private:
-  std::int64_t period_ns_ = 1, next_ns_ = 0;
-};
 
 /// Rounded to the 24 bits of single precision. Not by a cast to float and back: where g++ 12 makes vectors of
 /// it, it leaves it out.
@@ -67,55 +52,76 @@ class Sensors {
     pitot_scale_ = 1 + pitot_random_.uniform(-spec.pitot_scale, spec.pitot_scale);
     gnss_position_ = Noise3(spec.gnss_position, dt(spec.gnss_hz), gnss_random_);
     gnss_velocity_ = Noise3(spec.gnss_velocity, dt(spec.gnss_hz), gnss_random_);
+    gyro_sheet_ = Sheet(spec.gyro_sheet, dt(spec.imu_hz), mix_seed(seed, 30));
+    accel_sheet_ = Sheet(spec.accel_sheet, dt(spec.imu_hz), mix_seed(seed, 31));
+    mag_sheet_ = Sheet(spec.mag_sheet, dt(spec.mag_hz), mix_seed(seed, 32));
+    baro_sheet_ = Sheet(spec.baro_sheet, dt(spec.baro_hz), mix_seed(seed, 33));
+    pitot_sheet_ = Sheet(spec.pitot_sheet, dt(spec.pitot_hz), mix_seed(seed, 34));
+    surroundings_ = Surroundings(spec, dt(spec.imu_hz), mix_seed(seed, 35));
+    if (spec.calibrated) calibrate();
   }
 
   Imu imu(const Plant& plant) {
+    Eigen::Vector3d rate = plant.state().omega_b, force = plant.specific_force();
+    if (surroundings_.reach_imu()) surroundings_.imu(plant, rate, force);
     Imu out;
-    out.rate_radps = sent<Body>(faults_.gyro(plant.state().omega_b + gyro_.next(imu_random_)));
-    out.specific_force_mps2 = sent<Body>(faults_.accel(plant.specific_force() + accel_.next(imu_random_)));
+    out.rate_radps = sent<Body>(measured(rate, gyro_, imu_random_, gyro_sheet_, faults_.gyro));
+    out.specific_force_mps2 = sent<Body>(measured(force, accel_, imu_random_, accel_sheet_, faults_.accel));
     out.temperature_kelvin = spec_.temperature_kelvin;
     return out;
   }
 
   Mag mag(const Plant& plant) {
-    return {sent<Body>(faults_.mag(plant.seen().q_nb.conjugate() * field_n_ + mag_.next(mag_random_)))};
+    Eigen::Vector3d field = plant.seen().q_nb.conjugate() * field_n_;
+    if (surroundings_.reach_mag()) field += plant.battery_amp() * spec_.mag_per_amp;
+    return {sent<Body>(measured(field, mag_, mag_random_, mag_sheet_, faults_.mag))};
   }
 
   Baro baro(const Plant& plant) {
-    return {sent(faults_.baro(plant.air().pressure_pa + baro_.next(baro_random_))), spec_.temperature_kelvin};
+    double pressure = plant.air().pressure_pa;
+    if (spec_.baro_static_port != 0)
+      pressure +=
+          spec_.baro_static_port * 0.5 * plant.air().density_kgm3 * plant.air_velocity_b().squaredNorm();
+    const double said = faults_.baro(pressure + baro_.next(baro_random_));
+    return {sent(baro_sheet_.used() ? baro_sheet_.digits(said) : said), spec_.temperature_kelvin};
   }
 
   /// (7.10); the tube takes all of the flow up to 20 degrees off its axis, less beyond, and nothing from 60
   /// degrees on.
   Pitot pitot(const Plant& plant) {
-    const Eigen::Vector3d v_r = plant.air_velocity_b();
+    Eigen::Vector3d v_r = plant.air_velocity_b();
+    if (surroundings_.reach_pitot()) v_r += plant.seen().omega_b.cross(spec_.pitot_at);
     const double Va = v_r.norm(), cosine = Va > 0 ? v_r.x() / Va : 1;
     const double taken = std::clamp((cosine - 0.5) / (0.9397 - 0.5), 0.0, 1.0);
+    double pressure = pitot_scale_ * taken * 0.5 * plant.air().density_kgm3 * Va * Va;
+    if (surroundings_.reach_pitot()) pressure = surroundings_.pitot(plant, v_r, taken, pressure);
+    const double said = faults_.pitot(pressure + pitot_.next(pitot_random_));
     Pitot out;
-    out.pressure_pa = sent(faults_.pitot(pitot_scale_ * taken * 0.5 * plant.air().density_kgm3 * Va * Va +
-                                         pitot_.next(pitot_random_)));
+    out.pressure_pa = sent(pitot_sheet_.used() ? pitot_sheet_.digits(said) : said);
     out.indicated_airspeed_mps = sent(indicated_airspeed(out.pressure_pa));
     out.temperature_kelvin = spec_.temperature_kelvin;
     return out;
   }
 
-  Gnss gnss(const Plant& plant, std::int64_t utc_ns) {
-    const LocalFrame::Geodetic g =
-        frame_.from_ned(faults_.position(plant.state().p_n + gnss_position_.next(gnss_random_)));
+  /// `on_ns`: since power-on.
+  Gnss gnss(const Plant& plant, std::int64_t utc_ns, std::int64_t on_ns = INT64_MAX) {
+    Eigen::Vector3d p_n = plant.state().p_n, v_n = plant.seen().v_n;
+    if (surroundings_.reach_antenna()) surroundings_.antenna(plant, p_n, v_n);
+    const LocalFrame::Geodetic g = frame_.from_ned(faults_.position(p_n + gnss_position_.next(gnss_random_)));
     Gnss out;
     out.latitude_deg = g.lat_deg;
     out.longitude_deg = g.lon_deg;
     out.altitude_m = g.alt_m;
-    out.velocity_mps =
-        from_eigen<Ned>(faults_.velocity(plant.seen().v_n + gnss_velocity_.next(gnss_random_)));
+    out.velocity_mps = from_eigen<Ned>(faults_.velocity(v_n + gnss_velocity_.next(gnss_random_)));
     out.horizontal_std_m = spec_.horizontal_std_m;
     out.vertical_std_m = spec_.vertical_std_m;
     out.speed_std_mps = spec_.speed_std_mps;
     out.utc_ns = utc_ns;
-    out.fix = FixType::fix_3d;
+    out.fix = spec_.fix;
     out.satellites = 15;
-    if (faults_.velocity.off()) out.speed_std_mps = unknown_std;
-    if (faults_.position.off()) {  // no solution, as a receiver without sky says it
+    const bool searching = static_cast<double>(on_ns) < 1e9 * spec_.gnss_start_up_s;
+    if (searching || faults_.velocity.off()) out.speed_std_mps = unknown_std;
+    if (searching || faults_.position.off()) {  // no solution, as a receiver without sky says it
       out.fix = FixType::none;
       out.satellites = 0;
       out.horizontal_std_m = out.vertical_std_m = unknown_std;
@@ -126,11 +132,32 @@ class Sensors {
   void suffer(const Faults& faults) { faults_.suffer(faults); }
   const SensorFaults& faults() const { return faults_; }
 
-  Eigen::Vector3d gyro_bias() const { return gyro_.bias(); }
-  Eigen::Vector3d accel_bias() const { return accel_.bias(); }
+  Eigen::Vector3d gyro_bias() const { return of_both(gyro_, gyro_sheet_); }
+  Eigen::Vector3d accel_bias() const { return of_both(accel_, accel_sheet_); }
   const SensorSpec& spec() const { return spec_; }
 
  private:
+  /// From what there is at the sensor to what it says.
+  static Eigen::Vector3d measured(const Eigen::Vector3d& there, Noise3& noise, Random& random, Sheet& sheet,
+                                  Channel& fault) {
+    if (!sheet.used()) return fault(there + noise.next(random));
+    return sheet.digits(fault(sheet.smooth(sheet.bent(there) + noise.next(random))));
+  }
+  static Eigen::Vector3d of_both(const Noise3& noise, const Sheet& sheet) {
+    return sheet.used() ? Eigen::Vector3d(noise.bias() + sheet.bias()) : noise.bias();
+  }
+  /// What a flight controller's own calibration takes off, standing level: of gyroscopes, accelerometers,
+  /// barometer and pitot tube all that is constant and not white, gravity's share by scale and axes included.
+  void calibrate() {
+    const Eigen::Vector3d rest(0, 0, -isa::g0);
+    gyro_.calibrate();
+    accel_.calibrate();
+    baro_.calibrate();
+    pitot_.calibrate();
+    gyro_sheet_.calibrate(surroundings_.rate_by(rest), Eigen::Vector3d::Zero());
+    accel_sheet_.calibrate(rest, rest);
+  }
+
   double sent(double value) const { return spec_.single_precision ? to_single(value) : value; }
   template <class Frame>
   Vec3<Frame> sent(const Eigen::Vector3d& value) const {
@@ -145,36 +172,9 @@ class Sensors {
   Noise3 gyro_, accel_, mag_, gnss_position_, gnss_velocity_;
   Noise baro_, pitot_;
   double pitot_scale_ = 1;
+  Sheet gyro_sheet_, accel_sheet_, mag_sheet_, baro_sheet_, pitot_sheet_;
+  Surroundings surroundings_;
   SensorFaults faults_;
-};
-
-/// Samples that were taken and are not yet delivered.
-template <class T>
-class Delay {
- public:
-  void push(const T& value, std::int64_t valid_at_ns) {
-    items_[(first_ + count_) % items_.size()] = {value, valid_at_ns};
-    if (count_ < items_.size())
-      ++count_;
-    else
-      first_ = (first_ + 1) % items_.size();
-  }
-  struct Item {
-    T value;
-    std::int64_t valid_at_ns = 0;
-  };
-  /// The oldest sample, once `delay_ns` have passed since it was valid; else nullptr.
-  const Item* pop(std::int64_t now_ns, std::int64_t delay_ns) {
-    if (count_ == 0 || now_ns < items_[first_].valid_at_ns + delay_ns) return nullptr;
-    const Item* item = &items_[first_];
-    first_ = (first_ + 1) % items_.size();
-    --count_;
-    return item;
-  }
-
- private:
-  std::array<Item, 16> items_{};
-  std::size_t first_ = 0, count_ = 0;
 };
 
 }  // namespace fulmar::sim

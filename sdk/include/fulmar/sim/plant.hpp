@@ -173,6 +173,11 @@ class Plant {
     if (ground_.crashed()) return -(x_.q_nb.conjugate() * g_n_);
     return load_.force_b / mass_.mass;
   }
+  /// Of the body relative to inertial space, rad/s2, where the present loads are: Euler's equation.
+  Eigen::Vector3d angular_acceleration() const {
+    if (ground_.crashed()) return Eigen::Vector3d::Zero();
+    return mass_.J_inverse * (load_.moment_b - x_.omega_b.cross(mass_.J * x_.omega_b));
+  }
   Eigen::Vector3d air_velocity_b() const { return relative(seen()); }
   /// By north, east and down at the aircraft's own place.
   Eigen::Vector3d wind_n() const { return steady_wind(seen()) + seen().q_nb * gust_b_; }

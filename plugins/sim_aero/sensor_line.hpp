@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// When a sensor's samples are taken, and which of them arrive when.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+#include "fulmar/random.hpp"
+#include "sensor_suite.hpp"
+
+namespace fulmar::sim {
+
+/// True once per period: integer nanoseconds, so no remainder builds up.
+class Due {
+ public:
+  Due() = default;
+  Due(double rate_hz, std::int64_t first_ns) : period_ns_(std::llround(1e9 / rate_hz)), next_ns_(first_ns) {}
+  bool operator()(std::int64_t now_ns) {
+    if (now_ns < next_ns_) return false;
+    do next_ns_ += period_ns_;
+    while (next_ns_ <= now_ns);
+    return true;
+  }
+
+ private:
+  std::int64_t period_ns_ = 1, next_ns_ = 0;
+};
+
+/// Samples that were taken and are not yet delivered.
+template <class T>
+class Delay {
+ public:
+  static constexpr std::size_t capacity = 64;
+  void push(const T& value, std::int64_t valid_at_ns) {
+    items_[(first_ + count_) % items_.size()] = {value, valid_at_ns};
+    if (count_ < items_.size())
+      ++count_;
+    else
+      first_ = (first_ + 1) % items_.size();
+  }
+  struct Item {
+    T value;
+    std::int64_t valid_at_ns = 0;
+  };
+  /// The oldest sample, once `delay_ns` have passed since it was valid; else nullptr.
+  const Item* pop(std::int64_t now_ns, std::int64_t delay_ns) {
+    if (count_ == 0 || now_ns < items_[first_].valid_at_ns + delay_ns) return nullptr;
+    const Item* item = &items_[first_];
+    first_ = (first_ + 1) % items_.size();
+    --count_;
+    return item;
+  }
+
+ private:
+  std::array<Item, capacity> items_{};
+  std::size_t first_ = 0, count_ = 0;
+};
+
+/// The way of one sensor's samples into the loop: due, perhaps early or late, perhaps lost, perhaps delayed.
+template <class T>
+class SensorLine {
+ public:
+  SensorLine() : random_(0) {}
+  /// `name` is for the sentence that refuses a timing.
+  SensorLine(const Timing& t, double tick_hz, std::int64_t first_ns, const char* name, std::uint64_t seed)
+      : due_(t.rate_hz, first_ns),
+        delay_ns_(std::llround(t.latency_s * 1e9)),
+        jitter_ns_(t.jitter_s * 1e9),
+        shift_to_ns_(first_ns),
+        period_s_(1 / std::min(t.rate_hz, tick_hz)),
+        random_(seed) {
+    if (t.jitter_s > 0.45 / t.rate_hz)
+      throw std::runtime_error(
+          std::string("sensor_file: ") + name +
+          ".timing.jitter is more than 0.45 of the time between two samples, which would "
+          "change places");
+    if (t.latency_s > (Delay<T>::capacity - 1) * period_s_)
+      throw std::runtime_error(std::string("sensor_file: ") + name +
+                               ".timing.latency is more than 63 samples are under way for");
+    if (t.dropouts_frac > 0) lose(t);
+  }
+
+  /// Is a sample to be taken now?
+  bool due(std::int64_t now_ns) {
+    if (jitter_ns_ <= 0) return due_(now_ns);
+    // Each nominal time is early by the jitter, and the sample waits from 0 to twice of it: less than a
+    // period, but perhaps until the tick at which the next one begins to wait.
+    bool taken = false;
+    if (waiting_ && now_ns >= shift_to_ns_) taken = true, waiting_ = false;
+    if (!waiting_ && due_(now_ns)) {
+      shift_to_ns_ = now_ns + std::llround(jitter_ns_ * random_.uniform(0, 2));
+      waiting_ = taken || shift_to_ns_ > now_ns;
+      taken = taken || !waiting_;
+    }
+    return taken;
+  }
+
+  /// The sample that was taken now gets lost, or is delivered now or later: what the port is to say now, if
+  /// it says anything. `spoken`: the sensor itself said something.
+  template <class Port>
+  void take(const T& sample, std::int64_t now_ns, bool spoken, Port& port) {
+    if (!spoken || lost()) return;
+    if (delay_ns_ == 0) return port.publish(sample, now_ns);
+    under_way_.push(sample, now_ns);
+  }
+  template <class Port>
+  void deliver(std::int64_t now_ns, bool spoken, Port& port) {
+    if (delay_ns_ == 0) return;
+    if (const auto* late = under_way_.pop(now_ns, delay_ns_); late && spoken)
+      port.publish(late->value, late->valid_at_ns);
+  }
+  bool delayed() const { return delay_ns_ > 0; }
+
+ private:
+  /// Gilbert's channel: in a gap with the probability `dropouts`, gaps of the mean length `length`.
+  void lose(const Timing& t) {
+    const double samples = std::max(1.0, t.dropout_length_s / period_s_);
+    const bool bursts = t.dropout_length_s > period_s_;
+    end_ = bursts ? 1 / samples : 1 - t.dropouts_frac;
+    begin_ = bursts ? std::min(1.0, end_ * t.dropouts_frac / (1 - t.dropouts_frac)) : t.dropouts_frac;
+  }
+  bool lost() {
+    if (begin_ <= 0) return false;
+    const double u = random_.uniform();
+    in_gap_ = in_gap_ ? u >= end_ : u < begin_;
+    return in_gap_;
+  }
+
+  Due due_;
+  Delay<T> under_way_;
+  std::int64_t delay_ns_ = 0;
+  double jitter_ns_ = 0;
+  std::int64_t shift_to_ns_ = 0;
+  double period_s_ = 1;
+  Random random_;
+  double begin_ = 0, end_ = 1;  ///< of a gap, at each sample
+  bool in_gap_ = false, waiting_ = false;
+};
+
+}  // namespace fulmar::sim

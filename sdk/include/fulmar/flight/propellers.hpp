@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where the propellers stand: what thrust and torque do at their places. Each is the one of propulsion.hpp
-// and sees the airspeed of the centre of gravity. Rigid-body statics: M = r x T a - s Q a with the unit vector
-// a of its axis, s = 1 where it turns right.
+// and sees the airspeed of the centre of gravity. Rigid-body statics: M = r x T a - s Q a with the unit
+// vector a of its axis, s = 1 where it turns right.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -82,7 +82,8 @@ class Propellers {
   /// In balance with their motors: at speed `Omega`, those with a share of the rudder at the speeds of their
   /// own that the same throttle and that rudder give.
   template <class S>
-  LoadOf<S> steady_load(const Propeller& p, const S& Omega, const S& rudder, const S& Va, const S& rho) const {
+  LoadOf<S> steady_load(const Propeller& p, const S& Omega, const S& rudder, const S& Va,
+                        const S& rho) const {
     LoadOf<S> load;
     if (!differential_) {
       add<S>(p.thrust_of<S>(Omega, Va, rho), p.torque_of<S>(Omega, Va, rho), load);
@@ -90,9 +91,8 @@ class Propellers {
     }
     const S all = p.throttle_for_of<S>(Omega, Va, rho);
     for (std::size_t i = 0; i < count_; ++i) {
-      const S own = places_[i].per_rudder == 0
-                        ? Omega
-                        : p.steady_speed_of<S>(throttle<S>(i, all, rudder), Va, rho);
+      const S own =
+          places_[i].per_rudder == 0 ? Omega : p.steady_speed_of<S>(throttle<S>(i, all, rudder), Va, rho);
       add_one<S>(i, p.thrust_of<S>(own, Va, rho), p.torque_of<S>(own, Va, rho), load);
     }
     return load;

@@ -12,9 +12,9 @@ enum class Turns : std::uint8_t {
 
 /// Where one of several like propellers stands.
 struct PropellerPlace {
-  Vec3<Body> at_m;       ///< of its disc, from the centre of gravity
-  double tilt_rad = 0;   ///< of its axis, up
-  double toe_rad = 0;    ///< of its axis, to the right
+  Vec3<Body> at_m;      ///< of its disc, from the centre of gravity
+  double tilt_rad = 0;  ///< of its axis, up
+  double toe_rad = 0;   ///< of its axis, to the right
   Turns turns = Turns::right;
   /// Part of full throttle that full rudder takes from it or gives to it: nose left is more on the right.
   double differential_frac = 0;
@@ -36,7 +36,7 @@ struct Battery {
   double capacity_ah = 0;     ///< 0: without end
   double resistance_ohm = 0;  ///< of its cells and cables; shared by all motors
   double empty_volt = 0;      ///< without load, when its capacity is used; 0: as when full
-  BatteryCurve curve;         ///< in place of the line from full to empty; its first voltage is that of the full one
+  BatteryCurve curve;  ///< in place of the line from full to empty; its first voltage is that of the full one
 };
 
 template <>

@@ -57,9 +57,7 @@ inline double spanned(const Gear& gear) {
 }
 
 inline std::string where_contacts_are(const Gear& gear) {
-  const auto all = [&](auto&& is) {
-    return std::all_of(gear.contacts.begin(), gear.contacts.end(), is);
-  };
+  const auto all = [&](auto&& is) { return std::all_of(gear.contacts.begin(), gear.contacts.end(), is); };
   if (all([](const GearContact& c) { return c.at_m.x < 0; })) return "behind";
   if (all([](const GearContact& c) { return c.at_m.x > 0; })) return "ahead of";
   if (all([](const GearContact& c) { return c.at_m.y > 0; })) return "right of";
@@ -87,8 +85,9 @@ inline AirframeFault gear_fault(const Airframe& a) {
 inline AirframeFault surface_fault(const char* name, const Surface& s) {
   const Stops at = stops(s);
   if (at.min < at.max || s.limit_rad == 0) return {};
-  return {std::string(name) + ".min_rad", "the servo would stop at " + short_number(at.min) + " rad below and at " +
-                                              short_number(at.max) + " rad above: it cannot move"};
+  return {std::string(name) + ".min_rad", "the servo would stop at " + short_number(at.min) +
+                                              " rad below and at " + short_number(at.max) +
+                                              " rad above: it cannot move"};
 }
 
 inline AirframeFault propeller_fault(const Airframe& a) {
@@ -120,8 +119,8 @@ inline AirframeFault battery_fault(const Propulsion& p) {
       return {field + ".curve.used_frac", "the list has to rise, and " + short_number(c.used_frac[i]) +
                                               " comes after " + short_number(c.used_frac[i - 1])};
   if (c.used_frac[0] != 0 || std::abs(c.open_volt[0] - p.battery_volt) > 1e-6 * p.battery_volt)
-    return {field + ".curve", "it must begin with the full battery: used 0, open " +
-                                  short_number(p.battery_volt) + " V"};
+    return {field + ".curve",
+            "it must begin with the full battery: used 0, open " + short_number(p.battery_volt) + " V"};
   return {};
 }
 

@@ -165,7 +165,8 @@ inline Standing Legs::find_standing() const {
   Standing out;
   out.found = found();
   out.height_m = s(0);
-  out.tilt = Eigen::AngleAxisd(s(1), Eigen::Vector3d::UnitY()) * Eigen::AngleAxisd(s(2), Eigen::Vector3d::UnitX());
+  out.tilt =
+      Eigen::AngleAxisd(s(1), Eigen::Vector3d::UnitY()) * Eigen::AngleAxisd(s(2), Eigen::Vector3d::UnitX());
   return out;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// x'' = omega^2 (aim - x) - 2 zeta omega x' with |x'| bounded, solved exactly for an aim that is constant over
-// a step: in closed form while the rate is free, along a line while it is at its bound. E.g. Ogata, Modern
-// Control Engineering, section 5.3.
+// x'' = omega^2 (aim - x) - 2 zeta omega x' with |x'| bounded, solved exactly for an aim that is constant
+// over a step: in closed form while the rate is free, along a line while it is at its bound. E.g. Ogata,
+// Modern Control Engineering, section 5.3.
 #pragma once
 #include <algorithm>
 #include <cmath>

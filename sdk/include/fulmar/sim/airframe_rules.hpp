@@ -17,7 +17,7 @@ struct AirframeFault {
   explicit operator bool() const { return !sentence.empty(); }
 };
 
-namespace detail {
+namespace rules {
 
 inline std::string short_number(double value) {
   char text[32];
@@ -124,15 +124,15 @@ inline AirframeFault battery_fault(const Propulsion& p) {
   return {};
 }
 
-}  // namespace detail
+}  // namespace rules
 
 inline AirframeFault airframe_fault(const Airframe& a) {
-  if (AirframeFault f = detail::surface_fault("aileron", a.aileron)) return f;
-  if (AirframeFault f = detail::surface_fault("elevator", a.elevator)) return f;
-  if (AirframeFault f = detail::surface_fault("rudder", a.rudder)) return f;
-  if (AirframeFault f = detail::propeller_fault(a)) return f;
-  if (AirframeFault f = detail::battery_fault(a.propulsion)) return f;
-  return detail::gear_fault(a);
+  if (AirframeFault f = rules::surface_fault("aileron", a.aileron)) return f;
+  if (AirframeFault f = rules::surface_fault("elevator", a.elevator)) return f;
+  if (AirframeFault f = rules::surface_fault("rudder", a.rudder)) return f;
+  if (AirframeFault f = rules::propeller_fault(a)) return f;
+  if (AirframeFault f = rules::battery_fault(a.propulsion)) return f;
+  return rules::gear_fault(a);
 }
 
 }  // namespace fulmar::sim

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A battery that sags and drains: the balance of motor, propeller and battery by their own laws, and the charge.
+// A battery that sags and drains: the balance of motor, propeller and battery by their own laws, and the
+// charge.
 #include "fulmar/sim/battery.hpp"
 
 #include <doctest/doctest.h>
@@ -20,9 +21,9 @@ constexpr double dt = 0.0025, Va = 17;
 
 Airframe with(double resistance_ohm, double capacity_ah = 0, double empty_volt = 0) {
   Airframe a = anaconda();
-  a.propulsion.battery.resistance_ohm = resistance_ohm;
-  a.propulsion.battery.capacity_ah = capacity_ah;
-  a.propulsion.battery.empty_volt = empty_volt;
+  a.propulsion.pack.resistance_ohm = resistance_ohm;
+  a.propulsion.pack.capacity_ah = capacity_ah;
+  a.propulsion.pack.empty_volt = empty_volt;
   return a;
 }
 
@@ -71,7 +72,8 @@ TEST_CASE("under load motor, propeller and battery are in balance: Ohm's law in 
     }
 }
 
-TEST_CASE("the throttle that holds a speed gives that speed, sagging or not; beyond the battery there is none") {
+TEST_CASE(
+    "the throttle that holds a speed gives that speed, sagging or not; beyond the battery there is none") {
   for (const double ohm : {0.0, 0.02, 0.1}) {
     const Propeller p(with(ohm).propulsion);
     for (const double Omega : {200.0, 400.0, 600.0}) {
@@ -90,8 +92,9 @@ TEST_CASE("a trim counts the sag: more throttle, the same speed of the propeller
   CHECK(soft.throttle_frac > 1.01 * stiff.throttle_frac);
   Plant plant = flying(with(0.1));
   for (int i = 0; i < 2000; ++i)
-    plant.advance({soft.throttle_frac, soft.deflections.aileron, soft.deflections.elevator, soft.deflections.rudder},
-                  1, dt);
+    plant.advance(
+        {soft.throttle_frac, soft.deflections.aileron, soft.deflections.elevator, soft.deflections.rudder}, 1,
+        dt);
   CHECK(-plant.state().p_n.z() == Approx(300).epsilon(0.002));
 }
 
@@ -132,8 +135,8 @@ TEST_CASE("an empty battery stops the motor for good; one without capacity never
 TEST_CASE("a curve is followed between its points and held beyond them") {
   Propulsion p = with(0, 2).propulsion;
   for (const auto& [used, volt] : {std::pair(0.0, 12.0), {0.1, 11.5}, {0.8, 11.0}, {0.95, 9.0}}) {
-    p.battery.curve.used_frac.push_back(used);
-    p.battery.curve.open_volt.push_back(volt);
+    p.pack.curve.used_frac.push_back(used);
+    p.pack.curve.open_volt.push_back(volt);
   }
   BatteryState b(p);
   const auto after = [&](double part) {  // of the capacity, 2 Ah

@@ -86,8 +86,8 @@ TEST_CASE("it stands on its contacts as they say, and each bears what the lever 
 
 TEST_CASE("shares that are not those of the lever arms: it tilts until the springs give them") {
   // alike springs, the centre of gravity nearer to the rear: more weight there, nose up
-  const Airframe a =
-      on({contact(0.6, 0, 0.25, 1.0 / 3), contact(-0.2, -0.2, 0.25, 1.0 / 3), contact(-0.2, 0.25, 0.25, 1.0 / 3)});
+  const Airframe a = on({contact(0.6, 0, 0.25, 1.0 / 3), contact(-0.2, -0.2, 0.25, 1.0 / 3),
+                         contact(-0.2, 0.25, 0.25, 1.0 / 3)});
   Plant p = plant(a);
   const RigidBody begin = p.state();
   const double weight = a.mass_kg * g, k = weight / 3 / 0.01;
@@ -151,7 +151,8 @@ TEST_CASE("a skid slides as far as friction lets it, alike in every direction; a
   CHECK(slides(wheels, 0) > 3 * way);
 }
 
-TEST_CASE("a landing on the belly: it slides to a stop and gives its energy to the ground; too hard is a crash") {
+TEST_CASE(
+    "a landing on the belly: it slides to a stop and gives its energy to the ground; too hard is a crash") {
   for (const double sink : {1.0, 2.8, 3.3}) {
     Plant p = plant(belly());
     REQUIRE(p.fly({0, 0, -1}, 0, 15));
@@ -162,7 +163,9 @@ TEST_CASE("a landing on the belly: it slides to a stop and gives its energy to t
     x.omega_b.setZero();
     p.set_state(x);
     const double mass = anaconda().mass_kg;
-    const auto energy = [&] { return 0.5 * mass * p.state().v_n.squaredNorm() - mass * g * p.state().p_n.z(); };
+    const auto energy = [&] {
+      return 0.5 * mass * p.state().v_n.squaredNorm() - mass * g * p.state().p_n.z();
+    };
     double most = energy(), rises = 0;
     for (int i = 0; i < 6000; ++i) {
       p.advance({}, 1, dt);
@@ -241,7 +244,8 @@ TEST_CASE("a gear on which nothing stands is refused, with the field and what is
   // around three corners of it, and yet beside it
   CHECK(words({contact(0.5, 0.1, 0.2, 0.4), contact(-0.1, -0.5, 0.2, 0.3), contact(0.6, -0.4, 0.2, 0.3)}) ==
         "gear.contacts: all of them are on one side of the centre of gravity: it would tip over");
-  CHECK(words({contact(0.3, 0, 0.2, 0.4), contact(-0.3, 0.2, 0.2, 0.3), contact(-0.3, -0.2, 0.2, 0.3)}) == "");
+  CHECK(words({contact(0.3, 0, 0.2, 0.4), contact(-0.3, 0.2, 0.2, 0.3), contact(-0.3, -0.2, 0.2, 0.3)}) ==
+        "");
   CHECK_FALSE(airframe_fault(belly()));
 }
 
@@ -254,36 +258,38 @@ TEST_CASE("servos, propellers and batteries that are none are refused") {
   };
   CHECK(words([](Airframe& a) { a.elevator.min_rad = a.elevator.max_rad = 0.2; }) ==
         "elevator.min_rad: the servo would stop at 0.2 rad below and at 0.2 rad above: it cannot move");
-  CHECK(words([](Airframe& a) { a.propulsion.propellers.push_back(yawing(0)); }) ==
-        "propulsion.propellers[0].differential_frac: it stands in the middle (y is 0), where more thrust does "
-        "not yaw");
+  CHECK(
+      words([](Airframe& a) { a.propulsion.propellers.push_back(yawing(0)); }) ==
+      "propulsion.propellers[0].differential_frac: it stands in the middle (y is 0), where more thrust does "
+      "not yaw");
   CHECK(words([](Airframe& a) {
           a.rudder.limit_rad = 0;
           a.propulsion.propellers.push_back(yawing(1));
-        }) == "propulsion.propellers[0].differential_frac: it is a part of full throttle at full rudder, and "
-              "rudder.limit is 0");
+        }) ==
+        "propulsion.propellers[0].differential_frac: it is a part of full throttle at full rudder, and "
+        "rudder.limit is 0");
   const auto curve = [&](std::vector<double> used, std::vector<double> volt, double capacity_ah = 1) {
     return words([&](Airframe& a) {
       a.propulsion.battery_volt = 12;
-      a.propulsion.battery.capacity_ah = capacity_ah;
-      for (const double u : used) a.propulsion.battery.curve.used_frac.push_back(u);
-      for (const double v : volt) a.propulsion.battery.curve.open_volt.push_back(v);
+      a.propulsion.pack.capacity_ah = capacity_ah;
+      for (const double u : used) a.propulsion.pack.curve.used_frac.push_back(u);
+      for (const double v : volt) a.propulsion.pack.curve.open_volt.push_back(v);
     });
   };
   CHECK(curve({0, 0.5, 1}, {12, 11, 10}) == "");
   CHECK(curve({0, 0.5, 1}, {12, 11}) ==
-        "propulsion.battery.curve: 3 values of `used` and 2 of `open`: there must be as many");
+        "propulsion.pack.curve: 3 values of `used` and 2 of `open`: there must be as many");
   CHECK(curve({0, 0.5, 0.5}, {12, 11, 10}) ==
-        "propulsion.battery.curve.used_frac: the list has to rise, and 0.5 comes after 0.5");
+        "propulsion.pack.curve.used_frac: the list has to rise, and 0.5 comes after 0.5");
   CHECK(curve({0.1, 0.5}, {12, 11}) ==
-        "propulsion.battery.curve: it must begin with the full battery: used 0, open 12 V");
+        "propulsion.pack.curve: it must begin with the full battery: used 0, open 12 V");
   CHECK(curve({0, 0.5}, {11, 10}) ==
-        "propulsion.battery.curve: it must begin with the full battery: used 0, open 12 V");
-  CHECK(curve({0, 1}, {12, 11}, 0) == "propulsion.battery.curve: it needs the battery's `capacity`");
+        "propulsion.pack.curve: it must begin with the full battery: used 0, open 12 V");
+  CHECK(curve({0, 1}, {12, 11}, 0) == "propulsion.pack.curve: it needs the battery's `capacity`");
   CHECK(words([](Airframe& a) {
           a.propulsion.battery_volt = 12;
-          a.propulsion.battery.empty_volt = 13;
-        }) == "propulsion.battery.empty_volt: it is 13 V, more than the 12 V of the full battery");
+          a.propulsion.pack.empty_volt = 13;
+        }) == "propulsion.pack.empty_volt: it is 13 V, more than the 12 V of the full battery");
 }
 
 }  // namespace gear_test

@@ -64,8 +64,7 @@ Pushed pushed(const Airframe& a, double throttle) {
     const Vector3d force = a.mass_kg * plant.specific_force();
     constexpr double short_s = 1e-6;
     plant.advance({throttle, 0, 0, 0}, 1, short_s);
-    return std::pair<Vector3d, Vector3d>(force,
-                                         inertia_matrix(a.inertia) * plant.state().omega_b / short_s);
+    return std::pair<Vector3d, Vector3d>(force, inertia_matrix(a.inertia) * plant.state().omega_b / short_s);
   };
   Airframe none = a;
   Propulsion& p = none.propulsion;
@@ -140,8 +139,8 @@ TEST_CASE("many propellers are the sum of each") {
     p.tilt_rad = 0.1 * i - 0.3;
     p.toe_rad = 0.2 - 0.06 * i;
     REQUIRE(a.propulsion.propellers.push_back(p));
-    const Vector3d axis(std::cos(p.tilt_rad) * std::cos(p.toe_rad), std::cos(p.tilt_rad) * std::sin(p.toe_rad),
-                        -std::sin(p.tilt_rad));
+    const Vector3d axis(std::cos(p.tilt_rad) * std::cos(p.toe_rad),
+                        std::cos(p.tilt_rad) * std::sin(p.toe_rad), -std::sin(p.tilt_rad));
     axes += axis;
     arms += Vector3d(p.at_m.x, p.at_m.y, p.at_m.z).cross(axis);
     spins += i % 3 == 0 ? -axis : axis;
@@ -210,7 +209,8 @@ TEST_CASE("a twin trims on its propellers alone, and flies on level with what th
   REQUIRE(plant.fly({0, 0, -300}, 0.3, Va));
   const double throttle = f.input(model::throttle);
   for (int i = 0; i < 2000; ++i)
-    plant.advance({throttle, f.input(model::aileron), f.input(model::elevator), f.input(model::rudder)}, 1, dt);
+    plant.advance({throttle, f.input(model::aileron), f.input(model::elevator), f.input(model::rudder)}, 1,
+                  dt);
   CHECK(-plant.state().p_n.z() == Approx(300).epsilon(0.002));
   CHECK(plant.air_velocity_b().norm() == Approx(Va).epsilon(0.005));
   CHECK(plant.state().omega_b.norm() < 0.02);
@@ -219,7 +219,7 @@ TEST_CASE("a twin trims on its propellers alone, and flies on level with what th
 TEST_CASE("the linear model knows where the propellers stand: its columns are finite differences of it") {
   Airframe a = twin(0.25);
   a.propulsion.propellers[0].at_m.z = a.propulsion.propellers[1].at_m.z = -0.2;
-  a.propulsion.battery.resistance_ohm = 0.05;
+  a.propulsion.pack.resistance_ohm = 0.05;
   const AircraftModel model(a, 1687);
   const SteadyFlight f = steady_flight(model, {.airspeed_mps = Va});
   REQUIRE(f.found());

@@ -15,7 +15,7 @@ class Propeller {
  public:
   explicit Propeller(const Propulsion& p)
       : p_(p),
-        sag_ohm_(p.battery.resistance_ohm * std::max<double>(1, static_cast<double>(p.propellers.size()))) {}
+        sag_ohm_(p.pack.resistance_ohm * std::max<double>(1, static_cast<double>(p.propellers.size()))) {}
 
   /// Thrust, N, along the body's x axis at propeller speed `Omega` (rad/s). With J = 2 pi Va / (Omega D),
   /// multiplied out: no division.

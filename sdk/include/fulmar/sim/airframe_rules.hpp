@@ -103,9 +103,9 @@ inline AirframeFault propeller_fault(const Airframe& a) {
 }
 
 inline AirframeFault battery_fault(const Propulsion& p) {
-  const Battery& b = p.battery;
+  const Battery& b = p.pack;
   const BatteryCurve& c = b.curve;
-  const std::string field = "propulsion.battery";
+  const std::string field = "propulsion.pack";
   if (b.empty_volt > p.battery_volt)
     return {field + ".empty_volt", "it is " + short_number(b.empty_volt) + " V, more than the " +
                                        short_number(p.battery_volt) + " V of the full battery"};

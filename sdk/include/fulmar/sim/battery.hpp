@@ -11,7 +11,7 @@ namespace fulmar::sim {
 
 class BatteryState {
  public:
-  explicit BatteryState(const Propulsion& p) : full_volt_(p.battery_volt), battery_(p.battery) {}
+  explicit BatteryState(const Propulsion& p) : full_volt_(p.battery_volt), battery_(p.pack) {}
 
   /// Whether it has an end.
   bool drains() const { return battery_.capacity_ah > 0; }

@@ -177,7 +177,7 @@ class Plant {
   }
   /// At its terminals, as it is without a fault of its own.
   double battery_volt() const {
-    return battery_.open_volt() - airframe_.propulsion.battery.resistance_ohm * battery_amp();
+    return battery_.open_volt() - airframe_.propulsion.pack.resistance_ohm * battery_amp();
   }
   double battery_used_ah() const { return battery_.used_ah(); }
   bool on_ground() const { return ground_.touching(); }

@@ -18,6 +18,7 @@
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/msg/vehicle_status.hpp"
 #include "fulmar/plugin.hpp"
+#include "fulmar/sim/airframe_rules.hpp"
 #include "fulmar/sim/plant.hpp"
 #include "icing.hpp"
 #include "refusals.hpp"
@@ -149,6 +150,8 @@ class Aircraft {
     airframe_ = *p.airframe;
     if (const std::string missing = missing_part(airframe_); !missing.empty())
       throw std::runtime_error(missing);
+    if (const AirframeFault fault = airframe_fault(airframe_))
+      throw std::runtime_error("airframe." + fault.field + ": " + fault.sentence);
     period_ns_ = std::llround(1e9 / p.rate);
     now_ns_ = -std::llround(p.settle * 1e9 / static_cast<double>(period_ns_)) * period_ns_;
     epoch_ns_ = std::llround(p.epoch) * 1000000000;
@@ -349,7 +352,7 @@ class Aircraft {
                          s.failsafe != status_.failsafe || s.on_ground != status_.on_ground ||
                          s.crashed != status_.crashed;
     if (!status_rate_(now_ns_) && !changed) return;
-    s.battery_volt = faults_.voltage(now_ns_) * airframe_.propulsion.battery_volt;
+    s.battery_volt = faults_.voltage(now_ns_) * plant_->battery_volt();
     s.battery_amp = plant_->battery_amp();
     status_ = s;
     out.status.publish(s);

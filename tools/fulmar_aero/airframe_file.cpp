@@ -8,9 +8,18 @@
 #include "core/graph/shipped.hpp"
 #include "core/loader/table.hpp"
 #include "fulmar/schema.hpp"
+#include "fulmar/sim/airframe_rules.hpp"
 
 namespace fulmar::aero {
 namespace {
+
+/// The item that "[2]" behind a list's name means; null when there is none.
+const core::Node* item_of(const core::Node& list, const std::string& step) {
+  const std::size_t bracket = step.find('[');
+  if (bracket == std::string::npos) return nullptr;
+  const std::size_t i = std::stoul(step.substr(bracket + 1));
+  return i < list.items.size() ? &list.items[i] : nullptr;
+}
 
 /// The entry of a field's name, with or without its unit; nullptr when the file does not have it.
 const core::Node::Entry* entry_of(const core::Node& map, const std::string& field) {
@@ -73,10 +82,15 @@ core::Where AirframeFile::where(const std::string& field) const {
   const core::Node* map = &root;
   for (std::size_t begin = 0; begin <= field.size();) {
     const std::size_t dot = std::min(field.find('.', begin), field.size());
-    const core::Node::Entry* const entry = entry_of(*map, field.substr(begin, dot - begin));
+    const std::string step = field.substr(begin, dot - begin);
+    const core::Node::Entry* const entry = entry_of(*map, step.substr(0, step.find('[')));
     if (!entry) break;
     at = entry->where();
     map = &entry->value;
+    if (const core::Node* const item = item_of(*map, step)) {
+      at = item->where();
+      map = item;
+    }
     begin = dot + 1;
   }
   return at;
@@ -102,6 +116,8 @@ AirframeFile read_airframe_file(const std::string& name) {
   if (report.empty()) {
     refuse_what_is_not_positive(file, report);
     refuse_inertia(file, report);
+    if (const sim::AirframeFault fault = sim::airframe_fault(file.airframe))
+      report.add(file.where(fault.field), shown_field(fault.field) + ": " + fault.sentence);
   }
   report.throw_if_any();
   return file;

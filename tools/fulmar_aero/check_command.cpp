@@ -43,7 +43,8 @@ std::string counted(int n, const std::string& what) {
 std::string findings_text(const Findings& findings, double altitude_m) {
   std::string text = findings.file().title() + ": " + findings.file().name + ", " + fixed(altitude_m, 0) +
                      " m above the sea\n";
-  for (const Figure& figure : findings.figures()) text += "  " + padded(figure.name, 22) + figure.text + "\n";
+  for (const Figure& figure : findings.figures())
+    if (!figure.name.empty()) text += "  " + padded(figure.name, 22) + figure.text + "\n";
   for (const Finding& one : ordered(findings))
     text += std::string(one.verdict == Verdict::fault ? "FAULT    " : "warning  ") + one.where.text() + ": " +
             shown_field(one.field) + ": " + one.sentence + "\n";
@@ -62,6 +63,7 @@ int check_command(const FlightOptions& options) {
   check_derivatives(findings);
   check_symmetry(findings);
   check_angles(findings);
+  check_parts(findings);
   check_stability(findings);
   check_flight(findings, altitude_m);
   if (options.json)

@@ -69,6 +69,7 @@ void check_body(Findings& findings);                       ///< mass, inertia, w
 void check_derivatives(Findings& findings);                ///< signs and sizes
 void check_symmetry(Findings& findings);                   ///< what a symmetric aircraft does not have; drag
 void check_angles(Findings& findings);                     ///< throws, limits: degrees for radians
+void check_parts(Findings& findings);                      ///< servos, propellers, battery, gear
 void check_stability(Findings& findings);                  ///< static margin, control power
 void check_flight(Findings& findings, double altitude_m);  ///< trim from the stall to the top speed, modes
 

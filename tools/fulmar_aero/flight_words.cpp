@@ -34,10 +34,11 @@ std::string thrust_words(const AirframeFile& file, const AircraftModel& model, c
                          bool high) {
   const double Va = f.condition.airspeed_mps, rho = f.density_kgm3;
   const Propeller& propeller = model.propeller();
+  const double all = model.propellers().along();
   const double needed = f.residual < 1e-9
-                            ? propeller.thrust(f.propeller_radps, Va, rho)
+                            ? all * propeller.thrust(f.propeller_radps, Va, rho)
                             : detail::thrust_needed(model, f.condition, lift_needed(model, f), rho);
-  const double there = propeller.thrust(propeller.steady_speed(high ? 1 : 0, Va, rho), Va, rho);
+  const double there = all * propeller.thrust(propeller.steady_speed(high ? 1 : 0, Va, rho), Va, rho);
   const std::string place = " (propulsion: " + file.where("propulsion").text() + ")";
   if (high)
     return "it takes " + fixed(needed, 1) + " N of thrust, and full throttle gives " + fixed(there, 1) +
@@ -100,7 +101,7 @@ FlightForces forces_of(const AircraftModel& model, const SteadyFlight& f) {
   out.lift_newton = load.force_b.x() * air.sin_alpha - load.force_b.z() * air.cos_alpha;
   out.drag_newton = -load.force_b.x() * air.cos_alpha - load.force_b.z() * air.sin_alpha;
   out.side_newton = load.force_b.y();
-  out.thrust_newton = model.propeller().thrust(f.propeller_radps, Va, rho);
+  out.thrust_newton = model.propellers().along() * model.propeller().thrust(f.propeller_radps, Va, rho);
   out.torque_nm = model.propeller().torque(f.propeller_radps, Va, rho);
   out.lift_ratio = out.lift_newton / qS;
   out.drag_ratio = out.drag_newton / qS;

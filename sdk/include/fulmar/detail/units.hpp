@@ -16,12 +16,28 @@ struct Unit {
 };
 
 inline constexpr std::array units{
-    Unit{"_mps2", "m/s2"},  Unit{"_radps2", "rad/s2"}, Unit{"_radps", "rad/s"}, Unit{"_mps", "m/s"},
-    Unit{"_kgm2", "kg m2"}, Unit{"_m2", "m2"},         Unit{"_m", "m"},         Unit{"_rad", "rad"},
+    Unit{"_mps2", "m/s2"},
+    Unit{"_radps2", "rad/s2"},
+    Unit{"_radps", "rad/s"},
+    Unit{"_mps", "m/s"},
+    Unit{"_kgm2", "kg m2"},
+    Unit{"_m2", "m2"},
+    Unit{"_m", "m"},
+    Unit{"_rad", "rad"},
     Unit{"_deg", "deg"},  // latitude and longitude alone
-    Unit{"_pa", "Pa"},      Unit{"_kelvin", "K"},      Unit{"_tesla", "T"},     Unit{"_volt", "V"},
-    Unit{"_amp", "A"},      Unit{"_ohm", "ohm"},       Unit{"_newton", "N"},    Unit{"_kg", "kg"},
-    Unit{"_hz", "Hz"},      Unit{"_ns", "ns"},         Unit{"_s", "s"},         Unit{"_frac", "", -1.0, 1.0},
+    Unit{"_pa", "Pa"},
+    Unit{"_kelvin", "K"},
+    Unit{"_tesla", "T"},
+    Unit{"_volt", "V"},
+    Unit{"_amp", "A"},
+    Unit{"_ohm", "ohm"},
+    Unit{"_newton", "N"},
+    Unit{"_kg", "kg"},
+    Unit{"_ah", "Ah"},
+    Unit{"_hz", "Hz"},
+    Unit{"_ns", "ns"},
+    Unit{"_s", "s"},
+    Unit{"_frac", "", -1.0, 1.0},
     Unit{"_ratio", ""},
 };
 

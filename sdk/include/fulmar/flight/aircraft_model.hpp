@@ -9,6 +9,7 @@
 
 #include "fulmar/flight/aerodynamics.hpp"
 #include "fulmar/flight/atmosphere.hpp"
+#include "fulmar/flight/propellers.hpp"
 #include "fulmar/flight/propulsion.hpp"
 #include "fulmar/flight/rigid_body.hpp"
 
@@ -46,12 +47,14 @@ class AircraftModel {
       : airframe_(a),
         aero_(a),
         propeller_(a.propulsion),
+        propellers_(a),
         mass_(a.mass_kg, inertia_matrix(a.inertia)),
         altitude_m_(altitude_m) {}
 
   const Airframe& airframe() const { return airframe_; }
   const Aerodynamic& aerodynamic() const { return aero_; }
   const Propeller& propeller() const { return propeller_; }
+  const Propellers& propellers() const { return propellers_; }
   double altitude_m() const { return altitude_m_; }
 
   /// Force without gravity and moment, at propeller speed `Omega`.
@@ -60,11 +63,12 @@ class AircraftModel {
                  const S& Omega, const S& rho) const {
     LoadOf<S> load = aero_.load_of<S>(v_b, omega_b, d, rho);
     const S Va = v_b.norm();
-    load.force_b.x() += propeller_.thrust_of<S>(Omega, Va, rho);
-    load.moment_b.x() -= propeller_.torque_of<S>(Omega, Va, rho);
-    if (const double I = propeller_.inertia_kgm2(); I > 0) {  // -omega x (I Omega e_x)
-      load.moment_b.y() -= I * Omega * omega_b.z();
-      load.moment_b.z() += I * Omega * omega_b.y();
+    const LoadOf<S> push = propellers_.steady_load<S>(propeller_, Omega, d.rudder, Va, rho);
+    load.force_b += push.force_b;
+    load.moment_b += push.moment_b;
+    if (const double I = propeller_.inertia_kgm2(); I > 0) {
+      const Eigen::Vector3<S> spin = propellers_.steady_spin<S>(propeller_, Omega, d.rudder, Va, rho);
+      load.moment_b -= omega_b.cross(Eigen::Vector3<S>(S(I) * spin.x(), S(I) * spin.y(), S(I) * spin.z()));
     }
     return load;
   }
@@ -113,6 +117,7 @@ class AircraftModel {
   Airframe airframe_;
   Aerodynamic aero_;
   Propeller propeller_;
+  Propellers propellers_;
   MassProperties mass_;
   double altitude_m_;
 };

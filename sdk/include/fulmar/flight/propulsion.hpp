@@ -13,7 +13,9 @@ namespace fulmar {
 
 class Propeller {
  public:
-  explicit Propeller(const Propulsion& p) : p_(p) {}
+  explicit Propeller(const Propulsion& p)
+      : p_(p),
+        sag_ohm_(p.pack.resistance_ohm * std::max<double>(1, static_cast<double>(p.propellers.size()))) {}
 
   /// Thrust, N, along the body's x axis at propeller speed `Omega` (rad/s). With J = 2 pi Va / (Omega D),
   /// multiplied out: no division.
@@ -44,7 +46,8 @@ class Propeller {
   template <class S>
   S steady_speed_of(const S& throttle_frac, const S& Va, const S& rho) const {
     using std::sqrt, std::max;
-    const double D = p_.propeller_diameter_m, K = p_.torque_constant_ratio, R = p_.resistance_ohm;
+    const double D = p_.propeller_diameter_m, K = p_.torque_constant_ratio;
+    const S R = resistance(throttle_frac);
     const double D3 = D * D * D, two_pi = 2 * std::numbers::pi;
     const S a = p_.cq0_ratio * rho * D3 * D * D / (two_pi * two_pi);
     const S b = p_.cq1_ratio * rho * D3 * D * Va / two_pi + K * K / R;
@@ -60,19 +63,34 @@ class Propeller {
   template <class S>
   S throttle_for_of(const S& Omega, const S& Va, const S& rho) const {
     const S amp = torque_of(Omega, Va, rho) / p_.torque_constant_ratio + p_.no_load_amp;
-    return (amp * p_.resistance_ohm + p_.torque_constant_ratio * Omega) / p_.battery_volt;
+    const S volt = amp * p_.resistance_ohm + p_.torque_constant_ratio * Omega;
+    if (sag_ohm_ <= 0) return volt / p_.battery_volt;
+    const S left = p_.battery_volt * p_.battery_volt - 4 * sag_ohm_ * amp * volt;
+    if (left < 0) return S(2.0);  // more than the battery has at any throttle
+    using std::sqrt;
+    return 2 * volt / (p_.battery_volt + sqrt(left));
   }
 
   /// Current through the motor, A.
   double current(double throttle_frac, double Omega) const {
-    return (throttle_frac * p_.battery_volt - p_.torque_constant_ratio * Omega) / p_.resistance_ohm;
+    return (throttle_frac * p_.battery_volt - p_.torque_constant_ratio * Omega) / resistance(throttle_frac);
   }
 
   double time_constant_s() const { return p_.time_constant_s; }
   double inertia_kgm2() const { return p_.propeller_inertia_kgm2; }
+  /// Of the battery, without load.
+  void set_voltage(double volt) { p_.battery_volt = volt; }
 
  private:
+  /// Of the motor and, as it sees it, of the battery: the controller draws throttle times the motor's current
+  /// and passes on throttle times the voltage that is left. `sag_ohm_` counts for all motors.
+  template <class S>
+  S resistance(const S& throttle_frac) const {
+    return p_.resistance_ohm + sag_ohm_ * throttle_frac * throttle_frac;
+  }
+
   Propulsion p_;
+  double sag_ohm_;
 };
 
 }  // namespace fulmar

@@ -13,6 +13,7 @@
 
 #include "fulmar/flight/aircraft_model.hpp"
 #include "fulmar/flight/dual.hpp"
+#include "fulmar/flight/mixer.hpp"
 
 namespace fulmar {
 
@@ -94,7 +95,8 @@ class SteadyEquations {
 
   /// Without one sideslip or bank is left to what remains.
   static bool rudder_acts(const Airframe& a) {
-    return std::abs(a.aero.yaw.rudder_ratio) > 1e-9 || std::abs(a.aero.side.rudder_ratio) > 1e-9;
+    return std::abs(a.aero.yaw.rudder_ratio) > 1e-9 || std::abs(a.aero.side.rudder_ratio) > 1e-9 ||
+           Propellers(a).differential();
   }
 
   template <class S>
@@ -217,20 +219,23 @@ inline TrimLimit reason_of_none(const AircraftModel& m, const SteadyFlight& f) {
       load_factor * m.airframe().mass_kg * isa::g0 / (0.5 * rho * Va * Va * m.airframe().wing.area_m2);
   if (CL > most_lift(m.airframe()).coefficient) return TrimLimit::stall;
   const double thrust = thrust_needed(m, f.condition, CL, rho);
-  const Propeller& propeller = m.propeller();
-  if (thrust > propeller.thrust(propeller.steady_speed(1, Va, rho), Va, rho)) return TrimLimit::throttle_high;
-  if (thrust < propeller.thrust(propeller.steady_speed(0, Va, rho), Va, rho)) return TrimLimit::throttle_low;
+  const auto there = [&](double throttle) {
+    const Propeller& propeller = m.propeller();
+    return m.propellers().along() * propeller.thrust(propeller.steady_speed(throttle, Va, rho), Va, rho);
+  };
+  if (thrust > there(1)) return TrimLimit::throttle_high;
+  if (thrust < there(0)) return TrimLimit::throttle_low;
   return TrimLimit::not_found;
 }
 
 inline TrimLimit trim_limit(const AircraftModel& m, const SteadyFlight& f) {
   const Airframe& a = m.airframe();
-  const auto beyond = [](double value, double limit) { return std::abs(value) > limit; };
   if (f.residual > 1e-9) return reason_of_none(m, f);
   if (std::abs(f.alpha_rad) > a.wing.stall_alpha_rad) return TrimLimit::stall;
-  if (beyond(f.input(model::elevator), a.elevator.limit_rad)) return TrimLimit::elevator;
-  if (beyond(f.input(model::aileron), a.aileron.limit_rad)) return TrimLimit::aileron;
-  if (beyond(f.input(model::rudder), a.rudder.limit_rad)) return TrimLimit::rudder;
+  const Beyond beyond = beyond_stops(a, f.deflections());
+  if (beyond == Beyond::elevator) return TrimLimit::elevator;
+  if (beyond == Beyond::aileron) return TrimLimit::aileron;
+  if (beyond == Beyond::rudder) return TrimLimit::rudder;
   if (f.propeller_radps < 0 || f.input(model::throttle) < 0) return TrimLimit::throttle_low;
   const double Omega = m.propeller().steady_speed(std::min(f.input(model::throttle), 1.0),
                                                   f.condition.airspeed_mps, f.density_kgm3);

@@ -9,6 +9,8 @@
 
 #include "fulmar/flight/aerodynamics.hpp"
 #include "fulmar/flight/atmosphere.hpp"
+#include "fulmar/flight/mixer.hpp"
+#include "fulmar/flight/propellers.hpp"
 #include "fulmar/flight/propulsion.hpp"
 
 namespace fulmar {
@@ -26,6 +28,7 @@ inline Trim trimmed_flight(const Airframe& airframe, double Va, double rho, doub
   using Vector6 = Eigen::Matrix<double, 6, 1>;
   const Aerodynamic aero(airframe);
   const Propeller propeller(airframe.propulsion);
+  const Propellers propellers(airframe);
   const double weight = airframe.mass_kg * gravity_mps2, q = 0.5 * rho * Va * Va;
   const auto velocity = [&](const Vector6& x) {
     return Eigen::Vector3d(Va * std::cos(x(0)) * std::cos(x(1)), Va * std::sin(x(1)),
@@ -34,12 +37,14 @@ inline Trim trimmed_flight(const Airframe& airframe, double Va, double rho, doub
   const auto residual =
       [&](const Vector6& x) {  // alpha, beta, aileron, elevator, rudder, propeller speed / 1000
         const Load load = aero.load(velocity(x), Eigen::Vector3d::Zero(), {x(2), x(3), x(4)}, rho);
-        const double Omega = 1000 * x(5), theta = x(0) + gamma_rad;
+        const double theta = x(0) + gamma_rad;
+        const Load push = propellers.steady_load<double>(propeller, 1000 * x(5), x(4), Va, rho);
         Vector6 r;
         r << load.force_b, load.moment_b;
-        r(0) += propeller.thrust(Omega, Va, rho) - weight * std::sin(theta);
-        r(2) += weight * std::cos(theta);
-        r(3) -= propeller.torque(Omega, Va, rho);
+        r(0) += push.force_b.x() - weight * std::sin(theta);
+        r(1) += push.force_b.y();
+        r(2) += push.force_b.z() + weight * std::cos(theta);
+        r.tail<3>() += push.moment_b;
         return Vector6(r / (q * airframe.wing.area_m2));
       };
   Vector6 x;
@@ -64,10 +69,8 @@ inline Trim trimmed_flight(const Airframe& airframe, double Va, double rho, doub
   trim.deflections = {x(2), x(3), x(4)};
   trim.propeller_radps = 1000 * x(5);
   trim.throttle_frac = propeller.throttle_for(trim.propeller_radps, Va, rho);
-  const auto within = [](double value, double limit) { return std::abs(value) <= limit; };
-  trim.found = r.norm() < 1e-9 && within(x(2), airframe.aileron.limit_rad) &&
-               within(x(3), airframe.elevator.limit_rad) && within(x(4), airframe.rudder.limit_rad) &&
-               x(5) >= 0 && trim.throttle_frac >= 0 && trim.throttle_frac <= 1;
+  trim.found = r.norm() < 1e-9 && beyond_stops(airframe, trim.deflections) == Beyond::none && x(5) >= 0 &&
+               trim.throttle_frac >= 0 && trim.throttle_frac <= 1;
   return trim;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "fulmar/message.hpp"
+#include "fulmar/msg/gear.hpp"
+#include "fulmar/msg/propulsion_parts.hpp"
 
 namespace fulmar {
 
@@ -46,9 +48,11 @@ struct Propulsion {
   double no_load_amp = 1;
   double battery_volt = 12;       ///< at full throttle
   double time_constant_s = 0.05;  ///< of motor and propeller spinning up
-  /// Of all that turns with the propeller, about its axis; it turns right, seen from behind. 0: the airframe
-  /// feels neither gyroscopic moment nor spinning up.
+  /// Of all that turns with a propeller, about its axis. 0: the airframe feels neither gyroscopic moment nor
+  /// spinning up.
   double propeller_inertia_kgm2 = 0;
+  List<PropellerPlace, 8> propellers;  ///< each with a motor of its own; empty: one, on the x axis
+  Battery pack;                        ///< what its battery loses; `battery_volt` is its voltage when full
 };
 
 /// One control surface: how far it moves, how its servo follows, and what hardware needs to drive it.
@@ -57,7 +61,19 @@ struct Surface {
   double rate_limit_radps = 10;
   double time_constant_s = 0.02;
   double trim_rad = 0;    ///< deflection in trimmed cruise: the feed-forward of the inner loop
-  bool reversed = false;  ///< of the servo on the real aircraft
+  bool reversed = false;  ///< of the servo on the real aircraft; a simulated one knows its own sense
+  double min_rad = -10;   ///< where its servo stops, if not at the throw; below -9 it does
+  double max_rad = 10;
+  double dead_band_rad = 0;            ///< width within which a changed command does not move it
+  double natural_frequency_radps = 0;  ///< of a servo of second order, in place of the time constant; 0: none
+  double damping_ratio = 1;
+};
+
+/// What the servos move. Beard & McLain, section 4.2.
+enum class Mixer : std::uint8_t {
+  conventional,
+  elevons,  ///< `aileron` is the left one, `elevator` the right one
+  v_tail    ///< `elevator` is the left ruddervator, `rudder` the right one
 };
 
 struct FlightLimits {
@@ -65,15 +81,6 @@ struct FlightLimits {
   double roll_max_rad = 0.785, pitch_max_rad = 0.35, pitch_min_rad = -0.35;
   double climb_rate_max_mps = 4, sink_rate_max_mps = 3;
   double throttle_cruise_frac = 0.5;
-};
-
-/// The aircraft stands on its wheels or belly: contact points are at this height below the centre of gravity.
-struct Gear {
-  double height_m = 0.2;  ///< of the centre of gravity above flat ground, at rest
-  double length_m = 0.6;  ///< between the front and the rear contact
-  double track_m = 0.4;   ///< between the left and the right contact
-  double rolling_friction_ratio = 0.05;
-  double side_friction_ratio = 0.6;
 };
 
 /// One aircraft: a parameter `Record<Airframe> airframe` is filled from the mission's `airframe:`.
@@ -85,6 +92,7 @@ struct Airframe {
   Aerodynamics aero;
   Propulsion propulsion;
   Surface aileron, elevator, rudder;
+  Mixer mixer = Mixer::conventional;
   FlightLimits limits;
   Gear gear;
 };
@@ -118,6 +126,11 @@ inline constexpr std::array<FieldRange, 3> field_ranges<Wing>{
 template <>
 inline constexpr std::array<FieldRange, 1> field_ranges<Propulsion>{{{"propeller_inertia_kgm2", 0, 1e4}}};
 template <>
-inline constexpr std::array<FieldRange, 1> field_ranges<Surface>{{{"limit_rad", 0, 1.6}}};
+inline constexpr std::array<FieldRange, 6> field_ranges<Surface>{{{"limit_rad", 0, 1.6},
+                                                                  {"min_rad", -10, 1.6},
+                                                                  {"max_rad", -1.6, 10},
+                                                                  {"dead_band_rad", 0, 1.6},
+                                                                  {"natural_frequency_radps", 0, 1e4},
+                                                                  {"damping_ratio", 0, 100}}};
 
 }  // namespace fulmar

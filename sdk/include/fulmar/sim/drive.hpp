@@ -12,7 +12,7 @@ namespace fulmar::sim {
 
 class Drive {
  public:
-  explicit Drive(const Surface& s) : servo_(s), limit_(s.limit_rad) {}
+  explicit Drive(const Surface& s) : servo_(s) {}
 
   void advance(double command, double dt) {
     if (kind_ == FaultKind::none) return servo_.advance(command, dt);
@@ -33,8 +33,8 @@ class Drive {
   [[gnu::noinline]] void fail(double command, double dt) {
     switch (kind_) {
       case FaultKind::stuck: return;
-      case FaultKind::hardover_positive: return servo_.advance(limit_, dt);
-      case FaultKind::hardover_negative: return servo_.advance(-limit_, dt);
+      case FaultKind::hardover_positive: return servo_.advance(servo_.max(), dt);
+      case FaultKind::hardover_negative: return servo_.advance(servo_.min(), dt);
       case FaultKind::slow: return servo_.advance(command, speed_ * dt);  // it lives in slower time
       case FaultKind::free: return servo_.advance(trailing_, dt);
       default: servo_.advance(command, dt);
@@ -42,7 +42,6 @@ class Drive {
   }
 
   Servo servo_;
-  double limit_;
   FaultKind kind_ = FaultKind::none;
   double speed_ = 1, trailing_ = 0;
 };

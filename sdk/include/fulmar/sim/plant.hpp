@@ -15,11 +15,13 @@
 #include "fulmar/flight/rigid_body.hpp"
 #include "fulmar/flight/trim.hpp"
 #include "fulmar/msg/actuators.hpp"
+#include "fulmar/sim/battery.hpp"
 #include "fulmar/sim/departure.hpp"
 #include "fulmar/sim/disturbances.hpp"
-#include "fulmar/sim/drive.hpp"
 #include "fulmar/sim/ground.hpp"
+#include "fulmar/sim/motors.hpp"
 #include "fulmar/sim/slope.hpp"
+#include "fulmar/sim/surfaces.hpp"
 #include "fulmar/sim/weather.hpp"
 
 namespace fulmar::sim {
@@ -47,12 +49,12 @@ class Plant {
         mass_(a.mass_kg, inertia(a)),
         aero_(a),
         propeller_(a.propulsion),
+        propellers_(a),
+        battery_(a.propulsion),
         slope_(earth.terrain.slope_rad, earth.terrain.rises_towards_rad),
         ground_(a, earth.terrain.friction_ratio),
         disturbances_(weather, seed),
-        aileron_(a.aileron),
-        elevator_(a.elevator),
-        rudder_(a.rudder),
+        surfaces_(a),
         weather_(weather),
         origin_altitude_m_(origin_altitude_m),
         earth_(earth),
@@ -64,9 +66,11 @@ class Plant {
   /// At rest on the ground.
   void stand(double north_m, double east_m, double heading_rad) {
     x_ = RigidBody{};
-    x_.p_n = {north_m, east_m, -airframe_.gear.height_m};
+    const Standing& at = ground_.standing();
+    x_.p_n = {north_m, east_m, -at.height_m};
     x_.q_nb = Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ());
-    if (slope_.some()) x_ = slope_.standing(north_m, east_m, heading_rad, airframe_.gear.height_m);
+    if (slope_.some()) x_ = slope_.standing(north_m, east_m, heading_rad, at.height_m);
+    if (!airframe_.gear.contacts.empty()) x_.q_nb = x_.q_nb * at.tilt;
     ground_.stand();
     put_in_frame();
     refresh();
@@ -88,10 +92,10 @@ class Plant {
                               Va * std::sin(trim.beta_rad),
                               Va * std::sin(trim.alpha_rad) * std::cos(trim.beta_rad));
     x_.v_n = x_.q_nb * v_r + steady_wind(x_);
-    aileron_.set(trim.deflections.aileron);
-    elevator_.set(trim.deflections.elevator);
-    rudder_.set(trim.deflections.rudder);
+    surfaces_.set(trim.deflections);
     Omega_ = trim.propeller_radps;
+    if (propellers_.differential())
+      motors_.set(propellers_, propeller_, trim, Va, air_at(altitude_m).density_kgm3);
     put_in_frame();
     refresh();
     return true;
@@ -103,21 +107,24 @@ class Plant {
     throttle_ = power * std::clamp(command.throttle_frac, 0.0, 1.0);
     if (ground_.crashed()) {
       throttle_ = Omega_ = 0;
+      motors_.stop();
       return;
     }
-    if (aileron_.free() || elevator_.free() || rudder_.free()) let_trail();
+    if (battery_.empty()) power = throttle_ = 0;
+    if (surfaces_.free()) surfaces_.trail_at(trailing(relative(x_), x_.omega_b, airframe_.wing.span_m));
+    const Deflections told = surfaces_.told(command);
     const double Omega_steady = propeller_.steady_speed(throttle_, Va_, air_.density_kgm3);
     const double Omega_before = Omega_;
     for (Stage& stage : stage_) {
-      aileron_.advance(command.aileron_rad, 0.5 * dt);
-      elevator_.advance(command.elevator_rad, 0.5 * dt);
-      rudder_.advance(command.rudder_rad, 0.5 * dt);
+      surfaces_.advance(told, 0.5 * dt);
       Omega_ = Omega_steady + (Omega_ - Omega_steady) * motor_decay(0.5 * dt);
-      stage = {{aileron_.angle(), elevator_.angle(), rudder_.angle()}, Omega_};
+      stage = {surfaces_.deflections(), Omega_};
     }
+    if (propellers_.differential()) turn_motors(command, power, dt);
     if (propeller_.inertia_kgm2() > 0) spin_up(Omega_before, Omega_steady, dt);
     const auto load_at = [&](const RigidBody& x, double part) {
-      return load(x, stage_[part > 0.75 ? 1 : 0]);
+      const std::size_t i = part > 0.75 ? 1 : 0;
+      return load(x, stage_[i], i);
     };
     x_ = turns() ? runge_kutta(x_, load_, dt, mass_, turning_, load_at)
                  : runge_kutta(x_, load_, dt, mass_, g_n_, load_at);
@@ -127,6 +134,7 @@ class Plant {
       ground_.advance(turns() ? level_.seen(x_) : x_, dt);
     if (ground_.crashed()) rest();  // it stays where it hit
     disturb(dt);
+    if (battery_.drains()) drain(dt);
     refresh();
     if (departure_ == Departure::none) departure_ = judged();
   }
@@ -148,10 +156,9 @@ class Plant {
     refresh();
   }
   void set_wind(const Eigen::Vector3d& wind_n) { weather_.wind_n = wind_n; }
+  /// With a mixer the fault is that of the servo in the place (mixer.hpp).
   void suffer(const Fault& aileron, const Fault& elevator, const Fault& rudder) {
-    aileron_.suffer(aileron);
-    elevator_.suffer(elevator);
-    rudder_.suffer(rudder);
+    surfaces_.suffer(aileron, elevator, rudder);
   }
   /// With ice on it; mass and trim stay.
   void set_aerodynamics(const Airframe& a) {
@@ -181,9 +188,25 @@ class Plant {
   Eigen::Vector3d air_velocity_b() const { return relative(seen()); }
   /// By north, east and down at the aircraft's own place.
   Eigen::Vector3d wind_n() const { return steady_wind(seen()) + seen().q_nb * gust_b_; }
-  Deflections deflections() const { return {aileron_.angle(), elevator_.angle(), rudder_.angle()}; }
+  Deflections deflections() const { return surfaces_.deflections(); }
+  /// Of the surfaces themselves, in the places of `mixer.hpp`.
+  Deflections servos() const { return surfaces_.servos(); }
+  /// Of those without a share of the rudder, which all turn alike.
   double propeller_radps() const { return Omega_; }
-  double battery_amp() const { return std::max(0.0, throttle_ * propeller_.current(throttle_, Omega_)); }
+  double propeller_radps(std::size_t i) const {
+    return propellers_.differential() ? motors_.speed(i) : Omega_;
+  }
+  /// Out of the battery, to all motors.
+  double battery_amp() const {
+    if (propellers_.differential()) return motors_.current(propellers_, propeller_);
+    return static_cast<double>(propellers_.count()) *
+           std::max(0.0, throttle_ * propeller_.current(throttle_, Omega_));
+  }
+  /// At its terminals, as it is without a fault of its own.
+  double battery_volt() const {
+    return battery_.open_volt() - airframe_.propulsion.pack.resistance_ohm * battery_amp();
+  }
+  double battery_used_ah() const { return battery_.used_ah(); }
   bool on_ground() const { return ground_.touching(); }
   bool crashed() const { return ground_.crashed(); }
   Departure departure() const { return departure_; }
@@ -194,7 +217,7 @@ class Plant {
   struct Stage {
     Deflections deflections;
     double Omega = 0;
-    double spin_up_nm = 0;  ///< what the propeller's gain of angular momentum takes from the airframe
+    Eigen::Vector3d spin_up_nm = Eigen::Vector3d::Zero();  ///< what the propellers' gain takes from the airframe
   };
 
   static Eigen::Matrix3d inertia(const Airframe& a) {
@@ -202,13 +225,6 @@ class Plant {
     J.diagonal() << a.inertia.xx_kgm2, a.inertia.yy_kgm2, a.inertia.zz_kgm2;
     J(0, 2) = J(2, 0) = -a.inertia.xz_kgm2;
     return J;
-  }
-
-  void let_trail() {
-    const Deflections d = trailing(relative(x_), x_.omega_b, airframe_.wing.span_m);
-    aileron_.trail_at(d.aileron);
-    elevator_.trail_at(d.elevator);
-    rudder_.trail_at(d.rudder);
   }
 
   double motor_decay(double dt) {
@@ -230,11 +246,26 @@ class Plant {
   /// its speed evenly over the step.
   [[gnu::noinline]] void spin_up(double Omega_before, double Omega_steady, double dt) {
     const double I = propeller_.inertia_kgm2(), tau = propeller_.time_constant_s();
-    const auto moment = [&](double Omega) {
-      return tau > 0 ? I * (Omega_steady - Omega) / tau : I * (Omega_ - Omega_before) / dt;
+    if (propellers_.differential()) {
+      for (const std::size_t i : {0, 1}) stage_[i].spin_up_nm = I * motors_.gain(propellers_, i, tau, dt);
+      load_.moment_b -= I * motors_.gain_at_begin(propellers_, tau, dt);
+      return;
+    }
+    const auto moment = [&](double Omega) -> Eigen::Vector3d {
+      return (tau > 0 ? I * (Omega_steady - Omega) / tau : I * (Omega_ - Omega_before) / dt) *
+             propellers_.spin();
     };
     for (Stage& s : stage_) s.spin_up_nm = moment(s.Omega);
-    load_.moment_b.x() -= moment(Omega_before);
+    load_.moment_b -= moment(Omega_before);
+  }
+
+  /// -omega x h - h', with the angular momentum h = I sum(Omega_i a_i) of what turns. Euler's equation of the
+  /// aircraft and its propellers.
+  [[gnu::noinline]] void add_spin(const Stage& s, std::size_t i, const Eigen::Vector3d& omega_b,
+                                  Load& load) const {
+    const Eigen::Vector3d spin =
+        propellers_.differential() ? motors_.spin(propellers_, i) : Eigen::Vector3d(s.Omega * propellers_.spin());
+    load.moment_b -= s.spin_up_nm + omega_b.cross(propeller_.inertia_kgm2() * spin);
   }
 
   bool turns() const { return earth_.model == EarthModel::wgs84; }
@@ -288,22 +319,32 @@ class Plant {
     return {v_r.x() - gust_b_.x(), v_r.y() - gust_b_.y(), v_r.z() - gust_b_.z()};
   }
 
-  Load load(const RigidBody& x, const Stage& s) const {
-    return turns() ? load_seen(level_.seen(x), s) : load_seen(x, s);
+  [[gnu::noinline]] void turn_motors(const Actuators& command, double power, double dt) {
+    motors_.command(propellers_, propeller_, power, std::clamp(command.throttle_frac, 0.0, 1.0),
+                    command.rudder_rad, Va_, air_.density_kgm3);
+    for (const std::size_t i : {0, 1}) motors_.advance(propellers_, i, motor_decay(0.5 * dt));
   }
 
-  Load load_seen(const RigidBody& x, const Stage& s) const {
+  [[gnu::noinline]] void drain(double dt) {
+    battery_.drain(battery_amp(), dt);
+    propeller_.set_voltage(battery_.open_volt());
+  }
+
+  /// At the first or second of the stages.
+  Load load(const RigidBody& x, const Stage& s, std::size_t i) const {
+    return turns() ? load_seen(level_.seen(x), s, i) : load_seen(x, s, i);
+  }
+
+  Load load_seen(const RigidBody& x, const Stage& s, std::size_t i) const {
     const Eigen::Vector3d v_r = relative(x);
     const double rho = air_.density_kgm3;
     Load load = aero_.load(v_r, x.omega_b, s.deflections, rho);
     const double Va = plain::norm<double>(v_r);
-    load.force_b.x() += propeller_.thrust(s.Omega, Va, rho);
-    load.moment_b.x() -= propeller_.torque(s.Omega, Va, rho);
-    if (const double I = propeller_.inertia_kgm2(); I > 0) {  // -omega x (I Omega e_x) - I Omega' e_x
-      load.moment_b.x() -= s.spin_up_nm;
-      load.moment_b.y() -= I * s.Omega * x.omega_b.z();
-      load.moment_b.z() += I * s.Omega * x.omega_b.y();
-    }
+    if (propellers_.differential())
+      motors_.add_load(propellers_, propeller_, i, Va, rho, load);
+    else
+      propellers_.add<double>(propeller_.thrust(s.Omega, Va, rho), propeller_.torque(s.Omega, Va, rho), load);
+    if (propeller_.inertia_kgm2() > 0) add_spin(s, i, x.omega_b, load);
     if (slope_.some()) [[unlikely]]
       add_load_on_slope(x, load);
     else
@@ -328,17 +369,20 @@ class Plant {
     air_ = air_at(altitude_m);
     Va_ = plain::norm<double>(relative(seen()));
     feel_ground();
-    load_ = load_seen(seen(), {deflections(), Omega_});
+    load_ = load_seen(seen(), {deflections(), Omega_}, 1);
   }
 
   Airframe airframe_;
   MassProperties mass_;
   Aerodynamic aero_;
   Propeller propeller_;
+  Propellers propellers_;
+  Motors motors_;
+  BatteryState battery_;
   Slope slope_;
   Ground ground_;
   Disturbances disturbances_;
-  Drive aileron_, elevator_, rudder_;
+  Surfaces surfaces_;
   Weather weather_;
   double origin_altitude_m_;
   Earth earth_;

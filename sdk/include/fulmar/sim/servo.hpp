@@ -3,19 +3,41 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fulmar/flight/mixer.hpp"
 #include "fulmar/msg/airframe.hpp"
+#include "fulmar/sim/second_order.hpp"
 
 namespace fulmar::sim {
 
-/// A servo: first-order lag, limited in rate and throw. Solved exactly for a command that is constant over a
-/// step.
+/// A servo: first-order lag, or second order, limited in rate and by its stops. Solved exactly for a command
+/// that is constant over a step.
 class Servo {
  public:
   explicit Servo(const Surface& s)
-      : limit_(s.limit_rad), rate_(s.rate_limit_radps), tau_(s.time_constant_s) {}
+      : min_(stops(s).min),
+        max_(stops(s).max),
+        rate_(s.rate_limit_radps),
+        tau_(s.time_constant_s),
+        play_(0.5 * s.dead_band_rad),
+        second_(s.natural_frequency_radps, s.damping_ratio),
+        plain_(play_ <= 0 && s.natural_frequency_radps <= 0) {}
 
   void advance(double command, double dt) {
-    command = std::clamp(command, -limit_, limit_);
+    command = std::clamp(command, min_, max_);
+    if (!plain_) return advance_other(command, dt);
+    follow(command, dt);
+  }
+  double angle() const { return angle_; }
+  double min() const { return min_; }
+  double max() const { return max_; }
+  /// At rest there.
+  void set(double angle) {
+    angle_ = aim_ = std::clamp(angle, min_, max_);
+    second_.rest();
+  }
+
+ private:
+  void follow(double command, double dt) {
     const double error = command - angle_, lag = rate_ * tau_;  // beyond `lag` the rate limit rules
     if (std::abs(error) > lag) {
       const double time_to_lag = (std::abs(error) - lag) / rate_;
@@ -25,10 +47,18 @@ class Servo {
     }
     angle_ = tau_ > 0 ? command + (angle_ - command) * decay(dt) : command;
   }
-  double angle() const { return angle_; }
-  void set(double angle) { angle_ = std::clamp(angle, -limit_, limit_); }
 
- private:
+  /// Apart, so that a plain servo costs what it did without. The dead band is a play: what the servo aims at
+  /// rests while the command is within half of the band from it.
+  [[gnu::noinline]] void advance_other(double command, double dt) {
+    aim_ = std::clamp(aim_, command - play_, command + play_);
+    if (!second_.given()) return follow(aim_, dt);
+    angle_ = second_.advance(angle_, aim_, rate_, dt);
+    if (angle_ >= min_ && angle_ <= max_) return;
+    angle_ = std::clamp(angle_, min_, max_);
+    second_.rest();
+  }
+
   double decay(double dt) {
     if (dt != decay_dt_) {
       decay_dt_ = dt;
@@ -36,9 +66,11 @@ class Servo {
     }
     return decay_;
   }
-  double limit_, rate_, tau_;
-  double angle_ = 0;
+  double min_, max_, rate_, tau_, play_;
+  double angle_ = 0, aim_ = 0;
   double decay_dt_ = -1, decay_ = 0;
+  SecondOrder second_;
+  bool plain_;
 };
 
 }  // namespace fulmar::sim

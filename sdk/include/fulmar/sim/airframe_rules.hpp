@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What makes an airframe none that can be simulated, beyond the range of a single field.
+#pragma once
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "fulmar/flight/mixer.hpp"
+#include "fulmar/msg/airframe.hpp"
+#include "fulmar/sim/gear_legs.hpp"
+
+namespace fulmar::sim {
+
+/// A field of the airframe, "gear.contacts", and a sentence about it; both empty when all is well.
+struct AirframeFault {
+  std::string field, sentence;
+  explicit operator bool() const { return !sentence.empty(); }
+};
+
+namespace rules {
+
+inline std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+inline std::string item(const char* list, std::size_t i, const char* field) {
+  return std::string(list) + "[" + std::to_string(i) + "]." + field;
+}
+
+/// Whether the centre of gravity is between the contacts: some weights of at least 0 that sum to 1 balance
+/// it. It is not, when a line through it has all contacts on one side.
+inline bool beside_contacts(const Gear& gear) {
+  for (const GearContact& edge : gear.contacts) {
+    bool left = false, right = false;
+    for (const GearContact& c : gear.contacts) {
+      const double side = edge.at_m.x * c.at_m.y - edge.at_m.y * c.at_m.x;
+      const double ahead = edge.at_m.x * c.at_m.x + edge.at_m.y * c.at_m.y;
+      left = left || side > 1e-12 || (std::abs(side) <= 1e-12 && ahead < 0);
+      right = right || side < -1e-12 || (std::abs(side) <= 1e-12 && ahead < 0);
+    }
+    if (!left || !right) return true;
+  }
+  return false;
+}
+
+/// Twice the largest area that three contacts span, seen from above.
+inline double spanned(const Gear& gear) {
+  double most = 0;
+  for (const GearContact& a : gear.contacts)
+    for (const GearContact& b : gear.contacts)
+      for (const GearContact& c : gear.contacts)
+        most = std::max(most, (b.at_m.x - a.at_m.x) * (c.at_m.y - a.at_m.y) -
+                                  (b.at_m.y - a.at_m.y) * (c.at_m.x - a.at_m.x));
+  return most;
+}
+
+inline std::string where_contacts_are(const Gear& gear) {
+  const auto all = [&](auto&& is) { return std::all_of(gear.contacts.begin(), gear.contacts.end(), is); };
+  if (all([](const GearContact& c) { return c.at_m.x < 0; })) return "behind";
+  if (all([](const GearContact& c) { return c.at_m.x > 0; })) return "ahead of";
+  if (all([](const GearContact& c) { return c.at_m.y > 0; })) return "right of";
+  if (all([](const GearContact& c) { return c.at_m.y < 0; })) return "left of";
+  return "on one side of";
+}
+
+inline AirframeFault gear_fault(const Airframe& a) {
+  const Gear& gear = a.gear;
+  const std::size_t n = gear.contacts.size();
+  if (n == 0) return {};
+  const auto fault = [](const std::string& sentence) { return AirframeFault{"gear.contacts", sentence}; };
+  if (n < 3) return fault("an aircraft stands on at least 3 contacts, and here are " + std::to_string(n));
+  double sum = 0;
+  for (const GearContact& c : gear.contacts) sum += c.carries_ratio;
+  if (std::abs(sum - 1) > 1e-3)
+    return fault("their shares of the weight, `carries`, sum to " + short_number(sum) + " and must to 1");
+  if (spanned(gear) < 1e-6) return fault("all of them are on one line: it would fall over");
+  if (beside_contacts(gear))
+    return fault("all of them are " + where_contacts_are(gear) + " the centre of gravity: it would tip over");
+  if (!Legs(a).standing().found) return fault("it does not come to rest on them");
+  return {};
+}
+
+inline AirframeFault surface_fault(const char* name, const Surface& s) {
+  const Stops at = stops(s);
+  if (at.min < at.max || s.limit_rad == 0) return {};
+  return {std::string(name) + ".min_rad", "the servo would stop at " + short_number(at.min) +
+                                              " rad below and at " + short_number(at.max) +
+                                              " rad above: it cannot move"};
+}
+
+inline AirframeFault propeller_fault(const Airframe& a) {
+  for (std::size_t i = 0; i < a.propulsion.propellers.size(); ++i) {
+    const PropellerPlace& p = a.propulsion.propellers[i];
+    if (p.differential_frac <= 0) continue;
+    const std::string field = item("propulsion.propellers", i, "differential_frac");
+    if (p.at_m.y == 0) return {field, "it stands in the middle (y is 0), where more thrust does not yaw"};
+    if (a.rudder.limit_rad <= 0)
+      return {field, "it is a part of full throttle at full rudder, and rudder.limit is 0"};
+  }
+  return {};
+}
+
+inline AirframeFault battery_fault(const Propulsion& p) {
+  const Battery& b = p.pack;
+  const BatteryCurve& c = b.curve;
+  const std::string field = "propulsion.pack";
+  if (b.empty_volt > p.battery_volt)
+    return {field + ".empty_volt", "it is " + short_number(b.empty_volt) + " V, more than the " +
+                                       short_number(p.battery_volt) + " V of the full battery"};
+  if (c.used_frac.size() != c.open_volt.size())
+    return {field + ".curve", std::to_string(c.used_frac.size()) + " values of `used` and " +
+                                  std::to_string(c.open_volt.size()) + " of `open`: there must be as many"};
+  if (c.used_frac.empty()) return {};
+  if (b.capacity_ah <= 0) return {field + ".curve", "it needs the battery's `capacity`"};
+  for (std::size_t i = 1; i < c.used_frac.size(); ++i)
+    if (!(c.used_frac[i] > c.used_frac[i - 1]))
+      return {field + ".curve.used_frac", "the list has to rise, and " + short_number(c.used_frac[i]) +
+                                              " comes after " + short_number(c.used_frac[i - 1])};
+  if (c.used_frac[0] != 0 || std::abs(c.open_volt[0] - p.battery_volt) > 1e-6 * p.battery_volt)
+    return {field + ".curve",
+            "it must begin with the full battery: used 0, open " + short_number(p.battery_volt) + " V"};
+  return {};
+}
+
+}  // namespace rules
+
+inline AirframeFault airframe_fault(const Airframe& a) {
+  if (AirframeFault f = rules::surface_fault("aileron", a.aileron)) return f;
+  if (AirframeFault f = rules::surface_fault("elevator", a.elevator)) return f;
+  if (AirframeFault f = rules::surface_fault("rudder", a.rudder)) return f;
+  if (AirframeFault f = rules::propeller_fault(a)) return f;
+  if (AirframeFault f = rules::battery_fault(a.propulsion)) return f;
+  return rules::gear_fault(a);
+}
+
+}  // namespace fulmar::sim

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Servos, propellers, battery and gear: units that are suspected, and parts that do not fit together.
+#include <cmath>
+
+#include "fulmar/flight/propellers.hpp"
+#include "fulmar/sim/gear_legs.hpp"
+#include "tools/fulmar_aero/findings.hpp"
+#include "tools/fulmar_aero/words.hpp"
+
+namespace fulmar::aero {
+namespace {
+
+void check_servo(Findings& f, const std::string& name, const Surface& s) {
+  f.looked_at(4);
+  const double frequency = s.natural_frequency_radps;
+  if (frequency > 0 && (frequency < 15 || frequency > 600))
+    f.warn(name + ".natural_frequency_radps", frequency,
+           "it is " + figures(frequency) + " rad/s; servos have 30 to 200" +
+               (frequency < 15 ? ": is it in Hz? Then it would be " + figures(frequency * 360 * degree) +
+                                     " rad/s"
+                               : ": is it in deg/s?"));
+  if (frequency > 0 && (s.damping_ratio < 0.3 || s.damping_ratio > 3))
+    f.warn(name + ".damping_ratio", s.damping_ratio, "it is " + figures(s.damping_ratio) + "; servos have 0.5 to 2");
+  if (s.dead_band_rad > 0.1)
+    f.warn(name + ".dead_band_rad", s.dead_band_rad,
+           "it is " + degrees(s.dead_band_rad, 1) + "; servos have 0.1 to 1 deg: is it in degrees?");
+  const Stops at = stops(s);
+  if (at.max < s.limit_rad - 1e-9 || at.min > 1e-9 - s.limit_rad)
+    f.warn(name + (at.max < s.limit_rad - 1e-9 ? ".max_rad" : ".min_rad"),
+           at.max < s.limit_rad - 1e-9 ? at.max : at.min,
+           "the servo goes from " + degrees(at.min, 1) + " to " + degrees(at.max, 1) +
+               ", and controllers command up to the throw, " + degrees(s.limit_rad, 1) + " either way");
+}
+
+bool alike(const Surface& a, const Surface& b) {
+  return stops(a).min == stops(b).min && stops(a).max == stops(b).max &&
+         a.rate_limit_radps == b.rate_limit_radps && a.time_constant_s == b.time_constant_s &&
+         a.natural_frequency_radps == b.natural_frequency_radps && a.damping_ratio == b.damping_ratio;
+}
+
+void check_mixer(Findings& f) {
+  const Airframe& a = f.file().airframe;
+  if (a.mixer == Mixer::conventional) return;
+  f.looked_at();
+  const bool elevons = a.mixer == Mixer::elevons;
+  const Surface &left = elevons ? a.aileron : a.elevator, &right = elevons ? a.elevator : a.rudder;
+  if (alike(left, right)) return;
+  const std::string names = elevons ? "'aileron' and 'elevator' are the left and the right elevon"
+                                    : "'elevator' and 'rudder' are the left and the right ruddervator";
+  f.warn("mixer", 0, names + ", and their servos are not alike: one moves otherwise than the other");
+}
+
+void check_propellers(Findings& f) {
+  const Airframe& a = f.file().airframe;
+  if (a.propulsion.propellers.empty()) return;
+  f.looked_at(2);
+  Load load;
+  Propellers(a).add<double>(1.0, 0.0, load);
+  const double arm = load.moment_b.z();
+  if (load.force_b.x() <= 0)
+    f.fault("propulsion.propellers", load.force_b.x(), "together they do not push forward: look at tilt and toe");
+  if (std::abs(arm) > 0.01 * a.wing.span_m)
+    f.warn("propulsion.propellers", arm,
+           std::string("together they turn the nose ") + (arm > 0 ? "right" : "left") + ": their thrust acts " +
+               figures(std::abs(arm) / load.force_b.x()) + " m beside the centre of gravity; has one the wrong sign of y?");
+}
+
+void check_battery(Findings& f) {
+  const Propulsion& p = f.file().airframe.propulsion;
+  if (p.pack.resistance_ohm <= 0) return;
+  f.looked_at();
+  const double motors = std::max<double>(1, static_cast<double>(p.propellers.size()));
+  const double part = motors * p.pack.resistance_ohm / p.resistance_ohm;
+  if (part > 2)
+    f.warn("propulsion.pack.resistance_ohm", p.pack.resistance_ohm,
+           "it is " + figures(part) + " times that of the motors: is it in milliohm?");
+}
+
+void check_contacts(Findings& f) {
+  const Airframe& a = f.file().airframe;
+  if (a.gear.contacts.empty()) return;
+  f.looked_at(2);
+  const sim::Standing& at = sim::Legs(a).standing();
+  const Eigen::Vector3d nose = at.tilt * Eigen::Vector3d::UnitX(), wing = at.tilt * Eigen::Vector3d::UnitY();
+  const double pitch = std::asin(-nose.z()), roll = std::asin(wing.z());
+  f.figure("standing_height_m", at.height_m, "stands", fixed(at.height_m, 3) + " m high, pitch " + degrees(pitch, 1));
+  f.figure("standing_pitch_rad", pitch, "", "");
+  if (std::abs(roll) > 0.02)
+    f.warn("gear.contacts", roll,
+           "it stands on one side, banked by " + degrees(roll, 1) + ": has a contact the wrong sign of y?");
+  if (std::abs(pitch) > 0.3)
+    f.warn("gear.contacts", pitch, "it stands with a pitch of " + degrees(pitch, 1) + ": is z, down, right in all?");
+}
+
+}  // namespace
+
+void check_parts(Findings& f) {
+  const Airframe& a = f.file().airframe;
+  check_servo(f, "aileron", a.aileron);
+  check_servo(f, "elevator", a.elevator);
+  check_servo(f, "rudder", a.rudder);
+  check_mixer(f);
+  check_propellers(f);
+  check_battery(f);
+  check_contacts(f);
+}
+
+}  // namespace fulmar::aero

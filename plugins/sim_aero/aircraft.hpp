@@ -13,6 +13,7 @@
 #include "fulmar/flight/magnetic_model.hpp"
 #include "fulmar/msg/arm_request.hpp"
 #include "fulmar/msg/fault_request.hpp"
+#include "fulmar/msg/flaps.hpp"
 #include "fulmar/msg/origin.hpp"
 #include "fulmar/msg/rc.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
@@ -20,6 +21,7 @@
 #include "fulmar/plugin.hpp"
 #include "fulmar/sim/plant.hpp"
 #include "icing.hpp"
+#include "model_params.hpp"
 #include "sensors.hpp"
 
 namespace fulmar::sim {
@@ -30,6 +32,7 @@ class Aircraft {
   static constexpr double turn = 2 * std::numbers::pi;  ///< rad
   struct Inputs {
     Optional<Actuators> actuators;
+    Optional<Flaps> flaps;
     Request<ArmRequest> arm;
     Request<FaultRequest> fault;
   };
@@ -96,6 +99,7 @@ class Aircraft {
     Param aux3{0, "", -1, 1, "switch of the pilot"};
     Param aux4{0, "", -1, 1, "switch of the pilot"};
     FaultParams faults;
+    ModelParams model;
   };
 
   explicit Aircraft(std::uint64_t seed) : seed_(seed) {}
@@ -103,11 +107,16 @@ class Aircraft {
   /// Why this is no aircraft that flies: a map of some fields leaves the rest at nothing. Null when it is
   /// one.
   static const char* missing_part(const Airframe& a) {
-    const Propulsion& p = a.propulsion;
     if (!(a.aero.lift.alpha_ratio > 0)) return "the airframe has no lift: aero.lift.alpha is missing";
-    if (p.ct0_ratio == 0 && p.ct1_ratio == 0 && p.ct2_ratio == 0)
-      return "the airframe has no thrust: propulsion.ct0 is missing";
+    if (!has_thrust(a.propulsion))
+      return "the airframe has no thrust: propulsion.ct0 or propulsion.disc is missing";
     return nullptr;
+  }
+  /// A table that cannot be read is told with its place in the record.
+  static void check_tables(const Airframe& a) {
+    for (std::size_t i = 0; i < a.aero.tables.size(); ++i)
+      if (const std::string fault = table_fault(a.aero.tables[i]); !fault.empty())
+        throw std::runtime_error("airframe.aero.tables[" + std::to_string(i) + "]." + fault);
   }
 
   /// Velocity of the air, NED, m/s: a wind from the west blows to the east.
@@ -134,6 +143,8 @@ class Aircraft {
     origin_ = p.origin.given() ? *p.origin : Origin{40.2463724, -111.6474138, 1387, true};
     airframe_ = *p.airframe;
     if (const char* missing = missing_part(airframe_)) throw std::runtime_error(missing);
+    check_tables(airframe_);
+    changed_ = airframe_;
     period_ns_ = std::llround(1e9 / p.rate);
     now_ns_ = -std::llround(p.settle * 1e9 / static_cast<double>(period_ns_)) * period_ns_;
     epoch_ns_ = std::llround(p.epoch) * 1000000000;
@@ -143,6 +154,7 @@ class Aircraft {
     status_ = {};
     plant_.emplace(airframe_, weather(p), origin_.alt_msl_m, mix_seed(seed_, 10), earth(p));
     place(p);
+    if (add_to(airframe_, p.model, changed_)) plant_->set_aerodynamics(changed_);
     const LocalFrame frame(origin_.lat_deg, origin_.lon_deg, origin_.alt_msl_m);
     const Eigen::Vector3d field_n =
         magnetic_field_ned(origin_.lat_deg, origin_.lon_deg, origin_.alt_msl_m, decimal_year(epoch_ns_));
@@ -167,6 +179,8 @@ class Aircraft {
   void retune(const Params& p) {
     plant_->set_wind(steady_wind(p));
     faults_.set(p.faults, now_ns_);
+    if (add_to(airframe_, p.model, changed_))
+      plant_->set_aerodynamics(iced(changed_, icing_.ice(), p.faults.body_that_fails));
   }
 
   Status read(Tick& tick, const Params& p, Outputs& out) {
@@ -200,6 +214,7 @@ class Aircraft {
     else if (released_)
       command_ = {};  // motor off, surfaces neutral
     actuation_.put(command_, tick.now_ns);
+    plant_->set_flap(flap_command(in));
     return Status::ok;
   }
 
@@ -213,6 +228,11 @@ class Aircraft {
   static bool sound(const Actuators& a) {
     return std::isfinite(a.throttle_frac) && std::isfinite(a.aileron_rad) && std::isfinite(a.elevator_rad) &&
            std::isfinite(a.rudder_rad);
+  }
+
+  /// Flaps stay where they were told to go: who sets them speaks when he wants another place.
+  static double flap_command(const Inputs& in) {
+    return in.flaps && std::isfinite(in.flaps->flap_rad) ? in.flaps->flap_rad : 0;
   }
 
   void place(const Params& p) {
@@ -239,7 +259,7 @@ class Aircraft {
                      faults_[FaultTarget::rudder]);
     }
     if (icing_.advance(faults_[FaultTarget::icing].rate, dt) || (other && icing_.ice() > 0))
-      plant_->set_aerodynamics(iced(airframe_, icing_.ice(), p.faults.body_that_fails));
+      plant_->set_aerodynamics(iced(changed_, icing_.ice(), p.faults.body_that_fails));
   }
 
   void publish_sensors(const Params& p, Outputs& out) {
@@ -290,7 +310,7 @@ class Aircraft {
 
   std::uint64_t seed_;
   Origin origin_;
-  Airframe airframe_;
+  Airframe airframe_, changed_;  ///< as the file has it; with what the parameters add
   std::optional<Plant> plant_;
   std::optional<Sensors> sensors_;
   std::int64_t now_ns_ = 0, period_ns_ = 2500000, epoch_ns_ = 0, gnss_delay_ns_ = 0;

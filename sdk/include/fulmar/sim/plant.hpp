@@ -43,6 +43,8 @@ class Plant {
         aileron_(a.aileron),
         elevator_(a.elevator),
         rudder_(a.rudder),
+        flap_(a.flap),
+        has_flaps_(has_flaps(a.aero)),
         weather_(weather),
         origin_altitude_m_(origin_altitude_m),
         earth_(earth),
@@ -73,6 +75,7 @@ class Plant {
     x_.p_n = p_n;
     x_.q_nb = Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()) *
               Eigen::AngleAxisd(trim.pitch_rad, Eigen::Vector3d::UnitY());
+    if (trim.roll_rad != 0) x_.q_nb = x_.q_nb * Eigen::AngleAxisd(trim.roll_rad, Eigen::Vector3d::UnitX());
     const Eigen::Vector3d v_r(Va * std::cos(trim.alpha_rad) * std::cos(trim.beta_rad),
                               Va * std::sin(trim.beta_rad),
                               Va * std::sin(trim.alpha_rad) * std::cos(trim.beta_rad));
@@ -101,7 +104,8 @@ class Plant {
       elevator_.advance(command.elevator_rad, 0.5 * dt);
       rudder_.advance(command.rudder_rad, 0.5 * dt);
       Omega_ = Omega_steady + (Omega_ - Omega_steady) * motor_decay(0.5 * dt);
-      stage = {{aileron_.angle(), elevator_.angle(), rudder_.angle()}, Omega_};
+      if (has_flaps_) flap_.advance(flap_command_, 0.5 * dt);
+      stage = {deflections(), Omega_};
     }
     const auto load_at = [&](const RigidBody& x, double part) {
       return load(x, stage_[part > 0.75 ? 1 : 0]);
@@ -136,8 +140,15 @@ class Plant {
     elevator_.suffer(elevator);
     rudder_.suffer(rudder);
   }
-  /// With ice on it; mass and trim stay.
-  void set_aerodynamics(const Airframe& a) { aero_ = Aerodynamic(a); }
+  /// With ice on it, or changed by hand; mass and trim stay.
+  void set_aerodynamics(const Airframe& a) {
+    aero_ = Aerodynamic(a);
+    has_flaps_ = has_flaps(a.aero);
+    aero_.set_speed_of_sound(air_.speed_of_sound_mps());
+  }
+  /// Where the flaps are to go, rad; they get there by their servo.
+  void set_flap(double rad) { flap_command_ = rad; }
+  const Aerodynamic& aerodynamic() const { return aero_; }
 
   /// In the frame of the origin; the body rate is that of a gyro, relative to inertial space where the Earth
   /// turns.
@@ -154,7 +165,9 @@ class Plant {
   Eigen::Vector3d air_velocity_b() const { return relative(seen()); }
   /// By north, east and down at the aircraft's own place.
   Eigen::Vector3d wind_n() const { return steady_wind(seen()) + seen().q_nb * gust_b_; }
-  Deflections deflections() const { return {aileron_.angle(), elevator_.angle(), rudder_.angle()}; }
+  Deflections deflections() const {
+    return {aileron_.angle(), elevator_.angle(), rudder_.angle(), flap_.angle()};
+  }
   double propeller_radps() const { return Omega_; }
   double battery_amp() const { return std::max(0.0, throttle_ * propeller_.current(throttle_, Omega_)); }
   bool on_ground() const { return ground_.touching(); }
@@ -235,7 +248,9 @@ class Plant {
     const double rho = air_.density_kgm3;
     Load load = aero_.load(v_r, x.omega_b, s.deflections, rho);
     const double Va = plain::norm<double>(v_r);
-    load.force_b.x() += propeller_.thrust(s.Omega, Va, rho);
+    const double thrust = propeller_.thrust(s.Omega, Va, rho);
+    if (aero_.washed()) aero_.add_wash<double>(v_r, s.deflections, thrust, rho, load);
+    load.force_b.x() += thrust;
     load.moment_b.x() -= propeller_.torque(s.Omega, Va, rho);
     ground_.add_load(x, load);
     return load;
@@ -252,6 +267,7 @@ class Plant {
     g_n_ =
         turns() ? turning_.free_acceleration(x_.p_n, x_.v_n) : Eigen::Vector3d(0, 0, gravity_at(altitude_m));
     air_ = air_at(altitude_m);
+    if (aero_.over_mach()) aero_.set_speed_of_sound(air_.speed_of_sound_mps());
     Va_ = plain::norm<double>(relative(seen()));
     load_ = load_seen(seen(), {deflections(), Omega_});
   }
@@ -262,7 +278,9 @@ class Plant {
   Propeller propeller_;
   Ground ground_;
   Dryden dryden_;
-  Drive aileron_, elevator_, rudder_;
+  Drive aileron_, elevator_, rudder_, flap_;
+  bool has_flaps_;
+  double flap_command_ = 0;
   Weather weather_;
   double origin_altitude_m_;
   Earth earth_;

@@ -122,8 +122,8 @@ class Filler {
       if (value > before) continue;
       return fault(node.items[i], path + "[" + std::to_string(i) + "]",
                    "the list has to rise, and " + std::string(trimmed(node.items[i].text)) +
-                       (value == before ? " is there twice" : " comes after " +
-                                                                  std::string(trimmed(node.items[i - 1].text))));
+                       (value == before ? " is there twice"
+                                        : " comes after " + std::string(trimmed(node.items[i - 1].text))));
     }
   }
 

@@ -82,22 +82,28 @@ inline std::array<ModelAddition, 6> additions(const ModelParams& p) {
   using A = Aerodynamics;
   return {{
       {&A::lift,
-       {p.add_lift_zero, p.add_lift_alpha, p.add_lift_beta, p.add_lift_p, p.add_lift_q, p.add_lift_r, p.add_lift_aileron, p.add_lift_elevator, p.add_lift_rudder, p.add_lift_flap}},
+       {p.add_lift_zero, p.add_lift_alpha, p.add_lift_beta, p.add_lift_p, p.add_lift_q, p.add_lift_r,
+        p.add_lift_aileron, p.add_lift_elevator, p.add_lift_rudder, p.add_lift_flap}},
       {&A::drag,
-       {p.add_drag_zero, p.add_drag_alpha, p.add_drag_beta, p.add_drag_p, p.add_drag_q, p.add_drag_r, p.add_drag_aileron, p.add_drag_elevator, p.add_drag_rudder, p.add_drag_flap}},
+       {p.add_drag_zero, p.add_drag_alpha, p.add_drag_beta, p.add_drag_p, p.add_drag_q, p.add_drag_r,
+        p.add_drag_aileron, p.add_drag_elevator, p.add_drag_rudder, p.add_drag_flap}},
       {&A::side,
-       {p.add_side_zero, p.add_side_alpha, p.add_side_beta, p.add_side_p, p.add_side_q, p.add_side_r, p.add_side_aileron, p.add_side_elevator, p.add_side_rudder, p.add_side_flap}},
+       {p.add_side_zero, p.add_side_alpha, p.add_side_beta, p.add_side_p, p.add_side_q, p.add_side_r,
+        p.add_side_aileron, p.add_side_elevator, p.add_side_rudder, p.add_side_flap}},
       {&A::roll,
-       {p.add_roll_zero, p.add_roll_alpha, p.add_roll_beta, p.add_roll_p, p.add_roll_q, p.add_roll_r, p.add_roll_aileron, p.add_roll_elevator, p.add_roll_rudder, p.add_roll_flap}},
+       {p.add_roll_zero, p.add_roll_alpha, p.add_roll_beta, p.add_roll_p, p.add_roll_q, p.add_roll_r,
+        p.add_roll_aileron, p.add_roll_elevator, p.add_roll_rudder, p.add_roll_flap}},
       {&A::pitch,
-       {p.add_pitch_zero, p.add_pitch_alpha, p.add_pitch_beta, p.add_pitch_p, p.add_pitch_q, p.add_pitch_r, p.add_pitch_aileron, p.add_pitch_elevator, p.add_pitch_rudder, p.add_pitch_flap}},
+       {p.add_pitch_zero, p.add_pitch_alpha, p.add_pitch_beta, p.add_pitch_p, p.add_pitch_q, p.add_pitch_r,
+        p.add_pitch_aileron, p.add_pitch_elevator, p.add_pitch_rudder, p.add_pitch_flap}},
       {&A::yaw,
-       {p.add_yaw_zero, p.add_yaw_alpha, p.add_yaw_beta, p.add_yaw_p, p.add_yaw_q, p.add_yaw_r, p.add_yaw_aileron, p.add_yaw_elevator, p.add_yaw_rudder, p.add_yaw_flap}},
+       {p.add_yaw_zero, p.add_yaw_alpha, p.add_yaw_beta, p.add_yaw_p, p.add_yaw_q, p.add_yaw_r,
+        p.add_yaw_aileron, p.add_yaw_elevator, p.add_yaw_rudder, p.add_yaw_flap}},
   }};
 }
 
-/// Puts the airframe's derivatives with what is added into `a`, a copy of `file` that may hold other additions.
-/// True when it changes.
+/// Puts the airframe's derivatives with what is added into `a`, a copy of `file` that may hold other
+/// additions. True when it changes.
 inline bool add_to(const Airframe& file, const ModelParams& p, Airframe& a) {
   using D = Derivatives;
   constexpr std::array<double D::*, 10> names{

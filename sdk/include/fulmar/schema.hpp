@@ -467,8 +467,7 @@ struct Table {
                 "the layout of this struct is unusual: no alignas, no bit fields, no C arrays");
 
   static_assert(required_exist<T>(), "required_fields names what is no field of this struct");
-  static_assert(marked_exist<T>(),
-                "rising_fields or instead_field names what is no field of this struct");
+  static_assert(marked_exist<T>(), "rising_fields or instead_field names what is no field of this struct");
 
   static constexpr Rows<T, count> rows = rows_of<T>(MemberTypes<T>{});
   static constexpr EveryNumberHasAUnit<T, rows.nameless, count> rule{};

@@ -80,9 +80,12 @@ class Aerodynamic {
     const AirDataOf<S> air(v_r);
     const S q = 0.5 * rho * air.Va * air.Va;
     const S more_qS = aero_.wash_frac * wing_.area_m2 * std::max(S(thrust / disc_m2_), S(-q));
-    add_forces<S>(air, more_qS, more_qS, [&](const Derivatives& c, Coefficient) -> S {
-      return c.elevator_ratio * d.elevator + c.rudder_ratio * d.rudder;
-    }, load);
+    add_forces<S>(
+        air, more_qS, more_qS,
+        [&](const Derivatives& c, Coefficient) -> S {
+          return c.elevator_ratio * d.elevator + c.rudder_ratio * d.rudder;
+        },
+        load);
   }
   bool washed() const { return aero_.wash_frac != 0; }
 
@@ -117,15 +120,18 @@ class Aerodynamic {
                                   const S& half_rho_S, LoadOf<S>& out) const {
     const S qS = half_rho_S * air.Va * air.Va, plane_qS = half_rho_S * air.in_plane * air.in_plane;
     const TablePoint<S> point = table_point<S>(air, d, sound_mps_);
-    add_forces<S>(air, plane_qS, qS, [&](const Derivatives& c, Coefficient which) -> S {
-      S sum = c.flap_ratio * d.flap;
-      for (const CoefficientTable& t : aero_.tables)
-        if (t.coefficient == which) sum += value_of<S>(t, point);
-      if (which == Coefficient::drag) sum += squared_drag<S>(aero_.drag_squared, air.beta, d);
-      if (which == Coefficient::pitch && aero_.pitch_stalled_ratio != 0)
-        sum += stalled_pitch<S>(aero_, air, sigma);
-      return sum;
-    }, out);
+    add_forces<S>(
+        air, plane_qS, qS,
+        [&](const Derivatives& c, Coefficient which) -> S {
+          S sum = c.flap_ratio * d.flap;
+          for (const CoefficientTable& t : aero_.tables)
+            if (t.coefficient == which) sum += value_of<S>(t, point);
+          if (which == Coefficient::drag) sum += squared_drag<S>(aero_.drag_squared, air.beta, d);
+          if (which == Coefficient::pitch && aero_.pitch_stalled_ratio != 0)
+            sum += stalled_pitch<S>(aero_, air, sigma);
+          return sum;
+        },
+        out);
   }
 
   template <class S>

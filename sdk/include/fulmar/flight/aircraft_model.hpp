@@ -41,7 +41,8 @@ Eigen::Vector3<S> air_velocity(double Va, const S& alpha, const S& beta) {
 
 class AircraftModel {
  public:
-  /// `altitude_m`: above mean sea level, where the state `down` is 0; geopotential, where that is another one.
+  /// `altitude_m`: above mean sea level, where the state `down` is 0; geopotential, where that is another
+  /// one.
   explicit AircraftModel(const Airframe& a, double altitude_m, const AirOffset& offset = {},
                          double gravity_mps2 = isa::g0)
       : airframe_(a),

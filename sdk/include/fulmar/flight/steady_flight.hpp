@@ -77,11 +77,11 @@ inline MostLift most_lift(const Airframe& a) {
   for (double alpha = 0; alpha < std::min(a.wing.stall_alpha_rad + 0.1, 1.0); alpha += 1e-3) {
     const Load load =
         aero.load({std::cos(alpha), 0, std::sin(alpha)}, Eigen::Vector3d::Zero(), {}, 2 / a.wing.area_m2);
-    const double elevator = M.elevator_ratio != 0
-                                ? std::clamp(-(M.zero_ratio + M.alpha_ratio * alpha + tables_at(a, alpha)) /
-                                                 M.elevator_ratio,
-                                             -a.elevator.limit_rad, a.elevator.limit_rad)
-                                : 0;
+    const double elevator =
+        M.elevator_ratio != 0
+            ? std::clamp(-(M.zero_ratio + M.alpha_ratio * alpha + tables_at(a, alpha)) / M.elevator_ratio,
+                         -a.elevator.limit_rad, a.elevator.limit_rad)
+            : 0;
     const double CL =
         load.force_b.x() * std::sin(alpha) - load.force_b.z() * std::cos(alpha) + L.elevator_ratio * elevator;
     if (CL > most.coefficient) most = {CL, alpha};
@@ -201,8 +201,9 @@ inline SteadyEquations::Vector<double> steady_guess(const AircraftModel& m, cons
   const double slope = L.alpha_ratio > 0.1 ? L.alpha_ratio : 5;
   E::Vector<double> z = E::Vector<double>::Zero();
   z(E::alpha) = std::clamp((CL - L.zero_ratio) / slope, -0.1, 0.8 * a.wing.stall_alpha_rad);
-  z(E::elevator) = std::clamp(
-      -(M.zero_ratio + M.alpha_ratio * z(E::alpha) + tables_at(a, z(E::alpha))) / M.elevator_ratio, -0.5, 0.5);
+  z(E::elevator) =
+      std::clamp(-(M.zero_ratio + M.alpha_ratio * z(E::alpha) + tables_at(a, z(E::alpha))) / M.elevator_ratio,
+                 -0.5, 0.5);
   z(E::propeller) = m.propeller().steady_speed(0.6, Va, rho) / E::propeller_scale;
   z(E::bank) = phi;
   z(E::turn) = isa::g0 * std::tan(phi) / Va;

@@ -94,7 +94,8 @@ inline std::string table_fault(const CoefficientTable& t) {
       if (!(at[i] > at[i - 1])) return false;
     return true;
   };
-  if (t.over == TableVariable::none) return "over: a table is over alpha, beta, mach, aileron, elevator or rudder";
+  if (t.over == TableVariable::none)
+    return "over: a table is over alpha, beta, mach, aileron, elevator or rudder";
   if (t.at_ratio.empty()) return "at: a table has at least one point";
   if (!rises(t.at_ratio)) return "at: the points have to rise";
   if (beyond(t.over, t.at_ratio)) return "at: angles are in radians, and these go beyond half a turn";
@@ -108,8 +109,8 @@ inline std::string table_fault(const CoefficientTable& t) {
   const std::size_t rows = t.at_ratio.size(), columns = two ? t.and_at_ratio.size() : 1;
   if (t.values_ratio.size() == rows * columns) return "";
   return "values: there are " + std::to_string(t.values_ratio.size()) + ", and " + std::to_string(rows) +
-         (two ? " times " + std::to_string(columns) : "") + (rows * columns == 1 ? " point has " : " points have ") +
-         std::to_string(rows * columns);
+         (two ? " times " + std::to_string(columns) : "") +
+         (rows * columns == 1 ? " point has " : " points have ") + std::to_string(rows * columns);
 }
 
 }  // namespace fulmar

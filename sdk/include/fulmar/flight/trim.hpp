@@ -21,7 +21,8 @@ struct Trim {
   bool found = false;  ///< false: no such flight, or deflections and throttle outside what the aircraft has
 };
 
-/// Whether the rudder does anything. Without one a sideslip and a bank are left to what else turns the aircraft.
+/// Whether the rudder does anything. Without one a sideslip and a bank are left to what else turns the
+/// aircraft.
 inline bool rudder_acts(const Airframe& a) {
   return std::abs(a.aero.yaw.rudder_ratio) > 1e-9 || std::abs(a.aero.side.rudder_ratio) > 1e-9;
 }
@@ -50,8 +51,7 @@ class StraightFlight {
   double pitch(const Vector6& x) const {
     if (rudder_) return x(0) + gamma_;
     const double a = std::cos(x(0)) * std::cos(x(1)), s = std::sin(gamma_);
-    const double b =
-        std::sin(x(4)) * std::sin(x(1)) + std::cos(x(4)) * std::sin(x(0)) * std::cos(x(1));
+    const double b = std::sin(x(4)) * std::sin(x(1)) + std::cos(x(4)) * std::sin(x(0)) * std::cos(x(1));
     return std::atan2(a * b + s * std::sqrt(std::max(0.0, a * a - s * s + b * b)), a * a - s * s);
   }
 

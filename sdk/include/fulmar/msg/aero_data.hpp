@@ -24,13 +24,13 @@ struct CoefficientTable {
   TableVariable over = TableVariable::alpha;
   List<double, 32> at_ratio;  ///< rising; rad, or the Mach number
   TableVariable and_over = TableVariable::none;
-  List<double, 16> and_at_ratio;    ///< rising; of `and_over`
+  List<double, 16> and_at_ratio;   ///< rising; of `and_over`
   List<double, 256> values_ratio;  ///< for each point of `over` those of all points of `and_over`
 };
 template <>
 inline constexpr std::array<std::string_view, 2> rising_fields<CoefficientTable>{"at_ratio", "and_at_ratio"};
 template <>
-inline constexpr std::array<std::string_view, 4> required_fields<CoefficientTable>{"coefficient", "over",
-                                                                                  "at_ratio", "values_ratio"};
+inline constexpr std::array<std::string_view, 4> required_fields<CoefficientTable>{
+    "coefficient", "over", "at_ratio", "values_ratio"};
 
 }  // namespace fulmar

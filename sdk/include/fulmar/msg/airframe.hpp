@@ -42,8 +42,8 @@ struct Aerodynamics {
   List<CoefficientTable, 8> tables;
 };
 
-/// Motor and propeller as a disc, Beard & McLain, Small Unmanned Aircraft (2012), section 4.3. Air leaves it at
-/// Va + throttle (exit speed - Va).
+/// Motor and propeller as a disc, Beard & McLain, Small Unmanned Aircraft (2012), section 4.3. Air leaves it
+/// at Va + throttle (exit speed - Va).
 struct DiscMotor {
   double area_m2 = 0;           ///< S_prop; 0: there is none
   double efficiency_ratio = 1;  ///< C_prop

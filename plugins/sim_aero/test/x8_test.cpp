@@ -26,8 +26,8 @@ std::unique_ptr<Bench<Aircraft>> airborne(const Airframe& a, double height) {
 }
 
 Actuators held(const Airframe& a, double height) {
-  const Trim t = trimmed_flight(a, a.limits.airspeed_cruise_mps,
-                                standard_air(origin_m + height).density_kgm3);
+  const Trim t =
+      trimmed_flight(a, a.limits.airspeed_cruise_mps, standard_air(origin_m + height).density_kgm3);
   REQUIRE(t.found);
   return {t.throttle_frac, t.deflections.aileron, t.deflections.elevator, t.deflections.rudder};
 }
@@ -108,8 +108,8 @@ TEST_CASE("what is added from the start flies from the start, and ice comes on t
         Approx(by_parameter->component().plant().air_velocity_b().norm()).epsilon(0.02));
   const auto clean = airborne(anaconda(), 200);
   fly(*clean, u, 20);
-  CHECK(std::abs(clean->component().plant().state().p_n.z() - by_parameter->component().plant().state().p_n.z()) >
-        10);
+  CHECK(std::abs(clean->component().plant().state().p_n.z() -
+                 by_parameter->component().plant().state().p_n.z()) > 10);
 }
 
 TEST_CASE("flaps go where they are told, stay there, and are in when nobody speaks") {

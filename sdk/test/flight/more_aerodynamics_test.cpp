@@ -94,23 +94,25 @@ TEST_CASE("beyond the stall the pitching moment is that of a plate, where the ai
   for (const double alpha : {-2.5, -1.2, -0.7, 0.7, 1.2, 2.5}) {  // separated flow: Cm_fp sign(a) sin^2(a)
     const Load l = Aerodynamic(a).load(velocity(alpha, 0), Vector3d::Zero(), {}, rho);
     const double Cm = l.moment_b.y() / (0.5 * rho * Va * Va * a.wing.area_m2 * a.wing.chord_m);
-    CHECK(Cm == Approx((alpha > 0 ? -0.2168 : 0.2168) * std::sin(alpha) * std::sin(alpha)).epsilon(1e-6).scale(0));
+    CHECK(Cm ==
+          Approx((alpha > 0 ? -0.2168 : 0.2168) * std::sin(alpha) * std::sin(alpha)).epsilon(1e-6).scale(0));
   }
   for (const double alpha : {-0.1, 0.0, 0.1}) CHECK(std::abs(more(a, alpha, 0, {}).pitch) < 1e-3);
   const double sigma = Aerodynamic(a).stall(0.26), s2 = std::sin(0.26) * std::sin(0.26);
   REQUIRE(sigma > 0.3);
   REQUIRE(sigma < 0.7);
   const Load l = Aerodynamic(a).load(velocity(0.26, 0), Vector3d::Zero(), {}, rho);
-  CHECK(l.moment_b.y() / (0.5 * rho * Va * Va * a.wing.area_m2 * a.wing.chord_m) ==
-        Approx((1 - sigma) * (a.aero.pitch.zero_ratio + a.aero.pitch.alpha_ratio * 0.26) - sigma * 0.2168 * s2)
-            .epsilon(1e-9)
-            .scale(0));
+  CHECK(
+      l.moment_b.y() / (0.5 * rho * Va * Va * a.wing.area_m2 * a.wing.chord_m) ==
+      Approx((1 - sigma) * (a.aero.pitch.zero_ratio + a.aero.pitch.alpha_ratio * 0.26) - sigma * 0.2168 * s2)
+          .epsilon(1e-9)
+          .scale(0));
 }
 
 TEST_CASE("a table is linear between its points and held beyond them") {
   const Airframe a = with(table(Coefficient::side, TableVariable::beta, {-0.2, 0.1, 0.3}, {4, 1, 2}));
-  for (const auto& [beta, value] : {std::pair{-0.4, 4.0}, {-0.2, 4.0}, {-0.05, 2.5}, {0.1, 1.0}, {0.2, 1.5},
-                                    {0.3, 2.0}, {1.0, 2.0}})
+  for (const auto& [beta, value] :
+       {std::pair{-0.4, 4.0}, {-0.2, 4.0}, {-0.05, 2.5}, {0.1, 1.0}, {0.2, 1.5}, {0.3, 2.0}, {1.0, 2.0}})
     CHECK(more(a, 0.05, beta, {}).side == Approx(value).epsilon(1e-9).scale(0));
   CHECK(std::abs(more(a, 0.05, 0.1, {}).lift) < 1e-12);
   const Airframe one = with(table(Coefficient::roll, TableVariable::aileron, {0.1}, {0.4}));
@@ -121,9 +123,12 @@ TEST_CASE("a table is linear between its points and held beyond them") {
 TEST_CASE("each coefficient and each variable has its own table") {
   const Deflections d{0.02, 0.03, 0.04};
   const double sound = 340.29;
-  for (const auto& [over, x] :
-       {std::pair{TableVariable::alpha, 0.1}, {TableVariable::beta, 0.0}, {TableVariable::mach, Va / sound},
-        {TableVariable::aileron, 0.02}, {TableVariable::elevator, 0.03}, {TableVariable::rudder, 0.04}})
+  for (const auto& [over, x] : {std::pair{TableVariable::alpha, 0.1},
+                                {TableVariable::beta, 0.0},
+                                {TableVariable::mach, Va / sound},
+                                {TableVariable::aileron, 0.02},
+                                {TableVariable::elevator, 0.03},
+                                {TableVariable::rudder, 0.04}})
     for (const Coefficient of : {Coefficient::lift, Coefficient::drag, Coefficient::side, Coefficient::roll,
                                  Coefficient::pitch, Coefficient::yaw}) {
       const Six six = more(with(table(of, over, {x - 0.01, x + 0.03}, {0, 4})), 0.1, 0, d);
@@ -135,9 +140,16 @@ TEST_CASE("each coefficient and each variable has its own table") {
 
 TEST_CASE("two variables: bilinear, by rows of the first") {
   const Airframe a = with(grid());
-  for (const auto& [alpha, elevator, value] :
-       {std::tuple{-0.1, -0.2, 1.0}, {-0.1, 0.2, 2.0}, {0.0, -0.2, 3.0}, {0.0, 0.2, 5.0}, {0.3, -0.2, 9.0},
-        {0.3, 0.2, 7.0}, {-0.05, 0.0, 2.75}, {0.15, 0.1, 6.0}, {-1.0, 0.4, 2.0}, {0.3, 0.0, 8.0}})
+  for (const auto& [alpha, elevator, value] : {std::tuple{-0.1, -0.2, 1.0},
+                                               {-0.1, 0.2, 2.0},
+                                               {0.0, -0.2, 3.0},
+                                               {0.0, 0.2, 5.0},
+                                               {0.3, -0.2, 9.0},
+                                               {0.3, 0.2, 7.0},
+                                               {-0.05, 0.0, 2.75},
+                                               {0.15, 0.1, 6.0},
+                                               {-1.0, 0.4, 2.0},
+                                               {0.3, 0.0, 8.0}})
     CHECK(more(a, alpha, 0, {0, elevator, 0}).pitch == Approx(value).epsilon(1e-9).scale(0));
 }
 
@@ -145,7 +157,8 @@ TEST_CASE("derivatives go through a table: the slope of its segment, none beyond
   const CoefficientTable t = grid();
   using D = Dual<2>;
   const auto at = [&](double alpha, double elevator) {
-    return value_of<D>(t, {D(0.0), D::variable(alpha, 0), D(0.0), D(0.0), D(0.0), D::variable(elevator, 1), D(0.0)});
+    return value_of<D>(
+        t, {D(0.0), D::variable(alpha, 0), D(0.0), D(0.0), D(0.0), D::variable(elevator, 1), D(0.0)});
   };
   const D inside = at(0.15, 0.1);
   const double h = 1e-6;
@@ -236,7 +249,8 @@ TEST_CASE("elevator and rudder work in the slipstream's dynamic pressure, q + T 
   Load brake = Aerodynamic(a).load(v, Vector3d::Zero(), {0, 0.1, 0}, rho), still = brake;
   Aerodynamic(a).add_wash<double>(v, {0, 0.1, 0}, -1e4, rho, brake);  // no more than all of the flow
   CHECK(brake.moment_b.y() - still.moment_b.y() ==
-        Approx(-0.6 * 0.5 * rho * Va * Va * a.wing.area_m2 * a.wing.chord_m * a.aero.pitch.elevator_ratio * 0.1));
+        Approx(-0.6 * 0.5 * rho * Va * Va * a.wing.area_m2 * a.wing.chord_m * a.aero.pitch.elevator_ratio *
+               0.1));
   const Trim washed = trimmed_flight(a, Va, rho), dry = trimmed_flight(plain(), Va, rho);
   REQUIRE(washed.found);
   CHECK(std::abs(washed.deflections.elevator) < 0.9 * std::abs(dry.deflections.elevator));

@@ -97,12 +97,36 @@ class Filler {
           std::to_string(n) + (n == 1 ? " item" : " items") + ", but this is a list of " + size_words(field));
     if (list) put(at, static_cast<std::uint32_t>(n));
     std::byte* item = list ? at + field.items : at;
-    for (std::size_t i = 0; i < n; ++i)
-      fill_element(field, node.items[i], item + i * field.stride,
-                   {place.path + "[" + std::to_string(i) + "]", place.unit, place.rule});
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::string path = place.path + "[" + std::to_string(i) + "]";
+      fill_element(field, node.items[i], item + i * field.stride, {path, place.unit, place.rule});
+      if (field.kind == FULMAR_STRUCT) check_whole(*field.type, node.items[i], path);
+    }
+    if (field.rising) check_rising(field, node, item, place.path);
   }
 
  private:
+  /// An item of a list stands for itself: nothing around it says what it leaves out.
+  void check_whole(const Type& type, const Node& item, const std::string& path) {
+    if (!item.is(Node::Kind::map)) return;
+    if (const std::vector<std::string> missing = missing_in_record(type, item); !missing.empty())
+      fault(item, path, "this is no whole " + type.name + ", missing: " + join(missing));
+  }
+
+  void check_rising(const Field& field, const Node& node, const std::byte* item, const std::string& path) {
+    if (field.kind != FULMAR_F64) return;
+    for (std::size_t i = 1; i < node.items.size(); ++i) {
+      double before = 0, value = 0;
+      std::memcpy(&before, item + (i - 1) * field.stride, sizeof before);
+      std::memcpy(&value, item + i * field.stride, sizeof value);
+      if (value > before) continue;
+      return fault(node.items[i], path + "[" + std::to_string(i) + "]",
+                   "the list has to rise, and " + std::string(trimmed(node.items[i].text)) +
+                       (value == before ? " is there twice"
+                                        : " comes after " + std::string(trimmed(node.items[i - 1].text))));
+    }
+  }
+
   /// How a field is written under `key`: without its unit in the key, the value has one.
   static RecordPlace place_of(const Field& field, const std::string& key, const std::string& path,
                               const RecordPlace& outside) {
@@ -276,8 +300,12 @@ const Field* field_of_key(const Type& type, const std::string& key) {
 
 std::vector<std::string> missing_in_record(const Type& type, const Node& map) {
   std::vector<std::string> missing;
+  const auto instead = std::find_if(map.entries.begin(), map.entries.end(), [&](const Node::Entry& entry) {
+    const Field* const field = field_of_key(type, entry.key);
+    return field && field->instead;
+  });
   for (const Field& field : type.fields) {
-    if (!field.required) continue;
+    if (instead != map.entries.end() ? !field.instead : !field.required) continue;
     const auto said = std::find_if(map.entries.begin(), map.entries.end(), [&](const Node::Entry& entry) {
       return field_of_key(type, entry.key) == &field;
     });

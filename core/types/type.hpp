@@ -29,6 +29,8 @@ struct Field {
   double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
   bool appended = false;  // a writer may lack it: its reader then sees zeros
   bool required = false;  // of a record: who writes one has to name it
+  bool instead = false;   // named in a record, it stands in for the required fields beside it
+  bool rising = false;    // a list whose numbers a record writes in rising order
 };
 
 /// Of a struct of the host's own. `room`: of a text.

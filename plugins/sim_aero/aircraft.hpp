@@ -13,6 +13,7 @@
 #include "fulmar/flight/magnetic_model.hpp"
 #include "fulmar/msg/arm_request.hpp"
 #include "fulmar/msg/fault_request.hpp"
+#include "fulmar/msg/flaps.hpp"
 #include "fulmar/msg/origin.hpp"
 #include "fulmar/msg/rc.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
@@ -21,11 +22,12 @@
 #include "fulmar/sim/airframe_rules.hpp"
 #include "fulmar/sim/plant.hpp"
 #include "icing.hpp"
-#include "refusals.hpp"
+#include "model_params.hpp"
 #include "pilot.hpp"
+#include "refusals.hpp"
 #include "sensors.hpp"
-#include "surroundings.hpp"
 #include "suite_spec.hpp"
+#include "surroundings.hpp"
 
 namespace fulmar::sim {
 
@@ -40,6 +42,7 @@ class Aircraft {
   static constexpr double turn = 2 * std::numbers::pi;  ///< rad
   struct Inputs {
     Optional<Actuators> actuators;
+    Optional<Flaps> flaps;
     Request<ArmRequest> arm;
     Request<FaultRequest> fault;
     Optional<Rc> pilot;  // a transmitter, in place of the parameters pilot_flies, stick_* and aux*
@@ -110,9 +113,17 @@ class Aircraft {
     FaultParams faults;
     Surroundings around;
     PilotParams pilot;
+    ModelParams model;
   };
 
   explicit Aircraft(std::uint64_t seed) : seed_(seed) {}
+
+  /// A table that cannot be read is told with its place in the record.
+  static void check_tables(const Airframe& a) {
+    for (std::size_t i = 0; i < a.aero.tables.size(); ++i)
+      if (const std::string fault = table_fault(a.aero.tables[i]); !fault.empty())
+        throw std::runtime_error("airframe.aero.tables[" + std::to_string(i) + "]." + fault);
+  }
 
   /// Velocity of the air, NED, m/s: a wind from the west blows to the east.
   static Eigen::Vector3d steady_wind(const Params& p) {
@@ -152,6 +163,8 @@ class Aircraft {
       throw std::runtime_error(missing);
     if (const AirframeFault fault = airframe_fault(airframe_))
       throw std::runtime_error("airframe." + fault.field + ": " + fault.sentence);
+    check_tables(airframe_);
+    changed_ = airframe_;
     period_ns_ = std::llround(1e9 / p.rate);
     now_ns_ = -std::llround(p.settle * 1e9 / static_cast<double>(period_ns_)) * period_ns_;
     epoch_ns_ = std::llround(p.epoch) * 1000000000;
@@ -162,6 +175,7 @@ class Aircraft {
     status_ = {};
     plant_.emplace(airframe_, weather(p), origin_.alt_msl_m, mix_seed(seed_, 10), earth(p));
     place(p);
+    if (add_to(airframe_, p.model, changed_)) plant_->set_aerodynamics(changed_);
     const LocalFrame frame(origin_.lat_deg, origin_.lon_deg, origin_.alt_msl_m);
     const Eigen::Vector3d field_n =
         magnetic_field_ned(origin_.lat_deg, origin_.lon_deg, origin_.alt_msl_m, decimal_year(epoch_ns_));
@@ -188,6 +202,8 @@ class Aircraft {
     plant_->set_wind(steady_wind(p));
     faults_.set(p.faults, now_ns_);
     gusts_.set(p.around.air, now_ns_);
+    if (add_to(airframe_, p.model, changed_))
+      plant_->set_aerodynamics(iced(changed_, icing_.ice(), p.faults.body_that_fails));
   }
 
   Status read(Tick& tick, const Params& p, Outputs& out) {
@@ -230,6 +246,7 @@ class Aircraft {
     else if (released_)
       command_ = {};  // motor off, surfaces neutral
     actuation_.put(command_, tick.now_ns);
+    plant_->set_flap(flap_command(in));
     return Status::ok;
   }
 
@@ -243,6 +260,11 @@ class Aircraft {
   static bool sound(const Actuators& a) {
     return std::isfinite(a.throttle_frac) && std::isfinite(a.aileron_rad) && std::isfinite(a.elevator_rad) &&
            std::isfinite(a.rudder_rad);
+  }
+
+  /// Flaps stay where they were told to go: who sets them speaks when he wants another place.
+  static double flap_command(const Inputs& in) {
+    return in.flaps && std::isfinite(in.flaps->flap_rad) ? in.flaps->flap_rad : 0;
   }
 
   void place(const Params& p) {
@@ -299,7 +321,7 @@ class Aircraft {
                      faults_[FaultTarget::rudder]);
     }
     if (icing_.advance(faults_[FaultTarget::icing].rate, dt) || (other && icing_.ice() > 0))
-      plant_->set_aerodynamics(iced(airframe_, icing_.ice(), p.faults.body_that_fails));
+      plant_->set_aerodynamics(iced(changed_, icing_.ice(), p.faults.body_that_fails));
   }
 
   static SensorSpec sensors_of(const Params& p) {
@@ -362,7 +384,7 @@ class Aircraft {
 
   std::uint64_t seed_;
   Origin origin_;
-  Airframe airframe_;
+  Airframe airframe_, changed_;  ///< as the file has it; with what the parameters add
   std::optional<Plant> plant_;
   std::optional<Sensors> sensors_;
   std::int64_t now_ns_ = 0, period_ns_ = 2500000, epoch_ns_ = 0, power_on_ns_ = 0;

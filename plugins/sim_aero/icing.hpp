@@ -22,6 +22,7 @@ inline Airframe iced(const Airframe& clean, double ice, const BodyFaultParams& p
     c->aileron_ratio *= control;
     c->elevator_ratio *= control;
     c->rudder_ratio *= control;
+    c->flap_ratio *= control;
   }
   return a;
 }

@@ -21,10 +21,9 @@ inline std::string degrees(double rad) { return figures(rad * 57.29577951308232)
 
 /// Why this is no aircraft that flies: a map of some fields leaves the rest at nothing. Empty when it is one.
 inline std::string missing_part(const Airframe& a) {
-  const Propulsion& p = a.propulsion;
   if (!(a.aero.lift.alpha_ratio > 0)) return "the airframe has no lift: aero.lift.alpha is missing";
-  if (p.ct0_ratio == 0 && p.ct1_ratio == 0 && p.ct2_ratio == 0)
-    return "the airframe has no thrust: propulsion.ct0 is missing";
+  if (!has_thrust(a.propulsion))
+    return "the airframe has no thrust: propulsion.ct0 or propulsion.disc is missing";
   const Inertia& J = a.inertia;
   if (!(J.xz_kgm2 * J.xz_kgm2 < J.xx_kgm2 * J.zz_kgm2))
     return "airframe.inertia.xz: the inertia is not positive definite: xz is " + figures(J.xz_kgm2) +

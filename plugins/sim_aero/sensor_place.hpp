@@ -15,10 +15,10 @@
 
 namespace fulmar::sim {
 
-class Surroundings {
+class SensorPlaces {
  public:
-  Surroundings() = default;
-  Surroundings(const SensorSpec& s, double imu_dt, std::uint64_t seed)
+  SensorPlaces() = default;
+  SensorPlaces(const SensorSpec& s, double imu_dt, std::uint64_t seed)
       : spec_(s),
         imu_dt_(imu_dt),
         shaken_(s.vibration_speed > 0 && (s.gyro_vibration != 0 || s.accel_vibration != 0)),

@@ -57,13 +57,13 @@ class Sensors {
     mag_sheet_ = Sheet(spec.mag_sheet, dt(spec.mag_hz), mix_seed(seed, 32));
     baro_sheet_ = Sheet(spec.baro_sheet, dt(spec.baro_hz), mix_seed(seed, 33));
     pitot_sheet_ = Sheet(spec.pitot_sheet, dt(spec.pitot_hz), mix_seed(seed, 34));
-    surroundings_ = Surroundings(spec, dt(spec.imu_hz), mix_seed(seed, 35));
+    places_ = SensorPlaces(spec, dt(spec.imu_hz), mix_seed(seed, 35));
     if (spec.calibrated) calibrate();
   }
 
   Imu imu(const Plant& plant) {
     Eigen::Vector3d rate = plant.state().omega_b, force = plant.specific_force();
-    if (surroundings_.reach_imu()) surroundings_.imu(plant, rate, force);
+    if (places_.reach_imu()) places_.imu(plant, rate, force);
     Imu out;
     out.rate_radps = sent<Body>(measured(rate, gyro_, imu_random_, gyro_sheet_, faults_.gyro));
     out.specific_force_mps2 = sent<Body>(measured(force, accel_, imu_random_, accel_sheet_, faults_.accel));
@@ -73,7 +73,7 @@ class Sensors {
 
   Mag mag(const Plant& plant) {
     Eigen::Vector3d field = plant.seen().q_nb.conjugate() * field_n_;
-    if (surroundings_.reach_mag()) field += plant.battery_amp() * spec_.mag_per_amp;
+    if (places_.reach_mag()) field += plant.battery_amp() * spec_.mag_per_amp;
     return {sent<Body>(measured(field, mag_, mag_random_, mag_sheet_, faults_.mag))};
   }
 
@@ -90,11 +90,11 @@ class Sensors {
   /// degrees on.
   Pitot pitot(const Plant& plant) {
     Eigen::Vector3d v_r = plant.air_velocity_b();
-    if (surroundings_.reach_pitot()) v_r += plant.seen().omega_b.cross(spec_.pitot_at);
+    if (places_.reach_pitot()) v_r += plant.seen().omega_b.cross(spec_.pitot_at);
     const double Va = v_r.norm(), cosine = Va > 0 ? v_r.x() / Va : 1;
     const double taken = std::clamp((cosine - 0.5) / (0.9397 - 0.5), 0.0, 1.0);
     double pressure = pitot_scale_ * taken * 0.5 * plant.air().density_kgm3 * Va * Va;
-    if (surroundings_.reach_pitot()) pressure = surroundings_.pitot(plant, v_r, taken, pressure);
+    if (places_.reach_pitot()) pressure = places_.pitot(plant, v_r, taken, pressure);
     const double said = faults_.pitot(pressure + pitot_.next(pitot_random_));
     Pitot out;
     out.pressure_pa = sent(pitot_sheet_.used() ? pitot_sheet_.digits(said) : said);
@@ -106,7 +106,7 @@ class Sensors {
   /// `on_ns`: since power-on.
   Gnss gnss(const Plant& plant, std::int64_t utc_ns, std::int64_t on_ns = INT64_MAX) {
     Eigen::Vector3d p_n = plant.state().p_n, v_n = plant.seen().v_n;
-    if (surroundings_.reach_antenna()) surroundings_.antenna(plant, p_n, v_n);
+    if (places_.reach_antenna()) places_.antenna(plant, p_n, v_n);
     const LocalFrame::Geodetic g = frame_.from_ned(faults_.position(p_n + gnss_position_.next(gnss_random_)));
     Gnss out;
     out.latitude_deg = g.lat_deg;
@@ -154,7 +154,7 @@ class Sensors {
     accel_.calibrate();
     baro_.calibrate();
     pitot_.calibrate();
-    gyro_sheet_.calibrate(surroundings_.rate_by(rest), Eigen::Vector3d::Zero());
+    gyro_sheet_.calibrate(places_.rate_by(rest), Eigen::Vector3d::Zero());
     accel_sheet_.calibrate(rest, rest);
   }
 
@@ -173,7 +173,7 @@ class Sensors {
   Noise baro_, pitot_;
   double pitot_scale_ = 1;
   Sheet gyro_sheet_, accel_sheet_, mag_sheet_, baro_sheet_, pitot_sheet_;
-  Surroundings surroundings_;
+  SensorPlaces places_;
   SensorFaults faults_;
 };
 

@@ -7,6 +7,8 @@
 #include "core/graph/record.hpp"
 #include "core/graph/shipped.hpp"
 #include "core/loader/table.hpp"
+#include "fulmar/flight/tables.hpp"
+#include "fulmar/flight/trim.hpp"
 #include "fulmar/schema.hpp"
 #include "fulmar/sim/airframe_rules.hpp"
 
@@ -37,6 +39,7 @@ struct Positive {
 
 void refuse_what_is_not_positive(const AirframeFile& file, core::Report& report) {
   const Airframe& a = file.airframe;
+  const bool disc = a.propulsion.disc.area_m2 > 0;
   const std::vector<Positive> all{
       {"mass_kg", a.mass_kg, "kg"},
       {"inertia.xx_kgm2", a.inertia.xx_kgm2, "kg m^2"},
@@ -48,14 +51,14 @@ void refuse_what_is_not_positive(const AirframeFile& file, core::Report& report)
       {"wing.oswald_ratio", a.wing.oswald_ratio, ""},
       {"wing.stall_alpha_rad", a.wing.stall_alpha_rad, "rad"},
       {"wing.stall_sharpness_ratio", a.wing.stall_sharpness_ratio, ""},
-      {"propulsion.propeller_diameter_m", a.propulsion.propeller_diameter_m, "m"},
-      {"propulsion.cq0_ratio", a.propulsion.cq0_ratio, ""},
-      {"propulsion.torque_constant_ratio", a.propulsion.torque_constant_ratio, ""},
-      {"propulsion.resistance_ohm", a.propulsion.resistance_ohm, "ohm"},
+      {"propulsion.propeller_diameter_m", disc ? 1 : a.propulsion.propeller_diameter_m, "m"},
+      {"propulsion.cq0_ratio", disc ? 1 : a.propulsion.cq0_ratio, ""},
+      {"propulsion.torque_constant_ratio", disc ? 1 : a.propulsion.torque_constant_ratio, ""},
+      {"propulsion.resistance_ohm", disc ? 1 : a.propulsion.resistance_ohm, "ohm"},
       {"propulsion.battery_volt", a.propulsion.battery_volt, "V"},
       {"aileron.limit_rad", a.aileron.limit_rad, "rad"},
       {"elevator.limit_rad", a.elevator.limit_rad, "rad"},
-      {"rudder.limit_rad", a.rudder.limit_rad, "rad"},
+      {"rudder.limit_rad", rudder_acts(a) ? a.rudder.limit_rad : 1, "rad"},
       {"limits.airspeed_cruise_mps", a.limits.airspeed_cruise_mps, "m/s"}};
   for (const Positive& one : all) {
     if (one.value > 0) continue;
@@ -73,6 +76,18 @@ void refuse_inertia(const AirframeFile& file, core::Report& report) {
              "inertia: it is not positive definite: xz^2 = " + core::number_text(i.xz_kgm2 * i.xz_kgm2) +
                  " must be less than xx zz = " + core::number_text(i.xx_kgm2 * i.zz_kgm2) +
                  "; no body has such an inertia");
+}
+
+void refuse_tables(const AirframeFile& file, core::Report& report) {
+  const core::Node* const aero = file.root.find("aero");
+  const core::Node* const tables = aero ? aero->find("tables") : nullptr;
+  for (std::size_t i = 0; tables && i < tables->items.size(); ++i) {
+    const std::string fault = table_fault(file.airframe.aero.tables[i]);
+    if (fault.empty()) continue;
+    const core::Node::Entry* const entry = entry_of(tables->items[i], fault.substr(0, fault.find(':')));
+    report.add(entry ? entry->where() : tables->items[i].where(),
+               "aero.tables[" + std::to_string(i) + "]." + fault);
+  }
 }
 
 }  // namespace
@@ -116,6 +131,7 @@ AirframeFile read_airframe_file(const std::string& name) {
   if (report.empty()) {
     refuse_what_is_not_positive(file, report);
     refuse_inertia(file, report);
+    refuse_tables(file, report);
     if (const sim::AirframeFault fault = sim::airframe_fault(file.airframe))
       report.add(file.where(fault.field), shown_field(fault.field) + ": " + fault.sentence);
   }

@@ -2,6 +2,7 @@
 // Throws, rates and limits: degrees where radians are meant, and limits that contradict each other.
 #include <cmath>
 
+#include "fulmar/flight/trim.hpp"
 #include "tools/fulmar_aero/findings.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
@@ -66,7 +67,8 @@ void check_angles(Findings& f) {
                "; wings stall at 10 to 18 deg: with this it stalls in cruise");
   check_surface(f, "aileron", a.aileron);
   check_surface(f, "elevator", a.elevator);
-  check_surface(f, "rudder", a.rudder);
+  if (rudder_acts(a) || a.rudder.limit_rad > 0) check_surface(f, "rudder", a.rudder);
+  if (has_flaps(a.aero)) check_surface(f, "flap", a.flap);
   check_limits(f, a.limits);
 }
 

@@ -106,12 +106,16 @@ bool absurd(const Rule& rule, double value, bool explained) {
   return std::abs(value) > times * most || std::abs(value) < least / times;
 }
 
+std::string no_rudder(const Airframe& a) {
+  if (a.rudder.limit_rad > 0) return ": the rudder moves nothing; turns are flown without it";
+  return ": there is no rudder; nothing controls yaw, turns are flown with the ailerons alone";
+}
+
 void missing(Findings& f, const Rule& rule) {
   const std::string what = std::string(rule.symbol) + " is 0";
   const bool rudder = rule.of == &D::rudder_ratio;
   if (rule.wrong_sign == warning || rudder || rule.of == &D::beta_ratio)
-    f.warn(rule.field, 0,
-           what + (rudder ? ": the rudder moves nothing; turns are flown without it" : ": was it left out?"));
+    f.warn(rule.field, 0, what + (rudder ? no_rudder(f.file().airframe) : std::string(": was it left out?")));
   else
     f.fault(rule.field, 0, what + ", which no aircraft has: was it left out?");
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Static margin and what the surfaces can do.
+#include <algorithm>
 #include <cmath>
 
 #include "fulmar/flight/steady_flight.hpp"
@@ -9,11 +10,32 @@
 namespace fulmar::aero {
 namespace {
 
+struct Slopes {
+  double lift = 0, pitch = 0;  ///< over the angle of attack
+};
+/// Of the derivatives, and of the tables where the wing carries the weight at cruise, at sea level.
+Slopes slopes_at_cruise(const Airframe& a) {
+  Slopes s{a.aero.lift.alpha_ratio, a.aero.pitch.alpha_ratio};
+  const double Va = std::max(a.limits.airspeed_cruise_mps, 1.0);
+  const double CL = a.mass_kg * isa::g0 / (0.5 * isa::sea_level_density * Va * Va * a.wing.area_m2);
+  const double alpha = std::clamp((CL - a.aero.lift.zero_ratio) / s.lift, -0.1, a.wing.stall_alpha_rad);
+  using D = Dual<1>;
+  const TablePoint<D> at{D(0.0), D::variable(alpha, 0), D(0.0), D(Va / 340.29), D(0.0), D(0.0), D(0.0)};
+  for (const CoefficientTable& t : a.aero.tables) {
+    const double slope = value_of<D>(t, at).d[0];
+    if (t.coefficient == Coefficient::lift) s.lift += slope;
+    if (t.coefficient == Coefficient::pitch) s.pitch += slope;
+  }
+  return s;
+}
+
 void check_margin(Findings& f) {
   f.looked_at();
   const Aerodynamics& aero = f.file().airframe.aero;
   if (aero.lift.alpha_ratio <= 0) return;
-  const double margin = -aero.pitch.alpha_ratio / aero.lift.alpha_ratio;
+  const Slopes slopes = slopes_at_cruise(f.file().airframe);
+  if (slopes.lift <= 0) return;
+  const double margin = -slopes.pitch / slopes.lift;
   f.figure("static_margin_ratio", margin, "static margin", figures(margin) + " of the chord");
   const std::string what =
       "the static margin -Cm_alpha/CL_alpha is " + figures(margin) + " of the chord, usual is 0.05 to 0.3: ";

@@ -37,6 +37,28 @@ void check_cross(Findings& f, const char* table, const D& of, const std::array<T
   }
 }
 
+/// Drag over a square is given as such; a linear term beside it is what is left of a fit.
+void check_drag_of_sideslip(Findings& f) {
+  f.looked_at(4);
+  const Aerodynamics& aero = f.file().airframe.aero;
+  const double linear = aero.drag.beta_ratio, square = aero.drag_squared.beta_ratio;
+  if (linear != 0 && square > 0) {
+    const double least = -linear / (2 * square);
+    f.warn("aero.drag.beta_ratio", linear,
+           "CD_beta is " + figures(linear) + " beside a square of " + figures(square) +
+               ": drag is least at " + degrees(least, 1) +
+               " of sideslip, and a symmetric aircraft has it at 0; set it to 0, it is what a fit has left");
+  }
+  const std::pair<const char*, double> squares[] = {{"beta_ratio", square},
+                                                    {"aileron_ratio", aero.drag_squared.aileron_ratio},
+                                                    {"elevator_ratio", aero.drag_squared.elevator_ratio},
+                                                    {"rudder_ratio", aero.drag_squared.rudder_ratio}};
+  for (const auto& [name, value] : squares)
+    if (value < 0)
+      f.fault(std::string("aero.drag_squared.") + name, value,
+              "it is " + figures(value) + ": the aircraft would be driven by its deflection");
+}
+
 void check_drag(Findings& f) {
   const Airframe& a = f.file().airframe;
   const Aerodynamics& aero = a.aero;
@@ -100,10 +122,11 @@ void check_symmetry(Findings& f) {
   check_cross(f, "drag", aero.drag, lateral_terms, 1e-3,
               ": the drag of a symmetric aircraft cannot grow to one side and fall to the other; a term of "
               "the square "
-              "is no term of this model");
+              "belongs in drag_squared");
   for (const auto& [table, of] : {std::pair{"side", &aero.side}, {"roll", &aero.roll}, {"yaw", &aero.yaw}})
     check_cross(f, table, *of, longitudinal_terms, 0.01,
                 ", and a symmetric aircraft has 0: it would turn by itself");
+  check_drag_of_sideslip(f);
   check_drag(f);
   check_adverse_yaw(f);
   check_rudder_pair(f);

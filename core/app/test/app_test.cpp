@@ -445,9 +445,9 @@ TEST_CASE("an aircraft that cannot fly is refused with the line that says so, be
     for (const std::string command : {"check ", "run --no-log "}) {
       const Result r = fulmar(command + m.string());
       CHECK(r.code == 4);
-      CHECK_MESSAGE(r.err.find(file + ":" + std::to_string(line) + ": sim: " + field + ": ") !=
-                        std::string::npos,
-                    r.err);
+      CHECK_MESSAGE(
+          r.err.find(file + ":" + std::to_string(line) + ": sim: " + field + ": ") != std::string::npos,
+          r.err);
       CHECK_MESSAGE(r.err.find(why) != std::string::npos, r.err);
     }
   };
@@ -458,8 +458,9 @@ TEST_CASE("an aircraft that cannot fly is refused with the line that says so, be
   std::ofstream(m) << "mission: trial\nextends: " << hourglass
                    << "\ncomponents:\n  sim:\n    params:\n      start_height: 70 m\n"
                       "      start_airspeed: 6 m/s\n";
-  CHECK(fulmar("check " + m.string()).err.find("aircraft.yaml:6: sim: start_airspeed: no level flight at 6") !=
-        std::string::npos);
+  CHECK(
+      fulmar("check " + m.string()).err.find("aircraft.yaml:6: sim: start_airspeed: no level flight at 6") !=
+      std::string::npos);
   const Result set = fulmar("check " + hourglass + " --set \"sim.airframe.mass=45 kg\"");
   CHECK(set.code == 4);
   CHECK_MESSAGE(set.err.find(": sim: airframe.limits.airspeed_cruise: ") != std::string::npos, set.err);

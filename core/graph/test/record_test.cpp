@@ -88,11 +88,37 @@ TEST_CASE("a record that lacks what its type asks for is told with all that is m
   CHECK(missing("mass_kg: 5\ninertia: 3\nwing: []\naero:\npropulsion: {ct0_ratio: 1}\naileron: {limit_rad: 1}"
                 "\nelevator: {limit: 1}\nrudder: {limit: 1}\n") ==
         "none");  // what is wrong is told elsewhere
+  const std::string but_motor =
+      "mass: 5\ninertia: 3\nwing: []\naero:\naileron: {limit: 1}\nelevator: {limit: 1}"
+      "\nrudder: {limit: 1}\npropulsion: ";
+  CHECK(missing(but_motor + "{battery: 12 V}") == "propulsion.ct0");
+  CHECK(missing(but_motor + "{disc: {area_m2: 0.1, exit_speed: 37 m/s, speed: 800 rad/s}}") == "none");
+  CHECK(missing(but_motor + "{disc: {area_m2: 0.1}}") == "propulsion.disc.exit_speed, propulsion.disc.speed");
   const auto refused = [](const std::string& yaml) { return read<Airframe>(yaml).faults; };
   CHECK(refused("mass: -5 kg") == "file.yaml:1: mass: -5 kg is outside 0.0001 .. 1e+06 kg");
   for (const char* yaml : {"wing: {area_m2: -1}", "wing: {span: 0 m}", "wing: {chord: -1 cm}",
                            "inertia: {yy_kgm2: -1}", "rudder: {limit: -1 deg}"})
     CHECK(refused(yaml).find(" is outside ") != std::string::npos);
+}
+
+TEST_CASE("the points of a table rise, and an item of a list is whole") {
+  const auto table = [](const std::string& at) {
+    return read<Airframe>("aero:\n  tables:\n    - {coefficient: pitch, over: alpha, at: " + at +
+                          ", values: [1, 2, 3]}\n");
+  };
+  const auto good = table("[-0.1, 0, 0.1]");
+  CHECK(good.faults == "");
+  REQUIRE(good.value.aero.tables.count == 1);
+  CHECK(good.value.aero.tables[0].coefficient == Coefficient::pitch);
+  CHECK(good.value.aero.tables[0].at_ratio[2] == 0.1);
+  CHECK(good.value.aero.tables[0].values_ratio[2] == 3);
+  CHECK(table("[-0.1, 0.1, 0]").faults ==
+        "file.yaml:3: aero.tables[0].at[2]: the list has to rise, and 0 comes after 0.1");
+  CHECK(table("[0, 0, 0.1]").faults ==
+        "file.yaml:3: aero.tables[0].at[1]: the list has to rise, and 0 is there twice");
+  CHECK(table("[-5 deg, 0, 1]").faults.find("aero.tables[0].at[0]: ") != std::string::npos);
+  CHECK(read<Airframe>("aero:\n  tables:\n    - {over: alpha, at: [1], values: [1]}\n").faults ==
+        "file.yaml:3: aero.tables[0]: this is no whole CoefficientTable, missing: coefficient");
 }
 
 TEST_CASE("a plan's list is counted and vectors are lists or maps") {

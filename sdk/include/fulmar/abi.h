@@ -76,8 +76,10 @@ typedef struct fulmar_field {
 
 enum fulmar_field_flags {
   FULMAR_FIELD_APPENDED = 1, /* a writer from before this field may feed its reader, who then sees zeros */
-  FULMAR_FIELD_REQUIRED = 2  /* of a record: whoever writes one as a whole has to name it; of a field that is
+  FULMAR_FIELD_REQUIRED = 2, /* of a record: whoever writes one as a whole has to name it; of a field that is
                                 a struct, its own required fields, too */
+  FULMAR_FIELD_INSTEAD = 4,  /* named in a record, it stands in for its struct's required fields */
+  FULMAR_FIELD_RISING = 8    /* a list of numbers that a record has to write in rising order */
 };
 
 struct fulmar_type {

@@ -97,6 +97,16 @@ inline constexpr std::string_view appended_from{};
 template <class T>
 inline constexpr std::array<std::string_view, 0> required_fields{};
 
+/// A field that, when a record names it, stands in for the required fields of its struct: another way to say
+/// the same, which then needs its own required fields.
+template <class T>
+inline constexpr std::string_view instead_field{};
+
+/// Lists of numbers that have to rise from item to item, such as the points of a table: the host refuses
+/// others with the place of the item.
+template <class T>
+inline constexpr std::array<std::string_view, 0> rising_fields{};
+
 /// Deviation of a quantity that nobody knows: large, finite, and so honest to every weighted sum.
 inline constexpr double unknown_std = 1e9;
 

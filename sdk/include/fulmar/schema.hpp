@@ -385,13 +385,28 @@ consteval bool is_required(std::string_view name) {
   return false;
 }
 template <class T>
+consteval bool is_rising(std::string_view name) {
+  for (const std::string_view rising : rising_fields<T>)
+    if (rising == name) return true;
+  return false;
+}
+template <class T>
+consteval bool names_member(std::string_view name) {
+  for (std::size_t i = 0; i < member_count<T>(); ++i)
+    if (FieldNames<T>::view(i) == name) return true;
+  return false;
+}
+template <class T>
 consteval bool required_exist() {
-  for (const std::string_view required : required_fields<T>) {
-    bool found = false;
-    for (std::size_t i = 0; i < member_count<T>(); ++i) found = found || FieldNames<T>::view(i) == required;
-    if (!found) return false;
-  }
+  for (const std::string_view required : required_fields<T>)
+    if (!names_member<T>(required)) return false;
   return true;
+}
+template <class T>
+consteval bool marked_exist() {
+  for (const std::string_view rising : rising_fields<T>)
+    if (!names_member<T>(rising)) return false;
+  return instead_field<T>.empty() || names_member<T>(instead_field<T>);
 }
 template <class T, class... M>
 consteval Rows<T, sizeof...(M)> rows_of(Types<M...>) {
@@ -408,6 +423,8 @@ consteval Rows<T, sizeof...(M)> rows_of(Types<M...>) {
       const std::string_view name = FieldNames<T>::view(i);
       if (i >= appended_index<T>()) f.flags |= FULMAR_FIELD_APPENDED;
       if (is_required<T>(name)) f.flags |= FULMAR_FIELD_REQUIRED;
+      if (is_rising<T>(name)) f.flags |= FULMAR_FIELD_RISING;
+      if (!name.empty() && name == instead_field<T>) f.flags |= FULMAR_FIELD_INSTEAD;
       const bool stamp = (f.kind == FULMAR_I64 || f.kind == FULMAR_U64) && name.ends_with("_ns");
       if (exempt || !(measured[i] || stamp)) continue;
       const int unit = find_unit(name);
@@ -450,6 +467,7 @@ struct Table {
                 "the layout of this struct is unusual: no alignas, no bit fields, no C arrays");
 
   static_assert(required_exist<T>(), "required_fields names what is no field of this struct");
+  static_assert(marked_exist<T>(), "rising_fields or instead_field names what is no field of this struct");
 
   static constexpr Rows<T, count> rows = rows_of<T>(MemberTypes<T>{});
   static constexpr EveryNumberHasAUnit<T, rows.nameless, count> rule{};

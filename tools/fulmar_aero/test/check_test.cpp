@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `fulmar aero check`: each likely mistake is found, and no sound airframe has a fault.
+#include <algorithm>
+
 #include "tools/fulmar_aero/test/aero_kit.hpp"
 
 namespace check_test {
@@ -177,6 +179,69 @@ TEST_CASE("the traps of the Skywalker X8's published model are found") {
   CHECK(result["figures"]["static_margin_ratio"].get<double>() ==
         Approx(0.2524 / 4.02033).epsilon(1e-4).scale(0));
   CHECK(finding(result, "faults", "limits.airspeed_cruise").is_null());  // and it flies, without a rudder
+}
+
+TEST_CASE("the X8 has no fault, and each trap of its published coefficients has its sentence") {
+  const Answer shipped = call("check --json configs/airframes/x8.yaml");
+  CHECK_MESSAGE(shipped.code == 0, shipped.out);
+  const json result = shipped.json();
+  CHECK(result["figures"]["static_margin_ratio"].get<double>() == Approx(0.2524 / 4.0203282));
+  const auto says = [](const json& from, const char* list, const char* key, const char* what) {
+    const json found = finding(from, list, key);
+    REQUIRE_MESSAGE(!found.is_null(), key, " is not found: ", from.dump());
+    CHECK_MESSAGE(found["sentence"].get<std::string>().find(what) != std::string::npos, found.dump());
+  };
+  says(result, "warnings", "inertia", "the largest is more than the sum of the others");
+  says(result, "warnings", "aero.drag.beta", "drag is least at 1.1 deg of sideslip");
+  says(result, "warnings", "aero.yaw.rudder", "nothing controls yaw");
+  const Folder folder;
+  const std::string published = folder.write("x8.yaml", changed("x8", "q: -7.6512739", "q: -1.3012370"));
+  says(call("check --json " + published).json(), "warnings", "aero.pitch.q", "it would be -7.65");
+}
+
+TEST_CASE("the static margin counts the tables, by their slope at cruise") {
+  const Folder folder;
+  const std::string text = text_of(FULMAR_SOURCE_DIR "/configs/airframes/x8.yaml");
+  const auto with = [&](const std::string& table) {
+    std::string all = text;
+    const std::size_t at = all.find("propulsion:");
+    all.insert(at, table);
+    const Answer answer = call("check --json " + folder.write("t.yaml", all));
+    return answer.json()["figures"]["static_margin_ratio"].get<double>();
+  };
+  // cruise takes 0.03 rad of angle of attack: the first segment
+  CHECK(with("  tables:\n    - {coefficient: pitch, over: alpha, at: [-0.2, 0.1, 0.3], values: [0.03, 0, "
+             "1]}\n") == Approx((0.2524 + 0.1) / 4.0203282));
+  CHECK(with("  tables:\n    - {coefficient: lift, over: alpha, at: [-0.2, 0.1, 0.3], values: [-0.3, 0, "
+             "1]}\n") == Approx(0.2524 / (4.0203282 + 1)));
+}
+
+TEST_CASE("tables that cannot be read are refused with their line") {
+  const Folder folder;
+  const std::string text = text_of(FULMAR_SOURCE_DIR "/configs/airframes/x8.yaml");
+  const auto refused = [&](const std::string& table, const std::string& says) {
+    std::string all = text;
+    const std::size_t at = all.find("propulsion:");
+    const auto line = std::count(all.begin(), all.begin() + std::ptrdiff_t(at), '\n') + 2;
+    all.insert(at, "  tables:\n    - " + table + "\n");
+    const std::string file = folder.write("t.yaml", all);
+    const Answer answer = call("check " + file);
+    CHECK(answer.code == 4);
+    CHECK_MESSAGE(answer.says(file + ":" + std::to_string(line) + ": " + says), answer.out);
+  };
+  refused("{coefficient: pitch, over: alpha, at: [0, 0.2, 0.1], values: [1, 2, 3]}",
+          "aero.tables[0].at[2]: the list has to rise, and 0.1 comes after 0.2");
+  refused("{coefficient: pitch, over: alpha, at: [0, 0.1, 0.1], values: [1, 2, 3]}",
+          "aero.tables[0].at[2]: the list has to rise, and 0.1 is there twice");
+  refused("{coefficient: pitch, over: alpha, at: [0, 0.1], values: [1, 2, 3]}",
+          "aero.tables[0].values: there are 3, and 2 points have 2");
+  refused("{coefficient: pitch, over: alpha, at: [-5, 5], values: [1, 2]}",
+          "aero.tables[0].at: angles are in radians");
+  refused("{over: alpha, at: [0, 1]}",
+          "aero.tables[0]: this is no whole CoefficientTable, missing: coefficient, values");
+  refused("{coefficient: pitch, over: aleph, at: [0, 1], values: [1, 2]}", "aero.tables[0].over: ");
+  refused("{coefficient: pitch, over: alpha, at: [0, 1], value: [1, 2]}",
+          "aero.tables[0]: unknown field 'value' of CoefficientTable");
 }
 
 }  // namespace check_test

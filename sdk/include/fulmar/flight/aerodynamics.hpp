@@ -8,36 +8,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "fulmar/flight/more_aerodynamics.hpp"
 #include "fulmar/flight/rigid_body.hpp"
 #include "fulmar/msg/airframe.hpp"
 
 namespace fulmar {
-
-/// Deflections as they are, in radians: signs as in `Actuators`.
-template <class S>
-struct DeflectionsOf {
-  S aileron = 0, elevator = 0, rudder = 0;
-};
-using Deflections = DeflectionsOf<double>;
-
-/// Airspeed, angle of attack and sideslip of an air-relative velocity in body axes. Beard & McLain (2.8).
-template <class S>
-struct AirDataOf {
-  explicit AirDataOf(const Eigen::Vector3<S>& v_r) : Va(plain::norm<S>(v_r)) {
-    using std::sqrt, std::atan2, std::asin;
-    in_plane = sqrt(v_r.x() * v_r.x() + v_r.z() * v_r.z());
-    if (in_plane > 0) {
-      cos_alpha = v_r.x() / in_plane;
-      sin_alpha = v_r.z() / in_plane;
-      alpha = atan2(v_r.z(), v_r.x());
-    }
-    if (Va > 0) beta = asin(std::clamp(S(v_r.y() / Va), S(-1.0), S(1.0)));
-  }
-  S Va;
-  S in_plane;  ///< speed in the plane of symmetry
-  S alpha = 0, beta = 0, cos_alpha = 1, sin_alpha = 0;
-};
-using AirData = AirDataOf<double>;
 
 class Aerodynamic {
  public:
@@ -46,7 +21,12 @@ class Aerodynamic {
         aero_(a.aero),
         induced_free_(
             1 / (std::numbers::pi * a.wing.oswald_ratio * a.wing.span_m * a.wing.span_m / a.wing.area_m2)),
-        induced_(induced_free_) {}
+        induced_(induced_free_),
+        more_(has_more(a.aero)),
+        disc_m2_(propeller_disc(a.propulsion)),
+        alpha_range_(table_range(a.aero, TableVariable::alpha)),
+        beta_range_(table_range(a.aero, TableVariable::beta)),
+        over_mach_(std::isfinite(table_range(a.aero, TableVariable::mach).max)) {}
 
   /// From here on the induced drag is `part` of that in free air.
   void near_ground(double part) { induced_ = part * induced_free_; }
@@ -90,10 +70,74 @@ class Aerodynamic {
                    -D * air.sin_alpha - L * air.cos_alpha};
     out.moment_b = {wing_.span_m * sum_all(aero_.roll, qS), wing_.chord_m * sum_all(aero_.pitch, plane_qS),
                     wing_.span_m * sum_all(aero_.yaw, qS)};
+    if (more_) add_more<S>(air, sigma, d, half_rho_S, out);
     return out;
   }
 
+  /// Of elevator and rudder, so far as they stand in the slipstream of a propeller with this thrust, N. Far
+  /// behind it V^2 = Va^2 + 2 T / (rho A): Froude's momentum theory (Glauert, The Elements of Aerofoil and
+  /// Airscrew Theory, chapter XV). A braking propeller takes no more than the flow that there is.
+  template <class S>
+  void add_wash(const Eigen::Vector3<S>& v_r, const DeflectionsOf<S>& d, const S& thrust, const S& rho,
+                LoadOf<S>& load) const {
+    if (aero_.wash_frac == 0) return;
+    const AirDataOf<S> air(v_r);
+    const S q = 0.5 * rho * air.Va * air.Va;
+    const S more_qS = aero_.wash_frac * wing_.area_m2 * std::max(S(thrust / disc_m2_), S(-q));
+    add_forces<S>(
+        air, more_qS, more_qS,
+        [&](const Derivatives& c, Coefficient) -> S {
+          return c.elevator_ratio * d.elevator + c.rudder_ratio * d.rudder;
+        },
+        load);
+  }
+  bool washed() const { return aero_.wash_frac != 0; }
+
+  /// What tables over the Mach number go by; without them it says nothing.
+  bool over_mach() const { return over_mach_; }
+  void set_speed_of_sound(double mps) { sound_mps_ = mps; }
+
+  /// Where the airframe's tables end; infinite without tables.
+  const TableRange& alpha_range() const { return alpha_range_; }
+  const TableRange& beta_range() const { return beta_range_; }
+  bool beyond_tables(double alpha, double beta) const {
+    return !(alpha_range_.holds(alpha) && beta_range_.holds(beta));
+  }
+
  private:
+  /// Adds coefficients `of`(derivatives, which): those of the plane of symmetry by `plane_qS`.
+  template <class S, class Of>
+  void add_forces(const AirDataOf<S>& air, const S& plane_qS, const S& qS, Of&& of, LoadOf<S>& out) const {
+    using C = Coefficient;
+    const S L = plane_qS * of(aero_.lift, C::lift), D = plane_qS * of(aero_.drag, C::drag);
+    out.force_b.x() += -D * air.cos_alpha + L * air.sin_alpha;
+    out.force_b.y() += qS * of(aero_.side, C::side);
+    out.force_b.z() += -D * air.sin_alpha - L * air.cos_alpha;
+    out.moment_b.x() += wing_.span_m * qS * of(aero_.roll, C::roll);
+    out.moment_b.y() += wing_.chord_m * plane_qS * of(aero_.pitch, C::pitch);
+    out.moment_b.z() += wing_.span_m * qS * of(aero_.yaw, C::yaw);
+  }
+
+  /// What few airframes have: apart, so that the others do not pay for it.
+  template <class S>
+  [[gnu::noinline]] void add_more(const AirDataOf<S>& air, const S& sigma, const DeflectionsOf<S>& d,
+                                  const S& half_rho_S, LoadOf<S>& out) const {
+    const S qS = half_rho_S * air.Va * air.Va, plane_qS = half_rho_S * air.in_plane * air.in_plane;
+    const TablePoint<S> point = table_point<S>(air, d, sound_mps_);
+    add_forces<S>(
+        air, plane_qS, qS,
+        [&](const Derivatives& c, Coefficient which) -> S {
+          S sum = c.flap_ratio * d.flap;
+          for (const CoefficientTable& t : aero_.tables)
+            if (t.coefficient == which) sum += value_of<S>(t, point);
+          if (which == Coefficient::drag) sum += squared_drag<S>(aero_.drag_squared, air.beta, d);
+          if (which == Coefficient::pitch && aero_.pitch_stalled_ratio != 0)
+            sum += stalled_pitch<S>(aero_, air, sigma);
+          return sum;
+        },
+        out);
+  }
+
   template <class S>
   S separated(const S& alpha) const {
     using std::exp;
@@ -125,6 +169,11 @@ class Aerodynamic {
   Aerodynamics aero_;
   double induced_free_;  ///< 1 / (pi e AR)
   double induced_;
+  bool more_;       ///< than the derivative set
+  double disc_m2_;  ///< of the propeller
+  TableRange alpha_range_, beta_range_;
+  bool over_mach_;
+  double sound_mps_ = 340.29;  ///< at sea level
 };
 
 /// Part of the induced drag that is left `height_m` above the ground. McCormick, Aerodynamics, Aeronautics

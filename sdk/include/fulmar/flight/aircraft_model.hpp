@@ -42,19 +42,28 @@ Eigen::Vector3<S> air_velocity(double Va, const S& alpha, const S& beta) {
 
 class AircraftModel {
  public:
-  /// `altitude_m`: above mean sea level, where the state `down` is 0.
-  AircraftModel(const Airframe& a, double altitude_m)
+  /// `altitude_m`: above mean sea level, where the state `down` is 0; geopotential, where that is another
+  /// one.
+  explicit AircraftModel(const Airframe& a, double altitude_m, const AirOffset& offset = {},
+                         double gravity_mps2 = isa::g0)
       : airframe_(a),
         aero_(a),
         propeller_(a.propulsion),
         propellers_(a),
         mass_(a.mass_kg, inertia_matrix(a.inertia)),
-        altitude_m_(altitude_m) {}
+        altitude_m_(altitude_m),
+        offset_(offset),
+        gravity_mps2_(gravity_mps2) {
+    aero_.set_speed_of_sound(standard_air(altitude_m, offset).speed_of_sound_mps());
+  }
 
   const Airframe& airframe() const { return airframe_; }
   const Aerodynamic& aerodynamic() const { return aero_; }
   const Propeller& propeller() const { return propeller_; }
   const Propellers& propellers() const { return propellers_; }
+  /// Flaps are no input: they stay where they are set.
+  void set_flap(double rad) { flap_rad_ = rad; }
+  double flap_rad() const { return flap_rad_; }
   double altitude_m() const { return altitude_m_; }
 
   /// Force without gravity and moment, at propeller speed `Omega`.
@@ -63,6 +72,7 @@ class AircraftModel {
                  const S& Omega, const S& rho) const {
     LoadOf<S> load = aero_.load_of<S>(v_b, omega_b, d, rho);
     const S Va = v_b.norm();
+    if (aero_.washed()) aero_.add_wash<S>(v_b, d, propeller_.thrust_of<S>(Omega, Va, rho), rho, load);
     const LoadOf<S> push = propellers_.steady_load<S>(propeller_, Omega, d.rudder, Va, rho);
     load.force_b += push.force_b;
     load.moment_b += push.moment_b;
@@ -104,14 +114,15 @@ class AircraftModel {
   model::StateVector<S> rate(const model::StateVector<S>& x, const model::InputVector<S>& input) const {
     const S Va = x.template segment<3>(model::u).norm();
     const S Omega = propeller_.steady_speed_of<S>(input(model::throttle), Va, density(x));
-    return rate_at<S>(x, {input(model::aileron), input(model::elevator), input(model::rudder)}, Omega);
+    return rate_at<S>(x, {input(model::aileron), input(model::elevator), input(model::rudder), S(flap_rad_)},
+                      Omega);
   }
 
   template <class S>
   S density(const model::StateVector<S>& x) const {
-    return standard_air_of<S>(altitude_m_ - x(model::down)).density_kgm3;
+    return standard_air_of<S>(altitude_m_ - x(model::down), offset_).density_kgm3;
   }
-  static Eigen::Vector3d gravity() { return {0, 0, isa::g0}; }
+  Eigen::Vector3d gravity() const { return {0, 0, gravity_mps2_}; }
 
  private:
   Airframe airframe_;
@@ -120,6 +131,8 @@ class AircraftModel {
   Propellers propellers_;
   MassProperties mass_;
   double altitude_m_;
+  AirOffset offset_;
+  double gravity_mps2_, flap_rad_ = 0;
 };
 
 }  // namespace fulmar

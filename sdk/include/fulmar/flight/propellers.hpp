@@ -112,8 +112,7 @@ class Propellers {
     }
     const S all = p.throttle_for_of<S>(Omega, Va, rho);
     for (std::size_t i = 0; i < count_; ++i)
-      turn(places_[i].per_rudder == 0 ? Omega
-                                      : p.steady_speed_of<S>(throttle<S>(i, all, rudder), Va, rho),
+      turn(places_[i].per_rudder == 0 ? Omega : p.steady_speed_of<S>(throttle<S>(i, all, rudder), Va, rho),
            places_[i].spin);
     return sum;
   }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Electric motor and propeller. Source: Beard & McLain, supplement to Small Unmanned Aircraft, "Propeller
 // thrust and torque" (2nd edition 4.3): thrust and torque polynomials over the advance ratio, motor speed
-// from the balance of torques.
+// from the balance of torques. Or, where the airframe says so, the disc of the first edition (2012), section
+// 4.3, whose throttle is the propeller's speed over that at full throttle.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -11,17 +12,24 @@
 
 namespace fulmar {
 
+/// Whether there is thrust at any speed.
+inline bool has_thrust(const Propulsion& p) {
+  return p.disc.area_m2 > 0 || p.ct0_ratio != 0 || p.ct1_ratio != 0 || p.ct2_ratio != 0;
+}
+
 class Propeller {
  public:
   explicit Propeller(const Propulsion& p)
       : p_(p),
-        sag_ohm_(p.pack.resistance_ohm * std::max<double>(1, static_cast<double>(p.propellers.size()))) {}
+        sag_ohm_(p.pack.resistance_ohm * std::max<double>(1, static_cast<double>(p.propellers.size()))),
+        is_disc_(p.disc.area_m2 > 0) {}
 
   /// Thrust, N, along the body's x axis at propeller speed `Omega` (rad/s). With J = 2 pi Va / (Omega D),
   /// multiplied out: no division.
   double thrust(double Omega, double Va, double rho) const { return thrust_of<double>(Omega, Va, rho); }
   template <class S>
   S thrust_of(const S& Omega, const S& Va, const S& rho) const {
+    if (is_disc_) return disc_thrust<S>(Omega, Va, rho);
     const double D = p_.propeller_diameter_m;
     const S n = Omega / (2 * std::numbers::pi);
     return rho * D * D * (p_.ct0_ratio * D * D * n * n + p_.ct1_ratio * D * n * Va + p_.ct2_ratio * Va * Va);
@@ -31,6 +39,7 @@ class Propeller {
   double torque(double Omega, double Va, double rho) const { return torque_of<double>(Omega, Va, rho); }
   template <class S>
   S torque_of(const S& Omega, const S& Va, const S& rho) const {
+    if (is_disc_) return p_.disc.torque_ratio * Omega * Omega;
     const double D = p_.propeller_diameter_m;
     const S n = Omega / (2 * std::numbers::pi);
     return rho * D * D * D *
@@ -46,6 +55,7 @@ class Propeller {
   template <class S>
   S steady_speed_of(const S& throttle_frac, const S& Va, const S& rho) const {
     using std::sqrt, std::max;
+    if (is_disc_) return p_.disc.speed_radps * max(S(0.0), throttle_frac);
     const double D = p_.propeller_diameter_m, K = p_.torque_constant_ratio;
     const S R = resistance(throttle_frac);
     const double D3 = D * D * D, two_pi = 2 * std::numbers::pi;
@@ -62,6 +72,7 @@ class Propeller {
   }
   template <class S>
   S throttle_for_of(const S& Omega, const S& Va, const S& rho) const {
+    if (is_disc_) return Omega / p_.disc.speed_radps;
     const S amp = torque_of(Omega, Va, rho) / p_.torque_constant_ratio + p_.no_load_amp;
     const S volt = amp * p_.resistance_ohm + p_.torque_constant_ratio * Omega;
     if (sag_ohm_ <= 0) return volt / p_.battery_volt;
@@ -71,8 +82,12 @@ class Propeller {
     return 2 * volt / (p_.battery_volt + sqrt(left));
   }
 
-  /// Current through the motor, A.
+  /// Current through the motor, A. The disc has no electric side: its shaft's power at the motor's voltage.
   double current(double throttle_frac, double Omega) const {
+    if (is_disc_) {
+      const double volt = throttle_frac * p_.battery_volt;
+      return volt > 0 ? p_.disc.torque_ratio * Omega * Omega * Omega / volt : 0;
+    }
     return (throttle_frac * p_.battery_volt - p_.torque_constant_ratio * Omega) / resistance(throttle_frac);
   }
 
@@ -89,8 +104,18 @@ class Propeller {
     return p_.resistance_ohm + sag_ohm_ * throttle_frac * throttle_frac;
   }
 
+  /// rho/2 S C Vd (Vd - Va) with Vd = Va + dt (k_motor - Va), the air behind the disc. Apart, so that the
+  /// polynomials cost what they did.
+  template <class S>
+  [[gnu::noinline]] S disc_thrust(const S& Omega, const S& Va, const S& rho) const {
+    const DiscMotor& disc = p_.disc;
+    const S faster = Omega / disc.speed_radps * (disc.exit_speed_mps - Va);
+    return 0.5 * rho * disc.area_m2 * disc.efficiency_ratio * (Va + faster) * faster;
+  }
+
   Propulsion p_;
   double sag_ohm_;
+  bool is_disc_;
 };
 
 }  // namespace fulmar

@@ -14,6 +14,7 @@
 #include "fulmar/flight/aircraft_model.hpp"
 #include "fulmar/flight/dual.hpp"
 #include "fulmar/flight/mixer.hpp"
+#include "fulmar/flight/trim.hpp"
 
 namespace fulmar {
 
@@ -58,6 +59,14 @@ struct SteadyFlight {
   }
 };
 
+/// Of the pitching moment, what tables say at an angle of attack, all else 0.
+inline double tables_at(const Airframe& a, double alpha) {
+  double sum = 0;
+  for (const CoefficientTable& t : a.aero.tables)
+    if (t.coefficient == Coefficient::pitch) sum += value_of<double>(t, {0, alpha, 0, 0, 0, 0, 0});
+  return sum;
+}
+
 /// The most that the wing carries, with the elevator holding the pitching moment: CL and its angle of attack.
 struct MostLift {
   double coefficient = 0, alpha_rad = 0;
@@ -69,10 +78,11 @@ inline MostLift most_lift(const Airframe& a) {
   for (double alpha = 0; alpha < std::min(a.wing.stall_alpha_rad + 0.1, 1.0); alpha += 1e-3) {
     const Load load =
         aero.load({std::cos(alpha), 0, std::sin(alpha)}, Eigen::Vector3d::Zero(), {}, 2 / a.wing.area_m2);
-    const double elevator = M.elevator_ratio != 0
-                                ? std::clamp(-(M.zero_ratio + M.alpha_ratio * alpha) / M.elevator_ratio,
-                                             -a.elevator.limit_rad, a.elevator.limit_rad)
-                                : 0;
+    const double elevator =
+        M.elevator_ratio != 0
+            ? std::clamp(-(M.zero_ratio + M.alpha_ratio * alpha + tables_at(a, alpha)) / M.elevator_ratio,
+                         -a.elevator.limit_rad, a.elevator.limit_rad)
+            : 0;
     const double CL =
         load.force_b.x() * std::sin(alpha) - load.force_b.z() * std::cos(alpha) + L.elevator_ratio * elevator;
     if (CL > most.coefficient) most = {CL, alpha};
@@ -92,12 +102,6 @@ class SteadyEquations {
 
   SteadyEquations(const AircraftModel& m, const SteadyCondition& c)
       : model_(m), condition_(c), has_rudder_(rudder_acts(m.airframe())) {}
-
-  /// Without one sideslip or bank is left to what remains.
-  static bool rudder_acts(const Airframe& a) {
-    return std::abs(a.aero.yaw.rudder_ratio) > 1e-9 || std::abs(a.aero.side.rudder_ratio) > 1e-9 ||
-           Propellers(a).differential();
-  }
 
   template <class S>
   model::StateVector<S> state(const Vector<S>& z) const {
@@ -122,14 +126,14 @@ class SteadyEquations {
   template <class S>
   Vector<S> residual(const Vector<S>& z) const {
     const model::StateVector<S> x = state(z);
-    const DeflectionsOf<S> d{z(aileron), z(elevator), z(rudder)};
+    const DeflectionsOf<S> d{z(aileron), z(elevator), z(rudder), S(model_.flap_rad())};
     const S Omega = propeller_scale * z(propeller);
     const model::StateVector<S> rate = model_.rate_at<S>(x, d, Omega);
     Vector<S> r;
     r.template head<3>() = rate.template segment<3>(model::u);
     r.template segment<3>(3) = rate.template segment<3>(model::p);
     r(6) = turning(z);
-    r(7) = balance(z, x, d);
+    r(7) = balance(z, x, d, Omega);
     return r;
   }
 
@@ -141,12 +145,13 @@ class SteadyEquations {
     return z(turn) - condition_.airspeed_mps * std::cos(condition_.climb_rad) / condition_.turn_by;
   }
   template <class S>
-  S balance(const Vector<S>& z, const model::StateVector<S>& x, const DeflectionsOf<S>& d) const {
+  S balance(const Vector<S>& z, const model::StateVector<S>& x, const DeflectionsOf<S>& d,
+            const S& Omega) const {
     if (!has_rudder_) return z(rudder);
     if (condition_.no_sideslip) return z(beta);
     if (condition_.turn == Turn::none) return z(bank);
-    const LoadOf<S> load = model_.aerodynamic().load_of<S>(
-        x.template segment<3>(model::u), x.template segment<3>(model::p), d, model_.density(x));
+    const LoadOf<S> load = model_.load<S>(x.template segment<3>(model::u), x.template segment<3>(model::p), d,
+                                          Omega, model_.density(x));
     return load.force_b.y() / model_.airframe().mass_kg;
   }
 
@@ -180,11 +185,15 @@ inline double solve_steady(const SteadyEquations& equations, SteadyEquations::Ve
   return left;
 }
 
+inline double density_of(const AircraftModel& m) {
+  return m.density<double>(model::StateVector<double>::Zero());
+}
+
 /// A first guess: lift carries the weight of the turn, the elevator holds the moment.
 inline SteadyEquations::Vector<double> steady_guess(const AircraftModel& m, const SteadyCondition& c) {
   using E = SteadyEquations;
   const Airframe& a = m.airframe();
-  const double Va = c.airspeed_mps, rho = standard_air(m.altitude_m()).density_kgm3;
+  const double Va = c.airspeed_mps, rho = density_of(m);
   const double phi = c.turn == Turn::bank     ? c.turn_by
                      : c.turn == Turn::radius ? std::atan(Va * Va / (isa::g0 * c.turn_by))
                                               : 0;
@@ -193,7 +202,9 @@ inline SteadyEquations::Vector<double> steady_guess(const AircraftModel& m, cons
   const double slope = L.alpha_ratio > 0.1 ? L.alpha_ratio : 5;
   E::Vector<double> z = E::Vector<double>::Zero();
   z(E::alpha) = std::clamp((CL - L.zero_ratio) / slope, -0.1, 0.8 * a.wing.stall_alpha_rad);
-  z(E::elevator) = std::clamp(-(M.zero_ratio + M.alpha_ratio * z(E::alpha)) / M.elevator_ratio, -0.5, 0.5);
+  z(E::elevator) =
+      std::clamp(-(M.zero_ratio + M.alpha_ratio * z(E::alpha) + tables_at(a, z(E::alpha))) / M.elevator_ratio,
+                 -0.5, 0.5);
   z(E::propeller) = m.propeller().steady_speed(0.6, Va, rho) / E::propeller_scale;
   z(E::bank) = phi;
   z(E::turn) = isa::g0 * std::tan(phi) / Va;
@@ -246,8 +257,7 @@ inline TrimLimit trim_limit(const AircraftModel& m, const SteadyFlight& f) {
 inline TrimLimit missing_part(const Airframe& a) {
   if (std::abs(a.aero.roll.aileron_ratio) < 1e-9) return TrimLimit::no_aileron;
   if (std::abs(a.aero.pitch.elevator_ratio) < 1e-9) return TrimLimit::no_elevator;
-  const Propulsion& p = a.propulsion;
-  return p.ct0_ratio == 0 && p.ct1_ratio == 0 && p.ct2_ratio == 0 ? TrimLimit::no_thrust : TrimLimit::none;
+  return has_thrust(a.propulsion) ? TrimLimit::none : TrimLimit::no_thrust;
 }
 
 inline SteadyFlight filled(const AircraftModel& m, const SteadyCondition& c,
@@ -256,7 +266,7 @@ inline SteadyFlight filled(const AircraftModel& m, const SteadyCondition& c,
   SteadyFlight f;
   f.condition = c;
   f.residual = left;
-  f.density_kgm3 = standard_air(m.altitude_m()).density_kgm3;
+  f.density_kgm3 = density_of(m);
   f.x = E(m, c).state(z);
   f.alpha_rad = z(E::alpha);
   f.beta_rad = z(E::beta);

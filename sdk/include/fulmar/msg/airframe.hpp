@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "fulmar/message.hpp"
+#include "fulmar/msg/aero_data.hpp"
 #include "fulmar/msg/gear.hpp"
 #include "fulmar/msg/propulsion_parts.hpp"
 
@@ -27,6 +28,7 @@ struct Derivatives {
   double zero_ratio = 0, alpha_ratio = 0, beta_ratio = 0;
   double p_ratio = 0, q_ratio = 0, r_ratio = 0;
   double aileron_ratio = 0, elevator_ratio = 0, rudder_ratio = 0;
+  double flap_ratio = 0;
 };
 
 /// Beard & McLain, chapter 4. Drag: parasite + induced CL^2/(pi e AR) + all terms of `drag`; an airframe with
@@ -35,10 +37,25 @@ struct Aerodynamics {
   double parasite_drag_ratio = 0;  ///< C_D_p
   Derivatives lift, drag, side;    ///< CL, CD, CY
   Derivatives roll, pitch, yaw;    ///< Cl, Cm, Cn
+  DragSquared drag_squared;
+  /// Cm_fp: with separated flow Cm is this sign(alpha) sin^2(alpha). 0: the derivatives go on there.
+  double pitch_stalled_ratio = 0;
+  double wash_frac = 0;  ///< of elevator and rudder, that stands in the propeller's slipstream
+  List<CoefficientTable, 8> tables;
+};
+
+/// Motor and propeller as a disc, Beard & McLain, Small Unmanned Aircraft (2012), section 4.3. Air leaves it
+/// at Va + throttle (exit speed - Va).
+struct DiscMotor {
+  double area_m2 = 0;           ///< S_prop; 0: there is none
+  double efficiency_ratio = 1;  ///< C_prop
+  double exit_speed_mps = 0;    ///< k_motor, at full throttle
+  double torque_ratio = 0;      ///< k_T_P, N m s^2: torque over the square of the propeller's speed
+  double speed_radps = 1;       ///< k_Omega: of the propeller at full throttle
 };
 
 /// Electric motor and propeller, Beard & McLain, supplement to chapter 4: thrust and torque over the advance
-/// ratio.
+/// ratio. With `disc` that model counts in place of it.
 struct Propulsion {
   double propeller_diameter_m = 0.3;
   double ct0_ratio = 0, ct1_ratio = 0, ct2_ratio = 0;  ///< thrust coefficient: CT0 + CT1 J + CT2 J^2
@@ -53,6 +70,7 @@ struct Propulsion {
   double propeller_inertia_kgm2 = 0;
   List<PropellerPlace, 8> propellers;  ///< each with a motor of its own; empty: one, on the x axis
   Battery pack;                        ///< what its battery loses; `battery_volt` is its voltage when full
+  DiscMotor disc;
 };
 
 /// One control surface: how far it moves, how its servo follows, and what hardware needs to drive it.
@@ -95,6 +113,7 @@ struct Airframe {
   Mixer mixer = Mixer::conventional;
   FlightLimits limits;
   Gear gear;
+  Surface flap;  ///< in the air only where some coefficient has a derivative over it
 };
 
 /// What no aircraft is without: its defaults would fly as some other one.
@@ -112,6 +131,11 @@ inline constexpr std::array<std::string_view, 1> required_fields<Derivatives>{"a
 template <>
 inline constexpr std::array<std::string_view, 1> required_fields<Propulsion>{"ct0_ratio"};
 template <>
+inline constexpr std::string_view instead_field<Propulsion>{"disc"};
+template <>
+inline constexpr std::array<std::string_view, 3> required_fields<DiscMotor>{"area_m2", "exit_speed_mps",
+                                                                            "speed_radps"};
+template <>
 inline constexpr std::array<std::string_view, 1> required_fields<Surface>{"limit_rad"};
 
 /// From an insect to an airliner: what lies outside is a slip of sign or unit.
@@ -123,6 +147,11 @@ inline constexpr std::array<FieldRange, 3> field_ranges<Inertia>{
 template <>
 inline constexpr std::array<FieldRange, 3> field_ranges<Wing>{
     {{"area_m2", 1e-4, 1e4}, {"span_m", 1e-2, 1e3}, {"chord_m", 1e-3, 1e2}}};
+template <>
+inline constexpr std::array<FieldRange, 1> field_ranges<Aerodynamics>{{{"wash_frac", 0, 1}}};
+template <>
+inline constexpr std::array<FieldRange, 3> field_ranges<DiscMotor>{
+    {{"area_m2", 1e-6, 1e3}, {"exit_speed_mps", 1e-3, 1e3}, {"speed_radps", 1e-3, 1e5}}};
 template <>
 inline constexpr std::array<FieldRange, 1> field_ranges<Propulsion>{{{"propeller_inertia_kgm2", 0, 1e4}}};
 template <>

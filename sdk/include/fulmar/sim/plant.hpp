@@ -55,6 +55,8 @@ class Plant {
         ground_(a, earth.terrain.friction_ratio),
         disturbances_(weather, seed),
         surfaces_(a),
+        flap_(a.flap),
+        has_flaps_(has_flaps(a.aero)),
         weather_(weather),
         origin_altitude_m_(origin_altitude_m),
         earth_(earth),
@@ -88,6 +90,7 @@ class Plant {
     x_.p_n = p_n;
     x_.q_nb = Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()) *
               Eigen::AngleAxisd(trim.pitch_rad, Eigen::Vector3d::UnitY());
+    if (trim.roll_rad != 0) x_.q_nb = x_.q_nb * Eigen::AngleAxisd(trim.roll_rad, Eigen::Vector3d::UnitX());
     const Eigen::Vector3d v_r(Va * std::cos(trim.alpha_rad) * std::cos(trim.beta_rad),
                               Va * std::sin(trim.beta_rad),
                               Va * std::sin(trim.alpha_rad) * std::cos(trim.beta_rad));
@@ -118,7 +121,8 @@ class Plant {
     for (Stage& stage : stage_) {
       surfaces_.advance(told, 0.5 * dt);
       Omega_ = Omega_steady + (Omega_ - Omega_steady) * motor_decay(0.5 * dt);
-      stage = {surfaces_.deflections(), Omega_};
+      if (has_flaps_) flap_.advance(flap_command_, 0.5 * dt);
+      stage = {deflections(), Omega_};
     }
     if (propellers_.differential()) turn_motors(command, power, dt);
     if (propeller_.inertia_kgm2() > 0) spin_up(Omega_before, Omega_steady, dt);
@@ -160,11 +164,15 @@ class Plant {
   void suffer(const Fault& aileron, const Fault& elevator, const Fault& rudder) {
     surfaces_.suffer(aileron, elevator, rudder);
   }
-  /// With ice on it; mass and trim stay.
+  /// With ice on it, or changed by hand; mass and trim stay.
   void set_aerodynamics(const Airframe& a) {
     aero_ = Aerodynamic(a);
+    has_flaps_ = has_flaps(a.aero);
+    aero_.set_speed_of_sound(air_.speed_of_sound_mps());
     feel_ground();
   }
+  /// Where the flaps are to go, rad; they get there by their servo.
+  void set_flap(double rad) { flap_command_ = rad; }
   /// A discrete gust begins here.
   void fire(const GustSpec& gust) { disturbances_.fire(gust); }
 
@@ -188,7 +196,11 @@ class Plant {
   Eigen::Vector3d air_velocity_b() const { return relative(seen()); }
   /// By north, east and down at the aircraft's own place.
   Eigen::Vector3d wind_n() const { return steady_wind(seen()) + seen().q_nb * gust_b_; }
-  Deflections deflections() const { return surfaces_.deflections(); }
+  Deflections deflections() const {
+    Deflections d = surfaces_.deflections();
+    d.flap = flap_.angle();
+    return d;
+  }
   /// Of the surfaces themselves, in the places of `mixer.hpp`.
   Deflections servos() const { return surfaces_.servos(); }
   /// Of those without a share of the rudder, which all turn alike.
@@ -217,7 +229,8 @@ class Plant {
   struct Stage {
     Deflections deflections;
     double Omega = 0;
-    Eigen::Vector3d spin_up_nm = Eigen::Vector3d::Zero();  ///< what the propellers' gain takes from the airframe
+    Eigen::Vector3d spin_up_nm =
+        Eigen::Vector3d::Zero();  ///< what the propellers' gain takes from the airframe
   };
 
   static Eigen::Matrix3d inertia(const Airframe& a) {
@@ -263,8 +276,8 @@ class Plant {
   /// aircraft and its propellers.
   [[gnu::noinline]] void add_spin(const Stage& s, std::size_t i, const Eigen::Vector3d& omega_b,
                                   Load& load) const {
-    const Eigen::Vector3d spin =
-        propellers_.differential() ? motors_.spin(propellers_, i) : Eigen::Vector3d(s.Omega * propellers_.spin());
+    const Eigen::Vector3d spin = propellers_.differential() ? motors_.spin(propellers_, i)
+                                                            : Eigen::Vector3d(s.Omega * propellers_.spin());
     load.moment_b -= s.spin_up_nm + omega_b.cross(propeller_.inertia_kgm2() * spin);
   }
 
@@ -340,6 +353,8 @@ class Plant {
     const double rho = air_.density_kgm3;
     Load load = aero_.load(v_r, x.omega_b, s.deflections, rho);
     const double Va = plain::norm<double>(v_r);
+    if (aero_.washed())
+      aero_.add_wash<double>(v_r, s.deflections, propeller_.thrust(s.Omega, Va, rho), rho, load);
     if (propellers_.differential())
       motors_.add_load(propellers_, propeller_, i, Va, rho, load);
     else
@@ -367,6 +382,7 @@ class Plant {
     g_n_ =
         turns() ? turning_.free_acceleration(x_.p_n, x_.v_n) : Eigen::Vector3d(0, 0, gravity_at(altitude_m));
     air_ = air_at(altitude_m);
+    if (aero_.over_mach()) aero_.set_speed_of_sound(air_.speed_of_sound_mps());
     Va_ = plain::norm<double>(relative(seen()));
     feel_ground();
     load_ = load_seen(seen(), {deflections(), Omega_}, 1);
@@ -383,6 +399,9 @@ class Plant {
   Ground ground_;
   Disturbances disturbances_;
   Surfaces surfaces_;
+  Drive flap_;
+  bool has_flaps_;
+  double flap_command_ = 0;
   Weather weather_;
   double origin_altitude_m_;
   Earth earth_;

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The derivative set as live parameters: what is added to the airframe's, so that the model can be changed in
+// flight. All 0: the airframe as its file has it.
+#pragma once
+#include <array>
+
+#include "fulmar/msg/airframe.hpp"
+#include "fulmar/plugin.hpp"
+
+namespace fulmar::sim {
+
+struct ModelParams {
+  Param add_parasite_drag{0, "", -1, 1, "to CD_p of the airframe"};
+  Param add_lift_zero{0, "", -5, 5, "to CL_0"};
+  Param add_lift_alpha{0, "", -50, 50, "to CL_alpha"};
+  Param add_lift_beta{0, "", -50, 50, "to CL_beta"};
+  Param add_lift_p{0, "", -200, 200, "to CL_p"};
+  Param add_lift_q{0, "", -200, 200, "to CL_q"};
+  Param add_lift_r{0, "", -200, 200, "to CL_r"};
+  Param add_lift_aileron{0, "", -10, 10, "to CL_da"};
+  Param add_lift_elevator{0, "", -10, 10, "to CL_de"};
+  Param add_lift_rudder{0, "", -10, 10, "to CL_dr"};
+  Param add_lift_flap{0, "", -10, 10, "to CL_df"};
+  Param add_drag_zero{0, "", -5, 5, "to CD_0"};
+  Param add_drag_alpha{0, "", -50, 50, "to CD_alpha"};
+  Param add_drag_beta{0, "", -50, 50, "to CD_beta"};
+  Param add_drag_p{0, "", -200, 200, "to CD_p"};
+  Param add_drag_q{0, "", -200, 200, "to CD_q"};
+  Param add_drag_r{0, "", -200, 200, "to CD_r"};
+  Param add_drag_aileron{0, "", -10, 10, "to CD_da"};
+  Param add_drag_elevator{0, "", -10, 10, "to CD_de"};
+  Param add_drag_rudder{0, "", -10, 10, "to CD_dr"};
+  Param add_drag_flap{0, "", -10, 10, "to CD_df"};
+  Param add_side_zero{0, "", -5, 5, "to CY_0"};
+  Param add_side_alpha{0, "", -50, 50, "to CY_alpha"};
+  Param add_side_beta{0, "", -50, 50, "to CY_beta"};
+  Param add_side_p{0, "", -200, 200, "to CY_p"};
+  Param add_side_q{0, "", -200, 200, "to CY_q"};
+  Param add_side_r{0, "", -200, 200, "to CY_r"};
+  Param add_side_aileron{0, "", -10, 10, "to CY_da"};
+  Param add_side_elevator{0, "", -10, 10, "to CY_de"};
+  Param add_side_rudder{0, "", -10, 10, "to CY_dr"};
+  Param add_side_flap{0, "", -10, 10, "to CY_df"};
+  Param add_roll_zero{0, "", -5, 5, "to Cl_0"};
+  Param add_roll_alpha{0, "", -50, 50, "to Cl_alpha"};
+  Param add_roll_beta{0, "", -50, 50, "to Cl_beta"};
+  Param add_roll_p{0, "", -200, 200, "to Cl_p"};
+  Param add_roll_q{0, "", -200, 200, "to Cl_q"};
+  Param add_roll_r{0, "", -200, 200, "to Cl_r"};
+  Param add_roll_aileron{0, "", -10, 10, "to Cl_da"};
+  Param add_roll_elevator{0, "", -10, 10, "to Cl_de"};
+  Param add_roll_rudder{0, "", -10, 10, "to Cl_dr"};
+  Param add_roll_flap{0, "", -10, 10, "to Cl_df"};
+  Param add_pitch_zero{0, "", -5, 5, "to Cm_0"};
+  Param add_pitch_alpha{0, "", -50, 50, "to Cm_alpha"};
+  Param add_pitch_beta{0, "", -50, 50, "to Cm_beta"};
+  Param add_pitch_p{0, "", -200, 200, "to Cm_p"};
+  Param add_pitch_q{0, "", -200, 200, "to Cm_q"};
+  Param add_pitch_r{0, "", -200, 200, "to Cm_r"};
+  Param add_pitch_aileron{0, "", -10, 10, "to Cm_da"};
+  Param add_pitch_elevator{0, "", -10, 10, "to Cm_de"};
+  Param add_pitch_rudder{0, "", -10, 10, "to Cm_dr"};
+  Param add_pitch_flap{0, "", -10, 10, "to Cm_df"};
+  Param add_yaw_zero{0, "", -5, 5, "to Cn_0"};
+  Param add_yaw_alpha{0, "", -50, 50, "to Cn_alpha"};
+  Param add_yaw_beta{0, "", -50, 50, "to Cn_beta"};
+  Param add_yaw_p{0, "", -200, 200, "to Cn_p"};
+  Param add_yaw_q{0, "", -200, 200, "to Cn_q"};
+  Param add_yaw_r{0, "", -200, 200, "to Cn_r"};
+  Param add_yaw_aileron{0, "", -10, 10, "to Cn_da"};
+  Param add_yaw_elevator{0, "", -10, 10, "to Cn_de"};
+  Param add_yaw_rudder{0, "", -10, 10, "to Cn_dr"};
+  Param add_yaw_flap{0, "", -10, 10, "to Cn_df"};
+};
+
+/// What a group of ten of them is added to.
+struct ModelAddition {
+  Derivatives Aerodynamics::*to;
+  std::array<double, 10> add;
+};
+inline std::array<ModelAddition, 6> additions(const ModelParams& p) {
+  using A = Aerodynamics;
+  return {{
+      {&A::lift,
+       {p.add_lift_zero, p.add_lift_alpha, p.add_lift_beta, p.add_lift_p, p.add_lift_q, p.add_lift_r,
+        p.add_lift_aileron, p.add_lift_elevator, p.add_lift_rudder, p.add_lift_flap}},
+      {&A::drag,
+       {p.add_drag_zero, p.add_drag_alpha, p.add_drag_beta, p.add_drag_p, p.add_drag_q, p.add_drag_r,
+        p.add_drag_aileron, p.add_drag_elevator, p.add_drag_rudder, p.add_drag_flap}},
+      {&A::side,
+       {p.add_side_zero, p.add_side_alpha, p.add_side_beta, p.add_side_p, p.add_side_q, p.add_side_r,
+        p.add_side_aileron, p.add_side_elevator, p.add_side_rudder, p.add_side_flap}},
+      {&A::roll,
+       {p.add_roll_zero, p.add_roll_alpha, p.add_roll_beta, p.add_roll_p, p.add_roll_q, p.add_roll_r,
+        p.add_roll_aileron, p.add_roll_elevator, p.add_roll_rudder, p.add_roll_flap}},
+      {&A::pitch,
+       {p.add_pitch_zero, p.add_pitch_alpha, p.add_pitch_beta, p.add_pitch_p, p.add_pitch_q, p.add_pitch_r,
+        p.add_pitch_aileron, p.add_pitch_elevator, p.add_pitch_rudder, p.add_pitch_flap}},
+      {&A::yaw,
+       {p.add_yaw_zero, p.add_yaw_alpha, p.add_yaw_beta, p.add_yaw_p, p.add_yaw_q, p.add_yaw_r,
+        p.add_yaw_aileron, p.add_yaw_elevator, p.add_yaw_rudder, p.add_yaw_flap}},
+  }};
+}
+
+/// Puts the airframe's derivatives with what is added into `a`, a copy of `file` that may hold other
+/// additions. True when it changes.
+inline bool add_to(const Airframe& file, const ModelParams& p, Airframe& a) {
+  using D = Derivatives;
+  constexpr std::array<double D::*, 10> names{
+      &D::zero_ratio, &D::alpha_ratio,   &D::beta_ratio,     &D::p_ratio,      &D::q_ratio,
+      &D::r_ratio,    &D::aileron_ratio, &D::elevator_ratio, &D::rudder_ratio, &D::flap_ratio};
+  bool changed = false;
+  const auto put = [&](double& at, double value) {
+    changed = changed || at != value;
+    at = value;
+  };
+  put(a.aero.parasite_drag_ratio, file.aero.parasite_drag_ratio + p.add_parasite_drag);
+  for (const ModelAddition& one : additions(p))
+    for (std::size_t i = 0; i < names.size(); ++i)
+      put(a.aero.*(one.to).*(names[i]), file.aero.*(one.to).*(names[i]) + one.add[i]);
+  return changed;
+}
+
+}  // namespace fulmar::sim

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The X8 flies hands-off, and a model is changed in flight.
+#include <doctest/doctest.h>
+
+#include "fly.hpp"
+#include "fulmar/flight/attitude.hpp"
+
+namespace x8_test {
+
+using namespace fulmar;
+using namespace fulmar::sim;
+using doctest::Approx;
+
+namespace {
+
+constexpr double origin_m = 1387;
+
+std::unique_ptr<Bench<Aircraft>> airborne(const Airframe& a, double height) {
+  auto b = std::make_unique<Bench<Aircraft>>(1);
+  b->params.airframe.value = a;
+  b->params.start_height.value = height;
+  b->params.sensors.value = SensorSet::perfect;
+  b->params.settle.value = 0;
+  arm(*b);
+  return b;
+}
+
+Actuators held(const Airframe& a, double height) {
+  const Trim t =
+      trimmed_flight(a, a.limits.airspeed_cruise_mps, standard_air(origin_m + height).density_kgm3);
+  REQUIRE(t.found);
+  return {t.throttle_frac, t.deflections.aileron, t.deflections.elevator, t.deflections.rudder};
+}
+
+void fly(Bench<Aircraft>& b, const Actuators& u, double seconds) {
+  for (int i = 0; i < std::lround(400 * seconds); ++i) pass(b, &u);
+}
+
+}  // namespace
+
+TEST_CASE("the X8 flies hands-off for a minute, trimmed and after a push") {
+  const Airframe a = test::airframe_file("x8");
+  const auto b = airborne(a, 200);
+  const Actuators u = held(a, 200);
+  fly(*b, u, 60);
+  const Plant& plant = b->component().plant();
+  CHECK(std::abs(-plant.state().p_n.z() - 200) < 0.1);
+  CHECK(plant.air_velocity_b().norm() == Approx(18).epsilon(1e-4));
+  CHECK(std::abs(euler_from(plant.state().q_nb).roll_rad) < 1e-3);
+  CHECK(plant.state().omega_b.norm() < 1e-4);
+
+  const auto pushed = airborne(a, 200);
+  Actuators push = u;
+  push.elevator_rad -= 0.05;
+  push.aileron_rad += 0.05;
+  fly(*pushed, push, 1);
+  CHECK(std::abs(euler_from(pushed->component().plant().state().q_nb).roll_rad) > 0.1);
+  double least = 1e9, most_roll = 0;
+  for (int s = 0; s < 60; ++s) {
+    fly(*pushed, u, 1);
+    const Plant& p = pushed->component().plant();
+    least = std::min(least, -p.state().p_n.z());
+    most_roll = std::max(most_roll, std::abs(euler_from(p.state().q_nb).roll_rad));
+    CHECK(p.air_velocity_b().norm() > 10);
+    CHECK(p.air_velocity_b().norm() < 30);
+  }
+  CHECK(least > 100);
+  CHECK(most_roll < 1);
+}
+
+TEST_CASE("a derivative that is added in flight changes the response as the linear model says, and back") {
+  const Airframe a = anaconda();
+  const auto b = airborne(a, 200);
+  const Actuators u = held(a, 200);
+  fly(*b, u, 0.1);
+  const double qS = 0.5 * standard_air(origin_m + 200).density_kgm3 * 17 * 17 * a.wing.area_m2;
+  const auto pitch_rate = [&] { return b->component().plant().state().omega_b.y(); };
+  CHECK(std::abs(pitch_rate()) < 1e-5);
+  b->params.model.add_pitch_zero.value = 0.01;
+  pass(*b, &u);
+  pass(*b, &u);
+  // two steps are short against every mode: q = M t / Iyy
+  const double expected = 0.01 * qS * a.wing.chord_m / a.inertia.yy_kgm2 * 0.0025;
+  const double after = pitch_rate();
+  CHECK(after > 0.9 * expected);
+  CHECK(after < 2.1 * expected);
+  b->params.model.add_pitch_zero.value = 0;
+  fly(*b, u, 0.1);
+  CHECK(b->component().plant().aerodynamic().stall(0) >= 0);
+  b->params.model.add_roll_aileron.value = -2 * a.aero.roll.aileron_ratio;  // ailerons the other way round
+  Actuators right = u;
+  right.aileron_rad += 0.1;
+  fly(*b, right, 0.3);
+  CHECK(b->component().plant().state().omega_b.x() < -0.1);
+}
+
+TEST_CASE("what is added from the start flies from the start, and ice comes on top of it") {
+  Airframe doubled = anaconda();
+  doubled.aero.parasite_drag_ratio *= 2;
+  const auto by_file = airborne(doubled, 200), by_parameter = airborne(anaconda(), 200);
+  by_parameter->params.model.add_parasite_drag.value = anaconda().aero.parasite_drag_ratio;
+  for (const auto* b : {&by_file, &by_parameter}) (*b)->params.faults.body_that_fails.icing_rate.value = 0.2;
+  const Actuators u = held(anaconda(), 200);
+  // the start is trimmed for the file's drag: both begin without motor difference after a while
+  fly(*by_file, u, 20);
+  fly(*by_parameter, u, 20);
+  CHECK(by_file->component().plant().air_velocity_b().norm() ==
+        Approx(by_parameter->component().plant().air_velocity_b().norm()).epsilon(0.02));
+  const auto clean = airborne(anaconda(), 200);
+  fly(*clean, u, 20);
+  CHECK(std::abs(clean->component().plant().state().p_n.z() -
+                 by_parameter->component().plant().state().p_n.z()) > 10);
+}
+
+TEST_CASE("flaps go where they are told, stay there, and are in when nobody speaks") {
+  Airframe a = anaconda();
+  a.aero.lift.flap_ratio = 0.5;
+  a.aero.drag.flap_ratio = 0.05;
+  a.flap.limit_rad = 0.6;
+  const auto b = airborne(a, 200);
+  const Actuators u = held(a, 200);
+  fly(*b, u, 1);
+  CHECK(b->component().plant().deflections().flap == 0);
+  const double before = b->component().plant().specific_force().z();
+  b->set(b->in.flaps, Flaps{0.3});
+  fly(*b, u, 0.1);
+  CHECK(b->component().plant().deflections().flap == Approx(0.3).epsilon(0.02));
+  CHECK(b->component().plant().specific_force().z() < before - 2);  // lift: up is negative
+  fly(*b, u, 2);
+  CHECK(b->component().plant().deflections().flap == Approx(0.3));
+  b->set(b->in.flaps, Flaps{5});
+  fly(*b, u, 1);
+  CHECK(b->component().plant().deflections().flap == Approx(0.6));
+  b->set(b->in.flaps, Flaps{std::numeric_limits<double>::quiet_NaN()});
+  fly(*b, u, 1);
+  CHECK(std::abs(b->component().plant().deflections().flap) < 1e-6);
+}
+
+TEST_CASE("tables that cannot be read are refused by their place") {
+  Airframe a = anaconda();
+  CoefficientTable t;
+  t.at_ratio.push_back(0);
+  a.aero.tables.push_back(t);
+  const auto b = airborne(a, 200);
+  CHECK_THROWS_WITH(pass(*b), doctest::Contains("airframe.aero.tables[0].values: there are 0"));
+}
+
+}  // namespace x8_test

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Look-up tables of an airframe: parts of its coefficients over angle of attack, sideslip, Mach number or
+// deflections.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+
+#include "fulmar/msg/airframe.hpp"
+
+namespace fulmar {
+
+/// The values that tables are over, each at the place of its variable; the first one is of none.
+template <class S>
+using TablePoint = std::array<S, 7>;
+
+namespace detail {
+
+/// Where x lies between two points of an axis: the lower one, and the part of the way to the next. Beyond the
+/// ends the end, without a slope.
+template <class S>
+struct Between {
+  std::size_t low = 0;
+  S part = 0;
+};
+template <class S, std::size_t N>
+Between<S> between(const List<double, N>& at, const S& x) {
+  if (at.size() < 2 || !(x > at[0])) return {};
+  const std::size_t last = at.size() - 1;
+  if (!(x < at[last])) return {last - 1, S(1.0)};
+  std::size_t low = 0;
+  while (x >= at[low + 1]) ++low;
+  return {low, (x - at[low]) / (at[low + 1] - at[low])};
+}
+
+template <class S>
+S straight(const S& part, double from, double to) {
+  return from + part * (to - from);
+}
+
+}  // namespace detail
+
+/// Linear or bilinear. The derivative is that of the segment in which the point lies, of the upper one at a
+/// point of the table.
+template <class S>
+S value_of(const CoefficientTable& t, const TablePoint<S>& point) {
+  const auto row = detail::between(t.at_ratio, point[std::size_t(t.over)]);
+  const bool more_rows = t.at_ratio.size() > 1;
+  if (t.and_over == TableVariable::none)
+    return detail::straight(row.part, t.values_ratio[row.low], t.values_ratio[row.low + more_rows]);
+  const auto column = detail::between(t.and_at_ratio, point[std::size_t(t.and_over)]);
+  const std::size_t columns = t.and_at_ratio.size(), first = row.low * columns + column.low;
+  const std::size_t next_column = columns > 1, next_row = more_rows ? columns : 0;
+  const auto along = [&](std::size_t at) {
+    return detail::straight(column.part, t.values_ratio[at], t.values_ratio[at + next_column]);
+  };
+  const S here = along(first);
+  return here + row.part * (along(first + next_row) - here);
+}
+
+/// From where to where tables reach; infinite where none is over the variable.
+struct TableRange {
+  double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
+  bool holds(double x) const { return x >= min && x <= max; }
+};
+/// The widest of the tables over this variable.
+inline TableRange table_range(const Aerodynamics& aero, TableVariable of) {
+  TableRange range;
+  bool any = false;
+  const auto widen = [&](const auto& at) {
+    if (at.empty()) return;
+    range.min = any ? std::min(range.min, at[0]) : at[0];
+    range.max = any ? std::max(range.max, at[at.size() - 1]) : at[at.size() - 1];
+    any = true;
+  };
+  for (const CoefficientTable& t : aero.tables) {
+    if (t.over == of) widen(t.at_ratio);
+    if (t.and_over == of) widen(t.and_at_ratio);
+  }
+  return range;
+}
+
+/// What is wrong with a table that is read: "values: ...", or "" when nothing is.
+inline std::string table_fault(const CoefficientTable& t) {
+  const auto beyond = [](TableVariable over, const auto& at) {
+    return over != TableVariable::mach && !at.empty() &&
+           std::max(std::abs(at[0]), std::abs(at[at.size() - 1])) > 3.2;
+  };
+  const auto rises = [](const auto& at) {
+    for (std::size_t i = 1; i < at.size(); ++i)
+      if (!(at[i] > at[i - 1])) return false;
+    return true;
+  };
+  if (t.over == TableVariable::none)
+    return "over: a table is over alpha, beta, mach, aileron, elevator or rudder";
+  if (t.at_ratio.empty()) return "at: a table has at least one point";
+  if (!rises(t.at_ratio)) return "at: the points have to rise";
+  if (beyond(t.over, t.at_ratio)) return "at: angles are in radians, and these go beyond half a turn";
+  const bool two = t.and_over != TableVariable::none;
+  if (two && t.and_over == t.over) return "and_over: it is the same variable as over";
+  if (two && t.and_at_ratio.empty()) return "and_at: it is missing, and and_over is given";
+  if (!two && !t.and_at_ratio.empty()) return "and_over: it is missing, and and_at is given";
+  if (!rises(t.and_at_ratio)) return "and_at: the points have to rise";
+  if (two && beyond(t.and_over, t.and_at_ratio))
+    return "and_at: angles are in radians, and these go beyond half a turn";
+  const std::size_t rows = t.at_ratio.size(), columns = two ? t.and_at_ratio.size() : 1;
+  if (t.values_ratio.size() == rows * columns) return "";
+  return "values: there are " + std::to_string(t.values_ratio.size()) + ", and " + std::to_string(rows) +
+         (two ? " times " + std::to_string(columns) : "") +
+         (rows * columns == 1 ? " point has " : " points have ") + std::to_string(rows * columns);
+}
+
+}  // namespace fulmar

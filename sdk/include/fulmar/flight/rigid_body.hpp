@@ -107,7 +107,8 @@ RigidBodyRateOf<S> rate_of(const RigidBodyOf<S>& x, const LoadOf<S>& load, const
             -0.5 * (q.x() * w.x() + q.y() * w.y() + q.z() * w.z())};
   const Eigen::Vector3<S> turned = plain::cross<S>(w, plain::product<S>(body.J, w));
   d.omega_b = plain::product<S>(
-      body.J_inverse, {load.moment_b.x() - turned.x(), load.moment_b.y() - turned.y(), load.moment_b.z() - turned.z()});
+      body.J_inverse,
+      {load.moment_b.x() - turned.x(), load.moment_b.y() - turned.y(), load.moment_b.z() - turned.z()});
   return d;
 }
 

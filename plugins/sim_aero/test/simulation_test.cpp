@@ -192,9 +192,7 @@ TEST_CASE("arrays of another shape, numbers that are none and empty batches are 
   std::vector<double> actions(8), rows(2 * row_columns), before(2 * row_columns);
   batch.rows(before);
   const auto step = [&](std::size_t a, std::size_t r) {
-    return refusal([&] {
-      batch.step({actions.data(), a}, dt, 1, {rows.data(), r});
-    });
+    return refusal([&] { batch.step({actions.data(), a}, dt, 1, {rows.data(), r}); });
   };
   CHECK(step(7, 50) == "actions: 2 x 4 numbers are expected, 7 were given");
   CHECK(step(8, 49) == "rows: 2 x 25 numbers are expected, 49 were given");

@@ -90,9 +90,9 @@ class Simulation {
   /// The command as a sentence tells what is wrong with it; "" when nothing is.
   static std::string fault(const Actuators& c) {
     const std::array<std::pair<const char*, double>, 4> all{{{"throttle_frac", c.throttle_frac},
-                                                              {"aileron_rad", c.aileron_rad},
-                                                              {"elevator_rad", c.elevator_rad},
-                                                              {"rudder_rad", c.rudder_rad}}};
+                                                             {"aileron_rad", c.aileron_rad},
+                                                             {"elevator_rad", c.elevator_rad},
+                                                             {"rudder_rad", c.rudder_rad}}};
     for (const auto& [name, value] : all)
       if (!std::isfinite(value)) return std::string(name) + " is " + std::to_string(value);
     return "";

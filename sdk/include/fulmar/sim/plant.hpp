@@ -159,6 +159,13 @@ class Plant {
     x_ = x;
     refresh();
   }
+  /// Where servos and propeller are, before `set_state`.
+  void set_drives(const Deflections& d, double propeller_radps) {
+    aileron_.set(d.aileron);
+    elevator_.set(d.elevator);
+    rudder_.set(d.rudder);
+    Omega_ = propeller_radps;
+  }
   void set_wind(const Eigen::Vector3d& wind_n) { weather_.wind_n = wind_n; }
   /// With a mixer the fault is that of the servo in the place (mixer.hpp).
   void suffer(const Fault& aileron, const Fault& elevator, const Fault& rudder) {

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One simulated aircraft without host, mission and sensors: what `sim_aero` flies, for model-based control,
+// learning and tests.
+//
+//   Simulation sim(airframe, {.origin_altitude_m = 1387}, 7);
+//   sim.fly({0, 0, -100}, 0, 17);                         // north, east, down; heading; airspeed
+//   Simulation what_if = sim;                             // a copy is a fork: it flies on by itself
+//   sim.step({.throttle_frac = 0.6, .elevator_rad = 0.05}, 0.0025);
+//   sim.body().v_n;
+//
+// A value: no pointer, no thread, no allocation in a step. The same seed, start and commands give the same
+// flight to the bit. Only `step` and `set` refuse, by std::invalid_argument and before anything has moved.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "fulmar/sim/plant.hpp"
+
+namespace fulmar::sim {
+
+struct SimulationOptions {
+  double origin_altitude_m = 0;  ///< above mean sea level, of height 0
+  Weather weather{};
+  Earth earth{};
+};
+
+/// All that a roll-out begins with, but for gusts and the springs of the gear: those go with a copy.
+struct FlightState {
+  RigidBody body;
+  Deflections deflections;
+  double propeller_radps = 0;
+};
+
+class Simulation {
+ public:
+  static constexpr double longest_s = 0.1;  ///< beyond it the short period of small aircraft is not resolved
+
+  /// At rest on the ground, heading north.
+  explicit Simulation(const Airframe& a, const SimulationOptions& options = {}, std::uint64_t seed = 1)
+      : airframe_(a), options_(options), plant_(made(seed)) {}
+
+  /// As made anew with this seed.
+  void reset(std::uint64_t seed) {
+    plant_ = made(seed);
+    time_s_ = 0;
+  }
+  void stand(double north_m, double east_m, double heading_rad) {
+    plant_.stand(north_m, east_m, heading_rad);
+  }
+  /// Into steady level flight. `p_n` is north, east, minus the height. False where there is none at this
+  /// airspeed; it then stays where it is.
+  bool fly(const Eigen::Vector3d& p_n, double heading_rad, double Va) {
+    return plant_.fly(p_n, heading_rad, Va);
+  }
+
+  FlightState state() const { return {plant_.state(), plant_.deflections(), plant_.propeller_radps()}; }
+  void set(const FlightState& s) {
+    if (!s.body.p_n.allFinite() || !s.body.v_n.allFinite() || !s.body.omega_b.allFinite() ||
+        !std::isfinite(s.deflections.aileron + s.deflections.elevator + s.deflections.rudder) ||
+        !std::isfinite(s.propeller_radps))
+      throw std::invalid_argument("the state has a number that is not finite");
+    if (!(std::abs(s.body.q_nb.norm() - 1) < 1e-6))
+      throw std::invalid_argument("the attitude's quaternion is not of length 1");
+    plant_.set_drives(s.deflections, s.propeller_radps);
+    plant_.set_state(s.body);
+  }
+
+  /// One step of the plant. Deflections and throttle beyond their range are limited, as servos do.
+  void step(const Actuators& command, double dt_s) {
+    if (const std::string wrong = fault(command); !wrong.empty()) throw std::invalid_argument(wrong);
+    if (!(dt_s > 0 && dt_s <= longest_s))
+      throw std::invalid_argument("dt is " + std::to_string(dt_s) + " s and must be in (0, 0.1] s");
+    plant_.advance(command, 1, dt_s);
+    time_s_ += dt_s;
+  }
+
+  double time_s() const { return time_s_; }
+  const RigidBody& body() const { return plant_.state(); }
+  AirData air_data() const { return AirData(plant_.air_velocity_b()); }
+  const Plant& plant() const { return plant_; }
+  Plant& plant() { return plant_; }  ///< wind, faults, icing
+  const Airframe& airframe() const { return airframe_; }
+
+  /// The command as a sentence tells what is wrong with it; "" when nothing is.
+  static std::string fault(const Actuators& c) {
+    const std::array<std::pair<const char*, double>, 4> all{{{"throttle_frac", c.throttle_frac},
+                                                             {"aileron_rad", c.aileron_rad},
+                                                             {"elevator_rad", c.elevator_rad},
+                                                             {"rudder_rad", c.rudder_rad}}};
+    for (const auto& [name, value] : all)
+      if (!std::isfinite(value)) return std::string(name) + " is " + std::to_string(value);
+    return "";
+  }
+
+ private:
+  Plant made(std::uint64_t seed) const {
+    return Plant(airframe_, options_.weather, options_.origin_altitude_m, seed, options_.earth);
+  }
+
+  Airframe airframe_;
+  SimulationOptions options_;
+  Plant plant_;
+  double time_s_ = 0;
+};
+
+/// A row of what a flight looks like, for arrays: north, east, down; their velocities; attitude w x y z; body
+/// rate; airspeed, angle of attack, sideslip; specific force; aileron, elevator, rudder; propeller; 1 on the
+/// ground; 1 when crashed. SI, rad.
+inline constexpr std::size_t row_columns = 25;
+inline constexpr std::size_t action_columns = 4;  ///< throttle, aileron, elevator, rudder
+
+inline void write_row(const Simulation& sim, double* row) {
+  const RigidBody& x = sim.body();
+  const AirData air = sim.air_data();
+  const Eigen::Vector3d f = sim.plant().specific_force();
+  const Deflections d = sim.plant().deflections();
+  const std::array<double, row_columns> all{x.p_n.x(),
+                                            x.p_n.y(),
+                                            x.p_n.z(),
+                                            x.v_n.x(),
+                                            x.v_n.y(),
+                                            x.v_n.z(),
+                                            x.q_nb.w(),
+                                            x.q_nb.x(),
+                                            x.q_nb.y(),
+                                            x.q_nb.z(),
+                                            x.omega_b.x(),
+                                            x.omega_b.y(),
+                                            x.omega_b.z(),
+                                            air.Va,
+                                            air.alpha,
+                                            air.beta,
+                                            f.x(),
+                                            f.y(),
+                                            f.z(),
+                                            d.aileron,
+                                            d.elevator,
+                                            d.rudder,
+                                            sim.plant().propeller_radps(),
+                                            sim.plant().on_ground() ? 1.0 : 0.0,
+                                            sim.plant().crashed() ? 1.0 : 0.0};
+  std::copy(all.begin(), all.end(), row);
+}
+
+/// The inverse of `write_row`, of what a state can be set by: the first 13 columns, surfaces and propeller.
+inline FlightState state_of_row(const double* row) {
+  FlightState s;
+  s.body.p_n = {row[0], row[1], row[2]};
+  s.body.v_n = {row[3], row[4], row[5]};
+  s.body.q_nb = Eigen::Quaterniond(row[6], row[7], row[8], row[9]);
+  s.body.omega_b = {row[10], row[11], row[12]};
+  s.deflections = {row[19], row[20], row[21]};
+  s.propeller_radps = row[22];
+  return s;
+}
+
+}  // namespace fulmar::sim

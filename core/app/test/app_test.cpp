@@ -459,7 +459,7 @@ TEST_CASE("an aircraft that cannot fly is refused with the line that says so, be
                    << "\ncomponents:\n  sim:\n    params:\n      start_height: 70 m\n"
                       "      start_airspeed: 6 m/s\n";
   CHECK(
-      fulmar("check " + m.string()).err.find("aircraft.yaml:6: sim: start_airspeed: no level flight at 6") !=
+      fulmar("check " + m.string()).err.find("aircraft.yaml:7: sim: start_airspeed: no level flight at 6") !=
       std::string::npos);
   const Result set = fulmar("check " + hourglass + " --set \"sim.airframe.mass=45 kg\"");
   CHECK(set.code == 4);
@@ -477,8 +477,8 @@ TEST_CASE("a motion that leaves the model ends the flight with its cause and a w
   CHECK(r.code == 1);
   CHECK_MESSAGE((r.out + r.err).find("failed (the vehicle failed: the motion has left the model: speed ") !=
                     std::string::npos,
-                r.out + r.err);
-  const Result info = shell(FULMAR_BIN_DIR "/fulmar-log info " + log);
+                (r.out + r.err));
+  const Result info = fulmar("log info " + log);
   CHECK(info.code == 0);
   CHECK_MESSAGE(info.out.find("complete") != std::string::npos, info.out);
 }

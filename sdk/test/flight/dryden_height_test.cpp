@@ -151,7 +151,8 @@ TEST_CASE("spectra and deviations at three heights are those of MIL-F-8785C") {
           }
           CAPTURE(h.m);
           CAPTURE(axis);
-          CAPTURE(from / (n * dt));
+          const double lowest_hz = from / (n * dt);
+          CAPTURE(lowest_hz);
           CHECK(measured / expected == Approx(1).epsilon(near));
         }
       }

@@ -16,11 +16,12 @@ void check_servo(Findings& f, const std::string& name, const Surface& s) {
   if (frequency > 0 && (frequency < 15 || frequency > 600))
     f.warn(name + ".natural_frequency_radps", frequency,
            "it is " + figures(frequency) + " rad/s; servos have 30 to 200" +
-               (frequency < 15 ? ": is it in Hz? Then it would be " + figures(frequency * 360 * degree) +
-                                     " rad/s"
-                               : ": is it in deg/s?"));
+               (frequency < 15
+                    ? ": is it in Hz? Then it would be " + figures(frequency * 360 * degree) + " rad/s"
+                    : ": is it in deg/s?"));
   if (frequency > 0 && (s.damping_ratio < 0.3 || s.damping_ratio > 3))
-    f.warn(name + ".damping_ratio", s.damping_ratio, "it is " + figures(s.damping_ratio) + "; servos have 0.5 to 2");
+    f.warn(name + ".damping_ratio", s.damping_ratio,
+           "it is " + figures(s.damping_ratio) + "; servos have 0.5 to 2");
   if (s.dead_band_rad > 0.1)
     f.warn(name + ".dead_band_rad", s.dead_band_rad,
            "it is " + degrees(s.dead_band_rad, 1) + "; servos have 0.1 to 1 deg: is it in degrees?");
@@ -58,11 +59,13 @@ void check_propellers(Findings& f) {
   Propellers(a).add<double>(1.0, 0.0, load);
   const double arm = load.moment_b.z();
   if (load.force_b.x() <= 0)
-    f.fault("propulsion.propellers", load.force_b.x(), "together they do not push forward: look at tilt and toe");
+    f.fault("propulsion.propellers", load.force_b.x(),
+            "together they do not push forward: look at tilt and toe");
   if (std::abs(arm) > 0.01 * a.wing.span_m)
     f.warn("propulsion.propellers", arm,
-           std::string("together they turn the nose ") + (arm > 0 ? "right" : "left") + ": their thrust acts " +
-               figures(std::abs(arm) / load.force_b.x()) + " m beside the centre of gravity; has one the wrong sign of y?");
+           std::string("together they turn the nose ") + (arm > 0 ? "right" : "left") +
+               ": their thrust acts " + figures(std::abs(arm) / load.force_b.x()) +
+               " m beside the centre of gravity; has one the wrong sign of y?");
 }
 
 void check_battery(Findings& f) {
@@ -83,13 +86,15 @@ void check_contacts(Findings& f) {
   const sim::Standing& at = sim::Legs(a).standing();
   const Eigen::Vector3d nose = at.tilt * Eigen::Vector3d::UnitX(), wing = at.tilt * Eigen::Vector3d::UnitY();
   const double pitch = std::asin(-nose.z()), roll = std::asin(wing.z());
-  f.figure("standing_height_m", at.height_m, "stands", fixed(at.height_m, 3) + " m high, pitch " + degrees(pitch, 1));
+  f.figure("standing_height_m", at.height_m, "stands",
+           fixed(at.height_m, 3) + " m high, pitch " + degrees(pitch, 1));
   f.figure("standing_pitch_rad", pitch, "", "");
   if (std::abs(roll) > 0.02)
     f.warn("gear.contacts", roll,
            "it stands on one side, banked by " + degrees(roll, 1) + ": has a contact the wrong sign of y?");
   if (std::abs(pitch) > 0.3)
-    f.warn("gear.contacts", pitch, "it stands with a pitch of " + degrees(pitch, 1) + ": is z, down, right in all?");
+    f.warn("gear.contacts", pitch,
+           "it stands with a pitch of " + degrees(pitch, 1) + ": is z, down, right in all?");
 }
 
 }  // namespace

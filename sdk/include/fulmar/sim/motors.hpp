@@ -33,8 +33,8 @@ class Motors {
     for (std::size_t i = 0; i < places.count(); ++i)
       speeds_[stage][i] = steady_[i] + (from[i] - steady_[i]) * decay;
   }
-  [[gnu::noinline]] void add_load(const Propellers& places, const Propeller& p, std::size_t stage, double Va, double rho,
-                Load& load) const {
+  [[gnu::noinline]] void add_load(const Propellers& places, const Propeller& p, std::size_t stage, double Va,
+                                  double rho, Load& load) const {
     for (std::size_t i = 0; i < places.count(); ++i) {
       const double Omega = speeds_[stage][i];
       places.add_one<double>(i, p.thrust(Omega, Va, rho), p.torque(Omega, Va, rho), load);

@@ -19,10 +19,10 @@ Slopes slopes_at_cruise(const Airframe& a) {
   const double Va = std::max(a.limits.airspeed_cruise_mps, 1.0);
   const double CL = a.mass_kg * isa::g0 / (0.5 * isa::sea_level_density * Va * Va * a.wing.area_m2);
   const double alpha = std::clamp((CL - a.aero.lift.zero_ratio) / s.lift, -0.1, a.wing.stall_alpha_rad);
-  using D = Dual<1>;
-  const TablePoint<D> at{D(0.0), D::variable(alpha, 0), D(0.0), D(Va / 340.29), D(0.0), D(0.0), D(0.0)};
+  using Slope = Dual<1>;
+  const TablePoint<Slope> at{0.0, Slope::variable(alpha, 0), 0.0, Va / 340.29, 0.0, 0.0, 0.0};
   for (const CoefficientTable& t : a.aero.tables) {
-    const double slope = value_of<D>(t, at).d[0];
+    const double slope = value_of<Slope>(t, at).d[0];
     if (t.coefficient == Coefficient::lift) s.lift += slope;
     if (t.coefficient == Coefficient::pitch) s.pitch += slope;
   }

@@ -63,6 +63,10 @@ const std::vector<OwnCommand>& own_commands() {
       {"phase", "fulmar-live", "enter a phase of the mission"},
       {"swap", "fulmar-live", "another plugin file for a component, on the ground"},
       {"reset", "fulmar-live", "let components fly again that a guard has stopped"},
+      {"pause", "fulmar-live", "let a simulation stand still"},
+      {"resume", "fulmar-live", "let a paused simulation go on"},
+      {"step", "fulmar-live", "fly some ticks of a paused simulation"},
+      {"speed", "fulmar-live", "how fast a simulation flies"},
       {"completion", "fulmar-live", "print what completes words in a shell"},
       {"complete", "fulmar-live", ""}};  // asked by shells, in no help
   return list;

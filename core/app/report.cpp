@@ -174,7 +174,7 @@ std::string progress_line(const Graph& graph, const Flight& flight) {
     line += fmt::format("  {} {:.{}f}{}{}", split_unit(name).first, value,
                         is_real(shown.field.field->kind) ? 1 : 0, unit.empty() ? "" : " ", unit);
   }
-  return line;
+  return flight.paused() ? line + "  paused" : line;
 }
 
 json result_json(const Graph& graph, const Flight& flight, const FlightResult& result) {

@@ -8,7 +8,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -34,6 +33,7 @@
 #include "core/run/realtime.hpp"
 #include "core/run/swap.hpp"
 #include "core/say.hpp"
+#include "core/tap/pace.hpp"
 #include "core/types/text.hpp"
 
 namespace fulmar::core {
@@ -412,14 +412,11 @@ class ResultFile {
 }  // namespace
 
 double parse_speed(const std::string& text) {
-  if (text == "real") return 1;
-  if (text == "max") return 0;
-  double speed = 0;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), speed);
-  if (code != std::errc{} || end != text.data() + text.size() || !(speed > 0) || !(speed <= 1e6))
+  const std::optional<double> speed = speed_of(text);
+  if (!speed)
     throw CLI::ValidationError("--speed '" + text +
                                "': give real, max, or a multiple of real time, for example 10");
-  return speed;
+  return *speed;
 }
 
 /// Of several flights in one host: one that failed says more than one whose guards fired.

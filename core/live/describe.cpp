@@ -167,6 +167,10 @@ std::vector<Service> services_of(const FlightView& view) {
       {What::phase, "/fulmar/phase", "EnterPhase", {"phase"}},
       {What::swap, "/fulmar/swap", "Swap", {"component", "file"}},
       {What::reset_guards, "/fulmar/reset_guards", "ResetGuards"},
+      {What::pause, "/fulmar/pause", "Pause"},
+      {What::resume, "/fulmar/resume", "Resume"},
+      {What::step, "/fulmar/step", "Step", {"ticks"}},
+      {What::speed, "/fulmar/speed", "Speed", {"speed"}},
       {What::view, "/fulmar/view", "View"}};
   for (const ComponentView& c : view.components)
     for (const PortView& p : c.inputs)
@@ -233,6 +237,7 @@ json view_json(const FlightView& view, const Tap& tap) {
   return {{"mission", view.mission},   {"file", view.file},     {"io", view.io},
           {"phase", view.phase},       {"phases", view.phases}, {"now_ns", view.now_ns},
           {"epoch_ns", view.epoch_ns}, {"armed", view.armed},   {"over", view.over},
+          {"paused", view.paused},     {"speed", view.speed},
           {"components", components}};
 }
 

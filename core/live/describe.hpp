@@ -3,7 +3,8 @@
 // view as JSON.
 //
 // The view, answer of the service /fulmar/view:
-//   {mission, file, io, phase, phases: [..], now_ns, epoch_ns, armed, over, components: [
+//   {mission, file, io, phase, phases: [..], now_ns, epoch_ns, armed, over, paused, speed,
+//    components: [
 //     {name, use, role, doc, run, active, stopped,
 //      params: [{name, kind, unit, doc, value, text, initial, min, max, choices, live, required, overlaid,
 //                file}],
@@ -26,7 +27,18 @@ namespace fulmar::core::live {
 
 /// A service of the protocol: a request of a component, or one of the host's own.
 struct Service {
-  enum class What : std::uint8_t { request, set_parameter, phase, swap, reset_guards, view };
+  enum class What : std::uint8_t {
+    request,
+    set_parameter,
+    phase,
+    swap,
+    reset_guards,
+    pause,
+    resume,
+    step,
+    speed,
+    view
+  };
   What what = What::request;
   std::string name;                      // "/plan/add_waypoints"
   const char* word = "";                 // of one of the host's own, in the name of its type

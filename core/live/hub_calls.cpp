@@ -167,6 +167,10 @@ void Hub::call_host(const Service& service, const std::vector<std::string>& text
     case Service::What::phase: return control_.enter_phase(texts[0], std::move(answer));
     case Service::What::swap: return control_.swap(texts[0], texts[1], std::move(answer));
     case Service::What::reset_guards: return control_.reset_guards(std::move(answer));
+    case Service::What::pause: return control_.pace({PaceOrder::What::pause}, std::move(answer));
+    case Service::What::resume: return control_.pace({PaceOrder::What::resume}, std::move(answer));
+    case Service::What::step: return control_.pace(step_order(texts[0]), std::move(answer));
+    case Service::What::speed: return control_.pace(speed_order(texts[0]), std::move(answer));
     case Service::What::request:
     case Service::What::view: break;
   }

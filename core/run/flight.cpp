@@ -35,6 +35,7 @@ std::uint16_t Flight::live_port() const {
 }
 std::int64_t Flight::now_ns() const { return impl_->state.now_ns; }
 const std::string& Flight::phase() const { return nth(impl_->state.graph.phases, impl_->roles.phase()).name; }
+bool Flight::paused() const { return impl_->onlookers.control && impl_->onlookers.control->stands(); }
 const std::byte* Flight::sample(const Source& source) const {
   const Slot* const slot = impl_->wiring.slot_of(source);
   return slot && slot->sequence > 0 ? impl_->wiring.message_of(source) : nullptr;

@@ -94,6 +94,7 @@ class Flight {
   // For those who look at a flight: between ticks, from the loop's thread.
   std::int64_t now_ns() const;
   const std::string& phase() const;
+  bool paused() const;
   /// The present sample of a port, or nullptr.
   const std::byte* sample(const Source& source) const;
 

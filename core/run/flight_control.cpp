@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "core/error.hpp"
@@ -30,6 +31,7 @@ Node parsed(const std::string& text, const std::string& name, Report& report) {
 
 struct FlightControl::Waiting {
   Command command;
+  std::optional<PaceOrder> pace;  // in place of a command
   Answer answer;
   std::array<char, 256> refusal{};             // of a component, in its step
   std::string fault;                           // of the host: all of it
@@ -106,6 +108,7 @@ FlightControl::FlightControl(Flight::Impl& flight)
     : flight_(flight),
       seen_(flight.wiring.units.size()),
       directory_(std::make_shared<const Directory>(flight)) {
+  if (!flight.state.on_hardware()) seen_.speed.store(flight.state.options.speed);
   for (const auto& unit : flight.wiring.units) base_.push_back(unit->base);
   waiting_.of_import.resize(flight.wiring.imports.size());
   thread_ = quiet_thread("fulmar-control", [this] { run(); });
@@ -142,7 +145,9 @@ bool FlightControl::apply() noexcept {
   for (; applied < most_per_tick; ++applied) {
     Waiting* const waiting = queues_.in.pop();
     if (!waiting) break;
+    const bool paces = waiting->pace.has_value();
     if (!take(*waiting)) held_.list[held_.count++] = waiting;
+    if (paces) break;  // what was asked for afterwards has its turn afterwards
   }
   for (std::size_t n = 0; n < most_per_tick; ++n) {
     Waiting* const sample = queues_.samples.pop();
@@ -154,7 +159,7 @@ bool FlightControl::apply() noexcept {
 
 bool FlightControl::take(Waiting& w) noexcept {
   try {
-    return apply(w);
+    return w.pace ? apply_pace(w) : apply(w);
   } catch (const std::exception& fault) {
     try {
       w.fault = fault.what();
@@ -188,6 +193,62 @@ bool FlightControl::apply(Waiting& w) {
   return true;
 }
 
+// ---- the loop's clock
+
+/// The flight goes on as fast as it may.
+void FlightControl::go_on() noexcept {
+  end_steps();
+  clock_.paused = false;
+  flight_.stopwatch.go_on();
+}
+
+/// Whoever has asked for more ticks learns how many there were.
+void FlightControl::end_steps() noexcept {
+  if (!clock_.stepper) return;
+  Waiting& w = *std::exchange(clock_.stepper, nullptr);
+  const std::uint64_t asked = w.pace->ticks, left = std::exchange(clock_.left, 0);
+  std::array<char, 80> words;
+  std::snprintf(words.data(), words.size(), "ended after %llu of %llu ticks",
+                static_cast<unsigned long long>(asked - left), static_cast<unsigned long long>(asked));
+  refuse(w, words.data());
+}
+
+void FlightControl::ticked() noexcept {
+  if (clock_.left == 0 || --clock_.left > 0) return;
+  done(*std::exchange(clock_.stepper, nullptr));
+}
+
+bool FlightControl::apply_pace(Waiting& w) {
+  using What = PaceOrder::What;
+  held_.grounded = true;  // telling it allocates
+  const PaceOrder& order = *w.pace;
+  switch (order.what) {
+    case What::pause:
+      if (stands()) return refuse(w, "the flight is paused already");
+      end_steps();
+      clock_.paused = true;
+      break;
+    case What::resume:
+      if (!clock_.paused) return refuse(w, "the flight is not paused");
+      go_on();
+      break;
+    case What::step:
+      if (!clock_.paused) return refuse(w, "the flight is not paused: nothing to step");
+      if (clock_.stepper) return refuse(w, "other ticks are being flown; ask again");
+      clock_.left = order.ticks, clock_.stepper = &w;
+      return true;
+    case What::speed:
+      flight_.state.options.speed = order.speed;
+      flight_.recorder.wait_for_log(order.speed == 0);
+      go_on();
+  }
+  seen_.paused.store(clock_.paused, std::memory_order_relaxed);
+  seen_.speed.store(flight_.state.options.speed, std::memory_order_relaxed);
+  flight_.tell_pace(order);
+  done(w);
+  return true;
+}
+
 // ---- any other thread
 
 std::shared_ptr<const FlightControl::Directory> FlightControl::directory() const {
@@ -199,6 +260,10 @@ void FlightControl::send(Command command, Answer answer) {
   directory()->commands->prepare(command);
   auto waiting = std::make_unique<Waiting>();
   waiting->command = std::move(command), waiting->answer = std::move(answer);
+  enqueue(std::move(waiting));
+}
+
+void FlightControl::enqueue(std::unique_ptr<Waiting> waiting) {
   Waiting* const w = waiting.get();
   const std::lock_guard lock(mutex_);
   if (over_.load()) throw Error("the flight has ended");
@@ -248,7 +313,7 @@ void FlightControl::answer_done() {
         --waiting_.samples, --waiting_.of_import[c.part];
         if (!accepted) lost_samples_.fetch_add(1, std::memory_order_relaxed);
       }
-      if (accepted && c.kind == CommandKind::parameter) {
+      if (accepted && !w->pace && c.kind == CommandKind::parameter) {
         base_[c.at][c.part] = value_of(c.note, directory_->commands->info(c.at).params[c.part]);
         changed = changed_;
       }
@@ -273,6 +338,8 @@ FlightView FlightControl::view() const {
   v.now_ns = seen_.now_ns.load(std::memory_order_relaxed);
   v.armed = seen_.armed.load(std::memory_order_relaxed);
   v.over = over_.load();
+  v.paused = seen_.paused.load(std::memory_order_relaxed);
+  v.speed = seen_.speed.load(std::memory_order_relaxed);
   for (std::size_t i = 0; i < v.components.size(); ++i) {
     const std::uint8_t state = seen_.states[i].load(std::memory_order_relaxed);
     v.components[i].active = state & 1, v.components[i].stopped = state & 2;
@@ -353,6 +420,19 @@ void FlightControl::swap(const std::string& component, const std::string& file, 
 }
 
 void FlightControl::reset_guards(Answer answer) { send(command_of(CommandKind::reset), std::move(answer)); }
+
+void FlightControl::pace(const PaceOrder& order, Answer answer) {
+  using What = PaceOrder::What;
+  const bool stops = order.what == What::pause || order.what == What::resume;
+  if (flight_.state.on_hardware())
+    throw Error(std::string("this flight is on hardware, io: fcu: ") +
+                (stops                       ? "an aircraft cannot be paused"
+                 : order.what == What::step ? "an aircraft cannot be stepped"
+                                            : "its time has no speed but that of the clock"));
+  auto waiting = std::make_unique<Waiting>();
+  waiting->pace = order, waiting->answer = std::move(answer);
+  enqueue(std::move(waiting));
+}
 
 void FlightControl::on_parameter(std::function<void(const std::string&, const std::string&)> changed) {
   const std::lock_guard lock(mutex_);

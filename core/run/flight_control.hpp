@@ -53,6 +53,12 @@ class FlightControl final : public Control {
   /// [tick] Between two ticks. So many commands at most: who sends thousands does not starve the loop. False
   /// when there was work among them that is done on the ground alone and allocates: a swap, a reset.
   bool apply() noexcept;
+  /// [tick] Paused: no tick may begin. `apply` is asked again and again meanwhile.
+  bool stands() const noexcept { return clock_.paused && clock_.left == 0; }
+  /// [tick] Paused, also while ticks are flown that it was asked for: nobody waits for the clock.
+  bool paused() const noexcept { return clock_.paused; }
+  /// [tick] One more has been flown, and noted.
+  void ticked() noexcept;
   /// [tick] What `view` tells of the flight.
   void note(int phase, std::int64_t now_ns, bool armed) noexcept;
   void note_stopped(std::size_t component, bool active, bool stopped) noexcept;
@@ -71,6 +77,7 @@ class FlightControl final : public Control {
   void enter_phase(const std::string& phase, Answer answer) override;
   void swap(const std::string& component, const std::string& file, Answer answer) override;
   void reset_guards(Answer answer) override;
+  void pace(const PaceOrder& order, Answer answer) override;
   void on_parameter(std::function<void(const std::string&, const std::string&)> changed) override;
   std::uint64_t lost_samples() const override { return lost_samples_.load(std::memory_order_relaxed); }
 
@@ -82,6 +89,10 @@ class FlightControl final : public Control {
   void send(Command command, Answer answer);
   bool take(Waiting& waiting) noexcept;
   bool apply(Waiting& waiting);
+  bool apply_pace(Waiting& waiting);
+  void end_steps() noexcept;
+  void go_on() noexcept;
+  void enqueue(std::unique_ptr<Waiting> waiting);
   bool refuse(Waiting& waiting, const char* why) noexcept;
   void done(Waiting& waiting) noexcept;
   std::shared_ptr<const Directory> directory() const;
@@ -104,8 +115,15 @@ class FlightControl final : public Control {
         : states(std::make_unique<std::atomic<std::uint8_t>[]>(components)) {}
     std::atomic<int> phase{0};
     std::atomic<std::int64_t> now_ns{0};
-    std::atomic<bool> armed{false};
+    std::atomic<bool> armed{false}, paused{false};
+    std::atomic<double> speed{1};
     std::unique_ptr<std::atomic<std::uint8_t>[]> states;  // per component: 1 active, 2 stopped
+  };
+  /// The loop's: whether time stands still.
+  struct Clock {
+    bool paused = false;
+    std::uint64_t left = 0;      // ticks to fly, though paused
+    Waiting* stepper = nullptr;  // who has asked for them
   };
   /// All that waits to be applied or answered.
   struct Account {
@@ -117,6 +135,7 @@ class FlightControl final : public Control {
   Flight::Impl& flight_;
   Queues queues_;
   Held held_;
+  Clock clock_;
   Seen seen_;
   std::atomic<bool> over_{false}, stop_{false};
   std::atomic<std::uint64_t> lost_samples_{0};

@@ -47,6 +47,10 @@ struct Flight::Impl {
   void tell_control() noexcept;
   void note_behind(double seconds);
 
+  // standstill.cpp
+  bool stand_still();  // between two ticks, as long as the flight is paused; false: it has ended meanwhile
+  void tell_pace(const PaceOrder& order);
+
   // commands.cpp: what enters between two ticks, checked before; these throw
   enum class Taken : std::uint8_t { yes, full, idle };
   /// Of a parameter `command` then holds the value that was in force.

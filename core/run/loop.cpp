@@ -65,6 +65,7 @@ void Flight::Impl::tell_control() noexcept {
   constexpr std::uint64_t every = 16;
   if (!onlookers.control) return;
   onlookers.control->note(roles.phase(), state.now_ns, protection.armed());
+  onlookers.control->ticked();
   if (state.index % every != 0) return;
   for (std::size_t i = 0; i < wiring.units.size(); ++i)
     onlookers.control->note_stopped(i, wiring.units[i]->active, wiring.units[i]->stopped);
@@ -93,6 +94,7 @@ bool Flight::Impl::step() {
   const std::uint64_t entering = thread_allocations();
   const bool counted = !onlookers.control || first || onlookers.control->apply();
   const std::uint64_t entered = counted ? thread_allocations() - entering : 0;
+  if (onlookers.control && onlookers.control->stands() && !stand_still()) return false;
   if (first && state.on_hardware()) stay_on_one_cpu();
   if (first) stopwatch.begin();
   const std::uint64_t before = thread_allocations();
@@ -101,7 +103,8 @@ bool Flight::Impl::step() {
   recorder.check_log();
   if (!goes_on) return false;
   if (state.index > 1) state.result.loop_allocations += thread_allocations() - before + entered;
-  if (state.options.speed > 0 && !state.on_hardware()) note_behind(stopwatch.pace());
+  const bool paused = onlookers.control && onlookers.control->paused();
+  if (state.options.speed > 0 && !paused && !state.on_hardware()) note_behind(stopwatch.pace());
   if (state.options.progress && stopwatch.time_to_show()) state.options.progress(owner);
   return true;
 }

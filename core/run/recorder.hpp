@@ -47,6 +47,10 @@ class Recorder {
   void check_log();
   /// [tick] How long the loop has waited for the log since this was last asked.
   std::int64_t take_wait_ns() noexcept { return tap_ ? tap_->take_wait_ns() : 0; }
+  /// [tick] Whether the loop waits for the log from now on: as fast as the machine allows.
+  void wait_for_log(bool on) noexcept {
+    if (log_) tap_->hold_back(on);
+  }
   /// At the end of the flight.
   LogResult close();
 

@@ -14,9 +14,17 @@ constexpr std::int64_t show_every_ns = 200'000'000;
 
 }  // namespace
 
-void Stopwatch::begin() noexcept { wall_ns_ = begin_ns_ = shown_ns_ = monotonic_ns(); }
+void Stopwatch::begin() noexcept { wall_ns_ = begin_ns_ = shown_ns_ = paced_wall_ns_ = monotonic_ns(); }
 
 void Stopwatch::skip() noexcept { wall_ns_ = monotonic_ns(); }
+
+void Stopwatch::go_on() noexcept {
+  skip();
+  paced_wall_ns_ = wall_ns_;
+  paced_flight_ns_ = state_.now_ns;
+}
+
+void Stopwatch::note_stood(std::int64_t since_ns) noexcept { stood_ns_ += monotonic_ns() - since_ns; }
 
 /// What the loop has waited for the log's thread is not the unit's.
 bool Stopwatch::charge(Unit& unit) noexcept {
@@ -37,8 +45,9 @@ bool Stopwatch::charge(Unit& unit) noexcept {
 }
 
 double Stopwatch::pace() noexcept {
-  const double flown_ns = static_cast<double>(state_.now_ns - state_.result.first_ns);
-  const std::int64_t due = begin_ns_ + static_cast<std::int64_t>(flown_ns / state_.options.speed);
+  const std::int64_t from_ns = paced_flight_ns_ == never_ns ? state_.result.first_ns : paced_flight_ns_;
+  const double flown_ns = static_cast<double>(state_.now_ns - from_ns);
+  const std::int64_t due = paced_wall_ns_ + static_cast<std::int64_t>(flown_ns / state_.options.speed);
   const timespec t{due / 1'000'000'000, due % 1'000'000'000};
   clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr);
   skip();
@@ -52,7 +61,7 @@ bool Stopwatch::time_to_show() noexcept {
 }
 
 double Stopwatch::elapsed_s() const noexcept {
-  return 1e-9 * static_cast<double>(monotonic_ns() - begin_ns_);
+  return 1e-9 * static_cast<double>(monotonic_ns() - begin_ns_ - stood_ns_);
 }
 
 }  // namespace fulmar::core

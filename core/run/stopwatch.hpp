@@ -19,16 +19,22 @@ class Stopwatch {
   bool charge(Unit& unit) noexcept;
   /// [tick] The time since the last reading is nobody's.
   void skip() noexcept;
+  /// [tick] Flight time goes on from here, at a speed of its own: what it stood still is not caught up.
+  void go_on() noexcept;
+  /// [tick] Flight time has stood still since then.
+  void note_stood(std::int64_t since_ns) noexcept;
   /// [tick] Sleeps until the wall clock has caught up with flight time. Seconds that flight time is behind.
   double pace() noexcept;
   /// [tick] Every 200 ms.
   bool time_to_show() noexcept;
-  double elapsed_s() const noexcept;
+  double elapsed_s() const noexcept;  // without what it stood still
 
  private:
   const FlightState& state_;
   Recorder& recorder_;
-  std::int64_t wall_ns_ = 0, begin_ns_ = 0, shown_ns_ = 0;
+  std::int64_t wall_ns_ = 0, begin_ns_ = 0, shown_ns_ = 0, stood_ns_ = 0;
+  // where the flight's speed counts from; never: from the first tick
+  std::int64_t paced_wall_ns_ = 0, paced_flight_ns_ = never_ns;
 };
 
 }  // namespace fulmar::core

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/graph/graph.hpp"
+#include "core/tap/pace.hpp"
 #include "core/types/type.hpp"
 
 namespace fulmar::core {
@@ -38,7 +39,8 @@ struct FlightView {
   std::string mission, io, phase;
   std::vector<std::string> phases;
   std::int64_t now_ns = 0, epoch_ns = 0;
-  bool armed = false, over = false;
+  bool armed = false, over = false, paused = false;
+  double speed = 1;  // times real time; 0: as fast as the machine allows
   std::vector<ComponentView> components;
   std::string file;  // of the mission
 };
@@ -87,6 +89,8 @@ class Control {
   virtual void enter_phase(const std::string& phase, Answer answer) = 0;
   virtual void swap(const std::string& component, const std::string& file, Answer answer) = 0;
   virtual void reset_guards(Answer answer) = 0;
+  /// Steps are answered when the last one has been flown. Throws Error on hardware.
+  virtual void pace(const PaceOrder& order, Answer answer) = 0;
 
   /// Called from a thread of the control's after each change that the loop has made: (component, parameter).
   virtual void on_parameter(std::function<void(const std::string&, const std::string&)> changed) = 0;

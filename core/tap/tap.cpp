@@ -144,18 +144,18 @@ std::int64_t Tap::take_wait_ns() noexcept { return std::exchange(waited_ns_, 0);
 
 // ---- sinks
 
-Tap::Cursor::Cursor(Tap& tap, bool holds_back)
+Tap::Cursor::Cursor(Tap& tap, bool may_hold_back, bool at_once)
     : tap_(tap),
-      holds_back_(holds_back),
+      may_hold_back_(may_hold_back),
       wants_(tap.channels_.size(), -1),
       room_(tap.max_record_ / sizeof(std::uint64_t)) {
   const std::lock_guard lock(tap_.mutex_);
   tap_.cursors_.push_back(this);
   read_ = released_ = seen_head_ = tap_.head_.load(std::memory_order_acquire);
   if (read_ == 0) expected_ = 0;
-  if (!holds_back_) return;
+  if (!may_hold_back_) return;
   tap_.tail_.store(read_, std::memory_order_seq_cst);
-  tap_.held_.store(true, std::memory_order_seq_cst);
+  tap_.held_.store(at_once, std::memory_order_seq_cst);
 }
 
 Tap::Cursor::~Cursor() {
@@ -163,7 +163,7 @@ Tap::Cursor::~Cursor() {
   std::erase(tap_.cursors_, this);
   for (std::size_t c = 0; c < wants_.size(); ++c)
     if (wants_[c] >= 0) tap_.combine_wants(c);
-  if (!holds_back_) return;
+  if (!may_hold_back_) return;
   tap_.held_.store(false, std::memory_order_seq_cst);
   tap_.tail_.store(tap_.head_.load(), std::memory_order_seq_cst);
   tap_.tail_.notify_one();
@@ -191,7 +191,7 @@ void Tap::Cursor::skip_ahead() noexcept {
 const Tap::Sample* Tap::Cursor::next() noexcept {
   auto* const room = reinterpret_cast<std::byte*>(room_.data());
   for (;;) {
-    if (holds_back_ && read_ != released_ &&
+    if (may_hold_back_ && read_ != released_ &&
         (read_ - released_ >= tap_.capacity_ / 16 || read_ == seen_head_)) {
       released_ = read_;
       tap_.tail_.store(read_, std::memory_order_seq_cst);

@@ -51,6 +51,8 @@ class Tap {
   /// [tick] No allocation, no lock. Waits only for a cursor that `holds_back`.
   void write(std::size_t channel, std::int64_t now_ns, std::int64_t valid_ns, const std::byte* data,
              bool for_log) noexcept;
+  /// [tick] Whether `write` waits from now on for the cursor that may hold back. There has to be one.
+  void hold_back(bool on) noexcept { held_.store(on, std::memory_order_seq_cst); }
   /// [tick] How long `write` has waited for room since this was last asked.
   std::int64_t take_wait_ns() noexcept;
   std::size_t ring_bytes() const { return capacity_; }
@@ -60,8 +62,9 @@ class Tap {
   /// A sink's place in the ring. One thread. It begins at what is written after its creation.
   class Cursor {
    public:
-    /// `holds_back`: the loop waits for it rather than write over what it has not read; one cursor at most.
-    explicit Cursor(Tap& tap, bool holds_back = false);
+    /// `may_hold_back`: the loop waits for it rather than write over what it has not read, at once or when
+    /// `hold_back` says so; one cursor at most.
+    explicit Cursor(Tap& tap, bool may_hold_back = false, bool at_once = true);
     ~Cursor();
     Cursor(const Cursor&) = delete;
     Cursor& operator=(const Cursor&) = delete;
@@ -81,7 +84,7 @@ class Tap {
     void skip_ahead() noexcept;
 
     Tap& tap_;
-    bool holds_back_;
+    bool may_hold_back_;
     static constexpr std::uint64_t unknown = ~std::uint64_t{0};
     std::uint64_t read_ = 0, released_ = 0, seen_head_ = 0, expected_ = unknown, lost_ = 0;
     std::vector<std::int64_t> wants_;  // guarded by tap_.mutex_

@@ -20,6 +20,7 @@
 #include "fulmar/plugin.hpp"
 #include "fulmar/sim/plant.hpp"
 #include "icing.hpp"
+#include "pilot.hpp"
 #include "sensors.hpp"
 
 namespace fulmar::sim {
@@ -32,6 +33,7 @@ class Aircraft {
     Optional<Actuators> actuators;
     Request<ArmRequest> arm;
     Request<FaultRequest> fault;
+    Optional<Rc> pilot;  // a transmitter, in place of the parameters pilot_flies, stick_* and aux*
   };
   struct Outputs {
     Out<Imu> imu;
@@ -96,6 +98,7 @@ class Aircraft {
     Param aux3{0, "", -1, 1, "switch of the pilot"};
     Param aux4{0, "", -1, 1, "switch of the pilot"};
     FaultParams faults;
+    PilotParams pilot;
   };
 
   explicit Aircraft(std::uint64_t seed) : seed_(seed) {}
@@ -139,6 +142,7 @@ class Aircraft {
     epoch_ns_ = std::llround(p.epoch) * 1000000000;
     armed_ = wants_armed_ = released_ = failsafe_ = false;
     command_ = {};
+    pilot_ = {};
     actuation_ = Actuation({p.mux_rate, p.pwm_resolution, p.link_latency}, airframe_, now_ns_);
     status_ = {};
     plant_.emplace(airframe_, weather(p), origin_.alt_msl_m, mix_seed(seed_, 10), earth(p));
@@ -179,7 +183,8 @@ class Aircraft {
       plant_->advance(applied, armed_ && p.motor ? faults_.power(now_ns_) : 0, dt);
     else
       plant_->carry(dt);
-    if (wants_armed_ && !armed_ && now_ns_ >= 0) armed_ = released_ = true;
+    const bool may_arm = !pilot_.wired() || pilot_.link();
+    if (wants_armed_ && !armed_ && may_arm && now_ns_ >= 0) armed_ = released_ = true;
     publish_sensors(p, out);
     publish_rc_and_status(p, out);
     if (truth_due_(now_ns_)) out.truth.publish(truth());
@@ -191,10 +196,15 @@ class Aircraft {
     for (auto request : in.fault) faults_.answer(request, tick.now_ns);
     const bool heard =
         in.actuators && tick.now_ns - in.actuators.valid_at_ns() <= patience_ns && sound(*in.actuators);
-    failsafe_ = armed_ && !heard && !p.pilot_flies;
-    if (p.pilot_flies)
-      command_ = {p.stick_throttle, p.stick_roll * airframe_.aileron.limit_rad,
-                  -p.stick_pitch * airframe_.elevator.limit_rad, -p.stick_yaw * airframe_.rudder.limit_rad};
+    pilot_.hear(in.pilot, carries(p), tick.now_ns);
+    obey_arm_switch(p);
+    const bool flies = pilot_flies(p), lost = pilot_.wired() && !pilot_.link();
+    silent_ = !heard && pilot_.link();  // of the computer: the firmware then gives the sticks the aircraft
+    failsafe_ = armed_ && (lost || (!heard && !flies && !silent_));
+    if (lost && released_)
+      command_ = {};  // the firmware's failsafe: whatever the computer says
+    else if (flies || silent_)
+      command_ = by_hand(pilot_rc(p));
     else if (heard)
       command_ = *in.actuators;
     else if (released_)
@@ -221,6 +231,27 @@ class Aircraft {
     if (!plant_->fly({p.start_north, p.start_east, -p.start_height}, p.start_heading, Va))
       throw std::runtime_error("start_airspeed: the aircraft has no level flight at this airspeed");
     plant_->shift(1e-9 * static_cast<double>(now_ns_));
+  }
+
+  /// Whether the radio works, as far as parameters and faults go.
+  bool carries(const Params& p) const { return p.rc_link && faults_[FaultTarget::radio].kind != FaultKind::off; }
+  bool pilot_flies(const Params& p) const {
+    return pilot_.wired() ? pilot_.overrides(p.pilot) : p.pilot_flies.value;
+  }
+  Rc pilot_rc(const Params& p) const {
+    if (pilot_.wired()) return pilot_.rc();
+    return {p.stick_roll, p.stick_pitch, p.stick_yaw, p.stick_throttle, p.aux1, p.aux2, p.aux3, p.aux4, true};
+  }
+  Actuators by_hand(const Rc& rc) const {
+    return {rc.throttle_frac, rc.roll_frac * airframe_.aileron.limit_rad,
+            -rc.pitch_frac * airframe_.elevator.limit_rad, -rc.yaw_frac * airframe_.rudder.limit_rad};
+  }
+
+  void obey_arm_switch(const Params& p) {
+    const PilotRadio::Arming asked = pilot_.arming(p.pilot);
+    if (asked == PilotRadio::Arming::stays || plant_->crashed()) return;
+    wants_armed_ = asked == PilotRadio::Arming::arm;
+    if (!wants_armed_) armed_ = false;
   }
 
   void answer(const Request<ArmRequest>::One& request) {
@@ -265,16 +296,15 @@ class Aircraft {
   }
 
   void publish_rc_and_status(const Params& p, Outputs& out) {
-    if (rc_due_(now_ns_) && p.rc_link && faults_[FaultTarget::radio].kind != FaultKind::off)
-      out.rc.publish(
-          {p.stick_roll, p.stick_pitch, p.stick_yaw, p.stick_throttle, p.aux1, p.aux2, p.aux3, p.aux4, true});
+    const bool flies = pilot_flies(p);
+    if (rc_due_(now_ns_) && carries(p) && (!pilot_.wired() || pilot_.link())) out.rc.publish(pilot_rc(p));
     VehicleStatus s;
     s.armed = armed_;
-    s.override = p.pilot_flies;
+    s.override = flies;
     s.failsafe = failsafe_;
     s.on_ground = plant_->on_ground();
     s.crashed = plant_->crashed();
-    s.in_control = armed_ && !p.pilot_flies && !failsafe_ && !s.crashed;
+    s.in_control = armed_ && !flies && !silent_ && !failsafe_ && !s.crashed;
     s.health = s.crashed ? Health::failed : Health::ok;
     const bool changed = s.armed != status_.armed || s.override != status_.override ||
                          s.failsafe != status_.failsafe || s.on_ground != status_.on_ground ||
@@ -300,10 +330,11 @@ class Aircraft {
   Actuation actuation_;
   VehicleStatus status_;
   Faults faults_;
+  PilotRadio pilot_;
   Icing icing_;
   bool armed_ = false, wants_armed_ = false;
   bool released_ = false;  ///< has been armed once: from then on it is free to move
-  bool failsafe_ = false;
+  bool failsafe_ = false, silent_ = false;
 };
 
 inline VehicleState Aircraft::truth() const {

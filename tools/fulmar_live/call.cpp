@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `fulmar call | phase | swap | reset`: what a flight can be asked for.
 #include <cctype>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -113,9 +114,17 @@ int call_command(const LiveAddress& target, const std::string& request,
   std::string name = request;
   if (name.starts_with('/')) name.erase(0, 1);
   if (const std::size_t slash = name.find('/'); slash != std::string::npos) name[slash] = '.';
-  const std::string service = request_service(session.view(), name);
+  const json view = session.view();
+  const std::string service = request_service(view, name);
   if (message.empty()) require_no_fields(session, service, name);
-  return tell(session.order(service, message), name);
+  const bool paused = view.value("paused", false);
+  if (paused) session.be_patient(std::chrono::milliseconds(1000));  // what is wrong is told at once
+  try {
+    return tell(session.order(service, message), name);
+  } catch (const Session::NoAnswer&) {
+    if (!paused) throw;
+    return std::printf("%s: taken, and answered in the next tick: the flight is paused\n", name.c_str()), 0;
+  }
 }
 
 int phase_command(const LiveAddress& target, const std::string& phase) {

@@ -48,4 +48,11 @@ int phase_command(const LiveAddress& target, const std::string& phase);
 int swap_command(const LiveAddress& target, const std::string& component, const std::string& file);
 int reset_command(const LiveAddress& target);
 
+// pace.cpp
+int pause_command(const LiveAddress& target);
+int resume_command(const LiveAddress& target);
+/// Ends when the last of the ticks has been flown.
+int step_command(const LiveAddress& target, const std::string& ticks);
+int speed_command(const LiveAddress& target, const std::string& speed);
+
 }  // namespace fulmar::core

@@ -4,6 +4,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "core/tap/pace.hpp"
 #include "tools/fulmar_live/commands.hpp"
 #include "tools/fulmar_live/ports.hpp"
 #include "tools/fulmar_live/session.hpp"
@@ -34,6 +35,12 @@ std::string rate_text(double hz) {
   char buffer[32];
   std::snprintf(buffer, sizeof buffer, hz < 10 ? "%.1f Hz" : "%.0f Hz", hz);
   return buffer;
+}
+
+/// Nothing of a flight that flies in real time.
+std::string pace_of(const json& view) {
+  const double speed = view.value("speed", 1.0);
+  return (view.value("paused", false) ? ", paused" : "") + (speed == 1 ? "" : ", speed " + speed_text(speed));
 }
 
 std::string state_of(const json& component) {
@@ -74,10 +81,10 @@ int list_command(const LiveAddress& target, bool rates, bool as_json) {
     std::printf("%s\n", view.dump().c_str());
     return 0;
   }
-  std::printf("%s (io: %s), phase %s, %.1f s, %s%s\n", view.value("mission", "").c_str(),
+  std::printf("%s (io: %s), phase %s, %.1f s, %s%s%s\n", view.value("mission", "").c_str(),
               view.value("io", "").c_str(), view.value("phase", "").c_str(),
               static_cast<double>(view.value("now_ns", std::int64_t{0})) * 1e-9,
-              view.value("armed", false) ? "armed" : "not armed", view.value("over", false) ? ", over" : "");
+              view.value("armed", false) ? "armed" : "not armed", view.value("over", false) ? ", over" : "", pace_of(view).c_str());
   std::vector<std::string> phases = view.value("phases", std::vector<std::string>());
   std::printf("phases: %s\n", join(phases).c_str());
   for (const json& c : view.value("components", json::array())) print_component(c, measured, rates);

@@ -118,7 +118,7 @@ void Session::pump_until(const Ready& ready, const char* what) {
   const auto end = Clock::now() + patience_;
   while (!ready()) {
     const auto left = std::chrono::duration_cast<Milliseconds>(end - Clock::now());
-    if (left.count() <= 0) throw Error("the flight on " + at_ + " does not answer: no " + what + " came");
+    if (left.count() <= 0) throw NoAnswer("the flight on " + at_ + " does not answer: no " + what + " came");
     pump(left);
   }
 }

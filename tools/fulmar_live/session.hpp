@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/types/type.hpp"
 #include "tools/fulmar_live/client.hpp"
 
@@ -20,9 +21,15 @@ class Session {
  public:
   using json = nlohmann::json;
   using Milliseconds = std::chrono::milliseconds;
+  /// Nothing has come within the time of patience.
+  struct NoAnswer : Error {
+    using Error::Error;
+  };
 
   explicit Session(const LiveAddress& target, Milliseconds patience = std::chrono::seconds(5));
   ~Session();
+  /// From now on answers may take so long.
+  void be_patient(Milliseconds patience) { patience_ = patience; }
 
   struct Channel {
     std::uint32_t id = 0;

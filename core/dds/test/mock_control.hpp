@@ -90,6 +90,7 @@ class MockControl : public Control {
   void enter_phase(const std::string&, Answer) override {}
   void swap(const std::string&, const std::string&, Answer) override {}
   void reset_guards(Answer) override {}
+  void pace(const PaceOrder&, Answer) override {}
   void on_parameter(std::function<void(const std::string&, const std::string&)> changed) override {
     changed_.push_back(std::move(changed));
   }

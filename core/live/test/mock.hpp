@@ -42,6 +42,7 @@ class MockControl : public Control {
     v.io = "sim";
     v.phase = "cruise";
     v.phases = {"hold", "cruise"};
+    v.paused = paused;
     v.epoch_ns = 1'767'225'600'000'000'000;
     v.components = {controller(), planner()};
     return v;
@@ -96,6 +97,19 @@ class MockControl : public Control {
     note("reset");
     work([answer = std::move(answer)] { answer(""); });
   }
+  void pace(const PaceOrder& order, Answer answer) override {
+    static constexpr const char* words[] = {"pause", "resume", "step", "speed"};
+    using What = PaceOrder::What;
+    note(words[static_cast<std::size_t>(order.what)] +
+         (order.what == What::step    ? " " + std::to_string(order.ticks)
+          : order.what == What::speed ? " " + speed_text(order.speed)
+                                      : std::string()));
+    work([this, what = order.what, answer = std::move(answer)] {
+      const bool paused = what == What::pause && paused.exchange(true);
+      if (what == What::resume || what == What::speed) paused = false;
+      answer(paused ? "the flight is paused already" : "");
+    });
+  }
   void on_parameter(std::function<void(const std::string&, const std::string&)> changed) override {
     changed_ = std::move(changed);
   }
@@ -110,6 +124,7 @@ class MockControl : public Control {
     return message_;
   }
   std::atomic<std::uint64_t> sets{0};
+  std::atomic<bool> paused{false};
 
  private:
   static ParameterView number(std::string name, double value) {

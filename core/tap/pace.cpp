@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/tap/pace.hpp"
+
+#include <charconv>
+#include <cstdio>
+
+#include "core/error.hpp"
+
+namespace fulmar::core {
+namespace {
+
+constexpr std::uint64_t most_ticks = 1'000'000;
+// One tick may take so much longer than in reality: in between nobody is heard.
+constexpr double slowest = 0.01, fastest = 1e6;
+
+}  // namespace
+
+std::optional<double> speed_of(const std::string& text) {
+  if (text == "real") return 1;
+  if (text == "max") return 0;
+  double speed = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), speed);
+  const bool whole = code == std::errc{} && end == text.data() + text.size();
+  return whole && speed > 0 && speed <= fastest ? std::optional(speed) : std::nullopt;
+}
+
+std::string speed_text(double speed) {
+  if (speed == 0) return "max";
+  if (speed == 1) return "real";
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", speed);
+  return text;
+}
+
+PaceOrder step_order(const std::string& ticks) {
+  std::uint64_t n = 0;
+  const auto [end, code] = std::from_chars(ticks.data(), ticks.data() + ticks.size(), n);
+  if (code != std::errc{} || end != ticks.data() + ticks.size() || n < 1 || n > most_ticks)
+    throw Error("step '" + ticks + "': give a whole number of ticks from 1 to " + std::to_string(most_ticks));
+  return {PaceOrder::What::step, n, 0};
+}
+
+PaceOrder speed_order(const std::string& speed) {
+  const std::optional<double> number = speed_of(speed);
+  if (!number || (*number > 0 && *number < slowest))
+    throw Error("speed '" + speed + "': give real, max, or a multiple of real time from 0.01 to 1e6");
+  return {PaceOrder::What::speed, 0, *number};
+}
+
+}  // namespace fulmar::core

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A joystick, gamepad, or transmitter on USB. Runs in a thread of its own: `run: driver`.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "events.hpp"
+#include "source.hpp"
+#include "transmitter.hpp"
+
+namespace fulmar::hand {
+
+/// Dead zone, then exponential: gentle around the centre, and all of the throw at its end.
+inline double shaped(double x, double dead_zone, double expo) {
+  const double y = std::copysign(std::max(0.0, std::abs(x) - dead_zone) / (1 - dead_zone), x);
+  return (1 - expo) * y + expo * y * y * y;
+}
+
+struct AxisParams {
+  Count roll_axis{0, -1, 31, "of the roll stick; right is positive; -1: none", setup};
+  Flag roll_reversed{false, "", setup};
+  Count pitch_axis{1, -1, 31, "of the pitch stick; pulled is positive; -1: none", setup};
+  Flag pitch_reversed{false, "of a transmitter on USB, whose stick is positive when it is pushed", setup};
+  Count throttle_axis{2, -1, 31, "of the throttle; open is positive; -1: none, and it stays closed", setup};
+  Flag throttle_reversed{false, "", setup};
+  Count yaw_axis{3, -1, 31, "of the yaw stick; right is positive; -1: none", setup};
+  Flag yaw_reversed{false, "", setup};
+  Count aux1_axis{4, -1, 31, "of the first switch; -1: none", setup};
+  Count aux2_axis{5, -1, 31, "of the second switch; -1: none", setup};
+  Count aux3_axis{6, -1, 31, "of the third switch; -1: none", setup};
+  Count aux4_axis{7, -1, 31, "of the fourth switch; -1: none", setup};
+};
+
+struct ButtonParams {
+  Count aux1_button{-1, -1, 63, "in place of the axis; -1: none", setup};
+  Count aux2_button{-1, -1, 63, "in place of the axis; -1: none", setup};
+  Count aux3_button{-1, -1, 63, "in place of the axis; -1: none", setup};
+  Count aux4_button{-1, -1, 63, "in place of the axis; -1: none", setup};
+  Flag buttons_latch{true, "a press turns the switch over; false: it is on as long as the button is down",
+                     setup};
+};
+
+struct Joystick {
+  static constexpr const char* doc =
+      "A Linux joystick as the pilot's transmitter: frames at 50 Hz. Needs `run: driver`.";
+  struct Inputs {};
+  struct Outputs {
+    OutQueue<Rc, 4> rc;
+    OutQueue<Notice, 4> notices;
+    Probe unknown_records_ratio;  // since the start: what no joystick sends
+  };
+  struct Params {
+    TextParam<128> device{Text<128>("/dev/input/js0"), "the joystick, or a pipe of its records"};
+    AxisParams axes;
+    ButtonParams buttons;
+    Param dead_zone{0.02, "", 0, 0.5, "of the three sticks, around the centre", setup};
+    Param expo{0, "", 0, 1, "of the three sticks: share of the cube", setup};
+  };
+
+  void configure(const Params& p) {
+    path_ = checked_path(p.device.view());
+    source_.close("");
+    state_ = {};
+    transmitter_ = {};
+    unknown_told_ = 0;
+  }
+
+  /// Waits for records, at most 20 ms. `degraded` while there is no joystick.
+  Status step(const Tick& tick, const Inputs&, const Params& p, Outputs& out) {
+    if (!source_.is_open() && source_.open(path_)) state_.forget();
+    if (source_.is_open())
+      listen();
+    else
+      pause_ms(20);
+    const bool link = source_.is_open() && state_.heard();
+    if (link || !source_.is_open()) transmitter_.tell(link, path_, source_.fault(), out.notices);
+    if (transmitter_.due(tick.now_ns)) out.rc.push(link ? frame(p) : Rc{}, on_arrival);
+    if (state_.unknown() != unknown_told_)
+      out.unknown_records_ratio = static_cast<double>(unknown_told_ = state_.unknown());
+    return link ? Status::ok : Status::degraded;
+  }
+
+ private:
+  /// A flood does not keep the frames waiting: the rest is for the next step.
+  void listen() {
+    std::array<char, 64 * JsEvent::size> bytes;
+    int wait_ms = 5;
+    for (int i = 0; i < 8; ++i) {
+      const std::size_t n = source_.read(bytes, wait_ms);
+      state_.take({bytes.data(), n});
+      if (n < bytes.size()) break;
+      wait_ms = 0;
+    }
+    if (state_.foreign()) source_.close("what it sends is no joystick's");
+  }
+
+  Rc frame(const Params& p) const {
+    const AxisParams& a = p.axes;
+    const auto stick = [&](std::int64_t axis, bool reversed) {
+      return (reversed ? -1 : 1) * shaped(state_.axis(axis, 0), p.dead_zone, p.expo);
+    };
+    const double open = (a.throttle_reversed ? -1 : 1) * state_.axis(a.throttle_axis, 0);
+    const ButtonParams& b = p.buttons;
+    const auto lever = [&](std::int64_t axis, std::int64_t button) {
+      if (button < 0) return state_.axis(axis, 0);
+      return (b.buttons_latch ? state_.presses(button) % 2 == 1 : state_.pressed(button)) ? 1.0 : -1.0;
+    };
+    Rc rc;
+    rc.roll_frac = stick(a.roll_axis, a.roll_reversed);
+    rc.pitch_frac = stick(a.pitch_axis, a.pitch_reversed);
+    rc.yaw_frac = stick(a.yaw_axis, a.yaw_reversed);
+    rc.throttle_frac = state_.has_axis(a.throttle_axis) ? (1 + open) / 2 : 0;
+    rc.aux1_frac = lever(a.aux1_axis, b.aux1_button);
+    rc.aux2_frac = lever(a.aux2_axis, b.aux2_button);
+    rc.aux3_frac = lever(a.aux3_axis, b.aux3_button);
+    rc.aux4_frac = lever(a.aux4_axis, b.aux4_button);
+    rc.link = true;
+    return rc;
+  }
+
+  std::string path_;
+  Source source_;
+  JsState state_;
+  Transmitter transmitter_;
+  std::uint64_t unknown_told_ = 0;
+};
+
+}  // namespace fulmar::hand

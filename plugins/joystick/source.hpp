@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the pilot's bytes come from: a device or a pipe that may come and go. Source: POSIX.1-2017.
+#pragma once
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace fulmar::hand {
+
+class Source {
+ public:
+  Source() = default;
+  ~Source() { close(); }
+  Source(const Source&) = delete;
+  Source& operator=(const Source&) = delete;
+
+  bool is_open() const { return fd_ >= 0; }
+  /// Why it is not there, or went away.
+  const char* fault() const { return fault_; }
+
+  void close() {
+    if (fd_ < 0) return;
+    if (has_settings_) tcsetattr(fd_, TCSANOW, &settings_);
+    has_settings_ = false;
+    ::close(fd_);
+    fd_ = -1;
+  }
+  void close(const char* why) {
+    close();
+    fault_ = why;
+  }
+
+  /// A terminal gives its characters as they are typed, and shows none, until it is closed.
+  bool open(const std::string& path) {
+    close();
+    fd_ = ::open(path.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+    if (!is_open()) fault_ = errno == EACCES ? "permission denied (group input?)" : strerrordesc_np(errno);
+    if (is_open() && isatty(fd_) == 1) take_terminal();
+    return is_open();
+  }
+
+  /// Bytes read within `wait_ms`; 0 when none came. Closed afterwards if whoever sends has gone.
+  std::size_t read(std::span<char> room, int wait_ms) {
+    pollfd one{fd_, POLLIN, 0};
+    poll(&one, 1, wait_ms);
+    // Asked in any case: a pipe that nobody has opened for writing looks to `poll` as if somebody were silent.
+    const ssize_t n = ::read(fd_, room.data(), room.size());
+    if (n > 0) return static_cast<std::size_t>(n);
+    if (n < 0 && (errno == EAGAIN || errno == EINTR)) return 0;
+    close(n == 0 ? "nobody sends" : strerrordesc_np(errno));
+    return 0;
+  }
+
+ private:
+  /// Ctrl-C and Ctrl-Z keep their meaning.
+  void take_terminal() {
+    if (tcgetpgrp(fd_) != getpgrp()) return close("the terminal belongs to another program");
+    has_settings_ = tcgetattr(fd_, &settings_) == 0;
+    termios raw = settings_;
+    raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+    raw.c_cc[VMIN] = 1;
+    raw.c_cc[VTIME] = 0;
+    if (!has_settings_ || tcsetattr(fd_, TCSANOW, &raw) != 0) close("the terminal cannot be set up");
+  }
+
+  int fd_ = -1;
+  const char* fault_ = "";
+  termios settings_{};
+  bool has_settings_ = false;
+};
+
+/// In `configure`. What is not there yet is waited for in flight.
+inline std::string checked_path(std::string_view name) {
+  std::string path(name);
+  if (path.empty())
+    throw std::runtime_error("the parameter 'device' is empty; it names a device, such as /dev/input/js0");
+  struct stat found {};
+  if (stat(path.c_str(), &found) == 0 && !S_ISCHR(found.st_mode) && !S_ISFIFO(found.st_mode))
+    throw std::runtime_error(path + " is neither a device nor a pipe");
+  return path;
+}
+
+/// Waits between attempts to open it.
+inline void pause_ms(int ms) { poll(nullptr, 0, ms); }
+
+}  // namespace fulmar::hand

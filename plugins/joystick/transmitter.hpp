@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What joystick and keyboard share: frames of a transmitter at 50 Hz, and what is told when it is lost.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+
+#include "fulmar/msg/notice.hpp"
+#include "fulmar/msg/rc.hpp"
+#include "fulmar/plugin.hpp"
+
+namespace fulmar::hand {
+
+/// Counts by flight time: a flight that is paused gets no frames, a fast one gets its 50 a second.
+class Transmitter {
+ public:
+  static constexpr std::int64_t period_ns = 20'000'000;
+
+  /// A frame is due. A driver is told the time of the loop's last tick, 0 before the first one, which may be
+  /// before 0: a time that jumps back counts anew.
+  bool due(std::int64_t now_ns) {
+    if (now_ns < due_ns_ && now_ns > due_ns_ - 2 * period_ns) return false;
+    const bool steady = now_ns >= due_ns_ && now_ns - due_ns_ < period_ns;
+    due_ns_ = (steady ? due_ns_ : now_ns) + period_ns;
+    return true;
+  }
+
+  /// Tells once that the link is there, or is not, and why.
+  template <class Notices>
+  void tell(bool link, const std::string& device, const char* why, Notices& notices) {
+    if (told_ && link == was_) return;
+    const bool lost = told_ && !link, back = told_ && link;
+    told_ = true, was_ = link;
+    char words[192];
+    if (link)
+      std::snprintf(words, sizeof words, "%s: the pilot is %s", device.c_str(), back ? "back" : "there");
+    else
+      std::snprintf(words, sizeof words, "%s: the pilot is %s: %s", device.c_str(), lost ? "lost" : "not there",
+                    why);
+    notices.push({Text<96>(words), link ? Severity::info : Severity::warning}, on_arrival);
+  }
+
+ private:
+  std::int64_t due_ns_ = INT64_MIN / 2;
+  bool told_ = false, was_ = false;
+};
+
+}  // namespace fulmar::hand

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The radio between a pilot and the simulated aircraft. Its receiver and override are those of a ROSflight
+// board: firmware 2.0, rc.cpp and state_manager.cpp.
+#pragma once
+#include <cmath>
+#include <cstdint>
+
+#include "fulmar/msg/rc.hpp"
+#include "fulmar/plugin.hpp"
+
+namespace fulmar::sim {
+
+struct PilotParams {
+  Count override_switch{0, 0, 4, "of the wired pilot: aux1 to aux4, on above 0.6; 0: none", setup};
+  Count arm_switch{0, 0, 4, "of the wired pilot: it arms and disarms when it is turned over; 0: none", setup};
+};
+
+/// What the aircraft's receiver knows of a pilot whose transmitter is wired to the input `pilot`.
+class PilotRadio {
+ public:
+  /// A transmitter sends 50 frames a second.
+  static constexpr std::int64_t patience_ns = 500'000'000;
+  static constexpr double on_above = 0.6;  ///< of -1 to 1; 0.8 of 0 to 1 in the firmware
+
+  /// [write] `carries`: no fault of the radio is in force.
+  void hear(const Optional<Rc>& pilot, bool carries, std::int64_t now_ns) {
+    if (!pilot) return;
+    wired_ = true;
+    const bool frames = pilot->link && now_ns - pilot.valid_at_ns() <= patience_ns && finite(*pilot);
+    link_ = frames && carries;
+    if (link_) rc_ = *pilot;
+  }
+
+  /// A transmitter is wired: it counts in place of the parameters.
+  bool wired() const { return wired_; }
+  bool link() const { return link_; }
+  /// The sticks and switches that were heard last.
+  const Rc& rc() const { return rc_; }
+  bool overrides(const PilotParams& p) const { return link_ && lever(p.override_switch) > on_above; }
+
+  enum class Arming : std::uint8_t { stays, arm, disarm };
+  /// A switch that is on when it is heard of first has to be turned off before it arms.
+  Arming arming(const PilotParams& p) {
+    if (!link_ || p.arm_switch == 0) return Arming::stays;
+    const bool on = lever(p.arm_switch) > on_above, was = was_armed_;
+    was_armed_ = on;
+    return on == was ? Arming::stays : on ? Arming::arm : Arming::disarm;
+  }
+
+ private:
+  static bool finite(const Rc& r) {
+    return std::isfinite(r.roll_frac + r.pitch_frac + r.yaw_frac + r.throttle_frac + r.aux1_frac + r.aux2_frac +
+                         r.aux3_frac + r.aux4_frac);
+  }
+  double lever(std::int64_t number) const {
+    switch (number) {
+      case 1: return rc_.aux1_frac;
+      case 2: return rc_.aux2_frac;
+      case 3: return rc_.aux3_frac;
+      case 4: return rc_.aux4_frac;
+      default: return -1;
+    }
+  }
+
+  Rc rc_;
+  bool wired_ = false, link_ = false;
+  bool was_armed_ = true;  ///< the switch, as far as is known
+};
+
+}  // namespace fulmar::sim

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `fulmar pause | resume | step | speed`: the clock of a simulation.
+#include "core/tap/pace.hpp"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "tools/fulmar_live/commands.hpp"
+#include "tools/fulmar_live/session.hpp"
+
+namespace fulmar::core {
+namespace {
+
+constexpr auto as_long_as_it_takes = std::chrono::hours(24);
+
+int order(Session& session, const std::string& service, const nlohmann::json& request,
+          const std::string& what) {
+  const Session::Verdict verdict = session.order(service, request);
+  if (!verdict.accepted)
+    return std::fprintf(stderr, "%s: refused: %s\n", what.c_str(), verdict.reason.c_str()), 1;
+  const double now_s = 1e-9 * static_cast<double>(session.view().value("now_ns", std::int64_t{0}));
+  return std::printf("%s: accepted, at %.4f s of flight\n", what.c_str(), now_s), 0;
+}
+
+/// What cannot be meant is wrong usage, whether there is a flight or not.
+void check(const auto& parse, const std::string& text) {
+  try {
+    parse(text);
+  } catch (const Error& wrong) {
+    throw WrongUsage(wrong.what());
+  }
+}
+
+}  // namespace
+
+int pause_command(const LiveAddress& target) {
+  Session session(target);
+  return order(session, "/fulmar/pause", nlohmann::json::object(), "pause");
+}
+
+int resume_command(const LiveAddress& target) {
+  Session session(target);
+  return order(session, "/fulmar/resume", nlohmann::json::object(), "resume");
+}
+
+int step_command(const LiveAddress& target, const std::string& ticks) {
+  check(step_order, ticks);
+  Session session(target);
+  session.be_patient(as_long_as_it_takes);
+  return order(session, "/fulmar/step", {{"ticks", ticks}}, "step " + ticks);
+}
+
+int speed_command(const LiveAddress& target, const std::string& speed) {
+  check(speed_order, speed);
+  Session session(target);
+  return order(session, "/fulmar/speed", {{"speed", speed}}, "speed " + speed);
+}
+
+}  // namespace fulmar::core

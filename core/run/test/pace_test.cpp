@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A simulation that is paused, stepped, and made to fly faster or slower while it flies. Nothing here waits for
+// a time to be right, only for something to happen.
+#include "core/tap/pace.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <future>
+#include <iterator>
+#include <memory>
+#include <thread>
+
+#include "core/run/test/lab.hpp"
+#include "core/tap/control.hpp"
+
+namespace pace_test {
+
+namespace {
+
+const std::string watched = "live: {listen: \"127.0.0.1:0\"}\n";
+constexpr auto soon = std::chrono::seconds(60);
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+PaceOrder order(PaceOrder::What what) { return {what, 0, 0}; }
+constexpr auto pause = PaceOrder::What::pause, resume = PaceOrder::What::resume;
+
+/// A flight in a thread of its own, from where others speak to it.
+class Aloft {
+ public:
+  explicit Aloft(const std::string& tail = one_phase, double duration_s = 90, double speed = 1,
+                 const fs::path& log = {})
+      : graph_(mission(tail + watched)) {
+    FlightOptions o = options(duration_s);
+    o.speed = speed;
+    o.interrupt = &signal;
+    o.log = !log.empty();
+    o.log_file = log;
+    flight_ = std::make_unique<Flight>(graph_, o);
+    REQUIRE(flight_->step());
+    control_ = flight_->control();
+    thread_ = std::thread([this] { result_ = flight_->run(); });
+  }
+  ~Aloft() {
+    if (thread_.joinable()) end();
+  }
+
+  Control& control() { return *control_; }
+  std::string ask(const std::function<void(Control::Answer)>& question) {
+    const auto promise = std::make_shared<std::promise<std::string>>();
+    auto answer = promise->get_future();
+    question([promise](const std::string& refusal) { promise->set_value(refusal); });
+    REQUIRE(answer.wait_for(soon) == std::future_status::ready);
+    return answer.get();
+  }
+  std::string pace(const PaceOrder& asked) {
+    return ask([&](Control::Answer answer) { control_->pace(asked, std::move(answer)); });
+  }
+  std::string step(std::uint64_t ticks) { return pace({PaceOrder::What::step, ticks, 0}); }
+  std::string speed(double times) { return pace({PaceOrder::What::speed, 0, times}); }
+  std::string set(const std::string& value) {
+    return ask([&](Control::Answer answer) { control_->set_parameter("one", "u", value, std::move(answer)); });
+  }
+  FlightView view() const { return control_->view(); }
+  std::int64_t now_ns() const { return view().now_ns; }
+  void wait_until(const std::function<bool()>& there) const {
+    const auto end = std::chrono::steady_clock::now() + soon;
+    while (!there()) {
+      REQUIRE(std::chrono::steady_clock::now() < end);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+  /// As the flight ends by itself.
+  FlightResult wait() {
+    thread_.join();
+    return result_;
+  }
+  FlightResult end() {
+    signal = 1;
+    return wait();
+  }
+  const Graph& graph() const { return graph_; }
+  const Flight& flight() const { return *flight_; }
+
+  std::atomic<int> signal{0};
+
+ private:
+  Graph graph_;
+  std::unique_ptr<Flight> flight_;
+  Control* control_ = nullptr;
+  FlightResult result_;
+  std::thread thread_;
+};
+
+std::string bytes_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+constexpr std::int64_t tick_ns = 2'500'000;
+
+}  // namespace
+
+TEST_CASE("a paused flight stands still, answers, and takes parameters at once") {
+  Aloft aloft;
+  CHECK_FALSE(aloft.view().paused);
+  CHECK(aloft.view().speed == 1);
+  CHECK(aloft.pace(order(pause)) == "");
+  CHECK(aloft.view().paused);
+  const std::int64_t then = aloft.now_ns();
+  CHECK(aloft.pace(order(pause)) == "the flight is paused already");
+  CHECK(aloft.set("0.5") == "");
+  for (int i = 0; i < 5; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));  // several periods: there would be ticks
+    CHECK(aloft.now_ns() == then);
+  }
+  CHECK(aloft.pace(order(resume)) == "");
+  CHECK_FALSE(aloft.view().paused);
+  aloft.wait_until([&] { return aloft.now_ns() > then; });
+  CHECK(aloft.pace(order(resume)) == "the flight is not paused");
+  CHECK(aloft.end().outcome == Outcome::interrupted);
+  CHECK(value(aloft.graph(), aloft.flight(), "one", "command", "u_frac") == 0.5);
+}
+
+TEST_CASE("N ticks are flown, not one more or less, and whoever asked is answered behind the last") {
+  Aloft aloft;
+  CHECK(aloft.step(3) == "the flight is not paused: nothing to step");
+  aloft.pace(order(pause));
+  const std::int64_t then = aloft.now_ns();
+  for (const std::uint64_t n : {1, 2, 400, 1}) {
+    const std::int64_t before = aloft.now_ns();
+    CHECK(aloft.step(n) == "");
+    CHECK(aloft.now_ns() == before + static_cast<std::int64_t>(n) * tick_ns);
+    CHECK(aloft.view().paused);
+  }
+  CHECK(aloft.now_ns() == then + 404 * tick_ns);
+}
+
+TEST_CASE("what is asked behind a step takes effect behind it, in the order in which it was asked") {
+  Aloft aloft;
+  aloft.pace(order(pause));
+  std::promise<std::string> stepped, set;
+  aloft.control().pace({PaceOrder::What::step, 1, 0}, [&](const std::string& w) { stepped.set_value(w); });
+  aloft.control().set_parameter("one", "u", "0.75", [&](const std::string& w) { set.set_value(w); });
+  CHECK(stepped.get_future().get() == "");
+  CHECK(set.get_future().get() == "");
+  aloft.signal = 1;
+  aloft.wait();
+  CHECK(value(aloft.graph(), aloft.flight(), "one", "command", "u_frac") == 0.1);  // of the tick before
+}
+
+TEST_CASE("a request to a paused flight is answered in the next tick") {
+  Aloft aloft;
+  aloft.pace(order(pause));
+  std::promise<std::string> promise;
+  auto answer = promise.get_future();
+  aloft.control().request("watch", "ask", std::string("{to_m: -1}"),
+                          [&](const std::string& why) { promise.set_value(why); });
+  CHECK(aloft.set("0.3") == "");  // was taken behind the request
+  CHECK(answer.wait_for(std::chrono::milliseconds(10)) == std::future_status::timeout);
+  CHECK(aloft.step(1) == "");
+  CHECK(answer.get() == "cannot go back");
+}
+
+TEST_CASE("many ticks can be cut short by a pause, by going on, and by the flight's end: how many is told") {
+  Aloft aloft("  one: {fills: law, use: lab/Law, params: {id: 1, u: 0.1, fault: slow, fault_at: -100 s}}\n" +
+              std::string(one_phase));
+  aloft.pace(order(pause));
+  for (const auto& [cut, stands] : {std::pair(order(pause), true), std::pair(order(resume), false),
+                                    std::pair(PaceOrder{PaceOrder::What::speed, 0, 1}, false)}) {
+    if (!aloft.view().paused) aloft.pace(order(pause));
+    std::promise<std::string> promise;
+    auto answer = promise.get_future();
+    const std::int64_t then = aloft.now_ns();
+    aloft.control().pace({PaceOrder::What::step, 1'000'000, 0},
+                         [&](const std::string& why) { promise.set_value(why); });
+    aloft.wait_until([&] { return aloft.now_ns() > then + 2 * tick_ns; });
+    CHECK(holds(aloft.step(1), "other ticks are being flown"));
+    CHECK(aloft.pace(cut) == "");
+    const std::string told = answer.get();
+    CHECK(holds(told, "of 1000000 ticks"));
+    CHECK(holds(told, "ended after "));
+    CHECK(aloft.view().paused == stands);
+    if (stands)
+      CHECK(holds(told, "after " + std::to_string((aloft.now_ns() - then) / tick_ns) + " of "));
+  }
+  aloft.pace(order(pause));
+  std::promise<std::string> promise;
+  aloft.control().pace({PaceOrder::What::step, 1'000'000, 0},
+                       [&](const std::string& why) { promise.set_value(why); });
+  aloft.end();
+  CHECK(promise.get_future().get() == "the flight has ended");
+}
+
+TEST_CASE("a paused flight ends by a signal, and its log is whole") {
+  const fs::path log = folder().path / "paused.mcap";
+  fs::remove(log);
+  Aloft aloft(one_phase, 90, 1, log);
+  aloft.pace(order(pause));
+  const FlightResult result = aloft.end();
+  CHECK(result.outcome == Outcome::interrupted);
+  CHECK(result.reason == "by a signal");
+  CHECK(result.log.error == "");
+  CHECK(fs::exists(log));
+}
+
+TEST_CASE("a flight that was paused, stepped and hurried leaves the same log as one that was not, byte for byte") {
+  const fs::path plain = folder().path / "plain.mcap", paced = folder().path / "paced.mcap";
+  fs::remove(plain), fs::remove(paced);
+  const std::string async =
+      "  two: {fills: law, use: lab/Law, run: async, latency: 10 ms, params: {id: 2, u: 0.2}}\n"
+      "phases:\n  fly: {law: two}\n";
+  {
+    Aloft aloft(async, 1.5, 1e6, plain);
+    CHECK(aloft.wait().outcome == Outcome::flown);
+  }
+  {
+    Aloft aloft(async, 1.5, 1, paced);
+    CHECK(aloft.pace(order(pause)) == "");
+    CHECK(aloft.step(7) == "");
+    CHECK(aloft.step(100) == "");
+    CHECK(aloft.speed(20) == "");
+    CHECK(aloft.pace(order(pause)) == "");
+    CHECK(aloft.step(1) == "");
+    CHECK(aloft.speed(0) == "");
+    CHECK(aloft.wait().outcome == Outcome::flown);
+  }
+  const std::string a = bytes_of(plain), b = bytes_of(paced);
+  CHECK(a.size() > 1000);
+  CHECK((a == b));
+}
+
+TEST_CASE("a pause is nobody's time, and is not caught up") {
+  Aloft aloft("  one: {fills: law, use: lab/Law, budget: 200 ms, params: {id: 1, u: 0.1}}\n" +
+              std::string(with_fallback));
+  for (int i = 0; i < 6; ++i) {  // more than the overruns in a row that stop a component
+    aloft.pace(order(pause));
+    std::this_thread::sleep_for(std::chrono::milliseconds(250));
+    aloft.step(1);
+  }
+  aloft.pace(order(resume));
+  const std::int64_t then = aloft.now_ns();
+  aloft.wait_until([&] { return aloft.now_ns() > then + 20 * tick_ns; });
+  const FlightResult result = aloft.end();
+  CHECK(result.guards.empty());
+  CHECK(result.wall.behind_max_s < 1.2);  // 1.5 s, if the pauses counted
+  CHECK(result.wall.took_s < 1e-9 * static_cast<double>(result.last_ns - result.first_ns) + 1.2);
+}
+
+TEST_CASE("a flight that is hurried flies on as fast as it can, and then in real time again") {
+  Aloft aloft(one_phase, 1e6);
+  CHECK(aloft.speed(0) == "");
+  CHECK(aloft.view().speed == 0);
+  const std::int64_t then = aloft.now_ns();
+  aloft.wait_until([&] { return aloft.now_ns() > then + 60'000'000'000; });
+  CHECK(aloft.speed(2) == "");
+  CHECK(aloft.view().speed == 2);
+  CHECK(aloft.end().outcome == Outcome::interrupted);
+}
+
+TEST_CASE("on hardware nothing of that is possible, and each says so") {
+  const Graph g = mission("  fcu: {fills: vehicle, use: lab/Cart}\n" + std::string(one_phase) + watched + "io: fcu\n");
+  FlightOptions o = options(1);
+  Flight flight(g, o);
+  Control* const control = flight.control();
+  REQUIRE(control != nullptr);
+  const auto none = [](const std::string&) { FAIL("nobody may be answered"); };
+  const auto why = [&](const PaceOrder& asked) -> std::string {
+    try {
+      control->pace(asked, none);
+    } catch (const Error& fault) {
+      return fault.what();
+    }
+    return "";
+  };
+  CHECK(why(order(pause)) == "this flight is on hardware, io: fcu: an aircraft cannot be paused");
+  CHECK(why(order(resume)) == "this flight is on hardware, io: fcu: an aircraft cannot be paused");
+  CHECK(holds(why({PaceOrder::What::step, 1, 0}), "an aircraft cannot be stepped"));
+  CHECK(holds(why({PaceOrder::What::speed, 0, 2}), "no speed but that of the clock"));
+}
+
+TEST_CASE("ticks and speeds are read whole, and what is none is told with what would be") {
+  CHECK(step_order("400").ticks == 400);
+  CHECK(speed_order("real").speed == 1);
+  CHECK(speed_order("max").speed == 0);
+  CHECK(speed_order("0.25").speed == 0.25);
+  for (const char* const wrong : {"", "0", "-1", "1.5", "1x", "1000001", "99999999999999999999"})
+    CHECK_THROWS_WITH(step_order(wrong), doctest::Contains("a whole number of ticks from 1 to 1000000"));
+  for (const char* const wrong : {"", "0", "-1", "fast", "2x", "nan", "inf", "0.001", "1e7"})
+    CHECK_THROWS_WITH(speed_order(wrong), doctest::Contains("real, max, or a multiple of real time"));
+  for (const double speed : {0.0, 1.0, 0.25, 10.0}) CHECK(speed_of(speed_text(speed)) == speed);
+}
+
+}  // namespace pace_test

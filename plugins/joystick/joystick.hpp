@@ -67,7 +67,7 @@ struct Joystick {
     unknown_told_ = 0;
   }
 
-  /// Waits for records, at most 20 ms. `degraded` while there is no joystick.
+  /// Waits for records, at most 20 ms, so that a flight faster than the clock gets its frames. `degraded` while there is no joystick.
   Status step(const Tick& tick, const Inputs&, const Params& p, Outputs& out) {
     if (!source_.is_open() && source_.open(path_)) state_.forget();
     if (source_.is_open())
@@ -86,7 +86,7 @@ struct Joystick {
   /// A flood does not keep the frames waiting: the rest is for the next step.
   void listen() {
     std::array<char, 64 * JsEvent::size> bytes;
-    int wait_ms = 5;
+    int wait_ms = 2;
     for (int i = 0; i < 8; ++i) {
       const std::size_t n = source_.read(bytes, wait_ms);
       state_.take({bytes.data(), n});

@@ -120,7 +120,7 @@ struct Keyboard {
     before_ns_ = tick.now_ns;
     std::array<char, 256> characters;
     if (source_.is_open())
-      keys_.take({characters.data(), source_.read(characters, 5)}, sizes);
+      keys_.take({characters.data(), source_.read(characters, 2)}, sizes);
     else
       pause_ms(20);
     const bool link = source_.is_open();

@@ -67,7 +67,20 @@ TEST_CASE_FIXTURE(Fixture, "the host's own services") {
   CHECK(call_json("/fulmar/swap", R"({"component": "slc", "file": "x.so"})")["reason"] ==
         "the vehicle is armed");
   CHECK(call_json("/fulmar/reset_guards", "")["accepted"] == true);
-  const std::vector<std::string> expected = {"set slc.roll_kp 0.8", "phase hold", "swap slc x.so", "reset"};
+  CHECK(call_json("/fulmar/view", "{}")["paused"] == false);
+  CHECK(call_json("/fulmar/pause", "{}")["accepted"] == true);
+  CHECK(call_json("/fulmar/pause", "{}")["reason"] == "the flight is paused already");
+  CHECK(call_json("/fulmar/view", "{}")["paused"] == true);
+  CHECK(call_json("/fulmar/step", R"({"ticks": "40"})")["accepted"] == true);
+  CHECK(call_json("/fulmar/step", R"({"ticks": "0"})")["reason"] ==
+        "step '0': give a whole number of ticks from 1 to 1000000");
+  CHECK(call_json("/fulmar/step", "{}")["reason"] == "the request needs the text 'ticks'");
+  CHECK(call_json("/fulmar/resume", "{}")["accepted"] == true);
+  CHECK(call_json("/fulmar/speed", R"({"speed": "max"})")["accepted"] == true);
+  CHECK(call_json("/fulmar/speed", R"({"speed": "warp"})")["reason"] ==
+        "speed 'warp': give real, max, or a multiple of real time from 0.01 to 1e6");
+  const std::vector<std::string> expected = {"set slc.roll_kp 0.8", "phase hold", "swap slc x.so", "reset",
+                                             "pause", "pause", "step 40", "resume", "speed max"};
   CHECK(control.heard() == expected);
 
   const json view = call_json("/fulmar/view", "{}");

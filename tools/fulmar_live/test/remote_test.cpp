@@ -187,7 +187,8 @@ TEST_CASE("what libraries throw is told in words for people") {
 
 TEST_CASE("without a flight every word says what to do") {
   for (const char* words : {"list", "echo nav.state", "plot a.b.c", "param list", "param set a.b 1",
-                            "call a.b", "phase x", "swap a b", "reset"}) {
+                            "call a.b", "phase x", "swap a b", "reset", "pause", "resume", "step", "step 5",
+                            "speed max"}) {
     const Result r = shell(program + " " + words + " --at 127.0.0.1:1");
     CHECK(r.code == 1);
     CHECK(r.err ==
@@ -423,6 +424,37 @@ TEST_CASE("requests, phases and swaps are asked for; a refusal is told and is ex
   CHECK(flight.heard("swap slc " + (folder.path / "./my.so").string() + "/Law"));
 }
 
+TEST_CASE("the clock of a simulation is stopped, stepped and hurried, and list tells of it") {
+  const MockFlight flight;
+  CHECK(typed(flight, "pause").out == "pause: accepted, at 0.0000 s of flight\n");
+  CHECK(lines(typed(flight, "list").out).at(0) == "mock <1> (io: sim), phase cruise, 0.0 s, not armed, paused");
+  const Result twice = typed(flight, "pause");
+  CHECK(twice.code == 1);
+  CHECK(twice.err == "pause: refused: the flight is paused already\n");
+  CHECK(typed(flight, "step").code == 0);
+  CHECK(flight.heard("step 1"));
+  CHECK(typed(flight, "step 400").out == "step 400: accepted, at 0.0000 s of flight\n");
+  CHECK(flight.heard("step 400"));
+  CHECK(typed(flight, "resume").code == 0);
+  CHECK(flight.heard("resume"));
+  CHECK(typed(flight, "speed real").code == 0);
+  CHECK(typed(flight, "speed max").code == 0);
+  CHECK(flight.heard("speed max"));
+  CHECK(typed(flight, "speed 2.5").code == 0);
+  CHECK(flight.heard("speed 2.5"));
+  for (const char* wrong : {"step 0", "step 1.5", "step many"}) {
+    const Result r = typed(flight, wrong);
+    CHECK(r.code == 2);
+    CHECK(r.err.find("': give a whole number of ticks from 1 to 1000000\n") != std::string::npos);
+  }
+  for (const char* wrong : {"speed warp", "speed 0", "speed 1e9"}) {
+    const Result r = typed(flight, wrong);
+    CHECK(r.code == 2);
+    CHECK(r.err.find("': give real, max, or a multiple of real time from 0.01 to 1e6\n") != std::string::npos);
+  }
+  CHECK(typed(flight, "speed").code == 2);
+}
+
 TEST_CASE("a plot that is no terminal's is a picture at the end") {
   const MockFlight flight;
   const Result r = typed(flight, "plot slc.leg.course_deg plan.mixed.speed_mps --seconds 0.5");
@@ -464,6 +496,8 @@ TEST_CASE("bash completes commands, options, and names of the running flight") {
   CHECK(completed(flight, "fulmar call p") == Words{"plan.add_leg"});
   CHECK(completed(flight, "fulmar phase ") == Words{"cruise", "hold"});
   CHECK(completed(flight, "fulmar run --io ") == Words{"sim", "fcu"});
+  CHECK(completed(flight, "fulmar speed ") == Words{"real", "max"});
+  CHECK(completed(flight, "fulmar paus") == Words{"pause"});
   CHECK(completed(flight, "fulmar aero m") == Words{"modes"});
   CHECK(completed(flight, "fulmar aero modes --s") == Words{"--step", "--svg"});
   CHECK(completed(flight, "fulmar aero trim configs/airframes/an") ==

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A mission that is flown by hand, through a pipe of joystick records; and again from its log, to the byte.
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+
+#include "pipe.hpp"
+
+namespace flight_test {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+using nlohmann::json;
+
+namespace {
+
+struct Result {
+  int code = -1;
+  std::string out;
+};
+
+/// A word of fulmar, with all that it says.
+Result typed(const std::string& words) {
+  Result r;
+  FILE* pipe = popen((FULMAR_BIN_DIR "/fulmar " + words + " 2>&1").c_str(), "r");
+  REQUIRE(pipe != nullptr);
+  char buffer[4096];
+  for (std::size_t n = 0; (n = fread(buffer, 1, sizeof buffer, pipe)) > 0;) r.out.append(buffer, n);
+  const int status = pclose(pipe);
+  r.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return r;
+}
+
+/// The mission of the pilot, without the simulation that an onlooker may be watching on this computer.
+fs::path mission(const Pipe& pipe, const std::string& more = "") {
+  const fs::path file = fs::path(pipe.path()).parent_path() / "hand.yaml";
+  std::ofstream(file) << "extends: " FULMAR_SOURCE_DIR
+                         "/configs/missions/by_hand.yaml\nlive: {listen: 127.0.0.1:0}\n"
+                      << more << "components: {pilot: {params: {device: " << pipe.path() << "}}}\n";
+  return file;
+}
+
+/// Rows of a port in a log.
+std::vector<json> rows(const fs::path& log, const std::string& port) {
+  const fs::path file = log.string() + ".jsonl";
+  std::vector<json> list;
+  const Result r = typed("log export " + log.string() + " --format jsonl --port " + port);
+  std::size_t at = 0;
+  while (at < r.out.size()) {
+    const std::size_t end = std::min(r.out.find('\n', at), r.out.size());
+    const json row = json::parse(r.out.substr(at, end - at), nullptr, false);
+    if (row.is_object()) list.push_back(row);
+    at = end + 1;
+  }
+  return list;
+}
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// Levers and sticks where they are at rest: throttle closed, switches off.
+std::string at_rest() {
+  std::string all;
+  for (int i = 0; i < 8; ++i) all += record(0x82, i, i == 2 || i > 3 ? -32767 : 0);
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("a roll is flown by hand, and its log flies it again, byte for byte") {
+  Pipe pipe;
+  pipe.plug();
+  const fs::path folder = fs::path(pipe.path()).parent_path(), log = folder / "first.mcap",
+                 again = folder / "again.mcap";
+  const fs::path file = mission(pipe, "done: \"vehicle.rc.aux2_frac > 0.5\"\n");
+  pipe.write(at_rest());
+  std::atomic<bool> over{false};
+  std::thread pilot([&] {  // by what the aircraft does, whatever the clock says
+    const auto wait = [&](const std::string& field, auto there) {
+      while (!over) {
+        const Result r = typed("echo " + field + " --count 1 --json --at 127.0.0.1:8799");
+        const json row = json::parse(r.out, nullptr, false);
+        if (row.is_object() && there(row.flatten().back().get<double>())) return;
+        std::this_thread::sleep_for(5ms);
+      }
+    };
+    wait("sim.truth.height_m", [](double h) { return h > 40; });
+    pipe.write(axis(2, 16000) + axis(1, 5000) + axis(0, 12000) + axis(7, 32767));
+    wait("sim.truth.roll_rad", [](double roll_deg) { return roll_deg > 45; });
+    pipe.write(axis(0, 0) + axis(7, -32767));
+    wait("sim.truth.roll_rad", [](double roll_deg) { return roll_deg < 20; });
+    pipe.write(axis(5, 32767));
+  });
+  const Result first =
+      typed("run " + file.string() + " --speed 4 --live 127.0.0.1:8799 --duration 200 --log " + log.string());
+  over = true;
+  pilot.join();
+  CHECK_MESSAGE(first.code == 0, first.out);
+  CHECK(holds(first.out, "the pilot is there"));
+
+  const Result replayed = typed("replay " + log.string());
+  CHECK(replayed.code == 0);
+  CHECK(holds(replayed.out, "0 differing bytes"));
+  const Result flown = typed("run " + file.string() + " --duration 200 --drivers-from " + log.string() + " --log " +
+                             again.string());
+  CHECK(flown.code == 0);
+  const Result diff = typed("log diff " + log.string() + " " + again.string());
+  CHECK_MESSAGE(holds(diff.out, "messages are equal"), diff.out);
+}
+
+TEST_CASE("without a joystick the aircraft is not armed, and the pilot is told why") {
+  const Pipe pipe;
+  const Result r = typed("run " + mission(pipe).string() + " --duration 2 --no-log");
+  CHECK(holds(r.out, "the pilot is not there: No such file or directory"));
+  CHECK(holds(r.out, "hold"));
+  CHECK_FALSE(holds(r.out, "takeoff"));
+}
+
+}  // namespace flight_test

@@ -377,7 +377,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
 def default_pages():
-    return [*(ROOT / "docs" / f"{name}.md" for name in ("missions", "live", "logs", "ros2", "many-flights", "vehicles", "aero")), *sorted((ROOT / "docs/tutorial").glob("[0-9]-*.md")),
+    return [*(ROOT / "docs" / f"{name}.md" for name in ("missions", "live", "logs", "ros2", "many-flights", "vehicles", "aero", "by_hand")), *sorted((ROOT / "docs/tutorial").glob("[0-9]-*.md")),
             *sorted((ROOT / "examples").glob("*/README.md"))]
 
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <string>
 #include <thread>
 
 #include "core/clock.hpp"
@@ -28,10 +29,12 @@ bool Flight::Impl::stand_still() {
 
 void Flight::Impl::tell_pace(const PaceOrder& order) {
   if (!state.options.say) return;
-  const char* const word = order.what == PaceOrder::What::pause ? "paused" : "goes on";
+  const std::string what = order.what == PaceOrder::What::pause
+                               ? "paused"
+                               : "goes on, speed " + speed_text(state.options.speed);
   std::array<char, 80> words;
-  std::snprintf(words.data(), words.size(), "%8.2f s  %s, speed %s", 1e-9 * static_cast<double>(state.now_ns),
-                word, speed_text(state.options.speed).c_str());
+  std::snprintf(words.data(), words.size(), "%8.2f s  %s", 1e-9 * static_cast<double>(state.now_ns),
+                what.c_str());
   state.options.say(words.data(), false);
 }
 

@@ -20,13 +20,13 @@ inline double shaped(double x, double dead_zone, double expo) {
 
 struct AxisParams {
   Count roll_axis{0, -1, 31, "of the roll stick; right is positive; -1: none", setup};
-  Flag roll_reversed{false, "", setup};
+  Flag roll_reversed{false, "left is positive", setup};
   Count pitch_axis{1, -1, 31, "of the pitch stick; pulled is positive; -1: none", setup};
-  Flag pitch_reversed{false, "of a transmitter on USB, whose stick is positive when it is pushed", setup};
+  Flag pitch_reversed{false, "pushed is positive, as of a transmitter on USB", setup};
   Count throttle_axis{2, -1, 31, "of the throttle; open is positive; -1: none, and it stays closed", setup};
-  Flag throttle_reversed{false, "", setup};
+  Flag throttle_reversed{false, "closed is positive, as of a slider", setup};
   Count yaw_axis{3, -1, 31, "of the yaw stick; right is positive; -1: none", setup};
-  Flag yaw_reversed{false, "", setup};
+  Flag yaw_reversed{false, "left is positive", setup};
   Count aux1_axis{4, -1, 31, "of the first switch; -1: none", setup};
   Count aux2_axis{5, -1, 31, "of the second switch; -1: none", setup};
   Count aux3_axis{6, -1, 31, "of the third switch; -1: none", setup};

@@ -105,9 +105,9 @@ class MockControl : public Control {
           : order.what == What::speed ? " " + speed_text(order.speed)
                                       : std::string()));
     work([this, what = order.what, answer = std::move(answer)] {
-      const bool paused = what == What::pause && paused.exchange(true);
+      const bool twice = what == What::pause && paused.exchange(true);
       if (what == What::resume || what == What::speed) paused = false;
-      answer(paused ? "the flight is paused already" : "");
+      answer(twice ? "the flight is paused already" : "");
     });
   }
   void on_parameter(std::function<void(const std::string&, const std::string&)> changed) override {

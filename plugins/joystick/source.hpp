@@ -23,7 +23,7 @@ class Source {
   Source(const Source&) = delete;
   Source& operator=(const Source&) = delete;
 
-  bool is_open() const { return fd_ >= 0; }
+  bool is_open() const { return fd_ >= 0 && there_; }
   /// Why it is not there, or went away.
   const char* fault() const { return fault_; }
 
@@ -33,6 +33,7 @@ class Source {
     has_settings_ = false;
     ::close(fd_);
     fd_ = -1;
+    there_ = false;
   }
   void close(const char* why) {
     close();
@@ -41,9 +42,11 @@ class Source {
 
   /// A terminal gives its characters as they are typed, and shows none, until it is closed.
   bool open(const std::string& path) {
+    if (fd_ >= 0 && waits_for_sender(path)) return there_;
     close();
     fd_ = ::open(path.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
-    if (!is_open()) fault_ = errno == EACCES ? "permission denied (group input?)" : strerrordesc_np(errno);
+    there_ = fd_ >= 0;
+    if (!there_) fault_ = errno == EACCES ? "permission denied (group input?)" : strerrordesc_np(errno);
     if (is_open() && isatty(fd_) == 1) take_terminal();
     return is_open();
   }
@@ -56,11 +59,31 @@ class Source {
     const ssize_t n = ::read(fd_, room.data(), room.size());
     if (n > 0) return static_cast<std::size_t>(n);
     if (n < 0 && (errno == EAGAIN || errno == EINTR)) return 0;
-    close(n == 0 ? "nobody sends" : strerrordesc_np(errno));
+    close_or_wait(n == 0 ? "nobody sends" : strerrordesc_np(errno));
     return 0;
   }
 
  private:
+  /// This end of a pipe stays open: somebody may just be opening the other one, who would find it broken.
+  void close_or_wait(const char* why) {
+    struct stat own {};
+    if (fstat(fd_, &own) != 0 || !S_ISFIFO(own.st_mode)) return close(why);
+    there_ = false;
+    fault_ = why;
+  }
+
+  /// Whether the pipe that is open is still that of the path; then also whether somebody sends.
+  bool waits_for_sender(const std::string& path) {
+    struct stat own {}, named {};
+    if (fstat(fd_, &own) != 0 || stat(path.c_str(), &named) != 0 || own.st_ino != named.st_ino ||
+        own.st_dev != named.st_dev)
+      return false;
+    pollfd one{fd_, POLLIN, 0};
+    poll(&one, 1, 0);
+    there_ = (one.revents & POLLIN) != 0 || (one.revents & POLLHUP) == 0;
+    return true;
+  }
+
   /// Ctrl-C and Ctrl-Z keep their meaning.
   void take_terminal() {
     if (tcgetpgrp(fd_) != getpgrp()) return close("the terminal belongs to another program");
@@ -73,6 +96,7 @@ class Source {
   }
 
   int fd_ = -1;
+  bool there_ = false;  ///< of a pipe: somebody sends
   const char* fault_ = "";
   termios settings_{};
   bool has_settings_ = false;

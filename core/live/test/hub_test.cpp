@@ -30,12 +30,12 @@ TEST_CASE_FIXTURE(Fixture, "a client is told who serves, which channels there ar
   CHECK(channels[1]["schemaName"] == "fulmar_msgs/msg/Leg");
   CHECK(channels[1]["schema"].get<std::string>().find("float64 course_rad") != std::string::npos);
   const json& services = peer.texts[2]["services"];
-  REQUIRE(services.size() == 6);
-  CHECK(services[5]["name"] == "/plan/add_leg");
-  CHECK(services[5]["type"] == "fulmar_msgs/srv/Leg");
-  CHECK(services[5]["request"]["schemaName"] == "fulmar_msgs/msg/Leg");
-  CHECK(services[5]["requestSchema"] == channels[1]["schema"]);
-  CHECK(services[5]["responseSchema"] == "bool accepted\nstring reason\n");
+  REQUIRE(services.size() == 10);
+  CHECK(services[9]["name"] == "/plan/add_leg");
+  CHECK(services[9]["type"] == "fulmar_msgs/srv/Leg");
+  CHECK(services[9]["request"]["schemaName"] == "fulmar_msgs/msg/Leg");
+  CHECK(services[9]["requestSchema"] == channels[1]["schema"]);
+  CHECK(services[9]["responseSchema"] == "bool accepted\nstring reason\n");
   CHECK(services[0]["requestSchema"] == "string component\nstring name\nstring text\n");
 }
 

@@ -219,6 +219,25 @@ TEST_CASE("a pipe that nobody has opened for writing is nobody") {
   CHECK(holds(told(bench), "not there: nobody sends"));
 }
 
+TEST_CASE("a sender that opens a pipe at any time does not find it broken, and a second one goes on") {
+  Pipe pipe;
+  pipe.make();
+  Bench<Joystick> bench;
+  use(bench, pipe);
+  frame(bench);
+  for (const int value : {32767, -32767}) {
+    const int end = open(pipe.path().c_str(), O_WRONLY | O_NONBLOCK);  // fails when nobody reads
+    REQUIRE(end >= 0);
+    const std::string bytes = axis(0, value);
+    CHECK(write(end, bytes.data(), bytes.size()) == 8);
+    const Rc rc = frame(bench);
+    CHECK(rc.link);
+    CHECK(rc.roll_frac == (value > 0 ? 1 : -1));
+    close(end);
+    CHECK_FALSE(frame(bench).link);
+  }
+}
+
 TEST_CASE("a record that no joystick sends changes nothing and is counted; many in a row are no joystick") {
   Pipe pipe;
   pipe.plug();

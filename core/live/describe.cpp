@@ -237,8 +237,7 @@ json view_json(const FlightView& view, const Tap& tap) {
   return {{"mission", view.mission},   {"file", view.file},     {"io", view.io},
           {"phase", view.phase},       {"phases", view.phases}, {"now_ns", view.now_ns},
           {"epoch_ns", view.epoch_ns}, {"armed", view.armed},   {"over", view.over},
-          {"paused", view.paused},     {"speed", view.speed},
-          {"components", components}};
+          {"paused", view.paused},     {"speed", view.speed},   {"components", components}};
 }
 
 json parameter_json(const std::string& name, const ParameterView& parameter) {

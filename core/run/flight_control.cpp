@@ -426,7 +426,7 @@ void FlightControl::pace(const PaceOrder& order, Answer answer) {
   const bool stops = order.what == What::pause || order.what == What::resume;
   if (flight_.state.on_hardware())
     throw Error(std::string("this flight is on hardware, io: fcu: ") +
-                (stops                       ? "an aircraft cannot be paused"
+                (stops                      ? "an aircraft cannot be paused"
                  : order.what == What::step ? "an aircraft cannot be stepped"
                                             : "its time has no speed but that of the clock"));
   auto waiting = std::make_unique<Waiting>();

@@ -29,9 +29,8 @@ bool Flight::Impl::stand_still() {
 
 void Flight::Impl::tell_pace(const PaceOrder& order) {
   if (!state.options.say) return;
-  const std::string what = order.what == PaceOrder::What::pause
-                               ? "paused"
-                               : "goes on, speed " + speed_text(state.options.speed);
+  const std::string what =
+      order.what == PaceOrder::What::pause ? "paused" : "goes on, speed " + speed_text(state.options.speed);
   std::array<char, 80> words;
   std::snprintf(words.data(), words.size(), "%8.2f s  %s", 1e-9 * static_cast<double>(state.now_ns),
                 what.c_str());

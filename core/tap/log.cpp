@@ -68,7 +68,8 @@ struct Log::Impl {
   McapWriter::Result result;
   std::thread thread;
 
-  Impl(const Options& o, Tap& from) : options(o), tap(from), begin(tap.written()), cursor(from, true, o.wait) {
+  Impl(const Options& o, Tap& from)
+      : options(o), tap(from), begin(tap.written()), cursor(from, true, o.wait) {
     for (std::size_t i = 0; i < tap.channels().size(); ++i) {
       channels.push_back(
           {CdrEncoder(*tap.channels()[i].type), 0, options.channels.empty() || options.channels[i]});

@@ -36,7 +36,7 @@ class JsState {
     }
   }
 
-  bool heard() const { return heard_; }                    ///< a record of a joystick has come
+  bool heard() const { return heard_; }                   ///< a record of a joystick has come
   bool foreign() const { return in_a_row_ >= patience; }  ///< whatever sends is no joystick
   std::uint64_t unknown() const { return unknown_; }
   /// The state when somebody was heard last is nobody's any more. The count goes on.
@@ -55,7 +55,9 @@ class JsState {
   bool has_axis(std::int64_t number) const { return axis(number, 2) != 2; }
   bool pressed(std::int64_t number) const { return of_button(number) && of_button(number)->down; }
   /// Times that it was pressed, not counting that it was down when the device was opened.
-  std::uint64_t presses(std::int64_t number) const { return of_button(number) ? of_button(number)->presses : 0; }
+  std::uint64_t presses(std::int64_t number) const {
+    return of_button(number) ? of_button(number)->presses : 0;
+  }
 
  private:
   struct Axis {
@@ -75,7 +77,8 @@ class JsState {
   void take(const JsEvent& e) {
     const auto kind = static_cast<std::uint8_t>(e.type & ~JsEvent::init);
     const bool is_axis = kind == JsEvent::axis && e.number < most_axes;
-    const bool is_button = kind == JsEvent::button && e.number < most_buttons && (e.value == 0 || e.value == 1);
+    const bool is_button =
+        kind == JsEvent::button && e.number < most_buttons && (e.value == 0 || e.value == 1);
     if (!is_axis && !is_button) {
       ++unknown_, ++in_a_row_;
       return;

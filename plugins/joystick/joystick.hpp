@@ -67,7 +67,8 @@ struct Joystick {
     unknown_told_ = 0;
   }
 
-  /// Waits for records, at most 20 ms, so that a flight faster than the clock gets its frames. `degraded` while there is no joystick.
+  /// Waits for records, at most 20 ms, so that a flight faster than the clock gets its frames. `degraded`
+  /// while there is no joystick.
   Status step(const Tick& tick, const Inputs&, const Params& p, Outputs& out) {
     if (!source_.is_open() && source_.open(path_)) state_.forget();
     if (source_.is_open())

@@ -55,7 +55,8 @@ class Source {
   std::size_t read(std::span<char> room, int wait_ms) {
     pollfd one{fd_, POLLIN, 0};
     poll(&one, 1, wait_ms);
-    // Asked in any case: a pipe that nobody has opened for writing looks to `poll` as if somebody were silent.
+    // Asked in any case: a pipe that nobody has opened for writing looks to `poll` as if somebody were
+    // silent.
     const ssize_t n = ::read(fd_, room.data(), room.size());
     if (n > 0) return static_cast<std::size_t>(n);
     if (n < 0 && (errno == EAGAIN || errno == EINTR)) return 0;
@@ -74,7 +75,8 @@ class Source {
 
   /// Whether the pipe that is open is still that of the path; then also whether somebody sends.
   bool waits_for_sender(const std::string& path) {
-    struct stat own {}, named {};
+    struct stat own {
+    }, named{};
     if (fstat(fd_, &own) != 0 || stat(path.c_str(), &named) != 0 || own.st_ino != named.st_ino ||
         own.st_dev != named.st_dev)
       return false;

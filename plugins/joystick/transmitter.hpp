@@ -37,8 +37,8 @@ class Transmitter {
     if (link)
       std::snprintf(words, sizeof words, "%s: the pilot is %s", device.c_str(), back ? "back" : "there");
     else
-      std::snprintf(words, sizeof words, "%s: the pilot is %s: %s", device.c_str(), lost ? "lost" : "not there",
-                    why);
+      std::snprintf(words, sizeof words, "%s: the pilot is %s: %s", device.c_str(),
+                    lost ? "lost" : "not there", why);
     notices.push({Text<96>(words), link ? Severity::info : Severity::warning}, on_arrival);
   }
 

@@ -234,7 +234,9 @@ class Aircraft {
   }
 
   /// Whether the radio works, as far as parameters and faults go.
-  bool carries(const Params& p) const { return p.rc_link && faults_[FaultTarget::radio].kind != FaultKind::off; }
+  bool carries(const Params& p) const {
+    return p.rc_link && faults_[FaultTarget::radio].kind != FaultKind::off;
+  }
   bool pilot_flies(const Params& p) const {
     return pilot_.wired() ? pilot_.overrides(p.pilot) : p.pilot_flies.value;
   }

@@ -49,8 +49,8 @@ class PilotRadio {
 
  private:
   static bool finite(const Rc& r) {
-    return std::isfinite(r.roll_frac + r.pitch_frac + r.yaw_frac + r.throttle_frac + r.aux1_frac + r.aux2_frac +
-                         r.aux3_frac + r.aux4_frac);
+    return std::isfinite(r.roll_frac + r.pitch_frac + r.yaw_frac + r.throttle_frac + r.aux1_frac +
+                         r.aux2_frac + r.aux3_frac + r.aux4_frac);
   }
   double lever(std::int64_t number) const {
     switch (number) {

@@ -26,32 +26,20 @@ struct Places {
   const char* kinds;
   int repeat;
 };
-const std::map<std::string, Places> places{{"run", {"mission", 0}},
-                                           {"check", {"mission", 0}},
-                                           {"graph", {"mission", 0}},
-                                           {"inspect", {"plugin", 0}},
-                                           {"replay", {"log", 0}},
-                                           {"report", {"log", 1}},
-                                           {"compare", {"mission", 0}},
-                                           {"log info", {"log", 0}},
-                                           {"log recover", {"log", 0}},
-                                           {"log export", {"log", 0}},
-                                           {"log diff", {"log log", 0}},
-                                           {"echo", {"port", 1}},
-                                           {"plot", {"field", 1}},
-                                           {"param list", {"param", 0}},
-                                           {"param get", {"param", 1}},
-                                           {"param set", {"param none", 2}},
-                                           {"param save", {"component", 0}},
-                                           {"call", {"request none", 1}},
-                                           {"phase", {"phase", 0}},
-                                           {"swap", {"component plugin", 0}},
-                                           {"speed", {"speed", 0}},
-                                           {"completion", {"shell", 0}},
-                                           {"aero trim", {"mission", 0}},
-                                           {"aero linearize", {"mission", 0}},
-                                           {"aero modes", {"mission", 0}},
-                                           {"aero check", {"mission", 0}}};
+const std::map<std::string, Places> places{
+    {"run", {"mission", 0}},          {"check", {"mission", 0}},
+    {"graph", {"mission", 0}},        {"inspect", {"plugin", 0}},
+    {"replay", {"log", 0}},           {"report", {"log", 1}},
+    {"compare", {"mission", 0}},      {"log info", {"log", 0}},
+    {"log recover", {"log", 0}},      {"log export", {"log", 0}},
+    {"log diff", {"log log", 0}},     {"echo", {"port", 1}},
+    {"plot", {"field", 1}},           {"param list", {"param", 0}},
+    {"param get", {"param", 1}},      {"param set", {"param none", 2}},
+    {"param save", {"component", 0}}, {"call", {"request none", 1}},
+    {"phase", {"phase", 0}},          {"swap", {"component plugin", 0}},
+    {"speed", {"speed", 0}},          {"completion", {"shell", 0}},
+    {"aero trim", {"mission", 0}},    {"aero linearize", {"mission", 0}},
+    {"aero modes", {"mission", 0}},   {"aero check", {"mission", 0}}};
 
 /// Of options that take a value: a kind as above.
 const std::map<std::string, std::string> option_kinds{

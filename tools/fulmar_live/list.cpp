@@ -84,7 +84,8 @@ int list_command(const LiveAddress& target, bool rates, bool as_json) {
   std::printf("%s (io: %s), phase %s, %.1f s, %s%s%s\n", view.value("mission", "").c_str(),
               view.value("io", "").c_str(), view.value("phase", "").c_str(),
               static_cast<double>(view.value("now_ns", std::int64_t{0})) * 1e-9,
-              view.value("armed", false) ? "armed" : "not armed", view.value("over", false) ? ", over" : "", pace_of(view).c_str());
+              view.value("armed", false) ? "armed" : "not armed", view.value("over", false) ? ", over" : "",
+              pace_of(view).c_str());
   std::vector<std::string> phases = view.value("phases", std::vector<std::string>());
   std::printf("phases: %s\n", join(phases).c_str());
   for (const json& c : view.value("components", json::array())) print_component(c, measured, rates);

@@ -182,7 +182,9 @@ struct RemoteCommands::Impl {
     step->add_option("TICKS", name, "a whole number")->type_name("");
     CLI::App* speed = add(app, "speed", "how fast a simulation flies: real, max, or times real time",
                           "speed 10", [this] { return speed_command(target(), name); });
-    speed->add_option("SPEED", name, "of 0.01 to 1e6; a paused simulation goes on")->required()->type_name("");
+    speed->add_option("SPEED", name, "of 0.01 to 1e6; a paused simulation goes on")
+        ->required()
+        ->type_name("");
   }
 
   void completion() {

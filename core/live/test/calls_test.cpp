@@ -79,8 +79,15 @@ TEST_CASE_FIXTURE(Fixture, "the host's own services") {
   CHECK(call_json("/fulmar/speed", R"({"speed": "max"})")["accepted"] == true);
   CHECK(call_json("/fulmar/speed", R"({"speed": "warp"})")["reason"] ==
         "speed 'warp': give real, max, or a multiple of real time from 0.01 to 1e6");
-  const std::vector<std::string> expected = {"set slc.roll_kp 0.8", "phase hold", "swap slc x.so", "reset",
-                                             "pause", "pause", "step 40", "resume", "speed max"};
+  const std::vector<std::string> expected = {"set slc.roll_kp 0.8",
+                                             "phase hold",
+                                             "swap slc x.so",
+                                             "reset",
+                                             "pause",
+                                             "pause",
+                                             "step 40",
+                                             "resume",
+                                             "speed max"};
   CHECK(control.heard() == expected);
 
   const json view = call_json("/fulmar/view", "{}");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A simulation that is paused, stepped, and made to fly faster or slower while it flies. Nothing here waits for
-// a time to be right, only for something to happen.
+// A simulation that is paused, stepped, and made to fly faster or slower while it flies. Nothing here waits
+// for a time to be right, only for something to happen.
 #include "core/tap/pace.hpp"
 
 #include <atomic>
@@ -60,7 +60,8 @@ class Aloft {
   std::string step(std::uint64_t ticks) { return pace({PaceOrder::What::step, ticks, 0}); }
   std::string speed(double times) { return pace({PaceOrder::What::speed, 0, times}); }
   std::string set(const std::string& value) {
-    return ask([&](Control::Answer answer) { control_->set_parameter("one", "u", value, std::move(answer)); });
+    return ask(
+        [&](Control::Answer answer) { control_->set_parameter("one", "u", value, std::move(answer)); });
   }
   FlightView view() const { return control_->view(); }
   std::int64_t now_ns() const { return view().now_ns; }
@@ -182,8 +183,7 @@ TEST_CASE("many ticks can be cut short by a pause, by going on, and by the fligh
     CHECK(holds(told, "of 1000000 ticks"));
     CHECK(holds(told, "ended after "));
     CHECK(aloft.view().paused == stands);
-    if (stands)
-      CHECK(holds(told, "after " + std::to_string((aloft.now_ns() - then) / tick_ns) + " of "));
+    if (stands) CHECK(holds(told, "after " + std::to_string((aloft.now_ns() - then) / tick_ns) + " of "));
   }
   aloft.pace(order(pause));
   std::promise<std::string> promise;
@@ -205,7 +205,8 @@ TEST_CASE("a paused flight ends by a signal, and its log is whole") {
   CHECK(fs::exists(log));
 }
 
-TEST_CASE("a flight that was paused, stepped and hurried leaves the same log as one that was not, byte for byte") {
+TEST_CASE(
+    "a flight that was paused, stepped and hurried leaves the same log as one that was not, byte for byte") {
   const fs::path plain = folder().path / "plain.mcap", paced = folder().path / "paced.mcap";
   fs::remove(plain), fs::remove(paced);
   const std::string async =
@@ -260,7 +261,8 @@ TEST_CASE("a flight that is hurried flies on as fast as it can, and then in real
 }
 
 TEST_CASE("on hardware nothing of that is possible, and each says so") {
-  const Graph g = mission("  fcu: {fills: vehicle, use: lab/Cart}\n" + std::string(one_phase) + watched + "io: fcu\n");
+  const Graph g =
+      mission("  fcu: {fills: vehicle, use: lab/Cart}\n" + std::string(one_phase) + watched + "io: fcu\n");
   FlightOptions o = options(1);
   Flight flight(g, o);
   Control* const control = flight.control();

@@ -99,8 +99,8 @@ TEST_CASE("a roll is flown by hand, and its log flies it again, byte for byte") 
   const Result replayed = typed("replay " + log.string());
   CHECK(replayed.code == 0);
   CHECK(holds(replayed.out, "0 differing bytes"));
-  const Result flown = typed("run " + file.string() + " --duration 200 --drivers-from " + log.string() + " --log " +
-                             again.string());
+  const Result flown = typed("run " + file.string() + " --duration 200 --drivers-from " + log.string() +
+                             " --log " + again.string());
   CHECK(flown.code == 0);
   const Result diff = typed("log diff " + log.string() + " " + again.string());
   CHECK_MESSAGE(holds(diff.out, "messages are equal"), diff.out);

@@ -70,7 +70,8 @@ TEST_CASE("sticks, throttle and switches come out as a transmitter's channels, e
   Bench<Joystick> bench;
   use(bench, pipe);
   CHECK_FALSE(frame(bench).link);  // nothing was heard yet
-  pipe.write(axis(0, 16384) + axis(1, -32767) + axis(2, -32767) + axis(3, 8192) + axis(4, 32767) + axis(7, -32767));
+  pipe.write(axis(0, 16384) + axis(1, -32767) + axis(2, -32767) + axis(3, 8192) + axis(4, 32767) +
+             axis(7, -32767));
   Rc rc = frame(bench);
   CHECK(rc.link);
   CHECK(rc.roll_frac == Approx(0.5).epsilon(1e-4));
@@ -120,7 +121,8 @@ TEST_CASE("a throttle that was never heard of, or that there is not, is closed a
   CHECK(frame(bench).throttle_frac == 0.5);
 }
 
-TEST_CASE("a button turns its switch over at each press, or holds it; one that was down from the start does not") {
+TEST_CASE(
+    "a button turns its switch over at each press, or holds it; one that was down from the start does not") {
   for (const bool latch : {true, false}) {
     CAPTURE(latch);
     Pipe pipe;
@@ -178,7 +180,9 @@ TEST_CASE("frames come 50 times a second of flight, neither faster nor slower th
   CHECK(bench.out.rc.count == 1);
 }
 
-TEST_CASE("a joystick that is not there, that is pulled out and plugged in again: no link meanwhile, and told once") {
+TEST_CASE(
+    "a joystick that is not there, that is pulled out and plugged in again: no link meanwhile, and told "
+    "once") {
   Pipe pipe;
   Bench<Joystick> bench;
   use(bench, pipe);
@@ -243,7 +247,8 @@ TEST_CASE("a record that no joystick sends changes nothing and is counted; many 
   pipe.plug();
   Bench<Joystick> bench;
   use(bench, pipe);
-  pipe.write(axis(0, 32767) + record(3, 0, 5) + axis(40, 7) + button(70, true) + record(1, 0, 2) + record(0, 0, 0));
+  pipe.write(axis(0, 32767) + record(3, 0, 5) + axis(40, 7) + button(70, true) + record(1, 0, 2) +
+             record(0, 0, 0));
   CHECK(frame(bench).roll_frac == 1);
   CHECK(bench.out.unknown_records_ratio.value == 5);
   std::string garbage;

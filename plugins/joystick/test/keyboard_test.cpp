@@ -103,7 +103,8 @@ TEST_CASE("an arrow that comes in pieces is one, and an unknown key is counted a
   CHECK(bench.out.unknown_keys_ratio.value == 4);  // Delete is one
 }
 
-TEST_CASE("a keyboard that goes away is a transmitter that is switched off, and comes back with closed throttle") {
+TEST_CASE(
+    "a keyboard that goes away is a transmitter that is switched off, and comes back with closed throttle") {
   Pipe pipe;
   pipe.plug();
   Bench<Keyboard> bench;

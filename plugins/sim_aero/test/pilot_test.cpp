@@ -56,7 +56,8 @@ struct Flight {
 
 }  // namespace
 
-TEST_CASE("the receiver says what the transmitter does, and the parameters of the pilot do not count any more") {
+TEST_CASE(
+    "the receiver says what the transmitter does, and the parameters of the pilot do not count any more") {
   Flight f;
   f.bench.params.stick_roll.value = -1;
   f.bench.params.aux1.value = -1;
@@ -94,7 +95,8 @@ TEST_CASE("the override switch gives the sticks the aircraft, and takes it back"
   CHECK(f.deflections().aileron == Approx(cruise.aileron_rad).epsilon(1e-3));
 }
 
-TEST_CASE("without frames, with frames that say so, that are old or no numbers, or with a broken radio: failsafe") {
+TEST_CASE(
+    "without frames, with frames that say so, that are old or no numbers, or with a broken radio: failsafe") {
   const auto lost = [](Flight& f, double age_s) {
     const Seen seen = f.fly(0.3, &cruise, age_s);
     CHECK(seen.rc <= 1);  // the last one from before

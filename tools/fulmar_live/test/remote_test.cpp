@@ -186,9 +186,9 @@ TEST_CASE("what libraries throw is told in words for people") {
 }
 
 TEST_CASE("without a flight every word says what to do") {
-  for (const char* words : {"list", "echo nav.state", "plot a.b.c", "param list", "param set a.b 1",
-                            "call a.b", "phase x", "swap a b", "reset", "pause", "resume", "step", "step 5",
-                            "speed max"}) {
+  for (const char* words :
+       {"list", "echo nav.state", "plot a.b.c", "param list", "param set a.b 1", "call a.b", "phase x",
+        "swap a b", "reset", "pause", "resume", "step", "step 5", "speed max"}) {
     const Result r = shell(program + " " + words + " --at 127.0.0.1:1");
     CHECK(r.code == 1);
     CHECK(r.err ==
@@ -427,7 +427,8 @@ TEST_CASE("requests, phases and swaps are asked for; a refusal is told and is ex
 TEST_CASE("the clock of a simulation is stopped, stepped and hurried, and list tells of it") {
   const MockFlight flight;
   CHECK(typed(flight, "pause").out == "pause: accepted, at 0.0000 s of flight\n");
-  CHECK(lines(typed(flight, "list").out).at(0) == "mock <1> (io: sim), phase cruise, 0.0 s, not armed, paused");
+  CHECK(lines(typed(flight, "list").out).at(0) ==
+        "mock <1> (io: sim), phase cruise, 0.0 s, not armed, paused");
   const Result twice = typed(flight, "pause");
   CHECK(twice.code == 1);
   CHECK(twice.err == "pause: refused: the flight is paused already\n");
@@ -450,7 +451,8 @@ TEST_CASE("the clock of a simulation is stopped, stepped and hurried, and list t
   for (const char* wrong : {"speed warp", "speed 0", "speed 1e9"}) {
     const Result r = typed(flight, wrong);
     CHECK(r.code == 2);
-    CHECK(r.err.find("': give real, max, or a multiple of real time from 0.01 to 1e6\n") != std::string::npos);
+    CHECK(r.err.find("': give real, max, or a multiple of real time from 0.01 to 1e6\n") !=
+          std::string::npos);
   }
   CHECK(typed(flight, "speed").code == 2);
 }

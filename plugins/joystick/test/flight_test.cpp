@@ -68,7 +68,7 @@ TEST_CASE("a roll is flown by hand, and its log flies it again, byte for byte") 
   pipe.plug();
   const fs::path folder = fs::path(pipe.path()).parent_path(), log = folder / "first.mcap",
                  again = folder / "again.mcap";
-  const fs::path file = mission(pipe, "done: \"vehicle.rc.aux2_frac > 0.5\"\n");
+  const fs::path file = mission(pipe, "done: \"vehicle.status.override and vehicle.truth.roll_rad > 0.7\"\n");
   pipe.write(at_rest());
   std::atomic<bool> over{false};
   std::atomic<int> port{0};
@@ -83,11 +83,7 @@ TEST_CASE("a roll is flown by hand, and its log flies it again, byte for byte") 
       }
     };
     wait("sim.truth.height_m", [](double h) { return h > 40; });
-    pipe.write(axis(2, 16000) + axis(1, 5000) + axis(0, 12000) + axis(7, 32767));
-    wait("sim.truth.roll_rad", [](double roll_deg) { return roll_deg > 45; });
-    pipe.write(axis(0, 0) + axis(7, -32767));
-    wait("sim.truth.roll_rad", [](double roll_deg) { return roll_deg < 20; });
-    pipe.write(axis(5, 32767));
+    pipe.write(axis(2, 8000) + axis(1, -5400) + axis(0, 12000) + axis(7, 32767));  // to the right
   });
   const Result first =
       typed("run " + file.string() + " --speed 4 --duration 200 --log " + log.string(), &port);
@@ -108,7 +104,7 @@ TEST_CASE("a roll is flown by hand, and its log flies it again, byte for byte") 
 
 TEST_CASE("without a joystick the aircraft is not armed, and the pilot is told why") {
   const Pipe pipe;
-  const Result r = typed("run " + mission(pipe).string() + " --duration 2 --no-log");
+  const Result r = typed("run " + mission(pipe).string() + " --speed 4 --duration 3 --no-log");
   CHECK(holds(r.out, "the pilot is not there: No such file or directory"));
   CHECK(holds(r.out, "hold"));
   CHECK_FALSE(holds(r.out, "takeoff"));

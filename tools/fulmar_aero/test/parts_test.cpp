@@ -25,18 +25,23 @@ TEST_CASE("suspicious servos are found") {
   const auto servo = [](const std::string& more) {
     return checked("elevator: {limit: 40 deg,", "elevator: {limit: 40 deg, " + more + ",");
   };
-  CHECK(servo("natural_frequency_radps: 10").says("elevator.natural_frequency: it is 10 rad/s; servos have 30 to 200: "
-                                                  "is it in Hz? Then it would be 62.8 rad/s"));
-  CHECK(servo("natural_frequency: 100 rad/s, damping: 17").says("elevator.damping: it is 17; servos have 0.5 to 2"));
+  CHECK(servo("natural_frequency_radps: 10")
+            .says("elevator.natural_frequency: it is 10 rad/s; servos have 30 to 200: "
+                  "is it in Hz? Then it would be 62.8 rad/s"));
+  CHECK(servo("natural_frequency: 100 rad/s, damping: 17")
+            .says("elevator.damping: it is 17; servos have 0.5 to 2"));
   CHECK(servo("dead_band_rad: 0.5").says("elevator.dead_band: it is 28.6 deg"));
   CHECK(servo("max: 30 deg").says("elevator.max: the servo goes from -40.0 deg to 30.0 deg"));
   CHECK_FALSE(servo("natural_frequency: 100 rad/s, damping: 1.71").says("elevator."));
 }
 
 TEST_CASE("elevons that are not alike are found") {
-  CHECK(checked("elevator: {limit: 40 deg,", "mixer: elevons\nelevator: {limit: 35 deg,")
-            .says("mixer: 'aileron' and 'elevator' are the left and the right elevon, and their servos are not"));
-  CHECK_FALSE(checked("elevator: {limit: 40 deg,", "mixer: elevons\nelevator: {limit: 40 deg,").says("mixer"));
+  CHECK(
+      checked("elevator: {limit: 40 deg,", "mixer: elevons\nelevator: {limit: 35 deg,")
+          .says(
+              "mixer: 'aileron' and 'elevator' are the left and the right elevon, and their servos are not"));
+  CHECK_FALSE(
+      checked("elevator: {limit: 40 deg,", "mixer: elevons\nelevator: {limit: 40 deg,").says("mixer"));
 }
 
 TEST_CASE("propellers that turn the aircraft, and a battery in milliohm, are found") {
@@ -47,29 +52,32 @@ TEST_CASE("propellers that turn the aircraft, and a battery in milliohm, are fou
             .says("propulsion.propellers: together they turn the nose left: their thrust acts 0.5 m beside"));
   CHECK_FALSE(places("[{at_m: [0, -0.5, 0]}, {at_m: [0, 0.5, 0], turns: left}]").says("propellers"));
   CHECK(places("[{at_m: [0, 0, 0], tilt: 180 deg}]").says("together they do not push forward"));
-  CHECK(checked("  battery: 24 V", "  battery: 24 V\n  pack: {resistance_ohm: 20}").says("is it in milliohm?"));
+  CHECK(
+      checked("  battery: 24 V", "  battery: 24 V\n  pack: {resistance_ohm: 20}").says("is it in milliohm?"));
 }
 
 TEST_CASE("the gear's attitude is told, and one on which nothing stands is refused with its line") {
-  const Answer good = checked(gear, contacts("[{at_m: [0.4, 0, 0.25], carries: 0.2}, {at_m: [-0.1, -0.2, 0.25], "
-                                             "carries: 0.4}, {at_m: [-0.1, 0.2, 0.25], carries: 0.4}]"));
+  const Answer good =
+      checked(gear, contacts("[{at_m: [0.4, 0, 0.25], carries: 0.2}, {at_m: [-0.1, -0.2, 0.25], "
+                             "carries: 0.4}, {at_m: [-0.1, 0.2, 0.25], carries: 0.4}]"));
   CHECK(good.says("0.250 m high, pitch 0.0 deg"));
   const Answer two = checked(gear, contacts("[{at_m: [0.4, 0, 0.25], carries: 0.2}, {at_m: [-0.1, 0, 0.25], "
                                             "carries: 0.8}]"));
   CHECK(two.code == 4);
   CHECK(two.says("gear.contacts: an aircraft stands on at least 3 contacts, and here are 2"));
   const Folder folder;
-  const std::string text =
-      changed("anaconda", gear, contacts("[{at_m: [0.4, 0, 0.25], carries: 0.2}]"));
+  const std::string text = changed("anaconda", gear, contacts("[{at_m: [0.4, 0, 0.25], carries: 0.2}]"));
   const std::string file = folder.write("a.yaml", text);
-  const auto line = 1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(text.find("  contacts:")), '\n');
+  const auto line =
+      1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(text.find("  contacts:")), '\n');
   CHECK(call("trim " + file).says(file + ":" + std::to_string(line) + ": gear.contacts: an aircraft stands"));
 }
 
 TEST_CASE("a fault in an item of a list has the item's line") {
-  const Answer answer = checked("  battery: 24 V",
-                                "  battery: 24 V\n  propellers:\n    - {at_m: [0, 1, 0]}\n    - {at_m: [0, 0, 0], "
-                                "differential: 0.2}");
+  const Answer answer =
+      checked("  battery: 24 V",
+              "  battery: 24 V\n  propellers:\n    - {at_m: [0, 1, 0]}\n    - {at_m: [0, 0, 0], "
+              "differential: 0.2}");
   CHECK(answer.code == 4);
   CHECK(answer.says("propulsion.propellers[1].differential: it stands in the middle"));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a step costs: each shipped component and the whole tick in the hourglass missions, and a 200-byte port
-// hop, bare, guarded and timed. bench_steps [--json] [MISSION...]
+// What a step costs: each shipped component and the whole tick in the hourglass missions, the simulator's
+// forces alone, and a 200-byte port hop, bare, guarded and timed. bench_steps [--json] [MISSION...]
 #include <time.h>
 
 #include <algorithm>
@@ -11,6 +11,8 @@
 
 #include "core/run/flight.hpp"
 #include "core/run/unit.hpp"
+#include "fulmar/sim/plant.hpp"
+#include "sdk/test/flight/airframe_file.hpp"
 
 using namespace fulmar::core;
 
@@ -98,6 +100,23 @@ void add_hops(std::vector<Row>& rows) {
   }));
 }
 
+/// The Anaconda in steady flight with surfaces that move, 2.5 ms, wind and no turbulence; no sensors.
+void add_forces(std::vector<Row>& rows) {
+  using fulmar::Actuators;
+  fulmar::sim::Weather weather;
+  weather.wind_n = {3, -4, 0};
+  fulmar::sim::Plant plant(fulmar::test::airframe_file("anaconda"), weather, 1387, 7);
+  if (!plant.fly({0, 0, -300}, 0.3, 17)) throw std::runtime_error("the Anaconda has no level flight");
+  const fulmar::Deflections d = plant.deflections();
+  const fulmar::RigidBody begin = plant.state();
+  int i = 0;
+  rows.push_back(time_batches("sim step, forces only", [&] {
+    if (++i % 4000 == 0) plant.set_state(begin);
+    const double s = (i / 200) % 2 ? 0.01 : -0.01;
+    plant.advance(Actuators{0.57, d.aileron + s, d.elevator + 0.5 * s, d.rudder - s}, 1, 0.0025);
+  }));
+}
+
 void add_mission(std::vector<Row>& rows, const std::string& file) {
   const Graph graph = load_mission(file);
   FlightOptions options;
@@ -137,6 +156,7 @@ int main(int argc, char** argv) {
   try {
     std::vector<Row> rows;
     add_hops(rows);
+    add_forces(rows);
     for (const std::string& mission : missions) add_mission(rows, mission);
     nlohmann::json all = nlohmann::json::object();
     for (const Row& r : rows) {

@@ -18,6 +18,9 @@ class Motors {
     for (Speeds& s : speeds_) s = steady_;
   }
   void stop() { speeds_ = {}; }
+  void set_all(double radps) {
+    for (Speeds& s : speeds_) s.fill(radps);
+  }
 
   /// For the step to come. `power` is the part of the voltage that reaches the motors.
   void command(const Propellers& places, const Propeller& p, double power, double throttle, double rudder,

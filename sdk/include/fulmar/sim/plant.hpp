@@ -161,9 +161,9 @@ class Plant {
   }
   /// Where servos and propeller are, before `set_state`.
   void set_drives(const Deflections& d, double propeller_radps) {
-    aileron_.set(d.aileron);
-    elevator_.set(d.elevator);
-    rudder_.set(d.rudder);
+    surfaces_.set(d);
+    flap_.set(d.flap);
+    motors_.set_all(propeller_radps);
     Omega_ = propeller_radps;
   }
   void set_wind(const Eigen::Vector3d& wind_n) { weather_.wind_n = wind_n; }

@@ -48,8 +48,8 @@ struct Propulsion {
   double no_load_amp = 1;
   double battery_volt = 12;            ///< at full throttle
   double time_constant_s = 0.05;       ///< of motor and propeller spinning up
-  List<PropellerPlace, 8> propellers;  ///< each with a motor of its own; empty: one, on the x axis
-  Battery pack;                        ///< what its battery loses; `battery_volt` is its voltage when full
+  List<PropellerPlace, 8> propellers{};  ///< each with a motor of its own; empty: one, on the x axis
+  Battery pack{};                        ///< what its battery loses; `battery_volt` is its voltage when full
 };
 
 /// One control surface: how far it moves, how its servo follows, and what hardware needs to drive it.

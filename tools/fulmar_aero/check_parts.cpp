@@ -83,7 +83,7 @@ void check_contacts(Findings& f) {
   const Airframe& a = f.file().airframe;
   if (a.gear.contacts.empty()) return;
   f.looked_at(2);
-  const sim::Standing& at = sim::Legs(a).standing();
+  const sim::Standing at = sim::Legs(a).standing();
   const Eigen::Vector3d nose = at.tilt * Eigen::Vector3d::UnitX(), wing = at.tilt * Eigen::Vector3d::UnitY();
   const double pitch = std::asin(-nose.z()), roll = std::asin(wing.z());
   f.figure("standing_height_m", at.height_m, "stands",

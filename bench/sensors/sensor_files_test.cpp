@@ -52,7 +52,8 @@ TEST_CASE("the files of the built-in sets say the built-in sets") {
   for (const auto& [name, set] : {std::pair{"perfect", SensorSet::perfect},
                                   {"rosflight", SensorSet::rosflight},
                                   {"ublox", SensorSet::ublox}}) {
-    CAPTURE(name);
+    const std::string said = name;
+    CAPTURE(said);
     const SensorSpec file = spec_of(shipped(name), 400), built_in = with_timing(sensor_spec(set));
     for (std::size_t i = 0; i < 3; ++i) {
       same(file.gyro[i], built_in.gyro[i]);

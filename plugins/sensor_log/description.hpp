@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a file in configs/sensor_logs says: which columns of which files are the sensors of a recorded flight,
+// in which units, how late, how calibrated, and when they are withheld. Every fault in it is the host's to
+// tell.
+#pragma once
+#include "fulmar/message.hpp"
+
+namespace fulmar::sensor_log {
+
+using Name = Text<64>;
+
+enum class TimeUnit : std::uint8_t { s, ms, us, ns };
+enum class RateUnit : std::uint8_t { radps, degps };
+enum class ForceUnit : std::uint8_t { mps2, g };
+enum class FieldUnit : std::uint8_t { tesla, microtesla, nanotesla, gauss, milligauss };
+/// `m`: a height above `height_zero`, in the standard atmosphere.
+enum class PressureUnit : std::uint8_t { pa, hpa, kpa, m };
+/// `mps`: indicated airspeed.
+enum class PitotUnit : std::uint8_t { pa, hpa, mps };
+enum class AngleUnit : std::uint8_t { deg, deg_e7, rad };
+enum class LengthUnit : std::uint8_t { m, cm, mm };
+enum class SpeedUnit : std::uint8_t { mps, cmps, mmps, kmph, kt };
+enum class BodyAxes : std::uint8_t { frd, flu };
+enum class LocalAxes : std::uint8_t { ned, enu };
+/// What the numbers of a column of fixes mean. `fulmar` are those of FixType, which are u-blox's;
+/// `dimensions`: 2 and 3; `navsat`: of sensor_msgs/NavSatStatus, from 0 on a fix; `px4`: 2 and 3, from 4 on
+/// with corrections, 5 RTK float, 6 RTK fixed.
+enum class FixCode : std::uint8_t { fulmar, dimensions, navsat, px4 };
+
+/// Of flight time; `to` is the first moment outside.
+struct Window {
+  double from_s = -1e9, to_s = 1e9;
+};
+
+/// The rows of one sensor.
+struct Source {
+  Name file;  ///< in the folder: *.csv; "": there is no such sensor
+  Name time;  ///< column: when the row arrived
+  TimeUnit unit = TimeUnit::s;
+  double shift_s = 0;  ///< is added to that time: between the clocks of two files
+  double delay_s = 0;  ///< what the row says was so much earlier
+  Name changes;        ///< column: rows in which it is as in the row before are left out
+};
+
+/// Numbers of an axis each, in the order x, y, z. value = scale (number - offset), in body axes.
+struct RateColumns {
+  std::array<Name, 3> columns;
+  RateUnit unit = RateUnit::radps;
+  BodyAxes axes = BodyAxes::frd;
+  Vec3<Body> offset_radps, scale_ratio{1, 1, 1};
+};
+struct ForceColumns {
+  std::array<Name, 3> columns;
+  ForceUnit unit = ForceUnit::mps2;
+  BodyAxes axes = BodyAxes::frd;
+  Vec3<Body> offset_mps2, scale_ratio{1, 1, 1};
+};
+struct FieldColumns {
+  std::array<Name, 3> columns;
+  FieldUnit unit = FieldUnit::tesla;
+  BodyAxes axes = BodyAxes::frd;
+  Vec3<Body> offset_tesla, scale_ratio{1, 1, 1};
+};
+struct PressureColumn {
+  Name column;
+  PressureUnit unit = PressureUnit::pa;
+  double height_zero_m = 0;  ///< above mean sea level, of unit `m`
+  double offset_pa = 0, scale_ratio = 1;
+};
+struct PitotColumn {
+  Name column;
+  PitotUnit unit = PitotUnit::pa;
+  double offset_pa = 0, scale_ratio = 1;
+};
+struct PlaceColumns {
+  std::array<Name, 3> columns;  ///< latitude, longitude, altitude above mean sea level
+  AngleUnit unit = AngleUnit::deg;
+  LengthUnit altitude_unit = LengthUnit::m;
+};
+struct VelocityColumns {
+  std::array<Name, 3> columns;
+  SpeedUnit unit = SpeedUnit::mps;
+  LocalAxes axes = LocalAxes::ned;
+};
+struct FixColumn {
+  Name column;  ///< "": every row is a three-dimensional fix
+  FixCode code = FixCode::fulmar;
+};
+
+struct ImuLog {
+  Source from;
+  RateColumns rate;
+  ForceColumns specific_force;
+  List<Window, 32> withhold;
+};
+struct MagLog {
+  Source from;
+  FieldColumns field;
+  List<Window, 32> withhold;
+};
+struct BaroLog {
+  Source from;
+  PressureColumn pressure;
+  List<Window, 32> withhold;
+};
+struct PitotLog {
+  Source from;
+  PitotColumn pressure;
+  List<Window, 32> withhold;
+};
+struct GnssLog {
+  Source from;
+  PlaceColumns position;
+  VelocityColumns velocity;
+  FixColumn fix;
+  Name satellites, horizontal_std, vertical_std, speed_std;  ///< columns; deviations in m and m/s
+  List<Window, 32> withhold;
+};
+
+struct Description {
+  Name name;
+  double utc_at_zero_s = 0;  ///< UTC of flight time 0, since 1970; 0: not known
+  Window use;                ///< what lies outside is left out; a file that ends before `to` ends early
+  Window armed, airborne;
+  ImuLog imu;
+  MagLog mag;
+  BaroLog baro;
+  PitotLog pitot;
+  GnssLog gnss;
+};
+
+}  // namespace fulmar::sensor_log
+
+namespace fulmar {
+
+// so that nanoseconds fit their integers
+template <>
+inline constexpr std::array<FieldRange, 2> field_ranges<sensor_log::Window>{
+    {{"from_s", -1e9, 1e9}, {"to_s", -1e9, 1e9}}};
+template <>
+inline constexpr std::array<FieldRange, 2> field_ranges<sensor_log::Source>{
+    {{"shift_s", -1e9, 1e9}, {"delay_s", 0, 10}}};
+template <>
+inline constexpr std::array<FieldRange, 1> field_ranges<sensor_log::Description>{{{"utc_at_zero_s", 0, 4e9}}};
+
+}  // namespace fulmar

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which stamps of a file are in order.
+#pragma once
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace fulmar::sensor_log {
+
+/// The longest strictly increasing part of `stamps`, as indices: as few as possible are left out, so one
+/// stamp that lies years ahead costs itself and not all that follow. Of equal ones, and where two choices are
+/// as long, the earlier one stays. Source: Schensted, Canad. J. Math. 13 (1961), run from the end.
+inline std::vector<std::size_t> in_order(const std::vector<std::int64_t>& stamps) {
+  constexpr std::size_t none = ~std::size_t{0};
+  std::vector<std::size_t>
+      heads;  // heads[k]: where the best part of k + 1 stamps begins that is known so far
+  std::vector<std::size_t> next(stamps.size(), none);
+  for (std::size_t i = stamps.size(); i-- > 0;) {
+    const auto at = std::partition_point(heads.begin(), heads.end(),
+                                         [&](std::size_t head) { return stamps[head] > stamps[i]; });
+    if (at != heads.begin()) next[i] = *(at - 1);
+    if (at == heads.end())
+      heads.push_back(i);
+    else
+      *at = i;
+  }
+  std::vector<std::size_t> part;
+  for (std::size_t i = heads.empty() ? none : heads.back(); i != none; i = next[i]) part.push_back(i);
+  return part;
+}
+
+}  // namespace fulmar::sensor_log

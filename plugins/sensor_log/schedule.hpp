@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// When a tick is, and which samples arrive with it.
+#pragma once
+#include <tuple>
+
+#include "series.hpp"
+
+namespace fulmar::sensor_log {
+
+enum class Sensor : std::uint8_t { gnss, mag, baro, pitot, imu };  ///< imu last: it makes the tick
+inline constexpr std::size_t sensor_count = 5;
+inline constexpr std::uint32_t nothing = ~std::uint32_t{0};
+
+struct PlannedTick {
+  std::int64_t now_ns = 0;
+  std::array<std::uint32_t, sensor_count> sample{nothing, nothing, nothing, nothing, nothing};
+};
+
+struct Event {
+  std::int64_t at_ns = 0;
+  Sensor sensor{};
+  std::uint32_t sample = 0;
+  bool withheld = false;
+};
+
+template <class Windows>
+bool within(const Windows& windows, std::int64_t at_ns) {
+  return std::any_of(windows.begin(), windows.end(),
+                     [at_ns](const Window& w) { return at_ns >= ns_of(w.from_s) && at_ns < ns_of(w.to_s); });
+}
+
+/// Each inertial sample has a tick, also one that is withheld. The others arrive in the first tick that is
+/// not before them; where two of one sensor would, the earlier ones have a tick of their own. So no sample is
+/// lost. Two ticks are at least a nanosecond apart.
+class Planner {
+ public:
+  std::vector<PlannedTick> plan(std::vector<Event> events) {
+    std::stable_sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
+      return std::tie(a.at_ns, a.sensor) < std::tie(b.at_ns, b.sensor);
+    });
+    for (const Event& event : events) {
+      std::uint32_t& slot = next_.sample[static_cast<std::size_t>(event.sensor)];
+      if (slot != nothing) close();
+      next_.now_ns = event.at_ns;
+      waiting_ = true;
+      if (!event.withheld) slot = event.sample;
+      if (event.sensor == Sensor::imu) close();
+    }
+    if (waiting_) close();
+    return std::move(ticks_);
+  }
+
+ private:
+  void close() {
+    if (!ticks_.empty()) next_.now_ns = std::max(next_.now_ns, ticks_.back().now_ns + 1);
+    ticks_.push_back(next_);
+    next_ = {};
+    waiting_ = false;
+  }
+
+  PlannedTick next_;
+  bool waiting_ = false;
+  std::vector<PlannedTick> ticks_;
+};
+
+}  // namespace fulmar::sensor_log

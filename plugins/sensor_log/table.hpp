@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a file becomes: the columns that somebody wants, row by row.
+#pragma once
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace fulmar::sensor_log {
+
+/// A column that is wanted. Stamps are whole nanoseconds: a double of the nanoseconds since 1970 has steps of
+/// 256.
+struct Wanted {
+  std::string name;
+  std::string use;           ///< the key of the description that names it, for faults
+  std::int64_t unit_ns = 0;  ///< of a stamp; 0: a number
+};
+
+struct Column {
+  std::vector<double> numbers;
+  std::vector<std::int64_t> stamps_ns;
+};
+
+struct Table {
+  std::vector<Column> columns;     ///< in the order in which they were wanted
+  std::vector<std::size_t> lines;  ///< where each row is, for people
+  std::size_t rows() const { return lines.size(); }
+};
+
+/// `key`: of the description, beginning with the parameter's name: the host finds file and line of it.
+[[noreturn]] inline void refuse(const std::string& key, const std::string& sentence) {
+  throw std::runtime_error(key + ": " + sentence);
+}
+
+inline std::string all_of(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+inline std::string bytes_of(const std::string& path, const std::string& key) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) refuse(key, path + " cannot be read; --set recorded.folder=FOLDER says where the files are");
+  std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  if (file.bad()) refuse(key, path + " cannot be read");
+  return bytes;
+}
+
+/// Of a stamp that is none.
+inline constexpr std::int64_t no_stamp = std::numeric_limits<std::int64_t>::min();
+/// Stamps beyond are none, whatever their clock began with: 95 years, so that neither a shift nor a
+/// difference of two overflows.
+inline constexpr std::int64_t last_stamp_ns = 3'000'000'000'000'000'000;
+
+inline std::int64_t stamp_or_none(std::int64_t ns) {
+  return ns > last_stamp_ns || ns < -last_stamp_ns ? no_stamp : ns;
+}
+
+/// One number of a row, whatever its type in the file.
+inline void put(Column& column, const Wanted& wanted, std::int64_t whole) {
+  if (wanted.unit_ns == 0) return column.numbers.push_back(static_cast<double>(whole));
+  const std::int64_t most = last_stamp_ns / wanted.unit_ns;
+  column.stamps_ns.push_back(whole > most || whole < -most ? no_stamp : whole * wanted.unit_ns);
+}
+inline void put(Column& column, const Wanted& wanted, double number) {
+  if (wanted.unit_ns == 0) return column.numbers.push_back(number);
+  const double ns = number * static_cast<double>(wanted.unit_ns);
+  column.stamps_ns.push_back(std::abs(ns) <= 3e18 ? std::llround(ns) : no_stamp);
+}
+
+}  // namespace fulmar::sensor_log

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Descriptions in YAML and whole flights, by the program.
+#include <sys/wait.h>
+
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+
+#include "recording.hpp"
+
+namespace flight_test {
+
+using nlohmann::json;
+using recording::Folder;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string mission = FULMAR_SOURCE_DIR "/configs/missions/sensor_log.yaml";
+const fs::path skywalker = FULMAR_REFERENCE_DATA "/flights/skywalker_x8";
+
+struct Said {
+  int code = 0;
+  std::string out;
+};
+
+/// What the program says, its complaints included unless `2>...` sends them elsewhere.
+Said fulmar_says(const std::string& arguments) {
+  FILE* pipe = popen((FULMAR_BIN_DIR "/fulmar " + arguments).c_str(), "r");
+  REQUIRE(pipe != nullptr);
+  Said said;
+  char buffer[4096];
+  for (std::size_t n = 0; (n = fread(buffer, 1, sizeof buffer, pipe)) > 0;) said.out.append(buffer, n);
+  said.code = WEXITSTATUS(pclose(pipe));
+  return said;
+}
+
+/// A mission with the description `yaml`, its file log.yaml beside it. 100 Hz.
+std::string mission_of(const Folder& folder, const std::string& yaml) {
+  folder.write("log.yaml", yaml);
+  return folder.write(
+      "small.yaml",
+      "mission: small\nio: sim\nrate: 100 Hz\ndone: vehicle.recording.ended\n"
+      "summary: {recording: vehicle.recording, imu: vehicle.imu}\n"
+      "roles: {vehicle: {out: {imu: Imu, recording: Recording}}}\n"
+      "components: {recorded: {fills: vehicle, use: sensor_log, params: {log: log.yaml, folder: " +
+          folder.path.string() + "}}}\n");
+}
+
+const char* const whole =
+    "name: small\n"
+    "imu:\n"
+    "  from: {file: imu.csv, time: t, unit: ms, delay: 5 ms}\n"
+    "  rate: {columns: [p, q, r], unit: degps, offset: [1 deg/s, 0 deg/s, 0 deg/s]}\n"
+    "  specific_force: {columns: [x, y, z], unit: g, axes: flu}\n"
+    "  withhold: [{from: 10 ms, to: 20 ms}]\n";
+const char* const rows = "t,p,q,r,x,y,z\n0,0,0,0,0,0,1\n10,0,0,0,0,0,1\n20,181,0,0,0,0,1\n";
+
+/// `whole` with one thing changed.
+std::string with(const std::string& old, const std::string& now) {
+  std::string text = whole;
+  const std::size_t at = text.find(old);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, old.size(), now);
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// What `check` says of a description.
+std::string refusal(const Folder& folder, const std::string& yaml) {
+  const Said said = fulmar_says("check " + mission_of(folder, yaml) + " 2>&1");
+  CHECK(said.code == 4);
+  return said.out;
+}
+
+/// Columns of a CSV file by name.
+std::map<std::string, std::vector<double>> columns_of(const fs::path& path) {
+  std::ifstream file(path);
+  std::map<std::string, std::vector<double>> columns;
+  std::vector<std::string> names;
+  std::string line, cell;
+  std::getline(file, line);
+  for (std::stringstream cells(line); std::getline(cells, cell, ',');) names.push_back(cell);
+  while (std::getline(file, line)) {
+    std::stringstream cells(line);
+    for (std::size_t i = 0; std::getline(cells, cell, ',') && i < names.size(); ++i)
+      columns[names[i]].push_back(std::strtod(cell.c_str(), nullptr));
+  }
+  return columns;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a description in YAML says columns, units, delay, calibration and windows; its end ends the flight") {
+  const Folder folder;
+  folder.write("imu.csv", rows);
+  const Said said = fulmar_says("run " + mission_of(folder, whole) + " --no-log --json 2>/dev/null");
+  CHECK(said.code == 0);
+  const json result = json::parse(said.out, nullptr, false);
+  REQUIRE(result.is_object());
+  CHECK(result["result"] == "flown");
+  CHECK(result["reason"] == "vehicle.recording.ended");
+  CHECK(result["flight_time_s"].get<double>() == doctest::Approx(0.02));
+  CHECK(result["recording"]["withheld"] == 1);
+  CHECK(result["imu"]["rate_radps"]["x"].get<double>() == doctest::Approx(3.14159265359));
+  CHECK(result["imu"]["specific_force_mps2"]["z"].get<double>() == doctest::Approx(-9.80665));
+}
+
+TEST_CASE("what is wrong with a description is told with its file and line, and what is valid there") {
+  const Folder folder;
+  folder.write("imu.csv", rows);
+  const std::string unit = refusal(folder, with("unit: g,", "unit: gee,"));
+  CHECK(has(unit, "log.yaml:5"));
+  CHECK(has(unit, "gee"));
+  CHECK(has(unit, "mps2"));
+  const std::string column = refusal(folder, with("[p, q, r]", "[p, yaw, r]"));
+  CHECK(has(column, "log.yaml:4"));
+  CHECK(has(column,
+            "no column 'yaw' in " + folder.path.string() + "/imu.csv:1; there are t, p, q, r, x, y, z"));
+  const std::string none = refusal(folder, with(" time: t,", ""));
+  CHECK(has(none, "log.yaml:3"));
+  CHECK(has(none, "log.imu.from.time: names no column of"));
+  const std::string key = refusal(folder, with("delay:", "dealy:"));
+  CHECK(has(key, "log.yaml:3"));
+  CHECK(has(key, "delay"));
+  const std::string late = refusal(folder, with("delay: 5 ms", "delay: 5 Hz"));
+  CHECK(has(late, "log.yaml:3"));
+  CHECK(has(late, "5 Hz"));
+  const std::string window = refusal(folder, with("to: 20 ms", "to: 10 ms"));
+  CHECK(has(window, "log.yaml:6"));
+  CHECK(has(window, "is no time"));
+}
+
+TEST_CASE(
+    "what is wrong with a file is told with its line and with the line of the description that names it") {
+  const Folder folder;
+  folder.write("imu.csv", std::string(rows) + "30,0,0");
+  const std::string cut = refusal(folder, whole);
+  CHECK(has(cut, "log.yaml:3"));
+  CHECK(has(cut, "imu.csv:5: 3 cells where the first line names 7 columns: the file ends early"));
+  folder.write("imu.csv", std::string(rows) + "30,0,0,0,x,0,0\n");
+  const std::string word = refusal(folder, whole);
+  CHECK(has(word, "log.yaml:5"));
+  CHECK(has(word, "imu.csv:5: 'x' in column 'x' is no number"));
+}
+
+TEST_CASE("the shipped mission without a folder is refused in one line that says how to give it") {
+  const Said check = fulmar_says("check " + mission + " 2>&1");
+  CHECK(check.code == 4);
+  CHECK(has(check.out, "sensor_log.yaml:"));
+  CHECK(has(check.out, "--set recorded.folder=FOLDER says where imu.csv, mag.csv, air.csv, gps.csv are"));
+  CHECK(std::count(check.out.begin(), check.out.end(), '\n') == 1);
+  const Said run = fulmar_says("run --no-log " + mission + " 2>&1");
+  CHECK(run.code == 4);
+  CHECK(has(run.out, check.out));
+}
+
+TEST_CASE(
+    "a Skywalker X-8 of 2013 flies again: every row arrives, and the estimate agrees with the one made on "
+    "board") {
+  if (!fs::exists(skywalker / "imu.csv")) {
+    MESSAGE("skipped: no recorded flight at " << skywalker.string());
+    return;
+  }
+  const Folder folder;
+  const std::string log = (folder.path / "flight.mcap").string(), csv = (folder.path / "csv").string();
+  const Said said = fulmar_says("run " + mission + " --set recorded.folder=" + skywalker.string() +
+                                " --json --log " + log + " 2>/dev/null");
+  CHECK(said.code == 0);
+  const json result = json::parse(said.out, nullptr, false);
+  REQUIRE(result.is_object());
+  CHECK(result["result"] == "flown");
+  CHECK(result["guards"].empty());
+  CHECK(result["allocations"]["recorded"] == 0);
+  for (const char* const none : {"not_finite", "out_of_order", "out_of_range", "withheld"})
+    CHECK(result["recording"][none] == 0);
+  CHECK(result["flight_time_s"].get<double>() == doctest::Approx(613).epsilon(1e-4));
+  REQUIRE(fulmar_says("log export " + log + " --to csv --out " + csv + " 2>&1").code == 0);
+
+  const auto before_the_end = [](const std::vector<double>& t_s) {
+    return static_cast<std::size_t>(std::count_if(t_s.begin(), t_s.end(), [](double t) { return t < 613; }));
+  };
+  auto imu = columns_of(fs::path(csv) / "vehicle.imu.csv"), there = columns_of(skywalker / "imu.csv");
+  REQUIRE(imu["time_s"].size() == before_the_end(there["t_s"]));
+  bool same = true;
+  for (std::size_t i = 0; i < imu["time_s"].size(); ++i)
+    same = same && imu["time_s"][i] == there["t_s"][i] && imu["rate_radps.x"][i] == there["gx_rps"][i] &&
+           imu["specific_force_mps2.z"][i] == there["az_mps2"][i];
+  CHECK(same);
+  CHECK(columns_of(fs::path(csv) / "vehicle.mag.csv")["time_s"].size() ==
+        before_the_end(columns_of(skywalker / "mag.csv")["t_s"]));
+
+  auto state = columns_of(fs::path(csv) / "nav.state.csv"),
+       reference = columns_of(skywalker / "ref_dcm_attitude.csv");
+  double roll = 0, pitch = 0;
+  int n = 0;
+  for (std::size_t i = 0, k = 0; i < reference["t_s"].size(); ++i) {
+    const double t = reference["t_s"][i];
+    if (t < 270 || t > 560 || std::abs(reference["pitch_deg"][i]) > 45) continue;
+    while (state["time_s"][k] < t) ++k;
+    const auto off = [&](const char* rad, const char* deg) {
+      return std::remainder(state[rad][k] * 180 / std::numbers::pi - reference[deg][i], 360);
+    };
+    roll += std::pow(off("roll_rad", "roll_deg"), 2), pitch += std::pow(off("pitch_rad", "pitch_deg"), 2);
+    ++n;
+  }
+  REQUIRE(n > 10000);
+  CHECK(std::sqrt(roll / n) < 3.6);  // deg, the bounds of estimator_ekf's own test on this flight
+  CHECK(std::sqrt(pitch / n) < 3.5);
+}
+
+}  // namespace flight_test

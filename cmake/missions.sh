@@ -23,6 +23,21 @@ for mission in hourglass two_schemes orbit lla calm reference_gnss slow_planner;
   echo "$mission: $(value "$scratch/$mission.json" flight_time_s) s of flight, $(value "$scratch/$mission.json" speedup) times real time; its replay gives equal bytes"
 done
 
+# the recorded flight: without its folder one sentence; with it, where it is beside the product, as any other
+mission=configs/missions/sensor_log.yaml
+code=0; $fulmar check $mission 2>"$scratch/sensor_log.txt" || code=$?
+expect "sensor_log without a folder" "$code $(wc -l <"$scratch/sensor_log.txt")" "4 1"
+grep -q -e "--set recorded.folder=FOLDER" "$scratch/sensor_log.txt" || { cat "$scratch/sensor_log.txt"; exit 1; }
+folder=../shared/data/flights/skywalker_x8
+if [ -e $folder/imu.csv ]; then
+  $fulmar run $mission --set recorded.folder=$folder --json --log "$scratch/sensor_log.mcap" >"$scratch/sensor_log.json" 2>/dev/null
+  expect "sensor_log result" "$(value "$scratch/sensor_log.json" result)" flown
+  $fulmar replay "$scratch/sensor_log.mcap" >"$scratch/replay.txt" || { cat "$scratch/replay.txt"; exit 1; }
+  echo "sensor_log: $(value "$scratch/sensor_log.json" flight_time_s) s of flight, $(value "$scratch/sensor_log.json" speedup) times real time; its replay gives equal bytes"
+else
+  echo "skipped: no recorded flight at $folder"
+fi
+
 # the same seed with two flights at once, against the first one; then another seed
 for n in 1 2; do $fulmar run configs/missions/hourglass.yaml --json --log "$scratch/again$n.mcap" >"$scratch/again$n.json" 2>/dev/null & done
 wait

@@ -92,7 +92,8 @@ inline std::string words_of(const LeftOut& out, const std::string& path) {
   add(out.not_finite, " not finite"), add(out.out_of_range, " out of range"),
       add(out.out_of_order, " out of order");
   return path.substr(path.rfind('/') + 1) + ": left out " + std::to_string(out.all()) +
-         " rows, the first is line " + std::to_string(out.first_line) + ": " + all_of(reasons);
+         (out.all() == 1 ? " row, the first" : " rows, the first") + " is line " +
+         std::to_string(out.first_line) + ": " + all_of(reasons);
 }
 
 }  // namespace fulmar::sensor_log

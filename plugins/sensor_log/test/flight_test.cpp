@@ -109,6 +109,30 @@ TEST_CASE(
   CHECK(result["imu"]["specific_force_mps2"]["z"].get<double>() == doctest::Approx(-9.80665));
 }
 
+TEST_CASE("the description in the README is one") {
+  const Folder folder;
+  std::ifstream readme(FULMAR_SOURCE_DIR "/plugins/sensor_log/README.md");
+  const std::string text{std::istreambuf_iterator<char>(readme), {}};
+  const std::size_t begin = text.find("name: my_flight"), end = text.find("```", begin);
+  REQUIRE(end != std::string::npos);
+  folder.write("imu.csv",
+               "t_us,gx,gy,gz,ax,ay,az\n0,0,0,0,0,0,-1\n20000000,1.2,0,0,1,0,-1\n601000000,0,0,0,0,0,-1\n");
+  folder.write("mag.csv", "t,mx,my,mz\n12.5,200,0,-500\n620,200,0,-500\n");
+  folder.write("air.csv", "t,p_static,p_diff\n0,1000,103\n601,1000,103\n");
+  folder.write("gps.csv",
+               "t,itow,lat,lon,alt,vn,ve,vd,status,nsat,hacc\n0,1,10000000,20000000,3000,0,0,0,3,8,2\n"
+               "601,2,10000000,20000000,3000,0,0,0,3,8,2\n");
+  const Said said = fulmar_says("run " + mission_of(folder, text.substr(begin, end - begin)) +
+                                " --no-log --json 2>&1 >" + (folder.path / "result.json").string());
+  CHECK_MESSAGE(said.code == 0, said.out);
+  std::ifstream file(folder.path / "result.json");
+  const json result = json::parse(file, nullptr, false);
+  REQUIRE(result.is_object());
+  CHECK(result["imu"]["rate_radps"]["x"].get<double>() == doctest::Approx(0.01745329252));  // 1.2 - 0.2 deg/s
+  CHECK(result["imu"]["specific_force_mps2"]["x"].get<double>() == doctest::Approx(9.8262633));  // 1.002 g
+  CHECK(result["imu"]["specific_force_mps2"]["z"].get<double>() == doctest::Approx(-9.80665));
+}
+
 TEST_CASE("what is wrong with a description is told with its file and line, and what is valid there") {
   const Folder folder;
   folder.write("imu.csv", rows);

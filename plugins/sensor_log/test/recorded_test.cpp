@@ -320,7 +320,7 @@ TEST_CASE(
       CHECK(f.imu.size() == 2);
       CHECK(f.last.not_finite == 1);
       CHECK(f.notices ==
-            std::vector<std::string>{"imu.csv: left out 1 rows, the first is line 3: 1 not finite"});
+            std::vector<std::string>{"imu.csv: left out 1 row, the first is line 3: 1 not finite"});
     }
 }
 

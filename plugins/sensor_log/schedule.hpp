@@ -35,8 +35,8 @@ bool within(const Windows& windows, std::int64_t at_ns) {
 class Planner {
  public:
   std::vector<PlannedTick> plan(std::vector<Event> events) {
-    std::stable_sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
-      return std::tie(a.at_ns, a.sensor) < std::tie(b.at_ns, b.sensor);
+    std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
+      return std::tie(a.at_ns, a.sensor, a.sample) < std::tie(b.at_ns, b.sensor, b.sample);
     });
     for (const Event& event : events) {
       std::uint32_t& slot = next_.sample[static_cast<std::size_t>(event.sensor)];

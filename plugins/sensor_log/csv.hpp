@@ -37,11 +37,11 @@ inline std::int64_t stamp_of(std::string_view text, std::int64_t unit_ns) {
 
 class Csv {
  public:
-  /// `key`: of the description, which names the file.
-  Csv(const std::string& path, const std::string& key, const std::vector<Wanted>& wanted)
-      : path_(path), key_(key), wanted_(wanted) {}
+  Csv(const File& file, const std::vector<Wanted>& wanted)
+      : path_(file.path), key_(file.key), bytes_(file.bytes), wanted_(wanted) {}
 
-  Table read(std::string_view bytes) {
+  Table read() {
+    std::string_view bytes = bytes_;
     if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
     table_.columns.resize(wanted_.size());
     const bool cut = !bytes.empty() && bytes.back() != '\n';
@@ -81,8 +81,7 @@ class Csv {
     for (const std::string_view name : cells_of(text)) names_.emplace_back(name);
     for (const Wanted& each : wanted_) {
       const auto at = std::find(names_.begin(), names_.end(), each.name);
-      if (at == names_.end())
-        refuse(each.use, "no column '" + each.name + "' in " + place() + "; there are " + all_of(names_));
+      if (at == names_.end()) refuse_column(each, place(), names_);
       if (std::find(at + 1, names_.end(), each.name) != names_.end())
         refuse(each.use, place() + " names two columns '" + each.name + "'");
       place_of_.push_back(static_cast<std::size_t>(at - names_.begin()));
@@ -117,8 +116,8 @@ class Csv {
     put(column, wanted, number);
   }
 
-  const std::string& path_;
-  const std::string& key_;
+  std::string path_, key_;
+  std::string_view bytes_;
   const std::vector<Wanted>& wanted_;
   std::vector<std::string> names_;
   std::vector<std::string_view> cells_;

@@ -34,8 +34,9 @@ struct Window {
 
 /// The rows of one sensor.
 struct Source {
-  Name file;  ///< in the folder: *.csv; "": there is no such sensor
-  Name time;  ///< column: when the row arrived
+  Name file;   ///< in the folder: *.csv, *.mcap, *.ulg; "": there is no such sensor
+  Name topic;  ///< of a bag or a ULog; of its second instance "sensor_mag#1"
+  Name time;   ///< column: when the row arrived
   TimeUnit unit = TimeUnit::s;
   double shift_s = 0;  ///< is added to that time: between the clocks of two files
   double delay_s = 0;  ///< what the row says was so much earlier
@@ -76,6 +77,7 @@ struct PlaceColumns {
   std::array<Name, 3> columns;  ///< latitude, longitude, altitude above mean sea level
   AngleUnit unit = AngleUnit::deg;
   LengthUnit altitude_unit = LengthUnit::m;
+  double geoid_m = 0;  ///< mean sea level above the ellipsoid, where altitudes are above that one
 };
 struct VelocityColumns {
   std::array<Name, 3> columns;

@@ -4,8 +4,7 @@
 #pragma once
 #include <array>
 
-#include "csv.hpp"
-#include "description.hpp"
+#include "files.hpp"
 #include "order.hpp"
 #include "sane.hpp"
 
@@ -27,6 +26,7 @@ struct Series {
   std::int64_t delay_ns = 0;
   std::string key, path;
   std::size_t last_line = 0;
+  const char* line_word = "line";
   LeftOut left_out;
 };
 
@@ -36,19 +36,11 @@ inline std::int64_t unit_ns(TimeUnit unit) {
 }
 inline std::int64_t ns_of(double s) { return std::llround(1e9 * s); }
 
-inline Table read_table(const std::string& path, const std::string& key, const std::vector<Wanted>& wanted) {
-  if (!path.ends_with(".csv")) refuse(key, "'" + path + "' is no kind of file that can be read: *.csv");
-  return Csv(path, key, wanted).read(bytes_of(path, key));
-}
-
 /// The columns of one sensor: first that of the time, then the sensor's own.
 class Reader {
  public:
-  Reader(const Source& from, const std::string& folder, const std::string& key)
-      : from_(from),
-        path_(folder + "/" + std::string(from.file.view())),
-        key_(key),
-        file_key_(key + ".from.file") {
+  Reader(const Source& from, Files& files, const std::string& key)
+      : from_(from), files_(files), path_(files.path(from)), key_(key) {
     want(from.time, "from.time", unit_ns(from.unit));
     if (!from.changes.view().empty()) changes_ = want(from.changes, "from.changes");
   }
@@ -56,7 +48,9 @@ class Reader {
   /// The number of the column in a row.
   std::size_t want(const Name& column, const std::string& use, std::int64_t unit = 0) {
     if (column.view().empty())
-      refuse(key_ + "." + use, "names no column of " + path_ + "; valid is one of its first line");
+      refuse(key_ + "." + use, "names no column of " + path_ +
+                                   (files_.has_lines(from_) ? "; valid is one of its first line"
+                                                            : ", and a topic of this type has no usual one"));
     wanted_.push_back({std::string(column.view()), key_ + "." + use, unit});
     return wanted_.size() - 1;
   }
@@ -69,9 +63,10 @@ class Reader {
   /// `make` turns row `i` into a message, which `sane` is asked about.
   template <class M, class Make>
   Series<M> read(Make make) {
-    table_ = read_table(path_, file_key_, wanted_);
+    table_ = files_.read(from_, key_, wanted_);
     Series<M> series;
     series.key = key_, series.path = path_;
+    if (!files_.has_lines(from_)) series.line_word = "message";
     series.delay_ns = ns_of(from_.delay_s);
     std::vector<std::int64_t> stamps_ns;
     std::vector<M> samples;
@@ -88,8 +83,8 @@ class Reader {
     }
     keep_order(series, stamps_ns, samples, lines);
     if (series.samples.empty())
-      refuse(file_key_, path_ + ": none of its " + std::to_string(table_.rows()) +
-                            " rows can be used: the file ends early, or these are not the columns");
+      refuse(key_ + ".from.file", path_ + ": none of its " + std::to_string(table_.rows()) +
+                                      " rows can be used: the file ends early, or these are not the columns");
     return series;
   }
 
@@ -138,7 +133,8 @@ class Reader {
   }
 
   const Source& from_;
-  std::string path_, key_, file_key_;
+  Files& files_;
+  std::string path_, key_;
   std::vector<Wanted> wanted_;
   std::size_t changes_ = 0;  ///< 0 is the time's
   Table table_;

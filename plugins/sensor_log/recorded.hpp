@@ -82,9 +82,10 @@ struct Recorded {
 
  private:
   void read_files(const std::string& folder) {
+    Files files(folder);
     const auto fill = [&](auto& series, const auto& log, auto read_log) {
       series = {};
-      if (used(log)) series = read_log(log, folder);
+      if (used(log)) series = read_log(log, files);
     };
     fill(imu_, d_.imu, read_imu);
     fill(gnss_, d_.gnss, read_gnss);
@@ -110,18 +111,18 @@ struct Recorded {
       for (std::int64_t& at_ns : s.at_ns) at_ns -= first_ns;
       if (s.at_ns.empty()) return;
       refuse_early_end(s, d_.use);
-      count(s.left_out, s.path);
+      count(s.left_out, words_of(s));
     });
     if (d_.utc_at_zero_s == 0) return;
     for (std::size_t i = 0; i < gnss_.samples.size(); ++i)
       gnss_.samples[i].utc_ns = ns_of(d_.utc_at_zero_s) + gnss_.at_ns[i] - gnss_.delay_ns;
   }
 
-  void count(const LeftOut& left_out, const std::string& path) {
+  void count(const LeftOut& left_out, const std::string& words) {
     counts_.not_finite += left_out.not_finite;
     counts_.out_of_range += left_out.out_of_range;
     counts_.out_of_order += left_out.out_of_order;
-    if (left_out.all() > 0) notices_.push_back({{words_of(left_out, path)}, Severity::warning});
+    if (left_out.all() > 0) notices_.push_back({{words}, Severity::warning});
   }
 
   void plan() {

@@ -80,19 +80,23 @@ class Meeting {
 template <class M>
 void refuse_early_end(const Series<M>& s, const Window& use) {
   if (use.to_s == Window{}.to_s || s.at_ns.back() >= ns_of(use.to_s)) return;
-  refuse(s.key + ".from.file", s.path + ":" + std::to_string(s.last_line) + ": the file ends early, at " +
+  const std::string place =
+      s.line_word == std::string_view("line") ? ":" : std::string(": ") + s.line_word + " ";
+  refuse(s.key + ".from.file", s.path + place + std::to_string(s.last_line) + ": the file ends early, at " +
                                    seconds_of(s.at_ns.back()) + "; `use:` wants it to " + seconds(use.to_s));
 }
 
-inline std::string words_of(const LeftOut& out, const std::string& path) {
+template <class M>
+std::string words_of(const Series<M>& s) {
+  const LeftOut& out = s.left_out;
   std::vector<std::string> reasons;
   const auto add = [&](std::uint64_t n, const char* why) {
     if (n > 0) reasons.push_back(std::to_string(n) + why);
   };
   add(out.not_finite, " not finite"), add(out.out_of_range, " out of range"),
       add(out.out_of_order, " out of order");
-  return path.substr(path.rfind('/') + 1) + ": left out " + std::to_string(out.all()) +
-         (out.all() == 1 ? " row, the first" : " rows, the first") + " is line " +
+  return s.path.substr(s.path.rfind('/') + 1) + ": left out " + std::to_string(out.all()) +
+         (out.all() == 1 ? " row, the first" : " rows, the first") + " is " + s.line_word + " " +
          std::to_string(out.first_line) + ": " + all_of(reasons);
 }
 

@@ -4,6 +4,7 @@
 #include <fulmar/flight/atmosphere.hpp>
 #include <numbers>
 
+#include "layouts.hpp"
 #include "reader.hpp"
 
 namespace fulmar::sensor_log {
@@ -15,10 +16,11 @@ inline Vec3<Body> body(const std::array<double, 3>& raw, double unit, BodyAxes a
           scale.z * (raw[2] * turned - offset.z)};
 }
 
-inline Series<Imu> read_imu(const ImuLog& log, const std::string& folder) {
+inline Series<Imu> read_imu(const ImuLog& description, Files& files) {
+  const ImuLog log = with_layout(description, files, "log.imu");
   constexpr std::array<double, 2> rates = {1, std::numbers::pi / 180};
   constexpr std::array<double, 2> forces = {1, isa::g0};
-  Reader file(log.from, folder, "log.imu");
+  Reader file(log.from, files, "log.imu");
   const auto rate = file.want(log.rate.columns, "rate");
   const auto force = file.want(log.specific_force.columns, "specific_force");
   const RateColumns& w = log.rate;
@@ -33,9 +35,10 @@ inline Series<Imu> read_imu(const ImuLog& log, const std::string& folder) {
   });
 }
 
-inline Series<Mag> read_mag(const MagLog& log, const std::string& folder) {
+inline Series<Mag> read_mag(const MagLog& description, Files& files) {
+  const MagLog log = with_layout(description, files, "log.mag");
   constexpr std::array<double, 5> units = {1, 1e-6, 1e-9, 1e-4, 1e-7};
-  Reader file(log.from, folder, "log.mag");
+  Reader file(log.from, files, "log.mag");
   const auto field = file.want(log.field.columns, "field");
   const FieldColumns& b = log.field;
   const double unit = units[static_cast<std::size_t>(b.unit)];
@@ -44,9 +47,10 @@ inline Series<Mag> read_mag(const MagLog& log, const std::string& folder) {
   });
 }
 
-inline Series<Baro> read_baro(const BaroLog& log, const std::string& folder) {
+inline Series<Baro> read_baro(const BaroLog& description, Files& files) {
+  const BaroLog log = with_layout(description, files, "log.baro");
   constexpr std::array<double, 3> units = {1, 100, 1000};
-  Reader file(log.from, folder, "log.baro");
+  Reader file(log.from, files, "log.baro");
   const PressureColumn& p = log.pressure;
   const std::size_t column = file.want(p.column, "pressure.column");
   return file.read<Baro>([&](std::size_t i) {
@@ -57,8 +61,9 @@ inline Series<Baro> read_baro(const BaroLog& log, const std::string& folder) {
   });
 }
 
-inline Series<Pitot> read_pitot(const PitotLog& log, const std::string& folder) {
-  Reader file(log.from, folder, "log.pitot");
+inline Series<Pitot> read_pitot(const PitotLog& description, Files& files) {
+  const PitotLog log = with_layout(description, files, "log.pitot");
+  Reader file(log.from, files, "log.pitot");
   const PitotColumn& p = log.pressure;
   const std::size_t column = file.want(p.column, "pressure.column");
   return file.read<Pitot>([&](std::size_t i) {
@@ -110,9 +115,10 @@ inline Vec3<Ned> ned(const std::array<double, 3>& raw, const VelocityColumns& v)
 }
 
 /// Fixes without a velocity have one of zero, of which the deviation says that nobody knows it.
-inline Series<Gnss> read_gnss(const GnssLog& log, const std::string& folder) {
+inline Series<Gnss> read_gnss(const GnssLog& description, Files& files) {
+  const GnssLog log = with_layout(description, files, "log.gnss");
   constexpr std::array<double, 3> angles = {1, 1e-7, 180 / std::numbers::pi}, lengths = {1, 1e-2, 1e-3};
-  Reader file(log.from, folder, "log.gnss");
+  Reader file(log.from, files, "log.gnss");
   const auto place = file.want(log.position.columns, "position");
   const FixExtras extra(file, log);
   const double angle = angles[static_cast<std::size_t>(log.position.unit)];
@@ -121,7 +127,7 @@ inline Series<Gnss> read_gnss(const GnssLog& log, const std::string& folder) {
     Gnss g;
     g.latitude_deg = file.number(place[0], i) * angle;
     g.longitude_deg = file.number(place[1], i) * angle;
-    g.altitude_m = file.number(place[2], i) * length;
+    g.altitude_m = file.number(place[2], i) * length - log.position.geoid_m;
     if (extra.velocity != 0) g.velocity_mps = ned(file.numbers(extra.velocities, i), log.velocity);
     const auto deviation = [&](std::size_t column) {
       const double number = column != 0 ? file.number(column, i) : 0;

@@ -4,11 +4,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace fulmar::sensor_log {
@@ -28,7 +27,7 @@ struct Column {
 
 struct Table {
   std::vector<Column> columns;     ///< in the order in which they were wanted
-  std::vector<std::size_t> lines;  ///< where each row is, for people
+  std::vector<std::size_t> lines;  ///< where each row is, for people: a line, or the number of a message
   std::size_t rows() const { return lines.size(); }
 };
 
@@ -43,12 +42,20 @@ inline std::string all_of(const std::vector<std::string>& names) {
   return text;
 }
 
-inline std::string bytes_of(const std::string& path, const std::string& key) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) refuse(key, path + " cannot be read; --set recorded.folder=FOLDER says where the files are");
-  std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  if (file.bad()) refuse(key, path + " cannot be read");
-  return bytes;
+/// `place`: where the names of columns are.
+[[noreturn]] inline void refuse_column(const Wanted& wanted, const std::string& place,
+                                       const std::vector<std::string>& there) {
+  refuse(wanted.use, "no column '" + wanted.name + "' in " + place + "; there are " + all_of(there));
+}
+
+/// A file, and the key of the description that names it.
+struct File {
+  std::string path, key;
+  std::string_view bytes;
+};
+
+[[noreturn]] inline void refuse(const File& file, const std::string& sentence) {
+  refuse(file.key, file.path + sentence);
 }
 
 /// Of a stamp that is none.
@@ -60,6 +67,17 @@ inline constexpr std::int64_t last_stamp_ns = 3'000'000'000'000'000'000;
 inline std::int64_t stamp_or_none(std::int64_t ns) {
   return ns > last_stamp_ns || ns < -last_stamp_ns ? no_stamp : ns;
 }
+
+/// What a topic of a bag or a ULog is: its type, and its columns.
+struct Topic {
+  std::string type;
+  std::vector<std::string> columns;
+  bool has(std::string_view name) const {
+    for (const std::string& each : columns)
+      if (each == name) return true;
+    return false;
+  }
+};
 
 /// One number of a row, whatever its type in the file.
 inline void put(Column& column, const Wanted& wanted, std::int64_t whole) {

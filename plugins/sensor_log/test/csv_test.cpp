@@ -15,8 +15,7 @@ using Stamps = std::vector<std::int64_t>;
 namespace {
 
 Table read(const std::string& text, const std::vector<Wanted>& wanted) {
-  const std::string path = "a.csv", key = "log.imu.from.file";
-  return Csv(path, key, wanted).read(text);
+  return Csv(File{"a.csv", "log.imu.from.file", text}, wanted).read();
 }
 
 std::string refusal(const std::string& text, const std::vector<Wanted>& wanted) {

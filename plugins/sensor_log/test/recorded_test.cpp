@@ -422,7 +422,7 @@ TEST_CASE("what cannot be flown is refused in one sentence that begins with the 
         "log.imu.from.file: " + at +
             "no.csv cannot be read; --set recorded.folder=FOLDER says where the files are");
   CHECK(refusal([](Description& d) { d.imu.from.file = "imu.mat"; }) ==
-        "log.imu.from.file: '" + at + "imu.mat' is no kind of file that can be read: *.csv");
+        "log.imu.from.file: '" + at + "imu.mat' is no kind of file that can be read: *.csv, *.mcap, *.ulg");
   CHECK(refusal([](Description& d) { d.imu.from.time = ""; }) ==
         "log.imu.from.time: names no column of " + at + "imu.csv; valid is one of its first line");
   CHECK(refusal([](Description& d) { d.imu.rate.columns[1] = ""; }) ==

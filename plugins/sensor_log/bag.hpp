@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A ROS 2 bag in an MCAP file: one topic of it. Source: the MCAP file format specification, version 0.
+#pragma once
+#include <zstd.h>
+
+#include <optional>
+
+#include "ros_type.hpp"
+
+namespace fulmar::sensor_log {
+
+class Bag {
+ public:
+  Bag(const File& file, std::string_view topic) : file_(file), topic_(topic) {
+    if (!file.bytes.starts_with(magic)) refuse(file, " is no MCAP file");
+  }
+
+  Table read(const std::vector<Wanted>& wanted) {
+    Table table;
+    table.columns.resize(wanted.size());
+    bool ready = false;
+    scan([&](const Cursor& data) {
+      if (!ready) type_->want(wanted);
+      ready = true;
+      type_->read(data, wanted, table);
+      table.lines.push_back(table.rows() + 1);
+    });
+    return table;
+  }
+
+  /// "sensor_msgs/msg/Imu", and its fields; refused when there is no such topic.
+  Topic look() {
+    scan([](const Cursor&) {});
+    return {type_name_, type_->names()};
+  }
+
+ private:
+  enum Code : std::uint8_t { schema = 3, channel = 4, message = 5, chunk = 6, data_end = 15 };
+  static constexpr std::string_view magic{"\x89MCAP0\r\n", 8};
+
+  template <class Use>
+  void scan(const Use& use) {
+    Cursor all{&file_, file_.bytes, magic.size(), 0};
+    if (!records(all, use, false)) all.fault("the file ends early: its data has no end");
+    if (type_) return;
+    std::vector<std::string> topics;
+    for (const auto& [id, name] : topics_)
+      if (std::find(topics.begin(), topics.end(), name) == topics.end()) topics.push_back(name);
+    refuse(key_of_topic(), "no topic '" + topic_ + "' in " + file_.path + "; there are " + all_of(topics));
+  }
+
+  std::string key_of_topic() const { return file_.key.substr(0, file_.key.rfind('.')) + ".topic"; }
+
+  /// True at the end of the data.
+  template <class Use>
+  bool records(Cursor& from, const Use& use, bool packed) {
+    while (from.more()) {
+      const auto code = from.number<std::uint8_t>();
+      const auto size = from.number<std::uint64_t>();
+      Cursor record = from.part(size);
+      if (code == data_end && !packed) return true;
+      if (code == schema) new_schema(record);
+      if (code == channel) new_channel(record);
+      if (code == chunk && !packed) unpack(record, use);
+      if (code != message) continue;
+      const auto id = record.number<std::uint16_t>();
+      record.take(4 + 8 + 8);  // sequence, two times
+      if (type_ && id == channel_) use(record.part(record.left()));
+    }
+    return false;
+  }
+
+  void new_schema(Cursor& record) {
+    Schema& s = schemas_[record.number<std::uint16_t>()];
+    s.name = record.text(), s.encoding = record.text(), s.text = record.text();
+  }
+
+  void new_channel(Cursor& record) {
+    const auto id = record.number<std::uint16_t>();
+    const auto of = record.number<std::uint16_t>();
+    const std::string name(record.text()), encoding(record.text());
+    topics_[id] = name;
+    if (name != topic_ || (type_ && id == channel_)) return;
+    if (type_)
+      refuse(key_of_topic(), "'" + topic_ + "' has two channels in " + file_.path + "; one can be read");
+    const Schema& s = schemas_[of];
+    if (encoding != "cdr" || s.encoding != "ros2msg")
+      refuse(key_of_topic(), "'" + topic_ + "' is encoded as '" + encoding + "' with a schema '" +
+                                 s.encoding + "'; what can be read is cdr with ros2msg");
+    channel_ = id;
+    type_name_ = s.name;
+    type_.emplace(file_, topic_, s.name, s.text);
+  }
+
+  template <class Use>
+  void unpack(Cursor& record, const Use& use) {
+    record.take(8 + 8);  // times
+    const auto size = record.number<std::uint64_t>();
+    record.take(4);  // checksum
+    const std::string compression(record.text());
+    const auto packed_size = record.number<std::uint64_t>();
+    Cursor packed = record.part(packed_size);
+    if (compression.empty()) {
+      records(packed, use, true);
+      return;
+    }
+    if (compression != "zstd")
+      record.fault("a chunk is packed with '" + compression + "'; what can be read is zstd, or none");
+    if (size > (std::uint64_t{1} << 30)) record.fault("a chunk of more than 1 GB");
+    std::string plain(static_cast<std::size_t>(size), '\0');
+    const std::size_t got =
+        ZSTD_decompress(plain.data(), plain.size(), packed.data.data(), packed.data.size());
+    if (ZSTD_isError(got) != 0 || got != plain.size()) packed.fault("a chunk is damaged");
+    Cursor inside{&file_, plain, 0, packed.base};
+    records(inside, use, true);
+  }
+
+  struct Schema {
+    std::string name, encoding, text;
+  };
+  const File& file_;
+  std::string topic_, type_name_;
+  std::map<std::uint16_t, Schema> schemas_;
+  std::map<std::uint16_t, std::string> topics_;
+  std::uint16_t channel_ = 0;
+  std::optional<RosType> type_;
+};
+
+}  // namespace fulmar::sensor_log

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The files of a recording. Their names say which reader reads them.
+#pragma once
+#include <fstream>
+#include <iterator>
+
+#include "bag.hpp"
+#include "csv.hpp"
+#include "description.hpp"
+#include "ulog.hpp"
+
+namespace fulmar::sensor_log {
+
+class Files {
+ public:
+  explicit Files(std::string folder) : folder_(std::move(folder)) {}
+
+  std::string path(const Source& from) const { return folder_ + "/" + std::string(from.file.view()); }
+
+  Table read(const Source& from, const std::string& key, const std::vector<Wanted>& wanted) {
+    const File file = open(from, key);
+    if (kind_of(file) == Kind::csv) return Csv(file, wanted).read();
+    if (kind_of(file) == Kind::bag) return Bag(file, from.topic.view()).read(wanted);
+    return Ulog(file, from.topic.view()).read(wanted);
+  }
+
+  /// Of a CSV file nothing is known.
+  Topic look(const Source& from, const std::string& key) {
+    const File file = open(from, key);
+    if (kind_of(file) == Kind::csv) {
+      if (!from.topic.view().empty())
+        refuse(key + ".from.topic", file.path + " has none; bags and ULogs have");
+      return {};
+    }
+    return kind_of(file) == Kind::bag ? Bag(file, from.topic.view()).look()
+                                      : Ulog(file, from.topic.view()).look();
+  }
+
+  bool has_lines(const Source& from) const { return path(from).ends_with(".csv"); }
+
+ private:
+  enum class Kind : std::uint8_t { csv, bag, ulog };
+  static Kind kind_of(const File& file) {
+    if (file.path.ends_with(".csv")) return Kind::csv;
+    if (file.path.ends_with(".mcap")) return Kind::bag;
+    if (file.path.ends_with(".ulg") || file.path.ends_with(".ulog")) return Kind::ulog;
+    refuse(file.key, "'" + file.path + "' is no kind of file that can be read: *.csv, *.mcap, *.ulg");
+  }
+
+  /// Several sensors may be in one file, which is read once.
+  File open(const Source& from, const std::string& key) {
+    File file{path(from), key + ".from.file", {}};
+    kind_of(file);
+    const auto [at, fresh] = bytes_.try_emplace(file.path);
+    if (fresh) {
+      std::ifstream stream(file.path, std::ios::binary);
+      if (!stream) refuse(file, " cannot be read; --set recorded.folder=FOLDER says where the files are");
+      at->second.assign(std::istreambuf_iterator<char>(stream), {});
+      if (stream.bad()) refuse(file, " cannot be read");
+    }
+    file.bytes = at->second;
+    return file;
+  }
+
+  std::string folder_;
+  std::map<std::string, std::string> bytes_;
+};
+
+}  // namespace fulmar::sensor_log

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A ROS 2 message in its own words, as a bag holds them, and how its bytes (XCDR1, little-endian) are walked
+// for some of its fields. Sources: ROS 2 interface definition; OMG DDS-XTypes 1.3, 7.4.1.
+#pragma once
+#include <map>
+#include <utility>
+
+#include "csv.hpp"
+#include "cursor.hpp"
+
+namespace fulmar::sensor_log {
+
+struct RosField {
+  Prim prim = Prim::u8;
+  std::string name, type;  ///< type: of a structure, "pkg/Name"
+  bool sequence = false;   ///< its count is in the bytes
+  std::size_t count = 1;
+  bool array = false;                            ///< of `count`
+  std::vector<std::vector<std::size_t>> wanted;  ///< per element: the columns that want it
+  std::vector<RosField> inside;
+};
+
+class RosType {
+ public:
+  RosType(const File& file, const std::string& topic, const std::string& type, std::string_view text)
+      : file_(file), topic_(topic) {
+    std::string current = shorter(type);
+    for (std::size_t from = 0; from < text.size();) {
+      const std::size_t end = std::min(text.find('\n', from), text.size());
+      std::string_view line = text.substr(from, end - from);
+      from = end + 1;
+      line = trimmed(line.substr(0, line.find('#')));
+      if (line.empty() || line.starts_with("==")) continue;
+      if (line.starts_with("MSG:"))
+        current = shorter(std::string(trimmed(line.substr(4))));
+      else
+        field(line, types_[current], current);
+    }
+    fields_ = grown(shorter(type), "", 0);
+  }
+
+  const std::vector<std::string>& names() const { return names_; }
+
+  void want(const std::vector<Wanted>& wanted) {
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      if (!mark(fields_, "", wanted[i].name, i))
+        refuse_column(wanted[i], topic_ + " of " + file_.path, names_);
+  }
+
+  void read(Cursor bytes, const std::vector<Wanted>& wanted, Table& table) const {
+    const auto head = bytes.take(4);
+    if (head[0] != 0 || head[1] != 1) bytes.fault("the message is no little-endian XCDR1");
+    bytes = bytes.part(bytes.left());  // positions, to which numbers are aligned, count from here
+    walk(fields_, bytes, wanted, &table);
+  }
+
+ private:
+  /// "sensor_msgs/msg/Imu" -> "sensor_msgs/Imu"
+  static std::string shorter(std::string type) {
+    if (const std::size_t at = type.find("/msg/"); at != std::string::npos) type.erase(at, 4);
+    return type;
+  }
+
+  void field(std::string_view line, std::vector<RosField>& fields, const std::string& inside) {
+    const std::size_t blank = std::min(line.find_first_of(" \t"), line.size());
+    std::string_view type = line.substr(0, blank), name = trimmed(line.substr(blank));
+    name = name.substr(0, name.find_first_of(" \t"));
+    if (name.empty() || name.find('=') != std::string_view::npos) return;
+    if (const std::string_view all = line.substr(blank);
+        trimmed(trimmed(all).substr(name.size())).starts_with("="))
+      return;  // a constant
+    RosField f;
+    f.name = name;
+    if (const std::size_t at = type.find('['); at != std::string_view::npos) {
+      const std::string_view size = type.substr(at + 1, type.size() - at - 2);
+      f.array = !size.empty() && size.front() != '<';
+      f.sequence = !f.array;
+      if (f.array) std::from_chars(size.data(), size.data() + size.size(), f.count);
+      type = type.substr(0, at);
+    }
+    f.prim = prim_of(type.substr(0, type.find('<')));
+    f.type = type;
+    if (f.type == "Header") f.type = "std_msgs/Header";
+    if (f.prim == Prim::structure && f.type.find('/') == std::string::npos)
+      f.type = inside.substr(0, inside.find('/')) + "/" + f.type;
+    f.type = shorter(f.type);
+    fields.push_back(std::move(f));
+  }
+
+  static Prim prim_of(std::string_view type) {
+    constexpr std::array<std::pair<std::string_view, Prim>, 17> all = {
+        {{"bool", Prim::u8},
+         {"byte", Prim::u8},
+         {"char", Prim::u8},
+         {"uint8", Prim::u8},
+         {"int8", Prim::i8},
+         {"uint16", Prim::u16},
+         {"int16", Prim::i16},
+         {"uint32", Prim::u32},
+         {"int32", Prim::i32},
+         {"uint64", Prim::u64},
+         {"int64", Prim::i64},
+         {"float32", Prim::f32},
+         {"float64", Prim::f64},
+         {"string", Prim::text},
+         {"builtin_interfaces/Time", Prim::time},
+         {"builtin_interfaces/msg/Time", Prim::time},
+         {"time", Prim::time}}};
+    for (const auto& [name, prim] : all)
+      if (name == type) return prim;
+    return Prim::structure;
+  }
+
+  std::vector<RosField> grown(const std::string& type, const std::string& prefix, int depth) {
+    const auto found = types_.find(type);
+    if (found == types_.end() || depth > 16 || ++structures_ > 1000)
+      refuse(file_, ": " + topic_ + " does not say what '" + type + "' is");
+    std::vector<RosField> fields = found->second;
+    for (RosField& f : fields) {
+      const std::string name = prefix + f.name;
+      if (f.prim == Prim::structure) {
+        f.inside = grown(f.type, name + ".", depth + 1);
+      } else if (f.prim != Prim::text && !f.sequence) {
+        names_.push_back(f.array ? name + "[0]" : name);
+        f.wanted.resize(std::min<std::size_t>(f.count, 1024));
+      }
+    }
+    return fields;
+  }
+
+  static bool mark(std::vector<RosField>& fields, const std::string& prefix, const std::string& name,
+                   std::size_t column) {
+    for (RosField& f : fields) {
+      const std::string here = prefix + f.name;
+      if (f.prim == Prim::structure && !f.sequence && !f.array && mark(f.inside, here + ".", name, column))
+        return true;
+      for (std::size_t i = 0; i < f.wanted.size(); ++i)
+        if (name == (f.array ? here + "[" + std::to_string(i) + "]" : here)) {
+          f.wanted[i].push_back(column);
+          return true;
+        }
+    }
+    return false;
+  }
+
+  static void align(Cursor& bytes, std::size_t to) { bytes.take((to - bytes.at % to) % to); }
+
+  /// `table`: null where nobody wants anything.
+  static void walk(const std::vector<RosField>& fields, Cursor& bytes, const std::vector<Wanted>& wanted,
+                   Table* table) {
+    for (const RosField& f : fields) {
+      std::size_t count = f.count;
+      if (f.sequence) align(bytes, 4), count = bytes.number<std::uint32_t>();
+      if (count > bytes.left()) bytes.fault("the message ends early");
+      for (std::size_t i = 0; i < count; ++i) {
+        if (f.prim == Prim::structure)
+          walk(f.inside, bytes, wanted, f.sequence || f.array ? nullptr : table);
+        else
+          element(f, i < f.wanted.size() && table ? &f.wanted[i] : nullptr, bytes, wanted, table);
+      }
+    }
+  }
+
+  static void element(const RosField& f, const std::vector<std::size_t>* columns, Cursor& bytes,
+                      const std::vector<Wanted>& wanted, Table* table) {
+    align(bytes, size_of(f.prim));
+    if (f.prim == Prim::text) return void(bytes.text());
+    const Cursor start = bytes;
+    bytes.take(f.prim == Prim::time ? 8 : size_of(f.prim));
+    for (std::size_t k = 0; columns && k < columns->size(); ++k) {
+      const std::size_t i = (*columns)[k];
+      Cursor value = start;
+      if (f.prim != Prim::time) {
+        put_number(f.prim, value, table->columns[i], wanted[i]);
+      } else {
+        const std::int64_t s = value.number<std::int32_t>();
+        put(table->columns[i], wanted[i], s * 1'000'000'000 + value.number<std::uint32_t>());
+      }
+    }
+  }
+
+  const File& file_;
+  std::string topic_;
+  std::size_t structures_ = 0;
+  std::map<std::string, std::vector<RosField>> types_;
+  std::vector<RosField> fields_;
+  std::vector<std::string> names_;
+};
+
+}  // namespace fulmar::sensor_log

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "files.hpp"
+#include "recording.hpp"
+
+namespace bag_test {
+
+using namespace recording;
+using namespace files;
+using doctest::Approx;
+
+namespace {
+
+Description all_topics() {
+  Description d;
+  d.imu.from.file = d.mag.from.file = d.baro.from.file = d.pitot.from.file = d.gnss.from.file = "flight.mcap";
+  d.imu.from.topic = "/imu/data", d.mag.from.topic = "/mag", d.baro.from.topic = "/pressure";
+  d.pitot.from.topic = "/airspeed", d.gnss.from.topic = "/gnss";
+  return d;
+}
+Description imu_topic() {
+  Description d;
+  d.imu.from.file = "flight.mcap", d.imu.from.topic = "/imu/data";
+  return d;
+}
+Flown flown(const Description& d, const std::string& bytes) {
+  const Folder folder;
+  folder.write("flight.mcap", bytes);
+  return fly(d, folder);
+}
+std::string refusal(const Description& d, const std::string& bytes) {
+  const Folder folder;
+  folder.write("flight.mcap", bytes);
+  std::string said = fly(d, folder).fault;
+  const std::string path = folder.path.string() + "/";
+  if (const std::size_t at = said.find(path); at != std::string::npos) said.erase(at, path.size());
+  return said;
+}
+
+}  // namespace
+
+TEST_CASE("topics of sensor_msgs and rosflight_msgs need no column: their types say what they are") {
+  const Flown f = flown(all_topics(), bag());
+  REQUIRE(f.fault == "");
+  REQUIRE(f.imu.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double k = static_cast<double>(i + 1);
+    CHECK(f.imu[i].now_ns == static_cast<std::int64_t>(i) * 10'000'001);
+    CHECK(f.imu[i].value.rate_radps == Vec3<Body>{0.1 * k, 0.2 * k, 0.3 * k});
+    CHECK(f.imu[i].value.specific_force_mps2 == Vec3<Body>{k, 2 * k, -9.8});
+  }
+  REQUIRE(f.gnss.size() == 1);
+  CHECK(f.gnss[0].valid_at_ns == 20'000'000);
+  const Gnss& g = f.gnss[0].value;
+  CHECK(g.latitude_deg == 40.25);
+  CHECK(g.longitude_deg == -111.65);
+  CHECK(g.altitude_m == 1387.5);
+  CHECK(g.velocity_mps == Vec3<Ned>{3, -4, 0.5});
+  CHECK(g.horizontal_std_m == 1.5);
+  CHECK(g.vertical_std_m == 2.5);
+  CHECK(g.speed_std_mps == 0.25);
+  CHECK(g.fix == FixType::fix_3d);
+  CHECK(g.satellites == 11);
+  REQUIRE(f.baro.size() == 1);
+  CHECK(f.baro[0].value.pressure_pa == 86'000.5);
+  CHECK(f.baro[0].valid_at_ns == 5'000'000);
+  REQUIRE(f.pitot.size() == 1);
+  CHECK(f.pitot[0].value.pressure_pa == 245);
+  REQUIRE(f.mag.size() == 1);
+  CHECK(f.mag[0].value.field_tesla == Vec3<Body>{2e-5, -1e-6, 4.5e-5});
+}
+
+TEST_CASE(
+    "a NavSatFix has no velocity, and an altitude above the ellipsoid, which the description may take off") {
+  Description d;
+  d.gnss.from.file = "flight.mcap", d.gnss.from.topic = "/fix", d.gnss.position.geoid_m = -17;
+  const Flown f = flown(d, bag());
+  REQUIRE(f.fault == "");
+  const Gnss& g = f.gnss.at(0).value;
+  CHECK(g.latitude_deg == 40.5);
+  CHECK(g.longitude_deg == -111.5);
+  CHECK(g.altitude_m == 1387);
+  CHECK(g.speed_std_mps == unknown_std);
+  CHECK(g.fix == FixType::fix_3d);
+}
+
+TEST_CASE(
+    "a description may name any field of a topic, elements of arrays included, over what goes without "
+    "saying") {
+  Description d = imu_topic();
+  d.imu.rate.columns = {"angular_velocity.z", "orientation.w", "linear_acceleration_covariance[8]"};
+  d.imu.specific_force.unit = ForceUnit::g;
+  const Flown f = flown(d, bag());
+  REQUIRE(f.fault == "");
+  CHECK(f.imu.at(0).value.rate_radps == Vec3<Body>{0.3, -1, -3});
+  CHECK(f.imu.at(0).value.specific_force_mps2.x == Approx(9.80665));
+}
+
+TEST_CASE("text, bounded text, sequences and arrays of structures are stepped over") {
+  const std::string definition =
+      "string a\nstring<=8 b\npkg/Pair[] pairs\nuint16[] list\nbool[3] flags\npkg/Pair[2] two\nfloat32 "
+      "x\nHeader header\n" +
+      header_definition + "===\nMSG: pkg/Pair\nint8 k\nint64 v\n";
+  Cdr c;
+  c.put_text("hello").put_text("");
+  c.put(std::uint32_t{2}).put(std::int8_t{1}).put(std::int64_t{2}).put(std::int8_t{3}).put(std::int64_t{4});
+  c.put(std::uint32_t{3}).put(std::uint16_t{7}).put(std::uint16_t{8}).put(std::uint16_t{9});
+  c.put(std::uint8_t{1}).put(std::uint8_t{0}).put(std::uint8_t{1});
+  c.put(std::int8_t{1}).put(std::int64_t{2}).put(std::int8_t{3}).put(std::int64_t{4});
+  c.put(6.25F).header(5, 6, "f");
+  Description d;
+  d.baro.from.file = "flight.mcap", d.baro.from.topic = "/own", d.baro.pressure.column = "x",
+  d.baro.pressure.unit = PressureUnit::hpa;
+  const Flown f = flown(d, mcap_begin() + mcap_schema(1, "pkg/msg/Own", definition) +
+                               mcap_channel(1, 1, "/own") + mcap_message(1, 0, c.bytes()) + mcap_end());
+  REQUIRE(f.fault == "");
+  CHECK(f.baro.at(0).value.pressure_pa == 625);
+}
+
+TEST_CASE("NaN and stamps out of order in a bag: left out, counted, told with the number of the message") {
+  constexpr std::int32_t s = 1'700'000'000;
+  std::string file =
+      mcap_begin() + mcap_schema(1, "sensor_msgs/msg/Imu", imu_definition) + mcap_channel(1, 1, "/imu/data");
+  const std::pair<std::uint32_t, double> rows[] = {{0, 1}, {10, 2}, {10, 9}, {20, std::nan("")},
+                                                   {5, 9}, {30, 3}};
+  for (const auto& [ns, k] : rows) file += mcap_message(1, 0, imu_message(s, ns, "x", k));
+  const Flown f = flown(imu_topic(), file + mcap_end());
+  CHECK(f.ticks_ns == std::vector<std::int64_t>{0, 10, 30});
+  CHECK(f.last.not_finite == 1);
+  CHECK(f.last.out_of_order == 2);
+  CHECK(f.notices ==
+        std::vector<std::string>{
+            "flight.mcap: left out 3 rows, the first is message 3: 1 not finite, 2 out of order"});
+}
+
+TEST_CASE("what cannot be read of a bag is refused in one sentence") {
+  const auto topic = [](const char* name) {
+    Description d = imu_topic();
+    d.imu.from.topic = name;
+    return d;
+  };
+  CHECK(refusal(imu_topic(), "t,p\n1,2\n") == "log.imu.from.file: flight.mcap is no MCAP file");
+  CHECK(refusal(topic("/imu"), bag()) ==
+        "log.imu.from.topic: no topic '/imu' in flight.mcap; there are /imu/data, /gnss, /pressure, "
+        "/airspeed, /mag, /fix");
+  CHECK(refusal(topic("/mag"), bag()) ==
+        "log.imu.rate.columns[0]: names no column of flight.mcap, and a topic of this type has no usual one");
+  Description other = imu_topic();
+  other.imu.from.time = "stamp";
+  CHECK(refusal(other, bag())
+            .starts_with("log.imu.from.time: no column 'stamp' in /imu/data of flight.mcap; there are "
+                         "header.stamp, orientation.x, "));
+  CHECK(refusal(imu_topic(), bag(false)) == "log.imu.from.file: flight.mcap: byte " +
+                                                std::to_string(bag(false).size()) +
+                                                ": the file ends early: its data has no end");
+  const std::string types = mcap_schema(1, "sensor_msgs/msg/Imu", imu_definition);
+  CHECK(refusal(imu_topic(), mcap_begin() + types + mcap_channel(1, 1, "/imu/data", "json") + mcap_end()) ==
+        "log.imu.from.topic: '/imu/data' is encoded as 'json' with a schema 'ros2msg'; what can be read is "
+        "cdr with ros2msg");
+  CHECK(refusal(imu_topic(), mcap_begin() + mcap_chunk(types, true, "lz4") + mcap_end())
+            .find("a chunk is packed with 'lz4'; what can be read is zstd, or none") != std::string::npos);
+  const std::string whole = mcap_begin() + types + mcap_channel(1, 1, "/imu/data");
+  CHECK(refusal(imu_topic(), whole + mcap_message(1, 0, std::string("\0\x01\0\0\1\2\3", 7)) + mcap_end())
+            .find("the file ends early, or is damaged") != std::string::npos);
+  CHECK(refusal(imu_topic(), whole + mcap_message(1, 0, std::string(400, '\0')) + mcap_end())
+            .find("the message is no little-endian XCDR1") != std::string::npos);
+  CHECK(refusal(imu_topic(), whole + mcap_end()).find("none of its 0 rows can be used") != std::string::npos);
+  CHECK(refusal(imu_topic(), mcap_begin() + mcap_schema(1, "sensor_msgs/msg/Imu", "pkg/Other x\n") +
+                                 mcap_channel(1, 1, "/imu/data") + mcap_end()) ==
+        "log.imu.from.file: flight.mcap: /imu/data does not say what 'pkg/Other' is");
+}
+
+TEST_CASE("every beginning of a bag, and every bag with one byte changed, is read or refused in words") {
+  const std::string whole = bag();
+  const std::string end = mcap_end();
+  for (std::size_t n = 0; n < whole.size() - end.size(); n += n < 200 ? 1 : 17)
+    CHECK(refusal(imu_topic(), whole.substr(0, n)) != "");
+  for (std::size_t n = 0; n < whole.size(); n += 3) {
+    std::string changed = whole;
+    changed[n] = static_cast<char>(changed[n] ^ (1 << n % 8));
+    const Flown f = flown(all_topics(), changed);
+    CHECK((f.fault == "" || f.fault.find(": ") != std::string::npos));
+    CHECK(f.fault.find(" is nan") == std::string::npos);
+  }
+}
+
+}  // namespace bag_test

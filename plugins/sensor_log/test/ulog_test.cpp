@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "files.hpp"
+#include "recording.hpp"
+
+namespace ulog_test {
+
+using namespace recording;
+using namespace files;
+using doctest::Approx;
+
+namespace {
+
+Description all_topics() {
+  Description d;
+  d.imu.from.file = d.mag.from.file = d.baro.from.file = d.pitot.from.file = d.gnss.from.file = "flight.ulg";
+  d.imu.from.topic = "sensor_combined", d.mag.from.topic = "sensor_mag#1",
+  d.baro.from.topic = "vehicle_air_data";
+  d.pitot.from.topic = "differential_pressure", d.gnss.from.topic = "sensor_gps";
+  return d;
+}
+Description imu_topic() {
+  Description d;
+  d.imu.from.file = "flight.ulg", d.imu.from.topic = "sensor_combined";
+  return d;
+}
+Flown flown(const Description& d, const std::string& bytes) {
+  const Folder folder;
+  folder.write("flight.ulg", bytes);
+  return fly(d, folder);
+}
+std::string refusal(const Description& d, const std::string& bytes) {
+  const Folder folder;
+  folder.write("flight.ulg", bytes);
+  std::string said = fly(d, folder).fault;
+  const std::string path = folder.path.string() + "/";
+  if (const std::size_t at = said.find(path); at != std::string::npos) said.erase(at, path.size());
+  return said;
+}
+
+}  // namespace
+
+TEST_CASE("topics of PX4 need no column: their names say what they are; # is an instance") {
+  const Flown f = flown(all_topics(), ulog());
+  REQUIRE(f.fault == "");
+  CHECK(f.ticks_ns == std::vector<std::int64_t>{0, 10'000'000, 20'000'000});
+  REQUIRE(f.imu.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double k = static_cast<double>(i + 1);
+    CHECK(f.imu[i].value.rate_radps == Vec3<Body>{0.5 * k, 0.25 * k, -0.125 * k});
+    CHECK(f.imu[i].value.specific_force_mps2 == Vec3<Body>{k, 2 * k, -9.75});
+  }
+  REQUIRE(f.gnss.size() == 1);
+  CHECK(f.gnss[0].valid_at_ns == 5'000'000);
+  const Gnss& g = f.gnss[0].value;
+  CHECK(g.latitude_deg == 40.25);
+  CHECK(g.longitude_deg == -111.65);
+  CHECK(g.altitude_m == 1387.5);
+  CHECK(g.velocity_mps == Vec3<Ned>{3, -4, 0.5});
+  CHECK(g.horizontal_std_m == 1.5);
+  CHECK(g.vertical_std_m == 2.5);
+  CHECK(g.speed_std_mps == 0.25);
+  CHECK(g.fix == FixType::rtk_fixed);
+  CHECK(g.satellites == 11);
+  CHECK(f.baro.at(0).value.pressure_pa == 86'000.5);
+  CHECK(f.pitot.at(0).value.pressure_pa == 245);
+  CHECK(f.mag.at(0).value.field_tesla.x == Approx(2.5e-5).epsilon(1e-6));  // 0.25 gauss, of the second one
+  CHECK(f.mag.at(0).value.field_tesla.z == Approx(5e-5).epsilon(1e-6));
+}
+
+TEST_CASE("the fixes of a PX4 before 1.14 are whole numbers of 1e-7 degrees and of millimetres") {
+  Description d;
+  d.gnss.from.file = "flight.ulg", d.gnss.from.topic = "vehicle_gps_position";
+  std::string file = ulog_begin() +
+                     ulog_format(
+                         "vehicle_gps_position:uint64_t timestamp;int32_t lat;int32_t lon;int32_t alt;float "
+                         "s_variance_m_s;float eph;float epv;float vel_n_m_s;float vel_e_m_s;float "
+                         "vel_d_m_s;uint8_t fix_type;uint8_t satellites_used;") +
+                     ulog_topic(0, 1, "vehicle_gps_position");
+  file += ulog_data(1, raw(std::uint64_t{5}) + raw(402'500'000) + raw(-1'116'500'000) + raw(1'387'500) +
+                           raw(0.F) + raw(1.F) + raw(1.F) + raw(1.F) + raw(1.F) + raw(1.F) +
+                           raw(std::uint8_t{2}) + raw(std::uint8_t{4}));
+  const Flown f = flown(d, file);
+  REQUIRE(f.fault == "");
+  CHECK(f.gnss.at(0).value.latitude_deg == Approx(40.25).epsilon(1e-12));
+  CHECK(f.gnss.at(0).value.longitude_deg == Approx(-111.65).epsilon(1e-12));
+  CHECK(f.gnss.at(0).value.altitude_m == Approx(1387.5).epsilon(1e-12));
+  CHECK(f.gnss.at(0).value.fix == FixType::fix_2d);
+  CHECK(f.gnss.at(0).value.speed_std_mps == unknown_std);  // 0 is no deviation
+}
+
+TEST_CASE("a description may name any field, nested ones and elements included") {
+  Description d;
+  d.imu.from.file = "flight.ulg", d.imu.from.topic = "own", d.imu.from.time = "timestamp",
+  d.imu.from.unit = TimeUnit::us;
+  d.imu.rate.columns = {"points[0].a", "points[1].b", "good"};
+  d.imu.specific_force.columns = {"points[0].b", "points[1].a", "good"};
+  const Flown f = flown(d, ulog());
+  REQUIRE(f.fault == "");
+  CHECK(f.imu.at(0).value.rate_radps == Vec3<Body>{-3, -2.5, 1});
+  CHECK(f.imu.at(0).value.specific_force_mps2 == Vec3<Body>{1.5, 4, 1});
+}
+
+TEST_CASE("what cannot be read of a ULog is refused in one sentence") {
+  CHECK(refusal(imu_topic(), "no log at all, but as long as the head of one") ==
+        "log.imu.from.file: flight.ulg is no ULog");
+  Description none = imu_topic();
+  none.imu.from.topic = "sensor_mag#2";
+  CHECK(refusal(none, ulog()) ==
+        "log.imu.from.topic: no topic 'sensor_mag#2' in flight.ulg; there are sensor_combined, "
+        "vehicle_air_data, differential_pressure, sensor_mag, sensor_mag#1, sensor_gps, own");
+  Description column = imu_topic();
+  column.imu.rate.columns = {"gyro_rad[0]", "gyro_rad[3]", "gyro_rad[2]"};
+  CHECK(refusal(column, ulog())
+            .starts_with(
+                "log.imu.rate.columns[1]: no column 'gyro_rad[3]' in sensor_combined of flight.ulg; there "
+                "are timestamp, gyro_rad[0], gyro_rad[1], gyro_rad[2], "));
+  CHECK(refusal(imu_topic(), ulog_begin(1) + ulog_topic(0, 1, "x"))
+            .find("the log was appended to after a crash") != std::string::npos);
+  CHECK(refusal(imu_topic(), ulog_begin() + ulog_topic(0, 1, "sensor_combined")) ==
+        "log.imu.from.file: flight.ulg has no format of 'sensor_combined'");
+  const std::string cut = ulog().substr(0, ulog().size() - 1);
+  CHECK(refusal(imu_topic(), cut).find("the file ends early, or is damaged") != std::string::npos);
+  Description csv = imu_topic();
+  csv.imu.from.file = "imu.csv";
+  const Folder folder;
+  folder.write("imu.csv", level(3));
+  CHECK(fly(csv, folder).fault ==
+        "log.imu.from.topic: " + folder.path.string() + "/imu.csv has none; bags and ULogs have");
+}
+
+TEST_CASE("every beginning of a ULog, and every one with one byte changed, is read or refused in words") {
+  const std::string whole = ulog();
+  for (std::size_t n = 0; n < whole.size(); n += 3) {
+    const Flown cut = flown(all_topics(), whole.substr(0, n));
+    CHECK((cut.fault != "" || !cut.imu.empty()));
+    std::string changed = whole;
+    changed[n] = static_cast<char>(changed[n] ^ (1 << n % 8));
+    const Flown f = flown(all_topics(), changed);
+    CHECK((f.fault == "" || f.fault.find(": ") != std::string::npos));
+    CHECK(f.fault.find(" is nan") == std::string::npos);
+  }
+}
+
+}  // namespace ulog_test

@@ -9,6 +9,21 @@
 
 namespace fulmar::sensor_log {
 
+/// Of IEEE 802.3, as MCAP has it.
+inline std::uint32_t crc32(std::string_view bytes) {
+  static const std::array<std::uint32_t, 256> table = [] {
+    std::array<std::uint32_t, 256> all{};
+    for (std::uint32_t i = 0; i < 256; ++i) {
+      all[i] = i;
+      for (int k = 0; k < 8; ++k) all[i] = (all[i] >> 1) ^ ((all[i] & 1) != 0 ? 0xEDB88320U : 0);
+    }
+    return all;
+  }();
+  std::uint32_t crc = ~0U;
+  for (const char c : bytes) crc = (crc >> 8) ^ table[(crc ^ static_cast<std::uint8_t>(c)) & 0xFF];
+  return ~crc;
+}
+
 class Bag {
  public:
   Bag(const File& file, std::string_view topic) : file_(file), topic_(topic) {
@@ -28,8 +43,9 @@ class Bag {
     return table;
   }
 
-  /// "sensor_msgs/msg/Imu", and its fields; refused when there is no such topic.
+  /// "sensor_msgs/msg/Imu", and its fields; refused when there is no such topic. Reads no further than to it.
   Topic look() {
+    looking_ = true;
     scan([](const Cursor&) {});
     return {type_name_, type_->names()};
   }
@@ -51,10 +67,11 @@ class Bag {
 
   std::string key_of_topic() const { return file_.key.substr(0, file_.key.rfind('.')) + ".topic"; }
 
-  /// True at the end of the data.
+  /// True when there is nothing more to read.
   template <class Use>
   bool records(Cursor& from, const Use& use, bool packed) {
     while (from.more()) {
+      if (looking_ && type_) return true;
       const auto code = from.number<std::uint8_t>();
       const auto size = from.number<std::uint64_t>();
       Cursor record = from.part(size);
@@ -96,23 +113,30 @@ class Bag {
   void unpack(Cursor& record, const Use& use) {
     record.take(8 + 8);  // times
     const auto size = record.number<std::uint64_t>();
-    record.take(4);  // checksum
+    const auto checksum = record.number<std::uint32_t>();
     const std::string compression(record.text());
-    const auto packed_size = record.number<std::uint64_t>();
-    Cursor packed = record.part(packed_size);
-    if (compression.empty()) {
-      records(packed, use, true);
-      return;
+    Cursor packed = record.part(record.number<std::uint64_t>());
+    std::string plain;
+    if (!compression.empty()) {
+      if (compression != "zstd")
+        record.fault("a chunk is packed with '" + compression + "'; what can be read is zstd, or none");
+      plain = unpacked(packed, size);
     }
-    if (compression != "zstd")
-      record.fault("a chunk is packed with '" + compression + "'; what can be read is zstd, or none");
-    if (size > (std::uint64_t{1} << 30)) record.fault("a chunk of more than 1 GB");
-    std::string plain(static_cast<std::size_t>(size), '\0');
+    Cursor inside{&file_, compression.empty() ? packed.data : std::string_view(plain), 0, packed.base};
+    if (checksum != 0 && checksum != crc32(inside.data))
+      packed.fault("a chunk is damaged: its checksum is not that of its content");
+    records(inside, use, true);
+  }
+
+  static std::string unpacked(const Cursor& packed, std::uint64_t size) {
+    if (size > (std::uint64_t{1} << 30)) packed.fault("a chunk of more than 1 GB");
+    const auto said = ZSTD_getFrameContentSize(packed.data.data(), packed.data.size());
+    std::string plain;
+    if (said == size || said == ZSTD_CONTENTSIZE_UNKNOWN) plain.resize(static_cast<std::size_t>(size));
     const std::size_t got =
         ZSTD_decompress(plain.data(), plain.size(), packed.data.data(), packed.data.size());
-    if (ZSTD_isError(got) != 0 || got != plain.size()) packed.fault("a chunk is damaged");
-    Cursor inside{&file_, plain, 0, packed.base};
-    records(inside, use, true);
+    if (ZSTD_isError(got) != 0 || got != size) packed.fault("a chunk is damaged");
+    return plain;
   }
 
   struct Schema {
@@ -124,6 +148,7 @@ class Bag {
   std::map<std::uint16_t, std::string> topics_;
   std::uint16_t channel_ = 0;
   std::optional<RosType> type_;
+  bool looking_ = false;
 };
 
 }  // namespace fulmar::sensor_log

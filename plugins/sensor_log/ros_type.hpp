@@ -25,6 +25,7 @@ class RosType {
   RosType(const File& file, const std::string& topic, const std::string& type, std::string_view text)
       : file_(file), topic_(topic) {
     std::string current = shorter(type);
+    types_[current];
     for (std::size_t from = 0; from < text.size();) {
       const std::size_t end = std::min(text.find('\n', from), text.size());
       std::string_view line = text.substr(from, end - from);
@@ -32,7 +33,7 @@ class RosType {
       line = trimmed(line.substr(0, line.find('#')));
       if (line.empty() || line.starts_with("==")) continue;
       if (line.starts_with("MSG:"))
-        current = shorter(std::string(trimmed(line.substr(4))));
+        types_[current = shorter(std::string(trimmed(line.substr(4))))];
       else
         field(line, types_[current], current);
     }
@@ -125,6 +126,7 @@ class RosType {
         f.wanted.resize(std::min<std::size_t>(f.count, 1024));
       }
     }
+    if (fields.empty()) fields.emplace_back();  // ROS 2 gives a structure of nothing a byte
     return fields;
   }
 

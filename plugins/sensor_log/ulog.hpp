@@ -120,6 +120,7 @@ class Ulog {
     const auto found = formats_.find(type);
     if (found == formats_.end() || depth > 8) refuse(file_, " has no format of '" + type + "'");
     std::string_view rest = found->second;
+    const std::size_t before = all.size();
     while (!rest.empty()) {
       const std::size_t end = std::min(rest.find(';'), rest.size());
       const std::string_view field = rest.substr(0, end);
@@ -128,6 +129,7 @@ class Ulog {
       if (blank == std::string_view::npos) continue;
       one(field.substr(0, blank), prefix + std::string(field.substr(blank + 1)), at, all, depth);
     }
+    if (all.size() == before) refuse(file_, ": the format of '" + type + "' has no field");
   }
 
   /// "float[3]", "prefix.gyro_rad"
@@ -137,9 +139,9 @@ class Ulog {
     const std::string_view base = type.substr(0, bracket);
     std::size_t count = 1;
     if (bracket < type.size()) std::from_chars(type.data() + bracket + 1, type.data() + type.size(), count);
-    if (count > 65535 || all.size() > 65535)
-      refuse(file_, ": '" + std::string(type) + " " + name + "' is no field");
     for (std::size_t i = 0; i < count; ++i) {
+      if (all.size() > 65535)  // a message has 65535 bytes at most
+        refuse(file_, ": '" + std::string(type) + " " + name + "' is more than a message can hold");
       const std::string each = bracket < type.size() ? name + "[" + std::to_string(i) + "]" : name;
       const Prim prim = prim_of(base);
       if (prim == Prim::structure) {

@@ -156,7 +156,7 @@ TEST_CASE("what cannot be read of a bag is refused in one sentence") {
   CHECK(refusal(imu_topic(), mcap_begin() + types + mcap_channel(1, 1, "/imu/data", "json") + mcap_end()) ==
         "log.imu.from.topic: '/imu/data' is encoded as 'json' with a schema 'ros2msg'; what can be read is "
         "cdr with ros2msg");
-  CHECK(refusal(imu_topic(), mcap_begin() + mcap_chunk(types, true, "lz4") + mcap_end())
+  CHECK(refusal(imu_topic(), mcap_begin() + mcap_chunk_of(types.size(), 0, "lz4", "foreign") + mcap_end())
             .find("a chunk is packed with 'lz4'; what can be read is zstd, or none") != std::string::npos);
   const std::string whole = mcap_begin() + types + mcap_channel(1, 1, "/imu/data");
   CHECK(refusal(imu_topic(), whole + mcap_message(1, 0, std::string("\0\x01\0\0\1\2\3", 7)) + mcap_end())
@@ -167,6 +167,58 @@ TEST_CASE("what cannot be read of a bag is refused in one sentence") {
   CHECK(refusal(imu_topic(), mcap_begin() + mcap_schema(1, "sensor_msgs/msg/Imu", "pkg/Other x\n") +
                                  mcap_channel(1, 1, "/imu/data") + mcap_end()) ==
         "log.imu.from.file: flight.mcap: /imu/data does not say what 'pkg/Other' is");
+}
+
+TEST_CASE("the checksum is that of IEEE 802.3, whose check value is published") {
+  CHECK(crc32("123456789") == 0xCBF43926U);
+  CHECK(crc32("") == 0);
+}
+
+TEST_CASE("a chunk that is damaged, or is not as long as it says, is refused, not read") {
+  const std::string records = mcap_schema(1, "sensor_msgs/msg/Imu", imu_definition) +
+                              mcap_channel(1, 1, "/imu/data") + mcap_message(1, 0, imu_message(5, 6, "x", 1));
+  const auto said = [&](std::uint64_t size, std::uint32_t checksum, const char* name,
+                        const std::string& packed) {
+    return refusal(imu_topic(), mcap_begin() + mcap_chunk_of(size, checksum, name, packed) + mcap_end());
+  };
+  const std::uint32_t checksum = checksum_of(records);
+  const std::string packed = packed_zstd(records);
+  CHECK(said(records.size(), checksum, "zstd", packed) == "");
+  CHECK(said(records.size(), 0, "zstd", packed) == "");  // 0: nobody has computed one
+  for (const char* name : {"", "zstd"}) {
+    const bool zstd = *name != '\0';
+    CHECK(said(records.size(), checksum ^ 1, name, zstd ? packed : records)
+              .ends_with(": a chunk is damaged: its checksum is not that of its content"));
+  }
+  for (const std::uint64_t size : {records.size() - 1, records.size() + 1, std::size_t{1} << 29})
+    CHECK(said(size, 0, "zstd", packed).ends_with(": a chunk is damaged"));
+  CHECK(
+      said(records.size(), 0, "zstd", packed.substr(0, packed.size() - 1)).ends_with(": a chunk is damaged"));
+  CHECK(said(std::uint64_t{1} << 40, 0, "zstd", packed).ends_with(": a chunk of more than 1 GB"));
+}
+
+TEST_CASE("a structure of nothing is one byte, and arrays of such have an end") {
+  std::string definition = "pkg/Empty nothing\nfloat32 x\nHeader header\n" + header_definition +
+                           "===\nMSG: pkg/Empty\nuint8 A=1\n";
+  Cdr c;
+  c.put(std::uint8_t{0}).put(6.25F).header(5, 6, "f");
+  Description d;
+  d.baro.from.file = "flight.mcap", d.baro.from.topic = "/own", d.baro.pressure.column = "x",
+  d.baro.pressure.unit = PressureUnit::hpa;
+  const auto file = [&](const std::string& words, const std::string& message) {
+    return mcap_begin() + mcap_schema(1, "pkg/msg/Own", words) + mcap_channel(1, 1, "/own") +
+           mcap_message(1, 0, message) + mcap_end();
+  };
+  const Flown f = flown(d, file(definition, c.bytes()));
+  REQUIRE(f.fault == "");
+  CHECK(f.baro.at(0).value.pressure_pa == 625);
+
+  std::string deep = "float32 x\nHeader header\npkg/A0[100] many\n" + header_definition;
+  for (int i = 0; i < 12; ++i)
+    deep += "===\nMSG: pkg/A" + std::to_string(i) + "\npkg/A" + std::to_string(i + 1) + "[100] many\n";
+  deep += "===\nMSG: pkg/A12\n";
+  CHECK(refusal(d, file(deep, Cdr{}.put(6.25F).header(5, 6, "f").bytes() + std::string(300, '\0')))
+            .find("the message ends early") != std::string::npos);
 }
 
 TEST_CASE("every beginning of a bag, and every bag with one byte changed, is read or refused in words") {

@@ -62,15 +62,30 @@ inline std::string mcap_channel(std::uint16_t id, std::uint16_t schema, const st
 inline std::string mcap_message(std::uint16_t channel, std::uint64_t ns, const std::string& data) {
   return record(5, raw(channel) + raw(std::uint32_t{0}) + raw(ns) + raw(ns) + data);
 }
-inline std::string mcap_chunk(const std::string& records, bool zstd, const std::string& name = "zstd") {
-  std::string packed = records;
-  if (zstd) {
-    packed.resize(ZSTD_compressBound(records.size()));
-    packed.resize(ZSTD_compress(packed.data(), packed.size(), records.data(), records.size(), 1));
-  }
-  return record(6, raw(std::uint64_t{0}) + raw(std::uint64_t{1} << 62) +
-                       raw(static_cast<std::uint64_t>(records.size())) + raw(std::uint32_t{0}) +
-                       text(zstd ? name : "") + raw(static_cast<std::uint64_t>(packed.size())) + packed);
+/// Bit by bit, of IEEE 802.3.
+inline std::uint32_t checksum_of(const std::string& bytes) {
+  std::uint32_t crc = ~0U;
+  for (const char c : bytes)
+    for (int k = 0; k < 8; ++k) {
+      const bool odd = ((crc ^ (static_cast<std::uint8_t>(c) >> k)) & 1) != 0;
+      crc = odd ? (crc >> 1) ^ 0xEDB88320U : crc >> 1;
+    }
+  return ~crc;
+}
+inline std::string packed_zstd(const std::string& plain) {
+  std::string packed(ZSTD_compressBound(plain.size()), '\0');
+  packed.resize(ZSTD_compress(packed.data(), packed.size(), plain.data(), plain.size(), 1));
+  return packed;
+}
+/// A chunk of `size` bytes as it says itself, packed as `name` says.
+inline std::string mcap_chunk_of(std::uint64_t size, std::uint32_t checksum, const std::string& name,
+                                 const std::string& packed) {
+  return record(6, raw(std::uint64_t{0}) + raw(std::uint64_t{1} << 62) + raw(size) + raw(checksum) +
+                       text(name) + raw(static_cast<std::uint64_t>(packed.size())) + packed);
+}
+inline std::string mcap_chunk(const std::string& records, bool zstd) {
+  return mcap_chunk_of(records.size(), checksum_of(records), zstd ? "zstd" : "",
+                       zstd ? packed_zstd(records) : records);
 }
 
 inline const std::string header_definition =
@@ -219,8 +234,8 @@ inline std::string ulog() {
   file += ulog_data(5, raw(t) + raw(0.25F) + raw(-0.05F) + raw(0.5F));
   file += ulog_data(6, raw(t) + raw(40.25) + raw(-111.65) + raw(1387.5) + raw(0.25F) + raw(1.5F) + raw(2.5F) +
                            raw(3.F) + raw(-4.F) + raw(0.5F) + raw(std::uint8_t{6}) + raw(std::uint8_t{11}));
-  file += ulog_data(
-      9, raw(t) + raw(t) + raw(std::int16_t{-3}) + raw(1.5) + raw(t) + raw(std::int16_t{4}) + raw(-2.5) + raw(std::uint8_t{1}));
+  file += ulog_data(9, raw(t) + raw(t) + raw(std::int16_t{-3}) + raw(1.5) + raw(t) + raw(std::int16_t{4}) +
+                           raw(-2.5) + raw(std::uint8_t{1}));
   return file;
 }
 

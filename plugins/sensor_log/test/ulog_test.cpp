@@ -118,6 +118,18 @@ TEST_CASE("what cannot be read of a ULog is refused in one sentence") {
             .find("the log was appended to after a crash") != std::string::npos);
   CHECK(refusal(imu_topic(), ulog_begin() + ulog_topic(0, 1, "sensor_combined")) ==
         "log.imu.from.file: flight.ulg has no format of 'sensor_combined'");
+  const std::string with_pose = ulog_format("sensor_combined:uint64_t timestamp;pose[2] p;");
+  const auto one_topic = [](const std::string& formats) {
+    return ulog_begin() + formats + ulog_topic(0, 1, "sensor_combined") + ulog_data(1, std::string(40, '\0'));
+  };
+  CHECK(refusal(imu_topic(), one_topic(with_pose)) ==
+        "log.imu.from.file: flight.ulg has no format of 'pose'");
+  CHECK(refusal(imu_topic(), one_topic(with_pose + ulog_format("pose:"))) ==
+        "log.imu.from.file: flight.ulg: the format of 'pose' has no field");
+  CHECK(refusal(imu_topic(), one_topic(with_pose + ulog_format("pose:pose[60000] p;"))) ==
+        "log.imu.from.file: flight.ulg has no format of 'pose'");
+  CHECK(refusal(imu_topic(), one_topic(with_pose + ulog_format("pose:float[60000] p;"))) ==
+        "log.imu.from.file: flight.ulg: 'float[60000] p[1].p' is more than a message can hold");
   const std::string cut = ulog().substr(0, ulog().size() - 1);
   CHECK(refusal(imu_topic(), cut).find("the file ends early, or is damaged") != std::string::npos);
   Description csv = imu_topic();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// sensor_log_files FOLDER: writes a bag and a ULog there and prints, as one JSON object, what the vehicle published
-// of them: a list of [arrival in ns since the first inertial sample, numbers...] for each sensor of each file.
+// sensor_log_files FOLDER: writes a bag and a ULog there and prints, as one JSON object, what the vehicle
+// published of them: a list of [arrival in ns since the first inertial sample, numbers...] for each sensor of
+// each file.
 #include <cstdio>
 #include <fulmar/testing.hpp>
 
@@ -53,8 +54,8 @@ std::string published(const std::string& folder, const char* file, const std::ar
           {g.latitude_deg, g.longitude_deg, g.altitude_m, g.velocity_mps.north, g.velocity_mps.east,
            g.velocity_mps.down, g.horizontal_std_m, static_cast<double>(g.satellites)});
   } while (!bench.out.recording.ended);
-  return "{\"imu\":[" + imu + "],\"mag\":[" + mag + "],\"baro\":[" + baro + "],\"pitot\":[" + pitot + "],\"gnss\":[" +
-         gnss + "]}";
+  return "{\"imu\":[" + imu + "],\"mag\":[" + mag + "],\"baro\":[" + baro + "],\"pitot\":[" + pitot +
+         "],\"gnss\":[" + gnss + "]}";
 }
 
 void write(const std::string& path, const std::string& bytes) {
@@ -69,11 +70,13 @@ int main(int count, char** words) {
   write(folder + "/flight.mcap", files::bag());
   write(folder + "/flight.ulg", files::ulog());
   try {
-    std::printf("{\"bag\":%s,\n\"ulog\":%s}\n",
-                published(folder, "flight.mcap", {"/imu/data", "/mag", "/pressure", "/airspeed", "/gnss"}).c_str(),
-                published(folder, "flight.ulg",
-                          {"sensor_combined", "sensor_mag#1", "vehicle_air_data", "differential_pressure", "sensor_gps"})
-                    .c_str());
+    std::printf(
+        "{\"bag\":%s,\n\"ulog\":%s}\n",
+        published(folder, "flight.mcap", {"/imu/data", "/mag", "/pressure", "/airspeed", "/gnss"}).c_str(),
+        published(
+            folder, "flight.ulg",
+            {"sensor_combined", "sensor_mag#1", "vehicle_air_data", "differential_pressure", "sensor_gps"})
+            .c_str());
   } catch (const std::exception& fault) {
     std::fprintf(stderr, "%s\n", fault.what());
     return 1;

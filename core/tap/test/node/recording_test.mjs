@@ -18,7 +18,7 @@ const xyz = ({ x, y, z }) => [x, y, z];
 /** topic -> its messages */
 async function bag(file) {
   const decompressHandlers = { zstd: (bytes, size) => decompress(bytes, new Uint8Array(Number(size))) };
-  const reader = new McapStreamReader({ decompressHandlers });
+  const reader = new McapStreamReader({ decompressHandlers, validateCrcs: true });
   const schemas = new Map(), channels = new Map(), found = {};
   for await (const piece of createReadStream(file)) {
     reader.append(piece);

@@ -224,14 +224,18 @@ TEST_CASE("a structure of nothing is one byte, and arrays of such have an end") 
 TEST_CASE("every beginning of a bag, and every bag with one byte changed, is read or refused in words") {
   const std::string whole = bag();
   const std::string end = mcap_end();
+  const Folder folder;
+  const auto with = [&](const Description& d, const std::string& bytes) {
+    folder.write("flight.mcap", bytes);
+    return fly(d, folder).fault;
+  };
   for (std::size_t n = 0; n < whole.size() - end.size(); n += n < 200 ? 1 : 17)
-    CHECK(refusal(imu_topic(), whole.substr(0, n)) != "");
-  for (std::size_t n = 0; n < whole.size(); n += 3) {
+    CHECK(with(imu_topic(), whole.substr(0, n)).starts_with("log.imu."));
+  for (std::size_t n = 0; n < whole.size(); n += 5) {
     std::string changed = whole;
     changed[n] = static_cast<char>(changed[n] ^ (1 << n % 8));
-    const Flown f = flown(all_topics(), changed);
-    CHECK((f.fault == "" || f.fault.find(": ") != std::string::npos));
-    CHECK(f.fault.find(" is nan") == std::string::npos);
+    const std::string fault = with(all_topics(), changed);
+    CHECK((fault == "" || (fault.starts_with("log.") && fault.find(": ") != std::string::npos)));
   }
 }
 

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "files.hpp"
 #include "recording.hpp"
 
 namespace flight_test {
@@ -169,6 +170,28 @@ TEST_CASE(
   const std::string word = refusal(folder, whole);
   CHECK(has(word, "log.yaml:5"));
   CHECK(has(word, "imu.csv:5: 'x' in column 'x' is no number"));
+}
+
+TEST_CASE(
+    "a bag flies by a description that names its topics alone; a topic that is none is told with its line") {
+  const Folder folder;
+  folder.write("flight.mcap", files::bag());
+  const std::string description = "name: bag\nimu:\n  from: {file: flight.mcap, topic: /imu/data}\n";
+  const Said said = fulmar_says("run " + mission_of(folder, description) + " --no-log --json 2>/dev/null");
+  CHECK(said.code == 0);
+  const json result = json::parse(said.out, nullptr, false);
+  REQUIRE(result.is_object());
+  CHECK(result["result"] == "flown");
+  CHECK(result["imu"]["rate_radps"]["z"].get<double>() == doctest::Approx(0.9));
+  const std::string topic =
+      refusal(folder, "name: bag\nimu:\n  from: {file: flight.mcap,\n         topic: /imu}\n");
+  CHECK(has(topic, "log.yaml:4: recorded: log.imu.from.topic: no topic '/imu' in "));
+  CHECK(has(topic, "flight.mcap; there are /imu/data, /gnss, "));
+  folder.write("flight.mcap", files::bag().substr(0, 700));
+  const std::string cut = refusal(folder, description);
+  CHECK(has(cut, "log.yaml:3: recorded: log.imu.from.file: "));
+  CHECK(has(cut, "flight.mcap: byte "));
+  CHECK(std::count(cut.begin(), cut.end(), '\n') == 1);
 }
 
 TEST_CASE("the shipped mission without a folder is refused in one line that says how to give it") {

@@ -11,8 +11,8 @@
 // `bench.out` holds what the step published, and `bench.fault()` what is not finite or not in range in it. An
 // Out<T> has `written` set when it spoke; an OutQueue has its `count`. To count allocations, one source file
 // of the test program defines FULMAR_COUNT_ALLOCATIONS before it includes this header (without it the program
-// does not link); `allocations([&] { bench.step(0.01); })` is then the number of calls of operator new, malloc
-// and its relatives in between; with a sanitizer of operator new alone.
+// does not link); `allocations([&] { bench.step(0.01); })` is then the number of calls of operator new,
+// malloc and its relatives in between; with a sanitizer of operator new alone.
 #ifndef FULMAR_TESTING_HPP
 #define FULMAR_TESTING_HPP
 #include <algorithm>

@@ -79,15 +79,18 @@ Options options_of(int count, char** words) {
 struct Summary {
   double median = 0, p90 = 0, max = 0, rms_m = 0, claimed_m = 0;
   Summary(const std::vector<double>& errors, const std::vector<double>& claims)
-      : median(quantile(errors, 0.5)), p90(quantile(errors, 0.9)), max(quantile(errors, 1)),
-        rms_m(rms(errors)), claimed_m(rms(claims)) {}
+      : median(quantile(errors, 0.5)),
+        p90(quantile(errors, 0.9)),
+        max(quantile(errors, 1)),
+        rms_m(rms(errors)),
+        claimed_m(rms(claims)) {}
   nlohmann::json json() const {
-    return {{"median_m", median}, {"p90_m", p90}, {"max_m", max}, {"rms_m", rms_m}, {"claimed_m", claimed_m},
-            {"rms_over_claimed", rms_m / claimed_m}};
+    return {{"median_m", median}, {"p90_m", p90},           {"max_m", max},
+            {"rms_m", rms_m},     {"claimed_m", claimed_m}, {"rms_over_claimed", rms_m / claimed_m}};
   }
   void print(const char* name) const {
-    std::printf("| %s | %.1f | %.1f | %.1f | %.1f | %.1f | %.2f |\n", name, median, p90, max, rms_m, claimed_m,
-                rms_m / claimed_m);
+    std::printf("| %s | %.1f | %.1f | %.1f | %.1f | %.1f | %.2f |\n", name, median, p90, max, rms_m,
+                claimed_m, rms_m / claimed_m);
   }
 };
 
@@ -99,11 +102,15 @@ void tell(const Options& o, const std::vector<Outcome>& all) {
   }
   const Summary horizontal(errors, claims), height(heights, height_claims);
   if (o.json) {
-    nlohmann::json json = {{"seconds", o.seconds}, {"horizontal", horizontal.json()}, {"height", height.json()}};
+    nlohmann::json json = {
+        {"seconds", o.seconds}, {"horizontal", horizontal.json()}, {"height", height.json()}};
     for (const Outcome& each : all)
-      json["outages"].push_back({{"start_s", each.start_s}, {"after_s", each.after_s},
-                                 {"horizontal_m", each.horizontal_m}, {"claimed_m", each.claimed_m},
-                                 {"height_m", each.height_m}, {"height_claimed_m", each.height_claimed_m}});
+      json["outages"].push_back({{"start_s", each.start_s},
+                                 {"after_s", each.after_s},
+                                 {"horizontal_m", each.horizontal_m},
+                                 {"claimed_m", each.claimed_m},
+                                 {"height_m", each.height_m},
+                                 {"height_claimed_m", each.height_claimed_m}});
     std::printf("%s\n", json.dump(2).c_str());
     return;
   }

@@ -111,8 +111,7 @@ TEST_CASE("a filter's parameter can be set, and the deviation it claims is then 
   write_standing(folder, 40);
   const std::string outage = log_of(folder) + " --starts 30 --seconds 10";
   const double as_shipped = figures(outage)["horizontal"]["claimed_m"];
-  const double set =
-      figures(outage + " --set ekf.gnss_horizontal_std='30 m'")["horizontal"]["claimed_m"];
+  const double set = figures(outage + " --set ekf.gnss_horizontal_std='30 m'")["horizontal"]["claimed_m"];
   CHECK(set > 2 * as_shipped);
 }
 
@@ -121,8 +120,8 @@ TEST_CASE("what cannot be flown is told in one sentence") {
   write_standing(folder, 40);
   const Said late = bench(log_of(folder) + " --starts 55 --seconds 10");
   CHECK(late.code == 1);
-  CHECK(late.out == "no fixes to withhold from 55 s to 65 s; those of " + (folder.path / "log.yaml").string() +
-                        " arrive from 0 s to 60 s\n");
+  CHECK(late.out == "no fixes to withhold from 55 s to 65 s; those of " +
+                        (folder.path / "log.yaml").string() + " arrive from 0 s to 60 s\n");
   const Said nowhere = bench((folder.path / "log.yaml").string() + " --folder nowhere --starts 30");
   CHECK(nowhere.code == 1);
   CHECK(nowhere.out.find("nowhere/imu.csv cannot be read") != std::string::npos);

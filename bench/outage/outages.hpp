@@ -75,7 +75,8 @@ inline core::Source output_of(const core::Graph& graph, const std::string& role,
 class Outages {
  public:
   explicit Outages(Recipe recipe)
-      : recipe_(std::move(recipe)), description_(description_file(recipe_.log)),
+      : recipe_(std::move(recipe)),
+        description_(description_file(recipe_.log)),
         fixes_(fixes_of(description_, recipe_.folder)) {}
 
   Outcome fly(double start_s, double seconds) const {
@@ -103,7 +104,8 @@ class Outages {
     }
     const core::FlightResult result = flight.finish();
     if (before_s < 0 || after_s < last.valid_s || !result.guards.empty())
-      throw std::runtime_error("the flight of the outage at " + std::to_string(start_s) + " s: " + result.reason);
+      throw std::runtime_error("the flight of the outage at " + std::to_string(start_s) +
+                               " s: " + result.reason);
     const double part = (last.valid_s - before_s) / (after_s - before_s);
     return compare(before, after, part, last, start_s);
   }

@@ -34,10 +34,10 @@ class Bag {
     Table table;
     table.columns.resize(wanted.size());
     bool ready = false;
-    scan([&](const Cursor& data) {
+    scan([&](const Stamps& stamps, const Cursor& data) {
       if (!ready) type_->want(wanted);
       ready = true;
-      type_->read(data, wanted, table);
+      type_->read(stamps, data, wanted, table);
       table.lines.push_back(table.rows() + 1);
     });
     return table;
@@ -46,7 +46,7 @@ class Bag {
   /// "sensor_msgs/msg/Imu", and its fields; refused when there is no such topic. Reads no further than to it.
   Topic look() {
     looking_ = true;
-    scan([](const Cursor&) {});
+    scan([](const Stamps&, const Cursor&) {});
     return {type_name_, type_->names()};
   }
 
@@ -81,8 +81,10 @@ class Bag {
       if (code == chunk && !packed) unpack(record, use);
       if (code != message) continue;
       const auto id = record.number<std::uint16_t>();
-      record.take(4 + 8 + 8);  // sequence, two times
-      if (type_ && id == channel_) use(record.part(record.left()));
+      record.take(4);  // sequence
+      const auto logged = record.number<std::uint64_t>();
+      const auto published = record.number<std::uint64_t>();
+      if (type_ && id == channel_) use(Stamps{logged, published}, record.part(record.left()));
     }
     return false;
   }

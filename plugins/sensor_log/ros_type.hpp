@@ -10,6 +10,13 @@
 
 namespace fulmar::sensor_log {
 
+/// When the recorder took a message, and when its sender sent it: ns since 1970, by their clocks. Columns of
+/// every topic that has no fields of these names.
+struct Stamps {
+  std::uint64_t logged = 0, published = 0;
+};
+inline constexpr std::array<const char*, 2> stamp_names = {"log_time", "publish_time"};
+
 struct RosField {
   Prim prim = Prim::u8;
   std::string name, type;  ///< type: of a structure, "pkg/Name"
@@ -38,17 +45,23 @@ class RosType {
         field(line, types_[current], current);
     }
     fields_ = grown(shorter(type), "", 0);
+    names_.insert(names_.end(), stamp_names.begin(), stamp_names.end());
   }
 
   const std::vector<std::string>& names() const { return names_; }
 
   void want(const std::vector<Wanted>& wanted) {
-    for (std::size_t i = 0; i < wanted.size(); ++i)
-      if (!mark(fields_, "", wanted[i].name, i))
-        refuse_column(wanted[i], topic_ + " of " + file_.path, names_);
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      if (mark(fields_, "", wanted[i].name, i)) continue;
+      const auto stamp = std::find(stamp_names.begin(), stamp_names.end(), wanted[i].name);
+      if (stamp == stamp_names.end()) refuse_column(wanted[i], topic_ + " of " + file_.path, names_);
+      stamped_[static_cast<std::size_t>(stamp - stamp_names.begin())].push_back(i);
+    }
   }
 
-  void read(Cursor bytes, const std::vector<Wanted>& wanted, Table& table) const {
+  void read(const Stamps& stamps, Cursor bytes, const std::vector<Wanted>& wanted, Table& table) const {
+    put_stamp(stamps.logged, stamped_[0], wanted, table);
+    put_stamp(stamps.published, stamped_[1], wanted, table);
     const auto head = bytes.take(4);
     if (head[0] != 0 || head[1] != 1) bytes.fault("the message is no little-endian XCDR1");
     bytes = bytes.part(bytes.left());  // positions, to which numbers are aligned, count from here
@@ -145,6 +158,13 @@ class RosType {
     return false;
   }
 
+  static void put_stamp(std::uint64_t ns, const std::vector<std::size_t>& columns,
+                        const std::vector<Wanted>& wanted, Table& table) {
+    constexpr std::uint64_t most = std::numeric_limits<std::int64_t>::max();
+    for (const std::size_t i : columns)
+      put(table.columns[i], wanted[i], static_cast<std::int64_t>(std::min(ns, most)));
+  }
+
   static void align(Cursor& bytes, std::size_t to) { bytes.take((to - bytes.at % to) % to); }
 
   /// `table`: null where nobody wants anything.
@@ -187,6 +207,7 @@ class RosType {
   std::map<std::string, std::vector<RosField>> types_;
   std::vector<RosField> fields_;
   std::vector<std::string> names_;
+  std::array<std::vector<std::size_t>, 2> stamped_;  ///< the columns that want a stamp
 };
 
 }  // namespace fulmar::sensor_log

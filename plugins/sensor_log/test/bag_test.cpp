@@ -116,6 +116,32 @@ TEST_CASE("text, bounded text, sequences and arrays of structures are stepped ov
   CHECK(f.baro.at(0).value.pressure_pa == 625);
 }
 
+TEST_CASE("a topic without a header is stamped by its recorder; both stamps of a bag are columns") {
+  const auto message = [](std::uint64_t logged, std::uint64_t published, float x) {
+    return record(5, raw(std::uint16_t{1}) + raw(std::uint32_t{0}) + raw(logged) + raw(published) +
+                         Cdr{}.put(x).bytes());
+  };
+  constexpr std::uint64_t t = 1'700'000'000'000'000'000;
+  const auto file = [&](const std::string& fields) {
+    return mcap_begin() + mcap_schema(1, "pkg/msg/Own", fields) + mcap_channel(1, 1, "/own") +
+           message(t, t - 9, 1e5F) + message(t + 7, t - 8, 1.01e5F) +
+           message(~std::uint64_t{0}, t - 7, 1.02e5F) + mcap_end();
+  };
+  Description d;
+  d.baro.from.file = "flight.mcap", d.baro.from.topic = "/own", d.baro.pressure.column = "x";
+  const Flown f = flown(d, file("float32 x\n"));
+  REQUIRE(f.fault == "");
+  CHECK(f.ticks_ns == std::vector<std::int64_t>{0, 7});
+  CHECK(f.last.not_finite == 1);  // a stamp of 584 years
+  d.baro.from.time = "publish_time", d.baro.from.unit = TimeUnit::ns;
+  CHECK(flown(d, file("float32 x\n")).ticks_ns == std::vector<std::int64_t>{0, 1, 2});
+  d.baro.from.time = "log_time", d.baro.from.unit = TimeUnit::s;  // a field of that name comes first
+  CHECK(flown(d, file("float32 log_time\n")).fault.find("no column 'x' in /own of") != std::string::npos);
+  d.baro.pressure.column = "log_time";
+  CHECK(flown(d, file("float32 log_time\n")).ticks_ns ==
+        std::vector<std::int64_t>{0, 1'000'000'000'000, 2'000'000'000'000});
+}
+
 TEST_CASE("NaN and stamps out of order in a bag: left out, counted, told with the number of the message") {
   constexpr std::int32_t s = 1'700'000'000;
   std::string file =

@@ -194,6 +194,44 @@ TEST_CASE(
   CHECK(std::count(cut.begin(), cut.end(), '\n') == 1);
 }
 
+TEST_CASE("the log of a flight is a bag that flies: the sensors are those of then, in every bit") {
+  const Folder folder;
+  const std::string then = (folder.path / "then.mcap").string(), now = (folder.path / "now.mcap").string();
+  const std::string record = " --duration 12 --record 'vehicle.*,nav.*' --log ";
+  REQUIRE(fulmar_says("run " FULMAR_SOURCE_DIR "/configs/missions/hourglass.yaml" + record + then + " 2>&1")
+              .code == 0);
+  std::string description = "name: log\nairborne: {from: 100 s}\narmed: {from: 100 s}\n";
+  for (const std::string sensor : {"imu", "mag", "baro", "pitot", "gnss"})
+    description += sensor + ": {from: {file: then.mcap, topic: /vehicle/" + sensor + "}}\n";
+  folder.write("log.yaml", description);
+  const Said said = fulmar_says("run " + mission + " --set recorded.folder=" + folder.path.string() +
+                                " --set recorded.log=" + (folder.path / "log.yaml").string() +
+                                " --record 'vehicle.*' --log " + now + " 2>&1");
+  REQUIRE_MESSAGE(said.code == 0, said.out);
+  for (const auto& [log, csv] : {std::pair(then, "then"), std::pair(now, "now")})
+    REQUIRE(
+        fulmar_says("log export " + log + " --to csv --out " + (folder.path / csv).string() + " 2>&1").code ==
+        0);
+  for (const std::string sensor : {"imu", "mag", "baro", "pitot", "gnss"}) {
+    CAPTURE(sensor);
+    auto a = columns_of(folder.path / "then" / ("vehicle." + sensor + ".csv"));
+    auto b = columns_of(folder.path / "now" / ("vehicle." + sensor + ".csv"));
+    REQUIRE(a.size() == b.size());
+    for (auto& [name, numbers] : a) {
+      if (name == "time_s" || name == "valid_s" || name == "utc_ns" || name == "temperature_kelvin") continue;
+      CAPTURE(name);
+      CHECK(numbers.size() > 10);
+      if (name == "indicated_airspeed_mps")  // made of the pressure once more, which was a float then
+        CHECK(numbers.back() == doctest::Approx(b[name].back()).epsilon(1e-6));
+      else
+        CHECK(numbers == b[name]);
+    }
+    for (std::size_t i = 0; i < b["time_s"].size(); ++i)
+      if (std::abs(a["time_s"][i] - a["time_s"][0] - b["time_s"][i] + b["time_s"][0]) > 1e-8)
+        FAIL("at " << a["time_s"][i]);
+  }
+}
+
 TEST_CASE("the shipped mission without a folder is refused in one line that says how to give it") {
   const Said check = fulmar_says("check " + mission + " 2>&1");
   CHECK(check.code == 4);

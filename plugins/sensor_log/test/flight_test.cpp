@@ -217,7 +217,9 @@ TEST_CASE("the log of a flight is a bag that flies: the sensors are those of the
     auto a = columns_of(folder.path / "then" / ("vehicle." + sensor + ".csv"));
     auto b = columns_of(folder.path / "now" / ("vehicle." + sensor + ".csv"));
     REQUIRE(a.size() == b.size());
-    for (auto& [name, numbers] : a) {
+    for (const auto& column : a) {
+      const std::string& name = column.first;
+      const std::vector<double>& numbers = column.second;
       if (name == "time_s" || name == "valid_s" || name == "utc_ns" || name == "temperature_kelvin") continue;
       CAPTURE(name);
       CHECK(numbers.size() > 10);

@@ -7,6 +7,7 @@
 #include "core/graph/record.hpp"
 #include "core/graph/shipped.hpp"
 #include "core/loader/table.hpp"
+#include "tools/fulmar_aero/findings.hpp"
 #include "fulmar/flight/tables.hpp"
 #include "fulmar/flight/trim.hpp"
 #include "fulmar/schema.hpp"

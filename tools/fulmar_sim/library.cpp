@@ -39,11 +39,11 @@ void demand_finite(double value, const char* what) {
   if (!std::isfinite(value)) throw std::invalid_argument(std::string(what) + " is " + std::to_string(value));
 }
 
-sim::Turbulence turbulence_of(int word) {
-  if (word < 0 || word > static_cast<int>(sim::Turbulence::severe))
+Turbulence turbulence_of(int word) {
+  if (word < 0 || word > static_cast<int>(Turbulence::severe))
     throw std::invalid_argument("turbulence is " + std::to_string(word) +
                                 "; valid: 0 none, 1 light, 2 moderate, 3 severe");
-  return static_cast<sim::Turbulence>(word);
+  return static_cast<Turbulence>(word);
 }
 
 /// A reset makes a plant anew, with the wind of the options: the wind that was set comes back.

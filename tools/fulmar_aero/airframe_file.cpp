@@ -7,7 +7,6 @@
 #include "core/graph/record.hpp"
 #include "core/graph/shipped.hpp"
 #include "core/loader/table.hpp"
-#include "tools/fulmar_aero/findings.hpp"
 #include "fulmar/flight/tables.hpp"
 #include "fulmar/flight/trim.hpp"
 #include "fulmar/schema.hpp"
@@ -92,6 +91,18 @@ void refuse_tables(const AirframeFile& file, core::Report& report) {
 }
 
 }  // namespace
+
+std::string shown_field(const std::string& field) {
+  std::string out;
+  for (std::size_t begin = 0; begin <= field.size();) {
+    const std::size_t dot = std::min(field.find('.', begin), field.size());
+    const std::string step = field.substr(begin, dot - begin);
+    const auto split = core::split_suffix(step);
+    out += (out.empty() ? "" : ".") + (split ? split->name : step);
+    begin = dot + 1;
+  }
+  return out;
+}
 
 core::Where AirframeFile::where(const std::string& field) const {
   core::Where at{name, 0};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The aircraft's model behind plain C functions: many aircraft of one airframe, stepped in one call. Arrays are
-// row-major, one row an aircraft; columns are told by `fulmar_sim_columns`. SI, rad.
+// The aircraft's model behind plain C functions: many aircraft of one airframe, stepped in one call. Arrays
+// are row-major, one row an aircraft; columns are told by `fulmar_sim_columns`. SI, rad.
 //
 // Functions that return int give 0, or 1 with a sentence in `error`, cut to `size`. No exception leaves them.
 // One handle is used by one thread at a time.

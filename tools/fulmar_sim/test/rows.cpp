@@ -12,7 +12,7 @@ int main() {
   constexpr std::size_t n = 5;
   SimulationOptions options;
   options.origin_altitude_m = 1387;
-  options.weather.turbulence = Turbulence::light;
+  options.weather.turbulence = fulmar::Turbulence::light;
   Batch batch(fulmar::test::airframe_file("anaconda"), n, options, 7);
   std::vector<double> actions(n * action_columns), rows(n * row_columns);
   for (std::size_t i = 0; i < n; ++i) {

@@ -34,6 +34,8 @@ for folder in build build-clang; do
 done
 build/bin/fcu_hil_test
 build/bin/random_missions_test  # 500 flights
+build/bin/sensor_files_test     # Allan deviations of ten hours
+build/bin/flight_test --test-case="spectra and deviations*"
 build/bin/bench_link_gaps >build/check/link_gaps.md
 build/bin/bench_faults >build/check/faults.md
 build/bin/bench_missions --seeds 50

@@ -24,11 +24,16 @@ class PilotRadio {
 
   /// [write] `carries`: no fault of the radio is in force.
   void hear(const Optional<Rc>& pilot, bool carries, std::int64_t now_ns) {
-    if (!pilot) return;
+    if (!pilot) {  // never wired, or the host passes nothing on any more: then there are no frames either
+      if (now_ns - heard_ns_ > patience_ns) link_ = false;
+      return;
+    }
     wired_ = true;
     const bool frames = pilot->link && now_ns - pilot.valid_at_ns() <= patience_ns && finite(*pilot);
     link_ = frames && carries;
-    if (link_) rc_ = *pilot;
+    if (!link_) return;
+    rc_ = *pilot;
+    heard_ns_ = now_ns;
   }
 
   /// A transmitter is wired: it counts in place of the parameters.
@@ -63,6 +68,7 @@ class PilotRadio {
   }
 
   Rc rc_;
+  std::int64_t heard_ns_ = 0;
   bool wired_ = false, link_ = false;
   bool was_armed_ = true;  ///< the switch, as far as is known
 };

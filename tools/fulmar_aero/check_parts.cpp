@@ -2,6 +2,7 @@
 // Servos, propellers, battery and gear: units that are suspected, and parts that do not fit together.
 #include <cmath>
 
+#include "fulmar/flight/mixer.hpp"
 #include "fulmar/flight/propellers.hpp"
 #include "fulmar/sim/gear_legs.hpp"
 #include "tools/fulmar_aero/findings.hpp"
@@ -83,7 +84,7 @@ void check_contacts(Findings& f) {
   const Airframe& a = f.file().airframe;
   if (a.gear.contacts.empty()) return;
   f.looked_at(2);
-  const sim::Standing& at = sim::Legs(a).standing();
+  const sim::Standing at = sim::Legs(a).standing();
   const Eigen::Vector3d nose = at.tilt * Eigen::Vector3d::UnitX(), wing = at.tilt * Eigen::Vector3d::UnitY();
   const double pitch = std::asin(-nose.z()), roll = std::asin(wing.z());
   f.figure("standing_height_m", at.height_m, "stands",

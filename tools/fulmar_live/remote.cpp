@@ -173,15 +173,14 @@ struct RemoteCommands::Impl {
   }
 
   void clock() {
-    add(app, "pause", "let a simulation stand still; what is asked of it goes on being answered", "pause",
-        [this] { return pause_command(target()); });
-    add(app, "resume", "let a paused simulation go on, as fast as before", "resume",
+    add(app, "pause", "let a simulation stand still", "pause", [this] { return pause_command(target()); });
+    add(app, "resume", "let a paused simulation go on", "resume",
         [this] { return resume_command(target()); });
-    CLI::App* step = add(app, "step", "fly so many ticks of a paused simulation, at once; 1 unless said",
-                         "step 400", [this] { return step_command(target(), name.empty() ? "1" : name); });
+    CLI::App* step = add(app, "step", "fly some ticks of a paused simulation", "step 400",
+                         [this] { return step_command(target(), name.empty() ? "1" : name); });
     step->add_option("TICKS", name, "a whole number")->type_name("");
-    CLI::App* speed = add(app, "speed", "how fast a simulation flies: real, max, or times real time",
-                          "speed 10", [this] { return speed_command(target(), name); });
+    CLI::App* speed = add(app, "speed", "how fast a simulation flies", "speed 10",
+                          [this] { return speed_command(target(), name); });
     speed->add_option("SPEED", name, "of 0.01 to 1e6; a paused simulation goes on")
         ->required()
         ->type_name("");

@@ -79,8 +79,8 @@ TEST_CASE("a mission extends one that extends another one, to any depth, each re
 
 TEST_CASE("a layer that is not there, is broken, or is its own ground is the only fault") {
   Layered mission("extends: one.yaml\nsed: 3\n");
-  mission.folder.write("one.yaml", "extends: x.yaml\n");
-  CHECK(mission.faults() == "one.yaml:1: extends: there is no file x.yaml");
+  mission.folder.write("one.yaml", "extends: nowhere.yaml\n");
+  CHECK(mission.faults() == "one.yaml:1: extends: there is no file nowhere.yaml");
   mission.folder.write("one.yaml", "- a list\n");
   CHECK(mission.faults() == "one.yaml:1: extends: expected a map with the keys of a mission, found a list");
   mission.folder.write("one.yaml", "extends: two.yaml\n");

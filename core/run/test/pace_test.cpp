@@ -129,7 +129,7 @@ TEST_CASE("N ticks are flown, not one more or less, and whoever asked is answere
   CHECK(aloft.step(3) == "the flight is not paused: nothing to step");
   aloft.pace(order(pause));
   const std::int64_t then = aloft.now_ns();
-  for (const std::uint64_t n : {1, 2, 400, 1}) {
+  for (const std::uint64_t n : {1u, 2u, 400u, 1u}) {
     const std::int64_t before = aloft.now_ns();
     CHECK(aloft.step(n) == "");
     CHECK(aloft.now_ns() == before + static_cast<std::int64_t>(n) * tick_ns);

@@ -142,6 +142,23 @@ TEST_CASE("a computer that is silent leaves the aircraft to the sticks") {
   CHECK(f.deflections().aileron == Approx(0.5 * anaconda().aileron.limit_rad).epsilon(1e-3));
 }
 
+TEST_CASE("sticks that the host passes on no more are lost after half a second, not frozen") {
+  Flight f;
+  PilotRadio radio;
+  f.bench.set(f.bench.in.pilot, f.rc, 0);
+  radio.hear(f.bench.in.pilot, true, 0);
+  REQUIRE(radio.link());
+  const Optional<Rc> nothing{};
+  radio.hear(nothing, true, 400'000'000);
+  CHECK(radio.link());
+  radio.hear(nothing, true, 501'000'000);
+  CHECK_FALSE(radio.link());
+  CHECK(radio.wired());
+  f.bench.set(f.bench.in.pilot, f.rc, 0);
+  radio.hear(f.bench.in.pilot, true, 0);
+  CHECK(radio.link());
+}
+
 TEST_CASE("nobody arms without a transmitter that is on") {
   Flight f;
   f.rc.link = false;

@@ -45,7 +45,10 @@ inline Airframe anaconda() {
                   .resistance_ohm = 0.042,
                   .no_load_amp = 1.5,
                   .battery_volt = 24,
-                  .time_constant_s = 0.1};
+                  .time_constant_s = 0.1,
+                  .propellers = {},
+                  .pack = {},
+                  .disc = {}};
   for (Surface* s : {&a.aileron, &a.elevator, &a.rudder}) s->limit_rad = 0.698, s->time_constant_s = 0.02;
   a.elevator.trim_rad = 0.12;
   a.limits = {.airspeed_min_mps = 12,

@@ -181,16 +181,19 @@ TEST_CASE("the traps of the Skywalker X8's published model are found") {
   CHECK(finding(result, "faults", "limits.airspeed_cruise").is_null());  // and it flies, without a rudder
 }
 
-TEST_CASE("the X8 has no fault, and each trap of its published coefficients has its sentence") {
+TEST_CASE(
+    "the X8 has one fault, its Dutch roll, and each trap of its published coefficients has its sentence") {
   const Answer shipped = call("check --json configs/airframes/x8.yaml");
-  CHECK_MESSAGE(shipped.code == 0, shipped.out);
   const json result = shipped.json();
+  CHECK_MESSAGE(shipped.code == 1, shipped.out);
+  REQUIRE_MESSAGE(result["faults"].size() == 1, shipped.out);
   CHECK(result["figures"]["static_margin_ratio"].get<double>() == Approx(0.2524 / 4.0203282));
   const auto says = [](const json& from, const char* list, const char* key, const char* what) {
     const json found = finding(from, list, key);
     REQUIRE_MESSAGE(!found.is_null(), key, " is not found: ", from.dump());
     CHECK_MESSAGE(found["sentence"].get<std::string>().find(what) != std::string::npos, found.dump());
   };
+  says(result, "faults", "aero.yaw", "the Dutch roll doubles in");  // by its product of inertia, as published
   says(result, "warnings", "inertia", "the largest is more than the sum of the others");
   says(result, "warnings", "aero.drag.beta", "drag is least at 1.1 deg of sideslip");
   says(result, "warnings", "aero.yaw.rudder", "nothing controls yaw");

@@ -267,7 +267,7 @@ class Plant {
   [[gnu::noinline]] void spin_up(double Omega_before, double Omega_steady, double dt) {
     const double I = propeller_.inertia_kgm2(), tau = propeller_.time_constant_s();
     if (propellers_.differential()) {
-      for (const std::size_t i : {0, 1}) stage_[i].spin_up_nm = I * motors_.gain(propellers_, i, tau, dt);
+      for (const std::size_t i : {0u, 1u}) stage_[i].spin_up_nm = I * motors_.gain(propellers_, i, tau, dt);
       load_.moment_b -= I * motors_.gain_at_begin(propellers_, tau, dt);
       return;
     }
@@ -342,7 +342,7 @@ class Plant {
   [[gnu::noinline]] void turn_motors(const Actuators& command, double power, double dt) {
     motors_.command(propellers_, propeller_, power, std::clamp(command.throttle_frac, 0.0, 1.0),
                     command.rudder_rad, Va_, air_.density_kgm3);
-    for (const std::size_t i : {0, 1}) motors_.advance(propellers_, i, motor_decay(0.5 * dt));
+    for (const std::size_t i : {0u, 1u}) motors_.advance(propellers_, i, motor_decay(0.5 * dt));
   }
 
   [[gnu::noinline]] void drain(double dt) {

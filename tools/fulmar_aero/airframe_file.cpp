@@ -11,7 +11,6 @@
 #include "fulmar/flight/trim.hpp"
 #include "fulmar/schema.hpp"
 #include "fulmar/sim/airframe_rules.hpp"
-#include "tools/fulmar_aero/findings.hpp"
 
 namespace fulmar::aero {
 namespace {

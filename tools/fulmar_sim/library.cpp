@@ -1,147 +1,191 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
-#include <cstdio>
-#include <exception>
+// lib/libfulmar_sim.so: the model behind C functions, for the Python package beside it, and the reader of
+// airframe files for C++ (fulmar/sim/airframe_file.hpp).
+//
+// Functions that return int give 0, or 1 after a refusal, whose sentence is `fulmar_sim_error()` of the same
+// thread. What is refused has moved nothing. Arrays are row-major, one row an aircraft; `only` says of each
+// whether it is meant, null means all.
+#include <unistd.h>
+
+#include <cstring>
 #include <memory>
+#include <mutex>
 #include <span>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
+#include "fulmar/sim/airframe_file.hpp"
 #include "fulmar/sim/batch.hpp"
 #include "tools/fulmar_aero/airframe_file.hpp"
-#include "tools/fulmar_sim/fulmar_sim.h"
 
 using namespace fulmar;
 
 struct fulmar_sim {
   sim::Batch batch;
+  double dt_s;
   std::vector<Eigen::Vector3d> wind_n;
+  bool alone;  // no thread but the caller's
+  std::mutex mutex{};
+  pid_t maker = getpid();
+
+  bool is_copy() const { return !alone && getpid() != maker; }
 };
 
 namespace {
 
+thread_local std::string last_error;
+
 /// `call`, whose exceptions end here as a sentence.
 template <class Call>
-int guarded(char* error, std::size_t size, Call call) noexcept {
+int guarded(Call call) noexcept {
   try {
     call();
     return 0;
+  } catch (const std::bad_alloc&) {
+    last_error = "there is not enough memory for it";
   } catch (const std::exception& e) {
-    if (error && size) std::snprintf(error, size, "%s", e.what());
+    last_error = e.what();
   } catch (...) {
-    if (error && size) std::snprintf(error, size, "an unknown error");
+    last_error = "an unknown error";
   }
   return 1;
 }
 
-void demand_finite(double value, const char* what) {
-  if (!std::isfinite(value)) throw std::invalid_argument(std::string(what) + " is " + std::to_string(value));
+/// The same with a simulation, one call at a time.
+template <class Call>
+int guarded(fulmar_sim* all, Call call) noexcept {
+  return guarded([&] {
+    if (all->is_copy())
+      throw std::invalid_argument(
+          "the simulation was made by another process, whose threads did not come along: make one here");
+    const std::lock_guard lock(all->mutex);
+    call(*all);
+  });
 }
 
-Turbulence turbulence_of(int word) {
-  if (word < 0 || word > static_cast<int>(Turbulence::severe))
-    throw std::invalid_argument("turbulence is " + std::to_string(word) +
-                                "; valid: 0 none, 1 light, 2 moderate, 3 severe");
-  return static_cast<Turbulence>(word);
+void demand(bool right, const std::string& sentence) {
+  if (!right) throw std::invalid_argument(sentence);
 }
 
-/// A reset makes a plant anew, with the wind of the options: the wind that was set comes back.
-void blow(fulmar_sim& all) {
-  for (std::size_t i = 0; i < all.batch.size(); ++i) all.batch[i].plant().set_wind(all.wind_n[i]);
+bool is_meant(const bool* only, std::size_t i) { return !only || only[i]; }
+
+void fly(sim::Simulation& aircraft, double height_m, double airspeed_mps, double heading_rad) {
+  const std::string height = std::to_string(height_m), airspeed = std::to_string(airspeed_mps);
+  demand(std::isfinite(height_m) && height_m > 0, "height is " + height + " m and must be more than 0");
+  demand(std::isfinite(airspeed_mps) && airspeed_mps > 0,
+         "airspeed is " + airspeed + " m/s and must be more than 0");
+  demand(std::isfinite(heading_rad), "heading is " + std::to_string(heading_rad));
+  demand(aircraft.fly({0, 0, -height_m}, heading_rad, airspeed_mps),
+         "no steady level flight at " + airspeed + " m/s and " + height + " m height");
 }
 
 }  // namespace
 
-std::uint32_t fulmar_sim_abi() { return FULMAR_SIM_ABI; }
+#pragma GCC visibility push(default)
+extern "C" {
 
-const char* fulmar_sim_columns() {
-  return "north_m east_m down_m v_north_mps v_east_mps v_down_mps q_w q_x q_y q_z p_radps q_radps r_radps "
-         "airspeed_mps alpha_rad beta_rad f_x_mps2 f_y_mps2 f_z_mps2 aileron_rad elevator_rad rudder_rad "
-         "propeller_radps on_ground crashed";
+const char* fulmar_sim_error() { return last_error.c_str(); }
+const char* fulmar_sim_rows_are() { return sim::row_names; }
+const char* fulmar_sim_actions_are() { return sim::action_names; }
+
+int fulmar_sim_read_airframe(const char* name, void* airframe, std::size_t size) {
+  return guarded([&] {
+    demand(size == sizeof(Airframe), "libfulmar_sim.so and the headers are of different releases");
+    const Airframe a = aero::read_airframe_file(name).airframe;
+    std::memcpy(airframe, &a, sizeof a);
+  });
 }
-const char* fulmar_sim_actions() { return "throttle_frac aileron_rad elevator_rad rudder_rad"; }
 
-fulmar_sim* fulmar_sim_new(const char* airframe, std::size_t count, std::uint32_t threads,
-                           double origin_altitude_m, int turbulence, std::uint64_t seed, char* error,
-                           std::size_t size) {
+/// Null when it is refused. At rest on the ground, heading north. `turbulence` is 0 (none) to 3 (severe).
+fulmar_sim* fulmar_sim_new(const char* airframe, std::size_t count, unsigned threads, double dt_s,
+                           double origin_altitude_m, unsigned turbulence, std::uint64_t seed) {
   std::unique_ptr<fulmar_sim> made;
-  guarded(error, size, [&] {
-    demand_finite(origin_altitude_m, "origin_altitude_m");
+  guarded([&] {
+    sim::Simulation::demand_step(dt_s);
+    demand(std::isfinite(origin_altitude_m), "origin_altitude is " + std::to_string(origin_altitude_m));
     sim::SimulationOptions options;
     options.origin_altitude_m = origin_altitude_m;
-    options.weather.turbulence = turbulence_of(turbulence);
-    const Airframe a = aero::read_airframe_file(airframe).airframe;
-    made.reset(new fulmar_sim{{a, count, options, seed, threads},
-                              std::vector<Eigen::Vector3d>(count, Eigen::Vector3d::Zero())});
+    options.weather.turbulence = static_cast<Turbulence>(turbulence);
+    made.reset(new fulmar_sim{{sim::read_airframe(airframe), count, options, seed, threads},
+                              dt_s,
+                              std::vector<Eigen::Vector3d>(count, Eigen::Vector3d::Zero()),
+                              threads == 1});
   });
   return made.release();
 }
-void fulmar_sim_delete(fulmar_sim* all) { delete all; }
 
-int fulmar_sim_reset(fulmar_sim* all, std::uint64_t seed, char* error, std::size_t size) {
-  return guarded(error, size, [&] {
-    for (std::size_t i = 0; i < all->batch.size(); ++i) all->batch[i].reset(mix_seed(seed, i));
-    blow(*all);
+void fulmar_sim_delete(fulmar_sim* all) {
+  if (!all->is_copy()) delete all;  // there, nobody could wait for the threads
+}
+
+/// As made anew; aircraft i draws from mix_seed(seed, i). The wind stays.
+int fulmar_sim_reset(fulmar_sim* all, const bool* only, std::uint64_t seed) {
+  return guarded(all, [&](fulmar_sim& s) {
+    for (std::size_t i = 0; i < s.batch.size(); ++i) {
+      if (!is_meant(only, i)) continue;
+      s.batch[i].reset(mix_seed(seed, i));
+      s.batch[i].plant().set_wind(s.wind_n[i]);
+    }
   });
 }
 
-int fulmar_sim_stand(fulmar_sim* all, double heading_rad, char* error, std::size_t size) {
-  return guarded(error, size, [&] {
-    demand_finite(heading_rad, "heading_rad");
-    for (std::size_t i = 0; i < all->batch.size(); ++i) all->batch[i].stand(0, 0, heading_rad);
-  });
-}
-
-int fulmar_sim_fly(fulmar_sim* all, double height_m, double airspeed_mps, double heading_rad, char* error,
-                   std::size_t size) {
-  return guarded(error, size, [&] {
-    demand_finite(height_m, "height_m");
-    demand_finite(airspeed_mps, "airspeed_mps");
-    demand_finite(heading_rad, "heading_rad");
-    if (!(airspeed_mps > 0)) throw std::invalid_argument("airspeed_mps must be more than 0");
-    for (std::size_t i = 0; i < all->batch.size(); ++i)
-      if (!all->batch[i].fly({0, 0, -height_m}, heading_rad, airspeed_mps))
-        throw std::invalid_argument("aircraft " + std::to_string(i) + ": no steady level flight at " +
-                                    std::to_string(airspeed_mps) + " m/s and " + std::to_string(height_m) +
-                                    " m height");
-  });
-}
-
-int fulmar_sim_set_wind(fulmar_sim* all, const double* wind_n, char* error, std::size_t size) {
-  return guarded(error, size, [&] {
-    for (std::size_t k = 0; k < 3 * all->batch.size(); ++k) demand_finite(wind_n[k], "the wind");
-    for (std::size_t i = 0; i < all->batch.size(); ++i)
-      all->wind_n[i] = Eigen::Vector3d(wind_n[3 * i], wind_n[3 * i + 1], wind_n[3 * i + 2]);
-    blow(*all);
-  });
-}
-
-int fulmar_sim_step(fulmar_sim* all, const double* actions, double dt_s, std::uint32_t steps, double* rows,
-                    char* error, std::size_t size) {
-  const std::size_t n = all->batch.size();
-  return guarded(error, size, [&] {
-    all->batch.step(std::span(actions, n * sim::action_columns), dt_s, steps,
-                    std::span(rows, n * sim::row_columns));
-  });
-}
-
-int fulmar_sim_rows(const fulmar_sim* all, double* rows, char* error, std::size_t size) {
-  return guarded(error, size,
-                 [&] { all->batch.rows(std::span(rows, all->batch.size() * sim::row_columns)); });
-}
-
-int fulmar_sim_set_rows(fulmar_sim* all, const double* rows, char* error, std::size_t size) {
-  return guarded(error, size, [&] {
-    const std::size_t n = all->batch.size();
-    for (std::size_t i = 0; i < n; ++i) {  // on a copy first: all are set, or none
-      sim::Simulation tried = all->batch[i];
+/// Into steady level flight above the origin; `starts` is height, airspeed, heading.
+int fulmar_sim_fly(fulmar_sim* all, const bool* only, const double* starts) {
+  return guarded(all, [&](fulmar_sim& s) {
+    std::vector<std::pair<std::size_t, sim::Simulation>> flying;
+    for (std::size_t i = 0; i < s.batch.size(); ++i) {
+      if (!is_meant(only, i)) continue;
+      flying.emplace_back(i, s.batch[i]);
       try {
-        tried.set(sim::state_of_row(rows + i * sim::row_columns));
+        fly(flying.back().second, starts[3 * i], starts[3 * i + 1], starts[3 * i + 2]);
       } catch (const std::invalid_argument& e) {
         throw std::invalid_argument("aircraft " + std::to_string(i) + ": " + e.what());
       }
     }
-    for (std::size_t i = 0; i < n; ++i) all->batch[i].set(sim::state_of_row(rows + i * sim::row_columns));
+    for (auto& [i, aircraft] : flying) s.batch[i] = aircraft;
   });
 }
+
+/// Velocity of the air, north, east, down.
+int fulmar_sim_set_wind(fulmar_sim* all, const double* wind_n) {
+  return guarded(all, [&](fulmar_sim& s) {
+    const std::size_t n = s.batch.size();
+    for (std::size_t k = 0; k < 3 * n; ++k)
+      demand(std::isfinite(wind_n[k]),
+             "aircraft " + std::to_string(k / 3) + ": the wind is " + std::to_string(wind_n[k]));
+    for (std::size_t i = 0; i < n; ++i) {
+      s.wind_n[i] = {wind_n[3 * i], wind_n[3 * i + 1], wind_n[3 * i + 2]};
+      s.batch[i].plant().set_wind(s.wind_n[i]);
+    }
+  });
+}
+
+/// `steps` steps under these actions, then the rows.
+int fulmar_sim_step(fulmar_sim* all, const double* actions, unsigned steps, double* rows) {
+  return guarded(all, [&](fulmar_sim& s) {
+    const std::size_t n = s.batch.size();
+    s.batch.step(std::span(actions, n * sim::action_columns), s.dt_s, steps,
+                 std::span(rows, n * sim::row_columns));
+  });
+}
+
+int fulmar_sim_rows(fulmar_sim* all, double* rows) {
+  return guarded(all,
+                 [&](fulmar_sim& s) { s.batch.rows(std::span(rows, s.batch.size() * sim::row_columns)); });
+}
+
+/// Of rows, what `state_of_row` reads.
+int fulmar_sim_set_rows(fulmar_sim* all, const bool* only, const double* rows) {
+  return guarded(all, [&](fulmar_sim& s) {
+    for (const bool set : {false, true})  // look at all of them first
+      for (std::size_t i = 0; i < s.batch.size(); ++i) {
+        if (!is_meant(only, i)) continue;
+        const sim::FlightState state = sim::state_of_row(rows + i * sim::row_columns);
+        const std::string wrong = set ? "" : sim::Simulation::fault(state);
+        demand(wrong.empty(), "aircraft " + std::to_string(i) + ": " + wrong);
+        if (set) s.batch[i].set(state);
+      }
+  });
+}
+
+}  // extern "C"
+#pragma GCC visibility pop

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The aircraft of `sim_aero` as a Python object, one or a thousand of them in one call.
+"""The aircraft that `sim_aero` flies, without host and mission: one, or thousands in one call.
 
     import fulmar_sim
 
-    sim = fulmar_sim.Simulation("configs/airframes/anaconda.yaml", n=1000, threads=2)
+    sim = fulmar_sim.Simulation("fulmar:airframes/anaconda.yaml", n=1000, threads=2)
     rows = sim.fly(height=100, airspeed=17)
-    rows = sim.step(actions)            # (n, 4) -> (n, 25), the names in sim.actions and sim.columns
+    rows = sim.step(actions)            # (n, 4) -> (n, 26), the names in sim.action_names and sim.row_names
 
-SI and radians. The same seed, start and actions give the same flight to the bit, whatever the number of threads.
+Metres, seconds, kilograms, radians. Arrays are of float64, one row an aircraft; what is not, is converted. The same seed, start and actions
+give the same flight to the bit, whatever the number of threads.
 """
 import ctypes
 import os
@@ -16,128 +17,176 @@ import pathlib
 import numpy
 
 __all__ = ["Error", "Simulation"]
-_ABI = 1
-_TURBULENCE = ("none", "light", "moderate", "severe")
 
 
 class Error(ValueError):
-    """What is wrong, in a sentence; for a file with its name and line."""
+    """What is wrong, in a sentence; of a file with its name and line. Nothing has moved."""
 
 
 def _load():
-    here = pathlib.Path(__file__).resolve().parent
-    near = [up / part / "libfulmar_sim.so" for up in list(here.parents)[:4] for part in ("", "lib")]
-    for path in [os.environ["FULMAR_SIM_LIBRARY"]] if "FULMAR_SIM_LIBRARY" in os.environ else near:
-        if os.path.exists(path):
-            library = ctypes.CDLL(str(path))
-            break
-    else:
-        raise ImportError("libfulmar_sim.so is not there; FULMAR_SIM_LIBRARY names the file")
-    found = library.fulmar_sim_abi()
-    if found != _ABI:
-        raise ImportError(f"{path} speaks version {found} of its interface, this package version {_ABI}")
-    return library
+    """<prefix>/lib/libfulmar_sim.so, for <prefix>/lib/python3/dist-packages/fulmar_sim or <build>/lib/python/fulmar_sim."""
+    for folder in pathlib.Path(__file__).resolve().parents:
+        if folder.name == "lib" and (folder / "libfulmar_sim.so").exists():
+            return ctypes.CDLL(str(folder / "libfulmar_sim.so"))
+    raise ImportError(f"fulmar_sim: there is no libfulmar_sim.so in a folder lib/ above {__file__}; build it: ninja -C build fulmar_sim")
 
 
-_lib = _load()
-_handle, _rows, _double, _text = ctypes.c_void_p, ctypes.c_void_p, ctypes.c_double, (ctypes.c_char_p, ctypes.c_size_t)
-_lib.fulmar_sim_columns.restype = _lib.fulmar_sim_actions.restype = ctypes.c_char_p
-_lib.fulmar_sim_new.restype = _handle
-_lib.fulmar_sim_new.argtypes = (ctypes.c_char_p, ctypes.c_size_t, ctypes.c_uint32, _double, ctypes.c_int, ctypes.c_uint64, *_text)
-_lib.fulmar_sim_delete.argtypes = (_handle,)
-_lib.fulmar_sim_delete.restype = None
-_lib.fulmar_sim_reset.argtypes = (_handle, ctypes.c_uint64, *_text)
-_lib.fulmar_sim_stand.argtypes = (_handle, _double, *_text)
-_lib.fulmar_sim_fly.argtypes = (_handle, _double, _double, _double, *_text)
-_lib.fulmar_sim_set_wind.argtypes = (_handle, _rows, *_text)
-_lib.fulmar_sim_step.argtypes = (_handle, _rows, _double, ctypes.c_uint32, _rows, *_text)
-_lib.fulmar_sim_rows.argtypes = (_handle, _rows, *_text)
-_lib.fulmar_sim_set_rows.argtypes = (_handle, _rows, *_text)
+def _declare(name, *arguments, result=ctypes.c_int):
+    function = getattr(_library, "fulmar_sim_" + name)
+    function.argtypes, function.restype = arguments, result
+    return function
+
+
+_library = _load()
+_pointer, _double, _unsigned, _text = ctypes.c_void_p, ctypes.c_double, ctypes.c_uint, ctypes.c_char_p
+_error = _declare("error", result=_text)
+_rows_are = _declare("rows_are", result=_text)
+_actions_are = _declare("actions_are", result=_text)
+_new = _declare("new", _text, ctypes.c_size_t, _unsigned, _double, _double, _unsigned, ctypes.c_uint64, result=_pointer)
+_delete = _declare("delete", _pointer, result=None)
+_reset = _declare("reset", _pointer, _pointer, ctypes.c_uint64)
+_fly = _declare("fly", _pointer, _pointer, _pointer)
+_set_wind = _declare("set_wind", _pointer, _pointer)
+_step = _declare("step", _pointer, _pointer, _unsigned, _pointer)
+_rows = _declare("rows", _pointer, _pointer)
+_set_rows = _declare("set_rows", _pointer, _pointer, _pointer)
+
+_TURBULENCE = ("none", "light", "moderate", "severe")
+
+
+def _told():
+    return Error(_error().decode(errors="replace"))
 
 
 def _whole(value, what, least, most):
-    if isinstance(value, bool) or not isinstance(value, (int, numpy.integer)) or not least <= value <= most:
+    if isinstance(value, (bool, numpy.bool_)) or not isinstance(value, (int, numpy.integer)) or not least <= value <= most:
         raise Error(f"{what} is {value!r} and must be a whole number from {least} to {most}")
     return int(value)
 
 
+def _number(value, what):
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise Error(f"{what} is {value!r} and must be a number") from None
+
+
 class Simulation:
-    """`n` aircraft of one airframe, at rest on the ground. `dt` is one step, s; more than 0, at most 0.1."""
+    """Aircraft of one airframe, at rest on the ground, heading north.
 
-    columns = tuple(_lib.fulmar_sim_columns().decode().split())
-    actions = tuple(_lib.fulmar_sim_actions().decode().split())
+    airframe         an airframe file, or one that is shipped: "fulmar:airframes/anaconda.yaml"
+    n                how many aircraft; each takes 75 kB
+    threads          that share a step; the caller's own is one of them
+    dt               s, one step of the model, at most 0.1
+    seed             of turbulence; aircraft i draws from a seed of its own, made of this one and i
+    origin_altitude  m above sea level, of height 0
+    turbulence       "none", "light", "moderate", "severe"
 
-    def __init__(self, airframe, n=1, threads=1, dt=0.0025, seed=1, origin_altitude=0.0, turbulence="none"):
+    Methods take `only`, the aircraft that they are for: an index, a list of them, or an array of n bools; without it all.
+    Rows are (n, 26), a new array each time. Columns, as `row_names` names them:
+
+     0.. 2  north_m east_m down_m               from the origin
+     3.. 5  v_north_mps v_east_mps v_down_mps   over the ground
+     6.. 9  q_w q_x q_y q_z                     attitude, body to north-east-down
+    10..12  p_radps q_radps r_radps             body rate
+    13..15  airspeed_mps alpha_rad beta_rad
+    16..18  f_x_mps2 f_y_mps2 f_z_mps2          specific force at the centre of gravity, body axes
+    19..21  aileron_rad elevator_rad rudder_rad where the surfaces are
+        22  propeller_radps
+        23  on_ground                           1 when something touches it
+        24  crashed                             1: it hit the ground, and stays there
+        25  departed                            1: the motion is no number or absurdly fast; 2, 3: angle of attack, sideslip
+                                                beyond the airframe's tables. It stays where it is, and other columns mean little
+    """
+
+    row_names = tuple(_rows_are().decode().split())
+    action_names = tuple(_actions_are().decode().split())
+
+    def __init__(self, airframe, n=1, *, threads=1, dt=0.0025, seed=1, origin_altitude=0.0, turbulence="none"):
         self._sim = None
-        self.n = _whole(n, "n", 1, 10**7)
-        self.dt = float(dt)
-        threads, seed = _whole(threads, "threads", 1, 256), _whole(seed, "seed", 0, 2**64 - 1)
+        self.n = _whole(n, "n", 1, 10**5)
         if turbulence not in _TURBULENCE:
             raise Error(f"turbulence is {turbulence!r}; valid: {', '.join(_TURBULENCE)}")
-        error = ctypes.create_string_buffer(4096)
-        self._sim = _lib.fulmar_sim_new(os.fsencode(airframe), self.n, threads, float(origin_altitude),
-                                        _TURBULENCE.index(turbulence), seed, error, len(error))
+        self._sim = _new(os.fsencode(airframe), self.n, _whole(threads, "threads", 1, 256), _number(dt, "dt"),
+                         _number(origin_altitude, "origin_altitude"), _TURBULENCE.index(turbulence), _whole(seed, "seed", 0, 2**64 - 1))
         if not self._sim:
-            raise Error(error.value.decode(errors="replace"))
-        self._out = numpy.empty((self.n, len(self.columns)))
+            raise _told()
 
     def __del__(self):
         if getattr(self, "_sim", None):
-            _lib.fulmar_sim_delete(self._sim)
-            self._sim = None
-
-    def reset(self, seed=1):
-        """As made anew with this seed; the wind stays. Returns the rows."""
-        self._call("reset", _whole(seed, "seed", 0, 2**64 - 1))
-        return self._read()
-
-    def stand(self, heading=0.0):
-        """At rest on the ground."""
-        self._call("stand", float(heading))
-        return self._read()
-
-    def fly(self, height, airspeed, heading=0.0):
-        """Into steady level flight above the origin."""
-        self._call("fly", float(height), float(airspeed), float(heading))
-        return self._read()
-
-    def set_wind(self, wind):
-        """Velocity of the air, north, east, down: three numbers, or an array (n, 3)."""
-        wind = numpy.asarray(wind)
-        if wind.shape == (3,):
-            wind = numpy.ascontiguousarray(numpy.broadcast_to(wind.astype(float), (self.n, 3)))
-        self._call("set_wind", self._array(wind, 3, "wind").ctypes.data)
-
-    def step(self, actions, steps=1):
-        """`steps` steps under these actions, float64 (n, 4), read without a copy. Returns the rows (n, 25) in one array that the next
-        call overwrites: take a copy of what is to be kept."""
-        given = self._array(actions, len(self.actions), "actions")
-        self._call("step", given.ctypes.data, self.dt, _whole(steps, "steps", 1, 10**9), self._out.ctypes.data)
-        return self._out
+            _delete(self._sim)
 
     @property
     def state(self):
-        """A copy of the rows. Assigned, it sets position, velocity, attitude, body rate, surfaces and propeller."""
-        return self._read().copy()
+        """The rows as they are now."""
+        rows = numpy.empty((self.n, len(self.row_names)))
+        self._call(_rows, rows.ctypes.data)
+        return rows
 
-    @state.setter
-    def state(self, rows):
-        self._call("set_rows", self._array(rows, len(self.columns), "state").ctypes.data)
+    def set_state(self, rows, only=None):
+        """Sets position, velocity, attitude, body rate, surfaces and propeller of these rows (n, 26); the other columns follow from them.
+        Gusts go on, and the springs of the gear are where they were. Returns the rows."""
+        rows, only = self._array(rows, len(self.row_names), "rows"), self._only(only)
+        self._call(_set_rows, self._data(only), rows.ctypes.data)
+        return self.state
 
-    def _read(self):
-        self._call("rows", self._out.ctypes.data)
-        return self._out
+    def reset(self, seed=1, only=None):
+        """As made anew with this seed; the wind stays. Returns the rows."""
+        only = self._only(only)
+        self._call(_reset, self._data(only), _whole(seed, "seed", 0, 2**64 - 1))
+        return self.state
 
-    def _call(self, name, *arguments):
-        error = ctypes.create_string_buffer(1024)
-        if getattr(_lib, "fulmar_sim_" + name)(self._sim, *arguments, error, len(error)):
-            raise Error(error.value.decode(errors="replace"))
+    def fly(self, height, airspeed, heading=0.0, only=None):
+        """Into steady level flight above the origin: height in m, airspeed in m/s, heading in rad, each one number or an array (n,).
+        Returns the rows."""
+        starts = numpy.empty((self.n, 3))
+        for column, (value, what) in enumerate(((height, "height"), (airspeed, "airspeed"), (heading, "heading"))):
+            try:
+                starts[:, column] = value
+            except (TypeError, ValueError) as fault:
+                raise Error(f"{what}: {fault}") from None
+        only = self._only(only)
+        self._call(_fly, self._data(only), starts.ctypes.data)
+        return self.state
 
-    def _array(self, array, columns, what):
-        if not isinstance(array, numpy.ndarray):
-            raise Error(f"{what}: a numpy array is expected, found {type(array).__name__}")
-        if array.shape != (self.n, columns):
-            raise Error(f"{what}: the shape ({self.n}, {columns}) is expected, found {array.shape}")
-        if array.dtype != numpy.float64:
-            raise Error(f"{what}: float64 is expected, found {array.dtype}")
-        return numpy.ascontiguousarray(array)
+    def set_wind(self, wind):
+        """Steady velocity of the air in m/s, north, east, down: (3,) for all, or (n, 3)."""
+        wind = self._array(wind, 3, "wind")
+        self._call(_set_wind, wind.ctypes.data)
+
+    def step(self, actions, steps=1):
+        """`steps` steps of `dt` under these actions, (n, 4), or (4,) for all: throttle 0 to 1; aileron, elevator, rudder in rad.
+        Surfaces and throttle go no farther than those of the aircraft. Contiguous float64 is read where it is. Returns the rows."""
+        actions = self._array(actions, len(self.action_names), "actions")
+        rows = numpy.empty((self.n, len(self.row_names)))
+        self._call(_step, actions.ctypes.data, _whole(steps, "steps", 1, 2**32 - 1), rows.ctypes.data)
+        return rows
+
+    def _call(self, function, *arguments):
+        if function(self._sim, *arguments):
+            raise _told()
+
+    def _array(self, values, columns, what):
+        try:
+            values = numpy.asarray(values, dtype=float)
+        except (TypeError, ValueError) as fault:
+            raise Error(f"{what}: {fault}") from None
+        if values.shape == (columns,):
+            values = numpy.broadcast_to(values, (self.n, columns))
+        if values.shape != (self.n, columns):
+            raise Error(f"{what}: the shape is {values.shape} and must be {(self.n, columns)} or {(columns,)}")
+        return numpy.require(values, requirements="CA")
+
+    def _only(self, only):
+        if only is None:
+            return None
+        mask = numpy.zeros(self.n, dtype=bool)
+        try:
+            mask[only] = True
+        except (IndexError, TypeError, ValueError) as fault:
+            raise Error(f"only: {fault}") from None
+        return mask
+
+    @staticmethod
+    def _data(array):
+        return None if array is None else array.ctypes.data

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the test in Python flies, flown by the header: rows as raw doubles on the standard output.
+// What the test in Python flies, flown by the headers: rows as raw doubles on the standard output.
 #include <cstdio>
-#include <vector>
 
+#include "fulmar/sim/airframe_file.hpp"
 #include "fulmar/sim/batch.hpp"
-#include "sdk/test/flight/airframe_file.hpp"
 
 using namespace fulmar::sim;
 
@@ -13,7 +12,7 @@ int main() {
   SimulationOptions options;
   options.origin_altitude_m = 1387;
   options.weather.turbulence = fulmar::Turbulence::light;
-  Batch batch(fulmar::test::airframe_file("anaconda"), n, options, 7);
+  Batch batch(read_airframe("configs/airframes/anaconda.yaml"), n, options, 7);
   std::vector<double> actions(n * action_columns), rows(n * row_columns);
   for (std::size_t i = 0; i < n; ++i) {
     batch[i].plant().set_wind({3, -4, 0.25});

@@ -1,10 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""sim_test.py ROWS: the package against the header, and what it refuses. ROWS flies the same without Python. Exit 77: numpy is not there."""
+"""sim_test.py ROWS: the package against the headers, and what it refuses. ROWS flies the same without Python. Exit 77: numpy is not there."""
+import math
+import os
 import pathlib
 import subprocess
 import sys
 import tempfile
+import threading
 import unittest
 
 try:
@@ -16,102 +19,220 @@ import fulmar_sim
 
 ANACONDA = "configs/airframes/anaconda.yaml"
 ROWS = sys.argv.pop(1)
+NAN = float("nan")
 
 
 def weave(sim, blocks=40):
     for k in range(blocks):
         s = 0.03125 if k % 2 else -0.03125
-        rows = sim.step(numpy.array([[0.5625 + s, s * i * 0.5, 0.125 + 0.5 * s, -s] for i in range(sim.n)]), steps=20)
+        rows = sim.step([[0.5625 + s, s * i * 0.5, 0.125 + 0.5 * s, -s] for i in range(sim.n)], steps=20)
     return rows
 
 
 def made(n=5, threads=1, seed=7):
-    sim = fulmar_sim.Simulation(ANACONDA, n=n, threads=threads, seed=seed, origin_altitude=1387, turbulence="light")
+    sim = fulmar_sim.Simulation(ANACONDA, n, threads=threads, seed=seed, origin_altitude=1387, turbulence="light")
     sim.set_wind((3, -4, 0.25))
     sim.fly(300, 17, 0.5)
     return sim
 
 
-class Model(unittest.TestCase):
-    def refused(self, call):
+def column(rows, name):
+    return rows[:, fulmar_sim.Simulation.row_names.index(name)]
+
+
+class Told(unittest.TestCase):
+    def refused(self, call, *arguments, **options):
         with self.assertRaises(fulmar_sim.Error) as caught:
-            call()
+            call(*arguments, **options)
         return str(caught.exception)
 
-    def test_python_flies_what_the_header_flies_to_the_bit(self):
-        expected = numpy.frombuffer(subprocess.run([ROWS], capture_output=True, check=True).stdout).reshape(5, 25)
+
+class Flight(Told):
+    def test_python_flies_what_the_headers_fly_to_the_bit(self):
+        expected = numpy.frombuffer(subprocess.run([ROWS], capture_output=True, check=True).stdout).reshape(5, 26)
         found = weave(made())
         self.assertEqual(found.tobytes(), expected.tobytes())
         self.assertGreater(numpy.abs(found[0] - found[4]).max(), 0.01)
 
     def test_threads_change_no_bit_and_a_seed_does(self):
-        one = weave(made()).copy()
+        one = weave(made())
         self.assertEqual(one.tobytes(), weave(made(threads=2)).tobytes())
         self.assertNotEqual(one.tobytes(), weave(made(seed=8)).tobytes())
 
     def test_a_reset_gives_the_flight_again_with_its_wind(self):
         sim = made()
-        first = weave(sim).copy()
-        self.assertTrue(sim.reset(7)[:, sim.columns.index("on_ground")].all())
+        first = weave(sim)
+        self.assertTrue(column(sim.reset(7), "on_ground").all())
         sim.fly(300, 17, 0.5)
         self.assertEqual(first.tobytes(), weave(sim).tobytes())
+
+    def test_one_aircraft_begins_anew_and_the_others_fly_on_as_if_it_had_not(self):
+        sim, other = made(), made()
+        weave(sim, 3), weave(other, 3)
+        self.assertEqual(column(sim.reset(7, only=2), "down_m").round().tolist()[1:4:2], column(other.state, "down_m").round().tolist()[1:4:2])
+        rows = sim.fly(300, 17, 0.5, only=[2])
+        self.assertEqual(column(rows, "down_m")[2], -300)
+        self.assertEqual(numpy.delete(weave(sim, 5), 2, 0).tobytes(), numpy.delete(weave(other, 5), 2, 0).tobytes())
+        mask = numpy.array([False, True, False, False, True])
+        self.assertEqual(column(sim.reset(only=mask), "on_ground").astype(bool).tolist(), mask.tolist())
+
+    def test_level_flight_is_what_was_asked_for_each_aircraft(self):
+        sim = fulmar_sim.Simulation(ANACONDA, 3)
+        rows = sim.fly([120, 130, 140], 18, [0, math.pi / 2, -math.pi / 2])
+        self.assertEqual(column(rows, "down_m").tolist(), [-120, -130, -140])
+        numpy.testing.assert_allclose(column(rows, "airspeed_mps"), 18)
+        numpy.testing.assert_allclose(column(rows, "v_east_mps"), [0, 18, -18], atol=0.01)  # it sideslips a little
+        weight = numpy.hypot(column(rows, "f_x_mps2"), column(rows, "f_z_mps2"))
+        numpy.testing.assert_allclose(weight, 9.80665, atol=0.02)
+
+    def test_steady_flight_stays_where_it_is_under_its_own_actions(self):
+        sim = fulmar_sim.Simulation(ANACONDA)
+        row = dict(zip(sim.row_names, sim.fly(100, 17)[0]))
+        low, high = 0.0, 1.0  # the throttle that keeps the propeller's speed, by halves
+        for _ in range(30):
+            middle = (low + high) / 2
+            sim.fly(100, 17)
+            after = sim.step([middle, row["aileron_rad"], row["elevator_rad"], row["rudder_rad"]])
+            low, high = (middle, high) if column(after, "propeller_radps")[0] < row["propeller_radps"] else (low, middle)
+        sim.fly(100, 17)
+        after = sim.step([low, row["aileron_rad"], row["elevator_rad"], row["rudder_rad"]], steps=400)
+        self.assertAlmostEqual(column(after, "down_m")[0], -100, delta=0.05)
+        self.assertAlmostEqual(column(after, "north_m")[0], 17, delta=0.05)
 
     def test_a_state_that_was_set_is_the_one_that_is_read(self):
         a, b = made(), made(seed=9)
         weave(a)
-        b.state = a.state
-        kept = [i for i in range(25) if i < 13 or 19 <= i < 23]
-        numpy.testing.assert_array_equal(b.state[:, kept], a.state[:, kept])
+        rows = b.set_state(a.state)
+        kept = [i for i in range(26) if i < 13 or 19 <= i < 23]
+        numpy.testing.assert_array_equal(rows[:, kept], a.state[:, kept])
+        before = b.state
+        moved = before.copy()
+        moved[:, 0] += 10
+        self.assertEqual((column(b.set_state(moved, only=1), "north_m") - column(before, "north_m")).round(6).tolist(), [0, 10, 0, 0, 0])
 
-    def test_level_flight_is_what_was_asked_for(self):
+    def test_what_crashed_stays_until_it_is_put_elsewhere(self):
         sim = fulmar_sim.Simulation(ANACONDA)
-        row = dict(zip(sim.columns, sim.fly(120, 18, numpy.pi / 2)[0]))
-        self.assertAlmostEqual(row["down_m"], -120)
-        self.assertAlmostEqual(row["airspeed_mps"], 18, places=6)
-        self.assertAlmostEqual(row["v_east_mps"], 18, places=6)
-        self.assertAlmostEqual(numpy.hypot(row["f_x_mps2"], row["f_z_mps2"]), 9.81, delta=0.02)
+        flying = sim.fly(100, 17)
+        wreck = sim.step([0, 0, 0.3, 0], steps=4000)
+        self.assertEqual(column(wreck, "crashed")[0], 1)
+        self.assertEqual(sim.step([1, 0, 0, 0], steps=400)[0, :13].tolist(), wreck[0, :13].tolist())
+        self.assertEqual(column(sim.set_state(flying), "crashed")[0], 0)
+        self.assertLess(column(sim.step([0.5, 0, 0, 0], steps=40), "down_m")[0], -99)
 
-    def test_step_returns_one_array(self):
-        sim = made()
-        self.assertIs(weave(sim, 1), weave(sim, 1))
+    def test_what_has_left_the_model_says_so_and_flies_again(self):
+        sim = fulmar_sim.Simulation(ANACONDA, 2)
+        state = sim.fly(100, 17)
+        state[1, 11] = 9e4  # q_radps
+        sim.set_state(state)
+        rows = sim.step([0.5, 0, 0, 0], steps=400)
+        self.assertEqual(column(rows, "departed").tolist(), [0, 1])
+        self.assertTrue(numpy.isfinite(rows[0]).all())
+        self.assertEqual(column(sim.fly(100, 17, only=1), "departed").tolist(), [0, 0])
 
+    def test_arrays_of_any_layout_fly_the_same(self):
+        actions = numpy.array([[0.5, 0.01 * i, 0.125, 0] for i in range(5)], dtype=numpy.float32)
+        doubles = actions.astype(float)
+        wide = numpy.zeros((5, 8))
+        wide[:, ::2] = doubles
+        expected = made().step(doubles)
+        for given in (actions, numpy.asfortranarray(doubles), wide[:, ::2], doubles.astype(">f8"), doubles.tolist()):
+            self.assertEqual(made().step(given).tobytes(), expected.tobytes())
+        self.assertEqual(made().step(doubles[0]).tobytes(), made().step([doubles[0]] * 5).tobytes())
+
+    def test_two_threads_of_python_take_turns_with_one_simulation(self):
+        sim = fulmar_sim.Simulation(ANACONDA, 8, threads=2)
+        sim.fly(300, 17)
+        others = [threading.Thread(target=lambda: [sim.step([0.5, 0, 0.1, 0], steps=5) for _ in range(20)]) for _ in range(2)]
+        for other in others:
+            other.start()
+        for other in others:
+            other.join()
+        alone = fulmar_sim.Simulation(ANACONDA, 8)
+        alone.fly(300, 17)
+        self.assertEqual(alone.step([0.5, 0, 0.1, 0], steps=200).tobytes(), sim.state.tobytes())
+
+
+class Refusals(Told):
     def test_what_is_no_action_is_refused_and_nothing_moves(self):
         sim = made()
         before = sim.state
         good = numpy.full((5, 4), 0.1)
         bad = good.copy()
-        bad[3, 2] = numpy.nan
-        self.assertEqual(self.refused(lambda: sim.step(bad)), "aircraft 3: elevator_rad is nan")
-        self.assertEqual(self.refused(lambda: sim.step(good[:4])), "actions: the shape (5, 4) is expected, found (4, 4)")
-        self.assertEqual(self.refused(lambda: sim.step(good.astype("f4"))), "actions: float64 is expected, found float32")
-        self.assertEqual(self.refused(lambda: sim.step([[0] * 4] * 5)), "actions: a numpy array is expected, found list")
-        self.assertIn("steps is 0", self.refused(lambda: sim.step(good, steps=0)))
-        self.assertIn("the wind is nan", self.refused(lambda: sim.set_wind((0, 0, float("nan")))))
-        self.assertIn("no steady level flight at 2.0", self.refused(lambda: sim.fly(300, 2)))
-        state = sim.state
-        state[1, 0] += 50
-        state[4, 3] = numpy.inf
-        self.assertEqual(self.refused(lambda: setattr(sim, "state", state)), "aircraft 4: the state has a number that is not finite")
+        bad[3, 2] = NAN
+        self.assertEqual(self.refused(sim.step, bad), "aircraft 3: elevator_rad is nan")
+        self.assertEqual(self.refused(sim.step, good[:4]), "actions: the shape is (4, 4) and must be (5, 4) or (4,)")
+        self.assertEqual(self.refused(sim.step, 0.5), "actions: the shape is () and must be (5, 4) or (4,)")
+        self.assertIn("actions: could not convert string to float", self.refused(sim.step, ["a"] * 4))
+        self.assertIn("actions: ", self.refused(sim.step, [[0, 0], [0]]))
+        self.assertIn("actions: ", self.refused(sim.step, None))
+        for steps in (0, -1, 1.5, True, 2**32):
+            self.assertEqual(self.refused(sim.step, good, steps), f"steps is {steps} and must be a whole number from 1 to 4294967295")
+        self.assertEqual(self.refused(sim.set_wind, (0, 0, NAN)), "aircraft 0: the wind is nan")
+        self.assertEqual(self.refused(sim.set_wind, (0, 0)), "wind: the shape is (2,) and must be (5, 3) or (3,)")
+        self.assertEqual(sim.state.tobytes(), before.tobytes())
+
+    def test_flights_that_are_none_are_refused_and_nothing_moves(self):
+        sim = made()
+        before = sim.state
+        self.assertEqual(self.refused(sim.fly, 300, [17, 17, 2, 17, 17]),
+                         "aircraft 2: no steady level flight at 2.000000 m/s and 300.000000 m height")
+        self.assertEqual(self.refused(sim.fly, 0, 17), "aircraft 0: height is 0.000000 m and must be more than 0")
+        self.assertEqual(self.refused(sim.fly, 300, NAN), "aircraft 0: airspeed is nan m/s and must be more than 0")
+        self.assertEqual(self.refused(sim.fly, 300, 17, NAN), "aircraft 0: heading is nan")
+        self.assertIn("no steady level flight", self.refused(sim.fly, 1e7, 17))
+        self.assertIn("airspeed: could not broadcast", self.refused(sim.fly, 300, [17, 17]))
+        self.assertIn("only: index 5 is out of bounds", self.refused(sim.fly, 300, 17, only=5))
+        self.assertIn("only: ", self.refused(sim.reset, only=[0.5]))
+        self.assertIn("only: ", self.refused(sim.reset, only=numpy.ones(4, dtype=bool)))
+        self.assertIn("seed is -1", self.refused(sim.reset, -1))
+        self.assertEqual(sim.state.tobytes(), before.tobytes())
+
+    def test_states_that_are_none_are_refused_and_nothing_moves(self):
+        sim = made()
+        before = sim.state
+        for column, value, sentence in ((3, math.inf, "aircraft 4: the state has a number that is not finite"),
+                                        (6, 3, "aircraft 4: the attitude's quaternion is not of length 1"),
+                                        (3, 2e5, "aircraft 4: the state is beyond the model, which ends at 1e5 m/s and rad/s and 1e8 m from the origin")):
+            state = sim.state
+            state[:, 0] += 50
+            state[4, column] = value
+            self.assertEqual(self.refused(sim.set_state, state), sentence)
         self.assertEqual(sim.state.tobytes(), before.tobytes())
 
     def test_what_cannot_be_made_is_refused(self):
         make = fulmar_sim.Simulation
-        self.assertIn("dt is 0.2", self.refused(lambda: make(ANACONDA, dt=0.2).step(numpy.zeros((1, 4)))))
-        self.assertIn("n is 0", self.refused(lambda: make(ANACONDA, n=0)))
-        self.assertIn("threads is 0", self.refused(lambda: make(ANACONDA, threads=0)))
-        self.assertIn("valid: none, light, moderate, severe", self.refused(lambda: make(ANACONDA, turbulence="storm")))
-        self.assertIn("nowhere.yaml", self.refused(lambda: make("nowhere.yaml")))
+        self.assertEqual(self.refused(make, ANACONDA, dt=0.2), "dt is 0.200000 s and must be in (0, 0.1] s")
+        self.assertEqual(self.refused(make, ANACONDA, dt=NAN), "dt is nan s and must be in (0, 0.1] s")
+        self.assertEqual(self.refused(make, ANACONDA, dt="fast"), "dt is 'fast' and must be a number")
+        self.assertEqual(self.refused(make, ANACONDA, 0), "n is 0 and must be a whole number from 1 to 100000")
+        self.assertIn("threads is 0", self.refused(make, ANACONDA, threads=0))
+        self.assertEqual(self.refused(make, ANACONDA, turbulence="storm"), "turbulence is 'storm'; valid: none, light, moderate, severe")
+        self.assertEqual(self.refused(make, ANACONDA, origin_altitude=NAN), "origin_altitude is nan")
 
-    def test_a_fault_of_the_file_is_told_with_its_line(self):
+    def test_a_fault_of_the_file_is_told_as_the_host_tells_it(self):
         lines = pathlib.Path(ANACONDA).read_text().splitlines()
         at = next(i for i, line in enumerate(lines) if line.startswith("mass"))
-        lines[at] = "mass: -3 kg"
         with tempfile.TemporaryDirectory() as folder:
             bad = pathlib.Path(folder) / "bad.yaml"
-            bad.write_text("\n".join(lines) + "\n")
-            told = self.refused(lambda: fulmar_sim.Simulation(bad))
-        self.assertIn(f"bad.yaml:{at + 1}", told)
-        self.assertIn("must be more than 0", told)
+            for line, sentence in (("mass: -3 kg", "mass: -3 kg is outside 0.0001 .. 1e+06 kg"), ("mas: 3 kg", "Did you mean 'mass'?")):
+                bad.write_text("\n".join(lines[:at] + [line] + lines[at + 1:]) + "\n")
+                told = self.refused(fulmar_sim.Simulation, bad)
+                self.assertIn(f"bad.yaml:{at + 1}: ", told)
+                self.assertIn(sentence, told)
+        self.assertIn("anaconda.yaml", self.refused(fulmar_sim.Simulation, "configs/airframes/anacoda.yaml"))
+        self.assertEqual(fulmar_sim.Simulation("fulmar:airframes/anaconda.yaml").n, 1)
+
+    def test_a_child_process_is_told_that_the_threads_stayed_behind(self):
+        sim = fulmar_sim.Simulation(ANACONDA, 2, threads=2)
+        child = os.fork()
+        if child == 0:
+            try:
+                sim.step([0, 0, 0, 0])
+            except fulmar_sim.Error as error:
+                sim.__del__()
+                os._exit(0 if "made by another process" in str(error) else 2)
+            os._exit(1)
+        self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), 0)
 
 
 unittest.main()

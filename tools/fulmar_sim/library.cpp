@@ -7,7 +7,9 @@
 // whether it is meant, null means all.
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -142,6 +144,17 @@ int fulmar_sim_fly(fulmar_sim* all, const bool* only, const double* starts) {
       }
     }
     for (auto& [i, aircraft] : flying) s.batch[i] = aircraft;
+  });
+}
+
+/// Into `actions` what keeps each in the steady flight of its last `fly`.
+int fulmar_sim_trim(fulmar_sim* all, double* actions) {
+  return guarded(all, [&](fulmar_sim& s) {
+    for (std::size_t i = 0; i < s.batch.size(); ++i) {
+      const Actuators a = s.batch[i].trim();
+      const double row[] = {a.throttle_frac, a.aileron_rad, a.elevator_rad, a.rudder_rad};
+      std::copy(std::begin(row), std::end(row), actions + i * sim::action_columns);
+    }
   });
 }
 

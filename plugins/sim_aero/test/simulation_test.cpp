@@ -126,6 +126,15 @@ TEST_CASE("a state that was set is the one that is read, surfaces and propeller 
   CHECK(row(b)[13] == doctest::Approx(b.air_data().Va));
 }
 
+TEST_CASE("its trim keeps it in the steady flight that it began with") {
+  SimulationOptions calm = windy();
+  calm.weather.turbulence = Turbulence::none;
+  Simulation sim(anaconda(), calm);
+  REQUIRE(sim.fly({0, 0, -300}, 0, 17));
+  for (int i = 0; i < 800; ++i) sim.step(sim.trim(), dt);
+  CHECK((sim.body().p_n - Eigen::Vector3d((17 + 3) * 2, -4 * 2, -300)).norm() < 0.1);
+}
+
 TEST_CASE("what has crashed stays there until it is put elsewhere") {
   Simulation sim = flying(7);
   const FlightState begin = sim.state();

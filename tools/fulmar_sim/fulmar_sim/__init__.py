@@ -5,7 +5,8 @@
 
     sim = fulmar_sim.Simulation("fulmar:airframes/anaconda.yaml", n=1000, threads=2)
     rows = sim.fly(height=100, airspeed=17)
-    rows = sim.step(actions)            # (n, 4) -> (n, 26), the names in sim.action_names and sim.row_names
+    actions = sim.trim                  # (n, 4), named by sim.action_names
+    rows = sim.step(actions)            # (n, 26), named by sim.row_names
 
 Metres, seconds, kilograms, radians. Arrays are of float64, one row an aircraft; what is not, is converted. The same seed, start and actions
 give the same flight to the bit, whatever the number of threads.
@@ -46,6 +47,7 @@ _new = _declare("new", _text, ctypes.c_size_t, _unsigned, _double, _double, _uns
 _delete = _declare("delete", _pointer, result=None)
 _reset = _declare("reset", _pointer, _pointer, ctypes.c_uint64)
 _fly = _declare("fly", _pointer, _pointer, _pointer)
+_trim = _declare("trim", _pointer, _pointer)
 _set_wind = _declare("set_wind", _pointer, _pointer)
 _step = _declare("step", _pointer, _pointer, _unsigned, _pointer)
 _rows = _declare("rows", _pointer, _pointer)
@@ -148,6 +150,13 @@ class Simulation:
         only = self._only(only)
         self._call(_fly, self._data(only), starts.ctypes.data)
         return self.state
+
+    @property
+    def trim(self):
+        """The actions (n, 4) that keep each aircraft in the steady flight of its last `fly`; zeros before."""
+        actions = numpy.empty((self.n, len(self.action_names)))
+        self._call(_trim, actions.ctypes.data)
+        return actions
 
     def set_wind(self, wind):
         """Steady velocity of the air in m/s, north, east, down: (3,) for all, or (n, 3)."""

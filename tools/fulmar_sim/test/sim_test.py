@@ -85,19 +85,15 @@ class Flight(Told):
         weight = numpy.hypot(column(rows, "f_x_mps2"), column(rows, "f_z_mps2"))
         numpy.testing.assert_allclose(weight, 9.80665, atol=0.02)
 
-    def test_steady_flight_stays_where_it_is_under_its_own_actions(self):
-        sim = fulmar_sim.Simulation(ANACONDA)
-        row = dict(zip(sim.row_names, sim.fly(100, 17)[0]))
-        low, high = 0.0, 1.0  # the throttle that keeps the propeller's speed, by halves
-        for _ in range(30):
-            middle = (low + high) / 2
-            sim.fly(100, 17)
-            after = sim.step([middle, row["aileron_rad"], row["elevator_rad"], row["rudder_rad"]])
-            low, high = (middle, high) if column(after, "propeller_radps")[0] < row["propeller_radps"] else (low, middle)
-        sim.fly(100, 17)
-        after = sim.step([low, row["aileron_rad"], row["elevator_rad"], row["rudder_rad"]], steps=400)
-        self.assertAlmostEqual(column(after, "down_m")[0], -100, delta=0.05)
-        self.assertAlmostEqual(column(after, "north_m")[0], 17, delta=0.05)
+    def test_its_trim_keeps_it_in_steady_flight(self):
+        sim = fulmar_sim.Simulation(ANACONDA, 2)
+        self.assertEqual(sim.trim.tolist(), [[0] * 4] * 2)
+        before = sim.fly(100, [16, 18])
+        after = sim.step(sim.trim, steps=800)  # 2 s
+        numpy.testing.assert_allclose(column(after, "down_m"), -100, atol=0.02)
+        numpy.testing.assert_allclose(column(after, "north_m"), [32, 36], atol=0.05)
+        self.assertGreater(sim.trim[1, 0], sim.trim[0, 0])
+        numpy.testing.assert_allclose(sim.trim[:, 1:], before[:, 19:22])
 
     def test_a_state_that_was_set_is_the_one_that_is_read(self):
         a, b = made(), made(seed=9)

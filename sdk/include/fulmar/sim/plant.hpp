@@ -86,6 +86,7 @@ class Plant {
     const Trim trim =
         trimmed_flight(airframe_, Va, air_at(altitude_m).density_kgm3, 0, gravity_at(altitude_m));
     if (!trim.found) return false;
+    trim_ = trim;
     begin_anew();
     x_ = RigidBody{};
     x_.p_n = p_n;
@@ -104,6 +105,9 @@ class Plant {
     refresh();
     return true;
   }
+
+  /// Of the last `fly`.
+  const Trim& trim() const { return trim_; }
 
   /// One step. `power` is the share of the battery's full voltage that the throttle deals out: 0 stops the
   /// motor whatever it says.
@@ -424,6 +428,7 @@ class Plant {
   RotatingEarth turning_;
   LocalLevel level_;  ///< at the place at which the present step began
 
+  Trim trim_;
   RigidBody x_, seen_;
   Eigen::Vector3d g_n_ = Eigen::Vector3d::Zero();  ///< of what is free
   Air air_;

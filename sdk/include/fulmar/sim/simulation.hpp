@@ -5,7 +5,9 @@
 //   Simulation sim(read_airframe("fulmar:airframes/anaconda.yaml"), {.origin_altitude_m = 1387}, 7);
 //   sim.fly({0, 0, -100}, 0, 17);                         // north, east, down; heading; airspeed
 //   Simulation what_if = sim;                             // a copy is a fork: it flies on by itself
-//   sim.step({.throttle_frac = 0.6, .elevator_rad = 0.05}, 0.0025);
+//   Actuators command = sim.trim();
+//   command.aileron_rad += 0.05;
+//   sim.step(command, 0.0025);
 //   sim.body().v_n;
 //
 // A value: no pointer, no thread, no allocation in a step. The same seed, start and commands give the same
@@ -58,6 +60,12 @@ class Simulation {
   /// airspeed; it then stays where it is.
   bool fly(const Eigen::Vector3d& p_n, double heading_rad, double Va) {
     return plant_.fly(p_n, heading_rad, Va);
+  }
+
+  /// The command that keeps it in the steady flight of the last `fly`.
+  Actuators trim() const {
+    const Trim& t = plant_.trim();
+    return {t.throttle_frac, t.deflections.aileron, t.deflections.elevator, t.deflections.rudder};
   }
 
   FlightState state() const { return {plant_.state(), plant_.deflections(), plant_.propeller_radps()}; }

@@ -1,26 +1,29 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Gains of a roll hold by random search: a thousand aircraft at once, each with its own gains."""
-import sys
-
+"""Roll gains of the Anaconda: a step to 30 deg of bank with 256 pairs of gains, all of them in the air at once."""
 import fulmar_sim
 import numpy
 
-n, seconds = 1000, 3
-sim = fulmar_sim.Simulation(sys.argv[1], n=n, threads=2, seed=1)
-at = {name: i for i, name in enumerate(sim.columns)}
+kp, kd = (axis.ravel() for axis in numpy.meshgrid(numpy.linspace(0.4, 6.4, 16), numpy.linspace(0, 0.3, 16)))
+sim = fulmar_sim.Simulation("fulmar:airframes/anaconda.yaml", n=kp.size, threads=2)
 rows = sim.fly(height=100, airspeed=17)
-trim = rows[0, [at["aileron_rad"], at["elevator_rad"], at["rudder_rad"]]].copy()
+names = {name: i for i, name in enumerate(sim.row_names)}
 
-rng = numpy.random.default_rng(1)
-kp, kd = rng.uniform(0, 2, n), rng.uniform(0, 0.5, n)
-goal, cost = numpy.radians(30), numpy.zeros(n)
-actions = numpy.tile([0.5, *trim], (n, 1))
-for _ in range(int(seconds * 50)):
-    w, x, y, z = rows[:, [at["q_w"], at["q_x"], at["q_y"], at["q_z"]]].T
-    roll = numpy.arctan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
-    actions[:, 1] = trim[0] + kp * (goal - roll) - kd * rows[:, at["p_radps"]]
-    cost += (goal - roll) ** 2 / 50 + 0.1 * (actions[:, 1] - trim[0]) ** 2 / 50
-    rows = sim.step(actions, steps=8)  # 8 steps of 2.5 ms
+period, target = 0.01, numpy.radians(30)
+roll = []
+for _ in range(300):
+    w, x, y, z = rows[:, names["q_w"]:names["q_z"] + 1].T
+    roll.append(numpy.arctan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y)))
+    actions = sim.trim
+    actions[:, 1] += kp * (target - roll[-1]) - kd * rows[:, names["p_radps"]]
+    rows = sim.step(actions, steps=4)  # of 2.5 ms
 
-best, worst = cost.argmin(), cost.argmax()
-print(f"best of {n}: kp {kp[best]:.2f}, kd {kd[best]:.2f}, cost {cost[best]:.3f}; worst {cost[worst]:.3f}")
+error = numpy.array(roll) - target
+overshoot = numpy.degrees(error.max(axis=0).clip(0))
+far = numpy.abs(error) > numpy.radians(1.5)
+settled = period * (far.shape[0] - far[::-1].argmax(axis=0))
+settled[far[-1]] = numpy.inf
+
+print("  kp    kd  settled in  overshoot")
+for i in numpy.lexsort((overshoot, settled))[:5]:
+    print(f"{kp[i]:4.1f}  {kd[i]:4.2f}  {settled[i]:8.2f} s  {overshoot[i]:5.1f} deg")
+print(f"{numpy.isfinite(settled).sum()} of {kp.size} settle within 3 s; {int(rows[:, names['crashed']].sum())} crashed")

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The core of a model-predictive controller: of some ailerons, held for half a second, which one comes nearest
-// to 30 deg of bank? Each is flown by a copy of the aircraft, which itself stays where it is.
-#include <fulmar/sim/airframe_file.hpp>
-#include <fulmar/sim/simulation.hpp>
-
+// The core of a model-predictive controller: of some ailerons, held for half a second, which one comes
+// nearest to 30 deg of bank? Each is flown by a copy of the aircraft, which itself stays where it is.
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <fulmar/sim/airframe_file.hpp>
+#include <fulmar/sim/simulation.hpp>
 
 using namespace fulmar;
 

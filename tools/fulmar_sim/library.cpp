@@ -71,11 +71,11 @@ void demand(bool right, const std::string& sentence) {
 bool is_meant(const bool* only, std::size_t i) { return !only || only[i]; }
 
 void fly(sim::Simulation& aircraft, double height_m, double airspeed_mps, double heading_rad) {
-  const std::string height = std::to_string(height_m), airspeed = std::to_string(airspeed_mps);
+  const std::string height = sim::shown(height_m), airspeed = sim::shown(airspeed_mps);
   demand(std::isfinite(height_m) && height_m > 0, "height is " + height + " m and must be more than 0");
   demand(std::isfinite(airspeed_mps) && airspeed_mps > 0,
          "airspeed is " + airspeed + " m/s and must be more than 0");
-  demand(std::isfinite(heading_rad), "heading is " + std::to_string(heading_rad));
+  demand(std::isfinite(heading_rad), "heading is " + sim::shown(heading_rad));
   demand(aircraft.fly({0, 0, -height_m}, heading_rad, airspeed_mps),
          "no steady level flight at " + airspeed + " m/s and " + height + " m height");
 }
@@ -103,7 +103,8 @@ fulmar_sim* fulmar_sim_new(const char* airframe, std::size_t count, unsigned thr
   std::unique_ptr<fulmar_sim> made;
   guarded([&] {
     sim::Simulation::demand_step(dt_s);
-    demand(std::isfinite(origin_altitude_m), "origin_altitude is " + std::to_string(origin_altitude_m));
+    demand(origin_altitude_m >= -1000 && origin_altitude_m <= 20000,
+           "origin_altitude is " + sim::shown(origin_altitude_m) + " m and must be from -1000 to 20000");
     sim::SimulationOptions options;
     options.origin_altitude_m = origin_altitude_m;
     options.weather.turbulence = static_cast<Turbulence>(turbulence);
@@ -163,8 +164,8 @@ int fulmar_sim_set_wind(fulmar_sim* all, const double* wind_n) {
   return guarded(all, [&](fulmar_sim& s) {
     const std::size_t n = s.batch.size();
     for (std::size_t k = 0; k < 3 * n; ++k)
-      demand(std::isfinite(wind_n[k]),
-             "aircraft " + std::to_string(k / 3) + ": the wind is " + std::to_string(wind_n[k]));
+      demand(std::abs(wind_n[k]) <= 1000, "aircraft " + std::to_string(k / 3) + ": the wind is " +
+                                              sim::shown(wind_n[k]) + " m/s and must be within +-1000");
     for (std::size_t i = 0; i < n; ++i) {
       s.wind_n[i] = {wind_n[3 * i], wind_n[3 * i + 1], wind_n[3 * i + 2]};
       s.batch[i].plant().set_wind(s.wind_n[i]);

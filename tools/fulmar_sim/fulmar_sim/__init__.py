@@ -54,23 +54,51 @@ _rows = _declare("rows", _pointer, _pointer)
 _set_rows = _declare("set_rows", _pointer, _pointer, _pointer)
 
 _TURBULENCE = ("none", "light", "moderate", "severe")
+_ROWS, _ACTIONS = tuple(_rows_are().decode().split()), tuple(_actions_are().decode().split())
+_PIECE = 10**6  # steps of aircraft in one call, about half a second: in between Python can be interrupted
 
 
 def _told():
     return Error(_error().decode(errors="replace"))
 
 
+def _is_bool(value):
+    return isinstance(value, (bool, numpy.bool_))
+
+
 def _whole(value, what, least, most):
-    if isinstance(value, (bool, numpy.bool_)) or not isinstance(value, (int, numpy.integer)) or not least <= value <= most:
+    if _is_bool(value) or not isinstance(value, (int, numpy.integer)) or not least <= value <= most:
         raise Error(f"{what} is {value!r} and must be a whole number from {least} to {most}")
     return int(value)
 
 
 def _number(value, what):
+    if _is_bool(value) or not isinstance(value, (int, float, numpy.integer, numpy.floating)):
+        raise Error(f"{what} is {value!r} and must be a number")
+    return float(value)
+
+
+def _numbers(values, what):
+    """A copy, which no other thread changes meanwhile; float64 in rows."""
     try:
-        return float(value)
-    except (TypeError, ValueError):
-        raise Error(f"{what} is {value!r} and must be a number") from None
+        given = numpy.asarray(values)
+    except ValueError:  # rows that are not of one length
+        raise Error(f"{what}: rows of numbers are expected") from None
+    if given.dtype.kind not in "iuf":
+        raise Error(f"{what}: numbers are expected, {type(values).__name__ if given.ndim == 0 else given.dtype} was given")
+    if numpy.ma.is_masked(values):
+        raise Error(f"{what}: some are masked")
+    return numpy.array(given, dtype=float, order="C")
+
+
+def _file(airframe):
+    try:
+        name = os.fsencode(airframe)
+    except TypeError:
+        raise Error(f"airframe is {airframe!r} and must be the name of a file") from None
+    if b"\0" in name:
+        raise Error(f"airframe is {airframe!r}: no file is named so")
+    return name
 
 
 class Simulation:
@@ -81,7 +109,7 @@ class Simulation:
     threads          that share a step; the caller's own is one of them
     dt               s, one step of the model, at most 0.1
     seed             of turbulence; aircraft i draws from a seed of its own, made of this one and i
-    origin_altitude  m above sea level, of height 0
+    origin_altitude  m above sea level, of height 0; -1000 to 20000
     turbulence       "none", "light", "moderate", "severe"
 
     Methods take `only`, the aircraft that they are for: an index, a list of them, or an array of n bools; without it all.
@@ -101,34 +129,43 @@ class Simulation:
                                                 beyond the airframe's tables. It stays where it is, and other columns mean little
     """
 
-    row_names = tuple(_rows_are().decode().split())
-    action_names = tuple(_actions_are().decode().split())
+    row_names = _ROWS
+    action_names = _ACTIONS
 
     def __init__(self, airframe, n=1, *, threads=1, dt=0.0025, seed=1, origin_altitude=0.0, turbulence="none"):
-        self._sim = None
-        self.n = _whole(n, "n", 1, 10**5)
+        self.__del__()  # what it was before
+        self._n = _whole(n, "n", 1, 10**5)
         if turbulence not in _TURBULENCE:
             raise Error(f"turbulence is {turbulence!r}; valid: {', '.join(_TURBULENCE)}")
-        self._sim = _new(os.fsencode(airframe), self.n, _whole(threads, "threads", 1, 256), _number(dt, "dt"),
+        self._sim = _new(_file(airframe), self._n, _whole(threads, "threads", 1, 256), _number(dt, "dt"),
                          _number(origin_altitude, "origin_altitude"), _TURBULENCE.index(turbulence), _whole(seed, "seed", 0, 2**64 - 1))
         if not self._sim:
             raise _told()
 
     def __del__(self):
-        if getattr(self, "_sim", None):
-            _delete(self._sim)
+        sim, self._sim = getattr(self, "_sim", None), None
+        if sim:
+            _delete(sim)
+
+    def __reduce_ex__(self, protocol):
+        raise Error("a simulation cannot be copied or pickled: make another one and give it this one's state with set_state")
+
+    @property
+    def n(self):
+        """How many aircraft."""
+        return self._n
 
     @property
     def state(self):
         """The rows as they are now."""
-        rows = numpy.empty((self.n, len(self.row_names)))
+        rows = numpy.empty((self._n, len(_ROWS)))
         self._call(_rows, rows.ctypes.data)
         return rows
 
     def set_state(self, rows, only=None):
         """Sets position, velocity, attitude, body rate, surfaces and propeller of these rows (n, 26); the other columns follow from them.
         Gusts go on, and the springs of the gear are where they were. Returns the rows."""
-        rows, only = self._array(rows, len(self.row_names), "rows"), self._only(only)
+        rows, only = self._array(rows, len(_ROWS), "rows"), self._only(only)
         self._call(_set_rows, self._data(only), rows.ctypes.data)
         return self.state
 
@@ -141,12 +178,12 @@ class Simulation:
     def fly(self, height, airspeed, heading=0.0, only=None):
         """Into steady level flight above the origin: height in m, airspeed in m/s, heading in rad, each one number or an array (n,).
         Returns the rows."""
-        starts = numpy.empty((self.n, 3))
+        starts = numpy.empty((self._n, 3))
         for column, (value, what) in enumerate(((height, "height"), (airspeed, "airspeed"), (heading, "heading"))):
-            try:
-                starts[:, column] = value
-            except (TypeError, ValueError) as fault:
-                raise Error(f"{what}: {fault}") from None
+            value = _numbers(value, what)
+            if value.shape not in ((), (self._n,)):
+                raise Error(f"{what}: the shape is {value.shape} and must be {(self._n,)}, or one number is given")
+            starts[:, column] = value
         only = self._only(only)
         self._call(_fly, self._data(only), starts.ctypes.data)
         return self.state
@@ -154,7 +191,7 @@ class Simulation:
     @property
     def trim(self):
         """The actions (n, 4) that keep each aircraft in the steady flight of its last `fly`; zeros before."""
-        actions = numpy.empty((self.n, len(self.action_names)))
+        actions = numpy.empty((self._n, len(_ACTIONS)))
         self._call(_trim, actions.ctypes.data)
         return actions
 
@@ -165,35 +202,47 @@ class Simulation:
 
     def step(self, actions, steps=1):
         """`steps` steps of `dt` under these actions, (n, 4), or (4,) for all: throttle 0 to 1; aileron, elevator, rudder in rad.
-        Surfaces and throttle go no farther than those of the aircraft. Contiguous float64 is read where it is. Returns the rows."""
-        actions = self._array(actions, len(self.action_names), "actions")
-        rows = numpy.empty((self.n, len(self.row_names)))
-        self._call(_step, actions.ctypes.data, _whole(steps, "steps", 1, 2**32 - 1), rows.ctypes.data)
+        Surfaces and throttle go no farther than those of the aircraft. Returns the rows."""
+        actions = self._array(actions, len(_ACTIONS), "actions")
+        rows = numpy.empty((self._n, len(_ROWS)))
+        left, most = _whole(steps, "steps", 1, 2**32 - 1), max(1, _PIECE // self._n)
+        while left:
+            piece = min(left, most)
+            self._call(_step, actions.ctypes.data, piece, rows.ctypes.data)
+            left -= piece
         return rows
 
     def _call(self, function, *arguments):
+        if not getattr(self, "_sim", None):
+            raise Error("the simulation is gone")
         if function(self._sim, *arguments):
             raise _told()
 
     def _array(self, values, columns, what):
-        try:
-            values = numpy.asarray(values, dtype=float)
-        except (TypeError, ValueError) as fault:
-            raise Error(f"{what}: {fault}") from None
+        values = _numbers(values, what)
         if values.shape == (columns,):
-            values = numpy.broadcast_to(values, (self.n, columns))
-        if values.shape != (self.n, columns):
-            raise Error(f"{what}: the shape is {values.shape} and must be {(self.n, columns)} or {(columns,)}")
-        return numpy.require(values, requirements="CA")
+            values = numpy.tile(values, (self._n, 1))
+        if values.shape != (self._n, columns):
+            raise Error(f"{what}: the shape is {values.shape} and must be {(self._n, columns)} or {(columns,)}")
+        return values
 
     def _only(self, only):
         if only is None:
             return None
-        mask = numpy.zeros(self.n, dtype=bool)
+        wrong = f"only is {only!r} and must be an index below {self._n}, a list of them, or {self._n} bools"
         try:
-            mask[only] = True
-        except (IndexError, TypeError, ValueError) as fault:
-            raise Error(f"only: {fault}") from None
+            chosen = numpy.asarray(only)
+        except ValueError:
+            raise Error(wrong) from None
+        if chosen.size == 0 and chosen.ndim == 1:
+            chosen = chosen.astype(int)
+        if chosen.dtype.kind not in "iub" or (chosen.dtype.kind == "b" and chosen.shape != (self._n,)):
+            raise Error(wrong)
+        mask = numpy.zeros(self._n, dtype=bool)
+        try:
+            mask[chosen] = True
+        except IndexError:
+            raise Error(wrong) from None
         return mask
 
     @staticmethod

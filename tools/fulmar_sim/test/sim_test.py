@@ -1,9 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """sim_test.py ROWS: the package against the headers, and what it refuses. ROWS flies the same without Python. Exit 77: numpy is not there."""
+import copy
 import math
 import os
 import pathlib
+import pickle
+import re
+import signal
 import subprocess
 import sys
 import tempfile
@@ -131,8 +135,14 @@ class Flight(Told):
         wide = numpy.zeros((5, 8))
         wide[:, ::2] = doubles
         expected = made().step(doubles)
-        for given in (actions, numpy.asfortranarray(doubles), wide[:, ::2], doubles.astype(">f8"), doubles.tolist()):
+        locked = doubles.copy()
+        locked.flags.writeable = False
+        for given in (actions, numpy.asfortranarray(doubles), wide[:, ::2], doubles[::-1].copy()[::-1], doubles.astype(">f8"), locked, doubles.tolist()):
             self.assertEqual(made().step(given).tobytes(), expected.tobytes())
+        whole = numpy.zeros((5, 4))
+        whole[:, 0] = 1
+        for given in (whole.astype(numpy.int8), whole.astype(numpy.uint64)):
+            self.assertEqual(made().step(given).tobytes(), made().step(whole).tobytes())
         self.assertEqual(made().step(doubles[0]).tobytes(), made().step([doubles[0]] * 5).tobytes())
 
     def test_two_threads_of_python_take_turns_with_one_simulation(self):
@@ -158,12 +168,19 @@ class Refusals(Told):
         self.assertEqual(self.refused(sim.step, bad), "aircraft 3: elevator_rad is nan")
         self.assertEqual(self.refused(sim.step, good[:4]), "actions: the shape is (4, 4) and must be (5, 4) or (4,)")
         self.assertEqual(self.refused(sim.step, 0.5), "actions: the shape is () and must be (5, 4) or (4,)")
-        self.assertIn("actions: could not convert string to float", self.refused(sim.step, ["a"] * 4))
-        self.assertIn("actions: ", self.refused(sim.step, [[0, 0], [0]]))
-        self.assertIn("actions: ", self.refused(sim.step, None))
+        self.assertEqual(self.refused(sim.step, good.ravel()), "actions: the shape is (20,) and must be (5, 4) or (4,)")
+        self.assertEqual(self.refused(sim.step, good.T), "actions: the shape is (4, 5) and must be (5, 4) or (4,)")
+        self.assertEqual(self.refused(sim.step, numpy.zeros((0, 4))), "actions: the shape is (0, 4) and must be (5, 4) or (4,)")
+        self.assertEqual(self.refused(sim.step, ["a"] * 4), "actions: numbers are expected, <U1 was given")
+        self.assertEqual(self.refused(sim.step, [[0, 0], [0]]), "actions: rows of numbers are expected")
+        self.assertEqual(self.refused(sim.step, None), "actions: numbers are expected, NoneType was given")
+        for dtype, name in ((complex, "complex128"), (bool, "bool"), (object, "object"), ("M8[s]", "datetime64[s]")):
+            self.assertEqual(self.refused(sim.step, numpy.zeros((5, 4), dtype=dtype)), f"actions: numbers are expected, {name} was given")
+        self.assertEqual(self.refused(sim.step, numpy.ma.masked_less(good, 1)), "actions: some are masked")
         for steps in (0, -1, 1.5, True, 2**32):
             self.assertEqual(self.refused(sim.step, good, steps), f"steps is {steps} and must be a whole number from 1 to 4294967295")
-        self.assertEqual(self.refused(sim.set_wind, (0, 0, NAN)), "aircraft 0: the wind is nan")
+        self.assertEqual(self.refused(sim.set_wind, (0, 0, NAN)), "aircraft 0: the wind is nan m/s and must be within +-1000")
+        self.assertEqual(self.refused(sim.set_wind, (0, -1e300, 0)), "aircraft 0: the wind is -1e+300 m/s and must be within +-1000")
         self.assertEqual(self.refused(sim.set_wind, (0, 0)), "wind: the shape is (2,) and must be (5, 3) or (3,)")
         self.assertEqual(sim.state.tobytes(), before.tobytes())
 
@@ -171,15 +188,17 @@ class Refusals(Told):
         sim = made()
         before = sim.state
         self.assertEqual(self.refused(sim.fly, 300, [17, 17, 2, 17, 17]),
-                         "aircraft 2: no steady level flight at 2.000000 m/s and 300.000000 m height")
-        self.assertEqual(self.refused(sim.fly, 0, 17), "aircraft 0: height is 0.000000 m and must be more than 0")
+                         "aircraft 2: no steady level flight at 2 m/s and 300 m height")
+        self.assertEqual(self.refused(sim.fly, 0, 17), "aircraft 0: height is 0 m and must be more than 0")
         self.assertEqual(self.refused(sim.fly, 300, NAN), "aircraft 0: airspeed is nan m/s and must be more than 0")
         self.assertEqual(self.refused(sim.fly, 300, 17, NAN), "aircraft 0: heading is nan")
         self.assertIn("no steady level flight", self.refused(sim.fly, 1e7, 17))
-        self.assertIn("airspeed: could not broadcast", self.refused(sim.fly, 300, [17, 17]))
-        self.assertIn("only: index 5 is out of bounds", self.refused(sim.fly, 300, 17, only=5))
-        self.assertIn("only: ", self.refused(sim.reset, only=[0.5]))
-        self.assertIn("only: ", self.refused(sim.reset, only=numpy.ones(4, dtype=bool)))
+        self.assertEqual(self.refused(sim.fly, 300, [17, 17]), "airspeed: the shape is (2,) and must be (5,), or one number is given")
+        self.assertEqual(self.refused(sim.fly, None, 17), "height: numbers are expected, NoneType was given")
+        for only in (5, -6, [0, 5], 1.5, [0.5], True, "all", [[0], [1, 2]], numpy.ones(4, dtype=bool), numpy.ones((5, 1), dtype=bool)):
+            for call in (lambda: sim.fly(300, 17, only=only), lambda: sim.reset(only=only), lambda: sim.set_state(before, only=only)):
+                self.assertEqual(self.refused(call), f"only is {only!r} and must be an index below 5, a list of them, or 5 bools")
+        sim.fly(300, 17, only=[])
         self.assertIn("seed is -1", self.refused(sim.reset, -1))
         self.assertEqual(sim.state.tobytes(), before.tobytes())
 
@@ -197,13 +216,18 @@ class Refusals(Told):
 
     def test_what_cannot_be_made_is_refused(self):
         make = fulmar_sim.Simulation
-        self.assertEqual(self.refused(make, ANACONDA, dt=0.2), "dt is 0.200000 s and must be in (0, 0.1] s")
+        self.assertEqual(self.refused(make, ANACONDA, dt=0.2), "dt is 0.2 s and must be in (0, 0.1] s")
         self.assertEqual(self.refused(make, ANACONDA, dt=NAN), "dt is nan s and must be in (0, 0.1] s")
         self.assertEqual(self.refused(make, ANACONDA, dt="fast"), "dt is 'fast' and must be a number")
         self.assertEqual(self.refused(make, ANACONDA, 0), "n is 0 and must be a whole number from 1 to 100000")
         self.assertIn("threads is 0", self.refused(make, ANACONDA, threads=0))
         self.assertEqual(self.refused(make, ANACONDA, turbulence="storm"), "turbulence is 'storm'; valid: none, light, moderate, severe")
-        self.assertEqual(self.refused(make, ANACONDA, origin_altitude=NAN), "origin_altitude is nan")
+        for altitude in (NAN, 20001, -1001):
+            self.assertEqual(self.refused(make, ANACONDA, origin_altitude=altitude), f"origin_altitude is {altitude} m and must be from -1000 to 20000")
+        self.assertEqual(self.refused(make, ANACONDA, dt=True), "dt is True and must be a number")
+        self.assertEqual(self.refused(make, ANACONDA, turbulence=numpy.zeros(2)), "turbulence is array([0., 0.]); valid: none, light, moderate, severe")
+        with self.assertRaisesRegex(TypeError, "unexpected keyword argument 'gust'"):
+            make(ANACONDA, gust=3)
 
     def test_a_fault_of_the_file_is_told_as_the_host_tells_it(self):
         lines = pathlib.Path(ANACONDA).read_text().splitlines()
@@ -215,7 +239,11 @@ class Refusals(Told):
                 told = self.refused(fulmar_sim.Simulation, bad)
                 self.assertIn(f"bad.yaml:{at + 1}: ", told)
                 self.assertIn(sentence, told)
-        self.assertIn("anaconda.yaml", self.refused(fulmar_sim.Simulation, "configs/airframes/anacoda.yaml"))
+        for name, sentence in (("none/anacoda.yaml", "there is no file none/anacoda.yaml. Did you mean 'fulmar:airframes/anaconda.yaml'?"),
+                               ("configs", "configs is a folder, not a file"), (5, "airframe is 5 and must be the name of a file"),
+                               (None, "airframe is None and must be the name of a file"), ("a\0b", "airframe is 'a\\x00b': no file is named so")):
+            self.assertEqual(self.refused(fulmar_sim.Simulation, name), sentence)
+        self.assertIn("hourglass.yaml:2: unknown field 'mission' of Airframe", self.refused(fulmar_sim.Simulation, "fulmar:missions/hourglass.yaml"))
         self.assertEqual(fulmar_sim.Simulation("fulmar:airframes/anaconda.yaml").n, 1)
 
     def test_a_child_process_is_told_that_the_threads_stayed_behind(self):
@@ -229,6 +257,62 @@ class Refusals(Told):
                 os._exit(0 if "made by another process" in str(error) else 2)
             os._exit(1)
         self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), 0)
+
+    def test_nobody_gets_at_what_is_freed_or_beyond_its_arrays(self):
+        sim = made()
+        for call in (lambda: copy.copy(sim), lambda: copy.deepcopy(sim), lambda: pickle.dumps(sim)):
+            self.assertEqual(self.refused(call), "a simulation cannot be copied or pickled: make another one and give it this one's state with set_state")
+        with self.assertRaises(AttributeError):
+            sim.n = 1
+        sim.row_names = ()
+        self.assertEqual(sim.state.shape, (5, 26))
+        kept = sim.state
+        kept[:] = NAN  # an array of its own
+        self.assertTrue(numpy.isfinite(sim.state).all())
+        self.refused(sim.__init__, ANACONDA, turbulence="storm")
+        for call in (lambda: sim.state, lambda: sim.trim, sim.reset, lambda: sim.fly(300, 17), lambda: sim.step([0] * 4), lambda: sim.set_wind([0] * 3)):
+            self.assertEqual(self.refused(call), "the simulation is gone")
+        sim.__del__()
+        sim.__init__(ANACONDA, 2)
+        self.assertEqual(sim.state.shape, (2, 26))
+        self.assertEqual(self.refused(lambda: fulmar_sim.Simulation.__new__(fulmar_sim.Simulation).state), "the simulation is gone")
+
+    def test_actions_that_another_thread_spoils_meanwhile_do_not_count(self):
+        sim, actions = made(threads=2), numpy.zeros((5, 4))
+        before = threading.Thread(target=lambda: [actions.fill(value) for value in (NAN, 0) * 20000])
+        before.start()
+        while before.is_alive():
+            try:
+                sim.step(actions)
+            except fulmar_sim.Error as error:
+                self.assertIn(" is nan", str(error))
+        self.assertTrue(numpy.isfinite(sim.state).all())
+
+    def test_a_long_step_is_one_and_can_be_interrupted(self):
+        sim, other = made(), made()
+        pieces, fulmar_sim._PIECE = fulmar_sim._PIECE, 35
+        try:
+            self.assertEqual(sim.step([0.5, 0, 0.1, 0], steps=50).tobytes(), other.step([0.5, 0, 0.1, 0], steps=20).tobytes() and
+                             other.step([0.5, 0, 0.1, 0], steps=30).tobytes())
+        finally:
+            fulmar_sim._PIECE = pieces
+        signal.setitimer(signal.ITIMER_REAL, 0.05)
+        signal.signal(signal.SIGALRM, lambda *_: (_ for _ in ()).throw(KeyboardInterrupt))
+        with self.assertRaises(KeyboardInterrupt):
+            sim.step([0.5, 0, 0.1, 0], steps=2**32 - 1)
+        self.assertTrue(numpy.isfinite(sim.state).all())
+
+
+class Page(unittest.TestCase):
+    def test_what_the_readme_shows_runs(self):
+        text = (pathlib.Path(__file__).parent.parent / "README.md").read_text()
+        blocks = re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)
+        self.assertEqual(len(blocks), 1)
+        names = {}
+        exec(blocks[0], names)
+        self.assertEqual(names["rows"].shape, (1000, 26))
+        columns = re.search(r"rows are \(n, (\d+)\)", fulmar_sim.Simulation.__doc__, re.I)
+        self.assertEqual(int(columns[1]), len(fulmar_sim.Simulation.row_names))
 
 
 unittest.main()

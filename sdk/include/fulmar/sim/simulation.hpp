@@ -19,6 +19,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -26,6 +27,13 @@
 #include "fulmar/sim/plant.hpp"
 
 namespace fulmar::sim {
+
+/// A number in a sentence.
+inline std::string shown(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.10g", value);
+  return text.data();
+}
 
 struct SimulationOptions {
   double origin_altitude_m = 0;  ///< above mean sea level, of height 0
@@ -97,7 +105,7 @@ class Simulation {
                                                              {"elevator_rad", c.elevator_rad},
                                                              {"rudder_rad", c.rudder_rad}}};
     for (const auto& [name, value] : all)
-      if (!std::isfinite(value)) return std::string(name) + " is " + std::to_string(value);
+      if (!std::isfinite(value)) return std::string(name) + " is " + shown(value);
     return "";
   }
   static std::string fault(const FlightState& s) {
@@ -114,7 +122,7 @@ class Simulation {
   /// Throws when no step can be so long.
   static void demand_step(double dt_s) {
     if (!(dt_s > 0 && dt_s <= longest_s))
-      throw std::invalid_argument("dt is " + std::to_string(dt_s) + " s and must be in (0, 0.1] s");
+      throw std::invalid_argument("dt is " + shown(dt_s) + " s and must be in (0, 0.1] s");
   }
 
  private:

@@ -131,6 +131,7 @@ class Simulation:
 
     row_names = _ROWS
     action_names = _ACTIONS
+    _sim, _n = None, 0
 
     def __init__(self, airframe, n=1, *, threads=1, dt=0.0025, seed=1, origin_altitude=0.0, turbulence="none"):
         self.__del__()  # what it was before
@@ -143,7 +144,7 @@ class Simulation:
             raise _told()
 
     def __del__(self):
-        sim, self._sim = getattr(self, "_sim", None), None
+        sim, self._sim = self._sim, None
         if sim:
             _delete(sim)
 
@@ -213,7 +214,7 @@ class Simulation:
         return rows
 
     def _call(self, function, *arguments):
-        if not getattr(self, "_sim", None):
+        if not self._sim:
             raise Error("the simulation is gone")
         if function(self._sim, *arguments):
             raise _told()

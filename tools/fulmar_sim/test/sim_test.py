@@ -279,7 +279,7 @@ class Refusals(Told):
 
     def test_actions_that_another_thread_spoils_meanwhile_do_not_count(self):
         sim, actions = made(threads=2), numpy.zeros((5, 4))
-        before = threading.Thread(target=lambda: [actions.fill(value) for value in (NAN, 0) * 20000])
+        before = threading.Thread(target=lambda: [actions.fill(value) for value in (NAN, 0) * 3000])
         before.start()
         while before.is_alive():
             try:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Aircraft steps per second of a batch through the library, by one thread and by two: the Anaconda in level
-// flight, 2.5 ms, no turbulence. bench_batch [--json]
+// Aircraft steps per second of a batch of 1000 through the library, by one thread and by two, with one step a
+// call and with 20: the Anaconda in level flight, 2.5 ms, no turbulence. bench_batch [--json | --asked]
+// Asked, it tells for each line `threads steps calls` on its standard input the ns of processor time that a
+// step of one aircraft takes (bench_batch.py).
 #include <time.h>
 
 #include <algorithm>
@@ -15,40 +17,62 @@ using namespace fulmar::sim;
 
 namespace {
 
-double now_s() {
+constexpr std::size_t n = 1000;
+
+double now_s(clockid_t clock) {
   timespec t{};
-  clock_gettime(CLOCK_MONOTONIC, &t);
+  clock_gettime(clock, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-double steps_per_second(const fulmar::Airframe& a, unsigned threads) {
-  constexpr std::size_t n = 1024;
-  constexpr unsigned steps = 20;
-  Batch batch(a, n, {.origin_altitude_m = 1387}, 1, threads);
-  std::vector<double> actions(n * action_columns), rows(n * row_columns);
-  for (std::size_t i = 0; i < n; ++i) {
-    batch[i].fly({0, 0, -300}, 0, 17);
-    const fulmar::Deflections d = batch[i].state().deflections;
-    const double all[] = {a.limits.throttle_cruise_frac, d.aileron, d.elevator, d.rudder};
-    std::copy(std::begin(all), std::end(all), &actions[i * action_columns]);
+struct Flight {
+  Batch batch;
+  std::vector<double> actions = std::vector<double>(n * action_columns);
+  std::vector<double> rows = std::vector<double>(n * row_columns);
+
+  Flight(const fulmar::Airframe& a, unsigned threads) : batch(a, n, {.origin_altitude_m = 1387}, 1, threads) {
+    for (std::size_t i = 0; i < n; ++i) {
+      batch[i].fly({0, 0, -300}, 0, 17);
+      const fulmar::Actuators c = batch[i].trim();
+      const double all[] = {c.throttle_frac, c.aileron_rad, c.elevator_rad, c.rudder_rad};
+      std::copy(std::begin(all), std::end(all), &actions[i * action_columns]);
+    }
   }
-  double best = 0;
-  for (int k = 0; k < 40; ++k) {
-    const double begin = now_s();
-    batch.step(actions, 0.0025, steps, rows);
-    best = std::max(best, n * steps / (now_s() - begin));
+
+  /// The least time of a call per step of one aircraft.
+  double step_s(clockid_t clock, unsigned steps, unsigned calls) {
+    double best = 1e9;
+    for (unsigned k = 0; k < calls; ++k) {
+      const double begin = now_s(clock);
+      batch.step(actions, 0.0025, steps, rows);
+      best = std::min(best, now_s(clock) - begin);
+    }
+    return best / (n * steps);
   }
-  return best;
-}
+};
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bool json = argc > 1 && std::strcmp(argv[1], "--json") == 0;
+  const auto is = [&](const char* option) { return argc > 1 && std::strcmp(argv[1], option) == 0; };
   const fulmar::Airframe a = fulmar::test::airframe_file("anaconda");
-  const double one = steps_per_second(a, 1), two = steps_per_second(a, 2);
-  std::printf(json ? "{\"one_thread_per_s\": %.0f, \"two_threads_per_s\": %.0f}\n"
-                   : "one thread   %9.0f aircraft steps per second\ntwo threads  %9.0f\n",
-              one, two);
+  Flight one(a, 1), two(a, 2);
+  if (is("--asked")) {
+    unsigned threads = 0, steps = 0, calls = 0;
+    while (std::scanf("%u %u %u", &threads, &steps, &calls) == 3) {
+      std::printf("%.2f\n", 1e9 * (threads == 1 ? one : two).step_s(CLOCK_PROCESS_CPUTIME_ID, steps, calls));
+      std::fflush(stdout);
+    }
+    return 0;
+  }
+  const char* between = is("--json") ? "{" : "";
+  for (const unsigned threads : {1u, 2u})
+    for (const unsigned steps : {1u, 20u}) {
+      std::printf(is("--json") ? "%s\"threads_%u_steps_%u_per_s\": %.0f"
+                               : "%s%u threads, %2u steps a call  %9.0f aircraft steps per second\n",
+                  between, threads, steps, 1 / (threads == 1 ? one : two).step_s(CLOCK_MONOTONIC, steps, 60));
+      if (is("--json")) between = ", ";
+    }
+  if (is("--json")) std::printf("}\n");
   return 0;
 }

@@ -43,6 +43,14 @@ speed() { # speed MISSION: median of five runs, log written, all threads on one 
   echo "|---|---|---|"
   build/bin/bench_steps | sed -E 's/^(.*[^ ]) +([0-9]+) +([0-9]+) ns$/| \1 | \2 | \3 |/'
   echo
+  if [ -e build/lib/libfulmar_sim.so ]; then
+    echo "## What a batch costs"
+    echo
+    echo "\`bench/bench_batch.py\`: nanoseconds of processor time per step of one aircraft of 1000 through the library, from Python beside the same from C++, in turns."
+    echo
+    PYTHONPATH=build/lib/python /usr/bin/python3 bench/bench_batch.py
+    echo
+  fi
   echo "## What isolation costs"
   echo
   echo "\`build/bin/bench_isolation\`: a step in a child process beside a bare round trip between two processes of the same run."

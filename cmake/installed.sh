@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # What a user gets: an installed prefix and the pair of Debian packages. In each, outside the tree: a new plugin for every role is written,
-# built with warnings as errors, tested and flown; a plugin is built by pkg-config alone; the debugger stops in a plugin in flight.
+# built with warnings as errors, tested and flown; a plugin is built by pkg-config alone; the debugger stops in a plugin in flight; the
+# model as a library flies from C++ and from Python.
 #   installed.sh [BUILD]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -59,6 +60,29 @@ geodesy() {
     quietly cmake --preset default -DFULMAR_GEOGRAPHIC_LIBRARY=OFF
   )
   echo "  geodesy: one word links it, and nobody else needs GeographicLib"
+}
+
+# model_library PREFIX: a project that is no plugin links fulmar::sim and flies, with nothing of the host; so does the Python module.
+model_library() {
+  local prefix=$1 folder said
+  folder=$(dirname "$(find "$prefix" -path '*/dist-packages/fulmar_sim' -print -quit)")
+  cp -r "$prefix/share/fulmar/examples/batch" .
+  (
+    cd batch
+    quietly cmake -B build -G Ninja -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_FLAGS="-Wall -Wextra -Wpedantic -Werror"
+    quietly cmake --build build
+    quietly ./build/best_turn
+    grep -q '^14 deg of aileron: ' "$scratch/output.log" || { cat "$scratch/output.log"; fail "best_turn flies otherwise"; }
+    if ldd build/best_turn | grep -E 'not found|fastrtps|libssl'; then fail "the model needs more than it should"; fi
+  )
+  /usr/bin/python3 -c 'import numpy' 2>/dev/null || { echo "  fulmar::sim: an outside project steps; no numpy here: the module was not tried"; return; }
+  said=$(cd / && PYTHONPATH=$folder /usr/bin/python3 -B -c '
+import fulmar_sim
+sim = fulmar_sim.Simulation("fulmar:airframes/anaconda.yaml", n=3, threads=2)
+sim.fly(100, 17)
+print(fulmar_sim.__file__, *sim.step(sim.trim, steps=400)[:, 0].round(2))') || fail "the installed module does not fly"
+  [ "$said" = "$folder/fulmar_sim/__init__.py 17.0 17.0 17.0" ] || fail "the installed module: $said"
+  echo "  fulmar::sim: an outside project steps; so does import fulmar_sim"
 }
 
 # other_law NAME ROLE: an author writes a law of his own in place of the generated one: its test still passes, since it states the contract.
@@ -141,6 +165,7 @@ usable() {
   project "$prefix" my_sensor "--duration 60" --template sensor
   project "$prefix" my_planner "" --template planner
   geodesy "$prefix"
+  model_library "$prefix"
   by_pkg_config "$prefix"
   in_debugger "$prefix" my_outer
   other_law my_outer outer

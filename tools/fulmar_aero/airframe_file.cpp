@@ -11,7 +11,6 @@
 #include "fulmar/flight/trim.hpp"
 #include "fulmar/schema.hpp"
 #include "fulmar/sim/airframe_rules.hpp"
-#include "tools/fulmar_aero/findings.hpp"
 
 namespace fulmar::aero {
 namespace {
@@ -92,6 +91,18 @@ void refuse_tables(const AirframeFile& file, core::Report& report) {
 }
 
 }  // namespace
+
+std::string shown_field(const std::string& field) {
+  std::string out;
+  for (std::size_t begin = 0; begin <= field.size();) {
+    const std::size_t dot = std::min(field.find('.', begin), field.size());
+    const std::string step = field.substr(begin, dot - begin);
+    const auto split = core::split_suffix(step);
+    out += (out.empty() ? "" : ".") + (split ? split->name : step);
+    begin = dot + 1;
+  }
+  return out;
+}
 
 core::Where AirframeFile::where(const std::string& field) const {
   core::Where at{name, 0};

@@ -23,4 +23,7 @@ struct AirframeFile {
 /// file:line for every fault; one of them is a value of which no model can be made, such as a negative mass.
 AirframeFile read_airframe_file(const std::string& name);
 
+/// "aero.pitch.alpha_ratio" -> "aero.pitch.alpha"
+std::string shown_field(const std::string& field);
+
 }  // namespace fulmar::aero

@@ -97,18 +97,6 @@ void check_loading(Findings& f) {
 
 }  // namespace
 
-std::string shown_field(const std::string& field) {
-  std::string out;
-  for (std::size_t begin = 0; begin <= field.size();) {
-    const std::size_t dot = std::min(field.find('.', begin), field.size());
-    const std::string step = field.substr(begin, dot - begin);
-    const auto split = core::split_suffix(step);
-    out += (out.empty() ? "" : ".") + (split ? split->name : step);
-    begin = dot + 1;
-  }
-  return out;
-}
-
 void check_body(Findings& f) {
   const Inertia& i = f.file().airframe.inertia;
   check_loading(f);

@@ -73,7 +73,4 @@ void check_parts(Findings& findings);                      ///< servos, propelle
 void check_stability(Findings& findings);                  ///< static margin, control power
 void check_flight(Findings& findings, double altitude_m);  ///< trim from the stall to the top speed, modes
 
-/// "aero.pitch.alpha_ratio" -> "aero.pitch.alpha"
-std::string shown_field(const std::string& field);
-
 }  // namespace fulmar::aero

@@ -126,6 +126,50 @@ TEST_CASE("a state that was set is the one that is read, surfaces and propeller 
   CHECK(row(b)[13] == doctest::Approx(b.air_data().Va));
 }
 
+TEST_CASE("its trim keeps it in the steady flight that it began with") {
+  SimulationOptions calm = windy();
+  calm.weather.turbulence = Turbulence::none;
+  Simulation sim(anaconda(), calm);
+  REQUIRE(sim.fly({0, 0, -300}, 0, 17));
+  for (int i = 0; i < 800; ++i) sim.step(sim.trim(), dt);
+  CHECK((sim.body().p_n - Eigen::Vector3d((17 + 3) * 2, -4 * 2, -300)).norm() < 0.1);
+}
+
+TEST_CASE("what has crashed stays there until it is put elsewhere") {
+  Simulation sim = flying(7);
+  const FlightState begin = sim.state();
+  while (!sim.plant().crashed() && sim.time_s() < 60) sim.step({0, 0, 0.3, 0}, dt);
+  REQUIRE(sim.plant().crashed());
+  const Eigen::Vector3d wreck = sim.body().p_n;
+  sim.step({1, 0, 0, 0}, dt);
+  CHECK(sim.body().p_n == wreck);
+  Simulation standing = sim, again = sim;
+  standing.stand(0, 0, 0);
+  CHECK_FALSE(standing.plant().crashed());
+  REQUIRE(again.fly({0, 0, -300}, 0, 17));
+  CHECK_FALSE(again.plant().crashed());
+  sim.set(begin);
+  sim.step({0.5, 0, 0, 0}, dt);
+  CHECK_FALSE(sim.plant().crashed());
+  CHECK((sim.body().p_n - begin.body.p_n - dt * begin.body.v_n).norm() < 1e-3);
+}
+
+TEST_CASE("what has left the model says so and stays as it is until it is put elsewhere") {
+  Simulation sim = flying(7);
+  FlightState s = sim.state();
+  s.body.omega_b.y() = 9e4;  // within what may be set, and no step of 2.5 ms resolves it
+  sim.set(s);
+  sim.step({0.5, 0, 0, 0}, dt);
+  REQUIRE(sim.plant().departure() == Departure::diverged);
+  CHECK(row(sim)[25] == 1);
+  const Row left = row(sim);
+  sim.step({0.5, 0, 0, 0}, dt);
+  CHECK(same(row(sim), left));
+  REQUIRE(sim.fly({0, 0, -300}, 0, 17));
+  sim.step({0.5, 0, 0, 0}, dt);
+  CHECK(row(sim)[25] == 0);
+}
+
 TEST_CASE("a step takes nothing from the heap") {
   Simulation sim = flying(7);
   CHECK(allocations([&] {
@@ -138,7 +182,7 @@ TEST_CASE("what is no command, step or state is refused, and nothing has moved")
   const Row before = row(sim);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK(refusal([&] { sim.step({0.5, 0, nan, 0}, dt); }) == "elevator_rad is nan");
-  CHECK(refusal([&] { sim.step({0.5, 0, 0, 0}, 0); }) == "dt is 0.000000 s and must be in (0, 0.1] s");
+  CHECK(refusal([&] { sim.step({0.5, 0, 0, 0}, 0); }) == "dt is 0 s and must be in (0, 0.1] s");
   CHECK(refusal([&] { sim.step({0.5, 0, 0, 0}, 0.11); }) != "");
   FlightState s = sim.state();
   s.body.v_n.y() = nan;
@@ -146,6 +190,10 @@ TEST_CASE("what is no command, step or state is refused, and nothing has moved")
   s = sim.state();
   s.body.q_nb.w() = 3;
   CHECK(refusal([&] { sim.set(s); }) == "the attitude's quaternion is not of length 1");
+  s = sim.state();
+  s.body.p_n.x() = 2e8;
+  CHECK(refusal([&] { sim.set(s); }) ==
+        "the state is beyond the model, which ends at 1e5 m/s and rad/s and 1e8 m from the origin");
   CHECK(same(row(sim), before));
 }
 
@@ -194,10 +242,10 @@ TEST_CASE("arrays of another shape, numbers that are none and empty batches are 
   const auto step = [&](std::size_t a, std::size_t r) {
     return refusal([&] { batch.step({actions.data(), a}, dt, 1, {rows.data(), r}); });
   };
-  CHECK(step(7, 50) == "actions: 2 x 4 numbers are expected, 7 were given");
-  CHECK(step(8, 49) == "rows: 2 x 25 numbers are expected, 49 were given");
+  CHECK(step(7, 52) == "actions: 2 x 4 numbers are expected, 7 were given");
+  CHECK(step(8, 49) == "rows: 2 x 26 numbers are expected, 49 were given");
   actions[5] = std::numeric_limits<double>::infinity();
-  CHECK(step(8, 50) == "aircraft 1: aileron_rad is inf");
+  CHECK(step(8, 52) == "aircraft 1: aileron_rad is inf");
   batch.rows(rows);
   CHECK(rows == before);
   CHECK(refusal([] { Batch none(anaconda(), 0); }) == "a batch has one aircraft or more");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Many aircraft, stepped in one call by several threads. Arrays are row-major, one row an aircraft: actions
-// N x 4, rows N x 25 (simulation.hpp). Each aircraft flies by itself, so that the number of threads changes
+// N x 4, rows N x 26 (simulation.hpp). Each aircraft flies by itself, so that the number of threads changes
 // no bit of what they do.
 #pragma once
 #include <algorithm>
@@ -29,16 +29,14 @@ class Batch {
     if (threads == 0 || threads > 256) throw std::invalid_argument("a batch has 1 to 256 threads");
     all_.reserve(count);
     for (std::size_t i = 0; i < count; ++i) all_.emplace_back(a, options, mix_seed(seed, i));
-    for (unsigned t = 1; t < threads; ++t) helpers_.emplace_back([this, t] { help(t); });
-  }
-  ~Batch() {
-    {
-      const std::lock_guard lock(mutex_);
-      over_ = true;
+    try {
+      for (unsigned t = 1; t < threads; ++t) helpers_.emplace_back([this, t] { help(t); });
+    } catch (...) {  // the system gives no more threads: those that run already have to end
+      join();
+      throw;
     }
-    begin_.notify_all();
-    for (std::thread& t : helpers_) t.join();
   }
+  ~Batch() { join(); }
   Batch(const Batch&) = delete;
   Batch& operator=(const Batch&) = delete;
 
@@ -54,8 +52,7 @@ class Batch {
       if (!std::isfinite(actions[k]))
         throw std::invalid_argument("aircraft " + std::to_string(k / action_columns) + ": " +
                                     Simulation::fault(action(&actions[k - k % action_columns])));
-    if (!(dt_s > 0 && dt_s <= Simulation::longest_s))
-      throw std::invalid_argument("dt is " + std::to_string(dt_s) + " s and must be in (0, 0.1] s");
+    Simulation::demand_step(dt_s);
     work_ = {actions.data(), rows.data(), dt_s, steps};
     {
       const std::lock_guard lock(mutex_);
@@ -79,6 +76,15 @@ class Batch {
     double dt_s = 0;
     unsigned steps = 0;
   };
+
+  void join() {
+    {
+      const std::lock_guard lock(mutex_);
+      over_ = true;
+    }
+    begin_.notify_all();
+    for (std::thread& t : helpers_) t.join();
+  }
 
   static Actuators action(const double* a) { return {a[0], a[1], a[2], a[3]}; }
 

@@ -68,6 +68,7 @@ class Plant {
   /// At rest on the ground.
   void stand(double north_m, double east_m, double heading_rad) {
     x_ = RigidBody{};
+    begin_anew();
     const Standing& at = ground_.standing();
     x_.p_n = {north_m, east_m, -at.height_m};
     x_.q_nb = Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ());
@@ -85,7 +86,8 @@ class Plant {
     const Trim trim =
         trimmed_flight(airframe_, Va, air_at(altitude_m).density_kgm3, 0, gravity_at(altitude_m));
     if (!trim.found) return false;
-    ground_ = Ground(airframe_, earth_.terrain.friction_ratio);
+    trim_ = trim;
+    begin_anew();
     x_ = RigidBody{};
     x_.p_n = p_n;
     x_.q_nb = Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()) *
@@ -103,6 +105,9 @@ class Plant {
     refresh();
     return true;
   }
+
+  /// Of the last `fly`.
+  const Trim& trim() const { return trim_; }
 
   /// One step. `power` is the share of the battery's full voltage that the throttle deals out: 0 stops the
   /// motor whatever it says.
@@ -155,8 +160,10 @@ class Plant {
 
   /// Back (or on) along the present velocity.
   void shift(double seconds) { x_.p_n += seconds * x_.v_n; }
+  /// Whatever has crashed or left the model flies again.
   void set_state(const RigidBody& x) {
     x_ = x;
+    if (ground_.crashed() || departure_ != Departure::none) begin_anew();
     refresh();
   }
   /// Where servos and propeller are, before `set_state`.
@@ -245,6 +252,12 @@ class Plant {
     J.diagonal() << a.inertia.xx_kgm2, a.inertia.yy_kgm2, a.inertia.zz_kgm2;
     J(0, 2) = J(2, 0) = -a.inertia.xz_kgm2;
     return J;
+  }
+
+  /// Nothing touches the ground, nothing has broken.
+  void begin_anew() {
+    ground_ = Ground(airframe_, earth_.terrain.friction_ratio);
+    departure_ = Departure::none;
   }
 
   double motor_decay(double dt) {
@@ -415,6 +428,7 @@ class Plant {
   RotatingEarth turning_;
   LocalLevel level_;  ///< at the place at which the present step began
 
+  Trim trim_;
   RigidBody x_, seen_;
   Eigen::Vector3d g_n_ = Eigen::Vector3d::Zero();  ///< of what is free
   Air air_;

@@ -2,20 +2,24 @@
 // One simulated aircraft without host, mission and sensors: what `sim_aero` flies, for model-based control,
 // learning and tests.
 //
-//   Simulation sim(airframe, {.origin_altitude_m = 1387}, 7);
+//   Simulation sim(read_airframe("fulmar:airframes/anaconda.yaml"), {.origin_altitude_m = 1387}, 7);
 //   sim.fly({0, 0, -100}, 0, 17);                         // north, east, down; heading; airspeed
 //   Simulation what_if = sim;                             // a copy is a fork: it flies on by itself
-//   sim.step({.throttle_frac = 0.6, .elevator_rad = 0.05}, 0.0025);
+//   Actuators command = sim.trim();
+//   command.aileron_rad += 0.05;
+//   sim.step(command, 0.0025);
 //   sim.body().v_n;
 //
 // A value: no pointer, no thread, no allocation in a step. The same seed, start and commands give the same
 // flight to the bit. Only `step` and `set` refuse, by std::invalid_argument and before anything has moved.
+// What has crashed or left the model (departure.hpp) stays as it is until `reset`, `stand`, `fly` or `set`.
 #pragma once
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -23,6 +27,13 @@
 #include "fulmar/sim/plant.hpp"
 
 namespace fulmar::sim {
+
+/// A number in a sentence.
+inline std::string shown(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.10g", value);
+  return text.data();
+}
 
 struct SimulationOptions {
   double origin_altitude_m = 0;  ///< above mean sea level, of height 0
@@ -59,14 +70,15 @@ class Simulation {
     return plant_.fly(p_n, heading_rad, Va);
   }
 
+  /// The command that keeps it in the steady flight of the last `fly`.
+  Actuators trim() const {
+    const Trim& t = plant_.trim();
+    return {t.throttle_frac, t.deflections.aileron, t.deflections.elevator, t.deflections.rudder};
+  }
+
   FlightState state() const { return {plant_.state(), plant_.deflections(), plant_.propeller_radps()}; }
   void set(const FlightState& s) {
-    if (!s.body.p_n.allFinite() || !s.body.v_n.allFinite() || !s.body.omega_b.allFinite() ||
-        !std::isfinite(s.deflections.aileron + s.deflections.elevator + s.deflections.rudder) ||
-        !std::isfinite(s.propeller_radps))
-      throw std::invalid_argument("the state has a number that is not finite");
-    if (!(std::abs(s.body.q_nb.norm() - 1) < 1e-6))
-      throw std::invalid_argument("the attitude's quaternion is not of length 1");
+    if (const std::string wrong = fault(s); !wrong.empty()) throw std::invalid_argument(wrong);
     plant_.set_drives(s.deflections, s.propeller_radps);
     plant_.set_state(s.body);
   }
@@ -74,9 +86,8 @@ class Simulation {
   /// One step of the plant. Deflections and throttle beyond their range are limited, as servos do.
   void step(const Actuators& command, double dt_s) {
     if (const std::string wrong = fault(command); !wrong.empty()) throw std::invalid_argument(wrong);
-    if (!(dt_s > 0 && dt_s <= longest_s))
-      throw std::invalid_argument("dt is " + std::to_string(dt_s) + " s and must be in (0, 0.1] s");
-    plant_.advance(command, 1, dt_s);
+    demand_step(dt_s);
+    if (plant_.departure() == Departure::none) plant_.advance(command, 1, dt_s);
     time_s_ += dt_s;
   }
 
@@ -87,15 +98,31 @@ class Simulation {
   Plant& plant() { return plant_; }  ///< wind, faults, icing
   const Airframe& airframe() const { return airframe_; }
 
-  /// The command as a sentence tells what is wrong with it; "" when nothing is.
+  /// What is wrong with a command or a state; "" when nothing is.
   static std::string fault(const Actuators& c) {
     const std::array<std::pair<const char*, double>, 4> all{{{"throttle_frac", c.throttle_frac},
                                                              {"aileron_rad", c.aileron_rad},
                                                              {"elevator_rad", c.elevator_rad},
                                                              {"rudder_rad", c.rudder_rad}}};
     for (const auto& [name, value] : all)
-      if (!std::isfinite(value)) return std::string(name) + " is " + std::to_string(value);
+      if (!std::isfinite(value)) return std::string(name) + " is " + shown(value);
     return "";
+  }
+  static std::string fault(const FlightState& s) {
+    if (!s.body.p_n.allFinite() || !s.body.v_n.allFinite() || !s.body.omega_b.allFinite() ||
+        !std::isfinite(s.deflections.aileron + s.deflections.elevator + s.deflections.rudder) ||
+        !std::isfinite(s.propeller_radps))
+      return "the state has a number that is not finite";
+    if (!(std::abs(s.body.q_nb.norm() - 1) < 1e-6)) return "the attitude's quaternion is not of length 1";
+    if (diverged(s.body))
+      return "the state is beyond the model, which ends at 1e5 m/s and rad/s and 1e8 m from the origin";
+    return "";
+  }
+
+  /// Throws when no step can be so long.
+  static void demand_step(double dt_s) {
+    if (!(dt_s > 0 && dt_s <= longest_s))
+      throw std::invalid_argument("dt is " + shown(dt_s) + " s and must be in (0, 0.1] s");
   }
 
  private:
@@ -109,11 +136,14 @@ class Simulation {
   double time_s_ = 0;
 };
 
-/// A row of what a flight looks like, for arrays: north, east, down; their velocities; attitude w x y z; body
-/// rate; airspeed, angle of attack, sideslip; specific force; aileron, elevator, rudder; propeller; 1 on the
-/// ground; 1 when crashed. SI, rad.
-inline constexpr std::size_t row_columns = 25;
-inline constexpr std::size_t action_columns = 4;  ///< throttle, aileron, elevator, rudder
+/// A row of what a flight looks like, for arrays. on_ground and crashed are 0 or 1, departed is a Departure.
+inline constexpr char row_names[] =
+    "north_m east_m down_m v_north_mps v_east_mps v_down_mps q_w q_x q_y q_z p_radps q_radps r_radps "
+    "airspeed_mps alpha_rad beta_rad f_x_mps2 f_y_mps2 f_z_mps2 aileron_rad elevator_rad rudder_rad "
+    "propeller_radps on_ground crashed departed";
+inline constexpr char action_names[] = "throttle_frac aileron_rad elevator_rad rudder_rad";
+inline constexpr std::size_t row_columns = 26;
+inline constexpr std::size_t action_columns = 4;
 
 inline void write_row(const Simulation& sim, double* row) {
   const RigidBody& x = sim.body();
@@ -144,7 +174,8 @@ inline void write_row(const Simulation& sim, double* row) {
                                             d.rudder,
                                             sim.plant().propeller_radps(),
                                             sim.plant().on_ground() ? 1.0 : 0.0,
-                                            sim.plant().crashed() ? 1.0 : 0.0};
+                                            sim.plant().crashed() ? 1.0 : 0.0,
+                                            static_cast<double>(sim.plant().departure())};
   std::copy(all.begin(), all.end(), row);
 }
 

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An airframe out of its YAML file, as the host reads it. The one part of the model that is not header-only:
+// it needs lib/libfulmar_sim.so, which the CMake target fulmar::sim links.
+#pragma once
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+
+#include "fulmar/msg/airframe.hpp"
+
+extern "C" {
+/// 0, or 1 when it is refused.
+int fulmar_sim_read_airframe(const char* name, void* airframe, std::size_t size);
+/// What the last refusal of this thread said.
+const char* fulmar_sim_error();
+}
+
+namespace fulmar::sim {
+
+/// `name`: a file, or one that is shipped, as in fulmar:airframes/anaconda.yaml. Throws std::invalid_argument
+/// with file:line for every fault.
+inline Airframe read_airframe(const std::string& name) {
+  Airframe a;
+  if (fulmar_sim_read_airframe(name.c_str(), &a, sizeof a) != 0)
+    throw std::invalid_argument(fulmar_sim_error());
+  return a;
+}
+
+}  // namespace fulmar::sim

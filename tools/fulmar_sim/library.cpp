@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// lib/libfulmar_sim.so: the model behind C functions, for the Python package beside it, and the reader of
+// airframe files for C++ (fulmar/sim/airframe_file.hpp).
+//
+// Functions that return int give 0, or 1 after a refusal, whose sentence is `fulmar_sim_error()` of the same
+// thread. What is refused has moved nothing. Arrays are row-major, one row an aircraft; `only` says of each
+// whether it is meant, null means all.
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstring>
+#include <iterator>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "fulmar/sim/airframe_file.hpp"
+#include "fulmar/sim/batch.hpp"
+#include "tools/fulmar_aero/airframe_file.hpp"
+
+using namespace fulmar;
+
+struct fulmar_sim {
+  sim::Batch batch;
+  double dt_s;
+  std::vector<Eigen::Vector3d> wind_n;
+  bool alone;  // no thread but the caller's
+  std::mutex mutex{};
+  pid_t maker = getpid();
+
+  bool is_copy() const { return !alone && getpid() != maker; }
+};
+
+namespace {
+
+thread_local std::string last_error;
+
+/// `call`, whose exceptions end here as a sentence.
+template <class Call>
+int guarded(Call call) noexcept {
+  try {
+    call();
+    return 0;
+  } catch (const std::bad_alloc&) {
+    last_error = "there is not enough memory for it";
+  } catch (const std::exception& e) {
+    last_error = e.what();
+  } catch (...) {
+    last_error = "an unknown error";
+  }
+  return 1;
+}
+
+/// The same with a simulation, one call at a time.
+template <class Call>
+int guarded(fulmar_sim* all, Call call) noexcept {
+  return guarded([&] {
+    if (all->is_copy())
+      throw std::invalid_argument(
+          "the simulation was made by another process, whose threads did not come along: make one here");
+    const std::lock_guard lock(all->mutex);
+    call(*all);
+  });
+}
+
+void demand(bool right, const std::string& sentence) {
+  if (!right) throw std::invalid_argument(sentence);
+}
+
+bool is_meant(const bool* only, std::size_t i) { return !only || only[i]; }
+
+void fly(sim::Simulation& aircraft, double height_m, double airspeed_mps, double heading_rad) {
+  const std::string height = sim::shown(height_m), airspeed = sim::shown(airspeed_mps);
+  demand(std::isfinite(height_m) && height_m > 0, "height is " + height + " m and must be more than 0");
+  demand(std::isfinite(airspeed_mps) && airspeed_mps > 0,
+         "airspeed is " + airspeed + " m/s and must be more than 0");
+  demand(std::isfinite(heading_rad), "heading is " + sim::shown(heading_rad));
+  demand(aircraft.fly({0, 0, -height_m}, heading_rad, airspeed_mps),
+         "no steady level flight at " + airspeed + " m/s and " + height + " m height");
+}
+
+}  // namespace
+
+#pragma GCC visibility push(default)
+extern "C" {
+
+const char* fulmar_sim_error() { return last_error.c_str(); }
+const char* fulmar_sim_rows_are() { return sim::row_names; }
+const char* fulmar_sim_actions_are() { return sim::action_names; }
+
+int fulmar_sim_read_airframe(const char* name, void* airframe, std::size_t size) {
+  return guarded([&] {
+    demand(size == sizeof(Airframe), "libfulmar_sim.so and the headers are of different releases");
+    const Airframe a = aero::read_airframe_file(name).airframe;
+    std::memcpy(airframe, &a, sizeof a);
+  });
+}
+
+/// Null when it is refused. At rest on the ground, heading north. `turbulence` is 0 (none) to 3 (severe).
+fulmar_sim* fulmar_sim_new(const char* airframe, std::size_t count, unsigned threads, double dt_s,
+                           double origin_altitude_m, unsigned turbulence, std::uint64_t seed) {
+  std::unique_ptr<fulmar_sim> made;
+  guarded([&] {
+    sim::Simulation::demand_step(dt_s);
+    demand(origin_altitude_m >= -1000 && origin_altitude_m <= 20000,
+           "origin_altitude is " + sim::shown(origin_altitude_m) + " m and must be from -1000 to 20000");
+    sim::SimulationOptions options;
+    options.origin_altitude_m = origin_altitude_m;
+    options.weather.turbulence = static_cast<Turbulence>(turbulence);
+    made.reset(new fulmar_sim{{sim::read_airframe(airframe), count, options, seed, threads},
+                              dt_s,
+                              std::vector<Eigen::Vector3d>(count, Eigen::Vector3d::Zero()),
+                              threads == 1});
+  });
+  return made.release();
+}
+
+void fulmar_sim_delete(fulmar_sim* all) {
+  if (!all->is_copy()) delete all;  // there, nobody could wait for the threads
+}
+
+/// As made anew; aircraft i draws from mix_seed(seed, i). The wind stays.
+int fulmar_sim_reset(fulmar_sim* all, const bool* only, std::uint64_t seed) {
+  return guarded(all, [&](fulmar_sim& s) {
+    for (std::size_t i = 0; i < s.batch.size(); ++i) {
+      if (!is_meant(only, i)) continue;
+      s.batch[i].reset(mix_seed(seed, i));
+      s.batch[i].plant().set_wind(s.wind_n[i]);
+    }
+  });
+}
+
+/// Into steady level flight above the origin; `starts` is height, airspeed, heading.
+int fulmar_sim_fly(fulmar_sim* all, const bool* only, const double* starts) {
+  return guarded(all, [&](fulmar_sim& s) {
+    std::vector<std::pair<std::size_t, sim::Simulation>> flying;
+    for (std::size_t i = 0; i < s.batch.size(); ++i) {
+      if (!is_meant(only, i)) continue;
+      flying.emplace_back(i, s.batch[i]);
+      try {
+        fly(flying.back().second, starts[3 * i], starts[3 * i + 1], starts[3 * i + 2]);
+      } catch (const std::invalid_argument& e) {
+        throw std::invalid_argument("aircraft " + std::to_string(i) + ": " + e.what());
+      }
+    }
+    for (auto& [i, aircraft] : flying) s.batch[i] = aircraft;
+  });
+}
+
+/// Into `actions` what keeps each in the steady flight of its last `fly`.
+int fulmar_sim_trim(fulmar_sim* all, double* actions) {
+  return guarded(all, [&](fulmar_sim& s) {
+    for (std::size_t i = 0; i < s.batch.size(); ++i) {
+      const Actuators a = s.batch[i].trim();
+      const double row[] = {a.throttle_frac, a.aileron_rad, a.elevator_rad, a.rudder_rad};
+      std::copy(std::begin(row), std::end(row), actions + i * sim::action_columns);
+    }
+  });
+}
+
+/// Velocity of the air, north, east, down.
+int fulmar_sim_set_wind(fulmar_sim* all, const double* wind_n) {
+  return guarded(all, [&](fulmar_sim& s) {
+    const std::size_t n = s.batch.size();
+    for (std::size_t k = 0; k < 3 * n; ++k)
+      demand(std::abs(wind_n[k]) <= 1000, "aircraft " + std::to_string(k / 3) + ": the wind is " +
+                                              sim::shown(wind_n[k]) + " m/s and must be within +-1000");
+    for (std::size_t i = 0; i < n; ++i) {
+      s.wind_n[i] = {wind_n[3 * i], wind_n[3 * i + 1], wind_n[3 * i + 2]};
+      s.batch[i].plant().set_wind(s.wind_n[i]);
+    }
+  });
+}
+
+/// `steps` steps under these actions, then the rows.
+int fulmar_sim_step(fulmar_sim* all, const double* actions, unsigned steps, double* rows) {
+  return guarded(all, [&](fulmar_sim& s) {
+    const std::size_t n = s.batch.size();
+    s.batch.step(std::span(actions, n * sim::action_columns), s.dt_s, steps,
+                 std::span(rows, n * sim::row_columns));
+  });
+}
+
+int fulmar_sim_rows(fulmar_sim* all, double* rows) {
+  return guarded(all,
+                 [&](fulmar_sim& s) { s.batch.rows(std::span(rows, s.batch.size() * sim::row_columns)); });
+}
+
+/// Of rows, what `state_of_row` reads.
+int fulmar_sim_set_rows(fulmar_sim* all, const bool* only, const double* rows) {
+  return guarded(all, [&](fulmar_sim& s) {
+    for (const bool set : {false, true})  // look at all of them first
+      for (std::size_t i = 0; i < s.batch.size(); ++i) {
+        if (!is_meant(only, i)) continue;
+        const sim::FlightState state = sim::state_of_row(rows + i * sim::row_columns);
+        const std::string wrong = set ? "" : sim::Simulation::fault(state);
+        demand(wrong.empty(), "aircraft " + std::to_string(i) + ": " + wrong);
+        if (set) s.batch[i].set(state);
+      }
+  });
+}
+
+}  // extern "C"
+#pragma GCC visibility pop

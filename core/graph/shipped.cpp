@@ -11,7 +11,7 @@ namespace fulmar::core {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::string_view prefix = "fulmar:";
+constexpr std::string_view shipped_prefix = "fulmar:";
 
 /// Of an installation, or of the source tree that a program was built in. Empty when there is neither.
 fs::path shipped_folder() {
@@ -50,12 +50,12 @@ std::string near_files(const std::string& stem, const std::vector<fs::path>& fil
 
 }  // namespace
 
-bool is_shipped_name(const std::string& name) { return name.starts_with(prefix); }
+bool is_shipped_name(const std::string& name) { return name.starts_with(shipped_prefix); }
 
 fs::path named_file(const fs::path& folder, const std::string& name) {
   if (!is_shipped_name(name)) return (folder / name).lexically_normal();
   const fs::path shipped = shipped_folder();
-  return shipped.empty() ? fs::path(name) : (shipped / name.substr(prefix.size())).lexically_normal();
+  return shipped.empty() ? fs::path(name) : (shipped / name.substr(shipped_prefix.size())).lexically_normal();
 }
 
 std::string shipped_name(const fs::path& file) {
@@ -63,7 +63,7 @@ std::string shipped_name(const fs::path& file) {
   const fs::path shipped = fs::canonical(shipped_folder(), code), real = fs::canonical(file, code);
   if (code || shipped.empty()) return {};
   const fs::path rest = real.lexically_relative(shipped);
-  return rest.empty() || *rest.begin() == ".." ? std::string() : std::string(prefix) + rest.string();
+  return rest.empty() || *rest.begin() == ".." ? std::string() : std::string(shipped_prefix) + rest.string();
 }
 
 std::string file_hint(const fs::path& path, const std::string& name) {
@@ -77,7 +77,7 @@ std::string file_hint(const fs::path& path, const std::string& name) {
     if (const std::string hint = near_files(stem, beside, called); !hint.empty()) return hint;
   }
   return near_files(stem, yaml_files<fs::recursive_directory_iterator>(shipped), [&](const fs::path& file) {
-    return std::string(prefix) + file.lexically_relative(shipped).string();
+    return std::string(shipped_prefix) + file.lexically_relative(shipped).string();
   });
 }
 

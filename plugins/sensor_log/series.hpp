@@ -72,7 +72,7 @@ inline Series<Pitot> read_pitot(const PitotLog& description, Files& files) {
                                               : (p.unit == PitotUnit::hpa ? 100 : 1) * raw;
     Pitot pitot;
     pitot.pressure_pa = p.scale_ratio * (q - p.offset_pa);
-    pitot.indicated_airspeed_mps = std::sqrt(2 * std::max(pitot.pressure_pa, 0.0) / isa::sea_level_density);
+    pitot.indicated_airspeed_mps = indicated_airspeed(pitot.pressure_pa);
     return pitot;
   });
 }

@@ -135,7 +135,9 @@ TEST_CASE("a topic without a header is stamped by its recorder; both stamps of a
   CHECK(f.last.not_finite == 1);  // a stamp of 584 years
   d.baro.from.time = "publish_time", d.baro.from.unit = TimeUnit::ns;
   CHECK(flown(d, file("float32 x\n")).ticks_ns == std::vector<std::int64_t>{0, 1, 2});
-  d.baro.from.time = "log_time", d.baro.from.unit = TimeUnit::s;  // a field of that name comes first
+  d.baro.from.time = "log_time", d.baro.from.unit = TimeUnit::s;
+  CHECK(flown(d, file("float32 x\n")).fault.find("none of its 3 rows") != std::string::npos);
+  // a field of that name comes first
   CHECK(flown(d, file("float32 log_time\n")).fault.find("no column 'x' in /own of") != std::string::npos);
   d.baro.pressure.column = "log_time";
   CHECK(flown(d, file("float32 log_time\n")).ticks_ns ==
@@ -216,8 +218,11 @@ TEST_CASE("a chunk that is damaged, or is not as long as it says, is refused, no
     CHECK(said(records.size(), checksum ^ 1, name, zstd ? packed : records)
               .ends_with(": a chunk is damaged: its checksum is not that of its content"));
   }
+  const std::string untold = packed_zstd(records, false);
+  CHECK(said(records.size(), checksum, "zstd", untold) == "");
   for (const std::uint64_t size : {records.size() - 1, records.size() + 1, std::size_t{1} << 29})
-    CHECK(said(size, 0, "zstd", packed).ends_with(": a chunk is damaged"));
+    for (const std::string& each : {packed, untold})
+      CHECK(said(size, 0, "zstd", each).ends_with(": a chunk is damaged"));
   CHECK(
       said(records.size(), 0, "zstd", packed.substr(0, packed.size() - 1)).ends_with(": a chunk is damaged"));
   CHECK(said(std::uint64_t{1} << 40, 0, "zstd", packed).ends_with(": a chunk of more than 1 GB"));

@@ -72,9 +72,13 @@ inline std::uint32_t checksum_of(const std::string& bytes) {
     }
   return ~crc;
 }
-inline std::string packed_zstd(const std::string& plain) {
+/// `told`: the frame says how long its content is.
+inline std::string packed_zstd(const std::string& plain, bool told = true) {
   std::string packed(ZSTD_compressBound(plain.size()), '\0');
-  packed.resize(ZSTD_compress(packed.data(), packed.size(), plain.data(), plain.size(), 1));
+  ZSTD_CCtx* const context = ZSTD_createCCtx();
+  ZSTD_CCtx_setParameter(context, ZSTD_c_contentSizeFlag, told ? 1 : 0);
+  packed.resize(ZSTD_compress2(context, packed.data(), packed.size(), plain.data(), plain.size()));
+  ZSTD_freeCCtx(context);
   return packed;
 }
 /// A chunk of `size` bytes as it says itself, packed as `name` says.

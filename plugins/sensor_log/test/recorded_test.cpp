@@ -144,7 +144,8 @@ TEST_CASE("a pitot tube in pascal, hectopascal or as indicated airspeed says the
   }
   const Pitot backwards = one_pitot({{}, PitotUnit::pa}, "-3");
   CHECK(backwards.pressure_pa == -3);
-  CHECK(backwards.indicated_airspeed_mps == 0);
+  CHECK(backwards.indicated_airspeed_mps == Approx(-2.2131333).epsilon(1e-6));
+  CHECK(one_pitot({{}, PitotUnit::mps}, "-20").pressure_pa == Approx(-245).epsilon(1e-9));
 }
 
 TEST_CASE("units and axes of a fix") {

@@ -225,7 +225,7 @@ TEST_CASE("a batch flies as each of its aircraft alone, whatever the number of t
 
 TEST_CASE("one member of a batch begins anew, the others fly on") {
   Batch batch(anaconda(), 2, windy());
-  for (std::size_t i : {0, 1}) REQUIRE(batch[i].fly({0, 0, -300}, 0, 17));
+  for (std::size_t i : {0u, 1u}) REQUIRE(batch[i].fly({0, 0, -300}, 0, 17));
   std::vector<double> actions{0.5, 0, 0.1, 0, 0.5, 0, 0.1, 0}, rows(2 * row_columns);
   batch.step(actions, dt, 10, rows);
   batch[1].reset(3);

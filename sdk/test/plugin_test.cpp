@@ -424,6 +424,26 @@ TEST_CASE("the bench counts allocations and a plain step makes none") {
           std::vector<int> v(100);
           asm volatile("" ::"r"(v.data()) : "memory");
         }) == 1);
+#ifndef FULMAR_HEAP_OF_A_SANITIZER
+  const auto takes = [](auto&& of) {
+    return allocations([&] {
+      void* p = of();
+      asm volatile("" ::"r"(p) : "memory");
+      std::free(p);
+    });
+  };
+  CHECK(takes([] { return std::malloc(8); }) == 1);  // Eigen's matrices of dynamic size, C libraries
+  CHECK(takes([] { return std::calloc(2, 8); }) == 1);
+  CHECK(takes([] { return std::realloc(nullptr, 8); }) == 1);
+  CHECK(takes([] { return std::aligned_alloc(64, 64); }) == 1);
+  struct alignas(64) Wide {
+    double lanes[8];
+  };
+  CHECK(allocations([] {
+          auto wide = std::make_unique<Wide>();
+          asm volatile("" ::"r"(wide.get()) : "memory");
+        }) == 1);
+#endif
 }
 
 }  // namespace plugin_test

@@ -79,6 +79,36 @@ TEST_CASE("the X8's Dutch roll grows as its published inertia and derivatives ha
   CHECK(widest(period) / begin == Approx(std::exp(0.361 * 3 * period)).epsilon(0.1));
 }
 
+TEST_CASE("the X8 lies level on its belly, and slides to a halt as friction has it") {
+  const Airframe a = test::airframe_file("x8");
+  Plant plant(a, Weather{}, 0, 1);
+  const Actuators still{0, 0, 0, 0};
+  for (int i = 0; i < 4000; ++i) plant.advance(still, 1, 0.0025);
+  CHECK(-plant.state().p_n.z() == Approx(0.1).epsilon(0.05));
+  CHECK(std::abs(euler_from(plant.state().q_nb).pitch_rad) < 0.01);
+  CHECK(plant.state().v_n.norm() < 1e-3);
+  RigidBody sliding = plant.state();
+  sliding.v_n.x() = 3;
+  plant.set_state(sliding);
+  for (int i = 0; i < 1200; ++i) plant.advance(still, 1, 0.0025);
+  CHECK_FALSE(plant.crashed());
+  CHECK(plant.state().v_n.norm() < 0.05);
+  // v^2 / 2 mu g
+  CHECK(plant.state().p_n.x() == Approx(9 / (2 * 0.5 * 9.80665)).epsilon(0.1));
+}
+
+TEST_CASE("an elevon of the X8 stops where it does, which takes from roll and pitch") {
+  const Airframe a = test::airframe_file("x8");
+  Plant plant(a, Weather{}, 0, 1);
+  for (int i = 0; i < 800; ++i) plant.advance({0, 0.4, 0.4, 0}, 1, 0.0025);
+  // left: 0.8 rad, and its stop is at 35 deg; right: none
+  const double left = 35 * std::numbers::pi / 180;
+  CHECK(plant.servos().aileron == Approx(left));
+  CHECK(std::abs(plant.servos().elevator) < 1e-6);
+  CHECK(plant.deflections().aileron == Approx(left / 2));
+  CHECK(plant.deflections().elevator == Approx(left / 2));
+}
+
 TEST_CASE("a derivative that is added in flight changes the response as the linear model says, and back") {
   const Airframe a = anaconda();
   const auto b = airborne(a, 200);

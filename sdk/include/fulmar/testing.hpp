@@ -11,8 +11,8 @@
 // `bench.out` holds what the step published, and `bench.fault()` what is not finite or not in range in it. An
 // Out<T> has `written` set when it spoke; an OutQueue has its `count`. To count allocations, one source file
 // of the test program defines FULMAR_COUNT_ALLOCATIONS before it includes this header (without it the program
-// does not link); `allocations([&] { bench.step(0.01); })` is then the number of calls of operator new and
-// malloc in between.
+// does not link); `allocations([&] { bench.step(0.01); })` is then the number of calls of operator new,
+// malloc and its relatives in between; with a sanitizer of operator new alone.
 #ifndef FULMAR_TESTING_HPP
 #define FULMAR_TESTING_HPP
 #include <algorithm>
@@ -297,7 +297,51 @@ class Bench {
 #if defined(FULMAR_COUNT_ALLOCATIONS) && !defined(FULMAR_COUNTS_ALLOCATIONS)
 #define FULMAR_COUNTS_ALLOCATIONS
 void fulmar::one_source_file_defines_FULMAR_COUNT_ALLOCATIONS() noexcept {}
-// Replaces the global allocation functions of this program.
+// Replaces the global allocation functions of this program: those of glibc, which do the work, or where a
+// sanitizer has taken their place, the operators.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
+#define FULMAR_HEAP_OF_A_SANITIZER
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define FULMAR_HEAP_OF_A_SANITIZER
+#endif
+#if defined(__GLIBC__) && !defined(FULMAR_HEAP_OF_A_SANITIZER)
+extern "C" {
+void* __libc_malloc(std::size_t);                 // NOLINT(bugprone-reserved-identifier): glibc's names
+void* __libc_calloc(std::size_t, std::size_t);    // NOLINT(bugprone-reserved-identifier)
+void* __libc_realloc(void*, std::size_t);         // NOLINT(bugprone-reserved-identifier)
+void* __libc_memalign(std::size_t, std::size_t);  // NOLINT(bugprone-reserved-identifier)
+void* malloc(std::size_t size) noexcept {
+  ++fulmar::allocation_count;
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) noexcept {
+  ++fulmar::allocation_count;
+  return __libc_calloc(count, size);
+}
+void* realloc(void* p, std::size_t size) noexcept {
+  ++fulmar::allocation_count;
+  return __libc_realloc(p, size);
+}
+void* memalign(std::size_t align, std::size_t size) noexcept {
+  ++fulmar::allocation_count;
+  return __libc_memalign(align, size);
+}
+void* aligned_alloc(std::size_t align, std::size_t size) noexcept {
+  ++fulmar::allocation_count;
+  return __libc_memalign(align, size);
+}
+int posix_memalign(void** out, std::size_t align, std::size_t size) noexcept {
+  ++fulmar::allocation_count;
+  void* const p = __libc_memalign(align, size);
+  if (!p) return 12;  // ENOMEM
+  *out = p;
+  return 0;
+}
+}
+#else
 [[gnu::noinline]] void* operator new(std::size_t size) {
   ++fulmar::allocation_count;
   if (void* p = std::malloc(size ? size : 1)) return p;
@@ -313,4 +357,5 @@ void fulmar::one_source_file_defines_FULMAR_COUNT_ALLOCATIONS() noexcept {}
 [[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 [[gnu::noinline]] void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
 [[gnu::noinline]] void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+#endif
 #endif

@@ -472,15 +472,23 @@ TEST_CASE("an aircraft that cannot fly is refused with the line that says so, be
 
 TEST_CASE("a motion that leaves the model ends the flight with its cause and a whole log") {
   const std::string log = (folder() / "away.mcap").string();
-  const Result r = fulmar("run " + hourglass + " --log " + log +
-                          " --set sim.airframe.aero.pitch.q=1e4 --set \"sim.start_height=100 m\"");
-  CHECK(r.code == 1);
-  CHECK_MESSAGE((r.out + r.err).find("failed (the vehicle failed: the motion has left the model: speed ") !=
-                    std::string::npos,
-                (r.out + r.err));
-  const Result info = fulmar("log info " + log);
-  CHECK(info.code == 0);
-  CHECK_MESSAGE(info.out.find("complete") != std::string::npos, info.out);
+  const auto fails = [&](const std::string& changes, const std::string& cause) {
+    fs::remove(log);
+    const Result r = fulmar("run " + hourglass + " --log " + log + " " + changes);
+    CHECK(r.code == 1);
+    CHECK_MESSAGE((r.out + r.err).find("failed (the vehicle failed: " + cause) != std::string::npos,
+                  (r.out + r.err));
+    const Result info = fulmar("log info " + log);
+    CHECK(info.code == 0);
+    CHECK_MESSAGE(info.out.find("complete") != std::string::npos, info.out);
+  };
+  fails("--set sim.airframe.aero.pitch.q=1e4 --set \"sim.start_height=100 m\"",
+        "the motion has left the model: speed ");
+  // take-off needs more than these 4 deg
+  fails(
+      "--set \"sim.airframe.aero.tables=[{coefficient: lift, over: alpha, at: [-0.1, 0.07], values: [0, "
+      "0]}]\"",
+      "angle of attack 4.");
 }
 
 TEST_CASE("a name that no file can have, or that speaks to a terminal, is refused") {

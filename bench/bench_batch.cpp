@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
   for (const unsigned threads : {1u, 2u})
     for (const unsigned steps : {1u, 20u}) {
       std::printf(is("--json") ? "%s\"threads_%u_steps_%u_per_s\": %.0f"
-                               : "%s%u threads, %2u steps a call  %9.0f aircraft steps per second\n",
+                               : "%sthreads %u, steps a call %2u  %9.0f aircraft steps per second\n",
                   between, threads, steps, 1 / (threads == 1 ? one : two).step_s(CLOCK_MONOTONIC, steps, 60));
       if (is("--json")) between = ", ";
     }

@@ -16,7 +16,7 @@ git grep -nE '^#include [<"]core/' -- plugins sdk examples | refuse "Plugins and
 git grep -nE '^#include [<"](\.\./)*plugins/' -- core sdk plugins | grep -vE '^plugins/([^/]+)/test/.*plugins/\1/|^plugins/fcu_serial/test/peer/.*plugins/sim_aero/|^core/app/test/frail\.cpp:' |
   refuse "Nobody includes a plugin but its own test, the peer that flies the simulated aircraft, and the test that makes all of them fail:"
 git grep -nE '^#include [<"]fulmar/' -- core | grep -vE '^core/([^:]*/)?test/|fulmar/(abi\.h|quiet_thread\.hpp)' | refuse "Core includes abi.h and quiet_thread.hpp alone:"
-git grep -nE '#include <(yaml-cpp|boost|spdlog|fastdds|CLI)' -- sdk plugins | grep -vE '^plugins/fcu_serial/(link|test/peer)/' | refuse "Only core links yaml-cpp, Boost.DLL, spdlog and Fast DDS:"
+git grep -nE '#include <(yaml-cpp|boost|spdlog|fastdds|CLI)' -- sdk plugins | grep -vE '^(plugins/fcu_serial/(link|test/peer)/|sdk/test/flight/airframe_file[.]cpp)' | refuse "Only core links yaml-cpp, Boost.DLL, spdlog and Fast DDS:"
 git grep -nE 'std::chrono|clock_gettime|gettimeofday|std::random_device|\brand\(' -- plugins sdk/include | grep -vE '/test/|^plugins/fcu_serial/link/' | refuse "Time comes from the vehicle and chance from the seed:"
 git grep -nIE '(^|[^[:alnum:]_.])/(work|root|home|farm)/' -- . | refuse "No path of one machine:"
 git grep -nIE '\b(TODO|FIXME|XXX|HACK|TEMPORARY)\b' -- '*.cpp' '*.hpp' '*.h' '*.c' '*.mjs' '*.txt' '*.cmake' | refuse "Finish it:"

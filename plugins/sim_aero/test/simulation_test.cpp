@@ -130,9 +130,12 @@ TEST_CASE("its trim keeps it in the steady flight that it began with") {
   SimulationOptions calm = windy();
   calm.weather.turbulence = Turbulence::none;
   Simulation sim(anaconda(), calm);
-  REQUIRE(sim.fly({0, 0, -300}, 0, 17));
-  for (int i = 0; i < 800; ++i) sim.step(sim.trim(), dt);
-  CHECK((sim.body().p_n - Eigen::Vector3d((17 + 3) * 2, -4 * 2, -300)).norm() < 0.1);
+  for (const double Va : {14.0, 17.0, 20.0}) {
+    REQUIRE(sim.fly({0, 0, -300}, 0, Va));
+    for (int i = 0; i < 800; ++i) sim.step(sim.trim(), dt);
+    CHECK((sim.body().p_n - Eigen::Vector3d((Va + 3) * 2, -4 * 2, -300)).norm() < 0.1);
+    CHECK(sim.air_data().Va == doctest::Approx(Va).epsilon(1e-3));
+  }
 }
 
 TEST_CASE("what has crashed stays there until it is put elsewhere") {
@@ -225,7 +228,7 @@ TEST_CASE("a batch flies as each of its aircraft alone, whatever the number of t
 
 TEST_CASE("one member of a batch begins anew, the others fly on") {
   Batch batch(anaconda(), 2, windy());
-  for (std::size_t i : {0, 1}) REQUIRE(batch[i].fly({0, 0, -300}, 0, 17));
+  for (std::size_t i : {0u, 1u}) REQUIRE(batch[i].fly({0, 0, -300}, 0, 17));
   std::vector<double> actions{0.5, 0, 0.1, 0, 0.5, 0, 0.1, 0}, rows(2 * row_columns);
   batch.step(actions, dt, 10, rows);
   batch[1].reset(3);
@@ -237,12 +240,13 @@ TEST_CASE("one member of a batch begins anew, the others fly on") {
 
 TEST_CASE("arrays of another shape, numbers that are none and empty batches are refused") {
   Batch batch(anaconda(), 2, windy());
-  std::vector<double> actions(8), rows(2 * row_columns), before(2 * row_columns);
+  std::vector<double> actions(9), rows(2 * row_columns), before(2 * row_columns);
   batch.rows(before);
   const auto step = [&](std::size_t a, std::size_t r) {
     return refusal([&] { batch.step({actions.data(), a}, dt, 1, {rows.data(), r}); });
   };
   CHECK(step(7, 52) == "actions: 2 x 4 numbers are expected, 7 were given");
+  CHECK(step(9, 52) == "actions: 2 x 4 numbers are expected, 9 were given");
   CHECK(step(8, 49) == "rows: 2 x 26 numbers are expected, 49 were given");
   actions[5] = std::numeric_limits<double>::infinity();
   CHECK(step(8, 52) == "aircraft 1: aileron_rad is inf");

@@ -35,6 +35,12 @@ speed() { # speed MISSION: median of five runs, log written, all threads on one 
   echo "|---|---|"
   for mission in hourglass two_schemes orbit lla calm; do printf '| %s | %.0f |\n' $mission "$(speed $mission)"; done
   echo
+  echo "## How long"
+  echo
+  echo "\`bench/bench_endurance.py\`: the hourglass flown on and on, no log; processor time of all threads, less that of setting up, and the most memory."
+  echo
+  bench/bench_endurance.py
+  echo
   echo "## What a step costs"
   echo
   echo "\`build/bin/bench_steps\`; nanoseconds, guards and the reading of the clock included."

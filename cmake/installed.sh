@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# What a user gets: an installed prefix and the pair of Debian packages. In each, outside the tree: a new plugin for every role is written,
-# built with warnings as errors, tested and flown; a plugin is built by pkg-config alone; the debugger stops in a plugin in flight; the
-# model as a library flies from C++ and from Python.
+# What a user gets: an installed prefix and the pair of Debian packages. In the prefix, outside the tree, a new plugin for every role is
+# written, built with warnings as errors, tested and flown. The packages hold the same files, programs without their symbols. In each, a
+# plugin for one role is written and flown; a plugin is built by pkg-config alone; the debugger stops in a plugin in flight; the model as a
+# library flies from C++ and from Python.
 #   installed.sh [BUILD]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -152,11 +153,10 @@ systemd_unit() {
   echo "  systemd: fulmar@.service is in order"
 }
 
-# usable PREFIX: all of the above, in the present folder
-usable() {
+# each_role PREFIX: what can be asked of `fulmar new`, in the present folder
+each_role() {
   local prefix=$1
   own_roles "$prefix"
-  project "$prefix" my_outer "" --role outer
   for role in vehicle nav guide inner; do project "$prefix" "my_$role" "--duration 60" --role "$role"; done
   project "$prefix" my_point_mass "--duration 60" --role vehicle --template point_mass
   project "$prefix" my_judge "--duration 60" --role judge --mission own.yaml
@@ -165,6 +165,12 @@ usable() {
   project "$prefix" my_sensor "--duration 60" --template sensor
   project "$prefix" my_planner "" --template planner
   geodesy "$prefix"
+}
+
+# usable PREFIX: the rest of the above
+usable() {
+  local prefix=$1
+  project "$prefix" my_outer "" --role outer
   model_library "$prefix"
   by_pkg_config "$prefix"
   in_debugger "$prefix" my_outer
@@ -179,7 +185,12 @@ bash cmake/hardening.sh "$build"
 echo "installed prefix"
 quietly cmake --install "$build" --prefix "$scratch/first"
 mv "$scratch/first" "$scratch/prefix"  # nothing remembers where it was installed to
-mkdir "$scratch/work" && (cd "$scratch/work" && usable "$scratch/prefix")
+# contents FOLDER: the files below, each with its sum; programs and libraries, which a package has without their symbols, with `elf`
+contents() { (cd "$1" && find . -type f | sort | while read -r file; do
+  if head -c 4 "$file" | grep -q ELF; then echo "elf $file"; else sha256sum "$file"; fi
+done); }
+contents "$scratch/prefix" >"$scratch/installed"
+mkdir "$scratch/work" && (cd "$scratch/work" && usable "$scratch/prefix" && each_role "$scratch/prefix")
 
 echo "Debian packages"
 command -v dpkg-shlibdeps >/dev/null || { echo "  no dpkg-dev here: the packages were not made"; exit 0; }
@@ -197,5 +208,6 @@ dpkg-deb -x "${debs[0]}" "$scratch/runtime"
 if "$scratch/runtime/usr/bin/fulmar" new my_law --role outer --dir "$scratch/none" 2>"$scratch/words"; then fail "without the SDK there is nothing to write"; fi
 grep -q 'install the package fulmar-dev' "$scratch/words" || { cat "$scratch/words"; fail "the missing SDK is not named"; }
 for deb in "${debs[@]}"; do dpkg-deb -x "$deb" "$scratch/root"; done
+diff "$scratch/installed" <(contents "$scratch/root/usr") || fail "the packages hold other files than the installed prefix"
 mkdir "$scratch/work2" && (cd "$scratch/work2" && usable "$scratch/root/usr")
 echo "prefix and packages fly"

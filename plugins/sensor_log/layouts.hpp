@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages whose columns and units need not be written: sensor_msgs and rosflight_msgs of ROS 2, Fulmar's
-// own, and PX4's.
-// What a description says itself stays. Sources: the interface definitions of these packages.
+// Messages whose columns need not be written: sensor_msgs and rosflight_msgs of ROS 2, Fulmar's own, and
+// PX4's. A column that the description names stays; units that the message has go with its own columns alone.
+// Sources: the interface definitions of these packages.
 #pragma once
 #include <utility>
 
@@ -81,42 +81,82 @@ inline void assume(PitotLog& log, const Topic& topic) {
     log.pressure.column = "indicated_airspeed_m_s", log.pressure.unit = PitotUnit::mps;
 }
 
-inline void assume_ros(GnssLog& log, const Topic& topic) {
-  if (topic.type == "sensor_msgs/msg/NavSatFix") {
-    log.position.columns = {"latitude", "longitude", "altitude"};
-    log.fix = {"status.status", FixCode::navsat};
-  }
-  if (topic.type == "rosflight_msgs/msg/GNSS") {
-    log.position.columns = {"lat", "lon", "alt"};
-    log.velocity.columns = {"vel_n", "vel_e", "vel_d"};
-    log.fix = {"fix_type", FixCode::fulmar};
-    log.satellites = "num_sat";
-    log.horizontal_std = "horizontal_accuracy", log.vertical_std = "vertical_accuracy";
-    log.speed_std = "speed_accuracy";
-  }
-  if (topic.type == "fulmar_msgs/msg/Gnss") {
-    log.position.columns = {"latitude_deg", "longitude_deg", "altitude_m"};
-    log.velocity.columns = {"velocity_mps.north", "velocity_mps.east", "velocity_mps.down"};
-    log.fix = {"fix", FixCode::fulmar};
-    log.satellites = "satellites";
-    log.horizontal_std = "horizontal_std_m", log.vertical_std = "vertical_std_m";
-    log.speed_std = "speed_std_mps";
-  }
-}
+/// Where a receiver's message has what. "": it has none.
+struct GnssLayout {
+  const char* type;
+  std::array<const char*, 3> place, velocity;
+  const char* fix;
+  FixCode code;
+  const char *satellites = "", *horizontal_std = "", *vertical_std = "", *speed_std = "";
+  AngleUnit angle = AngleUnit::deg;
+  LengthUnit length = LengthUnit::m;
+};
+inline constexpr std::array<const char*, 3> px4_velocity = {"vel_n_m_s", "vel_e_m_s", "vel_d_m_s"};
+inline constexpr std::array<GnssLayout, 5> gnss_layouts = {
+    {{"sensor_msgs/msg/NavSatFix",
+      {"latitude", "longitude", "altitude"},
+      {"", "", ""},
+      "status.status",
+      FixCode::navsat},
+     {"rosflight_msgs/msg/GNSS",
+      {"lat", "lon", "alt"},
+      {"vel_n", "vel_e", "vel_d"},
+      "fix_type",
+      FixCode::fulmar,
+      "num_sat",
+      "horizontal_accuracy",
+      "vertical_accuracy",
+      "speed_accuracy"},
+     {"fulmar_msgs/msg/Gnss",
+      {"latitude_deg", "longitude_deg", "altitude_m"},
+      {"velocity_mps.north", "velocity_mps.east", "velocity_mps.down"},
+      "fix",
+      FixCode::fulmar,
+      "satellites",
+      "horizontal_std_m",
+      "vertical_std_m",
+      "speed_std_mps"},
+     {"sensor_gps",
+      {"latitude_deg", "longitude_deg", "altitude_msl_m"},
+      px4_velocity,
+      "fix_type",
+      FixCode::px4,
+      "satellites_used",
+      "eph",
+      "epv",
+      "s_variance_m_s"},
+     {"sensor_gps",
+      {"lat", "lon", "alt"},
+      px4_velocity,
+      "fix_type",
+      FixCode::px4,
+      "satellites_used",
+      "eph",
+      "epv",
+      "s_variance_m_s",
+      AngleUnit::deg_e7,
+      LengthUnit::mm}}};  // before version 1.14
 
 inline void assume(GnssLog& log, const Topic& topic) {
-  if (said(log.position.columns)) return;
-  assume_ros(log, topic);
-  if (topic.type != "sensor_gps" && topic.type != "vehicle_gps_position") return;
-  if (topic.has("latitude_deg")) {  // since version 1.14
-    log.position.columns = {"latitude_deg", "longitude_deg", "altitude_msl_m"};
-  } else {
-    log.position = {{"lat", "lon", "alt"}, AngleUnit::deg_e7, LengthUnit::mm};
+  const auto one = [&](Name& at, const char* column) {
+    if (!said(at) && topic.has(column)) at = column;
+  };
+  const auto three = [&](std::array<Name, 3>& at, const std::array<const char*, 3>& columns) {
+    const bool unsaid = !said(at) && topic.has(columns[0]);
+    if (unsaid) at = {columns[0], columns[1], columns[2]};
+    return unsaid;
+  };
+  const std::string type = topic.type == "vehicle_gps_position" ? "sensor_gps" : topic.type;
+  for (const GnssLayout& each : gnss_layouts) {
+    if (type != each.type) continue;
+    if (three(log.position.columns, each.place))
+      log.position.unit = each.angle, log.position.altitude_unit = each.length;
+    three(log.velocity.columns, each.velocity);
+    if (!said(log.fix.column)) log.fix.code = each.code;
+    one(log.fix.column, each.fix), one(log.satellites, each.satellites);
+    one(log.horizontal_std, each.horizontal_std), one(log.vertical_std, each.vertical_std);
+    one(log.speed_std, each.speed_std);
   }
-  log.velocity.columns = {"vel_n_m_s", "vel_e_m_s", "vel_d_m_s"};
-  log.fix = {"fix_type", FixCode::px4};
-  log.satellites = "satellites_used";
-  log.horizontal_std = "eph", log.vertical_std = "epv", log.speed_std = "s_variance_m_s";
 }
 
 /// What the description says, and what goes without saying of the topic.

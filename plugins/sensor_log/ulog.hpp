@@ -15,10 +15,6 @@ class Ulog {
  public:
   /// `topic`: "sensor_mag", or "sensor_mag#1" of the second instance.
   Ulog(const File& file, std::string_view topic) : file_(file), topic_(topic) {
-    const std::size_t mark = std::min(topic_.find('#'), topic_.size());
-    name_ = topic_.substr(0, mark);
-    if (mark < topic_.size())
-      std::from_chars(topic_.data() + mark + 1, topic_.data() + topic_.size(), instance_);
     if (!file.bytes.starts_with("ULog\x01\x12\x35")) refuse(file, " is no ULog");
   }
 
@@ -86,7 +82,7 @@ class Ulog {
     const std::string name(record.take(record.left()));
     const std::string topic = instance == 0 ? name : name + "#" + std::to_string(instance);
     if (std::find(topics_.begin(), topics_.end(), topic) == topics_.end()) topics_.push_back(topic);
-    if (name == name_ && instance == instance_) logged_ = true, id_ = id;
+    if (topic == topic_) logged_ = true, id_ = id, name_ = name;
   }
 
   /// "sensor_mag:uint64_t timestamp;float x;"
@@ -173,7 +169,6 @@ class Ulog {
 
   const File& file_;
   std::string topic_, name_;
-  unsigned instance_ = 0;
   bool logged_ = false;
   std::uint16_t id_ = 0;
   std::vector<std::string> topics_;

@@ -80,6 +80,16 @@ inline Flown fly(const Description& description, const Folder& folder) {
   return f;
 }
 
+/// `bytes` is the file that all sensors of `d` come from.
+inline Flown flown(const Description& d, const std::string& file, const std::string& bytes) {
+  const Folder folder;
+  folder.write(file, bytes);
+  Flown f = fly(d, folder);
+  const std::string path = folder.path.string() + "/";
+  if (const std::size_t at = f.fault.find(path); at != std::string::npos) f.fault.erase(at, path.size());
+  return f;
+}
+
 inline void imu_columns(Description& d) {
   d.imu.from.file = "imu.csv", d.imu.from.time = "t";
   d.imu.rate.columns = {"p", "q", "r"};

@@ -16,6 +16,7 @@
 #ifndef FULMAR_TESTING_HPP
 #define FULMAR_TESTING_HPP
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -336,7 +337,7 @@ void* aligned_alloc(std::size_t align, std::size_t size) noexcept {
 int posix_memalign(void** out, std::size_t align, std::size_t size) noexcept {
   ++fulmar::allocation_count;
   void* const p = __libc_memalign(align, size);
-  if (!p) return 12;  // ENOMEM
+  if (!p) return ENOMEM;
   *out = p;
   return 0;
 }

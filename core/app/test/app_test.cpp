@@ -1,70 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program as its users meet it: exit codes, JSON keys, words, bad input, interruption, a full disk.
-#include <doctest/doctest.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
-#include <string>
 
-namespace fs = std::filesystem;
+#include "shell.hpp"
+
+namespace app_test {
+
 using nlohmann::json;
-
-namespace {
-
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("fulmar-app-test-" + std::to_string(getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-};
-const fs::path& folder() {
-  static Folder f;
-  return f.path;
-}
-
-struct Result {
-  int code = -1;
-  std::string out, err;
-};
-
-Result shell(const std::string& command) {
-  const fs::path err = folder() / "stderr.txt";
-  Result r;
-  FILE* pipe = popen(("(" + command + ") 2>" + err.string()).c_str(), "r");
-  REQUIRE(pipe != nullptr);
-  char buffer[4096];
-  for (std::size_t n = 0; (n = fread(buffer, 1, sizeof buffer, pipe)) > 0;) r.out.append(buffer, n);
-  const int status = pclose(pipe);
-  r.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  std::ifstream file(err);
-  r.err.assign(std::istreambuf_iterator<char>(file), {});
-  return r;
-}
-
-const std::string program = FULMAR_BIN_DIR "/fulmar ";
-const std::string hourglass = FULMAR_SOURCE_DIR "/configs/missions/hourglass.yaml";
-
-Result fulmar(const std::string& arguments) { return shell(program + arguments); }
-
-/// A mission that extends the shipped ones, with `text` in it.
-fs::path mission(const std::string& text, const std::string& airframe = "anaconda.yaml") {
-  const fs::path file = folder() / "mission.yaml";
-  std::ofstream(file) << "mission: trial\nextends: " FULMAR_SOURCE_DIR
-                         "/configs/missions/common.yaml\nio: sim\nairframe: " FULMAR_SOURCE_DIR
-                         "/configs/airframes/"
-                      << airframe << "\norigin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\n"
-                      << text;
-  return file;
-}
-const std::string plan =
-    "components:\n  plan: {params: {plan: " FULMAR_SOURCE_DIR "/configs/plans/hourglass.yaml}}\n";
-
-}  // namespace
 
 TEST_CASE("the JSON of a flight has the keys that scripts rely on, and null for what there is not") {
   const Result r = fulmar("run " + hourglass + " --json --no-log --duration 150");
@@ -355,121 +299,6 @@ TEST_CASE("--watch --build builds when a source has changed, and tells when that
   CHECK(fulmar("run " + hourglass + " --build true").code == 2);
 }
 
-TEST_CASE("what cannot be is refused before anything flies") {
-  const Result command = fulmar("runn " + hourglass);
-  CHECK(command.code == 2);
-  CHECK(
-      command.err.find(
-          "fulmar: there is no command 'runn'. Did you mean 'run'? Valid: run, check, graph, inspect, new") ==
-      0);
-  const Result driver = fulmar("run " + hourglass + " --no-log --drivers-from nowhere.mcap");
-  CHECK(driver.code == 4);
-  CHECK(driver.err.find("has no component with 'run: driver'") != std::string::npos);
-  CHECK(fulmar("run " + hourglass + " --with slc=").code == 2);
-  CHECK(fulmar("check " + hourglass + " --with slc=control_slc").code == 0);
-  CHECK(fulmar("check " + hourglass + " --with slc=control_slc/Outer").code == 0);
-  const Result no_plugin = fulmar("check " + hourglass + " --with slc=control_slk");
-  CHECK(no_plugin.err.find("there is no plugin 'control_slk'") != std::string::npos);
-  CHECK(no_plugin.err.find("Valid: control_slc,") != std::string::npos);
-  const Result full = shell(program + "run " + hourglass + " --json --no-log --duration 1 > /dev/full");
-  CHECK(full.code == 1);
-  CHECK(full.err.find("the result cannot be written") != std::string::npos);
-  const Result page = shell(program + "check " + hourglass + " > /dev/full");
-  CHECK(page.code == 1);
-  CHECK(page.err == "fulmar: the output cannot be written; is the disk full?\n");
-}
-
-TEST_CASE("a value that no aircraft has is refused, with its range") {
-  const std::string with_plan = "components:\n  plan: {params: {plan: ";
-  const auto refused = [](const std::string& text, const std::string& told) {
-    CAPTURE(text);
-    for (const std::string command : {"check ", "run --no-log --duration 1 "}) {
-      const Result r = fulmar(command + mission(text).string());
-      CHECK(r.code == 4);
-      CHECK_MESSAGE(r.err.find(told) != std::string::npos, r.err);
-    }
-  };
-  refused(plan + "failsafe: {elevator_rad: 100}\n", "elevator_rad: 100 is outside -1.5708 .. 1.5708 rad");
-  refused(plan + "failsafe: {rudder_rad: -2}\n", "rudder_rad: -2 is outside -1.5708 .. 1.5708 rad");
-  refused(plan + "timeout: 1e-300 s\n", "timeout: expected at least 1 ns, or 0");
-  const std::string way =
-      ", waypoints: [{north: 300 m, east: 0 m, up: 70 m}, {north: 0 m, east: 300 m, up: 70 m}]}}}\n";
-  refused(with_plan + "{airspeed: 1e-6 m/s" + way, "airspeed: 1e-6 m/s is outside 3 .. 300 m/s");
-  refused(with_plan + "{airspeed: 1e6 m/s" + way, "airspeed: 1e6 m/s is outside 3 .. 300 m/s");
-  refused(with_plan + "{turn_radius: 1e9 m" + way, "turn_radius: 1e9 m is outside 1 .. 100000 m");
-  refused(with_plan + "{waypoints: [{north: 1e9 m, east: 0 m, up: 70 m}]}}}\n",
-          "north: 1e9 m is outside -100000 .. 100000 m");
-  const std::string same = "{north: 1 m, east: 2 m, up: 70 m}";
-  refused(with_plan + "{waypoints: [" + same + ", " + same + "]}}}\n",
-          "waypoint 2 of the plan: less than 1 m from the waypoint before it");
-  refused(with_plan + "{waypoints: [" + same + "]}}}\n", "the plan has one waypoint, which makes no circuit");
-  CHECK(fulmar("run --no-log --duration 1 " +
-               mission(with_plan + "{end: orbit, waypoints: [" + same + "]}}}\n").string())
-            .code == 0);
-  for (const char* const altitude : {"1e30 m", "100 km", "-20 km"}) {
-    const fs::path file = mission(plan);
-    std::ifstream in(file);
-    std::string text((std::istreambuf_iterator<char>(in)), {});
-    text.replace(text.find("1387 m"), 6, altitude);
-    std::ofstream(file) << text;
-    const Result r = fulmar("check " + file.string());
-    CHECK(r.code == 4);
-    CHECK_MESSAGE(r.err.find("origin.alt_msl: " + std::string(altitude) + " is outside") != std::string::npos,
-                  r.err);
-  }
-}
-
-namespace {
-
-/// A shipped airframe with `from` replaced, in a file of its own; and the line that the replacement is in.
-std::pair<std::string, int> changed_airframe(const std::string& from, const std::string& to) {
-  std::ifstream in(FULMAR_SOURCE_DIR "/configs/airframes/anaconda.yaml");
-  std::string text((std::istreambuf_iterator<char>(in)), {});
-  const std::size_t at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n') + 1;
-  text.replace(at, from.size(), to);
-  const fs::path file = folder() / "changed.yaml";
-  std::ofstream(file) << text;
-  return {file.string(), static_cast<int>(line)};
-}
-
-}  // namespace
-
-TEST_CASE("an aircraft that cannot fly is refused with the line that says so, before anything moves") {
-  const auto refused = [](const std::string& from, const std::string& to, const std::string& field,
-                          const std::string& why) {
-    const auto [file, line] = changed_airframe(from, to);
-    const fs::path m = folder() / "aircraft.yaml";
-    std::ofstream(m) << "mission: trial\nextends: " << hourglass << "\nairframe: " << file << "\n";
-    for (const std::string command : {"check ", "run --no-log "}) {
-      const Result r = fulmar(command + m.string());
-      CHECK(r.code == 4);
-      CHECK_MESSAGE(
-          r.err.find(file + ":" + std::to_string(line) + ": sim: " + field + ": ") != std::string::npos,
-          r.err);
-      CHECK_MESSAGE(r.err.find(why) != std::string::npos, r.err);
-    }
-  };
-  refused("xz_kgm2: 0.06", "xz_kgm2: 0.5", "airframe.inertia.xz", "not positive definite");
-  refused("airspeed_cruise: 17 m/s", "airspeed_cruise: 8 m/s", "airframe.limits.airspeed_cruise",
-          "the wing stalls");
-  const fs::path m = folder() / "aircraft.yaml";
-  std::ofstream(m) << "mission: trial\nextends: " << hourglass
-                   << "\ncomponents:\n  sim:\n    params:\n      start_height: 70 m\n"
-                      "      start_airspeed: 6 m/s\n";
-  CHECK(
-      fulmar("check " + m.string()).err.find("aircraft.yaml:7: sim: start_airspeed: no level flight at 6") !=
-      std::string::npos);
-  const Result set = fulmar("check " + hourglass + " --set \"sim.airframe.mass=45 kg\"");
-  CHECK(set.code == 4);
-  CHECK_MESSAGE(set.err.find(": sim: airframe.limits.airspeed_cruise: ") != std::string::npos, set.err);
-  const Result inertia = fulmar("check " + hourglass + " --set \"sim.airframe.inertia.xz=1 kg m^2\"");
-  CHECK_MESSAGE(inertia.err.find("--set sim.airframe.inertia.xz=1 kg m^2: sim: airframe.inertia.xz: ") !=
-                    std::string::npos,
-                inertia.err);
-}
-
 TEST_CASE("a motion that leaves the model ends the flight with its cause and a whole log") {
   const std::string log = (folder() / "away.mcap").string();
   const auto fails = [&](const std::string& changes, const std::string& cause) {
@@ -489,25 +318,6 @@ TEST_CASE("a motion that leaves the model ends the flight with its cause and a w
       "--set \"sim.airframe.aero.tables=[{coefficient: lift, over: alpha, at: [-0.1, 0.07], values: [0, "
       "0]}]\"",
       "angle of attack 4.");
-}
-
-TEST_CASE("a name that no file can have, or that speaks to a terminal, is refused") {
-  const fs::path file = folder() / "names.yaml";
-  for (const char* const text :
-       {"mission: \"a\\0b\"\n", "mission: \"\\e[2J\"\n", "record: {file: \"x\\0y.mcap\"}\n"}) {
-    std::ofstream(file) << text;
-    const Result r = fulmar("check " + file.string());
-    CHECK(r.code == 4);
-    CHECK_MESSAGE(r.err.find("names.yaml:1: a text holds the control character") != std::string::npos, r.err);
-  }
-  const Result r = fulmar("run " + hourglass + " --duration 1 --log " + std::string(300, 'x') + ".mcap");
-  CHECK(r.code == 4);
-  CHECK_MESSAGE(r.err.find("File name too long") != std::string::npos, r.err);
-  CHECK(r.err.find("filesystem error") == std::string::npos);
-  fs::create_symlink(folder() / "nowhere" / "there", folder() / "link.mcap");
-  const Result link = fulmar("run " + hourglass + " --duration 1 --log " + (folder() / "link.mcap").string());
-  CHECK(link.code == 4);
-  CHECK_MESSAGE(link.err.find("link.mcap' exists") != std::string::npos, link.err);
 }
 
 TEST_CASE("a list of allowed plugins is understood in a mission that is named without a folder") {
@@ -578,3 +388,5 @@ TEST_CASE("check speaks on standard error without stamps; standard output is the
   CHECK_MESSAGE(r.err.starts_with("mission.yaml:8: "), r.err);
   CHECK(r.err.find("[warning]") == std::string::npos);
 }
+
+}  // namespace app_test

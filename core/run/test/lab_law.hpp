@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The laboratory's law, which misbehaves on demand. Part of lab.cpp, compiled as several variants.
+#pragma once
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cfenv>
+#include <chrono>
+#include <clocale>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <limits>
+#include <stdexcept>
+#include <thread>
+#include <tuple>
+#include <vector>
+
+#include "lab_cart.hpp"
+
+namespace {
+
+enum class Fault : std::uint8_t {
+  none,
+  nan,
+  range,
+  throws,
+  fails,
+  slow,
+  stutters,
+  probe_nan,
+  allocates,
+  crashes,
+  hangs,
+  aborts,
+  exits,
+  overflows,
+  leaks,
+  divides,
+  quits,
+  rounds,
+  moves,
+  speaks,
+  masks,
+  deafens,
+  listens,
+  replaces,
+  fosters,
+  spawns,
+  raises_usr1,
+  raises_term,
+  thread_crashes,
+  thread_quits,
+  forks,
+  parts
+};
+
+// Recursion without an end that no compiler can turn into a loop.
+double overflow(double x) {
+  volatile char room[4096];
+  room[static_cast<std::size_t>(x) % sizeof room] = 1;
+  return x < 0 ? room[0] : overflow(x + 1) + room[1];
+}
+
+void* volatile nowhere = nullptr;
+
+struct Parting {  // crashes when its library goes
+  bool crashes = false;
+  ~Parting() {
+    if (crashes) *static_cast<volatile int*>(nowhere) = 1;
+  }
+} parting;
+
+struct Law {
+#ifdef LAB_THROWING
+  Law() { throw std::runtime_error("no law today"); }
+#else
+  Law() = default;
+#endif
+  Law(const Law&) = delete;
+  Law& operator=(const Law&) = delete;
+  ~Law() {
+    for (const char* p : kept_) delete[] p;
+  }
+  struct Inputs {
+    In<Signal> signal;
+  };
+  struct Outputs {
+    Command command;
+    Probe error_m;
+    Probe taken_over_frac;
+  };
+  struct Params {
+#ifdef LAB_WIDER
+    Param reserve{0, "", -1, 1, "of no matter"};
+#endif
+#ifdef LAB_BETTER
+    Param u{0.5, "", -0.5, 1, "what it commands"};
+#else
+    Param u{0.5, "", -1, 1, "what it commands"};
+#endif
+    Count id{1, 0, 100, "who it is"};
+    Choice<Fault> fault{Fault::none, "what it does wrong"};
+    Param fault_at{1e9, "s", -1e9, 1e9, "from when on"};
+    Flag refuse{false, "refuses to take over"};
+#ifdef LAB_WIDER
+    Param fixed{1.5, "", 0, 2, "set-up parameter", setup};
+#else
+    Param fixed{1, "", 0, 2, "set-up parameter", setup};
+#endif
+  };
+  Status activate(const Tick&, const Inputs&, const Params& p, const Outputs& last) {
+    taken_ = last.command.u_frac;
+    return p.refuse ? Status::failed : Status::ok;
+  }
+  Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
+    const bool bad = tick.now_s() >= p.fault_at;
+    out.command.u_frac = p.u;
+    out.command.seen_m = in.signal->x_m;
+    out.command.by = static_cast<std::uint32_t>(p.id);
+#if defined(LAB_BETTER)
+    out.command.u_frac = p.u / 2;
+#elif defined(LAB_WILD)
+    if (++steps_ == 20) out.command.u_frac = std::numeric_limits<double>::quiet_NaN();
+#elif defined(LAB_CRASHING)
+    if (++steps_ == 20) raise(SIGSEGV);
+#endif
+    out.error_m = in.signal->x_m;
+    out.taken_over_frac = taken_;
+    if (!bad) return Status::ok;
+    switch (p.fault) {
+      case Fault::nan: out.command.u_frac = std::numeric_limits<double>::quiet_NaN(); break;
+      case Fault::range: out.command.u_frac = 1.5; break;
+      case Fault::throws:
+        throw std::runtime_error(
+            "the law is broken\n\x01\xff\xc3\xa9\xc2\x9b"
+            "2J");
+      case Fault::fails: return Status::failed;
+      case Fault::probe_nan: out.error_m = std::numeric_limits<double>::infinity(); break;
+      case Fault::stutters:
+        if (++late_ % 2 == 0) break;
+        [[fallthrough]];
+      case Fault::slow:
+        for (int i = 0; i < 3'000'000; ++i) asm volatile("");
+        break;
+      case Fault::allocates: {
+        std::vector<double> v(32);
+        asm volatile("" ::"r"(v.data()) : "memory");
+        break;
+      }
+      case Fault::crashes: raise(SIGSEGV); break;
+      case Fault::hangs:
+        for (;;) asm volatile("");
+      case Fault::aborts: std::abort();
+      case Fault::exits: std::exit(3);
+      case Fault::overflows: out.error_m = overflow(1); break;
+      case Fault::leaks: kept_.push_back(new char[1'000'000]); break;
+      case Fault::divides: raise(SIGFPE); break;
+      case Fault::quits: _exit(0);
+      case Fault::rounds: std::fesetround(FE_UPWARD); break;
+      case Fault::moves: std::ignore = chdir("/"); break;
+      case Fault::speaks: std::setlocale(LC_ALL, "C"); break;
+      case Fault::masks: {
+        sigset_t all;
+        sigfillset(&all);
+        pthread_sigmask(SIG_BLOCK, &all, nullptr);
+        break;
+      }
+      case Fault::deafens: std::signal(SIGINT, SIG_IGN); break;
+      case Fault::listens: {
+        struct sigaction action {};
+        action.sa_handler = SIG_IGN;
+        sigaction(SIGSEGV, &action, nullptr);
+        break;
+      }
+      case Fault::replaces: {
+        char name[] = "false";
+        char* const words[] = {name, nullptr};
+        execve("/bin/false", words, environ);
+        execvp("false", words);
+        execvpe("false", words, environ);
+        execl("/bin/false", "false", nullptr);
+        execlp("false", "false", nullptr);
+        execle("/bin/false", "false", nullptr, environ);
+        fexecve(open("/bin/false", O_RDONLY | O_CLOEXEC), words, environ);
+        execv("/bin/false", words);
+        break;
+      }
+      case Fault::fosters: {  // a process of its own, in which it may do as it likes
+        const pid_t child = fork();
+        if (child == 0) {
+          char name[] = "true";
+          char* const words[] = {name, nullptr};
+          if (std::signal(SIGINT, SIG_DFL) == SIG_ERR) _exit(1);
+          execv("/bin/true", words);
+          _exit(2);
+        }
+        int status = 1;
+        if (waitpid(child, &status, 0) != child || status != 0) return Status::failed;
+        break;
+      }
+      case Fault::spawns: {
+        char name[] = "true";
+        char* const words[] = {name, nullptr};
+        pid_t child = 0;
+        int status = 1;
+        for (const auto& start : {posix_spawn, posix_spawnp})
+          if (start(&child, "/bin/true", nullptr, nullptr, words, environ) == 0 &&
+              (waitpid(child, &status, 0) != child || status != 0))
+            return Status::failed;
+        break;
+      }
+      case Fault::raises_usr1: raise(SIGUSR1); break;
+      case Fault::raises_term: raise(SIGTERM); break;
+      case Fault::thread_crashes: std::thread([] { *static_cast<volatile int*>(nowhere) = 1; }).join(); break;
+      case Fault::thread_quits: std::thread([] { std::exit(0); }).join(); break;
+      case Fault::forks:
+        if (fork() == 0) std::exit(0);
+        break;
+      case Fault::parts: parting.crashes = true; break;
+      default: break;
+    }
+    return Status::ok;
+  }
+
+ private:
+  double taken_ = -9;
+  [[maybe_unused]] int steps_ = 0;
+  int late_ = 0;
+  std::vector<const char*> kept_;
+};
+
+}  // namespace

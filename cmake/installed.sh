@@ -190,11 +190,12 @@ contents() { (cd "$1" && find . -type f | sort | while read -r file; do
   if head -c 4 "$file" | grep -q ELF; then echo "elf $file"; else sha256sum "$file"; fi
 done); }
 contents "$scratch/prefix" >"$scratch/installed"
+# Made at once, before anything else is written into the build folder.
+if command -v dpkg-shlibdeps >/dev/null; then quietly cpack --config "$build/CPackConfig.cmake" -B "$scratch/packages"; fi
 mkdir "$scratch/work" && (cd "$scratch/work" && usable "$scratch/prefix" && each_role "$scratch/prefix")
 
 echo "Debian packages"
 command -v dpkg-shlibdeps >/dev/null || { echo "  no dpkg-dev here: the packages were not made"; exit 0; }
-quietly cpack --config "$build/CPackConfig.cmake" -B "$scratch/packages"
 debs=("$scratch"/packages/fulmar_*.deb "$scratch"/packages/fulmar-dev_*.deb)
 files() { dpkg-deb -c "$1" | awk '$1 !~ /^d/ {print $6}' | sort; }
 common=$(comm -12 <(files "${debs[0]}") <(files "${debs[1]}"))

@@ -11,6 +11,7 @@ namespace fulmar::estimator {
 
 using Eigen::Matrix3d;
 using Eigen::Quaterniond;
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 /// Says whether the inertial unit rests: a second of quarter-second blocks with little noise, whose means

@@ -3,6 +3,7 @@
 #pragma once
 #include <fulmar/eigen.hpp>
 #include <fulmar/msg/controller_attitude.hpp>
+#include <fulmar/msg/filter_check.hpp>
 #include <fulmar/msg/imu.hpp>
 
 #include "navigator_updates.hpp"
@@ -23,10 +24,11 @@ struct Ekf {
   };
   struct Outputs {
     Out<VehicleState> state;
+    Out<FilterCheck> check;  // for consistency tests
     Probe horizontal_ratio, height_ratio, velocity_ratio, baro_ratio, pitot_ratio, sideslip_ratio,
         heading_ratio;    ///< innovations in deviations
     Probe refused_ratio;  ///< measurements refused by their gates so far
-    Probe gust_mps, baro_bias_m, heading_deviation_rad;
+    Probe gust_mps, gust_north_mps, gust_east_mps, baro_bias_m, heading_deviation_rad;
   };
   using Params = estimator::Params;
 
@@ -55,6 +57,7 @@ struct Ekf {
     fill(navigator_.filter().state(), navigator_.filter().R_nb(), navigator_.filter().rate_b(), p);
     if (navigator_.filter().time_s() - deviations_s_ > deviations_after_s) fill_deviations(p);
     publish(in.imu.valid_at_ns(), Shown::measured, out);
+    if (navigator_.health().position_s > checked_s_) publish_check(p, out);
     probes(out);
     return healthy() ? Status::ok : Status::degraded;
   }
@@ -131,13 +134,15 @@ struct Ekf {
   void fill(const ekf::Nominal& x, const Matrix3d& R_nb, const Vector3d& omega_b, const Params& p);
   void fill_air(const ekf::Nominal& x, const Matrix3d& R_nb);
   void fill_deviations(const Params& p);
+  void fill_wind_deviations(const Params& p);
   void widen(double gap_s, const Params& p);
+  void publish_check(const Params& p, Outputs& out);
   void probes(Outputs& out) const;
 
   Navigator navigator_;
   VehicleState state_;
   Vector3d rate_ = Vector3d::Zero();
-  double dt_s_ = 0, deviations_s_ = never;
+  double dt_s_ = 0, deviations_s_ = never, checked_s_ = never;
   static constexpr std::int64_t ahead_ns = 10'000'000, long_ago = -(std::int64_t{1} << 62);
   std::int64_t imu_ns_ = long_ago, mag_ns_ = long_ago, baro_ns_ = long_ago, gnss_ns_ = long_ago,
                pitot_ns_ = long_ago, attitude_ns_ = long_ago;
@@ -244,15 +249,16 @@ inline void Ekf::fill(const ekf::Nominal& x, const Matrix3d& R_nb, const Vector3
 
 inline void Ekf::fill_air(const ekf::Nominal& x, const Matrix3d& R_nb) {
   VehicleState& s = state_;
-  s.wind_mps = {x.wind.x(), x.wind.y(), 0};
+  const Eigen::Vector2d gust = navigator_.gusts().gust_mps();
+  s.wind_mps = {x.wind.x() + gust.x(), x.wind.y() + gust.y(), 0};
   if (!navigator_.airborne()) {  // rolling or standing: the tube alone knows
     s.airspeed_mps = navigator_.pitot_mps();
     s.alpha_rad = s.beta_rad = 0;
     return;
   }
-  const Vector3d u_b = R_nb.transpose() * ekf::air_velocity(x);
+  const Vector3d u_b = R_nb.transpose() * (x.v_n - eigen(s.wind_mps));
   const double Va = u_b.norm();
-  s.airspeed_mps = std::max(Va + x.gust_mps, 0.0);
+  s.airspeed_mps = std::max(ekf::air_velocity(x).norm() + x.gust_mps, 0.0);
   s.alpha_rad = std::atan2(u_b.z(), u_b.x());
   s.beta_rad = std::asin(std::clamp(u_b.y() / std::max(Va, 1e-3), -1.0, 1.0));
 }
@@ -267,10 +273,11 @@ inline void Ekf::fill_deviations(const Params& p) {
   s.attitude_std_rad = three(ekf::theta);
   s.velocity_std_mps = three(ekf::vel);
   s.position_std_m = three(ekf::pos);
-  s.wind_std_mps = {f.std(ekf::wind), f.std(ekf::wind + 1), unknown_std};
+  fill_wind_deviations(p);
   const bool pitot = now - h.pitot_s < pitot_lost_s,
              tube = !navigator_.airborne() && navigator_.pitot_mps() > 0;
-  s.airspeed_std_mps = navigator_.airborne() ? f.expected_std(ekf::true_airspeed(f.state(), 0), 0)
+  s.airspeed_std_mps = navigator_.airborne() ? std::hypot(f.expected_std(ekf::true_airspeed(f.state(), 0), 0),
+                                                          p.pitot_scale_std * s.airspeed_mps)
                        : tube                ? tube_std_mps
                                              : unknown_std;
   const auto origin = navigator_.origin();
@@ -292,6 +299,48 @@ inline void Ekf::fill_deviations(const Params& p) {
   s.airspeed_valid = known && (navigator_.airborne() ? pitot || s.airspeed_std_mps < speed_valid_mps : tube);
 }
 
+/// The filter holds its wind to be steady. What the gusts make of that: they are part of the published wind;
+/// and without fixes, when the ground speed is airspeed and wind, they go into it, and into the position.
+inline void Ekf::fill_wind_deviations(const Params& p) {
+  const ErrorStateEkf& f = navigator_.filter();
+  const Gusts& g = navigator_.gusts();
+  VehicleState& s = state_;
+  const double T = navigator_.outage_s(), tau = g.time_s(p);
+  if (T > 0 && navigator_.airborne()) {
+    const double speed = g.std_mps(p) * -std::expm1(-T / tau), way = 0.5 * speed * T;
+    const auto wider = [](double& std, double more) { std = std::hypot(std, more); };
+    wider(s.velocity_std_mps.north, speed), wider(s.velocity_std_mps.east, speed);
+    wider(s.position_std_m.north, way), wider(s.position_std_m.east, way);
+  }
+  const Vector3d u_n = ekf::air_velocity(f.state());
+  const Eigen::Vector2d gust = g.covariance().diagonal().cwiseSqrt(),
+                        scale = p.pitot_scale_std * u_n.head<2>();
+  s.wind_std_mps = {std::hypot(gust.x(), scale.x(), s.velocity_std_mps.north),
+                    std::hypot(gust.y(), scale.y(), s.velocity_std_mps.east), unknown_std};
+}
+
+inline void Ekf::publish_check(const Params& p, Outputs& out) {
+  const ErrorStateEkf& f = navigator_.filter();
+  const Health& h = navigator_.health();
+  checked_s_ = h.position_s;
+  FilterCheck c;
+  const ekf::Covariance& P = f.covariance();
+  std::array<double, 9> over_std;
+  for (int i = 0; i < 9; ++i) over_std[static_cast<std::size_t>(i)] = 1 / f.std(i);
+  std::size_t k = 0;
+  for (std::size_t i = 1; i < 9; ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      c.correlation_ratio[k++] =
+          P(static_cast<int>(j), static_cast<int>(i)) * over_std[i] * over_std[j];  // theta, vel, pos
+  c.position_innovation_ratio = from_eigen<Ned>(h.position_innovation);
+  c.velocity_innovation_ratio = from_eigen<Ned>(h.velocity_innovation);
+  c.mean_wind_mps = {f.state().wind.x(), f.state().wind.y(), 0};
+  const double more = navigator_.gusts().mean_std_mps(navigator_.airborne_s(), p);
+  c.mean_wind_std_mps = {std::hypot(f.std(ekf::wind), more), std::hypot(f.std(ekf::wind + 1), more),
+                         unknown_std};
+  out.check.publish(c, imu_ns_);
+}
+
 inline void Ekf::probes(Outputs& out) const {
   const Health& h = navigator_.health();
   const ekf::Nominal& x = navigator_.filter().state();
@@ -304,6 +353,8 @@ inline void Ekf::probes(Outputs& out) const {
   out.heading_ratio = h.heading_ratio;
   out.refused_ratio = h.refused;
   out.gust_mps = x.gust_mps;
+  out.gust_north_mps = navigator_.gusts().gust_mps().x();
+  out.gust_east_mps = navigator_.gusts().gust_mps().y();
   out.baro_bias_m = x.baro_m;
   out.heading_deviation_rad = x.heading_rad;
 }

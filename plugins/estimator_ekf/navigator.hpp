@@ -16,6 +16,7 @@
 #include <optional>
 
 #include "alignment.hpp"
+#include "gusts.hpp"
 #include "params.hpp"
 
 namespace fulmar::estimator {
@@ -23,6 +24,7 @@ namespace fulmar::estimator {
 inline constexpr double never = -1e9;
 inline constexpr double bridge_tilt_std = 0.01, bridge_tilt_rate = 0.01;  ///< rad, rad/s: of another's turn
 inline constexpr double bridge_accel_std = 1;  ///< m/s2: changes of the speed that nobody saw
+inline constexpr double outage_after_s = 1.5;  ///< without a velocity: no late fix of a slow receiver
 inline constexpr double coasted_s =
     0.02;  ///< so long without an inertial sample is a gap: slower units do not fly
 
@@ -30,6 +32,7 @@ inline constexpr double coasted_s =
 struct Health {
   double horizontal_ratio = 0, height_ratio = 0, velocity_ratio = 0, baro_ratio = 0, pitot_ratio = 0,
          sideslip_ratio = 0, heading_ratio = 0;
+  Vector3d position_innovation = Vector3d::Zero(), velocity_innovation = Vector3d::Zero();  ///< of a fix
   double position_s = never, velocity_s = never, height_s = never, baro_s = never, pitot_s = never,
          heading_s = never;
   std::uint32_t refused = 0;
@@ -75,6 +78,8 @@ class Navigator {
     n.baro_walk = p.baro_walk;
     n.heading_std = p.mag_deviation;
     n.heading_time = p.mag_deviation_time;
+    n.gnss_time = p.gnss_position_time;
+    if (n.gnss_std == 0) n.gnss_std = p.gnss_horizontal_std;  // until a receiver tells its own
     filter_.gravity_mps2 = p.gravity;
   }
 
@@ -122,6 +127,13 @@ class Navigator {
   const Seen& seen() const { return seen_; }
   bool airborne() const { return airborne_; }
   const ErrorStateEkf& filter() const { return filter_; }
+  const Gusts& gusts() const { return gusts_; }
+  double airborne_s() const { return time_s_ - airborne_s_; }  ///< since it took off, or stood again
+  /// Since the fixes stopped; 0 with fixes.
+  double outage_s() const {
+    const double silent = time_s_ - std::max(health_.velocity_s, aligned_s_);
+    return silent > outage_after_s ? silent : 0;
+  }
   const Health& health() const { return health_; }
   LocalFrame::Geodetic origin() const { return frame_.origin(); }
   double pitot_mps() const { return pitot_mps_; }  ///< smoothed true airspeed of the tube alone
@@ -208,6 +220,10 @@ class Navigator {
     field_n_ = magnetic_field_ned(lat_deg, lon_deg, alt_m, year_);
     seen_.field = true;
   }
+  Gusts::MeanWind mean_wind() const {
+    const ekf::Covariance& P = filter_.covariance();
+    return {ekf::air_velocity(filter_.state()), {P(ekf::wind, ekf::wind), P(ekf::wind + 1, ekf::wind + 1)}};
+  }
   double declination() const { return std::atan2(field_n_.y(), field_n_.x()); }
 
   /// Nothing but the inertial unit can be fooled by a smooth flight: another witness has to agree that the
@@ -234,8 +250,10 @@ class Navigator {
     std(ekf::gust) = p.gust_std;
     std(ekf::baro) = 100;
     std(ekf::heading) = p.mag_deviation;
+    std.segment<2>(ekf::gnss).setConstant(filter_.noise.gnss_std);
     time_s_ = time_s;
     filter_.reset(x, std, time_s);
+    gusts_.forget(mean_wind(), time_s, p);
     mode_ = Mode::running;
     aligned_s_ = time_s;
     seen_.yaw = yaw_std < 0.5;
@@ -330,18 +348,25 @@ class Navigator {
     const double Va = ekf::air_velocity(filter_.state()).norm();
     const bool fast = Va > limit || (time_s_ - pitot_s_ < 1 && pitot_mps_ > limit &&
                                      filter_.state().v_n.norm() > 0.5 * limit);
+    const bool before = airborne_;
     airborne_ = fast && !resting_ && !(status_ && !status_->armed && status_->on_ground);
+    if (airborne_ == before) return;
+    airborne_s_ = time_s_;
+    gusts_.forget(mean_wind(), time_s_, p);
   }
 
   void sideslip(const Params& p) {
     sideslip_s_ = time_s_;
-    const double side = p.sideslip_ratio * ekf::air_velocity(filter_.state()).norm();
-    const double variance = p.sideslip_speed_std * p.sideslip_speed_std + side * side;
-    health_.sideslip_ratio =
-        filter_.fuse_considering_attitude(ekf::zero_sideslip(filter_.state()), variance, p.air_gate).ratio;
+    const double side = p.sideslip_ratio * ekf::air_velocity(filter_.state()).norm(),
+                 variance = p.sideslip_speed_std * p.sideslip_speed_std + side * side;
+    const ekf::Fused fused =
+        filter_.fuse_considering_attitude(ekf::zero_sideslip(filter_.state()), variance, p.air_gate);
+    health_.sideslip_ratio = fused.ratio;
+    if (fused.accepted) gusts_.sideslip(mean_wind(), filter_.R_nb().col(1), side, time_s_, p);
   }
 
   void place(const Gnss& g, double time_s, const Params& p);
+  void forget_level();
   void regain(const Gnss& g, const FlightAlignment::Found& found, bool has_mag, double time_s,
               const Params& p);
   void collect_origin(const Gnss& g, const Params& p);
@@ -358,8 +383,10 @@ class Navigator {
   Vector3d field_n_{2e-5, 0, 4e-5}, mag_b_ = Vector3d::Zero();
   Vector3d origin_sum_ = Vector3d::Zero();
   Air air_;
+  Gusts gusts_;
   double year_ = 2026.0, altitude_m_ = 0;  ///< of the origin; without one: by pressure
-  double time_s_ = 0, aligned_s_ = 0, rest_since_s_ = never, rest_fused_s_ = never, sideslip_s_ = never;
+  double time_s_ = 0, aligned_s_ = 0, rest_since_s_ = never, rest_fused_s_ = never, sideslip_s_ = never,
+         airborne_s_ = 0;
   double gnss_s_ = never, gnss_speed_ = 0, mag_s_ = never, mag_fused_s_ = never, pitot_s_ = never,
          pitot_mps_ = 0, baro_s_ = never;
   std::int64_t origin_count_ = 0;

@@ -62,7 +62,8 @@ inline void Navigator::gnss_velocity(const Gnss& g, const ErrorStateEkf::Past& p
   double worst = 0;
   for (int i = 0; i < 3; ++i) {
     const ekf::Scalar z = ekf::velocity(filter_, past, i, v_n(i));
-    worst = std::max(worst, std::abs(z.innovation) / filter_.expected_std(z, variance));
+    health_.velocity_innovation(i) = z.innovation / filter_.expected_std(z, variance);
+    worst = std::max(worst, std::abs(health_.velocity_innovation(i)));
   }
   health_.velocity_ratio = worst;
   if (worst > p.gnss_gate) {
@@ -85,7 +86,8 @@ inline void Navigator::place(const Gnss& g, double time_s, const Params& p) {
   if (!seen_.origin) return;
   const Vector3d p_n = frame_.to_ned(g.latitude_deg, g.longitude_deg, g.altitude_m);
   filter_.place(p_n + std::max(time_s_ - time_s, 0.0) * filter_.state().v_n, filter_.state().v_n);
-  filter_.forget(ekf::pos, 2, known(g.horizontal_std_m, p.gnss_horizontal_std, 1));
+  filter_.noise.gnss_std = known(g.horizontal_std_m, p.gnss_horizontal_std, p.gnss_position_floor);
+  forget_level();
   filter_.forget(ekf::pos + 2, 1, known(g.vertical_std_m, p.gnss_vertical_std, 1));
   // On the ground the place of the start tells the height better than the receiver, unless the receiver
   // contradicts.
@@ -94,6 +96,16 @@ inline void Navigator::place(const Gnss& g, double time_s, const Params& p) {
                  p.start_height_std * p.start_height_std, p.gnss_gate);
   seen_.position = seen_.height = true;
   seen_.baro_zero = false;
+}
+
+/// The horizontal position was set to where the receiver sees the aircraft: the sum of the position and of
+/// what the receiver is off is known.
+inline void Navigator::forget_level() {
+  const double std = filter_.noise.gnss_std;
+  filter_.forget(ekf::pos, 2, 1e3);
+  filter_.forget(ekf::gnss, 2, std);
+  const ErrorStateEkf::Past now = filter_.at(time_s_);
+  for (int i = 0; i < 2; ++i) filter_.fuse(ekf::position(filter_, now, i, now.p_n(i)), std * std, 1e9);
 }
 
 /// The first fix after a gap that ends an alignment. The barometer goes on from where it was, if the receiver
@@ -127,19 +139,22 @@ inline void Navigator::gnss_position(const Gnss& g, double time_s, const Params&
   const double v_std = known(g.vertical_std_m, p.gnss_vertical_std, p.gnss_position_floor);
   const auto z = [&](int i) { return ekf::position(filter_, filter_.at(time_s), i, p_n(i)); };
   const double variance = h_std * h_std;
-  health_.horizontal_ratio = std::max(std::abs(z(0).innovation) / filter_.expected_std(z(0), variance),
-                                      std::abs(z(1).innovation) / filter_.expected_std(z(1), variance));
+  filter_.noise.gnss_std = h_std;
+  for (int i = 0; i < 2; ++i)
+    health_.position_innovation(i) = z(i).innovation / filter_.expected_std(z(i), variance);
+  health_.horizontal_ratio = health_.position_innovation.head<2>().cwiseAbs().maxCoeff();
   if (health_.horizontal_ratio <= p.gnss_gate) {
     for (int i = 0; i < 2; ++i) filter_.fuse(z(i), variance, 1e3);
     health_.position_s = time_s_;
   } else if (++health_.refused; time_s_ - std::max(health_.position_s, aligned_s_) > p.gnss_reset_after) {
     Vector3d moved = filter_.state().p_n;
-    moved.head<2>() += Eigen::Vector2d(z(0).innovation, z(1).innovation);
+    moved.head<2>() += Vector2d(z(0).innovation, z(1).innovation);
     filter_.place(moved, filter_.state().v_n);
-    filter_.forget(ekf::pos, 2, h_std);
+    forget_level();
     health_.position_s = time_s_;
   }
-  health_.height_ratio = std::abs(z(2).innovation) / filter_.expected_std(z(2), v_std * v_std);
+  health_.position_innovation.z() = z(2).innovation / filter_.expected_std(z(2), v_std * v_std);
+  health_.height_ratio = std::abs(health_.position_innovation.z());
   if (health_.height_ratio <= p.gnss_gate) {
     filter_.fuse(z(2), samples_in(p.gnss_height_time, health_.height_s) * v_std * v_std, 1e3);
     health_.height_s = time_s_;
@@ -226,14 +241,17 @@ inline void Navigator::pitot(double pressure_pa, const Params& p) {
   pitot_mps_ = pitot_s_ == never ? Va : pitot_mps_ + (Va - pitot_mps_) * (1 - std::exp(-dt / 0.2));
   pitot_s_ = time_s_;
   if (!aligned() || !airborne_ || Va < 0.5 * p.min_airspeed) return;
+  const Gusts::MeanWind wind = mean_wind();
   const double noise = p.pitot_noise / (air_.density_kgm3 * Va);
   const ekf::Fused fused = filter_.fuse(ekf::true_airspeed(filter_.state(), Va),
                                         noise * noise + p.pitot_speed_std * p.pitot_speed_std, p.air_gate);
   health_.pitot_ratio = fused.ratio;
-  if (fused.accepted)
+  if (fused.accepted) {
     health_.pitot_s = time_s_;
-  else
+    gusts_.airspeed(wind, Va, time_s_, p);
+  } else {
     ++health_.refused;
+  }
 }
 
 }  // namespace fulmar::estimator

@@ -44,6 +44,9 @@ struct Params {
   Param gnss_climb_time{
       2, "s", 0, 100,
       "the same for the error of its vertical velocity, which would else be integrated to a height"};
+  Param gnss_position_time{150, "s", 1, 1e4,
+                           "correlation time of the receiver's horizontal error: as large as its deviation, "
+                           "and in no mean of fixes"};
   Param gnss_speed_std{0.4, "m/s", 0.005, 10, "when the receiver reports none"};
   Param gnss_position_floor{0.1, "m", 0, 10, "no position is trusted more than this"};
   Param gnss_speed_floor{0.015, "m/s", 0, 10, "no velocity is trusted more than this"};
@@ -59,12 +62,20 @@ struct Params {
   Param pitot_noise{2, "Pa", 0.1, 100, "of one sample"};
   Param pitot_speed_std{0.1, "m/s", 0, 5, "of one sample, beside the pressure noise"};
   Param pitot_scale{1, "", 0.5, 1.5, "true over measured airspeed"};
+  Param pitot_scale_std{0.01, "", 0, 0.2, "how well that is known: counts in the deviations, is not learnt"};
   Param air_gate{5, "", 2, 20, "gate of baro, pitot and sideslip, in deviations"};
   Param wind_walk{0.02, "m/s/sqrt(s)", 0, 5, "how fast the wind wanders"};
   Param wind_shear{0.005, "1/sqrt(s)", 0, 5, "grows wind_walk with the climb rate"};
   Param wind_std{5, "m/s", 0.1, 30, "wind before it is learnt"};
   Param gust_std{1, "m/s", 0, 10, "gusts along the flight: first-order Gauss-Markov"};
   Param gust_time{3, "s", 0.1, 60, "their correlation time"};
+  Param wind_gust_std{1, "m/s", 0, 10,
+                      "horizontal gusts of the published wind before they are learnt: first-order "
+                      "Gauss-Markov, north and east"};
+  Param wind_gust_time{10, "s", 2, 60, "their correlation time, before it is learnt, and at most"};
+  Param wind_side_ratio{0.8, "", 0.01, 20,
+                        "side component of the air velocity, at 10 Hz, as a share of these gusts, for the "
+                        "published wind"};
   Param sideslip_speed_std{2.0, "m/s", 0.05, 20,
                            "side component of the air velocity, at 10 Hz; its gusts are correlated, so "
                            "attitude does not follow it"};

@@ -27,6 +27,8 @@ class Device {
   explicit Device(std::function<void(Pty&)> work)
       : thread_([this, work = std::move(work)] {
           while (!over_) {
+            // Who holds a mutex almost always gets it again at once: whoever waits for it has to be let in.
+            while (waiting_ > 0) std::this_thread::yield();
             const std::lock_guard lock(mutex_);
             work(pty_);
           }
@@ -38,7 +40,9 @@ class Device {
   std::string name() const { return pty_.name(); }
   /// Between two calls of `work`.
   void change(const std::function<void(Pty&)>& change) {
+    ++waiting_;
     const std::lock_guard lock(mutex_);
+    --waiting_;
     change(pty_);
   }
 
@@ -46,6 +50,7 @@ class Device {
   Pty pty_;
   std::mutex mutex_;
   std::atomic<bool> over_{false};
+  std::atomic<int> waiting_{0};
   std::thread thread_;
 };
 

@@ -88,7 +88,9 @@ TEST_CASE("the row of every measurement is the derivative of what it expects") {
         return ekf::position(f, {n.p_n, n.v_n, 0, true}, axis, 3);
       };
       CHECK((ekf::velocity(f, now, axis, 3).H - numeric(x, velocity)).norm() < 1e-6);
-      CHECK((ekf::position(f, now, axis, 3).H - numeric(x, position)).norm() < 1e-6);
+      ekf::Row expected = numeric(x, position);
+      if (axis < 2) expected(ekf::gnss + axis) = 1;  // the receiver sees it further north, further east
+      CHECK((ekf::position(f, now, axis, 3).H - expected).norm() < 1e-6);
     }
   }
 }
@@ -114,6 +116,7 @@ TEST_CASE("the covariance follows the motion: Phi P Phi' with Phi by finite diff
       dx(i) = step;
       Phi.col(i) = moved(x.plus(dx)).state().minus(moved(x.plus(-dx)).state()) / (2 * step);
     }
+    Phi.bottomRightCorner<2, 2>() = std::exp(-0.01 / ekf::Noise{}.gnss_time) * Eigen::Matrix2d::Identity();
     const ekf::Covariance expected = Phi * P * Phi.transpose();
     CHECK((end.covariance() - expected).cwiseAbs().maxCoeff() < 2e-4 * expected.cwiseAbs().maxCoeff());
     CHECK((end.covariance() - P).cwiseAbs().maxCoeff() > 0.01);  // something did happen
@@ -178,9 +181,11 @@ TEST_CASE("one scalar update is the information filter's") {
     const double variance = 0.3;
     const ekf::Nominal before = f.state();
     REQUIRE(f.fuse(z, variance, 1e9).accepted);
-    const ekf::Covariance expected = (P.inverse() + z.H.transpose() * z.H / variance).inverse();
+    ekf::Covariance expected = (P.inverse() + z.H.transpose() * z.H / variance).inverse();
+    ekf::Vector dx = expected * z.H.transpose() * z.innovation / variance;
+    expected.bottomRightCorner<2, 2>() = P.bottomRightCorner<2, 2>();  // considered alone
+    dx.tail<2>().setZero();
     CHECK((f.covariance() - expected).norm() < 1e-9 * P.norm());
-    const ekf::Vector dx = expected * z.H.transpose() * z.innovation / variance;
     CHECK((f.state().minus(before) - dx).norm() < 1e-6 * dx.norm() + 1e-9);
   }
 }
@@ -200,6 +205,7 @@ TEST_CASE(
     K.segment<3>(ekf::theta).setZero();
     K.segment<3>(ekf::gyro_bias).setZero();
     K.segment<3>(ekf::accel_bias).setZero();
+    K.segment<2>(ekf::gnss).setZero();
     const ekf::Covariance IKH = ekf::Covariance::Identity() - K * z.H;
     CHECK((f.covariance() - (IKH * P * IKH.transpose() + variance * K * K.transpose())).norm() <
           1e-10 * P.norm());
@@ -227,6 +233,7 @@ TEST_CASE("an innovation beyond the gate changes nothing and is told") {
 TEST_CASE("the covariance stays symmetric and positive definite over a minute of turns and updates") {
   Random r(15);
   ErrorStateEkf f;
+  f.noise.gnss_std = 1.5;
   ekf::Nominal x;
   x.v_n = {17, 0, 0};
   ekf::Vector std = ekf::Vector::Constant(1);
@@ -290,14 +297,34 @@ TEST_CASE("a needle that points to the declination gives the true heading in bot
     }
 }
 
-TEST_CASE("gust and heading deviation grow to their deviations, and stay there") {
+TEST_CASE("gust, heading deviation and the receiver's error grow to their deviations, and stay there") {
   ErrorStateEkf f;
   f.noise.gust_std = 1.3, f.noise.gust_time = 0.5;
   f.noise.heading_std = 0.04, f.noise.heading_time = 0.7;
+  f.noise.gnss_std = 2.5, f.noise.gnss_time = 0.6;
   f.reset({}, ekf::Vector::Zero(), 0);
   for (int i = 0; i < 2000; ++i) f.predict(Vector3d::Zero(), {0, 0, -9.80665}, 0.005);
   CHECK(f.std(ekf::gust) / 1.3 == doctest::Approx(1).epsilon(1e-6));
   CHECK(f.std(ekf::heading) / 0.04 == doctest::Approx(1).epsilon(1e-6));
+  for (const int i : {0, 1}) CHECK(f.std(ekf::gnss + i) / 2.5 == doctest::Approx(1).epsilon(1e-6));
+}
+
+TEST_CASE(
+    "what a receiver is off is in the position's deviation for good, and its correction is not shared") {
+  ErrorStateEkf f;
+  f.noise.gnss_std = 1.5, f.noise.gnss_time = 100;
+  ekf::Vector std = ekf::Vector::Constant(0.1);
+  std.segment<2>(ekf::pos).setConstant(1e3);
+  std.segment<2>(ekf::gnss).setConstant(1.5);
+  f.reset({}, std, 0);
+  for (int i = 0; i < 200; ++i) f.fuse(ekf::position(f, f.at(0), 0, 10), 0.3 * 0.3, 1e9);
+  CHECK(f.state().p_n.x() == doctest::Approx(10).epsilon(1e-3));  // all of it
+  CHECK(f.std(ekf::pos) == doctest::Approx(1.5).epsilon(0.01));   // however many
+  CHECK(f.std(ekf::gnss) == doctest::Approx(1.5).epsilon(1e-9));
+  const ekf::Covariance& P = f.covariance();
+  CHECK(P(ekf::pos, ekf::gnss) / (f.std(ekf::pos) * f.std(ekf::gnss)) == doctest::Approx(-1).epsilon(0.01));
+  CHECK(P(ekf::pos, ekf::pos) + P(ekf::gnss, ekf::gnss) + 2 * P(ekf::pos, ekf::gnss) < 0.001);  // the sum
+  CHECK(f.std(ekf::pos + 1) == doctest::Approx(1e3));
 }
 
 TEST_CASE(

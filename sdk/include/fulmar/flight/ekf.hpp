@@ -21,7 +21,7 @@ namespace ekf {
 /// Where each part of the error state begins. Attitude is a small rotation about the NED axes: R_true =
 /// exp(theta) R_estimate.
 inline constexpr int theta = 0, vel = 3, pos = 6, gyro_bias = 9, accel_bias = 12, wind = 15, gust = 17,
-                     baro = 18, heading = 19, size = 20;
+                     baro = 18, heading = 19, gnss = 20, size = 22;
 
 using Vector = Eigen::Matrix<double, size, 1>;
 using Row = Eigen::Matrix<double, 1, size>;
@@ -44,10 +44,13 @@ struct Noise {
   double heading_std =
       0.035;  ///< rad, first-order Gauss-Markov: what the magnetometer is off after calibration
   double heading_time = 300;  ///< s
+  double gnss_std = 0;        ///< m, first-order Gauss-Markov: what a horizontal position is off for minutes
+  double gnss_time = 150;     ///< s
 };
 
 /// What the filter believes. Wind is the velocity of the air; `baro_m` is what the barometer reads too high;
-/// `heading_rad` is what the magnetic heading reads too high.
+/// `heading_rad` is what the magnetic heading reads too high. How far north and east of the aircraft a
+/// receiver sees it counts in the covariance alone.
 struct Nominal {
   Eigen::Quaterniond q_nb = Eigen::Quaterniond::Identity();
   Eigen::Vector3d v_n = Eigen::Vector3d::Zero(), p_n = Eigen::Vector3d::Zero();
@@ -78,7 +81,7 @@ struct Nominal {
     Vector dx;
     dx << log_map(q_nb * from.q_nb.conjugate()), v_n - from.v_n, p_n - from.p_n, gyro_bias - from.gyro_bias,
         accel_bias - from.accel_bias, wind - from.wind, gust_mps - from.gust_mps, baro_m - from.baro_m,
-        heading_rad - from.heading_rad;
+        heading_rad - from.heading_rad, Eigen::Vector2d::Zero();
     return dx;
   }
 };
@@ -147,16 +150,20 @@ class ErrorStateEkf {
     if (step_.time >= covariance_period_s - 1e-9) propagate_covariance();
   }
 
-  /// One scalar update. The measurement is refused if its innovation exceeds `gate` deviations, by
-  /// `variance`: who gives a larger one, so that correlated samples weigh less, gates by `expected_std`
-  /// first.
+  /// One scalar update. What a receiver is off for minutes is considered and not estimated (Schmidt): no
+  /// measurement tells it from the position, and an estimate of it follows the filter's own drift. Its gain
+  /// is left out, so its variance stays; all else is as for the optimal gain. The measurement is refused if
+  /// its innovation exceeds `gate` deviations, by `variance`: who gives a larger one, so that correlated
+  /// samples weigh less, gates by `expected_std` first.
   ekf::Fused fuse(const ekf::Scalar& z, double variance, double gate) {
     const ekf::Vector PHt = project(z);
     const double S = z.H.dot(PHt) + variance;
     const double deviation = std::sqrt(S), ratio = z.innovation / deviation;
     if (!(std::abs(ratio) <= gate)) return {false, ratio};
     const ekf::Vector k = PHt / deviation;
+    const Eigen::Matrix2d considered = P_.block<2, 2>(ekf::gnss, ekf::gnss);
     for (int i = 0; i < ekf::size; ++i) P_.col(i).noalias() -= k(i) * k;  // k k': symmetric to the last bit
+    P_.block<2, 2>(ekf::gnss, ekf::gnss) = considered;
     for (int i = 0; i < ekf::size; ++i) P_(i, i) = std::max(P_(i, i), floor_);
     correct(k * ratio);
     return {true, ratio};
@@ -172,6 +179,7 @@ class ErrorStateEkf {
     ekf::Vector K = PHt / S;
     K.segment<3>(ekf::theta).setZero();
     K.segment<6>(ekf::gyro_bias).setZero();
+    K.segment<2>(ekf::gnss).setZero();
     const ekf::Vector u = PHt - 0.5 * S * K;
     for (int i = 0; i < ekf::size; ++i) P_.col(i) -= K(i) * u + u(i) * K;
     correct(K * z.innovation);
@@ -305,8 +313,8 @@ class ErrorStateEkf {
     Eigen::Matrix<double, 9, 9> A;
     shear(Wt, A);
     P_.topLeftCorner<9, 9>() = 0.5 * (A + A.transpose());
-    P_.bottomLeftCorner<11, 9>() = W.bottomRows<11>();
-    P_.topRightCorner<9, 11>() = W.bottomRows<11>().transpose();
+    P_.bottomLeftCorner<size - 9, 9>() = W.bottomRows<size - 9>();
+    P_.topRightCorner<9, size - 9>() = W.bottomRows<size - 9>().transpose();
     add_noise(T);
     step_ = {};
     remember();
@@ -327,16 +335,18 @@ class ErrorStateEkf {
     const double walk = noise.wind_walk + noise.wind_shear * std::abs(x_.v_n.z());
     add(ekf::wind, 2, walk * walk * T);
     add(ekf::baro, 1, noise.baro_walk * noise.baro_walk * T);
-    markov(gust, noise.gust_std, noise.gust_time, T, x_.gust_mps);
-    markov(heading, noise.heading_std, noise.heading_time, T, x_.heading_rad);
+    x_.gust_mps *= markov<1>(gust, noise.gust_std, noise.gust_time, T);
+    x_.heading_rad *= markov<1>(heading, noise.heading_std, noise.heading_time, T);
+    markov<2>(gnss, noise.gnss_std, noise.gnss_time, T);
   }
-  /// x' = phi x + w: keeps its deviation, forgets with the time constant.
-  void markov(int i, double std, double time, double T, double& value) {
+  /// x' = phi x + w of `n` states: each keeps its deviation, forgets with the time constant. Returns phi.
+  template <int n>
+  double markov(int first, double std, double time, double T) {
     const double phi = std::exp(-T / time);
-    value *= phi;
-    P_.row(i) *= phi;
-    P_.col(i) *= phi;
-    P_(i, i) += std * std * (1 - phi * phi);
+    P_.middleRows<n>(first) *= phi;
+    P_.middleCols<n>(first) *= phi;
+    for (int i = first; i < first + n; ++i) P_(i, i) += std * std * (1 - phi * phi);
+    return phi;
   }
 
   void remember() {

@@ -34,11 +34,13 @@ inline Scalar velocity(const ErrorStateEkf& f, const ErrorStateEkf::Past& past, 
   return z;
 }
 
-/// Position, NED axis 0 to 2, late as above: dp - age dv + age^2/2 (-[f]x (theta + age/3 R bg) - R ba).
+/// Position, NED axis 0 to 2, late as above: dp - age dv + age^2/2 (-[f]x (theta + age/3 R bg) - R ba). To a
+/// horizontal one what the receiver is off for minutes is added.
 inline Scalar position(const ErrorStateEkf& f, const ErrorStateEkf::Past& past, int axis, double measured_m) {
   Scalar z;
   z.innovation = measured_m - past.p_n(axis);
   z.H(pos + axis) = 1;
+  if (axis < 2) z.H(gnss + axis) = 1;
   if (past.age_s > 0) {
     const Eigen::Vector3d f_age =
         f.state().v_n - past.v_n - Eigen::Vector3d(0, 0, f.gravity_mps2 * past.age_s);

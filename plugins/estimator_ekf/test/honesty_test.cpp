@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the estimator learns of its noises, and whether its deviations are those of its errors: against
+// processes whose parameters are known.
+#include <doctest/doctest.h>
+
+#include <Eigen/Dense>
+
+#include "flight_bench.hpp"
+
+namespace honesty_test {
+
+using namespace synthetic;
+using fulmar::estimator::Gusts;
+using fulmar::estimator::GustStrength;
+using fulmar::estimator::Params;
+using fulmar::estimator::Vector2d;
+
+namespace {
+
+struct Learnt {
+  double std_mps = 0, time_s = 0;
+};
+/// What is learnt of gusts of `std`, `time_s` in `duration_s` on a wind that is wrong by `offset`; mean of
+/// the second half.
+Learnt learnt(double std, double time_s, double offset, std::uint64_t seed, double silent_from_s = 1e9) {
+  const Params p;
+  Random random(seed);
+  Markov gust{std, time_s, 0};
+  GustStrength strength;
+  Learnt mean;
+  constexpr double duration_s = 600, dt = 0.02;
+  int n = 0;
+  for (int k = 0; k * dt < duration_s; ++k) {
+    const double t = k * dt;
+    const double excess = gust.step(dt, random) + offset + 0.1 * random.normal();
+    if (t > silent_from_s && t < silent_from_s + 20) continue;
+    strength.add(excess + (t > silent_from_s ? 10 : 0), t, p);
+    if (t < duration_s / 2) continue;
+    mean.std_mps += strength.std_mps(p), mean.time_s += strength.time_s(p), ++n;
+  }
+  return {mean.std_mps / n, mean.time_s / n};
+}
+
+Learnt learnt_mean(double std, double time_s, double offset) {
+  Learnt sum;
+  constexpr int seeds = 8;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    const Learnt one = learnt(std, time_s, offset, seed);
+    sum.std_mps += one.std_mps / seeds, sum.time_s += one.time_s / seeds;
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("the strength of gusts and how long they last are learnt, whatever the wind is wrong by") {
+  for (const double std : {0.5, 1.5, 3.0})
+    for (const double time_s : {3.0, 6.0}) {
+      CAPTURE(std);
+      CAPTURE(time_s);
+      const Learnt plain = learnt_mean(std, time_s, 0), offset = learnt_mean(std, time_s, 4);
+      CHECK(plain.std_mps / std > 0.8);
+      CHECK(plain.std_mps / std < 1.25);
+      CHECK(plain.time_s / time_s > 0.6);
+      CHECK(plain.time_s / time_s < 1.8);
+      CHECK(offset.std_mps == doctest::Approx(plain.std_mps).epsilon(0.01));
+    }
+}
+
+TEST_CASE("in calm air next to nothing is learnt, and a silence of the tube is no gust") {
+  CHECK(learnt(0, 5, 3, 1).std_mps < 0.15);
+  CHECK(learnt(0.5, 5, 0, 1, 400).std_mps < 0.8);  // after the silence all reads 10 m/s more
+}
+
+TEST_CASE("the gust along the flight is as sure as it says, and its covariance stays one") {
+  const Params p;
+  double normalised = 0;
+  int n = 0, within = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    Random random(seed);
+    Markov north{0.5, 5, 0}, east{0.5, 5, 0};  // linear: V is 34 times as much
+    Gusts gusts;
+    gusts.forget({{17, 0, 0}, {0.01, 0.01}}, 0, p);
+    for (int k = 1; k < 20000; ++k) {
+      const double t = 0.02 * k, course = 0.1 * t;
+      const Vector3d u_n(17 * std::cos(course), 17 * std::sin(course), 0);
+      const Vector2d gust(north.step(0.02, random), east.step(0.02, random));
+      const Vector2d air = u_n.head<2>() - gust;
+      gusts.airspeed({u_n, {0.01, 0.01}}, air.norm() + 0.1 * random.normal(), t, p);
+      const Eigen::Matrix2d& P = gusts.covariance();
+      REQUIRE(P(0, 1) == doctest::Approx(P(1, 0)));
+      REQUIRE(P.determinant() > 0);
+      REQUIRE(P(0, 0) > 0);
+      if (t < 100 || k % 50 != 0) continue;
+      const Vector2d e = gust - gusts.gust_mps();
+      const double ratio2 = e.dot(P.inverse() * e);
+      normalised += ratio2, ++n;
+      within += ratio2 < 2.296;  // of chi-square of 2 degrees of freedom 68.3 % are below
+    }
+  }
+  CHECK(normalised / n > 1.4);
+  CHECK(normalised / n < 2.8);
+  CHECK(within / double(n) > 0.58);
+  CHECK(within / double(n) < 0.8);
+}
+
+TEST_CASE("a receiver whose error lasts minutes: the position is as sure as it says") {
+  double normalised = 0, claimed = 0;
+  int n = 0;
+  for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+    Flown f{.quality = ublox};
+    f.plan.seed = seed, f.plan.duration_s = 130;
+    f.quality.position_walk_m = f.quality.reported_horizontal = 1.5;
+    f.quality.position_tau = 30, f.quality.position_white = 0.3;
+    f.set = [](Ekf::Params& p) { p.gnss_position_time.value = 30; };
+    double next = 60;
+    f.watch = [&](const Truth& x, const VehicleState& s, Status) {
+      if (x.t < next) return;
+      next += 25;
+      const Vector3d e = eigen(s.position_m) - x.p_n;
+      normalised += std::pow(e.x() / s.position_std_m.north, 2) + std::pow(e.y() / s.position_std_m.east, 2);
+      claimed += s.position_std_m.north;
+      n += 2;
+    };
+    f.run();
+  }
+  CHECK(normalised / n > 0.5);
+  CHECK(normalised / n < 1.8);
+  CHECK(2 * claimed / n > 1.0);  // no mean of fixes is better than what they have in common
+}
+
+TEST_CASE("half a minute without GNSS in gusts: the claim grows, and the error stays within it") {
+  double errors = 0, claims = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    Flown f{.quality = ublox};
+    f.plan.seed = seed, f.plan.duration_s = 110, f.plan.gust_mps = 1.5;
+    f.alter = [](const Truth& x, Samples& s) {
+      if (x.t > 80) s.gnss.reset();
+    };
+    f.run();
+    errors += (eigen(f.last.position_m) - f.last_truth.p_n).head<2>().squaredNorm();
+    claims += std::pow(f.last.position_std_m.north, 2) + std::pow(f.last.position_std_m.east, 2);
+  }
+  CHECK(std::sqrt(errors / claims) < 1);  // how much less: recorded_flight_test.cpp
+  CHECK(std::sqrt(claims / 12) > 5);
+  CHECK(std::sqrt(claims / 12) < 50);
+}
+
+TEST_CASE("wind with gusts is better known than the mean wind alone") {
+  double with = 0, without = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    Flown f{.quality = ublox};
+    f.plan.seed = seed, f.plan.gust_mps = 1.5;
+    double next = 60;
+    f.watch = [&](const Truth& x, const VehicleState& s, Status) {
+      if (x.t < next) return;
+      next += 1;
+      const Vector2d e = (eigen(s.wind_mps) - x.wind_n).head<2>();
+      with += e.squaredNorm(), without += (f.plan.wind - x.wind_n).head<2>().squaredNorm();
+    };
+    f.run();
+  }
+  CHECK(with < 0.8 * without);
+}
+
+TEST_CASE("a tube that is silent, and one that sticks: the wind stays near the mean, and comes back") {
+  for (const bool stuck : {false, true}) {
+    CAPTURE(stuck);
+    Flown f{};
+    f.plan.gust_mps = 1;
+    std::optional<Pitot> last;
+    f.alter = [&](const Truth& x, Samples& s) {
+      if (x.t < 60 || x.t > 80) last = s.pitot ? s.pitot : last;
+      if (x.t >= 60 && x.t <= 80 && s.pitot) {
+        if (stuck)
+          s.pitot = last;
+        else
+          s.pitot.reset();
+      }
+    };
+    f.watch = [&](const Truth& x, const VehicleState& s, Status) {
+      if (x.t < 62) return;
+      CHECK(all_finite(s));
+      if (!stuck) CHECK((eigen(s.wind_mps) - f.plan.wind).head<2>().norm() < 5);
+      if (x.t > 82) CHECK(std::abs(s.airspeed_mps - x.airspeed()) < 1);
+    };
+    f.run();
+  }
+}
+
+}  // namespace honesty_test

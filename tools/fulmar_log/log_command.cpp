@@ -15,6 +15,7 @@
 
 #include "core/error.hpp"
 #include "core/log/log_file.hpp"
+#include "tools/fulmar_log/compare_command.hpp"
 #include "tools/fulmar_log/diff_command.hpp"
 #include "tools/fulmar_log/export_log.hpp"
 #include "tools/fulmar_log/info.hpp"
@@ -228,10 +229,11 @@ int export_command(const std::string& file, const std::string& to, const std::st
 }  // namespace
 
 struct LogCommand::Impl {
-  CLI::App *log, *info, *recover, *to_files, *diff;
+  CLI::App *log, *info, *recover, *to_files, *diff, *compare;
   std::string file, other, out, form;
   std::vector<std::string> topics;
   bool as_json = false, messages_only = false;
+  states::CompareWords comparison;
 
   explicit Impl(CLI::App& app) {
     log = app.add_subcommand("log", "look at a log, repair it, export it, compare it");
@@ -263,6 +265,31 @@ struct LogCommand::Impl {
     diff->add_flag("--json", as_json, "print one JSON object");
     diff->add_flag("--messages", messages_only,
                    "metadata and attachments are told, but do not decide the exit code");
+    add_compare();
+  }
+
+  void add_compare() {
+    compare = log->add_subcommand(
+        "compare", "two estimates side by side: differences, errors against the truth or fixes, consistency");
+    compare->add_option("LOG", file, "log that holds both, or the first")->required();
+    compare
+        ->add_option("STATES", comparison.rest,
+                     "the two that are compared, as in nav.state second.state; or another log, and the state "
+                     "that both have")
+        ->type_name("[LOG2] [STATE [STATE]]");
+    compare->add_option("--truth", comparison.truth, "the truth; default that of the vehicle");
+    compare
+        ->add_option("--fixes", comparison.fixes,
+                     "a receiver that is the reference; default, where there is no truth, the vehicle's, or "
+                     "another one that the log has")
+        ->excludes("--truth");
+    compare->add_option("--names", comparison.names, "what the two are called, as in --names old,new");
+    const auto seconds = CLI::Range(-1e7, 1e7);
+    compare->add_option("--from", comparison.from_s, "only from so many seconds of flight on")
+        ->check(seconds);
+    compare->add_option("--to", comparison.to_s, "only up to so many seconds of flight")->check(seconds);
+    compare->add_flag("--changed", comparison.changed, "nothing of states that are the same in both logs");
+    compare->add_flag("--json", comparison.json, "print one JSON object");
   }
 };
 
@@ -278,7 +305,10 @@ int LogCommand::run() const {
   if (c.info->parsed()) return info_command(c.file, c.as_json);
   if (c.recover->parsed()) return recover_command(c.file, c.out);
   if (c.to_files->parsed()) return export_command(c.file, c.form, c.out, c.topics);
-  return diff_command(c.file, c.other, c.as_json, c.messages_only);
+  if (c.diff->parsed()) return diff_command(c.file, c.other, c.as_json, c.messages_only);
+  states::CompareWords words = c.comparison;
+  words.log = c.file;
+  return states::compare_command(words);
 }
 
 }  // namespace fulmar::core

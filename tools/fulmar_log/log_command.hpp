@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fulmar log info | recover | export | diff
+// fulmar log info | recover | export | diff | compare
 #pragma once
 #include <memory>
 #include <string>

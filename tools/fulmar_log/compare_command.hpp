@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `fulmar log compare`: two estimates side by side.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fulmar::states {
+
+struct CompareWords {
+  std::string log;
+  std::vector<std::string> rest;    // another log, if it is a file; then the names of states
+  std::string truth, fixes, names;  // topics; "before,now"; "" where nothing is said
+  std::optional<double> from_s, to_s;  // of flight time
+  bool changed = false;             // nothing of what is equal
+  bool json = false;
+};
+
+/// 0: compared. Throws core::Error.
+int compare_command(const CompareWords& words);
+
+}  // namespace fulmar::states

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is compared of two states: a row of the table each.
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "fulmar/flight/geodesy.hpp"
+#include "fulmar/msg/gnss.hpp"
+#include "fulmar/msg/vehicle_state.hpp"
+
+namespace fulmar::states {
+
+struct Quantity {
+  const char *key, *words, *unit;  // "roll_deg", "roll", "deg"
+  double scale = 1;                // to that unit
+  bool angle = false;
+  double (*value)(const VehicleState&) = nullptr;
+  double (*std)(const VehicleState&) = nullptr;  // claimed; nullptr: no state has one
+  bool (*valid)(const VehicleState&) = nullptr;
+
+  /// Of two states in one frame, in the quantity's unit.
+  double difference(const VehicleState& of, const VehicleState& from) const;
+  bool is_valid(const VehicleState& state) const;
+  bool has_claim(const VehicleState& state) const;
+  double claim(const VehicleState& state) const { return scale * std(state); }
+};
+
+const std::vector<Quantity>& quantities();
+
+/// Clears the flags of what is no number; false when there was such.
+bool drop_not_finite(VehicleState& state);
+
+/// The positions of states and fixes from one origin, however their own ones are.
+class CommonFrame {
+ public:
+  /// `state` as seen from the origin of `base`; the axes of two frames are taken for parallel.
+  VehicleState seen_from(const VehicleState& state, const VehicleState& base);
+  /// A fix as a state: what the receiver does not say is not valid.
+  VehicleState seen_from(const Gnss& fix, const VehicleState& base);
+
+ private:
+  const LocalFrame& frame_of(const VehicleState& base);
+  LocalFrame frame_;
+  double lat_deg_ = 0, lon_deg_ = 0, alt_m_ = 0;
+  bool known_ = false;
+};
+
+}  // namespace fulmar::states

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// See states.hpp.
+#include "tools/fulmar_log/states.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include "core/error.hpp"
+#include "core/log/log_file.hpp"
+#include "core/types/named.hpp"
+#include "core/types/ros_parse.hpp"
+#include "core/types/wire.hpp"
+
+namespace fulmar::states {
+namespace {
+
+using core::Error;
+using core::Field;
+using core::McapFile;
+using core::Type;
+using core::TypePtr;
+
+constexpr std::uint32_t largest_message = 1u << 20;  // a log may claim anything
+
+/// What a vehicle publishes of its own state is the truth: no real one knows it.
+bool is_truth(const std::string& topic) { return topic.starts_with("/vehicle/") || topic.ends_with("/truth"); }
+
+/// "fulmar_msgs/msg/VehicleState" -> "VehicleState"; of messages of others the whole name.
+std::string type_word(const McapFile& log, const McapFile::Channel& channel) {
+  const auto schema = log.schemas.find(channel.schema);
+  if (schema == log.schemas.end()) return "message without a type";
+  constexpr std::string_view ours = "fulmar_msgs/msg/";
+  const std::string& name = schema->second.name;
+  return name.starts_with(ours) ? name.substr(ours.size()) : name;
+}
+
+/// A reader who is content with whatever fields there are.
+TypePtr all_optional(const Type& type) {
+  Type copy = type;
+  copy.hash = 0;
+  for (Field& field : copy.fields) field.appended = true;
+  return std::make_shared<const Type>(std::move(copy));
+}
+
+}  // namespace
+
+const StateLog::Topic* StateLog::find(const std::string& topic) const {
+  const Topic* const found = core::find_named(estimates, topic);
+  return found ? found : core::find_named(truths, topic);
+}
+
+std::vector<std::string> StateLog::states() const {
+  std::vector<std::string> names = core::names_of(estimates);
+  for (const Topic& topic : truths) names.push_back(topic.name);
+  return names;
+}
+
+StateLog look_for_states(const std::filesystem::path& log) {
+  core::McapStream stream(log);
+  std::map<std::uint16_t, std::uint64_t> counts;
+  std::uint64_t first_ns = std::numeric_limits<std::uint64_t>::max();
+  while (const McapFile::Message* m = stream.next()) {
+    first_ns = std::min(first_ns, m->log_ns);
+    ++counts[m->channel];
+  }
+  StateLog out;
+  out.file = log;
+  out.epoch_ns = core::log_epoch_ns(stream.log(), first_ns);
+  out.fault = stream.log().fault;
+  std::map<std::string, std::uint64_t> by_topic;
+  for (const auto& [channel, count] : counts) {
+    const McapFile::Channel& c = stream.log().channels.at(channel);
+    out.types[c.topic] = type_word(stream.log(), c);
+    by_topic[c.topic] += count;
+  }
+  for (const auto& [topic, type] : out.types) {
+    const StateLog::Topic found{topic, by_topic[topic]};
+    if (type == "VehicleState") (is_truth(topic) ? out.truths : out.estimates).push_back(found);
+    if (type == "Gnss") out.fixes.push_back(found);
+    if (type == "FilterCheck") out.checks.push_back(found);
+  }
+  return out;
+}
+
+NamedFields::NamedFields(const McapFile& log, std::uint16_t channel, const TypePtr& ours) {
+  const McapFile::Channel& c = log.channels.at(channel);
+  topic_ = c.topic;
+  try {
+    const auto schema = log.schemas.find(c.schema);
+    if (c.encoding != "cdr" || schema == log.schemas.end() || schema->second.encoding != "ros2msg")
+      throw Error("its messages are not encoded as cdr with ros2msg");
+    theirs_ = core::parse_ros_definition(schema->second.name, schema->second.text);
+    if (theirs_->size > largest_message) throw Error("its messages are too large");
+    plan_ = core::copy_plan(*theirs_, *all_optional(*ours));
+  } catch (const Error& fault) {
+    throw Error(topic_ + ": " + fault.what());
+  }
+  plan_.gaps.clear();  // what the log lacks keeps what the caller has put there
+  room_.resize(theirs_->size);
+}
+
+void NamedFields::read(std::span<const std::byte> bytes, std::byte* message) const try {
+  core::cdr_decode(*theirs_, bytes.data(), bytes.size(), room_.data());
+  plan_.run(room_.data(), message);
+} catch (const Error& fault) {
+  throw Error(topic_ + ": " + fault.what());
+}
+
+}  // namespace fulmar::states

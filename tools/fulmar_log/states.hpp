@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a log says of where the aircraft was: estimates and truth (VehicleState), fixes (Gnss) and what filters
+// believe of their errors (FilterCheck). Fields are found by name, so that logs of other layouts are read.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/loader/table.hpp"
+#include "core/log/reader.hpp"
+#include "fulmar/message.hpp"
+#include "fulmar/schema.hpp"
+
+namespace fulmar::states {
+
+/// The topics of a log that are about states, each kind in order of name.
+struct StateLog {
+  struct Topic {
+    std::string name;  // "/nav/state"
+    std::uint64_t messages = 0;
+  };
+  std::filesystem::path file;
+  std::vector<Topic> estimates, truths, fixes, checks;
+  std::map<std::string, std::string> types;  // of all topics: "/plan/plan" -> "Plan"
+  std::uint64_t epoch_ns = 0;
+  std::string fault;  // "" or why the log ends before its end
+
+  const Topic* find(const std::string& topic) const;  // among estimates and truths
+  /// Names of estimates and truths.
+  std::vector<std::string> states() const;
+};
+
+/// Reads it once. Throws core::Error for what is no log.
+StateLog look_for_states(const std::filesystem::path& log);
+
+/// Messages of a topic, where what the log says of them fits the table of ours as far as it goes.
+class NamedFields {
+ public:
+  /// Throws core::Error that names the topic when a field of that name is something else there.
+  NamedFields(const core::McapFile& log, std::uint16_t channel, const core::TypePtr& ours);
+  /// Fills in what the log has; what it lacks stays as it is. Throws core::Error.
+  void read(std::span<const std::byte> bytes, std::byte* message) const;
+
+ private:
+  std::string topic_;
+  core::TypePtr theirs_;
+  core::CopyPlan plan_;
+  mutable std::vector<std::byte> room_;
+};
+
+template <class Message>
+class MessageReader {
+ public:
+  /// `lacking`: what fields hold that the log does not have.
+  MessageReader(const core::McapFile& log, std::uint16_t channel, const Message& lacking = {})
+      : lacking_(lacking), fields_(log, channel, core::copy_type(describe<Message>())) {}
+  Message read(std::span<const std::byte> bytes) const {
+    Message message = lacking_;
+    fields_.read(bytes, reinterpret_cast<std::byte*>(&message));
+    return message;
+  }
+
+ private:
+  Message lacking_;
+  NamedFields fields_;
+};
+
+}  // namespace fulmar::states

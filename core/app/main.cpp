@@ -157,8 +157,10 @@ struct Commands {
       action = [this] { return replay_command(replay); };
     });
     command->add_option("LOG", replay.log, "log of a flight (MCAP)")->required();
-    add_pairs(command, "--with", replay_with, "COMPONENT=FILE",
-              "COMPONENT=PLUGIN.so: an experiment with another file for a component");
+    add_pairs(
+        command, "--with", replay_with, "COMPONENT=FILE",
+        "COMPONENT=PLUGIN.so: an experiment with another file for a component, or for the one that fills a "
+        "role, as in nav=my_filter.so");
     add_pairs(command, "--set", replay_set, "COMP.PARAM=VALUE",
               "COMPONENT.PARAMETER=VALUE: an experiment with another parameter");
     command

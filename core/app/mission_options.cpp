@@ -35,7 +35,8 @@ void MissionOptions::add(CLI::App* command) {
   command->add_option("--io", io, "sim or fcu: simulated aircraft or flight controller")
       ->check(CLI::IsMember({"sim", "fcu"}));
   add_pairs(command, "--role", roles, "ROLE=COMPONENT", "ROLE=COMPONENT: who fills a role in every phase");
-  add_pairs(command, "--with", with, "COMPONENT=FILE", "COMPONENT=PLUGIN.so: another file for a component");
+  add_pairs(command, "--with", with, "COMPONENT=FILE",
+            "COMPONENT=PLUGIN.so: another file for a component, or for the one that fills a role");
   command->add_option("--seed", seed, "seed of all noise")->check(whole_number);
   add_pairs(command, "--set", set, "COMP.PARAM=VALUE",
             "COMPONENT.PARAMETER=VALUE, or a field of a record: sim.airframe.mass=\"5 kg\"");

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/app/compare.hpp"
+#include "core/app/estimates.hpp"
 #include "core/app/report.hpp"
 #include "core/log/log_file.hpp"
 #include "core/log/out_file.hpp"
@@ -33,9 +34,11 @@ struct Replayed {
   json figures;
 };
 
+using Look = std::function<void(const std::filesystem::path& log)>;
+
 /// `compare` false: for its log alone, which holds more than the one that it is flown from.
 Replayed fly(const Recording& recording, const Overrides& changes, const std::string& out,
-             bool compare = true) {
+             bool compare = true, const Look& look = {}) {
   const auto say = [](const std::string& text, bool warning) {
     say_aloud(text, warning ? Tone::warning : Tone::info);
   };
@@ -43,7 +46,9 @@ Replayed fly(const Recording& recording, const Overrides& changes, const std::st
   r.graph = recording.mission(changes, say);
   ReplayOptions options;
   options.out = out;
+  options.changes = changes;
   options.compare = compare;
+  options.look = look;
   options.stop = &stop;
   auto [flight, result] = replay(recording, r.graph, options);
   r.figures = result_json(r.graph, *flight, result.flight);
@@ -155,22 +160,31 @@ int experiment(const Recording& recording, const ReplayWords& words, json& out) 
   refuse_idle(recording.mission(words.changes, {}), words.changes);
   const Replayed was = fly(recording, {}, "");
   const bool more = !words.changes.record.empty();
-  const Replayed is = fly(recording, without_record(words.changes), more ? "" : words.out);
+  std::string estimates;
+  const Replayed is = fly(recording, without_record(words.changes), more ? "" : words.out, true,
+                          [&](const std::filesystem::path& log) {
+                            estimates = compared_estimates(recording.path(), log, words.json, stop);
+                          });
   out = result_of(recording, is);
   out["before"] = was.figures, out["after"] = is.figures, out["before_equals_log"] = was.result.equal();
   if (!was.result.equal()) warn("without the change, too, the replay differs from the log");
-  if (!words.json) {
+  if (words.json) {
+    const json compared = json::parse(estimates, nullptr, false);
+    out["estimates"] = compared.is_object() ? compared.at("estimates") : json(nullptr);
+  } else {
     print(is);
     std::printf("%s", comparison(was.figures, is.figures).c_str());
+    if (!estimates.empty()) std::printf("\n%s", estimates.c_str());
   }
   fly_for_log(recording, words);
   return 0;
 }
 
-int run(const ReplayWords& words, json& out) {
+int run(ReplayWords words, json& out) {
   check_log_file(words.log);
   if (!words.out.empty()) OutFile::refuse(words.out);  // before anything flies
   const Recording recording(words.log);
+  words.changes = recording.by_component(words.changes);
   if (!words.changes.record.empty()) {
     if (words.out.empty()) throw Error("--record needs --log FILE: the replay's own log holds more");
     recording.mission(words.changes, {});  // whether there are such ports, before anything flies

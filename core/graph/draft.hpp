@@ -107,6 +107,10 @@ void assign_roles(Draft& draft);
 void name_ports(Draft& draft);
 void compile_phases(Draft& draft);
 
+// with.cpp
+/// What is to fly with another file, by component: a role stands for the one that fills it.
+Overrides with_components(const MissionText& text, Overrides overrides, Report& report);
+
 // values.cpp
 void read_values(Draft& draft);
 void read_failsafe(Draft& draft);

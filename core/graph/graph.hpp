@@ -200,7 +200,7 @@ struct Overrides {
   std::vector<std::pair<std::string, std::string>> roles;  // role=component
   std::vector<std::pair<std::string, std::string>> set;    // component.param=value (YAML text)
   std::vector<std::pair<std::string, std::string>>
-      with;  // component=plugin file, in place of the file that its `use` names
+      with;  // component=plugin file, in place of the file that its `use` names; or role=plugin file
   std::shared_ptr<const StoredFiles> files;  // in place of the disk: of a mission that has flown
   std::vector<std::string> flown;            // SHA-256 of the plugins that have flown in it
   std::optional<std::string> arm;            // auto, off
@@ -260,6 +260,10 @@ Graph load_mission(const std::string& file, const Overrides& overrides = {});
 /// The same with components from elsewhere than plugin files.
 struct Catalogue;
 Graph load_mission(const std::string& file, const Overrides& overrides, Catalogue& catalogue);
+
+/// The changes with components in place of roles in `with`: "nav" becomes "ekf". Throws Error for a role that
+/// not just one component fills.
+Overrides with_components(const std::string& mission, const Overrides& overrides);
 
 /// "127.0.0.1:8765" or "off", of the command line. Throws Error.
 LiveOptions parse_live(const std::string& listen);

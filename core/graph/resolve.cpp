@@ -466,13 +466,14 @@ Expected admit_again(const fs::path& plugin, const Overrides& overrides) {
 
 }  // namespace
 
-Graph load_mission(const std::string& file, const Overrides& overrides, Catalogue& catalogue) {
+Graph load_mission(const std::string& file, const Overrides& given, Catalogue& catalogue) {
   Report report;
-  for (const auto& [role, component] : overrides.roles) report.opened("--role " + role + "=" + component);
-  for (const auto& [name, with] : overrides.with) report.opened("--with " + name + "=" + with);
-  for (const auto& [name, value] : overrides.set) report.opened("--set " + name + "=" + value);
-  for (const std::string& ports : overrides.record) report.opened("--record " + ports);
-  const MissionText text = parse_mission(file, overrides, report);
+  for (const auto& [role, component] : given.roles) report.opened("--role " + role + "=" + component);
+  for (const auto& [name, with] : given.with) report.opened("--with " + name + "=" + with);
+  for (const auto& [name, value] : given.set) report.opened("--set " + name + "=" + value);
+  for (const std::string& ports : given.record) report.opened("--record " + ports);
+  const MissionText text = parse_mission(file, given, report);
+  const Overrides overrides = with_components(text, given, report);
   catalogue.admit = [trust = Trust(text, report), &overrides](const fs::path& plugin) {
     return overrides.files ? admit_again(plugin, overrides) : trust.check(plugin);
   };
@@ -481,7 +482,8 @@ Graph load_mission(const std::string& file, const Overrides& overrides, Catalogu
   Draft draft{text, overrides, report, files, {}, {}, {}, {}};
   resolve(draft, catalogue);
   for (const auto& [name, with] : overrides.with)
-    if (!text.component(name)) report.add({"--with " + name + "=" + with, 0}, not_there(draft, name));
+    if (!text.component(name) && !text.role(name))
+      report.add({"--with " + name + "=" + with, 0}, not_there(draft, name));
   report.throw_if_any();
   draft.graph.attachments = files.attachments();
   draft.graph.file = text.file->path.string();

@@ -95,6 +95,13 @@ void Recording::read_overrides() {
   }
 }
 
+Overrides Recording::by_component(const Overrides& changes) const {
+  Overrides of_log = overrides_, named = changes;
+  of_log.with = changes.with;
+  named.with = with_components(mission_file_, of_log).with;
+  return named;
+}
+
 /// The store names its files by content: a link gives the name back, which messages and logs show.
 fs::path Recording::plugin(const FlownPlugin& flown) const {
   const fs::path copy = version_that_flew(flown.file, flown.version, flown.sha256);
@@ -254,6 +261,7 @@ std::pair<std::unique_ptr<Flight>, ReplayResult> replay(const Recording& recordi
   std::unique_ptr<Flight> flight = player.fly(options.stop);
   result.ticks = result.flight.ticks;
   if (!result.flight.log.error.empty()) throw Error("the replay's log: " + result.flight.log.error);
+  if (options.look) options.look(result.flight.log.file);
   if (!options.compare) return {std::move(flight), std::move(result)};
   result.same_file = result.flight.log.sha256 == sha256_file(recording.path());
   if (result.same_file) {

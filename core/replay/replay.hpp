@@ -38,6 +38,8 @@ class Recording {
   /// have the same content, else the copies of the store. What is to be had no more is replaced by what there
   /// is, with a warning. `changes`: --with and --set of an experiment, and --record. Throws Error.
   Graph mission(const Overrides& changes, const Say& say) const;
+  /// `changes` that name components, where they have a role with another file. Throws Error.
+  Overrides by_component(const Overrides& changes) const;
   /// A file of that content, under its own name. Throws Error when there is none.
   std::filesystem::path plugin(const FlownPlugin& flown) const;
 
@@ -59,7 +61,8 @@ struct ReplayOptions {
   std::filesystem::path out;  // the replay's own log
   bool compare = true;        // false: it is flown for its log alone
   std::function<void(const Flight&)> progress;
-  const std::atomic<bool>* stop = nullptr;  // asks for the end: Error "interrupted"
+  std::function<void(const std::filesystem::path& log)> look;  // at the replay's own log, before it may go
+  const std::atomic<bool>* stop = nullptr;                     // asks for the end: Error "interrupted"
 };
 
 struct Difference {

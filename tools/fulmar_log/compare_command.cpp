@@ -94,8 +94,7 @@ Topics chosen(const StateLog& a, const StateLog& b, const std::vector<std::strin
       if (core::find_named(b.estimates, topic.name)) both.emplace_back(topic.name, topic.name);
     return both;
   }
-  if (names.empty() && a.estimates.size() == 2)
-    return {{a.estimates[0].name, a.estimates[1].name}};
+  if (names.empty() && a.estimates.size() == 2) return {{a.estimates[0].name, a.estimates[1].name}};
   const std::vector<std::string> valid = a.states();
   if (valid.empty()) throw Error(quoted(a) + ": there is no state of an aircraft (VehicleState) in it");
   throw Error(quoted(a) + ": name the two that are compared, as in nav.state second.state. It has " +
@@ -123,8 +122,8 @@ Span span_of(const CompareWords& words) {
 
 int compare_command(const CompareWords& words) {
   std::vector<std::string> names = words.rest;
-  const bool two_logs = !names.empty() && (fs::exists(names[0]) || names[0].ends_with(".mcap") ||
-                                           names[0].ends_with(".part"));
+  const bool two_logs =
+      !names.empty() && (fs::exists(names[0]) || names[0].ends_with(".mcap") || names[0].ends_with(".part"));
   StateLog a = look_for_states(words.log), other;
   if (two_logs) {
     core::check_log_file(names[0]);

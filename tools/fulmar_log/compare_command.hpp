@@ -9,10 +9,10 @@ namespace fulmar::states {
 
 struct CompareWords {
   std::string log;
-  std::vector<std::string> rest;    // another log, if it is a file; then the names of states
-  std::string truth, fixes, names;  // topics; "before,now"; "" where nothing is said
+  std::vector<std::string> rest;       // another log, if it is a file; then the names of states
+  std::string truth, fixes, names;     // topics; "before,now"; "" where nothing is said
   std::optional<double> from_s, to_s;  // of flight time
-  bool changed = false;             // nothing of what is equal
+  bool changed = false;                // nothing of what is equal
   bool json = false;
 };
 

@@ -29,8 +29,7 @@ std::string head_of(const Side& side, const std::string& name, const Judged& jud
     out += fmt::format("  {} hold what is no number, which is left out\n", judged.not_finite);
   if (judged.not_new > 0)
     out += fmt::format("  {} more are not later than the one before: left out\n", judged.not_new);
-  if (!side.log->fault.empty())
-    out += fmt::format("  its log is cut off: {}\n", printable(side.log->fault));
+  if (!side.log->fault.empty()) out += fmt::format("  its log is cut off: {}\n", printable(side.log->fault));
   return out;
 }
 
@@ -43,8 +42,8 @@ std::string differences(const Pair& p) {
   for (std::size_t i = 0; i < quantities().size(); ++i) {
     const Moments& m = c.difference[i];
     if (m.n == 0) continue;
-    out += fmt::format("  {:<24} {:10.4f} {:10.4f} {:10.4f} {:<6} {:8.1f} %\n", quantities()[i].words, m.mean(),
-                       m.rms(), m.most, quantities()[i].unit,
+    out += fmt::format("  {:<24} {:10.4f} {:10.4f} {:10.4f} {:<6} {:8.1f} %\n", quantities()[i].words,
+                       m.mean(), m.rms(), m.most, quantities()[i].unit,
                        100 * static_cast<double>(m.n) / static_cast<double>(c.times));
   }
   if (c.truths_apart_m)
@@ -75,9 +74,11 @@ std::string errors(const Pair& p) {
   const std::string first = truth ? p.first.truth : p.first.fixes,
                     second = truth ? p.second.truth : p.second.fixes;
   const std::string& topic = first.empty() ? second : first;
-  std::string out = fmt::format("\n{:<26} {:<35} {}\n", (truth ? "error against " : "fixes of ") + printable(topic),
-                                name_of(p.first_name), name_of(p.second_name));
-  out += fmt::format("{0:<26} {1:>9} {2:>9} {3:>8} {4:>5}  {1:>9} {2:>9} {3:>8} {4:>5}\n", "", "rms", "claimed", "within 1", "2");
+  std::string out =
+      fmt::format("\n{:<26} {:<35} {}\n", (truth ? "error against " : "fixes of ") + printable(topic),
+                  name_of(p.first_name), name_of(p.second_name));
+  out += fmt::format("{0:<26} {1:>9} {2:>9} {3:>8} {4:>5}  {1:>9} {2:>9} {3:>8} {4:>5}\n", "", "rms",
+                     "claimed", "within 1", "2");
   for (std::size_t i = 0; i < quantities().size(); ++i) {
     if (a.all[i].n + b.all[i].n == 0) continue;
     out += fmt::format("  {:<24} {}  {} {}\n", quantities()[i].words, error_cells(a, i), error_cells(b, i),
@@ -106,12 +107,9 @@ json errors_json(const Side& side, const Errors& e) {
          {"nees", nullptr}};
   for (std::size_t i = 0; i < quantities().size(); ++i) {
     if (e.all[i].n == 0) continue;
-    json& row = o["channels"][quantities()[i].key] = {{"rms", e.all[i].rms()},
-                                                      {"mean", e.all[i].mean()},
-                                                      {"largest", e.all[i].most},
-                                                      {"claimed", nullptr},
-                                                      {"within_1", nullptr},
-                                                      {"within_2", nullptr}};
+    json& row = o["channels"][quantities()[i].key] = {{"rms", e.all[i].rms()},    {"mean", e.all[i].mean()},
+                                                      {"largest", e.all[i].most}, {"claimed", nullptr},
+                                                      {"within_1", nullptr},      {"within_2", nullptr}};
     if (const consistency::Channel& c = e.claimed[i]; c.n > 0)
       row["claimed"] = c.claim(), row["within_1"] = c.share_1(), row["within_2"] = c.share_2();
   }
@@ -129,14 +127,15 @@ std::string text_of(const Pair& p) {
 
 json json_of(const Pair& p) {
   const Comparison& c = p.made;
-  json o{{"first", side_json(p.first, p.first_name, c.first)},
-         {"second", side_json(p.second, p.second_name, c.second)},
-         {"equal", c.equal},
-         {"compared", c.pairs},
-         {"difference", json::object()},
-         {"errors", {{"first", errors_json(p.first, c.first.errors)},
-                     {"second", errors_json(p.second, c.second.errors)}}},
-         {"truths_apart_m", c.truths_apart_m ? json(*c.truths_apart_m) : json(nullptr)}};
+  json o{
+      {"first", side_json(p.first, p.first_name, c.first)},
+      {"second", side_json(p.second, p.second_name, c.second)},
+      {"equal", c.equal},
+      {"compared", c.pairs},
+      {"difference", json::object()},
+      {"errors",
+       {{"first", errors_json(p.first, c.first.errors)}, {"second", errors_json(p.second, c.second.errors)}}},
+      {"truths_apart_m", c.truths_apart_m ? json(*c.truths_apart_m) : json(nullptr)}};
   for (std::size_t i = 0; i < quantities().size(); ++i)
     if (const Moments& m = c.difference[i]; m.n > 0)
       o["difference"][quantities()[i].key] = {

@@ -77,7 +77,9 @@ class Reading {
   const std::string& topic_of(const McapFile::Message& m) const {
     return stream_.log().channels.at(m.channel).topic;
   }
-  std::int64_t flight_ns(std::uint64_t ns) const { return static_cast<std::int64_t>(ns - side_.log->epoch_ns); }
+  std::int64_t flight_ns(std::uint64_t ns) const {
+    return static_cast<std::int64_t>(ns - side_.log->epoch_ns);
+  }
 
   const McapFile::Message* next() {
     const McapFile::Message* m = stream_.next();
@@ -221,7 +223,8 @@ Comparison compare(const Side& first, const Side& second, const Span& span) {
   };
   TwoSides states(count(first) <= count(second)), truths(true);
   a.on_state = states.taker(true), b.on_state = states.taker(false);
-  const bool two_truths = first.log->file != second.log->file && !first.truth.empty() && !second.truth.empty();
+  const bool two_truths =
+      first.log->file != second.log->file && !first.truth.empty() && !second.truth.empty();
   if (two_truths) a.on_truth = truths.taker(true), b.on_truth = truths.taker(false);
   CommonFrame frame;
   double apart_m = 0;

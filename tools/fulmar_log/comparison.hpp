@@ -39,7 +39,7 @@ struct Errors {
   std::vector<consistency::Channel> claimed;  // of those errors for which there was a claim
   consistency::Nees nees;
   std::uint64_t nees_n = 0;
-  bool correlated = false;   // in `nees` the correlations that the filter tells
+  bool correlated = false;  // in `nees` the correlations that the filter tells
   std::uint64_t pairs = 0;
 };
 
@@ -51,11 +51,11 @@ struct Judged {
 };
 
 struct Comparison {
-  std::vector<Moments> difference;        // second minus first
-  std::uint64_t pairs = 0, times = 0;     // times at which both were there, of those of the sparser one
+  std::vector<Moments> difference;     // second minus first
+  std::uint64_t pairs = 0, times = 0;  // times at which both were there, of those of the sparser one
   Judged first, second;
-  std::optional<double> truths_apart_m;   // at most; of two logs whose truths are not the same
-  bool equal = false;                     // the same samples, as far as they are compared
+  std::optional<double> truths_apart_m;  // at most; of two logs whose truths are not the same
+  bool equal = false;                    // the same samples, as far as they are compared
 };
 
 /// Flight time of validity, of states.

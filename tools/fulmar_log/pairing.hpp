@@ -53,8 +53,8 @@ class Pairing {
     std::size_t after = 0;
     while (after < dense_.size() && dense_[after].first < time_ns) ++after;
     const bool there = after < dense_.size() && dense_[after].first == time_ns;
-    const bool around = after > 0 && after < dense_.size() &&
-                        dense_[after].first - dense_[after - 1].first <= longest_gap_ns;
+    const bool around =
+        after > 0 && after < dense_.size() && dense_[after].first - dense_[after - 1].first <= longest_gap_ns;
     if (!there && !around) {
       ++alone_;
       return;
@@ -63,7 +63,8 @@ class Pairing {
     if (there) return take(sample, dense_[after].second);
     const auto& [from_ns, from] = dense_[after - 1];
     const auto& [to_ns, to] = dense_[after];
-    take(sample, between(from, to, static_cast<double>(time_ns - from_ns) / static_cast<double>(to_ns - from_ns)));
+    take(sample,
+         between(from, to, static_cast<double>(time_ns - from_ns) / static_cast<double>(to_ns - from_ns)));
   }
 
   std::deque<std::pair<std::int64_t, Sparse>> sparse_;

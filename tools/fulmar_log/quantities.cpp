@@ -99,7 +99,9 @@ const std::vector<Quantity>& quantities() {
 double Quantity::difference(const VehicleState& of, const VehicleState& from) const {
   return scale * (angle ? angle_difference(value(of), value(from)) : value(of) - value(from));
 }
-bool Quantity::is_valid(const VehicleState& state) const { return valid(state) && std::isfinite(value(state)); }
+bool Quantity::is_valid(const VehicleState& state) const {
+  return valid(state) && std::isfinite(value(state));
+}
 bool Quantity::has_claim(const VehicleState& state) const {
   if (!std) return false;
   const double claimed = std(state);
@@ -164,8 +166,8 @@ VehicleState CommonFrame::seen_from(const VehicleState& state, const VehicleStat
                     state.origin_longitude_deg == base.origin_longitude_deg &&
                     state.origin_altitude_m == base.origin_altitude_m;
   if (same || !state.origin_valid || !base.origin_valid) return state;
-  const Eigen::Vector3d away = frame_of(base).to_ned(state.origin_latitude_deg, state.origin_longitude_deg,
-                                                     state.origin_altitude_m);
+  const Eigen::Vector3d away =
+      frame_of(base).to_ned(state.origin_latitude_deg, state.origin_longitude_deg, state.origin_altitude_m);
   VehicleState moved = state;
   moved.position_m = state.position_m + Vec3<Ned>{away.x(), away.y(), away.z()};
   moved.height_m -= away.z();

@@ -24,7 +24,9 @@ using core::TypePtr;
 constexpr std::uint32_t largest_message = 1u << 20;  // a log may claim anything
 
 /// What a vehicle publishes of its own state is the truth: no real one knows it.
-bool is_truth(const std::string& topic) { return topic.starts_with("/vehicle/") || topic.ends_with("/truth"); }
+bool is_truth(const std::string& topic) {
+  return topic.starts_with("/vehicle/") || topic.ends_with("/truth");
+}
 
 /// "fulmar_msgs/msg/VehicleState" -> "VehicleState"; of messages of others the whole name.
 std::string type_word(const McapFile& log, const McapFile::Channel& channel) {

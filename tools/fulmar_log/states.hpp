@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a log says of where the aircraft was: estimates and truth (VehicleState), fixes (Gnss) and what filters
-// believe of their errors (FilterCheck). Fields are found by name, so that logs of other layouts are read.
+// What a log says of where the aircraft was: estimates and truth (VehicleState), fixes (Gnss) and what
+// filters believe of their errors (FilterCheck). Fields are found by name, so that logs of other layouts are
+// read.
 #pragma once
 #include <cstddef>
 #include <cstdint>

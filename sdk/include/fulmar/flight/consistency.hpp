@@ -67,8 +67,7 @@ class Nees {
   /// What the estimate claims for them.
   static Errors claims(const VehicleState& estimate) {
     Errors std;
-    std << eigen(estimate.attitude_std_rad), eigen(estimate.velocity_std_mps),
-        eigen(estimate.position_std_m);
+    std << eigen(estimate.attitude_std_rad), eigen(estimate.velocity_std_mps), eigen(estimate.position_std_m);
     return std;
   }
 

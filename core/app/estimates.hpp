@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The estimates of a flight and of its replay side by side. The host knows no state of an aircraft: who does is
+// `fulmar-log`, whose table this is.
+#pragma once
+#include <atomic>
+#include <filesystem>
+#include <string>
+
+namespace fulmar::core {
+
+/// What `fulmar log compare` prints of two logs' estimates that are not the same; "" when it cannot, which is
+/// told. `stop` ends it.
+std::string compared_estimates(const std::filesystem::path& before, const std::filesystem::path& now,
+                               bool json, const std::atomic<bool>& stop);
+
+}  // namespace fulmar::core

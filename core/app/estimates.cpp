@@ -41,8 +41,8 @@ std::string compared_estimates(const std::filesystem::path& before, const std::f
                                      : "there is no room for a file"));
     return "";
   }
-  std::vector<std::string> words{"log",       "compare",    before.string(), now.string(),
-                                 "--changed", "--names",    "before,now"};
+  std::vector<std::string> words{"log",       "compare", before.string(), now.string(),
+                                 "--changed", "--names", "before,now"};
   if (json) words.push_back("--json");
   ChildFiles files;
   files.out = fileno(out.get()), files.error = STDERR_FILENO;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The estimates of a flight and of its replay side by side. The host knows no state of an aircraft: who does is
-// `fulmar-log`, whose table this is.
+// The estimates of a flight and of its replay side by side. The host knows no state of an aircraft: who does
+// is `fulmar-log`, whose table this is.
 #pragma once
 #include <atomic>
 #include <filesystem>

@@ -16,9 +16,8 @@ std::vector<std::string> who_fills(const MissionText& text, const Overrides& ove
                                    const std::string& role) {
   for (const auto& [name, component] : overrides.roles)
     if (name == role) return {component};
-  const auto first = std::find_if(text.components.begin(), text.components.end(), [&](const auto& c) {
-    return c.fills_role(role) && exists(text, c);
-  });
+  const auto first = std::find_if(text.components.begin(), text.components.end(),
+                                  [&](const auto& c) { return c.fills_role(role) && exists(text, c); });
   std::vector<std::string> names;
   for (const PhaseText& phase : phases_of(text)) {
     std::string name = first == text.components.end() ? "" : first->name;

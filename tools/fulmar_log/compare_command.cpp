@@ -31,7 +31,7 @@ std::string topic_named(const StateLog& log, const std::string& name, const std:
   const auto known = log.types.find(topic);
   if (known != log.types.end() && known->second != type)
     throw Error(quoted(log) + ": " + topic + " is a " + core::printable(known->second) + ", and no " + type +
-                "." + core::choices_text(topic, valid));
+                "." + core::choices_text("", valid));
   if (known != log.types.end()) return topic;
   std::vector<std::string> beneath;
   for (const std::string& one : valid)

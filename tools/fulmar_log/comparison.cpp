@@ -38,9 +38,14 @@ Errors no_errors() {
   return e;
 }
 
-std::uint64_t count_of(const std::vector<StateLog::Topic>& topics, const std::string& name) {
-  const StateLog::Topic* const found = core::find_named(topics, name);
-  return found ? found->messages : 0;
+/// As it was looked for.
+const StateLog::Topic& of(const Side& side, const std::string& topic) { return *side.log->find(topic); }
+
+/// Who says when: the one with the lower rate; of equal ones that with more samples, so that the other's
+/// silence counts.
+bool first_says_when(const StateLog::Topic& a, const StateLog::Topic& b) {
+  if (a.sparser_than(b) || b.sparser_than(a)) return a.sparser_than(b);
+  return a.messages >= b.messages;
 }
 
 /// One log on its way: the estimate, and what it is judged with.
@@ -49,8 +54,7 @@ class Reading {
   Reading(const Side& side, const Span& span, Judged& out)
       : side_(side), span_(span), out_(out), stream_(side.log->file) {
     out_.errors = no_errors();
-    const StateLog::Topic* const own = side.log->find(side.topic);
-    truth_says_when_ = count_of(side.log->truths, side.truth) < (own ? own->messages : 0);
+    if (!side.truth.empty()) truth_says_when_ = of(side, side.truth).sparser_than(of(side, side.topic));
     ahead_ = next();
   }
   TakeState on_state, on_truth;
@@ -217,11 +221,7 @@ Comparison compare(const Side& first, const Side& second, const Span& span) {
   Comparison out;
   out.difference.resize(quantities().size());
   Reading a(first, span, out.first), b(second, span, out.second);
-  const auto count = [](const Side& side) {
-    const StateLog::Topic* const topic = side.log->find(side.topic);
-    return topic ? topic->messages : 0;
-  };
-  TwoSides states(count(first) <= count(second)), truths(true);
+  TwoSides states(first_says_when(of(first, first.topic), of(second, second.topic))), truths(true);
   a.on_state = states.taker(true), b.on_state = states.taker(false);
   const bool two_truths =
       first.log->file != second.log->file && !first.truth.empty() && !second.truth.empty();

@@ -60,27 +60,31 @@ std::vector<std::string> StateLog::states() const {
 
 StateLog look_for_states(const std::filesystem::path& log) {
   core::McapStream stream(log);
-  std::map<std::uint16_t, std::uint64_t> counts;
+  std::map<std::string, StateLog::Topic> topics;
+  std::map<std::uint16_t, StateLog::Topic*> by_channel;
   std::uint64_t first_ns = std::numeric_limits<std::uint64_t>::max();
   while (const McapFile::Message* m = stream.next()) {
+    StateLog::Topic*& topic = by_channel[m->channel];
+    if (!topic) topic = &topics[stream.log().channels.at(m->channel).topic];
+    if (topic->messages++ == 0) topic->first_ns = m->log_ns;
+    topic->last_ns = std::max(topic->last_ns, m->log_ns);
     first_ns = std::min(first_ns, m->log_ns);
-    ++counts[m->channel];
   }
   StateLog out;
   out.file = log;
   out.epoch_ns = core::log_epoch_ns(stream.log(), first_ns);
   out.fault = stream.log().fault;
-  std::map<std::string, std::uint64_t> by_topic;
-  for (const auto& [channel, count] : counts) {
-    const McapFile::Channel& c = stream.log().channels.at(channel);
-    out.types[c.topic] = type_word(stream.log(), c);
-    by_topic[c.topic] += count;
+  for (const auto& [id, channel] : stream.log().channels) {
+    const auto found = topics.find(channel.topic);
+    if (found == topics.end()) continue;
+    found->second.name = channel.topic;
+    out.types[channel.topic] = type_word(stream.log(), channel);
   }
-  for (const auto& [topic, type] : out.types) {
-    const StateLog::Topic found{topic, by_topic[topic]};
-    if (type == "VehicleState") (is_truth(topic) ? out.truths : out.estimates).push_back(found);
-    if (type == "Gnss") out.fixes.push_back(found);
-    if (type == "FilterCheck") out.checks.push_back(found);
+  for (const auto& [name, topic] : topics) {
+    const std::string& type = out.types[name];
+    if (type == "VehicleState") (is_truth(name) ? out.truths : out.estimates).push_back(topic);
+    if (type == "Gnss") out.fixes.push_back(topic);
+    if (type == "FilterCheck") out.checks.push_back(topic);
   }
   return out;
 }

@@ -23,6 +23,12 @@ struct StateLog {
   struct Topic {
     std::string name;  // "/nav/state"
     std::uint64_t messages = 0;
+    std::uint64_t first_ns = 0, last_ns = 0;  // log time
+    double period_ns() const {
+      return messages > 1 ? static_cast<double>(last_ns - first_ns) / static_cast<double>(messages - 1) : 0;
+    }
+    /// Whether its samples are farther apart than the other's.
+    bool sparser_than(const Topic& other) const { return period_ns() > 1.01 * other.period_ns(); }
   };
   std::filesystem::path file;
   std::vector<Topic> estimates, truths, fixes, checks;

@@ -200,7 +200,8 @@ TEST_CASE("errors are the estimate's minus the truth, and what is claimed stands
   CHECK(first.at("channels").at("gyro_bias_x_degps").at("within_1").is_null());
 }
 
-TEST_CASE("white errors of the deviation that is claimed: 0.683, 0.954, NEES of 9; twice as large: 0.383, 36") {
+TEST_CASE(
+    "white errors of the deviation that is claimed: 0.683, 0.954, NEES of 9; twice as large: 0.383, 36") {
   const Folder folder;
   const std::string log = folder.path / "a.mcap";
   std::mt19937 random(4);
@@ -319,7 +320,9 @@ TEST_CASE("nothing is interpolated over a gap") {
   CHECK(j.at("difference").at("position_north_m").at("both_valid_frac") == 0.79);
 }
 
-TEST_CASE("a filter that is silent or not valid at first is judged by the rest; how much that is stands beside it") {
+TEST_CASE(
+    "a filter that is silent or not valid at first is judged by the rest; how much that is stands beside "
+    "it") {
   const Folder folder;
   const std::string log = folder.path / "a.mcap";
   {
@@ -345,7 +348,8 @@ TEST_CASE("a filter that is silent or not valid at first is judged by the rest; 
   CHECK_FALSE(d.contains("wind_north_mps"));
 }
 
-TEST_CASE("what is no number is left out and counted, as are samples that are not later than the one before") {
+TEST_CASE(
+    "what is no number is left out and counted, as are samples that are not later than the one before") {
   const Folder folder;
   const std::string log = folder.path / "a.mcap";
   {
@@ -374,7 +378,8 @@ TEST_CASE("two estimates with origins of their own are seen from one") {
   // metres per degree at 47 degrees north from the radii of curvature of WGS-84
   const double a = 6378137, e2 = 0.00669437999014, sine = std::sin(47 * degree),
                w = std::sqrt(1 - e2 * sine * sine), meridian = a * (1 - e2) / (w * w * w), normal = a / w,
-               north_deg = (meridian + 400) * degree, east_deg = (normal + 400) * degree * std::cos(47 * degree);
+               north_deg = (meridian + 400) * degree,
+               east_deg = (normal + 400) * degree * std::cos(47 * degree);
   write_three(log, 10, [&](int, VehicleState& first, VehicleState& second, VehicleState& truth) {
     first.position_m = truth.position_m = {200, 50, -30}, first.height_m = truth.height_m = 30;
     second.origin_latitude_deg += 100 / north_deg, second.origin_longitude_deg -= 40 / east_deg;
@@ -382,7 +387,8 @@ TEST_CASE("two estimates with origins of their own are seen from one") {
     second.position_m = {101, 90, -5}, second.height_m = 5;  // a metre too far north
   });
   const json j = compared(log);
-  CHECK(j.at("difference").at("position_north_m").at("mean").get<double>() == doctest::Approx(1).epsilon(0.01));
+  CHECK(j.at("difference").at("position_north_m").at("mean").get<double>() ==
+        doctest::Approx(1).epsilon(0.01));
   CHECK(std::abs(j.at("difference").at("position_east_m").at("mean").get<double>()) < 0.01);
   CHECK(std::abs(j.at("difference").at("height_m").at("mean").get<double>()) < 0.01);
   const json second = j.at("errors").at("second").at("channels");
@@ -446,7 +452,8 @@ TEST_CASE("a receiver beside the aircraft's own is the reference; --fixes and --
   }
   CHECK(compared(log).at("errors").at("first").at("fixes") == "/reference/gnss");
   CHECK(compared(log + " --fixes vehicle.gnss").at("errors").at("first").at("fixes") == "/vehicle/gnss");
-  CHECK(compared(log + " --truth second").at("errors").at("first").at("truth").is_null());  // it is the second
+  CHECK(
+      compared(log + " --truth second").at("errors").at("first").at("truth").is_null());  // it is the second
   CHECK(say(log + " --fixes nav.state").text ==
         log + ": /nav/state is a VehicleState, and no Gnss. Valid: /reference/gnss, /vehicle/gnss.");
   CHECK(say(log + " --fixes vehicle.gnss --truth second").code == 2);
@@ -479,13 +486,13 @@ TEST_CASE("a log of an older layout is read as far as it goes; fields that mean 
   CHECK(first.at("position_north_m").at("claimed").is_null());
   CHECK(j.at("errors").at("first").at("nees").is_null());
   CHECK(j.at("errors").at("second").at("channels").at("position_north_m").at("claimed") == 1);
-  CHECK(say(other).text ==
-        "/nav/state: airspeed_mps: reader has kind f64, writer f32");
+  CHECK(say(other).text == "/nav/state: airspeed_mps: reader has kind f64, writer f32");
 }
 
 TEST_CASE("which states: by port, topic or owner; what cannot be is told with what there is") {
   const Folder folder;
-  const std::string log = folder.path / "a.mcap", alone = folder.path / "b.mcap", none = folder.path / "c.mcap";
+  const std::string log = folder.path / "a.mcap", alone = folder.path / "b.mcap",
+                    none = folder.path / "c.mcap";
   {
     Log out(log), one(alone), nothing(none);
     for (int i = 0; i < 20; ++i) {
@@ -514,13 +521,16 @@ TEST_CASE("which states: by port, topic or owner; what cannot be is told with wh
   refused(log + " nav second third", "two states are compared, not nav, second, third");
   refused(log + " nav thrid.state",
           log + ": there is no /thrid/state in it. Did you mean '/third/state'? Valid: " + all + ".");
-  refused(log + " nav vehicle.gnss", log + ": /vehicle/gnss is a Gnss, and no VehicleState. Valid: " + all + ".");
-  refused(alone, alone + ": name the two that are compared, as in nav.state second.state. It has /nav/state, "
-                         "/vehicle/truth");
+  refused(log + " nav vehicle.gnss",
+          log + ": /vehicle/gnss is a Gnss, and no VehicleState. Valid: " + all + ".");
+  refused(alone, alone +
+                     ": name the two that are compared, as in nav.state second.state. It has /nav/state, "
+                     "/vehicle/truth");
   refused(none, none + ": there is no state of an aircraft (VehicleState) in it");
   refused(log + " " + (folder.path / "no.mcap").string(),
           "cannot read '" + (folder.path / "no.mcap").string() + "': there is no such file");
-  const json by_truth = compared(alone + " nav vehicle.truth");  // one estimate and the truth: their difference
+  const json by_truth =
+      compared(alone + " nav vehicle.truth");  // one estimate and the truth: their difference
   CHECK(by_truth.at("errors").at("first").at("truth").is_null());
 }
 

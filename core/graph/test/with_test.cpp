@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// --with names a component, or a role for the one that fills it.
+#include <doctest/doctest.h>
+
+#include "core/graph/test/shelf.hpp"
+
+namespace with_test {
+
+using namespace fulmar::core;
+using namespace fulmar::core::test;
+
+namespace {
+
+using Pairs = std::vector<std::pair<std::string, std::string>>;
+
+Overrides with(const Pairs& pairs) {
+  Overrides o;
+  o.with = pairs;
+  return o;
+}
+std::string use_of(const Graph& graph, const std::string& name) {
+  for (const Component& c : graph.components)
+    if (c.name == name) return c.use;
+  return "none";
+}
+
+}  // namespace
+
+TEST_CASE("a role in --with stands for the component that fills it in this run") {
+  Mission mission;
+  const Graph usual = mission.load(with({{"nav", "estimator_ekf"}}));
+  CHECK(usual.overrides.with == Pairs{{"ekf", "estimator_ekf"}});  // as a swap finds it
+  Overrides chosen = with({{"nav", "estimator_ekf"}});
+  chosen.roles = {{"nav", "truth"}};
+  CHECK(mission.load(chosen).overrides.with == Pairs{{"truth", "estimator_ekf"}});
+  Mission other;  // the first that exists: truth is of simulations alone
+  other.replace("truth:  {fills: nav, use: sim_aero/TruthState, in: {truth: vehicle.truth}, only: sim}\n",
+                "");
+  other.replace("ekf:    {fills", "truth:  {fills: nav, use: sim_aero/TruthState, in: {truth: vehicle.truth}, "
+                                  "only: fcu}\n  ekf:    {fills");
+  CHECK(other.load(with({{"nav", "estimator_ekf"}})).overrides.with == Pairs{{"ekf", "estimator_ekf"}});
+}
+
+TEST_CASE("a role that several fill in turn is refused, with their names; so is what is neither") {
+  Mission mission;
+  CHECK(mission.faults(with({{"outer", "control_tecs"}})) ==
+        "--with outer=control_tecs: outer is a role that slc, tecs, mine fill; name one of them");
+  Overrides one = with({{"outer", "control_slc/Outer"}});
+  one.roles = {{"outer", "tecs"}};
+  const Graph graph = mission.load(one);
+  CHECK(graph.overrides.with == Pairs{{"tecs", "control_slc/Outer"}});
+  CHECK(use_of(graph, "tecs") == "control_slc/Outer");
+  CHECK(mission.faults(with({{"navi", "x"}})).starts_with("--with navi=x: there is no component 'navi'."));
+  CHECK(mission.faults(with({{"vehicle", "nothing"}})).find("components.sim: ") != std::string::npos);
+}
+
+}  // namespace with_test

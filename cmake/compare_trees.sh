@@ -23,7 +23,7 @@ fly() { # fly TREE-BUILD MISSION SEED LOG: in TREE-BUILD's own tree
   (cd "$(dirname "$1")" && "$1/bin/fulmar" run "configs/missions/$2.yaml" --seed "$3" --log "$4" >"$scratch/fly.log" 2>&1) ||
     { cat "$scratch/fly.log"; echo "$2, seed $3: not flown by $1"; exit 1; }
 }
-for mission in hourglass two_schemes orbit lla calm reference_gnss slow_planner first second; do
+for mission in hourglass two_schemes orbit lla calm reference_gnss slow_planner two_filters first second; do
   [ -e "$other/configs/missions/$mission.yaml" ] || { echo "$mission: not there in $revision"; continue; }
   for seed in 1 2 3; do
     before=$scratch/before.mcap now=$scratch/now.mcap again=$scratch/again.mcap

@@ -11,7 +11,7 @@ fulmar=build/bin/fulmar
 value() { sed -n "s/^  \"$2\": \"\{0,1\}\([^\",]*\)\"\{0,1\},\{0,1\}\$/\1/p" "$1"; }
 expect() { [ "$2" = "$3" ] || { echo "$1: expected $3, got $2"; exit 1; }; }
 
-for mission in hourglass two_schemes orbit lla calm reference_gnss slow_planner; do
+for mission in hourglass two_schemes orbit lla calm reference_gnss slow_planner two_filters; do
   file=configs/missions/$mission.yaml
   $fulmar check "$file"
   $fulmar graph "$file" >"$scratch/$mission.txt"
@@ -22,6 +22,10 @@ for mission in hourglass two_schemes orbit lla calm reference_gnss slow_planner;
   $fulmar replay "$scratch/$mission.mcap" >"$scratch/replay.txt" || { cat "$scratch/replay.txt"; exit 1; }
   echo "$mission: $(value "$scratch/$mission.json" flight_time_s) s of flight, $(value "$scratch/$mission.json" speedup) times real time; its replay gives equal bytes"
 done
+
+$fulmar log compare "$scratch/two_filters.mcap" >"$scratch/compare.txt"
+grep -q "^error against /vehicle/truth nav " "$scratch/compare.txt" || { cat "$scratch/compare.txt"; exit 1; }
+grep "NEES of 9" "$scratch/compare.txt"
 
 # the recorded flight: without its folder one sentence; with it, where it is beside the product, as any other
 mission=configs/missions/sensor_log.yaml

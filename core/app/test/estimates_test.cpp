@@ -81,17 +81,18 @@ TEST_CASE("a log that records no estimate says so; the experiment is flown all t
   REQUIRE(fulmar("run " + file.string() + " --duration 5 --log " + log.string()).code == 0);
   const Result r = fulmar("replay " + log.string() + " --with nav=" + ekf + " --set ekf.start_height=1");
   CHECK(r.code == 0);
-  CHECK(r.out.find("No estimate (VehicleState) stands in both logs: none is compared.\n") != std::string::npos);
+  CHECK(r.out.find("No estimate (VehicleState) stands in both logs: none is compared.\n") !=
+        std::string::npos);
   const Result none = fulmar("log compare " + log.string());
   CHECK(none.code == 1);
   CHECK(none.err.find("name the two that are compared") != std::string::npos);
 }
 
 TEST_CASE("what --with cannot mean is refused before anything flies") {
-  const Result several = fulmar("check " FULMAR_SOURCE_DIR "/configs/missions/two_schemes.yaml --with outer=control_slc");
+  const Result several =
+      fulmar("check " FULMAR_SOURCE_DIR "/configs/missions/two_schemes.yaml --with outer=control_slc");
   CHECK(several.code == 4);
-  CHECK(several.err ==
-        "--with outer=control_slc: outer is a role that slc, tecs fill; name one of them\n");
+  CHECK(several.err == "--with outer=control_slc: outer is a role that slc, tecs fill; name one of them\n");
   const Result vehicle = fulmar("replay " + flown().string() + " --with vehicle=sim_aero");
   CHECK(vehicle.code == 4);
   CHECK(vehicle.err.starts_with("--with sim would change nothing: sim is the vehicle"));

@@ -30,14 +30,13 @@ TEST_CASE("a role in --with stands for the component that fills it in this run")
   Mission mission;
   const Graph usual = mission.load(with({{"nav", "estimator_ekf"}}));
   CHECK(usual.overrides.with == Pairs{{"ekf", "estimator_ekf"}});  // as a swap finds it
-  Overrides chosen = with({{"nav", "estimator_ekf"}});
+  Overrides chosen = with({{"nav", "sim_aero"}});
   chosen.roles = {{"nav", "truth"}};
-  CHECK(mission.load(chosen).overrides.with == Pairs{{"truth", "estimator_ekf"}});
-  Mission other;  // the first that exists: truth is of simulations alone
-  other.replace("truth:  {fills: nav, use: sim_aero/TruthState, in: {truth: vehicle.truth}, only: sim}\n",
-                "");
-  other.replace("ekf:    {fills", "truth:  {fills: nav, use: sim_aero/TruthState, in: {truth: vehicle.truth}, "
-                                  "only: fcu}\n  ekf:    {fills");
+  CHECK(mission.load(chosen).overrides.with == Pairs{{"truth", "sim_aero"}});
+  Mission other;  // the first that exists: the one before it is of hardware alone
+  other.replace("ekf:    {fills",
+                "real:   {fills: nav, use: sim_aero/TruthState, in: {truth: vehicle.truth}, "
+                "only: fcu}\n  ekf:    {fills");
   CHECK(other.load(with({{"nav", "estimator_ekf"}})).overrides.with == Pairs{{"ekf", "estimator_ekf"}});
 }
 

@@ -7,7 +7,7 @@
 namespace fulmar::core {
 namespace {
 
-bool exists(const MissionText& text, const ComponentText& component) {
+bool is_in_run(const MissionText& text, const ComponentText& component) {
   return !component.only || *component.only == text.io;
 }
 
@@ -17,7 +17,7 @@ std::vector<std::string> who_fills(const MissionText& text, const Overrides& ove
   for (const auto& [name, component] : overrides.roles)
     if (name == role) return {component};
   const auto first = std::find_if(text.components.begin(), text.components.end(),
-                                  [&](const auto& c) { return c.fills_role(role) && exists(text, c); });
+                                  [&](const auto& c) { return c.fills_role(role) && is_in_run(text, c); });
   std::vector<std::string> names;
   for (const PhaseText& phase : phases_of(text)) {
     std::string name = first == text.components.end() ? "" : first->name;

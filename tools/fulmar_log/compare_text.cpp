@@ -33,7 +33,7 @@ std::string head_of(const Side& side, const std::string& name, const Judged& jud
   return out;
 }
 
-std::string differences(const Pair& p) {
+std::string difference_rows(const Pair& p) {
   const Comparison& c = p.made;
   if (c.pairs == 0) return "\nAt no time are both there: nothing can be compared.\n";
   std::string out =
@@ -122,7 +122,7 @@ json errors_json(const Side& side, const Errors& e) {
 
 std::string text_of(const Pair& p) {
   return head_of(p.first, name_of(p.first_name), p.made.first) +
-         head_of(p.second, name_of(p.second_name), p.made.second) + differences(p) + errors(p);
+         head_of(p.second, name_of(p.second_name), p.made.second) + difference_rows(p) + errors(p);
 }
 
 json json_of(const Pair& p) {

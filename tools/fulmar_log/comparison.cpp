@@ -49,9 +49,9 @@ bool first_says_when(const StateLog::Topic& a, const StateLog::Topic& b) {
 }
 
 /// One log on its way: the estimate, and what it is judged with.
-class Reading {
+class OneSide {
  public:
-  Reading(const Side& side, const Span& span, Judged& out)
+  OneSide(const Side& side, const Span& span, Judged& out)
       : side_(side), span_(span), out_(out), stream_(side.log->file) {
     out_.errors = no_errors();
     if (!side.truth.empty()) truth_says_when_ = of(side, side.truth).sparser_than(of(side, side.topic));
@@ -220,7 +220,7 @@ bool all_zero(const std::vector<Moments>& rows) {
 Comparison compare(const Side& first, const Side& second, const Span& span) {
   Comparison out;
   out.difference.resize(quantities().size());
-  Reading a(first, span, out.first), b(second, span, out.second);
+  OneSide a(first, span, out.first), b(second, span, out.second);
   TwoSides states(first_says_when(of(first, first.topic), of(second, second.topic))), truths(true);
   a.on_state = states.taker(true), b.on_state = states.taker(false);
   const bool two_truths =

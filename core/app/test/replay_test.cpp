@@ -430,6 +430,11 @@ TEST_CASE("in an experiment with another plugin nothing dies that did not do any
   Overrides other;
   other.with = {{"one", variant("_better")}};
   CHECK(replay_of(log, other).flight.guards.empty());
+  const auto [code, out] = run_fulmar("replay " + log.string() + " --json --with one=" + variant("_better"));
+  CHECK(code == 0);
+  const nlohmann::json j = nlohmann::json::parse(out);
+  CHECK(j.at("before").at("guards").size() == 1);
+  CHECK(j.at("after").at("guards").empty());
 }
 
 TEST_CASE("what is no log of a flight is refused in a sentence") {

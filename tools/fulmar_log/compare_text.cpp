@@ -4,6 +4,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "tools/fulmar_log/quantities.hpp"
@@ -52,12 +53,17 @@ std::string difference_rows(const Pair& p) {
   return out;
 }
 
-/// The four columns of one estimate.
-std::string error_cells(const Errors& e, std::size_t row) {
+/// The columns of one estimate; those of claims where the two have any.
+std::string error_cells(const Errors& e, std::size_t row, bool claims) {
   const consistency::Channel& c = e.claimed[row];
   std::string out = e.all[row].n > 0 ? fmt::format("{:9.4f}", e.all[row].rms()) : fmt::format("{:>9}", "-");
+  if (!claims) return out;
   return out + (c.n > 0 ? fmt::format(" {:9.4f} {:8.3f} {:5.3f}", c.claim(), c.share_1(), c.share_2())
                         : fmt::format(" {:>9} {:>8} {:>5}", "-", "-", "-"));
+}
+
+bool has_claims(const Errors& e) {
+  return std::any_of(e.claimed.begin(), e.claimed.end(), [](const auto& c) { return c.n > 0; });
 }
 
 std::string nees_text(const std::string& name, const Errors& e) {
@@ -74,15 +80,20 @@ std::string errors(const Pair& p) {
   const std::string first = truth ? p.first.truth : p.first.fixes,
                     second = truth ? p.second.truth : p.second.fixes;
   const std::string& topic = first.empty() ? second : first;
-  std::string out =
-      fmt::format("\n{:<26} {:<35} {}\n", (truth ? "error against " : "fixes of ") + printable(topic),
-                  name_of(p.first_name), name_of(p.second_name));
-  out += fmt::format("{0:<26} {1:>9} {2:>9} {3:>8} {4:>5}  {1:>9} {2:>9} {3:>8} {4:>5}\n", "", "rms",
-                     "claimed", "within 1", "2");
+  const bool claims = has_claims(a) || has_claims(b);
+  const std::string title = "error against " + printable(topic), name = name_of(p.first_name);
+  std::string out;
+  if (claims)
+    out = fmt::format(
+        "\n{0:<30} {1:<32} {2}\n{3:<26} {4:>9} {5:>9} {6:>8} {7:>5}  {4:>9} {5:>9} {6:>8} {7:>5}\n", title,
+        name, name_of(p.second_name), "", "rms", "claimed", "within 1", "2");
+  else
+    out = fmt::format("\n{}: rms\n{:<26} {:>9}  {:>9}\n", title, "", name.substr(0, 9),
+                      name_of(p.second_name).substr(0, 9));
   for (std::size_t i = 0; i < quantities().size(); ++i) {
     if (a.all[i].n + b.all[i].n == 0) continue;
-    out += fmt::format("  {:<24} {}  {} {}\n", quantities()[i].words, error_cells(a, i), error_cells(b, i),
-                       quantities()[i].unit);
+    out += fmt::format("  {:<24} {}  {} {}\n", quantities()[i].words, error_cells(a, i, claims),
+                       error_cells(b, i, claims), quantities()[i].unit);
   }
   return out + nees_text(name_of(p.first_name), a) + nees_text(name_of(p.second_name), b);
 }

@@ -14,12 +14,12 @@ namespace fulmar::core::test {
 
 /// Of each kind.
 #ifdef FULMAR_SANITIZED  // ten times as slow
-constexpr int mutants = 50;
+constexpr int mutants = 50, few_mutants = 10;
 #else
-constexpr int mutants = 500;
+constexpr int mutants = 500, few_mutants = 50;
 #endif
 /// Where 500 take more than ten seconds of a processor: fewer, without FULMAR_LONG.
-inline int costly_mutants() { return std::getenv("FULMAR_LONG") != nullptr ? 500 : 50; }
+inline int costly_mutants() { return std::getenv("FULMAR_LONG") != nullptr ? 500 : few_mutants; }
 
 /// Whether `work` returns within the limits, without a crash and without an exception.
 template <class Work>

@@ -60,12 +60,13 @@ TEST_CASE(
 
 TEST_CASE("no fix in cruise: told, the plan goes on by dead reckoning, and after 120 s a circle is flown") {
   const Folder folder;
-  for (const Outage outage : {Outage{100, 1, 50}, Outage{150, 2, 50}}) {
+  for (const Outage outage : {Outage{100, 1, 500}, Outage{150, 2, 500}}) {
     if (!quick() && outage.length_s > 100) return;
     CAPTURE(outage.length_s);
     const AfterOutage a = fly(outage, folder.path, unlogged());
     CHECK(missed(outage, a) == "");
     CHECK(a.plan_m < 150);
+    CHECK(a.reckoned_m < 3 * a.std_m);
     CHECK((a.circle_s >= 0) == (outage.length_s > 120));
   }
 }

@@ -76,7 +76,8 @@ TEST_CASE("an alias brings its anchor's value, and its line") {
   CHECK(node.find("b")->line == 3);
 }
 
-TEST_CASE("millions of documents or values are refused before they are built") {
+TEST_CASE("millions of documents or values are refused before they are built" *
+          doctest::test_suite("amounts")) {
   const Read documents = read(repeated("---\n", 4'000'000));
   CHECK(documents.said.ends_with(": a second document begins here; a file holds one"));
   CHECK(documents.seconds < 5 * sanitizer_slowdown);
@@ -106,7 +107,7 @@ TEST_CASE("control characters are refused, those of eight bits as well") {
   CHECK(read("mission: \"caf\\u00e9\"\n").said == "");
 }
 
-TEST_CASE("400000 unknown keys are told as the first hundred of them") {
+TEST_CASE("400000 unknown keys are told as the first hundred of them" * doctest::test_suite("amounts")) {
   std::string text;
   for (int i = 0; i < 400'000; ++i) text += "unknown" + std::to_string(i) + ": 1\n";
   const Read keys = resolve(text);
@@ -131,7 +132,8 @@ Flood flood(const std::string& at, const std::string& one) {
   return {resolve(mission.text), read(mission.text).seconds};
 }
 
-TEST_CASE("50000 wrong names cost little more than the hundred that are told, wherever they stand") {
+TEST_CASE("50000 wrong names cost little more than the hundred that are told, wherever they stand" *
+          doctest::test_suite("amounts")) {
   for (const auto& [at, one] : {std::pair{"params: {", "x#: 1, "}, std::pair{"set: {", "x#: 1, "},
                                 std::pair{"failsafe: {", "x#: 1, "}, std::pair{"origin: {", "x#: 1, "},
                                 std::pair{"progress: [", "nav.x#, "}, std::pair{"next: [", "{to: x#}, "}}) {
@@ -141,7 +143,7 @@ TEST_CASE("50000 wrong names cost little more than the hundred that are told, wh
   }
 }
 
-TEST_CASE("more than a thousand roles, components or phases are refused") {
+TEST_CASE("more than a thousand roles, components or phases are refused" * doctest::test_suite("amounts")) {
   const auto refusal = [](const std::string& section, const std::string& one) {
     const Flood wrong = flood(section + ":\n", "  x#: " + one + "\n");
     CHECK(wrong.seconds < 10 * wrong.parsed_seconds);

@@ -131,7 +131,8 @@ TEST_CASE("turbulence over the height has no step, and ends at 10 ft and at the 
   CHECK(dryden_scales_at(Turbulence::severe, 7500 * ft).sigma.x() / ft == Approx(23.6));
 }
 
-TEST_CASE("spectra and deviations at three heights are those of MIL-F-8785C") {
+TEST_CASE("spectra and deviations at three heights are those of MIL-F-8785C" *
+          doctest::test_suite("amounts")) {
   const bool whole = std::getenv("FULMAR_LONG") != nullptr;
   const double near = whole ? 0.02 : 0.05;
   std::uint64_t seed = 11;

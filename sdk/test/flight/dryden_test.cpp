@@ -42,7 +42,7 @@ double density(const std::vector<Vector3d>& g, int axis, double dt, double f, st
 
 }  // namespace
 
-TEST_CASE("the gusts have the deviations of the table") {
+TEST_CASE("the gusts have the deviations of the table" * doctest::test_suite("amounts")) {
   CHECK(dryden_scales(Turbulence::light).sigma.isApprox(Vector3d(1.06, 1.06, 0.7)));
   CHECK(dryden_scales(Turbulence::moderate).sigma.isApprox(Vector3d(2.12, 2.12, 1.4)));
   Vector3d sum = Vector3d::Zero();
@@ -58,7 +58,8 @@ TEST_CASE("the gusts have the deviations of the table") {
   CHECK(sigma.z() == Approx(1.4).epsilon(0.03));
 }
 
-TEST_CASE("the deviation does not depend on the step and survives a changing airspeed") {
+TEST_CASE("the deviation does not depend on the step and survives a changing airspeed" *
+          doctest::test_suite("amounts")) {
   Vector3d sum = Vector3d::Zero();
   std::size_t n = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
@@ -72,7 +73,7 @@ TEST_CASE("the deviation does not depend on the step and survives a changing air
   CHECK(sigma.z() == Approx(0.7).epsilon(0.08));
 }
 
-TEST_CASE("the spectra are those of MIL-F-8785C") {
+TEST_CASE("the spectra are those of MIL-F-8785C" * doctest::test_suite("amounts")) {
   const double dt = 0.05, Va = 17, two_pi = 2 * std::numbers::pi;
   const auto g = gusts(3, dt, Va, 400000);
   for (double f : {0.05, 0.2, 1.0}) {

@@ -108,7 +108,8 @@ TEST_CASE("Jacobi's functions are circular ones at modulus 0, hyperbolic ones at
   CHECK(quarter.dn == doctest::Approx(std::sqrt(0.5)).epsilon(1e-13));
 }
 
-TEST_CASE("a free body with three moments of inertia tumbles as its exact solution, for 100 s at 400 Hz") {
+TEST_CASE("a free body with three moments of inertia tumbles as its exact solution, for 100 s at 400 Hz" *
+          doctest::test_suite("amounts")) {
   for (const double w1 : {0.3, -0.8}) {
     const Exact exact(std::abs(w1), 0.9);
     REQUIRE(exact.m > 0);
@@ -137,7 +138,8 @@ TEST_CASE("the exact free body is met with fourth order: half the step, a sixtee
   }
 }
 
-TEST_CASE("without forces energy and angular momentum are kept to a billionth for a minute at 400 Hz") {
+TEST_CASE("without forces energy and angular momentum are kept to a billionth for a minute at 400 Hz" *
+          doctest::test_suite("amounts")) {
   Eigen::Matrix3d skewed = J.asDiagonal();
   skewed(0, 2) = skewed(2, 0) = -0.06;
   const MassProperties aircraft(4.5, skewed);

@@ -133,13 +133,16 @@ int compare_command(const CompareWords& words) {
   const StateLog& b = two_logs ? other : a;
   const Topics topics = chosen(a, b, names);
   nlohmann::json all = nlohmann::json::array();
-  if (topics.empty() && !words.json)
-    std::printf("No estimate (VehicleState) stands in both logs: none is compared.\n");
+  const std::string nothing = "No estimate (VehicleState) stands in both logs: none is compared.";
+  if (topics.empty() && !words.changed) throw Error(nothing);
+  if (topics.empty() && !words.json) std::printf("%s\n", nothing.c_str());
+  bool some = words.changed;
   for (const auto& [first, second] : topics) {
     Side x = side_of(a, first, words), y = side_of(b, second, words);
     if (x.topic == x.truth || y.topic == y.truth) x.truth = y.truth = x.check = y.check = "";
     const auto [x_name, y_name] = short_names(x, y, words.names);
     const Pair pair{x, y, x_name, y_name, compare(x, y, span_of(words))};
+    some = some || pair.made.pairs > 0;
     if (words.changed && pair.made.equal) continue;
     if (words.json)
       all.push_back(json_of(pair));
@@ -147,7 +150,7 @@ int compare_command(const CompareWords& words) {
       std::printf("%s%s", all.empty() ? "" : "\n", text_of(pair).c_str()), all.push_back(nullptr);
   }
   if (words.json) core::print_json({{"estimates", all}});
-  return 0;
+  return some ? 0 : 1;
 }
 
 }  // namespace fulmar::states

@@ -16,7 +16,7 @@ struct CompareWords {
   bool json = false;
 };
 
-/// 0: compared. Throws core::Error.
+/// 0: compared, or with `changed` nothing was to be; 1: at no time were both there. Throws core::Error.
 int compare_command(const CompareWords& words);
 
 }  // namespace fulmar::states

@@ -533,6 +533,26 @@ TEST_CASE("which states: by port, topic or owner; what cannot be is told with wh
   CHECK(by_truth.at("errors").at("first").at("truth").is_null());
 }
 
+TEST_CASE("when nothing can be compared the exit code is 1, but for what asks for changes alone") {
+  const Folder folder;
+  const std::string a = folder.path / "a.mcap", b = folder.path / "b.mcap", c = folder.path / "c.mcap";
+  {
+    Log one(a), later(b), other(c);
+    for (int i = 0; i < 20; ++i) {
+      one.write("/nav/state", i * 100 * ms, state());
+      later.write("/nav/state", (i + 1000) * 100 * ms, state());
+      other.write("/second/state", i * 100 * ms, state());
+    }
+  }
+  CHECK(say(a + " " + b).code == 1);
+  CHECK(say(a + " " + a).code == 0);
+  CHECK(say("--changed " + a + " " + b).code == 0);
+  CHECK(say(a + " " + c).code == 1);
+  CHECK(say(a + " " + c).text == "No estimate (VehicleState) stands in both logs: none is compared.");
+  CHECK(say("--changed " + a + " " + c).code == 0);
+  CHECK(compared(a + " " + c + " nav second").at("compared") == 20);
+}
+
 TEST_CASE("two logs: the states that both have, each beside its own truth; that these differ is told") {
   const Folder folder;
   const std::string a = folder.path / "a.mcap", b = folder.path / "b.mcap", c = folder.path / "c.mcap";

@@ -15,10 +15,16 @@
 
 namespace fulmar::fcu::testing {
 
+/// Since shortly before the first call: a controller that is new begins at 0, and what has passed since the
+/// computer was switched on is not to be flown through.
 inline std::int64_t wall_us() {
-  timespec t{};
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return std::int64_t{t.tv_sec} * 1000000 + t.tv_nsec / 1000;
+  const auto now_us = [] {
+    timespec t{};
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return std::int64_t{t.tv_sec} * 1000000 + t.tv_nsec / 1000;
+  };
+  static const std::int64_t begun_us = now_us() - 1;
+  return now_us() - begun_us;
 }
 
 /// Calls `work` again and again in a thread of its own until it is gone.
@@ -27,7 +33,7 @@ class Device {
   explicit Device(std::function<void(Pty&)> work)
       : thread_([this, work = std::move(work)] {
           while (!over_) {
-            // Who holds a mutex almost always gets it again at once: whoever waits for it has to be let in.
+            // Who holds a mutex almost always gets it again at once: whoever waits has to be let in.
             while (waiting_ > 0) std::this_thread::yield();
             const std::lock_guard lock(mutex_);
             work(pty_);

@@ -24,6 +24,9 @@ namespace fulmar::estimator {
 inline constexpr double never = -1e9;
 inline constexpr double bridge_tilt_std = 0.01, bridge_tilt_rate = 0.01;  ///< rad, rad/s: of another's turn
 inline constexpr double bridge_accel_std = 1;  ///< m/s2: changes of the speed that nobody saw
+inline constexpr double height_off_s = 3;      ///< over which a contradiction of the height is averaged
+inline constexpr double height_step_m = 0.7;   ///< by which one fix moves the height at most
+inline constexpr double height_set_m = 50;     ///< beyond which nothing is resolved by degrees
 inline constexpr double outage_after_s = 1.5;  ///< without a velocity: no late fix of a slow receiver
 inline constexpr double coasted_s =
     0.02;  ///< so long without an inertial sample is a gap: slower units do not fly
@@ -76,6 +79,7 @@ class Navigator {
     n.gust_std = p.gust_std;
     n.gust_time = p.gust_time;
     n.baro_walk = p.baro_walk;
+    n.port_walk = p.static_port_walk;
     n.heading_std = p.mag_deviation;
     n.heading_time = p.mag_deviation_time;
     n.gnss_time = p.gnss_position_time;
@@ -249,6 +253,7 @@ class Navigator {
     std.segment<2>(ekf::wind).setConstant(p.wind_std);
     std(ekf::gust) = p.gust_std;
     std(ekf::baro) = 100;
+    std(ekf::port) = p.static_port_std;
     std(ekf::heading) = p.mag_deviation;
     std.segment<2>(ekf::gnss).setConstant(filter_.noise.gnss_std);
     time_s_ = time_s;
@@ -289,6 +294,7 @@ class Navigator {
     filter_.inflate(ekf::accel_bias, 3, std::max(p.accel_bias_walk * gap, 0.02));
     filter_.inflate(ekf::wind, 2, std::max(p.wind_walk * gap, 0.3));
     filter_.inflate(ekf::baro, 1, p.baro_walk * gap);
+    filter_.inflate(ekf::port, 1, p.static_port_walk * gap);
     const ekf::Covariance P = filter_.covariance();
     filter_.reset(x, ekf::Vector::Zero(), time_s_);
     filter_.set_covariance(P);
@@ -372,6 +378,9 @@ class Navigator {
   void collect_origin(const Gnss& g, const Params& p);
   void gnss_velocity(const Gnss& g, const ErrorStateEkf::Past& past, double time_s, const Params& p);
   void gnss_position(const Gnss& g, double time_s, const Params& p);
+  void gnss_height(const ekf::Scalar& z, double std, const Params& p);
+  double height_variance(const ekf::Scalar& z, double std, const Params& p) const;
+  ekf::Scalar pressure_height(double pressure_pa) const;
   void yaw_from_course(const Vector3d& v_n);
   void yaw_from_field(const Vector3d& field_b);
 
@@ -390,7 +399,7 @@ class Navigator {
   double gnss_s_ = never, gnss_speed_ = 0, mag_s_ = never, mag_fused_s_ = never, pitot_s_ = never,
          pitot_mps_ = 0, baro_s_ = never;
   std::int64_t origin_count_ = 0;
-  double baro_pa_ = 0;
+  double baro_pa_ = 0, height_seen_s_ = never, height_off_m_ = 0;
   Mode mode_ = Mode::waiting;
   Seen seen_;
   std::optional<VehicleStatus> status_;  ///< the last that the vehicle told

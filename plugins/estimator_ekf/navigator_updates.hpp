@@ -125,7 +125,7 @@ inline void Navigator::regain(const Gnss& g, const FlightAlignment::Found& found
   const double std =
       p.baro_noise * ekf::metres_per_pascal(standard_air(altitude_m_ - filter_.state().p_n.z())) + 0.5;
   seen_.baro_zero =
-      filter_.fuse(ekf::baro_height(filter_.state(), baro_pa_, altitude_m_), std * std, 3).accepted;
+      filter_.fuse(pressure_height(baro_pa_), std * std, 3).accepted;
 }
 
 inline void Navigator::gnss_position(const Gnss& g, double time_s, const Params& p) {
@@ -153,17 +153,41 @@ inline void Navigator::gnss_position(const Gnss& g, double time_s, const Params&
     forget_level();
     health_.position_s = time_s_;
   }
-  health_.position_innovation.z() = z(2).innovation / filter_.expected_std(z(2), v_std * v_std);
+  gnss_height(z(2), v_std, p);
+}
+
+/// Receiver and barometer can both be wrong, so what they disagree in is resolved over seconds, and the height
+/// takes no step: not even when the receiver was refused until it has to be believed. Only what no flight
+/// resolves by degrees is set.
+inline void Navigator::gnss_height(const ekf::Scalar& z, double std, const Params& p) {
+  const double dt = std::clamp(time_s_ - height_seen_s_, 0.0, 10.0),
+               refused_s = time_s_ - std::max(health_.height_s, aligned_s_);
+  height_seen_s_ = time_s_;
+  height_off_m_ += (z.innovation - height_off_m_) * (1 - std::exp(-dt / height_off_s));
+  health_.position_innovation.z() = z.innovation / filter_.expected_std(z, std * std);
   health_.height_ratio = std::abs(health_.position_innovation.z());
-  if (health_.height_ratio <= p.gnss_gate) {
-    filter_.fuse(z(2), samples_in(p.gnss_height_time, health_.height_s) * v_std * v_std, 1e3);
-    health_.height_s = time_s_;
-  } else if (++health_.refused; time_s_ - std::max(health_.height_s, aligned_s_) > p.gnss_reset_after) {
-    filter_.place(filter_.state().p_n + Vector3d(0, 0, z(2).innovation), filter_.state().v_n);
-    filter_.forget(ekf::pos + 2, 1, v_std);
-    seen_.baro_zero = false;
-    health_.height_s = time_s_;
+  const bool agrees = health_.height_ratio <= p.gnss_gate;
+  if (!agrees) ++health_.refused;
+  if (!agrees && refused_s <= p.gnss_reset_after) return;
+  if (agrees || std::abs(z.innovation) < height_set_m) {
+    filter_.fuse(z, height_variance(z, std, p), 1e9);
+    if (agrees) health_.height_s = time_s_;  // else the next one is believed as well
+    return;
   }
+  filter_.place(filter_.state().p_n + Vector3d(0, 0, z.innovation), filter_.state().v_n);
+  filter_.forget(ekf::pos + 2, 1, std);
+  seen_.baro_zero = false;
+  height_off_m_ = 0;
+  health_.height_s = time_s_;
+}
+
+/// Its error is slow, so a fix hardly counts; the more, and steeply so, the farther off it has been for
+/// seconds. What it may move bounds it from below.
+inline double Navigator::height_variance(const ekf::Scalar& z, double std, const Params& p) const {
+  const double doubt = std::pow(height_off_m_ / std::max(p.gnss_height_doubt.value, std), 8);
+  const double known = filter_.expected_std(z, 0);
+  return std::max(samples_in(p.gnss_height_time, health_.height_s) * std * std / (1 + doubt),
+                  known * known * (std::abs(z.innovation) / height_step_m - 1));
 }
 
 inline void Navigator::mag(const Vector3d& field_b, const Params& p) {
@@ -199,6 +223,11 @@ inline void Navigator::yaw_from_field(const Vector3d& field_b) {
   seen_.yaw = true;
 }
 
+inline ekf::Scalar Navigator::pressure_height(double pressure_pa) const {
+  return airborne_ ? ekf::baro_height_in_flight(filter_.state(), pressure_pa, altitude_m_)
+                   : ekf::baro_height(filter_.state(), pressure_pa, altitude_m_);
+}
+
 inline void Navigator::baro(double pressure_pa, const Params& p) {
   if (!(pressure_pa > 1e4 && pressure_pa < 1.2e5)) return;
   baro_s_ = time_s_;
@@ -211,7 +240,7 @@ inline void Navigator::baro(double pressure_pa, const Params& p) {
   air_ = standard_air(altitude_m_ - filter_.state().p_n.z());
   if (!seen_.baro_zero) {
     ekf::Vector dx = ekf::Vector::Zero();
-    dx(ekf::baro) = ekf::baro_height(filter_.state(), pressure_pa, altitude_m_).innovation;
+    dx(ekf::baro) = pressure_height(pressure_pa).innovation;
     filter_.correct(dx);
     const double height_std = seen_.height ? filter_.std(ekf::pos + 2) : 0.5;
     if (!seen_.height) filter_.forget(ekf::pos + 2, 1, 0.5);
@@ -220,10 +249,10 @@ inline void Navigator::baro(double pressure_pa, const Params& p) {
   }
   const double dynamic_pa =
       airborne_ ? 0.5 * air_.density_kgm3 * ekf::air_velocity(filter_.state()).squaredNorm() : 0;
+  const double load = filter_.specific_force_b().norm() / p.gravity - 1;
   const double std =
-      std::hypot(p.baro_noise, p.baro_position_error * dynamic_pa) * ekf::metres_per_pascal(air_);
-  const ekf::Fused fused =
-      filter_.fuse(ekf::baro_height(filter_.state(), pressure_pa, altitude_m_), std * std, p.air_gate);
+      std::hypot(p.baro_noise, p.baro_load_error * load * dynamic_pa) * ekf::metres_per_pascal(air_);
+  const ekf::Fused fused = filter_.fuse(pressure_height(pressure_pa), std * std, p.air_gate);
   health_.baro_ratio = fused.ratio;
   if (fused.accepted) {
     health_.baro_s = time_s_;

@@ -41,6 +41,9 @@ struct Params {
   Param gnss_height_time{
       60, "s", 0, 1000,
       "correlation time of the receiver's height error: a fix counts for less the more of them come in it"};
+  Param gnss_height_doubt{
+      5, "m", 0.5, 100,
+      "a height that contradicts by so much for seconds is believed by degrees; below, it hardly counts"};
   Param gnss_climb_time{
       2, "s", 0, 100,
       "the same for the error of its vertical velocity, which would else be integrated to a height"};
@@ -57,7 +60,11 @@ struct Params {
 
   // air data
   Param baro_noise{4, "Pa", 0.1, 100, "of one sample"};
-  Param baro_position_error{0.03, "", 0, 1, "share of the dynamic pressure that the static port may see"};
+  Param static_port_std{0.05, "", 0, 1,
+                        "share of the dynamic pressure that the static port may see, before it is learnt"};
+  Param static_port_walk{0.003, "1/sqrt(s)", 0, 0.1, "how fast that share changes: flaps, throttle, load"};
+  Param baro_load_error{0.1, "", 0, 1,
+                        "noise of the barometer as a share of the dynamic pressure, for each g of load beyond 1"};
   Param baro_walk{0.1, "m/sqrt(s)", 0, 5, "how fast the weather and the sensor shift the pressure height"};
   Param pitot_noise{2, "Pa", 0.1, 100, "of one sample"};
   Param pitot_speed_std{0.1, "m/s", 0, 5, "of one sample, beside the pressure noise"};

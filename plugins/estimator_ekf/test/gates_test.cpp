@@ -156,21 +156,6 @@ TEST_CASE("where the field is steep the needle knows less of the yaw") {
   CHECK(yaw_std(64.1, -21.9) > 2 * yaw_std(0.1, 36.8));  // Iceland, Kenya: dips of 75 and -22 degrees
 }
 
-TEST_CASE("a static port that sees the dynamic pressure makes the height less sure, in the air alone") {
-  const auto height_std = [](double share, double duration_s) {
-    Flown f{};
-    f.plan.duration_s = duration_s;
-    f.alter = [](const Truth& x, Samples& s) {
-      if (x.t > 3) s.gnss.reset();
-    };
-    f.set = [&](Ekf::Params& p) { p.baro_position_error.value = share; };
-    f.run();
-    return f.last.position_std_m.down;
-  };
-  CHECK(height_std(1, 40) > 1.05 * height_std(0, 40));
-  CHECK(height_std(1, 5) / height_std(0, 5) == doctest::Approx(1));
-}
-
 TEST_CASE("how far the tube's speed is believed is the pilot's to say") {
   const auto airspeed_std = [](double std_mps) {
     Flown f{};

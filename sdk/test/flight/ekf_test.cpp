@@ -30,6 +30,7 @@ ekf::Nominal any_state(Random& r) {
   x.wind = {r.uniform(-6, 6), r.uniform(-6, 6)};
   x.gust_mps = r.normal();
   x.baro_m = 5 * r.normal();
+  x.port_ratio = 0.1 * r.normal();
   x.heading_rad = 0.1 * r.normal();
   return x;
 }
@@ -72,11 +73,13 @@ TEST_CASE("the row of every measurement is the derivative of what it expects") {
     const auto sideslip = [](const ekf::Nominal& n) { return ekf::zero_sideslip(n); };
     const auto heading = [&](const ekf::Nominal& n) { return ekf::magnetic_heading(n, field, 0.2); };
     const auto baro = [](const ekf::Nominal& n) { return ekf::baro_height(n, 85000, 1387); };
+    const auto port = [](const ekf::Nominal& n) { return ekf::baro_height_in_flight(n, 85000, 1387); };
     const auto rate = [](const ekf::Nominal& n) { return ekf::zero_rate(n, 1, 0.01); };
     CHECK((airspeed(x).H - numeric(x, airspeed)).norm() < 1e-6);
     CHECK((sideslip(x).H - numeric(x, sideslip)).norm() < 1e-5);
     CHECK((heading(x).H - numeric(x, heading)).norm() < 1e-5 * heading(x).H.norm());
     CHECK((baro(x).H - numeric(x, baro)).norm() < 1e-6);
+    CHECK((port(x).H - numeric(x, port)).norm() < 1e-5);
     CHECK((rate(x).H - numeric(x, rate)).norm() < 1e-6);
     const ErrorStateEkf::Past now{x.p_n, x.v_n, 0, true};
     const ErrorStateEkf f = filter_at(x);
@@ -103,7 +106,7 @@ TEST_CASE("the covariance follows the motion: Phi P Phi' with Phi by finite diff
     const Vector3d omega = any(r, 1), f_b = any(r, 5) + Vector3d(0, 0, -10);
     const auto moved = [&](const ekf::Nominal& from) {
       ErrorStateEkf f = filter_at(from);
-      f.noise = {0, 0, 0, 0, 0, 0, 0, 0, 0, 1e9, 0, 0, 1e9};
+      f.noise = {0, 0, 0, 0, 0, 0, 0, 0, 0, 1e9, 0, 0, 0, 1e9};
       f.set_covariance(P);
       for (int k = 0; k < 4; ++k) f.predict(omega, f_b, 0.0025);
       return f;
@@ -297,13 +300,30 @@ TEST_CASE("a needle that points to the declination gives the true heading in bot
     }
 }
 
+TEST_CASE("a static port that sees a share of the dynamic pressure makes the barometer read too low by it") {
+  ekf::Nominal x;
+  x.v_n = {25, 3, -2};
+  x.wind = {5, 3};
+  x.p_n = {0, 0, -120};
+  for (const double share : {0.1, -0.1}) {
+    x.port_ratio = share;
+    const Air air = standard_air(1387 + 120);
+    const double dynamic_pa = 0.5 * air.density_kgm3 * (20 * 20 + 2 * 2);
+    const ekf::Scalar z = ekf::baro_height_in_flight(x, air.pressure_pa + share * dynamic_pa, 1387);
+    CHECK(std::abs(z.innovation) < 0.01);  // of 2.1 m: what the density changes by over them
+    CHECK(ekf::baro_height(x, air.pressure_pa + share * dynamic_pa, 1387).innovation / share < -20);
+  }
+}
+
 TEST_CASE("gust, heading deviation and the receiver's error grow to their deviations, and stay there") {
   ErrorStateEkf f;
   f.noise.gust_std = 1.3, f.noise.gust_time = 0.5;
   f.noise.heading_std = 0.04, f.noise.heading_time = 0.7;
   f.noise.gnss_std = 2.5, f.noise.gnss_time = 0.6;
+  f.noise.port_walk = 0.02;
   f.reset({}, ekf::Vector::Zero(), 0);
   for (int i = 0; i < 2000; ++i) f.predict(Vector3d::Zero(), {0, 0, -9.80665}, 0.005);
+  CHECK(f.std(ekf::port) / (0.02 * std::sqrt(10.0)) == doctest::Approx(1).epsilon(1e-6));  // and this walks
   CHECK(f.std(ekf::gust) / 1.3 == doctest::Approx(1).epsilon(1e-6));
   CHECK(f.std(ekf::heading) / 0.04 == doctest::Approx(1).epsilon(1e-6));
   for (const int i : {0, 1}) CHECK(f.std(ekf::gnss + i) / 2.5 == doctest::Approx(1).epsilon(1e-6));

@@ -21,7 +21,7 @@ namespace ekf {
 /// Where each part of the error state begins. Attitude is a small rotation about the NED axes: R_true =
 /// exp(theta) R_estimate.
 inline constexpr int theta = 0, vel = 3, pos = 6, gyro_bias = 9, accel_bias = 12, wind = 15, gust = 17,
-                     baro = 18, heading = 19, gnss = 20, size = 22;
+                     baro = 18, port = 19, heading = 20, gnss = 21, size = 23;
 
 using Vector = Eigen::Matrix<double, size, 1>;
 using Row = Eigen::Matrix<double, 1, size>;
@@ -41,6 +41,7 @@ struct Noise {
   double gust_std = 1.0;          ///< m/s, first-order Gauss-Markov along the flight direction
   double gust_time = 3.0;         ///< s
   double baro_walk = 0.05;        ///< m/sqrt(s)
+  double port_walk = 0;           ///< 1/sqrt(s): share of the dynamic pressure, see Nominal::port_ratio
   double heading_std =
       0.035;  ///< rad, first-order Gauss-Markov: what the magnetometer is off after calibration
   double heading_time = 300;  ///< s
@@ -49,14 +50,16 @@ struct Noise {
 };
 
 /// What the filter believes. Wind is the velocity of the air; `baro_m` is what the barometer reads too high;
-/// `heading_rad` is what the magnetic heading reads too high. How far north and east of the aircraft a
-/// receiver sees it counts in the covariance alone.
+/// `port_ratio` is the share of the dynamic pressure that the static port sees on top of the static pressure:
+/// by so much of the velocity head u^2/2g the barometer reads too low in flight; `heading_rad` is what the
+/// magnetic heading reads too high. How far north and east of the aircraft a receiver sees it counts in the
+/// covariance alone.
 struct Nominal {
   Eigen::Quaterniond q_nb = Eigen::Quaterniond::Identity();
   Eigen::Vector3d v_n = Eigen::Vector3d::Zero(), p_n = Eigen::Vector3d::Zero();
   Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero(), accel_bias = Eigen::Vector3d::Zero();
   Eigen::Vector2d wind = Eigen::Vector2d::Zero();
-  double gust_mps = 0, baro_m = 0, heading_rad = 0;
+  double gust_mps = 0, baro_m = 0, port_ratio = 0, heading_rad = 0;
 
   /// The state moved by an error: x (+) dx.
   Nominal plus(const Vector& dx) const {
@@ -74,6 +77,7 @@ struct Nominal {
     wind += dx.segment<2>(ekf::wind);
     gust_mps += dx(gust);
     baro_m += dx(baro);
+    port_ratio += dx(port);
     heading_rad += dx(heading);
   }
   /// The error that leads from `from` to here: dx with from (+) dx = *this.
@@ -81,7 +85,7 @@ struct Nominal {
     Vector dx;
     dx << log_map(q_nb * from.q_nb.conjugate()), v_n - from.v_n, p_n - from.p_n, gyro_bias - from.gyro_bias,
         accel_bias - from.accel_bias, wind - from.wind, gust_mps - from.gust_mps, baro_m - from.baro_m,
-        heading_rad - from.heading_rad, Eigen::Vector2d::Zero();
+        port_ratio - from.port_ratio, heading_rad - from.heading_rad, Eigen::Vector2d::Zero();
     return dx;
   }
 };
@@ -335,6 +339,7 @@ class ErrorStateEkf {
     const double walk = noise.wind_walk + noise.wind_shear * std::abs(x_.v_n.z());
     add(ekf::wind, 2, walk * walk * T);
     add(ekf::baro, 1, noise.baro_walk * noise.baro_walk * T);
+    add(ekf::port, 1, noise.port_walk * noise.port_walk * T);
     x_.gust_mps *= markov<1>(gust, noise.gust_std, noise.gust_time, T);
     x_.heading_rad *= markov<1>(heading, noise.heading_std, noise.heading_time, T);
     markov<2>(gnss, noise.gnss_std, noise.gnss_time, T);

@@ -63,6 +63,19 @@ inline Scalar baro_height(const Nominal& x, double pressure_pa, double origin_al
   return z;
 }
 
+/// The same in flight, where the static port sees a share of the dynamic pressure (the position error of a
+/// static source: Gracey, NASA RP 1046 (1980)): the height of a pressure rho u^2 / 2 is u^2 / 2g.
+inline Scalar baro_height_in_flight(const Nominal& x, double pressure_pa, double origin_altitude_m) {
+  Scalar z = baro_height(x, pressure_pa, origin_altitude_m);
+  const Eigen::Vector3d u_n = air_velocity(x);
+  const double head_m = u_n.squaredNorm() / (2 * isa::g0);
+  z.innovation += x.port_ratio * head_m;
+  z.H(port) = -head_m;
+  z.H.segment<3>(vel) = -x.port_ratio / isa::g0 * u_n.transpose();
+  z.H.segment<2>(wind) = x.port_ratio / isa::g0 * u_n.head<2>().transpose();
+  return z;
+}
+
 /// Metres per pascal in the standard atmosphere: turns a deviation of the pressure into one of the height.
 inline double metres_per_pascal(const Air& air) { return 1 / (air.density_kgm3 * isa::g0); }
 

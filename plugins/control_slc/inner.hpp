@@ -43,6 +43,9 @@ struct Inner {
     Param yaw_washout{0.6, "rad/s", 0.01, 10, "wash-out pole of the yaw damper"};
 
     Param command_filter{0.04, "s", 0.005, 1, "time constant of the differentiated roll command"};
+    Param airspeed_smoothing{
+        0.5, "s", 0, 10,
+        "time constant of the airspeed that gains, trim and turn rates follow: surfaces do not follow gusts"};
     Param scale_limit{2.5, "ratio", 1, 10,
                       "largest growth of the gains at low dynamic pressure, largest reduction at high"};
     Record<Airframe> airframe{
@@ -57,14 +60,16 @@ struct Inner {
     if (!take_up_) roll_.reset(), pitch_.reset();
     blind_ = false;
     roll_command_rate_.reset_to(in.attitude->roll_rad);
-    washout_.reset_to(yaw_rate_error(*in.state, scheduling_airspeed(*in.state, params.airframe->limits)));
+    const double Va = airspeed_.reset_to(scheduling_airspeed(*in.state, params.airframe->limits));
+    washout_.reset_to(yaw_rate_error(*in.state, Va));
     return Status::ok;
   }
 
   Status step(const Tick& tick, const Inputs& in, const Params& params, Outputs& out) {
     const AttitudeCommand& command = *in.attitude;
     const double dt = std::clamp(tick.dt_s(), 0.0, 0.1);
-    const double Va = scheduling_airspeed(*in.state, params.airframe->limits);
+    const double Va = airspeed_.step(scheduling_airspeed(*in.state, params.airframe->limits),
+                                     params.airspeed_smoothing, dt);
     look(in, Va);
     const VehicleState state = blind_ ? as_commanded(*in.state, command, Va) : *in.state;
     const double rho = standard_air(state.origin_altitude_m + state.height_m).density_kgm3;
@@ -164,6 +169,7 @@ struct Inner {
   Pid roll_, pitch_;
   Differentiator roll_command_rate_;
   WashOut washout_;
+  LowPass airspeed_;  ///< m/s, for gains, trim and turn rates
   Actuators last_;
   bool take_up_ = false, blind_ = false;
   std::int64_t known_ns_ = 0;  ///< the first state after a time without attitude

@@ -68,6 +68,7 @@ TEST_CASE("a ramp of the roll command is fed forward by its rate") {
 TEST_CASE("gains fall with the square of the airspeed, within their bounds") {
   Bench<Inner> bench;
   no_integrals(bench);
+  bench.params.airspeed_smoothing.value = 0;
   const AttitudeCommand c{0.1, 0, 0};
   CHECK(step(bench, flying(20), c).aileron_rad == doctest::Approx(0.12 * 0.5625));
   CHECK(step(bench, flying(12), c).aileron_rad == doctest::Approx(0.12 * 1.5625));
@@ -76,6 +77,19 @@ TEST_CASE("gains fall with the square of the airspeed, within their bounds") {
   VehicleState blind = flying(0);
   blind.ground_speed_mps = 15, blind.airspeed_valid = false;
   CHECK(step(bench, blind, c).aileron_rad == doctest::Approx(0.12));
+}
+
+TEST_CASE("gains follow the airspeed with its time constant, from where it was at the activation") {
+  Bench<Inner> bench;
+  no_integrals(bench);
+  bench.params.airspeed_smoothing.value = 0.4;
+  const AttitudeCommand c{0.1, 0, 0};
+  CHECK(step(bench, flying(20), c, 1).aileron_rad == doctest::Approx(0.12 * 0.5625));
+  const double Va = 12 + 8 * std::exp(-1);  // after one time constant
+  CHECK(step(bench, flying(12), c, 40).aileron_rad == doctest::Approx(0.12 * 225 / (Va * Va)).epsilon(1e-6));
+  bench.set(bench.in.state, flying(18));
+  bench.activate(Applied<Inner::Outputs>{});
+  CHECK(step(bench, flying(18), c, 1).aileron_rad == doctest::Approx(0.12 * 225 / (18.0 * 18)).epsilon(1e-6));
 }
 
 TEST_CASE("the yaw damper's frequency response is kd s / (s + p)") {

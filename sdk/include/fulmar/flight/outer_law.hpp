@@ -17,6 +17,7 @@
 //   }
 #pragma once
 #include "fulmar/flight/atmosphere.hpp"
+#include "fulmar/flight/filters.hpp"
 #include "fulmar/flight/outer_commands.hpp"
 #include "fulmar/flight/turn_trim.hpp"
 #include "fulmar/plugin.hpp"
@@ -49,6 +50,9 @@ struct OuterParams {
   Param takeoff_kp{1.0, "rad/rad", 0, 5, "roll per course error of the take-off law, airborne"};
   Param takeoff_roll_limit{0.15, "rad", 0, 0.5, "largest roll command of the take-off law"};
 
+  Param airspeed_smoothing{0.5, "s", 0, 10,
+                           "time constant of the airspeed whose trim is flown: pitch does not follow gusts"};
+
   Record<Airframe> airframe{"limits, trims, and the derivatives for the feed-forward of turns"};
 };
 
@@ -70,7 +74,7 @@ inline OuterTuning tuning(const OuterParams& p) {
 /// The level turn that is asked for, and what it needs beside level flight at the same airspeed: the share
 /// `turn_kff` of it, by the airframe's model (turn_trim.hpp).
 struct LevelTurn {
-  double Va_mps;       ///< true airspeed for divisions: never near 0 (scheduling_airspeed)
+  double Va_mps;       ///< true airspeed for divisions, smoothed: never near 0 (scheduling_airspeed)
   double pitch_rad;    ///< trim, the turn's share included
   double drag_newton;  ///< beyond that of level flight
 };
@@ -83,8 +87,8 @@ inline double air_density(const VehicleState& state) {
   return standard_air(state.origin_altitude_m + state.height_m).density_kgm3;
 }
 
-inline LevelTurn level_turn(double roll_rad, const VehicleState& state, const OuterParams& p) {
-  const double Va = scheduling_airspeed(state, p.airframe->limits), rho = air_density(state);
+inline LevelTurn level_turn(double roll_rad, double Va, const VehicleState& state, const OuterParams& p) {
+  const double rho = air_density(state);
   const TurnTrim turn = turn_trim(*p.airframe, roll_rad, Va, rho), level = turn_trim(*p.airframe, 0, Va, rho);
   return {Va, level.alpha_rad + p.turn_kff * (turn.alpha_rad * std::cos(roll_rad) - level.alpha_rad),
           p.turn_kff * (turn.drag_newton - level.drag_newton)};
@@ -93,10 +97,12 @@ inline LevelTurn level_turn(double roll_rad, const VehicleState& state, const Ou
 /// An outer law but for height and speed. Its component publishes `attitude` and `internals`.
 struct OuterLoop {
   OuterCommands commands;
+  LowPass airspeed;  ///< m/s, for trims
 
   /// Goes on from what was applied last. False: nobody flew, and integrals are to begin empty.
   template <class Outputs>
   bool activate(const VehicleState& state, const OuterParams& p, const Applied<Outputs>& last) {
+    airspeed.reset_to(scheduling_airspeed(state, p.airframe->limits));
     const AttitudeCommand* attitude = last.has(last->attitude) ? &last->attitude : nullptr;
     return commands.take_over(p.law, state, attitude, tuning(p), p.airframe->limits);
   }
@@ -108,16 +114,18 @@ struct OuterLoop {
               const OuterParams& p, Outputs& out, Rest&& rest, Hold&& hold) {
     const double dt = std::clamp(tick.dt_s(), 0.0, 0.1);  // a gap must not throw the integrators
     const OuterTuning t = tuning(p);
+    const double Va = scheduling_airspeed(state, p.airframe->limits);
     const OuterAction action = commands.begin(p.law, state);
     out.internals = {};
-    if (action != OuterAction::hold) rest();
+    if (action != OuterAction::hold) rest(), airspeed.reset_to(Va);
     switch (action) {
       case OuterAction::wait: out.attitude = commands.wait(); break;
       case OuterAction::take_off: out.attitude = commands.take_off(state, t, p.airframe->limits, dt); break;
       case OuterAction::level: out.attitude = level(state, p, t, dt); break;
       case OuterAction::hold: {
         const double phi = commands.roll(state, command, t, dt);
-        const PitchThrottle wanted = hold(level_turn(phi, state, p), dt);
+        const double steady = airspeed.step(Va, p.airspeed_smoothing, dt);
+        const PitchThrottle wanted = hold(level_turn(phi, steady, state, p), dt);
         out.attitude = commands.finish(phi, wanted.pitch_rad, wanted.throttle_frac, t, dt);
       }
     }

@@ -124,8 +124,7 @@ inline void Navigator::regain(const Gnss& g, const FlightAlignment::Found& found
   if (!zeroed || time_s_ - baro_s_ > 0.5) return;
   const double std =
       p.baro_noise * ekf::metres_per_pascal(standard_air(altitude_m_ - filter_.state().p_n.z())) + 0.5;
-  seen_.baro_zero =
-      filter_.fuse(pressure_height(baro_pa_), std * std, 3).accepted;
+  seen_.baro_zero = filter_.fuse(pressure_height(baro_pa_), std * std, 3).accepted;
 }
 
 inline void Navigator::gnss_position(const Gnss& g, double time_s, const Params& p) {
@@ -156,9 +155,9 @@ inline void Navigator::gnss_position(const Gnss& g, double time_s, const Params&
   gnss_height(z(2), v_std, p);
 }
 
-/// Receiver and barometer can both be wrong, so what they disagree in is resolved over seconds, and the height
-/// takes no step: not even when the receiver was refused until it has to be believed. Only what no flight
-/// resolves by degrees is set.
+/// Receiver and barometer can both be wrong, so what they disagree in is resolved over seconds, and the
+/// height takes no step: not even when the receiver was refused until it has to be believed. Only what no
+/// flight resolves by degrees is set.
 inline void Navigator::gnss_height(const ekf::Scalar& z, double std, const Params& p) {
   const double dt = std::clamp(time_s_ - height_seen_s_, 0.0, 10.0),
                refused_s = time_s_ - std::max(health_.height_s, aligned_s_);

@@ -63,8 +63,9 @@ struct Params {
   Param static_port_std{0.05, "", 0, 1,
                         "share of the dynamic pressure that the static port may see, before it is learnt"};
   Param static_port_walk{0.003, "1/sqrt(s)", 0, 0.1, "how fast that share changes: flaps, throttle, load"};
-  Param baro_load_error{0.1, "", 0, 1,
-                        "noise of the barometer as a share of the dynamic pressure, for each g of load beyond 1"};
+  Param baro_load_error{
+      0.1, "", 0, 1,
+      "noise of the barometer as a share of the dynamic pressure, for each g of load beyond 1"};
   Param baro_walk{0.1, "m/sqrt(s)", 0, 5, "how fast the weather and the sensor shift the pressure height"};
   Param pitot_noise{2, "Pa", 0.1, 100, "of one sample"};
   Param pitot_speed_std{0.1, "m/s", 0, 5, "of one sample, beside the pressure noise"};

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Does what a page of the documentation tells its reader to do, and compares what comes out with what the page says.
 
-  cmake/tutorials.py [--prefix PREFIX | --build BUILD] [PAGE.md...]
+  cmake/tutorials.py [--prefix PREFIX | --build BUILD] [--update] [PAGE.md...]
 
 Each page has a home folder of its own, where ~/fulmar is PREFIX and its bin is on the PATH; without --prefix, BUILD is installed into a
 scratch folder for it. In a page
@@ -16,12 +16,15 @@ scratch folder for it. In a page
   <!-- $ command -->   is run unseen
   <!-- refused: a.yaml -->  before a table: each row is one change to a.yaml, `old` -> `new`, or options of `fulmar check a.yaml`,
                        and what is told
+
+With --update, lines that differ by their numbers alone get those of today, in the page; what changes is to be read before it is kept.
 """
 import argparse
 import concurrent.futures
 import contextlib
 import difflib
 import fcntl
+import math
 import os
 import pathlib
 import pty
@@ -129,7 +132,7 @@ def same_line(expected, actual, tolerance=0):
     if not match:
         return False
     numbers = re.findall(NUMBER, expected) if tolerance else []
-    return all(near(e, a, tolerance) for e, a in zip(numbers, match.groups()))
+    return all(tolerance == math.inf or near(e, a, tolerance) for e, a in zip(numbers, match.groups()))
 
 
 def reach(expected, actual, tolerance):
@@ -145,6 +148,23 @@ def reach(expected, actual, tolerance):
 
 def same_output(expected, actual, tolerance=0):
     return len(actual) in reach(expected, actual, tolerance)[-1]
+
+
+def renewed(expected, actual, tolerance):
+    """The expected lines with the numbers of the actual ones where these are out of tolerance. None where more than numbers differ."""
+    steps = reach(expected, actual, math.inf)
+    if len(actual) not in steps[-1]:
+        return None
+    lines, end = list(expected), len(actual)
+    for i in reversed(range(len(expected))):
+        if expected[i].strip() == "...":
+            end = max(at for at in steps[i] if at <= end)
+            continue
+        end = end - 1
+        if not same_line(expected[i], actual[end], tolerance):
+            numbers = iter(pattern_of(expected[i], math.inf).fullmatch(actual[end]).groups())
+            lines[i] = re.sub(NUMBER, lambda old: next(numbers).rjust(len(old[0])), expected[i])
+    return lines
 
 
 def difference(expected, actual, tolerance):
@@ -266,9 +286,10 @@ def patched(text, lines):
 
 
 class Page:
-    def __init__(self, path, terminal, show):
+    def __init__(self, path, terminal, given):
         self.path = os.path.relpath(path)
-        self.terminal, self.show, self.commands = terminal, show, 0
+        self.terminal, self.show, self.commands = terminal, given.show, 0
+        self.update = given.update
 
     def fail(self, line, sentence):
         raise Mismatch(f"{self.path}:{line}: {sentence}")
@@ -304,10 +325,29 @@ class Page:
             self.fail(line, f"$ {command}\n{fault}")
         if self.show:
             print("$ " + command, *actual, sep="\n")
-        if not same_output(expected, actual, tolerance):
+        if not same_output(expected, actual, tolerance) and not self.renew(line, command, expected, actual, tolerance):
             self.fail(line, f"$ {command}\n{difference(expected, actual, tolerance)}")
         if actual_code != code:
+            if self.update and " --like " in command:
+                return
             self.fail(line, f"$ {command}\nends with exit code {actual_code}, not {code}\n" + "\n".join(actual[-20:]))
+
+    def renew(self, line, command, expected, actual, tolerance):
+        """With --update: writes the numbers, or the drawing, of today into the page. False when that is not what differs."""
+        drawing = re.search(r" -o (\S+) --like (\S+)$", command)
+        if self.update and drawing:
+            shutil.copy(self.terminal.folder / drawing[1], pathlib.Path(self.path).parent / drawing[2])
+            print(f"{self.path}:{line}: {drawing[2]} updated", flush=True)
+            return True
+        lines = renewed(expected, actual, tolerance) if self.update else None
+        if lines is None:
+            return False
+        page, first = pathlib.Path(self.path), line + command.count("\n")
+        text = page.read_text(encoding="utf-8").splitlines()
+        text[first : first + len(lines)] = lines
+        page.write_text("\n".join(text) + "\n", encoding="utf-8")
+        print(f"{self.path}:{line}: updated", flush=True)
+        return True
 
     def console(self, block):
         commands = commands_of(block)
@@ -326,6 +366,8 @@ class Page:
         end = time.monotonic() + self.terminal.limit_s
         while not same_output(expected, as_seen(self.job.raw[self.seen :]), block.tolerance):
             if not self.job.pump() or time.monotonic() > end:
+                if self.renew(line, command, expected, as_seen(self.job.raw[self.seen :]), block.tolerance):
+                    break
                 self.fail(line, f"$ {command}\n{difference(expected, as_seen(self.job.raw[self.seen :]), block.tolerance)}")
         if self.show:
             print("$ " + command, *as_seen(self.job.raw[self.seen :]), sep="\n")
@@ -356,7 +398,7 @@ def do_page(path, prefix, given):
     """What went wrong, or ""."""
     home = pathlib.Path(tempfile.mkdtemp(prefix="fulmar-page-"))
     terminal = Terminal(home, prefix, given.limit)
-    page, begin, fault = Page(path, terminal, given.show), time.monotonic(), ""
+    page, begin, fault = Page(path, terminal, given), time.monotonic(), ""
     try:
         page.run()
     except Mismatch as mismatch:
@@ -388,6 +430,7 @@ def main(arguments=None):
     parser.add_argument("--prefix", help="where Fulmar is installed")
     parser.add_argument("--build", default=ROOT / "build", help="a build that is installed when there is no --prefix")
     parser.add_argument("--keep", action="store_true", help="leave the pages' home folders")
+    parser.add_argument("--update", action="store_true", help="write today's numbers into the pages where numbers alone differ")
     parser.add_argument("--show", action="store_true", help="print what comes")
     parser.add_argument("--limit", type=float, default=300, help="seconds that one command may take")
     parser.add_argument("--jobs", type=int, default=1, help="pages at a time")

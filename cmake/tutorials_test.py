@@ -23,12 +23,16 @@ class Pages(unittest.TestCase):
                             '[ $# -gt 0 ] && echo "$1 is not understood"; exit 4\n')
         stand_in.chmod(0o755)
 
-    def run_page(self, text, limit="20"):
+    def updated(self, text):
+        code, out = self.run_page(text, more=["--update"])
+        return code, (self.folder / "page.md").read_text()
+
+    def run_page(self, text, limit="20", more=()):
         page = self.folder / "page.md"
         page.write_text(textwrap.dedent(text))
         out = io.StringIO()
         with contextlib.redirect_stdout(out):
-            code = tutorials.main(["--prefix", str(self.folder / "prefix"), "--limit", limit, str(page)])
+            code = tutorials.main(["--prefix", str(self.folder / "prefix"), "--limit", limit, *more, str(page)])
         return code, out.getvalue()
 
     def passes(self, text):
@@ -73,6 +77,18 @@ class Pages(unittest.TestCase):
         self.fails("```console\n$ echo 'error 1.01 m'\nerror 1.00 m\n```", "+error 1.01 m")
         self.fails("```console 5%\n$ echo 'error 1.00 ft'\nerror 1.00 m\n```")
         self.fails("```console 50%\n$ echo aux1\naux2\n```")
+
+    def test_update_writes_numbers_that_are_out_of_tolerance_and_nothing_else(self):
+        page = "```console 5%\n$ printf 'a 1.50 m\\nb 7 x\\nb 10.25 s at 3\\nend\\n'\na  1.00 m\n...\nb  9.90 s at 3\n...\n```\n"
+        self.assertEqual(self.updated(page), (0, page.replace("a  1.00", "a  1.50")))  # 10.25 is within 5 % of 9.90
+        code, text = self.updated(page.replace("9.90", "8.00"))
+        self.assertEqual((code, text), (0, page.replace("a  1.00", "a  1.50").replace("9.90", "10.25")))
+        other = page.replace("a  1.00 m", "a  1.00 ft")
+        self.assertEqual(self.updated(other), (1, other))  # not a number alone
+        drawing = "```console\n$ touch new.svg; echo is 9 away; true -o new.svg --like old.svg\n```\n"
+        (self.folder / "old.svg").write_text("of yesterday")
+        self.assertEqual(self.updated(drawing)[0], 0)
+        self.assertEqual((self.folder / "old.svg").read_text(), "")
 
     def test_exit_codes_are_compared(self):
         self.passes("```console exit=3\n$ true\n$ exit 3\n```")

@@ -105,7 +105,7 @@ struct RadarNavigator {  // fills the role `nav`
     ekf::Vector std;
     std << eigen(s.attitude_std_rad), eigen(s.velocity_std_mps), eigen(s.position_std_m),
         Vector3d::Constant(2e-3), Vector3d::Constant(0.05), eigen(s.wind_std_mps).head<2>(),
-        filter_.noise.gust_std, 300, 0, filter_.noise.heading_std, Eigen::Vector2d::Zero();
+        filter_.noise.gust_std, 300, 0, filter_.noise.heading_std, Vector3d::Zero();
     imu_ns_ = in.imu.valid_at_ns();
     filter_.reset(x, std.cwiseMin(300), in.imu.valid_at_s());
     position_s_ = height_s_ = climb_s_ = pitot_s_ = filter_.time_s();

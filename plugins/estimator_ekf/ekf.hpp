@@ -28,7 +28,8 @@ struct Ekf {
     Probe horizontal_ratio, height_ratio, velocity_ratio, baro_ratio, pitot_ratio, sideslip_ratio,
         heading_ratio;    ///< innovations in deviations
     Probe refused_ratio;  ///< measurements refused by their gates so far
-    Probe gust_mps, gust_north_mps, gust_east_mps, baro_bias_m, heading_deviation_rad;
+    Probe gust_mps, gust_north_mps, gust_east_mps, baro_bias_m, static_port_ratio, heading_deviation_rad,
+        gnss_delay_s;
   };
   using Params = estimator::Params;
 
@@ -356,7 +357,9 @@ inline void Ekf::probes(Outputs& out) const {
   out.gust_north_mps = navigator_.gusts().gust_mps().x();
   out.gust_east_mps = navigator_.gusts().gust_mps().y();
   out.baro_bias_m = x.baro_m;
+  out.static_port_ratio = x.port_ratio;
   out.heading_deviation_rad = x.heading_rad;
+  out.gnss_delay_s = x.gnss_delay_s;
 }
 
 }  // namespace fulmar::estimator

@@ -256,6 +256,7 @@ class Navigator {
     std(ekf::port) = p.static_port_std;
     std(ekf::heading) = p.mag_deviation;
     std.segment<2>(ekf::gnss).setConstant(filter_.noise.gnss_std);
+    std(ekf::delay) = p.gnss_delay_std;
     time_s_ = time_s;
     filter_.reset(x, std, time_s);
     gusts_.forget(mean_wind(), time_s, p);
@@ -376,8 +377,10 @@ class Navigator {
   void regain(const Gnss& g, const FlightAlignment::Found& found, bool has_mag, double time_s,
               const Params& p);
   void collect_origin(const Gnss& g, const Params& p);
-  void gnss_velocity(const Gnss& g, const ErrorStateEkf::Past& past, double time_s, const Params& p);
-  void gnss_position(const Gnss& g, double time_s, const Params& p);
+  ErrorStateEkf::Past at_fix(double valid_s, const Params& p) const;
+  Vector3d acceleration_at(double time_s) const;
+  void gnss_velocity(const Gnss& g, double valid_s, const Params& p);
+  void gnss_position(const Gnss& g, double valid_s, const Params& p);
   void gnss_height(const ekf::Scalar& z, double std, const Params& p);
   double height_variance(const ekf::Scalar& z, double std, const Params& p) const;
   ekf::Scalar pressure_height(double pressure_pa) const;

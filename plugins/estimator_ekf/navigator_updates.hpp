@@ -35,12 +35,31 @@ inline void Navigator::gnss(const Gnss& g, double valid_s, const Params& p) {
     if (!resting_) align_in_flight(g, valid_s - p.gnss_delay, p);
     return;
   }
-  const double time_s = std::min(valid_s - p.gnss_delay, time_s_);
-  const ErrorStateEkf::Past past = filter_.at(time_s);
-  if (!past.known) return;
+  if (!at_fix(valid_s, p).known) return;
   if (!seen_.yaw) yaw_from_course(eigen(g.velocity_mps));
-  gnss_velocity(g, past, time_s, p);
-  if (seen_.origin) gnss_position(g, time_s, p);
+  gnss_velocity(g, valid_s, p);
+  if (seen_.origin) gnss_position(g, valid_s, p);
+}
+
+/// Where the aircraft was when the fix was taken, by the delay known so far. A little ahead, where that says
+/// so of a fix that is hardly late.
+inline ErrorStateEkf::Past Navigator::at_fix(double valid_s, const Params& p) const {
+  const double time_s = valid_s - p.gnss_delay - filter_.state().gnss_delay_s;
+  ErrorStateEkf::Past past = filter_.at(std::min(time_s, time_s_));
+  const double ahead = std::clamp(time_s - time_s_, 0.0, 0.1);
+  if (ahead > 0) {
+    past.p_n += ahead * past.v_n;
+    past.v_n += ahead * acceleration_at(time_s_);
+  }
+  return past;
+}
+/// m/s2, NED, from the velocities around that time.
+inline Vector3d Navigator::acceleration_at(double time_s) const {
+  constexpr double span_s = 0.03;
+  const ErrorStateEkf::Past after = filter_.at(time_s + span_s), before = filter_.at(time_s - span_s);
+  const double span = before.age_s - after.age_s;
+  if (!before.known || span < 0.5 * span_s) return Vector3d::Zero();
+  return (after.v_n - before.v_n) / span;
 }
 
 /// Without a magnetometer the take-off run shows the yaw.
@@ -55,14 +74,17 @@ inline void Navigator::yaw_from_course(const Vector3d& v_n) {
   seen_.yaw = true;
 }
 
-inline void Navigator::gnss_velocity(const Gnss& g, const ErrorStateEkf::Past& past, double time_s,
-                                     const Params& p) {
+inline void Navigator::gnss_velocity(const Gnss& g, double valid_s, const Params& p) {
   const Vector3d v_n = eigen(g.velocity_mps);
+  const ErrorStateEkf::Past past = at_fix(valid_s, p);
+  const Vector3d a_n = acceleration_at(time_s_ - past.age_s);
+  const auto z = [&](int i) {
+    return ekf::late(ekf::velocity(filter_, at_fix(valid_s, p), i, v_n(i)), a_n(i));
+  };
   const double std = known(g.speed_std_mps, p.gnss_speed_std, p.gnss_speed_floor), variance = std * std;
   double worst = 0;
   for (int i = 0; i < 3; ++i) {
-    const ekf::Scalar z = ekf::velocity(filter_, past, i, v_n(i));
-    health_.velocity_innovation(i) = z.innovation / filter_.expected_std(z, variance);
+    health_.velocity_innovation(i) = z(i).innovation / filter_.expected_std(z(i), variance);
     worst = std::max(worst, std::abs(health_.velocity_innovation(i)));
   }
   health_.velocity_ratio = worst;
@@ -74,9 +96,7 @@ inline void Navigator::gnss_velocity(const Gnss& g, const ErrorStateEkf::Past& p
     filter_.inflate(ekf::theta, 3, 0.1);
   } else {
     const double n = samples_in(p.gnss_climb_time, health_.velocity_s);
-    for (int i = 0; i < 3; ++i)
-      filter_.fuse(ekf::velocity(filter_, filter_.at(time_s), i, v_n(i)), i < 2 ? variance : n * variance,
-                   1e3);
+    for (int i = 0; i < 3; ++i) filter_.fuse(z(i), i < 2 ? variance : n * variance, 1e3);
   }
   health_.velocity_s = time_s_;
 }
@@ -127,16 +147,19 @@ inline void Navigator::regain(const Gnss& g, const FlightAlignment::Found& found
   seen_.baro_zero = filter_.fuse(pressure_height(baro_pa_), std * std, 3).accepted;
 }
 
-inline void Navigator::gnss_position(const Gnss& g, double time_s, const Params& p) {
+inline void Navigator::gnss_position(const Gnss& g, double valid_s, const Params& p) {
   const Vector3d p_n = frame_.to_ned(g.latitude_deg, g.longitude_deg, g.altitude_m);
   if (!seen_.position) {
-    place(g, time_s, p);
+    place(g, time_s_ - at_fix(valid_s, p).age_s, p);
     health_.position_s = health_.height_s = time_s_;
     return;
   }
   const double h_std = known(g.horizontal_std_m, p.gnss_horizontal_std, p.gnss_position_floor);
   const double v_std = known(g.vertical_std_m, p.gnss_vertical_std, p.gnss_position_floor);
-  const auto z = [&](int i) { return ekf::position(filter_, filter_.at(time_s), i, p_n(i)); };
+  const auto z = [&](int i) {
+    const ErrorStateEkf::Past past = at_fix(valid_s, p);
+    return ekf::late(ekf::position(filter_, past, i, p_n(i)), past.v_n(i));
+  };
   const double variance = h_std * h_std;
   filter_.noise.gnss_std = h_std;
   for (int i = 0; i < 2; ++i)

@@ -36,6 +36,7 @@ struct Params {
   // satellite navigation; the receiver's own accuracies count when it reports them
   Param gnss_delay{0, "s", 0, 0.5,
                    "added to the age of a fix, for receivers whose stamp is the time of arrival"};
+  Param gnss_delay_std{0.05, "s", 0, 0.3, "how well that is known; the rest is learnt in turns"};
   Param gnss_horizontal_std{2, "m", 0.01, 50, "when the receiver reports none"};
   Param gnss_vertical_std{4, "m", 0.01, 50, "when the receiver reports none"};
   Param gnss_height_time{
@@ -50,7 +51,7 @@ struct Params {
   Param gnss_position_time{150, "s", 1, 1e4,
                            "correlation time of the receiver's horizontal error: as large as its deviation, "
                            "and in no mean of fixes"};
-  Param gnss_speed_std{0.4, "m/s", 0.005, 10, "when the receiver reports none"};
+  Param gnss_speed_std{0.3, "m/s", 0.005, 10, "when the receiver reports none"};
   Param gnss_position_floor{0.1, "m", 0, 10, "no position is trusted more than this"};
   Param gnss_speed_floor{0.015, "m/s", 0, 10, "no velocity is trusted more than this"};
   Param gnss_gate{5, "", 2, 20, "innovations beyond this many deviations are refused"};
@@ -72,10 +73,10 @@ struct Params {
   Param pitot_scale{1, "", 0.5, 1.5, "true over measured airspeed"};
   Param pitot_scale_std{0.01, "", 0, 0.2, "how well that is known: counts in the deviations, is not learnt"};
   Param air_gate{5, "", 2, 20, "gate of baro, pitot and sideslip, in deviations"};
-  Param wind_walk{0.02, "m/s/sqrt(s)", 0, 5, "how fast the wind wanders"};
-  Param wind_shear{0.005, "1/sqrt(s)", 0, 5, "grows wind_walk with the climb rate"};
+  Param wind_walk{0.01, "m/s/sqrt(s)", 0, 5, "how fast the wind wanders"};
+  Param wind_shear{0.002, "1/sqrt(s)", 0, 5, "grows wind_walk with the climb rate"};
   Param wind_std{5, "m/s", 0.1, 30, "wind before it is learnt"};
-  Param gust_std{1, "m/s", 0, 10, "gusts along the flight: first-order Gauss-Markov"};
+  Param gust_std{1.5, "m/s", 0, 10, "gusts along the flight: first-order Gauss-Markov"};
   Param gust_time{3, "s", 0.1, 60, "their correlation time"};
   Param wind_gust_std{1, "m/s", 0, 10,
                       "horizontal gusts of the published wind before they are learnt: first-order "
@@ -92,7 +93,7 @@ struct Params {
 
   // magnetometer
   Param mag_noise{0.03, "", 1e-4, 0.5, "at 10 Hz, as a share of the field"};
-  Param mag_deviation{0.05, "rad", 0, 1, "slow error of the magnetic heading after calibration"};
+  Param mag_deviation{0.08, "rad", 0, 1, "slow error of the magnetic heading after calibration"};
   Param mag_deviation_time{300, "s", 1, 1e5, "its correlation time"};
   Param mag_gate{5, "", 2, 20, "gate of the heading, in deviations"};
 

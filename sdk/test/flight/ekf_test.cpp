@@ -31,6 +31,7 @@ ekf::Nominal any_state(Random& r) {
   x.gust_mps = r.normal();
   x.baro_m = 5 * r.normal();
   x.port_ratio = 0.1 * r.normal();
+  x.gnss_delay_s = 0.02 * r.normal();
   x.heading_rad = 0.1 * r.normal();
   return x;
 }
@@ -107,6 +108,7 @@ TEST_CASE("the covariance follows the motion: Phi P Phi' with Phi by finite diff
     const auto moved = [&](const ekf::Nominal& from) {
       ErrorStateEkf f = filter_at(from);
       f.noise = {0, 0, 0, 0, 0, 0, 0, 0, 0, 1e9, 0, 0, 0, 1e9};
+      f.noise.delay_walk = 0;
       f.set_covariance(P);
       for (int k = 0; k < 4; ++k) f.predict(omega, f_b, 0.0025);
       return f;
@@ -119,7 +121,8 @@ TEST_CASE("the covariance follows the motion: Phi P Phi' with Phi by finite diff
       dx(i) = step;
       Phi.col(i) = moved(x.plus(dx)).state().minus(moved(x.plus(-dx)).state()) / (2 * step);
     }
-    Phi.bottomRightCorner<2, 2>() = std::exp(-0.01 / ekf::Noise{}.gnss_time) * Eigen::Matrix2d::Identity();
+    Phi.block<2, 2>(ekf::gnss, ekf::gnss) =
+        std::exp(-0.01 / ekf::Noise{}.gnss_time) * Eigen::Matrix2d::Identity();
     const ekf::Covariance expected = Phi * P * Phi.transpose();
     CHECK((end.covariance() - expected).cwiseAbs().maxCoeff() < 2e-4 * expected.cwiseAbs().maxCoeff());
     CHECK((end.covariance() - P).cwiseAbs().maxCoeff() > 0.01);  // something did happen

@@ -21,7 +21,7 @@ namespace ekf {
 /// Where each part of the error state begins. Attitude is a small rotation about the NED axes: R_true =
 /// exp(theta) R_estimate.
 inline constexpr int theta = 0, vel = 3, pos = 6, gyro_bias = 9, accel_bias = 12, wind = 15, gust = 17,
-                     baro = 18, port = 19, heading = 20, gnss = 21, size = 23;
+                     baro = 18, port = 19, heading = 20, gnss = 21, delay = 23, size = 24;
 
 using Vector = Eigen::Matrix<double, size, 1>;
 using Row = Eigen::Matrix<double, 1, size>;
@@ -47,19 +47,20 @@ struct Noise {
   double heading_time = 300;  ///< s
   double gnss_std = 0;        ///< m, first-order Gauss-Markov: what a horizontal position is off for minutes
   double gnss_time = 150;     ///< s
+  double delay_walk = 3e-4;   ///< s/sqrt(s), of a receiver's delay
 };
 
 /// What the filter believes. Wind is the velocity of the air; `baro_m` is what the barometer reads too high;
 /// `port_ratio` is the share of the dynamic pressure that the static port sees on top of the static pressure:
 /// by so much of the velocity head u^2/2g the barometer reads too low in flight; `heading_rad` is what the
-/// magnetic heading reads too high. How far north and east of the aircraft a receiver sees it counts in the
-/// covariance alone.
+/// magnetic heading reads too high; `gnss_delay_s` is how much older fixes are than they say. How far north
+/// and east of the aircraft a receiver sees it counts in the covariance alone.
 struct Nominal {
   Eigen::Quaterniond q_nb = Eigen::Quaterniond::Identity();
   Eigen::Vector3d v_n = Eigen::Vector3d::Zero(), p_n = Eigen::Vector3d::Zero();
   Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero(), accel_bias = Eigen::Vector3d::Zero();
   Eigen::Vector2d wind = Eigen::Vector2d::Zero();
-  double gust_mps = 0, baro_m = 0, port_ratio = 0, heading_rad = 0;
+  double gust_mps = 0, baro_m = 0, port_ratio = 0, heading_rad = 0, gnss_delay_s = 0;
 
   /// The state moved by an error: x (+) dx.
   Nominal plus(const Vector& dx) const {
@@ -79,13 +80,15 @@ struct Nominal {
     baro_m += dx(baro);
     port_ratio += dx(port);
     heading_rad += dx(heading);
+    gnss_delay_s += dx(delay);
   }
   /// The error that leads from `from` to here: dx with from (+) dx = *this.
   Vector minus(const Nominal& from) const {
     Vector dx;
     dx << log_map(q_nb * from.q_nb.conjugate()), v_n - from.v_n, p_n - from.p_n, gyro_bias - from.gyro_bias,
         accel_bias - from.accel_bias, wind - from.wind, gust_mps - from.gust_mps, baro_m - from.baro_m,
-        port_ratio - from.port_ratio, heading_rad - from.heading_rad, Eigen::Vector2d::Zero();
+        port_ratio - from.port_ratio, heading_rad - from.heading_rad, Eigen::Vector2d::Zero(),
+        gnss_delay_s - from.gnss_delay_s;
     return dx;
   }
 };
@@ -340,6 +343,7 @@ class ErrorStateEkf {
     add(ekf::wind, 2, walk * walk * T);
     add(ekf::baro, 1, noise.baro_walk * noise.baro_walk * T);
     add(ekf::port, 1, noise.port_walk * noise.port_walk * T);
+    add(ekf::delay, 1, noise.delay_walk * noise.delay_walk * T);
     x_.gust_mps *= markov<1>(gust, noise.gust_std, noise.gust_time, T);
     x_.heading_rad *= markov<1>(heading, noise.heading_std, noise.heading_time, T);
     markov<2>(gnss, noise.gnss_std, noise.gnss_time, T);

@@ -16,6 +16,13 @@ inline Eigen::Vector3d air_velocity(const Nominal& x) {
   return {x.v_n.x() - x.wind.x(), x.v_n.y() - x.wind.y(), x.v_n.z()};
 }
 
+/// A fix that may be older than it says, by the state `delay`: `rate` is the derivative of the expected value
+/// by time.
+inline Scalar late(Scalar z, double rate) {
+  z.H(delay) = -rate;
+  return z;
+}
+
 /// Velocity, NED axis 0 to 2. A measurement that is `past.age_s` late is compared with the velocity then,
 /// whose error is dv - age (-[f]x (theta + age/2 R bg) - R ba): `f_age` = v_n - past.v_n - g age is the
 /// specific force integrated over the age.

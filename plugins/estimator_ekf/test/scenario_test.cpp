@@ -51,11 +51,35 @@ TEST_CASE("a receiver that is 0.15 s late is used at its time: velocity stays go
   const Errors e = late.run();
   CHECK(e.body_velocity.norm() < 0.2);
   CHECK(e.euler.norm() < 0.6 * deg);
-  Flown ignored{.plan = shorter(150), .quality = ublox};
-  ignored.alter = [](const Truth&, Samples& s) {
-    s.gnss_age_s = 0;
-  };  // the same fixes, taken for present ones
-  CHECK(ignored.run().body_velocity.norm() > 3 * e.body_velocity.norm());
+  // The same fixes taken for present ones: with the delay for granted, and learnt.
+  for (const double known_s : {0.0, 0.05}) {
+    CAPTURE(known_s);
+    Flown ignored{.plan = shorter(150), .quality = ublox};
+    ignored.alter = [](const Truth&, Samples& s) { s.gnss_age_s = 0; };
+    ignored.set = [&](Ekf::Params& p) { p.gnss_delay_std.value = known_s; };
+    const double ratio = ignored.run().body_velocity.norm() / e.body_velocity.norm();
+    if (known_s == 0)
+      CHECK(ratio > 3);
+    else
+      CHECK(ratio < 1.2);
+  }
+}
+
+TEST_CASE(
+    "a delay that is told wrong is learnt, either way, and an outage afterwards is as short as with the "
+    "right one") {
+  for (const double wrong_s : {0.1, -0.1}) {
+    CAPTURE(wrong_s);
+    Flown f{.plan = shorter(150), .quality = ublox};
+    f.quality.latency_s = 0.15;
+    f.alter = [&](const Truth& x, Samples& s) {
+      s.gnss_age_s += wrong_s;
+      if (x.t > 140) s.gnss.reset();
+    };
+    const Errors e = f.run();
+    CHECK(e.body_velocity.norm() < 0.2);
+    CHECK((eigen(f.last.position_m) - f.last_truth.p_n).head<2>().norm() < 12);
+  }
 }
 
 TEST_CASE("nothing is published before the first attitude, and then it is already near") {

@@ -81,6 +81,7 @@ TEST_CASE("the row of every measurement is the derivative of what it expects") {
     CHECK((heading(x).H - numeric(x, heading)).norm() < 1e-5 * heading(x).H.norm());
     CHECK((baro(x).H - numeric(x, baro)).norm() < 1e-6);
     CHECK((port(x).H - numeric(x, port)).norm() < 1e-5);
+    CHECK(ekf::late(rate(x), 3).H(ekf::delay) == -3);  // what grows by 3 per second was less a second ago
     CHECK((rate(x).H - numeric(x, rate)).norm() < 1e-6);
     const ErrorStateEkf::Past now{x.p_n, x.v_n, 0, true};
     const ErrorStateEkf f = filter_at(x);
@@ -189,8 +190,8 @@ TEST_CASE("one scalar update is the information filter's") {
     REQUIRE(f.fuse(z, variance, 1e9).accepted);
     ekf::Covariance expected = (P.inverse() + z.H.transpose() * z.H / variance).inverse();
     ekf::Vector dx = expected * z.H.transpose() * z.innovation / variance;
-    expected.bottomRightCorner<2, 2>() = P.bottomRightCorner<2, 2>();  // considered alone
-    dx.tail<2>().setZero();
+    expected.block<2, 2>(ekf::gnss, ekf::gnss) = P.block<2, 2>(ekf::gnss, ekf::gnss);  // considered alone
+    dx.segment<2>(ekf::gnss).setZero();
     CHECK((f.covariance() - expected).norm() < 1e-9 * P.norm());
     CHECK((f.state().minus(before) - dx).norm() < 1e-6 * dx.norm() + 1e-9);
   }

@@ -47,7 +47,7 @@ struct Noise {
   double heading_time = 300;  ///< s
   double gnss_std = 0;        ///< m, first-order Gauss-Markov: what a horizontal position is off for minutes
   double gnss_time = 150;     ///< s
-  double delay_walk = 3e-4;   ///< s/sqrt(s), of a receiver's delay
+  double delay_walk = 1e-4;   ///< s/sqrt(s), of a receiver's delay
 };
 
 /// What the filter believes. Wind is the velocity of the air; `baro_m` is what the barometer reads too high;

@@ -66,7 +66,7 @@ struct Flight {
   static RadarNavigator::Outputs applied() {
     const Truth x = at(0);
     RadarNavigator::Outputs last;
-    VehicleState& s = last.state.value;
+    VehicleState& s = last.nav.state.value;
     s.attitude = from_eigen(x.q_nb);
     s.velocity_mps = from_eigen<Ned>(x.v_n);
     s.position_m = from_eigen<Ned>(Vector3d(x.p_n - Vector3d(0, 0, 2)));
@@ -81,9 +81,11 @@ struct Flight {
     return last;
   }
   void set_imu(const Truth& x, double late_s = 0) {
-    bench.set(bench.in.imu, Imu{from_eigen<Body>(x.f_b), from_eigen<Body>(x.omega_b)}, late_s);
+    bench.set(bench.in.sensors.imu, Imu{from_eigen<Body>(x.f_b), from_eigen<Body>(x.omega_b)}, late_s);
   }
   void take_over() {
+    // A turn of one radius hides what the accelerometers read too much: in this flight it is nothing.
+    bench.params.nav.accel_bias_std.value = 0.02;
     set_imu(at(0));
     REQUIRE(bench.activate(applied()) == Status::ok);
   }
@@ -97,11 +99,11 @@ struct Flight {
     const Air air = standard_air(alt0 + h), above = standard_air(alt0 + h + 30);
     if (imu) set_imu(x, -dt);
     if (tick % 4 == 0) {
-      bench.set(bench.in.mag, Mag{from_eigen<Body>(Vector3d(x.q_nb.conjugate() * field_n))}, -dt);
-      bench.set(bench.in.baro, Baro{above.pressure_pa}, -dt);
-      bench.set(bench.in.pitot, Pitot{0.5 * air.density_kgm3 * x.v_n.squaredNorm()}, -dt);
+      bench.set(bench.in.sensors.mag, Mag{from_eigen<Body>(Vector3d(x.q_nb.conjugate() * field_n))}, -dt);
+      bench.set(bench.in.sensors.baro, Baro{above.pressure_pa}, -dt);
+      bench.set(bench.in.sensors.pitot, Pitot{0.5 * air.density_kgm3 * x.v_n.squaredNorm()}, -dt);
     }
-    if (gnss && tick % 20 == 0) bench.set(bench.in.gnss, fix(at(t - 0.1)), 0.1 - dt);
+    if (gnss && tick % 20 == 0) bench.set(bench.in.sensors.gnss, fix(at(t - 0.1)), 0.1 - dt);
     if (radar && tick % 10 == 0) {
       const Truth then = at(t - 0.05);
       RadarRange range{-then.p_n.z() / std::cos(0.4) + bias_m + 0.25 * random.normal(), 0.25, true};
@@ -110,7 +112,7 @@ struct Flight {
     }
     REQUIRE(allocations([&] { status = bench.step(dt); }) == 0);
     REQUIRE(bench.fault() == "");
-    if (bench.out.state.written) height_error_m = bench.out.state.value.height_m - h;
+    if (bench.out.nav.state.written) height_error_m = bench.out.nav.state.value.height_m - h;
   }
   Gnss fix(const Truth& then) const {
     const auto place = frame.from_ned(then.p_n + Vector3d(fix_north_m, 0, -2));
@@ -207,14 +209,14 @@ TEST_CASE("a range is that of when it was measured, and its row the derivative, 
     const ErrorStateEkf then = flown(ekf::Vector::Zero(), 40 - late);
     const Euler e = euler_from(then.R_nb());
     const double r = -then.state().p_n.z() / (std::cos(e.roll_rad) * std::cos(e.pitch_rad));
-    const ekf::Scalar z = RadarNavigator::slant_range(f, then.time_s(), 80);
+    const ekf::Scalar z = RadarMeasurement::slant_range(f, then.time_s(), 80);
     CHECK(80 - z.innovation == doctest::Approx(r).epsilon(1e-6));
     for (int i = 0; i < ekf::size; ++i) {
       CAPTURE(i);
       ekf::Vector error = ekf::Vector::Zero();
       error(i) = 1e-5;
       const ErrorStateEkf moved = flown(error, 40);
-      const ekf::Scalar z_moved = RadarNavigator::slant_range(moved, then.time_s(), 80);
+      const ekf::Scalar z_moved = RadarMeasurement::slant_range(moved, then.time_s(), 80);
       const double change = (z.innovation - z_moved.innovation) / 1e-5;
       const ekf::Vector dx = moved.state().minus(f.state()) / 1e-5;  // what the error has become
       CHECK(z.H.dot(dx) == doctest::Approx(change).epsilon(late > 0 ? 0.02 : 1e-4).scale(0.3));
@@ -222,38 +224,34 @@ TEST_CASE("a range is that of when it was measured, and its row the derivative, 
   }
 }
 
-TEST_CASE(
-    "it takes over without a step, as sure as the state was, and from nothing less than a whole state") {
+TEST_CASE("it takes over without a step, from the state that was applied last") {
   Flight flight;
   flight.radar = false;
   flight.take_over();
   flight.step();
-  const VehicleState &s = flight.bench.out.state.value, &last = Flight::applied().state.value;
+  const VehicleState& s = flight.bench.out.nav.state.value;
   const Flight::Truth x = Flight::at(0.005);
   CHECK(s.height_m == doctest::Approx(2 - x.p_n.z()).epsilon(1e-6));
-  CHECK((eigen(s.velocity_mps) - x.v_n).norm() < 1e-3);
+  CHECK((eigen(s.velocity_mps) - x.v_n).norm() < 0.1);  // corrected once by the air that comes from ahead
   CHECK(eigen(s.attitude).angularDistance(x.q_nb) < 1e-5);
-  CHECK(s.position_std_m.down == doctest::Approx(2).epsilon(1e-3));
-  CHECK(s.position_std_m.down >= last.position_std_m.down);
+  CHECK(flight.bench.out.nav.state.written);
+}
 
-  Bench<RadarNavigator> ground;
-  CHECK(ground.activate() == Status::failed);  // nobody flew
-  CHECK(ground.error() == "takes over in the air alone, from a state that is valid as a whole");
-  CHECK(ground.activate(Flight::applied()) == Status::failed);
-  CHECK(ground.error() == "there is no inertial sample to begin with");
-  for (const auto part :
-       {&VehicleState::attitude_valid, &VehicleState::velocity_valid, &VehicleState::position_valid,
-        &VehicleState::height_valid, &VehicleState::origin_valid}) {
-    RadarNavigator::Outputs less = Flight::applied();
-    less.state.value.*part = false;
-    CHECK(flight.bench.activate(less) == Status::failed);
-  }
+TEST_CASE(
+    "nobody flew before: it finds its attitude in the air by itself, and then its height by the radar") {
+  Flight flight;
+  flight.bench.params.nav.origin.value = {40, -111, alt0, true};
+  flight.bench.params.nav.origin.is_given = true;
+  REQUIRE(flight.bench.activate() == Status::ok);
+  flight.fly(10);
+  CHECK(flight.status == Status::ok);
+  CHECK(flight.fly(10) < 0.3);
 }
 
 TEST_CASE("the receiver is 2 m too high: with the radar the height is right, without it is as the receiver") {
   Flight with, without, off;
   without.radar = false;
-  off.bench.params.use_radar.value = false;
+  off.bench.params.radar.use_radar.value = false;
   for (Flight* flight : {&with, &without, &off}) {
     flight->take_over();
     flight->fly(5);
@@ -262,7 +260,8 @@ TEST_CASE("the receiver is 2 m too high: with the radar the height is right, wit
   CHECK(without.fly(10) == doctest::Approx(2).epsilon(0.05));
   CHECK(off.fly(10) == doctest::Approx(2).epsilon(0.05));
   CHECK(with.refused() == 0);
-  CHECK(with.bench.out.baro_bias_m.value == doctest::Approx(30).epsilon(0.01));
+  // At one speed what the static port takes is not told from what the barometer is off.
+  CHECK(with.bench.out.nav.baro_bias_m.value == doctest::Approx(30).epsilon(0.04));
   CHECK(with.status == Status::ok);
 }
 
@@ -328,29 +327,26 @@ TEST_CASE("ranges without an echo, of the future, too old, negative or infinite 
 }
 
 TEST_CASE(
-    "what it cannot handle it leaves to the fallback: a gap of the inertial unit, a receiver that "
-    "contradicts") {
-  Flight flight;
-  flight.take_over();
-  flight.fly(1);
-  flight.imu = false;
-  flight.fly(0.09);
-  CHECK(flight.status == Status::ok);
-  flight.fly(0.02);
-  CHECK(flight.status == Status::failed);
-  flight.imu = true;
-  flight.step();  // and the sample after the gap does not mend it
-  CHECK(flight.status == Status::failed);
-
-  Flight moved;
-  moved.take_over();
-  moved.fly(3);
-  moved.fix_north_m = 300;
-  moved.fly(9);
-  CHECK(moved.status != Status::failed);
-  CHECK_FALSE(moved.bench.out.state.value.position_valid);
-  moved.fly(2);
-  CHECK(moved.status == Status::failed);
+    "a short gap of the inertial unit is bridged, a long one ends in an alignment; the radar is heard "
+    "again") {
+  for (const double gap_s : {0.2, 3.0}) {
+    CAPTURE(gap_s);
+    Flight flight;
+    flight.take_over();
+    flight.fly(8);
+    flight.imu = false;
+    flight.fly(gap_s);
+    CHECK(flight.status == Status::degraded);
+    CHECK(flight.bench.out.nav.state.value.attitude_valid == (gap_s < 0.3));
+    flight.imu = true;
+    flight.fly(gap_s < 0.3 ? 0.1 : 2);
+    CHECK(flight.status == Status::ok);
+    CHECK(flight.bench.out.nav.state.value.attitude_valid);
+    const double refused = flight.refused();
+    flight.fly(2);
+    CHECK(flight.refused() == refused);
+    CHECK(flight.fly(5) < 0.15);
+  }
 }
 
 TEST_CASE("without fixes the position is not valid any more, the height is, and a fix brings it back") {
@@ -359,12 +355,12 @@ TEST_CASE("without fixes the position is not valid any more, the height is, and 
   flight.fly(3);
   flight.gnss = false;
   flight.fly(4);
-  CHECK(flight.bench.out.state.value.position_valid);
+  CHECK(flight.bench.out.nav.state.value.position_valid);
   flight.fly(2);
-  CHECK_FALSE(flight.bench.out.state.value.position_valid);
+  CHECK_FALSE(flight.bench.out.nav.state.value.position_valid);
   CHECK(flight.status == Status::degraded);
   CHECK(flight.fly(10) < 0.15);
   flight.gnss = true;
   flight.fly(0.2);
-  CHECK(flight.bench.out.state.value.position_valid);
+  CHECK(flight.bench.out.nav.state.value.position_valid);
 }

@@ -3,7 +3,7 @@
 #
 # One shared object with one exported symbol. Without a version script, or with unique symbols on gcc, a library stays mapped after it is
 # closed and a swap would silently fly the old code. TEST adds a program NAME_test and a ctest entry; doctest's main is there.
-# GEODESY links what <fulmar/flight/geodesy.hpp> needs, GeographicLib: the one header of the SDK that is not header-only. Targets of other
+# GEODESY links what <fulmar/flight/geodesy.hpp> needs, GeographicLib: that header and the navigator, which includes it, need more than headers. Targets of other
 # kinds link fulmar::geodesy after fulmar_find_geodesy().
 set(FULMAR_VERSION_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/plugin.version CACHE INTERNAL "exports the entry alone")
 set(FULMAR_TEST_MAIN ${CMAKE_CURRENT_LIST_DIR}/test_main.cpp CACHE INTERNAL "doctest's main")

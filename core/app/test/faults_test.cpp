@@ -95,6 +95,38 @@ TEST_CASE("a sensor that fails and recovers is believed again: the estimate is b
   CHECK(after_m < 3);
 }
 
+/// The barometer sticks until the navigation filter has told so, and the mission goes on when it does again.
+std::string looks_at_health() {
+  return "mission: looks_at_health\nextends: " FULMAR_SOURCE_DIR
+         "/configs/missions/hourglass.yaml\nlive: off\n"
+         "done: {when: \"vehicle.status.armed\", for: 60 s}\nphases:\n"
+         "  cruise:  {next: [{to: failing, when: \"vehicle.status.armed\", for: 20 s}]}\n"
+         "  failing: {vehicle: {set: {baro_fault: stuck}}, next: [{to: told, when: "
+         "\"nav.health.baro.state == stuck\"}]}\n"
+         "  told:    {next: [{to: again, when: \"nav.health.baro.state == ok\"}]}\n"
+         "  again:   {}\n";
+}
+
+TEST_CASE("a mission looks at what the navigation filter makes of a sensor") {
+  const Folder folder;
+  const fs::path file = folder.path / "looks_at_health.yaml";
+  std::ofstream(file) << looks_at_health();
+  const Graph graph = load_mission(file.string(), {});
+  Flight flight(graph, unlogged());
+  int failing = 0, told = 0, again = 0;  // ticks at 400 Hz
+  while (flight.step()) {
+    failing += flight.phase() == "failing";
+    told += flight.phase() == "told";
+    again += flight.phase() == "again";
+  }
+  flight.finish();
+  CHECK(failing > 0.45 * 400);
+  CHECK(failing < 0.8 * 400);
+  CHECK(told > 0);
+  CHECK(told < 0.4 * 400);
+  CHECK(again > 10 * 400);
+}
+
 /// The barometer is stuck in one phase, the pitot tube noisy in the next one.
 std::string scheduled() {
   return "mission: scheduled\nextends: " FULMAR_SOURCE_DIR

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How the first attitude is found: when a unit rests, and what is taken for what in the air.
-#include "plugins/estimator_ekf/alignment.hpp"
-
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <fulmar/flight/atmosphere.hpp>
+#include <fulmar/flight/navigation_alignment.hpp>
 #include <numbers>
 
 namespace alignment_test {
 
 using namespace fulmar;
-using namespace fulmar::estimator;
+using namespace fulmar::navigation;
 
 namespace {
 constexpr double g = isa::g0, dt = 0.005;

@@ -5,12 +5,12 @@
 #include <fulmar/testing.hpp>
 #include <functional>
 
-#include "../ekf.hpp"
+#include "fulmar/flight/estimator.hpp"
 #include "synthetic_flight.hpp"
 
 namespace synthetic {
 
-using fulmar::estimator::Ekf;
+using fulmar::navigation::Ekf;
 
 struct Errors {
   Vector3d body_velocity, position, gnss, euler;  ///< RMS; metres, m/s, radians

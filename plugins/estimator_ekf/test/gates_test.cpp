@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fulmar/flight/navigation_alignment.hpp>
 #include <numbers>
 
 #include "flight_bench.hpp"
-#include "plugins/estimator_ekf/alignment.hpp"
 
 namespace gates_test {
 
@@ -25,7 +25,7 @@ TEST_CASE("an alignment in a turn takes in that the fix is late") {
                        Eigen::AngleAxisd(bank, Vector3d::UnitX()));
   };
   const Vector3d wind = Vector3d::Zero();
-  estimator::FlightAlignment alignment;
+  navigation::FlightAlignment alignment;
   (void)alignment.fix(velocity(-late), {g, nullptr, &wind, late});
   for (int i = 0; i < 100; ++i) {
     const double t = (i + 0.5) * dt;
@@ -183,13 +183,13 @@ TEST_CASE("one odd sample of the tube is no airspeed") {
 }
 
 TEST_CASE("without a barometer the tube's speed is that of the air at the estimated height") {
-  const estimator::Params p;
+  const navigation::Params p;
   VehicleState s;
   s.position_m = {0, 0, -3000};
   s.velocity_mps = {17, 0, 0};
   s.origin_valid = s.position_valid = true;
   s.origin_altitude_m = 500;
-  estimator::Navigator navigator;
+  navigation::Navigator navigator;
   navigator.resume(s, p, 0);
   navigator.pitot(100, p);
   CHECK(navigator.pitot_mps() / std::sqrt(2 * 100 / standard_air(3500).density_kgm3) == doctest::Approx(1));

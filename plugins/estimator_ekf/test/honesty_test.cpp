@@ -10,10 +10,10 @@
 namespace honesty_test {
 
 using namespace synthetic;
-using fulmar::estimator::Gusts;
-using fulmar::estimator::GustStrength;
-using fulmar::estimator::Params;
-using fulmar::estimator::Vector2d;
+using fulmar::navigation::Gusts;
+using fulmar::navigation::GustStrength;
+using fulmar::navigation::Params;
+using fulmar::navigation::Vector2d;
 
 namespace {
 

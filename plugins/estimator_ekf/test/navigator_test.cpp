@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The navigator by single samples: what each gate lets through, and what a taking over, a bridge and a gap
 // leave behind.
-#include "plugins/estimator_ekf/navigator.hpp"
+#include "fulmar/flight/navigator.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,12 +10,12 @@
 #include <fulmar/testing.hpp>
 #include <numbers>
 
-#include "plugins/estimator_ekf/ekf.hpp"
+#include "fulmar/flight/estimator.hpp"
 
 namespace navigator_test {
 
 using namespace fulmar;
-using namespace fulmar::estimator;
+using namespace fulmar::navigation;
 
 namespace {
 
@@ -75,6 +75,19 @@ TEST_CASE("taken over without a position it does not know where it is") {
   CHECK(std_of(resumed(s), ekf::pos) == doctest::Approx(5));
   s.position_valid = false;
   CHECK(std_of(resumed(s), ekf::pos) == doctest::Approx(1e3));
+}
+
+TEST_CASE(
+    "after its first fix it knows where it is as well as the receiver, and what that is off by as well") {
+  const Params p;
+  VehicleState s = flying();
+  s.position_valid = false;
+  Navigator n = resumed(s);
+  n.imu(still_omega, level_f, 10.0025, p);
+  n.gnss(fix(), 10.0025, p);
+  CHECK(std_of(n, ekf::pos) ==
+        doctest::Approx(std::sqrt(2.0)).epsilon(0.01));  // 1 m reported, slow and white
+  CHECK(std_of(n, ekf::gnss) == doctest::Approx(1).epsilon(0.01));
 }
 
 TEST_CASE("a sample at the time of the last one is none") {
@@ -187,7 +200,7 @@ TEST_CASE("near a magnetic pole the needle is not asked") {
     n.imu(still_omega, level_f, 10.0025, p);
     const Vector3d field = magnetic_field_ned(at_lat, at_lon, alt, 2026);
     n.mag(field, p);
-    return n.health().heading_s > 0;
+    return n.health().heading.accepted_s > 0;
   };
   CHECK(asked(lat, lon));
   CHECK_FALSE(asked(85.8, 139));  // World Magnetic Model 2025: the dip pole of 2025
@@ -285,7 +298,7 @@ TEST_CASE("the magnetic field is that of the year which the receiver tells, also
                  then = magnetic_field_ned(there_lat, there_lon, alt, 2026);
   REQUIRE(std::abs(std::atan2(now.y(), now.x()) - std::atan2(then.y(), then.x())) > 0.003);
   n.mag(now, p);
-  CHECK(std::abs(n.health().heading_ratio) < 1e-3);
+  CHECK(std::abs(n.health().heading.ratio) < 1e-3);
 }
 
 TEST_CASE("a fix that is older than what is remembered says nothing of now") {
@@ -295,7 +308,7 @@ TEST_CASE("a fix that is older than what is remembered says nothing of now") {
     Navigator n = resumed(flying());
     while (n.time_s() < 12) n.imu(still_omega, level_f, n.time_s() + 0.0025, p);
     n.gnss(fix(), n.time_s() - late_s, p);
-    CHECK((n.health().velocity_s == n.time_s()) == (late_s < 1));
+    CHECK((n.health().velocity.accepted_s == n.time_s()) == (late_s < 1));
   }
 }
 

@@ -9,13 +9,13 @@
 #include <fulmar/testing.hpp>
 #include <optional>
 
-#include "../ekf.hpp"
+#include "fulmar/flight/estimator.hpp"
 
 namespace recorded_flight_test {
 
 using namespace fulmar;
-using fulmar::estimator::Ekf;
-using fulmar::estimator::Vector3d;
+using fulmar::navigation::Ekf;
+using fulmar::navigation::Vector3d;
 
 namespace {
 

@@ -10,6 +10,9 @@
 //   };
 //   FULMAR_PLUGIN("1.0.0", AttitudeHold)
 //
+// Ports may be grouped, as parameters may: a struct of ports inside Inputs or Outputs, shared by several
+// components (flight/estimator.hpp). Their names are those of the members, in a group as well.
+//
 // Optional members: a constructor from a 64-bit seed, `configure`, `retune`, `deactivate`,
 // `static constexpr const char* doc`, and
 //   Status activate(const Tick&, const Inputs&, const Params&, const Applied<Outputs>& last);
@@ -22,6 +25,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "fulmar/detail/port_groups.hpp"
 #include "fulmar/schema.hpp"
 
 namespace fulmar {
@@ -199,18 +203,32 @@ struct Applied {
   /// This output was applied: `last.has(last->attitude)`. A predecessor need not have all of its successor's.
   template <class M>
   bool has(const M& output) const {
-    static_assert(detail::has_member<Outputs, M>,
+    static_assert(detail::has_port<Outputs, M>(),
                   "has() asks for one of the outputs: last.has(last->attitude)");
     bool made = false;
-    detail::for_each(outputs, [&]<class Member>(const Member& member, std::size_t i) {
+    detail::for_each_port(outputs, [&]<class Member>(const Member& member, std::size_t i) {
       if constexpr (std::is_same_v<Member, M>)
         made = made || (&member == &output && (made_bits >> i & 1) != 0);
     });
     return made;
   }
+  /// What was applied of a group of outputs: `estimator_.activate(tick, in.nav, p.nav,
+  /// last.part(last->nav))`.
+  template <class G>
+  Applied<G> part(const G& group) const {
+    static_assert(detail::is_port_group<G>(), "part() asks for a group of the outputs: last.part(last->nav)");
+    Applied<G> out{group, 0};
+    const auto place = [](const auto& thing) { return reinterpret_cast<std::uintptr_t>(&thing); };
+    std::size_t k = 0;
+    detail::for_each_port(outputs, [&](const auto& member, std::size_t i) {
+      if (place(member) < place(group) || place(member) >= place(group) + sizeof group) return;
+      out.made_bits |= (made_bits >> i & 1) << k++;
+    });
+    return out;
+  }
   /// All of these were applied.
   static Applied all(const Outputs& applied) {
-    constexpr std::size_t n = detail::member_count<Outputs>();
+    constexpr std::size_t n = detail::port_count<Outputs>();
     return {applied, n < 64 ? (std::uint64_t{1} << n % 64) - 1 : ~std::uint64_t{0}};
   }
 };

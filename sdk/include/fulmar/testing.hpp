@@ -94,9 +94,9 @@ class Bench {
   explicit Bench(std::uint64_t seed = 1) : component_(detail::component_entry<C>()) {
     instance_ = component_.create(seed, &error_);
     if (!instance_) throw std::runtime_error(error_.text);
-    inputs_.resize(detail::member_count<typename C::Inputs>() + 1);
+    inputs_.resize(detail::port_count<typename C::Inputs>() + 1);
     std::vector<std::size_t> sizes;
-    detail::for_each(in, [&](auto& member, std::size_t i) {
+    detail::for_each_port(in, [&](auto& member, std::size_t i) {
       using Port = detail::PortOf<std::remove_cvref_t<decltype(member)>>;
       member.input = &inputs_[i];
       rooms_.push_back(Room{});
@@ -162,8 +162,8 @@ class Bench {
   /// 1.2, beyond [0, 1]"; "" when all of it is finite and in range.
   std::string fault() const {
     std::string words;
-    detail::for_each(out, [&]<class M>(const M& member, std::size_t i) {
-      const std::string name(detail::FieldNames<typename C::Outputs>::view(i));
+    detail::for_each_port(out, [&]<class M>(const M& member, std::size_t i) {
+      const std::string name(detail::Ports<typename C::Outputs, false>::table[i].name);
       const auto look = [&](const auto& message) {
         if (words.empty())
           words = detail::fault_in(describe<std::remove_cvref_t<decltype(message)>>(), &message, name);
@@ -270,7 +270,7 @@ class Bench {
   }
   void finish() {
     out = self().out;
-    detail::for_each(self().out, []<class M>(M& member, std::size_t) {
+    detail::for_each_port(self().out, []<class M>(M& member, std::size_t) {
       if constexpr (requires { member.written; }) member.written = false;
       if constexpr (requires { member.stamps_ns; }) member.count = member.lost = 0;
     });

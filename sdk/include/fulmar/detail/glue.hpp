@@ -106,20 +106,43 @@ consteval fulmar_port port_of() {
 
 template <class S, bool inputs>
 struct Ports {
-  static constexpr std::size_t count = member_count<S>();
-  template <class... M>
-  static constexpr std::array<fulmar_port, count> make(Types<M...>) {
-    std::array<fulmar_port, count> out{port_of<M, inputs>()...};
-    for (std::size_t i = 0; i < count; ++i) out[i].name = FieldNames<S>::c_str(i);
+  static constexpr std::size_t count = port_count<S>();
+  using Table = std::array<fulmar_port, count>;
+  /// The name of a port is that of its member, in a group as well.
+  template <class G, std::size_t i, class M>
+  static constexpr void add(Table& out, std::size_t& at) {
+    if constexpr (is_port_group<M>()) {
+      add_all<M>(out, at, MemberTypes<M>{});
+    } else {
+      out[at] = port_of<M, inputs>();
+      out[at++].name = FieldNames<G>::c_str(i);
+    }
+  }
+  template <class G, class... M>
+  static constexpr void add_all(Table& out, std::size_t& at, Types<M...>) {
+    [&]<std::size_t... i>(std::index_sequence<i...>) { (add<G, i, M>(out, at), ...); }
+    (std::make_index_sequence<sizeof...(M)>{});
+  }
+  static constexpr Table make() {
+    Table out{};
+    std::size_t at = 0;
+    add_all<S>(out, at, MemberTypes<S>{});
     return out;
   }
-  static constexpr std::array<fulmar_port, count> table = make(MemberTypes<S>{});
+  static constexpr Table table = make();
   static constexpr bool probes_have_units() {
     for (std::size_t i = 0; i < count; ++i)
-      if (table[i].kind == FULMAR_OUT_PROBE && find_unit(FieldNames<S>::view(i)) < 0) return false;
+      if (table[i].kind == FULMAR_OUT_PROBE && find_unit(table[i].name) < 0) return false;
+    return true;
+  }
+  static constexpr bool ports_differ() {
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t k = 0; k < i; ++k)
+        if (std::string_view(table[i].name) == table[k].name) return false;
     return true;
   }
   static_assert(probes_have_units(), "a probe's name ends in its unit: roll_error_rad");
+  static_assert(ports_differ(), "two ports have one name: a group's ports are ports beside all others");
 };
 
 // ---- thunks
@@ -167,14 +190,14 @@ struct Thunks {
   static Tick tick_of(const fulmar_tick& t) { return {t.now_ns, t.dt_ns, t.index}; }
 
   static void bind(typename C::Inputs& in, const fulmar_input* inputs) {
-    for_each(in, [&](auto& member, std::size_t i) { member.input = inputs + i; });
+    for_each_port(in, [&](auto& member, std::size_t i) { member.input = inputs + i; });
   }
   static void write_out(typename C::Outputs& out, fulmar_output* outputs) {
-    for_each(out, [&]<class M>(M& member, std::size_t i) { PortOf<M>::write(member, outputs[i]); });
+    for_each_port(out, [&]<class M>(M& member, std::size_t i) { PortOf<M>::write(member, outputs[i]); });
   }
   /// What a step wrote before it threw is not published by the next one.
   static void forget(typename C::Outputs& out) {
-    for_each(out, []<class M>(M& member, std::size_t) {
+    for_each_port(out, []<class M>(M& member, std::size_t) {
       if constexpr (requires { member.written; }) member.written = false;
       if constexpr (requires { member.stamps_ns; }) member.count = member.lost = 0;
     });
@@ -186,7 +209,7 @@ struct Thunks {
 
   static void take_last(Applied<typename C::Outputs>& applied, const fulmar_input* last) {
     applied.made_bits = 0;
-    for_each(applied.outputs, [&]<class M>(M& member, std::size_t k) {
+    for_each_port(applied.outputs, [&]<class M>(M& member, std::size_t k) {
       if (last[k].data) {
         PortOf<M>::read_last(member, last[k]);
         applied.made_bits |= std::uint64_t{1} << k;

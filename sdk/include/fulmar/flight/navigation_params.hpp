@@ -2,10 +2,10 @@
 // Parameters of the estimator. Noises are physical: densities per sqrt(Hz), deviations of one sample in the
 // sensor's unit.
 #pragma once
-#include <fulmar/msg/origin.hpp>
-#include <fulmar/plugin.hpp>
+#include "fulmar/msg/origin.hpp"
+#include "fulmar/plugin.hpp"
 
-namespace fulmar::estimator {
+namespace fulmar::navigation {
 
 struct Params {
   Record<Origin> origin{"origin of the local frame; without it the first good fixes decide"};
@@ -100,4 +100,4 @@ struct Params {
   Param rate_filter{0, "Hz", 0, 200, "cut-off of the published body rate; 0 publishes it as it is"};
 };
 
-}  // namespace fulmar::estimator
+}  // namespace fulmar::navigation

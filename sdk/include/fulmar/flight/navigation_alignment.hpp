@@ -4,10 +4,11 @@
 #pragma once
 #include <array>
 #include <cmath>
-#include <fulmar/flight/attitude.hpp>
 #include <optional>
 
-namespace fulmar::estimator {
+#include "fulmar/flight/attitude.hpp"
+
+namespace fulmar::navigation {
 
 using Eigen::Matrix3d;
 using Eigen::Quaterniond;
@@ -168,4 +169,4 @@ class FlightAlignment {
   double time_ = 0;
 };
 
-}  // namespace fulmar::estimator
+}  // namespace fulmar::navigation

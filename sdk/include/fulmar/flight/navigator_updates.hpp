@@ -1,9 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the navigator (navigator.hpp) does with each sample of GNSS, magnetometer, barometer and pitot tube.
 #pragma once
-#include "navigator.hpp"
+#include "fulmar/flight/navigator.hpp"
 
-namespace fulmar::estimator {
+namespace fulmar::navigation {
+
+inline bool Navigator::within(std::initializer_list<double> ratios, double gate, Aid& aid) {
+  ekf::Fused fused{true, 0};
+  for (const double ratio : ratios) {
+    if (!(std::abs(ratio) <= std::abs(fused.ratio))) fused.ratio = ratio;
+    if (!(std::abs(ratio) <= gate)) fused.accepted = false;  // no number as well
+  }
+  aid.told(fused, time_s_, ratios);
+  health_.refused += !fused.accepted;
+  return fused.accepted;
+}
+
+inline void Navigator::doubt(std::initializer_list<int> parts, double std, Aid& aid) {
+  for (const int i : parts)
+    filter_.inflate(i, 1, std::sqrt(std::max(std * std - filter_.std(i) * filter_.std(i), 0.0)));
+  aid.refused_from_s = never;
+}
 
 /// Origin by averaging on the ground, by the first fix in the air.
 inline void Navigator::collect_origin(const Gnss& g, const Params& p) {
@@ -82,23 +99,20 @@ inline void Navigator::gnss_velocity(const Gnss& g, double valid_s, const Params
     return ekf::late(ekf::velocity(filter_, at_fix(valid_s, p), i, v_n(i)), a_n(i));
   };
   const double std = known(g.speed_std_mps, p.gnss_speed_std, p.gnss_speed_floor), variance = std * std;
-  double worst = 0;
+  Vector3d& off = health_.velocity_innovation;
   for (int i = 0; i < 3; ++i) {
-    health_.velocity_innovation(i) = z(i).innovation / filter_.expected_std(z(i), variance);
-    worst = std::max(worst, std::abs(health_.velocity_innovation(i)));
+    off(i) = z(i).innovation / filter_.expected_std(z(i), variance);
   }
-  health_.velocity_ratio = worst;
-  if (worst > p.gnss_gate) {
-    ++health_.refused;
-    if (time_s_ - std::max(health_.velocity_s, aligned_s_) < p.gnss_reset_after) return;
+  const double n = samples_in(p.gnss_climb_time, health_.velocity.accepted_s);
+  if (!within({off.x(), off.y(), off.z()}, p.gnss_gate, health_.velocity)) {
+    if (time_s_ - std::max(health_.velocity.accepted_s, aligned_s_) < p.gnss_reset_after) return;
     filter_.place(filter_.state().p_n, filter_.state().v_n + v_n - past.v_n);
     filter_.forget(ekf::vel, 3, 3 * std);
     filter_.inflate(ekf::theta, 3, 0.1);
   } else {
-    const double n = samples_in(p.gnss_climb_time, health_.velocity_s);
     for (int i = 0; i < 3; ++i) filter_.fuse(z(i), i < 2 ? variance : n * variance, 1e3);
   }
-  health_.velocity_s = time_s_;
+  health_.velocity.accepted_s = time_s_;
 }
 
 /// The first fix, and the one that is believed after all.
@@ -140,7 +154,7 @@ inline void Navigator::regain(const Gnss& g, const FlightAlignment::Found& found
               has_mag ? 0.15 : 0.4);
   seen_.yaw = true;
   place(g, time_s, p);
-  health_.position_s = health_.velocity_s = health_.height_s = time_s_;
+  health_.horizontal.accepted_s = health_.velocity.accepted_s = health_.height.accepted_s = time_s_;
   if (!zeroed || time_s_ - baro_s_ > 0.5) return;
   const double std =
       p.baro_noise * ekf::metres_per_pascal(standard_air(altitude_m_ - filter_.state().p_n.z())) + 0.5;
@@ -151,7 +165,7 @@ inline void Navigator::gnss_position(const Gnss& g, double valid_s, const Params
   const Vector3d p_n = frame_.to_ned(g.latitude_deg, g.longitude_deg, g.altitude_m);
   if (!seen_.position) {
     place(g, time_s_ - at_fix(valid_s, p).age_s, p);
-    health_.position_s = health_.height_s = time_s_;
+    health_.horizontal.accepted_s = health_.height.accepted_s = time_s_;
     return;
   }
   const double h_std = known(g.horizontal_std_m, p.gnss_horizontal_std, p.gnss_position_floor);
@@ -164,16 +178,15 @@ inline void Navigator::gnss_position(const Gnss& g, double valid_s, const Params
   filter_.noise.gnss_std = h_std;
   for (int i = 0; i < 2; ++i)
     health_.position_innovation(i) = z(i).innovation / filter_.expected_std(z(i), variance);
-  health_.horizontal_ratio = health_.position_innovation.head<2>().cwiseAbs().maxCoeff();
-  if (health_.horizontal_ratio <= p.gnss_gate) {
+  const Vector3d& off = health_.position_innovation;
+  if (within({off.x(), off.y()}, p.gnss_gate, health_.horizontal)) {
     for (int i = 0; i < 2; ++i) filter_.fuse(z(i), variance, 1e3);
-    health_.position_s = time_s_;
-  } else if (++health_.refused; time_s_ - std::max(health_.position_s, aligned_s_) > p.gnss_reset_after) {
+  } else if (time_s_ - std::max(health_.horizontal.accepted_s, aligned_s_) > p.gnss_reset_after) {
     Vector3d moved = filter_.state().p_n;
     moved.head<2>() += Vector2d(z(0).innovation, z(1).innovation);
     filter_.place(moved, filter_.state().v_n);
     forget_level();
-    health_.position_s = time_s_;
+    health_.horizontal.accepted_s = time_s_;
   }
   gnss_height(z(2), v_std, p);
 }
@@ -183,24 +196,22 @@ inline void Navigator::gnss_position(const Gnss& g, double valid_s, const Params
 /// flight resolves by degrees is set.
 inline void Navigator::gnss_height(const ekf::Scalar& z, double std, const Params& p) {
   const double dt = std::clamp(time_s_ - height_seen_s_, 0.0, 10.0),
-               refused_s = time_s_ - std::max(health_.height_s, aligned_s_);
+               refused_s = time_s_ - std::max(health_.height.accepted_s, aligned_s_);
   height_seen_s_ = time_s_;
   height_off_m_ += (z.innovation - height_off_m_) * (1 - std::exp(-dt / height_off_s));
   health_.position_innovation.z() = z.innovation / filter_.expected_std(z, std * std);
-  health_.height_ratio = std::abs(health_.position_innovation.z());
-  const bool agrees = health_.height_ratio <= p.gnss_gate;
-  if (!agrees) ++health_.refused;
+  const double variance = height_variance(z, std, p);  // by when one was accepted before this one
+  const bool agrees = within({health_.position_innovation.z()}, p.gnss_gate, health_.height);
   if (!agrees && refused_s <= p.gnss_reset_after) return;
   if (agrees || std::abs(z.innovation) < height_set_m) {
-    filter_.fuse(z, height_variance(z, std, p), 1e9);
-    if (agrees) health_.height_s = time_s_;  // else the next one is believed as well
+    filter_.fuse(z, variance, 1e9);  // not accepted by its gate: then the next one is believed as well
     return;
   }
   filter_.place(filter_.state().p_n + Vector3d(0, 0, z.innovation), filter_.state().v_n);
   filter_.forget(ekf::pos + 2, 1, std);
   seen_.baro_zero = false;
   height_off_m_ = 0;
-  health_.height_s = time_s_;
+  health_.height.accepted_s = time_s_;
 }
 
 /// Its error is slow, so a fix hardly counts; the more, and steeply so, the farther off it has been for
@@ -208,7 +219,7 @@ inline void Navigator::gnss_height(const ekf::Scalar& z, double std, const Param
 inline double Navigator::height_variance(const ekf::Scalar& z, double std, const Params& p) const {
   const double doubt = std::pow(height_off_m_ / std::max(p.gnss_height_doubt.value, std), 8);
   const double known = filter_.expected_std(z, 0);
-  return std::max(samples_in(p.gnss_height_time, health_.height_s) * std * std / (1 + doubt),
+  return std::max(samples_in(p.gnss_height_time, health_.height.accepted_s) * std * std / (1 + doubt),
                   known * known * (std::abs(z.innovation) / height_step_m - 1));
 }
 
@@ -228,13 +239,8 @@ inline void Navigator::mag(const Vector3d& field_b, const Params& p) {
   mag_fused_s_ = time_s_;
   if (!seen_.yaw) yaw_from_field(field_b);
   const double std = p.mag_noise / horizontal;
-  const ekf::Fused fused =
-      filter_.fuse(ekf::magnetic_heading(filter_.state(), field_b, declination()), std * std, p.mag_gate);
-  health_.heading_ratio = fused.ratio;
-  if (fused.accepted)
-    health_.heading_s = time_s_;
-  else
-    ++health_.refused;
+  fuse(ekf::magnetic_heading(filter_.state(), field_b, declination()), std * std, p.mag_gate,
+       health_.heading);
 }
 
 /// A magnetometer that wakes up after the alignment.
@@ -274,13 +280,10 @@ inline void Navigator::baro(double pressure_pa, const Params& p) {
   const double load = filter_.specific_force_b().norm() / p.gravity - 1;
   const double std =
       std::hypot(p.baro_noise, p.baro_load_error * load * dynamic_pa) * ekf::metres_per_pascal(air_);
-  const ekf::Fused fused = filter_.fuse(pressure_height(pressure_pa), std * std, p.air_gate);
-  health_.baro_ratio = fused.ratio;
-  if (fused.accepted) {
-    health_.baro_s = time_s_;
-  } else if (++health_.refused; time_s_ - std::max(health_.baro_s, aligned_s_) > p.gnss_reset_after) {
+  const ekf::Fused fused = fuse(pressure_height(pressure_pa), std * std, p.air_gate, health_.baro);
+  if (!fused.accepted && time_s_ - std::max(health_.baro.accepted_s, aligned_s_) > p.gnss_reset_after) {
     seen_.baro_zero = false;
-    health_.baro_s = time_s_;
+    health_.baro.accepted_s = time_s_;
   }
 }
 
@@ -291,18 +294,19 @@ inline void Navigator::pitot(double pressure_pa, const Params& p) {
   const double dt = std::clamp(time_s_ - pitot_s_, 0.0, 1.0);
   pitot_mps_ = pitot_s_ == never ? Va : pitot_mps_ + (Va - pitot_mps_) * (1 - std::exp(-dt / 0.2));
   pitot_s_ = time_s_;
-  if (!aligned() || !airborne_ || Va < 0.5 * p.min_airspeed) return;
+  if (!aligned() || !airborne_) return;
+  if (Va < 0.5 * p.min_airspeed) {  // stands still in flight: as good as refused
+    const ekf::Scalar z = ekf::true_airspeed(filter_.state(), Va);
+    health_.pitot.told({false, z.innovation / filter_.expected_std(z, p.pitot_speed_std * p.pitot_speed_std)},
+                       time_s_);
+    return;
+  }
   const Gusts::MeanWind wind = mean_wind();
   const double noise = p.pitot_noise / (air_.density_kgm3 * Va);
-  const ekf::Fused fused = filter_.fuse(ekf::true_airspeed(filter_.state(), Va),
-                                        noise * noise + p.pitot_speed_std * p.pitot_speed_std, p.air_gate);
-  health_.pitot_ratio = fused.ratio;
-  if (fused.accepted) {
-    health_.pitot_s = time_s_;
-    gusts_.airspeed(wind, Va, time_s_, p);
-  } else {
-    ++health_.refused;
-  }
+  const ekf::Fused fused =
+      fuse(ekf::true_airspeed(filter_.state(), Va), noise * noise + p.pitot_speed_std * p.pitot_speed_std,
+           p.air_gate, health_.pitot);
+  if (fused.accepted) gusts_.airspeed(wind, Va, time_s_, p);
 }
 
-}  // namespace fulmar::estimator
+}  // namespace fulmar::navigation

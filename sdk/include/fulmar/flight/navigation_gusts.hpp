@@ -7,9 +7,9 @@
 #include <array>
 #include <cmath>
 
-#include "params.hpp"
+#include "fulmar/flight/navigation_params.hpp"
 
-namespace fulmar::estimator {
+namespace fulmar::navigation {
 
 /// How strong the gusts are and how long they last. Of a first-order Gauss-Markov process of deviation s the
 /// mean square of the change over a time t is D(t) = 2 s^2 (1 - exp(-t / tau)), while a mean wind that is not
@@ -133,4 +133,4 @@ class Gusts {
   double time_s_ = 0;
 };
 
-}  // namespace fulmar::estimator
+}  // namespace fulmar::navigation

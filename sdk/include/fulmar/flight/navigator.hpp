@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From sensors to the filter: alignment, which sample is used when and with what noise, recovery. Knows no
 // ports; time is in seconds. The filter and its equations: fulmar/flight/ekf.hpp and ekf_models.hpp. Users
-// include navigator_updates.hpp.
+// include navigator_updates.hpp, or estimator.hpp for the component. Needs GeographicLib, as geodesy.hpp.
 #pragma once
-#include <fulmar/eigen.hpp>
-#include <fulmar/flight/ekf_models.hpp>
-#include <fulmar/flight/geodesy.hpp>
-#include <fulmar/flight/magnetic_model.hpp>
-#include <fulmar/msg/baro.hpp>
-#include <fulmar/msg/gnss.hpp>
-#include <fulmar/msg/mag.hpp>
-#include <fulmar/msg/pitot.hpp>
-#include <fulmar/msg/vehicle_state.hpp>
-#include <fulmar/msg/vehicle_status.hpp>
+#include <initializer_list>
 #include <optional>
 
-#include "alignment.hpp"
-#include "gusts.hpp"
-#include "params.hpp"
+#include "fulmar/eigen.hpp"
+#include "fulmar/flight/ekf_models.hpp"
+#include "fulmar/flight/geodesy.hpp"
+#include "fulmar/flight/magnetic_model.hpp"
+#include "fulmar/flight/navigation_aid.hpp"
+#include "fulmar/flight/navigation_alignment.hpp"
+#include "fulmar/flight/navigation_gusts.hpp"
+#include "fulmar/flight/navigation_params.hpp"
+#include "fulmar/msg/baro.hpp"
+#include "fulmar/msg/gnss.hpp"
+#include "fulmar/msg/mag.hpp"
+#include "fulmar/msg/pitot.hpp"
+#include "fulmar/msg/vehicle_state.hpp"
+#include "fulmar/msg/vehicle_status.hpp"
 
-namespace fulmar::estimator {
+namespace fulmar::navigation {
 
-inline constexpr double never = -1e9;
 inline constexpr double bridge_tilt_std = 0.01, bridge_tilt_rate = 0.01;  ///< rad, rad/s: of another's turn
 inline constexpr double bridge_accel_std = 1;  ///< m/s2: changes of the speed that nobody saw
 inline constexpr double height_off_s = 3;      ///< over which a contradiction of the height is averaged
@@ -30,16 +31,6 @@ inline constexpr double height_set_m = 50;     ///< beyond which nothing is reso
 inline constexpr double outage_after_s = 1.5;  ///< without a velocity: no late fix of a slow receiver
 inline constexpr double coasted_s =
     0.02;  ///< so long without an inertial sample is a gap: slower units do not fly
-
-/// What the last update of each kind said: innovation in deviations, and how long ago one was accepted.
-struct Health {
-  double horizontal_ratio = 0, height_ratio = 0, velocity_ratio = 0, baro_ratio = 0, pitot_ratio = 0,
-         sideslip_ratio = 0, heading_ratio = 0;
-  Vector3d position_innovation = Vector3d::Zero(), velocity_innovation = Vector3d::Zero();  ///< of a fix
-  double position_s = never, velocity_s = never, height_s = never, baro_s = never, pitot_s = never,
-         heading_s = never;
-  std::uint32_t refused = 0;
-};
 
 /// What the navigator knows of its attitude, and how it came to it.
 ///   waiting -> aligning -> running -> lost -> regained -> lost ...; lost -> running when it stands again;
@@ -131,19 +122,39 @@ class Navigator {
   const Seen& seen() const { return seen_; }
   bool airborne() const { return airborne_; }
   const ErrorStateEkf& filter() const { return filter_; }
+  ErrorStateEkf& filter() { return filter_; }  ///< for what fuse and doubt do not cover
   const Gusts& gusts() const { return gusts_; }
   double airborne_s() const { return time_s_ - airborne_s_; }  ///< since it took off, or stood again
   /// Since the fixes stopped; 0 with fixes.
   double outage_s() const {
-    const double silent = time_s_ - std::max(health_.velocity_s, aligned_s_);
+    const double silent = time_s_ - std::max(health_.velocity.accepted_s, aligned_s_);
     return silent > outage_after_s ? silent : 0;
   }
   const Health& health() const { return health_; }
+  Health& health() { return health_; }
   LocalFrame::Geodetic origin() const { return frame_.origin(); }
   double pitot_mps() const { return pitot_mps_; }  ///< smoothed true airspeed of the tube alone
   double time_s() const { return time_s_; }
 
   void status(const VehicleStatus& s) { status_ = s; }
+
+  /// A scalar of the sensor whose book is `aid`: within its gate, in deviations, it moves the state. So the
+  /// shipped measurements come in, and so does one more.
+  ekf::Fused fuse(const ekf::Scalar& z, double variance, double gate, Aid& aid) {
+    const ekf::Fused fused = filter_.fuse(z, variance, gate);
+    aid.told(fused, time_s_);
+    health_.refused += !fused.accepted;
+    return fused;
+  }
+  /// Scalars that come in together or not at all: whether the worst of them passes. In deviations.
+  bool within(std::initializer_list<double> ratios, double gate, Aid& aid);
+  /// For how long its gate has refused everything that this sensor measured; 0 when it took the last one.
+  double refused_for_s(const Aid& aid) const {
+    return aid.refused_from_s == never ? 0 : time_s_ - std::max(aid.refused_from_s, aligned_s_);
+  }
+  /// One of the two is wrong: of these parts of the state nobody is surer than `std` any more, so that a
+  /// sensor which is right comes in again, while one that is far off stays out.
+  void doubt(std::initializer_list<int> parts, double std, Aid& aid);
 
   /// One inertial sample, valid at `time_s`. False: it is not newer than the last one and was ignored.
   bool imu(const Vector3d& omega_b, const Vector3d& f_b, double time_s, const Params& p) {
@@ -197,12 +208,6 @@ class Navigator {
   void pitot(double pressure_pa, const Params& p);
 
  private:
-  static bool good(const Gnss& g) {
-    const bool solved = g.fix == FixType::fix_3d || g.fix == FixType::combined ||
-                        g.fix == FixType::rtk_float || g.fix == FixType::rtk_fixed;
-    return solved && std::abs(g.latitude_deg) <= 90 && std::abs(g.longitude_deg) <= 360 &&
-           std::isfinite(g.altitude_m) && eigen(g.velocity_mps).allFinite();
-  }
   static double known(double reported, double otherwise, double floor) {
     const double std = reported > 0 && reported < 1e6 ? reported : otherwise;
     return std::max(std, floor);
@@ -368,7 +373,7 @@ class Navigator {
                  variance = p.sideslip_speed_std * p.sideslip_speed_std + side * side;
     const ekf::Fused fused =
         filter_.fuse_considering_attitude(ekf::zero_sideslip(filter_.state()), variance, p.air_gate);
-    health_.sideslip_ratio = fused.ratio;
+    health_.sideslip.told(fused, time_s_);
     if (fused.accepted) gusts_.sideslip(mean_wind(), filter_.R_nb().col(1), side, time_s_, p);
   }
 
@@ -410,4 +415,4 @@ class Navigator {
   bool airborne_ = false;                ///< the air carries it: alpha, beta and the tube mean something
 };
 
-}  // namespace fulmar::estimator
+}  // namespace fulmar::navigation

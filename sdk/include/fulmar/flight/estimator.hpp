@@ -1,37 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The component: sensors in, VehicleState out. Silent until it is aligned.
+// The shipped estimator as a component: sensors in, VehicleState out. Silent until it is aligned. A component
+// that knows one more sensor holds it, with its ports and parameters as groups of its own, and fuses more in
+// a hook; all else - alignment, gaps, origin, publication - stays what it is:
+//
+//   struct Inputs  { navigation::Inputs sensors;  Queue<RadarRange> range; };
+//   struct Outputs { navigation::Outputs nav; };
+//   struct Params  { navigation::Params nav; };
+//   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
+//     return ekf_.step(tick, in.sensors, p.nav, out.nav, [&](navigation::Navigator& navigator) {
+//       for (const auto& range : in.range) navigator.fuse(height_of(range), 0.25, 5, radar_);
+//     });
+//   }
+//   navigation::Ekf ekf_;
+//   navigation::Aid radar_;
+//
+// Needs GeographicLib, as geodesy.hpp: fulmar_add_plugin(... GEODESY).
 #pragma once
-#include <fulmar/eigen.hpp>
-#include <fulmar/msg/controller_attitude.hpp>
-#include <fulmar/msg/filter_check.hpp>
-#include <fulmar/msg/imu.hpp>
+#include "fulmar/eigen.hpp"
+#include "fulmar/flight/navigation_ports.hpp"
+#include "fulmar/flight/navigator_updates.hpp"
 
-#include "navigator_updates.hpp"
-
-namespace fulmar::estimator {
+namespace fulmar::navigation {
 
 struct Ekf {
   static constexpr const char* doc =
       "Attitude, velocity, position, wind and sensor biases by an error-state extended Kalman filter.";
-  struct Inputs {
-    In<Imu> imu;
-    Optional<Gnss> gnss;
-    Optional<Mag> mag;
-    Optional<Baro> baro;
-    Optional<Pitot> pitot;
-    Optional<VehicleStatus> status;
-    Optional<ControllerAttitude> attitude;
-  };
-  struct Outputs {
-    Out<VehicleState> state;
-    Out<FilterCheck> check;  // for consistency tests
-    Probe horizontal_ratio, height_ratio, velocity_ratio, baro_ratio, pitot_ratio, sideslip_ratio,
-        heading_ratio;    ///< innovations in deviations
-    Probe refused_ratio;  ///< measurements refused by their gates so far
-    Probe gust_mps, gust_north_mps, gust_east_mps, baro_bias_m, static_port_ratio, heading_deviation_rad,
-        gnss_delay_s;
-  };
-  using Params = estimator::Params;
+  using Inputs = navigation::Inputs;
+  using Outputs = navigation::Outputs;
+  using Params = navigation::Params;
 
   void configure(const Params& p) { navigator_.start(p); }
   void retune(const Params& p) { navigator_.tune(p); }
@@ -48,22 +44,40 @@ struct Ekf {
   }
 
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
+    return step(tick, in, p, out, [](Navigator&) {});
+  }
+  /// `fuse_more(Navigator&)` is called with each inertial sample while there is an attitude, after the
+  /// shipped measurements and before the state is published.
+  template <class FuseMore>
+  Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out, FuseMore&& fuse_more) {
+    const Status status = navigate(tick, in, p, out, fuse_more);
+    if (tick.now_ns - told_ns_ < told_every_ns) return status;
+    told_ns_ = tick.now_ns;
+    out.health.publish(navigator_.health().message(tick.now_s(), navigator_.airborne()));
+    return status;
+  }
+
+ private:
+  template <class FuseMore>
+  Status navigate(const Tick& tick, const Inputs& in, const Params& p, Outputs& out, FuseMore& fuse_more) {
     stepped_ns_ = tick.now_ns;
     if (in.status && in.status.fresh()) navigator_.status(*in.status);
-    if (!newer(in.imu, imu_ns_, tick) || !inertial(in, p)) return coast(tick, in.imu.fresh(), p, out);
+    if (!newer(in.imu, imu_ns_, tick) || !inertial(in, tick, p)) {
+      missed(in, tick);
+      return coast(tick, in.imu.fresh(), p, out);
+    }
     sensors(in, tick, p);
     turned(in, tick, p);
     if (!navigator_.aligned())
       return navigator_.regaining() ? blind(in.imu.valid_at_ns(), p, out) : Status::degraded;
+    fuse_more(navigator_);
     fill(navigator_.filter().state(), navigator_.filter().R_nb(), navigator_.filter().rate_b(), p);
     if (navigator_.filter().time_s() - deviations_s_ > deviations_after_s) fill_deviations(p);
     publish(in.imu.valid_at_ns(), Shown::measured, out);
-    if (navigator_.health().position_s > checked_s_) publish_check(p, out);
+    if (navigator_.health().horizontal.accepted_s > checked_s_) publish_check(p, out);
     probes(out);
     return healthy() ? Status::ok : Status::degraded;
   }
-
- private:
   /// What was published last.
   enum class Shown : std::uint8_t {
     nothing,
@@ -83,18 +97,29 @@ struct Ekf {
     return port.fresh() && port.valid_at_ns() > last_ns && port.valid_at_ns() <= tick.now_ns + ahead_ns;
   }
   template <class Port>
-  static bool take(const Port& port, std::int64_t& last_ns, const Tick& tick) {
+  bool take(const Port& port, std::int64_t& last_ns, const Tick& tick) {
     if (!port || !newer(port, last_ns, tick)) return false;
     last_ns = port.valid_at_ns();
+    if constexpr (requires { navigator_.health().came(*port, 0.0); })
+      navigator_.health().came(*port, tick.now_s());
     return true;
   }
-  bool inertial(const Inputs& in, const Params& p) {
+  bool inertial(const Inputs& in, const Tick& tick, const Params& p) {
     const Vector3d omega_b = eigen(in.imu->rate_radps), f_b = eigen(in.imu->specific_force_mps2);
     if (!omega_b.allFinite() || !f_b.allFinite()) return false;
+    if (tick.now_ns - felt_ns_ >= felt_every_ns) {
+      felt_ns_ = tick.now_ns;
+      navigator_.health().came(*in.imu, tick.now_s());
+    }
     const std::int64_t before_ns = imu_ns_;
     imu_ns_ = in.imu.valid_at_ns();
     dt_s_ = 1e-9 * static_cast<double>(imu_ns_ - before_ns);
     return navigator_.imu(omega_b, f_b, 1e-9 * static_cast<double>(imu_ns_), p);
+  }
+  /// What comes without an inertial sample beside it is not used, but it came.
+  void missed(const Inputs& in, const Tick& tick) {
+    take(in.mag, mag_ns_, tick), take(in.baro, baro_ns_, tick);
+    take(in.gnss, gnss_ns_, tick), take(in.pitot, pitot_ns_, tick);
   }
   void sensors(const Inputs& in, const Tick& tick, const Params& p) {
     if (take(in.mag, mag_ns_, tick)) navigator_.mag(eigen(in.mag->field_tesla), p);
@@ -149,7 +174,9 @@ struct Ekf {
                pitot_ns_ = long_ago, attitude_ns_ = long_ago;
   Quaterniond turn_q_ = Quaterniond::Identity();  ///< the controller's attitude at `turn_s_`
   double turn_s_ = never;
-  std::int64_t stepped_ns_ = 0, published_ns_ = 0;
+  static constexpr std::int64_t told_every_ns = 199'000'000;  ///< 5 Hz; a tick may be a little early
+  static constexpr std::int64_t felt_every_ns = 19'900'000;   ///< the inertial unit: 50 Hz are enough
+  std::int64_t stepped_ns_ = 0, published_ns_ = 0, told_ns_ = long_ago, felt_ns_ = long_ago;
   Shown shown_ = Shown::nothing;
   bool rate_started_ = false;  ///< the smoothed rate has begun
   ekf::Nominal coasted_;       ///< the state carried on through a gap
@@ -275,7 +302,7 @@ inline void Ekf::fill_deviations(const Params& p) {
   s.velocity_std_mps = three(ekf::vel);
   s.position_std_m = three(ekf::pos);
   fill_wind_deviations(p);
-  const bool pitot = now - h.pitot_s < pitot_lost_s,
+  const bool pitot = now - h.pitot.accepted_s < pitot_lost_s,
              tube = !navigator_.airborne() && navigator_.pitot_mps() > 0;
   s.airspeed_std_mps = navigator_.airborne() ? std::hypot(f.expected_std(ekf::true_airspeed(f.state(), 0), 0),
                                                           p.pitot_scale_std * s.airspeed_mps)
@@ -293,7 +320,7 @@ inline void Ekf::fill_deviations(const Params& p) {
                      s.attitude_std_rad.down < yaw_valid_rad;
   s.velocity_valid = known && std::max({s.velocity_std_mps.north, s.velocity_std_mps.east,
                                         s.velocity_std_mps.down}) < speed_valid_mps;
-  s.position_valid = known && seen.position && now - h.position_s < p.gnss_timeout &&
+  s.position_valid = known && seen.position && now - h.horizontal.accepted_s < p.gnss_timeout &&
                      std::max(s.position_std_m.north, s.position_std_m.east) < position_valid_m;
   s.height_valid = known && seen.height && s.position_std_m.down < height_valid_m;
   s.wind_valid = known && std::max(s.wind_std_mps.north, s.wind_std_mps.east) < speed_valid_mps;
@@ -323,7 +350,7 @@ inline void Ekf::fill_wind_deviations(const Params& p) {
 inline void Ekf::publish_check(const Params& p, Outputs& out) {
   const ErrorStateEkf& f = navigator_.filter();
   const Health& h = navigator_.health();
-  checked_s_ = h.position_s;
+  checked_s_ = h.horizontal.accepted_s;
   FilterCheck c;
   const ekf::Covariance& P = f.covariance();
   std::array<double, 9> over_std;
@@ -345,13 +372,13 @@ inline void Ekf::publish_check(const Params& p, Outputs& out) {
 inline void Ekf::probes(Outputs& out) const {
   const Health& h = navigator_.health();
   const ekf::Nominal& x = navigator_.filter().state();
-  out.horizontal_ratio = h.horizontal_ratio;
-  out.height_ratio = h.height_ratio;
-  out.velocity_ratio = h.velocity_ratio;
-  out.baro_ratio = h.baro_ratio;
-  out.pitot_ratio = h.pitot_ratio;
-  out.sideslip_ratio = h.sideslip_ratio;
-  out.heading_ratio = h.heading_ratio;
+  out.horizontal_ratio = std::abs(h.horizontal.ratio);
+  out.height_ratio = std::abs(h.height.ratio);
+  out.velocity_ratio = std::abs(h.velocity.ratio);
+  out.baro_ratio = h.baro.ratio;
+  out.pitot_ratio = h.pitot.ratio;
+  out.sideslip_ratio = h.sideslip.ratio;
+  out.heading_ratio = h.heading.ratio;
   out.refused_ratio = h.refused;
   out.gust_mps = x.gust_mps;
   out.gust_north_mps = navigator_.gusts().gust_mps().x();
@@ -362,4 +389,4 @@ inline void Ekf::probes(Outputs& out) const {
   out.gnss_delay_s = x.gnss_delay_s;
 }
 
-}  // namespace fulmar::estimator
+}  // namespace fulmar::navigation

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Each sensor goes bad in the middle of a flight and comes back: what the port `health` says of it, and how
+// soon.
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "flight_bench.hpp"
+
+namespace health_test {
+
+using namespace synthetic;
+
+namespace {
+
+using Alter = std::function<void(Samples&, Random&)>;
+
+struct Spell {
+  Alter alter{};
+  Quality quality = ublox;
+  SensorHealth NavigationHealth::*sensor = &NavigationHealth::baro;
+  SensorState state = SensorState::silent;
+  double length_s = 15;
+  std::uint64_t seed = 1;
+  bool imu = true;  ///< false: in the spell there is no inertial sample
+
+  static constexpr double from_s = 60;
+  double told_s = -1, left_s = -1;  ///< after the begin and after the end of the spell
+  NavigationHealth before{}, during{}, last{};
+  std::string otherwise{};  ///< other sensors of which something was said
+  std::uint64_t allocated = 0;
+
+  Spell& run();
+
+ private:
+  void judge(const NavigationHealth& health, double t);
+};
+
+constexpr std::array<std::pair<const char*, SensorHealth NavigationHealth::*>, 8> sensors{{
+    {"gyro", &NavigationHealth::gyro},
+    {"accel", &NavigationHealth::accel},
+    {"gnss_position", &NavigationHealth::gnss_position},
+    {"gnss_height", &NavigationHealth::gnss_height},
+    {"gnss_velocity", &NavigationHealth::gnss_velocity},
+    {"mag", &NavigationHealth::mag},
+    {"baro", &NavigationHealth::baro},
+    {"pitot", &NavigationHealth::pitot},
+}};
+
+Spell& Spell::run() {
+  Plan plan;
+  plan.duration_s = from_s + length_s + 20;
+  plan.seed = seed;
+  const std::vector<Truth> flight = fly(plan);
+  Sensors reads(quality, plan, plan.seed + 100);
+  Random random(plan.seed + 7);
+  Bench<Ekf> bench;
+  bench.params.origin.value = {plan.lat_deg, plan.lon_deg, plan.alt_m, true};
+  bench.params.origin.is_given = true;
+  bench.configure();
+  const double dt = 1 / plan.rate_hz;
+  for (std::size_t k = 0; k < flight.size(); ++k) {
+    const Truth& x = flight[k];
+    Samples s = reads.at(flight, k);
+    const bool bad = x.t > from_s && x.t <= from_s + length_s;
+    if (bad && alter) alter(s, random);
+    if (!bad || imu) bench.set(bench.in.imu, s.imu, -dt);
+    if (s.gnss) bench.set(bench.in.gnss, *s.gnss, s.gnss_age_s - dt);
+    if (s.mag) bench.set(bench.in.mag, *s.mag, -dt);
+    if (s.baro) bench.set(bench.in.baro, *s.baro, -dt);
+    if (s.pitot) bench.set(bench.in.pitot, *s.pitot, -dt);
+    VehicleStatus v;
+    v.armed = x.t > plan.rest_s - 0.2;
+    v.on_ground = x.t < plan.rest_s + 5;
+    bench.set(bench.in.status, v);
+    allocated += allocations([&] { bench.step(dt); });
+    if (bench.fault() != "") otherwise += bench.fault();
+    if (bench.out.health.written) judge(bench.out.health.value, x.t);
+  }
+  return *this;
+}
+
+void Spell::judge(const NavigationHealth& health, double t) {
+  if (t <= from_s) before = health;
+  if (t > from_s && t <= from_s + length_s) during = health;
+  last = health;
+  const SensorState now = (health.*sensor).state;
+  if (t > from_s && told_s < 0 && now == state) told_s = t - from_s;
+  if (now != SensorState::ok && t > from_s + length_s) left_s = t - from_s - length_s;
+  if (t < 2) return;  // the first samples come
+  for (const auto& [name, other] : sensors)
+    if (other != sensor && (health.*other).state != SensorState::ok &&
+        otherwise.find(name) == std::string::npos)
+      otherwise += std::string(name) + " ";
+}
+
+/// Repeats what it read first.
+template <class T>
+Alter held(std::optional<T> Samples::*which) {
+  return [which, first = std::optional<T>()](Samples& s, Random&) mutable {
+    if (!first) first = s.*which;
+    if (s.*which) s.*which = first;
+  };
+}
+template <class T>
+Alter dropped(std::optional<T> Samples::*which) {
+  return [which](Samples& s, Random&) { (s.*which).reset(); };
+}
+Alter of_fix(std::function<void(Gnss&, Random&)> change) {
+  return [change](Samples& s, Random& random) {
+    if (s.gnss) change(*s.gnss, random);
+  };
+}
+/// The spell is told within `told_s` and left within `left_s`, and nothing is said of the others.
+void check(Spell& spell, double told_s, double left_s) {
+  spell.run();
+  CHECK((spell.before.*spell.sensor).state == SensorState::ok);
+  CHECK(spell.told_s > 0);
+  CHECK(spell.told_s <= told_s);
+  CHECK(spell.left_s <= left_s);
+  CHECK((spell.last.*spell.sensor).state == SensorState::ok);
+  CHECK(spell.allocated == 0);
+}
+
+}  // namespace
+
+TEST_CASE("of a flight in which nothing fails nothing is said") {
+  for (const Quality& quality : {rosflight, ublox})
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+      Spell spell{.quality = quality, .state = SensorState::refused, .seed = seed};
+      spell.run();
+      CAPTURE(seed);
+      CHECK(spell.otherwise == "");
+      CHECK(spell.told_s < 0);
+      CHECK((spell.during.*spell.sensor).state == SensorState::ok);
+      CHECK(spell.last.baro.state == SensorState::ok);
+      CHECK(spell.last.baro.accepted > 3000);
+      CHECK(spell.last.baro.refused == 0);
+      CHECK(std::abs(spell.last.baro.innovation_ratio) < 4);
+      CHECK(spell.last.baro.innovation_std_ratio < 1.3);
+      CHECK(spell.last.gyro.state == SensorState::ok);
+    }
+}
+
+TEST_CASE("a sensor that was never heard is called so, and the others are not") {
+  Spell spell{};
+  Bench<Ekf> bench;
+  for (int i = 0; i < 100; ++i) {
+    bench.set(bench.in.imu, Imu{{0, 0, -9.8 + 1e-3 * i}, {}}, -0.005);
+    bench.step(0.005);
+    if (bench.out.health.written) spell.last = bench.out.health.value;
+  }
+  for (const auto& named : sensors) {
+    const std::string name = named.first;
+    CAPTURE(name);
+    const SensorState state = (spell.last.*named.second).state;
+    CHECK(state == (name == "gyro" || name == "accel" ? SensorState::ok : SensorState::never));
+  }
+}
+
+TEST_CASE(
+    "silent: no sample for five of its intervals, a fix that is none; told within 1.4 s, left at once") {
+  for (const auto& [sensor, alter, told_s] :
+       {std::tuple{&NavigationHealth::baro, dropped(&Samples::baro), 0.6},
+        std::tuple{&NavigationHealth::mag, dropped(&Samples::mag), 0.6},
+        std::tuple{&NavigationHealth::pitot, dropped(&Samples::pitot), 0.6},
+        std::tuple{&NavigationHealth::gnss_position, dropped(&Samples::gnss), 1.4},
+        std::tuple{&NavigationHealth::gnss_velocity, of_fix([](Gnss&g, Random&) { g.fix = FixType::none; }),
+                   1.4}}) {
+    Spell spell{.alter = alter, .sensor = sensor, .state = SensorState::silent};
+    check(spell, told_s, 0.6);
+    CHECK((spell.during.*sensor).state == SensorState::silent);
+  }
+}
+
+TEST_CASE("a slow sensor is not silent between its samples, nor one that becomes slower for long") {
+  Quality slow = ublox;
+  slow.gnss_hz = 1;
+  Spell receiver{.quality = slow, .sensor = &NavigationHealth::gnss_height, .state = SensorState::silent};
+  receiver.run();
+  CHECK(receiver.told_s < 0);
+  CHECK(receiver.otherwise == "");
+  Spell slower{.state = SensorState::silent};
+  slower.alter = [n = 0](Samples& s, Random&) mutable {
+    if (s.baro && ++n % 25 != 0) s.baro.reset();  // 2 Hz
+  };
+  slower.run();
+  CHECK(slower.told_s > 0);
+  CHECK(slower.during.baro.state == SensorState::ok);
+}
+
+TEST_CASE("silent: the inertial unit, of which nothing else is told than by this port") {
+  Spell spell{.sensor = &NavigationHealth::gyro, .state = SensorState::silent, .length_s = 3, .imu = false};
+  check(spell, 0.6, 0.4);
+  CHECK(spell.during.accel.state == SensorState::silent);
+  CHECK(spell.otherwise == "accel ");  // the others go on, and are heard
+}
+
+TEST_CASE("stuck: the same bytes five times in flight; told within 1.4 s") {
+  for (const auto& [sensor, alter, told_s] :
+       {std::tuple{&NavigationHealth::baro, held(&Samples::baro), 0.8},
+        std::tuple{&NavigationHealth::mag, held(&Samples::mag), 0.8},
+        std::tuple{&NavigationHealth::pitot, held(&Samples::pitot), 0.8},
+        std::tuple{&NavigationHealth::gnss_position, held(&Samples::gnss), 1.4},
+        std::tuple{&NavigationHealth::gnss_velocity, held(&Samples::gnss), 1.4}}) {
+    Spell spell{.alter = alter, .sensor = sensor, .state = SensorState::stuck, .length_s = 5};
+    check(spell, told_s, 12);
+    CHECK(spell.told_s > 0.4);
+    CHECK((spell.during.*sensor).state == SensorState::stuck);
+  }
+}
+
+TEST_CASE("stuck: each triad of the inertial unit by itself") {
+  Spell gyro{.sensor = &NavigationHealth::gyro, .state = SensorState::stuck, .length_s = 1};
+  gyro.alter = [](Samples& s, Random&) { s.imu.rate_radps = {0.1, 0, 0}; };
+  check(gyro, 0.8, 0.4);
+  CHECK(gyro.during.accel.state == SensorState::ok);
+  Spell accel{.sensor = &NavigationHealth::accel, .state = SensorState::stuck, .length_s = 1};
+  accel.alter = [](Samples& s, Random&) { s.imu.specific_force_mps2 = {0, 0, -9.8}; };
+  check(accel, 0.8, 0.4);
+  CHECK(accel.during.gyro.state == SensorState::ok);
+}
+
+TEST_CASE("what reads the same while the aircraft stands is not stuck") {
+  Bench<Ekf> bench;
+  Random random(3);
+  SensorState worst = SensorState::ok;
+  for (int i = 0; i < 2000; ++i) {
+    const auto n = [&](double std) { return std * random.normal(); };
+    bench.set(bench.in.imu, Imu{{n(0.01), n(0.01), n(0.01) - 9.8}, {n(1e-3), n(1e-3), n(1e-3)}}, -0.005);
+    bench.set(bench.in.baro, Baro{9e4, 300}, -0.005);
+    bench.set(bench.in.pitot, Pitot{0, 0, 300}, -0.005);
+    bench.step(0.005);
+    if (bench.out.health.written)
+      worst = std::max({worst, bench.out.health.value.baro.state, bench.out.health.value.pitot.state});
+  }
+  CHECK(worst == SensorState::ok);
+}
+
+TEST_CASE("noisy: ten times its noise; told within 2.5 s, left within 6 s") {
+  const auto baro = [](Samples& s, Random& random) {
+    if (s.baro) s.baro->pressure_pa += 40 * random.normal();
+  };
+  const auto pitot = [](Samples& s, Random& random) {
+    if (s.pitot) s.pitot->pressure_pa += 30 * random.normal();
+  };
+  const auto velocity =
+      of_fix([](Gnss& g, Random& random) { g.velocity_mps.north += 1.5 * random.normal(); });
+  const auto height = of_fix([](Gnss& g, Random& random) { g.altitude_m += 12 * random.normal(); });
+  for (const auto& [sensor, alter] :
+       {std::tuple{&NavigationHealth::baro, Alter(baro)}, std::tuple{&NavigationHealth::pitot, Alter(pitot)},
+        std::tuple{&NavigationHealth::gnss_velocity, velocity},
+        std::tuple{&NavigationHealth::gnss_height, height}}) {
+    Spell spell{.alter = alter, .sensor = sensor, .state = SensorState::noisy};
+    check(spell, 2.5, 6);
+    CHECK(spell.otherwise == "");
+    CHECK((spell.during.*sensor).state == SensorState::noisy);
+    CHECK((spell.during.*sensor).innovation_std_ratio > 2);
+  }
+}
+
+TEST_CASE("biased: off by four deviations, which the gate lets through; told within 9 s, left within 4 s") {
+  for (const double off_m : {8.0, -9.0}) {
+    Spell spell{.sensor = &NavigationHealth::gnss_height, .state = SensorState::biased};
+    spell.alter = of_fix([off_m](Gnss& g, Random&) { g.altitude_m += off_m; });
+    check(spell, 9, 4);  // how soon, what the receiver is off by itself decides
+    CHECK(spell.during.gnss_height.refused == spell.before.gnss_height.refused);
+    CHECK(spell.during.gnss_height.innovation_mean_ratio * off_m < -2);  // down
+    CHECK(spell.during.gnss_height.state == SensorState::biased);
+    CHECK(spell.otherwise == "");
+  }
+}
+
+TEST_CASE("refused: off by more than the gate; told 1 s after, left when it is believed or right again") {
+  const auto baro = [](Samples& s, Random&) {
+    if (s.baro) s.baro->pressure_pa += 240;
+  };
+  const auto pitot = [](Samples& s, Random&) {
+    if (s.pitot) s.pitot->pressure_pa += 400;
+  };
+  const auto blocked = [](Samples& s, Random& random) {
+    if (s.pitot) s.pitot->pressure_pa = random.normal();
+  };
+  const auto position = of_fix([](Gnss& g, Random&) { g.longitude_deg += 60 / 85e3; });
+  for (const auto& [sensor, alter] :
+       {std::tuple{&NavigationHealth::baro, Alter(baro)}, std::tuple{&NavigationHealth::pitot, Alter(pitot)},
+        std::tuple{&NavigationHealth::pitot, Alter(blocked)},
+        std::tuple{&NavigationHealth::gnss_position, position}}) {
+    Spell spell{.alter = alter, .sensor = sensor, .state = SensorState::refused, .length_s = 8};
+    check(spell, 1.6, 0.6);
+    CHECK(spell.told_s > 0.9);
+    CHECK(spell.otherwise == "");
+    CHECK((spell.during.*sensor).state == SensorState::refused);
+    CHECK((spell.during.*sensor).accepted == (spell.before.*sensor).accepted);
+    CHECK((spell.during.*sensor).refused > (spell.before.*sensor).refused + 30);
+    CHECK(std::abs((spell.during.*sensor).innovation_ratio) > 5);
+  }
+}
+
+TEST_CASE("health comes at 5 Hz, with an attitude or without, in gaps as well") {
+  Bench<Ekf> bench;
+  int published = 0, imu = 0;
+  for (int i = 0; i < 4000; ++i) {
+    if (i < 1000 || i > 3000) bench.set(bench.in.imu, Imu{{0, 0, -9.8 + 1e-3 * (i % 7)}, {}}, -0.0025), ++imu;
+    bench.step(0.0025);
+    published += bench.out.health.written;
+  }
+  CHECK(published == 50);
+}
+
+}  // namespace health_test

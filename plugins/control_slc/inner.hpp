@@ -60,8 +60,8 @@ struct Inner {
     if (!take_up_) roll_.reset(), pitch_.reset();
     blind_ = false;
     roll_command_rate_.reset_to(in.attitude->roll_rad);
-    const double Va = airspeed_.reset_to(scheduling_airspeed(*in.state, params.airframe->limits));
-    washout_.reset_to(yaw_rate_error(*in.state, Va));
+    airspeed_.reset_to(scheduling_airspeed(*in.state, params.airframe->limits));
+    washout_.reset_to(yaw_rate_error(*in.state, airspeed_.value()));
     return Status::ok;
   }
 

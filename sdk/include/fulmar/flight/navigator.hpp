@@ -213,6 +213,9 @@ class Navigator {
     return std::max(std, floor);
   }
 
+  /// Reads the same again and again in flight: nothing is learnt from it, however long it goes on.
+  bool stuck(const Aid& aid) const { return airborne_ && aid.arrivals.stuck(); }
+
   /// Fixes within twice the correlation time of their error know as much as one: the factor on their
   /// variance.
   double samples_in(double correlation_s, double last_s) const {

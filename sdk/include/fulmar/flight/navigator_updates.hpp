@@ -54,7 +54,7 @@ inline void Navigator::gnss(const Gnss& g, double valid_s, const Params& p) {
   }
   if (!at_fix(valid_s, p).known) return;
   if (!seen_.yaw) yaw_from_course(eigen(g.velocity_mps));
-  gnss_velocity(g, valid_s, p);
+  if (!stuck(health_.velocity)) gnss_velocity(g, valid_s, p);
   if (seen_.origin) gnss_position(g, valid_s, p);
 }
 
@@ -179,7 +179,9 @@ inline void Navigator::gnss_position(const Gnss& g, double valid_s, const Params
   for (int i = 0; i < 2; ++i)
     health_.position_innovation(i) = z(i).innovation / filter_.expected_std(z(i), variance);
   const Vector3d& off = health_.position_innovation;
-  if (within({off.x(), off.y()}, p.gnss_gate, health_.horizontal)) {
+  if (stuck(health_.horizontal)) {
+    // However long: an aircraft does not stand in the air.
+  } else if (within({off.x(), off.y()}, p.gnss_gate, health_.horizontal)) {
     for (int i = 0; i < 2; ++i) filter_.fuse(z(i), variance, 1e3);
   } else if (time_s_ - std::max(health_.horizontal.accepted_s, aligned_s_) > p.gnss_reset_after) {
     Vector3d moved = filter_.state().p_n;
@@ -188,7 +190,7 @@ inline void Navigator::gnss_position(const Gnss& g, double valid_s, const Params
     forget_level();
     health_.horizontal.accepted_s = time_s_;
   }
-  gnss_height(z(2), v_std, p);
+  if (!stuck(health_.height)) gnss_height(z(2), v_std, p);
 }
 
 /// Receiver and barometer can both be wrong, so what they disagree in is resolved over seconds, and the
@@ -237,6 +239,7 @@ inline void Navigator::mag(const Vector3d& field_b, const Params& p) {
   if (time_s_ - mag_fused_s_ < 0.1 - 1e-4)
     return;  // its errors are correlated: more samples would not be more information
   mag_fused_s_ = time_s_;
+  if (stuck(health_.heading)) return;
   if (!seen_.yaw) yaw_from_field(field_b);
   const double std = p.mag_noise / horizontal;
   fuse(ekf::magnetic_heading(filter_.state(), field_b, declination()), std * std, p.mag_gate,
@@ -264,7 +267,7 @@ inline void Navigator::baro(double pressure_pa, const Params& p) {
     altitude_m_ = pressure_altitude(pressure_pa);
     seen_.altitude = true;
   }
-  if (!aligned()) return;
+  if (!aligned() || stuck(health_.baro)) return;
   air_ = standard_air(altitude_m_ - filter_.state().p_n.z());
   if (!seen_.baro_zero) {
     ekf::Vector dx = ekf::Vector::Zero();
@@ -294,7 +297,7 @@ inline void Navigator::pitot(double pressure_pa, const Params& p) {
   const double dt = std::clamp(time_s_ - pitot_s_, 0.0, 1.0);
   pitot_mps_ = pitot_s_ == never ? Va : pitot_mps_ + (Va - pitot_mps_) * (1 - std::exp(-dt / 0.2));
   pitot_s_ = time_s_;
-  if (!aligned() || !airborne_) return;
+  if (!aligned() || !airborne_ || stuck(health_.pitot)) return;
   if (Va < 0.5 * p.min_airspeed) {  // stands still in flight: as good as refused
     const ekf::Scalar z = ekf::true_airspeed(filter_.state(), Va);
     health_.pitot.told({false, z.innovation / filter_.expected_std(z, p.pitot_speed_std * p.pitot_speed_std)},

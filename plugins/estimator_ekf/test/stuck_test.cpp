@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A sensor that reads the same again and again for 40 s of flight, climb and turns included: nothing is learnt
-// from it, however long it goes on, and afterwards it is used again.
+// A sensor that reads the same again and again for 40 s of flight, climb and turns included: nothing is
+// learnt from it, however long it goes on, and afterwards it is used again.
 #include <doctest/doctest.h>
 
 #include "flight_bench.hpp"

@@ -313,6 +313,9 @@ void fulmar::one_source_file_defines_FULMAR_COUNT_ALLOCATIONS() noexcept {}
 #define FULMAR_HEAP_OF_A_SANITIZER
 #endif
 #if defined(__GLIBC__) && !defined(FULMAR_HEAP_OF_A_SANITIZER)
+#if defined(__clang__) && __has_include(<mm_malloc.h>)
+#include <mm_malloc.h>  // declares posix_memalign as well, and clang wants that before its definition
+#endif
 extern "C" {
 void* __libc_malloc(std::size_t);                 // NOLINT(bugprone-reserved-identifier): glibc's names
 void* __libc_calloc(std::size_t, std::size_t);    // NOLINT(bugprone-reserved-identifier)

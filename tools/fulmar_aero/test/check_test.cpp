@@ -55,7 +55,7 @@ TEST_CASE("the shipped airframes have no fault") {
   CHECK(text.says("no fault, 1 warning"));
 }
 
-TEST_CASE("a derivative of the wrong sign is found, with what it would do") {
+TEST_CASE("a derivative of the wrong sign is found, with what it would do" * doctest::test_suite("amounts")) {
   for (const Mistake& mistake :
        {Mistake{"p: -0.51", "p: 0.51", "faults", "aero.roll.p", "rolling would speed itself up"},
         {"alpha: -2.74", "alpha: 2.74", "faults", "aero.pitch.alpha", "statically unstable"},

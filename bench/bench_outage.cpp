@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How far does the estimate drift without GNSS? Flies a recorded flight once for each outage, its fixes
 // withheld for a while, and compares the estimate with the last fix withheld, at the time for which that
-// holds. Exits 1 when one cannot be flown.
+// holds; and once with all fixes, with each of them. Exits 1 when one cannot be flown.
 // bench_outage LOG.yaml --folder FOLDER --starts 280,310,... [--seconds N] [--mission FILE.yaml]
 //              [--set COMPONENT.PARAMETER=VALUE]... [--with COMPONENT=PLUGIN.so]... [--json]
 #include <cstdio>
@@ -94,7 +94,13 @@ struct Summary {
   }
 };
 
-void tell(const Options& o, const std::vector<Outcome>& all) {
+nlohmann::json json_of(const Aided& a) {
+  return {{"fixes", a.fixes},           {"horizontal_rms_m", a.horizontal_m},
+          {"height_rms_m", a.height_m}, {"height_claimed_m", a.height_claimed_m},
+          {"height_step_m", a.step_m},  {"velocity_down_rms_mps", a.down_mps}};
+}
+
+void tell(const Options& o, const std::vector<Outcome>& all, const Aided& aided) {
   std::vector<double> errors, claims, heights, height_claims;
   for (const Outcome& each : all) {
     errors.push_back(each.horizontal_m), claims.push_back(each.claimed_m);
@@ -104,6 +110,7 @@ void tell(const Options& o, const std::vector<Outcome>& all) {
   if (o.json) {
     nlohmann::json json = {
         {"seconds", o.seconds}, {"horizontal", horizontal.json()}, {"height", height.json()}};
+    json["with_fixes"] = json_of(aided);
     for (const Outcome& each : all)
       json["outages"].push_back({{"start_s", each.start_s},
                                  {"after_s", each.after_s},
@@ -122,6 +129,11 @@ void tell(const Options& o, const std::vector<Outcome>& all) {
   std::printf("| m | median | p90 | max | rms | claimed | rms / claimed |\n|---|---|---|---|---|---|---|\n");
   horizontal.print("horizontal");
   height.print("height");
+  std::printf(
+      "\nWith all %d fixes in the air, rms from the receiver: height %.2f m (claimed %.2f), largest step "
+      "%.2f m; "
+      "velocity down %.2f m/s\n",
+      aided.fixes, aided.height_m, aided.height_claimed_m, aided.step_m, aided.down_mps);
 }
 
 }  // namespace
@@ -137,7 +149,7 @@ int main(int count, char** words) {
     const Outages outages(o.recipe);
     std::vector<Outcome> all;
     for (const double start_s : o.starts_s) all.push_back(outages.fly(start_s, o.seconds));
-    tell(o, all);
+    tell(o, all, outages.aided());
   } catch (const std::exception& e) {
     return std::fprintf(stderr, "%s\n", e.what()), 1;
   }

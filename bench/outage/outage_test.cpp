@@ -99,6 +99,24 @@ TEST_CASE("the error is that from the last fix withheld, at its time; quantiles 
   CHECK(f["horizontal"]["claimed_m"].get<double>() == Approx(std::sqrt((c * c + d * d) / 2)));
 }
 
+TEST_CASE("with all fixes each of them is compared, and a receiver that jumps moves the height by degrees") {
+  const Folder folder;
+  write_standing(folder, 30);  // no fix is off
+  const json right = figures(log_of(folder) + " --starts 15 --seconds 10")["with_fixes"];
+  CHECK(right["fixes"].get<int>() > 250);
+  CHECK(right["height_rms_m"].get<double>() < 0.3);
+  CHECK(right["height_step_m"].get<double>() < 0.05);
+  CHECK(right["velocity_down_rms_mps"].get<double>() < 0.05);
+  write_standing(folder, 60);  // half of them are, by 5 m and 33 m
+  const json wrong = figures(log_of(folder) + " --starts 15 --seconds 10")["with_fixes"];
+  CHECK(wrong["fixes"] == right["fixes"]);
+  CHECK(wrong["height_rms_m"].get<double>() > 1);
+  CHECK(wrong["height_rms_m"].get<double>() < 5);
+  CHECK(wrong["height_step_m"].get<double>() < 0.8);
+  CHECK(wrong["horizontal_rms_m"].get<double>() > 5);
+  CHECK(wrong["horizontal_rms_m"].get<double>() < 3e-4 * 111319.49);
+}
+
 TEST_CASE("windows of the description itself stay") {
   const Folder folder;
   write_standing(folder, 45, "  withhold: [{from: 30 s, to: 45 s}]\n");

@@ -32,6 +32,13 @@ struct Outcome {
   double height_m = 0, height_claimed_m = 0;  ///< height: above the receiver's
 };
 
+/// With all fixes: root mean squares of the difference from them, which have errors of their own.
+struct Aided {
+  int fixes = 0;
+  double horizontal_m = 0, height_m = 0, height_claimed_m = 0, down_mps = 0;
+  double step_m = 0;  ///< of the height from one state to the next, at most, beyond what the climb explains
+};
+
 struct Recipe {
   std::string log, folder, mission = "configs/missions/sensor_log.yaml";
   core::Overrides overrides;
@@ -81,36 +88,82 @@ class Outages {
 
   Outcome fly(double start_s, double seconds) const {
     const Fix& last = last_withheld(start_s, start_s + seconds);
+    Outcome outcome;
+    const auto between = [&](const Moment& a, const Moment& b) {
+      if (b.t_s < last.valid_s) return true;
+      outcome = compare(a, b, last, start_s);
+      return false;
+    };
+    const std::string reason = each(windows(start_s, start_s + seconds), last.valid_s + 1, between);
+    if (!reason.empty())
+      throw std::runtime_error("the flight of the outage at " + std::to_string(start_s) + " s: " + reason);
+    return outcome;
+  }
+
+  /// The whole recording, no fix withheld, against each fix that is valid in the air; against all of them
+  /// where none is.
+  Aided aided() const {
+    Aided sums;
+    std::size_t next = 0;
+    const bool flies =
+        std::any_of(fixes_.begin(), fixes_.end(), [&](const Fix& f) { return airborne(f.valid_s); });
+    const auto between = [&](const Moment& a, const Moment& b) {
+      if (!flies || airborne(b.t_s)) {
+        const double climbed = b.state.climb_rate_mps * (b.t_s - a.t_s);
+        sums.step_m = std::max(sums.step_m, std::abs(b.state.height_m - a.state.height_m - climbed));
+      }
+      for (; next < fixes_.size() && fixes_[next].valid_s <= b.t_s; ++next)
+        if (fixes_[next].valid_s > a.t_s && (!flies || airborne(fixes_[next].valid_s)))
+          add(sums, a, b, fixes_[next]);
+      return next < fixes_.size();
+    };
+    const std::string reason = each(windows(), fixes_.back().valid_s + 1, between);
+    if (!reason.empty()) throw std::runtime_error("the flight with all fixes: " + reason);
+    for (double* const mean : {&sums.horizontal_m, &sums.height_m, &sums.height_claimed_m, &sums.down_mps})
+      *mean = std::sqrt(*mean / std::max(sums.fixes, 1));
+    return sums;
+  }
+
+ private:
+  struct Moment {
+    double t_s = -1;
+    VehicleState state;
+  };
+
+  /// Flies the recording without what `withheld` names, and calls between(earlier, later) with each two
+  /// states in a row until it says false. Returns why that never came, or "".
+  template <class Between>
+  std::string each(const std::string& withheld, double duration_s, Between&& between) const {
     core::Overrides overrides = recipe_.overrides;
     const std::vector<std::pair<std::string, std::string>> here = {
         {"recorded.log", std::filesystem::absolute(recipe_.log).string()},
         {"recorded.folder", recipe_.folder},
-        {"recorded.log.gnss.withhold", windows(start_s, start_s + seconds)}};
+        {"recorded.log.gnss.withhold", withheld}};
     overrides.set.insert(overrides.set.begin(), here.begin(), here.end());
     const core::Graph graph = core::load_mission(recipe_.mission, overrides);
     const core::Source source = output_of(graph, "nav", "state");
     core::FlightOptions options;
     options.log = false;
-    options.duration_s = last.valid_s + 1;
+    options.duration_s = duration_s;
     core::Flight flight(graph, options);
-    VehicleState before, after;
-    double before_s = -1, after_s = -1;
-    while (after_s < last.valid_s && flight.step()) {
+    Moment before, after;
+    bool goes_on = true;
+    while (goes_on && flight.step()) {
       const std::byte* const bytes = flight.sample(source);
       if (!bytes) continue;
-      before = after, before_s = after_s;
-      std::memcpy(&after, bytes, sizeof after);
-      after_s = 1e-9 * static_cast<double>(flight.now_ns());
+      before = after;
+      std::memcpy(&after.state, bytes, sizeof after.state);
+      after.t_s = 1e-9 * static_cast<double>(flight.now_ns());
+      if (before.t_s >= 0) goes_on = between(before, after);
     }
     const core::FlightResult result = flight.finish();
-    if (before_s < 0 || after_s < last.valid_s || !result.guards.empty())
-      throw std::runtime_error("the flight of the outage at " + std::to_string(start_s) +
-                               " s: " + result.reason);
-    const double part = (last.valid_s - before_s) / (after_s - before_s);
-    return compare(before, after, part, last, start_s);
+    return goes_on || !result.guards.empty() ? result.reason : "";
   }
 
- private:
+  bool airborne(double t_s) const {
+    return t_s > 0 && t_s >= description_.airborne.from_s && t_s <= description_.airborne.to_s;
+  }
+
   const Fix& last_withheld(double from_s, double to_s) const {
     const Fix* last = nullptr;
     for (const Fix& fix : fixes_)
@@ -126,32 +179,51 @@ class Outages {
 
   /// Those of the description as well.
   std::string windows(double from_s, double to_s) const {
-    std::string text;
-    const auto add = [&](double from, double to) {
-      text += (text.empty() ? "[" : ", ") + ("{from: " + sensor_log::seconds(from)) +
-              ", to: " + sensor_log::seconds(to) + "}";
-    };
-    for (const sensor_log::Window& w : description_.gnss.withhold) add(w.from_s, w.to_s);
-    add(from_s, to_s);
+    const std::string told = windows();
+    return told.substr(0, told.size() - 1) + (told == "[]" ? "" : ", ") + window(from_s, to_s) + "]";
+  }
+  std::string windows() const {
+    std::string text = "[";
+    for (const sensor_log::Window& w : description_.gnss.withhold)
+      text += (text == "[" ? "" : ", ") + window(w.from_s, w.to_s);
     return text + "]";
   }
+  static std::string window(double from_s, double to_s) {
+    return "{from: " + sensor_log::seconds(from_s) + ", to: " + sensor_log::seconds(to_s) + "}";
+  }
 
-  /// Between two states, `part` of the way.
-  static Outcome compare(const VehicleState& before, const VehicleState& after, double part, const Fix& fix,
-                         double start_s) {
-    const LocalFrame frame(after.origin_latitude_deg, after.origin_longitude_deg, after.origin_altitude_m);
+  static double part_of(const Moment& a, const Moment& b, const Fix& fix) {
+    return (fix.valid_s - a.t_s) / (b.t_s - a.t_s);
+  }
+  /// Estimate minus receiver, m, NED, at the time of the fix.
+  static Eigen::Vector3d off(const Moment& a, const Moment& b, const Fix& fix) {
+    const LocalFrame frame(b.state.origin_latitude_deg, b.state.origin_longitude_deg,
+                           b.state.origin_altitude_m);
     const Eigen::Vector3d there =
         frame.to_ned(fix.gnss.latitude_deg, fix.gnss.longitude_deg, fix.gnss.altitude_m);
-    const Eigen::Vector3d error =
-        eigen(before.position_m) + part * (eigen(after.position_m) - eigen(before.position_m)) - there;
+    const Eigen::Vector3d from = eigen(a.state.position_m);
+    return from + part_of(a, b, fix) * (eigen(b.state.position_m) - from) - there;
+  }
+  static Outcome compare(const Moment& a, const Moment& b, const Fix& fix, double start_s) {
+    const Eigen::Vector3d error = off(a, b, fix);
     Outcome o;
     o.start_s = start_s;
     o.after_s = fix.valid_s - start_s;
     o.horizontal_m = error.head<2>().norm();
-    o.claimed_m = std::hypot(after.position_std_m.north, after.position_std_m.east);
+    o.claimed_m = std::hypot(b.state.position_std_m.north, b.state.position_std_m.east);
     o.height_m = -error.z();
-    o.height_claimed_m = after.position_std_m.down;
+    o.height_claimed_m = b.state.position_std_m.down;
     return o;
+  }
+  static void add(Aided& sums, const Moment& a, const Moment& b, const Fix& fix) {
+    const Eigen::Vector3d error = off(a, b, fix);
+    const double k = part_of(a, b, fix), from = a.state.velocity_mps.down;
+    const double down = from + k * (b.state.velocity_mps.down - from) - fix.gnss.velocity_mps.down;
+    ++sums.fixes;
+    sums.horizontal_m += error.head<2>().squaredNorm();
+    sums.height_m += error.z() * error.z();
+    sums.height_claimed_m += b.state.position_std_m.down * b.state.position_std_m.down;
+    sums.down_mps += down * down;
   }
 
   Recipe recipe_;

@@ -36,9 +36,10 @@ bool must_fly(const Failure& f) {
   static const std::vector<std::pair<std::string, std::string>> list = {
       {"gyro", "noisy"},          {"accel", "noisy"},         {"gnss_position", "wrong"},
       {"gnss_position", "slow"},  {"gnss_position", "noisy"}, {"gnss_position", "jumping"},
-      {"gnss_velocity", "noisy"}, {"pitot", "off"},           {"pitot", "wrong"},
-      {"pitot", "slow"},          {"pitot", "noisy"},         {"pitot", "jumping"},
-      {"aileron", "slow"},        {"elevator", "slow"}};
+      {"gnss_position", "stuck"}, {"pitot", "stuck"},         {"gnss_velocity", "noisy"},
+      {"pitot", "off"},           {"pitot", "wrong"},         {"pitot", "slow"},
+      {"pitot", "noisy"},         {"pitot", "jumping"},       {"aileron", "slow"},
+      {"elevator", "slow"}};
   if (std::find(targets.begin(), targets.end(), f.what) != targets.end()) return true;
   return std::find(list.begin(), list.end(), std::pair(f.what, f.how)) != list.end();
 }

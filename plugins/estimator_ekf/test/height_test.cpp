@@ -171,7 +171,7 @@ TEST_CASE("a receiver that says that it does not know its height is not believed
   f.watch = [&](const Truth& x, const VehicleState& s, Status) { h.see(x, s); };
   f.run();
   h.end();
-  CHECK(h.mean_m < 8);
+  CHECK(h.mean_m < 2);
 }
 
 }  // namespace height_test

@@ -117,7 +117,10 @@ struct OuterLoop {
     const double Va = scheduling_airspeed(state, p.airframe->limits);
     const OuterAction action = commands.begin(p.law, state);
     out.internals = {};
-    if (action != OuterAction::hold) rest(), airspeed.reset_to(Va);
+    if (action != OuterAction::hold) {
+      rest();
+      airspeed.reset_to(Va);
+    }
     switch (action) {
       case OuterAction::wait: out.attitude = commands.wait(); break;
       case OuterAction::take_off: out.attitude = commands.take_off(state, t, p.airframe->limits, dt); break;

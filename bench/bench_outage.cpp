@@ -130,9 +130,8 @@ void tell(const Options& o, const std::vector<Outcome>& all, const Aided& aided)
   horizontal.print("horizontal");
   height.print("height");
   std::printf(
-      "\nWith all %d fixes in the air, rms from the receiver: height %.2f m (claimed %.2f), largest step "
-      "%.2f m; "
-      "velocity down %.2f m/s\n",
+      "\nWith all %d fixes in the air, rms from the receiver: height %.2f m (claimed %.2f), "
+      "largest step %.2f m; velocity down %.2f m/s\n",
       aided.fixes, aided.height_m, aided.height_claimed_m, aided.step_m, aided.down_mps);
 }
 

@@ -30,6 +30,7 @@ struct Flown {
   std::optional<double> first_s{};  ///< of the first state
   VehicleState last{};
   Truth last_truth{};
+  double gnss_delay_s = 0;  ///< what was learnt of it
 
   Errors run() {
     const std::vector<Truth> flight = fly(plan);
@@ -50,6 +51,7 @@ struct Flown {
       const Status result = bench.step(1 / plan.rate_hz);
       if (!bench.out.state.written) continue;
       last = bench.out.state.value;
+      gnss_delay_s = bench.out.gnss_delay_s.value;
       last_truth = x;
       if (!first_s) first_s = x.t;
       if (watch) watch(x, last, result);

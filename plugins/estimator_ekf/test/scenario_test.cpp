@@ -79,7 +79,18 @@ TEST_CASE(
     const Errors e = f.run();
     CHECK(e.body_velocity.norm() < 0.2);
     CHECK((eigen(f.last.position_m) - f.last_truth.p_n).head<2>().norm() < 12);
+    CHECK(std::abs(f.gnss_delay_s + wrong_s) < 0.03);  // told to be older than they are: less is added
   }
+}
+
+TEST_CASE("a receiver that is later than any delay that is learnt is used all the same") {
+  Flown f{.plan = shorter(150), .quality = ublox};
+  f.quality.latency_s = 0.6;  // told: nothing
+  f.alter = [&](const Truth&, Samples& s) { s.gnss_age_s = 0; };
+  f.run();
+  CHECK(f.gnss_delay_s < 0.21);  // four of its first deviations
+  CHECK(f.last.position_valid);
+  CHECK((eigen(f.last.position_m) - f.last_truth.p_n).head<2>().norm() < 25);
 }
 
 TEST_CASE("nothing is published before the first attitude, and then it is already near") {

@@ -387,6 +387,7 @@ class Navigator {
   void collect_origin(const Gnss& g, const Params& p);
   ErrorStateEkf::Past at_fix(double valid_s, const Params& p) const;
   Vector3d acceleration_at(double time_s) const;
+  void bound_delay(const Params& p);
   void gnss_velocity(const Gnss& g, double valid_s, const Params& p);
   void gnss_position(const Gnss& g, double valid_s, const Params& p);
   void gnss_height(const ekf::Scalar& z, double std, const Params& p);

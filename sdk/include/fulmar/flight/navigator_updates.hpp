@@ -56,6 +56,17 @@ inline void Navigator::gnss(const Gnss& g, double valid_s, const Params& p) {
   if (!seen_.yaw) yaw_from_course(eigen(g.velocity_mps));
   if (!stuck(health_.velocity)) gnss_velocity(g, valid_s, p);
   if (seen_.origin) gnss_position(g, valid_s, p);
+  bound_delay(p);
+}
+
+/// A receiver whose velocity lags for another reason looks late. Beyond the filter's memory of the past no
+/// fix would be used any more.
+inline void Navigator::bound_delay(const Params& p) {
+  const double most = 4 * p.gnss_delay_std, delay_s = filter_.state().gnss_delay_s;
+  if (std::abs(delay_s) <= most) return;
+  ekf::Vector dx = ekf::Vector::Zero();
+  dx(ekf::delay) = std::clamp(delay_s, -most, most) - delay_s;
+  filter_.correct(dx);
 }
 
 /// Where the aircraft was when the fix was taken, by the delay known so far. A little ahead, where that says
@@ -130,6 +141,7 @@ inline void Navigator::place(const Gnss& g, double time_s, const Params& p) {
                  p.start_height_std * p.start_height_std, p.gnss_gate);
   seen_.position = seen_.height = true;
   seen_.baro_zero = false;
+  height_off_m_ = 0;
 }
 
 /// The horizontal position was set to where the receiver sees the aircraft: the sum of the position and of

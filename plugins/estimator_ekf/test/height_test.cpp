@@ -174,4 +174,26 @@ TEST_CASE("a receiver that says that it does not know its height is not believed
   CHECK(h.mean_m < 2);
 }
 
+TEST_CASE(
+    "a receiver whose climb contradicts by more than the doubt is followed, below it counts by its time") {
+  // How far the vertical velocity has moved two seconds after the receiver's has moved by `off_mps`.
+  const auto moved = [](double off_mps, double doubt) {
+    Flown f{.quality = ublox};
+    f.plan.duration_s = 63;
+    f.alter = [&](const Truth& x, Samples& s) {
+      if (s.gnss && x.t > 60) s.gnss->velocity_mps.down -= off_mps;
+      if (s.baro && x.t > 55) s.baro.reset();
+    };
+    f.set = [&](Ekf::Params& p) { p.gnss_climb_doubt.value = doubt; };
+    f.run();
+    return (f.last.climb_rate_mps + f.last_truth.v_n.z()) / off_mps;
+  };
+  for (const double sign : {1.0, -1.0}) {
+    CAPTURE(sign);
+    CHECK(moved(sign * 1.2, 0.5) > 0.4);
+    CHECK(moved(sign * 1.2, 100) < 0.2);
+    CHECK(moved(sign * 0.4, 1) / moved(sign * 0.4, 100) == doctest::Approx(1).epsilon(0.02));
+  }
+}
+
 }  // namespace height_test

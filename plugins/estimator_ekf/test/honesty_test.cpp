@@ -129,6 +129,56 @@ TEST_CASE("a receiver whose error lasts minutes: the position is as sure as it s
   CHECK(2 * claimed / n > 1.0);  // no mean of fixes is better than what they have in common
 }
 
+TEST_CASE(
+    "what the innovations of a first-order error share is its deviation, and white noise shares nothing") {
+  using fulmar::navigation::SharedError;
+  for (const double ratio : {0.0, 0.5, 0.9}) {
+    CAPTURE(ratio);
+    Random random(3);
+    SharedError shared;
+    Vector2d slow = Vector2d::Zero();
+    double mean = 0;
+    int n = 0;
+    for (int k = 1; k < 6000; ++k) {
+      const double fresh = 0.3 * std::sqrt(1 - ratio * ratio);
+      slow = ratio * slow + fresh * Vector2d(random.normal(), random.normal());
+      shared.add(slow + 0.1 * Vector2d(random.normal(), random.normal()), 0.1 * k);
+      if (k > 1000) mean += shared.std_mps(), ++n;
+    }
+    mean /= n;
+    if (ratio == 0)
+      CHECK(mean < 0.1);
+    else
+      CHECK(mean / 0.3 == doctest::Approx(1).epsilon(0.12));
+  }
+}
+
+TEST_CASE(
+    "a receiver whose velocity is off for seconds: the velocity is as sure as it says, and says more than "
+    "before") {
+  double errors = 0, claims = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    Flown f{.quality = ublox};
+    f.plan.seed = seed, f.plan.duration_s = 130;
+    Random random(seed + 100);
+    Markov north{0.2, 2, 0}, east{0.2, 2, 0};
+    f.alter = [&](const Truth&, Samples& s) {
+      if (!s.gnss) return;
+      s.gnss->velocity_mps.north += north.step(0.2, random);
+      s.gnss->velocity_mps.east += east.step(0.2, random);
+    };
+    f.watch = [&](const Truth& x, const VehicleState& s, Status) {
+      if (x.t < 60) return;
+      const Vector3d e = eigen(s.velocity_mps) - x.v_n;
+      errors += e.head<2>().squaredNorm();
+      claims += std::pow(s.velocity_std_mps.north, 2) + std::pow(s.velocity_std_mps.east, 2);
+    };
+    f.run();
+  }
+  CHECK(std::sqrt(errors / claims) > 0.75);
+  CHECK(std::sqrt(errors / claims) < 1.25);
+}
+
 TEST_CASE("half a minute without GNSS in gusts: the claim grows, and the error stays within it") {
   double errors = 0, claims = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {

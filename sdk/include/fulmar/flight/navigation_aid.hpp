@@ -102,6 +102,36 @@ class Innovations {
   bool noisy_ = false, biased_ = false;
 };
 
+/// What successive innovations of a horizontal velocity have in common. White noise has nothing: this is what
+/// the estimate is wrong by, or what the receiver is off for longer than a fix. Neither is in a covariance
+/// that takes its errors for white, and nobody can tell them apart, so it counts in what is claimed. Of a
+/// first-order process with mean square c and correlation r from one to the next, the mean products are c r
+/// and c r^2: c is the square of the first over the second.
+class SharedError {
+ public:
+  void add(const Eigen::Vector2d& innovation_mps, double time_s) {
+    const double dt = std::clamp(time_s - last_s_, 0.0, 1.0), of_mean = dt / (seen_s_ + dt);
+    last_s_ = time_s;
+    seen_s_ = std::min(seen_s_ + dt, window_s);
+    for (std::size_t i = 0; i < 2; ++i)
+      mean_[i] += of_mean * (0.5 * innovation_mps.dot(before_[i]) - mean_[i]);
+    before_[1] = before_[0];
+    before_[0] = innovation_mps;
+  }
+  /// m/s, of one axis.
+  double std_mps() const {
+    if (mean_[0] <= 0) return 0;
+    return std::sqrt(mean_[0] * std::clamp(mean_[0] / std::max(mean_[1], 1e-9), 1.0, most));
+  }
+
+ private:
+  static constexpr double window_s = 30, least_s = 2, most = 1.5;
+
+  std::array<Eigen::Vector2d, 2> before_{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+  std::array<double, 2> mean_{};  ///< m2/s2: with the one before, and with the one before that
+  double last_s_ = never, seen_s_ = least_s;
+};
+
 /// Of one sensor. Times are those of the inertial samples, in seconds.
 struct Aid {
   double ratio = 0;               ///< last innovation, in deviations
@@ -157,6 +187,7 @@ struct Health {
   Aid gyro, accel, horizontal, height, velocity, baro, pitot, sideslip, heading;
   Eigen::Vector3d position_innovation = Eigen::Vector3d::Zero(),
                   velocity_innovation = Eigen::Vector3d::Zero();  ///< of a fix
+  SharedError level;                                              ///< of the horizontal velocity
   std::uint32_t refused = 0;  ///< by all gates but that of the sideslip, which no sensor measures
 
   /// A sample came, whether it is used or not.

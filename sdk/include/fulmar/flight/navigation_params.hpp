@@ -15,9 +15,9 @@ struct Params {
 
   // inertial unit
   Param gyro_noise{5e-4, "rad/s/sqrt(Hz)", 1e-6, 0.1, "white noise of the gyros, vibration included"};
-  Param gyro_scale_error{2e-3, "1/sqrt(Hz)", 0, 0.1,
+  Param gyro_scale_error{2.3e-3, "1/sqrt(Hz)", 0, 0.1,
                          "grows gyro_noise with the turn rate: scale and alignment errors"};
-  Param gyro_bias_walk{2e-5, "rad/s/sqrt(s)", 0, 0.01, "how fast the gyro bias wanders"};
+  Param gyro_bias_walk{2.4e-5, "rad/s/sqrt(s)", 0, 0.01, "how fast the gyro bias wanders"};
   Param gyro_bias_std{0.15, "rad/s", 1e-4, 1, "gyro bias before it is learnt"};
   Param accel_noise{0.02, "m/s2/sqrt(Hz)", 1e-5, 5, "white noise of the accelerometers, vibration included"};
   Param accel_scale_error{1e-2, "1/sqrt(Hz)", 0, 0.1, "grows accel_noise with the load beyond 1 g"};
@@ -48,10 +48,13 @@ struct Params {
   Param gnss_climb_time{
       2, "s", 0, 100,
       "the same for the error of its vertical velocity, which would else be integrated to a height"};
+  Param gnss_climb_doubt{
+      1, "m/s", 0.1, 100,
+      "a climb that contradicts by so much over a second is believed; below, it counts by gnss_climb_time"};
   Param gnss_position_time{150, "s", 1, 1e4,
                            "correlation time of the receiver's horizontal error: as large as its deviation, "
                            "and in no mean of fixes"};
-  Param gnss_speed_std{0.3, "m/s", 0.005, 10, "when the receiver reports none"};
+  Param gnss_speed_std{0.29, "m/s", 0.005, 10, "when the receiver reports none"};
   Param gnss_position_floor{0.1, "m", 0, 10, "no position is trusted more than this"};
   Param gnss_speed_floor{0.015, "m/s", 0, 10, "no velocity is trusted more than this"};
   Param gnss_gate{5, "", 2, 20, "innovations beyond this many deviations are refused"};
@@ -71,7 +74,7 @@ struct Params {
   Param pitot_noise{2, "Pa", 0.1, 100, "of one sample"};
   Param pitot_speed_std{0.1, "m/s", 0, 5, "of one sample, beside the pressure noise"};
   Param pitot_scale{1, "", 0.5, 1.5, "true over measured airspeed"};
-  Param pitot_scale_std{0.01, "", 0, 0.2, "how well that is known: counts in the deviations, is not learnt"};
+  Param pitot_scale_std{0.012, "", 0, 0.2, "how well that is known: counts in the deviations, is not learnt"};
   Param air_gate{5, "", 2, 20, "gate of baro, pitot and sideslip, in deviations"};
   Param wind_walk{0.01, "m/s/sqrt(s)", 0, 5, "how fast the wind wanders"};
   Param wind_shear{0.002, "1/sqrt(s)", 0, 5, "grows wind_walk with the climb rate"};
@@ -81,7 +84,7 @@ struct Params {
   Param wind_gust_std{1, "m/s", 0, 10,
                       "horizontal gusts of the published wind before they are learnt: first-order "
                       "Gauss-Markov, north and east"};
-  Param wind_gust_time{10, "s", 2, 60, "their correlation time, before it is learnt, and at most"};
+  Param wind_gust_time{12, "s", 2, 60, "their correlation time, before it is learnt, and at most"};
   Param wind_side_ratio{0.8, "", 0.01, 20,
                         "side component of the air velocity, at 10 Hz, as a share of these gusts, for the "
                         "published wind"};

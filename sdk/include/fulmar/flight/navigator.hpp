@@ -26,6 +26,7 @@ namespace fulmar::navigation {
 inline constexpr double bridge_tilt_std = 0.01, bridge_tilt_rate = 0.01;  ///< rad, rad/s: of another's turn
 inline constexpr double bridge_accel_std = 1;  ///< m/s2: changes of the speed that nobody saw
 inline constexpr double height_off_s = 3;      ///< over which a contradiction of the height is averaged
+inline constexpr double climb_off_s = 0.5;     ///< the same of the climb
 inline constexpr double height_step_m = 0.7;   ///< by which one fix moves the height at most
 inline constexpr double height_set_m = 50;     ///< beyond which nothing is resolved by degrees
 inline constexpr double outage_after_s = 1.5;  ///< without a velocity: no late fix of a slow receiver
@@ -392,6 +393,7 @@ class Navigator {
   void gnss_position(const Gnss& g, double valid_s, const Params& p);
   void gnss_height(const ekf::Scalar& z, double std, const Params& p);
   double height_variance(const ekf::Scalar& z, double std, const Params& p) const;
+  double climb_samples(double innovation_mps, double std, const Params& p);
   ekf::Scalar pressure_height(double pressure_pa) const;
   void yaw_from_course(const Vector3d& v_n);
   void yaw_from_field(const Vector3d& field_b);
@@ -411,7 +413,7 @@ class Navigator {
   double gnss_s_ = never, gnss_speed_ = 0, mag_s_ = never, mag_fused_s_ = never, pitot_s_ = never,
          pitot_mps_ = 0, baro_s_ = never;
   std::int64_t origin_count_ = 0;
-  double baro_pa_ = 0, height_seen_s_ = never, height_off_m_ = 0;
+  double baro_pa_ = 0, height_seen_s_ = never, height_off_m_ = 0, climb_seen_s_ = never, climb_off_mps_ = 0;
   Mode mode_ = Mode::waiting;
   Seen seen_;
   std::optional<VehicleStatus> status_;  ///< the last that the vehicle told

@@ -114,16 +114,27 @@ inline void Navigator::gnss_velocity(const Gnss& g, double valid_s, const Params
   for (int i = 0; i < 3; ++i) {
     off(i) = z(i).innovation / filter_.expected_std(z(i), variance);
   }
-  const double n = samples_in(p.gnss_climb_time, health_.velocity.accepted_s);
+  const double n = climb_samples(z(2).innovation, std, p);
   if (!within({off.x(), off.y(), off.z()}, p.gnss_gate, health_.velocity)) {
     if (time_s_ - std::max(health_.velocity.accepted_s, aligned_s_) < p.gnss_reset_after) return;
     filter_.place(filter_.state().p_n, filter_.state().v_n + v_n - past.v_n);
     filter_.forget(ekf::vel, 3, 3 * std);
     filter_.inflate(ekf::theta, 3, 0.1);
   } else {
+    health_.level.add({z(0).innovation, z(1).innovation}, time_s_);
     for (int i = 0; i < 3; ++i) filter_.fuse(z(i), i < 2 ? variance : n * variance, 1e3);
   }
   health_.velocity.accepted_s = time_s_;
+}
+
+/// By how many the variance of a climb is multiplied: its error is slow as well, and the same holds of one
+/// that goes on contradicting.
+inline double Navigator::climb_samples(double innovation_mps, double std, const Params& p) {
+  const double dt = std::clamp(time_s_ - climb_seen_s_, 0.0, 10.0);
+  climb_seen_s_ = time_s_;
+  climb_off_mps_ += (innovation_mps - climb_off_mps_) * (1 - std::exp(-dt / climb_off_s));
+  const double doubt = std::pow(climb_off_mps_ / std::max(p.gnss_climb_doubt.value, std), 8);
+  return 1 + (samples_in(p.gnss_climb_time, health_.velocity.accepted_s) - 1) / (1 + doubt);
 }
 
 /// The first fix, and the one that is believed after all.

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Roll, pitch and throttle as the pilot holds them, each axis by itself; the others come from an outer law.
+#pragma once
+#include "envelope.hpp"
+#include "fulmar/flight/atmosphere.hpp"
+#include "fulmar/flight/turn_trim.hpp"
+#include "fulmar/msg/attitude_command.hpp"
+#include "pilot.hpp"
+
+namespace fulmar::manual {
+
+struct Outer {
+  static constexpr const char* doc =
+      "Roll and pitch angle and throttle from the sticks or from an outer law, each axis by itself.";
+  struct Inputs {
+    In<VehicleState> state;
+    Optional<Rc> rc;
+    Optional<AttitudeCommand> automatic;  // of an outer law
+  };
+  struct Outputs {
+    AttitudeCommand attitude;
+    Probe protecting_ratio;  // 1: the envelope alters what is asked for
+  };
+  struct Params {
+    StickParams sticks;
+    EnvelopeParams envelope;
+    Choice<Source> roll{Source::stick, "who says the roll angle"};
+    Choice<Source> pitch{Source::stick, "who says the pitch angle"};
+    Choice<Source> throttle{Source::stick, "who says the throttle"};
+    Param roll_range{0.5, "rad", 0.02, 1.5, "roll at full stick"};
+    Param pitch_range{0.5, "rad", 0.02, 1.2,
+                      "pitch at full stick, beyond that of its middle: level flight at cruise"};
+    Param blend{0.5, "s", 0.01, 5, "time constant with which what flew before is forgotten"};
+    Record<Airframe> airframe{"limits, and the pitch of level flight", required};
+  };
+
+  Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
+    roll_.reset(), pitch_.reset(), throttle_.reset();
+    if (last.has(last->attitude)) {
+      begin(last->attitude);
+    } else if (in.state->attitude_valid && flying(*in.state, p.airframe->limits)) {
+      // Nobody's command is in force: from the attitude that it has. The throttle that it has is not known.
+      roll_.begin(in.state->roll_rad), pitch_.begin(in.state->pitch_rad);
+    }
+    return Status::ok;
+  }
+
+  Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
+    const double dt = std::clamp(tick.dt_s(), 0.0, 0.1);
+    const VehicleState& state = *in.state;
+    const FlightLimits& limits = p.airframe->limits;
+    const Sticks hand = sticks(in.rc, tick, p.sticks);
+    const bool lawful = in.automatic && !in.automatic.stale();
+    const double level = level_pitch(state, p);
+    const double rest = flying(state, limits) ? limits.throttle_cruise_frac : 0;
+    const AttitudeCommand held = lawful ? *in.automatic : AttitudeCommand{0, level, rest};
+    const AttitudeCommand asked{hand.roll * p.roll_range, level + hand.pitch * p.pitch_range, hand.throttle};
+
+    bool as_said = true;
+    const auto axis = [&](Blend& blend, Source said, double stick, double law) {
+      const bool by_stick = hand.there && (said == Source::stick || !lawful);
+      as_said = as_said && (said == Source::stick ? hand.there : lawful);
+      return blend.step(by_stick ? stick : law, by_stick ? 0 : lawful ? 1 : 2, p.blend, dt);
+    };
+    const AttitudeCommand wanted{axis(roll_, p.roll, asked.roll_rad, held.roll_rad),
+                                 axis(pitch_, p.pitch, asked.pitch_rad, held.pitch_rad),
+                                 axis(throttle_, p.throttle, asked.throttle_frac, held.throttle_frac)};
+    const Envelope e = envelope(state, limits, p.envelope);
+    out.attitude = {std::clamp(wanted.roll_rad, -e.roll_max, e.roll_max),
+                    std::clamp(wanted.pitch_rad, e.pitch_min, e.pitch_max),
+                    std::clamp(wanted.throttle_frac, e.throttle_min, e.throttle_max)};
+    out.protecting_ratio = out.attitude.roll_rad != wanted.roll_rad ||
+                           out.attitude.pitch_rad != wanted.pitch_rad ||
+                           out.attitude.throttle_frac != wanted.throttle_frac;
+    return as_said ? Status::ok : Status::degraded;
+  }
+
+ private:
+  void begin(const AttitudeCommand& from) {
+    roll_.begin(from.roll_rad), pitch_.begin(from.pitch_rad), throttle_.begin(from.throttle_frac);
+  }
+  /// Of level flight at cruise speed, rad: where the pitch stick has its middle.
+  static double level_pitch(const VehicleState& state, const Params& p) {
+    const double rho = standard_air(state.origin_altitude_m + state.height_m).density_kgm3;
+    return turn_trim(*p.airframe, 0, p.airframe->limits.airspeed_cruise_mps, rho).alpha_rad;
+  }
+
+  Blend roll_, pitch_, throttle_;
+};
+
+}  // namespace fulmar::manual

@@ -17,6 +17,7 @@ struct Inner {
       "itself.";
   enum class Law : std::uint8_t { surface, rate, attitude };
   enum class Rudder : std::uint8_t { surface, damper };
+  enum class Throttle : std::uint8_t { stick, automatic };
 
   struct Inputs {
     In<VehicleState> state;
@@ -34,7 +35,7 @@ struct Inner {
     Choice<Law> aileron{Law::rate, "what the roll stick says; attitude: the outer law does"};
     Choice<Law> elevator{Law::rate, "what the pitch stick says; attitude: the outer law does"};
     Choice<Rudder> rudder{Rudder::damper, "the yaw stick says the surface, alone or beside a yaw damper"};
-    Choice<Source> throttle{Source::stick, "who says the throttle; automatic: the outer law"};
+    Choice<Throttle> throttle{Throttle::stick, "who says the throttle; automatic: the outer law"};
     Param throw_share{1, "ratio", 0.05, 1, "of the throw at full stick, from the trim"};
     Param roll_rate{1.5, "rad/s", 0.05, 6, "at full stick, and the most that an attitude asks for"};
     Param pitch_rate{0.6, "rad/s", 0.05, 3, "at full stick, beyond that of a turn; the most for an attitude"};
@@ -74,7 +75,7 @@ struct Inner {
     out.roll_rate_demand_radps = roll.law == Law::surface ? 0 : roll.rate_c;
     out.pitch_rate_demand_radps = pitch.law == Law::surface ? 0 : pitch.rate_c;
     const bool led =
-        p.aileron != Law::attitude && p.elevator != Law::attitude && p.throttle != Source::automatic;
+        p.aileron != Law::attitude && p.elevator != Law::attitude && p.throttle != Throttle::automatic;
     return now.known && now.hand.there && (now.lawful || led) ? Status::ok : Status::degraded;
   }
 
@@ -196,7 +197,7 @@ struct Inner {
                         .max = surface.limit_rad};
       if (!now.flying) pid.reset();
       u = pid.step({d.loop.kp, d.loop.kp * p.integral, 0}, in, now.flying ? now.dt : 0);
-      u = blend.step(u, 1, p.blend, now.dt);
+      u = blend.step(u, static_cast<int>(d.law), p.blend, now.dt);
     }
     return std::clamp(u, -surface.limit_rad, surface.limit_rad);
   }
@@ -216,7 +217,7 @@ struct Inner {
   }
 
   double throttle(const Params& p, const Now& now) {
-    const bool by_stick = now.hand.there && (p.throttle == Source::stick || !now.lawful);
+    const bool by_stick = now.hand.there && (p.throttle == Throttle::stick || !now.lawful);
     const double u =
         throttle_.step(by_stick ? now.hand.throttle : now.to.throttle_frac, by_stick, p.blend, now.dt);
     return std::clamp(u, now.envelope.throttle_min, now.envelope.throttle_max);

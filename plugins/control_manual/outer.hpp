@@ -12,6 +12,10 @@ namespace fulmar::manual {
 struct Outer {
   static constexpr const char* doc =
       "Roll and pitch angle and throttle from the sticks or from an outer law, each axis by itself.";
+  /// Where an axis comes from: its stick; an outer law; or the attitude that the aircraft has, while the
+  /// pilot flies it further in, so that whoever takes over goes on from there.
+  enum class Source : std::uint8_t { stick, automatic, flown };
+
   struct Inputs {
     In<VehicleState> state;
     Optional<Rc> rc;
@@ -24,9 +28,9 @@ struct Outer {
   struct Params {
     StickParams sticks;
     EnvelopeParams envelope;
-    Choice<Source> roll{Source::stick, "who says the roll angle"};
-    Choice<Source> pitch{Source::stick, "who says the pitch angle"};
-    Choice<Source> throttle{Source::stick, "who says the throttle"};
+    Choice<Source> roll{Source::stick, "who says the roll angle: stick, automatic, flown"};
+    Choice<Source> pitch{Source::stick, "who says the pitch angle: stick, automatic, flown"};
+    Choice<Source> throttle{Source::stick, "who says the throttle: stick, automatic, flown: the stick"};
     Param roll_range{0.5, "rad", 0.02, 1.5, "roll at full stick"};
     Param pitch_range{0.5, "rad", 0.02, 1.2,
                       "pitch at full stick, beyond that of its middle: level flight at cruise"};
@@ -55,16 +59,20 @@ struct Outer {
     const double rest = flying(state, limits) ? limits.throttle_cruise_frac : 0;
     const AttitudeCommand held = lawful ? *in.automatic : AttitudeCommand{0, level, rest};
     const AttitudeCommand asked{hand.roll * p.roll_range, level + hand.pitch * p.pitch_range, hand.throttle};
+    const AttitudeCommand has{state.roll_rad, state.pitch_rad, hand.throttle};
 
     bool as_said = true;
-    const auto axis = [&](Blend& blend, Source said, double stick, double law) {
-      const bool by_stick = hand.there && (said == Source::stick || !lawful);
-      as_said = as_said && (said == Source::stick ? hand.there : lawful);
-      return blend.step(by_stick ? stick : law, by_stick ? 0 : lawful ? 1 : 2, p.blend, dt);
+    const auto axis = [&](Blend& blend, Source said, double AttitudeCommand::*of) {
+      Source source = hand.there ? said : Source::automatic;
+      if (source == Source::automatic && hand.there && !lawful) source = Source::stick;
+      if (source == Source::flown && !state.attitude_valid) source = Source::stick;
+      as_said = as_said && source == said;
+      const AttitudeCommand& from = source == Source::stick ? asked : source == Source::flown ? has : held;
+      return blend.step(from.*of, static_cast<int>(source), p.blend, dt);
     };
-    const AttitudeCommand wanted{axis(roll_, p.roll, asked.roll_rad, held.roll_rad),
-                                 axis(pitch_, p.pitch, asked.pitch_rad, held.pitch_rad),
-                                 axis(throttle_, p.throttle, asked.throttle_frac, held.throttle_frac)};
+    const AttitudeCommand wanted{axis(roll_, p.roll, &AttitudeCommand::roll_rad),
+                                 axis(pitch_, p.pitch, &AttitudeCommand::pitch_rad),
+                                 axis(throttle_, p.throttle, &AttitudeCommand::throttle_frac)};
     const Envelope e = envelope(state, limits, p.envelope);
     out.attitude = {std::clamp(wanted.roll_rad, -e.roll_max, e.roll_max),
                     std::clamp(wanted.pitch_rad, e.pitch_min, e.pitch_max),
@@ -72,7 +80,7 @@ struct Outer {
     out.protecting_ratio = out.attitude.roll_rad != wanted.roll_rad ||
                            out.attitude.pitch_rad != wanted.pitch_rad ||
                            out.attitude.throttle_frac != wanted.throttle_frac;
-    return as_said ? Status::ok : Status::degraded;
+    return as_said && (hand.there || lawful) ? Status::ok : Status::degraded;
   }
 
  private:

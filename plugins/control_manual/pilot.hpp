@@ -17,9 +17,6 @@ struct StickParams {
                 "after so long without a frame of the transmitter the pilot is not there"};
 };
 
-/// Where an axis comes from.
-enum class Source : std::uint8_t { stick, automatic };
-
 struct Sticks {
   bool there = false;                   ///< else all others are 0
   double roll = 0, pitch = 0, yaw = 0;  ///< -1 to 1: right, nose up, nose right

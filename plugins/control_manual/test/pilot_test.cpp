@@ -3,6 +3,8 @@
 #define FULMAR_COUNT_ALLOCATIONS
 #include "plugins/control_manual/pilot.hpp"
 
+#include <fulmar/testing.hpp>
+
 #include "kit.hpp"
 
 namespace pilot_test {

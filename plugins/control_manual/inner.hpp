@@ -83,6 +83,7 @@ struct Inner {
   /// What all axes share in a step.
   struct Now {
     double dt = 0, Va = 1, rho = 1;  ///< s, m/s, kg/m3
+    double decay = 1;                ///< of the blends
     Sticks hand;
     Envelope envelope;
     AttitudeCommand to;          ///< of the outer law; without one, wings level at cruise
@@ -105,6 +106,7 @@ struct Inner {
     const FlightLimits& limits = p.airframe->limits;
     Now now;
     now.dt = std::clamp(tick.dt_s(), 0.0, 0.1);
+    now.decay = std::exp(-now.dt / p.blend);
     now.Va = airspeed_.step(scheduling_airspeed(state, limits), p.airspeed_smoothing, now.dt);
     now.rho = standard_air(state.origin_altitude_m + state.height_m).density_kgm3;
     now.hand = sticks(in.rc, tick, p.sticks);
@@ -183,7 +185,7 @@ struct Inner {
     if (!now.known || d.law == Law::surface) {
       const double stick = d.law == Law::attitude ? 0 : d.stick;
       pid.reset();
-      u = blend.step(surface.trim_rad + stick * p.throw_share * surface.limit_rad, 0, p.blend, now.dt);
+      u = blend.step(surface.trim_rad + stick * p.throw_share * surface.limit_rad, 0, now.decay);
       if (now.known) {
         const auto [low, high] =
             std::minmax({d.loop.proportional(d.low, d.rate), d.loop.proportional(d.high, d.rate)});
@@ -197,7 +199,7 @@ struct Inner {
                         .max = surface.limit_rad};
       if (!now.flying) pid.reset();
       u = pid.step({d.loop.kp, d.loop.kp * p.integral, 0}, in, now.flying ? now.dt : 0);
-      u = blend.step(u, static_cast<int>(d.law), p.blend, now.dt);
+      u = blend.step(u, static_cast<int>(d.law), now.decay);
     }
     return std::clamp(u, -surface.limit_rad, surface.limit_rad);
   }
@@ -212,14 +214,13 @@ struct Inner {
     const bool damps = p.rudder == Rudder::damper || !now.hand.there;
     const double damping = damps ? p.yaw_damping * std::clamp(ratio * ratio, 0.4, 2.5) * slip : 0;
     const double stick = -now.hand.yaw * p.throw_share * surface.limit_rad;
-    const double u = rudder_.step(surface.trim_rad + stick + damping, damps, p.blend, now.dt);
+    const double u = rudder_.step(surface.trim_rad + stick + damping, damps, now.decay);
     return std::clamp(u, -surface.limit_rad, surface.limit_rad);
   }
 
   double throttle(const Params& p, const Now& now) {
     const bool by_stick = now.hand.there && (p.throttle == Throttle::stick || !now.lawful);
-    const double u =
-        throttle_.step(by_stick ? now.hand.throttle : now.to.throttle_frac, by_stick, p.blend, now.dt);
+    const double u = throttle_.step(by_stick ? now.hand.throttle : now.to.throttle_frac, by_stick, now.decay);
     return std::clamp(u, now.envelope.throttle_min, now.envelope.throttle_max);
   }
 

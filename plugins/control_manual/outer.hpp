@@ -51,6 +51,7 @@ struct Outer {
 
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     const double dt = std::clamp(tick.dt_s(), 0.0, 0.1);
+    const double decay = std::exp(-dt / p.blend);
     const VehicleState& state = *in.state;
     const FlightLimits& limits = p.airframe->limits;
     const Sticks hand = sticks(in.rc, tick, p.sticks);
@@ -68,7 +69,7 @@ struct Outer {
       if (source == Source::flown && !state.attitude_valid) source = Source::stick;
       as_said = as_said && source == said;
       const AttitudeCommand& from = source == Source::stick ? asked : source == Source::flown ? has : held;
-      return blend.step(from.*of, static_cast<int>(source), p.blend, dt);
+      return blend.step(from.*of, static_cast<int>(source), decay);
     };
     const AttitudeCommand wanted{axis(roll_, p.roll, &AttitudeCommand::roll_rad),
                                  axis(pitch_, p.pitch, &AttitudeCommand::pitch_rad),

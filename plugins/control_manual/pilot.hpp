@@ -46,11 +46,12 @@ class Blend {
   /// Somebody else's value was applied last.
   void begin(double applied) { value_ = applied, known_ = true, source_ = -1; }
   void reset() { *this = {}; }
-  double step(double wanted, int source, double time_s, double dt_s) {
+  /// `decay`: exp(-dt / time constant), one for all blends of a step.
+  double step(double wanted, int source, double decay) {
     if (source != source_)
       offset_ = known_ ? value_ - wanted : 0;
     else
-      offset_ *= std::exp(-dt_s / time_s);
+      offset_ *= decay;
     source_ = source, known_ = true;
     return value_ = wanted + offset_;
   }

@@ -32,13 +32,13 @@ TEST_CASE(
     "a blend begins with what was applied, forgets it by its time constant, and begins anew with a source") {
   Blend blend;
   blend.begin(1);
-  CHECK(blend.step(0.2, 0, 0.5, 0.01) == doctest::Approx(1));
+  CHECK(blend.step(0.2, 0, std::exp(-0.02)) == doctest::Approx(1));
   double y = 0;
-  for (int i = 0; i < 50; ++i) y = blend.step(0.2, 0, 0.5, 0.01);
+  for (int i = 0; i < 50; ++i) y = blend.step(0.2, 0, std::exp(-0.02));
   CHECK(y == doctest::Approx(0.2 + 0.8 * std::exp(-1.0)));
-  CHECK(blend.step(-3, 1, 0.5, 0.01) == doctest::Approx(y));
+  CHECK(blend.step(-3, 1, std::exp(-0.02)) == doctest::Approx(y));
   Blend fresh;
-  CHECK(fresh.step(0.7, 0, 0.5, 0.01) == 0.7);
+  CHECK(fresh.step(0.7, 0, std::exp(-0.02)) == 0.7);
 }
 
 TEST_CASE("the pilot is there as long as frames come, with their link, and mean something") {

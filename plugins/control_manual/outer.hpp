@@ -3,6 +3,7 @@
 #pragma once
 #include "envelope.hpp"
 #include "fulmar/flight/atmosphere.hpp"
+#include "fulmar/flight/filters.hpp"
 #include "fulmar/flight/turn_trim.hpp"
 #include "fulmar/msg/attitude_command.hpp"
 #include "pilot.hpp"
@@ -34,17 +35,21 @@ struct Outer {
     Param roll_range{0.5, "rad", 0.02, 1.5, "roll at full stick"};
     Param pitch_range{0.5, "rad", 0.02, 1.2,
                       "pitch at full stick, beyond that of its middle: level flight at cruise"};
+    Param roll_rate_limit{2.0, "rad/s", 0.1, 6, "fastest change of the roll command: a stick may be thrown"};
+    Param pitch_rate_limit{1.0, "rad/s", 0.05, 6, "fastest change of the pitch command"};
     Param blend{0.5, "s", 0.01, 5, "time constant with which what flew before is forgotten"};
     Record<Airframe> airframe{"limits, and the pitch of level flight", required};
   };
 
   Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
     roll_.reset(), pitch_.reset(), throttle_.reset();
+    roll_slew_.reset(), pitch_slew_.reset();
     if (last.has(last->attitude)) {
-      begin(last->attitude);
+      begin_attitude(last->attitude.roll_rad, last->attitude.pitch_rad);
+      throttle_.begin(last->attitude.throttle_frac);
     } else if (in.state->attitude_valid && flying(*in.state, p.airframe->limits)) {
       // Nobody's command is in force: from the attitude that it has. The throttle that it has is not known.
-      roll_.begin(in.state->roll_rad), pitch_.begin(in.state->pitch_rad);
+      begin_attitude(in.state->roll_rad, in.state->pitch_rad);
     }
     return Status::ok;
   }
@@ -71,9 +76,10 @@ struct Outer {
       const AttitudeCommand& from = source == Source::stick ? asked : source == Source::flown ? has : held;
       return blend.step(from.*of, static_cast<int>(source), decay);
     };
-    const AttitudeCommand wanted{axis(roll_, p.roll, &AttitudeCommand::roll_rad),
-                                 axis(pitch_, p.pitch, &AttitudeCommand::pitch_rad),
-                                 axis(throttle_, p.throttle, &AttitudeCommand::throttle_frac)};
+    const AttitudeCommand wanted{
+        roll_slew_.step(axis(roll_, p.roll, &AttitudeCommand::roll_rad), p.roll_rate_limit, dt),
+        pitch_slew_.step(axis(pitch_, p.pitch, &AttitudeCommand::pitch_rad), p.pitch_rate_limit, dt),
+        axis(throttle_, p.throttle, &AttitudeCommand::throttle_frac)};
     const Envelope e = envelope(state, limits, p.envelope);
     out.attitude = {std::clamp(wanted.roll_rad, -e.roll_max, e.roll_max),
                     std::clamp(wanted.pitch_rad, e.pitch_min, e.pitch_max),
@@ -85,8 +91,9 @@ struct Outer {
   }
 
  private:
-  void begin(const AttitudeCommand& from) {
-    roll_.begin(from.roll_rad), pitch_.begin(from.pitch_rad), throttle_.begin(from.throttle_frac);
+  void begin_attitude(double roll_rad, double pitch_rad) {
+    roll_.begin(roll_rad), pitch_.begin(pitch_rad);
+    roll_slew_.reset_to(roll_rad), pitch_slew_.reset_to(pitch_rad);
   }
   /// Of level flight at cruise speed, rad: where the pitch stick has its middle.
   static double level_pitch(const VehicleState& state, const Params& p) {
@@ -95,6 +102,7 @@ struct Outer {
   }
 
   Blend roll_, pitch_, throttle_;
+  RateLimiter roll_slew_, pitch_slew_;
 };
 
 }  // namespace fulmar::manual

@@ -163,6 +163,15 @@ TEST_CASE("what flew before goes over into the sticks without a step, by the tim
   CHECK(before.roll_rad == doctest::Approx(0.3 - 0.6 * std::exp(-0.98)));
 }
 
+TEST_CASE("a stick that is thrown to its end moves the angles no faster than their limits") {
+  Bench bench;
+  bench.settle(stick(-1, -1));
+  const AttitudeCommand before = bench.out.attitude;
+  for (int i = 0; i < 10; ++i) bench.fly(stick(1, 1));
+  CHECK(bench.out.attitude.roll_rad - before.roll_rad == doctest::Approx(0.2));
+  CHECK(bench.out.attitude.pitch_rad - before.pitch_rad == doctest::Approx(0.1));
+}
+
 TEST_CASE("when nobody's command is in force the angles begin with those of the aircraft") {
   kit::Hand<Outer> bench;
   VehicleState s = level();

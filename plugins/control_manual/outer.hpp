@@ -76,21 +76,25 @@ struct Outer {
       const AttitudeCommand& from = source == Source::stick ? asked : source == Source::flown ? has : held;
       return blend.step(from.*of, static_cast<int>(source), decay);
     };
-    const AttitudeCommand wanted{
-        roll_slew_.step(axis(roll_, p.roll, &AttitudeCommand::roll_rad), p.roll_rate_limit, dt),
-        pitch_slew_.step(axis(pitch_, p.pitch, &AttitudeCommand::pitch_rad), p.pitch_rate_limit, dt),
-        axis(throttle_, p.throttle, &AttitudeCommand::throttle_frac)};
+    const AttitudeCommand wanted{axis(roll_, p.roll, &AttitudeCommand::roll_rad),
+                                 axis(pitch_, p.pitch, &AttitudeCommand::pitch_rad),
+                                 axis(throttle_, p.throttle, &AttitudeCommand::throttle_frac)};
     const Envelope e = envelope(state, limits, p.envelope);
-    out.attitude = {std::clamp(wanted.roll_rad, -e.roll_max, e.roll_max),
-                    std::clamp(wanted.pitch_rad, e.pitch_min, e.pitch_max),
-                    std::clamp(wanted.throttle_frac, e.throttle_min, e.throttle_max)};
-    out.protecting_ratio = out.attitude.roll_rad != wanted.roll_rad ||
-                           out.attitude.pitch_rad != wanted.pitch_rad ||
-                           out.attitude.throttle_frac != wanted.throttle_frac;
+    const AttitudeCommand kept = within(e, wanted);
+    // Slewed from where it was kept, not from where the stick would have had it; and kept at once.
+    out.attitude = within(e, {roll_slew_.step(kept.roll_rad, p.roll_rate_limit, dt),
+                              pitch_slew_.step(kept.pitch_rad, p.pitch_rate_limit, dt), kept.throttle_frac});
+    out.protecting_ratio = kept.roll_rad != wanted.roll_rad || kept.pitch_rad != wanted.pitch_rad ||
+                           kept.throttle_frac != wanted.throttle_frac;
     return as_said && (hand.there || lawful) ? Status::ok : Status::degraded;
   }
 
  private:
+  static AttitudeCommand within(const Envelope& e, const AttitudeCommand& a) {
+    return {std::clamp(a.roll_rad, -e.roll_max, e.roll_max),
+            std::clamp(a.pitch_rad, e.pitch_min, e.pitch_max),
+            std::clamp(a.throttle_frac, e.throttle_min, e.throttle_max)};
+  }
   void begin_attitude(double roll_rad, double pitch_rad) {
     roll_.begin(roll_rad), pitch_.begin(pitch_rad);
     roll_slew_.reset_to(roll_rad), pitch_slew_.reset_to(pitch_rad);

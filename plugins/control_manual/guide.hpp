@@ -34,9 +34,9 @@ struct Guide {
   };
   struct Params {
     StickParams sticks;
-    Choice<Axis> course{Axis::sticks, "who says the course: roll stick, automatic, hold, flown"};
-    Choice<Axis> height{Axis::sticks, "who says the height: pitch stick, automatic, hold, flown"};
-    Choice<Axis> airspeed{Axis::sticks, "who says the airspeed: throttle stick, automatic, hold, flown"};
+    Choice<Axis> course{Axis::sticks, "who says the course; sticks: roll"};
+    Choice<Axis> height{Axis::sticks, "who says the height; sticks: pitch"};
+    Choice<Axis> airspeed{Axis::sticks, "who says the airspeed; sticks: throttle"};
     Param course_rate{0.5, "rad/s", 0, 3, "at full roll stick"};
     Param climb_rate{3.0, "m/s", 0, 50, "at full pitch stick; the airframe's own limits hold as well"};
     Param airspeed_rate{1.0, "m/s2", 0, 20, "with the throttle stick at one of its ends; its middle is 0"};

@@ -29,9 +29,9 @@ struct Outer {
   struct Params {
     StickParams sticks;
     EnvelopeParams envelope;
-    Choice<Source> roll{Source::stick, "who says the roll angle: stick, automatic, flown"};
-    Choice<Source> pitch{Source::stick, "who says the pitch angle: stick, automatic, flown"};
-    Choice<Source> throttle{Source::stick, "who says the throttle: stick, automatic, flown: the stick"};
+    Choice<Source> roll{Source::stick, "who says the roll angle"};
+    Choice<Source> pitch{Source::stick, "who says the pitch angle"};
+    Choice<Source> throttle{Source::stick, "who says the throttle; flown: the stick, as nothing measures it"};
     Param roll_range{0.5, "rad", 0.02, 1.5, "roll at full stick"};
     Param pitch_range{0.5, "rad", 0.02, 1.2,
                       "pitch at full stick, beyond that of its middle: level flight at cruise"};

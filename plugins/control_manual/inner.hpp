@@ -198,7 +198,7 @@ struct Inner {
                         .min = -surface.limit_rad,
                         .max = surface.limit_rad};
       if (!now.flying) pid.reset();
-      u = pid.step({d.loop.kp, d.loop.kp * p.integral, 0}, in, now.flying ? now.dt : 0);
+      u = pid.step({d.loop.kp, d.loop.kp * p.integral, 0}, in, now.dt);
       u = blend.step(u, static_cast<int>(d.law), now.decay);
     }
     return std::clamp(u, -surface.limit_rad, surface.limit_rad);

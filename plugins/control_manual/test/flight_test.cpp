@@ -114,6 +114,18 @@ TEST_CASE("a word that is no choice of an axis is refused before the flight, wit
 }
 
 TEST_CASE(
+    "a radio that falls silent leaves the pilot's level after the time-out, and the first frames bring it "
+    "back") {
+  const Folder folder;
+  const Result r = typed("run " + folder.mission().string() +
+                         " --role transmitter=script --set script.lost=65 --duration 75 --no-log");
+  CHECK_MESSAGE(r.code == 0, r.out);
+  CHECK_MESSAGE(holds(r.out, "65.59 s  phase cruise"),
+                r.out);  // 0.5 s without a frame, 0.1 s of the condition
+  CHECK_MESSAGE(holds(r.out, "66.50 s  phase increments"), r.out);
+}
+
+TEST_CASE(
     "every level, the research scheme and back: the pilot's stick moves what it should, and no surface "
     "steps") {
   const Folder folder;

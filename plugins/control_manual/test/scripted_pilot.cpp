@@ -13,6 +13,7 @@ struct ScriptedPilot {
   };
   struct Params {
     Param begin{60, "s", 0, 1000, "of the first thing that he does"};
+    Param lost{1000, "s", 0, 1000, "of his radio, for 1.5 s"};
   };
   Status step(const Tick& tick, const Inputs&, const Params& p, Outputs& out) {
     // Every ten seconds another level, in its first half a stick to the right and a little back.
@@ -28,6 +29,7 @@ struct ScriptedPilot {
       const double within = t - 10 * static_cast<int>(t / 10);
       if (within >= 2 && within < 4) rc.roll_frac = 0.4, rc.pitch_frac = 0.15;
     }
+    if (tick.now_s() >= p.lost && tick.now_s() < p.lost + 1.5) rc = {};
     out.rc = rc;
     return Status::ok;
   }

@@ -3,6 +3,7 @@
 #include "kit.hpp"
 #include "plugins/control_manual/inner.hpp"
 #include "plugins/control_manual/outer.hpp"
+#include "sdk/test/flight/airframe_file.hpp"
 
 namespace closed_loop_test {
 
@@ -23,8 +24,10 @@ struct Flight {
   VehicleState state;
   double slowest = 1e9, fastest = 0, alpha = 0, bank = 0, lowest = 1e9;
 
-  explicit Flight(Law law, Turbulence turbulence = Turbulence::none, std::uint64_t seed = 1)
-      : model(test::anaconda(), turbulence, seed) {
+  explicit Flight(Law law, Turbulence turbulence = Turbulence::none,
+                  const Airframe& airframe = test::anaconda())
+      : model(airframe, turbulence, 1) {
+    outer.params.airframe.value = inner.params.airframe.value = airframe;
     inner.params.aileron.value = inner.params.elevator.value = law;
     inner.params.throttle.value = Inner::Throttle::automatic;
     outer.params.pitch_range.value = outer.params.roll_range.value = 0.8;
@@ -167,6 +170,24 @@ TEST_CASE("one set of bandwidths flies at every speed: roll rate at 12.5 and at 
     flight.run(1, [&] { most = std::max(most, flight.state.rate_radps.x); });
     CHECK(flight.state.rate_radps.x == doctest::Approx(0.6).epsilon(0.12));
     CHECK(most < 0.72);
+  }
+}
+
+TEST_CASE("the same bandwidths fly the Aerosonde of 11 kg: angles, rates, and its stall") {
+  const Airframe aerosonde = test::airframe_file("aerosonde");
+  for (const Law law : {Law::attitude, Law::rate}) {
+    Flight flight(law, Turbulence::none, aerosonde);
+    flight.rc = stick(0, 0, aerosonde.limits.throttle_cruise_frac);
+    flight.run(15);
+    CHECK(std::abs(flight.state.roll_rad) < 2 * deg);
+    const double bank = flight.state.roll_rad;
+    flight.rc.roll_frac = law == Law::rate ? 0.2 : 0.5;
+    flight.run(law == Law::rate ? 1 : 3);
+    CHECK(flight.state.roll_rad - bank == doctest::Approx(law == Law::rate ? 0.3 : 0.4).epsilon(0.12));
+    flight.rc = stick(0, 1, 0);
+    flight.run(40);
+    CHECK(flight.slowest > 1.1 * aerosonde.limits.airspeed_min_mps / 1.2);
+    CHECK(flight.alpha < aerosonde.wing.stall_alpha_rad);
   }
 }
 

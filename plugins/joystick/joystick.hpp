@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A joystick, gamepad, or transmitter on USB. Runs in a thread of its own: `run: driver`.
 #pragma once
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <string>
 
 #include "events.hpp"
+#include "fulmar/flight/sticks.hpp"
 #include "source.hpp"
 #include "transmitter.hpp"
 
 namespace fulmar::hand {
-
-/// Dead zone, then exponential: gentle around the centre, and all of the throw at its end.
-inline double shaped(double x, double dead_zone, double expo) {
-  const double y = std::copysign(std::max(0.0, std::abs(x) - dead_zone) / (1 - dead_zone), x);
-  return (1 - expo) * y + expo * y * y * y;
-}
 
 struct AxisParams {
   Count roll_axis{0, -1, 31, "of the roll stick; right is positive; -1: none", setup};

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the laws of this plugin know of the pilot: shaped sticks, and whether there is somebody at all.
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "fulmar/flight/sticks.hpp"
+#include "fulmar/msg/rc.hpp"
+#include "fulmar/plugin.hpp"
+
+namespace fulmar::manual {
+
+struct StickParams {
+  Param dead_zone{0.05, "ratio", 0, 0.5, "of the sticks, around their middle"};
+  Param expo{0.3, "ratio", 0, 1, "share of the cube: sticks are gentle around their middle"};
+  Param timeout{0.5, "s", 0.02, 10,
+                "after so long without a frame of the transmitter the pilot is not there"};
+};
+
+struct Sticks {
+  bool there = false;                   ///< else all others are 0
+  double roll = 0, pitch = 0, yaw = 0;  ///< -1 to 1: right, nose up, nose right
+  double throttle = 0;                  ///< 0 to 1, neither dead zone nor expo: a lever has no middle
+};
+
+/// Age of the last frame, s; `never_s` when there was none, the link is lost or the frame means nothing.
+inline constexpr double never_s = 1e9;
+inline double stick_age_s(const Optional<Rc>& rc, const Tick& tick) {
+  if (!rc || rc.stale() || !rc->link) return never_s;
+  if (!std::isfinite(rc->roll_frac + rc->pitch_frac + rc->yaw_frac + rc->throttle_frac)) return never_s;
+  // Not the input's age, which counts from the writer's last step: a receiver may stay silent.
+  return std::max(0.0, 1e-9 * static_cast<double>(tick.now_ns - rc.valid_at_ns()));
+}
+
+inline Sticks sticks(const Optional<Rc>& rc, const Tick& tick, const StickParams& p) {
+  if (stick_age_s(rc, tick) > p.timeout) return {};
+  const auto stick = [&](double x) { return shaped(std::clamp(x, -1.0, 1.0), p.dead_zone, p.expo); };
+  return {true, stick(rc->roll_frac), stick(rc->pitch_frac), stick(rc->yaw_frac),
+          std::clamp(rc->throttle_frac, 0.0, 1.0)};
+}
+
+/// From what was applied to what is wanted, without a step: whenever the source of a value changes, the
+/// difference is kept and forgotten with a time constant.
+class Blend {
+ public:
+  /// Somebody else's value was applied last.
+  void begin(double applied) { value_ = applied, known_ = true, source_ = -1; }
+  void reset() { *this = {}; }
+  /// `decay`: exp(-dt / time constant), one for all blends of a step.
+  double step(double wanted, int source, double decay) {
+    if (source != source_)
+      offset_ = known_ ? value_ - wanted : 0;
+    else
+      offset_ *= decay;
+    source_ = source, known_ = true;
+    return value_ = wanted + offset_;
+  }
+
+ private:
+  double value_ = 0, offset_ = 0;
+  int source_ = -1;
+  bool known_ = false;
+};
+
+/// For the conditions of phases, which cannot see that nothing comes.
+struct Pilot {
+  static constexpr const char* doc =
+      "Whether the pilot is there, for the conditions of phases; passes on what he does.";
+  struct Inputs {
+    Optional<Rc> rc;
+  };
+  struct Outputs {
+    Rc rc;              // as it came; without a pilot no link, and all else 0
+    Probe there_ratio;  // 1: a frame came within the time-out, with its link
+    Probe stick_age_s;  // of the last frame; 1e9: none, no link, or not finite
+  };
+  struct Params {
+    Param timeout{0.5, "s", 0.02, 10,
+                  "after so long without a frame of the transmitter the pilot is not there"};
+  };
+  Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
+    const double age = stick_age_s(in.rc, tick);
+    out.stick_age_s = age;
+    const bool there = age <= p.timeout;
+    out.there_ratio = there ? 1.0 : 0.0;
+    out.rc = there ? *in.rc : Rc{};
+    return Status::ok;
+  }
+};
+
+}  // namespace fulmar::manual

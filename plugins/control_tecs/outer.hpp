@@ -41,6 +41,9 @@ struct Outer {
     Param acceleration_filter{
         0.25, "s", 0, 5,
         "time constant of the measured acceleration: keeps the accelerometer's noise off the elevator"};
+    Param airspeed_filter{0.5, "s", 0, 10,
+                          "over which the airspeed that pitch answers follows the measured one: gusts are "
+                          "the throttle's business"};
     Param speed_weight{0.4, "ratio", 0, 2,
                        "0: pitch holds height alone; 1: both; 2: pitch holds airspeed alone"};
 
@@ -63,6 +66,7 @@ struct Outer {
     if (!loop_.activate(*in.state, p.common, last)) pitch_.reset(), throttle_.reset();
     climb_rate_.reset_to(in.state->climb_rate_mps);
     acceleration_.reset();
+    airspeed_.reset();
     return Status::ok;
   }
 
@@ -81,9 +85,10 @@ struct Outer {
   /// What the energies are to do, and what they do, m2/s3.
   struct Energy {
     EnergyRates wanted, present;
-    double total_wanted = 0;  ///< of the total, within what the engine can give
-    double turn_drag = 0;     ///< energy rate that the turn takes from the engine
-    double underspeed = 0;    ///< 0: none, 1: speed before everything
+    double steady_kinetic = 0;  ///< wanted by the airspeed without gusts: what pitch is to answer
+    double total_wanted = 0;    ///< of the total, within what the engine can give
+    double turn_drag = 0;       ///< energy rate that the turn takes from the engine
+    double underspeed = 0;      ///< 0: none, 1: speed before everything
     double Va = 0, Va_c = 0;
   };
 
@@ -91,6 +96,7 @@ struct Outer {
     pitch_.reset();
     throttle_.reset();
     acceleration_.reset();
+    airspeed_.reset();
     climb_rate_.reset_to(state.climb_rate_mps);
     out.climb_rate_demand_mps = 0.0;
     out.acceleration_demand_mps2 = 0.0;
@@ -129,22 +135,28 @@ struct Outer {
       e.underspeed = std::clamp(
           (limits.airspeed_min_mps - state.airspeed_mps) / (limits.airspeed_min_mps - slowest), 0.0, 1.0);
       e.Va_c = std::clamp(command.airspeed_mps, limits.airspeed_min_mps, limits.airspeed_max_mps);
-      const double V_dot =
-          std::clamp(p.airspeed_gain * (e.Va_c - state.airspeed_mps), 0.5 * least / e.Va, 0.5 * most / e.Va);
+      const double rate = airspeed_rate(state);
+      const double steady = airspeed_.step(state.airspeed_mps, rate, p.airspeed_filter, dt);
+      const auto acceleration = [&](double V) {
+        return std::clamp(p.airspeed_gain * (e.Va_c - V), 0.5 * least / e.Va, 0.5 * most / e.Va);
+      };
+      const double V_dot = acceleration(state.airspeed_mps);
       e.wanted.kinetic = e.Va * V_dot;
-      e.present.kinetic = e.Va * acceleration_.step(airspeed_rate(state), p.acceleration_filter, dt);
+      e.steady_kinetic = e.Va * acceleration(steady);
+      e.present.kinetic = e.Va * acceleration_.step(rate, p.acceleration_filter, dt);
       out.acceleration_demand_mps2 = V_dot;
       out.internals.airspeed_error_mps = e.Va_c - state.airspeed_mps;
     } else {
       e.Va_c = limits.airspeed_cruise_mps;
+      airspeed_.reset();
       out.acceleration_demand_mps2 = 0.0;
     }
     const double error = command.height_m - state.height_m;
     const double wanted =
         command.climb_rate_mps + approach_rate(error, p.altitude_gain, 0.5 * p.climb_acceleration_limit);
-    const double bounded = std::clamp(wanted, -limits.sink_rate_max_mps, limits.climb_rate_max_mps);
+    const double climb_rate = std::clamp(wanted, -limits.sink_rate_max_mps, limits.climb_rate_max_mps);
     if (loop_.commands.taking_up()) climb_rate_.reset_to(state.climb_rate_mps);
-    e.wanted.potential = isa::g0 * climb_rate_.step(bounded, p.climb_acceleration_limit, dt);
+    e.wanted.potential = isa::g0 * climb_rate_.step(climb_rate, p.climb_acceleration_limit, dt);
     e.present.potential = isa::g0 * state.climb_rate_mps;
     e.total_wanted = std::clamp(e.wanted.total(), least, most);
     out.internals.height_error_m = error;
@@ -159,12 +171,13 @@ struct Outer {
     const double given = state.airspeed_valid ? p.speed_weight.value : 0;
     const double weight = 2 * e.underspeed + (1 - e.underspeed) * given;
     const double w_h = std::clamp(2 - weight, 0.0, 1.0), w_V = std::clamp(weight, 0.0, 1.0);
-    const double B_c = e.wanted.balance(w_h, w_V), error = B_c - e.present.balance(w_h, w_V);
+    const double B_c = EnergyRates{e.wanted.potential, e.steady_kinetic}.balance(w_h, w_V),
+                 error = B_c - e.present.balance(w_h, w_V);
     // The weights say which error pitch is to answer. The climb wanted needs its flight path angle whatever
     // they are, as long as the engine gives what was asked of it.
     const double missing = throttle_.saturated() ? e.total_wanted - e.present.total() : 0;
     const double climb = e.wanted.potential * (1 - e.underspeed) - (1 - w_h) * missing;
-    const double B_ff = climb - w_V * e.wanted.kinetic;
+    const double B_ff = climb - w_V * e.steady_kinetic;
     const double per_gV = 1 / (isa::g0 * e.Va);
     const PitchLimits pitch(state, p.common.airframe->limits, p.common.pitch_limit);
     const PidInput in{.error = error * per_gV,
@@ -206,6 +219,7 @@ struct Outer {
   Pid pitch_, throttle_;
   RateLimiter climb_rate_;
   LowPass acceleration_;
+  SteadyAirspeed airspeed_;
 };
 
 }  // namespace fulmar::tecs

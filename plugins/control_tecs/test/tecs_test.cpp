@@ -131,10 +131,45 @@ TEST_CASE("pitch shares energy between height and speed by the weight") {
   s = flying();
   s.airspeed_mps = 14.5;
   // B_c = -0.4 * 8.7: nose down to gain speed
-  CHECK(settle(bench, s, level()).pitch_rad == doctest::Approx(-1.6 * 0.4 * 8.7 / (g * 14.5)));
+  CHECK(settle(bench, s, level(), 8).pitch_rad == doctest::Approx(-1.6 * 0.4 * 8.7 / (g * 14.5)));
   bench.params.speed_weight.value = 0;
   bench.retune();
   CHECK(settle(bench, s, level()).pitch_rad == doctest::Approx(0));
+}
+
+TEST_CASE(
+    "airspeed without gusts: what the body does has no lag, what the air does goes through a first order") {
+  constexpr double dt = 0.01, tau = 0.5;
+  SteadyAirspeed own, gust;
+  own.step(15, 0, tau, dt), gust.step(15, 0, tau, dt);
+  for (int k = 1; k <= 300; ++k) {
+    CHECK(own.step(15 + 0.7 * k * dt, 0.7, tau, dt) == doctest::Approx(15 + 0.7 * k * dt));
+    CHECK(gust.step(17, 0, tau, dt) - 15 == doctest::Approx(2 * (1 - std::exp(-k * dt / tau))));
+  }
+}
+
+TEST_CASE(
+    "a gust of airspeed moves the throttle at once and the pitch by degrees; a new hand begins with none") {
+  Bench<Outer> bench;
+  configure(bench);
+  bench.params.throttle_integral.value = bench.params.pitch_integral.value = 0;
+  bench.params.common.pitch_rate_limit.value = bench.params.common.throttle_rate_limit.value = 6;
+  const double trim = settle(bench, flying(), level()).pitch_rad;
+  VehicleState s = flying();
+  s.airspeed_mps = 14;
+  const double all = 1.6 * 0.4 * 1.2 / g;  // nose down by what 1 m/s too slow asks for: of airspeed_gain 1.2
+  const auto share = [&] { return (trim - bench.out.attitude.pitch_rad) / all; };
+  settle(bench, s, level(), 0.1);
+  CHECK(share() == doctest::Approx(1 - std::exp(-0.1 / 0.5)).epsilon(0.05));
+  CHECK(bench.out.attitude.throttle_frac > 0.6);
+  settle(bench, s, level(), 0.9);
+  CHECK(share() == doctest::Approx(1 - std::exp(-1 / 0.5)).epsilon(0.05));
+  settle(bench, flying(), level(), 5);
+  bench.activate();
+  settle(bench, s, level(), 0.01);
+  bench.activate();  // goes on from the airspeed that there is, not from one of before
+  settle(bench, s, level(), 0.5);
+  CHECK(share() > 0.8);
 }
 
 TEST_CASE("the acceleration along the air velocity is that of the body, gravity included") {

@@ -22,6 +22,24 @@ inline double airspeed_rate(const VehicleState& state) {
   return ca * cb * a_b.x + sb * a_b.y + sa * cb * a_b.z;
 }
 
+/// Airspeed without its gusts, m/s: integrates the acceleration of the body and is drawn to the measured
+/// airspeed. A change that the aircraft makes has no lag, one that the air makes is averaged. Complementary
+/// filter, as in Lambregts (1983).
+class SteadyAirspeed {
+ public:
+  double step(double airspeed_mps, double airspeed_rate_mps2, double time_constant_s, double dt_s) {
+    if (!started_) return reset_to(airspeed_mps);
+    const double pole = time_constant_s > 0 ? std::exp(-dt_s / time_constant_s) : 0;
+    return y_ = airspeed_mps + pole * (y_ + airspeed_rate_mps2 * dt_s - airspeed_mps);
+  }
+  double reset_to(double airspeed_mps) { return started_ = true, y_ = airspeed_mps; }
+  void reset() { started_ = false; }
+
+ private:
+  double y_ = 0;
+  bool started_ = false;
+};
+
 /// Rates of the specific energies, m2/s3.
 struct EnergyRates {
   double potential = 0;  ///< g hdot

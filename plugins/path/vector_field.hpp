@@ -45,7 +45,6 @@ struct VectorField {
 
   Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out);
 
- private:
   /// The path where the aircraft is, and the course that leads onto it.
   struct Aim {
     double path_course = 0, cross = 0, chi_c = 0, height = 0, kappa = 0, climb = 0;
@@ -60,6 +59,7 @@ struct VectorField {
            p.chi_infinity * (2 / std::numbers::pi) * std::atan(p.k_path * k * aim.cross);  // (10.8)
   }
 
+ private:
   /// Nobody knows where the path is: a circle through the air to the right, at the height and speed that were
   /// last asked for. Straight on as long as nobody knows the attitude either.
   Status wait(const VehicleState& state, const Params& p, Outputs& out) {

@@ -22,7 +22,7 @@ inline bool flying(const VehicleState& state, const FlightLimits& limits) {
   return !standing(state) && (!state.airspeed_valid || state.airspeed_mps > 0.6 * limits.airspeed_min_mps);
 }
 
-enum class OuterAction : std::uint8_t { wait, take_off, hold, level };
+enum class OuterAction : std::uint8_t { wait, take_off, hold, level, roll_out };
 
 class OuterCommands {
  public:
@@ -65,6 +65,7 @@ class OuterCommands {
     }
     if (law != law_) start(law, state, last_);
     if (law == OuterLaw::takeoff) return OuterAction::take_off;
+    if (law == OuterLaw::roll_out) return OuterAction::roll_out;
     if (standing(state)) return OuterAction::wait;
     if (!state.attitude_valid || !state.height_valid) return OuterAction::level;
     if (levelling_) {  // known again: go on from the attitude that it has, so that no surface steps
@@ -86,6 +87,11 @@ class OuterCommands {
     start(law_, {}, {});
     taking_up_ = false;
     return last_;
+  }
+
+  /// On the ground after a landing: engine off, wings level, the nose comes down.
+  AttitudeCommand roll_out(const OuterTuning& tuning, double dt_s) {
+    return finish(course_.shape(0, tuning.course, dt_s), 0, 0, tuning, dt_s);
   }
 
   /// The state is not known in flight: wings level, trim of level flight at cruise speed.

@@ -4,7 +4,7 @@
 
 namespace fulmar {
 
-enum class OuterLaw : std::uint8_t { hold, takeoff };
+enum class OuterLaw : std::uint8_t { hold, takeoff, roll_out };
 
 /// What an outer loop thinks, for the log and for tuning.
 struct ControllerInternals {

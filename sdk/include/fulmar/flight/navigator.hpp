@@ -35,10 +35,11 @@ inline constexpr double coasted_s =
 /// What the navigator knows of its attitude, and how it came to it.
 ///   waiting -> aligning -> running -> lost -> regained -> lost ...; lost -> running when it stands again;
 ///   lost -> running when somebody else has felt the turn; any -> running when it takes over from an estimate
-///   that flies.
+///   that flies; in flight aligning -> trying -> running, or back when the fixes contradict.
 enum class Mode : std::uint8_t {
   waiting,   ///< for the first inertial sample
   aligning,  ///< for the first attitude: at rest or in flight
+  trying,    ///< has one in flight, and waits for fixes that bear it out
   running,   ///< aligned, with a full prior
   lost,      ///< a gap was too long to be bridged: looks for the attitude anew, keeps what changes slowly
   regained   ///< aligned again in flight
@@ -111,10 +112,11 @@ class Navigator {
     seen_.yaw = true;
   }
 
-  bool aligned() const { return mode_ == Mode::running || mode_ == Mode::regained; }
+  bool aligned() const { return mode_ == Mode::running || mode_ == Mode::regained || mode_ == Mode::trying; }
   bool regaining() const { return mode_ == Mode::lost; }  ///< not aligned since a gap
-  /// Found again after a gap, and the next fixes still move it: commands that follow it would step.
+  /// Found in flight, and the next fixes still move it: commands that follow it would step.
   bool settling() const {
+    if (mode_ == Mode::trying) return true;
     constexpr double tilt_std = 0.025, longest_s = 0.5;
     return mode_ == Mode::regained && time_s_ - aligned_s_ < longest_s &&
            std::max(filter_.std(ekf::theta), filter_.std(ekf::theta + 1)) > tilt_std;
@@ -275,10 +277,18 @@ class Navigator {
 
   /// After a gap that was too long to be bridged: the attitude has to be found anew.
   void lose() {
+    if (mode_ == Mode::trying) return try_again();
     mode_ = Mode::lost;
     resting_ = false;
     rest_since_s_ = never;
-    flight_ = {};
+    flight_.clear();
+  }
+  /// The first attitude in flight was none: from the beginning.
+  void try_again() {
+    mode_ = Mode::aligning;
+    filter_.reset({}, ekf::Vector::Zero(), time_s_);
+    seen_.yaw = seen_.position = seen_.height = seen_.baro_zero = false;
+    flight_.clear();
   }
   /// Between two samples far apart the rates were not on a straight line.
   void bridged(double dt, const Params& p) {
@@ -336,18 +346,13 @@ class Navigator {
     const Vector3d wind_n(filter_.state().wind.x(), filter_.state().wind.y(), 0);
     const auto found =
         flight_.fix(v_n, {p.gravity, has_mag ? &field_n_ : nullptr, regaining() ? &wind_n : nullptr,
-                          regaining() ? std::clamp(time_s_ - time_s, 0.0, 1.0) : 0});
+                          std::clamp(time_s_ - time_s, 0.0, 1.0)});
     if (!found || v_n.head<2>().norm() < p.min_airspeed) return;
     if (regaining()) {
       regain(g, *found, has_mag, time_s, p);
       return;
     }
-    ekf::Nominal x;
-    x.q_nb = found->q_nb;
-    x.v_n = v_n;
-    begin(x, p, time_s_, 0.2, has_mag ? 0.3 : 0.4);
-    seen_.yaw = true;
-    place(g, time_s, p);
+    begin_in_flight(g, *found, time_s, p);
   }
 
   void rest(const Params&) {
@@ -370,18 +375,25 @@ class Navigator {
     gusts_.forget(mean_wind(), time_s_, p);
   }
 
+  /// After a start in flight the attitude may be hardly known about one axis, where the field lies along the
+  /// specific force: there, where the nose points says more than how gusts go on for seconds spoils.
   void sideslip(const Params& p) {
     sideslip_s_ = time_s_;
     const double side = p.sideslip_ratio * ekf::air_velocity(filter_.state()).norm(),
                  variance = p.sideslip_speed_std * p.sideslip_speed_std + side * side;
-    const ekf::Fused fused =
-        filter_.fuse_considering_attitude(ekf::zero_sideslip(filter_.state()), variance, p.air_gate);
+    const ekf::Scalar z = ekf::zero_sideslip(filter_.state());
+    const bool nose = time_s_ < nose_until_s_ && time_s_ - nose_s_ > (settling() ? 0.3 : 1) - 1e-4;
+    if (nose) nose_s_ = time_s_;
+    const ekf::Fused fused = nose ? filter_.fuse(z, variance, p.air_gate)
+                                  : filter_.fuse_considering_attitude(z, variance, p.air_gate);
     health_.sideslip.told(fused, time_s_);
     if (fused.accepted) gusts_.sideslip(mean_wind(), filter_.R_nb().col(1), side, time_s_, p);
   }
 
   void place(const Gnss& g, double time_s, const Params& p);
   void forget_level();
+  void begin_in_flight(const Gnss& g, const FlightAlignment::Found& found, double time_s, const Params& p);
+  void try_attitude();
   void regain(const Gnss& g, const FlightAlignment::Found& found, bool has_mag, double time_s,
               const Params& p);
   void collect_origin(const Gnss& g, const Params& p);
@@ -407,7 +419,9 @@ class Navigator {
   Gusts gusts_;
   double year_ = 2026.0, altitude_m_ = 0;  ///< of the origin; without one: by pressure
   double time_s_ = 0, aligned_s_ = 0, rest_since_s_ = never, rest_fused_s_ = never, sideslip_s_ = never,
-         airborne_s_ = 0;
+         nose_s_ = never,
+         nose_until_s_ = never,  ///< after a start in flight the attitude follows the sideslip, now and then
+      airborne_s_ = 0;
   double gnss_s_ = never, gnss_speed_ = 0, mag_s_ = never, mag_fused_s_ = never, pitot_s_ = never,
          pitot_mps_ = 0, baro_s_ = never;
   std::int64_t origin_count_ = 0;

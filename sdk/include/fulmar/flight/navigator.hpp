@@ -55,6 +55,13 @@ struct Seen {
   bool baro_zero = false;  ///< the barometer's offset has begun
 };
 
+/// How often the state was set, and not moved by degrees, and by how much the last time: after minus before.
+struct Resets {
+  std::uint32_t count = 0;
+  Vector3d position_m = Vector3d::Zero(), velocity_mps = Vector3d::Zero();
+  double yaw_rad = 0, at_s = never;
+};
+
 class Navigator {
  public:
   /// Set-up and live changes: noises only.
@@ -107,9 +114,10 @@ class Navigator {
     }
     at_least(ekf::wind, s.wind_std_mps.north, 0.5, p.wind_std);
     at_least(ekf::wind + 1, s.wind_std_mps.east, 0.5, p.wind_std);
-    seen_.position = s.position_valid;
+    seen_.position = located_ = s.position_valid;
     filter_.forget(ekf::pos, 3, s.position_valid ? 5 : 1e3);
     seen_.yaw = true;
+    resets_ = {s.reset_count, eigen(s.reset_position_m), eigen(s.reset_velocity_mps), s.reset_yaw_rad, never};
   }
 
   bool aligned() const { return mode_ == Mode::running || mode_ == Mode::regained || mode_ == Mode::trying; }
@@ -122,6 +130,7 @@ class Navigator {
            std::max(filter_.std(ekf::theta), filter_.std(ekf::theta + 1)) > tilt_std;
   }
   const Seen& seen() const { return seen_; }
+  const Resets& resets() const { return resets_; }
   bool airborne() const { return airborne_; }
   const ErrorStateEkf& filter() const { return filter_; }
   ErrorStateEkf& filter() { return filter_; }  ///< for what fuse and doubt do not cover
@@ -326,6 +335,8 @@ class Navigator {
     if (rest_since_s_ < 0) rest_since_s_ = time_s_;
     const bool has_mag = time_s_ - mag_s_ < 0.5;
     if (!has_mag && time_s_ - rest_since_s_ < 2) return;  // a magnetometer may still wake up
+    const bool again = regaining();
+    const ekf::Nominal before = filter_.state();
     ekf::Nominal x;
     const Vector3d f_b = still_.f();
     x.q_nb = has_mag ? attitude_at_rest(f_b, mag_b_, declination()) : attitude_at_rest(f_b);
@@ -336,6 +347,7 @@ class Navigator {
     seen_.yaw = has_mag;
     seen_.position = seen_.height = seen_.baro_zero = false;
     filter_.forget(ekf::gyro_bias, 3, 0.01);
+    if (again) count_reset(before);
     rest(p);
     if (has_mag) mag(mag_b_, p);
   }
@@ -390,6 +402,7 @@ class Navigator {
     if (fused.accepted) gusts_.sideslip(mean_wind(), filter_.R_nb().col(1), side, time_s_, p);
   }
 
+  void count_reset(const ekf::Nominal& before);
   void place(const Gnss& g, double time_s, const Params& p);
   void forget_level();
   void begin_in_flight(const Gnss& g, const FlightAlignment::Found& found, double time_s, const Params& p);
@@ -427,8 +440,10 @@ class Navigator {
   std::int64_t origin_count_ = 0;
   double baro_pa_ = 0, height_seen_s_ = never, height_off_m_ = 0;
   Mode mode_ = Mode::waiting;
+  Resets resets_;
   Seen seen_;
   std::optional<VehicleStatus> status_;  ///< the last that the vehicle told
+  bool located_ = false;                 ///< has had a position: the next that is set is a reset
   bool resting_ = false;                 ///< stands, by the inertial unit and another witness
   bool airborne_ = false;                ///< the air carries it: alpha, beta and the tube mean something
 };

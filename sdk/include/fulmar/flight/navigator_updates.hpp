@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the navigator (navigator.hpp) does with each sample of GNSS, magnetometer, barometer and pitot tube.
 #pragma once
+#include <utility>
+
 #include "fulmar/flight/navigator.hpp"
 
 namespace fulmar::navigation {
@@ -94,9 +96,20 @@ inline Vector3d Navigator::acceleration_at(double time_s) const {
   return (after.v_n - before.v_n) / span;
 }
 
+/// What has been set since `before`. What is set at one time is one reset.
+inline void Navigator::count_reset(const ekf::Nominal& before) {
+  const ekf::Nominal& now = filter_.state();
+  if (resets_.at_s != time_s_) resets_ = {resets_.count + 1, Vector3d::Zero(), Vector3d::Zero(), 0, time_s_};
+  resets_.position_m += now.p_n - before.p_n;
+  resets_.velocity_mps += now.v_n - before.v_n;
+  resets_.yaw_rad = wrap_pi(resets_.yaw_rad +
+                            angle_difference(euler_from(now.q_nb).yaw_rad, euler_from(before.q_nb).yaw_rad));
+}
+
 /// Without a magnetometer the take-off run shows the yaw.
 inline void Navigator::yaw_from_course(const Vector3d& v_n) {
   if (v_n.head<2>().norm() < 5) return;
+  const ekf::Nominal before = filter_.state();
   Euler e = euler_from(filter_.R_nb());
   e.yaw_rad = std::atan2(v_n.y(), v_n.x());
   filter_.set_attitude(quaternion_from(e));
@@ -104,6 +117,7 @@ inline void Navigator::yaw_from_course(const Vector3d& v_n) {
   filter_.place(filter_.state().p_n, v_n);
   filter_.forget(ekf::vel, 3, 1);
   seen_.yaw = true;
+  count_reset(before);
 }
 
 inline void Navigator::gnss_velocity(const Gnss& g, double valid_s, const Params& p) {
@@ -121,9 +135,11 @@ inline void Navigator::gnss_velocity(const Gnss& g, double valid_s, const Params
   const double n = samples_in(p.gnss_climb_time, health_.velocity.accepted_s);
   if (!within({off.x(), off.y(), off.z()}, p.gnss_gate, health_.velocity)) {
     if (time_s_ - std::max(health_.velocity.accepted_s, aligned_s_) < p.gnss_reset_after) return;
+    const ekf::Nominal before = filter_.state();
     filter_.place(filter_.state().p_n, filter_.state().v_n + v_n - past.v_n);
     filter_.forget(ekf::vel, 3, 3 * std);
     filter_.inflate(ekf::theta, 3, 0.1);
+    count_reset(before);
   } else {
     for (int i = 0; i < 3; ++i) filter_.fuse(z(i), i < 2 ? variance : n * variance, 1e3);
   }
@@ -206,6 +222,7 @@ inline void Navigator::begin_in_flight(const Gnss& g, const FlightAlignment::Fou
   filter_.set_covariance(filter_.covariance() + A * A.transpose());
   seen_.yaw = true;
   place(g, time_s_, p);
+  located_ = seen_.position;
   flight_.since(now_s - time_s_, [&](const Vector3d& omega_b, const Vector3d& f_b, double dt) {
     filter_.predict(omega_b, f_b, dt);
   });
@@ -241,11 +258,13 @@ inline void Navigator::try_attitude() {
 inline void Navigator::regain(const Gnss& g, const FlightAlignment::Found& found, bool has_mag, double time_s,
                               const Params& p) {
   const bool zeroed = seen_.baro_zero;
+  const ekf::Nominal before = filter_.state();
   const double tilt = known(g.speed_std_mps, p.gnss_speed_std, 0.1) / (p.gravity * found.window_s);
   begin_again(found.q_nb, eigen(g.velocity_mps) + found.since_n, p, std::clamp(1.5 * tilt, 0.05, 0.2),
               has_mag ? 0.15 : 0.4);
   seen_.yaw = true;
   place(g, time_s, p);
+  count_reset(before);
   health_.horizontal.accepted_s = health_.velocity.accepted_s = health_.height.accepted_s = time_s_;
   if (!zeroed || time_s_ - baro_s_ > 0.5) return;
   const double std =
@@ -256,7 +275,9 @@ inline void Navigator::regain(const Gnss& g, const FlightAlignment::Found& found
 inline void Navigator::gnss_position(const Gnss& g, double valid_s, const Params& p) {
   const Vector3d p_n = frame_.to_ned(g.latitude_deg, g.longitude_deg, g.altitude_m);
   if (!seen_.position) {
+    const ekf::Nominal before = filter_.state();
     place(g, time_s_ - at_fix(valid_s, p).age_s, p);
+    if (std::exchange(located_, true)) count_reset(before);
     health_.horizontal.accepted_s = health_.height.accepted_s = time_s_;
     return;
   }
@@ -276,10 +297,12 @@ inline void Navigator::gnss_position(const Gnss& g, double valid_s, const Params
   } else if (within({off.x(), off.y()}, p.gnss_gate, health_.horizontal)) {
     for (int i = 0; i < 2; ++i) filter_.fuse(z(i), variance, 1e3);
   } else if (time_s_ - std::max(health_.horizontal.accepted_s, aligned_s_) > p.gnss_reset_after) {
-    Vector3d moved = filter_.state().p_n;
+    const ekf::Nominal before = filter_.state();
+    Vector3d moved = before.p_n;
     moved.head<2>() += Vector2d(z(0).innovation, z(1).innovation);
-    filter_.place(moved, filter_.state().v_n);
+    filter_.place(moved, before.v_n);
     forget_level();
+    count_reset(before);
     health_.horizontal.accepted_s = time_s_;
   }
   if (!stuck(health_.height)) gnss_height(z(2), v_std, p);
@@ -301,8 +324,10 @@ inline void Navigator::gnss_height(const ekf::Scalar& z, double std, const Param
     filter_.fuse(z, variance, 1e9);  // not accepted by its gate: then the next one is believed as well
     return;
   }
-  filter_.place(filter_.state().p_n + Vector3d(0, 0, z.innovation), filter_.state().v_n);
+  const ekf::Nominal before = filter_.state();
+  filter_.place(before.p_n + Vector3d(0, 0, z.innovation), before.v_n);
   filter_.forget(ekf::pos + 2, 1, std);
+  count_reset(before);
   seen_.baro_zero = false;
   height_off_m_ = 0;
   health_.height.accepted_s = time_s_;
@@ -340,10 +365,12 @@ inline void Navigator::mag(const Vector3d& field_b, const Params& p) {
 
 /// A magnetometer that wakes up after the alignment.
 inline void Navigator::yaw_from_field(const Vector3d& field_b) {
-  const double turn = ekf::magnetic_heading(filter_.state(), field_b, declination()).innovation;
+  const ekf::Nominal before = filter_.state();
+  const double turn = ekf::magnetic_heading(before, field_b, declination()).innovation;
   filter_.set_attitude(exp_map({0, 0, turn}) * filter_.state().q_nb);
   filter_.forget(ekf::theta + 2, 1, 1);
   seen_.yaw = true;
+  count_reset(before);
 }
 
 inline ekf::Scalar Navigator::pressure_height(double pressure_pa) const {

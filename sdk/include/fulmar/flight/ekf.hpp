@@ -200,7 +200,7 @@ class ErrorStateEkf {
 
   /// Moves the state and leaves its covariance.
   void correct(const ekf::Vector& dx) {
-    if (dx.head<3>().squaredNorm() > 1e-6) turn_past(dx);
+    if (dx.head<3>().squaredNorm() > 1e-4) turn_past(dx);
     x_.add(dx);
     R_nb_ = x_.q_nb.toRotationMatrix();
     corrected_.p += dx.segment<3>(ekf::pos);
@@ -365,7 +365,7 @@ class ErrorStateEkf {
     past_count_ = std::min(past_count_ + 1, past_.size());
   }
   /// What was found out of the attitude was as true in the past: the velocity then differs by what the
-  /// specific force since makes of it. Corrections of less than 3 minutes of arc are left out.
+  /// specific force since makes of it. Corrections of less than half a degree are left out.
   void turn_past(const ekf::Vector& dx) {
     const Vector3 R_dba = R_nb_ * dx.segment<3>(ekf::accel_bias),
                   R_dbg = R_nb_ * dx.segment<3>(ekf::gyro_bias);

@@ -251,4 +251,14 @@ TEST_CASE("fixes that contradict the first attitude in flight end it: it is look
   CHECK(n.aligned());
 }
 
+TEST_CASE("accelerometers that are known badly do not keep the flags of a straight flight down for ever") {
+  using namespace synthetic;
+  Flown f{.quality = ublox, .from_s = 47};
+  f.plan.bank_rad = 0;
+  f.plan.duration_s = 52;
+  f.set = [](Ekf::Params& p) { p.accel_bias_std.value = 1; };
+  f.run();
+  CHECK(f.last.attitude_valid);
+}
+
 }  // namespace alignment_test

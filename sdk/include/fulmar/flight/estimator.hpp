@@ -68,8 +68,10 @@ struct Ekf {
     }
     sensors(in, tick, p);
     turned(in, tick, p);
-    if (!navigator_.aligned())
-      return navigator_.regaining() ? blind(in.imu.valid_at_ns(), p, out) : Status::degraded;
+    if (!navigator_.aligned()) {
+      const bool had_one = navigator_.regaining() || shown_ != Shown::nothing;
+      return had_one ? blind(in.imu.valid_at_ns(), p, out) : Status::degraded;
+    }
     fuse_more(navigator_);
     fill(navigator_.filter().state(), navigator_.filter().R_nb(), navigator_.filter().rate_b(), p);
     if (navigator_.filter().time_s() - deviations_s_ > deviations_after_s) fill_deviations(p);

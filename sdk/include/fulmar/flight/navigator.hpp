@@ -295,7 +295,7 @@ class Navigator {
   /// The first attitude in flight was none: from the beginning.
   void try_again() {
     mode_ = Mode::aligning;
-    filter_.reset({}, ekf::Vector::Zero(), time_s_);
+    filter_.reset({}, ekf::Vector::Constant(1e3), time_s_);
     seen_.yaw = seen_.position = seen_.height = seen_.baro_zero = false;
     flight_.clear();
   }
@@ -406,7 +406,7 @@ class Navigator {
   void place(const Gnss& g, double time_s, const Params& p);
   void forget_level();
   void begin_in_flight(const Gnss& g, const FlightAlignment::Found& found, double time_s, const Params& p);
-  void try_attitude();
+  void try_attitude(const Params& p);
   void regain(const Gnss& g, const FlightAlignment::Found& found, bool has_mag, double time_s,
               const Params& p);
   void collect_origin(const Gnss& g, const Params& p);

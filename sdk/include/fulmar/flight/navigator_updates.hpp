@@ -58,7 +58,7 @@ inline void Navigator::gnss(const Gnss& g, double valid_s, const Params& p) {
   if (!seen_.yaw) yaw_from_course(eigen(g.velocity_mps));
   if (!stuck(health_.velocity)) {
     gnss_velocity(g, valid_s, p);
-    if (mode_ == Mode::trying) try_attitude();
+    if (mode_ == Mode::trying) try_attitude(p);
     if (!aligned()) return;
   }
   if (seen_.origin) gnss_position(g, valid_s, p);
@@ -234,8 +234,9 @@ inline void Navigator::begin_in_flight(const Gnss& g, const FlightAlignment::Fou
 /// After a fix: whether it bears out the first attitude in flight. That is believed as soon as the
 /// acceleration that it makes of the specific force is known; what tilt and the accelerometers' biases make
 /// of it together nobody can tell before a turn.
-inline void Navigator::try_attitude() {
-  constexpr double tilt_std = 0.046, most_ratio = 3;
+inline void Navigator::try_attitude(const Params& p) {
+  constexpr double most_ratio = 3;
+  const double tilt_std = std::max(0.046, 1.3 * p.accel_bias_std / p.gravity);
   if (health_.velocity.accepted_s != time_s_) {
     if (health_.velocity.refused_from_s != time_s_) try_again();  // the second in a row
     return;

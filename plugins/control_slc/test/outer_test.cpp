@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <fulmar/random.hpp>
 #include <fulmar/testing.hpp>
 
@@ -69,6 +70,50 @@ TEST_CASE("roll is the course gain times the error plus the feed-forward, and gr
   c.course_rad = 3;
   CHECK(settle(bench, s, c).roll_rad == doctest::Approx(0.785));
   CHECK(bench.out.internals.roll_saturated);
+}
+
+TEST_CASE("a reset of the state that is told is answered as by a law that has never seen another state") {
+  const auto prepare = [](Bench<Outer>& bench) {
+    no_integrals(bench);
+    bench.params.common.pitch_rate_limit.value = 5;
+    bench.params.common.throttle_rate_limit.value = 20;
+  };
+  VehicleState after = flying();
+  after.height_m += 10, after.position_m.down -= 10;
+  after.velocity_mps.north += 3, after.airspeed_mps += 3, after.ground_speed_mps += 3;
+  after.reset_count = 1;
+  after.reset_position_m.down = -10, after.reset_velocity_mps.north = 3;
+  Bench<Outer> fresh;
+  prepare(fresh);
+  const AttitudeCommand wanted = settle(fresh, after, level());
+  for (const bool told : {true, false}) {
+    Bench<Outer> bench;
+    prepare(bench);
+    settle(bench, flying(), level());
+    if (!told) after.reset_count = 0;
+    bench.set(bench.in.state, after);
+    for (int i = 0; i < 20; ++i) {
+      bench.step(0.01);
+      if (i < 10) continue;  // the limit of the pitch rate
+      CHECK((std::abs(bench.out.attitude.pitch_rad - wanted.pitch_rad) < 1e-9) == told);
+    }
+    if (told) CHECK(bench.out.attitude.throttle_frac == doctest::Approx(wanted.throttle_frac).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("the runway does not turn when the yaw is reset; a course that was measured stays") {
+  const TakeoffTuning tuning;
+  const FlightLimits limits;
+  for (const double ground_speed : {0.0, 5.0}) {
+    VehicleState s = flying();
+    s.yaw_rad = 0.1, s.course_rad = 0.1, s.ground_speed_mps = ground_speed;
+    TakeoffRun run;
+    run.begin(s);
+    s.yaw_rad = 0.5, s.reset_count = 1, s.reset_yaw_rad = 0.4;
+    (void)run.step(s, tuning, limits);
+    (void)run.step(s, tuning, limits);
+    CHECK(run.course_rad() == doctest::Approx(ground_speed > 3 ? 0.1 : 0.5));
+  }
 }
 
 TEST_CASE("course error wraps through north") {

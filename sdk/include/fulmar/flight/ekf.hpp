@@ -200,6 +200,7 @@ class ErrorStateEkf {
 
   /// Moves the state and leaves its covariance.
   void correct(const ekf::Vector& dx) {
+    if (dx.head<3>().squaredNorm() > 1e-4) turn_past(dx);
     x_.add(dx);
     R_nb_ = x_.q_nb.toRotationMatrix();
     corrected_.p += dx.segment<3>(ekf::pos);
@@ -362,6 +363,21 @@ class ErrorStateEkf {
     past_[past_next_] = {time_s_, x_.p_n, x_.v_n, corrected_};
     past_next_ = (past_next_ + 1) % past_.size();
     past_count_ = std::min(past_count_ + 1, past_.size());
+  }
+  /// What was found out of the attitude was as true in the past: the velocity then differs by what the
+  /// specific force since makes of it. Corrections of less than half a degree are left out.
+  void turn_past(const ekf::Vector& dx) {
+    const Vector3 R_dba = R_nb_ * dx.segment<3>(ekf::accel_bias),
+                  R_dbg = R_nb_ * dx.segment<3>(ekf::gyro_bias);
+    for (std::size_t i = 0; i < past_count_; ++i) {
+      Memory& m = past_[(past_next_ + past_.size() - 1 - i) % past_.size()];
+      const Past then = as_known_now(m);
+      const double age = then.age_s;
+      const Vector3 f_age = x_.v_n - then.v_n - Vector3(0, 0, gravity_mps2 * age);
+      const Vector3 dv = f_age.cross(dx.head<3>() + 0.5 * age * R_dbg) + age * R_dba;
+      m.v += dv;
+      m.p -= 0.5 * age * dv;
+    }
   }
   /// A correction made at time s moved position by dp and velocity by dv: at an earlier time t it means dp -
   /// (s - t) dv.

@@ -68,8 +68,10 @@ struct Ekf {
     }
     sensors(in, tick, p);
     turned(in, tick, p);
-    if (!navigator_.aligned())
-      return navigator_.regaining() ? blind(in.imu.valid_at_ns(), p, out) : Status::degraded;
+    if (!navigator_.aligned()) {
+      const bool had_one = navigator_.regaining() || shown_ != Shown::nothing;
+      return had_one ? blind(in.imu.valid_at_ns(), p, out) : Status::degraded;
+    }
     fuse_more(navigator_);
     fill(navigator_.filter().state(), navigator_.filter().R_nb(), navigator_.filter().rate_b(), p);
     if (navigator_.filter().time_s() - deviations_s_ > deviations_after_s) fill_deviations(p);
@@ -158,6 +160,7 @@ struct Ekf {
 
   Vector3d coasted_rate(const ekf::Nominal& x, double gap_s, const Params& p) const;
   void fill(const ekf::Nominal& x, const Matrix3d& R_nb, const Vector3d& omega_b, const Params& p);
+  void fill_reset(const ekf::Nominal& x, const Euler& e);
   void fill_air(const ekf::Nominal& x, const Matrix3d& R_nb);
   void fill_deviations(const Params& p);
   void fill_wind_deviations(const Params& p);
@@ -179,6 +182,7 @@ struct Ekf {
   std::int64_t stepped_ns_ = 0, published_ns_ = 0, told_ns_ = long_ago, felt_ns_ = long_ago;
   Shown shown_ = Shown::nothing;
   bool rate_started_ = false;  ///< the smoothed rate has begun
+  bool stood_in_ = false;      ///< the state published last was that of before a gap
   ekf::Nominal coasted_;       ///< the state carried on through a gap
 };
 
@@ -227,6 +231,7 @@ inline Status Ekf::blind(std::int64_t valid_at_ns, const Params& p, Outputs& out
   s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = s.wind_valid =
       false;
   rate_started_ = false;
+  stood_in_ = true;
   deviations_s_ = never;
   publish(valid_at_ns, Shown::measured, out);
   return Status::degraded;
@@ -248,6 +253,7 @@ inline void Ekf::fill(const ekf::Nominal& x, const Matrix3d& R_nb, const Vector3
   const ErrorStateEkf& f = navigator_.filter();
   VehicleState& s = state_;
   const Euler e = euler_from(R_nb);
+  fill_reset(x, e);
   s.position_m = from_eigen<Ned>(x.p_n);
   s.velocity_mps = from_eigen<Ned>(x.v_n);
   s.attitude = from_eigen(x.q_nb);
@@ -273,6 +279,20 @@ inline void Ekf::fill(const ekf::Nominal& x, const Matrix3d& R_nb, const Vector3
       moving > 0 ? wrap_pi(e.yaw_rad + moving * angle_difference(std::atan2(x.v_n.y(), x.v_n.x()), e.yaw_rad))
                  : e.yaw_rad;
   fill_air(x, R_nb);
+}
+
+/// A state that stood in for a gap was not the filter's: what the reset that ends the gap is seen against.
+inline void Ekf::fill_reset(const ekf::Nominal& x, const Euler& e) {
+  const Resets& r = navigator_.resets();
+  VehicleState& s = state_;
+  if (r.count != s.reset_count) {
+    s.reset_position_m = from_eigen<Ned>(stood_in_ ? Vector3d(x.p_n - eigen(s.position_m)) : r.position_m);
+    s.reset_velocity_mps =
+        from_eigen<Ned>(stood_in_ ? Vector3d(x.v_n - eigen(s.velocity_mps)) : r.velocity_mps);
+    s.reset_yaw_rad = stood_in_ ? angle_difference(e.yaw_rad, s.yaw_rad) : r.yaw_rad;
+    s.reset_count = r.count;
+  }
+  stood_in_ = false;
 }
 
 inline void Ekf::fill_air(const ekf::Nominal& x, const Matrix3d& R_nb) {

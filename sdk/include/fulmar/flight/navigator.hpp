@@ -36,10 +36,11 @@ inline constexpr double coasted_s =
 /// What the navigator knows of its attitude, and how it came to it.
 ///   waiting -> aligning -> running -> lost -> regained -> lost ...; lost -> running when it stands again;
 ///   lost -> running when somebody else has felt the turn; any -> running when it takes over from an estimate
-///   that flies.
+///   that flies; in flight aligning -> trying -> running, or back when the fixes contradict.
 enum class Mode : std::uint8_t {
   waiting,   ///< for the first inertial sample
   aligning,  ///< for the first attitude: at rest or in flight
+  trying,    ///< has one in flight, and waits for fixes that bear it out
   running,   ///< aligned, with a full prior
   lost,      ///< a gap was too long to be bridged: looks for the attitude anew, keeps what changes slowly
   regained   ///< aligned again in flight
@@ -53,6 +54,13 @@ struct Seen {
   bool field = false;      ///< the Earth's magnetic field, by the model
   bool year = false;       ///< from a receiver, for that model
   bool baro_zero = false;  ///< the barometer's offset has begun
+};
+
+/// How often the state was set, and not moved by degrees, and by how much the last time: after minus before.
+struct Resets {
+  std::uint32_t count = 0;
+  Vector3d position_m = Vector3d::Zero(), velocity_mps = Vector3d::Zero();
+  double yaw_rad = 0, at_s = never;
 };
 
 class Navigator {
@@ -107,20 +115,23 @@ class Navigator {
     }
     at_least(ekf::wind, s.wind_std_mps.north, 0.5, p.wind_std);
     at_least(ekf::wind + 1, s.wind_std_mps.east, 0.5, p.wind_std);
-    seen_.position = s.position_valid;
+    seen_.position = located_ = s.position_valid;
     filter_.forget(ekf::pos, 3, s.position_valid ? 5 : 1e3);
     seen_.yaw = true;
+    resets_ = {s.reset_count, eigen(s.reset_position_m), eigen(s.reset_velocity_mps), s.reset_yaw_rad, never};
   }
 
-  bool aligned() const { return mode_ == Mode::running || mode_ == Mode::regained; }
+  bool aligned() const { return mode_ == Mode::running || mode_ == Mode::regained || mode_ == Mode::trying; }
   bool regaining() const { return mode_ == Mode::lost; }  ///< not aligned since a gap
-  /// Found again after a gap, and the next fixes still move it: commands that follow it would step.
+  /// Found in flight, and the next fixes still move it: commands that follow it would step.
   bool settling() const {
+    if (mode_ == Mode::trying) return true;
     constexpr double tilt_std = 0.025, longest_s = 0.5;
     return mode_ == Mode::regained && time_s_ - aligned_s_ < longest_s &&
            std::max(filter_.std(ekf::theta), filter_.std(ekf::theta + 1)) > tilt_std;
   }
   const Seen& seen() const { return seen_; }
+  const Resets& resets() const { return resets_; }
   bool airborne() const { return airborne_; }
   const ErrorStateEkf& filter() const { return filter_; }
   ErrorStateEkf& filter() { return filter_; }  ///< for what fuse and doubt do not cover
@@ -276,10 +287,18 @@ class Navigator {
 
   /// After a gap that was too long to be bridged: the attitude has to be found anew.
   void lose() {
+    if (mode_ == Mode::trying) return try_again();
     mode_ = Mode::lost;
     resting_ = false;
     rest_since_s_ = never;
-    flight_ = {};
+    flight_.clear();
+  }
+  /// The first attitude in flight was none: from the beginning.
+  void try_again() {
+    mode_ = Mode::aligning;
+    filter_.reset({}, ekf::Vector::Constant(1e3), time_s_);
+    seen_.yaw = seen_.position = seen_.height = seen_.baro_zero = false;
+    flight_.clear();
   }
   /// Between two samples far apart the rates were not on a straight line.
   void bridged(double dt, const Params& p) {
@@ -317,6 +336,8 @@ class Navigator {
     if (rest_since_s_ < 0) rest_since_s_ = time_s_;
     const bool has_mag = time_s_ - mag_s_ < 0.5;
     if (!has_mag && time_s_ - rest_since_s_ < 2) return;  // a magnetometer may still wake up
+    const bool again = regaining();
+    const ekf::Nominal before = filter_.state();
     ekf::Nominal x;
     const Vector3d f_b = still_.f();
     x.q_nb = has_mag ? attitude_at_rest(f_b, mag_b_, declination()) : attitude_at_rest(f_b);
@@ -327,6 +348,7 @@ class Navigator {
     seen_.yaw = has_mag;
     seen_.position = seen_.height = seen_.baro_zero = false;
     filter_.forget(ekf::gyro_bias, 3, 0.01);
+    if (again) count_reset(before);
     rest(p);
     if (has_mag) mag(mag_b_, p);
   }
@@ -337,18 +359,13 @@ class Navigator {
     const Vector3d wind_n(filter_.state().wind.x(), filter_.state().wind.y(), 0);
     const auto found =
         flight_.fix(v_n, {p.gravity, has_mag ? &field_n_ : nullptr, regaining() ? &wind_n : nullptr,
-                          regaining() ? std::clamp(time_s_ - time_s, 0.0, 1.0) : 0});
+                          std::clamp(time_s_ - time_s, 0.0, 1.0)});
     if (!found || v_n.head<2>().norm() < p.min_airspeed) return;
     if (regaining()) {
       regain(g, *found, has_mag, time_s, p);
       return;
     }
-    ekf::Nominal x;
-    x.q_nb = found->q_nb;
-    x.v_n = v_n;
-    begin(x, p, time_s_, 0.2, has_mag ? 0.3 : 0.4);
-    seen_.yaw = true;
-    place(g, time_s, p);
+    begin_in_flight(g, *found, time_s, p);
   }
 
   void rest(const Params&) {
@@ -371,18 +388,26 @@ class Navigator {
     gusts_.forget(mean_wind(), time_s_, p);
   }
 
+  /// After a start in flight the attitude may be hardly known about one axis, where the field lies along the
+  /// specific force: there, where the nose points says more than how gusts go on for seconds spoils.
   void sideslip(const Params& p) {
     sideslip_s_ = time_s_;
     const double side = p.sideslip_ratio * ekf::air_velocity(filter_.state()).norm(),
                  variance = p.sideslip_speed_std * p.sideslip_speed_std + side * side;
-    const ekf::Fused fused =
-        filter_.fuse_considering_attitude(ekf::zero_sideslip(filter_.state()), variance, p.air_gate);
+    const ekf::Scalar z = ekf::zero_sideslip(filter_.state());
+    const bool nose = time_s_ < nose_until_s_ && time_s_ - nose_s_ > (settling() ? 0.3 : 1) - 1e-4;
+    if (nose) nose_s_ = time_s_;
+    const ekf::Fused fused = nose ? filter_.fuse(z, variance, p.air_gate)
+                                  : filter_.fuse_considering_attitude(z, variance, p.air_gate);
     health_.sideslip.told(fused, time_s_);
     if (fused.accepted) gusts_.sideslip(mean_wind(), filter_.R_nb().col(1), side, time_s_, p);
   }
 
+  void count_reset(const ekf::Nominal& before);
   void place(const Gnss& g, double time_s, const Params& p);
   void forget_level();
+  void begin_in_flight(const Gnss& g, const FlightAlignment::Found& found, double time_s, const Params& p);
+  void try_attitude(const Params& p);
   void regain(const Gnss& g, const FlightAlignment::Found& found, bool has_mag, double time_s,
               const Params& p);
   void collect_origin(const Gnss& g, const Params& p);
@@ -409,14 +434,18 @@ class Navigator {
   Gusts gusts_;
   double year_ = 2026.0, altitude_m_ = 0;  ///< of the origin; without one: by pressure
   double time_s_ = 0, aligned_s_ = 0, rest_since_s_ = never, rest_fused_s_ = never, sideslip_s_ = never,
-         airborne_s_ = 0;
+         nose_s_ = never,
+         nose_until_s_ = never,  ///< after a start in flight the attitude follows the sideslip, now and then
+      airborne_s_ = 0;
   double gnss_s_ = never, gnss_speed_ = 0, mag_s_ = never, mag_fused_s_ = never, pitot_s_ = never,
          pitot_mps_ = 0, baro_s_ = never;
   std::int64_t origin_count_ = 0;
   double baro_pa_ = 0, height_seen_s_ = never, height_off_m_ = 0, climb_seen_s_ = never, climb_off_mps_ = 0;
   Mode mode_ = Mode::waiting;
+  Resets resets_;
   Seen seen_;
   std::optional<VehicleStatus> status_;  ///< the last that the vehicle told
+  bool located_ = false;                 ///< has had a position: the next that is set is a reset
   bool resting_ = false;                 ///< stands, by the inertial unit and another witness
   bool airborne_ = false;                ///< the air carries it: alpha, beta and the tube mean something
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the navigator (navigator.hpp) does with each sample of GNSS, magnetometer, barometer and pitot tube.
 #pragma once
+#include <utility>
+
 #include "fulmar/flight/navigator.hpp"
 
 namespace fulmar::navigation {
@@ -54,7 +56,11 @@ inline void Navigator::gnss(const Gnss& g, double valid_s, const Params& p) {
   }
   if (!at_fix(valid_s, p).known) return;
   if (!seen_.yaw) yaw_from_course(eigen(g.velocity_mps));
-  if (!stuck(health_.velocity)) gnss_velocity(g, valid_s, p);
+  if (!stuck(health_.velocity)) {
+    gnss_velocity(g, valid_s, p);
+    if (mode_ == Mode::trying) try_attitude(p);
+    if (!aligned()) return;
+  }
   if (seen_.origin) gnss_position(g, valid_s, p);
   bound_delay(p);
 }
@@ -90,9 +96,20 @@ inline Vector3d Navigator::acceleration_at(double time_s) const {
   return (after.v_n - before.v_n) / span;
 }
 
+/// What has been set since `before`. What is set at one time is one reset.
+inline void Navigator::count_reset(const ekf::Nominal& before) {
+  const ekf::Nominal& now = filter_.state();
+  if (resets_.at_s != time_s_) resets_ = {resets_.count + 1, Vector3d::Zero(), Vector3d::Zero(), 0, time_s_};
+  resets_.position_m += now.p_n - before.p_n;
+  resets_.velocity_mps += now.v_n - before.v_n;
+  resets_.yaw_rad = wrap_pi(resets_.yaw_rad +
+                            angle_difference(euler_from(now.q_nb).yaw_rad, euler_from(before.q_nb).yaw_rad));
+}
+
 /// Without a magnetometer the take-off run shows the yaw.
 inline void Navigator::yaw_from_course(const Vector3d& v_n) {
   if (v_n.head<2>().norm() < 5) return;
+  const ekf::Nominal before = filter_.state();
   Euler e = euler_from(filter_.R_nb());
   e.yaw_rad = std::atan2(v_n.y(), v_n.x());
   filter_.set_attitude(quaternion_from(e));
@@ -100,6 +117,7 @@ inline void Navigator::yaw_from_course(const Vector3d& v_n) {
   filter_.place(filter_.state().p_n, v_n);
   filter_.forget(ekf::vel, 3, 1);
   seen_.yaw = true;
+  count_reset(before);
 }
 
 inline void Navigator::gnss_velocity(const Gnss& g, double valid_s, const Params& p) {
@@ -117,9 +135,11 @@ inline void Navigator::gnss_velocity(const Gnss& g, double valid_s, const Params
   const double n = climb_samples(z(2).innovation, std, p);
   if (!within({off.x(), off.y(), off.z()}, p.gnss_gate, health_.velocity)) {
     if (time_s_ - std::max(health_.velocity.accepted_s, aligned_s_) < p.gnss_reset_after) return;
+    const ekf::Nominal before = filter_.state();
     filter_.place(filter_.state().p_n, filter_.state().v_n + v_n - past.v_n);
     filter_.forget(ekf::vel, 3, 3 * std);
     filter_.inflate(ekf::theta, 3, 0.1);
+    count_reset(before);
   } else {
     health_.level.add({z(0).innovation, z(1).innovation}, time_s_);
     for (int i = 0; i < 3; ++i) filter_.fuse(z(i), i < 2 ? variance : n * variance, 1e3);
@@ -165,18 +185,98 @@ inline void Navigator::forget_level() {
   for (int i = 0; i < 2; ++i) filter_.fuse(ekf::position(filter_, now, i, now.p_n(i)), std * std, 1e9);
 }
 
+/// The first attitude in flight: that of the fix, from which on the inertial samples up to now are integrated
+/// as if it had come in time. What it may be wrong by comes from the velocities, their age, the biases and
+/// the second direction, and goes with them: e is the error of the mean specific force, theta = f x e / f^2,
+/// and the turn about f that keeps the second direction m in the plane of both.
+inline void Navigator::begin_in_flight(const Gnss& g, const FlightAlignment::Found& found, double time_s,
+                                       const Params& p) {
+  const double now_s = time_s_, T = found.window_s;
+  const double v_std = std::hypot(known(g.speed_std_mps, p.gnss_speed_std, p.gnss_speed_floor), 0.05);
+  ekf::Nominal x;
+  x.q_nb = found.then_nb;
+  x.v_n = eigen(g.velocity_mps);
+  const FieldDrift::Bias gyro = flight_.drift().bias(p.gyro_bias_std, p.mag_deviation);
+  const Matrix3d gyro_std = gyro.covariance.llt().matrixL();
+  x.gyro_bias = gyro.bias_b;
+  x.q_nb = x.q_nb * exp_map(-0.5 * T * gyro.bias_b);
+  begin(x, p, std::min(time_s, now_s), 0, 0);
+  const Vector3d& f_n = found.f_n;
+  const Vector3d up = f_n.normalized(), across = found.second_n - up * up.dot(found.second_n);
+  const Matrix3d tilt = skew(f_n) / f_n.squaredNorm(),
+                 theta_e =
+                     tilt + up * (up.dot(found.second_n) / across.squaredNorm()) * across.transpose() * tilt;
+  const Matrix3d R_nb = x.q_nb.toRotationMatrix(), one = Matrix3d::Identity();
+  Eigen::Matrix<double, ekf::size, 21> A = Eigen::Matrix<double, ekf::size, 21>::Zero();
+  const auto part = [&](int row, int column) { return A.block<3, 3>(row, column); };
+  part(ekf::theta, 0) = -v_std / T * theta_e;  // of the first velocity, of the second
+  part(ekf::theta, 3) = v_std / T * theta_e;
+  part(ekf::vel, 3) = v_std * one;
+  part(ekf::theta, 6) = -0.5 * T * R_nb * gyro_std;
+  part(ekf::gyro_bias, 6) = gyro_std;
+  part(ekf::theta, 9) = p.accel_bias_std * theta_e * R_nb;
+  part(ekf::accel_bias, 9) = p.accel_bias_std * one;
+  part(ekf::theta, 12) = 0.5 * p.gap_accel_std * found.unseen_s / T * theta_e;
+  const auto row = [&](int first, int column) { return A.block<3, 1>(first, column); };
+  row(ekf::theta, 15) = p.gnss_delay_std * theta_e * found.jerk_n;
+  row(ekf::vel, 15) = p.gnss_delay_std * found.a_n;
+  A(ekf::delay, 15) = p.gnss_delay_std;
+  // The heading of the field is less sure than its direction, by its horizontal share; of that direction only
+  // what lies across the specific force counts.
+  const double field = field_n_.head<2>().norm() / across.norm();
+  if (found.by_field) row(ekf::theta, 16) = p.mag_deviation * field * up;
+  A(ekf::heading, 16) = p.mag_deviation;
+  row(ekf::theta, 17) = (found.by_field ? 0.04 * field : 0.4) * up;
+  for (const auto& [first, count] :
+       {std::pair{+ekf::theta, 6}, {+ekf::gyro_bias, 6}, {+ekf::delay, 1}, {+ekf::heading, 1}})
+    filter_.forget(first, count, 0);
+  filter_.set_covariance(filter_.covariance() + A * A.transpose());
+  seen_.yaw = true;
+  place(g, time_s_, p);
+  located_ = seen_.position;
+  flight_.since(now_s - time_s_, [&](const Vector3d& omega_b, const Vector3d& f_b, double dt) {
+    filter_.predict(omega_b, f_b, dt);
+  });
+  time_s_ = aligned_s_ = now_s;
+  nose_until_s_ = now_s + 10;
+  mode_ = Mode::trying;
+}
+
+/// After a fix: whether it bears out the first attitude in flight. That is believed as soon as the
+/// acceleration that it makes of the specific force is known; what tilt and the accelerometers' biases make
+/// of it together nobody can tell before a turn.
+inline void Navigator::try_attitude(const Params& p) {
+  constexpr double most_ratio = 3;
+  const double tilt_std = std::max(0.046, 1.3 * p.accel_bias_std / p.gravity);
+  if (health_.velocity.accepted_s != time_s_) {
+    if (health_.velocity.refused_from_s != time_s_) try_again();  // the second in a row
+    return;
+  }
+  const Vector3d f_n = filter_.R_nb() * filter_.specific_force_b();
+  double std = 0;
+  for (int i = 0; i < 2; ++i) {
+    ekf::Scalar a;
+    a.H.segment<3>(ekf::theta) = -skew(f_n).row(i);
+    a.H.segment<3>(ekf::accel_bias) = -filter_.R_nb().row(i);
+    std = std::max(std, filter_.expected_std(a, 0) / filter_.gravity_mps2);
+  }
+  std = std::max({std, filter_.std(ekf::theta), filter_.std(ekf::theta + 1)});
+  if (std < tilt_std && std::abs(health_.velocity.ratio) < most_ratio) mode_ = Mode::running;
+}
+
 /// The first fix after a gap that ends an alignment. The barometer goes on from where it was, if the receiver
 /// does not contradict it: its offset is known better than the height by one fix, and the height must not
 /// jump.
 inline void Navigator::regain(const Gnss& g, const FlightAlignment::Found& found, bool has_mag, double time_s,
                               const Params& p) {
-  const double late = std::clamp(time_s_ - time_s, 0.0, 1.0);
   const bool zeroed = seen_.baro_zero;
+  const ekf::Nominal before = filter_.state();
   const double tilt = known(g.speed_std_mps, p.gnss_speed_std, 0.1) / (p.gravity * found.window_s);
-  begin_again(found.q_nb, eigen(g.velocity_mps) + late * found.a_n, p, std::clamp(1.5 * tilt, 0.05, 0.2),
+  begin_again(found.q_nb, eigen(g.velocity_mps) + found.since_n, p, std::clamp(1.5 * tilt, 0.05, 0.2),
               has_mag ? 0.15 : 0.4);
   seen_.yaw = true;
   place(g, time_s, p);
+  count_reset(before);
   health_.horizontal.accepted_s = health_.velocity.accepted_s = health_.height.accepted_s = time_s_;
   if (!zeroed || time_s_ - baro_s_ > 0.5) return;
   const double std =
@@ -187,7 +287,9 @@ inline void Navigator::regain(const Gnss& g, const FlightAlignment::Found& found
 inline void Navigator::gnss_position(const Gnss& g, double valid_s, const Params& p) {
   const Vector3d p_n = frame_.to_ned(g.latitude_deg, g.longitude_deg, g.altitude_m);
   if (!seen_.position) {
+    const ekf::Nominal before = filter_.state();
     place(g, time_s_ - at_fix(valid_s, p).age_s, p);
+    if (std::exchange(located_, true)) count_reset(before);
     health_.horizontal.accepted_s = health_.height.accepted_s = time_s_;
     return;
   }
@@ -207,10 +309,12 @@ inline void Navigator::gnss_position(const Gnss& g, double valid_s, const Params
   } else if (within({off.x(), off.y()}, p.gnss_gate, health_.horizontal)) {
     for (int i = 0; i < 2; ++i) filter_.fuse(z(i), variance, 1e3);
   } else if (time_s_ - std::max(health_.horizontal.accepted_s, aligned_s_) > p.gnss_reset_after) {
-    Vector3d moved = filter_.state().p_n;
+    const ekf::Nominal before = filter_.state();
+    Vector3d moved = before.p_n;
     moved.head<2>() += Vector2d(z(0).innovation, z(1).innovation);
-    filter_.place(moved, filter_.state().v_n);
+    filter_.place(moved, before.v_n);
     forget_level();
+    count_reset(before);
     health_.horizontal.accepted_s = time_s_;
   }
   if (!stuck(health_.height)) gnss_height(z(2), v_std, p);
@@ -232,8 +336,10 @@ inline void Navigator::gnss_height(const ekf::Scalar& z, double std, const Param
     filter_.fuse(z, variance, 1e9);  // not accepted by its gate: then the next one is believed as well
     return;
   }
-  filter_.place(filter_.state().p_n + Vector3d(0, 0, z.innovation), filter_.state().v_n);
+  const ekf::Nominal before = filter_.state();
+  filter_.place(before.p_n + Vector3d(0, 0, z.innovation), before.v_n);
   filter_.forget(ekf::pos + 2, 1, std);
+  count_reset(before);
   seen_.baro_zero = false;
   height_off_m_ = 0;
   health_.height.accepted_s = time_s_;
@@ -271,10 +377,12 @@ inline void Navigator::mag(const Vector3d& field_b, const Params& p) {
 
 /// A magnetometer that wakes up after the alignment.
 inline void Navigator::yaw_from_field(const Vector3d& field_b) {
-  const double turn = ekf::magnetic_heading(filter_.state(), field_b, declination()).innovation;
+  const ekf::Nominal before = filter_.state();
+  const double turn = ekf::magnetic_heading(before, field_b, declination()).innovation;
   filter_.set_attitude(exp_map({0, 0, turn}) * filter_.state().q_nb);
   filter_.forget(ekf::theta + 2, 1, 1);
   seen_.yaw = true;
+  count_reset(before);
 }
 
 inline ekf::Scalar Navigator::pressure_height(double pressure_pa) const {

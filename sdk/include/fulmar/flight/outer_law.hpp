@@ -98,7 +98,8 @@ inline LevelTurn level_turn(double roll_rad, double Va, const VehicleState& stat
 /// An outer law but for height and speed. Its component publishes `attitude` and `internals`.
 struct OuterLoop {
   OuterCommands commands;
-  LowPass airspeed;  ///< m/s, for trims
+  LowPass airspeed;          ///< m/s, for trims
+  std::uint32_t resets = 0;  ///< of the state, seen so far
 
   /// Goes on from what was applied last. False: nobody flew, and integrals are to begin empty.
   template <class Outputs>
@@ -118,10 +119,10 @@ struct OuterLoop {
     const double Va = scheduling_airspeed(state, p.airframe->limits);
     const OuterAction action = commands.begin(p.law, state);
     out.internals = {};
-    if (action != OuterAction::hold) {
-      rest();
-      airspeed.reset_to(Va);
-    }
+    if (action != OuterAction::hold) rest();
+    // No aircraft was as fast as before a reset of the state: what is smoothed begins anew.
+    if (action != OuterAction::hold || state.reset_count != resets) airspeed.reset_to(Va);
+    resets = state.reset_count;
     switch (action) {
       case OuterAction::wait: out.attitude = commands.wait(); break;
       case OuterAction::roll_out: out.attitude = commands.roll_out(t, dt); break;

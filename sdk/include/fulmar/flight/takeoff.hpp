@@ -4,6 +4,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "fulmar/flight/angles.hpp"
 #include "fulmar/msg/airframe.hpp"
@@ -41,12 +42,17 @@ class TakeoffRun {
  public:
   void begin(const VehicleState& state) {
     // Before the wheels roll the course is noise: the nose points down the runway.
-    course_ = state.ground_speed_mps > 3 ? state.course_rad : state.yaw_rad;
+    by_nose_ = state.ground_speed_mps <= 3;
+    course_ = by_nose_ ? state.yaw_rad : state.course_rad;
+    resets_ = state.reset_count;
     rotated_ = false;
   }
 
   AttitudeCommand step(const VehicleState& state, const TakeoffTuning& tuning, const FlightLimits& limits) {
     const double speed = state.airspeed_valid ? state.airspeed_mps : state.ground_speed_mps;
+    // The runway has not turned: the yaw that it was captured by was wrong.
+    if (state.reset_count != resets_ && by_nose_) course_ = wrap_pi(course_ + state.reset_yaw_rad);
+    resets_ = state.reset_count;
     rotated_ = rotated_ || speed >= tuning.rotate_mps;
     AttitudeCommand command;
     command.throttle_frac = std::clamp(tuning.throttle_frac, 0.0, 1.0);
@@ -63,7 +69,8 @@ class TakeoffRun {
 
  private:
   double course_ = 0, error_ = 0;
-  bool rotated_ = false;
+  std::uint32_t resets_ = 0;  ///< of the state, seen so far
+  bool rotated_ = false, by_nose_ = false;
 };
 
 }  // namespace fulmar

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cstdint>
+
 #include "fulmar/message.hpp"
 
 namespace fulmar {
 
 /// Where the aircraft is and how it moves: an estimate, or the truth of a simulator. The origin of the local
 /// frame is in it. A quantity whose flag is false holds a finite stand-in and must not be used.
+///
+/// Where an estimator does not move its state by degrees but sets it, it counts one more `reset_count` and
+/// says by how much: no aircraft has moved so. Who keeps a position, a velocity or a heading of before moves
+/// it along.
 struct VehicleState {
   Vec3<Ned> position_m;    ///< of the centre of gravity, from the origin
   Vec3<Ned> velocity_mps;  ///< relative to the ground
@@ -40,6 +46,10 @@ struct VehicleState {
   bool height_valid = false;
   bool airspeed_valid = false;
   bool wind_valid = false;
+  std::uint32_t reset_count = 0;  ///< since the start; the first attitude and the first position are none
+  Vec3<Ned> reset_position_m;     ///< of the last reset: state after it minus state before it
+  Vec3<Ned> reset_velocity_mps;   ///< the same
+  double reset_yaw_rad = 0;       ///< the same
 };
 
 }  // namespace fulmar

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The faults that bench_sensor_faults flies, and what is promised of each.
+#pragma once
+#include <array>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "fulmar/msg/fault_request.hpp"
+#include "fulmar/msg/navigation_health.hpp"
+
+namespace fulmar::sensor_faults {
+
+/// What an estimate says, and may be wrong in: deg, m/s, m, m, m/s.
+enum What : std::size_t { attitude, velocity, position, height, airspeed, whats };
+using Each = std::array<double, whats>;
+
+struct Row {
+  std::string name{}, words{};
+  std::string wires{};  ///< parameters of `tampered/Wires`, but `from`
+  double lasts_s = 20;
+  std::vector<FaultTarget> off{};       ///< by request, in place of the wires
+  std::string sim{};                    ///< parameters of the aircraft, of the whole flight
+  std::vector<std::string> sensors{};   ///< that have to be named, of the port `health`
+  std::string untold{}, unrecovered{};  ///< why it cannot be; "": it is, and the command holds it
+  Each most{10, 3, 30, 8, 5};           ///< errors from the fault on, of what is called valid
+};
+
+constexpr std::array<std::pair<const char*, SensorHealth NavigationHealth::*>, 8> sensors{{
+    {"gyro", &NavigationHealth::gyro},
+    {"accel", &NavigationHealth::accel},
+    {"gnss_position", &NavigationHealth::gnss_position},
+    {"gnss_height", &NavigationHealth::gnss_height},
+    {"gnss_velocity", &NavigationHealth::gnss_velocity},
+    {"mag", &NavigationHealth::mag},
+    {"baro", &NavigationHealth::baro},
+    {"pitot", &NavigationHealth::pitot},
+}};
+
+constexpr std::array<const char*, 7> states{"never", "ok", "biased", "refused", "noisy", "stuck", "silent"};
+
+inline std::vector<Row> rows() {
+  using enum FaultTarget;
+  const std::vector<std::string> fix{"gnss_position", "gnss_velocity", "gnss_height"}, imu{"gyro", "accel"};
+  std::vector<Row> r;
+  r.push_back({.name = "nothing", .words = "nothing fails", .untold = "nothing to tell"});
+  const auto on_wires = [&](const char* name, const char* words, const char* wires,
+                            std::vector<std::string> named) -> Row& {
+    r.push_back({.name = name, .words = words, .wires = wires, .sensors = std::move(named)});
+    return r.back();
+  };
+  on_wires("gnss_jump", "position 50 m off at once", "kind: gnss_jump, size: 50", fix);
+  on_wires("gnss_drift", "position drifts away at 2 m/s, velocity true", "kind: gnss_drift, size: 2", fix);
+  on_wires("gnss_slow_drift", "position drifts away at 0.5 m/s, velocity true", "kind: gnss_drift, size: 0.5",
+           fix);
+  on_wires("gnss_snatch", "position and velocity pulled away together, 8 m/s after 2 s",
+           "kind: gnss_pull, size: 8, rate: 4", fix);
+  on_wires("gnss_pull", "position and velocity pulled away together, 1 m/s after 4 s",
+           "kind: gnss_pull, size: 1, rate: 0.25", fix);
+  on_wires("baro_step", "240 Pa, 23 m, at once", "kind: baro_step, size: 240", {"baro"});
+  on_wires("baro_small_step", "40 Pa, 4 m, at once", "kind: baro_step, size: 40", {"baro"});
+  on_wires("mag_stuck", "the same sample again and again", "kind: mag_stuck", {"mag"});
+  on_wires("mag_motor", "1 uT per ampere of the motor", "kind: mag_motor, size: 1e-6", {"mag"});
+  on_wires("mag_motor_weak", "0.2 uT per ampere of the motor", "kind: mag_motor, size: 0.2e-6", {"mag"});
+  on_wires("pitot_scale", "half of the pressure", "kind: pitot_scale, size: 0.5", {"pitot"});
+  on_wires("pitot_high", "three times the pressure", "kind: pitot_scale, size: 3", {"pitot"});
+  on_wires("pitot_small_scale", "four fifths of the pressure", "kind: pitot_scale, size: 0.8", {"pitot"});
+  on_wires("pitot_offset", "50 Pa", "kind: pitot_offset, size: 50", {"pitot"});
+  on_wires("pitot_blocked", "the pressure that was there stays", "kind: pitot_blocked", {"pitot"});
+  on_wires("pitot_iced", "pressure falls to nothing, time constant 1 s", "kind: pitot_iced, size: 1",
+           {"pitot"});
+  on_wires("pitot_iced_slowly", "pressure falls to nothing, time constant 10 s", "kind: pitot_iced, size: 10",
+           {"pitot"});
+  on_wires("pitot_zeroed", "zeroed in flight", "kind: pitot_zeroed", {"pitot"});
+  on_wires("imu_short_gap", "no sample for 0.25 s", "kind: imu_gap", imu).lasts_s = 0.25;
+  on_wires("imu_gap", "no sample for 2 s", "kind: imu_gap", imu).lasts_s = 2;
+  on_wires("gyro_saturated", "no axis beyond 0.25 rad/s", "kind: gyro_clipped, size: 0.25", {"gyro"});
+  on_wires("accel_saturated", "no axis beyond 10 m/s2", "kind: accel_clipped, size: 10", {"accel"});
+  on_wires("imu_vibration", "white noise, 10 m/s2 and 0.5 rad/s", "kind: imu_vibration, size: 10", imu);
+  on_wires("imu_stamps", "every tenth stamp 0.1 s too early", "kind: imu_stamps, size: 0.1", imu);
+  on_wires("imu_clock", "all stamps 1 s too early", "kind: imu_clock, size: 1", imu);
+  on_wires("gnss_stamps", "every other stamp 1 s too early", "kind: gnss_stamps, size: 1", fix);
+  on_wires("baro_stamps", "all stamps 30 s too early", "kind: baro_stamps, size: 30", {"baro"});
+  const auto switched = [&](const char* name, const char* words, std::vector<FaultTarget> off,
+                            std::vector<std::string> named) -> Row& {
+    r.push_back({.name = name, .words = words, .off = std::move(off), .sensors = std::move(named)});
+    return r.back();
+  };
+  switched("gnss_off", "off and on again by request", {gnss_position}, fix);
+  switched("mag_off", "off and on again by request", {mag}, {"mag"});
+  switched("baro_off", "off and on again by request", {baro}, {"baro"});
+  switched("pitot_off", "off and on again by request", {pitot}, {"pitot"});
+  switched("gnss_pitot_off", "receiver and tube off together", {gnss_position, pitot},
+           {"gnss_position", "gnss_velocity", "gnss_height", "pitot"});
+  r.push_back({.name = "no_mag",
+               .words = "none in the whole flight, from the ground on",
+               .sim = "mag_works: false",
+               .sensors = {"mag"}});
+  return r;
+}
+
+inline Row row(const std::string& name) {
+  std::string valid;
+  for (const Row& r : rows()) {
+    if (r.name == name) return r;
+    valid += (valid.empty() ? "" : ", ") + r.name;
+  }
+  throw std::runtime_error("no fault '" + name + "'; valid: " + valid);
+}
+
+}  // namespace fulmar::sensor_faults

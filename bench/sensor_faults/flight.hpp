@@ -64,7 +64,7 @@ class Watched {
       : row_(row), flight_(graph, unlogged()) {
     for (std::size_t i = 0; i < whats; ++i) bound_[i] = std::max(1.5 * usual[i], least[i]);
     truth_ = output_of(graph, "sim", "truth"), state_ = output_of(graph, "ekf", "state");
-    health_ = output_of(graph, "ekf", "health");
+    health_ = output_of(graph, "ekf", "health"), spoilt_ = output_of(graph, "wires", "spoilt_ratio");
   }
 
   Flown fly() {
@@ -73,6 +73,7 @@ class Watched {
       switch_sensors(t_s);
       const auto* const x = at<VehicleState>(truth_);
       const auto* const s = at<VehicleState>(state_);
+      if (t_s >= 0) spoilt(t_s);
       if (x && s && t_s >= 0) look(t_s, *x, *s);
     }
     const core::FlightResult result = flight_.finish();
@@ -83,7 +84,7 @@ class Watched {
 
  private:
   /// What of an error counts as recovered in any case.
-  static constexpr Each least{2, 0.5, 3, 2, 1};
+  static constexpr Each least{4, 1, 5, 3, 1.5};
   static constexpr std::array<const char*, whats> flags{"attitude_valid", "velocity_valid", "position_valid",
                                                         "height_valid", "airspeed_valid"};
 
@@ -110,6 +111,12 @@ class Watched {
     off_ = off;
     for (const FaultTarget target : row_.off)
       core::request(flight_, "sim", "fault", FaultRequest{target, off ? FaultKind::off : FaultKind::none});
+  }
+
+  /// Since the first sample that was not what it would have been; a limit may be reached late.
+  bool spoilt(double t_s) {
+    if (spoilt_s_ < 0 && (row_.wires.empty() || *at<double>(spoilt_) > 0.5)) spoilt_s_ = t_s;
+    return spoilt_s_ >= 0;
   }
 
   void look(double t_s, const VehicleState& x, const VehicleState& s) {
@@ -144,8 +151,8 @@ class Watched {
     }
   }
   void told(double t_s, const std::string& by) {
-    if (out_.told_s >= 0 || t_s > row_.lasts_s) return;
-    out_.told_s = t_s;
+    if (out_.told_s >= 0 || t_s > row_.lasts_s || !spoilt(t_s)) return;
+    out_.told_s = t_s - spoilt_s_;
     out_.told_by = by;
   }
 
@@ -153,9 +160,9 @@ class Watched {
   Each bound_{};
   Flown out_;
   bool off_ = false;
-  double bad_s_ = -1;
+  double bad_s_ = -1, spoilt_s_ = -1;
   core::Flight flight_;
-  core::Source truth_, state_, health_;
+  core::Source truth_, state_, health_, spoilt_;
 };
 
 /// `set`: parameters of the aircraft beside those of the row.

@@ -50,7 +50,7 @@ inline std::vector<Row> rows() {
     return r.back();
   };
   on_wires("gnss_jump", "position 50 m off at once", "kind: gnss_jump, size: 50", fix);
-  on_wires("gnss_drift", "position drifts away at 2 m/s, velocity true", "kind: gnss_drift, size: 2", fix);
+  on_wires("gnss_drift", "position drifts away at 3 m/s, velocity true", "kind: gnss_drift, size: 3", fix);
   on_wires("gnss_slow_drift", "position drifts away at 0.5 m/s, velocity true", "kind: gnss_drift, size: 0.5",
            fix);
   on_wires("gnss_snatch", "position and velocity pulled away together, 8 m/s after 2 s",
@@ -60,8 +60,8 @@ inline std::vector<Row> rows() {
   on_wires("baro_step", "240 Pa, 23 m, at once", "kind: baro_step, size: 240", {"baro"});
   on_wires("baro_small_step", "40 Pa, 4 m, at once", "kind: baro_step, size: 40", {"baro"});
   on_wires("mag_stuck", "the same sample again and again", "kind: mag_stuck", {"mag"});
-  on_wires("mag_motor", "1 uT per ampere of the motor", "kind: mag_motor, size: 1e-6", {"mag"});
-  on_wires("mag_motor_weak", "0.2 uT per ampere of the motor", "kind: mag_motor, size: 0.2e-6", {"mag"});
+  on_wires("mag_motor", "10 uT per ampere of the motor", "kind: mag_motor, size: 10e-6", {"mag"});
+  on_wires("mag_motor_weak", "1 uT per ampere of the motor", "kind: mag_motor, size: 1e-6", {"mag"});
   on_wires("pitot_scale", "half of the pressure", "kind: pitot_scale, size: 0.5", {"pitot"});
   on_wires("pitot_high", "three times the pressure", "kind: pitot_scale, size: 3", {"pitot"});
   on_wires("pitot_small_scale", "four fifths of the pressure", "kind: pitot_scale, size: 0.8", {"pitot"});
@@ -74,11 +74,11 @@ inline std::vector<Row> rows() {
   on_wires("pitot_zeroed", "zeroed in flight", "kind: pitot_zeroed", {"pitot"});
   on_wires("imu_short_gap", "no sample for 0.25 s", "kind: imu_gap", imu).lasts_s = 0.25;
   on_wires("imu_gap", "no sample for 2 s", "kind: imu_gap", imu).lasts_s = 2;
-  on_wires("gyro_saturated", "no axis beyond 0.25 rad/s", "kind: gyro_clipped, size: 0.25", {"gyro"});
+  on_wires("gyro_saturated", "no axis beyond 1 rad/s", "kind: gyro_clipped, size: 1", {"gyro"});
   on_wires("accel_saturated", "no axis beyond 10 m/s2", "kind: accel_clipped, size: 10", {"accel"});
-  on_wires("imu_vibration", "white noise, 10 m/s2 and 0.5 rad/s", "kind: imu_vibration, size: 10", imu);
+  on_wires("imu_vibration", "white noise, 5 m/s2 and 0.25 rad/s", "kind: imu_vibration, size: 5", imu);
   on_wires("imu_stamps", "every tenth stamp 0.1 s too early", "kind: imu_stamps, size: 0.1", imu);
-  on_wires("imu_clock", "all stamps 1 s too early", "kind: imu_clock, size: 1", imu);
+  on_wires("imu_clock", "all stamps 0.4 s too early", "kind: imu_clock, size: 0.4", imu);
   on_wires("gnss_stamps", "every other stamp 1 s too early", "kind: gnss_stamps, size: 1", fix);
   on_wires("baro_stamps", "all stamps 30 s too early", "kind: baro_stamps, size: 30", {"baro"});
   const auto switched = [&](const char* name, const char* words, std::vector<FaultTarget> off,

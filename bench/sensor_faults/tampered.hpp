@@ -56,6 +56,7 @@ struct Wires {
     Out<Mag> mag;
     Out<Baro> baro;
     Out<Pitot> pitot;
+    Probe spoilt_ratio;  ///< 1 from the first sample on that is not what came
   };
   struct Params {
     Choice<Kind> kind{Kind::none, "what is spoilt", setup};
@@ -75,6 +76,9 @@ struct Wires {
     pass(in.mag, out.mag, [&](Mag& s, std::int64_t&) { return spoil(s, in, p); });
     pass(in.baro, out.baro, [&](Baro& s, std::int64_t& at_ns) { return spoil(s, at_ns, p); });
     pass(in.pitot, out.pitot, [&](Pitot& s, std::int64_t&) { return spoil(s, p); });
+    const bool clips = kind_ == Kind::gyro_clipped || kind_ == Kind::accel_clipped;
+    spoilt_ = spoilt_ || (kind_ != Kind::none && !clips);
+    out.spoilt_ratio = spoilt_;
     return Status::ok;
   }
 
@@ -87,7 +91,10 @@ struct Wires {
     if (spoil(sample, at_ns)) out.publish(sample, at_ns);
   }
   static std::int64_t ns(double s) { return std::llround(1e9 * s); }
-  static void clip(double& x, double limit) { x = std::clamp(x, -limit, limit); }
+  void clip(double& x, double limit) {
+    spoilt_ = spoilt_ || std::abs(x) > limit;
+    x = std::clamp(x, -limit, limit);
+  }
 
   bool spoil(Imu& s, std::int64_t& at_ns, const Params& p) {
     Vec3<Body>&f = s.specific_force_mps2, &w = s.rate_radps;
@@ -157,6 +164,7 @@ struct Wires {
 
   Random random_;
   Kind kind_ = Kind::none;
+  bool spoilt_ = false;
   double since_s_ = 0, before_pa_ = 0;
   Mag mag_;
   std::uint64_t imu_count_ = 0, gnss_count_ = 0;

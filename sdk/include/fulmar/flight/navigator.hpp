@@ -29,6 +29,9 @@ inline constexpr double height_off_s = 3;      ///< over which a contradiction o
 inline constexpr double height_step_m = 0.7;   ///< by which one fix moves the height at most
 inline constexpr double height_set_m = 50;     ///< beyond which nothing is resolved by degrees
 inline constexpr double outage_after_s = 1.5;  ///< without a velocity: no late fix of a slow receiver
+inline constexpr double heading_lost_s = 10;   ///< without an accepted magnetic heading
+inline constexpr double least_gust_mps = 1.2,
+                        most_gust_mps = 2;  ///< by how much a tube may be off for a second
 inline constexpr double coasted_s =
     0.02;  ///< so long without an inertial sample is a gap: slower units do not fly
 
@@ -161,6 +164,7 @@ class Navigator {
     const double dt = time_s - time_s_;
     if (mode_ != Mode::waiting && !(dt > 0)) return false;
     time_s_ = time_s;
+    health_.felt(omega_b, f_b);
     if (mode_ == Mode::waiting) {
       mode_ = Mode::aligning;
       return true;
@@ -175,6 +179,10 @@ class Navigator {
     }
     filter_.predict(omega_b, f_b, dt);
     if (dt > coasted_s) bridged(dt, p);
+    // At its stop the unit says less than what happens.
+    if (airborne_ && health_.rates.clipped())
+      filter_.inflate(ekf::theta, 3, 2 * p.gap_rate_std * std::sqrt(dt));
+    if (airborne_ && health_.forces.clipped()) filter_.inflate(ekf::vel, 3, p.gap_accel_std * std::sqrt(dt));
     if (resting_ && time_s_ - rest_fused_s_ > 0.05) rest(p);
     update_airborne(p);
     if (airborne_ && seen_.yaw && time_s_ - sideslip_s_ > 0.1 - 1e-4) sideslip(p);
@@ -215,6 +223,12 @@ class Navigator {
 
   /// Reads the same again and again in flight: nothing is learnt from it, however long it goes on.
   bool stuck(const Aid& aid) const { return airborne_ && aid.arrivals.stuck(); }
+
+  /// How long a sensor is refused before it is believed after all. Who had to be believed a short time ago is
+  /// no steady witness: now it is likelier back than off.
+  double patience_s(const Aid& aid, const Params& p) const {
+    return time_s_ - aid.believed_s < 60 ? std::min(2.0, p.gnss_reset_after.value) : p.gnss_reset_after.value;
+  }
 
   /// Fixes within twice the correlation time of their error know as much as one: the factor on their
   /// variance.
@@ -313,7 +327,7 @@ class Navigator {
   }
 
   void align_at_rest(const Params& p) {
-    if (rest_since_s_ < 0) rest_since_s_ = time_s_;
+    if (rest_since_s_ == never) rest_since_s_ = time_s_;  // flight time may be negative
     const bool has_mag = time_s_ - mag_s_ < 0.5;
     if (!has_mag && time_s_ - rest_since_s_ < 2) return;  // a magnetometer may still wake up
     ekf::Nominal x;
@@ -393,6 +407,7 @@ class Navigator {
   void gnss_height(const ekf::Scalar& z, double std, const Params& p);
   double height_variance(const ekf::Scalar& z, double std, const Params& p) const;
   ekf::Scalar pressure_height(double pressure_pa) const;
+  bool tube_contradicts(double Va, const Params& p);
   void yaw_from_course(const Vector3d& v_n);
   void yaw_from_field(const Vector3d& field_b);
 

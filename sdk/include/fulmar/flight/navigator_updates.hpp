@@ -116,12 +116,16 @@ inline void Navigator::gnss_velocity(const Gnss& g, double valid_s, const Params
   }
   const double n = samples_in(p.gnss_climb_time, health_.velocity.accepted_s);
   if (!within({off.x(), off.y(), off.z()}, p.gnss_gate, health_.velocity)) {
-    if (time_s_ - std::max(health_.velocity.accepted_s, aligned_s_) < p.gnss_reset_after) return;
+    if (time_s_ - std::max(health_.velocity.accepted_s, aligned_s_) < patience_s(health_.velocity, p)) return;
+    health_.velocity.believed_s = time_s_;
     filter_.place(filter_.state().p_n, filter_.state().v_n + v_n - past.v_n);
     filter_.forget(ekf::vel, 3, 3 * std);
     filter_.inflate(ekf::theta, 3, 0.1);
   } else {
-    for (int i = 0; i < 3; ++i) filter_.fuse(z(i), i < 2 ? variance : n * variance, 1e3);
+    // Without a heading from elsewhere the yaw is what the accelerations of the fixes make of it: then it
+    // counts that their errors follow each other, or the yaw walks away with them.
+    const bool heading = !airborne_ || time_s_ - health_.heading.accepted_s < heading_lost_s;
+    for (int i = 0; i < 3; ++i) filter_.fuse(z(i), i < 2 && heading ? variance : n * variance, 1e3);
   }
   health_.velocity.accepted_s = time_s_;
 }
@@ -191,16 +195,20 @@ inline void Navigator::gnss_position(const Gnss& g, double valid_s, const Params
   for (int i = 0; i < 2; ++i)
     health_.position_innovation(i) = z(i).innovation / filter_.expected_std(z(i), variance);
   const Vector3d& off = health_.position_innovation;
-  if (stuck(health_.horizontal)) {
-    // However long: an aircraft does not stand in the air.
-  } else if (within({off.x(), off.y()}, p.gnss_gate, health_.horizontal)) {
+  Aid& level = health_.horizontal;
+  if (health_.velocity.refused_from_s == never && !stuck(level))
+    health_.wander.fix(p_n.head<2>(), eigen(g.velocity_mps).head<2>(), h_std, valid_s);
+  level.contradicts = airborne_ && health_.wander.wanders();
+  if (stuck(level) || level.contradicts) {
+    // However long: an aircraft does not stand in the air, nor goes where its velocity does not.
+  } else if (within({off.x(), off.y()}, p.gnss_gate, level)) {
     for (int i = 0; i < 2; ++i) filter_.fuse(z(i), variance, 1e3);
-  } else if (time_s_ - std::max(health_.horizontal.accepted_s, aligned_s_) > p.gnss_reset_after) {
+  } else if (time_s_ - std::max(level.accepted_s, aligned_s_) > patience_s(level, p)) {
     Vector3d moved = filter_.state().p_n;
     moved.head<2>() += Vector2d(z(0).innovation, z(1).innovation);
     filter_.place(moved, filter_.state().v_n);
     forget_level();
-    health_.horizontal.accepted_s = time_s_;
+    level.accepted_s = level.believed_s = time_s_;
   }
   if (!stuck(health_.height)) gnss_height(z(2), v_std, p);
 }
@@ -242,6 +250,8 @@ inline void Navigator::mag(const Vector3d& field_b, const Params& p) {
   if (!(strength > 1e-6) || !field_b.allFinite()) return;
   mag_s_ = time_s_;
   mag_b_ = field_b;
+  health_.field.sampled(strength, time_s_);
+  health_.heading.contradicts = airborne_ && health_.field.changed();
   if (!aligned()) {
     flight_.mag(field_b);
     return;
@@ -296,10 +306,26 @@ inline void Navigator::baro(double pressure_pa, const Params& p) {
   const double std =
       std::hypot(p.baro_noise, p.baro_load_error * load * dynamic_pa) * ekf::metres_per_pascal(air_);
   const ekf::Fused fused = fuse(pressure_height(pressure_pa), std * std, p.air_gate, health_.baro);
-  if (!fused.accepted && time_s_ - std::max(health_.baro.accepted_s, aligned_s_) > p.gnss_reset_after) {
+  if (!fused.accepted &&
+      time_s_ - std::max(health_.baro.accepted_s, aligned_s_) > patience_s(health_.baro, p)) {
     seen_.baro_zero = false;
-    health_.baro.accepted_s = time_s_;
+    health_.baro.accepted_s = health_.baro.believed_s = time_s_;
   }
+}
+
+/// A tube that has stepped is not used until it has stepped back, or so long ago that it may be right; nor
+/// one that is off by more than gusts are.
+inline bool Navigator::tube_contradicts(double Va, const Params& p) {
+  const double noise = p.pitot_noise / (air_.density_kgm3 * std::max(Va, 0.5 * p.min_airspeed)),
+               sample = std::hypot(noise, p.pitot_speed_std) * health_.pitot.innovations.std();
+  ekf::Scalar z = ekf::true_airspeed(filter_.state(), Va);
+  z.H(ekf::gust) = 0;  // by what has been learnt of them
+  const double without_tube = ekf::air_velocity(filter_.state()).norm();
+  const double doubt =
+      std::hypot(std::clamp(gusts_.std_mps(p), least_gust_mps, most_gust_mps), filter_.expected_std(z, 0));
+  health_.tube.sampled(Va, without_tube, sample, doubt, time_s_);
+  health_.pitot.contradicts = health_.tube.stepped() || health_.tube.off();
+  return health_.pitot.contradicts;
 }
 
 inline void Navigator::pitot(double pressure_pa, const Params& p) {
@@ -310,7 +336,7 @@ inline void Navigator::pitot(double pressure_pa, const Params& p) {
   pitot_mps_ = pitot_s_ == never ? Va : pitot_mps_ + (Va - pitot_mps_) * (1 - std::exp(-dt / 0.2));
   pitot_s_ = time_s_;
   if (!aligned() || !airborne_ || stuck(health_.pitot)) return;
-  if (Va < 0.5 * p.min_airspeed) {  // stands still in flight: as good as refused
+  if (tube_contradicts(Va, p) || Va < 0.5 * p.min_airspeed) {  // or it stands still in flight
     const ekf::Scalar z = ekf::true_airspeed(filter_.state(), Va);
     health_.pitot.told({false, z.innovation / filter_.expected_std(z, p.pitot_speed_std * p.pitot_speed_std)},
                        time_s_);

@@ -33,6 +33,7 @@ struct Flown {
   Each step{};             ///< changes of the error from one tick to the next
   double over_std = 0;     ///< airspeed error, at most, in deviations that the estimate says
   double recovered_s = 0;  ///< from the fault's end on; -1: not within the flight
+  bool shown = false;      ///< some sample was not what it would have been
   bool crashed = false;
 
  private:
@@ -78,6 +79,7 @@ class Watched {
     }
     const core::FlightResult result = flight_.finish();
     out_.crashed = result.outcome != core::Outcome::flown;
+    out_.shown = spoilt_s_ >= 0;
     if (bad_s_ > row_.lasts_s + watch_s - 1) out_.recovered_s = -1;
     return out_;
   }

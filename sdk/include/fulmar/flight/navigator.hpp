@@ -27,6 +27,8 @@ inline constexpr double bridge_tilt_std = 0.01, bridge_tilt_rate = 0.01;  ///< r
 inline constexpr double bridge_accel_std = 1;  ///< m/s2: changes of the speed that nobody saw
 inline constexpr double height_off_s = 3;      ///< over which a contradiction of the height is averaged
 inline constexpr double height_step_m = 0.7;   ///< by which one fix moves the height at most
+inline constexpr double baro_step_m = 0.05,
+                        baro_back_for_s = 3;   ///< by which a barometer that is back moves the height at most
 inline constexpr double height_set_m = 50;     ///< beyond which nothing is resolved by degrees
 inline constexpr double outage_after_s = 1.5;  ///< without a velocity: no late fix of a slow receiver
 inline constexpr double heading_lost_s = 10;   ///< without an accepted magnetic heading
@@ -424,7 +426,7 @@ class Navigator {
   double time_s_ = 0, aligned_s_ = 0, rest_since_s_ = never, rest_fused_s_ = never, sideslip_s_ = never,
          airborne_s_ = 0;
   double gnss_s_ = never, gnss_speed_ = 0, mag_s_ = never, mag_fused_s_ = never, pitot_s_ = never,
-         pitot_mps_ = 0, baro_s_ = never;
+         pitot_mps_ = 0, baro_s_ = never, baro_back_s_ = never;
   std::int64_t origin_count_ = 0;
   double baro_pa_ = 0, height_seen_s_ = never, height_off_m_ = 0;
   Mode mode_ = Mode::waiting;

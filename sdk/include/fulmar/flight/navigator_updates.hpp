@@ -124,7 +124,7 @@ inline void Navigator::gnss_velocity(const Gnss& g, double valid_s, const Params
   } else {
     // Without a heading from elsewhere the yaw is what the accelerations of the fixes make of it: then it
     // counts that their errors follow each other, or the yaw walks away with them.
-    const bool heading = !airborne_ || time_s_ - health_.heading.accepted_s < heading_lost_s;
+    const bool heading = resting_ || time_s_ - health_.heading.accepted_s < heading_lost_s;
     for (int i = 0; i < 3; ++i) filter_.fuse(z(i), i < 2 && heading ? variance : n * variance, 1e3);
   }
   health_.velocity.accepted_s = time_s_;
@@ -283,6 +283,7 @@ inline ekf::Scalar Navigator::pressure_height(double pressure_pa) const {
 
 inline void Navigator::baro(double pressure_pa, const Params& p) {
   if (!(pressure_pa > 1e4 && pressure_pa < 1.2e5)) return;
+  if (airborne_ && time_s_ - baro_s_ > outage_after_s) baro_back_s_ = time_s_;
   baro_s_ = time_s_;
   baro_pa_ = pressure_pa;
   if (!seen_.origin && !seen_.altitude) {
@@ -305,7 +306,12 @@ inline void Navigator::baro(double pressure_pa, const Params& p) {
   const double load = filter_.specific_force_b().norm() / p.gravity - 1;
   const double std =
       std::hypot(p.baro_noise, p.baro_load_error * load * dynamic_pa) * ekf::metres_per_pascal(air_);
-  const ekf::Fused fused = fuse(pressure_height(pressure_pa), std * std, p.air_gate, health_.baro);
+  // Back after an outage it moves the height by degrees.
+  const ekf::Scalar z = pressure_height(pressure_pa);
+  const double known = time_s_ - baro_back_s_ < baro_back_for_s ? filter_.expected_std(z, 0) : 0,
+               least = known * known * (std::abs(z.innovation) / baro_step_m - 1);
+  const bool agrees = std::abs(z.innovation) <= p.air_gate * filter_.expected_std(z, std * std);
+  const ekf::Fused fused = fuse(z, agrees ? std::max(std * std, least) : std * std, p.air_gate, health_.baro);
   if (!fused.accepted &&
       time_s_ - std::max(health_.baro.accepted_s, aligned_s_) > patience_s(health_.baro, p)) {
     seen_.baro_zero = false;

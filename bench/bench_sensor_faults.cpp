@@ -21,7 +21,7 @@ The shipped autopilot (`estimator_ekf`, `path`, `control_slc`) flies `configs/mi
 armed, on a straight, one sensor goes bad; after 20 s, if the fault does not say otherwise, it is right again, and the flight goes on for 30 s. In both times there are turns of 50 m. Ten seeds a row; the worst of them.
 What the simulated aircraft's own faults do not know is made between it and the estimator (`bench/sensor_faults/tampered.hpp`). `sensor_faults_test` flies some of it in `./check`.
 
-- `told`: from the first spoilt sample until the port `health` says something of that sensor, or a flag of the estimate falls; by what, in how many of the flights in which the fault showed. Promised within 2 s.
+- `told`: from the first spoilt sample, of a limit from 0.1 s at it on, until the port `health` says something of that sensor, or a flag of the estimate falls; by what, in how many of the flights in which the fault showed. Promised within 2 s.
 - Errors from the fault's begin to the end of the flight, of what is called valid, and behind a stroke of all, where that is more: attitude, velocity, horizontal position, height, airspeed. Promised below what `bench/sensor_faults/rows.hpp` says.
 - `airspeed / std`: the error in deviations that the estimate claims of it, at most.
 - `step`: the largest change of the error from one tick to the next, of position and height.

@@ -56,7 +56,7 @@ struct Wires {
     Out<Mag> mag;
     Out<Baro> baro;
     Out<Pitot> pitot;
-    Probe spoilt_ratio;  ///< 1 from the first sample on that is not what came
+    Probe spoilt_ratio;  ///< 1 from the first sample on that is not what came, and after 0.1 s at a limit
   };
   struct Params {
     Choice<Kind> kind{Kind::none, "what is spoilt", setup};
@@ -91,9 +91,14 @@ struct Wires {
     if (spoil(sample, at_ns)) out.publish(sample, at_ns);
   }
   static std::int64_t ns(double s) { return std::llround(1e9 * s); }
-  void clip(double& x, double limit) {
-    spoilt_ = spoilt_ || std::abs(x) > limit;
-    x = std::clamp(x, -limit, limit);
+  void clip(Vec3<Body>& v, double limit) {
+    bool beyond = false;
+    for (double* x : {&v.x, &v.y, &v.z}) {
+      beyond = beyond || std::abs(*x) > limit;
+      *x = std::clamp(*x, -limit, limit);
+    }
+    clipped_ = beyond ? clipped_ + 1 : 0;
+    spoilt_ = spoilt_ || clipped_ >= 40;
   }
 
   bool spoil(Imu& s, std::int64_t& at_ns, const Params& p) {
@@ -101,8 +106,8 @@ struct Wires {
     const std::int64_t early_ns = ns(p.size);
     switch (kind_) {
       case Kind::imu_gap: return false;
-      case Kind::gyro_clipped: clip(w.x, p.size), clip(w.y, p.size), clip(w.z, p.size); break;
-      case Kind::accel_clipped: clip(f.x, p.size), clip(f.y, p.size), clip(f.z, p.size); break;
+      case Kind::gyro_clipped: clip(w, p.size); break;
+      case Kind::accel_clipped: clip(f, p.size); break;
       case Kind::imu_vibration:
         for (double* x : {&f.x, &f.y, &f.z}) *x += p.size * random_.normal();
         for (double* x : {&w.x, &w.y, &w.z}) *x += 0.05 * p.size * random_.normal();
@@ -167,7 +172,7 @@ struct Wires {
   bool spoilt_ = false;
   double since_s_ = 0, before_pa_ = 0;
   Mag mag_;
-  std::uint64_t imu_count_ = 0, gnss_count_ = 0;
+  std::uint64_t clipped_ = 0, imu_count_ = 0, gnss_count_ = 0;
 };
 
 }  // namespace fulmar::tampered

@@ -213,11 +213,11 @@ TEST_CASE("stuck: the same bytes five times in flight; told within 1.4 s") {
 TEST_CASE("stuck: each triad of the inertial unit by itself") {
   Spell gyro{.sensor = &NavigationHealth::gyro, .state = SensorState::stuck, .length_s = 1};
   gyro.alter = [](Samples& s, Random&) { s.imu.rate_radps = {0.1, 0, 0}; };
-  check(gyro, 0.8, 0.4);
+  check(gyro, 0.8, 0.8);
   CHECK(gyro.during.accel.state == SensorState::ok);
   Spell accel{.sensor = &NavigationHealth::accel, .state = SensorState::stuck, .length_s = 1};
   accel.alter = [](Samples& s, Random&) { s.imu.specific_force_mps2 = {0, 0, -9.8}; };
-  check(accel, 0.8, 0.4);
+  check(accel, 0.8, 0.8);
   CHECK(accel.during.gyro.state == SensorState::ok);
 }
 
@@ -384,7 +384,7 @@ TEST_CASE("noisy: an inertial unit that is shaken, each triad by itself") {
 TEST_CASE("stuck: one axis of the gyros at its stop, while the others go on") {
   Spell spell{.sensor = &NavigationHealth::gyro, .state = SensorState::stuck, .length_s = 1};
   spell.alter = [](Samples& s, Random&) { s.imu.rate_radps.x = 0.02; };
-  check(spell, 0.6, 0.4);
+  check(spell, 0.6, 0.8);
   CHECK(spell.during.accel.state == SensorState::ok);
 }
 

@@ -216,7 +216,7 @@ struct Health {
     const auto felt = [&](const Aid& aid, const Triad& triad) {
       SensorHealth h = of(aid);
       if (triad.noisy()) h.state = std::max(h.state, SensorState::noisy);
-      if (flying && triad.clipped()) h.state = std::max(h.state, SensorState::stuck);
+      if (flying && triad.was_clipped()) h.state = std::max(h.state, SensorState::stuck);
       return h;
     };
     return {felt(gyro, rates), felt(accel, forces), of(horizontal), of(height),

@@ -30,22 +30,26 @@ class Triad {
     noisy_ = variance_ > limit * limit;
     before_ = values;
     begun_ = true;
-  }
-  bool clipped() const {
+    clipped_ = false;
     for (int i = 0; i < 3; ++i)
-      if (repeated_[i] >= (std::abs(before_[i]) < most_[i] ? held_samples : clipped_samples)) return true;
-    return false;
+      clipped_ =
+          clipped_ || repeated_[i] >= (std::abs(before_[i]) < most_[i] ? held_samples : clipped_samples);
+    since_clipped_ = clipped_ ? 0 : std::min(since_clipped_ + 1, told_samples);
   }
+  bool clipped() const { return clipped_; }
+  /// As long as whoever looks now and then has to see it.
+  bool was_clipped() const { return since_clipped_ < told_samples; }
   bool noisy() const { return noisy_; }
 
  private:
   static constexpr double window = 100, calm_share = 0.7;  ///< samples
-  static constexpr int clipped_samples = 5, held_samples = 25;
+  static constexpr int clipped_samples = 5, held_samples = 25, told_samples = 100;
 
   Eigen::Vector3d before_ = Eigen::Vector3d::Zero(), most_ = Eigen::Vector3d::Zero();
   Eigen::Vector3i repeated_ = Eigen::Vector3i::Zero();
   double variance_ = 0;
-  bool begun_ = false, noisy_ = false;
+  int since_clipped_ = told_samples;
+  bool begun_ = false, noisy_ = false, clipped_ = false;
 };
 
 /// Whether a receiver's position goes where its velocity says. The two come from different measurements, so a
@@ -94,22 +98,25 @@ class TubeSteps {
     time_s_ = time_s;
     if (dt > longest_s) count_ = 0;
     std::rotate(past_.begin(), past_.end() - 1, past_.end());
-    past_[0] = {tube, tube - otherwise};
+    past_[0] = {tube, tube - otherwise, time_s};
     count_ = std::min(count_ + 1, past_.size());
     mean_ += (past_[0].excess - mean_) * (1 - std::exp(-dt / mean_s));
     off_ = std::abs(mean_) > (off_ ? back_std : off_std) * std;
     if (time_s - stepped_s_ > forgotten_s) sum_ = 0;
-    const double limit = std::max(least_mps, noise_times * noise);
-    if (count_ == past_.size()) step(limit, std);
+    if (count_ < past_.size()) return;
+    // By how much a first-order Gauss-Markov gust changes from the one group of samples to the other.
+    const double change = std * std::sqrt(2 * (past_[1].time_s - past_[5].time_s) / gust_time_s);
+    step(std::max({least_mps, noise_times * noise, change_times * change}), std);
   }
   bool stepped() const { return sum_ != 0; }
   bool off() const { return off_; }
 
  private:
   struct Said {
-    double tube = 0, excess = 0;
+    double tube = 0, excess = 0, time_s = 0;
   };
-  static constexpr double least_mps = 1.2, noise_times = 8, forgotten_s = 30, longest_s = 0.15;
+  static constexpr double least_mps = 1.2, noise_times = 8, change_times = 6, gust_time_s = 10,
+                          forgotten_s = 30, longest_s = 0.15;
   static constexpr double mean_s = 0.6, off_std = 5, back_std = 2.5;
 
   /// The last three samples, each, from the mean of the three before the one in between. Both must have

@@ -72,17 +72,20 @@ class Wander {
     const double least = least_share * std_m, seen = std::min(off_.norm(), 2 * std::max(usual_, least));
     usual_ = std::sqrt(usual_ * usual_ + (seen * seen - usual_ * usual_) * std::min(dt / usual_s, 1.0));
     const double limit = std::max(limit_share * std_m, times * usual_);
+    if (!wanders_) since_s_ = time_s;
     wanders_ = off_.norm() > (wanders_ ? 0.5 : 1) * limit;
   }
   bool wanders() const { return wanders_; }
+  /// For so long the velocity is taken to be right; then it may be the one that is wrong.
+  bool doubted() const { return wanders_ && time_s_ - since_s_ < doubted_s; }
 
  private:
   static constexpr double memory_s = 3, usual_s = 60, longest_s = 1.5, jump = 5, least_share = 0.2,
-                          limit_share = 1.6, times = 4.5;
+                          limit_share = 1.6, times = 4.5, doubted_s = 30;
 
   Eigen::Vector2d p_n_ = Eigen::Vector2d::Zero(), v_n_ = Eigen::Vector2d::Zero(),
                   off_ = Eigen::Vector2d::Zero();
-  double time_s_ = never, usual_ = 0;
+  double time_s_ = never, since_s_ = never, usual_ = 0;
   bool wanders_ = false;
 };
 

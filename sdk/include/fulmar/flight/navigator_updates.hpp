@@ -116,7 +116,7 @@ inline void Navigator::gnss_velocity(const Gnss& g, double valid_s, const Params
   }
   const double n = samples_in(p.gnss_climb_time, health_.velocity.accepted_s);
   if (!within({off.x(), off.y(), off.z()}, p.gnss_gate, health_.velocity)) {
-    if (time_s_ - std::max(health_.velocity.accepted_s, aligned_s_) < patience_s(health_.velocity, p)) return;
+    if (time_s_ - std::max(health_.velocity.accepted_s, aligned_s_) < p.gnss_reset_after) return;
     health_.velocity.believed_s = time_s_;
     filter_.place(filter_.state().p_n, filter_.state().v_n + v_n - past.v_n);
     filter_.forget(ekf::vel, 3, 3 * std);
@@ -196,10 +196,12 @@ inline void Navigator::gnss_position(const Gnss& g, double valid_s, const Params
     health_.position_innovation(i) = z(i).innovation / filter_.expected_std(z(i), variance);
   const Vector3d& off = health_.position_innovation;
   Aid& level = health_.horizontal;
-  if (health_.velocity.refused_from_s == never && !stuck(level))
-    health_.wander.fix(p_n.head<2>(), eigen(g.velocity_mps).head<2>(), h_std, valid_s);
-  level.contradicts = airborne_ && health_.wander.wanders();
-  if (stuck(level) || level.contradicts) {
+  // As long as the velocity is right, as far as anybody knows.
+  const bool asked = airborne_ && !stuck(level) && health_.velocity.refused_from_s == never &&
+                     time_s_ - health_.velocity.believed_s > 60;
+  if (asked) health_.wander.fix(p_n.head<2>(), eigen(g.velocity_mps).head<2>(), h_std, valid_s);
+  level.contradicts = asked && health_.wander.wanders();
+  if (stuck(level) || (asked && health_.wander.doubted())) {
     // However long: an aircraft does not stand in the air, nor goes where its velocity does not.
   } else if (within({off.x(), off.y()}, p.gnss_gate, level)) {
     for (int i = 0; i < 2; ++i) filter_.fuse(z(i), variance, 1e3);
@@ -312,10 +314,9 @@ inline void Navigator::baro(double pressure_pa, const Params& p) {
                least = known * known * (std::abs(z.innovation) / baro_step_m - 1);
   const bool agrees = std::abs(z.innovation) <= p.air_gate * filter_.expected_std(z, std * std);
   const ekf::Fused fused = fuse(z, agrees ? std::max(std * std, least) : std * std, p.air_gate, health_.baro);
-  if (!fused.accepted &&
-      time_s_ - std::max(health_.baro.accepted_s, aligned_s_) > patience_s(health_.baro, p)) {
+  if (!fused.accepted && time_s_ - std::max(health_.baro.accepted_s, aligned_s_) > p.gnss_reset_after) {
     seen_.baro_zero = false;
-    health_.baro.accepted_s = health_.baro.believed_s = time_s_;
+    health_.baro.accepted_s = time_s_;
   }
 }
 

@@ -400,8 +400,8 @@ TEST_CASE("found again after a gap the gust of before it is over") {
   std::optional<double> after_mps;
   Gap gap{.length_s = 5};
   gap.alter = [&](const Truth& x, Samples& s) {
-    if (x.t > 64 && s.pitot) s.pitot->pressure_pa *= 1.2;  // a gust from ahead
-    if (x.t > gap.from_s) s.pitot.reset();                 // nobody says what became of it
+    if (x.t > 64 && s.pitot) s.pitot->pressure_pa *= 1 + 0.2 * std::min(x.t - 64, 1.0);  // a gust from ahead
+    if (x.t > gap.from_s) s.pitot.reset();  // nobody says what became of it
   };
   gap.feed = [&](Bench<Ekf>& bench, const Truth& x, const Samples& s, double dt) {
     const bool known = bench.out.state.written && bench.out.state.value.attitude_valid;

@@ -213,11 +213,11 @@ TEST_CASE("stuck: the same bytes five times in flight; told within 1.4 s") {
 TEST_CASE("stuck: each triad of the inertial unit by itself") {
   Spell gyro{.sensor = &NavigationHealth::gyro, .state = SensorState::stuck, .length_s = 1};
   gyro.alter = [](Samples& s, Random&) { s.imu.rate_radps = {0.1, 0, 0}; };
-  check(gyro, 0.8, 0.4);
+  check(gyro, 0.8, 0.8);
   CHECK(gyro.during.accel.state == SensorState::ok);
   Spell accel{.sensor = &NavigationHealth::accel, .state = SensorState::stuck, .length_s = 1};
   accel.alter = [](Samples& s, Random&) { s.imu.specific_force_mps2 = {0, 0, -9.8}; };
-  check(accel, 0.8, 0.4);
+  check(accel, 0.8, 0.8);
   CHECK(accel.during.gyro.state == SensorState::ok);
 }
 
@@ -295,6 +295,97 @@ TEST_CASE("refused: off by more than the gate; told 1 s after, left when it is b
     CHECK((spell.during.*sensor).refused > (spell.before.*sensor).refused + 30);
     CHECK(std::abs((spell.during.*sensor).innovation_ratio) > 5);
   }
+}
+
+TEST_CASE("biased: a position that goes where the velocity does not; told within 2 s, and not followed") {
+  Spell spell{.sensor = &NavigationHealth::gnss_position, .state = SensorState::biased};
+  spell.alter = [n = 0](Samples& s, Random&) mutable {
+    if (s.gnss) s.gnss->latitude_deg += 3 / ublox.gnss_hz * ++n / 111e3;  // 3 m/s
+  };
+  check(spell, 2, 0.6);
+  CHECK(spell.otherwise == "");
+  CHECK(spell.during.gnss_position.accepted < spell.before.gnss_position.accepted + 3 * ublox.gnss_hz);
+}
+
+TEST_CASE("a velocity that is wrong is not laid to the position's charge") {
+  Spell spell{.sensor = &NavigationHealth::gnss_velocity, .state = SensorState::refused, .length_s = 8};
+  spell.alter = of_fix([](Gnss& g, Random&) { g.velocity_mps.north += 5; });
+  check(spell, 1.6, 0.6);
+  CHECK(spell.otherwise == "");
+}
+
+TEST_CASE("biased: a tube that steps by 50 Pa either way, within 0.4 s; and it is not used") {
+  for (const double off_pa : {50.0, -50.0}) {
+    Spell spell{.sensor = &NavigationHealth::pitot, .state = SensorState::biased};
+    spell.alter = [off_pa](Samples& s, Random&) {
+      if (s.pitot) s.pitot->pressure_pa += off_pa;
+    };
+    check(spell, 0.4, 0.6);
+    CHECK(spell.otherwise == "");
+    CHECK(spell.during.pitot.accepted < spell.before.pitot.accepted + 30);
+  }
+}
+
+TEST_CASE("biased: a tube that ices over in seconds, before it reads nothing") {
+  Spell spell{.sensor = &NavigationHealth::pitot, .state = SensorState::biased};
+  spell.alter = [share = 1.0](Samples& s, Random&) mutable {
+    if (s.pitot) s.pitot->pressure_pa *= share *= std::exp(-1 / ublox.pitot_hz);
+  };
+  check(spell, 3, 1);
+  CHECK(spell.otherwise == "");
+}
+
+TEST_CASE("a tube that stays off by a step is believed after half a minute") {
+  Spell spell{.sensor = &NavigationHealth::pitot, .state = SensorState::biased, .length_s = 40};
+  spell.alter = [](Samples& s, Random&) {
+    if (s.pitot) s.pitot->pressure_pa += 50;
+  };
+  spell.run();
+  CHECK(spell.told_s > 0);
+  CHECK(spell.told_s <= 0.4);
+  CHECK(spell.during.pitot.state == SensorState::ok);
+}
+
+TEST_CASE("biased: a field that is a third stronger than before, within 0.8 s") {
+  Spell spell{.sensor = &NavigationHealth::mag, .state = SensorState::biased};
+  spell.alter = [](Samples& s, Random&) {
+    if (!s.mag) return;
+    Vec3<Body>& m = s.mag->field_tesla;
+    m = {1.33 * m.x, 1.33 * m.y, 1.33 * m.z};
+  };
+  check(spell, 0.8, 1.6);
+  CHECK(spell.otherwise == "");
+}
+
+TEST_CASE("refused: stamps that go back again and again; left 3 s after") {
+  Spell spell{.sensor = &NavigationHealth::gnss_height, .state = SensorState::refused};
+  spell.alter = [n = 0](Samples& s, Random&) mutable {
+    if (s.gnss && ++n % 2 == 0) s.gnss_age_s += 1;
+  };
+  spell.run();
+  CHECK(spell.told_s > 0);
+  CHECK(spell.told_s <= 2);
+  CHECK(spell.left_s <= 3);
+  CHECK(spell.during.gnss_height.state == SensorState::refused);
+  CHECK(spell.last.gnss_height.state == SensorState::ok);
+}
+
+TEST_CASE("noisy: an inertial unit that is shaken, each triad by itself") {
+  Spell accel{.sensor = &NavigationHealth::accel, .state = SensorState::noisy};
+  accel.alter = [](Samples& s, Random& random) { s.imu.specific_force_mps2.z += 9 * random.normal(); };
+  check(accel, 1, 1);
+  CHECK(accel.during.gyro.state == SensorState::ok);
+  Spell gyro{.sensor = &NavigationHealth::gyro, .state = SensorState::noisy, .length_s = 2};
+  gyro.alter = [](Samples& s, Random& random) { s.imu.rate_radps.y += 1 * random.normal(); };
+  check(gyro, 1, 1);
+  CHECK(gyro.during.accel.state == SensorState::ok);
+}
+
+TEST_CASE("stuck: one axis of the gyros at its stop, while the others go on") {
+  Spell spell{.sensor = &NavigationHealth::gyro, .state = SensorState::stuck, .length_s = 1};
+  spell.alter = [](Samples& s, Random&) { s.imu.rate_radps.x = 0.02; };
+  check(spell, 0.6, 0.8);
+  CHECK(spell.during.accel.state == SensorState::ok);
 }
 
 TEST_CASE("health comes at 5 Hz, with an attitude or without, in gaps as well") {

@@ -63,6 +63,7 @@ struct Ekf {
     stepped_ns_ = tick.now_ns;
     if (in.status && in.status.fresh()) navigator_.status(*in.status);
     if (!newer(in.imu, imu_ns_, tick) || !inertial(in, tick, p)) {
+      tell_early(in.imu, imu_ns_, tick);
       missed(in, tick);
       return coast(tick, in.imu.fresh(), p, out);
     }
@@ -99,8 +100,17 @@ struct Ekf {
     return port.fresh() && port.valid_at_ns() > last_ns && port.valid_at_ns() <= tick.now_ns + ahead_ns;
   }
   template <class Port>
+  void tell_early(const Port& port, std::int64_t last_ns, const Tick& tick) {
+    if (port.sequence() == 0 || !port.fresh() || port.valid_at_ns() >= last_ns) return;
+    if constexpr (requires { navigator_.health().early(*port, 0.0); })
+      navigator_.health().early(*port, tick.now_s());
+  }
+  template <class Port>
   bool take(const Port& port, std::int64_t& last_ns, const Tick& tick) {
-    if (!port || !newer(port, last_ns, tick)) return false;
+    if (!port || !newer(port, last_ns, tick)) {
+      tell_early(port, last_ns, tick);
+      return false;
+    }
     last_ns = port.valid_at_ns();
     if constexpr (requires { navigator_.health().came(*port, 0.0); })
       navigator_.health().came(*port, tick.now_s());

@@ -13,6 +13,7 @@
 
 #include "fulmar/eigen.hpp"
 #include "fulmar/flight/ekf.hpp"
+#include "fulmar/flight/navigation_witness.hpp"
 #include "fulmar/msg/baro.hpp"
 #include "fulmar/msg/gnss.hpp"
 #include "fulmar/msg/imu.hpp"
@@ -21,8 +22,6 @@
 #include "fulmar/msg/pitot.hpp"
 
 namespace fulmar::navigation {
-
-inline constexpr double never = -1e9;
 
 /// Whether samples come, and whether they change. Times are in seconds on one clock.
 class Arrivals {
@@ -46,14 +45,26 @@ class Arrivals {
   /// Samples in a row, up to the last, that read exactly as the one before: noise does not repeat itself.
   std::int64_t repeated() const { return repeated_; }
   bool stuck() const { return repeated_ >= stuck_samples && sampled_s_ - changed_s_ > stuck_s; }
+  /// A sample whose stamp lies before that of the last one: it was left out.
+  void early(double now_s) {
+    early_ = early_in(now_s) + 1;
+    early_s_ = now_s;
+  }
+  /// Stamps go back again and again: the clock or the link is in disorder.
+  bool disordered(double now_s) const { return early_in(now_s) > early_most; }
 
  private:
   static constexpr double silent_intervals = 5, shortest_s = 0.2, longest_s = 1, stuck_s = 0.45;
   static constexpr std::int64_t stuck_samples = 4;
+  static constexpr double early_time_s = 2,
+                          early_most = 2.2;  ///< the third in a row within 1.4 s
+
+  double early_in(double now_s) const { return early_ * std::exp(-(now_s - early_s_) / early_time_s); }
 
   double sampled_s_ = never, interval_s_ = 0, changed_s_ = never;
   std::array<double, 3> values_{};
   std::int64_t repeated_ = 0;
+  double early_ = 0, early_s_ = 0;
 };
 
 /// Mean and deviation of the last seconds' innovations, in deviations. Each counts for the time since the one
@@ -137,6 +148,8 @@ struct Aid {
   double ratio = 0;               ///< last innovation, in deviations
   double accepted_s = never;      ///< when the gate let one through last
   double refused_from_s = never;  ///< since then it has refused all of them; never: it took the last one
+  double believed_s = never;      ///< when it was believed after all, last
+  bool contradicts = false;       ///< itself, or what can be: biased, whatever the innovations say
   std::uint32_t accepted = 0, refused = 0;
   Arrivals arrivals;
   Innovations innovations;
@@ -164,7 +177,8 @@ struct Aid {
     if (flying && arrivals.stuck()) return SensorState::stuck;
     if (innovations.noisy()) return SensorState::noisy;  // which tells why, when the gate refuses it as well
     if (refused_from_s != never && now_s - refused_from_s > refused_s) return SensorState::refused;
-    return innovations.biased() ? SensorState::biased : SensorState::ok;
+    if (arrivals.disordered(now_s)) return SensorState::refused;
+    return contradicts || innovations.biased() ? SensorState::biased : SensorState::ok;
   }
   SensorHealth health(double now_s, bool flying) const {
     return {state(now_s, flying), accepted, refused, ratio, innovations.mean(), innovations.std()};
@@ -182,12 +196,19 @@ inline bool good(const Gnss& g) {
          std::isfinite(g.altitude_m) && eigen(g.velocity_mps).allFinite();
 }
 
+/// Of the inertial unit, from one sample to the next: beyond, it is shaken.
+inline constexpr double vibration_radps = 0.3, vibration_mps2 = 3;
+
 /// What came of each sensor, what its updates said, and the innovations of the last fix in deviations.
 struct Health {
   Aid gyro, accel, horizontal, height, velocity, baro, pitot, sideslip, heading;
   Eigen::Vector3d position_innovation = Eigen::Vector3d::Zero(),
                   velocity_innovation = Eigen::Vector3d::Zero();  ///< of a fix
   SharedError level;                                              ///< of the horizontal velocity
+  Triad rates, forces;
+  Wander wander;
+  TubeSteps tube;
+  Strength field;
   std::uint32_t refused = 0;  ///< by all gates but that of the sideslip, which no sensor measures
 
   /// A sample came, whether it is used or not.
@@ -195,6 +216,10 @@ struct Health {
     gyro.arrivals.sampled({s.rate_radps.x, s.rate_radps.y, s.rate_radps.z}, now_s);
     const Vec3<Body>& f = s.specific_force_mps2;
     accel.arrivals.sampled({f.x, f.y, f.z}, now_s);
+  }
+  void felt(const Eigen::Vector3d& omega_b, const Eigen::Vector3d& f_b) {
+    rates.sampled(omega_b, vibration_radps);
+    forces.sampled(f_b, vibration_mps2);
   }
   void came(const Mag& s, double now_s) {
     heading.arrivals.sampled({s.field_tesla.x, s.field_tesla.y, s.field_tesla.z}, now_s);
@@ -208,9 +233,25 @@ struct Health {
     velocity.arrivals.sampled({s.velocity_mps.north, s.velocity_mps.east}, now_s);
   }
 
+  /// A sample was left out, as its stamp lies before that of the last one.
+  void early(const Imu&, double now_s) { gyro.arrivals.early(now_s), accel.arrivals.early(now_s); }
+  void early(const Mag&, double now_s) { heading.arrivals.early(now_s); }
+  void early(const Baro&, double now_s) { baro.arrivals.early(now_s); }
+  void early(const Pitot&, double now_s) { pitot.arrivals.early(now_s); }
+  void early(const Gnss&, double now_s) {
+    for (Aid* aid : {&horizontal, &height, &velocity}) aid->arrivals.early(now_s);
+  }
+
   NavigationHealth message(double now_s, bool flying) const {
     const auto of = [&](const Aid& aid) { return aid.health(now_s, flying); };
-    return {of(gyro), of(accel), of(horizontal), of(height), of(velocity), of(heading), of(baro), of(pitot)};
+    const auto felt = [&](const Aid& aid, const Triad& triad) {
+      SensorHealth h = of(aid);
+      if (triad.noisy()) h.state = std::max(h.state, SensorState::noisy);
+      if (flying && triad.was_clipped()) h.state = std::max(h.state, SensorState::stuck);
+      return h;
+    };
+    return {felt(gyro, rates), felt(accel, forces), of(horizontal), of(height),
+            of(velocity),      of(heading),         of(baro),       of(pitot)};
   }
 };
 

@@ -58,7 +58,7 @@ struct Params {
   Param gnss_position_floor{0.1, "m", 0, 10, "no position is trusted more than this"};
   Param gnss_speed_floor{0.015, "m/s", 0, 10, "no velocity is trusted more than this"};
   Param gnss_gate{5, "", 2, 20, "innovations beyond this many deviations are refused"};
-  Param gnss_reset_after{10, "s", 1, 60, "fixes refused for so long are believed after all"};
+  Param gnss_reset_after{9, "s", 1, 60, "fixes refused for so long are believed after all"};
   Param gnss_timeout{5, "s", 0.5, 60, "position counts as invalid after so long without an accepted fix"};
   Count origin_fixes{10, 1, 1000, "good fixes on the ground that are averaged to the origin", setup};
 

@@ -28,8 +28,13 @@ inline constexpr double bridge_accel_std = 1;  ///< m/s2: changes of the speed t
 inline constexpr double height_off_s = 3;      ///< over which a contradiction of the height is averaged
 inline constexpr double climb_off_s = 0.5;     ///< the same of the climb
 inline constexpr double height_step_m = 0.7;   ///< by which one fix moves the height at most
+inline constexpr double baro_step_m = 0.05,
+                        baro_back_for_s = 3;   ///< by which a barometer that is back moves the height at most
 inline constexpr double height_set_m = 50;     ///< beyond which nothing is resolved by degrees
 inline constexpr double outage_after_s = 1.5;  ///< without a velocity: no late fix of a slow receiver
+inline constexpr double heading_lost_s = 10;   ///< without an accepted magnetic heading
+inline constexpr double least_gust_mps = 1.2,
+                        most_gust_mps = 2;  ///< by how much a tube may be off for a second
 inline constexpr double coasted_s =
     0.02;  ///< so long without an inertial sample is a gap: slower units do not fly
 
@@ -173,6 +178,7 @@ class Navigator {
     const double dt = time_s - time_s_;
     if (mode_ != Mode::waiting && !(dt > 0)) return false;
     time_s_ = time_s;
+    health_.felt(omega_b, f_b);
     if (mode_ == Mode::waiting) {
       mode_ = Mode::aligning;
       return true;
@@ -187,6 +193,10 @@ class Navigator {
     }
     filter_.predict(omega_b, f_b, dt);
     if (dt > coasted_s) bridged(dt, p);
+    // At its stop the unit says less than what happens.
+    if (airborne_ && health_.rates.clipped())
+      filter_.inflate(ekf::theta, 3, 2 * p.gap_rate_std * std::sqrt(dt));
+    if (airborne_ && health_.forces.clipped()) filter_.inflate(ekf::vel, 3, p.gap_accel_std * std::sqrt(dt));
     if (resting_ && time_s_ - rest_fused_s_ > 0.05) rest(p);
     update_airborne(p);
     if (airborne_ && seen_.yaw && time_s_ - sideslip_s_ > 0.1 - 1e-4) sideslip(p);
@@ -227,6 +237,12 @@ class Navigator {
 
   /// Reads the same again and again in flight: nothing is learnt from it, however long it goes on.
   bool stuck(const Aid& aid) const { return airborne_ && aid.arrivals.stuck(); }
+
+  /// How long a sensor is refused before it is believed after all. Who had to be believed a short time ago is
+  /// no steady witness: now it is likelier back than off.
+  double patience_s(const Aid& aid, const Params& p) const {
+    return time_s_ - aid.believed_s < 60 ? std::min(2.0, p.gnss_reset_after.value) : p.gnss_reset_after.value;
+  }
 
   /// Fixes within twice the correlation time of their error know as much as one: the factor on their
   /// variance.
@@ -333,7 +349,7 @@ class Navigator {
   }
 
   void align_at_rest(const Params& p) {
-    if (rest_since_s_ < 0) rest_since_s_ = time_s_;
+    if (rest_since_s_ == never) rest_since_s_ = time_s_;  // flight time may be negative
     const bool has_mag = time_s_ - mag_s_ < 0.5;
     if (!has_mag && time_s_ - rest_since_s_ < 2) return;  // a magnetometer may still wake up
     const bool again = regaining();
@@ -418,8 +434,9 @@ class Navigator {
   void gnss_position(const Gnss& g, double valid_s, const Params& p);
   void gnss_height(const ekf::Scalar& z, double std, const Params& p);
   double height_variance(const ekf::Scalar& z, double std, const Params& p) const;
-  double climb_samples(double innovation_mps, double std, const Params& p);
+  double climb_samples(double innovation_mps, double std, double slow, const Params& p);
   ekf::Scalar pressure_height(double pressure_pa) const;
+  bool tube_contradicts(double Va, const Params& p);
   void yaw_from_course(const Vector3d& v_n);
   void yaw_from_field(const Vector3d& field_b);
 
@@ -438,7 +455,7 @@ class Navigator {
          nose_until_s_ = never,  ///< after a start in flight the attitude follows the sideslip, now and then
       airborne_s_ = 0;
   double gnss_s_ = never, gnss_speed_ = 0, mag_s_ = never, mag_fused_s_ = never, pitot_s_ = never,
-         pitot_mps_ = 0, baro_s_ = never;
+         pitot_mps_ = 0, baro_s_ = never, baro_back_s_ = never;
   std::int64_t origin_count_ = 0;
   double baro_pa_ = 0, height_seen_s_ = never, height_off_m_ = 0, climb_seen_s_ = never, climb_off_mps_ = 0;
   Mode mode_ = Mode::waiting;

@@ -132,29 +132,35 @@ inline void Navigator::gnss_velocity(const Gnss& g, double valid_s, const Params
   for (int i = 0; i < 3; ++i) {
     off(i) = z(i).innovation / filter_.expected_std(z(i), variance);
   }
-  const double n = climb_samples(z(2).innovation, std, p);
+  const double slow = samples_in(p.gnss_climb_time, health_.velocity.accepted_s);
+  const double n = climb_samples(z(2).innovation, std, slow, p);
   if (!within({off.x(), off.y(), off.z()}, p.gnss_gate, health_.velocity)) {
     if (time_s_ - std::max(health_.velocity.accepted_s, aligned_s_) < p.gnss_reset_after) return;
     const ekf::Nominal before = filter_.state();
+    health_.velocity.believed_s = time_s_;
     filter_.place(filter_.state().p_n, filter_.state().v_n + v_n - past.v_n);
     filter_.forget(ekf::vel, 3, 3 * std);
     filter_.inflate(ekf::theta, 3, 0.1);
     count_reset(before);
   } else {
     health_.level.add({z(0).innovation, z(1).innovation}, time_s_);
-    for (int i = 0; i < 3; ++i) filter_.fuse(z(i), i < 2 ? variance : n * variance, 1e3);
+    // Without a heading from elsewhere the yaw is what the accelerations of the fixes make of it: then it
+    // counts that their errors follow each other, or the yaw walks away with them.
+    const bool heading = resting_ || time_s_ - health_.heading.accepted_s < heading_lost_s;
+    const double level = heading ? 1 : slow;
+    for (int i = 0; i < 3; ++i) filter_.fuse(z(i), (i < 2 ? level : n) * variance, 1e3);
   }
   health_.velocity.accepted_s = time_s_;
 }
 
-/// By how many the variance of a climb is multiplied: its error is slow as well, and the same holds of one
-/// that goes on contradicting.
-inline double Navigator::climb_samples(double innovation_mps, double std, const Params& p) {
+/// By how much the variance of a climb is multiplied: by `slow`, as its error is, but for one that goes on
+/// contradicting.
+inline double Navigator::climb_samples(double innovation_mps, double std, double slow, const Params& p) {
   const double dt = std::clamp(time_s_ - climb_seen_s_, 0.0, 10.0);
   climb_seen_s_ = time_s_;
   climb_off_mps_ += (innovation_mps - climb_off_mps_) * (1 - std::exp(-dt / climb_off_s));
   const double doubt = std::pow(climb_off_mps_ / std::max(p.gnss_climb_doubt.value, std), 8);
-  return 1 + (samples_in(p.gnss_climb_time, health_.velocity.accepted_s) - 1) / (1 + doubt);
+  return 1 + (slow - 1) / (1 + doubt);
 }
 
 /// The first fix, and the one that is believed after all.
@@ -304,18 +310,24 @@ inline void Navigator::gnss_position(const Gnss& g, double valid_s, const Params
   for (int i = 0; i < 2; ++i)
     health_.position_innovation(i) = z(i).innovation / filter_.expected_std(z(i), variance);
   const Vector3d& off = health_.position_innovation;
-  if (stuck(health_.horizontal)) {
-    // However long: an aircraft does not stand in the air.
-  } else if (within({off.x(), off.y()}, p.gnss_gate, health_.horizontal)) {
+  Aid& level = health_.horizontal;
+  // As long as the velocity is right, as far as anybody knows.
+  const bool asked = airborne_ && !stuck(level) && health_.velocity.refused_from_s == never &&
+                     time_s_ - health_.velocity.believed_s > 60;
+  if (asked) health_.wander.fix(p_n.head<2>(), eigen(g.velocity_mps).head<2>(), h_std, valid_s);
+  level.contradicts = asked && health_.wander.wanders();
+  if (stuck(level) || (asked && health_.wander.doubted())) {
+    // However long: an aircraft does not stand in the air, nor goes where its velocity does not.
+  } else if (within({off.x(), off.y()}, p.gnss_gate, level)) {
     for (int i = 0; i < 2; ++i) filter_.fuse(z(i), variance, 1e3);
-  } else if (time_s_ - std::max(health_.horizontal.accepted_s, aligned_s_) > p.gnss_reset_after) {
+  } else if (time_s_ - std::max(level.accepted_s, aligned_s_) > patience_s(level, p)) {
     const ekf::Nominal before = filter_.state();
     Vector3d moved = before.p_n;
     moved.head<2>() += Vector2d(z(0).innovation, z(1).innovation);
     filter_.place(moved, before.v_n);
     forget_level();
     count_reset(before);
-    health_.horizontal.accepted_s = time_s_;
+    level.accepted_s = level.believed_s = time_s_;
   }
   if (!stuck(health_.height)) gnss_height(z(2), v_std, p);
 }
@@ -359,6 +371,8 @@ inline void Navigator::mag(const Vector3d& field_b, const Params& p) {
   if (!(strength > 1e-6) || !field_b.allFinite()) return;
   mag_s_ = time_s_;
   mag_b_ = field_b;
+  health_.field.sampled(strength, time_s_);
+  health_.heading.contradicts = airborne_ && health_.field.changed();
   if (!aligned()) {
     flight_.mag(field_b);
     return;
@@ -392,6 +406,7 @@ inline ekf::Scalar Navigator::pressure_height(double pressure_pa) const {
 
 inline void Navigator::baro(double pressure_pa, const Params& p) {
   if (!(pressure_pa > 1e4 && pressure_pa < 1.2e5)) return;
+  if (airborne_ && time_s_ - baro_s_ > outage_after_s) baro_back_s_ = time_s_;
   baro_s_ = time_s_;
   baro_pa_ = pressure_pa;
   if (!seen_.origin && !seen_.altitude) {
@@ -414,11 +429,31 @@ inline void Navigator::baro(double pressure_pa, const Params& p) {
   const double load = filter_.specific_force_b().norm() / p.gravity - 1;
   const double std =
       std::hypot(p.baro_noise, p.baro_load_error * load * dynamic_pa) * ekf::metres_per_pascal(air_);
-  const ekf::Fused fused = fuse(pressure_height(pressure_pa), std * std, p.air_gate, health_.baro);
+  // Back after an outage it moves the height by degrees.
+  const ekf::Scalar z = pressure_height(pressure_pa);
+  const double known = time_s_ - baro_back_s_ < baro_back_for_s ? filter_.expected_std(z, 0) : 0,
+               least = known * known * (std::abs(z.innovation) / baro_step_m - 1);
+  const bool agrees = std::abs(z.innovation) <= p.air_gate * filter_.expected_std(z, std * std);
+  const ekf::Fused fused = fuse(z, agrees ? std::max(std * std, least) : std * std, p.air_gate, health_.baro);
   if (!fused.accepted && time_s_ - std::max(health_.baro.accepted_s, aligned_s_) > p.gnss_reset_after) {
     seen_.baro_zero = false;
     health_.baro.accepted_s = time_s_;
   }
+}
+
+/// A tube that has stepped is not used until it has stepped back, or so long ago that it may be right; nor
+/// one that is off by more than gusts are.
+inline bool Navigator::tube_contradicts(double Va, const Params& p) {
+  const double noise = p.pitot_noise / (air_.density_kgm3 * std::max(Va, 0.5 * p.min_airspeed)),
+               sample = std::hypot(noise, p.pitot_speed_std) * health_.pitot.innovations.std();
+  ekf::Scalar z = ekf::true_airspeed(filter_.state(), Va);
+  z.H(ekf::gust) = 0;  // by what has been learnt of them
+  const double without_tube = ekf::air_velocity(filter_.state()).norm();
+  const double doubt =
+      std::hypot(std::clamp(gusts_.std_mps(p), least_gust_mps, most_gust_mps), filter_.expected_std(z, 0));
+  health_.tube.sampled(Va, without_tube, sample, doubt, time_s_);
+  health_.pitot.contradicts = health_.tube.stepped() || health_.tube.off();
+  return health_.pitot.contradicts;
 }
 
 inline void Navigator::pitot(double pressure_pa, const Params& p) {
@@ -429,7 +464,7 @@ inline void Navigator::pitot(double pressure_pa, const Params& p) {
   pitot_mps_ = pitot_s_ == never ? Va : pitot_mps_ + (Va - pitot_mps_) * (1 - std::exp(-dt / 0.2));
   pitot_s_ = time_s_;
   if (!aligned() || !airborne_ || stuck(health_.pitot)) return;
-  if (Va < 0.5 * p.min_airspeed) {  // stands still in flight: as good as refused
+  if (tube_contradicts(Va, p) || Va < 0.5 * p.min_airspeed) {  // or it stands still in flight
     const ekf::Scalar z = ekf::true_airspeed(filter_.state(), Va);
     health_.pitot.told({false, z.innovation / filter_.expected_std(z, p.pitot_speed_std * p.pitot_speed_std)},
                        time_s_);

@@ -8,10 +8,10 @@ namespace fulmar {
 enum class SensorState : std::uint8_t {
   never,    ///< not one sample yet
   ok,       ///< comes, and agrees with the others as far as its deviation says
-  biased,   ///< innovations are off to one side and stay so
-  refused,  ///< the gate has kept out everything for a second
-  noisy,    ///< innovations scatter much more than expected
-  stuck,    ///< reads exactly the same again and again while the aircraft flies
+  biased,   ///< innovations are off to one side and stay so, or it says what cannot be
+  refused,  ///< the gate has kept out everything for a second, or its stamps go back again and again
+  noisy,    ///< innovations scatter much more than expected; an inertial unit that is shaken
+  stuck,    ///< reads exactly the same again and again while the aircraft flies; an axis at its stop
   silent    ///< no sample for several of its own intervals; a receiver without a fix as well
 };
 

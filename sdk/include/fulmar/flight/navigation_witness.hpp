@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Witnesses against a sensor beside the innovations of the filter: what it says of itself, and what no
+// aircraft and no air does. In hourglasses without fault (both sets of sensors, light and moderate
+// turbulence, eight seeds each) nothing comes nearer to its threshold than 0.85 of it.
+#pragma once
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace fulmar::navigation {
+
+inline constexpr double never = -1e9;
+
+/// Three axes of the inertial unit, sample by sample. Nothing is expected of them, but white noise that no
+/// flight makes is vibration, and an axis that stays exactly where it is, the sooner at the largest that it
+/// has ever said, is at its stop.
+class Triad {
+ public:
+  void sampled(const Eigen::Vector3d& values, double noisy_std) {
+    double square = 0;
+    for (int i = 0; i < 3; ++i) {
+      repeated_[i] = values[i] == before_[i] && values[i] != 0 ? repeated_[i] + 1 : 0;
+      most_[i] = std::max(most_[i], std::abs(values[i]));
+      square += 0.5 * (values[i] - before_[i]) * (values[i] - before_[i]) / 3;
+    }
+    variance_ = begun_ ? variance_ + (square - variance_) / window : 0;
+    const double limit = noisy_ ? calm_share * noisy_std : noisy_std;
+    noisy_ = variance_ > limit * limit;
+    before_ = values;
+    begun_ = true;
+    clipped_ = false;
+    for (int i = 0; i < 3; ++i)
+      clipped_ =
+          clipped_ || repeated_[i] >= (std::abs(before_[i]) < most_[i] ? held_samples : clipped_samples);
+    since_clipped_ = clipped_ ? 0 : std::min(since_clipped_ + 1, told_samples);
+  }
+  bool clipped() const { return clipped_; }
+  /// As long as whoever looks now and then has to see it.
+  bool was_clipped() const { return since_clipped_ < told_samples; }
+  bool noisy() const { return noisy_; }
+
+ private:
+  static constexpr double window = 100, calm_share = 0.7;  ///< samples
+  static constexpr int clipped_samples = 5, held_samples = 25, told_samples = 100;
+
+  Eigen::Vector3d before_ = Eigen::Vector3d::Zero(), most_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3i repeated_ = Eigen::Vector3i::Zero();
+  double variance_ = 0;
+  int since_clipped_ = told_samples;
+  bool begun_ = false, noisy_ = false, clipped_ = false;
+};
+
+/// Whether a receiver's position goes where its velocity says. The two come from different measurements, so a
+/// position that is pulled away by something the velocity does not know shows here long before it is as wrong
+/// as the receiver may be. A jump is no wander: the gate sees it.
+class Wander {
+ public:
+  /// A fix, north and east; `std_m`: what it claims of its position.
+  void fix(const Eigen::Vector2d& p_n, const Eigen::Vector2d& v_n, double std_m, double time_s) {
+    const double dt = time_s - time_s_;
+    const Eigen::Vector2d step = p_n - p_n_ - 0.5 * dt * (v_n + v_n_);
+    time_s_ = time_s, p_n_ = p_n, v_n_ = v_n;
+    if (!(dt > 0 && dt < longest_s && step.norm() < jump * std_m)) {
+      off_.setZero();
+      wanders_ = false;
+      return;
+    }
+    off_ = std::exp(-dt / memory_s) * off_ + step;
+    // What this receiver's positions and velocities differ by all the time, of which a fault teaches little.
+    const double least = least_share * std_m, seen = std::min(off_.norm(), 2 * std::max(usual_, least));
+    usual_ = std::sqrt(usual_ * usual_ + (seen * seen - usual_ * usual_) * std::min(dt / usual_s, 1.0));
+    const double limit = std::max(limit_share * std_m, times * usual_);
+    if (!wanders_) since_s_ = time_s;
+    wanders_ = off_.norm() > (wanders_ ? 0.5 : 1) * limit;
+  }
+  bool wanders() const { return wanders_; }
+  /// For so long the velocity is taken to be right; then it may be the one that is wrong.
+  bool doubted() const { return wanders_ && time_s_ - since_s_ < doubted_s; }
+
+ private:
+  static constexpr double memory_s = 3, usual_s = 60, longest_s = 1.5, jump = 5, least_share = 0.2,
+                          limit_share = 1.6, times = 4.5, doubted_s = 30;
+
+  Eigen::Vector2d p_n_ = Eigen::Vector2d::Zero(), v_n_ = Eigen::Vector2d::Zero(),
+                  off_ = Eigen::Vector2d::Zero();
+  double time_s_ = never, since_s_ = never, usual_ = 0;
+  bool wanders_ = false;
+};
+
+/// Whether the tube's airspeed steps: within a few samples no gust changes by a metre per second, but a tube
+/// that is plugged, kicked or zeroed does. The sum of all steps tells whether it has stepped back. And
+/// whether it is off for a second by more than gusts are, or has gone there within one.
+class TubeSteps {
+ public:
+  /// The tube's true airspeed, and the one without it; `noise`: of a sample of their difference, `std`: of
+  /// the difference with gusts. m/s.
+  void sampled(double tube, double otherwise, double noise, double std, double time_s) {
+    const double dt = std::clamp(time_s - time_s_, 0.0, 1.0);
+    time_s_ = time_s;
+    if (dt > longest_s) count_ = 0;
+    std::rotate(past_.begin(), past_.end() - 1, past_.end());
+    past_[0] = {tube, tube - otherwise, time_s};
+    count_ = std::min(count_ + 1, past_.size());
+    mean_ += (past_[0].excess - mean_) * (1 - std::exp(-dt / mean_s));
+    if (time_s - seconds_s_ >= 0.1) {
+      std::rotate(second_.begin(), second_.end() - 1, second_.end());
+      second_[0] = mean_;
+      seconds_ = dt > longest_s ? 0 : std::min(seconds_ + 1, second_.size());
+      seconds_s_ = time_s;
+    }
+    // Within a second a first-order Gauss-Markov gust changes by a share of what it is.
+    const double gust = std::max(std, strong_mps), change_1 = gust * std::sqrt(2 / gust_time_s);
+    const bool falls = seconds_ == second_.size() && std::abs(mean_) > std::abs(second_.back()) &&
+                       std::abs(mean_ - second_.back()) > change_times * change_1;
+    off_ = falls || std::abs(mean_) > (off_ ? back_std * std : off_std * gust);
+    if (time_s - stepped_s_ > forgotten_s) sum_ = 0;
+    if (count_ < past_.size()) return;
+    // By how much a first-order Gauss-Markov gust changes from the one group of samples to the other.
+    const double change = std * std::sqrt(2 * (past_[1].time_s - past_[5].time_s) / gust_time_s);
+    step(std::max({least_mps, noise_times * noise, change_times * change}), std);
+  }
+  bool stepped() const { return sum_ != 0; }
+  bool off() const { return off_; }
+
+ private:
+  struct Said {
+    double tube = 0, excess = 0, time_s = 0;
+  };
+  static constexpr double least_mps = 1.2, noise_times = 8, change_times = 6, gust_time_s = 10,
+                          forgotten_s = 30, longest_s = 0.15;
+  static constexpr double mean_s = 0.6, off_std = 5, back_std = 2.5, strong_mps = 2;
+
+  /// The last three samples, each, from the mean of the three before the one in between. Both must have
+  /// stepped: the airspeed without the tube steps when the receiver is believed after all.
+  void step(double limit, double std) {
+    double step = 0;
+    for (const auto which : {&Said::tube, &Said::excess}) {
+      const double before = (past_[4].*which + past_[5].*which + past_[6].*which) / 3;
+      const double a = past_[0].*which - before, b = past_[1].*which - before, c = past_[2].*which - before;
+      if (std::min({std::abs(a), std::abs(b), std::abs(c)}) < limit || a * b < 0 || a * c < 0) return;
+      step = (a + b + c) / 3;
+    }
+    count_ = 0;
+    sum_ += step;
+    stepped_s_ = time_s_;
+    // Back where it was; or crept off, and now it agrees.
+    const bool agrees = off_ && std::abs(past_[0].excess) < back_std * std;
+    if (agrees) mean_ = past_[0].excess;
+    if (agrees || std::abs(sum_) < 0.5 * std::max(limit, std::abs(step))) sum_ = 0;
+  }
+
+  std::array<Said, 7> past_{};
+  std::size_t count_ = 0;
+  std::array<double, 11> second_{};  ///< the mean excess, every tenth of a second
+  std::size_t seconds_ = 0;
+  double seconds_s_ = never;
+  double time_s_ = never, stepped_s_ = never, sum_ = 0, mean_ = 0;
+  bool off_ = false;
+};
+
+/// Whether a magnetometer still feels a field as strong as before, whatever its unit and its iron: a current
+/// beside it changes the strength, in most directions.
+class Strength {
+ public:
+  void sampled(double strength, double time_s) {
+    const double dt = std::clamp(time_s - time_s_, 0.0, 1.0);
+    time_s_ = time_s;
+    if (usual_ == 0) now_ = usual_ = strength;
+    now_ += (strength - now_) * (1 - std::exp(-dt / now_s));
+    const double off = std::abs(now_ / usual_ - 1);
+    changed_ = off > (changed_ ? back_share : changed_share);
+    usual_ += (now_ - usual_) * (1 - std::exp(-dt / (changed_ ? adopted_s : usual_s)));
+  }
+  bool changed() const { return changed_; }
+
+ private:
+  static constexpr double now_s = 0.3, usual_s = 30, adopted_s = 120, changed_share = 0.15, back_share = 0.08;
+
+  double time_s_ = never, now_ = 0, usual_ = 0;
+  bool changed_ = false;
+};
+
+}  // namespace fulmar::navigation

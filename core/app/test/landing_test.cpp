@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From runway to runway: the shipped mission in several winds, judged by the simulated truth.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "core/app/test/fault_campaign.hpp"
+#include "core/run/allocation.hpp"
+#include "fulmar/msg/landing_progress.hpp"
+
+using namespace fulmar::core;
+
+namespace landing_test {
+
+namespace {
+
+struct Touch {
+  bool stopped = false;
+  double sink_mps = 0, cross_m = 1e9, along_m = 1e9, slowest_mps = 1e9;
+  unsigned go_arounds = 0;
+};
+
+Touch landed(double wind_mps, double from_deg, std::uint64_t seed, const std::string& sensors) {
+  Overrides overrides;
+  const double to_rad = (from_deg + 180) * std::acos(-1.0) / 180;
+  overrides.seed = seed;
+  overrides.set = {{"sim.sensors", sensors},
+                   {"sim.wind_ned", "[" + std::to_string(wind_mps * std::cos(to_rad)) + ", " +
+                                        std::to_string(wind_mps * std::sin(to_rad)) + ", 0]"}};
+  const Graph graph = load_mission(FULMAR_SOURCE_DIR "/configs/missions/runway_to_runway.yaml", overrides);
+  FlightOptions options;
+  options.log = false;
+  Flight flight(graph, options);
+  const Source truth = failures::output_of(graph, "sim", "truth"),
+               progress = failures::output_of(graph, "land", "progress");
+  Touch t;
+  double sink = 0;
+  while (flight.step()) {
+    const auto* const x = reinterpret_cast<const fulmar::VehicleState*>(flight.sample(truth));
+    const auto* const p = reinterpret_cast<const fulmar::LandingProgress*>(flight.sample(progress));
+    if (!x || !p || flight.phase() == "hold" || flight.phase() == "takeoff") continue;
+    t.go_arounds = p->go_arounds;
+    if (p->stage < fulmar::LandingStage::roll_out) {
+      sink = -x->climb_rate_mps;
+      if (flight.phase() == "approach") t.slowest_mps = std::min(t.slowest_mps, x->airspeed_mps);
+    } else if (t.cross_m == 1e9) {  // the runway begins at the origin, to the south-east
+      const double c = std::sqrt(0.5), n = x->position_m.north, e = x->position_m.east;
+      t.along_m = -c * n + c * e, t.cross_m = -c * n - c * e, t.sink_mps = sink;
+    }
+  }
+  const FlightResult result = flight.finish();
+  t.stopped = result.outcome == Outcome::flown && result.guards.empty();
+  return t;
+}
+
+}  // namespace
+
+TEST_CASE("it takes off, flies its circuit and lands on the runway, with wind from ahead and from the side") {
+  const struct {
+    double wind_mps, from_deg;
+    const char* sensors;
+  } winds[] = {{0, 135, "rosflight"}, {5, 150, "ublox"}, {8, 110, "rosflight"}, {10, 135, "ublox"}};
+  std::uint64_t seed = 0;
+  for (const auto& w : winds) {
+    CAPTURE(w.wind_mps);
+    const Touch t = landed(w.wind_mps, w.from_deg, ++seed, w.sensors);
+    CHECK(t.stopped);
+    CHECK(t.sink_mps < 1.5);
+    CHECK(std::abs(t.cross_m) < 5 + 3);  // 5 m and what the receiver is off
+    CHECK(t.along_m > -30);
+    CHECK(t.along_m < 200);
+    CHECK(t.slowest_mps > 11);         // 1.1 times the stall
+    if (!counts_allocations()) break;  // under the sanitizers a flight takes twenty times as long
+  }
+}
+
+}  // namespace landing_test

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The stages of a landing: where it turns onto the final approach, how it follows the slope, sinks in the
+// flare, goes around, and what it takes for a touch-down. Flown: core/app/test/landing_test.cpp.
+#include "plugins/path/landing.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <fulmar/testing.hpp>
+#include <numbers>
+
+namespace landing_test {
+
+using namespace fulmar;
+using path::Landing;
+
+namespace {
+
+constexpr double deg = std::numbers::pi / 180;
+
+/// A runway to the east, 20 m high, whose slope meets it 50 m behind the threshold.
+struct Strip {
+  Bench<Landing> bench;
+  VehicleState s;
+  explicit Strip(double length_m = 400) {
+    Runway& r = bench.params.runway.value;
+    r.north_m = 100, r.east_m = -200, r.up_m = 20, r.heading_rad = 90 * deg, r.length_m = length_m;
+    FlightLimits& limits = bench.params.airframe.value.limits;
+    limits.airspeed_min_mps = 12, limits.airspeed_cruise_mps = 17;
+    s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = true;
+    s.ground_speed_mps = s.airspeed_mps = 14;
+    s.course_rad = s.yaw_rad = 90 * deg;
+  }
+  /// `along_m` before the point where the slope meets the runway, `right_m` of its centre line.
+  const LandingProgress& at(double along_m, double right_m, double above_m, double seconds = 0.01) {
+    s.position_m = {100 - right_m, -150 - along_m, -(20 + above_m)};
+    s.height_m = 20 + above_m;
+    bench.set(bench.in.state, s);
+    for (double t = 0; t < seconds; t += 0.01) bench.step(0.01);
+    return bench.out.progress;
+  }
+  double slope(double along_m) const { return std::tan(0.07) * along_m; }
+  /// On the glide slope, as far out as that.
+  void approach() { REQUIRE(at(450, 0, slope(450)).stage == LandingStage::approach); }
+};
+
+}  // namespace
+
+TEST_CASE("the circle touches the centre line where the final approach begins; onto it at its height alone") {
+  Strip strip;
+  strip.bench.activate();
+  CHECK(strip.at(450, 0, strip.slope(450) + 20).stage == LandingStage::join);
+  CHECK(strip.bench.out.command.height_m == doctest::Approx(20 + strip.slope(450)));
+  CHECK(strip.bench.out.command.course_rad == doctest::Approx(90 * deg));  // on the circle, at the tangent
+  CHECK(strip.bench.out.command.roll_feedforward_rad < -0.2);              // flown to the left
+  strip.s.course_rad = -90 * deg;
+  CHECK(strip.at(450, 0, strip.slope(450)).stage == LandingStage::join);
+  strip.s.course_rad = 90 * deg;
+  CHECK(strip.at(450, 0, strip.slope(450)).stage == LandingStage::approach);
+}
+
+TEST_CASE(
+    "on the approach height and sink are those of the slope, and both sides lead back to the centre line") {
+  Strip strip;
+  strip.approach();
+  for (const double along : {400.0, 200.0}) {
+    strip.at(along, 0, strip.slope(along));
+    CHECK(strip.bench.out.command.height_m == doctest::Approx(20 + strip.slope(along)));
+    CHECK(strip.bench.out.command.climb_rate_mps == doctest::Approx(-14 * std::tan(0.07)));
+    CHECK(strip.bench.out.command.airspeed_mps == doctest::Approx(1.1 * 12));
+  }
+  CHECK(strip.at(300, 5, strip.slope(300)).cross_m == doctest::Approx(5));
+  CHECK(strip.bench.out.command.course_rad < 89 * deg);
+  strip.at(300, -5, strip.slope(300));
+  CHECK(strip.bench.out.command.course_rad > 91 * deg);
+}
+
+TEST_CASE("the flare sinks more slowly the lower it is, down to the sink of the touch-down") {
+  Strip strip;
+  strip.approach();
+  CHECK(strip.at(45, 0, 3.4).stage == LandingStage::flare);
+  const double first = strip.bench.out.command.climb_rate_mps;
+  strip.at(30, 0, 1.75);
+  const double middle = strip.bench.out.command.climb_rate_mps;
+  strip.at(20, 0, -1);
+  CHECK(first == doctest::Approx(-14 * std::tan(0.07)).epsilon(0.05));
+  CHECK(middle == doctest::Approx(-0.5 * (14 * std::tan(0.07) + 0.4)).epsilon(0.02));
+  CHECK(strip.bench.out.command.climb_rate_mps == doctest::Approx(-0.4));
+  // The height goes on down where the aircraft floats: by the sink, no more than 1.5 m below it.
+  strip.at(10, 0, 1, 1);
+  CHECK(strip.bench.out.command.height_m - strip.s.height_m < -0.4);
+  strip.at(10, 0, 1, 20);
+  CHECK(strip.bench.out.command.height_m - strip.s.height_m == doctest::Approx(-1.5));
+}
+
+TEST_CASE("off the centre line, off the slope or without a position it goes around, and joins again") {
+  for (const int what : {0, 1, 2, 3, 4}) {
+    CAPTURE(what);
+    Strip strip;
+    strip.approach();
+    if (what == 2) strip.s.position_valid = false;
+    if (what == 4) strip.bench.params.go_around.value = true, strip.bench.retune();
+    const LandingProgress& p = strip.at(250,
+                                        what == 0   ? 9
+                                        : what == 3 ? 0
+                                                    : 0,
+                                        strip.slope(250) + (what == 1 ? 6.5 : 0));
+    if (what == 3) {
+      CHECK(p.stage == LandingStage::approach);
+      continue;
+    }
+    CHECK(p.stage == LandingStage::go_around);
+    CHECK(p.go_arounds == 1);
+    CHECK(strip.bench.out.command.height_m == doctest::Approx(20 + strip.slope(450)));
+    CHECK(strip.bench.out.command.airspeed_mps == 17);
+    strip.bench.params.go_around.value = false;
+    strip.bench.retune();
+    strip.s.position_valid = true;
+    CHECK(strip.at(-300, 0, strip.slope(450)).stage == LandingStage::join);
+  }
+}
+
+TEST_CASE("far out it may be off, and below the decision height it lands") {
+  Strip strip;
+  strip.approach();
+  CHECK(strip.at(400, 12, strip.slope(400)).stage == LandingStage::approach);
+  CHECK(strip.at(150, 12, 11).stage == LandingStage::approach);
+}
+
+TEST_CASE("a touch-down is what the vehicle says, or a second without sinking where the ground must be") {
+  Strip strip;
+  strip.approach();
+  strip.at(40, 0, 3);
+  strip.s.climb_rate_mps = -0.5;
+  CHECK(strip.at(20, 0, 0.5, 3).stage == LandingStage::flare);
+  strip.s.climb_rate_mps = 0;
+  CHECK(strip.at(20, 0, 0.5, 0.5).stage == LandingStage::flare);
+  CHECK(strip.at(20, 0, 0.5, 1).stage == LandingStage::roll_out);
+  CHECK(strip.at(0, 0, 0, 2).stage == LandingStage::roll_out);
+  strip.s.ground_speed_mps = 0.3;
+  CHECK(strip.at(-60, 0, 0).stage == LandingStage::stopped);
+
+  Strip told;
+  told.approach();
+  told.at(40, 0, 3);
+  VehicleStatus status;
+  status.on_ground = true;
+  told.bench.set(told.bench.in.status, status);
+  told.s.climb_rate_mps = -0.5;
+  CHECK(told.at(20, 0, 2.5).stage == LandingStage::roll_out);  // whatever the height says
+}
+
+TEST_CASE("a runway that is too short is refused with what it takes") {
+  Strip strip(200);
+  CHECK(strip.bench.configure() == Status::failed);
+  CHECK(std::string(strip.bench.error()) ==
+        "runway.length: 200 m is too short; aim, flare and roll take 214 m in still air");
+  CHECK(Strip(215).bench.configure() == Status::ok);
+}
+
+TEST_CASE("who takes over again begins with the circle") {
+  Strip strip;
+  strip.approach();
+  strip.bench.activate();
+  CHECK(strip.at(300, 0, strip.slope(300)).stage == LandingStage::join);
+}
+
+}  // namespace landing_test

@@ -34,12 +34,14 @@ struct SignalInputs {
   Optional<VehicleStatus> status;  // wired: aborted while commands do not move the aircraft
 };
 
+inline constexpr std::string_view not_obeyed = "signal aborted: commands do not move the aircraft";
+
 /// Why nothing may be added now; "" when it may. `begun_m`: the height at which it was asked for.
 inline std::string_view trouble(const SignalInputs& in, const BoundParams& p, double begun_m) {
   const VehicleState& s = *in.state;
   const FlightLimits& limits = p.airframe->limits;
   const double stall = p.stall_airspeed > 0 ? p.stall_airspeed.value : limits.airspeed_min_mps / 1.2;
-  if (in.status && !in.status->in_control) return "signal aborted: commands do not move the aircraft";
+  if (in.status && !in.status->in_control) return not_obeyed;
   if (in.state.stale() || !s.attitude_valid || !s.height_valid || !s.airspeed_valid)
     return "signal aborted: attitude, height or airspeed is not known";
   // Each the other way round: what is no number is out of its bound.
@@ -76,7 +78,7 @@ class Excitation {
   /// while the pilot flies nothing is left of one, and none begins for that it is over.
   void take_over(bool somebody_flew) {
     if (somebody_flew) request_ = {}, aborted_ = false;
-    if (!somebody_flew) aborted_ = aborted_ || running_;
+    if (!somebody_flew && running_) abort(not_obeyed);
     running_ = false;
     last_ = left_ = {};
   }
@@ -90,13 +92,15 @@ class Excitation {
     if (running_) {
       std::string_view why = trouble(in, bounds, begun_m_);
       if (why.empty()) why = extra;
-      if (!why.empty()) abort(why, tick, told);
+      if (!why.empty()) abort(why);
     }
     fade(tick.dt_s());
     last_ = left_;
     const double t = 1e-9 * static_cast<double>(tick.now_ns - begun_ns_) - request_.delay;
     if (running_) last_[request_.channel] += request_.size * wave_.at(t);
     running_ = running_ && t < wave_.end_s();
+    if (!untold_.empty()) told.notices.push({Text<96>(untold_), Severity::warning}, tick.now_ns);
+    untold_ = {};
     told.active_ratio = running_ ? 1.0 : 0.0;
     told.aborted_ratio = aborted_ ? 1.0 : 0.0;
     return aborted_ ? Status::degraded : Status::ok;
@@ -114,10 +118,9 @@ class Excitation {
     running_ = now.shape != Shape::none;
     aborted_ = false;
   }
-  void abort(std::string_view why, const Tick& tick, Told& told) {
+  void abort(std::string_view why) {
     let_go();
-    running_ = false, aborted_ = true;
-    told.notices.push({Text<96>(why), Severity::warning}, tick.now_ns);
+    running_ = false, aborted_ = true, untold_ = why;
   }
   void let_go() {
     left_ = last_;
@@ -137,6 +140,7 @@ class Excitation {
   std::int64_t begun_ns_ = 0;
   double begun_m_ = 0;
   bool running_ = false, aborted_ = false;
+  std::string_view untold_;                         // why it was aborted, until that is told
   std::array<double, N> last_{}, left_{}, from_{};  // added last; of signals before, now and when let go
 };
 

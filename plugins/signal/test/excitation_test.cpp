@@ -249,6 +249,7 @@ TEST_CASE("the pilot: aborted while commands do not move the aircraft, and not b
   for (int i = 0; i < 3; ++i) {
     q.activate();
     q.go();
+    CHECK(q.out.told.notices.count == (i == 0 ? 1 : 0));
     CHECK(q.bits_are_its_own());
   }
   q.go(100);

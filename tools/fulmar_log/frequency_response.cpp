@@ -85,10 +85,8 @@ struct Spectra {
   Eigen::FFT<double> fft_;
   std::vector<Complex> transformed(const std::vector<double>& x, std::size_t begin,
                                    const std::vector<double>& window) {
-    double mean = 0;
-    for (std::size_t i = 0; i < window.size(); ++i) mean += x[begin + i] / static_cast<double>(window.size());
     std::vector<double> part(window.size());
-    for (std::size_t i = 0; i < window.size(); ++i) part[i] = window[i] * (x[begin + i] - mean);
+    for (std::size_t i = 0; i < window.size(); ++i) part[i] = window[i] * x[begin + i];
     std::vector<Complex> out;
     fft_.fwd(out, part);
     return out;

@@ -46,10 +46,11 @@ struct FrequencyResponse {
 };
 
 /// Welch's estimate, H1: segments of `segment_s` (0: a quarter of the time) that overlap by half, each
-/// without its mean and with a Hann window; gain and phase S_xy / S_xx, coherence |S_xy|^2 / (S_xx S_yy).
-/// Bendat & Piersol, Random Data (2010), sections 6.1, 9.2 and 11.5. Frequencies from the second of the
-/// segment up to 0.4 of the rate whose input has a thousandth of the largest power density. Throws
-/// core::Error when a series has a gap, or there is too little for three segments.
+/// with a Hann window, in which a mean reaches the first frequency and no further; gain and phase S_xy /
+/// S_xx, coherence |S_xy|^2 / (S_xx S_yy). Bendat & Piersol, Random Data (2010), sections 6.1, 9.2 and 11.5.
+/// Frequencies from the second of the segment up to 0.4 of the rate whose input has a thousandth of the
+/// largest power density. Throws core::Error when a series has a gap, or there is too little for three
+/// segments.
 FrequencyResponse frequency_response(const Series& input, const Series& output, double segment_s = 0);
 
 }  // namespace fulmar::response

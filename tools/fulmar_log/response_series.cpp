@@ -85,7 +85,7 @@ double number_of(const Cell& cell) {
 }
 
 /// From and to, s.
-std::pair<double, double> span_of(const core::LogInfo& info, const std::string& log, const Window& w) {
+std::pair<double, double> bounds_of(const core::LogInfo& info, const std::string& log, const Window& w) {
   double from_s = w.from_s.value_or(-std::numeric_limits<double>::infinity()),
          to_s = w.to_s.value_or(std::numeric_limits<double>::infinity());
   if (w.phase.empty()) return {from_s, to_s};
@@ -101,7 +101,7 @@ std::array<Signal, 2> read_signals(const std::filesystem::path& log, const std::
                                    const Window& window) {
   const std::string name = log.string();
   const core::LogInfo info = core::read_info(log);
-  const auto [from_s, to_s] = span_of(info, name, window);
+  const auto [from_s, to_s] = bounds_of(info, name, window);
   const std::array places{place_of(info, name, fields[0]), place_of(info, name, fields[1])};
   std::vector<std::string> topics{places[0].topic};
   if (places[1].topic != places[0].topic) topics.push_back(places[1].topic);

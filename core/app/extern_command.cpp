@@ -55,6 +55,7 @@ const std::vector<OwnCommand>& own_commands() {
       {"inspect", "fulmar-inspect", "print what a plugin file offers"},
       {"new", "fulmar-new", "write the project of a plugin for a mission"},
       {"log", "fulmar-log", "look at a log, repair it, export it, compare it"},
+      {"response", "fulmar-log", "how a field of a log answers another: step, frequency response"},
       {"list", "fulmar-live", "components of a running flight, their ports, requests and phases"},
       {"echo", "fulmar-live", "print messages of a running flight; angles in degrees"},
       {"plot", "fulmar-live", "plot fields of a running flight in the terminal"},

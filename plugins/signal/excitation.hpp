@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the three components share: when a signal begins and ends, what aborts it, and what is told of it.
+#pragma once
+#include <array>
+#include <string_view>
+
+#include "fulmar/msg/airframe.hpp"
+#include "fulmar/msg/notice.hpp"
+#include "fulmar/msg/vehicle_state.hpp"
+#include "fulmar/msg/vehicle_status.hpp"
+#include "waveform.hpp"
+
+namespace fulmar::signal {
+
+struct BoundParams {
+  Param roll_bound{0.785, "rad", 0.05, 3.15, "beyond this roll, either way, the signal is aborted"};
+  Param pitch_bound{0.5, "rad", 0.05, 1.6, "beyond this pitch, either way, the signal is aborted"};
+  Param height_bound{20, "m", 0.5, 10000, "so far from the height at which it was asked for it is aborted"};
+  Param stall_airspeed{
+      0, "m/s", 0, 300,
+      "with wings level; 1.1 times this aborts. 0: the airframe's minimum airspeed over 1.2"};
+  Record<Airframe> airframe{"limits and throws, which no signal leaves", required};
+};
+
+/// Outputs of each component, beside what is added to each of its channels.
+struct Told {
+  Probe active_ratio;   // 1: from when it is asked for, its delay included, until its end
+  Probe aborted_ratio;  // 1: it was aborted, until another one is asked for
+  OutQueue<Notice, 4> notices;
+};
+
+struct SignalInputs {
+  In<VehicleState> state;
+  Optional<VehicleStatus> status;  // wired: aborted while commands do not move the aircraft
+};
+
+inline constexpr std::string_view not_obeyed = "signal aborted: commands do not move the aircraft";
+
+/// Why nothing may be added now; "" when it may. `begun_m`: the height at which it was asked for.
+inline std::string_view trouble(const SignalInputs& in, const BoundParams& p, double begun_m) {
+  const VehicleState& s = *in.state;
+  const FlightLimits& limits = p.airframe->limits;
+  const double stall = p.stall_airspeed > 0 ? p.stall_airspeed.value : limits.airspeed_min_mps / 1.2;
+  if (in.status && !in.status->in_control) return not_obeyed;
+  if (in.state.stale() || !s.attitude_valid || !s.height_valid || !s.airspeed_valid)
+    return "signal aborted: attitude, height or airspeed is not known";
+  // Each the other way round: what is no number is out of its bound.
+  if (!(std::abs(s.roll_rad) <= p.roll_bound)) return "signal aborted: roll is beyond roll_bound";
+  if (!(std::abs(s.pitch_rad) <= p.pitch_bound)) return "signal aborted: pitch is beyond pitch_bound";
+  if (!(std::abs(s.height_m - begun_m) <= p.height_bound))
+    return "signal aborted: height has moved by height_bound";
+  if (!(s.airspeed_mps >= 1.1 * stall)) return "signal aborted: airspeed is below 1.1 times the stall";
+  if (!(s.airspeed_mps <= limits.airspeed_max_mps))
+    return "signal aborted: airspeed is above the airframe's maximum";
+  return "";
+}
+
+/// The sum within the limits; outside of them only what was there before. Without a signal the same bits.
+inline double added(double value, double by, double low, double high) {
+  if (by == 0) return value;
+  return std::clamp(value + by, std::min(low, value), std::max(high, value));
+}
+
+/// One signal after the other, each on one of N channels.
+template <std::size_t N>
+class Excitation {
+ public:
+  /// What is asked for: when any of it changes, the signal before is let go and this one begins.
+  struct Request {
+    Shape shape = Shape::none;
+    std::size_t channel = 0;
+    double size = 0, delay = 0, duration = 0, frequency = 0, frequency_end = 0;  // SI, as the parameters
+    std::int64_t every = 1, run = 0;
+    bool operator==(const Request&) const = default;
+  };
+
+  /// Its component was asked to take over. After another's commands the phase's signal begins from its start;
+  /// while the pilot flies nothing is left of one, and none begins for that it is over.
+  void take_over(bool somebody_flew) {
+    if (somebody_flew) request_ = {}, aborted_ = false;
+    if (!somebody_flew && running_) abort(not_obeyed);
+    running_ = false;
+    last_ = left_ = {};
+  }
+
+  /// To be added to each channel. `extra`: a reason of the component's own.
+  Status step(const Tick& tick, const SignalInputs& in, const SignalParams& p, const BoundParams& bounds,
+              std::size_t channel, double size, std::string_view extra, Told& told) {
+    const Request now{p.shape,     channel,         size,    p.delay, p.duration,
+                      p.frequency, p.frequency_end, p.every, p.run};
+    if (now != request_) begin(now, p, tick, in.state->height_m);
+    if (running_) {
+      std::string_view why = trouble(in, bounds, begun_m_);
+      if (why.empty()) why = extra;
+      if (!why.empty()) abort(why);
+    }
+    fade(tick.dt_s());
+    last_ = left_;
+    const double t = 1e-9 * static_cast<double>(tick.now_ns - begun_ns_) - request_.delay;
+    if (running_) last_[request_.channel] += request_.size * wave_.at(t);
+    running_ = running_ && t < wave_.end_s();
+    if (!untold_.empty()) told.notices.push({Text<96>(untold_), Severity::warning}, tick.now_ns);
+    untold_ = {};
+    told.active_ratio = running_ ? 1.0 : 0.0;
+    told.aborted_ratio = aborted_ ? 1.0 : 0.0;
+    return aborted_ ? Status::degraded : Status::ok;
+  }
+  double operator[](std::size_t channel) const { return last_[channel]; }
+
+ private:
+  static constexpr double let_go_s = 0.2;  // what is left of a signal that is taken away goes within it
+
+  void begin(const Request& now, const SignalParams& p, const Tick& tick, double height_m) {
+    let_go();
+    request_ = now;
+    wave_ = Waveform(p);
+    begun_ns_ = tick.now_ns, begun_m_ = height_m;
+    running_ = now.shape != Shape::none;
+    aborted_ = false;
+  }
+  void abort(std::string_view why) {
+    let_go();
+    running_ = false, aborted_ = true, untold_ = why;
+  }
+  void let_go() {
+    left_ = last_;
+    from_[request_.channel] = last_[request_.channel];
+  }
+  void fade(double dt_s) {
+    for (std::size_t i = 0; i < N; ++i) {
+      const double by = std::abs(from_[i]) * dt_s / let_go_s;
+      left_[i] -= std::clamp(left_[i], -by, by);
+      // Not a rest of rounding: from here on the bits of the command are its own.
+      if (std::abs(left_[i]) < 1e-9 * std::abs(from_[i])) left_[i] = 0;
+    }
+  }
+
+  Request request_;
+  Waveform wave_;
+  std::int64_t begun_ns_ = 0;
+  double begun_m_ = 0;
+  bool running_ = false, aborted_ = false;
+  std::string_view untold_;                         // why it was aborted, until that is told
+  std::array<double, N> last_{}, left_{}, from_{};  // added last; of signals before, now and when let go
+};
+
+}  // namespace fulmar::signal

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A signal on a surface or the throttle, on its way to the vehicle.
+#pragma once
+#include "excitation.hpp"
+#include "fulmar/msg/actuators.hpp"
+
+namespace fulmar::signal {
+
+struct Surfaces {
+  static constexpr const char* doc =
+      "Between inner law and vehicle: adds a step, doublet, sweep or multisine to a surface or the throttle.";
+  enum class Channel : std::uint8_t { aileron, elevator, rudder, throttle };
+
+  struct Inputs {
+    In<Actuators> actuators;
+    SignalInputs signal;
+  };
+  struct Outputs {
+    Actuators actuators;
+    Probe aileron_excitation_rad;  // what was added, within the throws
+    Probe elevator_excitation_rad;
+    Probe rudder_excitation_rad;
+    Probe throttle_excitation_frac;
+    Told told;
+  };
+  struct Params {
+    SignalParams signal;
+    Choice<Channel> channel{Channel::elevator, "what it is added to"};
+    Param size{0.0524, "rad", -0.35, 0.35, "of the signal on a surface"};
+    Param throttle_size{0.1, "ratio", -0.5, 0.5, "of the signal on the throttle"};
+    BoundParams bounds;
+  };
+
+  Status activate(const Tick&, const Inputs&, const Params&, const Applied<Outputs>& last) {
+    excitation_.take_over(last.has(last->actuators));
+    return Status::ok;
+  }
+
+  Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
+    const Channel channel = p.channel;
+    const double size = channel == Channel::throttle ? p.throttle_size : p.size;
+    const Status status = excitation_.step(tick, in.signal, p.signal, p.bounds,
+                                           static_cast<std::size_t>(channel), size, "", out.told);
+    const Actuators& asked = *in.actuators;
+    const Airframe& a = *p.bounds.airframe;
+    out.actuators.aileron_rad = within_throw(a.aileron, asked.aileron_rad, excitation_[0]);
+    out.actuators.elevator_rad = within_throw(a.elevator, asked.elevator_rad, excitation_[1]);
+    out.actuators.rudder_rad = within_throw(a.rudder, asked.rudder_rad, excitation_[2]);
+    out.actuators.throttle_frac = added(asked.throttle_frac, excitation_[3], 0, 1);
+    out.aileron_excitation_rad = out.actuators.aileron_rad - asked.aileron_rad;
+    out.elevator_excitation_rad = out.actuators.elevator_rad - asked.elevator_rad;
+    out.rudder_excitation_rad = out.actuators.rudder_rad - asked.rudder_rad;
+    out.throttle_excitation_frac = out.actuators.throttle_frac - asked.throttle_frac;
+    return status;
+  }
+
+ private:
+  static double within_throw(const Surface& s, double value, double by) {
+    return added(value, by, std::max(-s.limit_rad, s.min_rad), std::min(s.limit_rad, s.max_rad));
+  }
+
+  Excitation<4> excitation_;
+};
+
+}  // namespace fulmar::signal

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Fields of a log as series: "nav.state.roll_rad", or a probe, "attitude_signal.roll_excitation_rad".
+#pragma once
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "tools/fulmar_log/response.hpp"
+
+namespace fulmar::response {
+
+/// Flight time.
+struct Window {
+  std::optional<double> from_s, to_s;
+  std::string phase;  // "": none; its first time, within from_s and to_s
+};
+
+struct Signal {
+  std::string name, unit;    // as people read it: "nav.state.roll_deg", "deg"; "" for what has no unit
+  Series series;             // by time of validity; angles in degrees, and without jumps of a turn
+  std::size_t left_out = 0;  // samples that are no numbers, or not later than the one before
+};
+
+/// Input and output. Throws core::Error for what is not in the log.
+std::array<Signal, 2> read_signals(const std::filesystem::path& log, const std::array<std::string, 2>& fields,
+                                   const Window& window);
+
+}  // namespace fulmar::response

@@ -95,7 +95,8 @@ TEST_CASE("square and sine are whole periods, as many as fit and at least one, w
 }
 
 TEST_CASE("a chirp's frequency is f0 (f1/f0)^(t/T), up and down, and its ends are faded") {
-  for (const auto& [f0, f1] : {std::pair{0.2, 5.0}, {5.0, 0.2}, {1.0, 1.0}}) {
+  for (const auto& band : {std::pair{0.2, 5.0}, {5.0, 0.2}, {1.0, 1.0}}) {
+    const double f0 = band.first, f1 = band.second;
     const Waveform w(signal_of(Shape::chirp, 20, f0, f1));
     CAPTURE(f0);
     for (double t = 1; t < 19; t += 1.7) {

@@ -19,7 +19,7 @@ TEST_CASE("what cannot be is refused before anything flies") {
   CHECK(fulmar("check " + hourglass + " --with slc=control_slc/Outer").code == 0);
   const Result no_plugin = fulmar("check " + hourglass + " --with slc=control_slk");
   CHECK(no_plugin.err.find("there is no plugin 'control_slk'") != std::string::npos);
-  CHECK(no_plugin.err.find("Valid: control_slc,") != std::string::npos);
+  CHECK(no_plugin.err.find("Valid: control_manual, control_slc,") != std::string::npos);
   const Result full = shell(program + "run " + hourglass + " --json --no-log --duration 1 > /dev/full");
   CHECK(full.code == 1);
   CHECK(full.err.find("the result cannot be written") != std::string::npos);

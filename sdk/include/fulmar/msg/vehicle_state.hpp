@@ -52,4 +52,7 @@ struct VehicleState {
   double reset_yaw_rad = 0;       ///< the same
 };
 
+template <>
+inline constexpr std::string_view appended_from<VehicleState> = "reset_count";
+
 }  // namespace fulmar

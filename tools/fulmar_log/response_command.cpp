@@ -128,7 +128,7 @@ struct ResponseCommand::Impl {
         "input has a thousandth of its largest power density.\n"
         "Example: fulmar response x.mcap --phase roll_step --input attitude_signal.roll_excitation_rad "
         "--output "
-        "nav.state.roll_rad");
+        "nav.state.height_m");
     command->add_option("LOG", log, "log of a flight (MCAP)")->required();
     command->add_option("--input", input, "what is excited: PORT.FIELD, or COMPONENT.PROBE")
         ->required()

@@ -27,8 +27,8 @@ struct StepFigures {
   double steady_error() const { return input_change - output_change(); }
 };
 
-/// The first step of the input, and what came of it. `band`: 0.05 for 5 %. Throws core::Error when the input
-/// has no step or the output does not move.
+/// The largest step of the input, of equal ones the first, and what came of it. `band`: 0.05 for 5 %. Throws
+/// core::Error when the input has no step or the output does not move.
 StepFigures step_figures(const Series& input, const Series& output, double band);
 
 struct Frequency {

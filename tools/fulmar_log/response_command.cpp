@@ -126,9 +126,8 @@ struct ResponseCommand::Impl {
         "Frequency: gain, phase and coherence by Welch's method, Hann windows that overlap by half, where "
         "the "
         "input has a thousandth of its largest power density.\n"
-        "Example: fulmar response x.mcap --phase roll_step --input attitude_signal.roll_excitation_rad "
-        "--output "
-        "nav.state.roll_rad");
+        "Example: fulmar response x.mcap --phase height_step --input command_signal.height_excitation_m "
+        "--output nav.state.height_m");
     command->add_option("LOG", log, "log of a flight (MCAP)")->required();
     command->add_option("--input", input, "what is excited: PORT.FIELD, or COMPONENT.PROBE")
         ->required()

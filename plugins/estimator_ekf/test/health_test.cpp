@@ -399,4 +399,19 @@ TEST_CASE("health comes at 5 Hz, with an attitude or without, in gaps as well") 
   CHECK(published == 50);
 }
 
+TEST_CASE("an axis that has always said the same is no axis at its stop, one that had noise is") {
+  using fulmar::navigation::Triad;
+  for (const bool noisy : {false, true}) {
+    CAPTURE(noisy);
+    Triad rates;
+    Random random(1);
+    for (int k = 0; k < 200; ++k)  // a steady turn
+      rates.sampled(
+          {noisy ? 0.001 * random.normal() : 0.0, 0.02, 0.3 + (noisy ? 0.001 * random.normal() : 0)}, 1);
+    CHECK_FALSE(rates.clipped());
+    for (int k = 0; k < 50; ++k) rates.sampled({noisy ? 0.001 * random.normal() : 0.0, 0.02, 0.31}, 1);
+    CHECK(rates.clipped() == noisy);
+  }
+}
+
 }  // namespace health_test

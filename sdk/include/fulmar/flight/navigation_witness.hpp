@@ -21,7 +21,11 @@ class Triad {
   void sampled(const Eigen::Vector3d& values, double noisy_std) {
     double square = 0;
     for (int i = 0; i < 3; ++i) {
-      repeated_[i] = values[i] == before_[i] && values[i] != 0 ? repeated_[i] + 1 : 0;
+      const bool same = values[i] == before_[i];
+      changed_[i] = same ? 0 : std::min(changed_[i] + 1, lively_samples);
+      lively_[i] = std::max(lively_[i], changed_[i]);
+      // An axis without noise may stay where it is: what says the same has to have said something else.
+      repeated_[i] = same && values[i] != 0 && lively_[i] == lively_samples ? repeated_[i] + 1 : 0;
       most_[i] = std::max(most_[i], std::abs(values[i]));
       square += 0.5 * (values[i] - before_[i]) * (values[i] - before_[i]) / 3;
     }
@@ -43,10 +47,11 @@ class Triad {
 
  private:
   static constexpr double window = 100, calm_share = 0.7;  ///< samples
-  static constexpr int clipped_samples = 5, held_samples = 25, told_samples = 100;
+  static constexpr int clipped_samples = 5, held_samples = 25, told_samples = 100, lively_samples = 25;
 
   Eigen::Vector3d before_ = Eigen::Vector3d::Zero(), most_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3i repeated_ = Eigen::Vector3i::Zero();
+  Eigen::Vector3i repeated_ = Eigen::Vector3i::Zero(), changed_ = Eigen::Vector3i::Zero(),
+                  lively_ = Eigen::Vector3i::Zero();  ///< samples in a row; the most that changed
   double variance_ = 0;
   int since_clipped_ = told_samples;
   bool begun_ = false, noisy_ = false, clipped_ = false;

@@ -196,4 +196,27 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a receiver whose position scatters by 60 m for half a minute moves neither height nor place") {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    CAPTURE(seed);
+    Flown f{};
+    f.plan.seed = seed, f.plan.duration_s = 95;
+    f.quality.height_walk_m = 0;
+    Random random(seed);
+    f.alter = [&](const Truth& x, Samples& s) {
+      if (!s.gnss || x.t < 60) return;
+      s.gnss->altitude_m += 60 * random.normal();
+      s.gnss->latitude_deg += 60 / 111'000.0 * random.normal();
+    };
+    double height_m = 0, north_m = 0;
+    f.watch = [&](const Truth& x, const VehicleState& s, Status) {
+      height_m = std::max(height_m, std::abs(s.height_m + x.p_n.z()));
+      if (x.t > 60) north_m = std::max(north_m, std::abs(s.position_m.north - x.p_n.x()));
+    };
+    f.run();
+    CHECK(height_m < 6);
+    CHECK(north_m < 15);
+  }
+}
+
 }  // namespace height_test

@@ -320,7 +320,8 @@ inline void Navigator::gnss_position(const Gnss& g, double valid_s, const Params
     // However long: an aircraft does not stand in the air, nor goes where its velocity does not.
   } else if (within({off.x(), off.y()}, p.gnss_gate, level)) {
     for (int i = 0; i < 2; ++i) filter_.fuse(z(i), variance, 1e3);
-  } else if (time_s_ - std::max(level.accepted_s, aligned_s_) > patience_s(level, p)) {
+  } else if (time_s_ - std::max(level.accepted_s, aligned_s_) > patience_s(level, p) &&
+             !level.innovations.noisy()) {
     const ekf::Nominal before = filter_.state();
     Vector3d moved = before.p_n;
     moved.head<2>() += Vector2d(z(0).innovation, z(1).innovation);
@@ -343,7 +344,8 @@ inline void Navigator::gnss_height(const ekf::Scalar& z, double std, const Param
   health_.position_innovation.z() = z.innovation / filter_.expected_std(z, std * std);
   const double variance = height_variance(z, std, p);  // by when one was accepted before this one
   const bool agrees = within({health_.position_innovation.z()}, p.gnss_gate, health_.height);
-  if (!agrees && refused_s <= p.gnss_reset_after) return;
+  // One that scatters is not believed by a single fix, however long it is refused.
+  if (!agrees && (refused_s <= p.gnss_reset_after || health_.height.innovations.noisy())) return;
   if (agrees || std::abs(z.innovation) < height_set_m) {
     filter_.fuse(z, variance, 1e9);  // not accepted by its gate: then the next one is believed as well
     return;

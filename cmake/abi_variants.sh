@@ -112,7 +112,7 @@ changed_sdk() { # changed_sdk NAME MESSAGE_FILE SED: a copy of the SDK with one 
 }
 changed_sdk newer_writer attitude_command.hpp 's/^};/  double added_rad = 1;\n};/'
 changed_sdk older_reader vehicle_state.hpp '/bool wind_valid/d'
-changed_sdk newer_reader vehicle_state.hpp 's/^};/  double added_m = 0;\n};/'
+changed_sdk newer_reader vehicle_state.hpp '/bool wind_valid/a \  double added_m = 0;'  # not among those that were appended
 for name in newer_writer older_reader newer_reader; do
   compile "$first" "$name" "$scratch/my_law.cpp" -O2 -I"$scratch/$name/include"
   layout "$name" >"$scratch/$name.layout"

@@ -58,8 +58,7 @@ struct Landing {
                                std::to_string(std::lround(needed)) + " m in still air");
   }
 
-  Status activate(const Tick&, const Inputs&, const Params&, const Applied<Outputs>& last) {
-    if (!last.has(last->command)) command_ = {};
+  Status activate(const Tick&, const Inputs&, const Params&, const Applied<Outputs>&) {
     progress_.stage = LandingStage::join;
     settled_s_ = 0;
     return Status::ok;
@@ -68,11 +67,12 @@ struct Landing {
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     const VehicleState& s = *in.state;
     locate(s, p);
-    decide(in, p, std::clamp(tick.dt_s(), 0.0, 0.1));
-    fly(s, p, std::clamp(tick.dt_s(), 0.0, 0.1));
+    const double dt = std::clamp(tick.dt_s(), 0.0, 0.1);
+    decide(in, p, dt);
+    fly(s, p, dt);
     out.command = command_;
     out.progress = progress_;
-    out.height_error_m = progress_.stage == LandingStage::approach ? s.height_m - slope_height(s, p) : 0.0;
+    out.height_error_m = progress_.stage == LandingStage::approach ? s.height_m - slope_height(p) : 0.0;
     const bool known = s.position_valid && s.height_valid && s.attitude_valid;
     return known ? Status::ok : Status::degraded;
   }
@@ -85,7 +85,7 @@ struct Landing {
   double fix_height(const Params& p) const {
     return runway_height(p) + std::tan(p.glide_slope) * (p.final_length + p.aim);
   }
-  double slope_height(const VehicleState&, const Params& p) const {
+  double slope_height(const Params& p) const {
     return runway_height(p) + std::tan(p.glide_slope) * progress_.along_m;
   }
 
@@ -161,7 +161,7 @@ struct Landing {
     if (!s.position_valid || !s.height_valid) return true;
     return progress_.height_m < 2 * p.decision_height &&
            (std::abs(progress_.cross_m) > p.cross_limit ||
-            std::abs(s.height_m - slope_height(s, p)) > p.height_limit);
+            std::abs(s.height_m - slope_height(p)) > p.height_limit);
   }
   /// The vehicle says so, or it does not sink any more where the ground must be.
   bool touched(const Inputs& in, double dt) {

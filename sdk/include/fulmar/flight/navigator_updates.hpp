@@ -433,10 +433,13 @@ inline void Navigator::baro(double pressure_pa, const Params& p) {
       std::hypot(p.baro_noise, p.baro_load_error * load * dynamic_pa) * ekf::metres_per_pascal(air_);
   // Back after an outage it moves the height by degrees.
   const ekf::Scalar z = pressure_height(pressure_pa);
-  const double known = time_s_ - baro_back_s_ < baro_back_for_s ? filter_.expected_std(z, 0) : 0,
-               least = known * known * (std::abs(z.innovation) / baro_step_m - 1);
-  const bool agrees = std::abs(z.innovation) <= p.air_gate * filter_.expected_std(z, std * std);
-  const ekf::Fused fused = fuse(z, agrees ? std::max(std * std, least) : std * std, p.air_gate, health_.baro);
+  double variance = std * std;
+  if (time_s_ - baro_back_s_ < baro_back_for_s) {
+    const double known = filter_.expected_std(z, 0), off = std::abs(z.innovation);
+    if (off <= p.air_gate * std::hypot(known, std))
+      variance = std::max(variance, known * known * (off / baro_step_m - 1));
+  }
+  const ekf::Fused fused = fuse(z, variance, p.air_gate, health_.baro);
   if (!fused.accepted && time_s_ - std::max(health_.baro.accepted_s, aligned_s_) > p.gnss_reset_after) {
     seen_.baro_zero = false;
     health_.baro.accepted_s = time_s_;

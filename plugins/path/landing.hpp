@@ -28,7 +28,7 @@ struct Landing {
     Probe height_error_m;  // above the glide slope is positive
   };
   struct Params {
-    VectorField::Params field;
+    FieldParams field;
     Record<Runway> runway{"the strip; heading is the one that is landed in", required};
     Record<Airframe> airframe{"limits of the airspeed", required};
     Param glide_slope{0.07, "rad", 0.02, 0.3,

@@ -17,6 +17,18 @@
 
 namespace fulmar::path {
 
+/// How lines, orbits and curves are approached. A group of parameters, of whoever follows them.
+struct FieldParams {
+  Param chi_infinity{1.05, "rad", 0.1, 1.57, "approach angle to a line from far away"};
+  Param k_path{0.04, "1/m", 0.001, 1, "how sharply to turn onto a line, at the reference speed"};
+  Param k_orbit{1.5, "ratio", 0.05, 20, "how sharply to turn onto an orbit, at the reference speed"};
+  Param reference_speed{17, "m/s", 1, 200,
+                        "ground speed for which k_path and k_orbit hold; they fall as it grows"};
+  Param lead_time{0.5, "s", 0, 5,
+                  "how long before a change of curvature its bank is commanded: what rolling takes"};
+  Param roll_max{0.785, "rad", 0, 1.4, "limit of the bank that is fed forward"};
+};
+
 struct VectorField {
   static constexpr const char* doc = "Follows a line, an orbit or a curve by a vector field of courses.";
   struct Inputs {
@@ -29,14 +41,7 @@ struct VectorField {
     Probe height_error_m;  // above the path is positive
   };
   struct Params {
-    Param chi_infinity{1.05, "rad", 0.1, 1.57, "approach angle to a line from far away"};
-    Param k_path{0.04, "1/m", 0.001, 1, "how sharply to turn onto a line, at the reference speed"};
-    Param k_orbit{1.5, "ratio", 0.05, 20, "how sharply to turn onto an orbit, at the reference speed"};
-    Param reference_speed{17, "m/s", 1, 200,
-                          "ground speed for which k_path and k_orbit hold; they fall as it grows"};
-    Param lead_time{0.5, "s", 0, 5,
-                    "how long before a change of curvature its bank is commanded: what rolling takes"};
-    Param roll_max{0.785, "rad", 0, 1.4, "limit of the bank that is fed forward"};
+    FieldParams field;
     Param reckon_std{50, "m", 0, 1000, "without a fix the plan goes on up to this deviation of the position"};
     Param reckon_time{115, "s", 0, 3600,
                       "and for so long after the position stopped being valid, 5 s after the fix"};
@@ -50,11 +55,12 @@ struct VectorField {
     double path_course = 0, cross = 0, chi_c = 0, height = 0, kappa = 0, climb = 0;
   };
   // `k`: what the gains are multiplied by at this ground speed
-  static Aim at_line(const Path& path, const VehicleState& s, const Params& p, double k);
-  static Aim at_orbit(const Path& path, const VehicleState& s, const Params& p, double k);
-  static Aim at_curve(const Path& path, const VehicleState& s, const Params& p, double k);
-  static double curvature_ahead(const Path& path, const VehicleState& s, const Params& p, const Aim& aim);
-  static double onto_line(const Aim& aim, const Params& p, double k) {
+  static Aim at_line(const Path& path, const VehicleState& s, const FieldParams& p, double k);
+  static Aim at_orbit(const Path& path, const VehicleState& s, const FieldParams& p, double k);
+  static Aim at_curve(const Path& path, const VehicleState& s, const FieldParams& p, double k);
+  static double curvature_ahead(const Path& path, const VehicleState& s, const FieldParams& p,
+                                const Aim& aim);
+  static double onto_line(const Aim& aim, const FieldParams& p, double k) {
     return aim.path_course -
            p.chi_infinity * (2 / std::numbers::pi) * std::atan(p.k_path * k * aim.cross);  // (10.8)
   }
@@ -69,7 +75,7 @@ struct VectorField {
     last_.climb_rate_mps = 0;
     if (circles) last_.course_rad = state.course_rad;
     last_.roll_feedforward_rad =
-        circles ? std::clamp(std::atan(Va * Va / (g * p.lost_radius)), 0.0, p.roll_max.value) : 0;
+        circles ? std::clamp(std::atan(Va * Va / (g * p.lost_radius)), 0.0, p.field.roll_max.value) : 0;
     out.command = last_;
     out.cross_track_m = 0.0;
     out.height_error_m = 0.0;
@@ -90,7 +96,7 @@ inline double bank_for(double kappa, double Vg, double chi_minus_psi, double rol
   return std::clamp(std::atan(Vg * Vg * kappa / (g * crab)), -roll_max, roll_max);
 }
 
-inline VectorField::Aim VectorField::at_line(const Path& path, const VehicleState& s, const Params& p,
+inline VectorField::Aim VectorField::at_line(const Path& path, const VehicleState& s, const FieldParams& p,
                                              double k) {
   const double n = s.position_m.north - path.origin_m.north, e = s.position_m.east - path.origin_m.east;
   const Vec3<Ned>& q = path.direction_ratio;
@@ -106,7 +112,7 @@ inline VectorField::Aim VectorField::at_line(const Path& path, const VehicleStat
   return aim;
 }
 
-inline VectorField::Aim VectorField::at_orbit(const Path& path, const VehicleState& s, const Params& p,
+inline VectorField::Aim VectorField::at_orbit(const Path& path, const VehicleState& s, const FieldParams& p,
                                               double k) {
   constexpr double pi = std::numbers::pi;
   const double n = s.position_m.north - path.origin_m.north, e = s.position_m.east - path.origin_m.east;
@@ -125,7 +131,7 @@ inline VectorField::Aim VectorField::at_orbit(const Path& path, const VehicleSta
 
 /// As its tangent where it is closest. The bank is that of the place where the aircraft will be when it has
 /// rolled.
-inline VectorField::Aim VectorField::at_curve(const Path& path, const VehicleState& s, const Params& p,
+inline VectorField::Aim VectorField::at_curve(const Path& path, const VehicleState& s, const FieldParams& p,
                                               double k) {
   const Curve curve = curve_of(path);
   const double u = curve.closest(s.position_m.north, s.position_m.east);
@@ -144,7 +150,7 @@ inline VectorField::Aim VectorField::at_curve(const Path& path, const VehicleSta
 
 /// Bank that is fed forward. That of the next piece is commanded early by the time it takes to roll into it.
 /// Far from the path there is no such point.
-inline double VectorField::curvature_ahead(const Path& path, const VehicleState& s, const Params& p,
+inline double VectorField::curvature_ahead(const Path& path, const VehicleState& s, const FieldParams& p,
                                            const Aim& aim) {
   const bool on_path = std::abs(aim.cross) < 0.5 * std::max(path.radius_m, 20.0) &&
                        std::abs(angle_difference(aim.path_course, s.course_rad)) < std::numbers::pi / 2;
@@ -160,16 +166,18 @@ inline Status VectorField::step(const Tick& tick, const Inputs& in, const Params
   if (!reckoning_.located(state, tick.now_ns, p.reckon_std, p.reckon_time) && commanded_)
     return wait(state, p, out);
   const double Vg = state.ground_speed_mps, chi = state.course_rad;
-  const double k = p.reference_speed / std::max(Vg, 0.3 * p.reference_speed);  // one time constant always
-  const Aim aim = path.is_curve                 ? at_curve(path, state, p, k)
-                  : path.kind == PathKind::line ? at_line(path, state, p, k)
-                                                : at_orbit(path, state, p, k);
-  const double kappa = curvature_ahead(path, state, p, aim);
+  const double k =
+      p.field.reference_speed / std::max(Vg, 0.3 * p.field.reference_speed);  // one time constant always
+  const Aim aim = path.is_curve                 ? at_curve(path, state, p.field, k)
+                  : path.kind == PathKind::line ? at_line(path, state, p.field, k)
+                                                : at_orbit(path, state, p.field, k);
+  const double kappa = curvature_ahead(path, state, p.field, aim);
   out.command.course_rad = wrap_pi(aim.chi_c);
   out.command.height_m = aim.height;
   out.command.climb_rate_mps = aim.climb * Vg * std::cos(chi - aim.path_course);
   out.command.airspeed_mps = path.airspeed_mps;
-  out.command.roll_feedforward_rad = bank_for(kappa, Vg, angle_difference(chi, state.yaw_rad), p.roll_max);
+  out.command.roll_feedforward_rad =
+      bank_for(kappa, Vg, angle_difference(chi, state.yaw_rad), p.field.roll_max);
   out.cross_track_m = aim.cross;
   out.height_error_m = state.height_m - aim.height;
   last_ = out.command;

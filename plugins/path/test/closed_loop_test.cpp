@@ -46,7 +46,7 @@ TEST_CASE("commanding the bank of a turn ahead of it is what keeps the aircraft 
   double worst[2];
   for (int i = 0; i < 2; ++i) {
     Flight flight(hourglass());
-    flight.field.params.lead_time.value = i == 0 ? 0.0 : 0.5;
+    flight.field.params.field.lead_time.value = i == 0 ? 0.0 : 0.5;
     flight.fly(300);
     worst[i] = flight.worst_m;
   }

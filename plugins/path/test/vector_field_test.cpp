@@ -132,7 +132,7 @@ TEST_CASE("a climbing arc gives the height where the aircraft is, through south 
 
 TEST_CASE("the fed-forward bank alone holds a circle over the ground in wind") {
   Bench<VectorField> bench;
-  bench.params.roll_max.value = 1.2;
+  bench.params.field.roll_max.value = 1.2;
   for (const Turn turn : {Turn::right, Turn::left}) {
     const double R = 80, Va = 17, wind_n = 3, wind_e = -4, side = turn == Turn::right ? 1 : -1, dt = 0.002;
     // begin on the circle with the ground track along it
@@ -157,7 +157,7 @@ TEST_CASE("the fed-forward bank alone holds a circle over the ground in wind") {
 TEST_CASE(
     "the bank of the next piece is commanded shortly before it begins, and not when far from the path") {
   Bench<VectorField> bench;
-  bench.params.lead_time.value = 0.5;
+  bench.params.field.lead_time.value = 0.5;
   Path path = line(0);
   path.next_curvature_ratio = -1 / 50.0;
   path.remaining_m = 9;  // 17 m/s for 0.5 s is 8.5 m
@@ -299,7 +299,7 @@ TEST_CASE("on a curve its own course, height, climb and bank are commanded, besi
     const double metres = std::hypot(b.north - a.north, b.east - a.east);
     const double kappa = (curve.course_rad(u + h) - curve.course_rad(u - h)) / metres;
     Bench<VectorField> bench;
-    bench.params.lead_time.value = 0;
+    bench.params.field.lead_time.value = 0;
     const GuidanceCommand on = command(bench, at(here.north, here.east, course, Vg), path);
     CHECK(std::abs(angle_difference(on.course_rad, course)) < 1e-4);
     CHECK(on.height_m == doctest::Approx(-here.down));

@@ -74,4 +74,20 @@ TEST_CASE("it takes off, flies its circuit and lands on the runway, with wind fr
   }
 }
 
+TEST_CASE("a landing without a runway is refused before anything flies, by file and line") {
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("landing_" + std::to_string(getpid()) + ".yaml");
+  std::ofstream(file) << "mission: nowhere\nextends: " FULMAR_SOURCE_DIR "/configs/missions/hourglass.yaml\n"
+                      << "components:\n  land: {fills: guide, use: path/Landing, rate: 100 Hz}\n";
+  std::string told;
+  try {
+    load_mission(file.string(), {});
+  } catch (const std::exception& e) {
+    told = e.what();
+  }
+  std::filesystem::remove(file);
+  CHECK_MESSAGE(told.find(".yaml:4: components.land") != std::string::npos, told);
+  CHECK_MESSAGE(told.find("runway") != std::string::npos, told);
+}
+
 }  // namespace landing_test

@@ -195,7 +195,7 @@ class ErrorStateEkf {
 
   /// Deviation that `fuse` expects of this innovation, without touching the state.
   double expected_std(const ekf::Scalar& z, double variance) const {
-    return std::sqrt((z.H * P_ * z.H.transpose()).value() + variance);
+    return std::sqrt(z.H.dot(project(z)) + variance);
   }
 
   /// Moves the state and leaves its covariance.
@@ -240,15 +240,17 @@ class ErrorStateEkf {
   };
   Past at(double time_s) const {
     if (time_s >= time_s_ || past_count_ == 0) return {x_.p_n, x_.v_n, 0, time_s >= time_s_};
-    Memory after{time_s_, x_.p_n, x_.v_n, corrected_};
+    const auto back = [&](std::size_t i) -> const Memory& {
+      return past_[(past_next_ + past_.size() - 1 - i) % past_.size()];
+    };
+    const Memory now{time_s_, x_.p_n, x_.v_n, corrected_};
     for (std::size_t i = 0; i < past_count_; ++i) {
-      const Memory& before = past_[(past_next_ + past_.size() - 1 - i) % past_.size()];
-      if (before.time <= time_s) {
-        const double k = after.time > before.time ? (time_s - before.time) / (after.time - before.time) : 0;
-        const Past a = as_known_now(before), b = as_known_now(after);
-        return {a.p_n + k * (b.p_n - a.p_n), a.v_n + k * (b.v_n - a.v_n), time_s_ - time_s, true};
-      }
-      after = before;
+      const Memory& before = back(i);
+      if (before.time > time_s) continue;
+      const Memory& after = i > 0 ? back(i - 1) : now;
+      const double k = after.time > before.time ? (time_s - before.time) / (after.time - before.time) : 0;
+      const Past a = as_known_now(before), b = as_known_now(after);
+      return {a.p_n + k * (b.p_n - a.p_n), a.v_n + k * (b.v_n - a.v_n), time_s_ - time_s, true};
     }
     return {x_.p_n, x_.v_n, 0, false};
   }
@@ -272,6 +274,13 @@ class ErrorStateEkf {
   };
   struct Corrections {  ///< sums over all updates; vt is weighted with their time
     Vector3 p = Vector3::Zero(), v = Vector3::Zero(), vt = Vector3::Zero();
+  };
+  struct Decay {  ///< exp(-T / time constant), computed anew when one of them changes
+    double T = 0, time = 1, phi = 1;
+    double over(double T_s, double time_s) {
+      if (T_s != T || time_s != time) T = T_s, time = time_s, phi = std::exp(-T / time);
+      return phi;
+    }
   };
   struct Memory {
     double time = 0;
@@ -345,14 +354,13 @@ class ErrorStateEkf {
     add(ekf::baro, 1, noise.baro_walk * noise.baro_walk * T);
     add(ekf::port, 1, noise.port_walk * noise.port_walk * T);
     add(ekf::delay, 1, noise.delay_walk * noise.delay_walk * T);
-    x_.gust_mps *= markov<1>(gust, noise.gust_std, noise.gust_time, T);
-    x_.heading_rad *= markov<1>(heading, noise.heading_std, noise.heading_time, T);
-    markov<2>(gnss, noise.gnss_std, noise.gnss_time, T);
+    x_.gust_mps *= markov<1>(gust, noise.gust_std, gust_decay_.over(T, noise.gust_time));
+    x_.heading_rad *= markov<1>(heading, noise.heading_std, heading_decay_.over(T, noise.heading_time));
+    markov<2>(gnss, noise.gnss_std, gnss_decay_.over(T, noise.gnss_time));
   }
-  /// x' = phi x + w of `n` states: each keeps its deviation, forgets with the time constant. Returns phi.
+  /// x' = phi x + w of `n` states: each keeps its deviation. Returns phi.
   template <int n>
-  double markov(int first, double std, double time, double T) {
-    const double phi = std::exp(-T / time);
+  double markov(int first, double std, double phi) {
     P_.middleRows<n>(first) *= phi;
     P_.middleCols<n>(first) *= phi;
     for (int i = first; i < first + n; ++i) P_(i, i) += std * std * (1 - phi * phi);
@@ -394,6 +402,7 @@ class ErrorStateEkf {
   Vector3 omega_ = Vector3::Zero(), f_ = Vector3::Zero();
   bool has_sample_ = false;
   Step step_;
+  Decay gust_decay_, heading_decay_, gnss_decay_;
   Corrections corrected_;
   std::array<Memory, 64> past_{};
   std::size_t past_next_ = 0, past_count_ = 0;

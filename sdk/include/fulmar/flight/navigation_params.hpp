@@ -96,8 +96,8 @@ struct Params {
 
   // magnetometer
   Param mag_noise{0.03, "", 1e-4, 0.5, "at 10 Hz, as a share of the field"};
-  Param mag_deviation{0.065, "rad", 0, 1, "slow error of the magnetic heading after calibration"};
-  Param mag_deviation_time{300, "s", 1, 1e5, "its correlation time"};
+  Param mag_deviation{0.06, "rad", 0, 1, "slow error of the magnetic heading after calibration"};
+  Param mag_deviation_time{190, "s", 1, 1e5, "its correlation time"};
   Param mag_gate{5, "", 2, 20, "gate of the heading, in deviations"};
 
   Param rate_filter{0, "Hz", 0, 200, "cut-off of the published body rate; 0 publishes it as it is"};

@@ -129,11 +129,10 @@ inline void Navigator::gnss_velocity(const Gnss& g, double valid_s, const Params
   };
   const double std = known(g.speed_std_mps, p.gnss_speed_std, p.gnss_speed_floor), variance = std * std;
   Vector3d& off = health_.velocity_innovation;
-  for (int i = 0; i < 3; ++i) {
-    off(i) = z(i).innovation / filter_.expected_std(z(i), variance);
-  }
+  const std::array fix{z(0), z(1), z(2)};
+  for (int i = 0; i < 3; ++i) off(i) = fix[i].innovation / filter_.expected_std(fix[i], variance);
   const double slow = samples_in(p.gnss_climb_time, health_.velocity.accepted_s);
-  const double n = climb_samples(z(2).innovation, std, slow, p);
+  const double n = climb_samples(fix[2].innovation, std, slow, p);
   if (!within({off.x(), off.y(), off.z()}, p.gnss_gate, health_.velocity)) {
     if (time_s_ - std::max(health_.velocity.accepted_s, aligned_s_) < p.gnss_reset_after) return;
     const ekf::Nominal before = filter_.state();
@@ -143,7 +142,7 @@ inline void Navigator::gnss_velocity(const Gnss& g, double valid_s, const Params
     filter_.inflate(ekf::theta, 3, 0.1);
     count_reset(before);
   } else {
-    health_.level.add({z(0).innovation, z(1).innovation}, time_s_);
+    health_.level.add({fix[0].innovation, fix[1].innovation}, time_s_);
     // Without a heading from elsewhere the yaw is what the accelerations of the fixes make of it: then it
     // counts that their errors follow each other, or the yaw walks away with them.
     const bool heading = resting_ || time_s_ - health_.heading.accepted_s < heading_lost_s;
@@ -307,8 +306,10 @@ inline void Navigator::gnss_position(const Gnss& g, double valid_s, const Params
   };
   const double variance = h_std * h_std;
   filter_.noise.gnss_std = h_std;
-  for (int i = 0; i < 2; ++i)
-    health_.position_innovation(i) = z(i).innovation / filter_.expected_std(z(i), variance);
+  for (int i = 0; i < 2; ++i) {
+    const ekf::Scalar fix = z(i);
+    health_.position_innovation(i) = fix.innovation / filter_.expected_std(fix, variance);
+  }
   const Vector3d& off = health_.position_innovation;
   Aid& level = health_.horizontal;
   // As long as the velocity is right, as far as anybody knows.

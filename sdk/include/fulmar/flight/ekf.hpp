@@ -13,6 +13,7 @@
 #include <cstddef>
 
 #include "fulmar/flight/attitude.hpp"
+#include "fulmar/flight/filters.hpp"
 
 namespace fulmar {
 
@@ -275,13 +276,6 @@ class ErrorStateEkf {
   struct Corrections {  ///< sums over all updates; vt is weighted with their time
     Vector3 p = Vector3::Zero(), v = Vector3::Zero(), vt = Vector3::Zero();
   };
-  struct Decay {  ///< exp(-T / time constant), computed anew when one of them changes
-    double T = 0, time = 1, phi = 1;
-    double over(double T_s, double time_s) {
-      if (T_s != T || time_s != time) T = T_s, time = time_s, phi = std::exp(-T / time);
-      return phi;
-    }
-  };
   struct Memory {
     double time = 0;
     Vector3 p = Vector3::Zero(), v = Vector3::Zero();
@@ -354,9 +348,9 @@ class ErrorStateEkf {
     add(ekf::baro, 1, noise.baro_walk * noise.baro_walk * T);
     add(ekf::port, 1, noise.port_walk * noise.port_walk * T);
     add(ekf::delay, 1, noise.delay_walk * noise.delay_walk * T);
-    x_.gust_mps *= markov<1>(gust, noise.gust_std, gust_decay_.over(T, noise.gust_time));
-    x_.heading_rad *= markov<1>(heading, noise.heading_std, heading_decay_.over(T, noise.heading_time));
-    markov<2>(gnss, noise.gnss_std, gnss_decay_.over(T, noise.gnss_time));
+    x_.gust_mps *= markov<1>(gust, noise.gust_std, gust_decay_.of(T / noise.gust_time));
+    x_.heading_rad *= markov<1>(heading, noise.heading_std, heading_decay_.of(T / noise.heading_time));
+    markov<2>(gnss, noise.gnss_std, gnss_decay_.of(T / noise.gnss_time));
   }
   /// x' = phi x + w of `n` states: each keeps its deviation. Returns phi.
   template <int n>

@@ -7,12 +7,24 @@
 
 namespace fulmar {
 
+/// exp(-x), computed anew when x changes: steps are mostly of one length.
+class Decay {
+ public:
+  double of(double x) {
+    if (x != x_) x_ = x, decay_ = std::exp(-x);
+    return decay_;
+  }
+
+ private:
+  double x_ = 0, decay_ = 1;
+};
+
 /// y' = (u - y) / tau, exact for an input that is constant over the step.
 class LowPass {
  public:
   double step(double u, double time_constant_s, double dt_s) {
     if (!started_) return reset_to(u);
-    const double pole = time_constant_s > 0 ? std::exp(-dt_s / time_constant_s) : 0;
+    const double pole = time_constant_s > 0 ? decay_.of(dt_s / time_constant_s) : 0;
     return y_ = pole * y_ + (1 - pole) * u;
   }
   double reset_to(double y) { return started_ = true, y_ = y; }
@@ -20,6 +32,7 @@ class LowPass {
   double value() const { return y_; }
 
  private:
+  Decay decay_;
   double y_ = 0;
   bool started_ = false;
 };
@@ -31,7 +44,7 @@ class WashOut {
   double step(double u, double pole_radps, double dt_s) {
     if (!started_) return reset_to(u);
     const double x = pole_radps * dt_s;
-    const double decay = std::exp(-x);
+    const double decay = decay_.of(x);
     const double gain =
         x > 1e-6 ? (1 - decay) / x : 1 - x / 2;  // integral of the decay over the step, per step
     y_ = decay * y_ + gain * (u - u_);
@@ -45,6 +58,7 @@ class WashOut {
   double value() const { return y_; }
 
  private:
+  Decay decay_;
   double u_ = 0, y_ = 0;
   bool started_ = false;
 };

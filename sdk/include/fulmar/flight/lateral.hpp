@@ -52,7 +52,7 @@ class CourseHold {
   /// Any other roll target, through the same smoothing and limits.
   double shape(double target_rad, const CourseTuning& tuning, double dt_s) {
     const double bounded = std::clamp(target_rad, -tuning.roll_max_rad, tuning.roll_max_rad);
-    const double pole = tuning.smoothing_s > 0 ? std::exp(-dt_s / tuning.smoothing_s) : 0;
+    const double pole = tuning.smoothing_s > 0 ? decay_.of(dt_s / tuning.smoothing_s) : 0;
     return limiter_.step(bounded + pole * (limiter_.value() - bounded), tuning.roll_rate_max_radps, dt_s);
   }
 
@@ -68,6 +68,7 @@ class CourseHold {
  private:
   Pid pid_;
   RateLimiter limiter_;
+  Decay decay_;
   double error_ = 0;
   bool beyond_ = false;  // an acceleration that the roll limit does not allow
 };

@@ -27,6 +27,13 @@ speed() { # speed MISSION: median of five runs, log written, all threads on one 
   echo
   build/bin/bench_missions --markdown
   echo
+  echo "## Over wind and turbulence"
+  echo
+  echo "Anaconda, \`ublox\` sensors, wind from the south-east, means of 20 seeds against the estimate; \`build/bin/bench_tracking\`. In 12 m/s a turn of 50 m down wind takes"
+  echo "more bank than the aircraft may have: what is off there is the turn."
+  echo
+  build/bin/bench_tracking || true  # it tells which cell is above its bar
+  echo
   echo "## How fast"
   echo
   echo "Times real time, default log written, every thread pinned to one core, median of five runs; \`taskset -c 0 fulmar run\`."

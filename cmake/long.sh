@@ -40,3 +40,4 @@ build/bin/bench_link_gaps >build/check/link_gaps.md
 build/bin/bench_faults >build/check/faults.md
 build/bin/bench_sensor_faults >build/check/sensor_faults.md
 build/bin/bench_missions --seeds 50
+build/bin/bench_laws >build/check/laws.txt

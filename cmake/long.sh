@@ -41,3 +41,4 @@ build/bin/bench_faults >build/check/faults.md
 build/bin/bench_sensor_faults >build/check/sensor_faults.md
 build/bin/bench_missions --seeds 50
 build/bin/bench_tracking >build/check/tracking.md
+build/bin/bench_laws >build/check/laws.txt

@@ -3,13 +3,18 @@
 // Aircraft (2012), section 6.3, with dynamic-pressure scaling, rate feed-forward, and the rates and elevator
 // of a coordinated turn as reference.
 #pragma once
+#include <algorithm>
+#include <array>
+#include <cstdio>
 #include <fulmar/flight/atmosphere.hpp>
 #include <fulmar/flight/filters.hpp>
+#include <fulmar/flight/oscillation.hpp>
 #include <fulmar/flight/outer_commands.hpp>
 #include <fulmar/flight/pid.hpp>
 #include <fulmar/flight/turn_trim.hpp>
 #include <fulmar/msg/actuators.hpp>
 #include <fulmar/msg/attitude_command.hpp>
+#include <fulmar/msg/notice.hpp>
 #include <fulmar/plugin.hpp>
 
 namespace fulmar::slc {
@@ -25,6 +30,7 @@ struct Inner {
     Probe roll_error_rad;
     Probe pitch_error_rad;
     Probe surface_scale_ratio;
+    OutQueue<Notice, 3> notices;  // an axis oscillated, and its gains were halved
   };
   struct Params {
     Param roll_kp{1.2, "rad/rad", 0, 20, "aileron per roll error"};
@@ -48,6 +54,7 @@ struct Inner {
         "time constant of the airspeed that gains, trim and turn rates follow: surfaces do not follow gusts"};
     Param scale_limit{2.5, "ratio", 1, 10,
                       "largest growth of the gains at low dynamic pressure, largest reduction at high"};
+    Flag quieten{true, "an axis that oscillates by too high gains gets half of them, and says so"};
     Record<Airframe> airframe{
         "throws, trims, cruise speed, and the derivatives for the feed-forward of turns"};
   };
@@ -62,7 +69,17 @@ struct Inner {
     roll_command_rate_.reset_to(in.attitude->roll_rad);
     airspeed_.reset_to(scheduling_airspeed(*in.state, params.airframe->limits));
     washout_.reset_to(yaw_rate_error(*in.state, airspeed_.value()));
+    for (Quietening& axis : quiet_) axis.begin();
     return Status::ok;
+  }
+
+  /// Other gains begin anew with all of them.
+  void retune(const Params& p) {
+    const std::array<double, 8> gains{p.roll_kp,  p.roll_ki,  p.roll_kd, p.pitch_kp,
+                                      p.pitch_ki, p.pitch_kd, p.yaw_kd,  p.quieten ? 1.0 : 0.0};
+    if (gains != gains_)
+      for (Quietening& axis : quiet_) axis.restore();
+    gains_ = gains;
   }
 
   Status step(const Tick& tick, const Inputs& in, const Params& params, Outputs& out) {
@@ -85,14 +102,45 @@ struct Inner {
     out.actuators.elevator_rad = pitch_to_elevator(state, command, params, scale, Va, rho, integrate);
     out.actuators.rudder_rad = yaw_to_rudder(state, params, scale, Va, dt);
     take_up_ = false;
+    if (params.quieten) quieten(tick, command, params, scale, Va, integrating && !blind_, dt, out);
     out.roll_error_rad = command.roll_rad - state.roll_rad;
     out.pitch_error_rad = command.pitch_rad - state.pitch_rad;
     out.surface_scale_ratio = scale;
     if (blind_) last_ = out.actuators;
-    return blind_ ? Status::degraded : Status::ok;
+    return blind_ || quietened() ? Status::degraded : Status::ok;
   }
 
  private:
+  enum Axis : std::uint8_t { roll, pitch, yaw, axes };
+
+  bool quietened() const {
+    return std::any_of(quiet_.begin(), quiet_.end(), [](const Quietening& axis) { return axis.gain() < 1; });
+  }
+
+  /// Halves the gains of an axis whose surface swings by more than a seventh of its throw, again and again.
+  void quieten(const Tick& tick, const AttitudeCommand& command, const Params& p, double scale, double Va,
+               bool watching, double dt, Outputs& out) {
+    static constexpr std::array<const char*, axes> names{"roll", "pitch", "yaw"};
+    const Actuators& u = out.actuators;
+    const std::array<double, axes> surface{u.aileron_rad, u.elevator_rad, u.rudder_rad};
+    const std::array<double, axes> commanded{
+        scale * quiet_[roll].gain() * p.roll_kp * command.roll_rad + p.roll_kff * std::sqrt(scale) * p_c_,
+        scale * quiet_[pitch].gain() * p.pitch_kp * command.pitch_rad,
+        scale * quiet_[yaw].gain() * p.yaw_kd * turn_rates(command.roll_rad, command.pitch_rad, Va).r_radps};
+    const std::array<double, axes> throws{p.airframe->aileron.limit_rad, p.airframe->elevator.limit_rad,
+                                          p.airframe->rudder.limit_rad};
+    for (std::size_t i = 0; i < axes; ++i) {
+      if (!watching) quiet_[i].begin();
+      if (!watching || !quiet_[i].step(surface[i], commanded[i], throws[i] / 7, dt)) continue;
+      Notice notice;
+      notice.severity = Severity::warning;
+      std::snprintf(notice.text.bytes.data(), notice.text.bytes.size(),
+                    "%s oscillates: its gains are multiplied by %g until they are changed", names[i],
+                    quiet_[i].gain());
+      out.notices.push(notice, tick.now_ns);
+    }
+  }
+
   /// Without an attitude nothing can be held. The aircraft is taken to follow its command: what is left are
   /// feed-forward, trim and the integrals, which roll it level as the command goes there.
   static VehicleState as_commanded(const VehicleState& last, const AttitudeCommand& command, double Va) {
@@ -124,6 +172,7 @@ struct Inner {
                          double scale, double integrate, double dt) {
     const Surface& aileron = p.airframe->aileron;
     const double p_c = std::clamp(roll_command_rate_.step(command.roll_rad, p.command_filter, dt), -3.0, 3.0);
+    p_c_ = p_c;
     // Damping by the air falls with the speed, the aileron's power with its square: the feed-forward scales
     // by their quotient.
     const PidInput in{.error = command.roll_rad - state.roll_rad,
@@ -131,7 +180,8 @@ struct Inner {
                       .feedforward = aileron.trim_rad + p.roll_kff * std::sqrt(scale) * p_c,
                       .min = -aileron.limit_rad,
                       .max = aileron.limit_rad};
-    const PidGains gains{scale * p.roll_kp, scale * p.roll_ki, scale * p.roll_kd};
+    const double k = scale * quiet_[roll].gain();
+    const PidGains gains{k * p.roll_kp, k * p.roll_ki, k * p.roll_kd};
     if (take_up_) roll_.reset_to(last_.aileron_rad, gains, in, 0.1);
     return roll_.step(gains, in, integrate);
   }
@@ -150,7 +200,8 @@ struct Inner {
                       .feedforward = -(elevator.trim_rad + p.turn_kff * (turn - cruise)),
                       .min = -elevator.limit_rad,
                       .max = elevator.limit_rad};
-    const PidGains gains{scale * p.pitch_kp, scale * p.pitch_ki, scale * p.pitch_kd};
+    const double k = scale * quiet_[pitch].gain();
+    const PidGains gains{k * p.pitch_kp, k * p.pitch_ki, k * p.pitch_kd};
     if (take_up_) pitch_.reset_to(-last_.elevator_rad, gains, in, 0.2);
     return -pitch_.step(gains, in, integrate);
   }
@@ -163,13 +214,17 @@ struct Inner {
   double yaw_to_rudder(const VehicleState& state, const Params& p, double scale, double Va, double dt) {
     const Surface& rudder = p.airframe->rudder;
     const double damping = washout_.step(yaw_rate_error(state, Va), p.yaw_washout, dt);
-    return std::clamp(rudder.trim_rad + scale * p.yaw_kd * damping, -rudder.limit_rad, rudder.limit_rad);
+    return std::clamp(rudder.trim_rad + scale * quiet_[yaw].gain() * p.yaw_kd * damping, -rudder.limit_rad,
+                      rudder.limit_rad);
   }
 
   Pid roll_, pitch_;
   Differentiator roll_command_rate_;
+  double p_c_ = 0;  ///< roll rate commanded
   WashOut washout_;
-  LowPass airspeed_;  ///< m/s, for gains, trim and turn rates
+  std::array<Quietening, axes> quiet_;
+  std::array<double, 8> gains_{};  ///< for which the axes are as quiet as they are
+  LowPass airspeed_;               ///< m/s, for gains, trim and turn rates
   Actuators last_;
   bool take_up_ = false, blind_ = false;
   std::int64_t known_ns_ = 0;  ///< the first state after a time without attitude

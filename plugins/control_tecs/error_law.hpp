@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Outer loops by the errors of the energies themselves: the error of the total energy moves the throttle,
+// that of the balance between height and speed moves pitch, each through a PI law. Beard & McLain, Small
+// Unmanned Aircraft, supplement to chapter 6, "Total energy control". Equations: README.
+#pragma once
+#include <fulmar/flight/energy.hpp>
+#include <fulmar/flight/filters.hpp>
+#include <fulmar/flight/outer_law.hpp>
+#include <fulmar/flight/pid.hpp>
+#include <fulmar/msg/attitude_command.hpp>
+#include <fulmar/msg/controller_internals.hpp>
+#include <fulmar/msg/guidance_command.hpp>
+#include <fulmar/plugin.hpp>
+
+namespace fulmar::tecs {
+
+struct ErrorLaw {
+  static constexpr const char* doc =
+      "Course hold, and height and airspeed by the errors of total energy and balance; take-off law.";
+  struct Inputs {
+    In<VehicleState> state;
+    In<GuidanceCommand> command;
+  };
+  struct Outputs {
+    AttitudeCommand attitude;
+    ControllerInternals internals;
+    Probe total_error_ratio;    // m2/s2, within its limits
+    Probe balance_error_ratio;  // m2/s2, within its limits
+    Probe pitch_integral_rad;
+    Probe throttle_integral_frac;
+    Probe underspeed_ratio;
+  };
+  struct Params {
+    OuterParams common;
+
+    Param total_gain{1.5, "1/s", 0, 5, "rate of the total energy per its error: moves the throttle"};
+    Param total_integral{0.2, "1/s2", 0, 5, "the same, per integrated error"};
+    Param balance_gain{1.2, "1/s", 0, 5, "rate of the balance per its error: moves pitch"};
+    Param balance_integral{0.1, "1/s2", 0, 5, "the same, per integrated error"};
+    Param speed_weight{1.0, "ratio", 0, 2,
+                       "0: pitch holds height alone; 1: both, as in the book; 2: pitch holds airspeed alone"};
+    Param airspeed_filter{0.5, "s", 0, 10,
+                          "over which the airspeed that pitch answers follows the measured one: gusts are "
+                          "the throttle's business"};
+    Param airspeed_kff{0.03, "1/(m/s)", 0, 0.2, "throttle per airspeed demand above cruise"};
+    Param thrust{50.0, "N", 1, 10000,
+                 "force per unit of throttle near cruise: turns energy rates into throttle"};
+    Param underspeed_band{
+        0.15, "ratio", 0.01, 0.5,
+        "airspeed below the minimum, as a share of it, at which speed has all priority and throttle is full"};
+  };
+
+  Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
+    if (!loop_.activate(*in.state, p.common, last)) pitch_.reset(), throttle_.reset();
+    airspeed_.reset();
+    return Status::ok;
+  }
+
+  Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
+    const auto rest = [&] {
+      pitch_.reset(), throttle_.reset(), airspeed_.reset();
+      out.total_error_ratio = 0.0;
+      out.balance_error_ratio = 0.0;
+      out.underspeed_ratio = 0.0;
+    };
+    const auto hold = [&](const LevelTurn& turn, double dt) -> PitchThrottle {
+      const Errors e = errors(*in.state, *in.command, p, dt, out);
+      const double theta = balance_to_pitch(*in.state, p, e, turn, dt, out);
+      return {theta, total_to_throttle(*in.state, p, e, turn, dt, out)};
+    };
+    const Status status = loop_.step(tick, *in.state, *in.command, p.common, out, rest, hold);
+    out.pitch_integral_rad = pitch_.integral();
+    out.throttle_integral_frac = throttle_.integral();
+    return status;
+  }
+
+ private:
+  /// Of the energies per mass, wanted minus present, m2/s2.
+  struct Errors {
+    double potential = 0, kinetic = 0;
+    double steady_kinetic = 0;   ///< of the airspeed without gusts
+    double climb_rate_mps = 0;   ///< of the path
+    double underspeed = 0;       ///< 0: none, 1: speed before everything
+    double Va_c = 0;             ///< m/s
+    double most = 0, least = 0;  ///< rates of the energy, m2/s3, that there is engine and drag for
+
+    /// Held to what a gain turns into the climb and sink that are left beside the path's, the kinetic one to
+    /// half of the limits. Where that governs there is nothing to learn.
+    EnergyRates held(double kinetic_m2ps2, double gain) const {
+      if (gain <= 0) return {potential, kinetic_m2ps2};
+      const double ahead = isa::g0 * climb_rate_mps;
+      return {std::clamp(potential, (least - ahead) / gain, (most - ahead) / gain),
+              std::clamp(kinetic_m2ps2, 0.5 * least / gain, 0.5 * most / gain)};
+    }
+  };
+
+  Errors errors(const VehicleState& state, const GuidanceCommand& command, const Params& p, double dt,
+                Outputs& out) {
+    const FlightLimits& limits = p.common.airframe->limits;
+    const double error = command.height_m - state.height_m;
+    Errors e;
+    e.most = isa::g0 * limits.climb_rate_max_mps, e.least = -isa::g0 * limits.sink_rate_max_mps;
+    e.climb_rate_mps =
+        std::clamp(command.climb_rate_mps, -limits.sink_rate_max_mps, limits.climb_rate_max_mps);
+    e.potential = isa::g0 * error;
+    e.Va_c = limits.airspeed_cruise_mps;
+    if (state.airspeed_valid) {
+      const double slowest = limits.airspeed_min_mps * (1 - p.underspeed_band);
+      e.underspeed = std::clamp(
+          (limits.airspeed_min_mps - state.airspeed_mps) / (limits.airspeed_min_mps - slowest), 0.0, 1.0);
+      e.Va_c = std::clamp(command.airspeed_mps, limits.airspeed_min_mps, limits.airspeed_max_mps);
+      const auto kinetic = [&](double V) { return 0.5 * (e.Va_c * e.Va_c - V * V); };
+      e.kinetic = kinetic(state.airspeed_mps);
+      e.steady_kinetic =
+          kinetic(airspeed_.step(state.airspeed_mps, airspeed_rate(state), p.airspeed_filter, dt));
+      out.internals.airspeed_error_mps = e.Va_c - state.airspeed_mps;
+    } else {
+      airspeed_.reset();
+    }
+    out.internals.height_error_m = error;
+    out.underspeed_ratio = e.underspeed;
+    return e;
+  }
+
+  /// theta = theta_trim + hdot_path / Va + 1/(g Va) [ k B + k_i int B ],  B = w_h e_U - w_V e_K.
+  double balance_to_pitch(const VehicleState& state, const Params& p, const Errors& e, const LevelTurn& turn,
+                          double dt, Outputs& out) {
+    const double given = state.airspeed_valid ? p.speed_weight.value : 0;
+    const double weight = 2 * e.underspeed + (1 - e.underspeed) * given;
+    const double w_h = std::clamp(2 - weight, 0.0, 1.0), w_V = std::clamp(weight, 0.0, 1.0);
+    const EnergyRates held = e.held(e.steady_kinetic, p.balance_gain);
+    const bool limited = held.potential != e.potential || held.kinetic != e.steady_kinetic;
+    const double B = held.balance(w_h, w_V);
+    const double per_gV = 1 / (isa::g0 * turn.Va_mps);
+    const PitchLimits pitch(state, p.common.airframe->limits, p.common.pitch_limit);
+    const PidInput in{.error = B * per_gV,
+                      .rate = 0,
+                      .feedforward = turn.pitch_rad + (1 - e.underspeed) * e.climb_rate_mps / turn.Va_mps,
+                      .min = pitch.min,
+                      .max = pitch.max};
+    const PidGains gains{p.balance_gain, limited ? 0 : p.balance_integral.value, 0};
+    if (loop_.commands.taking_up()) pitch_.reset_to(loop_.commands.last().pitch_rad, gains, in, 0.1);
+    const double theta = pitch_.step(gains, in, dt);
+    out.internals.pitch_saturated = pitch_.saturated() || limited;
+    out.balance_error_ratio = B;
+    return theta;
+  }
+
+  /// delta_t = trim + m/(Va T) [ g hdot_path + E_turn + k E + k_i int E ],  E = e_U + e_K.
+  double total_to_throttle(const VehicleState& state, const Params& p, const Errors& e, const LevelTurn& turn,
+                           double dt, Outputs& out) {
+    const FlightLimits& limits = p.common.airframe->limits;
+    const double per_rate = p.common.airframe->mass_kg / (turn.Va_mps * p.thrust);
+    const double feedforward = limits.throttle_cruise_frac +
+                               p.airspeed_kff * (e.Va_c - limits.airspeed_cruise_mps) +
+                               per_rate * isa::g0 * e.climb_rate_mps + turn.drag_newton / p.thrust;
+    const EnergyRates held = e.held(e.kinetic, p.total_gain);
+    const bool limited = held.potential != e.potential || held.kinetic != e.kinetic;
+    const double E = held.total();
+    out.total_error_ratio = E;
+    if (!state.airspeed_valid)  // the climb that pitch asks for, and trim
+      return std::clamp(feedforward + per_rate * p.balance_gain * e.held(0, p.balance_gain).potential, 0.0,
+                        1.0);
+    const PidInput in{.error = per_rate * E, .rate = 0, .feedforward = feedforward, .min = 0, .max = 1};
+    const bool learns = !limited && e.underspeed == 0;
+    const PidGains gains{p.total_gain, learns ? p.total_integral.value : 0, 0};
+    if (loop_.commands.taking_up()) throttle_.reset_to(loop_.commands.last().throttle_frac, gains, in, 0.2);
+    const double throttle = throttle_.step(gains, in, dt);
+    out.internals.throttle_saturated = throttle_.saturated();
+    return e.underspeed + (1 - e.underspeed) * throttle;
+  }
+
+  OuterLoop loop_;
+  Pid pitch_, throttle_;
+  SteadyAirspeed airspeed_;
+};
+
+}  // namespace fulmar::tecs

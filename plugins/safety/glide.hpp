@@ -35,8 +35,6 @@ struct Glide {
     Param flare_kd{0.06, "rad/(m/s)", 0, 1, "pitch per sink that is too fast, in the flare"};
     Param touch_sink{0.6, "m/s", 0, 3, "that the flare ends with"};
     Param level_height{8, "m", 0, 100, "above the ground; below it wings level"};
-    Param ground{0, "m", -1000, 10000, "of the ground above the origin, where the guide does not know it"};
-    Flag ground_by_command{true, "the command's height is the ground; else `ground` is"};
   };
 
   Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
@@ -49,8 +47,7 @@ struct Glide {
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     const VehicleState& s = *in.state;
     GuidanceCommand c = *in.command;
-    const double ground = p.ground_by_command ? c.height_m : p.ground.value;
-    const double height = s.height_m - ground;
+    const double height = s.height_m - c.height_m;
     out.sink_expected_mps = out.flare_ratio = 0.0;
     if (s.height_valid && height < p.level_height)
       c.lateral = LateralMode::acceleration, c.lateral_acceleration_mps2 = 0;

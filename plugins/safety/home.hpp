@@ -14,7 +14,7 @@
 
 namespace fulmar::safety {
 
-enum class HomeMode : std::uint8_t { home, glide, wait, level };
+enum class HomeMode : std::uint8_t { home, glide, wait, descend, level };
 
 struct Home {
   static constexpr const char* doc =
@@ -32,10 +32,10 @@ struct Home {
     Probe final_ratio;  // 1: the last piece of the glide, into the wind
   };
   struct Params {
-    Choice<HomeMode> mode{
-        HomeMode::home,
-        "home: there and circle; glide: without motor to a place and onto it; wait: circle here; "
-        "level: straight on"};
+    Choice<HomeMode> mode{HomeMode::home,
+                          "home: there and circle; glide: without motor to a place and onto it; wait: circle "
+                          "here; descend: the same without motor; "
+                          "level: straight on"};
     Record<Airframe> airframe{"airspeeds, and the glide", required};
     Record<Origin> origin{"of the local frame, for lat and lon"};
     Record<Places> places{"where to come down; the first is home. Without it, the origin"};
@@ -76,10 +76,11 @@ struct Home {
       case HomeMode::home: home(s, p, out); break;
       case HomeMode::glide: glide(s, p, out); break;
       case HomeMode::wait: wait(s, p, out); break;
+      case HomeMode::descend: descend(s, p, out); break;
       case HomeMode::level: hold(s, p, out.command); break;
     }
-    return s.position_valid || mode_ == HomeMode::wait || mode_ == HomeMode::level ? Status::ok
-                                                                                   : Status::degraded;
+    return s.position_valid || (mode_ != HomeMode::home && mode_ != HomeMode::glide) ? Status::ok
+                                                                                     : Status::degraded;
   }
 
  private:
@@ -154,6 +155,13 @@ struct Home {
     out.command.lateral = LateralMode::acceleration;
     out.command.roll_feedforward_rad = p.wait_bank;
     out.command.lateral_acceleration_mps2 = isa::g0 * std::tan(p.wait_bank);
+  }
+
+  /// The ground is taken for as high as at home.
+  void descend(const VehicleState& s, const Params& p, Outputs& out) {
+    wait(s, p, out);
+    out.command.height_m = target_.up_m;
+    out.command.airspeed_mps = best_glide(*p.airframe, rho(s), 0, p.glide_margin).airspeed_mps;
   }
 
   void hold(const VehicleState& s, const Params& p, GuidanceCommand& c) const {

@@ -62,6 +62,8 @@ struct Monitor {
     Record<Places> places{"where to come down; the first is home. Without it, the origin"};
     Flag landing{false, "while it is true the floor of the fence does not count"};
 
+    Param airborne_raise{1.5, "s", 0, 60, "off the ground, until it flies: a landing may bounce"};
+
     Param fence_margin{15, "m", 0, 1000, "that the turn back leaves to the fence"};
     Param fence_clear{30, "m", 0, 1000, "more than that, for the fence to be forgotten"};
     Param fence_reaction{1.5, "s", 0, 10, "straight on, until the bank is there"};
@@ -100,7 +102,9 @@ struct Monitor {
     Param engine_raise{2, "s", 0, 600, "of too little, until it is said"};
     Param engine_clear{5, "s", 0, 600, "of more than twice as much, until it is taken back"};
 
-    Param wind_limit{0.7, "ratio", 0, 5, "wind over cruise airspeed that is excessive"};
+    Param wind_limit{0.6, "ratio", 0, 5,
+                     "wind over cruise airspeed that is excessive: about the stalling speed, on the ground "
+                     "nothing holds it then"};
     Param wind_smoothing{5, "s", 0.1, 600, "time constant of the wind"};
     Param wind_raise{10, "s", 0, 600, "above, until it is said"};
     Param wind_clear{30, "s", 0, 600, "below nine tenths of it, until it is taken back"};
@@ -113,6 +117,7 @@ struct Monitor {
 
  private:
   static bool is_airborne(const Inputs& in, const Params& p);
+  void take_off(bool airborne, const Params& p, double dt);
   void fence(const VehicleState& s, const Params& p, double dt);
   void sensors(const Tick& tick, const Inputs& in, const Params& p, double dt);
   void radio_and_link(const Tick& tick, const Inputs& in, const Params& p, double dt);
@@ -122,6 +127,7 @@ struct Monitor {
   SafetyAnswer answer(const Params& p, double dt);
   void tell(const Tick& tick, Outputs& out);
 
+  static constexpr double there_volt = 1;  ///< below it there is no battery, or none that is measured
   struct Alarms {
     Alarm fence, gnss, pitot, radio, link, low, empty, attitude, engine, wind, estimator;
   };
@@ -134,6 +140,7 @@ struct Monitor {
   bool kept_fence_ = false;
   bool radio_heard_ = false, airspeed_heard_ = false, position_heard_ = false;
   double thrust_expected_ = 0, thrust_found_ = 0;  ///< smoothed, N
+  double aloft_s_ = 0;
   Vec3<Ned> wind_;
   bool wind_known_ = false;
 };
@@ -164,10 +171,21 @@ inline bool Monitor::is_airborne(const Inputs& in, const Params& p) {
   return in.state->height_m > 3 && in.state->ground_speed_mps > 0.5 * p.airframe->limits.airspeed_min_mps;
 }
 
+/// A wheel that leaves the ground for a moment is no flight; with each flight what concerns it begins anew.
+inline void Monitor::take_off(bool airborne, const Params& p, double dt) {
+  aloft_s_ = airborne ? aloft_s_ + dt : 0;
+  const bool before = now_.airborne;
+  now_.airborne = airborne && (before || aloft_s_ > p.airborne_raise);
+  if (!now_.airborne || before) return;
+  above_floor_ = kept_fence_ = false;
+  alarms_.fence.reset(), alarms_.engine.reset(), alarms_.attitude.reset();
+  thrust_expected_ = thrust_found_ = now_.waiting_s = now_.returning_s = 0, now_.thrust_ratio = 1;
+}
+
 inline Status Monitor::step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
   const double dt = std::clamp(tick.dt_s(), 0.0, 0.1);
   const VehicleState& s = *in.state;
-  now_.airborne = is_airborne(in, p);
+  take_off(is_airborne(in, p), p, dt);
   sensors(tick, in, p, dt);
   radio_and_link(tick, in, p, dt);
   battery(in, p, dt);
@@ -175,11 +193,6 @@ inline Status Monitor::step(const Tick& tick, const Inputs& in, const Params& p,
   if (now_.airborne) {
     fence(s, p, dt);
     motor(in, p, dt);
-  } else {
-    above_floor_ = kept_fence_ = false;
-    alarms_.fence.reset(), alarms_.engine.reset(), alarms_.attitude.reset();
-    now_.fence_margin_m = now_.height_margin_m = not_given;
-    thrust_expected_ = thrust_found_ = 0, now_.thrust_ratio = 1;
   }
   now_.fence = alarms_.fence.raised();
   now_.gnss_lost = alarms_.gnss.raised(), now_.pitot_lost = alarms_.pitot.raised();
@@ -217,6 +230,7 @@ inline void Monitor::fence(const VehicleState& s, const Params& p, double dt) {
   const double height = now_.height_margin_m, level = now_.fence_margin_m;
   const bool bad = level < p.fence_margin || height < 0;
   const bool good = level > p.fence_margin + p.fence_clear && height > 0.2 * p.fence_clear;
+  if (alarms_.attitude.raised()) return;  // its velocity is not that of a turn back
   alarms_.fence.step(bad, good, 0, 2, dt);
 }
 
@@ -259,7 +273,6 @@ inline void Monitor::radio_and_link(const Tick& tick, const Inputs& in, const Pa
 
 inline void Monitor::battery(const Inputs& in, const Params& p, double dt) {
   if (!in.status) return;
-  constexpr double there_volt = 1;  // below it there is none, or none that is measured
   const double full = p.airframe->propulsion.battery_volt;
   const double volt = in.status->battery_volt > there_volt || alarms_.low.raised()
                           ? in.status->battery_volt / std::max(full, there_volt)
@@ -289,7 +302,11 @@ inline void Monitor::motor(const Inputs& in, const Params& p, double dt) {
   const double rho = standard_air(s.origin_altitude_m + s.height_m).density_kgm3, mg = a.mass_kg * isa::g0;
   const double drag = turn_trim(a, s.roll_rad, Va, rho).drag_newton;
   const double found = mg * s.climb_rate_mps / Va + a.mass_kg * airspeed_rate(s) + drag;
-  const double expected = thrust_of(a, std::clamp(in.actuators->throttle_frac, 0.0, 1.0), Va, rho);
+  const double full = a.propulsion.battery_volt;
+  const double volt = in.status && in.status->battery_volt > there_volt && full > 0
+                          ? std::min(in.status->battery_volt / full, 1.0)
+                          : 1;  // the throttle is a share of what the battery has
+  const double expected = thrust_of(a, volt * std::clamp(in.actuators->throttle_frac, 0.0, 1.0), Va, rho);
   const double share = 1 - std::exp(-dt / p.engine_smoothing);
   thrust_found_ += share * (found - thrust_found_);
   thrust_expected_ += share * (expected - thrust_expected_);
@@ -313,7 +330,7 @@ inline void Monitor::wind(const VehicleState& s, const Params& p, double dt) {
 }
 
 inline SafetyAnswer Monitor::answer(const Params& p, double dt) {
-  if (!now_.airborne) return now_.returning_s = 0, SafetyAnswer::none;
+  if (!now_.airborne) return SafetyAnswer::none;
   if (now_.engine_failed || now_.battery_empty) return SafetyAnswer::glide;
   if (now_.attitude_excessive || now_.estimator_failed) return SafetyAnswer::level;
   if (now_.gnss_lost)

@@ -181,15 +181,17 @@ inline double room_of_turn(const Polygon& fence, const TurnBack& t, const Spot& 
   return room;
 }
 
-/// Room of the turn that a course to `to` makes: the short way round; where both are about as short, the
-/// worse.
-inline double room_of_return(const Polygon& fence, const TurnBack& t, const Spot& to) {
-  constexpr double about_face_rad = 2.6;
+/// The better of both turns, +1 to the right, and its room. The short one, as long as it leaves `enough_m`.
+struct WayBack {
+  double room_m = 0, side = 0;
+};
+inline WayBack way_back(const Polygon& fence, const TurnBack& t, const Spot& to, double enough_m) {
   const double track = std::atan2(t.v_east_mps, t.v_north_mps);
   const double error = angle_difference(std::atan2(to.east_m - t.east_m, to.north_m - t.north_m), track);
-  const double room = room_of_turn(fence, t, to, error < 0 ? -1 : 1);
-  if (std::abs(error) < about_face_rad) return room;
-  return std::min(room, room_of_turn(fence, t, to, error < 0 ? 1 : -1));
+  const double side = error < 0 ? -1 : 1, room = room_of_turn(fence, t, to, side);
+  if (room >= enough_m) return {room, side};
+  const double other = room_of_turn(fence, t, to, -side);
+  return other > room ? WayBack{other, -side} : WayBack{room, side};
 }
 
 /// Room to floor and ceiling, m, less what it takes to level off at `pull_mps2` after `reaction_s`.

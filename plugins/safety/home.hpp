@@ -9,6 +9,7 @@
 #include "fulmar/flight/wind_triangle.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/guidance_command.hpp"
+#include "fulmar/msg/safety_state.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "glide_model.hpp"
 
@@ -23,6 +24,7 @@ struct Home {
       "position is not known; or straight on, wings level.";
   struct Inputs {
     In<VehicleState> state;
+    Optional<SafetyState> safety;  // which way round the fence leaves room; without it, the short one
   };
   struct Outputs {
     GuidanceCommand command;
@@ -68,7 +70,7 @@ struct Home {
 
   Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out) {
     const VehicleState& s = *in.state;
-    if (!begun_) begin(s, p);
+    if (!begun_) begin(s, p), round_ = in.safety ? in.safety->turn : SafetyTurn::either;
     out.command = {};
     out.there_ratio = out.final_ratio = out.reach_m = 0.0;
     out.distance_m = level_distance(s, target_);
@@ -148,6 +150,17 @@ struct Home {
     out.there_ratio = there ? 1.0 : 0.0;
   }
 
+  /// The long way round, until the course wanted lies ahead on that side.
+  void turn_round(const VehicleState& s, GuidanceCommand& c) {
+    if (round_ == SafetyTurn::either) return;
+    constexpr double ahead_rad = 1.8;
+    const double side = round_ == SafetyTurn::right ? 1 : -1;
+    const double left = wrap_2pi(side * (c.course_rad - s.course_rad));
+    if (left < ahead_rad || left > 2 * std::numbers::pi - 0.3) return round_ = SafetyTurn::either, void();
+    c.course_rad = wrap_pi(s.course_rad + side * ahead_rad);
+    c.roll_feedforward_rad = 0;
+  }
+
   /// Through the air, by bank alone: a course would need a velocity.
   void wait(const VehicleState& s, const Params& p, Outputs& out) {
     if (s.reset_count != resets_) height_m_ -= s.reset_position_m.down, resets_ = s.reset_count;
@@ -211,6 +224,7 @@ struct Home {
   std::vector<Spot> spots_{{}};
   Spot target_;
   HomeMode mode_ = HomeMode::home;
+  SafetyTurn round_ = SafetyTurn::either;
   bool begun_ = false, final_ = false;
   double height_m_ = 0, course_rad_ = 0;
   std::uint32_t resets_ = 0;

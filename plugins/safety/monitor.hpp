@@ -208,6 +208,7 @@ inline Status Monitor::step(const Tick& tick, const Inputs& in, const Params& p,
 
 inline void Monitor::fence(const VehicleState& s, const Params& p, double dt) {
   now_.fence_margin_m = now_.height_margin_m = not_given;
+  now_.turn = SafetyTurn::either;
   if (!polygon_.given()) return;
   const bool known = s.position_valid && s.velocity_valid;
   if (known) {
@@ -217,7 +218,12 @@ inline void Monitor::fence(const VehicleState& s, const Params& p, double dt) {
     if (s.wind_valid) t.w_north_mps = s.wind_mps.north, t.w_east_mps = s.wind_mps.east;
     t.roll_rad = p.fence_bank_ratio * p.airframe->limits.roll_max_rad;
     t.reaction_s = p.fence_reaction;
-    now_.fence_margin_m = room_of_return(polygon_, t, places_[0]);
+    const WayBack way = way_back(polygon_, t, places_[0], p.fence_margin + p.fence_clear);
+    now_.fence_margin_m = way.room_m;
+    // Where the course to home is about behind, the short way is soon the other one.
+    now_.turn = way.room_m > p.fence_margin + p.fence_clear ? SafetyTurn::either
+                : way.side > 0                              ? SafetyTurn::right
+                                                            : SafetyTurn::left;
   }
   if (s.height_valid) {
     above_floor_ = above_floor_ || s.height_m > floor_m_ + p.fence_margin;

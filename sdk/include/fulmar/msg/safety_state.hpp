@@ -16,6 +16,9 @@ enum class SafetyAnswer : std::uint8_t {
   home      ///< return and circle there
 };
 
+/// Which way round the fence leaves room for a turn back.
+enum class SafetyTurn : std::uint8_t { either, left, right };
+
 /// What is wrong, of which a mission makes phases. A flag rises and falls with a delay of its own.
 struct SafetyState {
   bool fence = false;        ///< it would be left if the aircraft did not turn back now, or has been left
@@ -31,6 +34,7 @@ struct SafetyState {
   bool estimator_failed = false;  ///< attitude, velocity or height are not valid
   bool airborne = false;
   SafetyAnswer answer = SafetyAnswer::none;
+  SafetyTurn turn = SafetyTurn::either;
   double fence_margin_m = 1e9;   ///< room that the turn back leaves, level; negative: outside. 1e9: no fence
   double height_margin_m = 1e9;  ///< room to floor and ceiling, less what the pull-out takes
   double thrust_ratio = 1;       ///< force along the flight path over what the model says of this throttle

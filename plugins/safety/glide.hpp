@@ -8,6 +8,7 @@
 #include "fulmar/flight/pid.hpp"
 #include "fulmar/msg/attitude_command.hpp"
 #include "fulmar/msg/controller_internals.hpp"
+#include "fulmar/msg/home_progress.hpp"
 #include "glide_model.hpp"
 
 namespace fulmar::safety {
@@ -18,7 +19,8 @@ struct Glide {
       "ground.";
   struct Inputs {
     In<VehicleState> state;
-    In<GuidanceCommand> command;  // its height is that of the ground
+    In<GuidanceCommand> command;      // course and airspeed
+    Optional<HomeProgress> progress;  // how high the ground is; without it `ground`
   };
   struct Outputs {
     AttitudeCommand attitude;
@@ -28,13 +30,15 @@ struct Glide {
   };
   struct Params {
     OuterParams common;
-    Param airspeed_kp{0.04, "rad/(m/s)", 0, 1, "pitch per airspeed that is too high"};
-    Param airspeed_ki{0.008, "rad/m", 0, 1, "pitch per integrated airspeed that is too high"};
+    Param airspeed_kp{0.06, "rad/(m/s)", 0, 1, "pitch per airspeed that is too high"};
+    Param airspeed_ki{0.015, "rad/m", 0, 1, "pitch per integrated airspeed that is too high"};
     Param airspeed_kd{0.03, "rad/(m/s2)", 0, 1, "pitch per acceleration along the flight path"};
-    Param flare_height{5, "m", 0, 100, "above the ground; below it it flares"};
+    Param flare_time{1.5, "s", 0.1, 10, "to the ground at the present sink; less of it, and it flares"};
     Param flare_kd{0.06, "rad/(m/s)", 0, 1, "pitch per sink that is too fast, in the flare"};
-    Param touch_sink{0.6, "m/s", 0, 3, "that the flare ends with"};
-    Param level_height{8, "m", 0, 100, "above the ground; below it wings level"};
+    Param ground{0, "m", -1000, 10000, "height of the ground above the origin, where nobody says it"};
+    Param touch_sink{1.0, "m/s", 0, 3, "that the flare ends with"};
+    Param level_time{2.6, "s", 0, 60,
+                     "to the ground at the present sink; less of it, and the wings are levelled"};
   };
 
   Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
@@ -47,9 +51,11 @@ struct Glide {
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     const VehicleState& s = *in.state;
     GuidanceCommand c = *in.command;
-    const double height = s.height_m - c.height_m;
+    const bool told = in.progress && !in.progress.stale();
+    const double height = s.height_m - (told ? in.progress->ground_m : p.ground.value);
     out.sink_expected_mps = out.flare_ratio = 0.0;
-    if (s.height_valid && height < p.level_height)
+    const double sink = std::max(-s.climb_rate_mps, 1.0);
+    if (s.height_valid && height < p.level_time * sink)
       c.lateral = LateralMode::acceleration, c.lateral_acceleration_mps2 = 0;
     const auto rest = [&] { airspeed_.reset(); };
     const auto hold = [&](const LevelTurn& turn, double dt) -> PitchThrottle {
@@ -67,11 +73,13 @@ struct Glide {
     const FlightLimits& limits = a.limits;
     const double sink = sink_rate(a, turn.Va_mps, s.roll_rad, air_density(s));
     out.sink_expected_mps = sink;
-    flares_ = height < p.flare_height && (flares_ || height > -2 * p.flare_height);
+    const double sinks = std::max(-s.climb_rate_mps, sink);
+    if (flares_ && height > 2 * from_m_ + 5) flares_ = false;  // the ground has fallen away
+    if (!flares_ && height < p.flare_time * sinks) flares_ = true, from_m_ = height, sink_mps_ = sinks;
     if (flares_) {
       out.flare_ratio = 1.0;
-      const double left = std::clamp(height / p.flare_height, 0.0, 1.0);
-      const double wanted = -(p.touch_sink + left * std::max(sink - p.touch_sink, 0.0));
+      const double left = from_m_ > 0 ? std::clamp(height / from_m_, 0.0, 1.0) : 0;
+      const double wanted = -(p.touch_sink + left * std::max(sink_mps_ - p.touch_sink, 0.0));
       const double theta = turn.pitch_rad + wanted / turn.Va_mps + p.flare_kd * (wanted - s.climb_rate_mps);
       // No ceiling near the stall: the speed is to go.
       return std::clamp(theta, limits.pitch_min_rad, limits.pitch_max_rad);
@@ -91,6 +99,7 @@ struct Glide {
   OuterLoop loop_;
   Pid airspeed_;
   bool flares_ = false;
+  double from_m_ = 0, sink_mps_ = 0;  ///< height and sink where the flare began
 };
 
 }  // namespace fulmar::safety

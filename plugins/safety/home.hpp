@@ -9,6 +9,7 @@
 #include "fulmar/flight/wind_triangle.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/guidance_command.hpp"
+#include "fulmar/msg/home_progress.hpp"
 #include "fulmar/msg/safety_state.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "glide_model.hpp"
@@ -28,10 +29,7 @@ struct Home {
   };
   struct Outputs {
     GuidanceCommand command;
-    Probe there_ratio;  // 1: on the circle at home, at the return height
-    Probe distance_m;   // to home, or to the place of the glide
-    Probe reach_m;      // how far a glide goes from here towards that place, to the ground
-    Probe final_ratio;  // 1: the last piece of the glide, into the wind
+    HomeProgress progress;
   };
   struct Params {
     Choice<HomeMode> mode{HomeMode::home,
@@ -47,7 +45,7 @@ struct Home {
     Param least_ground_speed{6, "m/s", 0, 100, "on the way home; against more wind it flies faster"};
     Param least_height{40, "m", 0, 10000, "above home, of the circle while the position is not known"};
     Param wait_bank{0.26, "rad", 0.02, 1, "of the circle while the position is not known, to the right"};
-    Param glide_margin{1.1, "ratio", 1, 2, "least airspeed of a glide over the airframe's least"};
+    Param glide_margin{1.2, "ratio", 1, 2, "least airspeed of a glide over the airframe's least"};
     Param glide_radius{35, "m", 10, 1000, "of the circle above a place"};
     Param glide_bank{0.5, "rad", 0.05, 1, "of the turn into the wind, as far as the height for it goes"};
     Param final_height{30, "m", 2, 500, "above the place, where the last piece into the wind begins"};
@@ -72,8 +70,8 @@ struct Home {
     const VehicleState& s = *in.state;
     if (!begun_) begin(s, p), round_ = in.safety ? in.safety->turn : SafetyTurn::either;
     out.command = {};
-    out.there_ratio = out.final_ratio = out.reach_m = 0.0;
-    out.distance_m = level_distance(s, target_);
+    out.progress = {};
+    out.progress.distance_m = level_distance(s, target_), out.progress.ground_m = target_.up_m;
     switch (mode_) {
       case HomeMode::home: home(s, p, out); break;
       case HomeMode::glide: glide(s, p, out); break;
@@ -145,9 +143,8 @@ struct Home {
         fly_course(c.course_rad, limits.airspeed_cruise_mps, wind(s)).ground_speed_mps < p.least_ground_speed;
     c.airspeed_mps = behind ? std::clamp(fast, limits.airspeed_cruise_mps, limits.airspeed_max_mps)
                             : limits.airspeed_cruise_mps;
-    const bool there =
-        std::abs(out.distance_m.value - p.radius) < 0.5 * p.radius && std::abs(s.height_m - c.height_m) < 10;
-    out.there_ratio = there ? 1.0 : 0.0;
+    out.progress.there = std::abs(out.progress.distance_m - p.radius) < 0.5 * p.radius &&
+                         std::abs(s.height_m - c.height_m) < 10;
   }
 
   /// The long way round, until the course wanted lies ahead on that side.
@@ -183,13 +180,13 @@ struct Home {
     c.airspeed_mps = p.airframe->limits.airspeed_cruise_mps;
   }
 
-  /// The command's height is that of the ground; pitch belongs to the airspeed.
+  /// The command's height is that of the ground, for a law that holds it: pitch belongs to the airspeed.
   void glide(const VehicleState& s, const Params& p, Outputs& out) {
     const Vec3<Ned> w = wind(s);
     const double speed = std::hypot(w.north, w.east);
     const double upwind = speed > 1 ? std::atan2(-w.east, -w.north) : final_ ? course_rad_ : s.course_rad;
     const double height = s.height_m - target_.up_m;
-    out.reach_m = reach(s, target_, p);
+    out.progress.reach_m = reach(s, target_, p);
     GuidanceCommand& c = out.command;
     c.height_m = target_.up_m;
     const BestGlide best = best_glide(*p.airframe, rho(s), 0, p.glide_margin);
@@ -204,7 +201,7 @@ struct Home {
       final_ = true;
       course_rad_ = height < p.straight_height ? s.course_rad : upwind;
     }
-    out.final_ratio = final_ ? 1.0 : 0.0;
+    out.progress.final = final_;
     if (final_) {
       c.course_rad = course_rad_;
       return;

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One thing fails while a mission with plugins/safety is flown: all that bench_safety and safety_flights_test
+// fly, and what is measured of such a flight.
+#pragma once
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "core/run/flight.hpp"
+#include "fulmar/msg/safety_state.hpp"
+#include "fulmar/msg/vehicle_state.hpp"
+#include "fulmar/msg/vehicle_status.hpp"
+
+namespace fulmar::safety_flights {
+
+namespace fs = std::filesystem;
+
+/// Where a flight ends.
+enum class End : std::uint8_t { on_ground, broken, aloft };
+inline const char* word(End end) {
+  return end == End::on_ground ? "on the ground, whole" : end == End::broken ? "broken" : "in the air";
+}
+
+struct Row {
+  std::string airframe{}, name{}, does{};  ///< what the aircraft does, in words
+  std::string failing{};                   ///< parameters of the plugin `failing`
+  std::string sim{}, watch{};              ///< parameters of the aircraft and of the monitor
+  bool SafetyState::*cause = nullptr;      ///< that has to be told; none: nothing may be
+  double told_within_s = 10;
+  double at_s = 60;
+  std::vector<std::string> phases{};               ///< that have to be flown, in this order
+  double north_m = 1e9, east_m = 1e9, up_m = 1e9;  ///< sides of the fence that it comes near, and its ceiling
+};
+
+inline std::vector<Row> rows_of(const std::string& a) {
+  using S = SafetyState;
+  const bool big = a == "aerosonde";
+  const std::string near = big ? "fence: {corners: [{north: 1200 m, east: -1300 m}, {north: 1200 m, east: "
+                                 "120 m}, {north: -1000 m, east: 120 m}, {north: -1000 m, east: -1300 m}]}"
+                               : "fence: {corners: [{north: 340 m, east: -700 m}, {north: 340 m, east: 350 "
+                                 "m}, {north: -600 m, east: 350 m}, {north: -600 m, east: -700 m}]}";
+  const std::string low = big ? "fence.ceiling: 90 m" : "fence.ceiling: 65 m";
+  const std::string gale = big ? "wind_ned: [11.3, -11.3, 0]" : "wind_ned: [7.8, -7.8, 0]";
+  return {
+      {.airframe = a,
+       .name = "nothing",
+       .does = "flies its circuit, lands",
+       .phases = {"approach", "roll_out"}},
+      {.airframe = a,
+       .name = "moderate turbulence",
+       .does = "flies its circuit, lands",
+       .sim = "turbulence: moderate",
+       .phases = {"approach", "roll_out"}},
+      {.airframe = a,
+       .name = "fence",
+       .does = "turns back before it, circles at home, lands after 2 min",
+       .watch = near,
+       .cause = &S::fence,
+       .told_within_s = 1e9,
+       .at_s = 0,
+       .phases = {"home", "approach", "roll_out"},
+       .north_m = big ? 1e9 : 340,
+       .east_m = big ? 120 : 1e9},
+      {.airframe = a,
+       .name = "ceiling",
+       .does = "returns home and circles there, lands after 2 min",
+       .watch = low,
+       .cause = &S::fence,
+       .told_within_s = 1e9,
+       .at_s = 0,
+       .phases = {"home", "approach", "roll_out"},
+       .up_m = big ? 90.0 : 65.0},
+      {.airframe = a,
+       .name = "position",
+       .does = "circles for 2 min, descends in a circle without motor",
+       .failing = "what: gnss_position, kind: off",
+       .cause = &S::gnss_lost,
+       .phases = {"wait", "descend", "roll_out"}},
+      {.airframe = a,
+       .name = "position, for 30 s",
+       .does = "circles until it is back, flies on, lands",
+       .failing = "what: gnss_position, kind: off, lasts: 30",
+       .cause = &S::gnss_lost,
+       .phases = {"wait", "cruise", "approach", "roll_out"}},
+      {.airframe = a,
+       .name = "pitot tube",
+       .does = "returns home without it, lands",
+       .failing = "what: pitot, kind: off",
+       .cause = &S::pitot_lost,
+       .phases = {"home", "approach", "roll_out"}},
+      {.airframe = a,
+       .name = "radio",
+       .does = "returns home, circles there, lands after 2 min",
+       .failing = "what: radio, kind: off",
+       .cause = &S::radio_lost,
+       .phases = {"home", "approach", "roll_out"}},
+      {.airframe = a,
+       .name = "radio, for 20 s",
+       .does = "turns home, flies on when it is back, lands",
+       .failing = "what: radio, kind: off, lasts: 20",
+       .cause = &S::radio_lost,
+       .phases = {"home", "cruise", "approach", "roll_out"}},
+      {.airframe = a,
+       .name = "battery, over 10 min",
+       .does = "returns home and lands; empty on the way, it glides",
+       .failing = "what: battery, kind: empty, size: 600",
+       .cause = &S::battery_low,
+       .told_within_s = 110,
+       .phases = {"home", "approach", "roll_out"}},
+      {.airframe = a,
+       .name = "motor",
+       .does = "glides to the nearest place or into the wind",
+       .failing = "what: engine, kind: off",
+       .cause = &S::engine_failed,
+       .told_within_s = 5,
+       .phases = {"glide", "roll_out"}},
+      {.airframe = a,
+       .name = "motor, in the climb",
+       .does = "glides straight on, or into the wind",
+       .failing = std::string("what: engine, kind: off, at: ") + (big ? "20" : "10"),
+       .cause = &S::engine_failed,
+       .told_within_s = 5,
+       .at_s = big ? 20.0 : 10.0,
+       .phases = {"glide", "roll_out"}},
+      {.airframe = a,
+       .name = "ailerons hard over, 1 s",
+       .does = "wings level, flies on, lands",
+       .failing = "what: aileron, kind: hardover_positive, lasts: 1",
+       .cause = &S::attitude_excessive,
+       .told_within_s = 2,
+       .phases = {"level", "cruise", "approach", "roll_out"}},
+      {.airframe = a,
+       .name = "too much wind",
+       .does = "returns home, settles into the wind without motor",
+       .sim = gale + (big ? ", start_height: 100 m" : ", start_height: 70 m"),
+       .cause = &S::wind_excessive,
+       .told_within_s = 60,
+       .at_s = 0,
+       .phases = {"home", "settle", "roll_out"}},
+  };
+}
+
+/// Of the airframe's own size: the hourglass is too small for the Aerosonde.
+inline std::string mission_text(const Row& row) {
+  const std::string configs = FULMAR_SOURCE_DIR "/configs";
+  const auto list = [](const std::string& s) { return s.empty() ? "" : ", " + s; };
+  const std::string failing =
+      "  failing: {use: " FULMAR_TEST_PLUGIN_DIR "/failing.so, params: {" + row.failing + "}}\n";
+  const std::string head = "mission: failing\nlive: off\ntimeout: 900 s\nextends: " + configs + "/missions/";
+  if (row.airframe != "aerosonde")
+    return head + "return_home.yaml\ncomponents:\n" + failing +
+           "  sim: {in: {fault: failing.fault}, params: {motor: true" + list(row.sim) + "}}\n" +
+           "  watch: {params: {landing: false" + list(row.watch) + "}}\n";
+  const std::string fence =
+      row.watch.find("fence: ") != std::string::npos
+          ? ""
+          : ", fence: {floor: 20 m, ceiling: 200 m, corners: [{north: 1200 m, east: -1300 m}, {north: 1200 "
+            "m, "
+            "east: 600 m}, {north: -1000 m, east: 600 m}, {north: -1000 m, east: -1300 m}]}";
+  return head + "safe.yaml\nairframe: " + configs + "/airframes/aerosonde.yaml\n" +
+         "origin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\n"
+         "done: {when: \"vehicle.status.on_ground and time > 20 s\", for: 10 s}\ncomponents:\n" +
+         failing + "  sim: {in: {fault: failing.fault}, params: {sensors: rosflight, start_heading: 135 deg" +
+         (row.sim.find("wind_ned") == std::string::npos ? ", wind_ned: [3.5355, -3.5355, 0]" : "") +
+         (row.sim.find("turbulence") == std::string::npos ? ", turbulence: light" : "") + list(row.sim) +
+         "}}\n"
+         "  plan: {params: {plan: {airspeed: 25 m/s, turn_radius: 110 m, end: circuit, waypoints: [{north: "
+         "700 "
+         "m, east: -400 m, up: 100 m}, {north: -500 m, east: -400 m, up: 100 m}, {north: -500 m, east: 200 "
+         "m, "
+         "up: 100 m}, {north: 700 m, east: 200 m, up: 100 m}]}}}\n"
+         "  watch: {params: {places: {places: &places [{north: 0 m, east: 0 m}, {north: 600 m, east: -300 "
+         "m}, "
+         "{north: -400 m, east: -300 m}]}" +
+         fence + list(row.watch) +
+         "}}\n"
+         "  back: {params: {places: {places: *places}, return_height: 100 m, radius: 120 m, glide_radius: 80 "
+         "m}}\n"
+         "  land: {params: {runway: {north: 0 m, east: 0 m, up: 0 m, heading: 135 deg, length: 600 m}, "
+         "final_length: 800 m, circle_radius: 150 m}}\n"
+         "phases:\n  cruise: {next: [{to: home, when: \"guard.safety.answer == home or guard.safety.answer "
+         "== "
+         "land\"}, {to: approach, when: \"manage.progress.circuits >= 1\"}]}\n";
+}
+
+struct Flown {
+  End end = End::aloft;
+  double told_s = -1;         ///< from the failure; -1: never
+  bool told_else = false;     ///< something was told that did not fail, or before
+  bool in_order = false;      ///< all of the row's phases were flown
+  double touch_sink_mps = 0;  ///< true, at the first touch
+  double home_m = 0;          ///< true, from home where it stopped
+  double outside_m = -1e9;    ///< true, beyond the row's sides of the fence, at most
+  double seconds = 0;         ///< from the failure to the ground
+  std::string outcome;
+  bool kept(const Row& row) const {
+    const bool told = row.cause ? told_s >= 0 && told_s <= row.told_within_s : !told_else;
+    return end == End::on_ground && told && in_order && outside_m <= 0;
+  }
+};
+
+inline core::Source output_of(const core::Graph& graph, const std::string& component,
+                              const std::string& output) {
+  for (std::size_t i = 0; i < graph.components.size(); ++i)
+    if (graph.components[i].name == component)
+      return {core::Source::Kind::component, static_cast<int>(i), graph.components[i].info().output(output)};
+  throw std::runtime_error("no component " + component);
+}
+
+inline Flown fly(const Row& row, unsigned seed, const fs::path& folder) {
+  using namespace core;
+  const fs::path file = folder / "failing.yaml";
+  std::ofstream(file) << mission_text(row);
+  Overrides overrides;
+  overrides.seed = seed;
+  FlightOptions options;
+  options.log = false;
+  const Graph graph = load_mission(file.string(), overrides);
+  Flight flight(graph, options);
+  const Source truth = output_of(graph, "sim", "truth"), status = output_of(graph, "sim", "status"),
+               watch = output_of(graph, "watch", "safety");
+  Flown f;
+  std::size_t next = 0;
+  bool flew = false;
+  double touched_s = -1, climb_mps = 0;
+  while (flight.step()) {
+    const double now = 1e-9 * static_cast<double>(flight.now_ns());
+    if (next < row.phases.size() && flight.phase() == row.phases[next]) ++next;
+    const auto* const safety = reinterpret_cast<const SafetyState*>(flight.sample(watch));
+    const auto* const x = reinterpret_cast<const VehicleState*>(flight.sample(truth));
+    const auto* const v = reinterpret_cast<const VehicleStatus*>(flight.sample(status));
+    if (!x || !v) continue;
+    if (safety) {
+      if (row.cause && safety->*row.cause && f.told_s < 0 && now >= row.at_s) f.told_s = now - row.at_s;
+      f.told_else = f.told_else || (safety->airborne && safety->answer != SafetyAnswer::none &&
+                                    (now < row.at_s || !row.cause));
+    }
+    f.outside_m = std::max({f.outside_m, x->position_m.north - row.north_m, x->position_m.east - row.east_m,
+                            x->height_m - row.up_m});
+    flew = flew || x->height_m > 5;
+    if (flew && v->on_ground && touched_s < 0) touched_s = now, f.touch_sink_mps = -climb_mps;
+    climb_mps = x->climb_rate_mps;
+    f.home_m = std::hypot(x->position_m.north, x->position_m.east);
+    if (touched_s >= 0 && row.cause == &SafetyState::wind_excessive && now - touched_s > 1) break;
+  }
+  const FlightResult result = flight.finish();
+  f.outcome = result.reason;
+  f.in_order = next == row.phases.size();
+  f.end = result.reason.find("crashed") != std::string::npos ? End::broken
+          : touched_s >= 0                                   ? End::on_ground
+                                                             : End::aloft;
+  f.seconds = touched_s - row.at_s;
+  return f;
+}
+
+}  // namespace fulmar::safety_flights

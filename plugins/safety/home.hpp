@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The way back: home in a straight line, a circle there; or without motor to a place within reach and onto it
+// into the wind; or a circle where the position is not known.
+#pragma once
+#include <numbers>
+
+#include "fence.hpp"
+#include "fulmar/flight/atmosphere.hpp"
+#include "fulmar/flight/wind_triangle.hpp"
+#include "fulmar/msg/airframe.hpp"
+#include "fulmar/msg/guidance_command.hpp"
+#include "fulmar/msg/home_progress.hpp"
+#include "fulmar/msg/safety_state.hpp"
+#include "fulmar/msg/vehicle_state.hpp"
+#include "glide_model.hpp"
+
+namespace fulmar::safety {
+
+enum class HomeMode : std::uint8_t { home, glide, wait, descend, level };
+
+struct Home {
+  static constexpr const char* doc =
+      "Flies home and circles there; glides to a place within reach and onto it into the wind; circles where "
+      "the "
+      "position is not known; or straight on, wings level.";
+  struct Inputs {
+    In<VehicleState> state;
+    Optional<SafetyState> safety;  // which way round the fence leaves room; without it, the short one
+  };
+  struct Outputs {
+    GuidanceCommand command;
+    HomeProgress progress;
+  };
+  struct Params {
+    Choice<HomeMode> mode{HomeMode::home,
+                          "home: there and circle; glide: without motor to a place and onto it; wait: circle "
+                          "here; descend: the same without motor; "
+                          "level: straight on"};
+    Record<Airframe> airframe{"airspeeds, and the glide", required};
+    Record<Origin> origin{"of the local frame, for lat and lon"};
+    Record<Places> places{"where to come down; the first is home. Without it, the origin"};
+    Param return_height{70, "m", 0, 10000, "above home, on the way and on the circle"};
+    Param radius{70, "m", 10, 5000, "of the circle at home"};
+    Param k_orbit{2, "ratio", 0.1, 20, "how sharply to turn onto a circle, Beard & McLain (10.13)"};
+    Param least_ground_speed{6, "m/s", 0, 100, "on the way home; against more wind it flies faster"};
+    Param least_height{40, "m", 0, 10000, "above home, of the circle while the position is not known"};
+    Param wait_bank{0.26, "rad", 0.02, 1, "of the circle while the position is not known, to the right"};
+    Param glide_margin{1.2, "ratio", 1, 2, "least airspeed of a glide over the airframe's least"};
+    Param glide_radius{35, "m", 10, 1000, "of the circle above a place"};
+    Param glide_bank{0.5, "rad", 0.05, 1, "of the turn into the wind, as far as the height for it goes"};
+    Param final_height{30, "m", 2, 500, "above the place, where the last piece into the wind begins"};
+    Param straight_height{15, "m", 0, 500, "below it no turn is begun"};
+  };
+
+  void configure(const Params& p) {
+    spots_ = p.places.is_given ? places_of(*p.places, *p.origin) : std::vector<Spot>{};
+    if (p.places.is_given && spots_.empty())
+      throw std::runtime_error("places.places: there are none; the first is home");
+    if (spots_.empty()) spots_.push_back({});
+  }
+  void retune(const Params& p) {
+    if (p.mode.value != mode_) mode_ = p.mode.value, begun_ = false;
+  }
+  Status activate(const Tick&, const Inputs&, const Params& p, const Applied<Outputs>&) {
+    mode_ = p.mode.value, begun_ = false;
+    return Status::ok;
+  }
+
+  Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out) {
+    const VehicleState& s = *in.state;
+    if (!begun_) begin(s, p), round_ = in.safety ? in.safety->turn : SafetyTurn::either;
+    out.command = {};
+    out.progress = {};
+    out.progress.distance_m = level_distance(s, target_), out.progress.ground_m = target_.up_m;
+    switch (mode_) {
+      case HomeMode::home: home(s, p, out); break;
+      case HomeMode::glide: glide(s, p, out); break;
+      case HomeMode::wait: wait(s, p, out); break;
+      case HomeMode::descend: descend(s, p, out); break;
+      case HomeMode::level: hold(s, p, out.command); break;
+    }
+    return s.position_valid || (mode_ != HomeMode::home && mode_ != HomeMode::glide) ? Status::ok
+                                                                                     : Status::degraded;
+  }
+
+ private:
+  static double level_distance(const VehicleState& s, const Spot& to) {
+    return std::hypot(to.north_m - s.position_m.north, to.east_m - s.position_m.east);
+  }
+  static double course_to(const VehicleState& s, const Spot& to) {
+    return std::atan2(to.east_m - s.position_m.east, to.north_m - s.position_m.north);
+  }
+  static double rho(const VehicleState& s) {
+    return standard_air(s.origin_altitude_m + s.height_m).density_kgm3;
+  }
+  static Vec3<Ned> wind(const VehicleState& s) { return s.wind_valid ? s.wind_mps : Vec3<Ned>{}; }
+
+  void begin(const VehicleState& s, const Params& p) {
+    begun_ = true, final_ = false;
+    target_ = spots_[0];
+    height_m_ = std::max(s.height_m, target_.up_m + p.least_height), course_rad_ = s.course_rad;
+    resets_ = s.reset_count;
+    if (mode_ == HomeMode::glide) choose(s, p);
+  }
+
+  /// The nearest place that the height will do for; else the nearest of all.
+  void choose(const VehicleState& s, const Params& p) {
+    double best = 1e18;
+    for (const Spot& spot : spots_) {
+      const double d = level_distance(s, spot);
+      const double cost = d + (d > reach(s, spot, p) ? 1e9 : 0);
+      if (cost < best) best = cost, target_ = spot;
+    }
+  }
+  /// Over the ground, until the ground; the first turn's height is not counted.
+  double reach(const VehicleState& s, const Spot& to, const Params& p) const {
+    const double course = course_to(s, to),
+                 w = std::cos(course) * wind(s).north + std::sin(course) * wind(s).east;
+    const BestGlide best = best_glide(*p.airframe, rho(s), -w, p.glide_margin);
+    const WindTriangle way = fly_course(course, best.airspeed_mps, wind(s));
+    return way.feasible ? std::max(s.height_m - to.up_m, 0.0) / best.sink_mps * way.ground_speed_mps : 0;
+  }
+
+  /// Beard & McLain (10.13): towards the centre from afar, a tangent on the circle. With the bank of the
+  /// circle near it, (9.14).
+  void orbit(const VehicleState& s, const Spot& centre, double R, const Params& p, GuidanceCommand& c) const {
+    const double d = level_distance(s, centre);
+    const double azimuth = d > 1e-3 ? course_to(s, centre) + std::numbers::pi : s.course_rad;
+    c.course_rad = wrap_pi(azimuth + side_ * (std::numbers::pi / 2 + std::atan(p.k_orbit * (d - R) / R)));
+    const double near = std::clamp(1.5 - std::abs(d - R) / R, 0.0, 1.0);
+    c.roll_feedforward_rad =
+        near * bank_for_curvature(side_ / R, s.ground_speed_mps, angle_difference(s.course_rad, s.yaw_rad));
+  }
+
+  void home(const VehicleState& s, const Params& p, Outputs& out) {
+    const FlightLimits& limits = p.airframe->limits;
+    if (!s.position_valid) return wait(s, p, out);
+    GuidanceCommand& c = out.command;
+    orbit(s, target_, p.radius, p, c);
+    c.height_m = target_.up_m + p.return_height;
+    const double fast = airspeed_for_ground_speed(c.course_rad, p.least_ground_speed, wind(s));
+    const bool behind =
+        fly_course(c.course_rad, limits.airspeed_cruise_mps, wind(s)).ground_speed_mps < p.least_ground_speed;
+    c.airspeed_mps = behind ? std::clamp(fast, limits.airspeed_cruise_mps, limits.airspeed_max_mps)
+                            : limits.airspeed_cruise_mps;
+    out.progress.there = std::abs(out.progress.distance_m - p.radius) < 0.5 * p.radius &&
+                         std::abs(s.height_m - c.height_m) < 10;
+  }
+
+  /// The long way round, until the course wanted lies ahead on that side.
+  void turn_round(const VehicleState& s, GuidanceCommand& c) {
+    if (round_ == SafetyTurn::either) return;
+    constexpr double ahead_rad = 1.8;
+    const double side = round_ == SafetyTurn::right ? 1 : -1;
+    const double left = wrap_2pi(side * (c.course_rad - s.course_rad));
+    if (left < ahead_rad || left > 2 * std::numbers::pi - 0.3) return round_ = SafetyTurn::either, void();
+    c.course_rad = wrap_pi(s.course_rad + side * ahead_rad);
+    c.roll_feedforward_rad = 0;
+  }
+
+  /// Through the air, by bank alone: a course would need a velocity.
+  void wait(const VehicleState& s, const Params& p, Outputs& out) {
+    if (s.reset_count != resets_) height_m_ -= s.reset_position_m.down, resets_ = s.reset_count;
+    hold(s, p, out.command);
+    out.command.lateral = LateralMode::acceleration;
+    out.command.roll_feedforward_rad = p.wait_bank;
+    out.command.lateral_acceleration_mps2 = isa::g0 * std::tan(p.wait_bank);
+  }
+
+  /// The ground is taken for as high as at home.
+  void descend(const VehicleState& s, const Params& p, Outputs& out) {
+    wait(s, p, out);
+    out.command.height_m = target_.up_m;
+    out.command.airspeed_mps = best_glide(*p.airframe, rho(s), 0, p.glide_margin).airspeed_mps;
+  }
+
+  void hold(const VehicleState& s, const Params& p, GuidanceCommand& c) const {
+    c.course_rad = s.course_rad;
+    c.height_m = height_m_;
+    c.airspeed_mps = p.airframe->limits.airspeed_cruise_mps;
+  }
+
+  /// The command's height is that of the ground, for a law that holds it: pitch belongs to the airspeed.
+  void glide(const VehicleState& s, const Params& p, Outputs& out) {
+    const Vec3<Ned> w = wind(s);
+    const double speed = std::hypot(w.north, w.east);
+    const double upwind = speed > 1 ? std::atan2(-w.east, -w.north) : final_ ? course_rad_ : s.course_rad;
+    const double height = s.height_m - target_.up_m;
+    out.progress.reach_m = reach(s, target_, p);
+    GuidanceCommand& c = out.command;
+    c.height_m = target_.up_m;
+    const BestGlide best = best_glide(*p.airframe, rho(s), 0, p.glide_margin);
+    c.airspeed_mps = best.airspeed_mps;
+
+    // The turn into the wind, and what it costs.
+    const double turn = std::abs(angle_difference(upwind, s.course_rad));
+    const double radius = best.airspeed_mps * best.airspeed_mps / (isa::g0 * std::tan(p.glide_bank));
+    const double cost =
+        sink_rate(*p.airframe, best.airspeed_mps, p.glide_bank, rho(s)) * turn * radius / best.airspeed_mps;
+    if (!final_ && (height < p.final_height + cost || !s.position_valid)) {
+      final_ = true;
+      course_rad_ = height < p.straight_height ? s.course_rad : upwind;
+    }
+    out.progress.final = final_;
+    if (final_) {
+      c.course_rad = course_rad_;
+      return;
+    }
+    // The circle stands down wind of the place by the way of the last piece.
+    const double way = std::max(best.airspeed_mps - speed, 0.0) * p.final_height / best.sink_mps;
+    const Spot key{target_.north_m - way * std::cos(upwind), target_.east_m - way * std::sin(upwind), 0};
+    if (speed > 1)
+      orbit(s, key, p.glide_radius, p, c);
+    else
+      orbit(s, target_, p.glide_radius, p, c);
+    // Against the wind a little faster goes farther.
+    const double head = -(std::cos(c.course_rad) * w.north + std::sin(c.course_rad) * w.east);
+    c.airspeed_mps = best_glide(*p.airframe, rho(s), head, p.glide_margin).airspeed_mps;
+  }
+
+  std::vector<Spot> spots_{{}};
+  Spot target_;
+  HomeMode mode_ = HomeMode::home;
+  SafetyTurn round_ = SafetyTurn::either;
+  bool begun_ = false, final_ = false;
+  double height_m_ = 0, course_rad_ = 0;
+  std::uint32_t resets_ = 0;
+  static constexpr double side_ = 1;  ///< circles to the right
+};
+
+}  // namespace fulmar::safety

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What has failed, and the ways home that are left.
+#include "glide.hpp"
+#include "home.hpp"
+#include "monitor.hpp"
+
+using namespace fulmar;
+FULMAR_PLUGIN("1.0.0", safety::Monitor, safety::Home, safety::Glide)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Flies from runway to runway, flight after flight, each in another wind and with another aircraft than the
 // laws were made for. Prints docs/landing.md and exits 1 when a bar is missed. bench_landing [--flights N]
-// [--first SEED] [--jobs N] [--wind MPS] [--off DEG] [--set COMP.PARAM=VALUE]... [--each] [--json]
+// [--first SEED] [--jobs N] [--wind MPS] [--off DEG] [--set COMP.PARAM=VALUE]... [--log FILE] [--each]
+// [--json]; --log flies the seed of --first alone.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -26,6 +27,7 @@ struct Options {
   std::uint64_t first = 1;
   double wind_mps = 12, off_deg = 30;
   bool each = false, json = false;
+  std::string log;
   std::vector<std::pair<std::string, std::string>> set;
 };
 
@@ -48,7 +50,7 @@ std::vector<Landed> fly_all(const Options& o) {
         Landed l;
         l.seed = o.first + static_cast<std::uint64_t>(i);
         try {
-          l = fly(dispersion_of(o, l.seed), nominal, o.set);
+          l = fly(dispersion_of(o, l.seed), nominal, o.set, o.log);
         } catch (const std::exception& e) {
           std::fprintf(stderr, "seed %llu: %s\n", static_cast<unsigned long long>(l.seed), e.what());
         }
@@ -231,6 +233,8 @@ Options options_of(int argc, char** argv) {
       o.jobs = std::atoi(argv[++i]);
     else if (word == "--first" && more)
       o.first = std::strtoull(argv[++i], nullptr, 10);
+    else if (word == "--log" && more)
+      o.log = argv[++i], o.flights = 1;
     else if (word == "--wind" && more)
       o.wind_mps = std::atof(argv[++i]);
     else if (word == "--off" && more)
@@ -241,7 +245,7 @@ Options options_of(int argc, char** argv) {
     } else
       throw std::invalid_argument(
           "usage: bench_landing [--flights N] [--first SEED] [--jobs N] [--wind MPS] [--off DEG] [--set "
-          "COMP.PARAM=VALUE]... [--each] [--json]");
+          "COMP.PARAM=VALUE]... [--log FILE] [--each] [--json]");
   }
   return o;
 }

@@ -96,8 +96,8 @@ struct Landed {
 
 class Watched {
  public:
-  Watched(const core::Graph& graph, const Airframe& flown, std::uint64_t seed)
-      : flown_(flown), most_lift_(most_lift(flown).coefficient), flight_(graph, unlogged()) {
+  Watched(const core::Graph& graph, const Airframe& flown, std::uint64_t seed, const std::string& log)
+      : flown_(flown), most_lift_(most_lift(flown).coefficient), flight_(graph, logged_to(log)) {
     out_.seed = seed;
     truth_ = output_of(graph, "sim", "truth"), status_ = output_of(graph, "sim", "status");
     gnss_ = output_of(graph, "sim", "gnss"), progress_ = output_of(graph, "land", "progress");
@@ -111,13 +111,18 @@ class Watched {
     }
     const core::FlightResult result = flight_.finish();
     out_.flown = result.outcome == core::Outcome::flown && result.guards.empty();
+    // A touch-down that is a crash ends the flight in that tick.
+    out_.crashed =
+        result.outcome != core::Outcome::flown && result.reason.find("crashed") != std::string::npos;
+    if (out_.crashed) out_.sink_mps = -before_.climb_rate_mps, out_.touched = true;
     return out_;
   }
 
  private:
-  static core::FlightOptions unlogged() {
+  static core::FlightOptions logged_to(const std::string& file) {
     core::FlightOptions o;
-    o.log = false;
+    o.log = !file.empty();
+    o.log_file = file;
     return o;
   }
   static core::Source output_of(const core::Graph& graph, const std::string& component,
@@ -137,7 +142,6 @@ class Watched {
   }
 
   void look(const VehicleState& x, const VehicleStatus& status) {
-    out_.crashed = out_.crashed || status.crashed;
     const LandingProgress p =
         at<LandingProgress>(progress_) ? *at<LandingProgress>(progress_) : LandingProgress{};
     out_.go_arounds = p.go_arounds;
@@ -196,9 +200,10 @@ class Watched {
   std::int64_t last_fix_ = 0;
 };
 
-/// `set`: parameters of any component beside what the dispersion changes.
+/// `set`: parameters of any component beside what the dispersion changes; `log`: a file, if one is wanted.
 inline Landed fly(const Dispersion& d, const Airframe& nominal,
-                  const std::vector<std::pair<std::string, std::string>>& set = {}) {
+                  const std::vector<std::pair<std::string, std::string>>& set = {},
+                  const std::string& log = "") {
   core::Overrides o;
   o.seed = d.seed;
   const Airframe a = dispersed(nominal, d);
@@ -226,7 +231,8 @@ inline Landed fly(const Dispersion& d, const Airframe& nominal,
     o.set.emplace_back("sim.fault_speed", "0.5");
   }
   for (const auto& one : set) o.set.push_back(one);
-  return Watched(core::load_mission(FULMAR_SOURCE_DIR "/bench/landing/mission.yaml", o), a, d.seed).fly();
+  return Watched(core::load_mission(FULMAR_SOURCE_DIR "/bench/landing/mission.yaml", o), a, d.seed, log)
+      .fly();
 }
 
 }  // namespace fulmar::landing_bench

@@ -101,6 +101,11 @@ struct Statistics {
     sink_most = quantile(all, 1, [](const Landed& l) { return l.sink_mps; });
     cross_95 = quantile(all, 0.95, [](const Landed& l) { return l.beside_receiver_m(); });
     cross_true_95 = quantile(all, 0.95, [](const Landed& l) { return std::abs(l.cross_m); });
+    yaw_50 = quantile(all, 0.5, [](const Landed& l) { return std::abs(l.yaw_off_rad) / deg; });
+    bank_50 = quantile(all, 0.5, [](const Landed& l) { return std::abs(l.roll_rad) / deg; });
+    bank_95 = quantile(all, 0.95, [](const Landed& l) { return std::abs(l.roll_rad) / deg; });
+    bank_most = quantile(all, 1, [](const Landed& l) { return std::abs(l.roll_rad) / deg; });
+    along_50 = quantile(all, 0.5, [](const Landed& l) { return l.along_m; });
     yaw_95 = quantile(all, 0.95, [](const Landed& l) { return std::abs(l.yaw_off_rad) / deg; });
     yaw_most = quantile(all, 1, [](const Landed& l) { return std::abs(l.yaw_off_rad) / deg; });
     along_5 = quantile(all, 0.05, [](const Landed& l) { return l.along_m; });
@@ -113,7 +118,8 @@ struct Statistics {
   }
   int flights, flown = 0, crashed = 0, went_around = 0, short_of_it = 0;
   double over_stall = 1e9, soft = 0, near = 0, sink_50 = 0, sink_99 = 0, sink_most = 0, cross_95 = 0,
-         cross_true_95 = 0, yaw_95 = 0, yaw_most = 0, along_5 = 0, along_95 = 0, roll_out_95 = 0;
+         cross_true_95 = 0, yaw_50 = 0, yaw_95 = 0, yaw_most = 0, bank_50 = 0, bank_95 = 0, bank_most = 0,
+         along_5 = 0, along_50 = 0, along_95 = 0, roll_out_95 = 0;
 };
 
 std::string words(const Dispersion& d) {
@@ -158,17 +164,20 @@ void print(const Options& o, const std::vector<Landed>& all, const Statistics& s
       "itself; receiver, barometer, compass and pitot tube up to 100 ms late; `rosflight` or `ublox`; every "
       "second flight servos that take twice the time. The laws know the nominal aircraft. The truth "
       "judges.\n\n"
-      "| flights | flown | crashed | went around | airspeed over stall, least | sink, median | 99 %% | worst "
-      "| "
-      "off the centre line beside the receiver, 95 %% | in truth, 95 %% | nose off, 95 %% | worst | behind "
-      "the "
-      "threshold, 5 %% to 95 %% | before it | off the line while rolling, 95 %% |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n"
-      "| %d | %d | %d | %d | %.2f | %.2f m/s | %.2f m/s | %.2f m/s | %.1f m | %.1f m | %.1f deg | %.1f deg | "
-      "%.0f to %.0f m | %d | %.1f m |\n\n",
-      o.wind_mps, o.off_deg, s.flights, s.flown, s.crashed, s.went_around, s.over_stall, s.sink_50, s.sink_99,
-      s.sink_most, s.cross_95, s.cross_true_95, s.yaw_95, s.yaw_most, s.along_5, s.along_95, s.short_of_it,
-      s.roll_out_95);
+      "| flights | flown | crashed | went around | airspeed over stall, least | touched before the threshold "
+      "|\n|---|---|---|---|---|---|\n| %d | %d | %d | %d | %.2f | %d |\n\n",
+      o.wind_mps, o.off_deg, s.flights, s.flown, s.crashed, s.went_around, s.over_stall, s.short_of_it);
+  std::printf(
+      "| at touch-down | | | |\n|---|---|---|---|\n"
+      "| sink, m/s | median %.2f | 99 %% %.2f | worst %.2f |\n"
+      "| off the centre line, m | 95 %% beside the receiver %.1f | 95 %% in truth %.1f | while rolling, 95 "
+      "%% "
+      "%.1f |\n"
+      "| nose off the runway, deg | median %.1f | 95 %% %.1f | worst %.1f |\n"
+      "| bank, deg | median %.1f | 95 %% %.1f | worst %.1f |\n"
+      "| behind the threshold, m | 5 %% %.0f | median %.0f | 95 %% %.0f |\n\n",
+      s.sink_50, s.sink_99, s.sink_most, s.cross_95, s.cross_true_95, s.roll_out_95, s.yaw_50, s.yaw_95,
+      s.yaw_most, s.bank_50, s.bank_95, s.bank_most, s.along_5, s.along_50, s.along_95);
   std::printf(
       "Bars: all flown, none crashed; from lift-off to the flare the mean of a second of true airspeed at "
       "least %.1f times the flight's own stall (`most_lift`, fulmar/flight/steady_flight.hpp); sink at "
@@ -200,6 +209,8 @@ nlohmann::json json_of(const Statistics& s) {
           {"cross_beside_receiver_95_m", s.cross_95},
           {"cross_95_m", s.cross_true_95},
           {"yaw_off_95_deg", s.yaw_95},
+          {"bank_95_deg", s.bank_95},
+          {"bank_max_deg", s.bank_most},
           {"yaw_off_max_deg", s.yaw_most},
           {"along_5_m", s.along_5},
           {"along_95_m", s.along_95},

@@ -16,7 +16,7 @@ namespace {
 
 struct Touch {
   bool stopped = false;
-  double sink_mps = 0, cross_m = 1e9, along_m = 1e9, slowest_mps = 1e9;
+  double sink_mps = 0, nose_rad = 0, cross_m = 1e9, along_m = 1e9, slowest_mps = 1e9;
   unsigned go_arounds = 0;
 };
 
@@ -46,6 +46,7 @@ Touch landed(double wind_mps, double from_deg, std::uint64_t seed, const std::st
     } else if (t.cross_m == 1e9) {  // the runway begins at the origin, to the south-east
       const double c = std::sqrt(0.5), n = x->position_m.north, e = x->position_m.east;
       t.along_m = -c * n + c * e, t.cross_m = -c * n - c * e, t.sink_mps = sink;
+      t.nose_rad = std::abs(x->yaw_rad - 135 * std::acos(-1.0) / 180);
     }
   }
   const FlightResult result = flight.finish();
@@ -69,6 +70,7 @@ TEST_CASE("it takes off, flies its circuit and lands on the runway, with wind fr
     CHECK(std::abs(t.cross_m) < 5 + 3);  // 5 m and what the receiver is off
     CHECK(t.along_m > -30);
     CHECK(t.along_m < 200);
+    CHECK(t.nose_rad < 0.12);          // of 0.3 rad that it crabs at most
     CHECK(t.slowest_mps > 11);         // 1.1 times the stall
     if (!counts_allocations()) break;  // under the sanitizers a flight takes twenty times as long
   }

@@ -15,6 +15,7 @@
 #include <fulmar/msg/actuators.hpp>
 #include <fulmar/msg/attitude_command.hpp>
 #include <fulmar/msg/notice.hpp>
+#include <fulmar/msg/sideslip_command.hpp>
 #include <fulmar/plugin.hpp>
 
 namespace fulmar::slc {
@@ -24,6 +25,7 @@ struct Inner {
   struct Inputs {
     In<VehicleState> state;
     In<AttitudeCommand> attitude;
+    Optional<SideslipCommand> sideslip;  // of a landing in cross wind; without it none
   };
   struct Outputs {
     Actuators actuators;
@@ -88,6 +90,7 @@ struct Inner {
     const double Va = airspeed_.step(scheduling_airspeed(*in.state, params.airframe->limits),
                                      params.airspeed_smoothing, dt);
     look(in, Va);
+    const double slip = slip_asked(tick, in);
     const VehicleState state = blind_ ? as_commanded(*in.state, command, Va) : *in.state;
     const double rho = standard_air(state.origin_altitude_m + state.height_m).density_kgm3;
     const double speed_ratio = params.airframe->limits.airspeed_cruise_mps / Va;
@@ -98,9 +101,9 @@ struct Inner {
     const double integrate = integrating ? dt : 0;  // the ground holds the attitude: its error means nothing
 
     out.actuators.throttle_frac = std::clamp(command.throttle_frac, 0.0, 1.0);
-    out.actuators.aileron_rad = roll_to_aileron(state, command, params, scale, integrate, dt);
+    out.actuators.aileron_rad = roll_to_aileron(state, command, params, slip, scale, integrate, dt);
     out.actuators.elevator_rad = pitch_to_elevator(state, command, params, scale, Va, rho, integrate);
-    out.actuators.rudder_rad = yaw_to_rudder(state, params, scale, Va, dt);
+    out.actuators.rudder_rad = yaw_to_rudder(state, params, slip, scale, Va, dt);
     take_up_ = false;
     if (params.quieten) quieten(tick, command, params, scale, Va, integrating && !blind_, dt, out);
     out.roll_error_rad = command.roll_rad - state.roll_rad;
@@ -167,9 +170,24 @@ struct Inner {
     }
   }
 
-  /// delta_a = trim + scale [kp e + kd (p_c - p) + I] + kff p_c
+  /// rad. What is not said anew is not asked for any more: a guide that has stopped steers nothing.
+  static double slip_asked(const Tick& tick, const Inputs& in) {
+    constexpr std::int64_t patience_ns = 200'000'000;
+    const bool fresh = in.sideslip && tick.now_ns - in.sideslip.valid_at_ns() <= patience_ns;
+    return fresh ? in.sideslip->sideslip_rad : 0;
+  }
+  /// Rudder and aileron that hold a steady sideslip: the moments of yaw and roll vanish, B&M (4.19), (4.20).
+  /// The rudder's own rolling moment and the aileron's of yaw are small beside them and left to the loops.
+  static double rudder_for(double slip_rad, const Aerodynamics& a) {
+    return a.yaw.rudder_ratio != 0 ? -a.yaw.beta_ratio / a.yaw.rudder_ratio * slip_rad : 0;
+  }
+  static double aileron_for(double slip_rad, const Aerodynamics& a) {
+    return a.roll.aileron_ratio != 0 ? -a.roll.beta_ratio / a.roll.aileron_ratio * slip_rad : 0;
+  }
+
+  /// delta_a = trim + slip's + scale [kp e + kd (p_c - p) + I] + kff p_c
   double roll_to_aileron(const VehicleState& state, const AttitudeCommand& command, const Params& p,
-                         double scale, double integrate, double dt) {
+                         double slip_rad, double scale, double integrate, double dt) {
     const Surface& aileron = p.airframe->aileron;
     const double p_c = std::clamp(roll_command_rate_.step(command.roll_rad, p.command_filter, dt), -3.0, 3.0);
     p_c_ = p_c;
@@ -177,7 +195,8 @@ struct Inner {
     // by their quotient.
     const PidInput in{.error = command.roll_rad - state.roll_rad,
                       .rate = state.rate_radps.x - p_c,
-                      .feedforward = aileron.trim_rad + p.roll_kff * std::sqrt(scale) * p_c,
+                      .feedforward = aileron.trim_rad + aileron_for(slip_rad, p.airframe->aero) +
+                                     p.roll_kff * std::sqrt(scale) * p_c,
                       .min = -aileron.limit_rad,
                       .max = aileron.limit_rad};
     const double k = scale * quiet_[roll].gain();
@@ -210,12 +229,15 @@ struct Inner {
     return state.rate_radps.z - turn_rates(state.roll_rad, state.pitch_rad, Va).r_radps;
   }
 
-  /// delta_r = trim + scale kd s / (s + p_wo) (r - r_turn): positive rudder is nose left.
-  double yaw_to_rudder(const VehicleState& state, const Params& p, double scale, double Va, double dt) {
+  /// delta_r = trim + slip's + scale kd s / (s + p_wo) (r - r_turn): positive rudder is nose left.
+  double yaw_to_rudder(const VehicleState& state, const Params& p, double slip_rad, double scale, double Va,
+                       double dt) {
     const Surface& rudder = p.airframe->rudder;
     const double damping = washout_.step(yaw_rate_error(state, Va), p.yaw_washout, dt);
     return std::clamp(rudder.trim_rad + scale * quiet_[yaw].gain() * p.yaw_kd * damping, -rudder.limit_rad,
                       rudder.limit_rad);
+    const double wanted = rudder.trim_rad + rudder_for(slip_rad, p.airframe->aero);
+    return std::clamp(wanted + scale * p.yaw_kd * damping, -rudder.limit_rad, rudder.limit_rad);
   }
 
   Pid roll_, pitch_;

@@ -7,9 +7,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "fulmar/flight/atmosphere.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/landing_progress.hpp"
 #include "fulmar/msg/runway.hpp"
+#include "fulmar/msg/sideslip_command.hpp"
 #include "fulmar/msg/vehicle_status.hpp"
 #include "vector_field.hpp"
 
@@ -25,7 +27,8 @@ struct Landing {
   struct Outputs {
     GuidanceCommand command;
     LandingProgress progress;
-    Probe height_error_m;  // above the glide slope is positive
+    SideslipCommand sideslip;  // for the rudder: turns the nose to the runway before it touches
+    Probe height_error_m;      // above the glide slope is positive
   };
   struct Params {
     FieldParams field;
@@ -38,8 +41,12 @@ struct Landing {
     Param circle_radius{70, "m", 10, 2000, "of the circle that leads onto it"};
     Choice<Turn> circle{Turn::left, "how that circle is flown"};
     Param approach_ratio{1.1, "ratio", 1, 2, "approach airspeed over the airframe's minimum"};
+    Param wind_share{0.5, "ratio", 0, 1,
+                     "of the head wind that approach and flare are faster by, up to the cruise airspeed"};
     Param flare_height{3.5, "m", 0.2, 30, "above the runway, where the flare begins"};
     Param touch_sink{0.4, "m/s", 0.05, 2, "sink rate that the flare ends with"};
+    Param decrab{0.17, "rad", 0, 0.4,
+                 "most sideslip by which the flare turns the nose to the runway; 0: none"};
     Param decision_height{12, "m", 1, 100, "above the runway, down to where it may go around"};
     Param cross_limit{8, "m", 0.5, 100, "farther from the centre line below twice that height: go around"};
     Param height_limit{6, "m", 0.5, 100, "farther from the glide slope below twice that height: go around"};
@@ -60,7 +67,7 @@ struct Landing {
 
   Status activate(const Tick&, const Inputs&, const Params&, const Applied<Outputs>&) {
     progress_.stage = LandingStage::join;
-    settled_s_ = 0;
+    settled_s_ = slip_rad_ = 0;
     return Status::ok;
   }
 
@@ -72,6 +79,7 @@ struct Landing {
     fly(s, p, dt);
     out.command = command_;
     out.progress = progress_;
+    out.sideslip.sideslip_rad = slip_rad_;
     out.height_error_m = progress_.stage == LandingStage::approach ? s.height_m - slope_height(p) : 0.0;
     const bool known = s.position_valid && s.height_valid && s.attitude_valid;
     return known ? Status::ok : Status::degraded;
@@ -137,17 +145,20 @@ struct Landing {
         break;
       }
       case LandingStage::approach:
-        if (p.go_around || missed(s, p))
+        if (progress_.height_m < p.decision_height && in.status && in.status->on_ground)
+          stage = LandingStage::roll_out, rolled_s_ = 0;  // the height was wrong
+        else if (p.go_around || missed(s, p))
           stage = LandingStage::go_around, ++progress_.go_arounds;
         else if (progress_.height_m < p.flare_height)
-          stage = LandingStage::flare, flare_height_m_ = s.height_m;
+          stage = LandingStage::flare, flare_height_m_ = s.height_m, settled_s_ = 0;
         break;
       case LandingStage::flare:
         if (touched(in, dt)) stage = LandingStage::roll_out, rolled_s_ = 0;
         break;
       case LandingStage::roll_out:
         rolled_s_ += dt;
-        if (rolled_s_ > 1 && s.ground_speed_mps < 1) stage = LandingStage::stopped;
+        // Along the runway: a wind that is strong enough rolls it back.
+        if (rolled_s_ > 1 && s.ground_speed_mps * std::cos(course_error) < 1) stage = LandingStage::stopped;
         break;
       case LandingStage::go_around:
         if (s.height_m > fix_height(p) - 2) stage = LandingStage::join;
@@ -163,18 +174,56 @@ struct Landing {
            (std::abs(progress_.cross_m) > p.cross_limit ||
             std::abs(s.height_m - slope_height(p)) > p.height_limit);
   }
-  /// The vehicle says so, or it does not sink any more where the ground must be.
+  /// The vehicle says so; or, as not every vehicle can, it was asked to be much lower for a while and does
+  /// not sink. The height is off by metres, so it says little.
   bool touched(const Inputs& in, double dt) {
-    constexpr double low_m = 2, still_mps = 0.15, for_s = 1;
+    constexpr double asked_m = 1, still_mps = 0.15, for_s = 2;
     if (in.status && in.status->on_ground) return true;
-    const bool still = progress_.height_m < low_m && std::abs(in.state->climb_rate_mps) < still_mps;
+    const VehicleState& s = *in.state;
+    const bool still = s.height_m - flare_height_m_ > asked_m && std::abs(s.climb_rate_mps) < still_mps;
     settled_s_ = still ? settled_s_ + dt : 0;
     return settled_s_ > for_s;
   }
 
+  /// What approach and flare are faster by: a steady wind's share, so that there is some ground speed.
+  static double faster_mps(const VehicleState& s, const Params& p) {
+    if (!s.wind_valid) return 0;
+    const double head = -(s.wind_mps.north * std::cos(p.runway->heading_rad) +
+                          s.wind_mps.east * std::sin(p.runway->heading_rad));
+    return p.wind_share * std::max(head, 0.0);
+  }
+  double capped(double airspeed_mps, const Params& p) const {
+    return std::min(airspeed_mps, p.airframe->limits.airspeed_cruise_mps);
+  }
+
+  /// From the flare on the nose is turned to the runway, as far as `decrab` goes; what is left of the error
+  /// after a second is taken up once more, so the rudder need not be known well.
+  void turn_nose(const VehicleState& s, const Params& p, double dt) {
+    constexpr double within_s = 1;
+    const bool low = progress_.stage == LandingStage::flare || progress_.stage == LandingStage::roll_out;
+    if (!low || !s.attitude_valid) {
+      slip_rad_ = 0;
+      return;
+    }
+    const double off = angle_difference(s.yaw_rad, p.runway->heading_rad);
+    slip_rad_ = std::clamp(slip_rad_ + off * dt / within_s, -p.decrab.value, p.decrab.value);
+  }
+  /// Bank that takes the side force of that sideslip, rudder included: m g sin(phi) = q S CY, B&M (4.18) and
+  /// (4.5).
+  double slip_bank(const VehicleState& s, const Params& p) const {
+    const Airframe& a = *p.airframe;
+    const Derivatives &Y = a.aero.side, &N = a.aero.yaw;
+    const double rudder = N.rudder_ratio != 0 ? -N.beta_ratio / N.rudder_ratio : 0;
+    const double q =
+        0.5 * standard_air(s.origin_altitude_m + s.height_m).density_kgm3 * s.airspeed_mps * s.airspeed_mps;
+    const double side = q * a.wing.area_m2 * (Y.beta_ratio + Y.rudder_ratio * rudder) * slip_rad_;
+    return std::asin(std::clamp(-side / (a.mass_kg * isa::g0), -0.17, 0.17));
+  }
+
   void fly(const VehicleState& s, const Params& p, double dt) {
     const FlightLimits& limits = p.airframe->limits;
-    const double approach_mps = p.approach_ratio * limits.airspeed_min_mps;
+    turn_nose(s, p, dt);
+    const double faster = faster_mps(s, p);
     if (progress_.stage == LandingStage::join) {
       const Path path = circle(p);
       const VectorField::Aim aim = VectorField::at_orbit(path, s, p.field, k(s, p));
@@ -187,7 +236,7 @@ struct Landing {
     const Path path = final_approach(p);
     const VectorField::Aim aim = VectorField::at_line(path, s, p.field, k(s, p));
     follow(aim, path, s, p);
-    command_.airspeed_mps = approach_mps;
+    command_.airspeed_mps = capped(p.approach_ratio * limits.airspeed_min_mps + faster, p);
     switch (progress_.stage) {
       case LandingStage::flare: {
         // From the sink of the slope to that of the touch-down as the height goes.
@@ -199,7 +248,8 @@ struct Landing {
         flare_height_m_ = std::clamp(flare_height_m_ + command_.climb_rate_mps * dt, s.height_m - lead_m,
                                      s.height_m + lead_m);
         command_.height_m = flare_height_m_;
-        command_.airspeed_mps = limits.airspeed_min_mps;
+        command_.airspeed_mps = capped(limits.airspeed_min_mps + faster, p);
+        command_.roll_feedforward_rad += slip_bank(s, p);
         break;
       }
       case LandingStage::go_around:
@@ -227,6 +277,7 @@ struct Landing {
   GuidanceCommand command_;
   LandingProgress progress_;
   double settled_s_ = 0, rolled_s_ = 0, flare_height_m_ = 0;
+  double slip_rad_ = 0;                  ///< asked for
   static constexpr double lead_m = 1.5;  ///< of the flare's height before the aircraft
 };
 

@@ -22,6 +22,7 @@
 #include "fulmar/sim/airframe_rules.hpp"
 #include "fulmar/sim/plant.hpp"
 #include "icing.hpp"
+#include "launch.hpp"
 #include "model_params.hpp"
 #include "pilot.hpp"
 #include "refusals.hpp"
@@ -114,6 +115,7 @@ class Aircraft {
     Surroundings around;
     PilotParams pilot;
     ModelParams model;
+    LaunchParams launching;
   };
 
   explicit Aircraft(std::uint64_t seed) : seed_(seed) {}
@@ -171,6 +173,7 @@ class Aircraft {
     armed_ = wants_armed_ = released_ = failsafe_ = false;
     command_ = {};
     pilot_ = {};
+    launch_ = Launch(p.launching);
     actuation_ = Actuation({p.mux_rate, p.pwm_resolution, p.link_latency}, airframe_, now_ns_);
     status_ = {};
     plant_.emplace(airframe_, weather(p), origin_.alt_msl_m, mix_seed(seed_, 10), earth(p));
@@ -213,14 +216,19 @@ class Aircraft {
     suffer(p, dt);
     if (gusts_.due(now_ns_ - period_ns_)) plant_->fire(gust_spec(p.around.air));
     const Actuators& applied = actuation_.at(now_ns_ - period_ns_);
-    if (released_)
+    if (released_ && launch_.holds(armed_for_s()))
+      plant_->push(launch_.push_mps2(armed_for_s()), dt);
+    else if (released_)
       plant_->advance(applied, armed_ && p.motor ? faults_.power(now_ns_) : 0, dt);
     else
       plant_->carry(dt);
     if (plant_->departure() != Departure::none) [[unlikely]]
       throw std::runtime_error(departure_words(*plant_));
     const bool may_arm = !pilot_.wired() || pilot_.link();
-    if (wants_armed_ && !armed_ && may_arm && now_ns_ >= 0) armed_ = released_ = true;
+    if (wants_armed_ && !armed_ && may_arm && now_ns_ >= 0) {
+      if (!released_) armed_at_ns_ = now_ns_;
+      armed_ = released_ = true;
+    }
     publish_sensors(p, out);
     publish_rc_and_status(p, out);
     if (truth_due_(now_ns_)) out.truth.publish(truth());
@@ -272,7 +280,13 @@ class Aircraft {
     const double Va = own ? p.start_airspeed : airframe_.limits.airspeed_cruise_mps;
     const SteadyFlight flight =
         steady_flight(AircraftModel(airframe_, origin_.alt_msl_m + p.start_height), {Va});
-    if (!in_air && flight.found()) return plant_->stand(p.start_north, p.start_east, p.start_heading);
+    if (in_air && launch_.given())
+      throw std::runtime_error("launch: it begins in the air, by start_height; give one of them");
+    if (!in_air && flight.found()) {
+      plant_->stand(p.start_north, p.start_east, p.start_heading);
+      if (launch_.given()) lift(p.launching.launch_pitch);
+      return;
+    }
     if (!in_air || !plant_->fly({p.start_north, p.start_east, -p.start_height}, p.start_heading, Va))
       throw std::runtime_error(
           trim_words(airframe_, flight, own ? "start_airspeed" : "airframe.limits.airspeed_cruise"));
@@ -281,6 +295,16 @@ class Aircraft {
           "start_height: the ground is higher at this place; ground_slope says how high");
     plant_->shift(1e-9 * static_cast<double>(now_ns_));
   }
+
+  /// From where it stands into the hand, or onto the catapult.
+  void lift(double pitch_rad) {
+    RigidBody x = plant_->state();
+    x.p_n.z() -= launch_.height_m();
+    x.q_nb = x.q_nb * Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY());
+    plant_->set_state(x);
+  }
+  double armed_for_s() const { return 1e-9 * static_cast<double>(now_ns_ - armed_at_ns_); }
+  bool held() const { return launch_.given() && (!released_ || launch_.holds(armed_for_s())); }
 
   /// Whether the radio works, as far as parameters and faults go.
   bool carries(const Params& p) const {
@@ -366,7 +390,7 @@ class Aircraft {
     s.armed = armed_;
     s.override = flies;
     s.failsafe = failsafe_;
-    s.on_ground = plant_->on_ground();
+    s.on_ground = plant_->on_ground() || held();
     s.crashed = plant_->crashed();
     s.in_control = armed_ && !flies && !silent_ && !failsafe_ && !s.crashed;
     s.health = s.crashed ? Health::failed : Health::ok;
@@ -402,7 +426,9 @@ class Aircraft {
   Icing icing_;
   GustClock gusts_;
   bool armed_ = false, wants_armed_ = false;
-  bool released_ = false;  ///< has been armed once: from then on it is free to move
+  Launch launch_;
+  std::int64_t armed_at_ns_ = 0;  ///< for the first time
+  bool released_ = false;         ///< has been armed once: from then on it is free to move
   bool failsafe_ = false, silent_ = false;
 };
 

@@ -16,7 +16,7 @@ namespace {
 
 struct Touch {
   bool stopped = false;
-  double sink_mps = 0, cross_m = 1e9, along_m = 1e9, slowest_mps = 1e9;
+  double sink_mps = 0, nose_rad = 0, cross_m = 1e9, along_m = 1e9, slowest_mps = 1e9;
   unsigned go_arounds = 0;
 };
 
@@ -46,6 +46,7 @@ Touch landed(double wind_mps, double from_deg, std::uint64_t seed, const std::st
     } else if (t.cross_m == 1e9) {  // the runway begins at the origin, to the south-east
       const double c = std::sqrt(0.5), n = x->position_m.north, e = x->position_m.east;
       t.along_m = -c * n + c * e, t.cross_m = -c * n - c * e, t.sink_mps = sink;
+      t.nose_rad = std::abs(x->yaw_rad - 135 * std::acos(-1.0) / 180);
     }
   }
   const FlightResult result = flight.finish();
@@ -69,8 +70,82 @@ TEST_CASE("it takes off, flies its circuit and lands on the runway, with wind fr
     CHECK(std::abs(t.cross_m) < 5 + 3);  // 5 m and what the receiver is off
     CHECK(t.along_m > -30);
     CHECK(t.along_m < 200);
+    CHECK(t.nose_rad < 0.12);          // of 0.3 rad that it crabs at most
     CHECK(t.slowest_mps > 11);         // 1.1 times the stall
     if (!counts_allocations()) break;  // under the sanitizers a flight takes twenty times as long
+  }
+}
+
+namespace {
+
+struct Thrown {
+  bool stopped = false, crashed = false;
+  double lowest_m = 1e9, motor_s = 1e9, most_bank_rad = 0;  ///< motor_s: after it was let go
+  bool motor_at_end = false;
+};
+
+Thrown thrown(const std::vector<std::pair<std::string, std::string>>& set, double for_s) {
+  Overrides overrides;
+  overrides.set = set;
+  const Graph graph = load_mission(FULMAR_SOURCE_DIR "/configs/missions/hand_launch.yaml", overrides);
+  FlightOptions options;
+  options.log = false;
+  options.duration_s = for_s;
+  Flight flight(graph, options);
+  const Source truth = failures::output_of(graph, "sim", "truth"),
+               status = failures::output_of(graph, "sim", "status"),
+               actuators = failures::output_of(graph, "attitude", "actuators");
+  Thrown t;
+  double free_s = -1;
+  while (flight.step()) {
+    const auto* const x = reinterpret_cast<const fulmar::VehicleState*>(flight.sample(truth));
+    const auto* const s = reinterpret_cast<const fulmar::VehicleStatus*>(flight.sample(status));
+    const auto* const u = reinterpret_cast<const fulmar::Actuators*>(flight.sample(actuators));
+    const double now_s = 1e-9 * static_cast<double>(flight.now_ns());
+    if (!x || !s || !u || now_s < 0) continue;
+    if (free_s < 0 && !s->on_ground) free_s = now_s;
+    if (u->throttle_frac > 0.05 && t.motor_s == 1e9) t.motor_s = free_s < 0 ? -1 : now_s - free_s;
+    t.motor_at_end = u->throttle_frac > 0;
+    t.crashed = t.crashed || s->crashed;
+    if (free_s < 0 || flight.phase() != "takeoff") continue;
+    t.lowest_m = std::min(t.lowest_m, x->height_m);
+    t.most_bank_rad = std::max(t.most_bank_rad, std::abs(x->roll_rad));
+  }
+  const FlightResult result = flight.finish();
+  t.crashed = result.outcome != Outcome::flown;
+  t.stopped = flight.phase() == "roll_out";
+  return t;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "thrown by hand and off a catapult it climbs away, wings level, the motor after the hand, and lands") {
+  const std::vector<std::vector<std::pair<std::string, std::string>>> launches = {
+      {{"sim.launch_speed", "9"}, {"sim.wind_ned", "[0, 0, 0]"}},
+      {{"sim.wind_ned", "[5.66, -5.66, 0]"}},  // 8 m/s from ahead
+      {{"sim.launch", "catapult"}, {"slc.launch_delay", "0.6"}, {"sim.launch_speed", "16"}},
+      {{"sim.launch_after", "240"}}};
+  for (const auto& set : launches) {
+    CAPTURE(set[0].second);
+    const Thrown t = thrown(set, 500);
+    CHECK(t.stopped);
+    CHECK_FALSE(t.crashed);
+    CHECK(t.lowest_m > 1);
+    CHECK(t.motor_s > 0.2);
+    CHECK(t.motor_s < 1);
+    CHECK(t.most_bank_rad < 0.2);
+    if (!counts_allocations()) break;
+  }
+}
+
+TEST_CASE("thrown with a dead motor it comes down ahead, whole, and stops asking for power") {
+  for (const char* speed : {"9", "11", "14"}) {
+    CAPTURE(speed);
+    const Thrown t = thrown({{"sim.motor", "false"}, {"sim.launch_speed", speed}}, 30);
+    CHECK_FALSE(t.crashed);
+    CHECK(t.most_bank_rad < 0.2);
+    CHECK_FALSE(t.motor_at_end);
   }
 }
 

@@ -291,6 +291,35 @@ TEST_CASE("after a time without attitude a command is young enough that answers 
   CHECK(bench.step(0.01) == Status::ok);
 }
 
+TEST_CASE("a sideslip that is asked for is held by rudder and aileron, until nobody says it any more") {
+  for (const double side : {1.0, -1.0}) {
+    Bench<Inner> bench;
+    no_integrals(bench);
+    Airframe& a = bench.params.airframe.value;
+    a.aero.yaw.beta_ratio = 0.13, a.aero.yaw.rudder_ratio = -0.065;
+    a.aero.roll.beta_ratio = -0.12, a.aero.roll.aileron_ratio = 0.16;
+    a.rudder.trim_rad = 0.01, a.aileron.trim_rad = 0.02;
+    step(bench, flying(), {});
+    // Air from the right: nose left, positive rudder; the dihedral rolls away from it, positive aileron.
+    bench.set(bench.in.sideslip, SideslipCommand{side * 0.1});
+    const Actuators& u = step(bench, flying(), {}, 1);
+    CHECK(u.rudder_rad == doctest::Approx(0.01 + side * 0.2));
+    CHECK(u.aileron_rad == doctest::Approx(0.02 + side * 0.075));
+    // Nothing is left of the moments: B&M (4.19), (4.20).
+    CHECK(std::abs(0.13 * side * 0.1 - 0.065 * (u.rudder_rad - 0.01)) < 1e-12);
+    CHECK(std::abs(-0.12 * side * 0.1 + 0.16 * (u.aileron_rad - 0.02)) < 1e-12);
+    step(bench, flying(), {}, 15);
+    CHECK(bench.out.actuators.rudder_rad == doctest::Approx(0.01 + side * 0.2));
+    step(bench, flying(), {}, 10);  // 0.26 s old
+    CHECK(bench.out.actuators.rudder_rad == doctest::Approx(0.01));
+    CHECK(bench.out.actuators.aileron_rad == doctest::Approx(0.02));
+  }
+  Bench<Inner> without;  // an airframe that has no rudder
+  without.params.airframe.value.aero.yaw.rudder_ratio = 0;
+  without.set(without.in.sideslip, SideslipCommand{0.1});
+  CHECK(step(without, flying(), {}, 1).rudder_rad == 0);
+}
+
 TEST_CASE("the rudder rests at its trim") {
   Bench<Inner> bench;
   bench.params.airframe.value.rudder.trim_rad = 0.07;

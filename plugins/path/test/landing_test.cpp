@@ -124,18 +124,29 @@ TEST_CASE("far out it may be off, and below the decision height it lands") {
   CHECK(strip.at(150, 12, 11).stage == LandingStage::approach);
 }
 
-TEST_CASE("a touch-down is what the vehicle says, or a second without sinking where the ground must be") {
+TEST_CASE("a touch-down is what the vehicle says, or two seconds without sinking when asked to be lower") {
   Strip strip;
   strip.approach();
   strip.at(40, 0, 3);
   strip.s.climb_rate_mps = -0.5;
-  CHECK(strip.at(20, 0, 0.5, 3).stage == LandingStage::flare);
+  CHECK(strip.at(20, 0, 0.5, 6).stage == LandingStage::flare);  // it sinks
   strip.s.climb_rate_mps = 0;
-  CHECK(strip.at(20, 0, 0.5, 0.5).stage == LandingStage::flare);
-  CHECK(strip.at(20, 0, 0.5, 1).stage == LandingStage::roll_out);
+  CHECK(strip.at(20, 0, 0.5, 1.9).stage == LandingStage::flare);
+  CHECK(strip.at(20, 0, 0.5, 0.2).stage == LandingStage::roll_out);
   CHECK(strip.at(0, 0, 0, 2).stage == LandingStage::roll_out);
   strip.s.ground_speed_mps = 0.3;
   CHECK(strip.at(-60, 0, 0).stage == LandingStage::stopped);
+
+  // A gust that holds it up for two seconds, before the flare has asked for less: still in the air.
+  Strip held;
+  held.approach();
+  held.at(40, 0, 3);
+  held.s.climb_rate_mps = 0;
+  CHECK(held.at(20, 0, 1.5, 1.5).stage == LandingStage::flare);
+  held.s.climb_rate_mps = -0.5;
+  CHECK(held.at(20, 0, 1.5, 0.1).stage == LandingStage::flare);
+  held.s.climb_rate_mps = 0;
+  CHECK(held.at(20, 0, 1.5, 1.5).stage == LandingStage::flare);  // counted anew
 
   Strip told;
   told.approach();
@@ -145,6 +156,84 @@ TEST_CASE("a touch-down is what the vehicle says, or a second without sinking wh
   told.bench.set(told.bench.in.status, status);
   told.s.climb_rate_mps = -0.5;
   CHECK(told.at(20, 0, 2.5).stage == LandingStage::roll_out);  // whatever the height says
+}
+
+TEST_CASE("the ground above the flare's height is a touch-down, at the circle's height it is none") {
+  VehicleStatus status;
+  status.on_ground = true;
+  Strip strip;
+  strip.approach();
+  strip.bench.set(strip.bench.in.status, status);
+  CHECK(strip.at(400, 0, strip.slope(400)).stage == LandingStage::approach);  // 28 m: a contact that is stuck
+  CHECK(strip.at(60, 0, 4.2).stage == LandingStage::roll_out);
+}
+
+TEST_CASE("what is rolled back by the wind has stopped") {
+  Strip strip;
+  strip.approach();
+  VehicleStatus status;
+  status.on_ground = true;
+  strip.at(40, 0, 3);
+  strip.bench.set(strip.bench.in.status, status);
+  strip.s.ground_speed_mps = 3;
+  CHECK(strip.at(0, 0, 0, 2).stage == LandingStage::roll_out);
+  strip.s.course_rad = -90 * deg;
+  CHECK(strip.at(0, 0, 0).stage == LandingStage::stopped);
+}
+
+TEST_CASE(
+    "approach and flare are faster by half of a head wind, up to cruise, and not slower by a tail wind") {
+  const struct {
+    double from_east_mps;
+    bool known;
+    double approach, flare;
+  } winds[] = {{4, true, 13.2 + 2, 12 + 2}, {20, true, 17, 17}, {-6, true, 13.2, 12}, {4, false, 13.2, 12}};
+  for (const auto& w : winds) {
+    CAPTURE(w.from_east_mps);
+    Strip strip;  // to the east
+    strip.s.wind_mps.east = -w.from_east_mps, strip.s.wind_mps.north = 5;
+    strip.s.wind_valid = w.known;
+    strip.approach();
+    strip.at(300, 0, strip.slope(300));
+    CHECK(strip.bench.out.command.airspeed_mps == doctest::Approx(w.approach));
+    strip.at(40, 0, 3);
+    CHECK(strip.bench.out.command.airspeed_mps == doctest::Approx(w.flare));
+  }
+}
+
+TEST_CASE("in the flare the nose is turned to the runway, with the bank that the side force takes") {
+  for (const double side : {1.0, -1.0}) {
+    CAPTURE(side);
+    Strip strip;
+    strip.bench.params.decrab.value = 0.1;
+    Airframe& a = strip.bench.params.airframe.value;
+    a.mass_kg = 4.5, a.wing.area_m2 = 0.52;
+    a.aero.side.beta_ratio = -0.98, a.aero.side.rudder_ratio = 0.19;
+    a.aero.yaw.beta_ratio = 0.13, a.aero.yaw.rudder_ratio = -0.065;
+    strip.s.yaw_rad = (90 + side * 8) * deg;  // into a wind from that side
+    strip.approach();
+    CHECK(strip.bench.out.sideslip.sideslip_rad == 0);
+    strip.at(45, 0, 3.4, 0.255);
+    // 8 deg in a second: a quarter of them after a quarter of it.
+    CHECK(strip.bench.out.sideslip.sideslip_rad == doctest::Approx(side * 0.26 * 8 * deg).epsilon(0.03));
+    strip.at(40, 0, 3, 2);
+    CHECK(strip.bench.out.sideslip.sideslip_rad == doctest::Approx(side * 0.1));
+    // 0.5 1.2227 kg/m3 (20 + 3 m) 14^2 0.52 m2 (0.98 - 0.19 * 2) 0.1 / (4.5 kg g) = 0.0847: into the wind
+    CHECK(strip.bench.out.command.roll_feedforward_rad == doctest::Approx(side * 0.0848).epsilon(0.01));
+    strip.s.yaw_rad = 90 * deg;  // it is turned: the slip stays
+    strip.at(40, 0, 3, 1);
+    CHECK(strip.bench.out.sideslip.sideslip_rad == doctest::Approx(side * 0.1));
+    strip.s.attitude_valid = false;
+    strip.at(40, 0, 3);
+    CHECK(strip.bench.out.sideslip.sideslip_rad == 0);
+  }
+  Strip none;
+  none.bench.params.decrab.value = 0;
+  none.s.yaw_rad = 98 * deg;
+  none.approach();
+  none.at(45, 0, 3.4, 1);
+  CHECK(none.bench.out.sideslip.sideslip_rad == 0);
+  CHECK(std::abs(none.bench.out.command.roll_feedforward_rad) < 1e-12);
 }
 
 TEST_CASE("a runway that is too short is refused with what it takes") {

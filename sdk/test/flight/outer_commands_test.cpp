@@ -129,6 +129,72 @@ TEST_CASE("without airspeed the take-off run rotates by ground speed") {
   CHECK(run.step(s, tuning, {}).throttle_frac == 0.9);
 }
 
+TEST_CASE("the motor waits for a throw, its delay after it, and the course is that of the nose then") {
+  TakeoffTuning tuning;
+  tuning.launch_mps2 = 15, tuning.launch_mps = 4, tuning.motor_delay_s = 0.3;
+  FlightLimits limits;
+  limits.airspeed_min_mps = 10;
+  TakeoffRun run;
+  VehicleState s = at(14, 0, 1.5);  // 14 m/s of wind in the hand
+  s.velocity_valid = true;
+  s.yaw_rad = 0.7;
+  run.begin(s);
+  const auto fly = [&](double seconds) {
+    AttitudeCommand command;
+    for (double t = 0; t < seconds - 1e-9; t += 0.01) command = run.step(s, tuning, limits, 0.01);
+    return command;
+  };
+  CHECK(fly(600).throttle_frac == 0);
+  CHECK(!run.rotated());
+  s.yaw_rad = s.course_rad = -0.4;  // the launcher has turned
+  s.specific_force_mps2.x = 15.5, s.ground_speed_mps = 5;
+  CHECK(fly(0.09).throttle_frac == 0);
+  CHECK(!run.launched());
+  CHECK(fly(0.02).throttle_frac == 0);
+  CHECK(run.launched());
+  CHECK(run.course_rad() == -0.4);
+  s.specific_force_mps2.x = 2;
+  CHECK(fly(0.27).throttle_frac == 0);
+  CHECK(fly(0.03).throttle_frac == 1);
+  CHECK(fly(0.01).pitch_rad == doctest::Approx(0.2));  // above 1.2 times the minimum
+  s.airspeed_mps = 11;
+  CHECK(fly(0.01).pitch_rad == doctest::Approx(0.1));  // half way: 3 t^2 - 2 t^3 of a half
+  s.airspeed_mps = 10;
+  CHECK(fly(0.01).pitch_rad == 0);
+  CHECK(fly(0.01).roll_rad == 0);
+  // The motor was dead: it lies on the ground, and the next throw is waited for.
+  s.ground_speed_mps = 0.5;
+  CHECK(fly(1.9).throttle_frac == 1);
+  CHECK(fly(0.2).throttle_frac == 0);
+  CHECK(!run.launched());
+}
+
+TEST_CASE("a stumble, a push without speed and a ride without a push start no motor") {
+  TakeoffTuning tuning;
+  tuning.launch_mps2 = 15, tuning.launch_mps = 4;
+  const struct {
+    double mps2, for_s, speed_mps, later_s;
+    bool launched;
+  } cases[] = {{20, 0.09, 6, 0, false},  {20, 0.3, 3.9, 0, false}, {14.9, 5, 9, 0, false},
+               {20, 0.12, 4.1, 0, true}, {20, 0.12, 6, 0.4, true}, {20, 0.12, 6, 0.6, false}};
+  for (const auto& c : cases) {
+    CAPTURE(c.mps2);
+    CAPTURE(c.for_s);
+    CAPTURE(c.later_s);
+    TakeoffRun run;
+    VehicleState s = at(0, 0, 1.5);
+    s.velocity_valid = true;
+    run.begin(s);
+    s.specific_force_mps2.x = c.mps2;
+    s.ground_speed_mps = c.later_s > 0 ? 0 : c.speed_mps;
+    for (double t = 0; t < c.for_s - 1e-9; t += 0.01) run.step(s, tuning, {}, 0.01);
+    s.specific_force_mps2.x = 0;
+    for (double t = 0; t < c.later_s - 1e-9; t += 0.01) run.step(s, tuning, {}, 0.01);
+    s.ground_speed_mps = c.speed_mps;
+    CHECK((run.step(s, tuning, {}, 0.01).throttle_frac == 1) == c.launched);
+  }
+}
+
 TEST_CASE("what the take-off law asked for is not taken up as trim, what another controller asked for is") {
   OuterCommands commands;
   const VehicleState s = at(15, 15, 40);

@@ -77,7 +77,7 @@ class OuterCommands {
 
   AttitudeCommand take_off(const VehicleState& state, const OuterTuning& tuning, const FlightLimits& limits,
                            double dt_s) {
-    const AttitudeCommand wanted = run_.step(state, tuning.takeoff, limits);
+    const AttitudeCommand wanted = run_.step(state, tuning.takeoff, limits, dt_s);
     return finish(course_.shape(wanted.roll_rad, tuning.course, dt_s), wanted.pitch_rad, wanted.throttle_frac,
                   tuning, dt_s);
   }

@@ -51,6 +51,12 @@ struct OuterParams {
   Param takeoff_kp{1.0, "rad/rad", 0, 5, "roll per course error of the take-off law, airborne"};
   Param takeoff_roll_limit{0.15, "rad", 0, 0.5, "largest roll command of the take-off law"};
 
+  Param launch_acceleration{0, "m/s2", 0, 200,
+                            "along the nose: the take-off law waits for a throw with the motor off; 0: it "
+                            "rolls"};
+  Param launch_speed{4.0, "m/s", 0.5, 60, "over ground, that makes a throw of an acceleration"};
+  Param launch_delay{0.3, "s", 0, 5, "from the throw to the motor: the propeller clears hand or rail"};
+
   Param airspeed_smoothing{0.5, "s", 0, 10,
                            "time constant of the airspeed whose trim is flown: pitch does not follow gusts"};
 
@@ -66,7 +72,8 @@ inline OuterTuning tuning(const OuterParams& p) {
               std::min<double>(p.roll_limit, limits.roll_max_rad),
               p.roll_rate_limit,
               p.roll_smoothing};
-  t.takeoff = {p.takeoff_throttle, p.takeoff_pitch, p.takeoff_airspeed, p.takeoff_kp, p.takeoff_roll_limit};
+  t.takeoff = {p.takeoff_throttle,   p.takeoff_pitch,       p.takeoff_airspeed, p.takeoff_kp,
+               p.takeoff_roll_limit, p.launch_acceleration, p.launch_speed,     p.launch_delay};
   t.pitch_rate_max_radps = p.pitch_rate_limit;
   t.throttle_rate_max_hz = p.throttle_rate_limit;
   return t;

@@ -157,6 +157,14 @@ class Plant {
     load_.force_b = -mass_.mass * (x_.q_nb.conjugate() * g_n_);
     load_.moment_b.setZero();
   }
+  /// The same with an acceleration along the nose, m/s2: in somebody's hand, on a catapult.
+  void push(double mps2, double dt) {
+    const Eigen::Vector3d a_n = mps2 * (x_.q_nb * Eigen::Vector3d::UnitX());
+    x_.p_n += 0.5 * dt * dt * a_n;
+    carry(dt);
+    x_.v_n += dt * a_n;
+    load_.force_b.x() += mass_.mass * mps2;
+  }
 
   /// Back (or on) along the present velocity.
   void shift(double seconds) { x_.p_n += seconds * x_.v_n; }

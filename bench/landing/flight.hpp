@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One flight from runway to runway of an aircraft that is not the one the laws were made for, and what the
+// truth says of it.
+#pragma once
+#include <cmath>
+#include <deque>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/run/flight.hpp"
+#include "fulmar/flight/angles.hpp"
+#include "fulmar/flight/geodesy.hpp"
+#include "fulmar/flight/steady_flight.hpp"
+#include "fulmar/msg/gnss.hpp"
+#include "fulmar/msg/landing_progress.hpp"
+#include "fulmar/msg/vehicle_state.hpp"
+#include "fulmar/msg/vehicle_status.hpp"
+#include "fulmar/random.hpp"
+
+namespace fulmar::landing_bench {
+
+inline constexpr double deg = std::numbers::pi / 180;
+inline constexpr double runway_heading_rad = 135 * deg;  // of the mission; its threshold is the origin
+
+/// What is not nominal. All of it follows from the seed.
+struct Dispersion {
+  std::uint64_t seed = 1;
+  double wind_mps = 0, wind_off_rad = 0;  ///< where it comes from, to the right of the runway's heading
+  double mass_ratio = 1, delay_s = 0;
+  bool ublox = false, slow_servos = false;
+  std::vector<std::pair<const char*, double>> derivatives;  ///< each times that
+};
+
+/// `most_wind_mps` at most `most_off_rad` off the runway.
+inline Dispersion dispersion(std::uint64_t seed, double most_wind_mps = 12, double most_off_rad = 30 * deg) {
+  Dispersion d;
+  Random random(mix_seed(seed, 1));
+  d.seed = seed;
+  d.wind_mps = random.uniform(0, most_wind_mps);
+  d.wind_off_rad = random.uniform(-most_off_rad, most_off_rad);
+  d.mass_ratio = random.uniform(0.9, 1.1);
+  d.delay_s = random.uniform(0, 0.1);
+  d.ublox = seed % 2 == 0;
+  d.slow_servos = seed / 2 % 2 == 0;
+  for (const char* name : {"lift.alpha", "lift.q", "lift.elevator", "side.beta", "side.rudder", "roll.beta",
+                           "roll.p", "roll.r", "roll.aileron", "roll.rudder", "pitch.alpha", "pitch.q",
+                           "pitch.elevator", "yaw.beta", "yaw.p", "yaw.r", "yaw.aileron", "yaw.rudder"})
+    d.derivatives.emplace_back(name, random.uniform(0.8, 1.2));
+  return d;
+}
+
+/// As the file has it; `airframe` is what the laws know.
+inline double& derivative(Aerodynamics& a, const std::string& name) {
+  const std::string of = name.substr(0, name.find('.')), over = name.substr(name.find('.') + 1);
+  Derivatives& d = of == "lift"    ? a.lift
+                   : of == "side"  ? a.side
+                   : of == "roll"  ? a.roll
+                   : of == "pitch" ? a.pitch
+                                   : a.yaw;
+  if (over == "alpha") return d.alpha_ratio;
+  if (over == "beta") return d.beta_ratio;
+  if (over == "p") return d.p_ratio;
+  if (over == "q") return d.q_ratio;
+  if (over == "r") return d.r_ratio;
+  if (over == "aileron") return d.aileron_ratio;
+  return over == "elevator" ? d.elevator_ratio : d.rudder_ratio;
+}
+
+inline Airframe dispersed(const Airframe& nominal, const Dispersion& d) {
+  Airframe a = nominal;
+  a.mass_kg *= d.mass_ratio;
+  for (double* const J : {&a.inertia.xx_kgm2, &a.inertia.yy_kgm2, &a.inertia.zz_kgm2, &a.inertia.xz_kgm2})
+    *J *= d.mass_ratio;
+  for (const auto& [name, ratio] : d.derivatives) derivative(a.aero, name) *= ratio;
+  return a;
+}
+
+/// Of what is flown; plain, so that it goes through a pipe.
+struct Landed {
+  std::uint64_t seed = 0;
+  bool flown = false, crashed = false, touched = false;
+  double least_over_stall = 1e9;  ///< 1 s mean of the true airspeed over this aircraft's stall, aloft
+  double sink_mps = 0;            ///< when it touches
+  double cross_m = 0;             ///< of the centre line, right positive, then
+  double receiver_m = 0;          ///< how far the receiver is off across the runway, then
+  double along_m = 0;             ///< behind the threshold, then
+  double yaw_off_rad = 0;         ///< of the nose, to the right of the runway, then
+  double roll_rad = 0;
+  double roll_out_m = 0;  ///< largest distance from the centre line while it rolls
+  std::uint32_t go_arounds = 0;
+  double beside_receiver_m() const { return std::abs(cross_m + receiver_m); }
+};
+
+class Watched {
+ public:
+  Watched(const core::Graph& graph, const Airframe& flown, std::uint64_t seed, const std::string& log)
+      : flown_(flown), most_lift_(most_lift(flown).coefficient), flight_(graph, logged_to(log)) {
+    out_.seed = seed;
+    truth_ = output_of(graph, "sim", "truth"), status_ = output_of(graph, "sim", "status");
+    gnss_ = output_of(graph, "sim", "gnss"), progress_ = output_of(graph, "land", "progress");
+  }
+
+  Landed fly() {
+    while (flight_.step()) {
+      const auto* const x = at<VehicleState>(truth_);
+      const auto* const status = at<VehicleStatus>(status_);
+      if (x && status && flight_.now_ns() > 0) look(*x, *status);
+    }
+    const core::FlightResult result = flight_.finish();
+    out_.flown = result.outcome == core::Outcome::flown && result.guards.empty();
+    // A touch-down that is a crash ends the flight in that tick.
+    out_.crashed =
+        result.outcome != core::Outcome::flown && result.reason.find("crashed") != std::string::npos;
+    if (out_.crashed) out_.sink_mps = -before_.climb_rate_mps, out_.touched = true;
+    return out_;
+  }
+
+ private:
+  static core::FlightOptions logged_to(const std::string& file) {
+    core::FlightOptions o;
+    o.log = !file.empty();
+    o.log_file = file;
+    return o;
+  }
+  static core::Source output_of(const core::Graph& graph, const std::string& component,
+                                const std::string& output) {
+    for (std::size_t i = 0; i < graph.components.size(); ++i)
+      if (graph.components[i].name == component)
+        return {core::Source::Kind::component, static_cast<int>(i),
+                graph.components[i].info().output(output)};
+    throw std::runtime_error("no component " + component);
+  }
+  template <class T>
+  const T* at(const core::Source& source) const {
+    return reinterpret_cast<const T*>(flight_.sample(source));
+  }
+  static double cross(double north, double east) {
+    return std::cos(runway_heading_rad) * east - std::sin(runway_heading_rad) * north;
+  }
+
+  void look(const VehicleState& x, const VehicleStatus& status) {
+    const LandingProgress p =
+        at<LandingProgress>(progress_) ? *at<LandingProgress>(progress_) : LandingProgress{};
+    out_.go_arounds = p.go_arounds;
+    const double c = cross(x.position_m.north, x.position_m.east);
+    const bool landing = p.stage == LandingStage::approach || p.stage >= LandingStage::flare;
+    receiver(x);
+    if (status.on_ground && flight_.phase() == "takeoff") recent_.clear(), sum_ = 0;
+    if (!status.on_ground && !landing_begun(p) && !out_.touched) aloft(x);
+    if (status.on_ground && landing && p.stage != LandingStage::go_around && flight_.phase() != "takeoff" &&
+        !out_.touched) {
+      out_.touched = true;
+      out_.sink_mps = -before_.climb_rate_mps;
+      out_.cross_m = c;
+      out_.along_m = std::cos(runway_heading_rad) * x.position_m.north +
+                     std::sin(runway_heading_rad) * x.position_m.east;
+      out_.receiver_m = receiver_m_;
+      out_.yaw_off_rad = angle_difference(before_.yaw_rad, runway_heading_rad);
+      out_.roll_rad = before_.roll_rad;
+    }
+    if (out_.touched) out_.roll_out_m = std::max(out_.roll_out_m, std::abs(c));
+    before_ = x;
+  }
+  /// The flare ends what is asked of the airspeed.
+  static bool landing_begun(const LandingProgress& p) {
+    return p.stage == LandingStage::flare || p.stage == LandingStage::roll_out ||
+           p.stage == LandingStage::stopped;
+  }
+  void aloft(const VehicleState& x) {
+    constexpr std::size_t second = 400;
+    recent_.push_back(x.airspeed_mps), sum_ += x.airspeed_mps;
+    if (recent_.size() > second) sum_ -= recent_.front(), recent_.pop_front();
+    if (recent_.size() < second) return;
+    const double rho = standard_air(x.origin_altitude_m + x.height_m).density_kgm3;
+    const double stall = std::sqrt(2 * flown_.mass_kg * isa::g0 / (rho * flown_.wing.area_m2 * most_lift_));
+    out_.least_over_stall = std::min(out_.least_over_stall, sum_ / second / stall);
+  }
+  /// Mean over a second or so of what the receiver is off, across the runway.
+  void receiver(const VehicleState& x) {
+    const auto* const g = at<Gnss>(gnss_);
+    if (!g || g->utc_ns == last_fix_) return;
+    last_fix_ = g->utc_ns;
+    const Eigen::Vector3d p_n = frame_.to_ned(g->latitude_deg, g->longitude_deg, g->altitude_m);
+    const double off = cross(p_n.x(), p_n.y()) - cross(x.position_m.north, x.position_m.east);
+    receiver_m_ += 0.1 * (off - receiver_m_);
+  }
+
+  Airframe flown_;
+  double most_lift_;
+  core::Flight flight_;
+  core::Source truth_, status_, gnss_, progress_;
+  LocalFrame frame_{40.2463724, -111.6474138, 1387};
+  Landed out_;
+  VehicleState before_;
+  std::deque<double> recent_;
+  double sum_ = 0, receiver_m_ = 0;
+  std::int64_t last_fix_ = 0;
+};
+
+/// `set`: parameters of any component beside what the dispersion changes; `log`: a file, if one is wanted.
+inline Landed fly(const Dispersion& d, const Airframe& nominal,
+                  const std::vector<std::pair<std::string, std::string>>& set = {},
+                  const std::string& log = "") {
+  core::Overrides o;
+  o.seed = d.seed;
+  const Airframe a = dispersed(nominal, d);
+  const double from = runway_heading_rad + d.wind_off_rad, back = -d.wind_mps;
+  const std::string file = "sim.sensor_file", body = "sim.airframe.";
+  o.set = {{file,
+            std::string(FULMAR_SOURCE_DIR "/configs/sensors/") + (d.ublox ? "ublox" : "rosflight") + ".yaml"},
+           {"sim.wind_ned", "[" + std::to_string(back * std::cos(from)) + ", " +
+                                std::to_string(back * std::sin(from)) + ", 0]"},
+           {body + "mass_kg", std::to_string(a.mass_kg)},
+           {body + "inertia.xx_kgm2", std::to_string(a.inertia.xx_kgm2)},
+           {body + "inertia.yy_kgm2", std::to_string(a.inertia.yy_kgm2)},
+           {body + "inertia.zz_kgm2", std::to_string(a.inertia.zz_kgm2)},
+           {body + "inertia.xz_kgm2", std::to_string(a.inertia.xz_kgm2)}};
+  for (const char* sensor : {"gnss", "baro", "mag", "pitot"}) {
+    const double own = d.ublox && std::string(sensor) == "gnss" ? 0.15 : 0;
+    o.set.emplace_back(file + "." + sensor + ".timing.latency_s", std::to_string(own + d.delay_s));
+  }
+  Airframe changed = a;
+  for (const auto& [name, ratio] : d.derivatives)
+    o.set.emplace_back(body + "aero." + name + "_ratio", std::to_string(derivative(changed.aero, name)));
+  if (d.slow_servos) {
+    for (const char* surface : {"aileron", "elevator", "rudder"})
+      o.set.emplace_back("sim." + std::string(surface) + "_fault", "slow");
+    o.set.emplace_back("sim.fault_speed", "0.5");
+  }
+  for (const auto& one : set) o.set.push_back(one);
+  return Watched(core::load_mission(FULMAR_SOURCE_DIR "/bench/landing/mission.yaml", o), a, d.seed, log)
+      .fly();
+}
+
+}  // namespace fulmar::landing_bench

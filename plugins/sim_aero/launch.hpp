@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A launch without a runway: somebody holds the aircraft, or it sits on a catapult, and some time after it
+// was armed it is pushed along its nose with an even acceleration until it has its speed, and let go.
+#pragma once
+#include <cstdint>
+
+#include "fulmar/plugin.hpp"
+
+namespace fulmar::sim {
+
+enum class LaunchKind : std::uint8_t { none, hand, catapult };
+
+struct LaunchParams {
+  Choice<LaunchKind> launch{
+      LaunchKind::none,
+      "hand: held 1.5 m high, pushed over 1.5 m; catapult: 1 m high, over 4 m; none: it rolls", setup};
+  Param launch_after{5, "s", 0, 3600, "after it was armed for the first time", setup};
+  Param launch_speed{
+      0, "m/s", 0, 60, "over ground, with which it is let go; 0: 9 by hand, 16 off a catapult", setup};
+  Param launch_pitch{0.2, "rad", 0, 0.8, "of nose and way while it is pushed", setup};
+};
+
+class Launch {
+ public:
+  Launch() = default;
+  explicit Launch(const LaunchParams& p)
+      : given_(p.launch != LaunchKind::none),
+        by_hand_(p.launch == LaunchKind::hand),
+        after_s_(p.launch_after) {
+    const double length_m = by_hand_ ? 1.5 : 4, usual_mps = by_hand_ ? 9 : 16;
+    const double speed_mps = p.launch_speed > 0 ? p.launch_speed.value : usual_mps;
+    push_mps2_ = speed_mps * speed_mps / (2 * length_m);
+    push_s_ = 2 * length_m / speed_mps;
+  }
+  bool given() const { return given_; }
+  double height_m() const { return by_hand_ ? 1.5 : 1; }
+  /// Of a time since it was armed: not let go yet.
+  bool holds(double armed_s) const { return given_ && armed_s < after_s_ + push_s_; }
+  /// m/s2 along the nose, as long as it holds.
+  double push_mps2(double armed_s) const { return armed_s < after_s_ ? 0 : push_mps2_; }
+
+ private:
+  bool given_ = false, by_hand_ = false;
+  double after_s_ = 0, push_mps2_ = 0, push_s_ = 0;
+};
+
+}  // namespace fulmar::sim

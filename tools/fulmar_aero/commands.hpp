@@ -12,5 +12,12 @@ int linearize_command(const FlightOptions& options, bool csv);
 /// `step` between speeds; `svg`: a file for the picture, or "".
 int modes_command(const FlightOptions& options, const std::string& step, const std::string& svg);
 int check_command(const FlightOptions& options);
+/// Texts of bandwidths and times; "" where nothing was said.
+struct TuneOptions {
+  std::vector<std::string> bandwidths;  ///< "roll=8 rad/s"
+  std::string step, delay;
+  bool write = false, verify = false;
+};
+int tune_command(const FlightOptions& options, const TuneOptions& tune_options);
 
 }  // namespace fulmar::aero

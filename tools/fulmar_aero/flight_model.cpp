@@ -15,4 +15,6 @@ std::vector<Mode> modes_in(const AircraftModel& model, const SteadyFlight& fligh
   return modes_of(linearised(model, flight));
 }
 
+std::vector<Mode> modes_in(const LinearModel& linear) { return modes_of(linear); }
+
 }  // namespace fulmar::aero

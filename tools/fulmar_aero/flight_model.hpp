@@ -12,5 +12,6 @@ namespace fulmar::aero {
 SteadyFlight fly(const AircraftModel& model, const SteadyCondition& condition);
 LinearModel linearised(const AircraftModel& model, const SteadyFlight& flight);
 std::vector<Mode> modes_in(const AircraftModel& model, const SteadyFlight& flight);
+std::vector<Mode> modes_in(const LinearModel& linear);
 
 }  // namespace fulmar::aero

@@ -21,7 +21,8 @@ struct CommandLine {
   FlightOptions flight;
   std::string step, svg;
   bool csv = false;
-  CLI::App *trim, *linearize, *modes, *check;
+  TuneOptions tuning;
+  CLI::App *trim, *linearize, *modes, *check, *tune;
 
   CommandLine() {
     app.require_subcommand(1);
@@ -48,12 +49,19 @@ struct CommandLine {
     check->add_option("--altitude", flight.altitude, "above mean sea level, of the standard air; else 0 m");
     check->add_flag("--json", flight.json, "print one JSON object");
     check->footer("Example: fulmar aero check fulmar:airframes/anaconda.yaml");
+    add_tune();
+  }
+
+  void add_tune() {
+    tune = app.add_subcommand("tune", "gains of the shipped laws, their margins, and a flight with them");
+    flight.add(tune);
+    tune->footer("Example: fulmar aero tune fulmar:airframes/anaconda.yaml --bandwidth \"roll=8 rad/s\"");
   }
 
   /// Of the first word, when it is no command: the sentence, else "".
   std::string unknown(int argc, char** argv) const {
     std::vector<std::string> names;
-    for (const CLI::App* one : {trim, linearize, modes, check}) names.push_back(one->get_name());
+    for (const CLI::App* one : {trim, linearize, modes, check, tune}) names.push_back(one->get_name());
     if (argc < 2 || argv[1][0] == '-' || std::find(names.begin(), names.end(), argv[1]) != names.end())
       return "";
     return "fulmar aero: there is no command '" + std::string(argv[1]) + "'." +
@@ -63,6 +71,7 @@ struct CommandLine {
   int run() const {
     if (trim->parsed()) return trim_command(flight);
     if (linearize->parsed()) return linearize_command(flight, csv);
+    if (tune->parsed()) return tune_command(flight, tuning);
     return modes->parsed() ? modes_command(flight, step, svg) : check_command(flight);
   }
 };

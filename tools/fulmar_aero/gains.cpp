@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/fulmar_aero/gains.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "tools/fulmar_aero/flight_model.hpp"
+
+namespace fulmar::aero {
+namespace {
+
+double rounded(double x) {
+  if (x == 0) return 0;
+  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(x))) - 1);
+  return std::round(x / unit) * unit;
+}
+
+/// Figures of the airframe and the relations of plugins/control_slc/README.md, "Gains from bandwidths".
+struct Relations {
+  const Plant& plant;
+  double Va, scale;  ///< scale: what the inner law multiplies its gains by at this airspeed
+
+  explicit Relations(const Plant& plant_)
+      : plant(plant_),
+        Va(plant_.flight.condition.airspeed_mps),
+        scale(std::pow(plant_.airframe.limits.airspeed_cruise_mps / Va, 2)) {}
+
+  double a1() const { return -plant.linear.A(model::p, model::p); }
+  double a2() const { return plant.linear.B(model::p, model::aileron); }
+
+  void roll(double w, InnerLaw& p) const {
+    constexpr double damping = 1;
+    const double rate = (2 * damping * w - a1()) / a2();
+    // an airframe that damps more than that: its slower pole is at w
+    const double kp = rate >= 0 ? w * w / a2() : w * (a1() - w) / a2();
+    p.roll_kp.value = kp / scale;
+    p.roll_kd.value = std::max(rate, 0.0) / scale;
+    p.roll_ki.value = kp / scale * 0.01 * w;
+    p.roll_kff.value = a1() / a2() / std::sqrt(scale);
+  }
+
+  /// Of w and q, with the rate fed back.
+  Eigen::Matrix2d short_period(double kd) const {
+    constexpr std::array<int, 2> states{model::w, model::q};
+    Eigen::Matrix2d M = plant.linear.A(states, states);
+    M.col(1) += kd * elevator();
+    return M;
+  }
+  Eigen::Vector2d elevator() const {
+    return {plant.linear.B(model::w, model::elevator), plant.linear.B(model::q, model::elevator)};
+  }
+  void pitch(double w, InnerLaw& p) const {
+    constexpr double damping = 1.0, most = 2.0;
+    double kd = 0;
+    const auto damped = [&](double k) {
+      const Eigen::Matrix2d M = short_period(k);
+      return -M.trace() >= 2 * damping * std::sqrt(std::max(M.determinant(), 0.0));
+    };
+    while (kd < most && !damped(kd)) kd += 0.005;
+    p.pitch_kd.value = kd / scale;
+    const double turn = short_period(kd).fullPivLu().solve(elevator())(1);  // -q per elevator, settled
+    p.pitch_kp.value = w / turn / scale;
+    p.pitch_ki.value = p.pitch_kp.value * 0.1 * w;
+  }
+
+  void course(double w, OuterLawNumbers& p) const {
+    const double Vc = plant.airframe.limits.airspeed_cruise_mps;
+    p.course_kp.value = w * Vc / isa::g0;  // at Vc; grows with the ground speed
+  }
+  void height(double w, SlcLaw& p) const {
+    p.altitude_kp.value = w / Va;
+    p.altitude_ki.value = 0.1 * w * w / Va / 1.7;
+    p.altitude_kd.value = 0.5 / Va;
+  }
+  void airspeed(double w, SlcLaw& p) const {
+    const double m = plant.airframe.mass_kg, T = plant.thrust_newton();
+    p.airspeed_kp.value = w * m / T;
+    p.airspeed_ki.value = p.airspeed_kp.value * 0.1 * std::max(w, 1.0);
+    p.climb_kff.value = m * isa::g0 / (Va * T);
+    p.thrust.value = T;
+  }
+  void tecs(double height, double airspeed, TecsLaw& p) const {
+    const double T = plant.thrust_newton();
+    p.thrust.value = T;
+    p.altitude_gain.value = 0.8 * height;
+    p.airspeed_gain.value = airspeed;
+    // with more thrust than weight airspeed is mostly the throttle's business
+    p.speed_weight.value = T > plant.airframe.mass_kg * isa::g0 ? 0.1 : 0.4;
+  }
+};
+
+const LoopFigures* find_loop(const LoopReport& report, const std::string& name) {
+  for (const LoopFigures& f : report.loops)
+    if (f.name == name) return &f;
+  return nullptr;
+}
+
+/// Whether more bandwidth than the margins wanted allow.
+bool too_fast(const LoopReport& report, const std::string& name) {
+  const LoopFigures* f = find_loop(report, name);
+  return f && !wanted_margins.kept(*f);
+}
+
+/// Two digits: nobody needs more, and people read them.
+void round_gains(Laws& l) {
+  for (Number* one : {&l.inner.roll_kp, &l.inner.roll_ki, &l.inner.roll_kd, &l.inner.roll_kff, &l.inner.pitch_kp,
+                     &l.inner.pitch_ki, &l.inner.pitch_kd, &l.inner.yaw_kd, &l.inner.yaw_washout,
+                     &l.slc.course_kp, &l.slc.altitude_kp, &l.slc.altitude_ki, &l.slc.altitude_kd,
+                     &l.slc.airspeed_kp, &l.slc.airspeed_ki, &l.slc.airspeed_kff, &l.slc.climb_kff, &l.slc.thrust,
+                     &l.tecs.course_kp, &l.tecs.altitude_gain, &l.tecs.airspeed_gain, &l.tecs.airspeed_kff,
+                     &l.tecs.thrust})
+    one->value = std::clamp(rounded(one->value), one->min, one->max);
+}
+
+constexpr double slower = 0.94;
+constexpr int most_tries = 60;
+
+/// One design: bandwidths become gains, margins say which are to fall.
+class Design {
+ public:
+  Design(const Plant& plant, const Laws& start, const Bandwidths& given)
+      : plant_(plant), relations_(plant), given_(given) {
+    out_.laws = start;
+    Bandwidths& w = out_.chosen;
+    const double roll_lag = plant.lag_s(model::aileron), pitch_lag = plant.lag_s(model::elevator);
+    w.roll = given.roll > 0 ? given.roll : 0.18 / roll_lag;
+    w.pitch = given.pitch > 0 ? given.pitch : std::min(0.5 * w.roll, 0.09 / pitch_lag);
+    w.course = given.course > 0 ? given.course : 0.12 * w.roll;
+    w.height = given.height > 0 ? given.height : 0.35 * w.pitch;
+    w.airspeed = given.airspeed > 0 ? given.airspeed : std::min(0.2 / plant.lag_s(model::throttle), 2.0 * w.height);
+    out_.yaw_damper = rudder_acts(plant.airframe) && plant.airframe.rudder.limit_rad > 0;
+  }
+
+  Tuning run() {
+    if (!out_.yaw_damper) out_.laws.inner.yaw_kd.value = 0;
+    relations_.pitch(out_.chosen.pitch, out_.laws.inner);
+    relations_.roll(out_.chosen.roll, out_.laws.inner);
+    if (out_.yaw_damper) damp_yaw();
+    inner();
+    outer();
+    total_energy();
+    round_gains(out_.laws);
+    return std::move(out_);
+  }
+
+ private:
+  void damp_yaw() {
+    InnerLaw& p = out_.laws.inner;
+    for (const Mode& mode : modes_in(plant_.linear))
+      if (mode.kind == ModeKind::dutch_roll) p.yaw_washout.value = 0.1 * mode.natural_radps();
+    double best = -1, gain = 0;
+    for (double kd = 0; kd < 3; kd += 0.01) {
+      p.yaw_kd.value = kd / relations_.scale;
+      const double damping = dutch_roll_damping(plant_, p);
+      if (damping > best) best = damping, gain = kd;
+      if (damping >= 0.7 || damping < best - 0.05) break;
+    }
+    p.yaw_kd.value = gain / relations_.scale;
+  }
+
+  bool fall(double& w, double given) {
+    if (given > 0) return false;
+    w *= slower;
+    return true;
+  }
+
+  void inner() {
+    Bandwidths& w = out_.chosen;
+    for (int i = 0; i < most_tries; ++i) {
+      relations_.roll(w.roll, out_.laws.inner);
+      relations_.pitch(w.pitch, out_.laws.inner);
+      const LoopReport now = evaluate(plant_, out_.laws, OuterScheme::none);
+      bool again = false;
+      if (too_fast(now, "roll")) again |= fall(w.roll, given_.roll);
+      if (too_fast(now, "pitch")) again |= fall(w.pitch, given_.pitch);
+      if (too_fast(now, "yaw damper")) out_.laws.inner.yaw_kd.value *= slower, again = true;
+      if (!again) return;
+    }
+  }
+
+  void outer() {
+    Bandwidths& w = out_.chosen;
+    Laws& l = out_.laws;
+    l.slc.airspeed_kff.value = l.tecs.airspeed_kff.value = throttle_per_speed();
+    for (int i = 0; i < most_tries; ++i) {
+      relations_.course(w.course, l.slc);
+      relations_.height(w.height, l.slc);
+      relations_.airspeed(w.airspeed, l.slc);
+      const LoopReport now = evaluate(plant_, l, OuterScheme::slc);
+      bool again = false;
+      if (too_fast(now, "course") || too_fast(now, "roll")) again |= fall(w.course, given_.course);
+      if (too_fast(now, "height") || too_fast(now, "pitch")) again |= fall(w.height, given_.height);
+      if (too_fast(now, "airspeed")) again |= fall(w.airspeed, given_.airspeed);
+      if (!again) break;
+    }
+    l.tecs.course_kp.value = l.slc.course_kp.value;
+  }
+
+  void total_energy() {
+    Laws& l = out_.laws;
+    double height = out_.chosen.height, airspeed = 0.6 * out_.chosen.airspeed;
+    for (int i = 0; i < most_tries; ++i) {
+      relations_.tecs(height, airspeed, l.tecs);
+      const LoopReport now = evaluate(plant_, l, OuterScheme::tecs);
+      bool again = false;
+      if (too_fast(now, "TECS height") || too_fast(now, "pitch")) height *= slower, again = true;
+      if (too_fast(now, "TECS airspeed")) airspeed *= slower, again = true;
+      if (!again) return;
+    }
+  }
+
+  /// Of level flight, 1/(m/s).
+  double throttle_per_speed() const {
+    const AircraftModel m(plant_.airframe, plant_.altitude_m);
+    const double V = plant_.flight.condition.airspeed_mps, h = 0.05 * V;
+    const SteadyFlight fast = fly(m, {.airspeed_mps = V + h}), slow = fly(m, {.airspeed_mps = V - h});
+    const auto throttle_of = [&](const SteadyFlight& f) {
+      return f.found() ? f.input(model::throttle) : plant_.flight.input(model::throttle);
+    };
+    const double span = (fast.found() ? h : 0) + (slow.found() ? h : 0);
+    return span > 0 ? std::max((throttle_of(fast) - throttle_of(slow)) / span, 0.0) : 0;
+  }
+
+  const Plant& plant_;
+  Relations relations_;
+  Bandwidths given_;
+  Tuning out_;
+};
+
+}  // namespace
+
+double most_bandwidth(double lag_s) { return 0.5 / lag_s; }
+
+Tuning tune(const Plant& plant, const Laws& start, const Bandwidths& given) {
+  return Design(plant, start, given).run();
+}
+
+}  // namespace fulmar::aero

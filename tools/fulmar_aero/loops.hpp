@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The loops that the laws close around an aircraft, broken one at a time with all others closed.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "fulmar/flight/linear_model.hpp"
+#include "fulmar/flight/margins.hpp"
+#include "fulmar/flight/steady_flight.hpp"
+#include "tools/fulmar_aero/laws.hpp"
+
+namespace fulmar::aero {
+
+/// An aircraft in steady flight, with its lags and the delay of what computes and measures.
+struct Plant {
+  Airframe airframe;
+  LinearModel linear;
+  SteadyFlight flight;
+  double altitude_m = 0;
+  double step_s = 0.01;  ///< of the laws: commands stay for so long
+  double delay_s = 0;    ///< of estimator, computer and link, in addition
+
+  LawPoint point() const {
+    return {&airframe, flight.condition.airspeed_mps, flight.density_kgm3, flight.x(model::pitch), step_s};
+  }
+  /// From deflections and throttle to what is measured, without lags.
+  Eigen::Matrix<Complex, sensor::count, model::inputs> response(Complex s) const;
+  /// From a command to the deflection or throttle.
+  Eigen::Vector4<Complex> lag(Complex s) const;
+  /// Of that, what is left at low frequency: a delay, s.
+  double lag_s(int input) const;
+  double thrust_newton() const;  ///< per unit of throttle
+};
+
+enum class OuterScheme : std::uint8_t { none, slc, tecs };
+
+/// All signals of the closed aircraft, one behind the other: sensors, commands, deflections.
+namespace signals {
+enum : int { sensors = 0, commands = sensor::count, inputs = commands + command::count, count = inputs + model::inputs };
+}
+using LoopMatrix = Eigen::Matrix<Complex, signals::count, signals::count>;
+
+/// w = G(s) w: what each signal makes of each.
+LoopMatrix loops(const Plant& plant, const Laws& laws, OuterScheme scheme, Complex s);
+
+struct LoopFigures {
+  std::string name;                ///< "roll", "TECS height"
+  std::string actuator, sensor;    ///< where it was broken: "aileron", "roll"
+  Margins at_actuator, at_sensor;
+  double bandwidth_radps = 0;  ///< of the answer to the command, -3 dB; of a damper, the crossover
+  double damping_ratio = 0;    ///< of a second-order system with this resonance; at least 0.7 where there is none
+  double least_gain_db() const { return std::min(at_actuator.least_gain_db(), at_sensor.least_gain_db()); }
+  double least_phase_rad() const { return std::min(at_actuator.phase_rad, at_sensor.phase_rad); }
+  double least_delay_s() const { return std::min(at_actuator.delay_s, at_sensor.delay_s); }
+};
+
+struct LoopReport {
+  int unstable = 0;  ///< poles of the closed loop
+  std::vector<LoopFigures> loops;
+};
+
+/// The Dutch roll's with the damper alone, its lags left out; 1 when it does not oscillate.
+double dutch_roll_damping(const Plant& plant, const InnerLaw& inner);
+
+/// With no outer law: roll, pitch and yaw damper. With one: these and course, height and airspeed.
+LoopReport evaluate(const Plant& plant, const Laws& laws, OuterScheme scheme);
+
+}  // namespace fulmar::aero

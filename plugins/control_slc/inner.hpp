@@ -17,6 +17,7 @@
 #include <fulmar/msg/notice.hpp>
 #include <fulmar/msg/sideslip_command.hpp>
 #include <fulmar/plugin.hpp>
+#include <optional>
 
 namespace fulmar::slc {
 
@@ -91,7 +92,9 @@ struct Inner {
                                      params.airspeed_smoothing, dt);
     look(in, Va);
     const double slip = slip_asked(tick, in);
-    const VehicleState state = blind_ ? as_commanded(*in.state, command, Va) : *in.state;
+    std::optional<VehicleState> commanded;
+    if (blind_) commanded = as_commanded(*in.state, command, Va);
+    const VehicleState& state = blind_ ? *commanded : *in.state;
     const double rho = standard_air(state.origin_altitude_m + state.height_m).density_kgm3;
     const double speed_ratio = params.airframe->limits.airspeed_cruise_mps / Va;
     const double scale =
@@ -234,10 +237,9 @@ struct Inner {
                        double dt) {
     const Surface& rudder = p.airframe->rudder;
     const double damping = washout_.step(yaw_rate_error(state, Va), p.yaw_washout, dt);
-    return std::clamp(rudder.trim_rad + scale * quiet_[yaw].gain() * p.yaw_kd * damping, -rudder.limit_rad,
+    const double held = rudder.trim_rad + rudder_for(slip_rad, p.airframe->aero);
+    return std::clamp(held + scale * quiet_[yaw].gain() * p.yaw_kd * damping, -rudder.limit_rad,
                       rudder.limit_rad);
-    const double wanted = rudder.trim_rad + rudder_for(slip_rad, p.airframe->aero);
-    return std::clamp(wanted + scale * p.yaw_kd * damping, -rudder.limit_rad, rudder.limit_rad);
   }
 
   Pid roll_, pitch_;

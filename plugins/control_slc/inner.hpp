@@ -73,10 +73,11 @@ struct Inner {
     return Status::ok;
   }
 
+  void configure(const Params& p) { gains_ = gains_of(p); }
+
   /// Other gains begin anew with all of them.
   void retune(const Params& p) {
-    const std::array<double, 8> gains{p.roll_kp,  p.roll_ki,  p.roll_kd, p.pitch_kp,
-                                      p.pitch_ki, p.pitch_kd, p.yaw_kd,  p.quieten ? 1.0 : 0.0};
+    const Gains gains = gains_of(p);
     if (gains != gains_)
       for (Quietening& axis : quiet_) axis.restore();
     gains_ = gains;
@@ -112,6 +113,11 @@ struct Inner {
 
  private:
   enum Axis : std::uint8_t { roll, pitch, yaw, axes };
+  using Gains = std::array<double, 8>;
+  static Gains gains_of(const Params& p) {
+    return {p.roll_kp,  p.roll_ki,  p.roll_kd, p.pitch_kp,
+            p.pitch_ki, p.pitch_kd, p.yaw_kd,  p.quieten ? 1.0 : 0.0};
+  }
 
   bool quietened() const {
     return std::any_of(quiet_.begin(), quiet_.end(), [](const Quietening& axis) { return axis.gain() < 1; });
@@ -125,7 +131,7 @@ struct Inner {
     const Actuators& u = out.actuators;
     const std::array<double, axes> surface{u.aileron_rad, u.elevator_rad, u.rudder_rad};
     const std::array<double, axes> commanded{
-        scale * quiet_[roll].gain() * p.roll_kp * command.roll_rad + p.roll_kff * std::sqrt(scale) * p_c_,
+        scale * quiet_[roll].gain() * p.roll_kp * command.roll_rad + std::sqrt(scale) * p.roll_kff * p_c_,
         scale * quiet_[pitch].gain() * p.pitch_kp * command.pitch_rad, u.aileron_rad};
     const std::array<double, axes> throws{p.airframe->aileron.limit_rad, p.airframe->elevator.limit_rad,
                                           p.airframe->rudder.limit_rad};
@@ -214,7 +220,7 @@ struct Inner {
   double yaw_to_rudder(const VehicleState& state, const Params& p, double scale, double Va, double dt) {
     const Surface& rudder = p.airframe->rudder;
     const double damping = washout_.step(yaw_rate_error(state, Va), p.yaw_washout, dt);
-    return std::clamp(rudder.trim_rad + scale * quiet_[yaw].gain() * p.yaw_kd * damping, -rudder.limit_rad,
+    return std::clamp(rudder.trim_rad + quiet_[yaw].gain() * (scale * p.yaw_kd * damping), -rudder.limit_rad,
                       rudder.limit_rad);
   }
 
@@ -223,8 +229,8 @@ struct Inner {
   double p_c_ = 0;  ///< roll rate commanded
   WashOut washout_;
   std::array<Quietening, axes> quiet_;
-  std::array<double, 8> gains_{};  ///< for which the axes are as quiet as they are
-  LowPass airspeed_;               ///< m/s, for gains, trim and turn rates
+  Gains gains_{};     ///< for which the axes are as quiet as they are
+  LowPass airspeed_;  ///< m/s, for gains, trim and turn rates
   Actuators last_;
   bool take_up_ = false, blind_ = false;
   std::int64_t known_ns_ = 0;  ///< the first state after a time without attitude

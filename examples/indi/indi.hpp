@@ -143,7 +143,7 @@ struct Indi {  // fills the role `inner`
 
   Eigen::Matrix3d inverse_ = Eigen::Matrix3d::Zero();
   Eigen::Vector3d u_ = Eigen::Vector3d::Zero(), servo_ = Eigen::Vector3d::Zero();
-  std::array<SecondOrder, 3> rate_, surface_;
+  SecondOrder rate_[3], surface_[3];
   Differentiator roll_command_rate_;
   LowPass airspeed_;
   bool begun_ = false;

@@ -33,7 +33,7 @@ struct Inner {
     Probe roll_error_rad;
     Probe pitch_error_rad;
     Probe surface_scale_ratio;
-    OutQueue<Notice, 3> notices;  // an axis oscillated, and its gains were halved
+    OutQueue<Notice, 3> notices;  // an axis oscillated, and its gains were cut
   };
   struct Params {
     Param roll_kp{1.2, "rad/rad", 0, 20, "aileron per roll error"};
@@ -57,7 +57,7 @@ struct Inner {
         "time constant of the airspeed that gains, trim and turn rates follow: surfaces do not follow gusts"};
     Param scale_limit{2.5, "ratio", 1, 10,
                       "largest growth of the gains at low dynamic pressure, largest reduction at high"};
-    Flag quieten{true, "an axis that oscillates by too high gains gets half of them, and says so"};
+    Flag quieten{true, "an axis that oscillates by too high gains gets less of them, and says so"};
     Record<Airframe> airframe{
         "throws, trims, cruise speed, and the derivatives for the feed-forward of turns"};
   };
@@ -76,10 +76,11 @@ struct Inner {
     return Status::ok;
   }
 
+  void configure(const Params& p) { gains_ = gains_of(p); }
+
   /// Other gains begin anew with all of them.
   void retune(const Params& p) {
-    const std::array<double, 8> gains{p.roll_kp,  p.roll_ki,  p.roll_kd, p.pitch_kp,
-                                      p.pitch_ki, p.pitch_kd, p.yaw_kd,  p.quieten ? 1.0 : 0.0};
+    const Gains gains = gains_of(p);
     if (gains != gains_)
       for (Quietening& axis : quiet_) axis.restore();
     gains_ = gains;
@@ -108,7 +109,7 @@ struct Inner {
     out.actuators.elevator_rad = pitch_to_elevator(state, command, params, scale, Va, rho, integrate);
     out.actuators.rudder_rad = yaw_to_rudder(state, params, slip, scale, Va, dt);
     take_up_ = false;
-    if (params.quieten) quieten(tick, command, params, scale, Va, integrating && !blind_, dt, out);
+    if (params.quieten) quieten(tick, command, params, scale, integrating && !blind_, dt, out);
     out.roll_error_rad = command.roll_rad - state.roll_rad;
     out.pitch_error_rad = command.pitch_rad - state.pitch_rad;
     out.surface_scale_ratio = scale;
@@ -118,26 +119,31 @@ struct Inner {
 
  private:
   enum Axis : std::uint8_t { roll, pitch, yaw, axes };
+  using Gains = std::array<double, 8>;
+  static Gains gains_of(const Params& p) {
+    return {p.roll_kp,  p.roll_ki,  p.roll_kd, p.pitch_kp,
+            p.pitch_ki, p.pitch_kd, p.yaw_kd,  p.quieten ? 1.0 : 0.0};
+  }
 
   bool quietened() const {
     return std::any_of(quiet_.begin(), quiet_.end(), [](const Quietening& axis) { return axis.gain() < 1; });
   }
 
-  /// Halves the gains of an axis whose surface swings by more than a seventh of its throw, again and again.
-  void quieten(const Tick& tick, const AttitudeCommand& command, const Params& p, double scale, double Va,
-               bool watching, double dt, Outputs& out) {
+  /// Cuts the gains of an axis whose surface swings by more than an eighth of its throw, again and again.
+  /// An aileron that swings yaws the aircraft: as long as it does, the rudder is not to blame.
+  void quieten(const Tick& tick, const AttitudeCommand& command, const Params& p, double scale, bool watching,
+               double dt, Outputs& out) {
     static constexpr std::array<const char*, axes> names{"roll", "pitch", "yaw"};
     const Actuators& u = out.actuators;
     const std::array<double, axes> surface{u.aileron_rad, u.elevator_rad, u.rudder_rad};
     const std::array<double, axes> commanded{
-        scale * quiet_[roll].gain() * p.roll_kp * command.roll_rad + p.roll_kff * std::sqrt(scale) * p_c_,
-        scale * quiet_[pitch].gain() * p.pitch_kp * command.pitch_rad,
-        scale * quiet_[yaw].gain() * p.yaw_kd * turn_rates(command.roll_rad, command.pitch_rad, Va).r_radps};
+        scale * quiet_[roll].gain() * p.roll_kp * command.roll_rad + std::sqrt(scale) * p.roll_kff * p_c_,
+        scale * quiet_[pitch].gain() * p.pitch_kp * command.pitch_rad, u.aileron_rad};
     const std::array<double, axes> throws{p.airframe->aileron.limit_rad, p.airframe->elevator.limit_rad,
                                           p.airframe->rudder.limit_rad};
     for (std::size_t i = 0; i < axes; ++i) {
       if (!watching) quiet_[i].begin();
-      if (!watching || !quiet_[i].step(surface[i], commanded[i], throws[i] / 7, dt)) continue;
+      if (!watching || !quiet_[i].step(surface[i], commanded[i], throws[i] / 8, dt)) continue;
       Notice notice;
       notice.severity = Severity::warning;
       std::snprintf(notice.text.bytes.data(), notice.text.bytes.size(),
@@ -239,6 +245,7 @@ struct Inner {
     const double damping = washout_.step(yaw_rate_error(state, Va), p.yaw_washout, dt);
     const double held = rudder.trim_rad + rudder_for(slip_rad, p.airframe->aero);
     return std::clamp(held + scale * quiet_[yaw].gain() * p.yaw_kd * damping, -rudder.limit_rad,
+    return std::clamp(rudder.trim_rad + quiet_[yaw].gain() * (scale * p.yaw_kd * damping), -rudder.limit_rad,
                       rudder.limit_rad);
   }
 
@@ -247,8 +254,8 @@ struct Inner {
   double p_c_ = 0;  ///< roll rate commanded
   WashOut washout_;
   std::array<Quietening, axes> quiet_;
-  std::array<double, 8> gains_{};  ///< for which the axes are as quiet as they are
-  LowPass airspeed_;               ///< m/s, for gains, trim and turn rates
+  Gains gains_{};     ///< for which the axes are as quiet as they are
+  LowPass airspeed_;  ///< m/s, for gains, trim and turn rates
   Actuators last_;
   bool take_up_ = false, blind_ = false;
   std::int64_t known_ns_ = 0;  ///< the first state after a time without attitude

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A loop whose gain is too high oscillates where its phase is gone: at a frequency of its own, with an
 // amplitude that does not die. Recognised by the swings of its output - a limit cycle, Åström & Hägglund,
-// Advanced PID Control (2006), section 7.3 - and quietened by halving its gains.
+// Advanced PID Control (2006), section 7.3 - and quietened by less gain.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -56,12 +56,12 @@ class Swings {
 /// until `restore()`.
 class Quietening {
  public:
-  static constexpr double least = 0.125;
+  static constexpr double share = 0.4, least = 0.1;
 
-  /// True when the gains were halved in this step. The rest as in Swings.
+  /// True when the gains were cut in this step. The rest as in Swings.
   bool step(double signal, double caused, double threshold, double dt_s) {
     if (!swings_.step(signal, caused, threshold, dt_s) || gain_ <= least) return false;
-    gain_ *= 0.5;
+    gain_ = std::max(share * gain_, least);
     return true;
   }
   /// Nothing has swung yet: after a hand-over, on the ground. The gain stays.

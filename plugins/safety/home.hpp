@@ -42,7 +42,7 @@ struct Home {
     Record<Places> places{"where to come down; the first is home. Without it, the origin"};
     Param return_height{70, "m", 0, 10000, "above home, on the way and on the circle"};
     Param fence_height{10, "m", 0, 1000, "above the floor and below the ceiling of the fence at least"};
-    Param radius{70, "m", 10, 5000, "of the circle at home"};
+    Param radius{70, "m", 10, 5000, "of the circle at home; as much more as the wind takes"};
     Param k_orbit{2, "ratio", 0.1, 20, "how sharply to turn onto a circle, Beard & McLain (10.13)"};
     Param least_ground_speed{6, "m/s", 0, 100, "on the way home; against more wind it flies faster"};
     Param least_height{40, "m", 0, 10000, "above home, of the circle while the position is not known"};
@@ -148,15 +148,24 @@ struct Home {
     const FlightLimits& limits = p.airframe->limits;
     if (!s.position_valid) return wait(s, p, out);
     GuidanceCommand& c = out.command;
-    orbit(s, target_, p.radius, p, c);
+    const double R = radius(s, p);
+    orbit(s, target_, R, p, c);
+    turn_round(s, c);
     c.height_m = within_fence(target_.up_m + p.return_height, in, p);
     const double fast = airspeed_for_ground_speed(c.course_rad, p.least_ground_speed, wind(s));
     const bool behind =
         fly_course(c.course_rad, limits.airspeed_cruise_mps, wind(s)).ground_speed_mps < p.least_ground_speed;
     c.airspeed_mps = behind ? std::clamp(fast, limits.airspeed_cruise_mps, limits.airspeed_max_mps)
                             : limits.airspeed_cruise_mps;
-    out.progress.there = std::abs(out.progress.distance_m - p.radius) < 0.5 * p.radius &&
-                         std::abs(s.height_m - c.height_m) < 10;
+    out.progress.there =
+        std::abs(out.progress.distance_m - R) < 0.5 * R && std::abs(s.height_m - c.height_m) < 10;
+  }
+
+  /// What can be flown with the wind behind, too, at 0.7 of the largest bank.
+  static double radius(const VehicleState& s, const Params& p) {
+    const FlightLimits& limits = p.airframe->limits;
+    const double fastest = limits.airspeed_cruise_mps + std::hypot(wind(s).north, wind(s).east);
+    return std::max<double>(p.radius, fastest * fastest / (isa::g0 * std::tan(0.7 * limits.roll_max_rad)));
   }
 
   /// The long way round, until the course wanted lies ahead on that side.

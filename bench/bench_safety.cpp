@@ -38,12 +38,12 @@ std::string ends(const Worst& w) {
 }
 
 void print(const Row& row, const Worst& w) {
-  char told[32] = "", inside[32] = "";
+  char told[32] = "", inside[32] = "", down[64] = " | ";
   if (row.cause && row.at_s > 0) std::snprintf(told, sizeof told, "%.1f", w.told_s);
   if (fenced(w)) std::snprintf(inside, sizeof inside, "%.0f", -w.outside_m);
-  std::printf("| %s | %s | %s | %s | %.0f | %.1f | %.0f | %s | %s |\n", row.airframe.c_str(),
-              row.name.c_str(), row.does.c_str(), told, w.seconds, w.sink_mps, w.home_m, inside,
-              ends(w).c_str());
+  if (row.end == End::on_ground) std::snprintf(down, sizeof down, "%.0f | %.1f", w.seconds, w.sink_mps);
+  std::printf("| %s | %s | %s | %s | %s | %.0f | %s | %s |\n", row.airframe.c_str(), row.name.c_str(),
+              row.does.c_str(), told, down, w.home_m, inside, ends(w).c_str());
   std::fflush(stdout);
 }
 

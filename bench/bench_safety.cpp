@@ -38,12 +38,12 @@ std::string ends(const Worst& w) {
 }
 
 void print(const Row& row, const Worst& w) {
-  char told[32] = "", inside[32] = "";
+  char told[32] = "", inside[32] = "", down[64] = " | ";
   if (row.cause && row.at_s > 0) std::snprintf(told, sizeof told, "%.1f", w.told_s);
   if (fenced(w)) std::snprintf(inside, sizeof inside, "%.0f", -w.outside_m);
-  std::printf("| %s | %s | %s | %s | %.0f | %.1f | %.0f | %s | %u of %u |\n", row.airframe.c_str(),
-              row.name.c_str(), row.does.c_str(), told, w.seconds, w.sink_mps, w.home_m, inside,
-              w.ends[static_cast<std::size_t>(End::on_ground)], w.flown);
+  if (row.end == End::on_ground) std::snprintf(down, sizeof down, "%.0f | %.1f", w.seconds, w.sink_mps);
+  std::printf("| %s | %s | %s | %s | %s | %.0f | %s | %s |\n", row.airframe.c_str(), row.name.c_str(),
+              row.does.c_str(), told, down, w.home_m, inside, ends(w).c_str());
   std::fflush(stdout);
 }
 
@@ -91,7 +91,7 @@ int main(int argc, char** argv) {
     if (!json)
       std::printf(
           "| aircraft | fails | does | told after, s | down after, s | sink at the touch, m/s | from home, m "
-          "| left to the fence, m | on the ground, whole |\n|---|---|---|---|---|---|---|---|---|\n");
+          "| left to the fence, m | ends |\n|---|---|---|---|---|---|---|---|---|\n");
     for (const char* airframe : {"anaconda", "aerosonde"})
       for (const Row& row : rows_of(airframe)) {
         if ((!only.empty() && row.airframe != only[0]) || (only.size() > 1 && row.name != only[1])) continue;

@@ -35,17 +35,19 @@ struct Row {
   bool SafetyState::*cause = nullptr;      ///< that has to be told; none: nothing may be
   double told_within_s = 10;
   double at_s = 60;
-  std::vector<std::string> phases{};               ///< that have to be flown, in this order
-  double north_m = 1e9, east_m = 1e9, up_m = 1e9;  ///< sides of the fence that it comes near, and its ceiling
+  End end = End::on_ground;
+  std::vector<std::string> phases{};  ///< that have to be flown, in this order
+  double south_m = 1e9,
+         up_m = 1e9;  ///< the side of the fence that it comes near, south of the origin, and the ceiling
 };
 
 inline std::vector<Row> rows_of(const std::string& a) {
   using S = SafetyState;
   const bool big = a == "aerosonde";
   const std::string near = big ? "fence: {corners: [{north: 1200 m, east: -1300 m}, {north: 1200 m, east: "
-                                 "120 m}, {north: -1000 m, east: 120 m}, {north: -1000 m, east: -1300 m}]}"
-                               : "fence: {corners: [{north: 340 m, east: -700 m}, {north: 340 m, east: 350 "
-                                 "m}, {north: -600 m, east: 350 m}, {north: -600 m, east: -700 m}]}";
+                                 "600 m}, {north: -440 m, east: 600 m}, {north: -440 m, east: -1300 m}]}"
+                               : "fence: {corners: [{north: 600 m, east: -700 m}, {north: 600 m, east: 350 "
+                                 "m}, {north: -340 m, east: 350 m}, {north: -340 m, east: -700 m}]}";
   const std::string low = big ? "fence.ceiling: 90 m" : "fence.ceiling: 65 m";
   const std::string gale = big ? "wind_ned: [11.3, -11.3, 0]" : "wind_ned: [7.8, -7.8, 0]";
   return {
@@ -55,9 +57,10 @@ inline std::vector<Row> rows_of(const std::string& a) {
        .phases = {"approach", "roll_out"}},
       {.airframe = a,
        .name = "moderate turbulence",
-       .does = "flies its circuit, lands",
+       .does = "flies its circuit",
        .sim = "turbulence: moderate",
-       .phases = {"approach", "roll_out"}},
+       .end = End::aloft,
+       .phases = {"cruise"}},
       {.airframe = a,
        .name = "fence",
        .does = "turns back before it, circles at home, lands after 2 min",
@@ -66,8 +69,7 @@ inline std::vector<Row> rows_of(const std::string& a) {
        .told_within_s = 1e9,
        .at_s = 0,
        .phases = {"home", "approach", "roll_out"},
-       .north_m = big ? 1e9 : 340,
-       .east_m = big ? 120 : 1e9},
+       .south_m = big ? 440.0 : 340.0},
       {.airframe = a,
        .name = "ceiling",
        .does = "returns home and circles there, lands after 2 min",
@@ -94,7 +96,7 @@ inline std::vector<Row> rows_of(const std::string& a) {
        .does = "returns home without it, lands",
        .failing = "what: pitot, kind: off",
        .cause = &S::pitot_lost,
-       .phases = {"home", "approach", "roll_out"}},
+       .phases = {"home", "fast_approach", "roll_out"}},
       {.airframe = a,
        .name = "radio",
        .does = "returns home, circles there, lands after 2 min",
@@ -108,12 +110,12 @@ inline std::vector<Row> rows_of(const std::string& a) {
        .cause = &S::radio_lost,
        .phases = {"home", "cruise", "approach", "roll_out"}},
       {.airframe = a,
-       .name = "battery, over 10 min",
+       .name = "battery, within 5 min",
        .does = "returns home and lands; empty on the way, it glides",
-       .failing = "what: battery, kind: empty, size: 600",
+       .failing = "what: battery, kind: empty, size: 300",
        .cause = &S::battery_low,
-       .told_within_s = 110,
-       .phases = {"home", "approach", "roll_out"}},
+       .told_within_s = 60,
+       .phases = {"home", "roll_out"}},
       {.airframe = a,
        .name = "motor",
        .does = "glides to the nearest place or into the wind",
@@ -153,7 +155,10 @@ inline std::string mission_text(const Row& row) {
   const auto list = [](const std::string& s) { return s.empty() ? "" : ", " + s; };
   const std::string failing =
       "  failing: {use: " FULMAR_TEST_PLUGIN_DIR "/failing.so, params: {" + row.failing + "}}\n";
-  const std::string head = "mission: failing\nlive: off\ntimeout: 900 s\nextends: " + configs + "/missions/";
+  const std::string done =
+      row.end == End::aloft ? "manage.progress.circuits >= 1" : "vehicle.status.on_ground and time > 20 s";
+  const std::string head = "mission: failing\nlive: off\ntimeout: 900 s\ndone: {when: \"" + done +
+                           "\", for: 10 s}\nextends: " + configs + "/missions/";
   if (row.airframe != "aerosonde")
     return head + "return_home.yaml\ncomponents:\n" + failing +
            "  sim: {in: {fault: failing.fault}, params: {motor: true" + list(row.sim) + "}}\n" +
@@ -166,7 +171,7 @@ inline std::string mission_text(const Row& row) {
             "east: 600 m}, {north: -1000 m, east: 600 m}, {north: -1000 m, east: -1300 m}]}";
   return head + "safe.yaml\nairframe: " + configs + "/airframes/aerosonde.yaml\n" +
          "origin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\n"
-         "done: {when: \"vehicle.status.on_ground and time > 20 s\", for: 10 s}\ncomponents:\n" +
+         "components:\n" +
          failing + "  sim: {in: {fault: failing.fault}, params: {sensors: rosflight, start_heading: 135 deg" +
          (row.sim.find("wind_ned") == std::string::npos ? ", wind_ned: [3.5355, -3.5355, 0]" : "") +
          (row.sim.find("turbulence") == std::string::npos ? ", turbulence: light" : "") + list(row.sim) +
@@ -202,7 +207,7 @@ struct Flown {
   std::string outcome;
   bool kept(const Row& row) const {
     const bool told = row.cause ? told_s >= 0 && told_s <= row.told_within_s : !told_else;
-    return end == End::on_ground && told && in_order && outside_m <= 0;
+    return end == row.end && told && in_order && outside_m <= 0;
   }
 };
 
@@ -242,8 +247,7 @@ inline Flown fly(const Row& row, unsigned seed, const fs::path& folder) {
       f.told_else = f.told_else || (safety->airborne && safety->answer != SafetyAnswer::none &&
                                     (now < row.at_s || !row.cause));
     }
-    f.outside_m = std::max({f.outside_m, x->position_m.north - row.north_m, x->position_m.east - row.east_m,
-                            x->height_m - row.up_m});
+    f.outside_m = std::max({f.outside_m, -x->position_m.north - row.south_m, x->height_m - row.up_m});
     flew = flew || x->height_m > 5;
     if (flew && v->on_ground && touched_s < 0) touched_s = now, f.touch_sink_mps = -climb_mps;
     climb_mps = x->climb_rate_mps;

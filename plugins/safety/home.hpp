@@ -25,7 +25,8 @@ struct Home {
       "position is not known; or straight on, wings level.";
   struct Inputs {
     In<VehicleState> state;
-    Optional<SafetyState> safety;  // which way round the fence leaves room; without it, the short one
+    Optional<SafetyState>
+        safety;  // which way round the fence leaves room, floor and ceiling; without it, the short way
   };
   struct Outputs {
     GuidanceCommand command;
@@ -40,7 +41,8 @@ struct Home {
     Record<Origin> origin{"of the local frame, for lat and lon"};
     Record<Places> places{"where to come down; the first is home. Without it, the origin"};
     Param return_height{70, "m", 0, 10000, "above home, on the way and on the circle"};
-    Param radius{70, "m", 10, 5000, "of the circle at home"};
+    Param fence_height{10, "m", 0, 1000, "above the floor and below the ceiling of the fence at least"};
+    Param radius{70, "m", 10, 5000, "of the circle at home; as much more as the wind takes"};
     Param k_orbit{2, "ratio", 0.1, 20, "how sharply to turn onto a circle, Beard & McLain (10.13)"};
     Param least_ground_speed{6, "m/s", 0, 100, "on the way home; against more wind it flies faster"};
     Param least_height{40, "m", 0, 10000, "above home, of the circle while the position is not known"};
@@ -68,12 +70,12 @@ struct Home {
 
   Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out) {
     const VehicleState& s = *in.state;
-    if (!begun_) begin(s, p), round_ = in.safety ? in.safety->turn : SafetyTurn::either;
+    if (!begun_) begin(in, p), round_ = in.safety ? in.safety->turn : SafetyTurn::either;
     out.command = {};
     out.progress = {};
     out.progress.distance_m = level_distance(s, target_), out.progress.ground_m = target_.up_m;
     switch (mode_) {
-      case HomeMode::home: home(s, p, out); break;
+      case HomeMode::home: home(in, p, out); break;
       case HomeMode::glide: glide(s, p, out); break;
       case HomeMode::wait: wait(s, p, out); break;
       case HomeMode::descend: descend(s, p, out); break;
@@ -95,12 +97,21 @@ struct Home {
   }
   static Vec3<Ned> wind(const VehicleState& s) { return s.wind_valid ? s.wind_mps : Vec3<Ned>{}; }
 
-  void begin(const VehicleState& s, const Params& p) {
+  void begin(const Inputs& in, const Params& p) {
+    const VehicleState& s = *in.state;
     begun_ = true, final_ = false;
     target_ = spots_[0];
-    height_m_ = std::max(s.height_m, target_.up_m + p.least_height), course_rad_ = s.course_rad;
+    height_m_ = within_fence(std::max(s.height_m, target_.up_m + p.least_height), in, p),
+    course_rad_ = s.course_rad;
     resets_ = s.reset_count;
     if (mode_ == HomeMode::glide) choose(s, p);
+  }
+
+  /// A height that floor and ceiling leave, the ceiling first.
+  static double within_fence(double height_m, const Inputs& in, const Params& p) {
+    if (!in.safety) return height_m;
+    return std::min(std::max(height_m, in.safety->floor_m + p.fence_height),
+                    in.safety->ceiling_m - p.fence_height);
   }
 
   /// The nearest place that the height will do for; else the nearest of all.
@@ -132,19 +143,29 @@ struct Home {
         near * bank_for_curvature(side_ / R, s.ground_speed_mps, angle_difference(s.course_rad, s.yaw_rad));
   }
 
-  void home(const VehicleState& s, const Params& p, Outputs& out) {
+  void home(const Inputs& in, const Params& p, Outputs& out) {
+    const VehicleState& s = *in.state;
     const FlightLimits& limits = p.airframe->limits;
     if (!s.position_valid) return wait(s, p, out);
     GuidanceCommand& c = out.command;
-    orbit(s, target_, p.radius, p, c);
-    c.height_m = target_.up_m + p.return_height;
+    const double R = radius(s, p);
+    orbit(s, target_, R, p, c);
+    turn_round(s, c);
+    c.height_m = within_fence(target_.up_m + p.return_height, in, p);
     const double fast = airspeed_for_ground_speed(c.course_rad, p.least_ground_speed, wind(s));
     const bool behind =
         fly_course(c.course_rad, limits.airspeed_cruise_mps, wind(s)).ground_speed_mps < p.least_ground_speed;
     c.airspeed_mps = behind ? std::clamp(fast, limits.airspeed_cruise_mps, limits.airspeed_max_mps)
                             : limits.airspeed_cruise_mps;
-    out.progress.there = std::abs(out.progress.distance_m - p.radius) < 0.5 * p.radius &&
-                         std::abs(s.height_m - c.height_m) < 10;
+    out.progress.there =
+        std::abs(out.progress.distance_m - R) < 0.5 * R && std::abs(s.height_m - c.height_m) < 10;
+  }
+
+  /// What can be flown with the wind behind, too, at 0.7 of the largest bank.
+  static double radius(const VehicleState& s, const Params& p) {
+    const FlightLimits& limits = p.airframe->limits;
+    const double fastest = limits.airspeed_cruise_mps + std::hypot(wind(s).north, wind(s).east);
+    return std::max<double>(p.radius, fastest * fastest / (isa::g0 * std::tan(0.7 * limits.roll_max_rad)));
   }
 
   /// The long way round, until the course wanted lies ahead on that side.

@@ -98,8 +98,9 @@ struct Monitor {
 
     Param engine_share{0.25, "ratio", -2, 1, "of the thrust that the model expects: less has failed"};
     Param engine_thrust{0.05, "ratio", 0, 2, "of the weight: less thrust than that says nothing"};
+    Param engine_missing{0.1, "ratio", 0, 2, "of the weight: less thrust that is missing is sinking air"};
     Param engine_smoothing{1, "s", 0.05, 20, "time constant of thrust and drag"};
-    Param engine_raise{2, "s", 0, 600, "of too little, until it is said"};
+    Param engine_raise{2, "s", 0, 600, "of a force that brakes, until it is said; of none, twice as long"};
     Param engine_clear{5, "s", 0, 600, "of more than twice as much, until it is taken back"};
 
     Param wind_limit{0.6, "ratio", 0, 5,
@@ -153,7 +154,7 @@ inline void Monitor::configure(const Params& p) {
   if (places_.empty()) places_.push_back({});
   if (p.fence.is_given) {
     polygon_.set(*p.fence, *p.origin);
-    floor_m_ = p.fence->floor_m, ceiling_m_ = p.fence->ceiling_m;
+    floor_m_ = now_.floor_m = p.fence->floor_m, ceiling_m_ = now_.ceiling_m = p.fence->ceiling_m;
     const double room = polygon_.room_m(places_[0].north_m, places_[0].east_m);
     if (room < p.fence_margin)
       throw std::runtime_error("fence.corners: home, " + std::to_string(std::lround(places_[0].north_m)) +
@@ -318,9 +319,14 @@ inline void Monitor::motor(const Inputs& in, const Params& p, double dt) {
   thrust_expected_ += share * (expected - thrust_expected_);
   const bool demanded = std::min(thrust_expected_, expected) > p.engine_thrust * mg;
   now_.thrust_ratio = demanded ? thrust_found_ / thrust_expected_ : 1;
-  alarms_.engine.step(demanded && now_.thrust_ratio < p.engine_share,
+  // Brakes as a stopped propeller does: counts whole. No thrust: by half. Sinking air does that for a while.
+  constexpr double sure_ratio = 0.5;
+  const double weight =
+      alarms_.engine.raised() ? 1 : std::clamp((p.engine_share - now_.thrust_ratio) / sure_ratio, 0.0, 1.0);
+  const bool missing = thrust_expected_ - thrust_found_ > p.engine_missing * mg;
+  alarms_.engine.step(demanded && missing && now_.thrust_ratio < p.engine_share,
                       demanded && now_.thrust_ratio > 2 * std::max<double>(p.engine_share, 0.1),
-                      p.engine_raise, p.engine_clear, dt);
+                      p.engine_raise, p.engine_clear, weight * dt);
 }
 
 inline void Monitor::wind(const VehicleState& s, const Params& p, double dt) {

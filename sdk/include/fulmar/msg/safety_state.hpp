@@ -37,10 +37,11 @@ struct SafetyState {
   SafetyTurn turn = SafetyTurn::either;
   double fence_margin_m = 1e9;   ///< room that the turn back leaves, level; negative: outside. 1e9: no fence
   double height_margin_m = 1e9;  ///< room to floor and ceiling, less what the pull-out takes
-  double thrust_ratio = 1;       ///< force along the flight path over what the model says of this throttle
-  double wind_ratio = 0;         ///< wind speed over cruise airspeed
-  double waiting_s = 0;          ///< since the position was lost
-  double returning_s = 0;        ///< since the answer is `home`
+  double floor_m = -1e9, ceiling_m = 1e9;  ///< of the fence, above the origin
+  double thrust_ratio = 1;  ///< force along the flight path over what the model says of this throttle
+  double wind_ratio = 0;    ///< wind speed over cruise airspeed
+  double waiting_s = 0;     ///< since the position was lost
+  double returning_s = 0;   ///< since the answer is `home`
 };
 
 }  // namespace fulmar

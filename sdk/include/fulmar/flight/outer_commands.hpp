@@ -78,6 +78,8 @@ class OuterCommands {
   AttitudeCommand take_off(const VehicleState& state, const OuterTuning& tuning, const FlightLimits& limits,
                            double dt_s) {
     const AttitudeCommand wanted = run_.step(state, tuning.takeoff, limits, dt_s);
+    // A propeller in somebody's hand does not run down: what flew before may have asked for power.
+    if (tuning.takeoff.launch_mps2 > 0 && !run_.launched()) throttle_.reset_to(0);
     return finish(course_.shape(wanted.roll_rad, tuning.course, dt_s), wanted.pitch_rad, wanted.throttle_frac,
                   tuning, dt_s);
   }

@@ -50,8 +50,9 @@ struct Landing {
                      "of the head wind that approach and flare are faster by, up to the cruise airspeed"};
     Param flare_height{3.5, "m", 0.2, 30, "above the runway, where the flare begins"};
     Param touch_sink{0.4, "m/s", 0.05, 2, "sink rate that the flare ends with"};
-    Param decrab{0.17, "rad", 0, 0.4,
-                 "most sideslip by which the flare turns the nose to the runway; 0: none"};
+    Param decrab{0, "rad", 0, 0.4,
+                 "most sideslip by which the flare turns the nose to the runway; needs the output `sideslip` "
+                 "wired to the inner loops"};
     Param decision_height{12, "m", 1, 100, "above the runway, down to where it may go around"};
     Param cross_limit{8, "m", 0.5, 100, "farther from the centre line below twice that height: go around"};
     Param height_limit{6, "m", 0.5, 100, "farther from the glide slope below twice that height: go around"};
@@ -189,7 +190,7 @@ struct Landing {
         break;
       }
       case LandingStage::approach:
-        if (progress_.height_m < p.decision_height && in.status && in.status->on_ground)
+        if (p.decision_height > progress_.height_m && in.status && in.status->on_ground)
           stage = LandingStage::roll_out, rolled_s_ = 0;  // the height was wrong
         else if (p.go_around || missed(s, p))
           stage = LandingStage::go_around, ++progress_.go_arounds;

@@ -139,12 +139,12 @@ TEST_CASE("a touch-down is what the vehicle says, or two seconds without sinking
   strip.s.ground_speed_mps = 0.3;
   CHECK(strip.at(-60, 0, 0).stage == LandingStage::stopped);
 
-  // A gust that holds it up for two seconds, before the flare has asked for less: still in the air.
+  // A gust that holds it up for three seconds, before the flare has asked to be lower: still in the air.
   Strip held;
   held.approach();
   held.at(40, 0, 3);
   held.s.climb_rate_mps = 0;
-  CHECK(held.at(20, 0, 1.5, 1.5).stage == LandingStage::flare);
+  CHECK(held.at(20, 0, 1.5, 3).stage == LandingStage::flare);
   held.s.climb_rate_mps = -0.5;
   CHECK(held.at(20, 0, 1.5, 0.1).stage == LandingStage::flare);
   held.s.climb_rate_mps = 0;

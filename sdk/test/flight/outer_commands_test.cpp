@@ -184,6 +184,19 @@ TEST_CASE("what flew before the launch leaves no power to a propeller in the han
   CHECK(rolling.take_off(s, tuning, {}, 0.01).throttle_frac > 0.6);
 }
 
+TEST_CASE("on the roll-out the motor is off, wings level, and the nose is held down") {
+  OuterTuning tuning;
+  OuterCommands commands;
+  VehicleState s = at(15, 10, 0);
+  commands.start(OuterLaw::hold, s, {0.2, 0.1, 0.6});
+  REQUIRE(commands.begin(OuterLaw::roll_out, s) == OuterAction::roll_out);
+  AttitudeCommand c;
+  for (int i = 0; i < 200; ++i) c = commands.roll_out(tuning, 0.01);
+  CHECK(c.pitch_rad == doctest::Approx(-0.05));
+  CHECK(c.throttle_frac == 0);
+  CHECK(std::abs(c.roll_rad) < 1e-6);
+}
+
 TEST_CASE("a stumble, a push without speed and a ride without a push start no motor") {
   TakeoffTuning tuning;
   tuning.launch_mps2 = 15, tuning.launch_mps = 4;

@@ -61,7 +61,7 @@ class TakeoffRun {
     // The runway has not turned: the yaw that it was captured by was wrong.
     if (state.reset_count != resets_ && by_nose_) course_ = wrap_pi(course_ + state.reset_yaw_rad);
     resets_ = state.reset_count;
-    rotated_ = rotated_ || (speed >= tuning.rotate_mps && tuning.launch_mps2 <= 0);
+    if (tuning.launch_mps2 <= 0) rotated_ = rotated_ || speed >= tuning.rotate_mps;
     AttitudeCommand command;
     if (tuning.launch_mps2 > 0) {
       if (!launched_ && !(launched_ = thrown(state, tuning, dt_s))) return command;

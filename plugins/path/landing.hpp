@@ -8,11 +8,14 @@
 #include <string>
 
 #include "fulmar/flight/atmosphere.hpp"
+#include "fulmar/flight/geodesy.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/landing_progress.hpp"
+#include "fulmar/msg/origin.hpp"
 #include "fulmar/msg/runway.hpp"
 #include "fulmar/msg/sideslip_command.hpp"
 #include "fulmar/msg/vehicle_status.hpp"
+#include "plan_file.hpp"
 #include "vector_field.hpp"
 
 namespace fulmar::path {
@@ -32,7 +35,9 @@ struct Landing {
   };
   struct Params {
     FieldParams field;
-    Record<Runway> runway{"the strip; heading is the one that is landed in", required};
+    Record<Runway> runway{"the strip; heading is the one that is landed in; in place of the plan's"};
+    Record<PlanFile> plan{"the flight's, of which the runway counts"};
+    Record<Origin> origin{"of the local frame"};
     Record<Airframe> airframe{"limits of the airspeed", required};
     Param glide_slope{0.07, "rad", 0.02, 0.3,
                       "of the approach; what touches down with a late flare is its sink"};
@@ -45,8 +50,9 @@ struct Landing {
                      "of the head wind that approach and flare are faster by, up to the cruise airspeed"};
     Param flare_height{3.5, "m", 0.2, 30, "above the runway, where the flare begins"};
     Param touch_sink{0.4, "m/s", 0.05, 2, "sink rate that the flare ends with"};
-    Param decrab{0.17, "rad", 0, 0.4,
-                 "most sideslip by which the flare turns the nose to the runway; 0: none"};
+    Param decrab{0, "rad", 0, 0.4,
+                 "most sideslip by which the flare turns the nose to the runway; needs the output `sideslip` "
+                 "wired to the inner loops"};
     Param decision_height{12, "m", 1, 100, "above the runway, down to where it may go around"};
     Param cross_limit{8, "m", 0.5, 100, "farther from the centre line below twice that height: go around"};
     Param height_limit{6, "m", 0.5, 100, "farther from the glide slope below twice that height: go around"};
@@ -59,8 +65,25 @@ struct Landing {
     const double flare =
         p.flare_height / std::tan(p.glide_slope) + 2 * V;  // the slope's way, and two seconds
     const double needed = p.aim + flare + 0.5 * V * V / p.deceleration;
-    if (p.runway->length_m < needed)
-      throw std::runtime_error("runway.length: " + std::to_string(std::lround(p.runway->length_m)) +
+    runway_ = p.runway.given() ? *p.runway : p.plan->runway;
+    const std::string of = p.runway.given() ? "runway" : "plan.runway";
+    const auto known = [](double a, double b, double c) {
+      return (a != unknown_std) + (b != unknown_std) + (c != unknown_std);
+    };
+    const int local = known(runway_.north_m, runway_.east_m, runway_.up_m),
+              geodetic = known(runway_.lat_deg, runway_.lon_deg, runway_.alt_msl_m);
+    if (runway_.length_m <= 0 && local + geodetic > 0) throw std::runtime_error(of + ": needs a length");
+    if (runway_.length_m <= 0)
+      throw std::runtime_error(
+          std::string(p.plan.given() ? "plan" : "runway") +
+          ": there is no runway to land on; give one here or in the plan, as {north, east, "
+          "up, heading, length} or {lat, lon, alt_msl, heading, length}");
+    if (local + geodetic != 3 || (local != 0 && geodetic != 0))
+      throw std::runtime_error(of + ": needs either north, east, up or lat, lon, alt_msl");
+    located_ = local == 3;
+    if (p.origin.given()) put(p.origin->lat_deg, p.origin->lon_deg, p.origin->alt_msl_m);
+    if (runway_.length_m < needed)
+      throw std::runtime_error(of + ".length: " + std::to_string(std::lround(runway_.length_m)) +
                                " m is too short; aim, flare and roll take " +
                                std::to_string(std::lround(needed)) + " m in still air");
   }
@@ -73,6 +96,8 @@ struct Landing {
 
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     const VehicleState& s = *in.state;
+    if (!located_ && s.origin_valid) put(s.origin_latitude_deg, s.origin_longitude_deg, s.origin_altitude_m);
+    if (!located_) return wait(s, p, out);
     locate(s, p);
     const double dt = std::clamp(tick.dt_s(), 0.0, 0.1);
     decide(in, p, dt);
@@ -86,10 +111,30 @@ struct Landing {
   }
 
  private:
+  /// A geodetic runway, once the origin is known.
+  void put(double lat_deg, double lon_deg, double alt_m) {
+    if (located_) return;
+    const Eigen::Vector3d p_n =
+        LocalFrame(lat_deg, lon_deg, alt_m).to_ned(runway_.lat_deg, runway_.lon_deg, runway_.alt_msl_m);
+    runway_.north_m = p_n.x(), runway_.east_m = p_n.y(), runway_.up_m = -p_n.z();
+    located_ = true;
+  }
+  /// Nobody knows where the runway is: straight on.
+  Status wait(const VehicleState& s, const Params& p, Outputs& out) {
+    command_ = {};
+    command_.course_rad = s.course_rad;
+    command_.height_m = s.height_m;
+    command_.airspeed_mps = p.airframe->limits.airspeed_cruise_mps;
+    out.command = command_;
+    out.progress = progress_;
+    out.sideslip = {};
+    out.height_error_m = 0.0;
+    return Status::degraded;
+  }
   static double k(const VehicleState& s, const Params& p) {
     return p.field.reference_speed / std::max(s.ground_speed_mps, 0.3 * p.field.reference_speed);
   }
-  double runway_height(const Params& p) const { return p.runway->up_m; }
+  double runway_height(const Params&) const { return runway_.up_m; }
   double fix_height(const Params& p) const {
     return runway_height(p) + std::tan(p.glide_slope) * (p.final_length + p.aim);
   }
@@ -98,8 +143,8 @@ struct Landing {
   }
 
   /// The centre line as a path, from the point where the slope meets it, down by the slope.
-  static Path final_approach(const Params& p) {
-    const Runway& r = *p.runway;
+  Path final_approach(const Params& p) const {
+    const Runway& r = runway_;
     const double c = std::cos(r.heading_rad), s = std::sin(r.heading_rad);
     Path path;
     path.kind = PathKind::line;
@@ -110,7 +155,7 @@ struct Landing {
   }
   /// Touches the centre line where the final approach begins.
   Path circle(const Params& p) const {
-    const Runway& r = *p.runway;
+    const Runway& r = runway_;
     const double c = std::cos(r.heading_rad), s = std::sin(r.heading_rad);
     const double side = p.circle == Turn::right ? 1 : -1, R = p.circle_radius;
     Path path;
@@ -125,7 +170,7 @@ struct Landing {
   void locate(const VehicleState& s, const Params& p) {
     const Path line = final_approach(p);
     const double n = s.position_m.north - line.origin_m.north, e = s.position_m.east - line.origin_m.east;
-    const double cosine = std::cos(p.runway->heading_rad), sine = std::sin(p.runway->heading_rad);
+    const double cosine = std::cos(runway_.heading_rad), sine = std::sin(runway_.heading_rad);
     progress_.along_m = -(n * cosine + e * sine);
     progress_.cross_m = cosine * e - sine * n;
     progress_.height_m = s.height_m - runway_height(p);
@@ -134,7 +179,7 @@ struct Landing {
   void decide(const Inputs& in, const Params& p, double dt) {
     const VehicleState& s = *in.state;
     LandingStage& stage = progress_.stage;
-    const double course_error = angle_difference(p.runway->heading_rad, s.course_rad);
+    const double course_error = angle_difference(runway_.heading_rad, s.course_rad);
     switch (stage) {
       case LandingStage::join: {
         const double past_fix = p.final_length + p.aim - progress_.along_m;
@@ -145,7 +190,7 @@ struct Landing {
         break;
       }
       case LandingStage::approach:
-        if (progress_.height_m < p.decision_height && in.status && in.status->on_ground)
+        if (p.decision_height > progress_.height_m && in.status && in.status->on_ground)
           stage = LandingStage::roll_out, rolled_s_ = 0;  // the height was wrong
         else if (p.go_around || missed(s, p))
           stage = LandingStage::go_around, ++progress_.go_arounds;
@@ -186,10 +231,10 @@ struct Landing {
   }
 
   /// What approach and flare are faster by: a steady wind's share, so that there is some ground speed.
-  static double faster_mps(const VehicleState& s, const Params& p) {
+  double faster_mps(const VehicleState& s, const Params& p) const {
     if (!s.wind_valid) return 0;
-    const double head = -(s.wind_mps.north * std::cos(p.runway->heading_rad) +
-                          s.wind_mps.east * std::sin(p.runway->heading_rad));
+    const double head =
+        -(s.wind_mps.north * std::cos(runway_.heading_rad) + s.wind_mps.east * std::sin(runway_.heading_rad));
     return p.wind_share * std::max(head, 0.0);
   }
   double capped(double airspeed_mps, const Params& p) const {
@@ -205,7 +250,7 @@ struct Landing {
       slip_rad_ = 0;
       return;
     }
-    const double off = angle_difference(s.yaw_rad, p.runway->heading_rad);
+    const double off = angle_difference(s.yaw_rad, runway_.heading_rad);
     slip_rad_ = std::clamp(slip_rad_ + off * dt / within_s, -p.decrab.value, p.decrab.value);
   }
   /// Bank that takes the side force of that sideslip, rudder included: m g sin(phi) = q S CY, B&M (4.18) and
@@ -274,6 +319,8 @@ struct Landing {
         bank_for(kappa, s.ground_speed_mps, angle_difference(s.course_rad, s.yaw_rad), p.field.roll_max);
   }
 
+  Runway runway_;  ///< in the local frame, if `located_`
+  bool located_ = false;
   GuidanceCommand command_;
   LandingProgress progress_;
   double settled_s_ = 0, rolled_s_ = 0, flare_height_m_ = 0;

@@ -2,6 +2,7 @@
 // What a plan file may hold. It becomes a Plan when the planner is configured.
 #pragma once
 #include "fulmar/msg/plan.hpp"
+#include "fulmar/msg/runway.hpp"
 
 namespace fulmar::path {
 
@@ -21,6 +22,7 @@ struct PlanFile {
   double airspeed_mps = 15;
   double turn_radius_m = 50;
   List<PlanFileWaypoint, 1024> waypoints;
+  Runway runway;       ///< of the landing that is given this plan
   bool given = false;  // false: no plan at all
 };
 

@@ -27,6 +27,8 @@ struct Strip {
     r.north_m = 100, r.east_m = -200, r.up_m = 20, r.heading_rad = 90 * deg, r.length_m = length_m;
     FlightLimits& limits = bench.params.airframe.value.limits;
     limits.airspeed_min_mps = 12, limits.airspeed_cruise_mps = 17;
+    bench.params.runway.is_given = true;
+    bench.configure();
     s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = true;
     s.ground_speed_mps = s.airspeed_mps = 14;
     s.course_rad = s.yaw_rad = 90 * deg;
@@ -137,12 +139,12 @@ TEST_CASE("a touch-down is what the vehicle says, or two seconds without sinking
   strip.s.ground_speed_mps = 0.3;
   CHECK(strip.at(-60, 0, 0).stage == LandingStage::stopped);
 
-  // A gust that holds it up for two seconds, before the flare has asked for less: still in the air.
+  // A gust that holds it up for three seconds, before the flare has asked to be lower: still in the air.
   Strip held;
   held.approach();
   held.at(40, 0, 3);
   held.s.climb_rate_mps = 0;
-  CHECK(held.at(20, 0, 1.5, 1.5).stage == LandingStage::flare);
+  CHECK(held.at(20, 0, 1.5, 3).stage == LandingStage::flare);
   held.s.climb_rate_mps = -0.5;
   CHECK(held.at(20, 0, 1.5, 0.1).stage == LandingStage::flare);
   held.s.climb_rate_mps = 0;
@@ -210,6 +212,7 @@ TEST_CASE("in the flare the nose is turned to the runway, with the bank that the
     a.mass_kg = 4.5, a.wing.area_m2 = 0.52;
     a.aero.side.beta_ratio = -0.98, a.aero.side.rudder_ratio = 0.19;
     a.aero.yaw.beta_ratio = 0.13, a.aero.yaw.rudder_ratio = -0.065;
+    strip.bench.configure();
     strip.s.yaw_rad = (90 + side * 8) * deg;  // into a wind from that side
     strip.approach();
     CHECK(strip.bench.out.sideslip.sideslip_rad == 0);
@@ -229,6 +232,7 @@ TEST_CASE("in the flare the nose is turned to the runway, with the bank that the
   }
   Strip none;
   none.bench.params.decrab.value = 0;
+  none.bench.configure();
   none.s.yaw_rad = 98 * deg;
   none.approach();
   none.at(45, 0, 3.4, 1);
@@ -242,6 +246,85 @@ TEST_CASE("a runway that is too short is refused with what it takes") {
   CHECK(std::string(strip.bench.error()) ==
         "runway.length: 200 m is too short; aim, flare and roll take 214 m in still air");
   CHECK(Strip(215).bench.configure() == Status::ok);
+}
+
+TEST_CASE("a geodetic runway is the local one, by the mission's origin or the state's") {
+  Strip local;
+  local.approach();
+  const LandingProgress at = local.at(300, 5, 25);
+  for (const bool given : {true, false}) {
+    CAPTURE(given);
+    Strip strip;
+    Runway& r = strip.bench.params.runway.value;
+    // 100 m north, 200 m west, 20 m up of 40 N, 111 W, 1387 m: a degree is 111 034 m and 85 393 m there
+    // (Bowring's series of the meridian and the parallel on WGS-84), and (1 + h / a) times that at height h.
+    r = {.heading_rad = 90 * deg, .length_m = 400};
+    r.lat_deg = 40 + 100 / (111034.6 * (1 + 1407 / 6.36e6)),
+    r.lon_deg = -111 - 200 / (85393.9 * (1 + 1407 / 6.387e6));
+    r.alt_msl_m = 1407;
+    if (given) {
+      strip.bench.params.origin.value = {40, -111, 1387, true};
+      strip.bench.params.origin.is_given = true;
+    }
+    REQUIRE(strip.bench.configure() == Status::ok);
+    if (!given) {
+      CHECK(strip.at(450, 0, strip.slope(450)).stage == LandingStage::join);  // nobody knows where it is
+      CHECK(strip.bench.step(0.01) == Status::degraded);
+      CHECK(strip.bench.out.command.course_rad == strip.s.course_rad);
+      CHECK(strip.bench.out.command.height_m == strip.s.height_m);
+      strip.s.origin_latitude_deg = 40, strip.s.origin_longitude_deg = -111, strip.s.origin_altitude_m = 1387;
+      strip.s.origin_valid = true;
+    }
+    strip.approach();
+    const LandingProgress& p = strip.at(300, 5, 25);
+    CHECK(std::abs(p.along_m - at.along_m) < 0.05);
+    CHECK(std::abs(p.cross_m - at.cross_m) < 0.05);
+    CHECK(std::abs(p.height_m - at.height_m) < 0.05);
+  }
+}
+
+TEST_CASE(
+    "the plan's runway is landed on, unless the landing has one of its own; without one it is refused") {
+  Strip strip;
+  const Runway own = strip.bench.params.runway.value;
+  strip.bench.params.runway = {.doc = ""};
+  strip.bench.params.plan.is_given = true;
+  strip.bench.params.plan.value.runway = own;
+  strip.bench.params.plan.value.runway.up_m = 30;
+  REQUIRE(strip.bench.configure() == Status::ok);
+  CHECK(strip.at(300, 0, 25).height_m == doctest::Approx(15));
+  strip.bench.params.plan.value.runway.length_m = 200;
+  CHECK(strip.bench.configure() == Status::failed);
+  CHECK(std::string(strip.bench.error()).starts_with("plan.runway.length: 200 m is too short"));
+  strip.bench.params.runway.value = own, strip.bench.params.runway.is_given = true;
+  REQUIRE(strip.bench.configure() == Status::ok);
+  CHECK(strip.at(300, 0, 25).height_m == doctest::Approx(25));
+
+  const char* const words =
+      ": there is no runway to land on; give one here or in the plan, as {north, east, up, heading, length} "
+      "or "
+      "{lat, lon, alt_msl, heading, length}";
+  Strip none;
+  none.bench.params.runway = {.doc = ""};
+  CHECK(none.bench.configure() == Status::failed);
+  CHECK(std::string(none.bench.error()) == std::string("runway") + words);
+  none.bench.params.plan.is_given = true;
+  CHECK(none.bench.configure() == Status::failed);
+  CHECK(std::string(none.bench.error()) == std::string("plan") + words);
+}
+
+TEST_CASE("a runway that is half local or half geodetic is refused") {
+  for (const int what : {0, 1, 2, 3}) {
+    CAPTURE(what);
+    Strip strip;
+    Runway& r = strip.bench.params.runway.value;
+    if (what == 0) r.up_m = unknown_std;
+    if (what == 1) r.lat_deg = 40;
+    if (what == 2) r.lat_deg = 40, r.lon_deg = -111, r.alt_msl_m = 1387;
+    if (what == 3) r.north_m = r.east_m = r.up_m = unknown_std, r.lat_deg = 40;
+    CHECK(strip.bench.configure() == Status::failed);
+    CHECK(std::string(strip.bench.error()) == "runway: needs either north, east, up or lat, lon, alt_msl");
+  }
 }
 
 TEST_CASE("who takes over again begins with the circle") {

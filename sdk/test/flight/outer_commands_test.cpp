@@ -154,8 +154,8 @@ TEST_CASE("the motor waits for a throw, its delay after it, and the course is th
   CHECK(run.launched());
   CHECK(run.course_rad() == -0.4);
   s.specific_force_mps2.x = 2;
-  CHECK(fly(0.27).throttle_frac == 0);
-  CHECK(fly(0.03).throttle_frac == 1);
+  CHECK(fly(0.28).throttle_frac == 0);
+  CHECK(fly(0.04).throttle_frac == 1);
   CHECK(fly(0.01).pitch_rad == doctest::Approx(0.2));  // above 1.2 times the minimum
   s.airspeed_mps = 11;
   CHECK(fly(0.01).pitch_rad == doctest::Approx(0.1));  // half way: 3 t^2 - 2 t^3 of a half
@@ -167,6 +167,34 @@ TEST_CASE("the motor waits for a throw, its delay after it, and the course is th
   CHECK(fly(1.9).throttle_frac == 1);
   CHECK(fly(0.2).throttle_frac == 0);
   CHECK(!run.launched());
+}
+
+TEST_CASE("what flew before the launch leaves no power to a propeller in the hand") {
+  OuterTuning tuning;
+  tuning.takeoff.launch_mps2 = 15;
+  OuterCommands commands;
+  VehicleState s = at(8, 0, 1.5);
+  commands.start(OuterLaw::hold, s, {0, 0.05, 0.6});
+  REQUIRE(commands.begin(OuterLaw::takeoff, s) == OuterAction::take_off);
+  CHECK(commands.take_off(s, tuning, {}, 0.01).throttle_frac == 0);
+  tuning.takeoff.launch_mps2 = 0;  // on a runway it runs on
+  OuterCommands rolling;
+  rolling.start(OuterLaw::hold, s, {0, 0.05, 0.6});
+  rolling.begin(OuterLaw::takeoff, s);
+  CHECK(rolling.take_off(s, tuning, {}, 0.01).throttle_frac > 0.6);
+}
+
+TEST_CASE("on the roll-out the motor is off, wings level, and the nose is held down") {
+  OuterTuning tuning;
+  OuterCommands commands;
+  VehicleState s = at(15, 10, 0);
+  commands.start(OuterLaw::hold, s, {0.2, 0.1, 0.6});
+  REQUIRE(commands.begin(OuterLaw::roll_out, s) == OuterAction::roll_out);
+  AttitudeCommand c;
+  for (int i = 0; i < 200; ++i) c = commands.roll_out(tuning, 0.01);
+  CHECK(c.pitch_rad == doctest::Approx(-0.05));
+  CHECK(c.throttle_frac == 0);
+  CHECK(std::abs(c.roll_rad) < 1e-6);
 }
 
 TEST_CASE("a stumble, a push without speed and a ride without a push start no motor") {

@@ -78,6 +78,8 @@ class OuterCommands {
   AttitudeCommand take_off(const VehicleState& state, const OuterTuning& tuning, const FlightLimits& limits,
                            double dt_s) {
     const AttitudeCommand wanted = run_.step(state, tuning.takeoff, limits, dt_s);
+    // A propeller in somebody's hand does not run down: what flew before may have asked for power.
+    if (tuning.takeoff.launch_mps2 > 0 && !run_.launched()) throttle_.reset_to(0);
     return finish(course_.shape(wanted.roll_rad, tuning.course, dt_s), wanted.pitch_rad, wanted.throttle_frac,
                   tuning, dt_s);
   }
@@ -89,9 +91,11 @@ class OuterCommands {
     return last_;
   }
 
-  /// On the ground after a landing: engine off, wings level, the nose comes down.
+  /// On the ground after a landing: engine off, wings level, the nose comes down. Below level: a fast
+  /// touch-down would fly again, with the engine off.
   AttitudeCommand roll_out(const OuterTuning& tuning, double dt_s) {
-    return finish(course_.shape(0, tuning.course, dt_s), 0, 0, tuning, dt_s);
+    constexpr double nose_rad = -0.05;
+    return finish(course_.shape(0, tuning.course, dt_s), nose_rad, 0, tuning, dt_s);
   }
 
   /// The state is not known in flight: wings level, trim of level flight at cruise speed.

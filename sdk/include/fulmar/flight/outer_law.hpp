@@ -55,7 +55,8 @@ struct OuterParams {
                             "along the nose: the take-off law waits for a throw with the motor off; 0: it "
                             "rolls"};
   Param launch_speed{4.0, "m/s", 0.5, 60, "over ground, that makes a throw of an acceleration"};
-  Param launch_delay{0.3, "s", 0, 5, "from the throw to the motor: the propeller clears hand or rail"};
+  Param launch_delay{0.3, "s", 0, 5,
+                     "from the end of the push to the motor: the propeller clears hand or rail"};
 
   Param airspeed_smoothing{0.5, "s", 0, 10,
                            "time constant of the airspeed whose trim is flown: pitch does not follow gusts"};

@@ -36,7 +36,7 @@ struct TakeoffTuning {
   double roll_max_rad = 0.15;
   double launch_mps2 = 0;    ///< along the nose, of a throw or a catapult; 0: it rolls
   double launch_mps = 4;     ///< over ground, with which it counts as launched
-  double motor_delay_s = 0;  ///< after that
+  double motor_delay_s = 0;  ///< from the end of the push
 };
 
 /// Wings level, full throttle; after the rotation speed the nose comes up and a small bank keeps the course
@@ -61,11 +61,11 @@ class TakeoffRun {
     // The runway has not turned: the yaw that it was captured by was wrong.
     if (state.reset_count != resets_ && by_nose_) course_ = wrap_pi(course_ + state.reset_yaw_rad);
     resets_ = state.reset_count;
-    rotated_ = rotated_ || (speed >= tuning.rotate_mps && tuning.launch_mps2 <= 0);
+    if (tuning.launch_mps2 <= 0) rotated_ = rotated_ || speed >= tuning.rotate_mps;
     AttitudeCommand command;
     if (tuning.launch_mps2 > 0) {
       if (!launched_ && !(launched_ = thrown(state, tuning, dt_s))) return command;
-      since_s_ += dt_s;
+      if (state.specific_force_mps2.x < tuning.launch_mps2) since_s_ += dt_s;  // out of hand, off the rail
       rotated_ = true;
       if (lies(state, dt_s)) {
         begin(state);

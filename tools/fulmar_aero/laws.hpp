@@ -16,15 +16,18 @@ using Complex = std::complex<double>;
 
 /// What the laws measure: deviations from steady flight, rad, rad/s, m, m/s, m/s2.
 namespace sensor {
-enum : int { roll, pitch, p, q, r, course, height, climb, airspeed, acceleration, count };
+enum : int { roll, pitch, p, q, r, course, height, climb, airspeed, acceleration };
+inline constexpr int count = 10;
 }
 /// What the outer law commands of the inner one: rad, rad, a part of full throttle.
 namespace command {
-enum : int { roll, pitch, throttle, count };
+enum : int { roll, pitch, throttle };
+inline constexpr int count = 3;
 }
 /// What guidance asks for: rad, m, m/s.
 namespace goal {
-enum : int { course, height, airspeed, count };
+enum : int { course, height, airspeed };
+inline constexpr int count = 3;
 }
 
 /// A parameter of a law: its default and range are those of the component.

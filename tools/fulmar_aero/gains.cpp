@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "tools/fulmar_aero/flight_model.hpp"
 #include "tools/fulmar_aero/words.hpp"
@@ -11,11 +12,8 @@
 namespace fulmar::aero {
 namespace {
 
-double rounded(double x) {
-  if (x == 0) return 0;
-  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(x))) - 1);
-  return std::round(x / unit) * unit;
-}
+/// As it is printed, so that the file says the same number.
+double rounded(double x) { return std::stod(figures(x, 2)); }
 
 /// Figures of the airframe and the relations of plugins/control_slc/README.md, "Gains from bandwidths".
 struct Relations {

@@ -18,17 +18,17 @@ using Complex = std::complex<double>;
 namespace sensor {
 enum : int { roll, pitch, p, q, r, course, height, climb, airspeed, acceleration };
 inline constexpr int count = 10;
-}
+}  // namespace sensor
 /// What the outer law commands of the inner one: rad, rad, a part of full throttle.
 namespace command {
 enum : int { roll, pitch, throttle };
 inline constexpr int count = 3;
-}
+}  // namespace command
 /// What guidance asks for: rad, m, m/s.
 namespace goal {
 enum : int { course, height, airspeed };
 inline constexpr int count = 3;
-}
+}  // namespace goal
 
 /// A parameter of a law: its default and range are those of the component.
 struct Number {

@@ -36,7 +36,7 @@ double quantity(const char* option, const std::string& text, const std::string& 
     const double value = core::quantity_in(text, unit, core::UnitRule::optional);
     if (value >= least && value <= most) return value;
     throw CLI::ValidationError(
-        option, "'" + text + "' is outside " + figures(least) + " .. " + figures(most) + " " + unit);
+        option, "'" + text + "' is outside " + figures(least) + " .. " + figures(most, 4) + " " + unit);
   } catch (const core::Error& fault) {
     throw CLI::ValidationError(option, fault.what());
   }

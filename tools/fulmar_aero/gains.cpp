@@ -4,17 +4,16 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "tools/fulmar_aero/flight_model.hpp"
+#include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero {
 namespace {
 
-double rounded(double x) {
-  if (x == 0) return 0;
-  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(x))) - 1);
-  return std::round(x / unit) * unit;
-}
+/// As it is printed, so that the file says the same number.
+double rounded(double x) { return std::stod(figures(x, 2)); }
 
 /// Figures of the airframe and the relations of plugins/control_slc/README.md, "Gains from bandwidths".
 struct Relations {
@@ -50,7 +49,8 @@ struct Relations {
   Eigen::Vector2d elevator() const {
     return {plant.linear.B(model::w, model::elevator), plant.linear.B(model::q, model::elevator)};
   }
-  void pitch(double w, InnerLaw& p) const {
+  /// `share` of the rate feedback that damps the short period fully.
+  void pitch(double w, double share, InnerLaw& p) const {
     constexpr double damping = 1.0, most = 2.0;
     double kd = 0;
     const auto damped = [&](double k) {
@@ -58,6 +58,7 @@ struct Relations {
       return -M.trace() >= 2 * damping * std::sqrt(std::max(M.determinant(), 0.0));
     };
     while (kd < most && !damped(kd)) kd += 0.005;
+    kd *= share;
     p.pitch_kd.value = kd / scale;
     const double turn = short_period(kd).fullPivLu().solve(elevator())(1);  // -q per elevator, settled
     p.pitch_kp.value = w / turn / scale;
@@ -102,15 +103,18 @@ bool too_fast(const LoopReport& report, const std::string& name) {
   return f && !wanted_margins.kept(*f);
 }
 
-/// Two digits: nobody needs more, and people read them.
-void round_gains(Laws& l) {
-  for (Number* one : {&l.inner.roll_kp, &l.inner.roll_ki, &l.inner.roll_kd, &l.inner.roll_kff, &l.inner.pitch_kp,
-                     &l.inner.pitch_ki, &l.inner.pitch_kd, &l.inner.yaw_kd, &l.inner.yaw_washout,
-                     &l.slc.course_kp, &l.slc.altitude_kp, &l.slc.altitude_ki, &l.slc.altitude_kd,
-                     &l.slc.airspeed_kp, &l.slc.airspeed_ki, &l.slc.airspeed_kff, &l.slc.climb_kff, &l.slc.thrust,
-                     &l.tecs.course_kp, &l.tecs.altitude_gain, &l.tecs.airspeed_gain, &l.tecs.airspeed_kff,
-                     &l.tecs.thrust})
-    one->value = std::clamp(rounded(one->value), one->min, one->max);
+/// Two digits: nobody needs more, and people read them. What its range does not allow is told.
+template <class Law>
+void round_law(Law& law, const Law& was, std::vector<std::string>& beyond) {
+  for (const Named<Law>& one : parameters_of(law)) {
+    if (!one.number) continue;
+    Number& n = law.*one.number;
+    const double wanted = n.value == (was.*one.number).value ? n.value : rounded(n.value);
+    n.value = std::clamp(wanted, n.min, n.max);
+    if (wanted > n.max || wanted < n.min)
+      beyond.push_back(std::string(one.name) + " would be " + figures(wanted) + " " + n.unit +
+                       ", and its range is " + figures(n.min) + " .. " + figures(n.max));
+  }
 }
 
 constexpr double slower = 0.94;
@@ -120,7 +124,7 @@ constexpr int most_tries = 60;
 class Design {
  public:
   Design(const Plant& plant, const Laws& start, const Bandwidths& given)
-      : plant_(plant), relations_(plant), given_(given) {
+      : plant_(plant), start_(start), relations_(plant), given_(given) {
     out_.laws = start;
     Bandwidths& w = out_.chosen;
     const double roll_lag = plant.lag_s(model::aileron), pitch_lag = plant.lag_s(model::elevator);
@@ -128,23 +132,37 @@ class Design {
     w.pitch = given.pitch > 0 ? given.pitch : std::min(0.5 * w.roll, 0.09 / pitch_lag);
     w.course = given.course > 0 ? given.course : 0.12 * w.roll;
     w.height = given.height > 0 ? given.height : 0.35 * w.pitch;
-    w.airspeed = given.airspeed > 0 ? given.airspeed : std::min(0.2 / plant.lag_s(model::throttle), 2.0 * w.height);
+    w.airspeed =
+        given.airspeed > 0 ? given.airspeed : std::min(0.2 / plant.lag_s(model::throttle), 2.0 * w.height);
+    start_takeoff();
+    first_ = w;
     out_.yaw_damper = rudder_acts(plant.airframe) && plant.airframe.rudder.limit_rad > 0;
   }
 
   Tuning run() {
     if (!out_.yaw_damper) out_.laws.inner.yaw_kd.value = 0;
-    relations_.pitch(out_.chosen.pitch, out_.laws.inner);
+    relations_.pitch(out_.chosen.pitch, damping_share_, out_.laws.inner);
     relations_.roll(out_.chosen.roll, out_.laws.inner);
     if (out_.yaw_damper) damp_yaw();
     inner();
+    if (given_.course <= 0) out_.chosen.course = std::min(out_.chosen.course, 0.12 * out_.chosen.roll);
     outer();
     total_energy();
-    round_gains(out_.laws);
+    round_law(out_.laws.inner, start_.inner, out_.beyond);
+    round_law(out_.laws.slc, start_.slc, out_.beyond);
+    round_law(out_.laws.tecs, start_.tecs, out_.beyond);
     return std::move(out_);
   }
 
  private:
+  /// The laws rotate a little above the least airspeed; a file that says so already keeps it.
+  void start_takeoff() {
+    const FlightLimits& limits = plant_.airframe.limits;
+    const double V = std::min(1.1 * limits.airspeed_min_mps, limits.airspeed_cruise_mps);
+    for (Number* one : {&out_.laws.slc.takeoff_airspeed, &out_.laws.tecs.takeoff_airspeed})
+      if (one->value < limits.airspeed_min_mps || one->value > limits.airspeed_cruise_mps) one->value = V;
+  }
+
   void damp_yaw() {
     InnerLaw& p = out_.laws.inner;
     for (const Mode& mode : modes_in(plant_.linear))
@@ -159,21 +177,66 @@ class Design {
     p.yaw_kd.value = gain / relations_.scale;
   }
 
-  bool fall(double& w, double given) {
-    if (given > 0) return false;
+  /// Not without end: what is no better for it is not this loop's fault.
+  static bool fall(double& w, double given, double first) {
+    if (given > 0 || w < 0.3 * first) return false;
     w *= slower;
     return true;
   }
 
+  /// Of wanted margins: 1 or more when all loops of the report have them, below 0 when it is not stable.
+  static double merit(const LoopReport& report, std::initializer_list<const char*> names) {
+    if (report.unstable > 0) return -1;
+    double least = 1e9;
+    for (const char* name : names)
+      if (const LoopFigures* f = find_loop(report, name))
+        least = std::min({least, f->least_gain_db() / wanted_margins.gain_db,
+                          f->least_phase_rad() / wanted_margins.phase_rad});
+    return least;
+  }
+
+  /// Pitch and yaw damper come down from what was chosen. Roll may have to go up: a Dutch roll that grows by
+  /// itself is held by the ailerons, and they need gain for it.
   void inner() {
     Bandwidths& w = out_.chosen;
+    const double start = w.roll;
+    double best = -2, best_roll = w.roll, best_damping = 0;
+    // Rate feedback beyond the relation's: where the relation asks for none, the Dutch roll may.
+    const auto at = [&](double roll) {
+      for (const double more : {0.0, 0.02, 0.04, 0.07, 0.1, 0.15}) {
+        set_roll(roll, more);
+        const double found = merit(evaluate(plant_, out_.laws, OuterScheme::none), {"roll", "yaw damper"});
+        if (found > best) best = found, best_roll = roll, best_damping = more;
+        if (found >= 1) return true;
+      }
+      return false;
+    };
+    settle_pitch_and_yaw();
+    bool done = at(start) || given_.roll > 0;
+    for (double roll = start * slower; !done && roll > 0.4 * start; roll *= slower) done = at(roll);
+    for (double roll = start / slower; !done && roll < 3 * start; roll /= slower) done = at(roll);
+    w.roll = best_roll;
+    set_roll(best_roll, best_damping);
+    roll_has_margins_ = best >= 1;
+    settle_pitch_and_yaw();
+  }
+
+  void set_roll(double w, double more_damping) {
+    relations_.roll(w, out_.laws.inner);
+    out_.laws.inner.roll_kd.value += more_damping / relations_.scale;
+  }
+
+  void settle_pitch_and_yaw() {
+    Bandwidths& w = out_.chosen;
     for (int i = 0; i < most_tries; ++i) {
-      relations_.roll(w.roll, out_.laws.inner);
-      relations_.pitch(w.pitch, out_.laws.inner);
+      relations_.pitch(w.pitch, damping_share_, out_.laws.inner);
       const LoopReport now = evaluate(plant_, out_.laws, OuterScheme::none);
       bool again = false;
-      if (too_fast(now, "roll")) again |= fall(w.roll, given_.roll);
-      if (too_fast(now, "pitch")) again |= fall(w.pitch, given_.pitch);
+      if (too_fast(now, "pitch")) {
+        again |= fall(w.pitch, given_.pitch, first_.pitch);
+        // Late as it comes, the rate feedback alone may be too much.
+        if (w.pitch < 0.7 * first_.pitch || !again) again |= fall(damping_share_, 0, 0.3);
+      }
       if (too_fast(now, "yaw damper")) out_.laws.inner.yaw_kd.value *= slower, again = true;
       if (!again) return;
     }
@@ -189,9 +252,11 @@ class Design {
       relations_.airspeed(w.airspeed, l.slc);
       const LoopReport now = evaluate(plant_, l, OuterScheme::slc);
       bool again = false;
-      if (too_fast(now, "course") || too_fast(now, "roll")) again |= fall(w.course, given_.course);
-      if (too_fast(now, "height") || too_fast(now, "pitch")) again |= fall(w.height, given_.height);
-      if (too_fast(now, "airspeed")) again |= fall(w.airspeed, given_.airspeed);
+      if (too_fast(now, "course") || (roll_has_margins_ && too_fast(now, "roll")))
+        again |= fall(w.course, given_.course, first_.course);
+      if (too_fast(now, "height") || too_fast(now, "pitch"))
+        again |= fall(w.height, given_.height, first_.height);
+      if (too_fast(now, "airspeed")) again |= fall(w.airspeed, given_.airspeed, first_.airspeed);
       if (!again) break;
     }
     l.tecs.course_kp.value = l.slc.course_kp.value;
@@ -204,8 +269,9 @@ class Design {
       relations_.tecs(height, airspeed, l.tecs);
       const LoopReport now = evaluate(plant_, l, OuterScheme::tecs);
       bool again = false;
-      if (too_fast(now, "TECS height") || too_fast(now, "pitch")) height *= slower, again = true;
-      if (too_fast(now, "TECS airspeed")) airspeed *= slower, again = true;
+      if (too_fast(now, "TECS height") || too_fast(now, "pitch"))
+        again |= fall(height, 0, out_.chosen.height);
+      if (too_fast(now, "TECS airspeed")) again |= fall(airspeed, 0, out_.chosen.airspeed);
       if (!again) return;
     }
   }
@@ -223,9 +289,12 @@ class Design {
   }
 
   const Plant& plant_;
+  const Laws& start_;
   Relations relations_;
-  Bandwidths given_;
+  Bandwidths given_, first_;
   Tuning out_;
+  double damping_share_ = 1;       ///< of pitch
+  bool roll_has_margins_ = false;  ///< with the course loop open
 };
 
 }  // namespace

@@ -17,7 +17,9 @@ struct Bandwidths {
 /// for 6 dB and 45 deg.
 struct MarginRule {
   double gain_db, phase_rad;
-  bool kept(const LoopFigures& f) const { return f.least_gain_db() >= gain_db && f.least_phase_rad() >= phase_rad; }
+  bool kept(const LoopFigures& f) const {
+    return f.least_gain_db() >= gain_db && f.least_phase_rad() >= phase_rad;
+  }
 };
 inline constexpr double margin_degree = std::numbers::pi / 180;
 inline constexpr MarginRule least_margins{6, 45 * margin_degree}, wanted_margins{8, 55 * margin_degree};
@@ -26,6 +28,7 @@ struct Tuning {
   Laws laws;
   Bandwidths chosen;  ///< what the gains were computed from
   bool yaw_damper = false;
+  std::vector<std::string> beyond;  ///< gains that their ranges do not allow, a sentence each
 };
 
 /// The most bandwidth of a loop that acts through a lag, rad/s: beyond it the lag alone takes the phase that

@@ -21,16 +21,18 @@ void fill_law(Law& law, const core::Node& section, const std::string& path, core
   const std::vector<Named<Law>>& all = parameters_of(law);
   for (const core::Node::Entry& entry : section.entries) {
     if (entry.key.find('.') != std::string::npos) continue;  // a field of a record
-    const auto at = std::find_if(all.begin(), all.end(), [&](const auto& one) { return entry.key == one.name; });
+    const auto at =
+        std::find_if(all.begin(), all.end(), [&](const auto& one) { return entry.key == one.name; });
     if (at == all.end()) {
       std::vector<std::string> names;
       for (const Named<Law>& one : all) names.emplace_back(one.name);
-      report.add(entry.where(),
-                 path + ": there is no parameter '" + entry.key + "'." + core::choices_text(entry.key, names));
+      report.add(entry.where(), path + ": there is no parameter '" + entry.key + "'." +
+                                    core::choices_text(entry.key, names));
     } else if (at->number) {
       Number& number = law.*at->number;
-      const auto read = core::scalar_number(entry.value, path + "." + entry.key,
-                                            {number.unit, core::UnitRule::optional, number.min, number.max}, report);
+      const auto read =
+          core::scalar_number(entry.value, path + "." + entry.key,
+                              {number.unit, core::UnitRule::optional, number.min, number.max}, report);
       if (read) number.value = *read;
     }
   }
@@ -47,7 +49,8 @@ std::vector<std::string> lines_of(const std::string& text) {
 int last_line(const core::Node& node) {
   int last = node.line;
   for (const core::Node& item : node.items) last = std::max(last, last_line(item));
-  for (const core::Node::Entry& entry : node.entries) last = std::max({last, entry.line, last_line(entry.value)});
+  for (const core::Node::Entry& entry : node.entries)
+    last = std::max({last, entry.line, last_line(entry.value)});
   return last;
 }
 
@@ -84,7 +87,8 @@ class Edit {
   void replace(const core::Node::Entry& entry, const std::string& value) {
     std::string& line = lines_.at(std::size_t(entry.line - 1));
     const std::size_t key = line.find(entry.key + ":");
-    const std::size_t old = key == std::string::npos ? key : line.find_first_not_of(' ', key + entry.key.size() + 1);
+    const std::size_t old =
+        key == std::string::npos ? key : line.find_first_not_of(' ', key + entry.key.size() + 1);
     if (old == std::string::npos || line.compare(old, entry.value.text.size(), entry.value.text) != 0)
       refuse(entry.line, entry.key);
     line.replace(old, entry.value.text.size(), value);
@@ -108,7 +112,8 @@ class Edit {
 };
 
 /// Of one component, indented.
-std::string section_text(const std::vector<Gain>& gains, const std::string& component, const std::string& indent) {
+std::string section_text(const std::vector<Gain>& gains, const std::string& component,
+                         const std::string& indent) {
   std::string text = indent + component + ":\n";
   for (const Gain& gain : gains)
     if (gain.component == component) text += indent + "  " + gain.name + ": " + gain_text(gain.value) + "\n";
@@ -123,14 +128,19 @@ FileLaws laws_in(const AirframeFile& file) {
   if (!section) return out;
   core::Report report;
   const std::vector<std::string> known{inner_name, slc_name, tecs_name};
-  if (core::is_a(core::Node::Kind::map, *section, "params", "a map {plugin/Component: {parameter: value}}", report)) {
+  if (core::is_a(core::Node::Kind::map, *section, "params", "a map {plugin/Component: {parameter: value}}",
+                 report)) {
     for (const core::Node::Entry& entry : section->entries) {
       const std::string path = "params." + entry.key;
-      if (entry.key == inner_name) fill_law(out.laws.inner, entry.value, path, report);
-      else if (entry.key == slc_name) fill_law(out.laws.slc, entry.value, path, report);
-      else if (entry.key == tecs_name) fill_law(out.laws.tecs, entry.value, path, report);
+      if (entry.key == inner_name)
+        fill_law(out.laws.inner, entry.value, path, report);
+      else if (entry.key == slc_name)
+        fill_law(out.laws.slc, entry.value, path, report);
+      else if (entry.key == tecs_name)
+        fill_law(out.laws.tecs, entry.value, path, report);
       else if (entry.key.rfind("control_slc", 0) == 0 || entry.key.rfind("control_tecs", 0) == 0)
-        report.add(entry.where(), "params: there is no component '" + entry.key + "'." + core::choices_text(entry.key, known));
+        report.add(entry.where(), "params: there is no component '" + entry.key + "'." +
+                                      core::choices_text(entry.key, known));
       out.given |= std::find(known.begin(), known.end(), entry.key) != known.end();
     }
   }
@@ -176,7 +186,8 @@ std::string gain_text(double value) { return figures(value, 6); }
 
 std::string params_text(const std::vector<Gain>& gains) {
   std::string text = "params:\n";
-  for (const char* component : {inner_name, slc_name, tecs_name}) text += section_text(gains, component, "  ");
+  for (const char* component : {inner_name, slc_name, tecs_name})
+    text += section_text(gains, component, "  ");
   return text;
 }
 
@@ -184,7 +195,9 @@ std::string with_gains(const AirframeFile& file, const std::string& text, const 
   Edit edit(file, text);
   const core::Node* const params = file.root.find("params");
   if (!params || params->entries.empty()) {
-    if (params) throw core::Error(file.where("params").text() + ": params: it is empty; take the key away, and it is written");
+    if (params)
+      throw core::Error(file.where("params").text() +
+                        ": params: it is empty; take the key away, and it is written");
     edit.append(int(edit.lines()), params_text(gains));
     return edit.text();
   }
@@ -192,7 +205,8 @@ std::string with_gains(const AirframeFile& file, const std::string& text, const 
     const auto at = std::find_if(params->entries.begin(), params->entries.end(),
                                  [&](const core::Node::Entry& entry) { return entry.key == component; });
     if (at == params->entries.end())
-      edit.append(last_line(*params), section_text(gains, component, indent_of(edit.line(params->entries.front().line))));
+      edit.append(last_line(*params),
+                  section_text(gains, component, indent_of(edit.line(params->entries.front().line))));
     else
       for (const Gain& gain : gains)
         if (gain.component == component) edit.set(*at, gain);

@@ -43,8 +43,8 @@ TrimSlope trim_slope(const Airframe& a, const LawPoint& at) {
 void add_common(const OuterLawNumbers& p, const LawPoint& at, const Sampled& f, OuterResponse& out) {
   const double speed_ratio =
       std::clamp(at.Va_mps / std::max(at.airframe->limits.airspeed_cruise_mps, 1.0), 0.5, 2.0);
-  const Complex course_gain = f.low_pass(p.roll_smoothing) * speed_ratio *
-                              (p.course_kp.value + p.course_ki.value * f.integral());
+  const Complex course_gain =
+      f.low_pass(p.roll_smoothing) * speed_ratio * (p.course_kp.value + p.course_ki.value * f.integral());
   out.of_goals(command::roll, goal::course) = course_gain;
   out.of_sensors(command::roll, sensor::course) = -course_gain;
   out.of_sensors(command::pitch, sensor::airspeed) +=
@@ -101,19 +101,20 @@ const std::vector<Named<SlcLaw>>& parameters_of(const SlcLaw&) {
 }
 const std::vector<Named<TecsLaw>>& parameters_of(const TecsLaw&) {
   using L = TecsLaw;
-  static const std::vector<Named<L>> all = outer_parameters<L>({{"altitude_gain", &L::altitude_gain},
-                                                                {"airspeed_gain", &L::airspeed_gain},
-                                                                {"climb_acceleration_limit", nullptr},
-                                                                {"acceleration_filter", &L::acceleration_filter},
-                                                                {"airspeed_filter", &L::airspeed_filter},
-                                                                {"speed_weight", &L::speed_weight},
-                                                                {"throttle_damping", &L::throttle_damping},
-                                                                {"throttle_integral", &L::throttle_integral},
-                                                                {"pitch_damping", &L::pitch_damping},
-                                                                {"pitch_integral", &L::pitch_integral},
-                                                                {"airspeed_kff", &L::airspeed_kff},
-                                                                {"thrust", &L::thrust},
-                                                                {"underspeed_band", nullptr}});
+  static const std::vector<Named<L>> all =
+      outer_parameters<L>({{"altitude_gain", &L::altitude_gain},
+                           {"airspeed_gain", &L::airspeed_gain},
+                           {"climb_acceleration_limit", nullptr},
+                           {"acceleration_filter", &L::acceleration_filter},
+                           {"airspeed_filter", &L::airspeed_filter},
+                           {"speed_weight", &L::speed_weight},
+                           {"throttle_damping", &L::throttle_damping},
+                           {"throttle_integral", &L::throttle_integral},
+                           {"pitch_damping", &L::pitch_damping},
+                           {"pitch_integral", &L::pitch_integral},
+                           {"airspeed_kff", &L::airspeed_kff},
+                           {"thrust", &L::thrust},
+                           {"underspeed_band", nullptr}});
   return all;
 }
 
@@ -137,7 +138,8 @@ InnerResponse response(const InnerLaw& p, const LawPoint& at, Complex z) {
   if (at.airframe->rudder.limit_rad > 0) {
     const Complex damper = scale * p.yaw_kd * f.wash_out(p.yaw_washout);
     out.of_sensors(model::rudder, sensor::r) = damper;
-    out.of_sensors(model::rudder, sensor::roll) = -damper * isa::g0 / at.Va_mps * std::cos(at.pitch_rad);  // r of the turn
+    out.of_sensors(model::rudder, sensor::roll) =
+        -damper * isa::g0 / at.Va_mps * std::cos(at.pitch_rad);  // r of the turn
   }
   out.of_commands(model::throttle, command::throttle) = 1;
   return out;
@@ -167,9 +169,11 @@ OuterResponse response(const TecsLaw& p, const LawPoint& at, Complex z) {
   const double Va = at.Va_mps, g = isa::g0;
   OuterResponse out;
   add_common(p, at, f, out);
-  const double w_h = std::clamp(2 - p.speed_weight, 0.0, 1.0), w_V = std::clamp(p.speed_weight.value, 0.0, 1.0);
+  const double w_h = std::clamp(2 - p.speed_weight, 0.0, 1.0),
+               w_V = std::clamp(p.speed_weight.value, 0.0, 1.0);
   const double pole = p.airspeed_filter > 0 ? std::exp(-at.step_s / p.airspeed_filter) : 0;
-  const Complex own = 1.0 / (1.0 - pole * f.back);  // SteadyAirspeed: (1 - pole) of the airspeed, pole T of Vdot
+  const Complex own =
+      1.0 / (1.0 - pole * f.back);  // SteadyAirspeed: (1 - pole) of the airspeed, pole T of Vdot
   const Complex measured = f.low_pass(p.acceleration_filter);
   const Complex pitch_pi = p.pitch_damping.value + p.pitch_integral.value * f.integral(),
                 throttle_pi = p.throttle_damping.value + p.throttle_integral.value * f.integral();

@@ -47,7 +47,8 @@ std::vector<LoopPlace> places(const Airframe& a, OuterScheme scheme) {
   if (scheme == OuterScheme::none) return all;
   const bool tecs = scheme == OuterScheme::tecs;
   if (!tecs)
-    all.push_back({"course", "roll command", "course", command_at(command::roll), sensor_at(sensor::course), goal::course});
+    all.push_back({"course", "roll command", "course", command_at(command::roll), sensor_at(sensor::course),
+                   goal::course});
   all.push_back({tecs ? "TECS height" : "height", "pitch command", "height", command_at(command::pitch),
                  sensor_at(sensor::height), goal::height});
   all.push_back({tecs ? "TECS airspeed" : "airspeed", "throttle", "airspeed", input_at(model::throttle),
@@ -73,17 +74,19 @@ std::vector<double> frequencies(const Plant& plant) {
 
 LoopMatrix difference_inverse(const LoopMatrix& G) { return (LoopMatrix::Identity() - G).inverse(); }
 
-/// Of the magnitudes of an answer: bandwidth and damping.
-void answer(const std::vector<double>& w, const std::vector<double>& T, LoopFigures& out) {
-  const double dc = T.front();
-  double peak = dc;
-  for (std::size_t i = 0; i < T.size(); ++i) {
-    if (out.bandwidth_radps == 0 && T[i] < dc / std::numbers::sqrt2) out.bandwidth_radps = w[i];
-    if (out.bandwidth_radps == 0) peak = std::max(peak, T[i]);
-  }
-  // |T|max = 1 / (2 z sqrt(1 - z^2)): Åström & Murray, Feedback Systems, (6.24)
-  const double M = peak / dc;
-  out.damping_ratio = M > 1.0001 ? std::sqrt(0.5 * (1 - std::sqrt(1 - 1 / (M * M)))) : std::numbers::sqrt2 / 2;
+/// -3 dB of an answer, from what it is at low frequency.
+double bandwidth_of(const std::vector<double>& w, const std::vector<double>& T) {
+  for (std::size_t i = 0; i < T.size(); ++i)
+    if (T[i] < T.front() / std::numbers::sqrt2) return w[i];
+  return w.back();
+}
+
+/// Of the second-order system whose answer L/(1 + L) has the same peak, |T|max = 1/(2 z sqrt(1 - z^2)):
+/// Åström & Murray, Feedback Systems (2008), table 6.1.
+double damping_of(const Samples& loop) {
+  double M = 1;
+  for (const LoopSample& one : loop) M = std::max(M, std::abs(one.gain / (1.0 + one.gain)));
+  return std::sqrt(0.5 * (1 - std::sqrt(1 - 1 / (M * M))));
 }
 
 /// Right of the line. Place, heading and height add poles at 0.
@@ -111,8 +114,8 @@ Eigen::Matrix<Complex, sensor::count, model::inputs> Plant::response(Complex s) 
   y.row(sensor::course) = s * x.row(model::east) / Va;  // heading is north, the air still
   y.row(sensor::height) = -x.row(model::down);
   y.row(sensor::climb) = -s * x.row(model::down);
-  y.row(sensor::airspeed) = flight.x.segment<3>(model::u).cast<Complex>().transpose() *
-                            x.middleRows<3>(model::u) / Va;
+  y.row(sensor::airspeed) =
+      flight.x.segment<3>(model::u).cast<Complex>().transpose() * x.middleRows<3>(model::u) / Va;
   y.row(sensor::acceleration) = s * y.row(sensor::airspeed);
   return y;
 }
@@ -150,7 +153,8 @@ LoopMatrix loops(const Plant& plant, const Laws& laws, OuterScheme scheme, Compl
   G.block<model::inputs, command::count>(signals::inputs, signals::commands) = inner.of_commands;
   if (scheme == OuterScheme::none) return G;
   G.block<command::count, sensor::count>(signals::commands, signals::sensors) =
-      scheme == OuterScheme::tecs ? response(laws.tecs, at, z).of_sensors : response(laws.slc, at, z).of_sensors;
+      scheme == OuterScheme::tecs ? response(laws.tecs, at, z).of_sensors
+                                  : response(laws.slc, at, z).of_sensors;
   return G;
 }
 
@@ -183,24 +187,28 @@ LoopReport evaluate(const Plant& plant, const Laws& laws, OuterScheme scheme) {
       at_actuator[i].push_back({omega, 1.0 / closed(at.at_actuator, at.at_actuator) - 1.0});
       at_sensor[i].push_back({omega, 1.0 / closed(at.at_sensor, at.at_sensor) - 1.0});
       const Complex T_i =
-          at.goal >= 0 ? (closed.row(at.at_sensor).segment<command::count>(signals::commands) * goals.col(at.goal))(0)
-                       : inner(at.at_sensor, command_at(at.at_sensor == sensor_at(sensor::pitch) ? command::pitch
-                                                                                               : command::roll));
+          at.goal >= 0
+              ? (closed.row(at.at_sensor).segment<command::count>(signals::commands) * goals.col(at.goal))(0)
+              : inner(at.at_sensor,
+                      command_at(at.at_sensor == sensor_at(sensor::pitch) ? command::pitch : command::roll));
       T[i].push_back(std::abs(T_i));
     }
   }
   LoopReport report;
-  constexpr double line = 2e-3;
+  // Without an outer law a slow mode of height or speed may grow: it is no business of the inner one.
+  const double line = scheme == OuterScheme::none ? 0.1 : 2e-3;
   report.unstable = unstable_poles(
       [&](Complex s) { return (LoopMatrix::Identity() - loops(plant, laws, scheme, s)).determinant(); },
       open_loop_poles(plant, line), line, 20 * std::numbers::pi / plant.step_s);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    LoopFigures f{all[i].name, all[i].actuator, all[i].sensor, margins_of(at_actuator[i]), margins_of(at_sensor[i])};
+    LoopFigures f{all[i].name, all[i].actuator, all[i].sensor, margins_of(at_actuator[i]),
+                  margins_of(at_sensor[i])};
     if (all[i].at_sensor == sensor_at(sensor::r)) {
       f.bandwidth_radps = f.at_actuator.crossover_radps;
       f.damping_ratio = dutch_roll_damping(plant, laws.inner);
     } else {
-      answer(w, T[i], f);
+      f.bandwidth_radps = bandwidth_of(w, T[i]);
+      f.damping_ratio = damping_of(at_sensor[i]);
     }
     report.loops.push_back(std::move(f));
   }

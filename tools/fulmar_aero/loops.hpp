@@ -36,7 +36,12 @@ enum class OuterScheme : std::uint8_t { none, slc, tecs };
 
 /// All signals of the closed aircraft, one behind the other: sensors, commands, deflections.
 namespace signals {
-enum : int { sensors = 0, commands = sensor::count, inputs = commands + command::count, count = inputs + model::inputs };
+enum : int {
+  sensors = 0,
+  commands = sensor::count,
+  inputs = commands + command::count,
+  count = inputs + model::inputs
+};
 }
 using LoopMatrix = Eigen::Matrix<Complex, signals::count, signals::count>;
 
@@ -44,11 +49,12 @@ using LoopMatrix = Eigen::Matrix<Complex, signals::count, signals::count>;
 LoopMatrix loops(const Plant& plant, const Laws& laws, OuterScheme scheme, Complex s);
 
 struct LoopFigures {
-  std::string name;                ///< "roll", "TECS height"
-  std::string actuator, sensor;    ///< where it was broken: "aileron", "roll"
+  std::string name;              ///< "roll", "TECS height"
+  std::string actuator, sensor;  ///< where it was broken: "aileron", "roll"
   Margins at_actuator, at_sensor;
   double bandwidth_radps = 0;  ///< of the answer to the command, -3 dB; of a damper, the crossover
-  double damping_ratio = 0;    ///< of a second-order system with this resonance; at least 0.7 where there is none
+  double damping_ratio = 0;  ///< of a second-order system with this resonance, 0.71 where there is none; of a
+                             ///< damper, of the Dutch roll
   double least_gain_db() const { return std::min(at_actuator.least_gain_db(), at_sensor.least_gain_db()); }
   double least_phase_rad() const { return std::min(at_actuator.phase_rad, at_sensor.phase_rad); }
   double least_delay_s() const { return std::min(at_actuator.delay_s, at_sensor.delay_s); }

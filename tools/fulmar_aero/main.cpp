@@ -55,6 +55,13 @@ struct CommandLine {
   void add_tune() {
     tune = app.add_subcommand("tune", "gains of the shipped laws, their margins, and a flight with them");
     flight.add(tune);
+    tune->add_option(
+        "--bandwidth", tuning.bandwidths,
+        "of roll, pitch, course, height or airspeed, as in \"roll=8 rad/s\"; else what margins allow");
+    tune->add_option("--step", tuning.step, "of the laws, as in \"10 ms\"; else that");
+    tune->add_option("--delay", tuning.delay, "of estimator, computer and link together; else 0 ms");
+    tune->add_flag("--write", tuning.write, "put the gains into the file; all else of it stays");
+    tune->add_flag("--verify", tuning.verify, "fly the hourglass with them");
     tune->footer("Example: fulmar aero tune fulmar:airframes/anaconda.yaml --bandwidth \"roll=8 rad/s\"");
   }
 

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <CLI/CLI.hpp>
+#include <fstream>
+
 #include "core/app/program.hpp"
+#include "core/graph/quantity.hpp"
 #include "core/graph/shipped.hpp"
 #include "core/types/text.hpp"
 #include "tools/fulmar_aero/commands.hpp"
@@ -7,37 +11,119 @@
 #include "tools/fulmar_aero/flight_words.hpp"
 #include "tools/fulmar_aero/gains.hpp"
 #include "tools/fulmar_aero/gains_file.hpp"
+#include "tools/fulmar_aero/tune_flight.hpp"
+#include "tools/fulmar_aero/tune_words.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero {
 namespace {
 
-std::string margin_words(const Margins& m) {
-  const auto db = [](double x) { return std::isfinite(x) ? fixed(x, 1) : std::string("-"); };
-  return right(db(m.gain_db), 6) + right(db(m.reduction_db), 7) +
-         right(std::isfinite(m.phase_rad) ? fixed(m.phase_rad / degree, 0) : "-", 6) +
-         right(std::isfinite(m.delay_s) ? fixed(1000 * m.delay_s, 0) : "-", 6);
-}
+struct BandwidthName {
+  const char *name, *actuator;
+  double Bandwidths::*value;
+  int input;  ///< through whose lag it acts
+};
+constexpr std::array<BandwidthName, 5> bandwidth_names{
+    {{"roll", "aileron", &Bandwidths::roll, model::aileron},
+     {"pitch", "elevator", &Bandwidths::pitch, model::elevator},
+     {"course", "aileron", &Bandwidths::course, model::aileron},
+     {"height", "elevator", &Bandwidths::height, model::elevator},
+     {"airspeed", "throttle", &Bandwidths::airspeed, model::throttle}}};
 
-std::string loops_text(const std::string& title, const std::vector<LoopFigures>& loops) {
-  std::string text = "\n" + title + "\n" + padded("", 16) + "bandwidth  damping   " +
-                     padded("at the", 15) + "gain dB        phase delay   " + padded("at the sensor", 13) + "\n" +
-                     padded("  loop", 16) + "    rad/s            " + padded("actuator", 15) +
-                     "up   down    deg    ms\n";
-  for (const LoopFigures& f : loops) {
-    text += "  " + padded(f.name, 14) + right(fixed(f.bandwidth_radps, 2), 9) + right(fixed(f.damping_ratio, 2), 9) + "   " +
-            padded(f.actuator, 13) + margin_words(f.at_actuator) + "   " + padded(f.sensor, 9) +
-            margin_words(f.at_sensor) + "\n";
+double quantity(const char* option, const std::string& text, const std::string& unit, double least,
+                double most) {
+  try {
+    const double value = core::quantity_in(text, unit, core::UnitRule::optional);
+    if (value >= least && value <= most) return value;
+    throw CLI::ValidationError(
+        option, "'" + text + "' is outside " + figures(least) + " .. " + figures(most, 4) + " " + unit);
+  } catch (const core::Error& fault) {
+    throw CLI::ValidationError(option, fault.what());
   }
-  return text;
 }
 
-std::vector<LoopFigures> all_loops(const Plant& plant, const Laws& laws, int& unstable) {
-  LoopReport slc = evaluate(plant, laws, OuterScheme::slc), tecs = evaluate(plant, laws, OuterScheme::tecs);
-  unstable = slc.unstable + tecs.unstable;
-  for (const LoopFigures& f : tecs.loops)
-    if (f.name.rfind("TECS", 0) == 0) slc.loops.push_back(f);
-  return slc.loops;
+Bandwidths bandwidths(const TuneOptions& options) {
+  Bandwidths out;
+  for (const std::string& one : options.bandwidths) {
+    const std::size_t equals = one.find('=');
+    const std::string name = one.substr(0, equals);
+    std::vector<std::string> names;
+    const BandwidthName* found = nullptr;
+    for (const BandwidthName& b : bandwidth_names) {
+      names.emplace_back(b.name);
+      if (name == b.name) found = &b;
+    }
+    if (equals == std::string::npos || !found)
+      throw CLI::ValidationError("--bandwidth", "'" + one +
+                                                    "' does not begin with a loop, as in \"roll=8 rad/s\"." +
+                                                    core::choices_text(name, names));
+    out.*found->value = quantity("--bandwidth", one.substr(equals + 1), "rad/s", 0.01, 1000);
+  }
+  return out;
+}
+
+std::string milliseconds(double s) { return figures(1000 * s) + " ms"; }
+
+/// A bandwidth that the actuator's lag forbids, in a sentence; "" when there is none.
+std::string beyond_actuators(const AirframeFile& file, const Plant& plant, const Bandwidths& given) {
+  for (const BandwidthName& b : bandwidth_names) {
+    const double w = given.*b.value, lag = plant.lag_s(b.input), most = most_bandwidth(lag);
+    if (w <= most) continue;
+    const std::string own = std::string(b.input == model::throttle ? "motor " : "servo ") +
+                            milliseconds(lag - 0.5 * plant.step_s - plant.delay_s);
+    const char* const field = b.input == model::throttle ? "propulsion" : b.actuator;
+    return file.title() + ": " + b.name + ": " + figures(w) + " rad/s is more than the " + b.actuator +
+           " can give: " + own + ", half a step " + milliseconds(0.5 * plant.step_s) + " and delay " +
+           milliseconds(plant.delay_s) + " are a lag of " + milliseconds(lag) + ", which allows at most " +
+           figures(most) + " rad/s (" + file.where(field).text() + ")";
+  }
+  return "";
+}
+
+std::string heading(const AirframeFile& file, const Plant& plant, const Bandwidths& w) {
+  return file.title() + ": about " + condition_words(plant.flight.condition, plant.altitude_m) + "\n" +
+         "assumed: a step of " + milliseconds(plant.step_s) + ", delay " + milliseconds(plant.delay_s) +
+         "; with the servos' lag, aileron " + milliseconds(plant.lag_s(model::aileron)) + ", elevator " +
+         milliseconds(plant.lag_s(model::elevator)) + ", throttle " +
+         milliseconds(plant.lag_s(model::throttle)) + "\nchosen, rad/s: roll " + figures(w.roll) +
+         ", pitch " + figures(w.pitch) + ", course " + figures(w.course) + ", height " + figures(w.height) +
+         ", airspeed " + figures(w.airspeed) + "\n";
+}
+
+nlohmann::json gains_json(const std::vector<Gain>& gains, const std::vector<Gain>& shipped) {
+  nlohmann::json out;
+  for (std::size_t i = 0; i < gains.size(); ++i)
+    out[gains[i].component][gains[i].name] = {
+        {"computed", gains[i].value},
+        {"shipped", shipped.empty() ? nlohmann::json(nullptr) : nlohmann::json(shipped[i].value)},
+        {"unit", gains[i].unit}};
+  return out;
+}
+
+void write_file(const AirframeFile& file, const std::string& text) {
+  if (core::is_shipped_name(file.name))
+    throw core::Error(file.name + ": a file of the installation is not written; copy it and name the copy");
+  std::ofstream out(file.name);
+  out << text;
+  out.close();
+  if (!out) throw core::Error(file.name + ": it cannot be written");
+}
+
+/// The file's text with the gains, read once more: what is written says what was computed.
+std::string text_with(const AirframeFile& file, const std::vector<Gain>& gains) {
+  const std::string text = with_gains(file, file.root.file->text, gains);
+  AirframeFile read = file;
+  core::Report report;
+  read.root = core::parse_yaml(core::make_source(text, file.name), report);
+  report.throw_if_any();
+  std::vector<Gain> found = computed_gains(laws_in(read).laws, true);
+  for (const Gain& gain : gains)
+    for (const Gain& other : found)
+      if (gain.component == other.component && gain.name == other.name &&
+          gain_text(gain.value) != gain_text(other.value))
+        throw core::Error(file.name + ": " + gain.component + "." + gain.name +
+                          " stands in a form that is not edited here; nothing was written");
+  return text;
 }
 
 }  // namespace
@@ -45,22 +131,53 @@ std::vector<LoopFigures> all_loops(const Plant& plant, const Laws& laws, int& un
 int tune_command(const FlightOptions& options, const TuneOptions& tune_options) {
   const AirframeFile file = read_airframe_file(options.airframe);
   const FileLaws shipped = laws_in(file);
+  const Bandwidths given = bandwidths(tune_options);
   const AircraftModel m(file.airframe, options.altitude_m());
   const SteadyFlight flight = fly(m, options.condition(file.airframe));
-  if (!flight.found()) {
-    std::fprintf(stderr, "%s\n", no_flight(file, m, flight).c_str());
-    return core::ExitCode::failed;
+  const auto failed = [](const std::string& sentence) {
+    std::fprintf(stderr, "%s\n", core::for_terminal(sentence).c_str());
+    return int(core::ExitCode::failed);
+  };
+  if (!flight.found()) return failed(no_flight(file, m, flight));
+  Plant plant{file.airframe, linearised(m, flight), flight, m.altitude_m()};
+  if (!tune_options.step.empty()) plant.step_s = quantity("--step", tune_options.step, "s", 0.001, 0.1);
+  if (!tune_options.delay.empty()) plant.delay_s = quantity("--delay", tune_options.delay, "s", 0, 1);
+  if (const std::string sentence = beyond_actuators(file, plant, given); !sentence.empty())
+    return failed(sentence);
+
+  const Tuning tuning = tune(plant, shipped.laws, given);
+  const std::vector<Gain> gains = computed_gains(tuning.laws, tuning.yaw_damper),
+                          old = shipped.given ? computed_gains(shipped.laws, tuning.yaw_damper)
+                                              : std::vector<Gain>{};
+  const Judged computed = judge(plant, tuning.laws),
+               before = shipped.given ? judge(plant, shipped.laws) : Judged{};
+  std::vector<std::string> faults = computed.faults(file.title());
+  for (const std::string& sentence : tuning.beyond) faults.push_back(file.title() + ": " + sentence);
+  const std::string text = tune_options.write || tune_options.verify ? text_with(file, gains) : "";
+  TuneFlight flown;
+  if (tune_options.verify) {
+    flown = fly_hourglass(file.airframe, text, plant.flight.condition.airspeed_mps);
+    for (const std::string& sentence : flight_faults(flown, file.title())) faults.push_back(sentence);
   }
-  const Plant plant{file.airframe, linearised(m, flight), flight, m.altitude_m(), 0.01, 0};
-  const Tuning tuning = tune(plant, shipped.laws, {});
-  int unstable = 0, unstable_shipped = 0;
-  const auto loops = all_loops(plant, tuning.laws, unstable);
-  print_text(loops_text("computed", loops));
-  std::printf("unstable %d; thrust %g; a1 %g a2 %g\n", unstable, plant.thrust_newton(), -plant.linear.A(9,9), plant.linear.B(9,0));
-  if (shipped.given) print_text(loops_text("shipped", all_loops(plant, shipped.laws, unstable_shipped)));
-  std::printf("unstable %d\n", unstable_shipped);
-  print_text(params_text(computed_gains(tuning.laws, tuning.yaw_damper)));
-  (void)tune_options;
+  if (options.json) {
+    print_object({{"airframe", file.title()},
+                  {"trim", flight_json(m, flight)},
+                  {"step_s", plant.step_s},
+                  {"delay_s", plant.delay_s},
+                  {"gains", gains_json(gains, old)},
+                  {"computed", loops_json(computed)},
+                  {"shipped", shipped.given ? loops_json(before) : nlohmann::json(nullptr)},
+                  {"flight", tune_options.verify ? tune_flight_json(flown) : nlohmann::json(nullptr)},
+                  {"faults", faults}});
+  } else {
+    print_text(heading(file, plant, tuning.chosen) + loops_text("computed", computed));
+    if (shipped.given) print_text(loops_text("shipped", before));
+    print_text("\n" + gains_text(gains, old));
+    if (tune_options.verify) print_text(flight_text(flown));
+  }
+  for (const std::string& sentence : faults) failed(sentence);
+  if (!faults.empty()) return core::ExitCode::failed;  // gains that are not good enough are not written
+  if (tune_options.write) write_file(file, text);
   return core::ExitCode::done;
 }
 

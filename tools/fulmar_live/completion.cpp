@@ -40,7 +40,8 @@ const std::map<std::string, Places> places{
     {"phase", {"phase", 0}},          {"swap", {"component plugin", 0}},
     {"speed", {"speed", 0}},          {"completion", {"shell", 0}},
     {"aero trim", {"mission", 0}},    {"aero linearize", {"mission", 0}},
-    {"aero modes", {"mission", 0}},   {"aero check", {"mission", 0}}};
+    {"aero modes", {"mission", 0}},   {"aero check", {"mission", 0}},
+    {"aero tune", {"mission", 0}}};
 
 /// Of options that take a value: a kind as above.
 const std::map<std::string, std::string> option_kinds{

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `fulmar aero tune`: what it tells, writes, flies and refuses.
+#include <cmath>
+#include <map>
+
+#include "tools/fulmar_aero/test/aero_kit.hpp"
+
+namespace tune_test {
+
+using namespace fulmar::aero::test;
+using doctest::Approx;
+using nlohmann::json;
+
+namespace {
+json tuned(const std::string& words) {
+  const Answer answer = call("tune " + words + " --json");
+  CHECK_MESSAGE(answer.code == 0, answer.out);
+  return answer.json();
+}
+std::string without_params(const std::string& text) { return text.substr(0, text.find("\nparams:") + 1); }
+}  // namespace
+
+TEST_CASE("the gains of all shipped aircraft have their margins, broken at the actuator and at the sensor") {
+  for (const std::string name : {"anaconda", "aerosonde", "x8"}) {
+    CAPTURE(name);
+    const json o = tuned("configs/airframes/" + name + ".yaml --altitude '1457 m'");
+    for (const char* which : {"computed", "shipped"}) {
+      CHECK(o[which]["unstable_poles"] == 0);
+      CHECK(o[which]["loops"].size() == (name == "x8" ? 7 : 8));
+      for (const auto& [loop, figures] : o[which]["loops"].items()) {
+        CAPTURE(loop);
+        for (const char* at : {"at_actuator", "at_sensor"})
+          for (const auto& [margin, least] :
+               std::map<std::string, double>{{"gain_db", 6}, {"reduction_db", 6}, {"phase_deg", 45}})
+            if (!figures[at][margin].is_null()) CHECK(figures[at][margin].get<double>() >= least);
+        CHECK(figures["bandwidth_radps"].get<double>() > 0.1);
+      }
+    }
+    CHECK(o["faults"].empty());
+  }
+}
+
+TEST_CASE("bandwidths become gains by the relations of the README") {
+  const json o = tuned(
+      "configs/airframes/anaconda.yaml --altitude '1457 m' --bandwidth 'roll=12 rad/s' "
+      "--bandwidth course=1.2 --bandwidth 'height=1.5 rad/s' --bandwidth airspeed=2");
+  const json& inner = o["gains"]["control_slc/Inner"];
+  const json& outer = o["gains"]["control_slc/Outer"];
+  const auto value = [](const json& gains, const char* name) {
+    return gains[name]["computed"].get<double>();
+  };
+  // q S b / Jxx times the derivatives, with the product of inertia: Beard & McLain (5.24), (5.25)
+  const double rho = 1.0626, V = 17, q = 0.5 * rho * V * V, S = 0.52, b = 2.08;
+  const double gamma = 0.24855 * 0.618 - 0.06 * 0.06, g3 = 0.618 / gamma, g4 = 0.06 / gamma;
+  const double a2 = q * S * b * (g3 * 0.17 + g4 * -0.011);
+  const double a1 = q * S * b * b / (2 * V) * (g3 * 0.51 + g4 * 0.0364);
+  CHECK(value(inner, "roll_kp") == Approx(12 * 12 / a2).epsilon(0.04).scale(0));
+  CHECK(value(inner, "roll_kff") == Approx(a1 / a2).epsilon(0.03).scale(0));
+  CHECK(value(inner, "roll_kd") == Approx((24 - a1) / a2).epsilon(0.05).scale(0));
+  CHECK(value(outer, "course_kp") == Approx(1.2 * 17 / 9.80665).epsilon(0.03).scale(0));
+  CHECK(value(outer, "altitude_kp") == Approx(1.5 / 17).epsilon(0.03).scale(0));
+  CHECK(value(outer, "airspeed_kp") == Approx(2 * 4.5 / value(outer, "thrust")).epsilon(0.03).scale(0));
+  CHECK(value(outer, "climb_kff") ==
+        Approx(4.5 * 9.80665 / (17 * value(outer, "thrust"))).epsilon(0.03).scale(0));
+  CHECK(o["shipped"]["loops"]["course"]["at_sensor"]["crossover_radps"].get<double>() ==
+        Approx(1.15).epsilon(0.1).scale(0));  // the file: course_kp 2, 1.15 rad/s
+}
+
+TEST_CASE("delay takes phase, and bandwidth where nothing was asked for") {
+  const std::string file = "configs/airframes/anaconda.yaml";
+  const json now = tuned(file), late = tuned(file + " --delay '40 ms'");
+  const auto phase = [](const json& o) {
+    return o["shipped"]["loops"]["pitch"]["at_actuator"]["delay_s"].get<double>();
+  };
+  CHECK(phase(now) - phase(late) == Approx(0.04).epsilon(0.25).scale(0));
+  CHECK(late["gains"]["control_slc/Inner"]["pitch_kp"]["computed"].get<double>() <
+        0.5 * now["gains"]["control_slc/Inner"]["pitch_kp"]["computed"].get<double>());
+  // the lag that was assumed is told
+  CHECK(
+      call("tune " + file + " --delay '40 ms' --step '20 ms'")
+          .says("assumed: a step of 20 ms, delay 40 ms; with the servos' lag, aileron 60 ms, elevator 60 ms, "
+                "throttle 100 ms"));
+}
+
+TEST_CASE("too little margin is told for each loop, and nothing is written") {
+  const Folder folder;
+  const std::string text = text_of(FULMAR_SOURCE_DIR "/configs/airframes/anaconda.yaml");
+  const std::string file = folder.write("late.yaml", text);
+  const Answer answer =
+      call("tune " + file +
+           " --delay '100 ms' --write --bandwidth roll=4.5 --bandwidth pitch=4 --bandwidth course=4");
+  CHECK(answer.code == 1);
+  CHECK_MESSAGE(answer.says("anaconda: course, broken at the course: the phase margin is "), answer.out);
+  CHECK(answer.says(" deg, 45 deg are the least"));
+  CHECK(answer.says("dB only, 6 dB are the least"));
+  CHECK(text_of(file) == text);
+}
+
+TEST_CASE("a bandwidth that an actuator cannot give is refused, with the limit and its place") {
+  const std::map<std::string, std::string> told{
+      {"anaconda.yaml --bandwidth 'roll=60 rad/s'",
+       "anaconda: roll: 60 rad/s is more than the aileron can give: servo 10 ms, half a step 5 ms and delay "
+       "0 ms are a "
+       "lag of 15 ms, which allows at most 33.3 rad/s (configs/airframes/anaconda.yaml:38)"},
+      {"x8.yaml --bandwidth pitch=15 --delay '10 ms'", "servo 34.2 ms, half a step 5 ms and delay 10 ms"},
+      {"x8.yaml --bandwidth airspeed=3", "more than the throttle can give: motor 200 ms"}};
+  for (const auto& [words, sentence] : told) {
+    const Answer answer =
+        call("tune " + file +
+             " --delay '60 ms' --write --bandwidth roll=6 --bandwidth pitch=6 --bandwidth course=5");
+    CHECK(answer.code == 1);
+    CHECK_MESSAGE(answer.says(sentence), answer.out);
+  }
+  const Answer stall = call("tune configs/airframes/anaconda.yaml --airspeed '8 m/s'");
+  CHECK(stall.code == 1);
+  CHECK(stall.says("anaconda: no steady level flight at 8 m/s"));
+}
+
+TEST_CASE("words that mean nothing are wrong usage") {
+  const std::map<std::string, std::string> told{
+      {"--bandwidth 'rol=3'",
+       "'rol=3' does not begin with a loop, as in \"roll=8 rad/s\". Did you mean 'roll'?"},
+      {"--bandwidth roll", "does not begin with a loop"},
+      {"--bandwidth 'roll=8 kg'", "kg is a mass"},
+      {"--bandwidth roll=0", "'0' is outside 0.01 .. 1000 rad/s"},
+      {"--delay '2 s'", "'2 s' is outside 0 .. 1 s"},
+      {"--step 0", "'0' is outside 0.001 .. 0.1 s"}};
+  for (const auto& [words, sentence] : told) {
+    const Answer answer = call("tune configs/airframes/anaconda.yaml " + words);
+    CHECK(answer.code == 2);
+    CHECK_MESSAGE(answer.says(sentence), answer.out);
+  }
+}
+
+TEST_CASE("gains of the file that no law has are refused by file and line") {
+  const Folder folder;
+  const std::map<std::string, std::string> told{
+      {"roll_kq: 1.2", "params.control_slc/Inner: there is no parameter 'roll_kq'. Did you mean 'roll_kp'?"},
+      {"roll_kp: 50", "50 is outside 0 .. 20"},
+      {"roll_kp: quick", "'quick'"}};
+  for (const auto& [by, sentence] : told) {
+    const Answer answer = call("tune " + folder.write("a.yaml", changed("anaconda", "roll_kp: 1.2", by)));
+    CHECK(answer.code == 4);
+    CHECK_MESSAGE(answer.says("a.yaml:56: "), answer.out);
+    CHECK_MESSAGE(answer.says(sentence), answer.out);
+  }
+  const Answer law =
+      call("tune " + folder.write("a.yaml", changed("anaconda", "control_slc/Inner:", "control_slc/Iner:")));
+  CHECK(law.code == 4);
+  CHECK_MESSAGE(
+      law.says("params: there is no component 'control_slc/Iner'. Did you mean 'control_slc/Inner'?"),
+      law.out);
+}
+
+TEST_CASE("--write changes the gains and nothing else, and says the same when it is asked again") {
+  const Folder folder;
+  const std::string old = text_of(FULMAR_SOURCE_DIR "/configs/airframes/anaconda.yaml");
+  const std::string file = folder.write("a.yaml", old);
+  const json o = tuned(file + " --write");
+  const std::string now = text_of(file);
+  CHECK(now != old);
+  CHECK(without_params(now) == without_params(old));
+  CHECK(now.find("# 11.6 rad/s, damping 1: aileron 113 rad/s2 per rad") !=
+        std::string::npos);                                       // comments stay
+  CHECK(now.find("takeoff_pitch: 12 deg") != std::string::npos);  // what is not computed
+  CHECK(std::count(now.begin(), now.end(), '\n') ==
+        std::count(old.begin(), old.end(), '\n'));  // each is there
+  const json again = tuned(file + " --write");
+  for (const auto& [component, gains] : again["gains"].items())
+    for (const auto& [name, gain] : gains.items()) {
+      CAPTURE(name);
+      CHECK(gain["shipped"] == o["gains"][component][name]["computed"]);
+      CHECK(gain["shipped"] == gain["computed"]);
+    }
+  CHECK(text_of(file) == now);
+}
+
+TEST_CASE("--write makes the section where there is none, and fills one in braces") {
+  const Folder folder;
+  const std::string all = text_of(FULMAR_SOURCE_DIR "/configs/airframes/anaconda.yaml");
+  const std::string bare = folder.write("bare.yaml", without_params(all));
+  const json o = tuned(bare + " --write");
+  CHECK(o["shipped"].is_null());
+  CHECK(text_of(bare).rfind(without_params(all) + "params:\n  control_slc/Inner:\n    roll_kp: ", 0) == 0);
+  const std::string braces = folder.write(
+      "braces.yaml",
+      without_params(all) + "params:\n  control_slc/Inner: {roll_kd: 0.01, turn_kff: 0.9}   # mine\n");
+  tuned(braces + " --write");
+  const std::string text = text_of(braces);
+  CHECK(text.find("turn_kff: 0.9}   # mine\n") != std::string::npos);
+  CHECK(text.find("roll_kd: 0.01,") == std::string::npos);
+  const json again = tuned(braces);
+  CHECK(again["gains"]["control_tecs/Outer"]["altitude_gain"]["shipped"] ==
+        again["gains"]["control_tecs/Outer"]["altitude_gain"]["computed"]);
+  const Answer empty =
+      call("tune " + folder.write("empty.yaml", without_params(all) + "params:\n") + " --write");
+  CHECK(empty.code == 4);
+  const Answer installed = call("tune fulmar:airframes/anaconda.yaml --write");
+  CHECK(installed.code == 4);
+  CHECK_MESSAGE(installed.says("fulmar:airframes/anaconda.yaml: a file of the installation is not written"),
+                installed.out);
+}
+
+TEST_CASE("--verify flies the hourglass, and an aircraft that does not keep to it is told") {
+  const Answer flown = call("tune configs/airframes/x8.yaml --altitude '1457 m' --verify");
+  CHECK_MESSAGE(flown.code == 0, flown.out);
+  CHECK(flown.says("hourglass in light turbulence: flown"));
+  const Answer slow = call(
+      "tune configs/airframes/anaconda.yaml --verify --json --bandwidth height=0.04 --bandwidth pitch=0.2");
+  CHECK(slow.code == 1);
+  CHECK_MESSAGE(slow.says("anaconda: height on the hourglass is "), slow.out);
+}
+
+}  // namespace tune_test

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/fulmar_aero/tune_flight.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "core/loader/home.hpp"
+#include "core/loader/process.hpp"
+#include "core/types/text.hpp"
+#include "tools/fulmar_aero/words.hpp"
+
+namespace fulmar::aero {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of this run's own, gone with it.
+struct FlightFolder {
+  fs::path path;
+  FlightFolder() {
+    std::string name = (fs::temp_directory_path() / "fulmar-tune-XXXXXX").string();
+    if (!::mkdtemp(name.data())) throw core::Error("there is no folder for the flight: " + name);
+    path = name;
+  }
+  ~FlightFolder() {
+    std::error_code code;
+    fs::remove_all(path, code);
+  }
+  FlightFolder(const FlightFolder&) = delete;
+  FlightFolder& operator=(const FlightFolder&) = delete;
+  void write(const char* name, const std::string& text) const { std::ofstream(path / name) << text; }
+};
+
+std::string plan_text(double airspeed_mps) {
+  constexpr double shipped_speed = 17;
+  const double k = std::pow(airspeed_mps / shipped_speed, 2);
+  std::string text = "name: hourglass\nend: circuit\nairspeed: " + fixed(airspeed_mps, 3) +
+                     " m/s\nturn_radius: " + fixed(50 * k, 3) + " m\nwaypoints:\n";
+  for (const auto& [north, east] : {std::pair{400, -250}, {-400, -50}, {-400, -250}, {400, -50}})
+    text += "  - {north: " + fixed(north * k, 1) + " m, east: " + fixed(east * k, 1) + " m, up: 70 m}\n";
+  return text;
+}
+
+std::string contents(const fs::path& file) {
+  std::ifstream in(file);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+std::vector<FlownFigure> figures_of(const nlohmann::json& o, const Airframe& a) {
+  const auto number = [&](const char* port, const char* field) {
+    const auto at = o.find(port);
+    if (at == o.end() || !at->is_object() || !at->contains(field) || !(*at)[field].is_number())
+      return std::nan("");
+    return (*at)[field].get<double>();
+  };
+  const double off = std::hypot(number("tracking_rmse", "north_m"), number("tracking_rmse", "east_m"));
+  return {{"position", "m", off, 5},
+          {"height", "m", number("tracking_rmse", "altitude_m"), 1.5},
+          {"airspeed", "m/s", number("tracking_rmse", "airspeed_mps"), 1},
+          {"roll", "deg", number("tracking_rmse", "roll_deg"), 3},
+          {"pitch", "deg", number("tracking_rmse", "pitch_deg"), 3},
+          {"course", "deg", number("tracking_rmse", "course_deg"), 8},
+          {"least airspeed", "m/s", number("mission_figures", "airspeed_min_mps"), a.limits.airspeed_min_mps,
+           true}};
+}
+
+}  // namespace
+
+TuneFlight fly_hourglass(const Airframe& airframe, const std::string& text, double airspeed_mps) {
+  const fs::path host = core::own_program("fulmar");
+  if (host.empty())
+    throw core::Error("fulmar aero tune --verify: there is no program fulmar beside this one");
+  const FlightFolder folder;
+  folder.write("airframe.yaml", text);
+  std::string mission = "extends: fulmar:missions/hourglass.yaml\nmission: tune\nairframe: airframe.yaml\n";
+  if (std::abs(airspeed_mps - 17) > 1.5) {
+    folder.write("plan.yaml", plan_text(airspeed_mps));
+    mission += "components: {plan: {params: {plan: plan.yaml}}}\n";
+  }
+  folder.write("mission.yaml", mission);
+  const auto open_file = [&](const char* name) {
+    return ::open((folder.path / name).c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+  };
+  const int out = open_file("out.json"), error = open_file("error.txt");
+  core::Process process(host.string(),
+                        {"run", (folder.path / "mission.yaml").string(), "--json", "--log",
+                         (folder.path / "flight.mcap").string()},
+                        {.out = out, .error = error});
+  ::close(out);
+  ::close(error);
+  TuneFlight flight;
+  if (!process.wait(std::chrono::minutes(10))) {
+    process.kill();
+    flight.result = "not ended after 10 minutes";
+    return flight;
+  }
+  const nlohmann::json o = nlohmann::json::parse(contents(folder.path / "out.json"), nullptr, false);
+  if (!o.is_object() || !o.contains("result")) {
+    flight.result = "not begun: " + core::for_terminal(contents(folder.path / "error.txt"));
+    return flight;
+  }
+  flight.result = o["result"].get<std::string>();
+  flight.figures = figures_of(o, airframe);
+  return flight;
+}
+
+std::string flight_text(const TuneFlight& flight) {
+  std::string text = "\nhourglass in light turbulence: " + flight.result + "\n";
+  for (const FlownFigure& f : flight.figures)
+    text += "  " + padded(f.name, 16) + right(fixed(f.value, 2), 8) + " " + padded(f.unit, 5) +
+            (f.least ? "at least " : "at most ") + figures(f.bound) + "\n";
+  return text;
+}
+
+nlohmann::json tune_flight_json(const TuneFlight& flight) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const FlownFigure& f : flight.figures)
+    list.push_back({{"name", f.name},
+                    {"unit", f.unit},
+                    {"value", std::isfinite(f.value) ? nlohmann::json(f.value) : nlohmann::json(nullptr)},
+                    {f.least ? "least" : "most", f.bound}});
+  return {{"result", flight.result}, {"figures", list}};
+}
+
+std::vector<std::string> flight_faults(const TuneFlight& flight, const std::string& title) {
+  std::vector<std::string> all;
+  if (flight.result != "flown") all.push_back(title + ": the hourglass was not flown: " + flight.result);
+  for (const FlownFigure& f : flight.figures)
+    if (!f.kept())
+      all.push_back(title + ": " + f.name + " on the hourglass is " + fixed(f.value, 2) + " " + f.unit +
+                    ", " + (f.least ? "at least " : "at most ") + figures(f.bound) + " are asked for");
+  return all;
+}
+
+}  // namespace fulmar::aero

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The hourglass, flown by `fulmar run` with gains that stand in no file yet.
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tools/fulmar_aero/airframe_file.hpp"
+
+namespace fulmar::aero {
+
+struct FlownFigure {
+  std::string name, unit;
+  double value = 0, bound = 0;
+  bool least = false;  ///< the bound is the least, not the most
+  bool kept() const { return least ? value >= bound : value <= bound; }
+};
+struct TuneFlight {
+  std::string result;  ///< "flown", or what became of it
+  std::vector<FlownFigure> figures;
+};
+
+/// `text`: of the airframe's file, with the gains. The plan is the shipped one near its 17 m/s, else the same
+/// shape grown with the square of the airspeed, so that turns have the same bank.
+TuneFlight fly_hourglass(const Airframe& airframe, const std::string& text, double airspeed_mps);
+
+std::string flight_text(const TuneFlight& flight);
+nlohmann::json tune_flight_json(const TuneFlight& flight);
+std::vector<std::string> flight_faults(const TuneFlight& flight, const std::string& title);
+
+}  // namespace fulmar::aero

@@ -85,18 +85,18 @@ struct Streak {
   }
 };
 
-/// Sum of the changes of elevator, aileron (rad) and throttle over a time: their mean rate, 1/s, averaged
-/// over the three.
+/// How much is commanded: the mean of |rate| of elevator, aileron (rad) and throttle, 1/s, averaged over the
+/// three, from the first command to the end of the episode. What the first command is does not count.
 struct Variation {
   double sum = 0;
-  int steps = 0;
-  std::array<double, 3> last{};  ///< begins at neutral surfaces and a closed throttle
+  int commands = 0;
+  std::array<double, 3> last{};
   void step(const std::array<double, 3>& command) {
-    for (std::size_t i = 0; i < 3; ++i) sum += std::abs(command[i] - last[i]);
+    for (std::size_t i = 0; commands > 0 && i < 3; ++i) sum += std::abs(command[i] - last[i]);
     last = command;
-    ++steps;
+    ++commands;
   }
-  double per_s() const { return steps > 0 ? sum / (3 * dt_s * steps) : 0; }
+  double per_s() const { return commands > 1 ? sum / (3 * dt_s * (commands - 1)) : 0; }
 };
 
 struct Result {

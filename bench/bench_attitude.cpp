@@ -3,14 +3,12 @@
 // with the gains of configs/airframes/x8.yaml.
 //   bench_attitude [--episodes N] [--seed N] [--turbulence none|light|moderate|severe|all] [--law slc]
 //                  [--set COMPONENT.PARAM=NUMBER]... [--json]
-#include <yaml-cpp/yaml.h>
-
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "bench/attitude/flown.hpp"
-#include "sdk/test/flight/airframe_file.hpp"
+#include "bench/attitude/gains.hpp"
 
 #define FULMAR_COUNT_ALLOCATIONS
 #include <fulmar/testing.hpp>
@@ -19,51 +17,6 @@ using namespace fulmar;
 using namespace fulmar::attitude;
 
 namespace {
-
-constexpr const char* file = FULMAR_SOURCE_DIR "/configs/airframes/x8.yaml";
-
-struct Wrong : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-/// Into the parameter of that name. The numbers of the file are in SI.
-template <class P>
-bool set(P& params, const std::string& name, double value) {
-  using Table = detail::ParamTable<P>;
-  std::size_t i = 0;
-  bool found = false;
-  auto one = [&](auto& param) {
-    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(param)>, Param>) {
-      if (name == Table::table[i].name) {
-        if (!(value >= param.min && value <= param.max))
-          throw Wrong(name + " is " + sim::shown(value) + " and must be in [" + sim::shown(param.min) + ", " +
-                      sim::shown(param.max) + "]");
-        param.value = value;
-        found = true;
-      }
-    }
-    ++i;
-  };
-  detail::for_each_param(params, one);
-  return found;
-}
-
-void set(Gains& gains, const std::string& component, const std::string& name, double value) {
-  const bool found = component == "Inner"      ? set(gains.inner, name, value)
-                     : component == "Airspeed" ? set(gains.airspeed, name, value)
-                                               : false;
-  if (!found)
-    throw Wrong("there is no parameter " + component + "." + name + "; components: Airspeed, Inner");
-}
-
-Gains shipped_gains() {
-  Gains gains;
-  const YAML::Node params = YAML::LoadFile(file)["params"];
-  for (const char* component : {"Airspeed", "Inner"})
-    for (const auto& entry : params[std::string("control_slc/") + component])
-      set(gains, component, entry.first.as<std::string>(), std::stod(entry.second.as<std::string>()));
-  return gains;
-}
 
 struct Options {
   std::uint64_t episodes = 100, seed = 1;
@@ -127,8 +80,7 @@ void apply(Gains& gains, const std::string& text) {
 }
 
 int run(const Options& o) {
-  Airframe a = test::airframe_file("x8");
-  a.limits.airspeed_max_mps = 40;  // descents of the benchmark go beyond what the file allows a mission
+  const Airframe a = x8();
   Gains gains = shipped_gains();
   for (const std::string& s : o.sets) apply(gains, s);
   nlohmann::json all = nlohmann::json::object();

@@ -41,6 +41,8 @@ struct Inner {
     Param roll_kd{0.02, "rad s/rad", 0, 5, "aileron per roll rate"};
     Param roll_kff{0.15, "rad s/rad", 0, 5,
                    "aileron per commanded roll rate: the airframe's own roll damping"};
+    Param roll_from_sideslip{0.0, "rad/rad", -5, 5,
+                             "aileron per sideslip: damps the dutch roll of an aircraft without a rudder"};
 
     Param pitch_kp{4.0, "rad/rad", 0, 40, "nose-up elevator per pitch error"};
     Param pitch_ki{2.0, "rad/(rad s)", 0, 40, "nose-up elevator per integrated pitch error"};
@@ -161,6 +163,7 @@ struct Inner {
     state.roll_rad = command.roll_rad;
     state.pitch_rad = command.pitch_rad;
     state.rate_radps = {0, turn.q_radps, turn.r_radps};
+    state.beta_rad = 0;
     return state;
   }
   /// Is the attitude known? After a time without it, only once the command answers to it: then no surface
@@ -195,17 +198,21 @@ struct Inner {
   }
 
   /// delta_a = trim + slip's + scale [kp e + kd (p_c - p) + I] + kff p_c
+  /// delta_a = trim + scale [kp e + kd (p_c - p) + I + k_beta beta] + kff p_c
   double roll_to_aileron(const VehicleState& state, const AttitudeCommand& command, const Params& p,
                          double slip_rad, double scale, double integrate, double dt) {
     const Surface& aileron = p.airframe->aileron;
     const double p_c = std::clamp(roll_command_rate_.step(command.roll_rad, p.command_filter, dt), -3.0, 3.0);
     p_c_ = p_c;
+    const double beta = state.airspeed_valid ? state.beta_rad : 0;
     // Damping by the air falls with the speed, the aileron's power with its square: the feed-forward scales
     // by their quotient.
     const PidInput in{.error = command.roll_rad - state.roll_rad,
                       .rate = state.rate_radps.x - p_c,
                       .feedforward = aileron.trim_rad + aileron_for(slip_rad, p.airframe->aero) +
                                      p.roll_kff * std::sqrt(scale) * p_c,
+                      .feedforward = aileron.trim_rad + p.roll_kff * std::sqrt(scale) * p_c +
+                                     scale * p.roll_from_sideslip * beta,
                       .min = -aileron.limit_rad,
                       .max = aileron.limit_rad};
     const double k = scale * quiet_[roll].gain();

@@ -329,6 +329,29 @@ TEST_CASE("the rudder rests at its trim") {
   CHECK(step(bench, flying(), {}).rudder_rad == doctest::Approx(0.07));
 }
 
+TEST_CASE("the aileron works against sideslip where it is asked to, and only while sideslip is known") {
+  Bench<Inner> bench;
+  no_integrals(bench);
+  bench.params.airspeed_smoothing.value = 0;
+  for (const double beta : {-0.05, 0.05}) {
+    VehicleState s = flying(20);
+    s.yaw_rad = 2, s.beta_rad = beta;
+    bench.params.roll_from_sideslip.value = 0;
+    bench.retune();
+    CHECK(step(bench, s, {}, 1).aileron_rad == 0);
+    bench.params.roll_from_sideslip.value = 0.6;
+    bench.retune();
+    CHECK(step(bench, s, {}, 1).aileron_rad == doctest::Approx(0.5625 * 0.6 * beta));  // (15/20)^2
+    s.airspeed_valid = false;                                                          // a stand-in
+    CHECK(step(bench, s, {}, 1).aileron_rad == 0);
+    s.airspeed_valid = true, s.attitude_valid = false;  // nothing is known of it
+    CHECK(step(bench, s, {}, 1).aileron_rad == 0);
+    s.attitude_valid = true;
+    bench.set(bench.in.attitude, AttitudeCommand{});
+    step(bench, s, {}, 1);  // attitude is back
+  }
+}
+
 TEST_CASE("on the ground a surface is its gain times the error to the last digit: no integral of one step") {
   Bench<Inner> bench;
   VehicleState s = flying(0);

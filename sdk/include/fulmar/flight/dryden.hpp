@@ -49,6 +49,8 @@ class Dryden {
     dt_ = 0;
   }
 
+  const DrydenScales& scales() const { return scales_; }
+
   /// Gust velocity, body axes, after a further `dt` at airspeed `Va`.
   Eigen::Vector3d advance(double dt, double Va) {
     if (scales_.sigma.isZero(0)) return Eigen::Vector3d::Zero();

@@ -7,6 +7,7 @@
 
 #include "fulmar/flight/dryden.hpp"
 #include "fulmar/flight/dryden_height.hpp"
+#include "fulmar/flight/dryden_rotation.hpp"
 #include "fulmar/flight/rigid_body.hpp"
 #include "fulmar/sim/gust.hpp"
 #include "fulmar/sim/updraft.hpp"
@@ -17,10 +18,13 @@ namespace fulmar::sim {
 class Disturbances {
  public:
   Disturbances(const Weather& w, std::uint64_t seed)
-      : dryden_(dryden_scales(w.turbulence), seed),
+      : dryden_(fixed_scales(w), seed),
+        rotation_(std::max(w.gust_span_m, 0.1), mix_seed(seed, rotation_stream)),
         updrafts_(w.thermals),
         turbulence_(w.turbulence),
         wind_20ft_mps_(w.wind_20ft_mps),
+        gust_airspeed_mps_(w.gust_airspeed_mps),
+        rotates_(w.turbulence != Turbulence::none && w.gust_span_m > 0),
         by_height_(w.turbulence != Turbulence::none && w.turbulence_height == TurbulenceHeight::actual) {}
 
   /// What it is depends on where the aircraft is.
@@ -28,19 +32,35 @@ class Disturbances {
   void fire(const GustSpec& gust) { gust_.fire(gust); }
 
   /// Velocity of the air in body axes, after `dt` more at airspeed `Va`, where the place does not count.
-  Eigen::Vector3d advance(double dt, double Va) { return dryden_.advance(dt, Va); }
+  Eigen::Vector3d advance(double dt, double Va) { return dryden_.advance(dt, passing(Va)); }
+
+  /// Does the air turn as well?
+  bool rotates() const { return rotates_; }
+  /// Its angular velocity in body axes, rad/s, after the `advance` of the same `dt` and `Va`.
+  [[gnu::noinline]] Eigen::Vector3d rotation(double dt, double Va) {
+    return rotation_.advance(dt, passing(Va), dryden_.gust(), dryden_.scales());
+  }
 
   /// Where it does: at `x` as seen from the ground below, `height_m` above it.
   [[gnu::noinline]] Eigen::Vector3d advance_at(double dt, double Va, const RigidBody& x, double height_m,
                                                const Eigen::Vector3d& steady_wind_n) {
     if (by_height_) follow(height_m);
-    Eigen::Vector3d v_b = dryden_.advance(dt, Va) + gust_.advance(dt, Va);
+    Eigen::Vector3d v_b = dryden_.advance(dt, passing(Va)) + gust_.advance(dt, Va);
     if (!updrafts_.any()) return v_b;
     updrafts_.drift(dt, steady_wind_n);
     return v_b - updrafts_.at(x.p_n) * (x.q_nb.conjugate() * Eigen::Vector3d::UnitZ());
   }
 
  private:
+  static constexpr std::uint64_t rotation_stream =
+      0x726f7461746573;  ///< gusts along the axes stay as they are
+
+  static DrydenScales fixed_scales(const Weather& w) {
+    return w.fixed_height_m > 0 ? dryden_scales_at(w.turbulence, w.fixed_height_m, w.wind_20ft_mps)
+                                : dryden_scales(w.turbulence);
+  }
+  double passing(double Va) const { return gust_airspeed_mps_ > 0 ? gust_airspeed_mps_ : Va; }
+
   /// Lengths and deviations go with the height in steps of 1 %: to discretise the filters costs more than to
   /// advance them.
   void follow(double height_m) {
@@ -52,11 +72,12 @@ class Disturbances {
   }
 
   Dryden dryden_;
+  DrydenRotation rotation_;
   Gust gust_;
   Updrafts updrafts_;
   Turbulence turbulence_;
-  double wind_20ft_mps_, height_m_ = 0;
-  bool by_height_;
+  double wind_20ft_mps_, gust_airspeed_mps_, height_m_ = 0;
+  bool rotates_, by_height_;
 };
 
 }  // namespace fulmar::sim

@@ -312,6 +312,11 @@ class Plant {
   bool turns() const { return earth_.model == EarthModel::wgs84; }
 
   void disturb(double dt) {
+    move_air(dt);
+    if (disturbances_.rotates()) gust_rate_b_ = disturbances_.rotation(dt, Va_);
+  }
+
+  void move_air(double dt) {
     if (!disturbances_.of_place()) {
       gust_b_ = disturbances_.advance(dt, Va_);
       return;
@@ -379,7 +384,7 @@ class Plant {
   Load load_seen(const RigidBody& x, const Stage& s, std::size_t i) const {
     const Eigen::Vector3d v_r = relative(x);
     const double rho = air_.density_kgm3;
-    Load load = aero_.load(v_r, x.omega_b, s.deflections, rho);
+    Load load = aero_.load(v_r, x.omega_b - gust_rate_b_, s.deflections, rho);
     const double Va = plain::norm<double>(v_r);
     if (aero_.washed())
       aero_.add_wash<double>(v_r, s.deflections, propeller_.thrust(s.Omega, Va, rho), rho, load);
@@ -442,7 +447,7 @@ class Plant {
   Air air_;
   Load load_;
   std::array<Stage, 2> stage_;
-  Eigen::Vector3d gust_b_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d gust_b_ = Eigen::Vector3d::Zero(), gust_rate_b_ = Eigen::Vector3d::Zero();
   double Omega_ = 0, Va_ = 0, throttle_ = 0;
   double motor_dt_ = -1, motor_decay_ = 0;
   Departure departure_ = Departure::none;

@@ -44,6 +44,10 @@ struct Weather {
   TurbulenceHeight turbulence_height = TurbulenceHeight::fixed;
   double wind_20ft_mps = 0;  ///< above 0: rules `actual` turbulence below 1000 ft
   Thermals thermals{};
+  /// Above 0: `fixed` turbulence is that of this height above the ground (dryden_height.hpp), m.
+  double fixed_height_m = 0;
+  double gust_airspeed_mps = 0;  ///< above 0: gusts come at this airspeed, whatever that of the aircraft
+  double gust_span_m = 0;        ///< above 0: turbulence also turns, over a wing of this span
 };
 
 }  // namespace fulmar::sim

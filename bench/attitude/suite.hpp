@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The attitude benchmark of the Skywalker X8: E. Bohn, E. M. Coates, S. Moe, T. A. Johansen, Deep
+// Reinforcement Learning Attitude Control of Fixed-Wing UAVs Using Proximal Policy Optimization, ICUAS 2019.
+// Where an episode begins, what it asks for, when it is a success. No aircraft and no law in here.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "fulmar/flight/dryden.hpp"
+#include "fulmar/random.hpp"
+
+namespace fulmar::attitude {
+
+inline constexpr double deg = std::numbers::pi / 180;
+inline constexpr double dt_s = 0.01;
+inline constexpr int longest_steps = 1500, streak_steps = 100;
+inline constexpr double angle_bound_rad = 5 * deg, airspeed_bound_mps = 2;
+/// Turbulence: of this height above the ground, carried past at this airspeed.
+inline constexpr double turbulence_height_m = 100, turbulence_airspeed_mps = 25;
+
+/// Roll, pitch, body rates, rad and rad/s; airspeed, m/s, and of it the parts along body y and z.
+struct Start {
+  double roll_rad = 0, pitch_rad = 0;
+  double airspeed_mps = 0, v_mps = 0, w_mps = 0;
+  std::array<double, 3> rate_radps{};
+};
+struct Target {
+  double roll_rad = 0, pitch_rad = 0, airspeed_mps = 0;
+};
+
+/// What an airspeed may begin as. The target's as well, which is drawn within 3 m/s of it.
+inline constexpr double slowest_mps = 17, fastest_mps = 28;
+
+struct Episode {
+  Start start;
+  Target target;
+  std::uint64_t seed = 0;  ///< of its gusts
+};
+
+/// The same for the same seed, whatever the turbulence.
+inline Episode episode(std::uint64_t seed, std::uint64_t number) {
+  Random random(mix_seed(seed, number));
+  const auto within = [&](double most) { return random.uniform(-most, most); };
+  Episode e;
+  e.start.roll_rad = within(60 * deg), e.start.pitch_rad = within(25 * deg);
+  e.start.airspeed_mps = random.uniform(slowest_mps, fastest_mps);
+  e.start.v_mps = within(5), e.start.w_mps = within(5);
+  for (double& rate : e.start.rate_radps) rate = within(40 * deg);
+  e.target.roll_rad = within(15 * deg), e.target.pitch_rad = within(10 * deg);
+  const double Va = e.start.airspeed_mps;
+  e.target.airspeed_mps = random.uniform(std::max(Va - 3, slowest_mps), std::min(Va + 3, fastest_mps));
+  e.seed = random.bits();
+  return e;
+}
+
+/// The airspeed asked for one step later: it goes where the pitch target would lead a throttle of 85 % in a
+/// climb, and none in a descent.
+inline double next_airspeed(const Target& t) {
+  const double theta = t.pitch_rad, Va = t.airspeed_mps;
+  if (theta >= 5 * deg) {
+    const double end = 26.27 - 41.25 * theta;
+    return Va > end ? Va + (end - Va) / 150 : Va;
+  }
+  if (theta <= -2.5 * deg) {
+    const double end = 28.4 - 40.1 * theta;
+    return Va < end ? std::min(Va + (-7 * theta - 0.25) * dt_s, end) : Va;
+  }
+  return Va;
+}
+
+/// Counts steps within the bounds.
+struct Streak {
+  int steps = 0, length = 0;
+  /// Roll, pitch, airspeed: wanted minus is. True when this step ends a streak that is long enough.
+  bool step(double roll_error_rad, double pitch_error_rad, double airspeed_error_mps) {
+    ++steps;
+    const bool within = std::abs(roll_error_rad) <= angle_bound_rad &&
+                        std::abs(pitch_error_rad) <= angle_bound_rad &&
+                        std::abs(airspeed_error_mps) <= airspeed_bound_mps;
+    length = within ? length + 1 : 0;
+    return length >= streak_steps;
+  }
+};
+
+/// How much is commanded: the mean of |rate| of elevator, aileron (rad) and throttle, 1/s, averaged over the
+/// three, from the first command to the end of the episode. What the first command is does not count.
+struct Variation {
+  double sum = 0;
+  int commands = 0;
+  std::array<double, 3> last{};
+  void step(const std::array<double, 3>& command) {
+    for (std::size_t i = 0; commands > 0 && i < 3; ++i) sum += std::abs(command[i] - last[i]);
+    last = command;
+    ++commands;
+  }
+  double per_s() const { return commands > 1 ? sum / (3 * dt_s * (commands - 1)) : 0; }
+};
+
+struct Result {
+  bool success = false;
+  int steps = longest_steps;  ///< at which the streak ended
+  double variation_per_s = 0;
+};
+
+struct Row {
+  double success_percent = 0, settling_steps = 0, variation_per_s = 0;
+};
+struct Published {
+  const char* turbulence;
+  Row pid;                ///< of the authors
+  double policy_percent;  ///< success of their best learnt policy
+};
+inline constexpr std::array<Published, 4> published{{{"none", {100, 254, 0.29}, 100},
+                                                     {"light", {100, 260, 0.48}, 100},
+                                                     {"moderate", {93, 419, 0.67}, 100},
+                                                     {"severe", {83, 651, 0.80}, 97}}};
+
+}  // namespace fulmar::attitude

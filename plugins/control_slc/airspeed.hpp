@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Airspeed to throttle for an attitude that somebody else commands: a pilot, a test signal, a policy. It asks
+// for the thrust that the energy balance wants, m dV/dt = T - D - m g sin(gamma): Beard & McLain, Small
+// Unmanned Aircraft (2012), (5.36) and section 6.4.3.
+#pragma once
+#include <fulmar/flight/atmosphere.hpp>
+#include <fulmar/flight/filters.hpp>
+#include <fulmar/flight/outer_commands.hpp>
+#include <fulmar/flight/pid.hpp>
+#include <fulmar/flight/turn_trim.hpp>
+#include <fulmar/msg/attitude_command.hpp>
+#include <fulmar/msg/guidance_command.hpp>
+#include <fulmar/plugin.hpp>
+
+namespace fulmar::slc {
+
+struct Airspeed {
+  static constexpr const char* doc = "Airspeed hold by throttle for a commanded attitude.";
+  struct Inputs {
+    In<VehicleState> state;
+    In<AttitudeCommand> wanted;   ///< its roll and pitch; the throttle is not looked at
+    In<GuidanceCommand> command;  ///< its airspeed alone
+  };
+  struct Outputs {
+    AttitudeCommand attitude;
+    Probe airspeed_error_mps;
+  };
+  struct Params {
+    Param speed_kp{0.6, "1/s", 0, 10, "acceleration per airspeed error"};
+    Param speed_ki{0.1, "1/s^2", 0, 10, "acceleration per integrated airspeed error"};
+    Param speed_filter{0.3, "s", 0, 10, "time constant of the airspeed that the error is taken of"};
+    Param energy_kff{1.0, "ratio", 0, 2,
+                     "share of the thrust fed forward that climb, drag and a moving airspeed command need"};
+    Param command_filter{0.2, "s", 0.005, 5, "time constant of the differentiated airspeed command"};
+    Param thrust{50.0, "N", 1, 10000, "force per unit of throttle near cruise"};
+    Param throttle_rate_limit{2.0, "1/s", 0.1, 100, "fastest change of the throttle"};
+    Record<Airframe> airframe{"mass, trims, limits, and the drag that is fed forward"};
+  };
+
+  Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
+    airspeed_.reset_to(in.state->airspeed_mps);
+    command_rate_.reset_to(in.command->airspeed_mps);
+    loop_.reset();
+    take_up_ = last.has(last->attitude);
+    throttle_.reset_to(take_up_ ? last->attitude.throttle_frac : p.airframe->limits.throttle_cruise_frac);
+    return Status::ok;
+  }
+
+  Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
+    const VehicleState& state = *in.state;
+    const double dt = std::clamp(tick.dt_s(), 0.0, 0.1);  // a gap must not throw the integrator
+    out.attitude = *in.wanted;
+    out.airspeed_error_mps = 0.0;
+    if (standing(state)) return rest(out);
+    const FlightLimits& limits = p.airframe->limits;
+    const double Va_c =
+        std::clamp(in.command->airspeed_mps, limits.airspeed_min_mps, limits.airspeed_max_mps);
+    const double per_throttle = p.thrust / p.airframe->mass_kg;  // m/s2
+    const double acceleration_c = command_rate_.step(Va_c, p.command_filter, dt);
+    const double steady = needed(state, *in.wanted, *p.airframe, Va_c);
+    const double Va = airspeed_.step(state.airspeed_valid ? state.airspeed_mps : Va_c, p.speed_filter, dt);
+    const PidInput input{
+        .error = state.airspeed_valid ? Va_c - Va : 0,
+        .rate = 0,
+        .feedforward = limits.throttle_cruise_frac + p.energy_kff * (steady + acceleration_c) / per_throttle,
+        .min = 0,
+        .max = 1};
+    const PidGains gains{p.speed_kp / per_throttle, p.speed_ki / per_throttle, 0};
+    if (take_up_) loop_.reset_to(throttle_.value(), gains, input, 0.2);
+    take_up_ = false;
+    out.attitude.throttle_frac = throttle_.step(loop_.step(gains, input, dt), p.throttle_rate_limit, dt);
+    out.airspeed_error_mps = input.error;
+    return state.airspeed_valid ? Status::ok : Status::degraded;
+  }
+
+ private:
+  /// Standing: engine off, nothing is remembered.
+  Status rest(Outputs& out) {
+    loop_.reset(), airspeed_.reset(), command_rate_.reset();
+    throttle_.reset_to(0);
+    take_up_ = false;
+    out.attitude.throttle_frac = 0;
+    return Status::ok;
+  }
+
+  /// Acceleration, m/s2, that the thrust has to give beyond level flight at cruise: for the climb, and for
+  /// the drag at the airspeed and bank wanted. Both of the command, so that gusts do not come into it.
+  static double needed(const VehicleState& state, const AttitudeCommand& wanted, const Airframe& a,
+                       double Va_c) {
+    const double rho = standard_air(state.origin_altitude_m + state.height_m).density_kgm3;
+    const TurnTrim there = turn_trim(a, wanted.roll_rad, Va_c, rho);
+    const TurnTrim cruise = turn_trim(a, 0, a.limits.airspeed_cruise_mps, rho);
+    const double gamma = wanted.pitch_rad - there.alpha_rad * std::cos(wanted.roll_rad);
+    return g_mps2 * std::sin(gamma) + (there.drag_newton - cruise.drag_newton) / a.mass_kg;
+  }
+
+  static constexpr double g_mps2 = 9.80665;
+  LowPass airspeed_;  ///< m/s
+  Differentiator command_rate_;
+  RateLimiter throttle_;
+  Pid loop_;
+  bool take_up_ = false;
+};
+
+}  // namespace fulmar::slc

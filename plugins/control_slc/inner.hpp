@@ -197,8 +197,7 @@ struct Inner {
     return a.roll.aileron_ratio != 0 ? -a.roll.beta_ratio / a.roll.aileron_ratio * slip_rad : 0;
   }
 
-  /// delta_a = trim + slip's + scale [kp e + kd (p_c - p) + I] + kff p_c
-  /// delta_a = trim + scale [kp e + kd (p_c - p) + I + k_beta beta] + kff p_c
+  /// delta_a = trim + slip's + scale [kp e + kd (p_c - p) + I + k_beta beta] + kff p_c
   double roll_to_aileron(const VehicleState& state, const AttitudeCommand& command, const Params& p,
                          double slip_rad, double scale, double integrate, double dt) {
     const Surface& aileron = p.airframe->aileron;
@@ -210,8 +209,7 @@ struct Inner {
     const PidInput in{.error = command.roll_rad - state.roll_rad,
                       .rate = state.rate_radps.x - p_c,
                       .feedforward = aileron.trim_rad + aileron_for(slip_rad, p.airframe->aero) +
-                                     p.roll_kff * std::sqrt(scale) * p_c,
-                      .feedforward = aileron.trim_rad + p.roll_kff * std::sqrt(scale) * p_c +
+                                     p.roll_kff * std::sqrt(scale) * p_c +
                                      scale * p.roll_from_sideslip * beta,
                       .min = -aileron.limit_rad,
                       .max = aileron.limit_rad};
@@ -251,8 +249,7 @@ struct Inner {
     const Surface& rudder = p.airframe->rudder;
     const double damping = washout_.step(yaw_rate_error(state, Va), p.yaw_washout, dt);
     const double held = rudder.trim_rad + rudder_for(slip_rad, p.airframe->aero);
-    return std::clamp(held + scale * quiet_[yaw].gain() * p.yaw_kd * damping, -rudder.limit_rad,
-    return std::clamp(rudder.trim_rad + quiet_[yaw].gain() * (scale * p.yaw_kd * damping), -rudder.limit_rad,
+    return std::clamp(held + quiet_[yaw].gain() * (scale * p.yaw_kd * damping), -rudder.limit_rad,
                       rudder.limit_rad);
   }
 

@@ -244,14 +244,17 @@ struct Landing {
   /// From the flare on the nose is turned to the runway, as far as `decrab` goes; what is left of the error
   /// after a second is taken up once more, so the rudder need not be known well.
   void turn_nose(const VehicleState& s, const Params& p, double dt) {
-    constexpr double within_s = 1;
+    constexpr double within_s = 1, blown_m = 2;
     const bool low = progress_.stage == LandingStage::flare || progress_.stage == LandingStage::roll_out;
     if (!low || !s.attitude_valid) {
       slip_rad_ = 0;
       return;
     }
     const double off = angle_difference(s.yaw_rad, runway_.heading_rad);
-    slip_rad_ = std::clamp(slip_rad_ + off * dt / within_s, -p.decrab.value, p.decrab.value);
+    // The bank may not suffice for slip and gust: whoever is blown off the line flies less of the slip.
+    const double leeward_m = std::max(slip_rad_ > 0 ? -progress_.cross_m : progress_.cross_m, 0.0);
+    const double most = p.decrab * std::max(1 - leeward_m / blown_m, 0.0);
+    slip_rad_ = std::clamp(slip_rad_ + off * dt / within_s, -most, most);
   }
   /// Bank that takes the side force of that sideslip, rudder included: m g sin(phi) = q S CY, B&M (4.18) and
   /// (4.5).

@@ -223,6 +223,10 @@ TEST_CASE("in the flare the nose is turned to the runway, with the bank that the
     CHECK(strip.bench.out.sideslip.sideslip_rad == doctest::Approx(side * 0.1));
     // 0.5 1.2227 kg/m3 (20 + 3 m) 14^2 0.52 m2 (0.98 - 0.19 * 2) 0.1 / (4.5 kg g) = 0.0847: into the wind
     CHECK(strip.bench.out.command.roll_feedforward_rad == doctest::Approx(side * 0.0848).epsilon(0.01));
+    strip.at(40, -side * 1, 3);  // blown off by 1 m: half of it is left; to windward it stays
+    CHECK(strip.bench.out.sideslip.sideslip_rad == doctest::Approx(side * 0.05));
+    strip.at(40, side * 1, 3, 2);
+    CHECK(strip.bench.out.sideslip.sideslip_rad == doctest::Approx(side * 0.1));
     strip.s.yaw_rad = 90 * deg;  // it is turned: the slip stays
     strip.at(40, 0, 3, 1);
     CHECK(strip.bench.out.sideslip.sideslip_rad == doctest::Approx(side * 0.1));

@@ -34,7 +34,6 @@ class Swings {
     peak_ = std::max(peak_, std::abs(y));
     caused_ = std::max(caused_, c);
     large_ = peak_ > threshold && peak_ > 0.7 * before_ && caused_ < 0.5 * peak_;
-    if (time_s_ > longest_s) count_ = 0;
     if (count_ < many) return false;
     count_ = 0;
     return true;

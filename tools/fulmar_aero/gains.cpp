@@ -71,7 +71,7 @@ struct Relations {
   }
   void height(double w, SlcLaw& p) const {
     p.altitude_kp.value = w / Va;
-    p.altitude_ki.value = 0.1 * w * w / Va / 1.7;
+    p.altitude_ki.value = w / Va * w / 17;  // corner at w/17
     p.altitude_kd.value = 0.5 / Va;
   }
   void airspeed(double w, SlcLaw& p) const {

@@ -121,6 +121,18 @@ TEST_CASE("with the wind behind it takes as much more as a fine integration of t
   }
 }
 
+TEST_CASE("the turn ends when the track over the ground points home, not the nose") {
+  const Polygon wide = polygon({{2000, 200}, {-2000, 200}, {-2000, -2000}, {2000, -2000}});
+  TurnBack t = flying(0, 100, 0, 20);
+  t.v_east_mps = t.w_east_mps = 10;  // the nose is north
+  const Spot home{10000, 10100, 0};
+  double e = 100 + 10, psi = 0;
+  const double omega = 9.80665 * std::tan(0.5) / 20;
+  while (std::atan2(20 * std::sin(psi) + 10, 20 * std::cos(psi)) < 45 * kit::deg)
+    psi += omega * 1e-3, e += (20 * std::sin(psi) + 10) * 1e-3;
+  CHECK(std::abs(room_of_turn(wide, t, home, 1) - (200 - e)) < 8);
+}
+
 TEST_CASE("the short turn is taken as long as it leaves room, the other one when it does not") {
   const Polygon lane = polygon({{2000, -200}, {2000, 40}, {-2000, 40}, {-2000, -200}});
   const Spot home{-1000, 30, 0};  // behind, to the right: the short turn crosses the near side

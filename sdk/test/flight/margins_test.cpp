@@ -10,7 +10,7 @@ namespace margins_test {
 using namespace fulmar;
 using doctest::Approx;
 using Complex = std::complex<double>;
-constexpr double pi = std::numbers::pi, degree = pi / 180;
+constexpr double pi = std::numbers::pi;
 
 namespace {
 template <class L>

@@ -88,7 +88,7 @@ TEST_CASE("too little margin is told for each loop, and nothing is written") {
   const std::string file = folder.write("late.yaml", text);
   const Answer answer =
       call("tune " + file +
-           " --delay '100 ms' --write --bandwidth roll=4.5 --bandwidth pitch=4 --bandwidth course=4");
+           " --delay '60 ms' --write --bandwidth roll=6 --bandwidth pitch=6 --bandwidth course=5");
   CHECK(answer.code == 1);
   CHECK_MESSAGE(answer.says("anaconda: course, broken at the course: the phase margin is "), answer.out);
   CHECK(answer.says(" deg, 45 deg are the least"));
@@ -105,9 +105,7 @@ TEST_CASE("a bandwidth that an actuator cannot give is refused, with the limit a
       {"x8.yaml --bandwidth pitch=15 --delay '10 ms'", "servo 34.2 ms, half a step 5 ms and delay 10 ms"},
       {"x8.yaml --bandwidth airspeed=3", "more than the throttle can give: motor 200 ms"}};
   for (const auto& [words, sentence] : told) {
-    const Answer answer =
-        call("tune " + file +
-             " --delay '60 ms' --write --bandwidth roll=6 --bandwidth pitch=6 --bandwidth course=5");
+    const Answer answer = call("tune configs/airframes/" + words);
     CHECK(answer.code == 1);
     CHECK_MESSAGE(answer.says(sentence), answer.out);
   }

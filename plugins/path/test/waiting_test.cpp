@@ -7,7 +7,7 @@
 #include <cmath>
 #include <fulmar/testing.hpp>
 
-namespace loiter_test {
+namespace waiting_test {
 
 using namespace fulmar;
 using path::Loiter;
@@ -124,4 +124,4 @@ TEST_CASE("without a position it circles through the air, and straight on withou
   CHECK(p.step().roll_feedforward_rad == 0);
 }
 
-}  // namespace loiter_test
+}  // namespace waiting_test

@@ -119,7 +119,8 @@ TEST_CASE("the shipped gains recover the X8 at each level of turbulence") {
   for (const Turbulence level :
        {Turbulence::none, Turbulence::light, Turbulence::moderate, Turbulence::severe}) {
     std::vector<Result> results;
-    for (std::uint64_t i = 0; i < 12; ++i) results.push_back(fly(x8(), gains, episode(11, i), level));
+    for (std::uint64_t i = 0; i < 12; ++i)
+      results.push_back(fly(x8(), ShippedLaw(x8(), gains), episode(11, i), level));
     const auto number = static_cast<std::size_t>(level);
     CAPTURE(number);
     CHECK(summary(results).success_percent == 100);
@@ -128,13 +129,35 @@ TEST_CASE("the shipped gains recover the X8 at each level of turbulence") {
   }
 }
 
+TEST_CASE(
+    "a row is within its bars when it succeeds as the policy does and is as fast and quiet as the PID") {
+  const Published& bar = published[3];
+  CHECK(within({97, 651, 0.80}, bar));
+  CHECK(!within({96, 300, 0.3}, bar));
+  CHECK(!within({100, 652, 0.3}, bar));
+  CHECK(!within({100, 300, 0.81}, bar));
+}
+
+TEST_CASE("the published PID has its gains, signs and limits") {
+  PublishedPid pid;
+  VehicleState s;
+  s.roll_rad = 0.1, s.pitch_rad = 0.02, s.airspeed_mps = 20;
+  s.rate_radps = {0.2, 0.3, 0};
+  const Actuators u = pid.step(s, {0.3, 0.05, 21});
+  CHECK(u.aileron_rad == Approx(0.2 - 0.1));
+  CHECK(u.elevator_rad == Approx(-4 * 0.03 - 0.75 * 0.01 * 0.03 + 0.03));
+  CHECK(u.throttle_frac == Approx(0.5 + 0.1 * 0.01));
+  CHECK(pid.step(s, {-2, -1, 10}).elevator_rad == Approx(35 * deg));
+  CHECK(pid.step(s, {-2, -1, 10}).throttle_frac == 0);
+}
+
 TEST_CASE("without the aileron against sideslip the X8 does not settle at speed") {
   Gains gains = shipped_gains();
   gains.inner.roll_from_sideslip.value = gains.inner.roll_kd.value = 0;
   std::vector<Result> with, without;
   for (std::uint64_t i = 0; i < 12; ++i) {
-    with.push_back(fly(x8(), shipped_gains(), episode(11, i), Turbulence::none));
-    without.push_back(fly(x8(), gains, episode(11, i), Turbulence::none));
+    with.push_back(fly(x8(), ShippedLaw(x8(), shipped_gains()), episode(11, i), Turbulence::none));
+    without.push_back(fly(x8(), ShippedLaw(x8(), gains), episode(11, i), Turbulence::none));
   }
   CHECK(summary(without).settling_steps > 1.2 * summary(with).settling_steps);
 }

@@ -5,7 +5,6 @@
 #include <fulmar/eigen.hpp>
 #include <fulmar/sim/simulation.hpp>
 #include <fulmar/testing.hpp>
-#include <functional>
 #include <vector>
 
 #include "bench/attitude/suite.hpp"
@@ -65,50 +64,70 @@ struct Gains {
   slc::Inner::Params inner;
 };
 
-/// What a step looked like: state, target, command.
-using Look = std::function<void(const VehicleState&, const Target&, const Actuators&)>;
-
-inline Result fly(const Airframe& a, const Gains& gains, const Episode& e, Turbulence turbulence,
-                  const Look& look = {}) {
-  sim::Simulation sim = begun(a, e, turbulence);
+/// The shipped components, stepped as the host does.
+struct ShippedLaw {
   Bench<slc::Airspeed> airspeed;
   Bench<slc::Inner> inner;
-  airspeed.params = gains.airspeed, inner.params = gains.inner;
-  airspeed.params.airframe.value = inner.params.airframe.value = a;
+  bool begun = false;
+
+  ShippedLaw(const Airframe& a, const Gains& gains) {
+    airspeed.params = gains.airspeed, inner.params = gains.inner;
+    airspeed.params.airframe.value = inner.params.airframe.value = a;
+  }
+  Actuators step(const VehicleState& state, const Target& target) {
+    GuidanceCommand command;
+    command.airspeed_mps = target.airspeed_mps;
+    // the samples are of the time of the step to come
+    airspeed.set(airspeed.in.state, state, -dt_s);
+    airspeed.set(airspeed.in.wanted, AttitudeCommand{target.roll_rad, target.pitch_rad, 0}, -dt_s);
+    airspeed.set(airspeed.in.command, command, -dt_s);
+    if (!begun) airspeed.activate();
+    airspeed.step(dt_s);
+    inner.set(inner.in.state, state, -dt_s);
+    inner.set(inner.in.attitude, airspeed.out.attitude, -dt_s);
+    if (!begun) inner.activate();
+    inner.step(dt_s);
+    begun = true;
+    return inner.out.actuators;
+  }
+};
+
+/// The PID of the publication, its gains and limits: what its figures are compared with.
+struct PublishedPid {
+  double airspeed_integral = 0, pitch_integral = 0;
+
+  Actuators step(const VehicleState& s, const Target& target) {
+    const double e_V = target.airspeed_mps - s.airspeed_mps, e_phi = target.roll_rad - s.roll_rad;
+    const double e_theta = target.pitch_rad - s.pitch_rad;
+    airspeed_integral += dt_s * e_V, pitch_integral += dt_s * e_theta;
+    Actuators u;
+    u.throttle_frac = std::clamp(0.5 * e_V + 0.1 * airspeed_integral, 0.0, 1.0);
+    u.aileron_rad = std::clamp(e_phi - 0.5 * s.rate_radps.x, -30 * deg, 30 * deg);
+    u.elevator_rad =
+        std::clamp(-4 * e_theta - 0.75 * pitch_integral + 0.1 * s.rate_radps.y, -30 * deg, 35 * deg);
+    return u;
+  }
+};
+
+template <class Law>
+Result fly(const Airframe& a, Law&& law, const Episode& e, Turbulence turbulence) {
+  sim::Simulation sim = begun(a, e, turbulence);
   Target target = e.target;
   Streak streak;
   Variation variation;
   Result result;
-  for (int i = 0; i < longest_steps; ++i) {
-    const VehicleState state = seen(sim);
-    GuidanceCommand command;
-    command.airspeed_mps = target.airspeed_mps;
-    const AttitudeCommand wanted{target.roll_rad, target.pitch_rad, 0};
-    // the samples are of the time of the step to come
-    airspeed.set(airspeed.in.state, state, -dt_s);
-    airspeed.set(airspeed.in.wanted, wanted, -dt_s);
-    airspeed.set(airspeed.in.command, command, -dt_s);
-    if (i == 0) airspeed.activate();
-    airspeed.step(dt_s);
-    inner.set(inner.in.state, state, -dt_s);
-    inner.set(inner.in.attitude, airspeed.out.attitude, -dt_s);
-    if (i == 0) inner.activate();
-    inner.step(dt_s);
-    const Actuators& u = inner.out.actuators;
-    if (look) look(state, target, u);
+  VehicleState state = seen(sim);
+  while (!result.success && streak.steps < longest_steps) {
+    const Actuators u = law.step(state, target);
     variation.step({u.elevator_rad, u.aileron_rad, u.throttle_frac});
     sim.step(u, dt_s);
-    const VehicleState after = seen(sim);
-    const bool done =
-        streak.step(wrap_pi(target.roll_rad - after.roll_rad), target.pitch_rad - after.pitch_rad,
-                    target.airspeed_mps - after.airspeed_mps);
+    state = seen(sim);
+    result.success =
+        streak.step(wrap_pi(target.roll_rad - state.roll_rad), target.pitch_rad - state.pitch_rad,
+                    target.airspeed_mps - state.airspeed_mps);
     target.airspeed_mps = next_airspeed(target);
-    if (done) {
-      result.success = true;
-      result.steps = streak.steps;
-      break;
-    }
   }
+  result.steps = streak.steps;
   result.variation_per_s = variation.per_s();
   return result;
 }

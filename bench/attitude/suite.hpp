@@ -118,4 +118,10 @@ inline constexpr std::array<Published, 4> published{{{"none", {100, 254, 0.29}, 
                                                      {"moderate", {93, 419, 0.67}, 100},
                                                      {"severe", {83, 651, 0.80}, 97}}};
 
+/// As often as the policy, as fast and as quiet as the PID.
+inline bool within(const Row& row, const Published& bar) {
+  return row.success_percent >= bar.policy_percent && row.settling_steps <= bar.pid.settling_steps &&
+         row.variation_per_s <= bar.pid.variation_per_s;
+}
+
 }  // namespace fulmar::attitude

@@ -255,3 +255,55 @@ TEST_CASE("arrays of another shape, numbers that are none and empty batches are 
   CHECK(refusal([] { Batch none(anaconda(), 0); }) == "a batch has one aircraft or more");
   CHECK(refusal([] { Batch none(anaconda(), 1, {}, 1, 0); }) == "a batch has 1 to 256 threads");
 }
+
+TEST_CASE(
+    "turbulence of one height and one airspeed is the Dryden model's, however fast the aircraft flies") {
+  Weather w;
+  w.turbulence = Turbulence::severe;
+  w.fixed_height_m = 100, w.gust_airspeed_mps = 25;
+  Disturbances air(w, 5);
+  Dryden model(dryden_scales_at(Turbulence::severe, 100), 5);
+  bool all = true;
+  for (int i = 0; i < 100; ++i) all = all && air.advance(0.01, 10 + 0.3 * i) == model.advance(0.01, 25);
+  CHECK(all);
+  CHECK(!air.rotates());
+}
+
+TEST_CASE(
+    "turbulence that turns leaves the gusts along the axes as they are, and rolls the aircraft by its "
+    "damping") {
+  SimulationOptions straight = windy(), turning = windy();
+  const Airframe a = test::airframe_file("x8");
+  turning.weather.gust_span_m = a.wing.span_m;
+  Simulation one(a, straight, 7), other(a, turning, 7);
+  for (Simulation* sim : {&one, &other}) {
+    REQUIRE(sim->fly({0, 0, -300}, 0, 18));
+    sim->step(sim->trim(), dt);
+  }
+  CHECK(one.plant().wind_n() == other.plant().wind_n());
+  CHECK(one.body().omega_b == other.body().omega_b);  // the air begins to turn at the end of the step
+  // Angular acceleration by the air's rotation p, q, r: that of a body that turns the other way.
+  Disturbances air(turning.weather, 7);
+  air.advance(dt, one.air_data().Va);
+  REQUIRE(air.rotates());
+  const Eigen::Vector3d turn = air.rotation(dt, one.air_data().Va);
+  CHECK(turn.norm() > 0);
+  const auto moment = [&](const Simulation& sim, const Eigen::Vector3d& omega) {
+    return sim.plant()
+        .aerodynamic()
+        .load(sim.plant().air_velocity_b(), omega, sim.plant().deflections(), sim.plant().air().density_kgm3)
+        .moment_b;
+  };
+  const Eigen::Vector3d by_air = moment(one, one.body().omega_b - turn) - moment(one, one.body().omega_b);
+  Eigen::Matrix3d J = Eigen::Matrix3d::Zero();
+  J.diagonal() << a.inertia.xx_kgm2, a.inertia.yy_kgm2, a.inertia.zz_kgm2;
+  J(0, 2) = J(2, 0) = -a.inertia.xz_kgm2;
+  const Eigen::Vector3d gained = other.plant().angular_acceleration() - one.plant().angular_acceleration();
+  CHECK((J * gained - by_air).norm() / by_air.norm() < 1e-9);
+}
+
+TEST_CASE("air that is still does not turn, whatever the span") {
+  Weather w;
+  w.gust_span_m = 2;
+  CHECK(!Disturbances(w, 1).rotates());
+}

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Circles to both sides, where it is and round a point, and a height that is gone to by its rate.
-#include "plugins/path/loiter.hpp"
-
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <fulmar/testing.hpp>
+
+#include "plugins/path/loiter.hpp"
 
 namespace waiting_test {
 

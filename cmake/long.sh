@@ -39,4 +39,5 @@ build/bin/flight_test --test-case="spectra and deviations*"
 build/bin/bench_link_gaps >build/check/link_gaps.md
 build/bin/bench_faults >build/check/faults.md
 build/bin/bench_sensor_faults >build/check/sensor_faults.md
+build/bin/bench_attitude >build/check/attitude.md
 build/bin/bench_missions --seeds 50

@@ -151,15 +151,15 @@ TEST_CASE("the published PID has its gains, signs and limits") {
   CHECK(pid.step(s, {-2, -1, 10}).throttle_frac == 0);
 }
 
-TEST_CASE("without the aileron against sideslip the X8 does not settle at speed") {
+TEST_CASE("without the aileron against sideslip the X8 takes much longer to settle") {
   Gains gains = shipped_gains();
-  gains.inner.roll_from_sideslip.value = gains.inner.roll_kd.value = 0;
+  gains.inner.roll_from_sideslip.value = 0;
   std::vector<Result> with, without;
   for (std::uint64_t i = 0; i < 12; ++i) {
     with.push_back(fly(x8(), ShippedLaw(x8(), shipped_gains()), episode(11, i), Turbulence::none));
     without.push_back(fly(x8(), ShippedLaw(x8(), gains), episode(11, i), Turbulence::none));
   }
-  CHECK(summary(without).settling_steps > 1.2 * summary(with).settling_steps);
+  CHECK(summary(without).settling_steps > 1.4 * summary(with).settling_steps);
 }
 
 }  // namespace attitude_test

@@ -61,7 +61,8 @@ std::vector<Named<Law>> outer_parameters(std::vector<Named<Law>> own) {
                               {"takeoff_airspeed", &Law::takeoff_airspeed}};
   for (const char* other :
        {"law", "roll_limit", "roll_rate_limit", "pitch_limit", "pitch_rate_limit", "throttle_rate_limit",
-        "turn_kff", "takeoff_throttle", "takeoff_pitch", "takeoff_kp", "takeoff_roll_limit", "airframe"})
+        "turn_kff", "takeoff_throttle", "takeoff_pitch", "takeoff_kp", "takeoff_roll_limit",
+        "launch_acceleration", "launch_speed", "launch_delay", "airframe"})
     all.push_back({other, nullptr});
   all.insert(all.end(), own.begin(), own.end());
   return all;
@@ -75,6 +76,7 @@ const std::vector<Named<InnerLaw>>& parameters_of(const InnerLaw&) {
                                          {"roll_ki", &L::roll_ki},
                                          {"roll_kd", &L::roll_kd},
                                          {"roll_kff", &L::roll_kff},
+                                         {"roll_from_sideslip", &L::roll_from_sideslip},
                                          {"pitch_kp", &L::pitch_kp},
                                          {"pitch_ki", &L::pitch_ki},
                                          {"pitch_kd", &L::pitch_kd},
@@ -84,6 +86,7 @@ const std::vector<Named<InnerLaw>>& parameters_of(const InnerLaw&) {
                                          {"command_filter", &L::command_filter},
                                          {"airspeed_smoothing", &L::airspeed_smoothing},
                                          {"scale_limit", &L::scale_limit},
+                                         {"quieten", nullptr},
                                          {"airframe", nullptr}};
   return all;
 }
@@ -130,6 +133,7 @@ InnerResponse response(const InnerLaw& p, const LawPoint& at, Complex z) {
       roll_gain + (std::sqrt(scale) * p.roll_kff + scale * p.roll_kd) * rate;
   out.of_sensors(model::aileron, sensor::roll) = -roll_gain;
   out.of_sensors(model::aileron, sensor::p) = -scale * p.roll_kd;
+  out.of_sensors(model::aileron, sensor::sideslip) = scale * p.roll_from_sideslip;
   out.of_commands(model::elevator, command::pitch) = -pitch_gain;
   out.of_sensors(model::elevator, sensor::pitch) = pitch_gain;
   out.of_sensors(model::elevator, sensor::q) = scale * p.pitch_kd;

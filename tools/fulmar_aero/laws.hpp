@@ -14,10 +14,10 @@ namespace fulmar::aero {
 
 using Complex = std::complex<double>;
 
-/// What the laws measure: deviations from steady flight, rad, rad/s, m, m/s, m/s2.
+/// What the laws measure: deviations from steady flight, rad, rad/s, m, m/s, m/s2, rad.
 namespace sensor {
-enum : int { roll, pitch, p, q, r, course, height, climb, airspeed, acceleration };
-inline constexpr int count = 10;
+enum : int { roll, pitch, p, q, r, course, height, climb, airspeed, acceleration, sideslip };
+inline constexpr int count = 11;
 }  // namespace sensor
 /// What the outer law commands of the inner one: rad, rad, a part of full throttle.
 namespace command {
@@ -46,7 +46,7 @@ struct Named {
 /// control_slc/Inner
 struct InnerLaw {
   Number roll_kp{1.2, "rad/rad", 0, 20}, roll_ki{0.1, "rad/(rad s)", 0, 10}, roll_kd{0.02, "rad s/rad", 0, 5},
-      roll_kff{0.15, "rad s/rad", 0, 5};
+      roll_kff{0.15, "rad s/rad", 0, 5}, roll_from_sideslip{0, "rad/rad", -5, 5};
   Number pitch_kp{4.0, "rad/rad", 0, 40}, pitch_ki{2.0, "rad/(rad s)", 0, 40},
       pitch_kd{0.5, "rad s/rad", 0, 10}, turn_kff{1.0, "ratio", 0, 2};
   Number yaw_kd{0.3, "rad s/rad", 0, 5}, yaw_washout{0.6, "rad/s", 0.01, 10};

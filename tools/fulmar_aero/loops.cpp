@@ -117,6 +117,7 @@ Eigen::Matrix<Complex, sensor::count, model::inputs> Plant::response(Complex s) 
   y.row(sensor::airspeed) =
       flight.x.segment<3>(model::u).cast<Complex>().transpose() * x.middleRows<3>(model::u) / Va;
   y.row(sensor::acceleration) = s * y.row(sensor::airspeed);
+  y.row(sensor::sideslip) = x.row(model::v) / Va;
   return y;
 }
 

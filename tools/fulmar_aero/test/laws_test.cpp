@@ -56,6 +56,7 @@ struct Place {
     if (which == sensor::climb) s.climb_rate_mps += x;
     if (which == sensor::airspeed) s.airspeed_mps += x;
     if (which == sensor::acceleration) acceleration += x;
+    if (which == sensor::sideslip) s.beta_rad += x;
     // along the airflow, alpha 0: gravity taken off
     s.specific_force_mps2 = {acceleration + isa::g0 * std::sin(s.pitch_rad), 0,
                              -isa::g0 * std::cos(s.pitch_rad)};
@@ -151,15 +152,18 @@ TEST_CASE("names, defaults, units and ranges are those of the components") {
 }
 
 TEST_CASE("control_slc/Inner answers small sines of every sensor and command as its linear law") {
+  InnerLaw law;
+  law.roll_from_sideslip.value = 0.3;
   for (const double speed : {0.85, 1.2}) {
     const Place place("anaconda.yaml", speed);
     for (const int period : periods) {
       const InnerResponse expected =
-          response(InnerLaw{}, place.at, std::exp(Complex(0, 2 * std::numbers::pi / period)));
+          response(law, place.at, std::exp(Complex(0, 2 * std::numbers::pi / period)));
       for (int input = 0; input < sensor::count + command::count; ++input)
         for (const double sign : {1.0, -1.0}) {
           Bench<slc::Inner> bench;
           bench.params.airframe.value = place.airframe;
+          bench.params.roll_from_sideslip.value = law.roll_from_sideslip;
           const int which = input < sensor::count ? input : -1, asked = input - sensor::count;
           const auto step = [&](double x) {
             AttitudeCommand a = place.attitude;

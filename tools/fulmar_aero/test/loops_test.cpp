@@ -40,6 +40,9 @@ struct Aircraft {
     bench.params.pitch_kp.value = laws.inner.pitch_kp, bench.params.pitch_ki.value = laws.inner.pitch_ki;
     bench.params.pitch_kd.value = laws.inner.pitch_kd, bench.params.yaw_kd.value = laws.inner.yaw_kd;
     bench.params.yaw_washout.value = laws.inner.yaw_washout;
+    bench.params.roll_from_sideslip.value = laws.inner.roll_from_sideslip;
+    bench.params.scale_limit.value = laws.inner.scale_limit;
+    bench.params.quieten.value = false;  // it is to grow
     const double Va = plant.flight.condition.airspeed_mps, theta = plant.flight.x(model::pitch);
     model::StateVector<double> x = model::StateVector<double>::Zero();
     x(input == model::elevator ? model::q : model::p) = 1e-6;
@@ -55,6 +58,7 @@ struct Aircraft {
       s.ground_speed_mps = Va;
       s.roll_rad = x(model::roll), s.pitch_rad = theta + x(model::pitch);
       s.rate_radps = {x(model::p), x(model::q), x(model::r)};
+      s.beta_rad = x(model::v) / Va;
       bench.set(bench.in.state, s);
       bench.set(bench.in.attitude, AttitudeCommand{0, theta, 0.5});
       bench.step(0.01);
@@ -132,6 +136,7 @@ TEST_CASE("an aircraft that its loops do not hold is told") {
   Aircraft a("x8", 0);
   a.laws.inner.roll_kp.value = 0.1;
   a.laws.inner.roll_kd.value = 0;
+  a.laws.inner.roll_from_sideslip.value = 0;
   CHECK(evaluate(a.plant, a.laws, OuterScheme::none).unstable == 2);
   CHECK(evaluate(a.plant, a.laws, OuterScheme::slc).unstable == 2);
 }

@@ -130,7 +130,10 @@ inline void Navigator::gnss_velocity(const Gnss& g, double valid_s, const Params
   const double std = known(g.speed_std_mps, p.gnss_speed_std, p.gnss_speed_floor), variance = std * std;
   Vector3d& off = health_.velocity_innovation;
   const std::array fix{z(0), z(1), z(2)};
-  for (int i = 0; i < 3; ++i) off(i) = fix[i].innovation / filter_.expected_std(fix[i], variance);
+  for (int i = 0; i < 3; ++i) {
+    const ekf::Scalar& one = fix[static_cast<std::size_t>(i)];
+    off(i) = one.innovation / filter_.expected_std(one, variance);
+  }
   const double slow = samples_in(p.gnss_climb_time, health_.velocity.accepted_s);
   const double n = climb_samples(fix[2].innovation, std, slow, p);
   if (!within({off.x(), off.y(), off.z()}, p.gnss_gate, health_.velocity)) {

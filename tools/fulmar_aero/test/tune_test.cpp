@@ -28,7 +28,8 @@ TEST_CASE("the gains of all shipped aircraft have their margins, broken at the a
       CHECK(o[which]["unstable_poles"] == 0);
       CHECK(o[which]["loops"].size() == (name == "x8" ? 7 : 8));
       for (const auto& [loop, figures] : o[which]["loops"].items()) {
-        CAPTURE(loop);
+        const std::string where = loop;  // no binding is captured
+        CAPTURE(where);
         for (const char* at : {"at_actuator", "at_sensor"})
           for (const auto& [margin, least] :
                std::map<std::string, double>{{"gain_db", 6}, {"reduction_db", 6}, {"phase_deg", 45}})
@@ -166,7 +167,8 @@ TEST_CASE("--write changes the gains and nothing else, and says the same when it
   const json again = tuned(file + " --write");
   for (const auto& [component, gains] : again["gains"].items())
     for (const auto& [name, gain] : gains.items()) {
-      CAPTURE(name);
+      const std::string which = name;  // no binding is captured
+      CAPTURE(which);
       CHECK(gain["shipped"] == o["gains"][component][name]["computed"]);
       CHECK(gain["shipped"] == gain["computed"]);
     }

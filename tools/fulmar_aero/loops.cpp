@@ -82,7 +82,7 @@ double bandwidth_of(const std::vector<double>& w, const std::vector<double>& T) 
 }
 
 /// Of the second-order system whose answer L/(1 + L) has the same peak, |T|max = 1/(2 z sqrt(1 - z^2)):
-/// Åström & Murray, Feedback Systems (2008), table 6.1.
+/// Åström & Murray, Feedback Systems (2008), section 6.3.
 double damping_of(const Samples& loop) {
   double M = 1;
   for (const LoopSample& one : loop) M = std::max(M, std::abs(one.gain / (1.0 + one.gain)));

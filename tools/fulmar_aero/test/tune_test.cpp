@@ -50,7 +50,7 @@ TEST_CASE("bandwidths become gains by the relations of the README") {
   const auto value = [](const json& gains, const char* name) {
     return gains[name]["computed"].get<double>();
   };
-  // q S b / Jxx times the derivatives, with the product of inertia: Beard & McLain (5.24), (5.25)
+  // q S b / Jxx times the derivatives, with the product of inertia: Beard & McLain, section 5.4
   const double rho = 1.0626, V = 17, q = 0.5 * rho * V * V, S = 0.52, b = 2.08;
   const double gamma = 0.24855 * 0.618 - 0.06 * 0.06, g3 = 0.618 / gamma, g4 = 0.06 / gamma;
   const double a2 = q * S * b * (g3 * 0.17 + g4 * -0.011);

@@ -20,7 +20,8 @@ json tuned(const std::string& words) {
 std::string without_params(const std::string& text) { return text.substr(0, text.find("\nparams:") + 1); }
 }  // namespace
 
-TEST_CASE("the gains of all shipped aircraft have their margins, broken at the actuator and at the sensor") {
+TEST_CASE("the gains of all shipped aircraft have their margins, broken at the actuator and at the sensor" *
+          doctest::test_suite("amounts")) {
   for (const std::string name : {"anaconda", "aerosonde", "x8"}) {
     CAPTURE(name);
     const json o = tuned("configs/airframes/" + name + ".yaml --altitude '1457 m'");
@@ -41,7 +42,7 @@ TEST_CASE("the gains of all shipped aircraft have their margins, broken at the a
   }
 }
 
-TEST_CASE("bandwidths become gains by the relations of the README") {
+TEST_CASE("bandwidths become gains by the relations of the README" * doctest::test_suite("amounts")) {
   const json o = tuned(
       "configs/airframes/anaconda.yaml --altitude '1457 m' --bandwidth 'roll=12 rad/s' "
       "--bandwidth course=1.2 --bandwidth 'height=1.5 rad/s' --bandwidth airspeed=2");
@@ -67,7 +68,7 @@ TEST_CASE("bandwidths become gains by the relations of the README") {
         Approx(1.15).epsilon(0.1).scale(0));  // the file: course_kp 2, 1.15 rad/s
 }
 
-TEST_CASE("delay takes phase, and bandwidth where nothing was asked for") {
+TEST_CASE("delay takes phase, and bandwidth where nothing was asked for" * doctest::test_suite("amounts")) {
   const std::string file = "configs/airframes/anaconda.yaml";
   const json now = tuned(file), late = tuned(file + " --delay '40 ms'");
   const auto phase = [](const json& o) {
@@ -83,7 +84,8 @@ TEST_CASE("delay takes phase, and bandwidth where nothing was asked for") {
                 "throttle 100 ms"));
 }
 
-TEST_CASE("too little margin is told for each loop, and nothing is written") {
+TEST_CASE("too little margin is told for each loop, and nothing is written" *
+          doctest::test_suite("amounts")) {
   const Folder folder;
   const std::string text = text_of(FULMAR_SOURCE_DIR "/configs/airframes/anaconda.yaml");
   const std::string file = folder.write("late.yaml", text);
@@ -151,7 +153,8 @@ TEST_CASE("gains of the file that no law has are refused by file and line") {
       law.out);
 }
 
-TEST_CASE("--write changes the gains and nothing else, and says the same when it is asked again") {
+TEST_CASE("--write changes the gains and nothing else, and says the same when it is asked again" *
+          doctest::test_suite("amounts")) {
   const Folder folder;
   const std::string old = text_of(FULMAR_SOURCE_DIR "/configs/airframes/anaconda.yaml");
   const std::string file = folder.write("a.yaml", old);
@@ -175,7 +178,8 @@ TEST_CASE("--write changes the gains and nothing else, and says the same when it
   CHECK(text_of(file) == now);
 }
 
-TEST_CASE("--write makes the section where there is none, and fills one in braces") {
+TEST_CASE("--write makes the section where there is none, and fills one in braces" *
+          doctest::test_suite("amounts")) {
   const Folder folder;
   const std::string all = text_of(FULMAR_SOURCE_DIR "/configs/airframes/anaconda.yaml");
   const std::string bare = folder.write("bare.yaml", without_params(all));
@@ -201,7 +205,8 @@ TEST_CASE("--write makes the section where there is none, and fills one in brace
                 installed.out);
 }
 
-TEST_CASE("--verify flies the hourglass, and an aircraft that does not keep to it is told") {
+TEST_CASE("--verify flies the hourglass, and an aircraft that does not keep to it is told" *
+          doctest::test_suite("amounts")) {
   const Answer flown = call("tune configs/airframes/x8.yaml --altitude '1457 m' --verify");
   CHECK_MESSAGE(flown.code == 0, flown.out);
   CHECK(flown.says("hourglass in light turbulence: flown"));

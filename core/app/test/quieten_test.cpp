@@ -128,7 +128,7 @@ TEST_CASE("three times the gain on slow servos oscillates; it is quiet within 2 
     }
 }
 
-TEST_CASE("in moderate turbulence nothing is taken for an oscillation") {
+TEST_CASE("in moderate turbulence nothing is taken for an oscillation" * doctest::test_suite("amounts")) {
   for (int seed = 1; seed <= 10; ++seed) {
     Overrides o;
     o.seed = static_cast<std::uint64_t>(seed);

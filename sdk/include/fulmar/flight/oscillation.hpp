@@ -51,7 +51,7 @@ class Swings {
   bool positive_ = false, large_ = false;
 };
 
-/// What the gains of a loop are multiplied by: halved with each oscillation, down to an eighth, and kept
+/// What the gains of a loop are multiplied by: by `share` with each oscillation, down to `least`, and kept
 /// until `restore()`.
 class Quietening {
  public:

@@ -3,6 +3,7 @@
 // Aircraft (2012), chapter 11, with fillets and Dubins paths treated alike as pieces whose end is a length
 // along them, so that no half-plane can be missed.
 #pragma once
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/plugin.hpp"
 #include "reckoning.hpp"
+#include "wide_fillet.hpp"
 
 namespace fulmar::path {
 
@@ -33,6 +35,8 @@ struct Manager {
     Count first_item{0, 0, 65535, "index of the waypoint to begin with; changed in flight: go there at once"};
     Param rejoin_distance{25, "m", 5, 1000,
                           "off the way to the plan by more than this: draw a new one from here"};
+    Param fillet_bank{0.72, "rad", 0, 1.4,
+                      "a fillet that takes more than this in the wind is flown wider; 0: never"};
     Param reckon_std{50, "m", 0, 1000, "without a fix the plan goes on up to this deviation of the position"};
     Param reckon_time{115, "s", 0, 3600,
                       "and for so long after the position stopped being valid, 5 s after the fix"};
@@ -73,6 +77,7 @@ struct Manager {
   void begin_piece(const Route& route, std::size_t index);
   void look_ahead(const Route& route);
   void foresee(const RouteLeg& leg, std::size_t index, bool next_leg_follows);
+  void widen(const Route& route, const VehicleState& state, double bank_rad);
   void fly(const Route& route, const VehicleState& state, const Params& p);
   void measure(const VehicleState& state);
   void count_lap(const Route& route);
@@ -81,6 +86,7 @@ struct Manager {
   void fill(const Route& route, const Plan& plan, const VehicleState& state);
 
   Mode mode_ = Mode::idle;
+  std::array<WideCorner, 2> wide_{};  // of the leg: where it begins, and where it ends
   RouteLeg leg_, next_leg_;
   std::size_t piece_ = 0;
   double along_m_ = 0;        // on the piece; unwrapped on an arc
@@ -131,7 +137,7 @@ inline PathPiece piece_of(const RoutePiece& from, double airspeed_mps) {
 inline Status Manager::step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
   const VehicleState& state = *in.state;
   const Plan& plan = *in.plan;
-  const Route route(plan);
+  const Route route(plan, wide_);
   // Nothing is known of the progress: the path that was published stays in force.
   if (!reckoning_.located(state, tick.now_ns, p.reckon_std, p.reckon_time)) {
     out.progress = progress_;
@@ -158,6 +164,10 @@ inline void Manager::adopt(const Route& route, const Plan& plan, const VehicleSt
   const bool was_idle = mode_ == Mode::idle;
   // The waypoint at which the circuit began was taken out: it begins with the next one that is reached.
   if (lap_.id != 0 && find_id(plan, lap_.id) == plan.waypoints.count) lap_ = {};
+  for (WideCorner& corner : wide_) {  // one that a changed plan has no room for is flown as planned
+    const std::uint32_t i = find_id(plan, corner.id);
+    if (i == plan.waypoints.count || route.widest_fillet_m(i) < corner.radius_m) corner = {};
+  }
   revision_ = plan.revision;
   jumps_ = plan.jumps;
   progress_.items = route.size();
@@ -267,6 +277,8 @@ inline void Manager::begin_leg(const Route& route, const RouteLeg& leg, Mode mod
   item_ = item;
   end_square_m2_ = unknown_std * unknown_std;
   along_m_ = 0;
+  for (WideCorner& corner : wide_)  // those of the lap before
+    if (corner.id != route.id(item) && corner.id != route.id(route.before(item))) corner = {};
   if (route.closed() || item + 1 < route.size()) next_leg_ = route.leg(route.after(item));
   begin_piece(route, piece);
 }
@@ -334,6 +346,25 @@ inline void Manager::foresee(const RouteLeg& leg, std::size_t index, bool next_l
   if (goes_on(leg, index + 1) && next_leg_follows) goes_on(next_leg_, 0);
 }
 
+/// A fillet that the wind makes too tight is flown wider: decided once, a second before the wider one begins.
+inline void Manager::widen(const Route& route, const VehicleState& state, double bank_rad) {
+  constexpr double before_s = 1;
+  const std::uint32_t id = route.id(item_);
+  if (piece_ + 2 != leg_.count || bank_rad <= 0 || id == 0 || wide_[1].id == id || !state.wind_valid) return;
+  const RoutePiece &line = leg_[piece_], &arc = leg_[piece_ + 1];
+  if (line.kind != PathKind::line || arc.kind != PathKind::orbit) return;
+  const double radius_m = std::min(wider_fillet_m(line, arc, state.airspeed_mps, state.wind_mps, bank_rad),
+                                   route.widest_fillet_m(item_));
+  const double tangent = std::tan(arc.length_m / arc.radius_m);  // the arc is half of the fillet
+  const double to_corner_m = line.length_m - along_m_ + arc.radius_m * tangent;
+  if (radius_m <= arc.radius_m || to_corner_m > radius_m * tangent + before_s * state.ground_speed_mps)
+    return;
+  wide_ = {wide_[1], {id, radius_m}};
+  leg_ = route.leg(item_);
+  next_leg_ = route.leg(route.after(item_));
+  begin_piece(route, leg_.count - 2);
+}
+
 inline void Manager::fly(const Route& route, const VehicleState& state, const Params& p) {
   if (mode_ == Mode::join) {
     const Vec3<Ned>& at = state.position_m;
@@ -345,6 +376,7 @@ inline void Manager::fly(const Route& route, const VehicleState& state, const Pa
         std::hypot(at.north - joined_from_.north_m, at.east - joined_from_.east_m) > route.radius_m();
     if (std::abs(off) > p.rejoin_distance && moved) begin_join(route, state, item_);
   }
+  if (mode_ == Mode::leg) widen(route, state, p.fillet_bank);
   constexpr int pieces_per_step = 8;  // short ones are passed at once
   for (int i = 0; i < pieces_per_step && mode_ != Mode::orbit; ++i) {
     measure(state);

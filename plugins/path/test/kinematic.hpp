@@ -14,6 +14,7 @@ namespace fulmar::test {
 struct Kinematic {
   double north = 0, east = 0, height = 50, psi = 0, roll = 0, roll_c = 0, Va = 17, climb = 0;
   double wind_north = 0, wind_east = 0;
+  bool knows_wind = true;
 
   VehicleState state() const {
     VehicleState s;
@@ -28,8 +29,8 @@ struct Kinematic {
     s.course_rad = std::atan2(ve, vn);
     s.airspeed_mps = Va;
     s.wind_mps = {wind_north, wind_east, 0};
-    s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid =
-        s.wind_valid = true;
+    s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = true;
+    s.wind_valid = knows_wind;
     return s;
   }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 #include "fulmar/flight/route_leg.hpp"
 #include "fulmar/msg/plan.hpp"
@@ -16,6 +17,13 @@ namespace fulmar {
 struct Passage {
   Pose entry, middle, exit;  ///< all the same when it passes through the point
   double turn_rad = 0;       ///< of the fillet, right positive
+  double radius_m = 0;       ///< of the fillet
+};
+
+/// A corner whose fillet is flown wider than the plan asks for. By the id of its waypoint; 0: none.
+struct WideCorner {
+  std::uint32_t id = 0;
+  double radius_m = 0;
 };
 
 /// A circle to stay on.
@@ -43,11 +51,18 @@ inline Turn least_turning(const Pose& from, double north_m, double east_m, doubl
 /// paths, so that every piece can be flown. Points less than a metre apart are one.
 class Route {
  public:
-  explicit Route(const Plan& plan) : plan_(plan), n_(plan.waypoints.count) {}
+  explicit Route(const Plan& plan, std::span<const WideCorner> wide = {})
+      : plan_(plan), n_(plan.waypoints.count), wide_(wide) {}
 
   std::uint32_t size() const { return n_; }
   bool closed() const { return plan_.end == PlanEnd::circuit; }
   double radius_m() const { return std::max(plan_.turn_radius_m, 1.0); }
+  /// Of the fillet at waypoint `i`, if there is one.
+  double fillet_radius_m(std::uint32_t i) const {
+    for (const WideCorner& corner : wide_)
+      if (corner.id != 0 && corner.id == id(i)) return corner.radius_m;
+    return radius_m();
+  }
   std::uint32_t id(std::uint32_t i) const { return plan_.waypoints[i].id; }
   double height_m(std::uint32_t i) const { return -plan_.waypoints[i].position_m.down; }
   double airspeed_mps(std::uint32_t i) const {
@@ -67,6 +82,9 @@ class Route {
   /// from the waypoint before.
   RouteOrbit final_orbit() const;
   Passage passage(std::uint32_t i) const;
+  /// Largest radius of a fillet at waypoint `i` that fits on its legs beside those of the neighbours; 0 where
+  /// the route has no fillet.
+  double widest_fillet_m(std::uint32_t i) const;
   /// From the waypoint before (of a circuit: cyclically) to waypoint `i`. Not for waypoint 0 of a plan that
   /// ends in an orbit.
   RouteLeg leg(std::uint32_t i) const;
@@ -101,9 +119,16 @@ class Route {
       std::uint32_t i) const;  // where the route passes, course not set but for the entry of the final orbit
   Corner corner(std::uint32_t i) const;
   bool has_fillet(std::uint32_t i, const Corner& c) const;
+  /// Half a fillet, to its middle or from there; nothing where there is none.
+  static void add_half(detail::LegBuilder& leg, const Passage& passage) {
+    if (passage.turn_rad != 0)
+      leg.add((passage.turn_rad > 0 ? 1 : -1) / passage.radius_m,
+              passage.radius_m * std::abs(passage.turn_rad) / 2);
+  }
 
   const Plan& plan_;
   std::uint32_t n_;
+  std::span<const WideCorner> wide_;
 };
 
 inline std::uint32_t Route::first_of_place(std::uint32_t i) const {
@@ -171,7 +196,7 @@ inline Route::Corner Route::corner(std::uint32_t i) const {
   c.wanted = first == last && before(i) != i && after(i) != i && !plan_.waypoints[i].has_course &&
              turn <= fillet_max_rad;
   if (c.wanted) {
-    c.tangent_m = radius_m() * std::tan(turn / 2);
+    c.tangent_m = fillet_radius_m(i) * std::tan(turn / 2);
     c.wanted = c.tangent_m <= std::min(c.in_m, c.out_m);
   }
   return c;
@@ -187,6 +212,17 @@ inline bool Route::has_fillet(std::uint32_t i, const Corner& c) const {
   return fits(before(i), c.in_m) && fits(after(i), c.out_m);
 }
 
+inline double Route::widest_fillet_m(std::uint32_t i) const {
+  const Corner c = corner(i);
+  if (!has_fillet(i, c)) return 0;
+  const auto beside = [&](std::uint32_t j, double leg_m) {
+    const Corner other = is_orbit_entry(j) ? Corner{} : corner(j);
+    return leg_m - (other.wanted ? other.tangent_m : 0);
+  };
+  const double room_m = std::min(beside(before(i), c.in_m), beside(after(i), c.out_m));
+  return room_m / std::max(std::tan(std::abs(wrap_pi(c.out_rad - c.in_rad)) / 2), 1e-9);
+}
+
 inline Passage Route::passage(std::uint32_t i) const {
   Passage result;
   result.middle = place(i);
@@ -194,12 +230,13 @@ inline Passage Route::passage(std::uint32_t i) const {
     const Corner c = corner(i);
     if (has_fillet(i, c)) {
       result.turn_rad = wrap_pi(c.out_rad - c.in_rad);
+      result.radius_m = fillet_radius_m(i);
       result.middle.course_rad = c.in_rad;
       result.entry = advance(result.middle, 0, -c.tangent_m);
       result.middle.course_rad = c.out_rad;
       result.exit = advance(result.middle, 0, c.tangent_m);
-      const double curvature = (result.turn_rad > 0 ? 1 : -1) / radius_m();
-      result.middle = advance(result.entry, curvature, radius_m() * std::abs(result.turn_rad) / 2);
+      const double curvature = (result.turn_rad > 0 ? 1 : -1) / result.radius_m;
+      result.middle = advance(result.entry, curvature, result.radius_m * std::abs(result.turn_rad) / 2);
       return result;
     }
     const Waypoint& w = plan_.waypoints[i];
@@ -213,11 +250,8 @@ inline Passage Route::passage(std::uint32_t i) const {
 
 inline RouteLeg Route::leg(std::uint32_t i) const {
   const Passage from = passage(before(i)), to = passage(i);
-  const auto half_fillet = [&](detail::LegBuilder& b, double turn_rad) {
-    b.add((turn_rad > 0 ? 1 : -1) / radius_m(), radius_m() * std::abs(turn_rad) / 2);
-  };
   detail::LegBuilder builder{{}, from.middle};
-  half_fillet(builder, from.turn_rad);
+  add_half(builder, from);
   builder.at = from.exit;
   if (from.turn_rad != 0 && to.turn_rad != 0) {  // two fillets on one straight leg
     builder.add(0, std::hypot(to.entry.north_m - from.exit.north_m, to.entry.east_m - from.exit.east_m));
@@ -225,7 +259,7 @@ inline RouteLeg Route::leg(std::uint32_t i) const {
   } else {
     builder.add_dubins(to.entry, radius_m());
   }
-  half_fillet(builder, to.turn_rad);
+  add_half(builder, to);
   builder.at = to.middle;
   builder.leg.airspeed_mps = airspeed_mps(i);
   builder.finish(height_m(before(i)), height_m(i));
@@ -236,7 +270,7 @@ inline RouteLeg Route::join(const Pose& from, double from_height_m, std::uint32_
   const Passage to = passage(i);
   detail::LegBuilder builder{{}, from};
   builder.add_dubins(to.entry, radius_m());
-  builder.add((to.turn_rad > 0 ? 1 : -1) / radius_m(), radius_m() * std::abs(to.turn_rad) / 2);
+  add_half(builder, to);
   builder.at = to.middle;
   builder.leg.airspeed_mps = airspeed_mps(i);
   builder.finish(std::max(from_height_m, height_m(i)), height_m(i));

@@ -53,7 +53,7 @@ inline double airspeed_for_ground_speed(double course_rad, double ground_speed_m
 
 /// Bank of a coordinated level turn of signed curvature (1/m, right positive) flown over the ground. Beard &
 /// McLain, chapter 10: the centripetal acceleration is that of the ground path, V_g^2 kappa, and lift tilts
-/// about the air velocity: tan(phi) = V_g^2 kappa cos(chi - psi) / g.
+/// about the air velocity: tan(phi) = V_g^2 kappa / (g cos(chi - psi)).
 inline double bank_for_curvature(double curvature_ratio, double ground_speed_mps, double crab_rad,
                                  double gravity_mps2 = 9.80665) {
   return std::atan(ground_speed_mps * ground_speed_mps * curvature_ratio /

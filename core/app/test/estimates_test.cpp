@@ -34,7 +34,8 @@ double rms(const json& errors, const char* side, const char* key) {
 
 }  // namespace
 
-TEST_CASE("another filter under the role's name: what the log holds and what it says stand side by side") {
+TEST_CASE("another filter under the role's name: what the log holds and what it says stand side by side" *
+          doctest::test_suite("amounts")) {
   const json j = replayed("--with nav=" + ekf + " --set \"ekf.gnss_position_time=1 s\"");
   CHECK(j.at("before_equals_log") == true);
   REQUIRE(j.at("estimates").size() == 1);  // the second one has not changed

@@ -62,7 +62,8 @@ struct Flight {
 
 TEST_CASE(
     "stick full back and the motor off: a tenth over the stall is kept in every law, also in turbulence and "
-    "turns") {
+    "turns" *
+    doctest::test_suite("amounts")) {
   for (const Law law : {Law::attitude, Law::rate, Law::surface})
     for (const Turbulence turbulence : {Turbulence::none, Turbulence::light})
       for (const double roll : {0.0, 1.0}) {
@@ -78,7 +79,7 @@ TEST_CASE(
       }
 }
 
-TEST_CASE("with the protection off the same sticks stall it") {
+TEST_CASE("with the protection off the same sticks stall it" * doctest::test_suite("amounts")) {
   for (const Law law : {Law::attitude, Law::rate, Law::surface}) {
     Flight flight(law);
     flight.protect(false);
@@ -89,7 +90,8 @@ TEST_CASE("with the protection off the same sticks stall it") {
   }
 }
 
-TEST_CASE("stick full forward and full throttle: 5 % over the largest airspeed is not passed") {
+TEST_CASE("stick full forward and full throttle: 5 % over the largest airspeed is not passed" *
+          doctest::test_suite("amounts")) {
   for (const Law law : {Law::attitude, Law::rate, Law::surface}) {
     Flight flight(law);
     flight.run(10);

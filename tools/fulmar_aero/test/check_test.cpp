@@ -75,7 +75,8 @@ TEST_CASE("a derivative of the wrong sign is found, with what it would do" * doc
     is_found(mistake);
 }
 
-TEST_CASE("degrees for radians and other units are found, with what was likely meant") {
+TEST_CASE("degrees for radians and other units are found, with what was likely meant" *
+          doctest::test_suite("amounts")) {
   for (const Mistake& mistake :
        {Mistake{"elevator: -0.99", "elevator: -0.0173", "faults", "aero.pitch.elevator",
                 "per degree? Then it would be -0.991 per rad"},
@@ -96,7 +97,7 @@ TEST_CASE("degrees for radians and other units are found, with what was likely m
     is_found(mistake);
 }
 
-TEST_CASE("drag that is counted twice, left out, or drives is found") {
+TEST_CASE("drag that is counted twice, left out, or drives is found" * doctest::test_suite("amounts")) {
   for (const Mistake& mistake :
        {Mistake{"drag:  {elevator", "drag:  {zero: 0.043, elevator", "warnings", "aero.drag.zero",
                 "counted twice"},
@@ -110,7 +111,7 @@ TEST_CASE("drag that is counted twice, left out, or drives is found") {
     is_found(mistake);
 }
 
-TEST_CASE("what cannot be flown is found") {
+TEST_CASE("what cannot be flown is found" * doctest::test_suite("amounts")) {
   for (const Mistake& mistake :
        {Mistake{"battery: 24 V", "battery: 8 V", "faults", "limits.airspeed_cruise", "full throttle gives"},
         {"airspeed_min: 12 m/s", "airspeed_min: 8 m/s", "faults", "limits.airspeed_min", "the wing stalls"},

@@ -116,7 +116,7 @@ void check_limit(const Aircraft& a, int input, double factor) {
 double ratio_of(double db) { return std::pow(10, db / 20); }
 }  // namespace
 
-TEST_CASE("roll of the X8 has its gain margin both ways") {
+TEST_CASE("roll of the X8 has its gain margin both ways" * doctest::test_suite("amounts")) {
   const Aircraft a("x8", 0);
   const LoopReport report = evaluate(a.plant, a.laws, OuterScheme::none);
   CHECK(report.unstable == 0);
@@ -125,7 +125,8 @@ TEST_CASE("roll of the X8 has its gain margin both ways") {
   check_limit(a, model::aileron, 1 / ratio_of(m.reduction_db));
 }
 
-TEST_CASE("roll and pitch of the Anaconda have theirs, and the delay that is told") {
+TEST_CASE("roll and pitch of the Anaconda have theirs, and the delay that is told" *
+          doctest::test_suite("amounts")) {
   const Aircraft a("anaconda", 0.03);
   const LoopReport report = evaluate(a.plant, a.laws, OuterScheme::none);
   check_limit(a, model::aileron, ratio_of(loop_named(report, "roll").at_actuator.gain_db));

@@ -21,7 +21,7 @@ std::string contacts(const std::string& list) { return "gear:\n  contacts: " + l
 
 }  // namespace
 
-TEST_CASE("suspicious servos are found") {
+TEST_CASE("suspicious servos are found" * doctest::test_suite("amounts")) {
   const auto servo = [](const std::string& more) {
     return checked("elevator: {limit: 40 deg,", "elevator: {limit: 40 deg, " + more + ",");
   };

@@ -98,7 +98,8 @@ struct Inner {
     std::optional<VehicleState> commanded;
     if (blind_) commanded = as_commanded(*in.state, command, Va);
     const VehicleState& state = blind_ ? *commanded : *in.state;
-    const double rho = standard_air(state.origin_altitude_m + state.height_m).density_kgm3;
+    const double rho = density_.at(state.origin_altitude_m + state.height_m);
+    const TurnRates turn = turn_rates(state.roll_rad, state.pitch_rad, Va);
     const double speed_ratio = params.airframe->limits.airspeed_cruise_mps / Va;
     const double scale =
         std::clamp(speed_ratio * speed_ratio, 1 / params.scale_limit, params.scale_limit.value);
@@ -108,8 +109,8 @@ struct Inner {
 
     out.actuators.throttle_frac = std::clamp(command.throttle_frac, 0.0, 1.0);
     out.actuators.aileron_rad = roll_to_aileron(state, command, params, slip, scale, integrate, dt);
-    out.actuators.elevator_rad = pitch_to_elevator(state, command, params, scale, Va, rho, integrate);
-    out.actuators.rudder_rad = yaw_to_rudder(state, params, slip, scale, Va, dt);
+    out.actuators.elevator_rad = pitch_to_elevator(state, command, params, turn, scale, Va, rho, integrate);
+    out.actuators.rudder_rad = yaw_to_rudder(state, params, turn, slip, scale, dt);
     take_up_ = false;
     if (params.quieten) quieten(tick, command, params, scale, integrating && !blind_, dt, out);
     out.roll_error_rad = command.roll_rad - state.roll_rad;
@@ -221,15 +222,14 @@ struct Inner {
 
   /// delta_e = trim(turn, speed) - scale [kp e + kd (q_turn - q) + I]: positive elevator is nose down.
   double pitch_to_elevator(const VehicleState& state, const AttitudeCommand& command, const Params& p,
-                           double scale, double Va, double rho, double integrate) {
+                           const TurnRates& present, double scale, double Va, double rho, double integrate) {
     const Surface& elevator = p.airframe->elevator;
     const FlightLimits& limits = p.airframe->limits;
     const double turn =
         turn_trim(*p.airframe, state.roll_rad, std::max(Va, limits.airspeed_min_mps), rho).elevator_rad;
     const double cruise = turn_trim(*p.airframe, 0, limits.airspeed_cruise_mps, rho).elevator_rad;
-    const double q_turn = turn_rates(state.roll_rad, state.pitch_rad, Va).q_radps;
     const PidInput in{.error = command.pitch_rad - state.pitch_rad,
-                      .rate = state.rate_radps.y - q_turn,
+                      .rate = state.rate_radps.y - present.q_radps,
                       .feedforward = -(elevator.trim_rad + p.turn_kff * (turn - cruise)),
                       .min = -elevator.limit_rad,
                       .max = elevator.limit_rad};
@@ -244,10 +244,10 @@ struct Inner {
   }
 
   /// delta_r = trim + slip's + scale kd s / (s + p_wo) (r - r_turn): positive rudder is nose left.
-  double yaw_to_rudder(const VehicleState& state, const Params& p, double slip_rad, double scale, double Va,
-                       double dt) {
+  double yaw_to_rudder(const VehicleState& state, const Params& p, const TurnRates& turn, double slip_rad,
+                       double scale, double dt) {
     const Surface& rudder = p.airframe->rudder;
-    const double damping = washout_.step(yaw_rate_error(state, Va), p.yaw_washout, dt);
+    const double damping = washout_.step(state.rate_radps.z - turn.r_radps, p.yaw_washout, dt);
     const double held = rudder.trim_rad + rudder_for(slip_rad, p.airframe->aero);
     return std::clamp(held + quiet_[yaw].gain() * (scale * p.yaw_kd * damping), -rudder.limit_rad,
                       rudder.limit_rad);
@@ -258,7 +258,8 @@ struct Inner {
   double p_c_ = 0;  ///< roll rate commanded
   WashOut washout_;
   std::array<Quietening, axes> quiet_;
-  Gains gains_{};     ///< for which the axes are as quiet as they are
+  Gains gains_{};  ///< for which the axes are as quiet as they are
+  NearbyDensity density_;
   LowPass airspeed_;  ///< m/s, for gains, trim and turn rates
   Actuators last_;
   bool take_up_ = false, blind_ = false;

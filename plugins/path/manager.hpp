@@ -353,12 +353,18 @@ inline void Manager::widen(const Route& route, const VehicleState& state, double
   if (piece_ + 2 != leg_.count || bank_rad <= 0 || id == 0 || wide_[1].id == id || !state.wind_valid) return;
   const RoutePiece &line = leg_[piece_], &arc = leg_[piece_ + 1];
   if (line.kind != PathKind::line || arc.kind != PathKind::orbit) return;
-  const double radius_m = std::min(wider_fillet_m(line, arc, state.airspeed_mps, state.wind_mps, bank_rad),
-                                   route.widest_fillet_m(item_));
-  const double tangent = std::tan(arc.length_m / arc.radius_m);  // the arc is half of the fillet
-  const double to_corner_m = line.length_m - along_m_ + arc.radius_m * tangent;
-  if (radius_m <= arc.radius_m || to_corner_m > radius_m * tangent + before_s * state.ground_speed_mps)
-    return;
+  const double Va = state.airspeed_mps, half_turn = arc.length_m / arc.radius_m;  // the arc is half of it
+  const double to_corner_m = line.length_m - along_m_ + arc.radius_m * std::tan(half_turn);
+  const auto begins = [&](double radius_m) {
+    return radius_m > arc.radius_m &&
+           to_corner_m < radius_m * std::tan(half_turn) + before_s * state.ground_speed_mps;
+  };
+  if (!begins(wider_fillet_m(arc.radius_m, radius_in_any_wind(Va, state.wind_mps, bank_rad)))) return;
+  const double course = std::atan2(line.unit_east_ratio, line.unit_north_ratio);
+  const double held_m =
+      radius_in_wind(course, 2 * sign_of(arc.turn) * half_turn, Va, state.wind_mps, bank_rad);
+  const double radius_m = std::min(wider_fillet_m(arc.radius_m, held_m), route.widest_fillet_m(item_));
+  if (!begins(radius_m)) return;
   wide_ = {wide_[1], {id, radius_m}};
   leg_ = route.leg(item_);
   next_leg_ = route.leg(route.after(item_));

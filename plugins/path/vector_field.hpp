@@ -20,8 +20,8 @@ namespace fulmar::path {
 /// How lines, orbits and curves are approached. A group of parameters, of whoever follows them.
 struct FieldParams {
   Param chi_infinity{1.05, "rad", 0.1, 1.57, "approach angle to a line from far away"};
-  Param k_path{0.04, "1/m", 0.001, 1, "how sharply to turn onto a line, at the reference speed"};
-  Param k_orbit{2, "ratio", 0.05, 20, "how sharply to turn onto an orbit, at the reference speed"};
+  Param k_path{0.05, "1/m", 0.001, 1, "how sharply to turn onto a line, at the reference speed"};
+  Param k_orbit{1.5, "ratio", 0.05, 20, "how sharply to turn onto an orbit, at the reference speed"};
   Param reference_speed{17, "m/s", 1, 200,
                         "ground speed for which k_path and k_orbit hold; they fall as it grows"};
   Param lead_time{0.42, "s", 0, 5,

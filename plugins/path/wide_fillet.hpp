@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fulmar/flight/route_leg.hpp"
 #include "fulmar/flight/wind_triangle.hpp"
 
 namespace fulmar::path {
@@ -26,20 +25,21 @@ inline double radius_in_wind(double course_rad, double turn_rad, double airspeed
   return widest_m;
 }
 
-/// Radius for a fillet that was planned as `half` (an arc as long as half of it) behind `line`; the planned
-/// one where the bank suffices. A fillet of the planned radius is left to the outside by up to about
-/// (1 - cos(turn)) times what it is too tight; one that can be held, tangent to the same legs, cuts the
-/// corner by (1/cos(turn/2) - 1) times that. A third of the way from the one to the other leaves the least of
-/// both.
-inline double wider_fillet_m(const RoutePiece& line, const RoutePiece& half, double airspeed_mps,
-                             const Vec3<Ned>& wind_mps, double bank_rad) {
-  constexpr double g = 9.80665, share = 1.0 / 3;
-  const double fastest = airspeed_mps + std::hypot(wind_mps.north, wind_mps.east);
-  if (fastest * fastest < 0.5 * half.radius_m * g * std::tan(bank_rad)) return half.radius_m;
-  const double course = std::atan2(line.unit_east_ratio, line.unit_north_ratio);
-  const double turn = 2 * sign_of(half.turn) * half.length_m / half.radius_m;
-  const double lacks_m = radius_in_wind(course, turn, airspeed_mps, wind_mps, bank_rad) - half.radius_m;
-  return half.radius_m + share * std::max(lacks_m, 0.0);
+/// Not less than `radius_in_wind` of any turn, and cheap.
+inline double radius_in_any_wind(double airspeed_mps, const Vec3<Ned>& wind_mps, double bank_rad) {
+  constexpr double g = 9.80665;
+  const double wind = std::hypot(wind_mps.north, wind_mps.east), fastest = airspeed_mps + wind;
+  const double sine = wind / std::max(airspeed_mps, 1.0), crab = std::sqrt(std::max(1 - sine * sine, 0.25));
+  return fastest * fastest / (g * std::tan(bank_rad) * crab);
+}
+
+/// Radius that is flown for a fillet of which one that can be held at the bank would have `held_m`. The
+/// planned one is left to the outside by up to about (1 - cos(turn)) times what it is too tight; the other,
+/// tangent to the same legs, cuts the corner by (1/cos(turn/2) - 1) times that. A third of the way from the
+/// one to the other leaves the least of both.
+inline double wider_fillet_m(double planned_m, double held_m) {
+  constexpr double share = 1.0 / 3;
+  return planned_m + share * std::max(held_m - planned_m, 0.0);
 }
 
 }  // namespace fulmar::path

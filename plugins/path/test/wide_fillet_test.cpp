@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "flight.hpp"
+#include "fulmar/random.hpp"
 
 namespace wide_fillet_test {
 
@@ -50,6 +51,19 @@ TEST_CASE("a turn in wind takes the radius of its fastest part") {
   // away from it: at the beginning; up wind altogether: nowhere
   CHECK(radius_in_wind(0, pi / 2, 17, {8, 0, 0}, bank) == doctest::Approx(25 * 25 / (g * std::tan(bank))));
   CHECK(radius_in_wind(pi - 0.1, 0.2, 17, {8, 0, 0}, bank) < 10 * 10 / (g * std::tan(bank)));
+}
+
+TEST_CASE("no turn takes more than the bound that is asked first") {
+  Random random(5);
+  for (int i = 0; i < 2000; ++i) {
+    const double Va = 10 + 15 * random.uniform(), speed = 0.9 * Va * random.uniform(),
+                 from = 2 * pi * random.uniform(), bank = 0.3 + 0.8 * random.uniform();
+    const Vec3<Ned> wind{speed * std::cos(from), speed * std::sin(from), 0};
+    const double turn = 5 * (random.uniform() - 0.5), course = 2 * pi * random.uniform();
+    CHECK(radius_in_wind(course, turn, Va, wind, bank) <=
+          path::radius_in_any_wind(Va, wind, bank) * (1 + 1e-9));
+  }
+  CHECK(path::radius_in_any_wind(17, {}, 0.7) == doctest::Approx(17 * 17 / (g * std::tan(0.7))));
 }
 
 TEST_CASE("what a bank turns over the ground is what the radius says, by a flown circle in wind") {

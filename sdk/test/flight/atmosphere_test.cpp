@@ -81,4 +81,15 @@ TEST_CASE("indicated airspeed is what the pressure means at sea level, true airs
   CHECK(indicated_airspeed(-10) == Approx(-indicated_airspeed(10)));
 }
 
+TEST_CASE("the density nearby is that of the altitude within 1e-4, wherever the aircraft goes") {
+  NearbyDensity density;
+  double worst = 0;
+  for (double altitude = 0, step = 0.013; altitude < 3000; altitude += step *= 1.001)
+    worst = std::max(worst, std::abs(density.at(altitude) / standard_air(altitude).density_kgm3 - 1));
+  for (const double altitude : {2990.0, 10.0, 9.5, 4000.0, 10.0})
+    worst = std::max(worst, std::abs(density.at(altitude) / standard_air(altitude).density_kgm3 - 1));
+  CHECK(worst < 1.1e-4);
+  CHECK(worst > 1e-6);  // it is not computed at each step
+}
+
 }  // namespace atmosphere_test

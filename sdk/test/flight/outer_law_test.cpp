@@ -86,11 +86,11 @@ TEST_CASE(
   const TurnTrim level = turn_trim(*p.airframe, 0, 17, rho), turn = turn_trim(*p.airframe, phi, 17, rho);
   REQUIRE(turn.alpha_rad * std::cos(phi) - level.alpha_rad > 0.01);
   REQUIRE(turn.drag_newton - level.drag_newton > 0.5);
-  CHECK(level_turn(0, 17, s, p).pitch_rad == doctest::Approx(level.alpha_rad).epsilon(1e-6));
-  CHECK(level_turn(0, 17, s, p).drag_newton == 0);
+  CHECK(level_turn(0, 17, air_density(s), p).pitch_rad == doctest::Approx(level.alpha_rad).epsilon(1e-6));
+  CHECK(level_turn(0, 17, air_density(s), p).drag_newton == 0);
   for (const double share : {0.0, 0.5, 1.0}) {
     p.turn_kff.value = share;
-    const LevelTurn needs = level_turn(phi, 17, s, p);
+    const LevelTurn needs = level_turn(phi, 17, air_density(s), p);
     CHECK(needs.Va_mps == 17);
     // Of the angle of attack that the turn needs only its vertical part is pitch.
     const double pitch = level.alpha_rad + share * (turn.alpha_rad * std::cos(phi) - level.alpha_rad);
@@ -125,7 +125,7 @@ TEST_CASE("only when height and speed are held is the law asked; else it rests")
       2.0 * 17 / law.params.airframe->limits.airspeed_cruise_mps * 0.1;  // kp Vg / Vg_ref times error
   CHECK(law.out.attitude.roll_rad == doctest::Approx(phi).epsilon(1e-6));
   CHECK(law.turn.drag_newton ==
-        doctest::Approx(level_turn(phi, 17, flying(), law.params).drag_newton).epsilon(1e-6));
+        doctest::Approx(level_turn(phi, 17, air_density(flying()), law.params).drag_newton).epsilon(1e-6));
   CHECK(law.turn.drag_newton > 0);
   CHECK(law.out.attitude.pitch_rad == 0.1);
   CHECK(law.out.attitude.throttle_frac == 0.6);
@@ -166,7 +166,8 @@ TEST_CASE("trims follow the airspeed with its time constant, from where it was a
   s.airspeed_mps = 18;
   for (int i = 0; i < 50; ++i) law.step(s, {});
   CHECK(law.turn.Va_mps == doctest::Approx(18 - 4 * std::exp(-1)).epsilon(1e-6));  // after one time constant
-  CHECK(law.turn.pitch_rad == doctest::Approx(level_turn(0, law.turn.Va_mps, s, law.params).pitch_rad));
+  CHECK(law.turn.pitch_rad ==
+        doctest::Approx(level_turn(0, law.turn.Va_mps, air_density(s), law.params).pitch_rad));
   law.params.airspeed_smoothing.value = 0;
   law.step(s, {});
   CHECK(law.turn.Va_mps == 18);

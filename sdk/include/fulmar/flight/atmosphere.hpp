@@ -4,6 +4,7 @@
 // which may be neglected or taken out with `geopotential_altitude`.
 #pragma once
 #include <cmath>
+#include <limits>
 
 namespace fulmar {
 
@@ -72,6 +73,22 @@ AirOf<S> standard_air_of(const S& altitude_m, const AirOffset& offset = {}) {
 inline Air standard_air(double altitude_m, const AirOffset& offset = {}) {
   return standard_air_of(altitude_m, offset);
 }
+
+/// Density of the standard air, computed anew once the altitude has changed by a metre: within 1e-4 of it,
+/// for laws that ask at each step.
+class NearbyDensity {
+ public:
+  double at(double altitude_m) {
+    if (!(std::abs(altitude_m - altitude_m_) < 1)) {  // not so of a NaN, with which it begins
+      altitude_m_ = altitude_m;
+      density_kgm3_ = standard_air(altitude_m).density_kgm3;
+    }
+    return density_kgm3_;
+  }
+
+ private:
+  double altitude_m_ = std::numeric_limits<double>::quiet_NaN(), density_kgm3_ = isa::sea_level_density;
+};
 
 /// Altitude at which the standard air has this pressure: the inverse of `standard_air`. Pressure must be
 /// positive.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fulmar/flight/atmosphere.hpp"
+#include "fulmar/flight/filters.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 
 namespace fulmar {
@@ -29,7 +30,7 @@ class SteadyAirspeed {
  public:
   double step(double airspeed_mps, double airspeed_rate_mps2, double time_constant_s, double dt_s) {
     if (!started_) return reset_to(airspeed_mps);
-    const double pole = time_constant_s > 0 ? std::exp(-dt_s / time_constant_s) : 0;
+    const double pole = time_constant_s > 0 ? decay_.of(dt_s / time_constant_s) : 0;
     return y_ = airspeed_mps + pole * (y_ + airspeed_rate_mps2 * dt_s - airspeed_mps);
   }
   double reset_to(double airspeed_mps) { return started_ = true, y_ = airspeed_mps; }
@@ -38,6 +39,7 @@ class SteadyAirspeed {
  private:
   double y_ = 0;
   bool started_ = false;
+  Decay decay_;
 };
 
 /// Rates of the specific energies, m2/s3.

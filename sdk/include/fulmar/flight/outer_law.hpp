@@ -96,8 +96,7 @@ inline double air_density(const VehicleState& state) {
   return standard_air(state.origin_altitude_m + state.height_m).density_kgm3;
 }
 
-inline LevelTurn level_turn(double roll_rad, double Va, const VehicleState& state, const OuterParams& p) {
-  const double rho = air_density(state);
+inline LevelTurn level_turn(double roll_rad, double Va, double rho, const OuterParams& p) {
   const TurnTrim turn = turn_trim(*p.airframe, roll_rad, Va, rho), level = turn_trim(*p.airframe, 0, Va, rho);
   return {Va, level.alpha_rad + p.turn_kff * (turn.alpha_rad * std::cos(roll_rad) - level.alpha_rad),
           p.turn_kff * (turn.drag_newton - level.drag_newton)};
@@ -107,6 +106,7 @@ inline LevelTurn level_turn(double roll_rad, double Va, const VehicleState& stat
 struct OuterLoop {
   OuterCommands commands;
   LowPass airspeed;          ///< m/s, for trims
+  NearbyDensity density;     ///< kg/m3, of the standard atmosphere
   std::uint32_t resets = 0;  ///< of the state, seen so far
 
   /// Goes on from what was applied last. False: nobody flew, and integrals are to begin empty.
@@ -138,8 +138,9 @@ struct OuterLoop {
       case OuterAction::level: out.attitude = level(state, p, t, dt); break;
       case OuterAction::hold: {
         const double phi = commands.roll(state, command, t, dt);
+        const double altitude = state.origin_altitude_m + state.height_m;
         const double steady = airspeed.step(Va, p.airspeed_smoothing, dt);
-        const PitchThrottle wanted = hold(level_turn(phi, steady, state, p), dt);
+        const PitchThrottle wanted = hold(level_turn(phi, steady, density.at(altitude), p), dt);
         out.attitude = commands.finish(phi, wanted.pitch_rad, wanted.throttle_frac, t, dt);
       }
     }

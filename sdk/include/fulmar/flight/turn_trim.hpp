@@ -41,8 +41,10 @@ inline TurnTrim turn_trim(const Airframe& airframe, double roll_rad, double airs
   const double qS = 0.5 * density_kgpm3 * Va * Va * airframe.wing.area_m2;
   const double determinant = L.alpha_ratio * M.elevator_ratio - L.elevator_ratio * M.alpha_ratio;
   if (std::abs(determinant) < 1e-9 || qS < 1e-9) return {};
-  const double q_hat = turn_rates(roll_rad, 0, Va, gravity_mps2).q_radps * airframe.wing.chord_m / (2 * Va);
-  const double CL = load_factor(roll_rad) * airframe.mass_kg * gravity_mps2 / qS;
+  const bool turns = roll_rad != 0;  // level flight needs no angles, and is asked for at each step
+  const double q = turns ? turn_rates(roll_rad, 0, Va, gravity_mps2).q_radps : 0;
+  const double q_hat = q * airframe.wing.chord_m / (2 * Va);
+  const double CL = (turns ? load_factor(roll_rad) : 1) * airframe.mass_kg * gravity_mps2 / qS;
   const double lift = CL - L.zero_ratio - L.q_ratio * q_hat, moment = -M.zero_ratio - M.q_ratio * q_hat;
   TurnTrim trim;
   trim.alpha_rad = (lift * M.elevator_ratio - L.elevator_ratio * moment) / determinant;

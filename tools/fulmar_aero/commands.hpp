@@ -19,5 +19,10 @@ struct TuneOptions {
   bool write = false, verify = false;
 };
 int tune_command(const FlightOptions& options, const TuneOptions& tune_options);
+struct VlmCommand {
+  std::string geometry, out;  ///< `out`: where the airframe goes, or ""
+  bool convergence = false, json = false;
+};
+int vlm_command(const VlmCommand& options);
 
 }  // namespace fulmar::aero

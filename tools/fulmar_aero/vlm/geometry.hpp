@@ -3,12 +3,15 @@
 // up, from any origin, metres.
 #pragma once
 #include <memory>
+#include <numbers>
 #include <string>
 
 #include "core/graph/yaml.hpp"
 #include "fulmar/msg/airframe.hpp"
 
 namespace fulmar::aero {
+
+inline constexpr double pi = std::numbers::pi;
 
 /// A section's shape, by one of `naca`, `alpha_zero` and a camber line, and its polar
 /// cd = cd_min (Re/reynolds)^-0.2 + cd_rise (cl - cl_at_cd_min)^2.

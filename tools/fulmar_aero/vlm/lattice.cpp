@@ -4,13 +4,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace fulmar::aero {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double pi = std::numbers::pi;
 
 /// Borders, vortices and control points over the chord, 0 to 1. Cosine: equal steps of an angle, in which the
 /// vortex is a quarter and the control point three quarters of a panel behind its border; so one panel has

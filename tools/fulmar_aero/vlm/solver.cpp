@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
-#include <numbers>
 
 #include "core/error.hpp"
 
@@ -12,7 +11,6 @@ namespace fulmar::aero {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double pi = std::numbers::pi;
 enum Basic : int { stream_x, stream_y, stream_z, rate_p, rate_q, rate_r, first_control };
 /// Which quantity is changed: alpha, beta, p, q, r, then the controls.
 enum Changed : int { by_alpha, by_beta, by_p, by_q, by_r, by_control };

@@ -14,7 +14,8 @@ namespace {
 constexpr double steepest = 25 * degree;  // beyond, nothing about a lattice is right
 
 double lift_needed(const Geometry& g, const MassSum& mass, const Stream& s) {
-  return mass.mass_kg * isa::g0 / (0.5 * s.density_kgm3 * s.airspeed_mps * s.airspeed_mps * g.reference.area_m2);
+  return mass.mass_kg * isa::g0 /
+         (0.5 * s.density_kgm3 * s.airspeed_mps * s.airspeed_mps * g.reference.area_m2);
 }
 
 /// Where the lattice lifts that much; NaN when it does not before it is no lattice's business.
@@ -29,12 +30,14 @@ double alpha_for(const Vlm& vlm, double CL) {
 }
 
 double cl_max_at(const Geometry& g, const Strip& s) {
-  const auto of = [&](int i) { return i < 0 ? 0.8 : g.airfoils[std::size_t(i)].cl_max_ratio; };  // a flat plate
+  const auto of = [&](int i) {
+    return i < 0 ? 0.8 : g.airfoils[std::size_t(i)].cl_max_ratio;
+  };  // a flat plate
   return (1 - s.share) * of(s.airfoil_in) + s.share * of(s.airfoil_out);
 }
 
-/// The critical section: the wing stalls where the first of its sections has its most lift. Phillips & Alley, Predicting
-/// Maximum Lift Coefficient for Twisted Wings Using Lifting-Line Theory (2007).
+/// The critical section: the wing stalls where the first of its sections has its most lift. Phillips & Alley,
+/// Predicting Maximum Lift Coefficient for Twisted Wings Using Lifting-Line Theory (2007).
 void find_stall(const Geometry& g, const Lattice& lattice, const Vlm& vlm, Aircraft& a) {
   for (double alpha = 0; alpha < steepest; alpha += 0.1 * degree) {
     const Eigen::VectorXd cl = vlm.strip_lift({.alpha = alpha});
@@ -59,7 +62,8 @@ void fit_polar(const Geometry& g, const Lattice& lattice, const Vlm& vlm, Aircra
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
   for (int i = 0; i < 12; ++i) {
     const FlowState s{.alpha = from + (to - from) * i / 11};
-    const double CL = vlm.forces(s).CL, CD = vlm.far_field(s).CD + profile_drag(g, lattice, vlm.strip_lift(s), a.stream);
+    const double CL = vlm.forces(s).CL,
+                 CD = vlm.far_field(s).CD + profile_drag(g, lattice, vlm.strip_lift(s), a.stream);
     n += 1;
     x += CL * CL;
     y += CD;
@@ -83,8 +87,9 @@ Derivatives column(const SixDerivatives& d, double Six::*c) {
   out.elevator_ratio = d.control[to_elevator].*c;
   out.rudder_ratio = d.control[to_rudder].*c;
   out.flap_ratio = d.control[to_flap].*c;
-  for (double* x : {&out.zero_ratio, &out.alpha_ratio, &out.beta_ratio, &out.p_ratio, &out.q_ratio, &out.r_ratio,
-                    &out.aileron_ratio, &out.elevator_ratio, &out.rudder_ratio, &out.flap_ratio})
+  for (double* x :
+       {&out.zero_ratio, &out.alpha_ratio, &out.beta_ratio, &out.p_ratio, &out.q_ratio, &out.r_ratio,
+        &out.aileron_ratio, &out.elevator_ratio, &out.rudder_ratio, &out.flap_ratio})
     if (std::abs(*x) < 5e-6) *x = 0;  // what rounding leaves of a symmetric aircraft
   return out;
 }
@@ -108,8 +113,9 @@ SixDerivatives with_parts(const Geometry& g, const Aircraft& a, const SixDerivat
   SixDerivatives whole = lattice;
   add_bodies(g, whole);
   for (const PropellerPart& p : g.propellers)
-    add_propeller(p, propeller_normal_force(p, 0.5 * g.propulsion.propeller_diameter_m, a.propeller_radps, a.stream),
-                  a.stream, g.reference, a.mass.centre, whole);
+    add_propeller(
+        p, propeller_normal_force(p, 0.5 * g.propulsion.propeller_diameter_m, a.propeller_radps, a.stream),
+        a.stream, g.reference, a.mass.centre, whole);
   return whole;
 }
 
@@ -119,16 +125,31 @@ void refuse_what_is_missing(const GeometryFile& file, const MassSum& mass, const
     throw core::Error(file.where(list, 1u << 20).text() + ": " + sentence);
   };
   if (!(mass.mass_kg > 0)) refuse("surfaces", "nothing has a mass; give surfaces, bodies or masses one");
-  if (!lattice.has[to_elevator]) refuse("surfaces", "surfaces: no control drives the elevator; without it nothing trims it");
-  if (!lattice.has[to_aileron]) refuse("surfaces", "surfaces: no control drives the aileron; without it nothing rolls it");
+  if (!lattice.has[to_elevator])
+    refuse("surfaces", "surfaces: no control drives the elevator; without it nothing trims it");
+  if (!lattice.has[to_aileron])
+    refuse("surfaces", "surfaces: no control drives the aileron; without it nothing rolls it");
   if (!g.propellers.empty() && !(g.propulsion.ct0_ratio > 0))
     refuse("propellers", "propellers: their speed follows from propulsion.ct0, and there is none");
 }
 
+/// A vortex that passes close by a control point of another surface, or too few panels, show so.
+void doubt(const SixDerivatives& few, Aircraft& a) {
+  const SixDerivatives& all = a.lattice;
+  const double lift = few.alpha.CL / all.alpha.CL,
+               margin = few.alpha.Cm / few.alpha.CL - all.alpha.Cm / all.alpha.CL;
+  if (std::abs(lift - 1) < 0.05 && std::abs(margin) < 0.05) return;
+  a.doubt = "not converged: with a sixth of the panels CL_alpha is " + figures(few.alpha.CL) +
+            " instead of " + figures(all.alpha.CL) + " and the static margin " +
+            fixed(-few.alpha.Cm / few.alpha.CL, 3) + " instead of " + fixed(-all.alpha.Cm / all.alpha.CL, 3) +
+            "; give more panels, or part a tail from the height at which the wing's wake meets it";
+}
+
 void lift_fault(const GeometryFile& file, double CL, const Aircraft& a) {
   throw core::Error(file.where("limits", 1u << 20).text() + ": limits.airspeed_cruise: at " +
-                    core::number_text(a.stream.airspeed_mps) + " m/s level flight of " + figures(a.mass.mass_kg) +
-                    " kg takes CL " + figures(CL) + ", and these surfaces have it at no angle within 25 deg");
+                    core::number_text(a.stream.airspeed_mps) + " m/s level flight of " +
+                    figures(a.mass.mass_kg) + " kg takes CL " + figures(CL) +
+                    ", and these surfaces have it at no angle within 25 deg");
 }
 
 }  // namespace
@@ -143,13 +164,15 @@ Aircraft aircraft_of(const GeometryFile& file, double density) {
   a.stream = stream_at(g.limits.airspeed_cruise_mps, g.altitude_m);
   const double CL = lift_needed(g, a.mass, a.stream);
   // the wake's angle from a few panels: it matters little, and then lies along the stream
-  const double wake = alpha_for(Vlm(lattice_of(g, 0.4 * density), g.reference, a.mass.centre), CL);
+  const Vlm few(lattice_of(g, 0.4 * density), g.reference, a.mass.centre);
+  const double wake = alpha_for(few, CL);
   if (std::isnan(wake)) lift_fault(file, CL, a);
-  const Vlm vlm(lattice, g.reference, a.mass.centre, {.wake_alpha = wake});
+  const Vlm vlm(lattice, g.reference, a.mass.centre, wake);
   a.alpha_rad = alpha_for(vlm, CL);
   if (std::isnan(a.alpha_rad)) lift_fault(file, CL, a);
   const FlowState cruise{.alpha = a.alpha_rad};
   a.lattice = vlm.derivatives(cruise);
+  doubt(few.derivatives(cruise), a);
   a.far = vlm.far_field(cruise);
   const double AR = g.reference.span_m * g.reference.span_m / g.reference.area_m2;
   a.e_far = a.far.CL * a.far.CL / (pi * AR * a.far.CD);
@@ -178,6 +201,7 @@ Aircraft aircraft_of(const GeometryFile& file, double density) {
     a.propeller_radps = propeller_speed(g.propulsion, drag / number, a.stream);
   }
   a.whole = with_parts(g, a, a.lattice);
+  a.whole.beta.CY -= out.aero.parasite_drag_ratio;  // it pulls along the stream
   put_coefficients(a);
   return a;
 }
@@ -187,7 +211,7 @@ std::vector<Convergence> convergence_of(const GeometryFile& file, const Aircraft
   std::vector<Convergence> out;
   for (const double density : {0.5, 0.75, 1.0, 1.4}) {
     const Lattice lattice = lattice_of(g, density);
-    const Vlm vlm(lattice, g.reference, aircraft.mass.centre, {.wake_alpha = aircraft.alpha_rad});
+    const Vlm vlm(lattice, g.reference, aircraft.mass.centre, aircraft.alpha_rad);
     out.push_back({density, lattice.panels.size(),
                    with_parts(g, aircraft, vlm.derivatives({.alpha = aircraft.alpha_rad}))});
   }

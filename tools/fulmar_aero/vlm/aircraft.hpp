@@ -13,15 +13,16 @@ struct Aircraft {
   MassSum mass;
   Stream stream;
   std::size_t panels = 0;
-  double alpha_rad = 0;          ///< of level flight in cruise: where derivatives are taken
-  SixDerivatives lattice;        ///< of the surfaces alone
-  SixDerivatives whole;          ///< with bodies and propellers
+  double alpha_rad = 0;    ///< of level flight in cruise: where derivatives are taken
+  SixDerivatives lattice;  ///< of the surfaces alone
+  SixDerivatives whole;    ///< with bodies and propellers
   double skin_drag = 0, body_drag = 0;
-  Vlm::FarField far;             ///< in cruise
-  double e_far = 0;              ///< of the wake: CL^2 / (pi AR CD)
-  double propeller_radps = 0;    ///< in cruise; 0: not asked for
-  std::string stalls_first;      ///< the surface
+  Vlm::FarField far;           ///< in cruise
+  double e_far = 0;            ///< of the wake: CL^2 / (pi AR CD)
+  double propeller_radps = 0;  ///< in cruise; 0: not asked for
+  std::string stalls_first;    ///< the surface
   double stall_y_m = 0;
+  std::string doubt;  ///< a sentence when fewer panels say something else
 };
 
 /// Throws core::Error with file:line when there is no level flight, or no mass.

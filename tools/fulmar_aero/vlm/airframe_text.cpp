@@ -34,7 +34,8 @@ bool says(const core::Node* map, const std::string& name) {
 }
 
 /// With further entries behind those of the drawing.
-std::string section(const core::Node& root, const char* key, const std::vector<std::pair<std::string, std::string>>& more = {}) {
+std::string section(const core::Node& root, const char* key,
+                    const std::vector<std::pair<std::string, std::string>>& more = {}) {
   const core::Node* const node = root.find(key);
   if (!node && more.empty()) return "";
   std::string text = node ? flow_text(*node) : "{}";
@@ -63,25 +64,31 @@ std::string derivatives_text(const char* name, const Derivatives& d) {
 }
 
 std::string inertia_text(const Inertia& i) {
-  return "{xx_kgm2: " + figures(i.xx_kgm2, 5) + ", yy_kgm2: " + figures(i.yy_kgm2, 5) + ", zz_kgm2: " +
-         figures(i.zz_kgm2, 5) + ", xz_kgm2: " + figures(i.xz_kgm2, 5) + "}";
+  return "{xx_kgm2: " + figures(i.xx_kgm2, 5) + ", yy_kgm2: " + figures(i.yy_kgm2, 5) +
+         ", zz_kgm2: " + figures(i.zz_kgm2, 5) + ", xz_kgm2: " + figures(i.xz_kgm2, 5) + "}";
 }
 
 std::string aero_text(const GeometryFile& file, const Aircraft& a) {
   const Geometry& g = *file.geometry;
   const Airframe& f = a.airframe;
-  const std::string e_source = g.oswald_ratio > 0 ? "the drawing's" : "fit of wake and sections over the speeds of limits";
-  const std::string stall =
-      a.stalls_first.empty() ? "no section reaches its most lift before" :
-      "the first section with its most lift: " + a.stalls_first + ", " + figures(a.stall_y_m) + " m from the middle";
-  std::string text = "wing:\n  area_m2: " + figures(f.wing.area_m2, 6) + "\n  span: " + figures(f.wing.span_m, 6) +
-                     " m\n  chord: " + figures(f.wing.chord_m, 6) + " m\n  oswald: " + figures(f.wing.oswald_ratio, 4) +
-                     "  # " + e_source + "\n  stall_alpha: " + fixed(f.wing.stall_alpha_rad / degree, 2) + " deg  # " + stall +
+  const std::string e_source =
+      g.oswald_ratio > 0 ? "the drawing's" : "fit of wake and sections over the speeds of limits";
+  const std::string stall = a.stalls_first.empty()
+                                ? "no section reaches its most lift before"
+                                : "the first section with its most lift: " + a.stalls_first + ", " +
+                                      figures(a.stall_y_m) + " m from the middle";
+  std::string text = "wing:\n  area_m2: " + figures(f.wing.area_m2, 6) +
+                     "\n  span: " + figures(f.wing.span_m, 6) + " m\n  chord: " + figures(f.wing.chord_m, 6) +
+                     " m\n  oswald: " + figures(f.wing.oswald_ratio, 4) + "  # " + e_source +
+                     "\n  stall_alpha: " + fixed(f.wing.stall_alpha_rad / degree, 2) + " deg  # " + stall +
                      "\n  stall_sharpness: 50  # assumption, as of other aircraft\n";
-  text += "# Vortex lattice, " + std::to_string(a.panels) + " panels, at " + degrees(a.alpha_rad) + "; zero: carried back to no angle.";
+  text += "# Vortex lattice, " + std::to_string(a.panels) + " panels, at " + degrees(a.alpha_rad) +
+          "; zero: carried back to no angle.";
   if (!g.bodies.empty()) text += " Bodies in pitch.alpha and yaw.beta: NACA Report 184.";
   if (!g.propellers.empty())
-    text += "\n# Propellers in oblique flow, at " + figures(a.propeller_radps, 4) + " rad/s: in alpha, beta, q and r, NACA Report 820.";
+    text += "\n# Propellers in oblique flow, at " + figures(a.propeller_radps, 4) +
+            " rad/s: in alpha, beta, q and r, NACA Report 820.";
+  if (!a.doubt.empty()) text += "\n# WARNING: " + a.doubt;
   text += "\naero:\n  parasite_drag: " + figures(f.aero.parasite_drag_ratio, 4) + "  # sections " +
           figures(a.skin_drag, 3) + " in cruise, bodies " + figures(a.body_drag, 3) + "; polars and plates\n";
   text += derivatives_text("lift", f.aero.lift) + derivatives_text("drag", f.aero.drag) +
@@ -102,23 +109,28 @@ std::string airframe_yaml(const GeometryFile& file, const Aircraft& aircraft) {
   const SteadyFlight flight = fly(model, {.airspeed_mps = a.limits.airspeed_cruise_mps});
   if (!flight.found()) throw core::Error(no_flight(trimmed, model, flight));
 
-  const double least = 1.2 * std::sqrt(isa::g0 * a.mass_kg /
-                                       (0.5 * aircraft.stream.density_kgm3 * a.wing.area_m2 * most_lift(a).coefficient));
+  const double least =
+      1.2 * std::sqrt(isa::g0 * a.mass_kg /
+                      (0.5 * aircraft.stream.density_kgm3 * a.wing.area_m2 * most_lift(a).coefficient));
   const auto trim = [&](int input) {
     return std::pair<std::string, std::string>("trim", figures(flight.input(input), 4) + " rad");
   };
   const std::string folder_free = file.name.substr(file.name.find_last_of('/') + 1);
-  std::string text =
-      "# SPDX-License-Identifier: BSD-3-Clause\n# " + std::string(a.name.view()) + ": made by fulmar aero vlm from " + folder_free +
-      ". Signs and equations: Beard & McLain, Small Unmanned\n# Aircraft, chapter 4. Angles in coefficients are radians.\n";
+  std::string text = "# SPDX-License-Identifier: BSD-3-Clause\n# " + std::string(a.name.view()) +
+                     ": made by fulmar aero vlm from " + folder_free +
+                     ". Signs and equations: Beard & McLain, Small Unmanned\n# Aircraft, chapter 4. Angles "
+                     "in coefficients are radians.\n";
   text += "name: " + std::string(a.name.view()) + "\nmass: " + figures(a.mass_kg, 5) +
           " kg  # sum of the parts, with the centre of gravity at x = " + fixed(aircraft.mass.centre.x(), 4) +
-          " m, z = " + fixed(aircraft.mass.centre.z(), 4) + " m of the drawing\ninertia: " + inertia_text(a.inertia) + "\n";
+          " m, z = " + fixed(aircraft.mass.centre.z(), 4) +
+          " m of the drawing\ninertia: " + inertia_text(a.inertia) + "\n";
   text += aero_text(file, aircraft) + "# As the drawing has them:\n" + section(file.root, "propulsion");
-  if (a.mixer != Mixer::conventional) text += a.mixer == Mixer::elevons ? "mixer: elevons\n" : "mixer: v_tail\n";
+  if (a.mixer != Mixer::conventional)
+    text += a.mixer == Mixer::elevons ? "mixer: elevons\n" : "mixer: v_tail\n";
   text += "# Trims: steady level flight at " + figures(a.limits.airspeed_cruise_mps, 4) + " m/s, " +
           fixed(file.geometry->altitude_m, 0) + " m above the sea; they cancel propeller torque, too.\n";
-  text += section(file.root, "aileron", {trim(model::aileron)}) + section(file.root, "elevator", {trim(model::elevator)}) +
+  text += section(file.root, "aileron", {trim(model::aileron)}) +
+          section(file.root, "elevator", {trim(model::elevator)}) +
           section(file.root, "rudder", {trim(model::rudder)}) + section(file.root, "flap");
   // the least airspeed: 1.2 times that of the most lift with the elevator holding the pitching moment
   text += section(file.root, "limits",

@@ -123,6 +123,7 @@ class SurfaceMesh {
     Strip strip;
     strip.a = at(first, 1);
     strip.b = at(last, 1);
+    strip.mid = at(mid, 1);
     strip.chord = mid.chord;
     strip.width = std::hypot(strip.b.y() - strip.a.y(), strip.b.z() - strip.a.z());
     strip.surface = index_;

@@ -27,7 +27,7 @@ struct Panel {
 
 /// Panels behind each other.
 struct Strip {
-  Eigen::Vector3d a, b;         ///< trailing edge
+  Eigen::Vector3d a, b, mid;    ///< trailing edge; mid: behind the control points
   double chord = 0, width = 0;  ///< width across x
   int surface = 0;
   double share = 0;                       ///< of the second section's airfoil

@@ -37,18 +37,21 @@ std::vector<Lump> lumps(const Geometry& g, const Lattice& lattice) {
       if (s.surface != int(i)) continue;
       const double m = g.surfaces[i].mass_kg * s.chord * s.width / area;
       const Vector3d span = s.b - s.a, middle = 0.5 * (s.a + s.b) - Vector3d(0.5 * s.chord, 0, 0);
-      all.push_back({m, middle,
-                     m / 12 * Vector3d(s.chord * s.chord, span.y() * span.y(), span.z() * span.z())});
+      all.push_back(
+          {m, middle, m / 12 * Vector3d(s.chord * s.chord, span.y() * span.y(), span.z() * span.z())});
     }
   }
   for (const Body& b : g.bodies)
     if (b.mass_kg > 0)
       add_lump(all,
-               {b.mass_kg, {b.x_m + 0.5 * b.length_m, b.y_m, b.z_m},
+               {b.mass_kg,
+                {b.x_m + 0.5 * b.length_m, b.y_m, b.z_m},
                 b.mass_kg / 20 * Vector3d(b.length_m, b.width_m, b.height_m).cwiseAbs2()},
                b.mirror);
   for (const MassPart& m : g.masses) {
-    Lump one{m.mass_kg, {m.x_m, m.y_m, m.z_m}, m.mass_kg / 12 * Vector3d(m.length_m, m.width_m, m.height_m).cwiseAbs2()};
+    Lump one{m.mass_kg,
+             {m.x_m, m.y_m, m.z_m},
+             m.mass_kg / 12 * Vector3d(m.length_m, m.width_m, m.height_m).cwiseAbs2()};
     if (m.own.xx_kgm2 + m.own.yy_kgm2 + m.own.zz_kgm2 > 0) {
       const double half = 0.5 * (m.own.xx_kgm2 + m.own.yy_kgm2 + m.own.zz_kgm2);
       one.square = {half - m.own.xx_kgm2, half - m.own.yy_kgm2, half - m.own.zz_kgm2};
@@ -94,7 +97,8 @@ double section_drag(const Airfoil* airfoil, double cl, double reynolds) {
   static const Airfoil flat{};
   const Airfoil& a = airfoil ? *airfoil : flat;
   const double t = airfoil ? a.thickness_frac : 0.03;
-  // form factor with the thickest place at 0.3 of the chord; both sides, and the surface is longer than the chord
+  // form factor with the thickest place at 0.3 of the chord; both sides, and the surface is longer than the
+  // chord
   const double least =
       a.cd_min_ratio > 0
           ? a.cd_min_ratio * (a.reynolds_ratio > 0 ? std::pow(reynolds / a.reynolds_ratio, -0.2) : 1)
@@ -132,11 +136,14 @@ double body_drag(const Geometry& geometry, const Stream& stream) {
 void add_bodies(const Geometry& geometry, SixDerivatives& sum) {
   const ReferenceQuantities& r = geometry.reference;
   for (const Body& b : geometry.bodies) {
-    const double width = std::sqrt(b.width_m * b.height_m), volume = pi / 6 * b.length_m * b.width_m * b.height_m;
+    const double width = std::sqrt(b.width_m * b.height_m),
+                 volume = pi / 6 * b.length_m * b.width_m * b.height_m;
     if (b.length_m <= 1.01 * width) continue;  // a ball is not turned
     // apparent masses along and across of an ellipsoid of revolution: Lamb, Hydrodynamics (1932), section 114
-    const double e2 = 1 - std::pow(width / b.length_m, 2), e = std::sqrt(e2), log = std::log((1 + e) / (1 - e));
-    const double alpha0 = 2 * (1 - e2) / (e2 * e) * (0.5 * log - e), beta0 = 1 / e2 - (1 - e2) / (2 * e2 * e) * log;
+    const double e2 = 1 - std::pow(width / b.length_m, 2), e = std::sqrt(e2),
+                 log = std::log((1 + e) / (1 - e));
+    const double alpha0 = 2 * (1 - e2) / (e2 * e) * (0.5 * log - e),
+                 beta0 = 1 / e2 - (1 - e2) / (2 * e2 * e) * log;
     const double more = beta0 / (2 - beta0) - alpha0 / (2 - alpha0);
     const double turning = (b.mirror ? 2 : 1) * 2 * more * volume / r.area_m2;
     sum.alpha.Cm += turning / r.chord_m;
@@ -144,7 +151,8 @@ void add_bodies(const Geometry& geometry, SixDerivatives& sum) {
   }
 }
 
-double propeller_normal_force(const PropellerPart& propeller, double radius_m, double radps, const Stream& stream) {
+double propeller_normal_force(const PropellerPart& propeller, double radius_m, double radps,
+                              const Stream& stream) {
   if (!(radps > 0)) return 0;
   const double V = stream.airspeed_mps;
   return propeller.blades / 4.0 * stream.density_kgm3 * 2 * pi * propeller.blade_chord_m * V * V * V / radps *
@@ -155,7 +163,8 @@ void add_propeller(const PropellerPart& propeller, double newton_per_rad, const 
                    const ReferenceQuantities& reference, const Eigen::Vector3d& centre, SixDerivatives& sum) {
   const double q = 0.5 * stream.density_kgm3 * stream.airspeed_mps * stream.airspeed_mps;
   const double k = newton_per_rad / (q * reference.area_m2);
-  const double ahead = centre.x() - propeller.x_m, c = ahead / reference.chord_m, b = ahead / reference.span_m;
+  const double ahead = centre.x() - propeller.x_m, c = ahead / reference.chord_m,
+               b = ahead / reference.span_m;
   sum.alpha.CL += k;
   sum.alpha.Cm += k * c;
   sum.beta.CY -= k;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -16,31 +17,30 @@ enum Basic : int { stream_x, stream_y, stream_z, rate_p, rate_q, rate_r, first_c
 enum Changed : int { by_alpha, by_beta, by_p, by_q, by_r, by_control };
 
 /// Velocity by a straight vortex of strength 4 pi from a to b, with d = point - a, e = point - b.
-inline Vector3d segment(const Vector3d& d, const Vector3d& e, double core2) {
-  const double D = std::sqrt(d.squaredNorm() + core2), E = std::sqrt(e.squaredNorm() + core2);
-  const double below = D * E + d.dot(e) + core2;
+inline Vector3d segment(const Vector3d& d, const Vector3d& e) {
+  const double D = std::sqrt(d.squaredNorm()), E = std::sqrt(e.squaredNorm());
+  const double below = D * E + d.dot(e);
   if (below < 1e-12 * D * E) return Vector3d::Zero();
   return d.cross(e) * ((1 / D + 1 / E) / below);
 }
 
 /// The same for one that begins at a and goes on along the unit vector t.
-inline Vector3d ray(const Vector3d& d, const Vector3d& t, double core2) {
-  const double D = std::sqrt(d.squaredNorm() + core2), below = D - d.dot(t);
+inline Vector3d ray(const Vector3d& d, const Vector3d& t) {
+  const double D = std::sqrt(d.squaredNorm()), below = D - d.dot(t);
   if (below < 1e-12 * D) return Vector3d::Zero();
   return t.cross(d) / (D * below);
 }
 
 /// Velocity at `point` by a panel's horseshoe of strength 1. `own`: the point lies on its bound vortex.
 inline Vector3d horseshoe(const Panel& j, const Vector3d& point, const Vector3d& wake, bool straight,
-                          double core2, bool own) {
+                          bool own) {
   const Vector3d d = point - j.a, e = point - j.b;
-  Vector3d v = own ? Vector3d::Zero() : segment(d, e, core2);
+  Vector3d v = own ? Vector3d::Zero() : segment(d, e);
   if (straight) {
-    v += ray(e, wake, core2) - ray(d, wake, core2);
+    v += ray(e, wake) - ray(d, wake);
   } else {
     const Vector3d far_d(point.x() - j.edge_a, d.y(), d.z()), far_e(point.x() - j.edge_b, e.y(), e.z());
-    v += segment(e, far_e, core2) - segment(d, far_d, core2) + ray(far_e, wake, core2) -
-         ray(far_d, wake, core2);
+    v += segment(e, far_e) - segment(d, far_d) + ray(far_e, wake) - ray(far_d, wake);
   }
   return v / (4 * pi);
 }
@@ -52,22 +52,17 @@ Vector3d stream_of(double alpha, double beta) {
 }  // namespace
 
 Vlm::Vlm(const Lattice& lattice, const ReferenceQuantities& reference, const Vector3d& about,
-         const VlmOptions& options)
-    : lattice_(lattice), reference_(reference), about_(about), options_(options) {
+         double wake_alpha)
+    : lattice_(lattice), reference_(reference), about_(about), wake_alpha_(wake_alpha) {
   const auto n = Eigen::Index(lattice_.panels.size());
-  const Vector3d wake(std::cos(options.wake_alpha), 0, std::sin(options.wake_alpha));
-  const bool straight = options.wake_alpha == 0;
-  const auto core2 = [&](const Panel& i, const Panel& j) {
-    const double core =
-        i.surface == j.surface ? 0 : options.core * lattice_.strips[std::size_t(j.strip)].width;
-    return core * core;
-  };
+  const Vector3d wake(std::cos(wake_alpha), 0, std::sin(wake_alpha));
+  const bool straight = wake_alpha == 0;
   Eigen::MatrixXd influence(n, n);
   for (Eigen::Index col = 0; col < n; ++col) {
     const Panel& j = lattice_.panels[std::size_t(col)];
     for (Eigen::Index row = 0; row < n; ++row) {
       const Panel& i = lattice_.panels[std::size_t(row)];
-      influence(row, col) = horseshoe(j, i.control, wake, straight, core2(i, j), false).dot(i.normal);
+      influence(row, col) = horseshoe(j, i.control, wake, straight, false).dot(i.normal);
     }
   }
   const Eigen::Index columns = first_control + 3 * Eigen::Index(controls);
@@ -92,7 +87,7 @@ Vlm::Vlm(const Lattice& lattice, const ReferenceQuantities& reference, const Vec
     const Panel& i = lattice_.panels[std::size_t(row)];
     for (Eigen::Index col = 0; col < n; ++col) {
       const Panel& j = lattice_.panels[std::size_t(col)];
-      part.row(col) = horseshoe(j, i.centre, wake, straight, core2(i, j), row == col);
+      part.row(col) = horseshoe(j, i.centre, wake, straight, row == col);
     }
     const Eigen::MatrixXd at = part.transpose() * circulation_;
     for (int axis = 0; axis < 3; ++axis) induced_[std::size_t(axis)].row(row) = at.row(axis);
@@ -138,9 +133,9 @@ Six Vlm::coefficients(const Basis& now, const Basis* change, const FlowState& s,
     for (std::size_t k = 0; k < 3; ++k) v[k] = induced_[k] * basis.weight;
     return v;
   };
-  const auto air = [&](const Basis& basis, const Panel& i) {
+  const auto air = [&](const Basis& basis, const Vector3d& at) {
     const Vector3d omega(-basis.omega.x(), basis.omega.y(), -basis.omega.z());
-    return Vector3d(basis.stream - omega.cross(i.centre - about_));
+    return Vector3d(basis.stream - omega.cross(at - about_));
   };
   const Eigen::VectorXd gamma = circulation_ * now.weight;
   const auto v = velocities(now);
@@ -151,19 +146,28 @@ Six Vlm::coefficients(const Basis& now, const Basis* change, const FlowState& s,
     v_change = velocities(*change);
   }
   Vector3d force = Vector3d::Zero(), moment = Vector3d::Zero(), force_change = force;
-  for (std::size_t k = 0; k < lattice_.panels.size(); ++k) {
-    const Panel& i = lattice_.panels[k];
-    const auto row = Eigen::Index(k);
-    const Vector3d V = air(now, i) + Vector3d(v[0][row], v[1][row], v[2][row]), bound = i.b - i.a;
-    const Vector3d f = 2 * gamma[row] * V.cross(bound);
+  const auto add = [&](Eigen::Index k, const Vector3d& at, const Vector3d& along, bool bound) {
+    const auto at_vortex = [&](const std::array<Eigen::VectorXd, 3>& all) {
+      return bound ? Vector3d(all[0][k], all[1][k], all[2][k]) : Vector3d::Zero();
+    };
+    const Vector3d across = (air(now, at) + at_vortex(v)).cross(along);
+    const Vector3d f = 2 * gamma[k] * across;
     force += f;
     Vector3d counted = f;
     if (change) {
-      const Vector3d W = air(*change, i) + Vector3d(v_change[0][row], v_change[1][row], v_change[2][row]);
-      counted = 2 * gamma_change[row] * V.cross(bound) + 2 * gamma[row] * W.cross(bound);
+      const Vector3d other = (air(*change, at) + at_vortex(v_change)).cross(along);
+      counted = 2 * (gamma_change[k] * across + gamma[k] * other);
       force_change += counted;
     }
-    moment += (i.centre - about_).cross(counted);
+    moment += (at - about_).cross(counted);
+  };
+  for (std::size_t k = 0; k < lattice_.panels.size(); ++k) {
+    const Panel& i = lattice_.panels[k];
+    add(Eigen::Index(k), i.centre, i.b - i.a, true);
+    // its legs lie on the surface up to the trailing edge, and feel what comes across
+    const Vector3d edge_a(i.edge_a, i.a.y(), i.a.z()), edge_b(i.edge_b, i.b.y(), i.b.z());
+    add(Eigen::Index(k), 0.5 * (i.a + edge_a), i.a - edge_a, false);
+    add(Eigen::Index(k), 0.5 * (i.b + edge_b), edge_b - i.b, false);
   }
   const double ca = std::cos(s.alpha), sa = std::sin(s.alpha), cb = std::cos(s.beta), sb = std::sin(s.beta);
   const Vector3d lift(-sa, 0, ca), drag = stream_of(s.alpha, s.beta);
@@ -209,12 +213,12 @@ Vlm::FarField Vlm::far_field(const FlowState& state) const {
   for (std::size_t k = 0; k < lattice_.panels.size(); ++k)
     strip[std::size_t(lattice_.panels[k].strip)] += gamma[Eigen::Index(k)];
   // in the plane across the wake: y, and the height above the wake's own slope
-  const double ca = std::cos(options_.wake_alpha), sa = std::sin(options_.wake_alpha);
+  const double ca = std::cos(wake_alpha_), sa = std::sin(wake_alpha_);
   const auto across = [&](const Vector3d& p) { return Eigen::Vector2d(p.y(), ca * p.z() - sa * p.x()); };
   FarField out;
   for (std::size_t i = 0; i < strip.size(); ++i) {
     const Eigen::Vector2d a = across(lattice_.strips[i].a), b = across(lattice_.strips[i].b),
-                          mid = 0.5 * (a + b);
+                          mid = across(lattice_.strips[i].mid);
     Eigen::Vector2d v = Eigen::Vector2d::Zero();
     for (std::size_t j = 0; j < strip.size(); ++j)
       for (const bool at_b : {false, true}) {

@@ -24,19 +24,12 @@ struct SixDerivatives {
   std::array<Six, controls> control;
 };
 
-struct VlmOptions {
-  /// Angle of the wake to x, rad: behind the trailing edge it goes straight on.
-  double wake_alpha = 0;
-  /// Radius within which a vortex of one surface spares another surface, in widths of its strip. The discrete
-  /// wake of a wing that meets a tail is a sheet and no row of vortices.
-  double core = 0.5;
-};
-
 class Vlm {
  public:
-  /// `about`: where moments and rates are taken. Throws core::Error when no flow is found.
+  /// `about`: where moments and rates are taken. `wake_alpha`: angle of the wake to x, rad; behind the
+  /// trailing edge it goes straight on. Throws core::Error when no flow is found.
   Vlm(const Lattice& lattice, const ReferenceQuantities& reference, const Eigen::Vector3d& about,
-      const VlmOptions& options = {});
+      double wake_alpha = 0);
 
   Six forces(const FlowState& state) const;
   SixDerivatives derivatives(const FlowState& state) const;
@@ -60,7 +53,7 @@ class Vlm {
   Lattice lattice_;
   ReferenceQuantities reference_;
   Eigen::Vector3d about_;
-  VlmOptions options_;
+  double wake_alpha_;
   /// Columns: the stream's three components, the three rates, and the three components for each control.
   Eigen::MatrixXd circulation_;
   std::array<Eigen::MatrixXd, 3> induced_;  ///< at the bound vortices

@@ -15,51 +15,67 @@ struct Row {
   const char* name;
   double Six::*value;
 };
-constexpr std::array<Row, 6> rows{
-    {{"CL", &Six::CL}, {"CD", &Six::CD}, {"CY", &Six::CY}, {"Cl", &Six::Cl}, {"Cm", &Six::Cm}, {"Cn", &Six::Cn}}};
+constexpr std::array<Row, 6> rows{{{"CL", &Six::CL},
+                                   {"CD", &Six::CD},
+                                   {"CY", &Six::CY},
+                                   {"Cl", &Six::Cl},
+                                   {"Cm", &Six::Cm},
+                                   {"Cn", &Six::Cn}}};
 
 std::string number(double x) { return right(fixed(x, 4), 10); }
 
 std::string table_text(const Aircraft& a) {
   const SixDerivatives& d = a.whole;
-  std::string text = "\n           value     alpha      beta         p         q         r   aileron  elevator    rudder      flap\n";
+  std::string text =
+      "\n           value     alpha      beta         p         q         r   aileron  elevator    rudder    "
+      "  flap\n";
   for (const Row& row : rows) {
     text += "  " + padded(row.name, 4);
-    for (const Six* six : {&d.value, &d.alpha, &d.beta, &d.p, &d.q, &d.r, &d.control[to_aileron], &d.control[to_elevator],
-                           &d.control[to_rudder], &d.control[to_flap]})
+    for (const Six* six : {&d.value, &d.alpha, &d.beta, &d.p, &d.q, &d.r, &d.control[to_aileron],
+                           &d.control[to_elevator], &d.control[to_rudder], &d.control[to_flap]})
       text += number(six->*row.value);
     text += "\n";
   }
-  return text + "  per rad, of p b/2V, q c/2V, r b/2V; moments about body axes through the centre of gravity; CD of the lattice\n";
+  return text +
+         "  per rad, of p b/2V, q c/2V, r b/2V; moments about body axes through the centre of gravity; CD of "
+         "the lattice\n";
 }
 
 std::string summary_text(const GeometryFile& file, const Aircraft& a) {
   const Airframe& f = a.airframe;
-  const auto line = [](const char* name, const std::string& text) { return "  " + padded(name, 22) + text + "\n"; };
+  const auto line = [](const char* name, const std::string& text) {
+    return "  " + padded(name, 22) + text + "\n";
+  };
   return std::string(f.name.view()) + ": " + file.name + ", " + std::to_string(a.panels) + " panels\n" +
-         line("mass", figures(f.mass_kg, 4) + " kg, centre of gravity at x = " + fixed(a.mass.centre.x(), 4) + " m, z = " +
-                          fixed(a.mass.centre.z(), 4) + " m") +
-         line("inertia", "xx " + figures(f.inertia.xx_kgm2, 4) + ", yy " + figures(f.inertia.yy_kgm2, 4) + ", zz " +
-                             figures(f.inertia.zz_kgm2, 4) + ", xz " + figures(f.inertia.xz_kgm2, 4) + " kg m^2") +
-         line("cruise", figures(a.stream.airspeed_mps, 4) + " m/s, angle of attack " + degrees(a.alpha_rad) + ", CL " +
-                            fixed(a.whole.value.CL, 3)) +
-         line("static margin", fixed(-a.whole.alpha.Cm / a.whole.alpha.CL, 3) + " of the chord, neutral point at x = " +
-                                   fixed(a.mass.centre.x() - a.whole.alpha.Cm / a.whole.alpha.CL * f.wing.chord_m, 4) + " m") +
-         line("drag", "parasite " + fixed(f.aero.parasite_drag_ratio, 4) + ", in cruise sections " + fixed(a.skin_drag, 4) +
-                          ", bodies " + fixed(a.body_drag, 4) + ", wake " + fixed(a.far.CD, 4) + " (e " + fixed(a.e_far, 3) +
-                          "), bound vortices " + fixed(a.lattice.value.CD, 4)) +
+         line("mass", figures(f.mass_kg, 4) + " kg, centre of gravity at x = " + fixed(a.mass.centre.x(), 4) +
+                          " m, z = " + fixed(a.mass.centre.z(), 4) + " m") +
+         line("inertia", "xx " + figures(f.inertia.xx_kgm2, 4) + ", yy " + figures(f.inertia.yy_kgm2, 4) +
+                             ", zz " + figures(f.inertia.zz_kgm2, 4) + ", xz " +
+                             figures(f.inertia.xz_kgm2, 4) + " kg m^2") +
+         line("cruise", figures(a.stream.airspeed_mps, 4) + " m/s, angle of attack " + degrees(a.alpha_rad) +
+                            ", CL " + fixed(a.whole.value.CL, 3)) +
+         line("static margin",
+              fixed(-a.whole.alpha.Cm / a.whole.alpha.CL, 3) + " of the chord, neutral point at x = " +
+                  fixed(a.mass.centre.x() - a.whole.alpha.Cm / a.whole.alpha.CL * f.wing.chord_m, 4) + " m") +
+         line("drag", "parasite " + fixed(f.aero.parasite_drag_ratio, 4) + ", in cruise sections " +
+                          fixed(a.skin_drag, 4) + ", bodies " + fixed(a.body_drag, 4) + ", wake " +
+                          fixed(a.far.CD, 4) + " (e " + fixed(a.e_far, 3) + "), bound vortices " +
+                          fixed(a.lattice.value.CD, 4)) +
          line("stall", degrees(f.wing.stall_alpha_rad, 1) +
-                           (a.stalls_first.empty() ? "" : ", first the " + a.stalls_first + " at " + figures(a.stall_y_m) +
-                                                              " m from the middle"));
+                           (a.stalls_first.empty() ? ""
+                                                   : ", first the " + a.stalls_first + " at " +
+                                                         figures(a.stall_y_m) + " m from the middle")) +
+         (a.doubt.empty() ? "" : "warning  " + a.doubt + "\n");
 }
 
 std::string convergence_text(const std::vector<Convergence>& all) {
-  std::string text = "\n  panels  CL_alpha  Cm_alpha      Cm_q      Cl_p   Cl_beta   Cn_beta      Cn_r  Cm_elev.  Cl_ail.\n";
+  std::string text =
+      "\n  panels  CL_alpha  Cm_alpha      Cm_q      Cl_p   Cl_beta   Cn_beta      Cn_r  Cm_elev.  Cl_ail.\n";
   for (const Convergence& c : all) {
     const SixDerivatives& d = c.whole;
     text += right(std::to_string(c.panels), 8);
-    for (const double x : {d.alpha.CL, d.alpha.Cm, d.q.Cm, d.p.Cl, d.beta.Cl, d.beta.Cn, d.r.Cn, d.control[to_elevator].Cm,
-                           d.control[to_aileron].Cl})
+    for (const double x : {d.alpha.CL, d.alpha.Cm, d.q.Cm, d.p.Cl, d.beta.Cl, d.beta.Cn, d.r.Cn,
+                           d.control[to_elevator].Cm, d.control[to_aileron].Cl})
       text += number(x);
     text += "\n";
   }
@@ -100,6 +116,7 @@ nlohmann::json aircraft_json(const Aircraft& a, const std::vector<Convergence>& 
           {"parasite_drag", a.airframe.aero.parasite_drag_ratio},
           {"derivatives", derivatives_json(a.whole)},
           {"lattice", derivatives_json(a.lattice)},
+          {"warning", a.doubt},
           {"wake", {{"CL", a.far.CL}, {"CD", a.far.CD}, {"e", a.e_far}}},
           {"convergence", list}};
 }
@@ -115,7 +132,8 @@ int vlm_command(const VlmCommand& options) {
   if (options.json)
     print_object(aircraft_json(aircraft, convergence));
   else
-    print_text(summary_text(file, aircraft) + table_text(aircraft) + (options.convergence ? convergence_text(convergence) : ""));
+    print_text(summary_text(file, aircraft) + table_text(aircraft) +
+               (options.convergence ? convergence_text(convergence) : ""));
   if (options.out.empty()) return core::ExitCode::done;
   std::ofstream out(options.out);
   out << text;

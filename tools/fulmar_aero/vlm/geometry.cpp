@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "core/graph/record.hpp"
 #include "core/graph/shipped.hpp"
 #include "core/loader/table.hpp"
 #include "core/types/text.hpp"
 #include "fulmar/schema.hpp"
+#include "tools/fulmar_aero/vlm/planform.hpp"
 
 namespace fulmar::aero {
 namespace {
@@ -175,6 +177,48 @@ class GeometryRules {
   core::Report& report_;
 };
 
+/// Surfaces are drawn here or elsewhere, not both.
+void complete(GeometryFile& file, core::Report& report) {
+  Geometry& g = *file.geometry;
+  const std::string planform(g.planform.view());
+  const auto says = [&](const char* key) { return file.root.find(key) != nullptr; };
+  const core::Where whole{file.name, 0};
+  if (planform.empty()) {
+    if (!says("surfaces"))
+      report.add(whole,
+                 "this is no whole geometry, missing: surfaces, or a planform as in planform: wing.avl");
+    if (!says("reference"))
+      report.add(whole, "this is no whole geometry, missing: reference (area, span, chord)");
+    if (says("controls"))
+      report.add(file.where("controls", 0),
+                 "controls: they stand with their surface, unless planform names a file");
+    return;
+  }
+  const core::Where where = file.root.find("planform")->where();
+  if (says("surfaces")) return report.add(where, "planform: surfaces are given as well; one of both");
+  const ReferenceQuantities own = g.reference;
+  add_planform(core::named_file(std::filesystem::path(file.root.file->path).parent_path(), planform).string(),
+               planform, g);
+  if (says("reference")) g.reference = own;
+  if (!(g.reference.area_m2 > 0))
+    report.add(whole, "this is no whole geometry, missing: reference (area, span, chord)");
+  for (std::size_t i = 0; i < g.controls.size(); ++i) {
+    std::vector<std::string> names;
+    LiftingSurface* found = nullptr;
+    for (LiftingSurface& s : g.surfaces) {
+      names.emplace_back(s.name.view());
+      if (s.name == g.controls[i].surface) found = &s;
+    }
+    const std::string path = "controls[" + std::to_string(i) + "]";
+    if (!found)
+      report.add(file.where("controls", i),
+                 path + ".surface: there is no surface " + quoted(g.controls[i].surface.view()) + "." +
+                     core::choices_text(std::string(g.controls[i].surface.view()), names));
+    else if (!found->controls.push_back(g.controls[i].control))
+      report.add(file.where("controls", i), path + ": more controls than 16 on one surface");
+  }
+}
+
 }  // namespace
 
 core::Where GeometryFile::where(const std::string& list, std::size_t i, const std::string& inner,
@@ -206,6 +250,7 @@ GeometryFile read_geometry_file(const std::string& name) {
   if (report.empty())
     if (const std::vector<std::string> missing = core::missing_in_record(*type, file.root); !missing.empty())
       report.add({name, 0}, "this is no whole geometry, missing: " + core::join(missing));
+  if (report.empty()) complete(file, report);
   if (report.empty()) GeometryRules(file, report).check();
   report.throw_if_any();
   return file;

@@ -46,6 +46,12 @@ struct ControlSurface {
 
 enum class Spacing : std::uint8_t { cosine, uniform, tip };
 
+/// A control on a surface of another file.
+struct NamedControl {
+  Text<32> surface;
+  ControlSurface control;
+};
+
 struct LiftingSurface {
   Text<32> name;
   bool mirror = false;                        ///< its other half is on the left
@@ -55,7 +61,7 @@ struct LiftingSurface {
   Spacing chord_spacing = Spacing::cosine, span_spacing = Spacing::cosine;
   double mass_kg = 0;  ///< of both halves, as a thin sheet of even weight
   List<WingSection, 32> sections;
-  List<ControlSurface, 8> controls;
+  List<ControlSurface, 16> controls;
 };
 
 /// A fuselage or nacelle: an ellipsoid as far as its moments go.
@@ -93,9 +99,11 @@ struct ReferenceQuantities {
 struct Geometry {
   Text<32> name;
   double altitude_m = 0;  ///< of the standard air in cruise
+  Text<160> planform;     ///< an .avl or .xml file beside the drawing, in place of `surfaces`
   ReferenceQuantities reference;
   List<Airfoil, 16> airfoils;
   List<LiftingSurface, 16> surfaces;
+  List<NamedControl, 16> controls;  ///< on surfaces of `planform`
   List<Body, 8> bodies;
   List<MassPart, 64> masses;
   List<PropellerPart, 8> propellers;
@@ -140,6 +148,8 @@ template <>
 inline constexpr std::array<std::string_view, 3> required_fields<aero::ControlSurface>{"drives", "from_m",
                                                                                        "to_m"};
 template <>
+inline constexpr std::array<std::string_view, 2> required_fields<aero::NamedControl>{"surface", "control"};
+template <>
 inline constexpr std::array<std::string_view, 2> required_fields<aero::LiftingSurface>{"name", "sections"};
 template <>
 inline constexpr std::array<std::string_view, 4> required_fields<aero::Body>{"name", "length_m", "width_m",
@@ -152,8 +162,8 @@ template <>
 inline constexpr std::array<std::string_view, 3> required_fields<aero::ReferenceQuantities>{
     "area_m2", "span_m", "chord_m"};
 template <>
-inline constexpr std::array<std::string_view, 8> required_fields<aero::Geometry>{
-    "name", "reference", "surfaces", "propulsion", "aileron", "elevator", "rudder", "limits"};
+inline constexpr std::array<std::string_view, 6> required_fields<aero::Geometry>{
+    "name", "propulsion", "aileron", "elevator", "rudder", "limits"};
 
 template <>
 inline constexpr std::array<FieldRange, 5> field_ranges<aero::Airfoil>{{{"thickness_frac", 0.001, 0.4},

@@ -24,5 +24,7 @@ struct VlmCommand {
   bool convergence = false, json = false;
 };
 int vlm_command(const VlmCommand& options);
+/// Check, trim, modes, gains and a flight with them, up to the first that fails.
+int fly_command(const FlightOptions& options, bool write);
 
 }  // namespace fulmar::aero

@@ -23,7 +23,7 @@ struct CommandLine {
   bool csv = false;
   TuneOptions tuning;
   VlmCommand drawing;
-  CLI::App *trim, *linearize, *modes, *check, *tune, *vlm;
+  CLI::App *trim, *linearize, *modes, *check, *tune, *vlm, *fly;
 
   CommandLine() {
     app.require_subcommand(1);
@@ -52,6 +52,12 @@ struct CommandLine {
     check->footer("Example: fulmar aero check fulmar:airframes/anaconda.yaml");
     add_tune();
     add_vlm();
+    fly = app.add_subcommand("fly", "check, trim, modes, gains and a flight with them, in one");
+    fly->add_option("AIRFRAME", flight.airframe, "airframe file, or fulmar:airframes/anaconda.yaml")
+        ->required();
+    fly->add_option("--altitude", flight.altitude, "above mean sea level, of the standard air; else 0 m");
+    fly->add_flag("--write", tuning.write, "put the gains into the file; all else of it stays");
+    fly->footer("Example: fulmar aero fly mine.yaml --write");
   }
 
   void add_vlm() {
@@ -79,7 +85,8 @@ struct CommandLine {
   /// Of the first word, when it is no command: the sentence, else "".
   std::string unknown(int argc, char** argv) const {
     std::vector<std::string> names;
-    for (const CLI::App* one : {trim, linearize, modes, check, tune, vlm}) names.push_back(one->get_name());
+    for (const CLI::App* one : {trim, linearize, modes, check, tune, vlm, fly})
+      names.push_back(one->get_name());
     if (argc < 2 || argv[1][0] == '-' || std::find(names.begin(), names.end(), argv[1]) != names.end())
       return "";
     return "fulmar aero: there is no command '" + std::string(argv[1]) + "'." +
@@ -91,6 +98,7 @@ struct CommandLine {
     if (linearize->parsed()) return linearize_command(flight, csv);
     if (tune->parsed()) return tune_command(flight, tuning);
     if (vlm->parsed()) return vlm_command(drawing);
+    if (fly->parsed()) return fly_command(flight, tuning.write);
     return modes->parsed() ? modes_command(flight, step, svg) : check_command(flight);
   }
 };

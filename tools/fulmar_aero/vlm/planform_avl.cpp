@@ -203,6 +203,7 @@ class AvlFile {
     if (!(c.hinge > 0 && c.hinge < 1))
       fail("CONTROL " + c.name + ": the hinge at " + core::number_text(c.hinge) +
            " of the chord is not read");
+    drives(c);  // its name is known
     sections_.back().push_back(c);
     ++at_;
   }
@@ -221,20 +222,33 @@ class AvlFile {
         "': what it drives is told by its name; valid: aileron, elevator, rudder, flap, elevon");
   }
 
+  /// The control of that name at the next section or the one before.
+  const AvlControl* partner(std::size_t i, int step, const AvlControl& c) const {
+    const std::size_t at = i + std::size_t(step);  // before the first: beyond the last
+    if (at >= sections_.size()) return nullptr;
+    for (const AvlControl& other : sections_[at])
+      if (other.name == c.name) return &other;
+    return nullptr;
+  }
+
   void end_surface() {
     if (!surface_) return;
     for (std::size_t i = 0; i < surface_->sections.size(); ++i)
       if (!polars_[i].name.view().empty())
         surface_->sections[i].airfoil = add_airfoil(geometry_, polars_[i], name_);
     double along = 0;
-    for (std::size_t i = 0; i + 1 < surface_->sections.size(); ++i) {
+    for (std::size_t i = 0; i < surface_->sections.size(); ++i) {
+      for (const AvlControl& c : sections_[i])
+        if (!partner(i, 1, c) && !partner(i, -1, c))
+          throw core::Error(core::Where{name_, c.line}.text() + ": CONTROL '" + c.name +
+                            "' stands at this section alone; it goes from one section to the next");
+      if (i + 1 == surface_->sections.size()) break;
       const WingSection &in = surface_->sections[i], &out = surface_->sections[i + 1];
       const double end = along + std::hypot(out.y_m - in.y_m, out.z_m - in.z_m);
       for (const AvlControl& c : sections_[i])
-        for (const AvlControl& other : sections_[i + 1])
-          if (other.name == c.name)
-            if (!surface_->controls.push_back({drives(c), along, end, 0.5 * (c.hinge + other.hinge)}))
-              fail("more parts of controls than 16 on one surface");
+        if (const AvlControl* const other = partner(i, 1, c))
+          if (!surface_->controls.push_back({drives(c), along, end, 0.5 * (c.hinge + other->hinge)}))
+            fail("more parts of controls than 16 on one surface");
       along = end;
     }
     surface_ = nullptr;

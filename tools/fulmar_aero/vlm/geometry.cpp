@@ -11,11 +11,12 @@
 #include "core/types/text.hpp"
 #include "fulmar/schema.hpp"
 #include "tools/fulmar_aero/vlm/planform.hpp"
+#include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero {
 namespace {
 
-std::string metres(double x) { return core::number_text(x) + " m"; }
+std::string metres(double x) { return figures(x, 5) + " m"; }
 std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
 
 /// What the types cannot say, each fault at its line.
@@ -163,7 +164,7 @@ class GeometryRules {
     const auto far = [](double said, double drawn) { return said < 0.6 * drawn || said > 1.7 * drawn; };
     if (far(g_.reference.area_m2, area))
       add(where, "reference.area: " + core::number_text(g_.reference.area_m2) +
-                     " m^2, but the largest surface has " + core::number_text(area) + " m^2, both halves");
+                     " m^2, but the largest surface has " + figures(area, 5) + " m^2, both halves");
     if (far(g_.reference.span_m, span))
       add(where,
           "reference.span: " + metres(g_.reference.span_m) + ", but the surfaces span " + metres(span));

@@ -19,5 +19,12 @@ struct TuneOptions {
   bool write = false, verify = false;
 };
 int tune_command(const FlightOptions& options, const TuneOptions& tune_options);
+struct VlmCommand {
+  std::string geometry, out;  ///< `out`: where the airframe goes, or ""
+  bool convergence = false, json = false;
+};
+int vlm_command(const VlmCommand& options);
+/// Check, trim, modes, gains and a flight with them, up to the first that fails.
+int fly_command(const FlightOptions& options, bool write);
 
 }  // namespace fulmar::aero

@@ -22,7 +22,8 @@ struct CommandLine {
   std::string step, svg;
   bool csv = false;
   TuneOptions tuning;
-  CLI::App *trim, *linearize, *modes, *check, *tune;
+  VlmCommand drawing;
+  CLI::App *trim, *linearize, *modes, *check, *tune, *vlm, *fly;
 
   CommandLine() {
     app.require_subcommand(1);
@@ -50,6 +51,22 @@ struct CommandLine {
     check->add_flag("--json", flight.json, "print one JSON object");
     check->footer("Example: fulmar aero check fulmar:airframes/anaconda.yaml");
     add_tune();
+    add_vlm();
+    fly = app.add_subcommand("fly", "check, trim, modes, gains and a flight with them, in one");
+    fly->add_option("AIRFRAME", flight.airframe, "airframe file, or fulmar:airframes/anaconda.yaml")
+        ->required();
+    fly->add_option("--altitude", flight.altitude, "above mean sea level, of the standard air; else 0 m");
+    fly->add_flag("--write", tuning.write, "put the gains into the file; all else of it stays");
+    fly->footer("Example: fulmar aero fly mine.yaml --write");
+  }
+
+  void add_vlm() {
+    vlm = app.add_subcommand("vlm", "coefficients, mass and inertia of a drawing, by a vortex lattice");
+    vlm->add_option("GEOMETRY", drawing.geometry, "surfaces, bodies and masses, as YAML")->required();
+    vlm->add_option("-o,--output", drawing.out, "write the airframe there; replaces the file");
+    vlm->add_flag("--convergence", drawing.convergence, "the same with fewer and more panels");
+    vlm->add_flag("--json", drawing.json, "print one JSON object");
+    vlm->footer("Example: fulmar aero vlm fulmar:drawings/petrel.yaml -o petrel.yaml");
   }
 
   void add_tune() {
@@ -68,7 +85,8 @@ struct CommandLine {
   /// Of the first word, when it is no command: the sentence, else "".
   std::string unknown(int argc, char** argv) const {
     std::vector<std::string> names;
-    for (const CLI::App* one : {trim, linearize, modes, check, tune}) names.push_back(one->get_name());
+    for (const CLI::App* one : {trim, linearize, modes, check, tune, vlm, fly})
+      names.push_back(one->get_name());
     if (argc < 2 || argv[1][0] == '-' || std::find(names.begin(), names.end(), argv[1]) != names.end())
       return "";
     return "fulmar aero: there is no command '" + std::string(argv[1]) + "'." +
@@ -79,6 +97,8 @@ struct CommandLine {
     if (trim->parsed()) return trim_command(flight);
     if (linearize->parsed()) return linearize_command(flight, csv);
     if (tune->parsed()) return tune_command(flight, tuning);
+    if (vlm->parsed()) return vlm_command(drawing);
+    if (fly->parsed()) return fly_command(flight, tuning.write);
     return modes->parsed() ? modes_command(flight, step, svg) : check_command(flight);
   }
 };

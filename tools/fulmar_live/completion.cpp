@@ -41,7 +41,8 @@ const std::map<std::string, Places> places{
     {"speed", {"speed", 0}},          {"completion", {"shell", 0}},
     {"aero trim", {"mission", 0}},    {"aero linearize", {"mission", 0}},
     {"aero modes", {"mission", 0}},   {"aero check", {"mission", 0}},
-    {"aero tune", {"mission", 0}}};
+    {"aero tune", {"mission", 0}},    {"aero vlm", {"mission", 0}},
+    {"aero fly", {"mission", 0}}};
 
 /// Of options that take a value: a kind as above.
 const std::map<std::string, std::string> option_kinds{

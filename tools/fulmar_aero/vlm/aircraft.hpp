@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From a drawing to the coefficients of an airframe.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "tools/fulmar_aero/vlm/parts.hpp"
+
+namespace fulmar::aero {
+
+struct Aircraft {
+  Airframe airframe;
+  MassSum mass;
+  Stream stream;
+  std::size_t panels = 0;
+  double alpha_rad = 0;    ///< of level flight in cruise: where derivatives are taken
+  SixDerivatives lattice;  ///< of the surfaces alone
+  SixDerivatives whole;    ///< with bodies and propellers
+  double skin_drag = 0, body_drag = 0;
+  Vlm::FarField far;           ///< in cruise
+  double e_far = 0;            ///< of the wake: CL^2 / (pi AR CD)
+  double propeller_radps = 0;  ///< in cruise; 0: not asked for
+  std::string stalls_first;    ///< the surface
+  double stall_y_m = 0;
+  std::string doubt;  ///< a sentence when fewer panels say something else
+};
+
+/// Throws core::Error with file:line when there is no level flight, or no mass.
+Aircraft aircraft_of(const GeometryFile& file, double density = 1);
+
+/// Derivatives with other numbers of panels: `whole` of each density.
+struct Convergence {
+  double density = 1;
+  std::size_t panels = 0;
+  SixDerivatives whole;
+};
+std::vector<Convergence> convergence_of(const GeometryFile& file, const Aircraft& aircraft);
+
+/// The airframe as YAML, each figure with its source, steady flight's trims in it.
+std::string airframe_yaml(const GeometryFile& file, const Aircraft& aircraft);
+
+}  // namespace fulmar::aero

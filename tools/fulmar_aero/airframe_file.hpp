@@ -23,6 +23,9 @@ struct AirframeFile {
 /// file:line for every fault; one of them is a value of which no model can be made, such as a negative mass.
 AirframeFile read_airframe_file(const std::string& name);
 
+/// The same of a text that is not in a file yet.
+AirframeFile airframe_of_text(const std::string& text, const std::string& name);
+
 /// "aero.pitch.alpha_ratio" -> "aero.pitch.alpha"
 std::string shown_field(const std::string& field);
 

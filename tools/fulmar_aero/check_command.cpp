@@ -17,6 +17,22 @@ std::vector<Finding> ordered(const Findings& findings) {
   return list;
 }
 
+std::string counted(int n, const std::string& what) {
+  return n == 0 ? "no " + what : std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+}
+
+}  // namespace
+
+void check_all(Findings& findings, double altitude_m) {
+  check_body(findings);
+  check_derivatives(findings);
+  check_symmetry(findings);
+  check_angles(findings);
+  check_parts(findings);
+  check_stability(findings);
+  check_flight(findings, altitude_m);
+}
+
 nlohmann::json findings_json(const Findings& findings, double altitude_m) {
   nlohmann::json figures_map = nlohmann::json::object(), faults = nlohmann::json::array(), warnings = faults;
   for (const Figure& figure : findings.figures())
@@ -36,10 +52,6 @@ nlohmann::json findings_json(const Findings& findings, double altitude_m) {
           {"values_checked", findings.values()}};
 }
 
-std::string counted(int n, const std::string& what) {
-  return n == 0 ? "no " + what : std::to_string(n) + " " + what + (n == 1 ? "" : "s");
-}
-
 std::string findings_text(const Findings& findings, double altitude_m) {
   std::string text = findings.file().title() + ": " + findings.file().name + ", " + fixed(altitude_m, 0) +
                      " m above the sea\n";
@@ -53,19 +65,11 @@ std::string findings_text(const Findings& findings, double altitude_m) {
          counted(findings.count(Verdict::warning), "warning") + "\n";
 }
 
-}  // namespace
-
 int check_command(const FlightOptions& options) {
   const double altitude_m = options.altitude_m();
   const AirframeFile file = read_airframe_file(options.airframe);
   Findings findings(file);
-  check_body(findings);
-  check_derivatives(findings);
-  check_symmetry(findings);
-  check_angles(findings);
-  check_parts(findings);
-  check_stability(findings);
-  check_flight(findings, altitude_m);
+  check_all(findings, altitude_m);
   if (options.json)
     print_object(findings_json(findings, altitude_m));
   else

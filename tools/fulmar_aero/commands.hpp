@@ -19,5 +19,14 @@ struct TuneOptions {
   bool write = false, verify = false;
 };
 int tune_command(const FlightOptions& options, const TuneOptions& tune_options);
+/// Texts of the command line; "" where nothing was said.
+struct ImportWords {
+  std::vector<std::string> files;
+  std::string out, mass, length_unit, cruise, parasite_drag, alpha, name, drag_from, controls_from;
+  std::vector<double> inertia;
+  bool json = false;
+};
+/// 1 when the check of what was imported finds a fault, or its eigenvalues are not those of the files.
+int import_command(const ImportWords& words);
 
 }  // namespace fulmar::aero

@@ -73,4 +73,8 @@ void check_parts(Findings& findings);                      ///< servos, propelle
 void check_stability(Findings& findings);                  ///< static margin, control power
 void check_flight(Findings& findings, double altitude_m);  ///< trim from the stall to the top speed, modes
 
+void check_all(Findings& findings, double altitude_m);
+std::string findings_text(const Findings& findings, double altitude_m);
+nlohmann::json findings_json(const Findings& findings, double altitude_m);
+
 }  // namespace fulmar::aero

@@ -120,7 +120,9 @@ core::Where AirframeFile::where(const std::string& field) const {
     }
     begin = dot + 1;
   }
-  return at;
+  if (origin.empty()) return at;
+  const auto found = origin.find(at.line);
+  return found == origin.end() ? core::Where{name, 0} : found->second;
 }
 
 std::string AirframeFile::title() const {

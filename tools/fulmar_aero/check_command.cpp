@@ -4,6 +4,7 @@
 #include "core/app/program.hpp"
 #include "tools/fulmar_aero/commands.hpp"
 #include "tools/fulmar_aero/findings.hpp"
+#include "tools/fulmar_aero/import/import.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero {
@@ -30,6 +31,7 @@ void check_all(Findings& findings, double altitude_m) {
   check_angles(findings);
   check_parts(findings);
   check_stability(findings);
+  check_class(findings);
   check_flight(findings, altitude_m);
 }
 
@@ -67,7 +69,9 @@ std::string findings_text(const Findings& findings, double altitude_m) {
 
 int check_command(const FlightOptions& options) {
   const double altitude_m = options.altitude_m();
-  const AirframeFile file = read_airframe_file(options.airframe);
+  // a file of another tool is looked at as it is
+  const std::optional<imports::Imported> imported = imports::imported_for_check(options.airframe);
+  const AirframeFile file = imported ? imported->file : read_airframe_file(options.airframe);
   Findings findings(file);
   check_all(findings, altitude_m);
   if (options.json)

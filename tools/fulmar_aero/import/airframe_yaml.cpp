@@ -119,14 +119,14 @@ class Writer {
            " rad}\n";
   }
 
-  /// A disc (Beard & McLain, section 4.3) that gives 0.7 of the weight standing still.
+  /// A disc (Beard & McLain, section 4.3) that gives the weight as thrust standing still.
   std::string parts(const Flown& flown, double cruise) {
     if (!a_.parts.empty()) return a_.parts + trims(flown);
-    const double exit = 2.2 * cruise, area = 0.7 * a_.mass_kg.x * g0 / (0.5 * sea_level * exit * exit);
-    assume("propulsion", "a disc with 0.7 of the weight as thrust at rest; put in your motor and propeller");
+    const double exit = 2.5 * cruise, area = a_.mass_kg.x * g0 / (0.5 * sea_level * exit * exit);
+    assume("propulsion", "a disc with the weight as thrust at rest; put in your motor and propeller");
     assume("throws 25 deg, servos 300 deg/s", "usual; put in yours");
     std::string out =
-        "# Assumptions: a disc that gives 0.7 of the weight as thrust at rest; usual throws and servos. Put "
+        "# Assumptions: a disc that gives the weight as thrust at rest; usual throws and servos. Put "
         "in yours.\n";
     out += "propulsion:\n  disc: {area: " + number(area) +
            " m^2, efficiency: 1, exit_speed: " + number(exit) +
@@ -192,12 +192,12 @@ double flow_speed(const Aircraft& a, double CL) {
   return std::sqrt(2 * a.mass_kg.x * g0 / (sea_level * a.area_m2.x * CL));
 }
 
-/// What was said, or what the files flew, when the wing carries the weight with it; else that of CL 0.5.
+/// What was said; else what the files flew, when the wing carries the weight with it and CL is at most 0.5,
+/// some 1.6 times the stall; else that of CL 0.5.
 double cruise_of(const Aircraft& a, const ImportOptions& options) {
   if (options.cruise_mps > 0) return options.cruise_mps;
-  const double slow = flow_speed(a, 1.0), fast = flow_speed(a, 0.15);
-  if (a.cruise_mps > slow && a.cruise_mps < fast) return a.cruise_mps;
-  return flow_speed(a, 0.5);
+  const double usual = flow_speed(a, 0.5), fast = flow_speed(a, 0.15);
+  return a.cruise_mps < fast ? std::max(usual, a.cruise_mps) : usual;
 }
 
 Flown flown_of(const Airframe& airframe, double cruise) {

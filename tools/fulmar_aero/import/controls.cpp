@@ -6,6 +6,7 @@
 
 #include "tools/fulmar_aero/import/aircraft.hpp"
 #include "tools/fulmar_aero/import/lines.hpp"
+#include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero::imports {
 namespace {
@@ -170,10 +171,17 @@ ControlColumns control_columns(const std::vector<Control>& controls) {
     take_role(sorted.by_role[std::size_t(role)], role, out);
   for (const Role role : {Role::aileron, Role::elevator, Role::rudder}) {
     const std::size_t i = std::size_t(role);
-    if (out.known[i] && out.of[i][main_force(role)].x == 0)
-      refuse(sorted.by_role[i].empty() ? core::Where{"", 0} : sorted.by_role[i][0]->where,
-             std::string(role_name(role)) + ": it has no effect, " + force_symbol(main_force(role)) +
-                 " of it is 0; were its gains 0, or its run another one?");
+    if (!out.known[i]) continue;
+    const Column& column = out.of[i];
+    const double main = std::abs(column[main_force(role)].x);
+    const double most =
+        std::max({std::abs(column[roll].x), std::abs(column[pitch].x), std::abs(column[yaw].x)});
+    if (main > 0.1 * most) continue;
+    refuse(sorted.by_role[i].empty() ? core::Where{"", 0} : sorted.by_role[i][0]->where,
+           std::string(role_name(role)) + ": it has no effect, " + force_symbol(main_force(role)) +
+               " of it is " + figures(main) +
+               (most > 0 ? " and another moment " + figures(most) + "; is it the column of another control?"
+                         : "; were its gains 0, or is the file of another run?"));
   }
   return out;
 }

@@ -38,22 +38,25 @@ std::vector<AvlControl> avl_controls(const Lines& lines, std::size_t first) {
   return {};
 }
 
-/// +1, or -1 where AVL's geometric axes (x aft, z up) turn the sign of a row or of a rate's column.
-struct AvlSigns {
-  double along = 1;  // CX, CZ, Cl, Cn; u, w, p, r
-};
+/// Whether the heading lists deflections: there are controls, and derivatives by them have to follow.
+bool deflected(const Lines& lines) {
+  const auto first = lines.find("CYff");
+  for (std::size_t i = first ? *first + 1 : lines.all.size(); i < lines.all.size(); ++i) {
+    if (lines.all[i].find("-----") != std::string::npos) break;
+    if (lines.all[i].find('=') != std::string::npos) return true;
+  }
+  return false;
+}
 
-AvlSigns avl_signs(const Lines& lines) {
-  if (lines.has("Standard axis orientation")) return {1};
-  if (lines.has("Geometric axis orientation")) return {-1};
+/// +1, or -1 where AVL's geometric axes (x aft, z up) turn the sign of CX, CZ, Cl and Cn, and of u, w, p and
+/// r.
+double avl_sign(const Lines& lines) {
+  if (lines.has("Standard axis orientation")) return 1;
+  if (lines.has("Geometric axis orientation")) return -1;
   refuse({lines.file, 0},
          "expected the line 'Standard axis orientation, X fwd, Z down' or 'Geometric axis orientation, X "
          "aft, Z up'; "
          "without it the signs are not known");
-}
-
-Value signed_value(const Pairs& pairs, const std::string& key, double factor) {
-  return pairs.value(key, factor);
 }
 
 void read_avl_header(const Lines& lines, const Pairs& pairs, double length, double sign, Analysis& a) {
@@ -69,9 +72,9 @@ void read_avl_header(const Lines& lines, const Pairs& pairs, double length, doub
   a.base[lift] = pairs.value("CLtot");
   a.base[drag] = pairs.value("CDtot");
   a.base[side] = pairs.value("CYtot");
-  a.base[roll] = signed_value(pairs, "Cltot", sign);
+  a.base[roll] = pairs.value("Cltot", sign);
   a.base[pitch] = pairs.value("Cmtot");
-  a.base[yaw] = signed_value(pairs, "Cntot", sign);
+  a.base[yaw] = pairs.value("Cntot", sign);
   if (pairs.has("CDvis")) a.drag_without_moment = pairs.value("CDvis").x;
 }
 
@@ -108,7 +111,8 @@ void read_avl_st(const Lines& lines, const Pairs& pairs, double sign, const std:
     to[roll] = pairs.value("Cl" + one.index, sign * per_rad);
     to[pitch] = pairs.value("Cm" + one.index, per_rad);
     to[yaw] = pairs.value("Cn" + one.index, sign * per_rad);
-    if (pairs.has("CDff" + one.index)) to[drag] = pairs.value("CDff" + one.index, per_rad);
+    if (pairs.has("CDff" + one.index) || !lines.has("Neutral point"))  // else the file is cut off before it
+      to[drag] = pairs.value("CDff" + one.index, per_rad);
     if (turned) turn_moments(to, rad);
     if (pairs.has(one.name)) control.at_rad = pairs.value(one.name).x * avl_degree;
     a.controls.push_back(control);
@@ -123,7 +127,8 @@ Value drag_of(const Value& X, const Value& Z, double rad) {
   return {-X.x * std::cos(rad) - Z.x * std::sin(rad), X.from + ", CZ of it, turned to the airflow"};
 }
 
-void read_avl_sb(const Pairs& pairs, double sign, const std::vector<AvlControl>& controls, Analysis& a) {
+void read_avl_sb(const Lines& lines, const Pairs& pairs, double sign, const std::vector<AvlControl>& controls,
+                 Analysis& a) {
   const double rad = a.alpha_rad.x, c = std::cos(rad), s = std::sin(rad);
   const Value CX = pairs.value("CXtot", sign), CZ = pairs.value("CZtot", sign);
   struct Row {
@@ -157,7 +162,7 @@ void read_avl_sb(const Pairs& pairs, double sign, const std::vector<AvlControl>&
     Control control;
     control.name = one.name;
     const std::size_t line = pairs.pair("CX" + one.index).line;
-    control.where = {a.base[lift].from, int(line) + 1};
+    control.where = lines.where(line);
     control.of = row(one.index, 1).of;
     for (Value& value : control.of) value.x /= avl_degree;
     if (pairs.has(one.name)) control.at_rad = pairs.value(one.name).x * avl_degree;
@@ -186,16 +191,20 @@ Input read_avl_derivatives(const Lines& lines, const ReadOptions& options) {
     input.title = trimmed(lines.all[*line].substr(lines.all[*line].find(':') + 1));
   const double length = options.length_m > 0 ? options.length_m : 1;
   const Pairs pairs(lines, 0, lines.all.size());
-  const double sign = avl_signs(lines).along;
+  const double sign = avl_sign(lines);
   const std::size_t first =
       *lines.find(stability ? "Stability-axis derivatives" : "Geometry-axis derivatives");
   const std::vector<AvlControl> controls = avl_controls(lines, first);
+  if (controls.empty() && deflected(lines))
+    refuse({lines.file, int(lines.all.size())},
+           "expected the derivatives by the controls ('name d1 ...') up to here and did not find them; is "
+           "the file cut off?");
   Analysis a;
   read_avl_header(lines, pairs, length, sign, a);
   if (stability)
     read_avl_st(lines, pairs, sign, controls, a);
   else
-    read_avl_sb(pairs, sign, controls, a);
+    read_avl_sb(lines, pairs, sign, controls, a);
   if (controls.empty()) input.notes.push_back("it has no control surfaces");
   if (lines.has("Symmetry:"))
     input.notes.push_back(

@@ -290,6 +290,7 @@ Input read_vspaero_setup(const Lines& lines) {
     for (const double gain : gains) sum += std::abs(gain);
     if (!gains.empty()) input.gains.push_back({trimmed(lines.all[at]), sum / double(gains.size())});
   }
+  if (input.gains.empty()) input.unused = "it has no groups of controls";
   return input;
 }
 

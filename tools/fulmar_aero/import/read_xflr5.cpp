@@ -150,8 +150,15 @@ Value negative(Value value) {
   return value;
 }
 
-void read_control(const Lines& lines, const Pairs& pairs, double rad, Analysis& a) {
-  if (!pairs.has("CXde")) return;
+void read_control(const Lines& lines, const LogBlock& block, const Pairs& pairs, double rad, Analysis& a) {
+  const std::size_t first = block.first, last = block.last;
+  if (!pairs.has("CXde")) {
+    for (const char* behind :
+         {"No active control", "longitudinal modes", "Longitudinal modes", "Finished operating point"})
+      if (const auto at = lines.find(behind, first); at && *at < last) return;
+    refuse({lines.file, int(last)},
+           "expected 'Control derivatives' or the modes up to here and found neither; is the log cut off?");
+  }
   Control control;
   control.where = lines.where(pairs.pair("CXde").line);
   Column& to = control.of;
@@ -246,7 +253,7 @@ Input read_xflr5_log(const Lines& lines) {
   lateral(r, "r");
   turn_moments(a.slope[beta], rad);
   turn_rates(a.slope, rad);
-  read_control(lines, pairs, rad, a);
+  read_control(lines, block, pairs, rad, a);
   if (a.controls.empty())
     input.notes.push_back("no control was active in this analysis: it has no control derivatives");
   a.weak_lateral = true;

@@ -28,5 +28,7 @@ struct ImportWords {
 };
 /// 1 when the check of what was imported finds a fault, or its eigenvalues are not those of the files.
 int import_command(const ImportWords& words);
+/// A folder of ROSplane's files to airframe, plans and missions in the folder `out`.
+int rosplane_command(const std::string& folder, const std::string& out);
 
 }  // namespace fulmar::aero

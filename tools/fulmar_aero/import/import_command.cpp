@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <filesystem>
 #include <fstream>
-#include <iostream>
 
 #include "core/app/program.hpp"
 #include "core/graph/quantity.hpp"
@@ -8,6 +8,7 @@
 #include "tools/fulmar_aero/findings.hpp"
 #include "tools/fulmar_aero/import/compare_modes.hpp"
 #include "tools/fulmar_aero/import/import.hpp"
+#include "tools/fulmar_aero/import/rosplane.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero::imports {
@@ -139,7 +140,30 @@ int run_import(const ImportWords& words) {
   return findings.count(Verdict::fault) == 0 && agrees ? core::ExitCode::done : core::ExitCode::failed;
 }
 
+int run_rosplane(const std::string& folder, const std::string& out) {
+  const RosplaneSet set = rosplane_set(folder);
+  Findings findings(set.airframe.file);
+  check_all(findings, 0);
+  std::error_code fault;
+  std::filesystem::create_directories(out, fault);
+  std::string text = report_text(set.airframe, {});
+  for (const std::string& note : set.notes) text += "note     " + note + "\n";
+  for (const std::string& doubt : set.doubts) text += "DOUBTFUL " + doubt + "\n";
+  text += findings_text(findings, 0);
+  for (const OutFile& file : set.files) {
+    const std::string path = (std::filesystem::path(out) / file.name).string();
+    write_file(path, file.text);
+    text += "written to " + path + "\n";
+  }
+  print_text(text);
+  return findings.count(Verdict::fault) == 0 ? core::ExitCode::done : core::ExitCode::failed;
+}
+
 }  // namespace
 }  // namespace fulmar::aero::imports
 
 int fulmar::aero::import_command(const ImportWords& words) { return imports::run_import(words); }
+
+int fulmar::aero::rosplane_command(const std::string& folder, const std::string& out) {
+  return imports::run_rosplane(folder, out);
+}

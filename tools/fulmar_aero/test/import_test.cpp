@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/fulmar_aero/import/compare_modes.hpp"
+#include "tools/fulmar_aero/import/rosplane.hpp"
 #include "tools/fulmar_aero/test/aero_kit.hpp"
 #include "tools/fulmar_aero/test/import_kit.hpp"
 
@@ -273,6 +274,52 @@ TEST_CASE("ROSflight's hand-copied files: what is wrong in each is found") {
   const Aircraft x8 = imported({shared("x8/x8_param.json")}).aircraft;
   CHECK(x8.c[pitch][t_q].x == Approx(-1.3012370370370372 * 2.1 / 0.35714285714285715));
   CHECK(x8.elevons);
+}
+
+TEST_CASE(
+    "a folder of ROSplane becomes an airframe with its gains, a plan and a mission, and doubtful signs are "
+    "told") {
+  const Folder folder;
+  const auto in = folder.path / "ros";
+  std::filesystem::create_directories(in);
+  std::string aircraft =
+      "/fixedwing_forces_and_moments:\n  ros__parameters:\n    mass: 4.5\n    wing_s: 0.5\n    wing_b: 2.0\n "
+      "   wing_c: 0.25\n    wing_M: 50.0\n";
+  for (const char* row : {"D_prop: 0.38",       "CT_0: 0.063",     "CT_1: -0.027",      "CT_2: -0.31",
+                          "CQ_0: 0.0061",       "CQ_1: -0.011",    "CQ_2: -0.012",      "KQ: 0.017",
+                          "R_motor: 0.042",     "I_0: 1.5",        "V_max: 24.0",       "C_L_O: 0.25",
+                          "C_L_alpha: 5.0",     "C_L_q: 7.7",      "C_L_delta_e: 0.4",  "C_D_p: 0.035",
+                          "C_m_O: 0.05",        "C_m_alpha: -1.0", "C_m_q: -13.0",      "C_m_delta_e: -1.5",
+                          "C_ell_beta: -0.06",  "C_ell_p: -0.5",   "C_ell_r: 0.12",     "C_ell_delta_a: 0.3",
+                          "C_n_beta: 0.08",     "C_n_p: -0.05",    "C_n_r: -0.09",      "C_n_delta_a: -0.007",
+                          "C_n_delta_r: -0.07", "C_Y_beta: -0.25", "C_Y_delta_r: 0.15", "Jxx: 0.25",
+                          "Jyy: 0.38",          "Jzz: 0.6",        "Jxz: 0.05"})
+    aircraft += std::string("    ") + row + "\n";
+  std::ofstream(in / "bird_dynamics.yaml") << aircraft;
+  std::ofstream(in / "gains.yaml") << "autopilot:\n  ros__parameters:\n    c_kp: 2.5\n    r_kp: 0.6\n    "
+                                      "p_kp: -0.15\n    a_kp: 0.02\n    p_ff: 0.0\n    R_min: 60.0\n";
+  std::ofstream(in / "loop.yaml")
+      << "wp:\n  w: [400.0, -250.0, -70.0]\n  chi_d: 1.15\n  lla: False\n  use_chi: False\n  va_d: 16.0\n"
+         "wp:\n  w: [-400, -50, -80]\n  chi_d: 0\n  lla: False\n  use_chi: True\n  va_d: 16.0\n";
+  const RosplaneSet set = rosplane_set(in.string());
+  REQUIRE(set.files.size() == 3);
+  CHECK(set.airframe.file.airframe.limits.airspeed_cruise_mps == 16);
+  const std::string airframe = set.files[0].text, plan = set.files[1].text;
+  for (const char* words : {"roll_kp: 0.41888", "pitch_kp: 0.10472", "course_kp: 2.5", "altitude_kp: 0.02"})
+    CHECK_MESSAGE(says(airframe, words), words);
+  CHECK(says(set.doubts, "gains.yaml:5: p_kp is -0.15: its sign is that of a surface with the other sense"));
+  CHECK(says(set.doubts, "p_ff is declared by no node"));
+  CHECK(says(set.doubts, "the gains stand under 'autopilot'"));
+  CHECK(says(plan, "turn_radius: 60 m"));
+  CHECK(says(plan, "{north: 400 m, east: -250 m, up: 70 m}"));
+  CHECK(says(plan, "{north: -400 m, east: -50 m, up: 80 m, course: 0 rad}"));
+  std::ofstream(in / "second.yaml") << aircraft;
+  CHECK(says(refusal([&] { rosplane_set(in.string()); }), "it is a second aircraft"));
+  std::filesystem::remove(in / "second.yaml");
+  std::ofstream(in / "loop.yaml") << "wp:\n  w: [400.0, -250.0]\n  va_d: 16.0\n";
+  CHECK(says(refusal([&] { rosplane_set(in.string()); }), "loop.yaml:2: w: expected three numbers"));
+  std::filesystem::remove(in / "bird_dynamics.yaml");
+  CHECK(says(refusal([&] { rosplane_set(in.string()); }), "found none in it"));
 }
 
 TEST_CASE("imported sets fly the hourglass with computed gains" * doctest::test_suite("amounts")) {

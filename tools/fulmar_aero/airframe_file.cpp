@@ -120,7 +120,9 @@ core::Where AirframeFile::where(const std::string& field) const {
     }
     begin = dot + 1;
   }
-  return at;
+  if (origin.empty()) return at;
+  const auto found = origin.find(at.line);
+  return found == origin.end() ? core::Where{name, 0} : found->second;
 }
 
 std::string AirframeFile::title() const {
@@ -128,12 +130,13 @@ std::string AirframeFile::title() const {
   return own.empty() ? std::filesystem::path(name).filename().string() : own;
 }
 
-AirframeFile read_airframe_file(const std::string& name) {
-  const std::filesystem::path path = core::named_file(std::filesystem::path(), name);
+namespace {
+
+AirframeFile airframe_in(const core::FilePtr& source, const std::string& name) {
   AirframeFile file;
   file.name = name;
   core::Report report;
-  file.root = core::parse_yaml(core::read_source(path, name), report);
+  file.root = core::parse_yaml(source, report);
   if (report.empty() && !file.root.is(core::Node::Kind::map))
     report.add({name, 0},
                "expected a map with the fields of an airframe; found " + core::found_words(file.root));
@@ -149,6 +152,16 @@ AirframeFile read_airframe_file(const std::string& name) {
   }
   report.throw_if_any();
   return file;
+}
+
+}  // namespace
+
+AirframeFile read_airframe_file(const std::string& name) {
+  return airframe_in(core::read_source(core::named_file(std::filesystem::path(), name), name), name);
+}
+
+AirframeFile airframe_of_text(const std::string& text, const std::string& name) {
+  return airframe_in(std::make_shared<core::SourceFile>(core::SourceFile{name, name, text}), name);
 }
 
 }  // namespace fulmar::aero

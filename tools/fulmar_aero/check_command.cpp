@@ -4,6 +4,7 @@
 #include "core/app/program.hpp"
 #include "tools/fulmar_aero/commands.hpp"
 #include "tools/fulmar_aero/findings.hpp"
+#include "tools/fulmar_aero/import/import.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero {
@@ -15,6 +16,23 @@ std::vector<Finding> ordered(const Findings& findings) {
   std::stable_sort(list.begin(), list.end(),
                    [](const Finding& a, const Finding& b) { return a.where.line < b.where.line; });
   return list;
+}
+
+std::string counted(int n, const std::string& what) {
+  return n == 0 ? "no " + what : std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+}
+
+}  // namespace
+
+void check_all(Findings& findings, double altitude_m) {
+  check_body(findings);
+  check_derivatives(findings);
+  check_symmetry(findings);
+  check_angles(findings);
+  check_parts(findings);
+  check_stability(findings);
+  check_class(findings);
+  check_flight(findings, altitude_m);
 }
 
 nlohmann::json findings_json(const Findings& findings, double altitude_m) {
@@ -36,10 +54,6 @@ nlohmann::json findings_json(const Findings& findings, double altitude_m) {
           {"values_checked", findings.values()}};
 }
 
-std::string counted(int n, const std::string& what) {
-  return n == 0 ? "no " + what : std::to_string(n) + " " + what + (n == 1 ? "" : "s");
-}
-
 std::string findings_text(const Findings& findings, double altitude_m) {
   std::string text = findings.file().title() + ": " + findings.file().name + ", " + fixed(altitude_m, 0) +
                      " m above the sea\n";
@@ -53,19 +67,13 @@ std::string findings_text(const Findings& findings, double altitude_m) {
          counted(findings.count(Verdict::warning), "warning") + "\n";
 }
 
-}  // namespace
-
 int check_command(const FlightOptions& options) {
   const double altitude_m = options.altitude_m();
-  const AirframeFile file = read_airframe_file(options.airframe);
+  // a file of another tool is looked at as it is
+  const std::optional<imports::Imported> imported = imports::imported_for_check(options.airframe);
+  const AirframeFile file = imported ? imported->file : read_airframe_file(options.airframe);
   Findings findings(file);
-  check_body(findings);
-  check_derivatives(findings);
-  check_symmetry(findings);
-  check_angles(findings);
-  check_parts(findings);
-  check_stability(findings);
-  check_flight(findings, altitude_m);
+  check_all(findings, altitude_m);
   if (options.json)
     print_object(findings_json(findings, altitude_m));
   else

@@ -26,5 +26,16 @@ struct VlmCommand {
 int vlm_command(const VlmCommand& options);
 /// Check, trim, modes, gains and a flight with them, up to the first that fails.
 int fly_command(const FlightOptions& options, bool write);
+/// Texts of the command line; "" where nothing was said.
+struct ImportWords {
+  std::vector<std::string> files;
+  std::string out, mass, length_unit, cruise, parasite_drag, alpha, name, drag_from, controls_from;
+  std::vector<double> inertia;
+  bool json = false;
+};
+/// 1 when the check of what was imported finds a fault, or its eigenvalues are not those of the files.
+int import_command(const ImportWords& words);
+/// A folder of ROSplane's files to airframe, plans and missions in the folder `out`.
+int rosplane_command(const std::string& folder, const std::string& out);
 
 }  // namespace fulmar::aero

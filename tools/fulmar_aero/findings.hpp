@@ -72,5 +72,10 @@ void check_angles(Findings& findings);                     ///< throws, limits: 
 void check_parts(Findings& findings);                      ///< servos, propellers, battery, gear
 void check_stability(Findings& findings);                  ///< static margin, control power
 void check_flight(Findings& findings, double altitude_m);  ///< trim from the stall to the top speed, modes
+void check_class(Findings& findings);                      ///< beside other small aircraft
+
+void check_all(Findings& findings, double altitude_m);
+std::string findings_text(const Findings& findings, double altitude_m);
+nlohmann::json findings_json(const Findings& findings, double altitude_m);
 
 }  // namespace fulmar::aero

@@ -23,7 +23,8 @@ struct CommandLine {
   bool csv = false;
   TuneOptions tuning;
   VlmCommand drawing;
-  CLI::App *trim, *linearize, *modes, *check, *tune, *vlm, *fly;
+  ImportWords importing;
+  CLI::App *trim, *linearize, *modes, *check, *tune, *vlm, *fly, *importer;
 
   CommandLine() {
     app.require_subcommand(1);
@@ -52,6 +53,7 @@ struct CommandLine {
     check->footer("Example: fulmar aero check fulmar:airframes/anaconda.yaml");
     add_tune();
     add_vlm();
+    add_import();
     fly = app.add_subcommand("fly", "check, trim, modes, gains and a flight with them, in one");
     fly->add_option("AIRFRAME", flight.airframe, "airframe file, or fulmar:airframes/anaconda.yaml")
         ->required();
@@ -82,10 +84,32 @@ struct CommandLine {
     tune->footer("Example: fulmar aero tune fulmar:airframes/anaconda.yaml --bandwidth \"roll=8 rad/s\"");
   }
 
+  void add_import() {
+    ImportWords& w = importing;
+    importer = app.add_subcommand(
+        "import", "an airframe file from files of AVL, XFLR5 or VSPAERO; exit code 1 on a fault");
+    importer->add_option("FILE", w.files, "of one aircraft; where two say the same, the first one counts")
+        ->required();
+    importer->add_option("-o,--out", w.out, "write the airframe file; replaces it. Else it is printed");
+    importer->add_option("--mass", w.mass, "as in \"4.5 kg\"; else that of the files");
+    importer->add_option("--inertia", w.inertia, "xx yy zz [xz] in kg m^2; else that of the files")
+        ->expected(3, 4);
+    importer->add_option("--cruise", w.cruise,
+                         "airspeed, as in \"17 m/s\"; else that of the files, or of CL 0.5");
+    importer->add_option("--parasite-drag", w.parasite_drag, "CD_p; else that of the files");
+    importer->add_option("--alpha", w.alpha, "of a sweep the analysis nearest to it, as in \"3 deg\"");
+    importer->add_option("--length-unit", w.length_unit, "of files that do not say theirs, as in ft; else m");
+    importer->add_option("--drag-from", w.drag_from, "the file whose drag counts");
+    importer->add_option("--controls-from", w.controls_from, "the file whose control derivatives count");
+    importer->add_option("--name", w.name, "of the aircraft; else that in the files");
+    importer->add_flag("--json", w.json, "print one JSON object");
+    importer->footer("Example: fulmar aero import plane.st plane.mass -o plane.yaml");
+  }
+
   /// Of the first word, when it is no command: the sentence, else "".
   std::string unknown(int argc, char** argv) const {
     std::vector<std::string> names;
-    for (const CLI::App* one : {trim, linearize, modes, check, tune, vlm, fly})
+    for (const CLI::App* one : {trim, linearize, modes, check, tune, vlm, fly, importer})
       names.push_back(one->get_name());
     if (argc < 2 || argv[1][0] == '-' || std::find(names.begin(), names.end(), argv[1]) != names.end())
       return "";
@@ -99,6 +123,7 @@ struct CommandLine {
     if (tune->parsed()) return tune_command(flight, tuning);
     if (vlm->parsed()) return vlm_command(drawing);
     if (fly->parsed()) return fly_command(flight, tuning.write);
+    if (importer->parsed()) return import_command(importing);
     return modes->parsed() ? modes_command(flight, step, svg) : check_command(flight);
   }
 };

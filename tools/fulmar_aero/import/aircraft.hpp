@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From the analyses of other tools to one aircraft in Fulmar's conventions.
+#pragma once
+#include "tools/fulmar_aero/import/analysis.hpp"
+
+namespace fulmar::aero::imports {
+
+/// What a coefficient is multiplied by, in the order of the airframe file.
+enum Term : std::uint8_t {
+  t_zero,
+  t_alpha,
+  t_beta,
+  t_p,
+  t_q,
+  t_r,
+  t_aileron,
+  t_elevator,
+  t_rudder,
+  t_flap,
+  terms
+};
+
+enum class Role : std::uint8_t { aileron, elevator, rudder, flap, mixed };
+
+/// What the caller says, beside the files.
+struct ImportOptions {
+  double mass_kg = 0, length_m = 0, cruise_mps = 0;  ///< 0: not said
+  std::array<double, 4> inertia{};                   ///< xx, yy, zz, xz; all 0: not said
+  double parasite_drag = 0;                          ///< 0: not said
+  double alpha_rad = -100;  ///< of a sweep take the analysis nearest to it; -100: not said
+  std::string name;
+  std::string drag_from, controls_from;  ///< files that win for drag, for the columns of the controls
+};
+
+/// The usual part of the elliptic wing's span efficiency; the drag polar is CD_p + CL^2/(pi e AR).
+constexpr double usual_oswald = 0.9;
+
+struct Aircraft {
+  std::string name;
+  Value area_m2, chord_m, span_m, mass_kg, xx, yy, zz, xz;
+  std::array<std::array<Value, terms>, forces> c;
+  Value parasite, oswald{usual_oswald, "assumption, usual"};
+  Value stall_alpha, stall_sharpness;  ///< unknown: the defaults of the writer
+  bool elevons = false, v_tail = false;
+  std::vector<std::string> sources;   ///< one line per file
+  std::vector<std::string> notes;     ///< what was done or is doubtful
+  std::vector<std::string> warnings;  ///< what may make a wrong aircraft
+  PrintedModes modes;
+  double cruise_mps = 0, density_kgm3 = 1.225;
+  double converted_parasite = 0;  ///< CD - CL^2/(pi e AR) of the analysis, before anything replaced it
+  std::string parts;              ///< YAML of propulsion and mixer, of a source that has them; "" else
+  std::string surfaces;           ///< then also "limit: 40 deg, ..." of every surface
+  std::string more_aero;          ///< lines of YAML within `aero`, such as drag_squared
+};
+
+/// Throws core::Error: contradictions, no derivatives, a control without a sense.
+Aircraft aircraft_of(const std::vector<Input>& inputs, const ImportOptions& options);
+
+/// The columns of aileron, elevator, rudder and flaps out of all controls, with signs by what they do:
+/// positive aileron rolls right, positive elevator takes the nose down, positive rudder takes it left.
+struct ControlColumns {
+  std::array<Column, 4> of;  ///< by Role
+  std::array<bool, 4> known{};
+  bool elevons = false, v_tail = false;
+  std::vector<std::string> notes;
+};
+ControlColumns control_columns(const std::vector<Control>& controls);
+Role role_of(const Control& control);
+
+/// Moments and their slopes about a point `dx_m` further aft and `dz_m` further up, to first order (rates
+/// stay): Etkin & Reid, section 2.1.
+void move_reference(Analysis& analysis, double dx_m, double dz_m);
+
+}  // namespace fulmar::aero::imports

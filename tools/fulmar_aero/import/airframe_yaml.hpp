@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The airframe file of an imported aircraft: every number with its source, and what the files did not have
+// with the default that was taken.
+#pragma once
+#include "tools/fulmar_aero/airframe_file.hpp"
+#include "tools/fulmar_aero/import/aircraft.hpp"
+
+namespace fulmar::aero::imports {
+
+struct Imported {
+  Aircraft aircraft;
+  std::string text;                      ///< of the airframe file
+  std::vector<std::string> assumptions;  ///< "mass 4.1 kg: ...", what was in no file
+  AirframeFile file;                     ///< `text`, read back
+};
+
+/// Completes the aircraft and trims it; `name` is what faults call the text. Throws core::Error when Fulmar
+/// refuses the outcome.
+Imported written(Aircraft aircraft, const ImportOptions& options, const std::string& name);
+
+}  // namespace fulmar::aero::imports

@@ -1,0 +1,420 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Several files, one aircraft: what wins, where files contradict each other, and what the model of the
+// simulator wants at angle of attack 0.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "tools/fulmar_aero/import/aircraft.hpp"
+#include "tools/fulmar_aero/import/lines.hpp"
+#include "tools/fulmar_aero/words.hpp"
+
+namespace fulmar::aero::imports {
+namespace {
+
+struct Chosen {
+  const Input* input = nullptr;
+  Analysis analysis;
+};
+
+std::string short_name(const Input& input) { return std::filesystem::path(input.file).filename().string(); }
+
+double lift_wanted(const Analysis& a, double mass) {
+  const double flow = 0.5 * a.density_kgm3 * a.airspeed_mps * a.airspeed_mps * a.area_m2.x;
+  return mass > 0 && flow > 0 ? mass * 9.80665 / flow : 0;
+}
+
+/// Of a sweep: nearest to what was asked for, to level flight, or to no pitching moment.
+Analysis chosen_of(const Input& input, const ImportOptions& options, double mass,
+                   std::vector<std::string>& notes) {
+  if (input.analyses.size() == 1) return input.analyses[0];
+  const auto distance = [&](const Analysis& a) {
+    if (options.alpha_rad > -10) return std::abs(a.alpha_rad.x - options.alpha_rad);
+    const double wanted = lift_wanted(a, mass);
+    return wanted > 0 && wanted < 1.4 ? std::abs(a.base[lift].x - wanted) : std::abs(a.base[pitch].x);
+  };
+  const Analysis* best = nullptr;
+  for (const Analysis& a : input.analyses)
+    if (!best || distance(a) < distance(*best)) best = &a;
+  notes.push_back(short_name(input) + ": it has " + std::to_string(input.analyses.size()) +
+                  " analyses; taken is the one at alpha " + degrees(best->alpha_rad.x, 1) + ", nearest to " +
+                  (options.alpha_rad > -10 ? "what was asked for" : "level flight without elevator"));
+  return *best;
+}
+
+/// To other reference lengths: forces by area, moments by length, rates by length.
+void rescale(Analysis& a, const Analysis& to) {
+  const double S = a.area_m2.x / to.area_m2.x;
+  const double b = a.span_m.x / to.span_m.x, c = a.chord_m.x / to.chord_m.x;
+  const auto column = [&](Column& of, double rate) {
+    for (std::size_t i = 0; i < forces; ++i)
+      of[i].x *= S * rate * (i == pitch ? c : i == roll || i == yaw ? b : 1);
+  };
+  column(a.base, 1);
+  column(a.slope[alpha], 1);
+  column(a.slope[beta], 1);
+  column(a.slope[p], b);
+  column(a.slope[q], c);
+  column(a.slope[r], b);
+  for (Control& control : a.controls) column(control.of, 1);
+  a.area_m2 = to.area_m2, a.chord_m = to.chord_m, a.span_m = to.span_m;
+}
+
+void refuse_another_aircraft(const Chosen& first, const Chosen& other) {
+  const auto far = [&](const Value& a, const Value& b, const char* what, const char* unit) {
+    if (std::abs(a.x - b.x) <= 0.25 * std::abs(a.x)) return;
+    throw core::Error(other.input->file + ": its " + what + " is " + figures(b.x, 5) + unit + " (" + b.from +
+                      "), and " + figures(a.x, 5) + unit + " in " + first.input->file +
+                      ": expected files of one aircraft, with one unit of length");
+  };
+  far(first.analysis.area_m2, other.analysis.area_m2, "area", " m2");
+  far(first.analysis.span_m, other.analysis.span_m, "span", " m");
+  far(first.analysis.chord_m, other.analysis.chord_m, "chord", " m");
+}
+
+/// Logs of several groups of controls are one flight seen several times.
+void refuse_another_trim(const Chosen& first, const Chosen& other) {
+  if (!first.analysis.weak_lateral || !other.analysis.weak_lateral) return;
+  const double da = std::abs(first.analysis.alpha_rad.x - other.analysis.alpha_rad.x);
+  const double dv = std::abs(first.analysis.airspeed_mps - other.analysis.airspeed_mps);
+  if (da < 1e-3 && dv < 0.01 * first.analysis.airspeed_mps) return;
+  throw core::Error(other.input->file + ": it is trimmed at " + degrees(other.analysis.alpha_rad.x) +
+                    " and " + figures(other.analysis.airspeed_mps, 4) + " m/s, and " + first.input->file +
+                    " at " + degrees(first.analysis.alpha_rad.x) + " and " +
+                    figures(first.analysis.airspeed_mps, 4) +
+                    " m/s: expected logs of one aircraft in one attitude");
+}
+
+void tell_differences(const Chosen& first, const Chosen& other, std::vector<std::string>& notes) {
+  if (std::abs(first.analysis.alpha_rad.x - other.analysis.alpha_rad.x) > 0.02) {
+    notes.push_back(short_name(*other.input) + " is at alpha " + degrees(other.analysis.alpha_rad.x, 1) +
+                    ", and " + short_name(*first.input) + " at " + degrees(first.analysis.alpha_rad.x, 1));
+  }
+  std::string differ;
+  for (std::size_t by = 0; by < bys; ++by)
+    for (std::size_t force = 0; force < forces; ++force) {
+      const Value &a = first.analysis.slope[by][force], &b = other.analysis.slope[by][force];
+      if (!a.known || !b.known) continue;
+      if (std::abs(a.x - b.x) <= 0.05 * std::abs(a.x) + 0.003) continue;
+      differ += std::string(differ.empty() ? "" : ", ") + force_symbol(Force(force)) + "_" +
+                by_symbol(By(by)) + " " + figures(a.x) + " and " + figures(b.x);
+    }
+  if (!differ.empty())
+    notes.push_back(short_name(*first.input) + " and " + short_name(*other.input) +
+                    " differ, and the first is taken: " + differ);
+}
+
+/// Where a control of the same role was already found: of two files the first one counts.
+void take_controls(const Chosen& from, std::vector<Control>& all, std::vector<const Input*>& owners,
+                   std::vector<std::string>& notes) {
+  const std::size_t before = all.size();
+  for (const Control& control : from.analysis.controls) {
+    const Role role = role_of(control);
+    bool taken = false;
+    for (std::size_t i = 0; i < before && !taken; ++i) {
+      if (owners[i] == from.input || role_of(all[i]) != role) continue;
+      if (role == Role::mixed && all[i].name != control.name) continue;
+      taken = true;
+      const Force main = role == Role::elevator ? pitch
+                         : role == Role::rudder ? yaw
+                         : role == Role::flap   ? lift
+                                                : roll;
+      const double a = std::abs(all[i].of[main].x), b = std::abs(control.of[main].x);
+      if (std::abs(a - b) > 0.02 * a + 1e-4)
+        notes.push_back(std::string(force_symbol(main)) + " of " +
+                        (control.name.empty() ? "a control" : control.name) + " is " + figures(a) + " in " +
+                        short_name(*owners[i]) + " and " + figures(b) + " in " + short_name(*from.input) +
+                        "; the first is taken");
+    }
+    if (taken) continue;
+    all.push_back(control);
+    owners.push_back(from.input);
+  }
+}
+
+void set_body(const std::vector<Input>& inputs, const ImportOptions& options, Aircraft& out, Body& body) {
+  std::string from;
+  for (const Input& input : inputs) {
+    const Body& own = input.body;
+    if (!own.mass_kg.known) continue;
+    if (!body.mass_kg.known) {
+      body = own;
+      from = short_name(input);
+      continue;
+    }
+    if (!body.xx.known && own.xx.known)
+      body.xx = own.xx, body.yy = own.yy, body.zz = own.zz, body.xz = own.xz;
+    if (!body.has_cg && own.has_cg) body.cg_m = own.cg_m, body.has_cg = true;
+    if (std::abs(own.mass_kg.x - body.mass_kg.x) > 0.01 * body.mass_kg.x)
+      out.warnings.push_back("the mass is " + figures(body.mass_kg.x, 4) + " kg in " + from + " and " +
+                             figures(own.mass_kg.x, 4) + " kg in " + short_name(input) +
+                             "; the first is taken");
+  }
+  if (options.mass_kg > 0) body.mass_kg = {options.mass_kg, "--mass"};
+  if (options.inertia[0] > 0) {
+    body.xx = {options.inertia[0], "--inertia"};
+    body.yy = {options.inertia[1], "--inertia"};
+    body.zz = {options.inertia[2], "--inertia"};
+    body.xz = {options.inertia[3], "--inertia"};
+  }
+  out.mass_kg = body.mass_kg;
+  out.xx = body.xx, out.yy = body.yy, out.zz = body.zz, out.xz = body.xz;
+}
+
+void move_to_gravity(Analysis& a, const Body& body, const Input& input, Aircraft& out) {
+  if (!body.has_cg || !a.has_reference) return;
+  const double dx = body.cg_m[0] - a.reference_m[0], dz = body.cg_m[2] - a.reference_m[2];
+  if (std::hypot(dx, dz) < 1e-4 * a.chord_m.x) return;
+  move_reference(a, dx, dz);
+  const std::string shift = short_name(input) +
+                            ": moments moved from its reference to the centre of gravity, " + figures(dx) +
+                            " m aft and " + figures(dz) + " m up";
+  if (std::hypot(dx, dz) > 0.1 * a.chord_m.x)
+    out.warnings.push_back(shift + ", " + figures(std::hypot(dx, dz) / a.chord_m.x) +
+                           " of the chord: derivatives by rates stay as they are; run the tool again about "
+                           "the centre of gravity");
+  else
+    out.notes.push_back(shift + "; derivatives by rates stay as they are");
+}
+
+/// CD_p + CL^2/(pi e AR) = CD
+double parasite_of(double CD, double CL, const Aircraft& a) {
+  const double AR = a.span_m.x * a.span_m.x / a.area_m2.x;
+  return CD - CL * CL / (std::numbers::pi * a.oswald.x * AR);
+}
+
+/// What a potential flow has of parasite drag is what is left of the rounding.
+constexpr double no_friction = 0.002, assumed_friction = 0.03;
+
+const PolarPoint* nearest_point(const std::vector<PolarPoint>& polar, double alpha) {
+  const PolarPoint* best = nullptr;
+  for (const PolarPoint& point : polar)
+    if (!best || std::abs(point.alpha_rad - alpha) < std::abs(best->alpha_rad - alpha)) best = &point;
+  return best;
+}
+
+void set_drag(const Analysis& a, const std::vector<Input>& inputs, const ImportOptions& options,
+              Aircraft& out) {
+  out.converted_parasite = parasite_of(a.base[drag].x, a.base[lift].x, out);
+  const std::string share = " - CL^2/(pi e AR)";
+  out.parasite = {out.converted_parasite, a.base[drag].from + share};
+  for (const Input& input : inputs) {
+    const bool wins = !options.drag_from.empty() && input.file == options.drag_from;
+    if (out.parasite.x >= no_friction && !wins) continue;
+    double CD = 0, CL = 0;
+    std::string from;
+    if (const PolarPoint* const point = nearest_point(input.polar, a.alpha_rad.x)) {
+      CD = point->CD.x, CL = point->CL, from = point->CD.from;
+    } else if (wins && !input.analyses.empty()) {
+      const Analysis& other = input.analyses[0];
+      CD = other.base[drag].x, CL = other.base[lift].x, from = other.base[drag].from;
+    } else {
+      continue;
+    }
+    if (const double left = parasite_of(CD, CL, out); left >= no_friction) {
+      out.parasite = {left, from + share};
+      out.notes.push_back("drag is taken from " + short_name(input));
+    }
+  }
+  if (options.parasite_drag > 0) out.parasite = {options.parasite_drag, "--parasite-drag"};
+  if (out.parasite.x >= no_friction) return;
+  out.warnings.push_back(
+      "the analysis is without friction: CD - CL^2/(pi e AR) is " + figures(out.parasite.x) +
+      "; taken is CD_p " + figures(assumed_friction) +
+      ", small aircraft have 0.02 to 0.05: say yours with --parasite-drag, or give a polar with friction");
+  out.parasite = {assumed_friction, "assumption: the files have no friction (they leave " +
+                                        figures(out.converted_parasite) +
+                                        "); small aircraft have 0.02 to 0.05"};
+}
+
+void set_slopes(const Analysis& a, Aircraft& out) {
+  const auto take = [&](Force force, By by, Term term) { out.c[force][term] = a.slope[by][force]; };
+  for (const Force force : {lift, pitch}) {
+    take(force, alpha, t_alpha);
+    take(force, q, t_q);
+  }
+  if (a.slope[q][drag].known) out.c[drag][t_q] = a.slope[q][drag];
+  for (const Force force : {side, roll, yaw}) {
+    take(force, beta, t_beta);
+    take(force, p, t_p);
+    take(force, r, t_r);
+  }
+}
+
+void set_controls(const ControlColumns& columns, Aircraft& out) {
+  constexpr std::array<Term, 4> term{t_aileron, t_elevator, t_rudder, t_flap};
+  for (std::size_t role = 0; role < 4; ++role) {
+    if (!columns.known[role]) continue;
+    const bool symmetric = role == std::size_t(Role::elevator) || role == std::size_t(Role::flap);
+    for (const Force force : {lift, drag, side, roll, pitch, yaw}) {
+      const bool longitudinal = force == lift || force == drag || force == pitch;
+      if (longitudinal == symmetric) out.c[force][term[role]] = columns.of[role][force];
+    }
+  }
+  out.elevons = columns.elevons;
+  out.v_tail = columns.v_tail;
+  for (const std::string& note : columns.notes) out.notes.push_back(note);
+}
+
+/// From the analysed angle of attack, and surfaces that were deflected there, to 0.
+void set_zero(const Analysis& a, Aircraft& out) {
+  for (const Force force : {lift, pitch}) {
+    double zero = a.base[force].x - a.slope[alpha][force].x * a.alpha_rad.x;
+    bool deflected = false;
+    for (const Control& control : a.controls) {
+      zero -= control.of[force].x * control.at_rad;
+      deflected = deflected || control.at_rad != 0;
+    }
+    out.c[force][t_zero] = {zero, a.base[force].from + " - " + force_symbol(force) + "_alpha " +
+                                      degrees(a.alpha_rad.x) + (deflected ? " - deflections" : "")};
+  }
+  for (const Force force : {side, roll, yaw})
+    if (std::abs(a.base[force].x) > 1e-3)
+      out.notes.push_back(std::string(force_symbol(force)) + " is " + figures(a.base[force].x) +
+                          " in the analysis (" + a.base[force].from +
+                          "); a symmetric aircraft has 0, and 0 is taken");
+}
+
+/// What a symmetric aircraft does not have tells how well the analysis has converged.
+void tell_convergence(const Analysis& a, const Input& input, Aircraft& out) {
+  double most = 0;
+  std::string which;
+  const auto look = [&](By by, Force force) {
+    const Value& value = a.slope[by][force];
+    if (!value.known || std::abs(value.x) <= most) return;
+    most = std::abs(value.x);
+    which = std::string(force_symbol(force)) + "_" + by_symbol(by) + " (" + value.from + ")";
+  };
+  look(beta, lift);
+  look(beta, pitch);
+  for (const Force force : {side, roll, yaw}) look(alpha, force);
+  if (most > 0.05)
+    out.warnings.push_back(
+        short_name(input) + ": " + which + " is " + figures(most) +
+        ", and a symmetric aircraft has 0: the analysis has not converged; tighten the solver");
+}
+
+void set_modes(const std::vector<Input>& inputs, Aircraft& out) {
+  for (const Input& input : inputs) {
+    if (out.cruise_mps == 0 && input.airspeed_mps > 0) out.cruise_mps = input.airspeed_mps;
+    if (input.modes.empty() || !out.modes.empty()) continue;
+    out.modes = input.modes;
+  }
+  for (const Input& input : inputs) {  // .eig without a speed: that of the .run
+    if (out.modes.empty() || out.modes.airspeed_mps > 0 || input.modes.airspeed_mps <= 0) continue;
+    out.modes.airspeed_mps = input.modes.airspeed_mps;
+    out.modes.density_kgm3 = input.modes.density_kgm3;
+  }
+}
+
+std::vector<Chosen> all_chosen(const std::vector<Input>& inputs, const ImportOptions& options, double mass,
+                               Aircraft& out) {
+  std::vector<Chosen> all;
+  for (const Input& input : inputs) {
+    for (const std::string& note : input.notes) out.notes.push_back(short_name(input) + ": " + note);
+    if (!input.unused.empty()) out.notes.push_back(short_name(input) + ": not used, " + input.unused);
+    if (!input.analyses.empty()) all.push_back({&input, chosen_of(input, options, mass, out.notes)});
+  }
+  if (!all.empty()) return all;
+  std::string sentence =
+      "there are no derivatives in these files; expected AVL's .st or .sb, XFLR5's stability log, or "
+      "VSPAERO's .stab";
+  for (const Input& input : inputs)
+    sentence += "\n  " + input.file + ": " + input.what + (input.unused.empty() ? "" : ", " + input.unused);
+  throw core::Error(sentence);
+}
+
+void divide_by_gains(std::vector<Control>& controls, const std::vector<Input>& inputs,
+                     std::vector<std::string>& notes) {
+  for (const Input& input : inputs)
+    for (const auto& [name, gain] : input.gains)
+      for (Control& control : controls) {
+        if (control.name != name || !(gain > 0) || std::abs(gain - 1) < 1e-6) continue;
+        for (Value& value : control.of) {
+          value.x /= gain;
+          value.from += ", by its gain " + figures(gain);
+        }
+        notes.push_back(name + ": divided by its gain " + figures(gain) +
+                        ", to be per radian of its surfaces");
+      }
+}
+
+}  // namespace
+
+void move_reference(Analysis& a, double dx, double dz) {
+  const double rad = a.alpha_rad.x, cs = std::cos(rad), sn = std::sin(rad);
+  const double c = a.chord_m.x, b = a.span_m.x, AR = b * b / a.area_m2.x;
+  // what has no moment in the tool must not get one here
+  const double CL = a.base[lift].x, CD = a.base[drag].x - a.drag_without_moment;
+  const double CL_a = a.slope[alpha][lift].x;
+  const Value& given = a.slope[alpha][drag];
+  const double CD_a = given.known ? given.x : 2 * CL * CL_a / (std::numbers::pi * usual_oswald * AR);
+  const std::string moved = ", moved to the centre of gravity";
+  const auto add_to = [&](Value& value, double x) {
+    if (!value.known) return;
+    value.x += x;
+    value.from += moved;
+  };
+  const double N = CL * cs + CD * sn, A = -CL * sn + CD * cs;  // normal to the body axis, and along it
+  const double N_a = CL_a * cs - CL * sn + CD_a * sn + CD * cs,
+               A_a = -CL_a * sn - CL * cs + CD_a * cs - CD * sn;
+  add_to(a.base[pitch], (N * dx - A * dz) / c);
+  add_to(a.slope[alpha][pitch], (N_a * dx - A_a * dz) / c);
+  const double CY_b = a.slope[beta][side].x + a.drag_without_moment;
+  add_to(a.slope[beta][yaw], CY_b * dx / b);
+  add_to(a.slope[beta][roll], -CY_b * dz / b);
+  for (Control& control : a.controls) {
+    const double Nd = control.of[lift].x * cs + control.of[drag].x * sn,
+                 Ad = -control.of[lift].x * sn + control.of[drag].x * cs;
+    add_to(control.of[pitch], (Nd * dx - Ad * dz) / c);
+    add_to(control.of[yaw], control.of[side].x * dx / b);
+    add_to(control.of[roll], -control.of[side].x * dz / b);
+  }
+  a.reference_m[0] += dx;
+  a.reference_m[2] += dz;
+}
+
+Aircraft aircraft_of(const std::vector<Input>& inputs, const ImportOptions& options) {
+  Aircraft out;
+  Body body;
+  set_body(inputs, options, out, body);
+  std::vector<Chosen> all = all_chosen(inputs, options, body.mass_kg.x, out);
+  Chosen& first = all[0];
+  for (const Input& input : inputs) {
+    out.sources.push_back(input.what + ": " + short_name(input));
+    if (out.name.empty() && !input.title.empty()) out.name = input.title;
+  }
+  if (!options.name.empty()) out.name = options.name;
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    refuse_another_aircraft(first, all[i]);
+    refuse_another_trim(first, all[i]);
+    rescale(all[i].analysis, first.analysis);
+    tell_differences(first, all[i], out.notes);
+  }
+  out.area_m2 = first.analysis.area_m2, out.chord_m = first.analysis.chord_m,
+  out.span_m = first.analysis.span_m;
+  for (Chosen& one : all) move_to_gravity(one.analysis, body, *one.input, out);
+  std::vector<Control> controls;
+  std::vector<const Input*> owners;
+  for (const Chosen& one : all)
+    if (one.input->file == options.controls_from) take_controls(one, controls, owners, out.notes);
+  for (const Chosen& one : all)
+    if (one.input->file != options.controls_from) take_controls(one, controls, owners, out.notes);
+  divide_by_gains(controls, inputs, out.notes);
+  set_slopes(first.analysis, out);
+  set_zero(first.analysis, out);
+  if (!controls.empty()) set_controls(control_columns(controls), out);
+  set_drag(first.analysis, inputs, options, out);
+  for (const Chosen& one : all) tell_convergence(one.analysis, *one.input, out);
+  set_modes(inputs, out);
+  if (first.analysis.density_kgm3 > 0) out.density_kgm3 = first.analysis.density_kgm3;
+  if (out.cruise_mps == 0) out.cruise_mps = first.analysis.airspeed_mps;
+  if (first.analysis.weak_lateral)
+    out.notes.push_back(
+        "XFLR5 knows Cl_beta, Cn_p, Cn_da and CY_p badly (half as much or twice): take them from another "
+        "tool, if you have one");
+  return out;
+}
+
+}  // namespace fulmar::aero::imports

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One reader per kind of file. Each is told apart by what stands in it, never by its ending.
+#pragma once
+#include <functional>
+
+#include "tools/fulmar_aero/import/lines.hpp"
+
+namespace fulmar::aero::imports {
+
+struct ReadOptions {
+  double length_m = 0;  ///< one unit of length of the files that do not say theirs; 0: a metre, unless known
+};
+
+// Each throws core::Error with file and line.
+Input read_avl_derivatives(const Lines& lines, const ReadOptions& options);  ///< .st and .sb
+Input read_avl_masses(const Lines& lines);                                   ///< .mass
+Input read_avl_run(const Lines& lines);                                      ///< .run
+Input read_avl_modes(const Lines& lines);                                    ///< .eig
+Input read_xflr5_log(const Lines& lines);
+Input read_xflr5_polar(const Lines& lines);  ///< of a plane, as text
+Input read_xflr5_xml(const Lines& lines);    ///< plane or polar
+Input read_vspaero_stab(const Lines& lines, const ReadOptions& options);
+Input read_vspaero_flt(const Lines& lines);
+Input read_vspaero_polar(const Lines& lines);
+Input read_vspaero_history(const Lines& lines);
+Input read_vspaero_setup(const Lines& lines);  ///< .vspaero
+Input read_vsp_masses(const Lines& lines, const ReadOptions& options);
+Input read_vsp_drag(const Lines& lines);  ///< the parasite drag tool's CSV
+
+/// The length in m that `Lunit` of a .mass or the units of a .run say; nothing when it is no such file.
+std::optional<double> length_in(const Lines& lines);
+
+/// What the file is; throws core::Error for one that nobody knows, with what is known.
+Input read_any(const Lines& lines, const ReadOptions& options);
+
+}  // namespace fulmar::aero::imports

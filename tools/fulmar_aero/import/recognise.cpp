@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a file is, by what stands in it.
+#include "tools/fulmar_aero/import/readers.hpp"
+
+namespace fulmar::aero::imports {
+namespace {
+
+Input unused(const Lines& lines, const std::string& what, const std::string& why) {
+  Input input;
+  input.file = lines.file;
+  input.what = what;
+  input.unused = why;
+  return input;
+}
+
+bool numbers_only(const Lines& lines) {
+  for (std::size_t i = 0; i < lines.all.size(); ++i) {
+    const std::string text = trimmed(lines.all[i]);
+    if (text.empty() || text[0] == '#') continue;
+    if (text.find_first_not_of("0123456789.+-eE \t") != std::string::npos) return false;
+  }
+  return true;
+}
+
+/// AVL's geometry has a heading of numbers under its title, and SURFACE somewhere.
+bool avl_geometry(const Lines& lines) {
+  for (const std::string& text : lines.all)
+    if (const std::string word = lower(trimmed(text));
+        begins(word, "surf") && word.find('=') == std::string::npos)
+      return lines.find("SECTION") || lines.find("section");
+  return false;
+}
+
+bool avl_masses(const Lines& lines) {
+  if (lines.has("Lunit") || lines.has("Munit")) return true;
+  bool header = false;
+  for (const std::string& text : lines.all) {
+    const std::string word = lower(trimmed(text));
+    if (begins(word, "#") && word.find("mass") != std::string::npos && word.find("ixx") != std::string::npos)
+      header = true;
+  }
+  return header;
+}
+
+}  // namespace
+
+Input read_any(const Lines& lines, const ReadOptions& options) {
+  const auto has = [&](const char* text) { return lines.has(text); };
+  // AVL
+  if (has("Vortex Lattice Output")) return read_avl_derivatives(lines, options);
+  if (has("DERMAT"))
+    return unused(lines, "AVL's machine-readable derivatives", "write them with ST and without MRF");
+  if (has("Run case") && has("->") && has("X_cg")) return read_avl_run(lines);
+  if (has("Run case") && has("Eigenvalue")) return read_avl_modes(lines);
+  if (has("Control Hinge Moments")) return unused(lines, "AVL hinge moments", "an airframe has none");
+  if (has("Surface Forces") || has("Strip Forces") || has("Element Forces") || has("Shear/q"))
+    return unused(lines, "AVL forces of surfaces and strips",
+                  "an airframe needs the total derivatives, AVL's ST");
+  if (has("|") && has("elevator") && numbers_only(lines_of(lines.file, "")) && has("  u   ") && !has("<"))
+    return unused(lines, "AVL system matrix", "the eigenvalues (.eig) say the same");
+  // XFLR5
+  if (has("Launching Analysis") || has("Longitudinal derivatives")) return read_xflr5_log(lines);
+  if (has("<explane") || has("<Plane_Polar")) return read_xflr5_xml(lines);
+  if (has("Plane name") && has("Polar name")) return read_xflr5_polar(lines);
+  if (has("Calculated polar for"))
+    return unused(lines, "polar of an airfoil",
+                  "it is of an airfoil, not of an aircraft; the plane's polar has the drag");
+  // OpenVSP
+  if (has("Solver Case") || (has("Sref_") && has("Iter "))) return read_vspaero_history(lines);
+  if (has("Sref_") || (has("Base Aero") && has("CFx")) || has("Base_Aero"))
+    return read_vspaero_stab(lines, options);
+  if (has("MACH_o:")) return read_vspaero_flt(lines);
+  if (has("NumberOfControlGroups") || (has("WakeIters") && has("Sref"))) return read_vspaero_setup(lines);
+  if (has("Beta") && has("Mach") && has("AoA") && has("CDtot")) return read_vspaero_polar(lines);
+  if (has("PARASITE DRAG")) return read_vsp_drag(lines);
+  if (has("Total Mass")) return read_vsp_masses(lines, options);
+  if (has("Results_Name"))
+    return unused(lines, "OpenVSP results CSV", "it is not read yet; the .stab of the same run is");
+  if (avl_masses(lines)) return read_avl_masses(lines);
+  if (avl_geometry(lines))
+    return unused(lines, "AVL geometry",
+                  "it is a drawing; `fulmar aero vlm` or AVL computes derivatives from it");
+  throw core::Error(
+      lines.file +
+      ":1: nobody knows this file; expected one of AVL (.st .sb .mass .run .eig), XFLR5 (stability log, "
+      "plane polar, plane or polar XML), VSPAERO (.stab .polar .flt .history .vspaero, mass properties, "
+      "parasite drag)");
+}
+
+}  // namespace fulmar::aero::imports

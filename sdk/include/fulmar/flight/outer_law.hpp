@@ -108,12 +108,14 @@ struct OuterLoop {
   OuterCommands commands;
   LowPass airspeed;          ///< m/s, for trims
   std::uint32_t resets = 0;  ///< of the state, seen so far
+  bool took_over = false;    ///< from another law, and has not stepped since
 
   /// Goes on from what was applied last. False: nobody flew, and integrals are to begin empty.
   template <class Outputs>
   bool activate(const VehicleState& state, const OuterParams& p, const Applied<Outputs>& last) {
     airspeed.reset_to(scheduling_airspeed(state, p.airframe->limits));
     const AttitudeCommand* attitude = last.has(last->attitude) ? &last->attitude : nullptr;
+    took_over = attitude != nullptr;
     return commands.take_over(p.law, state, attitude, tuning(p), p.airframe->limits);
   }
 
@@ -122,7 +124,10 @@ struct OuterLoop {
   template <class Outputs, class Rest, class Hold>
   Status step(const Tick& tick, const VehicleState& state, const GuidanceCommand& command,
               const OuterParams& p, Outputs& out, Rest&& rest, Hold&& hold) {
-    const double dt = std::clamp(tick.dt_s(), 0.0, 0.1);  // a gap must not throw the integrators
+    // A gap must not throw the integrators. In the tick of a hand-over who flew before has stepped: two steps
+    // in one would be twice as fast as the command may go.
+    const double dt = took_over ? 0 : std::clamp(tick.dt_s(), 0.0, 0.1);
+    took_over = false;
     const OuterTuning t = tuning(p);
     const double Va = scheduling_airspeed(state, p.airframe->limits);
     const OuterAction action = commands.begin(p.law, state);

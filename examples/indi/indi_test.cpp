@@ -177,6 +177,7 @@ TEST_CASE("it goes on from the surfaces as they were; after nobody from trim") {
     CHECK(std::abs(u.aileron_rad - 0.1 * side) < 1e-3);
     CHECK(std::abs(u.elevator_rad - 0.12 + 0.1 * side) < 1e-3);
     CHECK(std::abs(u.rudder_rad - 0.05 * side) < 1e-3);
+    flight.indi.set(flight.indi.in.attitude, flight.command);
     flight.indi.params.airframe.value.elevator.trim_rad = 0.08;
     flight.indi.configure();
     REQUIRE(flight.indi.activate() == Status::ok);

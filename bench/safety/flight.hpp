@@ -60,7 +60,7 @@ inline std::vector<Row> rows_of(const std::string& a) {
       {.airframe = a,
        .name = "moderate turbulence",
        .does = "flies its circuit",
-       .sim = "turbulence: moderate",
+       .sim = std::string("turbulence: moderate") + (x8 ? ", start_height: 100 m" : ""),
        .end = End::aloft,
        .phases = {"cruise"}},
       {.airframe = a,
@@ -134,16 +134,19 @@ inline std::vector<Row> rows_of(const std::string& a) {
        .at_s = a == "aerosonde" ? 20.0 : 10.0,
        .phases = {"glide", "roll_out"}},
       {.airframe = a,
-       .name = "ailerons hard over, 1 s",
+       .name = x8 ? "an elevon hard over, 1 s" : "ailerons hard over, 1 s",
        .does = "wings level, flies on, lands",
-       .failing = "what: aileron, kind: hardover_positive, lasts: 1",
+       .failing =
+           std::string("what: aileron, lasts: 1, kind: ") + (x8 ? "hardover_negative" : "hardover_positive"),
        .cause = &S::attitude_excessive,
        .told_within_s = 2,
        .phases = {"level", "cruise", "approach", "flare", "roll_out"}},
       {.airframe = a,
        .name = "too much wind",
        .does = "returns home, settles into the wind without motor",
-       .sim = gale + (big ? ", start_height: 100 m" : ", start_height: 70 m"),
+       .sim = gale + (x8    ? ""
+                      : big ? ", start_height: 100 m"
+                            : ", start_height: 70 m"),
        .cause = &S::wind_excessive,
        .told_within_s = 60,
        .at_s = 0,
@@ -197,7 +200,11 @@ inline std::string mission_text(const Row& row) {
          "}}\n"
          "  land: {params: {runway: {north: 0 m, east: 0 m, up: 0 m, heading: 135 deg, length: 600 m}, "
          "final_length: 800 m, circle_radius: 150 m}}\n" +
-         (thrown ? "  slc: {params: {launch_acceleration: 15 m/s2, launch_delay: 0.3 s}}\n" : "") +
+         (x8 ? std::string(
+                   "  slc: {params: {roll_rate_limit: 0.5 rad/s") +  // in a gale its Dutch roll bears no more
+                   (thrown ? ", launch_acceleration: 15 m/s2, launch_delay: 0.3 s" : "") +
+                   "}}\n"
+             : "") +
          "phases:\n" + (thrown ? "  hold: {outer: {use: slc, set: {law: takeoff}}}\n" : "") +
          "  cruise: {next: [{to: home, when: \"guard.safety.answer == home or guard.safety.answer == "
          "land\"}, {to: approach, when: \"manage.progress.circuits >= 1\"}]}\n";

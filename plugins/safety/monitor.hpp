@@ -299,11 +299,6 @@ inline void Monitor::battery(const Inputs& in, const Params& p, double dt) {
 inline void Monitor::motor(const Inputs& in, const Params& p, double dt) {
   const VehicleState& s = *in.state;
   if (!in.actuators || !s.attitude_valid || !s.velocity_valid) return;
-  if (alarms_.attitude.raised()) {  // tumbling or stalled: the polar says nothing
-    thrust_found_ = thrust_expected_;
-    if (!alarms_.engine.raised()) alarms_.engine.reset();
-    return;
-  }
   const Airframe& a = *p.airframe;
   const Vec3<Ned> v = s.wind_valid ? s.velocity_mps - s.wind_mps : s.velocity_mps;
   const double through_air = std::sqrt(v.north * v.north + v.east * v.east + v.down * v.down);

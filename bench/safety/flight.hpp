@@ -52,7 +52,7 @@ inline std::vector<Row> rows_of(const std::string& a) {
   const std::string gale = x8    ? "wind_ned: [8.3, -8.3, 0]"
                            : big ? "wind_ned: [11.3, -11.3, 0]"
                                  : "wind_ned: [7.8, -7.8, 0]";
-  return {
+  std::vector<Row> rows{
       {.airframe = a,
        .name = "nothing",
        .does = "flies its circuit, lands",
@@ -152,6 +152,33 @@ inline std::vector<Row> rows_of(const std::string& a) {
        .at_s = 0,
        .phases = {"home", "settle", "roll_out"}},
   };
+  if (big) return rows;
+  // Two things at once: the graver one is answered.
+  rows.push_back({.airframe = a,
+                  .name = "radio, then the motor",
+                  .does = "turns home, then glides",
+                  .failing = "what: radio, kind: off, then_what: engine, then_kind: off, then_at: 70",
+                  .cause = &S::engine_failed,
+                  .told_within_s = 15,
+                  .phases = {"home", "glide", "roll_out"}});
+  rows.push_back({.airframe = a,
+                  .name = "pitot tube, then position",
+                  .does = "turns home, then circles, descends in a circle without motor",
+                  .failing = "what: pitot, kind: off, then_what: gnss_position, then_kind: off, then_at: 64",
+                  .cause = &S::gnss_lost,
+                  .told_within_s = 12,
+                  .phases = {"home", "wait", "descend", "roll_out"}});
+  rows.push_back({.airframe = a,
+                  .name = "fence, then the battery",
+                  .does = "turns back before it, lands; empty on the way, it glides",
+                  .failing = "what: battery, kind: empty, size: 450, at: 20",
+                  .watch = near,
+                  .cause = &S::battery_low,
+                  .told_within_s = 120,
+                  .at_s = 20,
+                  .phases = {"home", "roll_out"},
+                  .south_m = 340.0});
+  return rows;
 }
 
 /// Of the airframe's own size: the hourglass is too small for all but the Anaconda. The X8 is thrown, unless

@@ -11,10 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "core/app/test/fault_campaign.hpp"
 #include "core/run/allocation.hpp"
 #include "core/run/flight.hpp"
 #include "core/run/test/commands.hpp"
 #include "fulmar/msg/actuators.hpp"
+#include "fulmar/msg/guidance_command.hpp"
 
 using namespace fulmar::core;
 namespace fs = std::filesystem;
@@ -180,6 +182,54 @@ TEST_CASE(
                                                         << " rad, throttle " << worst.throttle_frac);
         if (!counts_allocations()) return;  // under the sanitizers a flight takes twenty times as long
       }
+}
+
+TEST_CASE("the total energy law of errors flies Aerosonde and X8 with the gains of their airframe files") {
+  const struct {
+    const char* airframe;
+    double airspeed_mps, height_rms_m, airspeed_rms_mps;
+  } aircraft[] = {{"aerosonde", 25, 0.9, 0.45},
+                  {"x8", 18, 1.6, 0.8}};  // 0.68 m and 0.31 m/s, 1.2 m and 0.54 m/s
+  for (const auto& craft : aircraft) {
+    CAPTURE(craft.airframe);
+    const std::string configs = FULMAR_SOURCE_DIR "/configs/";
+    const fs::path file = fs::temp_directory_path() / ("fulmar-errors-" + std::to_string(getpid()) + ".yaml");
+    std::ofstream(file)
+        << "mission: errors\nextends: " << configs
+        << "missions/common.yaml\nlive: null\nairframe: " << configs << "airframes/" << craft.airframe
+        << ".yaml\norigin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\nseed: 1\ncomponents:\n"
+        << "  sim: {params: {sensors: rosflight, start_height: 100 m, start_heading: 135 deg, wind_ned: "
+           "[3.5355, "
+           "-3.5355, 0], turbulence: light}}\n"
+        << "  errors: {fills: outer, use: control_tecs/ErrorLaw, rate: 100 Hz}\n"
+        << "  plan: {params: {plan: {airspeed: " << craft.airspeed_mps
+        << " m/s, turn_radius: 110 m, waypoints: [{north: 700 m, east: -400 m, up: 100 m}, {north: -500 m, "
+           "east: "
+           "-400 m, up: 120 m}, {north: -500 m, east: 200 m, up: 120 m}, {north: 700 m, east: 200 m, up: 100 "
+           "m}]}}}\n"
+        << "phases:\n  cruise: {outer: errors}\n";
+    const Graph graph = load_mission(file.string());
+    fs::remove(file);
+    FlightOptions options;
+    options.log = false, options.duration_s = 180;
+    Flight flight(graph, options);
+    const Source truth = failures::output_of(graph, "sim", "truth"),
+                 command = failures::output_of(graph, "follow", "command");
+    double height2 = 0, airspeed2 = 0, n = 0;
+    while (flight.step()) {
+      const auto* const x = reinterpret_cast<const fulmar::VehicleState*>(flight.sample(truth));
+      const auto* const c = reinterpret_cast<const fulmar::GuidanceCommand*>(flight.sample(command));
+      if (!x || !c || flight.now_ns() < 30'000'000'000) continue;
+      height2 += std::pow(x->height_m - c->height_m, 2),
+          airspeed2 += std::pow(x->airspeed_mps - c->airspeed_mps, 2);
+      ++n;
+    }
+    CHECK(flight.finish().guards.empty());
+    CHECK(std::sqrt(height2 / n) < craft.height_rms_m);
+    CHECK(std::sqrt(airspeed2 / n) < craft.airspeed_rms_mps);
+    MESSAGE(craft.airframe << ": " << std::sqrt(height2 / n) << " m, " << std::sqrt(airspeed2 / n) << " m/s");
+    if (!counts_allocations()) return;
+  }
 }
 
 }  // namespace schemes_test

@@ -130,7 +130,9 @@ struct OuterLoop {
     took_over = false;
     const OuterTuning t = tuning(p);
     const double Va = scheduling_airspeed(state, p.airframe->limits);
-    const OuterAction action = commands.begin(p.law, state);
+    // The host lets no such command pass; a law that is flown without it is not poisoned by one either.
+    const bool sense = finite(command);
+    const OuterAction action = commands.begin(p.law, state, sense);
     out.internals = {};
     if (action != OuterAction::hold) rest();
     // No aircraft was as fast as before a reset of the state: what is smoothed begins anew.
@@ -150,10 +152,15 @@ struct OuterLoop {
     }
     tell(out.attitude, out.internals);
     const bool flying = action == OuterAction::hold || action == OuterAction::level;
-    return flying && !enough_known(state) ? Status::degraded : Status::ok;
+    return flying && !(sense && enough_known(state)) ? Status::degraded : Status::ok;
   }
 
  private:
+  static bool finite(const GuidanceCommand& c) {
+    return std::isfinite(c.course_rad + c.height_m + c.climb_rate_mps + c.airspeed_mps +
+                         c.roll_feedforward_rad + c.lateral_acceleration_mps2);
+  }
+
   /// Attitude or height is not known: the trim of level flight at cruise speed.
   AttitudeCommand level(const VehicleState& state, const OuterParams& p, const OuterTuning& t, double dt_s) {
     const FlightLimits& limits = p.airframe->limits;

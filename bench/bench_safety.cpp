@@ -92,7 +92,7 @@ int main(int argc, char** argv) {
       std::printf(
           "| aircraft | fails | does | told after, s | down after, s | sink at the touch, m/s | from home, m "
           "| left to the fence, m | ends |\n|---|---|---|---|---|---|---|---|---|\n");
-    for (const char* airframe : {"anaconda", "aerosonde"})
+    for (const char* airframe : {"anaconda", "aerosonde", "x8"})
       for (const Row& row : rows_of(airframe)) {
         if ((!only.empty() && row.airframe != only[0]) || (only.size() > 1 && row.name != only[1])) continue;
         Worst w;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lets the simulated aircraft fail at a time, and for good, whatever phase comes of it: a phase's own `set`
-// would end with the phase.
+// Lets the simulated aircraft fail at a time, and once more later, for good, whatever phase comes of it: a
+// phase's own `set` would end with the phase.
 #include "fulmar/msg/fault_request.hpp"
 #include "fulmar/plugin.hpp"
 
 using namespace fulmar;
 
 struct Failing {
-  static constexpr const char* doc = "Requests one fault of the simulated aircraft at a time.";
+  static constexpr const char* doc =
+      "Requests a fault of the simulated aircraft at a time, and another one later.";
   struct Inputs {};
   struct Outputs {
     Out<FaultRequest> fault;
@@ -18,18 +19,28 @@ struct Failing {
     Param at{60, "s", 0, 1e5, "flight time"};
     Param size{0, "", -1e6, 1e6, "of the fault; 0: what the parameters say"};
     Param lasts{0, "s", 0, 1e5, "of the fault; 0: for good"};
+    Choice<FaultTarget> then_what{FaultTarget::gyro, "that fails as well"};
+    Choice<FaultKind> then_kind{FaultKind::none, "how; none: it does not"};
+    Param then_at{60, "s", 0, 1e5, "flight time"};
   };
   Status step(const Tick& tick, const Inputs&, const Params& p, Outputs& out) {
-    if (asked_ || p.kind.value == FaultKind::none || tick.now_s() < p.at) return Status::ok;
-    asked_ = true;
     FaultRequest r;
-    r.what = p.what.value, r.kind = p.kind.value, r.size_ratio = p.size, r.for_s = p.lasts;
+    const auto due = [&](bool& asked, FaultKind kind, double at_s) {
+      if (asked || kind == FaultKind::none || tick.now_s() < at_s) return false;
+      return asked = true;
+    };
+    if (due(asked_, p.kind.value, p.at))
+      r.what = p.what.value, r.kind = p.kind.value, r.size_ratio = p.size, r.for_s = p.lasts;
+    else if (due(then_asked_, p.then_kind.value, p.then_at))
+      r.what = p.then_what.value, r.kind = p.then_kind.value;
+    else
+      return Status::ok;
     out.fault.publish(r, tick.now_ns);
     return Status::ok;
   }
 
  private:
-  bool asked_ = false;
+  bool asked_ = false, then_asked_ = false;
 };
 
 FULMAR_PLUGIN("1.0.0", Failing)

@@ -43,22 +43,24 @@ struct Row {
 
 inline std::vector<Row> rows_of(const std::string& a) {
   using S = SafetyState;
-  const bool big = a == "aerosonde";
+  const bool big = a != "anaconda", x8 = a == "x8";
   const std::string near = big ? "fence: {corners: [{north: 1200 m, east: -1300 m}, {north: 1200 m, east: "
                                  "600 m}, {north: -440 m, east: 600 m}, {north: -440 m, east: -1300 m}]}"
                                : "fence: {corners: [{north: 600 m, east: -700 m}, {north: 600 m, east: 350 "
                                  "m}, {north: -340 m, east: 350 m}, {north: -340 m, east: -700 m}]}";
   const std::string low = big ? "fence.ceiling: 90 m" : "fence.ceiling: 65 m";
-  const std::string gale = big ? "wind_ned: [11.3, -11.3, 0]" : "wind_ned: [7.8, -7.8, 0]";
-  return {
+  const std::string gale = x8    ? "wind_ned: [8.3, -8.3, 0]"
+                           : big ? "wind_ned: [11.3, -11.3, 0]"
+                                 : "wind_ned: [7.8, -7.8, 0]";
+  std::vector<Row> rows{
       {.airframe = a,
        .name = "nothing",
        .does = "flies its circuit, lands",
-       .phases = {"approach", "roll_out"}},
+       .phases = {"approach", "flare", "roll_out"}},
       {.airframe = a,
        .name = "moderate turbulence",
        .does = "flies its circuit",
-       .sim = "turbulence: moderate",
+       .sim = std::string("turbulence: moderate") + (x8 ? ", start_height: 100 m" : ""),
        .end = End::aloft,
        .phases = {"cruise"}},
       {.airframe = a,
@@ -68,7 +70,7 @@ inline std::vector<Row> rows_of(const std::string& a) {
        .cause = &S::fence,
        .told_within_s = 1e9,
        .at_s = 0,
-       .phases = {"home", "approach", "roll_out"},
+       .phases = {"home", "approach", "flare", "roll_out"},
        .south_m = big ? 440.0 : 340.0},
       {.airframe = a,
        .name = "ceiling",
@@ -77,7 +79,7 @@ inline std::vector<Row> rows_of(const std::string& a) {
        .cause = &S::fence,
        .told_within_s = 1e9,
        .at_s = 0,
-       .phases = {"home", "approach", "roll_out"},
+       .phases = {"home", "approach", "flare", "roll_out"},
        .up_m = big ? 90.0 : 65.0},
       {.airframe = a,
        .name = "position",
@@ -90,25 +92,25 @@ inline std::vector<Row> rows_of(const std::string& a) {
        .does = "circles until it is back, flies on, lands",
        .failing = "what: gnss_position, kind: off, lasts: 30",
        .cause = &S::gnss_lost,
-       .phases = {"wait", "cruise", "approach", "roll_out"}},
+       .phases = {"wait", "cruise", "approach", "flare", "roll_out"}},
       {.airframe = a,
        .name = "pitot tube",
        .does = "returns home without it, lands",
        .failing = "what: pitot, kind: off",
        .cause = &S::pitot_lost,
-       .phases = {"home", "fast_approach", "roll_out"}},
+       .phases = {"home", "fast_approach", "fast_flare", "roll_out"}},
       {.airframe = a,
        .name = "radio",
        .does = "returns home, circles there, lands after 2 min",
        .failing = "what: radio, kind: off",
        .cause = &S::radio_lost,
-       .phases = {"home", "approach", "roll_out"}},
+       .phases = {"home", "approach", "flare", "roll_out"}},
       {.airframe = a,
        .name = "radio, for 20 s",
        .does = "turns home, flies on when it is back, lands",
        .failing = "what: radio, kind: off, lasts: 20",
        .cause = &S::radio_lost,
-       .phases = {"home", "cruise", "approach", "roll_out"}},
+       .phases = {"home", "cruise", "approach", "flare", "roll_out"}},
       {.airframe = a,
        .name = "battery, within 5 min",
        .does = "returns home and lands; empty on the way, it glides",
@@ -121,35 +123,66 @@ inline std::vector<Row> rows_of(const std::string& a) {
        .does = "glides to the nearest place or into the wind",
        .failing = "what: engine, kind: off",
        .cause = &S::engine_failed,
-       .told_within_s = 5,
+       .told_within_s = x8 ? 15.0 : 5.0,  // it needs little thrust, and sinks as little without
        .phases = {"glide", "roll_out"}},
       {.airframe = a,
        .name = "motor, in the climb",
        .does = "glides straight on, or into the wind",
-       .failing = std::string("what: engine, kind: off, at: ") + (big ? "20" : "10"),
+       .failing = std::string("what: engine, kind: off, at: ") + (a == "aerosonde" ? "20" : "10"),
        .cause = &S::engine_failed,
-       .told_within_s = 5,
-       .at_s = big ? 20.0 : 10.0,
+       .told_within_s = x8 ? 15.0 : 5.0,
+       .at_s = a == "aerosonde" ? 20.0 : 10.0,
        .phases = {"glide", "roll_out"}},
       {.airframe = a,
-       .name = "ailerons hard over, 1 s",
+       .name = x8 ? "an elevon hard over, 1 s" : "ailerons hard over, 1 s",
        .does = "wings level, flies on, lands",
-       .failing = "what: aileron, kind: hardover_positive, lasts: 1",
+       .failing =
+           std::string("what: aileron, lasts: 1, kind: ") + (x8 ? "hardover_negative" : "hardover_positive"),
        .cause = &S::attitude_excessive,
        .told_within_s = 2,
-       .phases = {"level", "cruise", "approach", "roll_out"}},
+       .phases = {"level", "cruise", "approach", "flare", "roll_out"}},
       {.airframe = a,
        .name = "too much wind",
        .does = "returns home, settles into the wind without motor",
-       .sim = gale + (big ? ", start_height: 100 m" : ", start_height: 70 m"),
+       .sim = gale + (x8    ? ""
+                      : big ? ", start_height: 100 m"
+                            : ", start_height: 70 m"),
        .cause = &S::wind_excessive,
        .told_within_s = 60,
        .at_s = 0,
        .phases = {"home", "settle", "roll_out"}},
   };
+  if (big) return rows;
+  // Two things at once: the graver one is answered.
+  rows.push_back({.airframe = a,
+                  .name = "radio, then the motor",
+                  .does = "turns home, then glides",
+                  .failing = "what: radio, kind: off, then_what: engine, then_kind: off, then_at: 70",
+                  .cause = &S::engine_failed,
+                  .told_within_s = 15,
+                  .phases = {"home", "glide", "roll_out"}});
+  rows.push_back({.airframe = a,
+                  .name = "pitot tube, then position",
+                  .does = "turns home, then circles, descends in a circle without motor",
+                  .failing = "what: pitot, kind: off, then_what: gnss_position, then_kind: off, then_at: 64",
+                  .cause = &S::gnss_lost,
+                  .told_within_s = 12,
+                  .phases = {"home", "wait", "descend", "roll_out"}});
+  rows.push_back({.airframe = a,
+                  .name = "fence, then the battery",
+                  .does = "turns back before it, lands; empty on the way, it glides",
+                  .failing = "what: battery, kind: empty, size: 450, at: 20",
+                  .watch = near,
+                  .cause = &S::battery_low,
+                  .told_within_s = 120,
+                  .at_s = 20,
+                  .phases = {"home", "roll_out"},
+                  .south_m = 340.0});
+  return rows;
 }
 
-/// Of the airframe's own size: the hourglass is too small for the Aerosonde.
+/// Of the airframe's own size: the hourglass is too small for all but the Anaconda. The X8 is thrown, unless
+/// it begins in the air.
 inline std::string mission_text(const Row& row) {
   const std::string configs = FULMAR_SOURCE_DIR "/configs";
   const auto list = [](const std::string& s) { return s.empty() ? "" : ", " + s; };
@@ -159,39 +192,48 @@ inline std::string mission_text(const Row& row) {
       row.end == End::aloft ? "manage.progress.circuits >= 1" : "vehicle.status.on_ground and time > 20 s";
   const std::string head = "mission: failing\nlive: off\ntimeout: 900 s\ndone: {when: \"" + done +
                            "\", for: 10 s}\nextends: " + configs + "/missions/";
-  if (row.airframe != "aerosonde")
+  if (row.airframe == "anaconda")
     return head + "return_home.yaml\ncomponents:\n" + failing +
            "  sim: {in: {fault: failing.fault}, params: {motor: true" + list(row.sim) + "}}\n" +
            "  watch: {params: {landing: false" + list(row.watch) + "}}\n";
+  const bool x8 = row.airframe == "x8", thrown = x8 && row.sim.find("start_height") == std::string::npos;
+  const auto unless = [&](const char* said, const char* params) {
+    return row.sim.find(said) == std::string::npos ? params : "";
+  };
   const std::string fence =
       row.watch.find("fence: ") != std::string::npos
           ? ""
           : ", fence: {floor: 20 m, ceiling: 200 m, corners: [{north: 1200 m, east: -1300 m}, {north: 1200 "
-            "m, "
-            "east: 600 m}, {north: -1000 m, east: 600 m}, {north: -1000 m, east: -1300 m}]}";
-  return head + "safe.yaml\nairframe: " + configs + "/airframes/aerosonde.yaml\n" +
+            "m, east: 600 m}, {north: -1000 m, east: 600 m}, {north: -1000 m, east: -1300 m}]}";
+  return head + "safe.yaml\nairframe: " + configs + "/airframes/" + row.airframe + ".yaml\n" +
          "origin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\n"
          "components:\n" +
          failing + "  sim: {in: {fault: failing.fault}, params: {sensors: rosflight, start_heading: 135 deg" +
-         (row.sim.find("wind_ned") == std::string::npos ? ", wind_ned: [3.5355, -3.5355, 0]" : "") +
-         (row.sim.find("turbulence") == std::string::npos ? ", turbulence: light" : "") + list(row.sim) +
+         unless("wind_ned", ", wind_ned: [3.5355, -3.5355, 0]") +
+         unless("turbulence", ", turbulence: light") +
+         (thrown ? ", launch: hand, launch_speed: 11 m/s, launch_after: 3 s" : "") + list(row.sim) +
          "}}\n"
-         "  plan: {params: {plan: {airspeed: 25 m/s, turn_radius: 110 m, end: circuit, waypoints: [{north: "
-         "700 "
-         "m, east: -400 m, up: 100 m}, {north: -500 m, east: -400 m, up: 100 m}, {north: -500 m, east: 200 "
-         "m, "
-         "up: 100 m}, {north: 700 m, east: 200 m, up: 100 m}]}}}\n"
+         "  plan: {params: {plan: {airspeed: " +
+         (x8 ? "18" : "25") +
+         " m/s, turn_radius: 110 m, end: circuit, waypoints: [{north: 700 m, east: -400 m, up: 100 m}, "
+         "{north: -500 m, east: -400 m, up: 100 m}, {north: -500 m, east: 200 m, up: 100 m}, {north: 700 m, "
+         "east: 200 m, up: 100 m}]}}}\n"
          "  watch: {params: {places: {places: &places [{north: 0 m, east: 0 m}, {north: 600 m, east: -300 "
-         "m}, "
-         "{north: -400 m, east: -300 m}]}" +
+         "m}, {north: -400 m, east: -300 m}]}" +
          fence + list(row.watch) +
          "}}\n"
-         "  back: {params: {places: {places: *places}, return_height: 100 m, radius: 120 m, glide_radius: 80 "
-         "m}}\n"
+         "  back: {params: {places: {places: *places}, return_height: 100 m" +
+         (x8 ? "" : ", radius: 120 m, glide_radius: 80 m") +
+         "}}\n"
          "  land: {params: {runway: {north: 0 m, east: 0 m, up: 0 m, heading: 135 deg, length: 600 m}, "
-         "final_length: 800 m, circle_radius: 150 m}}\n"
-         "phases:\n  cruise: {next: [{to: home, when: \"guard.safety.answer == home or guard.safety.answer "
-         "== "
+         "final_length: 800 m, circle_radius: 150 m}}\n" +
+         (x8 ? std::string(
+                   "  slc: {params: {roll_rate_limit: 0.5 rad/s") +  // in a gale its Dutch roll bears no more
+                   (thrown ? ", launch_acceleration: 15 m/s2, launch_delay: 0.3 s" : "") +
+                   "}}\n"
+             : "") +
+         "phases:\n" + (thrown ? "  hold: {outer: {use: slc, set: {law: takeoff}}}\n" : "") +
+         "  cruise: {next: [{to: home, when: \"guard.safety.answer == home or guard.safety.answer == "
          "land\"}, {to: approach, when: \"manage.progress.circuits >= 1\"}]}\n";
 }
 

@@ -44,6 +44,7 @@ struct Indi {  // fills the role `inner`
     Param effectiveness{1, "ratio", 0.2, 5, "of the surfaces, times what the airframe says"};
     Param roll_kff{0.7, "ratio", 0, 2, "share of the commanded roll rate that is fed forward"};
     Param command_filter{0.04, "s", 0.005, 1, "time constant of the differentiated roll command"};
+    Param fade{0.3, "s", 0.01, 5, "time constant with which it takes over from what flew before"};
     Record<Airframe> airframe{"moments of inertia, effect, lag and throws of the surfaces, limits"};
   };
 
@@ -90,12 +91,17 @@ struct Indi {  // fills the role `inner`
       u_f(i) = surface_[i].value();
     }
     const Eigen::Vector3d gain(p.roll_rate, p.pitch_rate, p.yaw_rate);
-    const Eigen::Vector3d nu = gain.cwiseProduct(wanted_rates(s, command, p, Va, dt) - omega);
+    Eigen::Vector3d nu = gain.cwiseProduct(wanted_rates(s, command, p, Va, dt) - omega);
+    if (fresh_) left_ = nu - omega_dot, throttle_left_ = throttle_ - command.throttle_frac;
+    fresh_ = false;
+    nu -= left_;  // what is asked for at once comes gradually: no surface steps
+    left_ *= std::exp(-dt / p.fade);
     const double pressure = 0.5 * standard_air(s.origin_altitude_m + s.height_m).density_kgm3 * Va * Va;
     u_ = u_f + inverse_ * (nu - omega_dot) / (pressure * p.effectiveness);
     for (int i = 0; i < 3; ++i) u_(i) = std::clamp(u_(i), -surface(a, i).limit_rad, surface(a, i).limit_rad);
 
-    out.actuators = {std::clamp(command.throttle_frac, 0.0, 1.0), u_(0), u_(1), u_(2)};
+    out.actuators = {std::clamp(command.throttle_frac + throttle_left_, 0.0, 1.0), u_(0), u_(1), u_(2)};
+    throttle_left_ *= std::exp(-dt / p.fade);
     out.roll_acceleration_error_ratio = nu(0) - omega_dot(0);
     out.pitch_acceleration_error_ratio = nu(1) - omega_dot(1);
     out.yaw_acceleration_error_ratio = nu(2) - omega_dot(2);
@@ -116,7 +122,9 @@ struct Indi {  // fills the role `inner`
     for (int i = 0; i < 3; ++i) surface_[i].reset_to(u_(i)), rate_[i].reset_to(eigen(s.rate_radps)(i));
     roll_command_rate_.reset_to(command.roll_rad);
     airspeed_.reset_to(scheduling_airspeed(s, a.limits));
-    begun_ = true;
+    left_.setZero(), throttle_left_ = 0;
+    throttle_ = last ? last->throttle_frac : 0;
+    begun_ = true, fresh_ = last != nullptr;
   }
 
   /// Where surface `i` is by now: its lag and its rate limit.
@@ -146,5 +154,7 @@ struct Indi {  // fills the role `inner`
   SecondOrder rate_[3], surface_[3];
   Differentiator roll_command_rate_;
   LowPass airspeed_;
-  bool begun_ = false;
+  Eigen::Vector3d left_ = Eigen::Vector3d::Zero();  ///< rad/s2, of a hand-over, to be forgotten
+  double throttle_ = 0, throttle_left_ = 0;
+  bool begun_ = false, fresh_ = false;
 };

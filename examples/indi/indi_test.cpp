@@ -168,12 +168,16 @@ TEST_CASE("it goes on from the surfaces as they were; after nobody from trim") {
     Flight flight;
     Indi::Outputs last;
     last.actuators = {0.5, 0.1 * side, 0.12 - 0.1 * side, 0.05 * side};
+    flight.indi.set(flight.indi.in.attitude,
+                    AttitudeCommand{0.3 * side, 0.1 * side, 0.9});  // much is asked for
     REQUIRE(flight.indi.activate(last) == Status::ok);
     flight.indi.step(0.005);
     const Actuators& u = flight.indi.out.actuators;
+    CHECK(std::abs(u.throttle_frac - 0.5) < 1e-3);
     CHECK(std::abs(u.aileron_rad - 0.1 * side) < 1e-3);
     CHECK(std::abs(u.elevator_rad - 0.12 + 0.1 * side) < 1e-3);
     CHECK(std::abs(u.rudder_rad - 0.05 * side) < 1e-3);
+    flight.indi.set(flight.indi.in.attitude, flight.command);
     flight.indi.params.airframe.value.elevator.trim_rad = 0.08;
     flight.indi.configure();
     REQUIRE(flight.indi.activate() == Status::ok);

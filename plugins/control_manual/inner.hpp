@@ -201,7 +201,7 @@ struct Inner {
       u = pid.step({d.loop.kp, d.loop.kp * p.integral, 0}, in, now.dt);
       u = blend.step(u, static_cast<int>(d.law), now.decay);
     }
-    return std::clamp(u, -surface.limit_rad, surface.limit_rad);
+    return blend.kept(std::clamp(u, -surface.limit_rad, surface.limit_rad));
   }
 
   /// delta_r = trim - stick throw + kd (V_cruise/Va)^2 s/(s + washout) (r - r_turn): positive is nose left.
@@ -215,13 +215,13 @@ struct Inner {
     const double damping = damps ? p.yaw_damping * std::clamp(ratio * ratio, 0.4, 2.5) * slip : 0;
     const double stick = -now.hand.yaw * p.throw_share * surface.limit_rad;
     const double u = rudder_.step(surface.trim_rad + stick + damping, damps, now.decay);
-    return std::clamp(u, -surface.limit_rad, surface.limit_rad);
+    return rudder_.kept(std::clamp(u, -surface.limit_rad, surface.limit_rad));
   }
 
   double throttle(const Params& p, const Now& now) {
     const bool by_stick = now.hand.there && (p.throttle == Throttle::stick || !now.lawful);
     const double u = throttle_.step(by_stick ? now.hand.throttle : now.to.throttle_frac, by_stick, now.decay);
-    return std::clamp(u, now.envelope.throttle_min, now.envelope.throttle_max);
+    return throttle_.kept(std::clamp(u, now.envelope.throttle_min, now.envelope.throttle_max));
   }
 
   static constexpr double no_limit = 1e3;  ///< rad/s

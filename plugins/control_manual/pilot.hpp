@@ -39,25 +39,30 @@ inline Sticks sticks(const Optional<Rc>& rc, const Tick& tick, const StickParams
           std::clamp(rc->throttle_frac, 0.0, 1.0)};
 }
 
-/// From what was applied to what is wanted, without a step: whenever the source of a value changes, the
-/// difference is kept and forgotten with a time constant.
+/// From what was applied to what is wanted, without a step and without a sudden rate: whenever the source of
+/// a value changes, the difference is kept and forgotten as (1 + t/T) exp(-t/T), critically damped.
 class Blend {
  public:
   /// Somebody else's value was applied last.
   void begin(double applied) { value_ = applied, known_ = true, source_ = -1; }
   void reset() { *this = {}; }
+  /// What a limit has left of the last value: the next source begins there.
+  double kept(double applied) { return value_ = applied; }
   /// `decay`: exp(-dt / time constant), one for all blends of a step.
   double step(double wanted, int source, double decay) {
-    if (source != source_)
-      offset_ = known_ ? value_ - wanted : 0;
-    else
-      offset_ *= decay;
+    if (source != source_) {
+      offset_ = known_ ? value_ - wanted : 0, rate_ = 0;
+    } else {
+      const double moved = -std::log(decay) * (rate_ + offset_);
+      offset_ = decay * (offset_ + moved), rate_ = decay * (rate_ - moved);
+    }
     source_ = source, known_ = true;
     return value_ = wanted + offset_;
   }
 
  private:
   double value_ = 0, offset_ = 0;
+  double rate_ = 0;  ///< of the offset, per time constant
   int source_ = -1;
   bool known_ = false;
 };

@@ -3,6 +3,7 @@
 // for the thrust that the energy balance wants, m dV/dt = T - D - m g sin(gamma): Beard & McLain, Small
 // Unmanned Aircraft (2012), (5.36) and section 6.4.3.
 #pragma once
+#include <fulmar/flight/angles.hpp>
 #include <fulmar/flight/atmosphere.hpp>
 #include <fulmar/flight/filters.hpp>
 #include <fulmar/flight/outer_commands.hpp>
@@ -34,6 +35,8 @@ struct Airspeed {
     Param command_filter{0.2, "s", 0.005, 5, "time constant of the differentiated airspeed command"};
     Param thrust{50.0, "N", 1, 10000, "force per unit of throttle near cruise"};
     Param throttle_rate_limit{2.0, "1/s", 0.1, 100, "fastest change of the throttle"};
+    Param take_over_rate{0.5, "rad/s", 0.05, 6,
+                         "at which roll and pitch go from what was flown before to what is wanted"};
     Record<Airframe> airframe{"mass, trims, limits, and the drag that is fed forward"};
   };
 
@@ -43,6 +46,10 @@ struct Airspeed {
     loop_.reset();
     take_up_ = last.has(last->attitude);
     throttle_.reset_to(take_up_ ? last->attitude.throttle_frac : p.airframe->limits.throttle_cruise_frac);
+    // Whose attitude it is did not fly until now, and may ask for another one by much.
+    const AttitudeCommand &from = last->attitude, &to = *in.wanted;
+    roll_left_.reset_to(take_up_ ? wrap_pi(from.roll_rad - to.roll_rad) : 0);
+    pitch_left_.reset_to(take_up_ ? from.pitch_rad - to.pitch_rad : 0);
     return Status::ok;
   }
 
@@ -52,12 +59,15 @@ struct Airspeed {
     out.attitude = *in.wanted;
     out.airspeed_error_mps = 0.0;
     if (standing(state)) return rest(out);
+    const double roll_left = roll_left_.step(0, p.take_over_rate, dt);
+    if (roll_left != 0) out.attitude.roll_rad = wrap_pi(out.attitude.roll_rad + roll_left);
+    out.attitude.pitch_rad += pitch_left_.step(0, p.take_over_rate, dt);
     const FlightLimits& limits = p.airframe->limits;
     const double Va_c =
         std::clamp(in.command->airspeed_mps, limits.airspeed_min_mps, limits.airspeed_max_mps);
     const double per_throttle = p.thrust / p.airframe->mass_kg;  // m/s2
     const double acceleration_c = command_rate_.step(Va_c, p.command_filter, dt);
-    const double steady = needed(state, *in.wanted, *p.airframe, Va_c);
+    const double steady = needed(state, out.attitude, *p.airframe, Va_c);
     const double Va = airspeed_.step(state.airspeed_valid ? state.airspeed_mps : Va_c, p.speed_filter, dt);
     const PidInput input{
         .error = state.airspeed_valid ? Va_c - Va : 0,
@@ -77,7 +87,7 @@ struct Airspeed {
   /// Standing: engine off, nothing is remembered.
   Status rest(Outputs& out) {
     loop_.reset(), airspeed_.reset(), command_rate_.reset();
-    throttle_.reset_to(0);
+    throttle_.reset_to(0), roll_left_.reset_to(0), pitch_left_.reset_to(0);
     take_up_ = false;
     out.attitude.throttle_frac = 0;
     return Status::ok;
@@ -98,6 +108,7 @@ struct Airspeed {
   LowPass airspeed_;  ///< m/s
   Differentiator command_rate_;
   RateLimiter throttle_;
+  RateLimiter roll_left_, pitch_left_;  ///< rad, of what was flown before
   Pid loop_;
   bool take_up_ = false;
 };

@@ -69,6 +69,7 @@ struct Inner {
     // Nobody's when the pilot flies, or a host begins in the air: then trim and feed-forward are all there is
     // to begin with.
     take_up_ = last.has(last->actuators);
+    fading_ = false;
     if (!take_up_) roll_.reset(), pitch_.reset();
     blind_ = false;
     roll_command_rate_.reset_to(in.attitude->roll_rad);
@@ -111,6 +112,7 @@ struct Inner {
     out.actuators.aileron_rad = roll_to_aileron(state, command, params, slip, scale, integrate, dt);
     out.actuators.elevator_rad = pitch_to_elevator(state, command, params, turn, scale, Va, rho, integrate);
     out.actuators.rudder_rad = yaw_to_rudder(state, params, turn, slip, scale, dt);
+    fade(params, integrating, dt, out.actuators);
     take_up_ = false;
     if (params.quieten) quieten(tick, command, params, scale, integrating && !blind_, dt, out);
     out.roll_error_rad = command.roll_rad - state.roll_rad;
@@ -253,6 +255,27 @@ struct Inner {
                       rudder.limit_rad);
   }
 
+  /// What the integrals do not take up of a hand-over fades: the rudder, the throttle, and what is beyond
+  /// their bounds.
+  void fade(const Params& p, bool flying, double dt, Actuators& u) {
+    constexpr double within_s = 0.5, forgotten = 1e-6;
+    if (take_up_) fading_ = true;
+    if (!flying) fading_ = false;
+    if (!fading_) return;
+    fading_ = false;
+    const Airframe& a = *p.airframe;
+    const double decay = std::exp(-dt / within_s);
+    const auto one = [&](double Actuators::*of, double least, double most) {
+      left_.*of = take_up_ ? last_.*of - u.*of : decay * left_.*of;
+      u.*of = std::clamp(u.*of + left_.*of, least, most);
+      fading_ = fading_ || std::abs(left_.*of) > forgotten;
+    };
+    one(&Actuators::aileron_rad, -a.aileron.limit_rad, a.aileron.limit_rad);
+    one(&Actuators::elevator_rad, -a.elevator.limit_rad, a.elevator.limit_rad);
+    one(&Actuators::rudder_rad, -a.rudder.limit_rad, a.rudder.limit_rad);
+    one(&Actuators::throttle_frac, 0, 1);
+  }
+
   Pid roll_, pitch_;
   Differentiator roll_command_rate_;
   double p_c_ = 0;  ///< roll rate commanded
@@ -262,7 +285,8 @@ struct Inner {
   NearbyDensity density_;
   LowPass airspeed_;  ///< m/s, for gains, trim and turn rates
   Actuators last_;
-  bool take_up_ = false, blind_ = false;
+  Actuators left_;  ///< of a hand-over, to be forgotten
+  bool take_up_ = false, fading_ = false, blind_ = false;
   std::int64_t known_ns_ = 0;  ///< the first state after a time without attitude
 };
 

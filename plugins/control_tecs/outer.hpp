@@ -90,6 +90,7 @@ struct Outer {
     double turn_drag = 0;       ///< energy rate that the turn takes from the engine
     double underspeed = 0;      ///< 0: none, 1: speed before everything
     double Va = 0, Va_c = 0;
+    bool limited = false;  ///< the climb that is wanted
   };
 
   void rest(const VehicleState& state, Outputs& out) {
@@ -155,6 +156,7 @@ struct Outer {
     const double wanted =
         command.climb_rate_mps + approach_rate(error, p.altitude_gain, 0.5 * p.climb_acceleration_limit);
     const double climb_rate = std::clamp(wanted, -limits.sink_rate_max_mps, limits.climb_rate_max_mps);
+    e.limited = climb_rate != wanted;
     if (loop_.commands.taking_up()) climb_rate_.reset_to(state.climb_rate_mps);
     e.wanted.potential = isa::g0 * climb_rate_.step(climb_rate, p.climb_acceleration_limit, dt);
     e.present.potential = isa::g0 * state.climb_rate_mps;
@@ -188,7 +190,7 @@ struct Outer {
     const PidGains gains{p.pitch_damping, p.pitch_integral, 0};
     if (loop_.commands.taking_up()) pitch_.reset_to(loop_.commands.last().pitch_rad, gains, in, 0.1);
     const double theta = pitch_.step(gains, in, dt);
-    out.internals.pitch_saturated = pitch_.saturated();
+    out.internals.pitch_saturated = pitch_.saturated() || e.limited;
     out.balance_rate_error_ratio = error;
     return theta;
   }

@@ -4,10 +4,12 @@
 // chapter 10); the flare is the exponential one of Stevens, Lewis & Johnson, Aircraft Control and Simulation
 // (2016), 4.6.
 #pragma once
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
 #include "fulmar/flight/atmosphere.hpp"
+#include "fulmar/flight/fence.hpp"
 #include "fulmar/flight/geodesy.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/landing_progress.hpp"
@@ -39,6 +41,9 @@ struct Landing {
     Record<PlanFile> plan{"the flight's, of which the runway counts"};
     Record<Origin> origin{"of the local frame"};
     Record<Airframe> airframe{"limits of the airspeed", required};
+    Record<safety::Fence> fence{
+        "in which circle, approach and runway have to lie; without it none is looked at"};
+    Param fence_margin{15, "m", 0, 1000, "that they leave to the fence and its ceiling, as safety/Monitor's"};
     Param glide_slope{0.07, "rad", 0.02, 0.3,
                       "of the approach; what touches down with a late flare is its sink"};
     Param aim{50, "m", 0, 500, "from the threshold to where the glide slope meets the runway"};
@@ -86,6 +91,7 @@ struct Landing {
       throw std::runtime_error(of + ".length: " + std::to_string(std::lround(runway_.length_m)) +
                                " m is too short; aim, flare and roll take " +
                                std::to_string(std::lround(needed)) + " m in still air");
+    if (p.fence.is_given && located_) within_fence(p);
   }
 
   Status activate(const Tick&, const Inputs&, const Params&, const Applied<Outputs>&) {
@@ -118,6 +124,38 @@ struct Landing {
         LocalFrame(lat_deg, lon_deg, alt_m).to_ned(runway_.lat_deg, runway_.lon_deg, runway_.alt_msl_m);
     runway_.north_m = p_n.x(), runway_.east_m = p_n.y(), runway_.up_m = -p_n.z();
     located_ = true;
+  }
+  /// Refuses a fence that the way onto the runway, or along it again, leaves or comes too near to.
+  void within_fence(const Params& p) const {
+    safety::Polygon fence;
+    fence.set(*p.fence, *p.origin);
+    const Path orbit = circle(p);
+    const double c = std::cos(runway_.heading_rad), s = std::sin(runway_.heading_rad);
+    const auto look = [&](const char* what, double north_m, double east_m) {
+      const double room = fence.room_m(north_m, east_m);
+      if (room >= p.fence_margin) return;
+      const auto m = [](double x) { return std::to_string(std::lround(x)) + " m"; };
+      throw std::runtime_error("fence.corners: " + std::string(what) + ", " + m(north_m) + " north, " +
+                               m(east_m) + " east, " +
+                               (room < 0 ? "lies " + m(-room) + " outside of the fence"
+                                         : "leaves " + m(room) + " to the fence, of " + m(p.fence_margin)) +
+                               "; move the fence, or set final_length, circle_radius, circle");
+    };
+    constexpr int points = 72;
+    for (int i = 0; i < points; ++i) {
+      const double a = 2 * std::numbers::pi * i / points;
+      look("the circle onto the final approach", orbit.origin_m.north + p.circle_radius * std::cos(a),
+           orbit.origin_m.east + p.circle_radius * std::sin(a));
+    }
+    for (int i = 0; i <= points; ++i) {
+      const double along = -p.final_length + (p.final_length + runway_.length_m) * i / points;
+      look(along < 0 ? "the final approach" : "the runway", runway_.north_m + along * c,
+           runway_.east_m + along * s);
+    }
+    if (fix_height(p) + p.fence_margin > p.fence->ceiling_m)
+      throw std::runtime_error("fence.ceiling_m: the circle onto the final approach is " +
+                               std::to_string(std::lround(fix_height(p))) + " m high, the ceiling " +
+                               std::to_string(std::lround(p.fence->ceiling_m)) + " m");
   }
   /// Nobody knows where the runway is: straight on.
   Status wait(const VehicleState& s, const Params& p, Outputs& out) {
@@ -244,13 +282,21 @@ struct Landing {
   /// From the flare on the nose is turned to the runway, as far as `decrab` goes; what is left of the error
   /// after a second is taken up once more, so the rudder need not be known well.
   void turn_nose(const VehicleState& s, const Params& p, double dt) {
-    constexpr double within_s = 1, blown_m = 2;
+    constexpr double within_s = 1, blown_m = 2, steer_m = 25, steer_rad = 0.15, gain = 1.5;
     const bool low = progress_.stage == LandingStage::flare || progress_.stage == LandingStage::roll_out;
-    if (!low || !s.attitude_valid) {
+    const Airframe& a = *p.airframe;
+    const bool steered = a.rudder.limit_rad > 0 && a.aero.yaw.rudder_ratio != 0;
+    if (!low || !steered || !s.attitude_valid) {
       slip_rad_ = 0;
       return;
     }
     const double off = angle_difference(s.yaw_rad, runway_.heading_rad);
+    if (progress_.stage ==
+        LandingStage::roll_out) {  // back to the centre line, by what is left of the rudder
+      const double towards = std::clamp(progress_.cross_m / steer_m, -steer_rad, steer_rad);
+      slip_rad_ = std::clamp(gain * (off + towards), -p.decrab.value, p.decrab.value);
+      return;
+    }
     // The bank may not suffice for slip and gust: whoever is blown off the line flies less of the slip.
     const double leeward_m = std::max(slip_rad_ > 0 ? -progress_.cross_m : progress_.cross_m, 0.0);
     const double most = p.decrab * std::max(1 - leeward_m / blown_m, 0.0);

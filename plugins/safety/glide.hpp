@@ -80,7 +80,11 @@ struct Glide {
       out.flare_ratio = 1.0;
       const double left = from_m_ > 0 ? std::clamp(height / from_m_, 0.0, 1.0) : 0;
       const double wanted = -(p.touch_sink + left * std::max(sink_mps_ - p.touch_sink, 0.0));
-      const double theta = turn.pitch_rad + wanted / turn.Va_mps + p.flare_kd * (wanted - s.climb_rate_mps);
+      // An airspeed that is reckoned may be too low. What holds it at the stalling speed is enough.
+      const double stall_mps = limits.airspeed_min_mps / 1.2;
+      const double level =
+          turn.Va_mps < stall_mps ? level_turn(s.roll_rad, stall_mps, s, p.common).pitch_rad : turn.pitch_rad;
+      const double theta = level + wanted / turn.Va_mps + p.flare_kd * (wanted - s.climb_rate_mps);
       // No ceiling near the stall: the speed is to go.
       return std::clamp(theta, limits.pitch_min_rad, limits.pitch_max_rad);
     }

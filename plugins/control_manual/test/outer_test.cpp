@@ -160,7 +160,7 @@ TEST_CASE("what flew before goes over into the sticks without a step, by the tim
   CHECK(roll < 0.6 * 0.02);  // a fiftieth of the difference in 10 ms
   CHECK(pitch < 0.1 * 0.02);
   CHECK(throttle < 0.4 * 0.02);
-  CHECK(before.roll_rad == doctest::Approx(0.3 - 0.6 * std::exp(-0.98)));
+  CHECK(before.roll_rad == doctest::Approx(0.3 - 0.6 * 1.98 * std::exp(-0.98)));
 }
 
 TEST_CASE("a stick that is thrown to its end moves the angles no faster than their limits") {

@@ -35,8 +35,11 @@ TEST_CASE(
   CHECK(blend.step(0.2, 0, std::exp(-0.02)) == doctest::Approx(1));
   double y = 0;
   for (int i = 0; i < 50; ++i) y = blend.step(0.2, 0, std::exp(-0.02));
-  CHECK(y == doctest::Approx(0.2 + 0.8 * std::exp(-1.0)));
+  CHECK(y ==
+        doctest::Approx(0.2 + 0.8 * (1 + 1) * std::exp(-1.0)));  // critically damped, a time constant later
   CHECK(blend.step(-3, 1, std::exp(-0.02)) == doctest::Approx(y));
+  blend.kept(0.5);  // a limit has left no more of it
+  CHECK(blend.step(-3, 2, std::exp(-0.02)) == doctest::Approx(0.5));
   Blend fresh;
   CHECK(fresh.step(0.7, 0, std::exp(-0.02)) == 0.7);
 }

@@ -134,7 +134,7 @@ TEST_CASE("the throttle moves no faster than it may, and goes on from what was a
   loop.params.throttle_rate_limit.value = 1;
   loop.give();
   Airspeed::Outputs last;
-  last.attitude.throttle_frac = 0.55;
+  last.attitude = loop.wanted, last.attitude.throttle_frac = 0.55;
   loop.activate(last);
   CHECK(loop.throttle() == Approx(0.55));  // the integral takes it up: nothing to move
   CHECK(loop.throttle(50) == Approx(0.55));
@@ -144,6 +144,29 @@ TEST_CASE("the throttle moves no faster than it may, and goes on from what was a
   CHECK(loop.throttle(100) == Approx(0.6));
   loop.activate();  // nobody flew: trim, an empty integral
   CHECK(loop.throttle() == Approx(trim));
+}
+
+TEST_CASE(
+    "roll and pitch go on from what was flown before, and to what is wanted at their rate, either way "
+    "round") {
+  for (const double side : {1.0, -1.0}) {
+    Loop loop;
+    loop.params.take_over_rate.value = 0.4;
+    loop.wanted.roll_rad = 3.0 * side;
+    loop.give();
+    Airspeed::Outputs last;
+    last.attitude = {-3.0 * side, loop.wanted.pitch_rad + 0.1 * side, 0.5};  // 0.283 rad over the back
+    loop.activate(last);
+    loop.throttle();
+    CHECK(loop.out.attitude.roll_rad == Approx(-3.0 * side - 0.004 * side));
+    CHECK(loop.out.attitude.pitch_rad == Approx(loop.wanted.pitch_rad + 0.096 * side));
+    loop.throttle(50);  // 0.204 rad in all: the pitch is there, the roll has gone over the back
+    CHECK(loop.out.attitude.roll_rad == Approx((2 * 3.14159265358979 - 3.0 - 0.204) * side));
+    CHECK(loop.out.attitude.pitch_rad == loop.wanted.pitch_rad);
+    loop.activate();  // nobody flew
+    loop.throttle();
+    CHECK(loop.out.attitude.roll_rad == loop.wanted.roll_rad);
+  }
 }
 
 TEST_CASE("activation forgets the airspeed of before") {

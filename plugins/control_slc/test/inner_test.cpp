@@ -170,6 +170,45 @@ TEST_CASE("taking over continues the last deflections") {
   CHECK(bench.out.actuators.elevator_rad == doctest::Approx(-0.12));
 }
 
+TEST_CASE(
+    "what integrals do not take up of a hand-over - rudder, throttle, too much of a surface - fades in half "
+    "a second") {
+  for (const double side : {1.0, -1.0}) {
+    Bench<Inner> bench;
+    no_integrals(bench);
+    bench.set(bench.in.state, flying());
+    bench.set(bench.in.attitude, AttitudeCommand{0, 0, 0.5});
+    Inner::Outputs last;
+    last.actuators = {0.5 + 0.3 * side, 0.35 * side, -0.45 * side,
+                      0.2 * side};  // of 0.1 and 0.2 that the integrals may
+    bench.activate(last);
+    bench.step(0.01);
+    const Actuators& u = bench.out.actuators;
+    CHECK(u.throttle_frac == doctest::Approx(0.5 + 0.3 * side));
+    CHECK(u.aileron_rad == doctest::Approx(0.35 * side));
+    CHECK(u.elevator_rad == doctest::Approx(-0.45 * side));
+    CHECK(u.rudder_rad == doctest::Approx(0.2 * side));
+    for (int i = 0; i < 50; ++i) bench.step(0.01);
+    const double left = std::exp(-1.0) * side;
+    CHECK(u.throttle_frac == doctest::Approx(0.5 + 0.3 * left));
+    CHECK(u.aileron_rad == doctest::Approx(0.1 * side + 0.25 * left));
+    CHECK(u.elevator_rad == doctest::Approx(-0.2 * side - 0.25 * left));
+    CHECK(u.rudder_rad == doctest::Approx(0.2 * left));
+    for (int i = 0; i < 1000; ++i) bench.step(0.01);
+    CHECK(u.rudder_rad == 0);
+    bench.activate(last);  // on the ground no propeller runs down
+    VehicleState stands = flying(0);
+    stands.ground_speed_mps = 0;
+    bench.set(bench.in.state, stands);
+    bench.step(0.01);
+    CHECK(u.throttle_frac == 0.5);
+    bench.set(bench.in.state, flying());
+    bench.activate(last), bench.step(0.01), bench.activate();  // nor after a pilot
+    bench.step(0.01);
+    CHECK(u.throttle_frac == 0.5);
+  }
+}
+
 TEST_CASE("surfaces at zero in a glide are somebody's command; after nobody the law begins at its trim") {
   for (const bool somebody : {true, false}) {
     Bench<Inner> bench;

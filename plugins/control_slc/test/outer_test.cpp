@@ -252,6 +252,11 @@ TEST_CASE("taking over is bumpless from any last command") {
     last.attitude = {random.uniform(-0.7, 0.7), random.uniform(-0.3, 0.3), random.uniform(0, 1)};
     bench.activate(last);
     bench.step(0.01);
+    // Who flew before has stepped in this tick: a second step would be twice as fast.
+    CHECK(bench.out.attitude.roll_rad == last.attitude.roll_rad);
+    CHECK(bench.out.attitude.pitch_rad == last.attitude.pitch_rad);
+    CHECK(bench.out.attitude.throttle_frac == last.attitude.throttle_frac);
+    bench.step(0.01);
     CHECK(std::abs(bench.out.attitude.roll_rad - last.attitude.roll_rad) <= 0.0101);
     CHECK(std::abs(bench.out.attitude.pitch_rad - last.attitude.pitch_rad) <= 0.0081);
     CHECK(std::abs(bench.out.attitude.throttle_frac - last.attitude.throttle_frac) <= 0.0201);

@@ -4,6 +4,7 @@
 
 #include <fulmar/testing.hpp>
 
+#include "plugins/control_tecs/error_law.hpp"
 #include "plugins/control_tecs/outer.hpp"
 #include "sdk/test/flight/flight_model.hpp"
 
@@ -25,14 +26,15 @@ Actuators attitude_loops(const VehicleState& s, const AttitudeCommand& c, const 
           0.3 * (s.rate_radps.z - turn.r_radps)};
 }
 
-struct Flight {
+template <class Law>
+struct FlightOf {
   test::FlightModel model;
-  Bench<tecs::Outer> outer;
+  Bench<Law> outer;
   GuidanceCommand command{
       .course_rad = 0, .height_m = 70, .climb_rate_mps = 0, .airspeed_mps = 17, .roll_feedforward_rad = 0};
   VehicleState state;
 
-  explicit Flight(Turbulence turbulence = Turbulence::none, std::uint64_t seed = 1)
+  explicit FlightOf(Turbulence turbulence = Turbulence::none, std::uint64_t seed = 1)
       : model(test::anaconda(), turbulence, seed) {
     outer.params.common.airframe.value = model.airframe;
     outer.params.common.airframe.is_given = true;
@@ -54,6 +56,7 @@ struct Flight {
     run(seconds, [] {});
   }
 };
+using Flight = FlightOf<tecs::Outer>;
 }  // namespace
 
 TEST_CASE("height steps keep the airspeed and end where they should") {
@@ -101,6 +104,63 @@ TEST_CASE(
   CHECK(std::abs(flight.state.course_rad - 90 * deg) < 1 * deg);
   CHECK(sag < 0.5);
   CHECK(speed < 0.33);
+}
+
+TEST_CASE_TEMPLATE("what no aircraft can do is limited, told, and not followed into a stall", Law,
+                   tecs::Outer, tecs::ErrorLaw) {
+  struct {
+    double height_m, climb_mps, airspeed_mps;
+    bool climbs;
+  } const wanted[] = {{70, 0, 5, false},     // half of the stalling speed
+                      {1070, 30, 17, true},  // six times the climb that it has
+                      {1070, 30, 5, true},   // both
+                      {-930, -30, 60, false}};
+  for (const auto& w : wanted) {
+    CAPTURE(w.airspeed_mps);
+    CAPTURE(w.climb_mps);
+    FlightOf<Law> flight;
+    flight.run(10);
+    flight.command.height_m = w.height_m, flight.command.climb_rate_mps = w.climb_mps;
+    flight.command.airspeed_mps = w.airspeed_mps;
+    double slowest = 99, fastest = 0;
+    unsigned told = 0, steps = 0;
+    flight.run(8, [&] {
+      slowest = std::min(slowest, flight.state.airspeed_mps);
+      fastest = std::max(fastest, flight.state.airspeed_mps);
+      ++steps, told += flight.outer.out.internals.pitch_saturated;
+    });
+    CHECK(slowest > 11);  // it stalls at 10, and 12 is the least that is flown
+    CHECK(fastest < 28);
+    if (w.climb_mps != 0) CHECK(told > steps / 2);
+    if (w.climbs) CHECK(flight.state.climb_rate_mps > 2);
+    if (w.climb_mps == 0)
+      CHECK(flight.outer.out.internals.airspeed_error_mps ==
+            doctest::Approx(12 - flight.state.airspeed_mps).epsilon(0.05));
+  }
+}
+
+TEST_CASE_TEMPLATE("a command that is no number levels the wings at cruise, says so, and poisons nothing",
+                   Law, tecs::Outer, tecs::ErrorLaw) {
+  const double nan = std::nan("");
+  for (double GuidanceCommand::*field :
+       {&GuidanceCommand::course_rad, &GuidanceCommand::height_m, &GuidanceCommand::climb_rate_mps,
+        &GuidanceCommand::airspeed_mps, &GuidanceCommand::roll_feedforward_rad}) {
+    FlightOf<Law> flight;
+    flight.run(10);
+    const GuidanceCommand before = flight.command;
+    flight.command.*field = nan;
+    flight.run(3, [&] {
+      const AttitudeCommand& a = flight.outer.out.attitude;
+      REQUIRE(std::isfinite(a.roll_rad + a.pitch_rad + a.throttle_frac));
+    });
+    CHECK(std::abs(flight.outer.out.attitude.roll_rad) < 1e-3);
+    CHECK(flight.outer.step(0.01) == Status::degraded);
+    flight.command = before;
+    flight.run(10);
+    CHECK(flight.outer.step(0.01) == Status::ok);
+    CHECK(std::abs(flight.state.height_m - 70) < 0.5);
+    CHECK(std::abs(flight.state.airspeed_mps - 17) < 0.3);
+  }
 }
 
 TEST_CASE("a dead engine ends in a glide at the commanded airspeed, not in a stall") {

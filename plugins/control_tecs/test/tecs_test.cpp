@@ -392,10 +392,10 @@ TEST_CASE("a glide, all zeros, is somebody's command; after nobody a law begins 
     CHECK(std::abs(a.pitch_rad - pitch) <= 0.0081);         // 0.8 rad/s
     CHECK(std::abs(a.roll_rad - roll) <= 0.0401);           // smoothed towards 0 with 0.1 s
     // The integrals take up the difference between the glide and what the law would ask for: of throttle what
-    // they may; of pitch, 0 = B_ff / (g V) + k (B_c - B) / (g V) + I with B_ff = B_c = g 4 m/s2 10 ms and
-    // B = 0.4 V g sin(0.1). After nobody nothing.
-    const double B_c = g * 0.04, B = 0.4 * cruise * g * std::sin(0.1);
-    const double integral = -(B_c + 0.6 * (B_c - B)) / (g * cruise);
+    // they may; of pitch, 0 = k (B_c - B) / (g V) + I with B_c = 0, since no climb is asked for in the tick
+    // of the hand-over, and B = 0.4 V g sin(0.1). After nobody nothing.
+    const double B = 0.4 * cruise * g * std::sin(0.1);
+    const double integral = 0.6 * B / (g * cruise);
     CHECK(std::abs(bench.out.throttle_integral_frac.value - (somebody ? -0.2 : 0)) < 0.004);
     CHECK(std::abs(bench.out.pitch_integral_rad.value - (somebody ? integral : 0)) < 3e-4);
     CHECK(integral > 0.015);

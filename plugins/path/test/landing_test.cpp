@@ -234,6 +234,19 @@ TEST_CASE("in the flare the nose is turned to the runway, with the bank that the
     strip.at(40, 0, 3);
     CHECK(strip.bench.out.sideslip.sideslip_rad == 0);
   }
+  for (const bool by_power : {false, true}) {  // a rudder without a throw, or without an effect
+    Strip none;
+    none.bench.params.decrab.value = 0.1;
+    Airframe& a = none.bench.params.airframe.value;
+    a.aero.yaw.beta_ratio = 0.13, a.aero.yaw.rudder_ratio = by_power ? 0 : -0.065;
+    if (!by_power) a.rudder.limit_rad = 0;
+    none.bench.configure();
+    none.s.yaw_rad = 98 * deg;
+    none.approach();
+    none.at(45, 0, 3.4, 1);
+    CHECK(none.bench.out.sideslip.sideslip_rad == 0);
+    CHECK(std::abs(none.bench.out.command.roll_feedforward_rad) < 1e-12);
+  }
   Strip none;
   none.bench.params.decrab.value = 0;
   none.bench.configure();
@@ -242,6 +255,63 @@ TEST_CASE("in the flare the nose is turned to the runway, with the bank that the
   none.at(45, 0, 3.4, 1);
   CHECK(none.bench.out.sideslip.sideslip_rad == 0);
   CHECK(std::abs(none.bench.out.command.roll_feedforward_rad) < 1e-12);
+}
+
+TEST_CASE("while it rolls the rudder leads back to the centre line, from either side and with the nose off") {
+  for (const double side : {1.0, -1.0}) {
+    Strip strip;
+    strip.bench.params.decrab.value = 0.15;
+    strip.bench.params.airframe.value.aero.yaw.rudder_ratio = -0.065;
+    strip.bench.configure();
+    strip.approach();
+    strip.at(45, 0, 3);
+    VehicleStatus status;
+    status.on_ground = true;
+    strip.bench.set(strip.bench.in.status, status);
+    REQUIRE(strip.at(0, side * 1, 0).stage == LandingStage::roll_out);
+    const auto slip = [&](double right_m, double nose_rad) {
+      strip.s.yaw_rad = 90 * deg + nose_rad;
+      strip.at(-5, right_m, 0);
+      return strip.bench.out.sideslip.sideslip_rad;
+    };
+    CHECK(slip(side * 1, 0) ==
+          doctest::Approx(side * 1.5 / 25));  // positive is nose left: from the right, back to it
+    CHECK(slip(side * 1, -side * 1.0 / 25) == doctest::Approx(0));  // it points there
+    CHECK(slip(0, side * 0.05) == doctest::Approx(side * 1.5 * 0.05));
+    CHECK(slip(side * 20, -side * 0.1) ==
+          doctest::Approx(side * 1.5 * 0.05));  // no more than 0.15 rad across
+    CHECK(slip(side * 20, side * 0.3) == doctest::Approx(side * 0.15));
+  }
+}
+
+TEST_CASE("a fence that the pattern leaves, or comes too near to, is refused with where and by how much") {
+  // Runway to the east from (100, -200), 400 m; approach from (100, -600); circle to the left of 70 m: its
+  // centre is (170, -600).
+  const auto refused = [](double north, double south, double west, double east, double ceiling = 1e9,
+                          bool right = false) {
+    Strip strip;
+    safety::Fence& fence = strip.bench.params.fence.value;
+    for (const auto& [n, e] : {std::pair{north, west}, {north, east}, {south, east}, {south, west}})
+      fence.corners.push_back({n, e});
+    fence.ceiling_m = ceiling;
+    strip.bench.params.fence.is_given = true;
+    if (right) strip.bench.params.circle.value = Turn::right;
+    return strip.bench.configure() == Status::failed ? std::string(strip.bench.error()) : std::string();
+  };
+  CHECK(refused(256, 84, -686, 216) == "");
+  CHECK(refused(254, 84, -686, 216)
+            .find("fence.corners: the circle onto the final approach, 240 m north, -600 m east, leaves 14 m "
+                  "to the fence, of 15 m") == 0);
+  CHECK(refused(200, 84, -686, 216).find("lies") != std::string::npos);
+  CHECK(refused(256, 84, -684, 216)
+            .find("fence.corners: the circle onto the final approach, 170 m north, -670 m east") == 0);
+  CHECK(refused(256, 84, -686, 214).find("fence.corners: the runway, 100 m north, 200 m east") == 0);
+  CHECK(refused(256, 86, -686, 216).find("fence.corners: the final approach, 100 m north, -594 m east") == 0);
+  CHECK(refused(256, 84, -686, 216, 1e9, true).find("fence.corners: the circle") == 0);  // to the other side
+  // tan(0.07) (400 + 50) m + 20 m = 51.6 m
+  CHECK(refused(256, 84, -686, 216, 67) == "");
+  CHECK(refused(256, 84, -686, 216, 66) ==
+        "fence.ceiling_m: the circle onto the final approach is 52 m high, the ceiling 66 m");
 }
 
 TEST_CASE("a runway that is too short is refused with what it takes") {

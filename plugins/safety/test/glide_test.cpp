@@ -122,6 +122,18 @@ TEST_CASE(
   CHECK(deaf.out.flare_ratio.value == 1);
 }
 
+TEST_CASE("an airspeed that is reckoned too low pulls no more in the flare than the stalling speed takes") {
+  const auto pitch = [](double airspeed) {
+    Law law;
+    law.state.height_m = 1, law.state.airspeed_mps = airspeed;
+    return law.fly(4).pitch_rad;
+  };
+  const double stall = 12 / 1.2, rho = standard_air(test::FlightModel::field_m + 1).density_kgm3;
+  const double alpha = turn_trim(test::anaconda(), 0, stall, rho).alpha_rad;
+  CHECK(pitch(8) - pitch(stall) < 0.03);  // its sink is divided by a lower speed, no more
+  CHECK(turn_trim(test::anaconda(), 0, 8, rho).alpha_rad - alpha > 0.1);
+}
+
 TEST_CASE("whatever is not known, the throttle stays closed") {
   Law law;
   law.state.attitude_valid = false;

@@ -76,6 +76,11 @@ TEST_CASE("a fence or places that cannot be are refused with file and line") {
   refused(fence("{north: 500 m}, {north: 500 m, east: 500 m}, {north: -500 m, east: 300 m}"),
           "fence.corners[0]: give north and east, or lat and lon");
   refused("  back: {params: {places: {places: []}}}", "the first is home");
+  const std::string twice =
+      "{places: [{north: 0 m, east: 0 m}, {north: 9 m, east: 0 m}, {north: 9.5 m, east: 0.5 m}]}";
+  for (const char* who : {"back", "watch"})
+    refused("  " + std::string(who) + ": {params: {places: " + twice + "}}",
+            "places.places[2]: is the same place as places.places[1]");
 }
 
 }  // namespace mission_test

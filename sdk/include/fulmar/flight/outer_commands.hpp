@@ -57,8 +57,9 @@ class OuterCommands {
     return last != nullptr;
   }
 
-  /// What is to be done in this step; starts the law anew when it was changed without a hand-over.
-  OuterAction begin(OuterLaw law, const VehicleState& state) {
+  /// What is to be done in this step; starts the law anew when it was changed without a hand-over. Without a
+  /// `sense` in what is asked for: level.
+  OuterAction begin(OuterLaw law, const VehicleState& state, bool sense = true) {
     if (!started_) {  // nobody flew before: there is nothing to go on from
       law_ = law, started_ = true;
       run_.begin(state);
@@ -67,7 +68,7 @@ class OuterCommands {
     if (law == OuterLaw::takeoff) return OuterAction::take_off;
     if (law == OuterLaw::roll_out) return OuterAction::roll_out;
     if (standing(state)) return OuterAction::wait;
-    if (!state.attitude_valid || !state.height_valid) return OuterAction::level;
+    if (!state.attitude_valid || !state.height_valid || !sense) return OuterAction::level;
     if (levelling_) {  // known again: go on from the attitude that it has, so that no surface steps
       levelling_ = false;
       start(law, state, {state.roll_rad, state.pitch_rad, last_.throttle_frac});

@@ -108,12 +108,14 @@ struct OuterLoop {
   LowPass airspeed;          ///< m/s, for trims
   NearbyDensity density;     ///< kg/m3, of the standard atmosphere
   std::uint32_t resets = 0;  ///< of the state, seen so far
+  bool took_over = false;    ///< from another law, and has not stepped since
 
   /// Goes on from what was applied last. False: nobody flew, and integrals are to begin empty.
   template <class Outputs>
   bool activate(const VehicleState& state, const OuterParams& p, const Applied<Outputs>& last) {
     airspeed.reset_to(scheduling_airspeed(state, p.airframe->limits));
     const AttitudeCommand* attitude = last.has(last->attitude) ? &last->attitude : nullptr;
+    took_over = attitude != nullptr;
     return commands.take_over(p.law, state, attitude, tuning(p), p.airframe->limits);
   }
 
@@ -122,10 +124,15 @@ struct OuterLoop {
   template <class Outputs, class Rest, class Hold>
   Status step(const Tick& tick, const VehicleState& state, const GuidanceCommand& command,
               const OuterParams& p, Outputs& out, Rest&& rest, Hold&& hold) {
-    const double dt = std::clamp(tick.dt_s(), 0.0, 0.1);  // a gap must not throw the integrators
+    // A gap must not throw the integrators. In the tick of a hand-over who flew before has stepped: two steps
+    // in one would be twice as fast as the command may go.
+    const double dt = took_over ? 0 : std::clamp(tick.dt_s(), 0.0, 0.1);
+    took_over = false;
     const OuterTuning t = tuning(p);
     const double Va = scheduling_airspeed(state, p.airframe->limits);
-    const OuterAction action = commands.begin(p.law, state);
+    // The host lets no such command pass; a law that is flown without it is not poisoned by one either.
+    const bool sense = finite(command);
+    const OuterAction action = commands.begin(p.law, state, sense);
     out.internals = {};
     if (action != OuterAction::hold) rest();
     // No aircraft was as fast as before a reset of the state: what is smoothed begins anew.
@@ -146,10 +153,15 @@ struct OuterLoop {
     }
     tell(out.attitude, out.internals);
     const bool flying = action == OuterAction::hold || action == OuterAction::level;
-    return flying && !enough_known(state) ? Status::degraded : Status::ok;
+    return flying && !(sense && enough_known(state)) ? Status::degraded : Status::ok;
   }
 
  private:
+  static bool finite(const GuidanceCommand& c) {
+    return std::isfinite(c.course_rad + c.height_m + c.climb_rate_mps + c.airspeed_mps +
+                         c.roll_feedforward_rad + c.lateral_acceleration_mps2);
+  }
+
   /// Attitude or height is not known: the trim of level flight at cruise speed.
   AttitudeCommand level(const VehicleState& state, const OuterParams& p, const OuterTuning& t, double dt_s) {
     const FlightLimits& limits = p.airframe->limits;

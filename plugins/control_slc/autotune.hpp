@@ -8,6 +8,7 @@
 
 #include "gain_search.hpp"
 #include "inner.hpp"
+#include "rate_fit.hpp"
 
 namespace fulmar::slc {
 
@@ -30,12 +31,13 @@ struct Autotune {
     Flag tune{false, "false to true begins; false again ends it, and leaves the gains that were kept"};
     Param wanted_gain_margin{8, "dB", 3, 20, "that gains are chosen for"};
     Param wanted_phase_margin{0.96, "rad", 0.3, 1.5, "that gains are chosen for"};
+    Param wanted_delay_margin{0.08, "s", 0, 1, "that gains are chosen for"};
     Param least_gain_margin{6, "dB", 1, 20, "measured in the second excitation: less goes back"};
     Param least_phase_margin{0.785, "rad", 0.1, 1.5, "measured in the second excitation: less goes back"};
-    Param roll_size{0.07, "rad", 0.005, 0.35, "peak of the excitation of the aileron"};
-    Param pitch_size{0.05, "rad", 0.005, 0.35, "peak of the excitation of the elevator"};
-    Param yaw_size{0.07, "rad", 0.005, 0.35, "peak of the excitation of the rudder"};
-    Param noise_limit{0.25, "ratio", 0.02, 1, "largest standard error of 1 + L, relative, that is believed"};
+    Param roll_size{0.12, "rad", 0.005, 0.35, "peak of the excitation of the aileron"};
+    Param pitch_size{0.18, "rad", 0.005, 0.35, "peak of the excitation of the elevator"};
+    Param yaw_size{0.2, "rad", 0.005, 0.35, "peak of the excitation of the rudder"};
+    Param noise_limit{0.15, "ratio", 0.02, 1, "largest standard error of 1 + L, relative, that is believed"};
     Param roll_bound{0.785, "rad", 0.05, 1.5, "beyond this roll, either way, it ends"};
     Param pitch_bound{0.44, "rad", 0.05, 1.5, "beyond this pitch, either way, it ends"};
     Param height_bound{20, "m", 1, 1000, "so far from the height at which it began it ends"};
@@ -80,7 +82,7 @@ struct Autotune {
       if (!why.empty())
         end(why);
       else
-        go_on(p);
+        go_on(p, dt);
     }
     if (!running() && law_.quieten.value != p.law.quieten.value) {
       law_.quieten.value = p.law.quieten.value;
@@ -97,7 +99,7 @@ struct Autotune {
   enum : std::size_t { roll, pitch, yaw, axes };
   static constexpr std::array<const char*, axes> names{"roll", "pitch", "yaw"};
   static constexpr double settle_s = 1, fade_s = 1, change_s = 0.5;
-  static constexpr double excite_s = settle_s + fade_s + Lines::record_s, search_s = 3;
+  static constexpr double excite_s = settle_s + fade_s + Lines::record_s, search_s = 1.6;
 
   using Stage = AutotuneStage;
   using Verdict = AutotuneVerdict;
@@ -165,6 +167,7 @@ struct Autotune {
   }
   void go_to(Stage stage) {
     stage_ = stage, stage_s_ = 0;
+    fitting_ = false;
     lines_.begin();
   }
   bool time_for(double seconds, const Params& p) const { return time_s_ + seconds < p.time_limit; }
@@ -204,12 +207,15 @@ struct Autotune {
     return "";
   }
 
-  void go_on(const Params& p) {
+  void go_on(const Params& p, double dt) {
     if (stage_ == Stage::searching) {
-      for (int i = 0; i < 2; ++i)
+      for (int i = 0; i < 4; ++i)
         if (search_.step()) return found(p);
-    } else if (stage_s_ >= excite_s) {
-      judge(lines_.record(), p);
+    } else if (!fitting_ && stage_s_ >= excite_s - 0.5 * dt) {
+      fit_.begin(lines_.record(), used_[axis_], axis_ == roll && law_.roll_from_sideslip != 0);
+      fitting_ = true;
+    } else if (fitting_ && fit_.step()) {
+      judge(fit_.record(), p);
     }
   }
 
@@ -227,7 +233,7 @@ struct Autotune {
     if (!(noise_[axis_] <= p.noise_limit)) {
       if (larger_ > 2 || !time_for((verifying ? 1 : 2) * excite_s + search_s, p))
         return done_with("turbulence hides the answer to the excitation", p);
-      larger_ *= 1.6;
+      larger_ *= 1.5;
       return go_to(stage_);
     }
     if (!answers(r)) return done_with("the surface does not act as it should", p);
@@ -238,11 +244,11 @@ struct Autotune {
       verdict_[axis_] = Verdict::kept;
       const AxisGains& g = kept_[axis_];
       say(Severity::info, "%s: kp %.3g ki %.3g kd %.3g kept: %.1f dB, %.0f deg measured", names[axis_], g.kp,
-          g.ki, g.kd, m.least_gain_db(), m.phase_rad * 180 / std::numbers::pi);
+          g.ki, g.kd, m.least_gain_db(), std::min(m.phase_rad, std::numbers::pi) * 180 / std::numbers::pi);
       return next_axis(p);
     }
     if (verifying && !time_for(excite_s + search_s, p)) return done_with("the margins do not hold", p);
-    search_.begin(r, used_[axis_], {p.wanted_gain_margin, p.wanted_phase_margin});
+    search_.begin(r, used_[axis_], {p.wanted_gain_margin, p.wanted_phase_margin, p.wanted_delay_margin});
     go_to(Stage::searching);
   }
   void done_with(std::string_view why, const Params& p) {
@@ -262,7 +268,8 @@ struct Autotune {
   }
 
   void excite(const Inputs& in, const Params& p, double dt, Inner::Outputs& out) {
-    const bool wanted = (stage_ == Stage::exciting || stage_ == Stage::verifying) && stage_s_ >= settle_s;
+    const bool wanted =
+        (stage_ == Stage::exciting || stage_ == Stage::verifying) && stage_s_ >= settle_s && !fitting_;
     if (wanted && strength_ == 0) phase_s_ = 0;
     strength_ = std::clamp(strength_ + (wanted ? dt / fade_s : -5 * dt), 0.0, 1.0);
     if (strength_ == 0) return;
@@ -278,13 +285,13 @@ struct Autotune {
     const double asked =
         feedback + sign * std::min(size * larger_, 0.5 * s.limit_rad) * strength_ * lines_.at(phase_s_);
     deflection = std::clamp(asked, -s.limit_rad, s.limit_rad);
-    if (!wanted || stage_s_ < settle_s + fade_s) return;
+    if (!wanted || stage_s_ < settle_s + fade_s - 0.5 * dt) return;
     const VehicleState& x = *in.law.state;
     const bool limited = asked != deflection || std::abs(feedback) >= s.limit_rad;
     const double angle = axis_ == roll ? x.roll_rad : axis_ == pitch ? x.pitch_rad : x.yaw_rad;
     const double rate = axis_ == roll ? x.rate_radps.x : axis_ == pitch ? x.rate_radps.y : x.rate_radps.z;
-    lines_.add(sign * feedback, sign * deflection, axis_ == yaw ? 0 : angle, rate, out.surface_scale_ratio.value,
-               limited, dt);
+    lines_.add(sign * feedback, sign * deflection, axis_ == yaw ? 0 : angle, rate,
+               out.surface_scale_ratio.value, limited, dt);
   }
 
   void tell(const Tick& tick, Outputs& out) {
@@ -315,6 +322,8 @@ struct Autotune {
   std::array<AxisGains, axes> given_{}, old_{}, kept_{}, used_{}, goal_{};
   std::array<double, axes> left_s_{};  ///< of a change of gains
   LoopLines lines_;
+  RateFit fit_;
+  bool fitting_ = false;  ///< a record is complete, and not yet judged
   GainSearch search_;
   Stage stage_ = Stage::idle;
   std::size_t axis_ = roll;

@@ -8,12 +8,15 @@ namespace fulmar::slc {
 
 struct AxisGains {
   double kp = 0, ki = 0, kd = 0;
+  bool damper() const { return kp == 0 && ki == 0; }
   bool operator==(const AxisGains&) const = default;
 };
 
 struct MarginsWanted {
-  double gain_db = 8, phase_rad = 0.96;
-  bool kept(const Margins& m) const { return m.least_gain_db() >= gain_db && m.phase_rad >= phase_rad; }
+  double gain_db = 8, phase_rad = 0.96, delay_s = 0;
+  bool kept(const Margins& m) const {
+    return m.least_gain_db() >= gain_db && m.phase_rad >= phase_rad && m.delay_s >= delay_s;
+  }
 };
 
 /// The loop with gains `to`, of a record that was taken with `from`. A damper (kp 0) acts on a rate that the
@@ -21,9 +24,8 @@ struct MarginsWanted {
 inline std::array<Complex, Lines::count> loop_with(const LoopRecord& r, const AxisGains& from,
                                                    const AxisGains& to) {
   std::array<Complex, Lines::count> out;
-  const bool damper = from.kp == 0 && from.ki == 0;
   for (std::size_t i = 0; i < Lines::count; ++i) {
-    if (damper) {
+    if (from.damper()) {
       out[i] = r.loop[i] * (to.kd / from.kd);
       continue;
     }
@@ -34,24 +36,26 @@ inline std::array<Complex, Lines::count> loop_with(const LoopRecord& r, const Ax
   return out;
 }
 
-/// Attitude loop: the highest kp that leaves the margins, ki in its ratio to it; of those, the least kd.
-/// Damper: the gain that leaves the smallest peak of the rate, of those within 3 %, the least.
+/// Attitude loop: the highest kp that leaves the margins, ki in its ratio to it, kd within twice and half of
+/// its own.
+/// Damper: of the gains that leave the margins the one whose loop is nearest to damper_loop at its peak, the
+/// dutch roll, and so leaves 1 / (1 + damper_loop) of the resonance.
 class GainSearch {
  public:
   void begin(const LoopRecord& record, const AxisGains& from, const MarginsWanted& wanted) {
     record_ = record, from_ = from, wanted_ = wanted;
     next_ = 0, found_ = false;
-    best_peak_ = 1e300;
+    best_off_ = 1e300;
   }
   /// One candidate. True when there are no more.
   bool step() {
-    const bool damper = from_.kp == 0 && from_.ki == 0;
+    const bool damper = from_.damper();
     if (next_ >= (damper ? factors : factors * dampings)) return true;
     if (damper)
       try_damper({0, 0, from_.kd * factor(next_)});
     else
       try_attitude({from_.kp * factor(next_ % factors), from_.ki * factor(next_ % factors),
-                    from_.kd * damping(next_ / factors)});
+                    from_.kd * factor(next_ % factors) * damping(next_ / factors)});
     ++next_;
     return false;
   }
@@ -59,29 +63,30 @@ class GainSearch {
   const AxisGains& best() const { return best_; }
 
  private:
-  static constexpr int factors = 33, dampings = 15;
+  static constexpr double damper_loop = 1.25;
+  static constexpr int factors = 33, dampings = 7;
   static double factor(int i) { return std::pow(10, (i - 16) * 0.05); }  // 1 dB apart, 0.16 to 6.3
-  static double damping(int i) { return std::pow(10, (i - 7) * 0.1); }   // 2 dB apart, 0.2 to 5
+  /// Of kd / kp as it was: 1 first, then 2 dB more, less, ... to 6 dB.
+  static double damping(int i) { return std::pow(10, 0.1 * ((i + 1) / 2) * (i % 2 == 1 ? 1 : -1)); }
 
   void try_attitude(const AxisGains& g) {
-    if (found_ && g.kp <= best_.kp * 1.001) return;
+    if (found_ && g.kp <= best_.kp * 1.05) return;
     if (!wanted_.kept(margins_of(loop_with(record_, from_, g)))) return;
     best_ = g, found_ = true;
   }
   void try_damper(const AxisGains& g) {
     const auto loop = loop_with(record_, from_, g);
-    if (!wanted_.kept(margins_of(loop))) return;
     double peak = 0;
-    for (std::size_t i = 0; i < Lines::count; ++i)
-      peak = std::max(peak, std::abs(record_.rate[i] / (1.0 + loop[i])));
-    if (peak > 0.97 * best_peak_) return;
-    best_ = g, found_ = true, best_peak_ = peak;
+    for (std::size_t i = 0; i < Lines::count; ++i) peak = std::max(peak, std::abs(loop[i]));
+    const double off = std::abs(std::log(peak / damper_loop));
+    if (!(off < best_off_) || !wanted_.kept(margins_of(loop))) return;
+    best_ = g, found_ = true, best_off_ = off;
   }
 
   LoopRecord record_;
   AxisGains from_, best_;
   MarginsWanted wanted_;
-  double best_peak_ = 1e300;
+  double best_off_ = 1e300;
   int next_ = 0;
   bool found_ = false;
 };

@@ -18,12 +18,13 @@ using Complex = std::complex<double>;
 /// Harmonics of 1 / period, recorded for two periods: bins 2 k of the record are excited, 2 k - 1 and 2 k + 1
 /// are not.
 struct Lines {
-  static constexpr std::size_t count = 17;
-  static constexpr std::array<int, count> harmonics{1,  2,  3,  4,  5,  6,  7,  8, 10,
-                                                    12, 14, 17, 20, 24, 29, 35, 42};
-  static constexpr double record_s = 8;
+  static constexpr std::size_t count = 15;
+  static constexpr std::array<int, count> harmonics{2, 3, 4, 5, 6, 7, 9, 11, 13, 16, 20, 25, 31, 38, 48};
+  static constexpr double record_s = 10;
 
   static constexpr double radps(std::size_t i) { return 2 * std::numbers::pi * 2 * harmonics[i] / record_s; }
+  /// More where turbulence is more.
+  static double amplitude(std::size_t i) { return std::pow(harmonics[i], -0.6); }
   static double phase(std::size_t i) {  // Schroeder (1970): a low peak
     return -std::numbers::pi * static_cast<double>(i * (i + 1)) / static_cast<double>(count);
   }
@@ -57,25 +58,25 @@ class LoopLines {
     move_to(t_s);
     return size_ * sum();
   }
-  /// Amplitude of each line of it.
-  double line() const { return size_; }
-
   void begin() {
-    feedback_ = total_ = attitude_ = rate_ = below_ = above_ = {};
+    sums_ = {};
     samples_ = limited_ = 0;
     scale_ = step_s_ = 0;
   }
   /// At the time of the last `at`.
   void add(double feedback, double total, double attitude, double rate, double scale, bool limited,
            double step_s) {
+    const std::array<double, signals> now{feedback, total, attitude, rate};
+    if (samples_ == 0) first_ = now;
+    last_ = now;
+    std::array<double, signals> x;
+    for (std::size_t j = 0; j < signals; ++j) x[j] = now[j] - first_[j];
     for (std::size_t i = 0; i < Lines::count; ++i) {
       const Complex back = std::conj(at_line_[i]);
-      feedback_[i] += feedback * back;
-      total_[i] += total * back;
-      attitude_[i] += attitude * back;
-      rate_[i] += rate * back;
-      below_[i] += feedback * std::conj(at_below_[i]);
-      above_[i] += feedback * std::conj(at_above_[i]);
+      Sums& s = sums_[i];
+      for (std::size_t j = 0; j < signals; ++j) s.line[j] += x[j] * back;
+      s.below += x[0] * std::conj(at_below_[i]);
+      s.above += x[0] * std::conj(at_above_[i]);
     }
     ++samples_;
     limited_ += limited;
@@ -86,13 +87,17 @@ class LoopLines {
     LoopRecord r;
     const double n = std::max(samples_, 1);
     for (std::size_t i = 0; i < Lines::count; ++i) {
-      r.loop[i] = -feedback_[i] / total_[i];
-      r.attitude[i] = attitude_[i] / total_[i];
-      r.rate[i] = rate_[i] / total_[i];
+      const Sums& s = sums_[i];
+      const int bin = 2 * Lines::harmonics[i];
+      const Complex feedback = s.line[0] - ramp(0, bin), total = s.line[1] - ramp(1, bin);
+      r.loop[i] = -feedback / total;
+      r.attitude[i] = (s.line[2] - ramp(2, bin)) / total;
+      r.rate[i] = (s.line[3] - ramp(3, bin)) / total;
       // U_fb = -T e + S n and U = S (e + n): to first order 1 + L is wrong by n / e, and what lies between
       // the lines is S n.
-      const double between = std::sqrt(0.5 * (std::norm(below_[i]) + std::norm(above_[i])));
-      r.noise[i] = between * std::abs(1.0 + r.loop[i]) / std::abs(total_[i] - feedback_[i]);
+      const double between =
+          std::sqrt(0.5 * (std::norm(s.below - ramp(0, bin - 1)) + std::norm(s.above - ramp(0, bin + 1))));
+      r.noise[i] = between * std::abs(1.0 + r.loop[i]) / std::abs(total - feedback);
     }
     r.scale = scale_ / n;
     r.step_s = step_s_ / n;
@@ -102,6 +107,18 @@ class LoopLines {
 
  private:
   using Each = std::array<Complex, Lines::count>;
+  static constexpr std::size_t signals = 4;  // feedback, total, attitude, rate
+  struct Sums {
+    std::array<Complex, signals> line{};
+    Complex below, above;  // of the feedback
+  };
+
+  /// What a signal that drifted from its first to its last sample adds to a bin: without it that leaks into
+  /// all of them.
+  Complex ramp(std::size_t signal, int bin) const {
+    const double by = last_[signal] - first_[signal], n = std::max(samples_, 2);
+    return by * n / (n - 1) / (std::polar(1.0, -2 * std::numbers::pi * bin / n) - 1.0);
+  }
 
   void move_to(double t_s) {
     const Complex turn = std::polar(1.0, 2 * std::numbers::pi * t_s / Lines::record_s);
@@ -126,13 +143,14 @@ class LoopLines {
   }
   static Each phases() {
     Each p;
-    for (std::size_t i = 0; i < Lines::count; ++i) p[i] = std::polar(1.0, Lines::phase(i));
+    for (std::size_t i = 0; i < Lines::count; ++i) p[i] = std::polar(Lines::amplitude(i), Lines::phase(i));
     return p;
   }
 
   Each phase_ = phases();
   Each at_below_{}, at_line_{}, at_above_{};
-  Each feedback_{}, total_{}, attitude_{}, rate_{}, below_{}, above_{};
+  std::array<Sums, Lines::count> sums_{};
+  std::array<double, signals> first_{}, last_{};
   double size_ = 1, scale_ = 0, step_s_ = 0;
   int samples_ = 0, limited_ = 0;
 };
@@ -146,15 +164,18 @@ inline Margins margins_of(const std::array<Complex, Lines::count>& loop) {
   return m;
 }
 
-/// Relative standard error of 1 + L, root mean square over the lines that margins come from.
+/// Relative standard error of 1 + L, root mean square over the lines that margins come from: the octaves
+/// round |L| = 1, or where it is largest.
 inline double noise_of(const LoopRecord& r) {
-  double sum = 0;
+  double most = 0, sum = 0;
+  for (const Complex& gain : r.loop) most = std::max(most, std::abs(gain));
   int n = 0;
   for (std::size_t i = 0; i < Lines::count; ++i) {
     const double gain = std::abs(r.loop[i]);
-    if (gain > 0.2 && gain < 3) sum += r.noise[i] * r.noise[i], ++n;
+    if (gain < std::min(0.3, 0.5 * most) || gain > 3) continue;
+    sum += r.noise[i] * r.noise[i], ++n;
   }
-  return n > 0 ? std::sqrt(sum / n) : 0;
+  return n > 0 ? std::sqrt(sum / n) : 1e9;
 }
 
 }  // namespace fulmar::slc

@@ -35,7 +35,8 @@ struct Case {
   double factor = 1;
   std::string turbulence = "light";
   unsigned seed = 1;
-  std::string params{};  ///< of the component, more: ", time_limit: 60 s"
+  std::string params{};  ///< more of the component: ", time_limit: 60 s"
+  std::string sim{};     ///< more of the aircraft
 };
 
 struct Flown {
@@ -62,8 +63,10 @@ inline aero::InnerLaw scaled(aero::InnerLaw law, double by) {
   return law;
 }
 
+/// Until it is asked to tune, the shipped gains fly. The X8 has no wheels: it is thrown.
 inline fs::path mission_of(const Case& c, const aero::InnerLaw& law, const fs::path& folder) {
   const fs::path file = folder / "autotune.yaml";
+  const bool thrown = std::string_view(c.of.name) == "x8";
   const auto gain = [](const char* name, double value) {
     return std::string(name) + ": " + std::to_string(value);
   };
@@ -71,14 +74,21 @@ inline fs::path mission_of(const Case& c, const aero::InnerLaw& law, const fs::p
                          "/configs/missions/autotune.yaml\nlive: off\ntimeout: 300 s\n"
                       << "airframe: " << airframe_of(c).string()
                       << "\ndone: {when: attitude.report.done, for: 2 s}\ncomponents:\n"
-                      << "  sim: {params: {turbulence: " << c.turbulence << ", truth_rate: 100 Hz}}\n"
+                      << "  sim: {params: {truth_rate: 100 Hz, turbulence: " << c.turbulence
+                      << (thrown ? ", launch: catapult, launch_after: 5 s" : "") << c.sim << "}}\n"
+                      << (thrown ? "  slc: {params: {launch_acceleration: 15 m/s2, launch_delay: 0.3 s}}\n"
+                                 : "")
+                      << "  start: {fills: inner, use: control_slc/Inner, rate: 100 Hz}\n"
                       << "  plan: {params: {plan.airspeed: " << c.of.airspeed_mps
                       << " m/s, plan.turn_radius: " << c.of.turn_radius_m << " m}}\n"
                       << "  attitude: {params: {" << gain("roll_kp", law.roll_kp) << ", "
                       << gain("roll_ki", law.roll_ki) << ", " << gain("roll_kd", law.roll_kd) << ", "
                       << gain("pitch_kp", law.pitch_kp) << ", " << gain("pitch_ki", law.pitch_ki) << ", "
                       << gain("pitch_kd", law.pitch_kd) << ", " << gain("yaw_kd", law.yaw_kd) << c.params
-                      << "}}\n";
+                      << "}}\n"
+                      << "phases:\n  hold: {inner: start"
+                      << (thrown ? ", outer: {use: slc, set: {law: takeoff}}" : "")
+                      << "}\n  takeoff: {inner: start}\n  cruise: {inner: start}\n";
   return file;
 }
 
@@ -121,14 +131,15 @@ inline Flown fly(const Case& c, const fs::path& folder) {
   };
   const core::Source told = output_of("attitude", "report"), truth = output_of("sim", "truth");
   Flown out;
+  bool begun = false;
   double begun_m = 0, begun_pitch = 0;
   while (flight.step()) {
     const auto* const r = reinterpret_cast<const AutotuneReport*>(flight.sample(told));
     const auto* const x = reinterpret_cast<const VehicleState*>(flight.sample(truth));
     if (!r || !x) continue;
     out.report = *r;
-    if (r->stage == AutotuneStage::idle) begun_m = x->height_m, begun_pitch = x->pitch_rad;
     if (r->stage == AutotuneStage::idle || r->done) continue;
+    if (!begun) begun = true, begun_m = x->height_m, begun_pitch = x->pitch_rad;
     out.roll_rad = std::max(out.roll_rad, std::abs(x->roll_rad));
     out.pitch_rad = std::max(out.pitch_rad, std::abs(x->pitch_rad - begun_pitch));
     out.height_m = std::max(out.height_m, std::abs(x->height_m - begun_m));

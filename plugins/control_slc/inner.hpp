@@ -81,6 +81,10 @@ struct Inner {
 
   void configure(const Params& p) { gains_ = gains_of(p); }
 
+  enum Axis : std::uint8_t { roll, pitch, yaw, axes };
+  /// What quietening has left of an axis' gains.
+  double gain_left(Axis axis) const { return quiet_[axis].gain(); }
+
   /// Other gains begin anew with all of them.
   void retune(const Params& p) {
     const Gains gains = gains_of(p);
@@ -123,7 +127,6 @@ struct Inner {
   }
 
  private:
-  enum Axis : std::uint8_t { roll, pitch, yaw, axes };
   using Gains = std::array<double, 8>;
   static Gains gains_of(const Params& p) {
     return {p.roll_kp,  p.roll_ki,  p.roll_kd, p.pitch_kp,

@@ -138,7 +138,8 @@ FileLaws laws_in(const AirframeFile& file) {
         fill_law(out.laws.slc, entry.value, path, report);
       else if (entry.key == tecs_name)
         fill_law(out.laws.tecs, entry.value, path, report);
-      else if (entry.key == "control_slc/Airspeed" || entry.key == "control_tecs/ErrorLaw")
+      else if (entry.key == "control_slc/Airspeed" || entry.key == "control_slc/Autotune" ||
+               entry.key == "control_tecs/ErrorLaw")
         continue;  // loops that are not judged here
       else if (entry.key.rfind("control_slc", 0) == 0 || entry.key.rfind("control_tecs", 0) == 0)
         report.add(entry.where(), "params: there is no component '" + entry.key + "'." +

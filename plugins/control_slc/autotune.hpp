@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The inner loops, tuned in flight: excites one axis after another, chooses gains for given margins, excites
+// again, and keeps them when the margins measured then hold. README.md, "Autotune".
+#pragma once
+#include <fulmar/msg/autotune_report.hpp>
+#include <fulmar/msg/vehicle_status.hpp>
+#include <string_view>
+
+#include "gain_search.hpp"
+#include "inner.hpp"
+#include "rate_fit.hpp"
+
+namespace fulmar::slc {
+
+struct Autotune {
+  static constexpr const char* doc =
+      "control_slc/Inner that finds its gains in flight, measures their margins, and goes back if they do "
+      "not "
+      "hold.";
+  struct Inputs {
+    Inner::Inputs law;
+    Optional<VehicleStatus> status;  // wired: ends while commands do not move the aircraft
+  };
+  struct Outputs {
+    Inner::Outputs law;
+    AutotuneReport report;
+    OutQueue<Notice, 4> findings;
+  };
+  struct Params {
+    Inner::Params law;
+    Flag tune{false, "false to true begins; false again ends it, and leaves the gains that were kept"};
+    Param wanted_gain_margin{8, "dB", 3, 20, "that gains are chosen for"};
+    Param wanted_phase_margin{0.96, "rad", 0.3, 1.5, "that gains are chosen for"};
+    Param wanted_delay_margin{0.08, "s", 0, 1, "that gains are chosen for"};
+    Param least_gain_margin{6, "dB", 1, 20, "measured in the second excitation: less goes back"};
+    Param least_phase_margin{0.785, "rad", 0.1, 1.5, "measured in the second excitation: less goes back"};
+    Param roll_size{0.12, "rad", 0.005, 0.35, "peak of the excitation of the aileron"};
+    Param pitch_size{0.18, "rad", 0.005, 0.35, "peak of the excitation of the elevator"};
+    Param yaw_size{0.2, "rad", 0.005, 0.35, "peak of the excitation of the rudder"};
+    Param noise_limit{0.15, "ratio", 0.02, 1, "largest standard error of 1 + L, relative, that is believed"};
+    Param roll_bound{0.785, "rad", 0.05, 1.5, "beyond this roll, either way, it ends"};
+    Param pitch_bound{0.44, "rad", 0.05, 1.5, "beyond this pitch, either way, it ends"};
+    Param height_bound{20, "m", 1, 1000, "so far from the height at which it began it ends"};
+    Param time_limit{90, "s", 20, 600, "of the whole"};
+  };
+
+  void configure(const Params& p) {
+    law_ = p.law;
+    for (std::size_t i = 0; i < axes; ++i)
+      given_[i] = old_[i] = kept_[i] = used_[i] = goal_[i] = gains_of(p.law, i);
+    inner_.configure(law_);
+    stage_ = Stage::idle;
+    asked_ = false;
+  }
+
+  void retune(const Params& p) {
+    law_ = p.law;
+    for (std::size_t i = 0; i < axes; ++i) {
+      const AxisGains now = gains_of(p.law, i);
+      if (now != given_[i]) given_[i] = kept_[i] = used_[i] = goal_[i] = now;  // somebody's own: they count
+      use(i, used_[i]);
+    }
+    if (running()) law_.quieten.value = false;
+    inner_.retune(law_);
+  }
+
+  Status activate(const Tick& tick, const Inputs& in, const Params&, const Applied<Outputs>& last) {
+    if (running()) end("somebody else has flown");
+    strength_ = 0;
+    return inner_.activate(tick, in.law, law_, last.part(last->law));
+  }
+
+  Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
+    const double dt = std::clamp(tick.dt_s(), 0.0, 0.1);
+    if (p.tune && !asked_) begin(in);
+    if (!p.tune && asked_ && running()) end("it was switched off");
+    asked_ = p.tune;
+    if (running()) {
+      time_s_ += dt;
+      stage_s_ += dt;
+      const std::string_view why = trouble(in, p);
+      if (!why.empty())
+        end(why);
+      else
+        go_on(p, dt);
+    }
+    if (!running() && law_.quieten.value != p.law.quieten.value) {
+      law_.quieten.value = p.law.quieten.value;
+      inner_.retune(law_);
+    }
+    for (std::size_t i = 0; i < axes; ++i) change_over(i, dt);
+    const Status status = inner_.step(tick, in.law, law_, out.law);
+    excite(in, p, dt, out.law);
+    tell(tick, out);
+    return status;
+  }
+
+ private:
+  enum : std::size_t { roll, pitch, yaw, axes };
+  static constexpr std::array<const char*, axes> names{"roll", "pitch", "yaw"};
+  static constexpr double settle_s = 1, fade_s = 1, change_s = 0.5;
+  static constexpr double excite_s = settle_s + fade_s + Lines::record_s, search_s = 1.6;
+
+  using Stage = AutotuneStage;
+  using Verdict = AutotuneVerdict;
+
+  static AxisGains gains_of(const Inner::Params& p, std::size_t axis) {
+    if (axis == roll) return {p.roll_kp, p.roll_ki, p.roll_kd};
+    if (axis == pitch) return {p.pitch_kp, p.pitch_ki, p.pitch_kd};
+    return {0, 0, p.yaw_kd};
+  }
+  void use(std::size_t axis, const AxisGains& g) {
+    used_[axis] = g;
+    if (axis == roll) law_.roll_kp.value = g.kp, law_.roll_ki.value = g.ki, law_.roll_kd.value = g.kd;
+    if (axis == pitch) law_.pitch_kp.value = g.kp, law_.pitch_ki.value = g.ki, law_.pitch_kd.value = g.kd;
+    if (axis == yaw) law_.yaw_kd.value = g.kd;
+  }
+  static AxisGains times(const AxisGains& g, double by) { return {g.kp * by, g.ki * by, g.kd * by}; }
+
+  /// Gains move within change_s: no surface steps.
+  void change_to(std::size_t axis, const AxisGains& g) { goal_[axis] = g, left_s_[axis] = change_s; }
+  void change_over(std::size_t axis, double dt) {
+    if (left_s_[axis] <= 0) return;
+    const double part = std::min(1.0, dt / left_s_[axis]);
+    left_s_[axis] = part < 1 ? left_s_[axis] - dt : 0;
+    const AxisGains &to = goal_[axis], &now = used_[axis];
+    use(axis, part < 1 ? AxisGains{now.kp + part * (to.kp - now.kp), now.ki + part * (to.ki - now.ki),
+                                   now.kd + part * (to.kd - now.kd)}
+                       : to);
+  }
+
+  bool running() const {
+    return stage_ == Stage::exciting || stage_ == Stage::searching || stage_ == Stage::verifying;
+  }
+  const Surface& surface(std::size_t axis) const {
+    const Airframe& a = *law_.airframe;
+    return axis == roll ? a.aileron : axis == pitch ? a.elevator : a.rudder;
+  }
+
+  void begin(const Inputs& in) {
+    // What quietening has left of the gains is what they are; from here on excitation is no oscillation.
+    for (std::size_t i = 0; i < axes; ++i) {
+      kept_[i] = old_[i] = goal_[i] = times(used_[i], inner_.gain_left(static_cast<Inner::Axis>(i)));
+      use(i, kept_[i]);
+    }
+    law_.quieten.value = false;
+    inner_.retune(law_);
+    begun_m_ = in.law.state->height_m;
+    time_s_ = 0;
+    verdict_ = {}, before_ = {}, after_ = {}, noise_ = {};
+    begin_axis(roll);
+  }
+  void begin_axis(std::size_t axis) {
+    axis_ = axis;
+    larger_ = 1;
+    first_ = true;
+    go_to(Stage::exciting);
+  }
+  void next_axis(const Params& p) {
+    for (std::size_t next = axis_ + 1; next < axes; ++next) {
+      const bool acts = next != yaw || (law_.airframe->aero.yaw.rudder_ratio != 0 && used_[yaw].kd > 0);
+      if (acts && surface(next).limit_rad > 0 && time_s_ + 2 * excite_s + search_s < p.time_limit)
+        return begin_axis(next);
+      verdict_[next] = Verdict::left_out;
+    }
+    go_to(Stage::finished);
+  }
+  void go_to(Stage stage) {
+    stage_ = stage, stage_s_ = 0;
+    fitting_ = false;
+    lines_.begin();
+  }
+  bool time_for(double seconds, const Params& p) const { return time_s_ + seconds < p.time_limit; }
+
+  /// Ends it all: the axis under test goes back, those that were verified stay.
+  void end(std::string_view why) {
+    revert(why);
+    go_to(Stage::aborted);
+  }
+  void revert(std::string_view why) {
+    change_to(axis_, kept_[axis_]);
+    verdict_[axis_] = Verdict::reverted;
+    say(Severity::warning, "%s: old gains: %.*s", names[axis_], static_cast<int>(why.size()), why.data());
+  }
+
+  template <class... Values>
+  void say(Severity severity, const char* format, Values... values) {
+    if (said_ >= notices_.size()) return;
+    Notice& n = notices_[said_++];
+    n.severity = severity;
+    std::snprintf(n.text.bytes.data(), n.text.bytes.size(), format, values...);
+  }
+
+  std::string_view trouble(const Inputs& in, const Params& p) const {
+    const VehicleState& s = *in.law.state;
+    const FlightLimits& limits = p.law.airframe->limits;
+    if (in.status && !in.status->in_control) return "commands do not move the aircraft";
+    if (in.law.state.stale() || !s.attitude_valid || !s.height_valid || !s.airspeed_valid)
+      return "attitude, height or airspeed is not known";
+    // Each the other way round: what is no number is out of its bound.
+    if (!(std::abs(s.roll_rad) <= p.roll_bound)) return "roll is beyond roll_bound";
+    if (!(std::abs(s.pitch_rad) <= p.pitch_bound)) return "pitch is beyond pitch_bound";
+    if (!(std::abs(s.height_m - begun_m_) <= p.height_bound)) return "height has moved by height_bound";
+    if (!(s.airspeed_mps >= 1.1 * limits.airspeed_min_mps / 1.2)) return "airspeed is near the stall";
+    if (!(s.airspeed_mps <= limits.airspeed_max_mps)) return "airspeed is above the maximum";
+    if (!(time_s_ <= p.time_limit)) return "time_limit is over";
+    return "";
+  }
+
+  void go_on(const Params& p, double dt) {
+    if (stage_ == Stage::searching) {
+      for (int i = 0; i < 4; ++i)
+        if (search_.step()) return found(p);
+    } else if (!fitting_ && stage_s_ >= excite_s - 0.5 * dt) {
+      fit_.begin(lines_.record(), used_[axis_], axis_ == roll && law_.roll_from_sideslip != 0);
+      fitting_ = true;
+    } else if (fitting_ && fit_.step()) {
+      judge(fit_.record(), p);
+    }
+  }
+
+  /// A record is complete: is it to be believed, and do the margins hold?
+  void judge(const LoopRecord& r, const Params& p) {
+    const Margins m = margins_of(r.loop);
+    noise_[axis_] = noise_of(r);
+    const bool verifying = stage_ == Stage::verifying;
+    if (r.limited > 0.02) {
+      if (verifying || !time_for(2 * excite_s + search_s, p))
+        return done_with("the surface was at its limit", p);
+      change_to(axis_, times(used_[axis_], 0.5));  // too much gain to measure by
+      return go_to(Stage::exciting);
+    }
+    if (!(noise_[axis_] <= p.noise_limit)) {
+      if (larger_ > 2 || !time_for((verifying ? 1 : 2) * excite_s + search_s, p))
+        return done_with("turbulence hides the answer to the excitation", p);
+      larger_ *= 1.5;
+      return go_to(stage_);
+    }
+    if (!answers(r)) return done_with("the surface does not act as it should", p);
+    (first_ ? before_ : after_)[axis_] = m;
+    first_ = false;
+    if (verifying && MarginsWanted{p.least_gain_margin, p.least_phase_margin}.kept(m)) {
+      kept_[axis_] = used_[axis_];
+      verdict_[axis_] = Verdict::kept;
+      const AxisGains& g = kept_[axis_];
+      say(Severity::info, "%s: kp %.3g ki %.3g kd %.3g kept: %.1f dB, %.0f deg measured", names[axis_], g.kp,
+          g.ki, g.kd, m.least_gain_db(), std::min(m.phase_rad, std::numbers::pi) * 180 / std::numbers::pi);
+      return next_axis(p);
+    }
+    if (verifying && !time_for(excite_s + search_s, p)) return done_with("the margins do not hold", p);
+    search_.begin(r, used_[axis_], {p.wanted_gain_margin, p.wanted_phase_margin, p.wanted_delay_margin});
+    go_to(Stage::searching);
+  }
+  void done_with(std::string_view why, const Params& p) {
+    revert(why);
+    next_axis(p);
+  }
+  void found(const Params& p) {
+    if (!search_.found()) return done_with("no gains have the margins", p);
+    change_to(axis_, search_.best());
+    go_to(Stage::verifying);
+  }
+  /// In the middle of the lines, where the rate follows the surface.
+  static bool answers(const LoopRecord& r) {
+    Complex sum = 0;
+    for (std::size_t i = 2; i < 8; ++i) sum += r.rate[i];
+    return sum.real() > 0;
+  }
+
+  void excite(const Inputs& in, const Params& p, double dt, Inner::Outputs& out) {
+    const bool wanted =
+        (stage_ == Stage::exciting || stage_ == Stage::verifying) && stage_s_ >= settle_s && !fitting_;
+    if (wanted && strength_ == 0) phase_s_ = 0;
+    strength_ = std::clamp(strength_ + (wanted ? dt / fade_s : -5 * dt), 0.0, 1.0);
+    if (strength_ == 0) return;
+    phase_s_ += dt;
+    const double size = axis_ == roll ? p.roll_size : axis_ == pitch ? p.pitch_size : p.yaw_size;
+    const Surface& s = surface(axis_);
+    // Positive in the record turns to the right or up.
+    const double sign = axis_ == roll ? 1 : -1;
+    double& deflection = axis_ == roll    ? out.actuators.aileron_rad
+                         : axis_ == pitch ? out.actuators.elevator_rad
+                                          : out.actuators.rudder_rad;
+    const double feedback = deflection;
+    const double asked =
+        feedback + sign * std::min(size * larger_, 0.5 * s.limit_rad) * strength_ * lines_.at(phase_s_);
+    deflection = std::clamp(asked, -s.limit_rad, s.limit_rad);
+    if (!wanted || stage_s_ < settle_s + fade_s - 0.5 * dt) return;
+    const VehicleState& x = *in.law.state;
+    const bool limited = asked != deflection || std::abs(feedback) >= s.limit_rad;
+    const double angle = axis_ == roll ? x.roll_rad : axis_ == pitch ? x.pitch_rad : x.yaw_rad;
+    const double rate = axis_ == roll ? x.rate_radps.x : axis_ == pitch ? x.rate_radps.y : x.rate_radps.z;
+    lines_.add(sign * feedback, sign * deflection, axis_ == yaw ? 0 : angle, rate,
+               out.surface_scale_ratio.value, limited, dt);
+  }
+
+  void tell(const Tick& tick, Outputs& out) {
+    AutotuneReport& r = out.report;
+    r.stage = stage_;
+    r.done = stage_ == Stage::finished || stage_ == Stage::aborted;
+    r.axis = running() ? static_cast<AutotuneAxis>(axis_ + 1) : AutotuneAxis::none;
+    r.roll = verdict_[roll], r.pitch = verdict_[pitch], r.yaw = verdict_[yaw];
+    r.time_s = time_s_;
+    for (std::size_t i = 0; i < axes; ++i) {
+      r.before_kp_ratio[i] = old_[i].kp, r.before_ki_ratio[i] = old_[i].ki, r.before_kd_ratio[i] = old_[i].kd;
+      r.kp_ratio[i] = used_[i].kp, r.ki_ratio[i] = used_[i].ki, r.kd_ratio[i] = used_[i].kd;
+      tell_margins(before_[i], r.before_gain_margin_ratio[i], r.before_phase_margin_rad[i]);
+      tell_margins(after_[i], r.gain_margin_ratio[i], r.phase_margin_rad[i]);
+      r.crossover_radps[i] = after_[i] ? after_[i]->crossover_radps : 0;
+      r.noise_ratio[i] = std::min(noise_[i], 1e9);
+    }
+    for (std::size_t i = 0; i < said_; ++i) out.findings.push(notices_[i], tick.now_ns);
+    said_ = 0;
+  }
+  static void tell_margins(const std::optional<Margins>& m, double& gain_ratio, double& phase_rad) {
+    gain_ratio = m ? std::min(std::pow(10, m->least_gain_db() / 20), 1e9) : 0;
+    phase_rad = m ? std::min(m->phase_rad, std::numbers::pi) : 0;
+  }
+
+  Inner inner_;
+  Inner::Params law_;  ///< with the gains in use
+  std::array<AxisGains, axes> given_{}, old_{}, kept_{}, used_{}, goal_{};
+  std::array<double, axes> left_s_{};  ///< of a change of gains
+  LoopLines lines_;
+  RateFit fit_;
+  bool fitting_ = false;  ///< a record is complete, and not yet judged
+  GainSearch search_;
+  Stage stage_ = Stage::idle;
+  std::size_t axis_ = roll;
+  std::array<Verdict, axes> verdict_{};
+  std::array<std::optional<Margins>, axes> before_{}, after_{};
+  std::array<double, axes> noise_{};
+  std::array<Notice, 4> notices_{};
+  std::size_t said_ = 0;
+  double time_s_ = 0, stage_s_ = 0, phase_s_ = 0, begun_m_ = 0;
+  double strength_ = 0, larger_ = 1;  ///< of the excitation
+  bool asked_ = false, first_ = true;
+};
+
+}  // namespace fulmar::slc

@@ -120,6 +120,20 @@ TEST_CASE("10: a group belongs to its row, whatever its name; halves of pairs ar
               "RUDDER ", "THREE  ");
   is_tern(aircraft({text}), 1e-6);
 
+  // a slat beside a named elevator is no second elevator
+  const Aircraft slat = aircraft({with(tern_text("tern.stab"), "RUDDER ", "SLAT   ")});
+  CHECK(slat.c[pitch][t_elevator].x == Approx(-1.2));
+  Control more;
+  more.name = "slat";
+  for (Value& value : more.of) value = {0, "here"};
+  more.of[pitch].x = -0.3;
+  Control elevator = more;
+  elevator.name = "elevator";
+  elevator.of[pitch].x = -1;
+  const ControlColumns two = control_columns({more, elevator});
+  CHECK(two.of[1][pitch].x == -1);
+  CHECK(says(two.notes, "'slat' is left out"));
+
   Control left, right;
   left.name = "left", right.name = "right";
   for (std::size_t i = 0; i < forces; ++i) left.of[i] = right.of[i] = {0, "here"};

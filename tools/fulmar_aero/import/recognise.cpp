@@ -56,7 +56,6 @@ Input read_any(const Lines& lines, const ReadOptions& options) {
   if (has("Calculated polar for"))
     return unused(lines, "polar of an airfoil",
                   "it is of an airfoil, not of an aircraft; the plane's polar has the drag");
-  if (has("<fdm_config")) return unused(lines, "JSBSim aircraft", "its functions and tables are not read");
   // OpenVSP
   if (has("Solver Case") || (has("Sref_") && has("Iter "))) return read_vspaero_history(lines);
   if (has("Sref_") || (has("Base Aero") && has("CFx")) || has("Base_Aero"))

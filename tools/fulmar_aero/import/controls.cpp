@@ -140,10 +140,18 @@ Role role_of(const Control& control) {
 ControlColumns control_columns(const std::vector<Control>& controls) {
   ControlColumns out;
   Sorted sorted;
+  for (const Control& control : controls)
+    if (const auto named = role_by_name(control.name))
+      sorted.by_role[std::size_t(*named)].push_back(&control);
+  const Sorted named = sorted;
   for (const Control& control : controls) {
-    Role role = role_of(control);
-    // halves of one pair are called elevator or aileron, too; each alone does both
-    sorted.by_role[std::size_t(role)].push_back(&control);
+    if (role_by_name(control.name)) continue;
+    const std::size_t role = std::size_t(role_by_response(control));
+    if (role == std::size_t(Role::mixed) || named.by_role[role].empty())
+      sorted.by_role[role].push_back(&control);
+    else  // a slat, a brake: not one more elevator
+      out.notes.push_back(told(control) + " is left out: another control is the " + role_name(Role(role)) +
+                          " by its name");
   }
   std::vector<const Control*>& mixed = sorted.by_role[std::size_t(Role::mixed)];
   if (mixed.size() == 2) {

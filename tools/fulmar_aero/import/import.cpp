@@ -9,7 +9,12 @@
 namespace fulmar::aero::imports {
 namespace {
 
+bool is_whole(const Lines& lines) {
+  return is_rosflight(lines) || is_coefficient_json(lines) || is_jsbsim(lines);
+}
+
 Aircraft whole_aircraft(const Lines& lines, bool mend) {
+  if (is_jsbsim(lines)) return jsbsim_aircraft(lines);
   return is_rosflight(lines) ? rosflight_aircraft(lines, mend) : json_aircraft(lines);
 }
 
@@ -44,8 +49,7 @@ std::optional<Imported> imported_for_check(const std::string& name) {
   if (!std::filesystem::is_regular_file(name, fault)) return {};
   const Lines lines = read_lines(name);
   if (lines.has("aero:") && lines.has("propulsion:")) return {};
-  if (is_rosflight(lines) || is_coefficient_json(lines))
-    return with_origins(written(whole_aircraft(lines, false), {}, name), name);
+  if (is_whole(lines)) return with_origins(written(whole_aircraft(lines, false), {}, name), name);
   try {
     if (read_any(lines, {}).analyses.empty()) return {};
   } catch (const core::Error&) {
@@ -65,7 +69,7 @@ Imported imported_from(const std::vector<std::string>& files, const ImportOption
     all.push_back(read_lines(file));
   }
   for (const Lines& lines : all)
-    if (is_rosflight(lines) || is_coefficient_json(lines)) {
+    if (is_whole(lines)) {
       if (all.size() > 1)
         throw core::Error(lines.file +
                           ": it is a whole aircraft and is not merged with other files; give it alone");

@@ -172,8 +172,8 @@ Input read_avl_run(const Lines& lines) {
     return Value(pair.value * run_factor(lines, pair, key), lines.place(pair.line, key));
   };
   const double mass = pairs.value("mass").x;
-  if (!(mass > 0) || pairs.value("Ixx").x <= 0) {
-    input.unused = "it has no mass; AVL reads one with MASS and applies it with MSET";
+  if (!(mass > 0) || pairs.value("Ixx").x <= 0 || !mass_unit(pairs.pair("mass").unit)) {
+    input.unused = "it has no mass in units; AVL reads one with MASS and applies it with MSET";
     return input;
   }
   Body& body = input.body;

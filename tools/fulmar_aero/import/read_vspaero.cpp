@@ -82,6 +82,9 @@ std::vector<CaseRow> groups_of(const Lines& lines, const StabBlock& block) {
   return groups;
 }
 
+constexpr std::array<std::string_view, 12> stab_rows{"CFx", "CFy", "CFz", "CMx", "CMy", "CMz",
+                                                     "CL",  "CD",  "CS",  "CMl", "CMm", "CMn"};
+
 struct Table {
   std::map<std::string, std::pair<std::size_t, std::vector<double>>> rows;
 };
@@ -98,8 +101,8 @@ Table coefficients(const Lines& lines, const StabBlock& block, std::size_t group
   for (std::size_t i = heading; i < block.last; ++i) {
     const std::string& text = lines.all[i];
     const std::vector<std::string> words = words_of(text);
-    if (words.empty() || words[0].size() < 2 || words[0][0] != 'C') continue;
-    if (words[0] == "Coef" || words[0] == "Case") continue;
+    // version 4.1 has more tables, whose rows are called CFx_p or CMm_(q + alpha_dot)
+    if (words.empty() || std::find(stab_rows.begin(), stab_rows.end(), words[0]) == stab_rows.end()) continue;
     if (table.rows.count(words[0])) continue;
     const std::vector<double> values = numbers_at(lines, i, text.find(words[0]) + words[0].size());
     if (values.size() != 8 + groups)
@@ -223,6 +226,11 @@ Input read_vspaero_stab(const Lines& lines, const ReadOptions& options) {
       ++sideslips;
       continue;
     }
+    if (!input.analyses.empty() && a.controls.size() != input.analyses[0].controls.size())
+      refuse(lines.where(block.first), "this analysis has " + std::to_string(a.controls.size()) +
+                                           " groups of controls, and the first one " +
+                                           std::to_string(input.analyses[0].controls.size()) +
+                                           ": expected one version and one aircraft in a file");
     if (rho < 0.003) a.density_kgm3 *= 14.593902937 / std::pow(0.3048, 3);
     a.rate_noise = small_steps(lines);
     if (a.controls.empty() && input.analyses.empty())

@@ -13,15 +13,6 @@ Input unused(const Lines& lines, const std::string& what, const std::string& why
   return input;
 }
 
-bool numbers_only(const Lines& lines) {
-  for (std::size_t i = 0; i < lines.all.size(); ++i) {
-    const std::string text = trimmed(lines.all[i]);
-    if (text.empty() || text[0] == '#') continue;
-    if (text.find_first_not_of("0123456789.+-eE \t") != std::string::npos) return false;
-  }
-  return true;
-}
-
 /// AVL's geometry has a heading of numbers under its title, and SURFACE somewhere.
 bool avl_geometry(const Lines& lines) {
   for (const std::string& text : lines.all)
@@ -56,7 +47,7 @@ Input read_any(const Lines& lines, const ReadOptions& options) {
   if (has("Surface Forces") || has("Strip Forces") || has("Element Forces") || has("Shear/q"))
     return unused(lines, "AVL forces of surfaces and strips",
                   "an airframe needs the total derivatives, AVL's ST");
-  if (has("|") && has("elevator") && numbers_only(lines_of(lines.file, "")) && has("  u   ") && !has("<"))
+  if (has(" the ") && has(" psi ") && has("|"))
     return unused(lines, "AVL system matrix", "the eigenvalues (.eig) say the same");
   // XFLR5
   if (has("Launching Analysis") || has("Longitudinal derivatives")) return read_xflr5_log(lines);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sets that are already in the form of Beard & McLain: ROSflight's parameter files, and the JSON of the
-// Skywalker X8 (C_L_0, C_l_p, ...).
+// Sets that are already in the form of Beard & McLain: ROSflight's parameter files, the JSON of the
+// Skywalker X8 (C_L_0, C_l_p, ...), and JSBSim's XML as far as it is linear.
 #pragma once
 #include "tools/fulmar_aero/import/aircraft.hpp"
 #include "tools/fulmar_aero/import/lines.hpp"
@@ -9,10 +9,12 @@ namespace fulmar::aero::imports {
 
 bool is_rosflight(const Lines& lines);
 bool is_coefficient_json(const Lines& lines);
+bool is_jsbsim(const Lines& lines);
 
 /// `mend`: columns whose sign cannot be right are turned, each with a note; else they stay for a check to
 /// find. Throws core::Error.
 Aircraft rosflight_aircraft(const Lines& lines, bool mend);
 Aircraft json_aircraft(const Lines& lines);
+Aircraft jsbsim_aircraft(const Lines& lines);
 
 }  // namespace fulmar::aero::imports

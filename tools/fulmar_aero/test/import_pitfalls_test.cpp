@@ -120,6 +120,20 @@ TEST_CASE("10: a group belongs to its row, whatever its name; halves of pairs ar
               "RUDDER ", "THREE  ");
   is_tern(aircraft({text}), 1e-6);
 
+  // a slat beside a named elevator is no second elevator
+  const Aircraft slat = aircraft({with(tern_text("tern.stab"), "RUDDER ", "SLAT   ")});
+  CHECK(slat.c[pitch][t_elevator].x == Approx(-1.2));
+  Control more;
+  more.name = "slat";
+  for (Value& value : more.of) value = {0, "here"};
+  more.of[pitch].x = -0.3;
+  Control elevator = more;
+  elevator.name = "elevator";
+  elevator.of[pitch].x = -1;
+  const ControlColumns two = control_columns({more, elevator});
+  CHECK(two.of[1][pitch].x == -1);
+  CHECK(says(two.notes, "'slat' is left out"));
+
   Control left, right;
   left.name = "left", right.name = "right";
   for (std::size_t i = 0; i < forces; ++i) left.of[i] = right.of[i] = {0, "here"};
@@ -352,6 +366,78 @@ TEST_CASE("22: ROSflight's letter O, its C_D_p, and inertia that stands in anoth
                rosflight_aircraft(lines_of("b.yaml", with(ros, "C_m_q: -13.0", "C_m_q: -13,0")), true);
              }),
              "b.yaml:25"));
+}
+
+TEST_CASE("two versions in one file are refused, and other tables of version 4.1 are let be") {
+  std::string no_groups;
+  std::istringstream in(tern_text("tern.stab"));
+  for (std::string line; std::getline(in, line);) {
+    if (line.find("+1.000 deg") != std::string::npos && line.compare(0, 5, "Alpha") != 0 &&
+        line.compare(0, 4, "Beta") != 0)
+      continue;
+    std::istringstream numbers(line);
+    std::string first;
+    numbers >> first;
+    const bool row = line.size() > 100 && first[0] == 'C' && first != "Case" && first != "Coef";
+    no_groups += (row ? line.substr(0, line.size() - 40) : line) + "\n";
+  }
+  CHECK(aircraft({no_groups}).c[roll][t_p].x == Approx(-0.48));
+  CHECK(says(refusal([&] { aircraft({tern_text("tern.stab") + no_groups}); }),
+             "expected one version and one aircraft in a file"));
+  is_tern(aircraft({tern_text("tern.stab") + "CFx_p   0.1\nCMm_(q + alpha_dot)   0.2\n"}), 1e-6);
+}
+
+TEST_CASE("JSBSim's XML as far as it is products; anything else is refused by its name") {
+  const auto product = [](const char* name, const std::string& more, double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return std::string("<function name=\"") + name +
+           "\"><product><property>aero/qbar-psf</property><property>metrics/Sw-sqft</property>" + more +
+           "<value>" + text + "</value></product></function>\n";
+  };
+  const std::string b = "<property>metrics/bw-ft</property>", c = "<property>metrics/cbarw-ft</property>";
+  const std::string xml =
+      "<?xml version=\"1.0\"?>\n<!-- x --><fdm_config name=\"gull\">\n<metrics><wingarea "
+      "unit=\"FT2\">10</wingarea><wingspan unit=\"FT\">8</wingspan>"
+      "<chord unit=\"FT\">1.25</chord></metrics>\n<mass_balance><ixx unit=\"SLUG*FT2\">0.5</ixx><iyy "
+      "unit=\"SLUG*FT2\">0.6</iyy>"
+      "<izz unit=\"SLUG*FT2\">1.0</izz><emptywt "
+      "unit=\"LBS\">20</emptywt></mass_balance>\n<aerodynamics>\n<axis name=\"LIFT\">" +
+      product("CLo", "", 0.25) + product("CLalpha", "<property>aero/alpha-rad</property>", 4.8) +
+      "</axis><axis name=\"DRAG\">" + product("CDo", "", 0.03) + "</axis>\n<axis name=\"ROLL\">" +
+      product("Clp", b + "<property>aero/bi2vel</property><property>velocities/p-aero-rad_sec</property>",
+              -0.5) +
+      product("Clda", b + "<property>fcs/left-aileron-pos-rad</property>", 0.2) +
+      "</axis>\n<axis name=\"PITCH\">" +
+      product("Cmq", c + "<property>aero/ci2vel</property><property>velocities/q-aero-rad_sec</property>",
+              -12) +
+      product("Cmq_by_span",
+              c + "<property>aero/bi2vel</property><property>velocities/q-aero-rad_sec</property>", -0.1) +
+      product("Cmalpha", c + "<property>aero/alpha-rad</property>", -0.9) +
+      "</axis>\n</aerodynamics></fdm_config>\n";
+  const Aircraft a = jsbsim_aircraft(lines_of("gull.xml", xml));
+  CHECK(a.name == "gull");
+  CHECK(a.area_m2.x == Approx(0.9290304));
+  CHECK(a.span_m.x == Approx(2.4384));
+  CHECK(a.mass_kg.x == Approx(9.0718474));
+  CHECK(a.xx.x == Approx(0.5 * 1.3558179));
+  CHECK(a.parasite.x == 0.03);
+  CHECK(a.c[lift][t_alpha].x == 4.8);
+  CHECK(a.c[roll][t_p].x == -0.5);
+  CHECK(a.c[roll][t_aileron].x == 0.2);
+  CHECK(a.c[pitch][t_q].x == Approx(-12 - 0.1 * 8 / 1.25));
+  CHECK(a.c[pitch][t_alpha].x == -0.9);
+  const auto refused = [&](const char* old, const char* by) {
+    return refusal([&] { jsbsim_aircraft(lines_of("gull.xml", with(xml, old, by))); });
+  };
+  CHECK(says(refused("<value>0.25</value>", "<table><tableData>0 1</tableData></table>"),
+             "function 'CLo': <table> is not read"));
+  CHECK(says(refused("fcs/left-aileron-pos-rad", "aero/alphadot-rad_sec"),
+             "the property 'aero/alphadot-rad_sec' is not read"));
+  CHECK(says(refused("name=\"LIFT\"", "name=\"X\""), "axis 'X' is not read"));
+  CHECK(says(refused("unit=\"LBS\"", "unit=\"STONE\""), "'STONE' is no unit"));
+  CHECK(says(refused("</axis>\n</aerodynamics></fdm_config>", ""), "is the file cut off?"));
+  CHECK(says(refused("aero/ci2vel", "metrics/Sw-sqft"), "expected the dynamic pressure and S once"));
 }
 
 TEST_CASE("23: what XFLR5 knows badly is told") {

@@ -58,14 +58,14 @@ TEST_CASE("an XFLR5 log, trimmed and linearised by the simulator's model, has th
 
 TEST_CASE("a log whose eigenvalues are not those of its derivatives fails") {
   const Folder folder;
-  for (const auto& [old, by, mode] : {std::array<const char*, 3>{"-14.65+", "-12.65+", "roll"},
-                                      {"-0.7844+", "-0.7044+", "Dutch roll"},
-                                      {"-6.783+", "-6.983+", "short period"}}) {
-    const std::string text = with(tern_text("tern_e.log"), old, by);
+  for (const std::array<const char*, 3>& change : {std::array<const char*, 3>{"-14.65+", "-12.65+", "roll"},
+                                                   {"-0.7844+", "-0.7044+", "Dutch roll"},
+                                                   {"-6.783+", "-6.983+", "short period"}}) {
+    const std::string text = with(tern_text("tern_e.log"), change[0], change[1]);
     const Answer answer = call("import " + folder.write("e.log", text) + " " + logs[1] + " " + logs[2] +
                                " -o " + (folder.path / "a.yaml").string());
     CHECK(answer.code == 1);
-    CHECK_MESSAGE(answer.says("more than 1 %: something was taken wrong"), mode, answer.out);
+    CHECK_MESSAGE(answer.says("more than 1 %: something was taken wrong"), change[2], answer.out);
   }
   // a wrong inertia
   const Answer answer =
@@ -177,7 +177,9 @@ TEST_CASE("conversions of the reference data agree within rounding") {
   if (no_shared()) return;
   const json expected = json::parse(text_of(shared("expected/expected_import.json")));
   int compared = 0;
-  for (const auto& [name, one] : expected.items()) {
+  for (const auto& item : expected.items()) {
+    const std::string& name = item.key();
+    const json& one = item.value();
     if (one.contains("error")) continue;
     std::vector<std::string> files{shared(name)};
     if (name.find('{') != std::string::npos)
@@ -188,7 +190,9 @@ TEST_CASE("conversions of the reference data agree within rounding") {
                                                    "r", "delta_a", "delta_e", "delta_r", "delta_f"};
     for (std::size_t force = 0; force < forces; ++force)
       for (std::size_t term = 0; term < terms; ++term)
-        for (const auto& [key, value] : one["coef"].items()) {
+        for (const auto& coefficient : one["coef"].items()) {
+          const std::string& key = coefficient.key();
+          const json& value = coefficient.value();
           if (key_of(key) != std::string(force_symbol(Force(force))) + "_" + names[term] || value.is_null())
             continue;
           if (force == drag && (term == t_p || term == t_alpha)) continue;
@@ -219,16 +223,19 @@ TEST_CASE(
   // AVL's own run about a point 0.02 m aft and 0.03 m up, brought back to the centre of gravity
   const Aircraft back = imported({shared("avl/out/merlinref_dx020_dz030_a2.st"), mass}).aircraft,
                  right = imported({shared("avl/out/merlin_a2.st"), mass}).aircraft;
-  for (const auto& [force, term] : {std::pair{pitch, t_zero},
-                                    {pitch, t_alpha},
-                                    {roll, t_beta},
-                                    {yaw, t_beta},
-                                    {pitch, t_elevator},
-                                    {yaw, t_rudder},
-                                    {roll, t_rudder}})
+  for (const auto& place : {std::pair{pitch, t_zero},
+                            {pitch, t_alpha},
+                            {roll, t_beta},
+                            {yaw, t_beta},
+                            {pitch, t_elevator},
+                            {yaw, t_rudder},
+                            {roll, t_rudder}}) {
+    const Force force = place.first;
+    const Term term = place.second;
     CHECK_MESSAGE(
         std::abs(back.c[force][term].x - right.c[force][term].x) < (term == t_alpha ? 5e-3 : 1.5e-3),
         force_symbol(force), " ", int(term), " ", back.c[force][term].x);
+  }
 }
 
 TEST_CASE("every file of the reference data is read, is told to be of no use, or is refused with a reason") {

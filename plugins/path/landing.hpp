@@ -282,11 +282,11 @@ struct Landing {
   /// From the flare on the nose is turned to the runway, as far as `decrab` goes; what is left of the error
   /// after a second is taken up once more, so the rudder need not be known well.
   void turn_nose(const VehicleState& s, const Params& p, double dt) {
-    constexpr double within_s = 1, blown_m = 2, steer_m = 25, steer_rad = 0.15, gain = 1.5;
+    constexpr double within_s = 1, blown_m = 2, steer_m = 15, steer_rad = 0.2, gain = 4, most_rad = 0.35;
     const bool low = progress_.stage == LandingStage::flare || progress_.stage == LandingStage::roll_out;
     const Airframe& a = *p.airframe;
     const bool steered = a.rudder.limit_rad > 0 && a.aero.yaw.rudder_ratio != 0;
-    if (!low || !steered || !s.attitude_valid) {
+    if (!low || !steered || p.decrab <= 0 || !s.attitude_valid) {
       slip_rad_ = 0;
       return;
     }
@@ -294,7 +294,7 @@ struct Landing {
     if (progress_.stage ==
         LandingStage::roll_out) {  // back to the centre line, by what is left of the rudder
       const double towards = std::clamp(progress_.cross_m / steer_m, -steer_rad, steer_rad);
-      slip_rad_ = std::clamp(gain * (off + towards), -p.decrab.value, p.decrab.value);
+      slip_rad_ = std::clamp(gain * (off + towards), -most_rad, most_rad);
       return;
     }
     // The bank may not suffice for slip and gust: whoever is blown off the line flies less of the slip.

@@ -90,6 +90,14 @@ void check_contacts(Findings& f) {
   f.figure("standing_height_m", at.height_m, "stands",
            fixed(at.height_m, 3) + " m high, pitch " + degrees(pitch, 1));
   f.figure("standing_pitch_rad", pitch, "", "");
+  double on_skids = 0;
+  for (const GearContact& c : a.gear.contacts)
+    if (c.kind == ContactKind::skid) on_skids += std::max(c.carries_ratio, 0.0);
+  if (on_skids > 0.99)
+    f.figure(
+        "on_skids_ratio", on_skids, "take-off",
+        "it has no wheels: by hand or off a catapult, `launch` of the simulator and `launch_acceleration` of "
+        "the outer law");
   if (std::abs(roll) > 0.02)
     f.warn("gear.contacts", roll,
            "it stands on one side, banked by " + degrees(roll, 1) + ": has a contact the wrong sign of y?");

@@ -142,6 +142,23 @@ TEST_CASE("the short turn is taken as long as it leaves room, the other one when
   CHECK(way_back(lane, flying(0, -120, 0), home, 20).side == 1);
 }
 
+TEST_CASE("a place that is named twice is refused, one that lies a metre off is another") {
+  Places places;
+  const auto refused = [&](double north, double east) {
+    places.places.clear();
+    places.places.push_back({9, 0}), places.places.push_back({0, 0}), places.places.push_back({north, east});
+    try {
+      return std::to_string(places_of(places, {}).size());
+    } catch (const std::runtime_error& e) {
+      return std::string(e.what());
+    }
+  };
+  CHECK(refused(9.5, 0.5) == "places.places[2]: is the same place as places.places[0]");
+  CHECK(refused(9, 1.1) == "3");
+  CHECK(refused(9, -1.1) == "3");
+  CHECK(refused(0, 0) == "places.places[2]: is the same place as places.places[1]");
+}
+
 TEST_CASE("height: what the reaction and the pull-out take") {
   CHECK(room_of_height(100, 0, 20, 150, 2, 1) == doctest::Approx(50));
   CHECK(room_of_height(100, 4, 20, 150, 2, 1) == doctest::Approx(50 - 4 - 4));

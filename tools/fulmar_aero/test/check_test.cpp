@@ -189,6 +189,7 @@ TEST_CASE(
   CHECK_MESSAGE(shipped.code == 1, shipped.out);
   REQUIRE_MESSAGE(result["faults"].size() == 1, shipped.out);
   CHECK(result["figures"]["static_margin_ratio"].get<double>() == Approx(0.2524 / 4.0203282));
+  CHECK(result["figures"]["on_skids_ratio"].get<double>() == Approx(1));  // it does not roll for a take-off
   const auto says = [](const json& from, const char* list, const char* key, const char* what) {
     const json found = finding(from, list, key);
     REQUIRE_MESSAGE(!found.is_null(), key, " is not found: ", from.dump());

@@ -153,7 +153,8 @@ struct OuterLoop {
     }
     tell(out.attitude, out.internals);
     const bool flying = action == OuterAction::hold || action == OuterAction::level;
-    return flying && !(sense && enough_known(state)) ? Status::degraded : Status::ok;
+    if (flying && !sense) return Status::degraded;
+    return flying && !enough_known(state) ? Status::degraded : Status::ok;
   }
 
  private:

@@ -34,9 +34,9 @@ struct Autotune {
     Param wanted_delay_margin{0.08, "s", 0, 1, "that gains are chosen for"};
     Param least_gain_margin{6, "dB", 1, 20, "measured in the second excitation: less goes back"};
     Param least_phase_margin{0.785, "rad", 0.1, 1.5, "measured in the second excitation: less goes back"};
-    Param roll_size{0.12, "rad", 0.005, 0.35, "peak of the excitation of the aileron"};
-    Param pitch_size{0.18, "rad", 0.005, 0.35, "peak of the excitation of the elevator"};
-    Param yaw_size{0.2, "rad", 0.005, 0.35, "peak of the excitation of the rudder"};
+    Param roll_size{0.1, "rad", 0.005, 0.35, "peak of the excitation of the aileron"};
+    Param pitch_size{0.15, "rad", 0.005, 0.35, "peak of the excitation of the elevator"};
+    Param yaw_size{0.15, "rad", 0.005, 0.35, "peak of the excitation of the rudder"};
     Param noise_limit{0.15, "ratio", 0.02, 1, "largest standard error of 1 + L, relative, that is believed"};
     Param roll_bound{0.785, "rad", 0.05, 1.5, "beyond this roll, either way, it ends"};
     Param pitch_bound{0.44, "rad", 0.05, 1.5, "beyond this pitch, either way, it ends"};
@@ -82,7 +82,7 @@ struct Autotune {
       if (!why.empty())
         end(why);
       else
-        go_on(p, dt);
+        go_on(p);
     }
     if (!running() && law_.quieten.value != p.law.quieten.value) {
       law_.quieten.value = p.law.quieten.value;
@@ -207,13 +207,10 @@ struct Autotune {
     return "";
   }
 
-  void go_on(const Params& p, double dt) {
+  void go_on(const Params& p) {
     if (stage_ == Stage::searching) {
       for (int i = 0; i < 4; ++i)
         if (search_.step()) return found(p);
-    } else if (!fitting_ && stage_s_ >= excite_s - 0.5 * dt) {
-      fit_.begin(lines_.record(), used_[axis_], axis_ == roll && law_.roll_from_sideslip != 0);
-      fitting_ = true;
     } else if (fitting_ && fit_.step()) {
       judge(fit_.record(), p);
     }
@@ -285,13 +282,19 @@ struct Autotune {
     const double asked =
         feedback + sign * std::min(size * larger_, 0.5 * s.limit_rad) * strength_ * lines_.at(phase_s_);
     deflection = std::clamp(asked, -s.limit_rad, s.limit_rad);
-    if (!wanted || stage_s_ < settle_s + fade_s - 0.5 * dt) return;
+    const double recorded_s = stage_s_ - settle_s - fade_s;
+    if (!wanted || recorded_s < -0.5 * dt) return;
     const VehicleState& x = *in.law.state;
-    const bool limited = asked != deflection || std::abs(feedback) >= s.limit_rad;
-    const double angle = axis_ == roll ? x.roll_rad : axis_ == pitch ? x.pitch_rad : x.yaw_rad;
+    const double angle = axis_ == roll ? x.roll_rad : axis_ == pitch ? x.pitch_rad : 0;
     const double rate = axis_ == roll ? x.rate_radps.x : axis_ == pitch ? x.rate_radps.y : x.rate_radps.z;
-    lines_.add(sign * feedback, sign * deflection, axis_ == yaw ? 0 : angle, rate,
-               out.surface_scale_ratio.value, limited, dt);
+    if (recorded_s < Lines::record_s - 0.5 * dt) {
+      const bool limited = asked != deflection || std::abs(feedback) >= s.limit_rad;
+      return lines_.add(sign * feedback, sign * deflection, angle, rate, out.surface_scale_ratio.value,
+                        limited, dt);
+    }
+    lines_.close(sign * feedback, sign * deflection, angle, rate);
+    fit_.begin(lines_.record(), used_[axis_], axis_ == roll && law_.roll_from_sideslip != 0);
+    fitting_ = true;
   }
 
   void tell(const Tick& tick, Outputs& out) {

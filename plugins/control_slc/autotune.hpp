@@ -183,6 +183,19 @@ struct Autotune {
     say(Severity::warning, "%s: old gains: %.*s", names[axis_], static_cast<int>(why.size()), why.data());
   }
 
+  /// As they stand in a file.
+  void tell_gains(const AxisGains& g, const Margins& m) {
+    constexpr double degree = std::numbers::pi / 180;
+    const double phase_deg = std::min(m.phase_rad / degree, 180.0);
+    const char* const name = names[axis_];
+    if (g.damper())
+      say(Severity::info, "%s_kd: %.3g  # kept: %.1f dB, %.0f deg measured", name, g.kd, m.least_gain_db(),
+          phase_deg);
+    else
+      say(Severity::info, "%s_kp: %.3g, %s_ki: %.3g, %s_kd: %.3g  # kept: %.1f dB, %.0f deg measured", name,
+          g.kp, name, g.ki, name, g.kd, m.least_gain_db(), phase_deg);
+  }
+
   template <class... Values>
   void say(Severity severity, const char* format, Values... values) {
     if (said_ >= notices_.size()) return;
@@ -236,12 +249,13 @@ struct Autotune {
     if (!answers(r)) return done_with("the surface does not act as it should", p);
     (first_ ? before_ : after_)[axis_] = m;
     first_ = false;
-    if (verifying && MarginsWanted{p.least_gain_margin, p.least_phase_margin}.kept(m)) {
+    // A standard error more than is asked for: of 1 + L, which is near 1 where margins are read.
+    const MarginsWanted least{p.least_gain_margin + 20 * std::log10(1 + noise_[axis_]),
+                              p.least_phase_margin + noise_[axis_]};
+    if (verifying && least.kept(m)) {
       kept_[axis_] = used_[axis_];
       verdict_[axis_] = Verdict::kept;
-      const AxisGains& g = kept_[axis_];
-      say(Severity::info, "%s: kp %.3g ki %.3g kd %.3g kept: %.1f dB, %.0f deg measured", names[axis_], g.kp,
-          g.ki, g.kd, m.least_gain_db(), std::min(m.phase_rad, std::numbers::pi) * 180 / std::numbers::pi);
+      tell_gains(kept_[axis_], m);
       return next_axis(p);
     }
     if (verifying && !time_for(excite_s + search_s, p)) return done_with("the margins do not hold", p);

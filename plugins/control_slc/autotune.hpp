@@ -281,17 +281,17 @@ struct Autotune {
   void excite(const Inputs& in, const Params& p, double dt, Inner::Outputs& out) {
     const bool wanted =
         (stage_ == Stage::exciting || stage_ == Stage::verifying) && stage_s_ >= settle_s && !fitting_;
-    if (wanted && strength_ == 0) phase_s_ = 0;
+    if (strength_ == 0) excited_ = axis_, phase_s_ = 0;  // what is left of one stays on its surface
     strength_ = std::clamp(strength_ + (wanted ? dt / fade_s : -5 * dt), 0.0, 1.0);
     if (strength_ == 0) return;
     phase_s_ += dt;
-    const double size = axis_ == roll ? p.roll_size : axis_ == pitch ? p.pitch_size : p.yaw_size;
-    const Surface& s = surface(axis_);
+    const double size = excited_ == roll ? p.roll_size : excited_ == pitch ? p.pitch_size : p.yaw_size;
+    const Surface& s = surface(excited_);
     // Positive in the record turns to the right or up.
-    const double sign = axis_ == roll ? 1 : -1;
-    double& deflection = axis_ == roll    ? out.actuators.aileron_rad
-                         : axis_ == pitch ? out.actuators.elevator_rad
-                                          : out.actuators.rudder_rad;
+    const double sign = excited_ == roll ? 1 : -1;
+    double& deflection = excited_ == roll    ? out.actuators.aileron_rad
+                         : excited_ == pitch ? out.actuators.elevator_rad
+                                             : out.actuators.rudder_rad;
     const double feedback = deflection;
     const double asked =
         feedback + sign * std::min(size * larger_, 0.5 * s.limit_rad) * strength_ * lines_.at(phase_s_);
@@ -299,8 +299,10 @@ struct Autotune {
     const double recorded_s = stage_s_ - settle_s - fade_s;
     if (!wanted || recorded_s < -0.5 * dt) return;
     const VehicleState& x = *in.law.state;
-    const double angle = axis_ == roll ? x.roll_rad : axis_ == pitch ? x.pitch_rad : 0;
-    const double rate = axis_ == roll ? x.rate_radps.x : axis_ == pitch ? x.rate_radps.y : x.rate_radps.z;
+    const double angle = excited_ == roll ? x.roll_rad : excited_ == pitch ? x.pitch_rad : 0;
+    const double rate = excited_ == roll    ? x.rate_radps.x
+                        : excited_ == pitch ? x.rate_radps.y
+                                            : x.rate_radps.z;
     if (recorded_s < Lines::record_s - 0.5 * dt) {
       const bool limited = asked != deflection || std::abs(feedback) >= s.limit_rad;
       return lines_.add(sign * feedback, sign * deflection, angle, rate, out.surface_scale_ratio.value,
@@ -324,7 +326,7 @@ struct Autotune {
       tell_margins(before_[i], r.before_gain_margin_ratio[i], r.before_phase_margin_rad[i]);
       tell_margins(after_[i], r.gain_margin_ratio[i], r.phase_margin_rad[i]);
       r.crossover_radps[i] = after_[i] ? after_[i]->crossover_radps : 0;
-      r.noise_ratio[i] = std::min(noise_[i], 1e9);
+      r.noise_ratio[i] = std::isfinite(noise_[i]) ? std::min(noise_[i], 1e9) : 1e9;
     }
     for (std::size_t i = 0; i < said_; ++i) out.findings.push(notices_[i], tick.now_ns);
     said_ = 0;
@@ -343,7 +345,7 @@ struct Autotune {
   bool fitting_ = false;  ///< a record is complete, and not yet judged
   GainSearch search_;
   Stage stage_ = Stage::idle;
-  std::size_t axis_ = roll;
+  std::size_t axis_ = roll, excited_ = roll;
   std::array<Verdict, axes> verdict_{};
   std::array<std::optional<Margins>, axes> before_{}, after_{};
   std::array<double, axes> noise_{};

@@ -35,7 +35,7 @@ struct Flight {
   VehicleStatus status;
   std::function<void(VehicleState&)> seen = [](VehicleState&) {};  ///< what the estimator makes of it
   double aileron_power = 1;
-  double t = 0;
+  double t = 0, dt = 0.01;
   std::vector<std::string> told;
 
   explicit Flight(double factor = 1, Turbulence turbulence = Turbulence::none, std::uint64_t seed = 1)
@@ -54,19 +54,19 @@ struct Flight {
     seen(state);
     outer.set(outer.in.state, model.state());
     outer.set(outer.in.command, command);
-    outer.step(0.01);
+    outer.step(dt);
     tuner.set(tuner.in.law.state, state);
     tuner.set(tuner.in.law.attitude, outer.out.attitude);
     tuner.set(tuner.in.status, status);
     Status ended = Status::failed;
-    const bool clean = allocations([&] { ended = tuner.step(0.01); }) == 0;
+    const bool clean = allocations([&] { ended = tuner.step(dt); }) == 0;
     if (!clean || ended == Status::failed) FAIL("a step failed or allocated");
     for (std::uint32_t i = 0; i < tuner.out.findings.count; ++i)
       told.emplace_back(tuner.out.findings.items[i].text.bytes.data());
     Actuators u = tuner.out.law.actuators;
     u.aileron_rad *= aileron_power;
-    for (int i = 0; i < 4; ++i) model.step(u, 0.0025);
-    t += 0.01;
+    for (int i = 0; i < std::lround(dt / 0.0025); ++i) model.step(u, 0.0025);
+    t += dt;
   }
   void fly(double seconds) {
     for (const double end = t + seconds - 1e-9; t < end;) step();
@@ -307,6 +307,49 @@ TEST_CASE("a surface that answers the wrong way is not tuned") {
   CHECK(f.report().roll == Verdict::reverted);
   CAPTURE(f.told[0]);
   CHECK(f.heard("does not act as it should"));
+}
+
+TEST_CASE("a gyro that is stuck is no answer") {
+  Flight f;
+  f.fly(3);
+  f.tune();
+  f.seen = [](VehicleState& s) { s.rate_radps.x = 0; };
+  REQUIRE(f.fly_until([&] { return f.report().roll != Verdict::open; }));
+  CHECK(f.report().roll == Verdict::reverted);
+  CHECK(f.heard("does not act as it should"));
+  CHECK(f.tuner.fault().empty());
+}
+
+TEST_CASE("no surface steps: when gains change, an axis ends, or all of it ends, at 100 and at 400 Hz") {
+  for (const double dt : {0.01, 0.0025}) {
+    CAPTURE(dt);
+    Flight f;
+    f.dt = dt;
+    f.fly(3);
+    f.tune();
+    Actuators before = f.tuner.out.law.actuators;
+    double most = 0;
+    bool ended = false;
+    f.fly_until(
+        [&] {
+          const Actuators& now = f.tuner.out.law.actuators;
+          most = std::max({most, std::abs(now.aileron_rad - before.aileron_rad),
+                           std::abs(now.elevator_rad - before.elevator_rad),
+                           std::abs(now.rudder_rad - before.rudder_rad)});
+          before = now;
+          if (f.report().stage == Stage::exciting && f.report().axis == AutotuneAxis::yaw && !ended) {
+            f.fly(5);
+            before = f.tuner.out.law.actuators;
+            f.status.in_control = false;
+            ended = true;
+          }
+          return f.done() && f.t > 70;
+        },
+        80);
+    CHECK(ended);
+    CHECK(most > 0.005);
+    CHECK(most < 0.06 * std::sqrt(dt / 0.01));
+  }
 }
 
 TEST_CASE("in turbulence it keeps what it has measured or goes back" * doctest::test_suite("amounts")) {

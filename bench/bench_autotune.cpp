@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Autotune in flight, from gains that are wrong by a factor, on three aircraft: what was kept, the margins
 // measured in flight and those of the linear model. Prints docs/autotune.md and exits 1 when a flight neither
-// measured the margins nor went back to its old gains, took longer than 90 s, or was not flown.
+// measured the margins nor went back to its old gains, kept gains whose true margins are below 6 dB and 40
+// deg, took longer than 90 s, or was not flown.
 // bench_autotune [--json] [--seeds N] [--turbulence none|light|moderate] [AIRCRAFT]
 #include <unistd.h>
 
@@ -31,7 +32,7 @@ ki and kd of roll and pitch, and the yaw damper's. [plugins/control_slc](../plug
 - `noise`: relative standard error of 1 + L that the autotune claims, the most of those kept.
 - `time`, `roll`, `pitch`, `height`: of the whole tuning, the most of all flights.
 
-The exit code is 1 when a flight kept gains without having measured the margins, changed gains without keeping them, took longer than 90 s or was not flown.
+The exit code is 1 when a flight kept gains without having measured the margins, or with true ones below 6 dB and 40 deg, changed gains without keeping them, took longer than 90 s or was not flown.
 
 | aircraft | factor | axis | kept | back | out | kp | ki | kd | measured, dB | deg | true, dB | deg | noise | time, s | roll, deg | pitch, deg | height, m |
 |---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|
@@ -120,6 +121,9 @@ Row fly_row(Case c, unsigned seeds, const fs::path& folder) {
     if (f.report.time_s > 90) miss("longer than 90 s");
     for (std::size_t i = 0; i < axes.size(); ++i) {
       if (!promised(f.report, i)) miss(axes[i]);
+      const bool kept = verdict(f.report, i) == AutotuneVerdict::kept;
+      if (kept && (f.unstable > 0 || f.truth[i].least_gain_db() < 6 || f.truth[i].phase_rad < 40 * degree))
+        miss("kept gains whose margins are not true");
       row.axis[i].add(f, i);
     }
     row.time_s = std::max(row.time_s, f.report.time_s);

@@ -11,7 +11,7 @@ fulmar=build/bin/fulmar
 value() { sed -n "s/^  \"$2\": \"\{0,1\}\([^\",]*\)\"\{0,1\},\{0,1\}\$/\1/p" "$1"; }
 expect() { [ "$2" = "$3" ] || { echo "$1: expected $3, got $2"; exit 1; }; }
 
-for mission in hourglass runway_to_runway hand_launch return_home two_schemes orbit lla calm reference_gnss slow_planner two_filters excitation; do
+for mission in hourglass runway_to_runway hand_launch return_home two_schemes orbit lla calm reference_gnss slow_planner two_filters excitation autotune; do
   file=configs/missions/$mission.yaml
   $fulmar check "$file"
   $fulmar graph "$file" >"$scratch/$mission.txt"

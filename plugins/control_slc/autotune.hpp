@@ -34,9 +34,9 @@ struct Autotune {
     Param wanted_delay_margin{0.08, "s", 0, 1, "that gains are chosen for"};
     Param least_gain_margin{6, "dB", 1, 20, "measured in the second excitation: less goes back"};
     Param least_phase_margin{0.785, "rad", 0.1, 1.5, "measured in the second excitation: less goes back"};
-    Param roll_size{0.12, "rad", 0.005, 0.35, "peak of the excitation of the aileron"};
-    Param pitch_size{0.18, "rad", 0.005, 0.35, "peak of the excitation of the elevator"};
-    Param yaw_size{0.2, "rad", 0.005, 0.35, "peak of the excitation of the rudder"};
+    Param roll_size{0.1, "rad", 0.005, 0.35, "peak of the excitation of the aileron"};
+    Param pitch_size{0.15, "rad", 0.005, 0.35, "peak of the excitation of the elevator"};
+    Param yaw_size{0.15, "rad", 0.005, 0.35, "peak of the excitation of the rudder"};
     Param noise_limit{0.15, "ratio", 0.02, 1, "largest standard error of 1 + L, relative, that is believed"};
     Param roll_bound{0.785, "rad", 0.05, 1.5, "beyond this roll, either way, it ends"};
     Param pitch_bound{0.44, "rad", 0.05, 1.5, "beyond this pitch, either way, it ends"};
@@ -82,7 +82,7 @@ struct Autotune {
       if (!why.empty())
         end(why);
       else
-        go_on(p, dt);
+        go_on(p);
     }
     if (!running() && law_.quieten.value != p.law.quieten.value) {
       law_.quieten.value = p.law.quieten.value;
@@ -183,6 +183,19 @@ struct Autotune {
     say(Severity::warning, "%s: old gains: %.*s", names[axis_], static_cast<int>(why.size()), why.data());
   }
 
+  /// As they stand in a file.
+  void tell_gains(const AxisGains& g, const Margins& m) {
+    constexpr double degree = std::numbers::pi / 180;
+    const double phase_deg = std::min(m.phase_rad / degree, 180.0);
+    const char* const name = names[axis_];
+    if (g.damper())
+      say(Severity::info, "%s_kd: %.3g  # kept: %.1f dB, %.0f deg measured", name, g.kd, m.least_gain_db(),
+          phase_deg);
+    else
+      say(Severity::info, "%s_kp: %.3g, %s_ki: %.3g, %s_kd: %.3g  # kept: %.1f dB, %.0f deg measured", name,
+          g.kp, name, g.ki, name, g.kd, m.least_gain_db(), phase_deg);
+  }
+
   template <class... Values>
   void say(Severity severity, const char* format, Values... values) {
     if (said_ >= notices_.size()) return;
@@ -207,13 +220,10 @@ struct Autotune {
     return "";
   }
 
-  void go_on(const Params& p, double dt) {
+  void go_on(const Params& p) {
     if (stage_ == Stage::searching) {
       for (int i = 0; i < 4; ++i)
         if (search_.step()) return found(p);
-    } else if (!fitting_ && stage_s_ >= excite_s - 0.5 * dt) {
-      fit_.begin(lines_.record(), used_[axis_], axis_ == roll && law_.roll_from_sideslip != 0);
-      fitting_ = true;
     } else if (fitting_ && fit_.step()) {
       judge(fit_.record(), p);
     }
@@ -239,12 +249,13 @@ struct Autotune {
     if (!answers(r)) return done_with("the surface does not act as it should", p);
     (first_ ? before_ : after_)[axis_] = m;
     first_ = false;
-    if (verifying && MarginsWanted{p.least_gain_margin, p.least_phase_margin}.kept(m)) {
+    // A standard error more than is asked for: of 1 + L, which is near 1 where margins are read.
+    const MarginsWanted least{p.least_gain_margin + 20 * std::log10(1 + noise_[axis_]),
+                              p.least_phase_margin + noise_[axis_]};
+    if (verifying && least.kept(m)) {
       kept_[axis_] = used_[axis_];
       verdict_[axis_] = Verdict::kept;
-      const AxisGains& g = kept_[axis_];
-      say(Severity::info, "%s: kp %.3g ki %.3g kd %.3g kept: %.1f dB, %.0f deg measured", names[axis_], g.kp,
-          g.ki, g.kd, m.least_gain_db(), std::min(m.phase_rad, std::numbers::pi) * 180 / std::numbers::pi);
+      tell_gains(kept_[axis_], m);
       return next_axis(p);
     }
     if (verifying && !time_for(excite_s + search_s, p)) return done_with("the margins do not hold", p);
@@ -270,28 +281,36 @@ struct Autotune {
   void excite(const Inputs& in, const Params& p, double dt, Inner::Outputs& out) {
     const bool wanted =
         (stage_ == Stage::exciting || stage_ == Stage::verifying) && stage_s_ >= settle_s && !fitting_;
-    if (wanted && strength_ == 0) phase_s_ = 0;
+    if (strength_ == 0) excited_ = axis_, phase_s_ = 0;  // what is left of one stays on its surface
     strength_ = std::clamp(strength_ + (wanted ? dt / fade_s : -5 * dt), 0.0, 1.0);
     if (strength_ == 0) return;
     phase_s_ += dt;
-    const double size = axis_ == roll ? p.roll_size : axis_ == pitch ? p.pitch_size : p.yaw_size;
-    const Surface& s = surface(axis_);
+    const double size = excited_ == roll ? p.roll_size : excited_ == pitch ? p.pitch_size : p.yaw_size;
+    const Surface& s = surface(excited_);
     // Positive in the record turns to the right or up.
-    const double sign = axis_ == roll ? 1 : -1;
-    double& deflection = axis_ == roll    ? out.actuators.aileron_rad
-                         : axis_ == pitch ? out.actuators.elevator_rad
-                                          : out.actuators.rudder_rad;
+    const double sign = excited_ == roll ? 1 : -1;
+    double& deflection = excited_ == roll    ? out.actuators.aileron_rad
+                         : excited_ == pitch ? out.actuators.elevator_rad
+                                             : out.actuators.rudder_rad;
     const double feedback = deflection;
     const double asked =
         feedback + sign * std::min(size * larger_, 0.5 * s.limit_rad) * strength_ * lines_.at(phase_s_);
     deflection = std::clamp(asked, -s.limit_rad, s.limit_rad);
-    if (!wanted || stage_s_ < settle_s + fade_s - 0.5 * dt) return;
+    const double recorded_s = stage_s_ - settle_s - fade_s;
+    if (!wanted || recorded_s < -0.5 * dt) return;
     const VehicleState& x = *in.law.state;
-    const bool limited = asked != deflection || std::abs(feedback) >= s.limit_rad;
-    const double angle = axis_ == roll ? x.roll_rad : axis_ == pitch ? x.pitch_rad : x.yaw_rad;
-    const double rate = axis_ == roll ? x.rate_radps.x : axis_ == pitch ? x.rate_radps.y : x.rate_radps.z;
-    lines_.add(sign * feedback, sign * deflection, axis_ == yaw ? 0 : angle, rate,
-               out.surface_scale_ratio.value, limited, dt);
+    const double angle = excited_ == roll ? x.roll_rad : excited_ == pitch ? x.pitch_rad : 0;
+    const double rate = excited_ == roll    ? x.rate_radps.x
+                        : excited_ == pitch ? x.rate_radps.y
+                                            : x.rate_radps.z;
+    if (recorded_s < Lines::record_s - 0.5 * dt) {
+      const bool limited = asked != deflection || std::abs(feedback) >= s.limit_rad;
+      return lines_.add(sign * feedback, sign * deflection, angle, rate, out.surface_scale_ratio.value,
+                        limited, dt);
+    }
+    lines_.close(sign * feedback, sign * deflection, angle, rate);
+    fit_.begin(lines_.record(), used_[axis_], axis_ == roll && law_.roll_from_sideslip != 0);
+    fitting_ = true;
   }
 
   void tell(const Tick& tick, Outputs& out) {
@@ -307,7 +326,7 @@ struct Autotune {
       tell_margins(before_[i], r.before_gain_margin_ratio[i], r.before_phase_margin_rad[i]);
       tell_margins(after_[i], r.gain_margin_ratio[i], r.phase_margin_rad[i]);
       r.crossover_radps[i] = after_[i] ? after_[i]->crossover_radps : 0;
-      r.noise_ratio[i] = std::min(noise_[i], 1e9);
+      r.noise_ratio[i] = std::isfinite(noise_[i]) ? std::min(noise_[i], 1e9) : 1e9;
     }
     for (std::size_t i = 0; i < said_; ++i) out.findings.push(notices_[i], tick.now_ns);
     said_ = 0;
@@ -326,7 +345,7 @@ struct Autotune {
   bool fitting_ = false;  ///< a record is complete, and not yet judged
   GainSearch search_;
   Stage stage_ = Stage::idle;
-  std::size_t axis_ = roll;
+  std::size_t axis_ = roll, excited_ = roll;
   std::array<Verdict, axes> verdict_{};
   std::array<std::optional<Margins>, axes> before_{}, after_{};
   std::array<double, axes> noise_{};

@@ -9,8 +9,9 @@ namespace fulmar::slc {
 
 class RateFit {
  public:
-  static constexpr int unknown = 5;           ///< tau with them
-  static constexpr double most_misfit = 2.5;  ///< beyond: the aircraft is none of these
+  static constexpr int unknown = 5;             ///< tau with them
+  static constexpr double model_error = 0.015;  ///< of 1 + L, which any low order leaves
+  static constexpr double most_misfit = 2.5;    ///< beyond: the aircraft is none of these
 
   /// `gains`: with which the record was taken. `more`: the law feeds back more than attitude and rate.
   void begin(const LoopRecord& record, const AxisGains& gains, bool more) {
@@ -21,7 +22,7 @@ class RateFit {
       const std::size_t first = i < 2 ? 0 : i - 2, last = std::min(i + 2, Lines::count - 1);
       double sum = 0;
       for (std::size_t k = first; k <= last; ++k) sum += std::log(record.noise[k]);
-      const double noise = 1.3 * std::exp(sum / static_cast<double>(last - first + 1)) + 0.003;
+      const double noise = 1.3 * std::exp(sum / static_cast<double>(last - first + 1)) + model_error;
       const Complex L = record.loop[i];
       weight_[i] = std::abs(L) / (noise * std::abs(1.0 + L) * std::abs(record.rate[i]));
     }

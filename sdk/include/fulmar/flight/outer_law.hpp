@@ -102,6 +102,10 @@ inline LevelTurn level_turn(double roll_rad, double Va, double rho, const OuterP
           p.turn_kff * (turn.drag_newton - level.drag_newton)};
 }
 
+inline LevelTurn level_turn(double roll_rad, double Va, const VehicleState& state, const OuterParams& p) {
+  return level_turn(roll_rad, Va, air_density(state), p);
+}
+
 /// An outer law but for height and speed. Its component publishes `attitude` and `internals`.
 struct OuterLoop {
   OuterCommands commands;

@@ -60,14 +60,14 @@ TEST_CASE("on a line its course is commanded, far to the side the approach angle
   CHECK(command(bench, at(100, 1e6, 0), line(0)).course_rad == doctest::Approx(-1.05).epsilon(1e-3));
   CHECK(command(bench, at(100, -1e6, 0), line(0)).course_rad == doctest::Approx(1.05).epsilon(1e-3));
   // where k e = 1 the arctangent is pi/4: half the approach angle
-  CHECK(command(bench, at(100, 1 / 0.04, 0), line(0)).course_rad == doctest::Approx(-1.05 / 2));
-  CHECK(bench.out.cross_track_m.value == doctest::Approx(1 / 0.04));
+  CHECK(command(bench, at(100, 1 / 0.05, 0), line(0)).course_rad == doctest::Approx(-1.05 / 2));
+  CHECK(bench.out.cross_track_m.value == doctest::Approx(1 / 0.05));
 }
 
 TEST_CASE(
     "it turns onto a line more gently the faster it is, and no more sharply below three tenths of the "
     "reference") {
-  for (const auto& [speed, off] : {std::pair{34.0, 50.0}, {8.5, 12.5}, {1.0, 7.5}}) {
+  for (const auto& [speed, off] : {std::pair{34.0, 40.0}, {8.5, 10.0}, {1.0, 6.0}}) {
     Bench<VectorField> bench;
     CHECK(command(bench, at(100, off, 0, speed), line(0)).course_rad == doctest::Approx(-1.05 / 2));
   }
@@ -310,7 +310,7 @@ TEST_CASE("on a curve its own course, height, climb and bank are commanded, besi
     const GuidanceCommand right =
         command(bench, at(here.north + 3 * north, here.east + 3 * east, course, Vg), path);
     CHECK(bench.out.cross_track_m.value == doctest::Approx(3).epsilon(1e-4));
-    CHECK(angle_difference(right.course_rad, course) / (-1.05 * (2 / pi) * std::atan(0.04 * 17 / Vg * 3)) ==
+    CHECK(angle_difference(right.course_rad, course) / (-1.05 * (2 / pi) * std::atan(0.05 * 17 / Vg * 3)) ==
           doctest::Approx(1).epsilon(1e-3));
     CHECK(command(bench, at(here.north - 3 * north, here.east - 3 * east, course, Vg), path).course_rad >
           course);

@@ -290,7 +290,7 @@ TEST_CASE("what cannot be written is refused with a sentence, and nothing is ove
         "the mission hourglass has a component called 'ekf' already. Choose another name, as in my_ekf\n");
   CHECK(holds(call("new a_law --role outer --mission hourglas").words,
               "--mission hourglas: there is no such file, and no shipped mission of that name. Did you mean "
-              "'hourglass'? Valid: by_hand, calm, "));
+              "'hourglass'? Valid: autotune, by_hand, calm, "));
   file_with("taken", "mine");
   CHECK(call("new a_law --role outer --dir taken").words == "taken is a file, not a folder\n");
   fs::create_directories(folder() / "full");

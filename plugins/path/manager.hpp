@@ -368,7 +368,9 @@ inline void Manager::widen(const Route& route, const VehicleState& state, double
   wide_ = {wide_[1], {id, radius_m}};
   leg_ = route.leg(item_);
   next_leg_ = route.leg(route.after(item_));
-  begin_piece(route, leg_.count - 2);
+  std::size_t straight = leg_.count;  // its last: what leads there may be another number of pieces now
+  while (straight > 1 && leg_[straight - 1].kind != PathKind::line) --straight;
+  begin_piece(route, straight - 1);
 }
 
 inline void Manager::fly(const Route& route, const VehicleState& state, const Params& p) {

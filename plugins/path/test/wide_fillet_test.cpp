@@ -179,6 +179,30 @@ TEST_CASE(
   }
 }
 
+TEST_CASE(
+    "a corner behind a waypoint with a course, and the first one of an open plan, become wider as well") {
+  for (const bool open : {true, false}) {
+    Plan plan = square();
+    if (open)
+      plan.end = PlanEnd::orbit;
+    else
+      plan.waypoints[0].has_course = true, plan.waypoints[0].course_rad = pi / 2;
+    Flight flight(plan);
+    flight.aircraft.wind_east = 10;  // along the leg to waypoint 1
+    double widest = 0;
+    CAPTURE(open);
+    CHECK(flight.fly(400, [&] {
+      const bool leads_there = flight.progress().item == 1 && !flight.progress().joining;
+      if (leads_there && flight.path().kind == PathKind::orbit)
+        widest = std::max(widest, flight.path().radius_m);
+      return flight.progress().item == 2;
+    }));
+    CHECK(widest > 55);
+    CHECK(flight.finite);
+    CHECK(flight.passed == std::vector<std::uint32_t>{0, 1});
+  }
+}
+
 TEST_CASE("in strong wind the route is left by half, and the course follows") {
   double worst[2], rms[2];
   for (const int wide : {0, 1}) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a step costs: each shipped component and the whole tick in the hourglass missions, the simulator's
-// forces alone, and a 200-byte port hop, bare, guarded and timed. bench_steps [--json] [MISSION...]
+// forces and each control law alone, and a 200-byte port hop, bare, guarded and timed.
+// bench_steps [--json] [MISSION...]
 #include <time.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "bench/control_steps.hpp"
 #include "core/run/flight.hpp"
 #include "core/run/unit.hpp"
 #include "fulmar/sim/plant.hpp"
@@ -117,6 +119,18 @@ void add_forces(std::vector<Row>& rows) {
   }));
 }
 
+void add_laws(std::vector<Row>& rows) {
+  for (const LawStep& law : law_steps()) {
+    std::vector<double> each;
+    for (int i = 0; i < 400; ++i) {
+      const std::int64_t begin = now_ns();
+      law.thousand();
+      each.push_back(static_cast<double>(now_ns() - begin) / 1000);
+    }
+    rows.push_back({law.name, quantile(each, 0.5), quantile(each, 0.99)});
+  }
+}
+
 void add_mission(std::vector<Row>& rows, const std::string& file) {
   const Graph graph = load_mission(file);
   FlightOptions options;
@@ -157,6 +171,7 @@ int main(int argc, char** argv) {
     std::vector<Row> rows;
     add_hops(rows);
     add_forces(rows);
+    add_laws(rows);
     for (const std::string& mission : missions) add_mission(rows, mission);
     nlohmann::json all = nlohmann::json::object();
     for (const Row& r : rows) {

@@ -25,6 +25,17 @@ TEST_CASE("turn rates are those of a heading that turns at g tan(phi) / Va") {
   CHECK(load_factor(std::acos(0.5)) == doctest::Approx(2));
 }
 
+TEST_CASE("beyond 1.2 rad a turn is no tighter than there, either way, and nothing steps at the limit") {
+  for (const double side : {-1.0, 1.0}) {
+    const TurnRates at = turn_rates(1.2 * side, 0, 17), beyond = turn_rates(1.5 * side, 0, 17);
+    CHECK(std::hypot(beyond.q_radps, beyond.r_radps) == doctest::Approx(std::hypot(at.q_radps, at.r_radps)));
+    CHECK(std::abs(turn_rates(1.2000001 * side, 0, 17).r_radps - at.r_radps) < 1e-6);
+    CHECK(at.r_radps * side > 0.5);
+    CHECK(load_factor(1.5 * side) == doctest::Approx(1 / std::cos(1.2)));
+    CHECK(std::abs(load_factor(1.2000001 * side) - load_factor(1.2 * side)) < 1e-5);
+  }
+}
+
 TEST_CASE(
     "at the trim of a turn the nonlinear model has the lift, the drag and the balance of pitch that were "
     "meant") {

@@ -97,7 +97,8 @@ inline double air_density(const VehicleState& state) {
 }
 
 inline LevelTurn level_turn(double roll_rad, double Va, double rho, const OuterParams& p) {
-  const TurnTrim turn = turn_trim(*p.airframe, roll_rad, Va, rho), level = turn_trim(*p.airframe, 0, Va, rho);
+  const TurnTrims trims(*p.airframe, Va, rho);
+  const TurnTrim turn = trims.at(roll_rad), level = trims.at(0);
   return {Va, level.alpha_rad + p.turn_kff * (turn.alpha_rad * std::cos(roll_rad) - level.alpha_rad),
           p.turn_kff * (turn.drag_newton - level.drag_newton)};
 }

@@ -15,16 +15,24 @@ struct TurnRates {
   double p_radps = 0, q_radps = 0, r_radps = 0;
 };
 
+/// The steepest bank that is fed forward, rad: beyond it tan and 1 / cos are those of this one.
+inline constexpr double steepest_turn_rad = 1.2, steepest_turn_tan = 2.5721516221263188,
+                        steepest_turn_load = 2.759703601332406;
+
 inline TurnRates turn_rates(double roll_rad, double pitch_rad, double airspeed_mps,
                             double gravity_mps2 = 9.80665) {
-  const double psi_dot =
-      gravity_mps2 * std::tan(std::clamp(roll_rad, -1.2, 1.2)) / std::max(airspeed_mps, 1.0);
-  return {-psi_dot * std::sin(pitch_rad), psi_dot * std::sin(roll_rad) * std::cos(pitch_rad),
-          psi_dot * std::cos(roll_rad) * std::cos(pitch_rad)};
+  const double s = std::sin(roll_rad), c = std::cos(roll_rad);  // both at once, which a tangent is not
+  const double tan =
+      std::abs(roll_rad) <= steepest_turn_rad ? s / c : std::copysign(steepest_turn_tan, roll_rad);
+  const double psi_dot = gravity_mps2 * tan / std::max(airspeed_mps, 1.0);
+  return {-psi_dot * std::sin(pitch_rad), psi_dot * s * std::cos(pitch_rad),
+          psi_dot * c * std::cos(pitch_rad)};
 }
 
 /// Lift over weight of a level turn, bounded: at 1.2 rad it is 2.8.
-inline double load_factor(double roll_rad) { return 1 / std::cos(std::clamp(roll_rad, -1.2, 1.2)); }
+inline double load_factor(double roll_rad) {
+  return std::abs(roll_rad) <= steepest_turn_rad ? 1 / std::cos(roll_rad) : steepest_turn_load;
+}
 
 struct TurnTrim {
   double alpha_rad = 0;
@@ -32,28 +40,52 @@ struct TurnTrim {
   double drag_newton = 0;
 };
 
-/// Solves CL = n W / (q S), Cm = 0 with the pitch rate of the turn. All zeros for an airframe whose elevator
-/// moves nothing (none given).
+/// Trims of level turns of one airframe at one airspeed and density: solves CL = n W / (q S), Cm = 0 with the
+/// pitch rate of the turn. All zeros for an airframe whose elevator moves nothing (none given).
+class TurnTrims {
+ public:
+  TurnTrims(const Airframe& airframe, double airspeed_mps, double density_kgpm3,
+            double gravity_mps2 = 9.80665)
+      : a_(airframe), g_(gravity_mps2) {
+    const Derivatives &L = a_.aero.lift, &M = a_.aero.pitch;
+    Va_ = std::max(airspeed_mps, 0.5 * a_.limits.airspeed_min_mps);
+    qS_ = 0.5 * density_kgpm3 * Va_ * Va_ * a_.wing.area_m2;
+    const double determinant = L.alpha_ratio * M.elevator_ratio - L.elevator_ratio * M.alpha_ratio;
+    if (std::abs(determinant) < 1e-9 || qS_ < 1e-9) return;
+    solvable_ = true;
+    // Divisions are what a trim costs, and a law asks for two at each step.
+    per_determinant_ = 1 / determinant;
+    level_lift_ = a_.mass_kg * g_ / qS_;
+    half_chord_time_ = 0.5 * a_.wing.chord_m / Va_;
+    induced_ =
+        a_.wing.area_m2 / (3.14159265358979323846 * a_.wing.oswald_ratio * a_.wing.span_m * a_.wing.span_m);
+  }
+
+  TurnTrim at(double roll_rad) const {
+    if (!solvable_) return {};
+    const Derivatives &L = a_.aero.lift, &M = a_.aero.pitch, &D = a_.aero.drag;
+    const bool turns = roll_rad != 0;  // level flight needs no angles
+    const double q_hat = turns ? turn_rates(roll_rad, 0, Va_, g_).q_radps * half_chord_time_ : 0;
+    const double CL = turns ? load_factor(roll_rad) * level_lift_ : level_lift_;
+    const double lift = CL - L.zero_ratio - L.q_ratio * q_hat, moment = -M.zero_ratio - M.q_ratio * q_hat;
+    TurnTrim trim;
+    trim.alpha_rad = (lift * M.elevator_ratio - L.elevator_ratio * moment) * per_determinant_;
+    trim.elevator_rad = (L.alpha_ratio * moment - M.alpha_ratio * lift) * per_determinant_;
+    trim.drag_newton = qS_ * (a_.aero.parasite_drag_ratio + induced_ * CL * CL + D.q_ratio * q_hat +
+                              D.elevator_ratio * trim.elevator_rad);
+    return trim;
+  }
+
+ private:
+  const Airframe& a_;
+  double g_, Va_ = 0, qS_ = 0, per_determinant_ = 0, level_lift_ = 0, half_chord_time_ = 0, induced_ = 0;
+  bool solvable_ = false;
+};
+
+/// One of them.
 inline TurnTrim turn_trim(const Airframe& airframe, double roll_rad, double airspeed_mps,
                           double density_kgpm3, double gravity_mps2 = 9.80665) {
-  const Derivatives &L = airframe.aero.lift, &M = airframe.aero.pitch, &D = airframe.aero.drag;
-  const double Va = std::max(airspeed_mps, 0.5 * airframe.limits.airspeed_min_mps);
-  const double qS = 0.5 * density_kgpm3 * Va * Va * airframe.wing.area_m2;
-  const double determinant = L.alpha_ratio * M.elevator_ratio - L.elevator_ratio * M.alpha_ratio;
-  if (std::abs(determinant) < 1e-9 || qS < 1e-9) return {};
-  const bool turns = roll_rad != 0;  // level flight needs no angles, and is asked for at each step
-  const double q = turns ? turn_rates(roll_rad, 0, Va, gravity_mps2).q_radps : 0;
-  const double q_hat = q * airframe.wing.chord_m / (2 * Va);
-  const double CL = (turns ? load_factor(roll_rad) : 1) * airframe.mass_kg * gravity_mps2 / qS;
-  const double lift = CL - L.zero_ratio - L.q_ratio * q_hat, moment = -M.zero_ratio - M.q_ratio * q_hat;
-  TurnTrim trim;
-  trim.alpha_rad = (lift * M.elevator_ratio - L.elevator_ratio * moment) / determinant;
-  trim.elevator_rad = (L.alpha_ratio * moment - M.alpha_ratio * lift) / determinant;
-  const double aspect = airframe.wing.span_m * airframe.wing.span_m / airframe.wing.area_m2;
-  const double induced = CL * CL / (3.14159265358979323846 * airframe.wing.oswald_ratio * aspect);
-  trim.drag_newton = qS * (airframe.aero.parasite_drag_ratio + induced + D.q_ratio * q_hat +
-                           D.elevator_ratio * trim.elevator_rad);
-  return trim;
+  return TurnTrims(airframe, airspeed_mps, density_kgpm3, gravity_mps2).at(roll_rad);
 }
 
 }  // namespace fulmar

@@ -140,7 +140,7 @@ TEST_CASE("gains of the file that no law has are refused by file and line") {
       {"roll_kp: 50", "50 is outside 0 .. 20"},
       {"roll_kp: quick", "'quick'"}};
   for (const auto& [by, sentence] : told) {
-    const Answer answer = call("tune " + folder.write("a.yaml", changed("anaconda", "roll_kp: 1.2", by)));
+    const Answer answer = call("tune " + folder.write("a.yaml", changed("anaconda", "roll_kp: 1.4", by)));
     CHECK(answer.code == 4);
     CHECK_MESSAGE(answer.says("a.yaml:56: "), answer.out);
     CHECK_MESSAGE(answer.says(sentence), answer.out);

@@ -105,8 +105,8 @@ struct Autotune {
   using Stage = AutotuneStage;
   using Verdict = AutotuneVerdict;
   using Reason = AutotuneReason;
-  /// Lines over what lies between; a surface that nothing answers to is above it once in some thousand times.
-  static constexpr double least_answer = 6;
+  /// Of `LoopRecord::answer`: without an answer it is 1 +- 0.3, with one 3.5 and more in moderate turbulence.
+  static constexpr double least_answer = 2.5;
 
   static AxisGains gains_of(const Inner::Params& p, std::size_t axis) {
     if (axis == roll) return {p.roll_kp, p.roll_ki, p.roll_kd};
@@ -208,8 +208,9 @@ struct Autotune {
     revert(Reason::ended, why);
     go_to(Stage::aborted);
   }
+  void go_back() { change_to(axis_, kept_[axis_]); }
   void revert(Reason reason, std::string_view why) {
-    change_to(axis_, kept_[axis_]);
+    go_back();
     verdict_[axis_] = Verdict::reverted, reason_[axis_] = reason;
     say(Severity::warning, "%s: old gains: %.*s", names[axis_], static_cast<int>(why.size()), why.data());
   }
@@ -297,15 +298,21 @@ struct Autotune {
     next_axis(axis_ + 1, p);
   }
   void found(const Params& p) {
-    if (!search_.found()) return done_with(Reason::no_gains_found, p);
-    change_to(axis_, search_.best());
-    go_to(Stage::verifying);
+    if (search_.found()) {
+      change_to(axis_, search_.best());
+      return go_to(Stage::verifying);
+    }
+    // A record near noise_limit may leave none: once more, from the gains of before.
+    if (larger_ > 2 || !time_for(2 * excite_s + search_s, p)) return done_with(Reason::no_gains_found, p);
+    larger_ *= 1.5;
+    first_ = true;
+    go_back();
+    go_to(Stage::exciting);
   }
   /// The rate follows the surface, and not the turbulence alone.
   static bool answers(const LoopRecord& r) {
     Complex sum = 0;
-    for (std::size_t i = 0; i < Lines::count; ++i)
-      if (Lines::middle(i)) sum += r.rate[i];
+    for (std::size_t i = 2; i < 8; ++i) sum += r.rate[i];
     return sum.real() > 0 && r.answer > least_answer;
   }
 

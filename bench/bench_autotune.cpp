@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Autotune in flight, from gains that are wrong by a factor, on three aircraft: what was kept, the margins
 // measured in flight and those of the linear model. Prints docs/autotune.md and exits 1 when a flight neither
-// measured 6 dB and 45 deg nor went back to its old gains, kept gains whose true margins are below 5 dB and
-// 38 deg, took longer than 90 s, or was not flown. All words: see the usage at the end.
+// measured 6 dB and 45 deg nor went back to its old gains, kept gains whose true margins are below 6 dB and
+// 45 deg, took longer than 90 s, or was not flown. All words: see the usage at the end.
 #include <unistd.h>
 
 #include <cstdio>
@@ -32,7 +32,7 @@ ki and kd of roll and pitch, and the yaw damper's. [plugins/control_slc](../plug
 - `time`, `roll`, `pitch`, `height`: of the whole tuning, the most of all flights.
 - `why not`: of the axes that were not kept, as the report says it, and how many of each.
 
-The exit code is 1 when a flight kept gains without having measured 6 dB and 45 deg, or with true margins below 5 dB or 38 deg (what a measurement may be wrong by), changed gains without keeping them, took longer than 90 s or was
+The exit code is 1 when a flight kept gains without having measured 6 dB and 45 deg, or with true margins below that, changed gains without keeping them, took longer than 90 s or was
 not flown to its end.
 
 | aircraft | factor | axis | kept | back | out | kp | ki | kd | measured, dB | deg | true, dB | deg | noise | time, s | roll, deg | pitch, deg | height, m | why not |
@@ -142,7 +142,7 @@ Row fly_row(Case c, unsigned first, unsigned seeds, const fs::path& folder) {
     for (std::size_t i = 0; i < axes.size(); ++i) {
       if (!promised(f.report, i)) miss(axes[i]);
       const bool kept = verdict(f.report, i) == AutotuneVerdict::kept;
-      if (kept && (f.unstable > 0 || f.truth[i].least_gain_db() < 5 || f.truth[i].phase_rad < 38 * degree))
+      if (kept && (f.unstable > 0 || f.truth[i].least_gain_db() < 6 || f.truth[i].phase_rad < 45 * degree))
         miss("kept gains whose margins are not true");
       row.axis[i].add(f, i);
     }

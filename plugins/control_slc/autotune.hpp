@@ -274,7 +274,8 @@ struct Autotune {
     if (!(noise_[axis_] <= p.noise_limit)) {
       if (larger_ > 2 || !time_for((verifying ? 1 : 2) * excite_s + search_s, p))
         return done_with(Reason::turbulence, p);
-      larger_ *= 1.5;
+      // The error falls as the excitation grows.
+      larger_ = noise_[axis_] > 1.5 * p.noise_limit ? 2.25 : 1.5 * larger_;
       return go_to(stage_);
     }
     if (!answers(r)) return done_with(Reason::no_answer, p);

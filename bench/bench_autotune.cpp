@@ -5,6 +5,7 @@
 // 45 deg, took longer than 90 s, or was not flown. All words: see the usage at the end.
 #include <unistd.h>
 
+#include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -169,7 +170,7 @@ int main(int argc, char** argv) {
       turbulence = argv[++i];
     else if (word == "--first" && i + 1 < argc && std::atoi(argv[i + 1]) > 0)
       first = static_cast<unsigned>(std::atoi(argv[++i]));
-    else if (word == "--wind" && i + 1 < argc)
+    else if (word == "--wind" && i + 1 < argc && std::isdigit(argv[i + 1][0]))
       wind_mps = std::atof(argv[++i]);
     else if (word == "--factor" && i + 1 < argc && std::atof(argv[i + 1]) > 0)
       one_factor = std::atof(argv[++i]);

@@ -20,7 +20,7 @@ constexpr double lag = 12, power = 40;  // of the axis: rate = power / (s + lag)
 /// An axis of known transfer function under the law, and what is excited and recorded of it.
 struct Axis {
   AxisGains gains{1.5, 0.4, 0.05};
-  double noise = 0;  ///< of the surface, white through a lag of 0.3 s: its deviation, rad
+  double noise = 0;             ///< of the surface, white through a lag of 0.3 s: its deviation, rad
   double sign = 1, passes = 1;  ///< of the surface's commands
   Random random{1};
   LoopRecord fly() {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Autotune in flight, from gains that are wrong by a factor, on three aircraft: what was kept, the margins
 // measured in flight and those of the linear model. Prints docs/autotune.md and exits 1 when a flight neither
-// measured the margins nor went back to its old gains, kept gains whose true margins are below 6 dB and 40
-// deg, took longer than 90 s, or was not flown.
-// bench_autotune [--json] [--seeds N] [--turbulence none|light|moderate] [AIRCRAFT]
+// measured 6 dB and 45 deg nor went back to its old gains, kept gains whose true margins are below 6 dB and
+// 45 deg, took longer than 90 s, or was not flown. All words: see the usage at the end.
 #include <unistd.h>
 
+#include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -17,25 +17,27 @@ using namespace fulmar::autotune;
 
 namespace {
 
-constexpr std::array factors{0.3, 0.5, 1.0, 2.0, 3.0};
+const std::vector factors{0.3, 0.5, 1.0, 2.0, 3.0};
 
 const char* const heading = R"(# Autotune in flight
 
 Written by `build/bin/bench_autotune > docs/autotune.md`; nothing here is typed.
 
-`configs/missions/autotune.yaml` with each of the shipped airframes: sensors `rosflight`, wind 5 m/s, turbulence as told, `control_slc/Autotune` from the shipped gains times `factor`: all of them, kp,
+`configs/missions/autotune.yaml` with each of the shipped airframes: sensors `rosflight`, wind and turbulence as told below the table, `control_slc/Autotune` from the shipped gains times `factor`: all of them, kp,
 ki and kd of roll and pitch, and the yaw damper's. [plugins/control_slc](../plugins/control_slc/README.md#autotune) has what it does. Some seeds a row; gains are their medians, margins the least of those that were kept.
 
-- `kept`, `back`, `out`: flights that kept what they found, went back to the gains of before, had no such surface or no time left.
+- `kept`, `back`, `out`: flights that kept what they found, went back to the gains of before, had no such surface, no time left or were ended before.
 - `measured`: in flight, at the surface, from the second excitation. 6 dB and 45 deg are asked for, 8 dB, 55 deg and 80 ms are aimed at.
 - `true`: of the linear model of the airframe with the gains that were kept, which the autotune does not know; the loop broken at the same surface, all others closed. Gain: up or down, the less.
 - `noise`: relative standard error of 1 + L that the autotune claims, the most of those kept.
 - `time`, `roll`, `pitch`, `height`: of the whole tuning, the most of all flights.
+- `why not`: of the axes that were not kept, as the report says it, and how many of each.
 
-The exit code is 1 when a flight kept gains without having measured the margins, or with true ones below 6 dB and 40 deg, changed gains without keeping them, took longer than 90 s or was not flown.
+The exit code is 1 when a flight kept gains without having measured 6 dB and 45 deg, or with true margins below that, changed gains without keeping them, took longer than 90 s or was
+not flown to its end.
 
-| aircraft | factor | axis | kept | back | out | kp | ki | kd | measured, dB | deg | true, dB | deg | noise | time, s | roll, deg | pitch, deg | height, m |
-|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|
+| aircraft | factor | axis | kept | back | out | kp | ki | kd | measured, dB | deg | true, dB | deg | noise | time, s | roll, deg | pitch, deg | height, m | why not |
+|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|
 )";
 
 double median(std::vector<double> x) {
@@ -44,8 +46,16 @@ double median(std::vector<double> x) {
   return x[x.size() / 2];
 }
 
+// In the order of AutotuneReason.
+constexpr std::array<const char*, 10> reasons{"not begun",      "margins do not hold",
+                                              "no gains found", "surface at its limit",
+                                              "turbulence",     "no answer",
+                                              "ended",          "no surface",
+                                              "gain is 0",      "no time"};
+
 struct AxisRow {
   unsigned kept = 0, back = 0, out = 0;
+  std::array<unsigned, reasons.size()> why{};
   std::vector<double> kp, ki, kd;
   double measured_db = 1e9, measured_deg = 1e9, true_db = 1e9, true_deg = 1e9, noise = 0;
 
@@ -53,7 +63,8 @@ struct AxisRow {
     const AutotuneReport& r = f.report;
     const AutotuneVerdict v = verdict(r, i);
     if (v != AutotuneVerdict::kept) {
-      ++(v == AutotuneVerdict::left_out ? out : back);
+      ++(v == AutotuneVerdict::left_out || v == AutotuneVerdict::open ? out : back);
+      ++why[static_cast<std::size_t>(reason(r, i))];
       return;
     }
     ++kept;
@@ -72,6 +83,14 @@ struct Row {
   unsigned missed = 0;
 };
 
+std::string why_not(const AxisRow& a) {
+  std::string all;
+  for (std::size_t i = 0; i < reasons.size(); ++i)
+    if (a.why[i] > 0)
+      all += (all.empty() ? "" : ", ") + std::string(reasons[i]) + " " + std::to_string(a.why[i]);
+  return all;
+}
+
 void print(const Case& c, const Row& row) {
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const AxisRow& a = row.axis[i];
@@ -82,9 +101,10 @@ void print(const Case& c, const Row& row) {
     else
       std::printf(" | | | | | | | |");
     if (i == 0)
-      std::printf(" %.1f | %.1f | %.1f | %.1f |\n", row.time_s, row.roll, row.pitch, row.height);
+      std::printf(" %.1f | %.1f | %.1f | %.1f |", row.time_s, row.roll, row.pitch, row.height);
     else
-      std::printf(" | | | |\n");
+      std::printf(" | | | |");
+    std::printf(" %s |\n", why_not(a).c_str());
   }
   std::fflush(stdout);
 }
@@ -95,7 +115,8 @@ nlohmann::json json_of(const Case& c, const Row& row) {
                    {"missed", row.missed}};
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const AxisRow& a = row.axis[i];
-    nlohmann::json& x = j[axes[i]] = {{"kept", a.kept}, {"back", a.back}, {"out", a.out}};
+    nlohmann::json& x =
+        j[axes[i]] = {{"kept", a.kept}, {"back", a.back}, {"out", a.out}, {"why_not", why_not(a)}};
     if (a.kept > 0)
       x.update({{"kp", median(a.kp)},
                 {"ki", median(a.ki)},
@@ -109,9 +130,9 @@ nlohmann::json json_of(const Case& c, const Row& row) {
   return j;
 }
 
-Row fly_row(Case c, unsigned seeds, const fs::path& folder) {
+Row fly_row(Case c, unsigned first, unsigned seeds, const fs::path& folder) {
   Row row;
-  for (c.seed = 1; c.seed <= seeds; ++c.seed) {
+  for (c.seed = first; c.seed < first + seeds; ++c.seed) {
     const Flown f = fly(c, folder);
     const auto miss = [&](const char* what) {
       std::fprintf(stderr, "missed: %s times %g, seed %u: %s\n", c.of.name, c.factor, c.seed, what);
@@ -122,7 +143,7 @@ Row fly_row(Case c, unsigned seeds, const fs::path& folder) {
     for (std::size_t i = 0; i < axes.size(); ++i) {
       if (!promised(f.report, i)) miss(axes[i]);
       const bool kept = verdict(f.report, i) == AutotuneVerdict::kept;
-      if (kept && (f.unstable > 0 || f.truth[i].least_gain_db() < 6 || f.truth[i].phase_rad < 40 * degree))
+      if (kept && (f.unstable > 0 || f.truth[i].least_gain_db() < 6 || f.truth[i].phase_rad < 45 * degree))
         miss("kept gains whose margins are not true");
       row.axis[i].add(f, i);
     }
@@ -137,7 +158,8 @@ Row fly_row(Case c, unsigned seeds, const fs::path& folder) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  unsigned seeds = 10, missed = 0;
+  unsigned seeds = 10, first = 1, missed = 0;
+  double wind_mps = 5, one_factor = 0;
   bool json = false;
   std::string only, turbulence = "light";
   for (int i = 1; i < argc; ++i) {
@@ -146,15 +168,22 @@ int main(int argc, char** argv) {
       seeds = static_cast<unsigned>(std::atoi(argv[++i]));
     else if (word == "--turbulence" && i + 1 < argc)
       turbulence = argv[++i];
+    else if (word == "--first" && i + 1 < argc && std::atoi(argv[i + 1]) > 0)
+      first = static_cast<unsigned>(std::atoi(argv[++i]));
+    else if (word == "--wind" && i + 1 < argc && std::isdigit(argv[i + 1][0]))
+      wind_mps = std::atof(argv[++i]);
+    else if (word == "--factor" && i + 1 < argc && std::atof(argv[i + 1]) > 0)
+      one_factor = std::atof(argv[++i]);
     else if (word == "--json")
       json = true;
     else if (word[0] != '-' && only.empty() &&
              std::any_of(aircraft.begin(), aircraft.end(), [&](const Aircraft& a) { return a.name == word; }))
       only = word;
     else
-      return std::fprintf(stderr,
-                          "usage: bench_autotune [--json] [--seeds N] [--turbulence none|light|moderate] "
-                          "[anaconda|aerosonde|x8]\n"),
+      return std::fprintf(
+                 stderr,
+                 "usage: bench_autotune [--json] [--first SEED] [--seeds N] [--factor F] [--wind MPS] "
+                 "[--turbulence none|light|moderate] [anaconda|aerosonde|x8]\n"),
              2;
   }
   const fs::path folder = fs::temp_directory_path() / ("fulmar-autotune-" + std::to_string(getpid()));
@@ -164,9 +193,9 @@ int main(int argc, char** argv) {
     nlohmann::json all = nlohmann::json::array();
     for (const Aircraft& of : aircraft) {
       if (!only.empty() && only != of.name) continue;
-      for (const double factor : factors) {
-        Case c{.of = of, .factor = factor, .turbulence = turbulence};
-        const Row row = fly_row(c, seeds, folder);
+      for (const double factor : one_factor > 0 ? std::vector{one_factor} : factors) {
+        Case c{.of = of, .factor = factor, .turbulence = turbulence, .wind_mps = wind_mps};
+        const Row row = fly_row(c, first, seeds, folder);
         missed += row.missed;
         if (json)
           all.push_back(json_of(c, row));
@@ -177,7 +206,8 @@ int main(int argc, char** argv) {
     if (json)
       std::printf("%s\n", all.dump(2).c_str());
     else
-      std::printf("\n%u seeds a row, turbulence `%s`.\n", seeds, turbulence.c_str());
+      std::printf("\n%u seeds a row from %u on, wind %g m/s, turbulence `%s`.\n", seeds, first, wind_mps,
+                  turbulence.c_str());
   } catch (const std::exception& e) {
     std::fprintf(stderr, "bench_autotune: %s\n", e.what());
     ++missed;

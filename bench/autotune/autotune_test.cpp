@@ -20,4 +20,7 @@ TEST_CASE("from 0.3 to 3 times its gains the X8 measures its margins or goes bac
 TEST_CASE("what it does not know it refuses") {
   CHECK(exit_of("--seeds 0") == 2);
   CHECK(exit_of("x9") == 2);
+  CHECK(exit_of("--first 0") == 2);
+  CHECK(exit_of("--factor 0") == 2);
+  CHECK(exit_of("--wind strong") == 2);
 }

@@ -34,6 +34,7 @@ struct Case {
   Aircraft of = aircraft[0];
   double factor = 1;
   std::string turbulence = "light";
+  double wind_mps = 5;  ///< from the north-west
   unsigned seed = 1;
   std::string params{};  ///< more of the component: ", time_limit: 60 s"
   std::string sim{};     ///< more of the aircraft
@@ -50,6 +51,10 @@ struct Flown {
 
 inline AutotuneVerdict verdict(const AutotuneReport& r, std::size_t axis) {
   return axis == 0 ? r.roll : axis == 1 ? r.pitch : r.yaw;
+}
+
+inline AutotuneReason reason(const AutotuneReport& r, std::size_t axis) {
+  return axis == 0 ? r.roll_reason : axis == 1 ? r.pitch_reason : r.yaw_reason;
 }
 
 inline fs::path airframe_of(const Case& c) {
@@ -75,6 +80,8 @@ inline fs::path mission_of(const Case& c, const aero::InnerLaw& law, const fs::p
                       << "airframe: " << airframe_of(c).string()
                       << "\ndone: {when: attitude.report.done, for: 2 s}\ncomponents:\n"
                       << "  sim: {params: {truth_rate: 100 Hz, turbulence: " << c.turbulence
+                      << ", wind_ned: [" << c.wind_mps * std::numbers::sqrt2 / 2 << ", "
+                      << -c.wind_mps * std::numbers::sqrt2 / 2 << ", 0]"
                       << (thrown ? ", launch: catapult, launch_after: 5 s" : "") << c.sim << "}}\n"
                       << (thrown ? "  slc: {params: {launch_acceleration: 15 m/s2, launch_delay: 0.3 s}}\n"
                                  : "")
@@ -159,7 +166,7 @@ inline bool went_back(const AutotuneReport& r, std::size_t i) {
 /// What the autotune promises, of one axis: margins measured, or the gains of before.
 inline bool promised(const AutotuneReport& r, std::size_t i) {
   if (verdict(r, i) != AutotuneVerdict::kept) return went_back(r, i);
-  return 20 * std::log10(r.gain_margin_ratio[i]) >= 6 - 1e-9 && r.phase_margin_rad[i] >= 0.785 - 1e-9;
+  return 20 * std::log10(r.gain_margin_ratio[i]) >= 6 - 1e-9 && r.phase_margin_rad[i] >= 45 * degree;
 }
 
 }  // namespace fulmar::autotune

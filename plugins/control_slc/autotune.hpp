@@ -33,7 +33,7 @@ struct Autotune {
     Param wanted_phase_margin{0.96, "rad", 0.3, 1.5, "that gains are chosen for"};
     Param wanted_delay_margin{0.08, "s", 0, 1, "that gains are chosen for"};
     Param least_gain_margin{6, "dB", 1, 20, "measured in the second excitation: less goes back"};
-    Param least_phase_margin{0.785, "rad", 0.1, 1.5, "measured in the second excitation: less goes back"};
+    Param least_phase_margin{0.7854, "rad", 0.1, 1.5, "measured in the second excitation: less goes back"};
     Param roll_size{0.1, "rad", 0.005, 0.35, "peak of the excitation of the aileron"};
     Param pitch_size{0.15, "rad", 0.005, 0.35, "peak of the excitation of the elevator"};
     Param yaw_size{0.15, "rad", 0.005, 0.35, "peak of the excitation of the rudder"};
@@ -57,7 +57,7 @@ struct Autotune {
     law_ = p.law;
     for (std::size_t i = 0; i < axes; ++i) {
       const AxisGains now = gains_of(p.law, i);
-      if (now != given_[i]) given_[i] = kept_[i] = used_[i] = goal_[i] = now;  // somebody's own: they count
+      if (now != given_[i]) set_by_somebody(i, now);
       use(i, used_[i]);
     }
     if (running()) law_.quieten.value = false;
@@ -66,13 +66,14 @@ struct Autotune {
 
   Status activate(const Tick& tick, const Inputs& in, const Params&, const Applied<Outputs>& last) {
     if (running()) end("somebody else has flown");
+    for (std::size_t i = 0; i < axes; ++i) use(i, goal_[i]), left_s_[i] = 0;  // no surface is bound to these
     strength_ = 0;
     return inner_.activate(tick, in.law, law_, last.part(last->law));
   }
 
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     const double dt = std::clamp(tick.dt_s(), 0.0, 0.1);
-    if (p.tune && !asked_) begin(in);
+    if (p.tune && !asked_) begin(in, p);
     if (!p.tune && asked_ && running()) end("it was switched off");
     asked_ = p.tune;
     if (running()) {
@@ -103,6 +104,9 @@ struct Autotune {
 
   using Stage = AutotuneStage;
   using Verdict = AutotuneVerdict;
+  using Reason = AutotuneReason;
+  /// Of `LoopRecord::answer`: without an answer it is 1 +- 0.3, with one 3.5 and more in moderate turbulence.
+  static constexpr double least_answer = 2.5;
 
   static AxisGains gains_of(const Inner::Params& p, std::size_t axis) {
     if (axis == roll) return {p.roll_kp, p.roll_ki, p.roll_kd};
@@ -137,7 +141,7 @@ struct Autotune {
     return axis == roll ? a.aileron : axis == pitch ? a.elevator : a.rudder;
   }
 
-  void begin(const Inputs& in) {
+  void begin(const Inputs& in, const Params& p) {
     // What quietening has left of the gains is what they are; from here on excitation is no oscillation.
     for (std::size_t i = 0; i < axes; ++i) {
       kept_[i] = old_[i] = goal_[i] = times(used_[i], inner_.gain_left(static_cast<Inner::Axis>(i)));
@@ -147,8 +151,15 @@ struct Autotune {
     inner_.retune(law_);
     begun_m_ = in.law.state->height_m;
     time_s_ = 0;
-    verdict_ = {}, before_ = {}, after_ = {}, noise_ = {};
-    begin_axis(roll);
+    verdict_ = {}, reason_ = {}, before_ = {}, after_ = {}, noise_ = {};
+    next_axis(roll, p);
+  }
+  /// They count, whatever was measured with others.
+  void set_by_somebody(std::size_t axis, const AxisGains& now) {
+    given_[axis] = kept_[axis] = used_[axis] = goal_[axis] = now;
+    if (running()) end("gains were set");
+    verdict_[axis] = Verdict::open, reason_[axis] = Reason::none;
+    before_[axis].reset(), after_[axis].reset();
   }
   void begin_axis(std::size_t axis) {
     axis_ = axis;
@@ -156,14 +167,34 @@ struct Autotune {
     first_ = true;
     go_to(Stage::exciting);
   }
-  void next_axis(const Params& p) {
-    for (std::size_t next = axis_ + 1; next < axes; ++next) {
-      const bool acts = next != yaw || (law_.airframe->aero.yaw.rudder_ratio != 0 && used_[yaw].kd > 0);
-      if (acts && surface(next).limit_rad > 0 && time_s_ + 2 * excite_s + search_s < p.time_limit)
-        return begin_axis(next);
-      verdict_[next] = Verdict::left_out;
+  void next_axis(std::size_t first, const Params& p) {
+    for (std::size_t next = first; next < axes; ++next) {
+      const Reason why = in_the_way(next, p);
+      if (why == Reason::none) return begin_axis(next);
+      verdict_[next] = Verdict::left_out, reason_[next] = why;
+      say(Severity::info, "%s: not tuned: %s", names[next], words(why));
     }
     go_to(Stage::finished);
+  }
+  Reason in_the_way(std::size_t axis, const Params& p) const {
+    if (surface(axis).limit_rad <= 0 || (axis == yaw && law_.airframe->aero.yaw.rudder_ratio == 0))
+      return Reason::no_surface;
+    // Found are multiples of what there is; an attitude loop without kp is none.
+    if ((axis == yaw ? used_[axis].kd : used_[axis].kp) <= 0) return Reason::gain_is_zero;
+    return time_for(2 * excite_s + search_s, p) ? Reason::none : Reason::no_time;
+  }
+  static const char* words(Reason why) {
+    switch (why) {
+      case Reason::margins_do_not_hold: return "the margins do not hold";
+      case Reason::no_gains_found: return "no gains have the margins";
+      case Reason::surface_at_limit: return "the surface was at its limit";
+      case Reason::turbulence: return "turbulence hides the answer to the excitation";
+      case Reason::no_answer: return "the surface does not act as it should";
+      case Reason::no_surface: return "the aircraft has no such surface";
+      case Reason::gain_is_zero: return "its gain is 0, and multiples of it are all that is tried";
+      case Reason::no_time: return "time_limit leaves no time";
+      default: return "";
+    }
   }
   void go_to(Stage stage) {
     stage_ = stage, stage_s_ = 0;
@@ -174,12 +205,13 @@ struct Autotune {
 
   /// Ends it all: the axis under test goes back, those that were verified stay.
   void end(std::string_view why) {
-    revert(why);
+    revert(Reason::ended, why);
     go_to(Stage::aborted);
   }
-  void revert(std::string_view why) {
-    change_to(axis_, kept_[axis_]);
-    verdict_[axis_] = Verdict::reverted;
+  void go_back() { change_to(axis_, kept_[axis_]); }
+  void revert(Reason reason, std::string_view why) {
+    go_back();
+    verdict_[axis_] = Verdict::reverted, reason_[axis_] = reason;
     say(Severity::warning, "%s: old gains: %.*s", names[axis_], static_cast<int>(why.size()), why.data());
   }
 
@@ -235,18 +267,18 @@ struct Autotune {
     noise_[axis_] = noise_of(r);
     const bool verifying = stage_ == Stage::verifying;
     if (r.limited > 0.02) {
-      if (verifying || !time_for(2 * excite_s + search_s, p))
-        return done_with("the surface was at its limit", p);
+      if (verifying || !time_for(2 * excite_s + search_s, p)) return done_with(Reason::surface_at_limit, p);
       change_to(axis_, times(used_[axis_], 0.5));  // too much gain to measure by
       return go_to(Stage::exciting);
     }
     if (!(noise_[axis_] <= p.noise_limit)) {
       if (larger_ > 2 || !time_for((verifying ? 1 : 2) * excite_s + search_s, p))
-        return done_with("turbulence hides the answer to the excitation", p);
-      larger_ *= 1.5;
+        return done_with(Reason::turbulence, p);
+      // The error falls as the excitation grows.
+      larger_ = noise_[axis_] > 1.5 * p.noise_limit ? 2.25 : 1.5 * larger_;
       return go_to(stage_);
     }
-    if (!answers(r)) return done_with("the surface does not act as it should", p);
+    if (!answers(r)) return done_with(Reason::no_answer, p);
     (first_ ? before_ : after_)[axis_] = m;
     first_ = false;
     // A standard error more than is asked for: of 1 + L, which is near 1 where margins are read.
@@ -256,26 +288,33 @@ struct Autotune {
       kept_[axis_] = used_[axis_];
       verdict_[axis_] = Verdict::kept;
       tell_gains(kept_[axis_], m);
-      return next_axis(p);
+      return next_axis(axis_ + 1, p);
     }
-    if (verifying && !time_for(excite_s + search_s, p)) return done_with("the margins do not hold", p);
+    if (verifying && !time_for(excite_s + search_s, p)) return done_with(Reason::margins_do_not_hold, p);
     search_.begin(r, used_[axis_], {p.wanted_gain_margin, p.wanted_phase_margin, p.wanted_delay_margin});
     go_to(Stage::searching);
   }
-  void done_with(std::string_view why, const Params& p) {
-    revert(why);
-    next_axis(p);
+  void done_with(Reason why, const Params& p) {
+    revert(why, words(why));
+    next_axis(axis_ + 1, p);
   }
   void found(const Params& p) {
-    if (!search_.found()) return done_with("no gains have the margins", p);
-    change_to(axis_, search_.best());
-    go_to(Stage::verifying);
+    if (search_.found()) {
+      change_to(axis_, search_.best());
+      return go_to(Stage::verifying);
+    }
+    // A record near noise_limit may leave none: once more, from the gains of before.
+    if (larger_ > 2 || !time_for(2 * excite_s + search_s, p)) return done_with(Reason::no_gains_found, p);
+    larger_ *= 1.5;
+    first_ = true;
+    go_back();
+    go_to(Stage::exciting);
   }
-  /// In the middle of the lines, where the rate follows the surface.
+  /// The rate follows the surface, and not the turbulence alone.
   static bool answers(const LoopRecord& r) {
     Complex sum = 0;
     for (std::size_t i = 2; i < 8; ++i) sum += r.rate[i];
-    return sum.real() > 0;
+    return sum.real() > 0 && r.answer > least_answer;
   }
 
   void excite(const Inputs& in, const Params& p, double dt, Inner::Outputs& out) {
@@ -319,6 +358,7 @@ struct Autotune {
     r.done = stage_ == Stage::finished || stage_ == Stage::aborted;
     r.axis = running() ? static_cast<AutotuneAxis>(axis_ + 1) : AutotuneAxis::none;
     r.roll = verdict_[roll], r.pitch = verdict_[pitch], r.yaw = verdict_[yaw];
+    r.roll_reason = reason_[roll], r.pitch_reason = reason_[pitch], r.yaw_reason = reason_[yaw];
     r.time_s = time_s_;
     for (std::size_t i = 0; i < axes; ++i) {
       r.before_kp_ratio[i] = old_[i].kp, r.before_ki_ratio[i] = old_[i].ki, r.before_kd_ratio[i] = old_[i].kd;
@@ -347,6 +387,7 @@ struct Autotune {
   Stage stage_ = Stage::idle;
   std::size_t axis_ = roll, excited_ = roll;
   std::array<Verdict, axes> verdict_{};
+  std::array<Reason, axes> reason_{};
   std::array<std::optional<Margins>, axes> before_{}, after_{};
   std::array<double, axes> noise_{};
   std::array<Notice, 4> notices_{};

@@ -42,7 +42,16 @@ struct LoopRecord {
   double scale = 1;                              ///< what the law multiplied its gains by, mean
   double step_s = 0.01;                          ///< mean
   double limited = 0;                            ///< share of the record with the surface at its limit
+  double answer = 0;  ///< power of the feedback at the lines over that between, mean: 1 if nothing answers
 };
+
+/// Geometric mean of a line and two on either side: the two bins next to a line say little of a deviation.
+inline double smoothed(const std::array<double, Lines::count>& deviation, std::size_t i) {
+  const std::size_t first = i < 2 ? 0 : i - 2, last = std::min(i + 2, Lines::count - 1);
+  double sum = 0;
+  for (std::size_t k = first; k <= last; ++k) sum += std::log(std::max(deviation[k], 1e-12));
+  return std::exp(sum / static_cast<double>(last - first + 1));
+}
 
 /// Excites, and takes the record while it does.
 class LoopLines {
@@ -91,6 +100,7 @@ class LoopLines {
   LoopRecord record() const {
     LoopRecord r;
     const double n = std::max(samples_, 1);
+    std::array<double, Lines::count> at, off;
     for (std::size_t i = 0; i < Lines::count; ++i) {
       const Sums& s = sums_[i];
       const int bin = 2 * Lines::harmonics[i];
@@ -103,10 +113,14 @@ class LoopLines {
       const double between =
           std::sqrt(0.5 * (std::norm(s.below - ramp(0, bin - 1)) + std::norm(s.above - ramp(0, bin + 1))));
       r.noise[i] = between * std::abs(1.0 + r.loop[i]) / std::abs(total - feedback);
+      at[i] = std::abs(feedback), off[i] = between;
     }
     r.scale = scale_ / n;
     r.step_s = step_s_ / n;
     r.limited = limited_ / n;
+    // 1.15: from the geometric mean to the root mean square of two bins of noise.
+    for (std::size_t i = 0; i < Lines::count; ++i)
+      r.answer += std::pow(at[i] / (1.15 * smoothed(off, i)), 2) / Lines::count;
     return r;
   }
 

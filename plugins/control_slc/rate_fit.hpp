@@ -18,11 +18,7 @@ class RateFit {
     record_ = record, gains_ = gains, more_ = more;
     next_ = 0, misfit_ = 1e300;
     for (std::size_t i = 0; i < Lines::count; ++i) {
-      // two bins say little of a deviation, ten more
-      const std::size_t first = i < 2 ? 0 : i - 2, last = std::min(i + 2, Lines::count - 1);
-      double sum = 0;
-      for (std::size_t k = first; k <= last; ++k) sum += std::log(record.noise[k]);
-      const double noise = 1.3 * std::exp(sum / static_cast<double>(last - first + 1)) + model_error;
+      const double noise = 1.3 * smoothed(record.noise, i) + model_error;
       const Complex L = record.loop[i];
       weight_[i] = std::abs(L) / (noise * std::abs(1.0 + L) * std::abs(record.rate[i]));
     }

@@ -20,8 +20,8 @@ constexpr double lag = 12, power = 40;  // of the axis: rate = power / (s + lag)
 /// An axis of known transfer function under the law, and what is excited and recorded of it.
 struct Axis {
   AxisGains gains{1.5, 0.4, 0.05};
-  double noise = 0;  ///< of the surface, white through a lag of 0.3 s: its deviation, rad
-  double sign = 1;
+  double noise = 0;             ///< of the surface, white through a lag of 0.3 s: its deviation, rad
+  double sign = 1, passes = 1;  ///< of the surface's commands
   Random random{1};
   LoopRecord fly() {
     LoopLines lines;
@@ -35,7 +35,7 @@ struct Axis {
       if (k == 1200) lines.close(feedback, total, angle, rate);
       if (k >= 200 && k < 1200) lines.add(feedback, total, angle, rate, 1, false, T);
       disturbance = calm * disturbance + std::sqrt(1 - calm * calm) * noise * random.normal();
-      const double u = before + disturbance;
+      const double u = passes * before + disturbance;
       const double next = keep * rate + (1 - keep) / lag * power * sign * u;
       angle += T * (rate + next) / 2;  // of the trapezoid, as the fit takes it
       rate = next, before = total;
@@ -175,6 +175,26 @@ TEST_CASE("noise is told as large as it is, the estimate has no bias to speak of
   CHECK(most_bias < 0.08);
   CHECK(misfits > 0.1);
   CHECK(misfits < 2);
+}
+
+TEST_CASE("an axis that answers stands out of the noise, and one that does not never does") {
+  const LoopRecord calm = Axis{}.fly();
+  CHECK(calm.answer > 1000);
+  double sum = 0, most = 0;
+  constexpr int flights = 100;
+  for (int k = 0; k < flights; ++k) {
+    Axis stuck;
+    stuck.noise = 0.02;
+    stuck.random = Random(static_cast<std::uint64_t>(k + 1));
+    stuck.passes = 0;
+    const double answer = stuck.fly().answer;
+    sum += answer, most = std::max(most, answer);
+  }
+  CHECK(std::abs(sum / flights - 1) < 0.3);
+  CHECK(most < 2.5);
+  Axis noisy;
+  noisy.noise = 0.02;
+  CHECK(noisy.fly().answer > 10);
 }
 
 TEST_CASE("an axis that no fit describes stays as it was measured") {

@@ -9,6 +9,19 @@ namespace fulmar {
 enum class AutotuneStage : std::uint8_t { idle, exciting, searching, verifying, finished, aborted };
 enum class AutotuneAxis : std::uint8_t { none, roll, pitch, yaw };
 enum class AutotuneVerdict : std::uint8_t { open, kept, reverted, left_out };
+/// Why an axis went back or was left out; `ended`: all of it ended while this axis was under test.
+enum class AutotuneReason : std::uint8_t {
+  none,
+  margins_do_not_hold,
+  no_gains_found,
+  surface_at_limit,
+  turbulence,
+  no_answer,
+  ended,
+  no_surface,
+  gain_is_zero,
+  no_time
+};
 
 /// What an autotune in flight does and has found. Arrays: roll, pitch, yaw damper. Margins are those of the
 /// loop broken at the surface, measured in flight; 0: not measured.
@@ -32,6 +45,9 @@ struct AutotuneReport {
   std::array<double, 3> phase_margin_rad{};
   std::array<double, 3> crossover_radps{};
   std::array<double, 3> noise_ratio{};  ///< relative standard error of 1 + L where it matters
+  AutotuneReason roll_reason = AutotuneReason::none;
+  AutotuneReason pitch_reason = AutotuneReason::none;
+  AutotuneReason yaw_reason = AutotuneReason::none;
 };
 
 }  // namespace fulmar

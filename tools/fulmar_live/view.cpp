@@ -176,7 +176,7 @@ int view_command(const LiveAddress& target, const ViewOptions& options) {
     Client(target, std::chrono::seconds(5));  // says what is wrong if nobody flies
   std::string line;
   for (const std::string& word : opening.words) line += (line.empty() ? "" : " ") + shell_quoted(word);
-  std::printf("%s\n", (opening.link.empty() ? line : opening.link).c_str());
+  std::printf("%s\n", for_terminal(opening.link.empty() ? line : opening.link).c_str());
   if (options.print) return 0;
   if (!opening.layout.empty()) std::printf("layout: %s\n", opening.layout.c_str());
   for (const std::string& what : opening.to_do) std::printf("%s\n", what.c_str());

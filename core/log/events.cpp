@@ -172,8 +172,9 @@ Event event_of(Code code, std::string_view component, std::string_view name) noe
 LogLine log_line_of(const Event& e, std::int64_t utc_ns) noexcept {
   constexpr std::int64_t second_ns = 1'000'000'000;
   LogLine line;
-  line.sec = static_cast<std::int32_t>(utc_ns / second_ns);
-  line.nanosec = static_cast<std::uint32_t>(utc_ns % second_ns);
+  const std::int64_t sec = utc_ns / second_ns - (utc_ns % second_ns < 0 ? 1 : 0);
+  line.sec = static_cast<std::int32_t>(sec);
+  line.nanosec = static_cast<std::uint32_t>(utc_ns - sec * second_ns);
   line.level = static_cast<std::uint8_t>(20 + 10 * static_cast<int>(e.severity));
   put(line.name, e.component[0] != '\0' ? e.component.data() : "fulmar");
   put(line.msg, e.words.data());

@@ -126,7 +126,7 @@ inline void Scene::publish_pose(const Inputs& in, const Params& p, Outputs& out)
   tf.transforms.push_back(
       {head, base_, {{pose.position.x, pose.position.y, pose.position.z}, pose.orientation}});
   out.tf.publish(tf, at);
-  if (s.origin_valid) publish_place(s, at, p, out);
+  if (s.origin_valid && std::abs(s.origin_latitude_deg) <= 90) publish_place(s, at, p, out);
 }
 
 inline void Scene::publish_place(const VehicleState& s, std::int64_t at, const Params& p, Outputs& out) {

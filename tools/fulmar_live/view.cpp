@@ -6,14 +6,17 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <sstream>
+#include <tuple>
 
 #include "core/graph/shipped.hpp"
 #include "core/loader/home.hpp"
+#include "core/terminal.hpp"
 #include "core/types/text.hpp"
 #include "tools/fulmar_live/commands.hpp"
 

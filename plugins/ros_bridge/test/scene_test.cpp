@@ -116,6 +116,10 @@ TEST_CASE("without a place of its own the aircraft is on the map where its recei
   bench.step(0.1);
   CHECK(bench.out.tf.written);
   CHECK_FALSE(bench.out.fix.written);
+  s.origin_valid = true, s.origin_latitude_deg = 95;  // no place at all
+  bench.set(bench.in.state, s);
+  bench.step(0.1);
+  CHECK_FALSE(bench.out.fix.written);
   bench.set(bench.in.gnss, gnss);
   bench.step(0.1);
   REQUIRE(bench.out.fix.written);

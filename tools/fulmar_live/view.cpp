@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <sstream>
 #include <tuple>
 
@@ -96,6 +97,10 @@ std::string whole_log(const std::string& name) {
     throw Error(name +
                 " is cut off, or still being written: fulmar log recover makes it whole, `fulmar view "
                 "running` shows the flight");
+  std::array<char, 5> magic{};
+  std::ifstream(file, std::ios::binary).read(magic.data(), magic.size());
+  if (std::memcmp(magic.data(), "\x89MCAP", magic.size()) != 0)
+    throw Error(name + " is no log: it does not begin as an MCAP file");
   return fs::absolute(file).lexically_normal().string();
 }
 
@@ -165,7 +170,7 @@ Opening opening_of(const std::string& viewer, const std::string& log, const Live
           "plotjuggler");
     return {{"rerun", log}, "", "", {}};
   }
-  throw WrongUsage("there is no viewer '" + in + "'" +
+  throw WrongUsage("there is no viewer '" + in + "'." +
                    choices_text(in, std::vector<std::string>(viewers.begin(), viewers.end())));
 }
 

@@ -201,7 +201,14 @@ TEST_CASE("one waypoint is a circle, none is an empty path that takes the old on
   Drawn bench;
   const RosRoute circle = bench.of(plan_of({{100, 20, -60}}));
   REQUIRE(circle.poses.count == 37);
-  for (const RosPoseStamped& p : circle.poses) CHECK(from(p, 100, 20) == doctest::Approx(50));
+  for (const RosPoseStamped& p : circle.poses) {
+    CHECK(from(p, 100, 20) == doctest::Approx(50));
+    double course = 0;
+    REQUIRE(course_of(p.pose.orientation, course));
+    const double east = p.pose.position.x - 20, north = p.pose.position.y - 100;
+    // clockwise along the circle: to the right of the way outwards
+    CHECK(std::sin(course) * north - std::cos(course) * east == doctest::Approx(50));
+  }
   CHECK(bench.of(Plan{}).poses.count == 0);
 }
 

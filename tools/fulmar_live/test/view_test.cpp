@@ -27,7 +27,7 @@ struct Folder {
   fs::path path = fs::temp_directory_path() / ("fulmar-view-test-" + std::to_string(getpid()));
   Folder() {
     fs::create_directories(path);
-    std::ofstream(path / "a log.mcap") << "x";
+    std::ofstream(path / "a log.mcap") << "\x89MCAP0\r\n";
   }
   ~Folder() { fs::remove_all(path); }
   std::string log() const { return (path / "a log.mcap").string(); }
@@ -98,6 +98,9 @@ TEST_CASE("what a viewer cannot do, and one that nobody knows, is refused with w
   r = view(folder.path.string());
   CHECK(r.code == 1);
   CHECK(holds(r.text, "is a folder"));
+  r = view(FULMAR_SOURCE_DIR "/README.md");
+  CHECK(r.code == 1);
+  CHECK(holds(r.text, "README.md is no log"));
   fs::rename(folder.log(), folder.path / "b.mcap.part");
   r = view((folder.path / "b.mcap.part").string());
   CHECK(r.code == 1);

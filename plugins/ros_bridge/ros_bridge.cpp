@@ -8,5 +8,5 @@
 
 using namespace fulmar::ros_bridge;
 
-FULMAR_PLUGIN("1.0.0", Standard, Goal, Velocity, Scene, Rosplane, RosplaneFollower, RosplaneController, RosplanePath,
-              RosplaneWaypoints, RosplaneEstimator)
+FULMAR_PLUGIN("1.0.0", Standard, Goal, Velocity, Scene, Rosplane, RosplaneFollower, RosplaneController,
+              RosplanePath, RosplaneWaypoints, RosplaneEstimator)

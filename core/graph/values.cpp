@@ -93,7 +93,7 @@ void set_from_airframe(Draft& draft, Candidate& candidate, const AirframeSource&
   }
 }
 
-/// What the mission says once for everybody: airframe, origin, and the vehicle's rate and epoch.
+/// What the mission says once for everybody: airframe, origin, epoch, and the vehicle's rate.
 void set_from_mission(Draft& draft, Candidate& candidate, const AirframeSource& airframe) {
   const ComponentInfo& info = candidate.info();
   for (std::size_t i = 0; i < info.params.size(); ++i) {
@@ -104,6 +104,10 @@ void set_from_mission(Draft& draft, Candidate& candidate, const AirframeSource& 
                   keys_beside_fields(param));
     if (param.kind == FULMAR_RECORD && param.name == "origin" && draft.text.origin.is(Node::Kind::map))
       read_record(param, draft.text.origin, "origin", draft.text.origin.file->name, value, draft.report);
+    // whoever stamps its messages does it as the log does
+    if (param.kind == FULMAR_COUNT && param.name == "epoch")
+      value.integer = std::clamp(draft.text.epoch_ns / 1'000'000'000, static_cast<std::int64_t>(param.min),
+                                 static_cast<std::int64_t>(param.max));
     if (param.kind != FULMAR_NUMBER || !info.vehicle) continue;
     if (param.name == "rate") {
       value.number[0] = draft.text.rate_hz;

@@ -221,7 +221,7 @@ json connection_graph(const FlightView& view, const Tap& tap, const std::vector<
     }
   }
   for (const TapChannel& c : tap.channels())
-    if (c.topic.starts_with("/fulmar/")) published[c.topic].push_back("fulmar");
+    if (c.topic.starts_with("/fulmar/") || c.topic == "/rosout") published[c.topic].push_back("fulmar");
   for (const Service& s : services) provided[s.name].push_back(s.component.empty() ? "fulmar" : s.component);
   return {{"op", "connectionGraphUpdate"},
           {"publishedTopics", lists(published, "publisherIds")},

@@ -130,6 +130,32 @@ const TypePtr& host_type<CommandNote>() {
   return type;
 }
 
+/// Names, kinds and order are those of ROS 2: viewers know the type by its name.
+template <>
+const TypePtr& host_type<LogLine>() {
+  using L = LogLine;
+  static const TypePtr type = [] {
+    const auto ros = [](const char* name, const char* whole, std::size_t size, std::size_t align,
+                        std::vector<Field> fields) {
+      Type named = *host_struct(name, size, align, std::move(fields));
+      named.ros = whole;
+      return std::make_shared<const Type>(std::move(named));
+    };
+    Field stamp;
+    stamp.name = "stamp", stamp.kind = FULMAR_STRUCT, stamp.offset = offsetof(L, sec), stamp.stride = 8;
+    stamp.type = ros("Time", "builtin_interfaces/msg/Time", 8, 4,
+                     {host_field("sec", FULMAR_I32, 0), host_field("nanosec", FULMAR_U32, 4)});
+    return ros("Log", "rcl_interfaces/msg/Log", sizeof(L), alignof(L),
+               {stamp, host_field("level", FULMAR_U8, offsetof(L, level)),
+                host_field("name", FULMAR_TEXT, offsetof(L, name), sizeof(L::name)),
+                host_field("msg", FULMAR_TEXT, offsetof(L, msg), sizeof(L::msg)),
+                host_field("file", FULMAR_TEXT, offsetof(L, file), sizeof(L::file)),
+                host_field("function", FULMAR_TEXT, offsetof(L, function), sizeof(L::function)),
+                host_field("line", FULMAR_U32, offsetof(L, line))});
+  }();
+  return type;
+}
+
 // ---- events
 
 const char* kind_words(Code code) noexcept {
@@ -141,6 +167,19 @@ Event event_of(Code code, std::string_view component, std::string_view name) noe
   e.code = code, e.severity = row_of(code).severity;
   put(e.component, component), put(e.name, name);
   return e;
+}
+
+LogLine log_line_of(const Event& e, std::int64_t utc_ns) noexcept {
+  constexpr std::int64_t second_ns = 1'000'000'000;
+  LogLine line;
+  const std::int64_t sec = utc_ns / second_ns - (utc_ns % second_ns < 0 ? 1 : 0);
+  line.sec = static_cast<std::int32_t>(sec);
+  line.nanosec = static_cast<std::uint32_t>(utc_ns - sec * second_ns);
+  line.level = static_cast<std::uint8_t>(20 + 10 * static_cast<int>(e.severity));
+  put(line.name, e.component[0] != '\0' ? e.component.data() : "fulmar");
+  put(line.msg, e.words.data());
+  put(line.function, kind_words(e.code));
+  return line;
 }
 
 void end_in_dots(char* text, std::size_t room) noexcept {

@@ -62,6 +62,19 @@ struct Event {
   std::array<char, 512> words{};  // one line of UTF-8, for people
 };
 
+/// The same for the log panels of viewers: rcl_interfaces/msg/Log, topic /rosout.
+struct LogLine {
+  static constexpr const char* topic = "/rosout";
+  std::int32_t sec = 0;  // UTC
+  std::uint32_t nanosec = 0;
+  std::uint8_t level = 20;                  // 10 debug, 20 info, 30 warning, 40 error, 50 fatal
+  std::array<char, component_room> name{};  // the component, or "fulmar"
+  std::array<char, 512> msg{};
+  std::array<char, 4> file{};
+  std::array<char, 16> function{};  // the kind of event, as kind_words has it
+  std::uint32_t line = 0;
+};
+
 /// When the ticks were, and what came of them, for a replay: topic /fulmar/ticks, one message for some ticks
 /// in a row.
 struct Ticks {
@@ -112,12 +125,16 @@ template <>
 const TypePtr& host_type<Ticks>();
 template <>
 const TypePtr& host_type<CommandNote>();
+template <>
+const TypePtr& host_type<LogLine>();
 
 /// What kind of event it is, for people: "phase", "guard", "request", ...
 const char* kind_words(Code code) noexcept;
 
 /// An event of this code, with the code's severity. [tick]
 Event event_of(Code code, std::string_view component = {}, std::string_view name = {}) noexcept;
+/// [tick] An event as viewers list it. `utc_ns`: since 1970.
+LogLine log_line_of(const Event& event, std::int64_t utc_ns) noexcept;
 /// [tick] A sentence that was cut at the end of its room ends in dots instead, behind a whole word.
 void end_in_dots(char* text, std::size_t room) noexcept;
 /// The event's words, as printf makes them. What is too long ends in dots. [tick]

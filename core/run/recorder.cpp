@@ -24,7 +24,11 @@ Severity severity_of(const Slot& slot, const Field* severity) noexcept {
 
 void Recorder::note(const Event& e, bool aloud) {
   const std::int64_t now_ns = state_.now_ns;
-  if (tap_) tap_->write(channels_.event, now_ns, now_ns, reinterpret_cast<const std::byte*>(&e), true);
+  if (tap_) {
+    tap_->write(channels_.event, now_ns, now_ns, reinterpret_cast<const std::byte*>(&e), true);
+    const LogLine line = log_line_of(e, state_.graph.epoch_ns + now_ns);
+    tap_->write(channels_.lines, now_ns, now_ns, reinterpret_cast<const std::byte*>(&line), true);
+  }
   if (!state_.options.say || !aloud) return;
   char time[32];
   std::snprintf(time, sizeof time, "%8.2f s  ", 1e-9 * static_cast<double>(now_ns));

@@ -56,7 +56,7 @@ class Recorder {
 
  private:
   struct Channels {
-    std::size_t event = 0, ticks = 0, parameter = 0, command = 0;
+    std::size_t event = 0, ticks = 0, parameter = 0, command = 0, lines = 0;
   };
   /// A port whose texts are for people.
   struct Told {

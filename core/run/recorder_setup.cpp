@@ -50,6 +50,7 @@ std::vector<TapChannel> Recorder::channels(const Units& units) {
   channels_.command = list.add("fulmar.command", host_type<CommandNote>());
   for (const auto& unit : units) add_channels(list, *unit);
   for (const auto& unit : units) add_further_requests(list, *unit);
+  channels_.lines = list.add("rosout", host_type<LogLine>());
   return std::move(list.list);
 }
 
@@ -78,8 +79,9 @@ void Recorder::add_channels(ChannelList& list, Unit& unit) {
   probes.log.channel = list.add(c.name + ".probes", probes_type(*c.plugin, c.info()));
 }
 
-/// Behind all others: the hashes of the ticks are made with the numbers of the channels, and a component that
-/// has got another request leaves those of the logs there are, and so their replays, as they were.
+/// Behind all others of components: the hashes of the ticks are made with the numbers of the channels, and a
+/// component that has got another request leaves those of the logs there are, and so their replays, as they
+/// were.
 void Recorder::add_further_requests(ChannelList& list, Unit& unit) {
   for (Reader& reader : unit.in.readers)
     if (reader.port->kind == FULMAR_IN_REQUEST && reader.channel < 0)

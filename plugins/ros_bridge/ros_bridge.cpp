@@ -3,9 +3,10 @@
 #include "commands.hpp"
 #include "rosplane_in.hpp"
 #include "rosplane_out.hpp"
+#include "scene.hpp"
 #include "standard.hpp"
 
 using namespace fulmar::ros_bridge;
 
-FULMAR_PLUGIN("1.0.0", Standard, Goal, Velocity, Rosplane, RosplaneFollower, RosplaneController, RosplanePath,
-              RosplaneWaypoints, RosplaneEstimator)
+FULMAR_PLUGIN("1.0.0", Standard, Goal, Velocity, Scene, Rosplane, RosplaneFollower, RosplaneController,
+              RosplanePath, RosplaneWaypoints, RosplaneEstimator)

@@ -168,21 +168,24 @@ inline std::int8_t fix_status(FixType fix) {
   }
 }
 
-inline void Standard::publish_fix(const Inputs& in, const Params& p, Outputs& out) const {
-  const Gnss& g = *in.gnss;
-  const std::int64_t at = in.gnss.valid_at_ns();
+inline RosNavSatFix fix_of(const Gnss& g, const RosHeader& header, double geoid_separation_m) {
   RosNavSatFix m;
-  m.header = clock_.header(at, base_);
+  m.header = header;
   m.status.status = fix_status(g.fix);
   m.latitude = g.latitude_deg;
   m.longitude = g.longitude_deg;
-  m.altitude = g.altitude_m + p.geoid_separation;
+  m.altitude = g.altitude_m + geoid_separation_m;
   if (g.horizontal_std_m < unknown_std && g.vertical_std_m < unknown_std) {
     m.position_covariance_type = 2;
     put_block(m.position_covariance, 3, 0,
               enu_covariance({g.horizontal_std_m, g.horizontal_std_m, g.vertical_std_m}));
   }
-  out.fix.publish(m, at);
+  return m;
+}
+
+inline void Standard::publish_fix(const Inputs& in, const Params& p, Outputs& out) const {
+  const std::int64_t at = in.gnss.valid_at_ns();
+  out.fix.publish(fix_of(*in.gnss, clock_.header(at, base_), p.geoid_separation), at);
 }
 
 inline RosPoseStamped Standard::pose_of(const RosHeader& header, const Vec3<Ned>& at,

@@ -13,6 +13,7 @@
 #include "tools/fulmar_live/client.hpp"
 #include "tools/fulmar_live/commands.hpp"
 #include "tools/fulmar_live/completion.hpp"
+#include "tools/fulmar_live/view.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -52,6 +53,7 @@ struct RemoteCommands::Impl {
   EchoOptions echo;
   PlotOptions plot;
   SaveOptions save;
+  ViewOptions view;
   bool json = false, rates = false;
   std::vector<std::pair<CLI::App*, std::function<int()>>> actions;
 
@@ -105,6 +107,15 @@ struct RemoteCommands::Impl {
             "plot nav.state.roll_deg slc.attitude.roll_deg", [this] { return plot_command(target(), plot); });
     draw->add_option("FIELD", plot.fields, "PORT.FIELD, or a component's probe")->required()->type_name("");
     draw->add_option("--seconds", plot.seconds, "so much of the flight")->check(CLI::Range(0.1, 36000.0));
+
+    CLI::App* open =
+        add(app, "view", "open a log, or the flight that runs, in a viewer",
+            "view logs/hourglass.mcap --in lichtblick", [this] { return view_command(target(), view); });
+    open->add_option("LOG", view.what, "a log's file; or running, which is meant when nothing is said")
+        ->type_name("");
+    open->add_option("--in", view.in, "page, lichtblick, foxglove, rerun or plotjuggler")
+        ->type_name("VIEWER");
+    open->add_flag("--print", view.print, "print the link or the command line, and open nothing");
   }
 
   void parameters() {

@@ -259,6 +259,7 @@ TEST_CASE("what the mission says once reaches everybody who has a parameter for 
   const Graph graph = mission.load();
   CHECK(param(graph, "sim", "rate").number[0] == 400);
   CHECK(param(graph, "sim", "epoch").number[0] == 1780315200);  // date -u -d 2026-06-01T12:00 +%s
+  CHECK(param(graph, "score", "epoch").integer == 1780315200);
   for (const char* owner : {"sim", "attitude", "slc"}) {
     CHECK(value<Airframe>(param(graph, owner, "airframe")).mass_kg == 4.5);
     CHECK(param(graph, owner, "airframe").integer == 1);

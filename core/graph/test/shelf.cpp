@@ -123,10 +123,14 @@ Shelf::Shelf() {
       {out<Actuators>("actuators"), probe},
       {number("roll_kp", 0.55, "rad/rad", 0, 2), number("roll_limit", 0.7853981634, "rad", 0, 1.0471975512),
        record<Airframe>("airframe", true)});
+  ParamInfo epoch;
+  epoch.name = "epoch";
+  epoch.kind = FULMAR_COUNT;
+  epoch.min = 0, epoch.max = 4e9;
   add("score", "Score",
       {in<VehicleState>("state"), optional<VehicleState>("truth"), in<Path>("path"),
        in<GuidanceCommand>("command"), in<AttitudeCommand>("attitude")},
-      {out<Progress>("tracking"), out<Progress>("estimation")});
+      {out<Progress>("tracking"), out<Progress>("estimation")}, {epoch});
 }
 
 Folder::Folder() {

@@ -302,6 +302,43 @@ TEST_CASE("the log tells what was asked, and what was refused and why") {
   CHECK(told == std::vector<std::string>{"ask", "ask", "ask refused: cannot go back"});
 }
 
+TEST_CASE("each event is a line for log panels as well, with its level and the time of the log") {
+  const Graph g = mission(one_phase);
+  FlightOptions o = options(0.2);
+  o.log = true;
+  o.log_file = folder().path / "lines.mcap";
+  Flight flight(g, o);
+  const double back = -1;
+  request(flight, "watch", "ask", back);
+  flight.run();
+  const McapFile file = read_mcap(o.log_file);
+  const HostTopic<Event> events(file);
+  const HostTopic<LogLine> lines(file);
+  REQUIRE(lines.same());
+  std::vector<Event> told;
+  std::size_t line = 0, levels = 0;
+  for (const McapFile::Message& m : file.messages) {
+    if (events.holds(m)) told.push_back(events.read(m.data));
+    if (!lines.holds(m)) continue;
+    const LogLine l = lines.read(m.data);
+    REQUIRE(line < told.size());
+    const Event& e = told[line++];
+    CHECK(std::string(l.msg.data()) == e.words.data());
+    CHECK(std::string(l.name.data()) == (e.component[0] ? e.component.data() : "fulmar"));
+    CHECK(std::string(l.function.data()) == kind_words(e.code));
+    CHECK(std::uint64_t{l.nanosec} + 1'000'000'000ull * static_cast<std::uint64_t>(l.sec) == m.log_ns);
+    levels += l.level;
+  }
+  CHECK(line == told.size());
+  CHECK(line >= 2);
+  CHECK(levels == 20 * line);
+  Event bad = event_of(Code::failsafe);
+  CHECK(int{log_line_of(bad, 0).level} == 50);
+  CHECK(int{log_line_of(event_of(Code::guard), 0).level} == 30);
+  CHECK(log_line_of(bad, -1'500'000'000).sec == -2);
+  CHECK(log_line_of(bad, -1'500'000'000).nanosec == 500'000'000);
+}
+
 TEST_CASE("a live parameter changes the base under an overlay, a set-up parameter does not change") {
   const Graph g = mission(one_phase);
   Flight flight(g, options(0));

@@ -150,6 +150,17 @@ struct HostileControl : test::MockControl {
 
 }  // namespace
 
+TEST_CASE("a flight that listens is opened as a page, or where --in says") {
+  const MockFlight flight;
+  CHECK(typed(flight, "view").out == "http://" + flight.at() + "/\n");
+  const std::string link = typed(flight, "view running --in lichtblick").out;
+  CHECK(link.starts_with("lichtblick://open?ds=foxglove-websocket&ds.url=ws%3A%2F%2F127.0.0.1%3A" +
+                         std::to_string(flight.server->port()) + "%2F\n"));
+  const MockFlight guarded("secret");
+  CHECK(typed(guarded, "view").code == 1);
+  CHECK(typed(guarded, "view --token secret").out == "http://" + guarded.at() + "/?token=secret\n");
+}
+
 TEST_CASE("what another computer says does not command the terminal") {
   std::vector<TapChannel> channels = test::mock_channels();
   for (TapChannel& channel : channels) channel.topic += "\x1b[2J";
@@ -187,8 +198,8 @@ TEST_CASE("what libraries throw is told in words for people") {
 
 TEST_CASE("without a flight every word says what to do") {
   for (const char* words :
-       {"list", "echo nav.state", "plot a.b.c", "param list", "param set a.b 1", "call a.b", "phase x",
-        "swap a b", "reset", "pause", "resume", "step", "step 5", "speed max"}) {
+       {"list", "echo nav.state", "plot a.b.c", "view", "param list", "param set a.b 1", "call a.b",
+        "phase x", "swap a b", "reset", "pause", "resume", "step", "step 5", "speed max"}) {
     const Result r = shell(program + " " + words + " --at 127.0.0.1:1");
     CHECK(r.code == 1);
     CHECK(r.err ==

@@ -6,8 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/loader/table.hpp"
+#include "core/log/events.hpp"
 #include "core/types/wire.hpp"
 #include "fulmar/schema.hpp"
+#include "plugins/ros_bridge/ros_markers.hpp"
 #include "plugins/ros_bridge/rosplane_messages.hpp"
 
 namespace messages_test {
@@ -38,9 +40,17 @@ TEST_CASE("standard messages have the type hashes of ROS 2") {
   CHECK(hash<RosNavSatStatus>() == "RIHS01_d1ed3befa628e09571bd273b888ba1c1fd187c9a5e0006b385d7e5e9095a3204");
 }
 
+TEST_CASE("markers, and the lines of a log, have the type hashes of ROS 2") {
+  CHECK(hash<RosMarker>() == "RIHS01_45b13ccf791f225962bf74e746f9644518855d783a6f42ba0cc14fde2b4f3ce0");
+  CHECK(hash<RosDuration>() == "RIHS01_e8d009f659816f758b75334ee1a9ca5b5c0b859843261f14c7f937349599d93b");
+  CHECK(core::ros_type_hash(*core::host_type<core::LogLine>()) ==
+        "RIHS01_e28ce254ca8abc06abf92773b74602cdbf116ed34fbaf294fb9f81da9f318eac");
+}
+
 TEST_CASE("sequences of foreign messages have no bound") {
   CHECK(hash<RosTf>() == "RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087");
   CHECK(hash<RosPath>() == "RIHS01_1957a5bb3cee5da65c4e52e52b65a93df227efce4c20f8458b36e73066ca334b");
+  CHECK(hash<RosRoute>() == hash<RosPath>());  // as much as there is room for, the type is the same
   CHECK(text<RosPath>() == "std_msgs/Header header\ngeometry_msgs/PoseStamped[] poses\n");
 }
 

@@ -14,17 +14,7 @@ const decompressHandlers = { zstd: (bytes, size) => decompress(bytes, new Uint8A
 export async function* messages(file) {
   const handle = await open(file);
   try {
-    const size = BigInt((await handle.stat()).size);
-    const readable = {
-      size: async () => size,
-      read: async (offset, length) => {
-        const buffer = new Uint8Array(Number(length));
-        const { bytesRead } = await handle.read(buffer, 0, Number(length), Number(offset));
-        if (bytesRead !== Number(length)) throw new Error(`short read at ${offset}`);
-        return buffer;
-      },
-    };
-    const reader = await McapIndexedReader.Initialize({ readable, decompressHandlers });
+    const reader = await McapIndexedReader.Initialize({ readable: await readable_of(handle), decompressHandlers });
     check(reader);
     const decoders = new Map();
     for (const [id, channel] of reader.channelsById) decoders.set(id, decoder(channel, reader.schemasById.get(channel.schemaId)));
@@ -45,6 +35,19 @@ export async function* messages(file) {
   } finally {
     await handle.close();
   }
+}
+
+async function readable_of(handle) {
+  const size = BigInt((await handle.stat()).size);
+  return {
+    size: async () => size,
+    read: async (offset, length) => {
+      const buffer = new Uint8Array(Number(length));
+      const { bytesRead } = await handle.read(buffer, 0, Number(length), Number(offset));
+      if (bytesRead !== Number(length)) throw new Error(`short read at ${offset}`);
+      return buffer;
+    },
+  };
 }
 
 function check(reader) {
@@ -68,6 +71,22 @@ function decoder(channel, schema) {
     return value;
   };
   return { topic: channel.topic, decode };
+}
+
+/** topic -> {name, definitions}, of the channels that the summary lists. */
+export async function schemas(file) {
+  const handle = await open(file);
+  try {
+    const reader = await McapIndexedReader.Initialize({ readable: await readable_of(handle), decompressHandlers });
+    const found = new Map();
+    for (const { topic, schemaId } of reader.channelsById.values()) {
+      const schema = reader.schemasById.get(schemaId);
+      found.set(topic, { name: schema.name, definitions: parse(new TextDecoder().decode(schema.data), { ros2: true }) });
+    }
+    return found;
+  } finally {
+    await handle.close();
+  }
 }
 
 /** The number of messages that a reader without index finds, and the SHA-256 of the file. */

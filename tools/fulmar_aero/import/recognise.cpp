@@ -38,9 +38,11 @@ bool avl_masses(const Lines& lines) {
 Input read_any(const Lines& lines, const ReadOptions& options) {
   const auto has = [&](const char* text) { return lines.has(text); };
   // AVL
+  if (is_avl_mrf(lines)) return read_avl_derivatives(avl_plain_of_mrf(lines), options);
+  if (lines.has("VERSION 1.0") && (has("| # surfaces") || has("| surfaces") || has("| # bodies")))
+    return unused(lines, "AVL's machine-readable forces",
+                  "an airframe needs the total derivatives, AVL's ST, SB or SM");
   if (has("Vortex Lattice Output")) return read_avl_derivatives(lines, options);
-  if (has("DERMAT"))
-    return unused(lines, "AVL's machine-readable derivatives", "write them with ST and without MRF");
   if (has("Run case") && has("->") && has("X_cg")) return read_avl_run(lines);
   if (has("Run case") && has("Eigenvalue")) return read_avl_modes(lines);
   if (has("Control Hinge Moments")) return unused(lines, "AVL hinge moments", "an airframe has none");
@@ -57,6 +59,7 @@ Input read_any(const Lines& lines, const ReadOptions& options) {
     return unused(lines, "polar of an airfoil",
                   "it is of an airfoil, not of an aircraft; the plane's polar has the drag");
   // OpenVSP
+  if (has("Results_Name,")) return read_vsp_results(lines, options);
   if (has("Solver Case") || (has("Sref_") && has("Iter "))) return read_vspaero_history(lines);
   if (has("Sref_") || (has("Base Aero") && has("CFx")) || has("Base_Aero"))
     return read_vspaero_stab(lines, options);
@@ -65,8 +68,6 @@ Input read_any(const Lines& lines, const ReadOptions& options) {
   if (has("Beta") && has("Mach") && has("AoA") && has("CDtot")) return read_vspaero_polar(lines);
   if (has("PARASITE DRAG")) return read_vsp_drag(lines);
   if (has("Total Mass")) return read_vsp_masses(lines, options);
-  if (has("Results_Name"))
-    return unused(lines, "OpenVSP results CSV", "it is not read yet; the .stab of the same run is");
   if (avl_masses(lines)) return read_avl_masses(lines);
   if (avl_geometry(lines))
     return unused(lines, "AVL geometry",

@@ -102,9 +102,9 @@ bool of_control(const Rule& rule) {
   return rule.of == &D::aileron_ratio || rule.of == &D::elevator_ratio || rule.of == &D::rudder_ratio;
 }
 
-/// Far from what any aircraft has: five times, or 1.5 times where a degree explains it. A stability derivative
-/// that is nothing but doubtful with the other sign may be as small as it likes: the dihedral effect of an
-/// Anaconda is -0.002.
+/// Far from what any aircraft has: five times, or 1.5 times where a degree explains it. A stability
+/// derivative that is nothing but doubtful with the other sign may be as small as it likes: the dihedral
+/// effect of an Anaconda is -0.002.
 bool absurd(const Rule& rule, double value, bool explained) {
   const double most = std::max(std::abs(rule.low), std::abs(rule.high));
   const double least = rule.low * rule.high > 0 ? std::min(std::abs(rule.low), std::abs(rule.high)) : 0;

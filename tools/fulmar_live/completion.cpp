@@ -72,7 +72,8 @@ struct OptionalProgram {
 };
 constexpr OptionalProgram optional_programs[]{{"fulmar-aero", "aero"}, {"fulmar-import", "import"}};
 
-void add_rows(const char* program, const std::string& word, const std::string& more_words, std::string& text) {
+void add_rows(const char* program, const std::string& word, const std::string& more_words,
+              std::string& text) {
   const bool is_host = program == std::string_view("fulmar");
   std::istringstream rows(rows_of(program));
   std::string command, options, valued, subcommands;

@@ -188,6 +188,8 @@ constexpr double no_friction = 0.002, assumed_friction = 0.03;
 /// A smooth plate's two sides at a million of Reynolds number: no aircraft has less.
 constexpr double least_friction = 0.008;
 
+constexpr double polar_reach = 3 * degree;
+
 const PolarPoint* nearest_point(const std::vector<PolarPoint>& polar, double alpha) {
   const PolarPoint* best = nullptr;
   for (const PolarPoint& point : polar)
@@ -207,6 +209,9 @@ void set_drag(const Analysis& a, const std::vector<Input>& inputs, const ImportO
     std::string from;
     if (const PolarPoint* const point = nearest_point(input.polar, a.alpha_rad.x)) {
       CD = point->CD.x, CL = point->CL, from = point->CD.from;
+      if (const double far = std::abs(point->alpha_rad - a.alpha_rad.x); CL != 0 && far > polar_reach)
+        out.warnings.push_back(short_name(input) + ": its nearest point is " + degrees(far, 1) +
+                               " from the angle that was analysed: is it of another sweep, or cut off?");
     } else if (wins && !input.analyses.empty()) {
       const Analysis& other = input.analyses[0];
       CD = other.base[drag].x, CL = other.base[lift].x, from = other.base[drag].from;
@@ -220,9 +225,10 @@ void set_drag(const Analysis& a, const std::vector<Input>& inputs, const ImportO
   }
   if (options.parasite_drag > 0) out.parasite = {options.parasite_drag, "--parasite-drag"};
   if (out.parasite.x >= no_friction && out.parasite.x < least_friction)
-    out.warnings.push_back("CD_p is " + figures(out.parasite.x) + " (" + out.parasite.from +
-                           "), less than the friction of a smooth plate: the analysis has too little induced drag "
-                           "for this span (a coarse mesh?); say yours with --parasite-drag, or give a polar");
+    out.warnings.push_back(
+        "CD_p is " + figures(out.parasite.x) + " (" + out.parasite.from +
+        "), less than the friction of a smooth plate: the analysis has too little induced drag "
+        "for this span (a coarse mesh?); say yours with --parasite-drag, or give a polar");
   if (out.parasite.x >= no_friction) return;
   out.warnings.push_back(
       "the analysis is without friction: CD - CL^2/(pi e AR) is " + figures(out.parasite.x) +
@@ -318,6 +324,7 @@ std::vector<Chosen> all_chosen(const std::vector<Input>& inputs, const ImportOpt
   std::vector<Chosen> all;
   for (const Input& input : inputs) {
     for (const std::string& note : input.notes) out.notes.push_back(short_name(input) + ": " + note);
+    for (const std::string& one : input.doubts) out.warnings.push_back(short_name(input) + ": " + one);
     if (!input.unused.empty()) out.notes.push_back(short_name(input) + ": not used, " + input.unused);
     if (!input.analyses.empty()) all.push_back({&input, chosen_of(input, options, mass, out.notes)});
   }

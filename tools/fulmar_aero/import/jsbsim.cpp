@@ -206,9 +206,9 @@ LookUp table_of(const Lines& lines, const Element& table, const std::string& who
     const std::size_t wanted = heading ? 0 : 1 + std::max<std::size_t>(1, out.and_at.size());
     if (numbers.empty() || numbers.size() != words_of(rows.all[i]).size() ||
         (wanted > 0 && numbers.size() != wanted))
-      refuse(lines.where(data.line + i), who + ": expected " +
-                                             (wanted > 0 ? std::to_string(wanted) + " numbers" : "points") +
-                                             " in this row of the table; found '" + trimmed(rows.all[i]) + "'");
+      refuse(lines.where(data.line + i),
+             who + ": expected " + (wanted > 0 ? std::to_string(wanted) + " numbers" : "points") +
+                 " in this row of the table; found '" + trimmed(rows.all[i]) + "'");
     if (heading) {
       for (const double x : numbers) out.and_at.push_back(x * out.and_over->unit);
       continue;
@@ -300,7 +300,8 @@ std::string list_text(const std::vector<double>& numbers, double factor = 1) {
 std::string table_line(const LookUp& table, const char* coefficient, double factor, const std::string& from) {
   std::string text = std::string("    - {coefficient: ") + coefficient + ", over: " + table.over->name +
                      ", at: " + list_text(table.at);
-  if (table.and_over) text += std::string(", and_over: ") + table.and_over->name + ", and_at: " + list_text(table.and_at);
+  if (table.and_over)
+    text += std::string(", and_over: ") + table.and_over->name + ", and_at: " + list_text(table.and_at);
   return text + ", values: " + list_text(table.values, factor) + "}  # " + from + "\n";
 }
 
@@ -343,7 +344,8 @@ void take_function(const Lines& lines, const Element& function, Force force, Air
   if (product.lift_squared == 1) {
     const double AR = a.span_m.x * a.span_m.x / a.area_m2.x;
     if (force != drag || !(value > 0) || of_drag.squared)
-      refuse(lines.where(function.line), who + ": aero/cl-squared is read once, in drag, with a positive factor");
+      refuse(lines.where(function.line),
+             who + ": aero/cl-squared is read once, in drag, with a positive factor");
     of_drag.squared = true;
     a.oswald = {1 / (std::numbers::pi * value * AR), from + ", 1/(pi AR factor)"};
     return;

@@ -25,7 +25,12 @@ struct Plane {
 class Move {
  public:
   Move(const Analysis& a, double dx, double dz)
-      : dx_(dx), dz_(dz), c_(a.chord_m.x), b_(a.span_m.x), cs_(std::cos(a.alpha_rad.x)), sn_(std::sin(a.alpha_rad.x)) {
+      : dx_(dx),
+        dz_(dz),
+        c_(a.chord_m.x),
+        b_(a.span_m.x),
+        cs_(std::cos(a.alpha_rad.x)),
+        sn_(std::sin(a.alpha_rad.x)) {
     // what has no moment in the tool must not get one here
     CL_ = a.base[lift].x, CD_ = a.base[drag].x - a.drag_without_moment;
     CL_a_ = a.slope[alpha][lift].x;
@@ -35,11 +40,12 @@ class Move {
     CD_a_ = given.known ? given.x : 2 * CL_ * CL_a_ / (std::numbers::pi * usual_oswald * AR);
   }
 
-  void rates(Analysis& a) const {
+  void rates(Analysis& a) {
     // with q the old point meets the air at another angle and speed than the new one
     const double by_alpha = -2 / c_ * (dx_ * cs_ + dz_ * sn_), by_speed = 4 / c_ * (dz_ * cs_ - dx_ * sn_);
     add_to(a.slope[q][lift], by_alpha * (CL_a_ + CD_) + by_speed * CL_);
-    add_to(a.slope[q][drag], by_alpha * (CD_a_ - CL_) + by_speed * CD_);
+    CD_q_ = by_alpha * (CD_a_ - CL_) + by_speed * CD_;  // of what is not known, the change at least
+    add_to(a.slope[q][drag], CD_q_);
     add_to(a.slope[q][pitch], by_alpha * a.slope[alpha][pitch].x + by_speed * a.base[pitch].x);
     // with p and r in another sideslip
     for (const Force force : {side, roll, yaw}) {
@@ -53,7 +59,7 @@ class Move {
     add_to(a.base[pitch], pitching(turned(CL_, CD_)));
     const Plane by_alpha{turned(CL_a_ + CD_, CD_a_ - CL_)};
     add_to(a.slope[alpha][pitch], pitching(by_alpha));
-    const double CD_q = a.slope[q][drag].known ? a.slope[q][drag].x : 0;
+    const double CD_q = a.slope[q][drag].known ? a.slope[q][drag].x : CD_q_;
     add_to(a.slope[q][pitch], pitching(turned(a.slope[q][lift].x, CD_q)));
     sideways(a.slope[beta], CY_b_);
     for (const By by : {p, r}) sideways(a.slope[by], a.slope[by][side].x);
@@ -72,13 +78,13 @@ class Move {
   }
 
   double dx_, dz_, c_, b_, cs_, sn_;
-  double CL_ = 0, CD_ = 0, CL_a_ = 0, CD_a_ = 0, CY_b_ = 0;
+  double CL_ = 0, CD_ = 0, CL_a_ = 0, CD_a_ = 0, CY_b_ = 0, CD_q_ = 0;
 };
 
 }  // namespace
 
 void move_reference(Analysis& a, double dx, double dz) {
-  const Move move(a, dx, dz);
+  Move move(a, dx, dz);
   move.rates(a);  // by the slopes about the old point
   move.moments(a);
   a.reference_m[0] += dx;

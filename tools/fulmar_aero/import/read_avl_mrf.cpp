@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// AVL's machine-readable form (MRF, since 3.40): "numbers | words : names". It is written anew as the form for
-// people, line by line, so that one reader reads both and lines are those of the file. Source: aoutmrf.f,
+// AVL's machine-readable form (MRF, since 3.40): "numbers | words : names". It is written anew as the form
+// for people, line by line, so that one reader reads both and lines are those of the file. Source: aoutmrf.f,
 // aoutput.f.
 #include "tools/fulmar_aero/import/readers.hpp"
 
@@ -28,9 +28,10 @@ class MrfText {
   Lines plain() {
     for (std::size_t i = 0; i < in_.all.size(); ++i) {
       const std::string word = trimmed(in_.all[i]);
-      if (word.find("Vortex Lattice Output") != std::string::npos && i + 1 < in_.all.size())
-        out_.all[i + 1] = " Configuration: " + trimmed(in_.all[++i]);
-      else if (word == "CONTROL")
+      if (word.find("Vortex Lattice Output") != std::string::npos && i + 1 < in_.all.size()) {
+        ++i;
+        out_.all[i] = " Configuration: " + trimmed(in_.all[i]);
+      } else if (word == "CONTROL")
         i = deflections(i);
       else if (word == "DESIGN")
         out_.all[i] = " -----";  // ends the list of deflections, as the rule does
@@ -47,9 +48,11 @@ class MrfText {
  private:
   std::size_t count_at(std::size_t i, const char* what) const {
     if (i >= in_.all.size())
-      refuse({in_.file, int(in_.all.size())}, std::string("expected the number of ") + what + "; is the file cut off?");
+      refuse({in_.file, int(in_.all.size())},
+             std::string("expected the number of ") + what + "; is the file cut off?");
     const double count = number_at(in_, i, 0, what);
-    if (!(count >= 0 && count <= 100)) refuse(in_.where(i), std::string(what) + ": expected 0 to 100 of them");
+    if (!(count >= 0 && count <= 100))
+      refuse(in_.where(i), std::string(what) + ": expected 0 to 100 of them");
     if (i + std::size_t(count) >= in_.all.size() && count > 0)
       refuse({in_.file, int(in_.all.size())},
              "expected " + std::to_string(int(count)) + " " + what + "; is the file cut off?");

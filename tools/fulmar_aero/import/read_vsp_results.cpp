@@ -39,7 +39,8 @@ std::vector<ResultBlock> blocks_in(const Lines& lines) {
     std::vector<std::string> cells = cells_of(lines.all[i]);
     const std::string key = cells[0];
     if (key == "Results_Name") {
-      if (cells.size() < 2 || cells[1].empty()) refuse(lines.where(i), "Results_Name: expected the name of a result");
+      if (cells.size() < 2 || cells[1].empty())
+        refuse(lines.where(i), "Results_Name: expected the name of a result");
       blocks.push_back({cells[1], i, i + 1, {}});
     }
     if (blocks.empty() || key.empty()) continue;

@@ -35,7 +35,9 @@ bool avl_masses(const Lines& lines) {
 
 }  // namespace
 
-Input read_any(const Lines& lines, const ReadOptions& options) {
+namespace {
+
+Input read_known(const Lines& lines, const ReadOptions& options) {
   const auto has = [&](const char* text) { return lines.has(text); };
   // AVL
   if (is_avl_mrf(lines)) return read_avl_derivatives(avl_plain_of_mrf(lines), options);
@@ -76,7 +78,17 @@ Input read_any(const Lines& lines, const ReadOptions& options) {
       lines.file +
       ":1: nobody knows this file; expected one of AVL (.st .sb .mass .run .eig), XFLR5 (stability log, "
       "plane polar, plane or polar XML), VSPAERO (.stab .polar .flt .history .vspaero, mass properties, "
-      "parasite drag)");
+      "parasite drag, results as CSV)");
+}
+
+}  // namespace
+
+Input read_any(const Lines& lines, const ReadOptions& options) {
+  Input input = read_known(lines, options);
+  // every one of these tools ends its last line
+  if (!lines.text.empty() && lines.text.back() != '\n' && input.unused.empty())
+    input.doubts.push_back("its last line has no end: is it cut off?");
+  return input;
 }
 
 }  // namespace fulmar::aero::imports

@@ -236,6 +236,22 @@ TEST_CASE(
         std::abs(back.c[force][term].x - right.c[force][term].x) < (term == t_alpha ? 5e-3 : 1.5e-3),
         force_symbol(force), " ", int(term), " ", back.c[force][term].x);
   }
+  // rates, of the body derivatives, which have all that the transfer needs
+  const Aircraft back_sb = imported({shared("avl/out/merlinref_dx020_dz030_a2.sb"), mass}).aircraft,
+                 right_sb = imported({shared("avl/out/merlin_a2.sb"), mass}).aircraft;
+  for (const auto& place : {std::pair{lift, t_q},
+                            {pitch, t_q},
+                            {side, t_p},
+                            {side, t_r},
+                            {roll, t_p},
+                            {roll, t_r},
+                            {yaw, t_p},
+                            {yaw, t_r}}) {
+    const double x = back_sb.c[place.first][place.second].x,
+                 expected = right_sb.c[place.first][place.second].x;
+    CHECK_MESSAGE(std::abs(x - expected) < 2e-5 * std::max(1.0, std::abs(expected)),
+                  force_symbol(place.first), " ", int(place.second), " ", x, " for ", expected);
+  }
 }
 
 TEST_CASE("every file of the reference data is read, is told to be of no use, or is refused with a reason") {

@@ -137,8 +137,8 @@ void refuse_what_is_missing(const GeometryFile& file, const MassSum& mass, const
 }
 
 /// A vortex that passes close by a control point of another surface, or too few panels, show so. The power of
-/// a control converges with the size of its panels, the slowest of all: a panel that the hinge divides turns by
-/// the part behind it.
+/// a control converges with the size of its panels, the slowest of all: a panel that the hinge divides turns
+/// by the part behind it.
 void doubt(const SixDerivatives& few, Aircraft& a) {
   const SixDerivatives& all = a.lattice;
   const double lift = few.alpha.CL / all.alpha.CL,
@@ -157,8 +157,8 @@ void doubt(const SixDerivatives& few, Aircraft& a) {
                          Power{"Cl_aileron", few.control[to_aileron].Cl, all.control[to_aileron].Cl},
                          Power{"Cn_rudder", few.control[to_rudder].Cn, all.control[to_rudder].Cn}}) {
     if (std::abs(p.few - p.all) <= most_power_change * std::abs(p.all)) continue;
-    a.doubt += std::string(a.doubt.empty() ? "" : "; ") + "not converged: with a sixth of the panels " + p.name +
-               " is " + figures(p.few) + " instead of " + figures(p.all) +
+    a.doubt += std::string(a.doubt.empty() ? "" : "; ") + "not converged: with a sixth of the panels " +
+               p.name + " is " + figures(p.few) + " instead of " + figures(p.all) +
                "; give its surface more panels along the chord and the span";
   }
 }

@@ -292,6 +292,9 @@ TEST_CASE("19: moments go from the tool's reference to the centre of gravity") {
   const Analysis here = there;
   move_reference(there, 0.03, -0.02);
   CHECK(std::abs(there.slope[q][pitch].x - here.slope[q][pitch].x) > 0.1);
+  // 0.02 m lower: the old point, above it, slips to the right with a roll to the right
+  CHECK(there.slope[p][yaw].x ==
+        Approx(here.slope[p][yaw].x + 2 * 0.02 / 1.6 * 0.08 + there.slope[p][side].x * 0.03 / 1.6));
   move_reference(there, -0.03, 0.02);
   for (std::size_t by = 0; by < bys; ++by)
     for (const Force force : {lift, side, roll, pitch, yaw})

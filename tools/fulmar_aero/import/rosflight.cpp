@@ -245,6 +245,12 @@ Aircraft rosflight_aircraft(const Lines& lines, bool mend) {
   a.zz = inertia_of(lines, all, {"Jzz", "Jz"});
   a.xz = inertia_of(lines, all, {"Jxz"});
   if (!a.yy.known || !a.zz.known) a.xx.known = false;
+  if (a.xx.known && !a.xz.known) {
+    a.xz = {0, "not in the file"};
+    a.warnings.push_back("Jxz is not in the file, and counted as 0");
+  }
+  if (!lines.text.empty() && lines.text.back() != '\n')
+    a.warnings.push_back("its last line has no end: is it cut off?");
   a.stall_alpha = {15 * degree, "assumption; wing_alpha0 is not read by rosflight_sim, which does not stall"};
   if (const Parameter* const M = find(all, "wing_M"))
     a.stall_sharpness = M->of;
